@@ -1,0 +1,119 @@
+"""Cylindrical roller bearings: the spec, roller mass and inertia, and the roller profile."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from math import pi
+
+import numpy as np
+
+from flexcage.core.spec import option, quantity
+from flexcage.geometry.materials import MATERIALS, Material
+
+
+@dataclass(frozen=True, kw_only=True)
+class RollerProfile:
+    """Profile of the roller's generatrix: the radial drop P(x) at axial distance x from its centre.
+
+    ``logarithmic``: ISO/TS 16281, P = 0.00035 Dw ln(1/(1-(2x/Lwe)^2)) for Lwe <= 2.5 Dw and its
+    long-roller form otherwise; ``crowned``: a circular arc of ``crown_radius``; ``straight``: 0.
+    """
+
+    kind: str = option("logarithmic", choices=("logarithmic", "crowned", "straight"))
+    crown_radius: float = quantity("m", 10.0, doc="radius of a crowned profile", above=0.0)
+
+    def drop(self, x: np.ndarray, *, diameter: float, length: float) -> np.ndarray:
+        """Radial drop [m] at |x| < length/2; infinite at the very end of a logarithmic profile."""
+        x = np.abs(np.asarray(x, float))
+        if self.kind == "straight":
+            return np.zeros_like(x)
+        if self.kind == "crowned":
+            return x**2 / (2.0 * self.crown_radius)
+        if length <= 2.5 * diameter:
+            return -0.00035 * diameter * np.log(1.0 - (2.0 * x / length) ** 2)
+        over = np.maximum(2.0 * x - (length - 2.5 * diameter), 0.0) / (2.5 * diameter)
+        return -0.0005 * diameter * np.log(1.0 - over**2)
+
+
+@dataclass(frozen=True, kw_only=True)
+class RollerBearing:
+    """A single-row cylindrical roller bearing, N design: ribs on the inner ring, outer ring plain.
+
+    Race diameters are those at zero clearance; half of the radial clearance is taken from the
+    inner race's diameter and half added to the outer's.
+    """
+
+    designation: str = option("", doc="name in a catalogue")
+    bore: float = quantity("mm", doc="bearing bore d", above=0.0)
+    outside_diameter: float = quantity("mm", doc="bearing outside diameter D", above=0.0)
+    width: float = quantity("mm", doc="bearing width B", above=0.0)
+    inner_race_diameter: float = quantity("mm", doc="F", above=0.0)
+    outer_race_diameter: float = quantity("mm", doc="E", above=0.0)
+    roller_diameter: float = quantity("mm", doc="Dw", above=0.0)
+    roller_length: float = quantity("mm", doc="Lw, overall", above=0.0)
+    effective_length: float = quantity("mm", doc="Lwe, without end chamfers", above=0.0)
+    roller_count: int = option(doc="Z", minimum=3)
+    radial_clearance: float = quantity("um", 0.0, doc="operating radial internal clearance Pd")
+    rib_diameter: float = quantity("mm", doc="outside diameter of the inner ring's ribs", above=0.0)
+    rib_gap: float = quantity("mm", doc="axial distance between the two ribs", above=0.0)
+    profile: RollerProfile = option(RollerProfile(), doc="roller profile")
+    material: Material = option(MATERIALS["GCr15"], doc="material of rings and rollers")
+    roller_scatter: float = quantity(
+        "um", 0.0, doc="standard deviation of roller diameters (seeded)", minimum=0.0
+    )
+    inner_waviness: float = quantity("um", 0.0, doc="amplitude of inner race waviness", minimum=0.0)
+    inner_waviness_order: int = option(2, doc="waves per turn, inner race", minimum=1)
+    outer_waviness: float = quantity("um", 0.0, doc="amplitude of outer race waviness", minimum=0.0)
+    outer_waviness_order: int = option(2, doc="waves per turn, outer race", minimum=1)
+
+    @property
+    def pitch_diameter(self) -> float:
+        return 0.5 * (self.inner_race_diameter + self.outer_race_diameter)
+
+    @property
+    def pitch_radius(self) -> float:
+        return 0.5 * self.pitch_diameter
+
+    @property
+    def inner_race_radius(self) -> float:
+        return 0.5 * self.inner_race_diameter - 0.25 * self.radial_clearance
+
+    @property
+    def outer_race_radius(self) -> float:
+        return 0.5 * self.outer_race_diameter + 0.25 * self.radial_clearance
+
+    @property
+    def gamma(self) -> float:
+        return self.roller_diameter / self.pitch_diameter
+
+    @cached_property
+    def roller_mass(self) -> float:
+        return self.material.density * 0.25 * pi * self.roller_diameter**2 * self.roller_length
+
+    @cached_property
+    def roller_inertia(self) -> tuple[float, float]:
+        """Axial and transverse moments of inertia of a roller [kg m^2]."""
+        radius = 0.5 * self.roller_diameter
+        axial = 0.5 * self.roller_mass * radius**2
+        transverse = self.roller_mass * (3.0 * radius**2 + self.roller_length**2) / 12.0
+        return axial, transverse
+
+    @cached_property
+    def inner_ring_mass(self) -> float:
+        """Inner ring as a hollow cylinder from bore to race, without ribs [kg]."""
+        area = 0.25 * pi * (self.inner_race_diameter**2 - self.bore**2)
+        return self.material.density * area * self.width
+
+    @cached_property
+    def inner_ring_inertia(self) -> tuple[float, float]:
+        """Axial and transverse moments of inertia of that hollow cylinder [kg m^2]."""
+        r2 = 0.25 * (self.inner_race_diameter**2 + self.bore**2)
+        return 0.5 * self.inner_ring_mass * r2, self.inner_ring_mass * (
+            3.0 * r2 + self.width**2
+        ) / 12.0
+
+    @cached_property
+    def outer_ring_mass(self) -> float:
+        area = 0.25 * pi * (self.outside_diameter**2 - self.outer_race_diameter**2)
+        return self.material.density * area * self.width

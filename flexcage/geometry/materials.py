@@ -1,0 +1,71 @@
+"""Materials with their sources. Values are room-temperature, isotropic, linear elastic."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from flexcage.core.spec import option, quantity
+
+
+@dataclass(frozen=True, kw_only=True)
+class Material:
+    """An isotropic linear elastic material."""
+
+    name: str = option(doc="name of the material")
+    youngs_modulus: float = quantity("GPa", doc="Young's modulus", above=0.0)
+    poisson_ratio: float = option(doc="Poisson's ratio", minimum=0.0, maximum=0.499)
+    density: float = quantity("kg/m^3", doc="density", above=0.0)
+    proof_stress: float = quantity("MPa", float("inf"), doc="0.2 % proof stress", above=0.0)
+    source: str = option("", doc="where the values come from")
+
+    @property
+    def plane_strain_modulus(self) -> float:
+        """E/(1 - nu^2) [Pa]."""
+        return self.youngs_modulus / (1.0 - self.poisson_ratio**2)
+
+
+MATERIALS: dict[str, Material] = {
+    m.name: m
+    for m in (
+        Material(
+            name="GCr15",
+            youngs_modulus=206e9,
+            poisson_ratio=0.3,
+            density=7850.0,
+            proof_stress=1700e6,
+            source="GCr15/SAE 52100 handbook values; hardened proof stress is an assumption",
+        ),
+        Material(
+            name="brass",
+            youngs_modulus=105e9,
+            poisson_ratio=0.34,
+            density=8500.0,
+            proof_stress=160e6,
+            source="ZCuZn40Pb/HPb59-1 class; proof stress 120-200 MPa cast, middle taken",
+        ),
+        Material(
+            name="PA66",
+            youngs_modulus=2.83e9,
+            poisson_ratio=0.4,
+            density=1140.0,
+            proof_stress=60e6,
+            source="Symmetry 2025, 17(10), 1761 (E, nu, rho); proof stress: dry nylon 66 handbook",
+        ),
+        Material(
+            name="PEEK",
+            youngs_modulus=3.7e9,
+            poisson_ratio=0.4,
+            density=1300.0,
+            proof_stress=97e6,
+            source="unfilled PEEK, makers' data sheets (Victrex 450G class)",
+        ),
+        Material(
+            name="polyimide",
+            youngs_modulus=2.62e9,
+            poisson_ratio=0.34,
+            density=1120.0,
+            proof_stress=70e6,
+            source="7010C cage paper (E, nu, rho); proof stress is an assumption",
+        ),
+    )
+}

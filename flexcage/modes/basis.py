@@ -1,0 +1,71 @@
+"""What a reduction delivers: dynamic modes, residual flexibility, and the cage's interface."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+FACES = ("front", "rear", "side+x", "side-x")  # face numbers 0..3 of a pocket, everywhere
+
+
+@dataclass(frozen=True)
+class ResidualFlexibility:
+    """Quasi-static residual vectors of the pocket faces, mass- and stiffness-orthogonal to the modes.
+
+    Vector j = pocket * per_pocket + local; local 2f is the uniform, 2f+1 the linear load on face f.
+    ``stiffness`` is Psi^T K Psi; ``compliance`` holds the pockets' diagonal blocks of its inverse,
+    and ``far_coupling`` the largest ratio, over pockets and local loads, of the deflection that
+    a load makes in another pocket (cut) to the one it makes in its own.
+    """
+
+    shapes: np.ndarray  # (n_nodes, 3, n_residual) displacement [m] per unit coordinate
+    stiffness: np.ndarray  # (n_residual, n_residual)
+    compliance: np.ndarray  # (Z, per_pocket, per_pocket)
+    far_coupling: float
+
+
+@dataclass(frozen=True)
+class ModeBasis:
+    """Dynamic modes of a free body: r = r_i + A (s + shapes . q_f).
+
+    ``kind[i]`` names mode i ("free", "centrifugal", "attachment", "constraint", "fixed").
+    ``stiffness`` and ``mass`` are the reduced matrices (n, n); for a mass-orthonormal basis
+    of eigenmodes they are diag(omega^2) and 1.
+    """
+
+    name: str
+    shapes: np.ndarray  # (n_nodes, 3, n)
+    stiffness: np.ndarray  # (n, n)
+    mass: np.ndarray  # (n, n)
+    frequencies: np.ndarray  # (n,) Hz: sqrt(k_ii/m_ii)/2pi
+    kind: tuple[str, ...]
+    residual: ResidualFlexibility | None = None
+
+    @property
+    def size(self) -> int:
+        return self.shapes.shape[2]
+
+
+@dataclass(frozen=True)
+class CageInterface:
+    """Where contacts touch the cage: a few stations on every pocket face, and what moves there.
+
+    A station's displacement is a weighted mean of nodal displacements of its face (hat function
+    along the face times the consistent area weights); a force on it is spread with the same
+    weights, so that work is conserved. Components are (x, r, psi) in the pocket's frame
+    (azimuth 2 pi k/Z, cage frame). Station coordinate: axial x on crossbeam faces (0, 1),
+    tangential t on side-beam faces (2, 3), both from mid-pocket [m].
+
+    ``offset`` is the stress-free displacement of the face along its outward normal (away from the
+    pocket's centre: + widens the pocket), from defects.
+    """
+
+    stations: np.ndarray  # (4, n_st) station coordinates [m]
+    offset: np.ndarray  # (Z, 4, n_st) [m]
+    modes: np.ndarray  # (Z, 4, n_st, 3, n) dynamic modes at stations
+    residual: np.ndarray  # (Z, 4, n_st, 8) outward-normal displacement of the pocket's own residual vectors
+    compliance: np.ndarray  # (Z, 8, 8) of the residual coordinates; zeros for a rigid cage
+    patch_half_width: float  # half-width [m] of the strip over which a station's force is spread
+    land: np.ndarray  # (2, n_land, 3, n): radial-frame modes on the inner/outer land ring stations
+    weights: object = None  # scipy csr (Z*4*n_st, n_nodes): station <- nodal displacement
