@@ -1,0 +1,1 @@
+"""Bodies: rigid, and flexible in a floating frame."""

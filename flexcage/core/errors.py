@@ -1,4 +1,4 @@
-"""Errors that a user can act on. Their text is one sentence: what, where, the value, what is right."""
+"""Errors that a user can act on. Their text is one sentence: what, where, value, what is right."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ class FlexcageError(Exception):
 
 
 class InputError(FlexcageError, ValueError):
-    """A mistake in the input: case, geometry, mesh file, option. ``where`` and ``value`` name it."""
+    """A mistake in the input: case, geometry, mesh, option. ``where`` and ``value`` name it."""
 
     exit_code = 2
 

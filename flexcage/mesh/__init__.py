@@ -1,0 +1,1 @@
+"""Cage meshes: gmsh builders with named groups, defects by morphing, files, quality."""

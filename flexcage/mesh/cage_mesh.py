@@ -2,11 +2,26 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from types import MappingProxyType
-from typing import Mapping
 
 import numpy as np
+
+POCKET_GROUPS = ("front", "rear", "side+x", "side-x", "fillet")
+RING_GROUPS = ("land_inner", "land_outer", "end+x", "end-x")
+
+
+def group_names(pocket_count: int, *, fillets: bool = True) -> list[str]:
+    """Names of all groups of a cage, rings first, then pocket by pocket; their order is fixed."""
+    parts = POCKET_GROUPS if fillets else POCKET_GROUPS[:-1]
+    return [*RING_GROUPS, *(f"pocket{k}_{part}" for k in range(pocket_count) for part in parts)]
+
+
+def signed_volumes(points: np.ndarray, tets: np.ndarray) -> np.ndarray:
+    """Signed volumes (n_tets,) [m^3]; negative for an inverted tetrahedron."""
+    a, b, c, d = (points[tets[:, i]] for i in range(4))
+    return np.einsum("ij,ij->i", np.cross(b - a, c - a), d - a) / 6.0
 
 
 @dataclass(frozen=True)
@@ -16,9 +31,13 @@ class CageMesh:
     ``groups`` maps a name to (n, 3) vertex indices of boundary triangles, outward orientation.
     Names, for every pocket k: ``pocket{k}_front`` (crossbeam face at +psi of the pocket),
     ``pocket{k}_rear`` (at -psi), ``pocket{k}_side+x``, ``pocket{k}_side-x`` (side-beam faces),
-    ``pocket{k}_fillet``; and ``land_inner``, ``land_outer`` (bore and outside), ``end+x``, ``end-x``.
-    Pocket k is centred at azimuth 2 pi k/Z from y towards z.
-    ``sector``: vertex and cell numbers repeat sector by sector, if the mesh is such a copy.
+    ``pocket{k}_fillet`` (all four corners); and ``land_inner``, ``land_outer`` (bore and outside),
+    ``end+x``, ``end-x``. Pocket k is centred at azimuth 2 pi k/Z from y towards z.
+
+    ``info`` of a built mesh holds ``sector_points`` and ``sector_cells``: vertex i of sector k is
+    ``i + k sector_points`` (modulo the whole), cell c of it ``c + k sector_cells``, and every
+    sector is the first one turned by 2 pi k/Z, except those in ``altered_sectors``, whose
+    vertices a defect moved. ``defects`` lists what each defect delivered.
     """
 
     points: np.ndarray  # (n_points, 3) float64
@@ -33,8 +52,15 @@ class CageMesh:
             f"{self.pocket_count} pockets, {len(self.groups)} groups)"
         )
 
+    def __getstate__(self) -> dict:
+        # a mapping proxy cannot be pickled, and workers receive meshes by pickle
+        return {**self.__dict__, "groups": dict(self.groups), "info": dict(self.info)}
+
+    def __setstate__(self, state: dict) -> None:
+        proxies = {key: MappingProxyType(state[key]) for key in ("groups", "info")}
+        self.__dict__.update({**state, **proxies})
+
     @property
     def volume(self) -> float:
         """Volume [m^3], the sum of signed tetrahedra."""
-        a, b, c, d = (self.points[self.tets[:, i]] for i in range(4))
-        return float(np.einsum("ij,ij->i", np.cross(b - a, c - a), d - a).sum() / 6.0)
+        return float(signed_volumes(self.points, self.tets).sum())

@@ -5,18 +5,21 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+import scipy.sparse as sp
 
 FACES = ("front", "rear", "side+x", "side-x")  # face numbers 0..3 of a pocket, everywhere
 
 
 @dataclass(frozen=True)
 class ResidualFlexibility:
-    """Quasi-static residual vectors of the pocket faces, mass- and stiffness-orthogonal to the modes.
+    """Quasi-static residual vectors of the pocket faces, stiffness-orthogonal to the modes.
 
     Vector j = pocket * per_pocket + local; local 2f is the uniform, 2f+1 the linear load on face f.
-    ``stiffness`` is Psi^T K Psi; ``compliance`` holds the pockets' diagonal blocks of its inverse,
-    and ``far_coupling`` the largest ratio, over pockets and local loads, of the deflection that
-    a load makes in another pocket (cut) to the one it makes in its own.
+    Coordinates a [m, mean outward displacement of the own face] obey stiffness a = Psi^T F with
+    ``stiffness`` Psi^T K Psi. ``compliance`` holds the inverses of its pocket blocks: the answer
+    with the coupling between pockets cut, exact for the own displacement of a pocket.
+    ``far_coupling`` is the largest ratio, over pockets and loads, of the deflection that a load
+    makes in another pocket (cut) to the one it makes in its own; the shared crossbeam leads.
     """
 
     shapes: np.ndarray  # (n_nodes, 3, n_residual) displacement [m] per unit coordinate
@@ -64,8 +67,9 @@ class CageInterface:
     stations: np.ndarray  # (4, n_st) station coordinates [m]
     offset: np.ndarray  # (Z, 4, n_st) [m]
     modes: np.ndarray  # (Z, 4, n_st, 3, n) dynamic modes at stations
-    residual: np.ndarray  # (Z, 4, n_st, 8) outward-normal displacement of the pocket's own residual vectors
+    residual: np.ndarray  # (Z, 4, n_st, 8) outward displacement by the pocket's own vectors
     compliance: np.ndarray  # (Z, 8, 8) of the residual coordinates; zeros for a rigid cage
     patch_half_width: float  # half-width [m] of the strip over which a station's force is spread
     land: np.ndarray  # (2, n_land, 3, n): radial-frame modes on the inner/outer land ring stations
-    weights: object = None  # scipy csr (Z*4*n_st, n_nodes): station <- nodal displacement
+    weights: sp.csr_matrix | None = None  # (Z*4*n_st, n_nodes): station <- nodal displacement
+    land_weights: sp.csr_matrix | None = None  # (2*n_land, n_nodes), the same for land stations

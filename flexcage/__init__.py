@@ -1,0 +1,80 @@
+"""flexcage: rigid-flexible dynamics of rolling bearings with an elastic, deformed cage.
+
+``import flexcage`` loads almost nothing: names come from their modules when first used (PEP 562).
+"""
+
+from __future__ import annotations
+
+import importlib
+import sys
+from types import ModuleType
+from typing import Any
+
+from flexcage._version import __version__
+
+# name: the module that defines it
+_LAZY: dict[str, str] = {
+    "load_case": "flexcage.case",
+    "Case": "flexcage.case",
+    "simulate": "flexcage.simulate",
+    "Run": "flexcage.simulate",
+    "load_run": "flexcage.simulate",
+    "RollerBearing": "flexcage.geometry.cylindrical_roller",
+    "RollerProfile": "flexcage.geometry.cylindrical_roller",
+    "WindowCage": "flexcage.geometry.cages",
+    "CrossbeamDefect": "flexcage.geometry.cages",
+    "SideBeamDefect": "flexcage.geometry.cages",
+    "Material": "flexcage.geometry.materials",
+    "MATERIALS": "flexcage.geometry.materials",
+    "load_preset": "flexcage.geometry.presets",
+    "preset_names": "flexcage.geometry.presets",
+    "epicyclic": "flexcage.geometry.kinematics",
+    "MeshOptions": "flexcage.mesh.options",
+    "ModesSpec": "flexcage.modes.spec",
+    "DampingBand": "flexcage.modes.spec",
+    "Contacts": "flexcage.contacts.spec",
+    "PairSpec": "flexcage.contacts.spec",
+    "LandSpec": "flexcage.contacts.spec",
+    "NormalLaw": "flexcage.contacts.spec",
+    "FrictionLaw": "flexcage.contacts.spec",
+    "Lubricant": "flexcage.contacts.spec",
+    "Drive": "flexcage.system.spec",
+    "Load": "flexcage.system.spec",
+    "Mount": "flexcage.system.spec",
+    "Limits": "flexcage.system.spec",
+    "SolverOptions": "flexcage.solve.options",
+    "OutputOptions": "flexcage.results.options",
+    "FlexcageError": "flexcage.core.errors",
+    "InputError": "flexcage.core.errors",
+    "EnvironmentLacks": "flexcage.core.errors",
+    "RunFailed": "flexcage.core.errors",
+}
+_ROOMS = ("render",)  # rooms that a user reaches as flexcage.<room>
+
+__all__ = ["__version__", *_LAZY, *_ROOMS]
+
+
+def __getattr__(name: str) -> Any:
+    if name in _ROOMS:
+        return importlib.import_module(f"flexcage.{name}")
+    if name not in _LAZY:
+        raise AttributeError(f"module 'flexcage' has no attribute '{name}'")
+    value = getattr(importlib.import_module(_LAZY[name]), name)
+    globals()[name] = value
+    return value
+
+
+def __dir__() -> list[str]:
+    return sorted(__all__)
+
+
+class _Package(ModuleType):
+    """``flexcage.simulate`` is the function, though a module of that name is imported as well."""
+
+    def __setattr__(self, name: str, value: Any) -> None:
+        if name == "simulate" and isinstance(value, ModuleType):
+            return  # the import system would put the module in the function's place
+        super().__setattr__(name, value)
+
+
+sys.modules[__name__].__class__ = _Package

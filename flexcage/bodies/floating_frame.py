@@ -1,0 +1,240 @@
+"""A flexible body in a floating frame: r = R + A (s + Phi q), every inertia term, any basis.
+
+The consistent mass matrix enters through invariants computed once. Notation, body frame:
+p = s + Phi q; c(q) first moment of mass, J(q) inertia, H(q) rotation-modal and C
+translation-modal coupling, E_k(q) = int phi_k p^T dm. Equations of motion (Shabana, Dynamics of
+Multibody Systems, ch. 5), v in space, w in the body frame:
+
+    m v' + A (w' x c + C q'' + w x (w x c) + 2 w x C q')                       = F
+    c x A^T v' + J w' + H q'' + w x J w + 2 (tr(D) 1 - D^T) w                  = M
+    C^T A^T v' + H^T w' + m_ff q'' + [w^T E_k w - w^2 tr E_k] + 2 w.(P_k q')   = Q - K q - d q'
+
+with D = int p u^T dm, u = Phi q', and (P_k)_l = int phi_l x phi_k dm.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import NamedTuple
+
+import numpy as np
+from scipy import sparse
+
+from flexcage.core.errors import InputError
+from flexcage.core.jit import kernel
+
+
+class BodyData(NamedTuple):
+    """Invariants of one body for the kernels; n may be zero (a rigid body)."""
+
+    mass: float
+    c0: np.ndarray  # (3,) first moment
+    C: np.ndarray  # (3, n) translation-modal coupling
+    G0: np.ndarray  # (3, 3) second moment int s s^T
+    S: np.ndarray  # (n, 3, 3) int phi_k s^T
+    SS: np.ndarray  # (n, n, 3, 3) int phi_k phi_l^T
+    mff: np.ndarray  # (n, n)
+    kff: np.ndarray  # (n, n)
+    dff: np.ndarray  # (n, n) modal damping
+
+
+@dataclass(frozen=True)
+class FlexibleBody:
+    """A body reduced to modes, here or elsewhere: nodes, mass, stiffness and shapes."""
+
+    data: BodyData
+
+    def __repr__(self) -> str:
+        kind = "rigid" if self.modes == 0 else f"{self.modes} modes"
+        return f"FlexibleBody({self.data.mass * 1e3:.2f} g, {kind})"
+
+    @property
+    def modes(self) -> int:
+        return self.data.mff.shape[0]
+
+    @property
+    def centre_of_mass(self) -> np.ndarray:
+        """Centre of mass of the undeformed body [m], body frame (3,)."""
+        return self.data.c0 / self.data.mass
+
+    @property
+    def inertia(self) -> np.ndarray:
+        """Inertia tensor of the undeformed body about the frame's origin [kg m^2] (3, 3)."""
+        return np.trace(self.data.G0) * np.eye(3) - self.data.G0
+
+
+def scalar_mass(mass: sparse.spmatrix, n_nodes: int) -> sparse.csr_matrix:
+    """The (N, N) matrix m of a consistent mass M = m (x) 1_3 given as (N, N) or (3N, 3N)."""
+    mass = sparse.csr_matrix(mass)
+    if mass.shape[0] == n_nodes:
+        return mass
+    blocks = [[mass[i::3, j::3] for j in range(3)] for i in range(3)]
+    scale = abs(mass).max()
+    for i in range(3):
+        for j in range(3):
+            rest = blocks[i][j] if i != j else blocks[i][i] - blocks[0][0]
+            if abs(rest).max() > 1e-9 * scale:
+                raise InputError(
+                    "the mass matrix is not a consistent mass of the same value in x, y and z, "
+                    "so its invariants cannot be formed; give the (N, N) scalar mass matrix",
+                    where="mass",
+                    value=mass.shape,
+                )
+    return blocks[0][0]
+
+
+def flexible_body(
+    nodes: np.ndarray,
+    mass: sparse.spmatrix,
+    shapes: np.ndarray,
+    stiffness: np.ndarray,
+    damping: np.ndarray | None = None,
+) -> FlexibleBody:
+    """Reduce a body: nodes (N, 3) [m], consistent mass (N, N) or (3N, 3N) [kg], shapes (N, 3, n).
+
+    ``stiffness`` and ``damping`` are reduced, (n, n). The frame's origin is where nodes are zero.
+    """
+    n = shapes.shape[2]
+    m = scalar_mass(mass, len(nodes))
+    ones = np.ones(len(nodes))
+    ms, m1 = m @ nodes, m @ ones
+    mphi = (m @ shapes.reshape(len(nodes), 3 * n)).reshape(shapes.shape)
+    SS = np.einsum("aik,ajl->klij", shapes, mphi, optimize=True)
+    data = BodyData(
+        mass=float(ones @ m1),
+        c0=nodes.T @ m1,
+        C=np.ascontiguousarray(np.einsum("a,aik->ik", m1, shapes)),
+        G0=np.ascontiguousarray(nodes.T @ ms),
+        S=np.ascontiguousarray(np.einsum("aik,aj->kij", shapes, ms)),
+        SS=np.ascontiguousarray(SS),
+        mff=np.ascontiguousarray(np.einsum("klii->kl", SS)),
+        kff=np.ascontiguousarray(stiffness, dtype=float).reshape(n, n),
+        dff=np.zeros((n, n)) if damping is None else np.ascontiguousarray(damping),
+    )
+    return FlexibleBody(data)
+
+
+def rigid_body(mass: float, centre: np.ndarray, second_moment: np.ndarray) -> FlexibleBody:
+    """A rigid body from its mass, centre of mass (3,) and second moment int s s^T dm (3, 3)."""
+    z = np.zeros
+    data = BodyData(
+        float(mass), mass * np.asarray(centre, float), z((3, 0)),
+        np.ascontiguousarray(second_moment, dtype=float),
+        z((0, 3, 3)), z((0, 0, 3, 3)), z((0, 0)), z((0, 0)), z((0, 0)),
+    )  # fmt: skip
+    return FlexibleBody(data)
+
+
+def with_point_mass(body: FlexibleBody, mass: float, position: np.ndarray) -> FlexibleBody:
+    """The body with a point mass that rides on the undeformed frame (an unbalance)."""
+    d = body.data
+    s = np.asarray(position, float)
+    data = d._replace(mass=d.mass + mass, c0=d.c0 + mass * s, G0=d.G0 + mass * np.outer(s, s))
+    return FlexibleBody(data)
+
+
+class FrameWork(NamedTuple):
+    """Workspace of the inertia kernel: the assembled mass matrix and velocity terms."""
+
+    M: np.ndarray  # (6+n, 6+n), translations in body axes
+    h: np.ndarray  # (6+n,) gyroscopic and centrifugal terms
+    E: np.ndarray  # (n, 3, 3)
+
+
+def frame_work(n: int) -> FrameWork:
+    return FrameWork(np.zeros((6 + n, 6 + n)), np.zeros(6 + n), np.zeros((n, 3, 3)))
+
+
+@kernel
+def inertia_terms(d, w, q, qd, work):
+    """Mass matrix and velocity terms at modal state (q, qd) and body angular velocity w.
+
+    Fills ``work.M`` and ``work.h`` so that M [A^T v', w', q''] + h = generalised forces, all three
+    groups in body axes; elastic and damping forces are not included.
+    """
+    M, h, E = work.M, work.h, work.E
+    n = q.shape[0]
+    c = d.c0.copy()
+    cd = np.zeros(3)
+    G = d.G0.copy()
+    D = np.zeros((3, 3))  # D_ij = int p_i u_j
+    M[:, :] = 0.0
+    h[:] = 0.0
+    for k in range(n):
+        for i in range(3):
+            c[i] += d.C[i, k] * q[k]
+            cd[i] += d.C[i, k] * qd[k]
+            for j in range(3):
+                E[k, i, j] = d.S[k, i, j]
+    for k in range(n):
+        for l in range(n):
+            if q[l] != 0.0:
+                for i in range(3):
+                    for j in range(3):
+                        E[k, i, j] += d.SS[k, l, i, j] * q[l]
+    for k in range(n):
+        for i in range(3):
+            for j in range(3):
+                # int p p^T = G0 + sum q_k (S_k + S_k^T) + q q SS; E_k already holds S_k + SS q
+                G[i, j] += q[k] * (E[k, i, j] + d.S[k, j, i])
+                D[j, i] += E[k, i, j] * qd[k]
+    trace = G[0, 0] + G[1, 1] + G[2, 2]
+    w2 = w[0] * w[0] + w[1] * w[1] + w[2] * w[2]
+    for i in range(3):
+        M[i, i] = d.mass
+        for j in range(3):
+            M[3 + i, 3 + j] = -0.5 * (G[i, j] + G[j, i])
+        M[3 + i, 3 + i] += trace
+    # rows of translation: w' x c = -c~ w'
+    M[0, 4], M[0, 5] = c[2], -c[1]
+    M[1, 3], M[1, 5] = -c[2], c[0]
+    M[2, 3], M[2, 4] = c[1], -c[0]
+    for i in range(3):
+        for j in range(3):
+            M[3 + j, i] = M[i, 3 + j]
+    wc = w[0] * c[0] + w[1] * c[1] + w[2] * c[2]
+    h[0] = w[0] * wc - c[0] * w2 + 2.0 * (w[1] * cd[2] - w[2] * cd[1])
+    h[1] = w[1] * wc - c[1] * w2 + 2.0 * (w[2] * cd[0] - w[0] * cd[2])
+    h[2] = w[2] * wc - c[2] * w2 + 2.0 * (w[0] * cd[1] - w[1] * cd[0])
+    Jw0 = M[3, 3] * w[0] + M[3, 4] * w[1] + M[3, 5] * w[2]
+    Jw1 = M[4, 3] * w[0] + M[4, 4] * w[1] + M[4, 5] * w[2]
+    Jw2 = M[5, 3] * w[0] + M[5, 4] * w[1] + M[5, 5] * w[2]
+    trD = D[0, 0] + D[1, 1] + D[2, 2]
+    h[3] = w[1] * Jw2 - w[2] * Jw1 + 2.0 * trD * w[0]
+    h[4] = w[2] * Jw0 - w[0] * Jw2 + 2.0 * trD * w[1]
+    h[5] = w[0] * Jw1 - w[1] * Jw0 + 2.0 * trD * w[2]
+    for j in range(3):
+        for i in range(3):
+            h[3 + j] -= 2.0 * D[i, j] * w[i]
+    for k in range(n):
+        for i in range(3):
+            M[i, 6 + k] = M[6 + k, i] = d.C[i, k]
+        # int p x phi_k from E_k,ij = int phi_i p_j
+        M[3, 6 + k] = M[6 + k, 3] = E[k, 2, 1] - E[k, 1, 2]
+        M[4, 6 + k] = M[6 + k, 4] = E[k, 0, 2] - E[k, 2, 0]
+        M[5, 6 + k] = M[6 + k, 5] = E[k, 1, 0] - E[k, 0, 1]
+        s = -w2 * (E[k, 0, 0] + E[k, 1, 1] + E[k, 2, 2])
+        for i in range(3):
+            for j in range(3):
+                s += w[i] * w[j] * E[k, i, j]
+        for l in range(n):
+            M[6 + k, 6 + l] = d.mff[k, l]
+            if qd[l] != 0.0:
+                # 2 w . int phi_l x phi_k
+                s += 2.0 * qd[l] * (
+                    w[0] * (d.SS[l, k, 1, 2] - d.SS[l, k, 2, 1])
+                    + w[1] * (d.SS[l, k, 2, 0] - d.SS[l, k, 0, 2])
+                    + w[2] * (d.SS[l, k, 0, 1] - d.SS[l, k, 1, 0])
+                )
+        h[6 + k] = s
+
+
+@kernel
+def kinetic_energy(M, v_body, w, qd):
+    """Kinetic energy from the mass matrix in body axes, velocity in body axes."""
+    n = qd.shape[0]
+    u = np.empty(6 + n)
+    u[0:3] = v_body
+    u[3:6] = w
+    u[6:] = qd
+    return 0.5 * u @ (M @ u)

@@ -1,0 +1,242 @@
+"""The case: all that is asked of one simulation, composed of the rooms' own specs.
+
+``Case`` is the registry: one field more is one section more, in TOML, in ``replace``, in the hash.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
+from dataclasses import dataclass
+from functools import cached_property
+from math import pi
+from pathlib import Path
+from typing import Any
+
+from flexcage.case.checks import check_case
+from flexcage.contacts.spec import Contacts, Lubricant
+from flexcage.core.binding import Binder, check_spec, default_of, set_path, to_table
+from flexcage.core.errors import InputError
+from flexcage.core.hashing import content_hash
+from flexcage.core.spec import option
+from flexcage.geometry.cages import Defect, WindowCage
+from flexcage.geometry.cylindrical_roller import RollerBearing
+from flexcage.geometry.presets import NAMED, load_preset
+from flexcage.mesh.options import MeshOptions
+from flexcage.modes.spec import ModesSpec
+from flexcage.results.options import OutputOptions
+from flexcage.solve.options import SolverOptions
+from flexcage.system.spec import Drive, Limits, Load, Mount
+
+CAGE_MODELS = ("flexible", "rigid")
+_NOT_PHYSICS = ("name", "description", "preset")
+# In text the cage's model stands with the cage; the preset, with the bearing.
+ALIASES = {"cage.model": "cage_model", "bearing.preset": "preset"}
+
+
+@dataclass(frozen=True, kw_only=True)
+class Case:
+    """One simulation: bearing, cage and defects, and how they are meshed, driven and solved.
+
+    Frozen: ``case.replace("cage.pocket_width", "8.25 mm")`` gives a varied copy. Every case is
+    checked when it is made; an impossible one raises InputError with one sentence.
+    """
+
+    name: str = option("case", doc="name, for titles and folders")
+    description: str = option("", doc="what this case is for")
+    preset: str = option("", doc="preset that the case started from")
+    bearing: RollerBearing = option(doc="the bearing")
+    cage: WindowCage = option(doc="the cage")
+    cage_model: str = option("flexible", doc="how the cage is modelled", choices=CAGE_MODELS)
+    defects: tuple[Defect, ...] = option((), doc="deformations of the cage, any number")
+    mesh: MeshOptions = option(MeshOptions(), doc="the cage's mesh")
+    modes: ModesSpec = option(ModesSpec(), doc="the cage's modes")
+    lubricant: Lubricant = option(Lubricant(), doc="the lubricant")
+    contacts: Contacts = option(Contacts(), doc="contact laws, place by place")
+    drive: Drive = option(Drive(), doc="what turns the inner ring")
+    load: Load = option(Load(), doc="what loads the inner ring")
+    mount: Mount = option(Mount(), doc="what holds the outer ring")
+    solver: SolverOptions = option(SolverOptions(), doc="the integrator")
+    output: OutputOptions = option(OutputOptions(), doc="what is kept of a run")
+    limits: Limits = option(Limits(), doc="limits beyond which a start is refused")
+
+    def __post_init__(self) -> None:
+        check_spec(self)
+        check_case(self)
+
+    @classmethod
+    def from_preset(cls, preset: str, **sections: Any) -> Case:
+        """Case from a preset's bearing, cage and contacts; ``sections`` are specs or tables."""
+        return cls.from_table(
+            {**sections, "bearing": {"preset": preset, **_as_table(sections.get("bearing", {}))}},
+            si=True,
+        )
+
+    @classmethod
+    def from_table(
+        cls, table: Mapping[str, Any], *, folder: Path | None = None, si: bool = False
+    ) -> Case:
+        """Case from nested tables as TOML gives them; ``folder`` is where relative paths start."""
+        merged = _with_preset(_without_aliases(table))
+        if folder is not None:
+            merged = _with_mesh_file(merged, folder)
+        with _words_of_text():
+            return Binder(named=NAMED, si=si).bind(cls, merged, "")
+
+    def replace(
+        self, path: str | None = None, value: Any = None, /, *, si: bool = True, **changes: Any
+    ) -> Case:
+        """Varied copy: ``replace("cage.pocket_width", "8.25 mm")`` or ``replace(**{path: value})``.
+
+        A path is dotted ("defects.0.displacement"); a value is text with its unit, an SI number
+        (unless ``si`` is False), a spec, or a table. All changes are made before the check.
+        """
+        pairs = {**({path: value} if path is not None else {}), **changes}
+        binder = Binder(named=NAMED, si=si)
+        bare = _Unchecked(**{f.name: getattr(self, f.name) for f in dataclasses.fields(self)})
+        for where, new in pairs.items():
+            if where == "bearing.preset":
+                raise InputError(
+                    "bearing.preset cannot be replaced in a finished case; load it with the "
+                    "other preset instead.",
+                    where=where,
+                )
+            with _words_of_text():
+                bare = set_path(bare, ALIASES.get(where, where), new, binder)
+        return Case(**{f.name: getattr(bare, f.name) for f in dataclasses.fields(bare)})
+
+    def to_table(self) -> dict[str, Any]:
+        """Nested tables of texts with units, complete: nothing is left to defaults."""
+        table = to_table(self, named=NAMED)
+        model, preset = table.pop("cage_model"), table.pop("preset")
+        table["cage"] = {"model": model, **table["cage"]}
+        if preset:
+            table["bearing"] = {"preset": preset, **table["bearing"]}
+        return table
+
+    def to_toml(self) -> str:
+        """The case as TOML text that ``load_case`` reads back to an equal case."""
+        from flexcage.case.toml import write_toml
+
+        return write_toml(self.to_table())
+
+    @cached_property
+    def hash(self) -> str:
+        """16 digits that name the case's physics and outputs; names and words do not count.
+
+        A mesh file of the user's own counts by its bytes.
+        """
+        fields = {f.name: getattr(self, f.name) for f in dataclasses.fields(self)}
+        physics = {k: v for k, v in fields.items() if k not in _NOT_PHYSICS}
+        file = Path(self.mesh.file)
+        content = file.read_bytes() if self.mesh.file and file.is_file() else b""
+        return content_hash(physics, content)
+
+    @property
+    def assumptions(self) -> dict[str, str]:
+        """Values that no source gives and that this case left as they were: path to reason."""
+        found = dict(_standing_assumptions(self, ""))
+        if self.preset:
+            preset = load_preset(self.preset)
+            for path, reason in preset.assumptions.items():
+                room, _, rest = path.partition(".")
+                origin = getattr(preset, room)
+                if _at(self, path) == _at(origin, rest):
+                    found[path] = reason
+        return found
+
+    def __repr__(self) -> str:
+        defects = f", {len(self.defects)} defect(s)" if self.defects else ""
+        designation = self.bearing.designation or "bearing"
+        speed = self.drive.speed * 30.0 / pi
+        return (
+            f"Case('{self.name}': {designation}, {self.bearing.roller_count} rollers, "
+            f"{self.cage_model} {self.cage.material.name} cage{defects}, {speed:g} rpm, "
+            f"{self.load.radial:g} N, {self.solver.duration:g} s; {self.hash})"
+        )
+
+
+class _Unchecked(Case):
+    """A case between two changes: possible only when all of them are made."""
+
+    def __post_init__(self) -> None:
+        pass
+
+
+@contextmanager
+def _words_of_text() -> Iterator[None]:
+    """Name values in errors as the text does: cage.model, not cage_model."""
+    try:
+        yield
+    except InputError as exc:
+        for alias, field in ALIASES.items():
+            if exc.where == field:
+                raise InputError(
+                    str(exc).replace(field, alias, 1), where=alias, value=exc.value
+                ) from exc
+        raise
+
+
+def _as_table(section: Any) -> Mapping[str, Any]:
+    return section if isinstance(section, Mapping) else to_table(section, named=NAMED)
+
+
+def _without_aliases(table: Mapping[str, Any]) -> dict[str, Any]:
+    plain = dict(table)
+    for alias, field in ALIASES.items():
+        room, key = alias.split(".")
+        section = plain.get(room)
+        if isinstance(section, Mapping) and key in section:
+            plain[room] = {k: v for k, v in section.items() if k != key}
+            plain[field] = section[key]
+    return plain
+
+
+def _with_preset(table: dict[str, Any]) -> dict[str, Any]:
+    name = table.get("preset")
+    if not name:
+        return table
+    if not isinstance(name, str):
+        raise InputError(f"bearing.preset is {name!r}, but should be text.", where="bearing.preset")
+    return _merge(load_preset(name).tables, table)
+
+
+def _with_mesh_file(table: dict[str, Any], folder: Path) -> dict[str, Any]:
+    """The mesh file's path, made absolute: it was written relative to the case's own folder."""
+    mesh = table.get("mesh")
+    file = mesh.get("file") if isinstance(mesh, Mapping) else None
+    if not isinstance(file, str) or not file:
+        return table
+    return {**table, "mesh": {**mesh, "file": str(folder / Path(file).expanduser())}}  # type: ignore[dict-item]
+
+
+def _merge(low: Mapping[str, Any], high: Mapping[str, Any]) -> dict[str, Any]:
+    """Tables of ``low`` overridden by ``high``, table by table; a name in ``low`` is one too."""
+    merged = dict(low)
+    for key, value in high.items():
+        below = merged.get(key)
+        if isinstance(value, Mapping) and isinstance(below, str):
+            below = {"name": below}  # a material by name, of which some values are overridden
+        both = isinstance(value, Mapping) and isinstance(below, Mapping)
+        merged[key] = _merge(below, value) if both else value  # type: ignore[arg-type]
+    return merged
+
+
+def _at(spec: Any, path: str) -> Any:
+    for key in path.split("."):
+        spec = getattr(spec, key)
+    return spec
+
+
+def _standing_assumptions(spec: Any, where: str) -> list[tuple[str, str]]:
+    found = []
+    for field in dataclasses.fields(spec):
+        value = getattr(spec, field.name)
+        path = f"{where}.{field.name}" if where else field.name
+        reason = field.metadata.get("assumption")
+        if reason and value == default_of(field):
+            found.append((path, reason))
+        if dataclasses.is_dataclass(value):
+            found.extend(_standing_assumptions(value, path))
+    return found

@@ -1,0 +1,65 @@
+"""Reading a case: from a file, from TOML text, or from nested tables."""
+
+from __future__ import annotations
+
+import tomllib
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+from flexcage.case.case import Case
+from flexcage.core.errors import InputError
+
+
+def load_case(
+    source: str | Path | Mapping[str, Any] | Case,
+    *,
+    overrides: Mapping[str, Any] | None = None,
+    preset: str | None = None,
+) -> Case:
+    """Case from a .toml file, TOML text, or nested tables.
+
+    ``overrides`` maps dotted paths to text with units ({"cage.pocket_width": "8.25 mm"});
+    ``preset`` takes the place of ``bearing.preset``. A mistake raises InputError.
+    """
+    if isinstance(source, Case):
+        case = source
+    else:
+        table, folder = _read(source)
+        if preset is not None:
+            table = {**table, "bearing": {**table.get("bearing", {}), "preset": preset}}
+        case = Case.from_table(table, folder=folder)
+    return case.replace(si=False, **overrides) if overrides else case
+
+
+def _read(source: str | Path | Mapping[str, Any]) -> tuple[dict[str, Any], Path | None]:
+    if isinstance(source, Mapping):
+        return dict(source), None
+    if isinstance(source, str) and ("\n" in source or "=" in source):
+        return _parse(source, "The text"), None
+    path = Path(source).expanduser()
+    return _parse(_text(path), str(path)), path.resolve().parent
+
+
+def _text(path: Path) -> str:
+    try:
+        return path.read_text("utf-8")
+    except FileNotFoundError:
+        sentence = f"There is no case file '{path}'."
+    except IsADirectoryError:
+        sentence = f"'{path}' is a folder; name the .toml case file in it."
+    except PermissionError:
+        sentence = f"The case file '{path}' may not be read; check its permissions."
+    except UnicodeDecodeError:
+        sentence = f"'{path}' is not a text file; a case is TOML text in UTF-8."
+    except OSError as exc:
+        sentence = f"The case file '{path}' cannot be read: {exc.strerror or exc}."
+    raise InputError(sentence, where="case", value=str(path))
+
+
+def _parse(text: str, name: str) -> dict[str, Any]:
+    try:
+        return tomllib.loads(text)
+    except tomllib.TOMLDecodeError as exc:
+        reason = str(exc).rstrip(".")
+        raise InputError(f"{name} is not valid TOML: {reason}.", where="case") from exc

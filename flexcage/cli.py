@@ -1,0 +1,390 @@
+"""The command line: parse, call, and say in one sentence what went wrong.
+
+Exit codes: 0 done, 1 a run that failed or a machine that lacks something, 2 a mistake in the
+input, 130 stopped by Ctrl-C. FLEXCAGE_DEBUG=1 shows tracebacks.
+"""
+
+from __future__ import annotations
+
+import argparse
+import errno
+import os
+import sys
+import tempfile
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+from flexcage._version import __version__
+from flexcage.core.errors import FlexcageError, InputError
+
+_STOPPED = 130
+
+
+def main(argv: Sequence[str] | None = None) -> int:
+    """Run one command; the exit code."""
+    parser = build_parser()
+    args = parser.parse_args(argv)
+    if not hasattr(args, "command"):
+        parser.print_help()
+        return 2
+    try:
+        return _call(args)
+    except KeyboardInterrupt:
+        return _fail(_stopped_sentence(args), _STOPPED)
+    except BrokenPipeError:  # the reader of our output has left, as in `flexcage presets | head`
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        return 1
+    except Exception as exc:
+        if os.environ.get("FLEXCAGE_DEBUG"):
+            raise
+        return _fail(*_sentence(exc))
+
+
+def _call(args: argparse.Namespace) -> int:
+    from flexcage.core import logs
+
+    logs.setup(verbose=args.verbose - args.quiet)
+    return args.command(args) or 0
+
+
+def _sentence(exc: Exception) -> tuple[str, int]:
+    """One sentence and the exit code for an error."""
+    if isinstance(exc, FlexcageError):
+        return str(exc), exc.exit_code
+    if isinstance(exc, OSError):
+        place = f" at '{exc.filename}'" if exc.filename else ""
+        if exc.errno in (errno.ENOSPC, errno.EDQUOT):
+            return f"The disk is full{place}; what was written before is kept.", 1
+        return f"A file could not be read or written{place}: {exc.strerror or exc}.", 1
+    if isinstance(exc, MemoryError):
+        return "This machine has too little memory; take a coarser mesh or fewer modes.", 1
+    return (
+        f"flexcage stopped on an error of its own, {type(exc).__name__}: {exc}; "
+        "FLEXCAGE_DEBUG=1 shows where.",
+        1,
+    )
+
+
+def _stopped_sentence(args: argparse.Namespace) -> str:
+    out = getattr(args, "out", None)
+    if out is None or not (Path(out) / "results.zarr").exists():
+        return "Stopped."
+    return f"Stopped; what was computed is kept in '{out}', and --resume goes on from there."
+
+
+def _fail(sentence: str, code: int) -> int:
+    first = sentence.strip()
+    sys.stderr.write(f"flexcage: {first if first.endswith(('.', '!', '?')) else first + '.'}\n")
+    return code
+
+
+def say(text: object = "") -> None:
+    """Write to standard output: what the command was asked for."""
+    sys.stdout.write(f"{text}\n")
+
+
+# ---------------------------------------------------------------------------------- commands
+
+
+def run_command(args: argparse.Namespace) -> int:
+    """flexcage run CASE: simulate, summarise, draw."""
+    case = case_from(args)
+    args.out = out = Path(args.out) if args.out else Path("runs") / case.name
+    prepare_out(out, resume=args.resume, force=args.force)
+    from flexcage.core.progress import Progress
+    from flexcage.simulate import simulate
+
+    run = simulate(case, out=out, resume=args.resume, progress=Progress)
+    if not args.no_images:
+        run.draw(out / "images", animate=args.animate)
+    say(run.summary)
+    say(f"\nThe run is in {out}")
+    return 0
+
+
+def mesh_command(args: argparse.Namespace) -> int:
+    """flexcage mesh CASE: build, check and write the cage's mesh."""
+    case = case_from(args)
+    out = Path(args.out) if args.out else Path(f"{case.name}.msh")
+    prepare_file(out, force=args.force)
+    from flexcage.mesh.build import build_cage_mesh
+    from flexcage.mesh.io import write_mesh
+    from flexcage.mesh.quality import report_mesh
+
+    mesh = build_cage_mesh(
+        case.cage,
+        pocket_count=case.bearing.roller_count,
+        pitch_diameter=case.bearing.pitch_diameter,
+        defects=case.defects,
+        options=case.mesh,
+    )
+    say(report_mesh(mesh, density=case.cage.material.density))
+    for path in dict.fromkeys((out, out.with_suffix(".vtu"))):
+        say(f"written: {write_mesh(mesh, path)}")
+    return 0
+
+
+def modes_command(args: argparse.Namespace) -> int:
+    """flexcage modes CASE: the modal basis of the cage, as a table."""
+    case = case_from(args)
+    from flexcage.simulate import cage_modes
+
+    basis = cage_modes(case)
+    say(f"{'mode':>5}  {'kind':<12}  {'frequency':>12}")
+    for i, (frequency, kind) in enumerate(zip(basis.frequencies, basis.kind)):
+        say(f"{i:>5}  {kind:<12}  {frequency:>9.1f} Hz")
+    return 0
+
+
+def render_command(args: argparse.Namespace) -> int:
+    """flexcage render RUN: draw the pictures of a stored run again."""
+    from flexcage.simulate import load_run
+
+    run = load_run(existing_run(args.run))
+    out = Path(args.out) if args.out else Path(args.run) / "images"
+    run.draw(out, animate=args.animate)
+    say(f"The pictures are in {out}")
+    return 0
+
+
+def compare_command(args: argparse.Namespace) -> int:
+    """flexcage compare CASE (rigid against flexible), or RUN RUN."""
+    from flexcage.simulate import compare, compare_case
+
+    if len(args.what) == 2:
+        first, second = (existing_run(path) for path in args.what)
+        out = Path(args.out) if args.out else Path("compare")
+        prepare_out(out, resume=False, force=args.force)
+        say(compare(first, second, out=out))
+        return 0
+    if len(args.what) != 1:
+        raise InputError("compare wants one case, or two run folders.", where="compare")
+    args.case = args.what[0]
+    case = case_from(args)
+    out = Path(args.out) if args.out else Path("runs") / f"{case.name}-compare"
+    prepare_out(out, resume=False, force=args.force)
+    say(compare_case(case, out=out))
+    return 0
+
+
+def presets_command(args: argparse.Namespace) -> int:
+    """flexcage presets [NAME]: the list, or one preset with its assumptions."""
+    from flexcage.geometry.presets import load_preset, preset_names
+
+    if args.name is None:
+        for name in preset_names():
+            say(f"{name:<12} {load_preset(name).title}")
+        return 0
+    preset = load_preset(args.name)
+    say(preset.title)
+    for path, value in flat(preset.tables):
+        reason = preset.assumptions.get(path)
+        say(f"  {path:<30} {value!s:<12} {f'assumption: {reason}' if reason else ''}".rstrip())
+    say()
+    for name, stated, computed in preset.ratings():
+        say(f"  {name}: catalogue {stated / 1e3:.1f} kN, from this inside {computed / 1e3:.2f} kN")
+    for name, text in preset.sources.items():
+        say(f"  {name}: {text}")
+    return 0
+
+
+def doctor_command(args: argparse.Namespace) -> int:
+    """flexcage doctor: what this machine lacks, and the remedy."""
+    from flexcage.core.environment import probe
+
+    lacking = 0
+    for finding in probe():
+        word = "ok" if finding.ok else ("LACKS" if finding.needed else "could be better")
+        say(f"{finding.name:<14} {word:<16} {finding.detail}")
+        if not finding.ok:
+            say(f"{'':<14} remedy: {finding.remedy}")
+            lacking += finding.needed
+    return 1 if lacking else 0
+
+
+def cache_command(args: argparse.Namespace) -> int:
+    """flexcage cache [--clear]: what the cache holds."""
+    from flexcage.core.cache import cache_info, clear_cache
+
+    if args.clear:
+        say(f"freed {clear_cache() / 1e6:.1f} MB")
+    else:
+        say(cache_info())
+    return 0
+
+
+# ----------------------------------------------------------------------------------- helpers
+
+
+def case_from(args: argparse.Namespace) -> Any:
+    """Case named on the command line, with --set and --cage applied."""
+    from flexcage.case import load_case
+
+    overrides = dict(parse_setting(text) for text in args.set or ())
+    if getattr(args, "cage", None):
+        overrides["cage.model"] = args.cage
+    return load_case(Path(args.case), overrides=overrides)
+
+
+def parse_setting(text: str) -> tuple[str, Any]:
+    """Path and value of "cage.pocket_width=8.25 mm"; a bare number or flag is read as TOML."""
+    path, sign, value = text.partition("=")
+    path, value = path.strip(), value.strip()
+    if not sign or not path:
+        raise InputError(f"--set {text!r} should read path=value, such as 'load.radial=500 N'.")
+    import tomllib
+
+    try:
+        return path, tomllib.loads(f"value = {value}")["value"]
+    except tomllib.TOMLDecodeError:
+        return path, value
+
+
+def prepare_out(out: Path, *, resume: bool, force: bool) -> None:
+    """Refuse an output folder that would be overwritten by accident or cannot be written."""
+    if out.exists() and not out.is_dir():
+        raise InputError(f"'{out}' is a file; name a folder for the output.", where="out")
+    if resume:
+        existing_run(out)
+    elif out.is_dir() and any(out.iterdir()):
+        if not force:
+            raise InputError(
+                f"The output folder '{out}' exists already; --resume goes on with it, --force "
+                "writes it anew, -o names another.",
+                where="out",
+                value=str(out),
+            )
+        empty_run(out)
+    try:
+        out.mkdir(parents=True, exist_ok=True)
+        with tempfile.TemporaryFile(dir=out):
+            pass
+    except OSError as exc:
+        reason = (exc.strerror or str(exc)).lower()
+        raise InputError(
+            f"The output folder '{out}' cannot be written ({reason}); name another with -o.",
+            where="out",
+            value=str(out),
+        ) from exc
+
+
+def empty_run(out: Path) -> None:
+    """Remove a former output of flexcage; anything else in that folder is not ours to remove."""
+    import shutil
+
+    ours = ("case.toml", "results.zarr", "compare.json")
+    if not any((out / name).exists() for name in ours):
+        raise InputError(
+            f"'{out}' holds files that flexcage did not write, so --force leaves it alone; name "
+            "another folder with -o.",
+            where="out",
+            value=str(out),
+        )
+    shutil.rmtree(out)
+
+
+def prepare_file(path: Path, *, force: bool) -> None:
+    """Refuse an output file that exists or cannot be written."""
+    if path.suffix not in (".msh", ".vtu"):
+        raise InputError(f"'{path}' should end in .msh or .vtu.", where="out", value=str(path))
+    if path.exists() and not force:
+        raise InputError(f"'{path}' exists already; --force writes it anew.", where="out")
+    if not path.parent.is_dir() or not os.access(path.parent, os.W_OK):
+        raise InputError(f"'{path.parent}' is not a folder that can be written.", where="out")
+
+
+def existing_run(path: str | Path) -> Path:
+    """Folder of a stored run, or InputError."""
+    path = Path(path)
+    if not (path / "results.zarr").exists():
+        raise InputError(f"'{path}' is not the folder of a run: it has no results.zarr.")
+    return path
+
+
+def flat(table: Any, where: str = "") -> list[tuple[str, Any]]:
+    """Dotted path and value of every entry of nested tables."""
+    rows: list[tuple[str, Any]] = []
+    for key, value in table.items():
+        path = f"{where}.{key}" if where else key
+        rows += flat(value, path) if hasattr(value, "items") else [(path, value)]
+    return rows
+
+
+# ------------------------------------------------------------------------------------ parser
+
+
+def build_parser() -> argparse.ArgumentParser:
+    """All commands and their options."""
+    parser = argparse.ArgumentParser(
+        prog="flexcage", description="Rolling bearings with an elastic, deformed cage."
+    )
+    parser.add_argument("--version", action="version", version=f"flexcage {__version__}")
+    parser.add_argument("-v", "--verbose", action="count", default=0, help="say more")
+    parser.add_argument("-q", "--quiet", action="store_true", help="warnings only")
+    commands = parser.add_subparsers(title="commands", metavar="COMMAND")
+    _add_run(commands)
+    _add_case_commands(commands)
+    _add_run_commands(commands)
+    _add_small_commands(commands)
+    return parser
+
+
+def _add_run(commands: Any) -> None:
+    run = _command(commands, "run", run_command, "simulate a case: results, summary, pictures")
+    _case_options(run)
+    run.add_argument("-o", "--out", metavar="DIR", help="run folder (default: runs/NAME)")
+    again = run.add_mutually_exclusive_group()
+    again.add_argument("--resume", action="store_true", help="go on with a run that stopped")
+    again.add_argument("--force", action="store_true", help="write an existing run anew")
+    run.add_argument("--animate", action="store_true", help="make an animation as well")
+    run.add_argument("--no-images", action="store_true", help="results only")
+
+
+def _add_case_commands(commands: Any) -> None:
+    mesh = _command(commands, "mesh", mesh_command, "build and check the cage's mesh")
+    _case_options(mesh)
+    mesh.add_argument("-o", "--out", metavar="FILE", help="mesh file (default: NAME.msh)")
+    mesh.add_argument("--force", action="store_true", help="write over an existing file")
+    modes = _command(commands, "modes", modes_command, "compute the cage's modes")
+    _case_options(modes)
+
+
+def _add_run_commands(commands: Any) -> None:
+    render = _command(commands, "render", render_command, "draw the pictures of a stored run")
+    render.add_argument("run", metavar="RUN", help="run folder")
+    render.add_argument("-o", "--out", metavar="DIR", help="folder for the pictures")
+    render.add_argument("--animate", action="store_true", help="make an animation as well")
+    compare = _command(
+        commands, "compare", compare_command, "one case rigid and flexible, or two runs"
+    )
+    compare.add_argument("what", nargs="+", metavar="CASE|RUN", help="a case, or two run folders")
+    compare.add_argument("--set", action="append", metavar="PATH=VALUE", help="change a value")
+    compare.add_argument("-o", "--out", metavar="DIR", help="folder for table, plot and runs")
+    compare.add_argument("--force", action="store_true", help="write an existing folder anew")
+
+
+def _add_small_commands(commands: Any) -> None:
+    presets = _command(commands, "presets", presets_command, "list presets, or show one")
+    presets.add_argument("name", nargs="?", metavar="NAME")
+    _command(commands, "doctor", doctor_command, "what this machine lacks, and the remedy")
+    cache = _command(commands, "cache", cache_command, "what the cache on disk holds")
+    cache.add_argument("--clear", action="store_true", help="remove all of it")
+
+
+def _command(commands: Any, name: str, function: Any, text: str) -> argparse.ArgumentParser:
+    parser = commands.add_parser(name, help=text, description=text)
+    parser.set_defaults(command=function)
+    return parser
+
+
+def _case_options(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument("case", metavar="CASE", help="case file (.toml)")
+    parser.add_argument("--cage", choices=("rigid", "flexible"), help="how the cage is modelled")
+    parser.add_argument(
+        "--set", action="append", metavar="PATH=VALUE", help="change a value of the case"
+    )
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,106 @@
+"""Specs of contacts: which law at which place, with which numbers."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from flexcage.core.spec import option, quantity
+
+NORMAL_LAWS = ("restitution", "impact_step", "elastic")
+FRICTION_LAWS = ("traction", "step_coulomb", "ramp_coulomb", "none")
+
+
+@dataclass(frozen=True, kw_only=True)
+class NormalLaw:
+    """Normal force from penetration and its rate; stiffness follows from geometry and materials.
+
+    ``restitution``: F = K d^n (1 + (lambda/v0) d'), lambda from the exact relation to e, v0 the
+    approach speed at the contact's onset (not below ``speed_floor``); ``impact_step``:
+    F = K d^n + STEP(d, 0, 0, full_damping_depth, damping) d' (ADAMS IMPACT, papers 000 and
+    003); ``elastic``: no damping. Forces are clipped at zero.
+    """
+
+    law: str = option("restitution", doc="name of the law", choices=NORMAL_LAWS)
+    restitution: float = option(0.9, doc="coefficient of restitution e", minimum=0.01, maximum=1.0)
+    speed_floor: float = quantity(
+        "m/s", 0.05, doc="least onset speed v0", above=0.0, assumption="bounds the damping"
+    )
+    damping: float = quantity("N*s/m", 0.0, doc="full damping of impact_step", minimum=0.0)
+    full_damping_depth: float = quantity("mm", 1e-5, doc="depth of full damping", above=0.0)
+    stiffness_factor: float = option(
+        1.0, doc="multiplies the computed stiffness (studies)", minimum=1e-6
+    )
+
+
+@dataclass(frozen=True, kw_only=True)
+class FrictionLaw:
+    """Friction coefficient against sliding speed.
+
+    ``traction``: Gupta's (A + B u) exp(-C u) + D through 0, the maximum ``peak`` at
+    ``peak_speed`` and ``high_speed`` for large u; ``step_coulomb``: ADAMS static/dynamic with
+    cubic steps (paper 003); ``ramp_coulomb``: Ambrosio's ramp from v_static to v_dynamic
+    (paper 004).
+    """
+
+    law: str = option("step_coulomb", doc="name of the law", choices=FRICTION_LAWS)
+    static: float = option(0.1, doc="static coefficient", minimum=0.0)
+    dynamic: float = option(0.05, doc="dynamic coefficient", minimum=0.0)
+    v_static: float = quantity("m/s", 0.1, doc="speed of the static peak", above=0.0)
+    v_dynamic: float = quantity("m/s", 1.0, doc="speed of full dynamic friction", above=0.0)
+    peak: float = option(0.05, doc="traction maximum", minimum=0.0)
+    peak_speed: float = quantity("m/s", 0.3, doc="sliding speed of the maximum", above=0.0)
+    high_speed: float = option(0.03, doc="traction at large sliding speed", minimum=0.0)
+
+
+@dataclass(frozen=True, kw_only=True)
+class PairSpec:
+    """A contact place: its normal law, its friction law, and how finely it is cut."""
+
+    normal: NormalLaw = option(NormalLaw(), doc="normal law")
+    friction: FrictionLaw = option(FrictionLaw(), doc="friction law")
+    slices: int = option(15, doc="slices along the roller", minimum=3, maximum=99)
+
+
+@dataclass(frozen=True, kw_only=True)
+class LandSpec:
+    """Cage land against the ring land it is guided by, or may touch."""
+
+    kind: str = option("dry", doc="land contact", choices=("none", "dry", "film"))
+    clearance: float = quantity("mm", 0.25e-3, doc="radial land clearance", above=0.0)
+    width: float = quantity("mm", 3.5e-3, doc="width of one land", above=0.0)
+    normal: NormalLaw = option(NormalLaw(restitution=0.7), doc="normal law")
+    friction: FrictionLaw = option(FrictionLaw(static=0.1, dynamic=0.05), doc="friction law")
+
+
+@dataclass(frozen=True, kw_only=True)
+class Contacts:
+    """All contact places of a cylindrical roller bearing."""
+
+    race: PairSpec = option(
+        PairSpec(friction=FrictionLaw(law="traction")), doc="roller against both races"
+    )
+    pocket: PairSpec = option(
+        PairSpec(normal=NormalLaw(restitution=0.7)), doc="roller against crossbeams"
+    )
+    side: PairSpec = option(
+        PairSpec(normal=NormalLaw(restitution=0.7)), doc="roller end against side beams"
+    )
+    rib: PairSpec = option(
+        PairSpec(normal=NormalLaw(restitution=0.7)), doc="roller end against ribs"
+    )
+    land: LandSpec = option(LandSpec(), doc="cage land")
+
+
+@dataclass(frozen=True, kw_only=True)
+class Lubricant:
+    """Lubricant and what it does apart from traction: rolling resistance and drag."""
+
+    name: str = option("ISO VG 32 at 70 C", doc="name")
+    viscosity: float = quantity("Pa*s", 0.01, doc="dynamic viscosity", above=0.0)
+    pressure_coefficient: float = quantity("1/GPa", 2e-8, doc="pressure-viscosity", above=0.0)
+    density: float = quantity("kg/m^3", 860.0, doc="density", above=0.0)
+    oil_fraction: float = option(0.01, doc="oil volume fraction in the space", minimum=0.0)
+    rolling_resistance: str = option(
+        "blended", doc="rolling resistance", choices=("none", "goksem_hargreaves", "blended")
+    )
+    drag_coefficient: float = option(0.4, doc="C_D of a shadowed roller", minimum=0.0)

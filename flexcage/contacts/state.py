@@ -1,0 +1,144 @@
+"""What contact kernels share: the pose of one roller, slice buffers, and a pair's wrench and tangent.
+
+Components of a roller's quantities are in its orbital frame F = (e_x, e_r, e_psi) at azimuth psi,
+which turns with the roller's orbit; a 6-vector is (force or translation, moment or rotation)
+about the roller's centre. Index letters: i roller, k slice, f face, s station, m mode.
+"""
+
+from __future__ import annotations
+
+from math import cos, sin
+from typing import NamedTuple
+
+import numpy as np
+
+from flexcage.core.jit import kernel
+
+
+class RollerPose(NamedTuple):
+    """One roller's kinematics, refilled for each roller."""
+
+    F: np.ndarray  # (3, 3) rows e_x, e_r, e_psi in space
+    axis: np.ndarray  # (3, 3) rows: roller axis, its two transverse axes (non-spinning), in F
+    V: np.ndarray  # (3,) velocity in F
+    w: np.ndarray  # (3,) angular velocity in F
+
+
+class Slices(NamedTuple):
+    """Buffers over the slices (or points) of one contact."""
+
+    d: np.ndarray  # penetration
+    v: np.ndarray  # its rate
+    N: np.ndarray  # normal force
+    Nd: np.ndarray  # dN/dd
+    Nv: np.ndarray  # dN/dv
+    u: np.ndarray  # sliding speed
+    g: np.ndarray  # mu/u
+    dg: np.ndarray  # d(mu/u)/du
+    zero: np.ndarray  # zeros: rates for elastic forces
+    t: np.ndarray  # (n, 2) sliding velocity components
+
+
+class Pair(NamedTuple):
+    """Result of one contact on a roller, about its centre, components in F."""
+
+    wrench: np.ndarray  # (6,)
+    K: np.ndarray  # (6, 6) minus d wrench / d displacement
+    C: np.ndarray  # (6, 6) minus d wrench / d velocity
+
+
+def new_pose() -> RollerPose:
+    return RollerPose(np.zeros((3, 3)), np.zeros((3, 3)), np.zeros(3), np.zeros(3))
+
+
+def new_slices(n: int) -> Slices:
+    return Slices(*(np.zeros(n) for _ in range(9)), np.zeros((n, 2)))
+
+
+def new_pair() -> Pair:
+    return Pair(np.zeros(6), np.zeros((6, 6)), np.zeros((6, 6)))
+
+
+@kernel
+def set_pose(q, u, pose):
+    """Fill the pose from a roller's coordinates (x, r, psi, skew, tilt, spin) and velocities.
+
+    The axis is e_x turned by the skew about e_r, then by the tilt about the turned e_psi.
+    """
+    c, s = cos(q[2]), sin(q[2])
+    F = pose.F
+    F[0, 0], F[0, 1], F[0, 2] = 1.0, 0.0, 0.0
+    F[1, 0], F[1, 1], F[1, 2] = 0.0, c, s
+    F[2, 0], F[2, 1], F[2, 2] = 0.0, -s, c
+    cx, sx, ce, se = cos(q[3]), sin(q[3]), cos(q[4]), sin(q[4])
+    a = pose.axis
+    a[0, 0], a[0, 1], a[0, 2] = cx * ce, se, -sx * ce
+    a[1, 0], a[1, 1], a[1, 2] = -cx * se, ce, sx * se
+    a[2, 0], a[2, 1], a[2, 2] = sx, 0.0, cx
+    for j in range(3):
+        pose.V[j] = u[j]
+        pose.w[j] = u[3] * a[0, j] + u[4] * a[1, j] + u[5] * a[2, j]
+
+
+@kernel
+def to_frame(F, a, out):
+    """out = F a: space components to orbital components."""
+    for i in range(3):
+        out[i] = F[i, 0] * a[0] + F[i, 1] * a[1] + F[i, 2] * a[2]
+
+
+@kernel
+def clear(pair, tangent):
+    """Zero a pair's wrench and, if asked, its tangent."""
+    pair.wrench[:] = 0.0
+    if tangent:
+        pair.K[:, :] = 0.0
+        pair.C[:, :] = 0.0
+
+
+@kernel
+def add_generator(n, r, out):
+    """out = (n, r x n): the wrench about the centre of a unit force n at lever r."""
+    out[0], out[1], out[2] = n[0], n[1], n[2]
+    out[3] = r[1] * n[2] - r[2] * n[1]
+    out[4] = r[2] * n[0] - r[0] * n[2]
+    out[5] = r[0] * n[1] - r[1] * n[0]
+
+
+@kernel
+def add_outer(M, scale, a, b):
+    """M += scale a b^T for 6-vectors."""
+    for i in range(6):
+        x = scale * a[i]
+        if x != 0.0:
+            for j in range(6):
+                M[i, j] += x * b[j]
+
+
+@kernel
+def shift_matrix(R, lever, S):
+    """6x6 map of a partner's (translation, rotation) to the motion at the roller's centre, in F.
+
+    ``R`` (3, 3) takes the partner's translation components to F in ``R[0]`` and its rotation
+    components in ``R[1]``; ``lever`` is the roller's centre from the partner's origin, in F.
+    """
+    for i in range(3):
+        for j in range(3):
+            S[i, j] = R[0, i, j]
+            S[3 + i, 3 + j] = R[1, i, j]
+            S[3 + i, j] = 0.0
+    for j in range(3):
+        S[0, 3 + j] = R[1, 1, j] * lever[2] - R[1, 2, j] * lever[1]
+        S[1, 3 + j] = R[1, 2, j] * lever[0] - R[1, 0, j] * lever[2]
+        S[2, 3 + j] = R[1, 0, j] * lever[1] - R[1, 1, j] * lever[0]
+
+
+@kernel
+def friction_tangent(C, N, g, dg, u, tx, tt, Wx, Wt):
+    """C += -d(friction)/d(velocity) of one slice; sliding (tx, tt) along generators Wx, Wt."""
+    h = dg / u if u > 1e-12 else 0.0
+    add_outer(C, N * (g + h * tx * tx), Wx, Wx)
+    add_outer(C, N * (g + h * tt * tt), Wt, Wt)
+    if h != 0.0:
+        add_outer(C, N * h * tx * tt, Wx, Wt)
+        add_outer(C, N * h * tx * tt, Wt, Wx)

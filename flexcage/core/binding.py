@@ -1,0 +1,342 @@
+"""From plain tables (TOML) to frozen specs and back, by the metadata that ``core.spec`` wrote.
+
+A spec knows its units, bounds and choices; this module reads them, so that no room writes a
+parser. Values of text carry units; values that are numbers are SI, accepted only from Python.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import difflib
+import re
+import types
+import typing
+from collections.abc import Iterable, Mapping
+from functools import cache
+from pathlib import Path
+from typing import Any, Union
+
+from flexcage.core.errors import InputError
+from flexcage.core.units import describe, format_si, parse
+
+MISSING = dataclasses.MISSING
+
+
+@dataclasses.dataclass(frozen=True)
+class Binder:
+    """How tables become specs.
+
+    ``named`` maps a spec type to values that a name may stand for (materials); ``si`` accepts bare
+    numbers as SI (from Python, not from text files).
+    """
+
+    named: Mapping[type, Mapping[str, Any]] = dataclasses.field(default_factory=dict)
+    si: bool = False
+
+    def bind(self, cls: type, table: Any, where: str, *, base: Any = None) -> Any:
+        """Spec of type ``cls`` from a table; what the table leaves out comes from ``base``."""
+        if dataclasses.is_dataclass(table) and isinstance(table, cls):
+            return table
+        if not isinstance(table, Mapping):
+            raise wrong_type(table, "a table of values", where)
+        known = {f.name: f for f in dataclasses.fields(cls) if f.init}
+        values = {}
+        for key, value in table.items():
+            if key not in known:
+                raise unknown_key(key, known, where)
+            default = getattr(base, key) if base is not None else default_of(known[key])
+            path = join(where, key)
+            values[key] = self.field_value(known[key], hints(cls)[key], value, path, base=default)
+        if base is not None:
+            return dataclasses.replace(base, **values)
+        lacking = [n for n, f in known.items() if n not in values and default_of(f) is MISSING]
+        if lacking:
+            raise missing_key(known[lacking[0]], where)
+        return cls(**values)
+
+    def field_value(
+        self, field: dataclasses.Field, hint: Any, value: Any, where: str, *, base: Any = MISSING
+    ) -> Any:
+        """Value of one field, converted and checked against its bounds and choices."""
+        bound = self._value(hint, field.metadata, value, where, base)
+        check_value(bound, field.metadata, where)
+        return bound
+
+    def _value(self, hint: Any, meta: Mapping, value: Any, where: str, base: Any) -> Any:
+        options = union_members(hint)
+        if type(None) in options:
+            if value is None or value == "none":
+                return None
+            options = tuple(o for o in options if o is not type(None))
+        if len(options) > 1:
+            return self._tagged(options, value, where)
+        only = options[0]
+        origin = typing.get_origin(only)
+        if origin is tuple:
+            return self._sequence(typing.get_args(only), meta, value, where)
+        if origin in (dict, Mapping):
+            if not isinstance(value, Mapping):
+                raise wrong_type(value, "a table of values", where)
+            inner = typing.get_args(only)[1]
+            return {
+                k: self._value(inner, meta, v, join(where, k), MISSING) for k, v in value.items()
+            }
+        if dataclasses.is_dataclass(only):
+            return self._spec(typing.cast(type, only), value, where, base)
+        return self._scalar(only, meta, value, where)
+
+    def _spec(self, cls: type, value: Any, where: str, base: Any) -> Any:
+        names = self.named.get(cls)
+        if names and isinstance(value, str):
+            if value not in names:
+                hint = _did_you_mean(value, names, "known are")
+                raise InputError(
+                    f"{where} '{value}' is not known; {hint}.", where=where, value=value
+                )
+            return names[value]
+        if names and isinstance(value, Mapping) and value.get("name") in names:
+            return self.bind(cls, value, where, base=names[value["name"]])
+        if names:
+            base = None if isinstance(value, Mapping) and "name" in value else base
+        return self.bind(cls, value, where, base=base if isinstance(base, cls) else None)
+
+    def _tagged(self, options: tuple[type, ...], value: Any, where: str) -> Any:
+        """One of several specs, told apart by the table's ``type``."""
+        if isinstance(value, options):
+            return value
+        if not isinstance(value, Mapping):
+            raise wrong_type(value, "a table with a 'type'", where)
+        tags = {tag_of(o): o for o in options}
+        tag = value.get("type")
+        if tag not in tags:
+            given = f"type '{tag}' is not known" if tag is not None else "'type' is missing"
+            hint = _did_you_mean(str(tag), tags, "choose from")
+            raise InputError(f"{where}: {given}; {hint}.", where=join(where, "type"), value=tag)
+        rest = {k: v for k, v in value.items() if k != "type"}
+        return self.bind(tags[tag], rest, where)
+
+    def _sequence(self, kinds: tuple, meta: Mapping, value: Any, where: str) -> tuple:
+        if isinstance(value, (str, Mapping)) or not isinstance(value, Iterable):
+            raise wrong_type(value, "a list", where)
+        items = list(value)
+        if len(kinds) == 2 and kinds[1] is Ellipsis:
+            kinds = (kinds[0],) * len(items)
+        if len(items) != len(kinds):
+            raise InputError(
+                f"{where} has {len(items)} values, but wants {len(kinds)}.",
+                where=where,
+                value=value,
+            )
+        return tuple(
+            self._value(kind, meta, item, join(where, i), MISSING)
+            for i, (kind, item) in enumerate(zip(kinds, items))
+        )
+
+    def _scalar(self, kind: Any, meta: Mapping, value: Any, where: str) -> Any:
+        unit = meta.get("unit")
+        if unit and kind in (float, int):
+            number = isinstance(value, (int, float)) and not isinstance(value, bool)
+            return float(value) if self.si and number else parse(value, unit, where=where)
+        if kind is bool:
+            if isinstance(value, bool):
+                return value
+            raise wrong_type(value, "true or false", where)
+        if kind is float:
+            if isinstance(value, (int, float)) and not isinstance(value, bool):
+                return float(value)
+            raise wrong_type(value, "a number", where)
+        if kind is int:
+            if isinstance(value, int) and not isinstance(value, bool):
+                return value
+            raise wrong_type(value, "a whole number", where)
+        if kind in (str, Path):
+            if isinstance(value, (str, Path)):
+                return kind(value)
+            raise wrong_type(value, "text", where)
+        return value
+
+
+def set_path(spec: Any, path: str, value: Any, binder: Binder, *, where: str = "") -> Any:
+    """Copy of a frozen spec with the value at a dotted path ("defects.0.displacement") replaced."""
+    head, _, rest = path.partition(".")
+    if not dataclasses.is_dataclass(spec) or isinstance(spec, type):
+        raise InputError(f"{where} is a single value; '{path}' leads nowhere.", where=where)
+    known = {f.name: f for f in dataclasses.fields(spec) if f.init}
+    if head not in known:
+        raise unknown_key(head, known, where)
+    here, old = join(where, head), getattr(spec, head)
+    field, hint = known[head], hints(type(spec))[head]
+    if not rest:
+        new = binder.field_value(field, hint, value, here, base=old)
+    elif isinstance(old, tuple):
+        new = _set_item(old, field, hint, rest, value, binder, here)
+    else:
+        new = set_path(old, rest, value, binder, where=here)
+    return dataclasses.replace(spec, **{head: new})
+
+
+def _set_item(
+    old: tuple,
+    field: dataclasses.Field,
+    hint: Any,
+    path: str,
+    value: Any,
+    binder: Binder,
+    where: str,
+) -> tuple:
+    head, _, rest = path.partition(".")
+    if not head.isdigit() or int(head) >= len(old):
+        have = f"0 to {len(old) - 1}" if old else "none"
+        raise InputError(
+            f"{where} has no entry '{head}'; there are {have}.", where=where, value=head
+        )
+    i = int(head)
+    items = list(old)
+    if rest:
+        items[i] = set_path(old[i], rest, value, binder, where=join(where, head))
+    else:
+        items[i] = value
+    return binder.field_value(field, hint, items, where)
+
+
+def check_spec(spec: Any, where: str = "") -> None:
+    """Check bounds and choices of a spec built from objects, and of all specs inside it."""
+    for field in dataclasses.fields(spec):
+        value = getattr(spec, field.name)
+        here = join(where, field.name)
+        check_value(value, field.metadata, here)
+        items = value if isinstance(value, tuple) else (value,)
+        for i, item in enumerate(items):
+            if dataclasses.is_dataclass(item) and not isinstance(item, type):
+                check_spec(item, join(here, i) if isinstance(value, tuple) else here)
+
+
+def check_value(value: Any, meta: Mapping, where: str) -> None:
+    """Raise InputError if a value is outside its field's bounds or choices."""
+    if isinstance(value, tuple):
+        for item in value:
+            check_value(item, meta, where)
+        return
+    choices = meta.get("choices")
+    if choices and isinstance(value, str) and value not in choices:
+        hint = _did_you_mean(value, choices, "choose from")
+        raise InputError(f"{where} '{value}' is not known; {hint}.", where=where, value=value)
+    if isinstance(value, bool) or not isinstance(value, (int, float)):
+        return
+    unit = meta.get("unit", "")
+    text = (lambda v: describe(v, unit)) if unit else (lambda v: f"{v:g}")
+    above, low, high = meta.get("above"), meta.get("minimum"), meta.get("maximum")
+    wrong = ""
+    if value != value:
+        wrong = "be a number"
+    elif above is not None and not value > above:
+        wrong = f"be greater than {text(above)}"
+    elif low is not None and value < low:
+        wrong = f"be {text(low)} or more"
+    elif high is not None and value > high:
+        wrong = f"be {text(high)} or less"
+    if wrong:
+        raise InputError(f"{where} is {text(value)}, but must {wrong}.", where=where, value=value)
+
+
+def to_table(spec: Any, *, named: Mapping[type, Mapping[str, Any]] | None = None) -> dict[str, Any]:
+    """Plain table of a spec: texts with units, names for registered values; None is left out."""
+    named = named or {}
+    table = {}
+    for field in dataclasses.fields(spec):
+        if not field.init:
+            continue
+        value = getattr(spec, field.name)
+        if value is None:
+            if default_of(field) is not None:
+                table[field.name] = "none"
+            continue
+        members = union_members(hints(typing.cast(Any, type(spec)))[field.name])
+        table[field.name] = _plain(value, field.metadata, named, tagged=_is_tagged(members))
+    return table
+
+
+def _is_tagged(members: tuple) -> bool:
+    inner = members[0]
+    if typing.get_origin(inner) is tuple:
+        members = union_members(typing.get_args(inner)[0])
+    return sum(1 for m in members if dataclasses.is_dataclass(m)) > 1
+
+
+def _plain(value: Any, meta: Mapping, named: Mapping, *, tagged: bool) -> Any:
+    if isinstance(value, tuple):
+        return [_plain(v, meta, named, tagged=tagged) for v in value]
+    if isinstance(value, Mapping):
+        return {k: _plain(v, meta, named, tagged=False) for k, v in value.items()}
+    if dataclasses.is_dataclass(value) and not isinstance(value, type):
+        registered = named.get(type(value), {})
+        name = getattr(value, "name", None)
+        if name in registered and registered[name] == value:
+            return name
+        tag = {"type": tag_of(type(value))} if tagged else {}
+        return {**tag, **to_table(value, named=named)}
+    unit = meta.get("unit")
+    if unit and isinstance(value, (int, float)) and not isinstance(value, bool):
+        return format_si(value, unit)
+    return str(value) if isinstance(value, Path) else value
+
+
+def tag_of(cls: type) -> str:
+    """Name by which a table's ``type`` asks for this spec, such as "side_beam"."""
+    return getattr(cls, "tag", None) or re.sub(r"(?<=[a-z])(?=[A-Z])", "_", cls.__name__).lower()
+
+
+@cache
+def hints(cls: Any) -> dict[str, Any]:
+    """Resolved annotations of a spec's fields."""
+    return typing.get_type_hints(cls)
+
+
+def union_members(hint: Any) -> tuple:
+    """Members of a union annotation, or the annotation alone."""
+    if typing.get_origin(hint) in (Union, types.UnionType):
+        return typing.get_args(hint)
+    return (hint,)
+
+
+def default_of(field: dataclasses.Field) -> Any:
+    """Default of a field, MISSING if it has none."""
+    if field.default is not MISSING:
+        return field.default
+    return field.default_factory() if field.default_factory is not MISSING else MISSING
+
+
+def join(where: str, key: object) -> str:
+    """Dotted path."""
+    return f"{where}.{key}" if where else str(key)
+
+
+def unknown_key(key: str, known: Iterable[str], where: str) -> InputError:
+    """Error for a key that a table does not have, with the nearest that it has."""
+    place = f" in [{where}]" if where else ""
+    return InputError(
+        f"Unknown key '{key}'{place}; {_did_you_mean(key, known, 'known keys are')}.",
+        where=join(where, key),
+        value=key,
+    )
+
+
+def missing_key(field: dataclasses.Field, where: str) -> InputError:
+    """Error for a value that must be given."""
+    doc = f" ({field.metadata['doc']})" if field.metadata.get("doc") else ""
+    unit = f", with a unit such as {field.metadata['unit']}" if field.metadata.get("unit") else ""
+    place = f"[{where}]" if where else "The case"
+    return InputError(
+        f"{place} lacks '{field.name}'{doc}; give it{unit}.", where=join(where, field.name)
+    )
+
+
+def wrong_type(value: Any, wanted: str, where: str) -> InputError:
+    """Error for a value of another kind than its field."""
+    return InputError(f"{where} is {value!r}, but should be {wanted}.", where=where, value=value)
+
+
+def _did_you_mean(text: str, known: Iterable[str], otherwise: str) -> str:
+    names = [str(k) for k in known]
+    close = difflib.get_close_matches(text, names, n=1, cutoff=0.6)
+    return f"the nearest known one is '{close[0]}'" if close else f"{otherwise} {', '.join(names)}"

@@ -1,0 +1,181 @@
+"""One cache folder for arrays that are expensive to make, safe between processes.
+
+An entry is an .npz named by kind and content hash. It is written to a temporary file and renamed,
+so a reader sees all of it or nothing; a lock per entry keeps two processes from making the same;
+a broken file is made anew. When the folder grows over its limit the least recently used go.
+A folder that cannot be written, or a full disk, costs time and never a result.
+"""
+
+from __future__ import annotations
+
+import logging
+import os
+import shutil
+import tempfile
+import zipfile
+import zlib
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+logger = logging.getLogger(__name__)
+
+_BROKEN = (zipfile.BadZipFile, zlib.error, ValueError, OSError, EOFError, KeyError)
+_DEFAULT_LIMIT_GB = 4.0
+
+Arrays = dict[str, np.ndarray]
+
+
+def cache_root() -> Path:
+    """The cache folder: FLEXCAGE_CACHE_DIR, or the user's cache folder of this platform."""
+    given = os.environ.get("FLEXCAGE_CACHE_DIR")
+    if given:
+        return Path(given)
+    import platformdirs
+
+    return Path(platformdirs.user_cache_dir("flexcage"))
+
+
+def cache_limit() -> int:
+    """Limit of the array cache [bytes]; FLEXCAGE_CACHE_LIMIT_GB changes it."""
+    text = os.environ.get("FLEXCAGE_CACHE_LIMIT_GB", "")
+    try:
+        return int(float(text or _DEFAULT_LIMIT_GB) * 1e9)
+    except ValueError:
+        return int(_DEFAULT_LIMIT_GB * 1e9)
+
+
+def cached_arrays(kind: str, key: str, make: Callable[[], Arrays]) -> Arrays:
+    """Arrays named ``kind``/``key`` from disk, or made by ``make()`` and stored there.
+
+    ``key`` must name everything that the arrays depend on (see ``hashing.content_hash``).
+    """
+    path = cache_root() / "arrays" / kind / f"{key}.npz"
+    found = _read(path)
+    if found is not None:
+        return found
+    with _lock(path):
+        found = _read(path)  # another process may have made it while this one waited
+        if found is not None:
+            return found
+        arrays = {name: np.asarray(value) for name, value in make().items()}
+        _write(path, arrays)
+    _evict(cache_limit(), keep=path)
+    return arrays
+
+
+def _read(path: Path) -> Arrays | None:
+    if not path.is_file():
+        return None
+    try:
+        with np.load(path, allow_pickle=False) as stored:
+            arrays = {name: stored[name] for name in stored.files}
+    except _BROKEN as exc:
+        logger.warning("cache entry %s cannot be read (%s); it is made anew", path.name, exc)
+        return None
+    try:
+        os.utime(path)  # marks it as used
+    except OSError:
+        pass
+    return arrays
+
+
+@contextmanager
+def _lock(path: Path) -> Iterator[None]:
+    import filelock
+
+    try:
+        path.parent.mkdir(parents=True, exist_ok=True)
+        lock = filelock.FileLock(str(path) + ".lock")
+        lock.acquire()
+    except OSError as exc:
+        logger.warning("cache folder %s cannot be used (%s)", path.parent, exc)
+        yield
+        return
+    try:
+        yield
+    finally:
+        lock.release()
+
+
+def _write(path: Path, arrays: Arrays) -> None:
+    temporary = ""
+    try:
+        handle, temporary = tempfile.mkstemp(dir=path.parent, prefix=path.stem, suffix=".tmp")
+        with os.fdopen(handle, "wb") as file:
+            np.savez(file, **arrays)  # type: ignore[arg-type]
+            file.flush()
+            os.fsync(file.fileno())
+        os.replace(temporary, path)
+    except OSError as exc:
+        logger.warning("cache entry %s could not be written (%s)", path.name, exc)
+        if temporary:
+            Path(temporary).unlink(missing_ok=True)
+
+
+def _entries() -> list[tuple[float, int, Path]]:
+    """(time of last use, bytes, path) of every entry, least recently used first."""
+    found = []
+    for path in (cache_root() / "arrays").rglob("*.npz"):
+        try:
+            stat = path.stat()
+        except OSError:
+            continue  # another process removed it
+        found.append((stat.st_mtime, stat.st_size, path))
+    return sorted(found)
+
+
+def _evict(limit: int, *, keep: Path) -> None:
+    entries = _entries()
+    total = sum(size for _, size, _ in entries)
+    for _, size, path in entries:
+        if total <= limit:
+            return
+        if path == keep:
+            continue
+        try:
+            path.unlink(missing_ok=True)
+        except OSError:
+            continue
+        total -= size
+
+
+@dataclass(frozen=True)
+class CacheInfo:
+    """What the cache folder holds: array entries by kind, their bytes, and compiled kernels."""
+
+    folder: Path
+    entries: dict[str, int]
+    size: int
+    kernel_size: int
+    limit: int
+
+    def __str__(self) -> str:
+        kinds = ", ".join(f"{n} {kind}" for kind, n in sorted(self.entries.items())) or "no entries"
+        return (
+            f"{self.folder}: {kinds}, {self.size / 1e6:.1f} MB of {self.limit / 1e9:g} GB; "
+            f"compiled kernels {self.kernel_size / 1e6:.1f} MB"
+        )
+
+
+def cache_info() -> CacheInfo:
+    """Count and size of what the cache holds."""
+    entries: dict[str, int] = {}
+    size = 0
+    for _, bytes_, path in _entries():
+        entries[path.parent.name] = entries.get(path.parent.name, 0) + 1
+        size += bytes_
+    kernels = cache_root() / "kernels"
+    kernel_size = sum(p.stat().st_size for p in kernels.rglob("*") if p.is_file())
+    return CacheInfo(cache_root(), entries, size, kernel_size, cache_limit())
+
+
+def clear_cache() -> int:
+    """Remove all entries and compiled kernels; the bytes that this freed."""
+    info = cache_info()
+    for name in ("arrays", "kernels"):
+        shutil.rmtree(cache_root() / name, ignore_errors=True)
+    return info.size + info.kernel_size

@@ -1,0 +1,213 @@
+"""What this machine has and lacks: every finding with its remedy, one command where there is one.
+
+Off-screen rendering is probed in another process: VTK without EGL, X or OSMesa does not raise,
+it kills the process.
+"""
+
+from __future__ import annotations
+
+import importlib.metadata
+import importlib.util
+import os
+import platform
+import subprocess
+import sys
+import tempfile
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import cache
+
+from flexcage.core.cache import cache_root
+from flexcage.core.errors import EnvironmentLacks
+
+APT_RENDER = "sudo apt-get install -y libegl1 libgl1 libosmesa6 libxrender1"
+APT_GMSH = (
+    "sudo apt-get install -y libglu1-mesa libgl1 libxrender1 libxcursor1 libxfixes3 libxext6 "
+    "libxft2 libfontconfig1 libxinerama1 libx11-6 libgomp1"
+)
+_WINDOW_VARIABLE = "VTK_DEFAULT_OPENGL_WINDOW"
+_WINDOWS = ("default", "vtkEGLRenderWindow", "vtkOSOpenGLRenderWindow")
+_PROBE_SECONDS = 60
+_MINIMUM_MEMORY = 4e9
+
+# Draws one triangle and looks at the picture: a window that opens and draws nothing is no use.
+_RENDER_PROBE = """
+from vtkmodules.vtkCommonCore import vtkUnsignedCharArray
+from vtkmodules.vtkFiltersSources import vtkConeSource
+from vtkmodules.vtkRenderingCore import vtkActor, vtkPolyDataMapper, vtkRenderer, vtkRenderWindow
+import vtkmodules.vtkRenderingOpenGL2
+window = vtkRenderWindow()
+window.SetOffScreenRendering(1)
+window.SetSize(32, 32)
+renderer = vtkRenderer()
+cone = vtkConeSource()
+mapper = vtkPolyDataMapper()
+mapper.SetInputConnection(cone.GetOutputPort())
+actor = vtkActor()
+actor.SetMapper(mapper)
+renderer.AddActor(actor)
+window.AddRenderer(renderer)
+window.Render()
+pixels = vtkUnsignedCharArray()
+window.GetPixelData(0, 0, 31, 31, 0, pixels, 0)
+drawn = any(pixels.GetValue(i) for i in range(pixels.GetNumberOfValues()))
+print("drawn" if drawn else "empty", window.GetClassName())
+"""
+
+
+@dataclass(frozen=True)
+class Finding:
+    """One thing looked at: whether it is fine, what was found, and the remedy if it is not.
+
+    ``needed`` is False for what makes things faster or gives pictures, True for what a run needs.
+    """
+
+    name: str
+    ok: bool
+    detail: str
+    remedy: str = ""
+    needed: bool = True
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """How a probe in another process ended: ``code`` is negative for a signal."""
+
+    code: int
+    out: str
+    err: str
+
+
+def run_python(source: str, *, env: dict[str, str] | None = None) -> Outcome:
+    """Run a few lines of Python in a process of their own."""
+    try:
+        done = subprocess.run(
+            [sys.executable, "-c", source],
+            capture_output=True,
+            text=True,
+            timeout=_PROBE_SECONDS,
+            env={**os.environ, **(env or {})},
+            check=False,
+        )
+    except subprocess.TimeoutExpired:
+        return Outcome(124, "", f"no answer within {_PROBE_SECONDS} s")
+    return Outcome(done.returncode, done.stdout, done.stderr)
+
+
+@cache
+def offscreen_backend() -> str | None:
+    """How VTK can draw off screen here: "default", a window class to force, or None if it cannot.
+
+    Costs a second or two the first time in a process.
+    """
+    if importlib.util.find_spec("vtkmodules") is None:
+        return None
+    already = os.environ.get(_WINDOW_VARIABLE)
+    for window in (already,) if already else _WINDOWS:
+        env = {} if window == "default" else {_WINDOW_VARIABLE: window}
+        if run_python(_RENDER_PROBE, env=env).out.startswith("drawn"):
+            return window
+    return None
+
+
+def prepare_offscreen() -> None:
+    """Make VTK in this process use a window that works here; raise EnvironmentLacks if none does.
+
+    Must be called before the first picture.
+    """
+    window = offscreen_backend()
+    if window is None:
+        raise EnvironmentLacks(
+            "This machine cannot draw pictures off screen (no EGL, X or OSMesa library was found); "
+            f"install one with: {APT_RENDER}"
+        )
+    if window != "default":
+        os.environ[_WINDOW_VARIABLE] = window
+
+
+def probe() -> list[Finding]:
+    """Look at all that flexcage needs or can use on this machine."""
+    looks: tuple[Callable[[], Finding], ...] = (
+        _python,
+        _gmsh,
+        _rendering,
+        _solver,
+        _cache_folder,
+        _cores,
+        _memory,
+    )
+    return [look() for look in looks]
+
+
+def _python() -> Finding:
+    version = platform.python_version()
+    ok = sys.version_info >= (3, 11)
+    return Finding("python", ok, version, "" if ok else "install Python 3.11 or later")
+
+
+def _gmsh() -> Finding:
+    done = run_python("import gmsh; print(gmsh.__version__)")
+    if done.code == 0:
+        return Finding("gmsh", True, done.out.strip())
+    reason = done.err.strip().splitlines()[-1] if done.err.strip() else f"exit {done.code}"
+    remedy = "pip install gmsh" if "No module named" in reason else APT_GMSH
+    return Finding("gmsh", False, reason, remedy)
+
+
+def _rendering() -> Finding:
+    if importlib.util.find_spec("vtkmodules") is None:
+        return Finding("rendering", False, "VTK is missing", "pip install pyvista", needed=False)
+    window = offscreen_backend()
+    if window is None:
+        return Finding("rendering", False, "no way to draw off screen", APT_RENDER, needed=False)
+    return Finding("rendering", True, f"VTK {_version('vtk')}, {window} window", needed=False)
+
+
+def _solver() -> Finding:
+    packages = {"pypardiso": "PARDISO", "cvxopt": "CHOLMOD", "sksparse": "CHOLMOD"}
+    found = [f"{name} ({p})" for p, name in packages.items() if importlib.util.find_spec(p)]
+    if found:
+        return Finding("linear solver", True, ", ".join(found) + ", SciPy", needed=False)
+    return Finding(
+        "linear solver",
+        False,
+        "SciPy's SuperLU only: modes take several times as long",
+        'pip install "flexcage[fast]"',
+        needed=False,
+    )
+
+
+def _cache_folder() -> Finding:
+    folder = cache_root()
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        with tempfile.TemporaryFile(dir=folder) as file:
+            file.write(b"0")
+    except OSError as exc:
+        reason = f"{folder} cannot be written: {exc.strerror or exc}"
+        remedy = "set FLEXCAGE_CACHE_DIR to a folder that can be written"
+        return Finding("cache folder", False, reason, remedy, needed=False)
+    return Finding("cache folder", True, str(folder), needed=False)
+
+
+def _cores() -> Finding:
+    affinity = getattr(os, "sched_getaffinity", None)
+    count = len(affinity(0)) if affinity else os.cpu_count() or 1
+    return Finding("cores", True, f"{count}", needed=False)
+
+
+def _memory() -> Finding:
+    try:
+        total = os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES")
+    except (AttributeError, ValueError, OSError):
+        return Finding("memory", True, "unknown", needed=False)
+    ok = total >= _MINIMUM_MEMORY
+    remedy = "" if ok else "take mesh.fineness = 'coarse'; the medium mesh may want up to 4 GB"
+    return Finding("memory", ok, f"{total / 1e9:.1f} GB", remedy, needed=False)
+
+
+def _version(package: str) -> str:
+    try:
+        return importlib.metadata.version(package)
+    except importlib.metadata.PackageNotFoundError:
+        return "of unknown version"

@@ -1,0 +1,111 @@
+"""Progress of a long step on a terminal: percentage and an estimate of the time that remains."""
+
+from __future__ import annotations
+
+import sys
+import time
+from types import TracebackType
+from typing import TextIO
+
+_INTERVAL = 0.2  # s between two drawings
+_PATIENCE = 1.0  # s before the first estimate: earlier ones mislead
+
+
+class Progress:
+    """Context of one long step of ``total`` units; draws on a terminal and is quiet elsewhere.
+
+    >>> with Progress(0.1, "solving") as progress:
+    ...     progress.to(0.05)
+    """
+
+    def __init__(
+        self, total: float, label: str, *, stream: TextIO | None = None, enabled: bool | None = None
+    ) -> None:
+        self.total = float(total)
+        self.label = label
+        self.done = 0.0
+        self._stream = stream if stream is not None else sys.stderr
+        isatty = getattr(self._stream, "isatty", lambda: False)
+        self._enabled = bool(isatty()) if enabled is None else enabled
+        self._start = time.monotonic()
+        self._begun_at = 0.0
+        self._drawn = 0.0
+        self._width = 0
+
+    def __enter__(self) -> Progress:
+        self._start = time.monotonic()
+        self._draw()
+        return self
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        tb: TracebackType | None,
+    ) -> None:
+        if not self._enabled:
+            return
+        if kind is None:
+            self.done = self.total
+        elapsed = _clock(time.monotonic() - self._start)
+        word = "done" if kind is None else "stopped"
+        self._put(f"{self.label}: {word} at {self._percent():.0f} % after {elapsed}")
+        self._stream.write("\n")
+        self._stream.flush()
+
+    def begin_at(self, done: float) -> None:
+        """State what was done before this process began, so that a resumed run estimates right."""
+        self._begun_at = self.done = float(done)
+
+    def to(self, done: float) -> None:
+        """State how much is done in all."""
+        self.done = float(done)
+        if self._enabled and time.monotonic() - self._drawn >= _INTERVAL:
+            self._draw()
+
+    __call__ = to
+
+    def advance(self, amount: float = 1.0) -> None:
+        """State that ``amount`` more is done."""
+        self.to(self.done + amount)
+
+    def note(self, text: str) -> None:
+        """Write one line of its own, such as that kernels are being compiled for the first time."""
+        if self._enabled:
+            self._put(text)
+            self._stream.write("\n")
+            self._width = 0
+            self._draw()
+
+    def remaining(self) -> float | None:
+        """Estimate of the remaining time [s], or None while it would mislead."""
+        elapsed = time.monotonic() - self._start
+        advanced = self.done - self._begun_at
+        if elapsed < _PATIENCE or advanced <= 0.0:
+            return None
+        return elapsed * max(self.total - self.done, 0.0) / advanced
+
+    def _percent(self) -> float:
+        return 100.0 * min(self.done / self.total, 1.0) if self.total > 0 else 100.0
+
+    def _draw(self) -> None:
+        if not self._enabled:
+            return
+        self._drawn = time.monotonic()
+        left = self.remaining()
+        estimate = f", about {_clock(left)} left" if left is not None else ""
+        self._put(f"{self.label}: {self._percent():3.0f} %{estimate}")
+
+    def _put(self, text: str) -> None:
+        self._stream.write("\r" + text.ljust(self._width))
+        self._stream.flush()
+        self._width = len(text)
+
+
+def _clock(seconds: float) -> str:
+    if seconds < 60:
+        return f"{seconds:.0f} s"
+    minutes, rest = divmod(int(seconds + 0.5), 60)
+    return (
+        f"{minutes} min {rest:02d} s" if minutes < 60 else f"{minutes // 60} h {minutes % 60} min"
+    )

@@ -1,0 +1,74 @@
+"""Static solutions of a free body: loads balanced by the inertia of the motion they cause."""
+
+from __future__ import annotations
+
+import numpy as np
+import scipy.sparse as sp
+
+from flexcage.core.errors import InputError
+from flexcage.fem.linear import LinearSolver, linear_solver
+from flexcage.fem.model import FEModel
+
+
+class FreeBodySolver:
+    """Inertia-relieved flexibility of a free body: one factorization, any number of loads.
+
+    The stiffness is factored with six dofs held at three distant vertices. A balanced load has
+    no reaction there, so the supports leave no trace once the rigid part of the answer is
+    removed. The operator is symmetric, and the pseudo-inverse of K in the metric of the mass.
+    """
+
+    def __init__(self, model: FEModel, *, kind: str = "auto") -> None:
+        self.model = model
+        self._free = np.setdiff1d(np.arange(model.n_dof), _supports(model.points))
+        held = model.K[self._free][:, self._free]
+        self.solver: LinearSolver = linear_solver(sp.csr_matrix(held), kind=kind)
+
+    def solve(self, loads: np.ndarray) -> np.ndarray:
+        """Displacements (3N, m) of nodal loads (3N, m), orthogonal in mass to rigid motions.
+
+        Solves K u = F - M R (R^T F), R the mass-orthonormal rigid motions.
+        """
+        return self.solve_balanced(self.model.balance(loads))
+
+    def solve_balanced(self, loads: np.ndarray) -> np.ndarray:
+        """The same for loads known to be balanced (no work on rigid motions)."""
+        answer = np.zeros_like(loads, dtype=float)
+        answer[self._free] = self.solver.solve(loads[self._free])
+        return self.model.remove_rigid(answer)
+
+
+def _supports(points: np.ndarray) -> np.ndarray:
+    """Six dofs (3-2-1) at three vertices far apart that hold a body without straining it."""
+    centre = points.mean(axis=0)
+    first = int(np.argmax(np.linalg.norm(points - centre, axis=1)))
+    second = int(np.argmax(np.linalg.norm(points - points[first], axis=1)))
+    axis = points[second] - points[first]
+    axis /= np.linalg.norm(axis)
+    normal = np.cross(points - points[first], axis)
+    third = int(np.argmax(np.linalg.norm(normal, axis=1)))
+    if np.linalg.norm(normal[third]) < 1e-9 * np.linalg.norm(points[second] - points[first]):
+        raise InputError("all mesh points lie on one line", where="mesh", value=len(points))
+    return _hold(points, (first, second, third))
+
+
+def _hold(points: np.ndarray, chosen: tuple[int, int, int]) -> np.ndarray:
+    """All of the first vertex and three best-conditioned dofs of the other two."""
+    first, second, third = chosen
+    candidates = [3 * node + comp for node in (second, third) for comp in range(3)]
+    rows = np.array([_rotation_row(points, first, dof) for dof in candidates])
+    rows /= np.linalg.norm(points[second] - points[first])
+    best, held = 0.0, candidates[:3]
+    for i in range(6):
+        for j in range(i):
+            for k in range(j):
+                size = abs(np.linalg.det(rows[[i, j, k]]))
+                if size > best * (1.0 + 1e-9):
+                    best, held = size, [candidates[i], candidates[j], candidates[k]]
+    return np.array([3 * first, 3 * first + 1, 3 * first + 2, *held])
+
+
+def _rotation_row(points: np.ndarray, first: int, dof: int) -> np.ndarray:
+    """Displacement of a dof under unit rotations about the three axes through ``first``."""
+    node, comp = divmod(dof, 3)
+    return np.cross(np.eye(3), points[node] - points[first])[:, comp]

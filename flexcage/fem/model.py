@@ -1,0 +1,242 @@
+"""The finite-element model of a body: nodes, stiffness and consistent mass."""
+
+from __future__ import annotations
+
+import logging
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from functools import cached_property
+from types import MappingProxyType
+
+import numpy as np
+import scipy.sparse as sp
+
+from flexcage.core.errors import InputError
+from flexcage.fem import elements
+from flexcage.geometry.materials import Material
+
+log = logging.getLogger(__name__)
+
+
+@dataclass(frozen=True)
+class FEModel:
+    """Straight tetrahedra with linear or quadratic displacement, in the mesh's frame, SI.
+
+    ``nodes``: vertices first (order 1), then edge midpoints (order 2). ``K`` acts on dof
+    3 node + component; the consistent mass is ``mass_scalar`` (kron) identity(3).
+    """
+
+    points: np.ndarray  # (n_points, 3)
+    tets: np.ndarray  # (n_tets, 4) as scikit-fem orders them
+    cells: np.ndarray  # (n_tets, 4 or 10) nodes of every element, scikit-fem's order
+    nodes: np.ndarray  # (N, 3)
+    edges: np.ndarray  # (n_edges, 2) sorted vertex pairs; empty for order 1
+    K: sp.csr_matrix
+    mass_scalar: sp.csr_matrix
+    material: Material
+    order: int
+    groups: Mapping[str, np.ndarray] = field(default_factory=lambda: MappingProxyType({}))
+    info: Mapping[str, object] = field(default_factory=lambda: MappingProxyType({}))
+
+    def __repr__(self) -> str:
+        return (
+            f"FEModel({len(self.nodes):,} nodes, {len(self.tets):,} tetrahedra of order "
+            f"{self.order}, {self.material.name})"
+        )
+
+    def __getstate__(self) -> dict:
+        # a mapping proxy cannot be pickled, and workers receive models by pickle
+        return {**self.__dict__, "groups": dict(self.groups), "info": dict(self.info)}
+
+    def __setstate__(self, state: dict) -> None:
+        self.__dict__.update(state)
+
+    @property
+    def n_dof(self) -> int:
+        return 3 * len(self.nodes)
+
+    @cached_property
+    def nodal_mass(self) -> np.ndarray:
+        """Row sums of the scalar mass (N,): the load of a unit acceleration."""
+        return np.asarray(self.mass_scalar.sum(axis=1)).ravel()
+
+    @cached_property
+    def mass(self) -> float:
+        return float(self.nodal_mass.sum())
+
+    @cached_property
+    def centre(self) -> np.ndarray:
+        """Mass centre (3,) in the mesh's frame."""
+        return self.nodal_mass @ self.nodes / self.mass
+
+    @cached_property
+    def inertia(self) -> np.ndarray:
+        """Inertia tensor (3, 3) about the mass centre, by the consistent mass."""
+        arm = self.nodes - self.centre
+        second = arm.T @ (self.mass_scalar @ arm)
+        return np.trace(second) * np.eye(3) - second
+
+    @cached_property
+    def rigid_modes(self) -> np.ndarray:
+        """Mass-orthonormal rigid motions (3N, 6): translations, then rotations about the centre."""
+        arm = self.nodes - self.centre
+        modes = np.zeros((len(self.nodes), 3, 6))
+        for axis in range(3):
+            modes[:, axis, axis] = 1.0
+            modes[:, :, 3 + axis] = np.cross(np.eye(3)[axis], arm)
+        flat = modes.reshape(-1, 6)
+        lower = np.linalg.cholesky(flat.T @ self.mass_times(flat))
+        return flat @ np.linalg.inv(lower).T
+
+    def mass_times(self, fields: np.ndarray) -> np.ndarray:
+        """Consistent mass times (3N,) or (3N, m) fields."""
+        n = len(self.nodes)
+        return (self.mass_scalar @ fields.reshape(n, -1)).reshape(fields.shape)
+
+    def remove_rigid(self, fields: np.ndarray) -> np.ndarray:
+        """Displacements (3N, m) less their rigid part: orthogonal in mass to rigid motions."""
+        rigid = self.rigid_modes
+        return fields - rigid @ (self._mass_rigid.T @ fields)
+
+    def balance(self, loads: np.ndarray) -> np.ndarray:
+        """Nodal loads (3N, m) less the inertia of the rigid acceleration they cause."""
+        return loads - self._mass_rigid @ (self.rigid_modes.T @ loads)
+
+    @cached_property
+    def _mass_rigid(self) -> np.ndarray:
+        return self.mass_times(self.rigid_modes)
+
+    @cached_property
+    def element_geometry(self) -> tuple[np.ndarray, np.ndarray]:
+        """Gradients of barycentric coordinates (n_tets, 4, 3) and volumes (n_tets,)."""
+        return elements.barycentric_gradients(self.points, self.tets)
+
+    @cached_property
+    def surface(self) -> np.ndarray:
+        """Triangles (n, 3) of the whole boundary, vertices in ascending order."""
+        faces = np.concatenate(
+            [self.tets[:, c] for c in ([0, 1, 2], [0, 1, 3], [0, 2, 3], [1, 2, 3])]
+        )
+        faces, count = np.unique(np.sort(faces, axis=1), axis=0, return_counts=True)
+        return faces[count == 1]
+
+    def face_nodes(self, triangles: np.ndarray) -> np.ndarray:
+        """Nodes (n, 3 or 6) of boundary triangles: vertices, then midpoints of 01, 12, 02."""
+        if self.order == 1:
+            return triangles
+        pairs = np.stack([triangles[:, [0, 1]], triangles[:, [1, 2]], triangles[:, [0, 2]]], axis=1)
+        keys = _edge_keys(np.sort(pairs, axis=2), len(self.points))
+        slot = np.searchsorted(self._sorted_keys, keys)
+        return np.concatenate([triangles, len(self.points) + self._key_order[slot]], axis=1)
+
+    @cached_property
+    def _key_order(self) -> np.ndarray:
+        return np.argsort(_edge_keys(self.edges, len(self.points)))
+
+    @cached_property
+    def _sorted_keys(self) -> np.ndarray:
+        return _edge_keys(self.edges, len(self.points))[self._key_order]
+
+    def face_weights(
+        self, triangles: np.ndarray, functions: Callable[[np.ndarray], np.ndarray]
+    ) -> sp.csr_matrix:
+        """Integrals over boundary triangles of f_m N_i: csr (m, N) [f m^2].
+
+        ``functions`` maps points (n, 3) to values (m, n). A row dotted with nodal displacements
+        is the integral of f_m u; its transpose spreads a pressure f_m consistently to the nodes.
+        """
+        rule_points, rule_weights = _triangle_rule()
+        shapes = _triangle_shapes(rule_points, self.order)  # (n_shape, q)
+        corners = self.points[triangles]
+        where = np.einsum("kq,tkd->tqd", _triangle_shapes(rule_points, 1), corners)
+        normal = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+        area = 0.5 * np.linalg.norm(normal, axis=1)
+        values = functions(where.reshape(-1, 3)).reshape(-1, *where.shape[:2])
+        entries = np.einsum("mtq,kq,q,t->mtk", values, shapes, rule_weights, area, optimize=True)
+        nodes = self.face_nodes(triangles)
+        rows = np.broadcast_to(np.arange(len(values))[:, None, None], entries.shape)
+        columns = np.broadcast_to(nodes[None], entries.shape)
+        shape = (len(values), len(self.nodes))
+        return sp.coo_matrix((entries.ravel(), (rows.ravel(), columns.ravel())), shape).tocsr()
+
+    def group(self, name: str) -> np.ndarray:
+        """Triangles (n, 3) of a named group."""
+        if name not in self.groups:
+            known = ", ".join(sorted(self.groups)[:6]) or "none"
+            raise InputError(
+                f"the mesh has no surface group {name!r}; it has {known} ...",
+                where="mesh",
+                value=name,
+            )
+        return self.groups[name]
+
+
+def _edge_keys(pairs: np.ndarray, n_points: int) -> np.ndarray:
+    return pairs[..., 0].astype(np.int64) * n_points + pairs[..., 1]
+
+
+def _triangle_rule() -> tuple[np.ndarray, np.ndarray]:
+    """Degree-6 rule on the reference triangle, weights summing to one (hats have kinks)."""
+    from skfem.quadrature import get_quadrature
+    from skfem.refdom import RefTri
+
+    points, weights = get_quadrature(RefTri, 6)
+    return points, weights / weights.sum()
+
+
+def _triangle_shapes(points: np.ndarray, order: int) -> np.ndarray:
+    """Shape functions (3 or 6, n) of a triangle: vertices, midpoints of 01, 12, 02."""
+    bary = np.stack([1.0 - points[0] - points[1], points[0], points[1]])
+    if order == 1:
+        return bary
+    mids = [4.0 * bary[a] * bary[b] for a, b in ((0, 1), (1, 2), (0, 2))]
+    return np.concatenate([bary * (2.0 * bary - 1.0), np.stack(mids)])
+
+
+def assemble(mesh, material: Material, *, order: int = 2) -> FEModel:
+    """Stiffness and consistent mass of ``mesh`` (points, tets, groups) with scikit-fem's elements.
+
+    Quadrature is exact for affine elements: degree 2 for K and 4 for M when quadratic.
+    """
+    import skfem
+
+    if order not in (1, 2):
+        raise InputError(f"element order {order} is not 1 or 2", where="order", value=order)
+    element = skfem.ElementTetP1() if order == 1 else skfem.ElementTetP2()
+    fe_mesh = skfem.MeshTet(mesh.points.T.copy(), mesh.tets.T.copy())
+    basis = skfem.Basis(fe_mesh, element, intorder=2 * (order - 1) or 1)
+    mass_rule = skfem.quadrature.get_quadrature(fe_mesh.refdom, 2 * order)
+    cells = np.ascontiguousarray(basis.element_dofs.T)
+    tets = np.ascontiguousarray(fe_mesh.t.T)
+    geometry = elements.barycentric_gradients(mesh.points, tets)
+    if not np.all(geometry[1] > 1e-9 * geometry[1].mean()):
+        worst = int(np.argmin(geometry[1]))
+        raise InputError(
+            f"tetrahedron {worst} of the mesh is flat (volume {geometry[1][worst]:.2e} m^3)",
+            where="mesh",
+            value=worst,
+        )
+    pattern = elements.BlockPattern(cells, basis.N)
+    stiffness = elements.assemble_stiffness(
+        pattern, element, (basis.X, basis.W), geometry, _lame(material)
+    )
+    mass_data = elements.mass_blocks(element, mass_rule, geometry[1], material.density)
+    edges = np.sort(fe_mesh.edges.T, axis=1) if order == 2 else np.empty((0, 2), np.int64)
+    return FEModel(
+        points=np.asarray(mesh.points),
+        tets=tets,
+        cells=cells,
+        nodes=np.ascontiguousarray(basis.doflocs.T),
+        edges=edges,
+        K=stiffness,
+        mass_scalar=pattern.scalar(pattern.sum(mass_data)),
+        material=material,
+        order=order,
+        groups=mesh.groups,
+        info=getattr(mesh, "info", MappingProxyType({})),
+    )
+
+
+def _lame(material: Material) -> tuple[float, float]:
+    modulus, nu = material.youngs_modulus, material.poisson_ratio
+    return modulus * nu / ((1 + nu) * (1 - 2 * nu)), modulus / (2 * (1 + nu))

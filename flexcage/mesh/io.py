@@ -1,0 +1,229 @@
+"""Meshes to and from files, through meshio: .msh, .vtu and .inp with the same group names.
+
+* .msh: physical surfaces named as the groups and a physical volume ``cage`` (written as binary
+  gmsh 2.2, which keeps one physical tag an element; 4.1 is read as well).
+* .vtu: triangles beside the tetrahedra, with an integer cell array ``group``: 0 for none and
+  1 + the position in ``group_names(Z)``: 1 land_inner, 2 land_outer, 3 end+x, 4 end-x, and
+  5 + 5 k + (0 front, 1 rear, 2 side+x, 3 side-x, 4 fillet) for pocket k. A cell array that has
+  itself the name of a group, non-zero on its triangles, is read as well.
+* .inp (read only): element sets of surface triangles, named as the groups.
+
+Ten-node tetrahedra and six-node triangles are read by their corners.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+from pathlib import Path
+from types import MappingProxyType
+from typing import Any
+
+import numpy as np
+
+from flexcage.core.errors import InputError
+from flexcage.mesh.cage_mesh import (
+    POCKET_GROUPS,
+    RING_GROUPS,
+    CageMesh,
+    group_names,
+    signed_volumes,
+)
+from flexcage.mesh.quality import check_mesh, nearest_hint
+from flexcage.mesh.sector import orient_outward
+
+_READABLE = (".msh", ".inp", ".vtu")
+_POCKET = re.compile(r"pocket(\d+)_")
+_TETS, _TRIANGLES = ("tetra", "tetra10"), ("triangle", "triangle6")
+
+
+def write_mesh(mesh: CageMesh, path: str | Path) -> Path:
+    """Write a mesh with its groups as .msh or .vtu, in metres; returns the path."""
+    import meshio
+
+    path = Path(path)
+    if path.suffix not in (".msh", ".vtu"):
+        raise InputError(f"{path}: a mesh is written as .msh or .vtu", where="path")
+    every = group_names(mesh.pocket_count)
+    code = {name: i + 1 for i, name in enumerate(every)}
+    names = [n for n in every if len(mesh.groups.get(n, ()))]
+    triangles = np.vstack([np.empty((0, 3), mesh.tets.dtype), *(mesh.groups[n] for n in names)])
+    tags = np.repeat([code[n] for n in names], [len(mesh.groups[n]) for n in names])
+    cells = [("tetra", mesh.tets), ("triangle", triangles)]
+    body = len(every) + 1  # tag of the physical volume
+    try:
+        if path.suffix == ".vtu":
+            data = [np.zeros(len(mesh.tets), np.int32), tags.astype(np.int32)]
+            meshio.write(path, meshio.Mesh(mesh.points, cells, cell_data={"group": data}))
+        else:
+            data = [np.full(len(mesh.tets), body, np.int32), tags.astype(np.int32)]
+            fields = {n: np.array([code[n], 2]) for n in names}
+            fields["cage"] = np.array([body, 3])
+            both = {"gmsh:physical": data, "gmsh:geometrical": data}
+            out = meshio.Mesh(mesh.points, cells, cell_data=both, field_data=fields)
+            meshio.write(path, out, file_format="gmsh22", binary=True)
+    except OSError as error:
+        raise InputError(f"{path} cannot be written: {error.strerror or error}") from error
+    return path
+
+
+def read_mesh(path: str | Path, *, pocket_count: int | None = None, unit: str = "m") -> CageMesh:
+    """Read and check a cage mesh with named groups; lengths in the file are in ``unit`` (m, mm)."""
+    path = Path(path)
+    raw = _read_raw(path)
+    points, tets = _tetrahedra(raw, path)
+    found = _named_triangles(raw, path)
+    count = _pocket_count(found, pocket_count, path)
+    number = np.full(len(raw.points), -1)
+    used = np.unique(tets)
+    number[used] = np.arange(len(used))
+    points, tets = points[used] * {"m": 1.0, "mm": 1e-3}[unit], number[tets]
+    tets = _positive(points, tets, path)
+    groups: dict[str, np.ndarray] = {}
+    for name in group_names(count):
+        triangles = orient_outward(points, tets, number[found.get(name, np.empty((0, 3), int))])
+        if (triangles < 0).any():
+            raise InputError(
+                f"{path}: group {name!r} has triangles that are no face of a tetrahedron",
+                where="mesh.file",
+                value=name,
+            )
+        groups[name] = triangles
+    named = {n: t for n, t in groups.items() if len(t) or n.endswith("fillet")}
+    unknown = {n: t for n, t in found.items() if n not in groups}
+    info = {"source": str(path), "defects": []}
+    mesh = CageMesh(points, tets, MappingProxyType(named), count, MappingProxyType(info))
+    _refuse_missing(mesh, unknown, path)
+    check_mesh(mesh, where=str(path))
+    _check_size(mesh, path, unit)
+    return mesh
+
+
+def _read_raw(path: Path) -> Any:
+    import meshio
+
+    if path.suffix.lower() not in _READABLE:
+        raise InputError(
+            f"{path} is no mesh file that can be read: .msh, .inp or .vtu",
+            where="mesh.file",
+            value=str(path),
+        )
+    if not path.is_file():
+        raise InputError(f"there is no mesh file {path}", where="mesh.file", value=str(path))
+    try:
+        kind = {".inp": "abaqus", ".msh": "gmsh", ".vtu": "vtu"}[path.suffix.lower()]
+        return meshio.read(path, file_format=kind)
+    except (Exception, SystemExit) as error:  # readers raise all kinds of errors on broken files
+        reason = str(error).strip().splitlines()[0] if str(error).strip() else type(error).__name__
+        raise InputError(
+            f"{path} cannot be read as a mesh ({reason})", where="mesh.file", value=str(path)
+        ) from error
+
+
+def _tetrahedra(raw: Any, path: Path) -> tuple[np.ndarray, np.ndarray]:
+    blocks = [np.asarray(b.data)[:, :4] for b in raw.cells if b.type in _TETS]
+    if not blocks:
+        raise InputError(f"{path} has no tetrahedra", where="mesh.file", value=str(path))
+    return np.asarray(raw.points, float), np.vstack(blocks).astype(np.int64)
+
+
+def _positive(points: np.ndarray, tets: np.ndarray, path: Path) -> np.ndarray:
+    """A file in which all elements are numbered the other way round is turned; a few are not."""
+    volumes = signed_volumes(points, tets)
+    if (volumes < 0.0).all():
+        return tets[:, [0, 2, 1, 3]]
+    if (volumes <= 0.0).any():
+        raise InputError(
+            f"{path} has {int((volumes <= 0.0).sum())} inverted or flat elements of {len(tets)}; "
+            "repair it",
+            where="mesh.file",
+            value=str(path),
+        )
+    return tets
+
+
+def _named_triangles(raw: Any, path: Path) -> Mapping[str, np.ndarray]:
+    """Triangles (n, 3) of every surface name that the file carries, in the file's numbering."""
+    blocks = [np.asarray(b.data) for b in raw.cells]
+    surface = [i for i, b in enumerate(raw.cells) if b.type in _TRIANGLES]
+    collected: dict[str, list[np.ndarray]] = {}
+
+    def add(name: str, block: int, chosen: np.ndarray) -> None:
+        if len(triangles := blocks[block][chosen][:, :3]):
+            collected.setdefault(name, []).append(triangles.astype(np.int64))
+
+    tagged = raw.cell_data.get("gmsh:physical")
+    surfaces = {int(v[0]): n for n, v in raw.field_data.items() if len(v) > 1 and v[1] == 2}
+    group = raw.cell_data.get("group")
+    codes = _code_names(group, surface)
+    for i in surface:
+        for name, chosen in raw.cell_sets.items():
+            if not name.startswith("gmsh:") and chosen[i] is not None and tagged is None:
+                add(name, i, np.asarray(chosen[i], np.int64))
+        for name, values in raw.cell_data.items():
+            if name in RING_GROUPS or _POCKET.match(name):
+                add(name, i, np.flatnonzero(values[i]))
+        for table, tags in ((surfaces, tagged), (codes, group)):
+            if tags is not None:
+                for tag in np.unique(tags[i]):
+                    if int(tag) in table:
+                        add(table[int(tag)], i, np.flatnonzero(tags[i] == tag))
+    if not collected:
+        raise InputError(
+            f"{path} has no named surfaces; name the pocket faces, lands and end faces "
+            "(pocket0_front, ..., land_inner, end+x)",
+            where="mesh.file",
+            value=str(path),
+        )
+    return {name: np.vstack(parts) for name, parts in collected.items()}
+
+
+def _code_names(group: Any, surface: list[int]) -> dict[int, str]:
+    """Names of the integers in a .vtu's array ``group``."""
+    if group is None:
+        return {}
+    top = max((int(np.max(group[i], initial=0)) for i in surface), default=0)
+    pockets = -(-max(top - len(RING_GROUPS), 0) // len(POCKET_GROUPS))
+    return {i + 1: name for i, name in enumerate(group_names(pockets))}
+
+
+def _pocket_count(found: Mapping[str, Any], wanted: int | None, path: Path) -> int:
+    numbers = [int(m.group(1)) for m in map(_POCKET.match, found) if m]
+    count = max(numbers, default=-1) + 1
+    if wanted is not None and numbers and count != wanted:
+        raise InputError(
+            f"{path} names {count} pockets, but the bearing has {wanted} rolling elements",
+            where="mesh.file",
+            value=count,
+        )
+    return wanted or count
+
+
+def _refuse_missing(mesh: CageMesh, unknown: Mapping[str, Any], path: Path) -> None:
+    """Name the group that is missing and the file's own name that is most like it."""
+    if mesh.pocket_count == 0:
+        raise InputError(
+            f"{path} has no group 'pocket0_front'; it names " + ", ".join(sorted(unknown)[:5]),
+            where="mesh.file",
+        )
+    for name in group_names(mesh.pocket_count, fillets=False):
+        if name not in mesh.groups:
+            near = nearest_hint(name, unknown)
+            raise InputError(
+                f"{path} has no surface group {name!r}{near}",
+                where="mesh.file",
+                value=name,
+            )
+
+
+def _check_size(mesh: CageMesh, path: Path, unit: str) -> None:
+    """A cage of more than 10 m or less than 1 mm is one whose unit was forgotten."""
+    radius = float(np.hypot(mesh.points[:, 1], mesh.points[:, 2]).max())
+    if not 0.5e-3 < radius < 5.0:
+        other = "mm" if unit == "m" else "m"
+        raise InputError(
+            f"{path}: the cage would have a diameter of {2 * radius:g} m in {unit!r}; "
+            f'set mesh.file_unit = "{other}"',
+            where="mesh.file_unit",
+            value=unit,
+        )

@@ -1,0 +1,210 @@
+"""A quarter of one cage sector by gmsh's OpenCASCADE kernel: the only part that is meshed.
+
+A window cage's sector is symmetric about the pocket's radial mid-plane (z = 0) and about the
+cage's middle (x = 0), so a quarter of it, mirrored twice and turned Z times, is the whole ring.
+Mirrored meshes match node by node at every cut, which a periodic constraint would only ask for,
+and the ring has the full symmetry of the body: its mass centre is zero to rounding and both
+senses of rotation see the same mesh.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import ceil, pi
+from typing import Any
+
+import numpy as np
+
+from flexcage.core.errors import RunFailed
+from flexcage.geometry.cages import WindowCage
+from flexcage.mesh.gmsh_session import gmsh_model
+from flexcage.mesh.options import MeshOptions
+
+MM = 1e-3
+# of the sector's length scale (cube root of its volume): size, size at the fillet; growth of the
+# size with distance; edges along a fillet's quarter arc. Scaled so that N1013 counts come out.
+_NAMED = {
+    "coarse": (1.031, 1.031, 1.0, 1),
+    "medium": (0.5155, 0.2577, 0.8, 2),
+    "fine": (0.2191, 0.1547, 1.0, 3),
+    "paper": (0.0703, 0.0580, 0.4, 3),
+}
+SURFACES = ("cut_x", "cut_z", "cut_psi", "land_inner", "land_outer", "end", "beam", "side")
+
+
+@dataclass(frozen=True)
+class SizePlan:
+    """Element sizes [m] and the numbers of edges along and across a fillet."""
+
+    size: float
+    near_fillet: float
+    growth: float
+    arc_edges: int
+    radial_edges: int
+
+
+@dataclass(frozen=True)
+class Quarter:
+    """The quarter x >= 0, 0 <= psi <= pi/Z of the sector around pocket 0."""
+
+    points: np.ndarray  # (n, 3) [m]
+    tets: np.ndarray  # (m, 4), positive volumes
+    surfaces: dict[str, np.ndarray]  # name (SURFACES and "fillet") -> (., 3) outward triangles
+    plan: SizePlan
+
+
+def size_plan(cage: WindowCage, pocket_count: int, options: MeshOptions) -> SizePlan:
+    """Sizes that a named fineness, or the user's own sizes, mean on this cage."""
+    outer, inner = 0.5 * cage.outside_diameter, 0.5 * cage.bore
+    ring = pi * (outer**2 - inner**2) * cage.width
+    window = cage.pocket_width * cage.pocket_length * (outer - inner)
+    scale = (ring / pocket_count - window) ** (1.0 / 3.0)
+    far, near, growth, arcs = _NAMED[options.fineness]
+    size, near_fillet = far * scale, near * scale
+    if options.size is not None:
+        size, near_fillet = options.size, near / far * options.size
+    if options.fillet_size is not None:
+        arcs = max(1, ceil(0.5 * pi * cage.fillet_radius / options.fillet_size - 1e-9))
+        near_fillet = min(near_fillet, 4.0 * options.fillet_size)  # keeps slivers off the arc
+    radial = max(1, round((outer - inner) / near_fillet))
+    return SizePlan(size, near_fillet, growth, arcs, radial)
+
+
+def mesh_quarter(cage: WindowCage, *, pocket_count: int, options: MeshOptions) -> Quarter:
+    """Mesh the quarter sector; lengths go to gmsh in mm, where OpenCASCADE's tolerances fit."""
+    plan = size_plan(cage, pocket_count, options)
+    with gmsh_model("flexcage quarter sector") as gmsh:
+        _shape(gmsh, cage, pocket_count)
+        fillet = _fillet_surface(gmsh, cage)
+        _sizes(gmsh, plan, fillet)
+        gmsh.model.mesh.generate(3)
+        points, tets, faces = _arrays(gmsh)
+    surfaces = {
+        _surface_name(points[np.unique(triangles)], cage, pocket_count): triangles
+        for triangles in faces
+    }
+    if set(surfaces) != {*SURFACES, "fillet"} or len(faces) != len(surfaces):
+        raise RunFailed(f"the quarter sector has unexpected surfaces: {sorted(surfaces)}")
+    points[np.unique(surfaces["cut_x"]), 0] = 0.0  # exact, so that mirror images coincide
+    points[np.unique(surfaces["cut_z"]), 2] = 0.0
+    return Quarter(points, tets, surfaces, plan)
+
+
+def _shape(gmsh: Any, cage: WindowCage, pocket_count: int) -> None:
+    """Quarter of the annular sector, less the filleted window extruded along the radius."""
+    occ = gmsh.model.occ
+    inner, outer = 0.5 * cage.bore / MM, 0.5 * cage.outside_diameter / MM
+    width, length, tangential = cage.width / MM, cage.pocket_length / MM, cage.pocket_width / MM
+    section = occ.addRectangle(0.0, inner, 0.0, 0.5 * width, outer - inner)
+    turned = occ.revolve([(2, section)], 0, 0, 0, 1, 0, 0, pi / pocket_count)
+    window = occ.addRectangle(
+        -0.5 * length, -0.5 * tangential, 0.0, length, tangential,
+        roundedRadius=cage.fillet_radius / MM,
+    )  # fmt: skip
+    occ.rotate([(2, window)], 0, 0, 0, 1, 0, 0, 0.5 * pi)
+    occ.translate([(2, window)], 0.0, 0.5 * inner, 0.0)
+    prism = occ.extrude([(2, window)], 0.0, outer, 0.0)
+    occ.cut([e for e in turned if e[0] == 3], [e for e in prism if e[0] == 3])
+    occ.synchronize()
+    if len(gmsh.model.getEntities(3)) != 1:
+        raise RunFailed("the pocket cuts the cage's sector into several pieces")
+
+
+def _x_extent(gmsh: Any, dim: int, tag: int) -> float:
+    box = gmsh.model.getBoundingBox(dim, tag)
+    return box[3] - box[0]
+
+
+def _fillet_surface(gmsh: Any, cage: WindowCage) -> int:
+    """Tag of the fillet: the cylinder whose axial extent is its radius, not a land's."""
+    radius = cage.fillet_radius / MM
+    tags = [
+        tag
+        for dim, tag in gmsh.model.getEntities(2)
+        if gmsh.model.getType(dim, tag) == "Cylinder"
+        and abs(_x_extent(gmsh, dim, tag) - radius) < 1e-3 * radius
+    ]
+    if len(tags) != 1:
+        raise RunFailed(f"one fillet surface was expected in the quarter sector, not {len(tags)}")
+    return tags[0]
+
+
+def _sizes(gmsh: Any, plan: SizePlan, fillet: int) -> None:
+    """Structured fillet, long along the radius where stress varies slowly; graded elsewhere."""
+    mesh, option = gmsh.model.mesh, gmsh.option
+    for dim, tag in gmsh.model.getBoundary([(2, fillet)], combined=False, oriented=False):
+        arc = _x_extent(gmsh, dim, tag) > 1e-3 * plan.near_fillet
+        mesh.setTransfiniteCurve(tag, 1 + (plan.arc_edges if arc else plan.radial_edges))
+    mesh.setTransfiniteSurface(fillet)
+    distance = mesh.field.add("Distance")
+    mesh.field.setNumbers(distance, "SurfacesList", [fillet])
+    mesh.field.setNumber(distance, "Sampling", 40)
+    size = mesh.field.add("MathEval")
+    near, far = plan.near_fillet / MM, plan.size / MM
+    mesh.field.setString(size, "F", f"Min({far}, {near} + {plan.growth}*F{distance})")
+    mesh.field.setAsBackgroundMesh(size)
+    for name in ("ExtendFromBoundary", "FromPoints", "FromCurvature"):
+        option.setNumber(f"Mesh.MeshSize{name}", 0)
+    option.setNumber("Mesh.Optimize", 1)
+    option.setNumber("Mesh.OptimizeNetgen", 1)
+
+
+def _arrays(gmsh: Any) -> tuple[np.ndarray, np.ndarray, list[np.ndarray]]:
+    """Points [m], positive tets, and the outward triangles of each surface, compactly numbered."""
+    mesh = gmsh.model.mesh
+    tags, coordinates, _ = mesh.getNodes()
+    cells = mesh.getElementsByType(4)[1].reshape(-1, 4)
+    used = np.unique(cells)
+    number = np.full(int(tags.max()) + 1, -1)
+    number[used] = np.arange(len(used))
+    position = np.empty((len(number), 3))
+    position[tags] = coordinates.reshape(-1, 3) * MM
+    points, tets = position[used], number[cells]
+    faces = [
+        orient_outward(points, tets, number[mesh.getElementsByType(2, tag)[1].reshape(-1, 3)])
+        for _, tag in gmsh.model.getEntities(2)
+    ]
+    return points, tets, faces
+
+
+def _surface_name(points: np.ndarray, cage: WindowCage, pocket_count: int) -> str:
+    """Which surface of the quarter all these points lie on."""
+    x, y, z = points.T
+    radius = np.hypot(y, z)
+    tests = (
+        x,
+        z,
+        radius * (np.arctan2(z, y) - pi / pocket_count),
+        radius - 0.5 * cage.bore,
+        radius - 0.5 * cage.outside_diameter,
+        x - 0.5 * cage.width,
+        z - 0.5 * cage.pocket_width,
+        x - 0.5 * cage.pocket_length,
+    )
+    for name, distance in zip(SURFACES, tests):
+        if np.abs(distance).max() < 1e-6 * cage.width:
+            return name
+    return "fillet"
+
+
+def orient_outward(points: np.ndarray, tets: np.ndarray, triangles: np.ndarray) -> np.ndarray:
+    """The triangles (n, 3) with normals away from their tetrahedron; -1 rows where none has it.
+
+    Needs every triangle to be a face of a tetrahedron of positive volume.
+    """
+    if len(triangles) == 0:
+        return triangles.reshape(0, 3)
+    opposite = ((1, 2, 3), (0, 3, 2), (0, 1, 3), (0, 2, 1))  # outward for a positive tet
+    faces = np.vstack([tets[:, corners] for corners in opposite])
+    n = len(points)
+    key = _face_keys(faces, n)
+    order = np.argsort(key, kind="stable")
+    wanted = _face_keys(triangles, n)
+    place = np.minimum(np.searchsorted(key[order], wanted), len(order) - 1)
+    found = order[place]
+    return np.where((key[found] == wanted)[:, None], faces[found], -1)
+
+
+def _face_keys(faces: np.ndarray, n_points: int) -> np.ndarray:
+    a, b, c = np.sort(faces, axis=1).astype(np.int64).T
+    return (a * n_points + b) * n_points + c

@@ -1,0 +1,72 @@
+"""Craig-Bampton basis over generalised interface displacements of the pocket faces.
+
+Interface coordinate j is the work-conjugate displacement b_j^T u of pocket load j (mean and
+first moment of the face's normal displacement), so that faces stay flexible in themselves.
+Constraint modes move one of them and hold the others; fixed-interface modes hold all. Both come
+from the flexibility of the free body, with the rigid motion as an unknown of a small system.
+The six rigid motions in their span are removed and the rest made mass-orthonormal.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from scipy.linalg import lu_factor, lu_solve
+
+from flexcage.fem.free import FreeBodySolver
+from flexcage.fem.modal import lowest_modes
+from flexcage.fem.symmetry import find_symmetry
+from flexcage.modes.basis import ModeBasis
+from flexcage.modes.pockets import check_groups, pocket_loads
+from flexcage.modes.ritz import eigen_basis, ritz_modes
+from flexcage.modes.spec import ModesSpec
+
+
+def build(solver: FreeBodySolver, *, pocket_count: int, spec: ModesSpec) -> ModeBasis:
+    """Constraint modes of all pocket faces and ``spec.count`` fixed-interface modes."""
+    check_groups(solver.model, pocket_count)
+    held = HeldInterface(solver, pocket_count)
+    _, fixed = lowest_modes(solver.model, held.flexibility, spec.count)
+    vectors = np.column_stack([held.constraint_modes(), fixed])
+    values, shapes = ritz_modes(solver, vectors)
+    elastic = values > 1e-6 * np.median(values)
+    kinds = ["constraint"] * int(elastic.sum())
+    return eigen_basis("craig_bampton", shapes[:, elastic], values[elastic], kinds)
+
+
+class HeldInterface:
+    """The body held at its generalised interface displacements B^T u = 0."""
+
+    def __init__(self, solver: FreeBodySolver, pocket_count: int) -> None:
+        self._solver = solver
+        model = solver.model
+        self._loads = np.column_stack(
+            [pocket_loads(model, k, pocket_count) for k in range(pocket_count)]
+        )
+        self._static = self._statics(pocket_count)
+        self._rigid = model.rigid_modes
+        motion = self._loads.T @ self._rigid
+        compliance = self._loads.T @ self._static
+        compliance = 0.5 * (compliance + compliance.T)
+        corner = np.zeros((6, 6))
+        self._system = lu_factor(np.block([[compliance, motion], [motion.T, corner]]))
+
+    def _statics(self, pocket_count: int) -> np.ndarray:
+        symmetry = find_symmetry(self._solver.model, pocket_count)
+        if symmetry is None:
+            return self._solver.solve(self._loads)
+        first = self._solver.solve(self._loads[:, : self._loads.shape[1] // pocket_count])
+        return np.column_stack([symmetry.rotate(first, k) for k in range(pocket_count)])
+
+    def constraint_modes(self) -> np.ndarray:
+        """Displacements (3N, 8 Z) that move one interface coordinate by one, the others not."""
+        n = self._loads.shape[1]
+        answer = lu_solve(self._system, np.vstack([np.eye(n), np.zeros((6, n))]))
+        return self._static @ answer[:n] + self._rigid @ answer[n:]
+
+    def flexibility(self, loads: np.ndarray) -> np.ndarray:
+        """Displacements of the held body under nodal loads (3N, m)."""
+        n = self._loads.shape[1]
+        free = self._solver.solve(loads)
+        target = np.vstack([-self._loads.T @ free, -self._rigid.T @ loads])
+        answer = lu_solve(self._system, target)
+        return free + self._static @ answer[:n] + self._rigid @ answer[n:]

@@ -1,0 +1,198 @@
+"""The cage as contacts see it: stations on pocket faces and lands, and what moves there."""
+
+from __future__ import annotations
+
+import logging
+from collections.abc import Sequence
+
+import numpy as np
+import scipy.sparse as sp
+
+from flexcage.fem.model import FEModel
+from flexcage.geometry.cages import (
+    CrossbeamDefect,
+    Defect,
+    WindowCage,
+    crossbeam_shape,
+    side_beam_shape,
+)
+from flexcage.modes.basis import FACES, CageInterface, ModeBasis
+from flexcage.modes.pockets import (
+    LOADS_PER_POCKET,
+    NORMALS,
+    face_coordinate,
+    face_group,
+    pocket_frame,
+)
+
+log = logging.getLogger(__name__)
+
+LANDS = ("land_inner", "land_outer")
+
+
+def face_stations(cage: WindowCage, n_stations: int) -> np.ndarray:
+    """Station coordinates (4, n_st) [m]: centres of equal cells of a face's flat part.
+
+    Equal cells make a uniform load equal station forces; beyond the outer stations values are
+    constant (clamp the coordinate when interpolating).
+    """
+    cells = (np.arange(n_stations) + 0.5) / n_stations - 0.5
+    along = [cage.pocket_length - 2.0 * cage.fillet_radius] * 2
+    across = [cage.pocket_width - 2.0 * cage.fillet_radius] * 2
+    return np.outer(along + across, cells)
+
+
+def station_offsets(
+    cage: WindowCage, stations: np.ndarray, *, pocket_count: int, defects: Sequence[Defect]
+) -> np.ndarray:
+    """Stress-free outward displacement (Z, 4, n_st) [m] of the faces at their stations."""
+    offset = np.zeros((pocket_count, *stations.shape))
+    for defect in defects:
+        if isinstance(defect, CrossbeamDefect):
+            # crossbeam k is the front beam of pocket k-1 and the rear beam of pocket k
+            shift = defect.displacement * crossbeam_shape(defect, stations[0], cage.pocket_length)
+            offset[(defect.crossbeam - 1) % pocket_count, 0] -= shift
+            offset[defect.crossbeam % pocket_count, 1] += shift
+        else:
+            face = FACES.index(f"side{defect.side}")
+            shape = side_beam_shape(stations[face], cage.pocket_width)
+            offset[defect.pocket % pocket_count, face] += defect.displacement * shape
+    return offset
+
+
+def rigid_interface(
+    cage: WindowCage,
+    *,
+    pocket_count: int,
+    defects: Sequence[Defect] = (),
+    n_stations: int = 7,
+    n_land: int = 24,
+) -> CageInterface:
+    """Interface of a rigid cage: no modes, no compliance, no mesh; defects in the offsets."""
+    stations = face_stations(cage, n_stations)
+    faces = (pocket_count, len(FACES), n_stations)
+    return CageInterface(
+        stations=stations,
+        offset=station_offsets(cage, stations, pocket_count=pocket_count, defects=defects),
+        modes=np.zeros((*faces, 3, 0)),
+        residual=np.zeros((*faces, LOADS_PER_POCKET)),
+        compliance=np.zeros((pocket_count, LOADS_PER_POCKET, LOADS_PER_POCKET)),
+        patch_half_width=_patch_half_width(cage),
+        land=np.zeros((2, n_land, 3, 0)),
+    )
+
+
+def cage_interface(
+    model: FEModel,
+    basis: ModeBasis,
+    *,
+    pocket_count: int,
+    cage: WindowCage,
+    defects: Sequence[Defect] = (),
+    n_stations: int = 7,
+    n_land: int = 24,
+) -> CageInterface:
+    """Interface of a flexible cage: modes and residual vectors averaged at the stations."""
+    stations = face_stations(cage, n_stations)
+    weights = station_weights(model, stations, pocket_count)
+    land_weights = land_station_weights(model, n_land)
+    residual, compliance = _residual_at_stations(basis, weights, pocket_count, n_stations)
+    return CageInterface(
+        stations=stations,
+        offset=station_offsets(cage, stations, pocket_count=pocket_count, defects=defects),
+        modes=_modes_at_stations(basis, weights, pocket_count, n_stations),
+        residual=residual,
+        compliance=compliance,
+        patch_half_width=_patch_half_width(cage),
+        land=_modes_at_land(basis, land_weights, n_land),
+        weights=weights,
+        land_weights=land_weights,
+    )
+
+
+def _patch_half_width(cage: WindowCage) -> float:
+    return 0.25 * (cage.outside_diameter - cage.bore)
+
+
+def station_weights(model: FEModel, stations: np.ndarray, pocket_count: int) -> sp.csr_matrix:
+    """Weights (Z*4*n_st, N): station value <- nodal values, rows summing to one."""
+    rows = []
+    for pocket in range(pocket_count):
+        for face in range(len(FACES)):
+
+            def hats(points: np.ndarray, p: int = pocket, f: int = face) -> np.ndarray:
+                return _hats(face_coordinate(points, p, f, pocket_count), stations[f])
+
+            rows.append(model.face_weights(model.group(face_group(pocket, face)), hats))
+    return _normalised(sp.vstack(rows))
+
+
+def _hats(s: np.ndarray, stations: np.ndarray) -> np.ndarray:
+    """Hat functions (n_st, n) of the stations, constant beyond the outer ones; they sum to one."""
+    unit = np.eye(len(stations))
+    return np.stack([np.interp(s, stations, row) for row in unit])
+
+
+def _normalised(weights: sp.spmatrix) -> sp.csr_matrix:
+    total = np.asarray(weights.sum(axis=1)).ravel()
+    return sp.csr_matrix(sp.diags_array(1.0 / total) @ weights)
+
+
+def land_station_weights(model: FEModel, n_land: int) -> sp.csr_matrix:
+    """Weights (2*n_land, N) of hats in azimuth on the bore and the outside; zero where absent."""
+    rows = []
+    for name in LANDS:
+        if name not in model.groups or not len(model.groups[name]):
+            log.warning("the mesh has no group %s: that land stays rigid", name)
+            rows.append(sp.csr_matrix((n_land, len(model.nodes))))
+            continue
+        rows.append(_normalised(model.face_weights(model.group(name), _azimuth_hats(n_land))))
+    return sp.csr_matrix(sp.vstack(rows))
+
+
+def _azimuth_hats(n_land: int):
+    def hats(points: np.ndarray) -> np.ndarray:
+        place = np.arctan2(points[:, 2], points[:, 1]) * n_land / (2.0 * np.pi)
+        apart = (place[None] - np.arange(n_land)[:, None] + 0.5 * n_land) % n_land - 0.5 * n_land
+        return np.maximum(1.0 - np.abs(apart), 0.0)
+
+    return hats
+
+
+def _averaged(shapes: np.ndarray, weights: sp.csr_matrix) -> np.ndarray:
+    """Weighted means (rows, 3, n) of shapes (N, 3, n)."""
+    n_nodes, _, n = shapes.shape
+    return (weights @ shapes.reshape(n_nodes, 3 * n)).reshape(-1, 3, n)
+
+
+def _modes_at_stations(
+    basis: ModeBasis, weights: sp.csr_matrix, pocket_count: int, n_stations: int
+) -> np.ndarray:
+    means = _averaged(basis.shapes, weights)
+    means = means.reshape(pocket_count, len(FACES), n_stations, 3, basis.size)
+    frames = np.stack([pocket_frame(k, pocket_count) for k in range(pocket_count)])
+    return np.ascontiguousarray(np.einsum("kab,kfsbn->kfsan", frames, means))
+
+
+def _modes_at_land(basis: ModeBasis, weights: sp.csr_matrix, n_land: int) -> np.ndarray:
+    means = _averaged(basis.shapes, weights).reshape(2, n_land, 3, basis.size)
+    frames = np.stack([pocket_frame(j, n_land) for j in range(n_land)])
+    return np.ascontiguousarray(np.einsum("jab,ljbn->ljan", frames, means))
+
+
+def _residual_at_stations(
+    basis: ModeBasis, weights: sp.csr_matrix, pocket_count: int, n_stations: int
+) -> tuple[np.ndarray, np.ndarray]:
+    """Outward displacement (Z, 4, n_st, 8) of each pocket's own vectors, and compliances."""
+    per = LOADS_PER_POCKET
+    at_stations = np.zeros((pocket_count, len(FACES), n_stations, per))
+    if basis.residual is None:
+        return at_stations, np.zeros((pocket_count, per, per))
+    shapes = basis.residual.shapes
+    rows = len(FACES) * n_stations
+    for pocket in range(pocket_count):
+        own = shapes[:, :, pocket * per : (pocket + 1) * per]
+        normals = np.repeat(NORMALS @ pocket_frame(pocket, pocket_count), n_stations, axis=0)
+        means = _averaged(own, weights[pocket * rows : (pocket + 1) * rows])
+        at_stations[pocket] = np.einsum("sa,san->sn", normals, means).reshape(4, n_stations, per)
+    return at_stations, basis.residual.compliance

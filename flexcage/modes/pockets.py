@@ -1,0 +1,73 @@
+"""Pocket frames and the distributed unit loads on pocket faces."""
+
+from __future__ import annotations
+
+import numpy as np
+import scipy.sparse as sp
+
+from flexcage.core.errors import InputError
+from flexcage.fem.model import FEModel
+from flexcage.modes.basis import FACES
+
+LOADS_PER_POCKET = 2 * len(FACES)
+# outward normals, away from the pocket's centre, in its frame (x, r, psi)
+NORMALS = np.array([[0.0, 0.0, 1.0], [0.0, 0.0, -1.0], [1.0, 0.0, 0.0], [-1.0, 0.0, 0.0]])
+
+
+def pocket_frame(pocket: float, pocket_count: int) -> np.ndarray:
+    """Rows: unit vectors x, r, psi (3, 3) of the frame at azimuth 2 pi pocket/pocket_count."""
+    angle = 2.0 * np.pi * pocket / pocket_count
+    c, s = np.cos(angle), np.sin(angle)
+    return np.array([[1.0, 0.0, 0.0], [0.0, c, s], [0.0, -s, c]])
+
+
+def face_coordinate(points: np.ndarray, pocket: int, face: int, pocket_count: int) -> np.ndarray:
+    """Coordinate along a face (n,) [m]: x on crossbeam faces, tangential t on side beams."""
+    axis = 0 if face < 2 else 2
+    return points @ pocket_frame(pocket, pocket_count)[axis]
+
+
+def face_group(pocket: int, face: int) -> str:
+    """Name of the mesh group of a pocket's face."""
+    return f"pocket{pocket}_{FACES[face]}"
+
+
+def check_groups(model: FEModel, pocket_count: int) -> None:
+    """Refuse a mesh in which a pocket face has no triangles."""
+    names = [face_group(k, f) for k in range(pocket_count) for f in range(len(FACES))]
+    missing = [n for n in names if n not in model.groups or not len(model.groups[n])]
+    if missing:
+        raise InputError(
+            f"the cage mesh lacks {len(missing)} of {len(names)} pocket face groups, "
+            f"the first is {missing[0]!r}",
+            where="mesh",
+            value=missing[0],
+        )
+
+
+def pocket_loads(model: FEModel, pocket: int, pocket_count: int) -> np.ndarray:
+    """Nodal loads (3N, 8) of a pocket: on face f columns 2f (uniform) and 2f + 1 (linear).
+
+    Uniform: a total force of 1 N along the face's outward normal. Linear: the same pressure
+    times 2 s/length, s the face coordinate: -1 to +1 from end to end, no resultant.
+    """
+    columns = []
+    frame = pocket_frame(pocket, pocket_count)
+    for face in range(len(FACES)):
+        weights = _load_weights(model, pocket, face, pocket_count)
+        normal = NORMALS[face] @ frame
+        columns += [np.outer(row, normal).ravel() for row in weights.toarray()]
+    return np.stack(columns, axis=1)
+
+
+def _load_weights(model: FEModel, pocket: int, face: int, pocket_count: int) -> sp.csr_matrix:
+    triangles = model.group(face_group(pocket, face))
+    ends = face_coordinate(model.points[np.unique(triangles)], pocket, face, pocket_count)
+    middle, half = 0.5 * (ends.max() + ends.min()), 0.5 * np.ptp(ends)
+
+    def uniform_and_linear(points: np.ndarray) -> np.ndarray:
+        s = face_coordinate(points, pocket, face, pocket_count)
+        return np.stack([np.ones_like(s), (s - middle) / half])
+
+    weights = model.face_weights(triangles, uniform_and_linear)
+    return weights / weights[0].sum()

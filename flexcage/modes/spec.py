@@ -1,0 +1,49 @@
+"""What a user asks of a modal basis."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from flexcage.core.spec import option, quantity
+
+KINDS = ("ritz", "craig_bampton", "free_free")
+
+
+@dataclass(frozen=True, kw_only=True)
+class DampingBand:
+    """Modal damping ratio of the modes whose frequency lies in [low, high)."""
+
+    low: float = quantity("Hz", 0.0, doc="lower edge of the band", minimum=0.0)
+    high: float = quantity("Hz", float("inf"), doc="upper edge of the band", above=0.0)
+    ratio: float = option(doc="damping ratio in the band", minimum=0.0, maximum=1.0)
+
+
+@dataclass(frozen=True, kw_only=True)
+class ModesSpec:
+    """Modal basis of the flexible cage."""
+
+    kind: str = option("ritz", doc="kind of basis", choices=KINDS)
+    count: int = option(24, doc="number of free (or fixed-interface) eigenmodes", minimum=1)
+    dynamic: str = option(
+        "free",
+        doc="ritz: 'free' keeps attachments quasi-static, 'all' makes every vector dynamic",
+        choices=("free", "all"),
+    )
+    damping: float = option(
+        0.01,
+        doc="modal damping ratio where no band says otherwise",
+        minimum=0.0,
+        maximum=1.0,
+        assumption="order of a machined metal part in an oiled assembly; no source gives one",
+    )
+    bands: tuple[DampingBand, ...] = option((), doc="damping ratios by frequency band")
+    land: bool = option(True, doc="prepare land surfaces as an interface")
+
+    def damping_ratios(self, frequencies: np.ndarray) -> np.ndarray:
+        """Damping ratio of every mode (n,) from its frequency [Hz]; the first band wins."""
+        ratios = np.full(len(frequencies), self.damping)
+        for band in reversed(self.bands):
+            ratios[(frequencies >= band.low) & (frequencies < band.high)] = band.ratio
+        return ratios

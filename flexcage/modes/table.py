@@ -1,0 +1,82 @@
+"""The mode table: what each dynamic mode is, and how much pocket forces excite it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from flexcage.fem.model import FEModel
+from flexcage.modes.basis import ModeBasis
+from flexcage.modes.pockets import pocket_loads
+
+_GROUPED = ("crossbeam", "side_beam")
+
+
+@dataclass(frozen=True)
+class ModeTable:
+    """One row a dynamic mode.
+
+    ``effective_mass`` [kg]: the part of the body's mass that translations along x, y, z couple to
+    the mode; zero for modes of a free body, and a check that they are. ``share``: the part of the
+    static deflection under a uniform force on a crossbeam (front face, pocket 0) and on a side
+    beam (+x face) that the mode carries, of all dynamic modes and residual vectors together.
+    """
+
+    frequency: np.ndarray  # (n,) Hz
+    kind: tuple[str, ...]
+    effective_mass: np.ndarray  # (n, 3)
+    share: np.ndarray  # (n, 2)
+    residual_share: np.ndarray  # (2,)
+
+    def __str__(self) -> str:
+        head = f"{'no':>4s}  {'kind':<12s} {'frequency':>12s} {'eff. mass':>10s}"
+        lines = [
+            f"{'':42s}  share of deflection under a force on",
+            f"{head}  {'crossbeam':>12s} {'side beam':>12s}",
+        ]
+        for i, frequency in enumerate(self.frequency):
+            row = f"{i + 1:4d}  {self.kind[i]:<12s} {frequency:9.1f} Hz"
+            mass = f"{1e3 * self.effective_mass[i].max():8.1e} g"
+            lines.append(f"{row} {mass}{_percent(self.share[i])}")
+        lines.append(
+            f"      {'residual':<12s} {'quasi-static':>12s} {'':10s}"
+            + _percent(self.residual_share)
+        )
+        return "\n".join(lines)
+
+    def columns(self) -> dict[str, np.ndarray]:
+        """Named columns, for a file."""
+        return {
+            "frequency": self.frequency,
+            "kind": np.array(self.kind),
+            **{f"effective_mass_{a}": self.effective_mass[:, i] for i, a in enumerate("xyz")},
+            **{f"share_{name}": self.share[:, i] for i, name in enumerate(_GROUPED)},
+        }
+
+
+def _percent(shares: np.ndarray) -> str:
+    return "  " + " ".join(f"{100.0 * share:10.2f} %" for share in shares)
+
+
+def mode_table(model: FEModel, basis: ModeBasis, *, pocket_count: int) -> ModeTable:
+    """Frequencies, kinds, effective masses and shares of static deflection of a basis."""
+    shapes = basis.shapes.reshape(model.n_dof, -1)
+    translation = np.einsum("i,ian->na", model.nodal_mass, basis.shapes)
+    modal_mass = np.diag(basis.mass)
+    loads = pocket_loads(model, 0, pocket_count)[:, [0, 4]]
+    work = shapes.T @ loads
+    carried = work * np.linalg.solve(basis.stiffness, work)
+    residual = np.zeros(2)
+    if basis.residual is not None:
+        flat = basis.residual.shapes.reshape(model.n_dof, -1)
+        pull = flat.T @ loads
+        residual = np.sum(pull * np.linalg.solve(basis.residual.stiffness, pull), axis=0)
+    total = carried.sum(axis=0) + residual
+    return ModeTable(
+        frequency=basis.frequencies,
+        kind=basis.kind,
+        effective_mass=translation**2 / modal_mass[:, None],
+        share=carried / total,
+        residual_share=residual / total,
+    )

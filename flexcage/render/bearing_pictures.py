@@ -1,0 +1,355 @@
+"""The whole bearing at one instant: rollers coloured by load between translucent rings."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import pi
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Protocol
+
+import numpy as np
+
+from flexcage.core.errors import InputError
+from flexcage.render import marks, sheet
+from flexcage.render.scene import (
+    Layer,
+    Picture,
+    Stage,
+    View,
+    _load_pyvista,
+    body_layer,
+    outline_layer,
+    surface_of,
+)
+
+if TYPE_CHECKING:
+    import pyvista
+    import xarray
+
+MAIN = (1080, 1000)
+SIDE_WIDTH = 560
+TOP, GAP, EDGE = 96, 84, 36
+IDLE = "#c4c8ce"  # a roller that the inner race does not load
+RING, BRASS = "#8fa3b8", "#c9a253"
+LOADED_SHARE = 0.01
+
+
+class RollerBearingNumbers(Protocol):
+    """The dimensions [m] that a picture needs; a RollerBearing has them all."""
+
+    bore: float
+    outside_diameter: float
+    width: float
+    inner_race_diameter: float
+    outer_race_diameter: float
+    rib_diameter: float
+    rib_gap: float
+    roller_diameter: float
+    roller_length: float
+
+
+@dataclass(frozen=True)
+class Instant:
+    """What is drawn of one instant."""
+
+    time: float
+    position: np.ndarray  # (n, 3) x, r, psi
+    tilt: np.ndarray  # (n, 2) skew, tilt
+    inner_load: np.ndarray  # (n,) N
+    outer_load: np.ndarray
+    pocket: np.ndarray  # (n, 4) N
+    cage_position: np.ndarray
+    cage_quaternion: np.ndarray
+    inner_position: np.ndarray
+    inner_speed: float
+    cage_speed: float
+
+
+def bearing_picture(
+    ds: xarray.Dataset,
+    bearing: RollerBearingNumbers,
+    index: int,
+    path: str | Path,
+    *,
+    cage_points: np.ndarray | None = None,
+    cage_tets: np.ndarray | None = None,
+    load: tuple[float, float] | None = None,
+    limit: float | None = None,
+    title: str = "The bearing, rollers coloured by load",
+    note: str = "",
+) -> Path:
+    """Sample ``index`` of a run: rollers by the inner race's normal force, and bars of forces.
+
+    ``cage_points`` (n, 3) [m] and ``cage_tets`` draw the cage where it is; ``load`` (F_y, F_z) [N]
+    draws the load on the inner ring; ``limit`` [N] fixes the colour range.
+    """
+    now = instant(ds, index)
+    top = limit if limit is not None else sheet.rounded_up(float(ds["race_force"].max()))
+    cage = _cage(cage_points, cage_tets)
+    with Stage(*MAIN) as stage:
+        picture = stage.shoot(
+            bearing_layers(now, bearing, cage, top), bearing_view(bearing), peel=True
+        )
+    with sheet.style():
+        figure = sheet.new_figure(EDGE + MAIN[0] + GAP + SIDE_WIDTH + EDGE, TOP + MAIN[1] + EDGE)
+        compose(figure, picture, now, bearing, top, load=load, title=title, note=note)
+        return sheet.save(figure, path)
+
+
+def instant(ds: xarray.Dataset, index: int) -> Instant:
+    """Values of sample ``index`` of a run; a negative one counts from the end."""
+    n = ds.sizes["time"]
+    if not -n <= index < n:
+        raise InputError(f"The run has {n} samples; there is no sample {index}.", value=index)
+    at = ds.isel(time=index)
+    force = at["race_force"].transpose("roller", "race")
+    return Instant(
+        float(at["time"]),
+        at["roller_position"].transpose("roller", "cyl").values,
+        at["roller_tilt"].transpose("roller", "tilt").values,
+        force.sel(race="inner").values,
+        force.sel(race="outer").values,
+        at["pocket_force"].transpose("pocket", "face").values,
+        at["cage_position"].values,
+        at["cage_quaternion"].values,
+        at["inner_position"].values,
+        float(at["inner_speed"]),
+        float(at["cage_omega"].sel(axis="x")),
+    )
+
+
+def bearing_view(bearing: RollerBearingNumbers) -> View:
+    """Nearly along the axis: y upwards, psi counter-clockwise."""
+    direction = np.array([1.0, 0.36, 0.0])
+    return View(
+        tuple(direction / np.linalg.norm(direction)),
+        (0.0, 0.0, 0.0),
+        1.24 * bearing.outside_diameter,
+        up=(0.0, 1.0, 0.0),
+    )
+
+
+def bearing_layers(
+    now: Instant, bearing: RollerBearingNumbers, cage: pyvista.PolyData | None, top: float
+) -> list[Layer]:
+    """Rings, rollers and (if given at rest, in the cage's frame) the cage at an instant."""
+    half = 0.5 * bearing.width
+    inner = revolved(_inner_profile(bearing))
+    inner.points = inner.points + now.inner_position
+    race, outside = 0.5 * bearing.outer_race_diameter, 0.5 * bearing.outside_diameter
+    outer = revolved([(-half, race), (half, race), (half, outside), (-half, outside)])
+    loaded = now.inner_load > LOADED_SHARE * top
+    cmap = sheet.colour_map("viridis")
+    layers = [
+        body_layer(outer, color=RING, opacity=0.16),
+        outline_layer(outer, colour="#55606c", width=1.0),
+        body_layer(inner, color=RING, opacity=0.32),
+        outline_layer(inner, colour="#55606c", width=1.0),
+    ]
+    for chosen, style in (
+        (loaded, {"scalars": "load", "cmap": cmap, "clim": (0.0, top), "ambient": 0.62}),
+        (~loaded, {"color": IDLE}),
+    ):
+        if chosen.any():
+            rollers = _rollers(now, bearing, chosen)
+            layers.append(body_layer(rollers, **style))
+            layers.append(outline_layer(rollers, colour="#30363c", width=0.9))
+    if cage is not None:
+        moved = cage.copy()
+        moved.points = cage.points @ rotation(now.cage_quaternion).T + now.cage_position
+        layers.append(body_layer(moved, color=BRASS, opacity=0.28))
+        layers.append(outline_layer(moved, colour="#6b5320", width=0.9, opacity=0.7))
+    return layers
+
+
+def rotation(q: np.ndarray) -> np.ndarray:
+    """Matrix of a quaternion, scalar first, body to space."""
+    w, x, y, z = q / np.linalg.norm(q)
+    return np.array(
+        [
+            [1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
+            [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
+            [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)],
+        ]
+    )
+
+
+def revolved(profile: list[tuple[float, float]], *, segments: int = 144) -> pyvista.PolyData:
+    """A closed profile of (x, r) points, counter-clockwise, turned about the x axis."""
+    pv = _load_pyvista()
+    p = np.asarray(profile, float)
+    angle = 2.0 * pi * np.arange(segments) / segments
+    x = np.broadcast_to(p[:, 0], (segments, len(p)))
+    points = np.stack([x, np.outer(np.cos(angle), p[:, 1]), np.outer(np.sin(angle), p[:, 1])], -1)
+    i, j = np.meshgrid(np.arange(segments), np.arange(len(p)), indexing="ij")
+    i2, j2 = (i + 1) % segments, (j + 1) % len(p)
+    corners = [i * len(p) + j, i * len(p) + j2, i2 * len(p) + j2, i2 * len(p) + j]
+    quads = np.stack([np.full_like(i, 4), *corners], axis=-1).reshape(-1, 5)
+    keep = (p[j.ravel(), 1] > 0.0) | (p[j2.ravel(), 1] > 0.0)
+    return pv.PolyData(points.reshape(-1, 3), quads[keep].ravel())
+
+
+def _inner_profile(b: RollerBearingNumbers) -> list[tuple[float, float]]:
+    half, gap = 0.5 * b.width, 0.5 * b.rib_gap
+    bore, race, rib = 0.5 * b.bore, 0.5 * b.inner_race_diameter, 0.5 * b.rib_diameter
+    return [
+        (-half, bore), (half, bore), (half, rib), (gap, rib),
+        (gap, race), (-gap, race), (-gap, rib), (-half, rib),
+    ]  # fmt: skip
+
+
+def _rollers(now: Instant, b: RollerBearingNumbers, chosen: np.ndarray) -> pyvista.PolyData:
+    pv = _load_pyvista()
+    r, half = 0.5 * b.roller_diameter, 0.5 * b.roller_length
+    c = 0.05 * b.roller_diameter
+    shape = [(-half, 0.0), (half, 0.0), (half, r - c), (half - c, r), (c - half, r), (-half, r - c)]
+    one = revolved(shape, segments=48)
+    parts = []
+    for k in np.flatnonzero(chosen):
+        x, radius, psi = now.position[k]
+        skew, tilt = now.tilt[k]
+        radial = np.array([0.0, np.cos(psi), np.sin(psi)])
+        around = np.array([0.0, -np.sin(psi), np.cos(psi)])
+        axis = np.array([1.0, 0.0, 0.0]) + tilt * radial + skew * around
+        frame = np.column_stack([axis / np.linalg.norm(axis), radial, around])
+        part = one.copy()
+        part.points = one.points @ frame.T + x * np.array([1.0, 0.0, 0.0]) + radius * radial
+        part.point_data["load"] = np.full(part.n_points, float(now.inner_load[k]))
+        parts.append(part)
+    return pv.merge(parts) if len(parts) > 1 else parts[0]
+
+
+def _cage(points: np.ndarray | None, tets: np.ndarray | None) -> pyvista.PolyData | None:
+    if points is None or tets is None:
+        return None
+    return surface_of(tets[:, :4]).polydata(points)
+
+
+def compose(
+    figure: Any,
+    picture: Picture,
+    now: Instant,
+    bearing: RollerBearingNumbers,
+    top: float,
+    *,
+    load: tuple[float, float] | None,
+    title: str,
+    note: str,
+) -> None:
+    """Lay the picture, its labels and the bars of forces out on a figure."""
+    most = int(np.argmax(now.inner_load))
+    head = f"t = {now.time * 1e3:.3f} ms"
+    peak = f"most loaded: roller {most}, {now.inner_load[most]:.0f} N"
+    sheet.heading(figure, title, sheet.join([head, peak, note]))
+    ax = sheet.image_at(figure, (EDGE, TOP, *MAIN), picture.pixels)
+    marks.triad(ax, picture)
+    _load_labels(ax, picture, now, bearing, top)
+    _middle(ax, picture, now, bearing, load)
+    left = EDGE + MAIN[0] + GAP
+    _bars(figure, left, now, top)
+    sheet.colour_bar(
+        figure,
+        (left, TOP + MAIN[1] - 78, SIDE_WIDTH, 26),
+        cmap=sheet.colour_map("viridis"),
+        limits=(0.0, top),
+        label="normal force of the inner race on a roller [N]   (grey: none)",
+        over=bool(now.inner_load.max() > top * 1.0001),
+    )
+
+
+def _load_labels(
+    ax: Any, picture: Picture, now: Instant, b: RollerBearingNumbers, top: float
+) -> None:
+    """Number of every roller inside the bore, and the load of the loaded ones outside."""
+    for k, (_, _, psi) in enumerate(now.position):
+        radial = np.array([0.0, np.cos(psi), np.sin(psi)])
+        half = np.array([0.5 * b.width, 0.0, 0.0])
+        x, y = picture.place(0.5 * 0.90 * b.bore * radial + half)[0]
+        ax.text(x, y, str(k), ha="center", va="center", fontsize=8, color=sheet.FAINT)
+        if now.inner_load[k] > LOADED_SHARE * top:
+            spots = 0.5 * 1.09 * b.outside_diameter * radial + np.stack([half, -half])
+            ends = picture.place(spots)
+            x, y = ends[np.argmax(np.linalg.norm(ends - picture.place(half), axis=1))]
+            text = f"{now.inner_load[k]:.0f} N"
+            ax.text(x, y, text, ha="center", va="center", fontsize=9.5, weight="bold")
+
+
+def _middle(
+    ax: Any,
+    picture: Picture,
+    now: Instant,
+    b: RollerBearingNumbers,
+    load: tuple[float, float] | None,
+) -> None:
+    """Speeds in the bore, and the load's arrow."""
+    half = np.array([0.5 * b.width, 0.0, 0.0])
+    x, y = picture.place(half)[0]
+    turn = "↺" if now.inner_speed > 0.0 else "↻"
+    rpm = 30.0 / pi
+    lines = (
+        f"{turn} inner ring {now.inner_speed * rpm:.0f} rpm\ncage {now.cage_speed * rpm:.0f} rpm"
+    )
+    shift = 0.0
+    if load is not None and np.hypot(*load) > 0.0:
+        way = np.array([0.0, *load]) / np.hypot(*load)
+        a, tip = picture.place(np.array([half - 0.002 * way, half + 0.30 * b.bore * way]))
+        ax.annotate(
+            "",
+            xy=tip,
+            xytext=a,
+            arrowprops={
+                "arrowstyle": "simple,head_width=1.1,head_length=1.0,tail_width=0.35",
+                "facecolor": sheet.VERMILION,
+                "edgecolor": "none",
+                "shrinkA": 0,
+                "shrinkB": 0,
+            },
+        )
+        side = np.array([1.0, 0.0]) if abs(tip[1] - a[1]) > abs(tip[0] - a[0]) else np.array([0, 1])
+        mx, my = 0.5 * (a + tip) + 26.0 * side
+        ax.text(
+            mx,
+            my,
+            f"load {np.hypot(*load):.0f} N",
+            va="center",
+            ha="left",
+            fontsize=10,
+            color=sheet.VERMILION,
+            weight="bold",
+        )
+        shift = -70.0 if tip[1] >= a[1] else 70.0
+    ax.text(x, y + shift, lines, ha="center", va="center", fontsize=10, linespacing=1.5)
+
+
+def _bars(figure: Any, left: float, now: Instant, top: float) -> None:
+    """Race forces by roller, pocket forces by pocket."""
+    n = len(now.inner_load)
+    height = 330
+    ax = sheet.axes_at(figure, (left, TOP + 30, SIDE_WIDTH, height))
+    k = np.arange(n)
+    ax.bar(k - 0.21, now.inner_load, 0.4, color=sheet.BLUE, label="inner race")
+    ax.bar(k + 0.21, now.outer_load, 0.4, color=sheet.SKY, label="outer race")
+    ax.set(ylabel="race force [N]", xlabel="roller", ylim=(0.0, 1.05 * top))
+    _bar_axis(ax, n)
+    below = sheet.axes_at(figure, (left, TOP + 30 + height + 110, SIDE_WIDTH, height - 60))
+    sides = now.pocket[:, 2:].sum(axis=1)
+    rows = (
+        (-0.27, now.pocket[:, 0], sheet.VERMILION, "front"),
+        (0.0, now.pocket[:, 1], sheet.GREEN, "rear"),
+        (0.27, sides, sheet.PURPLE, "side beams"),
+    )
+    for shift, values, colour, name in rows:
+        below.bar(k + shift, values, 0.26, color=colour, label=name)
+    most = float(now.pocket.max(initial=0.0))
+    below.set(
+        ylabel="pocket force [N]",
+        xlabel="pocket",
+        ylim=(0.0, sheet.rounded_up(1.02 * most) if most > 0.0 else 1.0),
+    )
+    _bar_axis(below, n)
+
+
+def _bar_axis(ax: Any, n: int) -> None:
+    ax.set(xlim=(-0.6, n - 0.4), xticks=np.arange(0, n, 2 if n <= 30 else 5))
+    ax.grid(axis="x", visible=False)
+    ax.legend(loc="lower right", bbox_to_anchor=(1.0, 1.0), ncols=3, borderaxespad=0.2)

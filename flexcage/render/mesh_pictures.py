@@ -1,0 +1,360 @@
+"""The cage's mesh with its defects marked, and sheets of mode shapes."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from math import ceil, pi
+from pathlib import Path
+
+import numpy as np
+
+from flexcage.geometry.cages import CrossbeamDefect, Defect
+from flexcage.mesh.cage_mesh import CageMesh
+from flexcage.modes.basis import FACES
+from flexcage.render import marks, sheet
+from flexcage.render.scene import (
+    Layer,
+    Picture,
+    Stage,
+    Surface,
+    View,
+    body_layer,
+    coloured_layer,
+    outline_layer,
+    ring_size,
+    ring_view,
+    surface_of,
+)
+
+MAIN = (1180, 880)
+SIDE = (520, 355)
+TOP, GAP, EDGE = 96, 30, 36
+BODY = "#d9dde3"
+INTO, OUT_OF = sheet.VERMILION, sheet.BLUE
+_CELL = (420, 318)
+_CAPTION = 44
+
+
+def mesh_picture(
+    mesh: CageMesh,
+    path: str | Path,
+    *,
+    defects: Sequence[Defect] = (),
+    title: str = "Mesh of the cage",
+    note: str = "",
+    azimuth: float | None = None,
+) -> Path:
+    """The whole mesh, damaged pockets coloured, and close-ups of the first two defects.
+
+    Pockets made narrower or shorter are vermilion, those made wider or longer blue; dashed lines
+    show where a pocket's outer rim would be without the defect. Without defects pocket 0 is shown
+    close up.
+    ``azimuth`` [rad] is the place turned to the viewer: that of the first defect if not given.
+    """
+    radius, width = ring_size(mesh.points)
+    if azimuth is None:
+        azimuth = _azimuth(defects[0], mesh.pocket_count) if defects else 0.0
+    layers = _mesh_layers(mesh)
+    with Stage(*MAIN) as stage:
+        main = stage.shoot(
+            layers, ring_view(radius, width, aspect=MAIN[0] / MAIN[1], azimuth=azimuth)
+        )
+    shown: list[Defect | None] = [*defects[:2]] or [None]
+    with Stage(*SIDE) as stage:
+        closes = [stage.shoot(layers, _close_view(d, mesh, radius)) for d in shown]
+    left = EDGE + MAIN[0] + GAP
+    with sheet.style():
+        figure = sheet.new_figure(left + SIDE[0] + EDGE, TOP + MAIN[1] + EDGE)
+        cells = f"{len(mesh.points):,} vertices, {len(mesh.tets):,} tetrahedra"
+        sheet.heading(figure, title, sheet.join([cells, *map(_text, defects), note]))
+        ax = sheet.image_at(figure, (EDGE, TOP, *MAIN), main.pixels)
+        marks.triad(ax, main)
+        colours = _pocket_colours(defects, mesh.pocket_count)
+        marks.pocket_numbers(
+            ax, main, count=mesh.pocket_count, radius=radius, width=width, colours=colours
+        )
+        for pocket, colour in colours.items():
+            _fill_pocket(ax, main, mesh, pocket, colour)
+        for i, (defect, close) in enumerate(zip(shown, closes)):
+            rect = (left, TOP + i * (SIDE[1] + 44), *SIDE)
+            _defect_panel(figure, rect, close, mesh, defect, defects)
+        _mesh_key(figure, left, TOP + len(shown) * (SIDE[1] + 44) + 8, defects)
+        return sheet.save(figure, path)
+
+
+def _mesh_layers(mesh: CageMesh) -> list[Layer]:
+    whole = Surface(surface_of(mesh.tets).triangles).polydata(mesh.points)
+    return [
+        body_layer(whole, color=BODY, show_edges=True, edge_color="#70777f", line_width=0.7),
+        outline_layer(whole, width=1.4),
+    ]
+
+
+def _moved_faces(defects: Sequence[Defect], count: int) -> dict[tuple[int, str], float]:
+    """(pocket, face) -> change of that pocket's width or length, by all defects together."""
+    moved: dict[tuple[int, str], float] = {}
+    for d in defects:
+        if isinstance(d, CrossbeamDefect):
+            before, after = (d.crossbeam - 1) % count, d.crossbeam % count
+            for key, change in (((before, "front"), -1.0), ((after, "rear"), 1.0)):
+                moved[key] = moved.get(key, 0.0) + change * d.displacement
+        else:
+            key = (d.pocket, f"side{d.side}")
+            moved[key] = moved.get(key, 0.0) + d.displacement
+    return moved
+
+
+def _pocket_colours(defects: Sequence[Defect], count: int) -> dict[int, str]:
+    """Colour of every pocket that a defect touches, by its largest change of size."""
+    change: dict[int, float] = {}
+    for (pocket, _), size in _moved_faces(defects, count).items():
+        if abs(size) > abs(change.get(pocket, 0.0)):
+            change[pocket] = size
+    return {pocket: INTO if size < 0.0 else OUT_OF for pocket, size in change.items()}
+
+
+def _fill_pocket(ax, picture: Picture, mesh: CageMesh, pocket: int, colour: str) -> None:
+    """Colour a pocket's opening if its outer rim faces the viewer."""
+    chain = _chain(_rim(mesh, pocket))
+    if chain is None:
+        return
+    centre = mesh.points[chain].mean(axis=0) * (0.0, 1.0, 1.0)
+    eye = np.asarray(picture.view.focus) + picture.distance * np.asarray(picture.view.direction)
+    if (eye - centre) @ centre <= 0.0:
+        return
+    xy = picture.place(mesh.points[chain])
+    ax.fill(xy[:, 0], xy[:, 1], facecolor=colour, alpha=0.5, edgecolor="none")
+    ax.plot(xy[:, 0], xy[:, 1], color=colour, lw=1.4)
+
+
+def _azimuth(defect: Defect, count: int) -> float:
+    place = defect.crossbeam - 0.5 if isinstance(defect, CrossbeamDefect) else defect.pocket
+    return 2.0 * pi * place / count
+
+
+def _text(defect: Defect) -> str:
+    size = f"{defect.displacement * 1e3:+.3g} mm".replace("-", "−")
+    if isinstance(defect, CrossbeamDefect):
+        return f"crossbeam {defect.crossbeam} {defect.shape}, $δ_q$ = {size}"
+    return f"pocket {defect.pocket}, side beam {defect.side.replace('-', '−')}, $δ_p$ = {size}"
+
+
+def _close_view(defect: Defect | None, mesh: CageMesh, radius: float) -> View:
+    """Nearly radial view of the beam that moved, axis upwards, +psi to the right."""
+    psi = _azimuth(defect, mesh.pocket_count) if defect is not None else 0.0
+    radial, axis = np.array([0.0, np.cos(psi), np.sin(psi)]), np.array([1.0, 0.0, 0.0])
+    width = 2.0 * float(np.abs(mesh.points[:, 0]).max())
+    focus, height = 0.96 * radius * radial, 1.16 * width
+    if isinstance(defect, CrossbeamDefect):
+        height = 0.8 * width
+    elif defect is not None:
+        height, focus = 0.8 * width, focus + (0.16 if defect.side == "+x" else -0.16) * width * axis
+    direction = radial + 0.22 * axis
+    return View(tuple(direction / np.linalg.norm(direction)), tuple(focus), height)
+
+
+def _defect_panel(
+    figure,
+    rect: sheet.Rect,
+    picture: Picture,
+    mesh: CageMesh,
+    defect: Defect | None,
+    defects: Sequence[Defect],
+) -> None:
+    ax = sheet.image_at(figure, rect, picture.pixels, frame=sheet.FAINT)
+    marks.length_bar(ax, picture, share=0.12)
+    text = "pocket 0"
+    if defect is not None:
+        text = _text(defect)
+        if isinstance(defect, CrossbeamDefect):
+            pockets = [(defect.crossbeam - 1) % mesh.pocket_count, defect.crossbeam]
+        else:
+            pockets = [defect.pocket]
+        colours = _pocket_colours(defects, mesh.pocket_count)
+        for pocket in pockets:
+            if pocket in colours:
+                _fill_pocket(ax, picture, mesh, pocket, colours[pocket])
+            _sound_outline(ax, picture, mesh, pocket, defects)
+            _pocket_name(ax, picture, mesh, pocket)
+        _arrow(ax, picture, mesh, defect)
+    caption = sheet.text_at(
+        figure, rect[0], rect[1] + rect[3] + 8, text, fontsize=9.5, weight="bold"
+    )
+    sheet.fit_width(figure, caption, rect[2])
+
+
+def _sound_outline(
+    ax, picture: Picture, mesh: CageMesh, pocket: int, defects: Sequence[Defect]
+) -> None:
+    """Outer rim of a sound pocket, turned to where this one would be, as dashed lines."""
+    touched = {p for p, _ in _moved_faces(defects, mesh.pocket_count)}
+    sound = next((k for k in range(mesh.pocket_count) if k not in touched), None)
+    if sound is None:
+        return
+    rim = _rim(mesh, sound)
+    turn = 2.0 * pi * (pocket - sound) / mesh.pocket_count
+    c, s = np.cos(turn), np.sin(turn)
+    points = mesh.points @ np.array([[1.0, 0.0, 0.0], [0.0, c, -s], [0.0, s, c]]).T
+    chain = _chain(rim)
+    if chain is None:
+        return
+    xy = picture.place(points[chain])
+    for width, colour, dash in ((2.2, "white", "-"), (1.1, sheet.BLACK, (0, (3.5, 2.0)))):
+        ax.plot(xy[:, 0], xy[:, 1], color=colour, lw=width, ls=dash)
+
+
+def _rim(mesh: CageMesh, pocket: int) -> np.ndarray:
+    """Edges (n, 2) of a pocket's wall on the outside of the cage."""
+    names = [f"pocket{pocket}_{face}" for face in (*FACES, "fillet")]
+    triangles = np.concatenate([mesh.groups[n] for n in names if n in mesh.groups])
+    edges = np.concatenate([triangles[:, pair] for pair in ([0, 1], [1, 2], [2, 0])])
+    edges, count = np.unique(np.sort(edges, axis=1), axis=0, return_counts=True)
+    edges = edges[count == 1]
+    r = np.hypot(mesh.points[:, 1], mesh.points[:, 2])
+    return edges[r[edges].min(axis=1) > 0.5 * (r.min() + r.max())]
+
+
+def _chain(edges: np.ndarray) -> np.ndarray | None:
+    """Vertices of a closed loop of edges in order; None if the edges are no single loop."""
+    neighbours: dict[int, list[int]] = {}
+    for a, b in edges.tolist():
+        neighbours.setdefault(a, []).append(b)
+        neighbours.setdefault(b, []).append(a)
+    if any(len(n) != 2 for n in neighbours.values()) or not neighbours:
+        return None
+    start = next(iter(neighbours))
+    loop, previous = [start], -1
+    while len(loop) <= len(neighbours):
+        a, b = neighbours[loop[-1]]
+        following = b if a == previous else a
+        previous = loop[-1]
+        loop.append(following)
+        if following == start:
+            break
+    return np.array(loop) if len(loop) == len(neighbours) + 1 else None
+
+
+def _pocket_name(ax, picture: Picture, mesh: CageMesh, pocket: int) -> None:
+    psi = 2.0 * pi * pocket / mesh.pocket_count
+    radius = ring_size(mesh.points)[0]
+    x, y = picture.place(radius * np.array([0.0, np.cos(psi), np.sin(psi)]))[0]
+    h, w = picture.pixels.shape[:2]
+    x = float(np.clip(x, 62, w - 62))
+    if 0 < y < h:
+        ax.text(
+            x,
+            y,
+            f"pocket {pocket}",
+            ha="center",
+            va="center",
+            fontsize=9,
+            path_effects=marks.halo(3.0),
+        )
+
+
+def _arrow(ax, picture: Picture, mesh: CageMesh, defect: Defect) -> None:
+    """Where the beam went, on the outside of the cage; its length is not to scale."""
+    psi = _azimuth(defect, mesh.pocket_count)
+    radius, width = ring_size(mesh.points)
+    radial = np.array([0.0, np.cos(psi), np.sin(psi)])
+    if isinstance(defect, CrossbeamDefect):
+        way = -np.sign(defect.displacement) * np.array([0.0, -np.sin(psi), np.cos(psi)])
+        middle = radius * radial
+    else:
+        sign = 1.0 if defect.side == "+x" else -1.0
+        way = sign * np.sign(defect.displacement) * np.array([1.0, 0.0, 0.0])
+        middle = radius * radial + sign * 0.39 * width * np.array([1.0, 0.0, 0.0])
+    a, b = picture.place(np.array([middle - 1.1e-3 * way, middle + 1.1e-3 * way]))
+    ax.annotate(
+        "",
+        xy=b,
+        xytext=a,
+        arrowprops={
+            "arrowstyle": "simple,head_width=0.9,head_length=0.8,tail_width=0.28",
+            "facecolor": sheet.BLACK,
+            "edgecolor": "white",
+            "linewidth": 1.0,
+            "shrinkA": 0,
+            "shrinkB": 0,
+        },
+    )
+
+
+def _mesh_key(figure, left: float, top: float, defects: Sequence[Defect]) -> None:
+    if not defects:
+        return
+    colours = _pocket_colours(defects, 10**6).values()
+    rows = []
+    if INTO in colours:
+        rows.append(("patch", INTO, "pocket made narrower or shorter"))
+    if OUT_OF in colours:
+        rows.append(("patch", OUT_OF, "pocket made wider or longer"))
+    rows.append(("dashes", sheet.BLACK, "rim without the defect; arrow: way of the beam"))
+    marks.key(figure, (left, top, SIDE[0], 0), rows)
+
+
+def mode_sheet(
+    points: np.ndarray,
+    tets: np.ndarray,
+    shapes: np.ndarray,
+    frequencies: np.ndarray,
+    kinds: Sequence[str],
+    path: str | Path,
+    *,
+    count: int = 12,
+    columns: int = 4,
+    title: str = "Modes of the cage",
+    note: str = "",
+) -> Path:
+    """A grid of mode shapes (n_nodes, 3, n) with frequency [Hz] and kind, each to its own scale."""
+    count = min(count, shapes.shape[2])
+    columns = min(columns, count)
+    rows = ceil(count / columns)
+    surface = surface_of(tets)
+    radius, width = ring_size(points)
+    view = ring_view(radius, width, aspect=_CELL[0] / _CELL[1], elevation=38.0, margin=1.32)
+    cmap = sheet.colour_map("viridis")
+    pictures = []
+    with Stage(*_CELL) as stage:
+        ghost = outline_layer(surface.polydata(points), colour="#9a9a9a", width=1.0)
+        for i in range(count):
+            size = np.linalg.norm(shapes[:, :, i], axis=1)
+            relative = size / size.max()
+            moved = surface.polydata(
+                points + 0.13 * radius / size.max() * shapes[:, :, i], relative
+            )
+            body = coloured_layer(moved, cmap=cmap, limits=(0.0, 1.0))
+            pictures.append(stage.shoot([body, ghost], view).pixels)
+    with sheet.style():
+        w, h = columns * _CELL[0] + 2 * EDGE, TOP + rows * (_CELL[1] + _CAPTION) + 104
+        figure = sheet.new_figure(w, h)
+        more = f"first {count} of {shapes.shape[2]}" if shapes.shape[2] > count else f"{count}"
+        sheet.heading(figure, title, sheet.join([f"{more} modes", "shapes to no scale", note]))
+        for i, pixels in enumerate(pictures):
+            x = EDGE + (i % columns) * _CELL[0]
+            y = TOP + (i // columns) * (_CELL[1] + _CAPTION)
+            sheet.image_at(figure, (x, y, *_CELL), pixels)
+            sheet.text_at(
+                figure,
+                x + 0.5 * _CELL[0],
+                y + _CELL[1] + 4,
+                f"$\\bf{{{i + 1}}}$   {hertz(float(frequencies[i]))}   {kinds[i]}",
+                ha="center",
+                fontsize=10,
+            )
+        sheet.colour_bar(
+            figure,
+            (w - EDGE - 440, h - 88, 420, 18),
+            cmap=cmap,
+            limits=(0.0, 1.0),
+            label="displacement / its largest in the mode",
+        )
+        marks.key(figure, (EDGE, h - 92, 420, 0), [("line", "#9a9a9a", "cage at rest")])
+        return sheet.save(figure, path)
+
+
+def hertz(frequency: float) -> str:
+    """A frequency with its unit, four figures."""
+    if frequency >= 10e3:
+        return f"{frequency * 1e-3:.2f} kHz"
+    return f"{frequency:.1f} Hz" if frequency < 1e3 else f"{frequency:.0f} Hz"

@@ -1,0 +1,63 @@
+"""The energy audit: what is stored must be what was put in."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from flexcage.core.errors import InputError
+
+if TYPE_CHECKING:
+    import xarray
+
+
+@dataclass(frozen=True)
+class EnergyAudit:
+    """Balance of a run [J]: stored energy gained less work done, at its worst and at the end.
+
+    ``relative`` is the worst imbalance over the energy that moved (the larger of the gain's
+    range and the sum over channels of their ranges). ``channels`` holds each channel's total.
+    """
+
+    worst: float
+    final: float
+    relative: float
+    moved: float
+    stored: dict[str, float]
+    channels: dict[str, float]
+
+
+def imbalance(ds: xarray.Dataset) -> xarray.DataArray:
+    """Energy gained since the first sample less all work done on the bearing since, (time,) [J]."""
+    for name in ("energy", "work"):
+        if name not in ds:
+            raise InputError(f"The dataset has no variable {name!r}: no energy audit is possible.")
+    stored, work = ds["energy"].sum("energy_kind"), ds["work"].sum("channel")
+    out = (stored - stored[0]) - (work - work[0])
+    out.attrs = {"units": "J", "long_name": "energy gained less work done"}
+    return out.rename("imbalance")
+
+
+def energy_audit(ds: xarray.Dataset) -> EnergyAudit:
+    """Audit a run from its ``energy`` and ``work`` (work done on the bearing, losses negative)."""
+    gap = imbalance(ds).values
+    stored, work = ds["energy"], ds["work"]
+    gain = float(np.ptp(stored.sum("energy_kind").values))
+    through = float(np.ptp(work.transpose("time", "channel").values, axis=0).sum())
+    moved = max(gain, through)
+    worst = float(np.abs(gap).max())
+    return EnergyAudit(
+        worst,
+        float(gap[-1]),
+        worst / moved if moved else 0.0,
+        moved,
+        _change(stored.transpose("time", "energy_kind"), "energy_kind"),
+        _change(work.transpose("time", "channel"), "channel"),
+    )
+
+
+def _change(values: xarray.DataArray, dim: str) -> dict[str, float]:
+    change = values.values[-1] - values.values[0]
+    return {str(k): float(v) for k, v in zip(values[dim].values, change)}

@@ -1,0 +1,85 @@
+"""Writing files so that a kill at any moment leaves the old content or the new one."""
+
+from __future__ import annotations
+
+import io
+import os
+import shutil
+from collections.abc import Iterable, Iterator, Mapping
+from contextlib import contextmanager
+from errno import EDQUOT, ENOSPC
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from flexcage.core.errors import InputError, RunFailed
+
+
+def make_room(path: Path, overwrite: bool) -> None:
+    """Make sure that ``path`` is an empty folder that can be written."""
+    try:
+        if path.exists() and any(path.iterdir()):
+            if not overwrite:
+                raise InputError(
+                    f"{path} exists already and is not empty; choose another folder, or say that "
+                    "it is to be overwritten.",
+                    where="path",
+                    value=str(path),
+                )
+            shutil.rmtree(path)
+        path.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise InputError(
+            f"The folder {path} cannot be written: {error.strerror}.", where="path", value=str(path)
+        ) from error
+
+
+@contextmanager
+def disk(path: Path, kept: int) -> Iterator[None]:
+    """Turn an error of the disk into a sentence that says what is kept."""
+    try:
+        yield
+    except OSError as error:
+        full = error.errno in (ENOSPC, EDQUOT)
+        what = "the disk is full" if full else (error.strerror or str(error))
+        raise RunFailed(
+            f"Results could not be written to {path}: {what}; the first {kept:,} samples are kept "
+            f"and readable, and the run can be resumed{' once there is room' if full else ''}."
+        ) from error
+
+
+def save(path: Path, arrays: Mapping[str, Any]) -> None:
+    """Arrays to a file in one move, on disk before this returns."""
+    buffer = io.BytesIO()
+    np.savez(buffer, **{k: np.asarray(v) for k, v in arrays.items()})
+    replace(path, buffer.getvalue())
+
+
+def load(path: Path) -> dict[str, np.ndarray]:
+    with np.load(path, allow_pickle=False) as stored:
+        return {k: stored[k] for k in stored.files}
+
+
+def replace(path: Path, content: bytes) -> None:
+    """Write a file so that either the old or the new content is there after any kill."""
+    temporary = path.with_name(path.name + ".new")
+    with open(temporary, "wb") as file:
+        file.write(content)
+        file.flush()
+        os.fsync(file.fileno())
+    os.replace(temporary, path)
+    if os.name == "posix":
+        folder = os.open(path.parent, os.O_RDONLY)
+        try:
+            os.fsync(folder)
+        finally:
+            os.close(folder)
+
+
+def joined(parts: Iterable[Mapping[str, np.ndarray]]) -> dict[str, np.ndarray]:
+    """Tables one after the other, column by column."""
+    filled = [p for p in parts if p]
+    if not filled:
+        return {}
+    return {k: np.concatenate([np.atleast_1d(p[k]) for p in filled]) for k in filled[0]}

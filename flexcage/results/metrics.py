@@ -1,0 +1,274 @@
+"""What a run's motion amounts to: cage speed and slip, whirl, tilt, roller slip, contact forces.
+
+Every function takes the dataset of a run and plain numbers, and returns plain numbers or labelled
+arrays. Definitions: slip compares like with like (both speeds in the inertial frame, or both
+relative to the cage), with the theoretical speed from the instantaneous inner speed; averages are
+taken over whole cage revolutions after the start was left out. Whirl is positive with the cage.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from flexcage.core.errors import InputError
+from flexcage.geometry.kinematics import Kinematics, epicyclic
+
+if TYPE_CHECKING:
+    import xarray
+
+LOADED_SHARE = 0.01  # a roller is in the loaded zone above this share of the largest inner force
+
+
+@dataclass(frozen=True, kw_only=True)
+class BearingNumbers:
+    """The few numbers of a bearing that metrics need [m]."""
+
+    pitch_diameter: float
+    roller_diameter: float
+    roller_count: int
+
+    def kinematics(self, inner_speed: float, outer_speed: float = 0.0) -> Kinematics:
+        """Speeds without slip at the given speeds of the rings [rad/s]."""
+        return epicyclic(
+            roller_diameter=self.roller_diameter,
+            pitch_diameter=self.pitch_diameter,
+            roller_count=self.roller_count,
+            inner_speed=inner_speed,
+            outer_speed=outer_speed,
+        )
+
+
+@dataclass(frozen=True)
+class CageSpeed:
+    """Mean cage speed over whole revolutions [rad/s]; ``slip_ratio`` (w_m - w_c)/w_m."""
+
+    mean: float
+    epicyclic: float
+    slip_ratio: float
+    revolutions: float
+
+
+@dataclass(frozen=True)
+class RollerSlip:
+    """Slip ratios (n_th - n)/n_th, means over time and over the rollers of a zone, and beside
+    them the mean sliding speeds [m/s] at the inner and the outer race. NaN: no roller was there.
+    """
+
+    loaded: float
+    unloaded: float
+    overall: float
+    sliding_loaded: tuple[float, float]
+    sliding_unloaded: tuple[float, float]
+    loaded_share: float
+    unresolved: bool
+
+
+@dataclass(frozen=True)
+class Whirl:
+    """Orbit of the cage centre [m]: radius about the centre named, ratio (max - min)/mean, and
+    whirl speed over cage speed (+1 synchronous, negative: backward).
+    """
+
+    about: str
+    mean: float
+    smallest: float
+    largest: float
+    ratio: float
+    speed_ratio: float
+
+
+@dataclass(frozen=True)
+class PocketForces:
+    """Normal forces of rollers on the cage [N]; ``mean`` is taken while in contact only."""
+
+    mean: float
+    peak: float
+    peak_pocket: int
+    peak_face: str
+    peak_time: float
+    contact_share: float
+
+
+def settled(ds: xarray.Dataset, settle: float = 0.3) -> xarray.Dataset:
+    """The run without its first part; ``settle`` is the share of its duration left out."""
+    t = ds["time"].values
+    if len(t) < 2:
+        raise InputError("The run holds fewer than two samples: no statistics can be taken.")
+    first = int(np.searchsorted(t, t[0] + settle * (t[-1] - t[0])))
+    out = ds.isel(time=slice(min(first, len(t) - 2), None))
+    if "time_hf" in ds.dims:
+        fine = ds["time_hf"].values
+        out = out.isel(time_hf=slice(int(np.searchsorted(fine, t[first])), None))
+    return out
+
+
+def cage_angle(ds: xarray.Dataset) -> np.ndarray:
+    """Angle turned by the cage about the bearing axis [rad], continuous, (time,)."""
+    q = ds["cage_quaternion"].values
+    return np.unwrap(2.0 * np.arctan2(q[:, 1], q[:, 0]), period=2.0 * np.pi)
+
+
+def whole_revolutions(ds: xarray.Dataset) -> xarray.Dataset:
+    """The longest leading part with a whole number of cage revolutions (all, if under one)."""
+    turned = np.abs(cage_angle(ds) - cage_angle(ds)[0]) / (2.0 * np.pi)
+    full = np.floor(turned[-1] + 1e-9)
+    if full < 1.0:
+        return ds
+    stop = int(np.argmin(np.abs(turned - full)))
+    return ds.isel(time=slice(stop + 1))
+
+
+def cage_speed(ds: xarray.Dataset, bearing: BearingNumbers) -> CageSpeed:
+    """Mean cage speed against the epicyclic speed of the mean inner speed."""
+    part = whole_revolutions(ds)
+    t, angle = part["time"].values, cage_angle(part)
+    mean = (angle[-1] - angle[0]) / (t[-1] - t[0])
+    ideal = bearing.kinematics(_mean(t, part["inner_speed"].values)).cage_speed
+    slip = (ideal - mean) / ideal if ideal else float("nan")
+    return CageSpeed(mean, ideal, slip, abs(angle[-1] - angle[0]) / (2.0 * np.pi))
+
+
+def roller_slip_ratio(
+    ds: xarray.Dataset, bearing: BearingNumbers, *, frame: str = "inertial"
+) -> xarray.DataArray:
+    """(n_th - n)/n_th of every roller over time, both in the ``inertial`` frame or in the ``cage``.
+
+    n is the spin about the roller's own axis; n_th follows from the instantaneous inner speed by
+    pure rolling on a fixed outer ring with an ideal cage.
+    """
+    unit = bearing.kinematics(1.0)
+    spin = ds["roller_omega"].isel(spin_axis=0, drop=True)
+    if frame == "inertial":
+        ideal = ds["inner_speed"] * unit.roller_spin
+    elif frame == "cage":
+        ideal = ds["inner_speed"] * unit.roller_spin_in_cage
+        spin = spin - ds["cage_omega"].sel(axis="x", drop=True)
+    else:
+        raise InputError(f"Slip is taken in the frame 'inertial' or 'cage', not {frame!r}.")
+    out = (ideal - spin) / ideal
+    out.attrs = {"units": "1", "long_name": f"roller slip ratio, {frame} frame"}
+    return out.transpose("time", "roller").rename("roller_slip_ratio")
+
+
+def loaded_zone(ds: xarray.Dataset, share: float = LOADED_SHARE) -> xarray.DataArray:
+    """True where the inner race carries a roller, (time, roller)."""
+    force = ds["race_force"].sel(race="inner", drop=True)
+    return force > share * float(force.max())
+
+
+def roller_slip(
+    ds: xarray.Dataset,
+    bearing: BearingNumbers,
+    *,
+    frame: str = "inertial",
+    creep_speed: float | None = None,
+) -> RollerSlip:
+    """Roller slip, loaded and unloaded zone apart, over whole cage revolutions.
+
+    ``creep_speed`` [m/s] is the sliding speed below which the case's friction law only creeps:
+    slip under it in the loaded zone, on both races, is reported as unresolved.
+    """
+    part = whole_revolutions(ds)
+    slip = roller_slip_ratio(part, bearing, frame=frame).values
+    zone = loaded_zone(part).transpose("time", "roller").values
+    sliding = np.abs(part["race_slip"].transpose("time", "roller", "race").values)
+
+    def inside(mask: np.ndarray) -> tuple[float, tuple[float, float]]:
+        if not mask.any():
+            return float("nan"), (float("nan"), float("nan"))
+        return float(slip[mask].mean()), tuple(float(v) for v in sliding[mask].mean(axis=0))
+
+    loaded, speed_in = inside(zone)
+    unloaded, speed_out = inside(~zone)
+    unresolved = creep_speed is not None and max(speed_in) < creep_speed
+    return RollerSlip(
+        loaded, unloaded, float(slip.mean()), speed_in, speed_out, float(zone.mean()), unresolved
+    )
+
+
+def whirl(ds: xarray.Dataset, *, about: str = "mean") -> Whirl:
+    """Whirl of the cage centre about the orbit's ``mean`` or the outer ring's ``axis``."""
+    yz = orbit(ds)
+    if about == "mean":
+        yz = yz - yz.mean(axis=0)
+    elif about != "axis":
+        raise InputError(f"Whirl is taken about 'mean' or 'axis', not {about!r}.")
+    r = np.hypot(yz[:, 0], yz[:, 1])
+    mean = float(r.mean())
+    phase = np.unwrap(np.arctan2(yz[:, 1], yz[:, 0]))
+    turned = cage_angle(ds)
+    cage = turned[-1] - turned[0]
+    return Whirl(
+        about,
+        mean,
+        float(r.min()),
+        float(r.max()),
+        float(np.ptp(r) / mean) if mean else 0.0,
+        float((phase[-1] - phase[0]) / cage) if cage and mean else float("nan"),
+    )
+
+
+def orbit(ds: xarray.Dataset) -> np.ndarray:
+    """Cage centre relative to the outer ring's, (time, 2): y and z [m]."""
+    yz = ds["cage_position"].sel(axis=["y", "z"]).values
+    if "outer_position" in ds:
+        yz = yz - ds["outer_position"].sel(axis=["y", "z"]).values
+    return yz
+
+
+def velocity_deviation(ds: xarray.Dataset, *, low_pass: float | None = None) -> float:
+    """Standard deviation over mean of the cage centre's speed; ``low_pass`` [Hz] filters first.
+
+    The figure depends on sampling and filter, so state both (paper 004: 20 kHz and 2 kHz).
+    """
+    v = ds["cage_velocity"].values
+    if low_pass is not None:
+        from scipy.signal import butter, sosfiltfilt
+
+        rate = 1.0 / float(np.median(np.diff(ds["time"].values)))
+        v = sosfiltfilt(butter(4, low_pass, fs=rate, output="sos"), v, axis=0)
+    speed = np.linalg.norm(v, axis=1)
+    return float(speed.std(ddof=1) / speed.mean())
+
+
+def tilt(ds: xarray.Dataset) -> xarray.DataArray:
+    """Tilt of the cage's axis a against the bearing axis [rad], (time, component).
+
+    Components: total acos(a.x), and the signed atan2(a_y, a_x) and atan2(a_z, a_x).
+    """
+    import xarray as xr
+
+    w, x, y, z = ds["cage_quaternion"].values.T
+    a = np.stack([1.0 - 2.0 * (y * y + z * z), 2.0 * (x * y + w * z), 2.0 * (x * z - w * y)])
+    total = np.arctan2(np.hypot(a[1], a[2]), a[0])
+    parts = np.stack([total, np.arctan2(a[1], a[0]), np.arctan2(a[2], a[0])], axis=1)
+    return xr.DataArray(
+        parts,
+        dims=("time", "component"),
+        coords={"time": ds["time"], "component": ["total", "towards y", "towards z"]},
+        attrs={"units": "rad", "long_name": "tilt of the cage axis"},
+        name="cage_tilt",
+    )
+
+
+def pocket_forces(ds: xarray.Dataset, *, threshold: float = 1e-3) -> PocketForces:
+    """Mean (while above ``threshold`` [N]) and peak of the normal forces on pocket faces."""
+    force = ds["pocket_force"].transpose("time", "pocket", "face")
+    values = force.values
+    touching = values > threshold
+    at = np.unravel_index(int(np.argmax(values)), values.shape)
+    return PocketForces(
+        float(values[touching].mean(dtype=float)) if touching.any() else 0.0,
+        float(values[at]),
+        int(force["pocket"].values[at[1]]),
+        str(force["face"].values[at[2]]),
+        float(force["time"].values[at[0]]),
+        float(touching.mean()),
+    )
+
+
+def _mean(t: np.ndarray, values: np.ndarray) -> float:
+    return float(np.trapezoid(values, t) / (t[-1] - t[0]))

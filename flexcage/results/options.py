@@ -1,0 +1,47 @@
+"""What a run stores, and from which part of it statistics are taken."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from flexcage.core.errors import InputError
+from flexcage.core.spec import option, quantity
+
+
+@dataclass(frozen=True, kw_only=True)
+class OutputOptions:
+    """Sampling grids of a run. Samples are dense output of the solver, never its own steps.
+
+    The main grid is ``rate``; the outer ring's acceleration is kept at ``vibration_rate``, a
+    whole multiple of it, so that a block of samples ends at one instant on both grids.
+    """
+
+    rate: float = quantity("kHz", 50e3, doc="samples a second of states and forces", above=0.0)
+    vibration_rate: float = quantity(
+        "kHz", 200e3, doc="samples a second of the outer ring's acceleration", above=0.0
+    )
+    block: int = option(250, doc="samples a block: what one commit makes safe", minimum=2)
+    settle: float = option(
+        0.3, doc="share of the run left out of statistics", minimum=0.0, maximum=0.95
+    )
+
+    def __post_init__(self) -> None:
+        ratio = self.vibration_rate / self.rate
+        if abs(ratio - round(ratio)) > 1e-9 * ratio or ratio < 1.0:
+            raise InputError(
+                f"output.vibration_rate ({self.vibration_rate / 1e3:g} kHz) must be a whole "
+                f"multiple of output.rate ({self.rate / 1e3:g} kHz), for instance "
+                f"{max(round(ratio), 1) * self.rate / 1e3:g} kHz.",
+                where="output.vibration_rate",
+                value=self.vibration_rate,
+            )
+
+    @property
+    def vibration_ratio(self) -> int:
+        """Samples of the vibration grid per sample of the main grid."""
+        return round(self.vibration_rate / self.rate)
+
+    @property
+    def block_hf(self) -> int:
+        """Samples of the vibration grid in one block."""
+        return self.block * self.vibration_ratio

@@ -1,0 +1,173 @@
+"""The one table of result variables: dimensions, unit, long name and stored type.
+
+The store allocates from it, the dataset is labelled from it, and documentation prints it.
+A new output is one more line here and one more array handed to ``write_block``.
+Forces act *on* the named body. Frames: "ring" is the fixed frame (x: bearing axis, y towards
+roller 0 at the start); "cyl" is (x, r, psi) at the element's own azimuth.
+"""
+
+from __future__ import annotations
+
+import difflib
+from collections.abc import Mapping
+from dataclasses import dataclass
+from types import MappingProxyType
+
+from flexcage.core.errors import InputError
+from flexcage.modes.basis import FACES
+
+TIME = "time"
+TIME_HF = "time_hf"
+
+#: Dimensions whose labels never change. Others (roller, mode, slice ...) get theirs from a run.
+LABELS: Mapping[str, tuple[str, ...]] = MappingProxyType(
+    {
+        "axis": ("x", "y", "z"),
+        "axis2": ("y", "z"),
+        "cyl": ("x", "r", "psi"),
+        "tilt": ("skew", "tilt"),
+        "spin_axis": ("axial", "radial", "tangential"),
+        "quaternion": ("w", "x", "y", "z"),
+        "race": ("inner", "outer"),
+        "moment": ("tilt", "skew"),
+        "face": FACES,
+        "crossbeam_face": FACES[:2],
+        "rib": ("+x", "-x"),
+    }
+)
+
+
+@dataclass(frozen=True)
+class Variable:
+    """One result: its dimensions (time first), unit, what it is, and how it is stored."""
+
+    name: str
+    dims: tuple[str, ...]
+    unit: str
+    long_name: str
+    dtype: str = "float64"
+
+    @property
+    def attrs(self) -> dict[str, str]:
+        return {"units": self.unit, "long_name": self.long_name}
+
+
+def _variables() -> list[Variable]:
+    def on(*dims: str) -> tuple[str, ...]:
+        return (TIME, *dims)
+
+    def row(name: str, dims: tuple[str, ...], unit: str, long_name: str) -> Variable:
+        small = bool({"slice", "station", "face", "crossbeam_face"} & set(dims))
+        return Variable(name, dims, unit, long_name, "float32" if small else "float64")
+
+    body, roller, pocket = "axis", "roller", "pocket"
+    return [
+        row("inner_position", on(body), "m", "inner ring centre, ring frame"),
+        row("inner_velocity", on(body), "m/s", "velocity of the inner ring centre, ring frame"),
+        row("inner_angle", on(), "rad", "angle turned by the inner ring"),
+        row("inner_speed", on(), "rad/s", "angular speed of the inner ring"),
+        row("outer_position", on(body), "m", "outer ring centre, ring frame"),
+        row("roller_position", on(roller, "cyl"), "m, m, rad", "roller centre (x, r, psi)"),
+        row(
+            "roller_velocity",
+            on(roller, "cyl"),
+            "m/s",
+            "velocity of the roller centre (axial, radial, tangential)",
+        ),
+        row("roller_tilt", on(roller, "tilt"), "rad", "skew and tilt of the roller's axis"),
+        row(
+            "roller_omega",
+            on(roller, "spin_axis"),
+            "rad/s",
+            "inertial angular velocity of the roller in its non-spinning frame (0: axial spin)",
+        ),
+        row("cage_position", on(body), "m", "cage centre, ring frame"),
+        row("cage_velocity", on(body), "m/s", "velocity of the cage centre, ring frame"),
+        row("cage_quaternion", on("quaternion"), "1", "orientation of the cage, scalar first"),
+        row("cage_omega", on(body), "rad/s", "angular velocity of the cage, cage frame"),
+        row("cage_acceleration", on(body), "m/s^2", "acceleration of the cage centre, cage frame"),
+        row(
+            "cage_angular_acceleration",
+            on(body),
+            "rad/s^2",
+            "angular acceleration of the cage, cage frame",
+        ),
+        row("modal_coordinates", on("mode"), "m kg^0.5", "modal coordinates of the cage"),
+        row("modal_velocity", on("mode"), "m kg^0.5/s", "modal velocities of the cage"),
+        row("modal_acceleration", on("mode"), "m kg^0.5/s^2", "modal accelerations of the cage"),
+        row("race_force", on(roller, "race"), "N", "normal force of a race on a roller"),
+        row("race_traction", on(roller, "race"), "N", "traction of a race on a roller, along psi"),
+        row("race_moment", on(roller, "race", "moment"), "N m", "moment of a race on a roller"),
+        row("race_slip", on(roller, "race"), "m/s", "sliding speed at a race, roller mid-length"),
+        row("pocket_force", on(pocket, "face"), "N", "normal force on a pocket face"),
+        row("pocket_friction", on(pocket, "face"), "N", "friction force on a pocket face"),
+        row(
+            "pocket_slice_force",
+            on(pocket, "crossbeam_face", "slice"),
+            "N",
+            "normal force of a slice on a crossbeam face",
+        ),
+        row(
+            "pocket_slice_friction",
+            on(pocket, "crossbeam_face", "slice"),
+            "N",
+            "friction force of a slice on a crossbeam face",
+        ),
+        row(
+            "station_force",
+            on(pocket, "face", "station", "cyl"),
+            "N",
+            "force on the cage at a station of a pocket face (x, r, psi)",
+        ),
+        row(
+            "residual_coordinates",
+            on(pocket, "residual"),
+            "1",
+            "quasi-static residual coordinates of a pocket's faces",
+        ),
+        row("rib_force", on(roller, "rib"), "N", "normal force of a rib on a roller end"),
+        row("land_force", on(body), "N", "force of the guiding land on the cage, ring frame"),
+        row("multiplier", on("constraint"), "N or N m", "constraint force or torque"),
+        row("energy", on("energy_kind"), "J", "energy stored"),
+        row("work", on("channel"), "J", "work done on the bearing since the start (losses < 0)"),
+        row(
+            "outer_acceleration",
+            (TIME_HF, "axis2"),
+            "m/s^2",
+            "acceleration of the outer ring, ring frame",
+        ),
+        row(
+            "outer_acceleration_filtered",
+            (TIME_HF, "axis2"),
+            "m/s^2",
+            "acceleration of the outer ring, low-pass filtered",
+        ),
+    ]
+
+
+_table = {v.name: v for v in _variables()}
+
+#: Every result variable by name, a read-only view.
+VARIABLES: Mapping[str, Variable] = MappingProxyType(_table)
+
+
+def variable(name: str) -> Variable:
+    """The registered variable, or one sentence with the nearest name."""
+    if name in VARIABLES:
+        return VARIABLES[name]
+    near = difflib.get_close_matches(name, VARIABLES, n=1)
+    hint = f"; the nearest known name is {near[0]!r}" if near else ""
+    raise InputError(f"There is no result variable {name!r}{hint}.", where="variable", value=name)
+
+
+def register(new: Variable) -> Variable:
+    """Add a result variable from outside this file; its name must be free."""
+    if new.name in _table:
+        raise InputError(f"A result variable {new.name!r} exists already; choose another name.")
+    if not new.dims or new.dims[0] not in (TIME, TIME_HF):
+        raise InputError(
+            f"Result variable {new.name!r} has dimensions {new.dims}; the first must be "
+            f"{TIME!r} or {TIME_HF!r}."
+        )
+    _table[new.name] = new
+    return new

@@ -1,0 +1,337 @@
+"""Run stores: a run written block by block, safe against being killed at any moment.
+
+On disk a run is a Zarr (version 3) group whose arrays are allocated in full on the sampling grid,
+with one chunk a block along time. A block exists only once ``_run/commit.json`` counts it; that
+file is written aside, fsynced and atomically moved into place after the block's chunks, its
+steps and events, and its checkpoint are on disk. Readers trim every array to the commit, so what
+a kill left half written is never seen. (Appending to arrays instead leaves unreadable stores.)
+"""
+
+from __future__ import annotations
+
+import json
+import os
+import warnings
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from flexcage import _version
+from flexcage.core.errors import InputError
+from flexcage.results.files import disk, joined, load, make_room, replace, save
+from flexcage.results.layout import (
+    Arrays,
+    Layout,
+    coords_from_json,
+    coords_to_json,
+    label_dataset,
+    make_layout,
+)
+from flexcage.results.registry import TIME, TIME_HF, Variable
+
+if TYPE_CHECKING:
+    import xarray
+
+FORMAT = 1
+SIDE = "_run"  # folder beside the arrays: commit, checkpoint, steps, events
+_NOTHING: Mapping[str, np.ndarray] = {}
+
+
+class MemoryRunStore:
+    """A run kept in memory, with the interface of :class:`RunStore`."""
+
+    path: Path | None = None
+
+    def __init__(self, layout: Layout) -> None:
+        self.layout = layout
+        self._commit: dict[str, Any] = {"blocks": 0, "n_time": 0, "n_time_hf": 0}
+        self._checkpoint: dict[str, np.ndarray] | None = None
+        self._tables: dict[str, dict[int, dict[str, np.ndarray]]] = {"steps": {}, "events": {}}
+        self._data: dict[str, np.ndarray] = {}
+        self._allocate()
+
+    def _allocate(self) -> None:
+        for v in self.layout.variables:
+            self._data[v.name] = np.full(self.layout.shape(v), np.nan, dtype=v.dtype)
+
+    def __repr__(self) -> str:
+        where = self.path or "memory"
+        return (
+            f"{type(self).__name__}({where}, {self.n_time:,} of {self.layout.n_time:,} samples, "
+            f"{len(self.layout.variables)} variables)"
+        )
+
+    @property
+    def n_time(self) -> int:
+        """Committed samples on the main grid."""
+        return int(self._commit["n_time"])
+
+    @property
+    def blocks(self) -> int:
+        """Full blocks committed; the next block to write has this number."""
+        return int(self._commit["blocks"])
+
+    @property
+    def complete(self) -> bool:
+        return self.blocks == self.layout.n_blocks
+
+    def write_block(
+        self,
+        index: int,
+        arrays: Arrays,
+        hf_arrays: Arrays | None = None,
+        checkpoint: Mapping[str, Any] | None = None,
+        steps: Arrays | None = None,
+        events: Arrays | None = None,
+    ) -> None:
+        """Store and commit block ``index``: arrays (samples of the block, ...) by variable name.
+
+        A block shorter than the grid's span (a run that stopped in its middle) is kept, but
+        counts as open: pass no checkpoint with it, for a resumed run writes it again in full
+        from the checkpoint of the block before. ``steps`` and ``events`` are tables of any
+        length, one array a column.
+        """
+        if index != self.blocks or index >= self.layout.n_blocks:
+            raise ValueError(f"block {index} out of order: next is {self.blocks}")
+        main = self.layout.checked(index, arrays, TIME)
+        fine = self.layout.checked(index, hf_arrays or _NOTHING, TIME_HF)
+        commit = dict(self._commit)
+        for grid, part, key in ((TIME, main, "n_time"), (TIME_HF, fine, "n_time_hf")):
+            start, stop = self.layout.span(index, grid)
+            done = start + len(next(iter(part.values()))) if part else stop
+            commit[key] = done
+            if grid == TIME and done == stop:
+                commit["blocks"] = index + 1
+        self._store(index, {**main, **fine}, commit, checkpoint, steps or {}, events or {})
+
+    def _store(self, index, data, commit, checkpoint, steps, events) -> None:
+        for name, values in data.items():
+            start = self._start(index, name)
+            self._data[name][start : start + len(values)] = values
+        self._tables["steps"][index] = {k: np.array(v) for k, v in steps.items()}
+        self._tables["events"][index] = {k: np.array(v) for k, v in events.items()}
+        if checkpoint is not None:
+            self._checkpoint = {k: np.array(v) for k, v in checkpoint.items()}
+        self._commit = commit
+
+    def _start(self, index: int, name: str) -> int:
+        var = next(v for v in self.layout.variables if v.name == name)
+        return self.layout.span(index, var.dims[0])[0]
+
+    def dataset(self) -> xarray.Dataset:
+        """The committed part as a labelled dataset (SI units in ``attrs["units"]``)."""
+        return label_dataset(
+            self.layout,
+            self._arrays(),
+            n_time=self.n_time,
+            n_time_hf=int(self._commit["n_time_hf"]),
+            state={"complete": int(self.complete)},
+        )
+
+    def _arrays(self) -> Mapping[str, Any]:
+        return self._data
+
+    def checkpoint(self) -> dict[str, np.ndarray] | None:
+        """The last committed checkpoint: arrays by name, or None before the first."""
+        return None if self._checkpoint is None else dict(self._checkpoint)
+
+    def steps(self) -> dict[str, np.ndarray]:
+        """Solver steps of all committed blocks, one array a column."""
+        return self._table("steps")
+
+    def events(self) -> dict[str, np.ndarray]:
+        """Events of all committed blocks, one array a column."""
+        return self._table("events")
+
+    def _table(self, kind: str) -> dict[str, np.ndarray]:
+        parts = [self._tables[kind][i] for i in sorted(self._tables[kind])]
+        return joined(parts)
+
+
+class RunStore(MemoryRunStore):
+    """A run on disk. Make one with :meth:`create`, read or go on with one by :meth:`open`."""
+
+    path: Path
+
+    def __init__(self, path: Path, layout: Layout, commit: dict[str, Any], group: Any) -> None:
+        self.path = path
+        self._group = group
+        super().__init__(layout)
+        self._commit = commit
+
+    def _allocate(self) -> None:
+        """Nothing in memory: the arrays are on disk."""
+
+    @classmethod
+    def create(
+        cls,
+        path: str | Path | None,
+        *,
+        coords: Mapping[str, Any],
+        variables: Sequence[str | Variable],
+        n_time: int,
+        n_time_hf: int = 0,
+        block: int,
+        attrs: Mapping[str, Any],
+        block_hf: int | None = None,
+        overwrite: bool = False,
+    ) -> MemoryRunStore:
+        """Allocate a run at ``path`` (a new folder), or in memory if it is None.
+
+        ``coords`` holds the instants "time" and "time_hf" [s] and the labels of every dimension
+        that the registry does not fix; further ones as (dims, values, attrs). ``attrs`` must be
+        plain JSON values.
+        """
+        layout = make_layout(
+            coords=coords,
+            variables=variables,
+            n_time=n_time,
+            n_time_hf=n_time_hf,
+            block=block,
+            block_hf=block_hf,
+            attrs=attrs,
+        )
+        if path is None:
+            return MemoryRunStore(layout)
+        path = Path(path)
+        make_room(path, overwrite)
+        with disk(path, 0):
+            group = _create_arrays(path, layout)
+            commit = {"format": FORMAT, "blocks": 0, "n_time": 0, "n_time_hf": 0, "checkpoint": ""}
+            (path / SIDE / "steps").mkdir(parents=True)
+            (path / SIDE / "events").mkdir()
+            replace(path / SIDE / "commit.json", json.dumps(commit).encode())
+        return cls(path, layout, commit, group)
+
+    @classmethod
+    def open(cls, path: str | Path) -> RunStore:
+        """Open a run, finished or not, for reading or for writing its next block."""
+        import zarr
+
+        path = Path(path)
+        try:
+            commit = json.loads((path / SIDE / "commit.json").read_text("utf-8"))
+        except FileNotFoundError:
+            raise InputError(
+                f"{path} holds no run of flexcage (it has no {SIDE}/commit.json).",
+                where="path",
+                value=str(path),
+            ) from None
+        except (OSError, ValueError) as error:
+            raise InputError(f"The commit file of {path} cannot be read: {error}.") from error
+        _check_format(path, commit.get("format"))
+        try:
+            group = zarr.open_group(str(path), mode="r+" if os.access(path, os.W_OK) else "r")
+            layout = _layout_from(group)
+        except InputError:
+            raise
+        except Exception as error:
+            raise InputError(f"The arrays of {path} cannot be opened: {error}.") from error
+        return cls(path, layout, commit, group)
+
+    def _store(self, index, data, commit, checkpoint, steps, events) -> None:
+        side = self.path / SIDE
+        with disk(self.path, self.n_time):
+            for name, values in data.items():
+                start = self._start(index, name)
+                self._group[name][start : start + len(values)] = values
+            save(side / "steps" / f"{index:06d}.npz", steps)
+            save(side / "events" / f"{index:06d}.npz", events)
+            if checkpoint is not None:
+                commit["checkpoint"] = f"checkpoint-{index + 1:06d}.npz"
+                save(side / commit["checkpoint"], checkpoint)
+            replace(side / "commit.json", json.dumps(commit).encode())
+        before = self._commit["checkpoint"]
+        self._commit = commit
+        if before and before != commit["checkpoint"]:
+            (side / before).unlink(missing_ok=True)
+
+    def _arrays(self) -> Mapping[str, Any]:
+        import xarray as xr
+
+        lazy = xr.open_zarr(str(self.path), chunks=None, consolidated=True, decode_cf=False)
+        return {v.name: lazy[v.name].variable for v in self.layout.variables}
+
+    def checkpoint(self) -> dict[str, np.ndarray] | None:
+        name = self._commit["checkpoint"]
+        return load(self.path / SIDE / name) if name else None
+
+    def _table(self, kind: str) -> dict[str, np.ndarray]:
+        partial = self.n_time > self.layout.span(self.blocks, TIME)[0]
+        count = self.blocks + int(partial)
+        return joined(load(self.path / SIDE / kind / f"{i:06d}.npz") for i in range(count))
+
+
+def _create_arrays(path: Path, layout: Layout) -> Any:
+    import zarr
+
+    stored = {
+        "flexcage_format": FORMAT,
+        "flexcage_version": _version.__version__,
+        "layout": {
+            "variables": [
+                [v.name, list(v.dims), v.unit, v.long_name, v.dtype] for v in layout.variables
+            ],
+            "coords": coords_to_json(layout.coords),
+            "n_time": layout.n_time,
+            "n_time_hf": layout.n_time_hf,
+            "block": layout.block,
+            "block_hf": layout.block_hf,
+        },
+        "run": dict(layout.attrs),
+    }
+    group = zarr.create_group(store=str(path), attributes=stored)
+    codec = zarr.codecs.BloscCodec(cname="zstd", clevel=1, shuffle="shuffle")
+    for v in layout.variables:
+        group.create_array(
+            v.name,
+            shape=layout.shape(v),
+            chunks=layout.chunk(v),
+            dtype=v.dtype,
+            fill_value=np.nan,
+            compressors=codec,
+            dimension_names=v.dims,
+            attributes=v.attrs,
+        )
+    for grid in (TIME, TIME_HF):
+        if grid in layout.coords:
+            _, values, attrs = layout.coords[grid]
+            times = group.create_array(
+                grid, shape=values.shape, dtype="float64", dimension_names=(grid,), attributes=attrs
+            )
+            times[:] = values
+    with warnings.catch_warnings():  # readers then need not list the folder
+        warnings.filterwarnings("ignore", message=".*[Cc]onsolidated.*")
+        zarr.consolidate_metadata(str(path))
+    return zarr.open_group(str(path), mode="r+")
+
+
+def _layout_from(group: Any) -> Layout:
+    stored = group.attrs["layout"]
+    coords = coords_from_json(stored["coords"])
+    for grid in (TIME, TIME_HF):
+        if grid in group:
+            array = group[grid]
+            coords[grid] = ((grid,), np.asarray(array[:]), dict(array.attrs))
+    return Layout(
+        tuple(Variable(n, tuple(d), u, t, k) for n, d, u, t, k in stored["variables"]),
+        coords,
+        stored["n_time"],
+        stored["n_time_hf"],
+        stored["block"],
+        stored["block_hf"],
+        dict(group.attrs["run"]),
+    )
+
+
+def _check_format(path: Path, found: object) -> None:
+    if found != FORMAT:
+        raise InputError(
+            f"The run in {path} is stored in format {found}, and this flexcage "
+            f"({_version.__version__}) reads format {FORMAT}: open it with the flexcage that wrote "
+            "it, or run the case again.",
+            where="path",
+            value=str(path),
+        )

@@ -1,0 +1,319 @@
+"""The summary of a run: an ordered list of figures, printed as an aligned table or kept as JSON."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+from math import isfinite, pi
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from flexcage.core.errors import InputError
+from flexcage.results import audit, metrics
+from flexcage.results.metrics import BearingNumbers
+
+if TYPE_CHECKING:
+    import xarray
+
+Value = float | int | str | bool | None
+
+#: Units as shown: the SI unit of the value and the factor from it.
+SHOWN: dict[str, tuple[str, float]] = {
+    "": ("1", 1.0),
+    "rpm": ("rad/s", 30.0 / pi),
+    "%": ("1", 100.0),
+    "um": ("m", 1e6),
+    "mm": ("m", 1e3),
+    "m/s": ("m/s", 1.0),
+    "N": ("N", 1.0),
+    "MPa": ("Pa", 1e-6),
+    "mJ": ("J", 1e3),
+    "s": ("s", 1.0),
+    "ms": ("s", 1e3),
+    "deg": ("rad", 180.0 / pi),
+    "Hz": ("Hz", 1.0),
+    "kHz": ("Hz", 1e-3),
+    "g": ("kg", 1e3),
+    "GB": ("B", 1e-9),
+}
+
+
+@dataclass(frozen=True)
+class Row:
+    """One figure: ``value`` in SI (or a text, a count); ``shown`` is the unit it is printed in."""
+
+    key: str
+    label: str
+    value: Value
+    shown: str = ""
+    note: str = ""
+
+    @property
+    def unit(self) -> str:
+        return SHOWN[self.shown][0]
+
+    @property
+    def text(self) -> str:
+        """The value as printed, without its unit."""
+        v = self.value
+        if v is None or (isinstance(v, float) and not isfinite(v)):
+            return "-"
+        if isinstance(v, bool):
+            return "yes" if v else "no"
+        if isinstance(v, str):
+            return v
+        if isinstance(v, int) and not self.shown:
+            return f"{v:,}"
+        return _figures(float(v) * SHOWN[self.shown][1])
+
+
+@dataclass(frozen=True)
+class Section:
+    title: str
+    rows: tuple[Row, ...]
+
+
+@dataclass(frozen=True)
+class Summary:
+    """Figures of a run in sections, in order. ``summary["cage_speed"]`` is a value in SI."""
+
+    sections: tuple[Section, ...] = ()
+
+    def __iter__(self) -> Iterator[Row]:
+        return (row for section in self.sections for row in section.rows)
+
+    def __getitem__(self, key: str) -> Value:
+        for row in self:
+            if row.key == key:
+                return row.value
+        raise KeyError(key)
+
+    def __contains__(self, key: str) -> bool:
+        return any(row.key == key for row in self)
+
+    def with_section(self, title: str, rows: Sequence[Row]) -> Summary:
+        """A copy with one more section at the end, or with that section replaced."""
+        new = Section(title, tuple(rows))
+        if any(s.title == title for s in self.sections):
+            kept = tuple(new if s.title == title else s for s in self.sections)
+            return replace(self, sections=kept)
+        return replace(self, sections=(*self.sections, new))
+
+    def text(self) -> str:
+        """An aligned table: label, value (right-aligned), unit, note."""
+        rows = list(self)
+        if not rows:
+            return "(no figures)"
+        label = max(len(r.label) for r in rows)
+        value = max(len(r.text) for r in rows)
+        unit = max(len(r.shown) for r in rows)
+        lines: list[str] = []
+        for section in self.sections:
+            lines += ["", section.title] if lines else [section.title]
+            for r in section.rows:
+                line = f"  {r.label:<{label}}  {r.text:>{value}} {r.shown:<{unit}}  {r.note}"
+                lines.append(line.rstrip())
+        return "\n".join(lines)
+
+    __str__ = text
+
+    def to_dict(self) -> dict[str, Any]:
+        return {
+            s.title: {
+                r.key: {
+                    "label": r.label,
+                    "value": _json_value(r.value),
+                    "unit": r.unit,
+                    "shown": r.shown,
+                    "note": r.note,
+                }
+                for r in s.rows
+            }
+            for s in self.sections
+        }
+
+    def to_json(self) -> str:
+        return json.dumps(self.to_dict(), indent=2, ensure_ascii=False)
+
+    @classmethod
+    def from_json(cls, text: str) -> Summary:
+        return cls(
+            tuple(
+                Section(
+                    title,
+                    tuple(
+                        Row(key, r["label"], r["value"], r["shown"], r["note"])
+                        for key, r in rows.items()
+                    ),
+                )
+                for title, rows in json.loads(text).items()
+            )
+        )
+
+    def write(self, folder: str | Path) -> tuple[Path, Path]:
+        """Write ``summary.txt`` and ``summary.json`` into ``folder``; returns their paths."""
+        text, data = Path(folder) / "summary.txt", Path(folder) / "summary.json"
+        text.write_text(self.text() + "\n", encoding="utf-8")
+        data.write_text(self.to_json() + "\n", encoding="utf-8")
+        return text, data
+
+
+def side_by_side(summaries: dict[str, Summary]) -> str:
+    """An aligned table of the rows that any of the summaries holds, one column a summary."""
+    first = {r.key: r for s in reversed(summaries.values()) for r in s}
+    order = list(dict.fromkeys(r.key for s in summaries.values() for r in s))
+    texts = {n: {r.key: r.text for r in s} for n, s in summaries.items()}
+    label = max(len(r.label) for r in first.values())
+    width = {n: max([len(n), *map(len, t.values())]) for n, t in texts.items()}
+    lines = [" " * label + "".join(f"  {n:>{w}}" for n, w in width.items())]
+    for key in order:
+        cells = "".join(f"  {texts[n].get(key, '-'):>{w}}" for n, w in width.items())
+        lines.append(f"{first[key].label:<{label}}{cells}  {first[key].shown}".rstrip())
+    return "\n".join(lines)
+
+
+def summarise(
+    ds: xarray.Dataset,
+    bearing: BearingNumbers,
+    *,
+    settle: float = 0.3,
+    creep_speed: float | None = None,
+) -> Summary:
+    """Summary of a run's motion and forces after its start; stress, solver and times come from
+    those who know them, by :meth:`Summary.with_section`.
+    """
+    if not 0.0 <= settle < 1.0:
+        raise InputError(f"settle must lie in 0 ... 1, not {settle}.", where="output.settle")
+    part = metrics.settled(ds, settle)
+    sections = [
+        Section("Speeds", _speed_rows(part, bearing)),
+        Section("Roller slip (inertial frame)", _slip_rows(part, bearing, creep_speed)),
+        Section("Cage motion", _motion_rows(part)),
+        Section("Forces", _force_rows(part)),
+    ]
+    if "energy" in ds and "work" in ds:
+        sections.append(Section("Energy", _energy_rows(ds)))
+    return Summary(tuple(sections))
+
+
+def _speed_rows(ds: xarray.Dataset, bearing: BearingNumbers) -> tuple[Row, ...]:
+    speed = metrics.cage_speed(ds, bearing)
+    inner = float(ds["inner_speed"].mean())
+    spin = float(np.abs(ds["roller_omega"].isel(spin_axis=0)).mean())
+    whole = f"mean of {speed.revolutions:.2f} cage revolutions"
+    return (
+        Row("inner_speed", "Inner ring speed", inner, "rpm"),
+        Row("cage_speed", "Cage speed", speed.mean, "rpm", whole),
+        Row("epicyclic_speed", "Epicyclic cage speed", speed.epicyclic, "rpm"),
+        Row("cage_slip_ratio", "Cage slip ratio", speed.slip_ratio, "%"),
+        Row("roller_spin", "Roller spin, mean of all", spin, "rpm", "inertial frame"),
+        Row(
+            "roller_spin_ideal",
+            "Roller spin, pure rolling",
+            abs(bearing.kinematics(inner).roller_spin),
+            "rpm",
+        ),
+    )
+
+
+def _slip_rows(
+    ds: xarray.Dataset, bearing: BearingNumbers, creep_speed: float | None
+) -> tuple[Row, ...]:
+    slip = metrics.roller_slip(ds, bearing, creep_speed=creep_speed)
+    note = ""
+    if slip.unresolved and creep_speed is not None:
+        note = f"unresolved: sliding is under the law's creep speed {creep_speed:.3g} m/s"
+    mean = "mean over the zone"
+    return (
+        Row("slip_loaded", "Loaded zone, slip ratio", slip.loaded, "%", note),
+        Row("slip_unloaded", "Unloaded zone, slip ratio", slip.unloaded, "%"),
+        Row(
+            "sliding_inner_loaded",
+            "Sliding, inner race, loaded",
+            slip.sliding_loaded[0],
+            "m/s",
+            mean,
+        ),
+        Row(
+            "sliding_outer_loaded",
+            "Sliding, outer race, loaded",
+            slip.sliding_loaded[1],
+            "m/s",
+            mean,
+        ),
+        Row(
+            "sliding_inner_unloaded",
+            "Sliding, inner race, unloaded",
+            slip.sliding_unloaded[0],
+            "m/s",
+        ),
+        Row(
+            "sliding_outer_unloaded",
+            "Sliding, outer race, unloaded",
+            slip.sliding_unloaded[1],
+            "m/s",
+        ),
+        Row("loaded_share", "Rollers in the loaded zone", slip.loaded_share, "%"),
+    )
+
+
+def _motion_rows(ds: xarray.Dataset) -> tuple[Row, ...]:
+    whole = metrics.whole_revolutions(ds)
+    mean, axis = metrics.whirl(whole, about="mean"), metrics.whirl(whole, about="axis")
+    lean = metrics.tilt(ds).sel(component="total")
+    return (
+        Row("whirl_radius", "Whirl radius, mean", mean.mean, "um", "about the orbit's mean"),
+        Row("whirl_radius_max", "Whirl radius, largest", mean.largest, "um"),
+        Row("whirl_ratio", "Whirl (max - min)/mean", mean.ratio, ""),
+        Row("whirl_radius_axis", "Whirl radius, mean", axis.mean, "um", "about the ring's axis"),
+        Row("whirl_ratio_axis", "Whirl (max - min)/mean", axis.ratio, "", "about the ring's axis"),
+        Row("whirl_speed_ratio", "Whirl speed / cage speed", axis.speed_ratio, ""),
+        Row("tilt_mean", "Cage tilt, mean", float(lean.mean()), "deg"),
+        Row("tilt_max", "Cage tilt, largest", float(lean.max()), "deg"),
+    )
+
+
+def _force_rows(ds: xarray.Dataset) -> tuple[Row, ...]:
+    pocket = metrics.pocket_forces(ds)
+    race = ds["race_force"].max("time")
+    inner, outer = (float(race.sel(race=r).max()) for r in ("inner", "outer"))
+    where = f"pocket {pocket.peak_pocket}, {pocket.peak_face}, t = {pocket.peak_time * 1e3:.3f} ms"
+    return (
+        Row("pocket_force_mean", "Pocket force, mean", pocket.mean, "N", "while in contact"),
+        Row("pocket_force_peak", "Pocket force, peak", pocket.peak, "N", where),
+        Row("pocket_contact", "Pocket faces in contact", pocket.contact_share, "%", "of the time"),
+        Row("race_force_inner", "Inner race on a roller, peak", inner, "N"),
+        Row("race_force_outer", "Outer race on a roller, peak", outer, "N"),
+    )
+
+
+def _energy_rows(ds: xarray.Dataset) -> tuple[Row, ...]:
+    check = audit.energy_audit(ds)
+    return (
+        Row("energy_moved", "Energy moved", check.moved, "mJ", "whole run"),
+        Row("energy_imbalance", "Largest imbalance", check.worst, "mJ"),
+        Row("energy_relative", "Imbalance / energy moved", check.relative, "%"),
+        *(Row(f"work_{k}", f"Work: {k}", v, "mJ") for k, v in check.channels.items()),
+    )
+
+
+def _figures(v: float) -> str:
+    """About five significant digits, no exponent in the range of ordinary figures."""
+    a = abs(v)
+    if a == 0.0:
+        return "0"
+    if a >= 1e6 or a < 1e-4:
+        return f"{v:.3e}"
+    if a >= 1e3:
+        return f"{v:,.1f}"
+    digits = 5 - len(str(int(a))) if a >= 1 else 4
+    return f"{v:.{max(digits, 1)}f}"
+
+
+def _json_value(v: Value) -> Value:
+    if isinstance(v, np.generic):
+        v = v.item()
+    return None if isinstance(v, float) and not isfinite(v) else v

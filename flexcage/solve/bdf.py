@@ -1,0 +1,309 @@
+"""Variable-order, variable-step BDF with a modified Newton-Raphson corrector for F(t, y, y') = 0.
+
+The formula keeps backward differences D of a quasi-constant step (Byrne and Hindmarsh 1975; the
+notation is Shampine and Reichelt's): with c = h/gamma_k the corrected value is y = y_p + d and
+its derivative y' = (psi + d)/c. ``advance`` is plain Python that numba also compiles: it
+receives the problem as six functions and their data,
+
+    residual(t, y, yd, data, out)            F
+    linearise(t, y, yd, data)                keep dF/dy, dF/dy' at this point
+    factor(alpha, data) -> bool              factor dF/dy + alpha dF/dy'
+    backsolve(alpha, y, r, data)             r <- -(that)^-1 r, the Newton step
+    accepted(t, y, yd, data, power)          a step was accepted; quadrature integrands -> power
+    observe(sample, t, y, yd, data)          y and y' at sampling time t, by dense output
+
+Obligations of a problem: ``residual`` depends on nothing but its arguments and memory that only
+``accepted`` changes; it allocates nothing; functions share ``data`` and nothing else.
+Policies follow IDA's experience: few Jacobians, Newton fails early and cuts the step.
+Stability guard: orders above 2 are left for ``GUARD_STEPS`` steps once the error test fails twice
+within ten steps, the mark of lightly damped fast oscillation.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+
+MAX_ORDER = 5
+NEWTON_MAX = 4
+GUARD_STEPS = 200
+JACOBIAN_AGE = 60
+# outcomes of ``advance``
+DONE, LOG_FULL, TOO_SMALL, TOO_MANY, NOT_FINITE = 0, 1, 2, 3, 4
+OUTCOMES = {
+    TOO_SMALL: "the step fell below solver.min_step: a contact is too stiff for the tolerance, "
+    "or bodies overlap; look at the start, or loosen solver.tolerance",
+    TOO_MANY: "solver.max_steps was reached; raise it or shorten solver.duration",
+    NOT_FINITE: "a value became infinite or not a number; look at stiffness and damping inputs",
+}
+# entries of BDFState.real and .count
+T, H, ALPHA, RATE, H_LAST = range(5)
+(ORDER, EQUAL, STEPS, RESIDUALS, JACOBIANS, FACTORS, ERROR_FAILS, NEWTON_FAILS, AGE, HAVE_J,
+ GUARD, RECENT, ITERATIONS) = range(13)  # fmt: skip
+LOG_COLUMNS = ("time", "step", "order", "newton", "error")
+
+
+class BDFState(NamedTuple):
+    """The integrator between steps: all of it is in a checkpoint."""
+
+    D: np.ndarray  # (MAX_ORDER + 3, n) backward differences
+    real: np.ndarray  # (5,) t, h, alpha of the factors, convergence rate, last accepted h
+    count: np.ndarray  # (13,) order and counters
+    weight: np.ndarray  # (n,) 1/allowed local error; 0: not in the error test
+    quad: np.ndarray  # (n_quad,) integrals
+    power: np.ndarray  # (2, n_quad) integrands at the last and the present point
+    vec: np.ndarray  # (6, n) work
+    coef: np.ndarray  # (2, MAX_ORDER + 2) gamma and error constants
+
+
+class Options(NamedTuple):
+    max_order: int
+    h_max: float
+    h_min: float
+    newton_tol: float
+    max_steps: int
+
+
+def new_state(t0: float, y0, yd0, *, weight, h0: float, n_quad: int = 0) -> BDFState:
+    """State at the start: order 1, first difference h0 y'."""
+    n = len(y0)
+    D = np.zeros((MAX_ORDER + 3, n))
+    D[0] = y0
+    D[1] = h0 * np.asarray(yd0)
+    gamma = np.concatenate([[0.0], np.cumsum(1.0 / np.arange(1, MAX_ORDER + 2))])
+    error = 1.0 / np.arange(1, MAX_ORDER + 3)
+    count = np.zeros(13, np.int64)
+    count[ORDER] = 1
+    return BDFState(
+        D, np.array([t0, h0, 0.0, 1.0, h0]), count, np.array(weight, float), np.zeros(n_quad),
+        np.zeros((2, n_quad)), np.zeros((6, n)), np.stack([gamma, error]),
+    )  # fmt: skip
+
+
+def change_step(D, order, ratio):
+    """Backward differences for a step ``ratio`` times as long (in place)."""
+    n = order + 1
+    R = np.empty((n, n))
+    U = np.empty((n, n))
+    for f in range(2):
+        M = R if f == 0 else U
+        x = ratio if f == 0 else 1.0
+        for j in range(n):
+            M[0, j] = 1.0
+        for i in range(1, n):
+            M[i, 0] = 0.0
+            for j in range(1, n):
+                M[i, j] = M[i - 1, j] * (i - 1 - x * j) / i
+    W = R @ U  # D_new = (R U)^T D
+    old = D[:n].copy()
+    for i in range(n):
+        D[i, :] = 0.0
+        for j in range(n):
+            if W[j, i] != 0.0:
+                for k in range(D.shape[1]):
+                    D[i, k] += W[j, i] * old[j, k]
+
+
+def interpolate(D, order, t, h, time, y, yd):
+    """Dense output: y and y' at ``time`` in the last step, from differences at t."""
+    n = D.shape[1]
+    p, dp = 1.0, 0.0
+    for k in range(n):
+        y[k] = D[0, k]
+        yd[k] = 0.0
+    for j in range(order):
+        x = (time - (t - h * j)) / (h * (1 + j))
+        dp = dp * x + p / (h * (1 + j))
+        p = p * x
+        for k in range(n):
+            y[k] += D[j + 1, k] * p
+            yd[k] += D[j + 1, k] * dp
+
+
+def worst(a, weight, factor):
+    """Largest weighted entry; infinite if any is not finite."""
+    s = 0.0
+    for k in range(a.shape[0]):
+        x = abs(a[k]) * weight[k]
+        if not x <= 1e300:
+            return np.inf
+        if x > s:
+            s = x
+    return s * factor
+
+
+def correct(fns, data, st, opt, t_new, c):
+    """Newton-Raphson from the predictor in vec[0], psi in vec[1]; d in vec[2]. True if converged."""
+    residual, linearise, factor, backsolve = fns[0], fns[1], fns[2], fns[3]
+    y_p, psi, d = st.vec[0], st.vec[1], st.vec[2]
+    y, yd, r = st.vec[3], st.vec[4], st.vec[5]
+    order = st.count[ORDER]
+    n = y.shape[0]
+    alpha = 1.0 / c
+    error_constant = st.coef[1, order]
+    for attempt in range(2):
+        if st.count[HAVE_J] == 0:
+            for k in range(n):
+                yd[k] = psi[k] * alpha
+                y[k] = y_p[k]
+            linearise(t_new, y, yd, data)
+            st.count[JACOBIANS] += 1
+            st.count[HAVE_J] = 1
+            st.count[AGE] = 0
+            st.real[ALPHA] = 0.0
+            st.real[RATE] = 1.0
+        fresh = st.count[AGE] == 0
+        ratio = st.real[ALPHA] / alpha
+        if ratio < 0.75 or ratio > 1.33:
+            if not factor(alpha, data):
+                return False
+            st.count[FACTORS] += 1
+            st.real[ALPHA] = alpha
+            ratio = 1.0
+        for k in range(n):
+            d[k] = 0.0
+            y[k] = y_p[k]
+            yd[k] = psi[k] * alpha
+        previous = 0.0
+        converged = False
+        scale = 2.0 / (1.0 + 1.0 / ratio)
+        for it in range(NEWTON_MAX):
+            residual(t_new, y, yd, data, r)
+            st.count[RESIDUALS] += 1
+            backsolve(st.real[ALPHA], y, r, data)
+            for k in range(n):
+                r[k] *= scale
+                d[k] += r[k]
+                y[k] = y_p[k] + d[k]
+                yd[k] = (psi[k] + d[k]) * alpha
+            size = worst(r, st.weight, error_constant)
+            st.count[ITERATIONS] += 1
+            if not size < 1e300:
+                break
+            if it > 0 and previous > 0.0:
+                st.real[RATE] = max(0.2 * st.real[RATE], size / previous)
+                if size > 0.9 * previous and size > opt.newton_tol:
+                    break
+            if size * min(1.0, st.real[RATE]) <= opt.newton_tol:
+                converged = True
+                break
+            previous = size
+        if converged:
+            return True
+        if fresh:
+            return False
+        st.count[HAVE_J] = 0
+    return False
+
+
+def advance(fns, data, st, opt, t_end, times, ys, yds, first, log, quads):
+    """Integrate until t_end, filling samples ``ys, yds, quads`` at ``times`` from index ``first``.
+
+    ``log`` takes one row a step. Returns (outcome, next sample, log rows).
+    """
+    accepted, observe = fns[4], fns[5]
+    y_p, psi, d = st.vec[0], st.vec[1], st.vec[2]
+    y, yd, r = st.vec[3], st.vec[4], st.vec[5]
+    D, count, real = st.D, st.count, st.real
+    n = D.shape[1]
+    sample, row = first, 0
+    while real[T] < t_end - 1e-15 * max(abs(t_end), 1.0):
+        if row >= log.shape[0]:
+            return LOG_FULL, sample, row
+        if count[STEPS] >= opt.max_steps:
+            return TOO_MANY, sample, row
+        order = count[ORDER]
+        if real[H] > opt.h_max:
+            change_step(D, order, opt.h_max / real[H])
+            real[H] = opt.h_max
+            count[EQUAL] = 0
+        h = real[H]
+        if h < opt.h_min:
+            return TOO_SMALL, sample, row
+        t_new = real[T] + h
+        gamma = st.coef[0, order]
+        c = h / gamma
+        for k in range(n):
+            s = D[0, k]
+            p = 0.0
+            for j in range(1, order + 1):
+                s += D[j, k]
+                p += st.coef[0, j] * D[j, k]
+            y_p[k] = s
+            psi[k] = p / gamma
+        iterations = count[ITERATIONS]
+        if not correct(fns, data, st, opt, t_new, c):
+            count[NEWTON_FAILS] += 1
+            count[HAVE_J] = 0
+            change_step(D, order, 0.4)
+            real[H] = 0.4 * h
+            count[EQUAL] = 0
+            continue
+        error = worst(d, st.weight, st.coef[1, order])
+        if not error < 1e300:
+            return NOT_FINITE, sample, row
+        if error > 1.0:
+            count[ERROR_FAILS] += 1
+            count[RECENT] += 10
+            if count[RECENT] > 15 and order > 2:
+                count[ORDER] = 2
+                count[GUARD] = GUARD_STEPS
+            ratio = max(0.25, 0.85 * error ** (-1.0 / (order + 1)))
+            change_step(D, count[ORDER], ratio)
+            real[H] = ratio * h
+            count[EQUAL] = 0
+            continue
+        # accept
+        for k in range(n):
+            D[order + 2, k] = d[k] - D[order + 1, k]
+            D[order + 1, k] = d[k]
+            for j in range(order, -1, -1):
+                D[j, k] += D[j + 1, k]
+        real[T] = t_new
+        real[H_LAST] = h
+        count[STEPS] += 1
+        count[EQUAL] += 1
+        count[AGE] += 1
+        count[RECENT] = max(count[RECENT] - 1, 0)
+        count[GUARD] = max(count[GUARD] - 1, 0)
+        if count[AGE] > JACOBIAN_AGE or count[ITERATIONS] - iterations > 2:
+            count[HAVE_J] = 0
+        accepted(t_new, y, yd, data, st.power[1])
+        while sample < times.shape[0] and times[sample] <= t_new + 1e-12 * h:
+            x = 1.0 - (t_new - times[sample]) / h
+            interpolate(D, order, t_new, h, times[sample], ys[sample], yds[sample])
+            observe(sample, times[sample], ys[sample], yds[sample], data)
+            for k in range(st.quad.shape[0]):
+                slope = st.power[1, k] - st.power[0, k]
+                quads[sample, k] = st.quad[k] + h * x * (st.power[0, k] + 0.5 * x * slope)
+            sample += 1
+        for k in range(st.quad.shape[0]):
+            st.quad[k] += 0.5 * h * (st.power[0, k] + st.power[1, k])
+            st.power[0, k] = st.power[1, k]
+        log[row, 0], log[row, 1], log[row, 2] = t_new, h, order
+        log[row, 3], log[row, 4] = count[ITERATIONS] - iterations, error
+        row += 1
+        if count[EQUAL] >= order + 1:
+            _choose(st, opt, error)
+    return DONE, sample, row
+
+
+def _choose(st, opt, error):
+    """Order and step for the next steps, from the error estimates of three neighbouring orders."""
+    D, count, real = st.D, st.count, st.real
+    order = count[ORDER]
+    highest = 2 if count[GUARD] > 0 and opt.max_order > 2 else opt.max_order
+    best, new = 0.0, order
+    for q in range(max(order - 1, 1), min(order + 1, highest) + 1):
+        e = error if q == order else worst(D[q + 1], st.weight, st.coef[1, q])
+        f = max(e, 1e-10) ** (-1.0 / (q + 1))
+        if f > best:
+            best, new = f, q
+    factor = min(8.0, 0.85 * best)
+    if new == order and 0.9 < factor < 1.2:
+        return
+    count[ORDER] = new
+    change_step(D, new, factor)
+    real[H] *= factor
+    count[EQUAL] = 0

@@ -1,0 +1,111 @@
+"""Stress fields of unit coordinates and unit contact forces at the surface of the mesh.
+
+A unit force's field is what the dynamic modes miss: its inertia-relieved answer on the full mesh
+less the part that the modes carry. Modes times q plus these fields times the forces is then
+exactly mode acceleration, for any basis. Every station has its normal force; tangential
+(friction) forces of a face enter by their resultant, spread evenly. Fields are kept as the five
+deviator components of ``operators.deviator`` in single precision.
+"""
+
+from __future__ import annotations
+
+from functools import cached_property
+
+import numpy as np
+
+from flexcage.fem.symmetry import CyclicSymmetry, find_symmetry
+from flexcage.modes.basis import FACES
+from flexcage.modes.pockets import pocket_frame
+from flexcage.stress.operators import VertexStress, deviator
+from flexcage.stress.places import contact_zone, root_places
+from flexcage.stress.recovery import StressRecovery
+
+_NORMAL = (2, 2, 0, 0)  # component (x, r, psi) normal to each face
+_TANGENT = ((0, 1), (0, 1), (1, 2), (1, 2))
+
+
+class StressFields:
+    """Precomputed deviators at the surface vertices ``surface`` (mesh vertex numbers)."""
+
+    def __init__(self, recovery: StressRecovery) -> None:
+        self._recovery = recovery
+        model = recovery.model
+        self.surface = np.unique(model.surface)
+        self.places = root_places(model, recovery.pocket_count)
+        zone = contact_zone(model, recovery.pocket_count)
+        self.searched = np.flatnonzero(~np.isin(self.surface, zone))
+        self._stress = VertexStress(model, self.surface)
+
+    @cached_property
+    def modes(self) -> np.ndarray:
+        """(5 n_surface, n) per unit modal coordinate."""
+        return self._deviators(self._recovery.basis.shapes)
+
+    @cached_property
+    def forces(self) -> np.ndarray:
+        """(5 n_surface, Z per_pocket) per newton of ``reduced_forces``, beyond the modes."""
+        recovery = self._recovery
+        pockets = range(recovery.pocket_count)
+        symmetry = find_symmetry(recovery.model, recovery.pocket_count)
+        if symmetry is None:
+            fields = [self._deviators(self._beyond_modes(self._loads(k))) for k in pockets]
+        else:
+            first = recovery.solver.solve(self._loads(0))
+            fields = [self._deviators(self._turned(symmetry, first, k)) for k in pockets]
+        return np.concatenate(fields, axis=1)
+
+    @cached_property
+    def land_forces(self) -> np.ndarray:
+        """(5 n_surface, 2*n_land*3) per newton at the land stations, beyond the modes."""
+        weights = self._recovery.land_weights
+        n_land = weights.shape[0] // 2
+        dense = weights.toarray()
+        loads = [
+            np.outer(dense[land * n_land + j], axis).ravel()
+            for land in range(2)
+            for j in range(n_land)
+            for axis in pocket_frame(j, n_land)
+        ]
+        return self._deviators(self._beyond_modes(np.stack(loads, axis=1)))
+
+    def reduced_forces(self, station_forces: np.ndarray) -> np.ndarray:
+        """Forces (nt, Z per_pocket) of ``forces``' columns from (nt, Z, 4, n_st, 3)."""
+        columns = []
+        for face in range(len(FACES)):
+            columns.append(station_forces[:, :, face, :, _NORMAL[face]])
+            for component in _TANGENT[face]:
+                columns.append(station_forces[:, :, face, :, component].sum(-1)[..., None])
+        return np.concatenate(columns, axis=2).reshape(len(station_forces), -1)
+
+    def _loads(self, pocket: int) -> np.ndarray:
+        """Nodal loads (3N, per_pocket) in the order of ``reduced_forces``."""
+        n_stations = self._recovery.interface.stations.shape[1]
+        first = pocket * len(FACES) * n_stations
+        weights = self._recovery.weights[first : first + len(FACES) * n_stations].toarray()
+        frame = self._recovery.frames[pocket]
+        columns = []
+        for face, rows in enumerate(weights.reshape(len(FACES), n_stations, -1)):
+            columns += [np.outer(row, frame[_NORMAL[face]]).ravel() for row in rows]
+            even = rows.mean(axis=0)
+            columns += [np.outer(even, frame[component]).ravel() for component in _TANGENT[face]]
+        return np.stack(columns, axis=1)
+
+    def _turned(self, symmetry: CyclicSymmetry, first: np.ndarray, pocket: int) -> np.ndarray:
+        static = symmetry.rotate(first, pocket)
+        return self._less_modes(static, self._loads(pocket))
+
+    def _beyond_modes(self, loads: np.ndarray) -> np.ndarray:
+        return self._less_modes(self._recovery.solver.solve(loads), loads)
+
+    def _less_modes(self, static: np.ndarray, loads: np.ndarray) -> np.ndarray:
+        basis = self._recovery.basis
+        shapes = basis.shapes.reshape(len(loads), -1)
+        beyond = static - shapes @ np.linalg.solve(basis.stiffness, shapes.T @ loads)
+        return beyond.reshape(-1, 3, loads.shape[1])
+
+    def _deviators(self, shapes: np.ndarray) -> np.ndarray:
+        columns = []
+        for first in range(0, shapes.shape[2], 32):  # bounds the memory of full stresses
+            parts = deviator(self._stress(shapes[:, :, first : first + 32]))
+            columns.append(parts.transpose(2, 0, 1).reshape(-1, parts.shape[1]))
+        return np.concatenate(columns, axis=1, dtype=np.float32)

@@ -1,0 +1,110 @@
+"""Stress of the cage in motion by mode acceleration.
+
+At one instant the full mesh is solved under the contact forces less all inertia and damping
+forces. Over a history the same answer is superposed (see ``history``): what the dynamic modes
+carry, plus for every contact force the static field that the modes miss.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from functools import cached_property
+
+import numpy as np
+import scipy.sparse as sp
+
+from flexcage.core.errors import InputError
+from flexcage.fem.free import FreeBodySolver
+from flexcage.fem.model import FEModel
+from flexcage.modes.basis import CageInterface, ModeBasis
+from flexcage.modes.pockets import pocket_frame
+from flexcage.stress.operators import VertexStress
+
+
+@dataclass(frozen=True, kw_only=True)
+class CageLoads:
+    """What acts on the cage at one instant.
+
+    Rigid accelerations and gravity need not be given: their nodal loads are M times a rigid
+    motion, which inertia relief removes exactly, as it does the resultant of the forces.
+    """
+
+    station_forces: np.ndarray  # (Z, 4, n_st, 3) [N], components (x, r, psi) of the pocket frames
+    land_forces: np.ndarray | None = None  # (2, n_land, 3) [N], components (x, r, psi)
+    angular_velocity: np.ndarray = field(default_factory=lambda: np.zeros(3))  # body frame [rad/s]
+    modal_acceleration: np.ndarray | None = None  # (n,)
+    modal_damping: np.ndarray | None = None  # (n,) generalised damping forces D qdot
+
+
+class StressRecovery:
+    """Displacements and stresses of one cage; costly parts are made when first needed."""
+
+    def __init__(
+        self,
+        model: FEModel,
+        basis: ModeBasis,
+        interface: CageInterface,
+        *,
+        solver: FreeBodySolver | None = None,
+        solver_kind: str = "auto",
+    ) -> None:
+        if interface.weights is None or interface.land_weights is None:
+            raise InputError("a rigid cage has no stress to recover", where="cage", value="rigid")
+        self.model, self.basis, self.interface = model, basis, interface
+        self.weights: sp.csr_matrix = interface.weights
+        self.land_weights: sp.csr_matrix = interface.land_weights
+        self.pocket_count = interface.modes.shape[0]
+        self._given_solver, self._solver_kind = solver, solver_kind
+
+    @cached_property
+    def solver(self) -> FreeBodySolver:
+        return self._given_solver or FreeBodySolver(self.model, kind=self._solver_kind)
+
+    @cached_property
+    def vertex_stress(self) -> VertexStress:
+        """Smoothed stress at all mesh vertices."""
+        return VertexStress(self.model, np.arange(len(self.model.points)))
+
+    @cached_property
+    def frames(self) -> np.ndarray:
+        """Rows x, r, psi of every pocket's frame (Z, 3, 3)."""
+        return np.stack([pocket_frame(k, self.pocket_count) for k in range(self.pocket_count)])
+
+    def nodal_forces(self, loads: CageLoads) -> np.ndarray:
+        """Nodal contact forces (N, 3), cage frame: station forces spread with their weights."""
+        at_stations = np.einsum("kfsa,kab->kfsb", loads.station_forces, self.frames)
+        nodal = self.weights.T @ at_stations.reshape(-1, 3)
+        if loads.land_forces is not None:
+            n_land = loads.land_forces.shape[1]
+            turns = np.stack([pocket_frame(j, n_land) for j in range(n_land)])
+            on_land = np.einsum("lja,jab->ljb", loads.land_forces, turns)
+            nodal = nodal + self.land_weights.T @ on_land.reshape(-1, 3)
+        return nodal
+
+    def inertia_forces(self, loads: CageLoads) -> np.ndarray:
+        """d'Alembert forces (N, 3) of spin and elastic acceleration, and modal damping."""
+        model, spin = self.model, np.asarray(loads.angular_velocity, float)
+        acceleration = np.cross(spin, np.cross(spin, model.nodes - model.centre))
+        modal = np.zeros(self.basis.size)
+        if loads.modal_acceleration is not None:
+            modal = modal + loads.modal_acceleration
+        if loads.modal_damping is not None:
+            modal = modal + np.linalg.solve(self.basis.mass, loads.modal_damping)
+        acceleration = acceleration + self.basis.shapes @ modal
+        return -model.mass_times(acceleration)
+
+    def displacement(self, loads: CageLoads) -> np.ndarray:
+        """Elastic displacement (N, 3) [m] by mode acceleration on the full mesh."""
+        total = self.nodal_forces(loads) + self.inertia_forces(loads)
+        return self.solver.solve(total.reshape(-1, 1)).reshape(-1, 3)
+
+    def modal_displacement(self, q: np.ndarray, residual: np.ndarray | None = None) -> np.ndarray:
+        """Displacement (N, 3) of modal coordinates (n,) and residual ones (8 Z,): no solution."""
+        shift = self.basis.shapes @ q
+        if residual is not None and self.basis.residual is not None:
+            shift = shift + self.basis.residual.shapes @ residual
+        return shift
+
+    def stress(self, displacement: np.ndarray) -> np.ndarray:
+        """Smoothed stress (n_points, 6) [Pa] at the mesh's vertices."""
+        return self.vertex_stress(displacement)

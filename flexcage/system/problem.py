@@ -1,0 +1,356 @@
+"""The bearing as a problem for the integrator: six functions over one tuple of data.
+
+Newton's matrix is formed in velocities: with displacements d = (T^+ dq) and d = (du + dmu - r_s)/alpha
+the momentum rows become (alpha M + C + K/alpha) du = -r_u + K r_s/alpha, so that blocks stay
+6 by 6. Constraints are rows of the border.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numba
+import numpy as np
+from numba import types
+
+from flexcage.contacts import laws
+from flexcage.contacts.spec import Contacts
+from flexcage.core.jit import OPTIONS, kernel
+from flexcage.core.rotation import quaternion_rate, rotation_of_quaternion_change
+from flexcage.solve import bdf
+from flexcage.solve import bordered as bordered_system
+from flexcage.solve.bordered import Bordered, new_bordered
+from flexcage.system.layout import Layout
+from flexcage.system.model import POWERS, Memory, Model, Work, new_work
+from flexcage.system.residual import evaluate
+
+_factor_bordered = bordered_system.factor
+_solve_bordered = bordered_system.solve
+
+
+class Events(NamedTuple):
+    """Contact changes: a buffer of (time, roller, place, 1 closed or 0 opened) and its fill."""
+
+    rows: np.ndarray  # (n, 4)
+    fill: np.ndarray  # (1,)
+    closed: np.ndarray  # (Z, 8) contact flags at the last accepted step
+    peak: np.ndarray  # (Z, 4) largest pocket force of a step so far
+    peak_time: np.ndarray  # (Z, 4)
+
+
+class Samples(NamedTuple):
+    """One block of reports on the sampling grid; every ``stride``-th fine sample is a main one."""
+
+    stride: int
+    race: np.ndarray  # (n, Z, 2, 9)
+    pocket_normal: np.ndarray  # (n, Z, 4)
+    pocket_friction: np.ndarray
+    slice_normal: np.ndarray  # (n, Z, 2, ns)
+    slice_friction: np.ndarray
+    station: np.ndarray  # (n, Z, 4, nst, 3)
+    residual: np.ndarray  # (n, Z, 8)
+    rib: np.ndarray  # (n, Z, 2)
+    land: np.ndarray  # (n, 3)
+    energy: np.ndarray  # (n, 4)
+    force: np.ndarray  # (n * stride, 2) on the outer ring, fine grid
+
+
+class BearingData(NamedTuple):
+    model: Model
+    memory: Memory
+    work: Work
+    matrix: Bordered
+    events: Events
+    samples: Samples
+
+
+def new_samples(n: int, stride: int, model: Model) -> Samples:
+    Z = len(model.bodies.radius)
+    ns, nst = len(model.pocket.s), model.pocket.offset.shape[2]
+    z = np.zeros
+    return Samples(
+        stride, z((n, Z, 2, 9)), z((n, Z, 4)), z((n, Z, 4)), z((n, Z, 2, ns)), z((n, Z, 2, ns)),
+        z((n, Z, 4, nst, 3)), z((n, Z, 8)), z((n, Z, 2)), z((n, 3)), z((n, 4)),
+        z((n * stride, 2)),
+    )  # fmt: skip
+
+
+@kernel
+def _call(t, y, yd, data, law, out, mode):
+    evaluate(
+        t, y, yd, data.model, data.memory, data.work, out, mode,
+        law[0], law[1], law[2], law[3], law[4], law[5], law[6], law[7], law[8], law[9],
+    )  # fmt: skip
+
+
+def _residual(t, y, yd, data, out):
+    _call(t, y, yd, data[0], data[1], out, 0)
+
+
+def _linearise(t, y, yd, data):
+    _call(t, y, yd, data[0], data[1], np.empty(y.shape[0]), 1)
+
+
+def _factor(alpha, data):
+    d = data[0]
+    return assemble(alpha, d.model, d.work.tangent, d.matrix)
+
+
+@kernel
+def assemble(alpha, model, tan, m):
+    """Newton's matrix alpha M + C + K/alpha in blocks, and its factors."""
+    mass, Ia, It = model.bodies.roller
+    b = 1.0 / alpha
+    nb = m.S.shape[0]
+    n6 = nb - 7
+    for i in range(m.A.shape[0]):
+        high = nb if m.active[i] else m.low
+        for r in range(6):
+            for c in range(6):
+                m.A[i, r, c] = tan.Crr[i, r, c] + b * tan.Krr[i, r, c]
+            for c in range(high):
+                m.B[i, r, c] = tan.Crb[i, r, c] + b * tan.Krb[i, r, c]
+                m.C[i, c, r] = tan.Cbr[i, c, r] + b * tan.Kbr[i, c, r]
+        # the stored rotation order is (x, r, psi) as velocities: spin, skew, tilt
+        for r in range(3):
+            m.A[i, r, r] += alpha * mass
+        m.A[i, 3, 3] += alpha * Ia
+        m.A[i, 4, 4] += alpha * It
+        m.A[i, 5, 5] += alpha * It
+    for r in range(nb):
+        for c in range(nb):
+            m.S[r, c] = alpha * tan.Mbb[r, c] + tan.Cbb[r, c] + b * tan.Kbb[r, c]
+    # multipliers: forces on ring coordinates (axial, skew, tilt, spin) and position rows
+    coordinate = (0, 4, 5, 3)
+    for k in range(4):
+        m.S[coordinate[k], n6 + k] -= 1.0
+    for k in range(3):
+        m.S[n6 + k, coordinate[k]] = 1.0
+        m.S[n6 + 4 + k, coordinate[k]] = b
+        m.S[n6 + 4 + k, n6 + 4 + k] = b
+    if model.bodies.drive[0] > 0.0:
+        m.S[n6 + 3, n6 + 3] = 1.0
+    else:
+        m.S[n6 + 3, 3] = 1.0
+    return _factor_bordered(m)
+
+
+def _backsolve(alpha, y, r, data):
+    d = data[0]
+    newton_step(alpha, y, r, d.work.tangent, d.matrix)
+
+
+@kernel
+def newton_step(alpha, y, r, tan, m):
+    """r <- Newton step for the residual r, all unknowns; alpha is that of the factors."""
+    Z = m.A.shape[0]
+    nb = m.S.shape[0]
+    nm = nb - 21
+    nq, nu = 6 * Z + 15 + nm, 6 * Z + 14 + nm
+    b = 1.0 / alpha
+    s = np.empty((Z, 6))  # kinematic residuals as displacements
+    sb = np.zeros(nb)
+    for i in range(Z):
+        o = 6 * i
+        s[i, 0], s[i, 1], s[i, 2] = r[o], r[o + 1], r[o + 2] * y[o + 1]
+        s[i, 3], s[i, 4], s[i, 5] = r[o + 5], r[o + 3], r[o + 4]
+    z = 6 * Z
+    sb[0], sb[1], sb[2] = r[z], r[z + 1], r[z + 2]
+    sb[3], sb[4], sb[5] = r[z + 5], r[z + 3], r[z + 4]
+    for c in range(5):
+        sb[6 + c] = r[z + 6 + c]
+    rotation_of_quaternion_change(y[z + 11 : z + 15], r[z + 11 : z + 15], sb[11:14])
+    for k in range(nm):
+        sb[14 + k] = r[z + 15 + k]
+    x = np.empty((Z, 6))
+    xb = np.empty(nb)
+    for k in range(14 + nm):
+        f = 0.0
+        for c in range(14 + nm):
+            f += tan.Kbb[k, c] * sb[c]
+        xb[k] = -r[nq + z + k] + b * f
+    for k in range(7):
+        xb[14 + nm + k] = -r[nq + nu + k]
+        if k >= 4:
+            coordinate = 0 if k == 4 else k - 1
+            xb[14 + nm + k] += b * sb[coordinate]
+    for i in range(Z):
+        high = nb if m.active[i] else m.low
+        for k in range(6):
+            f = 0.0
+            for c in range(6):
+                f += tan.Krr[i, k, c] * s[i, c]
+            for c in range(high):
+                f += tan.Krb[i, k, c] * sb[c]
+            x[i, k] = -r[nq + 6 * i + k] + b * f
+        for k in range(high):
+            f = 0.0
+            for c in range(6):
+                f += tan.Kbr[i, k, c] * s[i, c]
+            xb[k] += b * f
+    _solve_bordered(m, x, xb)
+    for i in range(Z):
+        o = 6 * i
+        for k in range(6):
+            r[nq + o + k] = x[i, k]
+            s[i, k] = b * (x[i, k] - s[i, k])
+        r[o], r[o + 1], r[o + 2] = s[i, 0], s[i, 1], s[i, 2] / y[o + 1]
+        r[o + 3], r[o + 4], r[o + 5] = s[i, 4], s[i, 5], s[i, 3]
+    for k in range(14 + nm):
+        r[nq + z + k] = xb[k]
+        sb[k] = b * (xb[k] - sb[k])
+    for k in range(7):
+        r[nq + nu + k] = xb[14 + nm + k]
+    sb[0] += b * xb[14 + nm + 4]
+    sb[4] += b * xb[14 + nm + 5]
+    sb[5] += b * xb[14 + nm + 6]
+    r[z], r[z + 1], r[z + 2] = sb[0], sb[1], sb[2]
+    r[z + 3], r[z + 4], r[z + 5] = sb[4], sb[5], sb[3]
+    for c in range(5):
+        r[z + 6 + c] = sb[6 + c]
+    quaternion_rate(y[z + 11 : z + 15], sb[11:14], r[z + 11 : z + 15])
+    for k in range(nm):
+        r[z + 15 + k] = sb[14 + k]
+
+
+def _accepted(t, y, yd, data, power):
+    d = data[0]
+    _call(t, y, yd, d, data[1], np.empty(y.shape[0]), 2)
+    remember(t, d.memory, d.work.report, d.events)
+    for k in range(power.shape[0]):
+        power[k] = d.work.report.power[k]
+
+
+@kernel
+def remember(t, memory, rep, events):
+    """Keep the onset speed of every contact, contact changes, and peaks."""
+    for i in range(rep.contact.shape[0]):
+        for k in range(8):
+            closed = rep.contact[i, k]
+            if closed == 0 or events.closed[i, k] == 0:
+                speed = max(rep.approach[i, k], 0.0)
+                if k < 2:
+                    memory.race[i, k, 3] = speed
+                elif k < 6:
+                    memory.pocket[i, k - 2, 3] = speed
+                else:
+                    memory.rib[i, k - 6, 3] = speed
+            if closed != events.closed[i, k]:
+                events.closed[i, k] = closed
+                n = events.fill[0]
+                if n < events.rows.shape[0]:
+                    events.rows[n, 0], events.rows[n, 1] = t, i
+                    events.rows[n, 2], events.rows[n, 3] = k, closed
+                    events.fill[0] = n + 1
+        for f in range(4):
+            if rep.pocket_normal[i, f] > events.peak[i, f]:
+                events.peak[i, f] = rep.pocket_normal[i, f]
+                events.peak_time[i, f] = t
+
+
+def _observe(sample, t, y, yd, data):
+    d = data[0]
+    s, rep = d.samples, d.work.report
+    if sample % s.stride == 0:
+        _call(t, y, yd, d, data[1], np.empty(y.shape[0]), 2)
+        k = sample // s.stride
+        s.race[k] = rep.race
+        s.pocket_normal[k] = rep.pocket_normal
+        s.pocket_friction[k] = rep.pocket_friction
+        s.slice_normal[k] = rep.slice_normal
+        s.slice_friction[k] = rep.slice_friction
+        s.station[k] = rep.station
+        s.residual[k] = rep.residual
+        s.rib[k] = rep.rib
+        s.land[k] = rep.land
+        s.energy[k] = rep.energy
+    s.force[sample, 0] = rep.body_force[0]
+    s.force[sample, 1] = rep.body_force[1]
+
+
+def law_functions(contacts: Contacts) -> tuple:
+    """The ten law functions: normal (race, pocket, side, rib, land), then friction."""
+    places = (contacts.race, contacts.pocket, contacts.side, contacts.rib, contacts.land)
+    return tuple(laws.NORMAL_LAWS[p.normal.law] for p in places) + tuple(
+        laws.FRICTION_LAWS[p.friction.law] for p in places
+    )
+
+
+class Bearing:
+    """A bearing ready to be integrated: compiled functions, their data, and the integrator's step."""
+
+    def __init__(
+        self, model: Model, memory: Memory, contacts: Contacts, layout: Layout,
+        *, block: int = 250, stride: int = 4,
+    ) -> None:  # fmt: skip
+        self.layout = layout
+        work = new_work(model, layout)
+        self.data = BearingData(
+            model, memory, work,
+            new_bordered(layout.rollers, layout.n_border, 8, work.tangent.active),
+            Events(
+                np.zeros((200_000, 4)), np.zeros(1, np.int64),
+                np.zeros((layout.rollers, 8), np.int64),
+                np.zeros((layout.rollers, 4)), np.zeros((layout.rollers, 4)),
+            ),
+            new_samples(block, stride, model),
+        )  # fmt: skip
+        self.laws = law_functions(contacts)
+        self.args = (self.data, self.laws)
+        self._compile()
+
+    def _compile(self) -> None:
+        f8, i8 = types.float64, types.int64
+        vector, matrix = types.Array(f8, 1, "C"), types.Array(f8, 2, "C")
+        law_type = types.Tuple((laws.NORMAL_TYPE,) * 5 + (laws.FRICTION_TYPE,) * 5)
+        data = types.Tuple((numba.typeof(self.data), law_type))
+        self.data_type = data
+        signatures = (
+            types.void(f8, vector, vector, data, vector),
+            types.void(f8, vector, vector, data),
+            types.boolean(f8, data),
+            types.void(f8, vector, vector, data),
+            types.void(f8, vector, vector, data, vector),
+            types.void(i8, f8, vector, vector, data),
+        )
+        bodies = (_residual, _linearise, _factor, _backsolve, _accepted, _observe)
+        self.functions = tuple(
+            numba.njit(s, **OPTIONS)(f) for s, f in zip(signatures, bodies, strict=True)
+        )
+        state = bdf.new_state(0.0, np.zeros(2), np.zeros(2), weight=np.zeros(2), h0=1.0, n_quad=1)
+        options = bdf.Options(2, 1.0, 0.0, 0.1, 1)
+        advance = types.Tuple((i8, i8, i8))(
+            types.Tuple(tuple(types.FunctionType(s) for s in signatures)), data,
+            numba.typeof(state), numba.typeof(options), f8, vector, matrix, matrix, i8, matrix,
+            matrix,
+        )  # fmt: skip
+        self._advance = numba.njit(advance, **OPTIONS)(_advance)
+
+    def residual(self, t: float, y: np.ndarray, yd: np.ndarray, mode: int = 0) -> np.ndarray:
+        """F(t, y, y'), a new array; mode 1 also fills the tangent, mode 2 the report."""
+        out = np.zeros(self.layout.size)
+        if mode == 0:
+            self.functions[0](t, y, yd, self.args, out)
+        elif mode == 1:
+            self.functions[1](t, y, yd, self.args)
+        else:
+            self.functions[4](t, y, yd, self.args, np.zeros(len(POWERS)))
+        return out
+
+    def advance(self, state, options, t_end, times, ys, yds, first, log, quads):
+        """``bdf.advance`` compiled for this bearing."""
+        return self._advance(
+            self.functions, self.args, state, options, t_end, times, ys, yds, first, log, quads
+        )
+
+
+for _name in ("change_step", "interpolate", "worst", "correct", "_choose"):
+    if not hasattr(getattr(bdf, _name), "py_func"):
+        setattr(bdf, _name, kernel(getattr(bdf, _name)))
+
+
+def _advance(fns, data, st, opt, t_end, times, ys, yds, first, log, quads):
+    return _advance_kernel(fns, data, st, opt, t_end, times, ys, yds, first, log, quads)
+
+
+_advance_kernel = kernel(bdf.advance)

@@ -1,0 +1,62 @@
+"""Specs of what drives, loads and holds the bearing, as functions of time."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import pi
+
+from flexcage.core.spec import option, quantity
+
+
+@dataclass(frozen=True, kw_only=True)
+class Drive:
+    """Rotation of the inner ring: prescribed, or through a compliant shaft.
+
+    ``speed`` holds from the start, unless ``ramp_to`` and ``ramp_time`` give a linear ramp that
+    begins at ``ramp_start``, or ``times`` and ``speeds`` give a table (linear between points).
+    """
+
+    speed: float = quantity("rpm", 6000 * 2 * pi / 60, doc="inner ring speed (negative: reversed)")
+    ramp_to: float | None = quantity("rpm", None, doc="speed at the end of a ramp")
+    ramp_start: float = quantity("s", 0.0, doc="start of the ramp", minimum=0.0)
+    ramp_time: float = quantity("s", 0.0, doc="length of the ramp", minimum=0.0)
+    times: tuple[float, ...] = quantity("s", (), doc="table: times")
+    speeds: tuple[float, ...] = quantity("rpm", (), doc="table: speeds")
+    kind: str = option("prescribed", doc="how it is driven", choices=("prescribed", "shaft"))
+    shaft_stiffness: float = quantity("N*m/rad", 1e4, doc="torsional stiffness", above=0.0)
+    shaft_damping: float = quantity("N*m*s/rad", 1.0, doc="torsional damping", minimum=0.0)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Load:
+    """Load on the inner ring, its misalignment, and gravity."""
+
+    radial: float = quantity("N", 0.0, doc="radial load", minimum=0.0)
+    direction: float = quantity("deg", 0.0, doc="azimuth of the load, from y towards z")
+    ramp_to: float | None = quantity("N", None, doc="load at the end of a ramp")
+    ramp_start: float = quantity("s", 0.0, doc="start of the ramp", minimum=0.0)
+    ramp_time: float = quantity("s", 0.0, doc="length of the ramp", minimum=0.0)
+    times: tuple[float, ...] = quantity("s", (), doc="table: times")
+    values: tuple[float, ...] = quantity("N", (), doc="table: loads")
+    misalignment: float = quantity("mrad", 0.0, doc="tilt of the inner ring about z")
+    gravity: float = quantity("m/s^2", 9.80665, doc="acceleration of gravity", minimum=0.0)
+    gravity_direction: float = quantity("deg", 0.0, doc="azimuth of gravity")
+    shaft_mass: float = quantity("kg", 0.0, doc="mass that moves with the inner ring", minimum=0.0)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Mount:
+    """How the outer ring is held: fixed, or on a bushing (a housing) in y and z."""
+
+    kind: str = option("fixed", doc="outer ring support", choices=("fixed", "bushing"))
+    mass: float = quantity("kg", 0.0, doc="housing mass that moves with the ring", minimum=0.0)
+    stiffness: float = quantity("N/m", 2e8, doc="bushing stiffness, each direction", above=0.0)
+    damping: float = quantity("N*s/m", 2e3, doc="bushing damping, each direction", minimum=0.0)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Limits:
+    """Limits beyond which a start is refused rather than warned about."""
+
+    stress: float | None = quantity("MPa", None, doc="greatest equivalent stress of the assembled cage")
+    assembly_force: float = quantity("N", 2e4, doc="greatest pinch force", above=0.0)

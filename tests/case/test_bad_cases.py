@@ -1,0 +1,109 @@
+"""Mistakes in a case: one sentence each, with the place and what would be right."""
+
+import pytest
+
+from flexcage.case import load_case
+from flexcage.core.errors import InputError
+
+PRESET = '[bearing]\npreset = "N1013"\n'
+
+BAD = {
+    "wrong unit": ('[cage]\nbore = "79 kg"', "cage.bore", ["'79 kg'", "mm"]),
+    "no unit": ("[load]\nradial = 1000", "load.radial", ["without a unit", "'1000 N'"]),
+    "unit unknown": ('[load]\nradial = "1 kNn"', "load.radial", ["'kNn'"]),
+    "hertz for a speed": ('[drive]\nspeed = "100 Hz"', "drive.speed", ["another kind", "rpm"]),
+    "unknown key": ('[cage]\npocket_widht = "8 mm"', "cage.pocket_widht", ["'pocket_width'"]),
+    "unknown section": ("[lubrication]\n", "lubrication", ["'lubricant'"]),
+    "deep unknown key": (
+        "[contacts.pocket.friction]\nstatc = 0.1",
+        "contacts.pocket.friction.statc",
+        ["[contacts.pocket.friction]", "'static'"],
+    ),
+    "not a choice": ('[cage]\nguidance = "ouetr"', "cage.guidance", ["'outer'"]),
+    "not a model": ('[cage]\nmodel = "elastic"', "cage.model", ["cage.model 'elastic'", "rigid"]),
+    "not a material": ('[cage]\nmaterial = "bras"', "cage.material", ["'brass'"]),
+    "not a bound": ("[modes]\ndamping = 2", "modes.damping", ["is 2", "1 or less"]),
+    "defect without type": ("[[defects]]\ncrossbeam = 5", "defects.0.type", ["crossbeam"]),
+    "defect of another type": ('[[defects]]\ntype = "crosbeam"', "defects.0.type", ["'crossbeam'"]),
+    "defect incomplete": (
+        '[[defects]]\ntype = "crossbeam"\ncrossbeam = 5',
+        "defects.0.displacement",
+        ["lacks 'displacement'", "delta_q"],
+    ),
+    "defect not there": (
+        '[[defects]]\ntype = "crossbeam"\ncrossbeam = 22\ndisplacement = "0.1 mm"',
+        "defects.0.crossbeam",
+        ["22", "0 to 21"],
+    ),
+    "defects as a table": ('[defects]\ntype = "crossbeam"', "defects", ["a list"]),
+    "material unnamed": (
+        '[cage]\nmaterial = {name = "tin", density = "7.3 g/cm^3"}',
+        "cage.material.youngs_modulus",
+        ["lacks 'youngs_modulus'", "GPa"],
+    ),
+    "negative clearance": ('[cage]\npocket_width = "7.9 mm"', "cage.pocket_width", ["-0.1 mm"]),
+    "table and speeds differ": (
+        '[drive]\ntimes = ["0 s", "1 s"]\nspeeds = ["0 rpm"]',
+        "drive.times",
+        ["2 entries", "speeds 1"],
+    ),
+    "times fall": (
+        '[load]\ntimes = ["1 s", "0 s"]\nvalues = ["0 N", "1 N"]',
+        "load.times",
+        ["must rise"],
+    ),
+    "ramp without time": ('[drive]\nramp_to = "1 rpm"', "drive.ramp_time", ["how long"]),
+    "steps": ('[solver]\nmin_step = "60 us"', "solver.min_step", ["60 us", "50 us"]),
+    "friction speeds": (
+        '[contacts.rib.friction]\nv_static = "2 m/s"',
+        "contacts.rib.friction.v_dynamic",
+        ["1 m/s", "2 m/s"],
+    ),
+    "land moved": ('[cage]\nbore = "79 mm"', "contacts.land.clearance", ["0.25 mm", "0.3 mm"]),
+    "guided by no land": (
+        '[cage]\nguidance = "inner"\n[contacts.land]\nkind = "none"',
+        "contacts.land.kind",
+        ["inner", "dry"],
+    ),
+    "output grid": ('[output]\nrate = "70 kHz"', "output.vibration_rate", ["whole", "multiple"]),
+}
+
+
+@pytest.mark.parametrize("name", BAD)
+def test_mistake_is_one_sentence(name):
+    text, where, words = BAD[name]
+    with pytest.raises(InputError) as caught:
+        load_case(PRESET + text + "\n")
+    sentence = str(caught.value)
+    assert caught.value.where == where, sentence
+    assert sentence.endswith(".") and "\n" not in sentence
+    assert all(word in sentence for word in words), sentence
+    assert caught.value.exit_code == 2
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        ("name = \n", ["not valid TOML", "line 1"]),
+        ('[bearing]\npreset = "N1014"', ["'N1014' is not known", "'N1013'"]),
+        ('[bearing]\nbore = "65 mm"', ["[bearing] lacks 'outside_diameter'"]),
+        ("name = 'x'\n", ["lacks 'bearing'"]),
+        ("bearing = 3\n", ["bearing is 3", "a table"]),
+        ('[bearing]\npreset = "N1013"\nroller_count = 40', ["40 rollers", "at most 32"]),
+    ],
+)
+def test_case_that_is_no_case(text, words):
+    with pytest.raises(InputError) as caught:
+        load_case(text)
+    assert all(word in str(caught.value) for word in words), str(caught.value)
+
+
+def test_files_that_cannot_be_read(tmp_path):
+    (tmp_path / "binary.toml").write_bytes(b"\xff\xfe\x00")
+    for path, words in (
+        (tmp_path / "none.toml", "no case file"),
+        (tmp_path, "is a folder"),
+        (tmp_path / "binary.toml", "not a text file"),
+    ):
+        with pytest.raises(InputError, match=words):
+            load_case(path)

@@ -1,0 +1,170 @@
+"""Cases: from text and objects, varied, written back, hashed."""
+
+import dataclasses
+from math import pi
+from pathlib import Path
+
+import pytest
+
+from flexcage.case import Case, load_case
+from flexcage.contacts.spec import FrictionLaw
+from flexcage.core.errors import InputError
+from flexcage.geometry.cages import CrossbeamDefect, SideBeamDefect
+from flexcage.geometry.materials import MATERIALS
+
+EXAMPLE = Path(__file__).parents[2] / "examples" / "n1013.toml"
+MINIMAL = '[bearing]\npreset = "N1013"\n'
+
+
+@pytest.fixture(scope="module")
+def case():
+    return load_case(EXAMPLE)
+
+
+def test_the_main_job(case):
+    assert case.drive.speed == pytest.approx(200.0 * pi)
+    assert case.load.radial == 1000.0
+    assert case.solver.duration == 0.1
+    assert case.cage_model == "flexible" and case.cage.material is MATERIALS["brass"]
+    (defect,) = case.defects
+    assert defect == CrossbeamDefect(crossbeam=5, displacement=0.2e-3, shape="bent")
+    assert case.bearing.roller_count == 22
+    assert "N1013" in repr(case) and "6000 rpm" in repr(case) and case.hash in repr(case)
+
+
+def test_file_text_and_tables_are_the_same(case):
+    import tomllib
+
+    text = EXAMPLE.read_text("utf-8")
+    assert load_case(str(EXAMPLE)) == load_case(text) == load_case(tomllib.loads(text)) == case
+
+
+def test_round_trip_through_text(case):
+    rich = case.replace(
+        **{
+            "defects": [
+                CrossbeamDefect(crossbeam=1, displacement=-1e-4 / 3, shape="shifted"),
+                SideBeamDefect(pocket=2, displacement=1e-4, side="-x"),
+            ],
+            "cage.material": {"name": "PEEK", "density": "1400 kg/m^3"},
+            "limits.stress": "200 MPa",
+            "drive.times": ["0 s", "10 ms"],
+            "drive.speeds": ["0 rpm", "6000 rpm"],
+            "modes.bands": [{"low": "0 Hz", "high": "5 kHz", "ratio": 0.02}],
+            "description": 'quotes " and \\ and\nlines, and µ',
+            "cage.model": "rigid",
+        }
+    )
+    for one in (case, rich):
+        again = load_case(one.to_toml())
+        assert again == one and again.hash == one.hash
+
+
+def test_text_of_a_case_is_complete():
+    """Nothing is left to defaults, so that a later version with other defaults runs the same."""
+    case = load_case(MINIMAL)
+    for field in dataclasses.fields(case.solver):
+        assert field.name in case.to_table()["solver"]
+
+
+def test_a_preset_is_a_base_that_text_overrides():
+    case = load_case(
+        MINIMAL + 'roller_count = 21\neffective_length = "7.64 mm"\n'
+        '[cage]\npocket_width = "8.15 mm"\n'
+    )
+    assert case.bearing.roller_count == 21 and case.bearing.effective_length == 7.64e-3
+    assert case.cage.pocket_width == 8.15e-3 and case.cage.pocket_length == 8.25e-3
+
+
+def test_part_of_a_named_material_is_overridden():
+    brass = load_case(MINIMAL + '[cage.material]\ndensity = "8400 kg/m^3"\n').cage.material
+    assert brass == dataclasses.replace(MATERIALS["brass"], density=8400.0)
+
+
+def test_variation_leaves_the_original_alone(case):
+    varied = case.replace("defects.0.displacement", "0.1 mm")
+    assert varied.defects[0].displacement == 0.1e-3
+    assert case.defects[0].displacement == 0.2e-3
+    assert varied.hash != case.hash
+
+
+@pytest.mark.parametrize(
+    ("path", "value", "expected"),
+    [
+        ("cage.pocket_width", "8.25 mm", 8.25e-3),
+        ("cage.pocket_width", 8.25e-3, 8.25e-3),
+        ("bearing.roller_count", 21, 21),
+        ("cage.material", "PEEK", MATERIALS["PEEK"]),
+        ("contacts.pocket.friction", FrictionLaw(static=0.2), FrictionLaw(static=0.2)),
+        ("contacts.pocket.friction.static", 0.2, 0.2),
+        ("defects", [], ()),
+        ("limits.stress", "300 MPa", 300e6),
+    ],
+)
+def test_replace_takes_text_si_and_objects(case, path, value, expected):
+    changed = case.replace(path, value)
+    found = changed
+    for key in path.split("."):
+        found = getattr(found, key)
+    assert found == expected
+    assert case.replace(**{path: value}) == changed
+
+
+def test_changes_that_only_fit_together_are_made_together(case):
+    both = {"cage.bore": "79 mm", "contacts.land.clearance": "0.3 mm"}
+    assert case.replace(**both).cage.bore == 79e-3
+    with pytest.raises(InputError, match="0.25 mm, but cage.bore and .* leave 0.3 mm"):
+        case.replace("cage.bore", "79 mm")
+
+
+def test_partial_override_keeps_the_places_own_default():
+    """A pocket's restitution is 0.7 where another place's is 0.9; friction alone is changed."""
+    case = load_case(MINIMAL + "[contacts.pocket.friction]\nstatic = 0.15\n")
+    assert case.contacts.pocket.friction.static == 0.15
+    assert (
+        case.contacts.pocket.normal.restitution
+        == load_case(MINIMAL).contacts.pocket.normal.restitution
+    )
+
+
+def test_names_and_words_do_not_change_the_hash(case):
+    assert case.replace(name="other", description="words").hash == case.hash
+    assert case.replace("load.radial", "1 kN").hash == case.hash
+    assert case.replace("load.radial", "1001 N").hash != case.hash
+    assert case.replace("cage.model", "rigid").hash != case.hash
+
+
+def test_hash_counts_the_bytes_of_a_mesh_file(tmp_path):
+    (tmp_path / "case.toml").write_text(MINIMAL + '[mesh]\nfile = "cage.msh"\n')
+    (tmp_path / "cage.msh").write_text("one")
+    first = load_case(tmp_path / "case.toml")
+    assert first.mesh.file == str(tmp_path / "cage.msh")
+    hash_of_one = first.hash
+    (tmp_path / "cage.msh").write_text("two")
+    assert load_case(tmp_path / "case.toml").hash != hash_of_one
+
+
+def test_built_from_objects(case):
+    built = Case(bearing=case.bearing, cage=case.cage, drive=case.drive)
+    assert built.defects == () and built.contacts == Case.from_preset("N1013").contacts
+    defect = CrossbeamDefect(crossbeam=5, displacement=0.2e-3)
+    same = Case.from_preset("N1013", defects=[defect], load={"radial": 1000.0})
+    assert same.replace(solver=case.solver, drive=case.drive).hash == case.hash
+    with pytest.raises(InputError, match="numbered 0 to 21"):
+        Case(
+            bearing=case.bearing,
+            cage=case.cage,
+            defects=(CrossbeamDefect(crossbeam=22, displacement=0.0),),
+        )
+
+
+def test_assumptions_are_told_until_they_are_replaced(case):
+    assert "cage.pocket_width" in case.assumptions
+    assert "cage.pocket_width" not in case.replace("cage.pocket_width", "8.25 mm").assumptions
+    assert "modes.damping" in case.assumptions
+
+
+def test_overrides_want_units(case):
+    assert load_case(EXAMPLE, overrides={"load.radial": "2 kN"}).load.radial == 2000.0
+    with pytest.raises(InputError, match="'2000 N'"):
+        load_case(EXAMPLE, overrides={"load.radial": 2000})

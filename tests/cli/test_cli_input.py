@@ -1,0 +1,137 @@
+"""What the command line says to mistakes: one sentence on standard error, the right exit code."""
+
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from flexcage import cli
+
+EXAMPLE = str(Path(__file__).parents[2] / "examples" / "n1013.toml")
+
+
+@pytest.fixture(autouse=True)
+def elsewhere(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setenv("FLEXCAGE_CACHE_DIR", str(tmp_path / "cache"))
+    monkeypatch.delenv("FLEXCAGE_DEBUG", raising=False)
+    return tmp_path
+
+
+@pytest.fixture
+def no_simulation(monkeypatch):
+    """Stand-in for the corridor: what it does is set by each test."""
+    import types
+
+    module = types.ModuleType("flexcage.simulate")
+    monkeypatch.setitem(sys.modules, "flexcage.simulate", module)
+    return module
+
+
+def sentence(capsys):
+    err = capsys.readouterr().err
+    assert err.startswith("flexcage: ") and err.endswith("\n"), err
+    text = err.removeprefix("flexcage: ").rstrip("\n")
+    assert "\n" not in text and text.endswith("."), err
+    assert "Traceback" not in err
+    return text
+
+
+MISTAKES = {
+    "no file": (["run", "none.toml"], ["no case file 'none.toml'"]),
+    "a folder": (["run", "."], ["is a folder"]),
+    "no unit": (["run", EXAMPLE, "--set", "load.radial=1000"], ["load.radial", "'1000 N'"]),
+    "wrong unit": (["run", EXAMPLE, "--set", "load.radial=1 kg"], ["another kind"]),
+    "unknown path": (["run", EXAMPLE, "--set", "load.radail=1 N"], ["'radial'"]),
+    "unknown room": (["run", EXAMPLE, "--set", "laod.radial=1 N"], ["'load'"]),
+    "no value": (["run", EXAMPLE, "--set", "load.radial"], ["path=value"]),
+    "no such defect": (
+        ["run", EXAMPLE, "--set", "defects.1.displacement=0.1 mm"],
+        ["defects has no entry '1'", "0 to 0"],
+    ),
+    "overlap": (["run", EXAMPLE, "--set", "bearing.roller_count=33"], ["33 rollers", "overlap"]),
+    "wide pocket": (["mesh", EXAMPLE, "--set", "cage.pocket_width=12 mm"], ["thinner than zero"]),
+    "narrow pocket": (["modes", EXAMPLE, "--set", "cage.pocket_width=7 mm"], ["-1 mm"]),
+    "big defect": (["run", EXAMPLE, "--set", "defects.0.displacement=2 mm"], ["assembly"]),
+    "mesh format": (["mesh", EXAMPLE, "-o", "cage.stl"], ["'cage.stl' should end in .msh"]),
+    "mesh folder": (["mesh", EXAMPLE, "-o", "none/cage.msh"], ["not a folder"]),
+    "preset": (["presets", "N1014"], ["'N1014' is not known", "'N1013'"]),
+    "no run": (["render", "nothing"], ["not the folder of a run"]),
+    "three to compare": (["compare", "a", "b", "c"], ["one case, or two"]),
+    "compare no run": (["compare", "a", "b"], ["'a' is not the folder of a run"]),
+    "nothing to resume": (["run", EXAMPLE, "-o", "nothing", "--resume"], ["not the folder of a"]),
+}
+
+
+@pytest.mark.parametrize("name", MISTAKES)
+def test_mistakes_in_the_input_exit_with_2(name, capsys, no_simulation):
+    no_simulation.simulate = no_simulation.cage_modes = no_simulation.load_run = None
+    no_simulation.compare = no_simulation.compare_case = None
+    argv, words = MISTAKES[name]
+    assert cli.main(argv) == 2
+    text = sentence(capsys)
+    assert all(word in text for word in words), text
+
+
+def test_unknown_options_exit_with_2(capsys):
+    with pytest.raises(SystemExit) as caught:
+        cli.main(["run", EXAMPLE, "--cage", "wooden"])
+    assert caught.value.code == 2
+    assert "choose from" in capsys.readouterr().err
+
+
+def test_an_existing_folder_is_refused(elsewhere, capsys):
+    out = elsewhere / "mine"
+    out.mkdir()
+    (out / "thesis.tex").write_text("precious")
+    assert cli.main(["run", EXAMPLE, "-o", str(out)]) == 2
+    text = sentence(capsys)
+    assert "exists already" in text and "--resume" in text and "--force" in text
+    assert cli.main(["run", EXAMPLE, "-o", str(out), "--force"]) == 2
+    assert "did not write" in sentence(capsys)
+    assert (out / "thesis.tex").read_text() == "precious"
+
+
+def test_force_replaces_a_former_run(elsewhere):
+    out = elsewhere / "run"
+    (out / "results.zarr").mkdir(parents=True)
+    (out / "old.png").write_text("")
+    cli.prepare_out(out, resume=False, force=True)
+    assert list(out.iterdir()) == []
+
+
+def test_a_file_in_the_way(elsewhere, capsys):
+    (elsewhere / "out").write_text("")
+    assert cli.main(["run", EXAMPLE, "-o", "out"]) == 2
+    assert "is a file" in sentence(capsys)
+
+
+def test_a_folder_that_cannot_be_written(elsewhere, capsys, monkeypatch):
+    def refuse(*args, **kwargs):
+        raise PermissionError(13, "Permission denied")
+
+    monkeypatch.setattr(Path, "mkdir", refuse)
+    assert cli.main(["run", EXAMPLE, "-o", "locked/run"]) == 2
+    assert "cannot be written (permission denied)" in sentence(capsys)
+
+
+@pytest.mark.skipif(not hasattr(os, "geteuid") or os.geteuid() == 0, reason="root may write")
+def test_a_read_only_folder(elsewhere, capsys):
+    (elsewhere / "locked").mkdir(mode=0o500)
+    assert cli.main(["run", EXAMPLE, "-o", "locked/run"]) == 2
+    assert "cannot be written" in sentence(capsys)
+
+
+def test_no_traceback_from_a_real_process(elsewhere):
+    done = subprocess.run(
+        [sys.executable, "-m", "flexcage.cli", "run", EXAMPLE, "--set", "drive.speed=6000"],
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert done.returncode == 2
+    assert done.stderr == (
+        "flexcage: drive.speed is 6000 without a unit; write it with one, such as '6000 rpm'.\n"
+    )

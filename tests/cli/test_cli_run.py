@@ -1,0 +1,163 @@
+"""Commands call the corridor with what was asked, and failures end with the right exit code."""
+
+import errno
+import sys
+import types
+from pathlib import Path
+
+import pytest
+
+from flexcage import cli
+from flexcage.core.errors import EnvironmentLacks, RunFailed
+
+EXAMPLE = str(Path(__file__).parents[2] / "examples" / "n1013.toml")
+
+
+class FakeRun:
+    summary = "cage speed 2709 rpm"
+
+    def __init__(self):
+        self.drawn = []
+
+    def draw(self, folder, *, animate=False):
+        self.drawn.append((Path(folder), animate))
+
+
+@pytest.fixture
+def corridor(monkeypatch, tmp_path):
+    """A corridor that records its calls, or raises what the test sets."""
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setenv("FLEXCAGE_CACHE_DIR", str(tmp_path / "cache"))
+    monkeypatch.delenv("FLEXCAGE_DEBUG", raising=False)
+    module = types.ModuleType("flexcage.simulate")
+    module.calls, module.error, module.run = [], None, FakeRun()
+
+    def simulate(case, *, out=None, resume=False, progress=None):
+        if module.error:
+            if module.keeps:
+                (Path(out) / "results.zarr").mkdir()
+            raise module.error
+        module.calls.append((case, out, resume))
+        return module.run
+
+    module.simulate, module.keeps = simulate, False
+    module.load_run = lambda path: module.run
+    monkeypatch.setitem(sys.modules, "flexcage.simulate", module)
+    return module
+
+
+def test_run(corridor, capsys):
+    argv = ["run", EXAMPLE, "-o", "out", "--cage", "rigid", "--animate"]
+    argv += ["--set", "load.radial=2 kN", "--set", "bearing.roller_count=21"]
+    argv += ["--set", "bearing.effective_length=7.64 mm"]
+    assert cli.main(argv) == 0
+    ((case, out, resume),) = corridor.calls
+    assert case.cage_model == "rigid" and case.load.radial == 2000.0
+    assert case.bearing.roller_count == 21 and not resume
+    assert out == Path("out") and out.is_dir()
+    assert corridor.run.drawn == [(Path("out/images"), True)]
+    assert "2709 rpm" in capsys.readouterr().out
+
+
+def test_run_without_images_in_the_default_folder(corridor):
+    assert cli.main(["run", EXAMPLE, "--no-images"]) == 0
+    assert corridor.calls[0][1] == Path("runs/n1013")
+    assert corridor.run.drawn == []
+
+
+def test_resume(corridor, tmp_path):
+    (tmp_path / "out" / "results.zarr").mkdir(parents=True)
+    assert cli.main(["run", EXAMPLE, "-o", "out", "--resume"]) == 0
+    assert corridor.calls[0][2] is True
+
+
+@pytest.mark.parametrize(
+    ("error", "code", "words"),
+    [
+        (RunFailed("The solver cannot go on at 12 ms."), 1, "cannot go on at 12 ms."),
+        (EnvironmentLacks("No EGL; install it"), 1, "No EGL; install it."),
+        (OSError(errno.ENOSPC, "No space left on device", "x.zarr"), 1, "disk is full at 'x.zarr'"),
+        (OSError(errno.EIO, "Input/output error"), 1, "Input/output error"),
+        (MemoryError(), 1, "too little memory"),
+        (ZeroDivisionError("division by zero"), 1, "FLEXCAGE_DEBUG=1"),
+        (KeyboardInterrupt(), 130, "Stopped."),
+    ],
+)
+def test_failures_in_the_middle(corridor, capsys, error, code, words):
+    corridor.error = error
+    assert cli.main(["run", EXAMPLE, "-o", "out"]) == code
+    err = capsys.readouterr().err
+    assert err.startswith("flexcage: ") and err.count("\n") == 1 and words in err
+
+
+def test_ctrl_c_says_what_is_kept(corridor, capsys):
+    corridor.error, corridor.keeps = KeyboardInterrupt(), True
+    assert cli.main(["run", EXAMPLE, "-o", "out"]) == 130
+    err = capsys.readouterr().err
+    assert "kept in 'out'" in err and "--resume" in err
+
+
+def test_debug_shows_the_traceback(corridor, monkeypatch):
+    monkeypatch.setenv("FLEXCAGE_DEBUG", "1")
+    corridor.error = ZeroDivisionError("division by zero")
+    with pytest.raises(ZeroDivisionError):
+        cli.main(["run", EXAMPLE, "-o", "out"])
+
+
+def test_render(corridor, tmp_path):
+    (tmp_path / "out" / "results.zarr").mkdir(parents=True)
+    assert cli.main(["render", "out"]) == 0
+    assert cli.main(["render", "out", "-o", "elsewhere", "--animate"]) == 0
+    assert corridor.run.drawn == [(Path("out/images"), False), (Path("elsewhere"), True)]
+
+
+def test_presets_show_assumptions_and_ratings(capsys):
+    assert cli.main(["presets"]) == 0
+    assert "N1013" in capsys.readouterr().out
+    assert cli.main(["presets", "N1013"]) == 0
+    shown = capsys.readouterr().out
+    line = next(x for x in shown.splitlines() if "cage.pocket_width" in x)
+    assert "8.2 mm" in line and "assumption:" in line
+    assert "51.05 kN" in shown and "41.04 kN" in shown
+
+
+def test_cache(corridor, capsys):
+    assert cli.main(["cache"]) == 0
+    assert "no entries" in capsys.readouterr().out
+    assert cli.main(["cache", "--clear"]) == 0
+    assert "freed" in capsys.readouterr().out
+
+
+def test_doctor_fails_only_for_what_a_run_needs(monkeypatch, capsys):
+    from flexcage.core import environment
+    from flexcage.core.environment import Finding
+
+    picture = Finding("rendering", False, "no EGL", "apt-get x", needed=False)
+    gmsh = Finding("gmsh", False, "libGLU", "apt-get y")
+    monkeypatch.setattr(environment, "probe", lambda: [picture])
+    assert cli.main(["doctor"]) == 0
+    assert "remedy: apt-get x" in capsys.readouterr().out
+    monkeypatch.setattr(environment, "probe", lambda: [picture, gmsh])
+    assert cli.main(["doctor"]) == 1
+
+
+def test_version(capsys):
+    with pytest.raises(SystemExit) as caught:
+        cli.main(["--version"])
+    assert caught.value.code == 0
+    assert capsys.readouterr().out.startswith("flexcage ")
+
+
+@pytest.mark.parametrize(
+    ("text", "expected"),
+    [
+        ("cage.pocket_width=8.25 mm", ("cage.pocket_width", "8.25 mm")),
+        ("bearing.roller_count=21", ("bearing.roller_count", 21)),
+        ("modes.land = false", ("modes.land", False)),
+        ("cage.material=PEEK", ("cage.material", "PEEK")),
+        ("drive.times=['0 s', '1 s']", ("drive.times", ["0 s", "1 s"])),
+        ("name=a=b", ("name", "a=b")),
+    ],
+)
+def test_settings(text, expected):
+    assert cli.parse_setting(text) == expected

@@ -1,0 +1,74 @@
+"""Presets: the dimensions of the reference, and every assumption marked as one."""
+
+from importlib import resources
+
+import pytest
+
+from flexcage.core.errors import InputError
+from flexcage.geometry.checks import check_geometry
+from flexcage.geometry.presets import load_preset, preset_names
+
+# value in SI, written out here a second time from the data of paper 000
+N1013 = {
+    "bearing": {
+        "bore": 65e-3,
+        "outside_diameter": 100e-3,
+        "width": 18e-3,
+        "inner_race_diameter": 74.5e-3,
+        "outer_race_diameter": 90.5e-3,
+        "roller_diameter": 8e-3,
+        "roller_length": 8e-3,
+        "effective_length": 7.3e-3,
+        "roller_count": 22,
+        "pitch_diameter": 82.5e-3,
+        "radial_clearance": 20e-6,
+        "rib_diameter": 78.4e-3,
+        "rib_gap": 8.03e-3,
+    },
+    "cage": {
+        "bore": 78.9e-3,
+        "outside_diameter": 86.6e-3,
+        "width": 16e-3,
+        "pocket_width": 8.2e-3,
+        "pocket_length": 8.25e-3,
+        "side_beam_width": 3.875e-3,
+    },
+}
+
+
+@pytest.mark.parametrize("room", N1013)
+def test_n1013_has_its_dimensions(room):
+    spec = getattr(load_preset("N1013"), room)
+    assert {k: getattr(spec, k) for k in N1013[room]} == pytest.approx(N1013[room], rel=1e-12)
+
+
+def test_n1013_roller_mass_and_inertia():
+    """3.1567 g, 2.5253e-8 and 2.9463e-8 kg m^2: verified by an independent program."""
+    bearing = load_preset("N1013").bearing
+    assert bearing.roller_mass == pytest.approx(3.1567e-3, rel=2e-5)
+    assert bearing.roller_inertia == pytest.approx((2.5253e-8, 2.9463e-8), rel=2e-5)
+
+
+@pytest.mark.parametrize("name", preset_names())
+def test_every_preset_is_possible(name):
+    preset = load_preset(name)
+    check_geometry(preset.bearing, preset.cage)
+
+
+@pytest.mark.parametrize("name", preset_names())
+def test_assumptions_are_marked_in_both_places(name):
+    """A comment beside the value and a reason in the list, for the same values."""
+    text = (resources.files("flexcage.geometry") / "data" / f"{name}.toml").read_text("utf-8")
+    commented, table = set(), ""
+    for line in text.splitlines():
+        if line.startswith("["):
+            table = line.strip("[]")
+        key, sign, rest = line.partition("=")
+        if sign and "assumption" in rest.partition("#")[2]:
+            commented.add(f"{table}.{key.strip()}")
+    assert commented == set(load_preset(name).assumptions)
+
+
+def test_unknown_preset_names_the_nearest():
+    with pytest.raises(InputError, match="'n1012' is not known; the nearest known one is 'N1013'"):
+        load_preset("n1012")

@@ -1,0 +1,256 @@
+"""Meshes in files: round trips, files of other programs, and files that cannot be used."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from types import MappingProxyType
+
+import meshio
+import numpy as np
+import pytest
+
+from flexcage.core.errors import InputError
+from flexcage.geometry.cages import CrossbeamDefect
+from flexcage.mesh.build import build_cage_mesh
+from flexcage.mesh.cage_mesh import group_names
+from flexcage.mesh.io import read_mesh, write_mesh
+from flexcage.mesh.options import MeshOptions
+from flexcage.mesh.quality import check_mesh
+
+
+def triangle_set(mesh, name):
+    """Group as a set of oriented triangles, each rotated to start at its least vertex."""
+    rows = mesh.groups[name]
+    first = np.argmin(rows, axis=1)[:, None]
+    return {tuple(r) for r in np.take_along_axis(rows, (first + [0, 1, 2]) % 3, axis=1)}
+
+
+def assert_same(a, b):
+    assert np.abs(a.points - b.points).max() < 1e-15
+    assert (a.tets == b.tets).all()
+    assert set(a.groups) == set(b.groups) and a.pocket_count == b.pocket_count
+    for name in a.groups:
+        assert triangle_set(a, name) == triangle_set(b, name), name
+
+
+@pytest.mark.parametrize("suffix", [".msh", ".vtu"])
+def test_round_trip(n1013, tmp_path, suffix):
+    mesh = n1013(CrossbeamDefect(crossbeam=5, displacement=0.2e-3), fineness="coarse")
+    path = write_mesh(mesh, tmp_path / f"cage{suffix}")
+    assert_same(mesh, read_mesh(path))
+    assert_same(mesh, read_mesh(path, pocket_count=22))
+
+
+def test_medium_mesh_stays_below_a_megabyte(n1013, tmp_path):
+    path = write_mesh(n1013(fineness="medium"), tmp_path / "cage.msh")
+    assert path.stat().st_size < 1_000_000
+
+
+@pytest.mark.parametrize("binary", [0, 1])
+def test_gmsh_reads_ours_and_we_read_what_it_writes(n1013, tmp_path, binary):
+    gmsh = pytest.importorskip("gmsh")
+    mesh = n1013(fineness="coarse")
+    path = write_mesh(mesh, tmp_path / "cage.msh")
+    gmsh.initialize(interruptible=False)
+    try:
+        gmsh.option.setNumber("General.Verbosity", 0)
+        gmsh.open(str(path))
+        names = {gmsh.model.getPhysicalName(*g) for g in gmsh.model.getPhysicalGroups()}
+        assert names == {*mesh.groups, "cage"}
+        gmsh.option.setNumber("Mesh.MshFileVersion", 4.1)
+        gmsh.option.setNumber("Mesh.Binary", binary)
+        gmsh.model.mesh.setOrder(2)  # ten-node tetrahedra, read by their corners
+        gmsh.write(str(tmp_path / "theirs.msh"))
+    finally:
+        gmsh.finalize()
+    theirs = read_mesh(tmp_path / "theirs.msh")
+    assert len(theirs.points) == len(mesh.points)
+    assert theirs.volume == pytest.approx(mesh.volume, rel=1e-12)
+    for name, triangles in mesh.groups.items():
+        assert len(theirs.groups[name]) == len(triangles)
+
+
+def write_inp(mesh, path, *, scale=1e3, rename=lambda n: n, inline=False):
+    """An Abaqus deck in mm as a preprocessor writes it: solids, shells, and element sets."""
+    lines = ["*HEADING", "cage", "*NODE"]
+    for i, point in enumerate(mesh.points * scale):
+        lines.append(f"{i + 1}, " + ", ".join(f"{c:.12g}" for c in point))
+    lines.append("*ELEMENT, TYPE=C3D4, ELSET=solid")
+    lines += [f"{i + 1}, " + ", ".join(map(str, t + 1)) for i, t in enumerate(mesh.tets)]
+    number, sets = len(mesh.tets), {}
+    if not inline:
+        lines.append("*ELEMENT, TYPE=S3")
+    for name, triangles in mesh.groups.items():
+        if inline:
+            lines.append(f"*ELEMENT, TYPE=S3, ELSET={rename(name)}")
+        ids = []
+        for t in triangles:
+            number += 1
+            ids.append(number)
+            lines.append(f"{number}, " + ", ".join(map(str, t + 1)))
+        sets[rename(name)] = ids
+    for name, ids in () if inline else sets.items():
+        lines.append(f"*ELSET, ELSET={name}")
+        lines += [", ".join(map(str, ids[i : i + 8])) for i in range(0, len(ids), 8)]
+    path.write_text("\n".join(lines) + "\n")
+    return path
+
+
+@pytest.mark.parametrize("inline", [True, False])
+def test_abaqus_deck_in_millimetres(n1013, tmp_path, inline):
+    mesh = n1013(fineness="coarse")
+    path = write_inp(mesh, tmp_path / "cage.inp", inline=inline)
+    read = read_mesh(path, unit="mm")
+    assert read.volume == pytest.approx(mesh.volume, rel=1e-9)
+    assert set(read.groups) == set(mesh.groups)
+    assert triangle_set(read, "pocket4_side-x") == triangle_set(mesh, "pocket4_side-x")
+    with pytest.raises(InputError, match='file_unit = "mm"'):
+        read_mesh(path)
+
+
+def test_vtu_with_an_array_a_group(n1013, tmp_path):
+    mesh = n1013(fineness="coarse")
+    triangles = np.vstack(list(mesh.groups.values()))
+    at = np.cumsum([0, *(len(t) for t in mesh.groups.values())])
+    data = {}
+    for i, name in enumerate(mesh.groups):
+        flag = np.zeros(len(triangles), np.int32)
+        flag[at[i] : at[i + 1]] = 1
+        data[name] = [np.zeros(len(mesh.tets), np.int32), flag]
+    cells = [("tetra", mesh.tets), ("triangle", triangles)]
+    meshio.write(tmp_path / "own.vtu", meshio.Mesh(mesh.points, cells, cell_data=data))
+    assert_same(mesh, read_mesh(tmp_path / "own.vtu"))
+
+
+def test_elements_numbered_the_other_way_round_are_turned(n1013, tmp_path):
+    mesh = n1013(fineness="coarse")
+    path = write_mesh(replace(mesh, tets=mesh.tets[:, [1, 0, 2, 3]]), tmp_path / "cage.vtu")
+    read = read_mesh(path)
+    assert read.volume == pytest.approx(mesh.volume, rel=1e-12)
+    assert triangle_set(read, "land_outer") == triangle_set(mesh, "land_outer")
+
+
+def test_a_few_inverted_elements_are_refused(n1013, tmp_path):
+    mesh = n1013(fineness="coarse")
+    tets = mesh.tets.copy()
+    tets[7] = tets[7, [1, 0, 2, 3]]
+    with pytest.raises(InputError, match="1 inverted or flat"):
+        check_mesh(replace(mesh, tets=tets))
+    path = write_mesh(replace(mesh, tets=tets), tmp_path / "cage.msh")
+    with pytest.raises(InputError, match="1 inverted or flat"):
+        read_mesh(path)
+
+
+def regrouped(mesh, change):
+    groups = dict(mesh.groups)
+    change(groups)
+    return replace(mesh, groups=MappingProxyType(groups))
+
+
+def test_missing_group_names_the_nearest(n1013, tmp_path):
+    mesh = n1013(fineness="coarse")
+    path = write_inp(
+        mesh, tmp_path / "a.inp", rename=lambda n: n.replace("pocket3_front", "Pocket3_frnt")
+    )
+    with pytest.raises(InputError, match="'pocket3_front'; nearest is 'Pocket3_frnt'"):
+        read_mesh(path, unit="mm")
+    with pytest.raises(InputError, match="'land_outer'; nearest is 'land_inner'"):
+        check_mesh(regrouped(mesh, lambda g: g.pop("land_outer")))
+
+
+def test_fillets_may_be_missing(n1013, tmp_path):
+    mesh = n1013(fineness="coarse")
+    bare = regrouped(mesh, lambda g: [g.pop(f"pocket{k}_fillet") for k in range(22)])
+    read = read_mesh(write_mesh(bare, tmp_path / "cage.msh"))
+    assert set(read.groups) == set(group_names(22)) and len(read.groups["pocket0_fillet"]) == 0
+
+
+def test_misplaced_groups_are_refused(n1013):
+    mesh = n1013(fineness="coarse")
+
+    def swap(a, b):
+        return lambda g: g.update({a: g[b], b: g[a]})
+
+    with pytest.raises(InputError, match="other side of the pocket"):
+        check_mesh(regrouped(mesh, swap("pocket2_front", "pocket2_rear")))
+    with pytest.raises(InputError, match="pocket 2 at azimuth 49.1 deg"):
+        check_mesh(regrouped(mesh, swap("pocket2_side+x", "pocket3_side+x")))
+
+
+def test_mesh_in_pieces_is_refused(n1013):
+    mesh = n1013(fineness="coarse")
+    n = len(mesh.points)
+    double = replace(
+        mesh, points=np.vstack([mesh.points] * 2), tets=np.vstack([mesh.tets, mesh.tets + n])
+    )
+    with pytest.raises(InputError, match="falls apart into 2 pieces"):
+        check_mesh(double)
+
+
+def test_group_that_is_no_boundary_of_the_body_is_refused(n1013, tmp_path):
+    mesh = n1013(fineness="coarse")
+    odd = regrouped(mesh, lambda g: g.update({"end+x": np.array([[0, 100, 900]])}))
+    with pytest.raises(InputError, match="'end\\+x' has triangles that are no face"):
+        read_mesh(write_mesh(odd, tmp_path / "cage.msh"))
+
+
+@pytest.mark.parametrize("suffix", [".msh", ".inp", ".vtu"])
+@pytest.mark.parametrize("content", [b"", b"\x00\x01rubbish", b"$MeshFormat\n4.1 0 8\n<VTKFile"])
+def test_unreadable_file_is_one_sentence(tmp_path, suffix, content):
+    path = tmp_path / f"bad{suffix}"
+    path.write_bytes(content)
+    with pytest.raises(InputError) as caught:
+        read_mesh(path)
+    assert "bad" in str(caught.value) and "\n" not in str(caught.value)
+
+
+def test_cut_off_file_is_refused(n1013, tmp_path):
+    for suffix in (".msh", ".vtu"):
+        path = write_mesh(n1013(fineness="coarse"), tmp_path / f"cut{suffix}")
+        path.write_bytes(path.read_bytes()[: path.stat().st_size // 2])
+        with pytest.raises(InputError):
+            read_mesh(path)
+
+
+def test_absent_unknown_and_unnamed_files(n1013, tmp_path):
+    mesh = n1013(fineness="coarse")
+    with pytest.raises(InputError, match="there is no mesh file"):
+        read_mesh(tmp_path / "none.msh")
+    (tmp_path / "cage.stl").write_text("solid")
+    with pytest.raises(InputError, match=".msh, .inp or .vtu"):
+        read_mesh(tmp_path / "cage.stl")
+    for suffix in (".msh", ".vtu"):
+        plain = meshio.Mesh(mesh.points, [("tetra", mesh.tets)])
+        path = tmp_path / f"unnamed{suffix}"
+        plain.write(path, **({"file_format": "gmsh22"} if suffix == ".msh" else {}))
+        with pytest.raises(InputError, match="no named surfaces"):
+            read_mesh(path)
+    with pytest.raises(InputError, match="written as .msh or .vtu"):
+        write_mesh(mesh, tmp_path / "cage.obj")
+    with pytest.raises(InputError, match="cannot be written"):
+        write_mesh(mesh, tmp_path / "no_folder" / "cage.msh")
+
+
+class TestFileInACase:
+    def build(self, n1013, path, *defects, pocket_count=22):
+        return build_cage_mesh(
+            n1013.cage,
+            pocket_count=pocket_count,
+            pitch_diameter=n1013.pitch_diameter,
+            defects=defects,
+            options=MeshOptions(file=str(path)),
+        )
+
+    def test_defects_are_measured_on_the_file(self, n1013, tmp_path):
+        defect = CrossbeamDefect(crossbeam=5, displacement=0.2e-3)
+        path = write_mesh(n1013(defect, fineness="coarse"), tmp_path / "cage.msh")
+        mesh = self.build(n1013, path, defect)
+        assert mesh.info["defects"][0]["delivered"] == pytest.approx(0.2e-3, abs=1e-9)
+
+    def test_a_file_that_is_not_what_the_case_says_is_refused(self, n1013, tmp_path):
+        defect = CrossbeamDefect(crossbeam=5, displacement=0.2e-3)
+        path = write_mesh(n1013(defect, fineness="coarse"), tmp_path / "cage.msh")
+        with pytest.raises(InputError, match="pocket 4 is 8.000 mm wide .* 8.200 mm"):
+            self.build(n1013, path)
+        with pytest.raises(InputError, match="names 22 pockets, but the bearing has 20"):
+            self.build(n1013, path, pocket_count=20)

@@ -1,0 +1,125 @@
+"""Metrics against a motion whose figures are known."""
+
+import numpy as np
+import pytest
+import xarray as xr
+
+from flexcage.results import audit, metrics
+from flexcage.results.spectra import amplitude_spectrum
+from flexcage.results.summary import Row, Summary, side_by_side, summarise
+
+
+def test_cage_speed_and_slip(known_run, bearing):
+    speed = metrics.cage_speed(metrics.settled(known_run), bearing)
+    assert speed.epicyclic * 30 / np.pi == pytest.approx(2709.09, abs=0.01)
+    assert speed.slip_ratio == pytest.approx(0.02, abs=1e-9)
+    assert speed.revolutions == pytest.approx(3.0, abs=0.01)
+
+
+def test_roller_slip_zones_apart(known_run, bearing):
+    slip = metrics.roller_slip(known_run, bearing, creep_speed=0.05)
+    assert slip.loaded == pytest.approx(0.01, abs=1e-6)
+    assert slip.unloaded == pytest.approx(0.05, abs=1e-6)
+    assert slip.overall == pytest.approx((3 * 0.01 + 19 * 0.05) / 22, abs=1e-6)
+    assert slip.loaded_share == pytest.approx(3 / 22)
+    assert slip.sliding_loaded == pytest.approx((0.02, 0.02))
+    assert slip.unresolved
+    assert not metrics.roller_slip(known_run, bearing, creep_speed=0.01).unresolved
+
+
+def test_mixing_frames_would_fake_slip(known_run, bearing):
+    """A roller in pure rolling slips by nothing in either frame; mixed, by 8.8 %."""
+    ideal = known_run.copy(deep=True)
+    ideal["roller_omega"][:, :, 0] = -27937.5 * np.pi / 30
+    ideal["cage_omega"][:, 0] = 2709.0909090909 * np.pi / 30
+    for frame in ("inertial", "cage"):
+        slip = metrics.roller_slip_ratio(ideal, bearing, frame=frame)
+        assert float(np.abs(slip).max()) < 1e-9
+    mixed = 1 - 27937.5 / (bearing.kinematics(-6000).roller_spin_in_cage)
+    assert mixed == pytest.approx(0.088, abs=5e-4)
+
+
+def test_whirl_of_a_circle(known_run):
+    part = metrics.whole_revolutions(known_run)
+    about_mean = metrics.whirl(part)
+    assert about_mean.mean == pytest.approx(40e-6, rel=1e-3)
+    assert about_mean.ratio == pytest.approx(0.0, abs=2e-3)
+    assert about_mean.speed_ratio == pytest.approx(1.0, abs=1e-3)
+    about_axis = metrics.whirl(part, about="axis")
+    centre = np.hypot(10e-6, 20e-6)
+    assert about_axis.largest == pytest.approx(40e-6 + centre, rel=1e-4)
+    assert about_axis.smallest == pytest.approx(40e-6 - centre, rel=1e-4)
+
+
+def test_tilt_from_orientation(known_run):
+    """A cage turned by 2 mrad about z after any spin leans towards +y by 2 mrad."""
+    ds = known_run.copy(deep=True)
+    half, spin = 1e-3, ds["cage_quaternion"].values
+    w, x = spin[:, 0], spin[:, 1]
+    lean = np.stack([np.cos(half) * w, np.cos(half) * x, np.sin(half) * x, np.sin(half) * w], 1)
+    ds["cage_quaternion"][:] = lean
+    out = metrics.tilt(ds)
+    assert np.allclose(out.sel(component="total"), 2e-3, rtol=1e-9)
+    assert np.allclose(out.sel(component="towards y"), 2e-3, rtol=1e-6)
+    assert np.allclose(out.sel(component="towards z"), 0.0, atol=1e-12)
+
+
+def test_pocket_forces(known_run):
+    forces = metrics.pocket_forces(known_run)
+    assert (forces.peak, forces.peak_pocket, forces.peak_face) == (11.0, 7, "rear")
+    assert forces.peak_time == pytest.approx(4000 / 50e3)
+    assert forces.mean == pytest.approx((2500 * 3 + 11) / 2501)
+    assert forces.contact_share == pytest.approx(2501 / (5001 * 22 * 4))
+
+
+def test_energy_audit_balances_and_sees_a_leak(known_run):
+    assert audit.energy_audit(known_run).relative < 1e-12
+    leaky = known_run.copy(deep=True)
+    leaky["energy"][:, 1] += 0.12 * leaky["time"].values
+    check = audit.energy_audit(leaky)
+    assert check.final == pytest.approx(0.012)
+    assert check.moved == pytest.approx(1.2)
+    assert check.relative == pytest.approx(0.01)
+    assert check.channels == pytest.approx({"drive": 0.5, "friction": -0.7})
+
+
+def test_spectrum_reads_amplitude():
+    t = np.arange(2000) / 20e3
+    signal = xr.DataArray(
+        np.stack([3.0 * np.sin(2 * np.pi * 500 * t) + 7.0, np.cos(2 * np.pi * 1000 * t)], axis=1),
+        dims=("time", "axis2"),
+        coords={"time": t, "axis2": ["y", "z"]},
+        attrs={"units": "m/s^2"},
+    )
+    spectrum = amplitude_spectrum(signal)
+    assert spectrum.dims == ("frequency", "axis2")
+    assert float(spectrum.sel(frequency=500, axis2="y")) == pytest.approx(3.0, rel=1e-6)
+    assert float(spectrum.sel(frequency=1000, axis2="z")) == pytest.approx(1.0, rel=1e-6)
+    assert float(spectrum.idxmax("frequency").sel(axis2="y")) == pytest.approx(500)
+
+
+def test_velocity_deviation_of_a_pulsing_circle(known_run):
+    """Speed 1 + 0.3 sin has a standard deviation of 0.3/sqrt(2) of its mean."""
+    ds = known_run.isel(time=slice(0, 5000)).copy(deep=True)
+    t = ds["time"].values
+    speed = 1.0 + 0.3 * np.sin(2 * np.pi * 100 * t)
+    ds["cage_velocity"][:] = np.stack([0 * t, speed, 0 * t], axis=1)
+    assert metrics.velocity_deviation(ds) == pytest.approx(0.3 / np.sqrt(2), rel=1e-3)
+    assert metrics.velocity_deviation(ds, low_pass=2e3) == pytest.approx(0.3 / np.sqrt(2), rel=0.01)
+
+
+def test_summary_prints_and_comes_back(known_run, bearing, tmp_path):
+    summary = summarise(known_run, bearing, creep_speed=0.05).with_section(
+        "Solver", [Row("steps", "Steps", 12345), Row("wall", "Wall time", 1.5, "s")]
+    )
+    text = summary.text()
+    assert "unresolved" in text and "12,345" in text and "2,709.1 rpm" in text
+    lines = [line for line in text.splitlines() if line.startswith("  ")]
+    ends = {line.index(" rpm") for line in lines if " rpm" in line}
+    assert len(ends) == 1, "values are right-aligned"
+    back = Summary.from_json(summary.to_json())
+    assert back.text() == text
+    assert back["cage_slip_ratio"] == pytest.approx(0.02, abs=1e-6)
+    assert [p.name for p in summary.write(tmp_path)] == ["summary.txt", "summary.json"]
+    both = side_by_side({"rigid": summary, "flexible": back})
+    assert both.splitlines()[0].split() == ["rigid", "flexible"]

@@ -1,0 +1,254 @@
+"""The store: round trips, blocks, kills, versions, full disks."""
+
+import errno
+import json
+import os
+import signal
+import subprocess
+import sys
+import time
+import warnings
+
+import numpy as np
+import pytest
+import xarray as xr
+
+from flexcage.core.errors import InputError, RunFailed
+from flexcage.results.registry import LABELS, TIME, TIME_HF, VARIABLES, Variable, variable
+from flexcage.results.store import RunStore
+
+VARS = ["inner_angle", "cage_position", "pocket_slice_force", "outer_acceleration"]
+N, BLOCK, RATIO = 101, 25, 4
+
+
+def make(path, **kwargs):
+    n_hf = RATIO * (N - 1) + 1
+    coords = {
+        "time": np.arange(N) * 2e-5,
+        "time_hf": np.arange(n_hf) * 5e-6,
+        "pocket": np.arange(3),
+        "slice": np.linspace(-1e-3, 1e-3, 5),
+        "pocket_azimuth": (("pocket",), np.arange(3) * 2.0, {"units": "rad"}),
+    }
+    options = {"coords": coords, "variables": VARS, "n_time": N, "n_time_hf": n_hf}
+    return RunStore.create(path, **options, block=BLOCK, attrs={"case": "x"}, **kwargs)
+
+
+def block(store, index, length=None):
+    """Values that tell their own index: variable j at sample i is i + j/10."""
+    out = []
+    for grid in (TIME, TIME_HF):
+        start, stop = store.layout.span(index, grid)
+        if length is not None:
+            stop = min(stop, start + length)
+        wanted = [v for v in store.layout.variables if v.dims[0] == grid]
+        out.append(
+            {
+                v.name: np.broadcast_to(
+                    (np.arange(start, stop) + VARS.index(v.name) / 10.0).reshape(
+                        -1, *[1] * (len(v.dims) - 1)
+                    ),
+                    (stop - start, *store.layout.shape(v)[1:]),
+                )
+                for v in wanted
+            }
+        )
+    return out
+
+
+def check(ds, n):
+    assert ds.sizes["time"] == n
+    for j, name in enumerate(VARS):
+        values = ds[name].values
+        expected = np.arange(len(values)) + j / 10.0
+        flat = values.reshape(len(values), -1)
+        assert np.allclose(flat, expected[:, None], rtol=1e-6), name
+
+
+@pytest.mark.parametrize("where", ["disk", "memory"])
+def test_round_trip(where, tmp_path):
+    store = make(tmp_path / "r.zarr" if where == "disk" else None)
+    assert store.checkpoint() is None and store.steps() == {}
+    for i in range(store.layout.n_blocks):
+        steps = {"t": np.full(3, i), "order": np.arange(3)}
+        state = {"y": np.arange(4.0) + i, "order": 2, "law": "bdf"}
+        store.write_block(i, *block(store, i), state, steps, {"t": np.arange(i)})
+    if where == "disk":
+        store = RunStore.open(tmp_path / "r.zarr")
+    ds = store.dataset()
+    check(ds, N)
+    assert store.complete and ds.attrs["complete"] == 1 and ds.attrs["case"] == "x"
+    assert ds.sizes["time_hf"] == RATIO * (N - 1) + 1
+    assert ds["cage_position"].attrs == VARIABLES["cage_position"].attrs
+    assert list(ds["crossbeam_face"].values) == ["front", "rear"]
+    assert ds["pocket_azimuth"].dims == ("pocket",)
+    assert ds["pocket_slice_force"].dtype == np.float32
+    assert np.allclose(ds["revolution"], np.arange(N) / (2 * np.pi))
+    state = store.checkpoint()
+    assert np.array_equal(state["y"], np.arange(4.0) + store.layout.n_blocks - 1)
+    assert str(state["law"]) == "bdf" and int(state["order"]) == 2
+    assert len(store.steps()["t"]) == 3 * store.layout.n_blocks
+    assert len(store.events()["t"]) == sum(range(store.layout.n_blocks))
+
+
+def test_readers_trim_to_the_commit_and_a_run_goes_on(tmp_path):
+    path = tmp_path / "r.zarr"
+    store = make(path)
+    assert RunStore.open(path).dataset().sizes["time"] == 0
+    store.write_block(0, *block(store, 0), {"i": 0})
+    store.write_block(1, *block(store, 1, length=10))
+    again = RunStore.open(path)
+    ds = again.dataset()
+    check(ds, 35)
+    assert ds.sizes["time_hf"] == 110 and not again.complete
+    assert again.blocks == 1 and int(again.checkpoint()["i"]) == 0
+    for i in range(1, again.layout.n_blocks):
+        again.write_block(i, *block(again, i), {"i": i})
+    check(RunStore.open(path).dataset(), N)
+    assert len(list((path / "_run").glob("checkpoint-*"))) == 1
+
+
+def test_plain_xarray_reads_the_folder_quietly(tmp_path):
+    store = make(tmp_path / "r.zarr")
+    store.write_block(0, *block(store, 0))
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        ds = xr.open_zarr(tmp_path / "r.zarr", chunks=None)
+    assert ds["cage_position"].attrs["units"] == "m"
+    assert np.isnan(ds["inner_angle"].values[BLOCK:]).all()
+
+
+def test_wrong_blocks_are_refused(tmp_path):
+    store = make(None)
+    main, fine = block(store, 0)
+    with pytest.raises(ValueError, match="out of order"):
+        store.write_block(1, main, fine)
+    with pytest.raises(ValueError, match="missing"):
+        store.write_block(0, {}, fine)
+    with pytest.raises(ValueError, match="shape"):
+        store.write_block(0, {**main, "inner_angle": np.zeros((2, 2))}, fine)
+
+
+def test_sentences_for_paths_and_versions(tmp_path):
+    path = tmp_path / "r.zarr"
+    with pytest.raises(InputError, match="holds no run"):
+        RunStore.open(path)
+    make(path)
+    with pytest.raises(InputError, match="exists already"):
+        make(path)
+    make(path, overwrite=True)
+    commit = path / "_run" / "commit.json"
+    stored = json.loads(commit.read_text())
+    commit.write_text(json.dumps({**stored, "format": 99}))
+    with pytest.raises(InputError, match="format 99.*reads format 1"):
+        RunStore.open(path)
+    (tmp_path / "file").write_text("")
+    with pytest.raises(InputError, match="cannot be written"):
+        make(tmp_path / "file" / "r.zarr")
+
+
+@pytest.mark.parametrize("step", ["array", "checkpoint", "commit"])
+def test_a_full_disk_keeps_what_was_committed(tmp_path, monkeypatch, step):
+    import zarr
+
+    from flexcage.results import files
+    from flexcage.results import store as module
+
+    path = tmp_path / "r.zarr"
+    store = make(path)
+    store.write_block(0, *block(store, 0), {"i": 0})
+
+    def full(*args, **kwargs):
+        raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
+
+    if step == "array":
+        monkeypatch.setattr(zarr.Array, "__setitem__", full)
+    else:
+        real = files.replace
+
+        def some(target, content):
+            if step in target.name:
+                full()
+            real(target, content)
+
+        monkeypatch.setattr(files, "replace", some)
+        monkeypatch.setattr(module, "replace", some)
+    with pytest.raises(RunFailed, match="disk is full; the first 25 samples are kept"):
+        store.write_block(1, *block(store, 1), {"i": 1})
+    monkeypatch.undo()
+    again = RunStore.open(path)
+    check(again.dataset(), 25)
+    assert int(again.checkpoint()["i"]) == 0
+    again.write_block(1, *block(again, 1), {"i": 1})
+    check(RunStore.open(path).dataset(), 50)
+
+
+WRITER = """
+import sys
+sys.path.insert(0, {here!r})
+import test_store as t
+t.BLOCK, t.N = 5, 2001
+store = t.make({path!r})
+print("ready", flush=True)
+for i in range(store.layout.n_blocks):
+    store.write_block(i, *t.block(store, i), {{"i": i}}, {{"t": [float(i)]}}, {{}})
+"""
+
+
+def test_killed_at_random_moments_and_readable(tmp_path):
+    rng = np.random.default_rng(5)
+    here = os.path.dirname(__file__)
+    seen = []
+    for k in range(5):
+        path = tmp_path / f"{k}.zarr"
+        code = WRITER.format(here=here, path=str(path))
+        process = subprocess.Popen([sys.executable, "-c", code], stdout=subprocess.PIPE)
+        assert process.stdout.readline().strip() == b"ready"
+        time.sleep(rng.uniform(0.05, 0.6))
+        process.send_signal(signal.SIGKILL)
+        process.wait()
+        process.stdout.close()
+        store = RunStore.open(path)
+        ds = store.dataset()
+        check(ds, store.n_time)
+        assert store.n_time % 5 == 0 and store.n_time < 2001
+        assert len(store.steps().get("t", ())) == store.blocks
+        if store.blocks:
+            assert int(store.checkpoint()["i"]) == store.blocks - 1
+        store.write_block(store.blocks, *_next(store))
+        check(RunStore.open(path).dataset(), store.n_time)
+        seen.append(store.n_time)
+    assert len(set(seen)) > 1, "the kills came at different moments"
+
+
+def _next(store):
+    return block(store, store.blocks)
+
+
+def test_registry_is_complete():
+    """Every variable has a unit, a name, time first, and labels or a run-dependent dimension."""
+    free = {"roller", "pocket", "mode", "slice", "station", "residual", "constraint"}
+    free |= {"energy_kind", "channel"}
+    for name, v in VARIABLES.items():
+        assert v.name == name and v.unit and len(v.long_name) > 8
+        assert v.dims[0] in (TIME, TIME_HF)
+        assert set(v.dims[1:]) <= set(LABELS) | free, name
+        assert v.dtype in ("float64", "float32")
+    text = " ".join(VARIABLES)
+    for papers_plot in ("position", "omega", "slip", "pocket_slice", "energy", "multiplier"):
+        assert papers_plot in text
+    with pytest.raises(InputError, match="'cage_position'"):
+        variable("cage_positon")
+
+
+def test_a_variable_from_elsewhere(monkeypatch):
+    from flexcage.results import registry
+
+    monkeypatch.setattr(registry, "_table", dict(registry._table))
+    monkeypatch.setattr(registry, "VARIABLES", registry._table)
+    registry.register(Variable("oil_temperature", ("time",), "K", "temperature of the oil"))
+    assert registry.variable("oil_temperature").unit == "K"
+    with pytest.raises(InputError, match="exists already"):
+        registry.register(Variable("oil_temperature", ("time",), "K", "temperature of the oil"))
+    with pytest.raises(InputError, match="must be"):
+        registry.register(Variable("frozen", ("roller",), "K", "no time"))
