@@ -72,7 +72,7 @@ def land_contact(A, Rc, Vc, w, q, qd, Rr, Vr, spin, data, p, laws, sl, Fc, Mc, Q
             v[0] += w[1] * c[2] - w[2] * c[1]
             v[1] += w[2] * c[0] - w[0] * c[2] + spin * z
             v[2] += w[0] * c[1] - w[1] * c[0] - spin * y
-            sl.v[0] = -(n1 * v[1] + n2 * v[2]) - data.inner * ud
+            sl.v[0] = -(n1 * v[1] + n2 * v[2]) - (n1 * e[1] + n2 * e[2]) * ud
             law(1, sl.d, sl.v, p, sl.N, sl.Nd, sl.Nv)
             N = sl.N[0]
             if N <= 0.0:
@@ -88,7 +88,10 @@ def land_contact(A, Rc, Vc, w, q, qd, Rr, Vr, spin, data, p, laws, sl, Fc, Mc, Q
             Mc[0] += c[1] * f[2] - c[2] * f[1]
             Mc[1] += c[2] * f[0] - c[0] * f[2]
             Mc[2] += c[0] * f[1] - c[1] * f[0]
+            x = Rc[0] + c[0] - Rr[0]
             Mr[0] -= y * f[2] - z * f[1]
+            Mr[1] += x * f[2]
+            Mr[2] -= x * f[1]
             for m in range(q.shape[0]):
                 Qm[m] += (f[1] * e[1] + f[2] * e[2]) * data.phi[s, 1, m]
             law(1, sl.d, sl.zero, p, sl.dg, sl.Nd, sl.Nv)
@@ -118,6 +121,9 @@ def _film(A, Rc, Vc, w, Rr, Vr, spin, data, Fc, Mc, Fr, Mr, sums):
         Mc[0] += torque + cy * out[1] - cz * out[0]
         Mc[1] -= x * A[0, 0] * out[1]
         Mc[2] += x * A[0, 0] * out[0]
+        lever = Rc[0] + x * A[0, 0] - Rr[0]
         Mr[0] -= torque + ey * out[1] - ez * out[0]
+        Mr[1] += lever * out[1]
+        Mr[2] -= lever * out[0]
         sums[3] += out[0] * vy + out[1] * vz + torque * (w[0] - spin)
         sums[3] -= spin * (ey * out[1] - ez * out[0])

@@ -26,8 +26,8 @@ FRICTION_SIGNATURE = types.void(_I8, _A, _A, _A, _A)
 NORMAL_TYPE = types.FunctionType(NORMAL_SIGNATURE)
 FRICTION_TYPE = types.FunctionType(FRICTION_SIGNATURE)
 
-N_NORMAL = 6  # K, n, lambda or c_max, v0 (memory) or d_max, speed floor, spare
-SLOT_ONSET = 3  # where a contact keeps its onset speed
+N_NORMAL = 6  # K, n, lambda or c_max, v0 (memory), speed floor, d_max
+SLOT_ONSET = 3  # where a contact keeps its onset speed, whatever its law
 
 
 @kernel(NORMAL_SIGNATURE)
@@ -63,12 +63,12 @@ def impact_step(n, d, v, p, F, Fd, Fv):
         F[k] = Fd[k] = Fv[k] = 0.0
         if d[k] > 0.0:
             slope = p[0] * d[k] ** (p[1] - 1.0)
-            x = min(d[k] / p[3], 1.0)
+            x = min(d[k] / p[5], 1.0)
             c = p[2] * x * x * (3.0 - 2.0 * x)
             force = slope * d[k] + c * v[k]
             if force > 0.0:
                 F[k] = force
-                Fd[k] = p[1] * slope + p[2] * 6.0 * x * (1.0 - x) / p[3] * v[k]
+                Fd[k] = p[1] * slope + p[2] * 6.0 * x * (1.0 - x) / p[5] * v[k]
                 Fv[k] = c
 
 
@@ -145,13 +145,15 @@ def exact_dissipation(e: float) -> float:
 
     Solves ln[(1+lambda)/(1-lambda e)] = lambda (1+e) for its positive root.
     """
-    if e >= 1.0:
-        return 0.0
+    if e > 1.0 - 1e-6:
+        return 1.5 * max(1.0 - e, 0.0)  # series; the difference of logarithms is all rounding
 
     def equation(lam: float) -> float:
         return np.log1p(lam) - np.log1p(-lam * e) - lam * (1.0 + e)
 
     upper = (1.0 - 1e-13) / e
+    if equation(upper) < 0.0:
+        return upper  # below e = 0.031 the root is 1/e to rounding
     # f ~ (e^2 - 1) lambda^2/2 < 0 near the trivial root, +inf at 1/e
     return float(brentq(equation, 1e-3 * (1.0 - e), upper, xtol=1e-15, rtol=1e-14))
 
@@ -159,6 +161,8 @@ def exact_dissipation(e: float) -> float:
 def gupta_coefficients(peak: float, peak_speed: float, high: float) -> tuple[float, ...]:
     """A, B, C, D of the traction curve through mu(0) = 0, mu(peak_speed) = peak (a maximum)."""
     d, a = high, -high
+    if high == 0.0:  # B u exp(-C u) alone
+        return 0.0, peak * exp(1.0) / peak_speed, 1.0 / peak_speed, 0.0
 
     def miss(c: float) -> float:
         b = a * c / (1.0 - c * peak_speed)
@@ -180,7 +184,7 @@ def normal_parameters(law: NormalLaw, stiffness: float, exponent: float) -> np.n
     """Parameter vector (N_NORMAL,) of one slice's normal law; ``stiffness`` [N/m^exponent]."""
     k = stiffness * law.stiffness_factor
     if law.law == "impact_step":
-        return np.array([k, exponent, law.damping, law.full_damping_depth, 0.0, 0.0])
+        return np.array([k, exponent, law.damping, 0.0, law.speed_floor, law.full_damping_depth])
     lam = exact_dissipation(law.restitution) if law.law == "restitution" else 0.0
     return np.array([k, exponent, lam, 0.0, law.speed_floor, 0.0])
 
@@ -206,8 +210,8 @@ def pocket_line_law(
 ) -> tuple[float, float]:
     """Stiffness and exponent of a roller against a flat wall, F = K d^n, fitted over ``loads`` [N].
 
-    Both bodies give Johnson's line-contact approach, q (1-nu^2)/(pi E) [2 ln(2 h/b) - 1] with
-    h the distance to the reference point: the roller's axis, and ``depth`` inside the wall.
+    Johnson, Contact Mechanics 5.6: the roller yields q (1-nu^2)/(pi E) [2 ln(4 R/b) - 1] to its
+    axis, the wall q (1-nu^2)/(pi E) [2 ln(2 h/b) - nu/(1-nu)] to a point ``depth`` h inside it.
     With ``patch_half_width`` w > 0 the wall's mesh already yields under the same load spread over
     a strip of half-width w, so the wall contributes only the difference between a Hertzian and
     a uniform pressure, 2 q (1-nu^2)/(pi E) [ln(4 w/b) - 1], which no longer depends on depth.
@@ -220,7 +224,8 @@ def pocket_line_law(
     if patch_half_width > 0.0:
         approach += 2.0 * q * soft[1] / np.pi * (np.log(4.0 * patch_half_width / b) - 1.0)
     else:
-        approach += q * soft[1] / np.pi * (2.0 * np.log(4.0 * depth / b) - 1.0)
+        lateral = wall[1] / (1.0 - wall[1])
+        approach += q * soft[1] / np.pi * (2.0 * np.log(2.0 * depth / b) - lateral)
     exponent, intercept = np.polyfit(np.log(approach), np.log(q * length), 1)
     return float(np.exp(intercept)), float(exponent)
 

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import hashlib
 import os
+import warnings
 from pathlib import Path
 
 import platformdirs
@@ -42,6 +43,8 @@ if "NUMBA_CACHE_DIR" not in os.environ:
 import numba  # noqa: E402  (its cache folder must be known first)
 
 numba.config.CACHE_DIR = os.environ["NUMBA_CACHE_DIR"]
+# laws are passed to kernels as first-class functions, which numba calls experimental
+warnings.simplefilter("ignore", numba.errors.NumbaExperimentalFeatureWarning)
 
 OPTIONS = {"cache": True, "error_model": "numpy", "fastmath": False}
 

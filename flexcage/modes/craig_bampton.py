@@ -14,10 +14,9 @@ from scipy.linalg import lu_factor, lu_solve
 
 from flexcage.fem.free import FreeBodySolver
 from flexcage.fem.modal import lowest_modes
-from flexcage.fem.symmetry import find_symmetry
 from flexcage.modes.basis import ModeBasis
-from flexcage.modes.pockets import check_groups, pocket_loads
-from flexcage.modes.ritz import eigen_basis, ritz_modes
+from flexcage.modes.pockets import check_groups
+from flexcage.modes.ritz import eigen_basis, pocket_statics, ritz_modes
 from flexcage.modes.spec import ModesSpec
 
 
@@ -39,23 +38,15 @@ class HeldInterface:
     def __init__(self, solver: FreeBodySolver, pocket_count: int) -> None:
         self._solver = solver
         model = solver.model
-        self._loads = np.column_stack(
-            [pocket_loads(model, k, pocket_count) for k in range(pocket_count)]
-        )
-        self._static = self._statics(pocket_count)
+        pairs = list(pocket_statics(solver, pocket_count))
+        self._loads = np.column_stack([loads for loads, _ in pairs])
+        self._static = np.column_stack([static for _, static in pairs])
         self._rigid = model.rigid_modes
         motion = self._loads.T @ self._rigid
         compliance = self._loads.T @ self._static
         compliance = 0.5 * (compliance + compliance.T)
         corner = np.zeros((6, 6))
         self._system = lu_factor(np.block([[compliance, motion], [motion.T, corner]]))
-
-    def _statics(self, pocket_count: int) -> np.ndarray:
-        symmetry = find_symmetry(self._solver.model, pocket_count)
-        if symmetry is None:
-            return self._solver.solve(self._loads)
-        first = self._solver.solve(self._loads[:, : self._loads.shape[1] // pocket_count])
-        return np.column_stack([symmetry.rotate(first, k) for k in range(pocket_count)])
 
     def constraint_modes(self) -> np.ndarray:
         """Displacements (3N, 8 Z) that move one interface coordinate by one, the others not."""

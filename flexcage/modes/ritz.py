@@ -8,8 +8,10 @@ same space, the reference against which the default is shown right.
 from __future__ import annotations
 
 import logging
+from collections.abc import Iterator
 
 import numpy as np
+import scipy.sparse as sp
 from scipy.linalg import eigh
 
 from flexcage.fem.free import FreeBodySolver
@@ -29,13 +31,12 @@ def build(solver: FreeBodySolver, *, pocket_count: int, spec: ModesSpec) -> Mode
     centrifugal = centrifugal_mode(solver, free)
     kept = np.column_stack([free, centrifugal])
     kept_stiffness = np.append(omega2, centrifugal @ (solver.model.K @ centrifugal))
-    vectors = residual_vectors(solver, kept, kept_stiffness, pocket_count)
+    vectors, own_stiffness = residual_vectors(solver, kept, kept_stiffness, pocket_count)
     kinds = ["free"] * len(omega2) + ["centrifugal"]
     if spec.dynamic == "all":
         return _all_dynamic(solver, (free, omega2), np.column_stack([centrifugal, vectors]))
-    return eigen_basis(
-        "ritz", kept, kept_stiffness, kinds, residual_flexibility(solver, vectors, pocket_count)
-    )
+    residual = residual_flexibility(vectors, own_stiffness, pocket_count)
+    return eigen_basis("ritz", kept, kept_stiffness, kinds, residual)
 
 
 def eigen_basis(
@@ -72,51 +73,65 @@ def centrifugal_mode(solver: FreeBodySolver, modes: np.ndarray) -> np.ndarray:
 
 
 def residual_vectors(
-    solver: FreeBodySolver, kept: np.ndarray, stiffness: np.ndarray, pocket_count: int
-) -> np.ndarray:
-    """Residual attachment vectors (3N, 8 Z): inertia-relieved answers to the pocket loads.
+    solver: FreeBodySolver, kept: np.ndarray, kept_stiffness: np.ndarray, pocket_count: int
+) -> tuple[np.ndarray, np.ndarray]:
+    """Residual attachment vectors Psi (3N, 8 Z) and their stiffness Psi^T K Psi.
 
-    The part that the kept modes carry is taken away, so that K-products with all kept modes
-    vanish (mass products too with eigenmodes; the centrifugal shape is none). Each vector is
-    scaled so that its own load does a work of one on it: coordinates are metres of mean face
-    displacement. On a cyclic model pocket 0 is solved and turned, otherwise all are solved.
+    A vector is the inertia-relieved answer to a pocket load less the part that the kept modes
+    carry, so that K-products with all kept modes vanish (mass products too with eigenmodes; the
+    centrifugal shape is none). It is scaled so that its own load does a work of one on it:
+    coordinates are metres of mean face displacement. As K Psi_j is then the load j over its
+    scale but for forces that do no work on Psi, the stiffness needs no product with K.
+    """
+    vectors, work = [], []
+    for loads, static in pocket_statics(solver, pocket_count):
+        beyond = static - kept @ ((kept.T @ loads) / kept_stiffness[:, None])
+        scale = np.einsum("ij,ij->j", loads, beyond)
+        vectors.append(beyond / scale)
+        work.append(sp.csr_matrix((loads / scale).T))
+    shapes = np.column_stack(vectors)
+    stiffness = sp.vstack(work) @ shapes
+    return shapes, 0.5 * (stiffness + stiffness.T)
+
+
+def pocket_statics(
+    solver: FreeBodySolver, pocket_count: int
+) -> Iterator[tuple[np.ndarray, np.ndarray]]:
+    """Pocket by pocket: its loads (3N, 8) and their inertia-relieved answers (3N, 8).
+
+    On a cyclic model pocket 0 is solved and turned, otherwise all are solved.
     """
     symmetry = find_symmetry(solver.model, pocket_count)
-    pockets = range(1 if symmetry else pocket_count)
-    parts = []
-    for pocket in pockets:
+    log.info("static answers of %d pockets, cyclic symmetry: %s", pocket_count, bool(symmetry))
+    first = solver.solve(pocket_loads(solver.model, 0, pocket_count)) if symmetry else None
+    for pocket in range(pocket_count):
         loads = pocket_loads(solver.model, pocket, pocket_count)
-        static = solver.solve(loads)
-        static -= kept @ ((kept.T @ loads) / stiffness[:, None])
-        parts.append(static / np.einsum("ij,ij->j", loads, static))
-    if symmetry:
-        parts = [symmetry.rotate(parts[0], pocket) for pocket in range(pocket_count)]
-    log.info("%d residual vectors, cyclic symmetry %s", 8 * pocket_count, bool(symmetry))
-    return np.column_stack(parts)
+        if symmetry is None or first is None:
+            yield loads, solver.solve(loads)
+        else:
+            yield loads, symmetry.rotate(first, pocket)
 
 
 def residual_flexibility(
-    solver: FreeBodySolver, vectors: np.ndarray, pocket_count: int
+    vectors: np.ndarray, stiffness: np.ndarray, pocket_count: int
 ) -> ResidualFlexibility:
-    """Stiffness of the residual coordinates, their pocket compliances and the coupling cut.
+    """Residual vectors (3N, 8 Z) with the compliances of their pockets and the coupling cut.
 
     Coordinates a obey stiffness a = Psi^T F. Cutting the coupling between pockets leaves
     a_p = compliance_p Psi_p^T F with the inverse of the pocket's own stiffness block: exact for
     the pocket's own displacement under loads in the span of its eight patterns.
     """
     per = LOADS_PER_POCKET
-    stiffness = np.empty((vectors.shape[1], vectors.shape[1]))
-    for start in range(0, vectors.shape[1], per):
-        part = slice(start, start + per)
-        stiffness[:, part] = vectors.T @ (solver.model.K @ vectors[:, part])
-    stiffness = 0.5 * (stiffness + stiffness.T)
     blocks = stiffness.reshape(pocket_count, per, pocket_count, per)
     own = np.stack([np.linalg.inv(blocks[k, :, k]) for k in range(pocket_count)])
+    far = coupling(stiffness, pocket_count, distance=1)
+    beyond = coupling(stiffness, pocket_count, distance=2)
+    log.info("residual coupling cut: %.2f to the next pocket, %.2f beyond it", far, beyond)
     return ResidualFlexibility(
         shapes=vectors.reshape(-1, 3, vectors.shape[1]),
         stiffness=stiffness,
         compliance=own,
-        far_coupling=coupling(stiffness, pocket_count, distance=1),
+        far_coupling=far,
     )
 
 

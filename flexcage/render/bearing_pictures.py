@@ -16,11 +16,12 @@ from flexcage.render.scene import (
     Picture,
     Stage,
     View,
-    _load_pyvista,
     body_layer,
+    load_pyvista,
     outline_layer,
     surface_of,
 )
+from flexcage.render.solids import revolved, rotation
 
 if TYPE_CHECKING:
     import pyvista
@@ -85,7 +86,7 @@ def bearing_picture(
     """
     now = instant(ds, index)
     top = limit if limit is not None else sheet.rounded_up(float(ds["race_force"].max()))
-    cage = _cage(cage_points, cage_tets)
+    cage = cut_cage(cage_points, cage_tets)
     with Stage(*MAIN) as stage:
         picture = stage.shoot(
             bearing_layers(now, bearing, cage, top), bearing_view(bearing), peel=True
@@ -124,7 +125,7 @@ def bearing_view(bearing: RollerBearingNumbers) -> View:
     return View(
         tuple(direction / np.linalg.norm(direction)),
         (0.0, 0.0, 0.0),
-        1.24 * bearing.outside_diameter,
+        1.13 * bearing.outside_diameter,
         up=(0.0, 1.0, 0.0),
     )
 
@@ -132,19 +133,22 @@ def bearing_view(bearing: RollerBearingNumbers) -> View:
 def bearing_layers(
     now: Instant, bearing: RollerBearingNumbers, cage: pyvista.PolyData | None, top: float
 ) -> list[Layer]:
-    """Rings, rollers and (if given at rest, in the cage's frame) the cage at an instant."""
-    half = 0.5 * bearing.width
+    """Rings and cage cut at mid-width, so that the rollers stand free; the rings translucent.
+
+    ``cage`` is the cut cage at rest, in its own frame.
+    """
+    half, race = 0.5 * bearing.width, 0.5 * bearing.outer_race_diameter
+    outside = 0.5 * bearing.outside_diameter
     inner = revolved(_inner_profile(bearing))
     inner.points = inner.points + now.inner_position
-    race, outside = 0.5 * bearing.outer_race_diameter, 0.5 * bearing.outside_diameter
-    outer = revolved([(-half, race), (half, race), (half, outside), (-half, outside)])
+    outer = revolved([(-half, race), (0.0, race), (0.0, outside), (-half, outside)])
     loaded = now.inner_load > LOADED_SHARE * top
     cmap = sheet.colour_map("viridis")
     layers = [
-        body_layer(outer, color=RING, opacity=0.16),
-        outline_layer(outer, colour="#55606c", width=1.0),
-        body_layer(inner, color=RING, opacity=0.32),
-        outline_layer(inner, colour="#55606c", width=1.0),
+        body_layer(outer, color=RING, opacity=0.34),
+        outline_layer(outer, colour="#4a545f", width=1.1),
+        body_layer(inner, color=RING, opacity=0.34),
+        outline_layer(inner, colour="#4a545f", width=1.1),
     ]
     for chosen, style in (
         (loaded, {"scalars": "load", "cmap": cmap, "clim": (0.0, top), "ambient": 0.62}),
@@ -157,49 +161,19 @@ def bearing_layers(
     if cage is not None:
         moved = cage.copy()
         moved.points = cage.points @ rotation(now.cage_quaternion).T + now.cage_position
-        layers.append(body_layer(moved, color=BRASS, opacity=0.28))
-        layers.append(outline_layer(moved, colour="#6b5320", width=0.9, opacity=0.7))
+        layers.append(body_layer(moved, color=BRASS))
+        layers.append(outline_layer(moved, colour="#6b5320", width=0.9, opacity=0.8))
     return layers
-
-
-def rotation(q: np.ndarray) -> np.ndarray:
-    """Matrix of a quaternion, scalar first, body to space."""
-    w, x, y, z = q / np.linalg.norm(q)
-    return np.array(
-        [
-            [1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
-            [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
-            [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)],
-        ]
-    )
-
-
-def revolved(profile: list[tuple[float, float]], *, segments: int = 144) -> pyvista.PolyData:
-    """A closed profile of (x, r) points, counter-clockwise, turned about the x axis."""
-    pv = _load_pyvista()
-    p = np.asarray(profile, float)
-    angle = 2.0 * pi * np.arange(segments) / segments
-    x = np.broadcast_to(p[:, 0], (segments, len(p)))
-    points = np.stack([x, np.outer(np.cos(angle), p[:, 1]), np.outer(np.sin(angle), p[:, 1])], -1)
-    i, j = np.meshgrid(np.arange(segments), np.arange(len(p)), indexing="ij")
-    i2, j2 = (i + 1) % segments, (j + 1) % len(p)
-    corners = [i * len(p) + j, i * len(p) + j2, i2 * len(p) + j2, i2 * len(p) + j]
-    quads = np.stack([np.full_like(i, 4), *corners], axis=-1).reshape(-1, 5)
-    keep = (p[j.ravel(), 1] > 0.0) | (p[j2.ravel(), 1] > 0.0)
-    return pv.PolyData(points.reshape(-1, 3), quads[keep].ravel())
 
 
 def _inner_profile(b: RollerBearingNumbers) -> list[tuple[float, float]]:
     half, gap = 0.5 * b.width, 0.5 * b.rib_gap
     bore, race, rib = 0.5 * b.bore, 0.5 * b.inner_race_diameter, 0.5 * b.rib_diameter
-    return [
-        (-half, bore), (half, bore), (half, rib), (gap, rib),
-        (gap, race), (-gap, race), (-gap, rib), (-half, rib),
-    ]  # fmt: skip
+    return [(-half, bore), (0.0, bore), (0.0, race), (-gap, race), (-gap, rib), (-half, rib)]
 
 
 def _rollers(now: Instant, b: RollerBearingNumbers, chosen: np.ndarray) -> pyvista.PolyData:
-    pv = _load_pyvista()
+    pv = load_pyvista()
     r, half = 0.5 * b.roller_diameter, 0.5 * b.roller_length
     c = 0.05 * b.roller_diameter
     shape = [(-half, 0.0), (half, 0.0), (half, r - c), (half - c, r), (c - half, r), (-half, r - c)]
@@ -219,10 +193,12 @@ def _rollers(now: Instant, b: RollerBearingNumbers, chosen: np.ndarray) -> pyvis
     return pv.merge(parts) if len(parts) > 1 else parts[0]
 
 
-def _cage(points: np.ndarray | None, tets: np.ndarray | None) -> pyvista.PolyData | None:
+def cut_cage(points: np.ndarray | None, tets: np.ndarray | None) -> pyvista.PolyData | None:
+    """Surface of a cage cut at mid-width, or None without a mesh."""
     if points is None or tets is None:
         return None
-    return surface_of(tets[:, :4]).polydata(points)
+    whole = surface_of(tets[:, :4]).polydata(points).triangulate()
+    return whole.clip_closed_surface(normal=(-1.0, 0.0, 0.0), origin=(0.0, 0.0, 0.0))
 
 
 def compose(
@@ -240,11 +216,9 @@ def compose(
     most = int(np.argmax(now.inner_load))
     head = f"t = {now.time * 1e3:.3f} ms"
     peak = f"most loaded: roller {most}, {now.inner_load[most]:.0f} N"
-    sheet.heading(figure, title, sheet.join([head, peak, note]))
+    sheet.heading(figure, title, sheet.join([head, peak, "cut at mid-width", note]))
     ax = sheet.image_at(figure, (EDGE, TOP, *MAIN), picture.pixels)
-    marks.triad(ax, picture)
-    _load_labels(ax, picture, now, bearing, top)
-    _middle(ax, picture, now, bearing, load)
+    label_bearing(ax, picture, now, bearing, top, load)
     left = EDGE + MAIN[0] + GAP
     _bars(figure, left, now, top)
     sheet.colour_bar(
@@ -257,21 +231,36 @@ def compose(
     )
 
 
+def label_bearing(
+    ax: Any,
+    picture: Picture,
+    now: Instant,
+    bearing: RollerBearingNumbers,
+    top: float,
+    load: tuple[float, float] | None,
+) -> None:
+    """Axes, numbers, loads and speeds on a picture of the bearing."""
+    marks.triad(ax, picture)
+    _load_labels(ax, picture, now, bearing, top)
+    _middle(ax, picture, now, bearing, load)
+
+
 def _load_labels(
     ax: Any, picture: Picture, now: Instant, b: RollerBearingNumbers, top: float
 ) -> None:
-    """Number of every roller inside the bore, and the load of the loaded ones outside."""
-    for k, (_, _, psi) in enumerate(now.position):
+    """Number of every roller on its end, and the load of the loaded ones outside the ring."""
+    end = np.array([0.5 * b.roller_length, 0.0, 0.0])
+    for k, (_, r, psi) in enumerate(now.position):
         radial = np.array([0.0, np.cos(psi), np.sin(psi)])
-        half = np.array([0.5 * b.width, 0.0, 0.0])
-        x, y = picture.place(0.5 * 0.90 * b.bore * radial + half)[0]
-        ax.text(x, y, str(k), ha="center", va="center", fontsize=8, color=sheet.FAINT)
-        if now.inner_load[k] > LOADED_SHARE * top:
-            spots = 0.5 * 1.09 * b.outside_diameter * radial + np.stack([half, -half])
-            ends = picture.place(spots)
-            x, y = ends[np.argmax(np.linalg.norm(ends - picture.place(half), axis=1))]
-            text = f"{now.inner_load[k]:.0f} N"
-            ax.text(x, y, text, ha="center", va="center", fontsize=9.5, weight="bold")
+        x, y = picture.place(r * radial + end)[0]
+        text = ax.text(x, y, str(k), ha="center", va="center", fontsize=9, weight="bold")
+        loaded = now.inner_load[k] > LOADED_SHARE * top
+        if loaded and now.inner_load[k] < 0.6 * top:
+            text.set_color("white")
+        if loaded:
+            x, y = picture.place(0.5 * 1.09 * b.outside_diameter * radial)[0]
+            load = f"{now.inner_load[k]:.0f} N"
+            ax.text(x, y, load, ha="center", va="center", fontsize=9.5, weight="bold")
 
 
 def _middle(
@@ -299,14 +288,14 @@ def _middle(
             xytext=a,
             arrowprops={
                 "arrowstyle": "simple,head_width=1.1,head_length=1.0,tail_width=0.35",
-                "facecolor": sheet.VERMILION,
+                "facecolor": sheet.INK,
                 "edgecolor": "none",
                 "shrinkA": 0,
                 "shrinkB": 0,
             },
         )
         side = np.array([1.0, 0.0]) if abs(tip[1] - a[1]) > abs(tip[0] - a[0]) else np.array([0, 1])
-        mx, my = 0.5 * (a + tip) + 26.0 * side
+        mx, my = 0.5 * (a + tip) + 18.0 * side
         ax.text(
             mx,
             my,
@@ -314,7 +303,7 @@ def _middle(
             va="center",
             ha="left",
             fontsize=10,
-            color=sheet.VERMILION,
+            color=sheet.INK,
             weight="bold",
         )
         shift = -70.0 if tip[1] >= a[1] else 70.0

@@ -50,8 +50,8 @@ def triad(ax: Axes, picture: Picture, *, length: float = 62.0) -> None:
         tip = origin + arrow
         ax.annotate(
             "",
-            xy=tip,
-            xytext=origin,
+            xy=tuple(tip),
+            xytext=tuple(origin),
             arrowprops={
                 "arrowstyle": "-|>",
                 "lw": 1.1,
@@ -63,7 +63,15 @@ def triad(ax: Axes, picture: Picture, *, length: float = 62.0) -> None:
         )
         reach = np.linalg.norm(arrow)
         beyond = arrow / reach * 11.0 if reach > 6.0 else np.array([11.0, 9.0])
-        ax.text(*(tip + beyond), name, ha="center", va="center", fontsize=9, style="italic")
+        ax.text(
+            float(tip[0] + beyond[0]),
+            float(tip[1] + beyond[1]),
+            name,
+            ha="center",
+            va="center",
+            fontsize=9,
+            style="italic",
+        )
 
 
 def pocket_numbers(

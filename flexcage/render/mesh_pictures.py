@@ -1,14 +1,14 @@
-"""The cage's mesh with its defects marked, and sheets of mode shapes."""
+"""The cage's mesh with its defects marked."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from math import ceil, pi
+from math import pi
 from pathlib import Path
 
 import numpy as np
 
-from flexcage.geometry.cages import CrossbeamDefect, Defect
+from flexcage.geometry.cages import CrossbeamDefect, Defect, SideBeamDefect
 from flexcage.mesh.cage_mesh import CageMesh
 from flexcage.modes.basis import FACES
 from flexcage.render import marks, sheet
@@ -19,7 +19,6 @@ from flexcage.render.scene import (
     Surface,
     View,
     body_layer,
-    coloured_layer,
     outline_layer,
     ring_size,
     ring_view,
@@ -31,8 +30,6 @@ SIDE = (520, 355)
 TOP, GAP, EDGE = 96, 30, 36
 BODY = "#d9dde3"
 INTO, OUT_OF = sheet.VERMILION, sheet.BLUE
-_CELL = (420, 318)
-_CAPTION = 44
 
 
 def mesh_picture(
@@ -47,8 +44,8 @@ def mesh_picture(
     """The whole mesh, damaged pockets coloured, and close-ups of the first two defects.
 
     Pockets made narrower or shorter are vermilion, those made wider or longer blue; dashed lines
-    show where a pocket's outer rim would be without the defect. Without defects pocket 0 is shown
-    close up.
+    show where a pocket's outer rim would be without the defect. With fewer than two defects the
+    close-ups show a pocket and its corner instead.
     ``azimuth`` [rad] is the place turned to the viewer: that of the first defect if not given.
     """
     radius, width = ring_size(mesh.points)
@@ -59,7 +56,8 @@ def mesh_picture(
         main = stage.shoot(
             layers, ring_view(radius, width, aspect=MAIN[0] / MAIN[1], azimuth=azimuth)
         )
-    shown: list[Defect | None] = [*defects[:2]] or [None]
+    shown: list[Defect | str] = [*defects[:2], "pocket", "corner"]
+    shown = shown[:2] if len(defects) != 1 else [defects[0], "corner"]
     with Stage(*SIDE) as stage:
         closes = [stage.shoot(layers, _close_view(d, mesh, radius)) for d in shown]
     left = EDGE + MAIN[0] + GAP
@@ -77,7 +75,7 @@ def mesh_picture(
             _fill_pocket(ax, main, mesh, pocket, colour)
         for i, (defect, close) in enumerate(zip(shown, closes)):
             rect = (left, TOP + i * (SIDE[1] + 44), *SIDE)
-            _defect_panel(figure, rect, close, mesh, defect, defects)
+            _close_panel(figure, rect, close, mesh, defect, defects)
         _mesh_key(figure, left, TOP + len(shown) * (SIDE[1] + 44) + 8, defects)
         return sheet.save(figure, path)
 
@@ -139,44 +137,47 @@ def _text(defect: Defect) -> str:
     return f"pocket {defect.pocket}, side beam {defect.side.replace('-', '−')}, $δ_p$ = {size}"
 
 
-def _close_view(defect: Defect | None, mesh: CageMesh, radius: float) -> View:
-    """Nearly radial view of the beam that moved, axis upwards, +psi to the right."""
-    psi = _azimuth(defect, mesh.pocket_count) if defect is not None else 0.0
+def _close_view(shown: Defect | str, mesh: CageMesh, radius: float) -> View:
+    """Nearly radial view of a beam that moved, or of pocket 0; axis upwards, +psi to the right."""
+    psi = 0.0 if isinstance(shown, str) else _azimuth(shown, mesh.pocket_count)
     radial, axis = np.array([0.0, np.cos(psi), np.sin(psi)]), np.array([1.0, 0.0, 0.0])
     width = 2.0 * float(np.abs(mesh.points[:, 0]).max())
-    focus, height = 0.96 * radius * radial, 1.16 * width
-    if isinstance(defect, CrossbeamDefect):
-        height = 0.8 * width
-    elif defect is not None:
-        height, focus = 0.8 * width, focus + (0.16 if defect.side == "+x" else -0.16) * width * axis
-    direction = radial + 0.22 * axis
+    focus, height, direction = 0.96 * radius * radial, 0.8 * width, radial + 0.22 * axis
+    if shown == "pocket":
+        height = 1.16 * width
+    elif shown == "corner":
+        rim = mesh.points[np.unique(_rim(mesh, 0))]
+        focus, height = rim[np.argmax(rim[:, 0] + rim[:, 2])], 0.22 * width
+        direction = radial - 0.45 * axis - np.array([0.0, 0.0, 0.45])
+    elif isinstance(shown, SideBeamDefect):
+        focus = focus + (0.16 if shown.side == "+x" else -0.16) * width * axis
     return View(tuple(direction / np.linalg.norm(direction)), tuple(focus), height)
 
 
-def _defect_panel(
+def _close_panel(
     figure,
     rect: sheet.Rect,
     picture: Picture,
     mesh: CageMesh,
-    defect: Defect | None,
+    shown: Defect | str,
     defects: Sequence[Defect],
 ) -> None:
     ax = sheet.image_at(figure, rect, picture.pixels, frame=sheet.FAINT)
     marks.length_bar(ax, picture, share=0.12)
-    text = "pocket 0"
-    if defect is not None:
-        text = _text(defect)
-        if isinstance(defect, CrossbeamDefect):
-            pockets = [(defect.crossbeam - 1) % mesh.pocket_count, defect.crossbeam]
+    text = {"pocket": "pocket 0", "corner": "corner of pocket 0"}.get(str(shown), "")
+    if not isinstance(shown, str):
+        text = _text(shown)
+        if isinstance(shown, CrossbeamDefect):
+            pockets = [(shown.crossbeam - 1) % mesh.pocket_count, shown.crossbeam]
         else:
-            pockets = [defect.pocket]
+            pockets = [shown.pocket]
         colours = _pocket_colours(defects, mesh.pocket_count)
         for pocket in pockets:
             if pocket in colours:
                 _fill_pocket(ax, picture, mesh, pocket, colours[pocket])
             _sound_outline(ax, picture, mesh, pocket, defects)
             _pocket_name(ax, picture, mesh, pocket)
-        _arrow(ax, picture, mesh, defect)
+        _arrow(ax, picture, mesh, shown)
     caption = sheet.text_at(
         figure, rect[0], rect[1] + rect[3] + 8, text, fontsize=9.5, weight="bold"
     )
@@ -291,70 +292,3 @@ def _mesh_key(figure, left: float, top: float, defects: Sequence[Defect]) -> Non
         rows.append(("patch", OUT_OF, "pocket made wider or longer"))
     rows.append(("dashes", sheet.BLACK, "rim without the defect; arrow: way of the beam"))
     marks.key(figure, (left, top, SIDE[0], 0), rows)
-
-
-def mode_sheet(
-    points: np.ndarray,
-    tets: np.ndarray,
-    shapes: np.ndarray,
-    frequencies: np.ndarray,
-    kinds: Sequence[str],
-    path: str | Path,
-    *,
-    count: int = 12,
-    columns: int = 4,
-    title: str = "Modes of the cage",
-    note: str = "",
-) -> Path:
-    """A grid of mode shapes (n_nodes, 3, n) with frequency [Hz] and kind, each to its own scale."""
-    count = min(count, shapes.shape[2])
-    columns = min(columns, count)
-    rows = ceil(count / columns)
-    surface = surface_of(tets)
-    radius, width = ring_size(points)
-    view = ring_view(radius, width, aspect=_CELL[0] / _CELL[1], elevation=38.0, margin=1.32)
-    cmap = sheet.colour_map("viridis")
-    pictures = []
-    with Stage(*_CELL) as stage:
-        ghost = outline_layer(surface.polydata(points), colour="#9a9a9a", width=1.0)
-        for i in range(count):
-            size = np.linalg.norm(shapes[:, :, i], axis=1)
-            relative = size / size.max()
-            moved = surface.polydata(
-                points + 0.13 * radius / size.max() * shapes[:, :, i], relative
-            )
-            body = coloured_layer(moved, cmap=cmap, limits=(0.0, 1.0))
-            pictures.append(stage.shoot([body, ghost], view).pixels)
-    with sheet.style():
-        w, h = columns * _CELL[0] + 2 * EDGE, TOP + rows * (_CELL[1] + _CAPTION) + 104
-        figure = sheet.new_figure(w, h)
-        more = f"first {count} of {shapes.shape[2]}" if shapes.shape[2] > count else f"{count}"
-        sheet.heading(figure, title, sheet.join([f"{more} modes", "shapes to no scale", note]))
-        for i, pixels in enumerate(pictures):
-            x = EDGE + (i % columns) * _CELL[0]
-            y = TOP + (i // columns) * (_CELL[1] + _CAPTION)
-            sheet.image_at(figure, (x, y, *_CELL), pixels)
-            sheet.text_at(
-                figure,
-                x + 0.5 * _CELL[0],
-                y + _CELL[1] + 4,
-                f"$\\bf{{{i + 1}}}$   {hertz(float(frequencies[i]))}   {kinds[i]}",
-                ha="center",
-                fontsize=10,
-            )
-        sheet.colour_bar(
-            figure,
-            (w - EDGE - 440, h - 88, 420, 18),
-            cmap=cmap,
-            limits=(0.0, 1.0),
-            label="displacement / its largest in the mode",
-        )
-        marks.key(figure, (EDGE, h - 92, 420, 0), [("line", "#9a9a9a", "cage at rest")])
-        return sheet.save(figure, path)
-
-
-def hertz(frequency: float) -> str:
-    """A frequency with its unit, four figures."""
-    if frequency >= 10e3:
-        return f"{frequency * 1e-3:.2f} kHz"
-    return f"{frequency:.1f} Hz" if frequency < 1e3 else f"{frequency:.0f} Hz"

@@ -25,7 +25,7 @@ _FACES = ((0, 2, 1), (0, 1, 3), (0, 3, 2), (1, 2, 3))  # of a tetrahedron, outwa
 _EDGES = {(0, 1): 4, (1, 2): 5, (0, 2): 6, (0, 3): 7, (1, 3): 8, (2, 3): 9}
 
 
-def _load_pyvista() -> Any:
+def load_pyvista() -> Any:
     """pyvista, after making sure that this machine can draw: VTK would kill the process else."""
     prepare_offscreen()
     import pyvista
@@ -49,7 +49,7 @@ class Surface:
 
     def polydata(self, points: np.ndarray, values: np.ndarray | None = None) -> pyvista.PolyData:
         """Surface at ``points`` (n_nodes, 3) with nodal ``values`` (n_nodes,) as "values"."""
-        pv = _load_pyvista()
+        pv = load_pyvista()
         local = np.searchsorted(self.used, self.triangles)
         faces = np.column_stack([np.full(len(local), 3), local])
         mesh = pv.PolyData(np.asarray(points, float)[self.used], faces.ravel())
@@ -103,7 +103,16 @@ def body_layer(mesh: pyvista.PolyData, **style: Any) -> Layer:
 
 def coloured_layer(mesh: pyvista.PolyData, *, cmap: Any, limits: tuple[float, float]) -> Layer:
     """A body coloured by its ``values`` over ``limits``; light is kept weak so colours read."""
-    return body_layer(mesh, scalars="values", cmap=cmap, clim=limits, ambient=0.66, diffuse=0.42)
+    over = tuple(int(255 * c) for c in cmap.get_over()[:3])
+    return body_layer(
+        mesh,
+        scalars="values",
+        cmap=cmap,
+        clim=limits,
+        above_color=over,
+        ambient=0.66,
+        diffuse=0.42,
+    )
 
 
 def outline_layer(
@@ -121,10 +130,10 @@ def outline_layer(
 class View:
     """A camera: looks along -``direction`` at ``focus``; ``height`` [m] of the scene is seen."""
 
-    direction: tuple[float, float, float]
-    focus: tuple[float, float, float]
+    direction: tuple[float, ...]
+    focus: tuple[float, ...]
     height: float
-    up: tuple[float, float, float] = (1.0, 0.0, 0.0)
+    up: tuple[float, ...] = (1.0, 0.0, 0.0)
     angle: float = 16.0  # opening angle [deg]: small, so that scale hardly varies with depth
 
 
@@ -200,7 +209,7 @@ class Stage:
     """An off-screen window of one size, reused from picture to picture."""
 
     def __init__(self, width: int, height: int) -> None:
-        pv = _load_pyvista()
+        pv = load_pyvista()
         self.size = (int(width), int(height))
         self._plotter = pv.Plotter(off_screen=True, window_size=self.size, lighting="light kit")
         self._plotter.set_background(BACKGROUND)

@@ -27,7 +27,7 @@ YELLOW, BLUE, VERMILION, PURPLE = "#F0E442", "#0072B2", "#D55E00", "#CC79A7"
 CYCLE = (BLUE, VERMILION, GREEN, PURPLE, ORANGE, SKY)
 INK, FAINT, HAIR = "#1a1a1a", "#5c5c5c", "#c9c9c9"
 
-STYLE = {
+STYLE: dict[Any, Any] = {
     "font.family": "DejaVu Sans",
     "font.size": 9.0,
     "axes.titlesize": 10.0,
@@ -113,7 +113,8 @@ def heading(figure: Figure, title: str, subtitle: str = "", *, left: float = 36.
 
 def fit_width(figure: Figure, artist: Any, room: float) -> None:
     """Make a text smaller until it fits into ``room`` pixels."""
-    wide = artist.get_window_extent(figure.canvas.get_renderer()).width
+    canvas: Any = figure.canvas
+    wide = artist.get_window_extent(canvas.get_renderer()).width
     if wide > room:
         artist.set_fontsize(artist.get_fontsize() * room / wide)
 
@@ -204,8 +205,9 @@ def save(figure: Figure, path: str | Path) -> Path:
 
 def pixels_of(figure: Figure) -> np.ndarray:
     """The drawn figure as (height, width, 3) uint8."""
-    figure.canvas.draw()
-    return np.asarray(figure.canvas.buffer_rgba())[..., :3].copy()
+    canvas: Any = figure.canvas
+    canvas.draw()
+    return np.asarray(canvas.buffer_rgba())[..., :3].copy()
 
 
 def join(parts: Sequence[str]) -> str:

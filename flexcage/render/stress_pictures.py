@@ -8,6 +8,7 @@ from pathlib import Path
 
 import numpy as np
 
+from flexcage.core.errors import InputError
 from flexcage.render import marks, sheet
 from flexcage.render.scene import (
     Layer,
@@ -39,6 +40,15 @@ class Field:
     label: str
     unit: str
     cmap: str = "viridis"
+
+    def __post_init__(self) -> None:
+        n, used = len(self.points), int(np.max(self.tets, initial=-1)) + 1
+        if used > n or len(self.displacement) != n or len(self.values) != n:
+            raise InputError(
+                f"The picture needs one displacement and one value per node: {n} points, "
+                f"{len(self.displacement)} displacements, {len(self.values)} values of "
+                f"{self.label}, and elements that name {used} nodes."
+            )
 
 
 @dataclass(frozen=True)

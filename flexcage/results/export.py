@@ -22,7 +22,7 @@ FEW = 8  # components a variable may have to enter the default table
 
 def to_netcdf(ds: xarray.Dataset, path: str | Path) -> Path:
     """Write the dataset as NetCDF 4, compressed; units and long names go with it."""
-    engine = next((e for e in ("netCDF4", "h5netcdf") if importlib.util.find_spec(e)), None)
+    engine: Any = next((e for e in ("netCDF4", "h5netcdf") if importlib.util.find_spec(e)), None)
     if engine is None:
         raise _lacks("NetCDF", "netCDF4")
     plain = ds.copy()

@@ -52,7 +52,8 @@ def disk(path: Path, kept: int) -> Iterator[None]:
 def save(path: Path, arrays: Mapping[str, Any]) -> None:
     """Arrays to a file in one move, on disk before this returns."""
     buffer = io.BytesIO()
-    np.savez(buffer, **{k: np.asarray(v) for k, v in arrays.items()})
+    named: dict[str, Any] = {k: np.asarray(v) for k, v in arrays.items()}
+    np.savez(buffer, **named)
     replace(path, buffer.getvalue())
 
 

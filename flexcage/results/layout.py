@@ -138,9 +138,9 @@ def label_dataset(
         part.attrs = var.attrs
         variables[var.name] = part
     coords = {}
-    for name, (dims, values, attrs) in layout.coords.items():
+    for name, (dims, labels, attrs) in layout.coords.items():
         sel = tuple(slice(cut.get(d)) for d in dims)
-        coords[name] = xr.Variable(dims, values[sel], attrs)
+        coords[name] = xr.Variable(dims, labels[sel], attrs)
     ds = xr.Dataset(variables, coords=coords, attrs={**layout.attrs, **state})
     if "inner_angle" in ds:
         turns = (ds["inner_angle"] - ds["inner_angle"][:1].values) / (2.0 * np.pi)

@@ -179,7 +179,8 @@ def roller_slip(
     def inside(mask: np.ndarray) -> tuple[float, tuple[float, float]]:
         if not mask.any():
             return float("nan"), (float("nan"), float("nan"))
-        return float(slip[mask].mean()), tuple(float(v) for v in sliding[mask].mean(axis=0))
+        inner, outer = sliding[mask].mean(axis=0)
+        return float(slip[mask].mean()), (float(inner), float(outer))
 
     loaded, speed_in = inside(zone)
     unloaded, speed_out = inside(~zone)

@@ -266,8 +266,9 @@ class RunStore(MemoryRunStore):
 
 def _create_arrays(path: Path, layout: Layout) -> Any:
     import zarr
+    from zarr.codecs import BloscCodec
 
-    stored = {
+    stored: dict[str, Any] = {
         "flexcage_format": FORMAT,
         "flexcage_version": _version.__version__,
         "layout": {
@@ -283,7 +284,7 @@ def _create_arrays(path: Path, layout: Layout) -> Any:
         "run": dict(layout.attrs),
     }
     group = zarr.create_group(store=str(path), attributes=stored)
-    codec = zarr.codecs.BloscCodec(cname="zstd", clevel=1, shuffle="shuffle")
+    codec = BloscCodec(cname="zstd", clevel=1, shuffle="shuffle")
     for v in layout.variables:
         group.create_array(
             v.name,
@@ -293,7 +294,7 @@ def _create_arrays(path: Path, layout: Layout) -> Any:
             fill_value=np.nan,
             compressors=codec,
             dimension_names=v.dims,
-            attributes=v.attrs,
+            attributes=dict[str, Any](v.attrs),
         )
     for grid in (TIME, TIME_HF):
         if grid in layout.coords:

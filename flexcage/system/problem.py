@@ -75,20 +75,23 @@ def new_samples(n: int, stride: int, model: Model) -> Samples:
     )  # fmt: skip
 
 
-@kernel
-def _call(t, y, yd, data, law, out, mode):
+def _evaluate(t, y, yd, d, law, out, mode):
     evaluate(
-        t, y, yd, data.model, data.memory, data.work, out, mode,
+        t, y, yd, d.model, d.memory, d.work, out, mode,
         law[0], law[1], law[2], law[3], law[4], law[5], law[6], law[7], law[8], law[9],
     )  # fmt: skip
 
 
+# ``data`` is (BearingData, laws, _evaluate): evaluated through a function value, the residual
+# is compiled once, not again inside each of the functions below.
+
+
 def _residual(t, y, yd, data, out):
-    _call(t, y, yd, data[0], data[1], out, 0)
+    data[2](t, y, yd, data[0], data[1], out, 0)
 
 
 def _linearise(t, y, yd, data):
-    _call(t, y, yd, data[0], data[1], np.empty(y.shape[0]), 1)
+    data[2](t, y, yd, data[0], data[1], np.empty(y.shape[0]), 1)
 
 
 def _factor(alpha, data):
@@ -215,7 +218,7 @@ def newton_step(alpha, y, r, tan, m):
 
 def _accepted(t, y, yd, data, power):
     d = data[0]
-    _call(t, y, yd, d, data[1], np.empty(y.shape[0]), 2)
+    data[2](t, y, yd, d, data[1], np.empty(y.shape[0]), 2)
     remember(t, d.memory, d.work.report, d.events)
     for k in range(power.shape[0]):
         power[k] = d.work.report.power[k]
@@ -252,7 +255,7 @@ def _observe(sample, t, y, yd, data):
     d = data[0]
     s, rep = d.samples, d.work.report
     if sample % s.stride == 0:
-        _call(t, y, yd, d, data[1], np.empty(y.shape[0]), 2)
+        data[2](t, y, yd, d, data[1], np.empty(y.shape[0]), 2)
         k = sample // s.stride
         s.race[k] = rep.race
         s.pocket_normal[k] = rep.pocket_normal
@@ -296,15 +299,17 @@ class Bearing:
             new_samples(block, stride, model),
         )  # fmt: skip
         self.laws = law_functions(contacts)
-        self.args = (self.data, self.laws)
         self._compile()
+        self.args = (self.data, self.laws, self.evaluate)
 
     def _compile(self) -> None:
         f8, i8 = types.float64, types.int64
         vector, matrix = types.Array(f8, 1, "C"), types.Array(f8, 2, "C")
         law_type = types.Tuple((laws.NORMAL_TYPE,) * 5 + (laws.FRICTION_TYPE,) * 5)
-        data = types.Tuple((numba.typeof(self.data), law_type))
-        self.data_type = data
+        bearing = numba.typeof(self.data)
+        evaluation = types.void(f8, vector, vector, bearing, law_type, vector, i8)
+        self.evaluate = numba.njit(evaluation, **OPTIONS)(_evaluate)
+        data = types.Tuple((bearing, law_type, types.FunctionType(evaluation)))
         signatures = (
             types.void(f8, vector, vector, data, vector),
             types.void(f8, vector, vector, data),

@@ -4,7 +4,7 @@ import dataclasses
 
 import numpy as np
 import pytest
-from shapes import box, ring
+from fem_shapes import box, ring
 
 from flexcage.fem.free import FreeBodySolver
 from flexcage.fem.linear import linear_solver
@@ -43,8 +43,9 @@ def test_static_answer_is_symmetric():
 
 
 def test_cantilever_deflection_is_timoshenkos():
+    """Without Poisson's ratio, since a clamp that stops its contraction stiffens a beam."""
     length, width, height, force = 40e-3, 3e-3, 4e-3, 10.0
-    model = assemble(box((length, width, height), (20, 2, 2)), STEEL)
+    model = assemble(box((length, width, height), (20, 2, 2)), NO_POISSON)
     end = model.face_weights(model.group("x1"), lambda p: np.ones((1, len(p)))).toarray()[0]
     load = np.zeros((len(model.nodes), 3))
     load[:, 2] = force * end / end.sum()
@@ -52,10 +53,10 @@ def test_cantilever_deflection_is_timoshenkos():
     moved = np.zeros(model.n_dof)
     moved[free] = linear_solver(model.K[free][:, free]).solve(load.ravel()[free])
     tip = (end / end.sum()) @ moved.reshape(-1, 3)[:, 2]
-    inertia, shear = width * height**3 / 12.0, STEEL.youngs_modulus / 2.6
-    beam = force * length**3 / (3.0 * STEEL.youngs_modulus * inertia)
+    inertia, shear = width * height**3 / 12.0, 0.5 * NO_POISSON.youngs_modulus
+    beam = force * length**3 / (3.0 * NO_POISSON.youngs_modulus * inertia)
     beam += force * length / (5.0 / 6.0 * shear * width * height)
-    assert tip == pytest.approx(beam, rel=4e-3)  # the clamped end is stiffer than the beam's
+    assert tip == pytest.approx(beam, rel=2e-3)
 
 
 @pytest.mark.parametrize(("order", "cells", "low", "high"), [(1, 4, 1.5, 2.6), (2, 1, 3.0, 6.0)])
@@ -84,18 +85,17 @@ def test_slender_beam_bends_at_bernoullis_frequency():
 
 
 def test_free_ring_frequencies_of_v6():
-    """Thin-ring closed form, n = 2 and 3 in the plane; h/R = 0.04 lowers them by about 0.2 %.
+    """Thin-ring closed form, n = 2 and 3 in the plane, f_2 = 508.07 and f_3 = 1437.04 Hz.
 
-    Without Poisson's ratio the beam theory of the closed form holds; with 0.3 the wide section
-    resists anticlastic bending and the frequencies lie up to 2 % higher.
+    Without Poisson's ratio the beam theory of the closed form holds to the thickness effect
+    (h/R = 0.04: -0.1 %); with 0.3 the wide section resists anticlastic bending: +0.2 %.
     """
-    mesh, _ = ring(*V6, (2, 1, 48))
-    plain = frequencies(assemble(mesh, NO_POISSON), 8)
-    for expected in (508.0701, 1437.0392):
-        near = plain[np.argsort(np.abs(plain - expected))[:2]]
-        np.testing.assert_allclose(near, expected, rtol=4e-3)
-    steel = frequencies(assemble(mesh, STEEL), 2)
-    assert np.all((steel / 508.0701 > 0.998) & (steel / 508.0701 < 1.03))
+    mesh, _ = ring(*V6, (2, 1, 96))
+    for material, tolerance in ((NO_POISSON, 1e-3), (STEEL, 4e-3)):
+        computed = frequencies(assemble(mesh, material), 8)
+        for expected in (508.0701, 1437.0392):
+            near = computed[np.argsort(np.abs(computed - expected))[:2]]
+            np.testing.assert_allclose(near, expected, rtol=tolerance)
 
 
 def test_modes_are_orthonormal_and_free_of_rigid_motion():
@@ -110,9 +110,12 @@ def test_modes_are_orthonormal_and_free_of_rigid_motion():
     np.testing.assert_allclose(pairs[:, 0], pairs[:, 1], rtol=1e-6)
 
 
-def test_rotating_ring_grows_as_the_thick_ring_formula_says():
-    """V6: 10,000 rpm, plane stress: growth 5.19558 um at the bore and 5.13368 um at the rim."""
-    mesh, _ = ring(*V6, (2, 2, 48))
+def test_rotating_ring_is_the_thick_ring_of_v6():
+    """V6 at 10,000 rpm, plane stress: growth 5.19558 um at the bore and 5.13368 um at the rim.
+
+    Flat facets (96 around) leave the ring 0.15 % short of growth.
+    """
+    mesh, _ = ring(*V6, (2, 2, 96))
     model = assemble(mesh, STEEL)
     spin = 10_000 * np.pi / 30.0
     load = spin**2 * model.mass_times((model.nodes * [0.0, 1.0, 1.0]).ravel())
@@ -121,7 +124,7 @@ def test_rotating_ring_grows_as_the_thick_ring_formula_says():
     radial = np.einsum("na,na->n", moved[:, 1:], model.nodes[:, 1:]) / radius
     for at, expected in ((49e-3, 5.19558e-6), (51e-3, 5.13368e-6)):
         wall = np.abs(radius - at) < 1e-7
-        assert radial[wall].mean() == pytest.approx(expected, rel=3e-3)
+        assert radial[wall].mean() == pytest.approx(expected, rel=2.5e-3)
 
 
 def test_symmetry_is_found_and_refused():

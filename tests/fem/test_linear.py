@@ -3,7 +3,7 @@ import logging
 import numpy as np
 import pytest
 import scipy.sparse as sp
-from shapes import box
+from fem_shapes import box
 
 from flexcage.core.errors import InputError, RunFailed
 from flexcage.fem.free import FreeBodySolver

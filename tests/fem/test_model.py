@@ -4,7 +4,7 @@ import pickle
 import numpy as np
 import pytest
 import skfem
-from shapes import box
+from fem_shapes import box
 from skfem.models.elasticity import lame_parameters, linear_elasticity
 
 from flexcage.core.errors import InputError
@@ -83,9 +83,7 @@ def test_rigid_motions_make_no_force():
 def test_modulus_scales_stiffness_only():
     mesh = distorted_box()
     soft = assemble(mesh, BRASS)
-    stiff = assemble(
-        mesh, dataclasses.replace(BRASS, youngs_modulus=1e4 * BRASS.youngs_modulus)
-    )
+    stiff = assemble(mesh, dataclasses.replace(BRASS, youngs_modulus=1e4 * BRASS.youngs_modulus))
     assert abs(stiff.K - 1e4 * soft.K).max() < 1e-12 * abs(stiff.K).max()
     assert abs(stiff.mass_scalar - soft.mass_scalar).max() == 0.0
 

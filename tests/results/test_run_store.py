@@ -186,7 +186,7 @@ def test_a_full_disk_keeps_what_was_committed(tmp_path, monkeypatch, step):
 WRITER = """
 import sys
 sys.path.insert(0, {here!r})
-import test_store as t
+import test_run_store as t
 t.BLOCK, t.N = 5, 2001
 store = t.make({path!r})
 print("ready", flush=True)

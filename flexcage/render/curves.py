@@ -1,0 +1,309 @@
+"""Curves over time: the cage's orbit, histories of a run, and forces of several runs compared."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from math import pi
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from flexcage.core.errors import InputError
+from flexcage.render import sheet
+from flexcage.results import metrics
+from flexcage.results.metrics import BearingNumbers
+
+if TYPE_CHECKING:
+    import xarray
+
+RPM = 30.0 / pi
+EDGE, TOP = 110, 110
+_WIDTH, _HEIGHT, _BETWEEN = 1480, 250, 66
+
+
+def orbit(
+    ds: xarray.Dataset,
+    path: str | Path,
+    *,
+    clearance: float | None = None,
+    settle: float = 0.0,
+    title: str = "Orbit of the cage centre",
+    note: str = "",
+) -> Path:
+    """Cage centre relative to the outer ring's in µm, coloured by time.
+
+    ``clearance`` [m] draws the circle in which the guidance lets the centre move; if the orbit is
+    small in it, a second panel shows the orbit alone. ``settle`` leaves the start out.
+    """
+    part = metrics.settled(ds, settle) if settle else ds
+    yz = metrics.orbit(part) * 1e6
+    t = part["time"].values * 1e3
+    reach = float(np.abs(yz).max()) or 1.0
+    radius = clearance * 1e6 if clearance else None
+    zoomed = radius is not None and reach < 0.5 * radius
+    side, panels, top = 760, 2 if zoomed else 1, TOP + 30
+    with sheet.style():
+        width = EDGE + panels * (side + 120) + 130
+        figure = sheet.new_figure(width, top + side + 96)
+        whirl = metrics.whirl(metrics.whole_revolutions(part))
+        facts = [
+            f"t = {t[0]:.1f} … {t[-1]:.1f} ms",
+            f"mean whirl radius {whirl.mean * 1e6:.1f} µm about the mean",
+            note,
+        ]
+        sheet.heading(figure, title, sheet.join(facts), left=36)
+        limits = [1.12 * max(reach, radius or 0.0)]
+        if zoomed:
+            limits.append(1.12 * reach)
+        for i, limit in enumerate(limits):
+            left = EDGE + i * (side + 120)
+            ax = sheet.axes_at(figure, (left, top, side, side))
+            _orbit_panel(ax, yz, t, limit, radius)
+            if zoomed and i == 0:
+                x, y = limits[1] * np.array([[-1, 1, 1, -1, -1], [-1, -1, 1, 1, -1]])
+                ax.plot(x, y, color=sheet.INK, lw=0.9, ls=":")
+            if i == 0:
+                _orbit_legend(ax)
+            if zoomed and i == 1:
+                ax.set_title("close up of the dotted square", loc="left")
+        _time_bar(figure, (width - 200, top, 24, side), t)
+        return sheet.save(figure, path)
+
+
+def _orbit_panel(
+    ax: Any, yz: np.ndarray, t: np.ndarray, limit: float, radius: float | None
+) -> None:
+    from matplotlib.collections import LineCollection
+
+    # z to the left, as seen when looking along -x with y upwards
+    xy = yz[:, ::-1]
+    lines = LineCollection(
+        list(np.stack([xy[:-1], xy[1:]], axis=1)), cmap="cividis", linewidths=1.1, capstyle="round"
+    )
+    lines.set_array(0.5 * (t[:-1] + t[1:]))
+    ax.add_collection(lines)
+    if radius is not None:
+        angle = np.linspace(0.0, 2.0 * np.pi, 361)
+        ax.plot(
+            radius * np.cos(angle),
+            radius * np.sin(angle),
+            color=sheet.VERMILION,
+            lw=1.3,
+            ls="--",
+            label=f"clearance {radius:g} µm",
+        )
+    ax.plot(*xy[0], "o", ms=6, mfc="white", mec=sheet.INK, mew=1.2, label="start", ls="none")
+    ax.plot(*xy[-1], "s", ms=6, mfc=sheet.INK, mec=sheet.INK, label="end", ls="none")
+    ax.plot(*xy.mean(axis=0), "+", ms=11, mew=1.8, color=sheet.VERMILION, label="mean", ls="none")
+    ax.set(xlim=(limit, -limit), ylim=(-limit, limit), xlabel="z [µm]", ylabel="y [µm]")
+    ax.set_aspect("equal")
+
+
+def _orbit_legend(ax: Any) -> None:
+    ax.legend(
+        loc="lower right",
+        bbox_to_anchor=(1.0, 1.0),
+        ncols=4,
+        borderaxespad=0.2,
+        columnspacing=1.2,
+        handletextpad=0.4,
+    )
+
+
+def _time_bar(figure: Any, rect: sheet.Rect, t: np.ndarray) -> None:
+    sheet.colour_bar(
+        figure,
+        rect,
+        cmap="cividis",
+        limits=(float(t[0]), float(t[-1])),
+        label="time [ms]",
+        vertical=True,
+    )
+
+
+def histories(
+    ds: xarray.Dataset,
+    path: str | Path,
+    *,
+    bearing: BearingNumbers | None = None,
+    root_stress: xarray.DataArray | None = None,
+    roller: int = 0,
+    settle: float = 0.0,
+    title: str = "Histories",
+    note: str = "",
+) -> Path:
+    """Cage speed, pocket forces, root stress (if given) and roller speeds over time.
+
+    ``bearing`` adds the speeds without slip. ``root_stress`` (time, place) or (time,) is in Pa.
+    ``roller`` is shown by itself over the band of all. The share ``settle`` that statistics
+    leave out is shaded.
+    """
+    panels: list[Callable[..., None]] = [_speed_panel, _pocket_panel, _stress_panel, _roller_panel]
+    if root_stress is None:
+        panels.remove(_stress_panel)
+    t = ds["time"].values * 1e3
+    with sheet.style():
+        height = TOP + len(panels) * (_HEIGHT + _BETWEEN) + 40
+        figure = sheet.new_figure(EDGE + _WIDTH + 60, height)
+        span = f"t = {t[0]:.1f} … {t[-1]:.1f} ms"
+        sheet.heading(figure, title, sheet.join([span, note]))
+        for i, panel in enumerate(panels):
+            rect = (EDGE, TOP + 22 + i * (_HEIGHT + _BETWEEN), _WIDTH, _HEIGHT)
+            ax = sheet.axes_at(figure, rect)
+            panel(ax, t, ds, bearing=bearing, root_stress=root_stress, roller=roller)
+            ax.set_xlim(t[0], t[-1])
+            if settle:
+                end = t[0] + settle * (t[-1] - t[0])
+                ax.axvspan(t[0], end, color="#eeeeee", zorder=0, lw=0)
+            if i < len(panels) - 1:
+                ax.tick_params(labelbottom=False)
+            else:
+                shaded = "   (shaded: left out of statistics)" if settle else ""
+                ax.set_xlabel(f"time [ms]{shaded}")
+            ax.yaxis.set_label_coords(-70 / _WIDTH, 0.5)
+        return sheet.save(figure, path)
+
+
+def _legend(ax: Any, name: str, columns: int = 4) -> None:
+    ax.set_title(name, loc="left", weight="bold")
+    if ax.get_legend_handles_labels()[1]:
+        ax.legend(loc="lower right", bbox_to_anchor=(1.0, 1.0), ncols=columns, borderaxespad=0.2)
+
+
+def _speed_panel(ax: Any, t: np.ndarray, ds: xarray.Dataset, *, bearing, **_: Any) -> None:
+    ax.plot(t, ds["cage_omega"].sel(axis="x") * RPM, color=sheet.BLUE, label="cage")
+    if bearing is not None:
+        ideal = ds["inner_speed"] * bearing.kinematics(1.0).cage_speed * RPM
+        ax.plot(t, ideal, color=sheet.VERMILION, ls="--", lw=1.3, label="epicyclic (no slip)")
+    ax.set_ylabel("speed [rpm]")
+    _legend(ax, "Cage speed")
+
+
+def _pocket_panel(ax: Any, t: np.ndarray, ds: xarray.Dataset, **_: Any) -> None:
+    force = ds["pocket_force"].max("pocket")
+    sides = force.sel(face=["side+x", "side-x"]).max("face")
+    rows = (
+        (force.sel(face="front"), sheet.VERMILION, "front face"),
+        (force.sel(face="rear"), sheet.BLUE, "rear face"),
+        (sides, sheet.GREEN, "side beams"),
+    )
+    for values, colour, name in rows:
+        ax.plot(t, values, color=colour, lw=0.8, label=name)
+    ax.set_ylim(bottom=0.0)
+    ax.set_ylabel("force [N]")
+    _legend(ax, "Largest pocket force at each instant")
+
+
+def _stress_panel(ax: Any, t: np.ndarray, ds: xarray.Dataset, *, root_stress, **_: Any) -> None:
+    places = [d for d in root_stress.dims if d != "time"]
+    if not places:
+        ax.plot(root_stress["time"] * 1e3, root_stress * 1e-6, color=sheet.BLUE)
+    else:
+        (place,) = places
+        values = root_stress.transpose("time", place).values * 1e-6
+        when = root_stress["time"].values * 1e3
+        ax.fill_between(
+            when,
+            values.min(axis=1),
+            values.max(axis=1),
+            color=sheet.SKY,
+            alpha=0.45,
+            lw=0,
+            label="all places",
+        )
+        most = int(values.max(axis=0).argmax())
+        name = str(root_stress[place].values[most]) if place in root_stress.coords else str(most)
+        ax.plot(when, values[:, most], color=sheet.BLUE, label=f"highest: {name}")
+    ax.set_ylim(bottom=0.0)
+    ax.set_ylabel("stress [MPa]")
+    _legend(ax, "Equivalent stress at crossbeam roots")
+
+
+def _roller_panel(
+    ax: Any, t: np.ndarray, ds: xarray.Dataset, *, bearing, roller: int, **_: Any
+) -> None:
+    spin = np.abs(ds["roller_omega"].isel(spin_axis=0).transpose("time", "roller").values) * RPM
+    if not 0 <= roller < spin.shape[1]:
+        raise InputError(f"There is no roller {roller}; the bearing has {spin.shape[1]}.")
+    ax.fill_between(t, spin.min(axis=1), spin.max(axis=1), color="#cfd4da", lw=0, label="all")
+    ax.plot(t, spin[:, roller], color=sheet.BLUE, label=f"roller {roller}")
+    loaded = metrics.loaded_zone(ds).transpose("time", "roller").values[:, roller]
+    ax.plot(
+        t,
+        np.where(loaded, spin[:, roller], np.nan),
+        color=sheet.ORANGE,
+        lw=2.2,
+        label=f"roller {roller} in the loaded zone",
+    )
+    if bearing is not None:
+        ideal = np.abs(ds["inner_speed"] * bearing.kinematics(1.0).roller_spin) * RPM
+        ax.plot(t, ideal, color=sheet.VERMILION, ls="--", lw=1.3, label="pure rolling")
+    ax.set_ylabel("speed [rpm]")
+    _legend(ax, "Roller spin, inertial frame")
+
+
+def compare_forces(
+    datasets: Mapping[str, xarray.Dataset],
+    path: str | Path,
+    *,
+    settle: float = 0.3,
+    title: str = "Cage forces compared",
+    note: str = "",
+) -> Path:
+    """Pocket forces of several runs: history, share of time above a force, peaks by pocket."""
+    if not 1 <= len(datasets) <= len(sheet.CYCLE):
+        raise InputError(f"1 to {len(sheet.CYCLE)} runs can be compared, not {len(datasets)}.")
+    parts = {name: metrics.settled(ds, settle) for name, ds in datasets.items()}
+    colours = dict(zip(parts, sheet.CYCLE))
+    half, second = (_WIDTH - 150) / 2, TOP + 24 + 320 + 110
+    with sheet.style():
+        figure = sheet.new_figure(EDGE + _WIDTH + 60, second + 360 + 90)
+        facts = [_force_text(name, ds) for name, ds in parts.items()]
+        sheet.heading(figure, title, sheet.join([*facts, note]))
+        top = sheet.axes_at(figure, (EDGE, TOP + 24, _WIDTH, 320))
+        share = sheet.axes_at(figure, (EDGE, second, half, 360))
+        bars = sheet.axes_at(figure, (EDGE + half + 150, second, half, 360))
+        for name, ds in parts.items():
+            _history(top, ds, colours[name], name)
+            _exceedance(share, ds, colours[name])
+        _pocket_bars(bars, parts, colours)
+        top.set(xlabel="time [ms]", ylabel="force [N]", ylim=(0.0, None))
+        spans = [ds["time"].values[[0, -1]] * 1e3 for ds in parts.values()]
+        top.set_xlim(min(s[0] for s in spans), max(s[1] for s in spans))
+        _legend(top, "Largest pocket force at each instant", len(parts))
+        return sheet.save(figure, path)
+
+
+def _force_text(name: str, ds: xarray.Dataset) -> str:
+    forces = metrics.pocket_forces(ds)
+    return f"{name}: mean {forces.mean:.3g} N in contact, peak {forces.peak:.3g} N"
+
+
+def _history(ax: Any, ds: xarray.Dataset, colour: str, name: str) -> None:
+    largest = ds["pocket_force"].max(("pocket", "face"))
+    ax.plot(ds["time"] * 1e3, largest, color=colour, lw=0.8, alpha=0.85, label=name)
+
+
+def _exceedance(ax: Any, ds: xarray.Dataset, colour: str) -> None:
+    """Share of all samples of all pocket faces in which the force is above the abscissa."""
+    values = np.sort(ds["pocket_force"].values.ravel())
+    share = 1.0 - np.arange(len(values)) / len(values)
+    touching = values > 1e-3
+    if touching.any():
+        ax.semilogy(values[touching], share[touching] * 100.0, color=colour)
+    ax.set(xlabel="force [N]", ylabel="share of time above [%]", xlim=(0.0, None))
+    ax.set_title("How often a face bears more than a force", loc="left", weight="bold")
+
+
+def _pocket_bars(ax: Any, parts: Mapping[str, xarray.Dataset], colours: dict[str, str]) -> None:
+    width = 0.8 / len(parts)
+    for i, (name, ds) in enumerate(parts.items()):
+        peak = ds["pocket_force"].max(("time", "face")).values
+        at = np.arange(len(peak)) + (i - 0.5 * (len(parts) - 1)) * width
+        ax.bar(at, peak, width * 0.94, color=colours[name])
+    count = max(ds.sizes["pocket"] for ds in parts.values())
+    ax.set(xlabel="pocket", ylabel="force [N]", xlim=(-0.7, count - 0.3))
+    ax.set_xticks(np.arange(0, count, 2 if count <= 30 else 5))
+    ax.grid(axis="x", visible=False)
+    ax.set_title("Peak force by pocket", loc="left", weight="bold")

@@ -1,0 +1,208 @@
+"""The start of a run: quasi-static equilibrium at epicyclic speeds.
+
+Rings, rollers and a pinched cage are brought to equilibrium without friction: Newton's method
+on the momentum rows with the velocities of pure rolling, in the metric of the mass matrix (an
+implicit Euler step from rest, whose length grows as it succeeds). A roller that its pocket does
+not hold stays where it is along its orbit: friction would hold it there. Where a defect leaves
+less than no clearance, its size grows from zero in steps, so that the run begins assembled.
+"""
+
+from __future__ import annotations
+
+import logging
+from dataclasses import dataclass
+
+import numpy as np
+
+from flexcage.contacts import laws
+from flexcage.core.errors import InputError, RunFailed
+from flexcage.geometry.kinematics import epicyclic
+from flexcage.system.layout import Layout
+from flexcage.system.model import Model
+from flexcage.system.problem import Bearing, newton_step
+
+log = logging.getLogger(__name__)
+
+RESIDUAL = 1e-7  # of the load: where an equilibrium is accepted
+TOUCH = 1e-9  # [m] interference that is only a touch
+_HOLD = 1e12  # stiffness that holds a coordinate
+
+
+@dataclass(frozen=True)
+class Start:
+    """Where a run begins: y and y', and what the assembly of the bearing took."""
+
+    y: np.ndarray
+    yd: np.ndarray
+    pinched: tuple[int, ...]  # pockets that hold their roller with force
+    pinch_force: float  # largest [N]
+    residual: float  # of the equilibrium, as a share of the load
+    station: np.ndarray  # (Z, 4, nst, 3) station forces on the cage
+
+
+def rolling_velocities(model: Model, layout: Layout, y: np.ndarray) -> np.ndarray:
+    """Set the velocities of pure rolling in y, and return y' (accelerations zero)."""
+    b = model.bodies
+    rw = float(b.radius.mean())
+    pitch = 0.5 * (model.inner.radius + model.outer.radius)
+    speed = b.speed[1, 0]
+    k = epicyclic(
+        roller_diameter=2.0 * rw, pitch_diameter=2.0 * pitch, roller_count=layout.rollers,
+        inner_speed=speed,
+    )  # fmt: skip
+    yd = np.zeros_like(y)
+    q, u, qd = layout.q(y), layout.u(y), layout.q(yd)
+    radius = q["rollers"][:, 1]
+    u["rollers"][:] = 0.0
+    u["rollers"][:, 2] = radius * k.cage_speed
+    u["rollers"][:, 3] = k.roller_spin
+    qd["rollers"][:, 2] = k.cage_speed
+    qd["rollers"][:, 5] = k.roller_spin - k.cage_speed
+    u["inner"][3] = qd["inner"][5] = speed
+    u["omega"][0] = k.cage_speed
+    qd["quaternion"][1] = 0.5 * k.cage_speed
+    return yd
+
+
+def pocket_clearance(model: Model, offset: np.ndarray) -> np.ndarray:
+    """Least clearance (Z, 2) of each pocket for its roller, across and along [m]."""
+    width = 2.0 * model.pocket.half[0] - 2.0 * model.bodies.radius[:, None]
+    across = width + (offset[:, 0] + offset[:, 1])
+    along = 2.0 * (model.pocket.half[1] - model.pocket.half_roller) + offset[:, 2] + offset[:, 3]
+    return np.stack([across.min(axis=1), along.min(axis=1)], axis=1)
+
+
+def geometric_guess(model: Model, layout: Layout) -> np.ndarray:
+    """Rollers on the outer race in the middle of their pockets, everything else centred."""
+    y = np.zeros(layout.size)
+    q = layout.q(y)
+    Z = layout.rollers
+    q["rollers"][:, 1] = model.outer.radius - model.bodies.radius
+    q["rollers"][:, 2] = 2.0 * np.pi * np.arange(Z) / Z
+    q["quaternion"][0] = 1.0
+    q["inner"][4] = model.bodies.misalignment
+    play = model.outer.radius - model.inner.radius - 2.0 * model.bodies.radius.min()
+    q["inner"][1:3] = play * model.bodies.load_direction  # just before the first contact
+    return y
+
+
+class _Frictionless:
+    """The bearing without friction, drag, rolling resistance and gravity."""
+
+    def __init__(self, bearing: Bearing, offset: np.ndarray) -> None:
+        model = bearing.data.model
+        still = model._replace(
+            bodies=model.bodies._replace(gravity=np.zeros(3), drag=np.zeros(2)),
+            inner=model.inner._replace(rolling=np.zeros(2)),
+            outer=model.outer._replace(rolling=np.zeros(2)),
+            pocket=model.pocket._replace(offset=offset),
+        )
+        self.bearing = bearing
+        self.data = bearing.data._replace(model=still)
+        self.args = (self.data, bearing.laws[:5] + (laws.no_friction,) * 5, bearing.evaluate)
+        self.out = np.zeros(bearing.layout.size)
+
+    def residual(self, y: np.ndarray, yd: np.ndarray) -> np.ndarray:
+        self.bearing.functions[0](0.0, y, yd, self.args, self.out)
+        return self.out.copy()
+
+    def report(self, y: np.ndarray, yd: np.ndarray):
+        self.bearing.functions[4](0.0, y, yd, self.args, np.zeros(0))
+        return self.data.work.report
+
+    def step(self, y, yd, r, alpha: float, hold: np.ndarray) -> np.ndarray:
+        """Displacement step dq of the implicit Euler step 1/alpha from rest."""
+        tangent = self.data.work.tangent
+        self.bearing.functions[1](0.0, y, yd, self.args)
+        tangent.Krr[hold, 2, 2] += _HOLD
+        if not self.bearing.functions[2](alpha, self.args):
+            raise RunFailed("the start's equilibrium has a singular matrix; is a body free of mass?")
+        r = r.copy()
+        newton_step(alpha, y, r, tangent, self.data.matrix)
+        return r
+
+
+def _measure(layout: Layout, r: np.ndarray, free: np.ndarray, lever: float) -> float:
+    """Largest unbalanced force [N] (moments over a lever) of the rows that are free."""
+    u = {k: v.copy() for k, v in layout.u(r).items()}
+    u["rollers"][~free, 2] = 0.0
+    u["rollers"][:, 3:] /= lever
+    u["inner"][[0, 3, 4, 5]] = 0.0  # constrained: their multipliers balance them
+    u["omega"] /= 10.0 * lever
+    names = u if free.any() else ("rollers", "inner", "outer")  # nothing holds a free cage
+    return max(float(np.abs(u[k]).max()) for k in names if u[k].size)
+
+
+def _equilibrate(
+    system: _Frictionless, y: np.ndarray, yd: np.ndarray, free: np.ndarray, load: float
+) -> float:
+    """Bring y to equilibrium in place; the residual reached, as a share of the load.
+
+    ``free`` (Z,) marks rollers that may move along their orbit: those that their pocket pinches.
+    """
+    layout = system.bearing.layout
+    nq = layout.n_q
+    lever = float(system.data.model.bodies.radius.mean())
+    alpha, last = 1e5, np.inf
+    for _ in range(300):
+        r = system.residual(y, yd)
+        size = _measure(layout, r, free, lever) / load
+        if size < RESIDUAL:
+            break
+        alpha = max(alpha * 0.5, 50.0) if size <= 1.001 * last else min(alpha * 3.0, 1e6)
+        last = size
+        layout.u(r)["rollers"][~free, 2] = 0.0
+        step = system.step(y, yd, r, alpha, ~free)
+        dq = layout.q(step)
+        largest = max(np.abs(dq["rollers"][:, :2]).max(), np.abs(dq["inner"][:3]).max())
+        y[:nq] += step[:nq] * min(1.0, 1e-5 / max(largest, 1e-30))
+        layout.q(y)["quaternion"][:] /= np.linalg.norm(layout.q(y)["quaternion"])
+        yd[:] = rolling_velocities(system.data.model, layout, y)
+    return size
+
+
+def find_start(bearing: Bearing, *, limit_force: float) -> Start:
+    """Assemble the bearing and bring it to equilibrium at the drive's first speed."""
+    model, layout = bearing.data.model, bearing.layout
+    offset = model.pocket.offset
+    y = geometric_guess(model, layout)
+    clearance = pocket_clearance(model, offset)
+    free = (clearance < -TOUCH).any(axis=1)
+    pinched = np.flatnonzero(free)
+    load = max(float(model.bodies.load[1, 0]), 1.0)
+    stages = np.linspace(0.0, 1.0, 9) if len(pinched) else np.array([1.0])
+    residual = 0.0
+    placed = np.zeros((layout.rollers, 2))
+    for share in stages:
+        system = _Frictionless(bearing, offset * share)
+        middle = np.stack(
+            [offset[:, 0].min(axis=1) - offset[:, 1].min(axis=1),
+             offset[:, 2].min(axis=1) - offset[:, 3].min(axis=1)], axis=1,
+        ) * 0.5 * share  # fmt: skip
+        q = layout.q(y)["rollers"]
+        q[:, 2] += (middle - placed)[:, 0] / q[:, 1]
+        placed = middle
+        yd = rolling_velocities(model, layout, y)
+        residual = _equilibrate(system, y, yd, free, load)
+        force = float(system.report(y, yd).pocket_normal.max())
+        if force > limit_force:
+            raise InputError(
+                f"a defect pinches roller {int(pinched[0]) if len(pinched) else 0} with "
+                f"{force:,.0f} N at {share:.0%} of its size, more than limits.assembly_force "
+                f"({limit_force:,.0f} N): the bearing cannot be assembled; make the defect "
+                "smaller, the pocket larger, or raise the limit",
+                where="defects",
+                value=force,
+            )
+    if residual > 1e-6:
+        raise RunFailed(
+            f"no equilibrium to start from was found: {residual:.1e} of the load stays "
+            "unbalanced (1e-6 is allowed); is the bearing pinched, or the defect too large?"
+        )
+    report = system.report(y, yd)
+    held = tuple(int(i) for i in pinched if report.pocket_normal[i].max() > 0.0)
+    force = float(report.pocket_normal[list(held)].max()) if held else 0.0
+    if held:
+        names = ", ".join(map(str, held))
+        log.warning("the defect pinches the roller of pocket %s with %.0f N", names, force)
+    return Start(y, yd, held, force, residual, report.station.copy())

@@ -1,0 +1,233 @@
+"""Every picture is written, has its size, is not blank, and shows what it should."""
+
+import sys
+from pathlib import Path
+
+import imageio.v3 as iio
+import numpy as np
+import pytest
+import xarray as xr
+from ring_with_pockets import Z, quadratic
+
+from flexcage import render
+from flexcage.core.errors import EnvironmentLacks, InputError
+from flexcage.geometry.cages import CrossbeamDefect, SideBeamDefect
+from flexcage.geometry.cylindrical_roller import RollerBearing
+from flexcage.render import sheet
+from flexcage.results.metrics import BearingNumbers
+from flexcage.results.registry import VARIABLES
+from flexcage.results.store import RunStore
+
+N1013 = RollerBearing(
+    bore=65e-3,
+    outside_diameter=100e-3,
+    width=18e-3,
+    inner_race_diameter=74.5e-3,
+    outer_race_diameter=90.5e-3,
+    roller_diameter=8e-3,
+    roller_length=8e-3,
+    effective_length=7.3e-3,
+    roller_count=Z,
+    rib_diameter=78.4e-3,
+    rib_gap=8.03e-3,
+)
+NUMBERS = BearingNumbers(pitch_diameter=82.5e-3, roller_diameter=8e-3, roller_count=Z)
+
+
+@pytest.fixture(scope="module")
+def run():
+    n = 400
+    t = np.arange(n) / 50e3
+    names = ["inner_speed", "inner_position", "roller_position", "roller_tilt", "roller_omega"]
+    names += ["cage_position", "cage_quaternion", "cage_omega", "race_force", "pocket_force"]
+    store = RunStore.create(
+        None,
+        coords={"time": t, "roller": np.arange(Z), "pocket": np.arange(Z)},
+        variables=names,
+        n_time=n,
+        block=n,
+        attrs={},
+    )
+    a = {v: np.zeros(store.layout.shape(VARIABLES[v])) for v in names}
+    cage = 2700 * np.pi / 30
+    a["inner_speed"][:] = 6000 * np.pi / 30
+    a["cage_quaternion"][:, 0] = np.cos(cage * t / 2)
+    a["cage_quaternion"][:, 1] = np.sin(cage * t / 2)
+    a["cage_omega"][:, 0] = cage
+    a["cage_position"][:, 1] = 50e-6 * np.cos(3 * cage * t)
+    a["cage_position"][:, 2] = 50e-6 * np.sin(3 * cage * t)
+    a["roller_position"][:, :, 1] = 41.25e-3
+    a["roller_position"][:, :, 2] = 2 * np.pi * np.arange(Z) / Z + (cage * t)[:, None]
+    a["race_force"][:, :, 0] = 500 * np.clip(-np.cos(a["roller_position"][:, :, 2]) - 0.6, 0, None)
+    a["race_force"][:, :, 1] = a["race_force"][:, :, 0] + 10
+    a["roller_omega"][:, :, 0] = -27900 * np.pi / 30
+    a["pocket_force"][:, :, 0] = 20 * np.clip(np.sin(900 * t)[:, None] - np.arange(Z) / Z, 0, None)
+    store.write_block(0, a)
+    return store.dataset()
+
+
+@pytest.fixture(scope="module")
+def field(ring):
+    """Nodes, cells, an ovalising displacement, and a stress whose peak is at one outer node."""
+    nodes, cells = quadratic(ring.points, ring.tets)
+    psi = np.arctan2(nodes[:, 2], nodes[:, 1])
+    radial = np.column_stack([0 * psi, np.cos(psi), np.sin(psi)])
+    u = 5e-6 * np.cos(2 * psi)[:, None] * radial
+    stress = 2e6 * (1.2 + np.cos(2 * psi))
+    peak = int(np.argmax(nodes @ [1.0, 1.0, 0.3]))
+    stress[peak] = 40e6
+    return nodes, cells, u, stress, peak
+
+
+def check(path: Path, *, least_colours: int = 40) -> np.ndarray:
+    pixels = iio.imread(path)[..., :3]
+    assert pixels.shape[0] >= 600 and pixels.shape[1] >= 700
+    inked = (pixels < 245).any(axis=2)
+    assert 0.01 < inked.mean() < 0.9, "neither blank nor full"
+    assert not inked[:6].any() and not inked[-4:].any(), "nothing is cut above or below"
+    assert not inked[:, :6].any() and not inked[:, -6:].any(), "nothing is cut at the sides"
+    assert len(np.unique(pixels.reshape(-1, 3) // 8, axis=0)) > least_colours
+    return pixels
+
+
+def has_colour(pixels: np.ndarray, colour: str, tolerance: int = 12) -> bool:
+    rgb = np.array([int(colour[i : i + 2], 16) for i in (1, 3, 5)])
+    return bool((np.abs(pixels.astype(int) - rgb).max(axis=2) < tolerance).any())
+
+
+def test_stress(field, canvas, tmp_path):
+    nodes, cells, u, stress, peak = field
+    path = render.stress_picture(
+        nodes, cells, u, stress, tmp_path / "new" / "s.png", time=1e-3, pocket_count=Z
+    )
+    assert path == tmp_path / "new" / "s.png"
+    pixels = check(path)
+    assert pixels.shape == (1012, 1802, 3)
+    spot = pixels[:, :1200].astype(int)
+    reddish = (spot[..., 0] > 150) & (spot[..., 1] < 110) & (spot[..., 2] < 60)
+    assert reddish.any(), "values over the range have their own colour on the cage"
+
+
+def test_a_fixed_range_and_an_undeformed_envelope(field, canvas, tmp_path):
+    nodes, cells, _, stress, peak = field
+    path = render.envelope_picture(
+        nodes, cells, stress, tmp_path / "e.png", span=(0, 0.1), peak_node=peak, limit=50e6
+    )
+    assert not has_colour(check(path), sheet.VERMILION, 6)
+
+
+def test_deformation_of_linear_tets(ring, canvas, tmp_path):
+    u = 1e-6 * np.cos(ring.points[:, :1] * 300) * [[1.0, 0.0, 0.0]]
+    check(render.deformation_picture(ring.points, ring.tets, u, tmp_path / "d.png", scale=500))
+
+
+def test_a_wrong_field_is_refused(ring, tmp_path):
+    with pytest.raises(InputError, match="one displacement and one value per node"):
+        render.stress_picture(
+            ring.points, ring.tets, ring.points[:-1], ring.points[:, 0], tmp_path / "x.png"
+        )
+
+
+def test_mesh_with_defects(ring, canvas, tmp_path):
+    defects = (
+        CrossbeamDefect(crossbeam=2, displacement=0.2e-3),
+        SideBeamDefect(pocket=5, side="-x", displacement=-0.3e-3),
+    )
+    pixels = check(render.mesh_picture(ring, tmp_path / "m.png", defects=defects))
+    assert has_colour(pixels, sheet.VERMILION) and has_colour(pixels, sheet.BLUE)
+    sound = check(render.mesh_picture(ring, tmp_path / "m0.png"), least_colours=20)
+    assert not has_colour(sound, sheet.VERMILION) and not has_colour(sound, sheet.BLUE)
+
+
+def test_mode_sheet(ring, canvas, tmp_path):
+    psi = np.arctan2(ring.points[:, 2], ring.points[:, 1])
+    radial = np.column_stack([0 * psi, np.cos(psi), np.sin(psi)])
+    shapes = np.stack([np.cos(n * psi)[:, None] * radial for n in range(2, 7)], axis=2)
+    path = render.mode_sheet(
+        ring.points, ring.tets, shapes, np.arange(5) * 1e3 + 860, ["free"] * 5, tmp_path / "s.png"
+    )
+    check(path)
+
+
+def test_bearing(run, ring, canvas, tmp_path):
+    path = render.bearing_picture(
+        run,
+        N1013,
+        -1,
+        tmp_path / "b.png",
+        cage_points=ring.points,
+        cage_tets=ring.tets,
+        load=(-1000.0, 0.0),
+    )
+    check(path)
+    with pytest.raises(InputError, match="no sample 400"):
+        render.bearing_picture(run, N1013, 400, tmp_path / "x.png")
+
+
+def test_curves_need_no_window(run, tmp_path):
+    stress = xr.DataArray(
+        run["pocket_force"].isel(face=0).values * 3e5,
+        dims=("time", "place"),
+        coords={"time": run["time"], "place": [f"pocket {k}" for k in range(Z)]},
+    )
+    check(render.orbit(run, tmp_path / "o.png", clearance=250e-6))
+    check(render.orbit(run, tmp_path / "o1.png", clearance=60e-6, settle=0.2))
+    check(
+        render.histories(run, tmp_path / "h.png", bearing=NUMBERS, root_stress=stress, settle=0.3)
+    )
+    check(render.histories(run, tmp_path / "h1.png"), least_colours=20)
+    check(render.compare_forces({"rigid": run, "flexible": run}, tmp_path / "c.png"))
+
+
+def test_animations(run, field, canvas, tmp_path):
+    nodes, cells, u, stress, _ = field
+    path = render.animate_stress(
+        nodes,
+        cells,
+        [0 * u, u, -u],
+        [0 * stress, stress, stress],
+        [0, 1e-4, 2e-4],
+        tmp_path / "s.gif",
+    )
+    frames = iio.imread(path)
+    assert len(frames) == 3 and np.abs(frames[0].astype(int) - frames[1]).max() > 100
+    path = render.animate_bearing(run, N1013, tmp_path / "b.gif", frames=3)
+    assert len(iio.imread(path)) == 3
+
+
+def test_animation_formats(tmp_path, monkeypatch):
+    frames = [np.zeros((10, 10, 3), np.uint8)]
+    with pytest.raises(InputError, match=r"\.gif or \.mp4"):
+        render.write_animation(frames, tmp_path / "a.avi")
+    monkeypatch.setattr("importlib.util.find_spec", lambda name: None)
+    with pytest.raises(EnvironmentLacks, match="imageio-ffmpeg"):
+        render.write_animation(frames, tmp_path / "a.mp4")
+
+
+def test_no_backend_is_a_sentence(field, tmp_path, monkeypatch):
+    from flexcage.core import environment
+
+    monkeypatch.setattr(environment, "offscreen_backend", lambda: None)
+    nodes, cells, u, stress, _ = field
+    with pytest.raises(EnvironmentLacks, match="apt-get install"):
+        render.stress_picture(nodes, cells, u, stress, tmp_path / "x.png")
+
+
+def test_importing_render_loads_nothing_heavy():
+    import subprocess
+
+    code = (
+        "import flexcage.render, sys; "
+        "print([m for m in ('matplotlib', 'pyvista', 'xarray', 'vtkmodules') if m in sys.modules])"
+    )
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert done.stdout.strip() == "[]"
+
+
+@pytest.mark.parametrize(
+    ("value", "up", "down"),
+    [(4.02, 4.5, 2.0), (6.5, 7.0, 5.0), (0.011, 0.012, 0.01), (1e3, 1e3, 1e3)],
+)
+def test_round_figures(value, up, down):
+    assert sheet.rounded_up(value) == pytest.approx(up)
+    assert sheet.rounded_down(value) == pytest.approx(down)
