@@ -21,7 +21,7 @@ import numpy as np
 from scipy import sparse
 
 from flexcage.core.errors import InputError
-from flexcage.core.jit import kernel
+from flexcage.core.jit import kernel, zero
 
 
 class BodyData(NamedTuple):
@@ -158,8 +158,8 @@ def inertia_terms(d, w, q, qd, work):
     cd = np.zeros(3)
     G = d.G0.copy()
     D = np.zeros((3, 3))  # D_ij = int p_i u_j
-    M[:, :] = 0.0
-    h[:] = 0.0
+    zero(M)
+    zero(h)
     for k in range(n):
         for i in range(3):
             c[i] += d.C[i, k] * q[k]

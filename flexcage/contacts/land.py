@@ -8,7 +8,7 @@ from typing import NamedTuple
 import numpy as np
 
 from flexcage.contacts.laws import short_bearing
-from flexcage.core.jit import kernel
+from flexcage.core.jit import kernel, zero
 
 
 class LandData(NamedTuple):
@@ -33,7 +33,7 @@ def land_contact(A, Rc, Vc, w, q, qd, Rr, Vr, spin, data, p, laws, sl, Fc, Mc, Q
     Rc, Vc, w: cage origin, velocity, angular velocity in space; Rr, Vr, spin: ring centre,
     velocity, spin about x. ``sums``: elastic energy, damping power, friction power, film power.
     """
-    sums[:] = 0.0
+    zero(sums)
     if data.kind == 0:
         return False
     law, friction = laws

@@ -18,8 +18,15 @@ from typing import NamedTuple
 
 import numpy as np
 
-from flexcage.contacts.state import add_generator, add_outer, clear, friction_tangent
-from flexcage.core.jit import kernel
+from flexcage.contacts.state import (
+    add_end_generator,
+    add_generator,
+    add_outer,
+    approach,
+    clear,
+    friction_tangent,
+)
+from flexcage.core.jit import kernel, zero
 
 N_LOCAL = 8  # residual coordinates of a pocket: uniform and linear on four faces
 
@@ -184,12 +191,12 @@ def _condense(data, i, p, law, side_law, sl, pw):
     """Solve the pocket's residual coordinates a; leaves station stiffness in pw.H."""
     C, R = data.comp[i], data.res[i]
     n_st = data.offset.shape[2]
-    pw.a[:] = 0.0
+    zero(pw.a)
     g = np.zeros(8)
     RH = np.zeros((8, 8))
     for _ in range(25):
-        g[:] = 0.0
-        RH[:, :] = 0.0
+        zero(g)
+        zero(RH)
         for f in range(4):
             if pw.near[f] == 0:
                 continue
@@ -246,13 +253,13 @@ def pocket_contact(pose, data, i, Rw, D, Vc, wc, q, qd, margin, p, laws, sl, pw,
     """
     clear(pair, mode == 1)
     law, side_law, mu, side_mu = laws
-    pw.normal[:] = 0.0
-    pw.tangential[:] = 0.0
+    zero(pw.normal)
+    zero(pw.tangential)
     if mode == 2:
-        sums[:] = 0.0
-        pw.slice_N[:, :] = 0.0
-        pw.slice_T[:, :] = 0.0
-        pw.a[:] = 0.0
+        zero(sums)
+        zero(pw.slice_N)
+        zero(pw.slice_T)
+        zero(pw.a)
     if not _penetrations(pose, data, i, Rw, D, q, margin, pw):
         return False
     n_st = data.offset.shape[2]
@@ -261,11 +268,11 @@ def pocket_contact(pose, data, i, Rw, D, Vc, wc, q, qd, margin, p, laws, sl, pw,
         _condense(data, i, p, law, side_law, sl, pw)
         if mode == 2:
             sums[0] += _stored(data, i, p, law, side_law, sl, pw)
-    pw.st[:, :, :] = 0.0
+    zero(pw.st)
     if mode == 1:
-        pw.BW[:, :, :] = 0.0
-        pw.LV[:, :, :] = 0.0
-        pw.H[:, :, :] = 0.0
+        zero(pw.BW)
+        zero(pw.LV)
+        zero(pw.H)
     r, rel = np.empty(3), np.empty(3)
     Wn, Wt, Wx, V = np.empty(6), np.empty(6), np.empty(6), np.empty(6)
     n, e1, e2 = np.empty(3), np.empty(3), np.empty(3)
@@ -308,7 +315,11 @@ def pocket_contact(pose, data, i, Rw, D, Vc, wc, q, qd, margin, p, laws, sl, pw,
             wn = (1.0 - w) * pw.wall[f, j, comp] + w * pw.wall[f, j + 1, comp]
             w1 = (1.0 - w) * pw.wall[f, j, first] + w * pw.wall[f, j + 1, first]
             w2 = (1.0 - w) * pw.wall[f, j, second] + w * pw.wall[f, j + 1, second]
-            sl.v[k] = -(n[0] * rel[0] + n[1] * rel[1] + n[2] * rel[2]) - sgn * wn
+            if f < 2:
+                sl.v[k] = -(n[0] * rel[0] + n[1] * rel[1] + n[2] * rel[2]) - sgn * wn
+            else:
+                add_end_generator(n, r, pose.axis[0], D[1], Wn)
+                sl.v[k] = approach(Wn, pose, D, Vc, wc) - sgn * wn
             sl.t[k, 0] = e1[0] * rel[0] + e1[1] * rel[1] + e1[2] * rel[2] - w1
             sl.t[k, 1] = e2[0] * rel[0] + e2[1] * rel[1] + e2[2] * rel[2] - w2
             sl.u[k] = sqrt(sl.t[k, 0] ** 2 + sl.t[k, 1] ** 2)
@@ -324,7 +335,10 @@ def pocket_contact(pose, data, i, Rw, D, Vc, wc, q, qd, margin, p, laws, sl, pw,
                 continue
             j, w = pw.j[f, k], pw.w[f, k]
             lever(pose, data, Rw, f, k, pw, r)
-            add_generator(n, r, Wn)
+            if f < 2:
+                add_generator(n, r, Wn)
+            else:
+                add_end_generator(n, r, pose.axis[0], D[1], Wn)
             add_generator(e1, r, Wx)
             add_generator(e2, r, Wt)
             g1, g2 = sl.g[k] * sl.t[k, 0], sl.g[k] * sl.t[k, 1]

@@ -9,7 +9,7 @@ import numpy as np
 
 from flexcage.contacts.laws import rolling_force
 from flexcage.contacts.state import add_generator, add_outer, clear, friction_tangent
-from flexcage.core.jit import kernel
+from flexcage.core.jit import kernel, zero
 
 
 class RaceSide(NamedTuple):
@@ -38,7 +38,7 @@ def race_contact(pose, side, Rw, P, b, Vr, wr, theta, p, law, friction, sl, pair
     a = pose.axis[0]
     n_s = side.s.shape[0]
     if mode == 2:
-        sums[:] = 0.0
+        zero(sums)
     # quick look: is any slice near the race?
     pb = P[0] * b[0] + P[1] * b[1] + P[2] * b[2]
     d0 = sqrt(max(P[0] ** 2 + P[1] ** 2 + P[2] ** 2 - pb * pb, 1e-18))
@@ -81,7 +81,7 @@ def race_contact(pose, side, Rw, P, b, Vr, wr, theta, p, law, friction, sl, pair
     law(n_s, sl.d, sl.v, p, sl.N, sl.Nd, sl.Nv)
     _slide(pose, side, Rw, P, b, Vr, wr, sl)
     friction(n_s, sl.u, side.friction, sl.g, sl.dg)
-    _collect(pose, side, Rw, P, b, sl, pair, mode, sums)
+    _collect(pose, side, Rw, P, b, theta, sl, pair, mode, sums)
     _roll(pose, side, Rw, P, wr, sl, pair, mode, sums)
     if mode == 2:
         law(n_s, sl.d, sl.zero, p, sl.u, sl.Nd, sl.Nv)
@@ -97,6 +97,14 @@ def theta_at(pose, y, z):
     ys = pose.F[1, 1] * y + pose.F[2, 1] * z
     zs = pose.F[1, 2] * y + pose.F[2, 2] * z
     return np.arctan2(zs, ys)
+
+
+@kernel
+def _wave_slope(pose, side, P, n, theta):
+    """Slope of the penetration along the race, dd/(d dtheta), on a wavy race."""
+    phase = side.wave[1] * (theta_at(pose, side.sign * n[1], side.sign * n[2]) - theta)
+    distance = sqrt(P[1] * P[1] + P[2] * P[2])
+    return -side.sign * side.wave[0] * side.wave[1] * sin(phase) / distance
 
 
 @kernel
@@ -136,8 +144,12 @@ def _slide(pose, side, Rw, P, b, Vr, wr, sl):
 
 
 @kernel
-def _collect(pose, side, Rw, P, b, sl, pair, mode, sums):
-    """Sum the slices' forces into the pair, with its tangent or its report."""
+def _collect(pose, side, Rw, P, b, theta, sl, pair, mode, sums):
+    """Sum the slices' forces into the pair, with its tangent or its report.
+
+    On a wavy race the normal leans by the wave's slope: the energy depends on the azimuth of the
+    roller's axis, so that share of the force acts there.
+    """
     n, t, r = np.empty(3), np.empty(3), np.empty(3)
     Wn, Wt, Wx, Wf = np.empty(6), np.empty(6), np.empty(6), np.empty(6)
     a = pose.axis[0]
@@ -150,6 +162,15 @@ def _collect(pose, side, Rw, P, b, sl, pair, mode, sums):
         for j in range(3):
             r[j] = side.s[k] * a[j] - (Rw - side.drop[k]) * n[j]
         add_generator(n, r, Wn)
+        if side.wave[0] > 0.0:
+            for j in range(3):
+                r[j] = side.s[k] * a[j]
+            add_generator(t, r, Wt)
+            slope = _wave_slope(pose, side, P, n, theta)
+            for j in range(6):
+                Wn[j] -= slope * Wt[j]
+            for j in range(3):
+                r[j] -= (Rw - side.drop[k]) * n[j]
         add_generator(t, r, Wt)
         add_generator(b, r, Wx)
         gx, gt = sl.g[k] * sl.t[k, 0], sl.g[k] * sl.t[k, 1]

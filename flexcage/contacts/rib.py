@@ -7,8 +7,15 @@ from typing import NamedTuple
 
 import numpy as np
 
-from flexcage.contacts.state import add_generator, add_outer, clear, friction_tangent
-from flexcage.core.jit import kernel
+from flexcage.contacts.state import (
+    add_end_generator,
+    add_generator,
+    add_outer,
+    approach,
+    clear,
+    friction_tangent,
+)
+from flexcage.core.jit import kernel, zero
 
 
 class RibData(NamedTuple):
@@ -27,7 +34,7 @@ def rib_contact(pose, data, P, b, Vr, wr, p, laws, sl, pair, mode, sums):
     clear(pair, mode == 1)
     law, friction = laws
     if mode == 2:
-        sums[:] = 0.0
+        zero(sums)
     a = pose.axis
     along = P[0] * b[0] + P[1] * b[1] + P[2] * b[2]
     tilt = abs(a[0, 1] - b[1]) + abs(a[0, 2] - b[2])
@@ -59,7 +66,8 @@ def rib_contact(pose, data, P, b, Vr, wr, p, laws, sl, pair, mode, sums):
                 v[0] = pose.V[0] - Vr[0] + o[1] * r[2] - o[2] * r[1] - wr[1] * z + wr[2] * y
                 v[1] = pose.V[1] - Vr[1] + o[2] * r[0] - o[0] * r[2] - wr[2] * x + wr[0] * z
                 v[2] = pose.V[2] - Vr[2] + o[0] * r[1] - o[1] * r[0] - wr[0] * y + wr[1] * x
-                sl.v[k] = -(n[0] * v[0] + n[1] * v[1] + n[2] * v[2])
+                add_end_generator(n, r, a[0], P[1], Wn)
+                sl.v[k] = approach(Wn, pose, P, Vr, wr)
                 sl.t[k, 0] = e1[0] * v[0] + e1[1] * v[1] + e1[2] * v[2]
                 sl.t[k, 1] = e2[0] * v[0] + e2[1] * v[1] + e2[2] * v[2]
                 sl.u[k] = sqrt(sl.t[k, 0] ** 2 + sl.t[k, 1] ** 2)
@@ -75,7 +83,7 @@ def rib_contact(pose, data, P, b, Vr, wr, p, laws, sl, pair, mode, sums):
             for c in range(3):
                 r[c] = sgn * data.half_roller * a[0, c]
                 r[c] += data.points[k, 0] * a[1, c] + data.points[k, 1] * a[2, c]
-            add_generator(n, r, Wn)
+            add_end_generator(n, r, a[0], P[1], Wn)
             add_generator(e1, r, W1)
             add_generator(e2, r, W2)
             for c in range(6):

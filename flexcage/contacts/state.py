@@ -12,7 +12,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from flexcage.core.jit import kernel
+from flexcage.core.jit import kernel, zero
 
 
 class RollerPose(NamedTuple):
@@ -90,10 +90,10 @@ def to_frame(F, a, out):
 @kernel
 def clear(pair, tangent):
     """Zero a pair's wrench and, if asked, its tangent."""
-    pair.wrench[:] = 0.0
+    zero(pair.wrench)
     if tangent:
-        pair.K[:, :] = 0.0
-        pair.C[:, :] = 0.0
+        zero(pair.K)
+        zero(pair.C)
 
 
 @kernel
@@ -103,6 +103,34 @@ def add_generator(n, r, out):
     out[3] = r[1] * n[2] - r[2] * n[1]
     out[4] = r[2] * n[0] - r[0] * n[2]
     out[5] = r[0] * n[1] - r[1] * n[0]
+
+
+@kernel
+def add_end_generator(n, r, axis, distance, out):
+    """Generator of a normal force on a roller's end, with nothing left to the spin.
+
+    An end looks the same however far it has spun, but its points, which keep their place towards
+    the bearing's axis (at ``distance``), would give a force askew to the end a moment about the
+    roller's axis. That moment m is taken out, and the force m/distance along the orbit that
+    balances it on the partner is put in: the gradient of an energy that knows orbit, not spin.
+    """
+    add_generator(n, r, out)
+    m = axis[0] * out[3] + axis[1] * out[4] + axis[2] * out[5]
+    for j in range(3):
+        out[3 + j] -= m * axis[j]
+    out[2] += m / distance
+
+
+@kernel
+def approach(W, pose, P, V, w):
+    """Rate at which roller and partner approach along generator W; (V, w) of the partner at -P."""
+    x = pose.V[0] - V[0] - w[1] * P[2] + w[2] * P[1]
+    y = pose.V[1] - V[1] - w[2] * P[0] + w[0] * P[2]
+    z = pose.V[2] - V[2] - w[0] * P[1] + w[1] * P[0]
+    s = W[0] * x + W[1] * y + W[2] * z
+    for j in range(3):
+        s += W[3 + j] * (pose.w[j] - w[j])
+    return -s
 
 
 @kernel

@@ -113,13 +113,19 @@ class FEModel:
         return elements.barycentric_gradients(self.points, self.tets)
 
     @cached_property
+    def surface_cells(self) -> tuple[np.ndarray, np.ndarray]:
+        """Boundary triangles as (tetrahedron (n,), its three local corners (n, 3))."""
+        corners = np.array([[0, 1, 2], [0, 1, 3], [0, 2, 3], [1, 2, 3]])
+        faces = np.sort(self.tets[:, corners].reshape(-1, 3), axis=1)
+        _, first, count = np.unique(faces, axis=0, return_index=True, return_counts=True)
+        cell, face = np.divmod(first[count == 1], 4)
+        return cell, corners[face]
+
+    @cached_property
     def surface(self) -> np.ndarray:
-        """Triangles (n, 3) of the whole boundary, vertices in ascending order."""
-        faces = np.concatenate(
-            [self.tets[:, c] for c in ([0, 1, 2], [0, 1, 3], [0, 2, 3], [1, 2, 3])]
-        )
-        faces, count = np.unique(np.sort(faces, axis=1), axis=0, return_counts=True)
-        return faces[count == 1]
+        """Triangles (n, 3) of the whole boundary, in no particular orientation."""
+        cell, corners = self.surface_cells
+        return self.tets[cell[:, None], corners]
 
     def face_nodes(self, triangles: np.ndarray) -> np.ndarray:
         """Nodes (n, 3 or 6) of boundary triangles: vertices, then midpoints of 01, 12, 02."""

@@ -92,7 +92,10 @@ def cage_interface(
     n_stations: int = 7,
     n_land: int = 24,
 ) -> CageInterface:
-    """Interface of a flexible cage: modes and residual vectors averaged at the stations."""
+    """Interface of a flexible cage: modes and residual vectors averaged at the stations.
+
+    ``n_land`` = 0 leaves the lands out.
+    """
     stations = face_stations(cage, n_stations)
     weights = station_weights(model, stations, pocket_count)
     land_weights = land_station_weights(model, n_land)
@@ -142,6 +145,9 @@ def land_station_weights(model: FEModel, n_land: int) -> sp.csr_matrix:
     """Weights (2*n_land, N) of hats in azimuth on the bore and the outside; zero where absent."""
     rows = []
     for name in LANDS:
+        if not n_land:
+            rows.append(sp.csr_matrix((0, len(model.nodes))))
+            continue
         if name not in model.groups or not len(model.groups[name]):
             log.warning("the mesh has no group %s: that land stays rigid", name)
             rows.append(sp.csr_matrix((n_land, len(model.nodes))))
@@ -162,7 +168,7 @@ def _azimuth_hats(n_land: int):
 def _averaged(shapes: np.ndarray, weights: sp.csr_matrix) -> np.ndarray:
     """Weighted means (rows, 3, n) of shapes (N, 3, n)."""
     n_nodes, _, n = shapes.shape
-    return (weights @ shapes.reshape(n_nodes, 3 * n)).reshape(-1, 3, n)
+    return (weights @ shapes.reshape(n_nodes, 3 * n)).reshape(weights.shape[0], 3, n)
 
 
 def _modes_at_stations(
@@ -176,7 +182,7 @@ def _modes_at_stations(
 
 def _modes_at_land(basis: ModeBasis, weights: sp.csr_matrix, n_land: int) -> np.ndarray:
     means = _averaged(basis.shapes, weights).reshape(2, n_land, 3, basis.size)
-    frames = np.stack([pocket_frame(j, n_land) for j in range(n_land)])
+    frames = np.array([pocket_frame(j, n_land) for j in range(n_land)]).reshape(n_land, 3, 3)
     return np.ascontiguousarray(np.einsum("jab,ljbn->ljan", frames, means))
 
 

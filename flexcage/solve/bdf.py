@@ -208,7 +208,7 @@ def advance(fns, data, st, opt, t_end, times, ys, yds, first, log, quads):
     D, count, real = st.D, st.count, st.real
     n = D.shape[1]
     sample, row = first, 0
-    while real[T] < t_end - 1e-15 * max(abs(t_end), 1.0):
+    while real[T] < t_end:
         if row >= log.shape[0]:
             return LOG_FULL, sample, row
         if count[STEPS] >= opt.max_steps:
@@ -221,7 +221,14 @@ def advance(fns, data, st, opt, t_end, times, ys, yds, first, log, quads):
         h = real[H]
         if h < opt.h_min:
             return TOO_SMALL, sample, row
-        t_new = real[T] + h
+        rest = t_end - real[T]
+        if h > 0.999 * rest:  # land on the end exactly
+            change_step(D, order, rest / h)
+            h = real[H] = rest
+            count[EQUAL] = 0
+            t_new = t_end
+        else:
+            t_new = real[T] + h
         gamma = st.coef[0, order]
         c = h / gamma
         for k in range(n):

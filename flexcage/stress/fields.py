@@ -27,8 +27,9 @@ _TANGENT = ((0, 1), (0, 1), (1, 2), (1, 2))
 class StressFields:
     """Precomputed deviators at the surface vertices ``surface`` (mesh vertex numbers)."""
 
-    def __init__(self, recovery: StressRecovery) -> None:
-        self._recovery = recovery
+    def __init__(self, recovery: StressRecovery, *, forces: np.ndarray | None = None) -> None:
+        """``forces``: the property of that name, if it was stored before (it costs the most)."""
+        self._recovery, self._stored = recovery, forces
         model = recovery.model
         self.surface = np.unique(model.surface)
         self.places = root_places(model, recovery.pocket_count)
@@ -44,6 +45,8 @@ class StressFields:
     @cached_property
     def forces(self) -> np.ndarray:
         """(5 n_surface, Z per_pocket) per newton of ``reduced_forces``, beyond the modes."""
+        if self._stored is not None:
+            return self._stored
         recovery = self._recovery
         pockets = range(recovery.pocket_count)
         symmetry = find_symmetry(recovery.model, recovery.pocket_count)

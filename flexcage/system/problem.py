@@ -15,7 +15,7 @@ from numba import types
 
 from flexcage.contacts import laws
 from flexcage.contacts.spec import Contacts
-from flexcage.core.jit import OPTIONS, kernel
+from flexcage.core.jit import OPTIONS, boxed, copy_into, kernel
 from flexcage.core.rotation import quaternion_rate, rotation_of_quaternion_change
 from flexcage.solve import bdf
 from flexcage.solve import bordered as bordered_system
@@ -75,14 +75,7 @@ def new_samples(n: int, stride: int, model: Model) -> Samples:
     )  # fmt: skip
 
 
-def _evaluate(t, y, yd, d, law, out, mode):
-    evaluate(
-        t, y, yd, d.model, d.memory, d.work, out, mode,
-        law[0], law[1], law[2], law[3], law[4], law[5], law[6], law[7], law[8], law[9],
-    )  # fmt: skip
-
-
-# ``data`` is (BearingData, laws, _evaluate): evaluated through a function value, the residual
+# ``data`` is (box of BearingData, laws, evaluate): evaluated through a function value, the residual
 # is compiled once, not again inside each of the functions below.
 
 
@@ -95,7 +88,7 @@ def _linearise(t, y, yd, data):
 
 
 def _factor(alpha, data):
-    d = data[0]
+    d = data[0].value
     return assemble(alpha, d.model, d.work.tangent, d.matrix)
 
 
@@ -139,7 +132,7 @@ def assemble(alpha, model, tan, m):
 
 
 def _backsolve(alpha, y, r, data):
-    d = data[0]
+    d = data[0].value
     newton_step(alpha, y, r, d.work.tangent, d.matrix)
 
 
@@ -217,8 +210,8 @@ def newton_step(alpha, y, r, tan, m):
 
 
 def _accepted(t, y, yd, data, power):
-    d = data[0]
-    data[2](t, y, yd, d, data[1], np.empty(y.shape[0]), 2)
+    d = data[0].value
+    data[2](t, y, yd, data[0], data[1], np.empty(y.shape[0]), 2)
     remember(t, d.memory, d.work.report, d.events)
     for k in range(power.shape[0]):
         power[k] = d.work.report.power[k]
@@ -252,21 +245,21 @@ def remember(t, memory, rep, events):
 
 
 def _observe(sample, t, y, yd, data):
-    d = data[0]
+    d = data[0].value
     s, rep = d.samples, d.work.report
-    if sample % s.stride == 0:
-        data[2](t, y, yd, d, data[1], np.empty(y.shape[0]), 2)
+    if sample % s.stride == s.stride - 1:
+        data[2](t, y, yd, data[0], data[1], np.empty(y.shape[0]), 2)
         k = sample // s.stride
-        s.race[k] = rep.race
-        s.pocket_normal[k] = rep.pocket_normal
-        s.pocket_friction[k] = rep.pocket_friction
-        s.slice_normal[k] = rep.slice_normal
-        s.slice_friction[k] = rep.slice_friction
-        s.station[k] = rep.station
-        s.residual[k] = rep.residual
-        s.rib[k] = rep.rib
-        s.land[k] = rep.land
-        s.energy[k] = rep.energy
+        copy_into(s.race[k], rep.race)
+        copy_into(s.pocket_normal[k], rep.pocket_normal)
+        copy_into(s.pocket_friction[k], rep.pocket_friction)
+        copy_into(s.slice_normal[k], rep.slice_normal)
+        copy_into(s.slice_friction[k], rep.slice_friction)
+        copy_into(s.station[k], rep.station)
+        copy_into(s.residual[k], rep.residual)
+        copy_into(s.rib[k], rep.rib)
+        copy_into(s.land[k], rep.land)
+        copy_into(s.energy[k], rep.energy)
     s.force[sample, 0] = rep.body_force[0]
     s.force[sample, 1] = rep.body_force[1]
 
@@ -300,15 +293,15 @@ class Bearing:
         )  # fmt: skip
         self.laws = law_functions(contacts)
         self._compile()
-        self.args = (self.data, self.laws, self.evaluate)
+        self.args = self.arguments(self.data, self.laws)
 
     def _compile(self) -> None:
         f8, i8 = types.float64, types.int64
         vector, matrix = types.Array(f8, 1, "C"), types.Array(f8, 2, "C")
         law_type = types.Tuple((laws.NORMAL_TYPE,) * 5 + (laws.FRICTION_TYPE,) * 5)
-        bearing = numba.typeof(self.data)
+        bearing = numba.typeof(boxed(self.data))
         evaluation = types.void(f8, vector, vector, bearing, law_type, vector, i8)
-        self.evaluate = numba.njit(evaluation, **OPTIONS)(_evaluate)
+        self.evaluate = numba.njit(evaluation, **OPTIONS)(evaluate)
         data = types.Tuple((bearing, law_type, types.FunctionType(evaluation)))
         signatures = (
             types.void(f8, vector, vector, data, vector),
@@ -330,6 +323,10 @@ class Bearing:
             matrix,
         )  # fmt: skip
         self._advance = numba.njit(advance, **OPTIONS)(_advance)
+
+    def arguments(self, data: BearingData, law: tuple) -> tuple:
+        """What the compiled functions take as their data."""
+        return boxed(data), law, self.evaluate
 
     def residual(self, t: float, y: np.ndarray, yd: np.ndarray, mode: int = 0) -> np.ndarray:
         """F(t, y, y'), a new array; mode 1 also fills the tangent, mode 2 the report."""

@@ -17,7 +17,7 @@ from flexcage.contacts.pocket import pocket_contact
 from flexcage.contacts.race import race_contact
 from flexcage.contacts.rib import rib_contact
 from flexcage.contacts.state import set_pose, shift_matrix, to_frame
-from flexcage.core.jit import kernel
+from flexcage.core.jit import copy_into, kernel, zero
 from flexcage.core.rotation import matrix_from_quaternion, quaternion_rate
 
 
@@ -132,8 +132,8 @@ def _scatter_modes(data, i, pw, S, tan, Lm, Bm):
     """Stiffness between pocket i's roller, the cage's rigid motion and its modes."""
     n_m = data.phi.shape[4]
     n_st = data.phi.shape[2]
-    Lm[:, :] = 0.0
-    Bm[:, :] = 0.0
+    zero(Lm)
+    zero(Bm)
     for f in range(4):
         if pw.near[f] == 0:
             continue
@@ -174,11 +174,15 @@ def _add_to_ring(F, wrench, P, border, vec):
         border[3 + j] -= F[0, j] * m[0] + F[1, j] * m[1] + F[2, j] * m[2]
 
 
-def _evaluate(
-    t, y, yd, model, memory, work, out, mode, race_law, pocket_law, side_law, rib_law, land_law,
-    race_mu, pocket_mu, side_mu, rib_mu, land_mu,
-):  # fmt: skip
-    """Residual into ``out``; see the module's text. Index letters: i roller, c component, m mode."""
+def evaluate(t, y, yd, box, law, out, mode):
+    """Residual into ``out``; see the module's text. Index letters: i roller, c component, m mode.
+
+    ``box`` refers to the model, its memory and its workspaces; ``law`` holds the normal laws of
+    race, pocket, side, rib and land, then their friction laws.
+    """
+    race_law, pocket_law, side_law, rib_law, land_law = law[0], law[1], law[2], law[3], law[4]
+    race_mu, pocket_mu, side_mu, rib_mu, land_mu = law[5], law[6], law[7], law[8], law[9]
+    model, memory, work = box.value.model, box.value.memory, box.value.work
     bodies, tan, rep = model.bodies, work.tangent, work.report
     Z = bodies.radius.shape[0]
     nm = model.cage.mff.shape[0]
@@ -187,25 +191,25 @@ def _evaluate(
     lam, mu_ = y[nq + nu : nq + nu + 4], y[nq + nu + 4 :]
     r_q, r_u = out[:nq], out[nq : nq + nu]
     zq, border = 6 * Z, work.border
-    border[:] = 0.0
+    zero(border)
     if mode == 1:
-        tan.Krr[:] = 0.0
-        tan.Crr[:] = 0.0
-        tan.Krb[:] = 0.0
-        tan.Crb[:] = 0.0
-        tan.Kbr[:] = 0.0
-        tan.Cbr[:] = 0.0
-        tan.Kbb[:] = 0.0
-        tan.Cbb[:] = 0.0
-        tan.Mbb[:] = 0.0
+        zero(tan.Krr)
+        zero(tan.Crr)
+        zero(tan.Krb)
+        zero(tan.Crb)
+        zero(tan.Kbr)
+        zero(tan.Cbr)
+        zero(tan.Kbb)
+        zero(tan.Cbb)
+        zero(tan.Mbb)
     if mode == 2:
-        rep.power[:] = 0.0
-        rep.energy[:] = 0.0
-        rep.race[:] = 0.0
-        rep.rib[:] = 0.0
-        rep.contact[:] = 0
-        rep.body_force[:] = 0.0
-        rep.land[:] = 0.0
+        zero(rep.power)
+        zero(rep.energy)
+        zero(rep.race)
+        zero(rep.rib)
+        zero(rep.contact)
+        zero(rep.body_force)
+        zero(rep.land)
     vec = work.vec
     ring_q, ring_u = q[zq : zq + 6], u[zq : zq + 6]
     out_q, out_u = q[zq + 6 : zq + 8], u[zq + 6 : zq + 8]
@@ -243,7 +247,7 @@ def _evaluate(
         set_pose(qi, ui, pose)
         F, a = pose.F, pose.axis
         Rw = bodies.radius[i]
-        FR[:] = 0.0
+        zero(FR)
         # inner race and ribs
         P[0] = qi[0] - ring_q[0]
         P[1] = qi[1] - (ring_q[1] * F[1, 1] + ring_q[2] * F[1, 2])
@@ -370,15 +374,17 @@ def _evaluate(
                 rep.energy[2] += sums[0]
                 rep.power[6] += sums[1]
                 rep.power[7] += sums[2]
-                rep.station[i] = pw.st
-                rep.residual[i] = pw.a
-                rep.slice_normal[i] = pw.slice_N[:2, : rep.slice_normal.shape[2]]
-                rep.slice_friction[i] = pw.slice_T[:2, : rep.slice_normal.shape[2]]
+                copy_into(rep.station[i], pw.st)
+                copy_into(rep.residual[i], pw.a)
+                for f in range(2):
+                    for k in range(rep.slice_normal.shape[2]):
+                        rep.slice_normal[i, f, k] = pw.slice_N[f, k]
+                        rep.slice_friction[i, f, k] = pw.slice_T[f, k]
             else:
-                rep.station[i] = 0.0
-                rep.residual[i] = 0.0
-                rep.slice_normal[i] = 0.0
-                rep.slice_friction[i] = 0.0
+                zero(rep.station[i])
+                zero(rep.residual[i])
+                zero(rep.slice_normal[i])
+                zero(rep.slice_friction[i])
             for f in range(4):
                 rep.pocket_normal[i, f] = pw.normal[f]
                 rep.pocket_friction[i, f] = pw.tangential[f]
@@ -419,15 +425,15 @@ def _evaluate(
             rep.energy[0] += 0.5 * (mass * v2 + Ia * ui[3] * ui[3] + It * w2)
     # cage land
     Fc, Mc, Fr, Mr = vec[5], vec[6], vec[7], vec[8]
-    Fc[:] = 0.0
-    Mc[:] = 0.0
-    Fr[:] = 0.0
-    Mr[:] = 0.0
+    zero(Fc)
+    zero(Mc)
+    zero(Fr)
+    zero(Mr)
     Qm = border[14:]
     rides_inner = model.land.inner > 0.0
     if rides_inner:
-        rel[:] = ring_q[0:3]
-        tmp[:] = ring_u[0:3]
+        copy_into(rel, ring_q[0:3])
+        copy_into(tmp, ring_u[0:3])
     else:
         rel[0], rel[1], rel[2] = 0.0, out_q[0], out_q[1]
         tmp[0], tmp[1], tmp[2] = 0.0, out_u[0], out_u[1]
@@ -447,7 +453,7 @@ def _evaluate(
         border[6] += Fr[1]
         border[7] += Fr[2]
     if mode == 2:
-        rep.land[:] = Fc
+        copy_into(rep.land, Fc)
         rep.energy[2] += sums[0]
         rep.power[9] += sums[1] + sums[2] + sums[3]
         rep.power[10] -= bodies.drag[1] * abs(wg[0]) * wg[0] * wg[0]
@@ -613,7 +619,13 @@ def _ring_rows(t, model, work, q, u, qd, ud, lam, mu_, zq, r_q, r_u, border, out
             tan.Cbb[3, 3] += bodies.drive[2]
         for c in range(2):
             tan.Mbb[6 + c, 6 + c] = 1.0 if fixed > 0.0 else mo
-            if fixed == 0.0:
+            if fixed > 0.0:  # its row is u' = 0, whatever pushes it
+                zero(tan.Kbb[6 + c])
+                zero(tan.Cbb[6 + c])
+                for i in range(tan.Kbr.shape[0]):
+                    zero(tan.Kbr[i, 6 + c])
+                    zero(tan.Cbr[i, 6 + c])
+            else:
                 tan.Kbb[6 + c, 6 + c] += ko
                 tan.Cbb[6 + c, 6 + c] += co
     elif mode == 2:
@@ -634,8 +646,3 @@ def _ring_rows(t, model, work, q, u, qd, ud, lam, mu_, zq, r_q, r_u, border, out
                 rep.power[2] += mo * bodies.gravity[1 + c] * ou[c]
         for c in range(2):
             rep.body_force[c] = border[6 + c]
-
-
-evaluate = kernel(_evaluate)
-
-__all__ = ["drive_angle", "evaluate", "interpolate"]

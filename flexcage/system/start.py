@@ -99,7 +99,7 @@ class _Frictionless:
         )
         self.bearing = bearing
         self.data = bearing.data._replace(model=still)
-        self.args = (self.data, bearing.laws[:5] + (laws.no_friction,) * 5, bearing.evaluate)
+        self.args = bearing.arguments(self.data, bearing.laws[:5] + (laws.no_friction,) * 5)
         self.out = np.zeros(bearing.layout.size)
 
     def residual(self, y: np.ndarray, yd: np.ndarray) -> np.ndarray:

@@ -118,3 +118,8 @@ def test_mode_table_shows_no_effective_mass_and_all_of_the_deflection(solver, ba
     text = str(table)
     assert f"{basis.frequencies[0]:.1f}" in text and "centrifugal" in text
     assert len(table.columns()["frequency"]) == basis.size
+
+
+def test_lands_may_be_left_out(solver, basis):
+    without = cage_interface(solver.model, basis, pocket_count=POCKETS, cage=CAGE, n_land=0)
+    assert without.land.shape == (2, 0, 3, basis.size) and without.land_weights.shape[0] == 0

@@ -1,0 +1,186 @@
+"""All pictures of one run, with fixed file names and cameras, so that runs lie side by side."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from flexcage.geometry.cages import CrossbeamDefect, Defect
+from flexcage.geometry.cylindrical_roller import RollerBearing
+from flexcage.mesh.cage_mesh import CageMesh
+from flexcage.modes.basis import ModeBasis
+from flexcage.results.metrics import BearingNumbers
+
+if TYPE_CHECKING:
+    import xarray
+
+
+@dataclass(frozen=True, kw_only=True)
+class StressPictures:
+    """What the stress pictures of a flexible cage show."""
+
+    nodes: np.ndarray  # (N, 3) FE nodes [m]
+    cells: np.ndarray  # (n, 4 or 10) their tetrahedra
+    basis: ModeBasis
+    time: float  # of the peak [s]
+    displacement: np.ndarray  # (N, 3) [m] at that time
+    von_mises: np.ndarray  # (n_points,) [Pa] at that time, mesh vertices
+    envelope: np.ndarray  # (n_points,) [Pa] largest over the run
+    peak_vertex: int
+    roots: np.ndarray  # (nt, places) [Pa]
+    root_names: Sequence[str]
+    frames: Sequence[tuple[float, np.ndarray, np.ndarray]] = ()  # time, displacement, stress
+
+
+@dataclass(frozen=True, kw_only=True)
+class Scene:
+    """One run as the pictures need it."""
+
+    name: str
+    dataset: xarray.Dataset
+    bearing: RollerBearing
+    mesh: CageMesh
+    defects: Sequence[Defect]
+    load: tuple[float, float]  # (F_y, F_z) [N] on the inner ring
+    clearance: float  # radial land clearance [m]
+    settle: float
+    stress: StressPictures | None = None
+
+
+def draw_album(scene: Scene, folder: Path, *, animate: bool = False) -> list[Path]:
+    """Draw all pictures into ``folder``; their paths."""
+    folder.mkdir(parents=True, exist_ok=True)
+    paths = [*_geometry(scene, folder), *_motion(scene, folder)]
+    if scene.stress is not None:
+        paths += _stress(scene, scene.stress, folder)
+    if animate:
+        paths += _animations(scene, folder)
+    return paths
+
+
+def _azimuth(scene: Scene) -> float:
+    """Azimuth of the first defect, or of pocket 0 [rad], cage frame."""
+    if not scene.defects:
+        return 0.0
+    first = scene.defects[0]
+    place = first.crossbeam - 0.5 if isinstance(first, CrossbeamDefect) else first.pocket
+    return 2.0 * np.pi * place / scene.mesh.pocket_count
+
+
+def _followed_roller(scene: Scene) -> int:
+    if not scene.defects:
+        return 0
+    first = scene.defects[0]
+    pocket = first.crossbeam - 1 if isinstance(first, CrossbeamDefect) else first.pocket
+    return pocket % scene.mesh.pocket_count
+
+
+def _geometry(scene: Scene, folder: Path) -> list[Path]:
+    from flexcage.render.mesh_pictures import mesh_picture
+    from flexcage.render.mode_pictures import mode_sheet
+
+    paths = [mesh_picture(scene.mesh, folder / "mesh.png", defects=scene.defects)]
+    if scene.stress is not None:
+        b = scene.stress.basis
+        paths.append(
+            mode_sheet(
+                scene.stress.nodes, scene.stress.cells, b.shapes, b.frequencies, b.kind,
+                folder / "modes.png",
+            )  # fmt: skip
+        )
+    return paths
+
+
+def _motion(scene: Scene, folder: Path) -> list[Path]:
+    from flexcage.render.bearing_pictures import bearing_picture
+    from flexcage.render.curves import histories, orbit
+
+    b, ds = scene.bearing, scene.dataset
+    numbers = BearingNumbers(
+        pitch_diameter=b.pitch_diameter,
+        roller_diameter=b.roller_diameter,
+        roller_count=b.roller_count,
+    )
+    root = None
+    if scene.stress is not None:
+        import xarray
+
+        worst = int(np.argmax(scene.stress.roots.max(axis=0)))
+        root = xarray.DataArray(
+            scene.stress.roots[:, [worst]],
+            dims=("time", "place"),
+            coords={"time": ds["time"], "place": [scene.stress.root_names[worst]]},
+            attrs={"units": "Pa", "long_name": "equivalent stress"},
+        )
+    busiest = int(np.argmax(ds["pocket_force"].sum(["pocket", "face"]).values))
+    index = busiest if scene.stress is None else int(
+        np.abs(ds["time"].values - scene.stress.time).argmin()
+    )  # fmt: skip
+    return [
+        bearing_picture(
+            ds, b, index, folder / "bearing.png", cage_points=scene.mesh.points,
+            cage_tets=scene.mesh.tets, load=scene.load,
+        ),
+        orbit(ds, folder / "orbit.png", clearance=scene.clearance, settle=scene.settle),
+        histories(
+            ds, folder / "histories.png", bearing=numbers, root_stress=root,
+            roller=_followed_roller(scene), settle=scene.settle,
+        ),
+    ]  # fmt: skip
+
+
+def _stress(scene: Scene, s: StressPictures, folder: Path) -> list[Path]:
+    from flexcage.render.stress_pictures import (
+        deformation_picture,
+        envelope_picture,
+        stress_picture,
+    )
+
+    ds, count = scene.dataset, scene.mesh.pocket_count
+    azimuth = float(np.arctan2(*scene.mesh.points[s.peak_vertex, [2, 1]]))
+    top = float(s.envelope[s.peak_vertex])
+    t = ds["time"].values
+    points, tets = scene.mesh.points, scene.mesh.tets
+    at_vertices = s.displacement[: len(points)]
+    return [
+        stress_picture(
+            points, tets, at_vertices, s.von_mises, folder / "stress_peak.png", time=s.time,
+            peak_label=f"{s.von_mises[s.peak_vertex] / 1e6:.1f} MPa", peak_node=s.peak_vertex,
+            pocket_count=count, azimuth=azimuth, note=scene.name,
+        ),
+        envelope_picture(
+            points, tets, s.envelope, folder / "stress_envelope.png", span=(t[0], t[-1]),
+            peak_label=f"{top / 1e6:.1f} MPa", peak_node=s.peak_vertex, pocket_count=count,
+            azimuth=azimuth, note=scene.name,
+        ),
+        deformation_picture(
+            points, tets, at_vertices, folder / "deformation.png", time=s.time,
+            pocket_count=count, azimuth=azimuth, note=scene.name,
+        ),
+    ]  # fmt: skip
+
+
+def _animations(scene: Scene, folder: Path) -> list[Path]:
+    from flexcage.render.animations import animate_bearing, animate_stress
+
+    paths = [
+        animate_bearing(
+            scene.dataset, scene.bearing, folder / "bearing.gif", frames=40,
+            cage_points=scene.mesh.points, cage_tets=scene.mesh.tets, load=scene.load,
+        )
+    ]  # fmt: skip
+    if scene.stress is not None and scene.stress.frames:
+        times, shifts, stresses = zip(*scene.stress.frames, strict=True)
+        n = len(scene.mesh.points)
+        paths.append(
+            animate_stress(
+                scene.mesh.points, scene.mesh.tets, [u[:n] for u in shifts], stresses, times,
+                folder / "stress.gif", pocket_count=scene.mesh.pocket_count,
+                azimuth=float(np.arctan2(*scene.mesh.points[scene.stress.peak_vertex, [2, 1]])),
+            )  # fmt: skip
+        )
+    return paths

@@ -1,0 +1,223 @@
+"""Integrate a bearing block by block and record what happens: samples by name, checkpoint, log."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from contextlib import nullcontext
+from typing import Any
+
+import numpy as np
+from scipy.signal import butter, sosfilt
+
+from flexcage.core.errors import RunFailed
+from flexcage.modes.basis import FACES
+from flexcage.results.options import OutputOptions
+from flexcage.results.registry import VARIABLES
+from flexcage.results.store import MemoryRunStore, RunStore
+from flexcage.solve import bdf
+from flexcage.solve.options import SolverOptions
+from flexcage.system.layout import CONSTRAINTS
+from flexcage.system.model import POWERS
+from flexcage.system.problem import Bearing
+from flexcage.system.scales import error_weights
+from flexcage.system.start import Start
+
+ENERGIES = ("kinetic", "strain", "contact", "mount")
+PLACES = ("inner race", "outer race", *FACES, "rib +x", "rib -x")  # of events, in order
+FILTER_HZ = 10e3  # low-pass of outer_acceleration_filtered
+FIRST_STEP = 1e-7
+
+
+def new_store(
+    path: Any, bearing: Bearing, *, duration: float, output: OutputOptions, attrs: dict[str, Any]
+) -> MemoryRunStore:
+    """Allocate a run for this bearing on its sampling grids, at ``path`` or in memory."""
+    n, ratio = max(round(duration * output.rate), 2), output.vibration_ratio
+    layout, data = bearing.layout, bearing.data
+    Z = np.arange(layout.rollers)
+    coords = {
+        "time": np.arange(1, n + 1) / output.rate,
+        "time_hf": np.arange(1, n * ratio + 1) / output.vibration_rate,
+        "roller": Z,
+        "pocket": Z,
+        "mode": np.arange(layout.modes),
+        "slice": data.model.pocket.s,
+        "station": np.arange(data.model.pocket.offset.shape[2]),
+        "residual": np.arange(8),
+        "constraint": np.array(CONSTRAINTS),
+        "energy_kind": np.array(ENERGIES),
+        "channel": np.array(POWERS),
+    }
+    names = [v for v in VARIABLES if layout.modes or not v.startswith("modal_")]
+    return RunStore.create(
+        path,
+        coords=coords,
+        variables=names,
+        n_time=n,
+        n_time_hf=n * ratio,
+        block=output.block,
+        block_hf=output.block_hf,
+        attrs=attrs,
+    )
+
+
+class Recorder:
+    """The integration of one run: goes on from a checkpoint if the store has one."""
+
+    def __init__(
+        self,
+        bearing: Bearing,
+        start: Start,
+        store: MemoryRunStore,
+        *,
+        solver: SolverOptions,
+        output: OutputOptions,
+    ) -> None:
+        self.bearing, self.store, self.output = bearing, store, output
+        self.options = bdf.Options(
+            solver.max_order,
+            solver.max_step,
+            solver.min_step,
+            solver.newton_tolerance,
+            solver.max_steps,
+        )
+        weight = error_weights(bearing.data.model, bearing.layout, solver.tolerance)
+        self.state = bdf.new_state(
+            0.0, start.y, start.yd, weight=weight, h0=FIRST_STEP, n_quad=len(POWERS)
+        )
+        self._sos = butter(4, min(FILTER_HZ / (0.5 * output.vibration_rate), 0.95), output="sos")
+        self._filter = np.zeros((self._sos.shape[0], 2, 2))
+        saved = store.checkpoint()
+        if saved is not None:
+            self._restore(saved)
+
+    @property
+    def time(self) -> float:
+        """Bearing time reached [s]."""
+        return float(self.state.real[bdf.T])
+
+    def march(self, progress: Callable[..., Any] | None = None) -> None:
+        """Integrate all blocks that the store still lacks; ``progress`` as core.progress.Progress."""
+        duration = self.store.layout.n_time / self.output.rate
+        with progress(duration, "solving") if progress else nullcontext() as bar:
+            if bar is not None:
+                bar.begin_at(self.time)
+            while not self.store.complete:
+                self._block(self.store.blocks)
+                if bar is not None:
+                    bar.to(self.time)
+
+    def _block(self, index: int) -> None:
+        ratio, layout = self.output.vibration_ratio, self.bearing.layout
+        low, high = self.store.layout.span(index, "time_hf")
+        times = np.arange(low + 1, high + 1) / self.output.vibration_rate
+        n = len(times)
+        ys, yds = np.zeros((n, layout.size)), np.zeros((n, layout.size))
+        quads = np.zeros((n, len(POWERS)))
+        self.state.count[bdf.HAVE_J] = 0  # a resumed run then repeats an unbroken one bit by bit
+        self.state.real[bdf.ALPHA] = 0.0
+        self.bearing.data.events.fill[0] = 0
+        logs, sample, outcome = [], 0, bdf.LOG_FULL
+        while outcome == bdf.LOG_FULL:
+            log = np.zeros((20_000, len(bdf.LOG_COLUMNS)))
+            outcome, sample, rows = self.bearing.advance(
+                self.state, self.options, times[-1], times, ys, yds, sample, log, quads
+            )
+            logs.append(log[:rows])
+        done = sample // ratio
+        arrays = self._arrays(ys[ratio - 1 :: ratio][:done], yds[ratio - 1 :: ratio][:done], done)
+        arrays["work"] = quads[ratio - 1 :: ratio][:done]
+        fine = self._fine(yds[: done * ratio], done * ratio)
+        steps = dict(zip(bdf.LOG_COLUMNS, np.concatenate(logs).T, strict=True))
+        whole = outcome == bdf.DONE
+        if done:
+            self.store.write_block(
+                index, arrays, fine, self._checkpoint() if whole else None, steps, self._events()
+            )
+        if not whole:
+            raise RunFailed(
+                f"the solver stopped at t = {self.time * 1e3:.4f} ms: {bdf.OUTCOMES[outcome]}; "
+                "what was computed is kept"
+            )
+
+    def _arrays(self, y: np.ndarray, yd: np.ndarray, done: int) -> dict[str, np.ndarray]:
+        """Main-grid variables of one block by name."""
+        layout, s = self.bearing.layout, self.bearing.data.samples
+        q, u, a = layout.q(y), layout.u(y), layout.u(yd)
+        quaternion = q["quaternion"] / np.linalg.norm(q["quaternion"], axis=1, keepdims=True)
+        outer = np.concatenate([np.zeros((done, 1)), q["outer"]], axis=1)
+        arrays = {
+            "inner_position": q["inner"][:, :3],
+            "inner_velocity": u["inner"][:, :3],
+            "inner_angle": q["inner"][:, 5],
+            "inner_speed": u["inner"][:, 3],
+            "outer_position": outer,
+            "roller_position": q["rollers"][:, :, :3],
+            "roller_velocity": u["rollers"][:, :, :3],
+            "roller_tilt": q["rollers"][:, :, 3:5],
+            "roller_omega": u["rollers"][:, :, 3:],
+            "cage_position": q["cage"],
+            "cage_velocity": u["cage"],
+            "cage_quaternion": quaternion,
+            "cage_omega": u["omega"],
+            "cage_acceleration": to_body(quaternion, a["cage"]),
+            "cage_angular_acceleration": a["omega"],
+            "race_force": s.race[:done, :, :, 0],
+            "race_traction": s.race[:done, :, :, 1],
+            "race_moment": s.race[:done, :, :, [3, 2]],
+            "race_slip": s.race[:done, :, :, 4],
+            "pocket_force": s.pocket_normal[:done],
+            "pocket_friction": s.pocket_friction[:done],
+            "pocket_slice_force": s.slice_normal[:done],
+            "pocket_slice_friction": s.slice_friction[:done],
+            "station_force": s.station[:done],
+            "residual_coordinates": s.residual[:done],
+            "rib_force": s.rib[:done],
+            "land_force": s.land[:done],
+            "multiplier": layout.multipliers(y),
+            "energy": s.energy[:done],
+        }
+        if layout.modes:
+            arrays["modal_coordinates"] = q["modes"]
+            arrays["modal_velocity"] = u["modes"]
+            arrays["modal_acceleration"] = a["modes"]
+        return arrays
+
+    def _fine(self, yd: np.ndarray, n: int) -> dict[str, np.ndarray]:
+        """Outer ring's acceleration; of a fixed ring, what its contact forces would give it."""
+        mass, _, _, fixed = self.bearing.data.model.bodies.outer
+        raw = self.bearing.data.samples.force[:n] / mass
+        if not fixed:
+            raw = self.bearing.layout.u(yd)["outer"]
+        filtered, self._filter = sosfilt(self._sos, raw, axis=0, zi=self._filter)
+        return {"outer_acceleration": raw, "outer_acceleration_filtered": filtered}
+
+    def _events(self) -> dict[str, np.ndarray]:
+        rows = self.bearing.data.events.rows[: self.bearing.data.events.fill[0]]
+        return {
+            "time": rows[:, 0].copy(),
+            "roller": rows[:, 1].astype(np.int16),
+            "place": rows[:, 2].astype(np.int8),
+            "closed": rows[:, 3].astype(np.int8),
+        }
+
+    def _parts(self) -> dict[str, np.ndarray]:
+        state = {k: getattr(self.state, k) for k in ("D", "real", "count", "quad", "power")}
+        memory = {f"memory_{k}": v for k, v in self.bearing.data.memory._asdict().items()}
+        events = self.bearing.data.events
+        kept = {f"events_{k}": getattr(events, k) for k in ("closed", "peak", "peak_time")}
+        return {**state, **memory, **kept, "filter": self._filter}
+
+    def _checkpoint(self) -> dict[str, np.ndarray]:
+        return {k: v.copy() for k, v in self._parts().items()}
+
+    def _restore(self, saved: dict[str, np.ndarray]) -> None:
+        for name, array in self._parts().items():
+            array[...] = saved[name]
+
+
+def to_body(quaternion: np.ndarray, vectors: np.ndarray) -> np.ndarray:
+    """Space vectors (n, 3) in the body frames of unit quaternions (n, 4), scalar first."""
+    w, v = quaternion[:, :1], -quaternion[:, 1:]
+    t = 2.0 * np.cross(v, vectors)
+    return vectors + w * t + np.cross(v, t)

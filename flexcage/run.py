@@ -1,0 +1,299 @@
+"""A run: what was asked, what happened, and what can be asked of it afterwards."""
+
+from __future__ import annotations
+
+import logging
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from flexcage.case import Case, load_case
+from flexcage.core.errors import InputError
+from flexcage.core.timing import Stages
+from flexcage.mesh.cage_mesh import CageMesh
+from flexcage.mesh.quality import report_mesh
+from flexcage.modes.reduction import CageReduction
+from flexcage.results.metrics import BearingNumbers
+from flexcage.results.store import MemoryRunStore, RunStore
+from flexcage.results.summary import Row, Summary, summarise
+from flexcage.solve import bdf
+from flexcage.stress.fields import StressFields
+from flexcage.stress.history import StressHistory, stress_history
+from flexcage.stress.loads import cage_loads, land_station_forces
+from flexcage.stress.operators import von_mises
+from flexcage.stress.recovery import CageLoads, StressRecovery
+from flexcage.system.start import Start
+
+if TYPE_CHECKING:
+    import xarray
+
+    from flexcage.render.album import Scene, StressPictures
+    from flexcage.results.recording import Recorder
+
+log = logging.getLogger(__name__)
+
+
+@dataclass(frozen=True)
+class StressField:
+    """Displacement and stress of the whole cage at one instant, cage frame."""
+
+    time: float  # [s]
+    displacement: np.ndarray  # (n_nodes, 3) [m], at the FE model's nodes
+    stress: np.ndarray  # (n_points, 6) [Pa] at mesh vertices: xx, yy, zz, xy, yz, xz
+
+    @property
+    def von_mises(self) -> np.ndarray:
+        """Equivalent stress (n_points,) [Pa]."""
+        return von_mises(self.stress)
+
+
+class Run:
+    """One simulation, finished or not: ``dataset``, ``summary``, ``stress(...)``, ``draw(...)``."""
+
+    def __init__(
+        self,
+        case: Case,
+        store: MemoryRunStore,
+        folder: Path | None,
+        mesh: CageMesh,
+        cage: CageReduction | None,
+        start: Start | None = None,
+        stages: Stages | None = None,
+    ) -> None:
+        self.case, self.store, self.folder = case, store, folder
+        self.mesh, self.cage, self.start = mesh, cage, start
+        self.stages = stages if stages is not None else Stages()
+
+    def __repr__(self) -> str:
+        where = f" in {self.folder}" if self.folder else ""
+        return f"Run({self.case.name!r}: {self.store.n_time:,} samples{where})"
+
+    @cached_property
+    def dataset(self) -> xarray.Dataset:
+        """All recorded variables, labelled, with units (an xarray.Dataset)."""
+        return self.store.dataset()
+
+    @property
+    def numbers(self) -> BearingNumbers:
+        b = self.case.bearing
+        return BearingNumbers(
+            pitch_diameter=b.pitch_diameter,
+            roller_diameter=b.roller_diameter,
+            roller_count=b.roller_count,
+        )
+
+    @cached_property
+    def summary(self) -> Summary:
+        """Figures of the run: speeds, slip, motion, forces, stress, energy, solver, times."""
+        if self.folder and (self.folder / "summary.json").exists():
+            return Summary.from_json((self.folder / "summary.json").read_text("utf-8"))
+        return self._summarise()
+
+    @cached_property
+    def recovery(self) -> StressRecovery:
+        """Stress recovery of the flexible cage; InputError for a rigid one."""
+        if self.cage is None:
+            raise InputError("a rigid cage has no stress; run the case with cage.model = flexible")
+        c = self.cage
+        return StressRecovery(c.model, c.basis, c.interface, solver=c.solver)
+
+    @cached_property
+    def stress_history(self) -> StressHistory:
+        """Equivalent stress at named places, peaks, and the envelope over all samples."""
+        ds = self.dataset
+        fields = StressFields(self.recovery)
+        return self.stages(
+            "stress",
+            stress_history,
+            fields,
+            ds["modal_coordinates"].values,
+            ds["station_force"].values,
+            land_station_forces(ds, inner=self.case.cage.guidance != "outer"),
+        )
+
+    def stress(self, *, time: float | None = None) -> StressField:
+        """Stress of the whole cage at ``time`` [s] by mode acceleration; default: its peak."""
+        ds = self.dataset
+        t = ds["time"].values
+        index = self.stress_history.peak_sample if time is None else int(np.abs(t - time).argmin())
+        damping = self._modal_damping() * ds["modal_velocity"].values[index]
+        loads = cage_loads(ds, index, damping, inner=self.case.cage.guidance != "outer")
+        u = self.recovery.displacement(loads)
+        return StressField(float(t[index]), u, self.recovery.stress(u))
+
+    def draw(self, folder: str | Path, *, animate: bool = False) -> list[Path]:
+        """Draw every picture of the run into ``folder``; paths of the files."""
+        from flexcage.render.album import draw_album
+
+        scene = self._scene(animate)
+        return self.stages("pictures", draw_album, scene, Path(folder), animate=animate)
+
+    def _scene(self, animate: bool) -> Scene:
+        from flexcage.render.album import Scene
+
+        case, load = self.case, self.case.load
+        radius = 0.5 * (case.cage.outside_diameter if case.cage.guidance == "outer" else case.cage.bore)
+        ring = case.bearing.outer_race_radius if case.cage.guidance == "outer" else (
+            0.5 * case.bearing.rib_diameter
+        )  # fmt: skip
+        return Scene(
+            name=case.name,
+            dataset=self.dataset,
+            bearing=case.bearing,
+            mesh=self.mesh,
+            defects=case.defects,
+            load=(load.radial * np.cos(load.direction), load.radial * np.sin(load.direction)),
+            clearance=abs(radius - ring),
+            settle=case.output.settle,
+            stress=self._stress_pictures(animate) if self.cage is not None else None,
+        )
+
+    def _stress_pictures(self, animate: bool) -> StressPictures:
+        from flexcage.render.album import StressPictures
+
+        history, peak = self.stress_history, self.stress()
+        envelope = np.zeros(len(self.mesh.points))
+        envelope[history.surface] = history.envelope
+        assert self.cage is not None
+        frames = []
+        if animate:
+            t = self.dataset["time"].values
+            near = np.abs(t - peak.time) < 4e-4
+            for instant in t[near]:
+                field = self.stress(time=instant)
+                frames.append((field.time, field.displacement, field.von_mises))
+        return StressPictures(
+            nodes=self.cage.model.nodes,
+            cells=self.cage.model.cells,
+            basis=self.cage.basis,
+            time=peak.time,
+            displacement=peak.displacement,
+            von_mises=peak.von_mises,
+            envelope=envelope,
+            peak_vertex=int(history.peak_vertex[history.peak_sample]),
+            roots=history.places,
+            root_names=history.place_names,
+            frames=frames,
+        )
+
+    def check_start(self) -> None:
+        """Warn of, or refuse, a cage that its assembly alone stresses too much."""
+        if self.cage is None or self.start is None or not self.start.pinched:
+            return
+        u = self.recovery.displacement(CageLoads(station_forces=self.start.station))
+        peak = float(von_mises(self.recovery.stress(u)).max())
+        limit, proof = self.case.limits.stress, self.case.cage.material.proof_stress
+        text = f"assembling the bearing stresses the cage to {peak / 1e6:.0f} MPa"
+        if limit is not None and peak > limit:
+            raise InputError(
+                f"{text}, more than limits.stress ({limit / 1e6:.0f} MPa); make the defect "
+                "smaller, the pocket larger, or raise the limit",
+                where="defects",
+                value=peak,
+            )
+        if peak > proof:
+            log.warning("%s, more than the proof stress of %s (%.0f MPa): it would yield",
+                        text, self.case.cage.material.name, proof / 1e6)  # fmt: skip
+
+    def finish(self, recorder: Recorder) -> Run:
+        """Complete a run that has come to its end: summary, stored beside the results."""
+        self.solver = recorder.state
+        if self.folder:
+            self._summarise().write(self.folder)
+        return self
+
+    def _modal_damping(self) -> np.ndarray:
+        basis = self.cage.basis  # type: ignore[union-attr]
+        ratios = self.case.modes.damping_ratios(basis.frequencies)
+        return 2.0 * ratios * 2.0 * np.pi * basis.frequencies * np.diag(basis.mass)
+
+    def _summarise(self) -> Summary:
+        case, friction = self.case, self.case.contacts.race.friction
+        creep = {"step_coulomb": friction.v_static, "ramp_coulomb": friction.v_static}
+        summary = summarise(
+            self.dataset,
+            self.numbers,
+            settle=case.output.settle,
+            creep_speed=creep.get(friction.law),
+        )
+        summary = summary.with_section("Cage", self._cage_rows())
+        if self.cage is not None:
+            summary = summary.with_section("Equivalent stress", self._stress_rows())
+        if hasattr(self, "solver"):
+            summary = summary.with_section("Solver", self._solver_rows())
+        return summary.with_section("Wall time", [
+            Row(f"wall_{k}", k.capitalize(), v, "s") for k, v in self.stages.items()
+        ])  # fmt: skip
+
+    def _cage_rows(self) -> list[Row]:
+        report = report_mesh(self.mesh, density=self.case.cage.material.density)
+        rows = [
+            Row("cage_mass", "Mass", report.volume * self.case.cage.material.density, "g"),
+            Row("cage_centre_shift", "Shift of the mass centre", report.mass_centre_shift, "um"),
+        ]
+        if self.cage is not None:
+            basis = self.cage.basis
+            rows.append(Row("first_frequency", "First frequency", basis.frequencies[0], "Hz"))
+            if basis.residual is not None:
+                rows.append(Row("far_coupling", "Residual coupling to other pockets, cut",
+                                basis.residual.far_coupling, "%", "of the own deflection"))  # fmt: skip
+        if self.start is not None and self.start.pinched:
+            rows.append(Row("pinch_force", "Pinch force at the start", self.start.pinch_force, "N",
+                            f"pockets {', '.join(map(str, self.start.pinched))}"))  # fmt: skip
+        return rows
+
+    def _stress_rows(self) -> list[Row]:
+        h = self.stress_history
+        k = h.peak_sample
+        root = int(np.argmax(h.places.max(axis=0)))
+        when = float(self.dataset["time"][k]) * 1e3
+        at = self.mesh.points[h.peak_vertex[k]] * 1e3
+        place = f"t = {when:.3f} ms at ({at[0]:.1f}, {at[1]:.1f}, {at[2]:.1f}) mm, cage frame"
+        settled = h.peak[int(self.case.output.settle * len(h.peak)) :]
+        return [
+            Row("stress_peak", "Peak, contact zones left out", float(h.peak[k]), "MPa", place),
+            Row("stress_mean_peak", "Mean of the cage's peak", float(settled.mean()), "MPa"),
+            Row("stress_root", "Largest at a pocket corner", float(h.places[:, root].max()), "MPa",
+                h.place_names[root]),
+        ]  # fmt: skip
+
+    def _solver_rows(self) -> list[Row]:
+        c = self.solver.count
+        names = {
+            "steps": bdf.STEPS,
+            "residuals": bdf.RESIDUALS,
+            "jacobians": bdf.JACOBIANS,
+            "factorisations": bdf.FACTORS,
+            "failed_error_tests": bdf.ERROR_FAILS,
+            "failed_newton": bdf.NEWTON_FAILS,
+        }
+        return [Row(k, k.replace("_", " ").capitalize(), int(c[i])) for k, i in names.items()]
+
+
+def prepare_folder(folder: Path, case: Case, *, resume: bool) -> None:
+    """Write the case as run into the folder, or check that a resumed run is of the same case."""
+    folder.mkdir(parents=True, exist_ok=True)
+    file = folder / "case.toml"
+    if resume:
+        stored = load_case(file)
+        if stored.hash != case.hash:
+            raise InputError(
+                f"The case differs from the one of the run in '{folder}' (hash {case.hash}, not "
+                f"{stored.hash}); resume the same case, or name another folder.",
+                where="case",
+                value=case.hash,
+            )
+        return
+    file.write_text(case.to_toml(), encoding="utf-8")
+
+
+def open_folder(folder: Path) -> tuple[Case, MemoryRunStore]:
+    """The case and the store of a run folder."""
+    return load_case(folder / "case.toml"), RunStore.open(folder / "results.zarr")
+
+
+__all__ = ["Run", "StressField", "open_folder", "prepare_folder"]
+

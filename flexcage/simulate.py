@@ -1,0 +1,113 @@
+"""The corridor: one call a stage, from what is asked to what happened.
+
+case -> mesh -> modes -> bodies -> contacts and system -> start -> solve -> results (a Run).
+"""
+
+from __future__ import annotations
+
+import logging
+from pathlib import Path
+from typing import Any
+
+from flexcage.bodies.cage import flexible_from_basis, rigid_from_tets
+from flexcage.case import Case
+from flexcage.core.timing import Stages
+from flexcage.mesh.build import build_cage_mesh
+from flexcage.mesh.cage_mesh import CageMesh
+from flexcage.mesh.quality import check_mesh
+from flexcage.modes.basis import ModeBasis
+from flexcage.modes.interface import rigid_interface
+from flexcage.modes.reduction import CageReduction, reduce_cage
+from flexcage.results.recording import Recorder, new_store
+from flexcage.results.store import RunStore
+from flexcage.run import Run, open_folder, prepare_folder
+from flexcage.system.layout import Layout
+from flexcage.system.model import build_model
+from flexcage.system.problem import Bearing
+from flexcage.system.start import find_start
+
+log = logging.getLogger(__name__)
+
+
+def simulate(
+    case: Case, *, out: str | Path | None = None, resume: bool = False, progress: Any = None
+) -> Run:
+    """Simulate a case; results are kept in memory, or in the folder ``out`` as the run goes.
+
+    ``resume`` goes on with a run that stopped, from its last committed block. ``progress`` is a
+    context like ``core.progress.Progress``. Raises InputError for an impossible case and
+    RunFailed for a run that cannot go on, with what was computed kept.
+    """
+    folder = Path(out) if out is not None else None
+    stages = Stages()
+    if folder is not None:
+        prepare_folder(folder, case, resume=resume)
+    mesh = stages("mesh", cage_mesh, case)
+    cage = stages("modes", cage_reduction, case, mesh)
+    bearing = stages("kernels", build_bearing, case, mesh, cage)
+    start = stages("start", find_start, bearing, limit_force=case.limits.assembly_force)
+    store = RunStore.open(folder / "results.zarr") if folder and resume else new_store(
+        folder and folder / "results.zarr", bearing, duration=case.solver.duration,
+        output=case.output, attrs={"case": case.to_toml(), "hash": case.hash},
+    )  # fmt: skip
+    run = Run(case, store, folder, mesh, cage, start, stages)
+    run.check_start()
+    recorder = Recorder(bearing, start, store, solver=case.solver, output=case.output)
+    stages("solve", recorder.march, progress)
+    return run.finish(recorder)
+
+
+def cage_mesh(case: Case) -> CageMesh:
+    """Mesh of the case's cage, checked."""
+    mesh = build_cage_mesh(
+        case.cage,
+        pocket_count=case.bearing.roller_count,
+        pitch_diameter=case.bearing.pitch_diameter,
+        defects=case.defects,
+        options=case.mesh,
+    )
+    check_mesh(mesh, where=case.mesh.file or "mesh")
+    return mesh
+
+
+def cage_reduction(case: Case, mesh: CageMesh) -> CageReduction | None:
+    """Finite elements, modes and interface of a flexible cage; None for a rigid one."""
+    if case.cage_model == "rigid":
+        return None
+    return reduce_cage(
+        mesh, cage=case.cage, defects=case.defects, spec=case.modes, order=case.mesh.order
+    )
+
+
+def cage_modes(case: Case) -> ModeBasis:
+    """Modal basis of the case's cage."""
+    reduction = cage_reduction(case.replace("cage.model", "flexible"), cage_mesh(case))
+    assert reduction is not None
+    return reduction.basis
+
+
+def build_bearing(case: Case, mesh: CageMesh, cage: CageReduction | None) -> Bearing:
+    """Bodies, contacts and compiled equations of motion."""
+    Z = case.bearing.roller_count
+    if cage is None:
+        body = rigid_from_tets(mesh.points, mesh.tets, case.cage.material.density)
+        interface = rigid_interface(case.cage, pocket_count=Z, defects=case.defects)
+    else:
+        ratios = case.modes.damping_ratios(cage.basis.frequencies)
+        body = flexible_from_basis(cage.model.nodes, cage.model.mass_scalar, cage.basis, ratios)
+        interface = cage.interface
+    model, memory = build_model(
+        case.bearing, case.cage, body, interface, contacts=case.contacts,
+        lubricant=case.lubricant, drive=case.drive, load=case.load, mount=case.mount,
+    )  # fmt: skip
+    return Bearing(
+        model, memory, case.contacts, Layout(Z, body.modes),
+        block=case.output.block, stride=case.output.vibration_ratio,
+    )  # fmt: skip
+
+
+def load_run(folder: str | Path) -> Run:
+    """A stored run, finished or not, for looking at and drawing."""
+    case, store = open_folder(Path(folder))
+    mesh = cage_mesh(case)
+    return Run(case, store, Path(folder), mesh, cage_reduction(case, mesh))

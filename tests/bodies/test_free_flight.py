@@ -1,0 +1,236 @@
+"""Flexible body in a floating frame: two other programs, particles, and what free flight keeps."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from free_motion import Tumbler, free_body, full_mesh_invariants, tumbler
+from scipy import sparse
+from scipy.integrate import solve_ivp
+from scipy.spatial.transform import Rotation
+from scipy.special import ellipk
+
+from flexcage.bodies.floating_frame import (
+    flexible_body,
+    frame_work,
+    inertia_terms,
+    kinetic_energy,
+    rigid_body,
+    scalar_mass,
+    with_point_mass,
+)
+from flexcage.core.errors import InputError
+
+
+def launch(flyer, d):
+    return flyer.start(
+        v=d["velocity"], w=d["angular_velocity"], q=d["modal_start"], qd=d["modal_rate_start"]
+    )
+
+
+@pytest.fixture(scope="module")
+def flight():
+    """The tight run of the case with mean-axis shapes: tumbler, data, mass, states."""
+    flyer, d, mass = tumbler("free")
+    return flyer, d, mass, flyer.fly(launch(flyer, d), d["time"])
+
+
+def test_two_other_programs_agree(flight):
+    flyer, d, _, states = flight
+    seen = d["observed"]
+    x = np.array([flyer.nodes(y, d["nodes"][seen], d["shapes_free"][seen])[0] for y in states])
+    assert np.abs(x - d["position"]).max() < 1e-9  # 7e-13 reached
+    assert np.abs(x - d["position_second"]).max() < 1e-9
+    q = states[:, 13:25]
+    assert np.abs(q - d["modal"]).max() < 1e-5 * np.abs(d["modal"]).max()
+
+
+def check_invariants(flyer, states, points, shapes, mass, rtol):
+    seen = [full_mesh_invariants(flyer, y, points, shapes, mass) for y in states]
+    energy, p, l = (np.array(a) for a in zip(*seen))
+    np.testing.assert_allclose(energy, energy[0], rtol=rtol)
+    for vector in (p, l):
+        size = np.linalg.norm(vector[0])
+        assert np.abs(vector - vector[0]).max() < rtol * size
+
+
+def test_energy_and_momenta_are_kept(flight):
+    flyer, d, mass, states = flight
+    check_invariants(flyer, states[::10], d["nodes"], d["shapes_free"], mass, 1e-8)
+
+
+def rigid_part(d):
+    """(12 modes) rotation and translation that were taken from the free shapes to clamp the face."""
+    gone = d["shapes_free"] - d["shapes_clamped"]
+    points = d["nodes"]
+    field = np.zeros((len(points), 3, 6))
+    for j in range(3):
+        field[:, :, j] = np.eye(3)[j]
+        field[:, :, 3 + j] = np.cross(np.eye(3)[j], points)
+    coefficients = np.linalg.lstsq(field.reshape(-1, 6), gone.reshape(-1, 12), rcond=None)[0]
+    assert np.abs(field @ coefficients - gone).max() < 1e-9 * np.abs(gone).max()
+    return coefficients[:3], coefficients[3:]
+
+
+@pytest.fixture(scope="module")
+def clamped():
+    """The same flight with the frame tied to an end face, for 5 ms.
+
+    The frames differ by a rotation linear in q, so both bases span the same motions to first
+    order in it only; the start is carried over to that order.
+    """
+    flyer, d, mass = tumbler("clamped")
+    shift, turn = rigid_part(d)
+    q, qd, w = d["modal_start"], d["modal_rate_start"], d["angular_velocity"]
+    rotation, rate = turn @ q, turn @ qd
+    A = Rotation.from_rotvec(rotation).as_matrix()
+    start = flyer.start(
+        x=shift @ q, rotation=rotation, q=q, qd=qd,
+        v=d["velocity"] + np.cross(w, shift @ q) + shift @ qd, w=A.T @ (w + rate),
+    )  # fmt: skip
+    return flyer, d, mass, flyer.fly(start, d["time"][:51])
+
+
+def test_frame_tied_to_an_end_face_flies_the_same_way(clamped):
+    flyer, d, _, states = clamped
+    mixed = np.abs(flyer.data.C).max()
+    assert mixed > 1e-3  # the coupling that this basis is there to try
+    seen = d["observed"]
+    x = np.array([flyer.nodes(y, d["nodes"][seen], d["shapes_clamped"][seen])[0] for y in states])
+    # without rotation-modal coupling it would be 1210 um, without q-dependent inertia 411 um
+    assert np.abs(x - d["position"][:51]).max() < 3e-6
+
+
+def test_frame_tied_to_an_end_face_keeps_energy_and_momenta(clamped):
+    flyer, d, mass, states = clamped
+    check_invariants(flyer, states[::5], d["nodes"], d["shapes_clamped"], mass, 1e-8)
+
+
+def test_turning_the_start_turns_the_flight(flight):
+    flyer, d, _, states = flight
+    turn = Rotation.from_rotvec([0.7, -1.9, 0.4])
+    y0 = launch(flyer, d)
+    y0[3:6] = turn.apply(y0[3:6])
+    y0[6:10] = turn.as_quat(scalar_first=True)
+    there = flyer.fly(y0, d["time"][:51:10])
+    seen = d["observed"]
+    for y, before in zip(there, states[:51:10]):
+        here = flyer.nodes(before, d["nodes"][seen], d["shapes_free"][seen])[0]
+        got = flyer.nodes(y, d["nodes"][seen], d["shapes_free"][seen])[0]
+        np.testing.assert_allclose(got, turn.apply(here), atol=1e-11)
+
+
+def particles(n_modes=4, count=30, seed=3):
+    """Point masses with random shapes: a body whose every inertia term is a sum over points."""
+    rng = np.random.default_rng(seed)
+    points, m = rng.normal(size=(count, 3)), rng.uniform(0.5, 1.5, count)
+    shapes = 0.3 * rng.normal(size=(count, 3, n_modes))
+    body = flexible_body(points, sparse.diags(m).tocsr(), shapes, np.eye(n_modes))
+    return body, points, m, shapes, rng
+
+
+def test_every_inertia_term_against_particles():
+    """M a + h = sum over particles of J^T m r'', with r'' from the kinematics of a moving frame."""
+    body, points, m, shapes, rng = particles()
+    v, w, q, qd = rng.normal(size=3), rng.normal(size=3), rng.normal(size=4), rng.normal(size=4)
+    a, alpha, qdd = rng.normal(size=3), rng.normal(size=3), rng.normal(size=4)
+    work = frame_work(4)
+    inertia_terms(body.data, w, q, qd, work)
+    got = work.M @ np.concatenate([a, alpha, qdd]) + work.h
+    p, u = points + shapes @ q, shapes @ qd
+    acc = a + np.cross(alpha, p) + np.cross(w, np.cross(w, p)) + 2 * np.cross(w, u) + shapes @ qdd
+    force = m[:, None] * acc
+    expected = np.concatenate(
+        [force.sum(0), np.cross(p, force).sum(0), np.einsum("ac,acm->m", force, shapes)]
+    )
+    np.testing.assert_allclose(got, expected, rtol=1e-12, atol=1e-12)
+    np.testing.assert_allclose(work.M, work.M.T, atol=1e-12)
+    speed = v + np.cross(w, p) + u
+    energy = 0.5 * np.sum(m[:, None] * speed**2)
+    assert kinetic_energy(work.M, v, w, qd) == pytest.approx(energy, rel=1e-12)
+
+
+def test_velocity_terms_do_no_work():
+    """d/dt of the kinetic energy is u . (M a + h): the gyroscopic part of h gives nothing."""
+    body, _, _, _, rng = particles()
+    w, q, qd = rng.normal(size=3), rng.normal(size=4), rng.normal(size=4)
+    v, a = rng.normal(size=3), rng.normal(size=10)
+    work = frame_work(4)
+    inertia_terms(body.data, w, q, qd, work)
+    # v holds space velocity in body axes: d/dt (A^T v) = A^T v' - w x A^T v
+    power = np.concatenate([v, w, qd]) @ (work.M @ a + work.h)
+
+    def energy(t):
+        moved = frame_work(4)
+        qt, qdt, wt = q + t * qd, qd + t * a[6:], w + t * a[3:6]
+        inertia_terms(body.data, wt, qt, qdt, moved)
+        return kinetic_energy(moved.M, v + t * (a[:3] - np.cross(w, v)), wt, qdt)
+
+    assert (energy(1e-6) - energy(-1e-6)) / 2e-6 == pytest.approx(power, rel=1e-7)
+
+
+def dzhanibekov():
+    return Tumbler(rigid_body(1.0, np.zeros(3), np.diag([2.0, 1.0, 0.0])))  # I = (1, 2, 3)
+
+
+def test_tennis_racket_turns_over_on_time():
+    flyer = dzhanibekov()
+    np.testing.assert_allclose(flyer.body.inertia, np.diag([1.0, 2.0, 3.0]))
+    y0 = flyer.start(w=(0.01, 10.0, 0.01))
+
+    def crossing(t, y):
+        return y[11]
+
+    out = solve_ivp(
+        flyer.rate, (0, 20), y0, method="DOP853", rtol=1e-12, atol=1e-14, events=crossing,
+        t_eval=np.linspace(0, 20, 41),
+    )  # fmt: skip
+    times = out.t_events[0]
+    np.testing.assert_allclose(times[:4], [1.49059, 4.24367, 6.99676, 9.74984], atol=1e-5)
+    # half period 2 K(m)/p of Euler's solution: closed form
+    inertia, w = np.array([1.0, 2.0, 3.0]), np.array([0.01, 10.0, 0.01])
+    t2, l2 = inertia @ w**2, np.sum((inertia * w) ** 2)
+    p2 = (inertia[2] - inertia[1]) * (l2 - inertia[0] * t2) / inertia.prod()
+    m = (inertia[1] - inertia[0]) * (inertia[2] * t2 - l2) / (
+        (inertia[2] - inertia[1]) * (l2 - inertia[0] * t2)
+    )
+    if m > 1.0:
+        m, p2 = 1.0 / m, p2 * m
+    np.testing.assert_allclose(np.diff(times), 2.0 * ellipk(m) / np.sqrt(p2), rtol=2e-6)
+    for y in out.y.T:
+        w, A = y[10:13], Rotation.from_quat(y[6:10], scalar_first=True).as_matrix()
+        assert inertia @ w**2 == pytest.approx(200.0004, rel=1e-8)
+        l = A @ (inertia * w)
+        np.testing.assert_allclose(l, [0.01, 20.0, 0.03], atol=1e-8 * 20)
+
+
+def test_mass_properties_of_the_mesh():
+    d, mass = free_body()
+    body = flexible_body(d["nodes"], mass, d["shapes_free"], d["stiffness_free"])
+    assert body.data.mass == pytest.approx(0.09656849805208265, rel=1e-12)
+    assert np.abs(body.centre_of_mass).max() < 1e-12
+    turn = np.stack([np.cross(e, d["nodes"]) for e in np.eye(3)])
+    np.testing.assert_allclose(
+        body.inertia, np.einsum("iac,jac->ij", turn, np.stack([mass @ t for t in turn])), atol=1e-16
+    )
+    np.testing.assert_allclose(body.data.mff, np.eye(12), atol=1e-9)  # mass-normalised
+    assert "12 modes" in repr(body)
+
+
+def test_point_mass_is_a_particle_more():
+    body, points, m, shapes, _ = particles(n_modes=1)
+    heavier = with_point_mass(body, 0.7, np.array([0.1, -2.0, 0.3]))
+    bigger = flexible_body(
+        np.vstack([points, [0.1, -2.0, 0.3]]), sparse.diags(np.append(m, 0.7)).tocsr(),
+        np.concatenate([shapes, np.zeros((1, 3, 1))]), np.eye(1),
+    )  # fmt: skip
+    for a, b in zip(heavier.data, bigger.data):
+        np.testing.assert_allclose(a, b, atol=1e-12)
+
+
+def test_mass_matrix_of_three_directions_or_of_one():
+    d, mass = free_body()
+    three = sparse.kron(mass, sparse.eye(3)).tocsr()
+    assert abs(scalar_mass(three, 405) - mass).max() < 1e-18
+    with pytest.raises(InputError, match="same value in x, y and z"):
+        scalar_mass(sparse.kron(mass, sparse.diags([1.0, 1.0, 2.0])).tocsr(), 405)

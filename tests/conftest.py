@@ -1,0 +1,69 @@
+"""What tests of several rooms share: the N1013 with a rigid cage, and its kernels' arrays."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+
+def rigid_interface(pockets: int, *, stations: int = 7, land: int = 24):
+    """Interface of a cage without modes: flat walls, no compliance."""
+    from flexcage.modes.basis import CageInterface
+
+    z = np.zeros
+    return CageInterface(
+        stations=np.stack([np.linspace(-4e-3, 4e-3, stations)] * 4),
+        offset=z((pockets, 4, stations)),
+        modes=z((pockets, 4, stations, 3, 0)),
+        residual=z((pockets, 4, stations, 8)),
+        compliance=z((pockets, 8, 8)),
+        patch_half_width=1.9e-3,
+        land=z((2, land, 3, 0)),
+    )
+
+
+def hollow_cylinder(cage):
+    """Rigid body of the cage taken as a hollow cylinder without pockets."""
+    from flexcage.bodies.floating_frame import rigid_body
+
+    ro, ri, b = 0.5 * cage.outside_diameter, 0.5 * cage.bore, cage.width
+    mass = cage.material.density * np.pi * (ro**2 - ri**2) * b * 0.6
+    around = 0.25 * mass * (ro**2 + ri**2)
+    return rigid_body(mass, np.zeros(3), np.diag([mass * b * b / 12.0, around, around]))
+
+
+@pytest.fixture(scope="session")
+def n1013():
+    """Bearing and cage of the preset."""
+    from flexcage.geometry.presets import load_preset
+
+    preset = load_preset("N1013")
+    return preset.bearing, preset.cage
+
+
+@pytest.fixture(scope="session")
+def build_parts(n1013):
+    """build_parts(...) -> model, memory of the N1013; keywords replace specs or their values."""
+    from flexcage.contacts.spec import Contacts, Lubricant
+    from flexcage.system.model import build_model
+    from flexcage.system.spec import Drive, Load, Mount
+
+    def build(
+        *, bearing=None, cage=None, body=None, interface=None, contacts=None, lubricant=None,
+        drive=None, load=None, mount=None,
+    ):  # fmt: skip
+        b, c = replace(n1013[0], **(bearing or {})), replace(n1013[1], **(cage or {}))
+        return build_model(
+            b, c, body or hollow_cylinder(c), interface or rigid_interface(b.roller_count),
+            contacts=contacts or Contacts(), lubricant=lubricant or Lubricant(),
+            drive=drive or Drive(), load=load or Load(), mount=mount or Mount(),
+        )  # fmt: skip
+
+    return build
+
+
+def pytest_configure(config):
+    # numba calls functions passed as values experimental
+    config.addinivalue_line("filterwarnings", "ignore:First-class function type feature")

@@ -1,0 +1,159 @@
+"""Contact kernels compiled once with laws as first-class functions, and poses to call them with."""
+
+from __future__ import annotations
+
+from functools import cache
+
+import numba
+import numpy as np
+from numba import types
+from scipy.spatial.transform import Rotation
+
+from flexcage.contacts import laws
+from flexcage.contacts.land import land_contact
+from flexcage.contacts.pocket import pocket_contact, pocket_work
+from flexcage.contacts.race import race_contact
+from flexcage.contacts.rib import rib_contact
+from flexcage.contacts.state import RollerPose, new_pair, new_pose, new_slices
+from flexcage.core.jit import OPTIONS
+
+F8, I8 = types.float64, types.int64
+VEC = types.Array(F8, 1, "C")
+N, MU = laws.NORMAL_TYPE, laws.FRICTION_TYPE
+
+
+def pose_of(axis, V, w, azimuth=0.0) -> RollerPose:
+    """Pose with the given axes (rows), velocity and angular velocity, all in F."""
+    pose = new_pose()
+    c, s = np.cos(azimuth), np.sin(azimuth)
+    pose.F[:] = [[1, 0, 0], [0, c, s], [0, -s, c]]
+    pose.axis[:], pose.V[:], pose.w[:] = axis, V, w
+    return pose
+
+
+def turned(axis, rotation):
+    """Rows of ``axis`` turned by a rotation vector."""
+    return axis @ Rotation.from_rotvec(rotation).as_matrix().T
+
+
+def _race(pose, side, Rw, P, b, Vr, wr, theta, p, law, mu, sl, pair, mode, sums):
+    return race_contact(pose, side, Rw, P, b, Vr, wr, theta, p, law, mu, sl, pair, mode, sums)
+
+
+def _rib(pose, data, P, b, Vr, wr, p, law, sl, pair, mode, sums):
+    return rib_contact(pose, data, P, b, Vr, wr, p, law, sl, pair, mode, sums)
+
+
+def _pocket(pose, data, i, Rw, D, Vc, wc, q, qd, margin, p, law, sl, pw, pair, mode, sums):
+    return pocket_contact(
+        pose, data, i, Rw, D, Vc, wc, q, qd, margin, p, law, sl, pw, pair, mode, sums
+    )
+
+
+def _land(A, Rc, Vc, w, q, qd, Rr, Vr, spin, data, p, law, sl, Fc, Mc, Qm, Fr, Mr, sums):
+    return land_contact(
+        A, Rc, Vc, w, q, qd, Rr, Vr, spin, data, p, law, sl, Fc, Mc, Qm, Fr, Mr, sums
+    )
+
+
+def _compiled(function, *arguments):
+    kinds = [a if isinstance(a, types.Type) else numba.typeof(a) for a in arguments]
+    return numba.njit(types.boolean(*kinds), **OPTIONS)(function)
+
+
+@cache
+def _race_kernel(side_type):
+    return _compiled(
+        _race, new_pose(), side_type, F8, VEC, VEC, VEC, VEC, F8, VEC, N, MU, new_slices(1),
+        new_pair(), I8, VEC,
+    )  # fmt: skip
+
+
+@cache
+def _rib_kernel(data_type):
+    return _compiled(
+        _rib, new_pose(), data_type, VEC, VEC, VEC, VEC, types.Array(F8, 2, "C"),
+        types.Tuple((N, MU)), new_slices(1), new_pair(), I8, VEC,
+    )  # fmt: skip
+
+
+@cache
+def _pocket_kernel(data_type):
+    return _compiled(
+        _pocket, new_pose(), data_type, I8, F8, VEC, VEC, VEC, VEC, VEC, F8,
+        types.Array(F8, 2, "C"), types.Tuple((N, N, MU, MU)), new_slices(1), pocket_work(1, 1, 1),
+        new_pair(), I8, VEC,
+    )  # fmt: skip
+
+
+@cache
+def _land_kernel(data_type):
+    matrix = types.Array(F8, 2, "C")
+    return _compiled(
+        _land, matrix, VEC, VEC, VEC, VEC, VEC, VEC, VEC, F8, data_type, VEC, types.Tuple((N, MU)),
+        new_slices(1), VEC, VEC, VEC, VEC, VEC, VEC,
+    )  # fmt: skip
+
+
+ZERO = np.zeros(3)
+X = np.array([1.0, 0.0, 0.0])
+
+
+def race(
+    side, p, P, *, radius=4e-3, axis=None, b=X, V=ZERO, w=ZERO, Vr=ZERO, wr=ZERO, theta=0.0,
+    law=laws.elastic, friction=laws.no_friction, mode=2, azimuth=0.0,
+):  # fmt: skip
+    """(wrench, sums, pair) of one raceway on a roller at P from the ring's centre."""
+    pose = pose_of(np.eye(3) if axis is None else axis, V, w, azimuth)
+    pair, sums = new_pair(), np.zeros(9)
+    arrays = [np.array(x, float) for x in (P, b, Vr, wr)]
+    _race_kernel(numba.typeof(side))(
+        pose, side, radius, *arrays, theta, p, law, friction, new_slices(len(side.s)), pair, mode,
+        sums,
+    )  # fmt: skip
+    return pair.wrench, sums, pair
+
+
+def rib(
+    data, p, P, *, axis=None, b=X, V=ZERO, w=ZERO, Vr=ZERO, wr=ZERO, law=laws.elastic,
+    friction=laws.no_friction, mode=2,
+):  # fmt: skip
+    """(wrench, sums, pair) of both ribs on a roller at P from the ring's centre."""
+    pose = pose_of(np.eye(3) if axis is None else axis, V, w)
+    pair, sums = new_pair(), np.zeros(9)
+    arrays = [np.array(x, float) for x in (P, b, Vr, wr)]
+    _rib_kernel(numba.typeof(data))(
+        pose, data, *arrays, p, (law, friction), new_slices(len(data.points)), pair, mode, sums
+    )
+    return pair.wrench, sums, pair
+
+
+def pocket(
+    data, p, D, *, i=0, radius=4e-3, axis=None, G=None, V=ZERO, w=ZERO, Vc=ZERO, wc=ZERO, q=(),
+    qd=(), normal=laws.elastic, friction=laws.no_friction, mode=2,
+):  # fmt: skip
+    """(wrench, sums, work, pair) of pocket i on its roller at D from the cage's origin."""
+    pose = pose_of(np.eye(3) if axis is None else axis, V, w)
+    n = max(len(data.s), len(data.points))
+    work = pocket_work(len(data.s), len(data.points), data.offset.shape[2])
+    work.G[:] = np.eye(3) if G is None else G
+    pair, sums = new_pair(), np.zeros(9)
+    arrays = [np.array(x, float) for x in (D, Vc, wc, q, qd)]
+    margin = float(data.phi_max @ np.abs(arrays[3])) if len(q) else 0.0
+    _pocket_kernel(numba.typeof(data))(
+        pose, data, i, radius, *arrays, margin, p, (normal, normal, friction, friction),
+        new_slices(n), work, pair, mode, sums,
+    )  # fmt: skip
+    return pair.wrench, sums, work, pair
+
+
+def land(
+    data, p, Rc, *, A=None, Vc=ZERO, w=ZERO, q=(), qd=(), Rr=ZERO, Vr=ZERO, spin=0.0,
+    law=laws.elastic, friction=laws.no_friction,
+):  # fmt: skip
+    """(Fc, Mc, Qm, Fr, Mr, sums) between cage and ring."""
+    A = np.eye(3) if A is None else np.ascontiguousarray(A)
+    out = [np.zeros(3), np.zeros(3), np.zeros(len(q)), np.zeros(3), np.zeros(3), np.zeros(9)]
+    a = [np.array(x, float) for x in (Rc, Vc, w, q, qd, Rr, Vr)]
+    _land_kernel(numba.typeof(data))(A, *a, spin, data, p, (law, friction), new_slices(1), *out)
+    return out

@@ -1,0 +1,300 @@
+"""Roller against a raceway: static load distribution, energy, power, tangents, third law."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from contact_kernels import race, turned
+from scipy.optimize import brentq
+
+from flexcage.contacts import laws
+from flexcage.contacts.spec import Contacts, FrictionLaw, NormalLaw, PairSpec
+from flexcage.geometry.cylindrical_roller import RollerProfile
+
+LOAD = 1000.0
+CENTRIFUGAL = 10.4799  # N, of a roller at the epicyclic cage speed (2709.09 rpm)
+
+
+@pytest.fixture(scope="module")
+def sides(build_parts):
+    """sides(clearance, profile, slices, waviness) -> inner side, outer side, law parameters."""
+
+    def make(clearance=20e-6, profile="logarithmic", slices=15, law="elastic", **waviness):
+        pair = PairSpec(
+            normal=NormalLaw(law=law, restitution=0.7), friction=FrictionLaw(law="traction"),
+            slices=slices,
+        )  # fmt: skip
+        model, memory = build_parts(
+            bearing={
+                "radial_clearance": clearance, "profile": RollerProfile(kind=profile), **waviness
+            },
+            contacts=Contacts(race=pair),
+        )  # fmt: skip
+        return model.inner, model.outer, memory.race[0, 0]
+
+    return make
+
+
+def ring_equilibrium(inner, outer, p, *, half_pitch=False, centrifugal=0.0):
+    """Displacement of the inner ring under LOAD, and inner and outer roller loads (Z,)."""
+    azimuth = 2.0 * np.pi * (np.arange(22) + 0.5 * half_pitch) / 22
+
+    def roller(dr, psi):
+        ring = dr * np.array([np.cos(psi), -np.sin(psi)])  # along e_r and e_psi
+
+        def unbalanced(r):
+            up = race(inner, p, [0.0, r - ring[0], -ring[1]])[0][1]
+            return up + centrifugal + race(outer, p, [0.0, r, 0.0])[0][1]
+
+        middle = outer.radius - 4e-3
+        if unbalanced(middle) <= 0.0:  # touches neither, or the outer race alone
+            if centrifugal == 0.0:
+                return 0.0, 0.0
+        r = brentq(unbalanced, middle - 1e-7, middle + 60e-6, xtol=1e-14)
+        up = race(inner, p, [0.0, r - ring[0], -ring[1]])[0]
+        return up[1], -race(outer, p, [0.0, r, 0.0])[0][1]
+
+    def missing(dr):
+        # symmetric about the load: one side, the rollers on the axis counted half
+        half = [a for a in azimuth if a <= np.pi + 1e-9]
+        total = 0.0
+        for a in half:
+            share = 1.0 if a < 1e-9 or a > np.pi - 1e-9 else 2.0
+            total += share * roller(dr, a)[0] * np.cos(a)
+        return total - LOAD
+
+    dr = brentq(missing, 0.2e-6, 60e-6, xtol=1e-12)
+    return dr, np.array([roller(dr, a) for a in azimuth])
+
+
+@pytest.mark.parametrize(
+    ("clearance", "half_pitch", "dr", "peak", "loaded"),
+    [(0, False, 1.7830, 185.693, 11), (0, True, 1.7828, 183.568, 10), (20, False, 13.0073, 331.925, 5),
+     (20, True, 13.0694, 323.249, 4), (40, False, 23.7221, 420.678, 3), (40, True, 23.5645, 371.070, 4)],
+)  # fmt: skip
+def test_static_distribution_of_straight_rollers(sides, clearance, half_pitch, dr, peak, loaded):
+    got, q = ring_equilibrium(*sides(clearance * 1e-6, "straight", 3), half_pitch=half_pitch)
+    assert got * 1e6 == pytest.approx(dr, rel=2e-3)
+    assert q[:, 0].max() == pytest.approx(peak, rel=2e-3)
+    # at zero clearance the rollers at +-90 degrees carry nothing to speak of
+    assert np.sum(q[:, 0] > 0.1) == loaded
+    np.testing.assert_allclose(q[:, 0], q[:, 1], rtol=1e-5, atol=1e-6)
+
+
+@pytest.mark.parametrize(
+    ("clearance", "slices", "dr", "peak"),
+    [(0, 30, 3.6907, 199.715), (20, 30, 14.9584, 311.914), (40, 30, 25.6264, 377.813),
+     (40, 15, None, 374.9)],
+)  # fmt: skip
+def test_static_distribution_of_profiled_rollers(sides, clearance, slices, dr, peak):
+    got, q = ring_equilibrium(*sides(clearance * 1e-6, slices=slices))
+    assert dr is None or got * 1e6 == pytest.approx(dr, rel=2e-3)
+    assert q[:, 0].max() == pytest.approx(peak, rel=2e-3)
+
+
+@pytest.mark.parametrize(
+    ("clearance", "dr", "inner", "outer"),
+    [(0, 1.8418, 187.281, 197.761), (20, 13.0557, 332.635, 343.115), (40, 23.7658, 420.936, 431.416)],
+)  # fmt: skip
+def test_static_distribution_with_centrifugal_force(sides, clearance, dr, inner, outer):
+    parts = sides(clearance * 1e-6, "straight", 3)
+    got, q = ring_equilibrium(*parts, centrifugal=CENTRIFUGAL)
+    assert got * 1e6 == pytest.approx(dr, rel=2e-3)
+    assert tuple(q.max(axis=0)) == pytest.approx((inner, outer), rel=2e-3)
+    assert q[11] == pytest.approx((0.0, CENTRIFUGAL), abs=1e-6)
+
+
+STATES = {  # translation from the middle of the race [m], roller axis and ring axis turned [rad]
+    "square": ([0.0, 0.0, 0.0], [0.0, 0.0, 0.0], [0.0, 0.0, 0.0]),
+    "skewed": ([2e-6, 1e-6, 3e-5], [0.0, 4e-4, 0.0], [0.0, 0.0, 0.0]),
+    "tilted": ([5e-6, -1e-6, -2e-5], [0.0, 1e-4, 7e-4], [0.0, 3e-4, -2e-4]),
+}
+
+
+def state(side, name, depth=3e-6):
+    """Centre, roller axes and ring axis of one of STATES, pressed into the race by ``depth``."""
+    shift, roller, ring = (np.array(x) for x in STATES[name])
+    P = np.array([0.0, side.radius + side.sign * (4e-3 - depth), 0.0]) + shift
+    return P, turned(np.eye(3), roller), turned(np.eye(3), ring)[0]
+
+
+@pytest.mark.parametrize("name", STATES)
+@pytest.mark.parametrize("which", [0, 1])
+def test_force_is_the_slope_of_the_energy(sides, name, which):
+    side, p = sides()[which], sides()[2]
+    P, axis, b = state(side, name)
+    wrench, sums, _ = race(side, p, P, axis=axis, b=b)
+    assert wrench[1] * side.sign > 10.0 and sums[0] > 10.0
+    slope = np.empty(6)
+    for j, h in enumerate([2e-9] * 3 + [1e-7] * 3):
+        e = h * np.eye(3)[j % 3]
+        energy = [
+            race(side, p, P + (s * e if j < 3 else 0), axis=axis if j < 3 else turned(axis, s * e),
+                 b=b)[1][5]
+            for s in (1, -1)
+        ]  # fmt: skip
+        slope[j] = -(energy[0] - energy[1]) / (2 * h)
+    scale = np.array([1, 1, 1, 4e-3, 4e-3, 4e-3]) * np.abs(wrench).max()
+    np.testing.assert_allclose(slope / scale, wrench / scale, atol=2e-5)
+
+
+def test_force_is_the_slope_of_the_energy_on_a_wavy_race(sides):
+    """Along the race and about the ring's axis too: waves push along, not only in and out."""
+    inner, _, p = sides(inner_waviness=1e-6, inner_waviness_order=12)
+    P = np.array([0.0, inner.radius + 4e-3 - 3e-6, 0.0])
+
+    def energy(psi, theta):
+        at = [0.0, P[1] * np.cos(psi), P[1] * np.sin(psi)]
+        return race(inner, p, at, theta=theta, azimuth=0.3)[1][5]
+
+    wrench = race(inner, p, P, theta=0.2, azimuth=0.3)[0]
+    h = 1e-6
+    along = -(energy(h, 0.2) - energy(-h, 0.2)) / (2 * h)
+    torque = -(energy(0.0, 0.2 + h) - energy(0.0, 0.2 - h)) / (2 * h)
+    assert abs(along) > 1e-3  # there is something to see
+    assert P[1] * wrench[2] == pytest.approx(along, rel=1e-4)
+    assert -P[1] * wrench[2] == pytest.approx(torque, rel=1e-4)  # the ring's reaction
+    assert wrench[3] == pytest.approx(0.0, abs=1e-9)  # and nothing turns the roller
+    bump = race(inner, p, P, theta=0.3, azimuth=0.3)[1][0]  # a crest under the roller
+    flat = race(inner._replace(wave=np.zeros(2)), p, P)[1][0]
+    deeper = race(inner._replace(wave=np.zeros(2)), p, P - [0, 1e-6, 0])[1][0]
+    assert bump == pytest.approx(deeper, rel=1e-9) and bump > flat
+
+
+MOTION = {
+    "V": np.array([0.02, -0.03, 11.0]),
+    "w": np.array([-2900.0, 3.0, -5.0]),
+    "Vr": np.array([0.01, 0.02, -0.01]),
+    "wr": np.array([628.0, -1.0, 2.0]),
+}
+
+
+@pytest.mark.parametrize("name", STATES)
+@pytest.mark.parametrize("which", [0, 1])
+def test_power_of_the_wrench_is_what_the_channels_say(sides, name, which):
+    """Power of the forces on both bodies = - dU/dt + damping + friction + rolling resistance."""
+    parts = sides(law="restitution")
+    side, p = parts[which], parts[2].copy()
+    p[laws.SLOT_ONSET] = 0.3
+    P, axis, b = state(side, name)
+    V, w, Vr, wr = MOTION.values()
+    Vr = Vr if name != "square" else np.zeros(3)
+    call = {"law": laws.restitution, "friction": laws.traction}
+    wrench, sums, _ = race(side, p, P, axis=axis, b=b, V=V, w=w, Vr=Vr, wr=wr, **call)
+    power = wrench[:3] @ (V - Vr - np.cross(wr, P)) + wrench[3:] @ (w - wr)
+
+    def energy(t):
+        return race(
+            side, p, P + t * (V - Vr), axis=turned(axis, t * w), b=turned(b[None], t * wr)[0], **call
+        )[1][5]
+
+    h = 1e-10
+    stored = (energy(h) - energy(-h)) / (2 * h)
+    assert np.all(sums[6:9] <= 0.0) and sums[7] < -1e-3 and sums[6] < -1e-6
+    channels = sums[6] + sums[7] + sums[8]
+    assert power == pytest.approx(channels - stored, abs=3e-4 * (np.abs(sums[6:9]).sum() + abs(stored)))
+
+
+def test_rolling_resistance_is_one_force_on_each_surface(sides):
+    """Shear F slows both surfaces; the pressure that goes with it acts through both centres."""
+    for which, lever in ((0, -4e-3), (1, 4e-3)):
+        side, p = sides()[which], sides()[2]
+        P = state(side, "square")[0]
+        # pure rolling: cage at orbit, the ring's surface and the roller's run together
+        orbit = 283.7
+        ring = 628.3 if which == 0 else 0.0
+        spin = orbit + (ring - orbit) * side.radius / lever
+        move = {"V": [0, 0, orbit * P[1]], "w": [spin, 0, 0], "wr": [ring, 0, 0]}
+        with_it, sums, _ = race(side, p, P, **move)
+        without = race(side._replace(rolling=np.zeros(2)), p, P, **move)[0]
+        extra = with_it - without
+        entrainment = abs(ring - orbit) * side.radius
+        force = laws.rolling_force(side.rolling, entrainment, sums[0])
+        assert force > 0.1
+        sense = np.sign(ring - orbit)  # of the surfaces' motion through the contact
+        assert extra[3] == pytest.approx(-lever * force * sense, rel=1e-6)
+        on_ring = -(extra[3] + P[1] * extra[2])
+        assert on_ring == pytest.approx(-side.radius * force * sense, rel=1e-3)
+        assert sums[8] == pytest.approx(-2 * force * entrainment, rel=1e-3)
+
+
+@pytest.mark.parametrize("name", STATES)
+def test_tangents_against_differences(sides, name):
+    """K and C of a pair; left out: what turning the forces does, and rolling resistance."""
+    inner, _, p = sides(law="restitution")
+    inner = inner._replace(rolling=np.zeros(2))
+    p = p.copy()
+    p[laws.SLOT_ONSET] = 0.3
+    P, axis, b = state(inner, name)
+    V, w = np.array([0.02, -0.03, 11.3]), np.array([-2900.0, 3.0, -5.0])
+    wr = np.array([628.0, 0.0, 0.0])
+    call = {"law": laws.restitution, "friction": laws.traction, "wr": wr, "b": b}
+    pair = race(inner, p, P, axis=axis, V=V, w=w, mode=1, **call)[2]
+
+    def column(j, h, moved):
+        e = h * np.eye(3)[j % 3]
+        if moved:
+            def at(s):
+                return race(inner, p, P + (s * e if j < 3 else 0), V=V, w=w,
+                            axis=axis if j < 3 else turned(axis, s * e), **call)[0]  # fmt: skip
+        else:
+            def at(s):
+                return race(inner, p, P, V=V + (s * e if j < 3 else 0), axis=axis,
+                            w=w + (s * e if j >= 3 else 0), **call)[0]  # fmt: skip
+        return -(at(1) - at(-1)) / (2 * h)
+
+    K = np.stack([column(j, 1e-9 if j < 3 else 1e-7, True) for j in range(6)], axis=1)
+    C = np.stack([column(j, 1e-5 if j < 3 else 1e-3, False) for j in range(6)], axis=1)
+    scale = np.array([1, 1, 1, 4e-3, 4e-3, 4e-3])
+    K, C = K / np.outer(scale, scale), C / np.outer(scale, scale)
+    gotK, gotC = pair.K / np.outer(scale, scale), pair.C / np.outer(scale, scale)
+    assert np.abs(K - gotK).max() < 1e-2 * np.abs(K).max()
+    assert np.abs(C - gotC).max() < 1e-4 * np.abs(C).max()
+
+
+def test_traction_drives_the_roller_and_brakes_the_ring(sides):
+    inner, _, p = sides()
+    inner = inner._replace(rolling=np.zeros(2))
+    P = state(inner, "square")[0]
+    slow = {"V": [0, 0, 280.0 * P[1]], "w": [-2500.0, 0, 0], "wr": [628.3, 0, 0]}
+    wrench, sums, _ = race(inner, p, P, friction=laws.traction, **slow)
+    slide = 628.3 * inner.radius - 280.0 * P[1] - 2500.0 * 4e-3
+    assert sums[4] == pytest.approx(-slide, rel=2e-3)  # the roller lags behind the race
+    mu = laws.friction_parameters(FrictionLaw(law="traction"))
+    a, b, c, d = mu[:4]
+    expected = ((a + b * slide) * np.exp(-c * slide) + d) * sums[0]
+    assert wrench[2] == pytest.approx(expected, rel=1e-3) and sums[1] == pytest.approx(wrench[2])
+    assert wrench[3] == pytest.approx(-4e-3 * wrench[2], rel=1e-3)
+
+
+def test_a_tilted_roller_carries_more_on_one_side(sides):
+    inner, _, p = sides(profile="straight")
+    P, _, b = state(inner, "square")
+    for sense in (1, -1):  # about e_psi: the +x end comes down for a negative turn
+        wrench = race(inner, p, P, axis=turned(np.eye(3), [0, 0, sense * 5e-4]))[0]
+        assert np.sign(wrench[5]) == -sense  # the race turns it back
+    # a tilt of dz over the length with the closed form of the slice law
+    s, k, n = inner.s, p[0], p[1]
+    depth = 3e-6 - s * 5e-4
+    load = np.sum(k * np.clip(depth, 0, None) ** n)
+    got = race(inner, p, P, axis=turned(np.eye(3), [0, 0, 5e-4]))[1]
+    assert got[0] == pytest.approx(load, rel=3e-4)
+    moment = np.sum(k * np.clip(depth, 0, None) ** n * s)
+    assert got[3] == pytest.approx(moment, rel=2e-3)
+
+
+def test_not_touching_is_nothing(sides):
+    inner, outer, p = sides()
+    assert not race(inner, p, [0, inner.radius + 4e-3 + 1e-9, 0])[0].any()
+    assert not race(outer, p, [0, outer.radius - 4e-3 - 1e-9, 0])[0].any()
+
+
+def test_profile_comes_from_the_bearing(sides, n1013):
+    inner = sides(slices=30)[0]
+    drop = np.sort(inner.drop * 1e6)[::-1][::2]
+    np.testing.assert_allclose(drop[:4], [7.630, 4.650, 3.320, 2.481], atol=6e-4)
+    assert inner.drop.min() * 1e6 == pytest.approx(0.0031, abs=1e-4)
+    longer = replace(n1013[0], effective_length=30e-3)
+    assert longer.profile.drop(np.array([4.9e-3]), diameter=8e-3, length=30e-3)[0] == 0.0
