@@ -150,7 +150,8 @@ def render_command(args: argparse.Namespace) -> int:
 
 def compare_command(args: argparse.Namespace) -> int:
     """flexcage compare CASE (rigid against flexible), or RUN RUN."""
-    from flexcage.simulate import compare, compare_case
+    from flexcage.core.progress import Progress
+    from flexcage.study.compare import compare, compare_case
 
     if len(args.what) == 2:
         first, second = (existing_run(path) for path in args.what)
@@ -164,7 +165,7 @@ def compare_command(args: argparse.Namespace) -> int:
     case = case_from(args)
     out = Path(args.out) if args.out else Path("runs") / f"{case.name}-compare"
     prepare_out(out, resume=False, force=args.force)
-    say(compare_case(case, out=out))
+    say(compare_case(case, out=out, progress=Progress))
     return 0
 
 

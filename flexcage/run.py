@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from flexcage.case import Case, load_case
+from flexcage.core.cache import cached_arrays
 from flexcage.core.errors import InputError
 from flexcage.core.timing import Stages
 from flexcage.mesh.cage_mesh import CageMesh
@@ -24,6 +25,7 @@ from flexcage.stress.fields import StressFields
 from flexcage.stress.history import StressHistory, stress_history
 from flexcage.stress.loads import cage_loads, land_station_forces
 from flexcage.stress.operators import von_mises
+from flexcage.stress.places import root_places
 from flexcage.stress.recovery import CageLoads, StressRecovery
 from flexcage.system.start import Start
 
@@ -103,12 +105,16 @@ class Run:
     @cached_property
     def stress_history(self) -> StressHistory:
         """Equivalent stress at named places, peaks, and the envelope over all samples."""
-        ds = self.dataset
-        fields = StressFields(self.recovery)
-        return self.stages(
-            "stress",
-            stress_history,
-            fields,
+        return self.stages("stress", self._stress_history)
+
+    def _stress_history(self) -> StressHistory:
+        ds, recovery = self.dataset, self.recovery
+        assert self.cage is not None
+        stored = cached_arrays(
+            "stress", self.cage.key, lambda: {"forces": StressFields(recovery).forces}
+        )
+        return stress_history(
+            StressFields(recovery, forces=stored["forces"]),
             ds["modal_coordinates"].values,
             ds["station_force"].values,
             land_station_forces(ds, inner=self.case.cage.guidance != "outer"),
@@ -135,10 +141,10 @@ class Run:
         from flexcage.render.album import Scene
 
         case, load = self.case, self.case.load
-        radius = 0.5 * (case.cage.outside_diameter if case.cage.guidance == "outer" else case.cage.bore)
-        ring = case.bearing.outer_race_radius if case.cage.guidance == "outer" else (
-            0.5 * case.bearing.rib_diameter
-        )  # fmt: skip
+        if case.cage.guidance == "outer":
+            clearance = case.bearing.outer_race_radius - 0.5 * case.cage.outside_diameter
+        else:
+            clearance = 0.5 * (case.cage.bore - case.bearing.rib_diameter)
         return Scene(
             name=case.name,
             dataset=self.dataset,
@@ -146,7 +152,7 @@ class Run:
             mesh=self.mesh,
             defects=case.defects,
             load=(load.radial * np.cos(load.direction), load.radial * np.sin(load.direction)),
-            clearance=abs(radius - ring),
+            clearance=clearance,
             settle=case.output.settle,
             stress=self._stress_pictures(animate) if self.cage is not None else None,
         )
@@ -174,10 +180,20 @@ class Run:
             von_mises=peak.von_mises,
             envelope=envelope,
             peak_vertex=int(history.peak_vertex[history.peak_sample]),
+            peak_place=self._peak_place(),
             roots=history.places,
             root_names=history.place_names,
             frames=frames,
         )
+
+    def _peak_place(self) -> str:
+        """Name of the place nearest to the peak: a pocket corner, or nothing."""
+        h = self.stress_history
+        vertex = h.peak_vertex[h.peak_sample]
+        for name, vertices in root_places(self.recovery.model, self.mesh.pocket_count).items():
+            if vertex in vertices:
+                return name.replace("_root_", ", corner ").replace("pocket", "pocket ")
+        return ""
 
     def check_start(self) -> None:
         """Warn of, or refuse, a cage that its assembly alone stresses too much."""
@@ -238,8 +254,8 @@ class Run:
             basis = self.cage.basis
             rows.append(Row("first_frequency", "First frequency", basis.frequencies[0], "Hz"))
             if basis.residual is not None:
-                rows.append(Row("far_coupling", "Residual coupling to other pockets, cut",
-                                basis.residual.far_coupling, "%", "of the own deflection"))  # fmt: skip
+                far, note = basis.residual.far_coupling, "of the own residual deflection"
+                rows.append(Row("far_coupling", "Residual coupling cut", far, "%", note))
         if self.start is not None and self.start.pinched:
             rows.append(Row("pinch_force", "Pinch force at the start", self.start.pinch_force, "N",
                             f"pockets {', '.join(map(str, self.start.pinched))}"))  # fmt: skip

@@ -99,6 +99,7 @@ def build_bearing(case: Case, mesh: CageMesh, cage: CageReduction | None) -> Bea
     model, memory = build_model(
         case.bearing, case.cage, body, interface, contacts=case.contacts,
         lubricant=case.lubricant, drive=case.drive, load=case.load, mount=case.mount,
+        seed=case.seed,
     )  # fmt: skip
     return Bearing(
         model, memory, case.contacts, Layout(Z, body.modes),

@@ -11,7 +11,8 @@ from flexcage.modes.basis import ModeBasis
 def rigid_from_tets(points: np.ndarray, tets: np.ndarray, density: float) -> FlexibleBody:
     """Rigid body of a homogeneous mesh of straight tetrahedra (exact integrals)."""
     p = points[tets]  # (n, 4, 3)
-    volume = np.einsum("ni,ni->n", np.cross(p[:, 1] - p[:, 0], p[:, 2] - p[:, 0]), p[:, 3] - p[:, 0])
+    normal = np.cross(p[:, 1] - p[:, 0], p[:, 2] - p[:, 0])
+    volume = np.einsum("ni,ni->n", normal, p[:, 3] - p[:, 0])
     mass = density * volume / 6.0
     total = p.sum(axis=1)
     first = 0.25 * (mass[:, None] * total).sum(axis=0)

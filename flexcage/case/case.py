@@ -60,6 +60,7 @@ class Case:
     solver: SolverOptions = option(SolverOptions(), doc="the integrator")
     output: OutputOptions = option(OutputOptions(), doc="what is kept of a run")
     limits: Limits = option(Limits(), doc="limits beyond which a start is refused")
+    seed: int = option(0, doc="seed of everything random (roller scatter)", minimum=0)
 
     def __post_init__(self) -> None:
         check_spec(self)

@@ -1,4 +1,4 @@
-"""Cage land against a ring land: dry contact at stations round the bore or the outside, or a film."""
+"""Cage land against a ring land: dry contact at stations round the cage, or a film."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ class LandData(NamedTuple):
 
 @kernel
 def land_contact(A, Rc, Vc, w, q, qd, Rr, Vr, spin, data, p, laws, sl, Fc, Mc, Qm, Fr, Mr, sums):
-    """Land forces: Fc, Qm on the cage (space, modal), Mc about its origin (space); Fr, Mr on the ring.
+    """Land forces: Fc, Qm on the cage (space, modal), Mc about its origin; Fr, Mr on the ring.
 
     Rc, Vc, w: cage origin, velocity, angular velocity in space; Rr, Vr, spin: ring centre,
     velocity, spin about x. ``sums``: elastic energy, damping power, friction power, film power.

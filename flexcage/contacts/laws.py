@@ -236,7 +236,7 @@ def flat_end_stiffness(radius: float, one: tuple[float, float], two: tuple[float
     return 2.0 * radius / compliance
 
 
-IVR_CONSTANT = 2.0796226511  # of F = c sqrt(eta u Q L): Martin's film, Reynolds exit (test derives it)
+IVR_CONSTANT = 2.0796226511  # F = c sqrt(eta u Q L): Martin's film, a test derives it
 
 
 def rolling_resistance(lubricant, radius: float, length: float, modulus: float) -> np.ndarray:
@@ -272,7 +272,7 @@ def rolling_force(c, u, q):
 
 @kernel
 def short_bearing(eta, L, R, C, ex, ey, vx, vy, w_sum, w_diff, out):
-    """Half-Sommerfeld short-bearing land film; out = (fx, fy, moment on the slower surface).
+    """Half-Sommerfeld short-bearing land film; out = (fx, fy, moment size).
 
     (ex, ey) eccentricity and (vx, vy) its rate [m, m/s] of the cage against the ring, ``w_sum``
     the sum and ``w_diff`` the difference of angular speeds. Whirl enters by replacing

@@ -246,7 +246,7 @@ def pocket_contact(pose, data, i, Rw, D, Vc, wc, q, qd, margin, p, laws, sl, pw,
     """Wrench of pocket i on its roller, and station forces on the cage in ``pw.st``.
 
     D: roller centre from the cage's origin; Vc, wc: cage velocity and angular velocity, in F;
-    q, qd: modal coordinates and rates; ``margin``: bound of the walls' modal motion; p (4, N_NORMAL).
+    q, qd: modal coordinates and rates; ``margin``: bound of the walls' motion; p (4, N_NORMAL).
     ``laws``: normal (crossbeam, side), friction (crossbeam, side). Tangent (mode 1) in ``pair`` and
     ``pw.BW, pw.LV, pw.H``; report (mode 2) in ``sums``: elastic energy (with the residual's),
     damping power, friction power.

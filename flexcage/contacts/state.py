@@ -1,4 +1,4 @@
-"""What contact kernels share: the pose of one roller, slice buffers, and a pair's wrench and tangent.
+"""What contact kernels share: a roller's pose, slice buffers, a pair's wrench and tangent.
 
 Components of a roller's quantities are in its orbital frame F = (e_x, e_r, e_psi) at azimuth psi,
 which turns with the roller's orbit; a 6-vector is (force or translation, moment or rotation)
@@ -52,7 +52,8 @@ def new_pose() -> RollerPose:
 
 
 def new_slices(n: int) -> Slices:
-    return Slices(*(np.zeros(n) for _ in range(9)), np.zeros((n, 2)))
+    z = np.zeros
+    return Slices(z(n), z(n), z(n), z(n), z(n), z(n), z(n), z(n), z(n), z((n, 2)))
 
 
 def new_pair() -> Pair:

@@ -11,6 +11,7 @@ import hashlib
 import os
 import warnings
 from pathlib import Path
+from typing import Any
 
 import platformdirs
 
@@ -18,8 +19,15 @@ _PACKAGE = Path(__file__).resolve().parents[1]
 
 
 def kernel_sources() -> list[Path]:
-    """Source files that define or feed kernels, in a fixed order."""
-    return sorted(p for p in _PACKAGE.rglob("*.py") if "core.jit import" in p.read_text("utf-8"))
+    """Source files that define or feed kernels, in a fixed order.
+
+    ``solve`` is plain Python that ``system`` compiles: it has no import to be known by.
+    """
+    return sorted(
+        p
+        for p in _PACKAGE.rglob("*.py")
+        if p.parent.name == "solve" or "core.jit import" in p.read_text("utf-8")
+    )
 
 
 def source_hash(files: list[Path]) -> str:
@@ -43,15 +51,15 @@ if "NUMBA_CACHE_DIR" not in os.environ:
 import numba  # noqa: E402  (its cache folder must be known first)
 from numba.experimental import structref  # noqa: E402
 
-numba.config.CACHE_DIR = os.environ["NUMBA_CACHE_DIR"]
+numba.config.CACHE_DIR = os.environ["NUMBA_CACHE_DIR"]  # type: ignore[attr-defined]
 # laws are passed to kernels as first-class functions, which numba calls experimental
 warnings.simplefilter("ignore", numba.errors.NumbaExperimentalFeatureWarning)
 
-OPTIONS = {"cache": True, "error_model": "numpy", "fastmath": False}
+OPTIONS: dict[str, Any] = {"cache": True, "error_model": "numpy", "fastmath": False}
 
 
-def kernel(*args, **kwargs):
-    """``numba.njit`` with flexcage's options; the plain function stays reachable as ``.py_func``."""
+def kernel(*args: Any, **kwargs: Any) -> Any:
+    """``numba.njit`` with flexcage's options; the plain function is ``.py_func``."""
     if args and callable(args[0]):
         return numba.njit(**OPTIONS)(args[0])
     return numba.njit(*args, **{**OPTIONS, **kwargs})

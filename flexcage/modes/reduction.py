@@ -22,7 +22,7 @@ from flexcage.modes.spec import ModesSpec
 
 log = logging.getLogger(__name__)
 
-MODEL_VERSION = 1  # of the reduction: raise it when the same input gives another basis
+MODEL_VERSION = 2  # of the reduction: raise it when the same input gives another basis
 
 
 @dataclass(frozen=True)
@@ -51,7 +51,8 @@ def reduce_cage(
     """Assemble the cage and reduce it; the basis comes from the disk cache if it is there."""
     model = assemble(mesh, cage.material, order=order)
     key = content_hash(
-        MODEL_VERSION, spec, order, cage.material, mesh.pocket_count, mesh.points, mesh.tets
+        MODEL_VERSION, spec, order, cage.material, mesh.pocket_count, mesh.points, mesh.tets,
+        dict(mesh.groups),
     )
     arrays = cached_arrays(
         "basis",

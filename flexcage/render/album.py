@@ -31,6 +31,7 @@ class StressPictures:
     von_mises: np.ndarray  # (n_points,) [Pa] at that time, mesh vertices
     envelope: np.ndarray  # (n_points,) [Pa] largest over the run
     peak_vertex: int
+    peak_place: str  # its name
     roots: np.ndarray  # (nt, places) [Pa]
     root_names: Sequence[str]
     frames: Sequence[tuple[float, np.ndarray, np.ndarray]] = ()  # time, displacement, stress
@@ -142,19 +143,18 @@ def _stress(scene: Scene, s: StressPictures, folder: Path) -> list[Path]:
 
     ds, count = scene.dataset, scene.mesh.pocket_count
     azimuth = float(np.arctan2(*scene.mesh.points[s.peak_vertex, [2, 1]]))
-    top = float(s.envelope[s.peak_vertex])
     t = ds["time"].values
     points, tets = scene.mesh.points, scene.mesh.tets
     at_vertices = s.displacement[: len(points)]
     return [
         stress_picture(
             points, tets, at_vertices, s.von_mises, folder / "stress_peak.png", time=s.time,
-            peak_label=f"{s.von_mises[s.peak_vertex] / 1e6:.1f} MPa", peak_node=s.peak_vertex,
+            peak_label=s.peak_place, peak_node=s.peak_vertex,
             pocket_count=count, azimuth=azimuth, note=scene.name,
         ),
         envelope_picture(
             points, tets, s.envelope, folder / "stress_envelope.png", span=(t[0], t[-1]),
-            peak_label=f"{top / 1e6:.1f} MPa", peak_node=s.peak_vertex, pocket_count=count,
+            peak_label=s.peak_place, peak_node=s.peak_vertex, pocket_count=count,
             azimuth=azimuth, note=scene.name,
         ),
         deformation_picture(

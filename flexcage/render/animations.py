@@ -10,9 +10,9 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from flexcage.core.errors import EnvironmentLacks, InputError
+from flexcage.geometry.cylindrical_roller import RollerBearing
 from flexcage.render import marks, sheet
 from flexcage.render.bearing_pictures import (
-    RollerBearingNumbers,
     bearing_layers,
     bearing_view,
     cut_cage,
@@ -116,7 +116,7 @@ def _stress_frames(
 
 def animate_bearing(
     ds: xarray.Dataset,
-    bearing: RollerBearingNumbers,
+    bearing: RollerBearing,
     path: str | Path,
     *,
     frames: int = 60,

@@ -5,11 +5,12 @@ from __future__ import annotations
 from dataclasses import dataclass
 from math import pi
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Protocol
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from flexcage.core.errors import InputError
+from flexcage.geometry.cylindrical_roller import RollerBearing
 from flexcage.render import marks, sheet
 from flexcage.render.scene import (
     Layer,
@@ -35,20 +36,6 @@ RING, BRASS = "#8fa3b8", "#c9a253"
 LOADED_SHARE = 0.01
 
 
-class RollerBearingNumbers(Protocol):
-    """The dimensions [m] that a picture needs; a RollerBearing has them all."""
-
-    bore: float
-    outside_diameter: float
-    width: float
-    inner_race_diameter: float
-    outer_race_diameter: float
-    rib_diameter: float
-    rib_gap: float
-    roller_diameter: float
-    roller_length: float
-
-
 @dataclass(frozen=True)
 class Instant:
     """What is drawn of one instant."""
@@ -68,7 +55,7 @@ class Instant:
 
 def bearing_picture(
     ds: xarray.Dataset,
-    bearing: RollerBearingNumbers,
+    bearing: RollerBearing,
     index: int,
     path: str | Path,
     *,
@@ -119,7 +106,7 @@ def instant(ds: xarray.Dataset, index: int) -> Instant:
     )
 
 
-def bearing_view(bearing: RollerBearingNumbers) -> View:
+def bearing_view(bearing: RollerBearing) -> View:
     """Nearly along the axis: y upwards, psi counter-clockwise."""
     direction = np.array([1.0, 0.36, 0.0])
     return View(
@@ -131,7 +118,7 @@ def bearing_view(bearing: RollerBearingNumbers) -> View:
 
 
 def bearing_layers(
-    now: Instant, bearing: RollerBearingNumbers, cage: pyvista.PolyData | None, top: float
+    now: Instant, bearing: RollerBearing, cage: pyvista.PolyData | None, top: float
 ) -> list[Layer]:
     """Rings and cage cut at mid-width, so that the rollers stand free; the rings translucent.
 
@@ -166,13 +153,13 @@ def bearing_layers(
     return layers
 
 
-def _inner_profile(b: RollerBearingNumbers) -> list[tuple[float, float]]:
+def _inner_profile(b: RollerBearing) -> list[tuple[float, float]]:
     half, gap = 0.5 * b.width, 0.5 * b.rib_gap
     bore, race, rib = 0.5 * b.bore, 0.5 * b.inner_race_diameter, 0.5 * b.rib_diameter
     return [(-half, bore), (0.0, bore), (0.0, race), (-gap, race), (-gap, rib), (-half, rib)]
 
 
-def _rollers(now: Instant, b: RollerBearingNumbers, chosen: np.ndarray) -> pyvista.PolyData:
+def _rollers(now: Instant, b: RollerBearing, chosen: np.ndarray) -> pyvista.PolyData:
     pv = load_pyvista()
     r, half = 0.5 * b.roller_diameter, 0.5 * b.roller_length
     c = 0.05 * b.roller_diameter
@@ -205,7 +192,7 @@ def compose(
     figure: Any,
     picture: Picture,
     now: Instant,
-    bearing: RollerBearingNumbers,
+    bearing: RollerBearing,
     top: float,
     *,
     load: tuple[float, float] | None,
@@ -235,7 +222,7 @@ def label_bearing(
     ax: Any,
     picture: Picture,
     now: Instant,
-    bearing: RollerBearingNumbers,
+    bearing: RollerBearing,
     top: float,
     load: tuple[float, float] | None,
 ) -> None:
@@ -246,7 +233,7 @@ def label_bearing(
 
 
 def _load_labels(
-    ax: Any, picture: Picture, now: Instant, b: RollerBearingNumbers, top: float
+    ax: Any, picture: Picture, now: Instant, b: RollerBearing, top: float
 ) -> None:
     """Number of every roller on its end, and the load of the loaded ones outside the ring."""
     end = np.array([0.5 * b.roller_length, 0.0, 0.0])
@@ -267,7 +254,7 @@ def _middle(
     ax: Any,
     picture: Picture,
     now: Instant,
-    b: RollerBearingNumbers,
+    b: RollerBearing,
     load: tuple[float, float] | None,
 ) -> None:
     """Speeds in the bore, and the load's arrow."""

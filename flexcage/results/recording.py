@@ -97,7 +97,7 @@ class Recorder:
         return float(self.state.real[bdf.T])
 
     def march(self, progress: Callable[..., Any] | None = None) -> None:
-        """Integrate all blocks that the store still lacks; ``progress`` as core.progress.Progress."""
+        """Integrate the blocks that the store lacks; ``progress`` as core.progress.Progress."""
         duration = self.store.layout.n_time / self.output.rate
         with progress(duration, "solving") if progress else nullcontext() as bar:
             if bar is not None:

@@ -40,7 +40,7 @@ OUTCOMES = {
 # entries of BDFState.real and .count
 T, H, ALPHA, RATE, H_LAST = range(5)
 (ORDER, EQUAL, STEPS, RESIDUALS, JACOBIANS, FACTORS, ERROR_FAILS, NEWTON_FAILS, AGE, HAVE_J,
- GUARD, RECENT, ITERATIONS) = range(13)  # fmt: skip
+ GUARD, RECENT, ITERATIONS, FAILS) = range(14)  # fmt: skip
 LOG_COLUMNS = ("time", "step", "order", "newton", "error")
 
 
@@ -49,7 +49,7 @@ class BDFState(NamedTuple):
 
     D: np.ndarray  # (MAX_ORDER + 3, n) backward differences
     real: np.ndarray  # (5,) t, h, alpha of the factors, convergence rate, last accepted h
-    count: np.ndarray  # (13,) order and counters
+    count: np.ndarray  # type: ignore[assignment]  # (14,) order and counters
     weight: np.ndarray  # (n,) 1/allowed local error; 0: not in the error test
     quad: np.ndarray  # (n_quad,) integrals
     power: np.ndarray  # (2, n_quad) integrands at the last and the present point
@@ -73,7 +73,7 @@ def new_state(t0: float, y0, yd0, *, weight, h0: float, n_quad: int = 0) -> BDFS
     D[1] = h0 * np.asarray(yd0)
     gamma = np.concatenate([[0.0], np.cumsum(1.0 / np.arange(1, MAX_ORDER + 2))])
     error = 1.0 / np.arange(1, MAX_ORDER + 3)
-    count = np.zeros(13, np.int64)
+    count = np.zeros(14, np.int64)
     count[ORDER] = 1
     return BDFState(
         D, np.array([t0, h0, 0.0, 1.0, h0]), count, np.array(weight, float), np.zeros(n_quad),
@@ -134,7 +134,7 @@ def worst(a, weight, factor):
 
 
 def correct(fns, data, st, opt, t_new, c):
-    """Newton-Raphson from the predictor in vec[0], psi in vec[1]; d in vec[2]. True if converged."""
+    """Newton-Raphson from vec[0] (predictor) with psi in vec[1]; d in vec[2]. True: converged."""
     residual, linearise, factor, backsolve = fns[0], fns[1], fns[2], fns[3]
     y_p, psi, d = st.vec[0], st.vec[1], st.vec[2]
     y, yd, r = st.vec[3], st.vec[4], st.vec[5]
@@ -142,7 +142,7 @@ def correct(fns, data, st, opt, t_new, c):
     n = y.shape[0]
     alpha = 1.0 / c
     error_constant = st.coef[1, order]
-    for attempt in range(2):
+    for _ in range(2):
         if st.count[HAVE_J] == 0:
             for k in range(n):
                 yd[k] = psi[k] * alpha
@@ -220,7 +220,8 @@ def advance(fns, data, st, opt, t_end, times, ys, yds, first, log, quads):
             count[EQUAL] = 0
         h = real[H]
         if h < opt.h_min:
-            return TOO_SMALL, sample, row
+            finite = worst(r, st.weight, 1.0) < np.inf
+            return (TOO_SMALL if finite else NOT_FINITE), sample, row
         rest = t_end - real[T]
         if h > 0.999 * rest:  # land on the end exactly
             change_step(D, order, rest / h)
@@ -253,6 +254,13 @@ def advance(fns, data, st, opt, t_end, times, ys, yds, first, log, quads):
         if error > 1.0:
             count[ERROR_FAILS] += 1
             count[RECENT] += 10
+            count[FAILS] += 1
+            if count[FAILS] > 1:
+                count[HAVE_J] = 0
+            if count[FAILS] > 3 and error < 5.0:
+                # what no shorter step removes is the last point's distance from a constraint
+                for k in range(n):
+                    D[0, k] += d[k]
             if count[RECENT] > 15 and order > 2:
                 count[ORDER] = 2
                 count[GUARD] = GUARD_STEPS
@@ -270,6 +278,7 @@ def advance(fns, data, st, opt, t_end, times, ys, yds, first, log, quads):
         real[T] = t_new
         real[H_LAST] = h
         count[STEPS] += 1
+        count[FAILS] = 0
         count[EQUAL] += 1
         count[AGE] += 1
         count[RECENT] = max(count[RECENT] - 1, 0)

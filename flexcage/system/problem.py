@@ -1,13 +1,13 @@
 """The bearing as a problem for the integrator: six functions over one tuple of data.
 
-Newton's matrix is formed in velocities: with displacements d = (T^+ dq) and d = (du + dmu - r_s)/alpha
+Newton's matrix is formed in velocities: with displacements d = T^+ dq = (du + dmu - r_s)/alpha
 the momentum rows become (alpha M + C + K/alpha) du = -r_u + K r_s/alpha, so that blocks stay
 6 by 6. Constraints are rows of the border.
 """
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numba
 import numpy as np
@@ -273,7 +273,7 @@ def law_functions(contacts: Contacts) -> tuple:
 
 
 class Bearing:
-    """A bearing ready to be integrated: compiled functions, their data, and the integrator's step."""
+    """A bearing ready to be integrated: compiled functions and their data."""
 
     def __init__(
         self, model: Model, memory: Memory, contacts: Contacts, layout: Layout,
@@ -301,7 +301,8 @@ class Bearing:
         law_type = types.Tuple((laws.NORMAL_TYPE,) * 5 + (laws.FRICTION_TYPE,) * 5)
         bearing = numba.typeof(boxed(self.data))
         evaluation = types.void(f8, vector, vector, bearing, law_type, vector, i8)
-        self.evaluate = numba.njit(evaluation, **OPTIONS)(evaluate)
+        compiled: Any = numba.njit(evaluation, **OPTIONS)
+        self.evaluate: Any = compiled(evaluate)
         data = types.Tuple((bearing, law_type, types.FunctionType(evaluation)))
         signatures = (
             types.void(f8, vector, vector, data, vector),
@@ -312,8 +313,9 @@ class Bearing:
             types.void(i8, f8, vector, vector, data),
         )
         bodies = (_residual, _linearise, _factor, _backsolve, _accepted, _observe)
-        self.functions = tuple(
-            numba.njit(s, **OPTIONS)(f) for s, f in zip(signatures, bodies, strict=True)
+        self.functions: tuple[Any, ...] = tuple(
+            numba.njit(s, **OPTIONS)(f)  # type: ignore[type-var]
+            for s, f in zip(signatures, bodies, strict=True)
         )
         state = bdf.new_state(0.0, np.zeros(2), np.zeros(2), weight=np.zeros(2), h0=1.0, n_quad=1)
         options = bdf.Options(2, 1.0, 0.0, 0.1, 1)
@@ -322,7 +324,7 @@ class Bearing:
             numba.typeof(state), numba.typeof(options), f8, vector, matrix, matrix, i8, matrix,
             matrix,
         )  # fmt: skip
-        self._advance = numba.njit(advance, **OPTIONS)(_advance)
+        self._advance: Any = numba.njit(advance, **OPTIONS)(_advance)
 
     def arguments(self, data: BearingData, law: tuple) -> tuple:
         """What the compiled functions take as their data."""

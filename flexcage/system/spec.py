@@ -58,5 +58,5 @@ class Mount:
 class Limits:
     """Limits beyond which a start is refused rather than warned about."""
 
-    stress: float | None = quantity("MPa", None, doc="greatest equivalent stress of the assembled cage")
+    stress: float | None = quantity("MPa", None, doc="greatest stress of the assembled cage")
     assembly_force: float = quantity("N", 2e4, doc="greatest pinch force", above=0.0)

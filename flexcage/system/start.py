@@ -116,7 +116,7 @@ class _Frictionless:
         self.bearing.functions[1](0.0, y, yd, self.args)
         tangent.Krr[hold, 2, 2] += _HOLD
         if not self.bearing.functions[2](alpha, self.args):
-            raise RunFailed("the start's equilibrium has a singular matrix; is a body free of mass?")
+            raise RunFailed("the start's equilibrium has a singular matrix; is a body massless?")
         r = r.copy()
         newton_step(alpha, y, r, tangent, self.data.matrix)
         return r
@@ -167,7 +167,7 @@ def find_start(bearing: Bearing, *, limit_force: float) -> Start:
     offset = model.pocket.offset
     y = geometric_guess(model, layout)
     clearance = pocket_clearance(model, offset)
-    free = (clearance < -TOUCH).any(axis=1)
+    free: np.ndarray = np.any(clearance < -TOUCH, axis=1)
     pinched = np.flatnonzero(free)
     load = max(float(model.bodies.load[1, 0]), 1.0)
     stages = np.linspace(0.0, 1.0, 9) if len(pinched) else np.array([1.0])

@@ -1,0 +1,37 @@
+"""The examples run, on a coarse mesh and for a short time, and their numbers hold."""
+
+import importlib.util
+from pathlib import Path
+
+import pytest
+
+EXAMPLES = Path(__file__).parents[2] / "examples"
+SHORT = {"solver.duration": "6 ms", "mesh.fineness": "coarse"}
+TESTED = {"ex01_n1013", "ex02_rigid_against_flexible", "ex03_defect_sweep"}
+
+
+def example(name):
+    spec = importlib.util.spec_from_file_location(name, EXAMPLES / f"{name}.py")
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module
+
+
+def test_every_example_is_tested():
+    assert {path.stem for path in EXAMPLES.glob("*.py")} == TESTED
+
+
+def test_main_job_from_python(capsys):
+    rpm = example("ex01_n1013").main(**SHORT)
+    assert rpm == pytest.approx(6000 / 2 * (1 - 8 / 82.5), rel=0.03)
+    assert "MPa at t =" in capsys.readouterr().out
+
+
+def test_rigid_against_flexible():
+    module = example("ex02_rigid_against_flexible")
+    assert module.speed_difference(module.main(**SHORT)) < 0.01
+
+
+def test_defect_sweep():
+    sound, _, tight = example("ex03_defect_sweep").main(**SHORT)
+    assert tight > 2 * sound

@@ -1,0 +1,204 @@
+"""The integrator: order, drift, dense output, quadratures, work, outcomes, on known solutions."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from dae_problems import Oscillator, Pendulum, functions, plain_bdf, run
+
+
+@pytest.fixture(scope="module")
+def bdf():
+    return plain_bdf()
+
+
+@pytest.fixture(scope="module")
+def pendulum():
+    return Pendulum()
+
+
+def fixed_step_error(problem, order, steps, end):
+    """Error at the end with one order and one step size, started from exact values."""
+    bdf = plain_bdf()
+    bdf._choose = lambda *_: None
+    bdf.NEWTON_MAX = 12
+    h = end / steps
+    st = bdf.new_state(0.0, problem.exact(0.0), problem.rate(0.0), weight=problem.tested, h0=h)
+    values = np.array([problem.exact(-h * j) for j in range(order + 1)])
+    for j in range(order + 1):
+        st.D[j] = values[0]
+        values = values[:-1] - values[1:]
+    st.count[bdf.ORDER] = order
+    options = bdf.Options(order, 10.0, 0.0, 1e-12, 10**6)
+    one, none = np.zeros((1, problem.n)), np.zeros((1, 0))
+    log = np.zeros((steps + 2, 5))
+    outcome, _, rows = bdf.advance(
+        functions(problem), None, st, options, end, np.array([end]), one, one.copy(), 0, log, none
+    )
+    assert outcome == bdf.DONE and rows == steps and st.count[bdf.ERROR_FAILS] == 0
+    return np.abs((st.D[0] - problem.exact(end))[problem.tested > 0]).max()
+
+
+@pytest.mark.parametrize("order", [1, 2, 3, 4, 5])
+def test_order_on_an_oscillator(order):
+    steps = [100, 200, 400]
+    errors = [fixed_step_error(Oscillator(), order, n, 2.0) for n in steps]
+    slopes = np.log2(np.array(errors[:-1]) / errors[1:])
+    assert slopes[-1] == pytest.approx(order, abs=0.1)
+
+
+@pytest.mark.parametrize("order", [1, 2, 3, 4, 5])
+def test_order_on_a_constrained_pendulum(pendulum, order):
+    """Stabilised index 2: the differential variables keep the formula's order."""
+    steps = [100, 200] if order > 3 else [200, 400]
+    errors = [fixed_step_error(pendulum, order, n, 0.5) for n in steps]
+    assert np.log2(errors[0] / errors[1]) == pytest.approx(order, abs=0.25)
+
+
+@pytest.mark.parametrize("max_order", [1, 2, 3, 5])
+def test_error_follows_the_tolerance(bdf, pendulum, max_order):
+    errors, steps = [], []
+    for tolerance in (1e-4, 1e-6) if max_order == 1 else (1e-5, 1e-7):
+        outcome, st, _, ys, _, _ = run(bdf, pendulum, tolerance=tolerance, max_order=max_order)
+        assert outcome == bdf.DONE
+        errors.append(np.abs(ys[-1, :4] - pendulum.exact(2.0)[:4]).max())
+        steps.append(st.count[bdf.STEPS])
+    # error ~ steps^-order; above order 2 the guard against oscillation holds it back at times
+    slope = np.log(errors[0] / errors[1]) / np.log(steps[1] / steps[0])
+    assert slope > 0.7 * min(max_order, 3)
+    assert errors[1] < 2e-2 if max_order == 1 else errors[1] < 3e-3
+
+
+@pytest.mark.parametrize("max_order", [1, 2, 5])
+def test_constraints_hold_at_the_tolerance(bdf, pendulum, max_order):
+    """On position and velocity level alike, over some swings: no drift."""
+    times = np.linspace(0.01, 6.0, 200)
+    for tolerance in (1e-4, 1e-5):
+        outcome, _, _, ys, _, _ = run(
+            bdf, pendulum, tolerance=tolerance, max_order=max_order, times=times, end=6.0
+        )
+        assert outcome == bdf.DONE
+        assert max(pendulum.violation(y) for y in ys) < 10 * tolerance
+
+
+@pytest.mark.parametrize("max_order", [1, 2, 4])
+def test_dense_output_is_as_good_as_the_steps(bdf, max_order):
+    problem = Oscillator(w=3.0, z=0.05)
+    times = np.linspace(0.003, 1.99, 211)
+    _, st, log, ys, yds, _ = run(
+        bdf, problem, tolerance=1e-6 if max_order > 1 else 1e-5, max_order=max_order, times=times
+    )
+    at_steps = np.interp(times, log[:, 0], log[:, 0])  # all inside
+    assert at_steps[0] >= log[0, 0] or log[0, 1] < 1e-3
+    exact = np.array([problem.exact(t) for t in times])
+    error = np.abs(ys[:-1] - exact).max()
+    end = np.abs(ys[-1] - problem.exact(2.0)).max()
+    assert error < 4 * end + 2e-4
+    rates = np.array([problem.rate(t) for t in times])
+    assert np.abs(yds[:-1] - rates).max() < (0.4 if max_order == 1 else 0.05)
+
+
+@pytest.mark.parametrize("order", [1, 2, 3, 4, 5])
+def test_change_of_step_is_exact_on_polynomials(bdf, order):
+    """Differences of a polynomial at the new step, computed afresh."""
+    rng = np.random.default_rng(order)
+    c = rng.normal(size=(order + 1, 3))
+
+    def value(t):
+        return sum(c[j] * t**j for j in range(order + 1))
+
+    def differences(h):
+        v = [value(0.7 - h * j) for j in range(order + 1)]
+        out = []
+        for _ in range(order + 1):
+            out.append(v[0])
+            v = [a - b for a, b in zip(v[:-1], v[1:])]
+        return np.array(out)
+
+    for ratio in (0.25, 0.9, 1.5, 8.0):
+        D = np.zeros((8, 3))
+        D[: order + 1] = differences(0.1)
+        bdf.change_step(D, order, ratio)
+        np.testing.assert_allclose(D[: order + 1], differences(0.1 * ratio), atol=1e-10 * ratio**order)
+        y, yd = np.empty(3), np.empty(3)
+        time = 0.7 - 0.37 * 0.1 * ratio
+        bdf.interpolate(D, order, 0.7, 0.1 * ratio, time, y, yd)
+        np.testing.assert_allclose(y, value(time), atol=1e-10)
+        rate = sum(j * c[j] * time ** (j - 1) for j in range(1, order + 1))
+        np.testing.assert_allclose(yd, rate, atol=1e-8)
+
+
+def test_quadratures_are_second_order(bdf):
+    """Energy lost in the damper of an oscillator against the energy that is left."""
+    problem = Oscillator(w=5.0, z=0.1)
+
+    def left(t):
+        y = problem.exact(t)
+        return 0.5 * y[1] ** 2 + 0.5 * problem.w**2 * y[0] ** 2
+
+    times = np.linspace(0.11, 1.9, 37)
+    misses = []
+    for h_max in (4e-3, 2e-3):
+        qs = run(bdf, problem, tolerance=1e-9, h_max=h_max, max_order=5, times=times, quads=1)[5]
+        lost = np.array([left(0.0) - left(t) for t in np.append(times, 2.0)])
+        misses.append(np.abs(qs[:, 0] - lost).max())
+    assert misses[1] < 1e-4 * left(0.0)
+    assert misses[0] / misses[1] == pytest.approx(4.0, rel=0.3)
+
+
+def test_work_is_modest(bdf, pendulum):
+    """Few Jacobians, hardly more than one residual a step: what modified Newton is for."""
+    _, st, log, _, _, _ = run(bdf, pendulum, tolerance=1e-6, max_order=5)
+    steps = st.count[bdf.STEPS]
+    assert steps < 1600 and len(log) == steps
+    assert st.count[bdf.RESIDUALS] < 1.5 * steps
+    assert st.count[bdf.JACOBIANS] < 0.1 * steps
+    np.testing.assert_allclose(np.diff(log[:, 0]), log[1:, 1], atol=1e-14)
+    assert log[-1, 0] == 2.0 and log[:, 1].max() <= 0.1 and set(log[:, 2]) <= {1, 2, 3, 4, 5}
+
+
+def test_largest_step_is_kept_to(bdf):
+    log = run(bdf, Oscillator(), tolerance=1e-2, h_max=7e-3)[2]
+    assert log[:, 1].max() <= 7e-3 * (1 + 1e-12)
+
+
+def test_full_log_loses_nothing(bdf, pendulum):
+    """Interrupted when the log is full and taken up again: the same to the last bit."""
+    whole = run(bdf, pendulum, tolerance=1e-5, times=[0.5, 1.1])
+    parts = run(bdf, pendulum, tolerance=1e-5, times=[0.5, 1.1], log_rows=7)
+    for a, b in zip(whole[2:], parts[2:]):
+        assert np.array_equal(a, b)
+
+
+def test_outcomes_name_what_to_change(bdf, pendulum):
+    assert run(bdf, pendulum, tolerance=1e-6, max_steps=20)[0] == bdf.TOO_MANY
+    assert run(bdf, pendulum, tolerance=1e-12, h_min=1e-4, h0=1e-3)[0] == bdf.TOO_SMALL
+
+    class Breaks(Oscillator):
+        def F(self, t, y, yd):
+            return super().F(t, y, yd) * (np.nan if t > 0.3 else 1.0)
+
+    outcome, st, *_ = run(bdf, Breaks(), tolerance=1e-4)
+    assert outcome == bdf.NOT_FINITE and st.real[bdf.T] <= 0.3
+    for code in (bdf.TOO_SMALL, bdf.TOO_MANY, bdf.NOT_FINITE):
+        assert "solver." in bdf.OUTCOMES[code] or "inputs" in bdf.OUTCOMES[code]
+
+
+def test_lightly_damped_fast_oscillation_stays_bounded(bdf):
+    """High orders are unstable near the imaginary axis; the guard and the error test bound them."""
+
+    class Forced(Oscillator):
+        """A slow force on a fast, lightly damped oscillator, which a first jolt has set off."""
+
+        def F(self, t, y, yd):
+            f = super().F(t, y, yd)
+            f[1] -= self.w**2 * np.sin(t)
+            return f
+
+    problem = Forced(w=300.0, z=1e-3)
+    for max_order in (2, 5):
+        _, st, _, ys, _, _ = run(
+            bdf, problem, tolerance=1e-2, max_order=max_order, end=1.0, h_max=0.05,
+            times=np.linspace(0.05, 0.95, 40),
+        )  # fmt: skip
+        assert np.abs(ys[:, 0]).max() < 2.5
