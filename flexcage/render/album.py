@@ -32,6 +32,7 @@ class StressPictures:
     envelope: np.ndarray  # (n_points,) [Pa] largest over the run
     peak_vertex: int
     peak_place: str  # its name
+    settled: int  # first sample of the envelope
     roots: np.ndarray  # (nt, places) [Pa]
     root_names: Sequence[str]
     frames: Sequence[tuple[float, np.ndarray, np.ndarray]] = ()  # time, displacement, stress
@@ -153,7 +154,7 @@ def _stress(scene: Scene, s: StressPictures, folder: Path) -> list[Path]:
             pocket_count=count, azimuth=azimuth, note=scene.name,
         ),
         envelope_picture(
-            points, tets, s.envelope, folder / "stress_envelope.png", span=(t[0], t[-1]),
+            points, tets, s.envelope, folder / "stress_envelope.png", span=(t[s.settled], t[-1]),
             peak_label=s.peak_place, peak_node=s.peak_vertex, pocket_count=count,
             azimuth=azimuth, note=scene.name,
         ),

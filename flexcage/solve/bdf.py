@@ -223,13 +223,13 @@ def advance(fns, data, st, opt, t_end, times, ys, yds, first, log, quads):
             finite = worst(r, st.weight, 1.0) < np.inf
             return (TOO_SMALL if finite else NOT_FINITE), sample, row
         rest = t_end - real[T]
-        if h > 0.999 * rest:  # land on the end exactly
-            change_step(D, order, rest / h)
-            h = real[H] = rest
+        t_new = real[T] + h
+        if h > 0.5 * rest:  # land on the end exactly, by one step or by two equal ones
+            steps = 1 if h > 0.999 * rest else 2
+            change_step(D, order, rest / (steps * h))
+            h = real[H] = rest / steps
             count[EQUAL] = 0
-            t_new = t_end
-        else:
-            t_new = real[T] + h
+            t_new = t_end if steps == 1 else real[T] + h
         gamma = st.coef[0, order]
         c = h / gamma
         for k in range(n):

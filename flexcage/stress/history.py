@@ -21,13 +21,14 @@ class StressHistory:
     places: np.ndarray  # (nt, n_places) largest at each place
     peak: np.ndarray  # (nt,) largest outside the contact zone of ``places.contact_zone``
     peak_vertex: np.ndarray  # (nt,) mesh vertex of it
-    envelope: np.ndarray  # (n_surface,) largest over the samples
+    envelope: np.ndarray  # (n_surface,) largest over the settled samples
     envelope_sample: np.ndarray  # (n_surface,) sample of it
+    settled: int = 0  # first sample of the settled part
 
     @property
     def peak_sample(self) -> int:
-        """The sample of the largest peak."""
-        return int(np.argmax(self.peak))
+        """The sample of the largest peak of the settled part."""
+        return self.settled + int(np.argmax(self.peak[self.settled :]))
 
     def summary(self) -> str:
         """Where and when the largest equivalent stress is, in one sentence."""
@@ -77,8 +78,13 @@ def stress_history(
     q: np.ndarray,
     station_forces: np.ndarray,
     land_forces: np.ndarray | None = None,
+    *,
+    settled: int = 0,
 ) -> StressHistory:
-    """Places, peaks and envelope over samples; arguments as in ``equivalent_stress``."""
+    """Places and peaks over samples, the envelope from sample ``settled`` on.
+
+    Other arguments as in ``equivalent_stress``.
+    """
     slots = [np.searchsorted(fields.surface, v) for v in fields.places.values()]
     places = np.zeros((len(q), len(slots)), np.float32)
     peak, where = np.zeros(len(q), np.float32), np.zeros(len(q), int)
@@ -90,9 +96,12 @@ def stress_history(
         searched = values[fields.searched]
         where[part] = fields.surface[fields.searched[np.argmax(searched, axis=0)]]
         peak[part] = searched.max(axis=0)
-        best = np.argmax(values, axis=1)
+        skip = max(settled - part.start, 0)
+        if skip >= values.shape[1]:
+            continue
+        best = skip + np.argmax(values[:, skip:], axis=1)
         largest = values[np.arange(len(values)), best]
         when = np.where(largest > envelope, part.start + best, when)
         envelope = np.maximum(envelope, largest)
     names = tuple(fields.places)
-    return StressHistory(fields.surface, names, places, peak, where, envelope, when)
+    return StressHistory(fields.surface, names, places, peak, where, envelope, when, settled)

@@ -156,6 +156,10 @@ def newton_step(alpha, y, r, tan, m):
     for c in range(5):
         sb[6 + c] = r[z + 6 + c]
     rotation_of_quaternion_change(y[z + 11 : z + 15], r[z + 11 : z + 15], sb[11:14])
+    stretch, norm = 0.0, 0.0  # of the quaternion: no rotation, but it must not run away
+    for c in range(11, 15):
+        stretch += y[z + c] * r[z + c]
+        norm += y[z + c] * y[z + c]
     for k in range(nm):
         sb[14 + k] = r[z + 15 + k]
     x = np.empty((Z, 6))
@@ -205,6 +209,8 @@ def newton_step(alpha, y, r, tan, m):
     for c in range(5):
         r[z + 6 + c] = sb[6 + c]
     quaternion_rate(y[z + 11 : z + 15], sb[11:14], r[z + 11 : z + 15])
+    for c in range(11, 15):
+        r[z + c] -= b * stretch / norm * y[z + c]
     for k in range(nm):
         r[z + 15 + k] = sb[14 + k]
 

@@ -1,0 +1,22 @@
+"""Bearings compiled for the tests of this room."""
+
+from __future__ import annotations
+
+import pytest
+from bearing_runs import assembled
+from flexible_parts import flexible_cage
+
+from flexcage.contacts.spec import Contacts
+
+
+@pytest.fixture(scope="session")
+def bearing_of(build_parts):
+    """bearing_of(flexible={...}, contacts=..., drive=..., ...) -> a Bearing of the N1013."""
+
+    def make(*, contacts=None, flexible=None, **specs):
+        contacts = contacts or Contacts()
+        if flexible is not None:
+            specs["body"], specs["interface"] = flexible_cage(**flexible)
+        return assembled(*build_parts(contacts=contacts, **specs), contacts)
+
+    return make

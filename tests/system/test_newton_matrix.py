@@ -1,0 +1,107 @@
+"""Newton's matrix in blocks against differences of the residual, in units of the allowed error."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from bearing_runs import rolling_start
+
+from flexcage.contacts.spec import Contacts, FrictionLaw, Lubricant, NormalLaw, PairSpec
+from flexcage.system.scales import error_weights
+from flexcage.system.spec import Drive, Load, Mount
+
+PLAIN = PairSpec(normal=NormalLaw(law="elastic"), friction=FrictionLaw(law="none"))
+FRICTIONLESS = {
+    "contacts": Contacts(race=PLAIN, pocket=PLAIN, side=PLAIN, rib=PLAIN),
+    "lubricant": Lubricant(rolling_resistance="none", oil_fraction=0.0),
+}
+
+
+def disturbed(bearing, *, press=0.0, skew=1e-5, axial=8e-6, seed=0):
+    """A state in motion: ring pushed in, rollers pressed into crossbeams by ``press`` - 100 um."""
+    rng = np.random.default_rng(seed)
+    y, yd = rolling_start(bearing)
+    q, u = bearing.layout.q(y), bearing.layout.u(y)
+    q["inner"][1] = 13e-6
+    rollers = q["rollers"]
+    rollers[:, 1] += 1e-7 * rng.standard_normal(22)
+    rollers[:, 2] += press * rng.choice([-1, 1], 22) / rollers[:, 1]
+    rollers[:, 3:5] = skew * rng.standard_normal((22, 2))
+    rollers[:, 0] = axial * rng.standard_normal(22)
+    u["rollers"][:] += np.array([0.01, 0.01, 0.05, 20, 1, 1]) * rng.standard_normal((22, 6))
+    u["cage"][:] += 0.02 * rng.standard_normal(3)
+    u["omega"][:] += np.array([1.0, 0.3, 0.3]) * rng.standard_normal(3)
+    if bearing.layout.modes:
+        q["modes"][:] = 1e-6 * rng.standard_normal(bearing.layout.modes)
+        u["modes"][:] = 1e-3 * rng.standard_normal(bearing.layout.modes)
+    bearing.residual(0.0, y, yd, mode=2)
+    return y, yd, rng
+
+
+def miss(bearing, y, yd, rng, alpha):
+    """Largest error of one Newton step back from a displacement of one allowed error everywhere."""
+    layout = bearing.layout
+    weight = error_weights(bearing.data.model, layout, 1e-8)
+    tested = weight > 0.0
+    d = np.zeros(layout.size)
+    d[tested] = rng.uniform(-1, 1, tested.sum()) / weight[tested]
+    quat, dq = layout.q(y)["quaternion"], layout.q(d)["quaternion"]
+    dq -= quat * (quat @ dq) / (quat @ quat)  # a rotation, no change of the norm
+    s = 1e-2
+
+    def along(e):
+        return bearing.residual(0.0, y + e * d, yd + e * alpha * d)
+
+    r = (along(s) - along(-s)) / (2 * s)
+    bearing.residual(0.0, y, yd, mode=1)
+    assert bearing.functions[2](alpha, bearing.args)
+    bearing.functions[3](alpha, y, r, bearing.args)
+    return np.abs((r + d) * weight).max()
+
+
+STATES = {
+    "light": ({}, {}),
+    "every pocket loaded": ({}, {"press": 110e-6, "skew": 3e-4}),
+    "ends in the ribs": ({}, {"axial": 20e-6, "skew": 1e-4}),
+    "bushing": ({"mount": Mount(kind="bushing", mass=1.0)}, {"press": 105e-6}),
+    "shaft": ({"drive": Drive(kind="shaft")}, {"press": 105e-6}),
+    "flexible": ({"flexible": {"modes": 6}}, {"press": 105e-6}),
+    "flexible, soft walls": ({"flexible": {"modes": 6, "soft": True}}, {"press": 108e-6}),
+}
+
+
+@pytest.mark.parametrize("name", STATES)
+def test_frictionless_matrix(bearing_of, name):
+    """What is left out: how forces turn with geometry, and damping of the modes' contact rates."""
+    specs, state = STATES[name]
+    bearing = bearing_of(**FRICTIONLESS, **specs)
+    y, yd, rng = disturbed(bearing, **state)
+    for alpha, limit in ((1e5, 0.05), (1e6, 1e-3)):
+        assert max(miss(bearing, y, yd, rng, alpha) for _ in range(5)) < limit
+
+
+@pytest.mark.parametrize("name", STATES)
+def test_full_matrix(bearing_of, name):
+    """With friction, damping, rolling resistance, at the steps of a run (alpha 3e5: h about 4 us).
+
+    Left out besides: how friction and rolling resistance follow the load of a light contact.
+    """
+    specs, state = STATES[name]
+    bearing = bearing_of(load=Load(radial=1000.0), **specs)
+    y, yd, rng = disturbed(bearing, **state)
+    assert max(miss(bearing, y, yd, rng, 3e5) for _ in range(5)) < 0.15
+
+
+def test_multipliers_have_exact_columns(bearing_of):
+    """Rows are linear in the multipliers: one step takes any change of them back."""
+    for specs in ({}, {"drive": Drive(kind="shaft")}):
+        bearing = bearing_of(**specs)
+        y, yd, rng = disturbed(bearing, press=105e-6)
+        d = np.zeros_like(y)
+        d[-7:] = rng.normal(size=7) * [10, 1, 1, 1, 1e-9, 1e-9, 1e-9]
+        base, moved = bearing.residual(0.0, y, yd), bearing.residual(0.0, y + d, yd)
+        bearing.residual(0.0, y, yd, mode=1)
+        assert bearing.functions[2](3e5, bearing.args)
+        r = moved - base
+        bearing.functions[3](3e5, y, r, bearing.args)
+        np.testing.assert_allclose(r[-7:-3], -d[-7:-3], rtol=2e-3, atol=1e-3)
