@@ -64,7 +64,9 @@ class PocketWork(NamedTuple):
     a: np.ndarray  # (8,)
     BW: np.ndarray  # (4, nst, 6) station-generator products
     LV: np.ndarray  # (4, nst, 6)
-    H: np.ndarray  # (4, nst, nst) station stiffness
+    H: np.ndarray  # (4, nst, nst) station stiffness, before the residual is condensed
+    HR: np.ndarray  # (4, nst, 8) H times the residual shapes
+    X: np.ndarray  # (8, 8) (1 + C R^T H R)^-1 C; zero for a rigid pocket
     A8: np.ndarray  # (8, 9) small solves
     normal: np.ndarray  # (4,) sums of the faces
     tangential: np.ndarray  # (4,)
@@ -77,7 +79,7 @@ def pocket_work(n_slices: int, n_points: int, n_stations: int) -> PocketWork:
     return PocketWork(
         z((3, 3)), z((4, n)), z((4, n)), z((4, n), np.int64), z((4, n)), z(4, np.int64),
         z((4, st, 3)), z((4, st, 3)), z(8), z((4, st, 6)), z((4, st, 6)), z((4, st, st)),
-        z((8, 9)), z(4), z(4), z((4, n)), z((4, n)),
+        z((4, st, 8)), z((8, 8)), z((8, 9)), z(4), z(4), z((4, n)), z((4, n)),
     )  # fmt: skip
 
 
@@ -273,6 +275,7 @@ def pocket_contact(pose, data, i, Rw, D, Vc, wc, q, qd, margin, p, laws, sl, pw,
         zero(pw.BW)
         zero(pw.LV)
         zero(pw.H)
+        zero(pw.X)
     r, rel = np.empty(3), np.empty(3)
     Wn, Wt, Wx, V = np.empty(6), np.empty(6), np.empty(6), np.empty(6)
     n, e1, e2 = np.empty(3), np.empty(3), np.empty(3)
@@ -416,10 +419,11 @@ def _stored(data, i, p, law, side_law, sl, pw):
 
 @kernel
 def _soften(data, i, n_st, pw, pair):
-    """Condense the residual coordinates out of the tangent: X = (1 + C R^T H R)^-1 C."""
+    """Condense the residual coordinates out of the roller's tangent, and keep X for the modes."""
     R, C = data.res[i], data.comp[i]
     RHR = np.zeros((8, 8))
-    HR = np.zeros((4, n_st, 8))
+    HR, X = pw.HR, pw.X
+    zero(HR)
     RB = np.zeros((8, 6))
     LR = np.zeros((6, 8))
     for f in range(4):
@@ -436,7 +440,6 @@ def _soften(data, i, n_st, pw, pair):
                 for c in range(6):
                     RB[l, c] += R[f, s, l] * pw.BW[f, s, c]
                     LR[c, l] += pw.LV[f, s, c] * R[f, s, l]
-    X = np.zeros((8, 8))
     for col in range(8):
         for l in range(8):
             for m in range(8):
@@ -462,16 +465,3 @@ def _soften(data, i, n_st, pw, pair):
                 for l in range(8):
                     pw.BW[f, s, c] -= HR[f, s, l] * XB[l, c]
                     pw.LV[f, s, c] -= LX[c, l] * HR[f, s, l]
-    XH = np.zeros((8, n_st))
-    for f in range(4):  # coupling between faces is left to the modes' own border
-        if pw.near[f] == 0:
-            continue
-        for l in range(8):
-            for t in range(n_st):
-                XH[l, t] = 0.0
-                for m in range(8):
-                    XH[l, t] += X[l, m] * HR[f, t, m]
-        for s in range(n_st):
-            for t in range(n_st):
-                for l in range(8):
-                    pw.H[f, s, t] -= HR[f, s, l] * XH[l, t]

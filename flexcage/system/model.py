@@ -134,6 +134,7 @@ class Work(NamedTuple):
     border: np.ndarray  # (nb,) generalised forces on the border
     Lm: np.ndarray  # (6, n) roller-modal products
     Bm: np.ndarray  # (n, 6)
+    PR: np.ndarray  # (n, 8) modal-residual products
     tangent: Tangent
     report: Report
 
@@ -181,13 +182,14 @@ def _race_side(bearing, contacts: Contacts, lubricant: Lubricant, *, inner: bool
 
 
 def end_points(bearing: RollerBearing, cage: WindowCage) -> np.ndarray:
-    """Eight points (8, 2) of a roller's end over the band that a side beam covers, 2-point Gauss
-    across the band by 4-point Gauss along it, as offsets along e_r and e_psi [m]."""
+    """Points (14, 2) of a roller's end over the band that a side beam covers, as offsets along e_r
+    and e_psi [m]: 2-point Gauss across the band by 7-point Gauss along it, enough to feel a
+    side beam that is bent within one pocket."""
     low = max(0.5 * cage.bore - bearing.pitch_radius, -0.45 * bearing.roller_diameter)
     high = min(0.5 * cage.outside_diameter - bearing.pitch_radius, 0.45 * bearing.roller_diameter)
     across = 0.5 * (low + high) + 0.5 * (high - low) * np.array([-1.0, 1.0]) / np.sqrt(3.0)
     reach = np.sqrt((0.45 * bearing.roller_diameter) ** 2 - max(abs(low), abs(high)) ** 2)
-    along = reach * np.polynomial.legendre.leggauss(4)[0]
+    along = reach * np.polynomial.legendre.leggauss(7)[0]
     return np.array([(y, z) for y in across for z in along])
 
 
@@ -226,7 +228,8 @@ def build_memory(bearing, cage, contacts: Contacts, interface: CageInterface) ->
     )
     pocket = laws.normal_parameters(contacts.pocket.normal, k / contacts.pocket.slices, e)
     k_end = laws.flat_end_stiffness(0.9 * rw, steel, wall)
-    side = laws.normal_parameters(contacts.side.normal, k_end / 8, 1.0)
+    points = len(end_points(bearing, cage))
+    side = laws.normal_parameters(contacts.side.normal, k_end / points, 1.0)
     k_rib = laws.flat_end_stiffness(0.45 * rw, steel, steel)
     rib = laws.normal_parameters(contacts.rib.normal, k_rib / 3, 1.0)
     k_land = laws.flat_end_stiffness(contacts.land.width, steel, wall)
@@ -385,7 +388,7 @@ def new_work(model: Model, layout: Layout) -> Work:
     return Work(
         new_pose(), new_slices(most), new_pair(), pocket_work(ns, len(model.pocket.points), nst),
         frame_work(n), z((6, 6)), z((2, 6, 6)), z((2, 3, 3)), z((3, 3)), z(9), z((12, 3)),
-        z(14 + n), z((6, n)), z((n, 6)), tangent, report,
+        z(14 + n), z((6, n)), z((n, 6)), z((n, 8)), tangent, report,
     )  # fmt: skip
 
 

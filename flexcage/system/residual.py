@@ -128,7 +128,7 @@ def _scatter_outer(pair, F, i, tan):
 
 
 @kernel
-def _scatter_modes(data, i, pw, S, tan, Lm, Bm):
+def _scatter_modes(data, i, pw, S, tan, Lm, Bm, PR):
     """Stiffness between pocket i's roller, the cage's rigid motion and its modes."""
     n_m = data.phi.shape[4]
     n_st = data.phi.shape[2]
@@ -152,6 +152,27 @@ def _scatter_modes(data, i, pw, S, tan, Lm, Bm):
                     if h != 0.0:
                         for o in range(n_m):
                             tan.Kbb[14 + m, 14 + o] += h * sgn * data.phi[i, f, t, comp, o]
+    if pw.X[0, 0] != 0.0:  # less what the residual flexibility yields
+        zero(PR)
+        for f in range(4):
+            if pw.near[f] == 0:
+                continue
+            sgn = 1.0 if f % 2 == 0 else -1.0
+            comp = 2 if f < 2 else 0
+            for s in range(n_st):
+                for l in range(8):
+                    h = sgn * pw.HR[f, s, l]
+                    if h != 0.0:
+                        for m in range(n_m):
+                            PR[m, l] += h * data.phi[i, f, s, comp, m]
+        for m in range(n_m):
+            for l in range(8):
+                h = 0.0
+                for k in range(8):
+                    h += PR[m, k] * pw.X[k, l]
+                if h != 0.0:
+                    for o in range(n_m):
+                        tan.Kbb[14 + m, 14 + o] -= h * PR[o, l]
     for c in range(6):
         for m in range(n_m):
             tan.Krb[i, c, 14 + m] += Lm[c, m]
@@ -368,7 +389,7 @@ def evaluate(t, y, yd, box, law, out, mode):
                 shift_matrix(work.R, D, work.S)
                 _scatter(pair, work.S, i, 8, tan, work.T6)
                 if nm > 0:
-                    _scatter_modes(model.pocket, i, pw, work.S, tan, work.Lm, work.Bm)
+                    _scatter_modes(model.pocket, i, pw, work.S, tan, work.Lm, work.Bm, work.PR)
         if mode == 2:
             if hit:
                 rep.energy[2] += sums[0]

@@ -2,9 +2,10 @@
 
 Rings, rollers and a pinched cage are brought to equilibrium without friction: Newton's method
 on the momentum rows with the velocities of pure rolling, in the metric of the mass matrix (an
-implicit Euler step from rest, whose length grows as it succeeds). A roller that its pocket does
-not hold stays where it is along its orbit: friction would hold it there. Where a defect leaves
-less than no clearance, its size grows from zero in steps, so that the run begins assembled.
+implicit Euler step from rest, whose length grows as it succeeds). Rollers stay where they are along
+their orbit, where friction would hold them; a pinched cage finds its place. Where a defect leaves
+less than no clearance its size grows in steps from the first touch, so that the run begins
+assembled.
 """
 
 from __future__ import annotations
@@ -25,7 +26,8 @@ log = logging.getLogger(__name__)
 
 RESIDUAL = 1e-7  # of the load: where an equilibrium is accepted
 TOUCH = 1e-9  # [m] interference that is only a touch
-_HOLD = 1e12  # stiffness that holds a coordinate
+STAGES = 8  # steps of a pinching defect's growth
+_HOLD = 1e8  # stiffness that holds a coordinate
 
 
 @dataclass(frozen=True)
@@ -64,6 +66,14 @@ def rolling_velocities(model: Model, layout: Layout, y: np.ndarray) -> np.ndarra
     return yd
 
 
+def standing_cage(model: Model, layout: Layout, y: np.ndarray) -> np.ndarray:
+    """Velocities of pure rolling, but for the cage: nothing elastic holds its unbalance."""
+    yd = rolling_velocities(model, layout, y)
+    layout.u(y)["omega"][:] = 0.0
+    layout.q(yd)["quaternion"][:] = 0.0
+    return yd
+
+
 def pocket_clearance(model: Model, offset: np.ndarray) -> np.ndarray:
     """Least clearance (Z, 2) of each pocket for its roller, across and along [m]."""
     width = 2.0 * model.pocket.half[0] - 2.0 * model.bodies.radius[:, None]
@@ -87,7 +97,7 @@ def geometric_guess(model: Model, layout: Layout) -> np.ndarray:
 
 
 class _Frictionless:
-    """The bearing without friction, drag, rolling resistance and gravity."""
+    """The bearing without friction, damping, drag, rolling resistance and gravity."""
 
     def __init__(self, bearing: Bearing, offset: np.ndarray) -> None:
         model = bearing.data.model
@@ -99,7 +109,7 @@ class _Frictionless:
         )
         self.bearing = bearing
         self.data = bearing.data._replace(model=still)
-        self.args = bearing.arguments(self.data, bearing.laws[:5] + (laws.no_friction,) * 5)
+        self.args = bearing.arguments(self.data, (laws.elastic,) * 5 + (laws.no_friction,) * 5)
         self.out = np.zeros(bearing.layout.size)
 
     def residual(self, y: np.ndarray, yd: np.ndarray) -> np.ndarray:
@@ -110,11 +120,12 @@ class _Frictionless:
         self.bearing.functions[4](0.0, y, yd, self.args, np.zeros(0))
         return self.data.work.report
 
-    def step(self, y, yd, r, alpha: float, hold: np.ndarray) -> np.ndarray:
+    def step(self, y, yd, r, alpha: float, held: np.ndarray) -> np.ndarray:
         """Displacement step dq of the implicit Euler step 1/alpha from rest."""
         tangent = self.data.work.tangent
         self.bearing.functions[1](0.0, y, yd, self.args)
-        tangent.Krr[hold, 2, 2] += _HOLD
+        roller, row = np.nonzero(held)
+        tangent.Krr[roller, row, row] += _HOLD
         if not self.bearing.functions[2](alpha, self.args):
             raise RunFailed("the start's equilibrium has a singular matrix; is a body massless?")
         r = r.copy()
@@ -122,43 +133,62 @@ class _Frictionless:
         return r
 
 
-def _measure(layout: Layout, r: np.ndarray, free: np.ndarray, lever: float) -> float:
+def _held(pinched: np.ndarray) -> np.ndarray:
+    """Rows (Z, 6) of rollers that friction holds: along the orbit, and sideways if not pinched."""
+    held = np.zeros((len(pinched), 6), bool)
+    held[:, 2] = True
+    held[~pinched, 0] = held[~pinched, 4] = True
+    return held
+
+
+def _measure(layout: Layout, r: np.ndarray, lever: float, *, with_cage: bool) -> float:
     """Largest unbalanced force [N] (moments over a lever) of the rows that are free."""
     u = {k: v.copy() for k, v in layout.u(r).items()}
-    u["rollers"][~free, 2] = 0.0
     u["rollers"][:, 3:] /= lever
     u["inner"][[0, 3, 4, 5]] = 0.0  # constrained: their multipliers balance them
     u["omega"] /= 10.0 * lever
-    names = u if free.any() else ("rollers", "inner", "outer")  # nothing holds a free cage
+    names = u if with_cage else ("rollers", "inner", "outer")  # nothing holds a free cage
     return max(float(np.abs(u[k]).max()) for k in names if u[k].size)
 
 
 def _equilibrate(
-    system: _Frictionless, y: np.ndarray, yd: np.ndarray, free: np.ndarray, load: float
+    system: _Frictionless, y: np.ndarray, yd: np.ndarray, load: float, pinched: np.ndarray
 ) -> float:
     """Bring y to equilibrium in place; the residual reached, as a share of the load.
 
-    ``free`` (Z,) marks rollers that may move along their orbit: those that their pocket pinches.
+    ``pinched`` (Z,) marks the rollers whose pocket is too small for them at this stage.
     """
+    held, with_cage = _held(pinched), bool(pinched.any())
     layout = system.bearing.layout
     nq = layout.n_q
     lever = float(system.data.model.bodies.radius.mean())
     alpha, last = 1e5, np.inf
-    for _ in range(300):
+    for _ in range(400):
         r = system.residual(y, yd)
-        size = _measure(layout, r, free, lever) / load
+        layout.u(r)["rollers"][held] = 0.0
+        size = _measure(layout, r, lever, with_cage=with_cage) / load
         if size < RESIDUAL:
             break
-        alpha = max(alpha * 0.5, 50.0) if size <= 1.001 * last else min(alpha * 3.0, 1e6)
+        alpha = max(alpha * 0.5, 500.0) if size <= 3.0 * last else min(alpha * 10.0, 1e6)
         last = size
-        layout.u(r)["rollers"][~free, 2] = 0.0
-        step = system.step(y, yd, r, alpha, ~free)
+        step = system.step(y, yd, r, alpha, held)
         dq = layout.q(step)
         largest = max(np.abs(dq["rollers"][:, :2]).max(), np.abs(dq["inner"][:3]).max())
         y[:nq] += step[:nq] * min(1.0, 1e-5 / max(largest, 1e-30))
         layout.q(y)["quaternion"][:] /= np.linalg.norm(layout.q(y)["quaternion"])
-        yd[:] = rolling_velocities(system.data.model, layout, y)
+        yd[:] = standing_cage(system.data.model, layout, y)
     return size
+
+
+def _stages(model: Model, offset: np.ndarray) -> np.ndarray:
+    """Shares of the defects' size to go through: from the first touch to all of it."""
+    free = pocket_clearance(model, 0.0 * offset)
+    full = pocket_clearance(model, offset)
+    if not np.any(full < -TOUCH):
+        return np.array([1.0])
+    tight = full < -TOUCH
+    first = float((free[tight] / (free[tight] - full[tight])).min())
+    return np.linspace(max(first, 0.0), 1.0, STAGES + 1)[1:]
 
 
 def find_start(bearing: Bearing, *, limit_force: float) -> Start:
@@ -166,15 +196,13 @@ def find_start(bearing: Bearing, *, limit_force: float) -> Start:
     model, layout = bearing.data.model, bearing.layout
     offset = model.pocket.offset
     y = geometric_guess(model, layout)
-    clearance = pocket_clearance(model, offset)
-    free: np.ndarray = np.any(clearance < -TOUCH, axis=1)
-    pinched = np.flatnonzero(free)
     load = max(float(model.bodies.load[1, 0]), 1.0)
-    stages = np.linspace(0.0, 1.0, 9) if len(pinched) else np.array([1.0])
     residual = 0.0
     placed = np.zeros((layout.rollers, 2))
-    for share in stages:
+    for share in _stages(model, offset):
         system = _Frictionless(bearing, offset * share)
+        tight = np.any(pocket_clearance(model, offset * share) < -TOUCH, axis=1)
+        pinched = np.flatnonzero(tight)
         middle = np.stack(
             [offset[:, 0].min(axis=1) - offset[:, 1].min(axis=1),
              offset[:, 2].min(axis=1) - offset[:, 3].min(axis=1)], axis=1,
@@ -182,8 +210,8 @@ def find_start(bearing: Bearing, *, limit_force: float) -> Start:
         q = layout.q(y)["rollers"]
         q[:, 2] += (middle - placed)[:, 0] / q[:, 1]
         placed = middle
-        yd = rolling_velocities(model, layout, y)
-        residual = _equilibrate(system, y, yd, free, load)
+        yd = standing_cage(model, layout, y)
+        residual = _equilibrate(system, y, yd, load, tight)
         force = float(system.report(y, yd).pocket_normal.max())
         if force > limit_force:
             raise InputError(
@@ -200,6 +228,7 @@ def find_start(bearing: Bearing, *, limit_force: float) -> Start:
             "unbalanced (1e-6 is allowed); is the bearing pinched, or the defect too large?"
         )
     report = system.report(y, yd)
+    yd = rolling_velocities(model, layout, y)
     held = tuple(int(i) for i in pinched if report.pocket_normal[i].max() > 0.0)
     force = float(report.pocket_normal[list(held)].max()) if held else 0.0
     if held:

@@ -60,7 +60,7 @@ def test_energy_and_momenta_are_kept(flight):
 
 
 def rigid_part(d):
-    """(12 modes) rotation and translation that were taken from the free shapes to clamp the face."""
+    """Translations and rotations (3, 12) taken from the free shapes to clamp the face."""
     gone = d["shapes_free"] - d["shapes_clamped"]
     points = d["nodes"]
     field = np.zeros((len(points), 3, 6))
@@ -197,8 +197,10 @@ def test_tennis_racket_turns_over_on_time():
     inertia, w = np.array([1.0, 2.0, 3.0]), np.array([0.01, 10.0, 0.01])
     t2, l2 = inertia @ w**2, np.sum((inertia * w) ** 2)
     p2 = (inertia[2] - inertia[1]) * (l2 - inertia[0] * t2) / inertia.prod()
-    m = (inertia[1] - inertia[0]) * (inertia[2] * t2 - l2) / (
-        (inertia[2] - inertia[1]) * (l2 - inertia[0] * t2)
+    m = (
+        (inertia[1] - inertia[0])
+        * (inertia[2] * t2 - l2)
+        / ((inertia[2] - inertia[1]) * (l2 - inertia[0] * t2))
     )
     if m > 1.0:
         m, p2 = 1.0 / m, p2 * m

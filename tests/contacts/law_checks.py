@@ -33,7 +33,10 @@ def check_normal_law(law, p, *, depth=2e-5, speed=0.5):
         smooth = (F > 0.0) & (high > 0.0) & (low > 0.0)
         assert smooth.sum() > 100
         np.testing.assert_allclose(
-            got[smooth], ((high - low) / (2.0 * step))[smooth], rtol=2e-6, atol=2e-6 * abs(got).max()
+            got[smooth],
+            ((high - low) / (2.0 * step))[smooth],
+            rtol=2e-6,
+            atol=2e-6 * abs(got).max(),
         )
     for x in normal(law, p, [0.0, -1e-6, -1.0], [0.3, -0.2, 0.1]):
         assert np.all(x == 0.0)

@@ -15,13 +15,15 @@ from flexcage.modes.basis import CageInterface
 PITCH = 41.25e-3
 HALF = (4.1e-3, 4.125e-3)  # half width and half length of a pocket
 CONTACTS = Contacts(
-    pocket=PairSpec(normal=NormalLaw(law="elastic"), friction=FrictionLaw(static=0.1, dynamic=0.06)),
+    pocket=PairSpec(
+        normal=NormalLaw(law="elastic"), friction=FrictionLaw(static=0.1, dynamic=0.06)
+    ),
     side=PairSpec(normal=NormalLaw(law="elastic"), friction=FrictionLaw(static=0.1, dynamic=0.06)),
 )
 
 
 def interface(*, stations=9, modes=None, soft=False, offset=None):
-    """A synthetic cage's interface; ``modes`` (22, 4, stations, 3, n), ``soft``: residual flexibility."""
+    """A synthetic cage's interface; ``modes`` (22, 4, stations, 3, n); ``soft``: soft walls."""
     z = np.zeros
     at = np.stack([np.linspace(-4e-3, 4e-3, stations)] * 4)
     residual, compliance = z((22, 4, stations, 8)), z((22, 8, 8))
@@ -89,7 +91,9 @@ def test_a_bent_crossbeam_touches_where_geometry_says(walls, displacement, turn)
         assert touch == pytest.approx(room.min(), abs=2e-8)
         assert np.argmin(room) in slices
     # the sound faces are untouched by the defect
-    assert first(0, -1.0)[0] == pytest.approx((HALF[0] - 4e-3 + data.drop + data.s * axis[0, 2]).min(), abs=1e-9)
+    assert first(0, -1.0)[0] == pytest.approx(
+        (HALF[0] - 4e-3 + data.drop + data.s * axis[0, 2]).min(), abs=1e-9
+    )
 
 
 def test_side_beams_touch_after_half_of_the_play(walls):
@@ -159,7 +163,9 @@ def test_forces_are_slopes_of_the_energy(walls, name, place):
     for j in (1, 2):  # skew and tilt
         e = 1e-7 * np.eye(3)[j]
         slope = -(energy(turn=e) - energy(turn=-e)) / 2e-7
-        assert slope == pytest.approx(wrench[3 + j], abs=(2e-4 if name == "rigid" else 4e-3) * scale * 4e-3)
+        assert slope == pytest.approx(
+            wrench[3 + j], abs=(2e-4 if name == "rigid" else 4e-3) * scale * 4e-3
+        )
     forces = modal_force(data, work)
     for m in range(nm):
         e = 1e-10 * np.eye(nm)[m]
@@ -190,8 +196,9 @@ def test_condensed_walls_against_minimisation(walls):
     assert sums[0] == pytest.approx(total(work.a), rel=1e-10)
     assert sums[0] <= best.fun * (1 + 1e-9)
     assert sums[0] == pytest.approx(best.fun, rel=1e-5)
-    np.testing.assert_allclose(work.a, data.comp[0] @ np.einsum(
-        "fs,fsl->l", work.st[[0, 2]][[0, 1], :, [2, 0]], data.res[0][[0, 2]]), rtol=1e-8)  # fmt: skip
+    outward = work.st[[0, 2], :, [2, 0]]  # station forces on the two faces that are touched
+    loads = np.einsum("fs,fsl->l", outward, data.res[0][[0, 2]])
+    np.testing.assert_allclose(work.a, data.comp[0] @ loads, rtol=1e-8)
     # rigid walls give the same law undiminished
     stiff_data, _ = walls(interface(), CONTACTS)
     assert np.abs(pocket(stiff_data, p, D, axis=axis)[0]).max() > np.abs(wrench).max()
@@ -234,8 +241,8 @@ def test_power_is_what_the_channels_say(walls, name, law):
 
     def energy(t):
         return pocket(
-            data, p, D + t * (V - Vc), axis=turned(axis, t * np.array([0, 0, 0])), G=turned(np.eye(3), t * wc),
-            q=t * qd, qd=qd, **call,
+            data, p, D + t * (V - Vc), axis=axis, G=turned(np.eye(3), t * wc), q=t * qd, qd=qd,
+            **call,
         )[1][0]  # fmt: skip
 
     h = 1e-8

@@ -71,8 +71,10 @@ def ring_equilibrium(inner, outer, p, *, half_pitch=False, centrifugal=0.0):
 
 @pytest.mark.parametrize(
     ("clearance", "half_pitch", "dr", "peak", "loaded"),
-    [(0, False, 1.7830, 185.693, 11), (0, True, 1.7828, 183.568, 10), (20, False, 13.0073, 331.925, 5),
-     (20, True, 13.0694, 323.249, 4), (40, False, 23.7221, 420.678, 3), (40, True, 23.5645, 371.070, 4)],
+    [(0, False, 1.7830, 185.693, 11), (0, True, 1.7828, 183.568, 10),
+     (20, False, 13.0073, 331.925, 5),
+     (20, True, 13.0694, 323.249, 4), (40, False, 23.7221, 420.678, 3),
+     (40, True, 23.5645, 371.070, 4)],
 )  # fmt: skip
 def test_static_distribution_of_straight_rollers(sides, clearance, half_pitch, dr, peak, loaded):
     got, q = ring_equilibrium(*sides(clearance * 1e-6, "straight", 3), half_pitch=half_pitch)
@@ -96,7 +98,8 @@ def test_static_distribution_of_profiled_rollers(sides, clearance, slices, dr, p
 
 @pytest.mark.parametrize(
     ("clearance", "dr", "inner", "outer"),
-    [(0, 1.8418, 187.281, 197.761), (20, 13.0557, 332.635, 343.115), (40, 23.7658, 420.936, 431.416)],
+    [(0, 1.8418, 187.281, 197.761), (20, 13.0557, 332.635, 343.115),
+     (40, 23.7658, 420.936, 431.416)],
 )  # fmt: skip
 def test_static_distribution_with_centrifugal_force(sides, clearance, dr, inner, outer):
     parts = sides(clearance * 1e-6, "straight", 3)
@@ -187,14 +190,21 @@ def test_power_of_the_wrench_is_what_the_channels_say(sides, name, which):
 
     def energy(t):
         return race(
-            side, p, P + t * (V - Vr), axis=turned(axis, t * w), b=turned(b[None], t * wr)[0], **call
+            side,
+            p,
+            P + t * (V - Vr),
+            axis=turned(axis, t * w),
+            b=turned(b[None], t * wr)[0],
+            **call,
         )[1][5]
 
     h = 1e-10
     stored = (energy(h) - energy(-h)) / (2 * h)
     assert np.all(sums[6:9] <= 0.0) and sums[7] < -1e-3 and sums[6] < -1e-6
     channels = sums[6] + sums[7] + sums[8]
-    assert power == pytest.approx(channels - stored, abs=3e-4 * (np.abs(sums[6:9]).sum() + abs(stored)))
+    assert power == pytest.approx(
+        channels - stored, abs=3e-4 * (np.abs(sums[6:9]).sum() + abs(stored))
+    )
 
 
 def test_rolling_resistance_is_one_force_on_each_surface(sides):
@@ -236,13 +246,16 @@ def test_tangents_against_differences(sides, name):
     def column(j, h, moved):
         e = h * np.eye(3)[j % 3]
         if moved:
+
             def at(s):
                 return race(inner, p, P + (s * e if j < 3 else 0), V=V, w=w,
                             axis=axis if j < 3 else turned(axis, s * e), **call)[0]  # fmt: skip
         else:
+
             def at(s):
                 return race(inner, p, P, V=V + (s * e if j < 3 else 0), axis=axis,
                             w=w + (s * e if j >= 3 else 0), **call)[0]  # fmt: skip
+
         return -(at(1) - at(-1)) / (2 * h)
 
     K = np.stack([column(j, 1e-9 if j < 3 else 1e-7, True) for j in range(6)], axis=1)

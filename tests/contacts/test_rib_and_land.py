@@ -125,7 +125,9 @@ def test_land_touches_after_its_clearance(dry_land):
     assert not land(data, p, pressed(data, -1e-8), q=quiet, qd=quiet)[0].any()
     Fc = land(data, p, pressed(data), q=quiet, qd=quiet)[0]
     towards = pressed(data) / np.linalg.norm(pressed(data))
-    assert Fc @ towards < -10.0 and np.abs(Fc + (-Fc @ towards) * towards).max() < 1e-3 * abs(Fc @ towards)
+    assert Fc @ towards < -10.0 and np.abs(Fc + (-Fc @ towards) * towards).max() < 1e-3 * abs(
+        Fc @ towards
+    )
     closed = np.array([-data.inner * (data.clearance + 2e-6), 0.0, 0.0])  # breathing
     work = land(data, p, np.zeros(3), q=closed, qd=quiet)
     assert work[2][0] * closed[0] < 0.0 and np.abs(work[0]).max() < 1e-6 * abs(work[2][0])
@@ -166,9 +168,7 @@ def test_land_energy_power_and_third_law(dry_land):
         )
     power = Fc @ Vc + Mc @ w + Qm @ qd + Fr @ Vr + Mr[0] * spin
     h = 1e-9
-    at = [
-        energy(Rc + s * h * Vc, s * h * w, q + s * h * qd, Rr + s * h * Vr) for s in (1, -1)
-    ]
+    at = [energy(Rc + s * h * Vc, s * h * w, q + s * h * qd, Rr + s * h * Vr) for s in (1, -1)]
     stored = (at[0] - at[1]) / (2 * h)
     assert sums[1] <= 0.0 and sums[2] < -1.0
     scale = abs(stored) + abs(sums[1]) + abs(sums[2])

@@ -1,4 +1,4 @@
-"""Small problems with known solutions, and the plain Python integrator with a dense Newton matrix."""
+"""Problems with known solutions, and the plain Python integrator with a dense Newton matrix."""
 
 from __future__ import annotations
 
@@ -44,7 +44,7 @@ class Oscillator:
 
 
 class Pendulum:
-    """Pendulum of length 1 in Cartesian coordinates, stabilised index 2: (x, z, vx, vz, lambda, mu).
+    """Pendulum of length 1 in Cartesian coordinates, index 2, stabilised: (x, z, vx, vz, l, mu).
 
     Released from the horizontal; the exact solution is that of the angle, integrated tightly.
     """

@@ -119,7 +119,9 @@ def test_change_of_step_is_exact_on_polynomials(bdf, order):
         D = np.zeros((8, 3))
         D[: order + 1] = differences(0.1)
         bdf.change_step(D, order, ratio)
-        np.testing.assert_allclose(D[: order + 1], differences(0.1 * ratio), atol=1e-10 * ratio**order)
+        np.testing.assert_allclose(
+            D[: order + 1], differences(0.1 * ratio), atol=1e-10 * ratio**order
+        )
         y, yd = np.empty(3), np.empty(3)
         time = 0.7 - 0.37 * 0.1 * ratio
         bdf.interpolate(D, order, 0.7, 0.1 * ratio, time, y, yd)

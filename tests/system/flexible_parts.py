@@ -22,7 +22,7 @@ def shapes_at(points, *, modes):
         n, phase = 2 + k // 4, np.pi / 2 * (k % 2)
         c, s = np.cos(n * angle - phase)[:, None], np.sin(n * angle - phase)[:, None]
         fields.append(c * er - s / n * et if k % 4 < 2 else c * ex)
-    return np.stack(fields, axis=2) * 3.0
+    return np.stack(fields, axis=2) * 3.0 if fields else np.zeros((len(points), 3, 0))
 
 
 def flexible_cage(*, modes=6, stiffer=1.0, soft=False, mass=0.09):

@@ -1,0 +1,52 @@
+"""Speed, accuracy and memory: what README.md beside this file describes. Measures, asserts nothing."""
+
+from __future__ import annotations
+
+import os
+
+for _name in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"):
+    os.environ.setdefault(_name, "1")
+
+import argparse
+import json
+import logging
+import sys
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[2]
+sys.path[:0] = [str(Path(__file__).parent)]
+
+
+def main(argv: list[str] | None = None) -> int:
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("what", choices=("solver", "fe"))
+    parser.add_argument("--json", action="store_true", help="one JSON object")
+    parser.add_argument("--case", type=Path, default=ROOT / "examples" / "n1013.toml")
+    parser.add_argument("--fineness", default="medium", help="fe: fineness of the mesh")
+    parser.add_argument("--solver", default="auto", help="fe: linear solver")
+    parser.add_argument("--set", action="append", default=[], metavar="PATH=VALUE")
+    args = parser.parse_args(argv)
+    import flexcage
+
+    logging.basicConfig(level=logging.WARNING)
+    case = flexcage.load_case(args.case, overrides=dict(s.split("=", 1) for s in args.set))
+    if args.what == "solver":
+        import solver_benchmark
+
+        figures = solver_benchmark.measure(case)
+    else:
+        import fe_benchmark
+
+        figures = fe_benchmark.measure(
+            case.replace("mesh.fineness", args.fineness), solver_kind=args.solver
+        )
+    if args.json:
+        sys.stdout.write(json.dumps(figures) + "\n")
+    else:
+        width = max(map(len, figures))
+        sys.stdout.writelines(f"{key:<{width}}  {value}\n" for key, value in figures.items())
+    return 0
+
+
+if __name__ == "__main__":
+    raise SystemExit(main())

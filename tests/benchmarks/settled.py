@@ -1,0 +1,132 @@
+"""One stored settled state of a bearing, and integrations that start from it."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from time import process_time
+
+import numpy as np
+
+import flexcage
+from flexcage.core.cache import cached_arrays
+from flexcage.core.hashing import content_hash
+from flexcage.core.jit import kernel_sources, source_hash
+from flexcage.results.recording import FIRST_STEP
+from flexcage.simulate import build_bearing, cage_mesh, cage_reduction
+from flexcage.solve import bdf
+from flexcage.system.model import POWERS
+from flexcage.system.problem import Bearing, new_samples
+from flexcage.system.scales import error_weights
+from flexcage.system.start import find_start
+
+SETTLE = 20e-3  # [s] of bearing time before the stored state
+RATE = 200e3  # [1/s] samples of the compared window
+
+
+@dataclass(frozen=True)
+class Forces:
+    """Sampled force vectors (n, m, components): both races on rollers, and those on the cage."""
+
+    race: np.ndarray
+    cage: np.ndarray
+
+    def error(self, reference: Forces) -> tuple[float, float]:
+        """Relative L2 errors against a reference: races, cage."""
+        pairs = ((self.race, reference.race), (self.cage, reference.cage))
+        return tuple(float(np.linalg.norm(a - b) / np.linalg.norm(b)) for a, b in pairs)  # type: ignore[return-value]
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """An integration: processor time, counts, last state, and what the samples hold."""
+
+    cpu: float
+    count: np.ndarray
+    state: bdf.BDFState
+    ys: np.ndarray
+    yds: np.ndarray
+
+
+class Settled:
+    """A bearing that can be put back into its stored settled state."""
+
+    def __init__(self, case: flexcage.Case) -> None:
+        self.case = case
+        self.mesh = cage_mesh(case)
+        self.bearing = build_bearing(case, self.mesh, cage_reduction(case, self.mesh))
+        key = content_hash(case.hash, source_hash(kernel_sources()), SETTLE)
+        self.stored = cached_arrays("benchmark", key, self._settle)
+
+    def _settle(self) -> dict[str, np.ndarray]:
+        start = find_start(self.bearing, limit_force=self.case.limits.assembly_force)
+        self._sample(10, 1)
+        out = self._advance(0.0, start.y, start.yd, np.array([SETTLE]), self.options())
+        memory = {f"memory_{k}": v for k, v in self.bearing.data.memory._asdict().items()}
+        closed = self.bearing.data.events.closed
+        return {"y": out.ys[-1], "yd": out.yds[-1], "closed": closed.copy(), **memory}
+
+    def options(self, *, max_step: float | None = None) -> bdf.Options:
+        s = self.case.solver
+        step = s.max_step if max_step is None else max_step
+        return bdf.Options(s.max_order, step, 1e-16, s.newton_tolerance, 10**9)
+
+    def restore(self) -> tuple[np.ndarray, np.ndarray]:
+        """Put law memory and contact flags back; y and y' of the stored state."""
+        for name, array in self.bearing.data.memory._asdict().items():
+            array[...] = self.stored[f"memory_{name}"]
+        self.bearing.data.events.closed[...] = self.stored["closed"]
+        self.bearing.data.events.fill[0] = 0
+        return self.stored["y"].copy(), self.stored["yd"].copy()
+
+    def integrate(
+        self, duration: float, *, stride: int, share: float = 1.0, step_share: float = 1.0
+    ) -> Outcome:
+        """Integrate from the stored state with tolerance and largest step cut to these shares."""
+        y, yd = self.restore()
+        n = round(duration * RATE)
+        self._sample(n // stride + 1, stride)
+        options = self.options(max_step=self.case.solver.max_step * step_share)
+        times = SETTLE + np.arange(1, n + 1) / RATE
+        return self._advance(SETTLE, y, yd, times, options, share=share)
+
+    def _sample(self, rows: int, stride: int) -> None:
+        b = self.bearing
+        b.data = b.data._replace(samples=new_samples(rows, stride, b.data.model))
+        b.args = b.arguments(b.data, b.laws)
+
+    def _advance(
+        self,
+        t0: float,
+        y: np.ndarray,
+        yd: np.ndarray,
+        times: Sequence[float] | np.ndarray,
+        options: bdf.Options,
+        share: float = 1.0,
+    ) -> Outcome:
+        b, times = self.bearing, np.asarray(times)
+        weight = error_weights(b.data.model, b.layout, self.case.solver.tolerance * share)
+        state = bdf.new_state(t0, y, yd, weight=weight, h0=FIRST_STEP, n_quad=len(POWERS))
+        ys, yds = np.zeros((len(times), len(y))), np.zeros((len(times), len(y)))
+        quads = np.zeros((len(times), len(POWERS)))
+        log, sample, outcome, cpu = np.zeros((50_000, 5)), 0, bdf.LOG_FULL, 0.0
+        while outcome == bdf.LOG_FULL:
+            begin = process_time()
+            outcome, sample, _ = b.advance(
+                state, options, times[-1], times, ys, yds, sample, log, quads
+            )
+            cpu += process_time() - begin
+        if outcome != bdf.DONE:
+            raise RuntimeError(f"the integrator stopped: {bdf.OUTCOMES[outcome]}")
+        return Outcome(cpu, state.count.copy(), state, ys, yds)
+
+    def forces(self, ys: np.ndarray, yds: np.ndarray, times: np.ndarray) -> Forces:
+        """Forces at sampled states, evaluated anew: normal and traction of every race contact;
+        (x, r, psi) of every pocket face, and the land's force on the cage."""
+        report, race, cage = self.bearing.data.work.report, [], []
+        for t, y, yd in zip(times, ys, yds, strict=True):
+            self.bearing.residual(float(t), y, yd, mode=2)
+            race.append(report.race[:, :, :2].reshape(-1, 2).copy())
+            faces = report.station.sum(axis=2).reshape(-1, 3)
+            cage.append(np.concatenate([faces, report.land[None]]))
+        return Forces(np.array(race), np.array(cage))

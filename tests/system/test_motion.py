@@ -1,0 +1,163 @@
+"""Known motions of the whole bearing: epicyclic run, a roller's spin, constraints, equivalents."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from bearing_runs import march, rolling_start
+from scipy.integrate import solve_ivp
+
+from flexcage.bodies.floating_frame import rigid_body
+from flexcage.contacts import laws
+from flexcage.contacts.spec import Contacts, FrictionLaw, Lubricant, NormalLaw, PairSpec
+from flexcage.geometry.cylindrical_roller import RollerProfile
+from flexcage.system.spec import Drive, Load
+
+RPM = 2 * np.pi / 60
+GRIP = FrictionLaw(law="step_coulomb", static=0.3, dynamic=0.3, v_static=1e-3, v_dynamic=2e-3)
+SMOOTH = PairSpec(friction=FrictionLaw(law="none"))
+NO_LOSS = Lubricant(rolling_resistance="none", oil_fraction=0.0)
+
+
+@pytest.mark.parametrize("sense", [1.0, -1.0])
+def test_epicyclic_run(bearing_of, sense):
+    """Races that grip, nothing that brakes: cage and rollers come to the speeds of pure rolling."""
+    bearing = bearing_of(
+        bearing={"radial_clearance": 0.0}, drive=Drive(speed=sense * 6000 * RPM),
+        contacts=Contacts(race=PairSpec(friction=GRIP), pocket=SMOOTH, side=SMOOTH, rib=SMOOTH),
+        lubricant=NO_LOSS, load=Load(radial=50.0, gravity=0.0),
+    )  # fmt: skip
+    y, yd = rolling_start(bearing)
+    u, qd = bearing.layout.u(y), bearing.layout.q(yd)
+    for rollers in (u["rollers"][:, 2:4], qd["rollers"][:, [2, 5]]):
+        rollers *= 0.98  # a start that slips by 2 %
+    u["omega"] *= 0.98
+    h = march(bearing, y, yd, duration=12e-3, rate=20e3)
+    u = bearing.layout.u(h.y)
+    late = h.time > 9e-3
+    cage = u["omega"][late, 0].mean() / RPM
+    orbit = (u["rollers"][late, :, 2] / bearing.layout.q(h.y)["rollers"][late, :, 1]).mean() / RPM
+    spin = u["rollers"][late, :, 3].mean() / RPM
+    assert cage == pytest.approx(sense * 2709.09, rel=5e-4)
+    assert orbit == pytest.approx(sense * 2709.09, rel=5e-4)
+    assert spin == pytest.approx(-sense * 27937.5, rel=5e-4)
+
+
+LOAD = 60.0  # about, of a roller between races that pinch it
+
+
+@pytest.mark.parametrize(
+    ("lubricant", "slip"),
+    [(NO_LOSS, 1.0), (NO_LOSS, 0.97), (Lubricant(oil_fraction=0.0), 1.0)],
+)
+def test_spin_of_one_roller(bearing_of, lubricant, slip):
+    """From a standstill, skidding, to rolling (or to a lasting slip behind a slow cage).
+
+    A cage of enormous inertia prescribes the orbit, races that pinch every roller alike prescribe
+    the load; what is left is Ia dw/dt = R (traction in - traction out) - rolling resistance.
+    """
+    pair = PairSpec(friction=FrictionLaw(law="traction"), normal=NormalLaw(law="elastic"), slices=3)
+    orbit, ring = slip * 2709.09 * RPM, 6000 * RPM
+    bearing = bearing_of(
+        bearing={"radial_clearance": -6e-6, "profile": RollerProfile(kind="straight")},
+        cage={"pocket_width": 8.0004e-3}, body=rigid_body(1e6, np.zeros(3), 1e3 * np.eye(3)),
+        contacts=Contacts(race=pair, pocket=SMOOTH, side=SMOOTH, rib=SMOOTH),
+        lubricant=lubricant, load=Load(gravity=0.0),
+    )  # fmt: skip
+    model, layout = bearing.data.model, bearing.layout
+    mass, axial, _ = model.bodies.roller
+    ri, ro, rw = model.inner.radius, model.outer.radius, 4e-3
+    # radial balance of a roller on two springs c d^(10/9), with its centrifugal force
+    c = laws.iso_line_stiffness(7.3e-3)
+    grid = np.linspace(ri + rw - 4e-6, ri + rw, 400_001)
+    inner = c * np.clip(ri + rw - grid, 0, None) ** (10 / 9)
+    outer = c * np.clip(grid - (ro - rw), 0, None) ** (10 / 9)
+    k = np.argmin(np.abs(inner + mass * orbit**2 * grid - outer))
+    radius, n_in, n_out = grid[k], inner[k], outer[k]
+    assert 100.0 < n_in < n_out < 1000.0
+
+    y, yd = rolling_start(bearing)
+    q, u, qd = layout.q(y), layout.u(y), layout.q(yd)
+    q["rollers"][:, 1], q["inner"][1:3] = radius, 0.0
+    u["rollers"][:, 2], u["rollers"][:, 3] = orbit * radius, 0.0
+    qd["rollers"][:, 2], qd["rollers"][:, 5] = orbit, -orbit
+    u["omega"][0], qd["quaternion"][1] = orbit, 0.5 * orbit
+    h = march(bearing, y, yd, duration=4e-3, rate=50e3)
+    spin = layout.u(h.y)["rollers"][:, :, 3]
+    np.testing.assert_allclose(layout.u(h.y)["omega"][:, 0], orbit, rtol=1e-4)
+
+    law = FrictionLaw(law="traction")
+    a, b, cc, d = laws.gupta_coefficients(law.peak, law.peak_speed, law.high_speed)
+
+    def mu(v):
+        return np.sign(v) * ((a + b * abs(v)) * np.exp(-cc * abs(v)) + d)
+
+    hard = np.array([model.inner.rolling, model.outer.rolling])
+
+    def rate(t, w):
+        slide_in = ring * ri - orbit * radius + w[0] * rw  # race ahead of the roller's surface
+        slide_out = -orbit * radius - w[0] * rw  # the outer race stands
+        # the inner contact is at -rw e_r, where a force f on the roller has the moment -rw f
+        torque = -rw * n_in * mu(slide_in) + rw * n_out * mu(slide_out)
+        speed = 0.5 * abs((ring - orbit) * ri - (w[0] - orbit) * rw)
+        torque += rw * laws.rolling_force(hard[0], speed, n_in)
+        speed = 0.5 * abs(orbit * ro - (w[0] - orbit) * rw)
+        torque += rw * laws.rolling_force(hard[1], speed, n_out)
+        return [torque / axial]
+
+    ref = solve_ivp(rate, (0, h.time[-1]), [0.0], t_eval=h.time, rtol=1e-9, atol=1e-6).y[0]
+    assert ref[-1] < -2500.0 and ref[5] > -2000.0  # it spins up within the run
+    assert np.abs(spin - ref[:, None]).max() < 4e-3 * np.abs(ref).max()
+    assert np.ptp(spin[-1]) < 1e-3 * abs(ref[-1])  # all alike
+
+
+@pytest.mark.parametrize("misalignment", [0.0, 0.4e-3])
+def test_constraints_hold(bearing_of, misalignment):
+    """Axial position, skew and prescribed tilt to the last bits; speed along its ramp."""
+    drive = Drive(speed=5000 * RPM, ramp_to=6000 * RPM, ramp_time=1e-3, ramp_start=0.5e-3)
+    bearing = bearing_of(drive=drive, load=Load(radial=1000.0, misalignment=misalignment))
+    h = march(bearing, *rolling_start(bearing), duration=2e-3)
+    q, u = bearing.layout.q(h.y)["inner"], bearing.layout.u(h.y)["inner"]
+    assert np.abs(q[:, [0, 3]]).max() < 1e-13
+    assert np.abs(q[:, 4] - misalignment).max() < 1e-13
+    assert np.abs(u[:, [0, 4, 5]]).max() < 1e-10
+    table = np.interp(h.time, [0.5e-3, 1.5e-3], [5000 * RPM, 6000 * RPM])
+    assert np.abs(u[:, 3] - table).max() < 5e-2  # dense output across the ramp's corners
+    quaternion = np.linalg.norm(bearing.layout.q(h.y)["quaternion"], axis=1)
+    assert np.abs(quaternion - 1.0).max() < 1e-5
+    if misalignment:
+        assert np.abs(bearing.layout.multipliers(h.y)[:, 2]).max() > 0.1  # the tilting moment
+
+
+def test_shaft_comes_to_the_same_speed(bearing_of):
+    """A compliant shaft settles at the prescribed speed, twisted by torque over stiffness."""
+    stiffness = 2e3
+    drive = Drive(kind="shaft", shaft_stiffness=stiffness, shaft_damping=0.8)
+    bearing = bearing_of(drive=drive, load=Load(radial=1000.0))
+    rigid = bearing_of(load=Load(radial=1000.0))
+    h, ref = (march(b, *rolling_start(b), duration=6e-3, rate=50e3) for b in (bearing, rigid))
+    late = h.time > 4e-3
+    speed = bearing.layout.u(h.y)["inner"][late, 3]
+    assert speed.mean() == pytest.approx(6000 * RPM, rel=2e-4)
+    cage, other = (
+        m.layout.u(x.y)["omega"][late, 0].mean() for m, x in ((bearing, h), (rigid, ref))
+    )
+    assert cage == pytest.approx(other, rel=2e-3)
+    twist = 6000 * RPM * h.time[late] - bearing.layout.q(h.y)["inner"][late, 5]
+    torque = rigid.layout.multipliers(ref.y)[late, 3].mean()
+    assert (stiffness * twist).mean() == pytest.approx(torque, rel=0.15)  # both still swing
+
+
+def test_stiff_modes_are_a_rigid_cage(bearing_of):
+    """Modes 10^4 times as stiff move nothing: the same run as with a rigid body of that mass."""
+    specs = {"load": Load(radial=1000.0)}
+    stiff = bearing_of(flexible={"modes": 6, "stiffer": 1e6}, **specs)
+    rigid = bearing_of(flexible={"modes": 0}, **specs)
+    runs = [march(b, *rolling_start(b), duration=2e-3) for b in (stiff, rigid)]
+    q = [b.layout.q(h.y) for b, h in zip((stiff, rigid), runs)]
+    assert runs[1].samples.pocket_normal.max() > 1.0
+    assert np.abs(q[0]["modes"]).max() < 1e-7
+    assert np.abs(q[0]["cage"] - q[1]["cage"]).max() < 5e-8
+    assert np.abs(q[0]["rollers"][:, :, :2] - q[1]["rollers"][:, :, :2]).max() < 5e-8
+    loads = [h.samples.race[:, :, 0, 0] for h in runs]
+    assert np.abs(loads[0] - loads[1]).max() < 0.01 * loads[1].max()
