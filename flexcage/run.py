@@ -322,4 +322,3 @@ def open_folder(folder: Path) -> tuple[Case, MemoryRunStore]:
 
 
 __all__ = ["Run", "StressField", "open_folder", "prepare_folder"]
-

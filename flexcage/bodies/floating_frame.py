@@ -221,10 +221,14 @@ def inertia_terms(d, w, q, qd, work):
             M[6 + k, 6 + l] = d.mff[k, l]
             if qd[l] != 0.0:
                 # 2 w . int phi_l x phi_k
-                s += 2.0 * qd[l] * (
-                    w[0] * (d.SS[l, k, 1, 2] - d.SS[l, k, 2, 1])
-                    + w[1] * (d.SS[l, k, 2, 0] - d.SS[l, k, 0, 2])
-                    + w[2] * (d.SS[l, k, 0, 1] - d.SS[l, k, 1, 0])
+                s += (
+                    2.0
+                    * qd[l]
+                    * (
+                        w[0] * (d.SS[l, k, 1, 2] - d.SS[l, k, 2, 1])
+                        + w[1] * (d.SS[l, k, 2, 0] - d.SS[l, k, 0, 2])
+                        + w[2] * (d.SS[l, k, 0, 1] - d.SS[l, k, 1, 0])
+                    )
                 )
         h[6 + k] = s
 

@@ -380,9 +380,7 @@ def _add_tangent(f, j, w, k, V, Wn, Wx, Wt, sl, pw, pair):
     Nd = sl.Nd[k]
     add_outer(pair.K, Nd, V, Wn)
     add_outer(pair.C, sl.Nv[k], V, Wn)
-    friction_tangent(
-        pair.C, sl.N[k], sl.g[k], sl.dg[k], sl.u[k], sl.t[k, 0], sl.t[k, 1], Wx, Wt
-    )
+    friction_tangent(pair.C, sl.N[k], sl.g[k], sl.dg[k], sl.u[k], sl.t[k, 0], sl.t[k, 1], Wx, Wt)
     for s in range(2):
         ws = (w if s == 1 else 1.0 - w) * Nd
         for c in range(6):

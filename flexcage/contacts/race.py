@@ -180,9 +180,7 @@ def _collect(pose, side, Rw, P, b, theta, sl, pair, mode, sums):
         if mode == 1:
             add_outer(pair.K, sl.Nd[k], Wf, Wn)
             add_outer(pair.C, sl.Nv[k], Wf, Wn)
-            friction_tangent(
-                pair.C, N, sl.g[k], sl.dg[k], sl.u[k], sl.t[k, 0], sl.t[k, 1], Wx, Wt
-            )
+            friction_tangent(pair.C, N, sl.g[k], sl.dg[k], sl.u[k], sl.t[k, 0], sl.t[k, 1], Wx, Wt)
         elif mode == 2:
             sums[0] += N
             sums[1] -= N * gt

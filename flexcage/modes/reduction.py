@@ -51,7 +51,13 @@ def reduce_cage(
     """Assemble the cage and reduce it; the basis comes from the disk cache if it is there."""
     model = assemble(mesh, cage.material, order=order)
     key = content_hash(
-        MODEL_VERSION, spec, order, cage.material, mesh.pocket_count, mesh.points, mesh.tets,
+        MODEL_VERSION,
+        spec,
+        order,
+        cage.material,
+        mesh.pocket_count,
+        mesh.points,
+        mesh.tets,
         dict(mesh.groups),
     )
     arrays = cached_arrays(

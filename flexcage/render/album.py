@@ -90,7 +90,11 @@ def _geometry(scene: Scene, folder: Path) -> list[Path]:
         b = scene.stress.basis
         paths.append(
             mode_sheet(
-                scene.stress.nodes, scene.stress.cells, b.shapes, b.frequencies, b.kind,
+                scene.stress.nodes,
+                scene.stress.cells,
+                b.shapes,
+                b.frequencies,
+                b.kind,
                 folder / "modes.png",
             )  # fmt: skip
         )
@@ -179,8 +183,13 @@ def _animations(scene: Scene, folder: Path) -> list[Path]:
         n = len(scene.mesh.points)
         paths.append(
             animate_stress(
-                scene.mesh.points, scene.mesh.tets, [u[:n] for u in shifts], stresses, times,
-                folder / "stress.gif", pocket_count=scene.mesh.pocket_count,
+                scene.mesh.points,
+                scene.mesh.tets,
+                [u[:n] for u in shifts],
+                stresses,
+                times,
+                folder / "stress.gif",
+                pocket_count=scene.mesh.pocket_count,
                 azimuth=float(np.arctan2(*scene.mesh.points[scene.stress.peak_vertex, [2, 1]])),
             )  # fmt: skip
         )

@@ -232,9 +232,7 @@ def label_bearing(
     _middle(ax, picture, now, bearing, load)
 
 
-def _load_labels(
-    ax: Any, picture: Picture, now: Instant, b: RollerBearing, top: float
-) -> None:
+def _load_labels(ax: Any, picture: Picture, now: Instant, b: RollerBearing, top: float) -> None:
     """Number of every roller on its end, and the load of the loaded ones outside the ring."""
     end = np.array([0.5 * b.roller_length, 0.0, 0.0])
     for k, (_, r, psi) in enumerate(now.position):

@@ -130,9 +130,7 @@ def factor(m):
             x3, x4, x5 = m.B[i, 3, c], m.B[i, 4, c], m.B[i, 5, c]
             for r in range(6):
                 a = m.A[i, r]
-                m.B[i, r, c] = (
-                    a[0] * x0 + a[1] * x1 + a[2] * x2 + a[3] * x3 + a[4] * x4 + a[5] * x5
-                )
+                m.B[i, r, c] = a[0] * x0 + a[1] * x1 + a[2] * x2 + a[3] * x3 + a[4] * x4 + a[5] * x5
         for r in range(high):
             c0, c1, c2 = m.C[i, r, 0], m.C[i, r, 1], m.C[i, r, 2]
             c3, c4, c5 = m.C[i, r, 3], m.C[i, r, 4], m.C[i, r, 5]

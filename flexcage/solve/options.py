@@ -16,9 +16,7 @@ class SolverOptions:
     """
 
     duration: float = quantity("s", 0.1, doc="bearing time to simulate", above=0.0)
-    tolerance: float = quantity(
-        "um", 1e-8, doc="local error allowed in a position", above=0.0
-    )
+    tolerance: float = quantity("um", 1e-8, doc="local error allowed in a position", above=0.0)
     max_order: int = option(2, doc="highest BDF order", minimum=1, maximum=5)
     max_step: float = quantity("us", 5e-5, doc="largest step", above=0.0)
     min_step: float = quantity("us", 1e-12, doc="smallest step", above=0.0)

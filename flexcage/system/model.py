@@ -277,9 +277,7 @@ def _land_data(bearing, cage: WindowCage, contacts: Contacts, lubricant, interfa
     outer = cage.guidance == "outer"
     spec = contacts.land
     radius = 0.5 * (cage.outside_diameter if outer else cage.bore)
-    clearance = (
-        bearing.outer_race_radius - radius if outer else radius - 0.5 * bearing.rib_diameter
-    )
+    clearance = bearing.outer_race_radius - radius if outer else radius - 0.5 * bearing.rib_diameter
     modes = interface.land[1 if outer else 0]  # (nl, 3, n)
     n_l = modes.shape[0]
     angle = 2.0 * np.pi * np.arange(n_l) / n_l

@@ -654,9 +654,7 @@ def _ring_rows(t, model, work, q, u, qd, ud, lam, mu_, zq, r_q, r_u, border, out
         v2 = ru[0] * ru[0] + ru[1] * ru[1] + ru[2] * ru[2]
         rep.energy[0] += 0.5 * (mass * v2 + Ia * ru[3] * ru[3] + It * w2)
         rep.power[0] += lam[3] * ru[3] + shaft * ru[3]
-        rep.power[1] += load * (
-            bodies.load_direction[0] * ru[1] + bodies.load_direction[1] * ru[2]
-        )
+        rep.power[1] += load * (bodies.load_direction[0] * ru[1] + bodies.load_direction[1] * ru[2])
         for c in range(3):
             rep.power[2] += mass * bodies.gravity[c] * ru[c]
         if fixed == 0.0:

@@ -25,9 +25,7 @@ def measure(case: flexcage.Case, *, solver_kind: str = "auto") -> dict[str, Any]
     model = stages("assemble", assemble, mesh, case.cage.material, order=case.mesh.order)
     solver = stages("modes", FreeBodySolver, model, kind=solver_kind)
     count = case.bearing.roller_count
-    basis = stages(
-        "modes", build_basis, model, pocket_count=count, spec=case.modes, solver=solver
-    )
+    basis = stages("modes", build_basis, model, pocket_count=count, spec=case.modes, solver=solver)
     stages(
         "modes", cage_interface, model, basis, pocket_count=count, cage=case.cage,
         defects=case.defects,

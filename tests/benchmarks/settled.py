@@ -16,7 +16,7 @@ from flexcage.results.recording import FIRST_STEP
 from flexcage.simulate import build_bearing, cage_mesh, cage_reduction
 from flexcage.solve import bdf
 from flexcage.system.model import POWERS
-from flexcage.system.problem import Bearing, new_samples
+from flexcage.system.problem import new_samples
 from flexcage.system.scales import error_weights
 from flexcage.system.start import find_start
 

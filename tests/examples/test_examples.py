@@ -33,5 +33,7 @@ def test_rigid_against_flexible():
 
 
 def test_defect_sweep():
-    sound, _, tight = example("ex03_defect_sweep").main(**SHORT)
-    assert tight > 2 * sound
+    plays = example("ex03_defect_sweep").main(**SHORT)
+    left = [200e-6, 100e-6, 10e-6]  # clearance less defect; walls yield, and a run may use less
+    assert all(moved < free + 20e-6 for moved, free in zip(plays, left, strict=True))
+    assert plays[-1] < 0.5 * plays[0]

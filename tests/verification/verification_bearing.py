@@ -103,9 +103,7 @@ def march(
     """
     Z, stations = bearing.layout.rollers, bearing.data.model.pocket.offset.shape[2]
     start = Start(y, yd, (), 0.0, 0.0, np.zeros((Z, 4, stations, 3)))
-    store = new_store(
-        None, bearing, duration=case.solver.duration, output=case.output, attrs={}
-    )
+    store = new_store(None, bearing, duration=case.solver.duration, output=case.output, attrs={})
     recorder = Recorder(bearing, start, store, solver=case.solver, output=case.output)
     if also is not None:
         also(recorder)

@@ -1,0 +1,165 @@
+"""A flexible cage becomes the rigid one: where its modulus is scaled up, and where it is frozen."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from verification_bearing import (
+    FRICTIONLESS,
+    bent,
+    cage_of,
+    log,
+    march,
+    n1013,
+    relative_error,
+)  # fmt: skip
+
+from flexcage.bodies.cage import flexible_from_basis, rigid_from_tets
+from flexcage.modes.interface import rigid_interface
+from flexcage.simulate import simulate
+from flexcage.system.layout import Layout
+from flexcage.system.model import build_model
+from flexcage.system.problem import Bearing
+from flexcage.system.start import find_start
+
+WINDOW = {
+    "solver.duration": "2 ms",
+    "solver.tolerance": "0.0003 um",
+    "output.vibration_rate": "200 kHz",
+    "output.rate": "200 kHz",
+}
+
+
+@pytest.fixture(scope="module")
+def stiff_runs():
+    """The same case rigid and flexible, with a cage of ten thousand times the modulus of brass.
+
+    Roller and wall then make the same contact law in both: the wall's share has vanished.
+    """
+    case = n1013(WINDOW, defects=bent("0.2 mm"))
+    case = case.replace("cage.material.youngs_modulus", 1e4 * case.cage.material.youngs_modulus)
+    return [simulate(case.replace("cage.model", m)).dataset for m in ("rigid", "flexible")]
+
+
+def test_ten_thousand_times_the_modulus_gives_the_rigid_forces(stiff_runs):
+    """Until trajectories diverge: many pockets touch, forces up to 85 N, cage moves by 17 um."""
+    rigid, flexible = stiff_runs
+    a, b = (ds["pocket_force"].values.astype(float) for ds in stiff_runs)
+    assert np.count_nonzero(a.max(axis=0)) > 8 and a.max() > 20.0
+    error = relative_error(b, a)
+    races = relative_error(flexible["race_force"].values, rigid["race_force"].values)
+    log.info("E x 1e4: pocket forces differ by %.4f, race forces by %.1e", error, races)
+    assert error < 0.02 and races < 1e-3
+    assert b.max() == pytest.approx(a.max(), rel=0.02)
+
+
+def test_ten_thousand_times_the_modulus_gives_the_rigid_motion(stiff_runs):
+    rigid, flexible = stiff_runs
+    for name in ("cage_position", "inner_position"):
+        moved = np.abs(rigid[name] - rigid[name][0]).max()
+        assert float(np.abs(flexible[name] - rigid[name]).max()) < 3e-3 * float(moved), name
+    apart = np.abs(flexible["roller_position"] - rigid["roller_position"]).max("time")
+    assert float(apart.sel(cyl="r").max()) < 0.02e-6
+    assert float(apart.sel(cyl="psi").max()) * 41.25e-3 < 0.5e-6  # each moved by 23 mm
+
+
+@pytest.fixture(scope="module")
+def frozen_and_rigid():
+    """(case, flexible without residual compliance, rigid), with the same pocket law."""
+    case = n1013(defects=bent("0.2 mm"))
+    mesh, cage = cage_of(case)
+    flexible = flexible_from_basis(
+        cage.model.nodes, cage.model.mass_scalar, cage.basis, np.ones(cage.basis.size)
+    )
+    parts = {
+        name: getattr(case, name) for name in ("contacts", "lubricant", "drive", "load", "mount")
+    }
+
+    def bearing(body, interface, pocket_law=None):
+        model, memory = build_model(case.bearing, case.cage, body, interface, **parts)
+        if pocket_law is not None:
+            memory.pocket[:] = pocket_law
+        layout = Layout(case.bearing.roller_count, body.modes)
+        return Bearing(model, memory, case.contacts, layout)
+
+    interface = replace(cage.interface, compliance=np.zeros_like(cage.interface.compliance))
+    frozen = bearing(flexible, interface)
+    rigid = bearing(
+        rigid_from_tets(mesh.points, mesh.tets, case.cage.material.density),
+        rigid_interface(case.cage, pocket_count=case.bearing.roller_count, defects=case.defects),
+        frozen.data.memory.pocket,
+    )
+    return case, frozen, rigid
+
+
+def with_modes(small: Layout, large: Layout, y: np.ndarray) -> np.ndarray:
+    """A rigid state in the layout of a flexible one, modes at rest."""
+    out = np.zeros(large.size)
+    for view in ("q", "u"):
+        for name, values in getattr(large, view)(out).items():
+            if name != "modes":
+                values[:] = getattr(small, view)(y)[name]
+    out[large.n_q + large.n_u :] = y[small.n_q + small.n_u :]
+    return out
+
+
+def test_frozen_modes_leave_the_rigid_equations(frozen_and_rigid):
+    """In states with pocket contact and any accelerations, every rigid row is the rigid one."""
+    _, frozen, rigid = frozen_and_rigid
+    rng = np.random.default_rng(1)
+    small, large = rigid.layout, frozen.layout
+    mass = rigid.data.model.cage.mass
+    for _ in range(5):
+        y, yd = np.zeros(small.size), 10.0 * rng.standard_normal(small.size)
+        q, u = small.q(y), small.u(y)
+        q["rollers"][:, 1] = 41.25e-3 + 4e-6 * rng.standard_normal(22)
+        q["rollers"][:, 2] = 2 * np.pi * np.arange(22) / 22 + 3e-3 * rng.standard_normal(22)
+        q["rollers"][:, 0] = 5e-6 * rng.standard_normal(22)
+        q["rollers"][:, 3:5] = 2e-3 * rng.standard_normal((22, 2))
+        q["cage"][:] = 2e-4 * rng.standard_normal(3)
+        q["quaternion"][:] = [1.0, 1e-4, 2e-4, -1e-4]
+        for values in u.values():
+            values[...] = rng.standard_normal(values.shape)
+        u["omega"][0] = 280.0
+        for bearing in (frozen, rigid):
+            _set_onset_speeds(bearing, 0.3)
+        expected = small.u(rigid.residual(0.0, y, yd))
+        ours = large.u(frozen.residual(0.0, *(with_modes(small, large, v) for v in (y, yd))))
+        rigid.residual(0.0, y, yd, 2)
+        assert np.count_nonzero(rigid.data.work.report.pocket_normal) >= 5
+        for name, values in expected.items():
+            if name != "modes":
+                scale = np.abs(values).max() + 10.0 * mass
+                np.testing.assert_allclose(ours[name], values, atol=1e-9 * scale, err_msg=name)
+
+
+def test_modes_frozen_by_stiffness_run_as_the_rigid_cage(frozen_and_rigid):
+    """Modal stiffness times 1e10 (a frozen body with all its inertia coupling), without friction."""
+    case, frozen, rigid = frozen_and_rigid
+    case = case.replace(si=False, **WINDOW, **FRICTIONLESS)
+    datasets = []
+    for bearing in (rigid, frozen):
+        _set_onset_speeds(bearing, 0.0)
+        body = bearing.data.model.cage
+        model = bearing.data.model._replace(
+            cage=body._replace(kff=1e10 * body.kff, dff=1e5 * body.dff)
+        )
+        one = Bearing(model, bearing.data.memory, case.contacts, bearing.layout,
+                      block=case.output.block, stride=case.output.vibration_ratio)  # fmt: skip
+        start = _start(one)
+        datasets.append(march(case, one, *start))
+    a, b = (ds["pocket_force"].values.astype(float) for ds in datasets)
+    assert np.count_nonzero(a.max(axis=0)) > 5 and a.max() > 10.0
+    error = relative_error(b, a)
+    log.info("frozen modes: pocket forces differ by %.1e", error)
+    assert error < 5e-3
+
+
+def _set_onset_speeds(bearing: Bearing, speed: float) -> None:
+    for law in bearing.data.memory:
+        law[..., 3] = speed
+
+
+def _start(bearing: Bearing) -> tuple[np.ndarray, np.ndarray]:
+    start = find_start(bearing, limit_force=1e9)
+    return start.y, start.yd
