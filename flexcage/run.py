@@ -200,27 +200,6 @@ class Run:
                 return name.replace("_root_", ", corner ").replace("pocket", "pocket ")
         return ""
 
-    def check_start(self) -> None:
-        """Warn of, or refuse, a cage that its assembly alone stresses too much."""
-        if self.cage is None or self.start is None or not self.start.pinched:
-            return
-        u = self.recovery.displacement(CageLoads(station_forces=self.start.station))
-        stress = von_mises(self.recovery.stress(u))
-        stress[contact_zone(self.recovery.model, self.mesh.pocket_count)] = 0.0
-        peak = float(stress.max())
-        limit, proof = self.case.limits.stress, self.case.cage.material.proof_stress
-        text = f"assembling the bearing stresses the cage to {peak / 1e6:.0f} MPa"
-        if limit is not None and peak > limit:
-            raise InputError(
-                f"{text}, more than limits.stress ({limit / 1e6:.0f} MPa); make the defect "
-                "smaller, the pocket larger, or raise the limit",
-                where="defects",
-                value=peak,
-            )
-        if peak > proof:
-            log.warning("%s, more than the proof stress of %s (%.0f MPa): it would yield",
-                        text, self.case.cage.material.name, proof / 1e6)  # fmt: skip
-
     def finish(self, recorder: Recorder) -> Run:
         """Complete a run that has come to its end: summary, stored beside the results."""
         self.solver = recorder.state
@@ -299,21 +278,50 @@ class Run:
         return [Row(k, k.replace("_", " ").capitalize(), int(c[i])) for k, i in names.items()]
 
 
-def prepare_folder(folder: Path, case: Case, *, resume: bool) -> None:
-    """Write the case as run into the folder, or check that a resumed run is of the same case."""
+def write_case(folder: Path, case: Case) -> None:
+    """Write the case as run into the folder."""
     folder.mkdir(parents=True, exist_ok=True)
-    file = folder / "case.toml"
-    if resume:
-        stored = load_case(file)
-        if stored.hash != case.hash:
-            raise InputError(
-                f"The case differs from the one of the run in '{folder}' (hash {case.hash}, not "
-                f"{stored.hash}); resume the same case, or name another folder.",
-                where="case",
-                value=case.hash,
-            )
+    (folder / "case.toml").write_text(case.to_toml(), encoding="utf-8")
+
+
+def check_resumed(folder: Path, case: Case) -> None:
+    """Refuse to go on with a run of another case."""
+    stored = load_case(folder / "case.toml")
+    if stored.hash != case.hash:
+        raise InputError(
+            f"The case differs from the one of the run in '{folder}' (hash {case.hash}, not "
+            f"{stored.hash}); resume the same case, or name another folder.",
+            where="case",
+            value=case.hash,
+        )
+
+
+def check_assembly(case: Case, mesh: CageMesh, cage: CageReduction | None, start: Start) -> None:
+    """Warn of, or refuse, a cage that its assembly alone stresses too much."""
+    if cage is None or not start.pinched:
         return
-    file.write_text(case.to_toml(), encoding="utf-8")
+    recovery = StressRecovery(cage.model, cage.basis, cage.interface, solver=cage.solver)
+    u = recovery.displacement(CageLoads(station_forces=start.station))
+    stress = von_mises(recovery.stress(u))
+    stress[contact_zone(cage.model, mesh.pocket_count)] = 0.0
+    peak, material = float(stress.max()), case.cage.material
+    text = f"assembling the bearing stresses the cage to {peak / 1e6:.0f} MPa"
+    limit = case.limits.stress
+    if limit is not None and peak > limit:
+        raise InputError(
+            f"{text}, more than limits.stress ({limit / 1e6:.0f} MPa); make the defect "
+            "smaller, the pocket larger, or raise the limit",
+            where="defects",
+            value=peak,
+        )
+    if peak > material.proof_stress:
+        proof = material.proof_stress / 1e6
+        log.warning(
+            "%s, more than the proof stress of %s (%.0f MPa): it would yield",
+            text,
+            material.name,
+            proof,
+        )
 
 
 def open_folder(folder: Path) -> tuple[Case, MemoryRunStore]:
@@ -321,4 +329,11 @@ def open_folder(folder: Path) -> tuple[Case, MemoryRunStore]:
     return load_case(folder / "case.toml"), RunStore.open(folder / "results.zarr")
 
 
-__all__ = ["Run", "StressField", "open_folder", "prepare_folder"]
+__all__ = [
+    "Run",
+    "StressField",
+    "check_assembly",
+    "check_resumed",
+    "open_folder",
+    "write_case",
+]

@@ -11,6 +11,7 @@ from typing import Any
 
 from flexcage.bodies.cage import flexible_from_basis, rigid_from_tets
 from flexcage.case import Case
+from flexcage.core.jit import kernels_cached
 from flexcage.core.timing import Stages
 from flexcage.mesh.build import build_cage_mesh
 from flexcage.mesh.cage_mesh import CageMesh
@@ -19,8 +20,8 @@ from flexcage.modes.basis import ModeBasis
 from flexcage.modes.interface import rigid_interface
 from flexcage.modes.reduction import CageReduction, reduce_cage
 from flexcage.results.recording import Recorder, new_store
-from flexcage.results.store import RunStore
-from flexcage.run import Run, open_folder, prepare_folder
+from flexcage.results.store import MemoryRunStore, RunStore
+from flexcage.run import Run, check_assembly, check_resumed, open_folder, write_case
 from flexcage.system.layout import Layout
 from flexcage.system.model import build_model
 from flexcage.system.problem import Bearing
@@ -40,21 +41,35 @@ def simulate(
     """
     folder = Path(out) if out is not None else None
     stages = Stages()
-    if folder is not None:
-        prepare_folder(folder, case, resume=resume)
+    if folder is not None and resume:
+        check_resumed(folder, case)
     mesh = stages("mesh", cage_mesh, case)
     cage = stages("modes", cage_reduction, case, mesh)
     bearing = stages("kernels", build_bearing, case, mesh, cage)
     start = stages("start", find_start, bearing, limit_force=case.limits.assembly_force)
-    store = RunStore.open(folder / "results.zarr") if folder and resume else new_store(
-        folder and folder / "results.zarr", bearing, duration=case.solver.duration,
-        output=case.output, attrs={"case": case.to_toml(), "hash": case.hash},
-    )  # fmt: skip
+    check_assembly(case, mesh, cage, start)
+    store = run_store(case, bearing, folder, resume=resume)
     run = Run(case, store, folder, mesh, cage, start, stages)
-    run.check_start()
     recorder = Recorder(bearing, start, store, solver=case.solver, output=case.output)
     stages("solve", recorder.march, progress)
     return run.finish(recorder)
+
+
+def run_store(
+    case: Case, bearing: Bearing, folder: Path | None, *, resume: bool = False
+) -> MemoryRunStore:
+    """The store to write to: one to go on with, or a new one, in ``folder`` or in memory."""
+    if folder is not None:
+        if resume:
+            return RunStore.open(folder / "results.zarr")
+        write_case(folder, case)
+    return new_store(
+        folder and folder / "results.zarr",
+        bearing,
+        duration=case.solver.duration,
+        output=case.output,
+        attrs={"case": case.to_toml(), "hash": case.hash},
+    )
 
 
 def cage_mesh(case: Case) -> CageMesh:
@@ -88,6 +103,8 @@ def cage_modes(case: Case) -> ModeBasis:
 
 def build_bearing(case: Case, mesh: CageMesh, cage: CageReduction | None) -> Bearing:
     """Bodies, contacts and compiled equations of motion."""
+    if not kernels_cached():
+        log.info("compiling the kernels for the first time: about a minute, once")
     Z = case.bearing.roller_count
     if cage is None:
         body = rigid_from_tets(mesh.points, mesh.tets, case.cage.material.density)

@@ -7,20 +7,73 @@ Y_i = y_n + h sum_j a_ij K_j, thus K_i = (Y_i - psi_i)/(h g): the Newton matrix 
 
 from __future__ import annotations
 
+import numba
 import numpy as np
+from numba import types
 
+from flexcage.core.jit import kernel
 from flexcage.system.model import POWERS
 from flexcage.system.problem import Bearing
 
 _G = 0.43586652150845899942  # root of g^3 - 3 g^2 + 3 g/2 - 1/6
-_C = (_G, 0.5 * (1.0 + _G), 1.0)
-_A = (
-    (_G,),
-    (0.5 * (1.0 - _G), _G),
-    (-(6.0 * _G**2 - 16.0 * _G + 1.0) / 4.0, (6.0 * _G**2 - 20.0 * _G + 5.0) / 4.0, _G),
-)
+_B = -(6.0 * _G**2 - 16.0 * _G + 1.0) / 4.0
+_TABLE = np.array([[_G, 0, 0], [0.5 * (1.0 - _G), _G, 0], [_B, 1.0 - _G - _B, _G]])
+_NODES = _TABLE.sum(axis=1)
 _ITERATIONS = 12
 _FRESH = 20  # steps between Jacobians
+_MATRIX = types.Array(types.float64, 2, "C")
+_VECTOR = types.Array(types.float64, 1, "C")
+_REAL, _COUNT = types.float64, types.int64
+
+
+@kernel
+def march(fns, data, t0, y, yd, weight, table, nodes, step, every, tolerance, power, ys, yds):
+    """Steps from (y, yd), which they change; every ``every``-th goes into ys, yds.
+
+    Returns the number of samples filled: fewer than asked for if Newton's method failed.
+    """
+    residual, linearise, factor, backsolve, accepted = fns[0], fns[1], fns[2], fns[3], fns[4]
+    n = y.shape[0]
+    g = step * table[0, 0]
+    alpha = 1.0 / g
+    r, psi, Y, stages = np.empty(n), np.empty(n), np.empty(n), np.empty((3, n))
+    age = _FRESH
+    for count in range(ys.shape[0] * every):
+        t = t0 + count * step
+        for i in range(3):
+            for k in range(n):
+                psi[k] = y[k]
+                for j in range(i):
+                    psi[k] += step * table[i, j] * stages[j, k]
+                Y[k] = psi[k] + g * yd[k]
+            now = t + nodes[i] * step
+            converged = False
+            for it in range(_ITERATIONS):
+                if age >= _FRESH or it == 6:
+                    linearise(now, Y, yd, data)
+                    if not factor(alpha, data):
+                        return count // every
+                    age = 0
+                residual(now, Y, yd, data, r)
+                backsolve(alpha, Y, r, data)
+                size = 0.0
+                for k in range(n):
+                    Y[k] += r[k]
+                    yd[k] = (Y[k] - psi[k]) * alpha
+                    size = max(size, abs(r[k]) * weight[k])
+                if size < tolerance:
+                    converged = True
+                    break
+            if not converged:
+                return count // every
+            stages[i] = yd
+        y[:] = Y
+        age += 1
+        accepted(t + step, y, yd, data, power)
+        if (count + 1) % every == 0:
+            ys[count // every] = y
+            yds[count // every] = yd
+    return ys.shape[0]
 
 
 def integrate(
@@ -33,40 +86,20 @@ def integrate(
     step: float,
     every: int,
     samples: int,
-    newton: float = 1e-4,
+    tolerance: float = 1e-6,
 ) -> tuple[np.ndarray, np.ndarray]:
-    """y and y' (samples, n) after each ``every`` steps; ``newton`` is in units of 1/``weight``."""
-    residual, linearise, factor, backsolve, accepted, _ = bearing.functions
-    args, power = bearing.args, np.zeros(len(POWERS))
-    alpha = 1.0 / (step * _G)
-    r, stages = np.empty_like(y), np.empty((3, len(y)))
+    """y and y' (samples, n) after each ``every`` steps; ``tolerance`` in units of 1/``weight``."""
+    functions, data = bearing._advance.signatures[0][:2]
+    signature = types.int64(
+        functions, data, _REAL, _VECTOR, _VECTOR, _VECTOR, _MATRIX, _VECTOR, _REAL, _COUNT, _REAL,
+        _VECTOR, _MATRIX, _MATRIX,
+    )  # fmt: skip
+    compiled = numba.njit(signature)(march.py_func)
     ys, yds = np.empty((samples, len(y))), np.empty((samples, len(y)))
-    age = _FRESH
-    for n in range(samples * every):
-        t = t0 + n * step
-        K = yd.copy()
-        for i in range(3):
-            psi = y + step * sum(a * k for a, k in zip(_A[i][:-1], stages, strict=False))
-            Y = psi + step * _G * K
-            now = t + _C[i] * step
-            for it in range(_ITERATIONS):
-                if age >= _FRESH or it == 6:
-                    linearise(now, Y, K, args)
-                    if not factor(alpha, args):
-                        raise RuntimeError("Newton's matrix is singular")
-                    age = 0
-                residual(now, Y, K, args, r)
-                backsolve(alpha, Y, r, args)
-                Y += r
-                K = (Y - psi) * alpha
-                if np.max(np.abs(r) * weight) < newton:
-                    break
-            else:
-                raise RuntimeError(f"no convergence at t = {now:.6e}")
-            stages[i] = K
-        y, yd = Y, K
-        age += 1
-        accepted(t + step, y, yd, args, power)
-        if (n + 1) % every == 0:
-            ys[n // every], yds[n // every] = y, yd
+    done = compiled(
+        bearing.functions, bearing.args, t0, y, yd, weight, _TABLE, _NODES, step, every, tolerance,
+        np.zeros(len(POWERS)), ys, yds,
+    )  # fmt: skip
+    if done < samples:
+        raise RuntimeError(f"no convergence after {done} samples")
     return ys, yds
