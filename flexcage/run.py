@@ -13,6 +13,7 @@ import numpy as np
 from flexcage.case import Case, load_case
 from flexcage.core.cache import cached_arrays
 from flexcage.core.errors import InputError
+from flexcage.core.threads import one_blas_thread
 from flexcage.core.timing import Stages
 from flexcage.mesh.cage_mesh import CageMesh
 from flexcage.mesh.quality import report_mesh
@@ -107,6 +108,7 @@ class Run:
         """Equivalent stress at named places, peaks, and the envelope over all samples."""
         return self.stages("stress", self._stress_history)
 
+    @one_blas_thread
     def _stress_history(self) -> StressHistory:
         ds, recovery = self.dataset, self.recovery
         assert self.cage is not None
@@ -121,6 +123,7 @@ class Run:
             settled=int(self.case.output.settle * ds.sizes["time"]),
         )
 
+    @one_blas_thread
     def stress(self, *, time: float | None = None) -> StressField:
         """Stress of the whole cage at ``time`` [s] by mode acceleration.
 
@@ -296,6 +299,7 @@ def check_resumed(folder: Path, case: Case) -> None:
         )
 
 
+@one_blas_thread
 def check_assembly(case: Case, mesh: CageMesh, cage: CageReduction | None, start: Start) -> None:
     """Warn of, or refuse, a cage that its assembly alone stresses too much."""
     if cage is None or not start.pinched:

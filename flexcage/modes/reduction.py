@@ -11,6 +11,7 @@ import numpy as np
 
 from flexcage.core.cache import cached_arrays
 from flexcage.core.hashing import content_hash
+from flexcage.core.threads import one_blas_thread
 from flexcage.fem.free import FreeBodySolver
 from flexcage.fem.model import FEModel, assemble
 from flexcage.geometry.cages import Defect, WindowCage
@@ -40,6 +41,7 @@ class CageReduction:
         return FreeBodySolver(self.model)
 
 
+@one_blas_thread
 def reduce_cage(
     mesh: CageMesh,
     *,

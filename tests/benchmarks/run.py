@@ -1,4 +1,4 @@
-"""Speed, accuracy and memory: what README.md beside this file describes. Measures, asserts nothing."""
+"""Speed, accuracy and memory, as README.md beside this file says. Measures, asserts nothing."""
 
 from __future__ import annotations
 

@@ -31,6 +31,9 @@ class Forces:
     race: np.ndarray
     cage: np.ndarray
 
+    def first(self, samples: int) -> Forces:
+        return Forces(self.race[:samples], self.cage[:samples])
+
     def error(self, reference: Forces) -> tuple[float, float]:
         """Relative L2 errors against a reference: races, cage."""
         pairs = ((self.race, reference.race), (self.cage, reference.cage))

@@ -33,7 +33,5 @@ def test_rigid_against_flexible():
 
 
 def test_defect_sweep():
-    plays = example("ex03_defect_sweep").main(**SHORT)
-    left = [200e-6, 100e-6, 10e-6]  # clearance less defect; walls yield, and a run may use less
-    assert all(moved < free + 20e-6 for moved, free in zip(plays, left, strict=True))
-    assert plays[-1] < 0.5 * plays[0]
+    first, _, last = example("ex03_defect_sweep").main(**{**SHORT, "solver.duration": "1 ms"})
+    assert last / first == pytest.approx(0.05 / 0.01, rel=0.03)

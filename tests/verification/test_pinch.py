@@ -1,0 +1,170 @@
+"""A roller that its deformed pocket squeezes: force and root stress against the full mesh.
+
+The program assembles the bearing by continuation in the defect's size and has the cage in modes
+and residual vectors; the reference is a rigid roller between two faces of the unreduced mesh.
+Pocket clearances: 0.2 mm across, 0.25 mm along.
+"""
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+import pytest
+from full_mesh import OUTWARD, Squeeze, reduced_compliance, station_rows
+from verification_bearing import bearing_of, bent, cage_of, log, n1013, pushed
+
+from flexcage.core.errors import InputError
+from flexcage.simulate import simulate
+from flexcage.stress.operators import von_mises
+from flexcage.stress.places import root_places
+from flexcage.stress.recovery import CageLoads, StressRecovery
+from flexcage.system.start import find_start
+
+DEFECTS = {
+    "bent 0.22 mm": (bent("0.22 mm"), 4, (0, 1)),
+    "bent 0.25 mm": (bent("0.25 mm"), 4, (0, 1)),
+    "shifted 0.25 mm": (bent("0.25 mm", shape="shifted"), 4, (0, 1)),
+    "pushed -0.26 mm": (pushed("-0.26 mm"), 5, (2, 3)),
+    "pushed -0.30 mm": (pushed("-0.30 mm"), 5, (2, 3)),
+}
+
+
+@dataclass(frozen=True)
+class Pinch:
+    """One assembled bearing, and the full mesh's answer to the same squeeze."""
+
+    case: object
+    cage: object
+    start: object
+    squeeze: Squeeze
+    pocket: int
+    faces: tuple
+    rows: np.ndarray  # (2 n_st, 3N)
+    answers: np.ndarray  # (3N, 2 n_st) of unit station forces
+    force: float
+    station: np.ndarray  # (2 n_st,)
+
+    @property
+    def recovery(self):
+        return StressRecovery(
+            self.cage.model, self.cage.basis, self.cage.interface, solver=self.cage.solver
+        )
+
+
+def wall_of(case, bearing, cage, pocket, faces) -> Squeeze:
+    """The squeeze as contact sees it: law, slices, and the wall interpolated between stations."""
+    data, b = bearing.data.model.pocket, case.bearing
+    along = data.s if faces[0] == 0 else data.points[:, 1]
+    size = b.roller_diameter if faces[0] == 0 else b.roller_length
+    gap = case.cage.pocket_width if faces[0] == 0 else case.cage.pocket_length
+    drop = data.drop if faces[0] == 0 else np.zeros(len(along))
+    unit = np.eye(cage.interface.stations.shape[1])
+    spread = np.stack(
+        [
+            np.stack([np.interp(along, cage.interface.stations[f], e) for e in unit], axis=1)
+            for f in faces
+        ]
+    )
+    offset = np.einsum("fks,fs->fk", spread, cage.interface.offset[pocket, list(faces)])
+    law = bearing.data.memory.pocket[pocket, list(faces), :2]
+    return Squeeze(depth=0.5 * (size - gap) - drop - offset, spread=spread, law=law)
+
+
+@pytest.fixture(scope="module", params=DEFECTS)
+def pinch(request):
+    defects, pocket, faces = DEFECTS[request.param]
+    case = n1013(defects=defects)
+    bearing, (_, cage) = bearing_of(case), cage_of(case)
+    start = find_start(bearing, limit_force=2e4)
+    squeeze = wall_of(case, bearing, cage, pocket, faces)
+    rows = np.concatenate([station_rows(cage, pocket, f) for f in faces])
+    answers = cage.solver.solve(np.ascontiguousarray(rows.T))
+    force, station = squeeze.solve(rows @ answers)
+    log.info("%s: %.1f N, full mesh %.1f N", request.param, start.pinch_force, force[0])
+    assert force[0] == pytest.approx(force[1], rel=1e-6)
+    return Pinch(case, cage, start, squeeze, pocket, faces, rows, answers, force[0], station)
+
+
+def test_the_assembly_is_an_equilibrium(pinch):
+    assert pinch.start.pinched == (pinch.pocket,)
+    assert pinch.start.residual < 1e-6
+    one, other = (
+        OUTWARD[f] * pinch.start.station[pinch.pocket, f, :, 2 if f < 2 else 0].sum()
+        for f in pinch.faces
+    )
+    assert one == pytest.approx(other, rel=1e-4) and one == pytest.approx(
+        pinch.start.pinch_force, rel=1e-3
+    )
+
+
+def test_pinch_force_against_the_full_mesh(pinch):
+    """Within 6 %: uniform and linear attachments are too stiff under a touch in the middle."""
+    assert pinch.start.pinch_force == pytest.approx(pinch.force, rel=0.06)
+    assert pinch.start.pinch_force > 0.999 * pinch.force  # a reduced cage is never softer
+
+
+def test_pinch_force_is_that_of_the_reduced_cage(pinch):
+    """The start solves the reduced problem; cutting the coupling of pockets costs under 0.5 %."""
+    cage, pocket, faces = pinch.cage, pinch.pocket, pinch.faces
+    cut, _ = pinch.squeeze.solve(reduced_compliance(cage, pocket, faces))
+    whole, _ = pinch.squeeze.solve(reduced_compliance(cage, pocket, faces, cut=False))
+    share = cut[0] / whole[0] - 1.0
+    log.info("the cut coupling changes %.1f N by %.2f %%", whole[0], 100.0 * share)
+    assert pinch.start.pinch_force == pytest.approx(cut[0], rel=1e-4)
+    assert abs(share) < 5e-3
+
+
+def test_root_stress_against_the_full_mesh(pinch):
+    """Largest equivalent stress in the pinched pocket's corners: as near as the force is."""
+    cage, recovery = pinch.cage, pinch.recovery
+    moved = recovery.displacement(CageLoads(station_forces=pinch.start.station))
+    full = (pinch.answers @ pinch.station).reshape(-1, 3)
+    corners = np.concatenate(
+        [
+            vertices
+            for name, vertices in root_places(cage.model, 22).items()
+            if name.startswith(f"pocket{pinch.pocket}_")
+        ]
+    )
+    ours, theirs = (von_mises(recovery.stress(u))[corners].max() for u in (moved, full))
+    log.info("root stress %.1f MPa, full mesh %.1f MPa", 1e-6 * ours, 1e-6 * theirs)
+    assert ours == pytest.approx(theirs, rel=0.06)
+    shape = ours / pinch.start.pinch_force * pinch.force / theirs
+    assert shape == pytest.approx(1.0, abs=0.01)  # per newton, stress by mode acceleration is exact
+
+
+@pytest.mark.xfail(reason="the wall is straight between seven stations: up to 30 % too soft")
+@pytest.mark.parametrize("size", ["0.22 mm", "0.25 mm"])
+def test_pinch_force_with_the_wall_as_it_is_bent(size):
+    """The same reference with the beam's deflection curve itself under every slice."""
+    case = n1013(defects=bent(size))
+    bearing, (_, cage) = bearing_of(case), cage_of(case)
+    squeeze = wall_of(case, bearing, cage, 4, (0, 1))
+    data, b = bearing.data.model.pocket, case.bearing
+    s = data.s / case.cage.pocket_length + 0.5
+    moved = case.defects[0].displacement * 16.0 * s**2 * (1.0 - s) ** 2
+    depth = 0.5 * (b.roller_diameter - case.cage.pocket_width) - data.drop
+    squeeze = replace(squeeze, depth=np.stack([depth + moved, depth]))
+    rows = np.concatenate([station_rows(cage, 4, f) for f in (0, 1)])
+    force, _ = squeeze.solve(rows @ cage.solver.solve(np.ascontiguousarray(rows.T)))
+    ours = find_start(bearing, limit_force=2e4).pinch_force
+    log.info("bent %s: %.1f N, the curve itself gives %.1f N", size, ours, force[0])
+    assert ours == pytest.approx(force[0], rel=0.06)
+
+
+def test_orders_of_magnitude():
+    """0.05 mm of interference along the axis: kilonewtons and a few hundred MPa (the paper's
+    320 MPa); 0.25 mm of a bent beam: about a kilonewton."""
+    forces = {}
+    for name in ("bent 0.25 mm", "pushed -0.30 mm"):
+        forces[name] = find_start(bearing_of(n1013(defects=DEFECTS[name][0])), limit_force=2e4)
+    assert 0.5e3 < forces["bent 0.25 mm"].pinch_force < 2e3
+    assert 1e3 < forces["pushed -0.30 mm"].pinch_force < 4e3
+
+
+def test_too_tight_an_assembly_is_refused():
+    case = n1013({"limits.assembly_force": "500 N"}, defects=bent("0.25 mm"))
+    with pytest.raises(InputError, match="cannot be assembled"):
+        simulate(case)
+    stressed = n1013({"limits.stress": "20 MPa"}, defects=bent("0.25 mm"))
+    with pytest.raises(InputError, match="limits.stress"):
+        simulate(stressed)
