@@ -1,0 +1,253 @@
+"""Everything a case may choose runs, and does what its name says."""
+
+import numpy as np
+import pytest
+from simulate_cases import PLACES, bent, n1013
+
+from flexcage.contacts.spec import FRICTION_LAWS, NORMAL_LAWS
+from flexcage.results.audit import energy_audit
+from flexcage.simulate import build_bearing, cage_mesh, simulate
+
+RIGID = {"cage.model": "rigid"}
+SHORT = {"solver.duration": "0.5 ms"}
+
+
+def finite(run):
+    for name, values in run.dataset.data_vars.items():
+        assert np.isfinite(values.values).all(), name
+    return run.dataset
+
+
+@pytest.mark.parametrize("friction", FRICTION_LAWS)
+@pytest.mark.parametrize("normal", NORMAL_LAWS)
+def test_every_law_at_every_place(normal, friction):
+    """Run, lose what the law loses, and balance."""
+    laws = {f"contacts.{p}.normal.law": normal for p in PLACES}
+    laws |= {f"contacts.{p}.friction.law": friction for p in PLACES}
+    if normal == "impact_step":
+        laws |= {f"contacts.{p}.normal.damping": "10 N*s/m" for p in PLACES}
+    run = simulate(n1013(RIGID, SHORT, laws, defects=bent("0.2 mm")))
+    lost = energy_audit(finite(run)).channels
+    assert (lost["race_damping"] == 0.0) == (normal == "elastic")
+    assert (lost["race_friction"] == 0.0) == (friction == "none")
+    assert lost["race_damping"] <= 0.0 and lost["pocket_friction"] <= 0.0
+
+
+@pytest.mark.parametrize("kind", ["none", "dry", "film"])
+@pytest.mark.parametrize("guidance", ["roller", "inner", "outer"])
+def test_lands(guidance, kind):
+    if guidance != "roller" and kind == "none":
+        pytest.skip("a guided cage needs its land")
+    size = {"cage.guidance": guidance, "contacts.land.kind": kind, **SHORT}
+    if guidance == "outer":
+        size["contacts.land.clearance"] = "1.955 mm"
+    ds = finite(simulate(n1013(RIGID, size)))
+    touched = np.abs(ds["land_force"].values).max()
+    assert (touched > 0.0) == (kind == "film")  # the dry land is 0.25 mm or more away
+
+
+@pytest.mark.parametrize("kind", ["none", "goksem_hargreaves", "blended"])
+def test_rolling_resistances(kind):
+    run = simulate(n1013(RIGID, SHORT, {"lubricant.rolling_resistance": kind}))
+    lost = energy_audit(finite(run)).channels["rolling_resistance"]
+    assert (lost == 0.0) == (kind == "none") and lost <= 0.0
+
+
+@pytest.mark.parametrize(
+    "spec",
+    [
+        {"modes.kind": "craig_bampton"},
+        {"modes.kind": "free_free"},
+        {"modes.dynamic": "all"},
+        {"mesh.order": 1},
+    ],
+    ids=str,
+)
+def test_bases(spec):
+    ds = finite(simulate(n1013(SHORT, spec, defects=bent("0.2 mm"))))
+    assert ds.sizes["mode"] >= 24
+    assert np.abs(ds["modal_coordinates"].values).max() > 0.0
+
+
+def mirrored(ds):
+    """Arrays of a run seen in the mirror z -> -z: roller i is roller -i, front is rear."""
+    order = -np.arange(ds.sizes["roller"]) % ds.sizes["roller"]
+    faces = ds["pocket_force"].values[:, order][:, :, [1, 0, 2, 3]]
+    return {
+        "pocket_force": faces,
+        "race_force": ds["race_force"].values[:, order],
+        "cage_position": ds["cage_position"].values * [1.0, 1.0, -1.0],
+        "inner_position": ds["inner_position"].values * [1.0, 1.0, -1.0],
+        "roller_spin": -ds["roller_omega"].values[:, order, 0],
+        "cage_speed": -ds["cage_omega"].values[:, 0],
+    }
+
+
+def plain(ds):
+    names = ("pocket_force", "race_force", "cage_position", "inner_position")
+    return {
+        **{name: ds[name].values for name in names},
+        "roller_spin": ds["roller_omega"].values[:, :, 0],
+        "cage_speed": ds["cage_omega"].values[:, 0],
+    }
+
+
+def test_reversed_rotation_is_the_mirror_image():
+    """Crossbeam 5 moved by +0.2 mm and 6000 rpm against crossbeam 18 by -0.2 mm and -6000 rpm."""
+    tight = {**RIGID, "solver.tolerance": "0.0003 um"}
+    forward = simulate(n1013(tight, defects=bent("0.2 mm")))
+    back = simulate(
+        n1013(tight, {"drive.speed": "-6000 rpm"}, defects=bent("-0.2 mm", crossbeam=18))
+    )
+    assert float(back.dataset["inner_speed"][-1]) < 0.0
+    assert float(forward.dataset["pocket_force"].max()) > 10.0
+    ours, theirs = mirrored(back.dataset), plain(forward.dataset)
+    for name, values in theirs.items():
+        early = slice(0, 70)  # up to 1.4 ms, before rounding errors of impacts grow
+        scale = np.abs(values[early]).max()
+        np.testing.assert_allclose(
+            ours[name][early], values[early], atol=5e-3 * scale, err_msg=name
+        )
+    slip = [run.summary["cage_slip_ratio"] for run in (forward, back)]
+    assert slip[1] == pytest.approx(slip[0], abs=1e-3)
+
+
+def test_a_bent_beam_shows_in_one_sense_of_rotation_and_the_other():
+    """Both senses run with the defect, and load the narrowed pocket 4 at its middle slices."""
+    for speed in ("6000 rpm", "-6000 rpm"):
+        ds = finite(simulate(n1013({"drive.speed": speed}, defects=bent("0.2 mm"))))
+        slices = ds["pocket_slice_force"].sel(crossbeam_face="front").values[:, 4].sum(axis=0)
+        assert slices.sum() > 0.0
+        assert slices[6:9].sum() > 0.8 * slices.sum()
+
+
+def test_misalignment_is_held_by_tilt_moments():
+    """The moment resists the tilt, turns with its sign, and grows with it; none without it."""
+    moments = {}
+    for tilt in (-0.2, 0.0, 0.1, 0.2):
+        run = simulate(n1013(RIGID, {"load.misalignment": f"{tilt} mrad"}))
+        held = finite(run)["multiplier"].isel(time=slice(20, None)).mean("time")
+        moments[tilt] = held.values[1:3]
+    assert np.abs(moments[0.0]).max() < 1e-3
+    about_z = {tilt: m[1] for tilt, m in moments.items()}
+    assert about_z[0.2] > 0.1  # N m: the constraint holds the ring in its tilt
+    assert about_z[-0.2] == pytest.approx(-about_z[0.2], rel=0.05)
+    assert 1.5 < about_z[0.2] / about_z[0.1] < 3.0
+
+
+def test_a_bushing_lets_the_outer_ring_move():
+    """It gives way by load over stiffness, and its acceleration is the ring's own."""
+    soft = {"mount.kind": "bushing", "mount.stiffness": "100 N/um", "mount.mass": "0.5 kg"}
+    run = simulate(n1013(RIGID, soft, {"solver.duration": "6 ms"}))
+    ds, b = finite(run), run.case.bearing
+    moved = ds["outer_position"].isel(time=slice(50, None)).mean("time").values
+    moving = (
+        b.inner_ring_mass + b.outer_ring_mass + 0.5 + 22 * b.roller_mass + run.summary["cage_mass"]
+    )
+    assert moved[1] == pytest.approx((1000.0 + 9.80665 * moving) / 1e8, rel=0.02)
+    assert abs(moved[2]) < 0.05 * moved[1] and moved[0] == 0.0
+    raw, smooth = (ds[f"outer_acceleration{n}"].values for n in ("", "_filtered"))
+    assert 1.0 < np.abs(raw).max() < 5e3
+    assert np.std(smooth[200:]) < np.std(raw[200:])
+    assert ds.sizes["time_hf"] * 5e-6 == pytest.approx(6e-3)
+
+
+def test_a_fixed_ring_reports_the_force_on_it():
+    """What its contact forces would give a free ring: 1000 N and weights and all over its mass."""
+    run = simulate(n1013(RIGID, {"solver.duration": "4 ms"}))
+    ds, b = finite(run), run.case.bearing
+    assert np.all(ds["outer_position"].values == 0.0)
+    mean = ds["outer_acceleration"].isel(time_hf=slice(200, None)).mean("time_hf").values
+    carried = 1000.0 + 9.80665 * (b.inner_ring_mass + 22 * b.roller_mass + run.summary["cage_mass"])
+    assert mean[0] * b.outer_ring_mass == pytest.approx(carried, rel=0.02)
+
+
+def test_a_compliant_shaft_drives():
+    """Torque through the shaft instead of the constraint; it winds up by torque over stiffness."""
+    stiffness = 2000.0
+    shaft = {
+        "drive.kind": "shaft",
+        "drive.shaft_stiffness": f"{stiffness} N*m/rad",
+        "drive.shaft_damping": "1 N*m*s/rad",
+        "solver.duration": "8 ms",
+    }
+    run = simulate(n1013(RIGID, shaft))
+    ds = finite(run).isel(time=slice(200, None))
+    fixed = simulate(n1013(RIGID, {"solver.duration": "8 ms"})).dataset.isel(time=slice(200, None))
+    assert np.all(ds["multiplier"].sel(constraint="drive_torque").values == 0.0)
+    torque = float(fixed["multiplier"].sel(constraint="drive_torque").mean())
+    speed = 6000 * np.pi / 30
+    wound = float((speed * ds["time"] - ds["inner_angle"]).mean())
+    assert torque > 0.0
+    assert wound == pytest.approx(torque / stiffness, rel=0.1)
+    assert float(ds["inner_speed"].mean()) == pytest.approx(speed, rel=1e-3)
+
+
+def test_speed_and_load_follow_their_tables():
+    """A ramp of the speed and a table of the load; the inner ring's angle is the integral."""
+    changing = {
+        "drive.ramp_to": "6600 rpm", "drive.ramp_start": "0.4 ms", "drive.ramp_time": "1 ms",
+        "load.times": ["0 ms", "1 ms", "2 ms"], "load.values": ["1000 N", "1000 N", "500 N"],
+    }  # fmt: skip
+    ds = finite(simulate(n1013(RIGID, changing)))
+    t, rpm = ds["time"].values, np.pi / 30
+    expected = np.interp(t, [0.4e-3, 1.4e-3], [6000 * rpm, 6600 * rpm])
+    np.testing.assert_allclose(ds["inner_speed"], expected, rtol=2e-5)  # its kinks are sampled
+    fine = np.linspace(0.0, 2e-3, 200_001)
+    speed = np.interp(fine, [0.4e-3, 1.4e-3], [6000 * rpm, 6600 * rpm])
+    angle = np.concatenate([[0.0], np.cumsum(0.5e-8 * (speed[1:] + speed[:-1]))])
+    np.testing.assert_allclose(ds["inner_angle"], np.interp(t, fine, angle), atol=1e-5)
+    held = ds["race_force"].sel(race="inner").sum("roller")
+    assert float(held[-1]) < 0.75 * float(held[:40].mean())
+
+
+def test_roller_scatter_is_seeded():
+    """The same seed gives the same rollers; their spread is what is asked."""
+    case = n1013(RIGID, {"bearing.roller_scatter": "1 um"})
+    mesh = cage_mesh(case)
+    one, again = (build_bearing(case, mesh, None).data.model.bodies.radius for _ in range(2))
+    np.testing.assert_array_equal(one, again)
+    assert 2.0 * np.std(one) == pytest.approx(1e-6, rel=0.4)
+    spread = finite(simulate(case))["race_force"].sel(race="inner").values
+    even = simulate(n1013(RIGID)).dataset["race_force"].sel(race="inner").values
+    assert np.abs(spread[0] - even[0]).max() > 10.0
+
+
+@pytest.mark.xfail(reason="build_bearing does not hand the case's seed on", strict=False)
+def test_another_seed_gives_other_rollers():
+    case = n1013(RIGID, {"bearing.roller_scatter": "1 um"})
+    mesh = cage_mesh(case)
+    radii = [
+        build_bearing(c, mesh, None).data.model.bodies.radius
+        for c in (case, case.replace("seed", 1))
+    ]
+    assert np.abs(radii[0] - radii[1]).max() > 0.1e-6
+
+
+def test_waviness_shakes_the_inner_ring():
+    """Two waves of 2 um a turn on the inner race: the ring's centre follows by about as much."""
+    moved = []
+    for amplitude in (0.0, 2.0):
+        wavy = {"bearing.inner_waviness": f"{amplitude} um", "bearing.inner_waviness_order": 2}
+        ds = finite(simulate(n1013(RIGID, wavy, {"solver.duration": "6 ms"})))
+        moved.append(float(np.ptp(ds["inner_position"].sel(axis="y").values[25:])))
+    assert moved[0] < 1e-6 < 1.5e-6 < moved[1] < 5e-6
+
+
+def test_outer_waviness_changes_the_race_forces():
+    forces = []
+    for amplitude in (0.0, 1.0):
+        wavy = {"bearing.outer_waviness": f"{amplitude} um", "bearing.outer_waviness_order": 11}
+        ds = finite(simulate(n1013(RIGID, SHORT, wavy)))
+        forces.append(ds["race_force"].sel(race="outer").values[0])
+    assert np.abs(forces[1] - forces[0]).max() > 10.0
+
+
+@pytest.mark.parametrize("model", ["rigid", "flexible"])
+def test_unbalance_moves_the_mass_centre(model):
+    """0.5 g mm at 90 degrees: the first moment of mass is just that, and the run goes on."""
+    heavy = {"cage.unbalance": "500 g*mm", "cage.unbalance_phase": "90 deg", "cage.model": model}
+    run = simulate(n1013(heavy))
+    c0 = build_bearing(run.case, run.mesh, run.cage).data.model.cage.c0
+    np.testing.assert_allclose(c0, [0.0, 0.0, 5e-4], atol=2e-7)
+    finite(run)

@@ -1,0 +1,98 @@
+"""A run that stopped goes on as if it had not, bit by bit; what was computed is kept."""
+
+import numpy as np
+import pytest
+from simulate_cases import Interrupted, bent, n1013
+
+from flexcage.core.errors import InputError, RunFailed
+from flexcage.results.store import RunStore
+from flexcage.simulate import load_run, simulate
+
+BLOCK = 50 / 50e3  # [s]
+
+
+def case_of(model, **sections):
+    return n1013(
+        {"cage.model": model, "solver.duration": "5 ms"}, defects=bent("0.2 mm"), **sections
+    )
+
+
+@pytest.fixture(scope="module")
+def unbroken():
+    return {model: simulate(case_of(model)) for model in ("rigid", "flexible")}
+
+
+def assert_same(ours, theirs):
+    """Datasets, steps and events of two runs, bit by bit."""
+    a, b = ours.dataset, theirs.dataset
+    assert set(a.variables) == set(b.variables)
+    for name in a.variables:
+        np.testing.assert_array_equal(a[name].values, b[name].values, err_msg=name)
+    for table in ("steps", "events"):
+        ones, others = (getattr(run.store, table)() for run in (ours, theirs))
+        for column in ones:
+            np.testing.assert_array_equal(ones[column], others[column], err_msg=column)
+
+
+@pytest.mark.parametrize(("model", "blocks"), [("rigid", 2), ("flexible", 1), ("flexible", 4)])
+def test_a_resumed_run_is_the_unbroken_one(tmp_path, unbroken, model, blocks):
+    case = case_of(model)
+    with pytest.raises(KeyboardInterrupt):
+        simulate(case, out=tmp_path, progress=Interrupted(blocks, BLOCK))
+    kept = RunStore.open(tmp_path / "results.zarr")
+    assert kept.blocks == blocks and not kept.complete
+    half = load_run(tmp_path).dataset
+    assert half.sizes["time"] == 50 * blocks and np.isfinite(half["roller_position"].values).all()
+    watch = Interrupted(10**6, BLOCK)
+    resumed = simulate(case, out=tmp_path, resume=True, progress=watch)
+    assert watch.begun == pytest.approx(blocks * BLOCK)
+    assert_same(resumed, unbroken[model])
+
+
+def test_a_run_on_disk_is_the_one_in_memory(tmp_path, unbroken):
+    stored = simulate(case_of("flexible"), out=tmp_path)
+    assert_same(stored, unbroken["flexible"])
+    again = load_run(tmp_path)
+    assert_same(again, unbroken["flexible"])
+    assert again.summary["cage_speed"] == stored.summary["cage_speed"]
+
+
+def test_resuming_a_finished_run_changes_nothing(tmp_path, unbroken):
+    simulate(case_of("rigid"), out=tmp_path)
+    assert_same(simulate(case_of("rigid"), out=tmp_path, resume=True), unbroken["rigid"])
+
+
+def test_another_case_is_not_resumed(tmp_path):
+    with pytest.raises(KeyboardInterrupt):
+        simulate(case_of("rigid"), out=tmp_path, progress=Interrupted(1, BLOCK))
+    with pytest.raises(InputError, match="differs"):
+        simulate(case_of("rigid").replace("load.radial", 900.0), out=tmp_path, resume=True)
+    renamed = case_of("rigid").replace("name", "the same physics")
+    assert simulate(renamed, out=tmp_path, resume=True).store.complete
+
+
+def test_a_solver_that_runs_out_of_steps_keeps_what_it_has(tmp_path):
+    """It stops in the middle of a block; samples before are there, and the sentence says why."""
+    case = case_of("rigid").replace("solver.max_steps", 900)
+    with pytest.raises(RunFailed, match=r"stopped at t = .* ms: solver.max_steps") as failure:
+        simulate(case, out=tmp_path)
+    assert "kept" in str(failure.value)
+    run = load_run(tmp_path)
+    samples = run.dataset.sizes["time"]
+    assert 0 < samples < 250 and samples % 50
+    assert not run.store.complete and run.dataset.attrs["complete"] == 0
+    for name, values in run.dataset.data_vars.items():
+        assert np.isfinite(values.values).all(), name
+    steps = run.store.steps()["time"]
+    assert len(steps) == 900 and run.dataset["time"].values[-1] <= steps[-1]
+    assert run.summary["inner_speed"] == pytest.approx(6000 * np.pi / 30)
+
+
+@pytest.mark.xfail(raises=ValueError, reason="a block that fails before its first sample")
+def test_a_smallest_step_that_is_too_large_ends_with_a_sentence(tmp_path):
+    case = case_of("rigid").replace(
+        si=False, **{"solver.min_step": "0.09 us", "solver.tolerance": "1e-6 um"}
+    )
+    with pytest.raises(RunFailed, match="solver.min_step"):
+        simulate(case, out=tmp_path)
+    assert RunStore.open(tmp_path / "results.zarr").n_time < 250

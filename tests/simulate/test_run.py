@@ -1,0 +1,151 @@
+"""What a run gives: its folder, its dataset, its summary, with figures of the expected size."""
+
+import json
+
+import numpy as np
+import pytest
+from simulate_cases import bent, n1013
+
+from flexcage.case import load_case
+from flexcage.core.errors import InputError
+from flexcage.results.registry import VARIABLES
+from flexcage.results.store import RunStore
+from flexcage.simulate import load_run, simulate
+
+RPM = np.pi / 30.0
+LONG = {"solver.duration": "10 ms"}
+
+
+@pytest.fixture(scope="module")
+def flexible(tmp_path_factory):
+    folder = tmp_path_factory.mktemp("flexible")
+    return simulate(n1013(LONG, defects=bent("0.2 mm")), out=folder)
+
+
+@pytest.fixture(scope="module")
+def rigid():
+    return simulate(n1013(LONG, {"cage.model": "rigid"}, defects=bent("0.2 mm")))
+
+
+def test_the_folder_of_a_run(flexible):
+    folder = flexible.folder
+    assert {"case.toml", "results.zarr", "summary.txt", "summary.json"} <= {
+        p.name for p in folder.iterdir()
+    }
+    assert load_case(folder / "case.toml").hash == flexible.case.hash
+    stored = json.loads((folder / "summary.json").read_text("utf-8"))
+    assert stored["Speeds"]["cage_speed"]["value"] == flexible.summary["cage_speed"]
+    text = (folder / "summary.txt").read_text("utf-8")
+    assert "Cage speed" in text and "rpm" in text
+    again = load_run(folder)
+    assert again.case == flexible.case
+    assert again.store.complete and again.dataset.attrs["complete"] == 1
+    assert str(again.summary) == str(flexible.summary)
+
+
+def test_a_folder_with_a_run_is_not_overwritten(flexible):
+    before = (flexible.folder / "results.zarr" / "_run" / "commit.json").read_text("utf-8")
+    with pytest.raises(InputError):
+        simulate(flexible.case, out=flexible.folder)
+    assert RunStore.open(flexible.folder / "results.zarr").complete
+    after = (flexible.folder / "results.zarr" / "_run" / "commit.json").read_text("utf-8")
+    assert after == before
+
+
+def test_a_run_in_memory(rigid, tmp_path, monkeypatch):
+    assert rigid.folder is None and rigid.store.path is None
+    assert "samples" in repr(rigid)
+    with pytest.raises(InputError, match="rigid cage has no stress"):
+        rigid.stress()
+
+
+@pytest.mark.parametrize("which", ["flexible", "rigid"])
+def test_every_variable_is_there_complete_and_finite(request, which):
+    ds = request.getfixturevalue(which).dataset
+    expected = {v for v in VARIABLES if which == "flexible" or not v.startswith("modal_")}
+    assert set(ds.data_vars) == expected
+    for name, values in ds.data_vars.items():
+        assert np.isfinite(values.values).all(), name
+        assert values.attrs["units"] == VARIABLES[name].unit
+    assert ds.sizes["time"] == 500 and ds.sizes["time_hf"] == 2000
+    np.testing.assert_allclose(ds["time"].values, np.arange(1, 501) / 50e3, rtol=1e-12)
+
+
+@pytest.mark.parametrize("which", ["flexible", "rigid"])
+def test_recorded_motion_agrees_with_itself(request, which):
+    """Angles are the integrals of speeds, quaternions are unit, the drive keeps its speed."""
+    ds = request.getfixturevalue(which).dataset
+    t = ds["time"].values
+    np.testing.assert_allclose(ds["inner_speed"], 6000 * RPM, rtol=1e-9)
+    np.testing.assert_allclose(ds["inner_angle"], 6000 * RPM * t, rtol=1e-9)
+    quaternion = ds["cage_quaternion"].values
+    np.testing.assert_allclose(np.linalg.norm(quaternion, axis=1), 1.0, atol=1e-12)
+    turned = np.unwrap(2.0 * np.arctan2(quaternion[:, 1], quaternion[:, 0]), period=2 * np.pi)
+    spin = ds["cage_omega"].sel(axis="x").values
+    gained = np.concatenate([[0.0], np.cumsum(0.5 * np.diff(t) * (spin[1:] + spin[:-1]))])
+    np.testing.assert_allclose(turned - turned[0], gained, atol=2e-4)
+    centre, velocity = ds["cage_position"].values, ds["cage_velocity"].values
+    moved = np.cumsum(0.5 * np.diff(t)[:, None] * (velocity[1:] + velocity[:-1]), axis=0)
+    np.testing.assert_allclose(centre[1:] - centre[0], moved, atol=1e-6)
+
+
+def test_the_cage_comes_to_ride_on_its_land(flexible):
+    """Gravity and friction bring it there within 10 ms; its force is then newtons to tens."""
+    force = np.linalg.norm(flexible.dataset["land_force"].values, axis=1)
+    assert force[:100].max() == 0.0 and 1.0 < force.max() < 500.0
+
+
+def test_slices_and_stations_sum_to_the_faces(flexible):
+    ds = flexible.dataset
+    faces = ds["pocket_force"].values
+    np.testing.assert_allclose(
+        ds["pocket_slice_force"].sum("slice").values, faces[:, :, :2], rtol=1e-4, atol=1e-4
+    )
+    stations = ds["station_force"].sum("station")
+    for face, (component, sign) in enumerate((("psi", 1), ("psi", -1), ("x", 1), ("x", -1))):
+        along = sign * stations.isel(face=face).sel(cyl=component).values
+        np.testing.assert_allclose(along, faces[:, :, face], rtol=1e-4, atol=1e-4)
+
+
+@pytest.mark.parametrize("which", ["flexible", "rigid"])
+def test_orders_of_magnitude(request, which):
+    """The N1013 at 6000 rpm and 1000 N, from different prototypes."""
+    run = request.getfixturevalue(which)
+    s, ds = run.summary, run.dataset
+    assert s["epicyclic_speed"] == pytest.approx(2709.09 * RPM, rel=1e-5)
+    assert s["roller_spin_ideal"] == pytest.approx(27937.5 * RPM, rel=1e-5)
+    assert -0.01 < s["cage_slip_ratio"] < 0.05
+    assert abs(s["slip_loaded"]) < 0.02
+    assert 0.0 < s["slip_unloaded"] < 0.1
+    assert 300.0 < s["race_force_inner"] < 345.0
+    assert 0.5 < s["pocket_force_mean"] < 20.0
+    assert 10.0 < s["pocket_force_peak"] < 200.0
+    assert s["energy_relative"] < 1e-3
+    assert 0.075 < s["cage_mass"] < 0.1
+    away = ds["race_force"].sel(race="outer").values[:, 9:14]  # opposite the load
+    assert np.median(away) == pytest.approx(10.48, rel=0.05)
+
+
+def test_stress_has_the_expected_size(flexible):
+    """0.2 to 0.3 MPa at a crossbeam's root per newton on its middle, forces up to about 100 N."""
+    s, h = flexible.summary, flexible.stress_history
+    assert 600.0 < s["first_frequency"] < 1200.0
+    assert 1e6 < s["stress_root"] <= s["stress_peak"] < 60e6
+    force = flexible.dataset["pocket_force"].values[..., :2].max(axis=(1, 2))
+    per_newton = h.places.max(axis=1)[force > 20.0] / force[force > 20.0]
+    assert 0.03e6 < np.median(per_newton) < 0.5e6
+    field = flexible.stress()
+    assert field.von_mises.max() >= 0.99 * h.peak.max()
+    assert np.abs(field.displacement).max() < 0.1e-3
+
+
+def test_inner_ring_carries_the_load(rigid):
+    """Race forces on the rollers, summed as vectors, hold 1000 N and the rings' weight."""
+    ds = rigid.dataset.isel(time=slice(100, None))
+    psi = ds["roller_position"].sel(cyl="psi")
+    force = ds["race_force"].sel(race="inner")
+    weight = rigid.case.bearing.inner_ring_mass * 9.80665
+    assert float((force * np.cos(psi)).sum("roller").mean()) == pytest.approx(
+        1000 + weight, rel=2e-3
+    )
+    assert abs(float((force * np.sin(psi)).sum("roller").mean())) < 10.0
