@@ -125,15 +125,15 @@ class Recorder:
             )
             logs.append(log[:rows])
         done = sample // ratio
-        arrays = self._arrays(ys[ratio - 1 :: ratio][:done], yds[ratio - 1 :: ratio][:done], done)
-        arrays["work"] = quads[ratio - 1 :: ratio][:done]
-        fine = self._fine(yds[: done * ratio], done * ratio)
-        steps = dict(zip(bdf.LOG_COLUMNS, np.concatenate(logs).T, strict=True))
         whole = outcome == bdf.DONE
-        if done:
-            self.store.write_block(
-                index, arrays, fine, self._checkpoint() if whole else None, steps, self._events()
-            )
+        if done:  # a solver that stops before the first sample leaves nothing to write
+            main = slice(ratio - 1, done * ratio, ratio)
+            arrays = self._arrays(ys[main], yds[main], done)
+            arrays["work"] = quads[main]
+            fine = self._fine(yds[: done * ratio], done * ratio)
+            steps = dict(zip(bdf.LOG_COLUMNS, np.concatenate(logs).T, strict=True))
+            checkpoint = self._checkpoint() if whole else None
+            self.store.write_block(index, arrays, fine, checkpoint, steps, self._events())
         if not whole:
             raise RunFailed(
                 f"the solver stopped at t = {self.time * 1e3:.4f} ms: {bdf.OUTCOMES[outcome]}; "

@@ -213,7 +213,6 @@ def test_roller_scatter_is_seeded():
     assert np.abs(spread[0] - even[0]).max() > 10.0
 
 
-@pytest.mark.xfail(reason="build_bearing does not hand the case's seed on", strict=False)
 def test_another_seed_gives_other_rollers():
     case = n1013(RIGID, {"bearing.roller_scatter": "1 um"})
     mesh = cage_mesh(case)

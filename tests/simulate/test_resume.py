@@ -88,7 +88,6 @@ def test_a_solver_that_runs_out_of_steps_keeps_what_it_has(tmp_path):
     assert run.summary["inner_speed"] == pytest.approx(6000 * np.pi / 30)
 
 
-@pytest.mark.xfail(raises=ValueError, reason="a block that fails before its first sample")
 def test_a_smallest_step_that_is_too_large_ends_with_a_sentence(tmp_path):
     case = case_of("rigid").replace(
         si=False, **{"solver.min_step": "0.09 us", "solver.tolerance": "1e-6 um"}
