@@ -20,7 +20,10 @@ _LAND_TOLERANCE = 5e-6  # m between a stated land clearance and the one that the
 def check_case(case: Case) -> None:
     """Raise InputError for the first thing in the case that cannot be."""
     check_geometry(case.bearing, case.cage, case.defects)
-    for find in (_find_in_tables, _find_in_ramps, _find_in_solver, _find_in_laws, _find_in_land):
+    for find in (
+        _find_in_tables, _find_in_ramps, _find_in_solver, _find_in_output, _find_in_laws,
+        _find_in_land,
+    ):  # fmt: skip
         for where, sentence in find(case):
             raise InputError(sentence, where=where)
 
@@ -68,6 +71,18 @@ def _find_in_solver(case: Case) -> Iterator[Finding]:
             "solver.min_step",
             f"solver.min_step is {describe(solver.min_step, 'us')}, but must not exceed "
             f"solver.max_step, {describe(solver.max_step, 'us')}.",
+        )
+
+
+def _find_in_output(case: Case) -> Iterator[Finding]:
+    output = case.output
+    ratio = output.vibration_rate / output.rate
+    if abs(ratio - round(ratio)) > 1e-9 * ratio or ratio < 1.0:
+        yield (
+            "output.vibration_rate",
+            f"output.vibration_rate ({output.vibration_rate / 1e3:g} kHz) must be a whole multiple "
+            f"of output.rate ({output.rate / 1e3:g} kHz), for instance "
+            f"{max(round(ratio), 1) * output.rate / 1e3:g} kHz.",
         )
 
 

@@ -1,4 +1,4 @@
-"""Cage land against a ring land: dry contact at stations round the cage, or a film."""
+"""Cage land against a ring land: dry contact where it is nearest, or a film."""
 
 from __future__ import annotations
 
@@ -26,19 +26,34 @@ class LandData(NamedTuple):
     film: np.ndarray  # (4,) eta, L, R, C
 
 
+class LandWork(NamedTuple):
+    """Buffers of the land's contact."""
+
+    u: np.ndarray  # (nl,) radial displacement of the stations by the modes
+    d: np.ndarray  # (nl,) penetration of one land's stations
+    weight: np.ndarray  # (3,) of the stations that share a touch
+
+
+def land_work(n_stations: int) -> LandWork:
+    return LandWork(np.zeros(n_stations), np.zeros(n_stations), np.zeros(3))
+
+
 @kernel
-def land_contact(A, Rc, Vc, w, q, qd, Rr, Vr, spin, data, p, laws, sl, Fc, Mc, Qm, Fr, Mr, sums):
+def land_contact(A, Rc, Vc, w, q, qd, Rr, Vr, spin, data, p, laws, sl, lw, Fc, Mc, Qm, Fr, Mr, sums):
     """Land forces: Fc, Qm on the cage (space, modal), Mc about its origin; Fr, Mr on the ring.
 
     Rc, Vc, w: cage origin, velocity, angular velocity in space; Rr, Vr, spin: ring centre,
-    velocity, spin about x. ``sums``: elastic energy, damping power, friction power, film power.
+    velocity, spin about x; p (2, N_NORMAL) for the lands at -x and +x. Dry contact acts where the
+    penetration round the land has a maximum: the vertex of the parabola through three stations,
+    which share its force by the same weights, so that a cage that rolls on its land does not feel
+    the stations pass. ``sums``: elastic energy, damping power, friction power, film power; then
+    of each land its normal force and the approach speed where it is nearest to the ring.
     """
     zero(sums)
     if data.kind == 0:
         return False
-    law, friction = laws
-    ex, ez = Rc[1] - Rr[1], Rc[2] - Rr[2]
-    reach = sqrt(ex * ex + ez * ez) + (abs(A[1, 0]) + abs(A[2, 0])) * abs(data.x[1])
+    ey, ez = Rc[1] - Rr[1], Rc[2] - Rr[2]
+    reach = sqrt(ey * ey + ez * ez) + (abs(A[1, 0]) + abs(A[2, 0])) * abs(data.x[1])
     for m in range(q.shape[0]):
         reach += data.phi_max[m] * abs(q[m])
     active = False
@@ -48,40 +63,86 @@ def land_contact(A, Rc, Vc, w, q, qd, Rr, Vr, spin, data, p, laws, sl, Fc, Mc, Q
     if reach < data.clearance:
         return active
     n_l = data.angle.shape[0]
-    e, t, c, f, v = np.empty(3), np.empty(3), np.empty(3), np.empty(3), np.empty(3)
+    e, c = np.empty(3), np.empty(3)
+    for s in range(n_l):
+        lw.u[s] = 0.0
+        for m in range(q.shape[0]):
+            lw.u[s] += data.phi[s, 1, m] * q[m]
+    ring = data.radius - data.inner * data.clearance
     for side in range(2):
+        deepest = 0
         for s in range(n_l):
-            ur = ud = 0.0
-            for m in range(q.shape[0]):
-                ur += data.phi[s, 1, m] * q[m]
-                ud += data.phi[s, 1, m] * qd[m]
-            ca, sa = data.angle[s, 0], data.angle[s, 1]
-            for j in range(3):
-                e[j] = A[j, 1] * ca + A[j, 2] * sa
-                c[j] = data.x[side] * A[j, 0] + (data.radius + ur) * e[j]
+            _station(A, data, side, s, lw.u[s], e, c)
             y, z = Rc[1] + c[1] - Rr[1], Rc[2] + c[2] - Rr[2]
-            d = sqrt(y * y + z * z)
-            ring = data.radius - data.inner * data.clearance
-            sl.d[0] = data.inner * (ring - d)
-            if sl.d[0] <= 0.0:
+            lw.d[s] = data.inner * (ring - sqrt(y * y + z * z))
+            if lw.d[s] > lw.d[deepest]:
+                deepest = s
+        for s in range(n_l):
+            before, here, after = lw.d[s - 1], lw.d[s], lw.d[(s + 1) % n_l]
+            if here < before or here < after or (here == after and here > before):
                 continue
-            active = True
-            n1, n2 = data.inner * y / d, data.inner * z / d  # normal on the cage
-            for j in range(3):
-                v[j] = Vc[j] - Vr[j]
-            v[0] += w[1] * c[2] - w[2] * c[1]
-            v[1] += w[2] * c[0] - w[0] * c[2] + spin * z
-            v[2] += w[0] * c[1] - w[1] * c[0] - spin * y
-            sl.v[0] = -(n1 * v[1] + n2 * v[2]) - (n1 * e[1] + n2 * e[2]) * ud
+            bend = before - 2.0 * here + after
+            x = 0.5 * (before - after) / bend if bend < 0.0 else 0.0
+            sl.d[0] = here - 0.25 * (before - after) * x
+            if sl.d[0] > 0.0 or s == deepest:
+                lw.weight[0], lw.weight[1] = 0.5 * x * (x - 1.0), 1.0 - x * x
+                lw.weight[2] = 0.5 * x * (x + 1.0)
+                active = True
+                _touch(
+                    A, Rc, Vc, w, qd, Rr, Vr, spin, data, side, s, p[side], laws, sl, lw,
+                    Fc, Mc, Qm, Fr, Mr, sums,
+                )  # fmt: skip
+    return active
+
+
+@kernel
+def _station(A, data, side, s, u, e, c):
+    """Outward direction ``e`` of a station and its place ``c`` from the cage's origin, in space."""
+    ca, sa = data.angle[s, 0], data.angle[s, 1]
+    for j in range(3):
+        e[j] = A[j, 1] * ca + A[j, 2] * sa
+        c[j] = data.x[side] * A[j, 0] + (data.radius + u) * e[j]
+
+
+@kernel
+def _touch(
+    A, Rc, Vc, w, qd, Rr, Vr, spin, data, side, middle, p, laws, sl, lw, Fc, Mc, Qm, Fr, Mr, sums
+):
+    """One touch of a land, shared by three stations with ``lw.weight``; penetration in sl.d[0]."""
+    law, friction = laws
+    e, c, v, f = np.empty(3), np.empty(3), np.empty(3), np.empty(3)
+    n_l = data.angle.shape[0]
+    approach = slide = 0.0
+    N = g = 0.0
+    for turn in range(2):  # first the rates, then the forces that follow from them
+        if turn == 1:
+            sl.v[0], sl.u[0] = approach, abs(slide)
             law(1, sl.d, sl.v, p, sl.N, sl.Nd, sl.Nv)
             N = sl.N[0]
             if N <= 0.0:
-                continue
-            t[0], t[1], t[2] = 0.0, -n2, n1
-            sl.u[0] = abs(t[1] * v[1] + t[2] * v[2])
+                return
             friction(1, sl.u, data.friction, sl.g, sl.dg)
-            g = sl.g[0] * (t[1] * v[1] + t[2] * v[2])
-            f[0], f[1], f[2] = 0.0, N * (n1 - g * t[1]), N * (n2 - g * t[2])
+            g = sl.g[0] * slide
+        for k in range(3):
+            s = (middle + k - 1 + n_l) % n_l
+            _station(A, data, side, s, lw.u[s], e, c)
+            y, z = Rc[1] + c[1] - Rr[1], Rc[2] + c[2] - Rr[2]
+            d = sqrt(y * y + z * z)
+            n1, n2 = data.inner * y / d, data.inner * z / d  # normal on the cage; tangent (-n2, n1)
+            lift = n1 * e[1] + n2 * e[2]  # of the wall's radial displacement along the normal
+            if turn == 0:
+                ud = 0.0
+                for m in range(qd.shape[0]):
+                    ud += data.phi[s, 1, m] * qd[m]
+                for j in range(3):
+                    v[j] = Vc[j] - Vr[j]
+                v[1] += w[2] * c[0] - w[0] * c[2] + spin * z
+                v[2] += w[0] * c[1] - w[1] * c[0] - spin * y
+                approach -= lw.weight[k] * (n1 * v[1] + n2 * v[2] + lift * ud)
+                slide += lw.weight[k] * (n1 * v[2] - n2 * v[1])
+                continue
+            share = lw.weight[k] * N
+            f[0], f[1], f[2] = 0.0, share * (n1 + g * n2), share * (n2 - g * n1)
             for j in range(3):
                 Fc[j] += f[j]
                 Fr[j] -= f[j]
@@ -92,13 +153,17 @@ def land_contact(A, Rc, Vc, w, q, qd, Rr, Vr, spin, data, p, laws, sl, Fc, Mc, Q
             Mr[0] -= y * f[2] - z * f[1]
             Mr[1] += x * f[2]
             Mr[2] -= x * f[1]
-            for m in range(q.shape[0]):
+            for m in range(qd.shape[0]):
                 Qm[m] += (f[1] * e[1] + f[2] * e[2]) * data.phi[s, 1, m]
-            law(1, sl.d, sl.zero, p, sl.dg, sl.Nd, sl.Nv)
-            sums[0] += sl.dg[0] * sl.d[0] / (p[1] + 1.0)
-            sums[1] -= (N - sl.dg[0]) * sl.v[0]
-            sums[2] -= N * sl.g[0] * sl.u[0] ** 2
-    return active
+        if turn == 0:
+            sums[6 + side] = approach
+            if sl.d[0] <= 0.0:
+                return
+    law(1, sl.d, sl.zero, p, sl.dg, sl.Nd, sl.Nv)
+    sums[4 + side] += N
+    sums[0] += sl.dg[0] * sl.d[0] / (p[1] + 1.0)
+    sums[1] -= (N - sl.dg[0]) * sl.v[0]
+    sums[2] -= N * sl.g[0] * sl.u[0] ** 2
 
 
 @kernel

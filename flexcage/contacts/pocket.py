@@ -1,7 +1,9 @@
 """Roller in its pocket: crossbeam faces in slices, side beams over points of the roller's end.
 
-The wall is deformed: defect offset and dynamic modes are read at a few stations per face and
-interpolated; forces go back to the same stations with the same weights. The residual
+The wall is deformed: dynamic modes are read at a few stations per face and interpolated, and forces
+go back to the same stations with the same weights; a defect's offset is known on a finer grid. The
+normal force leans with the wall's slope along the face, so that it is the slope of an energy. The
+residual
 (quasi-static) flexibility is condensed pocket by pocket inside this kernel: with psi(x) the
 pocket's residual shapes and C their compliance, coordinates a solve
 
@@ -42,7 +44,9 @@ class PocketData(NamedTuple):
     half_roller: float  # half of the roller's overall length
     x0: np.ndarray  # (4,) first station
     dx: np.ndarray  # (4,) station spacing
-    offset: np.ndarray  # (Z, 4, nst) stress-free outward offset
+    offset: np.ndarray  # (Z, 4, no) stress-free outward offset, on a grid of its own
+    grid: np.ndarray  # (2, 4) first point and spacing of that grid
+    low: np.ndarray  # (Z, 4) least offset of a face
     phi: np.ndarray  # (Z, 4, nst, 3, nm)
     phi_max: np.ndarray  # (nm,) largest normal value over all stations
     res: np.ndarray  # (Z, 4, nst, 8)
@@ -58,6 +62,7 @@ class PocketWork(NamedTuple):
     v: np.ndarray  # (4, n)
     j: np.ndarray  # (4, n) station index
     w: np.ndarray  # (4, n) weight of station j+1
+    slope: np.ndarray  # (4, n) of the wall's offset along the face
     near: np.ndarray  # (4,) face may touch
     wall: np.ndarray  # (4, nst, 3) modal displacement, then velocity, of stations
     st: np.ndarray  # (4, nst, 3) forces on the cage, pocket axes
@@ -77,10 +82,15 @@ class PocketWork(NamedTuple):
 def pocket_work(n_slices: int, n_points: int, n_stations: int) -> PocketWork:
     n, st, z = max(n_slices, n_points), n_stations, np.zeros
     return PocketWork(
-        z((3, 3)), z((4, n)), z((4, n)), z((4, n), np.int64), z((4, n)), z(4, np.int64),
-        z((4, st, 3)), z((4, st, 3)), z(8), z((4, st, 6)), z((4, st, 6)), z((4, st, st)),
-        z((4, st, 8)), z((8, 8)), z((8, 9)), z(4), z(4), z((4, n)), z((4, n)),
+        z((3, 3)), z((4, n)), z((4, n)), z((4, n), np.int64), z((4, n)), z((4, n)),
+        z(4, np.int64), z((4, st, 3)), z((4, st, 3)), z(8), z((4, st, 6)), z((4, st, 6)),
+        z((4, st, st)), z((4, st, 8)), z((8, 8)), z((8, 9)), z(4), z(4), z((4, n)), z((4, n)),
     )  # fmt: skip
+
+
+def with_offset(data: PocketData, offset: np.ndarray) -> PocketData:
+    """The pockets with other stress-free offsets (Z, 4, no) [m]."""
+    return data._replace(offset=np.ascontiguousarray(offset), low=offset.min(axis=2))
 
 
 @kernel
@@ -135,6 +145,14 @@ def _face_modes(data, i, f, q, wall):
 
 
 @kernel
+def _cell(x, first, spacing, n):
+    """Index j and weight w of x between points j and j+1 of a grid of n; held at its ends."""
+    place = (x - first) / spacing
+    j = min(max(int(place), 0), n - 2)
+    return j, min(max(place - j, 0.0), 1.0)
+
+
+@kernel
 def _penetrations(pose, data, i, Rw, D, q, margin, pw):
     """Penetration d0 of every slice of every face that is near; returns whether any touches."""
     G = pw.G
@@ -146,13 +164,11 @@ def _penetrations(pose, data, i, Rw, D, q, margin, pw):
         ax[c] = G[0, 0] * pose.axis[c, 0] + G[0, 1] * pose.axis[c, 1] + G[0, 2] * pose.axis[c, 2]
         at[c] = G[2, 0] * pose.axis[c, 0] + G[2, 1] * pose.axis[c, 1] + G[2, 2] * pose.axis[c, 2]
     reach = abs(data.s[data.s.shape[0] - 1])
-    n_st = data.offset.shape[2]
+    n_st, n_o = data.phi.shape[2], data.offset.shape[2]
     touch = False
     for f in range(4):
         sgn = 1.0 if f % 2 == 0 else -1.0
-        low = data.offset[i, f, 0]
-        for s in range(n_st):
-            low = min(low, data.offset[i, f, s])
+        low = data.low[i, f]
         if f < 2:
             near = sgn * T + abs(at[0]) * reach + Rw - data.half[0] - low + margin
         else:
@@ -161,7 +177,7 @@ def _penetrations(pose, data, i, Rw, D, q, margin, pw):
         pw.near[f] = 1 if near > 0.0 else 0
         if pw.near[f] == 0:
             continue
-        comp = 2 if f < 2 else 0
+        comp, along_comp = (2, 0) if f < 2 else (0, 2)
         if q.shape[0] > 0:
             _face_modes(data, i, f, q, pw.wall)
         else:
@@ -176,13 +192,21 @@ def _penetrations(pose, data, i, Rw, D, q, margin, pw):
                 y, z = data.points[k, 0], data.points[k, 1]
                 along = T + h * at[0] + y * at[1] + z * at[2]
                 depth = sgn * (X + h * ax[0] + y * ax[1] + z * ax[2]) - data.half[1]
-            pos = (along - data.x0[f]) / data.dx[f]
-            j = min(max(int(pos), 0), n_st - 2)
-            w = min(max(pos - j, 0.0), 1.0)
+            j, w = _cell(along, data.x0[f], data.dx[f], n_st)
+            # what lies under this point has moved there along the face
+            along -= (1.0 - w) * pw.wall[f, j, along_comp] + w * pw.wall[f, j + 1, along_comp]
+            j, w = _cell(along, data.x0[f], data.dx[f], n_st)
             pw.j[f, k], pw.w[f, k] = j, w
-            off = (1.0 - w) * data.offset[i, f, j] + w * data.offset[i, f, j + 1]
-            mod = (1.0 - w) * pw.wall[f, j, comp] + w * pw.wall[f, j + 1, comp]
-            pw.d0[f, k] = depth - off - sgn * mod
+            rise = pw.wall[f, j + 1, comp] - pw.wall[f, j, comp]
+            o, g = _cell(along, data.grid[0, f], data.grid[1, f], n_o)
+            step = data.offset[i, f, o + 1] - data.offset[i, f, o]
+            pw.slope[f, k] = 0.0
+            if 0.0 < g < 1.0:
+                pw.slope[f, k] += step / data.grid[1, f]
+            if 0.0 < w < 1.0:
+                pw.slope[f, k] += sgn * rise / data.dx[f]
+            wall = data.offset[i, f, o] + g * step + sgn * (pw.wall[f, j, comp] + w * rise)
+            pw.d0[f, k] = depth - wall
             if pw.d0[f, k] > 0.0:
                 touch = True
     return touch
@@ -192,7 +216,7 @@ def _penetrations(pose, data, i, Rw, D, q, margin, pw):
 def _condense(data, i, p, law, side_law, sl, pw):
     """Solve the pocket's residual coordinates a; leaves station stiffness in pw.H."""
     C, R = data.comp[i], data.res[i]
-    n_st = data.offset.shape[2]
+    n_st = data.phi.shape[2]
     zero(pw.a)
     g = np.zeros(8)
     RH = np.zeros((8, 8))
@@ -264,7 +288,7 @@ def pocket_contact(pose, data, i, Rw, D, Vc, wc, q, qd, margin, p, laws, sl, pw,
         zero(pw.a)
     if not _penetrations(pose, data, i, Rw, D, q, margin, pw):
         return False
-    n_st = data.offset.shape[2]
+    n_st = data.phi.shape[2]
     soft = data.comp[i, 0, 0] > 0.0
     if soft:
         _condense(data, i, p, law, side_law, sl, pw)
@@ -286,15 +310,20 @@ def pocket_contact(pose, data, i, Rw, D, Vc, wc, q, qd, margin, p, laws, sl, pw,
         sgn = 1.0 if f % 2 == 0 else -1.0
         comp = 2 if f < 2 else 0
         first, second = (0, 1) if f < 2 else (1, 2)  # tangential components of the face
+        lean = 0 if f < 2 else 1  # which of them runs along the face, where the wall may slope
         count = data.s.shape[0] if f < 2 else data.points.shape[0]
         loaded = False
         for k in range(count):
             j, w = pw.j[f, k], pw.w[f, k]
             sl.d[k] = pw.d0[f, k]
             if soft:
+                rise = 0.0
                 for l in range(8):
-                    rl = (1.0 - w) * data.res[i, f, j, l] + w * data.res[i, f, j + 1, l]
-                    sl.d[k] -= rl * pw.a[l]
+                    first_l, second_l = data.res[i, f, j, l], data.res[i, f, j + 1, l]
+                    sl.d[k] -= (first_l + w * (second_l - first_l)) * pw.a[l]
+                    rise += (second_l - first_l) * pw.a[l]
+                if 0.0 < w < 1.0:
+                    pw.slope[f, k] += rise / data.dx[f]
             loaded = loaded or sl.d[k] > 0.0
         if not loaded:
             continue
@@ -325,6 +354,11 @@ def pocket_contact(pose, data, i, Rw, D, Vc, wc, q, qd, margin, p, laws, sl, pw,
                 sl.v[k] = approach(Wn, pose, D, Vc, wc) - sgn * wn
             sl.t[k, 0] = e1[0] * rel[0] + e1[1] * rel[1] + e1[2] * rel[2] - w1
             sl.t[k, 1] = e2[0] * rel[0] + e2[1] * rel[1] + e2[2] * rel[2] - w2
+            sl.v[k] -= pw.slope[f, k] * sl.t[k, lean]
+            if f < 2:  # a crossbeam's slope is met by the roller's axis, not by its surface
+                h = (Rw - data.drop[k]) * sgn * pw.slope[f, k]
+                for c in range(3):
+                    sl.v[k] += h * (o[c] - wc[c]) * pw.G[1, c]
             sl.u[k] = sqrt(sl.t[k, 0] ** 2 + sl.t[k, 1] ** 2)
         if f < 2:
             law(count, sl.d, sl.v, p[f], sl.N, sl.Nd, sl.Nv)
@@ -345,7 +379,11 @@ def pocket_contact(pose, data, i, Rw, D, Vc, wc, q, qd, margin, p, laws, sl, pw,
             add_generator(e1, r, Wx)
             add_generator(e2, r, Wt)
             g1, g2 = sl.g[k] * sl.t[k, 0], sl.g[k] * sl.t[k, 1]
+            slope = pw.slope[f, k]
             for c in range(6):
+                Wn[c] += slope * (Wx[c] if lean == 0 else Wt[c])
+                if f < 2 and c >= 3:
+                    Wn[c] -= slope * (Rw - data.drop[k]) * sgn * pw.G[1, c - 3]
                 V[c] = Wn[c] - g1 * Wx[c] - g2 * Wt[c]
                 pair.wrench[c] += N * V[c]
             pw.normal[f] += N
@@ -353,8 +391,8 @@ def pocket_contact(pose, data, i, Rw, D, Vc, wc, q, qd, margin, p, laws, sl, pw,
             for s in range(2):
                 share = N * (w if s == 1 else 1.0 - w)
                 pw.st[f, j + s, comp] += sgn * share
-                pw.st[f, j + s, first] += g1 * share
-                pw.st[f, j + s, second] += g2 * share
+                pw.st[f, j + s, first] += (g1 - (slope if lean == 0 else 0.0)) * share
+                pw.st[f, j + s, second] += (g2 - (slope if lean == 1 else 0.0)) * share
             if mode == 1:
                 _add_tangent(f, j, w, k, V, Wn, Wx, Wt, sl, pw, pair)
             elif mode == 2:

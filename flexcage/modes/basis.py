@@ -61,15 +61,17 @@ class CageInterface:
     tangential t on side-beam faces (2, 3), both from mid-pocket [m].
 
     ``offset`` is the stress-free displacement of the face along its outward normal (away from the
-    pocket's centre: + widens the pocket), from defects.
+    pocket's centre: + widens the pocket), from defects, at the points ``offset_at`` along the face
+    (evenly spaced; the stations if None).
     """
 
     stations: np.ndarray  # (4, n_st) station coordinates [m]
-    offset: np.ndarray  # (Z, 4, n_st) [m]
+    offset: np.ndarray  # (Z, 4, n_o) [m]
     modes: np.ndarray  # (Z, 4, n_st, 3, n) dynamic modes at stations
     residual: np.ndarray  # (Z, 4, n_st, 8) outward displacement by the pocket's own vectors
     compliance: np.ndarray  # (Z, 8, 8) of the residual coordinates; zeros for a rigid cage
     patch_half_width: float  # half-width [m] of the strip over which a station's force is spread
     land: np.ndarray  # (2, n_land, 3, n): radial-frame modes on the inner/outer land ring stations
+    offset_at: np.ndarray | None = None  # (4, n_o) [m]
     weights: sp.csr_matrix | None = None  # (Z*4*n_st, n_nodes): station <- nodal displacement
     land_weights: sp.csr_matrix | None = None  # (2*n_land, n_nodes), the same for land stations

@@ -27,6 +27,7 @@ from flexcage.modes.pockets import (
 
 log = logging.getLogger(__name__)
 
+OFFSET_POINTS = 65  # along a face: a bent beam's curve to a quarter of a micrometre for 0.2 mm
 LANDS = ("land_inner", "land_outer")
 
 
@@ -42,20 +43,26 @@ def face_stations(cage: WindowCage, n_stations: int) -> np.ndarray:
     return np.outer(along + across, cells)
 
 
-def station_offsets(
-    cage: WindowCage, stations: np.ndarray, *, pocket_count: int, defects: Sequence[Defect]
+def offset_points(cage: WindowCage) -> np.ndarray:
+    """Points (4, OFFSET_POINTS) [m] along the whole length of the faces, corner to corner."""
+    unit = np.linspace(-0.5, 0.5, OFFSET_POINTS)
+    return np.outer([cage.pocket_length] * 2 + [cage.pocket_width] * 2, unit)
+
+
+def face_offsets(
+    cage: WindowCage, points: np.ndarray, *, pocket_count: int, defects: Sequence[Defect]
 ) -> np.ndarray:
-    """Stress-free outward displacement (Z, 4, n_st) [m] of the faces at their stations."""
-    offset = np.zeros((pocket_count, *stations.shape))
+    """Stress-free outward displacement (Z, 4, n) [m] of the faces at ``points`` (4, n) along them."""
+    offset = np.zeros((pocket_count, *points.shape))
     for defect in defects:
         if isinstance(defect, CrossbeamDefect):
             # crossbeam k is the front beam of pocket k-1 and the rear beam of pocket k
-            shift = defect.displacement * crossbeam_shape(defect, stations[0], cage.pocket_length)
+            shift = defect.displacement * crossbeam_shape(defect, points[0], cage.pocket_length)
             offset[(defect.crossbeam - 1) % pocket_count, 0] -= shift
             offset[defect.crossbeam % pocket_count, 1] += shift
         else:
             face = FACES.index(f"side{defect.side}")
-            shape = side_beam_shape(stations[face], cage.pocket_width)
+            shape = side_beam_shape(points[face], cage.pocket_width)
             offset[defect.pocket % pocket_count, face] += defect.displacement * shape
     return offset
 
@@ -69,11 +76,12 @@ def rigid_interface(
     n_land: int = 24,
 ) -> CageInterface:
     """Interface of a rigid cage: no modes, no compliance, no mesh; defects in the offsets."""
-    stations = face_stations(cage, n_stations)
+    stations, points = face_stations(cage, n_stations), offset_points(cage)
     faces = (pocket_count, len(FACES), n_stations)
     return CageInterface(
         stations=stations,
-        offset=station_offsets(cage, stations, pocket_count=pocket_count, defects=defects),
+        offset=face_offsets(cage, points, pocket_count=pocket_count, defects=defects),
+        offset_at=points,
         modes=np.zeros((*faces, 3, 0)),
         residual=np.zeros((*faces, LOADS_PER_POCKET)),
         compliance=np.zeros((pocket_count, LOADS_PER_POCKET, LOADS_PER_POCKET)),
@@ -96,13 +104,14 @@ def cage_interface(
 
     ``n_land`` = 0 leaves the lands out.
     """
-    stations = face_stations(cage, n_stations)
+    stations, points = face_stations(cage, n_stations), offset_points(cage)
     weights = station_weights(model, stations, pocket_count)
     land_weights = land_station_weights(model, n_land)
     residual, compliance = _residual_at_stations(basis, weights, pocket_count, n_stations)
     return CageInterface(
         stations=stations,
-        offset=station_offsets(cage, stations, pocket_count=pocket_count, defects=defects),
+        offset=face_offsets(cage, points, pocket_count=pocket_count, defects=defects),
+        offset_at=points,
         modes=_modes_at_stations(basis, weights, pocket_count, n_stations),
         residual=residual,
         compliance=compliance,

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from flexcage.core.errors import InputError
 from flexcage.core.spec import option, quantity
 
 
@@ -24,17 +23,6 @@ class OutputOptions:
     settle: float = option(
         0.3, doc="share of the run left out of statistics", minimum=0.0, maximum=0.95
     )
-
-    def __post_init__(self) -> None:
-        ratio = self.vibration_rate / self.rate
-        if abs(ratio - round(ratio)) > 1e-9 * ratio or ratio < 1.0:
-            raise InputError(
-                f"output.vibration_rate ({self.vibration_rate / 1e3:g} kHz) must be a whole "
-                f"multiple of output.rate ({self.rate / 1e3:g} kHz), for instance "
-                f"{max(round(ratio), 1) * self.rate / 1e3:g} kHz.",
-                where="output.vibration_rate",
-                value=self.vibration_rate,
-            )
 
     @property
     def vibration_ratio(self) -> int:

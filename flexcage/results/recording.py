@@ -23,7 +23,8 @@ from flexcage.system.scales import error_weights
 from flexcage.system.start import Start
 
 ENERGIES = ("kinetic", "strain", "contact", "mount")
-PLACES = ("inner race", "outer race", *FACES, "rib +x", "rib -x")  # of events, in order
+# places of events, in order; a land is the cage's and names no roller
+PLACES = ("inner race", "outer race", *FACES, "rib +x", "rib -x", "land -x", "land +x")
 FILTER_HZ = 10e3  # low-pass of outer_acceleration_filtered
 FIRST_STEP = 1e-7
 
@@ -42,7 +43,7 @@ def new_store(
         "pocket": Z,
         "mode": np.arange(layout.modes),
         "slice": data.model.pocket.s,
-        "station": np.arange(data.model.pocket.offset.shape[2]),
+        "station": np.arange(data.model.pocket.phi.shape[2]),
         "residual": np.arange(8),
         "constraint": np.array(CONSTRAINTS),
         "energy_kind": np.array(ENERGIES),
@@ -205,7 +206,7 @@ class Recorder:
         state = {k: getattr(self.state, k) for k in ("D", "real", "count", "quad", "power")}
         memory = {f"memory_{k}": v for k, v in self.bearing.data.memory._asdict().items()}
         events = self.bearing.data.events
-        kept = {f"events_{k}": getattr(events, k) for k in ("closed", "peak", "peak_time")}
+        kept = {f"events_{k}": getattr(events, k) for k in ("closed", "land", "peak", "peak_time")}
         return {**state, **memory, **kept, "filter": self._filter}
 
     def _checkpoint(self) -> dict[str, np.ndarray]:

@@ -208,6 +208,11 @@ def advance(fns, data, st, opt, t_end, times, ys, yds, first, log, quads):
     D, count, real = st.D, st.count, st.real
     n = D.shape[1]
     sample, row = first, 0
+    if count[STEPS] == 0:  # the start counts as accepted
+        for k in range(n):
+            y[k] = D[0, k]
+            yd[k] = D[1, k] / real[H]
+        accepted(real[T], y, yd, data, st.power[0])
     while real[T] < t_end:
         if row >= log.shape[0]:
             return LOG_FULL, sample, row

@@ -14,7 +14,7 @@ from flexcage.bodies.floating_frame import (
     with_point_mass,
 )
 from flexcage.contacts import laws
-from flexcage.contacts.land import LandData
+from flexcage.contacts.land import LandData, LandWork, land_work
 from flexcage.contacts.pocket import PocketData, PocketWork, pocket_work
 from flexcage.contacts.race import RaceSide
 from flexcage.contacts.rib import RibData
@@ -67,7 +67,7 @@ class Memory(NamedTuple):
     race: np.ndarray  # (Z, 2, N_NORMAL)
     pocket: np.ndarray  # (Z, 4, N_NORMAL)
     rib: np.ndarray  # (Z, 2, N_NORMAL)
-    land: np.ndarray  # (N_NORMAL,)
+    land: np.ndarray  # (2, N_NORMAL)
 
 
 class Model(NamedTuple):
@@ -109,6 +109,7 @@ class Report(NamedTuple):
     residual: np.ndarray  # (Z, 8)
     rib: np.ndarray  # (Z, 2)
     land: np.ndarray  # (3,)
+    land_touch: np.ndarray  # (2, 2) of the lands at -x, +x: normal force, approach speed
     power: np.ndarray  # (len(POWERS),)
     energy: np.ndarray  # (4,) kinetic, strain, contact, mount
     contact: np.ndarray  # (Z, 8) booleans: races 2, pocket faces 4, ribs 2
@@ -124,6 +125,7 @@ class Work(NamedTuple):
     slices: Slices
     pair: Pair
     pocket: PocketWork
+    land: LandWork
     frame: FrameWork
     S: np.ndarray  # (6, 6)
     T6: np.ndarray  # (2, 6, 6) products
@@ -238,7 +240,7 @@ def build_memory(bearing, cage, contacts: Contacts, interface: CageInterface) ->
         race=np.tile(race, (Z, 2, 1)),
         pocket=np.array([[pocket, pocket, side, side]] * Z),
         rib=np.tile(rib, (Z, 2, 1)),
-        land=land,
+        land=np.tile(land, (2, 1)),
     )
 
 
@@ -249,6 +251,7 @@ def _pocket_data(bearing, cage, contacts: Contacts, interface: CageInterface) ->
         [interface.modes[:, f, :, 2 if f < 2 else 0] for f in range(4)], axis=1
     )  # (Z, 4, nst, n)
     n = interface.modes.shape[-1]
+    at = interface.stations if interface.offset_at is None else interface.offset_at
     st = np.ascontiguousarray
     return PocketData(
         azimuth=st(np.stack([np.cos(angle), np.sin(angle)], axis=1)),
@@ -260,6 +263,8 @@ def _pocket_data(bearing, cage, contacts: Contacts, interface: CageInterface) ->
         x0=st(interface.stations[:, 0]),
         dx=st(interface.stations[:, 1] - interface.stations[:, 0]),
         offset=st(interface.offset),
+        grid=st(np.stack([at[:, 0], at[:, 1] - at[:, 0]])),
+        low=interface.offset.min(axis=2),
         phi=st(interface.modes),
         phi_max=np.abs(normal).max(axis=(0, 1, 2)) if n else np.zeros(0),
         res=st(interface.residual),
@@ -371,7 +376,7 @@ def build_model(
 def new_work(model: Model, layout: Layout) -> Work:
     """Fresh workspaces for one thread."""
     Z, n, nb = layout.rollers, layout.modes, layout.n_border
-    ns, nst = len(model.pocket.s), model.pocket.offset.shape[2]
+    ns, nst = len(model.pocket.s), model.pocket.phi.shape[2]
     z = np.zeros
     most = max(len(model.inner.s), ns, len(model.pocket.points), 3)
     tangent = Tangent(
@@ -380,12 +385,12 @@ def new_work(model: Model, layout: Layout) -> Work:
     )  # fmt: skip
     report = Report(
         z((Z, 2, 9)), z((Z, 4)), z((Z, 4)), z((Z, 2, ns)), z((Z, 2, ns)), z((Z, 4, nst, 3)),
-        z((Z, 8)), z((Z, 2)), z(3), z(len(POWERS)), z(4), z((Z, 8), np.int64), z((Z, 8)),
+        z((Z, 8)), z((Z, 2)), z(3), z((2, 2)), z(len(POWERS)), z(4), z((Z, 8), np.int64), z((Z, 8)),
         z(3), z(6 + n),
     )  # fmt: skip
     return Work(
         new_pose(), new_slices(most), new_pair(), pocket_work(ns, len(model.pocket.points), nst),
-        frame_work(n), z((6, 6)), z((2, 6, 6)), z((2, 3, 3)), z((3, 3)), z(9), z((12, 3)),
+        land_work(len(model.land.angle)), frame_work(n), z((6, 6)), z((2, 6, 6)), z((2, 3, 3)), z((3, 3)), z(9), z((12, 3)),
         z(14 + n), z((6, n)), z((n, 6)), z((n, 8)), tangent, report,
     )  # fmt: skip
 

@@ -29,11 +29,12 @@ _solve_bordered = bordered_system.solve
 
 
 class Events(NamedTuple):
-    """Contact changes: a buffer of (time, roller, place, 1 closed or 0 opened) and its fill."""
+    """Contact changes: a buffer of (time, roller or -1, place, 1 closed or 0 opened) and its fill."""
 
     rows: np.ndarray  # (n, 4)
     fill: np.ndarray  # (1,)
     closed: np.ndarray  # (Z, 8) contact flags at the last accepted step
+    land: np.ndarray  # (2,) the same for the cage's lands
     peak: np.ndarray  # (Z, 4) largest pocket force of a step so far
     peak_time: np.ndarray  # (Z, 4)
 
@@ -66,7 +67,7 @@ class BearingData(NamedTuple):
 
 def new_samples(n: int, stride: int, model: Model) -> Samples:
     Z = len(model.bodies.radius)
-    ns, nst = len(model.pocket.s), model.pocket.offset.shape[2]
+    ns, nst = len(model.pocket.s), model.pocket.phi.shape[2]
     z = np.zeros
     return Samples(
         stride, z((n, Z, 2, 9)), z((n, Z, 4)), z((n, Z, 4)), z((n, Z, 2, ns)), z((n, Z, 2, ns)),
@@ -239,15 +240,28 @@ def remember(t, memory, rep, events):
                     memory.rib[i, k - 6, 3] = speed
             if closed != events.closed[i, k]:
                 events.closed[i, k] = closed
-                n = events.fill[0]
-                if n < events.rows.shape[0]:
-                    events.rows[n, 0], events.rows[n, 1] = t, i
-                    events.rows[n, 2], events.rows[n, 3] = k, closed
-                    events.fill[0] = n + 1
+                _note(events, t, i, k, closed)
         for f in range(4):
             if rep.pocket_normal[i, f] > events.peak[i, f]:
                 events.peak[i, f] = rep.pocket_normal[i, f]
                 events.peak_time[i, f] = t
+    for side in range(2):
+        closed = 1 if rep.land_touch[side, 0] > 0.0 else 0
+        if closed == 0 or events.land[side] == 0:
+            memory.land[side, 3] = max(rep.land_touch[side, 1], 0.0)
+        if closed != events.land[side]:
+            events.land[side] = closed
+            _note(events, t, -1, 8 + side, closed)
+
+
+@kernel
+def _note(events, t, roller, place, closed):
+    """Write down that a contact closed or opened; a full buffer keeps the first ones."""
+    n = events.fill[0]
+    if n < events.rows.shape[0]:
+        row = events.rows[n]
+        row[0], row[1], row[2], row[3] = t, roller, place, closed
+        events.fill[0] = n + 1
 
 
 def _observe(sample, t, y, yd, data):
@@ -292,7 +306,7 @@ class Bearing:
             new_bordered(layout.rollers, layout.n_border, 8, work.tangent.active),
             Events(
                 np.zeros((200_000, 4)), np.zeros(1, np.int64),
-                np.zeros((layout.rollers, 8), np.int64),
+                np.zeros((layout.rollers, 8), np.int64), np.zeros(2, np.int64),
                 np.zeros((layout.rollers, 4)), np.zeros((layout.rollers, 4)),
             ),
             new_samples(block, stride, model),

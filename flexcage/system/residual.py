@@ -461,7 +461,7 @@ def evaluate(t, y, yd, box, law, out, mode):
     spin = ring_u[3] if rides_inner else 0.0
     land_contact(
         A, Rc, Vc, wg, qf, qfd, rel, tmp, spin, model.land, memory.land, (land_law, land_mu),
-        sl, Fc, Mc, Qm, Fr, Mr, sums,
+        sl, work.land, Fc, Mc, Qm, Fr, Mr, sums,
     )  # fmt: skip
     Mc[0] -= bodies.drag[1] * abs(wg[0]) * wg[0]
     for c in range(3):
@@ -475,6 +475,8 @@ def evaluate(t, y, yd, box, law, out, mode):
         border[7] += Fr[2]
     if mode == 2:
         copy_into(rep.land, Fc)
+        for c in range(2):
+            rep.land_touch[c, 0], rep.land_touch[c, 1] = sums[4 + c], sums[6 + c]
         rep.energy[2] += sums[0]
         rep.power[9] += sums[1] + sums[2] + sums[3]
         rep.power[10] -= bodies.drag[1] * abs(wg[0]) * wg[0] * wg[0]

@@ -16,6 +16,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from flexcage.contacts import laws
+from flexcage.contacts.pocket import with_offset
 from flexcage.core.errors import InputError, RunFailed
 from flexcage.geometry.kinematics import epicyclic
 from flexcage.system.layout import Layout
@@ -83,14 +84,16 @@ def pocket_clearance(model: Model, offset: np.ndarray) -> np.ndarray:
 
 
 def geometric_guess(model: Model, layout: Layout) -> np.ndarray:
-    """Rollers on the outer race in the middle of their pockets, everything else centred."""
+    """Rollers on the outer race in the middle of their pockets and between the ribs, the rest
+    centred."""
     y = np.zeros(layout.size)
     q = layout.q(y)
     Z = layout.rollers
     q["rollers"][:, 1] = model.outer.radius - model.bodies.radius
     q["rollers"][:, 2] = 2.0 * np.pi * np.arange(Z) / Z
     q["quaternion"][0] = 1.0
-    q["inner"][4] = model.bodies.misalignment
+    q["inner"][4] = tilt = model.bodies.misalignment
+    q["rollers"][:, 0] = -q["rollers"][:, 1] * np.cos(q["rollers"][:, 2]) * np.tan(tilt)
     play = model.outer.radius - model.inner.radius - 2.0 * model.bodies.radius.min()
     q["inner"][1:3] = play * model.bodies.load_direction  # just before the first contact
     return y
@@ -105,7 +108,7 @@ class _Frictionless:
             bodies=model.bodies._replace(gravity=np.zeros(3), drag=np.zeros(2)),
             inner=model.inner._replace(rolling=np.zeros(2)),
             outer=model.outer._replace(rolling=np.zeros(2)),
-            pocket=model.pocket._replace(offset=offset),
+            pocket=with_offset(model.pocket, offset),
         )
         self.bearing = bearing
         self.data = bearing.data._replace(model=still)

@@ -10,7 +10,7 @@ from numba import types
 from scipy.spatial.transform import Rotation
 
 from flexcage.contacts import laws
-from flexcage.contacts.land import land_contact
+from flexcage.contacts.land import land_contact, land_work
 from flexcage.contacts.pocket import pocket_contact, pocket_work
 from flexcage.contacts.race import race_contact
 from flexcage.contacts.rib import rib_contact
@@ -50,9 +50,9 @@ def _pocket(pose, data, i, Rw, D, Vc, wc, q, qd, margin, p, law, sl, pw, pair, m
     )
 
 
-def _land(A, Rc, Vc, w, q, qd, Rr, Vr, spin, data, p, law, sl, Fc, Mc, Qm, Fr, Mr, sums):
+def _land(A, Rc, Vc, w, q, qd, Rr, Vr, spin, data, p, law, sl, lw, Fc, Mc, Qm, Fr, Mr, sums):
     return land_contact(
-        A, Rc, Vc, w, q, qd, Rr, Vr, spin, data, p, law, sl, Fc, Mc, Qm, Fr, Mr, sums
+        A, Rc, Vc, w, q, qd, Rr, Vr, spin, data, p, law, sl, lw, Fc, Mc, Qm, Fr, Mr, sums
     )
 
 
@@ -90,8 +90,8 @@ def _pocket_kernel(data_type):
 def _land_kernel(data_type):
     matrix = types.Array(F8, 2, "C")
     return _compiled(
-        _land, matrix, VEC, VEC, VEC, VEC, VEC, VEC, VEC, F8, data_type, VEC, types.Tuple((N, MU)),
-        new_slices(1), VEC, VEC, VEC, VEC, VEC, VEC,
+        _land, matrix, VEC, VEC, VEC, VEC, VEC, VEC, VEC, F8, data_type, matrix,
+        types.Tuple((N, MU)), new_slices(1), land_work(1), VEC, VEC, VEC, VEC, VEC, VEC,
     )  # fmt: skip
 
 
@@ -135,7 +135,7 @@ def pocket(
     """(wrench, sums, work, pair) of pocket i on its roller at D from the cage's origin."""
     pose = pose_of(np.eye(3) if axis is None else axis, V, w)
     n = max(len(data.s), len(data.points))
-    work = pocket_work(len(data.s), len(data.points), data.offset.shape[2])
+    work = pocket_work(len(data.s), len(data.points), data.phi.shape[2])
     work.G[:] = np.eye(3) if G is None else G
     pair, sums = new_pair(), np.zeros(9)
     arrays = [np.array(x, float) for x in (D, Vc, wc, q, qd)]
@@ -155,5 +155,8 @@ def land(
     A = np.eye(3) if A is None else np.ascontiguousarray(A)
     out = [np.zeros(3), np.zeros(3), np.zeros(len(q)), np.zeros(3), np.zeros(3), np.zeros(9)]
     a = [np.array(x, float) for x in (Rc, Vc, w, q, qd, Rr, Vr)]
-    _land_kernel(numba.typeof(data))(A, *a, spin, data, p, (law, friction), new_slices(1), *out)
+    _land_kernel(numba.typeof(data))(
+        A, *a, spin, data, p, (law, friction), new_slices(1),
+        land_work(len(data.angle)), *out,
+    )  # fmt: skip
     return out

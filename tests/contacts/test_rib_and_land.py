@@ -88,6 +88,9 @@ def test_rib_energy_and_power(ribs, shift, turn, ring):
     assert power == pytest.approx(sums[3] + sums[4] - stored, abs=2e-4 * scale)
 
 
+Y = np.array([0.0, 1.0, 0.0])
+
+
 def land_modes(stations=24, n=3):
     """Smooth synthetic radial shapes round the land: breathing, oval, bent."""
     a = 2 * np.pi * np.arange(stations) / stations
@@ -109,7 +112,7 @@ def dry_land(request, build_parts):
         contacts=Contacts(land=LandSpec(kind="dry", normal=NORMAL, friction=FRICTION)),
     )  # fmt: skip
     p = memory.land.copy()
-    p[laws.SLOT_ONSET] = 0.05
+    p[:, laws.SLOT_ONSET] = 0.05
     return model.land, p
 
 
@@ -128,9 +131,25 @@ def test_land_touches_after_its_clearance(dry_land):
     assert Fc @ towards < -10.0 and np.abs(Fc + (-Fc @ towards) * towards).max() < 1e-3 * abs(
         Fc @ towards
     )
-    closed = np.array([-data.inner * (data.clearance + 2e-6), 0.0, 0.0])  # breathing
-    work = land(data, p, np.zeros(3), q=closed, qd=quiet)
-    assert work[2][0] * closed[0] < 0.0 and np.abs(work[0]).max() < 1e-6 * abs(work[2][0])
+    oval = np.array([0.0, -data.inner * (data.clearance + 2e-6), 0.0])  # touches at 0 and 180 deg
+    work = land(data, p, np.zeros(3), q=oval, qd=quiet)
+    assert work[2][1] * oval[1] < 0.0 and np.abs(work[0]).max() < 1e-6 * abs(work[2][1])
+
+
+def test_a_cage_that_rolls_on_its_land_does_not_feel_the_stations_pass(dry_land):
+    """Between two of the 24 stations it touches as deep as at one, to 2e-4 of the clearance (the
+    polygon of the stations themselves leaves 9e-3)."""
+    data, p = dry_land
+    quiet, size = np.zeros(3), data.clearance + 4e-6
+    forces = [
+        -land(data, p, size * Y, A=Rotation.from_rotvec([a, 0, 0]).as_matrix(), q=quiet, qd=quiet)[
+            0
+        ]
+        @ Y
+        for a in np.linspace(0.0, 2.0 * np.pi / 24, 25)
+    ]
+    depth = 4e-6 * np.ptp(forces) / max(forces)
+    assert min(forces) > 100.0 and depth < 2e-4 * data.clearance
 
 
 def test_land_energy_power_and_third_law(dry_land):

@@ -101,7 +101,7 @@ def march(
 
     ``also(recorder)`` is called before the first step.
     """
-    Z, stations = bearing.layout.rollers, bearing.data.model.pocket.offset.shape[2]
+    Z, stations = bearing.layout.rollers, bearing.data.model.pocket.phi.shape[2]
     start = Start(y, yd, (), 0.0, 0.0, np.zeros((Z, 4, stations, 3)))
     store = new_store(None, bearing, duration=case.solver.duration, output=case.output, attrs={})
     recorder = Recorder(bearing, start, store, solver=case.solver, output=case.output)
