@@ -138,11 +138,31 @@ class FrameWork(NamedTuple):
 
     M: np.ndarray  # (6+n, 6+n), translations in body axes
     h: np.ndarray  # (6+n,) gyroscopic and centrifugal terms
-    E: np.ndarray  # (n, 3, 3)
+    E: np.ndarray  # (n, 3, 3) int phi_k (s + u)^T dm
+    Ed: np.ndarray  # (n, 3, 3) int u' phi_k^T dm
+    c: np.ndarray  # (2, 3) first moment of mass and its rate
+    G: np.ndarray  # (2, 3, 3) second moment of mass, and int p u'^T dm
+    w: np.ndarray  # (4, 6+n) vectors of the cage's rows
 
 
 def frame_work(n: int) -> FrameWork:
-    return FrameWork(np.zeros((6 + n, 6 + n)), np.zeros(6 + n), np.zeros((n, 3, 3)))
+    z = np.zeros
+    return FrameWork(
+        z((6 + n, 6 + n)), z(6 + n), z((n, 3, 3)), z((n, 3, 3)), z((2, 3)), z((2, 3, 3)),
+        z((4, 6 + n)),
+    )  # fmt: skip
+
+
+@kernel
+def _superpose(parts, q, out):
+    """out += sum_l q_l parts[l], entry by entry."""
+    total = out.reshape(out.size)
+    for l in range(q.shape[0]):
+        x = q[l]
+        if x != 0.0:
+            part = parts[l].reshape(out.size)
+            for k in range(total.shape[0]):
+                total[k] += x * part[k]
 
 
 @kernel
@@ -150,34 +170,33 @@ def inertia_terms(d, w, q, qd, work):
     """Mass matrix and velocity terms at modal state (q, qd) and body angular velocity w.
 
     Fills ``work.M`` and ``work.h`` so that M [A^T v', w', q''] + h = generalised forces, all three
-    groups in body axes; elastic and damping forces are not included.
+    groups in body axes; elastic and damping forces are not included. SS_lk = int phi_l phi_k^T dm
+    is the transpose of SS_kl, so that sums over modes run along memory.
     """
-    M, h, E = work.M, work.h, work.E
+    M, h, E, Ed = work.M, work.h, work.E, work.Ed
+    c, cd, G, D = work.c[0], work.c[1], work.G[0], work.G[1]
     n = q.shape[0]
-    c = d.c0.copy()
-    cd = np.zeros(3)
-    G = d.G0.copy()
-    D = np.zeros((3, 3))  # D_ij = int p_i u_j
     zero(M)
     zero(h)
-    for k in range(n):
-        for i in range(3):
+    zero(Ed)
+    zero(D)
+    _superpose(d.SS, q, Ed)
+    for i in range(3):
+        c[i], cd[i] = d.c0[i], 0.0
+        for k in range(n):
             c[i] += d.C[i, k] * q[k]
             cd[i] += d.C[i, k] * qd[k]
-            for j in range(3):
-                E[k, i, j] = d.S[k, i, j]
-    for k in range(n):
-        for l in range(n):
-            if q[l] != 0.0:
-                for i in range(3):
-                    for j in range(3):
-                        E[k, i, j] += d.SS[k, l, i, j] * q[l]
+        for j in range(3):
+            G[i, j] = d.G0[i, j]
     for k in range(n):
         for i in range(3):
             for j in range(3):
+                E[k, i, j] = d.S[k, i, j] + Ed[k, j, i]
                 # int p p^T = G0 + sum q_k (S_k + S_k^T) + q q SS; E_k already holds S_k + SS q
                 G[i, j] += q[k] * (E[k, i, j] + d.S[k, j, i])
                 D[j, i] += E[k, i, j] * qd[k]
+    zero(Ed)
+    _superpose(d.SS, qd, Ed)
     trace = G[0, 0] + G[1, 1] + G[2, 2]
     w2 = w[0] * w[0] + w[1] * w[1] + w[2] * w[2]
     for i in range(3):
@@ -217,28 +236,10 @@ def inertia_terms(d, w, q, qd, work):
         for i in range(3):
             for j in range(3):
                 s += w[i] * w[j] * E[k, i, j]
+        # 2 w . int u' x phi_k
+        s += 2.0 * w[0] * (Ed[k, 1, 2] - Ed[k, 2, 1])
+        s += 2.0 * w[1] * (Ed[k, 2, 0] - Ed[k, 0, 2])
+        s += 2.0 * w[2] * (Ed[k, 0, 1] - Ed[k, 1, 0])
+        h[6 + k] = s
         for l in range(n):
             M[6 + k, 6 + l] = d.mff[k, l]
-            if qd[l] != 0.0:
-                # 2 w . int phi_l x phi_k
-                s += (
-                    2.0
-                    * qd[l]
-                    * (
-                        w[0] * (d.SS[l, k, 1, 2] - d.SS[l, k, 2, 1])
-                        + w[1] * (d.SS[l, k, 2, 0] - d.SS[l, k, 0, 2])
-                        + w[2] * (d.SS[l, k, 0, 1] - d.SS[l, k, 1, 0])
-                    )
-                )
-        h[6 + k] = s
-
-
-@kernel
-def kinetic_energy(M, v_body, w, qd):
-    """Kinetic energy from the mass matrix in body axes, velocity in body axes."""
-    n = qd.shape[0]
-    u = np.empty(6 + n)
-    u[0:3] = v_body
-    u[3:6] = w
-    u[6:] = qd
-    return 0.5 * u @ (M @ u)

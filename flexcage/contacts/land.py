@@ -8,7 +8,8 @@ from typing import NamedTuple
 import numpy as np
 
 from flexcage.contacts.laws import short_bearing
-from flexcage.core.jit import kernel, zero
+from flexcage.core.jit import part, zero
+from flexcage.core.vectors import add_to, column, combine, cross, dot, minus, plus, times, xyz
 
 
 class LandData(NamedTuple):
@@ -31,14 +32,14 @@ class LandWork(NamedTuple):
 
     u: np.ndarray  # (nl,) radial displacement of the stations by the modes
     d: np.ndarray  # (nl,) penetration of one land's stations
-    weight: np.ndarray  # (3,) of the stations that share a touch
+    weight: np.ndarray  # (3,) of the stations that share a touch; also the film's forces
 
 
 def land_work(n_stations: int) -> LandWork:
     return LandWork(np.zeros(n_stations), np.zeros(n_stations), np.zeros(3))
 
 
-@kernel
+@part
 def land_contact(A, Rc, Vc, w, q, qd, Rr, Vr, spin, data, p, laws, sl, lw, Fc, Mc, Qm, Fr, Mr, sums):
     """Land forces: Fc, Qm on the cage (space, modal), Mc about its origin; Fr, Mr on the ring.
 
@@ -51,19 +52,16 @@ def land_contact(A, Rc, Vc, w, q, qd, Rr, Vr, spin, data, p, laws, sl, lw, Fc, M
     """
     zero(sums)
     if data.kind == 0:
-        return False
+        return
     ey, ez = Rc[1] - Rr[1], Rc[2] - Rr[2]
     reach = sqrt(ey * ey + ez * ez) + (abs(A[1, 0]) + abs(A[2, 0])) * abs(data.x[1])
     for m in range(q.shape[0]):
         reach += data.phi_max[m] * abs(q[m])
-    active = False
     if data.kind == 2:
-        _film(A, Rc, Vc, w, Rr, Vr, spin, data, Fc, Mc, Fr, Mr, sums)
-        active = True
+        _film(A, Rc, Vc, w, Rr, Vr, spin, data, lw, Fc, Mc, Fr, Mr, sums)
     if reach < data.clearance:
-        return active
+        return
     n_l = data.angle.shape[0]
-    e, c = np.empty(3), np.empty(3)
     for s in range(n_l):
         lw.u[s] = 0.0
         for m in range(q.shape[0]):
@@ -72,8 +70,8 @@ def land_contact(A, Rc, Vc, w, q, qd, Rr, Vr, spin, data, p, laws, sl, lw, Fc, M
     for side in range(2):
         deepest = 0
         for s in range(n_l):
-            _station(A, data, side, s, lw.u[s], e, c)
-            y, z = Rc[1] + c[1] - Rr[1], Rc[2] + c[2] - Rr[2]
+            c = _place(A, data, side, s, lw.u[s])
+            y, z = c[1] + ey, c[2] + ez
             lw.d[s] = data.inner * (ring - sqrt(y * y + z * z))
             if lw.d[s] > lw.d[deepest]:
                 deepest = s
@@ -87,78 +85,69 @@ def land_contact(A, Rc, Vc, w, q, qd, Rr, Vr, spin, data, p, laws, sl, lw, Fc, M
             if sl.d[0] > 0.0 or s == deepest:
                 lw.weight[0], lw.weight[1] = 0.5 * x * (x - 1.0), 1.0 - x * x
                 lw.weight[2] = 0.5 * x * (x + 1.0)
-                active = True
                 _touch(
                     A, Rc, Vc, w, qd, Rr, Vr, spin, data, side, s, p[side], laws, sl, lw,
                     Fc, Mc, Qm, Fr, Mr, sums,
                 )  # fmt: skip
-    return active
 
 
-@kernel
-def _station(A, data, side, s, u, e, c):
-    """Outward direction ``e`` of a station and its place ``c`` from the cage's origin, in space."""
-    ca, sa = data.angle[s, 0], data.angle[s, 1]
-    for j in range(3):
-        e[j] = A[j, 1] * ca + A[j, 2] * sa
-        c[j] = data.x[side] * A[j, 0] + (data.radius + u) * e[j]
+@part
+def _outward(A, data, s):
+    """Outward direction of a station, in space."""
+    return combine(times(data.angle[s, 0], column(A, 1)), data.angle[s, 1], column(A, 2))
 
 
-@kernel
+@part
+def _place(A, data, side, s, u):
+    """Place of a station from the cage's origin, in space; ``u`` its radial displacement."""
+    return combine(times(data.x[side], column(A, 0)), data.radius + u, _outward(A, data, s))
+
+
+@part
 def _touch(
     A, Rc, Vc, w, qd, Rr, Vr, spin, data, side, middle, p, laws, sl, lw, Fc, Mc, Qm, Fr, Mr, sums
 ):
     """One touch of a land, shared by three stations with ``lw.weight``; penetration in sl.d[0]."""
     law, friction = laws
-    e, c, v, f = np.empty(3), np.empty(3), np.empty(3), np.empty(3)
     n_l = data.angle.shape[0]
+    offset = minus(xyz(Rc), xyz(Rr))
+    rel = minus(xyz(Vc), xyz(Vr))
     approach = slide = 0.0
-    N = g = 0.0
-    for turn in range(2):  # first the rates, then the forces that follow from them
-        if turn == 1:
-            sl.v[0], sl.u[0] = approach, abs(slide)
-            law(1, sl.d, sl.v, p, sl.N, sl.Nd, sl.Nv)
-            N = sl.N[0]
-            if N <= 0.0:
-                return
-            friction(1, sl.u, data.friction, sl.g, sl.dg)
-            g = sl.g[0] * slide
-        for k in range(3):
-            s = (middle + k - 1 + n_l) % n_l
-            _station(A, data, side, s, lw.u[s], e, c)
-            y, z = Rc[1] + c[1] - Rr[1], Rc[2] + c[2] - Rr[2]
-            d = sqrt(y * y + z * z)
-            n1, n2 = data.inner * y / d, data.inner * z / d  # normal on the cage; tangent (-n2, n1)
-            lift = n1 * e[1] + n2 * e[2]  # of the wall's radial displacement along the normal
-            if turn == 0:
-                ud = 0.0
-                for m in range(qd.shape[0]):
-                    ud += data.phi[s, 1, m] * qd[m]
-                for j in range(3):
-                    v[j] = Vc[j] - Vr[j]
-                v[1] += w[2] * c[0] - w[0] * c[2] + spin * z
-                v[2] += w[0] * c[1] - w[1] * c[0] - spin * y
-                approach -= lw.weight[k] * (n1 * v[1] + n2 * v[2] + lift * ud)
-                slide += lw.weight[k] * (n1 * v[2] - n2 * v[1])
-                continue
-            share = lw.weight[k] * N
-            f[0], f[1], f[2] = 0.0, share * (n1 + g * n2), share * (n2 - g * n1)
-            for j in range(3):
-                Fc[j] += f[j]
-                Fr[j] -= f[j]
-            Mc[0] += c[1] * f[2] - c[2] * f[1]
-            Mc[1] += c[2] * f[0] - c[0] * f[2]
-            Mc[2] += c[0] * f[1] - c[1] * f[0]
-            x = Rc[0] + c[0] - Rr[0]
-            Mr[0] -= y * f[2] - z * f[1]
-            Mr[1] += x * f[2]
-            Mr[2] -= x * f[1]
-            for m in range(qd.shape[0]):
-                Qm[m] += (f[1] * e[1] + f[2] * e[2]) * data.phi[s, 1, m]
-        if turn == 0:
-            sums[6 + side] = approach
-            if sl.d[0] <= 0.0:
-                return
+    for k in range(3):
+        s = (middle + k - 1 + n_l) % n_l
+        c = _place(A, data, side, s, lw.u[s])
+        n, lift = _normal(data, offset, c, _outward(A, data, s))
+        ud = 0.0
+        for m in range(qd.shape[0]):
+            ud += data.phi[s, 1, m] * qd[m]
+        at = plus(offset, c)
+        v = plus(rel, cross(xyz(w), c))
+        v = (0.0, v[1] + spin * at[2], v[2] - spin * at[1])
+        approach -= lw.weight[k] * (dot(n, v) + lift * ud)
+        slide += lw.weight[k] * (n[1] * v[2] - n[2] * v[1])
+    sums[6 + side] = approach
+    if sl.d[0] <= 0.0:
+        return
+    sl.v[0], sl.u[0] = approach, abs(slide)
+    law(1, sl.d, sl.v, p, sl.N, sl.Nd, sl.Nv)
+    N = sl.N[0]
+    if N <= 0.0:
+        return
+    friction(1, sl.u, data.friction, sl.g, sl.dg)
+    g = sl.g[0] * slide
+    for k in range(3):
+        s = (middle + k - 1 + n_l) % n_l
+        c = _place(A, data, side, s, lw.u[s])
+        e = _outward(A, data, s)
+        n, _ = _normal(data, offset, c, e)
+        f = times(lw.weight[k] * N, (0.0, n[1] + g * n[2], n[2] - g * n[1]))
+        add_to(Fc, f)
+        add_to(Fr, times(-1.0, f))
+        add_to(Mc, cross(c, f))
+        add_to(Mr, cross(f, plus(offset, c)))
+        radial = dot(f, e)
+        for m in range(qd.shape[0]):
+            Qm[m] += radial * data.phi[s, 1, m]
     law(1, sl.d, sl.zero, p, sl.dg, sl.Nd, sl.Nv)
     sums[4 + side] += N
     sums[0] += sl.dg[0] * sl.d[0] / (p[1] + 1.0)
@@ -166,11 +155,20 @@ def _touch(
     sums[2] -= N * sl.g[0] * sl.u[0] ** 2
 
 
-@kernel
-def _film(A, Rc, Vc, w, Rr, Vr, spin, data, Fc, Mc, Fr, Mr, sums):
+@part
+def _normal(data, offset, c, e):
+    """Normal on the cage at a station (in the plane of rotation), and its component along e."""
+    y, z = offset[1] + c[1], offset[2] + c[2]
+    f = data.inner / sqrt(y * y + z * z)
+    n = (0.0, f * y, f * z)
+    return n, dot(n, e)
+
+
+@part
+def _film(A, Rc, Vc, w, Rr, Vr, spin, data, lw, Fc, Mc, Fr, Mr, sums):
     """Short-bearing film on both lands: whirl and squeeze included."""
-    out = np.empty(3)
-    eta, L, R, C = data.film
+    out = lw.weight
+    eta, L, R, C = data.film[0], data.film[1], data.film[2], data.film[3]
     for side in range(2):
         x = data.x[side]
         cy, cz = x * A[1, 0], x * A[2, 0]

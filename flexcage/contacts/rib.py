@@ -15,7 +15,8 @@ from flexcage.contacts.state import (
     clear,
     friction_tangent,
 )
-from flexcage.core.jit import kernel, zero
+from flexcage.core.jit import part, zero
+from flexcage.core.vectors import combine, cross, dot, minus, plus, row, times, xyz
 
 
 class RibData(NamedTuple):
@@ -25,7 +26,7 @@ class RibData(NamedTuple):
     friction: np.ndarray  # (5,)
 
 
-@kernel
+@part
 def rib_contact(pose, data, P, b, Vr, wr, p, laws, sl, pair, mode, sums):
     """Wrench on the roller from both ribs (0: +x, 1: -x), as ``race_contact``; p (2, N_NORMAL).
 
@@ -35,41 +36,36 @@ def rib_contact(pose, data, P, b, Vr, wr, p, laws, sl, pair, mode, sums):
     law, friction = laws
     if mode == 2:
         zero(sums)
-    a = pose.axis
-    along = P[0] * b[0] + P[1] * b[1] + P[2] * b[2]
-    tilt = abs(a[0, 1] - b[1]) + abs(a[0, 2] - b[2])
+    centre, ring_axis, ring_spin = xyz(P), xyz(b), xyz(wr)
+    a0, a1, a2 = row(pose.axis, 0), row(pose.axis, 1), row(pose.axis, 2)
+    along = dot(centre, ring_axis)
+    tilt = abs(a0[1] - ring_axis[1]) + abs(a0[2] - ring_axis[2])
     play = data.half_gap - data.half_roller
     if abs(along) + 2.0 * tilt * data.half_roller < play:
         return False
+    spin = minus(xyz(pose.w), ring_spin)
+    rel = minus(minus(xyz(pose.V), xyz(Vr)), cross(ring_spin, centre))
+    d = sqrt(1.0 - ring_axis[2] * ring_axis[2])
+    e1 = (-ring_axis[1] / d, ring_axis[0] / d, 0.0)
+    e2 = cross(ring_axis, e1)
     count = data.points.shape[0]
-    n, e1, e2, r, v = np.empty(3), np.empty(3), np.empty(3), np.empty(3), np.empty(3)
-    Wn, W1, W2, V = np.empty(6), np.empty(6), np.empty(6), np.empty(6)
-    d = sqrt(1.0 - b[2] * b[2])
-    e1[0], e1[1], e1[2] = -b[1] / d, b[0] / d, 0.0
-    e2[0], e2[1], e2[2] = b[1] * e1[2] - b[2] * e1[1], b[2] * e1[0] - b[0] * e1[2], d
+    Wn, W1, W2, V = pair.W[0], pair.W[1], pair.W[2], pair.W[3]
     active = False
     for f in range(2):
         sgn = 1.0 if f == 0 else -1.0
         touched = False
-        for c in range(3):
-            n[c] = -sgn * b[c]
+        n = times(-sgn, ring_axis)
         for k in range(count):
-            for c in range(3):
-                r[c] = sgn * data.half_roller * a[0, c]
-                r[c] += data.points[k, 0] * a[1, c] + data.points[k, 1] * a[2, c]
-            x, y, z = P[0] + r[0], P[1] + r[1], P[2] + r[2]
-            sl.d[k] = sgn * (x * b[0] + y * b[1] + z * b[2]) - data.half_gap
+            r = combine(times(sgn * data.half_roller, a0), data.points[k, 0], a1)
+            r = combine(r, data.points[k, 1], a2)
+            sl.d[k] = sgn * (along + dot(r, ring_axis)) - data.half_gap
             sl.v[k] = sl.u[k] = 0.0
             if sl.d[k] > 0.0:
                 touched = True
-                o = pose.w
-                v[0] = pose.V[0] - Vr[0] + o[1] * r[2] - o[2] * r[1] - wr[1] * z + wr[2] * y
-                v[1] = pose.V[1] - Vr[1] + o[2] * r[0] - o[0] * r[2] - wr[2] * x + wr[0] * z
-                v[2] = pose.V[2] - Vr[2] + o[0] * r[1] - o[1] * r[0] - wr[0] * y + wr[1] * x
-                add_end_generator(n, r, a[0], P[1], Wn)
-                sl.v[k] = approach(Wn, pose, P, Vr, wr)
-                sl.t[k, 0] = e1[0] * v[0] + e1[1] * v[1] + e1[2] * v[2]
-                sl.t[k, 1] = e2[0] * v[0] + e2[1] * v[1] + e2[2] * v[2]
+                v = plus(rel, cross(spin, r))
+                add_end_generator(n, r, a0, centre[1], Wn)
+                sl.v[k] = approach(Wn, rel, spin)
+                sl.t[k, 0], sl.t[k, 1] = dot(e1, v), dot(e2, v)
                 sl.u[k] = sqrt(sl.t[k, 0] ** 2 + sl.t[k, 1] ** 2)
         if not touched:
             continue
@@ -80,10 +76,9 @@ def rib_contact(pose, data, P, b, Vr, wr, p, laws, sl, pair, mode, sums):
             N = sl.N[k]
             if N <= 0.0:
                 continue
-            for c in range(3):
-                r[c] = sgn * data.half_roller * a[0, c]
-                r[c] += data.points[k, 0] * a[1, c] + data.points[k, 1] * a[2, c]
-            add_end_generator(n, r, a[0], P[1], Wn)
+            r = combine(times(sgn * data.half_roller, a0), data.points[k, 0], a1)
+            r = combine(r, data.points[k, 1], a2)
+            add_end_generator(n, r, a0, centre[1], Wn)
             add_generator(e1, r, W1)
             add_generator(e2, r, W2)
             for c in range(6):

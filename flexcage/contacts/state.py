@@ -12,7 +12,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from flexcage.core.jit import kernel, zero
+from flexcage.core.jit import part, zero
 
 
 class RollerPose(NamedTuple):
@@ -37,6 +37,7 @@ class Slices(NamedTuple):
     dg: np.ndarray  # d(mu/u)/du
     zero: np.ndarray  # zeros: rates for elastic forces
     t: np.ndarray  # (n, 2) sliding velocity components
+    n: np.ndarray  # (n, 3) normals on the roller
 
 
 class Pair(NamedTuple):
@@ -45,6 +46,7 @@ class Pair(NamedTuple):
     wrench: np.ndarray  # (6,)
     K: np.ndarray  # (6, 6) minus d wrench / d displacement
     C: np.ndarray  # (6, 6) minus d wrench / d velocity
+    W: np.ndarray  # (4, 6) generators of one slice: normal, two tangents, all of its force
 
 
 def new_pose() -> RollerPose:
@@ -53,14 +55,14 @@ def new_pose() -> RollerPose:
 
 def new_slices(n: int) -> Slices:
     z = np.zeros
-    return Slices(z(n), z(n), z(n), z(n), z(n), z(n), z(n), z(n), z(n), z((n, 2)))
+    return Slices(z(n), z(n), z(n), z(n), z(n), z(n), z(n), z(n), z(n), z((n, 2)), z((n, 3)))
 
 
 def new_pair() -> Pair:
-    return Pair(np.zeros(6), np.zeros((6, 6)), np.zeros((6, 6)))
+    return Pair(np.zeros(6), np.zeros((6, 6)), np.zeros((6, 6)), np.zeros((4, 6)))
 
 
-@kernel
+@part
 def set_pose(q, u, pose):
     """Fill the pose from a roller's coordinates (x, r, psi, skew, tilt, spin) and velocities.
 
@@ -81,14 +83,7 @@ def set_pose(q, u, pose):
         pose.w[j] = u[3] * a[0, j] + u[4] * a[1, j] + u[5] * a[2, j]
 
 
-@kernel
-def to_frame(F, a, out):
-    """out = F a: space components to orbital components."""
-    for i in range(3):
-        out[i] = F[i, 0] * a[0] + F[i, 1] * a[1] + F[i, 2] * a[2]
-
-
-@kernel
+@part
 def clear(pair, tangent):
     """Zero a pair's wrench and, if asked, its tangent."""
     zero(pair.wrench)
@@ -97,7 +92,7 @@ def clear(pair, tangent):
         zero(pair.C)
 
 
-@kernel
+@part
 def add_generator(n, r, out):
     """out = (n, r x n): the wrench about the centre of a unit force n at lever r."""
     out[0], out[1], out[2] = n[0], n[1], n[2]
@@ -106,7 +101,18 @@ def add_generator(n, r, out):
     out[5] = r[0] * n[1] - r[1] * n[0]
 
 
-@kernel
+@part
+def add_wrench(out, f, r):
+    """out += (f, r x f)."""
+    out[0] += f[0]
+    out[1] += f[1]
+    out[2] += f[2]
+    out[3] += r[1] * f[2] - r[2] * f[1]
+    out[4] += r[2] * f[0] - r[0] * f[2]
+    out[5] += r[0] * f[1] - r[1] * f[0]
+
+
+@part
 def add_end_generator(n, r, axis, distance, out):
     """Generator of a normal force on a roller's end, with nothing left to the spin.
 
@@ -122,19 +128,18 @@ def add_end_generator(n, r, axis, distance, out):
     out[2] += m / distance
 
 
-@kernel
-def approach(W, pose, P, V, w):
-    """Rate at which roller and partner approach along generator W; (V, w) of the partner at -P."""
-    x = pose.V[0] - V[0] - w[1] * P[2] + w[2] * P[1]
-    y = pose.V[1] - V[1] - w[2] * P[0] + w[0] * P[2]
-    z = pose.V[2] - V[2] - w[0] * P[1] + w[1] * P[0]
-    s = W[0] * x + W[1] * y + W[2] * z
-    for j in range(3):
-        s += W[3 + j] * (pose.w[j] - w[j])
-    return -s
+@part
+def approach(W, rel, spin):
+    """Rate at which roller and partner approach along generator W.
+
+    ``rel``: velocity of the roller's centre less that of the partner's point there; ``spin``: the
+    difference of their angular velocities.
+    """
+    s = W[0] * rel[0] + W[1] * rel[1] + W[2] * rel[2]
+    return -(s + W[3] * spin[0] + W[4] * spin[1] + W[5] * spin[2])
 
 
-@kernel
+@part(forceinline=False)
 def add_outer(M, scale, a, b):
     """M += scale a b^T for 6-vectors."""
     for i in range(6):
@@ -144,7 +149,7 @@ def add_outer(M, scale, a, b):
                 M[i, j] += x * b[j]
 
 
-@kernel
+@part
 def shift_matrix(R, lever, S):
     """6x6 map of a partner's (translation, rotation) to the motion at the roller's centre, in F.
 
@@ -162,7 +167,7 @@ def shift_matrix(R, lever, S):
         S[2, 3 + j] = R[1, 0, j] * lever[1] - R[1, 1, j] * lever[0]
 
 
-@kernel
+@part(forceinline=False)
 def friction_tangent(C, N, g, dg, u, tx, tt, Wx, Wt):
     """C += -d(friction)/d(velocity) of one slice; sliding (tx, tt) along generators Wx, Wt."""
     h = dg / u if u > 1e-12 else 0.0

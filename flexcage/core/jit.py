@@ -49,20 +49,45 @@ if "NUMBA_CACHE_DIR" not in os.environ:
     os.environ["NUMBA_CACHE_DIR"] = str(kernel_cache_dir())
 
 import numba  # noqa: E402  (its cache folder must be known first)
+from numba.core import cgutils  # noqa: E402
+from numba.core.imputils import impl_ret_borrowed  # noqa: E402
+from numba.core.runtime.nrtdynmod import _meminfo_struct_type  # noqa: E402
 from numba.experimental import structref  # noqa: E402
+from numba.extending import intrinsic  # noqa: E402
 
 numba.config.CACHE_DIR = os.environ["NUMBA_CACHE_DIR"]  # type: ignore[attr-defined]
 # laws are passed to kernels as first-class functions, which numba calls experimental
 warnings.simplefilter("ignore", numba.errors.NumbaExperimentalFeatureWarning)
 
 OPTIONS: dict[str, Any] = {"cache": True, "error_model": "numpy", "fastmath": False}
+# without numba's reference counts a kernel cannot allocate, and a call that hands over a hundred
+# arrays costs 10 ns instead of 150 (measured); whoever calls owns the arrays
+LEAN = {**OPTIONS, "_nrt": False}
+# inlined into its callers: handing large groups of arrays from one compiled function to another
+# costs more than the mathematics between; wrappers for Python would double the compile time
+PART = {**LEAN, "forceinline": True, "no_cpython_wrapper": True, "no_cfunc_wrapper": True}
 
 
 def kernel(*args: Any, **kwargs: Any) -> Any:
-    """``numba.njit`` with flexcage's options; the plain function is ``.py_func``."""
+    """``numba.njit`` for code that allocates nothing; the compiler refuses it otherwise.
+
+    The plain function is ``.py_func``.
+    """
     if args and callable(args[0]):
-        return numba.njit(**OPTIONS)(args[0])
-    return numba.njit(*args, **{**OPTIONS, **kwargs})
+        return numba.njit(**LEAN)(args[0])
+    return numba.njit(*args, **{**LEAN, **kwargs})
+
+
+def part(*args: Any, **kwargs: Any) -> Any:
+    """A kernel that only other kernels call: inlined there, not callable from Python."""
+    if args and callable(args[0]):
+        return numba.njit(**PART)(args[0])
+    return numba.njit(*args, **{**PART, **kwargs})
+
+
+def allocating_kernel(function: Any) -> Any:
+    """``kernel`` for the few that make arrays or boxes, away from the contact loops."""
+    return numba.njit(**OPTIONS)(function)
 
 
 def kernels_cached() -> bool:
@@ -80,32 +105,53 @@ class BoxType(numba.types.StructRef):
 
 
 class Box(structref.StructRefProxy):
-    """A reference to a large NamedTuple of arrays, so that a call passes one pointer.
-
-    Passing a hundred arrays by value costs 0.4 ms a call from Python and most of the compile time.
-    """
-
+    """A reference to a NamedTuple of arrays: a call passes one pointer for all of them."""
 
 structref.define_proxy(Box, BoxType, ["value"])
 
 
-@kernel
+@allocating_kernel
 def boxed(value):
     """A ``Box`` of the value."""
     return Box(value)
 
 
-@kernel
+@intrinsic
+def _fields(_typing, box):
+    """What a box holds, read in place (numba's own access wants reference counts)."""
+    kind = box.field_dict["value"]
+
+    def codegen(context, builder, signature, args):
+        box_type = signature.args[0]
+        reference = cgutils.create_struct_proxy(box_type)(context, builder, value=args[0])
+        info = builder.bitcast(reference.meminfo, _meminfo_struct_type.as_pointer())
+        data = builder.load(cgutils.gep_inbounds(builder, info, 0, 3))  # its payload
+        data_type = box_type.get_data_type()
+        layout = context.data_model_manager[data_type].get_value_type()
+        held = builder.bitcast(data, layout.as_pointer())
+        value = context.make_data_helper(builder, data_type, ref=held).value
+        return impl_ret_borrowed(context, builder, signature.return_type, value)
+
+    return kind(box), codegen
+
+
+@part
+def fields(box):
+    """The NamedTuple that a box holds."""
+    return _fields(box)
+
+
+@part
 def copy_into(target, source):
     """Copy a C-contiguous array into one of the same size, element by element."""
-    a, b = target.ravel(), source.ravel()
+    a, b = target.reshape(target.size), source.reshape(source.size)
     for k in range(b.shape[0]):
         a[k] = b[k]
 
 
-@kernel
+@part
 def zero(array):
     """Set a C-contiguous array to zero."""
-    a = array.ravel()
+    a = array.reshape(array.size)
     for k in range(a.shape[0]):
         a[k] = 0

@@ -1,4 +1,4 @@
-"""Rotations for kernels: quaternions (scalar first), rotation matrices, small vector helpers."""
+"""Rotations for kernels: quaternions (scalar first), rotation matrices."""
 
 from __future__ import annotations
 
@@ -39,11 +39,3 @@ def rotation_of_quaternion_change(q, dq, out):
     out[0] = n * (-q[1] * dq[0] + q[0] * dq[1] + q[3] * dq[2] - q[2] * dq[3])
     out[1] = n * (-q[2] * dq[0] - q[3] * dq[1] + q[0] * dq[2] + q[1] * dq[3])
     out[2] = n * (-q[3] * dq[0] + q[2] * dq[1] - q[1] * dq[2] + q[0] * dq[3])
-
-
-@kernel
-def cross_add(a, b, out):
-    """out += a x b."""
-    out[0] += a[1] * b[2] - a[2] * b[1]
-    out[1] += a[2] * b[0] - a[0] * b[2]
-    out[2] += a[0] * b[1] - a[1] * b[0]

@@ -26,21 +26,25 @@ class Bordered(NamedTuple):
     pivot: np.ndarray  # (nb,)
     active: np.ndarray  # (Z,)
     low: int
+    perm: np.ndarray  # (6,) row exchanges of a block
+    x6: np.ndarray  # (6,)
+    blocks: np.ndarray  # (2, Z, 6) vectors of whoever forms and solves the system
+    border: np.ndarray  # (2, nb)
 
 
 def new_bordered(blocks: int, border: int, low: int, active: np.ndarray) -> Bordered:
     z = np.zeros
     return Bordered(
         z((blocks, 6, 6)), z((blocks, 6, border)), z((blocks, border, 6)),
-        z((border, border)), z(border, np.int64), active, low,
+        z((border, border)), z(border, np.int64), active, low, z(6, np.int64), z(6),
+        z((2, blocks, 6)), z((2, border)),
     )  # fmt: skip
 
 
 @kernel
-def invert6(A):
+def invert6(A, perm):
     """Invert a 6x6 matrix in place (Gauss-Jordan with pivoting); False if singular."""
     n = 6
-    perm = np.empty(6, np.int64)
     for k in range(n):
         p = k
         for r in range(k + 1, n):
@@ -122,7 +126,7 @@ def factor(m):
     """Factor a bordered system in place; False if a block or the border is singular."""
     nb = m.S.shape[0]
     for i in range(m.A.shape[0]):
-        if not invert6(m.A[i]):
+        if not invert6(m.A[i], m.perm):
             return False
         high = nb if m.active[i] else m.low
         for c in range(high):
@@ -146,7 +150,7 @@ def factor(m):
 def solve(m, r, b):
     """Solve in place: r (Z, 6) the blocks' right-hand sides, b (nb,) the border's."""
     nb = m.S.shape[0]
-    x = np.empty(6)
+    x = m.x6
     for i in range(m.A.shape[0]):
         for k in range(6):
             s = 0.0

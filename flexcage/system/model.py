@@ -15,7 +15,7 @@ from flexcage.bodies.floating_frame import (
 )
 from flexcage.contacts import laws
 from flexcage.contacts.land import LandData, LandWork, land_work
-from flexcage.contacts.pocket import PocketData, PocketWork, pocket_work
+from flexcage.contacts.pocket_wall import N_LOCAL, PocketData, PocketWork, pocket_work
 from flexcage.contacts.race import RaceSide
 from flexcage.contacts.rib import RibData
 from flexcage.contacts.spec import Contacts, Lubricant
@@ -68,6 +68,7 @@ class Memory(NamedTuple):
     pocket: np.ndarray  # (Z, 4, N_NORMAL)
     rib: np.ndarray  # (Z, 2, N_NORMAL)
     land: np.ndarray  # (2, N_NORMAL)
+    deflection: np.ndarray  # (Z, 8) residual coordinates of the pockets, to begin the next solve
 
 
 class Model(NamedTuple):
@@ -118,6 +119,24 @@ class Report(NamedTuple):
     cage_acceleration: np.ndarray  # (6 + n,) generalised forces on the cage
 
 
+class Scratch(NamedTuple):
+    """Small buffers of the residual."""
+
+    S: np.ndarray  # (6, 6)
+    T6: np.ndarray  # (2, 6, 6) products
+    R: np.ndarray  # (2, 3, 3)
+    A: np.ndarray  # (3, 3) cage attitude
+    unit: np.ndarray  # (3, 3) unit matrix
+    roller: np.ndarray  # (6,) wrench of all contacts on one roller
+    sums: np.ndarray  # (9,)
+    vec: np.ndarray  # (9, 3), see residual.py
+    border: np.ndarray  # (nb,) generalised forces on the border
+    Lm: np.ndarray  # (6, n) roller-modal products
+    Bm: np.ndarray  # (n, 6)
+    PR: np.ndarray  # (n, 8) modal-residual products
+    out: np.ndarray  # (size,) residual that nobody asked for
+
+
 class Work(NamedTuple):
     """Workspaces of one evaluation."""
 
@@ -127,16 +146,7 @@ class Work(NamedTuple):
     pocket: PocketWork
     land: LandWork
     frame: FrameWork
-    S: np.ndarray  # (6, 6)
-    T6: np.ndarray  # (2, 6, 6) products
-    R: np.ndarray  # (2, 3, 3)
-    A: np.ndarray  # (3, 3) cage attitude
-    sums: np.ndarray  # (9,)
-    vec: np.ndarray  # (12, 3)
-    border: np.ndarray  # (nb,) generalised forces on the border
-    Lm: np.ndarray  # (6, n) roller-modal products
-    Bm: np.ndarray  # (n, 6)
-    PR: np.ndarray  # (n, 8) modal-residual products
+    scratch: Scratch
     tangent: Tangent
     report: Report
 
@@ -241,6 +251,7 @@ def build_memory(bearing, cage, contacts: Contacts, interface: CageInterface) ->
         pocket=np.array([[pocket, pocket, side, side]] * Z),
         rib=np.tile(rib, (Z, 2, 1)),
         land=np.tile(land, (2, 1)),
+        deflection=np.zeros((Z, N_LOCAL)),
     )
 
 
@@ -388,10 +399,13 @@ def new_work(model: Model, layout: Layout) -> Work:
         z((Z, 8)), z((Z, 2)), z(3), z((2, 2)), z(len(POWERS)), z(4), z((Z, 8), np.int64), z((Z, 8)),
         z(3), z(6 + n),
     )  # fmt: skip
+    scratch = Scratch(
+        z((6, 6)), z((2, 6, 6)), z((2, 3, 3)), z((3, 3)), np.eye(3), z(6), z(9), z((9, 3)),
+        z(14 + n), z((6, n)), z((n, 6)), z((n, 8)), z(layout.size),
+    )  # fmt: skip
     return Work(
         new_pose(), new_slices(most), new_pair(), pocket_work(ns, len(model.pocket.points), nst),
-        land_work(len(model.land.angle)), frame_work(n), z((6, 6)), z((2, 6, 6)), z((2, 3, 3)), z((3, 3)), z(9), z((12, 3)),
-        z(14 + n), z((6, n)), z((n, 6)), z((n, 8)), tangent, report,
+        land_work(len(model.land.angle)), frame_work(n), scratch, tangent, report,
     )  # fmt: skip
 
 

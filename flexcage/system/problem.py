@@ -15,7 +15,17 @@ from numba import types
 
 from flexcage.contacts import laws
 from flexcage.contacts.spec import Contacts
-from flexcage.core.jit import OPTIONS, boxed, copy_into, kernel
+from flexcage.core.jit import (
+    LEAN,
+    OPTIONS,
+    Box,
+    allocating_kernel,
+    boxed,
+    copy_into,
+    fields,
+    kernel,
+    zero,
+)
 from flexcage.core.rotation import quaternion_rate, rotation_of_quaternion_change
 from flexcage.solve import bdf
 from flexcage.solve import bordered as bordered_system
@@ -29,7 +39,7 @@ _solve_bordered = bordered_system.solve
 
 
 class Events(NamedTuple):
-    """Contact changes: a buffer of (time, roller or -1, place, 1 closed or 0 opened) and its fill."""
+    """Contact changes: a buffer of (time, roller or -1, place, 1 closed, 0 opened) and its fill."""
 
     rows: np.ndarray  # (n, 4)
     fill: np.ndarray  # (1,)
@@ -65,6 +75,37 @@ class BearingData(NamedTuple):
     samples: Samples
 
 
+class Parts(NamedTuple):
+    """The same as the compiled functions receive it: a reference to each group of arrays."""
+
+    bodies: Box
+    cage: Box
+    inner: Box
+    outer: Box
+    rib: Box
+    pocket: Box
+    land: Box
+    memory: Box
+    pose: Box
+    slices: Box
+    pair: Box
+    pocket_work: Box
+    land_work: Box
+    frame: Box
+    scratch: Box
+    tangent: Box
+    report: Box
+    matrix: Box
+    events: Box
+    samples: Box
+
+
+def parts(data: BearingData) -> Parts:
+    """References to the groups of arrays of a bearing."""
+    groups = (*data.model, data.memory, *data.work, data.matrix, data.events, data.samples)
+    return Parts(*(boxed(group) for group in groups))
+
+
 def new_samples(n: int, stride: int, model: Model) -> Samples:
     Z = len(model.bodies.radius)
     ns, nst = len(model.pocket.s), model.pocket.phi.shape[2]
@@ -76,7 +117,7 @@ def new_samples(n: int, stride: int, model: Model) -> Samples:
     )  # fmt: skip
 
 
-# ``data`` is (box of BearingData, laws, evaluate): evaluated through a function value, the residual
+# ``data`` is (Parts, laws, evaluate): evaluated through a function value, the residual
 # is compiled once, not again inside each of the functions below.
 
 
@@ -85,18 +126,18 @@ def _residual(t, y, yd, data, out):
 
 
 def _linearise(t, y, yd, data):
-    data[2](t, y, yd, data[0], data[1], np.empty(y.shape[0]), 1)
+    data[2](t, y, yd, data[0], data[1], fields(data[0].scratch).out, 1)
 
 
 def _factor(alpha, data):
-    d = data[0].value
-    return assemble(alpha, d.model, d.work.tangent, d.matrix)
+    d = data[0]
+    return assemble(alpha, fields(d.bodies), fields(d.tangent), fields(d.matrix))
 
 
 @kernel
-def assemble(alpha, model, tan, m):
+def assemble(alpha, bodies, tan, m):
     """Newton's matrix alpha M + C + K/alpha in blocks, and its factors."""
-    mass, Ia, It = model.bodies.roller
+    mass, Ia, It = bodies.roller[0], bodies.roller[1], bodies.roller[2]
     b = 1.0 / alpha
     nb = m.S.shape[0]
     n6 = nb - 7
@@ -125,7 +166,7 @@ def assemble(alpha, model, tan, m):
         m.S[n6 + k, coordinate[k]] = 1.0
         m.S[n6 + 4 + k, coordinate[k]] = b
         m.S[n6 + 4 + k, n6 + 4 + k] = b
-    if model.bodies.drive[0] > 0.0:
+    if bodies.drive[0] > 0.0:
         m.S[n6 + 3, n6 + 3] = 1.0
     else:
         m.S[n6 + 3, 3] = 1.0
@@ -133,8 +174,7 @@ def assemble(alpha, model, tan, m):
 
 
 def _backsolve(alpha, y, r, data):
-    d = data[0].value
-    newton_step(alpha, y, r, d.work.tangent, d.matrix)
+    newton_step(alpha, y, r, fields(data[0].tangent), fields(data[0].matrix))
 
 
 @kernel
@@ -145,8 +185,9 @@ def newton_step(alpha, y, r, tan, m):
     nm = nb - 21
     nq, nu = 6 * Z + 15 + nm, 6 * Z + 14 + nm
     b = 1.0 / alpha
-    s = np.empty((Z, 6))  # kinematic residuals as displacements
-    sb = np.zeros(nb)
+    s, sb = m.blocks[0], m.border[0]  # kinematic residuals as displacements
+    x, xb = m.blocks[1], m.border[1]  # right-hand side, then velocities
+    zero(sb)
     for i in range(Z):
         o = 6 * i
         s[i, 0], s[i, 1], s[i, 2] = r[o], r[o + 1], r[o + 2] * y[o + 1]
@@ -163,8 +204,6 @@ def newton_step(alpha, y, r, tan, m):
         norm += y[z + c] * y[z + c]
     for k in range(nm):
         sb[14 + k] = r[z + 15 + k]
-    x = np.empty((Z, 6))
-    xb = np.empty(nb)
     for k in range(14 + nm):
         f = 0.0
         for c in range(14 + nm):
@@ -217,11 +256,11 @@ def newton_step(alpha, y, r, tan, m):
 
 
 def _accepted(t, y, yd, data, power):
-    d = data[0].value
-    data[2](t, y, yd, data[0], data[1], np.empty(y.shape[0]), 2)
-    remember(t, d.memory, d.work.report, d.events)
+    d, report = data[0], fields(data[0].report)
+    data[2](t, y, yd, d, data[1], fields(d.scratch).out, 2)
+    remember(t, fields(d.memory), report, fields(d.events))
     for k in range(power.shape[0]):
-        power[k] = d.work.report.power[k]
+        power[k] = report.power[k]
 
 
 @kernel
@@ -245,6 +284,7 @@ def remember(t, memory, rep, events):
             if rep.pocket_normal[i, f] > events.peak[i, f]:
                 events.peak[i, f] = rep.pocket_normal[i, f]
                 events.peak_time[i, f] = t
+        copy_into(memory.deflection[i], rep.residual[i])
     for side in range(2):
         closed = 1 if rep.land_touch[side, 0] > 0.0 else 0
         if closed == 0 or events.land[side] == 0:
@@ -265,10 +305,9 @@ def _note(events, t, roller, place, closed):
 
 
 def _observe(sample, t, y, yd, data):
-    d = data[0].value
-    s, rep = d.samples, d.work.report
+    s, rep = fields(data[0].samples), fields(data[0].report)
     if sample % s.stride == s.stride - 1:
-        data[2](t, y, yd, data[0], data[1], np.empty(y.shape[0]), 2)
+        data[2](t, y, yd, data[0], data[1], fields(data[0].scratch).out, 2)
         k = sample // s.stride
         copy_into(s.race[k], rep.race)
         copy_into(s.pocket_normal[k], rep.pocket_normal)
@@ -319,9 +358,9 @@ class Bearing:
         f8, i8 = types.float64, types.int64
         vector, matrix = types.Array(f8, 1, "C"), types.Array(f8, 2, "C")
         law_type = types.Tuple((laws.NORMAL_TYPE,) * 5 + (laws.FRICTION_TYPE,) * 5)
-        bearing = numba.typeof(boxed(self.data))
+        bearing = numba.typeof(parts(self.data))
         evaluation = types.void(f8, vector, vector, bearing, law_type, vector, i8)
-        compiled: Any = numba.njit(evaluation, **OPTIONS)
+        compiled: Any = numba.njit(evaluation, **LEAN)
         self.evaluate: Any = compiled(evaluate)
         data = types.Tuple((bearing, law_type, types.FunctionType(evaluation)))
         signatures = (
@@ -334,7 +373,7 @@ class Bearing:
         )
         bodies = (_residual, _linearise, _factor, _backsolve, _accepted, _observe)
         self.functions: tuple[Any, ...] = tuple(
-            numba.njit(s, **OPTIONS)(f)  # type: ignore[type-var]
+            numba.njit(s, **LEAN)(f)  # type: ignore[type-var]
             for s, f in zip(signatures, bodies, strict=True)
         )
         state = bdf.new_state(0.0, np.zeros(2), np.zeros(2), weight=np.zeros(2), h0=1.0, n_quad=1)
@@ -348,7 +387,7 @@ class Bearing:
 
     def arguments(self, data: BearingData, law: tuple) -> tuple:
         """What the compiled functions take as their data."""
-        return boxed(data), law, self.evaluate
+        return parts(data), law, self.evaluate
 
     def residual(self, t: float, y: np.ndarray, yd: np.ndarray, mode: int = 0) -> np.ndarray:
         """F(t, y, y'), a new array; mode 1 also fills the tangent, mode 2 the report."""
@@ -368,13 +407,15 @@ class Bearing:
         )
 
 
+# the integrator is plain Python that knows no compiler: its functions are compiled here, callees
+# first, so that each finds the compiled one under its name
 for _name in ("change_step", "interpolate", "worst", "correct", "_choose"):
     if not hasattr(getattr(bdf, _name), "py_func"):
-        setattr(bdf, _name, kernel(getattr(bdf, _name)))
+        setattr(bdf, _name, allocating_kernel(getattr(bdf, _name)))
 
 
 def _advance(fns, data, st, opt, t_end, times, ys, yds, first, log, quads):
     return _advance_kernel(fns, data, st, opt, t_end, times, ys, yds, first, log, quads)
 
 
-_advance_kernel = kernel(bdf.advance)
+_advance_kernel = allocating_kernel(bdf.advance)

@@ -9,19 +9,34 @@ from __future__ import annotations
 
 from math import cos, sin
 
-import numpy as np
-
 from flexcage.bodies.floating_frame import inertia_terms
 from flexcage.contacts.land import land_contact
 from flexcage.contacts.pocket import pocket_contact
 from flexcage.contacts.race import race_contact
 from flexcage.contacts.rib import rib_contact
-from flexcage.contacts.state import set_pose, shift_matrix, to_frame
-from flexcage.core.jit import copy_into, kernel, zero
+from flexcage.contacts.state import set_pose, shift_matrix
+from flexcage.core.jit import copy_into, fields, part, zero
 from flexcage.core.rotation import matrix_from_quaternion, quaternion_rate
+from flexcage.core.vectors import (
+    column,
+    combine,
+    cross,
+    dot,
+    minus,
+    plus,
+    put,
+    row,
+    times,
+    turned,
+    turned_back,
+    xyz,
+)
+
+# rows of ``Work.vec``: of the bodies, in space; of the pair under work, in the roller's frame F
+CAGE_SPIN, RING_AXIS, RING_SPIN, LEVER, AXIS, PARTNER_V, PARTNER_W, GUIDE, GUIDE_V = range(9)
 
 
-@kernel
+@part
 def interpolate(table, t):
     """Linear interpolation in a (2, n) table, constant outside."""
     n = table.shape[1]
@@ -34,7 +49,7 @@ def interpolate(table, t):
     return table[1, n - 1]
 
 
-@kernel
+@part
 def drive_angle(bodies, t):
     """Angle that the prescribed speed has turned by time t since t = 0."""
     table = bodies.speed
@@ -51,7 +66,7 @@ def drive_angle(bodies, t):
     return base + bodies.angle[n - 1] + table[1, n - 1] * (t - table[0, n - 1])
 
 
-@kernel
+@part
 def roller_rates(q, u, out):
     """Kinematics of a roller: out = T(q) u; returns the axial rate of its non-spinning frame."""
     orbit = u[2] / q[1]
@@ -63,7 +78,7 @@ def roller_rates(q, u, out):
     return frame
 
 
-@kernel
+@part
 def ring_rates(q, u, out):
     """Kinematics of the inner ring (its frame does not orbit); returns its frame's axial rate."""
     skew = u[4] / cos(q[4])
@@ -73,7 +88,7 @@ def ring_rates(q, u, out):
     return frame
 
 
-@kernel
+@part
 def _scatter(pair, S, i, start, tan, T6):
     """Add a roller-partner pair's tangent; the partner's columns begin at ``start``."""
     for m in range(2):
@@ -101,7 +116,7 @@ def _scatter(pair, S, i, start, tan, T6):
                 bb[start + a, start + b] += x
 
 
-@kernel
+@part
 def _scatter_outer(pair, F, i, tan):
     """The same for the outer ring, which only moves in y and z (columns 6 and 7)."""
     for m in range(2):
@@ -127,7 +142,7 @@ def _scatter_outer(pair, F, i, tan):
                         bb[6 + a, 6 + b] += F[c, 1 + a] * M[c, e] * F[e, 1 + b]
 
 
-@kernel
+@part
 def _scatter_modes(data, i, pw, S, tan, Lm, Bm, PR):
     """Stiffness between pocket i's roller, the cage's rigid motion and its modes."""
     n_m = data.phi.shape[4]
@@ -182,36 +197,65 @@ def _scatter_modes(data, i, pw, S, tan, Lm, Bm, PR):
                 tan.Kbb[14 + m, 8 + e] -= Bm[m, c] * S[c, e]
 
 
-@kernel
-def _add_to_ring(F, wrench, P, border, vec):
-    """Reaction of a roller's wrench on the inner ring, about its centre, in space."""
-    f, m = vec[0], vec[1]
-    m[0] = wrench[3] + P[1] * wrench[2] - P[2] * wrench[1]
-    m[1] = wrench[4] + P[2] * wrench[0] - P[0] * wrench[2]
-    m[2] = wrench[5] + P[0] * wrench[1] - P[1] * wrench[0]
-    for j in range(3):
-        f[j] = wrench[j]
-        border[j] -= F[0, j] * wrench[0] + F[1, j] * wrench[1] + F[2, j] * wrench[2]
-        border[3 + j] -= F[0, j] * m[0] + F[1, j] * m[1] + F[2, j] * m[2]
+@part
+def _react(F, R, wrench, lever, border, at):
+    """Reaction of a roller's wrench on a partner at ``lever`` from it: force in space, moment in
+    the frame with columns R."""
+    f = xyz(wrench)
+    m = plus((wrench[3], wrench[4], wrench[5]), cross(lever, f))
+    f, m = turned_back(F, f), turned_back(R, turned_back(F, m))
+    for c in range(3):
+        border[at + c] -= f[c]
+        border[at + 3 + c] -= m[c]
 
 
-def evaluate(t, y, yd, box, law, out, mode):
+def evaluate(t, y, yd, d, law, out, mode):
     """Residual into ``out``; see the module's text. Index letters: i roller, c component, m mode.
 
-    ``box`` refers to the model, its memory and its workspaces; ``law`` holds the normal laws of
-    race, pocket, side, rib and land, then their friction laws.
+    ``d`` (``problem.Parts``) refers to the model, its memory and its workspaces; ``law`` holds
+    the normal laws of race, pocket, side, rib and land, then their friction laws.
     """
-    race_law, pocket_law, side_law, rib_law, land_law = law[0], law[1], law[2], law[3], law[4]
-    race_mu, pocket_mu, side_mu, rib_mu, land_mu = law[5], law[6], law[7], law[8], law[9]
-    model, memory, work = box.value.model, box.value.memory, box.value.work
-    bodies, tan, rep = model.bodies, work.tangent, work.report
-    Z = bodies.radius.shape[0]
-    nm = model.cage.mff.shape[0]
+    work, phi_max = fields(d.scratch), fields(d.pocket).phi_max
+    Z, nm = fields(d.bodies).radius.shape[0], phi_max.shape[0]
     nq, nu = 6 * Z + 15 + nm, 6 * Z + 14 + nm
     q, u, qd, ud = y[:nq], y[nq : nq + nu], yd[:nq], yd[nq : nq + nu]
-    lam, mu_ = y[nq + nu : nq + nu + 4], y[nq + nu + 4 :]
+    lam, mu = y[nq + nu : nq + nu + 4], y[nq + nu + 4 :]
     r_q, r_u = out[:nq], out[nq : nq + nu]
     zq, border = 6 * Z, work.border
+    _clear(border, d, mode)
+    ring_q, ring_u = q[zq : zq + 6], u[zq : zq + 6]
+    Rc, quat, qf = q[zq + 8 : zq + 11], q[zq + 11 : zq + 15], q[zq + 15 :]
+    Vc, wb, qfd = u[zq + 8 : zq + 11], u[zq + 11 : zq + 14], u[zq + 14 :]
+    A = work.A
+    matrix_from_quaternion(quat, A)
+    wg = work.vec[CAGE_SPIN]
+    put(wg, turned(A, xyz(wb)))
+    _inner_ring(ring_q, ring_u, work.vec)
+    margin = 0.0
+    for m in range(nm):
+        margin += phi_max[m] * abs(qf[m])
+    for i in range(Z):
+        o = 6 * i
+        qi, ui = q[o : o + 6], u[o : o + 6]
+        set_pose(qi, ui, fields(d.pose))
+        zero(work.roller)
+        _inner_contacts(i, qi, ring_q, ring_u, d, law, mode)
+        _outer_contact(i, qi, q[zq + 6 : zq + 8], u[zq + 6 : zq + 8], d, law, mode)
+        _pocket(i, qi, Rc, Vc, qf, qfd, margin, d, law, mode)
+        if mode == 2:
+            _approach(i, ring_u, u[zq + 6 : zq + 8], d)
+        _roller_rows(
+            i, qi, ui, qd[o : o + 6], ud[o : o + 6], d, r_q[o : o + 6], r_u[o : o + 6], mode
+        )
+    _land(q, u, zq, nm, d, law, mode)
+    _cage_rows(d, quat, Vc, wb, qf, qfd, qd, ud, zq, r_q, r_u, mode)
+    _ring_rows(t, d, q, u, qd, ud, lam, mu, zq, r_q, r_u, out, nq + nu, mode)
+
+
+@part
+def _clear(border, d, mode):
+    """Set to zero what the contacts add to."""
+    tan, rep = fields(d.tangent), fields(d.report)
     zero(border)
     if mode == 1:
         zero(tan.Krr)
@@ -223,7 +267,7 @@ def evaluate(t, y, yd, box, law, out, mode):
         zero(tan.Kbb)
         zero(tan.Cbb)
         zero(tan.Mbb)
-    if mode == 2:
+    elif mode == 2:
         zero(rep.power)
         zero(rep.energy)
         zero(rep.race)
@@ -231,242 +275,240 @@ def evaluate(t, y, yd, box, law, out, mode):
         zero(rep.contact)
         zero(rep.body_force)
         zero(rep.land)
-    vec = work.vec
-    ring_q, ring_u = q[zq : zq + 6], u[zq : zq + 6]
-    out_q, out_u = q[zq + 6 : zq + 8], u[zq + 6 : zq + 8]
-    Rc, quat, qf = q[zq + 8 : zq + 11], q[zq + 11 : zq + 15], q[zq + 15 :]
-    Vc, wb, qfd = u[zq + 8 : zq + 11], u[zq + 11 : zq + 14], u[zq + 14 :]
-    A = work.A
-    matrix_from_quaternion(quat, A)
-    wg = vec[2]
-    for c in range(3):
-        wg[c] = A[c, 0] * wb[0] + A[c, 1] * wb[1] + A[c, 2] * wb[2]
-    # inner ring's axes and angular velocity in space (its frame does not spin)
-    cx, sx, ce, se = cos(ring_q[3]), sin(ring_q[3]), cos(ring_q[4]), sin(ring_q[4])
-    b_s, w_s = vec[3], vec[4]
-    b_s[0], b_s[1], b_s[2] = cx * ce, se, -sx * ce
-    w_s[0] = ring_u[3] * b_s[0] - ring_u[4] * cx * se + ring_u[5] * sx
-    w_s[1] = ring_u[3] * b_s[1] + ring_u[4] * ce
-    w_s[2] = ring_u[3] * b_s[2] + ring_u[4] * sx * se + ring_u[5] * cx
-    margin = 0.0
-    for m in range(nm):
-        margin += model.pocket.phi_max[m] * abs(qf[m])
-    pose, sl, pair, pw, sums = work.pose, work.slices, work.pair, work.pocket, work.sums
-    P, b, Vr, wr = vec[5], vec[6], vec[7], vec[8]
-    zero3 = np.zeros(3)
-    xaxis = np.zeros(3)
-    xaxis[0] = 1.0
-    D, rel = vec[9], vec[10]
-    tmp = vec[11]
-    mass, Ia, It = bodies.roller
-    FR = np.empty(6)
-    laws = (pocket_law, side_law, pocket_mu, side_mu)
-    rib_laws = (rib_law, rib_mu)
-    half_drag = bodies.drag[0]
-    for i in range(Z):
-        qi, ui, udi = q[6 * i : 6 * i + 6], u[6 * i : 6 * i + 6], ud[6 * i : 6 * i + 6]
-        set_pose(qi, ui, pose)
-        F, a = pose.F, pose.axis
-        Rw = bodies.radius[i]
-        zero(FR)
-        # inner race and ribs
-        P[0] = qi[0] - ring_q[0]
-        P[1] = qi[1] - (ring_q[1] * F[1, 1] + ring_q[2] * F[1, 2])
-        P[2] = -(ring_q[1] * F[2, 1] + ring_q[2] * F[2, 2])
-        to_frame(F, b_s, b)
-        to_frame(F, ring_u[0:3], Vr)
-        to_frame(F, w_s, wr)
-        for k in range(2):
-            if k == 0:
-                hit = race_contact(
-                    pose, model.inner, Rw, P, b, Vr, wr, ring_q[5], memory.race[i, 0],
-                    race_law, race_mu, sl, pair, mode, sums,
-                )  # fmt: skip
-            else:
-                hit = rib_contact(
-                    pose, model.rib, P, b, Vr, wr, memory.rib[i], rib_laws, sl, pair, mode, sums
-                )
-            if not hit:
-                continue
-            for c in range(6):
-                FR[c] += pair.wrench[c]
-            _add_to_ring(F, pair.wrench, P, border, vec)
-            if mode == 1:
-                for c in range(3):
-                    for e in range(3):
-                        work.R[0, c, e] = F[c, e]
-                        work.R[1, c, e] = F[c, e]
-                shift_matrix(work.R, P, work.S)
-                _scatter(pair, work.S, i, 0, tan, work.T6)
-            elif mode == 2 and k == 0:
-                for c in range(9):
-                    rep.race[i, 0, c] = sums[c]
-                rep.contact[i, 0] = 1 if sums[0] > 0.0 else 0
-                rep.energy[2] += sums[5]
-                rep.power[3] += sums[6]
-                rep.power[4] += sums[7]
-                rep.power[5] += sums[8]
-            elif mode == 2:
-                rep.rib[i, 0], rep.rib[i, 1] = sums[0], sums[1]
-                rep.contact[i, 6] = 1 if sums[0] > 0.0 else 0
-                rep.contact[i, 7] = 1 if sums[1] > 0.0 else 0
-                rep.energy[2] += sums[2]
-                rep.power[8] += sums[3] + sums[4]
-        # outer race
-        P[0] = qi[0]
-        P[1] = qi[1] - (out_q[0] * F[1, 1] + out_q[1] * F[1, 2])
-        P[2] = -(out_q[0] * F[2, 1] + out_q[1] * F[2, 2])
-        for c in range(3):
-            Vr[c] = F[c, 1] * out_u[0] + F[c, 2] * out_u[1]
-        hit = race_contact(
-            pose, model.outer, Rw, P, xaxis, Vr, zero3, 0.0, memory.race[i, 1],
-            race_law, race_mu, sl, pair, mode, sums,
-        )  # fmt: skip
-        if hit:
-            for c in range(6):
-                FR[c] += pair.wrench[c]
-            for c in range(2):
-                fo = F[1, 1 + c] * pair.wrench[1] + F[2, 1 + c] * pair.wrench[2]
-                border[6 + c] -= fo
-            if mode == 1:
-                _scatter_outer(pair, F, i, tan)
-            elif mode == 2:
-                for c in range(9):
-                    rep.race[i, 1, c] = sums[c]
-                rep.contact[i, 1] = 1 if sums[0] > 0.0 else 0
-                rep.energy[2] += sums[5]
-                rep.power[3] += sums[6]
-                rep.power[4] += sums[7]
-                rep.power[5] += sums[8]
-        # pocket
-        rel[0], rel[1], rel[2] = qi[0] - Rc[0], -Rc[1], -Rc[2]
-        to_frame(F, rel, D)
-        D[1] += qi[1]
-        ca, sa = model.pocket.azimuth[i, 0], model.pocket.azimuth[i, 1]
-        for c in range(3):
-            pw.G[0, c] = F[c, 0] * A[0, 0] + F[c, 1] * A[1, 0] + F[c, 2] * A[2, 0]
-            e1 = F[c, 0] * A[0, 1] + F[c, 1] * A[1, 1] + F[c, 2] * A[2, 1]
-            e2 = F[c, 0] * A[0, 2] + F[c, 1] * A[1, 2] + F[c, 2] * A[2, 2]
-            pw.G[1, c] = ca * e1 + sa * e2
-            pw.G[2, c] = -sa * e1 + ca * e2
-        to_frame(F, Vc, Vr)
-        to_frame(F, wg, wr)
-        hit = pocket_contact(
-            pose, model.pocket, i, Rw, D, Vr, wr, qf, qfd, margin, memory.pocket[i], laws,
-            sl, pw, pair, mode, sums,
-        )  # fmt: skip
+
+
+@part
+def _inner_ring(q, u, vec):
+    """Axis and angular velocity of the inner ring in space (its frame does not spin)."""
+    cx, sx, ce, se = cos(q[3]), sin(q[3]), cos(q[4]), sin(q[4])
+    axis = (cx * ce, se, -sx * ce)
+    put(vec[RING_AXIS], axis)
+    skew = (-cx * se, ce, sx * se)
+    put(vec[RING_SPIN], combine(combine(times(u[3], axis), u[4], skew), u[5], (sx, 0.0, cx)))
+
+
+@part
+def _inner_contacts(i, qi, ring_q, ring_u, d, law, mode):
+    """Roller i on the inner race and its ribs."""
+    pose, pair, rep, work = fields(d.pose), fields(d.pair), fields(d.report), fields(d.scratch)
+    F, vec, sums, memory = pose.F, work.vec, work.sums, fields(d.memory)
+    P, b, Vr, wr = vec[LEVER], vec[AXIS], vec[PARTNER_V], vec[PARTNER_W]
+    put(P, minus((qi[0], qi[1], 0.0), turned(F, xyz(ring_q))))
+    put(b, turned(F, xyz(vec[RING_AXIS])))
+    put(Vr, turned(F, xyz(ring_u)))
+    put(wr, turned(F, xyz(vec[RING_SPIN])))
+    for k in range(2):
+        if k == 0:
+            hit = race_contact(
+                pose, fields(d.inner), fields(d.bodies).radius[i], P, b, Vr, wr, ring_q[5],
+                memory.race[i, 0], law[0], law[5], fields(d.slices), pair, mode, sums,
+            )  # fmt: skip
+        else:
+            hit = rib_contact(
+                pose, fields(d.rib), P, b, Vr, wr, memory.rib[i], (law[3], law[8]),
+                fields(d.slices), pair, mode, sums,
+            )  # fmt: skip
+        if not hit:
+            continue
+        _add_to_roller(work.roller, pair)
+        _react(F, work.unit, pair.wrench, xyz(P), work.border, 0)
         if mode == 1:
-            tan.active[i] = 1 if hit else 0
-        if hit:
-            for c in range(6):
-                FR[c] += pair.wrench[c]
-            w6 = pair.wrench
-            tmp[0] = w6[3] + D[1] * w6[2] - D[2] * w6[1]
-            tmp[1] = w6[4] + D[2] * w6[0] - D[0] * w6[2]
-            tmp[2] = w6[5] + D[0] * w6[1] - D[1] * w6[0]
-            for c in range(3):
-                border[8 + c] -= F[0, c] * w6[0] + F[1, c] * w6[1] + F[2, c] * w6[2]
-                rel[c] = F[0, c] * tmp[0] + F[1, c] * tmp[1] + F[2, c] * tmp[2]
-            for c in range(3):
-                border[11 + c] -= A[0, c] * rel[0] + A[1, c] * rel[1] + A[2, c] * rel[2]
-            if nm > 0:
-                for f in range(4):
-                    if pw.normal[f] > 0.0:
-                        for s in range(pw.st.shape[1]):
-                            for c in range(3):
-                                x = pw.st[f, s, c]
-                                if x != 0.0:
-                                    for m in range(nm):
-                                        border[14 + m] += x * model.pocket.phi[i, f, s, c, m]
-            if mode == 1:
-                for c in range(3):
-                    for e in range(3):
-                        work.R[0, c, e] = F[c, e]
-                        x = 0.0
-                        for o in range(3):
-                            x += F[c, o] * A[o, e]
-                        work.R[1, c, e] = x
-                shift_matrix(work.R, D, work.S)
-                _scatter(pair, work.S, i, 8, tan, work.T6)
-                if nm > 0:
-                    _scatter_modes(model.pocket, i, pw, work.S, tan, work.Lm, work.Bm, work.PR)
-        if mode == 2:
-            if hit:
-                rep.energy[2] += sums[0]
-                rep.power[6] += sums[1]
-                rep.power[7] += sums[2]
-                copy_into(rep.station[i], pw.st)
-                copy_into(rep.residual[i], pw.a)
-                for f in range(2):
-                    for k in range(rep.slice_normal.shape[2]):
-                        rep.slice_normal[i, f, k] = pw.slice_N[f, k]
-                        rep.slice_friction[i, f, k] = pw.slice_T[f, k]
-            else:
-                zero(rep.station[i])
-                zero(rep.residual[i])
-                zero(rep.slice_normal[i])
-                zero(rep.slice_friction[i])
-            for f in range(4):
-                rep.pocket_normal[i, f] = pw.normal[f]
-                rep.pocket_friction[i, f] = pw.tangential[f]
-                rep.contact[i, 2 + f] = 1 if pw.normal[f] > 0.0 else 0
-            _approach(pose, model, i, ring_u, out_u, F, Vr, wr, D, pw, rep)
-        # drag and gravity
-        drag = -half_drag * abs(ui[2]) * ui[2]
-        FR[2] += drag
-        gr = F[1, 1] * bodies.gravity[1] + F[1, 2] * bodies.gravity[2]
-        gp = F[2, 1] * bodies.gravity[1] + F[2, 2] * bodies.gravity[2]
-        # rows of the roller
-        rates = work.S[0]
-        frame = roller_rates(qi, ui, rates)
-        for c in range(6):
-            r_q[6 * i + c] = qd[6 * i + c] - rates[c]
-        r = qi[1]
-        o = 6 * i
-        r_u[o] = mass * (udi[0] - bodies.gravity[0]) - FR[0]
-        r_u[o + 1] = mass * (udi[1] - ui[2] * ui[2] / r - gr) - FR[1]
-        r_u[o + 2] = mass * (udi[2] + ui[1] * ui[2] / r - gp) - FR[2]
-        M1 = a[0, 0] * FR[3] + a[0, 1] * FR[4] + a[0, 2] * FR[5]
-        M2 = a[1, 0] * FR[3] + a[1, 1] * FR[4] + a[1, 2] * FR[5]
-        M3 = a[2, 0] * FR[3] + a[2, 1] * FR[4] + a[2, 2] * FR[5]
-        r_u[o + 3] = Ia * udi[3] - M1
-        r_u[o + 4] = It * (udi[4] - frame * ui[5]) + Ia * ui[3] * ui[5] - M2
-        r_u[o + 5] = It * (udi[5] + frame * ui[4]) - Ia * ui[3] * ui[4] - M3
-        if mode == 1:
-            tan.Crr[i, 1, 2] -= 2.0 * mass * ui[2] / r
-            tan.Crr[i, 2, 1] += mass * ui[2] / r
-            tan.Crr[i, 2, 2] += mass * ui[1] / r + 2.0 * half_drag * abs(ui[2])
-            tan.Crr[i, 4, 5] += Ia * ui[3] - It * frame
-            tan.Crr[i, 5, 4] -= Ia * ui[3] - It * frame
+            copy_into(work.R[0], F)
+            copy_into(work.R[1], F)
+            shift_matrix(work.R, P, work.S)
+            _scatter(pair, work.S, i, 0, fields(d.tangent), work.T6)
+        elif mode == 2 and k == 0:
+            _report_race(i, 0, sums, rep)
         elif mode == 2:
-            rep.power[2] += mass * (gr * ui[1] + gp * ui[2])
-            rep.power[10] += drag * ui[2]
-            v2 = ui[0] * ui[0] + ui[1] * ui[1] + ui[2] * ui[2]
-            w2 = ui[4] * ui[4] + ui[5] * ui[5]
-            rep.energy[0] += 0.5 * (mass * v2 + Ia * ui[3] * ui[3] + It * w2)
-    # cage land
-    Fc, Mc, Fr, Mr = vec[5], vec[6], vec[7], vec[8]
+            rep.rib[i, 0], rep.rib[i, 1] = sums[0], sums[1]
+            rep.contact[i, 6] = 1 if sums[0] > 0.0 else 0
+            rep.contact[i, 7] = 1 if sums[1] > 0.0 else 0
+            rep.energy[2] += sums[2]
+            rep.power[8] += sums[3] + sums[4]
+
+
+@part
+def _outer_contact(i, qi, out_q, out_u, d, law, mode):
+    """Roller i on the outer race, whose ring moves in its plane only."""
+    pose, pair, work = fields(d.pose), fields(d.pair), fields(d.scratch)
+    F, vec, border = pose.F, work.vec, work.border
+    P, b, Vr, wr = vec[LEVER], vec[AXIS], vec[PARTNER_V], vec[PARTNER_W]
+    put(P, minus((qi[0], qi[1], 0.0), turned(F, (0.0, out_q[0], out_q[1]))))
+    put(b, (1.0, 0.0, 0.0))
+    put(Vr, turned(F, (0.0, out_u[0], out_u[1])))
+    put(wr, (0.0, 0.0, 0.0))
+    hit = race_contact(
+        pose, fields(d.outer), fields(d.bodies).radius[i], P, b, Vr, wr, 0.0,
+        fields(d.memory).race[i, 1], law[0], law[5], fields(d.slices), pair, mode, work.sums,
+    )  # fmt: skip
+    if not hit:
+        return
+    _add_to_roller(work.roller, pair)
+    for c in range(2):
+        border[6 + c] -= F[1, 1 + c] * pair.wrench[1] + F[2, 1 + c] * pair.wrench[2]
+    if mode == 1:
+        _scatter_outer(pair, F, i, fields(d.tangent))
+    elif mode == 2:
+        _report_race(i, 1, work.sums, fields(d.report))
+
+
+@part
+def _add_to_roller(total, pair):
+    for c in range(6):
+        total[c] += pair.wrench[c]
+
+
+@part
+def _report_race(i, side, sums, rep):
+    for c in range(9):
+        rep.race[i, side, c] = sums[c]
+    rep.contact[i, side] = 1 if sums[0] > 0.0 else 0
+    rep.energy[2] += sums[5]
+    rep.power[3] += sums[6]
+    rep.power[4] += sums[7]
+    rep.power[5] += sums[8]
+
+
+@part
+def _pocket(i, qi, Rc, Vc, qf, qfd, margin, d, law, mode):
+    """Roller i in its pocket."""
+    pose, pair, pw, work = fields(d.pose), fields(d.pair), fields(d.pocket_work), fields(d.scratch)
+    data, memory, tan = fields(d.pocket), fields(d.memory), fields(d.tangent)
+    F, A, vec, sums, border = pose.F, work.A, work.vec, work.sums, work.border
+    D, Vr, wr = vec[LEVER], vec[PARTNER_V], vec[PARTNER_W]
+    put(D, plus((0.0, qi[1], 0.0), turned(F, (qi[0] - Rc[0], -Rc[1], -Rc[2]))))
+    ca, sa = data.azimuth[i, 0], data.azimuth[i, 1]
+    e1, e2 = column(A, 1), column(A, 2)
+    put(pw.G[0], turned(F, column(A, 0)))
+    put(pw.G[1], turned(F, combine(times(ca, e1), sa, e2)))
+    put(pw.G[2], turned(F, combine(times(ca, e2), -sa, e1)))
+    put(Vr, turned(F, xyz(Vc)))
+    put(wr, turned(F, xyz(vec[CAGE_SPIN])))
+    hit = pocket_contact(
+        pose, data, i, fields(d.bodies).radius[i], D, Vr, wr, qf, qfd, margin, memory.pocket[i],
+        (law[1], law[2], law[6], law[7]), memory.deflection[i], fields(d.slices), pw, pair, mode,
+        sums,
+    )  # fmt: skip
+    if hit:
+        _add_to_roller(work.roller, pair)
+        _react(F, A, pair.wrench, xyz(D), border, 8)
+        _push_modes(data, i, pw, border)
+    if mode == 1:
+        tan.active[i] = 1 if hit else 0
+        if hit:
+            copy_into(work.R[0], F)
+            for c in range(3):
+                put(work.R[1, c], turned_back(A, row(F, c)))
+            shift_matrix(work.R, D, work.S)
+            _scatter(pair, work.S, i, 8, tan, work.T6)
+            if qf.shape[0] > 0:
+                _scatter_modes(data, i, pw, work.S, tan, work.Lm, work.Bm, work.PR)
+    elif mode == 2:
+        _report_pocket(i, hit, sums, pw, fields(d.report))
+
+
+@part
+def _push_modes(data, i, pw, border):
+    """Generalised forces of pocket i's station forces on the cage's modes."""
+    for f in range(4):
+        if pw.normal[f] <= 0.0:
+            continue
+        for s in range(pw.st.shape[1]):
+            for c in range(3):
+                x = pw.st[f, s, c]
+                if x != 0.0:
+                    shape = data.phi[i, f, s, c]
+                    for m in range(shape.shape[0]):
+                        border[14 + m] += x * shape[m]
+
+
+@part
+def _report_pocket(i, hit, sums, pw, rep):
+    if hit:
+        rep.energy[2] += sums[0]
+        rep.power[6] += sums[1]
+        rep.power[7] += sums[2]
+        copy_into(rep.station[i], pw.st)
+        for f in range(2):
+            for k in range(rep.slice_normal.shape[2]):
+                rep.slice_normal[i, f, k] = pw.slice_N[f, k]
+                rep.slice_friction[i, f, k] = pw.slice_T[f, k]
+    else:
+        zero(rep.station[i])
+        zero(rep.slice_normal[i])
+        zero(rep.slice_friction[i])
+    copy_into(rep.residual[i], pw.a)
+    for f in range(4):
+        rep.pocket_normal[i, f] = pw.normal[f]
+        rep.pocket_friction[i, f] = pw.tangential[f]
+        rep.contact[i, 2 + f] = 1 if pw.normal[f] > 0.0 else 0
+
+
+@part
+def _roller_rows(i, qi, ui, qdi, udi, d, r_q, r_u, mode):
+    """Kinematics and momentum of roller i, with drag and gravity."""
+    pose, work, bodies = fields(d.pose), fields(d.scratch), fields(d.bodies)
+    tan, rep = fields(d.tangent), fields(d.report)
+    F, FR, rates = pose.F, work.roller, work.S[0]
+    mass, Ia, It = bodies.roller[0], bodies.roller[1], bodies.roller[2]
+    drag = -bodies.drag[0] * abs(ui[2]) * ui[2]
+    gr = F[1, 1] * bodies.gravity[1] + F[1, 2] * bodies.gravity[2]
+    gp = F[2, 1] * bodies.gravity[1] + F[2, 2] * bodies.gravity[2]
+    frame = roller_rates(qi, ui, rates)
+    for c in range(6):
+        r_q[c] = qdi[c] - rates[c]
+    r = qi[1]
+    r_u[0] = mass * (udi[0] - bodies.gravity[0]) - FR[0]
+    r_u[1] = mass * (udi[1] - ui[2] * ui[2] / r - gr) - FR[1]
+    r_u[2] = mass * (udi[2] + ui[1] * ui[2] / r - gp) - FR[2] - drag
+    M1, M2, M3 = turned(pose.axis, (FR[3], FR[4], FR[5]))
+    r_u[3] = Ia * udi[3] - M1
+    r_u[4] = It * (udi[4] - frame * ui[5]) + Ia * ui[3] * ui[5] - M2
+    r_u[5] = It * (udi[5] + frame * ui[4]) - Ia * ui[3] * ui[4] - M3
+    if mode == 1:
+        tan.Crr[i, 1, 2] -= 2.0 * mass * ui[2] / r
+        tan.Crr[i, 2, 1] += mass * ui[2] / r
+        tan.Crr[i, 2, 2] += mass * ui[1] / r + 2.0 * bodies.drag[0] * abs(ui[2])
+        tan.Crr[i, 4, 5] += Ia * ui[3] - It * frame
+        tan.Crr[i, 5, 4] -= Ia * ui[3] - It * frame
+    elif mode == 2:
+        rep.power[2] += mass * (gr * ui[1] + gp * ui[2])
+        rep.power[10] += drag * ui[2]
+        v2 = ui[0] * ui[0] + ui[1] * ui[1] + ui[2] * ui[2]
+        w2 = ui[4] * ui[4] + ui[5] * ui[5]
+        rep.energy[0] += 0.5 * (mass * v2 + Ia * ui[3] * ui[3] + It * w2)
+
+
+@part
+def _land(q, u, zq, nm, d, law, mode):
+    """Cage's lands on the ring that guides it, and the drag on the cage."""
+    work, data, rep = fields(d.scratch), fields(d.land), fields(d.report)
+    vec, border, A = work.vec, work.border, work.A
+    Fc, Mc, Fr, Mr = vec[LEVER], vec[AXIS], vec[PARTNER_V], vec[PARTNER_W]
     zero(Fc)
     zero(Mc)
     zero(Fr)
     zero(Mr)
-    Qm = border[14:]
-    rides_inner = model.land.inner > 0.0
+    wg, where, speed, spin = vec[CAGE_SPIN], vec[GUIDE], vec[GUIDE_V], 0.0
+    rides_inner = data.inner > 0.0
     if rides_inner:
-        copy_into(rel, ring_q[0:3])
-        copy_into(tmp, ring_u[0:3])
+        put(where, xyz(q[zq : zq + 3]))
+        put(speed, xyz(u[zq : zq + 3]))
+        spin = u[zq + 3]
     else:
-        rel[0], rel[1], rel[2] = 0.0, out_q[0], out_q[1]
-        tmp[0], tmp[1], tmp[2] = 0.0, out_u[0], out_u[1]
-    spin = ring_u[3] if rides_inner else 0.0
+        put(where, (0.0, q[zq + 6], q[zq + 7]))
+        put(speed, (0.0, u[zq + 6], u[zq + 7]))
     land_contact(
-        A, Rc, Vc, wg, qf, qfd, rel, tmp, spin, model.land, memory.land, (land_law, land_mu),
-        sl, work.land, Fc, Mc, Qm, Fr, Mr, sums,
+        A, q[zq + 8 : zq + 11], u[zq + 8 : zq + 11], wg, q[zq + 15 :], u[zq + 14 :], where, speed,
+        spin, data, fields(d.memory).land, (law[4], law[9]), fields(d.slices),
+        fields(d.land_work), Fc, Mc, border[14 : 14 + nm], Fr, Mr, work.sums,
     )  # fmt: skip
-    Mc[0] -= bodies.drag[1] * abs(wg[0]) * wg[0]
+    drag = fields(d.bodies).drag[1] * abs(wg[0]) * wg[0]
+    Mc[0] -= drag
+    moment = turned_back(A, xyz(Mc))
     for c in range(3):
-        border[8 + c] += Fc[c] + 0.0
-        border[11 + c] += A[0, c] * Mc[0] + A[1, c] * Mc[1] + A[2, c] * Mc[2]
+        border[8 + c] += Fc[c]
+        border[11 + c] += moment[c]
         if rides_inner:
             border[c] += Fr[c]
             border[3 + c] += Mr[c]
@@ -474,42 +516,42 @@ def evaluate(t, y, yd, box, law, out, mode):
         border[6] += Fr[1]
         border[7] += Fr[2]
     if mode == 2:
+        sums = work.sums
         copy_into(rep.land, Fc)
         for c in range(2):
             rep.land_touch[c, 0], rep.land_touch[c, 1] = sums[4 + c], sums[6 + c]
         rep.energy[2] += sums[0]
         rep.power[9] += sums[1] + sums[2] + sums[3]
-        rep.power[10] -= bodies.drag[1] * abs(wg[0]) * wg[0] * wg[0]
-    _cage_rows(model, work, A, Rc, quat, Vc, wb, qf, qfd, qd, ud, zq, r_q, r_u, border, mode)
-    _ring_rows(t, model, work, q, u, qd, ud, lam, mu_, zq, r_q, r_u, border, out, nq + nu, mode)
+        rep.power[10] -= drag * wg[0]
 
 
-@kernel
-def _approach(pose, model, i, ring_u, out_u, F, Vc, wc, D, pw, rep):
+@part
+def _approach(i, ring_u, out_u, d):
     """Approach speed of roller i at each of its contacts, at its centre (for the onset memory)."""
-    vi = F[1, 1] * ring_u[1] + F[1, 2] * ring_u[2]
-    vo = F[1, 1] * out_u[0] + F[1, 2] * out_u[1]
-    rep.approach[i, 0] = -(pose.V[1] - vi)
-    rep.approach[i, 1] = pose.V[1] - vo
-    vx = pose.V[0] - Vc[0] - (wc[1] * D[2] - wc[2] * D[1])
-    vr = pose.V[1] - Vc[1] - (wc[2] * D[0] - wc[0] * D[2])
-    vp = pose.V[2] - Vc[2] - (wc[0] * D[1] - wc[1] * D[0])
-    t = pw.G[2, 0] * vx + pw.G[2, 1] * vr + pw.G[2, 2] * vp
-    x = pw.G[0, 0] * vx + pw.G[0, 1] * vr + pw.G[0, 2] * vp
+    pose, vec, G = fields(d.pose), fields(d.scratch).vec, fields(d.pocket_work).G
+    rep = fields(d.report)
+    F, V = pose.F, xyz(pose.V)
+    rep.approach[i, 0] = F[1, 1] * ring_u[1] + F[1, 2] * ring_u[2] - V[1]
+    rep.approach[i, 1] = V[1] - F[1, 1] * out_u[0] - F[1, 2] * out_u[1]
+    cage = plus(xyz(vec[PARTNER_V]), cross(xyz(vec[PARTNER_W]), xyz(vec[LEVER])))
+    v = minus(V, cage)
+    t, x = dot(row(G, 2), v), dot(row(G, 0), v)
     rep.approach[i, 2], rep.approach[i, 3] = t, -t
     rep.approach[i, 4], rep.approach[i, 5] = x, -x
-    rep.approach[i, 6] = pose.V[0] - ring_u[0]
+    rep.approach[i, 6] = V[0] - ring_u[0]
     rep.approach[i, 7] = -rep.approach[i, 6]
 
 
-@kernel
-def _cage_rows(model, work, A, Rc, quat, Vc, wb, qf, qfd, qd, ud, zq, r_q, r_u, border, mode):
+@part
+def _cage_rows(d, quat, Vc, wb, qf, qfd, qd, ud, zq, r_q, r_u, mode):
     """Rows of the cage: floating frame, translations in space, rotations in the body."""
-    data, tan, rep = model.cage, work.tangent, work.report
+    data, tan, rep, work = fields(d.cage), fields(d.tangent), fields(d.report), fields(d.scratch)
+    frame, A, border = fields(d.frame), work.A, work.border
     nm = qf.shape[0]
-    M, h = work.frame.M, work.frame.h
-    inertia_terms(data, wb, qf, qfd, work.frame)
-    rate = np.empty(4)
+    acc, rows, v = frame.w[0], frame.w[1], frame.w[2]
+    M, h = frame.M, frame.h
+    inertia_terms(data, wb, qf, qfd, frame)
+    rate = work.S[0]
     quaternion_rate(quat, wb, rate)
     for c in range(3):
         r_q[zq + 8 + c] = qd[zq + 8 + c] - Vc[c]
@@ -517,16 +559,10 @@ def _cage_rows(model, work, A, Rc, quat, Vc, wb, qf, qfd, qd, ud, zq, r_q, r_u, 
         r_q[zq + 11 + c] = qd[zq + 11 + c] - rate[c]
     for m in range(nm):
         r_q[zq + 15 + m] = qd[zq + 15 + m] - qfd[m]
-    acc = np.empty(6 + nm)
-    g = model.bodies.gravity
-    gb = np.empty(3)
-    for c in range(3):
-        acc[c] = A[0, c] * ud[zq + 8] + A[1, c] * ud[zq + 9] + A[2, c] * ud[zq + 10]
-        gb[c] = A[0, c] * g[0] + A[1, c] * g[1] + A[2, c] * g[2]
+    gb = turned_back(A, xyz(fields(d.bodies).gravity))
+    put(acc, turned_back(A, xyz(ud[zq + 8 : zq + 11])))
+    for c in range(3 + nm):
         acc[3 + c] = ud[zq + 11 + c]
-    for m in range(nm):
-        acc[6 + m] = ud[zq + 14 + m]
-    rows = np.empty(6 + nm)
     for k in range(6 + nm):
         x = h[k]
         for c in range(3):  # gravity is an acceleration of the whole body
@@ -565,9 +601,8 @@ def _cage_rows(model, work, A, Rc, quat, Vc, wb, qf, qfd, qd, ud, zq, r_q, r_u, 
                 tan.Kbb[14 + m, 14 + l] += data.kff[m, l]
                 tan.Cbb[14 + m, 14 + l] += data.dff[m, l]
     elif mode == 2:
-        v = np.empty(6 + nm)
+        put(v, turned_back(A, xyz(Vc)))
         for c in range(3):
-            v[c] = A[0, c] * Vc[0] + A[1, c] * Vc[1] + A[2, c] * Vc[2]
             v[3 + c] = wb[c]
         for m in range(nm):
             v[6 + m] = qfd[m]
@@ -582,19 +617,20 @@ def _cage_rows(model, work, A, Rc, quat, Vc, wb, qf, qfd, qd, ud, zq, r_q, r_u, 
                 rep.power[11] -= qfd[m] * data.dff[m, l] * qfd[l]
 
 
-@kernel
-def _ring_rows(t, model, work, q, u, qd, ud, lam, mu_, zq, r_q, r_u, border, out, end, mode):
+@part
+def _ring_rows(t, d, q, u, qd, ud, lam, mu_, zq, r_q, r_u, out, end, mode):
     """Rows of the inner and outer rings and of the constraints."""
-    bodies, tan, rep = model.bodies, work.tangent, work.report
+    bodies, tan, rep = fields(d.bodies), fields(d.tangent), fields(d.report)
+    work, border = fields(d.scratch), fields(d.scratch).border
     rq, ru, rud = q[zq : zq + 6], u[zq : zq + 6], ud[zq : zq + 6]
-    rates = np.empty(6)
+    rates = work.S[0]
     frame = ring_rates(rq, ru, rates)
     for c in range(6):
         r_q[zq + c] = qd[zq + c] - rates[c]
     r_q[zq] -= mu_[0]
     r_q[zq + 3] -= mu_[1]
     r_q[zq + 4] -= mu_[2]
-    mass, Ia, It = bodies.ring
+    mass, Ia, It = bodies.ring[0], bodies.ring[1], bodies.ring[2]
     load = interpolate(bodies.load, t)
     # moments about the ring's own (non-spinning) axes
     cx, sx, ce, se = cos(rq[3]), sin(rq[3]), cos(rq[4]), sin(rq[4])
@@ -617,7 +653,7 @@ def _ring_rows(t, model, work, q, u, qd, ud, lam, mu_, zq, r_q, r_u, border, out
     r_u[zq + 5] = It * (rud[5] + frame * ru[4]) - Ia * ru[3] * ru[4] - M3 - lam[2]
     # outer ring
     oq, ou, oud = q[zq + 6 : zq + 8], u[zq + 6 : zq + 8], ud[zq + 6 : zq + 8]
-    mo, ko, co, fixed = bodies.outer
+    mo, ko, co, fixed = bodies.outer[0], bodies.outer[1], bodies.outer[2], bodies.outer[3]
     for c in range(2):
         r_q[zq + 6 + c] = qd[zq + 6 + c] - ou[c]
         if fixed > 0.0:

@@ -16,7 +16,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from flexcage.contacts import laws
-from flexcage.contacts.pocket import with_offset
+from flexcage.contacts.pocket_wall import with_offset
 from flexcage.core.errors import InputError, RunFailed
 from flexcage.geometry.kinematics import epicyclic
 from flexcage.system.layout import Layout

@@ -14,12 +14,16 @@ from flexcage.bodies.floating_frame import (
     flexible_body,
     frame_work,
     inertia_terms,
-    kinetic_energy,
     rigid_body,
     scalar_mass,
     with_point_mass,
 )
 from flexcage.core.errors import InputError
+
+
+def kinetic_energy(M, v_body, w, qd):
+    u = np.concatenate([v_body, w, qd])
+    return 0.5 * u @ M @ u
 
 
 def launch(flyer, d):

@@ -11,7 +11,8 @@ from scipy.spatial.transform import Rotation
 
 from flexcage.contacts import laws
 from flexcage.contacts.land import land_contact, land_work
-from flexcage.contacts.pocket import pocket_contact, pocket_work
+from flexcage.contacts.pocket import pocket_contact
+from flexcage.contacts.pocket_wall import pocket_work
 from flexcage.contacts.race import race_contact
 from flexcage.contacts.rib import rib_contact
 from flexcage.contacts.state import RollerPose, new_pair, new_pose, new_slices
@@ -44,21 +45,21 @@ def _rib(pose, data, P, b, Vr, wr, p, law, sl, pair, mode, sums):
     return rib_contact(pose, data, P, b, Vr, wr, p, law, sl, pair, mode, sums)
 
 
-def _pocket(pose, data, i, Rw, D, Vc, wc, q, qd, margin, p, law, sl, pw, pair, mode, sums):
+def _pocket(pose, data, i, Rw, D, Vc, wc, q, qd, margin, p, law, a, sl, pw, pair, mode, sums):
     return pocket_contact(
-        pose, data, i, Rw, D, Vc, wc, q, qd, margin, p, law, sl, pw, pair, mode, sums
+        pose, data, i, Rw, D, Vc, wc, q, qd, margin, p, law, a, sl, pw, pair, mode, sums
     )
 
 
 def _land(A, Rc, Vc, w, q, qd, Rr, Vr, spin, data, p, law, sl, lw, Fc, Mc, Qm, Fr, Mr, sums):
-    return land_contact(
+    land_contact(
         A, Rc, Vc, w, q, qd, Rr, Vr, spin, data, p, law, sl, lw, Fc, Mc, Qm, Fr, Mr, sums
     )
 
 
-def _compiled(function, *arguments):
+def _compiled(function, *arguments, returns=types.boolean):
     kinds = [a if isinstance(a, types.Type) else numba.typeof(a) for a in arguments]
-    return numba.njit(types.boolean(*kinds), **OPTIONS)(function)
+    return numba.njit(returns(*kinds), **OPTIONS)(function)
 
 
 @cache
@@ -81,7 +82,7 @@ def _rib_kernel(data_type):
 def _pocket_kernel(data_type):
     return _compiled(
         _pocket, new_pose(), data_type, I8, F8, VEC, VEC, VEC, VEC, VEC, F8,
-        types.Array(F8, 2, "C"), types.Tuple((N, N, MU, MU)), new_slices(1), pocket_work(1, 1, 1),
+        types.Array(F8, 2, "C"), types.Tuple((N, N, MU, MU)), VEC, new_slices(1), pocket_work(1, 1, 1),
         new_pair(), I8, VEC,
     )  # fmt: skip
 
@@ -92,6 +93,7 @@ def _land_kernel(data_type):
     return _compiled(
         _land, matrix, VEC, VEC, VEC, VEC, VEC, VEC, VEC, F8, data_type, matrix,
         types.Tuple((N, MU)), new_slices(1), land_work(1), VEC, VEC, VEC, VEC, VEC, VEC,
+        returns=types.void,
     )  # fmt: skip
 
 
@@ -142,7 +144,7 @@ def pocket(
     margin = float(data.phi_max @ np.abs(arrays[3])) if len(q) else 0.0
     _pocket_kernel(numba.typeof(data))(
         pose, data, i, radius, *arrays, margin, p, (normal, normal, friction, friction),
-        new_slices(n), work, pair, mode, sums,
+        np.zeros(8), new_slices(n), work, pair, mode, sums,
     )  # fmt: skip
     return pair.wrench, sums, work, pair
 
