@@ -73,9 +73,7 @@ _NUMBER = re.compile(
 def _registry() -> Any:
     import pint
 
-    registry: Any = pint.UnitRegistry()
-    registry.define("percent = 0.01 = %")
-    return registry
+    return pint.UnitRegistry()
 
 
 def split(text: str) -> tuple[Decimal, str] | None:
