@@ -46,6 +46,11 @@ def _call(args: argparse.Namespace) -> int:
     from flexcage.core import logs
 
     logs.setup(verbose=args.verbose - args.quiet)
+    if args.use:
+        from flexcage.case import load_extension
+
+        for source in args.use:
+            load_extension(source)
     return args.command(args) or 0
 
 
@@ -387,6 +392,9 @@ def _add_small_commands(commands: Any) -> None:
 def _command(commands: Any, name: str, function: Any, text: str) -> argparse.ArgumentParser:
     parser = commands.add_parser(name, help=text, description=text)
     parser.set_defaults(command=function)
+    parser.add_argument(
+        "--use", action="append", metavar="FILE", help="a .py of your own laws ..., or a preset"
+    )
     return parser
 
 
