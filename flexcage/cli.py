@@ -14,7 +14,7 @@ import sys
 import tempfile
 from collections.abc import Sequence
 from pathlib import Path
-from typing import Any
+from typing import Any, NoReturn
 
 from flexcage._version import __version__
 from flexcage.core.errors import FlexcageError, InputError
@@ -331,9 +331,16 @@ def flat(table: Any, where: str = "") -> list[tuple[str, Any]]:
 # ------------------------------------------------------------------------------------ parser
 
 
+class _Parser(argparse.ArgumentParser):
+    """Options that are wrong get one sentence, as any other mistake."""
+
+    def error(self, message: str) -> NoReturn:
+        self.exit(2, f"flexcage: {message}; '{self.prog} --help' lists the options.\n")
+
+
 def build_parser() -> argparse.ArgumentParser:
     """All commands and their options."""
-    parser = argparse.ArgumentParser(
+    parser = _Parser(
         prog="flexcage", description="Rolling bearings with an elastic, deformed cage."
     )
     parser.add_argument("--version", action="version", version=f"flexcage {__version__}")

@@ -20,8 +20,12 @@ def load_case(
     """Case from a .toml file, TOML text, or nested tables.
 
     ``overrides`` maps dotted paths to text with units ({"cage.pocket_width": "8.25 mm"});
-    ``preset`` takes the place of ``bearing.preset``. A mistake raises InputError.
+    ``preset`` takes the place of ``bearing.preset``, as an override of that path does. A mistake
+    raises InputError.
     """
+    overrides = dict(overrides or {})
+    if not isinstance(source, Case):
+        preset = overrides.pop("bearing.preset", preset)
     if isinstance(source, Case):
         case = source
     else:
