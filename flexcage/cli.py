@@ -162,7 +162,7 @@ def compare_command(args: argparse.Namespace) -> int:
     if len(args.what) == 2:
         first, second = (existing_run(path) for path in args.what)
         out = Path(args.out) if args.out else Path("compare")
-        prepare_out(out, resume=False, force=args.force)
+        prepare_out(out, resume=False, force=args.force, resumable=False)
         say(compare(first, second, out=out))
         return 0
     if len(args.what) != 1:
@@ -170,7 +170,7 @@ def compare_command(args: argparse.Namespace) -> int:
     args.case = args.what[0]
     case = case_from(args)
     out = Path(args.out) if args.out else Path("runs") / f"{case.name}-compare"
-    prepare_out(out, resume=False, force=args.force)
+    prepare_out(out, resume=False, force=args.force, resumable=False)
     say(compare_case(case, out=out, progress=Progress))
     return 0
 
@@ -258,7 +258,7 @@ def parse_setting(text: str) -> tuple[str, Any]:
         return path, value
 
 
-def prepare_out(out: Path, *, resume: bool, force: bool) -> None:
+def prepare_out(out: Path, *, resume: bool, force: bool, resumable: bool = True) -> None:
     """Refuse an output folder that would be overwritten by accident or cannot be written."""
     if out.exists() and not out.is_dir():
         raise InputError(f"'{out}' is a file; name a folder for the output.", where="out")
@@ -267,8 +267,9 @@ def prepare_out(out: Path, *, resume: bool, force: bool) -> None:
     elif out.is_dir() and any(out.iterdir()):
         if not force:
             raise InputError(
-                f"The output folder '{out}' exists already; --resume goes on with it, --force "
-                "writes it anew, -o names another.",
+                f"The output folder '{out}' exists already; "
+                f"{'--resume goes on with it, ' if resumable else ''}--force writes it anew, "
+                "-o names another.",
                 where="out",
                 value=str(out),
             )

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import dataclasses
 from collections.abc import Iterator
-from math import pi
-from typing import TYPE_CHECKING
+from math import inf, pi
+from typing import TYPE_CHECKING, Any
 
+from flexcage.core.binding import default_of, join
 from flexcage.core.errors import InputError
 from flexcage.core.units import describe
 from flexcage.geometry.catalogue import static_rating
@@ -25,6 +27,7 @@ def check_case(case: Case) -> None:
     """Raise InputError for the first thing in the case that cannot be."""
     check_geometry(case.bearing, case.cage, case.defects)
     for find in (
+        _find_infinite,
         _find_in_name,
         _find_in_tables,
         _find_in_ramps,
@@ -36,6 +39,17 @@ def check_case(case: Case) -> None:
     ):
         for where, sentence in find(case):
             raise InputError(sentence, where=where)
+
+
+def _find_infinite(spec: Any, where: str = "") -> Iterator[Finding]:
+    """Infinite values, except where infinity is the default (no limit)."""
+    for field in dataclasses.fields(spec):
+        value, here = getattr(spec, field.name), join(where, field.name)
+        for item in value if isinstance(value, tuple) else (value,):
+            if dataclasses.is_dataclass(item):
+                yield from _find_infinite(item, here)
+            elif isinstance(item, float) and abs(item) == inf and default_of(field) != inf:
+                yield here, f"{here} is infinite; give a finite value."
 
 
 def _find_in_name(case: Case) -> Iterator[Finding]:

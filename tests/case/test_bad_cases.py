@@ -57,6 +57,12 @@ BAD = {
     "overload": ('[load]\nradial = "800 kN"', "load.radial", ["800 kN", "51 kN"]),
     "tiny elements": ('[mesh]\nsize = "1 um"', "mesh.size", ["0.001 mm", "elements"]),
     "tiny fillets": ('[mesh]\nfillet_size = "1 um"', "mesh.fillet_size", ["elements"]),
+    "endless": ('[solver]\nduration = "inf s"', "solver.duration", ["infinite"]),
+    "endless table": (
+        '[load]\ntimes = ["0 s", "inf s"]\nvalues = ["0 N", "1 N"]',
+        "load.times",
+        ["infinite"],
+    ),
     "no sample": ('[solver]\nduration = "1 us"', "solver.duration", ["1 us", "40 us"]),
     "newton": ("[solver]\nnewton_tolerance = 0", "solver.newton_tolerance", ["greater than 0"]),
     "steps": ('[solver]\nmin_step = "60 us"', "solver.min_step", ["60 us", "50 us"]),
@@ -115,3 +121,8 @@ def test_files_that_cannot_be_read(tmp_path):
     ):
         with pytest.raises(InputError, match=words):
             load_case(path)
+
+
+def test_a_byte_order_mark_is_no_mistake(tmp_path):
+    (tmp_path / "case.toml").write_text(PRESET, encoding="utf-8-sig")
+    assert load_case(tmp_path / "case.toml").preset == "N1013"

@@ -96,6 +96,14 @@ def test_an_existing_folder_is_refused(elsewhere, capsys):
     assert (out / "thesis.tex").read_text() == "precious"
 
 
+def test_compare_offers_only_what_it_can(elsewhere, capsys):
+    (elsewhere / "mine").mkdir()
+    (elsewhere / "mine" / "notes.txt").write_text("precious")
+    assert cli.main(["compare", EXAMPLE, "-o", "mine"]) == 2
+    text = sentence(capsys)
+    assert "--force" in text and "--resume" not in text
+
+
 def test_force_replaces_a_former_run(elsewhere):
     out = elsewhere / "run"
     (out / "results.zarr").mkdir(parents=True)
