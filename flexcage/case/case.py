@@ -16,9 +16,17 @@ from typing import Any
 
 from flexcage.case.checks import check_case
 from flexcage.contacts.spec import Contacts, Lubricant
-from flexcage.core.binding import Binder, check_spec, default_of, set_path, to_table
+from flexcage.core.binding import (
+    Binder,
+    check_spec,
+    chosen_names,
+    default_of,
+    set_path,
+    to_table,
+)
 from flexcage.core.errors import InputError
 from flexcage.core.hashing import content_hash
+from flexcage.core.registry import source_of
 from flexcage.core.spec import option
 from flexcage.geometry.cages import Defect, WindowCage
 from flexcage.geometry.cylindrical_roller import RollerBearing
@@ -127,7 +135,8 @@ class Case:
     def hash(self) -> str:
         """16 digits that name the case's physics and outputs; names and words do not count.
 
-        A mesh file of the user's own counts by its bytes, wherever it lies.
+        A mesh file of the user's own counts by its bytes, wherever it lies; a law or basis of
+        the user's own by the file that defines it.
         """
         fields = {f.name: getattr(self, f.name) for f in dataclasses.fields(self)}
         physics = {k: v for k, v in fields.items() if k not in _NOT_PHYSICS}
@@ -136,7 +145,8 @@ class Case:
         if self.mesh.file and file.is_file():
             content = file.read_bytes()
             physics["mesh"] = dataclasses.replace(self.mesh, file="")
-        return content_hash(physics, content)
+        outside = sorted(filter(None, {source_of(name) for name in chosen_names(self)}))
+        return content_hash(physics, content, *outside)
 
     @property
     def assumptions(self) -> dict[str, str]:

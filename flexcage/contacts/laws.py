@@ -232,14 +232,15 @@ def register_normal(
     or point as geometry and materials make them. p[0] and p[1] must be the stiffness and exponent
     of an elastic force like the law's: the start's equilibrium uses them, and the stored energy
     is F d/(p[1] + 1); p[3] is the program's, for the speed at the contact's onset. Without
-    ``parameters`` p is (K, n, 0, onset speed, speed floor).
+    ``parameters`` p is (K, n, 0, onset speed, speed floor). Compiled code is cached by the file of
+    ``law``, so compiled functions that it calls must stand in the same file.
 
     Raises InputError for a name that is taken, a law that cannot be compiled, or a wrong spec.
     """
     check_free(NORMAL_LAWS, name, what="normal law")
     _check_own_spec(name, spec, NormalLaw)
     compiled = _compiled(law, NORMAL_SIGNATURE, f"normal law '{name}'")
-    add(NORMAL_LAWS, name, compiled, what="normal law")
+    add(NORMAL_LAWS, name, compiled, what="normal law", source=law)
     NORMAL_PARAMETERS[name] = parameters or _elastic_parameters
     specs.NORMAL_LAWS[name] = spec
 
@@ -260,7 +261,7 @@ def register_friction(
     check_free(FRICTION_LAWS, name, what="friction law")
     _check_own_spec(name, spec, FrictionLaw)
     compiled = _compiled(law, FRICTION_SIGNATURE, f"friction law '{name}'")
-    add(FRICTION_LAWS, name, compiled, what="friction law")
+    add(FRICTION_LAWS, name, compiled, what="friction law", source=law)
     FRICTION_PARAMETERS[name] = parameters or _coulomb_parameters
     specs.FRICTION_LAWS[name] = spec
 

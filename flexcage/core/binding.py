@@ -11,7 +11,7 @@ import difflib
 import re
 import types
 import typing
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from functools import cache
 from pathlib import Path
 from typing import Any, Union
@@ -215,6 +215,18 @@ def _choosing(cls: Any) -> tuple[str, Any, Mapping[str, Any]] | None:
         if isinstance(choices, Mapping):
             return field.name, home, choices
     return None
+
+
+def chosen_names(spec: Any) -> Iterator[str]:
+    """The names in a spec, and in all specs inside it, that choose from growing tables."""
+    found = _choosing(type(spec))
+    if found is not None:
+        yield getattr(spec, found[0])
+    for field in dataclasses.fields(spec):
+        value = getattr(spec, field.name)
+        for item in value if isinstance(value, tuple) else (value,):
+            if dataclasses.is_dataclass(item) and not isinstance(item, type):
+                yield from chosen_names(item)
 
 
 def common_values(spec: Any, cls: Any) -> dict[str, Any]:

@@ -20,15 +20,33 @@ T = TypeVar("T")
 _NAME = re.compile(r"[A-Za-z0-9_][A-Za-z0-9_.+-]*")
 
 
-def add(table: MutableMapping[str, T], name: str, value: T, *, what: str) -> T:
+_sources: dict[str, str] = {}  # name: fingerprint of what stands behind it
+
+
+def add(
+    table: MutableMapping[str, T],
+    name: str,
+    value: T,
+    *,
+    what: str,
+    source: Callable[..., Any] | None = None,
+) -> T:
     """Put a value under a free name into a table, and return it.
 
     Raises InputError if the name is taken, or is not a word that a case file can hold. ``what``
-    says in errors what the table holds ("normal law").
+    says in errors what the table holds ("normal law"). ``source`` is the function behind a name
+    that cases choose: their hashes then change when its file does.
     """
     check_free(table, name, what=what)
     table[name] = value
+    if source is not None:
+        _sources[name] = _sources.get(name, "") + fingerprint(source)
     return value
+
+
+def source_of(name: str) -> str:
+    """Fingerprint of the file behind a name from outside; empty for the program's own names."""
+    return _sources.get(name, "")
 
 
 def check_free(table: MutableMapping[str, Any], name: str, *, what: str) -> None:
@@ -50,7 +68,8 @@ def fingerprint(function: Callable[..., Any]) -> str:
 
     For caches that must not outlive a user's edit.
     """
-    source = inspect.getsourcefile(inspect.unwrap(function))
+    function = getattr(function, "py_func", function)  # of a compiled one
+    source = inspect.getsourcefile(function)
     if source and Path(source).is_file():
         content = Path(source).read_bytes()
     else:

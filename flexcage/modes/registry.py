@@ -9,7 +9,7 @@ import numpy as np
 from scipy.linalg import eigvalsh
 
 from flexcage.core.errors import InputError
-from flexcage.core.registry import add, check_free, fingerprint
+from flexcage.core.registry import add, check_free, source_of
 from flexcage.fem.free import FreeBodySolver
 from flexcage.fem.model import FEModel
 from flexcage.modes import craig_bampton, free_free, ritz
@@ -23,7 +23,6 @@ BUILDERS: dict[str, Callable[..., ModeBasis]] = {
     "craig_bampton": craig_bampton.build,
     "free_free": free_free.build,
 }
-_OWN = frozenset(BUILDERS)
 _RIGID = 1e-9  # of the largest squared frequency: what rounding leaves of a rigid motion
 
 
@@ -50,13 +49,13 @@ def register_basis(
                 f"kind defaults to '{name}'.",
                 where=name,
             )
-    add(BUILDERS, name, build, what="mode basis")
+    add(BUILDERS, name, build, what="mode basis", source=build)
     KINDS[name] = spec
 
 
 def basis_version(kind: str) -> tuple[str, ...]:
     """What a cached basis depends on besides its spec: the file of a builder from outside."""
-    return () if kind in _OWN or kind not in BUILDERS else (fingerprint(BUILDERS[kind]),)
+    return (source_of(kind),) if source_of(kind) else ()
 
 
 def build_basis(

@@ -8,6 +8,7 @@ import os
 import re
 import subprocess
 import sys
+from contextlib import contextmanager
 from pathlib import Path
 
 import numpy as np
@@ -17,6 +18,7 @@ from scipy.optimize import fsolve
 from flexcage.case import load_case, load_extension
 from flexcage.contacts import laws
 from flexcage.contacts import spec as contact_spec
+from flexcage.core import registry as core_registry
 from flexcage.core.environment import offscreen_backend
 from flexcage.core.errors import InputError
 from flexcage.geometry import materials, presets
@@ -56,20 +58,29 @@ block = 10
 """
 
 
-@pytest.fixture(autouse=True)
-def tables():
-    """Leaves every table as it was, so that other tests do not see what is registered here."""
-    all_tables = (
-        laws.NORMAL_LAWS, laws.FRICTION_LAWS, laws.NORMAL_PARAMETERS, laws.FRICTION_PARAMETERS,
-        contact_spec.NORMAL_LAWS, contact_spec.FRICTION_LAWS, modes_registry.BUILDERS,
-        modes_spec.KINDS, registry._table, registry._labels, registry.COMPUTED, album.PICTURES,
-        materials.MATERIALS, presets._ADDED,
-    )  # fmt: skip
-    saved = [dict(table) for table in all_tables]
+ALL_TABLES = (
+    laws.NORMAL_LAWS, laws.FRICTION_LAWS, laws.NORMAL_PARAMETERS, laws.FRICTION_PARAMETERS,
+    contact_spec.NORMAL_LAWS, contact_spec.FRICTION_LAWS, modes_registry.BUILDERS,
+    modes_spec.KINDS, registry._table, registry._labels, registry.COMPUTED, album.PICTURES,
+    materials.MATERIALS, presets._ADDED, core_registry._sources,
+)  # fmt: skip
+
+
+@contextmanager
+def restored():
+    """Leaves every table as it was."""
+    saved = [dict(table) for table in ALL_TABLES]
     yield
-    for table, before in zip(all_tables, saved, strict=True):
+    for table, before in zip(ALL_TABLES, saved, strict=True):
         table.clear()
         table.update(before)
+
+
+@pytest.fixture(autouse=True)
+def tables():
+    """Other tests do not see what is registered here."""
+    with restored():
+        yield
 
 
 @pytest.fixture
@@ -175,6 +186,20 @@ def test_nothing_recompiles_for_a_new_law(mine):
             assert len(law.nopython_signatures) == 1
     chosen = law_functions(load_case(CASE).contacts)
     assert len(chosen) == 10 and chosen[0] is laws.NORMAL_LAWS["spring"]
+
+
+def test_an_edited_law_makes_another_case(tmp_path, tables):
+    """A run does not go on, nor a cache answer, with a law that has changed since."""
+    source = (HERE / "my_extensions.py").read_text("utf-8")
+    hashes = []
+    for text in (source, source, source.replace("p[0] * (d[i] +", "p[0] * (1.0 * d[i] +")):
+        file = tmp_path / f"edition{len(hashes)}.py"
+        file.write_text(text)
+        (tmp_path / "my_bearing.toml").write_bytes((HERE / "my_bearing.toml").read_bytes())
+        with restored():
+            load_extension(file)
+            hashes.append((load_case(CASE).hash, load_case(PLAIN).hash))
+    assert hashes[0] == hashes[1] and hashes[1][0] != hashes[2][0] and hashes[1][1] == hashes[2][1]
 
 
 def test_names_of_ones_own_are_refused_like_all_others(mine):
@@ -288,6 +313,7 @@ def test_the_example_in_the_readme(tmp_path):
     law_checks().check_normal_law(laws.NORMAL_LAWS[law.law], p)
 
 
+PLAIN = '[bearing]\npreset = "N1013"\n'
 CASE_OF_README = """
 bearing.preset = "N1013"
 [contacts.pocket.normal]
