@@ -297,6 +297,8 @@ def check_value(value: Any, meta: Mapping, where: str) -> None:
     choices = meta.get("choices")
     if choices and isinstance(value, str) and value not in choices:
         hint = _did_you_mean(value, choices, "choose from")
+        if isinstance(choices, Mapping) and hint.startswith("choose"):
+            hint += ", or load the file that registers it (--use FILE)"
         raise InputError(f"{where} '{value}' is not known; {hint}.", where=where, value=value)
     if isinstance(value, bool) or not isinstance(value, (int, float)):
         return

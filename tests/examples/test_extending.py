@@ -205,6 +205,7 @@ def test_an_edited_law_makes_another_case(tmp_path, tables):
 def test_names_of_ones_own_are_refused_like_all_others(mine):
     for changes, words in (
         ('normal.law="sprong"', ["'sprong' is not known", "the nearest known one is 'spring'"]),
+        ('normal.law="hertz"', ["'hertz' is not known", "choose from", "--use FILE"]),
         ('normal={law="spring"}', ["lacks 'stiffness'", "N/um"]),
         ('normal={law="spring", stiffness="20 mm"}', ["normal.stiffness", "N/um"]),
         ('normal={law="spring", stifness="20 N/um"}', ["'stifness'", "'stiffness'"]),
