@@ -15,6 +15,7 @@ from flexcage._version import __version__
 # name: the module that defines it
 _LAZY: dict[str, str] = {
     "load_case": "flexcage.case",
+    "load_extension": "flexcage.case",
     "Case": "flexcage.case",
     "simulate": "flexcage.simulate",
     "Run": "flexcage.simulate",

@@ -2,6 +2,7 @@ from flexcage import render as render
 from flexcage._version import __version__ as __version__
 from flexcage.case import Case as Case
 from flexcage.case import load_case as load_case
+from flexcage.case import load_extension as load_extension
 from flexcage.contacts.spec import Contacts as Contacts
 from flexcage.contacts.spec import FrictionLaw as FrictionLaw
 from flexcage.contacts.spec import LandSpec as LandSpec

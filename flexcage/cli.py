@@ -14,7 +14,7 @@ import sys
 import tempfile
 from collections.abc import Sequence
 from pathlib import Path
-from typing import Any
+from typing import Any, NoReturn
 
 from flexcage._version import __version__
 from flexcage.core.errors import FlexcageError, InputError
@@ -46,6 +46,11 @@ def _call(args: argparse.Namespace) -> int:
     from flexcage.core import logs
 
     logs.setup(verbose=args.verbose - args.quiet)
+    if args.use:
+        from flexcage.case import load_extension
+
+        for source in args.use:
+            load_extension(source)
     return args.command(args) or 0
 
 
@@ -157,7 +162,7 @@ def compare_command(args: argparse.Namespace) -> int:
     if len(args.what) == 2:
         first, second = (existing_run(path) for path in args.what)
         out = Path(args.out) if args.out else Path("compare")
-        prepare_out(out, resume=False, force=args.force)
+        prepare_out(out, resume=False, force=args.force, resumable=False)
         say(compare(first, second, out=out))
         return 0
     if len(args.what) != 1:
@@ -165,7 +170,7 @@ def compare_command(args: argparse.Namespace) -> int:
     args.case = args.what[0]
     case = case_from(args)
     out = Path(args.out) if args.out else Path("runs") / f"{case.name}-compare"
-    prepare_out(out, resume=False, force=args.force)
+    prepare_out(out, resume=False, force=args.force, resumable=False)
     say(compare_case(case, out=out, progress=Progress))
     return 0
 
@@ -253,7 +258,7 @@ def parse_setting(text: str) -> tuple[str, Any]:
         return path, value
 
 
-def prepare_out(out: Path, *, resume: bool, force: bool) -> None:
+def prepare_out(out: Path, *, resume: bool, force: bool, resumable: bool = True) -> None:
     """Refuse an output folder that would be overwritten by accident or cannot be written."""
     if out.exists() and not out.is_dir():
         raise InputError(f"'{out}' is a file; name a folder for the output.", where="out")
@@ -262,8 +267,9 @@ def prepare_out(out: Path, *, resume: bool, force: bool) -> None:
     elif out.is_dir() and any(out.iterdir()):
         if not force:
             raise InputError(
-                f"The output folder '{out}' exists already; --resume goes on with it, --force "
-                "writes it anew, -o names another.",
+                f"The output folder '{out}' exists already; "
+                f"{'--resume goes on with it, ' if resumable else ''}--force writes it anew, "
+                "-o names another.",
                 where="out",
                 value=str(out),
             )
@@ -326,9 +332,16 @@ def flat(table: Any, where: str = "") -> list[tuple[str, Any]]:
 # ------------------------------------------------------------------------------------ parser
 
 
+class _Parser(argparse.ArgumentParser):
+    """Options that are wrong get one sentence, as any other mistake."""
+
+    def error(self, message: str) -> NoReturn:
+        self.exit(2, f"flexcage: {message}; '{self.prog} --help' lists the options.\n")
+
+
 def build_parser() -> argparse.ArgumentParser:
     """All commands and their options."""
-    parser = argparse.ArgumentParser(
+    parser = _Parser(
         prog="flexcage", description="Rolling bearings with an elastic, deformed cage."
     )
     parser.add_argument("--version", action="version", version=f"flexcage {__version__}")
@@ -387,6 +400,9 @@ def _add_small_commands(commands: Any) -> None:
 def _command(commands: Any, name: str, function: Any, text: str) -> argparse.ArgumentParser:
     parser = commands.add_parser(name, help=text, description=text)
     parser.set_defaults(command=function)
+    parser.add_argument(
+        "--use", action="append", metavar="FILE", help="a .py of your own laws ..., or a preset"
+    )
     return parser
 
 

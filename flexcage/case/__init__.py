@@ -1,6 +1,7 @@
 """The case: what is asked, from TOML or from objects, checked and hashed."""
 
 from flexcage.case.case import Case
+from flexcage.case.extensions import load_extension
 from flexcage.case.load import load_case
 
-__all__ = ["Case", "load_case"]
+__all__ = ["Case", "load_case", "load_extension"]

@@ -16,9 +16,17 @@ from typing import Any
 
 from flexcage.case.checks import check_case
 from flexcage.contacts.spec import Contacts, Lubricant
-from flexcage.core.binding import Binder, check_spec, default_of, set_path, to_table
+from flexcage.core.binding import (
+    Binder,
+    check_spec,
+    chosen_names,
+    default_of,
+    set_path,
+    to_table,
+)
 from flexcage.core.errors import InputError
 from flexcage.core.hashing import content_hash
+from flexcage.core.registry import source_of
 from flexcage.core.spec import option
 from flexcage.geometry.cages import Defect, WindowCage
 from flexcage.geometry.cylindrical_roller import RollerBearing
@@ -80,8 +88,7 @@ class Case:
     ) -> Case:
         """Case from nested tables as TOML gives them; ``folder`` is where relative paths start."""
         merged = _with_preset(_without_aliases(table))
-        if folder is not None:
-            merged = _with_mesh_file(merged, folder)
+        merged = _with_mesh_file(merged, folder or Path.cwd())
         with _words_of_text():
             return Binder(named=NAMED, si=si).bind(cls, merged, "")
 
@@ -103,6 +110,8 @@ class Case:
                     "other preset instead.",
                     where=where,
                 )
+            if where == "mesh.file" and isinstance(new, (str, Path)):
+                new = _absolute(new, Path.cwd())
             with _words_of_text():
                 bare = set_path(bare, ALIASES.get(where, where), new, binder)
         return Case(**{f.name: getattr(bare, f.name) for f in dataclasses.fields(bare)})
@@ -126,13 +135,18 @@ class Case:
     def hash(self) -> str:
         """16 digits that name the case's physics and outputs; names and words do not count.
 
-        A mesh file of the user's own counts by its bytes.
+        A mesh file of the user's own counts by its bytes, wherever it lies; a law or basis of
+        the user's own by the file that defines it.
         """
         fields = {f.name: getattr(self, f.name) for f in dataclasses.fields(self)}
         physics = {k: v for k, v in fields.items() if k not in _NOT_PHYSICS}
         file = Path(self.mesh.file)
-        content = file.read_bytes() if self.mesh.file and file.is_file() else b""
-        return content_hash(physics, content)
+        content = b""
+        if self.mesh.file and file.is_file():
+            content = file.read_bytes()
+            physics["mesh"] = dataclasses.replace(self.mesh, file="")
+        outside = sorted(filter(None, {source_of(name) for name in chosen_names(self)}))
+        return content_hash(physics, content, *outside)
 
     @property
     def assumptions(self) -> dict[str, str]:
@@ -209,7 +223,12 @@ def _with_mesh_file(table: dict[str, Any], folder: Path) -> dict[str, Any]:
     file = mesh.get("file") if isinstance(mesh, Mapping) else None
     if not isinstance(file, str) or not file:
         return table
-    return {**table, "mesh": {**mesh, "file": str(folder / Path(file).expanduser())}}  # type: ignore[dict-item]
+    return {**table, "mesh": {**mesh, "file": _absolute(file, folder)}}  # type: ignore[dict-item]
+
+
+def _absolute(file: str | Path, folder: Path) -> str:
+    """Absolute path of a file, so that a run's own case.toml finds it from its folder."""
+    return str(folder / Path(file).expanduser()) if str(file) else ""
 
 
 def _merge(low: Mapping[str, Any], high: Mapping[str, Any]) -> dict[str, Any]:

@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
+import dataclasses
 from collections.abc import Iterator
-from typing import TYPE_CHECKING
+from math import inf, pi
+from typing import TYPE_CHECKING, Any
 
+from flexcage.core.binding import default_of, join
 from flexcage.core.errors import InputError
 from flexcage.core.units import describe
+from flexcage.geometry.catalogue import static_rating
 from flexcage.geometry.checks import check_geometry
 
 if TYPE_CHECKING:
@@ -15,17 +19,85 @@ if TYPE_CHECKING:
 Finding = tuple[str, str]  # where, sentence
 
 _LAND_TOLERANCE = 5e-6  # m between a stated land clearance and the one that the dimensions leave
+_OVERLOAD = 10.0  # static ratings C0r: beyond, at a contact pressure of 12 GPa, no law here holds
+_MOST_ELEMENTS = 1e7  # assumption: more than a machine of 64 GB factors
 
 
 def check_case(case: Case) -> None:
     """Raise InputError for the first thing in the case that cannot be."""
     check_geometry(case.bearing, case.cage, case.defects)
     for find in (
-        _find_in_tables, _find_in_ramps, _find_in_solver, _find_in_output, _find_in_laws,
+        _find_infinite,
+        _find_in_name,
+        _find_in_tables,
+        _find_in_ramps,
+        _find_in_load,
+        _find_in_mesh,
+        _find_in_solver,
+        _find_in_output,
+        _find_in_laws,
         _find_in_land,
-    ):  # fmt: skip
+    ):
         for where, sentence in find(case):
             raise InputError(sentence, where=where)
+
+
+def _find_infinite(spec: Any, where: str = "") -> Iterator[Finding]:
+    """Infinite values, except where infinity is the default (no limit)."""
+    for field in dataclasses.fields(spec):
+        value, here = getattr(spec, field.name), join(where, field.name)
+        for item in value if isinstance(value, tuple) else (value,):
+            if dataclasses.is_dataclass(item):
+                yield from _find_infinite(item, here)
+            elif isinstance(item, float) and abs(item) == inf and default_of(field) != inf:
+                yield here, f"{here} is infinite; give a finite value."
+
+
+def _find_in_name(case: Case) -> Iterator[Finding]:
+    name = case.name
+    if not name.strip() or name.strip(".") == "" or any(c in name for c in "/\\:\n"):
+        yield (
+            "name",
+            f"name is {name!r}, but must be usable as the name of a folder: one line, not empty, "
+            "without '/', '\\' or ':'.",
+        )
+
+
+def _find_in_load(case: Case) -> Iterator[Finding]:
+    rating = static_rating(case.bearing)
+    load = case.load
+    for where, value in (
+        ("load.radial", load.radial),
+        ("load.ramp_to", load.ramp_to or 0.0),
+        ("load.values", max(load.values, default=0.0)),
+    ):
+        if value > _OVERLOAD * rating:
+            yield (
+                where,
+                f"{where} is {describe(value, 'kN')}, but contacts are elastic: give "
+                f"{_OVERLOAD:g} times the bearing's static rating of "
+                f"{describe(round(rating, -2), 'kN')} (ISO 76) or less.",
+            )
+
+
+def _find_in_mesh(case: Case) -> Iterator[Finding]:
+    mesh, cage = case.mesh, case.cage
+    if mesh.file:
+        return
+    volume = 0.25 * pi * (cage.outside_diameter**2 - cage.bore**2) * cage.width
+    arc = 2.0 * pi * case.bearing.roller_count * cage.fillet_radius  # four quarters a pocket
+    surface = arc * 0.5 * (cage.outside_diameter - cage.bore)
+    # a regular tetrahedron of edge a has the volume a^3/(6 sqrt 2), its face the area a^2 sqrt(3)/4
+    for key, size, count in (
+        ("size", mesh.size, 8.5 * volume / (mesh.size or 1.0) ** 3),
+        ("fillet_size", mesh.fillet_size, 2.3 * surface / (mesh.fillet_size or 1.0) ** 2),
+    ):
+        if size is not None and count > _MOST_ELEMENTS:
+            yield (
+                f"mesh.{key}",
+                f"mesh.{key} is {describe(size, 'mm')}, which makes about {count:.0e} elements of "
+                f"this cage; give a size that makes {_MOST_ELEMENTS:.0e} or fewer.",
+            )
 
 
 def _find_in_tables(case: Case) -> Iterator[Finding]:
@@ -71,6 +143,18 @@ def _find_in_solver(case: Case) -> Iterator[Finding]:
             "solver.min_step",
             f"solver.min_step is {describe(solver.min_step, 'us')}, but must not exceed "
             f"solver.max_step, {describe(solver.max_step, 'us')}.",
+        )
+    if not solver.newton_tolerance > 0.0:
+        yield (
+            "solver.newton_tolerance",
+            f"solver.newton_tolerance is {solver.newton_tolerance:g}, but must be greater than 0, "
+            "such as 0.3.",
+        )
+    if round(solver.duration * case.output.rate) < 2:
+        yield (
+            "solver.duration",
+            f"solver.duration is {describe(solver.duration, 'us')}, but must hold two samples of "
+            f"output.rate or more, {describe(2.0 / case.output.rate, 'us')}.",
         )
 
 

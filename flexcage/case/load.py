@@ -20,8 +20,12 @@ def load_case(
     """Case from a .toml file, TOML text, or nested tables.
 
     ``overrides`` maps dotted paths to text with units ({"cage.pocket_width": "8.25 mm"});
-    ``preset`` takes the place of ``bearing.preset``. A mistake raises InputError.
+    ``preset`` takes the place of ``bearing.preset``, as an override of that path does. A mistake
+    raises InputError.
     """
+    overrides = dict(overrides or {})
+    if not isinstance(source, Case):
+        preset = overrides.pop("bearing.preset", preset)
     if isinstance(source, Case):
         case = source
     else:
@@ -43,7 +47,7 @@ def _read(source: str | Path | Mapping[str, Any]) -> tuple[dict[str, Any], Path 
 
 def _text(path: Path) -> str:
     try:
-        return path.read_text("utf-8")
+        return path.read_text("utf-8-sig")  # some editors begin a file with a byte order mark
     except FileNotFoundError:
         sentence = f"There is no case file '{path}'."
     except IsADirectoryError:

@@ -1,24 +1,33 @@
 """Normal and friction laws: how hard. One signature each, so that a new law is one function.
 
+``register_normal`` and ``register_friction`` add a law from any module: its name is then a choice
+in cases, and the compiled bearing takes it as it is.
+
 A law works on all slices of a contact at once: called through numba's first-class function
 type a scalar law costs 30 ns a slice, a vector one 30 ns a contact (measured here).
 
 Normal law:   (n, d, v, p, F, Fd, Fv)  penetration d, its rate v (> 0 approaching), parameters p
               -> force F >= 0 and its derivatives; entries with d <= 0 give zeros.
 Friction law: (n, u, p, g, dg)  sliding speed u >= 0 -> g = mu(u)/u and dg/du, finite at u = 0.
-Parameter layouts are those of ``normal_parameters`` and ``friction_parameters``.
+Parameter vectors are those of ``normal_parameters`` and ``friction_parameters``.
 """
 
 from __future__ import annotations
 
+from collections.abc import Callable, Sequence
 from math import exp, sqrt
+from typing import Any
 
+import numba
 import numpy as np
 from numba import types
 from scipy.optimize import brentq
 
+from flexcage.contacts import spec as specs
 from flexcage.contacts.spec import FrictionLaw, NormalLaw
+from flexcage.core.errors import InputError
 from flexcage.core.jit import kernel
+from flexcage.core.registry import add, check_free
 
 _F8, _A, _I8 = types.float64, types.Array(types.float64, 1, "C"), types.int64
 NORMAL_SIGNATURE = types.void(_I8, _A, _A, _A, _A, _A, _A)
@@ -26,7 +35,8 @@ FRICTION_SIGNATURE = types.void(_I8, _A, _A, _A, _A)
 NORMAL_TYPE = types.FunctionType(NORMAL_SIGNATURE)
 FRICTION_TYPE = types.FunctionType(FRICTION_SIGNATURE)
 
-N_NORMAL = 6  # K, n, lambda or c_max, v0 (memory), speed floor, d_max
+N_NORMAL = 10  # K, n, lambda or c_max, v0 (memory), speed floor, d_max; the rest is a user's
+N_FRICTION = 10
 SLOT_ONSET = 3  # where a contact keeps its onset speed, whatever its law
 
 
@@ -131,15 +141,6 @@ def ramp_coulomb(n, u, p, g, dg):
             dg[k] = (dmu - g[k]) / x
 
 
-NORMAL_LAWS = {"elastic": elastic, "restitution": restitution, "impact_step": impact_step}
-FRICTION_LAWS = {
-    "none": no_friction,
-    "traction": traction,
-    "step_coulomb": step_coulomb,
-    "ramp_coulomb": ramp_coulomb,
-}
-
-
 def exact_dissipation(e: float) -> float:
     """lambda of F = K d^n (1 + (lambda/v0) d') that gives restitution e exactly, for any n, K, m.
 
@@ -172,21 +173,174 @@ def gupta_coefficients(peak: float, peak_speed: float, high: float) -> tuple[flo
     return a, a * c / (1.0 - c * peak_speed), c, d
 
 
+def _elastic_parameters(law: NormalLaw, stiffness: float, exponent: float) -> Sequence[float]:
+    return stiffness, exponent, 0.0, 0.0, law.speed_floor
+
+
+def _restitution_parameters(law: NormalLaw, stiffness: float, exponent: float) -> Sequence[float]:
+    return stiffness, exponent, exact_dissipation(law.restitution), 0.0, law.speed_floor
+
+
+def _impact_parameters(law: NormalLaw, stiffness: float, exponent: float) -> Sequence[float]:
+    return stiffness, exponent, law.damping, 0.0, law.speed_floor, law.full_damping_depth
+
+
+def _traction_parameters(law: FrictionLaw) -> Sequence[float]:
+    a, b, c, d = gupta_coefficients(law.peak, law.peak_speed, law.high_speed)
+    return a, b, c, d, b - c * a
+
+
+def _coulomb_parameters(law: FrictionLaw) -> Sequence[float]:
+    return law.static, law.dynamic, law.v_static, law.v_dynamic
+
+
+NORMAL_LAWS: dict[str, Any] = {
+    "elastic": elastic,
+    "restitution": restitution,
+    "impact_step": impact_step,
+}
+FRICTION_LAWS: dict[str, Any] = {
+    "none": no_friction,
+    "traction": traction,
+    "step_coulomb": step_coulomb,
+    "ramp_coulomb": ramp_coulomb,
+}
+# those not named here take the parameters of "elastic" and of "step_coulomb"
+NORMAL_PARAMETERS: dict[str, Callable[[Any, float, float], Sequence[float]]] = {
+    "restitution": _restitution_parameters,
+    "impact_step": _impact_parameters,
+}
+FRICTION_PARAMETERS: dict[str, Callable[[Any], Sequence[float]]] = {
+    "traction": _traction_parameters,
+}
+
+
+def register_normal(
+    name: str,
+    law: Callable[..., None],
+    *,
+    spec: type[NormalLaw] | None = None,
+    parameters: Callable[[Any, float, float], Sequence[float]] | None = None,
+) -> None:
+    """Add a normal law: ``normal.law = "name"`` in a case then asks for it, at any contact place.
+
+    ``law`` is a function (n, d, v, p, F, Fd, Fv) of the signature above; it is compiled here
+    unless it is compiled already. ``spec``, if the law has values of its own, is a frozen dataclass
+    derived from ``NormalLaw`` whose fields carry their units (``core.spec``) and whose ``law``
+    defaults to ``name``. ``parameters(spec, K, n)`` gives the law's vector p, at most
+    ``N_NORMAL`` numbers, from the spec and the stiffness K [N/m^n] and exponent n of one slice
+    or point as geometry and materials make them. p[0] and p[1] must be the stiffness and exponent
+    of an elastic force like the law's: the start's equilibrium uses them, and the stored energy
+    is F d/(p[1] + 1); p[3] is the program's, for the speed at the contact's onset. Without
+    ``parameters`` p is (K, n, 0, onset speed, speed floor). Compiled code is cached by the file of
+    ``law``, so compiled functions that it calls must stand in the same file.
+
+    Raises InputError for a name that is taken, a law that cannot be compiled, or a wrong spec.
+    """
+    check_free(NORMAL_LAWS, name, what="normal law")
+    _check_own_spec(name, spec, NormalLaw)
+    compiled = _compiled(law, NORMAL_SIGNATURE, f"normal law '{name}'")
+    add(NORMAL_LAWS, name, compiled, what="normal law", source=law)
+    NORMAL_PARAMETERS[name] = parameters or _elastic_parameters
+    specs.NORMAL_LAWS[name] = spec
+
+
+def register_friction(
+    name: str,
+    law: Callable[..., None],
+    *,
+    spec: type[FrictionLaw] | None = None,
+    parameters: Callable[[Any], Sequence[float]] | None = None,
+) -> None:
+    """Add a friction law: ``friction.law = "name"`` in a case then asks for it.
+
+    As ``register_normal``, with a function (n, u, p, g, dg), a spec derived from ``FrictionLaw``
+    and ``parameters(spec)``, at most ``N_FRICTION`` numbers, all of them the law's. Without
+    ``parameters`` p is (static, dynamic, v_static, v_dynamic).
+    """
+    check_free(FRICTION_LAWS, name, what="friction law")
+    _check_own_spec(name, spec, FrictionLaw)
+    compiled = _compiled(law, FRICTION_SIGNATURE, f"friction law '{name}'")
+    add(FRICTION_LAWS, name, compiled, what="friction law", source=law)
+    FRICTION_PARAMETERS[name] = parameters or _coulomb_parameters
+    specs.FRICTION_LAWS[name] = spec
+
+
+def _check_own_spec(name: str, spec: Any, base: type) -> None:
+    if spec is None:
+        return
+    if not (isinstance(spec, type) and issubclass(spec, base) and spec is not base):
+        raise InputError(
+            f"The spec of law '{name}' must be a dataclass derived from {base.__name__}.",
+            where=name,
+        )
+    default = spec.__dataclass_fields__["law"].default  # type: ignore[attr-defined]
+    if default != name:
+        raise InputError(
+            f"{spec.__name__}.law defaults to '{default}', but must to '{name}', the name under "
+            "which it is registered.",
+            where=name,
+        )
+
+
+def _compiled(law: Any, signature: Any, what: str) -> Any:
+    """The law as numba passes it by value: compiled for exactly this signature."""
+    if numba.config.DISABLE_JIT:  # type: ignore[attr-defined]
+        return getattr(law, "py_func", law)
+    if hasattr(law, "nopython_signatures"):
+        if any(s.args == signature.args for s in law.nopython_signatures):
+            return law
+        law = law.py_func
+    try:
+        return _cached_kernel(law, signature)
+    except numba.errors.NumbaError as exc:
+        reason = next((line for line in str(exc).splitlines()[1:] if line.strip()), str(exc))
+        raise InputError(
+            f"The {what} cannot be compiled for the arguments {signature.args}: {reason.strip()}.",
+            where=what,
+        ) from exc
+
+
+def _cached_kernel(law: Any, signature: Any) -> Any:
+    try:
+        return kernel(signature)(law)
+    except RuntimeError as exc:
+        if isinstance(exc, numba.errors.NumbaError) or "cannot cache" not in str(exc):
+            raise
+        return kernel(signature, cache=False)(law)  # typed at a prompt: there is no file
+
+
 def friction_parameters(law: FrictionLaw) -> np.ndarray:
-    """Parameter vector (5,) of a friction law."""
-    if law.law == "traction":
-        a, b, c, d = gupta_coefficients(law.peak, law.peak_speed, law.high_speed)
-        return np.array([a, b, c, d, b - c * a])
-    return np.array([law.static, law.dynamic, law.v_static, law.v_dynamic, 0.0])
+    """Parameter vector (N_FRICTION,) of a friction law."""
+    own = FRICTION_PARAMETERS.get(law.law, _coulomb_parameters)(law)
+    return _vector(own, N_FRICTION, f"friction law '{law.law}'")
 
 
 def normal_parameters(law: NormalLaw, stiffness: float, exponent: float) -> np.ndarray:
     """Parameter vector (N_NORMAL,) of one slice's normal law; ``stiffness`` [N/m^exponent]."""
-    k = stiffness * law.stiffness_factor
-    if law.law == "impact_step":
-        return np.array([k, exponent, law.damping, 0.0, law.speed_floor, law.full_damping_depth])
-    lam = exact_dissipation(law.restitution) if law.law == "restitution" else 0.0
-    return np.array([k, exponent, lam, 0.0, law.speed_floor, 0.0])
+    build = NORMAL_PARAMETERS.get(law.law, _elastic_parameters)
+    p = _vector(
+        build(law, stiffness * law.stiffness_factor, exponent),
+        N_NORMAL,
+        f"normal law '{law.law}'",
+    )
+    if p[0] < 0.0 or p[1] < 1.0 or p[SLOT_ONSET] != 0.0:
+        raise InputError(
+            f"The parameters of normal law '{law.law}' begin with {p[:4]}, but must be a stiffness "
+            "of 0 or more, an exponent of 1 or more, a number of the law's, and 0.",
+            where=law.law,
+        )
+    return p
+
+
+def _vector(own: Sequence[float], length: int, what: str) -> np.ndarray:
+    values = np.asarray(own, float)
+    if values.ndim != 1 or len(values) > length or not np.isfinite(values).all():
+        raise InputError(
+            f"The parameters of {what} are {values}, but must be at most {length} finite numbers.",
+            where=what,
+        )
+    return np.concatenate([values, np.zeros(length - len(values))])
 
 
 def iso_line_stiffness(effective_length: float) -> float:
@@ -246,6 +400,13 @@ def rolling_resistance(lubricant, radius: float, length: float, modulus: float) 
     = c_ehl u^0.658 Q^0.0126; rigid-isoviscous (Martin's film): F = c_ivr sqrt(u Q), smaller
     where the contact is light. u: entrainment speed [m/s], Q: load [N], U = eta u/(E' R),
     W = Q/(E' R L), G = alpha E', E' = 2/sum((1-nu^2)/E). ``blended`` takes the smaller, smoothly.
+
+    The force is that on one surface of a fully flooded, isothermal contact: the limit theta = 0 of
+    F/L = (R/alpha) W D^(0.658228 + 0.0106383 theta^0.3174603) exp(-0.162625)
+    / (1 + 0.411483 theta^0.707071), D = 11.8122 G U/W^1.5, the fit that open bearing programs quote
+    after Goksem. Its constant is then 4.3173 and its exponent of W 0.01266, of which 4.318 and
+    0.0126 are the usual rounding. The heat of shear in the inlet, theta = eta beta u^2/k (beta:
+    loss of viscosity per kelvin, k: conductivity), lowers the force and is not modelled.
     """
     kind = lubricant.rolling_resistance
     if kind == "none":

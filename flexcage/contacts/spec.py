@@ -6,8 +6,12 @@ from dataclasses import dataclass
 
 from flexcage.core.spec import option, quantity
 
-NORMAL_LAWS = ("restitution", "impact_step", "elastic")
-FRICTION_LAWS = ("traction", "step_coulomb", "ramp_coulomb", "none")
+# Names of laws, and the spec that a name brings along, None for the one below; ``contacts.laws``
+# registers further ones.
+NORMAL_LAWS: dict[str, type | None] = dict.fromkeys(("restitution", "impact_step", "elastic"))
+FRICTION_LAWS: dict[str, type | None] = dict.fromkeys(
+    ("traction", "step_coulomb", "ramp_coulomb", "none")
+)
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -11,7 +11,7 @@ import difflib
 import re
 import types
 import typing
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from functools import cache
 from pathlib import Path
 from typing import Any, Union
@@ -39,8 +39,11 @@ class Binder:
             return table
         if not isinstance(table, Mapping):
             raise wrong_type(table, "a table of values", where)
+        cls = chosen_spec(cls, table, base)
         known = {f.name: f for f in dataclasses.fields(cls) if f.init}
         values = {}
+        if base is not None and type(base) is not cls:
+            values, base = common_values(base, cls), None
         for key, value in table.items():
             if key not in known:
                 raise unknown_key(key, known, where)
@@ -172,7 +175,64 @@ def set_path(spec: Any, path: str, value: Any, binder: Binder, *, where: str = "
         new = _set_item(old, field, hint, rest, value, binder, here)
     else:
         new = set_path(old, rest, value, binder, where=here)
-    return dataclasses.replace(spec, **{head: new})
+    return _replaced(spec, head, new, where)
+
+
+def _replaced(spec: Any, name: str, value: Any, where: str) -> Any:
+    """Copy with one value replaced, of another class if the value is a name that brings its own."""
+    cls = chosen_spec(type(spec), {name: value}, spec)
+    if cls is type(spec):
+        return dataclasses.replace(spec, **{name: value})
+    values = {**common_values(spec, cls), name: value}
+    for field in dataclasses.fields(cls):
+        if field.init and field.name not in values and default_of(field) is MISSING:
+            raise missing_key(field, where)
+    return cls(**values)
+
+
+def chosen_spec(cls: Any, table: Mapping[str, Any], base: Any = None) -> Any:
+    """The spec that a table of ``cls`` asks for: one of its names may bring a spec of its own.
+
+    Such a name is a choice from a mapping (``spec.option``); a table without it takes the name
+    from ``base``, or the default.
+    """
+    found = _choosing(cls)
+    if found is None:
+        return cls
+    key, home, choices = found
+    default = cls.__dataclass_fields__[key].default if base is None else getattr(base, key)
+    name = table.get(key, default)
+    own = choices.get(name) if isinstance(name, str) else None
+    return own or home
+
+
+def _choosing(cls: Any) -> tuple[str, Any, Mapping[str, Any]] | None:
+    """Field whose name chooses the spec, the class that declared it first, and its choices."""
+    for field in dataclasses.fields(cls):
+        holders = [c for c in cls.__mro__ if field.name in c.__dict__.get("__annotations__", {})]
+        home = holders[-1] if holders else cls
+        choices = home.__dataclass_fields__[field.name].metadata.get("choices")
+        if isinstance(choices, Mapping):
+            return field.name, home, choices
+    return None
+
+
+def chosen_names(spec: Any) -> Iterator[str]:
+    """The names in a spec, and in all specs inside it, that choose from growing tables."""
+    found = _choosing(type(spec))
+    if found is not None:
+        yield getattr(spec, found[0])
+    for field in dataclasses.fields(spec):
+        value = getattr(spec, field.name)
+        for item in value if isinstance(value, tuple) else (value,):
+            if dataclasses.is_dataclass(item) and not isinstance(item, type):
+                yield from chosen_names(item)
+
+
+def common_values(spec: Any, cls: Any) -> dict[str, Any]:
+    """Values of a spec that another class of spec has as well."""
+    known = {f.name for f in dataclasses.fields(cls) if f.init}
+    return {f.name: getattr(spec, f.name) for f in dataclasses.fields(spec) if f.name in known}
 
 
 def _set_item(
@@ -201,6 +261,7 @@ def _set_item(
 
 def check_spec(spec: Any, where: str = "") -> None:
     """Check bounds and choices of a spec built from objects, and of all specs inside it."""
+    _check_class(spec, where)
     for field in dataclasses.fields(spec):
         value = getattr(spec, field.name)
         here = join(where, field.name)
@@ -209,6 +270,22 @@ def check_spec(spec: Any, where: str = "") -> None:
         for i, item in enumerate(items):
             if dataclasses.is_dataclass(item) and not isinstance(item, type):
                 check_spec(item, join(here, i) if isinstance(value, tuple) else here)
+
+
+def _check_class(spec: Any, where: str) -> None:
+    """Raise InputError if a name in a spec wants values that this class of spec does not hold."""
+    found = _choosing(type(spec))
+    wanted = chosen_spec(type(spec), {}, spec)
+    if found is None or type(spec) is wanted:
+        return
+    here, name = join(where, found[0]), getattr(spec, found[0])
+    check_value(name, {"choices": found[2]}, here)
+    raise InputError(
+        f"{here} is '{name}', whose values are those of {wanted.__name__}, not of "
+        f"{type(spec).__name__}.",
+        where=here,
+        value=name,
+    )
 
 
 def check_value(value: Any, meta: Mapping, where: str) -> None:
@@ -220,6 +297,8 @@ def check_value(value: Any, meta: Mapping, where: str) -> None:
     choices = meta.get("choices")
     if choices and isinstance(value, str) and value not in choices:
         hint = _did_you_mean(value, choices, "choose from")
+        if isinstance(choices, Mapping) and hint.startswith("choose"):
+            hint += ", or load the file that registers it (--use FILE)"
         raise InputError(f"{where} '{value}' is not known; {hint}.", where=where, value=value)
     if isinstance(value, bool) or not isinstance(value, (int, float)):
         return

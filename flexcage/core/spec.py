@@ -7,6 +7,7 @@ so that a unit, a bound and a sentence of documentation are written once, beside
 from __future__ import annotations
 
 import dataclasses
+from collections.abc import Collection
 from typing import Any
 
 MISSING = dataclasses.MISSING
@@ -42,12 +43,16 @@ def option(
     default: Any = MISSING,
     *,
     doc: str = "",
-    choices: tuple[str, ...] | None = None,
+    choices: Collection[str] | None = None,
     minimum: float | None = None,
     maximum: float | None = None,
     assumption: str = "",
 ) -> Any:
-    """A dimensionless value, count, flag or name; ``choices`` lists the names accepted."""
+    """A dimensionless value, count, flag or name; ``choices`` holds the names accepted.
+
+    Choices that are a mapping may grow while the program runs (``core.registry``). It gives the
+    spec that a name brings along with values of its own, a subclass of the one at hand, or None.
+    """
     meta = {
         "doc": doc,
         "choices": choices,

@@ -64,6 +64,7 @@ _COMMON: dict[str, tuple[str, int, float]] = {
 # for pint an angle has no dimension, so that "100 Hz" would pass as 100 rad/s
 _CYCLES = re.compile(r"\b[kMG]?(Hz|hertz)\b")
 _TURNS = re.compile(r"\b(rpm|rad|radian|radians|mrad|deg|degree|degrees|turn|revolution)\b")
+_DECIMAL_COMMA = re.compile(r"\s*[+-]?\d+,\d+\s*\D")
 _NUMBER = re.compile(
     r"\s*([+-]?(?:\d+\.?\d*(?:[eE][+-]?\d+)?|\.\d+(?:[eE][+-]?\d+)?|inf))\s*(.*?)\s*$"
 )
@@ -73,9 +74,7 @@ _NUMBER = re.compile(
 def _registry() -> Any:
     import pint
 
-    registry: Any = pint.UnitRegistry()
-    registry.define("percent = 0.01 = %")
-    return registry
+    return pint.UnitRegistry()
 
 
 def split(text: str) -> tuple[Decimal, str] | None:
@@ -91,6 +90,12 @@ def parse(value: object, unit: str, *, where: str = "value") -> float:
     """
     if isinstance(value, (int, float)) and not isinstance(value, bool):
         raise _no_unit(value, unit, where)
+    if isinstance(value, str) and _DECIMAL_COMMA.match(value):
+        raise InputError(
+            f"{where} is '{value}'; write decimals with a point, '{value.replace(',', '.', 1)}'.",
+            where=where,
+            value=value,
+        )
     parts = split(value) if isinstance(value, str) else None
     if parts is None:
         raise InputError(

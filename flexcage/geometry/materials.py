@@ -4,6 +4,9 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from flexcage.core.binding import check_spec
+from flexcage.core.errors import InputError
+from flexcage.core.registry import add
 from flexcage.core.spec import option, quantity
 
 
@@ -69,3 +72,18 @@ MATERIALS: dict[str, Material] = {
         ),
     )
 }
+
+
+def register_material(material: Material) -> Material:
+    """Add a material: cases may then give it by its name (``cage.material = "..."``); returns it.
+
+    SI units. Raises InputError for a name that is taken, a value out of its bounds, or a material
+    without its ``source``.
+    """
+    check_spec(material, "material")
+    if not material.source:
+        raise InputError(
+            f"Material '{material.name}' has no source; say where its values come from.",
+            where="material.source",
+        )
+    return add(MATERIALS, material.name, material, what="material")

@@ -1,7 +1,7 @@
 """Presets: bearings with their cage and contacts, kept as TOML beside this module.
 
 A preset is a set of tables that a case starts from and overrides; one more .toml file in the
-data folder is one more preset.
+data folder is one more preset, and ``register_preset`` adds a user's own file.
 """
 
 from __future__ import annotations
@@ -12,14 +12,17 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cache
 from importlib import resources
+from pathlib import Path
 from types import MappingProxyType
 from typing import Any
 
 from flexcage.core.binding import Binder
 from flexcage.core.errors import InputError
+from flexcage.core.registry import add, check_free
 from flexcage.core.units import parse
 from flexcage.geometry.cages import WindowCage
 from flexcage.geometry.catalogue import dynamic_rating, static_rating
+from flexcage.geometry.checks import check_geometry
 from flexcage.geometry.cylindrical_roller import RollerBearing
 from flexcage.geometry.materials import MATERIALS, Material
 
@@ -27,14 +30,15 @@ from flexcage.geometry.materials import MATERIALS, Material
 NAMED: Mapping[type, Mapping[str, Any]] = MappingProxyType({Material: MATERIALS})
 
 _META = ("preset", "assumptions", "sources")
+_ADDED: dict[str, Preset] = {}  # by register_preset
 
 
 @dataclass(frozen=True)
 class Preset:
     """A named starting point: tables as written, and which of their values are assumptions.
 
-    ``static_rating`` and ``dynamic_rating`` are the catalogue's [N]; ``assumptions`` maps a
-    dotted path ("cage.pocket_width") to the reason for the value chosen.
+    ``static_rating`` and ``dynamic_rating`` are the catalogue's [N], None where it gives none;
+    ``assumptions`` maps a dotted path ("cage.pocket_width") to the reason for the value chosen.
     """
 
     name: str
@@ -42,8 +46,8 @@ class Preset:
     tables: Mapping[str, Any]
     assumptions: Mapping[str, str]
     sources: Mapping[str, str]
-    static_rating: float
-    dynamic_rating: float
+    static_rating: float | None
+    dynamic_rating: float | None
 
     def __repr__(self) -> str:
         return f"Preset('{self.name}': {self.title})"
@@ -59,24 +63,30 @@ class Preset:
     def ratings(self) -> list[tuple[str, float, float]]:
         """Name, catalogue value and value from the preset's own inside [N] of both ratings."""
         bearing = self.bearing
-        return [
+        rows = (
             ("static rating C0r, ISO 76", self.static_rating, static_rating(bearing)),
             ("dynamic rating Cr, ISO 281", self.dynamic_rating, dynamic_rating(bearing)),
-        ]
+        )
+        return [(name, stated, own) for name, stated, own in rows if stated is not None]
 
 
 def _folder() -> Any:
     return resources.files("flexcage.geometry") / "data"
 
 
+def _shipped() -> list[str]:
+    return [p.name.removesuffix(".toml") for p in _folder().iterdir() if p.suffix == ".toml"]
+
+
 def preset_names() -> list[str]:
-    """Names of all presets."""
-    return sorted(p.name.removesuffix(".toml") for p in _folder().iterdir() if p.suffix == ".toml")
+    """Names of all presets, those registered included."""
+    return sorted([*_shipped(), *_ADDED])
 
 
-@cache
 def load_preset(name: str) -> Preset:
     """Preset by name; an unknown name is an InputError that tells the nearest."""
+    if name in _ADDED:
+        return _ADDED[name]
     names = preset_names()
     if name not in names:
         near = difflib.get_close_matches(name.upper(), names, n=1, cutoff=0.5)
@@ -84,14 +94,68 @@ def load_preset(name: str) -> Preset:
         raise InputError(
             f"bearing.preset '{name}' is not known; {hint}.", where="bearing.preset", value=name
         )
-    data = tomllib.loads((_folder() / f"{name}.toml").read_text("utf-8"))
-    meta = data["preset"]
+    return _load_shipped(name)
+
+
+@cache
+def _load_shipped(name: str) -> Preset:
+    return _preset(tomllib.loads((_folder() / f"{name}.toml").read_text("utf-8")))
+
+
+def register_preset(path: str | Path) -> Preset:
+    """Add a user's own preset, a TOML file like those in the data folder; returns it.
+
+    The file has [preset] with ``name`` and ``title`` (and the catalogue's ``static_rating`` and
+    ``dynamic_rating``, if it gives any), complete [bearing] and [cage] tables, further tables of
+    a case where wanted, and [assumptions] and [sources]. ``bearing.preset = "name"`` in a case
+    then starts from it. Raises InputError for a file that cannot be read, a name that is taken, or
+    a bearing and cage that cannot be.
+    """
+    path = Path(path).expanduser()
+    try:
+        preset = _preset(tomllib.loads(path.read_text("utf-8")))
+        check_free(dict.fromkeys(_shipped()), preset.name, what="preset")
+        check_geometry(preset.bearing, preset.cage)
+        _check_assumptions(preset)
+    except (OSError, UnicodeDecodeError) as exc:
+        reason = getattr(exc, "strerror", None) or "not a text file"
+        raise InputError(f"The preset '{path}' cannot be read: {reason}.", where="preset") from exc
+    except tomllib.TOMLDecodeError as exc:
+        raise InputError(f"The preset '{path}' is not valid TOML: {exc}.", where="preset") from exc
+    except InputError as exc:
+        raise InputError(f"In preset '{path}': {exc}", where=exc.where, value=exc.value) from exc
+    return add(_ADDED, preset.name, preset, what="preset")
+
+
+def _preset(data: dict[str, Any]) -> Preset:
+    meta = data.get("preset", {})
+    for table, key in (("preset", "name"), ("preset", "title"), ("bearing", ""), ("cage", "")):
+        if not isinstance(data.get(table), dict) or (key and not isinstance(meta.get(key), str)):
+            what = f"'{key}' in [{table}]" if key else f"[{table}]"
+            raise InputError(f"{what} is missing.", where=table)
+    ratings = {
+        key: parse(meta[key], "kN", where=f"preset.{key}") if key in meta else None
+        for key in ("static_rating", "dynamic_rating")
+    }
     return Preset(
         name=meta["name"],
         title=meta["title"],
         tables=MappingProxyType({k: v for k, v in data.items() if k not in _META}),
         assumptions=MappingProxyType(data.get("assumptions", {})),
         sources=MappingProxyType(data.get("sources", {})),
-        static_rating=parse(meta["static_rating"], "kN", where="static_rating"),
-        dynamic_rating=parse(meta["dynamic_rating"], "kN", where="dynamic_rating"),
+        static_rating=ratings["static_rating"],
+        dynamic_rating=ratings["dynamic_rating"],
     )
+
+
+def _check_assumptions(preset: Preset) -> None:
+    for path in preset.assumptions:
+        value: Any = preset
+        for key in path.split("."):
+            value = getattr(value, key, None)
+        if path.partition(".")[0] not in ("bearing", "cage") or value is None:
+            raise InputError(
+                f"[assumptions] names '{path}', but should name values of [bearing] or [cage], "
+                'such as "cage.pocket_width".',
+                where=f"assumptions.{path}",
+            )

@@ -18,7 +18,7 @@ from flexcage.geometry.cages import Defect, WindowCage
 from flexcage.mesh.cage_mesh import CageMesh
 from flexcage.modes.basis import CageInterface, ModeBasis, ResidualFlexibility
 from flexcage.modes.interface import cage_interface
-from flexcage.modes.registry import build_basis
+from flexcage.modes.registry import basis_version, build_basis
 from flexcage.modes.spec import ModesSpec
 
 log = logging.getLogger(__name__)
@@ -61,6 +61,7 @@ def reduce_cage(
         mesh.points,
         mesh.tets,
         dict(mesh.groups),
+        *basis_version(spec.kind),
     )
     arrays = cached_arrays(
         "basis",

@@ -1,16 +1,20 @@
-"""Kinds of modal basis by name, and the one call that builds one."""
+"""Kinds of modal basis by name, the one call that builds one, and the one that adds one."""
 
 from __future__ import annotations
 
 import logging
 from collections.abc import Callable
 
+import numpy as np
+from scipy.linalg import eigvalsh
+
 from flexcage.core.errors import InputError
+from flexcage.core.registry import add, check_free, source_of
 from flexcage.fem.free import FreeBodySolver
 from flexcage.fem.model import FEModel
 from flexcage.modes import craig_bampton, free_free, ritz
 from flexcage.modes.basis import ModeBasis
-from flexcage.modes.spec import ModesSpec
+from flexcage.modes.spec import KINDS, ModesSpec
 
 log = logging.getLogger(__name__)
 
@@ -19,6 +23,39 @@ BUILDERS: dict[str, Callable[..., ModeBasis]] = {
     "craig_bampton": craig_bampton.build,
     "free_free": free_free.build,
 }
+_RIGID = 1e-9  # of the largest squared frequency: what rounding leaves of a rigid motion
+
+
+def register_basis(
+    name: str, build: Callable[..., ModeBasis], *, spec: type[ModesSpec] | None = None
+) -> None:
+    """Add a kind of modal basis: ``modes.kind = "name"`` in a case then asks for it.
+
+    ``build(solver, *, pocket_count, spec)`` takes the cage's factored free body
+    (``fem.free.FreeBodySolver``: ``solver.model`` has nodes, K, M and groups, ``solver.solve(F)``
+    answers loads (3N, m) with inertia relief) and returns a ``ModeBasis`` in SI units and the
+    cage's frame, without rigid motion. ``spec``, if the basis has values of its own, is a frozen
+    dataclass derived from ``ModesSpec`` whose ``kind`` defaults to ``name``. Bases are cached on
+    disk; an edit of the file that defines ``build`` makes them anew.
+
+    Raises InputError for a name that is taken or a spec that does not fit.
+    """
+    check_free(BUILDERS, name, what="mode basis")
+    if spec is not None:
+        default = getattr(spec, "kind", None)
+        if not (isinstance(spec, type) and issubclass(spec, ModesSpec)) or default != name:
+            raise InputError(
+                f"The spec of mode basis '{name}' must be a dataclass derived from ModesSpec whose "
+                f"kind defaults to '{name}'.",
+                where=name,
+            )
+    add(BUILDERS, name, build, what="mode basis", source=build)
+    KINDS[name] = spec
+
+
+def basis_version(kind: str) -> tuple[str, ...]:
+    """What a cached basis depends on besides its spec: the file of a builder from outside."""
+    return (source_of(kind),) if source_of(kind) else ()
 
 
 def build_basis(
@@ -51,6 +88,35 @@ def build_basis(
     if solver is None:
         solver = FreeBodySolver(model, kind=solver_kind)
     basis = BUILDERS[spec.kind](solver, pocket_count=pocket_count, spec=spec)
+    check_basis(basis, len(model.nodes))
     first = ", ".join(f"{f:.1f}" for f in basis.frequencies[:6])
     log.info("basis %s: %d dynamic modes, first %s Hz", basis.name, basis.size, first)
     return basis
+
+
+def check_basis(basis: ModeBasis, nodes: int) -> None:
+    """Raise InputError unless a basis is what it should be: shapes of all nodes, none rigid."""
+    n = basis.size
+    shapes = {
+        "shapes": (basis.shapes, (nodes, 3, n)),
+        "stiffness": (basis.stiffness, (n, n)),
+        "mass": (basis.mass, (n, n)),
+        "frequencies": (basis.frequencies, (n,)),
+    }
+    for name, (array, wanted) in shapes.items():
+        if array.shape != wanted or not np.isfinite(array).all():
+            raise InputError(
+                f"{name} of mode basis '{basis.name}' has shape {array.shape}, but must be finite "
+                f"numbers of shape {wanted}.",
+                where="modes.kind",
+                value=basis.name,
+            )
+    squares = eigvalsh(basis.stiffness, basis.mass)
+    if squares[0] < _RIGID * squares[-1]:
+        lowest = np.sqrt(max(squares[0], 0.0)) / (2.0 * np.pi)
+        raise InputError(
+            f"Mode basis '{basis.name}' holds a rigid motion (its lowest frequency is "
+            f"{lowest:.2g} Hz); take the six rigid motions out of it.",
+            where="modes.kind",
+            value=basis.name,
+        )

@@ -8,7 +8,7 @@ import numpy as np
 
 from flexcage.core.spec import option, quantity
 
-KINDS = ("ritz", "craig_bampton", "free_free")
+KINDS: dict[str, type | None] = dict.fromkeys(("ritz", "craig_bampton", "free_free"))
 
 
 @dataclass(frozen=True, kw_only=True)

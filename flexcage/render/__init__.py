@@ -9,6 +9,7 @@ import importlib
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
+    from flexcage.render.album import Scene, register_picture
     from flexcage.render.animations import animate_bearing, animate_stress, write_animation
     from flexcage.render.bearing_pictures import bearing_picture
     from flexcage.render.curves import compare_forces, histories, orbit
@@ -21,6 +22,8 @@ if TYPE_CHECKING:
     )
 
 _HOME = {
+    "Scene": "album",
+    "register_picture": "album",
     "animate_bearing": "animations",
     "animate_stress": "animations",
     "write_animation": "animations",
@@ -36,6 +39,7 @@ _HOME = {
 }
 
 __all__ = [
+    "Scene",
     "animate_bearing",
     "animate_stress",
     "bearing_picture",
@@ -46,6 +50,7 @@ __all__ = [
     "mesh_picture",
     "mode_sheet",
     "orbit",
+    "register_picture",
     "stress_picture",
     "write_animation",
 ]

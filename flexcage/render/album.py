@@ -1,14 +1,18 @@
-"""All pictures of one run, with fixed file names and cameras, so that runs lie side by side."""
+"""All pictures of one run, with fixed file names and cameras, so that runs lie side by side.
+
+``register_picture`` adds a user's own to every album.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
 
+from flexcage.core.registry import add, check_free
 from flexcage.geometry.cages import CrossbeamDefect, Defect
 from flexcage.geometry.cylindrical_roller import RollerBearing
 from flexcage.mesh.cage_mesh import CageMesh
@@ -17,6 +21,12 @@ from flexcage.results.metrics import BearingNumbers
 
 if TYPE_CHECKING:
     import xarray
+
+
+_FILES = (
+    "mesh", "modes", "bearing", "orbit", "histories", "stress_peak", "stress_envelope",
+    "deformation",
+)  # fmt: skip
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -53,12 +63,33 @@ class Scene:
     stress: StressPictures | None = None
 
 
+#: Pictures registered from outside by name, with whether they need a flexible cage's stress.
+PICTURES: dict[str, tuple[Callable[[Scene, Path], Path], bool]] = {}
+
+
+def register_picture(
+    name: str, draw: Callable[[Scene, Path], Path], *, needs_stress: bool = False
+) -> None:
+    """Add a picture: every album then has ``name.png``, drawn by ``draw(scene, path)``.
+
+    ``draw`` takes a ``Scene`` (dataset, bearing, mesh, defects and, for a flexible cage,
+    ``stress``) and the path to write to, and returns the path it wrote. ``needs_stress`` leaves
+    the picture out for a rigid cage. Raises InputError for a name that is taken.
+    """
+    taken = dict.fromkeys(_FILES)
+    check_free(taken, name, what="picture")
+    add(PICTURES, name, (draw, needs_stress), what="picture")
+
+
 def draw_album(scene: Scene, folder: Path, *, animate: bool = False) -> list[Path]:
     """Draw all pictures into ``folder``; their paths."""
     folder.mkdir(parents=True, exist_ok=True)
     paths = [*_geometry(scene, folder), *_motion(scene, folder)]
     if scene.stress is not None:
         paths += _stress(scene, scene.stress, folder)
+    for name, (draw, needs_stress) in PICTURES.items():
+        if scene.stress is not None or not needs_stress:
+            paths.append(draw(scene, folder / f"{name}.png"))
     if animate:
         paths += _animations(scene, folder)
     return paths

@@ -9,10 +9,10 @@ from typing import Any
 import numpy as np
 from scipy.signal import butter, sosfilt
 
-from flexcage.core.errors import RunFailed
+from flexcage.core.errors import InputError, RunFailed
 from flexcage.modes.basis import FACES
 from flexcage.results.options import OutputOptions
-from flexcage.results.registry import VARIABLES
+from flexcage.results.registry import COMPUTED, VARIABLES
 from flexcage.results.store import MemoryRunStore, RunStore
 from flexcage.solve import bdf
 from flexcage.solve.options import SolverOptions
@@ -49,7 +49,7 @@ def new_store(
         "energy_kind": np.array(ENERGIES),
         "channel": np.array(POWERS),
     }
-    names = [v for v in VARIABLES if layout.modes or not v.startswith("modal_")]
+    names = [name for name, v in VARIABLES.items() if layout.modes or "mode" not in v.dims]
     return RunStore.create(
         path,
         coords=coords,
@@ -75,6 +75,7 @@ class Recorder:
         output: OutputOptions,
     ) -> None:
         self.bearing, self.store, self.output = bearing, store, output
+        self._computed = _computed(store)
         self.options = bdf.Options(
             solver.max_order,
             solver.max_step,
@@ -131,6 +132,7 @@ class Recorder:
             main = slice(ratio - 1, done * ratio, ratio)
             arrays = self._arrays(ys[main], yds[main], done)
             arrays["work"] = quads[main]
+            arrays |= self._registered(arrays)
             fine = self._fine(yds[: done * ratio], done * ratio)
             steps = dict(zip(bdf.LOG_COLUMNS, np.concatenate(logs).T, strict=True))
             checkpoint = self._checkpoint() if whole else None
@@ -184,6 +186,23 @@ class Recorder:
             arrays["modal_acceleration"] = a["modes"]
         return arrays
 
+    def _registered(self, arrays: dict[str, np.ndarray]) -> dict[str, np.ndarray]:
+        """Variables that were registered from outside, from those of the program."""
+        samples = len(arrays["inner_angle"])
+        added = {}
+        for name, compute in self._computed.items():
+            variable = next(v for v in self.store.layout.variables if v.name == name)
+            wanted = (samples, *self.store.layout.shape(variable)[1:])
+            value = np.asarray(compute(dict(arrays), self.bearing))
+            if value.shape != wanted:
+                raise InputError(
+                    f"Result variable '{name}' was computed with shape {value.shape}, but has "
+                    f"dimensions {variable.dims} and wants {wanted}.",
+                    where=name,
+                )
+            added[name] = value
+        return added
+
     def _fine(self, yd: np.ndarray, n: int) -> dict[str, np.ndarray]:
         """Outer ring's acceleration; of a fixed ring, what its contact forces would give it."""
         mass, _, _, fixed = self.bearing.data.model.bodies.outer
@@ -215,6 +234,19 @@ class Recorder:
     def _restore(self, saved: dict[str, np.ndarray]) -> None:
         for name, array in self._parts().items():
             array[...] = saved[name]
+
+
+def _computed(store: MemoryRunStore) -> dict[str, Callable[..., np.ndarray]]:
+    """Functions of the store's variables that the program does not record itself."""
+    held = [v.name for v in store.layout.variables]
+    unknown = [name for name in held if name not in VARIABLES]
+    if unknown:
+        raise InputError(
+            f"The run holds the result variable '{unknown[0]}', which nothing computes here; "
+            "register it again, from the module that did so when the run began.",
+            where=unknown[0],
+        )
+    return {name: COMPUTED[name] for name in held if name in COMPUTED}
 
 
 def to_body(quaternion: np.ndarray, vectors: np.ndarray) -> np.ndarray:

@@ -1,7 +1,8 @@
 """The one table of result variables: dimensions, unit, long name and stored type.
 
 The store allocates from it, the dataset is labelled from it, and documentation prints it.
-A new output is one more line here and one more array handed to ``write_block``.
+A new output is one more line here and one more array handed to ``write_block``; from outside, a
+call of ``register`` with the function that computes it.
 Forces act *on* the named body. Frames: "ring" is the fixed frame (x: bearing axis, y towards
 roller 0 at the start); "cyl" is (x, r, psi) at the element's own azimuth.
 """
@@ -9,32 +10,46 @@ roller 0 at the start); "cyl" is (x, r, psi) at the element's own azimuth.
 from __future__ import annotations
 
 import difflib
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from types import MappingProxyType
+from typing import TYPE_CHECKING
+
+import numpy as np
 
 from flexcage.core.errors import InputError
+from flexcage.core.registry import add, check_free
 from flexcage.modes.basis import FACES
+
+if TYPE_CHECKING:
+    from flexcage.system.problem import Bearing
+
+    Compute = Callable[[Mapping[str, np.ndarray], Bearing], np.ndarray]
 
 TIME = "time"
 TIME_HF = "time_hf"
 
 #: Dimensions whose labels never change. Others (roller, mode, slice ...) get theirs from a run.
-LABELS: Mapping[str, tuple[str, ...]] = MappingProxyType(
-    {
-        "axis": ("x", "y", "z"),
-        "axis2": ("y", "z"),
-        "cyl": ("x", "r", "psi"),
-        "tilt": ("skew", "tilt"),
-        "spin_axis": ("axial", "radial", "tangential"),
-        "quaternion": ("w", "x", "y", "z"),
-        "race": ("inner", "outer"),
-        "moment": ("tilt", "skew"),
-        "face": FACES,
-        "crossbeam_face": FACES[:2],
-        "rib": ("+x", "-x"),
-    }
-)
+_labels: dict[str, tuple[str, ...]] = {
+    "axis": ("x", "y", "z"),
+    "axis2": ("y", "z"),
+    "cyl": ("x", "r", "psi"),
+    "tilt": ("skew", "tilt"),
+    "spin_axis": ("axial", "radial", "tangential"),
+    "quaternion": ("w", "x", "y", "z"),
+    "race": ("inner", "outer"),
+    "moment": ("tilt", "skew"),
+    "face": FACES,
+    "crossbeam_face": FACES[:2],
+    "rib": ("+x", "-x"),
+}
+LABELS: Mapping[str, tuple[str, ...]] = MappingProxyType(_labels)
+
+#: Dimensions whose labels a run gives.
+RUN_DIMS = (
+    "roller", "pocket", "mode", "slice", "station", "residual", "constraint", "energy_kind",
+    "channel",
+)  # fmt: skip
 
 
 @dataclass(frozen=True)
@@ -160,14 +175,35 @@ def variable(name: str) -> Variable:
     raise InputError(f"There is no result variable {name!r}{hint}.", where="variable", value=name)
 
 
-def register(new: Variable) -> Variable:
-    """Add a result variable from outside this file; its name must be free."""
-    if new.name in _table:
-        raise InputError(f"A result variable {new.name!r} exists already; choose another name.")
-    if not new.dims or new.dims[0] not in (TIME, TIME_HF):
+#: How variables that were registered from outside are computed, by name.
+COMPUTED: dict[str, Compute] = {}
+
+
+def register(
+    new: Variable, compute: Compute, *, labels: Mapping[str, Sequence[str]] | None = None
+) -> Variable:
+    """Add a result variable: every later run computes, stores and labels it; returns it.
+
+    ``compute(arrays, bearing)`` is called once a block of samples. ``arrays`` holds what the
+    program itself records on the main grid, by name, in SI, time first (n, ...): the variables of
+    this table whose first dimension is time, the modal ones if the cage is flexible.
+    ``bearing.data.model`` holds the constant model. It returns the new variable's array, (n, ...)
+    by its dimensions. ``labels`` names the entries of a dimension that no variable has yet.
+
+    Raises InputError for a name that is taken, a first dimension other than time, or a dimension
+    without labels.
+    """
+    check_free(_table, new.name, what="result variable")
+    if not new.dims or new.dims[0] != TIME:
         raise InputError(
-            f"Result variable {new.name!r} has dimensions {new.dims}; the first must be "
-            f"{TIME!r} or {TIME_HF!r}."
+            f"Result variable '{new.name}' has dimensions {new.dims}; the first must be '{TIME}'.",
+            where=new.name,
         )
-    _table[new.name] = new
-    return new
+    labels = labels or {}
+    for dim in new.dims[1:]:
+        if (dim in LABELS or dim in RUN_DIMS) == (dim in labels):
+            has = "has labels already" if dim in labels else "needs labels"
+            raise InputError(f"Dimension '{dim}' of '{new.name}' {has}.", where=new.name)
+    _labels.update({dim: tuple(names) for dim, names in labels.items()})
+    COMPUTED[new.name] = compute
+    return add(_table, new.name, new, what="result variable")

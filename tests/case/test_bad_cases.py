@@ -53,6 +53,18 @@ BAD = {
         ["must rise"],
     ),
     "ramp without time": ('[drive]\nramp_to = "1 rpm"', "drive.ramp_time", ["how long"]),
+    "decimal comma": ('[load]\nradial = "1,5 kN"', "load.radial", ["with a point", "'1.5 kN'"]),
+    "overload": ('[load]\nradial = "800 kN"', "load.radial", ["800 kN", "51 kN"]),
+    "tiny elements": ('[mesh]\nsize = "1 um"', "mesh.size", ["0.001 mm", "elements"]),
+    "tiny fillets": ('[mesh]\nfillet_size = "1 um"', "mesh.fillet_size", ["elements"]),
+    "endless": ('[solver]\nduration = "inf s"', "solver.duration", ["infinite"]),
+    "endless table": (
+        '[load]\ntimes = ["0 s", "inf s"]\nvalues = ["0 N", "1 N"]',
+        "load.times",
+        ["infinite"],
+    ),
+    "no sample": ('[solver]\nduration = "1 us"', "solver.duration", ["1 us", "40 us"]),
+    "newton": ("[solver]\nnewton_tolerance = 0", "solver.newton_tolerance", ["greater than 0"]),
     "steps": ('[solver]\nmin_step = "60 us"', "solver.min_step", ["60 us", "50 us"]),
     "friction speeds": (
         '[contacts.rib.friction]\nv_static = "2 m/s"',
@@ -88,6 +100,8 @@ def test_mistake_is_one_sentence(name):
         ('[bearing]\npreset = "N1014"', ["'N1014' is not known", "'N1013'"]),
         ('[bearing]\nbore = "65 mm"', ["[bearing] lacks 'outside_diameter'"]),
         ("name = 'x'\n", ["lacks 'bearing'"]),
+        ("name = ''\n[bearing]\npreset = 'N1013'", ["name is ''", "folder"]),
+        ("name = '../up'\n[bearing]\npreset = 'N1013'", ["'../up'", "without '/'"]),
         ("bearing = 3\n", ["bearing is 3", "a table"]),
         ('[bearing]\npreset = "N1013"\nroller_count = 40', ["40 rollers", "at most 32"]),
     ],
@@ -107,3 +121,8 @@ def test_files_that_cannot_be_read(tmp_path):
     ):
         with pytest.raises(InputError, match=words):
             load_case(path)
+
+
+def test_a_byte_order_mark_is_no_mistake(tmp_path):
+    (tmp_path / "case.toml").write_text(PRESET, encoding="utf-8-sig")
+    assert load_case(tmp_path / "case.toml").preset == "N1013"

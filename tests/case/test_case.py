@@ -168,3 +168,17 @@ def test_overrides_want_units(case):
     assert load_case(EXAMPLE, overrides={"load.radial": "2 kN"}).load.radial == 2000.0
     with pytest.raises(InputError, match="'2000 N'"):
         load_case(EXAMPLE, overrides={"load.radial": 2000})
+
+
+def test_a_mesh_file_is_found_from_anywhere(tmp_path, monkeypatch):
+    """Given in a change, it is relative to where the user stands; its place is no physics."""
+    (tmp_path / "cage.msh").write_bytes(b"one")
+    monkeypatch.chdir(tmp_path)
+    case = load_case(MINIMAL, overrides={"mesh.file": "cage.msh"})
+    assert case.mesh.file == str(tmp_path / "cage.msh")
+    assert Case.from_preset("N1013", mesh={"file": "cage.msh"}).mesh.file == case.mesh.file
+    assert load_case(case.to_toml()) == case
+    (tmp_path / "elsewhere").mkdir()
+    (tmp_path / "elsewhere" / "other.msh").write_bytes(b"one")
+    assert case.replace("mesh.file", "elsewhere/other.msh").hash == case.hash
+    assert case.replace("mesh.file", "").mesh.file == ""

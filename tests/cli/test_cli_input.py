@@ -57,6 +57,7 @@ MISTAKES = {
     "big defect": (["run", EXAMPLE, "--set", "defects.0.displacement=2 mm"], ["assembly"]),
     "mesh format": (["mesh", EXAMPLE, "-o", "cage.stl"], ["'cage.stl' should end in .msh"]),
     "mesh folder": (["mesh", EXAMPLE, "-o", "none/cage.msh"], ["not a folder"]),
+    "other preset": (["run", EXAMPLE, "--set", "bearing.preset=N1014"], ["'N1014'", "'N1013'"]),
     "preset": (["presets", "N1014"], ["'N1014' is not known", "'N1013'"]),
     "no run": (["render", "nothing"], ["not the folder of a run"]),
     "three to compare": (["compare", "a", "b", "c"], ["one case, or two"]),
@@ -79,7 +80,8 @@ def test_unknown_options_exit_with_2(capsys):
     with pytest.raises(SystemExit) as caught:
         cli.main(["run", EXAMPLE, "--cage", "wooden"])
     assert caught.value.code == 2
-    assert "choose from" in capsys.readouterr().err
+    text = sentence(capsys)
+    assert "choose from" in text and "'flexcage run --help'" in text
 
 
 def test_an_existing_folder_is_refused(elsewhere, capsys):
@@ -92,6 +94,14 @@ def test_an_existing_folder_is_refused(elsewhere, capsys):
     assert cli.main(["run", EXAMPLE, "-o", str(out), "--force"]) == 2
     assert "did not write" in sentence(capsys)
     assert (out / "thesis.tex").read_text() == "precious"
+
+
+def test_compare_offers_only_what_it_can(elsewhere, capsys):
+    (elsewhere / "mine").mkdir()
+    (elsewhere / "mine" / "notes.txt").write_text("precious")
+    assert cli.main(["compare", EXAMPLE, "-o", "mine"]) == 2
+    text = sentence(capsys)
+    assert "--force" in text and "--resume" not in text
 
 
 def test_force_replaces_a_former_run(elsewhere):

@@ -14,7 +14,15 @@ import pytest
 import xarray as xr
 
 from flexcage.core.errors import InputError, RunFailed
-from flexcage.results.registry import LABELS, TIME, TIME_HF, VARIABLES, Variable, variable
+from flexcage.results.registry import (
+    LABELS,
+    RUN_DIMS,
+    TIME,
+    TIME_HF,
+    VARIABLES,
+    Variable,
+    variable,
+)
 from flexcage.results.store import RunStore
 
 VARS = ["inner_angle", "cage_position", "pocket_slice_force", "outer_acceleration"]
@@ -227,8 +235,7 @@ def _next(store):
 
 def test_registry_is_complete():
     """Every variable has a unit, a name, time first, and labels or a run-dependent dimension."""
-    free = {"roller", "pocket", "mode", "slice", "station", "residual", "constraint"}
-    free |= {"energy_kind", "channel"}
+    free = set(RUN_DIMS)
     for name, v in VARIABLES.items():
         assert v.name == name and v.unit and len(v.long_name) > 8
         assert v.dims[0] in (TIME, TIME_HF)
@@ -244,11 +251,25 @@ def test_registry_is_complete():
 def test_a_variable_from_elsewhere(monkeypatch):
     from flexcage.results import registry
 
-    monkeypatch.setattr(registry, "_table", dict(registry._table))
+    for table in ("_table", "_labels", "COMPUTED"):
+        monkeypatch.setattr(registry, table, dict(getattr(registry, table)))
     monkeypatch.setattr(registry, "VARIABLES", registry._table)
-    registry.register(Variable("oil_temperature", ("time",), "K", "temperature of the oil"))
+
+    def compute(arrays, bearing):
+        return np.full(len(arrays["inner_angle"]), 300.0)
+
+    oil = Variable("oil_temperature", ("time",), "K", "temperature of the oil")
+    assert registry.register(oil, compute) is oil
     assert registry.variable("oil_temperature").unit == "K"
-    with pytest.raises(InputError, match="exists already"):
-        registry.register(Variable("oil_temperature", ("time",), "K", "temperature of the oil"))
-    with pytest.raises(InputError, match="must be"):
-        registry.register(Variable("frozen", ("roller",), "K", "no time"))
+    zones = Variable("zone_temperature", ("time", "zone"), "K", "temperature by zone")
+    registry.register(zones, compute, labels={"zone": ("load", "rest")})
+    for wrong, labels, words in (
+        (oil, {}, "'oil_temperature' exists already"),
+        (Variable("frozen", ("roller",), "K", "no time"), {}, "must be 'time'"),
+        (Variable("fine", ("time_hf",), "K", "another grid"), {}, "must be 'time'"),
+        (Variable("two words", ("time",), "K", "no name"), {}, "one word"),
+        (Variable("spots", ("time", "spot"), "K", "no labels"), {}, "needs labels"),
+        (Variable("axes", ("time", "axis"), "K", "labels"), {"axis": "abc"}, "labels already"),
+    ):
+        with pytest.raises(InputError, match=words):
+            registry.register(wrong, compute, labels=labels)

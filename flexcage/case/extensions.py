@@ -1,0 +1,67 @@
+"""A user's own files: Python that registers laws, bases, outputs or pictures, and presets as TOML.
+
+A process knows only what it has loaded, so a worker process loads the same ``sources`` first.
+"""
+
+from __future__ import annotations
+
+import importlib
+import importlib.util
+import sys
+from pathlib import Path
+
+from flexcage.core.errors import FlexcageError, InputError
+from flexcage.geometry.presets import register_preset
+
+_loaded: list[str] = []
+
+
+def sources() -> tuple[str, ...]:
+    """What ``load_extension`` loaded in this process, in order: absolute paths and module names."""
+    return tuple(_loaded)
+
+
+def load_extension(source: str | Path) -> None:
+    """Load a Python file or module that registers things, or register a preset's .toml file.
+
+    Loading the same one again does nothing. Raises InputError if it is not there, or fails.
+    """
+    text = str(source)
+    is_file = text.endswith((".py", ".toml")) or isinstance(source, Path)
+    if is_file:
+        path = Path(source).expanduser().resolve()
+        text = str(path)
+        if not path.is_file():
+            raise InputError(f"There is no file '{source}' to load.", where="use", value=text)
+    if text in _loaded:
+        return
+    try:
+        if text.endswith(".toml"):
+            register_preset(path)
+        elif is_file:
+            _run(path)
+        else:
+            importlib.import_module(text)
+    except FlexcageError:
+        raise
+    except Exception as exc:
+        raise InputError(
+            f"'{source}' cannot be loaded: {type(exc).__name__}: {exc}.", where="use", value=text
+        ) from exc
+    _loaded.append(text)
+
+
+def _run(path: Path) -> None:
+    name = path.stem if path.stem not in sys.modules else f"flexcage_extension_{path.stem}"
+    if any(getattr(m, "__file__", None) == str(path) for m in list(sys.modules.values())):
+        return  # imported before, as a module
+    spec = importlib.util.spec_from_file_location(name, path)
+    if spec is None or spec.loader is None:
+        raise InputError(f"'{path}' is not a Python file.", where="use", value=str(path))
+    module = importlib.util.module_from_spec(spec)
+    sys.modules[name] = module
+    try:
+        spec.loader.exec_module(module)
+    except BaseException:
+        del sys.modules[name]
+        raise
