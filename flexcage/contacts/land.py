@@ -40,7 +40,9 @@ def land_work(n_stations: int) -> LandWork:
 
 
 @part
-def land_contact(A, Rc, Vc, w, q, qd, Rr, Vr, spin, data, p, laws, sl, lw, Fc, Mc, Qm, Fr, Mr, sums):
+def land_contact(
+    A, Rc, Vc, w, q, qd, Rr, Vr, spin, data, p, laws, sl, lw, Fc, Mc, Qm, Fr, Mr, sums
+):
     """Land forces: Fc, Qm on the cage (space, modal), Mc about its origin; Fr, Mr on the ring.
 
     Rc, Vc, w: cage origin, velocity, angular velocity in space; Rr, Vr, spin: ring centre,

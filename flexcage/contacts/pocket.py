@@ -116,11 +116,10 @@ def _axes(pw, f):
 @part
 def _lever(pose, data, Rw, f, k, pw):
     """Lever from the roller's centre to slice or point k of face f, in F."""
-    sgn = 1.0 if f % 2 == 0 else -1.0
+    sgn, a = 1.0 if f % 2 == 0 else -1.0, row(pose.axis, 0)
     if f < 2:
-        on_axis = times(data.s[k], row(pose.axis, 0))
-        return combine(on_axis, sgn * (Rw - data.drop[k]), row(pw.G, 2))
-    r = combine(times(sgn * data.half_roller, row(pose.axis, 0)), data.points[k, 0], row(pose.axis, 1))
+        return combine(times(data.s[k], a), sgn * (Rw - data.drop[k]), row(pw.G, 2))
+    r = combine(times(sgn * data.half_roller, a), data.points[k, 0], row(pose.axis, 1))
     return combine(r, data.points[k, 1], row(pose.axis, 2))
 
 

@@ -165,9 +165,7 @@ def _tangent(n, b, t, r, on_axis, slope, gx, gt, k, sl, pair):
         Wf[j] = Wn[j] - gx * Wx[j] - gt * Wt[j]
     add_outer(pair.K, sl.Nd[k], Wf, Wn)
     add_outer(pair.C, sl.Nv[k], Wf, Wn)
-    friction_tangent(
-        pair.C, sl.N[k], sl.g[k], sl.dg[k], sl.u[k], sl.t[k, 0], sl.t[k, 1], Wx, Wt
-    )
+    friction_tangent(pair.C, sl.N[k], sl.g[k], sl.dg[k], sl.u[k], sl.t[k, 0], sl.t[k, 1], Wx, Wt)
 
 
 @part

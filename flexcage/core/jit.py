@@ -107,6 +107,7 @@ class BoxType(numba.types.StructRef):
 class Box(structref.StructRefProxy):
     """A reference to a NamedTuple of arrays: a call passes one pointer for all of them."""
 
+
 structref.define_proxy(Box, BoxType, ["value"])
 
 

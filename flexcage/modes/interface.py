@@ -52,7 +52,7 @@ def offset_points(cage: WindowCage) -> np.ndarray:
 def face_offsets(
     cage: WindowCage, points: np.ndarray, *, pocket_count: int, defects: Sequence[Defect]
 ) -> np.ndarray:
-    """Stress-free outward displacement (Z, 4, n) [m] of the faces at ``points`` (4, n) along them."""
+    """Stress-free outward displacement (Z, 4, n) [m] of the faces at ``points`` (4, n) on them."""
     offset = np.zeros((pocket_count, *points.shape))
     for defect in defects:
         if isinstance(defect, CrossbeamDefect):

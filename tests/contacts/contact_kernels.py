@@ -52,9 +52,7 @@ def _pocket(pose, data, i, Rw, D, Vc, wc, q, qd, margin, p, law, a, sl, pw, pair
 
 
 def _land(A, Rc, Vc, w, q, qd, Rr, Vr, spin, data, p, law, sl, lw, Fc, Mc, Qm, Fr, Mr, sums):
-    land_contact(
-        A, Rc, Vc, w, q, qd, Rr, Vr, spin, data, p, law, sl, lw, Fc, Mc, Qm, Fr, Mr, sums
-    )
+    land_contact(A, Rc, Vc, w, q, qd, Rr, Vr, spin, data, p, law, sl, lw, Fc, Mc, Qm, Fr, Mr, sums)
 
 
 def _compiled(function, *arguments, returns=types.boolean):
@@ -82,8 +80,8 @@ def _rib_kernel(data_type):
 def _pocket_kernel(data_type):
     return _compiled(
         _pocket, new_pose(), data_type, I8, F8, VEC, VEC, VEC, VEC, VEC, F8,
-        types.Array(F8, 2, "C"), types.Tuple((N, N, MU, MU)), VEC, new_slices(1), pocket_work(1, 1, 1),
-        new_pair(), I8, VEC,
+        types.Array(F8, 2, "C"), types.Tuple((N, N, MU, MU)), VEC, new_slices(1),
+        pocket_work(1, 1, 1), new_pair(), I8, VEC,
     )  # fmt: skip
 
 
