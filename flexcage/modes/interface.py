@@ -17,6 +17,7 @@ from flexcage.geometry.cages import (
     side_beam_shape,
 )
 from flexcage.modes.basis import FACES, CageInterface, ModeBasis
+from flexcage.modes.lands import LANDS
 from flexcage.modes.pockets import (
     LOADS_PER_POCKET,
     NORMALS,
@@ -26,8 +27,6 @@ from flexcage.modes.pockets import (
 )
 
 log = logging.getLogger(__name__)
-
-LANDS = ("land_inner", "land_outer")
 
 
 def face_stations(cage: WindowCage, n_stations: int) -> np.ndarray:
