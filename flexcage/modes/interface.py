@@ -30,6 +30,7 @@ log = logging.getLogger(__name__)
 
 OFFSET_POINTS = 65  # along a face: a bent beam's curve to a quarter of a micrometre for 0.2 mm
 
+
 def face_stations(cage: WindowCage, n_stations: int) -> np.ndarray:
     """Station coordinates (4, n_st) [m]: centres of equal cells of a face's flat part.
 

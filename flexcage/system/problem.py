@@ -31,7 +31,7 @@ from flexcage.solve import bdf
 from flexcage.solve import bordered as bordered_system
 from flexcage.solve.bordered import Bordered, new_bordered
 from flexcage.system.layout import Layout
-from flexcage.system.model import POWERS, Memory, Model, Work, new_work
+from flexcage.system.model import Memory, Model, Work, new_work
 from flexcage.system.residual import evaluate
 
 _factor_bordered = bordered_system.factor
@@ -257,7 +257,7 @@ def newton_step(alpha, y, r, tan, m):
 
 def _accepted(t, y, yd, data, power):
     d, report = data[0], fields(data[0].report)
-    data[2](t, y, yd, d, data[1], fields(d.scratch).out, 2)
+    data[2](t, y, yd, d, data[1], fields(d.scratch).out, 3)
     remember(t, fields(d.memory), report, fields(d.events))
     for k in range(power.shape[0]):
         power[k] = report.power[k]
@@ -397,7 +397,7 @@ class Bearing:
         elif mode == 1:
             self.functions[1](t, y, yd, self.args)
         else:
-            self.functions[4](t, y, yd, self.args, np.zeros(len(POWERS)))
+            self.evaluate(t, y, yd, self.args[0], self.args[1], out, mode)
         return out
 
     def advance(self, state, options, t_end, times, ys, yds, first, log, quads):

@@ -2,7 +2,8 @@
 
 One pass over the rollers calls the contact kernels, adds their wrenches to the bodies, and forms
 the rows: kinematics q' - T(q) u - G^T mu, momentum M u' + h - Q - G^T lambda, g and its rate.
-``mode``: 0 residual, 1 also the tangent blocks, 2 also the report.
+``mode``: 0 residual, 1 also the tangent blocks, 2 also the whole report, 3 without its arrays of
+slices and stations.
 """
 
 from __future__ import annotations
@@ -15,7 +16,7 @@ from flexcage.contacts.pocket import pocket_contact
 from flexcage.contacts.race import race_contact
 from flexcage.contacts.rib import rib_contact
 from flexcage.contacts.state import set_pose, shift_matrix
-from flexcage.core.jit import copy_into, fields, part, zero
+from flexcage.core.jit import VECTORISED, copy_into, fields, part, zero
 from flexcage.core.rotation import matrix_from_quaternion, quaternion_rate
 from flexcage.core.vectors import (
     column,
@@ -242,7 +243,7 @@ def evaluate(t, y, yd, d, law, out, mode):
         _inner_contacts(i, qi, ring_q, ring_u, d, law, mode)
         _outer_contact(i, qi, q[zq + 6 : zq + 8], u[zq + 6 : zq + 8], d, law, mode)
         _pocket(i, qi, Rc, Vc, qf, qfd, margin, d, law, mode)
-        if mode == 2:
+        if mode >= 2:
             _approach(i, ring_u, u[zq + 6 : zq + 8], d)
         _roller_rows(
             i, qi, ui, qd[o : o + 6], ud[o : o + 6], d, r_q[o : o + 6], r_u[o : o + 6], mode
@@ -267,7 +268,7 @@ def _clear(border, d, mode):
         zero(tan.Kbb)
         zero(tan.Cbb)
         zero(tan.Mbb)
-    elif mode == 2:
+    elif mode >= 2:
         zero(rep.power)
         zero(rep.energy)
         zero(rep.race)
@@ -317,9 +318,9 @@ def _inner_contacts(i, qi, ring_q, ring_u, d, law, mode):
             copy_into(work.R[1], F)
             shift_matrix(work.R, P, work.S)
             _scatter(pair, work.S, i, 0, fields(d.tangent), work.T6)
-        elif mode == 2 and k == 0:
+        elif mode >= 2 and k == 0:
             _report_race(i, 0, sums, rep)
-        elif mode == 2:
+        elif mode >= 2:
             rep.rib[i, 0], rep.rib[i, 1] = sums[0], sums[1]
             rep.contact[i, 6] = 1 if sums[0] > 0.0 else 0
             rep.contact[i, 7] = 1 if sums[1] > 0.0 else 0
@@ -348,7 +349,7 @@ def _outer_contact(i, qi, out_q, out_u, d, law, mode):
         border[6 + c] -= F[1, 1 + c] * pair.wrench[1] + F[2, 1 + c] * pair.wrench[2]
     if mode == 1:
         _scatter_outer(pair, F, i, fields(d.tangent))
-    elif mode == 2:
+    elif mode >= 2:
         _report_race(i, 1, work.sums, fields(d.report))
 
 
@@ -403,8 +404,8 @@ def _pocket(i, qi, Rc, Vc, qf, qfd, margin, d, law, mode):
             _scatter(pair, work.S, i, 8, tan, work.T6)
             if qf.shape[0] > 0:
                 _scatter_modes(data, i, pw, work.S, tan, work.Lm, work.Bm, work.PR)
-    elif mode == 2:
-        _report_pocket(i, hit, sums, pw, fields(d.report))
+    elif mode >= 2:
+        _report_pocket(i, hit, sums, pw, fields(d.report), mode)
 
 
 @part
@@ -423,17 +424,18 @@ def _push_modes(data, i, pw, border):
 
 
 @part
-def _report_pocket(i, hit, sums, pw, rep):
+def _report_pocket(i, hit, sums, pw, rep, mode):
     if hit:
         rep.energy[2] += sums[0]
         rep.power[6] += sums[1]
         rep.power[7] += sums[2]
+    if hit and mode == 2:
         copy_into(rep.station[i], pw.st)
         for f in range(2):
             for k in range(rep.slice_normal.shape[2]):
                 rep.slice_normal[i, f, k] = pw.slice_N[f, k]
                 rep.slice_friction[i, f, k] = pw.slice_T[f, k]
-    else:
+    elif mode == 2:
         zero(rep.station[i])
         zero(rep.slice_normal[i])
         zero(rep.slice_friction[i])
@@ -471,7 +473,7 @@ def _roller_rows(i, qi, ui, qdi, udi, d, r_q, r_u, mode):
         tan.Crr[i, 2, 2] += mass * ui[1] / r + 2.0 * bodies.drag[0] * abs(ui[2])
         tan.Crr[i, 4, 5] += Ia * ui[3] - It * frame
         tan.Crr[i, 5, 4] -= Ia * ui[3] - It * frame
-    elif mode == 2:
+    elif mode >= 2:
         rep.power[2] += mass * (gr * ui[1] + gp * ui[2])
         rep.power[10] += drag * ui[2]
         v2 = ui[0] * ui[0] + ui[1] * ui[1] + ui[2] * ui[2]
@@ -515,7 +517,7 @@ def _land(q, u, zq, nm, d, law, mode):
     if not rides_inner:
         border[6] += Fr[1]
         border[7] += Fr[2]
-    if mode == 2:
+    if mode >= 2:
         sums = work.sums
         copy_into(rep.land, Fc)
         for c in range(2):
@@ -542,7 +544,7 @@ def _approach(i, ring_u, out_u, d):
     rep.approach[i, 7] = -rep.approach[i, 6]
 
 
-@part
+@part(fastmath=VECTORISED)
 def _cage_rows(d, quat, Vc, wb, qf, qfd, qd, ud, zq, r_q, r_u, mode):
     """Rows of the cage: floating frame, translations in space, rotations in the body."""
     data, tan, rep, work = fields(d.cage), fields(d.tangent), fields(d.report), fields(d.scratch)
@@ -600,21 +602,26 @@ def _cage_rows(d, quat, Vc, wb, qf, qfd, qd, ud, zq, r_q, r_u, mode):
             for l in range(nm):
                 tan.Kbb[14 + m, 14 + l] += data.kff[m, l]
                 tan.Cbb[14 + m, 14 + l] += data.dff[m, l]
-    elif mode == 2:
+    elif mode >= 2:
         put(v, turned_back(A, xyz(Vc)))
         for c in range(3):
             v[3 + c] = wb[c]
         for m in range(nm):
             v[6 + m] = qfd[m]
         for a in range(6 + nm):
+            momentum = 0.0
             for b in range(6 + nm):
-                rep.energy[0] += 0.5 * v[a] * M[a, b] * v[b]
+                momentum += M[a, b] * v[b]
+            rep.energy[0] += 0.5 * v[a] * momentum
             for c in range(3):
                 rep.power[2] += v[a] * M[a, c] * gb[c]
         for m in range(nm):
+            spring = damper = 0.0
             for l in range(nm):
-                rep.energy[1] += 0.5 * qf[m] * data.kff[m, l] * qf[l]
-                rep.power[11] -= qfd[m] * data.dff[m, l] * qfd[l]
+                spring += data.kff[m, l] * qf[l]
+                damper += data.dff[m, l] * qfd[l]
+            rep.energy[1] += 0.5 * qf[m] * spring
+            rep.power[11] -= qfd[m] * damper
 
 
 @part
@@ -687,7 +694,7 @@ def _ring_rows(t, d, q, u, qd, ud, lam, mu_, zq, r_q, r_u, out, end, mode):
             else:
                 tan.Kbb[6 + c, 6 + c] += ko
                 tan.Cbb[6 + c, 6 + c] += co
-    elif mode == 2:
+    elif mode >= 2:
         w2 = ru[4] * ru[4] + ru[5] * ru[5]
         v2 = ru[0] * ru[0] + ru[1] * ru[1] + ru[2] * ru[2]
         rep.energy[0] += 0.5 * (mass * v2 + Ia * ru[3] * ru[3] + It * w2)
