@@ -7,6 +7,7 @@ import pytest
 from bearing_runs import rolling_start
 
 from flexcage.contacts.spec import Contacts, FrictionLaw, Lubricant, NormalLaw, PairSpec
+from flexcage.system.model import POWERS
 from flexcage.system.scales import error_weights
 from flexcage.system.spec import Drive, Load, Mount
 
@@ -34,7 +35,7 @@ def disturbed(bearing, *, press=0.0, skew=1e-5, axial=8e-6, modal=1e-6, seed=0):
     if bearing.layout.modes:
         q["modes"][:] = modal * rng.standard_normal(bearing.layout.modes)
         u["modes"][:] = 1e-3 * rng.standard_normal(bearing.layout.modes)
-    bearing.residual(0.0, y, yd, mode=2)
+    bearing.functions[4](0.0, y, yd, bearing.args, np.zeros(len(POWERS)))  # onset speeds
     return y, yd, rng
 
 
