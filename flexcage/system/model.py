@@ -50,7 +50,7 @@ class Bodies(NamedTuple):
     roller: np.ndarray  # (3,) mass, axial and transverse inertia
     radius: np.ndarray  # (Z,) roller radii
     ring: np.ndarray  # (3,) inner ring with what moves with it
-    outer: np.ndarray  # (4,) mass, stiffness, damping, 1.0 if fixed
+    outer: np.ndarray  # (5,) mass, stiffness, damping, 1.0 if fixed, clearance (< 0: a bushing)
     gravity: np.ndarray  # (3,)
     drag: np.ndarray  # (2,) roller 0.5 rho C A, cage 0.5 rho C_f 2 pi r^4 b
     drive: np.ndarray  # (3,) 1.0 if through a shaft, stiffness, damping
@@ -344,7 +344,13 @@ def _bodies(bearing, cage, lubricant, drive: Drive, load: Load, mount: Mount, se
         radius=0.5 * (bearing.roller_diameter + scatter),
         ring=np.array([bearing.inner_ring_mass + load.shaft_mass, *bearing.inner_ring_inertia]),
         outer=np.array(
-            [bearing.outer_ring_mass + mount.mass, mount.stiffness, mount.damping, float(fixed)]
+            [
+                bearing.outer_ring_mass + mount.mass,
+                mount.stiffness,
+                mount.damping,
+                float(fixed),
+                mount.clearance if mount.kind == "contact" else -1.0,
+            ]
         ),
         gravity=load.gravity * np.array([0.0, np.cos(azimuth), np.sin(azimuth)]),
         drag=np.array(

@@ -8,7 +8,7 @@ slices and stations.
 
 from __future__ import annotations
 
-from math import cos, sin
+from math import cos, sin, sqrt
 
 from flexcage.bodies.floating_frame import inertia_terms
 from flexcage.contacts.land import land_contact
@@ -625,6 +625,37 @@ def _cage_rows(d, quat, Vc, wb, qf, qfd, qd, ud, zq, r_q, r_u, mode):
 
 
 @part
+def _housing(outer, q, u, held, tan, mode):
+    """Force ``held`` of the outer ring on its housing; returns energy stored and power lost."""
+    k, c, clearance = outer[1], outer[2], outer[4]
+    held[0] = held[1] = 0.0
+    distance = sqrt(q[0] * q[0] + q[1] * q[1])
+    n = (1.0, 0.0) if distance == 0.0 else (q[0] / distance, q[1] / distance)
+    if clearance < 0.0:  # a bushing
+        for i in range(2):
+            held[i] = k * q[i] + c * u[i]
+            if mode == 1:
+                tan.Kbb[6 + i, 6 + i] += k
+                tan.Cbb[6 + i, 6 + i] += c
+        return 0.5 * k * distance * distance, c * (u[0] * u[0] + u[1] * u[1])
+    depth = distance - clearance
+    rate = n[0] * u[0] + n[1] * u[1]
+    force = k * depth + c * rate
+    if depth <= 0.0:
+        return 0.0, 0.0
+    if force <= 0.0:  # it parts while still compressed: what is stored relaxes unseen
+        return 0.5 * k * depth * depth, -k * depth * rate
+    for i in range(2):
+        held[i] = force * n[i]
+        if mode == 1:
+            for j in range(2):
+                across = (1.0 if i == j else 0.0) - n[i] * n[j]
+                tan.Kbb[6 + i, 6 + j] += k * n[i] * n[j] + force / distance * across
+                tan.Cbb[6 + i, 6 + j] += c * n[i] * n[j]
+    return 0.5 * k * depth * depth, c * rate * rate
+
+
+@part
 def _ring_rows(t, d, q, u, qd, ud, lam, mu_, zq, r_q, r_u, out, end, mode):
     """Rows of the inner and outer rings and of the constraints."""
     bodies, tan, rep = fields(d.bodies), fields(d.tangent), fields(d.report)
@@ -660,13 +691,15 @@ def _ring_rows(t, d, q, u, qd, ud, lam, mu_, zq, r_q, r_u, out, end, mode):
     r_u[zq + 5] = It * (rud[5] + frame * ru[4]) - Ia * ru[3] * ru[4] - M3 - lam[2]
     # outer ring
     oq, ou, oud = q[zq + 6 : zq + 8], u[zq + 6 : zq + 8], ud[zq + 6 : zq + 8]
-    mo, ko, co, fixed = bodies.outer[0], bodies.outer[1], bodies.outer[2], bodies.outer[3]
+    mo, fixed = bodies.outer[0], bodies.outer[3]
+    held = work.vec[LEVER]
+    stored, lost = _housing(bodies.outer, oq, ou, held, tan, mode)
     for c in range(2):
         r_q[zq + 6 + c] = qd[zq + 6 + c] - ou[c]
         if fixed > 0.0:
             r_u[zq + 6 + c] = oud[c]
         else:
-            force = border[6 + c] - ko * oq[c] - co * ou[c] + mo * bodies.gravity[1 + c]
+            force = border[6 + c] - held[c] + mo * bodies.gravity[1 + c]
             r_u[zq + 6 + c] = mo * oud[c] - force
     # constraints: lambda rows hold rates, mu rows positions
     g = out[end:]
@@ -691,9 +724,6 @@ def _ring_rows(t, d, q, u, qd, ud, lam, mu_, zq, r_q, r_u, out, end, mode):
                 for i in range(tan.Kbr.shape[0]):
                     zero(tan.Kbr[i, 6 + c])
                     zero(tan.Cbr[i, 6 + c])
-            else:
-                tan.Kbb[6 + c, 6 + c] += ko
-                tan.Cbb[6 + c, 6 + c] += co
     elif mode >= 2:
         w2 = ru[4] * ru[4] + ru[5] * ru[5]
         v2 = ru[0] * ru[0] + ru[1] * ru[1] + ru[2] * ru[2]
@@ -703,10 +733,10 @@ def _ring_rows(t, d, q, u, qd, ud, lam, mu_, zq, r_q, r_u, out, end, mode):
         for c in range(3):
             rep.power[2] += mass * bodies.gravity[c] * ru[c]
         if fixed == 0.0:
+            rep.energy[3] += stored
+            rep.power[12] -= lost
             for c in range(2):
                 rep.energy[0] += 0.5 * mo * ou[c] * ou[c]
-                rep.energy[3] += 0.5 * ko * oq[c] * oq[c]
-                rep.power[12] -= co * ou[c] * ou[c]
                 rep.power[2] += mo * bodies.gravity[1 + c] * ou[c]
         for c in range(2):
             rep.body_force[c] = border[6 + c]

@@ -94,8 +94,12 @@ def geometric_guess(model: Model, layout: Layout) -> np.ndarray:
     q["quaternion"][0] = 1.0
     q["inner"][4] = tilt = model.bodies.misalignment
     q["rollers"][:, 0] = -q["rollers"][:, 1] * np.cos(q["rollers"][:, 2]) * np.tan(tilt)
+    shift = max(float(model.bodies.outer[4]), 0.0) * (1.0 - model.bodies.outer[3])
+    q["outer"][:] = shift * model.bodies.load_direction  # a ring in its bore lies on the ground
+    psi = q["rollers"][:, 2]
+    q["rollers"][:, 1] += q["outer"] @ np.stack([np.cos(psi), np.sin(psi)])
     play = model.outer.radius - model.inner.radius - 2.0 * model.bodies.radius.min()
-    q["inner"][1:3] = play * model.bodies.load_direction  # just before the first contact
+    q["inner"][1:3] = (play + shift) * model.bodies.load_direction  # just before first contact
     return y
 
 

@@ -65,6 +65,7 @@ STATES = {
     "every pocket loaded": ({}, {"press": 110e-6, "skew": 3e-4}),
     "ends in the ribs": ({}, {"axial": 20e-6, "skew": 1e-4}),
     "bushing": ({"mount": Mount(kind="bushing", mass=1.0)}, {"press": 105e-6}),
+    "housing": ({"mount": Mount(kind="contact", mass=1.0, clearance=1e-6)}, {"press": 105e-6}),
     "shaft": ({"drive": Drive(kind="shaft")}, {"press": 105e-6}),
     "flexible": ({"flexible": {"modes": 6}}, {"press": 101e-6}),
     "flexible, soft walls": ({"flexible": {"modes": 6, "soft": True}}, {"press": 104e-6}),
