@@ -144,8 +144,7 @@ class Run:
         ds = self.dataset
         t = ds["time"].values
         index = self.stress_history.peak_sample if time is None else int(np.abs(t - time).argmin())
-        damping = self._modal_damping() * ds["modal_velocity"].values[index]
-        loads = cage_loads(ds, index, damping, inner=self.case.cage.guidance != "outer")
+        loads = cage_loads(ds, index, inner=self.case.cage.guidance != "outer")
         u = self.recovery.displacement(loads)
         return StressField(float(t[index]), u, self.recovery.stress(u))
 
@@ -221,11 +220,6 @@ class Run:
         if self.folder:
             self._summarise().write(self.folder)
         return self
-
-    def _modal_damping(self) -> np.ndarray:
-        basis = self.cage.basis  # type: ignore[union-attr]
-        ratios = self.case.modes.damping_ratios(basis.frequencies)
-        return 2.0 * ratios * 2.0 * np.pi * basis.frequencies * np.diag(basis.mass)
 
     def _summarise(self) -> Summary:
         case, friction = self.case, self.case.contacts.race.friction

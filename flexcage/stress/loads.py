@@ -39,15 +39,12 @@ def land_station_forces(ds: xarray.Dataset, *, inner: bool, n_land: int = N_LAND
     return out
 
 
-def cage_loads(
-    ds: xarray.Dataset, index: int, modal_damping: np.ndarray, *, inner: bool
-) -> CageLoads:
-    """Loads at sample ``index``; ``modal_damping`` (n,) are the damping forces D q'."""
+def cage_loads(ds: xarray.Dataset, index: int, *, inner: bool) -> CageLoads:
+    """Loads at sample ``index``; ``inner``: the cage rides on the inner ring's land."""
     one = ds.isel(time=[index])
     return CageLoads(
         station_forces=one["station_force"].values[0].astype(float),
         land_forces=land_station_forces(one, inner=inner)[0],
         angular_velocity=one["cage_omega"].values[0],
-        modal_acceleration=one["modal_acceleration"].values[0],
-        modal_damping=modal_damping,
+        modal_coordinates=one["modal_coordinates"].values[0].astype(float),
     )

@@ -25,6 +25,9 @@ from flexcage.stress.operators import VertexStress
 class CageLoads:
     """What acts on the cage at one instant.
 
+    Elastic inertia and modal damping follow from the modal coordinates, with which forces, inertia
+    and damping are in balance (a recorded coordinate is more precise than its second derivative),
+    or are given themselves.
     Rigid accelerations and gravity need not be given: their nodal loads are M times a rigid
     motion, which inertia relief removes exactly, as it does the resultant of the forces.
     """
@@ -32,6 +35,7 @@ class CageLoads:
     station_forces: np.ndarray  # (Z, 4, n_st, 3) [N], components (x, r, psi) of the pocket frames
     land_forces: np.ndarray | None = None  # (2, n_land, 3) [N], components (x, r, psi)
     angular_velocity: np.ndarray = field(default_factory=lambda: np.zeros(3))  # body frame [rad/s]
+    modal_coordinates: np.ndarray | None = None  # (n,)
     modal_acceleration: np.ndarray | None = None  # (n,)
     modal_damping: np.ndarray | None = None  # (n,) generalised damping forces D qdot
 
@@ -81,21 +85,28 @@ class StressRecovery:
             nodal = nodal + self.land_weights.T @ on_land.reshape(-1, 3)
         return nodal
 
-    def inertia_forces(self, loads: CageLoads) -> np.ndarray:
-        """d'Alembert forces (N, 3) of spin and elastic acceleration, and modal damping."""
+    def spin_forces(self, loads: CageLoads) -> np.ndarray:
+        """Centrifugal forces (N, 3) on the undeformed cage."""
         model, spin = self.model, np.asarray(loads.angular_velocity, float)
         acceleration = np.cross(spin, np.cross(spin, model.nodes - model.centre))
-        modal = np.zeros(self.basis.size)
+        return -model.mass_times(acceleration)
+
+    def modal_forces(self, loads: CageLoads, others: np.ndarray) -> np.ndarray:
+        """Elastic inertia and modal damping as forces (N, 3), beside the ``others`` (N, 3)."""
+        basis, modal = self.basis, np.zeros(self.basis.size)
+        if loads.modal_coordinates is not None:
+            push = np.einsum("aik,ai->k", basis.shapes, others)
+            modal = np.linalg.solve(basis.mass, push - basis.stiffness @ loads.modal_coordinates)
         if loads.modal_acceleration is not None:
             modal = modal + loads.modal_acceleration
         if loads.modal_damping is not None:
-            modal = modal + np.linalg.solve(self.basis.mass, loads.modal_damping)
-        acceleration = acceleration + self.basis.shapes @ modal
-        return -model.mass_times(acceleration)
+            modal = modal + np.linalg.solve(basis.mass, loads.modal_damping)
+        return -self.model.mass_times(basis.shapes @ modal)
 
     def displacement(self, loads: CageLoads) -> np.ndarray:
         """Elastic displacement (N, 3) [m] by mode acceleration on the full mesh."""
-        total = self.nodal_forces(loads) + self.inertia_forces(loads)
+        forces = self.nodal_forces(loads) + self.spin_forces(loads)
+        total = forces + self.modal_forces(loads, forces)
         return self.solver.solve(total.reshape(-1, 1)).reshape(-1, 3)
 
     def modal_displacement(self, q: np.ndarray, residual: np.ndarray | None = None) -> np.ndarray:

@@ -83,10 +83,20 @@ class Settled:
         return self.stored["y"].copy(), self.stored["yd"].copy()
 
     def integrate(
-        self, duration: float, *, stride: int, share: float = 1.0, step_share: float = 1.0
+        self,
+        duration: float,
+        *,
+        stride: int,
+        share: float = 1.0,
+        step_share: float = 1.0,
+        aside: float = 0.0,
     ) -> Outcome:
-        """Integrate from the stored state with tolerance and largest step cut to these shares."""
+        """Integrate from the stored state with tolerance and largest step cut to these shares.
+
+        ``aside`` [m] moves the cage by so much first.
+        """
         y, yd = self.restore()
+        self.bearing.layout.q(y)["cage"][1] += aside
         n = round(duration * RATE)
         self._sample(n // stride + 1, stride)
         options = self.options(max_step=self.case.solver.max_step * step_share)

@@ -18,6 +18,7 @@ from flexcage.system.scales import error_weights
 
 WINDOW = 3e-3  # [s] compared with the reference
 SHARE, STEP_SHARE = 1e-5, 2e-2  # of tolerance and largest step: the reference
+NUDGE = 1e-12  # [m] by which the cage is moved at the start, to see how errors grow
 SECOND_STEP = 0.05e-6  # [s] of the second method
 ALPHA = 1.0 / 2e-6  # [1/s] of the timed factorisation
 COUNTS = {
@@ -46,6 +47,7 @@ def measure(case: flexcage.Case) -> dict[str, Any]:
     reference = window(SHARE, STEP_SHARE)
     default = window()
     error = default.error(reference)
+    aside = settled.integrate(WINDOW, stride=1, share=SHARE, step_share=STEP_SHARE, aside=NUDGE)
     touching = np.abs(reference.cage).max(axis=(1, 2)) > 1e-3
     return {
         "cpu_s_per_revolution": round(median(t.cpu for t in timed), 4),
@@ -57,6 +59,7 @@ def measure(case: flexcage.Case) -> dict[str, Any]:
         "reference": {
             "tolerance_next": _pair(window(10.0 * SHARE, STEP_SHARE).error(reference)),
             "second_method": _pair(_second(settled, times).error(reference)),
+            "nudged": _pair(settled.forces(aside.ys, aside.yds, times).error(reference)),
         },
         **kernel_times(settled),
         **{name: int(timed[0].count[i]) for name, i in COUNTS.items()},

@@ -135,7 +135,7 @@ def test_stress_has_the_expected_size(flexible):
     per_newton = h.places.max(axis=1)[force > 20.0] / force[force > 20.0]
     assert 0.03e6 < np.median(per_newton) < 0.5e6
     field = flexible.stress()
-    assert field.von_mises.max() >= 0.99 * h.peak[h.settled :].max()
+    assert field.von_mises.max() >= 0.999 * h.peak[h.settled :].max()
     assert np.abs(field.displacement).max() < 0.1e-3
 
 
