@@ -12,7 +12,6 @@ from flexcage.system.start import find_start
 
 SPIN = pytest.mark.xfail(
     strict=True,
-    raises=Exception,
     reason="rolling_velocities leaves tilted rollers without the turn that their orbit gives",
 )
 STILL = {"drive.speed": "0 rpm", "load.gravity": "0 m/s^2", "cage.model": "rigid"}
@@ -24,8 +23,16 @@ def misaligned(tilt: float, *tables):
     return bearing, find_start(bearing, limit_force=2e4)
 
 
-@pytest.mark.parametrize("model", ["rigid", "flexible"])
-@pytest.mark.parametrize("tilt", [0.2, *(pytest.param(t, marks=SPIN) for t in TILTS[1:])])
+@pytest.mark.parametrize(
+    ("tilt", "model"),
+    [
+        (0.2, "rigid"),
+        (0.2, "flexible"),
+        pytest.param(0.5, "rigid", marks=SPIN),
+        pytest.param(1.0, "flexible", marks=SPIN),
+        pytest.param(2.0, "rigid", marks=SPIN),
+    ],
+)
 def test_a_tilted_bearing_starts_at_speed(tilt, model):
     bearing, start = misaligned(tilt, {"cage.model": model})
     assert start.residual < 1e-6 and not start.pinched

@@ -27,10 +27,12 @@ DEFECTS = {
     "pushed -0.30 mm": (pushed("-0.30 mm"), 5, (2, 3)),
 }
 SLIDES = pytest.mark.xfail(
-    reason="without friction the cage slides off the bump and jams between other rollers"
+    strict=True,
+    reason="without friction the cage slides off the bump and jams between other rollers",
 )
 CHATTERS = pytest.mark.xfail(
-    reason="a force's lean jumps at a station: 9e-4 of the load never finds its balance"
+    strict=True,
+    reason="a force's lean jumps at a station: 9e-4 of the load never finds its balance",
 )
 MARKED = [
     "bent 0.22 mm",
