@@ -28,16 +28,14 @@ DEFECTS = {
 }
 SLIDES = pytest.mark.xfail(
     strict=True,
-    reason="without friction the cage slides off the bump and jams between other rollers",
+    reason="friction would hold the cage; the start lets it slide off the bump onto other rollers",
 )
-CHATTERS = pytest.mark.xfail(
-    strict=True,
-    reason="a force's lean jumps at a station: 9e-4 of the load never finds its balance",
-)
+# a slice that lies on a station feels its force's lean jump there: no balance to be found
+OFF_STATIONS = {"contacts.pocket.slices": 14}
 MARKED = [
     "bent 0.22 mm",
     "bent 0.25 mm",
-    pytest.param("shifted 0.25 mm", marks=CHATTERS),
+    "shifted 0.25 mm",
     pytest.param("pushed -0.26 mm", marks=SLIDES),
     pytest.param("pushed -0.30 mm", marks=SLIDES),
 ]
@@ -99,7 +97,8 @@ def clamped(x, *, gap):
 @pytest.fixture(scope="module", params=MARKED)
 def pinch(request):
     defects, pocket, faces = DEFECTS[request.param]
-    case = n1013(defects=defects)
+    shifted = request.param.startswith("shifted")
+    case = n1013(OFF_STATIONS if shifted else {}, defects=defects)
     bearing, (_, cage) = bearing_of(case), cage_of(case)
     start = find_start(bearing, limit_force=2e4)
     squeeze = wall_of(case, bearing, cage, pocket, faces)
@@ -160,6 +159,13 @@ def test_root_stress_against_the_full_mesh(pinch):
     assert ours == pytest.approx(theirs, rel=0.06)
     shape = ours / pinch.start.pinch_force * pinch.force / theirs
     assert shape == pytest.approx(1.0, abs=0.01)  # per newton, stress by mode acceleration is exact
+
+
+@pytest.mark.slow
+@pytest.mark.xfail(strict=True, reason="the middle slice lies on a station: its force's lean jumps")
+def test_a_shifted_beam_starts_with_a_slice_on_a_station():
+    bearing = bearing_of(n1013(defects=DEFECTS["shifted 0.25 mm"][0]))
+    assert find_start(bearing, limit_force=2e4).pinch_force == pytest.approx(2112.0, rel=0.01)
 
 
 def test_orders_of_magnitude():
