@@ -134,7 +134,7 @@ def mesh_command(args: argparse.Namespace) -> int:
 def modes_command(args: argparse.Namespace) -> int:
     """flexcage modes CASE: the modal basis of the cage, as a table."""
     case = case_from(args)
-    from flexcage.simulate import cage_modes
+    from flexcage.stages import cage_modes
 
     basis = cage_modes(case)
     say(f"{'mode':>5}  {'kind':<12}  {'frequency':>12}")

@@ -79,6 +79,18 @@ class Run:
         """All recorded variables, labelled, with units (an xarray.Dataset)."""
         return self.store.dataset()
 
+    @cached_property
+    def events(self) -> xarray.Dataset:
+        """Contacts that closed or opened: time [s], roller, place, closed (an xarray.Dataset)."""
+        from flexcage.results.recording import contact_events
+
+        return contact_events(self.store.events())
+
+    @property
+    def steps(self) -> dict[str, np.ndarray]:
+        """The solver's steps: time and step [s], order, Newton iterations, error over tolerance."""
+        return self.store.steps()
+
     @property
     def numbers(self) -> BearingNumbers:
         b = self.case.bearing

@@ -156,13 +156,13 @@ def frame_work(n: int) -> FrameWork:
 @kernel
 def _superpose(parts, q, out):
     """out += sum_l q_l parts[l], entry by entry."""
-    total = out.reshape(out.size)
     for l in range(q.shape[0]):
         x = q[l]
         if x != 0.0:
-            part = parts[l].reshape(out.size)
-            for k in range(total.shape[0]):
-                total[k] += x * part[k]
+            for k in range(out.shape[0]):
+                for i in range(3):
+                    for j in range(3):
+                        out[k, i, j] += x * parts[l, k, i, j]
 
 
 @kernel

@@ -398,6 +398,33 @@ def pocket_line_law(
     return float(np.exp(intercept)), float(exponent)
 
 
+def land_line_law(
+    *,
+    radius: float,
+    clearance: float,
+    length: float,
+    cage: tuple[float, float],
+    ring: tuple[float, float],
+    depth: float,
+    loads: tuple[float, float] = (0.5, 50.0),
+) -> tuple[float, float]:
+    """Stiffness and exponent of a cage's land on a ring's, F = K d^n, fitted over ``loads`` [N].
+
+    Two cylinders that differ by ``clearance`` in radius touch like one of radius
+    R (R + c)/c on a flat; each yields q (1-nu^2)/(pi E) [2 ln(2 h/b) - nu/(1-nu)] to a point
+    ``depth`` h inside it (Johnson, Contact Mechanics 5.6). ``cage`` and ``ring`` are (E, nu).
+    """
+    q = np.geomspace(loads[0], loads[1], 40) / length
+    soft = [(1.0 - nu**2) / e for e, nu in (cage, ring)]
+    b = np.sqrt(4.0 * q * radius * (radius + clearance) / clearance * sum(soft) / np.pi)
+    approach = sum(
+        q * s / np.pi * (2.0 * np.log(2.0 * depth / b) - nu / (1.0 - nu))
+        for s, (_, nu) in zip(soft, (cage, ring), strict=True)
+    )
+    exponent, intercept = np.polyfit(np.log(approach), np.log(q * length), 1)
+    return float(np.exp(intercept)), float(exponent)
+
+
 def flat_end_stiffness(radius: float, one: tuple[float, float], two: tuple[float, float]) -> float:
     """Linear stiffness [N/m] of a flat circular end on a half-space, 2 E* a (Johnson 3.4)."""
     compliance = sum((1.0 - nu**2) / e for e, nu in (one, two))

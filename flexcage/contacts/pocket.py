@@ -41,13 +41,13 @@ def pocket_contact(
     D: roller centre from the cage's origin; Vc, wc: cage velocity and angular velocity, in F;
     q, qd: modal coordinates and rates; ``margin``: bound of the walls' motion; p (4, N_NORMAL).
     ``laws``: normal (crossbeam, side), friction (crossbeam, side); ``guess``: residual coordinates
-    to begin with. Tangent (mode 1) in ``pair`` and ``pw.BW, pw.LV, pw.H``; report (mode 2) in
+    to begin with. Tangent (mode 1) in ``pair`` and ``pw.BW, pw.LV, pw.H``; report (from mode 2) in
     ``sums``: elastic energy (with the residual's), damping power, friction power.
     """
     clear(pair, mode == 1)
     zero(pw.normal)
     zero(pw.tangential)
-    if mode == 2:
+    if mode >= 2:
         zero(sums)
         zero(pw.slice_N)
         zero(pw.slice_T)
@@ -58,7 +58,7 @@ def pocket_contact(
     soft = data.comp[i, 0, 0] > 0.0
     if soft:
         condense(data, i, p, laws, guess, sl, pw)
-        if mode == 2:
+        if mode >= 2:
             sums[0] += stored_energy(data, i, p, laws, sl, pw)
     zero(pw.st)
     if mode == 1:
@@ -94,7 +94,7 @@ def pocket_contact(
             laws[1](count, sl.d, sl.v, p[f], sl.N, sl.Nd, sl.Nv)
             laws[3](count, sl.u, data.friction[1], sl.g, sl.dg)
         _collect(pose, data, f, Rw, centre[1], sl, pw, pair, mode, sums)
-        if mode == 2:
+        if mode >= 2:
             elastic_forces(data, f, p, laws, sl, sl.g)
             for k in range(count):
                 sums[0] += sl.g[k] * max(sl.d[k], 0.0) / (p[f, 1] + 1.0)
@@ -195,7 +195,7 @@ def _collect(pose, data, f, Rw, distance, sl, pw, pair, mode, sums):
             pw.st[f, j + s, second] += g2 * share
         if mode == 1:
             _add_tangent(f, j, w, k, V, Wn, W1, W2, sl, pw, pair)
-        elif mode == 2:
+        elif mode >= 2:
             pw.slice_N[f, k] = N
             pw.slice_T[f, k] = N * sl.g[k] * sl.u[k]
             sums[2] -= N * sl.g[k] * sl.u[k] ** 2

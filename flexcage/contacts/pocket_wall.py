@@ -17,12 +17,11 @@ from typing import NamedTuple
 
 import numpy as np
 
-from flexcage.core.jit import part, zero
+from flexcage.core.jit import VECTORISED, part, zero
 from flexcage.core.vectors import dot, row, xyz
 
 N_LOCAL = 8  # residual coordinates of a pocket: uniform and linear on four faces
 SOLVED = 3e-11  # [m] a last Newton step this small leaves an error of its square over d
-VECTORISED = {"reassoc", "nsz", "contract"}  # long sums may be added in any order
 
 
 class PocketData(NamedTuple):

@@ -38,11 +38,11 @@ def race_contact(pose, side, Rw, P, b, Vr, wr, theta, p, law, friction, sl, pair
 
     P: roller centre from the ring's centre; b: ring axis; Vr, wr: the ring's velocity and angular
     velocity; all in F. ``theta``: the ring's spin angle (waviness). ``mode``: 0 wrench, 1 with
-    tangent, 2 with ``sums``: normal, traction, moments about e_r and e_psi, sliding speed at the
-    middle, elastic energy, power of damping, friction and rolling resistance.
+    tangent, from 2 with ``sums``: normal, traction, moments about e_r and e_psi, sliding speed at
+    the middle, elastic energy, power of damping, friction and rolling resistance.
     """
     clear(pair, mode == 1)
-    if mode == 2:
+    if mode >= 2:
         zero(sums)
     centre, ring_axis, ring_spin = xyz(P), xyz(b), xyz(wr)
     a = row(pose.axis, 0)
@@ -89,7 +89,7 @@ def race_contact(pose, side, Rw, P, b, Vr, wr, theta, p, law, friction, sl, pair
     friction(n_s, sl.u, side.friction, sl.g, sl.dg)
     _collect(pose, side, Rw, centre, ring_axis, theta, sl, pair, mode, sums)
     _roll(pose, side, Rw, centre, ring_spin[0], sl, pair, mode, sums)
-    if mode == 2:
+    if mode >= 2:
         law(n_s, sl.d, sl.zero, p, sl.u, sl.Nd, sl.Nv)
         for k in range(n_s):
             sums[5] += sl.u[k] * max(sl.d[k], 0.0) / (p[1] + 1.0)
@@ -139,7 +139,7 @@ def _collect(pose, side, Rw, P, b, theta, sl, pair, mode, sums):
             add_wrench(pair.wrench, times(-N * slope, t), on_axis)
         if mode == 1:
             _tangent(n, b, t, r, on_axis, slope, gx, gt, k, sl, pair)
-        elif mode == 2:
+        elif mode >= 2:
             moment = cross(r, n)
             leaning = times(slope, cross(on_axis, t))
             sums[0] += N
@@ -190,5 +190,5 @@ def _roll(pose, side, Rw, P, ring_spin, sl, pair, mode, sums):
         F = -F
     pair.wrench[2] += (side.hydro - 1.0) * F
     pair.wrench[3] -= lever * F
-    if mode == 2:
+    if mode >= 2:
         sums[8] -= F * (roller_speed + ring_speed)

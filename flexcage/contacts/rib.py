@@ -34,7 +34,7 @@ def rib_contact(pose, data, P, b, Vr, wr, p, laws, sl, pair, mode, sums):
     """
     clear(pair, mode == 1)
     law, friction = laws
-    if mode == 2:
+    if mode >= 2:
         zero(sums)
     centre, ring_axis, ring_spin = xyz(P), xyz(b), xyz(wr)
     a0, a1, a2 = row(pose.axis, 0), row(pose.axis, 1), row(pose.axis, 2)
@@ -90,10 +90,10 @@ def rib_contact(pose, data, P, b, Vr, wr, p, laws, sl, pair, mode, sums):
                 friction_tangent(
                     pair.C, N, sl.g[k], sl.dg[k], sl.u[k], sl.t[k, 0], sl.t[k, 1], W1, W2
                 )
-            elif mode == 2:
+            elif mode >= 2:
                 sums[f] += N
                 sums[4] -= N * sl.g[k] * sl.u[k] ** 2
-        if mode == 2:
+        if mode >= 2:
             law(count, sl.d, sl.zero, p[f], sl.g, sl.Nd, sl.Nv)
             for k in range(count):
                 sums[2] += sl.g[k] * max(sl.d[k], 0.0) / (p[f, 1] + 1.0)

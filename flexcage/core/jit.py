@@ -63,8 +63,9 @@ OPTIONS: dict[str, Any] = {"cache": True, "error_model": "numpy", "fastmath": Fa
 # without numba's reference counts a kernel cannot allocate, and a call that hands over a hundred
 # arrays costs 10 ns instead of 150 (measured); whoever calls owns the arrays
 LEAN = {**OPTIONS, "_nrt": False}
-# inlined into its callers: handing large groups of arrays from one compiled function to another
-# costs more than the mathematics between; wrappers for Python would double the compile time
+VECTORISED = {"reassoc", "nsz", "contract"}  # fastmath: long sums may be added in any order
+# parts are inlined into their callers: handing large groups of arrays from one compiled function
+# to another costs more than the mathematics between; wrappers for Python double the compile time
 PART = {**LEAN, "forceinline": True, "no_cpython_wrapper": True, "no_cfunc_wrapper": True}
 
 
@@ -152,7 +153,5 @@ def copy_into(target, source):
 
 @part
 def zero(array):
-    """Set a C-contiguous array to zero."""
-    a = array.reshape(array.size)
-    for k in range(a.shape[0]):
-        a[k] = 0
+    """Set an array to zero."""
+    array[...] = 0

@@ -1,8 +1,8 @@
 """Direct solvers for symmetric positive definite matrices, behind one face.
 
 ``linear_solver(A)`` factors A once with CHOLMOD (cvxopt), PARDISO (pypardiso), or SciPy's SuperLU,
-which is always there. On the medium N1013 cage (98,000 unknowns, one thread) they factor in 1.2,
-1.9 and 2.0 s and solve one of many right-hand sides in 33, 34 and 18 ms; on the fine one (263,000)
+which is always there. On an N1013 cage of 98,000 unknowns (one thread) they factor in 1.2, 1.9
+and 2.0 s and solve one of many right-hand sides in 33, 34 and 18 ms; on one of 263,000
 in 8, 6 and 30 s, and 118, 105 and 105 ms.
 """
 

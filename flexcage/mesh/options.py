@@ -14,8 +14,8 @@ class MeshOptions:
     """Fineness by name, or by size; or a mesh file of the user's own.
 
     A named fineness gives about the same number of elements a pocket whatever the cage's size:
-    on the N1013 cage 12,000 (coarse), 33,000 (medium) and 88,000 (fine) nodes when quadratic,
-    and 87,000 vertices with 377,000 linear tetrahedra (paper, the density of paper 000).
+    on the N1013 cage 12,000 (coarse), 36,000 (medium) and 89,000 (fine) nodes when quadratic,
+    and 88,000 vertices with 375,000 linear tetrahedra (paper, the density of paper 000).
     A file is used as it is: defects are not applied to it but must be in it.
     """
 

@@ -1,5 +1,11 @@
 """A quarter of one cage sector by gmsh's OpenCASCADE kernel: the only part that is meshed.
 
+It is meshed in the coordinates (x, radius/stretch, t), t the tangential distance from the pocket's
+radial mid-plane. There the lands, cuts and pocket walls are planes and the fillet is a cylinder,
+so that vertices lie exactly on every surface once turned back; and the isotropic elements that
+gmsh makes become longer along the radius by the stretch, along which the stress of a fillet
+varies slowly: the elements saved there refine its arc.
+
 A window cage's sector is symmetric about the pocket's radial mid-plane (z = 0) and about the
 cage's middle (x = 0), so a quarter of it, mirrored twice and turned Z times, is the whole ring.
 Mirrored meshes match node by node at every cut, which a periodic constraint would only ask for,
@@ -10,7 +16,7 @@ senses of rotation see the same mesh.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from math import ceil, pi
+from math import ceil, pi, sin
 from typing import Any
 
 import numpy as np
@@ -22,12 +28,13 @@ from flexcage.mesh.options import MeshOptions
 
 MM = 1e-3
 # of the sector's length scale (cube root of its volume): size, size at the fillet; growth of the
-# size with distance; edges along a fillet's quarter arc. Scaled so that N1013 counts come out.
+# size with distance; edges along a fillet's quarter arc; stretch along the radius. Chosen for
+# the N1013's node counts, and medium for the root stress of three cages (README, Verification).
 _NAMED = {
-    "coarse": (1.031, 1.031, 1.0, 1),
-    "medium": (0.5155, 0.2577, 0.8, 2),
-    "fine": (0.2191, 0.1547, 1.0, 3),
-    "paper": (0.0703, 0.0580, 0.4, 3),
+    "coarse": (1.031, 1.031, 1.0, 1, 1.0),
+    "medium": (0.55, 0.11, 4.0, 4, 1.35),
+    "fine": (0.24, 0.1, 2.0, 5, 1.35),
+    "paper": (0.0703, 0.0580, 0.4, 3, 1.0),
 }
 SURFACES = ("cut_x", "cut_z", "cut_psi", "land_inner", "land_outer", "end", "beam", "side")
 
@@ -41,6 +48,7 @@ class SizePlan:
     growth: float
     arc_edges: int
     radial_edges: int
+    stretch: float  # of elements along the radius
 
 
 @dataclass(frozen=True)
@@ -59,26 +67,27 @@ def size_plan(cage: WindowCage, pocket_count: int, options: MeshOptions) -> Size
     ring = pi * (outer**2 - inner**2) * cage.width
     window = cage.pocket_width * cage.pocket_length * (outer - inner)
     scale = (ring / pocket_count - window) ** (1.0 / 3.0)
-    far, near, growth, arcs = _NAMED[options.fineness]
+    far, near, growth, arcs, stretch = _NAMED[options.fineness]
     size, near_fillet = far * scale, near * scale
     if options.size is not None:
         size, near_fillet = options.size, near / far * options.size
     if options.fillet_size is not None:
         arcs = max(1, ceil(0.5 * pi * cage.fillet_radius / options.fillet_size - 1e-9))
-        near_fillet = min(near_fillet, 4.0 * options.fillet_size)  # keeps slivers off the arc
+        near_fillet = min(near_fillet, 3.0 * options.fillet_size)  # keeps slivers off the arc
+        growth = min(growth, 1.0)  # steeper, a finer arc would not bring a better root stress
     radial = max(1, round((outer - inner) / near_fillet))
-    return SizePlan(size, near_fillet, growth, arcs, radial)
+    return SizePlan(size, near_fillet, growth, arcs, radial, stretch)
 
 
 def mesh_quarter(cage: WindowCage, *, pocket_count: int, options: MeshOptions) -> Quarter:
     """Mesh the quarter sector; lengths go to gmsh in mm, where OpenCASCADE's tolerances fit."""
     plan = size_plan(cage, pocket_count, options)
     with gmsh_model("flexcage quarter sector") as gmsh:
-        _shape(gmsh, cage, pocket_count)
+        _shape(gmsh, cage, pocket_count, plan.stretch)
         fillet = _fillet_surface(gmsh, cage)
         _sizes(gmsh, plan, fillet)
         gmsh.model.mesh.generate(3)
-        points, tets, faces = _arrays(gmsh)
+        points, tets, faces = _arrays(gmsh, plan.stretch)
     surfaces = {
         _surface_name(points[np.unique(triangles)], cage, pocket_count): triangles
         for triangles in faces
@@ -90,21 +99,25 @@ def mesh_quarter(cage: WindowCage, *, pocket_count: int, options: MeshOptions) -
     return Quarter(points, tets, surfaces, plan)
 
 
-def _shape(gmsh: Any, cage: WindowCage, pocket_count: int) -> None:
-    """Quarter of the annular sector, less the filleted window extruded along the radius."""
+def _shape(gmsh: Any, cage: WindowCage, pocket_count: int, stretch: float) -> None:
+    """Quarter of the annular sector, less the filleted window, in (x, radius/stretch, t) [mm]."""
     occ = gmsh.model.occ
     inner, outer = 0.5 * cage.bore / MM, 0.5 * cage.outside_diameter / MM
     width, length, tangential = cage.width / MM, cage.pocket_length / MM, cage.pocket_width / MM
-    section = occ.addRectangle(0.0, inner, 0.0, 0.5 * width, outer - inner)
-    turned = occ.revolve([(2, section)], 0, 0, 0, 1, 0, 0, pi / pocket_count)
+    slope = sin(pi / pocket_count)  # of the cut: t = slope * radius
+    corners = ((inner, 0.0), (outer, 0.0), (outer, slope * outer), (inner, slope * inner))
+    points = [occ.addPoint(0.0, radius / stretch, t) for radius, t in corners]
+    lines = [occ.addLine(points[i - 1], points[i]) for i in range(4)]
+    section = occ.addPlaneSurface([occ.addCurveLoop(lines)])
+    body = occ.extrude([(2, section)], 0.5 * width, 0.0, 0.0)
     window = occ.addRectangle(
         -0.5 * length, -0.5 * tangential, 0.0, length, tangential,
         roundedRadius=cage.fillet_radius / MM,
     )  # fmt: skip
     occ.rotate([(2, window)], 0, 0, 0, 1, 0, 0, 0.5 * pi)
-    occ.translate([(2, window)], 0.0, 0.5 * inner, 0.0)
-    prism = occ.extrude([(2, window)], 0.0, outer, 0.0)
-    occ.cut([e for e in turned if e[0] == 3], [e for e in prism if e[0] == 3])
+    occ.translate([(2, window)], 0.0, 0.5 * inner / stretch, 0.0)
+    prism = occ.extrude([(2, window)], 0.0, outer / stretch, 0.0)
+    occ.cut([e for e in body if e[0] == 3], [e for e in prism if e[0] == 3])
     occ.synchronize()
     if len(gmsh.model.getEntities(3)) != 1:
         raise RunFailed("the pocket cuts the cage's sector into several pieces")
@@ -116,7 +129,7 @@ def _x_extent(gmsh: Any, dim: int, tag: int) -> float:
 
 
 def _fillet_surface(gmsh: Any, cage: WindowCage) -> int:
-    """Tag of the fillet: the cylinder whose axial extent is its radius, not a land's."""
+    """Tag of the fillet: the one cylinder, whose axial extent is its radius."""
     radius = cage.fillet_radius / MM
     tags = [
         tag
@@ -149,7 +162,7 @@ def _sizes(gmsh: Any, plan: SizePlan, fillet: int) -> None:
     option.setNumber("Mesh.OptimizeNetgen", 1)
 
 
-def _arrays(gmsh: Any) -> tuple[np.ndarray, np.ndarray, list[np.ndarray]]:
+def _arrays(gmsh: Any, stretch: float) -> tuple[np.ndarray, np.ndarray, list[np.ndarray]]:
     """Points [m], positive tets, and the outward triangles of each surface, compactly numbered."""
     mesh = gmsh.model.mesh
     tags, coordinates, _ = mesh.getNodes()
@@ -160,6 +173,7 @@ def _arrays(gmsh: Any) -> tuple[np.ndarray, np.ndarray, list[np.ndarray]]:
     position = np.empty((len(number), 3))
     position[tags] = coordinates.reshape(-1, 3) * MM
     points, tets = position[used], number[cells]
+    points[:, 1] = np.sqrt((stretch * points[:, 1]) ** 2 - points[:, 2] ** 2)  # radius to height
     faces = [
         orient_outward(points, tets, number[mesh.getElementsByType(2, tag)[1].reshape(-1, 3)])
         for _, tag in gmsh.model.getEntities(2)

@@ -32,7 +32,7 @@ class ResidualFlexibility:
 class ModeBasis:
     """Dynamic modes of a free body: r = r_i + A (s + shapes . q_f).
 
-    ``kind[i]`` names mode i ("free", "centrifugal", "attachment", "constraint", "fixed").
+    ``kind[i]`` names mode i ("free", "centrifugal", "land", "attachment", "constraint").
     ``stiffness`` and ``mass`` are the reduced matrices (n, n); for a mass-orthonormal basis
     of eigenmodes they are diag(omega^2) and 1.
     """

@@ -15,21 +15,28 @@ from scipy.linalg import lu_factor, lu_solve
 from flexcage.fem.free import FreeBodySolver
 from flexcage.fem.modal import lowest_modes
 from flexcage.modes.basis import ModeBasis
+from flexcage.modes.lands import land_vectors
 from flexcage.modes.pockets import check_groups
 from flexcage.modes.ritz import eigen_basis, pocket_statics, ritz_modes
 from flexcage.modes.spec import ModesSpec
 
 
 def build(solver: FreeBodySolver, *, pocket_count: int, spec: ModesSpec) -> ModeBasis:
-    """Constraint modes of all pocket faces and ``spec.count`` fixed-interface modes."""
+    """Constraint modes of all pocket faces and ``spec.count`` fixed-interface modes.
+
+    ``spec.land`` adds static land vectors; all are mixed into one mass-orthonormal basis.
+    """
     check_groups(solver.model, pocket_count)
     held = HeldInterface(solver, pocket_count)
     _, fixed = lowest_modes(solver.model, held.flexibility, spec.count)
     vectors = np.column_stack([held.constraint_modes(), fixed])
     values, shapes = ritz_modes(solver, vectors)
     elastic = values > 1e-6 * np.median(values)
-    kinds = ["constraint"] * int(elastic.sum())
-    return eigen_basis("craig_bampton", shapes[:, elastic], values[elastic], kinds)
+    values, shapes = values[elastic], shapes[:, elastic]
+    if spec.land:
+        lands = land_vectors(solver, shapes, values)
+        values, shapes = ritz_modes(solver, np.column_stack([shapes, lands]))
+    return eigen_basis("craig_bampton", shapes, values, ["constraint"] * len(values))
 
 
 class HeldInterface:

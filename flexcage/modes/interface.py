@@ -17,6 +17,7 @@ from flexcage.geometry.cages import (
     side_beam_shape,
 )
 from flexcage.modes.basis import FACES, CageInterface, ModeBasis
+from flexcage.modes.lands import LANDS
 from flexcage.modes.pockets import (
     LOADS_PER_POCKET,
     NORMALS,
@@ -28,7 +29,6 @@ from flexcage.modes.pockets import (
 log = logging.getLogger(__name__)
 
 OFFSET_POINTS = 65  # along a face: a bent beam's curve to a quarter of a micrometre for 0.2 mm
-LANDS = ("land_inner", "land_outer")
 
 
 def face_stations(cage: WindowCage, n_stations: int) -> np.ndarray:

@@ -23,7 +23,7 @@ from flexcage.modes.spec import ModesSpec
 
 log = logging.getLogger(__name__)
 
-MODEL_VERSION = 2  # of the reduction: raise it when the same input gives another basis
+MODEL_VERSION = 3  # of the reduction: raise it when the same input gives another basis
 
 
 @dataclass(frozen=True)

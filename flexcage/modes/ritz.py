@@ -1,8 +1,9 @@
 """Ritz basis: free modes, the centrifugal shape, and residual attachment vectors of the pockets.
 
 The default keeps the free modes and the centrifugal shape as dynamic coordinates and leaves the
-attachments quasi-static and local. ``dynamic='all'`` makes one mass-orthonormal basis of the
-same space, the reference against which the default is shown right.
+attachments quasi-static and local. ``land=True`` makes static land vectors dynamic as well.
+``dynamic='all'`` makes one mass-orthonormal basis of the same space, the reference against which
+the default is shown right.
 """
 
 from __future__ import annotations
@@ -18,6 +19,7 @@ from flexcage.fem.free import FreeBodySolver
 from flexcage.fem.modal import free_modes
 from flexcage.fem.symmetry import find_symmetry
 from flexcage.modes.basis import ModeBasis, ResidualFlexibility
+from flexcage.modes.lands import land_vectors
 from flexcage.modes.pockets import LOADS_PER_POCKET, check_groups, pocket_loads
 from flexcage.modes.spec import ModesSpec
 
@@ -31,10 +33,13 @@ def build(solver: FreeBodySolver, *, pocket_count: int, spec: ModesSpec) -> Mode
     centrifugal = centrifugal_mode(solver, free)
     kept = np.column_stack([free, centrifugal])
     kept_stiffness = np.append(omega2, centrifugal @ (solver.model.K @ centrifugal))
-    vectors, own_stiffness = residual_vectors(solver, kept, kept_stiffness, pocket_count)
     kinds = ["free"] * len(omega2) + ["centrifugal"]
+    if spec.land:
+        kept, kept_stiffness, kinds = with_lands(solver, kept, kept_stiffness, kinds)
+    vectors, own_stiffness = residual_vectors(solver, kept, kept_stiffness, pocket_count)
     if spec.dynamic == "all":
-        return _all_dynamic(solver, (free, omega2), np.column_stack([centrifugal, vectors]))
+        others = np.column_stack([kept[:, len(omega2) :], vectors])
+        return _all_dynamic(solver, (free, omega2), others)
     residual = residual_flexibility(vectors, own_stiffness, pocket_count)
     return eigen_basis("ritz", kept, kept_stiffness, kinds, residual)
 
@@ -70,6 +75,26 @@ def centrifugal_mode(solver: FreeBodySolver, modes: np.ndarray) -> np.ndarray:
     for _ in range(2):
         shape = shape - modes @ (modes.T @ solver.model.mass_times(shape))
     return shape / np.sqrt(shape @ solver.model.mass_times(shape))
+
+
+def with_lands(
+    solver: FreeBodySolver, kept: np.ndarray, kept_stiffness: np.ndarray, kinds: list[str]
+) -> tuple[np.ndarray, np.ndarray, list[str]]:
+    """Shapes, stiffnesses and kinds with static land vectors among them.
+
+    The last of ``kept``, the centrifugal shape, is made stiffness-orthogonal to the land vectors
+    together with them; the vector that is most of it keeps its name.
+    """
+    free, centrifugal = kept[:, :-1], kept[:, -1]
+    lands = land_vectors(solver, kept, kept_stiffness)
+    values, shapes = ritz_modes(solver, np.column_stack([centrifugal, lands]), away_from=free)
+    names = ["land"] * len(values)
+    names[int(np.argmax(np.abs(shapes.T @ solver.model.mass_times(centrifugal))))] = "centrifugal"
+    return (
+        np.column_stack([free, shapes]),
+        np.concatenate([kept_stiffness[:-1], values]),
+        kinds[:-1] + names,
+    )
 
 
 def residual_vectors(

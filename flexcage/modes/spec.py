@@ -39,7 +39,11 @@ class ModesSpec:
         assumption="order of a machined metal part in an oiled assembly; no source gives one",
     )
     bands: tuple[DampingBand, ...] = option((), doc="damping ratios by frequency band")
-    land: bool = option(True, doc="prepare land surfaces as an interface")
+    land: bool = option(
+        False,
+        doc="ritz, craig_bampton: add static vectors of radial pressure on the lands as dynamic "
+        "coordinates; without them the lands move as the modes do",
+    )
 
     def damping_ratios(self, frequencies: np.ndarray) -> np.ndarray:
         """Damping ratio of every mode (n,) from its frequency [Hz]; the first band wins."""

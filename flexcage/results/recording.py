@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from contextlib import nullcontext
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from scipy.signal import butter, sosfilt
@@ -21,6 +21,9 @@ from flexcage.system.model import POWERS
 from flexcage.system.problem import Bearing
 from flexcage.system.scales import error_weights
 from flexcage.system.start import Start
+
+if TYPE_CHECKING:
+    import xarray
 
 ENERGIES = ("kinetic", "strain", "contact", "mount")
 # places of events, in order; a land is the cage's and names no roller
@@ -59,6 +62,21 @@ def new_store(
         block=output.block,
         block_hf=output.block_hf,
         attrs=attrs,
+    )
+
+
+def contact_events(table: dict[str, np.ndarray]) -> xarray.Dataset:
+    """Contacts that closed or opened, from a store's table, one entry an event."""
+    import xarray
+
+    names = np.array(PLACES)
+    return xarray.Dataset(
+        {
+            "time": ("event", table["time"], {"units": "s", "long_name": "step that found it"}),
+            "roller": ("event", table["roller"], {"long_name": "roller; -1: the cage's land"}),
+            "place": ("event", names[table["place"]], {"long_name": "contact place"}),
+            "closed": ("event", table["closed"].astype(bool), {"long_name": "closed, not opened"}),
+        }
     )
 
 
@@ -205,7 +223,7 @@ class Recorder:
 
     def _fine(self, yd: np.ndarray, n: int) -> dict[str, np.ndarray]:
         """Outer ring's acceleration; of a fixed ring, what its contact forces would give it."""
-        mass, _, _, fixed = self.bearing.data.model.bodies.outer
+        mass, _, _, fixed, _ = self.bearing.data.model.bodies.outer
         raw = self.bearing.data.samples.force[:n] / mass
         if not fixed:
             raw = self.bearing.layout.u(yd)["outer"]
@@ -225,7 +243,10 @@ class Recorder:
         state = {k: getattr(self.state, k) for k in ("D", "real", "count", "quad", "power")}
         memory = {f"memory_{k}": v for k, v in self.bearing.data.memory._asdict().items()}
         events = self.bearing.data.events
-        kept = {f"events_{k}": getattr(events, k) for k in ("closed", "land", "peak", "peak_time")}
+        kept = {
+            f"events_{k}": getattr(events, k)
+            for k in ("closed", "land", "force", "peak", "peak_time")
+        }
         return {**state, **memory, **kept, "filter": self._filter}
 
     def _checkpoint(self) -> dict[str, np.ndarray]:

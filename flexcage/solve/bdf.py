@@ -95,42 +95,45 @@ def change_step(D, order, ratio):
             M[i, 0] = 0.0
             for j in range(1, n):
                 M[i, j] = M[i - 1, j] * (i - 1 - x * j) / i
-    W = R @ U  # D_new = (R U)^T D
-    old = D[:n].copy()
+    W = R @ U  # D_new = (R U)^T D, upper triangular: row i needs only rows from i on
     for i in range(n):
-        D[i, :] = 0.0
-        for j in range(n):
-            if W[j, i] != 0.0:
-                for k in range(D.shape[1]):
-                    D[i, k] += W[j, i] * old[j, k]
+        row = D[i]
+        for k in range(row.shape[0]):
+            row[k] *= W[i, i]
+        for j in range(i + 1, n):
+            w = W[j, i]
+            if w != 0.0:
+                other = D[j]
+                for k in range(row.shape[0]):
+                    row[k] += w * other[k]
 
 
 def interpolate(D, order, t, h, time, y, yd):
     """Dense output: y and y' at ``time`` in the last step, from differences at t."""
     n = D.shape[1]
     p, dp = 1.0, 0.0
+    row = D[0]
     for k in range(n):
-        y[k] = D[0, k]
+        y[k] = row[k]
         yd[k] = 0.0
     for j in range(order):
         x = (time - (t - h * j)) / (h * (1 + j))
         dp = dp * x + p / (h * (1 + j))
         p = p * x
+        row = D[j + 1]
         for k in range(n):
-            y[k] += D[j + 1, k] * p
-            yd[k] += D[j + 1, k] * dp
+            y[k] += row[k] * p
+            yd[k] += row[k] * dp
 
 
 def worst(a, weight, factor):
     """Largest weighted entry; infinite if any is not finite."""
-    s = 0.0
+    s = total = 0.0
     for k in range(a.shape[0]):
         x = abs(a[k]) * weight[k]
-        if not x <= 1e300:
-            return np.inf
-        if x > s:
-            s = x
-    return s * factor
+        total += x  # carries whatever is not a number
+        s = max(s, x)
+    return s * factor if total <= 1e300 else np.inf
 
 
 def correct(fns, data, st, opt, t_new, c):
@@ -237,14 +240,15 @@ def advance(fns, data, st, opt, t_end, times, ys, yds, first, log, quads):
             t_new = t_end if steps == 1 else real[T] + h
         gamma = st.coef[0, order]
         c = h / gamma
+        last = D[0]
         for k in range(n):
-            s = D[0, k]
-            p = 0.0
-            for j in range(1, order + 1):
-                s += D[j, k]
-                p += st.coef[0, j] * D[j, k]
-            y_p[k] = s
-            psi[k] = p / gamma
+            y_p[k] = last[k]
+            psi[k] = 0.0
+        for j in range(1, order + 1):
+            difference, share = D[j], st.coef[0, j] / gamma
+            for k in range(n):
+                y_p[k] += difference[k]
+                psi[k] += share * difference[k]
         iterations = count[ITERATIONS]
         if not correct(fns, data, st, opt, t_new, c):
             count[NEWTON_FAILS] += 1
@@ -275,11 +279,14 @@ def advance(fns, data, st, opt, t_end, times, ys, yds, first, log, quads):
             count[EQUAL] = 0
             continue
         # accept
+        difference, next_one = D[order + 1], D[order + 2]
         for k in range(n):
-            D[order + 2, k] = d[k] - D[order + 1, k]
-            D[order + 1, k] = d[k]
-            for j in range(order, -1, -1):
-                D[j, k] += D[j + 1, k]
+            next_one[k] = d[k] - difference[k]
+            difference[k] = d[k]
+        for j in range(order, -1, -1):
+            difference, next_one = D[j], D[j + 1]
+            for k in range(n):
+                difference[k] += next_one[k]
         real[T] = t_new
         real[H_LAST] = h
         count[STEPS] += 1

@@ -13,6 +13,7 @@ from functools import cached_property
 
 import numpy as np
 
+from flexcage.core.threads import on_all_cores
 from flexcage.fem.symmetry import CyclicSymmetry, find_symmetry
 from flexcage.modes.basis import FACES
 from flexcage.modes.pockets import pocket_frame
@@ -51,10 +52,14 @@ class StressFields:
         pockets = range(recovery.pocket_count)
         symmetry = find_symmetry(recovery.model, recovery.pocket_count)
         if symmetry is None:
-            fields = [self._deviators(self._beyond_modes(self._loads(k))) for k in pockets]
+            fields = on_all_cores(
+                lambda k: self._deviators(self._beyond_modes(self._loads(k))), pockets
+            )
         else:
             first = recovery.solver.solve(self._loads(0))
-            fields = [self._deviators(self._turned(symmetry, first, k)) for k in pockets]
+            fields = on_all_cores(
+                lambda k: self._deviators(self._turned(symmetry, first, k)), pockets
+            )
         return np.concatenate(fields, axis=1)
 
     @cached_property

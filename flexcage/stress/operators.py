@@ -70,7 +70,7 @@ class VertexStress:
     The stress is linear in a quadratic element, so its corner values are what the Gauss points
     extrapolate to. Inside, all adjacent elements count by volume. On the surface only those that
     own a boundary triangle at the vertex, by its area: the others extrapolate from below and
-    would blunt the peak (at the fillets of the medium N1013 mesh by another fifth).
+    would blunt the peak (by a fifth at fillets with two edges on an arc).
     """
 
     def __init__(self, model: FEModel, vertices: np.ndarray) -> None:

@@ -50,7 +50,7 @@ class Bodies(NamedTuple):
     roller: np.ndarray  # (3,) mass, axial and transverse inertia
     radius: np.ndarray  # (Z,) roller radii
     ring: np.ndarray  # (3,) inner ring with what moves with it
-    outer: np.ndarray  # (4,) mass, stiffness, damping, 1.0 if fixed
+    outer: np.ndarray  # (5,) mass, stiffness, damping, 1.0 if fixed, clearance (< 0: a bushing)
     gravity: np.ndarray  # (3,)
     drag: np.ndarray  # (2,) roller 0.5 rho C A, cage 0.5 rho C_f 2 pi r^4 b
     drive: np.ndarray  # (3,) 1.0 if through a shaft, stiffness, damping
@@ -222,6 +222,15 @@ def crossbeam_width(bearing: RollerBearing, cage: WindowCage) -> float:
     return 2.0 * np.pi * bearing.pitch_radius / bearing.roller_count - cage.pocket_width
 
 
+def _guiding_land(bearing: RollerBearing, cage: WindowCage) -> tuple[bool, float, float]:
+    """Is the cage's outside its land, that land's radius, and its clearance on the ring [m]?"""
+    if cage.guidance == "outer":
+        radius = 0.5 * cage.outside_diameter
+        return True, radius, bearing.outer_race_radius - radius
+    radius = 0.5 * cage.bore
+    return False, radius, radius - 0.5 * bearing.rib_diameter
+
+
 def build_memory(bearing, cage, contacts: Contacts, interface: CageInterface) -> Memory:
     """Law parameters of every contact pair, per slice or point."""
     Z, flexible = bearing.roller_count, interface.modes.shape[-1] > 0
@@ -244,8 +253,16 @@ def build_memory(bearing, cage, contacts: Contacts, interface: CageInterface) ->
     side = laws.normal_parameters(contacts.side.normal, k_end / points, 1.0)
     k_rib = laws.flat_end_stiffness(0.45 * rw, steel, steel)
     rib = laws.normal_parameters(contacts.rib.normal, k_rib / 3, 1.0)
-    k_land = laws.flat_end_stiffness(contacts.land.width, steel, wall)
-    land = laws.normal_parameters(contacts.land.normal, k_land, 1.0)
+    _, radius, clearance = _guiding_land(bearing, cage)
+    k, e = laws.land_line_law(
+        radius=radius,
+        clearance=clearance,
+        length=contacts.land.width,
+        cage=wall,
+        ring=steel,
+        depth=0.25 * (cage.outside_diameter - cage.bore),
+    )
+    land = laws.normal_parameters(contacts.land.normal, k, e)
     return Memory(
         race=np.tile(race, (Z, 2, 1)),
         pocket=np.array([[pocket, pocket, side, side]] * Z),
@@ -290,10 +307,8 @@ def _pocket_data(bearing, cage, contacts: Contacts, interface: CageInterface) ->
 
 
 def _land_data(bearing, cage: WindowCage, contacts: Contacts, lubricant, interface) -> LandData:
-    outer = cage.guidance == "outer"
+    outer, radius, clearance = _guiding_land(bearing, cage)
     spec = contacts.land
-    radius = 0.5 * (cage.outside_diameter if outer else cage.bore)
-    clearance = bearing.outer_race_radius - radius if outer else radius - 0.5 * bearing.rib_diameter
     modes = interface.land[1 if outer else 0]  # (nl, 3, n)
     n_l = modes.shape[0]
     angle = 2.0 * np.pi * np.arange(n_l) / n_l
@@ -329,7 +344,13 @@ def _bodies(bearing, cage, lubricant, drive: Drive, load: Load, mount: Mount, se
         radius=0.5 * (bearing.roller_diameter + scatter),
         ring=np.array([bearing.inner_ring_mass + load.shaft_mass, *bearing.inner_ring_inertia]),
         outer=np.array(
-            [bearing.outer_ring_mass + mount.mass, mount.stiffness, mount.damping, float(fixed)]
+            [
+                bearing.outer_ring_mass + mount.mass,
+                mount.stiffness,
+                mount.damping,
+                float(fixed),
+                mount.clearance if mount.kind == "contact" else -1.0,
+            ]
         ),
         gravity=load.gravity * np.array([0.0, np.cos(azimuth), np.sin(azimuth)]),
         drag=np.array(

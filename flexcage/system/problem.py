@@ -31,7 +31,7 @@ from flexcage.solve import bdf
 from flexcage.solve import bordered as bordered_system
 from flexcage.solve.bordered import Bordered, new_bordered
 from flexcage.system.layout import Layout
-from flexcage.system.model import POWERS, Memory, Model, Work, new_work
+from flexcage.system.model import Memory, Model, Work, new_work
 from flexcage.system.residual import evaluate
 
 _factor_bordered = bordered_system.factor
@@ -45,6 +45,7 @@ class Events(NamedTuple):
     fill: np.ndarray  # (1,)
     closed: np.ndarray  # (Z, 8) contact flags at the last accepted step
     land: np.ndarray  # (2,) the same for the cage's lands
+    force: np.ndarray  # (2, 3) of the last two accepted steps: time, force on the outer ring
     peak: np.ndarray  # (Z, 4) largest pocket force of a step so far
     peak_time: np.ndarray  # (Z, 4)
 
@@ -257,8 +258,13 @@ def newton_step(alpha, y, r, tan, m):
 
 def _accepted(t, y, yd, data, power):
     d, report = data[0], fields(data[0].report)
-    data[2](t, y, yd, d, data[1], fields(d.scratch).out, 2)
-    remember(t, fields(d.memory), report, fields(d.events))
+    data[2](t, y, yd, d, data[1], fields(d.scratch).out, 3)
+    events = fields(d.events)
+    remember(t, fields(d.memory), report, events)
+    for c in range(3):
+        events.force[0, c] = events.force[1, c]
+    events.force[1, 0] = t
+    events.force[1, 1], events.force[1, 2] = report.body_force[0], report.body_force[1]
     for k in range(power.shape[0]):
         power[k] = report.power[k]
 
@@ -319,8 +325,10 @@ def _observe(sample, t, y, yd, data):
         copy_into(s.rib[k], rep.rib)
         copy_into(s.land[k], rep.land)
         copy_into(s.energy[k], rep.energy)
-    s.force[sample, 0] = rep.body_force[0]
-    s.force[sample, 1] = rep.body_force[1]
+    before, after = fields(data[0].events).force[0], fields(data[0].events).force[1]
+    w = (t - before[0]) / (after[0] - before[0])
+    for c in range(2):
+        s.force[sample, c] = (1.0 - w) * before[1 + c] + w * after[1 + c]
 
 
 def law_functions(contacts: Contacts) -> tuple:
@@ -346,6 +354,7 @@ class Bearing:
             Events(
                 np.zeros((200_000, 4)), np.zeros(1, np.int64),
                 np.zeros((layout.rollers, 8), np.int64), np.zeros(2, np.int64),
+                np.zeros((2, 3)),
                 np.zeros((layout.rollers, 4)), np.zeros((layout.rollers, 4)),
             ),
             new_samples(block, stride, model),
@@ -397,7 +406,7 @@ class Bearing:
         elif mode == 1:
             self.functions[1](t, y, yd, self.args)
         else:
-            self.functions[4](t, y, yd, self.args, np.zeros(len(POWERS)))
+            self.evaluate(t, y, yd, self.args[0], self.args[1], out, mode)
         return out
 
     def advance(self, state, options, t_end, times, ys, yds, first, log, quads):

@@ -2,12 +2,13 @@
 
 One pass over the rollers calls the contact kernels, adds their wrenches to the bodies, and forms
 the rows: kinematics q' - T(q) u - G^T mu, momentum M u' + h - Q - G^T lambda, g and its rate.
-``mode``: 0 residual, 1 also the tangent blocks, 2 also the report.
+``mode``: 0 residual, 1 also the tangent blocks, 2 also the whole report, 3 without its arrays of
+slices and stations.
 """
 
 from __future__ import annotations
 
-from math import cos, sin
+from math import cos, sin, sqrt
 
 from flexcage.bodies.floating_frame import inertia_terms
 from flexcage.contacts.land import land_contact
@@ -15,7 +16,7 @@ from flexcage.contacts.pocket import pocket_contact
 from flexcage.contacts.race import race_contact
 from flexcage.contacts.rib import rib_contact
 from flexcage.contacts.state import set_pose, shift_matrix
-from flexcage.core.jit import copy_into, fields, part, zero
+from flexcage.core.jit import VECTORISED, copy_into, fields, part, zero
 from flexcage.core.rotation import matrix_from_quaternion, quaternion_rate
 from flexcage.core.vectors import (
     column,
@@ -242,7 +243,7 @@ def evaluate(t, y, yd, d, law, out, mode):
         _inner_contacts(i, qi, ring_q, ring_u, d, law, mode)
         _outer_contact(i, qi, q[zq + 6 : zq + 8], u[zq + 6 : zq + 8], d, law, mode)
         _pocket(i, qi, Rc, Vc, qf, qfd, margin, d, law, mode)
-        if mode == 2:
+        if mode >= 2:
             _approach(i, ring_u, u[zq + 6 : zq + 8], d)
         _roller_rows(
             i, qi, ui, qd[o : o + 6], ud[o : o + 6], d, r_q[o : o + 6], r_u[o : o + 6], mode
@@ -267,7 +268,7 @@ def _clear(border, d, mode):
         zero(tan.Kbb)
         zero(tan.Cbb)
         zero(tan.Mbb)
-    elif mode == 2:
+    elif mode >= 2:
         zero(rep.power)
         zero(rep.energy)
         zero(rep.race)
@@ -317,9 +318,9 @@ def _inner_contacts(i, qi, ring_q, ring_u, d, law, mode):
             copy_into(work.R[1], F)
             shift_matrix(work.R, P, work.S)
             _scatter(pair, work.S, i, 0, fields(d.tangent), work.T6)
-        elif mode == 2 and k == 0:
+        elif mode >= 2 and k == 0:
             _report_race(i, 0, sums, rep)
-        elif mode == 2:
+        elif mode >= 2:
             rep.rib[i, 0], rep.rib[i, 1] = sums[0], sums[1]
             rep.contact[i, 6] = 1 if sums[0] > 0.0 else 0
             rep.contact[i, 7] = 1 if sums[1] > 0.0 else 0
@@ -348,7 +349,7 @@ def _outer_contact(i, qi, out_q, out_u, d, law, mode):
         border[6 + c] -= F[1, 1 + c] * pair.wrench[1] + F[2, 1 + c] * pair.wrench[2]
     if mode == 1:
         _scatter_outer(pair, F, i, fields(d.tangent))
-    elif mode == 2:
+    elif mode >= 2:
         _report_race(i, 1, work.sums, fields(d.report))
 
 
@@ -403,8 +404,8 @@ def _pocket(i, qi, Rc, Vc, qf, qfd, margin, d, law, mode):
             _scatter(pair, work.S, i, 8, tan, work.T6)
             if qf.shape[0] > 0:
                 _scatter_modes(data, i, pw, work.S, tan, work.Lm, work.Bm, work.PR)
-    elif mode == 2:
-        _report_pocket(i, hit, sums, pw, fields(d.report))
+    elif mode >= 2:
+        _report_pocket(i, hit, sums, pw, fields(d.report), mode)
 
 
 @part
@@ -423,17 +424,18 @@ def _push_modes(data, i, pw, border):
 
 
 @part
-def _report_pocket(i, hit, sums, pw, rep):
+def _report_pocket(i, hit, sums, pw, rep, mode):
     if hit:
         rep.energy[2] += sums[0]
         rep.power[6] += sums[1]
         rep.power[7] += sums[2]
+    if hit and mode == 2:
         copy_into(rep.station[i], pw.st)
         for f in range(2):
             for k in range(rep.slice_normal.shape[2]):
                 rep.slice_normal[i, f, k] = pw.slice_N[f, k]
                 rep.slice_friction[i, f, k] = pw.slice_T[f, k]
-    else:
+    elif mode == 2:
         zero(rep.station[i])
         zero(rep.slice_normal[i])
         zero(rep.slice_friction[i])
@@ -471,7 +473,7 @@ def _roller_rows(i, qi, ui, qdi, udi, d, r_q, r_u, mode):
         tan.Crr[i, 2, 2] += mass * ui[1] / r + 2.0 * bodies.drag[0] * abs(ui[2])
         tan.Crr[i, 4, 5] += Ia * ui[3] - It * frame
         tan.Crr[i, 5, 4] -= Ia * ui[3] - It * frame
-    elif mode == 2:
+    elif mode >= 2:
         rep.power[2] += mass * (gr * ui[1] + gp * ui[2])
         rep.power[10] += drag * ui[2]
         v2 = ui[0] * ui[0] + ui[1] * ui[1] + ui[2] * ui[2]
@@ -515,7 +517,7 @@ def _land(q, u, zq, nm, d, law, mode):
     if not rides_inner:
         border[6] += Fr[1]
         border[7] += Fr[2]
-    if mode == 2:
+    if mode >= 2:
         sums = work.sums
         copy_into(rep.land, Fc)
         for c in range(2):
@@ -542,7 +544,7 @@ def _approach(i, ring_u, out_u, d):
     rep.approach[i, 7] = -rep.approach[i, 6]
 
 
-@part
+@part(fastmath=VECTORISED)
 def _cage_rows(d, quat, Vc, wb, qf, qfd, qd, ud, zq, r_q, r_u, mode):
     """Rows of the cage: floating frame, translations in space, rotations in the body."""
     data, tan, rep, work = fields(d.cage), fields(d.tangent), fields(d.report), fields(d.scratch)
@@ -600,21 +602,57 @@ def _cage_rows(d, quat, Vc, wb, qf, qfd, qd, ud, zq, r_q, r_u, mode):
             for l in range(nm):
                 tan.Kbb[14 + m, 14 + l] += data.kff[m, l]
                 tan.Cbb[14 + m, 14 + l] += data.dff[m, l]
-    elif mode == 2:
+    elif mode >= 2:
         put(v, turned_back(A, xyz(Vc)))
         for c in range(3):
             v[3 + c] = wb[c]
         for m in range(nm):
             v[6 + m] = qfd[m]
         for a in range(6 + nm):
+            momentum = 0.0
             for b in range(6 + nm):
-                rep.energy[0] += 0.5 * v[a] * M[a, b] * v[b]
+                momentum += M[a, b] * v[b]
+            rep.energy[0] += 0.5 * v[a] * momentum
             for c in range(3):
                 rep.power[2] += v[a] * M[a, c] * gb[c]
         for m in range(nm):
+            spring = damper = 0.0
             for l in range(nm):
-                rep.energy[1] += 0.5 * qf[m] * data.kff[m, l] * qf[l]
-                rep.power[11] -= qfd[m] * data.dff[m, l] * qfd[l]
+                spring += data.kff[m, l] * qf[l]
+                damper += data.dff[m, l] * qfd[l]
+            rep.energy[1] += 0.5 * qf[m] * spring
+            rep.power[11] -= qfd[m] * damper
+
+
+@part
+def _housing(outer, q, u, held, tan, mode):
+    """Force ``held`` of the outer ring on its housing; returns energy stored and power lost."""
+    k, c, clearance = outer[1], outer[2], outer[4]
+    held[0] = held[1] = 0.0
+    distance = sqrt(q[0] * q[0] + q[1] * q[1])
+    n = (1.0, 0.0) if distance == 0.0 else (q[0] / distance, q[1] / distance)
+    if clearance < 0.0:  # a bushing
+        for i in range(2):
+            held[i] = k * q[i] + c * u[i]
+            if mode == 1:
+                tan.Kbb[6 + i, 6 + i] += k
+                tan.Cbb[6 + i, 6 + i] += c
+        return 0.5 * k * distance * distance, c * (u[0] * u[0] + u[1] * u[1])
+    depth = distance - clearance
+    rate = n[0] * u[0] + n[1] * u[1]
+    force = k * depth + c * rate
+    if depth <= 0.0:
+        return 0.0, 0.0
+    if force <= 0.0:  # it parts while still compressed: what is stored relaxes unseen
+        return 0.5 * k * depth * depth, -k * depth * rate
+    for i in range(2):
+        held[i] = force * n[i]
+        if mode == 1:
+            for j in range(2):
+                across = (1.0 if i == j else 0.0) - n[i] * n[j]
+                tan.Kbb[6 + i, 6 + j] += k * n[i] * n[j] + force / distance * across
+                tan.Cbb[6 + i, 6 + j] += c * n[i] * n[j]
+    return 0.5 * k * depth * depth, c * rate * rate
 
 
 @part
@@ -653,13 +691,15 @@ def _ring_rows(t, d, q, u, qd, ud, lam, mu_, zq, r_q, r_u, out, end, mode):
     r_u[zq + 5] = It * (rud[5] + frame * ru[4]) - Ia * ru[3] * ru[4] - M3 - lam[2]
     # outer ring
     oq, ou, oud = q[zq + 6 : zq + 8], u[zq + 6 : zq + 8], ud[zq + 6 : zq + 8]
-    mo, ko, co, fixed = bodies.outer[0], bodies.outer[1], bodies.outer[2], bodies.outer[3]
+    mo, fixed = bodies.outer[0], bodies.outer[3]
+    held = work.vec[LEVER]
+    stored, lost = _housing(bodies.outer, oq, ou, held, tan, mode)
     for c in range(2):
         r_q[zq + 6 + c] = qd[zq + 6 + c] - ou[c]
         if fixed > 0.0:
             r_u[zq + 6 + c] = oud[c]
         else:
-            force = border[6 + c] - ko * oq[c] - co * ou[c] + mo * bodies.gravity[1 + c]
+            force = border[6 + c] - held[c] + mo * bodies.gravity[1 + c]
             r_u[zq + 6 + c] = mo * oud[c] - force
     # constraints: lambda rows hold rates, mu rows positions
     g = out[end:]
@@ -684,10 +724,7 @@ def _ring_rows(t, d, q, u, qd, ud, lam, mu_, zq, r_q, r_u, out, end, mode):
                 for i in range(tan.Kbr.shape[0]):
                     zero(tan.Kbr[i, 6 + c])
                     zero(tan.Cbr[i, 6 + c])
-            else:
-                tan.Kbb[6 + c, 6 + c] += ko
-                tan.Cbb[6 + c, 6 + c] += co
-    elif mode == 2:
+    elif mode >= 2:
         w2 = ru[4] * ru[4] + ru[5] * ru[5]
         v2 = ru[0] * ru[0] + ru[1] * ru[1] + ru[2] * ru[2]
         rep.energy[0] += 0.5 * (mass * v2 + Ia * ru[3] * ru[3] + It * w2)
@@ -696,10 +733,10 @@ def _ring_rows(t, d, q, u, qd, ud, lam, mu_, zq, r_q, r_u, out, end, mode):
         for c in range(3):
             rep.power[2] += mass * bodies.gravity[c] * ru[c]
         if fixed == 0.0:
+            rep.energy[3] += stored
+            rep.power[12] -= lost
             for c in range(2):
                 rep.energy[0] += 0.5 * mo * ou[c] * ou[c]
-                rep.energy[3] += 0.5 * ko * oq[c] * oq[c]
-                rep.power[12] -= co * ou[c] * ou[c]
                 rep.power[2] += mo * bodies.gravity[1 + c] * ou[c]
         for c in range(2):
             rep.body_force[c] = border[6 + c]

@@ -46,12 +46,18 @@ class Load:
 
 @dataclass(frozen=True, kw_only=True)
 class Mount:
-    """How the outer ring is held: fixed, or on a bushing (a housing) in y and z."""
+    """How the outer ring is held: fixed, or in a housing, in y and z.
 
-    kind: str = option("fixed", doc="outer ring support", choices=("fixed", "bushing"))
+    ``bushing``: an elastic ring between both, of equal stiffness in every direction. ``contact``:
+    the ring lies in a bore that is larger by ``clearance``; spring and damper act along the line
+    of centres while it touches, and never pull.
+    """
+
+    kind: str = option("fixed", doc="outer ring support", choices=("fixed", "bushing", "contact"))
     mass: float = quantity("kg", 0.0, doc="housing mass that moves with the ring", minimum=0.0)
-    stiffness: float = quantity("N/m", 2e8, doc="bushing stiffness, each direction", above=0.0)
-    damping: float = quantity("N*s/m", 2e3, doc="bushing damping, each direction", minimum=0.0)
+    stiffness: float = quantity("N/m", 2e8, doc="stiffness of the housing", above=0.0)
+    damping: float = quantity("N*s/m", 2e3, doc="damping of the housing", minimum=0.0)
+    clearance: float = quantity("um", 10e-6, doc="radial clearance of the bore", minimum=0.0)
 
 
 @dataclass(frozen=True, kw_only=True)

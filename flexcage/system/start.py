@@ -94,8 +94,12 @@ def geometric_guess(model: Model, layout: Layout) -> np.ndarray:
     q["quaternion"][0] = 1.0
     q["inner"][4] = tilt = model.bodies.misalignment
     q["rollers"][:, 0] = -q["rollers"][:, 1] * np.cos(q["rollers"][:, 2]) * np.tan(tilt)
+    shift = max(float(model.bodies.outer[4]), 0.0) * (1.0 - model.bodies.outer[3])
+    q["outer"][:] = shift * model.bodies.load_direction  # a ring in its bore lies on the ground
+    psi = q["rollers"][:, 2]
+    q["rollers"][:, 1] += q["outer"] @ np.stack([np.cos(psi), np.sin(psi)])
     play = model.outer.radius - model.inner.radius - 2.0 * model.bodies.radius.min()
-    q["inner"][1:3] = play * model.bodies.load_direction  # just before the first contact
+    q["inner"][1:3] = (play + shift) * model.bodies.load_direction  # just before first contact
     return y
 
 
@@ -120,7 +124,7 @@ class _Frictionless:
         return self.out.copy()
 
     def report(self, y: np.ndarray, yd: np.ndarray):
-        self.bearing.functions[4](0.0, y, yd, self.args, np.zeros(0))
+        self.bearing.evaluate(0.0, y, yd, self.args[0], self.args[1], self.out, 2)
         return self.data.work.report
 
     def step(self, y, yd, r, alpha: float, held: np.ndarray) -> np.ndarray:

@@ -182,3 +182,10 @@ def test_a_mesh_file_is_found_from_anywhere(tmp_path, monkeypatch):
     (tmp_path / "elsewhere" / "other.msh").write_bytes(b"one")
     assert case.replace("mesh.file", "elsewhere/other.msh").hash == case.hash
     assert case.replace("mesh.file", "").mesh.file == ""
+
+
+def test_values_that_only_fit_together_may_be_replaced_in_any_order():
+    case = Case.from_preset("N1013")
+    for names in (("rate", "vibration_rate"), ("vibration_rate", "rate")):
+        new = case.replace(**{f"output.{n}": "300 kHz" for n in names})
+        assert new.output.vibration_ratio == 1

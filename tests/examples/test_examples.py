@@ -34,4 +34,4 @@ def test_rigid_against_flexible():
 
 def test_defect_sweep():
     first, _, last = example("ex03_defect_sweep").main(**{**SHORT, "solver.duration": "1 ms"})
-    assert last / first == pytest.approx(0.05 / 0.01, rel=0.03)
+    assert last / first == pytest.approx(0.05 / 0.01, rel=0.06)

@@ -79,13 +79,13 @@ def test_volume_error_falls_with_the_square_of_the_size(n1013):
     exact = exact_volume(n1013.cage, 22)
     errors = [
         abs(n1013(size=h, fillet_size=0.1963495e-3 * h / 1e-3).volume - exact)
-        for h in (2.0e-3, 1.0e-3)
+        for h in (2.8e-3, 0.7e-3)
     ]
-    assert np.log2(errors[0] / errors[1]) > 1.5
+    assert np.log(errors[0] / errors[1]) / np.log(4.0) > 1.5
 
 
 @pytest.mark.parametrize(
-    ("fineness", "nodes"), [("coarse", 12_000), ("medium", 32_500), ("fine", 88_000)]
+    ("fineness", "nodes"), [("coarse", 12_000), ("medium", 36_000), ("fine", 88_000)]
 )
 def test_named_fineness_has_the_nodes_it_promises(n1013, fineness, nodes):
     assert report_mesh(n1013(fineness=fineness)).quadratic_nodes == pytest.approx(nodes, rel=0.06)

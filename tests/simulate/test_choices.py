@@ -152,6 +152,24 @@ def test_a_bushing_lets_the_outer_ring_move():
     assert ds.sizes["time_hf"] * 5e-6 == pytest.approx(6e-3)
 
 
+def test_a_ring_in_a_bore_lies_where_the_load_presses_it():
+    """It rests on the bore by clearance and load over stiffness, and what it does costs energy."""
+    loose = {
+        "mount.kind": "contact", "mount.stiffness": "100 N/um", "mount.mass": "0.5 kg",
+        "mount.clearance": "15 um", "mount.damping": "5000 N*s/m",
+    }  # fmt: skip
+    run = simulate(n1013(RIGID, loose, {"solver.duration": "8 ms"}))
+    ds, b = finite(run), run.case.bearing
+    moved = ds["outer_position"].isel(time=slice(150, None)).mean("time").values
+    moving = (
+        b.inner_ring_mass + b.outer_ring_mass + 0.5 + 22 * b.roller_mass + run.summary["cage_mass"]
+    )
+    pressed = np.hypot(moved[1], moved[2])
+    assert pressed == pytest.approx(15e-6 + (1000.0 + 9.80665 * moving) / 1e8, rel=0.02)
+    assert ds["energy"].sel(energy_kind="mount").values.max() > 0.5 * 1e8 * (9e-6) ** 2
+    assert run.summary["energy_relative"] < 2e-3
+
+
 def test_a_fixed_ring_reports_the_force_on_it():
     """What its contact forces would give a free ring: 1000 N and weights and all over its mass."""
     run = simulate(n1013(RIGID, {"solver.duration": "4 ms"}))

@@ -7,6 +7,7 @@ import pytest
 from bearing_runs import rolling_start
 
 from flexcage.contacts.spec import Contacts, FrictionLaw, Lubricant, NormalLaw, PairSpec
+from flexcage.system.model import POWERS
 from flexcage.system.scales import error_weights
 from flexcage.system.spec import Drive, Load, Mount
 
@@ -34,7 +35,7 @@ def disturbed(bearing, *, press=0.0, skew=1e-5, axial=8e-6, modal=1e-6, seed=0):
     if bearing.layout.modes:
         q["modes"][:] = modal * rng.standard_normal(bearing.layout.modes)
         u["modes"][:] = 1e-3 * rng.standard_normal(bearing.layout.modes)
-    bearing.residual(0.0, y, yd, mode=2)
+    bearing.functions[4](0.0, y, yd, bearing.args, np.zeros(len(POWERS)))  # onset speeds
     return y, yd, rng
 
 
@@ -64,6 +65,7 @@ STATES = {
     "every pocket loaded": ({}, {"press": 110e-6, "skew": 3e-4}),
     "ends in the ribs": ({}, {"axial": 20e-6, "skew": 1e-4}),
     "bushing": ({"mount": Mount(kind="bushing", mass=1.0)}, {"press": 105e-6}),
+    "housing": ({"mount": Mount(kind="contact", mass=1.0, clearance=1e-6)}, {"press": 105e-6}),
     "shaft": ({"drive": Drive(kind="shaft")}, {"press": 105e-6}),
     "flexible": ({"flexible": {"modes": 6}}, {"press": 101e-6}),
     "flexible, soft walls": ({"flexible": {"modes": 6, "soft": True}}, {"press": 104e-6}),

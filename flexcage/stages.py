@@ -1,0 +1,93 @@
+"""The stages of a simulation: each turns a case and what came before into the next frozen value."""
+
+from __future__ import annotations
+
+import logging
+from pathlib import Path
+
+from flexcage.bodies.cage import flexible_from_basis, rigid_from_tets
+from flexcage.case import Case
+from flexcage.core.jit import kernels_cached
+from flexcage.mesh.build import build_cage_mesh
+from flexcage.mesh.cage_mesh import CageMesh
+from flexcage.mesh.quality import check_mesh
+from flexcage.modes.basis import ModeBasis
+from flexcage.modes.interface import rigid_interface
+from flexcage.modes.reduction import CageReduction, reduce_cage
+from flexcage.results.recording import new_store
+from flexcage.results.store import MemoryRunStore, RunStore
+from flexcage.run import write_case
+from flexcage.system.layout import Layout
+from flexcage.system.model import build_model
+from flexcage.system.problem import Bearing
+
+log = logging.getLogger(__name__)
+
+
+def run_store(
+    case: Case, bearing: Bearing, folder: Path | None, *, resume: bool = False
+) -> MemoryRunStore:
+    """The store to write to: one to go on with, or a new one, in ``folder`` or in memory."""
+    if folder is not None:
+        if resume:
+            return RunStore.open(folder / "results.zarr")
+        write_case(folder, case)
+    return new_store(
+        folder and folder / "results.zarr",
+        bearing,
+        duration=case.solver.duration,
+        output=case.output,
+        attrs={"case": case.to_toml(), "hash": case.hash},
+    )
+
+
+def cage_mesh(case: Case) -> CageMesh:
+    """Mesh of the case's cage, checked."""
+    mesh = build_cage_mesh(
+        case.cage,
+        pocket_count=case.bearing.roller_count,
+        pitch_diameter=case.bearing.pitch_diameter,
+        defects=case.defects,
+        options=case.mesh,
+    )
+    check_mesh(mesh, where=case.mesh.file or "mesh")
+    return mesh
+
+
+def cage_reduction(case: Case, mesh: CageMesh) -> CageReduction | None:
+    """Finite elements, modes and interface of a flexible cage; None for a rigid one."""
+    if case.cage_model == "rigid":
+        return None
+    return reduce_cage(
+        mesh, cage=case.cage, defects=case.defects, spec=case.modes, order=case.mesh.order
+    )
+
+
+def cage_modes(case: Case) -> ModeBasis:
+    """Modal basis of the case's cage."""
+    reduction = cage_reduction(case.replace("cage.model", "flexible"), cage_mesh(case))
+    assert reduction is not None
+    return reduction.basis
+
+
+def build_bearing(case: Case, mesh: CageMesh, cage: CageReduction | None) -> Bearing:
+    """Bodies, contacts and compiled equations of motion."""
+    if not kernels_cached():
+        log.info("compiling the kernels for the first time: about a minute, once")
+    Z = case.bearing.roller_count
+    if cage is None:
+        body = rigid_from_tets(mesh.points, mesh.tets, case.cage.material.density)
+        interface = rigid_interface(case.cage, pocket_count=Z, defects=case.defects)
+    else:
+        ratios = case.modes.damping_ratios(cage.basis.frequencies)
+        body = flexible_from_basis(cage.model.nodes, cage.model.mass_scalar, cage.basis, ratios)
+        interface = cage.interface
+    model, memory = build_model(
+        case.bearing, case.cage, body, interface, contacts=case.contacts,
+        lubricant=case.lubricant, drive=case.drive, load=case.load, mount=case.mount,
+        seed=case.seed,
+    )  # fmt: skip
+    return Bearing(
+        model, memory, case.contacts, Layout(Z, body.modes),
+        block=case.output.block, stride=case.output.vibration_ratio,
+    )  # fmt: skip
