@@ -69,8 +69,8 @@ def half_width(load: float) -> float:
 
 
 def graded(length: float, h: float) -> np.ndarray:
-    """Points from 0 to ``length``: a dozen steps of h, then longer ones by a quarter each."""
-    steps = np.minimum(h * 1.25 ** np.maximum(np.arange(200.0) - 12.0, 0.0), 0.05 * length)
+    """Points from 0 to ``length``: a dozen steps of h, then ever longer ones."""
+    steps = np.minimum(h * 1.4 ** np.maximum(np.arange(200.0) - 12.0, 0.0), 0.05 * length)
     n = int(np.searchsorted(np.cumsum(steps), length)) + 1
     x = np.append(0.0, np.cumsum(steps[:n]))
     return x * (length / x[-1])
