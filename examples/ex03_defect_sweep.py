@@ -24,6 +24,6 @@ def main(**changes: object) -> list[float]:
 
 if __name__ == "__main__":
     first, _, last = main()
-    # the cage is linear: 0.05 mm of interference takes five times the force of 0.01 mm, and a little
-    # more, because more of the roller's end comes to bear
+    # the cage is linear: 0.05 mm of interference takes five times the force of 0.01 mm, and a
+    # little more, because more of the roller's end comes to bear
     assert abs(last / first / 5 - 1) < 0.06, last / first

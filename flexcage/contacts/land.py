@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from math import sqrt
+from math import cos, floor, pi, sin, sqrt
 from typing import NamedTuple
 
 import numpy as np
 
 from flexcage.contacts.laws import short_bearing
 from flexcage.core.jit import part, zero
+from flexcage.core.splines import smooth_weights
 from flexcage.core.vectors import add_to, column, combine, cross, dot, minus, plus, times, xyz
 
 
@@ -32,7 +33,7 @@ class LandWork(NamedTuple):
 
     u: np.ndarray  # (nl,) radial displacement of the stations by the modes
     d: np.ndarray  # (nl,) penetration of one land's stations
-    weight: np.ndarray  # (3,) of the stations that share a touch; also the film's forces
+    film: np.ndarray  # (3,) the film's forces
 
 
 def land_work(n_stations: int) -> LandWork:
@@ -47,10 +48,10 @@ def land_contact(
 
     Rc, Vc, w: cage origin, velocity, angular velocity in space; Rr, Vr, spin: ring centre,
     velocity, spin about x; p (2, N_NORMAL) for the lands at -x and +x. Dry contact acts where the
-    penetration round the land has a maximum: the vertex of the parabola through three stations,
-    which share its force by the same weights, so that a cage that rolls on its land does not feel
-    the stations pass. ``sums``: elastic energy, damping power, friction power, film power; then
-    of each land its normal force and the approach speed where it is nearest to the ring.
+    penetration round the land has a maximum, with the modes interpolated smoothly between their
+    stations: a cage that rolls on its land does not feel the stations pass. ``sums``: elastic
+    energy, damping power, friction power, film power; then of each land its normal force, and the
+    approach speed where it is nearest to the ring.
     """
     zero(sums)
     if data.kind == 0:
@@ -69,11 +70,13 @@ def land_contact(
         for m in range(q.shape[0]):
             lw.u[s] += data.phi[s, 1, m] * q[m]
     ring = data.radius - data.inner * data.clearance
+    offset = minus(xyz(Rc), xyz(Rr))
     for side in range(2):
         deepest = 0
         for s in range(n_l):
-            c = _place(A, data, side, s, lw.u[s])
-            y, z = c[1] + ey, c[2] + ez
+            e = combine(times(data.angle[s, 0], column(A, 1)), data.angle[s, 1], column(A, 2))
+            c = combine(times(data.x[side], column(A, 0)), data.radius + lw.u[s], e)
+            y, z = offset[1] + c[1], offset[2] + c[2]
             lw.d[s] = data.inner * (ring - sqrt(y * y + z * z))
             if lw.d[s] > lw.d[deepest]:
                 deepest = s
@@ -82,74 +85,111 @@ def land_contact(
             if here < before or here < after or (here == after and here > before):
                 continue
             bend = before - 2.0 * here + after
-            x = 0.5 * (before - after) / bend if bend < 0.0 else 0.0
-            sl.d[0] = here - 0.25 * (before - after) * x
+            place = s + (0.5 * (before - after) / bend if bend < 0.0 else 0.0)
+            place, sl.d[0] = _deepest(A, data, ring, offset, side, place, bend, lw)
             if sl.d[0] > 0.0 or s == deepest:
-                lw.weight[0], lw.weight[1] = 0.5 * x * (x - 1.0), 1.0 - x * x
-                lw.weight[2] = 0.5 * x * (x + 1.0)
                 _touch(
-                    A, Rc, Vc, w, qd, Rr, Vr, spin, data, side, s, p[side], laws, sl, lw,
-                    Fc, Mc, Qm, Fr, Mr, sums,
+                    A, offset, minus(xyz(Vc), xyz(Vr)), xyz(w), qd, spin, data, side, place,
+                    p[side], laws, sl, lw, Fc, Mc, Qm, Fr, Mr, sums,
                 )  # fmt: skip
 
 
 @part
-def _outward(A, data, s):
-    """Outward direction of a station, in space."""
-    return combine(times(data.angle[s, 0], column(A, 1)), data.angle[s, 1], column(A, 2))
+def _around(place, n):
+    """Station before ``place`` (counted in stations, round the cage), and the share beyond it."""
+    first = floor(place)
+    return int(first) % n, place - first
 
 
 @part
-def _place(A, data, side, s, u):
-    """Place of a station from the cage's origin, in space; ``u`` its radial displacement."""
-    return combine(times(data.x[side], column(A, 0)), data.radius + u, _outward(A, data, s))
+def _depth(A, data, ring, offset, side, place, lw):
+    """Penetration at ``place`` round the land, and its slope by station."""
+    n_l = data.angle.shape[0]
+    j, t = _around(place, n_l)
+    weights, slopes = smooth_weights(t)
+    u = du = 0.0
+    for k in range(4):
+        s = (j + k - 1) % n_l
+        u += weights[k] * lw.u[s]
+        du += slopes[k] * lw.u[s]
+    e, along = _directions(A, place * 2.0 * pi / n_l)
+    c = combine(times(data.x[side], column(A, 0)), data.radius + u, e)
+    y, z = offset[1] + c[1], offset[2] + c[2]
+    d = sqrt(y * y + z * z)
+    arc = (data.radius + u) * 2.0 * pi / n_l
+    rise = y * (du * e[1] + arc * along[1]) + z * (du * e[2] + arc * along[2])
+    return data.inner * (ring - d), -data.inner * rise / d
+
+
+@part
+def _deepest(A, data, ring, offset, side, place, bend, lw):
+    """Place of the maximum of the penetration near ``place`` (secant steps), and its depth."""
+    depth, slope = _depth(A, data, ring, offset, side, place, lw)
+    curve = min(bend, -1e-12)
+    for _ in range(12):
+        step = min(max(-slope / curve, -0.25), 0.25)
+        if abs(step) < 1e-9:
+            break
+        depth, new = _depth(A, data, ring, offset, side, place + step, lw)
+        if (new - slope) / step < 0.0:
+            curve = (new - slope) / step
+        place += step
+        slope = new
+    return place, depth
+
+
+@part
+def _directions(A, angle):
+    """Outward and forward directions at an angle round the cage, in space."""
+    ca, sa = cos(angle), sin(angle)
+    y, z = column(A, 1), column(A, 2)
+    return combine(times(ca, y), sa, z), combine(times(ca, z), -sa, y)
 
 
 @part
 def _touch(
-    A, Rc, Vc, w, qd, Rr, Vr, spin, data, side, middle, p, laws, sl, lw, Fc, Mc, Qm, Fr, Mr, sums
+    A, offset, rel, w, qd, spin, data, side, place, p, laws, sl, lw, Fc, Mc, Qm, Fr, Mr, sums
 ):
-    """One touch of a land, shared by three stations with ``lw.weight``; penetration in sl.d[0]."""
+    """One touch of a land at ``place``, with the penetration in sl.d[0]; four stations' modes."""
     law, friction = laws
     n_l = data.angle.shape[0]
-    offset = minus(xyz(Rc), xyz(Rr))
-    rel = minus(xyz(Vc), xyz(Vr))
-    approach = slide = 0.0
-    for k in range(3):
-        s = (middle + k - 1 + n_l) % n_l
-        c = _place(A, data, side, s, lw.u[s])
-        n, lift = _normal(data, offset, c, _outward(A, data, s))
-        ud = 0.0
+    j, t = _around(place, n_l)
+    weights, _ = smooth_weights(t)
+    u = ud = 0.0
+    for k in range(4):
+        s = (j + k - 1) % n_l
+        u += weights[k] * lw.u[s]
         for m in range(qd.shape[0]):
-            ud += data.phi[s, 1, m] * qd[m]
-        at = plus(offset, c)
-        v = plus(rel, cross(xyz(w), c))
-        v = (0.0, v[1] + spin * at[2], v[2] - spin * at[1])
-        approach -= lw.weight[k] * (dot(n, v) + lift * ud)
-        slide += lw.weight[k] * (n[1] * v[2] - n[2] * v[1])
-    sums[6 + side] = approach
+            ud += weights[k] * data.phi[s, 1, m] * qd[m]
+    e, _ = _directions(A, place * 2.0 * pi / n_l)
+    c = combine(times(data.x[side], column(A, 0)), data.radius + u, e)
+    at = plus(offset, c)
+    size = data.inner / sqrt(at[1] * at[1] + at[2] * at[2])
+    n = (0.0, size * at[1], size * at[2])  # on the cage, in the plane of rotation
+    v = plus(rel, cross(w, c))
+    v = (0.0, v[1] + spin * at[2], v[2] - spin * at[1])
+    sl.v[0] = -(dot(n, v) + dot(n, e) * ud)
+    sums[6 + side] = sl.v[0]
     if sl.d[0] <= 0.0:
         return
-    sl.v[0], sl.u[0] = approach, abs(slide)
     law(1, sl.d, sl.v, p, sl.N, sl.Nd, sl.Nv)
     N = sl.N[0]
     if N <= 0.0:
         return
+    slide = n[1] * v[2] - n[2] * v[1]
+    sl.u[0] = abs(slide)
     friction(1, sl.u, data.friction, sl.g, sl.dg)
     g = sl.g[0] * slide
-    for k in range(3):
-        s = (middle + k - 1 + n_l) % n_l
-        c = _place(A, data, side, s, lw.u[s])
-        e = _outward(A, data, s)
-        n, _ = _normal(data, offset, c, e)
-        f = times(lw.weight[k] * N, (0.0, n[1] + g * n[2], n[2] - g * n[1]))
-        add_to(Fc, f)
-        add_to(Fr, times(-1.0, f))
-        add_to(Mc, cross(c, f))
-        add_to(Mr, cross(f, plus(offset, c)))
-        radial = dot(f, e)
+    f = times(N, (0.0, n[1] + g * n[2], n[2] - g * n[1]))
+    add_to(Fc, f)
+    add_to(Fr, times(-1.0, f))
+    add_to(Mc, cross(c, f))
+    add_to(Mr, cross(f, at))
+    radial = dot(f, e)
+    for k in range(4):
+        shape = data.phi[(j + k - 1) % n_l, 1]
         for m in range(qd.shape[0]):
-            Qm[m] += radial * data.phi[s, 1, m]
+            Qm[m] += weights[k] * radial * shape[m]
     law(1, sl.d, sl.zero, p, sl.dg, sl.Nd, sl.Nv)
     sums[4 + side] += N
     sums[0] += sl.dg[0] * sl.d[0] / (p[1] + 1.0)
@@ -158,18 +198,9 @@ def _touch(
 
 
 @part
-def _normal(data, offset, c, e):
-    """Normal on the cage at a station (in the plane of rotation), and its component along e."""
-    y, z = offset[1] + c[1], offset[2] + c[2]
-    f = data.inner / sqrt(y * y + z * z)
-    n = (0.0, f * y, f * z)
-    return n, dot(n, e)
-
-
-@part
 def _film(A, Rc, Vc, w, Rr, Vr, spin, data, lw, Fc, Mc, Fr, Mr, sums):
     """Short-bearing film on both lands: whirl and squeeze included."""
-    out = lw.weight
+    out = lw.film
     eta, L, R, C = data.film[0], data.film[1], data.film[2], data.film[3]
     for side in range(2):
         x = data.x[side]

@@ -411,12 +411,16 @@ def land_line_law(
     """Stiffness and exponent of a cage's land on a ring's, F = K d^n, fitted over ``loads`` [N].
 
     Two cylinders that differ by ``clearance`` in radius touch like one of radius
-    R (R + c)/c on a flat; each yields q (1-nu^2)/(pi E) [2 ln(2 h/b) - nu/(1-nu)] to a point
-    ``depth`` h inside it (Johnson, Contact Mechanics 5.6). ``cage`` and ``ring`` are (E, nu).
+    R (R + c)/c on a flat, over a half-width b; each yields
+    q (1-nu^2)/(pi E) [2 ln(2 h/b) - nu/(1-nu)] to a point ``depth`` h inside it (Johnson, Contact
+    Mechanics 5.6). That holds for b well below h; a closer fit is taken to be as stiff as one of
+    b = h/2 at the largest load, which its touch over a wider arc exceeds.
+    ``cage`` and ``ring`` are (E, nu).
     """
-    q = np.geomspace(loads[0], loads[1], 40) / length
     soft = [(1.0 - nu**2) / e for e, nu in (cage, ring)]
+    q = np.geomspace(loads[0], loads[1], 40) / length
     b = np.sqrt(4.0 * q * radius * (radius + clearance) / clearance * sum(soft) / np.pi)
+    b *= min(1.0, 0.5 * depth / b[-1])
     approach = sum(
         q * s / np.pi * (2.0 * np.log(2.0 * depth / b) - nu / (1.0 - nu))
         for s, (_, nu) in zip(soft, (cage, ring), strict=True)

@@ -59,7 +59,7 @@ def pocket_contact(
     if soft:
         condense(data, i, p, laws, guess, sl, pw)
         if mode >= 2:
-            sums[0] += stored_energy(data, i, p, laws, sl, pw)
+            sums[0] += stored_energy(data, p, laws, sl, pw)
     zero(pw.st)
     if mode == 1:
         zero(pw.BW)
@@ -74,7 +74,7 @@ def pocket_contact(
             continue
         count = points_of_face(data, f)
         if soft:
-            yielded(data, i, f, pw, sl)
+            yielded(data, f, pw, sl)
         loaded = False
         for k in range(count):
             if not soft:
@@ -173,7 +173,7 @@ def _collect(pose, data, f, Rw, distance, sl, pw, pair, mode, sums):
         N = sl.N[k]
         if N <= 0.0:
             continue
-        j, w, slope = pw.j[f, k], pw.w[f, k], pw.slope[f, k]
+        j, slope = pw.j[f, k], pw.slope[f, k]
         r = _lever(pose, data, Rw, f, k, pw)
         _normal_generator(pose, data, Rw, distance, f, k, n, r, pw, Wn)
         add_generator(e1, r, W1)
@@ -188,13 +188,13 @@ def _collect(pose, data, f, Rw, distance, sl, pw, pair, mode, sums):
             g1 -= slope
         else:
             g2 -= slope
-        for s in range(2):
-            share = N * (w if s == 1 else 1.0 - w)
+        for s in range(4):
+            share = N * pw.w[f, k, s]
             pw.st[f, j + s, comp] += sgn * share
             pw.st[f, j + s, first] += g1 * share
             pw.st[f, j + s, second] += g2 * share
         if mode == 1:
-            _add_tangent(f, j, w, k, V, Wn, W1, W2, sl, pw, pair)
+            _add_tangent(f, j, k, V, Wn, W1, W2, sl, pw, pair)
         elif mode >= 2:
             pw.slice_N[f, k] = N
             pw.slice_T[f, k] = N * sl.g[k] * sl.u[k]
@@ -202,16 +202,16 @@ def _collect(pose, data, f, Rw, distance, sl, pw, pair, mode, sums):
 
 
 @part
-def _add_tangent(f, j, w, k, V, Wn, W1, W2, sl, pw, pair):
+def _add_tangent(f, j, k, V, Wn, W1, W2, sl, pw, pair):
     """One slice's share of the pair's tangent and of the station products."""
     Nd = sl.Nd[k]
     add_outer(pair.K, Nd, V, Wn)
     add_outer(pair.C, sl.Nv[k], V, Wn)
     friction_tangent(pair.C, sl.N[k], sl.g[k], sl.dg[k], sl.u[k], sl.t[k, 0], sl.t[k, 1], W1, W2)
-    for s in range(2):
-        ws = (w if s == 1 else 1.0 - w) * Nd
+    for s in range(4):
+        ws = pw.w[f, k, s] * Nd
         for c in range(6):
             pw.BW[f, j + s, c] += ws * Wn[c]
             pw.LV[f, j + s, c] += ws * V[c]
-        pw.H[f, j + s, j] += ws * (1.0 - w)
-        pw.H[f, j + s, j + 1] += ws * w
+        for t in range(4):
+            pw.H[f, j + s, j + t] += ws * pw.w[f, k, t]

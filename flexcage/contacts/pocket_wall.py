@@ -1,7 +1,8 @@
 """The deformed walls of a pocket: where they are, how they yield, what they feel.
 
-Dynamic modes are read at a few stations per face and interpolated, and forces go back to the same
-stations with the same weights; a defect's offset is known on a finer grid. The residual
+Dynamic modes are read at a few stations per face and interpolated smoothly (a wall with kinks has
+no equilibrium on them), and forces go back to the same stations with the same weights; a defect's
+offset is known on a finer grid. The residual
 (quasi-static) flexibility is condensed pocket by pocket: with psi(x) the pocket's residual shapes
 and C their compliance, coordinates a solve
 
@@ -13,12 +14,14 @@ damping acts on the rate of the remaining motion. A rigid cage has C = 0 and no 
 
 from __future__ import annotations
 
+from math import floor
 from typing import NamedTuple
 
 import numpy as np
 
 from flexcage.core.jit import VECTORISED, part, zero
-from flexcage.core.vectors import dot, row, xyz
+from flexcage.core.splines import smooth_weights
+from flexcage.core.vectors import dot, row
 
 N_LOCAL = 8  # residual coordinates of a pocket: uniform and linear on four faces
 SOLVED = 3e-11  # [m] a last Newton step this small leaves an error of its square over d
@@ -50,8 +53,10 @@ class PocketWork(NamedTuple):
 
     G: np.ndarray  # (3, 3) rows: pocket axes x, r, psi in F
     d0: np.ndarray  # (4, n) penetration before the residual deflection
-    j: np.ndarray  # (4, n) station index
-    w: np.ndarray  # (4, n) weight of station j+1
+    j: np.ndarray  # (4, n) first of the four stations that a slice reads
+    w: np.ndarray  # (4, n, 4) their weights
+    ws: np.ndarray  # (4, n, 4) slopes of the weights along the face [1/m]
+    R: np.ndarray  # (4, n, 8) residual shapes under a slice
     slope: np.ndarray  # (4, n) of the wall's offset along the face
     near: np.ndarray  # (4,) face may touch
     wall: np.ndarray  # (4, nst, 3) modal displacement, then velocity, of stations
@@ -78,7 +83,8 @@ class PocketWork(NamedTuple):
 def pocket_work(n_slices: int, n_points: int, n_stations: int) -> PocketWork:
     n, st, z = max(n_slices, n_points), n_stations, np.zeros
     return PocketWork(
-        z((3, 3)), z((4, n)), z((4, n), np.int64), z((4, n)), z((4, n)), z(4, np.int64),
+        z((3, 3)), z((4, n)), z((4, n), np.int64), z((4, n, 4)), z((4, n, 4)), z((4, n, 8)),
+        z((4, n)), z(4, np.int64),
         z((4, st, 3)), z((4, st, 3)), z(8), z((4, st, 6)), z((4, st, 6)), z((4, st, st)),
         z((4, st, 8)), z((8, 8)), z((8, 9)), z(8), z((8, 8)), z((8, 6)), z((6, 8)), z((8, 6)),
         z((6, 8)), z(4), z(4), z((4, n)), z((4, n)),
@@ -135,10 +141,52 @@ def face_modes(data, i, f, q, wall):
 
 @part
 def _cell(x, first, spacing, n):
-    """Index j and weight w of x between points j and j+1 of a grid of n; held at its ends."""
+    """Index j and share t of x between points j and j+1 of a grid of n; not held at its ends."""
     place = (x - first) / spacing
-    j = min(max(int(place), 0), n - 2)
-    return j, min(max(place - j, 0.0), 1.0)
+    j = min(max(int(floor(place)), 0), n - 2)
+    return j, place - j
+
+
+@part
+def _read(x, first, spacing, n, w, ws):
+    """First of four stations around x, their weights into w and the weights' slopes into ws.
+
+    Beyond its outer stations a wall goes on straight, for half a spacing at the most.
+    """
+    j, t = _cell(x, first, spacing, n)
+    inside = -0.5 < t < 1.5
+    t = min(max(t, -0.5), 1.5)
+    value, slope = smooth_weights(min(max(t, 0.0), 1.0))
+    start = min(max(j - 1, 0), n - 4)
+    for k in range(4):
+        w[k] = ws[k] = 0.0
+    over = t - min(max(t, 0.0), 1.0)
+    for k in range(4):
+        v, d = value[k] + over * slope[k], (slope[k] / spacing if inside else 0.0)
+        station = j - 1 + k
+        if station < 0:  # straight on: 2 p0 - p1
+            w[0] += 2.0 * v
+            w[1] -= v
+            ws[0] += 2.0 * d
+            ws[1] -= d
+        elif station >= n:
+            w[3] += 2.0 * v
+            w[2] -= v
+            ws[3] += 2.0 * d
+            ws[2] -= d
+        else:
+            w[station - start] += v
+            ws[station - start] += d
+    return start
+
+
+@part
+def _mix(pw, f, k, comp, slopes):
+    """What slice k of face f reads of the stations' displacement component (or its slope)."""
+    j, total = pw.j[f, k], 0.0
+    for s in range(4):
+        total += (pw.ws[f, k, s] if slopes else pw.w[f, k, s]) * pw.wall[f, j + s, comp]
+    return total
 
 
 @part
@@ -172,20 +220,18 @@ def penetrations(pose, data, i, Rw, D, q, margin, pw):
                 y, z = data.points[k, 0], data.points[k, 1]
                 along = T + h * at[0] + y * at[1] + z * at[2]
                 depth = sgn * (X + h * ax[0] + y * ax[1] + z * ax[2]) - data.half[1]
-            j, w = _cell(along, data.x0[f], data.dx[f], n_st)
+            w, ws = pw.w[f, k], pw.ws[f, k]
+            pw.j[f, k] = _read(along, data.x0[f], data.dx[f], n_st, w, ws)
             # what lies under this point has moved there along the face
-            along -= (1.0 - w) * pw.wall[f, j, along_comp] + w * pw.wall[f, j + 1, along_comp]
-            j, w = _cell(along, data.x0[f], data.dx[f], n_st)
-            pw.j[f, k], pw.w[f, k] = j, w
-            rise = pw.wall[f, j + 1, comp] - pw.wall[f, j, comp]
+            along -= _mix(pw, f, k, along_comp, False)
+            pw.j[f, k] = _read(along, data.x0[f], data.dx[f], n_st, w, ws)
             o, g = _cell(along, data.grid[0, f], data.grid[1, f], n_o)
             step = data.offset[i, f, o + 1] - data.offset[i, f, o]
-            pw.slope[f, k] = 0.0
-            if 0.0 < g < 1.0:
+            pw.slope[f, k] = sgn * _mix(pw, f, k, comp, True)
+            if 0.0 <= g <= 1.0:
                 pw.slope[f, k] += step / data.grid[1, f]
-            if 0.0 < w < 1.0:
-                pw.slope[f, k] += sgn * rise / data.dx[f]
-            wall = data.offset[i, f, o] + g * step + sgn * (pw.wall[f, j, comp] + w * rise)
+            g = min(max(g, 0.0), 1.0)
+            wall = data.offset[i, f, o] + g * step + sgn * _mix(pw, f, k, comp, False)
             pw.d0[f, k] = depth - wall
             if pw.d0[f, k] > 0.0:
                 touch = True
@@ -193,14 +239,24 @@ def penetrations(pose, data, i, Rw, D, q, margin, pw):
 
 
 @part
-def yielded(data, i, f, pw, sl):
-    """Penetration sl.d of face f after the residual deflection sl.u of its slices."""
-    R = data.res[i, f]
+def read_residual(data, i, f, pw):
+    """Residual shapes under the slices of face f into pw.R."""
     for k in range(points_of_face(data, f)):
-        j, w = pw.j[f, k], pw.w[f, k]
+        j = pw.j[f, k]
+        for l in range(N_LOCAL):
+            x = 0.0
+            for s in range(4):
+                x += pw.w[f, k, s] * data.res[i, f, j + s, l]
+            pw.R[f, k, l] = x
+
+
+@part
+def yielded(data, f, pw, sl):
+    """Penetration sl.d of face f after the residual deflection sl.u of its slices."""
+    for k in range(points_of_face(data, f)):
         u = 0.0
         for l in range(N_LOCAL):
-            u += ((1.0 - w) * R[j, l] + w * R[j + 1, l]) * pw.a[l]
+            u += pw.R[f, k, l] * pw.a[l]
         sl.u[k] = u
         sl.d[k] = pw.d0[f, k] - u
 
@@ -221,23 +277,24 @@ def condense(data, i, p, laws, guess, sl, pw):
     middle, last = data.phi.shape[2] // 2, data.phi.shape[2] - 1
     for l in range(N_LOCAL):
         pw.a[l] = guess[l]
+    for f in range(4):
+        if pw.near[f] != 0:
+            read_residual(data, i, f, pw)
     for _ in range(25):
         zero(pw.g)
         zero(pw.RHR)
         for f in range(4):
             if pw.near[f] == 0:
                 continue
-            yielded(data, i, f, pw, sl)
+            yielded(data, f, pw, sl)
             elastic_forces(data, f, p, laws, sl, sl.N)
             for k in range(points_of_face(data, f)):
                 if sl.N[k] > 0.0:
-                    j, w = pw.j[f, k], pw.w[f, k]
                     for l in range(N_LOCAL):
-                        rl = (1.0 - w) * R[f, j, l] + w * R[f, j + 1, l]
-                        pw.g[l] += rl * sl.N[k]
-                        rl *= sl.Nd[k]
+                        pw.g[l] += pw.R[f, k, l] * sl.N[k]
+                        h = pw.R[f, k, l] * sl.Nd[k]
                         for m in range(N_LOCAL):
-                            pw.RHR[l, m] += rl * ((1.0 - w) * R[f, j, m] + w * R[f, j + 1, m])
+                            pw.RHR[l, m] += h * pw.R[f, k, m]
         _compliant_matrix(C, pw)
         for l in range(N_LOCAL):
             r = -pw.a[l]
@@ -270,13 +327,13 @@ def _compliant_matrix(C, pw):
 
 
 @part
-def stored_energy(data, i, p, laws, sl, pw):
+def stored_energy(data, p, laws, sl, pw):
     """Elastic energy in the residual deflection, a . g/2 with g the loads that made it."""
     energy = 0.0
     for f in range(4):
         if pw.near[f] == 0:
             continue
-        yielded(data, i, f, pw, sl)
+        yielded(data, f, pw, sl)
         elastic_forces(data, f, p, laws, sl, sl.N)
         for k in range(points_of_face(data, f)):
             energy += 0.5 * sl.N[k] * sl.u[k]
@@ -287,12 +344,11 @@ def stored_energy(data, i, p, laws, sl, pw):
 def lean_of_residual(data, i, f, pw):
     """Add to pw.slope what the residual deflection gives it."""
     for k in range(points_of_face(data, f)):
-        j, w = pw.j[f, k], pw.w[f, k]
-        if 0.0 < w < 1.0:
-            rise = 0.0
+        j = pw.j[f, k]
+        for s in range(4):
+            d = pw.ws[f, k, s]
             for l in range(N_LOCAL):
-                rise += (data.res[i, f, j + 1, l] - data.res[i, f, j, l]) * pw.a[l]
-            pw.slope[f, k] += rise / data.dx[f]
+                pw.slope[f, k] += d * data.res[i, f, j + s, l] * pw.a[l]
 
 
 @part
@@ -348,10 +404,4 @@ def soften(data, i, pw, pair):
 @part
 def station_motion(pw, f, k):
     """Wall's motion (x, r, psi) under slice k of face f, interpolated from pw.wall."""
-    j, w = pw.j[f, k], pw.w[f, k]
-    a, b = xyz(pw.wall[f, j]), xyz(pw.wall[f, j + 1])
-    return (
-        (1.0 - w) * a[0] + w * b[0],
-        (1.0 - w) * a[1] + w * b[1],
-        (1.0 - w) * a[2] + w * b[2],
-    )
+    return _mix(pw, f, k, 0, False), _mix(pw, f, k, 1, False), _mix(pw, f, k, 2, False)

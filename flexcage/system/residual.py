@@ -163,7 +163,7 @@ def _scatter_modes(data, i, pw, S, tan, Lm, Bm, PR):
                 for c in range(6):
                     Lm[c, m] += pw.LV[f, s, c] * phi
                     Bm[m, c] += phi * pw.BW[f, s, c]
-                for t in range(max(s - 1, 0), min(s + 2, n_st)):
+                for t in range(max(s - 3, 0), min(s + 4, n_st)):
                     h = pw.H[f, s, t] * phi
                     if h != 0.0:
                         for o in range(n_m):

@@ -28,7 +28,8 @@ log = logging.getLogger(__name__)
 RESIDUAL = 1e-7  # of the load: where an equilibrium is accepted
 TOUCH = 1e-9  # [m] interference that is only a touch
 STAGES = 8  # steps of a pinching defect's growth
-_HOLD = 1e8  # stiffness that holds a coordinate
+_CAGE_ROW = 8  # of the border: where the cage's rigid motion begins
+_HOLD = 1e12  # stiffness that holds a coordinate, far above that of any contact
 
 
 @dataclass(frozen=True)
@@ -59,8 +60,11 @@ def rolling_velocities(model: Model, layout: Layout, y: np.ndarray) -> np.ndarra
     u["rollers"][:] = 0.0
     u["rollers"][:, 2] = radius * k.cage_speed
     u["rollers"][:, 3] = k.roller_spin
+    skew, tilt = q["rollers"][:, 3], q["rollers"][:, 4]
+    u["rollers"][:, 4] = -k.cage_speed * np.cos(skew) * np.sin(tilt)  # they keep skew and tilt
+    u["rollers"][:, 5] = k.cage_speed * np.sin(skew)
     qd["rollers"][:, 2] = k.cage_speed
-    qd["rollers"][:, 5] = k.roller_spin - k.cage_speed
+    qd["rollers"][:, 5] = k.roller_spin - k.cage_speed * np.cos(skew) * np.cos(tilt)
     u["inner"][3] = qd["inner"][5] = speed
     u["omega"][0] = k.cage_speed
     qd["quaternion"][1] = 0.5 * k.cage_speed
@@ -127,12 +131,14 @@ class _Frictionless:
         self.bearing.evaluate(0.0, y, yd, self.args[0], self.args[1], self.out, 2)
         return self.data.work.report
 
-    def step(self, y, yd, r, alpha: float, held: np.ndarray) -> np.ndarray:
+    def step(self, y, yd, r, alpha: float, held: Held) -> np.ndarray:
         """Displacement step dq of the implicit Euler step 1/alpha from rest."""
         tangent = self.data.work.tangent
         self.bearing.functions[1](0.0, y, yd, self.args)
-        roller, row = np.nonzero(held)
+        roller, row = np.nonzero(held.rollers)
         tangent.Krr[roller, row, row] += _HOLD
+        row = _CAGE_ROW + np.flatnonzero(held.cage)
+        tangent.Kbb[row, row] += _HOLD
         if not self.bearing.functions[2](alpha, self.args):
             raise RunFailed("the start's equilibrium has a singular matrix; is a body massless?")
         r = r.copy()
@@ -140,40 +146,56 @@ class _Frictionless:
         return r
 
 
-def _held(pinched: np.ndarray) -> np.ndarray:
-    """Rows (Z, 6) of rollers that friction holds: along the orbit, and sideways if not pinched."""
-    held = np.zeros((len(pinched), 6), bool)
-    held[:, 2] = True
-    held[~pinched, 0] = held[~pinched, 4] = True
-    return held
+@dataclass(frozen=True)
+class Held:
+    """Motions that friction holds while the bearing is brought to equilibrium without it."""
+
+    rollers: np.ndarray  # (Z, 6) along the orbit; sideways and in skew unless pinched
+    cage: np.ndarray  # (6,) all but those along which a pinch squeezes
+    with_cage: bool  # a pinch holds the cage: its rows count
 
 
-def _measure(layout: Layout, r: np.ndarray, lever: float, *, with_cage: bool) -> float:
+def _held(tight: np.ndarray) -> Held:
+    """What is held where pockets are too small across or along (Z, 2) for their rollers."""
+    pinched = np.any(tight, axis=1)
+    rollers = np.zeros((len(tight), 6), bool)
+    rollers[:, 2] = True
+    rollers[~pinched, 0] = rollers[~pinched, 4] = True
+    cage = np.full(6, bool(pinched.any()))
+    cage[0] &= not tight[:, 1].any()  # side beams find their place along x
+    cage[3] &= not tight[:, 0].any()  # crossbeams by turning about it
+    return Held(rollers, cage, bool(pinched.any()))
+
+
+def _measure(layout: Layout, r: np.ndarray, lever: float, held: Held) -> float:
     """Largest unbalanced force [N] (moments over a lever) of the rows that are free."""
     u = {k: v.copy() for k, v in layout.u(r).items()}
     u["rollers"][:, 3:] /= lever
     u["inner"][[0, 3, 4, 5]] = 0.0  # constrained: their multipliers balance them
     u["omega"] /= 10.0 * lever
-    names = u if with_cage else ("rollers", "inner", "outer")  # nothing holds a free cage
+    names = u if held.with_cage else ("rollers", "inner", "outer")  # nothing holds a free cage
     return max(float(np.abs(u[k]).max()) for k in names if u[k].size)
 
 
 def _equilibrate(
-    system: _Frictionless, y: np.ndarray, yd: np.ndarray, load: float, pinched: np.ndarray
+    system: _Frictionless, y: np.ndarray, yd: np.ndarray, load: float, tight: np.ndarray
 ) -> float:
     """Bring y to equilibrium in place; the residual reached, as a share of the load.
 
-    ``pinched`` (Z,) marks the rollers whose pocket is too small for them at this stage.
+    ``tight`` (Z, 2) marks the pockets that are too small for their roller at this stage.
     """
-    held, with_cage = _held(pinched), bool(pinched.any())
+    held = _held(tight)
     layout = system.bearing.layout
     nq = layout.n_q
     lever = float(system.data.model.bodies.radius.mean())
     alpha, last = 1e5, np.inf
     for _ in range(400):
         r = system.residual(y, yd)
-        layout.u(r)["rollers"][held] = 0.0
-        size = _measure(layout, r, lever, with_cage=with_cage) / load
+        rows = layout.u(r)
+        rows["rollers"][held.rollers] = 0.0
+        rows["cage"][held.cage[:3]] = 0.0
+        rows["omega"][held.cage[3:]] = 0.0
+        size = _measure(layout, r, lever, held) / load
         if size < RESIDUAL:
             break
         alpha = max(alpha * 0.5, 500.0) if size <= 3.0 * last else min(alpha * 10.0, 1e6)
@@ -208,8 +230,8 @@ def find_start(bearing: Bearing, *, limit_force: float) -> Start:
     placed = np.zeros((layout.rollers, 2))
     for share in _stages(model, offset):
         system = _Frictionless(bearing, offset * share)
-        tight = np.any(pocket_clearance(model, offset * share) < -TOUCH, axis=1)
-        pinched = np.flatnonzero(tight)
+        tight = pocket_clearance(model, offset * share) < -TOUCH
+        pinched = np.flatnonzero(np.any(tight, axis=1))
         middle = np.stack(
             [offset[:, 0].min(axis=1) - offset[:, 1].min(axis=1),
              offset[:, 2].min(axis=1) - offset[:, 3].min(axis=1)], axis=1,

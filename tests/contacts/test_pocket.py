@@ -174,8 +174,9 @@ def test_condensed_walls_against_minimisation(walls):
         e = 0.5 * a @ stiff @ a
         for f in (0, 2):
             n = len(data.s) if f == 0 else len(data.points)
-            w, j = work.w[f, :n, None], work.j[f, :n]
-            shape = (1 - w) * data.res[0, f, j] + w * data.res[0, f, j + 1]
+            shape = sum(
+                work.w[f, :n, s, None] * data.res[0, f, work.j[f, :n] + s] for s in range(4)
+            )
             d = np.clip(work.d0[f, :n] - shape @ a, 0.0, None)
             e += np.sum(p[f, 0] * d ** (p[f, 1] + 1) / (p[f, 1] + 1))
         return e

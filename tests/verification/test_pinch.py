@@ -10,7 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 import pytest
 from full_mesh import OUTWARD, Squeeze, reduced_compliance, station_rows
-from verification_bearing import bearing_of, bent, cage_of, log, n1013, pushed
+from verification_bearing import bearing_of, bent, cage_of, log, n1013, pushed, station_reading
 
 from flexcage.core.errors import InputError
 from flexcage.simulate import simulate
@@ -70,13 +70,7 @@ def wall_of(case, bearing, cage, pocket, faces) -> Squeeze:
     size = b.roller_diameter if faces[0] == 0 else b.roller_length
     gap = case.cage.pocket_width if faces[0] == 0 else case.cage.pocket_length
     drop = data.drop if faces[0] == 0 else np.zeros(len(along))
-    unit = np.eye(cage.interface.stations.shape[1])
-    spread = np.stack(
-        [
-            np.stack([np.interp(along, cage.interface.stations[f], e) for e in unit], axis=1)
-            for f in faces
-        ]
-    )
+    spread = np.stack([station_reading(cage.interface.stations[f], along) for f in faces])
     defect = case.defects[0]
     curve = clamped(along, gap=case.cage.pocket_length if faces[0] == 0 else case.cage.pocket_width)
     if getattr(defect, "shape", "bent") == "shifted":

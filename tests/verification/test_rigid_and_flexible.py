@@ -14,7 +14,7 @@ import numpy as np
 import pytest
 from scipy.optimize import brentq
 from test_roller_strikes_cage import ALONE, SPEED, strike
-from verification_bearing import bearing_of, bent, log, n1013
+from verification_bearing import bearing_of, bent, log, n1013, station_reading
 
 from flexcage.results import metrics
 from flexcage.simulate import simulate
@@ -95,9 +95,7 @@ def peak_by_hand(case) -> float:
     K, n = bearing.data.memory.pocket[0, 0, :2]  # of one slice
     drop = model.pocket.drop - model.pocket.drop.min()
     stations = model.pocket.x0[0] + model.pocket.dx[0] * np.arange(model.pocket.phi.shape[2])
-    spread = np.stack(
-        [np.interp(model.pocket.s, stations, e) for e in np.eye(len(stations))], axis=1
-    )
+    spread = station_reading(stations, model.pocket.s)
     inertia = np.trace(model.cage.G0) - model.cage.G0[0, 0]
     inverse = 1.0 / case.bearing.roller_mass + 1.0 / model.cage.mass
     inverse += case.bearing.pitch_radius**2 / inertia

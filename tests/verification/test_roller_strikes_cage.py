@@ -21,6 +21,7 @@ from verification_bearing import (
     march,
     n1013,
     relative_error,
+    station_reading,
     state_at_rest,
 )  # fmt: skip
 
@@ -93,7 +94,7 @@ def full_mesh():
     _, cage = cage_of(case)
     bearing = bearing_of(case)
     pocket, stations = bearing.data.model.pocket, cage.interface.stations[0]
-    spread = np.stack([np.interp(pocket.s, stations, e) for e in np.eye(len(stations))], axis=1)
+    spread = station_reading(stations, pocket.s)
     impact = Impact(
         cage,
         station_rows(cage, 0, 0),

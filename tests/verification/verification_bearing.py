@@ -8,6 +8,7 @@ from dataclasses import replace
 from functools import cache
 
 import numpy as np
+from scipy.interpolate import CubicHermiteSpline
 
 from flexcage.case import Case, load_case
 from flexcage.mesh.cage_mesh import CageMesh
@@ -46,6 +47,15 @@ def bent(displacement: str, *, crossbeam: int = 5, shape: str = "bent") -> list[
             "shape": shape,
         }
     ]
+
+
+def station_reading(stations: np.ndarray, along: np.ndarray) -> np.ndarray:
+    """What points along a face read of its stations (points, stations): cubics through them with
+    the slopes of their neighbours, straight on beyond the outer ones."""
+    unit = np.eye(len(stations))
+    curve = CubicHermiteSpline(stations, unit, np.gradient(unit, stations, axis=0))
+    inside = np.clip(along, stations[0], stations[-1])
+    return curve(inside) + (along - inside)[:, None] * curve(inside, 1)
 
 
 def pushed(displacement: str, *, pocket: int = 5, side: str = "+x") -> list[dict]:
