@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from scipy.signal import butter, sosfilt
+from scipy.spatial.transform import Rotation
 
 from flexcage.core.errors import InputError, RunFailed
 from flexcage.modes.basis import FACES
@@ -166,15 +167,17 @@ class Recorder:
         layout, s = self.bearing.layout, self.bearing.data.samples
         q, u, a = layout.q(y), layout.u(y), layout.u(yd)
         quaternion = q["quaternion"] / np.linalg.norm(q["quaternion"], axis=1, keepdims=True)
-        outer = np.concatenate([np.zeros((done, 1)), q["outer"]], axis=1)
         arrays = {
             "inner_position": q["inner"][:, :3],
             "inner_velocity": u["inner"][:, :3],
             "inner_angle": q["inner"][:, 5],
             "inner_speed": u["inner"][:, 3],
-            "outer_position": outer,
+            "inner_quaternion": orientation(0.0 * q["inner"][:, 5], q["inner"][:, 3:]),
+            "outer_position": in_plane(q["outer"]),
+            "outer_velocity": in_plane(u["outer"]),
             "roller_position": q["rollers"][:, :, :3],
             "roller_velocity": u["rollers"][:, :, :3],
+            "roller_quaternion": orientation(q["rollers"][:, :, 2], q["rollers"][:, :, 3:]),
             "roller_tilt": q["rollers"][:, :, 3:5],
             "roller_omega": u["rollers"][:, :, 3:],
             "cage_position": q["cage"],
@@ -268,6 +271,20 @@ def _computed(store: MemoryRunStore) -> dict[str, Callable[..., np.ndarray]]:
             where=unknown[0],
         )
     return {name: COMPUTED[name] for name in held if name in COMPUTED}
+
+
+def in_plane(yz: np.ndarray) -> np.ndarray:
+    """Vectors (n, 3) in space of components (n, 2) in the plane of rotation."""
+    return np.concatenate([np.zeros((len(yz), 1)), yz], axis=1)
+
+
+def orientation(azimuth: np.ndarray, angles: np.ndarray) -> np.ndarray:
+    """Unit quaternions (..., 4), scalar first, of bodies at ``azimuth`` (...,) about x, turned by
+    ``angles`` (..., 3): skew about the radial, tilt about the tangential axis, and spin [rad]."""
+    turned = np.concatenate([azimuth[..., None], angles[..., :2]], axis=-1).reshape(-1, 3)
+    frame = Rotation.from_euler("XYZ", turned)
+    spin = Rotation.from_euler("X", angles[..., 2].ravel())
+    return (frame * spin).as_quat(scalar_first=True).reshape(*azimuth.shape, 4)
 
 
 def to_body(quaternion: np.ndarray, vectors: np.ndarray) -> np.ndarray:

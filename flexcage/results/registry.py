@@ -81,13 +81,21 @@ def _variables() -> list[Variable]:
         row("inner_velocity", on(body), "m/s", "velocity of the inner ring centre, ring frame"),
         row("inner_angle", on(), "rad", "angle turned by the inner ring"),
         row("inner_speed", on(), "rad/s", "angular speed of the inner ring"),
+        row("inner_quaternion", on("quaternion"), "1", "orientation of the inner ring"),
         row("outer_position", on(body), "m", "outer ring centre, ring frame"),
+        row("outer_velocity", on(body), "m/s", "velocity of the outer ring centre, ring frame"),
         row("roller_position", on(roller, "cyl"), "m, m, rad", "roller centre (x, r, psi)"),
         row(
             "roller_velocity",
             on(roller, "cyl"),
             "m/s",
             "velocity of the roller centre (axial, radial, tangential)",
+        ),
+        row(
+            "roller_quaternion",
+            on(roller, "quaternion"),
+            "1",
+            "orientation of the spinning roller, ring frame, scalar first",
         ),
         row("roller_tilt", on(roller, "tilt"), "rad", "skew and tilt of the roller's axis"),
         row(

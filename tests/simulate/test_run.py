@@ -4,6 +4,7 @@ import json
 
 import numpy as np
 import pytest
+from scipy.spatial.transform import Rotation
 from simulate_cases import bent, n1013
 
 from flexcage.case import load_case
@@ -163,3 +164,21 @@ def test_events_are_the_contacts_that_close_and_open(flexible):
     assert np.all(np.diff(events["time"].values) >= 0.0)
     assert events["time"].values[-1] <= ds["time"].values[-1] + 1e-12
     assert flexible.steps["step"].sum() == pytest.approx(ds["time"].values[-1])
+
+
+def test_orientations_turn_with_the_angular_velocities(flexible):
+    """Two samples' quaternions differ by the angular velocity between them, in the body's frame."""
+    ds = flexible.dataset
+    dt = float(ds["time"][1] - ds["time"][0])
+    for name, speed in (("inner", ds["inner_speed"].values), ("roller", None)):
+        q = ds[f"{name}_quaternion"].values
+        first, second = q[100:200:7], q[101:201:7]
+        turn = Rotation.from_quat(first.reshape(-1, 4), scalar_first=True).inv()
+        turn = turn * Rotation.from_quat(second.reshape(-1, 4), scalar_first=True)
+        about_axis = turn.as_rotvec()[:, 0] / dt
+        if speed is None:
+            omega = ds["roller_omega"].values[..., 0]
+            speed = 0.5 * (omega[100:200:7] + omega[101:201:7])
+        else:
+            speed = speed[100:200:7]
+        np.testing.assert_allclose(about_axis, speed.ravel(), rtol=2e-4)

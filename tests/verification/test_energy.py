@@ -46,18 +46,13 @@ LOSSLESS = {
 }
 
 
-JUMPS = pytest.mark.xfail(
-    strict=True, reason="a deformed land's greatest penetration jumps from station to station"
-)
-
-
 @pytest.mark.parametrize(
     ("model", "land"),
     [
         ("rigid", "none"),
         ("rigid", "dry"),
         ("flexible", "none"),
-        pytest.param("flexible", "dry", marks=JUMPS),
+        ("flexible", "dry"),
     ],
 )
 def test_nothing_is_lost_without_losses(model, land):

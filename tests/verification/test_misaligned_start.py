@@ -10,10 +10,6 @@ from verification_bearing import bearing_of, log, n1013
 
 from flexcage.system.start import find_start
 
-SPIN = pytest.mark.xfail(
-    strict=True,
-    reason="rolling_velocities leaves tilted rollers without the turn that their orbit gives",
-)
 STILL = {"drive.speed": "0 rpm", "load.gravity": "0 m/s^2", "cage.model": "rigid"}
 TILTS = (0.2, 0.5, 1.0, 2.0)
 
@@ -28,9 +24,9 @@ def misaligned(tilt: float, *tables):
     [
         (0.2, "rigid"),
         (0.2, "flexible"),
-        pytest.param(0.5, "rigid", marks=SPIN),
-        pytest.param(1.0, "flexible", marks=SPIN),
-        pytest.param(2.0, "rigid", marks=SPIN),
+        (0.5, "rigid"),
+        (1.0, "flexible"),
+        (2.0, "rigid"),
     ],
 )
 def test_a_tilted_bearing_starts_at_speed(tilt, model):

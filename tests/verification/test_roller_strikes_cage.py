@@ -21,8 +21,8 @@ from verification_bearing import (
     march,
     n1013,
     relative_error,
-    station_reading,
     state_at_rest,
+    station_reading,
 )  # fmt: skip
 
 SPEED, DURATION = 0.3, 100e-6
