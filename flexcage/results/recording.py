@@ -283,7 +283,7 @@ def orientation(azimuth: np.ndarray, angles: np.ndarray) -> np.ndarray:
     ``angles`` (..., 3): skew about the radial, tilt about the tangential axis, and spin [rad]."""
     turned = np.concatenate([azimuth[..., None], angles[..., :2]], axis=-1).reshape(-1, 3)
     frame = Rotation.from_euler("XYZ", turned)
-    spin = Rotation.from_euler("X", angles[..., 2].ravel())
+    spin = Rotation.from_euler("X", angles[..., 2].reshape(-1, 1))
     return (frame * spin).as_quat(scalar_first=True).reshape(*azimuth.shape, 4)
 
 
