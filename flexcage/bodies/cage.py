@@ -25,7 +25,12 @@ def rigid_from_tets(points: np.ndarray, tets: np.ndarray, density: float) -> Fle
 def flexible_from_basis(
     nodes: np.ndarray, mass_scalar, basis: ModeBasis, damping_ratios: np.ndarray
 ) -> FlexibleBody:
-    """Flexible cage: modal damping 2 zeta omega m on the diagonal of the reduced matrices."""
+    """Flexible cage: modal damping 2 zeta omega m on the diagonal of the reduced matrices.
+
+    It stiffens with spin if the basis says by how much (``basis.geometric``).
+    """
     omega = 2.0 * np.pi * basis.frequencies
     damping = np.diag(2.0 * damping_ratios * omega * np.diag(basis.mass))
-    return flexible_body(nodes, mass_scalar, basis.shapes, basis.stiffness, damping)
+    return flexible_body(
+        nodes, mass_scalar, basis.shapes, basis.stiffness, damping, geometric=basis.geometric
+    )

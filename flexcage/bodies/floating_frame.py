@@ -10,6 +10,15 @@ Multibody Systems, ch. 5), v in space, w in the body frame:
     C^T A^T v' + H^T w' + m_ff q'' + [w^T E_k w - w^2 tr E_k] + 2 w.(P_k q')   = Q - K q - d q'
 
 with D = int p u^T dm, u = Phi q', and (P_k)_l = int phi_l x phi_k dm.
+
+Geometric stiffening, if asked for, adds w_x^2 G q to the last row: G is the geometric stiffness of
+the centrifugal stress at unit spin about x (Wallrapp and Schwertassek, Int. J. Numer. Methods Eng.
+32 (1991) 1833: the term of a squared angular velocity). A field that stretches nothing draws the
+body inwards to second order and takes q^T G q from its inertia about x (Kane, Ryan and Banerjee,
+J. Guidance 10 (1987) 139). With that term in J as well, and so in the torque about x, the equations
+keep energy and angular momentum. Left out, of the same order as G: stress from w_y and w_z, from
+angular acceleration and from contact forces; the second-order motion's share of the mass centre
+and of the other inertias; the stiffening of quasi-static residual vectors.
 """
 
 from __future__ import annotations
@@ -36,6 +45,7 @@ class BodyData(NamedTuple):
     mff: np.ndarray  # (n, n)
     kff: np.ndarray  # (n, n)
     dff: np.ndarray  # (n, n) modal damping
+    gff: np.ndarray  # (n, n) geometric stiffness per squared spin about x; (0, 0) for none
 
 
 @dataclass(frozen=True)
@@ -89,10 +99,13 @@ def flexible_body(
     shapes: np.ndarray,
     stiffness: np.ndarray,
     damping: np.ndarray | None = None,
+    *,
+    geometric: np.ndarray | None = None,
 ) -> FlexibleBody:
     """Reduce a body: nodes (N, 3) [m], consistent mass (N, N) or (3N, 3N) [kg], shapes (N, 3, n).
 
-    ``stiffness`` and ``damping`` are reduced, (n, n). The frame's origin is where nodes are zero.
+    ``stiffness``, ``damping`` and ``geometric``, the stiffness per squared spin about x, are
+    reduced, (n, n). The frame's origin is where nodes are zero.
     """
     n = shapes.shape[2]
     m = scalar_mass(mass, len(nodes))
@@ -110,6 +123,7 @@ def flexible_body(
         mff=np.ascontiguousarray(np.einsum("klii->kl", SS)),
         kff=np.ascontiguousarray(stiffness, dtype=float).reshape(n, n),
         dff=np.zeros((n, n)) if damping is None else np.ascontiguousarray(damping),
+        gff=np.zeros((0, 0)) if geometric is None else np.ascontiguousarray(geometric, float),
     )
     return FlexibleBody(data)
 
@@ -120,13 +134,16 @@ def rigid_body(mass: float, centre: np.ndarray, second_moment: np.ndarray) -> Fl
     data = BodyData(
         float(mass), mass * np.asarray(centre, float), z((3, 0)),
         np.ascontiguousarray(second_moment, dtype=float),
-        z((0, 3, 3)), z((0, 0, 3, 3)), z((0, 0)), z((0, 0)), z((0, 0)),
+        z((0, 3, 3)), z((0, 0, 3, 3)), z((0, 0)), z((0, 0)), z((0, 0)), z((0, 0)),
     )  # fmt: skip
     return FlexibleBody(data)
 
 
 def with_point_mass(body: FlexibleBody, mass: float, position: np.ndarray) -> FlexibleBody:
-    """The body with a point mass that rides on the undeformed frame (an unbalance)."""
+    """The body with a point mass that rides on the undeformed frame (an unbalance).
+
+    Its centrifugal force adds nothing to the geometric stiffness.
+    """
     d = body.data
     s = np.asarray(position, float)
     data = d._replace(mass=d.mass + mass, c0=d.c0 + mass * s, G0=d.G0 + mass * np.outer(s, s))
@@ -204,6 +221,12 @@ def inertia_terms(d, w, q, qd, work):
         for j in range(3):
             M[3 + i, 3 + j] = -0.5 * (G[i, j] + G[j, i])
         M[3 + i, 3 + i] += trace
+    shortening = 0.0  # half the rate of the inertia that geometric stiffening takes
+    for k in range(d.gff.shape[0]):
+        for l in range(n):
+            h[6 + k] += d.gff[k, l] * q[l]
+        M[3, 3] -= q[k] * h[6 + k]
+        shortening += qd[k] * h[6 + k]
     # rows of translation: w' x c = -c~ w'
     M[0, 4], M[0, 5] = c[2], -c[1]
     M[1, 3], M[1, 5] = -c[2], c[0]
@@ -222,6 +245,7 @@ def inertia_terms(d, w, q, qd, work):
     h[3] = w[1] * Jw2 - w[2] * Jw1 + 2.0 * trD * w[0]
     h[4] = w[2] * Jw0 - w[0] * Jw2 + 2.0 * trD * w[1]
     h[5] = w[0] * Jw1 - w[1] * Jw0 + 2.0 * trD * w[2]
+    h[3] -= 2.0 * shortening * w[0]
     for j in range(3):
         for i in range(3):
             h[3 + j] -= 2.0 * D[i, j] * w[i]
@@ -232,7 +256,7 @@ def inertia_terms(d, w, q, qd, work):
         M[3, 6 + k] = M[6 + k, 3] = E[k, 2, 1] - E[k, 1, 2]
         M[4, 6 + k] = M[6 + k, 4] = E[k, 0, 2] - E[k, 2, 0]
         M[5, 6 + k] = M[6 + k, 5] = E[k, 1, 0] - E[k, 0, 1]
-        s = -w2 * (E[k, 0, 0] + E[k, 1, 1] + E[k, 2, 2])
+        s = w[0] * w[0] * h[6 + k] - w2 * (E[k, 0, 0] + E[k, 1, 1] + E[k, 2, 2])
         for i in range(3):
             for j in range(3):
                 s += w[i] * w[j] * E[k, i, j]

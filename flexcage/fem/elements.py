@@ -12,7 +12,7 @@ from __future__ import annotations
 import numpy as np
 import scipy.sparse as sp
 
-_CHUNK = 20_000  # elements at a time: bounds the memory of dense element matrices
+CHUNK = 20_000  # elements at a time: bounds the memory of dense element matrices
 
 
 def reference_gradients(element, points: np.ndarray) -> np.ndarray:
@@ -98,8 +98,8 @@ def assemble_stiffness(pattern: BlockPattern, element, quadrature, geometry, lam
     """Stiffness (3N, 3N); ``geometry`` is (gradients, volumes) of all tetrahedra."""
     gradients, volumes = geometry
     data = np.zeros((len(pattern.columns), 3, 3))
-    for first in range(0, len(volumes), _CHUNK):
-        part = slice(first, first + _CHUNK)
+    for first in range(0, len(volumes), CHUNK):
+        part = slice(first, first + CHUNK)
         blocks = stiffness_blocks(element, quadrature, gradients[part], volumes[part], lame)
         for a in range(3):
             for b in range(a, 3):

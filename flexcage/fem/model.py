@@ -219,7 +219,7 @@ def assemble(mesh, material: Material, *, order: int = 2) -> FEModel:
     geometry = elements.barycentric_gradients(mesh.points, tets)
     pattern = elements.BlockPattern(cells, basis.N)
     stiffness = elements.assemble_stiffness(
-        pattern, element, (basis.X, basis.W), geometry, _lame(material)
+        pattern, element, (basis.X, basis.W), geometry, lame(material)
     )
     mass_data = elements.mass_blocks(element, mass_rule, geometry[1], material.density)
     edges = np.sort(fe_mesh.edges.T, axis=1) if order == 2 else np.empty((0, 2), np.int64)
@@ -249,6 +249,7 @@ def _refuse_flat(mesh) -> None:
         )
 
 
-def _lame(material: Material) -> tuple[float, float]:
+def lame(material: Material) -> tuple[float, float]:
+    """Lame's first parameter and the shear modulus [Pa]."""
     modulus, nu = material.youngs_modulus, material.poisson_ratio
     return modulus * nu / ((1 + nu) * (1 - 2 * nu)), modulus / (2 * (1 + nu))

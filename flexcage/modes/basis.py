@@ -34,7 +34,8 @@ class ModeBasis:
 
     ``kind[i]`` names mode i ("free", "centrifugal", "land", "attachment", "constraint").
     ``stiffness`` and ``mass`` are the reduced matrices (n, n); for a mass-orthonormal basis
-    of eigenmodes they are diag(omega^2) and 1.
+    of eigenmodes they are diag(omega^2) and 1. ``geometric`` is the geometric stiffness of the
+    dynamic modes per squared spin about x, or None: the stiffness does not grow with spin.
     """
 
     name: str
@@ -44,6 +45,7 @@ class ModeBasis:
     frequencies: np.ndarray  # (n,) Hz: sqrt(k_ii/m_ii)/2pi
     kind: tuple[str, ...]
     residual: ResidualFlexibility | None = None
+    geometric: np.ndarray | None = None  # (n, n)
 
     @property
     def size(self) -> int:

@@ -84,6 +84,8 @@ def _to_arrays(basis: ModeBasis) -> dict[str, np.ndarray]:
         "frequencies": basis.frequencies,
         "kind": np.array(basis.kind),
     }
+    if basis.geometric is not None:
+        arrays["geometric"] = basis.geometric
     if basis.residual is not None:
         r = basis.residual
         arrays |= {
@@ -112,4 +114,5 @@ def _from_arrays(a: dict[str, np.ndarray]) -> ModeBasis:
         frequencies=a["frequencies"],
         kind=tuple(str(k) for k in a["kind"]),
         residual=residual,
+        geometric=a.get("geometric"),
     )

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import logging
 from collections.abc import Callable
+from dataclasses import replace
 
 import numpy as np
 from scipy.linalg import eigvalsh
@@ -15,6 +16,7 @@ from flexcage.fem.model import FEModel
 from flexcage.modes import craig_bampton, free_free, ritz
 from flexcage.modes.basis import ModeBasis
 from flexcage.modes.spec import KINDS, ModesSpec
+from flexcage.modes.stiffening import spin_stiffness
 
 log = logging.getLogger(__name__)
 
@@ -88,6 +90,8 @@ def build_basis(
     if solver is None:
         solver = FreeBodySolver(model, kind=solver_kind)
     basis = BUILDERS[spec.kind](solver, pocket_count=pocket_count, spec=spec)
+    if spec.geometric_stiffening and basis.geometric is None:
+        basis = replace(basis, geometric=spin_stiffness(solver, basis.shapes))
     check_basis(basis, len(model.nodes))
     first = ", ".join(f"{f:.1f}" for f in basis.frequencies[:6])
     log.info("basis %s: %d dynamic modes, first %s Hz", basis.name, basis.size, first)
@@ -103,6 +107,8 @@ def check_basis(basis: ModeBasis, nodes: int) -> None:
         "mass": (basis.mass, (n, n)),
         "frequencies": (basis.frequencies, (n,)),
     }
+    if basis.geometric is not None:
+        shapes["geometric"] = (basis.geometric, (n, n))
     for name, (array, wanted) in shapes.items():
         if array.shape != wanted or not np.isfinite(array).all():
             raise InputError(

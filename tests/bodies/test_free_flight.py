@@ -11,6 +11,7 @@ from scipy.spatial.transform import Rotation
 from scipy.special import ellipk
 
 from flexcage.bodies.floating_frame import (
+    FlexibleBody,
     flexible_body,
     frame_work,
     inertia_terms,
@@ -19,6 +20,8 @@ from flexcage.bodies.floating_frame import (
     with_point_mass,
 )
 from flexcage.core.errors import InputError
+
+SPIN_STIFFNESS = np.array([[3.0, 1, 0, 0], [1, 2, 0, -1], [0, 0, 4, 0], [0, -1, 0, 5]])
 
 
 def kinetic_energy(M, v_body, w, qd):
@@ -130,12 +133,14 @@ def test_turning_the_start_turns_the_flight(flight):
         np.testing.assert_allclose(got, turn.apply(here), atol=1e-11)
 
 
-def particles(n_modes=4, count=30, seed=3):
+def particles(n_modes=4, count=30, seed=3, geometric=None):
     """Point masses with random shapes: a body whose every inertia term is a sum over points."""
     rng = np.random.default_rng(seed)
     points, m = rng.normal(size=(count, 3)), rng.uniform(0.5, 1.5, count)
     shapes = 0.3 * rng.normal(size=(count, 3, n_modes))
-    body = flexible_body(points, sparse.diags(m).tocsr(), shapes, np.eye(n_modes))
+    body = flexible_body(
+        points, sparse.diags(m).tocsr(), shapes, np.eye(n_modes), geometric=geometric
+    )
     return body, points, m, shapes, rng
 
 
@@ -160,9 +165,10 @@ def test_every_inertia_term_against_particles():
     assert kinetic_energy(work.M, v, w, qd) == pytest.approx(energy, rel=1e-12)
 
 
-def test_velocity_terms_do_no_work():
+@pytest.mark.parametrize("stiffened", [False, True])
+def test_velocity_terms_do_no_work(stiffened):
     """d/dt of the kinetic energy is u . (M a + h): the gyroscopic part of h gives nothing."""
-    body, _, _, _, rng = particles()
+    body, _, _, _, rng = particles(geometric=SPIN_STIFFNESS if stiffened else None)
     w, q, qd = rng.normal(size=3), rng.normal(size=4), rng.normal(size=4)
     v, a = rng.normal(size=3), rng.normal(size=10)
     work = frame_work(4)
@@ -177,6 +183,26 @@ def test_velocity_terms_do_no_work():
         return kinetic_energy(moved.M, v + t * (a[:3] - np.cross(w, v)), wt, qdt)
 
     assert (energy(1e-6) - energy(-1e-6)) / 2e-6 == pytest.approx(power, rel=1e-7)
+
+
+def test_geometric_stiffness_keeps_energy_and_angular_momentum():
+    """A tumbling body whose inertia about x falls by q^T G q: all of it in one Lagrangian."""
+    body, _, m, _, rng = particles(geometric=SPIN_STIFFNESS)
+    body = FlexibleBody(body.data._replace(kff=200.0 * np.eye(4)))
+    flyer = Tumbler(body)
+    y0 = flyer.start(w=(1.5, 0.3, -0.2), q=0.2 * rng.normal(size=4), qd=rng.normal(size=4))
+    seen = []
+    for y in flyer.fly(y0, np.linspace(0.0, 5.0, 6)):
+        x, v, quat, w, q, qd = flyer.split(y)
+        A = Rotation.from_quat(quat, scalar_first=True).as_matrix()
+        inertia_terms(body.data, w, q, qd, flyer.work)
+        momenta = flyer.work.M @ np.concatenate([A.T @ v, w, qd])
+        energy = kinetic_energy(flyer.work.M, A.T @ v, w, qd) + 0.5 * q @ body.data.kff @ q
+        linear = A @ momenta[:3]
+        seen.append([energy, *linear, *(A @ momenta[3:6] + np.cross(x, linear))])
+    without = Tumbler(FlexibleBody(body.data._replace(gff=np.zeros((0, 0)))))
+    assert np.abs(without.fly(y0, np.array([0.0, 5.0]))[-1] - y).max() > 0.01
+    np.testing.assert_allclose(seen, [seen[0]] * 6, rtol=1e-8, atol=1e-8)
 
 
 def dzhanibekov():

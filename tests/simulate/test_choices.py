@@ -59,6 +59,7 @@ def test_rolling_resistances(kind):
         {"modes.kind": "craig_bampton"},
         {"modes.kind": "free_free"},
         {"modes.dynamic": "all"},
+        {"modes.geometric_stiffening": True},
         {"mesh.order": 1},
     ],
     ids=str,
