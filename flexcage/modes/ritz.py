@@ -4,7 +4,7 @@ The default keeps the free modes and the centrifugal shape as dynamic coordinate
 attachments quasi-static and local. ``land=True`` makes static land vectors dynamic as well.
 ``dynamic='all'`` makes one mass-orthonormal basis of the same space, the reference for the default
 (tests/verification/test_basis_in_the_bearing.py: right in motion, loads and root stress; the peaks
-of single contacts come out 20 to 40 % high).
+of single contacts come out 20 to 50 % high).
 """
 
 from __future__ import annotations
