@@ -154,15 +154,20 @@ def _read(x, first, spacing, n, w, ws):
     Beyond its outer stations a wall goes on straight, for half a spacing at the most.
     """
     j, t = _cell(x, first, spacing, n)
-    inside = -0.5 < t < 1.5
-    t = min(max(t, -0.5), 1.5)
-    value, slope = smooth_weights(min(max(t, 0.0), 1.0))
+    if 0.0 <= t <= 1.0 and 1 <= j <= n - 3:
+        value, slope = smooth_weights(t)
+        for k in range(4):
+            w[k], ws[k] = value[k], slope[k] / spacing
+        return j - 1
+    held = min(max(t, -0.5), 1.5)
+    inside = 1.0 / spacing if held == t else 0.0
+    at = min(max(t, 0.0), 1.0)
+    value, slope = smooth_weights(at)
     start = min(max(j - 1, 0), n - 4)
     for k in range(4):
         w[k] = ws[k] = 0.0
-    over = t - min(max(t, 0.0), 1.0)
     for k in range(4):
-        v, d = value[k] + over * slope[k], (slope[k] / spacing if inside else 0.0)
+        v, d = value[k] + (held - at) * slope[k], slope[k] * inside
         station = j - 1 + k
         if station < 0:  # straight on: 2 p0 - p1
             w[0] += 2.0 * v
@@ -211,6 +216,12 @@ def penetrations(pose, data, i, Rw, D, q, margin, pw):
             continue
         comp, along_comp = (2, 0) if f < 2 else (0, 2)
         face_modes(data, i, f, q, pw.wall)
+        most = 0.0  # that this face has moved; smooth curves overshoot their stations a little
+        for st in range(n_st):
+            most = max(most, abs(pw.wall[f, st, comp]))
+        if gap > 1.5 * most:
+            pw.near[f] = 0
+            continue
         for k in range(points_of_face(data, f)):
             if f < 2:
                 along = X + data.s[k] * ax[0]
@@ -220,11 +231,11 @@ def penetrations(pose, data, i, Rw, D, q, margin, pw):
                 y, z = data.points[k, 0], data.points[k, 1]
                 along = T + h * at[0] + y * at[1] + z * at[2]
                 depth = sgn * (X + h * ax[0] + y * ax[1] + z * ax[2]) - data.half[1]
-            w, ws = pw.w[f, k], pw.ws[f, k]
-            pw.j[f, k] = _read(along, data.x0[f], data.dx[f], n_st, w, ws)
             # what lies under this point has moved there along the face
-            along -= _mix(pw, f, k, along_comp, False)
-            pw.j[f, k] = _read(along, data.x0[f], data.dx[f], n_st, w, ws)
+            j, t = _cell(along, data.x0[f], data.dx[f], n_st)
+            here, there = pw.wall[f, j, along_comp], pw.wall[f, j + 1, along_comp]
+            along -= here + min(max(t, 0.0), 1.0) * (there - here)
+            pw.j[f, k] = _read(along, data.x0[f], data.dx[f], n_st, pw.w[f, k], pw.ws[f, k])
             o, g = _cell(along, data.grid[0, f], data.grid[1, f], n_o)
             step = data.offset[i, f, o + 1] - data.offset[i, f, o]
             pw.slope[f, k] = sgn * _mix(pw, f, k, comp, True)
@@ -242,12 +253,13 @@ def penetrations(pose, data, i, Rw, D, q, margin, pw):
 def read_residual(data, i, f, pw):
     """Residual shapes under the slices of face f into pw.R."""
     for k in range(points_of_face(data, f)):
-        j = pw.j[f, k]
+        j, total = pw.j[f, k], pw.R[f, k]
         for l in range(N_LOCAL):
-            x = 0.0
-            for s in range(4):
-                x += pw.w[f, k, s] * data.res[i, f, j + s, l]
-            pw.R[f, k, l] = x
+            total[l] = 0.0
+        for s in range(4):
+            w, shape = pw.w[f, k, s], data.res[i, f, j + s]
+            for l in range(N_LOCAL):
+                total[l] += w * shape[l]
 
 
 @part
@@ -290,11 +302,12 @@ def condense(data, i, p, laws, guess, sl, pw):
             elastic_forces(data, f, p, laws, sl, sl.N)
             for k in range(points_of_face(data, f)):
                 if sl.N[k] > 0.0:
+                    shape = pw.R[f, k]
                     for l in range(N_LOCAL):
-                        pw.g[l] += pw.R[f, k, l] * sl.N[k]
-                        h = pw.R[f, k, l] * sl.Nd[k]
+                        pw.g[l] += shape[l] * sl.N[k]
+                        h, row_l = shape[l] * sl.Nd[k], pw.RHR[l]
                         for m in range(N_LOCAL):
-                            pw.RHR[l, m] += h * pw.R[f, k, m]
+                            row_l[m] += h * shape[m]
         _compliant_matrix(C, pw)
         for l in range(N_LOCAL):
             r = -pw.a[l]
