@@ -110,13 +110,16 @@ def _read_raw(path: Path) -> Any:
         )
     if not path.is_file():
         raise InputError(f"there is no mesh file {path}", where="mesh.file", value=str(path))
+    readers = {".inp": meshio.abaqus, ".msh": meshio.gmsh, ".vtu": meshio.vtu}
     try:
-        kind = {".inp": "abaqus", ".msh": "gmsh", ".vtu": "vtu"}[path.suffix.lower()]
-        return meshio.read(path, file_format=kind)
+        return readers[path.suffix.lower()].read(path)
     except (Exception, SystemExit) as error:  # readers raise all kinds of errors on broken files
         reason = str(error).strip().splitlines()[0] if str(error).strip() else type(error).__name__
         raise InputError(
-            f"{path} cannot be read as a mesh ({reason})", where="mesh.file", value=str(path)
+            f"{path} cannot be read as a mesh: it is empty, cut short, or not what its name says "
+            f"({reason})",
+            where="mesh.file",
+            value=str(path),
         ) from error
 
 

@@ -243,18 +243,25 @@ def find_start(bearing: Bearing, *, limit_force: float) -> Start:
         residual = _equilibrate(system, y, yd, load, tight)
         force = float(system.report(y, yd).pocket_normal.max())
         if force > limit_force:
+            name = (
+                f"a defect pinches roller {int(pinched[0])}" if len(pinched) else "a pocket pushes"
+            )
             raise InputError(
-                f"a defect pinches roller {int(pinched[0]) if len(pinched) else 0} with "
-                f"{force:,.0f} N at {share:.0%} of its size, more than limits.assembly_force "
-                f"({limit_force:,.0f} N): the bearing cannot be assembled; make the defect "
-                "smaller, the pocket larger, or raise the limit",
+                f"{name} with {force:,.0f} N at {share:.0%} of the defects' size, more than "
+                f"limits.assembly_force ({limit_force:,.0f} N): the bearing cannot be assembled; "
+                "make the defect smaller, the pocket larger, or raise the limit",
                 where="defects",
                 value=force,
             )
     if residual > 1e-6:
         raise RunFailed(
             f"no equilibrium to start from was found: {residual:.1e} of the load stays "
-            "unbalanced (1e-6 is allowed); is the bearing pinched, or the defect too large?"
+            "unbalanced (1e-6 is allowed); is "
+            + (
+                "a defect too large?"
+                if len(pinched)
+                else "the load, or the misalignment, too large?"
+            )
         )
     report = system.report(y, yd)
     yd = rolling_velocities(model, layout, y)
