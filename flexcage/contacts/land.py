@@ -102,8 +102,9 @@ def _around(place, n):
 
 
 @part
-def _depth(A, data, ring, offset, side, place, lw):
-    """Penetration at ``place`` round the land, and its slope by station."""
+def _surface(A, data, side, place, lw):
+    """The land at ``place``: its point from the cage's origin, that point's slope by station, and
+    its outward direction, in space."""
     n_l = data.angle.shape[0]
     j, t = _around(place, n_l)
     weights, slopes = smooth_weights(t)
@@ -114,11 +115,16 @@ def _depth(A, data, ring, offset, side, place, lw):
         du += slopes[k] * lw.u[s]
     e, along = _directions(A, place * 2.0 * pi / n_l)
     c = combine(times(data.x[side], column(A, 0)), data.radius + u, e)
+    return c, combine(times(du, e), (data.radius + u) * 2.0 * pi / n_l, along), e
+
+
+@part
+def _depth(A, data, ring, offset, side, place, lw):
+    """Penetration at ``place`` round the land, and its slope by station."""
+    c, rise, _ = _surface(A, data, side, place, lw)
     y, z = offset[1] + c[1], offset[2] + c[2]
     d = sqrt(y * y + z * z)
-    arc = (data.radius + u) * 2.0 * pi / n_l
-    rise = y * (du * e[1] + arc * along[1]) + z * (du * e[2] + arc * along[2])
-    return data.inner * (ring - d), -data.inner * rise / d
+    return data.inner * (ring - d), -data.inner * (y * rise[1] + z * rise[2]) / d
 
 
 @part
@@ -155,14 +161,12 @@ def _touch(
     n_l = data.angle.shape[0]
     j, t = _around(place, n_l)
     weights, _ = smooth_weights(t)
-    u = ud = 0.0
+    ud = 0.0
     for k in range(4):
-        s = (j + k - 1) % n_l
-        u += weights[k] * lw.u[s]
+        shape = data.phi[(j + k - 1) % n_l, 1]
         for m in range(qd.shape[0]):
-            ud += weights[k] * data.phi[s, 1, m] * qd[m]
-    e, _ = _directions(A, place * 2.0 * pi / n_l)
-    c = combine(times(data.x[side], column(A, 0)), data.radius + u, e)
+            ud += weights[k] * shape[m] * qd[m]
+    c, _, e = _surface(A, data, side, place, lw)
     at = plus(offset, c)
     size = data.inner / sqrt(at[1] * at[1] + at[2] * at[2])
     n = (0.0, size * at[1], size * at[2])  # on the cage, in the plane of rotation

@@ -2,9 +2,8 @@
 
 Dynamic modes are read at a few stations per face and interpolated smoothly (a wall with kinks has
 no equilibrium on them), and forces go back to the same stations with the same weights; a defect's
-offset is known on a finer grid. The residual
-(quasi-static) flexibility is condensed pocket by pocket: with psi(x) the pocket's residual shapes
-and C their compliance, coordinates a solve
+offset is known on a finer grid. The residual (quasi-static) flexibility is condensed pocket by
+pocket: with psi(x) the pocket's residual shapes and C their compliance, coordinates a solve
 
     a = C sum_k psi(x_k) F_el(d_k - psi(x_k) . a),
 
@@ -283,6 +282,13 @@ def elastic_forces(data, f, p, laws, sl, N):
 
 
 @part
+def _press(data, f, p, laws, sl, pw):
+    """Elastic forces sl.N of face f at the residual coordinates pw.a."""
+    yielded(data, f, pw, sl)
+    elastic_forces(data, f, p, laws, sl, sl.N)
+
+
+@part
 def condense(data, i, p, laws, guess, sl, pw):
     """Solve pocket i's residual coordinates pw.a by Newton's method from ``guess`` (8,)."""
     C, R = data.comp[i], data.res[i]
@@ -298,8 +304,7 @@ def condense(data, i, p, laws, guess, sl, pw):
         for f in range(4):
             if pw.near[f] == 0:
                 continue
-            yielded(data, f, pw, sl)
-            elastic_forces(data, f, p, laws, sl, sl.N)
+            _press(data, f, p, laws, sl, pw)
             for k in range(points_of_face(data, f)):
                 if sl.N[k] > 0.0:
                     shape = pw.R[f, k]
@@ -346,8 +351,7 @@ def stored_energy(data, p, laws, sl, pw):
     for f in range(4):
         if pw.near[f] == 0:
             continue
-        yielded(data, f, pw, sl)
-        elastic_forces(data, f, p, laws, sl, sl.N)
+        _press(data, f, p, laws, sl, pw)
         for k in range(points_of_face(data, f)):
             energy += 0.5 * sl.N[k] * sl.u[k]
     return energy

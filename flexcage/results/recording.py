@@ -172,7 +172,7 @@ class Recorder:
             "inner_velocity": u["inner"][:, :3],
             "inner_angle": q["inner"][:, 5],
             "inner_speed": u["inner"][:, 3],
-            "inner_quaternion": orientation(0.0 * q["inner"][:, 5], q["inner"][:, 3:]),
+            "inner_quaternion": orientation(np.zeros(done), q["inner"][:, 3:]),
             "outer_position": in_plane(q["outer"]),
             "outer_velocity": in_plane(u["outer"]),
             "roller_position": q["rollers"][:, :, :3],

@@ -116,7 +116,6 @@ class Report(NamedTuple):
     contact: np.ndarray  # (Z, 8) booleans: races 2, pocket faces 4, ribs 2
     approach: np.ndarray  # (Z, 8) approach speed of each
     body_force: np.ndarray  # (3,) contact force on the outer ring
-    cage_acceleration: np.ndarray  # (6 + n,) generalised forces on the cage
 
 
 class Scratch(NamedTuple):
@@ -418,7 +417,7 @@ def new_work(model: Model, layout: Layout) -> Work:
     report = Report(
         z((Z, 2, 9)), z((Z, 4)), z((Z, 4)), z((Z, 2, ns)), z((Z, 2, ns)), z((Z, 4, nst, 3)),
         z((Z, 8)), z((Z, 2)), z(3), z((2, 2)), z(len(POWERS)), z(4), z((Z, 8), np.int64), z((Z, 8)),
-        z(3), z(6 + n),
+        z(3),
     )  # fmt: skip
     scratch = Scratch(
         z((6, 6)), z((2, 6, 6)), z((2, 3, 3)), z((3, 3)), np.eye(3), z(6), z(9), z((9, 3)),

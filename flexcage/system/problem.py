@@ -401,12 +401,7 @@ class Bearing:
     def residual(self, t: float, y: np.ndarray, yd: np.ndarray, mode: int = 0) -> np.ndarray:
         """F(t, y, y'), a new array; mode 1 also fills the tangent, mode 2 the report."""
         out = np.zeros(self.layout.size)
-        if mode == 0:
-            self.functions[0](t, y, yd, self.args, out)
-        elif mode == 1:
-            self.functions[1](t, y, yd, self.args)
-        else:
-            self.evaluate(t, y, yd, self.args[0], self.args[1], out, mode)
+        self.evaluate(t, y, yd, self.args[0], self.args[1], out, mode)
         return out
 
     def advance(self, state, options, t_end, times, ys, yds, first, log, quads):

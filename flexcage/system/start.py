@@ -151,8 +151,7 @@ class Held:
     """Motions that friction holds while the bearing is brought to equilibrium without it."""
 
     rollers: np.ndarray  # (Z, 6) along the orbit; sideways and in skew unless pinched
-    cage: np.ndarray  # (6,) all but those along which a pinch squeezes
-    with_cage: bool  # a pinch holds the cage: its rows count
+    cage: np.ndarray  # (6,) where a pinch holds the cage: all but those along which it squeezes
 
 
 def _held(tight: np.ndarray) -> Held:
@@ -164,7 +163,7 @@ def _held(tight: np.ndarray) -> Held:
     cage = np.full(6, bool(pinched.any()))
     cage[0] &= not tight[:, 1].any()  # side beams find their place along x
     cage[3] &= not tight[:, 0].any()  # crossbeams by turning about it
-    return Held(rollers, cage, bool(pinched.any()))
+    return Held(rollers, cage)
 
 
 def _measure(layout: Layout, r: np.ndarray, lever: float, held: Held) -> float:
@@ -173,7 +172,7 @@ def _measure(layout: Layout, r: np.ndarray, lever: float, held: Held) -> float:
     u["rollers"][:, 3:] /= lever
     u["inner"][[0, 3, 4, 5]] = 0.0  # constrained: their multipliers balance them
     u["omega"] /= 10.0 * lever
-    names = u if held.with_cage else ("rollers", "inner", "outer")  # nothing holds a free cage
+    names = u if held.cage.any() else ("rollers", "inner", "outer")  # nothing holds a free cage
     return max(float(np.abs(u[k]).max()) for k in names if u[k].size)
 
 
