@@ -30,7 +30,7 @@ import numpy as np
 from scipy import sparse
 
 from flexcage.core.errors import InputError
-from flexcage.core.jit import kernel, zero
+from flexcage.core.jit import VECTORISED, kernel, part, zero
 
 
 class BodyData(NamedTuple):
@@ -170,16 +170,23 @@ def frame_work(n: int) -> FrameWork:
     )  # fmt: skip
 
 
-@kernel
+@part(fastmath=VECTORISED)
 def _superpose(parts, q, out):
-    """out += sum_l q_l parts[l], entry by entry."""
-    for l in range(q.shape[0]):
-        x = q[l]
-        if x != 0.0:
-            for k in range(out.shape[0]):
-                for i in range(3):
-                    for j in range(3):
-                        out[k, i, j] += x * parts[l, k, i, j]
+    """out = sum_l q_l parts[l], entry by entry, four parts at a time."""
+    n = q.shape[0]
+    total = out.reshape(out.size)
+    rows = parts.reshape(n, total.size)
+    first = n % 4
+    zero(total)
+    for l in range(first):
+        for k in range(total.size):
+            total[k] += q[l] * rows[l, k]
+    for l in range(first, n, 4):
+        a, b, c, d = q[l], q[l + 1], q[l + 2], q[l + 3]
+        for k in range(total.size):
+            total[k] += (
+                a * rows[l, k] + b * rows[l + 1, k] + c * rows[l + 2, k] + d * rows[l + 3, k]
+            )  # fmt: skip
 
 
 @kernel
@@ -195,7 +202,6 @@ def inertia_terms(d, w, q, qd, work):
     n = q.shape[0]
     zero(M)
     zero(h)
-    zero(Ed)
     zero(D)
     _superpose(d.SS, q, Ed)
     for i in range(3):
@@ -212,7 +218,6 @@ def inertia_terms(d, w, q, qd, work):
                 # int p p^T = G0 + sum q_k (S_k + S_k^T) + q q SS; E_k already holds S_k + SS q
                 G[i, j] += q[k] * (E[k, i, j] + d.S[k, j, i])
                 D[j, i] += E[k, i, j] * qd[k]
-    zero(Ed)
     _superpose(d.SS, qd, Ed)
     trace = G[0, 0] + G[1, 1] + G[2, 2]
     w2 = w[0] * w[0] + w[1] * w[1] + w[2] * w[2]

@@ -8,6 +8,12 @@ from typing import NamedTuple
 import numpy as np
 
 from flexcage.contacts.laws import short_bearing
+from flexcage.contacts.slices import (
+    elastic_forces,
+    friction_factors,
+    normal_forces,
+    stored_and_damped,
+)
 from flexcage.core.jit import part, zero
 from flexcage.core.splines import smooth_weights
 from flexcage.core.vectors import add_to, column, combine, cross, dot, minus, plus, times, xyz
@@ -176,13 +182,13 @@ def _touch(
     sums[6 + side] = sl.v[0]
     if sl.d[0] <= 0.0:
         return
-    law(1, sl.d, sl.v, p, sl.N, sl.Nd, sl.Nv)
+    normal_forces(law, 1, sl, p)
     N = sl.N[0]
     if N <= 0.0:
         return
     slide = n[1] * v[2] - n[2] * v[1]
     sl.u[0] = abs(slide)
-    friction(1, sl.u, data.friction, sl.g, sl.dg)
+    friction_factors(friction, 1, sl, data.friction)
     g = sl.g[0] * slide
     f = times(N, (0.0, n[1] + g * n[2], n[2] - g * n[1]))
     add_to(Fc, f)
@@ -194,10 +200,11 @@ def _touch(
         shape = data.phi[(j + k - 1) % n_l, 1]
         for m in range(qd.shape[0]):
             Qm[m] += weights[k] * radial * shape[m]
-    law(1, sl.d, sl.zero, p, sl.dg, sl.Nd, sl.Nv)
+    elastic_forces(law, 1, sl, p)
+    energy, damped = stored_and_damped(1, sl, p[1])
     sums[4 + side] += N
-    sums[0] += sl.dg[0] * sl.d[0] / (p[1] + 1.0)
-    sums[1] -= (N - sl.dg[0]) * sl.v[0]
+    sums[0] += energy
+    sums[1] += damped
     sums[2] -= N * sl.g[0] * sl.u[0] ** 2
 
 

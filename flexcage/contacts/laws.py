@@ -25,6 +25,7 @@ from scipy.optimize import brentq
 
 from flexcage.contacts import spec as specs
 from flexcage.contacts.spec import FrictionLaw, NormalLaw
+from flexcage.core.elementary import exponentials, powers
 from flexcage.core.errors import InputError
 from flexcage.core.jit import kernel
 from flexcage.core.registry import add, check_free
@@ -43,43 +44,37 @@ SLOT_ONSET = 3  # where a contact keeps its onset speed, whatever its law
 @kernel(NORMAL_SIGNATURE)
 def elastic(n, d, v, p, F, Fd, Fv):
     """F = K d^n, nothing dissipated."""
+    powers(n, d, p[1] - 1.0, Fd)
     for k in range(n):
-        F[k] = Fd[k] = Fv[k] = 0.0
-        if d[k] > 0.0:
-            slope = p[0] * d[k] ** (p[1] - 1.0)
-            F[k] = slope * d[k]
-            Fd[k] = p[1] * slope
+        slope = p[0] * Fd[k]
+        F[k], Fd[k], Fv[k] = slope * d[k], p[1] * slope, 0.0
 
 
 @kernel(NORMAL_SIGNATURE)
 def restitution(n, d, v, p, F, Fd, Fv):
     """F = K d^n (1 + (lambda/v0) v), Hunt-Crossley family, clipped at zero."""
     chi = p[2] / max(p[3], p[4])
+    powers(n, d, p[1] - 1.0, Fd)
     for k in range(n):
-        F[k] = Fd[k] = Fv[k] = 0.0
-        if d[k] > 0.0:
-            factor = 1.0 + chi * v[k]
-            if factor > 0.0:
-                slope = p[0] * d[k] ** (p[1] - 1.0)
-                F[k] = slope * d[k] * factor
-                Fd[k] = p[1] * slope * factor
-                Fv[k] = slope * d[k] * chi
+        factor = 1.0 + chi * v[k]
+        slope = p[0] * Fd[k] if factor > 0.0 else 0.0
+        F[k], Fd[k], Fv[k] = slope * d[k] * factor, p[1] * slope * factor, slope * d[k] * chi
 
 
 @kernel(NORMAL_SIGNATURE)
 def impact_step(n, d, v, p, F, Fd, Fv):
     """F = K d^n + c_max STEP(d, 0, 0, d_max, 1) v, clipped at zero (ADAMS IMPACT)."""
+    powers(n, d, p[1] - 1.0, Fd)
     for k in range(n):
-        F[k] = Fd[k] = Fv[k] = 0.0
-        if d[k] > 0.0:
-            slope = p[0] * d[k] ** (p[1] - 1.0)
-            x = min(d[k] / p[5], 1.0)
-            c = p[2] * x * x * (3.0 - 2.0 * x)
-            force = slope * d[k] + c * v[k]
-            if force > 0.0:
-                F[k] = force
-                Fd[k] = p[1] * slope + p[2] * 6.0 * x * (1.0 - x) / p[5] * v[k]
-                Fv[k] = c
+        slope = p[0] * Fd[k]
+        x = min(max(d[k] / p[5], 0.0), 1.0)
+        c = p[2] * x * x * (3.0 - 2.0 * x)
+        force = slope * d[k] + c * v[k]
+        if force > 0.0:
+            F[k], Fv[k] = force, c
+            Fd[k] = p[1] * slope + p[2] * 6.0 * x * (1.0 - x) / p[5] * v[k]
+        else:
+            F[k] = Fd[k] = Fv[k] = 0.0
 
 
 @kernel(FRICTION_SIGNATURE)
@@ -92,12 +87,12 @@ def no_friction(n, u, p, g, dg):
 @kernel(FRICTION_SIGNATURE)
 def traction(n, u, p, g, dg):
     """Gupta: mu = (A + B u) exp(-C u) + D with A = -D, so mu(0) = 0; p = (A, B, C, D, slope0)."""
+    exponentials(n, u, -p[2], dg)
     for k in range(n):
-        x = u[k]
+        x, e = u[k], dg[k]
         if x < 1e-7:
             g[k], dg[k] = p[4], 0.0
         else:
-            e = exp(-p[2] * x)
             mu = (p[0] + p[1] * x) * e + p[3]
             dmu = (p[1] - p[2] * (p[0] + p[1] * x)) * e
             g[k] = mu / x

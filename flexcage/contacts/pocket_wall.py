@@ -1,14 +1,9 @@
-"""The deformed walls of a pocket: where they are, how they yield, what they feel.
+"""The deformed walls of a pocket: where they are under every slice, and how they move.
 
 Dynamic modes are read at a few stations per face and interpolated smoothly (a wall with kinks has
 no equilibrium on them), and forces go back to the same stations with the same weights; a defect's
-offset is known on a finer grid. The residual (quasi-static) flexibility is condensed pocket by
-pocket: with psi(x) the pocket's residual shapes and C their compliance, coordinates a solve
-
-    a = C sum_k psi(x_k) F_el(d_k - psi(x_k) . a),
-
-so no unknown is added to the DAE, energy stays consistent (the wall stores a^T C^-1 a/2), and
-damping acts on the rate of the remaining motion. A rigid cage has C = 0 and no modes.
+offset is known on a finer grid. One more station at either end goes on straight, so that every
+slice reads four. What pockets add by residual (quasi-static) flexibility is in ``condensation``.
 """
 
 from __future__ import annotations
@@ -18,12 +13,12 @@ from typing import NamedTuple
 
 import numpy as np
 
+from flexcage.contacts.slices import MOST
 from flexcage.core.jit import VECTORISED, part, zero
 from flexcage.core.splines import smooth_weights
 from flexcage.core.vectors import dot, row
 
 N_LOCAL = 8  # residual coordinates of a pocket: uniform and linear on four faces
-SOLVED = 3e-11  # [m] a last Newton step this small leaves an error of its square over d
 
 
 class PocketData(NamedTuple):
@@ -40,83 +35,84 @@ class PocketData(NamedTuple):
     offset: np.ndarray  # (Z, 4, no) stress-free outward offset, on a grid of its own
     grid: np.ndarray  # (2, 4) first point and spacing of that grid
     low: np.ndarray  # (Z, 4) least offset of a face
+    bent: np.ndarray  # (Z, 4) 1 if a face has any offset
     phi: np.ndarray  # (Z, 4, nst, 3, nm)
     phi_max: np.ndarray  # (nm,) largest normal value over all stations
-    res: np.ndarray  # (Z, 4, nst, 8)
-    comp: np.ndarray  # (Z, 8, 8)
+    soft: int  # 1 if pockets have residual flexibility
+    res: np.ndarray  # (Z, 4, nst + 2, 8) residual shapes of unit compliance, with the end stations
+    res_max: np.ndarray  # (Z, 4, 8) their largest values
+    root: np.ndarray  # (Z, 8, 8) residual coordinates of the modal basis from those of the shapes
     friction: np.ndarray  # (2, 5) crossbeams, side beams
+
+
+FACE = np.dtype(
+    [
+        ("d0", np.float64, MOST),  # penetration before the residual deflection
+        ("slope", np.float64, MOST),  # of the wall's offset along the face
+        ("x", np.float64, MOST),  # place on the wall, in stations
+        ("j", np.int64, MOST),  # first of the four stations that a slice reads
+        ("w", np.float64, (4, MOST)),  # their weights
+        ("ws", np.float64, (4, MOST)),  # slopes of the weights along the face [1/m]
+        ("R", np.float64, (N_LOCAL, MOST)),  # residual shapes under the slices
+    ],
+    align=True,
+)
 
 
 class PocketWork(NamedTuple):
     """Buffers of one pocket; n slices or points, nst stations."""
 
     G: np.ndarray  # (3, 3) rows: pocket axes x, r, psi in F
-    d0: np.ndarray  # (4, n) penetration before the residual deflection
-    j: np.ndarray  # (4, n) first of the four stations that a slice reads
-    w: np.ndarray  # (4, n, 4) their weights
-    ws: np.ndarray  # (4, n, 4) slopes of the weights along the face [1/m]
-    R: np.ndarray  # (4, n, 8) residual shapes under a slice
-    slope: np.ndarray  # (4, n) of the wall's offset along the face
+    face: np.ndarray  # (4,) records FACE
     near: np.ndarray  # (4,) face may touch
-    wall: np.ndarray  # (4, nst, 3) modal displacement, then velocity, of stations
+    live: np.ndarray  # (4,) face is touched, or pushed to by the deflection of another
+    deep: np.ndarray  # (4,) largest penetration before the residual deflection
+    wall: np.ndarray  # (3, nst + 2) displacement or velocity (x, r, psi) of a face's stations
+    lean: np.ndarray  # (nst + 2,) residual deflection of a face's stations
+    spread: np.ndarray  # (3, nst + 2) forces on a face's stations
     st: np.ndarray  # (4, nst, 3) forces on the cage, pocket axes
-    a: np.ndarray  # (8,) residual coordinates
+    normal: np.ndarray  # (4,) sums of the faces
+    tangential: np.ndarray  # (4,)
+    slice_N: np.ndarray  # (2, ns) of the crossbeams
+    slice_T: np.ndarray  # (2, ns)
+    b: np.ndarray  # (8,) residual coordinates
+    g: np.ndarray  # (8,) right-hand side of the condensation
+    A8: np.ndarray  # (8, 8) 1 + R^T H R, then its factors
+    h: np.ndarray  # (MOST,)
     BW: np.ndarray  # (4, nst, 6) station-generator products
     LV: np.ndarray  # (4, nst, 6)
     H: np.ndarray  # (4, nst, nst) station stiffness, before the residual is condensed
-    HR: np.ndarray  # (4, nst, 8) H times the residual shapes
-    X: np.ndarray  # (8, 8) (1 + C R^T H R)^-1 C; zero for a rigid pocket
-    A8: np.ndarray  # (8, 9) small solves
-    g: np.ndarray  # (8,) loads on the residual coordinates
-    RHR: np.ndarray  # (8, 8) their stiffness
-    RB: np.ndarray  # (8, 6)
+    HR: np.ndarray  # (4, nst, 8) the same between stations and residual coordinates
+    X: np.ndarray  # (8, 8) (1 + R^T H R)^-1; zero for a rigid pocket
+    RB: np.ndarray  # (8, 6) residual coordinates and generators
     LR: np.ndarray  # (6, 8)
     XB: np.ndarray  # (8, 6)
     LX: np.ndarray  # (6, 8)
-    normal: np.ndarray  # (4,) sums of the faces
-    tangential: np.ndarray  # (4,)
-    slice_N: np.ndarray  # (4, n)
-    slice_T: np.ndarray  # (4, n)
 
 
-def pocket_work(n_slices: int, n_points: int, n_stations: int) -> PocketWork:
-    n, st, z = max(n_slices, n_points), n_stations, np.zeros
+def pocket_work(n_slices: int, n_stations: int) -> PocketWork:
+    st, z = n_stations, np.zeros
     return PocketWork(
-        z((3, 3)), z((4, n)), z((4, n), np.int64), z((4, n, 4)), z((4, n, 4)), z((4, n, 8)),
-        z((4, n)), z(4, np.int64),
-        z((4, st, 3)), z((4, st, 3)), z(8), z((4, st, 6)), z((4, st, 6)), z((4, st, st)),
-        z((4, st, 8)), z((8, 8)), z((8, 9)), z(8), z((8, 8)), z((8, 6)), z((6, 8)), z((8, 6)),
-        z((6, 8)), z(4), z(4), z((4, n)), z((4, n)),
+        z((3, 3)), z(4, FACE).view(np.recarray), z(4, np.int64), z(4, np.int64), z(4),
+        z((3, st + 2)), z(st + 2), z((3, st + 2)), z((4, st, 3)), z(4), z(4), z((2, n_slices)),
+        z((2, n_slices)), z(8), z(8), z((8, 8)), z(MOST), z((4, st, 6)), z((4, st, 6)),
+        z((4, st, st)), z((4, st, 8)),
+        z((8, 8)), z((8, 6)), z((6, 8)), z((8, 6)), z((6, 8)),
     )  # fmt: skip
+
+
+def with_end_stations(values: np.ndarray) -> np.ndarray:
+    """Station values (..., nst, m) with one more station at either end, straight on."""
+    first = 2.0 * values[..., :1, :] - values[..., 1:2, :]
+    last = 2.0 * values[..., -1:, :] - values[..., -2:-1, :]
+    return np.ascontiguousarray(np.concatenate([first, values, last], axis=-2))
 
 
 def with_offset(data: PocketData, offset: np.ndarray) -> PocketData:
     """The pockets with other stress-free offsets (Z, 4, no) [m]."""
-    return data._replace(offset=np.ascontiguousarray(offset), low=offset.min(axis=2))
-
-
-@part(forceinline=False)
-def solve_small(A, n):
-    """Gaussian elimination with pivoting of the (n, n+1) system in A; solution in column n."""
-    for i in range(n):
-        p = i
-        for r in range(i + 1, n):
-            if abs(A[r, i]) > abs(A[p, i]):
-                p = r
-        if p != i:
-            for c in range(i, n + 1):
-                A[i, c], A[p, c] = A[p, c], A[i, c]
-        inv = 1.0 / A[i, i]
-        for r in range(i + 1, n):
-            f = A[r, i] * inv
-            if f != 0.0:
-                for c in range(i + 1, n + 1):
-                    A[r, c] -= f * A[i, c]
-    for i in range(n - 1, -1, -1):
-        s = A[i, n]
-        for c in range(i + 1, n):
-            s -= A[i, c] * A[c, n]
-        A[i, n] = s / A[i, i]
+    offset = np.ascontiguousarray(offset)
+    bent = offset.any(axis=2).astype(np.int64)
+    return data._replace(offset=offset, low=offset.min(axis=2), bent=bent)
 
 
 @part
@@ -126,82 +122,72 @@ def points_of_face(data, f):
 
 
 @part(fastmath=VECTORISED)
-def face_modes(data, i, f, q, wall):
-    """Modal displacement (or velocity) of the stations of face f of pocket i."""
-    n_m = q.shape[0]
-    for s in range(data.phi.shape[2]):
-        for c in range(3):
-            shape = data.phi[i, f, s, c]
-            x = 0.0
-            for m in range(n_m):
-                x += shape[m] * q[m]
-            wall[f, s, c] = x
+def read_stations(data, i, f, q, c, wall):
+    """Component c of the modal displacement (or velocity) of face f's stations into a row."""
+    n = data.phi.shape[2]
+    for s in range(n):
+        shape = data.phi[i, f, s, c]
+        x = 0.0
+        for m in range(q.shape[0]):
+            x += shape[m] * q[m]
+        wall[1 + s] = x
+    wall[0] = 2.0 * wall[1] - wall[2]
+    wall[n + 1] = 2.0 * wall[n] - wall[n - 1]
 
 
 @part
-def _cell(x, first, spacing, n):
-    """Index j and share t of x between points j and j+1 of a grid of n; not held at its ends."""
-    place = (x - first) / spacing
-    j = min(max(int(floor(place)), 0), n - 2)
-    return j, place - j
+def give_stations(f, pw):
+    """Forces spread over the stations of face f, those of the end stations handed to the others."""
+    n = pw.st.shape[1]
+    for c in range(3):
+        total = pw.spread[c]
+        for s in range(n):
+            pw.st[f, s, c] = total[1 + s]
+        pw.st[f, 0, c] += 2.0 * total[0]
+        pw.st[f, 1, c] -= total[0]
+        pw.st[f, n - 1, c] += 2.0 * total[n + 1]
+        pw.st[f, n - 2, c] -= total[n + 1]
 
 
 @part
-def _read(x, first, spacing, n, w, ws):
-    """First of four stations around x, their weights into w and the weights' slopes into ws.
-
-    Beyond its outer stations a wall goes on straight, for half a spacing at the most.
-    """
-    j, t = _cell(x, first, spacing, n)
-    if 0.0 <= t <= 1.0 and 1 <= j <= n - 3:
-        value, slope = smooth_weights(t)
-        for k in range(4):
-            w[k], ws[k] = value[k], slope[k] / spacing
-        return j - 1
-    held = min(max(t, -0.5), 1.5)
-    inside = 1.0 / spacing if held == t else 0.0
-    at = min(max(t, 0.0), 1.0)
-    value, slope = smooth_weights(at)
-    start = min(max(j - 1, 0), n - 4)
-    for k in range(4):
-        w[k] = ws[k] = 0.0
-    for k in range(4):
-        v, d = value[k] + (held - at) * slope[k], slope[k] * inside
-        station = j - 1 + k
-        if station < 0:  # straight on: 2 p0 - p1
-            w[0] += 2.0 * v
-            w[1] -= v
-            ws[0] += 2.0 * d
-            ws[1] -= d
-        elif station >= n:
-            w[3] += 2.0 * v
-            w[2] -= v
-            ws[3] += 2.0 * d
-            ws[2] -= d
-        else:
-            w[station - start] += v
-            ws[station - start] += d
-    return start
+def station_weight(face, k, n, s):
+    """Weight of station s (of n) in what slice k reads, the end stations' share included."""
+    j, w = face.j[k], 0.0
+    if 0 <= s + 1 - j < 4:
+        w += face.w[s + 1 - j, k]
+    if j == 0:
+        w += 2.0 * face.w[0, k] if s == 0 else (-face.w[0, k] if s == 1 else 0.0)
+    if j + 3 == n + 1:
+        w += 2.0 * face.w[3, k] if s == n - 1 else (-face.w[3, k] if s == n - 2 else 0.0)
+    return w
 
 
 @part
-def _mix(pw, f, k, comp, slopes):
-    """What slice k of face f reads of the stations' displacement component (or its slope)."""
-    j, total = pw.j[f, k], 0.0
+def mixed(face, k, values):
+    """What slice k reads of the stations' values."""
+    total, j = 0.0, face.j[k]
     for s in range(4):
-        total += (pw.ws[f, k, s] if slopes else pw.w[f, k, s]) * pw.wall[f, j + s, comp]
+        total += face.w[s, k] * values[j + s]
+    return total
+
+
+@part
+def mixed_slope(face, k, values):
+    """The slope along the face of what slice k reads."""
+    total, j = 0.0, face.j[k]
+    for s in range(4):
+        total += face.ws[s, k] * values[j + s]
     return total
 
 
 @part
 def penetrations(pose, data, i, Rw, D, q, margin, pw):
-    """Penetration d0 of every slice of every face that is near; returns whether any touches."""
+    """Penetration of every slice of every face that is near; returns whether any touches."""
     X, T = dot(row(pw.G, 0), D), dot(row(pw.G, 2), D)
     a0, a1, a2 = row(pose.axis, 0), row(pose.axis, 1), row(pose.axis, 2)
     ax = (dot(row(pw.G, 0), a0), dot(row(pw.G, 0), a1), dot(row(pw.G, 0), a2))
     at = (dot(row(pw.G, 2), a0), dot(row(pw.G, 2), a1), dot(row(pw.G, 2), a2))
     reach = abs(data.s[data.s.shape[0] - 1])
-    n_st, n_o = data.phi.shape[2], data.offset.shape[2]
     touch = False
     for f in range(4):
         sgn = 1.0 if f % 2 == 0 else -1.0
@@ -210,215 +196,119 @@ def penetrations(pose, data, i, Rw, D, q, margin, pw):
         else:
             tilt = (abs(ax[1]) + abs(ax[2])) * Rw
             gap = data.half[1] + data.low[i, f] - sgn * X - tilt - data.half_roller
-        pw.near[f] = 1 if gap < margin else 0
-        if pw.near[f] == 0:
+        pw.near[f] = 0
+        if gap > margin:
             continue
-        comp, along_comp = (2, 0) if f < 2 else (0, 2)
-        face_modes(data, i, f, q, pw.wall)
-        most = 0.0  # that this face has moved; smooth curves overshoot their stations a little
-        for st in range(n_st):
-            most = max(most, abs(pw.wall[f, st, comp]))
-        if gap > 1.5 * most:
-            pw.near[f] = 0
+        across, along = (2, 0) if f < 2 else (0, 2)
+        read_stations(data, i, f, q, across, pw.wall[across])
+        if gap > _inward(sgn, pw.wall[across]):
             continue
-        for k in range(points_of_face(data, f)):
-            if f < 2:
-                along = X + data.s[k] * ax[0]
-                depth = sgn * (T + data.s[k] * at[0]) + Rw - data.drop[k] - data.half[0]
-            else:
-                h = sgn * data.half_roller
-                y, z = data.points[k, 0], data.points[k, 1]
-                along = T + h * at[0] + y * at[1] + z * at[2]
-                depth = sgn * (X + h * ax[0] + y * ax[1] + z * ax[2]) - data.half[1]
-            # what lies under this point has moved there along the face
-            j, t = _cell(along, data.x0[f], data.dx[f], n_st)
-            here, there = pw.wall[f, j, along_comp], pw.wall[f, j + 1, along_comp]
-            along -= here + min(max(t, 0.0), 1.0) * (there - here)
-            pw.j[f, k] = _read(along, data.x0[f], data.dx[f], n_st, pw.w[f, k], pw.ws[f, k])
-            o, g = _cell(along, data.grid[0, f], data.grid[1, f], n_o)
-            step = data.offset[i, f, o + 1] - data.offset[i, f, o]
-            pw.slope[f, k] = sgn * _mix(pw, f, k, comp, True)
-            if 0.0 <= g <= 1.0:
-                pw.slope[f, k] += step / data.grid[1, f]
-            g = min(max(g, 0.0), 1.0)
-            wall = data.offset[i, f, o] + g * step + sgn * _mix(pw, f, k, comp, False)
-            pw.d0[f, k] = depth - wall
-            if pw.d0[f, k] > 0.0:
-                touch = True
+        pw.near[f] = 1
+        read_stations(data, i, f, q, along, pw.wall[along])
+        face = pw.face[f]
+        if f < 2:
+            _lay_crossbeam(data, f, sgn, X, T + sgn * (Rw - data.half[0]), ax[0], at[0], face)
+        else:
+            _lay_side_beam(data, f, sgn, sgn * X - data.half[1], T, ax, at, face)
+        n = points_of_face(data, f)
+        _follow(n, data.phi.shape[2], pw.wall[along], data.dx[f], face)
+        _weigh(n, data.phi.shape[2], data.dx[f], face)
+        for k in range(n):
+            face.d0[k] -= sgn * mixed(face, k, pw.wall[across])
+            face.slope[k] = sgn * mixed_slope(face, k, pw.wall[across])
+        if data.bent[i, f] != 0:
+            _add_offset(data, i, f, n, face)
+        most = face.d0[0]
+        for k in range(1, n):
+            most = max(most, face.d0[k])
+        pw.deep[f] = most
+        touch = touch or most > 0.0
     return touch
 
 
 @part
-def read_residual(data, i, f, pw):
-    """Residual shapes under the slices of face f into pw.R."""
-    for k in range(points_of_face(data, f)):
-        j, total = pw.j[f, k], pw.R[f, k]
-        for l in range(N_LOCAL):
-            total[l] = 0.0
-        for s in range(4):
-            w, shape = pw.w[f, k, s], data.res[i, f, j + s]
-            for l in range(N_LOCAL):
-                total[l] += w * shape[l]
+def _inward(sgn, wall):
+    """Bound of how far a face has moved into its pocket; curves may pass their stations by half of
+    what those differ."""
+    most = least = -sgn * wall[1]
+    for s in range(2, wall.shape[0] - 1):
+        most, least = max(most, -sgn * wall[s]), min(least, -sgn * wall[s])
+    return most + 0.5 * (most - least)
+
+
+@part(fastmath=VECTORISED)
+def _lay_crossbeam(data, f, sgn, X, T, ax, at, face):
+    """Place of every slice on an even crossbeam face, in stations, and its penetration."""
+    for k in range(data.s.shape[0]):
+        s = data.s[k]
+        face.x[k] = (X + s * ax - data.x0[f]) / data.dx[f]
+        face.d0[k] = sgn * (T + s * at) - data.drop[k]
+
+
+@part(fastmath=VECTORISED)
+def _lay_side_beam(data, f, sgn, X, T, ax, at, face):
+    """The same for the points of the roller's end on a side beam."""
+    h = sgn * data.half_roller
+    for k in range(data.points.shape[0]):
+        y, z = data.points[k, 0], data.points[k, 1]
+        face.x[k] = (T + h * at[0] + y * at[1] + z * at[2] - data.x0[f]) / data.dx[f]
+        face.d0[k] = X + sgn * (h * ax[0] + y * ax[1] + z * ax[2])
 
 
 @part
-def yielded(data, f, pw, sl):
-    """Penetration sl.d of face f after the residual deflection sl.u of its slices."""
-    for k in range(points_of_face(data, f)):
-        u = 0.0
-        for l in range(N_LOCAL):
-            u += pw.R[f, k, l] * pw.a[l]
-        sl.u[k] = u
-        sl.d[k] = pw.d0[f, k] - u
+def _follow(n, n_st, wall, dx, face):
+    """What lies under a slice has moved there along the face: take its motion off the place."""
+    for k in range(n):
+        x = face.x[k]
+        j = min(max(int(floor(x)), 0), n_st - 2)
+        t = min(max(x - j, 0.0), 1.0)
+        face.x[k] = x - (wall[1 + j] + t * (wall[2 + j] - wall[1 + j])) / dx
+
+
+@part(fastmath=VECTORISED)
+def _weigh(n, n_st, dx, face):
+    """Stations that every slice reads, their weights, and the weights' slopes along the face.
+
+    Beyond its outer stations a wall goes on straight, for half a spacing at the most.
+    """
+    last = n_st - 1.0
+    for k in range(n):
+        x = face.x[k]
+        held = min(max(x, -0.5), last + 0.5)
+        at = min(max(x, 0.0), last)
+        j = min(floor(at), last - 1.0)
+        (v0, v1, v2, v3), (d0, d1, d2, d3) = smooth_weights(at - j)
+        inside = 1.0 / dx if held == x else 0.0
+        over = held - at
+        face.j[k] = int(j)
+        face.w[0, k], face.ws[0, k] = v0 + over * d0, inside * d0
+        face.w[1, k], face.ws[1, k] = v1 + over * d1, inside * d1
+        face.w[2, k], face.ws[2, k] = v2 + over * d2, inside * d2
+        face.w[3, k], face.ws[3, k] = v3 + over * d3, inside * d3
 
 
 @part
-def elastic_forces(data, f, p, laws, sl, N):
-    """Forces N without rates (and their slopes sl.Nd) at the penetrations sl.d of face f."""
-    if f < 2:
-        laws[0](points_of_face(data, f), sl.d, sl.zero, p[f], N, sl.Nd, sl.Nv)
-    else:
-        laws[1](points_of_face(data, f), sl.d, sl.zero, p[f], N, sl.Nd, sl.Nv)
+def _add_offset(data, i, f, n, face):
+    """A defect's offset and its slope, linear between the points of its grid."""
+    n_o = data.offset.shape[2]
+    for k in range(n):
+        place = (data.x0[f] + data.dx[f] * face.x[k] - data.grid[0, f]) / data.grid[1, f]
+        j = min(max(int(floor(place)), 0), n_o - 2)
+        here, there = data.offset[i, f, j], data.offset[i, f, j + 1]
+        t = min(max(place - j, 0.0), 1.0)
+        face.d0[k] -= here + t * (there - here)
+        if 0.0 <= place - j <= 1.0:
+            face.slope[k] += (there - here) / data.grid[1, f]
 
 
 @part
-def _press(data, f, p, laws, sl, pw):
-    """Elastic forces sl.N of face f at the residual coordinates pw.a."""
-    yielded(data, f, pw, sl)
-    elastic_forces(data, f, p, laws, sl, sl.N)
-
-
-@part
-def condense(data, i, p, laws, guess, sl, pw):
-    """Solve pocket i's residual coordinates pw.a by Newton's method from ``guess`` (8,)."""
-    C, R = data.comp[i], data.res[i]
-    middle, last = data.phi.shape[2] // 2, data.phi.shape[2] - 1
-    for l in range(N_LOCAL):
-        pw.a[l] = guess[l]
-    for f in range(4):
-        if pw.near[f] != 0:
-            read_residual(data, i, f, pw)
-    for _ in range(25):
-        zero(pw.g)
-        zero(pw.RHR)
-        for f in range(4):
-            if pw.near[f] == 0:
-                continue
-            _press(data, f, p, laws, sl, pw)
-            for k in range(points_of_face(data, f)):
-                if sl.N[k] > 0.0:
-                    shape = pw.R[f, k]
-                    for l in range(N_LOCAL):
-                        pw.g[l] += shape[l] * sl.N[k]
-                        h, row_l = shape[l] * sl.Nd[k], pw.RHR[l]
-                        for m in range(N_LOCAL):
-                            row_l[m] += h * shape[m]
-        _compliant_matrix(C, pw)
-        for l in range(N_LOCAL):
-            r = -pw.a[l]
-            for m in range(N_LOCAL):
-                r += C[l, m] * pw.g[m]
-            pw.A8[l, N_LOCAL] = r
-        solve_small(pw.A8, N_LOCAL)
-        worst = 0.0
-        for l in range(N_LOCAL):
-            pw.a[l] += pw.A8[l, N_LOCAL]
-            scale = 0.0
-            for f in range(4):
-                scale = max(scale, abs(R[f, 0, l]), abs(R[f, middle, l]), abs(R[f, last, l]))
-            worst = max(worst, abs(pw.A8[l, N_LOCAL]) * scale)
-        if worst < SOLVED:
-            break
-
-
-@part
-def _compliant_matrix(C, pw):
-    """1 + C R^T H R into the square part of pw.A8."""
-    for l in range(N_LOCAL):
-        for m in range(N_LOCAL):
-            pw.A8[l, m] = 1.0 if l == m else 0.0
-        for o in range(N_LOCAL):
-            c = C[l, o]
-            if c != 0.0:
-                for m in range(N_LOCAL):
-                    pw.A8[l, m] += c * pw.RHR[o, m]
-
-
-@part
-def stored_energy(data, p, laws, sl, pw):
-    """Elastic energy in the residual deflection, a . g/2 with g the loads that made it."""
-    energy = 0.0
-    for f in range(4):
-        if pw.near[f] == 0:
-            continue
-        _press(data, f, p, laws, sl, pw)
-        for k in range(points_of_face(data, f)):
-            energy += 0.5 * sl.N[k] * sl.u[k]
-    return energy
-
-
-@part
-def lean_of_residual(data, i, f, pw):
-    """Add to pw.slope what the residual deflection gives it."""
-    for k in range(points_of_face(data, f)):
-        j = pw.j[f, k]
-        for s in range(4):
-            d = pw.ws[f, k, s]
-            for l in range(N_LOCAL):
-                pw.slope[f, k] += d * data.res[i, f, j + s, l] * pw.a[l]
-
-
-@part
-def soften(data, i, pw, pair):
-    """Condense the residual coordinates out of the roller's tangent, and keep X for the modes."""
-    R, C, n_st = data.res[i], data.comp[i], data.phi.shape[2]
+def clear_tangent(pw):
+    """Zero what the tangent of a pocket adds to."""
+    zero(pw.BW)
+    zero(pw.LV)
+    zero(pw.H)
     zero(pw.HR)
-    zero(pw.RHR)
+    zero(pw.X)
+    zero(pw.A8)
     zero(pw.RB)
     zero(pw.LR)
-    for f in range(4):
-        if pw.near[f] == 0:
-            continue
-        for s in range(n_st):
-            for t in range(n_st):
-                if pw.H[f, s, t] != 0.0:
-                    for l in range(N_LOCAL):
-                        pw.HR[f, s, l] += pw.H[f, s, t] * R[f, t, l]
-            for l in range(N_LOCAL):
-                for m in range(N_LOCAL):
-                    pw.RHR[l, m] += R[f, s, l] * pw.HR[f, s, m]
-                for c in range(6):
-                    pw.RB[l, c] += R[f, s, l] * pw.BW[f, s, c]
-                    pw.LR[c, l] += pw.LV[f, s, c] * R[f, s, l]
-    for col in range(N_LOCAL):
-        _compliant_matrix(C, pw)
-        for l in range(N_LOCAL):
-            pw.A8[l, N_LOCAL] = C[l, col]
-        solve_small(pw.A8, N_LOCAL)
-        for l in range(N_LOCAL):
-            pw.X[l, col] = pw.A8[l, N_LOCAL]
-    zero(pw.XB)
-    zero(pw.LX)
-    for l in range(N_LOCAL):
-        for m in range(N_LOCAL):
-            for c in range(6):
-                pw.XB[l, c] += pw.X[l, m] * pw.RB[m, c]
-                pw.LX[c, l] += pw.LR[c, m] * pw.X[m, l]
-    for c in range(6):
-        for e in range(6):
-            for l in range(N_LOCAL):
-                pair.K[c, e] -= pw.LR[c, l] * pw.XB[l, e]
-    for f in range(4):
-        if pw.near[f] == 0:
-            continue
-        for s in range(n_st):
-            for c in range(6):
-                for l in range(N_LOCAL):
-                    pw.BW[f, s, c] -= pw.HR[f, s, l] * pw.XB[l, c]
-                    pw.LV[f, s, c] -= pw.LX[c, l] * pw.HR[f, s, l]
-
-
-@part
-def station_motion(pw, f, k):
-    """Wall's motion (x, r, psi) under slice k of face f, interpolated from pw.wall."""
-    return _mix(pw, f, k, 0, False), _mix(pw, f, k, 1, False), _mix(pw, f, k, 2, False)

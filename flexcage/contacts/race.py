@@ -8,6 +8,13 @@ from typing import NamedTuple
 import numpy as np
 
 from flexcage.contacts.laws import rolling_force
+from flexcage.contacts.slices import (
+    deepest,
+    elastic_forces,
+    friction_factors,
+    normal_forces,
+    stored_and_damped,
+)
 from flexcage.contacts.state import (
     add_generator,
     add_outer,
@@ -15,8 +22,8 @@ from flexcage.contacts.state import (
     clear,
     friction_tangent,
 )
-from flexcage.core.jit import part, zero
-from flexcage.core.vectors import combine, cross, dot, minus, put, row, times, xyz
+from flexcage.core.jit import VECTORISED, part, zero
+from flexcage.core.vectors import combine, cross, dot, minus, plus, row, times, xyz
 
 
 class RaceSide(NamedTuple):
@@ -49,52 +56,93 @@ def race_contact(pose, side, Rw, P, b, Vr, wr, theta, p, law, friction, sl, pair
     # what of the roller's axis at s is perpendicular to the ring's axis: x0 + s x1
     x0 = combine(centre, -dot(centre, ring_axis), ring_axis)
     x1 = combine(a, -dot(a, ring_axis), ring_axis)
-    square, mixed, lean = dot(x0, x0), dot(x0, x1), dot(x1, x1)
-    n_s = side.s.shape[0]
+    n = side.s.shape[0]
     # quick look: is any slice near the race?
     slope = abs(a[1]) + abs(a[2]) + abs(ring_axis[1]) + abs(ring_axis[2])
-    gap = side.sign * (sqrt(square) - side.radius) - Rw
-    if gap > abs(side.s[n_s - 1]) * slope + side.wave[0]:
+    gap = side.sign * (sqrt(dot(x0, x0)) - side.radius) - Rw
+    if gap > abs(side.s[n - 1]) * slope + side.wave[0]:
         return False
     # velocity of the roller's axis at s, seen from the ring's material there: v0 + s v1
     spin = minus(xyz(pose.w), ring_spin)
     v0 = minus(minus(xyz(pose.V), xyz(Vr)), cross(ring_spin, centre))
-    v1 = cross(spin, a)
-    active = False
-    for k in range(n_s):
-        s = side.s[k]
-        d = sqrt(square + s * (2.0 * mixed + s * lean))
-        sl.d[k] = Rw - side.drop[k] - side.sign * (d - side.radius)
-        sl.v[k] = sl.u[k] = 0.0
-        x = combine(x0, s, x1)
-        if side.wave[0] > 0.0:
-            phase = side.wave[1] * (theta_at(pose, x[1], x[2]) - theta)
-            sl.d[k] += side.sign * side.wave[0] * cos(phase)
-        if sl.d[k] > 0.0:
-            active = True
-            n = times(side.sign / d, x)
-            put(sl.n[k], n)
-            v = combine(v0, s, v1)
-            sl.v[k] = -dot(n, v)
-            if side.wave[0] > 0.0:
-                turn = (pose.V[2] / max(d, 1e-9)) - ring_spin[0]
-                sl.v[k] -= side.sign * side.wave[0] * side.wave[1] * sin(phase) * turn
-            v = combine(v, side.drop[k] - Rw, cross(spin, n))  # of its surface
-            sl.t[k, 0] = dot(v, ring_axis)
-            sl.t[k, 1] = side.sign * dot(v, cross(ring_axis, n))
-            sl.u[k] = sqrt(sl.t[k, 0] ** 2 + sl.t[k, 1] ** 2)
-    if not active:
+    _meet(side, Rw, ring_axis, x0, x1, v0, cross(spin, a), spin, sl)
+    if side.wave[0] > 0.0:
+        _ride_waves(pose, side, sqrt(dot(x0, x0)), ring_spin[0], theta, sl)
+    if deepest(n, sl) <= 0.0:
         return False
-    law(n_s, sl.d, sl.v, p, sl.N, sl.Nd, sl.Nv)
-    friction(n_s, sl.u, side.friction, sl.g, sl.dg)
-    _collect(pose, side, Rw, centre, ring_axis, theta, sl, pair, mode, sums)
-    _roll(pose, side, Rw, centre, ring_spin[0], sl, pair, mode, sums)
-    if mode >= 2:
-        law(n_s, sl.d, sl.zero, p, sl.u, sl.Nd, sl.Nv)
-        for k in range(n_s):
-            sums[5] += sl.u[k] * max(sl.d[k], 0.0) / (p[1] + 1.0)
-            sums[6] -= (sl.N[k] - sl.u[k]) * sl.v[k]
+    normal_forces(law, n, sl, p)
+    friction_factors(friction, n, sl, side.friction)
+    load = _push(side, Rw, a, ring_axis, sl, pair.wrench)
+    if side.wave[0] > 0.0:
+        _lean_on_waves(pose, side, centre, ring_axis, theta, sl, pair, mode, sums)
+    if mode == 1:
+        _tangent(pose, side, Rw, centre, ring_axis, theta, sl, pair)
+    elif mode >= 2:
+        _report(side, Rw, a, sl, sums)
+        elastic_forces(law, n, sl, p)
+        sums[5], sums[6] = stored_and_damped(n, sl, p[1])
+    _roll(pose, side, Rw, centre, ring_spin[0], load, pair, mode, sums)
     return True
+
+
+@part(fastmath=VECTORISED)
+def _meet(side, Rw, ring_axis, x0, x1, v0, v1, spin, sl):
+    """Penetration, its rate, normal and sliding velocity of every slice on a round race.
+
+    x0 + s x1: the roller's axis at s across the ring's axis; v0 + s v1: its velocity.
+    """
+    for k in range(side.s.shape[0]):
+        s = side.s[k]
+        x = combine(x0, s, x1)
+        distance = sqrt(dot(x, x))
+        n = times(side.sign / distance, x)
+        sl.d[k] = Rw - side.drop[k] - side.sign * (distance - side.radius)
+        sl.n1[k], sl.n2[k], sl.n3[k] = n
+        v = combine(v0, s, v1)
+        sl.v[k] = -dot(n, v)
+        v = combine(v, side.drop[k] - Rw, cross(spin, n))  # of its surface
+        along, across = dot(v, ring_axis), side.sign * dot(v, cross(ring_axis, n))
+        sl.t1[k], sl.t2[k] = along, across
+        sl.u[k] = sqrt(along * along + across * across)
+
+
+@part(fastmath=VECTORISED)
+def _push(side, Rw, a, ring_axis, sl, wrench):
+    """Add the slices' forces to the wrench; returns the sum of normal forces."""
+    force = moment = (0.0, 0.0, 0.0)
+    load = 0.0
+    for k in range(side.s.shape[0]):
+        N = sl.N[k]
+        n = (sl.n1[k], sl.n2[k], sl.n3[k])
+        f = combine(n, -sl.g[k] * sl.t1[k], ring_axis)
+        f = times(N, combine(f, -sl.g[k] * sl.t2[k] * side.sign, cross(ring_axis, n)))
+        r = combine(times(side.s[k], a), side.drop[k] - Rw, n)
+        force = plus(force, f)
+        moment = plus(moment, cross(r, f))
+        load += N
+    for c in range(3):
+        wrench[c] += force[c]
+        wrench[3 + c] += moment[c]
+    return load
+
+
+@part(fastmath=VECTORISED)
+def _report(side, Rw, a, sl, sums):
+    """Normal force, traction, moments of the normal forces and friction power of the slices."""
+    normal = across = about_r = about_psi = power = 0.0
+    for k in range(side.s.shape[0]):
+        N, g = sl.N[k], sl.g[k]
+        n = (sl.n1[k], sl.n2[k], sl.n3[k])
+        m = cross(combine(times(side.s[k], a), side.drop[k] - Rw, n), n)
+        normal += N
+        across -= N * g * sl.t2[k]
+        about_r += N * m[1]
+        about_psi += N * m[2]
+        power -= N * g * sl.u[k] ** 2
+    sums[0], sums[1], sums[7] = normal, across, power
+    sums[2] += about_r
+    sums[3] += about_psi
+    sums[4] = sl.t2[side.s.shape[0] // 2]
 
 
 @part
@@ -106,6 +154,19 @@ def theta_at(pose, y, z):
 
 
 @part
+def _ride_waves(pose, side, distance, ring_spin, theta, sl):
+    """What the race's waviness adds to penetrations and their rates; ``distance`` of the roller's
+    axis from the ring's."""
+    amplitude, order = side.wave[0], side.wave[1]
+    for k in range(side.s.shape[0]):
+        y, z = side.sign * sl.n2[k], side.sign * sl.n3[k]
+        phase = order * (theta_at(pose, y, z) - theta)
+        turn = pose.V[2] / distance - ring_spin
+        sl.d[k] += side.sign * amplitude * cos(phase)
+        sl.v[k] -= side.sign * amplitude * order * sin(phase) * turn
+
+
+@part
 def _wave_slope(pose, side, P, n, theta):
     """Slope of the penetration along the race, dd/(d dtheta), on a wavy race."""
     phase = side.wave[1] * (theta_at(pose, side.sign * n[1], side.sign * n[2]) - theta)
@@ -114,70 +175,57 @@ def _wave_slope(pose, side, P, n, theta):
 
 
 @part
-def _collect(pose, side, Rw, P, b, theta, sl, pair, mode, sums):
-    """Sum the slices' forces into the pair, with its tangent or its report.
-
-    On a wavy race the normal leans by the wave's slope: the energy depends on the azimuth of the
-    roller's axis, so that share of the force acts there.
-    """
+def _lean_on_waves(pose, side, P, b, theta, sl, pair, mode, sums):
+    """What the waves' slope adds: their energy depends on the azimuth of the roller's axis, so
+    that share of the force acts there."""
     a = row(pose.axis, 0)
-    middle = side.s.shape[0] // 2
     for k in range(side.s.shape[0]):
-        N = sl.N[k]
-        if N <= 0.0:
+        n = (sl.n1[k], sl.n2[k], sl.n3[k])
+        f = times(-sl.N[k] * _wave_slope(pose, side, P, n, theta) * side.sign, cross(b, n))
+        on_axis = times(side.s[k], a)
+        add_wrench(pair.wrench, f, on_axis)
+        if mode >= 2:
+            moment = cross(on_axis, f)
+            sums[2] += moment[1]
+            sums[3] += moment[2]
+
+
+@part
+def _tangent(pose, side, Rw, P, b, theta, sl, pair):
+    """The slices' share of the pair's tangent."""
+    a = row(pose.axis, 0)
+    Wn, Wx, Wt, Wf = pair.W[0], pair.W[1], pair.W[2], pair.W[3]
+    for k in range(side.s.shape[0]):
+        if sl.N[k] <= 0.0:
             continue
-        n = xyz(sl.n[k])
+        n = (sl.n1[k], sl.n2[k], sl.n3[k])
         t = times(side.sign, cross(b, n))
         on_axis = times(side.s[k], a)
         r = combine(on_axis, side.drop[k] - Rw, n)
-        gx, gt = sl.g[k] * sl.t[k, 0], sl.g[k] * sl.t[k, 1]
-        f = times(N, combine(combine(n, -gx, b), -gt, t))
-        add_wrench(pair.wrench, f, r)
-        slope = 0.0
-        if side.wave[0] > 0.0:
-            slope = _wave_slope(pose, side, P, n, theta)
-            add_wrench(pair.wrench, times(-N * slope, t), on_axis)
-        if mode == 1:
-            _tangent(n, b, t, r, on_axis, slope, gx, gt, k, sl, pair)
-        elif mode >= 2:
-            moment = cross(r, n)
-            leaning = times(slope, cross(on_axis, t))
-            sums[0] += N
-            sums[1] -= N * gt
-            sums[2] += N * (moment[1] - leaning[1])
-            sums[3] += N * (moment[2] - leaning[2])
-            sums[7] -= N * sl.g[k] * sl.u[k] ** 2
-            if k == middle:
-                sums[4] = sl.t[k, 1]
+        slope = _wave_slope(pose, side, P, n, theta) if side.wave[0] > 0.0 else 0.0
+        g1, g2 = sl.g[k] * sl.t1[k], sl.g[k] * sl.t2[k]
+        add_generator(t, on_axis, Wt)
+        add_generator(n, r, Wn)
+        for j in range(6):
+            Wn[j] -= slope * Wt[j]
+        add_generator(t, r, Wt)
+        add_generator(b, r, Wx)
+        for j in range(6):
+            Wf[j] = Wn[j] - g1 * Wx[j] - g2 * Wt[j]
+        add_outer(pair.K, sl.Nd[k], Wf, Wn)
+        add_outer(pair.C, sl.Nv[k], Wf, Wn)
+        friction_tangent(
+            pair.C, sl.N[k], sl.g[k], sl.dg[k], sl.u[k], sl.t1[k], sl.t2[k], Wx, Wt
+        )  # fmt: skip
 
 
 @part
-def _tangent(n, b, t, r, on_axis, slope, gx, gt, k, sl, pair):
-    """One slice's share of the pair's tangent."""
-    Wn, Wx, Wt, Wf = pair.W[0], pair.W[1], pair.W[2], pair.W[3]
-    add_generator(t, on_axis, Wt)
-    add_generator(n, r, Wn)
-    for j in range(6):
-        Wn[j] -= slope * Wt[j]
-    add_generator(t, r, Wt)
-    add_generator(b, r, Wx)
-    for j in range(6):
-        Wf[j] = Wn[j] - gx * Wx[j] - gt * Wt[j]
-    add_outer(pair.K, sl.Nd[k], Wf, Wn)
-    add_outer(pair.C, sl.Nv[k], Wf, Wn)
-    friction_tangent(pair.C, sl.N[k], sl.g[k], sl.dg[k], sl.u[k], sl.t[k, 0], sl.t[k, 1], Wx, Wt)
-
-
-@part
-def _roll(pose, side, Rw, P, ring_spin, sl, pair, mode, sums):
+def _roll(pose, side, Rw, P, ring_spin, load, pair, mode, sums):
     """Rolling resistance: shear on both surfaces, and the pressure that balances it.
 
     On the roller: -F t at the surface and + hydro F t through its centre (hydro = 2 R/Rw);
     the ring gets the reaction of the same wrench at the contact point.
     """
-    load = 0.0
-    for k in range(side.s.shape[0]):
-        load += sl.N[k]
     if side.rolling[0] <= 0.0 or load <= 0.0:
         return
     orbit = pose.V[2] / P[1]

@@ -7,6 +7,12 @@ from typing import NamedTuple
 
 import numpy as np
 
+from flexcage.contacts.slices import (
+    elastic_forces,
+    friction_factors,
+    normal_forces,
+    stored_and_damped,
+)
 from flexcage.contacts.state import (
     add_end_generator,
     add_generator,
@@ -65,13 +71,13 @@ def rib_contact(pose, data, P, b, Vr, wr, p, laws, sl, pair, mode, sums):
                 v = plus(rel, cross(spin, r))
                 add_end_generator(n, r, a0, centre[1], Wn)
                 sl.v[k] = approach(Wn, rel, spin)
-                sl.t[k, 0], sl.t[k, 1] = dot(e1, v), dot(e2, v)
-                sl.u[k] = sqrt(sl.t[k, 0] ** 2 + sl.t[k, 1] ** 2)
+                sl.t1[k], sl.t2[k] = dot(e1, v), dot(e2, v)
+                sl.u[k] = sqrt(sl.t1[k] ** 2 + sl.t2[k] ** 2)
         if not touched:
             continue
         active = True
-        law(count, sl.d, sl.v, p[f], sl.N, sl.Nd, sl.Nv)
-        friction(count, sl.u, data.friction, sl.g, sl.dg)
+        normal_forces(law, count, sl, p[f])
+        friction_factors(friction, count, sl, data.friction)
         for k in range(count):
             N = sl.N[k]
             if N <= 0.0:
@@ -82,20 +88,18 @@ def rib_contact(pose, data, P, b, Vr, wr, p, laws, sl, pair, mode, sums):
             add_generator(e1, r, W1)
             add_generator(e2, r, W2)
             for c in range(6):
-                V[c] = Wn[c] - sl.g[k] * (sl.t[k, 0] * W1[c] + sl.t[k, 1] * W2[c])
+                V[c] = Wn[c] - sl.g[k] * (sl.t1[k] * W1[c] + sl.t2[k] * W2[c])
                 pair.wrench[c] += N * V[c]
             if mode == 1:
                 add_outer(pair.K, sl.Nd[k], V, Wn)
                 add_outer(pair.C, sl.Nv[k], V, Wn)
-                friction_tangent(
-                    pair.C, N, sl.g[k], sl.dg[k], sl.u[k], sl.t[k, 0], sl.t[k, 1], W1, W2
-                )
+                friction_tangent(pair.C, N, sl.g[k], sl.dg[k], sl.u[k], sl.t1[k], sl.t2[k], W1, W2)
             elif mode >= 2:
                 sums[f] += N
                 sums[4] -= N * sl.g[k] * sl.u[k] ** 2
         if mode >= 2:
-            law(count, sl.d, sl.zero, p[f], sl.g, sl.Nd, sl.Nv)
-            for k in range(count):
-                sums[2] += sl.g[k] * max(sl.d[k], 0.0) / (p[f, 1] + 1.0)
-                sums[3] -= (sl.N[k] - sl.g[k]) * sl.v[k]
+            elastic_forces(law, count, sl, p[f])
+            energy, damped = stored_and_damped(count, sl, p[f, 1])
+            sums[2] += energy
+            sums[3] += damped
     return active

@@ -1,4 +1,4 @@
-"""What contact kernels share: a roller's pose, slice buffers, a pair's wrench and tangent.
+"""What contact kernels share: a roller's pose, a pair's wrench and tangent.
 
 Components of a roller's quantities are in its orbital frame F = (e_x, e_r, e_psi) at azimuth psi,
 which turns with the roller's orbit; a 6-vector is (force or translation, moment or rotation)
@@ -24,22 +24,6 @@ class RollerPose(NamedTuple):
     w: np.ndarray  # (3,) angular velocity in F
 
 
-class Slices(NamedTuple):
-    """Buffers over the slices (or points) of one contact."""
-
-    d: np.ndarray  # penetration
-    v: np.ndarray  # its rate
-    N: np.ndarray  # normal force
-    Nd: np.ndarray  # dN/dd
-    Nv: np.ndarray  # dN/dv
-    u: np.ndarray  # sliding speed
-    g: np.ndarray  # mu/u
-    dg: np.ndarray  # d(mu/u)/du
-    zero: np.ndarray  # zeros: rates for elastic forces
-    t: np.ndarray  # (n, 2) sliding velocity components
-    n: np.ndarray  # (n, 3) normals on the roller
-
-
 class Pair(NamedTuple):
     """Result of one contact on a roller, about its centre, components in F."""
 
@@ -51,11 +35,6 @@ class Pair(NamedTuple):
 
 def new_pose() -> RollerPose:
     return RollerPose(np.zeros((3, 3)), np.zeros((3, 3)), np.zeros(3), np.zeros(3))
-
-
-def new_slices(n: int) -> Slices:
-    z = np.zeros
-    return Slices(z(n), z(n), z(n), z(n), z(n), z(n), z(n), z(n), z(n), z((n, 2)), z((n, 3)))
 
 
 def new_pair() -> Pair:

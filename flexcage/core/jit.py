@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import hashlib
 import os
+import struct
 import warnings
 from pathlib import Path
 from typing import Any
@@ -49,6 +50,7 @@ if "NUMBA_CACHE_DIR" not in os.environ:
     os.environ["NUMBA_CACHE_DIR"] = str(kernel_cache_dir())
 
 import numba  # noqa: E402  (its cache folder must be known first)
+from numba import types  # noqa: E402
 from numba.core import cgutils  # noqa: E402
 from numba.core.imputils import impl_ret_borrowed  # noqa: E402
 from numba.core.runtime.nrtdynmod import _meminfo_struct_type  # noqa: E402
@@ -141,6 +143,50 @@ def _fields(_typing, box):
 def fields(box):
     """The NamedTuple that a box holds."""
     return _fields(box)
+
+
+def _bitcast(to: Any) -> Any:
+    """An intrinsic that reads the bits of a 64-bit number as another type."""
+
+    @intrinsic
+    def read_as(_typing, x):
+        def codegen(context, builder, signature, args):
+            return builder.bitcast(args[0], context.get_value_type(to))
+
+        return to(x), codegen
+
+    return read_as
+
+
+@intrinsic
+def as_array(_typing, field):
+    """An array field of a record as an ordinary array (numba's own conversion refuses)."""
+    kind = types.Array(field.dtype, field.ndim, "C")
+
+    def codegen(context, builder, signature, args):
+        return impl_ret_borrowed(context, builder, kind, args[0])
+
+    return kind(field), codegen
+
+
+bits_of, real_of = _bitcast(types.int64), _bitcast(types.float64)
+if numba.config.DISABLE_JIT:  # type: ignore[attr-defined]
+    # kernels as plain Python, for a debugger
+
+    def boxed(value):
+        return value
+
+    def fields(box):
+        return box
+
+    def as_array(field):
+        return field
+
+    def bits_of(x):
+        return struct.unpack("<q", struct.pack("<d", x))[0]
+
+    def real_of(bits):
+        return struct.unpack("<d", struct.pack("<q", bits))[0]
 
 
 @part

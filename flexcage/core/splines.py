@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from flexcage.core.jit import part
+from flexcage.core.jit import VECTORISED, part
 
 
-@part
+@part(fastmath=VECTORISED)
 def smooth_weights(t):
     """Weights of stations -1, 0, 1, 2 at t in 0..1 between stations 0 and 1, and their slopes.
 

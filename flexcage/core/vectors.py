@@ -2,33 +2,33 @@
 
 from __future__ import annotations
 
-from flexcage.core.jit import part
+from flexcage.core.jit import VECTORISED, part
 
 
-@part
+@part(fastmath=VECTORISED)
 def xyz(a):
     """The first three entries of an array."""
     return a[0], a[1], a[2]
 
 
-@part
+@part(fastmath=VECTORISED)
 def row(M, i):
     """Row i of a matrix of three columns."""
     return M[i, 0], M[i, 1], M[i, 2]
 
 
-@part
+@part(fastmath=VECTORISED)
 def column(M, j):
     """Column j of a matrix of three rows."""
     return M[0, j], M[1, j], M[2, j]
 
 
-@part
+@part(fastmath=VECTORISED)
 def dot(a, b):
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 
 
-@part
+@part(fastmath=VECTORISED)
 def cross(a, b):
     return (
         a[1] * b[2] - a[2] * b[1],
@@ -37,34 +37,34 @@ def cross(a, b):
     )
 
 
-@part
+@part(fastmath=VECTORISED)
 def plus(a, b):
     return a[0] + b[0], a[1] + b[1], a[2] + b[2]
 
 
-@part
+@part(fastmath=VECTORISED)
 def minus(a, b):
     return a[0] - b[0], a[1] - b[1], a[2] - b[2]
 
 
-@part
+@part(fastmath=VECTORISED)
 def times(s, a):
     return s * a[0], s * a[1], s * a[2]
 
 
-@part
+@part(fastmath=VECTORISED)
 def combine(a, s, b):
     """a + s b."""
     return a[0] + s * b[0], a[1] + s * b[1], a[2] + s * b[2]
 
 
-@part
+@part(fastmath=VECTORISED)
 def turned(R, a):
     """R a."""
     return dot(row(R, 0), a), dot(row(R, 1), a), dot(row(R, 2), a)
 
 
-@part
+@part(fastmath=VECTORISED)
 def turned_back(R, a):
     """R^T a."""
     return (
@@ -74,7 +74,7 @@ def turned_back(R, a):
     )
 
 
-@part
+@part(fastmath=VECTORISED)
 def add_to(out, a):
     """out += a, into an array."""
     out[0] += a[0]
@@ -82,7 +82,7 @@ def add_to(out, a):
     out[2] += a[2]
 
 
-@part
+@part(fastmath=VECTORISED)
 def put(out, a):
     """out = a, into an array."""
     out[0] = a[0]

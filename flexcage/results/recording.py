@@ -195,7 +195,9 @@ class Recorder:
             "pocket_slice_force": s.slice_normal[:done],
             "pocket_slice_friction": s.slice_friction[:done],
             "station_force": s.station[:done],
-            "residual_coordinates": s.residual[:done],
+            "residual_coordinates": np.einsum(
+                "zab,tzb->tza", self.bearing.data.model.pocket.root, s.residual[:done]
+            ),
             "rib_force": s.rib[:done],
             "land_force": s.land[:done],
             "multiplier": layout.multipliers(y),

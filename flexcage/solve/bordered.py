@@ -13,7 +13,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from flexcage.core.jit import kernel
+from flexcage.core.jit import VECTORISED, kernel
 
 
 class Bordered(NamedTuple):
@@ -41,7 +41,7 @@ def new_bordered(blocks: int, border: int, low: int, active: np.ndarray) -> Bord
     )  # fmt: skip
 
 
-@kernel
+@kernel(fastmath=VECTORISED)
 def invert6(A, perm):
     """Invert a 6x6 matrix in place (Gauss-Jordan with pivoting); False if singular."""
     n = 6
@@ -75,7 +75,7 @@ def invert6(A, perm):
     return True
 
 
-@kernel
+@kernel(fastmath=VECTORISED)
 def lu_factor(A, pivot):
     """LU factors of A in place with row pivoting; False if singular."""
     n = A.shape[0]
@@ -101,7 +101,7 @@ def lu_factor(A, pivot):
     return True
 
 
-@kernel
+@kernel(fastmath=VECTORISED)
 def lu_solve(A, pivot, b):
     """Solve with factors from ``lu_factor``, in place."""
     n = A.shape[0]
@@ -121,7 +121,7 @@ def lu_solve(A, pivot, b):
         b[r] = s / A[r, r]
 
 
-@kernel
+@kernel(fastmath=VECTORISED)
 def factor(m):
     """Factor a bordered system in place; False if a block or the border is singular."""
     nb = m.S.shape[0]
@@ -146,7 +146,7 @@ def factor(m):
     return lu_factor(m.S, m.pivot)
 
 
-@kernel
+@kernel(fastmath=VECTORISED)
 def solve(m, r, b):
     """Solve in place: r (Z, 6) the blocks' right-hand sides, b (nb,) the border's."""
     nb = m.S.shape[0]

@@ -15,11 +15,18 @@ from flexcage.bodies.floating_frame import (
 )
 from flexcage.contacts import laws
 from flexcage.contacts.land import LandData, LandWork, land_work
-from flexcage.contacts.pocket_wall import N_LOCAL, PocketData, PocketWork, pocket_work
+from flexcage.contacts.pocket_wall import (
+    N_LOCAL,
+    PocketData,
+    PocketWork,
+    pocket_work,
+    with_end_stations,
+)
 from flexcage.contacts.race import RaceSide
 from flexcage.contacts.rib import RibData
+from flexcage.contacts.slices import Slices, new_slices
 from flexcage.contacts.spec import Contacts, Lubricant
-from flexcage.contacts.state import Pair, RollerPose, Slices, new_pair, new_pose, new_slices
+from flexcage.contacts.state import Pair, RollerPose, new_pair, new_pose
 from flexcage.geometry.cages import WindowCage
 from flexcage.geometry.cylindrical_roller import RollerBearing
 from flexcage.modes.basis import CageInterface
@@ -271,6 +278,12 @@ def build_memory(bearing, cage, contacts: Contacts, interface: CageInterface) ->
     )
 
 
+def compliance_root(compliance: np.ndarray) -> np.ndarray:
+    """L (Z, n, n) with L L^T the compliance (Z, n, n), which may be singular."""
+    values, vectors = np.linalg.eigh(compliance)
+    return np.ascontiguousarray(vectors * np.sqrt(np.maximum(values, 0.0))[:, None, :])
+
+
 def _pocket_data(bearing, cage, contacts: Contacts, interface: CageInterface) -> PocketData:
     s, drop = slice_grid(bearing, contacts.pocket.slices)
     angle = 2.0 * np.pi * np.arange(bearing.roller_count) / bearing.roller_count
@@ -280,6 +293,8 @@ def _pocket_data(bearing, cage, contacts: Contacts, interface: CageInterface) ->
     n = interface.modes.shape[-1]
     at = interface.stations if interface.offset_at is None else interface.offset_at
     st = np.ascontiguousarray
+    root = compliance_root(interface.compliance)
+    res = with_end_stations(np.einsum("zfsa,zab->zfsb", interface.residual, root))
     return PocketData(
         azimuth=st(np.stack([np.cos(angle), np.sin(angle)], axis=1)),
         half=0.5 * np.array([cage.pocket_width, cage.pocket_length]),
@@ -292,10 +307,13 @@ def _pocket_data(bearing, cage, contacts: Contacts, interface: CageInterface) ->
         offset=st(interface.offset),
         grid=st(np.stack([at[:, 0], at[:, 1] - at[:, 0]])),
         low=interface.offset.min(axis=2),
+        bent=interface.offset.any(axis=2).astype(np.int64),
         phi=st(interface.modes),
         phi_max=np.abs(normal).max(axis=(0, 1, 2)) if n else np.zeros(0),
-        res=st(interface.residual),
-        comp=st(interface.compliance),
+        soft=int(interface.compliance.any()),
+        res=res,
+        res_max=np.abs(res).max(axis=2),
+        root=root,
         friction=np.stack(
             [
                 laws.friction_parameters(contacts.pocket.friction),
@@ -409,7 +427,6 @@ def new_work(model: Model, layout: Layout) -> Work:
     Z, n, nb = layout.rollers, layout.modes, layout.n_border
     ns, nst = len(model.pocket.s), model.pocket.phi.shape[2]
     z = np.zeros
-    most = max(len(model.inner.s), ns, len(model.pocket.points), 3)
     tangent = Tangent(
         z((Z, 6, 6)), z((Z, 6, 6)), z((Z, 6, nb)), z((Z, 6, nb)), z((Z, nb, 6)), z((Z, nb, 6)),
         z((nb, nb)), z((nb, nb)), z((nb, nb)), z(Z, np.int64),
@@ -424,7 +441,7 @@ def new_work(model: Model, layout: Layout) -> Work:
         z(14 + n), z((6, n)), z((n, 6)), z((n, 8)), z(layout.size),
     )  # fmt: skip
     return Work(
-        new_pose(), new_slices(most), new_pair(), pocket_work(ns, len(model.pocket.points), nst),
+        new_pose(), new_slices(), new_pair(), pocket_work(ns, nst),
         land_work(len(model.land.angle)), frame_work(n), scratch, tangent, report,
     )  # fmt: skip
 

@@ -18,6 +18,7 @@ from flexcage.contacts.spec import Contacts
 from flexcage.core.jit import (
     LEAN,
     OPTIONS,
+    VECTORISED,
     Box,
     allocating_kernel,
     boxed,
@@ -135,7 +136,7 @@ def _factor(alpha, data):
     return assemble(alpha, fields(d.bodies), fields(d.tangent), fields(d.matrix))
 
 
-@kernel
+@kernel(fastmath=VECTORISED)
 def assemble(alpha, bodies, tan, m):
     """Newton's matrix alpha M + C + K/alpha in blocks, and its factors."""
     mass, Ia, It = bodies.roller[0], bodies.roller[1], bodies.roller[2]
@@ -178,7 +179,7 @@ def _backsolve(alpha, y, r, data):
     newton_step(alpha, y, r, fields(data[0].tangent), fields(data[0].matrix))
 
 
-@kernel
+@kernel(fastmath=VECTORISED)
 def newton_step(alpha, y, r, tan, m):
     """r <- Newton step for the residual r, all unknowns; alpha is that of the factors."""
     Z = m.A.shape[0]

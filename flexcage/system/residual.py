@@ -68,10 +68,13 @@ def drive_angle(bodies, t):
 
 
 @part
-def roller_rates(q, u, out):
-    """Kinematics of a roller: out = T(q) u; returns the axial rate of its non-spinning frame."""
+def roller_rates(q, u, axis, out):
+    """Kinematics of a roller: out = T(q) u; returns the axial rate of its non-spinning frame.
+
+    ``axis``: rows of its pose, which hold cosine and sine of skew and tilt.
+    """
     orbit = u[2] / q[1]
-    cx, sx, ce, se = cos(q[3]), sin(q[3]), cos(q[4]), sin(q[4])
+    cx, sx, ce, se = axis[2, 2], axis[2, 0], axis[1, 1], axis[0, 1]
     skew = (u[4] + orbit * cx * se) / ce
     frame = orbit * cx * ce + skew * se
     out[0], out[1], out[2] = u[0], u[1], orbit
@@ -302,12 +305,12 @@ def _inner_contacts(i, qi, ring_q, ring_u, d, law, mode):
         if k == 0:
             hit = race_contact(
                 pose, fields(d.inner), fields(d.bodies).radius[i], P, b, Vr, wr, ring_q[5],
-                memory.race[i, 0], law[0], law[5], fields(d.slices), pair, mode, sums,
+                memory.race[i, 0], law[0], law[5], fields(d.slices).row[0], pair, mode, sums,
             )  # fmt: skip
         else:
             hit = rib_contact(
                 pose, fields(d.rib), P, b, Vr, wr, memory.rib[i], (law[3], law[8]),
-                fields(d.slices), pair, mode, sums,
+                fields(d.slices).row[0], pair, mode, sums,
             )  # fmt: skip
         if not hit:
             continue
@@ -340,7 +343,7 @@ def _outer_contact(i, qi, out_q, out_u, d, law, mode):
     put(wr, (0.0, 0.0, 0.0))
     hit = race_contact(
         pose, fields(d.outer), fields(d.bodies).radius[i], P, b, Vr, wr, 0.0,
-        fields(d.memory).race[i, 1], law[0], law[5], fields(d.slices), pair, mode, work.sums,
+        fields(d.memory).race[i, 1], law[0], law[5], fields(d.slices).row[0], pair, mode, work.sums,
     )  # fmt: skip
     if not hit:
         return
@@ -387,8 +390,8 @@ def _pocket(i, qi, Rc, Vc, qf, qfd, margin, d, law, mode):
     put(wr, turned(F, xyz(vec[CAGE_SPIN])))
     hit = pocket_contact(
         pose, data, i, fields(d.bodies).radius[i], D, Vr, wr, qf, qfd, margin, memory.pocket[i],
-        (law[1], law[2], law[6], law[7]), memory.deflection[i], fields(d.slices), pw, pair, mode,
-        sums,
+        (law[1], law[2], law[6], law[7]), memory.deflection[i], fields(d.slices).row[0], pw, pair,
+        mode, sums,
     )  # fmt: skip
     if hit:
         _add_to_roller(work.roller, pair)
@@ -439,7 +442,7 @@ def _report_pocket(i, hit, sums, pw, rep, mode):
         zero(rep.station[i])
         zero(rep.slice_normal[i])
         zero(rep.slice_friction[i])
-    copy_into(rep.residual[i], pw.a)
+    copy_into(rep.residual[i], pw.b)
     for f in range(4):
         rep.pocket_normal[i, f] = pw.normal[f]
         rep.pocket_friction[i, f] = pw.tangential[f]
@@ -456,7 +459,7 @@ def _roller_rows(i, qi, ui, qdi, udi, d, r_q, r_u, mode):
     drag = -bodies.drag[0] * abs(ui[2]) * ui[2]
     gr = F[1, 1] * bodies.gravity[1] + F[1, 2] * bodies.gravity[2]
     gp = F[2, 1] * bodies.gravity[1] + F[2, 2] * bodies.gravity[2]
-    frame = roller_rates(qi, ui, rates)
+    frame = roller_rates(qi, ui, pose.axis, rates)
     for c in range(6):
         r_q[c] = qdi[c] - rates[c]
     r = qi[1]
@@ -502,7 +505,7 @@ def _land(q, u, zq, nm, d, law, mode):
         put(speed, (0.0, u[zq + 6], u[zq + 7]))
     land_contact(
         A, q[zq + 8 : zq + 11], u[zq + 8 : zq + 11], wg, q[zq + 15 :], u[zq + 14 :], where, speed,
-        spin, data, fields(d.memory).land, (law[4], law[9]), fields(d.slices),
+        spin, data, fields(d.memory).land, (law[4], law[9]), fields(d.slices).row[0],
         fields(d.land_work), Fc, Mc, border[14 : 14 + nm], Fr, Mr, work.sums,
     )  # fmt: skip
     drag = fields(d.bodies).drag[1] * abs(wg[0]) * wg[0]

@@ -15,7 +15,8 @@ from flexcage.contacts.pocket import pocket_contact
 from flexcage.contacts.pocket_wall import pocket_work
 from flexcage.contacts.race import race_contact
 from flexcage.contacts.rib import rib_contact
-from flexcage.contacts.state import RollerPose, new_pair, new_pose, new_slices
+from flexcage.contacts.slices import new_slices
+from flexcage.contacts.state import RollerPose, new_pair, new_pose
 from flexcage.core.jit import OPTIONS
 
 F8, I8 = types.float64, types.int64
@@ -38,20 +39,22 @@ def turned(axis, rotation):
 
 
 def _race(pose, side, Rw, P, b, Vr, wr, theta, p, law, mu, sl, pair, mode, sums):
+    sl = sl.row[0]
     return race_contact(pose, side, Rw, P, b, Vr, wr, theta, p, law, mu, sl, pair, mode, sums)
 
 
 def _rib(pose, data, P, b, Vr, wr, p, law, sl, pair, mode, sums):
-    return rib_contact(pose, data, P, b, Vr, wr, p, law, sl, pair, mode, sums)
+    return rib_contact(pose, data, P, b, Vr, wr, p, law, sl.row[0], pair, mode, sums)
 
 
 def _pocket(pose, data, i, Rw, D, Vc, wc, q, qd, margin, p, law, a, sl, pw, pair, mode, sums):
     return pocket_contact(
-        pose, data, i, Rw, D, Vc, wc, q, qd, margin, p, law, a, sl, pw, pair, mode, sums
+        pose, data, i, Rw, D, Vc, wc, q, qd, margin, p, law, a, sl.row[0], pw, pair, mode, sums
     )
 
 
 def _land(A, Rc, Vc, w, q, qd, Rr, Vr, spin, data, p, law, sl, lw, Fc, Mc, Qm, Fr, Mr, sums):
+    sl = sl.row[0]
     land_contact(A, Rc, Vc, w, q, qd, Rr, Vr, spin, data, p, law, sl, lw, Fc, Mc, Qm, Fr, Mr, sums)
 
 
@@ -63,7 +66,7 @@ def _compiled(function, *arguments, returns=types.boolean):
 @cache
 def _race_kernel(side_type):
     return _compiled(
-        _race, new_pose(), side_type, F8, VEC, VEC, VEC, VEC, F8, VEC, N, MU, new_slices(1),
+        _race, new_pose(), side_type, F8, VEC, VEC, VEC, VEC, F8, VEC, N, MU, new_slices(),
         new_pair(), I8, VEC,
     )  # fmt: skip
 
@@ -72,7 +75,7 @@ def _race_kernel(side_type):
 def _rib_kernel(data_type):
     return _compiled(
         _rib, new_pose(), data_type, VEC, VEC, VEC, VEC, types.Array(F8, 2, "C"),
-        types.Tuple((N, MU)), new_slices(1), new_pair(), I8, VEC,
+        types.Tuple((N, MU)), new_slices(), new_pair(), I8, VEC,
     )  # fmt: skip
 
 
@@ -80,8 +83,8 @@ def _rib_kernel(data_type):
 def _pocket_kernel(data_type):
     return _compiled(
         _pocket, new_pose(), data_type, I8, F8, VEC, VEC, VEC, VEC, VEC, F8,
-        types.Array(F8, 2, "C"), types.Tuple((N, N, MU, MU)), VEC, new_slices(1),
-        pocket_work(1, 1, 1), new_pair(), I8, VEC,
+        types.Array(F8, 2, "C"), types.Tuple((N, N, MU, MU)), VEC, new_slices(),
+        pocket_work(1, 2), new_pair(), I8, VEC,
     )  # fmt: skip
 
 
@@ -90,7 +93,7 @@ def _land_kernel(data_type):
     matrix = types.Array(F8, 2, "C")
     return _compiled(
         _land, matrix, VEC, VEC, VEC, VEC, VEC, VEC, VEC, F8, data_type, matrix,
-        types.Tuple((N, MU)), new_slices(1), land_work(1), VEC, VEC, VEC, VEC, VEC, VEC,
+        types.Tuple((N, MU)), new_slices(), land_work(1), VEC, VEC, VEC, VEC, VEC, VEC,
         returns=types.void,
     )  # fmt: skip
 
@@ -108,7 +111,7 @@ def race(
     pair, sums = new_pair(), np.zeros(9)
     arrays = [np.array(x, float) for x in (P, b, Vr, wr)]
     _race_kernel(numba.typeof(side))(
-        pose, side, radius, *arrays, theta, p, law, friction, new_slices(len(side.s)), pair, mode,
+        pose, side, radius, *arrays, theta, p, law, friction, new_slices(), pair, mode,
         sums,
     )  # fmt: skip
     return pair.wrench, sums, pair
@@ -123,7 +126,7 @@ def rib(
     pair, sums = new_pair(), np.zeros(9)
     arrays = [np.array(x, float) for x in (P, b, Vr, wr)]
     _rib_kernel(numba.typeof(data))(
-        pose, data, *arrays, p, (law, friction), new_slices(len(data.points)), pair, mode, sums
+        pose, data, *arrays, p, (law, friction), new_slices(), pair, mode, sums
     )
     return pair.wrench, sums, pair
 
@@ -134,15 +137,14 @@ def pocket(
 ):  # fmt: skip
     """(wrench, sums, work, pair) of pocket i on its roller at D from the cage's origin."""
     pose = pose_of(np.eye(3) if axis is None else axis, V, w)
-    n = max(len(data.s), len(data.points))
-    work = pocket_work(len(data.s), len(data.points), data.phi.shape[2])
+    work = pocket_work(len(data.s), data.phi.shape[2])
     work.G[:] = np.eye(3) if G is None else G
     pair, sums = new_pair(), np.zeros(9)
     arrays = [np.array(x, float) for x in (D, Vc, wc, q, qd)]
     margin = float(data.phi_max @ np.abs(arrays[3])) if len(q) else 0.0
     _pocket_kernel(numba.typeof(data))(
         pose, data, i, radius, *arrays, margin, p, (normal, normal, friction, friction),
-        np.zeros(8), new_slices(n), work, pair, mode, sums,
+        np.zeros(8), new_slices(), work, pair, mode, sums,
     )  # fmt: skip
     return pair.wrench, sums, work, pair
 
@@ -156,7 +158,7 @@ def land(
     out = [np.zeros(3), np.zeros(3), np.zeros(len(q)), np.zeros(3), np.zeros(3), np.zeros(9)]
     a = [np.array(x, float) for x in (Rc, Vc, w, q, qd, Rr, Vr)]
     _land_kernel(numba.typeof(data))(
-        A, *a, spin, data, p, (law, friction), new_slices(1),
+        A, *a, spin, data, p, (law, friction), new_slices(),
         land_work(len(data.angle)), *out,
     )  # fmt: skip
     return out

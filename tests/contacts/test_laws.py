@@ -378,3 +378,13 @@ def test_preset_slices_share_one_stiffness():
     p = laws.normal_parameters(NormalLaw(law="elastic"), whole / 15, 10 / 9)
     force = normal(laws.elastic, p, np.full(15, 3e-6), np.zeros(15))[0].sum()
     assert force == pytest.approx(whole * 3e-6 ** (10 / 9), rel=1e-12)
+
+
+def test_the_most_slices_that_a_case_may_ask_for_fit_the_buffers():
+    from dataclasses import fields
+
+    from flexcage.contacts.slices import MOST
+    from flexcage.contacts.spec import PairSpec
+
+    (slices,) = (f for f in fields(PairSpec) if f.name == "slices")
+    assert slices.metadata["maximum"] == MOST

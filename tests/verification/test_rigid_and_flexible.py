@@ -106,8 +106,8 @@ def peak_by_hand(case) -> float:
         slices = K * pressed**n
         force, energy = slices.sum(), (slices * pressed).sum() / (n + 1.0)
         weights = slices / force @ spread
-        own = weights @ model.pocket.res[0, 0]
-        energy += 0.5 * force**2 * own @ model.pocket.comp[0] @ own
+        own = weights @ model.pocket.res[0, 0, 1:-1]  # of unit compliance
+        energy += 0.5 * force**2 * own @ own
         mobile = inverse + np.sum((weights @ model.pocket.phi[0, 0, :, 2]) ** 2)
         return force, energy, 1.0 / mobile
 

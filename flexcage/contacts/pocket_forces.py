@@ -1,0 +1,247 @@
+"""Forces between a roller and the four walls of its pocket, slice by slice or point by point.
+
+The normal force leans with the wall's slope along the face, so that it is the slope of an energy;
+a crossbeam's slope acts at the roller's axis. Crossbeams (faces 0, 1) are touched at any time and
+evaluated in pocket axes, all slices at once; side beams (2, 3) rarely, one point after another.
+"""
+
+from __future__ import annotations
+
+from math import sqrt
+
+from flexcage.contacts.pocket_wall import N_LOCAL, mixed, points_of_face, station_weight
+from flexcage.contacts.state import (
+    add_end_generator,
+    add_generator,
+    add_outer,
+    approach,
+    friction_tangent,
+)
+from flexcage.core.jit import VECTORISED, part, zero
+from flexcage.core.vectors import (
+    combine,
+    cross,
+    dot,
+    minus,
+    plus,
+    row,
+    times,
+    turned,
+    turned_back,
+)
+
+
+@part
+def wall_rates(n, face, wall, sl):
+    """Velocity (x, r, psi) of the wall under every slice."""
+    for k in range(n):
+        sl.w1[k] = mixed(face, k, wall[0])
+        sl.w2[k] = mixed(face, k, wall[1])
+        sl.w3[k] = mixed(face, k, wall[2])
+
+
+@part(fastmath=VECTORISED)
+def crossbeam_rates(data, f, Rw, a, rel, spin, face, sl, pw):
+    """Approach speed and sliding of every slice on crossbeam face f.
+
+    a: roller's axis; rel, spin: its velocity and angular velocity less those of the cage there.
+    """
+    sgn = 1.0 if f % 2 == 0 else -1.0
+    v0 = turned(pw.G, rel)  # of the roller's axis at s, in pocket axes: v0 + s v1
+    v1 = turned(pw.G, cross(spin, a))
+    v2 = turned(pw.G, cross(spin, row(pw.G, 2)))  # what the surface adds, per distance from it
+    for k in range(data.s.shape[0]):
+        s, h, slope = data.s[k], sgn * (Rw - data.drop[k]), face.slope[k]
+        along = v0[0] + s * v1[0] - sl.w1[k]
+        sl.v[k] = sgn * (v0[2] + s * v1[2] - sl.w3[k]) - slope * along
+        sl.t1[k] = along + h * v2[0]
+        sl.t2[k] = v0[1] + s * v1[1] + h * v2[1] - sl.w2[k]
+        sl.u[k] = sqrt(sl.t1[k] * sl.t1[k] + sl.t2[k] * sl.t2[k])
+
+
+@part(fastmath=VECTORISED)
+def push_by_crossbeam(data, f, Rw, a, face, sl, pw, wrench):
+    """Add the forces of crossbeam face f to the roller's wrench and to the face's sums."""
+    sgn = 1.0 if f % 2 == 0 else -1.0
+    axis = turned(pw.G, a)
+    force = moment = (0.0, 0.0, 0.0)
+    normal = tangential = 0.0
+    for k in range(data.s.shape[0]):
+        N, slope = sl.N[k], face.slope[k]
+        on_axis = times(data.s[k], axis)
+        r = (on_axis[0], on_axis[1], on_axis[2] + sgn * (Rw - data.drop[k]))
+        f_surface = times(N, (-sl.g[k] * sl.t1[k], -sl.g[k] * sl.t2[k], -sgn))
+        f_axis = (N * slope, 0.0, 0.0)
+        force = plus(force, plus(f_surface, f_axis))
+        moment = plus(moment, plus(cross(r, f_surface), cross(on_axis, f_axis)))
+        normal += N
+        tangential += N * sl.g[k] * sl.u[k]
+    force, moment = turned_back(pw.G, force), turned_back(pw.G, moment)
+    for c in range(3):
+        wrench[c] += force[c]
+        wrench[3 + c] += moment[c]
+    pw.normal[f] = normal
+    pw.tangential[f] = tangential
+
+
+@part
+def spread_over_stations(n, f, face, sl, pw):
+    """Forces of face f on the cage, shared among the stations that each slice reads."""
+    sgn = 1.0 if f % 2 == 0 else -1.0
+    zero(pw.spread)
+    across, first, second = (2, 0, 1) if f < 2 else (0, 1, 2)
+    for k in range(n):
+        N = sl.N[k]
+        if N <= 0.0:
+            continue
+        f1, f2 = N * sl.g[k] * sl.t1[k], N * sl.g[k] * sl.t2[k]
+        if f < 2:
+            f1 -= N * face.slope[k]
+        else:
+            f2 -= N * face.slope[k]
+        j = face.j[k]
+        for s in range(4):
+            w = face.w[s, k]
+            pw.spread[across, j + s] += sgn * N * w
+            pw.spread[first, j + s] += f1 * w
+            pw.spread[second, j + s] += f2 * w
+
+
+@part
+def _axes(pw, f):
+    """Normal on the roller and the two tangents of face f, in F."""
+    sgn = 1.0 if f % 2 == 0 else -1.0
+    if f < 2:
+        return times(-sgn, row(pw.G, 2)), row(pw.G, 0), row(pw.G, 1)
+    return times(-sgn, row(pw.G, 0)), row(pw.G, 1), row(pw.G, 2)
+
+
+@part
+def _lever(pose, data, Rw, f, k, pw):
+    """Lever from the roller's centre to slice or point k of face f, in F."""
+    sgn, a = 1.0 if f % 2 == 0 else -1.0, row(pose.axis, 0)
+    if f < 2:
+        return combine(times(data.s[k], a), sgn * (Rw - data.drop[k]), row(pw.G, 2))
+    r = combine(times(sgn * data.half_roller, a), data.points[k, 0], row(pose.axis, 1))
+    return combine(r, data.points[k, 1], row(pose.axis, 2))
+
+
+@part
+def _normal_generator(pose, data, distance, f, k, n, r, pw, out):
+    """Generator of the normal force of slice k of face f, leaning with the wall's slope."""
+    slope = pw.face[f].slope[k]
+    if f >= 2:
+        leaning = combine(n, slope, row(pw.G, 2))
+        add_end_generator(leaning, r, row(pose.axis, 0), distance, out)
+        return
+    add_generator(n, r, out)
+    along = times(slope, row(pw.G, 0))
+    moment = cross(times(data.s[k], row(pose.axis, 0)), along)
+    for c in range(3):
+        out[c] += along[c]
+        out[3 + c] += moment[c]
+
+
+@part
+def side_beam_rates(pose, data, f, distance, rel, spin, sl, pw, pair):
+    """Approach speed and sliding of every point of the roller's end that side beam f touches.
+
+    ``distance`` of the roller's centre from the bearing's axis; rel, spin as for a crossbeam.
+    """
+    sgn = 1.0 if f % 2 == 0 else -1.0
+    n, e1, e2 = _axes(pw, f)
+    Wn, slope = pair.W[0], pw.face[f].slope
+    for k in range(data.points.shape[0]):
+        sl.v[k] = sl.u[k] = 0.0
+        if sl.d[k] <= 0.0:
+            continue
+        r = _lever(pose, data, 0.0, f, k, pw)
+        v = plus(rel, cross(spin, r))
+        _normal_generator(pose, data, distance, f, k, n, r, pw, Wn)
+        sl.v[k] = approach(Wn, rel, spin) + slope[k] * sl.w3[k] - sgn * sl.w1[k]
+        sl.t1[k], sl.t2[k] = dot(e1, v) - sl.w2[k], dot(e2, v) - sl.w3[k]
+        sl.u[k] = sqrt(sl.t1[k] ** 2 + sl.t2[k] ** 2)
+
+
+@part
+def push_by_side_beam(pose, data, f, distance, sl, pw, pair):
+    """Add the forces of side-beam face f to the roller's wrench and to the face's sums."""
+    n, e1, e2 = _axes(pw, f)
+    Wn = pair.W[0]
+    for k in range(data.points.shape[0]):
+        N = sl.N[k]
+        if N <= 0.0:
+            continue
+        r = _lever(pose, data, 0.0, f, k, pw)
+        _normal_generator(pose, data, distance, f, k, n, r, pw, Wn)
+        t = combine(times(sl.t1[k], e1), sl.t2[k], e2)
+        moment = cross(r, t)
+        for c in range(3):
+            pair.wrench[c] += N * (Wn[c] - sl.g[k] * t[c])
+            pair.wrench[3 + c] += N * (Wn[3 + c] - sl.g[k] * moment[c])
+        pw.normal[f] += N
+        pw.tangential[f] += N * sl.g[k] * sl.u[k]
+
+
+@part
+def add_tangent(pose, data, f, Rw, distance, sl, pw, pair):
+    """Share of face f in the pair's tangent and in the products with stations and residual."""
+    n, e1, e2 = _axes(pw, f)
+    Wn, W1, W2, V = pair.W[0], pair.W[1], pair.W[2], pair.W[3]
+    face, n_st = pw.face[f], pw.st.shape[1]
+    for k in range(points_of_face(data, f)):
+        if sl.N[k] <= 0.0:
+            continue
+        r = _lever(pose, data, Rw, f, k, pw)
+        _normal_generator(pose, data, distance, f, k, n, r, pw, Wn)
+        add_generator(e1, r, W1)
+        add_generator(e2, r, W2)
+        for c in range(6):
+            V[c] = Wn[c] - sl.g[k] * (sl.t1[k] * W1[c] + sl.t2[k] * W2[c])
+        add_outer(pair.K, sl.Nd[k], V, Wn)
+        add_outer(pair.C, sl.Nv[k], V, Wn)
+        friction_tangent(
+            pair.C, sl.N[k], sl.g[k], sl.dg[k], sl.u[k], sl.t1[k], sl.t2[k], W1, W2
+        )  # fmt: skip
+        j = face.j[k]
+        first, last = max(j - 1, 0), min(j + 3, n_st)
+        for s in range(first, last):
+            ws = station_weight(face, k, n_st, s) * sl.Nd[k]
+            for c in range(6):
+                pw.BW[f, s, c] += ws * Wn[c]
+                pw.LV[f, s, c] += ws * V[c]
+            for t in range(first, last):
+                pw.H[f, s, t] += ws * station_weight(face, k, n_st, t)
+            if data.soft != 0:
+                for l in range(N_LOCAL):
+                    pw.HR[f, s, l] += ws * face.R[l, k]
+        if data.soft != 0:
+            _add_residual(k, sl.Nd[k], face, Wn, V, pw)
+
+
+@part
+def _add_residual(k, Nd, face, Wn, V, pw):
+    """One slice's products with the residual coordinates."""
+    for l in range(N_LOCAL):
+        h = Nd * face.R[l, k]
+        for m in range(l + 1):
+            pw.A8[l, m] += h * face.R[m, k]
+        for c in range(6):
+            pw.RB[l, c] += h * Wn[c]
+            pw.LR[c, l] += h * V[c]
+
+
+@part
+def friction_power(n, sl):
+    """Power that friction takes [W]."""
+    power = 0.0
+    for k in range(n):
+        power -= sl.N[k] * sl.g[k] * sl.u[k] ** 2
+    return power
+
+
+@part
+def relative_motion(pose, Vc, wc, centre):
+    """Velocity and angular velocity of the roller less those of the cage at its centre, in F."""
+    rel = minus(minus((pose.V[0], pose.V[1], pose.V[2]), Vc), cross(wc, centre))
+    return rel, minus((pose.w[0], pose.w[1], pose.w[2]), wc)
