@@ -25,7 +25,7 @@ from scipy.optimize import brentq
 
 from flexcage.contacts import spec as specs
 from flexcage.contacts.spec import FrictionLaw, NormalLaw
-from flexcage.core.elementary import exponentials, powers
+from flexcage.core.elementary import exponentials, powers, product_of_powers
 from flexcage.core.errors import InputError
 from flexcage.core.jit import kernel
 from flexcage.core.registry import add, check_free
@@ -464,11 +464,11 @@ def rolling_force(c, u, q):
     """Rolling resistance force of one contact [N] at entrainment speed u >= 0 under load q >= 0."""
     if c[0] <= 0.0 or q <= 0.0 or u <= 0.0:
         return 0.0
-    ehl = c[0] * u**0.658 * q**0.0126
+    ehl = c[0] * product_of_powers(u, 0.658, q, 0.0126)
     if c[1] > 1e9:
         return ehl
     ratio = ehl / (c[1] * sqrt(u * q))
-    return ehl / (1.0 + ratio**4) ** 0.25
+    return ehl / sqrt(sqrt(1.0 + ratio**4))
 
 
 @kernel

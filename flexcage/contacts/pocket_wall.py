@@ -111,7 +111,7 @@ def with_end_stations(values: np.ndarray) -> np.ndarray:
 def with_offset(data: PocketData, offset: np.ndarray) -> PocketData:
     """The pockets with other stress-free offsets (Z, 4, no) [m]."""
     offset = np.ascontiguousarray(offset)
-    bent = offset.any(axis=2).astype(np.int64)
+    bent = np.any(offset, axis=2).astype(np.int64)
     return data._replace(offset=offset, low=offset.min(axis=2), bent=bent)
 
 

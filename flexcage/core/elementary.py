@@ -46,6 +46,12 @@ def _exp2(y):
 
 
 @part
+def product_of_powers(x, a, y, b):
+    """x^a y^b of positive x and y."""
+    return _exp2(a * _log2(x) + b * _log2(y))
+
+
+@part
 def powers(n, x, a, out):
     """out = x^a where x > 0, else 0, for the first n entries."""
     for k in range(n):

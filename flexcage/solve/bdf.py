@@ -1,8 +1,10 @@
 """Variable-order, variable-step BDF with a modified Newton-Raphson corrector for F(t, y, y') = 0.
 
-The formula keeps backward differences D of a quasi-constant step (Byrne and Hindmarsh 1975; the
-notation is Shampine and Reichelt's): with c = h/gamma_k the corrected value is y = y_p + d and
-its derivative y' = (psi + d)/c. ``advance`` is plain Python that numba also compiles: it
+The formula keeps backward differences D of a quasi-constant step (Byrne and Hindmarsh 1975) in
+Klopfenstein's modification (NDF; Shampine and Reichelt, SIAM J. Sci. Comput. 18 (1997) 1, whose
+notation this is): as stable at orders 1 and 2, with errors of half the size. With
+c = h/((1 - kappa_k) gamma_k) the corrected value is y = y_p + d and its derivative
+y' = (psi + d)/c. ``advance`` is plain Python that numba also compiles: it
 receives the problem as six functions and their data,
 
     residual(t, y, yd, data, out)            F
@@ -26,6 +28,7 @@ from typing import NamedTuple
 import numpy as np
 
 MAX_ORDER = 5
+KAPPA = (0.0, -0.1850, -1.0 / 9.0, -0.0823, -0.0415, 0.0)  # Shampine and Reichelt, table 1
 NEWTON_MAX = 4
 GUARD_STEPS = 200
 JACOBIAN_AGE = 60
@@ -54,7 +57,7 @@ class BDFState(NamedTuple):
     quad: np.ndarray  # (n_quad,) integrals
     power: np.ndarray  # (2, n_quad) integrands at the last and the present point
     vec: np.ndarray  # (6, n) work
-    coef: np.ndarray  # (2, MAX_ORDER + 2) gamma and error constants
+    coef: np.ndarray  # (3, MAX_ORDER + 1) gamma, (1 - kappa) gamma, error constants
 
 
 class Options(NamedTuple):
@@ -71,13 +74,14 @@ def new_state(t0: float, y0, yd0, *, weight, h0: float, n_quad: int = 0) -> BDFS
     D = np.zeros((MAX_ORDER + 3, n))
     D[0] = y0
     D[1] = h0 * np.asarray(yd0)
-    gamma = np.concatenate([[0.0], np.cumsum(1.0 / np.arange(1, MAX_ORDER + 2))])
-    error = 1.0 / np.arange(1, MAX_ORDER + 3)
+    kappa = np.array(KAPPA)
+    gamma = np.concatenate([[0.0], np.cumsum(1.0 / np.arange(1, MAX_ORDER + 1))])
+    error = kappa * gamma + 1.0 / np.arange(1, MAX_ORDER + 2)
     count = np.zeros(14, np.int64)
     count[ORDER] = 1
     return BDFState(
         D, np.array([t0, h0, 0.0, 1.0, h0]), count, np.array(weight, float), np.zeros(n_quad),
-        np.zeros((2, n_quad)), np.zeros((6, n)), np.stack([gamma, error]),
+        np.zeros((2, n_quad)), np.zeros((6, n)), np.stack([gamma, (1.0 - kappa) * gamma, error]),
     )  # fmt: skip
 
 
@@ -144,7 +148,7 @@ def correct(fns, data, st, opt, t_new, c):
     order = st.count[ORDER]
     n = y.shape[0]
     alpha = 1.0 / c
-    error_constant = st.coef[1, order]
+    error_constant = st.coef[2, order]
     for _ in range(2):
         if st.count[HAVE_J] == 0:
             for k in range(n):
@@ -238,14 +242,14 @@ def advance(fns, data, st, opt, t_end, times, ys, yds, first, log, quads):
             h = real[H] = rest / steps
             count[EQUAL] = 0
             t_new = t_end if steps == 1 else real[T] + h
-        gamma = st.coef[0, order]
-        c = h / gamma
+        alpha = st.coef[1, order]
+        c = h / alpha
         last = D[0]
         for k in range(n):
             y_p[k] = last[k]
             psi[k] = 0.0
         for j in range(1, order + 1):
-            difference, share = D[j], st.coef[0, j] / gamma
+            difference, share = D[j], st.coef[0, j] / alpha
             for k in range(n):
                 y_p[k] += difference[k]
                 psi[k] += share * difference[k]
@@ -257,7 +261,7 @@ def advance(fns, data, st, opt, t_end, times, ys, yds, first, log, quads):
             real[H] = 0.4 * h
             count[EQUAL] = 0
             continue
-        error = worst(d, st.weight, st.coef[1, order])
+        error = worst(d, st.weight, st.coef[2, order])
         if not error < 1e300:
             return NOT_FINITE, sample, row
         if error > 1.0:
@@ -324,7 +328,7 @@ def _choose(st, opt, error):
     highest = 2 if count[GUARD] > 0 and opt.max_order > 2 else opt.max_order
     best, new = 0.0, order
     for q in range(max(order - 1, 1), min(order + 1, highest) + 1):
-        e = error if q == order else worst(D[q + 1], st.weight, st.coef[1, q])
+        e = error if q == order else worst(D[q + 1], st.weight, st.coef[2, q])
         f = max(e, 1e-10) ** (-1.0 / (q + 1))
         if f > best:
             best, new = f, q

@@ -307,7 +307,7 @@ def _pocket_data(bearing, cage, contacts: Contacts, interface: CageInterface) ->
         offset=st(interface.offset),
         grid=st(np.stack([at[:, 0], at[:, 1] - at[:, 0]])),
         low=interface.offset.min(axis=2),
-        bent=interface.offset.any(axis=2).astype(np.int64),
+        bent=np.any(interface.offset, axis=2).astype(np.int64),
         phi=st(interface.modes),
         phi_max=np.abs(normal).max(axis=(0, 1, 2)) if n else np.zeros(0),
         soft=int(interface.compliance.any()),
