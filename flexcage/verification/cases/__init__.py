@@ -1,0 +1,43 @@
+"""One file a case; ``IN_ORDER`` is the order in which the chapter reads."""
+
+from flexcage.verification.cases import (
+    epicyclic_run,
+    flexible_body,
+    flexible_body_on_a_face,
+    free_rigid_body,
+    friction,
+    impact,
+    impact_step,
+    kinematics,
+    land_film,
+    line_contact,
+    ratings,
+    restitution,
+    roller,
+    rolling_resistance,
+    sliding_to_rolling,
+    solid_ring,
+    spinning_ring,
+    static_load,
+)
+
+IN_ORDER = (
+    ratings.CASE,
+    kinematics.CASE,
+    roller.CASE,
+    line_contact.CASE,
+    impact.CASE,
+    restitution.CASE,
+    impact_step.CASE,
+    friction.CASE,
+    rolling_resistance.CASE,
+    land_film.CASE,
+    free_rigid_body.CASE,
+    flexible_body.CASE,
+    flexible_body_on_a_face.CASE,
+    spinning_ring.CASE,
+    solid_ring.CASE,
+    static_load.CASE,
+    sliding_to_rolling.CASE,
+    epicyclic_run.CASE,
+)
