@@ -134,16 +134,3 @@ def full_mesh_invariants(
     q = flyer.split(y)[4]
     energy = 0.5 * np.sum(v * mv) + 0.5 * q @ flyer.data.kff @ q
     return energy, mv.sum(axis=0), np.cross(r, mv).sum(axis=0)
-
-
-def drifts(
-    flyer: Tumbler, states: np.ndarray, points: np.ndarray, shapes: np.ndarray,
-    mass: sparse.csr_matrix,
-) -> tuple[float, float, float]:  # fmt: skip
-    """Largest relative change of energy, momentum and angular momentum over the states."""
-    seen = [full_mesh_invariants(flyer, y, points, shapes, mass) for y in states]
-    found = []
-    for values in zip(*seen):
-        first = np.asarray(values[0])
-        found.append(float(np.abs(np.array(values) - first).max() / np.linalg.norm(first)))
-    return found[0], found[1], found[2]

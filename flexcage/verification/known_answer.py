@@ -32,7 +32,7 @@ class Row:
     @property
     def difference(self) -> float:
         """Value less reference, over the reference's size unless the tolerance is absolute."""
-        apart = self.value - self.reference
+        apart = float(self.value - self.reference)
         if self.tolerance.absolute:
             return apart
         return apart / abs(self.reference) if self.reference else float("nan")

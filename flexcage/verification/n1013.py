@@ -16,7 +16,7 @@ from flexcage.modes.spec import ModesSpec
 from flexcage.results.recording import Recorder, new_store
 from flexcage.stages import build_bearing, cage_mesh, cage_reduction
 from flexcage.system.problem import Bearing
-from flexcage.system.start import Start
+from flexcage.system.start import Start, geometric_guess
 
 BASE = {
     "bearing": {"preset": "N1013"},
@@ -27,6 +27,13 @@ FRICTIONLESS = {
     f"contacts.{place}.friction.law": "none" for place in ("race", "pocket", "side", "rib", "land")
 }
 NO_OIL = {"lubricant.rolling_resistance": "none", "lubricant.oil_fraction": 0.0}
+LOSSLESS = {
+    **FRICTIONLESS,
+    **NO_OIL,
+    **{f"contacts.{p}.normal.law": "elastic" for p in ("race", "pocket", "side", "rib", "land")},
+    "modes.damping": 0.0,
+    "load.gravity": "0 m/s^2",
+}
 
 
 def n1013(*tables: Mapping[str, object], **sections: object) -> Case:
@@ -66,6 +73,16 @@ def _reduction(plain: Case) -> CageReduction:
     reduction = cage_reduction(plain, _mesh(plain.replace("modes", ModesSpec())))
     assert reduction is not None
     return reduction
+
+
+def state_at_rest(bearing: Bearing) -> tuple[np.ndarray, np.ndarray]:
+    """y and y' with every roller in the middle of its pocket and of the races, nothing moving."""
+    model, layout = bearing.data.model, bearing.layout
+    y = geometric_guess(model, layout)
+    q = layout.q(y)
+    q["rollers"][:, 1] = 0.5 * (model.inner.radius + model.outer.radius)
+    q["inner"][1:3] = 0.0
+    return y, np.zeros_like(y)
 
 
 def march(

@@ -7,8 +7,6 @@ import logging
 import numpy as np
 from scipy.interpolate import CubicHermiteSpline
 
-from flexcage.system.problem import Bearing
-from flexcage.system.start import geometric_guess
 from flexcage.verification.n1013 import (
     FRICTIONLESS,
     NO_OIL,
@@ -16,6 +14,7 @@ from flexcage.verification.n1013 import (
     cage_of,
     march,
     n1013,
+    state_at_rest,
 )
 
 __all__ = [
@@ -60,16 +59,6 @@ def station_reading(stations: np.ndarray, along: np.ndarray) -> np.ndarray:
 def pushed(displacement: str, *, pocket: int = 5, side: str = "+x") -> list[dict]:
     """One displaced side beam (delta_p)."""
     return [{"type": "side_beam", "pocket": pocket, "side": side, "displacement": displacement}]
-
-
-def state_at_rest(bearing: Bearing) -> tuple[np.ndarray, np.ndarray]:
-    """y and y' with every roller in the middle of its pocket and of the races, nothing moving."""
-    model, layout = bearing.data.model, bearing.layout
-    y = geometric_guess(model, layout)
-    q = layout.q(y)
-    q["rollers"][:, 1] = 0.5 * (model.inner.radius + model.outer.radius)
-    q["inner"][1:3] = 0.0
-    return y, np.zeros_like(y)
 
 
 def relative_error(ours: np.ndarray, theirs: np.ndarray) -> float:

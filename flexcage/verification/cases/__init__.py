@@ -1,6 +1,7 @@
 """One file a case; ``IN_ORDER`` is the order in which the chapter reads."""
 
 from flexcage.verification.cases import (
+    beam,
     epicyclic_run,
     flexible_body,
     flexible_body_on_a_face,
@@ -10,7 +11,9 @@ from flexcage.verification.cases import (
     impact_step,
     kinematics,
     land_film,
+    land_rebound,
     line_contact,
+    lossless_bounce,
     ratings,
     restitution,
     roller,
@@ -32,6 +35,7 @@ IN_ORDER = (
     friction.CASE,
     rolling_resistance.CASE,
     land_film.CASE,
+    beam.CASE,
     free_rigid_body.CASE,
     flexible_body.CASE,
     flexible_body_on_a_face.CASE,
@@ -40,4 +44,6 @@ IN_ORDER = (
     static_load.CASE,
     sliding_to_rolling.CASE,
     epicyclic_run.CASE,
+    land_rebound.CASE,
+    lossless_bounce.CASE,
 )

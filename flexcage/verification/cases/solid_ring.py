@@ -17,7 +17,7 @@ from flexcage.modes.stiffening import spin_stiffness
 from flexcage.stress.operators import VertexStress
 from flexcage.verification.cases.spinning_ring import LINEAR, REST, RPM, STIFFENED
 from flexcage.verification.known_answer import KnownAnswer, Row, Tolerance
-from flexcage.verification.rings import ring
+from flexcage.verification.solids import ring
 
 STEEL = Material(name="ring steel", youngs_modulus=207e9, poisson_ratio=0.3, density=7800.0)
 BEAM = replace(STEEL, poisson_ratio=0.0)  # beam theory has no anticlastic bending

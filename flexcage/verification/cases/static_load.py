@@ -20,7 +20,7 @@ BETWEEN = f"{degrees(pi / 22)} deg"  # the load half a pitch beside a roller
 # radial clearance [um]: displacement [um], largest force [N], rollers loaded; a roller under the
 # load, and the load between two
 UNPROFILED = {
-    0: ((1.7830, 185.693, None), (1.7828, 183.568, 10)),
+    0: ((1.7830, 185.693, 11), (1.7828, 183.568, 10)),
     10: ((7.6180, 284.541, 5), (7.5779, 270.421, 6)),
     20: ((13.0073, 331.925, 5), (13.0694, 323.249, 4)),
     40: ((23.7221, 420.678, 3), (23.5645, 371.070, 4)),
@@ -33,9 +33,8 @@ BY_PALMGREN = {0: (1.7243, None), 20: (12.9335, 335.129), 40: (23.6174, 422.989)
 TURNING = {
     0: (1.8418, 187.281, 197.761), 20: (13.0557, 332.635, 343.115), 40: (23.7658, 420.936, 431.416),
 }  # fmt: skip
-SHARE = Tolerance(
-    2e-3, "demanded of load distributions; exact geometry, which shifts rollers sideways"
-)
+SHARE = Tolerance(2e-3, "demanded; the reference linearises geometry, which takes 0.03 %")
+CONVERGED = Tolerance(2e-3, "demanded of the production quadrature")
 COUNT = Tolerance(0.0, "a count of rollers with more than 1 mN", absolute=True)
 RIPPLE = Tolerance(
     1e-3, "exact geometry adds d^2 sin^2/(2 r), which the reference leaves out", absolute=True
@@ -105,7 +104,7 @@ def stiffness_rows() -> Iterator[Row]:
             if largest is not None:
                 yield Row(f"{name}: largest force", "N", largest, found.inner.max(), SHARE)
     found = sharing(20)
-    yield Row("Pd 20 um, 15 slices: largest force", "N", 312.6, found.inner.max(), SHARE)
+    yield Row("Pd 20 um, 15 slices: largest force", "N", 312.6, found.inner.max(), CONVERGED)
     found = sharing(40)
     yield Row("Pd 40 um, 15 slices: largest force", "N", 374.9, found.inner.max(), SHARE)
 
