@@ -66,5 +66,5 @@ def run_case(case: KnownAnswer) -> Outcome:
         rows.extend(case.rows())
     except Exception as exc:
         log.debug("case %s stopped", case.name, exc_info=True)
-        error = f"{type(exc).__name__}: {exc}"
+        error = f"{type(exc).__name__}: {' '.join(str(exc).split())}"
     return Outcome(case, tuple(rows), time.perf_counter() - start, error)

@@ -19,8 +19,10 @@ TIGHT = {
     "output.rate": "100 kHz",
     "output.vibration_rate": "200 kHz",
 }
-DRIFT = Tolerance(1e-3, "share of the throw's energy, demanded; falls with solver.tolerance", True)
-DRIVE = Tolerance(1e-6, "share of the throw's energy; nothing brakes the ring", True)
+DRIFT = Tolerance(
+    1e-3, "share of the throw's energy, demanded; falls with solver.tolerance", absolute=True
+)
+DRIVE = Tolerance(1e-6, "share of the throw's energy; nothing brakes the ring", absolute=True)
 
 
 def rows() -> Iterator[Row]:
