@@ -12,7 +12,7 @@ import logging
 import os
 import sys
 import tempfile
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from pathlib import Path
 from typing import Any, NoReturn
 
@@ -113,7 +113,7 @@ def mesh_command(args: argparse.Namespace) -> int:
     """flexcage mesh CASE: build, check and write the cage's mesh."""
     case = case_from(args)
     out = Path(args.out) if args.out else Path(f"{case.name}.msh")
-    prepare_file(out, force=args.force)
+    prepare_file(out, (".msh", ".vtu"), force=args.force)
     from flexcage.mesh.build import build_cage_mesh
     from flexcage.mesh.io import write_mesh
     from flexcage.mesh.quality import report_mesh
@@ -194,6 +194,26 @@ def presets_command(args: argparse.Namespace) -> int:
     for name, text in preset.sources.items():
         say(f"  {name}: {text}")
     return 0
+
+
+def verify_command(args: argparse.Namespace) -> int:
+    """flexcage verify [NAMES]: known answers against what flexcage computes; 1 if one is missed."""
+    from flexcage.verification import chosen, report, run_case
+
+    cases = chosen(args.names, quick=args.quick)
+    if args.list:
+        for case in cases:
+            say(f"{case.name:<24} {'quick' if case.quick else 'long':<6} {case.title}")
+        return 0
+    out = Path(args.out) if args.out else None
+    if out is not None:
+        prepare_file(out, report.FORMATS, force=args.force)
+    outcomes = [run_case(case) for case in cases]
+    say(report.table(outcomes))
+    if out is not None:
+        report.write(outcomes, out)
+        say(f"written: {out}")
+    return 0 if all(outcome.passed for outcome in outcomes) else 1
 
 
 def doctor_command(args: argparse.Namespace) -> int:
@@ -302,10 +322,13 @@ def empty_run(out: Path) -> None:
     shutil.rmtree(out)
 
 
-def prepare_file(path: Path, *, force: bool) -> None:
-    """Refuse an output file that exists or cannot be written."""
-    if path.suffix not in (".msh", ".vtu"):
-        raise InputError(f"'{path}' should end in .msh or .vtu.", where="out", value=str(path))
+def prepare_file(path: Path, endings: Iterable[str], *, force: bool) -> None:
+    """Refuse an output file of another ending, or one that exists or cannot be written."""
+    endings = tuple(endings)
+    if path.suffix not in endings:
+        raise InputError(
+            f"'{path}' should end in {' or '.join(endings)}.", where="out", value=str(path)
+        )
     if path.exists() and not force:
         raise InputError(f"'{path}' exists already; --force writes it anew.", where="out")
     if not path.parent.is_dir() or not os.access(path.parent, os.W_OK):
@@ -351,6 +374,7 @@ def build_parser() -> argparse.ArgumentParser:
     _add_run(commands)
     _add_case_commands(commands)
     _add_run_commands(commands)
+    _add_verify(commands)
     _add_small_commands(commands)
     return parser
 
@@ -387,6 +411,20 @@ def _add_run_commands(commands: Any) -> None:
     compare.add_argument("--set", action="append", metavar="PATH=VALUE", help="change a value")
     compare.add_argument("-o", "--out", metavar="DIR", help="folder for table, plot and runs")
     compare.add_argument("--force", action="store_true", help="write an existing folder anew")
+
+
+def _add_verify(commands: Any) -> None:
+    text = "compute cases with known answers, and compare"
+    verify = _command(commands, "verify", verify_command, text)
+    verify.add_argument("names", nargs="*", metavar="NAME", help="cases (default: all)")
+    extent = verify.add_mutually_exclusive_group()
+    extent.add_argument(
+        "--quick", action="store_true", help="only those that need no compiled bearing"
+    )
+    extent.add_argument("--all", action="store_true", help="the long ones as well (the default)")
+    verify.add_argument("--list", action="store_true", help="name the cases, compute nothing")
+    verify.add_argument("-o", "--out", metavar="FILE", help="write a chapter (.md), or .json")
+    verify.add_argument("--force", action="store_true", help="write over an existing file")
 
 
 def _add_small_commands(commands: Any) -> None:

@@ -1,25 +1,22 @@
-"""Flexible body in a floating frame: two other programs, particles, and what free flight keeps."""
+"""Flexible body in a floating frame: particles, energy, and choices that change no flight."""
 
 from __future__ import annotations
 
 import numpy as np
 import pytest
-from free_motion import Tumbler, free_body, full_mesh_invariants, tumbler
 from scipy import sparse
-from scipy.integrate import solve_ivp
 from scipy.spatial.transform import Rotation
-from scipy.special import ellipk
 
 from flexcage.bodies.floating_frame import (
     FlexibleBody,
     flexible_body,
     frame_work,
     inertia_terms,
-    rigid_body,
     scalar_mass,
     with_point_mass,
 )
 from flexcage.core.errors import InputError
+from flexcage.verification.free_motion import Tumbler, free_body, launch, tumbler
 
 SPIN_STIFFNESS = np.array([[3.0, 1, 0, 0], [1, 2, 0, -1], [0, 0, 4, 0], [0, -1, 0, 5]])
 
@@ -29,41 +26,11 @@ def kinetic_energy(M, v_body, w, qd):
     return 0.5 * u @ M @ u
 
 
-def launch(flyer, d):
-    return flyer.start(
-        v=d["velocity"], w=d["angular_velocity"], q=d["modal_start"], qd=d["modal_rate_start"]
-    )
-
-
 @pytest.fixture(scope="module")
 def flight():
     """The tight run of the case with mean-axis shapes: tumbler, data, mass, states."""
     flyer, d, mass = tumbler("free")
-    return flyer, d, mass, flyer.fly(launch(flyer, d), d["time"])
-
-
-def test_two_other_programs_agree(flight):
-    flyer, d, _, states = flight
-    seen = d["observed"]
-    x = np.array([flyer.nodes(y, d["nodes"][seen], d["shapes_free"][seen])[0] for y in states])
-    assert np.abs(x - d["position"]).max() < 1e-9  # 7e-13 reached
-    assert np.abs(x - d["position_second"]).max() < 1e-9
-    q = states[:, 13:25]
-    assert np.abs(q - d["modal"]).max() < 1e-5 * np.abs(d["modal"]).max()
-
-
-def check_invariants(flyer, states, points, shapes, mass, rtol):
-    seen = [full_mesh_invariants(flyer, y, points, shapes, mass) for y in states]
-    energy, p, l = (np.array(a) for a in zip(*seen))
-    np.testing.assert_allclose(energy, energy[0], rtol=rtol)
-    for vector in (p, l):
-        size = np.linalg.norm(vector[0])
-        assert np.abs(vector - vector[0]).max() < rtol * size
-
-
-def test_energy_and_momenta_are_kept(flight):
-    flyer, d, mass, states = flight
-    check_invariants(flyer, states[::10], d["nodes"], d["shapes_free"], mass, 1e-8)
+    return flyer, d, mass, flyer.fly(launch(flyer, d), d["time"][:51])
 
 
 def rigid_part(d):
@@ -111,12 +78,6 @@ def test_frame_tied_to_an_end_face_flies_the_same_way(flight):
         apart.append(np.abs(np.array(x) - np.array(ref)).max())
     # deformations are 64 and 6.4 um; a coupling left out would be a share of them at any scale
     assert apart[1] < 1e-8 and apart[0] / apart[1] == pytest.approx(100.0, rel=0.1)
-
-
-def test_frame_tied_to_an_end_face_keeps_energy_and_momenta(flight):
-    _, d, mass, _ = flight
-    flyer, states = fly_clamped(1.0, d)
-    check_invariants(flyer, states, d["nodes"], d["shapes_clamped"], mass, 1e-8)
 
 
 def test_turning_the_start_turns_the_flight(flight):
@@ -205,47 +166,9 @@ def test_geometric_stiffness_keeps_energy_and_angular_momentum():
     np.testing.assert_allclose(seen, [seen[0]] * 6, rtol=1e-8, atol=1e-8)
 
 
-def dzhanibekov():
-    return Tumbler(rigid_body(1.0, np.zeros(3), np.diag([2.0, 1.0, 0.0])))  # I = (1, 2, 3)
-
-
-def test_tennis_racket_turns_over_on_time():
-    flyer = dzhanibekov()
-    np.testing.assert_allclose(flyer.body.inertia, np.diag([1.0, 2.0, 3.0]))
-    y0 = flyer.start(w=(0.01, 10.0, 0.01))
-
-    def crossing(t, y):
-        return y[11]
-
-    out = solve_ivp(
-        flyer.rate, (0, 20), y0, method="DOP853", rtol=1e-12, atol=1e-14, events=crossing,
-        t_eval=np.linspace(0, 20, 41),
-    )  # fmt: skip
-    times = out.t_events[0]
-    np.testing.assert_allclose(times[:4], [1.49059, 4.24367, 6.99676, 9.74984], atol=1e-5)
-    # half period 2 K(m)/p of Euler's solution: closed form
-    inertia, w = np.array([1.0, 2.0, 3.0]), np.array([0.01, 10.0, 0.01])
-    t2, l2 = inertia @ w**2, np.sum((inertia * w) ** 2)
-    p2 = (inertia[2] - inertia[1]) * (l2 - inertia[0] * t2) / inertia.prod()
-    m = (
-        (inertia[1] - inertia[0])
-        * (inertia[2] * t2 - l2)
-        / ((inertia[2] - inertia[1]) * (l2 - inertia[0] * t2))
-    )
-    if m > 1.0:
-        m, p2 = 1.0 / m, p2 * m
-    np.testing.assert_allclose(np.diff(times), 2.0 * ellipk(m) / np.sqrt(p2), rtol=2e-6)
-    for y in out.y.T:
-        w, A = y[10:13], Rotation.from_quat(y[6:10], scalar_first=True).as_matrix()
-        assert inertia @ w**2 == pytest.approx(200.0004, rel=1e-8)
-        l = A @ (inertia * w)
-        np.testing.assert_allclose(l, [0.01, 20.0, 0.03], atol=1e-8 * 20)
-
-
 def test_mass_properties_of_the_mesh():
     d, mass = free_body()
     body = flexible_body(d["nodes"], mass, d["shapes_free"], d["stiffness_free"])
-    assert body.data.mass == pytest.approx(0.09656849805208265, rel=1e-12)
     assert np.abs(body.centre_of_mass).max() < 1e-12
     turn = np.stack([np.cross(e, d["nodes"]) for e in np.eye(3)])
     np.testing.assert_allclose(

@@ -4,21 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-
-def normal(law, p, d, v):
-    """Force and its two derivatives on arrays d, v."""
-    d, v = (np.ascontiguousarray(x, float) for x in np.broadcast_arrays(d, v))
-    F, Fd, Fv = np.full(d.shape, np.nan), np.full(d.shape, np.nan), np.full(d.shape, np.nan)
-    law(d.size, d, v, p, F, Fd, Fv)
-    return F, Fd, Fv
-
-
-def friction(law, p, u):
-    """mu/u and its derivative on an array u."""
-    u = np.ascontiguousarray(u, float)
-    g, dg = np.full(u.shape, np.nan), np.full(u.shape, np.nan)
-    law(u.size, u, p, g, dg)
-    return g, dg
+from flexcage.verification.law_values import friction, normal
 
 
 def check_normal_law(law, p, *, depth=2e-5, speed=0.5):

@@ -3,7 +3,6 @@ import logging
 import numpy as np
 import pytest
 import scipy.sparse as sp
-from fem_shapes import box
 
 from flexcage.core.errors import InputError, RunFailed
 from flexcage.fem.free import FreeBodySolver
@@ -11,6 +10,7 @@ from flexcage.fem.linear import available_kinds, linear_solver
 from flexcage.fem.model import assemble
 from flexcage.geometry.materials import MATERIALS
 from flexcage.mesh.cage_mesh import CageMesh
+from flexcage.verification.solids import box
 
 BRASS = MATERIALS["brass"]
 

@@ -4,7 +4,6 @@ import pickle
 import numpy as np
 import pytest
 import skfem
-from fem_shapes import box
 from skfem.models.elasticity import lame_parameters, linear_elasticity
 
 from flexcage.core.errors import InputError
@@ -12,6 +11,7 @@ from flexcage.fem.linear import linear_solver
 from flexcage.fem.model import assemble
 from flexcage.geometry.materials import MATERIALS
 from flexcage.mesh.cage_mesh import CageMesh
+from flexcage.verification.solids import box
 
 BRASS = MATERIALS["brass"]
 

@@ -1,40 +1,38 @@
-"""The N1013 of this folder: cases on the coarse mesh, their stages, and runs from chosen states."""
+"""The N1013 of this folder: the chapter's, with defects, states and measures of these tests."""
 
 from __future__ import annotations
 
 import logging
-from collections.abc import Callable, Mapping
-from dataclasses import replace
-from functools import cache
 
 import numpy as np
 from scipy.interpolate import CubicHermiteSpline
 
-from flexcage.case import Case, load_case
-from flexcage.mesh.cage_mesh import CageMesh
-from flexcage.modes.reduction import CageReduction
-from flexcage.modes.spec import ModesSpec
-from flexcage.results.recording import Recorder, new_store
-from flexcage.simulate import build_bearing, cage_mesh, cage_reduction
-from flexcage.system.problem import Bearing
-from flexcage.system.start import Start, geometric_guess
+from flexcage.verification.n1013 import (
+    FRICTIONLESS,
+    NO_OIL,
+    bearing_of,
+    cage_of,
+    march,
+    n1013,
+    state_at_rest,
+)
+
+__all__ = [
+    "FRICTIONLESS",
+    "NO_OIL",
+    "bearing_of",
+    "bent",
+    "cage_of",
+    "log",
+    "march",
+    "n1013",
+    "pushed",
+    "relative_error",
+    "state_at_rest",
+    "station_reading",
+]
 
 log = logging.getLogger("verification")
-
-BASE = {
-    "bearing": {"preset": "N1013"},
-    "mesh": {"fineness": "coarse"},
-    "load": {"radial": "1000 N"},
-}
-FRICTIONLESS = {
-    f"contacts.{place}.friction.law": "none" for place in ("race", "pocket", "side", "rib", "land")
-}
-NO_OIL = {"lubricant.rolling_resistance": "none", "lubricant.oil_fraction": 0.0}
-
-
-def n1013(*tables: Mapping[str, object], **sections) -> Case:
-    """The preset with a sound cage; ``tables`` map dotted paths to text, later ones win."""
-    return load_case({**BASE, **sections}, overrides={k: v for t in tables for k, v in t.items()})
 
 
 def bent(displacement: str, *, crossbeam: int = 5, shape: str = "bent") -> list[dict]:
@@ -61,67 +59,6 @@ def station_reading(stations: np.ndarray, along: np.ndarray) -> np.ndarray:
 def pushed(displacement: str, *, pocket: int = 5, side: str = "+x") -> list[dict]:
     """One displaced side beam (delta_p)."""
     return [{"type": "side_beam", "pocket": pocket, "side": side, "displacement": displacement}]
-
-
-def cage_of(case: Case) -> tuple[CageMesh, CageReduction]:
-    """Mesh and flexible reduction of a case's cage, made once for all cases with that cage."""
-    plain = _plain(case, case.modes)
-    return _mesh(_plain(case)), _reduction(plain)
-
-
-def bearing_of(case: Case) -> Bearing:
-    """The case's bearing, ready to be integrated."""
-    flexible = case.cage_model == "flexible"
-    return build_bearing(case, _mesh(_plain(case)), cage_of(case)[1] if flexible else None)
-
-
-def _plain(case: Case, modes: ModesSpec | None = None) -> Case:
-    """A case with the same cage, and nothing else that differs from the preset."""
-    contacts = n1013().contacts
-    land = replace(contacts.land, clearance=case.contacts.land.clearance)  # follows from the cage
-    return Case(
-        bearing=case.bearing, cage=case.cage, defects=case.defects, mesh=case.mesh,
-        modes=modes or ModesSpec(), contacts=replace(contacts, land=land),
-    )  # fmt: skip
-
-
-@cache
-def _mesh(plain: Case) -> CageMesh:
-    return cage_mesh(plain)
-
-
-@cache
-def _reduction(plain: Case) -> CageReduction:
-    reduction = cage_reduction(plain, _mesh(plain.replace("modes", ModesSpec())))
-    assert reduction is not None
-    return reduction
-
-
-def state_at_rest(bearing: Bearing) -> tuple[np.ndarray, np.ndarray]:
-    """y and y' with every roller in the middle of its pocket and of the races, nothing moving."""
-    model, layout = bearing.data.model, bearing.layout
-    y = geometric_guess(model, layout)
-    q = layout.q(y)
-    q["rollers"][:, 1] = 0.5 * (model.inner.radius + model.outer.radius)
-    q["inner"][1:3] = 0.0
-    return y, np.zeros_like(y)
-
-
-def march(
-    case: Case, bearing: Bearing, y: np.ndarray, yd: np.ndarray, *, also: Callable | None = None
-):
-    """Integrate a bearing from a chosen state for the case's duration; its dataset.
-
-    ``also(recorder)`` is called before the first step.
-    """
-    Z, stations = bearing.layout.rollers, bearing.data.model.pocket.phi.shape[2]
-    start = Start(y, yd, (), 0.0, 0.0, np.zeros((Z, 4, stations, 3)))
-    store = new_store(None, bearing, duration=case.solver.duration, output=case.output, attrs={})
-    recorder = Recorder(bearing, start, store, solver=case.solver, output=case.output)
-    if also is not None:
-        also(recorder)
-    recorder.march()
-    return store.dataset()
 
 
 def relative_error(ours: np.ndarray, theirs: np.ndarray) -> float:

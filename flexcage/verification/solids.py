@@ -1,4 +1,4 @@
-"""Structured meshes of simple bodies, in metres."""
+"""Structured meshes of simple solids, in metres."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ def box(size: tuple[float, float, float], cells: tuple[int, int, int]) -> CageMe
 def ring(
     inner: float, outer: float, width: float, cells: tuple[int, int, int]
 ) -> tuple[CageMesh, np.ndarray]:
-    """A ring about x, cells in (x, r, psi); and the radius of every point (n,)."""
+    """A ring about x of radii and width, cells in (x, r, psi); and every point's radius (n,)."""
     nx, nr, nt = cells
     axes = [np.linspace(-width / 2, width / 2, nx + 1), np.linspace(inner, outer, nr + 1)]
     mesh = skfem.MeshTet.init_tensor(*axes, np.arange(nt + 1.0))

@@ -1,0 +1,51 @@
+"""Elastic impacts: depth, time and force of contact."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+from scipy.special import gamma
+
+from flexcage.contacts import laws
+from flexcage.contacts.spec import NormalLaw
+from flexcage.verification.known_answer import KnownAnswer, Row, Tolerance
+from flexcage.verification.law_values import strike
+
+SPEED = 0.5  # m/s
+# K [N/m^n], n, mass [kg]; depth [um], time [us], force [N]
+TABLE = {
+    "N1013 roller, line contact": (
+        454517.4944 * 1e3 ** (10.0 / 9.0), 10.0 / 9.0, 3.1567e-3, 1.916562, 11.84622, 434.6419,
+    ),
+    "7010C ball, Hertz": (8.69343e9, 1.5, 2.7173e-3, 6.250555, 36.79327, 135.8529),
+}  # fmt: skip
+PRINTED = Tolerance(4e-5, "the masses are printed to five digits")
+INTEGRATED = Tolerance(1e-7, "closed form against an integration with 1e-10")
+ENERGY = Tolerance(1e-6, "an elastic contact keeps the energy", absolute=True)
+
+
+def rows() -> Iterator[Row]:
+    for name, (k, n, mass, depth, time, force) in TABLE.items():
+        hit = strike(
+            laws.elastic, laws.normal_parameters(NormalLaw(law="elastic"), k, n), mass, SPEED
+        )
+        yield Row(f"{name}, depth", "um", depth, 1e6 * hit.depth, PRINTED)
+        yield Row(f"{name}, time in contact", "us", time, 1e6 * hit.time, PRINTED)
+        yield Row(f"{name}, largest force", "N", force, hit.force, PRINTED)
+        yield Row(f"{name}, energy after over before", "", 1.0, hit.restitution**2, ENERGY)
+        share = 1.0 / (n + 1.0)
+        factor = 2.0 * np.sqrt(np.pi) * gamma(1.0 + share) / gamma(0.5 + share)
+        found = hit.time * SPEED / hit.depth
+        yield Row(f"{name}, time x speed / depth", "", factor, found, INTEGRATED)
+
+
+CASE = KnownAnswer(
+    name="impact",
+    title="Elastic impact of a roller and of a ball",
+    source="closed form: depth ((n+1) m v^2/(2K))^(1/(n+1)), time 2 (depth/v) sqrt(pi) "
+    "Gamma(1+1/(n+1))/Gamma(1/2+1/(n+1)); numbers from an independent program",
+    checks="A mass flies at 0.5 m/s against the elastic law of a race: how deep, how long, how "
+    "hard, and that it leaves as fast as it came.",
+    rows=rows,
+)

@@ -1,0 +1,71 @@
+"""Rollers that fly against the outer race of a bearing and come back."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+
+import numpy as np
+
+from flexcage.verification.cases.impact import TABLE
+from flexcage.verification.known_answer import KnownAnswer, Row, Tolerance
+from flexcage.verification.n1013 import LOSSLESS, bearing_of, march, n1013, state_at_rest
+
+SPEED = 0.5  # m/s, outwards
+FLIGHT = {
+    "cage.model": "rigid",
+    "bearing.profile.kind": "straight",
+    "bearing.radial_clearance": "55 um",
+    "contacts.land.kind": "none",
+    "drive.speed": "0 rpm",
+    "load.radial": "0 N",
+    "solver.duration": "60 us",
+    "solver.tolerance": "0.00001 um",
+    "output.rate": "5 MHz",
+    "output.vibration_rate": "5 MHz",
+}
+STEPS = Tolerance(1e-3, "the solver's step and tolerance in a contact of 12 us")
+SAMPLES = Tolerance(0.4, "touch and parting are known to a sample of 0.2 us each", absolute=True)
+
+
+def flight(*tables: Mapping[str, object]) -> tuple[np.ndarray, np.ndarray, np.ndarray, float]:
+    """Of roller 0: force on the outer race [N], depth in it [m], radial speed [m/s]; sample [s]."""
+    case = n1013(LOSSLESS, FLIGHT, *tables)
+    bearing = bearing_of(case)
+    y, yd = state_at_rest(bearing)
+    bearing.layout.u(y)["rollers"][:, 1] = bearing.layout.q(yd)["rollers"][:, 1] = SPEED
+    ds = march(case, bearing, y, yd).isel(roller=0)
+    return (
+        ds["race_force"].sel(race="outer").values,
+        ds["roller_position"].sel(cyl="r").values
+        - (case.bearing.outer_race_radius - 0.5 * case.bearing.roller_diameter),
+        ds["roller_velocity"].sel(cyl="r").values,
+        1.0 / case.output.rate,
+    )
+
+
+def rows() -> Iterator[Row]:
+    force, depth, speed, sample = flight()
+    _, _, _, deepest, time, largest = TABLE["N1013 roller, line contact"]
+    yield Row("elastic: depth", "um", deepest, 1e6 * depth.max(), STEPS)
+    yield Row("elastic: largest force", "N", largest, float(force.max()), STEPS)
+    touched = 1e6 * sample * np.count_nonzero(force)
+    yield Row("elastic: time in contact", "us", time, touched, SAMPLES)
+    yield Row("elastic: speed back", "m/s", SPEED, -float(speed[-1]), STEPS)
+    for e in (0.9, 0.5):
+        law = {
+            "contacts.race.normal.law": "restitution",
+            "contacts.race.normal.restitution": e,
+        }
+        speed = flight(law)[2]
+        yield Row(f"restitution {e}: speed back", "m/s", e * SPEED, -float(speed[-1]), STEPS)
+
+
+CASE = KnownAnswer(
+    name="race_impact",
+    title="Rollers that strike the outer race",
+    source="closed form and numbers as in `impact`; the restitution asked for",
+    checks="All rollers of an N1013 at rest fly outwards at 0.5 m/s between races of 55 um "
+    "clearance: the whole bearing's kernels and solver give the impact of one mass on one law.",
+    rows=rows,
+    quick=False,
+)

@@ -1,0 +1,54 @@
+"""A roller of the N1013: profile, mass, and the scales of force and speed that follow."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from math import pi
+
+import numpy as np
+
+from flexcage.geometry.kinematics import epicyclic
+from flexcage.geometry.presets import load_preset
+from flexcage.verification.known_answer import KnownAnswer, Row, Tolerance
+
+PROFILE = (7.630, 4.650, 3.320, 2.481)  # um, from the end inwards
+DIGITS = Tolerance(5.1e-4, "printed to 1e-3 um", absolute=True)
+CENTRE = Tolerance(5.1e-5, "printed to 1e-4 um", absolute=True)
+PRINTED = Tolerance(3e-5, "printed to five digits, inertias from a mass of five digits")
+ROUNDED = Tolerance(5e-5, "printed to 1e-3 N and m/s")
+
+
+def rows() -> Iterator[Row]:
+    b = load_preset("N1013").bearing
+    slices = ((np.arange(30) + 0.5) / 30 - 0.5) * b.effective_length
+    drop = 1e6 * b.profile.drop(slices, diameter=b.roller_diameter, length=b.effective_length)
+    for k, expected in enumerate(PROFILE):
+        yield Row(f"profile, slice {k + 1} of 30", "um", expected, drop[k], DIGITS)
+    yield Row("profile, slice 15 of 30", "um", 0.0031, drop[14], CENTRE)
+    yield Row("mass", "g", 3.1567, 1e3 * b.roller_mass, PRINTED)
+    axial, transverse = b.roller_inertia
+    yield Row("axial moment of inertia", "kg mm^2", 2.5253e-2, 1e6 * axial, PRINTED)
+    yield Row("transverse moment of inertia", "kg mm^2", 2.9463e-2, 1e6 * transverse, PRINTED)
+    speed = 6000.0 * pi / 30.0
+    cage = epicyclic(
+        roller_diameter=b.roller_diameter,
+        pitch_diameter=b.pitch_diameter,
+        roller_count=b.roller_count,
+        inner_speed=speed,
+    ).cage_speed
+    centrifugal = b.roller_mass * cage**2 * b.pitch_radius
+    yield Row("centrifugal force at 6000 rpm", "N", 10.480, centrifugal, ROUNDED)
+    rolling = 0.5 * b.inner_race_diameter * (speed - cage)
+    yield Row("rolling speed at the inner race", "m/s", 12.837, rolling, ROUNDED)
+
+
+CASE = KnownAnswer(
+    name="roller",
+    title="Profile, mass and scales of a roller",
+    source="ISO/TS 16281:2008, reference profile of rollers; mass and scales from an independent "
+    "program",
+    checks="The logarithmic profile at the centres of 30 slices, mass and inertia of a steel "
+    "roller of 8 by 8 mm, and the two scales that decide about slip: centrifugal force and rolling "
+    "speed.",
+    rows=rows,
+)

@@ -1,0 +1,71 @@
+"""Contact laws called on arrays of penetrations and speeds, and a mass that strikes one."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike
+from scipy.integrate import solve_ivp
+
+from flexcage.core.errors import RunFailed
+
+Law = Callable[..., None]
+
+
+def normal(law: Law, p: np.ndarray, d: ArrayLike, v: ArrayLike) -> tuple[np.ndarray, ...]:
+    """Force [N] and its derivatives by d and v on penetrations d [m] and their rates v [m/s]."""
+    shaped = np.broadcast_arrays(np.asarray(d, float), np.asarray(v, float))
+    d, v = (np.ascontiguousarray(x) for x in shaped)
+    F, Fd, Fv = np.full(d.shape, np.nan), np.full(d.shape, np.nan), np.full(d.shape, np.nan)
+    law(d.size, d, v, p, F, Fd, Fv)
+    return F, Fd, Fv
+
+
+def friction(law: Law, p: np.ndarray, u: ArrayLike) -> tuple[np.ndarray, np.ndarray]:
+    """mu/u [s/m] and its derivative on sliding speeds u [m/s]."""
+    u = np.ascontiguousarray(u, float)
+    g, dg = np.full(u.shape, np.nan), np.full(u.shape, np.nan)
+    law(u.size, u, p, g, dg)
+    return g, dg
+
+
+def coefficient(law: Law, p: np.ndarray, u: ArrayLike) -> np.ndarray:
+    """Friction coefficient mu on sliding speeds u [m/s]."""
+    return friction(law, p, u)[0] * np.asarray(u, float)
+
+
+@dataclass(frozen=True)
+class Impact:
+    """Speed after an impact over that before, largest penetration, force there, time in contact."""
+
+    restitution: float
+    depth: float  # [m]
+    force: float  # [N]
+    time: float  # [s]
+
+
+def strike(law: Law, p: np.ndarray, mass: float, speed: float) -> Impact:
+    """A mass [kg] flies against a wall of a normal law at a speed [m/s]; until it parts."""
+
+    def rate(t: float, y: np.ndarray) -> list[float]:
+        return [y[1], -normal(law, p, [max(y[0], 0.0)], [y[1]])[0][0] / mass]
+
+    def parted(t: float, y: np.ndarray) -> float:  # clipped at zero: beyond, the body flies
+        return y[0] if t > 0.0 else 1.0
+
+    def turned(t: float, y: np.ndarray) -> float:
+        return y[1]
+
+    parted.terminal, parted.direction = True, -1  # type: ignore[attr-defined]
+    scale = (mass * speed**2 / p[0]) ** (1.0 / (p[1] + 1.0))
+    out = solve_ivp(
+        rate, (0.0, 1e4 * scale / speed), [0.0, speed], method="DOP853", rtol=1e-10,
+        atol=[1e-12 * scale, 1e-12 * speed], events=(parted, turned), max_step=0.05 * scale / speed,
+    )  # fmt: skip
+    if not out.t_events[0].size:
+        raise RunFailed("the impact's mass does not leave the wall; is its law damped beyond all?")
+    depth = out.y_events[1][0][0]
+    force = normal(law, p, [depth], [0.0])[0][0]
+    return Impact(-out.y[1, -1] / speed, depth, force, out.t[-1])
