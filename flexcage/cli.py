@@ -118,13 +118,7 @@ def mesh_command(args: argparse.Namespace) -> int:
     from flexcage.mesh.io import write_mesh
     from flexcage.mesh.quality import report_mesh
 
-    mesh = build_cage_mesh(
-        case.cage,
-        pocket_count=case.bearing.roller_count,
-        pitch_diameter=case.bearing.pitch_diameter,
-        defects=case.defects,
-        options=case.mesh,
-    )
+    mesh = build_cage_mesh(**case.cage_shape)
     say(report_mesh(mesh, density=case.cage.material.density))
     for path in dict.fromkeys((out, out.with_suffix(".vtu"))):
         say(f"written: {write_mesh(mesh, path)}")

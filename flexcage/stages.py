@@ -43,13 +43,7 @@ def run_store(
 
 def cage_mesh(case: Case) -> CageMesh:
     """Mesh of the case's cage, checked."""
-    mesh = build_cage_mesh(
-        case.cage,
-        pocket_count=case.bearing.roller_count,
-        pitch_diameter=case.bearing.pitch_diameter,
-        defects=case.defects,
-        options=case.mesh,
-    )
+    mesh = build_cage_mesh(**case.cage_shape)
     check_mesh(mesh, where=case.mesh.file or "mesh")
     return mesh
 

@@ -149,6 +149,17 @@ class Case:
         return content_hash(physics, content, *outside)
 
     @property
+    def cage_shape(self) -> dict[str, Any]:
+        """What ``mesh.build.build_cage_mesh`` asks for, by name."""
+        return {
+            "cage": self.cage,
+            "pocket_count": self.bearing.roller_count,
+            "pitch_diameter": self.bearing.pitch_diameter,
+            "defects": self.defects,
+            "options": self.mesh,
+        }
+
+    @property
     def assumptions(self) -> dict[str, str]:
         """Values that no source gives and that this case left as they were: path to reason."""
         found = dict(_standing_assumptions(self, ""))
