@@ -10,14 +10,13 @@ from __future__ import annotations
 
 import numpy as np
 from c_functions import CFunctions, c_function, vector
+from dense_tangent import kinematics, momentum_matrices
 from numba import types
 
 from flexcage.core.jit import fields, kernel
-from flexcage.core.rotation import quaternion_rate, rotation_of_quaternion_change
 from flexcage.solve.bordered import lu_factor, lu_solve
 
 _HELD = (0, 3, 4, 5)  # of the inner ring's velocities
-_ALPHA = 1e6  # [1/s] of factors that nobody uses
 
 
 class OdeForm:
@@ -90,76 +89,20 @@ class OdeForm:
         return np.concatenate([x, np.zeros(self.c.size - self.size)])
 
     def jacobian(self, t: float, x: np.ndarray) -> np.ndarray:
-        """df/dx (n, n) from the tangent blocks of Newton's matrix, as exact as those are."""
+        """df/dx (n, n), as exact as Newton's matrix."""
         y = self.full(x)
-        self.c.setup(t, y, np.zeros_like(y), _ALPHA)
-        tangent = self.c.bearing.data.work.tangent
-        K = _full(tangent.Krr, tangent.Krb, tangent.Kbr, tangent.Kbb, self.layout)
-        C = _full(tangent.Crr, tangent.Crb, tangent.Cbr, tangent.Cbb, self.layout)
+        M, C, K = momentum_matrices(self.c, t, y, np.zeros_like(y))
         to_rate, to_displacement = kinematics(self.layout, y)
-        n_q = self.layout.n_q
+        n_q, ring = self.layout.n_q, 6 * self.layout.rollers
         J = np.zeros((self.size, self.size))
         J[:n_q, n_q:] = to_rate
-        J[n_q:, :n_q] = -self._per_mass(K @ to_displacement)
-        J[n_q:, n_q:] = -self._per_mass(C)
+        J[n_q:, :n_q] = -K @ to_displacement
+        J[n_q:, n_q:] = -C
+        force = J[n_q:]
+        force[:ring] /= np.diag(M)[:ring, None]
+        force[ring:] = np.linalg.solve(M[ring:, ring:], force[ring:])
+        force[[ring + c for c in _HELD]] = 0.0
         return J
-
-    def _per_mass(self, rows: np.ndarray) -> np.ndarray:
-        """M^-1 times rows (n_u, m) of momentum; nothing for what is held."""
-        Z, data = self.layout.rollers, self.c.bearing.data
-        roller, ring = data.model.bodies.roller, 6 * Z
-        inertia = np.array([roller[0]] * 3 + [roller[1]] + [roller[2]] * 2)
-        rows = rows.copy()
-        rows[:ring] /= np.tile(inertia, Z)[:, None]
-        rows[ring : ring + 6] /= data.model.bodies.ring[0]
-        rows[[ring + c for c in (*_HELD, 6, 7)]] = 0.0
-        mass = data.work.tangent.Mbb[8 : 14 + self.layout.modes, 8 : 14 + self.layout.modes]
-        rows[ring + 8 :] = np.linalg.solve(mass, rows[ring + 8 :])
-        return rows
-
-
-def kinematics(layout, y: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """(n_q, n_u) rates of coordinates by velocities, and (n_u, n_q) the displacements of changes.
-
-    To first order in skew and tilt, as in Newton's matrix.
-    """
-    Z = layout.rollers
-    rate = np.zeros((layout.n_q, layout.n_u))
-    back = np.zeros((layout.n_u, layout.n_q))
-    order = (0, 1, 2, 5, 3, 4)  # coordinates that belong to (v, v, v, spin, skew, tilt)
-    for body in range(Z + 1):
-        rows = 6 * body + np.array(order)
-        columns = 6 * body + np.arange(6)
-        scale = np.ones(6)
-        scale[2] = y[6 * body + 1] if body < Z else 1.0
-        rate[rows, columns] = 1.0 / scale
-        back[columns, rows] = scale
-    z = 6 * (Z + 1)
-    for c in range(5):
-        rate[z + c, z + c] = back[z + c, z + c] = 1.0
-    quaternion = y[z + 5 : z + 9].copy()
-    for c in range(3):
-        quaternion_rate(quaternion, np.eye(3)[c], column := np.zeros(4))
-        rate[z + 5 : z + 9, z + 5 + c] = column
-    for c in range(4):
-        rotation_of_quaternion_change(quaternion, np.eye(4)[c], turned := np.zeros(3))
-        back[z + 5 : z + 8, z + 5 + c] = turned
-    modes = np.arange(layout.modes)
-    rate[z + 9 + modes, z + 8 + modes] = back[z + 8 + modes, z + 9 + modes] = 1.0
-    return rate, back
-
-
-def _full(rr: np.ndarray, rb: np.ndarray, br: np.ndarray, bb: np.ndarray, layout) -> np.ndarray:
-    """Blocks and border as one matrix (n_u, n_u)."""
-    Z, border = layout.rollers, 14 + layout.modes
-    whole = np.zeros((layout.n_u, layout.n_u))
-    for i in range(Z):
-        part = slice(6 * i, 6 * i + 6)
-        whole[part, part] = rr[i]
-        whole[part, 6 * Z :] = rb[i, :, :border]
-        whole[6 * Z :, part] = br[i, :border]
-    whole[6 * Z :, 6 * Z :] = bb[:border, :border]
-    return whole
 
 
 @kernel

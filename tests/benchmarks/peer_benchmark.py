@@ -26,6 +26,7 @@ REPEATS = 3
 FLEXCAGE = "flexcage"
 PEERS = {  # key of the ratio: curves of which the cheapest counts
     "ida": ("IDA, order 2", "IDA, order 5"),
+    "ida_dense": ("IDA, dense matrix",),
     "scipy_bdf": ("SciPy BDF",),
     "scipy_radau": ("SciPy Radau",),
     "lsoda": ("LSODA",),
@@ -103,6 +104,7 @@ def _methods() -> dict[str, tuple[Callable[[Peers, float], Integration], Sequenc
         "flexcage, order 5": (lambda p, share: _flexcage(p, share, max_order=5), SHARES),
         "IDA, order 2": (lambda p, share: p.ida(share, max_order=2), SHARES),
         "IDA, order 5": (lambda p, share: p.ida(share, max_order=5), SHARES),
+        "IDA, dense matrix": (lambda p, share: p.ida(share, max_order=5, dense=True), SHARES[1:]),
         "SciPy BDF": (scipy("BDF"), SHARES[1:]),
         "SciPy Radau": (scipy("Radau"), SHARES[1:9:2]),
         "LSODA": (scipy("LSODA"), SHARES[1:9]),
@@ -176,7 +178,7 @@ def draw(curves, path: Path) -> None:
 
     figure, axes = plt.subplots(1, 2, figsize=(11, 4.8), sharey=True, layout="constrained")
     for axis, group in zip(axes, ("race", "cage"), strict=True):
-        for (name, points), mark in zip(curves.items(), "osDd^v<*", strict=True):
+        for (name, points), mark in zip(curves.items(), "osDdP^v<*", strict=True):
             errors = [GROUPS[group](p.error) for p in points]
             axis.loglog(errors, [p.cpu for p in points], marker=mark, ms=4, lw=1, label=name)
         axis.invert_xaxis()

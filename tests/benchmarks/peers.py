@@ -8,7 +8,8 @@ their own dense output.
   factorisation for its Newton iteration. scikit-sundae has no user's linear solver, so GMRES is
   given a preconditioner and a product that is that preconditioner's inverse by definition: it ends
   after one vector, at the cost of one back-substitution. IDA decides when to factor anew; as with
-  its direct solvers, the correction is scaled by 2/(1 + c_j/c_j of the factors).
+  its direct solvers, the correction is scaled by 2/(1 + c_j/c_j of the factors). ``dense`` instead
+  gives it the same matrix whole, for its own LAPACK solver.
 * SciPy's BDF, Radau and LSODA take x' = f(t, x) with the tangent as their dense Jacobian.
 * The explicit method is the classical Runge-Kutta method of order 4 at a fixed step, compiled.
 """
@@ -17,10 +18,12 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from time import process_time
+from typing import Any
 
 import numpy as np
 import scipy.integrate
 from c_functions import CFunctions
+from dense_tangent import newton_matrix
 from ode_form import OdeForm
 from settled import RATE, SETTLE, Settled
 
@@ -58,18 +61,23 @@ class Peers:
         weight = error_weights(b.data.model, b.layout, s.case.solver.tolerance * share)
         return np.where(weight > 0.0, 1.0 / np.where(weight > 0.0, weight, 1.0), UNTESTED)
 
-    def ida(self, share: float, *, max_order: int) -> Path:
-        """SUNDIALS IDA."""
+    def ida(self, share: float, *, max_order: int, dense: bool = False) -> Path:
+        """SUNDIALS IDA, with bordered or ``dense`` linear algebra."""
         from sksundae.ida import IDA, IDAJacTimes, IDAPrecond
 
         y, yd = self.settled.restore()
         newton, n = _Newton(self.c), self.c.size
+        linear: dict[str, Any] = {"linsolver": "lapackdense", "jacfn": newton.matrix}
+        if not dense:
+            linear = {
+                "linsolver": "gmres",
+                "precond": IDAPrecond(newton.setup, newton.solve),
+                "jactimes": IDAJacTimes(None, newton.times),
+            }
         solver = IDA(
-            self.c.residual, rtol=RELATIVE, atol=self.tolerances(share), linsolver="gmres",
-            precond=IDAPrecond(newton.setup, newton.solve),
-            jactimes=IDAJacTimes(None, newton.times), algebraic_idx=list(range(self.ode.size, n)),
-            max_order=max_order, first_step=FIRST_STEP, max_num_steps=10**8,
-            max_step=self.settled.case.solver.max_step,
+            self.c.residual, rtol=RELATIVE, atol=self.tolerances(share), max_order=max_order,
+            first_step=FIRST_STEP, max_step=self.settled.case.solver.max_step,
+            max_num_steps=10**8, algebraic_idx=list(range(self.ode.size, n)), **linear,
         )  # fmt: skip
         ys, yds = np.empty((2, len(self.times), len(y)))
         begin = process_time()
@@ -136,7 +144,7 @@ class Peers:
 
 
 class _Newton:
-    """IDA's linear system, solved once by the bordered factors."""
+    """IDA's linear system: solved by the bordered factors, or as a dense matrix."""
 
     def __init__(self, functions: CFunctions) -> None:
         self.c, self.setups, self._factored = functions, 0, 1.0
@@ -145,6 +153,10 @@ class _Newton:
     def setup(self, t, y, yd, residual, c_j) -> None:
         self.c.setup(t, y, yd, c_j)
         self._factored = c_j
+        self.setups += 1
+
+    def matrix(self, t, y, yd, residual, c_j, out) -> None:
+        out[:] = newton_matrix(self.c, t, y, yd, c_j)
         self.setups += 1
 
     def times(self, t, y, yd, residual, v, out, c_j) -> None:

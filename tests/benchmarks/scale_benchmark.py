@@ -132,6 +132,7 @@ def draw(tables, path: Path) -> None:
         axis.loglog(sizes, times, "o-")
         axis.set(xlabel=labels[name], title=f"slope {slope(rows, lambda r: r.cpu)}")
         axis.set_xticks(sizes, [f"{size:g}" for size in sizes])
+        axis.set_yticks(times, [f"{time:.2g}" for time in times])
         axis.minorticks_off()
         axis.grid(alpha=0.3)
     axes[0].set_ylabel("processor time [s]")
