@@ -121,7 +121,7 @@ class Peers:
                 xs[sample] = dense(self.times[sample])
                 sample += 1
         cpu = process_time() - begin
-        return self._path(cpu, solver.nfev, solver.njev, steps, xs)
+        return self._path(cpu, int(solver.nfev), int(solver.njev), steps, xs)
 
     def runge_kutta(self, step: float) -> Path:
         """The explicit method at a step [s] that divides the sampling interval."""
