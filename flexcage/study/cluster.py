@@ -7,6 +7,7 @@ process alone, and what Dask remembers of its tasks is not this process's memory
 
 from __future__ import annotations
 
+import asyncio
 import json
 import logging
 import os
@@ -15,6 +16,7 @@ import sys
 import tempfile
 import time
 from collections.abc import Iterator
+from concurrent.futures import ThreadPoolExecutor
 from contextlib import contextmanager
 from importlib.util import find_spec
 from pathlib import Path
@@ -65,11 +67,14 @@ def _client(address: str) -> Iterator[Any]:
 
     logging.getLogger("distributed").setLevel(logging.CRITICAL)  # we say it in our own words
     try:
+        with ThreadPoolExecutor(1) as aside:  # a notebook runs an event loop of its own
+            aside.submit(asyncio.run, asyncio.wait_for(_knock(address), ANSWER)).result()
         client = distributed.Client(address, timeout=ANSWER, set_as_default=False)
-    except (OSError, ValueError, TimeoutError) as exc:
+    except (OSError, TimeoutError, TypeError, ValueError) as exc:
         raise InputError(
             f"No scheduler answers at '{address}' within {ANSWER:g} s; start one with 'dask "
-            "scheduler', or leave the address out to use this machine's cores.",
+            "scheduler' and give its address, such as 'tcp://127.0.0.1:8786', or leave it out to "
+            "use this machine's cores.",
             where="scheduler",
             value=address,
         ) from exc
@@ -77,6 +82,16 @@ def _client(address: str) -> Iterator[Any]:
         yield client
     finally:
         client.close(timeout=2)
+
+
+async def _knock(address: str) -> None:
+    """Raise an error unless a scheduler answers; Dask's client waits for ever on a stranger."""
+    import distributed
+
+    async with distributed.rpc(address, timeout=ANSWER) as server:
+        identity = await server.identity()
+    if identity.get("type") != "Scheduler":
+        raise ValueError(f"{address} is a {identity.get('type')}")
 
 
 @contextmanager

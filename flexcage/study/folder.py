@@ -6,7 +6,7 @@
     failed/<hash>.json    why a case has no figures
 
 A case's folder gets its name by one rename, once all in it is on disk, so a name without ``.part``
-is a finished case. The whole folder is one Zarr hierarchy (``xarray.open_datatree``).
+is a finished case. ``cases`` is one Zarr store, with a group a case (``xarray.open_datatree``).
 """
 
 from __future__ import annotations
@@ -85,8 +85,7 @@ class Folder:
         try:
             for folder in (self.path, self.cases, self.failed):
                 folder.mkdir(parents=True, exist_ok=True)
-            for folder in (self.path, self.cases):
-                _write_json(folder / "zarr.json", _ZARR_GROUP)
+            _write_json(self.cases / "zarr.json", _ZARR_GROUP)
             replace(self.path / "study.toml", study.to_toml().encode())
         except OSError as exc:
             reason = (exc.strerror or str(exc)).lower()

@@ -1,0 +1,115 @@
+"""Workers, schedulers and clients that die in the middle: nothing finished is lost or done twice.
+
+Each study here has four cases of 4 ms, of which a block of 1 ms at a time is made safe.
+"""
+
+import os
+import signal
+import subprocess
+from concurrent.futures import ThreadPoolExecutor
+
+import pytest
+from dask_processes import begun, dask_cluster, kill_family, start, wait_for, worker_of
+from study_cases import short_study, study_file
+
+from flexcage.core.errors import RunFailed
+from flexcage.simulate import simulate
+from flexcage.study.axes import Grid
+from flexcage.study.results import StudyResults
+from flexcage.study.run import run_study
+
+LOADS = ["500 N", "1000 N", "1500 N", "2000 N"]
+OUTPUTS = ("race_force_inner", "pocket_force.max")
+PIPES = {"stdout": subprocess.PIPE, "stderr": subprocess.PIPE}
+
+
+@pytest.fixture(scope="module")
+def cluster(tmp_path_factory):
+    """Address of a scheduler with two workers, all processes of their own; the scheduler's."""
+    with dask_cluster(tmp_path_factory.mktemp("dask")) as found:
+        yield found
+
+
+def study_of(speed):
+    case = short_study(duration="4 ms").case.replace("drive.speed", speed)
+    return type(short_study())(case=case, axes=[Grid("load.radial", LOADS)], outputs=OUTPUTS)
+
+
+def when_written(folder):
+    """When the row of every finished case was written, by hash."""
+    rows = (p for p in folder.glob("cases/*/row.json") if p.parent.suffix != ".part")
+    return {p.parent.name: p.stat().st_mtime_ns for p in rows}
+
+
+def test_a_worker_killed_in_the_middle_of_a_case(cluster, tmp_path):
+    import distributed
+
+    out = tmp_path / "study"
+    with ThreadPoolExecutor(1) as aside:
+        future = aside.submit(run_study, study_of("6000 rpm"), out=out, scheduler=cluster[0])
+        with distributed.Client(cluster[0], set_as_default=False) as watcher:
+            watcher.wait_for_workers(2)
+            pids = list(watcher.run(os.getpid).values())
+        part = wait_for(lambda: begun(out))[0]
+        victim, born = part.stem, (part / "results.zarr" / "zarr.json").stat().st_mtime_ns
+        finished = when_written(out)
+        os.kill(worker_of(part.with_suffix(".lock"), pids), signal.SIGKILL)
+        results = future.result(timeout=120)
+
+    assert list(results.table["state"]) == ["done"] * len(LOADS)
+    assert finished.items() <= when_written(out).items()
+    # the other worker went on with what was safe, and came to what an unbroken run gives
+    assert (out / "cases" / victim / "results.zarr" / "zarr.json").stat().st_mtime_ns == born
+    row = next(row for row in results.rows if row.planned.hash == victim)
+    unbroken = simulate(results.plan.case(row.planned)).summary
+    assert row.figures["race_force_inner"].value == unbroken["race_force_inner"]
+
+
+def test_a_lost_scheduler_ends_the_study_with_a_sentence(cluster, tmp_path):
+    out = tmp_path / "study"
+    with ThreadPoolExecutor(1) as aside:
+        study = study_of("5000 rpm")
+        future = aside.submit(run_study, study, out=out, scheduler=cluster[0])
+        wait_for(lambda: when_written(out))
+        kill_family(cluster[1])
+        with pytest.raises(RunFailed, match="lost; what is finished is kept"):
+            future.result(timeout=120)
+    assert StudyResults(out).count("done") >= 1
+
+
+def test_ctrl_c_stops_at_once_and_resume_goes_on(tmp_path):
+    """Through the command line, on a cluster of this machine that it makes and ends itself."""
+    import psutil
+
+    axis = f'[[axes]]\npath = "load.radial"\nvalues = {LOADS}'
+    file, out = study_file(tmp_path, axis, duration="4 ms"), tmp_path / "out"
+    command = ("flexcage.cli", "study")
+    client = start(*command, "run", file, "-o", out, "--workers", 2, **PIPES)
+    wait_for(lambda: when_written(out))
+    children = psutil.Process(client.pid).children(recursive=True)
+    os.killpg(client.pid, signal.SIGINT)
+    said, complained = client.communicate(timeout=60)
+    assert client.returncode == 130 and said == ""
+    assert f"'flexcage study resume {out}' goes on" in complained
+    assert complained.count("\n") == 1, complained
+    assert not psutil.wait_procs(children, timeout=20)[1]
+
+    finished = when_written(out)
+    resumed = start(*command, "resume", out, "--workers", 2, **PIPES)
+    said, complained = resumed.communicate(timeout=120)
+    assert resumed.returncode == 0, complained
+    assert "4 cases: 4 done, 0 failed, 0 open" in said
+    assert finished.items() <= when_written(out).items()
+
+
+@pytest.mark.slow
+def test_the_machine_switched_off(tmp_path):
+    axis = f'[[axes]]\npath = "load.radial"\nvalues = {LOADS}'
+    file, out = study_file(tmp_path, axis, duration="4 ms"), tmp_path / "out"
+    client = start("flexcage.cli", "study", "run", file, "-o", out, "--workers", 2, **PIPES)
+    wait_for(lambda: when_written(out))
+    kill_family(client)
+    finished = when_written(out)
+    results = run_study(StudyResults(out).study, out=out, workers=2)
+    assert results.count("done") == len(LOADS)
+    assert finished.items() <= when_written(out).items()
