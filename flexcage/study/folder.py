@@ -1,6 +1,7 @@
 """A study on disk: its text, one folder a case, one file a case that failed.
 
     study.toml            the study, complete
+    plan.json             hashes of its cases, in order
     cases/<hash>/         a finished case: its run, and row.json with its figures
     cases/<hash>.part/    a case that is running, or was when its process ended
     failed/<hash>.json    why a case has no figures
@@ -22,6 +23,7 @@ from typing import Any
 from flexcage.core.errors import InputError
 from flexcage.results.files import replace
 from flexcage.study.outputs import Figure
+from flexcage.study.plan import Plan, stored_plan
 from flexcage.study.spec import FORMAT, Study, load_study
 
 _ROW, _PART = "row.json", ".part"
@@ -70,7 +72,19 @@ class Folder:
             )
         return load_study(self.path / "study.toml")
 
-    def prepare(self, study: Study) -> None:
+    def plan(self) -> Plan:
+        """The study's cases, as they were planned last; InputError if they are not there."""
+        study, hashes = self.study(), _read_json(self.path / "plan.json")
+        try:
+            return stored_plan(study, hashes)
+        except (TypeError, ValueError) as exc:
+            raise InputError(
+                f"'{self.path}' does not hold the plan of its study.toml; go on with 'flexcage "
+                f"study resume {self.path}', which plans it anew.",
+                where="study",
+            ) from exc
+
+    def prepare(self, plan: Plan) -> None:
         """Make the folder, or take over one that holds a study: its cases are found by content."""
         if self.path.exists() and not self.path.is_dir():
             raise InputError(f"'{self.path}' is a file; name a folder for the study.", where="out")
@@ -86,7 +100,8 @@ class Folder:
             for folder in (self.path, self.cases, self.failed):
                 folder.mkdir(parents=True, exist_ok=True)
             _write_json(self.cases / "zarr.json", _ZARR_GROUP)
-            replace(self.path / "study.toml", study.to_toml().encode())
+            replace(self.path / "study.toml", plan.study.to_toml().encode())
+            _write_json(self.path / "plan.json", [planned.hash for planned in plan.cases])
         except OSError as exc:
             reason = (exc.strerror or str(exc)).lower()
             raise InputError(

@@ -143,6 +143,8 @@ def check_outputs(names: tuple[str, ...], *, rollers: int, flexible: bool) -> No
 
 def _check_figure(name: str) -> None:
     known = (*RIGID_FIGURES, *FLEXIBLE_FIGURES)
+    if name in known:
+        return
     if name in VARIABLES:
         raise InputError(
             f"Output '{name}' is a variable over time; say how it becomes a number, such as "
@@ -150,11 +152,10 @@ def _check_figure(name: str) -> None:
             where="outputs",
             value=name,
         )
-    if name not in known:
-        hint = did_you_mean(name, (*known, *VARIABLES), "some figures are cage_speed, slip_loaded")
-        if not hint.startswith("the nearest"):
-            hint = "look at a run's summary.json for figures, such as 'cage_speed'"
-        raise InputError(f"There is no output '{name}'; {hint}.", where="outputs", value=name)
+    hint = did_you_mean(name, (*known, *VARIABLES), "")
+    if not hint.startswith("the nearest"):
+        hint = "look at a run's summary.json for figures, such as 'cage_speed'"
+    raise InputError(f"There is no output '{name}'; {hint}.", where="outputs", value=name)
 
 
 def figures_of(run: Run, reductions: tuple[str, ...]) -> dict[str, Figure]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import reduce
 from itertools import product
@@ -40,7 +41,7 @@ class Plan:
 def make_plan(study: Study) -> Plan:
     """Build and check every case; the first mistake raises InputError with its point."""
     _check_paths(study)
-    points = [reduce(or_, parts, Point({})) for parts in product(*(a.expand() for a in study.axes))]
+    points = _points(study)
     cases, seen = [], dict[str, int]()
     rollers, flexible = study.case.bearing.roller_count, False
     for number, point in enumerate(points):
@@ -64,6 +65,18 @@ def make_plan(study: Study) -> Plan:
             cases.append(Planned(number, point, repetition, case.hash))
     check_outputs(study.outputs, rollers=rollers, flexible=flexible)
     return Plan(study, tuple(cases))
+
+
+def stored_plan(study: Study, hashes: Sequence[str]) -> Plan:
+    """The plan of a study whose cases' hashes are known: nothing is built, nothing checked."""
+    places = product(enumerate(_points(study)), range(study.repeat.count))
+    cases = [Planned(n, point, k, h) for ((n, point), k), h in zip(places, hashes, strict=True)]
+    return Plan(study, tuple(cases))
+
+
+def _points(study: Study) -> list[Point]:
+    combinations = product(*(axis.expand() for axis in study.axes))
+    return [reduce(or_, parts, Point({})) for parts in combinations]
 
 
 def _build(study: Study, point: Point, repetition: int) -> Case:

@@ -22,7 +22,7 @@ from flexcage.run import Run
 from flexcage.simulate import load_run
 from flexcage.study.folder import Folder
 from flexcage.study.outputs import Figure
-from flexcage.study.plan import Plan, Planned, make_plan
+from flexcage.study.plan import Planned
 
 if TYPE_CHECKING:
     import pandas
@@ -49,8 +49,8 @@ class StudyResults:
 
     def __init__(self, path: str | Path) -> None:
         self.folder = Folder(path)
-        self.study = self.folder.study()
-        self.plan: Plan = make_plan(self.study)
+        self.plan = self.folder.plan()
+        self.study = self.plan.study
 
     def __repr__(self) -> str:
         return f"StudyResults({self.study.name!r} in {self.folder.path}: {self.status()})"

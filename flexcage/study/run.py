@@ -49,7 +49,7 @@ def run_study(
     require_packages()
     plan = make_plan(study)
     folder = Folder(Path(out).resolve())
-    folder.prepare(study)
+    folder.prepare(plan)
     reductions = tuple(name for name in study.outputs if is_reduction(name))
     todo = _lacking(plan, folder, reductions, retry=retry)
     if todo:

@@ -26,10 +26,12 @@ def short_study(*axes: object, outputs=("cage_speed",), duration="0.2 ms", **res
     return Study(case=case, axes=axes, outputs=outputs, **rest)
 
 
-def study_file(folder: Path, *tables: str, duration: str = "0.2 ms") -> Path:
+def study_file(
+    folder: Path, *tables: str, duration: str = "0.2 ms", outputs=("cage_speed",)
+) -> Path:
     """A study.toml with its case beside it; ``tables`` are its axes and what else it says."""
     (folder / "short.toml").write_text(short_case(**{"solver.duration": duration}).to_toml())
-    lines = ['name = "small"', 'case = "short.toml"', 'outputs = ["cage_speed"]', *tables]
+    lines = ['name = "small"', 'case = "short.toml"', f"outputs = {list(outputs)}", *tables]
     path = folder / "study.toml"
     path.write_text("\n".join(lines))
     return path

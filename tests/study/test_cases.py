@@ -24,8 +24,8 @@ def folder(tmp_path):
 
 
 def orders(folder, study, **changes):
-    folder.prepare(study)
     plan = make_plan(study)
+    folder.prepare(plan)
     return [
         Order(**{
             "hash": p.hash, "text": plan.case(p).to_toml(), "folder": str(folder.path),

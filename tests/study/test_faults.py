@@ -8,6 +8,7 @@ import signal
 import subprocess
 from concurrent.futures import ThreadPoolExecutor
 
+import pandas as pd
 import pytest
 from dask_processes import begun, dask_cluster, kill_family, start, wait_for, worker_of
 from study_cases import short_study, study_file
@@ -21,6 +22,12 @@ from flexcage.study.run import run_study
 LOADS = ["500 N", "1000 N", "1500 N", "2000 N"]
 OUTPUTS = ("race_force_inner", "pocket_force.max")
 PIPES = {"stdout": subprocess.PIPE, "stderr": subprocess.PIPE}
+MINE = """
+from flexcage.results.registry import Variable, register
+
+twice = Variable("twice_the_speed", ("time",), "rad/s", "twice the speed of the inner ring")
+register(twice, lambda arrays, bearing: 2.0 * arrays["inner_speed"])
+"""
 
 
 @pytest.fixture(scope="module")
@@ -78,14 +85,20 @@ def test_a_lost_scheduler_ends_the_study_with_a_sentence(cluster, tmp_path):
 
 
 def test_ctrl_c_stops_at_once_and_resume_goes_on(tmp_path):
-    """Through the command line, on a cluster of this machine that it makes and ends itself."""
+    """Through the command line, on a cluster of this machine that it makes and ends itself.
+
+    The workers compute a variable that they know from the user's own file alone.
+    """
     import psutil
 
-    axis = f'[[axes]]\npath = "load.radial"\nvalues = {LOADS}'
-    file, out = study_file(tmp_path, axis, duration="4 ms"), tmp_path / "out"
+    (tmp_path / "mine.py").write_text(MINE)
+    use = 'use = ["mine.py"]\n[[axes]]\npath = "load.radial"\nvalues = '
+    outputs = ("inner_speed", "twice_the_speed.mean")
+    file = study_file(tmp_path, use + str(LOADS), duration="4 ms", outputs=outputs)
+    out = tmp_path / "out"
     command = ("flexcage.cli", "study")
     client = start(*command, "run", file, "-o", out, "--workers", 2, **PIPES)
-    wait_for(lambda: when_written(out))
+    wait_for(lambda: when_written(out) or client.poll() is not None)
     children = psutil.Process(client.pid).children(recursive=True)
     os.killpg(client.pid, signal.SIGINT)
     said, complained = client.communicate(timeout=60)
@@ -100,6 +113,9 @@ def test_ctrl_c_stops_at_once_and_resume_goes_on(tmp_path):
     assert resumed.returncode == 0, complained
     assert "4 cases: 4 done, 0 failed, 0 open" in said
     assert finished.items() <= when_written(out).items()
+    table = pd.read_parquet(out / "table.parquet")
+    speed, twice = (table[f"{name} [rad/s]"] for name in outputs)
+    assert twice.to_numpy() == pytest.approx(2.0 * speed.to_numpy())
 
 
 @pytest.mark.slow

@@ -50,10 +50,10 @@ def test_study_in_text_is_the_study(tmp_path):
         repeat=Repeat(count=2),
     )  # fmt: skip
     folder = Folder(tmp_path / "study")
-    folder.prepare(study)
+    folder.prepare(make_plan(study))
     again = folder.study()
     assert again == study
-    assert make_plan(again).cases == make_plan(study).cases
+    assert folder.plan() == make_plan(again) == make_plan(study)
 
 
 def test_a_table_with_a_path_is_a_grid(tmp_path):
@@ -131,15 +131,15 @@ def test_outputs_that_no_run_gives(outputs, words):
 def test_a_folder_with_other_things_is_left_alone(tmp_path):
     (tmp_path / "notes.txt").write_text("mine")
     with pytest.raises(InputError, match="holds files and no study"):
-        Folder(tmp_path).prepare(short_study())
+        Folder(tmp_path).prepare(make_plan(short_study()))
 
 
 def test_a_folder_of_another_version_is_refused(tmp_path, capsys):
-    Folder(tmp_path).prepare(short_study())
+    Folder(tmp_path).prepare(make_plan(short_study()))
     text = (tmp_path / "study.toml").read_text().replace("format = 1", "format = 2")
     (tmp_path / "study.toml").write_text(text)
     for action in ("status", "report", "resume"):
         assert cli.main(["study", action, str(tmp_path)]) == 2
         assert "is a study of format 2" in capsys.readouterr().err
     with pytest.raises(InputError, match="format 2"):
-        Folder(tmp_path).prepare(short_study())
+        Folder(tmp_path).prepare(make_plan(short_study()))
