@@ -86,6 +86,11 @@ def is_reduction(name: str) -> bool:
     return _REDUCTION.fullmatch(name) is not None
 
 
+def reductions_of(names: tuple[str, ...]) -> tuple[str, ...]:
+    """Those among the outputs that are reductions."""
+    return tuple(name for name in names if is_reduction(name))
+
+
 def parse_reduction(name: str) -> Reduction:
     """Reduction from "variable.mean" or "variable[dim=label,...].max"."""
     match = _REDUCTION.fullmatch(name)

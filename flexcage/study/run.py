@@ -10,22 +10,21 @@ from pathlib import Path
 from typing import Any
 
 from flexcage.case import Case
-from flexcage.case.extensions import sources
 from flexcage.core.errors import RunFailed
 from flexcage.core.hashing import content_hash
 from flexcage.modes.registry import basis_version
 from flexcage.study.cluster import connect, require_packages
 from flexcage.study.folder import Failure, Folder
-from flexcage.study.outputs import is_reduction
+from flexcage.study.outputs import reductions_of
 from flexcage.study.plan import Plan, Planned, make_plan
 from flexcage.study.results import StudyResults
 from flexcage.study.spec import Study
-from flexcage.study.work import Order, do_case, prepare
+from flexcage.study.work import Order, do_case, order_of, prepare
 
 log = logging.getLogger(__name__)
 
 AHEAD = 3  # cases handed out per worker: one runs, the others wait beside it
-_LOOK = 5.0  # s between two looks at how many workers there are
+_LOOK = 1.0  # s between two looks at how many workers there are
 
 
 def run_study(
@@ -50,15 +49,14 @@ def run_study(
     plan = make_plan(study)
     folder = Folder(Path(out).resolve())
     folder.prepare(plan)
-    reductions = tuple(name for name in study.outputs if is_reduction(name))
-    todo = _lacking(plan, folder, reductions, retry=retry)
+    todo = _lacking(plan, folder, retry=retry)
     if todo:
         done = len(plan.cases) - len(todo)
         with connect(scheduler, workers) as client:
             with progress(len(plan.cases), "cases") if progress else nullcontext() as bar:
                 if bar is not None:
                     bar.begin_at(done)
-                desk = _Desk(client, plan, folder, reductions)
+                desk = _Desk(client, plan, folder)
                 for _ in desk.work_off(todo):
                     if bar is not None:
                         bar.advance()
@@ -67,9 +65,9 @@ def run_study(
     return results
 
 
-def _lacking(plan: Plan, folder: Folder, reductions: tuple[str, ...], *, retry: bool) -> set[str]:
+def _lacking(plan: Plan, folder: Folder, *, retry: bool) -> set[str]:
     """Hashes of the cases to compute."""
-    todo = set()
+    todo, wanted = set(), set(reductions_of(plan.study.outputs))
     for planned in plan.cases:
         failure = folder.failure(planned.hash)
         if failure is not None and retry:
@@ -77,7 +75,7 @@ def _lacking(plan: Plan, folder: Folder, reductions: tuple[str, ...], *, retry: 
         if failure is not None and failure.final and not retry:
             continue
         row = folder.row(planned.hash)
-        if row is None or not set(reductions) <= set(row.figures):
+        if row is None or not wanted <= set(row.figures):
             todo.add(planned.hash)
     return todo
 
@@ -85,11 +83,9 @@ def _lacking(plan: Plan, folder: Folder, reductions: tuple[str, ...], *, retry: 
 class _Desk:
     """Hands cases to the workers and takes them back; holds only those that are out."""
 
-    def __init__(
-        self, client: Any, plan: Plan, folder: Folder, reductions: tuple[str, ...]
-    ) -> None:
+    def __init__(self, client: Any, plan: Plan, folder: Folder) -> None:
         self.client, self.plan, self.folder = client, plan, folder
-        self.reductions, self.address = reductions, client.scheduler.address
+        self.address = client.scheduler.address
         self._modes: dict[str, Any] = {}  # futures of modes that cases share, by key
         self._names: dict[str, str] = {}  # hash of a case by the key of its future
         self._window, self._looked = 1, -_LOOK
@@ -119,14 +115,7 @@ class _Desk:
 
     def _submit(self, planned: Planned) -> Any:
         case = self.plan.case(planned)
-        order = Order(
-            hash=planned.hash,
-            text=case.to_toml(),
-            folder=str(self.folder.path),
-            reductions=self.reductions,
-            use=sources(),
-            keep=self.plan.study.keep,
-        )
+        order = order_of(self.plan, planned, self.folder.path)
         waits = [self._shared_modes(order, case)] if case.cage_model == "flexible" else []
         key = f"case-{content_hash(order)}"
         self._names[key] = planned.hash

@@ -13,6 +13,7 @@ from pathlib import Path
 
 from flexcage._version import __version__
 from flexcage.case import Case, load_case, load_extension
+from flexcage.case.extensions import sources
 from flexcage.core import jit
 from flexcage.core.errors import EnvironmentLacks, FlexcageError, InputError
 from flexcage.mesh.options import MeshOptions
@@ -21,7 +22,8 @@ from flexcage.run import Run, write_case
 from flexcage.simulate import load_run, simulate
 from flexcage.stages import cage_mesh, cage_reduction
 from flexcage.study.folder import CaseRow, Failure, Folder
-from flexcage.study.outputs import figures_of
+from flexcage.study.outputs import figures_of, reductions_of
+from flexcage.study.plan import Plan, Planned
 
 
 @dataclass(frozen=True)
@@ -35,6 +37,18 @@ class Order:
     use: tuple[str, ...]  # extensions to load
     keep: str
     version: str = __version__
+
+
+def order_of(plan: Plan, planned: Planned, folder: Path) -> Order:
+    """What a worker needs to compute a planned case."""
+    return Order(
+        hash=planned.hash,
+        text=plan.case(planned).to_toml(),
+        folder=str(folder),
+        reductions=reductions_of(plan.study.outputs),
+        use=sources(),
+        keep=plan.study.keep,
+    )
 
 
 def do_case(order: Order, *prepared: object) -> str:

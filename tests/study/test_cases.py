@@ -1,5 +1,7 @@
 """One case on a worker: what it leaves in the folder, whatever happens."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 import xarray
@@ -15,7 +17,7 @@ from flexcage.study.outputs import FLEXIBLE_FIGURES, RIGID_FIGURES
 from flexcage.study.plan import make_plan
 from flexcage.study.results import StudyResults, mean_and_half_width
 from flexcage.study.spec import Study
-from flexcage.study.work import Order, do_case
+from flexcage.study.work import do_case, order_of
 
 
 @pytest.fixture
@@ -26,14 +28,7 @@ def folder(tmp_path):
 def orders(folder, study, **changes):
     plan = make_plan(study)
     folder.prepare(plan)
-    return [
-        Order(**{
-            "hash": p.hash, "text": plan.case(p).to_toml(), "folder": str(folder.path),
-            "reductions": tuple(n for n in study.outputs if "." in n), "use": (),
-            "keep": study.keep, **changes,
-        })
-        for p in plan.cases
-    ]  # fmt: skip
+    return [replace(order_of(plan, p, folder.path), **changes) for p in plan.cases]
 
 
 def no_simulation(*args, **kwargs):
