@@ -47,6 +47,8 @@ def connect(scheduler: str | None, workers: int | None) -> Iterator[Any]:
     """Client of the scheduler at an address, or of a local cluster of ``workers`` processes."""
     if scheduler is not None:
         with _client(scheduler) as client:
+            if not client.nthreads():
+                log.info("the scheduler has no workers yet; the cases wait for them")
             yield client
         return
     with tempfile.TemporaryDirectory(prefix="flexcage-dask-") as folder:

@@ -16,6 +16,7 @@ from flexcage.case import Case, load_case, load_extension
 from flexcage.case.extensions import sources
 from flexcage.core import jit
 from flexcage.core.errors import EnvironmentLacks, FlexcageError, InputError
+from flexcage.core.threads import one_blas_thread
 from flexcage.mesh.options import MeshOptions
 from flexcage.results.store import SIDE
 from flexcage.run import Run, write_case
@@ -51,6 +52,7 @@ def order_of(plan: Plan, planned: Planned, folder: Path) -> Order:
     )
 
 
+@one_blas_thread
 def do_case(order: Order, *prepared: object) -> str:
     """Compute what the case lacks. Returns "done" or "failed"; the rest is in the folder.
 
@@ -70,6 +72,7 @@ def do_case(order: Order, *prepared: object) -> str:
             folder.lock(order.hash).unlink(missing_ok=True)
 
 
+@one_blas_thread
 def prepare(order: Order) -> None:
     """Make the modes that cases share, so that they are in the cache when those begin.
 

@@ -3,6 +3,7 @@
 Each study here has four cases of 4 ms, of which a block of 1 ms at a time is made safe.
 """
 
+import json
 import os
 import signal
 import subprocess
@@ -116,6 +117,23 @@ def test_ctrl_c_stops_at_once_and_resume_goes_on(tmp_path):
     table = pd.read_parquet(out / "table.parquet")
     speed, twice = (table[f"{name} [rad/s]"] for name in outputs)
     assert twice.to_numpy() == pytest.approx(2.0 * speed.to_numpy())
+
+
+@pytest.mark.slow
+def test_a_case_that_kills_every_worker_is_a_row(tmp_path):
+    (tmp_path / "mine.py").write_text(
+        MINE.replace(
+            "2.0 * arrays", "__import__('os').kill(__import__('os').getpid(), 9) or arrays"
+        )
+    )
+    outputs = ("cage_speed", "twice_the_speed.mean")
+    file, out = study_file(tmp_path, 'use = ["mine.py"]', outputs=outputs), tmp_path / "out"
+    client = start("flexcage.cli", "study", "run", file, "-o", out, "--workers", 1, **PIPES)
+    said, _ = client.communicate(timeout=300)
+    assert client.returncode == 1
+    assert "1 failed: its worker did not bring it back: KilledWorker" in said
+    (failure,) = (out / "failed").glob("*.json")
+    assert not json.loads(failure.read_text())["final"]  # the next machine may have more memory
 
 
 @pytest.mark.slow

@@ -1,5 +1,7 @@
 """Plans: which cases a study has, and every mistake found before one of them runs."""
 
+import socket
+
 import pytest
 from study_cases import short_study, study_file
 
@@ -143,3 +145,27 @@ def test_a_folder_of_another_version_is_refused(tmp_path, capsys):
         assert "is a study of format 2" in capsys.readouterr().err
     with pytest.raises(InputError, match="format 2"):
         Folder(tmp_path).prepare(make_plan(short_study()))
+
+
+def test_a_scheduler_that_does_not_answer(tmp_path, capsys, monkeypatch):
+    from flexcage.study import cluster
+
+    monkeypatch.setattr(cluster, "ANSWER", 0.3)
+    file = study_file(tmp_path, LOAD)
+    with socket.socket() as silent:
+        silent.bind(("127.0.0.1", 0))
+        silent.listen()
+        port = silent.getsockname()[1]
+        for address in (f"127.0.0.1:{port}", "tcp://127.0.0.1:1", "x:y", "tls://127.0.0.1:1"):
+            command = ["study", "run", str(file), "-o", str(tmp_path / "out")]
+            assert cli.main([*command, "--scheduler", address]) == 2
+            err = capsys.readouterr().err
+            assert f"No scheduler answers at '{address}'" in err and err.count("\n") == 1
+
+
+def test_a_missing_package_is_named(tmp_path, capsys, monkeypatch):
+    from flexcage.study import cluster
+
+    monkeypatch.setattr(cluster, "find_spec", lambda name: None)
+    assert cli.main(["study", "run", str(study_file(tmp_path, LOAD)), "-o", str(tmp_path)]) == 1
+    assert 'pip install "flexcage[study]"' in capsys.readouterr().err
