@@ -121,11 +121,8 @@ def test_ctrl_c_stops_at_once_and_resume_goes_on(tmp_path):
 
 @pytest.mark.slow
 def test_a_case_that_kills_every_worker_is_a_row(tmp_path):
-    (tmp_path / "mine.py").write_text(
-        MINE.replace(
-            "2.0 * arrays", "__import__('os').kill(__import__('os').getpid(), 9) or arrays"
-        )
-    )
+    deadly = MINE.replace("2.0 * arrays", "os.kill(os.getpid(), 9) or arrays")
+    (tmp_path / "mine.py").write_text(f"import os\n{deadly}")
     outputs = ("cage_speed", "twice_the_speed.mean")
     file, out = study_file(tmp_path, 'use = ["mine.py"]', outputs=outputs), tmp_path / "out"
     client = start("flexcage.cli", "study", "run", file, "-o", out, "--workers", 1, **PIPES)
