@@ -88,8 +88,9 @@ class Folder:
         """Make the folder, or take over one that holds a study: its cases are found by content."""
         if self.path.exists() and not self.path.is_dir():
             raise InputError(f"'{self.path}' is a file; name a folder for the study.", where="out")
-        if (self.path / "study.toml").is_file():
-            self.study()  # refuses another format
+        if (self.path / "plan.json").is_file():  # a study.toml alone is the user's own
+            if (self.path / "study.toml").is_file():
+                self.study()  # refuses another format
         elif self.path.is_dir() and any(self.path.iterdir()):
             raise InputError(
                 f"'{self.path}' holds files and no study; name an empty or a new folder with -o.",
@@ -100,8 +101,8 @@ class Folder:
             for folder in (self.path, self.cases, self.failed):
                 folder.mkdir(parents=True, exist_ok=True)
             _write_json(self.cases / "zarr.json", _ZARR_GROUP)
-            replace(self.path / "study.toml", plan.study.to_toml().encode())
             _write_json(self.path / "plan.json", [planned.hash for planned in plan.cases])
+            replace(self.path / "study.toml", plan.study.to_toml().encode())
         except OSError as exc:
             reason = (exc.strerror or str(exc)).lower()
             raise InputError(

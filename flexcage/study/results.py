@@ -108,17 +108,13 @@ class StudyResults:
 
     def report(self) -> str:
         """The table over the points: mean +- half width of every output, then what failed."""
-        heads, lines = ["point"], []
-        for row in self.statistics.itertuples(index=False, name=None):
-            cells = dict(zip(self.statistics.columns, row))
-            first = next(r.planned for r in self.rows if r.planned.number == cells["point"])
-            axes = self._axes(first)
-            heads = ["point", *axes, *(self._shown(name) for name in self._titles)]
-            lines.append([str(cells["point"]), *map(str, axes.values()), *(
-                self._text(name, cells[title], cells[f"+- {title}"])
-                for name, title in self._titles.items()
-            )])  # fmt: skip
-        text = _aligned([heads, *lines])
+        first = ["point", *self._axes(self.rows[0].planned)]
+        lines = [[*first, *(self._shown(name) for name in self._titles)]]
+        for cells in self.statistics.to_dict("records"):
+            lines.append([str(cells[head]) for head in first])
+            for name, title in self._titles.items():
+                lines[-1].append(self._text(name, cells[title], cells[f"+- {title}"]))
+        text = _aligned(lines)
         reasons = Counter(row.reason for row in self.rows if row.state == "failed")
         for reason, times in reasons.items():
             text += f"\n{times} failed: {reason}"
@@ -176,7 +172,13 @@ class StudyResults:
             f"{path} [{unit}]" if unit else path: _cell(planned, path, unit, self._base)
             for path, unit in self._paths.items()
         }
-        return {**planned.point.labels, **values}
+        labels = {name: planned.point.labels.get(name, "") for name in self._labels}
+        return {**labels, **values}
+
+    @cached_property
+    def _labels(self) -> list[str]:
+        """Columns that show the labels of points."""
+        return list(dict.fromkeys(name for p in self.plan.cases for name in p.point.labels))
 
     @cached_property
     def _base(self) -> dict[str, Any]:

@@ -11,7 +11,7 @@ from flexcage import cli
 from flexcage.core.errors import InputError
 from flexcage.simulate import simulate
 from flexcage.study import work
-from flexcage.study.axes import Grid
+from flexcage.study.axes import Grid, Points
 from flexcage.study.folder import Folder
 from flexcage.study.outputs import FLEXIBLE_FIGURES, RIGID_FIGURES
 from flexcage.study.plan import make_plan
@@ -159,6 +159,16 @@ def test_a_push_moves_the_cage_at_its_speed_in_a_direction_of_its_seed():
     first, second = velocity["50 mm/s", 1] - still, velocity["50 mm/s", 2] - still
     assert [np.linalg.norm(v) for v in (first, second)] == pytest.approx([0.05, 0.05], rel=1e-3)
     assert abs(first @ second) < 0.999 * 0.05**2
+
+
+def test_points_of_a_list_fill_the_table_with_the_base_case(folder):
+    points = [{"label": "slow", "drive.speed": "3000 rpm"}, {"load.radial": "1.5 kN"}]
+    folder.prepare(make_plan(short_study(Points(points, name="which"))))
+    results = StudyResults(folder.path)
+    assert list(results.table["which"]) == ["slow", ""]
+    assert list(results.table["drive.speed [rpm]"]) == [3000.0, 6000.0]
+    assert list(results.table["load.radial [N]"]) == [1000.0, 1500.0]
+    assert results.report().endswith("2 cases: 0 done, 0 failed, 2 open")
 
 
 def test_interval_of_three_repetitions():

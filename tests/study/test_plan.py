@@ -131,9 +131,10 @@ def test_outputs_that_no_run_gives(outputs, words):
 
 
 def test_a_folder_with_other_things_is_left_alone(tmp_path):
-    (tmp_path / "notes.txt").write_text("mine")
+    text = study_file(tmp_path, LOAD).read_text()
     with pytest.raises(InputError, match="holds files and no study"):
-        Folder(tmp_path).prepare(make_plan(short_study()))
+        Folder(tmp_path).prepare(make_plan(load_study(tmp_path / "study.toml")))
+    assert (tmp_path / "study.toml").read_text() == text
 
 
 def test_a_folder_of_another_version_is_refused(tmp_path, capsys):
