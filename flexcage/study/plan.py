@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import reduce
 from itertools import product
 from operator import or_
@@ -11,7 +11,9 @@ from operator import or_
 from flexcage.case import Case
 from flexcage.case.case import ALIASES
 from flexcage.core.errors import InputError
+from flexcage.core.hashing import content_hash
 from flexcage.core.units import format_si
+from flexcage.modes.registry import basis_version
 from flexcage.study.axes import Point
 from flexcage.study.outputs import check_outputs
 from flexcage.study.spec import Study
@@ -19,12 +21,16 @@ from flexcage.study.spec import Study
 
 @dataclass(frozen=True)
 class Planned:
-    """One case of a study: its point, which repetition of it, and the hash that names it."""
+    """One case of a study: its point, which repetition of it, and the hash that names it.
+
+    Cases of equal ``modes`` share their mesh and modes; it is empty for a rigid cage.
+    """
 
     number: int  # of the point, from 0
     point: Point
     repetition: int
     hash: str
+    modes: str = field(default="", compare=False)
 
 
 @dataclass(frozen=True)
@@ -62,7 +68,7 @@ def make_plan(study: Study) -> Plan:
             seen[case.hash] = number
             rollers = min(rollers, case.bearing.roller_count)
             flexible |= case.cage_model == "flexible"
-            cases.append(Planned(number, point, repetition, case.hash))
+            cases.append(Planned(number, point, repetition, case.hash, _modes_key(case)))
     check_outputs(study.outputs, rollers=rollers, flexible=flexible)
     return Plan(study, tuple(cases))
 
@@ -72,6 +78,15 @@ def stored_plan(study: Study, hashes: Sequence[str]) -> Plan:
     places = product(enumerate(_points(study)), range(study.repeat.count))
     cases = [Planned(n, point, k, h) for ((n, point), k), h in zip(places, hashes, strict=True)]
     return Plan(study, tuple(cases))
+
+
+def _modes_key(case: Case) -> str:
+    if case.cage_model == "rigid":
+        return ""
+    return content_hash(
+        case.cage, case.defects, case.mesh, case.modes, case.bearing.roller_count,
+        case.bearing.pitch_diameter, *basis_version(case.modes.kind),
+    )  # fmt: skip
 
 
 def _points(study: Study) -> list[Point]:

@@ -9,10 +9,8 @@ from contextlib import nullcontext
 from pathlib import Path
 from typing import Any
 
-from flexcage.case import Case
 from flexcage.core.errors import RunFailed
 from flexcage.core.hashing import content_hash
-from flexcage.modes.registry import basis_version
 from flexcage.study.cluster import connect, require_packages
 from flexcage.study.folder import Failure, Folder
 from flexcage.study.outputs import reductions_of
@@ -95,11 +93,12 @@ class _Desk:
         from distributed import as_completed
 
         out = as_completed(loop=self.client.loop)
-        for planned in self.plan.cases:
-            if planned.hash in todo:
-                while out.count() >= self._room():
-                    yield self._take(out)
-                out.add(self._submit(planned))
+        # those that share modes one after the other, so that the cache need not hold them all
+        cases = (planned for planned in self.plan.cases if planned.hash in todo)
+        for planned in sorted(cases, key=lambda planned: planned.modes):
+            while out.count() >= self._room():
+                yield self._take(out)
+            out.add(self._submit(planned))
         while out.count():
             yield self._take(out)
 
@@ -114,19 +113,14 @@ class _Desk:
         return self._window
 
     def _submit(self, planned: Planned) -> Any:
-        case = self.plan.case(planned)
         order = order_of(self.plan, planned, self.folder.path)
-        waits = [self._shared_modes(order, case)] if case.cage_model == "flexible" else []
+        waits = [self._shared_modes(order, planned.modes)] if planned.modes else []
         key = f"case-{content_hash(order)}"
         self._names[key] = planned.hash
         return self.client.submit(do_case, order, *waits, key=key)
 
-    def _shared_modes(self, order: Order, case: Case) -> Any:
+    def _shared_modes(self, order: Order, key: str) -> Any:
         """Future of the modes that this case shares with others; made when first asked for."""
-        key = content_hash(
-            case.cage, case.defects, case.mesh, case.modes, case.bearing.roller_count,
-            case.bearing.pitch_diameter, *basis_version(case.modes.kind),
-        )  # fmt: skip
         if key not in self._modes:
             self._modes[key] = self.client.submit(prepare, order, key=f"modes-{key}")
         return self._modes[key]

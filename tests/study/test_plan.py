@@ -37,6 +37,17 @@ def test_repetitions_differ_in_their_start_alone():
     assert second.replace("start.seed", 7) == first
 
 
+def test_cases_of_one_cage_share_its_modes():
+    study = short_study(
+        Grid("load.radial", ["500 N", "1 kN"]),
+        Grid("cage.pocket_width", ["8.2 mm", "8.3 mm"]),
+        Grid("cage.model", ["flexible", "rigid"]),
+    )
+    modes = [planned.modes for planned in make_plan(study).cases]
+    assert modes[:4] == modes[4:] and len(set(modes)) == 3
+    assert modes[1] == modes[3] == ""
+
+
 def test_one_repetition_is_the_case_itself():
     study = short_study()
     assert [p.hash for p in make_plan(study).cases] == [study.case.hash]
