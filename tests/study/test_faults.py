@@ -119,6 +119,44 @@ def test_ctrl_c_stops_at_once_and_resume_goes_on(tmp_path):
     assert twice.to_numpy() == pytest.approx(2.0 * speed.to_numpy())
 
 
+COUNTED = """
+from flexcage.modes import free_free
+from flexcage.modes.registry import register_basis
+
+def build(solver, **options):
+    with open({file!r}, "a") as file:
+        file.write("built\\n")
+    return free_free.build(solver, **options)
+
+register_basis("counted", build)
+"""
+
+
+@pytest.mark.slow
+def test_modes_that_cases_share_are_made_once(tmp_path):
+    from flexcage.core.jit import kernel_cache_dir
+
+    count = tmp_path / "count"
+    (tmp_path / "mine.py").write_text(COUNTED.format(file=str(count)))
+    axes = [
+        f'[[axes]]\npath = "{path}"\nvalues = {values}'
+        for path, values in (
+            ("load.radial", LOADS[:2]),
+            ("cage.pocket_width", ["8.2 mm", "8.3 mm"]),
+            ("modes.kind", ["counted"]),
+            ("cage.model", ["flexible"]),
+        )
+    ]
+    file, out = study_file(tmp_path, 'use = ["mine.py"]', *axes), tmp_path / "out"
+    caches = {"FLEXCAGE_CACHE_DIR": str(tmp_path), "NUMBA_CACHE_DIR": str(kernel_cache_dir())}
+    command = ("flexcage.cli", "study", "run", file, "-o", out, "--workers", 2)
+    client = start(*command, env={**os.environ, **caches}, **PIPES)
+    said, complained = client.communicate(timeout=300)
+    assert client.returncode == 0, complained
+    assert "4 cases: 4 done" in said
+    assert count.read_text().split() == ["built"] * 2
+
+
 @pytest.mark.slow
 def test_a_case_that_kills_every_worker_is_a_row(tmp_path):
     deadly = MINE.replace("2.0 * arrays", "os.kill(os.getpid(), 9) or arrays")
