@@ -46,14 +46,14 @@ def require_packages() -> None:
 def connect(scheduler: str | None, workers: int | None) -> Iterator[Any]:
     """Client of the scheduler at an address, or of a local cluster of ``workers`` processes."""
     if scheduler is not None:
-        with _client(scheduler) as client:
+        with _client(scheduler, timeout=ANSWER) as client:
             if not client.nthreads():
                 log.info("the scheduler has no workers yet; the cases wait for them")
             yield client
         return
     with tempfile.TemporaryDirectory(prefix="flexcage-dask-") as folder:
         with _local_cluster(Path(folder), workers or default_workers()) as address:
-            with _client(address) as client:
+            with _client(address, timeout=START) as client:
                 yield client
 
 
@@ -64,17 +64,17 @@ def default_workers() -> int:
 
 
 @contextmanager
-def _client(address: str) -> Iterator[Any]:
+def _client(address: str, *, timeout: float) -> Iterator[Any]:
     import distributed
 
     logging.getLogger("distributed").setLevel(logging.CRITICAL)  # we say it in our own words
     try:
         with ThreadPoolExecutor(1) as aside:  # a notebook runs an event loop of its own
-            aside.submit(asyncio.run, asyncio.wait_for(_knock(address), ANSWER)).result()
-        client = distributed.Client(address, timeout=ANSWER, set_as_default=False)
+            aside.submit(asyncio.run, _knock(address, timeout)).result()
+        client = distributed.Client(address, timeout=timeout, set_as_default=False)
     except (OSError, TimeoutError, TypeError, ValueError) as exc:
         raise InputError(
-            f"No scheduler answers at '{address}' within {ANSWER:g} s; start one with 'dask "
+            f"No scheduler answers at '{address}' within {timeout:g} s; start one with 'dask "
             "scheduler' and give its address, such as 'tcp://127.0.0.1:8786', or leave it out to "
             "use this machine's cores.",
             where="scheduler",
@@ -86,12 +86,12 @@ def _client(address: str) -> Iterator[Any]:
         client.close(timeout=2)
 
 
-async def _knock(address: str) -> None:
+async def _knock(address: str, timeout: float) -> None:
     """Raise an error unless a scheduler answers; Dask's client waits for ever on a stranger."""
     import distributed
 
-    async with distributed.rpc(address, timeout=ANSWER) as server:
-        identity = await server.identity()
+    async with distributed.rpc(address, timeout=timeout) as server:
+        identity = await asyncio.wait_for(server.identity(), timeout)
     if identity.get("type") != "Scheduler":
         raise ValueError(f"{address} is a {identity.get('type')}")
 

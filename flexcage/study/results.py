@@ -23,6 +23,7 @@ from flexcage.simulate import load_run
 from flexcage.study.folder import Folder
 from flexcage.study.outputs import Figure
 from flexcage.study.plan import Planned
+from flexcage.study.spec import value_at
 
 if TYPE_CHECKING:
     import pandas
@@ -215,20 +216,10 @@ def _value(figure: Figure | None) -> Any:
 
 def _cell(planned: Planned, path: str, unit: str, base: dict[str, Any]) -> Any:
     """Value of a path in a case: a number in ``unit``, or what the case file says."""
-    value = planned.point.values[path] if path in planned.point.values else _at(base, path)
+    value = planned.point.values[path] if path in planned.point.values else value_at(base, path)
     if unit and isinstance(value, str) and value != "none":
         return float(format_si(parse(value, unit, where=path), unit).split()[0])
     return json.dumps(value) if isinstance(value, (list, tuple, dict)) else value
-
-
-def _at(table: Any, path: str) -> Any:
-    """Value at a dotted path of nested tables and lists; None if it is not there."""
-    for key in path.split("."):
-        if isinstance(table, list):
-            table = table[int(key)] if key.isdigit() and int(key) < len(table) else None
-        else:
-            table = table.get(key) if isinstance(table, dict) else None
-    return table
 
 
 def _aligned(rows: list[list[str]]) -> str:

@@ -13,7 +13,7 @@ from flexcage._version import __version__
 from flexcage.case import Case, load_case, load_extension
 from flexcage.case.extensions import sources
 from flexcage.case.toml import write_toml
-from flexcage.core.binding import Binder, check_spec, to_table, unit_at
+from flexcage.core.binding import Binder, check_spec, to_table, unit_at, wrong_type
 from flexcage.core.errors import InputError
 from flexcage.core.spec import option, quantity
 from flexcage.core.units import format_si, parse
@@ -55,7 +55,7 @@ class Study:
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "outputs", tuple(self.outputs))
-        written = partial(_written, self.case)
+        written = partial(_as_text, self.case, si=True)
         object.__setattr__(self, "axes", tuple(axis.mapped(written) for axis in self.axes))
         check_spec(self)
 
@@ -73,21 +73,28 @@ def load_study(path: str | Path, *, overrides: Mapping[str, Any] | None = None) 
     path = Path(path).expanduser()
     table = _read(path)
     _check_format(table.pop("format", FORMAT), path)
-    for source in table.pop("use", ()):
+    for source in _listed(table.pop("use", []), "use"):
         load_extension(path.parent / source if source.endswith((".py", ".toml")) else source)
-    if "case" not in table:
+    case = table.get("case")
+    if not isinstance(case, (str, dict)):
         raise InputError(
             f"'{path}' names no case; give case = \"my_case.toml\", or a [case] table.",
             where="case",
+            value=case,
         )
-    case = table["case"]
     case = load_case(path.parent / case if isinstance(case, str) else case, overrides=overrides)
     binder = Binder(named=NAMED)
-    axes = [_with_type(axis) for axis in table.get("axes", ())]
+    axes = [_with_type(axis) for axis in _listed(table.get("axes", []), "axes")]
     bound = binder.bind(_Axes, {"axes": axes}, "").axes
-    change = partial(_from_text, case, path.resolve().parent)
+    change = partial(_from_file, case, path.resolve().parent)
     axes = [axis.mapped(change) for axis in bound]
     return binder.bind(Study, {**table, "case": case, "axes": axes}, "")
+
+
+def _listed(value: Any, where: str) -> list[Any]:
+    if not isinstance(value, list):
+        raise wrong_type(value, "a list", where)
+    return value
 
 
 @dataclass(frozen=True)
@@ -103,22 +110,33 @@ def _with_type(axis: Any) -> Any:
     return {"type": "grid", **axis} if plain else axis
 
 
-def _is_number(value: Any) -> bool:
-    return isinstance(value, (int, float)) and not isinstance(value, bool)
+def _as_text(case: Case, path: str, value: Any, *, si: bool) -> Any:
+    """A value as a case file writes it: numbers with units, specs as tables, materials by name.
 
-
-def _from_text(case: Case, folder: Path, path: str, value: Any) -> Any:
-    """A value from a file, whose own paths are relative to it; a number must have its unit."""
+    ``si`` takes numbers as SI; otherwise one without its unit raises InputError.
+    """
     unit = unit_at(case, path)
-    if unit and _is_number(value):
-        parse(value, unit, where=path)
-    return str(folder / value) if path == "mesh.file" and value else value
+    if isinstance(value, (int, float)) and not isinstance(value, bool) and unit:
+        return format_si(value if si else parse(value, unit, where=path), unit)
+    if isinstance(value, (str, bool, int, float)):
+        return value
+    return value_at(case.replace(path, value, si=si).to_table(), path)
 
 
-def _written(case: Case, path: str, value: Any) -> Any:
-    """A value as text: a number given in Python is SI."""
-    unit = unit_at(case, path)
-    return format_si(value, unit) if unit and _is_number(value) else value
+def _from_file(case: Case, folder: Path, path: str, value: Any) -> Any:
+    """A value from a study's file, whose own paths are relative to it."""
+    found = _as_text(case, path, value, si=False)
+    return str(folder / found) if path == "mesh.file" and found else found
+
+
+def value_at(table: Any, path: str) -> Any:
+    """Value at a dotted path of nested tables and lists; None if it is not there."""
+    for key in path.split("."):
+        if isinstance(table, list):
+            table = table[int(key)] if key.isdigit() and int(key) < len(table) else None
+        else:
+            table = table.get(key) if isinstance(table, dict) else None
+    return table
 
 
 def _check_format(found: Any, path: Path) -> None:

@@ -7,6 +7,8 @@ from study_cases import short_study, study_file
 
 from flexcage import cli
 from flexcage.core.errors import InputError
+from flexcage.geometry.cages import CrossbeamDefect
+from flexcage.geometry.materials import MATERIALS
 from flexcage.study.axes import Grid, LatinHypercube, Points, Zip
 from flexcage.study.folder import Folder
 from flexcage.study.plan import make_plan
@@ -35,6 +37,18 @@ def test_repetitions_differ_in_their_start_alone():
     assert first.start.push == second.start.push == 2e-3
     assert (first.start.seed, second.start.seed) == (7, 8)
     assert second.replace("start.seed", 7) == first
+
+
+def test_values_in_python_may_be_specs(tmp_path):
+    bent = CrossbeamDefect(crossbeam=5, displacement=1e-4)
+    study = short_study(
+        Grid("defects", [(), (bent,)]), Grid("cage.material", [MATERIALS["PEEK"], "PA66"])
+    )
+    plan = make_plan(study)
+    assert [plan.case(p).defects for p in plan.cases[1:3]] == [(), (bent,)]
+    assert study.axes[1].values == ("PEEK", "PA66")
+    Folder(tmp_path / "study").prepare(plan)
+    assert Folder(tmp_path / "study").plan() == plan
 
 
 def test_cases_of_one_cage_share_its_modes():
@@ -81,6 +95,11 @@ MISTAKES = {
     "unknown path": ([AXIS.format("load.radail", '["1 N"]')], ["'radail'", "'radial'"]),
     "unknown room": ([AXIS.format("laod.radial", '["1 N"]')], ["'laod'", "'load'"]),
     "no unit": ([AXIS.format("load.radial", "[500]")], ["load.radial is 500 without a unit"]),
+    "no unit in a table": (
+        [AXIS.format("defects", '[[{type = "side_beam", pocket = 5, displacement = 0.1}]]')],
+        ["displacement is 0.1 without a unit"],
+    ),
+    "no list": (["axes = 3"], ["axes is 3", "a list"]),
     "empty axis": ([AXIS.format("load.radial", "[]")], ["'load.radial' is empty"]),
     "same path twice": ([LOAD, LOAD], ["Axis 1 and axis 0 both set 'load.radial'"]),
     "another name of a path": (
@@ -139,6 +158,12 @@ def test_mistakes_in_the_file(name, tmp_path, capsys):
 def test_outputs_that_no_run_gives(outputs, words):
     with pytest.raises(InputError, match=words):
         make_plan(short_study(outputs=outputs))
+
+
+def test_a_study_without_a_case(tmp_path):
+    (tmp_path / "study.toml").write_text('outputs = ["cage_speed"]')
+    with pytest.raises(InputError, match="names no case"):
+        load_study(tmp_path / "study.toml")
 
 
 def test_a_folder_with_other_things_is_left_alone(tmp_path):
