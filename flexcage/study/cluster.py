@@ -17,7 +17,7 @@ import tempfile
 import time
 from collections.abc import Iterator
 from concurrent.futures import ThreadPoolExecutor
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from importlib.util import find_spec
 from pathlib import Path
 from typing import IO, Any
@@ -83,7 +83,8 @@ def _client(address: str, *, timeout: float) -> Iterator[Any]:
     try:
         yield client
     finally:
-        client.close(timeout=2)
+        with suppress(OSError, TimeoutError):  # a scheduler that is lost, or busy, says no goodbye
+            client.close(timeout=2)
 
 
 async def _knock(address: str, timeout: float) -> None:

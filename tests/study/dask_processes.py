@@ -13,7 +13,7 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
-PATIENCE = 120.0  # s that anything here may take on a busy machine
+PATIENCE = 300.0  # s that anything here may take on a busy machine
 
 
 def start(*command: object, **options: Any) -> subprocess.Popen:

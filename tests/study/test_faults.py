@@ -1,6 +1,6 @@
 """Workers, schedulers and clients that die in the middle: nothing finished is lost or done twice.
 
-Each study here has four cases of 4 ms, of which a block of 1 ms at a time is made safe.
+Cases take 4 ms of bearing time, of which a block of 1 ms at a time is made safe.
 """
 
 import json
@@ -11,7 +11,7 @@ from concurrent.futures import ThreadPoolExecutor
 
 import pandas as pd
 import pytest
-from dask_processes import begun, dask_cluster, kill_family, start, wait_for, worker_of
+from dask_processes import PATIENCE, begun, dask_cluster, kill_family, start, wait_for, worker_of
 from study_cases import short_study, study_file
 
 from flexcage.core.errors import RunFailed
@@ -62,7 +62,7 @@ def test_a_worker_killed_in_the_middle_of_a_case(cluster, tmp_path):
         victim, born = part.stem, (part / "results.zarr" / "zarr.json").stat().st_mtime_ns
         finished = when_written(out)
         os.kill(worker_of(part.with_suffix(".lock"), pids), signal.SIGKILL)
-        results = future.result(timeout=120)
+        results = future.result(timeout=PATIENCE)
 
     assert list(results.table["state"]) == ["done"] * len(LOADS)
     assert finished.items() <= when_written(out).items()
@@ -81,7 +81,7 @@ def test_a_lost_scheduler_ends_the_study_with_a_sentence(cluster, tmp_path):
         wait_for(lambda: when_written(out))
         kill_family(cluster[1])
         with pytest.raises(RunFailed, match="lost; what is finished is kept"):
-            future.result(timeout=120)
+            future.result(timeout=PATIENCE)
     assert StudyResults(out).count("done") >= 1
 
 
@@ -95,24 +95,24 @@ def test_ctrl_c_stops_at_once_and_resume_goes_on(tmp_path):
     (tmp_path / "mine.py").write_text(MINE)
     use = 'use = ["mine.py"]\n[[axes]]\npath = "load.radial"\nvalues = '
     outputs = ("inner_speed", "twice_the_speed.mean")
-    file = study_file(tmp_path, use + str(LOADS), duration="4 ms", outputs=outputs)
+    file = study_file(tmp_path, use + str(LOADS[:3]), duration="4 ms", outputs=outputs)
     out = tmp_path / "out"
     command = ("flexcage.cli", "study")
-    client = start(*command, "run", file, "-o", out, "--workers", 2, **PIPES)
+    client = start(*command, "run", file, "-o", out, "--workers", 1, **PIPES)
     wait_for(lambda: when_written(out) or client.poll() is not None)
     children = psutil.Process(client.pid).children(recursive=True)
     os.killpg(client.pid, signal.SIGINT)
-    said, complained = client.communicate(timeout=60)
-    assert client.returncode == 130 and said == ""
+    said, complained = client.communicate(timeout=PATIENCE)
+    assert (client.returncode, said) == (130, ""), complained
     assert f"'flexcage study resume {out}' goes on" in complained
     assert complained.count("\n") == 1, complained
     assert not psutil.wait_procs(children, timeout=20)[1]
 
     finished = when_written(out)
-    resumed = start(*command, "resume", out, "--workers", 2, **PIPES)
-    said, complained = resumed.communicate(timeout=120)
+    resumed = start(*command, "resume", out, "--workers", 1, **PIPES)
+    said, complained = resumed.communicate(timeout=PATIENCE)
     assert resumed.returncode == 0, complained
-    assert "4 cases: 4 done, 0 failed, 0 open" in said
+    assert "3 cases: 3 done, 0 failed, 0 open" in said
     assert finished.items() <= when_written(out).items()
     table = pd.read_parquet(out / "table.parquet")
     speed, twice = (table[f"{name} [rad/s]"] for name in outputs)
@@ -151,7 +151,7 @@ def test_modes_that_cases_share_are_made_once(tmp_path):
     caches = {"FLEXCAGE_CACHE_DIR": str(tmp_path), "NUMBA_CACHE_DIR": str(kernel_cache_dir())}
     command = ("flexcage.cli", "study", "run", file, "-o", out, "--workers", 2)
     client = start(*command, env={**os.environ, **caches}, **PIPES)
-    said, complained = client.communicate(timeout=300)
+    said, complained = client.communicate(timeout=PATIENCE)
     assert client.returncode == 0, complained
     assert "4 cases: 4 done" in said
     assert count.read_text().split() == ["built"] * 2
@@ -164,7 +164,7 @@ def test_a_case_that_kills_every_worker_is_a_row(tmp_path):
     outputs = ("cage_speed", "twice_the_speed.mean")
     file, out = study_file(tmp_path, 'use = ["mine.py"]', outputs=outputs), tmp_path / "out"
     client = start("flexcage.cli", "study", "run", file, "-o", out, "--workers", 1, **PIPES)
-    said, _ = client.communicate(timeout=300)
+    said, _ = client.communicate(timeout=PATIENCE)
     assert client.returncode == 1
     assert "1 failed: its worker did not bring it back: KilledWorker" in said
     (failure,) = (out / "failed").glob("*.json")
