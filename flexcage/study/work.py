@@ -16,7 +16,7 @@ from flexcage.case import Case, load_case, load_extension
 from flexcage.case.extensions import sources
 from flexcage.core import jit
 from flexcage.core.errors import EnvironmentLacks, FlexcageError, InputError
-from flexcage.core.threads import one_blas_thread
+from flexcage.core.threads import on_one_core
 from flexcage.mesh.options import MeshOptions
 from flexcage.results.store import SIDE
 from flexcage.run import Run, write_case
@@ -52,7 +52,7 @@ def order_of(plan: Plan, planned: Planned, folder: Path) -> Order:
     )
 
 
-@one_blas_thread
+@on_one_core
 def do_case(order: Order, *prepared: object) -> str:
     """Compute what the case lacks. Returns "done" or "failed"; the rest is in the folder.
 
@@ -71,7 +71,7 @@ def do_case(order: Order, *prepared: object) -> str:
         return "done"
 
 
-@one_blas_thread
+@on_one_core
 def prepare(order: Order) -> None:
     """Make the modes that cases share, so that they are in the cache when those begin.
 
