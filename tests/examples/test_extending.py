@@ -15,7 +15,7 @@ import numpy as np
 import pytest
 from scipy.optimize import fsolve
 
-from flexcage.case import load_case, load_extension
+from flexcage.case import extensions, load_case, load_extension
 from flexcage.contacts import laws
 from flexcage.contacts import spec as contact_spec
 from flexcage.core import registry as core_registry
@@ -69,8 +69,9 @@ ALL_TABLES = (
 @contextmanager
 def restored():
     """Leaves every table as it was."""
-    saved = [dict(table) for table in ALL_TABLES]
+    saved, loaded = [dict(table) for table in ALL_TABLES], list(extensions._loaded)
     yield
+    extensions._loaded[:] = loaded
     for table, before in zip(ALL_TABLES, saved, strict=True):
         table.clear()
         table.update(before)
