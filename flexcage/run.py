@@ -19,8 +19,9 @@ from flexcage.mesh.cage_mesh import CageMesh
 from flexcage.mesh.quality import report_mesh
 from flexcage.modes.reduction import CageReduction
 from flexcage.results.metrics import BearingNumbers
+from flexcage.results.statistics import roller_passes
 from flexcage.results.store import MemoryRunStore, RunStore
-from flexcage.results.summary import Row, Summary, summarise
+from flexcage.results.summary import PASS_PEAK, Row, Summary, summarise
 from flexcage.solve import bdf
 from flexcage.stress.fields import StressFields
 from flexcage.stress.history import StressHistory, stress_history
@@ -264,10 +265,15 @@ class Run:
         when = float(self.dataset["time"][k]) * 1e3
         at = self.mesh.points[h.peak_vertex[k]] * 1e3
         place = f"t = {when:.3f} ms at ({at[0]:.1f}, {at[1]:.1f}, {at[2]:.1f}) mm, cage frame"
+        part = self.dataset.isel(time=slice(h.settled, None))
+        windows, peak = roller_passes(part, self.numbers), h.peak[h.settled :]
+        corner, margin = windows.peak(h.places[h.settled :].max(axis=1))
         return [
             Row("stress_peak", "Peak, contact zones left out", float(h.peak[k]), "MPa", place),
-            Row("stress_mean_peak", "Mean of the cage's peak", float(h.peak[h.settled :].mean()),
-                "MPa"),
+            Row("stress_mean_peak", "Mean of the cage's peak", float(peak.mean()), "MPa", "",
+                windows.mean(peak)),
+            Row("stress_root_pass_peak", "At a pocket corner, peak of a pass", corner, "MPa",
+                PASS_PEAK, margin),
             Row("stress_root", "Largest at a pocket corner", float(roots[root]), "MPa",
                 h.place_names[root]),
             Row("stress_start", "Before settling", float(h.peak[: h.settled].max(initial=0.0)),

@@ -13,12 +13,15 @@ import numpy as np
 
 from flexcage.core.errors import InputError
 from flexcage.results import audit, metrics
+from flexcage.results.bootstrap import FEWEST
 from flexcage.results.metrics import BearingNumbers
+from flexcage.results.statistics import Windows, roller_passes
 
 if TYPE_CHECKING:
     import xarray
 
 Value = float | int | str | bool | None
+PASS_PEAK = "mean of the largest in each roller pass"
 
 #: Units as shown: the SI unit of the value and the factor from it.
 SHOWN: dict[str, tuple[str, float]] = {
@@ -43,13 +46,17 @@ SHOWN: dict[str, tuple[str, float]] = {
 
 @dataclass(frozen=True)
 class Row:
-    """One figure: ``value`` in SI (or a text, a count); ``shown`` is the unit it is printed in."""
+    """One figure: ``value`` in SI (or a text, a count); ``shown`` is the unit it is printed in.
+
+    ``margin`` is half the width of the value's 95 % interval, in SI; None where there is none.
+    """
 
     key: str
     label: str
     value: Value
     shown: str = ""
     note: str = ""
+    margin: float | None = None
 
     @property
     def unit(self) -> str:
@@ -69,6 +76,13 @@ class Row:
             return f"{v:,}"
         return _figures(float(v) * SHOWN[self.shown][1])
 
+    @property
+    def margin_text(self) -> str:
+        """The margin as printed; nothing where there is none."""
+        if self.margin is None or not isfinite(self.margin):
+            return ""
+        return f"± {self.margin * SHOWN[self.shown][1]:.2g}"
+
 
 @dataclass(frozen=True)
 class Section:
@@ -86,9 +100,13 @@ class Summary:
         return (row for section in self.sections for row in section.rows)
 
     def __getitem__(self, key: str) -> Value:
+        return self.row(key).value
+
+    def row(self, key: str) -> Row:
+        """The whole figure: value, margin, label and unit."""
         for row in self:
             if row.key == key:
-                return row.value
+                return row
         raise KeyError(key)
 
     def __contains__(self, key: str) -> bool:
@@ -103,19 +121,20 @@ class Summary:
         return replace(self, sections=(*self.sections, new))
 
     def text(self) -> str:
-        """An aligned table: label, value (right-aligned), unit, note."""
+        """An aligned table: label, value (right-aligned), margin, unit, note."""
         rows = list(self)
         if not rows:
             return "(no figures)"
         label = max(len(r.label) for r in rows)
         value = max(len(r.text) for r in rows)
+        margin = max(len(r.margin_text) for r in rows)
         unit = max(len(r.shown) for r in rows)
         lines: list[str] = []
         for section in self.sections:
             lines += ["", section.title] if lines else [section.title]
             for r in section.rows:
-                line = f"  {r.label:<{label}}  {r.text:>{value}} {r.shown:<{unit}}  {r.note}"
-                lines.append(line.rstrip())
+                line = f"  {r.label:<{label}}  {r.text:>{value}} {r.margin_text:<{margin}} "
+                lines.append(f"{line}{r.shown:<{unit}}  {r.note}".rstrip())
         return "\n".join(lines)
 
     __str__ = text
@@ -126,6 +145,7 @@ class Summary:
                 r.key: {
                     "label": r.label,
                     "value": _json_value(r.value),
+                    "margin": _json_value(r.margin),
                     "unit": r.unit,
                     "shown": r.shown,
                     "note": r.note,
@@ -145,7 +165,7 @@ class Summary:
                 Section(
                     title,
                     tuple(
-                        Row(key, r["label"], r["value"], r["shown"], r["note"])
+                        Row(key, r["label"], r["value"], r["shown"], r["note"], r.get("margin"))
                         for key, r in rows.items()
                     ),
                 )
@@ -188,27 +208,53 @@ def summarise(
     if not 0.0 <= settle < 1.0:
         raise InputError(f"settle must lie in 0 ... 1, not {settle}.", where="output.settle")
     part = metrics.settled(ds, settle)
+    windows = roller_passes(part, bearing)
     sections = [
+        Section("Statistics", _statistics_rows(part, windows, settle)),
         Section("Speeds", _speed_rows(part, bearing)),
         Section("Roller slip (inertial frame)", _slip_rows(part, bearing, creep_speed)),
-        Section("Cage motion", _motion_rows(part)),
-        Section("Forces", _force_rows(part)),
+        Section("Cage motion", _motion_rows(part, bearing)),
+        Section("Forces", _force_rows(part, windows)),
     ]
     if "energy" in ds and "work" in ds:
         sections.append(Section("Energy", _energy_rows(ds)))
     return Summary(tuple(sections))
 
 
+def _statistics_rows(ds: xarray.Dataset, windows: Windows, settle: float) -> tuple[Row, ...]:
+    begin, end = (float(ds["time"][k]) for k in (0, -1))
+    count = len(windows.first)
+    few = "" if count >= FEWEST else f"; intervals want {FEWEST}"
+    return (
+        Row("settled_at", "Settled from", begin, "ms", f"{100.0 * settle:g} % of the run left out"),
+        Row("settled_time", "Time in statistics", end - begin, "ms"),
+        Row("roller_passes", "Roller passes in it", count, "", f"± is a 95 % interval{few}"),
+    )
+
+
 def _speed_rows(ds: xarray.Dataset, bearing: BearingNumbers) -> tuple[Row, ...]:
     speed = metrics.cage_speed(ds, bearing)
+    part = metrics.whole_revolutions(ds)
+    omega, windows = part["cage_omega"].sel(axis="x").values, roller_passes(part, bearing)
+    margin = windows.mean(omega)
+    slip_margin = margin / abs(speed.epicyclic) if speed.epicyclic else None
+    ripple = float(omega.std() / abs(omega.mean())) if omega.any() else float("nan")
     inner = float(ds["inner_speed"].mean())
     spin = float(np.abs(ds["roller_omega"].isel(spin_axis=0)).mean())
     whole = f"mean of {speed.revolutions:.2f} cage revolutions"
     return (
         Row("inner_speed", "Inner ring speed", inner, "rpm"),
-        Row("cage_speed", "Cage speed", speed.mean, "rpm", whole),
+        Row("cage_speed", "Cage speed", speed.mean, "rpm", whole, margin),
         Row("epicyclic_speed", "Epicyclic cage speed", speed.epicyclic, "rpm"),
-        Row("cage_slip_ratio", "Cage slip ratio", speed.slip_ratio, "%"),
+        Row("cage_slip_ratio", "Cage slip ratio", speed.slip_ratio, "%", "", slip_margin),
+        Row(
+            "cage_speed_ripple",
+            "Cage speed ripple",
+            ripple,
+            "%",
+            "standard deviation over mean",
+            windows.deviation(omega),
+        ),
         Row("roller_spin", "Roller spin, mean of all", spin, "rpm", "inertial frame"),
         Row(
             "roller_spin_ideal",
@@ -223,13 +269,20 @@ def _slip_rows(
     ds: xarray.Dataset, bearing: BearingNumbers, creep_speed: float | None
 ) -> tuple[Row, ...]:
     slip = metrics.roller_slip(ds, bearing, creep_speed=creep_speed)
+    part = metrics.whole_revolutions(ds)
+    ratio = metrics.roller_slip_ratio(part, bearing).values
+    zone = metrics.loaded_zone(part).transpose("time", "roller").values
+    windows = roller_passes(part, bearing)
+    loaded, unloaded = (
+        windows.ratio(np.where(z, ratio, 0.0).sum(axis=1), z.sum(axis=1)) for z in (zone, ~zone)
+    )
     note = ""
     if slip.unresolved and creep_speed is not None:
         note = f"unresolved: sliding is under the law's creep speed {creep_speed:.3g} m/s"
     mean = "mean over the zone"
     return (
-        Row("slip_loaded", "Loaded zone, slip ratio", slip.loaded, "%", note),
-        Row("slip_unloaded", "Unloaded zone, slip ratio", slip.unloaded, "%"),
+        Row("slip_loaded", "Loaded zone, slip ratio", slip.loaded, "%", note, loaded),
+        Row("slip_unloaded", "Unloaded zone, slip ratio", slip.unloaded, "%", "", unloaded),
         Row(
             "sliding_inner_loaded",
             "Sliding, inner race, loaded",
@@ -260,30 +313,65 @@ def _slip_rows(
     )
 
 
-def _motion_rows(ds: xarray.Dataset) -> tuple[Row, ...]:
+def _motion_rows(ds: xarray.Dataset, bearing: BearingNumbers) -> tuple[Row, ...]:
     whole = metrics.whole_revolutions(ds)
+    windows = roller_passes(whole, bearing)
+    about_mean, about_axis = (
+        windows.mean(metrics.whirl_radius(whole, about=c)) for c in ("mean", "axis")
+    )
     mean, axis = metrics.whirl(whole, about="mean"), metrics.whirl(whole, about="axis")
     lean = metrics.tilt(ds).sel(component="total")
     return (
-        Row("whirl_radius", "Whirl radius, mean", mean.mean, "um", "about the orbit's mean"),
+        Row(
+            "whirl_radius",
+            "Whirl radius, mean",
+            mean.mean,
+            "um",
+            "about the orbit's mean",
+            about_mean,
+        ),
         Row("whirl_radius_max", "Whirl radius, largest", mean.largest, "um"),
         Row("whirl_ratio", "Whirl (max - min)/mean", mean.ratio, ""),
-        Row("whirl_radius_axis", "Whirl radius, mean", axis.mean, "um", "about the ring's axis"),
+        Row(
+            "whirl_radius_axis",
+            "Whirl radius, mean",
+            axis.mean,
+            "um",
+            "about the ring's axis",
+            about_axis,
+        ),
         Row("whirl_ratio_axis", "Whirl (max - min)/mean", axis.ratio, "", "about the ring's axis"),
         Row("whirl_speed_ratio", "Whirl speed / cage speed", axis.speed_ratio, ""),
-        Row("tilt_mean", "Cage tilt, mean", float(lean.mean()), "deg"),
+        Row(
+            "tilt_mean",
+            "Cage tilt, mean",
+            float(lean.mean()),
+            "deg",
+            "",
+            roller_passes(ds, bearing).mean(lean.values),
+        ),
         Row("tilt_max", "Cage tilt, largest", float(lean.max()), "deg"),
     )
 
 
-def _force_rows(ds: xarray.Dataset) -> tuple[Row, ...]:
+def _force_rows(ds: xarray.Dataset, windows: Windows) -> tuple[Row, ...]:
     pocket = metrics.pocket_forces(ds)
+    total, faces, largest = metrics.pocket_force_series(ds)
+    peak, margin = windows.peak(largest)
     race = ds["race_force"].max("time")
     inner, outer = (float(race.sel(race=r).max()) for r in ("inner", "outer"))
     where = f"pocket {pocket.peak_pocket}, {pocket.peak_face}, t = {pocket.peak_time * 1e3:.3f} ms"
     return (
-        Row("pocket_force_mean", "Pocket force, mean", pocket.mean, "N", "while in contact"),
-        Row("pocket_force_peak", "Pocket force, peak", pocket.peak, "N", where),
+        Row(
+            "pocket_force_mean",
+            "Pocket force, mean",
+            pocket.mean,
+            "N",
+            "while in contact",
+            windows.ratio(total, faces),
+        ),
+        Row("pocket_force_pass_peak", "Pocket force, peak of a pass", peak, "N", PASS_PEAK, margin),
+        Row("pocket_force_peak", "Pocket force, largest", pocket.peak, "N", where),
         Row("pocket_contact", "Pocket faces in contact", pocket.contact_share, "%", "of the time"),
         Row("race_force_inner", "Inner race on a roller, peak", inner, "N"),
         Row("race_force_outer", "Outer race on a roller, peak", outer, "N"),
@@ -292,10 +380,32 @@ def _force_rows(ds: xarray.Dataset) -> tuple[Row, ...]:
 
 def _energy_rows(ds: xarray.Dataset) -> tuple[Row, ...]:
     check = audit.energy_audit(ds)
+    verdict = "passed" if check.passed else "EXCEEDED"
+    remedy = "" if check.passed else ": tighten solver.tolerance"
     return (
+        Row(
+            "energy_audit",
+            "Energy audit",
+            verdict,
+            "",
+            f"at most {100.0 * audit.OF_DRIVE:g} % of "
+            f"the drive's work, {100.0 * audit.OF_CAGE:g} % of the cage's losses{remedy}",
+        ),
+        *(
+            Row(f"stored_{k}", f"Gained: {k}", v, "mJ", "whole run")
+            for k, v in check.stored.items()
+        ),
         Row("energy_moved", "Energy moved", check.moved, "mJ", "whole run"),
         Row("energy_imbalance", "Largest imbalance", check.worst, "mJ"),
         Row("energy_relative", "Imbalance / energy moved", check.relative, "%"),
+        Row("energy_of_drive", "Imbalance / drive's work", check.of_drive, "%"),
+        Row(
+            "energy_of_cage",
+            "Imbalance / loss in the cage",
+            check.of_cage,
+            "%",
+            "what pockets and modes dissipate",
+        ),
         *(Row(f"work_{k}", f"Work: {k}", v, "mJ") for k, v in check.channels.items()),
     )
 

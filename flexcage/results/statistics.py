@@ -1,0 +1,58 @@
+"""Statistics of a chaotic motion, and how far a run of this length leaves them open.
+
+Samples are gathered in windows of one roller pass, the time in which rollers move on by one pitch
+and a sound bearing looks the same again: sums for means and ratios, largest values for peaks. The
+largest value of a whole run grows with its length; the mean of its windows' largest does not.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from flexcage.results import metrics
+from flexcage.results.bootstrap import margin
+from flexcage.results.metrics import BearingNumbers
+
+if TYPE_CHECKING:
+    import xarray
+
+
+@dataclass(frozen=True)
+class Windows:
+    """Samples cut into windows of about one roller pass; ``first`` (m,) begins each."""
+
+    samples: int
+    first: np.ndarray
+
+    def mean(self, values: np.ndarray) -> float:
+        """Margin of the mean of ``values`` (n,)."""
+        return self.ratio(values, np.ones(self.samples))
+
+    def ratio(self, upper: np.ndarray, lower: np.ndarray) -> float:
+        """Margin of the mean of ``upper`` (n,) over that of ``lower`` (n,)."""
+        return margin(self._sums(upper, lower), lambda s: s[..., 0] / s[..., 1])
+
+    def deviation(self, values: np.ndarray) -> float:
+        """Margin of the standard deviation of ``values`` (n,) over their mean."""
+        table = self._sums(np.ones(self.samples), values, values**2)
+        return margin(table, lambda s: np.sqrt(s[..., 0] * s[..., 2] / s[..., 1] ** 2 - 1.0))
+
+    def peak(self, values: np.ndarray) -> tuple[float, float]:
+        """Mean of the windows' largest of ``values`` (n,), and its margin."""
+        largest = np.maximum.reduceat(values, self.first)
+        table = np.stack([largest, np.ones(len(largest))], axis=1)
+        return float(largest.mean()), margin(table, lambda s: s[..., 0] / s[..., 1])
+
+    def _sums(self, *columns: np.ndarray) -> np.ndarray:
+        return np.add.reduceat(np.stack(columns, axis=1).astype(float), self.first)
+
+
+def roller_passes(ds: xarray.Dataset, bearing: BearingNumbers) -> Windows:
+    """Windows of a (settled) run; a cage that stands still gives one window, and no margins."""
+    n = ds.sizes["time"]
+    passes = abs(np.ptp(metrics.cage_angle(ds))) * bearing.roller_count / (2.0 * np.pi)
+    count = int(np.clip(round(passes), 1, n))
+    return Windows(n, np.arange(count) * n // count)

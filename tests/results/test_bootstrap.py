@@ -1,0 +1,68 @@
+"""Margins of means against processes whose mean and correlation are known."""
+
+import numpy as np
+import pytest
+from scipy.signal import lfilter
+
+from flexcage.results import bootstrap
+from flexcage.results.statistics import Windows, roller_passes
+
+
+def mean(sums):
+    return sums[..., 0] / sums[..., 1]
+
+
+def records(count, n, phi, seed=3):
+    """AR(1) records (count, n) of mean 0 and unit innovations, run in for 300 entries."""
+    noise = np.random.default_rng(seed).standard_normal((count, n + 300))
+    return lfilter([1.0], [1.0, -phi], noise, axis=1)[:, 300:]
+
+
+@pytest.mark.parametrize(("phi", "least"), [(0.0, 0.90), (0.5, 0.85), (0.8, 0.80)])
+def test_intervals_of_an_ar1_process_hold_its_mean(phi, least):
+    """Nominal 95 %; fewer blocks know less, and a bootstrap of few is known to fall short."""
+    found = records(300, 100, phi)
+    margins = [bootstrap.margin(np.stack([x, np.ones(100)], axis=1), mean) for x in found]
+    held = np.abs(found.mean(axis=1)) < margins
+    assert least < held.mean() < 0.99
+
+
+@pytest.mark.parametrize("phi", [0.3, 0.5, 0.7])
+def test_block_length_of_an_ar1_process(phi):
+    """(2 phi/(1 - phi^2))^(2/3) n^(1/3): the optimum of Politis and White for this process."""
+    n = 4000
+    lengths = [bootstrap.block_length(x) for x in records(40, n, phi)]
+    best = (2.0 * phi / (1.0 - phi**2)) ** (2.0 / 3.0) * n ** (1.0 / 3.0)
+    assert np.median(lengths) == pytest.approx(best, rel=0.15)
+
+
+def test_resampling_keeps_blocks_and_visits_all_alike():
+    rows = bootstrap.resampled(50, 5.0, np.random.default_rng(0))
+    follows = np.diff(rows, axis=1) % 50 == 1
+    assert follows.mean() == pytest.approx(1.0 - 1.0 / 5.0 + 1.0 / 250.0, abs=0.01)
+    assert np.bincount(rows.ravel()).std() < 0.1 * bootstrap.RESAMPLES
+
+
+def test_margin_of_a_ratio_scales_and_a_short_record_has_none():
+    x = records(1, 200, 0.5)[0] + 10.0
+    table = np.stack([x, np.ones(200)], axis=1)
+    one = bootstrap.margin(table, mean)
+    assert bootstrap.margin(table * [1e-6, 1.0], mean) == pytest.approx(1e-6 * one)
+    assert bootstrap.margin(np.ones((200, 2)), mean) == 0.0
+    assert np.isnan(bootstrap.margin(table[: bootstrap.FEWEST - 1], mean))
+    assert np.isnan(bootstrap.margin(table * [1.0, 0.0], mean))
+
+
+def test_windows_are_roller_passes(known_run, bearing):
+    """0.1 s at 98 % of 2709.09 rpm are 4.425 turns, of 22 roller passes each."""
+    windows = roller_passes(known_run, bearing)
+    assert len(windows.first) == round(0.98 * 2709.0909 / 60.0 * 0.1 * 22)
+    assert np.ptp(np.diff(windows.first)) <= 1
+
+
+def test_peaks_of_windows_do_not_grow_with_the_record():
+    """Largest of 50 uniform numbers: 50/51 on average, however many windows there are."""
+    for count in (40, 400):
+        values = np.random.default_rng(1).random(50 * count)
+        peak, margin = Windows(50 * count, np.arange(count) * 50).peak(values)
+        assert abs(peak - 50.0 / 51.0) < margin < 0.02
