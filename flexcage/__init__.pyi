@@ -31,6 +31,7 @@ from flexcage.simulate import Run as Run
 from flexcage.simulate import load_run as load_run
 from flexcage.simulate import simulate as simulate
 from flexcage.solve.options import SolverOptions as SolverOptions
+from flexcage.study.converge import converge as converge
 from flexcage.system.spec import Drive as Drive
 from flexcage.system.spec import Limits as Limits
 from flexcage.system.spec import Load as Load
