@@ -14,6 +14,7 @@ import numpy as np
 from flexcage.core.errors import InputError
 from flexcage.results import audit, metrics
 from flexcage.results.bootstrap import FEWEST
+from flexcage.results.files import replace as replace_file
 from flexcage.results.metrics import BearingNumbers
 from flexcage.results.statistics import Windows, roller_passes
 
@@ -176,8 +177,8 @@ class Summary:
     def write(self, folder: str | Path) -> tuple[Path, Path]:
         """Write ``summary.txt`` and ``summary.json`` into ``folder``; returns their paths."""
         text, data = Path(folder) / "summary.txt", Path(folder) / "summary.json"
-        text.write_text(self.text() + "\n", encoding="utf-8")
-        data.write_text(self.to_json() + "\n", encoding="utf-8")
+        replace_file(text, (self.text() + "\n").encode())
+        replace_file(data, (self.to_json() + "\n").encode())
         return text, data
 
 
