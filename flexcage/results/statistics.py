@@ -20,6 +20,10 @@ if TYPE_CHECKING:
     import xarray
 
 
+def _quotient(sums: np.ndarray) -> np.ndarray:
+    return sums[..., 0] / sums[..., 1]
+
+
 @dataclass(frozen=True)
 class Windows:
     """Samples cut into windows of about one roller pass; ``first`` (m,) begins each."""
@@ -33,7 +37,7 @@ class Windows:
 
     def ratio(self, upper: np.ndarray, lower: np.ndarray) -> float:
         """Margin of the mean of ``upper`` (n,) over that of ``lower`` (n,)."""
-        return margin(self._sums(upper, lower), lambda s: s[..., 0] / s[..., 1])
+        return margin(self._sums(upper, lower), _quotient)
 
     def deviation(self, values: np.ndarray) -> float:
         """Margin of the standard deviation of ``values`` (n,) over their mean."""
@@ -44,7 +48,18 @@ class Windows:
         """Mean of the windows' largest of ``values`` (n,), and its margin."""
         largest = np.maximum.reduceat(values, self.first)
         table = np.stack([largest, np.ones(len(largest))], axis=1)
-        return float(largest.mean()), margin(table, lambda s: s[..., 0] / s[..., 1])
+        return float(largest.mean()), margin(table, _quotient)
+
+    def drift(self, values: np.ndarray) -> float:
+        """Distance of the means of the first and the second half of ``values`` (n,), over the
+        margin of that distance: above 1 the halves differ; NaN if they are too short to tell."""
+        table = self._sums(values, np.ones(self.samples))
+        halves = np.array_split(table, 2)
+        means = [half[:, 0].sum() / half[:, 1].sum() for half in halves]
+        margins = [margin(half, _quotient) for half in halves]
+        both = float(np.hypot(*margins))
+        rounding = 1e-12 * max(map(abs, means))
+        return 0.0 if both <= rounding else abs(means[1] - means[0]) / both
 
     def _sums(self, *columns: np.ndarray) -> np.ndarray:
         return np.add.reduceat(np.stack(columns, axis=1).astype(float), self.first)

@@ -226,10 +226,24 @@ def _statistics_rows(ds: xarray.Dataset, windows: Windows, settle: float) -> tup
     begin, end = (float(ds["time"][k]) for k in (0, -1))
     count = len(windows.first)
     few = "" if count >= FEWEST else f"; intervals want {FEWEST}"
+    drifts = {
+        "cage speed": windows.drift(ds["cage_omega"].sel(axis="x").values),
+        "whirl radius": windows.drift(metrics.whirl_radius(ds)),
+        "pocket force": windows.drift(metrics.pocket_force_series(ds)[0]),
+    }
+    known = all(isfinite(d) for d in drifts.values())
+    drifting = ", ".join(name for name, d in drifts.items() if d > 1.0)
     return (
         Row("settled_at", "Settled from", begin, "ms", f"{100.0 * settle:g} % of the run left out"),
         Row("settled_time", "Time in statistics", end - begin, "ms"),
         Row("roller_passes", "Roller passes in it", count, "", f"± is a 95 % interval{few}"),
+        Row(
+            "drift",
+            "Differs between its halves",
+            (drifting or "nothing") if known else None,
+            "",
+            "beyond the intervals: not settled, raise output.settle" if drifting else "",
+        ),
     )
 
 

@@ -66,3 +66,13 @@ def test_peaks_of_windows_do_not_grow_with_the_record():
         values = np.random.default_rng(1).random(50 * count)
         peak, margin = Windows(50 * count, np.arange(count) * 50).peak(values)
         assert abs(peak - 50.0 / 51.0) < margin < 0.02
+
+
+def test_drift_tells_a_settling_record_from_a_settled_one():
+    """Halves of a stationary record lie apart in about one of twenty; a ramp's always do."""
+    windows = Windows(100, np.arange(100))
+    still = np.array([windows.drift(x) for x in records(100, 100, 0.3)])
+    assert 0.01 < (still > 1.0).mean() < 0.15
+    ramp = np.array([windows.drift(x + 0.05 * np.arange(100)) for x in records(20, 100, 0.3)])
+    assert (ramp > 1.0).mean() > 0.9
+    assert np.isnan(Windows(30, np.arange(30)).drift(records(1, 30, 0.3)[0]))

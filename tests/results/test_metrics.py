@@ -139,6 +139,7 @@ def test_summary_prints_and_comes_back(known_run, bearing, tmp_path):
     lines = [line for line in text.splitlines() if line.startswith("  ")]
     ends = {line.index(" rpm") for line in lines if " rpm" in line}
     assert len(ends) == 1, "values are right-aligned"
+    assert summary["roller_passes"] == 68 and summary["drift"] == "pocket force"
     back = Summary.from_json(summary.to_json())
     assert back.text() == text
     assert back.row("pocket_force_mean") == summary.row("pocket_force_mean")
