@@ -267,13 +267,12 @@ class Run:
         place = f"t = {when:.3f} ms at ({at[0]:.1f}, {at[1]:.1f}, {at[2]:.1f}) mm, cage frame"
         part = self.dataset.isel(time=slice(h.settled, None))
         windows, peak = roller_passes(part, self.numbers), h.peak[h.settled :]
-        corner, margin = windows.peak(h.places[h.settled :].max(axis=1))
+        corner = windows.peak(h.places[h.settled :].max(axis=1))
         return [
             Row("stress_peak", "Peak, contact zones left out", float(h.peak[k]), "MPa", place),
-            Row("stress_mean_peak", "Mean of the cage's peak", float(peak.mean()), "MPa", "",
-                windows.mean(peak)),
-            Row("stress_root_pass_peak", "At a pocket corner, peak of a pass", corner, "MPa",
-                PASS_PEAK, margin),
+            Row.of("stress_mean_peak", "Mean of the cage's peak", windows.mean(peak), "MPa"),
+            Row.of("stress_root_pass_peak", "At a pocket corner, peak of a pass", corner, "MPa",
+                   PASS_PEAK),
             Row("stress_root", "Largest at a pocket corner", float(roots[root]), "MPa",
                 h.place_names[root]),
             Row("stress_start", "Before settling", float(h.peak[: h.settled].max(initial=0.0)),

@@ -8,20 +8,63 @@ largest value of a whole run grows with its length; the mean of its windows' lar
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from flexcage.results import metrics
-from flexcage.results.bootstrap import margin
+from flexcage.results import bootstrap, metrics
 from flexcage.results.metrics import BearingNumbers
 
 if TYPE_CHECKING:
     import xarray
 
 
-def _quotient(sums: np.ndarray) -> np.ndarray:
-    return sums[..., 0] / sums[..., 1]
+@dataclass(frozen=True, eq=False)
+class Record:
+    """A statistic by windows: ``sums`` (m, 2) whose quotient it is, or (m, 3) sums of 1, x and x^2
+    of a standard deviation over a mean."""
+
+    sums: np.ndarray
+
+    @cached_property
+    def value(self) -> float:
+        with np.errstate(divide="ignore", invalid="ignore"):
+            return float(_statistic(self.sums.sum(axis=0)))
+
+    @cached_property
+    def margin(self) -> float:
+        """Half the width of the 95 % interval of ``value``; NaN for too few windows."""
+        return bootstrap.margin(self.sums, _statistic)
+
+    @property
+    def drift(self) -> float:
+        """Distance of the values of the first and the second half, over the margin of that
+        distance: above 1 the halves differ; NaN if they are too short to tell."""
+        one, other = (Record(half) for half in np.array_split(self.sums, 2))
+        both = float(np.hypot(one.margin, other.margin))
+        rounding = 1e-12 * max(abs(one.value), abs(other.value))
+        return 0.0 if both <= rounding else abs(one.value - other.value) / both
+
+
+def spread(one: Record, other: Record) -> float:
+    """Margin of ``one.value/other.value`` of two runs, from windows at the same times.
+
+    What both runs do alike, such as one turn of the cage that loads it more than the next, drops
+    out; what chaos makes them do apart remains.
+    """
+    m, columns = min(len(one.sums), len(other.sums)), one.sums.shape[1]
+    pairs = np.hstack([one.sums[:m], other.sums[:m]])
+    return bootstrap.margin(
+        pairs, lambda s: _statistic(s[..., :columns]) / _statistic(s[..., columns:])
+    )
+
+
+def _statistic(sums: np.ndarray) -> np.ndarray:
+    if sums.shape[-1] == 2:
+        return sums[..., 0] / sums[..., 1]
+    count, first, second = np.moveaxis(sums, -1, 0)
+    return np.sqrt(np.maximum(count * second / first**2 - 1.0, 0.0))
 
 
 @dataclass(frozen=True)
@@ -31,38 +74,25 @@ class Windows:
     samples: int
     first: np.ndarray
 
-    def mean(self, values: np.ndarray) -> float:
-        """Margin of the mean of ``values`` (n,)."""
+    def mean(self, values: np.ndarray) -> Record:
+        """Mean of ``values`` (n,)."""
         return self.ratio(values, np.ones(self.samples))
 
-    def ratio(self, upper: np.ndarray, lower: np.ndarray) -> float:
-        """Margin of the mean of ``upper`` (n,) over that of ``lower`` (n,)."""
-        return margin(self._sums(upper, lower), _quotient)
+    def ratio(self, upper: np.ndarray, lower: np.ndarray) -> Record:
+        """Mean of ``upper`` (n,) over that of ``lower`` (n,)."""
+        return self._record(upper, lower)
 
-    def deviation(self, values: np.ndarray) -> float:
-        """Margin of the standard deviation of ``values`` (n,) over their mean."""
-        table = self._sums(np.ones(self.samples), values, values**2)
-        return margin(table, lambda s: np.sqrt(s[..., 0] * s[..., 2] / s[..., 1] ** 2 - 1.0))
+    def deviation(self, values: np.ndarray) -> Record:
+        """Standard deviation of ``values`` (n,) over their mean."""
+        return self._record(np.ones(self.samples), values, values**2)
 
-    def peak(self, values: np.ndarray) -> tuple[float, float]:
-        """Mean of the windows' largest of ``values`` (n,), and its margin."""
-        largest = np.maximum.reduceat(values, self.first)
-        table = np.stack([largest, np.ones(len(largest))], axis=1)
-        return float(largest.mean()), margin(table, _quotient)
+    def peak(self, values: np.ndarray) -> Record:
+        """Mean of the windows' largest of ``values`` (n,)."""
+        largest = np.maximum.reduceat(values, self.first).astype(float)
+        return Record(np.stack([largest, np.ones(len(largest))], axis=1))
 
-    def drift(self, values: np.ndarray) -> float:
-        """Distance of the means of the first and the second half of ``values`` (n,), over the
-        margin of that distance: above 1 the halves differ; NaN if they are too short to tell."""
-        table = self._sums(values, np.ones(self.samples))
-        halves = np.array_split(table, 2)
-        means = [half[:, 0].sum() / half[:, 1].sum() for half in halves]
-        margins = [margin(half, _quotient) for half in halves]
-        both = float(np.hypot(*margins))
-        rounding = 1e-12 * max(map(abs, means))
-        return 0.0 if both <= rounding else abs(means[1] - means[0]) / both
-
-    def _sums(self, *columns: np.ndarray) -> np.ndarray:
-        return np.add.reduceat(np.stack(columns, axis=1).astype(float), self.first)
+    def _record(self, *columns: np.ndarray) -> Record:
+        return Record(np.add.reduceat(np.stack(columns, axis=1).astype(float), self.first))
 
 
 def roller_passes(ds: xarray.Dataset, bearing: BearingNumbers) -> Windows:

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from math import isfinite, pi
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -16,12 +16,16 @@ from flexcage.results import audit, metrics
 from flexcage.results.bootstrap import FEWEST
 from flexcage.results.files import replace as replace_file
 from flexcage.results.metrics import BearingNumbers
-from flexcage.results.statistics import Windows, roller_passes
+from flexcage.results.statistics import Record, Windows, roller_passes
 
 if TYPE_CHECKING:
     import xarray
 
 Value = float | int | str | bool | None
+#: Figures whose halves are compared, to see if a run has settled, and how they are called then.
+WATCHED = {
+    "cage_speed": "cage speed", "whirl_radius": "whirl radius", "pocket_force_mean": "pocket force"
+}  # fmt: skip
 PASS_PEAK = "mean of the largest in each roller pass"
 
 #: Units as shown: the SI unit of the value and the factor from it.
@@ -50,6 +54,7 @@ class Row:
     """One figure: ``value`` in SI (or a text, a count); ``shown`` is the unit it is printed in.
 
     ``margin`` is half the width of the value's 95 % interval, in SI; None where there is none.
+    ``record`` holds a statistic's windows, while the run is in memory.
     """
 
     key: str
@@ -58,6 +63,18 @@ class Row:
     shown: str = ""
     note: str = ""
     margin: float | None = None
+    record: Record | None = field(default=None, repr=False, compare=False)
+
+    @classmethod
+    def of(
+        cls, key: str, label: str, record: Record, shown: str, note: str = "",
+        *, value: float | None = None,
+    ) -> Row:  # fmt: skip
+        """Row of a statistic: its value (unless given), its margin and its windows."""
+        margin = record.margin if isfinite(record.margin) else None
+        return cls(
+            key, label, record.value if value is None else value, shown, note, margin, record
+        )
 
     @property
     def unit(self) -> str:
@@ -80,7 +97,7 @@ class Row:
     @property
     def margin_text(self) -> str:
         """The margin as printed; nothing where there is none."""
-        if self.margin is None or not isfinite(self.margin):
+        if self.margin is None:
             return ""
         return f"± {self.margin * SHOWN[self.shown][1]:.2g}"
 
@@ -160,19 +177,22 @@ class Summary:
         return json.dumps(self.to_dict(), indent=2, ensure_ascii=False)
 
     @classmethod
-    def from_json(cls, text: str) -> Summary:
+    def from_json(cls, text: str, *, windows: Mapping[str, np.ndarray] | None = None) -> Summary:
+        """The summary that ``to_json`` wrote; ``windows`` are its records' sums by key."""
+        records = {key: Record(sums) for key, sums in (windows or {}).items()}
         return cls(
             tuple(
                 Section(
                     title,
                     tuple(
-                        Row(key, r["label"], r["value"], r["shown"], r["note"], r.get("margin"))
+                        Row(key, r["label"], r["value"], r["shown"], r["note"], r.get("margin"),
+                            records.get(key))
                         for key, r in rows.items()
                     ),
                 )
                 for title, rows in json.loads(text).items()
             )
-        )
+        )  # fmt: skip
 
     def write(self, folder: str | Path) -> tuple[Path, Path]:
         """Write ``summary.txt`` and ``summary.json`` into ``folder``; returns their paths."""
@@ -211,64 +231,63 @@ def summarise(
     part = metrics.settled(ds, settle)
     windows = roller_passes(part, bearing)
     sections = [
-        Section("Statistics", _statistics_rows(part, windows, settle)),
         Section("Speeds", _speed_rows(part, bearing)),
         Section("Roller slip (inertial frame)", _slip_rows(part, bearing, creep_speed)),
         Section("Cage motion", _motion_rows(part, bearing)),
         Section("Forces", _force_rows(part, windows)),
     ]
+    records = {r.key: r.record for s in sections for r in s.rows if r.record is not None}
+    sections.insert(0, Section("Statistics", _statistics_rows(part, windows, settle, records)))
     if "energy" in ds and "work" in ds:
         sections.append(Section("Energy", _energy_rows(ds)))
     return Summary(tuple(sections))
 
 
-def _statistics_rows(ds: xarray.Dataset, windows: Windows, settle: float) -> tuple[Row, ...]:
+def _statistics_rows(
+    ds: xarray.Dataset, windows: Windows, settle: float, records: dict[str, Record]
+) -> tuple[Row, ...]:
     begin, end = (float(ds["time"][k]) for k in (0, -1))
     count = len(windows.first)
     few = "" if count >= FEWEST else f"; intervals want {FEWEST}"
-    drifts = {
-        "cage speed": windows.drift(ds["cage_omega"].sel(axis="x").values),
-        "whirl radius": windows.drift(metrics.whirl_radius(ds)),
-        "pocket force": windows.drift(metrics.pocket_force_series(ds)[0]),
-    }
-    known = all(isfinite(d) for d in drifts.values())
+    drifts = {name: records[key].drift for key, name in WATCHED.items()}
+    known = any(isfinite(d) for d in drifts.values())
     drifting = ", ".join(name for name, d in drifts.items() if d > 1.0)
+    remedy = "beyond the intervals: not settled, raise output.settle" if drifting else ""
     return (
         Row("settled_at", "Settled from", begin, "ms", f"{100.0 * settle:g} % of the run left out"),
         Row("settled_time", "Time in statistics", end - begin, "ms"),
         Row("roller_passes", "Roller passes in it", count, "", f"± is a 95 % interval{few}"),
-        Row(
-            "drift",
-            "Differs between its halves",
-            (drifting or "nothing") if known else None,
-            "",
-            "beyond the intervals: not settled, raise output.settle" if drifting else "",
-        ),
-    )
+        Row("drift", "Differs between its halves", (drifting or "nothing") if known else None, "",
+            remedy),
+    )  # fmt: skip
 
 
 def _speed_rows(ds: xarray.Dataset, bearing: BearingNumbers) -> tuple[Row, ...]:
     speed = metrics.cage_speed(ds, bearing)
     part = metrics.whole_revolutions(ds)
-    omega, windows = part["cage_omega"].sel(axis="x").values, roller_passes(part, bearing)
-    margin = windows.mean(omega)
-    slip_margin = margin / abs(speed.epicyclic) if speed.epicyclic else None
-    ripple = float(omega.std() / abs(omega.mean())) if omega.any() else float("nan")
+    windows = roller_passes(part, bearing)
+    omega = part["cage_omega"].sel(axis="x").values
+    ideal = part["inner_speed"].values * bearing.kinematics(1.0).cage_speed
     inner = float(ds["inner_speed"].mean())
     spin = float(np.abs(ds["roller_omega"].isel(spin_axis=0)).mean())
     whole = f"mean of {speed.revolutions:.2f} cage revolutions"
     return (
         Row("inner_speed", "Inner ring speed", inner, "rpm"),
-        Row("cage_speed", "Cage speed", speed.mean, "rpm", whole, margin),
+        Row.of("cage_speed", "Cage speed", windows.mean(omega), "rpm", whole, value=speed.mean),
         Row("epicyclic_speed", "Epicyclic cage speed", speed.epicyclic, "rpm"),
-        Row("cage_slip_ratio", "Cage slip ratio", speed.slip_ratio, "%", "", slip_margin),
-        Row(
+        Row.of(
+            "cage_slip_ratio",
+            "Cage slip ratio",
+            windows.ratio(ideal - omega, ideal),
+            "%",
+            value=speed.slip_ratio,
+        ),
+        Row.of(
             "cage_speed_ripple",
             "Cage speed ripple",
-            ripple,
+            windows.deviation(omega),
             "%",
             "standard deviation over mean",
-            windows.deviation(omega),
         ),
         Row("roller_spin", "Roller spin, mean of all", spin, "rpm", "inertial frame"),
         Row(
@@ -296,8 +315,8 @@ def _slip_rows(
         note = f"unresolved: sliding is under the law's creep speed {creep_speed:.3g} m/s"
     mean = "mean over the zone"
     return (
-        Row("slip_loaded", "Loaded zone, slip ratio", slip.loaded, "%", note, loaded),
-        Row("slip_unloaded", "Unloaded zone, slip ratio", slip.unloaded, "%", "", unloaded),
+        Row.of("slip_loaded", "Loaded zone, slip ratio", loaded, "%", note),
+        Row.of("slip_unloaded", "Unloaded zone, slip ratio", unloaded, "%"),
         Row(
             "sliding_inner_loaded",
             "Sliding, inner race, loaded",
@@ -336,35 +355,17 @@ def _motion_rows(ds: xarray.Dataset, bearing: BearingNumbers) -> tuple[Row, ...]
     )
     mean, axis = metrics.whirl(whole, about="mean"), metrics.whirl(whole, about="axis")
     lean = metrics.tilt(ds).sel(component="total")
+    leaning = roller_passes(ds, bearing).mean(lean.values)
     return (
-        Row(
-            "whirl_radius",
-            "Whirl radius, mean",
-            mean.mean,
-            "um",
-            "about the orbit's mean",
-            about_mean,
-        ),
+        Row.of("whirl_radius", "Whirl radius, mean", about_mean, "um", "about the orbit's mean"),
         Row("whirl_radius_max", "Whirl radius, largest", mean.largest, "um"),
         Row("whirl_ratio", "Whirl (max - min)/mean", mean.ratio, ""),
-        Row(
-            "whirl_radius_axis",
-            "Whirl radius, mean",
-            axis.mean,
-            "um",
-            "about the ring's axis",
-            about_axis,
+        Row.of(
+            "whirl_radius_axis", "Whirl radius, mean", about_axis, "um", "about the ring's axis"
         ),
         Row("whirl_ratio_axis", "Whirl (max - min)/mean", axis.ratio, "", "about the ring's axis"),
         Row("whirl_speed_ratio", "Whirl speed / cage speed", axis.speed_ratio, ""),
-        Row(
-            "tilt_mean",
-            "Cage tilt, mean",
-            float(lean.mean()),
-            "deg",
-            "",
-            roller_passes(ds, bearing).mean(lean.values),
-        ),
+        Row.of("tilt_mean", "Cage tilt, mean", leaning, "deg"),
         Row("tilt_max", "Cage tilt, largest", float(lean.max()), "deg"),
     )
 
@@ -372,20 +373,24 @@ def _motion_rows(ds: xarray.Dataset, bearing: BearingNumbers) -> tuple[Row, ...]
 def _force_rows(ds: xarray.Dataset, windows: Windows) -> tuple[Row, ...]:
     pocket = metrics.pocket_forces(ds)
     total, faces, largest = metrics.pocket_force_series(ds)
-    peak, margin = windows.peak(largest)
     race = ds["race_force"].max("time")
     inner, outer = (float(race.sel(race=r).max()) for r in ("inner", "outer"))
     where = f"pocket {pocket.peak_pocket}, {pocket.peak_face}, t = {pocket.peak_time * 1e3:.3f} ms"
     return (
-        Row(
+        Row.of(
             "pocket_force_mean",
             "Pocket force, mean",
-            pocket.mean,
+            windows.ratio(total, faces),
             "N",
             "while in contact",
-            windows.ratio(total, faces),
         ),
-        Row("pocket_force_pass_peak", "Pocket force, peak of a pass", peak, "N", PASS_PEAK, margin),
+        Row.of(
+            "pocket_force_pass_peak",
+            "Pocket force, peak of a pass",
+            windows.peak(largest),
+            "N",
+            PASS_PEAK,
+        ),
         Row("pocket_force_peak", "Pocket force, largest", pocket.peak, "N", where),
         Row("pocket_contact", "Pocket faces in contact", pocket.contact_share, "%", "of the time"),
         Row("race_force_inner", "Inner race on a roller, peak", inner, "N"),

@@ -7,13 +7,15 @@ import shutil
 import time
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from math import isfinite, nan
+from math import hypot, nan
 from pathlib import Path
 from typing import Any
 
 from flexcage.case import Case
 from flexcage.core.errors import FlexcageError, InputError
 from flexcage.mesh.options import FINENESS
+from flexcage.results.files import load, save
+from flexcage.results.statistics import spread
 from flexcage.results.summary import Row, Summary
 from flexcage.run import write_case
 from flexcage.simulate import simulate
@@ -154,13 +156,17 @@ def _run_all(wanted: dict[str, Level], folder: Path, progress: Any) -> dict[str,
 
 
 def _figures_of(case: Case, folder: Path, progress: Any) -> Summary:
-    stored = folder / "summary.json"
+    """Summary of a case with the windows of its statistics; simulated if it is not there."""
+    stored, kept = folder / "summary.json", folder / "windows.npz"
     if stored.exists():
-        return Summary.from_json(stored.read_text("utf-8"))
+        windows = load(kept) if kept.exists() else {}
+        return Summary.from_json(stored.read_text("utf-8"), windows=windows)
     resume = (folder / "results.zarr" / "_run" / "commit.json").exists()
     if folder.exists() and not resume:  # stopped before its first block had a place
         shutil.rmtree(folder)
-    return simulate(case, out=folder, resume=resume, progress=progress).summary
+    summary = simulate(case, out=folder, resume=resume, progress=progress).summary
+    save(kept, {row.key: row.record.sums for row in summary if row.record is not None})
+    return summary
 
 
 def _compare(case: Case, steps: Sequence[Level], figures: dict[str, Summary | str]) -> Convergence:
@@ -194,16 +200,24 @@ def _findings(level: Level, finest: Level, figures: dict[str, Summary | str]) ->
     return [
         Finding(
             axis=level.axis, level=level.name, finest=finest.name, output=a.key, label=a.label,
-            unit=a.unit, statistic=a.key in STATISTICS, value=_number(a.value),
-            margin=_margin(a), finest_value=_number(b.value), finest_margin=_margin(b),
+            unit=a.unit, statistic=a.key in STATISTICS, spread=_spread(a, b),
+            value=_number(a.value), margin=a.margin,
+            finest_value=_number(b.value), finest_margin=b.margin,
         )
         for a, b in pairs
     ]  # fmt: skip
 
 
+def _spread(one: Row, other: Row) -> float:
+    """Relative margin of a difference: from windows in pairs, or of runs taken as independent."""
+    if one.key not in STATISTICS:
+        return 0.0
+    if one.record is not None and other.record is not None:
+        return spread(one.record, other.record)
+    if one.margin is None or other.margin is None:
+        return nan
+    return hypot(one.margin, other.margin) / abs(_number(other.value))
+
+
 def _number(value: object) -> float:
     return float(value) if isinstance(value, (int, float)) else nan
-
-
-def _margin(row: Row) -> float | None:
-    return row.margin if row.margin is not None and isfinite(row.margin) else None

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 from dataclasses import asdict, dataclass
-from math import floor, hypot, isfinite, log10, nan
+from math import floor, isfinite, log10, nan
 from pathlib import Path
 from typing import Any
 
@@ -25,6 +25,7 @@ class Finding:
     label: str
     unit: str
     statistic: bool  # of a chaotic motion, known only with an interval
+    spread: float  # half the 95 % interval of ``difference``; 0 of a plain value, NaN if unknown
     value: float
     margin: float | None
     finest_value: float
@@ -36,15 +37,6 @@ class Finding:
         if self.value == self.finest_value:
             return 0.0
         return (self.value - self.finest_value) / abs(self.finest_value or nan)
-
-    @property
-    def spread(self) -> float:
-        """Half the 95 % interval of ``difference``: of independent runs, in quadrature."""
-        if not self.statistic:
-            return 0.0
-        if self.margin is None or self.finest_margin is None:
-            return nan
-        return hypot(self.margin, self.finest_margin) / abs(self.finest_value or nan)
 
     @property
     def digits(self) -> int:
@@ -77,7 +69,6 @@ class Finding:
         return {
             **asdict(self),
             "difference": self.difference,
-            "spread": self.spread,
             "digits": self.digits,
             "verdict": self.verdict,
         }

@@ -5,7 +5,7 @@ import pytest
 from scipy.signal import lfilter
 
 from flexcage.results import bootstrap
-from flexcage.results.statistics import Windows, roller_passes
+from flexcage.results.statistics import Record, Windows, roller_passes, spread
 
 
 def mean(sums):
@@ -64,15 +64,36 @@ def test_peaks_of_windows_do_not_grow_with_the_record():
     """Largest of 50 uniform numbers: 50/51 on average, however many windows there are."""
     for count in (40, 400):
         values = np.random.default_rng(1).random(50 * count)
-        peak, margin = Windows(50 * count, np.arange(count) * 50).peak(values)
-        assert abs(peak - 50.0 / 51.0) < margin < 0.02
+        peak = Windows(50 * count, np.arange(count) * 50).peak(values)
+        assert abs(peak.value - 50.0 / 51.0) < peak.margin < 0.02
+
+
+def test_deviation_of_a_wave():
+    """10 + sin: 1/sqrt(2) over 10."""
+    x = 10.0 + np.sin(np.linspace(0.0, 60.0 * np.pi, 3000, endpoint=False))
+    assert Windows(3000, np.arange(60) * 50).deviation(x).value == pytest.approx(0.1 / 2**0.5)
 
 
 def test_drift_tells_a_settling_record_from_a_settled_one():
     """Halves of a stationary record lie apart in about one of twenty; a ramp's always do."""
     windows = Windows(100, np.arange(100))
-    still = np.array([windows.drift(x) for x in records(100, 100, 0.3)])
+    still = np.array([windows.mean(x).drift for x in records(100, 100, 0.3) + 9.0])
     assert 0.01 < (still > 1.0).mean() < 0.15
-    ramp = np.array([windows.drift(x + 0.05 * np.arange(100)) for x in records(20, 100, 0.3)])
-    assert (ramp > 1.0).mean() > 0.9
-    assert np.isnan(Windows(30, np.arange(30)).drift(records(1, 30, 0.3)[0]))
+    ramp = 0.05 * np.arange(100)
+    assert all(windows.mean(x + ramp).drift > 1.0 for x in records(5, 100, 0.3))
+    assert np.isnan(Windows(30, np.arange(30)).mean(records(1, 30, 0.3)[0]).drift)
+
+
+def test_spread_of_a_ratio_leaves_out_what_both_runs_do():
+    """A common part thirty times as large as what differs: the ratio is known thirty times as
+    well as from the runs' own margins, and the interval holds the truth, 1, as it should."""
+    held, shares = [], []
+    for common, *own in zip(
+        records(100, 80, 0.6, 1), records(100, 80, 0.6, 2), records(100, 80, 0.6)
+    ):
+        one, other = (Record(np.stack([50.0 + common + x / 30.0, np.ones(80)], 1)) for x in own)
+        width = spread(one, other)
+        held.append(abs(one.value / other.value - 1.0) < width)
+        shares.append(width / (np.hypot(one.margin, other.margin) / other.value))
+    assert 0.8 < np.mean(held) < 1.0
+    assert np.median(shares) == pytest.approx(1.0 / 30.0, rel=0.3)

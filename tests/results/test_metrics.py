@@ -139,7 +139,7 @@ def test_summary_prints_and_comes_back(known_run, bearing, tmp_path):
     lines = [line for line in text.splitlines() if line.startswith("  ")]
     ends = {line.index(" rpm") for line in lines if " rpm" in line}
     assert len(ends) == 1, "values are right-aligned"
-    assert summary["roller_passes"] == 68 and summary["drift"] == "pocket force"
+    assert summary["roller_passes"] == 68 and summary["drift"] == "nothing"
     back = Summary.from_json(summary.to_json())
     assert back.text() == text
     assert back.row("pocket_force_mean") == summary.row("pocket_force_mean")
@@ -147,3 +147,11 @@ def test_summary_prints_and_comes_back(known_run, bearing, tmp_path):
     assert [p.name for p in summary.write(tmp_path)] == ["summary.txt", "summary.json"]
     both = side_by_side({"rigid": summary, "flexible": back})
     assert both.splitlines()[0].split() == ["rigid", "flexible"]
+
+
+def test_summary_sees_a_run_that_has_not_settled(known_run, bearing):
+    ds = known_run.copy(deep=True)
+    ds["cage_omega"][:, 0] *= np.linspace(1.0, 1.1, ds.sizes["time"])
+    assert summarise(ds, bearing)["drift"] == "cage speed"
+    short = summarise(ds.isel(time=slice(500)), bearing)
+    assert short["drift"] is None and short.row("cage_speed").margin is None

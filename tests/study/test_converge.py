@@ -2,12 +2,14 @@
 
 import json
 
+import numpy as np
 import pandas as pd
 import pytest
 
 from flexcage import cli
 from flexcage.case import load_case
 from flexcage.core.errors import InputError, RunFailed
+from flexcage.results.statistics import Record
 from flexcage.results.summary import Row, Section, Summary
 from flexcage.study import converge as module
 from flexcage.study.converge import converge, levels
@@ -26,11 +28,14 @@ class FakeRun:
         if case.modes.count == 96:
             raise RunFailed("the solver stopped at t = 1 ms: too stiff")
         force = 2.0 + 0.04 * (case.contacts.race.slices == 8) + 0.3 * (case.solver.tolerance < 5e-9)
+        wandering = np.random.default_rng(7).standard_normal(80).cumsum()  # of every run alike
+        speed = 100.0 + wandering + 0.5 * (case.contacts.race.slices == 8)
         frequency = {"coarse": 869.1, "medium": 860.6}.get(case.mesh.fineness, 858.5)
         rows = (
+            Row.of("cage_speed", "Cage speed", Record(np.stack([speed, np.ones(80)], 1)), "rpm"),
             Row("pocket_force_mean", "Pocket force, mean", force, "N", "", 0.02),
             Row("whirl_radius", "Whirl radius, mean", 40e-6, "um", "", 8e-6),
-            Row("slip_loaded", "Loaded zone, slip ratio", 0.01, "%", "", float("nan")),
+            Row("slip_loaded", "Loaded zone, slip ratio", 0.01, "%"),
             Row("first_frequency", "First frequency", frequency, "Hz"),
         )
         self.summary = Summary((Section("all", rows),))
@@ -56,6 +61,9 @@ def test_what_it_says_of_each_output(tmp_path):
         0.02**0.5 / 10
     )
     assert slices.verdict == "apart"
+    paired = at(found, "slices", "8", "cage_speed")
+    assert paired.margin > 2.0 and paired.difference == pytest.approx(0.5 / 89.0, rel=0.02)
+    assert paired.verdict == "within 2 %" and paired.spread < 1e-3
     assert at(found, "slices", "16", "pocket_force_mean").verdict == "within 2 %"
     assert at(found, "tolerance", "x1", "pocket_force_mean").verdict == "apart"
     assert at(found, "slices", "16", "whirl_radius").verdict == "overlap"
@@ -65,7 +73,7 @@ def test_what_it_says_of_each_output(tmp_path):
     assert list(found.failures) == ["modes 96"] and "too stiff" in str(found)
     assert found.compared["mesh"] == ("medium", "fine")
     table = pd.read_csv(tmp_path / "converge.csv")
-    assert len(table) == len(found.findings) == 4 * 6
+    assert len(table) == len(found.findings) == 5 * 6
     stored = json.loads((tmp_path / "converge.json").read_text())
     assert stored["findings"][0]["verdict"] == found.findings[0].verdict
     assert (tmp_path / "converge.png").stat().st_size > 20_000
@@ -109,7 +117,7 @@ def test_axes_that_do_not_fit(tmp_path, changes, axes, words):
 def test_a_difference_from_zero_is_no_digit():
     plain = {"axis": "a", "level": "1", "finest": "2", "output": "o", "label": "l", "unit": "N"}
     values = {"value": 1.0, "margin": None, "finest_value": 0.0, "finest_margin": None}
-    assert Finding(**plain, **values, statistic=False).digits == 0
+    assert Finding(**plain, **values, statistic=False, spread=0.0).digits == 0
 
 
 def test_the_command(tmp_path, monkeypatch, capsys):
