@@ -18,10 +18,11 @@ from flexcage.core.timing import Stages
 from flexcage.mesh.cage_mesh import CageMesh
 from flexcage.mesh.quality import report_mesh
 from flexcage.modes.reduction import CageReduction
+from flexcage.results.figures import PASS_PEAK, summarise
 from flexcage.results.metrics import BearingNumbers
 from flexcage.results.statistics import roller_passes
 from flexcage.results.store import MemoryRunStore, RunStore
-from flexcage.results.summary import PASS_PEAK, Row, Summary, summarise
+from flexcage.results.summary import Row, Summary
 from flexcage.solve import bdf
 from flexcage.stress.fields import StressFields
 from flexcage.stress.history import StressHistory, stress_history

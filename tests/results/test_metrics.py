@@ -7,8 +7,9 @@ import pytest
 import xarray as xr
 
 from flexcage.results import audit, metrics
+from flexcage.results.figures import summarise
 from flexcage.results.spectra import amplitude_spectrum
-from flexcage.results.summary import Row, Summary, side_by_side, summarise
+from flexcage.results.summary import Row, Summary, side_by_side
 
 
 def test_cage_speed_and_slip(known_run, bearing):
