@@ -192,6 +192,7 @@ def _force_rows(ds: xarray.Dataset, windows: Windows) -> tuple[Row, ...]:
             "N",
             "while in contact",
         ),
+        Row.of("pocket_force_sum", "Pocket forces, mean of sum", windows.mean(total), "N"),
         Row.of(
             "pocket_force_pass_peak",
             "Pocket force, peak of a pass",

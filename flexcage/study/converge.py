@@ -27,8 +27,8 @@ log = logging.getLogger(__name__)
 #: Outputs looked at, by their keys in the summary: statistics of the motion, and plain values.
 STATISTICS = (
     "cage_speed", "cage_slip_ratio", "cage_speed_ripple", "slip_loaded", "slip_unloaded",
-    "whirl_radius", "pocket_force_mean", "pocket_force_pass_peak", "stress_mean_peak",
-    "stress_root_pass_peak",
+    "whirl_radius", "pocket_force_sum", "pocket_force_mean", "pocket_force_pass_peak",
+    "stress_mean_peak", "stress_root_pass_peak",
 )  # fmt: skip
 OUTPUTS = (*STATISTICS, "first_frequency", "pinch_force", "cage_mass")
 
