@@ -219,8 +219,9 @@ class Run:
     def finish(self, recorder: Recorder) -> Run:
         """Complete a run that has come to its end: summary, stored beside the results."""
         self.solver = recorder.state
+        self.summary = self._summarise()
         if self.folder:
-            self._summarise().write(self.folder)
+            self.summary.write(self.folder)
         return self
 
     def _summarise(self) -> Summary:

@@ -139,19 +139,18 @@ def converge(
 def _run_all(wanted: dict[str, Level], folder: Path, progress: Any) -> dict[str, Summary | str]:
     """Summary of every case by its hash, or the sentence of the error that stopped it."""
     figures: dict[str, Summary | str] = {}
-    spent, ran = 0.0, 0
-    for number, (name, level) in enumerate(wanted.items()):
-        begin, new = time.perf_counter(), not (folder / name / "summary.json").exists()
-        left = f", about {spent / ran * (len(wanted) - number):.0f} s left" if ran else ""
-        if new:
-            what = f"{level.axis} {level.name}"
-            log.info("run %d of %d: %s%s", number + 1, len(wanted), what, left)
+    new = [name for name in wanted if not (folder / name / "summary.json").exists()]
+    begin, ran = time.perf_counter(), 0
+    for name, level in wanted.items():
+        if name in new:
+            spent = time.perf_counter() - begin
+            left = f", about {spent / ran * (len(new) - ran):.0f} s left" if ran else ""
+            ran += 1
+            log.info("run %d of %d: %s %s%s", ran, len(new), level.axis, level.name, left)
         try:
             figures[name] = _figures_of(level.case, folder / name, progress)
         except FlexcageError as error:
             figures[name] = str(error)
-        if new:
-            spent, ran = spent + time.perf_counter() - begin, ran + 1
     return figures
 
 

@@ -11,6 +11,7 @@ from flexcage.case import load_case
 from flexcage.core.errors import InputError, RunFailed
 from flexcage.results.statistics import Record
 from flexcage.results.summary import Row, Section, Summary
+from flexcage.simulate import simulate
 from flexcage.study import converge as module
 from flexcage.study.converge import converge, levels
 from flexcage.study.convergence import Finding
@@ -134,3 +135,18 @@ def test_the_command(tmp_path, monkeypatch, capsys):
     (tmp_path / "mine").mkdir()
     (tmp_path / "mine" / "letter.txt").write_text("")
     assert cli.main([*argv[:-1], "mine"]) == 2
+
+
+def test_a_real_study_keeps_its_windows(tmp_path, monkeypatch):
+    """Three short runs; read back, they give the very same table."""
+    monkeypatch.setattr(module, "simulate", simulate)
+    changes = {"cage.model": "rigid", "mesh.fineness": "coarse", "output.block": 50}
+    case = CASE.replace(**changes)
+    first = converge(case, out=tmp_path, axes=["slices"], duration="34 ms")
+    speed = at(first, "slices", "8", "cage_speed")
+    assert 0.0 < speed.spread < 0.01 and speed.verdict == "within 2 %"
+    folders = list((tmp_path / "cases").iterdir())
+    assert len(folders) == 3 and all((f / "windows.npz").exists() for f in folders)
+    monkeypatch.setattr(module, "simulate", FakeRun)
+    assert converge(case, out=tmp_path, axes=["slices"], duration="34 ms").table() == first.table()
+    assert not FakeRun.calls
