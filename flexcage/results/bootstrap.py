@@ -2,7 +2,8 @@
 
 Sources: the bootstrap, Politis and Romano, J. Am. Stat. Assoc. 89 (1994) 1303; the block length,
 Politis and White, Econometric Reviews 23 (2004) 53, as corrected by Patton, Politis and White,
-Econometric Reviews 28 (2009) 372.
+Econometric Reviews 28 (2009) 372; a periodic mean under stationary noise, Dudek, Leskow,
+Paparoditis and Politis, J. Time Series Analysis 35 (2014) 89.
 """
 
 from __future__ import annotations
@@ -14,7 +15,7 @@ import numpy as np
 from scipy.special import stdtrit
 
 RESAMPLES = 500
-FEWEST = 20  # rows, below which no margin is given
+FEWEST = 20  # entries, below which no margin is given
 CONFIDENCE = 0.95
 
 Statistic = Callable[[np.ndarray], np.ndarray]
@@ -51,22 +52,39 @@ def resampled(n: int, block: float, rng: np.random.Generator) -> np.ndarray:
     return (np.take_along_axis(start, place - since, axis=1) + since) % n
 
 
-def margin(table: np.ndarray, statistic: Statistic) -> float:
-    """Half the width of the 95 % interval of ``statistic``; NaN for fewer than ``FEWEST`` rows.
+def influences(
+    table: np.ndarray, statistic: Statistic, season: int = 0
+) -> tuple[np.ndarray, float]:
+    """What each row does to ``statistic``: entries (m,) whose mean errs as the statistic does, and
+    the share of them that is free.
 
     ``table`` (n, columns) holds the record, and ``statistic`` maps sums over rows (..., columns)
-    to (...,). The interval is Student's over the bootstrap's standard deviation, with a degree of
-    freedom less than there are blocks; blocks fit the statistic's jackknife values.
+    to (...,); entries are its jackknife values about their mean. If the record holds two or more
+    whole seasons of ``season`` rows, what repeats from season to season is taken out of them: it
+    does not make the mean over whole seasons uncertain.
     """
-    n = len(table)
-    if n < FEWEST:
-        return float("nan")
-    total = table.sum(axis=0)
+    n, total = len(table), table.sum(axis=0)
     with np.errstate(divide="ignore", invalid="ignore"):
-        influence = -statistic(total - table)
-        if not np.isfinite(influence).all():
-            return float("nan")
-        block = block_length(influence)
-        rows = resampled(n, block, np.random.default_rng(n))
-        deviation = float(np.nanstd(statistic(table[rows].sum(axis=1))))
-    return float(stdtrit(max(n / block - 1.0, 1.0), 0.5 * (1.0 + CONFIDENCE))) * deviation
+        out = n * (statistic(total) - statistic(total - table))
+    out = out - out.mean()
+    seasons = n // season if season else 0
+    if seasons < 2:
+        return out, 1.0
+    free = 1.0 - 1.0 / seasons
+    phases = out[: seasons * season].reshape(seasons, season)
+    return (phases - phases.mean(axis=0)).ravel() / sqrt(free), free
+
+
+def margin(values: np.ndarray, free: float = 1.0) -> float:
+    """Half the width of the 95 % interval of the mean of ``values`` (n,), of which a share is
+    ``free``; NaN for fewer than ``FEWEST``.
+
+    The interval is Student's over the bootstrap's standard deviation, with a degree of freedom
+    less than there are free blocks.
+    """
+    n = len(values)
+    if n < FEWEST or not np.isfinite(values).all():
+        return float("nan")
+    block = block_length(values)
+    deviation = float(values[resampled(n, block, np.random.default_rng(n))].mean(axis=1).std())
+    return float(stdtrit(max(n * free / block - 1.0, 1.0), 0.5 * (1.0 + CONFIDENCE))) * deviation

@@ -13,7 +13,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from flexcage.results import bootstrap, metrics
+from flexcage.results import metrics
+from flexcage.results.bootstrap import influences, margin
 from flexcage.results.metrics import BearingNumbers
 
 if TYPE_CHECKING:
@@ -23,9 +24,14 @@ if TYPE_CHECKING:
 @dataclass(frozen=True, eq=False)
 class Record:
     """A statistic by windows: ``sums`` (m, 2) whose quotient it is, or (m, 3) sums of 1, x and x^2
-    of a standard deviation over a mean."""
+    of a standard deviation over a mean. ``turn`` windows make a turn of the cage.
+
+    A turn brings every roller and a bent crossbeam once through the load. What repeats with it
+    belongs to the motion and is no uncertainty; ``margin`` leaves it out from two turns on.
+    """
 
     sums: np.ndarray
+    turn: int = 0
 
     @cached_property
     def value(self) -> float:
@@ -35,16 +41,18 @@ class Record:
     @cached_property
     def margin(self) -> float:
         """Half the width of the 95 % interval of ``value``; NaN for too few windows."""
-        return bootstrap.margin(self.sums, _statistic)
+        return margin(*influences(self.sums, _statistic, self.turn))
 
-    @property
+    @cached_property
     def drift(self) -> float:
-        """Distance of the values of the first and the second half, over the margin of that
-        distance: above 1 the halves differ; NaN if they are too short to tell."""
-        one, other = (Record(half) for half in np.array_split(self.sums, 2))
-        both = float(np.hypot(one.margin, other.margin))
-        rounding = 1e-12 * max(abs(one.value), abs(other.value))
-        return 0.0 if both <= rounding else abs(one.value - other.value) / both
+        """Distance of the first half from the second, over the margin of that distance: above 1
+        the halves differ; NaN if they are too short to tell."""
+        values, free = influences(self.sums, _statistic, self.turn)
+        one, other = np.array_split(values, 2)
+        both = float(np.hypot(margin(one, free), margin(other, free)))
+        apart = abs(float(one.mean() - other.mean()))
+        rounding = np.isfinite(both) and apart <= 1e-12 * abs(self.value)
+        return 0.0 if rounding else apart / both
 
 
 def spread(one: Record, other: Record) -> float:
@@ -55,9 +63,11 @@ def spread(one: Record, other: Record) -> float:
     """
     m, columns = min(len(one.sums), len(other.sums)), one.sums.shape[1]
     pairs = np.hstack([one.sums[:m], other.sums[:m]])
-    return bootstrap.margin(
-        pairs, lambda s: _statistic(s[..., :columns]) / _statistic(s[..., columns:])
-    )
+
+    def ratio(s: np.ndarray) -> np.ndarray:
+        return _statistic(s[..., :columns]) / _statistic(s[..., columns:])
+
+    return margin(*influences(pairs, ratio))
 
 
 def _statistic(sums: np.ndarray) -> np.ndarray:
@@ -69,10 +79,12 @@ def _statistic(sums: np.ndarray) -> np.ndarray:
 
 @dataclass(frozen=True)
 class Windows:
-    """Samples cut into windows of about one roller pass; ``first`` (m,) begins each."""
+    """Samples cut into windows of about one roller pass; ``first`` (m,) begins each, and ``turn``
+    of them make a turn of the cage."""
 
     samples: int
     first: np.ndarray
+    turn: int = 0
 
     def mean(self, values: np.ndarray) -> Record:
         """Mean of ``values`` (n,)."""
@@ -89,10 +101,11 @@ class Windows:
     def peak(self, values: np.ndarray) -> Record:
         """Mean of the windows' largest of ``values`` (n,)."""
         largest = np.maximum.reduceat(values, self.first).astype(float)
-        return Record(np.stack([largest, np.ones(len(largest))], axis=1))
+        return Record(np.stack([largest, np.ones(len(largest))], axis=1), self.turn)
 
     def _record(self, *columns: np.ndarray) -> Record:
-        return Record(np.add.reduceat(np.stack(columns, axis=1).astype(float), self.first))
+        sums = np.add.reduceat(np.stack(columns, axis=1).astype(float), self.first)
+        return Record(sums, self.turn)
 
 
 def roller_passes(ds: xarray.Dataset, bearing: BearingNumbers) -> Windows:
@@ -100,4 +113,4 @@ def roller_passes(ds: xarray.Dataset, bearing: BearingNumbers) -> Windows:
     n = ds.sizes["time"]
     passes = abs(np.ptp(metrics.cage_angle(ds))) * bearing.roller_count / (2.0 * np.pi)
     count = int(np.clip(round(passes), 1, n))
-    return Windows(n, np.arange(count) * n // count)
+    return Windows(n, np.arange(count) * n // count, bearing.roller_count)

@@ -8,10 +8,6 @@ from flexcage.results import bootstrap
 from flexcage.results.statistics import Record, Windows, roller_passes, spread
 
 
-def mean(sums):
-    return sums[..., 0] / sums[..., 1]
-
-
 def records(count, n, phi, seed=3):
     """AR(1) records (count, n) of mean 0 and unit innovations, run in for 300 entries."""
     noise = np.random.default_rng(seed).standard_normal((count, n + 300))
@@ -22,7 +18,7 @@ def records(count, n, phi, seed=3):
 def test_intervals_of_an_ar1_process_hold_its_mean(phi, least):
     """Nominal 95 %; fewer blocks know less, and a bootstrap of few is known to fall short."""
     found = records(300, 100, phi)
-    margins = [bootstrap.margin(np.stack([x, np.ones(100)], axis=1), mean) for x in found]
+    margins = [bootstrap.margin(x) for x in found]
     held = np.abs(found.mean(axis=1)) < margins
     assert least < held.mean() < 0.99
 
@@ -46,11 +42,27 @@ def test_resampling_keeps_blocks_and_visits_all_alike():
 def test_margin_of_a_ratio_scales_and_a_short_record_has_none():
     x = records(1, 200, 0.5)[0] + 10.0
     table = np.stack([x, np.ones(200)], axis=1)
-    one = bootstrap.margin(table, mean)
-    assert bootstrap.margin(table * [1e-6, 1.0], mean) == pytest.approx(1e-6 * one)
-    assert bootstrap.margin(np.ones((200, 2)), mean) == 0.0
-    assert np.isnan(bootstrap.margin(table[: bootstrap.FEWEST - 1], mean))
-    assert np.isnan(bootstrap.margin(table * [1.0, 0.0], mean))
+    one = Record(table).margin
+    assert one == pytest.approx(bootstrap.margin(x), rel=0.02)
+    assert Record(table * [1e-6, 1.0]).margin == pytest.approx(1e-6 * one)
+    assert Record(np.ones((200, 2))).margin == 0.0
+    assert np.isnan(Record(table[: bootstrap.FEWEST - 1]).margin)
+    assert np.isnan(Record(table * [1.0, 0.0]).margin)
+
+
+@pytest.mark.parametrize("turns", [2, 3, 6])
+def test_what_repeats_with_every_turn_is_no_uncertainty(turns):
+    """A wave ten times as large as the noise, of unknown mean 50: it neither widens the interval,
+    nor makes it miss."""
+    wave = 50.0 + 10.0 * np.sin(2.0 * np.pi * np.arange(22) / 22.0)
+    held, widths, plain = [], [], []
+    for noise in records(150, 22 * turns, 0.4):
+        record = Record(np.stack([np.tile(wave, turns) + noise, np.ones(22 * turns)], 1), 22)
+        held.append(abs(record.value - 50.0) < record.margin)
+        widths.append(record.margin)
+        plain.append(bootstrap.margin(noise))
+    assert 0.75 < np.mean(held) < 1.0
+    assert np.median(widths) == pytest.approx(np.median(plain), rel=0.3)
 
 
 def test_windows_are_roller_passes(known_run, bearing):

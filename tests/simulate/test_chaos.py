@@ -27,8 +27,11 @@ def test_motions_part_ways(pair):
     assert np.linalg.norm(one - other) > 0.3 * np.linalg.norm(one)
 
 
-@pytest.mark.parametrize("key", STATISTICS)
-def test_statistics_agree_within_their_intervals(pair, key):
-    one, other = (run.summary.row(key) for run in pair)
-    assert 0.0 < one.margin < 0.5 * abs(one.value) and other.margin > 0.0
-    assert abs(one.value - other.value) < one.margin + other.margin
+def test_statistics_agree_within_their_intervals(pair):
+    """One of seven 95 % intervals may miss, none by its own width."""
+    apart = []
+    for key in STATISTICS:
+        one, other = (run.summary.row(key) for run in pair)
+        assert 0.0 < one.margin < 0.5 * abs(one.value) and other.margin > 0.0, key
+        apart.append(abs(one.value - other.value) / (one.margin + other.margin))
+    assert np.sort(apart)[-2] < 1.0 and max(apart) < 2.0
