@@ -74,6 +74,11 @@ def _sentence(exc: Exception) -> tuple[str, int]:
 
 def _stopped_sentence(args: argparse.Namespace) -> str:
     out = getattr(args, "out", None)
+    if out is not None and (Path(out) / "study.toml").exists():
+        return (
+            f"Stopped; what is finished is kept in '{out}', and 'flexcage study resume {out}' "
+            "goes on from there."
+        )
     if out is None or not (Path(out) / "results.zarr").exists():
         return "Stopped."
     return f"Stopped; what was computed is kept in '{out}', and --resume goes on from there."
@@ -118,13 +123,7 @@ def mesh_command(args: argparse.Namespace) -> int:
     from flexcage.mesh.io import write_mesh
     from flexcage.mesh.quality import report_mesh
 
-    mesh = build_cage_mesh(
-        case.cage,
-        pocket_count=case.bearing.roller_count,
-        pitch_diameter=case.bearing.pitch_diameter,
-        defects=case.defects,
-        options=case.mesh,
-    )
+    mesh = build_cage_mesh(**case.cage_shape)
     say(report_mesh(mesh, density=case.cage.material.density))
     for path in dict.fromkeys((out, out.with_suffix(".vtu"))):
         say(f"written: {write_mesh(mesh, path)}")
@@ -191,6 +190,56 @@ def converge_command(args: argparse.Namespace) -> int:
         prepare_out(out, resume=False, force=args.force, resumable=False)
     say(converge(case, out=out, axes=axes, progress=Progress))
     say(f"\nThe table, its picture and the runs are in {out}")
+    return 0
+
+
+def study_run_command(args: argparse.Namespace) -> int:
+    """flexcage study run STUDY: compute what the study's folder lacks, and print its table."""
+    from flexcage.study.spec import load_study
+
+    study = load_study(args.study, overrides=settings_of(args))
+    args.out = Path(args.out) if args.out else Path("runs") / study.name
+    return compute_study(study, args)
+
+
+def study_resume_command(args: argparse.Namespace) -> int:
+    """flexcage study resume DIR: go on with a study that stopped."""
+    from flexcage.study.folder import Folder
+
+    args.out = Path(args.dir)
+    return compute_study(Folder(args.out).study(), args)
+
+
+def compute_study(study: Any, args: argparse.Namespace) -> int:
+    """Run a study in the folder ``args.out``; 1 if a case of it failed."""
+    from flexcage.core.progress import Progress
+    from flexcage.study.run import run_study
+
+    results = run_study(
+        study, out=args.out, workers=args.workers, scheduler=args.scheduler, retry=args.retry,
+        progress=Progress,
+    )  # fmt: skip
+    say(results.report())
+    say(f"\nThe study is in {args.out}")
+    return 1 if results.count("failed") else 0
+
+
+def study_status_command(args: argparse.Namespace) -> int:
+    """flexcage study status DIR: how many cases are done, failed and open."""
+    from flexcage.study.results import StudyResults
+
+    say(StudyResults(args.dir).status())
+    return 0
+
+
+def study_report_command(args: argparse.Namespace) -> int:
+    """flexcage study report DIR: the table, printed and written anew from the cases."""
+    from flexcage.study.results import StudyResults
+
+    results = StudyResults(args.dir)
+    say(results.report())
+    for path in results.write():
+        say(f"written: {path}")
     return 0
 
 
@@ -277,10 +326,15 @@ def case_from(args: argparse.Namespace) -> Any:
     """Case named on the command line, with --set and --cage applied."""
     from flexcage.case import load_case
 
-    overrides = dict(parse_setting(text) for text in args.set or ())
+    overrides = settings_of(args)
     if getattr(args, "cage", None):
         overrides["cage.model"] = args.cage
     return load_case(Path(args.case), overrides=overrides)
+
+
+def settings_of(args: argparse.Namespace) -> dict[str, Any]:
+    """Values of --set by path."""
+    return dict(parse_setting(text) for text in args.set or ())
 
 
 def parse_setting(text: str) -> tuple[str, Any]:
@@ -395,6 +449,7 @@ def build_parser() -> argparse.ArgumentParser:
     _add_run_commands(commands)
     _add_converge(commands)
     _add_verify(commands)
+    _add_study(commands)
     _add_small_commands(commands)
     return parser
 
@@ -457,6 +512,35 @@ def _add_verify(commands: Any) -> None:
     verify.add_argument("--list", action="store_true", help="name the cases, compute nothing")
     verify.add_argument("-o", "--out", metavar="FILE", help="write a chapter (.md), or .json")
     verify.add_argument("--force", action="store_true", help="write over an existing file")
+
+
+def _add_study(commands: Any) -> None:
+    study = commands.add_parser("study", help="many cases on all cores or a cluster, and one table")
+    actions = study.add_subparsers(title="actions", metavar="ACTION", required=True)
+    run = _command(actions, "run", study_run_command, "compute what a study's folder lacks")
+    run.add_argument("study", metavar="STUDY", help="study file (.toml)")
+    run.add_argument("-o", "--out", metavar="DIR", help="study folder (default: runs/NAME)")
+    run.add_argument(
+        "--set", action="append", metavar="PATH=VALUE", help="change a value of the base case"
+    )
+    resume = _command(actions, "resume", study_resume_command, "go on with a study that stopped")
+    resume.add_argument("dir", metavar="DIR", help="study folder")
+    for parser in (run, resume):
+        where = parser.add_mutually_exclusive_group()
+        where.add_argument("--workers", type=_count, metavar="N", help="processes (default: cores)")
+        where.add_argument("--scheduler", metavar="ADDRESS", help="a running Dask scheduler")
+        parser.add_argument("--retry", action="store_true", help="try failed cases again")
+    for name, function, text in (
+        ("status", study_status_command, "count what is done, failed and open"),
+        ("report", study_report_command, "print and write the table"),
+    ):
+        _command(actions, name, function, text).add_argument("dir", metavar="DIR", help="folder")
+
+
+def _count(text: str) -> int:
+    if not text.isdigit() or int(text) < 1:
+        raise argparse.ArgumentTypeError(f"'{text}' should be a whole number, 1 or more")
+    return int(text)
 
 
 def _add_small_commands(commands: Any) -> None:

@@ -13,7 +13,7 @@ from flexcage.core.timing import Stages
 from flexcage.results.recording import Recorder
 from flexcage.run import Run, check_assembly, check_resumed, open_folder
 from flexcage.stages import build_bearing, cage_mesh, cage_reduction, run_store
-from flexcage.system.start import find_start
+from flexcage.system.start import find_start, pushed
 
 
 def simulate(
@@ -34,6 +34,7 @@ def simulate(
     bearing = stages("kernels", build_bearing, case, mesh, cage)
     start = stages("start", find_start, bearing, limit_force=case.limits.assembly_force)
     check_assembly(case, mesh, cage, start)
+    start = pushed(start, bearing.layout, case.start)
     store = run_store(case, bearing, folder, resume=resume)
     run = Run(case, store, folder, mesh, cage, start, stages)
     recorder = Recorder(bearing, start, store, solver=case.solver, output=case.output)

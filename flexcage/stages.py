@@ -7,7 +7,7 @@ from pathlib import Path
 
 from flexcage.bodies.cage import flexible_from_basis, rigid_from_tets
 from flexcage.case import Case
-from flexcage.core.jit import kernels_cached
+from flexcage.core import jit
 from flexcage.mesh.build import build_cage_mesh
 from flexcage.mesh.cage_mesh import CageMesh
 from flexcage.mesh.quality import check_mesh
@@ -43,13 +43,7 @@ def run_store(
 
 def cage_mesh(case: Case) -> CageMesh:
     """Mesh of the case's cage, checked."""
-    mesh = build_cage_mesh(
-        case.cage,
-        pocket_count=case.bearing.roller_count,
-        pitch_diameter=case.bearing.pitch_diameter,
-        defects=case.defects,
-        options=case.mesh,
-    )
+    mesh = build_cage_mesh(**case.cage_shape)
     check_mesh(mesh, where=case.mesh.file or "mesh")
     return mesh
 
@@ -72,7 +66,7 @@ def cage_modes(case: Case) -> ModeBasis:
 
 def build_bearing(case: Case, mesh: CageMesh, cage: CageReduction | None) -> Bearing:
     """Bodies, contacts and compiled equations of motion."""
-    if not kernels_cached():
+    if not jit.kernels_cached():
         log.info("compiling the kernels for the first time: about a minute, once")
     Z = case.bearing.roller_count
     if cage is None:

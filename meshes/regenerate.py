@@ -22,13 +22,7 @@ def regenerate(out: Path = HERE) -> Iterator[tuple[Path, MeshReport]]:
     """Write the .msh of every TOML of this folder to ``out``; yields each path and its report."""
     for toml in sorted(HERE.glob("*.toml")):
         case = load_case(toml)
-        mesh = build_cage_mesh(
-            case.cage,
-            pocket_count=case.bearing.roller_count,
-            pitch_diameter=case.bearing.pitch_diameter,
-            defects=case.defects,
-            options=case.mesh,
-        )
+        mesh = build_cage_mesh(**case.cage_shape)
         path = write_mesh(mesh, out / f"{toml.stem}.msh")
         yield path, report_mesh(mesh, density=case.cage.material.density)
 

@@ -35,7 +35,7 @@ from flexcage.mesh.options import MeshOptions
 from flexcage.modes.spec import ModesSpec
 from flexcage.results.options import OutputOptions
 from flexcage.solve.options import SolverOptions
-from flexcage.system.spec import Drive, Limits, Load, Mount
+from flexcage.system.spec import Drive, Limits, Load, Mount, StartOptions
 
 CAGE_MODELS = ("flexible", "rigid")
 _NOT_PHYSICS = ("name", "description", "preset")
@@ -65,6 +65,7 @@ class Case:
     drive: Drive = option(Drive(), doc="what turns the inner ring")
     load: Load = option(Load(), doc="what loads the inner ring")
     mount: Mount = option(Mount(), doc="what holds the outer ring")
+    start: StartOptions = option(StartOptions(), doc="how the start departs from equilibrium")
     solver: SolverOptions = option(SolverOptions(), doc="the integrator")
     output: OutputOptions = option(OutputOptions(), doc="what is kept of a run")
     limits: Limits = option(Limits(), doc="limits beyond which a start is refused")
@@ -147,6 +148,17 @@ class Case:
             physics["mesh"] = dataclasses.replace(self.mesh, file="")
         outside = sorted(filter(None, {source_of(name) for name in chosen_names(self)}))
         return content_hash(physics, content, *outside)
+
+    @property
+    def cage_shape(self) -> dict[str, Any]:
+        """What ``mesh.build.build_cage_mesh`` asks for, by name."""
+        return {
+            "cage": self.cage,
+            "pocket_count": self.bearing.roller_count,
+            "pitch_diameter": self.bearing.pitch_diameter,
+            "defects": self.defects,
+            "options": self.mesh,
+        }
 
     @property
     def assumptions(self) -> dict[str, str]:

@@ -101,6 +101,14 @@ def _find_in_mesh(case: Case) -> Iterator[Finding]:
                 f"mesh.{key} is {describe(size, 'mm')}, which makes about {count:.0e} elements of "
                 f"this cage; give a size that makes {_MOST_ELEMENTS:.0e} or fewer.",
             )
+    beam = 2.0 * pi * case.bearing.pitch_radius / case.bearing.roller_count - cage.pocket_width
+    least = min(0.5 * (cage.outside_diameter - cage.bore), beam)
+    if mesh.size is not None and mesh.size > 2.0 * least:
+        yield (
+            "mesh.size",
+            f"mesh.size is {describe(mesh.size, 'mm')}, but the cage's thinnest part is only "
+            f"{describe(least, 'mm')}; give a size up to twice that.",
+        )
 
 
 def _find_in_tables(case: Case) -> Iterator[Finding]:

@@ -92,7 +92,7 @@ class Binder:
         names = self.named.get(cls)
         if names and isinstance(value, str):
             if value not in names:
-                hint = _did_you_mean(value, names, "known are")
+                hint = did_you_mean(value, names, "known are")
                 raise InputError(
                     f"{where} '{value}' is not known; {hint}.", where=where, value=value
                 )
@@ -113,7 +113,7 @@ class Binder:
         tag = value.get("type")
         if tag not in tags:
             given = f"type '{tag}' is not known" if tag is not None else "'type' is missing"
-            hint = _did_you_mean(str(tag), tags, "choose from")
+            hint = did_you_mean(str(tag), tags, "choose from")
             raise InputError(f"{where}: {given}; {hint}.", where=join(where, "type"), value=tag)
         rest = {k: v for k, v in value.items() if k != "type"}
         return self.bind(tags[tag], rest, where)
@@ -176,6 +176,18 @@ def set_path(spec: Any, path: str, value: Any, binder: Binder, *, where: str = "
     else:
         new = set_path(old, rest, value, binder, where=here)
     return _replaced(spec, head, new, where)
+
+
+def unit_at(spec: Any, path: str) -> str:
+    """Unit of the value at a dotted path of a spec; empty if it has none, or is not there."""
+    head, _, rest = path.partition(".")
+    if isinstance(spec, tuple):
+        inside = head.isdigit() and int(head) < len(spec) and bool(rest)
+        return unit_at(spec[int(head)], rest) if inside else ""
+    fields = getattr(spec, "__dataclass_fields__", {})
+    if head not in fields:
+        return ""
+    return unit_at(getattr(spec, head), rest) if rest else fields[head].metadata.get("unit") or ""
 
 
 def _replaced(spec: Any, name: str, value: Any, where: str) -> Any:
@@ -296,7 +308,7 @@ def check_value(value: Any, meta: Mapping, where: str) -> None:
         return
     choices = meta.get("choices")
     if choices and isinstance(value, str) and value not in choices:
-        hint = _did_you_mean(value, choices, "choose from")
+        hint = did_you_mean(value, choices, "choose from")
         if isinstance(choices, Mapping) and hint.startswith("choose"):
             hint += ", or load the file that registers it (--use FILE)"
         raise InputError(f"{where} '{value}' is not known; {hint}.", where=where, value=value)
@@ -394,7 +406,7 @@ def unknown_key(key: str, known: Iterable[str], where: str) -> InputError:
     """Error for a key that a table does not have, with the nearest that it has."""
     place = f" in [{where}]" if where else ""
     return InputError(
-        f"Unknown key '{key}'{place}; {_did_you_mean(key, known, 'known keys are')}.",
+        f"Unknown key '{key}'{place}; {did_you_mean(key, known, 'known keys are')}.",
         where=join(where, key),
         value=key,
     )
@@ -415,7 +427,7 @@ def wrong_type(value: Any, wanted: str, where: str) -> InputError:
     return InputError(f"{where} is {value!r}, but should be {wanted}.", where=where, value=value)
 
 
-def _did_you_mean(text: str, known: Iterable[str], otherwise: str) -> str:
+def did_you_mean(text: str, known: Iterable[str], otherwise: str) -> str:
     names = [str(k) for k in known]
     close = difflib.get_close_matches(text, names, n=1, cutoff=0.6)
     return f"the nearest known one is '{close[0]}'" if close else f"{otherwise} {', '.join(names)}"

@@ -5,9 +5,11 @@ from __future__ import annotations
 import os
 from collections.abc import Callable, Iterable
 from concurrent.futures import ThreadPoolExecutor
+from contextvars import ContextVar
 from functools import wraps
 from typing import Any, ParamSpec, TypeVar
 
+_CORES: ContextVar[int] = ContextVar("cores", default=os.cpu_count() or 1)
 P = ParamSpec("P")
 R = TypeVar("R")
 
@@ -25,10 +27,24 @@ def one_blas_thread(function: Callable[P, R]) -> Callable[P, R]:
     return limited
 
 
+def on_one_core(function: Callable[P, R]) -> Callable[P, R]:
+    """The function, with one thread for BLAS and for ``on_all_cores``: others use the machine."""
+
+    @wraps(function)
+    def alone(*args: P.args, **kwargs: P.kwargs) -> R:
+        token = _CORES.set(1)
+        try:
+            return one_blas_thread(function)(*args, **kwargs)
+        finally:
+            _CORES.reset(token)
+
+    return alone
+
+
 def on_all_cores(work: Callable[[Any], Any], items: Iterable[Any]) -> list[Any]:
     """Results of ``work`` for every item, in order, by a thread a core.
 
     For work that spends its time in libraries that let other threads run meanwhile.
     """
-    with ThreadPoolExecutor(max_workers=os.cpu_count() or 1) as pool:
+    with ThreadPoolExecutor(max_workers=_CORES.get()) as pool:
         return list(pool.map(work, items))

@@ -62,17 +62,27 @@ def to_parquet(
     ds: xarray.Dataset, path: str | Path, variables: Sequence[str] | None = None
 ) -> Path:
     """Write :func:`scalar_table` as Parquet."""
-    if not any(importlib.util.find_spec(e) for e in ("pyarrow", "fastparquet")):
-        raise _lacks("Parquet", "pyarrow")
-    path = _ready(path)
-    scalar_table(ds, variables).to_parquet(path, index=False)
-    return path
+    return frame_to_parquet(scalar_table(ds, variables), path)
 
 
 def to_csv(ds: xarray.Dataset, path: str | Path, variables: Sequence[str] | None = None) -> Path:
     """Write :func:`scalar_table` as CSV, numbers in full precision."""
+    return frame_to_csv(scalar_table(ds, variables), path)
+
+
+def frame_to_parquet(frame: pandas.DataFrame, path: str | Path) -> Path:
+    """Write a table as Parquet."""
+    if not any(importlib.util.find_spec(e) for e in ("pyarrow", "fastparquet")):
+        raise _lacks("Parquet", "pyarrow")
     path = _ready(path)
-    scalar_table(ds, variables).to_csv(path, index=False)
+    frame.to_parquet(path, index=False)
+    return path
+
+
+def frame_to_csv(frame: pandas.DataFrame, path: str | Path) -> Path:
+    """Write a table as CSV."""
+    path = _ready(path)
+    frame.to_csv(path, index=False)
     return path
 
 

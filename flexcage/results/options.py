@@ -19,7 +19,9 @@ class OutputOptions:
     vibration_rate: float = quantity(
         "kHz", 200e3, doc="samples a second of the outer ring's acceleration", above=0.0
     )
-    block: int = option(250, doc="samples a block: what one commit makes safe", minimum=2)
+    block: int = option(
+        250, doc="samples a block: what one commit makes safe", minimum=2, maximum=10_000
+    )
     settle: float = option(
         0.3, doc="share of the run left out of statistics", minimum=0.0, maximum=0.95
     )

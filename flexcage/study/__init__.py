@@ -1,1 +1,1 @@
-"""Studies: several runs put side by side."""
+"""Studies: many cases planned, run on Dask and gathered; two runs put side by side."""

@@ -61,6 +61,18 @@ class Mount:
 
 
 @dataclass(frozen=True, kw_only=True)
+class StartOptions:
+    """How the start departs from equilibrium: the cage moves off in a random direction.
+
+    A speed, unlike an offset, leaves every contact as the equilibrium found it, so that it suits
+    a pinched cage as well. ``seed`` picks the azimuth; rollers and rings stay the same.
+    """
+
+    push: float = quantity("mm/s", 0.0, doc="speed of the cage centre at the start", minimum=0.0)
+    seed: int = option(0, doc="seed of the push's azimuth, uniform over the circle", minimum=0)
+
+
+@dataclass(frozen=True, kw_only=True)
 class Limits:
     """Limits beyond which a start is refused rather than warned about."""
 

@@ -11,7 +11,7 @@ assembled.
 from __future__ import annotations
 
 import logging
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -22,6 +22,7 @@ from flexcage.geometry.kinematics import epicyclic
 from flexcage.system.layout import Layout
 from flexcage.system.model import Model
 from flexcage.system.problem import Bearing, newton_step
+from flexcage.system.spec import StartOptions
 
 log = logging.getLogger(__name__)
 
@@ -77,6 +78,18 @@ def standing_cage(model: Model, layout: Layout, y: np.ndarray) -> np.ndarray:
     layout.u(y)["omega"][:] = 0.0
     layout.q(yd)["quaternion"][:] = 0.0
     return yd
+
+
+def pushed(start: Start, layout: Layout, options: StartOptions) -> Start:
+    """The start with the cage centre moving off at ``options.push``, at a random azimuth."""
+    if options.push == 0.0:
+        return start
+    azimuth = np.random.default_rng(options.seed).uniform(0.0, 2.0 * np.pi)
+    velocity = options.push * np.array([0.0, np.cos(azimuth), np.sin(azimuth)])
+    y, yd = start.y.copy(), start.yd.copy()
+    layout.u(y)["cage"][:] += velocity
+    layout.q(yd)["cage"][:] += velocity
+    return replace(start, y=y, yd=yd)
 
 
 def pocket_clearance(model: Model, offset: np.ndarray) -> np.ndarray:

@@ -19,11 +19,13 @@ sys.path[:0] = [str(Path(__file__).parent)]
 
 def main(argv: list[str] | None = None) -> int:
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("what", choices=("solver", "fe"))
+    parser.add_argument("what", choices=("solver", "fe", "peer", "scale", "study"))
     parser.add_argument("--json", action="store_true", help="one JSON object")
     parser.add_argument("--case", type=Path, default=ROOT / "examples" / "n1013.toml")
     parser.add_argument("--fineness", default="medium", help="fe: fineness of the mesh")
     parser.add_argument("--solver", default="auto", help="fe: linear solver")
+    parser.add_argument("--plot", type=Path, metavar="FILE", help="peer, scale: draw curves")
+    parser.add_argument("--cases", type=int, default=1000, help="study: number of trivial cases")
     parser.add_argument("--set", action="append", default=[], metavar="PATH=VALUE")
     args = parser.parse_args(argv)
     import flexcage
@@ -34,6 +36,18 @@ def main(argv: list[str] | None = None) -> int:
         import solver_benchmark
 
         figures = solver_benchmark.measure(case)
+    elif args.what == "peer":
+        import peer_benchmark
+
+        figures = peer_benchmark.measure(case, plot=args.plot)
+    elif args.what == "scale":
+        import scale_benchmark
+
+        figures = scale_benchmark.measure(case, plot=args.plot)
+    elif args.what == "study":
+        import study_benchmark
+
+        figures = study_benchmark.measure(case, trivial_cases=args.cases)
     else:
         import fe_benchmark
 

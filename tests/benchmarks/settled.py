@@ -69,10 +69,13 @@ class Settled:
         closed = self.bearing.data.events.closed
         return {"y": out.ys[-1], "yd": out.yds[-1], "closed": closed.copy(), **memory}
 
-    def options(self, *, max_step: float | None = None) -> bdf.Options:
+    def options(
+        self, *, max_step: float | None = None, max_order: int | None = None
+    ) -> bdf.Options:
         s = self.case.solver
         step = s.max_step if max_step is None else max_step
-        return bdf.Options(s.max_order, step, 1e-16, s.newton_tolerance, 10**9)
+        order = s.max_order if max_order is None else max_order
+        return bdf.Options(order, step, 1e-16, s.newton_tolerance, 10**9)
 
     def restore(self) -> tuple[np.ndarray, np.ndarray]:
         """Put law memory and contact flags back; y and y' of the stored state."""
@@ -90,16 +93,18 @@ class Settled:
         share: float = 1.0,
         step_share: float = 1.0,
         aside: float = 0.0,
+        max_order: int | None = None,
     ) -> Outcome:
         """Integrate from the stored state with tolerance and largest step cut to these shares.
 
-        ``aside`` [m] moves the cage by so much first.
+        ``aside`` [m] moves the cage by so much first; ``max_order`` is the case's by default.
         """
         y, yd = self.restore()
         self.bearing.layout.q(y)["cage"][1] += aside
         n = round(duration * RATE)
         self._sample(n // stride + 1, stride)
-        options = self.options(max_step=self.case.solver.max_step * step_share)
+        max_step = self.case.solver.max_step * step_share
+        options = self.options(max_step=max_step, max_order=max_order)
         times = SETTLE + np.arange(1, n + 1) / RATE
         return self._advance(SETTLE, y, yd, times, options, share=share)
 
@@ -135,7 +140,11 @@ class Settled:
 
     def forces(self, ys: np.ndarray, yds: np.ndarray, times: np.ndarray) -> Forces:
         """Forces at sampled states, evaluated anew: normal and traction of every race contact;
-        (x, r, psi) of every pocket face, and the land's force on the cage."""
+        (x, r, psi) of every pocket face, and the land's force on the cage.
+
+        Contacts remember what they do in the stored state, so that equal states have equal forces.
+        """
+        self.restore()
         report, race, cage = self.bearing.data.work.report, [], []
         for t, y, yd in zip(times, ys, yds, strict=True):
             self.bearing.residual(float(t), y, yd, mode=2)

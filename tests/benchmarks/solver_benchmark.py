@@ -58,7 +58,7 @@ def measure(case: flexcage.Case) -> dict[str, Any]:
         "window_contact": round(float(touching.mean()), 3),
         "reference": {
             "tolerance_next": _pair(window(10.0 * SHARE, STEP_SHARE).error(reference)),
-            "second_method": _pair(_second(settled, times).error(reference)),
+            "second_method": _pair(second_method(settled, times).error(reference)),
             "nudged": _pair(settled.forces(aside.ys, aside.yds, times).error(reference)),
         },
         **kernel_times(settled),
@@ -77,7 +77,8 @@ def _pair(error: tuple[float, float]) -> list[float]:
     return [float(f"{e:.2e}") for e in error]
 
 
-def _second(settled: Settled, times: np.ndarray) -> Forces:
+def second_method(settled: Settled, times: np.ndarray) -> Forces:
+    """Forces at the times by the second method."""
     y, yd = settled.restore()
     layout, model = settled.bearing.layout, settled.bearing.data.model
     ys, yds = runge_kutta.integrate(

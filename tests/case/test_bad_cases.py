@@ -56,6 +56,7 @@ BAD = {
     "decimal comma": ('[load]\nradial = "1,5 kN"', "load.radial", ["with a point", "'1.5 kN'"]),
     "overload": ('[load]\nradial = "800 kN"', "load.radial", ["800 kN", "51 kN"]),
     "tiny elements": ('[mesh]\nsize = "1 um"', "mesh.size", ["0.001 mm", "elements"]),
+    "coarse elements": ('[mesh]\nsize = "9 mm"', "mesh.size", ["9 mm", "3.58", "twice"]),
     "tiny fillets": ('[mesh]\nfillet_size = "1 um"', "mesh.fillet_size", ["elements"]),
     "endless": ('[solver]\nduration = "inf s"', "solver.duration", ["infinite"]),
     "endless table": (

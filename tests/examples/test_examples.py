@@ -7,7 +7,7 @@ import pytest
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 SHORT = {"solver.duration": "6 ms", "mesh.fineness": "coarse"}
-TESTED = {"ex01_n1013", "ex02_rigid_against_flexible", "ex03_defect_sweep"}
+TESTED = {"ex01_n1013", "ex02_rigid_against_flexible", "ex03_defect_sweep", "ex04_study"}
 
 
 def example(name):
@@ -35,3 +35,16 @@ def test_rigid_against_flexible():
 def test_defect_sweep():
     first, _, last = example("ex03_defect_sweep").main(**{**SHORT, "solver.duration": "1 ms"})
     assert last / first == pytest.approx(0.05 / 0.01, rel=0.06)
+
+
+def test_study(tmp_path):
+    module = example("ex04_study")
+    short = {"solver.duration": "1 ms", "mesh.fineness": "coarse", "cage.model": "rigid"}
+    assert module.largest_slip(module.main(tmp_path, **short)) < 0.03
+
+
+def test_study_file_is_a_plan():
+    from flexcage.study.plan import make_plan
+    from flexcage.study.spec import load_study
+
+    assert len(make_plan(load_study(EXAMPLES / "n1013_study.toml")).cases) == 3 * 2 * 3

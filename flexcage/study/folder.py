@@ -1,0 +1,185 @@
+"""A study on disk: its text, one folder a case, one file a case that failed.
+
+    study.toml            the study, complete
+    plan.json             hashes of its cases, in order
+    cases/<hash>/         a finished case: its run, and row.json with its figures
+    cases/<hash>.part/    a case that is running, or was when its process ended
+    failed/<hash>.json    why a case has no figures
+
+A case's folder gets its name by one rename, once all in it is on disk, so a name without ``.part``
+is a finished case. ``cases`` is one Zarr store, with a group a case (``xarray.open_datatree``).
+"""
+
+from __future__ import annotations
+
+import json
+import os
+import shutil
+from collections.abc import Mapping
+from dataclasses import asdict, dataclass
+from pathlib import Path
+from typing import Any
+
+from flexcage.core.errors import InputError
+from flexcage.results.files import replace
+from flexcage.study.outputs import Figure
+from flexcage.study.plan import Plan, stored_plan
+from flexcage.study.spec import FORMAT, Study, load_study
+
+_ROW, _PART = "row.json", ".part"
+_ZARR_GROUP = {"zarr_format": 3, "node_type": "group", "attributes": {}}
+
+
+@dataclass(frozen=True)
+class Failure:
+    """Why a case has no figures. A final failure would come again: only ``retry`` tries it."""
+
+    kind: str
+    reason: str
+    final: bool
+
+
+@dataclass(frozen=True)
+class CaseRow:
+    """What is known of one finished case."""
+
+    hash: str
+    seconds: float
+    figures: Mapping[str, Figure]
+
+
+class Folder:
+    """Paths and files of a study's folder."""
+
+    def __init__(self, path: str | Path) -> None:
+        self.path = Path(path)
+        self.cases, self.failed = self.path / "cases", self.path / "failed"
+
+    def case(self, name: str) -> Path:
+        return self.cases / name
+
+    def part(self, name: str) -> Path:
+        return self.cases / f"{name}{_PART}"
+
+    def lock(self, name: str) -> Path:
+        return self.cases / f"{name}.lock"
+
+    def study(self) -> Study:
+        """The study that the folder holds; InputError if it holds none, or of another format."""
+        if not (self.path / "study.toml").is_file():
+            raise InputError(
+                f"'{self.path}' is not the folder of a study: it has no study.toml.", where="study"
+            )
+        return load_study(self.path / "study.toml")
+
+    def plan(self) -> Plan:
+        """The study's cases, as they were planned last; InputError if they are not there."""
+        study, hashes = self.study(), _read_json(self.path / "plan.json")
+        try:
+            return stored_plan(study, hashes)
+        except (TypeError, ValueError) as exc:
+            raise InputError(
+                f"'{self.path}' does not hold the plan of its study.toml; go on with 'flexcage "
+                f"study resume {self.path}', which plans it anew.",
+                where="study",
+            ) from exc
+
+    def prepare(self, plan: Plan) -> None:
+        """Make the folder, or take over one that holds a study: its cases are found by content."""
+        if self.path.exists() and not self.path.is_dir():
+            raise InputError(f"'{self.path}' is a file; name a folder for the study.", where="out")
+        if (self.path / "plan.json").is_file():  # a study.toml alone is the user's own
+            if (self.path / "study.toml").is_file():
+                self.study()  # refuses another format
+        elif self.path.is_dir() and any(self.path.iterdir()):
+            raise InputError(
+                f"'{self.path}' holds files and no study; name an empty or a new folder with -o.",
+                where="out",
+                value=str(self.path),
+            )
+        try:
+            for folder in (self.path, self.cases, self.failed):
+                folder.mkdir(parents=True, exist_ok=True)
+            _write_json(self.cases / "zarr.json", _ZARR_GROUP)
+            _write_json(self.path / "plan.json", [planned.hash for planned in plan.cases])
+            replace(self.path / "study.toml", plan.study.to_toml().encode())
+        except OSError as exc:
+            reason = (exc.strerror or str(exc)).lower()
+            raise InputError(
+                f"The study's folder '{self.path}' cannot be written ({reason}); name another "
+                "with -o.",
+                where="out",
+                value=str(self.path),
+            ) from exc
+
+    def row(self, name: str) -> CaseRow | None:
+        """The finished case of this hash, or None."""
+        stored = _read_json(self.case(name) / _ROW)
+        if stored is None:
+            return None
+        if stored["format"] != FORMAT:
+            raise InputError(
+                f"'{self.case(name)}' is a case of study format {stored['format']}, and this "
+                f"flexcage reads format {FORMAT}: run the study anew in another folder.",
+                where="format",
+                value=stored["format"],
+            )
+        figures = {key: Figure(*values) for key, values in stored["figures"].items()}
+        return CaseRow(name, stored["seconds"], figures)
+
+    def failure(self, name: str) -> Failure | None:
+        """Why the case of this hash failed, or None."""
+        stored = _read_json(self.failed / f"{name}.json")
+        return None if stored is None else Failure(**stored)
+
+    def write_row(self, where: Path, row: CaseRow) -> None:
+        """Write a case's row into the folder ``where`` of its run."""
+        figures = {k: [f.value, f.unit, f.shown] for k, f in row.figures.items()}
+        stored = {"format": FORMAT, "hash": row.hash, "seconds": row.seconds, "figures": figures}
+        _write_json(where / _ROW, stored)
+
+    def finish(self, name: str) -> None:
+        """Give a case that is complete its name, once all in it is on disk."""
+        part = self.part(name)
+        _write_json(part / "zarr.json", _ZARR_GROUP)
+        for file in part.iterdir():
+            if file.is_file():
+                _sync(file)
+        if self.case(name).exists():  # its figures alone had been kept, and more are wanted
+            shutil.rmtree(self.case(name))
+        os.rename(part, self.case(name))
+        _sync(self.cases)
+        (self.failed / f"{name}.json").unlink(missing_ok=True)
+
+    def write_failure(self, name: str, failure: Failure) -> None:
+        _write_json(self.failed / f"{name}.json", asdict(failure))
+
+    def forget_failure(self, name: str) -> None:
+        """Forget a failure and what was computed until then."""
+        (self.failed / f"{name}.json").unlink(missing_ok=True)
+        shutil.rmtree(self.part(name), ignore_errors=True)
+
+    def running(self) -> set[str]:
+        """Hashes of cases that are running, or were when their process ended."""
+        return {p.name.removesuffix(_PART) for p in self.cases.glob(f"*{_PART}")}
+
+
+def _write_json(path: Path, value: Any) -> None:
+    replace(path, json.dumps(value, indent=1).encode())
+
+
+def _read_json(path: Path) -> Any:
+    try:
+        return json.loads(path.read_text("utf-8"))
+    except FileNotFoundError:
+        return None
+    except (OSError, ValueError) as exc:
+        raise InputError(f"'{path}' cannot be read ({exc}); remove it to compute it anew.") from exc
+
+
+def _sync(path: Path) -> None:
+    handle = os.open(path, os.O_RDONLY)
+    try:
+        os.fsync(handle)
+    finally:
+        os.close(handle)

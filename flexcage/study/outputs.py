@@ -1,0 +1,169 @@
+"""What a study asks of every run: figures of its summary, and reductions of result variables."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from types import MappingProxyType
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from flexcage.core.binding import did_you_mean
+from flexcage.core.errors import InputError
+from flexcage.results.metrics import settled
+from flexcage.results.recording import ENERGIES
+from flexcage.results.registry import LABELS, VARIABLES, Variable, variable
+from flexcage.results.summary import Value
+from flexcage.system.layout import CONSTRAINTS
+from flexcage.system.model import POWERS
+
+if TYPE_CHECKING:
+    from flexcage.run import Run
+
+#: Figures of a summary that every run has, and those that only a flexible cage gives.
+RIGID_FIGURES = tuple(
+    """inner_speed cage_speed epicyclic_speed cage_slip_ratio roller_spin roller_spin_ideal
+    slip_loaded slip_unloaded sliding_inner_loaded sliding_outer_loaded sliding_inner_unloaded
+    sliding_outer_unloaded loaded_share whirl_radius whirl_radius_max whirl_ratio
+    whirl_radius_axis whirl_ratio_axis whirl_speed_ratio tilt_mean tilt_max pocket_force_mean
+    pocket_force_peak pocket_contact race_force_inner race_force_outer energy_moved
+    energy_imbalance energy_relative cage_mass cage_centre_shift pinch_force steps residuals
+    jacobians factorisations failed_error_tests failed_newton wall_mesh wall_modes wall_kernels
+    wall_start wall_solve""".split()
+) + tuple(f"work_{name}" for name in POWERS)
+FLEXIBLE_FIGURES = (
+    "first_frequency", "far_coupling", "stress_peak", "stress_mean_peak", "stress_root",
+    "stress_start", "wall_stress",
+)  # fmt: skip
+
+REDUCTIONS: Mapping[str, Callable[[np.ndarray], float]] = MappingProxyType(
+    {
+        "mean": np.mean,
+        "min": np.min,
+        "max": np.max,
+        "range": np.ptp,
+        "std": np.std,
+        "rms": lambda x: np.sqrt(np.mean(np.square(x))),
+    }
+)
+
+_REDUCTION = re.compile(r"(\w+)(?:\[([^\]]*)\])?\.(\w+)")
+_LABELS_OF_A_RUN = {"constraint": CONSTRAINTS, "energy_kind": ENERGIES, "channel": tuple(POWERS)}
+
+
+@dataclass(frozen=True)
+class Figure:
+    """One number of a run: SI ``value``, its unit, and the unit it is printed in ("" for SI)."""
+
+    value: Value
+    unit: str
+    shown: str = ""
+
+
+@dataclass(frozen=True)
+class Reduction:
+    """One number of a result variable over the settled part of a run."""
+
+    variable: Variable
+    selection: Mapping[str, str]
+    reduce: str
+
+    def of(self, run: Run) -> Figure:
+        """The figure, in the variable's unit."""
+        array = settled(run.dataset, run.case.output.settle)[self.variable.name]
+        for dim, label in self.selection.items():
+            if label.isdigit():
+                array = array.isel({dim: int(label)})
+            else:
+                array = array.sel({dim: label})
+        return Figure(float(REDUCTIONS[self.reduce](array.values)), self.variable.unit)
+
+
+def is_reduction(name: str) -> bool:
+    """True for "pocket_force.max", False for the name of a figure."""
+    return _REDUCTION.fullmatch(name) is not None
+
+
+def reductions_of(names: tuple[str, ...]) -> tuple[str, ...]:
+    """Those among the outputs that are reductions."""
+    return tuple(name for name in names if is_reduction(name))
+
+
+def parse_reduction(name: str) -> Reduction:
+    """Reduction from "variable.mean" or "variable[dim=label,...].max"."""
+    match = _REDUCTION.fullmatch(name)
+    assert match is not None
+    found = variable(match[1])
+    if match[3] not in REDUCTIONS:
+        hint = did_you_mean(match[3], REDUCTIONS, "choose from")
+        raise InputError(f"Output '{name}' reduces by '{match[3]}', which is not known; {hint}.")
+    pairs = [pair.partition("=") for pair in (match[2] or "").split(",") if pair]
+    selection = {dim.strip(): label.strip() for dim, _, label in pairs}
+    for dim, label in selection.items():
+        _check_label(name, found, dim, label)
+    return Reduction(found, selection, match[3])
+
+
+def _check_label(name: str, found: Variable, dim: str, label: str) -> None:
+    if dim not in found.dims[1:]:
+        hint = did_you_mean(dim, found.dims[1:], "its dimensions are")
+        raise InputError(f"Output '{name}': {found.name} has no dimension '{dim}'; {hint}.")
+    labels = LABELS.get(dim) or _LABELS_OF_A_RUN.get(dim)
+    if labels is None and not label.isdigit():
+        raise InputError(f"Output '{name}': '{dim}' is counted from 0, so '{label}' is none.")
+    if labels is not None and label not in labels:
+        hint = did_you_mean(label, labels, "choose from")
+        raise InputError(f"Output '{name}': there is no {dim} '{label}'; {hint}.")
+
+
+def check_outputs(names: tuple[str, ...], *, rollers: int, flexible: bool) -> None:
+    """Raise InputError for the first output that no run of the study can give.
+
+    ``rollers`` is the least number of rollers of any case; ``flexible`` says whether any cage is.
+    """
+    if not names:
+        raise InputError("The study has no outputs; name some, such as 'cage_speed'.")
+    for i, name in enumerate(names):
+        if name in names[:i]:
+            raise InputError(f"Output '{name}' is asked for twice.", where="outputs", value=name)
+        if is_reduction(name):
+            reduction = parse_reduction(name)
+            needs = reduction.variable.name.startswith(("modal_", "residual_"))
+            for dim in {"roller", "pocket"} & set(reduction.selection):
+                if int(reduction.selection[dim]) >= rollers:
+                    raise InputError(f"Output '{name}': the {dim}s count from 0 to {rollers - 1}.")
+        else:
+            needs = name in FLEXIBLE_FIGURES
+            _check_figure(name)
+        if needs and not flexible:
+            raise InputError(
+                f"Output '{name}' wants a flexible cage, and every cage of the study is rigid; "
+                "set cage.model = 'flexible' or leave it out.",
+                where="outputs",
+                value=name,
+            )
+
+
+def _check_figure(name: str) -> None:
+    known = (*RIGID_FIGURES, *FLEXIBLE_FIGURES)
+    if name in known:
+        return
+    if name in VARIABLES:
+        raise InputError(
+            f"Output '{name}' is a variable over time; say how it becomes a number, such as "
+            f"'{name}.mean' ({', '.join(REDUCTIONS)}).",
+            where="outputs",
+            value=name,
+        )
+    hint = did_you_mean(name, (*known, *VARIABLES), "")
+    if not hint.startswith("the nearest"):
+        hint = "look at a run's summary.json for figures, such as 'cage_speed'"
+    raise InputError(f"There is no output '{name}'; {hint}.", where="outputs", value=name)
+
+
+def figures_of(run: Run, reductions: tuple[str, ...]) -> dict[str, Figure]:
+    """All figures of the run's summary, and the reductions asked for; by name."""
+    found = {row.key: Figure(row.value, row.unit, row.shown) for row in run.summary}
+    return found | {name: parse_reduction(name).of(run) for name in reductions}

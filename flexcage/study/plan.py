@@ -1,0 +1,125 @@
+"""The plan: every case of a study, built and checked before anything is computed."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from functools import reduce
+from itertools import product
+from operator import or_
+
+from flexcage.case import Case
+from flexcage.case.case import ALIASES
+from flexcage.core.errors import InputError
+from flexcage.core.hashing import content_hash
+from flexcage.core.units import format_si
+from flexcage.modes.registry import basis_version
+from flexcage.study.axes import Point
+from flexcage.study.outputs import check_outputs
+from flexcage.study.spec import Study
+
+
+@dataclass(frozen=True)
+class Planned:
+    """One case of a study: its point, which repetition of it, and the hash that names it.
+
+    Cases of equal ``modes`` share their mesh and modes; it is empty for a rigid cage.
+    """
+
+    number: int  # of the point, from 0
+    point: Point
+    repetition: int
+    hash: str
+    modes: str = field(default="", compare=False)
+
+
+@dataclass(frozen=True)
+class Plan:
+    """All cases of a study, in order. Holds hashes only: a case is built when it is needed."""
+
+    study: Study
+    cases: tuple[Planned, ...]
+
+    def case(self, planned: Planned) -> Case:
+        return _build(self.study, planned.point, planned.repetition)
+
+
+def make_plan(study: Study) -> Plan:
+    """Build and check every case; the first mistake raises InputError with its point."""
+    _check_paths(study)
+    points = _points(study)
+    cases, seen = [], dict[str, int]()
+    rollers, flexible = study.case.bearing.roller_count, False
+    for number, point in enumerate(points):
+        for repetition in range(study.repeat.count):
+            try:
+                case = _build(study, point, repetition)
+            except InputError as exc:
+                raise InputError(
+                    f"Point {number + 1} of {len(points)} ({point}): {exc}", where=exc.where
+                ) from exc
+            if case.hash in seen:
+                first = points[seen[case.hash]]
+                raise InputError(
+                    f"Points {seen[case.hash] + 1} ({first}) and {number + 1} ({point}) are the "
+                    "same case; leave one out.",
+                    where="axes",
+                )
+            seen[case.hash] = number
+            rollers = min(rollers, case.bearing.roller_count)
+            flexible |= case.cage_model == "flexible"
+            cases.append(Planned(number, point, repetition, case.hash, _modes_key(case)))
+    check_outputs(study.outputs, rollers=rollers, flexible=flexible)
+    return Plan(study, tuple(cases))
+
+
+def stored_plan(study: Study, hashes: Sequence[str]) -> Plan:
+    """The plan of a study whose cases' hashes are known: nothing is built, nothing checked."""
+    places = product(enumerate(_points(study)), range(study.repeat.count))
+    cases = [Planned(n, point, k, h) for ((n, point), k), h in zip(places, hashes, strict=True)]
+    return Plan(study, tuple(cases))
+
+
+def _modes_key(case: Case) -> str:
+    if case.cage_model == "rigid":
+        return ""
+    return content_hash(
+        case.cage, case.defects, case.mesh, case.modes, case.bearing.roller_count,
+        case.bearing.pitch_diameter, *basis_version(case.modes.kind),
+    )  # fmt: skip
+
+
+def _points(study: Study) -> list[Point]:
+    combinations = product(*(axis.expand() for axis in study.axes))
+    return [reduce(or_, parts, Point({})) for parts in combinations]
+
+
+def _build(study: Study, point: Point, repetition: int) -> Case:
+    changes = dict(point.values)
+    if study.repeat.count > 1:
+        changes["start.push"] = format_si(study.repeat.push, "mm/s")
+        changes["start.seed"] = study.repeat.seed + repetition
+    return study.case.replace(si=False, **changes)
+
+
+def _check_paths(study: Study) -> None:
+    """Raise InputError if two axes set the same value, or one sets what another is inside of."""
+    owners: dict[str, str] = {}
+    if study.repeat.count > 1:
+        owners = {"start.push": "repeat", "start.seed": "repeat"}
+    for i, axis in enumerate(study.axes):
+        for path in axis.paths:
+            plain = ALIASES.get(path, path)
+            for other, owner in owners.items():
+                if _overlap(plain, other):
+                    what = "set" if plain == other else f"overlap at '{other}' and"
+                    raise InputError(
+                        f"Axis {i} and {owner} both {what} '{path}'; let one of them do it.",
+                        where=f"axes.{i}",
+                        value=path,
+                    )
+            owners[plain] = f"axis {i}"
+
+
+def _overlap(a: str, b: str) -> bool:
+    return a == b or a.startswith(f"{b}.") or b.startswith(f"{a}.")

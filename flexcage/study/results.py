@@ -1,0 +1,227 @@
+"""What a study has found: its cases as a tidy table, and statistics over the repetitions."""
+
+from __future__ import annotations
+
+import json
+from collections import Counter
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import cached_property
+from math import isfinite, nan, sqrt
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from flexcage.core.binding import unit_at
+from flexcage.core.errors import InputError
+from flexcage.core.units import format_si, parse
+from flexcage.results.export import frame_to_csv, frame_to_parquet
+from flexcage.results.summary import Row
+from flexcage.run import Run
+from flexcage.simulate import load_run
+from flexcage.study.folder import Folder
+from flexcage.study.outputs import Figure
+from flexcage.study.plan import Planned
+from flexcage.study.spec import value_at
+
+if TYPE_CHECKING:
+    import pandas
+
+CONFIDENCE = 0.95  # of the intervals
+
+
+@dataclass(frozen=True)
+class ResultRow:
+    """One planned case and what became of it: ``state`` is "done", "failed" or "open"."""
+
+    planned: Planned
+    state: str
+    reason: str
+    seconds: float
+    figures: Mapping[str, Figure]
+
+
+class StudyResults:
+    """A study's folder: ``table``, ``statistics``, ``report()``, and ``run(point)`` of a case.
+
+    Everything is read from the folders of the cases, also while others are still running.
+    """
+
+    def __init__(self, path: str | Path) -> None:
+        self.folder = Folder(path)
+        self.plan = self.folder.plan()
+        self.study = self.plan.study
+
+    def __repr__(self) -> str:
+        return f"StudyResults({self.study.name!r} in {self.folder.path}: {self.status()})"
+
+    @cached_property
+    def rows(self) -> list[ResultRow]:
+        """One row a case, in the order of the plan."""
+        return [self._row(planned) for planned in self.plan.cases]
+
+    def _row(self, planned: Planned) -> ResultRow:
+        row, failure = self.folder.row(planned.hash), self.folder.failure(planned.hash)
+        if row is not None:
+            wanted = {k: row.figures[k] for k in self.study.outputs if k in row.figures}
+            return ResultRow(planned, "done", "", row.seconds, wanted)
+        if failure is not None:
+            return ResultRow(planned, "failed", failure.reason, nan, {})
+        return ResultRow(planned, "open", "", nan, {})
+
+    def count(self, state: str) -> int:
+        """How many cases are "done", "failed" or "open"."""
+        return sum(row.state == state for row in self.rows)
+
+    @cached_property
+    def table(self) -> pandas.DataFrame:
+        """One row a case. Axes are in the unit of the case file, outputs in SI; headers say so."""
+        import pandas as pd
+
+        return pd.DataFrame([
+            {"point": row.planned.number, "repetition": row.planned.repetition}
+            | self._axes(row.planned)
+            | {self._titles[name]: _value(row.figures.get(name)) for name in self._titles}
+            | {"state": row.state, "reason": row.reason, "seconds": row.seconds}
+            | {"hash": row.planned.hash}
+            for row in self.rows
+        ])  # fmt: skip
+
+    @cached_property
+    def statistics(self) -> pandas.DataFrame:
+        """One row a point: for every output its mean and the half width of its interval.
+
+        The interval holds the mean with 95 % confidence (Student's t over the repetitions); a
+        single repetition has none.
+        """
+        import pandas as pd
+
+        points = []
+        for number, group in self.table.groupby("point"):
+            first = self.rows[group.index[0]].planned
+            point: dict[str, Any] = {"point": number, **self._axes(first)}
+            point["done"] = int((group["state"] == "done").sum())
+            for title in self._titles.values():
+                point[title], point[f"+- {title}"] = mean_and_half_width(group[title])
+            points.append(point)
+        return pd.DataFrame(points)
+
+    def report(self) -> str:
+        """The table over the points: mean +- half width of every output, then what failed."""
+        first = ["point", *self._axes(self.rows[0].planned)]
+        lines = [[*first, *(self._shown(name) for name in self._titles)]]
+        for cells in self.statistics.to_dict("records"):
+            lines.append([str(cells[head]) for head in first])
+            for name, title in self._titles.items():
+                lines[-1].append(self._text(name, cells[title], cells[f"+- {title}"]))
+        text = _aligned(lines)
+        reasons = Counter(row.reason for row in self.rows if row.state == "failed")
+        for reason, times in reasons.items():
+            text += f"\n{times} failed: {reason}"
+        return f"{text}\n{self.status()}"
+
+    def status(self) -> str:
+        """How many cases are done, failed and open, in one line."""
+        begun = len(
+            self.folder.running() & {r.planned.hash for r in self.rows if r.state == "open"}
+        )
+        running = f" ({begun} of them begun)" if begun else ""
+        return (
+            f"{len(self.rows)} cases: {self.count('done')} done, {self.count('failed')} failed, "
+            f"{self.count('open')} open{running}"
+        )
+
+    def run(self, point: int = 0, repetition: int = 0) -> Run:
+        """The run of one case; InputError if it is not there."""
+        for row in self.rows:
+            if (row.planned.number, row.planned.repetition) == (point, repetition):
+                if row.state != "done" or self.study.keep != "runs":
+                    why = row.state if row.state != "done" else "kept as figures only"
+                    raise InputError(f"Point {point}, repetition {repetition} has no run: {why}.")
+                return load_run(self.folder.case(row.planned.hash))
+        raise InputError(f"The study has no point {point} with repetition {repetition}.")
+
+    def write(self) -> list[Path]:
+        """Write ``table`` and ``statistics`` as CSV and Parquet into the folder; their paths."""
+        paths = []
+        for name, frame in (("table", self.table), ("statistics", self.statistics)):
+            paths += [frame_to_csv(frame, self.folder.path / f"{name}.csv"),
+                      frame_to_parquet(frame, self.folder.path / f"{name}.parquet")]  # fmt: skip
+        return paths
+
+    @cached_property
+    def _known(self) -> dict[str, Figure]:
+        """One figure of every output that any case has, for its units."""
+        return {k: f for row in self.rows for k, f in row.figures.items()}
+
+    @cached_property
+    def _titles(self) -> dict[str, str]:
+        """Header of every output in tables, by its name."""
+        units = {name: f" [{figure.unit}]" for name, figure in self._known.items()}
+        return {name: f"{name}{units.get(name, '')}" for name in self.study.outputs}
+
+    @cached_property
+    def _paths(self) -> dict[str, str]:
+        """Unit of every path that varies, in the order of the axes; "" for one without."""
+        case = self.study.case
+        return {path: unit_at(case, path) for axis in self.study.axes for path in axis.paths}
+
+    def _axes(self, planned: Planned) -> dict[str, Any]:
+        """Labels and axis values of a case, as tables show them."""
+        values = {
+            f"{path} [{unit}]" if unit else path: _cell(planned, path, unit, self._base)
+            for path, unit in self._paths.items()
+        }
+        labels = {name: planned.point.labels.get(name, "") for name in self._labels}
+        return {**labels, **values}
+
+    @cached_property
+    def _labels(self) -> list[str]:
+        """Columns that show the labels of points."""
+        return list(dict.fromkeys(name for p in self.plan.cases for name in p.point.labels))
+
+    @cached_property
+    def _base(self) -> dict[str, Any]:
+        return self.study.case.to_table()
+
+    def _shown(self, name: str) -> str:
+        figure = self._known.get(name)
+        unit = (figure.shown or figure.unit) if figure else ""
+        return f"{name} [{unit}]" if unit else name
+
+    def _text(self, name: str, mean: float, half: float) -> str:
+        figure = self._known.get(name)
+        shown = figure.shown if figure else ""
+        text = Row(name, name, mean, shown).text
+        return f"{text} +- {Row(name, name, half, shown).text}" if isfinite(half) else text
+
+
+def mean_and_half_width(values: Any) -> tuple[float, float]:
+    """Mean of a sample and half the width of its 95 % interval; NaN where there are too few."""
+    from scipy.stats import t
+
+    sample = np.asarray(values, float)
+    sample = sample[np.isfinite(sample)]
+    n = len(sample)
+    if n < 2:
+        return (float(sample[0]) if n else nan), nan
+    half = t.ppf(0.5 + 0.5 * CONFIDENCE, n - 1) * sample.std(ddof=1) / sqrt(n)
+    return float(sample.mean()), float(half)
+
+
+def _value(figure: Figure | None) -> Any:
+    return None if figure is None else figure.value
+
+
+def _cell(planned: Planned, path: str, unit: str, base: dict[str, Any]) -> Any:
+    """Value of a path in a case: a number in ``unit``, or what the case file says."""
+    value = planned.point.values[path] if path in planned.point.values else value_at(base, path)
+    if unit and isinstance(value, str) and value != "none":
+        return float(format_si(parse(value, unit, where=path), unit).split()[0])
+    return json.dumps(value) if isinstance(value, (list, tuple, dict)) else value
+
+
+def _aligned(rows: list[list[str]]) -> str:
+    width = [max(map(len, column)) for column in zip(*rows)]
+    return "\n".join("  ".join(f"{c:>{w}}" for c, w in zip(row, width)) for row in rows)

@@ -1,0 +1,145 @@
+"""Running a study: what its folder lacks goes to the workers, a few cases ahead of them."""
+
+from __future__ import annotations
+
+import logging
+import time
+from collections.abc import Callable, Iterator
+from contextlib import nullcontext
+from pathlib import Path
+from typing import Any
+
+from flexcage.core.errors import RunFailed
+from flexcage.core.hashing import content_hash
+from flexcage.study.cluster import connect, require_packages
+from flexcage.study.folder import Failure, Folder
+from flexcage.study.outputs import reductions_of
+from flexcage.study.plan import Plan, Planned, make_plan
+from flexcage.study.results import StudyResults
+from flexcage.study.spec import Study
+from flexcage.study.work import Order, do_case, order_of, prepare
+
+log = logging.getLogger(__name__)
+
+AHEAD = 3  # cases handed out per worker: one runs, the others wait beside it
+_LOOK = 1.0  # s between two looks at how many workers there are
+
+
+def run_study(
+    study: Study,
+    *,
+    out: str | Path,
+    workers: int | None = None,
+    scheduler: str | None = None,
+    retry: bool = False,
+    progress: Callable[..., Any] | None = None,
+) -> StudyResults:
+    """Compute what the folder ``out`` lacks of a study, and gather its tables.
+
+    Runs on ``workers`` processes of this machine (default: one a core), or on the Dask scheduler
+    at an address. Cases found in the folder are not computed again; ``retry`` tries those again
+    that failed. ``progress`` is a context like ``core.progress.Progress``.
+
+    A case that fails is a row with its reason. Raises InputError for a mistake in the plan,
+    before anything is computed, and RunFailed if the scheduler is lost; what is finished stays.
+    """
+    require_packages()
+    plan = make_plan(study)
+    folder = Folder(Path(out).resolve())
+    folder.prepare(plan)
+    todo = _lacking(plan, folder, retry=retry)
+    if todo:
+        done = len(plan.cases) - len(todo)
+        with connect(scheduler, workers) as client:
+            with progress(len(plan.cases), "cases") if progress else nullcontext() as bar:
+                if bar is not None:
+                    bar.begin_at(done)
+                desk = _Desk(client, plan, folder)
+                for _ in desk.work_off(todo):
+                    if bar is not None:
+                        bar.advance()
+    results = StudyResults(folder.path)
+    results.write()
+    return results
+
+
+def _lacking(plan: Plan, folder: Folder, *, retry: bool) -> set[str]:
+    """Hashes of the cases to compute."""
+    todo, wanted = set(), set(reductions_of(plan.study.outputs))
+    for planned in plan.cases:
+        failure = folder.failure(planned.hash)
+        if failure is not None and retry:
+            folder.forget_failure(planned.hash)
+        if failure is not None and failure.final and not retry:
+            continue
+        row = folder.row(planned.hash)
+        if row is None or not wanted <= set(row.figures):
+            todo.add(planned.hash)
+    return todo
+
+
+class _Desk:
+    """Hands cases to the workers and takes them back; holds only those that are out."""
+
+    def __init__(self, client: Any, plan: Plan, folder: Folder) -> None:
+        self.client, self.plan, self.folder = client, plan, folder
+        self.address = client.scheduler.address
+        self._modes: dict[str, Any] = {}  # futures of modes that cases share, by key
+        self._names: dict[str, str] = {}  # hash of a case by the key of its future
+        self._window, self._looked = 1, -_LOOK
+
+    def work_off(self, todo: set[str]) -> Iterator[str]:
+        """Hash of every case of ``todo``, as it comes back."""
+        from distributed import as_completed
+
+        out = as_completed(loop=self.client.loop)
+        # those that share modes one after the other, so that the cache need not hold them all
+        cases = (planned for planned in self.plan.cases if planned.hash in todo)
+        for planned in sorted(cases, key=lambda planned: planned.modes):
+            while out.count() >= self._room():
+                yield self._take(out)
+            out.add(self._submit(planned))
+        while out.count():
+            yield self._take(out)
+
+    def _room(self) -> int:
+        """How many cases may be out: a few for every thread that there is now."""
+        if time.monotonic() - self._looked > _LOOK:
+            try:
+                threads = sum(self.client.nthreads().values())
+            except (OSError, RuntimeError) as exc:
+                raise self._lost() from exc
+            self._window, self._looked = AHEAD * max(threads, 1), time.monotonic()
+        return self._window
+
+    def _submit(self, planned: Planned) -> Any:
+        order = order_of(self.plan, planned, self.folder.path)
+        waits = [self._shared_modes(order, planned.modes)] if planned.modes else []
+        key = f"case-{content_hash(order)}"
+        self._names[key] = planned.hash
+        return self.client.submit(do_case, order, *waits, key=key)
+
+    def _shared_modes(self, order: Order, key: str) -> Any:
+        """Future of the modes that this case shares with others; made when first asked for."""
+        if key not in self._modes:
+            self._modes[key] = self.client.submit(prepare, order, key=f"modes-{key}")
+        return self._modes[key]
+
+    def _take(self, out: Any) -> str:
+        """Wait for the next case that comes back; its hash."""
+        future = next(out)
+        name = self._names.pop(future.key)
+        if future.status == "error":
+            error = future.exception()
+            reason = f"its worker did not bring it back: {type(error).__name__}: {error}"
+            self.folder.write_failure(name, Failure(type(error).__name__, reason, final=False))
+            log.warning("case %s: %s", name, reason)
+        elif future.status != "finished":
+            raise self._lost()
+        return name
+
+    def _lost(self) -> RunFailed:
+        return RunFailed(
+            f"The scheduler at '{self.address}' is lost; what is finished is kept in "
+            f"'{self.folder.path}', and 'flexcage study resume' goes on from there."
+        )

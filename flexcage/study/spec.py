@@ -1,0 +1,161 @@
+"""The study: a base case, axes along which it varies, repetitions, and the outputs wanted."""
+
+from __future__ import annotations
+
+import tomllib
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import partial
+from pathlib import Path
+from typing import Any
+
+from flexcage._version import __version__
+from flexcage.case import Case, load_case, load_extension
+from flexcage.case.extensions import sources
+from flexcage.case.toml import write_toml
+from flexcage.core.binding import Binder, check_spec, to_table, unit_at, wrong_type
+from flexcage.core.errors import InputError
+from flexcage.core.spec import option, quantity
+from flexcage.core.units import format_si, parse
+from flexcage.geometry.presets import NAMED
+from flexcage.study.axes import Axis
+
+FORMAT = 1  # of a study's file and folder
+KEEP = ("runs", "figures")
+
+
+@dataclass(frozen=True, kw_only=True)
+class Repeat:
+    """Repetitions of every point, each with its cage pushed off in another random direction.
+
+    The push is far under the speeds at which a cage meets its rollers; contacts amplify it until
+    the histories have nothing in common, and their statistics are what repetitions compare.
+    """
+
+    count: int = option(1, doc="runs of every point", minimum=1)
+    push: float = quantity("mm/s", 1e-3, doc="speed of the cage centre at the start", above=0.0)
+    seed: int = option(1, doc="seed of the first repetition's push; each takes the next", minimum=0)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Study:
+    """A family of cases: every combination of the axes' points, each ``repeat.count`` times.
+
+    ``outputs`` are figures of a run's summary ("cage_speed") or reductions of result variables
+    over the settled part ("pocket_force.max", "roller_omega[roller=3,spin_axis=axial].mean").
+    ``keep`` is what stays of a case: its whole run, or its figures only.
+    """
+
+    name: str = option("study", doc="name, for titles and folders")
+    case: Case = option(doc="the base case")
+    axes: tuple[Axis, ...] = option((), doc="what varies")
+    outputs: tuple[str, ...] = option(doc="figures wanted of every case")
+    repeat: Repeat = option(Repeat(), doc="repetitions of every point")
+    keep: str = option("runs", doc="what stays of a case", choices=KEEP)
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "outputs", tuple(self.outputs))
+        written = partial(_as_text, self.case, si=True)
+        object.__setattr__(self, "axes", tuple(axis.mapped(written) for axis in self.axes))
+        check_spec(self)
+
+    def to_toml(self) -> str:
+        """The study as TOML text, complete: the base case and the extensions are in it."""
+        table = {"format": FORMAT, "use": list(sources()), **to_table(self, named=NAMED)}
+        return write_toml({**table, "case": self.case.to_table()})
+
+
+def load_study(path: str | Path, *, overrides: Mapping[str, Any] | None = None) -> Study:
+    """Study from a study.toml; ``overrides`` change its base case, path by path.
+
+    Loads the extensions that the file names under ``use``. A mistake raises InputError.
+    """
+    path = Path(path).expanduser()
+    table = _read(path)
+    _check_format(table.pop("format", FORMAT), path)
+    for source in _listed(table.pop("use", []), "use"):
+        load_extension(path.parent / source if source.endswith((".py", ".toml")) else source)
+    case = table.get("case")
+    if not isinstance(case, (str, dict)):
+        raise InputError(
+            f"'{path}' names no case; give case = \"my_case.toml\", or a [case] table.",
+            where="case",
+            value=case,
+        )
+    case = load_case(path.parent / case if isinstance(case, str) else case, overrides=overrides)
+    binder = Binder(named=NAMED)
+    axes = [_with_type(axis) for axis in _listed(table.get("axes", []), "axes")]
+    bound = binder.bind(_Axes, {"axes": axes}, "").axes
+    change = partial(_from_file, case, path.resolve().parent)
+    axes = [axis.mapped(change) for axis in bound]
+    return binder.bind(Study, {**table, "case": case, "axes": axes}, "")
+
+
+def _listed(value: Any, where: str) -> list[Any]:
+    if not isinstance(value, list):
+        raise wrong_type(value, "a list", where)
+    return value
+
+
+@dataclass(frozen=True)
+class _Axes:
+    """The axes of a study's text, before numbers in them are taken as SI."""
+
+    axes: tuple[Axis, ...] = ()
+
+
+def _with_type(axis: Any) -> Any:
+    """A table that names one path is a grid."""
+    plain = isinstance(axis, Mapping) and "path" in axis and "type" not in axis
+    return {"type": "grid", **axis} if plain else axis
+
+
+def _as_text(case: Case, path: str, value: Any, *, si: bool) -> Any:
+    """A value as a case file writes it: numbers with units, specs as tables, materials by name.
+
+    ``si`` takes numbers as SI; otherwise one without its unit raises InputError.
+    """
+    unit = unit_at(case, path)
+    if isinstance(value, (int, float)) and not isinstance(value, bool) and unit:
+        return format_si(value if si else parse(value, unit, where=path), unit)
+    if isinstance(value, (str, bool, int, float)):
+        return value
+    return value_at(case.replace(path, value, si=si).to_table(), path)
+
+
+def _from_file(case: Case, folder: Path, path: str, value: Any) -> Any:
+    """A value from a study's file, whose own paths are relative to it."""
+    found = _as_text(case, path, value, si=False)
+    return str(folder / found) if path == "mesh.file" and found else found
+
+
+def value_at(table: Any, path: str) -> Any:
+    """Value at a dotted path of nested tables and lists; None if it is not there."""
+    for key in path.split("."):
+        if isinstance(table, list):
+            table = table[int(key)] if key.isdigit() and int(key) < len(table) else None
+        else:
+            table = table.get(key) if isinstance(table, dict) else None
+    return table
+
+
+def _check_format(found: Any, path: Path) -> None:
+    if found != FORMAT:
+        raise InputError(
+            f"'{path}' is a study of format {found}, and this flexcage ({__version__}) reads "
+            f"format {FORMAT}: use the flexcage that wrote it, or run the study anew.",
+            where="format",
+            value=found,
+        )
+
+
+def _read(path: Path) -> dict[str, Any]:
+    try:
+        return tomllib.loads(path.read_text("utf-8-sig"))
+    except tomllib.TOMLDecodeError as exc:
+        raise InputError(f"{path} is not valid TOML: {str(exc).rstrip('.')}.") from exc
+    except UnicodeDecodeError as exc:
+        raise InputError(f"'{path}' is not a text file; a study is TOML text in UTF-8.") from exc
+    except OSError as exc:
+        reason = (exc.strerror or str(exc)).lower()
+        raise InputError(f"The study file '{path}' cannot be read ({reason}).") from exc

@@ -1,0 +1,157 @@
+"""What a worker does: one case from its text to its folder. Safe to call twice, and to be killed.
+
+A lock on the case keeps two processes from computing the same one; the lock of a killed process
+is free. Whoever gets it goes on from the last block that the other had committed.
+"""
+
+from __future__ import annotations
+
+import shutil
+import time
+from dataclasses import dataclass
+from pathlib import Path
+
+from flexcage._version import __version__
+from flexcage.case import Case, load_case, load_extension
+from flexcage.case.extensions import sources
+from flexcage.core import jit
+from flexcage.core.errors import EnvironmentLacks, FlexcageError, InputError
+from flexcage.core.threads import on_one_core
+from flexcage.mesh.options import MeshOptions
+from flexcage.results.store import SIDE
+from flexcage.run import Run, write_case
+from flexcage.simulate import load_run, simulate
+from flexcage.stages import cage_mesh, cage_reduction
+from flexcage.study.folder import CaseRow, Failure, Folder
+from flexcage.study.outputs import figures_of, reductions_of
+from flexcage.study.plan import Plan, Planned
+
+
+@dataclass(frozen=True)
+class Order:
+    """One case as a worker receives it."""
+
+    hash: str
+    text: str  # the case, canonical TOML
+    folder: str  # of the study, absolute
+    reductions: tuple[str, ...]
+    use: tuple[str, ...]  # extensions to load
+    keep: str
+    version: str = __version__
+
+
+def order_of(plan: Plan, planned: Planned, folder: Path) -> Order:
+    """What a worker needs to compute a planned case."""
+    return Order(
+        hash=planned.hash,
+        text=plan.case(planned).to_toml(),
+        folder=str(folder),
+        reductions=reductions_of(plan.study.outputs),
+        use=sources(),
+        keep=plan.study.keep,
+    )
+
+
+@on_one_core
+def do_case(order: Order, *prepared: object) -> str:
+    """Compute what the case lacks. Returns "done" or "failed"; the rest is in the folder.
+
+    ``prepared`` only makes the call wait for what it shares with others.
+    """
+    import filelock
+
+    folder = Folder(order.folder)
+    with filelock.FileLock(folder.lock(order.hash)):
+        try:
+            _complete(order, folder)
+        except Exception as exc:
+            folder.write_failure(order.hash, _failure(exc))
+            return "failed"
+        folder.lock(order.hash).unlink(missing_ok=True)  # who waits for it finds the case done
+        return "done"
+
+
+@on_one_core
+def prepare(order: Order) -> None:
+    """Make the modes that cases share, so that they are in the cache when those begin.
+
+    A failure here is left to the cases: it becomes their own.
+    """
+    try:
+        case = _case_of(order)
+        cage_reduction(case, cage_mesh(case))
+    except Exception:
+        return
+
+
+def _complete(order: Order, folder: Folder) -> None:
+    row = folder.row(order.hash)
+    if row is not None and set(order.reductions) <= set(row.figures):
+        return
+    begin = time.perf_counter()
+    if row is not None and order.keep == "runs":  # only outputs were added
+        run = load_run(folder.case(order.hash))
+        figures = {**row.figures, **figures_of(run, order.reductions)}
+        folder.write_row(folder.case(order.hash), CaseRow(order.hash, row.seconds, figures))
+        return
+    case = _case_of(order)
+    compile_kernels(case)
+    part = folder.part(order.hash)
+    run = _march(case, part, keep=order.keep)
+    figures = figures_of(run, order.reductions)
+    seconds = time.perf_counter() - begin
+    folder.write_row(part, CaseRow(order.hash, seconds, figures))
+    folder.finish(order.hash)
+
+
+def _case_of(order: Order) -> Case:
+    """The case, which must be the same here as where it was planned."""
+    if order.version != __version__:
+        raise InputError(
+            f"The study was planned by flexcage {order.version}, and the worker has "
+            f"{__version__}; install the same on both."
+        )
+    for source in order.use:
+        load_extension(source)
+    case = load_case(order.text)
+    if case.hash != order.hash:
+        raise InputError(
+            f"The case has the hash {order.hash} where it was planned and {case.hash} on the "
+            "worker: an extension or a mesh file differs there."
+        )
+    return case
+
+
+def _march(case: Case, part: Path, *, keep: str) -> Run:
+    """Run the case in its folder, from the last committed block if there is one."""
+    begun = (part / "results.zarr" / SIDE / "commit.json").exists()
+    if part.exists() and not begun:
+        shutil.rmtree(part)
+    if keep == "runs":
+        return simulate(case, out=part, resume=begun)
+    write_case(part, case)
+    return simulate(case)
+
+
+def compile_kernels(case: Case) -> None:
+    """Compile the kernels once a machine: workers that need them at the same time wait."""
+    import filelock
+
+    compiled = Path(jit.numba.config.CACHE_DIR) / "compiled"
+    if compiled.exists():
+        return
+    compiled.parent.mkdir(parents=True, exist_ok=True)
+    with filelock.FileLock(compiled.with_suffix(".lock")):
+        if not compiled.exists():
+            rigid = case.replace("cage.model", "rigid").replace("defects", ())
+            coarse = rigid.replace("mesh", MeshOptions(fineness="coarse"))
+            simulate(coarse.replace("solver.duration", 2.0 / case.output.rate))
+            compiled.touch()
+
+
+def _failure(exc: Exception) -> Failure:
+    """What to keep of an error. What the machine lacked may be there the next time."""
+    passing = isinstance(exc, (OSError, MemoryError, EnvironmentLacks))
+    if isinstance(exc, FlexcageError):
+        return Failure(type(exc).__name__, str(exc), final=not passing)
+    return Failure(type(exc).__name__, f"{type(exc).__name__}: {exc}", final=not passing)

@@ -1,0 +1,197 @@
+"""Work and precision of flexcage's integrator and of others on one residual from one state."""
+
+from __future__ import annotations
+
+import logging
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+from importlib.util import find_spec
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from peers import Path as Integration
+from peers import Peers
+from settled import Forces, Settled
+from solver_benchmark import COUNTS, NUDGE, SHARE, STEP_SHARE, kernel_times, second_method
+
+import flexcage
+
+log = logging.getLogger(__name__)
+
+WINDOW = 1e-3  # [s] from the stored state: later, no reference of the cage's forces stands
+EQUAL = 1e-2  # force error at which processor times are compared
+LEVELS = {"larger": (1e-1, 3e-2, 1e-2), "race": (1e-2, 3e-3, 1e-3, 3e-4, 1e-4)}
+REPEATS = 3
+FLEXCAGE = "flexcage"
+PEERS = {  # key of the ratio: curves of which the cheapest counts
+    "ida": ("IDA, order 2", "IDA, order 5"),
+    "ida_dense": ("IDA, dense matrix",),
+    "scipy_bdf": ("SciPy BDF",),
+    "scipy_radau": ("SciPy Radau",),
+    "lsoda": ("LSODA",),
+    "explicit": ("Runge-Kutta 4",),
+}
+SHARES = (30.0, 10.0, 3.0, 1.0, 0.3, 0.1, 0.03, 0.01, 3e-3, 1e-3)  # of the default tolerance
+STEPS = (5e-6, 2.5e-6, 5e-6 / 3, 1.25e-6, 1e-6, 0.5e-6)  # [s] of the explicit method
+GROUPS: dict[str, Callable[[tuple[float, float]], float]] = {
+    "larger": max, "race": lambda error: error[0], "cage": lambda error: error[1],
+}  # fmt: skip
+
+
+@dataclass(frozen=True)
+class Point:
+    """One integration: its tolerance's share or step, processor time [s per ms], errors, counts."""
+
+    level: float
+    cpu: float
+    error: tuple[float, float]  # races, cage
+    steps: int
+    residuals: int
+    jacobians: int
+
+    def row(self) -> list[float]:
+        """As printed."""
+        values = (self.level, self.cpu, *self.error)
+        return [*(float(f"{v:.3g}") for v in values), self.steps, self.residuals, self.jacobians]
+
+
+def measure(case: flexcage.Case, *, plot: Path | None = None) -> dict[str, Any]:
+    """All figures that README.md lists."""
+    if find_spec("sksundae") is None:
+        raise SystemExit("peer needs SUNDIALS: install scikit-sundae, as the extra 'peer' does")
+    settled = Settled(case)
+    peers = Peers(settled, WINDOW)
+    reference = _forces(peers, _flexcage(peers, SHARE, step_share=STEP_SHARE))
+    looser = _forces(peers, _flexcage(peers, 10.0 * SHARE, step_share=STEP_SHARE))
+    aside = _forces(peers, _flexcage(peers, SHARE, step_share=STEP_SHARE, aside=NUDGE))
+    second = second_method(settled, peers.times)
+    curves = _curves(peers, reference)
+    if plot is not None:
+        draw(curves, plot)
+    return {
+        **{f"{key}_ratio": ratio(curves, names, EQUAL) for key, names in PEERS.items()},
+        "equal_error": EQUAL,
+        "ratios_by_error": {
+            f"{group} {level:g}": {
+                key: ratio(curves, names, level, group=group) for key, names in PEERS.items()
+            }
+            for group, levels in LEVELS.items()
+            for level in levels
+        },
+        "window_ms": WINDOW * 1e3,
+        "reference": {
+            "tolerance_next": _short(looser.error(reference)),
+            "second_method": _short(second.error(reference)),
+            "nudged": _short(aside.error(reference)),
+        },
+        "columns": ["share or step", "cpu_s_per_ms", "error_race", "error_cage", "steps",
+                    "residuals", "jacobians"],
+        "curves": {name: [p.row() for p in points] for name, points in curves.items()},
+        **kernel_times(settled),
+    }  # fmt: skip
+
+
+def _methods() -> dict[str, tuple[Callable[[Peers, float], Integration], Sequence[float]]]:
+    """Each integrator and the tolerances, as shares of the default, or steps that it takes."""
+
+    def scipy(method: str) -> Callable[[Peers, float], Integration]:
+        return lambda peers, share: peers.scipy(share, method=method)
+
+    return {
+        "flexcage": (_flexcage, SHARES),
+        "flexcage, order 5": (lambda p, share: _flexcage(p, share, max_order=5), SHARES),
+        "IDA, order 2": (lambda p, share: p.ida(share, max_order=2), SHARES),
+        "IDA, order 5": (lambda p, share: p.ida(share, max_order=5), SHARES),
+        "IDA, dense matrix": (lambda p, share: p.ida(share, max_order=5, dense=True), SHARES[1:]),
+        "SciPy BDF": (scipy("BDF"), SHARES[1:]),
+        "SciPy Radau": (scipy("Radau"), SHARES[2:9:2]),
+        "LSODA": (scipy("LSODA"), SHARES[1:9]),
+        "Runge-Kutta 4": (lambda p, step: p.runge_kutta(step), STEPS),
+    }
+
+
+def _flexcage(peers: Peers, share: float, **options: Any) -> Integration:
+    """The bearing's own integrator, sampled as a run samples."""
+    stride = peers.settled.case.output.vibration_ratio
+    out = peers.settled.integrate(WINDOW, stride=stride, share=share, **options)
+    steps, residuals, jacobians = (
+        int(out.count[COUNTS[name]]) for name in ("steps", "residuals", "factorisations")
+    )
+    return Integration(out.cpu, residuals, jacobians, steps, out.ys, out.yds)
+
+
+def _forces(peers: Peers, path: Integration) -> Forces:
+    return peers.settled.forces(path.ys, path.yds, peers.times)
+
+
+def _curves(peers: Peers, reference: Forces) -> dict[str, list[Point]]:
+    """All curves, each point at its least processor time of several rounds through them all."""
+    found: dict[str, dict[float, Point]] = {name: {} for name in _methods()}
+    for _ in range(REPEATS):
+        for name, (method, levels) in _methods().items():
+            for level in levels:
+                try:
+                    path = method(peers, level)
+                except RuntimeError as error:
+                    log.warning("%s at %g is left out: %s", name, level, error)
+                    continue
+                cpu, before = path.cpu / (WINDOW * 1e3), found[name].get(level)
+                if before is not None:
+                    found[name][level] = replace(before, cpu=min(cpu, before.cpu))
+                    continue
+                error = _forces(peers, path).error(reference)
+                found[name][level] = Point(
+                    level, cpu, error, path.steps, path.residuals, path.jacobians
+                )
+    return {
+        name: [p for p in points.values() if np.isfinite(p.error).all()]
+        for name, points in found.items()
+    }
+
+
+def cost(points: Sequence[Point], level: float, group: str) -> float:
+    """Processor time at an error: log-log between the points that no cheaper one betters.
+
+    Infinite where no point is as precise, and not a number where all are more precise.
+    """
+    best: list[tuple[float, float]] = []
+    for point in sorted(points, key=lambda p: p.cpu):
+        error = GROUPS[group](point.error)
+        if not best or error < best[-1][0]:
+            best.append((error, point.cpu))
+    errors, times = np.log(np.array(best[::-1])).T
+    return float(np.exp(np.interp(np.log(level), errors, times, left=np.inf, right=np.nan)))
+
+
+def ratio(curves, names: Sequence[str], level: float, *, group: str = "larger") -> float | None:
+    """The others' least processor time over flexcage's at an error; None where a curve ends."""
+    ours = cost(curves[FLEXCAGE], level, group)
+    theirs = [cost(curves[name], level, group) for name in names]
+    found = [c for c in theirs if np.isfinite(c)]
+    return round(min(found) / ours, 2) if found and np.isfinite(ours) else None
+
+
+def _short(error: tuple[float, float]) -> list[float]:
+    return [float(f"{e:.2e}") for e in error]
+
+
+def draw(curves, path: Path) -> None:
+    """Work-precision plot: error of the races' and of the cage's forces against processor time."""
+    import matplotlib
+
+    matplotlib.use("Agg")
+    import matplotlib.pyplot as plt
+
+    figure, axes = plt.subplots(1, 2, figsize=(11, 4.8), sharey=True, layout="constrained")
+    for axis, group in zip(axes, ("race", "cage"), strict=True):
+        for (name, points), mark in zip(curves.items(), "osDdP^v<*", strict=True):
+            errors = [GROUPS[group](p.error) for p in points]
+            axis.loglog(errors, [p.cpu for p in points], marker=mark, ms=4, lw=1, label=name)
+        axis.invert_xaxis()
+        axis.set(xlabel=f"error of the {group} forces", title=f"{group} forces, first millisecond")
+        axis.grid(alpha=0.3)
+    axes[0].set_ylabel("processor time per simulated ms [s]")
+    axes[1].legend(fontsize=8)
+    figure.savefig(path, dpi=130)
+    plt.close(figure)

@@ -1,0 +1,178 @@
+"""One case on a worker: what it leaves in the folder, whatever happens."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+import xarray
+from study_cases import short_case, short_study
+
+from flexcage import cli
+from flexcage.core.errors import InputError
+from flexcage.simulate import simulate
+from flexcage.study import work
+from flexcage.study.axes import Grid, Points
+from flexcage.study.folder import Folder
+from flexcage.study.outputs import FLEXIBLE_FIGURES, RIGID_FIGURES
+from flexcage.study.plan import make_plan
+from flexcage.study.results import StudyResults, mean_and_half_width
+from flexcage.study.spec import Study
+from flexcage.study.work import do_case, order_of
+
+
+@pytest.fixture
+def folder(tmp_path):
+    return Folder(tmp_path / "study")
+
+
+def orders(folder, study, **changes):
+    plan = make_plan(study)
+    folder.prepare(plan)
+    return [replace(order_of(plan, p, folder.path), **changes) for p in plan.cases]
+
+
+def no_simulation(*args, **kwargs):
+    raise AssertionError("a finished case was computed again")
+
+
+@pytest.mark.filterwarnings("ignore:Object at:UserWarning")  # files beside the groups
+def test_a_case_is_computed_once_and_outputs_are_added_from_its_run(folder, monkeypatch):
+    axis = Grid("load.radial", ["500 N", "1 kN"])
+    for order in orders(folder, short_study(axis)):
+        assert do_case(order) == "done"
+    assert not folder.running() and not list(folder.cases.glob("*.lock"))
+    monkeypatch.setattr(work, "simulate", no_simulation)
+    more = short_study(axis, outputs=("race_force[roller=0,race=outer].max", "cage_speed"))
+    for order in orders(folder, more):
+        assert do_case(order) == "done"
+
+    results = StudyResults(folder.path)
+    results.write()
+    load, force = (results.table.iloc[:, i] for i in (2, 3))
+    assert list(results.table.columns[2:4]) == ["load.radial [N]", f"{more.outputs[0]} [N]"]
+    assert np.all(np.diff(force) > 0) and np.all(force < load)
+    assert results.status().startswith("2 cases: 2 done, 0 failed, 0 open")
+    run = results.run(1)
+    assert run.case.load.radial == 1000.0
+    tree = xarray.open_datatree(folder.cases, engine="zarr", consolidated=False)
+    stored = tree[f"{results.rows[1].planned.hash}/results.zarr/race_force"]
+    assert float(stored[3:, 0, 1].max()) == pytest.approx(force[1], rel=1e-12)
+
+
+def test_figures_alone_are_small_and_computed_again_for_new_outputs(folder):
+    (order,) = orders(folder, short_study(keep="figures"))
+    assert do_case(order) == "done"
+    stored = folder.case(order.hash)
+    assert not (stored / "results.zarr").exists()
+    assert sum(file.stat().st_size for file in stored.iterdir()) < 20_000
+    (order,) = orders(folder, short_study(outputs=("pocket_force.max",), keep="figures"))
+    assert do_case(order) == "done"
+    assert folder.row(order.hash).figures["pocket_force.max"].unit == "N"
+    with pytest.raises(InputError, match="figures only"):
+        StudyResults(folder.path).run()
+
+
+def test_a_stopped_case_goes_on_where_it_was(folder):
+    class CtrlC:
+        def __init__(self, total, label):
+            pass
+
+        def __enter__(self):
+            return self
+
+        def __exit__(self, *error):
+            pass
+
+        def begin_at(self, done):
+            pass
+
+        def to(self, done):
+            raise KeyboardInterrupt
+
+    (order,) = orders(folder, short_study(duration="3 ms"))
+    case = short_case(**{"solver.duration": "3 ms"})
+    with pytest.raises(KeyboardInterrupt):
+        simulate(case, out=folder.part(order.hash), progress=CtrlC)
+    made = (folder.part(order.hash) / "results.zarr" / "zarr.json").stat().st_mtime_ns
+    assert folder.running() == {order.hash}
+    assert do_case(order) == "done"
+    assert (folder.case(order.hash) / "results.zarr" / "zarr.json").stat().st_mtime_ns == made
+    unbroken = simulate(case).summary
+    figures = folder.row(order.hash).figures
+    for name in ("cage_speed", "whirl_radius", "race_force_inner", "steps"):
+        assert figures[name].value == unbroken[name]
+
+
+def test_a_failed_case_is_a_row_with_its_reason(folder, capsys):
+    defect = {"type": "side_beam", "pocket": 5, "displacement": "-0.3 mm"}
+    axis = Grid("defects", [[], [defect]])
+    case = short_case(**{"limits.assembly_force": "1 N"})
+    study = Study(case=case, axes=[axis], outputs=["cage_speed"])
+    states = [do_case(order) for order in orders(folder, study)]
+    assert states == ["done", "failed"]
+    results = StudyResults(folder.path)
+    assert list(results.table["state"]) == ["done", "failed"]
+    assert "limits.assembly_force (1 N)" in results.table["reason"][1]
+    assert folder.failure(results.rows[1].planned.hash).final
+    assert cli.main(["study", "report", str(folder.path)]) == 0
+    said = capsys.readouterr().out
+    assert "1 failed: a defect pinches roller 5" in said and "1 done, 1 failed" in said
+    assert (folder.path / "table.csv").is_file() and (folder.path / "table.parquet").is_file()
+
+
+def test_what_the_machine_lacked_is_tried_again(folder, monkeypatch):
+    def full_disk(*args, **kwargs):
+        raise OSError(28, "No space left on device")
+
+    (order,) = orders(folder, short_study())
+    with monkeypatch.context() as patch:
+        patch.setattr(work, "simulate", full_disk)
+        assert do_case(order) == "failed"
+    assert not folder.failure(order.hash).final
+    assert do_case(order) == "done"
+    assert folder.failure(order.hash) is None
+
+
+@pytest.mark.parametrize(
+    ("change", "words"), [({"version": "0.0.1"}, "0.0.1"), ({"hash": "f" * 16}, "differs there")]
+)
+def test_a_worker_that_would_compute_something_else_refuses(folder, change, words):
+    (order,) = orders(folder, short_study(), **change)
+    assert do_case(order) == "failed"
+    assert words in folder.failure(order.hash).reason
+
+
+def test_figures_that_a_study_may_name_are_those_of_a_run():
+    pinch = {"type": "side_beam", "pocket": 5, "displacement": "-0.26 mm"}
+    case = short_case(**{"cage.model": "flexible"}).replace("defects", [pinch])
+    run = simulate(case)
+    keys = {row.key for row in run.summary}
+    assert keys | {"wall_stress"} == {*RIGID_FIGURES, *FLEXIBLE_FIGURES}
+
+
+def test_a_push_moves_the_cage_at_its_speed_in_a_direction_of_its_seed():
+    velocity = {}
+    for push, seed in (("0 mm/s", 0), ("50 mm/s", 1), ("50 mm/s", 2)):
+        run = simulate(short_case(**{"start.push": push, "start.seed": seed}))
+        velocity[push, seed] = run.dataset["cage_velocity"][0].values
+    still = velocity["0 mm/s", 0]
+    first, second = velocity["50 mm/s", 1] - still, velocity["50 mm/s", 2] - still
+    assert [np.linalg.norm(v) for v in (first, second)] == pytest.approx([0.05, 0.05], rel=1e-3)
+    assert abs(first @ second) < 0.999 * 0.05**2
+
+
+def test_points_of_a_list_fill_the_table_with_the_base_case(folder):
+    points = [{"label": "slow", "drive.speed": "3000 rpm"}, {"load.radial": "1.5 kN"}]
+    folder.prepare(make_plan(short_study(Points(points, name="which"))))
+    results = StudyResults(folder.path)
+    assert list(results.table["which"]) == ["slow", ""]
+    assert list(results.table["drive.speed [rpm]"]) == [3000.0, 6000.0]
+    assert list(results.table["load.radial [N]"]) == [1000.0, 1500.0]
+    assert results.report().endswith("2 cases: 0 done, 0 failed, 2 open")
+
+
+def test_interval_of_three_repetitions():
+    mean, half = mean_and_half_width([1.0, 2.0, 3.0, None])
+    assert mean == 2.0
+    assert half == pytest.approx(4.30265 / np.sqrt(3), rel=1e-5)  # t(0.975, 2) of any table
+    assert np.isnan(mean_and_half_width([1.0])[1])

@@ -1,0 +1,208 @@
+"""Plans: which cases a study has, and every mistake found before one of them runs."""
+
+import socket
+
+import pytest
+from study_cases import short_study, study_file
+
+from flexcage import cli
+from flexcage.core.errors import InputError
+from flexcage.geometry.cages import CrossbeamDefect
+from flexcage.geometry.materials import MATERIALS
+from flexcage.study.axes import Grid, LatinHypercube, Points, Zip
+from flexcage.study.folder import Folder
+from flexcage.study.plan import make_plan
+from flexcage.study.spec import Repeat, load_study
+
+
+def test_every_combination_is_a_case():
+    study = short_study(
+        Grid("load.radial", [500.0, "1 kN"]),  # numbers in Python are SI
+        Zip({"drive.speed": ["3000 rpm", "6000 rpm"], "cage.model": ["rigid", "flexible"]}),
+        repeat=Repeat(count=3),
+    )
+    plan = make_plan(study)
+    cases = [plan.case(planned) for planned in plan.cases]
+    assert len({case.hash for case in cases}) == 12
+    assert [c.load.radial for c in cases] == [500.0] * 6 + [1000.0] * 6
+    assert {(round(c.drive.speed), c.cage_model) for c in cases} == {
+        (314, "rigid"),
+        (628, "flexible"),
+    }
+
+
+def test_repetitions_differ_in_their_start_alone():
+    plan = make_plan(short_study(repeat=Repeat(count=2, push=2e-3, seed=7)))
+    first, second = map(plan.case, plan.cases)
+    assert first.start.push == second.start.push == 2e-3
+    assert (first.start.seed, second.start.seed) == (7, 8)
+    assert second.replace("start.seed", 7) == first
+
+
+def test_values_in_python_may_be_specs(tmp_path):
+    bent = CrossbeamDefect(crossbeam=5, displacement=1e-4)
+    study = short_study(
+        Grid("defects", [(), (bent,)]), Grid("cage.material", [MATERIALS["PEEK"], "PA66"])
+    )
+    plan = make_plan(study)
+    assert [plan.case(p).defects for p in plan.cases[1:3]] == [(), (bent,)]
+    assert study.axes[1].values == ("PEEK", "PA66")
+    Folder(tmp_path / "study").prepare(plan)
+    assert Folder(tmp_path / "study").plan() == plan
+
+
+def test_cases_of_one_cage_share_its_modes():
+    study = short_study(
+        Grid("load.radial", ["500 N", "1 kN"]),
+        Grid("cage.pocket_width", ["8.2 mm", "8.3 mm"]),
+        Grid("cage.model", ["flexible", "rigid"]),
+    )
+    modes = [planned.modes for planned in make_plan(study).cases]
+    assert modes[:4] == modes[4:] and len(set(modes)) == 3
+    assert modes[1] == modes[3] == ""
+
+
+def test_one_repetition_is_the_case_itself():
+    study = short_study()
+    assert [p.hash for p in make_plan(study).cases] == [study.case.hash]
+
+
+def test_study_in_text_is_the_study(tmp_path):
+    study = short_study(
+        Grid("load.radial", [500.0, 1000.0]),
+        LatinHypercube({"drive.speed": ["1000 rpm", "9000 rpm"]}, 3),
+        Points([{"label": "bent", "defects": [{"type": "crossbeam", "crossbeam": 5,
+                                               "displacement": "0.1 mm"}]}, {"label": "sound"}]),
+        outputs=("cage_speed", "race_force[race=outer].max"),
+        repeat=Repeat(count=2),
+    )  # fmt: skip
+    folder = Folder(tmp_path / "study")
+    folder.prepare(make_plan(study))
+    again = folder.study()
+    assert again == study
+    assert folder.plan() == make_plan(again) == make_plan(study)
+
+
+def test_a_table_with_a_path_is_a_grid(tmp_path):
+    text = '[[axes]]\npath = "load.radial"\nvalues = ["500 N", "1 kN"]'
+    study = load_study(study_file(tmp_path, text))
+    assert study.axes == (Grid("load.radial", ["500 N", "1 kN"]),)
+
+
+AXIS = '[[axes]]\npath = "{}"\nvalues = {}\n'
+LOAD = AXIS.format("load.radial", '["500 N", "1 kN"]')
+MISTAKES = {
+    "unknown path": ([AXIS.format("load.radail", '["1 N"]')], ["'radail'", "'radial'"]),
+    "unknown room": ([AXIS.format("laod.radial", '["1 N"]')], ["'laod'", "'load'"]),
+    "no unit": ([AXIS.format("load.radial", "[500]")], ["load.radial is 500 without a unit"]),
+    "no unit in a table": (
+        [AXIS.format("defects", '[[{type = "side_beam", pocket = 5, displacement = 0.1}]]')],
+        ["displacement is 0.1 without a unit"],
+    ),
+    "no list": (["axes = 3"], ["axes is 3", "a list"]),
+    "empty axis": ([AXIS.format("load.radial", "[]")], ["'load.radial' is empty"]),
+    "same path twice": ([LOAD, LOAD], ["Axis 1 and axis 0 both set 'load.radial'"]),
+    "another name of a path": (
+        [AXIS.format(p, '["rigid"]') for p in ("cage.model", "cage_model")],
+        ["both set 'cage_model'"],
+    ),
+    "a path inside another": (
+        [LOAD, '[[axes]]\ntype = "zip"\nvalues = {"load" = [{radial = "1 N"}]}'],
+        ["overlap", "'load.radial'"],
+    ),
+    "a path of the repetitions": (
+        [AXIS.format("start.seed", "[1, 2]"), "[repeat]\ncount = 2"],
+        ["repeat both set 'start.seed'"],
+    ),
+    "the seventh point": (
+        [AXIS.format("cage.pocket_width", str([f"8.{k} mm" for k in range(2, 8)] + ["12 mm"]))],
+        ["Point 7 of 7", "12 mm", "thinner than zero"],
+    ),
+    "same value twice": ([AXIS.format("load.radial", '["1 kN", "1000 N"]')], ["the same case"]),
+    "unknown type": (['[[axes]]\ntype = "grdi"'], ["'grdi'", "'grid'"]),
+    "unknown key": (["repeats = 3"], ["'repeats'", "'repeat'"]),
+    "no points": (["[repeat]\ncount = 0"], ["repeat.count is 0"]),
+    "another version": (["format = 9"], ["format 9", "format 1"]),
+}
+
+
+@pytest.mark.parametrize("name", MISTAKES)
+def test_mistakes_in_the_file(name, tmp_path, capsys):
+    tables, words = MISTAKES[name]
+    tables = sorted(tables, key=lambda text: text.startswith("["))
+    file = study_file(tmp_path, *tables)
+    assert cli.main(["study", "run", str(file), "-o", str(tmp_path / "out")]) == 2
+    err = capsys.readouterr().err
+    assert err.startswith("flexcage: ") and err.count("\n") == 1
+    assert all(word in err for word in words), err
+    assert not (tmp_path / "out").exists()
+
+
+@pytest.mark.parametrize(
+    ("outputs", "words"),
+    [
+        ((), "has no outputs"),
+        (("cage_sped",), "'cage_speed'"),
+        (("pocket_force",), "'pocket_force.mean'"),
+        (("pocket_forse.max",), "'pocket_force'"),
+        (("pocket_force.maximum",), "'max'"),
+        (("pocket_force[fase=front].max",), "'face'"),
+        (("pocket_force[face=frontal].max",), "'front'"),
+        (("pocket_force[pocket=22].max",), "count from 0 to 21"),
+        (("roller_omega[roller=first].mean",), "counted from 0"),
+        (("stress_peak",), "wants a flexible cage"),
+        (("modal_velocity.rms",), "wants a flexible cage"),
+        (("cage_speed", "cage_speed"), "twice"),
+    ],
+)
+def test_outputs_that_no_run_gives(outputs, words):
+    with pytest.raises(InputError, match=words):
+        make_plan(short_study(outputs=outputs))
+
+
+def test_a_study_without_a_case(tmp_path):
+    (tmp_path / "study.toml").write_text('outputs = ["cage_speed"]')
+    with pytest.raises(InputError, match="names no case"):
+        load_study(tmp_path / "study.toml")
+
+
+def test_a_folder_with_other_things_is_left_alone(tmp_path):
+    text = study_file(tmp_path, LOAD).read_text()
+    with pytest.raises(InputError, match="holds files and no study"):
+        Folder(tmp_path).prepare(make_plan(load_study(tmp_path / "study.toml")))
+    assert (tmp_path / "study.toml").read_text() == text
+
+
+def test_a_folder_of_another_version_is_refused(tmp_path, capsys):
+    Folder(tmp_path).prepare(make_plan(short_study()))
+    text = (tmp_path / "study.toml").read_text().replace("format = 1", "format = 2")
+    (tmp_path / "study.toml").write_text(text)
+    for action in ("status", "report", "resume"):
+        assert cli.main(["study", action, str(tmp_path)]) == 2
+        assert "is a study of format 2" in capsys.readouterr().err
+    with pytest.raises(InputError, match="format 2"):
+        Folder(tmp_path).prepare(make_plan(short_study()))
+
+
+def test_a_scheduler_that_does_not_answer(tmp_path, capsys, monkeypatch):
+    from flexcage.study import cluster
+
+    monkeypatch.setattr(cluster, "ANSWER", 0.3)
+    file = study_file(tmp_path, LOAD)
+    with socket.socket() as silent:
+        silent.bind(("127.0.0.1", 0))
+        silent.listen()
+        port = silent.getsockname()[1]
+        for address in (f"127.0.0.1:{port}", "tcp://127.0.0.1:1", "x:y", "tls://127.0.0.1:1"):
+            command = ["study", "run", str(file), "-o", str(tmp_path / "out")]
+            assert cli.main([*command, "--scheduler", address]) == 2
+            err = capsys.readouterr().err
+            assert f"No scheduler answers at '{address}'" in err and err.count("\n") == 1
+
+
+def test_a_missing_package_is_named(tmp_path, capsys, monkeypatch):
+    from flexcage.study import cluster
+
+    monkeypatch.setattr(cluster, "find_spec", lambda name: None)
+    assert cli.main(["study", "run", str(study_file(tmp_path, LOAD)), "-o", str(tmp_path)]) == 1
+    assert 'pip install "flexcage[study]"' in capsys.readouterr().err
