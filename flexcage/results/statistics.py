@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from flexcage.results import metrics
-from flexcage.results.bootstrap import influences, margin
+from flexcage.results.bootstrap import FEWEST, influences, margin
 from flexcage.results.metrics import BearingNumbers
 
 if TYPE_CHECKING:
@@ -47,6 +47,8 @@ class Record:
     def drift(self) -> float:
         """Distance of the first half from the second, over the margin of that distance: above 1
         the halves differ; NaN if they are too short to tell."""
+        if len(self.sums) < 2 * FEWEST:
+            return float("nan")
         values, free = influences(self.sums, _statistic, self.turn)
         one, other = np.array_split(values, 2)
         both = float(np.hypot(margin(one, free), margin(other, free)))

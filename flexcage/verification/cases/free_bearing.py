@@ -17,6 +17,7 @@ from flexcage.verification.n1013 import (
     march,
     n1013,
     state_at_rest,
+    throw_cage,
 )
 
 SPEED, DIRECTION, SPIN = 0.3, 0.4, 10.0  # m/s, rad, rad/s of the cage
@@ -65,8 +66,7 @@ def rows() -> Iterator[Row]:
         y, yd = state_at_rest(bearing)
         bearing.layout.u(y)["omega"][0] = SPIN
         bearing.layout.q(yd)["quaternion"][1] = 0.5 * SPIN
-        for part in (bearing.layout.u(y)["cage"], bearing.layout.q(yd)["cage"]):
-            part[1:] = SPEED * np.cos(DIRECTION), SPEED * np.sin(DIRECTION)
+        throw_cage(bearing, y, yd, SPEED, DIRECTION)
         ds = march(case, bearing, y, yd)
         if min(float(ds[f].max()) for f in ("pocket_force", "race_force")) < 1.0:
             raise RunFailed("the cage struck no pocket, or no roller a race: nothing was tried")

@@ -9,7 +9,7 @@ import numpy as np
 from flexcage.core.errors import RunFailed
 from flexcage.system.start import find_start
 from flexcage.verification.known_answer import KnownAnswer, Row, Tolerance
-from flexcage.verification.n1013 import LOSSLESS, bearing_of, march, n1013
+from flexcage.verification.n1013 import LOSSLESS, bearing_of, march, n1013, throw_cage
 
 SPEED, DIRECTION = 0.3, 0.4  # m/s, rad
 IMPACTS = 10  # at least, of more than 1 N
@@ -37,8 +37,7 @@ def thrown_rows(model: str, land: str) -> Iterator[Row]:
     bearing = bearing_of(case)
     start = find_start(bearing, limit_force=2e4)
     y, yd = start.y.copy(), start.yd.copy()
-    for part in (bearing.layout.u(y)["cage"], bearing.layout.q(yd)["cage"]):
-        part[1:] = SPEED * np.cos(DIRECTION), SPEED * np.sin(DIRECTION)
+    throw_cage(bearing, y, yd, SPEED, DIRECTION)
     ds = march(case, bearing, y, yd)
     pressed = ds["pocket_force"].values > 1.0
     impacts = np.count_nonzero(pressed[1:] & ~pressed[:-1])
