@@ -20,6 +20,7 @@ _LAZY: dict[str, str] = {
     "simulate": "flexcage.simulate",
     "Run": "flexcage.simulate",
     "load_run": "flexcage.simulate",
+    "converge": "flexcage.study.converge",
     "RollerBearing": "flexcage.geometry.cylindrical_roller",
     "RollerProfile": "flexcage.geometry.cylindrical_roller",
     "WindowCage": "flexcage.geometry.cages",

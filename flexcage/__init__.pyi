@@ -36,6 +36,7 @@ from flexcage.study.axes import LatinHypercube as LatinHypercube
 from flexcage.study.axes import Points as Points
 from flexcage.study.axes import Sobol as Sobol
 from flexcage.study.axes import Zip as Zip
+from flexcage.study.converge import converge as converge
 from flexcage.study.results import StudyResults as StudyResults
 from flexcage.study.run import run_study as run_study
 from flexcage.study.spec import Repeat as Repeat

@@ -174,6 +174,25 @@ def compare_command(args: argparse.Namespace) -> int:
     return 0
 
 
+def converge_command(args: argparse.Namespace) -> int:
+    """flexcage converge CASE: how far its outputs move with tolerance, slices, modes and mesh."""
+    from flexcage.core.progress import Progress
+    from flexcage.study.converge import converge, levels
+
+    case = case_from(args)
+    if args.duration:
+        case = case.replace("solver.duration", args.duration)
+    axes = [name.strip() for name in args.axes.split(",") if name.strip()]
+    levels(case, axes)
+    out = Path(args.out) if args.out else Path("runs") / f"{case.name}-converge"
+    goes_on = (out / "cases").is_dir() and not args.force
+    if not goes_on:
+        prepare_out(out, resume=False, force=args.force, resumable=False)
+    say(converge(case, out=out, axes=axes, progress=Progress))
+    say(f"\nThe table, its picture and the runs are in {out}")
+    return 0
+
+
 def study_run_command(args: argparse.Namespace) -> int:
     """flexcage study run STUDY: compute what the study's folder lacks, and print its table."""
     from flexcage.study.spec import load_study
@@ -428,6 +447,7 @@ def build_parser() -> argparse.ArgumentParser:
     _add_run(commands)
     _add_case_commands(commands)
     _add_run_commands(commands)
+    _add_converge(commands)
     _add_verify(commands)
     _add_study(commands)
     _add_small_commands(commands)
@@ -466,6 +486,18 @@ def _add_run_commands(commands: Any) -> None:
     compare.add_argument("--set", action="append", metavar="PATH=VALUE", help="change a value")
     compare.add_argument("-o", "--out", metavar="DIR", help="folder for table, plot and runs")
     compare.add_argument("--force", action="store_true", help="write an existing folder anew")
+
+
+def _add_converge(commands: Any) -> None:
+    text = "repeat a case finer and finer: which outputs have converged"
+    study = _command(commands, "converge", converge_command, text)
+    _case_options(study)
+    study.add_argument(
+        "--axes", default="", metavar="A,B", help="of tolerance,slices,modes,mesh (default: all)"
+    )
+    study.add_argument("--duration", metavar="TIME", help="bearing time of each run, as '40 ms'")
+    study.add_argument("-o", "--out", metavar="DIR", help="folder (default: runs/NAME-converge)")
+    study.add_argument("--force", action="store_true", help="repeat runs that are there already")
 
 
 def _add_verify(commands: Any) -> None:

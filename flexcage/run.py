@@ -18,9 +18,11 @@ from flexcage.core.timing import Stages
 from flexcage.mesh.cage_mesh import CageMesh
 from flexcage.mesh.quality import report_mesh
 from flexcage.modes.reduction import CageReduction
+from flexcage.results.figures import PASS_PEAK, summarise
 from flexcage.results.metrics import BearingNumbers
+from flexcage.results.statistics import roller_passes
 from flexcage.results.store import MemoryRunStore, RunStore
-from flexcage.results.summary import Row, Summary, summarise
+from flexcage.results.summary import Row, Summary
 from flexcage.solve import bdf
 from flexcage.stress.fields import StressFields
 from flexcage.stress.history import StressHistory, stress_history
@@ -217,8 +219,9 @@ class Run:
     def finish(self, recorder: Recorder) -> Run:
         """Complete a run that has come to its end: summary, stored beside the results."""
         self.solver = recorder.state
+        self.summary = self._summarise()
         if self.folder:
-            self._summarise().write(self.folder)
+            self.summary.write(self.folder)
         return self
 
     def _summarise(self) -> Summary:
@@ -264,10 +267,14 @@ class Run:
         when = float(self.dataset["time"][k]) * 1e3
         at = self.mesh.points[h.peak_vertex[k]] * 1e3
         place = f"t = {when:.3f} ms at ({at[0]:.1f}, {at[1]:.1f}, {at[2]:.1f}) mm, cage frame"
+        part = self.dataset.isel(time=slice(h.settled, None))
+        windows, peak = roller_passes(part, self.numbers), h.peak[h.settled :]
+        corner = windows.peak(h.places[h.settled :].max(axis=1))
         return [
             Row("stress_peak", "Peak, contact zones left out", float(h.peak[k]), "MPa", place),
-            Row("stress_mean_peak", "Mean of the cage's peak", float(h.peak[h.settled :].mean()),
-                "MPa"),
+            Row.of("stress_mean_peak", "Mean of the cage's peak", windows.mean(peak), "MPa"),
+            Row.of("stress_root_pass_peak", "At a pocket corner, peak of a pass", corner, "MPa",
+                   PASS_PEAK),
             Row("stress_root", "Largest at a pocket corner", float(roots[root]), "MPa",
                 h.place_names[root]),
             Row("stress_start", "Before settling", float(h.peak[: h.settled].max(initial=0.0)),

@@ -20,6 +20,9 @@ Finding = tuple[str, str]  # where, sentence
 
 _LAND_TOLERANCE = 5e-6  # m between a stated land clearance and the one that the dimensions leave
 _OVERLOAD = 10.0  # static ratings C0r: beyond, at a contact pressure of 12 GPa, no law here holds
+# m, allowed errors of a position: above what 16 digits of it and Newton's matrix leave, and below
+# the few micrometres by which loaded rollers are pressed in
+_TOLERANCES = (1e-13, 1e-6)
 _MOST_ELEMENTS = 1e7  # assumption: more than a machine of 64 GB factors
 
 
@@ -152,11 +155,19 @@ def _find_in_solver(case: Case) -> Iterator[Finding]:
             f"solver.min_step is {describe(solver.min_step, 'us')}, but must not exceed "
             f"solver.max_step, {describe(solver.max_step, 'us')}.",
         )
-    if not solver.newton_tolerance > 0.0:
+    if not 0.0 < solver.newton_tolerance <= 1.0:
         yield (
             "solver.newton_tolerance",
-            f"solver.newton_tolerance is {solver.newton_tolerance:g}, but must be greater than 0, "
-            "such as 0.3.",
+            f"solver.newton_tolerance is {solver.newton_tolerance:g}, but must be greater than 0 "
+            "and at most 1, such as 0.3.",
+        )
+    least, most = _TOLERANCES
+    if not least <= solver.tolerance <= most:
+        why = "rounding is as large" if solver.tolerance < least else "contacts are no deeper"
+        yield (
+            "solver.tolerance",
+            f"solver.tolerance is {describe(solver.tolerance, 'um')}, but {why}; give "
+            f"{describe(least, 'um')} to {describe(most, 'um')}, such as 0.01 um.",
         )
     if round(solver.duration * case.output.rate) < 2:
         yield (

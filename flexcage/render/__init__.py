@@ -12,6 +12,7 @@ if TYPE_CHECKING:
     from flexcage.render.album import Scene, register_picture
     from flexcage.render.animations import animate_bearing, animate_stress, write_animation
     from flexcage.render.bearing_pictures import bearing_picture
+    from flexcage.render.convergence import convergence_picture
     from flexcage.render.curves import compare_forces, histories, orbit
     from flexcage.render.mesh_pictures import mesh_picture
     from flexcage.render.mode_pictures import mode_sheet
@@ -33,6 +34,7 @@ _HOME = {
     "orbit": "curves",
     "mesh_picture": "mesh_pictures",
     "mode_sheet": "mode_pictures",
+    "convergence_picture": "convergence",
     "deformation_picture": "stress_pictures",
     "envelope_picture": "stress_pictures",
     "stress_picture": "stress_pictures",
@@ -44,6 +46,7 @@ __all__ = [
     "animate_stress",
     "bearing_picture",
     "compare_forces",
+    "convergence_picture",
     "deformation_picture",
     "envelope_picture",
     "histories",

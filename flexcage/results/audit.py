@@ -1,4 +1,8 @@
-"""The energy audit: what is stored must be what was put in."""
+"""The energy audit: what is stored must be what was put in.
+
+The imbalance is held against the drive's work, and against what pockets and modes dissipate: the
+drive's work is a thousand times what the cage handles and would hide what goes wrong there.
+"""
 
 from __future__ import annotations
 
@@ -13,12 +17,18 @@ if TYPE_CHECKING:
     import xarray
 
 
+CAGE_LOSSES = ("pocket_damping", "pocket_friction", "modal_damping")
+OF_DRIVE, OF_CAGE = 1e-3, 0.05  # largest imbalance over the drive's work and over the cage's losses
+
+
 @dataclass(frozen=True)
 class EnergyAudit:
     """Balance of a run [J]: stored energy gained less work done, at its worst and at the end.
 
     ``relative`` is the worst imbalance over the energy that moved (the larger of the gain's
     range and the sum over channels of their ranges). ``channels`` holds each channel's total.
+    ``of_drive`` and ``of_cage`` are the worst imbalance over the drive's work and over what
+    pockets and modes dissipate; NaN where there was none.
     """
 
     worst: float
@@ -27,6 +37,13 @@ class EnergyAudit:
     moved: float
     stored: dict[str, float]
     channels: dict[str, float]
+    of_drive: float
+    of_cage: float
+
+    @property
+    def passed(self) -> bool:
+        """Is neither share known to exceed its bound, ``OF_DRIVE`` and ``OF_CAGE``?"""
+        return not (self.of_drive > OF_DRIVE or self.of_cage > OF_CAGE)
 
 
 def imbalance(ds: xarray.Dataset) -> xarray.DataArray:
@@ -48,13 +65,18 @@ def energy_audit(ds: xarray.Dataset) -> EnergyAudit:
     through = float(np.ptp(work.transpose("time", "channel").values, axis=0).sum())
     moved = max(gain, through)
     worst = float(np.abs(gap).max())
+    channels = _change(work.transpose("time", "channel"), "channel")
+    drive = abs(channels.get("drive", 0.0))
+    lost = -sum(channels.get(name, 0.0) for name in CAGE_LOSSES)
     return EnergyAudit(
         worst,
         float(gap[-1]),
         worst / moved if moved else 0.0,
         moved,
         _change(stored.transpose("time", "energy_kind"), "energy_kind"),
-        _change(work.transpose("time", "channel"), "channel"),
+        channels,
+        worst / drive if drive else float("nan"),
+        worst / lost if lost else float("nan"),
     )
 
 

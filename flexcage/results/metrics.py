@@ -19,6 +19,7 @@ from flexcage.geometry.kinematics import Kinematics, epicyclic
 if TYPE_CHECKING:
     import xarray
 
+TOUCHING = 1e-3  # N, above which a pocket face counts as in contact
 LOADED_SHARE = 0.01  # a roller is in the loaded zone above this share of the largest inner force
 
 
@@ -190,14 +191,16 @@ def roller_slip(
     )
 
 
+def whirl_radius(ds: xarray.Dataset, *, about: str = "mean") -> np.ndarray:
+    """Distance of the cage centre from its orbit's ``mean`` or the ``axis``, (time,) [m]."""
+    yz = _about(ds, about)
+    return np.hypot(yz[:, 0], yz[:, 1])
+
+
 def whirl(ds: xarray.Dataset, *, about: str = "mean") -> Whirl:
     """Whirl of the cage centre about the orbit's ``mean`` or the outer ring's ``axis``."""
-    yz = orbit(ds)
-    if about == "mean":
-        yz = yz - yz.mean(axis=0)
-    elif about != "axis":
-        raise InputError(f"Whirl is taken about 'mean' or 'axis', not {about!r}.")
-    r = np.hypot(yz[:, 0], yz[:, 1])
+    yz = _about(ds, about)
+    r = whirl_radius(ds, about=about)
     mean = float(r.mean())
     phase = np.unwrap(np.arctan2(yz[:, 1], yz[:, 0]))
     turned = cage_angle(ds)
@@ -255,7 +258,7 @@ def tilt(ds: xarray.Dataset) -> xarray.DataArray:
     )
 
 
-def pocket_forces(ds: xarray.Dataset, *, threshold: float = 1e-3) -> PocketForces:
+def pocket_forces(ds: xarray.Dataset, *, threshold: float = TOUCHING) -> PocketForces:
     """Mean (while above ``threshold`` [N]) and peak of the normal forces on pocket faces."""
     force = ds["pocket_force"].transpose("time", "pocket", "face")
     values = force.values
@@ -269,6 +272,27 @@ def pocket_forces(ds: xarray.Dataset, *, threshold: float = 1e-3) -> PocketForce
         float(force["time"].values[at[0]]),
         float(touching.mean()),
     )
+
+
+def pocket_force_series(
+    ds: xarray.Dataset, *, threshold: float = TOUCHING
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Over time: sum of normal forces on pocket faces in contact [N], number of such faces, and
+    the largest force [N], each (time,)."""
+    force = ds["pocket_force"].transpose("time", "pocket", "face").values.astype(float)
+    touching = force > threshold
+    total = np.where(touching, force, 0.0).sum(axis=(1, 2))
+    return total, touching.sum(axis=(1, 2)), force.max(axis=(1, 2))
+
+
+def _about(ds: xarray.Dataset, about: str) -> np.ndarray:
+    """Orbit (time, 2) about its mean or about the axis [m]."""
+    yz = orbit(ds)
+    if about == "mean":
+        return yz - yz.mean(axis=0)
+    if about != "axis":
+        raise InputError(f"Whirl is taken about 'mean' or 'axis', not {about!r}.")
+    return yz
 
 
 def _mean(t: np.ndarray, values: np.ndarray) -> float:

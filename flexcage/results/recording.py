@@ -11,7 +11,7 @@ from scipy.signal import butter, sosfilt
 from scipy.spatial.transform import Rotation
 
 from flexcage.core.errors import InputError, RunFailed
-from flexcage.modes.basis import FACES
+from flexcage.results.faults import PLACES, hardest, runaway
 from flexcage.results.options import OutputOptions
 from flexcage.results.registry import COMPUTED, VARIABLES
 from flexcage.results.store import MemoryRunStore, RunStore
@@ -27,8 +27,6 @@ if TYPE_CHECKING:
     import xarray
 
 ENERGIES = ("kinetic", "strain", "contact", "mount")
-# places of events, in order; a land is the cage's and names no roller
-PLACES = ("inner race", "outer race", *FACES, "rib +x", "rib -x", "land -x", "land +x")
 FILTER_HZ = 10e3  # low-pass of outer_acceleration_filtered
 FIRST_STEP = 1e-7
 
@@ -145,8 +143,10 @@ class Recorder:
                 self.state, self.options, times[-1], times, ys, yds, sample, log, quads
             )
             logs.append(log[:rows])
-        done = sample // ratio
-        whole = outcome == bdf.DONE
+        done, deep = sample // ratio, runaway(self.bearing, ys[ratio - 1 : sample : ratio])
+        if deep:
+            done = deep[0]
+        whole = outcome == bdf.DONE and not deep
         if done:  # a solver that stops before the first sample leaves nothing to write
             main = slice(ratio - 1, done * ratio, ratio)
             arrays = self._arrays(ys[main], yds[main], done)
@@ -156,11 +156,26 @@ class Recorder:
             steps = dict(zip(bdf.LOG_COLUMNS, np.concatenate(logs).T, strict=True))
             checkpoint = self._checkpoint() if whole else None
             self.store.write_block(index, arrays, fine, checkpoint, steps, self._events())
-        if not whole:
+        if deep:
+            if done:
+                last = ratio * done - 1
+                self.store.keep_last({"time": times[last], "y": ys[last], "yd": yds[last]})
             raise RunFailed(
-                f"the solver stopped at t = {self.time * 1e3:.4f} ms: {bdf.OUTCOMES[outcome]}; "
-                "what was computed is kept"
+                f"a contact ran away: {deep[1]} at t = {times[ratio * (done + 1) - 1] * 1e3:.4f} "
+                "ms; look at loads and contact stiffness; what was computed before is kept"
             )
+        if not whole:
+            raise RunFailed(self._stopped(outcome))
+
+    def _stopped(self, outcome: int) -> str:
+        """Keep the last accepted state; the sentence that says when and where this was."""
+        y, yd = self.state.D[0].copy(), self.state.D[1] / self.state.real[bdf.H]
+        self.store.keep_last({"time": self.time, "y": y, "yd": yd})
+        place = hardest(self.bearing, self.time, y, yd)
+        return (
+            f"the solver stopped at t = {self.time * 1e3:.4f} ms: {bdf.OUTCOMES[outcome]}; the "
+            f"hardest contact then was {place}; what was computed is kept"
+        )
 
     def _arrays(self, y: np.ndarray, yd: np.ndarray, done: int) -> dict[str, np.ndarray]:
         """Main-grid variables of one block by name."""

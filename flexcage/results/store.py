@@ -36,6 +36,7 @@ if TYPE_CHECKING:
 
 FORMAT = 1
 SIDE = "_run"  # folder beside the arrays: commit, checkpoint, steps, events
+LAST = "last_state.npz"  # in SIDE, of a run whose solver stopped
 _NOTHING: Mapping[str, np.ndarray] = {}
 
 
@@ -48,6 +49,7 @@ class MemoryRunStore:
         self.layout = layout
         self._commit: dict[str, Any] = {"blocks": 0, "n_time": 0, "n_time_hf": 0}
         self._checkpoint: dict[str, np.ndarray] | None = None
+        self._last: dict[str, np.ndarray] | None = None
         self._tables: dict[str, dict[int, dict[str, np.ndarray]]] = {"steps": {}, "events": {}}
         self._data: dict[str, np.ndarray] = {}
         self._allocate()
@@ -136,6 +138,14 @@ class MemoryRunStore:
     def checkpoint(self) -> dict[str, np.ndarray] | None:
         """The last committed checkpoint: arrays by name, or None before the first."""
         return None if self._checkpoint is None else dict(self._checkpoint)
+
+    def keep_last(self, state: Mapping[str, Any]) -> None:
+        """Keep the last state that a solver accepted before it stopped: time [s], y and y'."""
+        self._last = {k: np.array(v) for k, v in state.items()}
+
+    def last(self) -> dict[str, np.ndarray] | None:
+        """The state of ``keep_last``; None for a run that did not stop so."""
+        return self._last
 
     def steps(self) -> dict[str, np.ndarray]:
         """Solver steps of all committed blocks, one array a column."""
@@ -257,6 +267,14 @@ class RunStore(MemoryRunStore):
     def checkpoint(self) -> dict[str, np.ndarray] | None:
         name = self._commit["checkpoint"]
         return load(self.path / SIDE / name) if name else None
+
+    def keep_last(self, state: Mapping[str, Any]) -> None:
+        with disk(self.path, self.n_time):
+            save(self.path / SIDE / LAST, state)
+
+    def last(self) -> dict[str, np.ndarray] | None:
+        path = self.path / SIDE / LAST
+        return load(path) if path.exists() else None
 
     def _table(self, kind: str) -> dict[str, np.ndarray]:
         partial = self.n_time > self.layout.span(self.blocks, TIME)[0]

@@ -3,20 +3,16 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from math import isfinite, pi
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
-from flexcage.core.errors import InputError
-from flexcage.results import audit, metrics
-from flexcage.results.metrics import BearingNumbers
-
-if TYPE_CHECKING:
-    import xarray
+from flexcage.results.files import replace as replace_file
+from flexcage.results.statistics import Record
 
 Value = float | int | str | bool | None
 
@@ -43,13 +39,30 @@ SHOWN: dict[str, tuple[str, float]] = {
 
 @dataclass(frozen=True)
 class Row:
-    """One figure: ``value`` in SI (or a text, a count); ``shown`` is the unit it is printed in."""
+    """One figure: ``value`` in SI (or a text, a count); ``shown`` is the unit it is printed in.
+
+    ``margin`` is half the width of the value's 95 % interval, in SI; None where there is none.
+    ``record`` holds a statistic's windows, while the run is in memory.
+    """
 
     key: str
     label: str
     value: Value
     shown: str = ""
     note: str = ""
+    margin: float | None = None
+    record: Record | None = field(default=None, repr=False, compare=False)
+
+    @classmethod
+    def of(
+        cls, key: str, label: str, record: Record, shown: str, note: str = "",
+        *, value: float | None = None,
+    ) -> Row:  # fmt: skip
+        """Row of a statistic: its value (unless given), its margin and its windows."""
+        margin = record.margin if isfinite(record.margin) else None
+        return cls(
+            key, label, record.value if value is None else value, shown, note, margin, record
+        )
 
     @property
     def unit(self) -> str:
@@ -69,6 +82,13 @@ class Row:
             return f"{v:,}"
         return _figures(float(v) * SHOWN[self.shown][1])
 
+    @property
+    def margin_text(self) -> str:
+        """The margin as printed; nothing where there is none."""
+        if self.margin is None:
+            return ""
+        return f"± {self.margin * SHOWN[self.shown][1]:.2g}"
+
 
 @dataclass(frozen=True)
 class Section:
@@ -86,9 +106,13 @@ class Summary:
         return (row for section in self.sections for row in section.rows)
 
     def __getitem__(self, key: str) -> Value:
+        return self.row(key).value
+
+    def row(self, key: str) -> Row:
+        """The whole figure: value, margin, label and unit."""
         for row in self:
             if row.key == key:
-                return row.value
+                return row
         raise KeyError(key)
 
     def __contains__(self, key: str) -> bool:
@@ -103,19 +127,20 @@ class Summary:
         return replace(self, sections=(*self.sections, new))
 
     def text(self) -> str:
-        """An aligned table: label, value (right-aligned), unit, note."""
+        """An aligned table: label, value (right-aligned), margin, unit, note."""
         rows = list(self)
         if not rows:
             return "(no figures)"
         label = max(len(r.label) for r in rows)
         value = max(len(r.text) for r in rows)
+        margin = max(len(r.margin_text) for r in rows)
         unit = max(len(r.shown) for r in rows)
         lines: list[str] = []
         for section in self.sections:
             lines += ["", section.title] if lines else [section.title]
             for r in section.rows:
-                line = f"  {r.label:<{label}}  {r.text:>{value}} {r.shown:<{unit}}  {r.note}"
-                lines.append(line.rstrip())
+                line = f"  {r.label:<{label}}  {r.text:>{value}} {r.margin_text:<{margin}} "
+                lines.append(f"{line}{r.shown:<{unit}}  {r.note}".rstrip())
         return "\n".join(lines)
 
     __str__ = text
@@ -126,6 +151,7 @@ class Summary:
                 r.key: {
                     "label": r.label,
                     "value": _json_value(r.value),
+                    "margin": _json_value(r.margin),
                     "unit": r.unit,
                     "shown": r.shown,
                     "note": r.note,
@@ -139,25 +165,28 @@ class Summary:
         return json.dumps(self.to_dict(), indent=2, ensure_ascii=False)
 
     @classmethod
-    def from_json(cls, text: str) -> Summary:
+    def from_json(cls, text: str, *, windows: Mapping[str, np.ndarray] | None = None) -> Summary:
+        """The summary that ``to_json`` wrote; ``windows`` are its records' sums by key."""
+        records = {key: Record(sums) for key, sums in (windows or {}).items()}
         return cls(
             tuple(
                 Section(
                     title,
                     tuple(
-                        Row(key, r["label"], r["value"], r["shown"], r["note"])
+                        Row(key, r["label"], r["value"], r["shown"], r["note"], r.get("margin"),
+                            records.get(key))
                         for key, r in rows.items()
                     ),
                 )
                 for title, rows in json.loads(text).items()
             )
-        )
+        )  # fmt: skip
 
     def write(self, folder: str | Path) -> tuple[Path, Path]:
         """Write ``summary.txt`` and ``summary.json`` into ``folder``; returns their paths."""
         text, data = Path(folder) / "summary.txt", Path(folder) / "summary.json"
-        text.write_text(self.text() + "\n", encoding="utf-8")
-        data.write_text(self.to_json() + "\n", encoding="utf-8")
+        replace_file(text, (self.text() + "\n").encode())
+        replace_file(data, (self.to_json() + "\n").encode())
         return text, data
 
 
@@ -173,131 +202,6 @@ def side_by_side(summaries: dict[str, Summary]) -> str:
         cells = "".join(f"  {texts[n].get(key, '-'):>{w}}" for n, w in width.items())
         lines.append(f"{first[key].label:<{label}}{cells}  {first[key].shown}".rstrip())
     return "\n".join(lines)
-
-
-def summarise(
-    ds: xarray.Dataset,
-    bearing: BearingNumbers,
-    *,
-    settle: float = 0.3,
-    creep_speed: float | None = None,
-) -> Summary:
-    """Summary of a run's motion and forces after its start; stress, solver and times come from
-    those who know them, by :meth:`Summary.with_section`.
-    """
-    if not 0.0 <= settle < 1.0:
-        raise InputError(f"settle must lie in 0 ... 1, not {settle}.", where="output.settle")
-    part = metrics.settled(ds, settle)
-    sections = [
-        Section("Speeds", _speed_rows(part, bearing)),
-        Section("Roller slip (inertial frame)", _slip_rows(part, bearing, creep_speed)),
-        Section("Cage motion", _motion_rows(part)),
-        Section("Forces", _force_rows(part)),
-    ]
-    if "energy" in ds and "work" in ds:
-        sections.append(Section("Energy", _energy_rows(ds)))
-    return Summary(tuple(sections))
-
-
-def _speed_rows(ds: xarray.Dataset, bearing: BearingNumbers) -> tuple[Row, ...]:
-    speed = metrics.cage_speed(ds, bearing)
-    inner = float(ds["inner_speed"].mean())
-    spin = float(np.abs(ds["roller_omega"].isel(spin_axis=0)).mean())
-    whole = f"mean of {speed.revolutions:.2f} cage revolutions"
-    return (
-        Row("inner_speed", "Inner ring speed", inner, "rpm"),
-        Row("cage_speed", "Cage speed", speed.mean, "rpm", whole),
-        Row("epicyclic_speed", "Epicyclic cage speed", speed.epicyclic, "rpm"),
-        Row("cage_slip_ratio", "Cage slip ratio", speed.slip_ratio, "%"),
-        Row("roller_spin", "Roller spin, mean of all", spin, "rpm", "inertial frame"),
-        Row(
-            "roller_spin_ideal",
-            "Roller spin, pure rolling",
-            abs(bearing.kinematics(inner).roller_spin),
-            "rpm",
-        ),
-    )
-
-
-def _slip_rows(
-    ds: xarray.Dataset, bearing: BearingNumbers, creep_speed: float | None
-) -> tuple[Row, ...]:
-    slip = metrics.roller_slip(ds, bearing, creep_speed=creep_speed)
-    note = ""
-    if slip.unresolved and creep_speed is not None:
-        note = f"unresolved: sliding is under the law's creep speed {creep_speed:.3g} m/s"
-    mean = "mean over the zone"
-    return (
-        Row("slip_loaded", "Loaded zone, slip ratio", slip.loaded, "%", note),
-        Row("slip_unloaded", "Unloaded zone, slip ratio", slip.unloaded, "%"),
-        Row(
-            "sliding_inner_loaded",
-            "Sliding, inner race, loaded",
-            slip.sliding_loaded[0],
-            "m/s",
-            mean,
-        ),
-        Row(
-            "sliding_outer_loaded",
-            "Sliding, outer race, loaded",
-            slip.sliding_loaded[1],
-            "m/s",
-            mean,
-        ),
-        Row(
-            "sliding_inner_unloaded",
-            "Sliding, inner race, unloaded",
-            slip.sliding_unloaded[0],
-            "m/s",
-        ),
-        Row(
-            "sliding_outer_unloaded",
-            "Sliding, outer race, unloaded",
-            slip.sliding_unloaded[1],
-            "m/s",
-        ),
-        Row("loaded_share", "Rollers in the loaded zone", slip.loaded_share, "%"),
-    )
-
-
-def _motion_rows(ds: xarray.Dataset) -> tuple[Row, ...]:
-    whole = metrics.whole_revolutions(ds)
-    mean, axis = metrics.whirl(whole, about="mean"), metrics.whirl(whole, about="axis")
-    lean = metrics.tilt(ds).sel(component="total")
-    return (
-        Row("whirl_radius", "Whirl radius, mean", mean.mean, "um", "about the orbit's mean"),
-        Row("whirl_radius_max", "Whirl radius, largest", mean.largest, "um"),
-        Row("whirl_ratio", "Whirl (max - min)/mean", mean.ratio, ""),
-        Row("whirl_radius_axis", "Whirl radius, mean", axis.mean, "um", "about the ring's axis"),
-        Row("whirl_ratio_axis", "Whirl (max - min)/mean", axis.ratio, "", "about the ring's axis"),
-        Row("whirl_speed_ratio", "Whirl speed / cage speed", axis.speed_ratio, ""),
-        Row("tilt_mean", "Cage tilt, mean", float(lean.mean()), "deg"),
-        Row("tilt_max", "Cage tilt, largest", float(lean.max()), "deg"),
-    )
-
-
-def _force_rows(ds: xarray.Dataset) -> tuple[Row, ...]:
-    pocket = metrics.pocket_forces(ds)
-    race = ds["race_force"].max("time")
-    inner, outer = (float(race.sel(race=r).max()) for r in ("inner", "outer"))
-    where = f"pocket {pocket.peak_pocket}, {pocket.peak_face}, t = {pocket.peak_time * 1e3:.3f} ms"
-    return (
-        Row("pocket_force_mean", "Pocket force, mean", pocket.mean, "N", "while in contact"),
-        Row("pocket_force_peak", "Pocket force, peak", pocket.peak, "N", where),
-        Row("pocket_contact", "Pocket faces in contact", pocket.contact_share, "%", "of the time"),
-        Row("race_force_inner", "Inner race on a roller, peak", inner, "N"),
-        Row("race_force_outer", "Outer race on a roller, peak", outer, "N"),
-    )
-
-
-def _energy_rows(ds: xarray.Dataset) -> tuple[Row, ...]:
-    check = audit.energy_audit(ds)
-    return (
-        Row("energy_moved", "Energy moved", check.moved, "mJ", "whole run"),
-        Row("energy_imbalance", "Largest imbalance", check.worst, "mJ"),
-        Row("energy_relative", "Imbalance / energy moved", check.relative, "%"),
-        *(Row(f"work_{k}", f"Work: {k}", v, "mJ") for k, v in check.channels.items()),
-    )
 
 
 def _figures(v: float) -> str:

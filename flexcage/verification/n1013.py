@@ -85,6 +85,14 @@ def state_at_rest(bearing: Bearing) -> tuple[np.ndarray, np.ndarray]:
     return y, np.zeros_like(y)
 
 
+def throw_cage(
+    bearing: Bearing, y: np.ndarray, yd: np.ndarray, speed: float, direction: float
+) -> None:
+    """Give the cage a speed [m/s] across the axis, at an azimuth [rad]."""
+    for part in (bearing.layout.u(y)["cage"], bearing.layout.q(yd)["cage"]):
+        part[1:] = speed * np.cos(direction), speed * np.sin(direction)
+
+
 def march(
     case: Case,
     bearing: Bearing,

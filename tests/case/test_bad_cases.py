@@ -65,6 +65,12 @@ BAD = {
         ["infinite"],
     ),
     "no sample": ('[solver]\nduration = "1 us"', "solver.duration", ["1 us", "40 us"]),
+    "no slices": ("[contacts.pocket]\nslices = 0", "contacts.pocket.slices", ["is 0", "3 or"]),
+    "no modes": ("[modes]\ncount = 0", "modes.count", ["is 0", "1 or more"]),
+    "no tolerance": ('[solver]\ntolerance = "0 um"', "solver.tolerance", ["greater than"]),
+    "below rounding": ('[solver]\ntolerance = "1e-9 um"', "solver.tolerance", ["rounding"]),
+    "coarser than contacts": ('[solver]\ntolerance = "2 um"', "solver.tolerance", ["2 um", "1 um"]),
+    "newton loose": ("[solver]\nnewton_tolerance = 2", "solver.newton_tolerance", ["at most 1"]),
     "newton": ("[solver]\nnewton_tolerance = 0", "solver.newton_tolerance", ["greater than 0"]),
     "steps": ('[solver]\nmin_step = "60 us"', "solver.min_step", ["60 us", "50 us"]),
     "friction speeds": (

@@ -1,12 +1,15 @@
 """Metrics against a motion whose figures are known."""
 
+import re
+
 import numpy as np
 import pytest
 import xarray as xr
 
 from flexcage.results import audit, metrics
+from flexcage.results.figures import summarise
 from flexcage.results.spectra import amplitude_spectrum
-from flexcage.results.summary import Row, Summary, side_by_side, summarise
+from flexcage.results.summary import Row, Summary, side_by_side
 
 
 def test_cage_speed_and_slip(known_run, bearing):
@@ -69,6 +72,8 @@ def test_pocket_forces(known_run):
     assert (forces.peak, forces.peak_pocket, forces.peak_face) == (11.0, 7, "rear")
     assert forces.peak_time == pytest.approx(4000 / 50e3)
     assert forces.mean == pytest.approx((2500 * 3 + 11) / 2501)
+    total, faces, largest = metrics.pocket_force_series(known_run)
+    assert total.sum() / faces.sum() == pytest.approx(forces.mean) and largest.max() == 11.0
     assert forces.contact_share == pytest.approx(2501 / (5001 * 22 * 4))
 
 
@@ -81,6 +86,23 @@ def test_energy_audit_balances_and_sees_a_leak(known_run):
     assert check.moved == pytest.approx(1.2)
     assert check.relative == pytest.approx(0.01)
     assert check.channels == pytest.approx({"drive": 0.5, "friction": -0.7})
+
+
+@pytest.mark.parametrize(
+    ("leak", "of_drive", "of_cage", "verdict"),
+    [(4e-4, 8e-4, 0.04, "passed"), (6e-4, 1.2e-3, 0.06, "EXCEEDED"), (0.0, 0.0, 0.0, "passed")],
+)
+def test_energy_audit_of_the_cage(known_run, bearing, leak, of_drive, of_cage, verdict):
+    """0.5 J of drive, of which pockets take 10 mJ: a leak of 0.4 mJ passes, one of 0.6 does not."""
+    ds = known_run.assign_coords(channel=["drive", "pocket_friction"])
+    ds["work"][:, 1] = -0.1 * ds["time"].values
+    ds["energy"][:, 0] = ds["work"].sum("channel").values
+    ds["energy"][:, 1] = 10.0 * leak * ds["time"].values
+    check = audit.energy_audit(ds)
+    assert check.of_drive == pytest.approx(of_drive, abs=1e-12)
+    assert check.of_cage == pytest.approx(of_cage, abs=1e-12)
+    assert check.passed == (verdict == "passed")
+    assert summarise(ds, bearing)["energy_audit"] == verdict
 
 
 def test_spectrum_reads_amplitude():
@@ -113,13 +135,27 @@ def test_summary_prints_and_comes_back(known_run, bearing, tmp_path):
         "Solver", [Row("steps", "Steps", 12345), Row("wall", "Wall time", 1.5, "s")]
     )
     text = summary.text()
-    assert "unresolved" in text and "12,345" in text and "2,709.1 rpm" in text
+    assert "unresolved" in text and "12,345" in text and re.search(r" 2,709\.1 +rpm", text)
+    assert "95 % interval" in text and re.search(r"Pocket force, mean +\S+ ± \S+ +N", text)
     lines = [line for line in text.splitlines() if line.startswith("  ")]
     ends = {line.index(" rpm") for line in lines if " rpm" in line}
     assert len(ends) == 1, "values are right-aligned"
+    assert summary["roller_passes"] == 68
+    assert summary["drift"] == "pocket force"  # the face bears nothing in the second half
     back = Summary.from_json(summary.to_json())
     assert back.text() == text
+    assert back.row("pocket_force_mean") == summary.row("pocket_force_mean")
     assert back["cage_slip_ratio"] == pytest.approx(0.02, abs=1e-6)
     assert [p.name for p in summary.write(tmp_path)] == ["summary.txt", "summary.json"]
     both = side_by_side({"rigid": summary, "flexible": back})
     assert both.splitlines()[0].split() == ["rigid", "flexible"]
+
+
+def test_summary_sees_a_run_that_has_not_settled(known_run, bearing):
+    ds = known_run.copy(deep=True)
+    ds["cage_omega"][:, 0] *= np.linspace(1.0, 1.1, ds.sizes["time"])
+    ds["pocket_force"][:, 7, 1] = 3.0
+    assert summarise(ds, bearing)["drift"] == "cage speed"
+    assert summarise(ds.assign(cage_omega=known_run["cage_omega"]), bearing)["drift"] == "nothing"
+    short = summarise(ds.isel(time=slice(500)), bearing)
+    assert short["drift"] is None and short.row("cage_speed").margin is None

@@ -5,6 +5,7 @@ from flexcage.verification.cases import (
     epicyclic_run,
     flexible_body,
     flexible_body_on_a_face,
+    free_bearing,
     free_rigid_body,
     friction,
     impact,
@@ -47,5 +48,6 @@ IN_ORDER = (
     sliding_to_rolling.CASE,
     epicyclic_run.CASE,
     land_rebound.CASE,
+    free_bearing.CASE,
     lossless_bounce.CASE,
 )

@@ -9,7 +9,14 @@ import numpy as np
 
 from flexcage.core.errors import RunFailed
 from flexcage.verification.known_answer import KnownAnswer, Row, Tolerance
-from flexcage.verification.n1013 import LOSSLESS, bearing_of, march, n1013, state_at_rest
+from flexcage.verification.n1013 import (
+    LOSSLESS,
+    bearing_of,
+    march,
+    n1013,
+    state_at_rest,
+    throw_cage,
+)
 
 CLEARANCE, RESTITUTION = 0.08e-3, 0.7
 GUIDED = {
@@ -55,8 +62,7 @@ def rows() -> Iterator[Row]:
             bearing = bearing_of(case)
             y, yd = state_at_rest(bearing)
             along = np.array([np.cos(direction), np.sin(direction)])
-            for part in (bearing.layout.u(y)["cage"], bearing.layout.q(yd)["cage"]):
-                part[1:] = speed * along
+            throw_cage(bearing, y, yd, speed, direction)
             bearing.layout.q(y)["cage"][1:] = (CLEARANCE - 5e-6) * along
             found = rebounds(march(case, bearing, y, yd), along)
             if not found:

@@ -1,0 +1,239 @@
+"""The figures of a run's summary: its speeds, slip, motion, forces and energy after settling."""
+
+from __future__ import annotations
+
+from math import isfinite
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from flexcage.core.errors import InputError
+from flexcage.results import audit, metrics
+from flexcage.results.bootstrap import FEWEST
+from flexcage.results.metrics import BearingNumbers
+from flexcage.results.statistics import Record, Windows, roller_passes
+from flexcage.results.summary import Row, Section, Summary
+
+if TYPE_CHECKING:
+    import xarray
+
+#: Figures whose halves are compared, to see if a run has settled, and how they are called then.
+WATCHED = {
+    "cage_speed": "cage speed", "whirl_radius": "whirl radius", "pocket_force_mean": "pocket force"
+}  # fmt: skip
+PASS_PEAK = "mean of the largest in each roller pass"
+
+
+def summarise(
+    ds: xarray.Dataset,
+    bearing: BearingNumbers,
+    *,
+    settle: float = 0.3,
+    creep_speed: float | None = None,
+) -> Summary:
+    """Summary of a run's motion and forces after its start; stress, solver and times come from
+    those who know them, by :meth:`Summary.with_section`.
+    """
+    if not 0.0 <= settle < 1.0:
+        raise InputError(f"settle must lie in 0 ... 1, not {settle}.", where="output.settle")
+    part = metrics.settled(ds, settle)
+    windows = roller_passes(part, bearing)
+    sections = [
+        Section("Speeds", _speed_rows(part, bearing)),
+        Section("Roller slip (inertial frame)", _slip_rows(part, bearing, creep_speed)),
+        Section("Cage motion", _motion_rows(part, bearing)),
+        Section("Forces", _force_rows(part, windows)),
+    ]
+    records = {r.key: r.record for s in sections for r in s.rows if r.record is not None}
+    sections.insert(0, Section("Statistics", _statistics_rows(part, windows, settle, records)))
+    if "energy" in ds and "work" in ds:
+        sections.append(Section("Energy", _energy_rows(ds)))
+    return Summary(tuple(sections))
+
+
+def _statistics_rows(
+    ds: xarray.Dataset, windows: Windows, settle: float, records: dict[str, Record]
+) -> tuple[Row, ...]:
+    begin, end = (float(ds["time"][k]) for k in (0, -1))
+    count = len(windows.first)
+    few = "" if count >= FEWEST else f"; intervals want {FEWEST}"
+    drifts = {name: records[key].drift for key, name in WATCHED.items()}
+    known = any(isfinite(d) for d in drifts.values())
+    drifting = ", ".join(name for name, d in drifts.items() if d > 1.0)
+    remedy = "beyond the intervals: not settled, raise output.settle" if drifting else ""
+    return (
+        Row("settled_at", "Settled from", begin, "ms", f"{100.0 * settle:g} % of the run left out"),
+        Row("settled_time", "Time in statistics", end - begin, "ms"),
+        Row("roller_passes", "Roller passes in it", count, "", f"± is a 95 % interval{few}"),
+        Row("drift", "Differs between its halves", (drifting or "nothing") if known else None, "",
+            remedy),
+    )  # fmt: skip
+
+
+def _speed_rows(ds: xarray.Dataset, bearing: BearingNumbers) -> tuple[Row, ...]:
+    speed = metrics.cage_speed(ds, bearing)
+    part = metrics.whole_revolutions(ds)
+    windows = roller_passes(part, bearing)
+    omega = part["cage_omega"].sel(axis="x").values
+    ideal = part["inner_speed"].values * bearing.kinematics(1.0).cage_speed
+    inner = float(ds["inner_speed"].mean())
+    spin = float(np.abs(ds["roller_omega"].isel(spin_axis=0)).mean())
+    whole = f"mean of {speed.revolutions:.2f} cage revolutions"
+    return (
+        Row("inner_speed", "Inner ring speed", inner, "rpm"),
+        Row.of("cage_speed", "Cage speed", windows.mean(omega), "rpm", whole, value=speed.mean),
+        Row("epicyclic_speed", "Epicyclic cage speed", speed.epicyclic, "rpm"),
+        Row.of(
+            "cage_slip_ratio",
+            "Cage slip ratio",
+            windows.ratio(ideal - omega, ideal),
+            "%",
+            value=speed.slip_ratio,
+        ),
+        Row.of(
+            "cage_speed_ripple",
+            "Cage speed ripple",
+            windows.deviation(omega),
+            "%",
+            "standard deviation over mean",
+        ),
+        Row("roller_spin", "Roller spin, mean of all", spin, "rpm", "inertial frame"),
+        Row(
+            "roller_spin_ideal",
+            "Roller spin, pure rolling",
+            abs(bearing.kinematics(inner).roller_spin),
+            "rpm",
+        ),
+    )
+
+
+def _slip_rows(
+    ds: xarray.Dataset, bearing: BearingNumbers, creep_speed: float | None
+) -> tuple[Row, ...]:
+    slip = metrics.roller_slip(ds, bearing, creep_speed=creep_speed)
+    part = metrics.whole_revolutions(ds)
+    ratio = metrics.roller_slip_ratio(part, bearing).values
+    zone = metrics.loaded_zone(part).transpose("time", "roller").values
+    windows = roller_passes(part, bearing)
+    loaded, unloaded = (
+        windows.ratio(np.where(z, ratio, 0.0).sum(axis=1), z.sum(axis=1)) for z in (zone, ~zone)
+    )
+    note = ""
+    if slip.unresolved and creep_speed is not None:
+        note = f"unresolved: sliding is under the law's creep speed {creep_speed:.3g} m/s"
+    mean = "mean over the zone"
+    return (
+        Row.of("slip_loaded", "Loaded zone, slip ratio", loaded, "%", note),
+        Row.of("slip_unloaded", "Unloaded zone, slip ratio", unloaded, "%"),
+        Row(
+            "sliding_inner_loaded",
+            "Sliding, inner race, loaded",
+            slip.sliding_loaded[0],
+            "m/s",
+            mean,
+        ),
+        Row(
+            "sliding_outer_loaded",
+            "Sliding, outer race, loaded",
+            slip.sliding_loaded[1],
+            "m/s",
+            mean,
+        ),
+        Row(
+            "sliding_inner_unloaded",
+            "Sliding, inner race, unloaded",
+            slip.sliding_unloaded[0],
+            "m/s",
+        ),
+        Row(
+            "sliding_outer_unloaded",
+            "Sliding, outer race, unloaded",
+            slip.sliding_unloaded[1],
+            "m/s",
+        ),
+        Row("loaded_share", "Rollers in the loaded zone", slip.loaded_share, "%"),
+    )
+
+
+def _motion_rows(ds: xarray.Dataset, bearing: BearingNumbers) -> tuple[Row, ...]:
+    whole = metrics.whole_revolutions(ds)
+    windows = roller_passes(whole, bearing)
+    about_mean, about_axis = (
+        windows.mean(metrics.whirl_radius(whole, about=c)) for c in ("mean", "axis")
+    )
+    mean, axis = metrics.whirl(whole, about="mean"), metrics.whirl(whole, about="axis")
+    lean = metrics.tilt(ds).sel(component="total")
+    leaning = roller_passes(ds, bearing).mean(lean.values)
+    return (
+        Row.of("whirl_radius", "Whirl radius, mean", about_mean, "um", "about the orbit's mean"),
+        Row("whirl_radius_max", "Whirl radius, largest", mean.largest, "um"),
+        Row("whirl_ratio", "Whirl (max - min)/mean", mean.ratio, ""),
+        Row.of(
+            "whirl_radius_axis", "Whirl radius, mean", about_axis, "um", "about the ring's axis"
+        ),
+        Row("whirl_ratio_axis", "Whirl (max - min)/mean", axis.ratio, "", "about the ring's axis"),
+        Row("whirl_speed_ratio", "Whirl speed / cage speed", axis.speed_ratio, ""),
+        Row.of("tilt_mean", "Cage tilt, mean", leaning, "deg"),
+        Row("tilt_max", "Cage tilt, largest", float(lean.max()), "deg"),
+    )
+
+
+def _force_rows(ds: xarray.Dataset, windows: Windows) -> tuple[Row, ...]:
+    pocket = metrics.pocket_forces(ds)
+    total, faces, largest = metrics.pocket_force_series(ds)
+    race = ds["race_force"].max("time")
+    inner, outer = (float(race.sel(race=r).max()) for r in ("inner", "outer"))
+    where = f"pocket {pocket.peak_pocket}, {pocket.peak_face}, t = {pocket.peak_time * 1e3:.3f} ms"
+    return (
+        Row.of(
+            "pocket_force_mean",
+            "Pocket force, mean",
+            windows.ratio(total, faces),
+            "N",
+            "while in contact",
+        ),
+        Row.of("pocket_force_sum", "Pocket forces, mean of sum", windows.mean(total), "N"),
+        Row.of(
+            "pocket_force_pass_peak",
+            "Pocket force, peak of a pass",
+            windows.peak(largest),
+            "N",
+            PASS_PEAK,
+        ),
+        Row("pocket_force_peak", "Pocket force, largest", pocket.peak, "N", where),
+        Row("pocket_contact", "Pocket faces in contact", pocket.contact_share, "%", "of the time"),
+        Row("race_force_inner", "Inner race on a roller, peak", inner, "N"),
+        Row("race_force_outer", "Outer race on a roller, peak", outer, "N"),
+    )
+
+
+def _energy_rows(ds: xarray.Dataset) -> tuple[Row, ...]:
+    check = audit.energy_audit(ds)
+    verdict = "passed" if check.passed else "EXCEEDED"
+    remedy = "" if check.passed else ": tighten solver.tolerance"
+    return (
+        Row(
+            "energy_audit",
+            "Energy audit",
+            verdict,
+            "",
+            f"at most {100.0 * audit.OF_DRIVE:g} % of "
+            f"the drive's work, {100.0 * audit.OF_CAGE:g} % of the cage's losses{remedy}",
+        ),
+        *(
+            Row(f"stored_{k}", f"Gained: {k}", v, "mJ", "whole run")
+            for k, v in check.stored.items()
+        ),
+        Row("energy_moved", "Energy moved", check.moved, "mJ", "whole run"),
+        Row("energy_imbalance", "Largest imbalance", check.worst, "mJ"),
+        Row("energy_relative", "Imbalance / energy moved", check.relative, "%"),
+        Row("energy_of_drive", "Imbalance / drive's work", check.of_drive, "%"),
+        Row(
+            "energy_of_cage",
+            "Imbalance / loss in the cage",
+            check.of_cage,
+            "%",
+            "what pockets and modes dissipate",
+        ),
+        *(Row(f"work_{k}", f"Work: {k}", v, "mJ") for k, v in check.channels.items()),
+    )

@@ -1,0 +1,222 @@
+"""One case over solver tolerance, slices, modes and mesh: which of its outputs have converged."""
+
+from __future__ import annotations
+
+import logging
+import shutil
+import time
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from math import hypot, nan
+from pathlib import Path
+from typing import Any
+
+from flexcage.case import Case
+from flexcage.core.errors import FlexcageError, InputError
+from flexcage.mesh.options import FINENESS
+from flexcage.results.files import load, save
+from flexcage.results.statistics import spread
+from flexcage.results.summary import Row, Summary
+from flexcage.run import write_case
+from flexcage.simulate import simulate
+from flexcage.study.convergence import Convergence, Finding
+
+FEWEST_SLICES, MOST_SLICES = 3, 64  # as contacts.spec allows
+log = logging.getLogger(__name__)
+
+#: Outputs looked at, by their keys in the summary: statistics of the motion, and plain values.
+STATISTICS = (
+    "cage_speed", "cage_slip_ratio", "cage_speed_ripple", "slip_loaded", "slip_unloaded",
+    "whirl_radius", "pocket_force_sum", "pocket_force_mean", "pocket_force_pass_peak",
+    "stress_mean_peak", "stress_root_pass_peak",
+)  # fmt: skip
+OUTPUTS = (*STATISTICS, "first_frequency", "pinch_force", "cage_mass")
+
+
+@dataclass(frozen=True)
+class Level:
+    """One setting of one axis: its name, and the case with it."""
+
+    axis: str
+    name: str
+    case: Case
+
+
+def _tolerances(case: Case) -> dict[str, dict[str, Any]]:
+    return {f"x{f:g}": {"solver.tolerance": f * case.solver.tolerance} for f in (1.0, 0.3, 0.1)}
+
+
+def _slices(case: Case) -> dict[str, dict[str, Any]]:
+    places = {f"contacts.{p}.slices": getattr(case.contacts, p).slices for p in ("race", "pocket")}
+    return {
+        str(_sliced(case.contacts.race.slices, factor)): {
+            path: _sliced(own, factor) for path, own in places.items()
+        }
+        for factor in (0.5, 1.0, 2.0)
+    }
+
+
+def _sliced(own: int, factor: float) -> int:
+    return min(max(round(factor * own), FEWEST_SLICES), MOST_SLICES)
+
+
+def _modes(case: Case) -> dict[str, dict[str, Any]]:
+    return {str(k * case.modes.count): {"modes.count": k * case.modes.count} for k in (1, 2, 4)}
+
+
+def _meshes(case: Case) -> dict[str, dict[str, Any]]:
+    return {name: {"mesh.fineness": name} for name in FINENESS[:3]}
+
+
+AXES: dict[str, Callable[[Case], dict[str, dict[str, Any]]]] = {
+    "tolerance": _tolerances,
+    "slices": _slices,
+    "modes": _modes,
+    "mesh": _meshes,
+}
+
+
+def levels(case: Case, axes: Sequence[str] = ()) -> list[Level]:
+    """Levels of the axes named (default: all that fit the case), coarse to fine.
+
+    Raises InputError for an axis that does not exist, or one that this case cannot vary.
+    """
+    for axis in axes:
+        if axis not in AXES:
+            raise InputError(
+                f"Axis {axis!r} is not known; there are {', '.join(AXES)}.",
+                where="axes",
+                value=axis,
+            )
+        if why := _unfit(case, axis):
+            raise InputError(f"{why}, so axis {axis!r} does not apply; leave it out.", where="axes")
+    return [
+        Level(axis, name, case.replace(**changes))
+        for axis in dict.fromkeys(axes or [a for a in AXES if not _unfit(case, a)])
+        for name, changes in AXES[axis](case).items()
+    ]
+
+
+def _unfit(case: Case, axis: str) -> str:
+    """Why a case cannot vary along an axis; nothing if it can."""
+    if axis in ("modes", "mesh") and case.cage_model == "rigid":
+        return "The cage is rigid"
+    mesh = case.mesh
+    if axis == "mesh" and (mesh.file or mesh.size is not None or mesh.fillet_size is not None):
+        return "The mesh has a file or sizes of its own"
+    return ""
+
+
+def converge(
+    case: Case,
+    *,
+    out: str | Path,
+    axes: Sequence[str] = (),
+    duration: float | str | None = None,
+    progress: Any = None,
+) -> Convergence:
+    """Repeat a case along each axis, the others left as they are, and compare its outputs.
+
+    Every run lies in ``out/cases/<hash>``; one that is complete there is not repeated, and one
+    that stopped goes on. ``duration`` replaces the case's own. A run that fails is reported with
+    its reason. The table is written to ``out`` as text, .csv and .json, with a picture.
+    """
+    from flexcage.render import convergence_picture
+
+    if duration is not None:
+        case = case.replace("solver.duration", duration)
+    steps = levels(case, axes)
+    out = Path(out)
+    write_case(out, case)
+    wanted = {level.case.hash: level for level in (*steps, Level("case", "as is", case))}
+    figures = _run_all(wanted, out / "cases", progress)
+    found = _compare(case, steps, figures)
+    found.write(out)
+    convergence_picture([f.record() for f in found.findings], out / "converge.png", name=case.name)
+    return found
+
+
+def _run_all(wanted: dict[str, Level], folder: Path, progress: Any) -> dict[str, Summary | str]:
+    """Summary of every case by its hash, or the sentence of the error that stopped it."""
+    figures: dict[str, Summary | str] = {}
+    new = [name for name in wanted if not (folder / name / "summary.json").exists()]
+    begin, ran = time.perf_counter(), 0
+    for name, level in wanted.items():
+        if name in new:
+            spent = time.perf_counter() - begin
+            left = f", about {spent / ran * (len(new) - ran):.0f} s left" if ran else ""
+            ran += 1
+            log.info("run %d of %d: %s %s%s", ran, len(new), level.axis, level.name, left)
+        try:
+            figures[name] = _figures_of(level.case, folder / name, progress)
+        except FlexcageError as error:
+            figures[name] = str(error)
+    return figures
+
+
+def _figures_of(case: Case, folder: Path, progress: Any) -> Summary:
+    """Summary of a case with the windows of its statistics; simulated if it is not there."""
+    stored, kept = folder / "summary.json", folder / "windows.npz"
+    if stored.exists():
+        windows = load(kept) if kept.exists() else {}
+        return Summary.from_json(stored.read_text("utf-8"), windows=windows)
+    resume = (folder / "results.zarr" / "_run" / "commit.json").exists()
+    if folder.exists() and not resume:  # stopped before its first block had a place
+        shutil.rmtree(folder)
+    summary = simulate(case, out=folder, resume=resume, progress=progress).summary
+    save(kept, {row.key: row.record.sums for row in summary if row.record is not None})
+    return summary
+
+
+def _compare(case: Case, steps: Sequence[Level], figures: dict[str, Summary | str]) -> Convergence:
+    findings: list[Finding] = []
+    compared: dict[str, tuple[str, str]] = {}
+    for axis in dict.fromkeys(level.axis for level in steps):
+        *coarser, finest = (level for level in steps if level.axis == axis)
+        base = next((s for s in coarser if s.case.hash == case.hash), coarser[-1])
+        compared[axis] = base.name, finest.name
+        for level in coarser:
+            findings += _findings(level, finest, figures)
+    own = figures[case.hash]
+    return Convergence(
+        name=case.name,
+        own=tuple(own.row(k) for k in OUTPUTS if k in own) if isinstance(own, Summary) else (),
+        findings=tuple(findings),
+        compared=compared,
+        failures={
+            f"{s.axis} {s.name}": sentence
+            for s in steps
+            if isinstance(sentence := figures[s.case.hash], str)
+        },
+    )
+
+
+def _findings(level: Level, finest: Level, figures: dict[str, Summary | str]) -> list[Finding]:
+    here, best = figures[level.case.hash], figures[finest.case.hash]
+    if isinstance(here, str) or isinstance(best, str):
+        return []
+    pairs = [(here.row(k), best.row(k)) for k in OUTPUTS if k in here and k in best]
+    return [
+        Finding(
+            axis=level.axis, level=level.name, finest=finest.name, output=a.key, label=a.label,
+            unit=a.unit, statistic=a.key in STATISTICS, spread=_spread(a, b),
+            value=_number(a.value), margin=a.margin,
+            finest_value=_number(b.value), finest_margin=b.margin,
+        )
+        for a, b in pairs
+    ]  # fmt: skip
+
+
+def _spread(one: Row, other: Row) -> float:
+    """Relative margin of a difference: from windows in pairs, or of runs taken as independent."""
+    if one.key not in STATISTICS:
+        return 0.0
+    if one.record is not None and other.record is not None:
+        return spread(one.record, other.record)
+    if one.margin is None or other.margin is None:
+        return nan
+    return hypot(one.margin, other.margin) / abs(_number(other.value))
+
+
+def _number(value: object) -> float:
+    return float(value) if isinstance(value, (int, float)) else nan

@@ -1,0 +1,130 @@
+"""What a convergence study found: every output of a case against the finest level of every axis."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import asdict, dataclass
+from math import floor, isfinite, log10, nan
+from pathlib import Path
+from typing import Any
+
+from flexcage.results.summary import Row
+
+GOAL = 0.02  # relative difference within which a statistic counts as converged
+MOST_DIGITS = 9
+
+
+@dataclass(frozen=True, kw_only=True)
+class Finding:
+    """One output at one level of an axis, against the axis's finest level (values in SI)."""
+
+    axis: str
+    level: str
+    finest: str
+    output: str
+    label: str
+    unit: str
+    statistic: bool  # of a chaotic motion, known only with an interval
+    spread: float  # half the 95 % interval of ``difference``; 0 of a plain value, NaN if unknown
+    value: float
+    margin: float | None
+    finest_value: float
+    finest_margin: float | None
+
+    @property
+    def difference(self) -> float:
+        """Value less the finest level's, over the latter's size."""
+        if self.value == self.finest_value:
+            return 0.0
+        return (self.value - self.finest_value) / abs(self.finest_value or nan)
+
+    @property
+    def digits(self) -> int:
+        """Digits that are known to agree."""
+        apart = abs(self.difference) + self.spread
+        if not isfinite(apart):
+            return 0
+        return MOST_DIGITS if apart == 0.0 else min(max(floor(-log10(apart)), 0), MOST_DIGITS)
+
+    @property
+    def verdict(self) -> str:
+        """Of a plain value its digits; of a statistic whether it is within ``GOAL``, or whether
+        the intervals overlap, so that the runs were too short to tell, or lie apart."""
+        if not self.statistic:
+            return f"{self.digits} digits"
+        if not isfinite(self.spread):
+            return "no interval"
+        if abs(self.difference) + self.spread <= GOAL:
+            return f"within {100.0 * GOAL:g} %"
+        return "overlap" if abs(self.difference) <= self.spread else "apart"
+
+    @property
+    def text(self) -> str:
+        """Difference, its interval and the verdict in a few words."""
+        spread = f" ± {100.0 * self.spread:.2g}" if isfinite(self.spread) and self.spread else ""
+        return f"{100.0 * self.difference:+.2g}{spread} %, {self.verdict}"
+
+    def record(self) -> dict[str, Any]:
+        """All of it as plain values, one row of a table."""
+        return {
+            **asdict(self),
+            "difference": self.difference,
+            "digits": self.digits,
+            "verdict": self.verdict,
+        }
+
+
+@dataclass(frozen=True, kw_only=True)
+class Convergence:
+    """A study of one case: ``own`` figures, ``findings`` by output, and ``failures`` by level.
+
+    ``compared`` names for each axis the level that the table holds against the finest: the
+    case's own, or the one before the finest if the case itself is the finest.
+    """
+
+    name: str
+    own: tuple[Row, ...]
+    findings: tuple[Finding, ...]
+    compared: dict[str, tuple[str, str]]
+    failures: dict[str, str]
+
+    def __str__(self) -> str:
+        return self.table()
+
+    def table(self) -> str:
+        """Outputs of the case, and how far each is from the finest level of every axis."""
+        cells = [
+            [
+                "",
+                "as is",
+                "",
+                *(f"{axis}: {low} against {high}" for axis, (low, high) in self.compared.items()),
+            ]
+        ]
+        for row in self.own:
+            found = [self._at(axis, row.key) for axis in self.compared]
+            figure = f"{row.text} {row.margin_text}".rstrip()
+            cells.append([row.label, figure, row.shown, *(f.text if f else "-" for f in found)])
+        widths = [max(map(len, column)) for column in zip(*cells)]
+        lines = ["  ".join(c.ljust(w) for c, w in zip(line, widths)).rstrip() for line in cells]
+        lines += [f"failed, {where}: {reason}" for where, reason in self.failures.items()]
+        return "\n".join(lines)
+
+    def _at(self, axis: str, output: str) -> Finding | None:
+        level = self.compared[axis][0]
+        for f in self.findings:
+            if (f.axis, f.level, f.output) == (axis, level, output):
+                return f
+        return None
+
+    def write(self, folder: str | Path) -> None:
+        """Write ``converge.txt``, ``converge.csv`` and ``converge.json`` into ``folder``."""
+        import pandas as pd
+
+        folder = Path(folder)
+        records = [f.record() for f in self.findings]
+        (folder / "converge.txt").write_text(self.table() + "\n", encoding="utf-8")
+        pd.DataFrame(records).to_csv(folder / "converge.csv", index=False)
+        plain = [{k: None if v != v else v for k, v in r.items()} for r in records]
+        content = {"case": self.name, "findings": plain, "failures": self.failures}
+        (folder / "converge.json").write_text(json.dumps(content, indent=2), encoding="utf-8")

@@ -1,0 +1,89 @@
+"""A bearing that nothing holds: its momentum stays, whatever strikes what."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Any
+
+import numpy as np
+
+from flexcage.core.errors import RunFailed
+from flexcage.system.problem import Bearing
+from flexcage.verification.known_answer import KnownAnswer, Row, Tolerance
+from flexcage.verification.n1013 import (
+    FRICTIONLESS,
+    NO_OIL,
+    bearing_of,
+    march,
+    n1013,
+    state_at_rest,
+    throw_cage,
+)
+
+SPEED, DIRECTION, SPIN = 0.3, 0.4, 10.0  # m/s, rad, rad/s of the cage
+FREE = {
+    "cage.model": "rigid",
+    "drive.speed": "0 rpm",
+    "load.radial": "0 N",
+    "load.gravity": "0 m/s^2",
+    "mount.kind": "bushing",  # as good as none
+    "mount.stiffness": "1e-6 N/m",
+    "mount.damping": "0 N*s/m",
+    "solver.duration": "4 ms",
+    "solver.tolerance": "0.0001 um",
+    "output.rate": "100 kHz",
+    "output.vibration_rate": "200 kHz",
+}
+ELASTIC = {f"contacts.{p}.normal.law": "elastic" for p in ("race", "pocket", "side", "rib")}
+KEPT = Tolerance(1e-5, "share of the throw's; falls with solver.tolerance", absolute=True)
+
+
+def momentum(bearing: Bearing, ds: Any) -> tuple[np.ndarray, np.ndarray]:
+    """Momentum across the axis (time, 2) [kg m/s] and angular momentum about it (time,)."""
+    model = bearing.data.model
+    mass, axial, _ = model.bodies.roller
+    psi, r = (ds["roller_position"].sel(cyl=c).values for c in ("psi", "r"))
+    radial, around = (ds["roller_velocity"].sel(cyl=c).values for c in ("r", "psi"))
+    cos, sin = np.cos(psi), np.sin(psi)
+    linear = (
+        mass * np.stack([radial * cos - around * sin, radial * sin + around * cos]).sum(axis=2).T
+    )
+    spin = ds["roller_omega"].isel(spin_axis=0).values
+    angular = (mass * r * around + axial * spin).sum(axis=1)
+    rings = {"inner": model.bodies.ring[0], "outer": model.bodies.outer[0]}
+    for name, m in {**rings, "cage": model.cage.mass}.items():
+        at, v = (ds[f"{name}_{what}"].values[:, 1:] for what in ("position", "velocity"))
+        linear = linear + m * v
+        angular = angular + m * (at[:, 0] * v[:, 1] - at[:, 1] * v[:, 0])
+    polar = np.trace(model.cage.G0) - model.cage.G0[0, 0]
+    return linear, angular + polar * ds["cage_omega"].sel(axis="x").values
+
+
+def rows() -> Iterator[Row]:
+    for name, table in (("elastic contacts", ELASTIC), ("contacts with losses", {})):
+        case = n1013(FRICTIONLESS, NO_OIL, FREE, table)
+        bearing = bearing_of(case)
+        y, yd = state_at_rest(bearing)
+        bearing.layout.u(y)["omega"][0] = SPIN
+        bearing.layout.q(yd)["quaternion"][1] = 0.5 * SPIN
+        throw_cage(bearing, y, yd, SPEED, DIRECTION)
+        ds = march(case, bearing, y, yd)
+        if min(float(ds[f].max()) for f in ("pocket_force", "race_force")) < 1.0:
+            raise RunFailed("the cage struck no pocket, or no roller a race: nothing was tried")
+        linear, angular = momentum(bearing, ds)
+        thrown = bearing.data.model.cage.mass * SPEED
+        drift = np.abs(linear - linear[0]).max() / thrown
+        yield Row(f"{name}: drift of momentum", "", 0.0, float(drift), KEPT)
+        drift = np.abs(angular - angular[0]).max() / abs(angular[0])
+        yield Row(f"{name}: drift of angular momentum", "", 0.0, float(drift), KEPT)
+
+
+CASE = KnownAnswer(
+    name="free_bearing",
+    title="A bearing that nothing holds",
+    source="conservation of momentum and of angular momentum about the bearing's axis",
+    checks="No load, no weight, no oil, no friction, and an outer ring on a bushing of 1e-6 N/m: a "
+    "cage thrown at 0.3 m/s and turning at 10 rad/s strikes rollers at rest, and they the races.",
+    rows=rows,
+    quick=False,
+)

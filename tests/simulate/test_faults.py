@@ -1,0 +1,82 @@
+"""Runs that go wrong say when and where, and keep the last good state."""
+
+import re
+
+import numpy as np
+import pytest
+from simulate_cases import Interrupted
+
+from flexcage.core.errors import RunFailed
+from flexcage.results.faults import overlaps
+from flexcage.results.recording import Recorder, new_store
+from flexcage.system.start import find_start
+from flexcage.verification.n1013 import bearing_of, n1013
+
+BLOCK = 50 / 50e3  # [s]
+
+
+class Broken(Interrupted):
+    """A progress context that changes the bearing once the first block is done."""
+
+    def __init__(self, harm):
+        super().__init__(10**6, BLOCK)
+        self.harm = harm
+
+    def to(self, done):
+        if not self.calls:
+            self.harm()
+        super().to(done)
+
+
+@pytest.fixture
+def recorder(tmp_path):
+    case = n1013({"cage.model": "rigid", "solver.duration": "4 ms", "output.block": 50})
+    bearing = bearing_of(case)
+    start = find_start(bearing, limit_force=2e4)
+    store = new_store(tmp_path / "r.zarr", bearing, duration=4e-3, output=case.output, attrs={})
+    return Recorder(bearing, start, store, solver=case.solver, output=case.output)
+
+
+def kept(recorder, until):
+    """Samples are there and finite up to ``until`` [s], and so is the last good state."""
+    ds, last = recorder.store.dataset(), recorder.store.last()
+    assert BLOCK <= ds["time"].values[-1] <= float(last["time"]) <= until
+    assert all(np.isfinite(ds[name].values).all() for name in ("cage_position", "race_force"))
+    assert np.isfinite(last["y"]).all() and recorder.store.blocks >= 1
+    return last
+
+
+def test_a_value_that_is_no_number(recorder):
+    memory = recorder.bearing.data.memory.race
+
+    def harm():
+        memory[7, 1, 0] = np.nan
+
+    with pytest.raises(RunFailed, match=r"t = 1\.00.* ms: .*roller 7 on its outer race with nan"):
+        recorder.march(Broken(harm))
+    kept(recorder, 1.01e-3)
+
+
+def test_a_race_that_gives_way(recorder):
+    """Its contacts lose their stiffness: the load drives the inner ring through its rollers."""
+    bearing = recorder.bearing
+
+    def harm():
+        bearing.data.memory.race[:, 0, 0] = 1.0
+
+    with pytest.raises(RunFailed, match=r"roller \d+ lies 1 mm deep in its inner race at") as said:
+        recorder.march(Broken(harm))
+    last = kept(recorder, 4e-3)
+    roller = int(re.search(r"roller (\d+)", str(said.value))[1])
+    assert np.cos(bearing.layout.q(last["y"])["rollers"][roller, 2]) > 0.95  # where the load points
+    depth = overlaps(bearing, last["y"][None])[0]
+    assert 0.5e-3 < depth[:, 0].max() < 1e-3 and depth[:, 1:].max() < 0.2e-3
+
+
+def test_overlaps_of_a_start(recorder):
+    """Loaded rollers touch both races by micrometres, and lie in the middle of their pockets."""
+    bearing = recorder.bearing
+    depth = overlaps(bearing, recorder.state.D[:1])[0]
+    play = bearing.data.model.pocket.half[0] - bearing.data.model.bodies.radius[0]
+    assert 1e-6 < depth[0, 0] < 20e-6 and 1e-6 < depth[0, 1] < 20e-6
+    np.testing.assert_allclose(depth[:, 2] + depth[:, 3], -2.0 * play, rtol=0.02)
