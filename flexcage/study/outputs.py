@@ -22,20 +22,23 @@ from flexcage.system.model import POWERS
 if TYPE_CHECKING:
     from flexcage.run import Run
 
-#: Figures of a summary that every run has, and those that only a flexible cage gives.
+#: Figures of a summary that every run has, and those that only a flexible cage gives. Rows that
+#: hold a verdict in words are no figures.
 RIGID_FIGURES = tuple(
-    """inner_speed cage_speed epicyclic_speed cage_slip_ratio roller_spin roller_spin_ideal
+    """settled_at settled_time roller_passes inner_speed cage_speed cage_speed_ripple
+    epicyclic_speed cage_slip_ratio roller_spin roller_spin_ideal
     slip_loaded slip_unloaded sliding_inner_loaded sliding_outer_loaded sliding_inner_unloaded
     sliding_outer_unloaded loaded_share whirl_radius whirl_radius_max whirl_ratio
     whirl_radius_axis whirl_ratio_axis whirl_speed_ratio tilt_mean tilt_max pocket_force_mean
-    pocket_force_peak pocket_contact race_force_inner race_force_outer energy_moved
-    energy_imbalance energy_relative cage_mass cage_centre_shift pinch_force steps residuals
-    jacobians factorisations failed_error_tests failed_newton wall_mesh wall_modes wall_kernels
+    pocket_force_sum pocket_force_pass_peak pocket_force_peak pocket_contact race_force_inner
+    race_force_outer stored_kinetic stored_strain stored_contact stored_mount energy_moved
+    energy_imbalance energy_relative energy_of_drive energy_of_cage cage_mass cage_centre_shift
+    pinch_force steps residuals jacobians factorisations failed_error_tests failed_newton wall_mesh wall_modes wall_kernels
     wall_start wall_solve""".split()
 ) + tuple(f"work_{name}" for name in POWERS)
 FLEXIBLE_FIGURES = (
     "first_frequency", "far_coupling", "stress_peak", "stress_mean_peak", "stress_root",
-    "stress_start", "wall_stress",
+    "stress_root_pass_peak", "stress_start", "wall_stress",
 )  # fmt: skip
 
 REDUCTIONS: Mapping[str, Callable[[np.ndarray], float]] = MappingProxyType(

@@ -60,9 +60,9 @@ def test_the_ode_form_is_the_same_problem(settled, start):
     left = np.abs(settled.bearing.residual(SETTLE, peers.ode.full(x), yd))
     ring = settled.bearing.layout.n_q + 6 * settled.bearing.layout.rollers
     held = ring + np.array([0, 3, 4, 5])
-    np.testing.assert_allclose(
-        left[held], np.abs(settled.bearing.layout.multipliers(y))[[0, 3, 1, 2]], rtol=1e-3
-    )
+    forces = np.abs(settled.bearing.layout.multipliers(y))[[0, 3, 1, 2]]
+    # those of y are as good as Newton's method left them
+    np.testing.assert_allclose(left[held], forces, rtol=1e-3, atol=1e-4 * forces.max())
     left[held] = 0.0
     assert left[: peers.ode.size].max() < 1e-12
 
