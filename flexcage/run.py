@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import logging
+import shutil
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
@@ -298,6 +299,14 @@ def write_case(folder: Path, case: Case) -> None:
     """Write the case as run into the folder."""
     folder.mkdir(parents=True, exist_ok=True)
     (folder / "case.toml").write_text(case.to_toml(), encoding="utf-8")
+
+
+def can_go_on(folder: Path) -> bool:
+    """Whether a run in ``folder`` has begun; one that stopped before that is removed."""
+    begun = RunStore.begun(folder / "results.zarr")
+    if folder.exists() and not begun:
+        shutil.rmtree(folder)
+    return begun
 
 
 def check_resumed(folder: Path, case: Case) -> None:

@@ -10,8 +10,8 @@ acts on the rate of the remaining motion. A rigid cage has no such shapes.
 
 from __future__ import annotations
 
-from flexcage.contacts.pocket_wall import N_LOCAL, mixed_slope, points_of_face
-from flexcage.contacts.slices import deepest, elastic_forces
+from flexcage.contacts.pocket_wall import N_LOCAL, mixed, points_of_face
+from flexcage.contacts.slices import elastic_forces, largest
 from flexcage.core.jit import VECTORISED, copy_into, part, zero
 
 SOLVED = 3e-11  # [m] a last Newton step this small leaves an error of its square over d
@@ -67,7 +67,7 @@ def condense(data, i, p, laws, guess, sl, pw):
                 n = points_of_face(data, f)
                 read_residual(data, i, f, pw.face[f])
                 yielded(n, pw.face[f], pw.b, sl)
-                if deepest(n, sl) > 0.0:
+                if largest(n, sl.d) > 0.0:
                     pw.live[f] = 1
                     joined = True
 
@@ -165,7 +165,7 @@ def lean_of_residual(data, i, f, pw):
             x += data.res[i, f, s, l] * pw.b[l]
         pw.lean[s] = x
     for k in range(points_of_face(data, f)):
-        face.slope[k] += mixed_slope(face, k, pw.lean)
+        face.slope[k] += mixed(face.ws, face, k, pw.lean)
 
 
 @part

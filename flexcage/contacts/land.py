@@ -11,6 +11,7 @@ from flexcage.contacts.laws import short_bearing
 from flexcage.contacts.slices import (
     elastic_forces,
     friction_factors,
+    friction_power,
     normal_forces,
     stored_and_damped,
 )
@@ -205,7 +206,7 @@ def _touch(
     sums[4 + side] += N
     sums[0] += energy
     sums[1] += damped
-    sums[2] -= N * sl.g[0] * sl.u[0] ** 2
+    sums[2] += friction_power(1, sl)
 
 
 @part

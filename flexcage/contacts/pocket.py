@@ -6,7 +6,6 @@ from flexcage.contacts.condensation import condense, lean_of_residual, soften, y
 from flexcage.contacts.pocket_forces import (
     add_tangent,
     crossbeam_rates,
-    friction_power,
     push_by_crossbeam,
     push_by_side_beam,
     relative_motion,
@@ -22,9 +21,10 @@ from flexcage.contacts.pocket_wall import (
     read_stations,
 )
 from flexcage.contacts.slices import (
-    deepest,
     elastic_forces,
     friction_factors,
+    friction_power,
+    largest,
     normal_forces,
     stored_and_damped,
 )
@@ -61,12 +61,13 @@ def pocket_contact(
         condense(data, i, p, laws, guess, sl, pw)
     if mode == 1:
         clear_tangent(pw)
+    rel, spin = relative_motion(pose, xyz(Vc), xyz(wc), centre)
     any_contact = False
     for f in range(4):
         if pw.near[f] != 0 and _press(data, i, f, sl, pw):
             any_contact = True
-            _face(pose, data, i, f, Rw, centre, xyz(Vc), xyz(wc), qd, p[f], laws, sl, pw, pair,
-                  mode, sums)  # fmt: skip
+            _face(pose, data, i, f, Rw, centre[1], rel, spin, qd, p[f], laws, sl, pw, pair, mode,
+                  sums)  # fmt: skip
     if data.soft != 0:
         if mode == 1 and any_contact:
             soften(pw, pair)
@@ -88,32 +89,32 @@ def _press(data, i, f, sl, pw):
     else:
         for k in range(n):
             sl.d[k] = pw.face[f].d0[k]
-    return deepest(n, sl) > 0.0
+    return largest(n, sl.d) > 0.0
 
 
 @part
-def _face(pose, data, i, f, Rw, centre, Vc, wc, qd, p, laws, sl, pw, pair, mode, sums):
-    """Forces of face f, from the penetrations sl.d."""
+def _face(pose, data, i, f, Rw, distance, rel, spin, qd, p, laws, sl, pw, pair, mode, sums):
+    """Forces of face f, from the penetrations sl.d; ``distance`` of the roller's centre from the
+    bearing's axis; rel, spin: its motion less the cage's."""
     face, n, a = pw.face[f], points_of_face(data, f), row(pose.axis, 0)
     normal, friction = (laws[0], laws[2]) if f < 2 else (laws[1], laws[3])
-    rel, spin = relative_motion(pose, Vc, wc, centre)
     for c in range(3):
         read_stations(data, i, f, qd, c, pw.wall[c])
     wall_rates(n, face, pw.wall, sl)
     if f < 2:
         crossbeam_rates(data, f, Rw, a, rel, spin, face, sl, pw)
     else:
-        side_beam_rates(pose, data, f, centre[1], rel, spin, sl, pw, pair)
+        side_beam_rates(pose, data, f, distance, rel, spin, sl, pw, pair)
     normal_forces(normal, n, sl, p)
     friction_factors(friction, n, sl, data.friction[0 if f < 2 else 1])
     if f < 2:
         push_by_crossbeam(data, f, Rw, a, face, sl, pw, pair.wrench)
     else:
-        push_by_side_beam(pose, data, f, centre[1], sl, pw, pair)
+        push_by_side_beam(pose, data, f, distance, sl, pw, pair)
     spread_over_stations(n, f, face, sl, pw)
     give_stations(f, pw)
     if mode == 1:
-        add_tangent(pose, data, f, Rw, centre[1], sl, pw, pair)
+        add_tangent(pose, data, f, Rw, distance, sl, pw, pair)
     elif mode >= 2:
         if f < 2:
             for k in range(n):

@@ -28,6 +28,7 @@ from flexcage.core.vectors import (
     times,
     turned,
     turned_back,
+    xyz,
 )
 
 
@@ -35,9 +36,9 @@ from flexcage.core.vectors import (
 def wall_rates(n, face, wall, sl):
     """Velocity (x, r, psi) of the wall under every slice."""
     for k in range(n):
-        sl.w1[k] = mixed(face, k, wall[0])
-        sl.w2[k] = mixed(face, k, wall[1])
-        sl.w3[k] = mixed(face, k, wall[2])
+        sl.w1[k] = mixed(face.w, face, k, wall[0])
+        sl.w2[k] = mixed(face.w, face, k, wall[1])
+        sl.w3[k] = mixed(face.w, face, k, wall[2])
 
 
 @part(fastmath=VECTORISED)
@@ -232,16 +233,7 @@ def _add_residual(k, Nd, face, Wn, V, pw):
 
 
 @part
-def friction_power(n, sl):
-    """Power that friction takes [W]."""
-    power = 0.0
-    for k in range(n):
-        power -= sl.N[k] * sl.g[k] * sl.u[k] ** 2
-    return power
-
-
-@part
 def relative_motion(pose, Vc, wc, centre):
     """Velocity and angular velocity of the roller less those of the cage at its centre, in F."""
-    rel = minus(minus((pose.V[0], pose.V[1], pose.V[2]), Vc), cross(wc, centre))
-    return rel, minus((pose.w[0], pose.w[1], pose.w[2]), wc)
+    rel = minus(minus(xyz(pose.V), Vc), cross(wc, centre))
+    return rel, minus(xyz(pose.w), wc)

@@ -13,7 +13,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from flexcage.contacts.slices import MOST
+from flexcage.contacts.slices import MOST, largest
 from flexcage.core.jit import VECTORISED, part, zero
 from flexcage.core.splines import smooth_weights
 from flexcage.core.vectors import dot, row
@@ -163,20 +163,12 @@ def station_weight(face, k, n, s):
 
 
 @part
-def mixed(face, k, values):
-    """What slice k reads of the stations' values."""
+def mixed(weights, face, k, values):
+    """What slice k reads of the stations' values: with weights ``face.w``, or with ``face.ws`` the
+    slope of that along the face."""
     total, j = 0.0, face.j[k]
     for s in range(4):
-        total += face.w[s, k] * values[j + s]
-    return total
-
-
-@part
-def mixed_slope(face, k, values):
-    """The slope along the face of what slice k reads."""
-    total, j = 0.0, face.j[k]
-    for s in range(4):
-        total += face.ws[s, k] * values[j + s]
+        total += weights[s, k] * values[j + s]
     return total
 
 
@@ -214,15 +206,12 @@ def penetrations(pose, data, i, Rw, D, q, margin, pw):
         _follow(n, data.phi.shape[2], pw.wall[along], data.dx[f], face)
         _weigh(n, data.phi.shape[2], data.dx[f], face)
         for k in range(n):
-            face.d0[k] -= sgn * mixed(face, k, pw.wall[across])
-            face.slope[k] = sgn * mixed_slope(face, k, pw.wall[across])
+            face.d0[k] -= sgn * mixed(face.w, face, k, pw.wall[across])
+            face.slope[k] = sgn * mixed(face.ws, face, k, pw.wall[across])
         if data.bent[i, f] != 0:
             _add_offset(data, i, f, n, face)
-        most = face.d0[0]
-        for k in range(1, n):
-            most = max(most, face.d0[k])
-        pw.deep[f] = most
-        touch = touch or most > 0.0
+        pw.deep[f] = largest(n, face.d0)
+        touch = touch or pw.deep[f] > 0.0
     return touch
 
 

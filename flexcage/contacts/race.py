@@ -9,9 +9,10 @@ import numpy as np
 
 from flexcage.contacts.laws import rolling_force
 from flexcage.contacts.slices import (
-    deepest,
     elastic_forces,
     friction_factors,
+    friction_power,
+    largest,
     normal_forces,
     stored_and_damped,
 )
@@ -68,7 +69,7 @@ def race_contact(pose, side, Rw, P, b, Vr, wr, theta, p, law, friction, sl, pair
     _meet(side, Rw, ring_axis, x0, x1, v0, cross(spin, a), spin, sl)
     if side.wave[0] > 0.0:
         _ride_waves(pose, side, sqrt(dot(x0, x0)), ring_spin[0], theta, sl)
-    if deepest(n, sl) <= 0.0:
+    if largest(n, sl.d) <= 0.0:
         return False
     normal_forces(law, n, sl, p)
     friction_factors(friction, n, sl, side.friction)
@@ -129,17 +130,16 @@ def _push(side, Rw, a, ring_axis, sl, wrench):
 @part(fastmath=VECTORISED)
 def _report(side, Rw, a, sl, sums):
     """Normal force, traction, moments of the normal forces and friction power of the slices."""
-    normal = across = about_r = about_psi = power = 0.0
+    normal = across = about_r = about_psi = 0.0
     for k in range(side.s.shape[0]):
-        N, g = sl.N[k], sl.g[k]
+        N = sl.N[k]
         n = (sl.n1[k], sl.n2[k], sl.n3[k])
         m = cross(combine(times(side.s[k], a), side.drop[k] - Rw, n), n)
         normal += N
-        across -= N * g * sl.t2[k]
+        across -= N * sl.g[k] * sl.t2[k]
         about_r += N * m[1]
         about_psi += N * m[2]
-        power -= N * g * sl.u[k] ** 2
-    sums[0], sums[1], sums[7] = normal, across, power
+    sums[0], sums[1], sums[7] = normal, across, friction_power(side.s.shape[0], sl)
     sums[2] += about_r
     sums[3] += about_psi
     sums[4] = sl.t2[side.s.shape[0] // 2]

@@ -10,6 +10,7 @@ import numpy as np
 from flexcage.contacts.slices import (
     elastic_forces,
     friction_factors,
+    friction_power,
     normal_forces,
     stored_and_damped,
 )
@@ -96,10 +97,10 @@ def rib_contact(pose, data, P, b, Vr, wr, p, laws, sl, pair, mode, sums):
                 friction_tangent(pair.C, N, sl.g[k], sl.dg[k], sl.u[k], sl.t1[k], sl.t2[k], W1, W2)
             elif mode >= 2:
                 sums[f] += N
-                sums[4] -= N * sl.g[k] * sl.u[k] ** 2
         if mode >= 2:
             elastic_forces(law, count, sl, p[f])
             energy, damped = stored_and_damped(count, sl, p[f, 1])
             sums[2] += energy
             sums[3] += damped
+            sums[4] += friction_power(count, sl)
     return active

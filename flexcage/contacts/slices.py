@@ -69,12 +69,21 @@ def friction_factors(law, n, sl, p):
 
 
 @part(fastmath=VECTORISED)
-def deepest(n, sl):
-    """Largest penetration; negative if nothing touches."""
-    most = sl.d[0]
+def largest(n, values):
+    """Largest of the first n values."""
+    most = values[0]
     for k in range(1, n):
-        most = max(most, sl.d[k])
+        most = max(most, values[k])
     return most
+
+
+@part(fastmath=VECTORISED)
+def friction_power(n, sl):
+    """Power that friction takes from the slices [W], negative."""
+    power = 0.0
+    for k in range(n):
+        power -= sl.N[k] * sl.g[k] * sl.u[k] ** 2
+    return power
 
 
 @part(fastmath=VECTORISED)

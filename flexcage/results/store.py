@@ -215,6 +215,11 @@ class RunStore(MemoryRunStore):
             replace(path / SIDE / "commit.json", json.dumps(commit).encode())
         return cls(path, layout, commit, group)
 
+    @staticmethod
+    def begun(path: Path) -> bool:
+        """Whether a run has its place on disk, so that it can be opened and gone on with."""
+        return (path / SIDE / "commit.json").exists()
+
     @classmethod
     def open(cls, path: str | Path) -> RunStore:
         """Open a run, finished or not, for reading or for writing its next block."""

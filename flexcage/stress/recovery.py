@@ -109,13 +109,6 @@ class StressRecovery:
         total = forces + self.modal_forces(loads, forces)
         return self.solver.solve(total.reshape(-1, 1)).reshape(-1, 3)
 
-    def modal_displacement(self, q: np.ndarray, residual: np.ndarray | None = None) -> np.ndarray:
-        """Displacement (N, 3) of modal coordinates (n,) and residual ones (8 Z,): no solution."""
-        shift = self.basis.shapes @ q
-        if residual is not None and self.basis.residual is not None:
-            shift = shift + self.basis.residual.shapes @ residual
-        return shift
-
     def stress(self, displacement: np.ndarray) -> np.ndarray:
         """Smoothed stress (n_points, 6) [Pa] at the mesh's vertices."""
         return self.vertex_stress(displacement)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import logging
-import shutil
 import time
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
@@ -17,7 +16,7 @@ from flexcage.mesh.options import FINENESS
 from flexcage.results.files import load, save
 from flexcage.results.statistics import spread
 from flexcage.results.summary import Row, Summary
-from flexcage.run import write_case
+from flexcage.run import can_go_on, write_case
 from flexcage.simulate import simulate
 from flexcage.study.convergence import Convergence, Finding
 
@@ -160,10 +159,7 @@ def _figures_of(case: Case, folder: Path, progress: Any) -> Summary:
     if stored.exists():
         windows = load(kept) if kept.exists() else {}
         return Summary.from_json(stored.read_text("utf-8"), windows=windows)
-    resume = (folder / "results.zarr" / "_run" / "commit.json").exists()
-    if folder.exists() and not resume:  # stopped before its first block had a place
-        shutil.rmtree(folder)
-    summary = simulate(case, out=folder, resume=resume, progress=progress).summary
+    summary = simulate(case, out=folder, resume=can_go_on(folder), progress=progress).summary
     save(kept, {row.key: row.record.sums for row in summary if row.record is not None})
     return summary
 

@@ -6,7 +6,6 @@ is free. Whoever gets it goes on from the last block that the other had committe
 
 from __future__ import annotations
 
-import shutil
 import time
 from dataclasses import dataclass
 from pathlib import Path
@@ -18,8 +17,7 @@ from flexcage.core import jit
 from flexcage.core.errors import EnvironmentLacks, FlexcageError, InputError
 from flexcage.core.threads import on_one_core
 from flexcage.mesh.options import MeshOptions
-from flexcage.results.store import SIDE
-from flexcage.run import Run, write_case
+from flexcage.run import Run, can_go_on, write_case
 from flexcage.simulate import load_run, simulate
 from flexcage.stages import cage_mesh, cage_reduction
 from flexcage.study.folder import CaseRow, Failure, Folder
@@ -124,9 +122,7 @@ def _case_of(order: Order) -> Case:
 
 def _march(case: Case, part: Path, *, keep: str) -> Run:
     """Run the case in its folder, from the last committed block if there is one."""
-    begun = (part / "results.zarr" / SIDE / "commit.json").exists()
-    if part.exists() and not begun:
-        shutil.rmtree(part)
+    begun = can_go_on(part)
     if keep == "runs":
         return simulate(case, out=part, resume=begun)
     write_case(part, case)
