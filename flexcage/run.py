@@ -24,7 +24,7 @@ from flexcage.results.metrics import BearingNumbers
 from flexcage.results.statistics import roller_passes
 from flexcage.results.store import MemoryRunStore, RunStore
 from flexcage.results.summary import Row, Summary
-from flexcage.solve import bdf
+from flexcage.solve.contract import COUNTS
 from flexcage.stress.fields import StressFields
 from flexcage.stress.history import StressHistory, stress_history
 from flexcage.stress.loads import cage_loads, land_station_forces
@@ -219,7 +219,7 @@ class Run:
 
     def finish(self, recorder: Recorder) -> Run:
         """Complete a run that has come to its end: summary, stored beside the results."""
-        self.solver = recorder.state
+        self.solver = recorder
         self.summary = self._summarise()
         if self.folder:
             self.summary.write(self.folder)
@@ -283,16 +283,12 @@ class Run:
         ]  # fmt: skip
 
     def _solver_rows(self) -> list[Row]:
-        c = self.solver.count
-        names = {
-            "steps": bdf.STEPS,
-            "residuals": bdf.RESIDUALS,
-            "jacobians": bdf.JACOBIANS,
-            "factorisations": bdf.FACTORS,
-            "failed_error_tests": bdf.ERROR_FAILS,
-            "failed_newton": bdf.NEWTON_FAILS,
-        }
-        return [Row(k, k.replace("_", " ").capitalize(), int(c[i])) for k, i in names.items()]
+        count, bound = self.solver.state.count, self.solver.bound
+        rows = [Row(k, k.replace("_", " ").capitalize(), int(count[i])) for k, i in COUNTS.items()]
+        if np.isfinite(bound):
+            note = "least over the run, by the spectral radius"
+            rows.append(Row("stable_step", "Stability bound of explicit steps", bound, "us", note))
+        return rows
 
 
 def write_case(folder: Path, case: Case) -> None:

@@ -27,7 +27,8 @@ def kernel_sources() -> list[Path]:
     return sorted(
         p
         for p in _PACKAGE.rglob("*.py")
-        if p.parent.name == "solve" or "core.jit import" in p.read_text("utf-8")
+        if (p.parent.name == "solve" and p.name != "options.py")
+        or "core.jit import" in p.read_text("utf-8")
     )
 
 
@@ -68,7 +69,7 @@ LEAN = {**OPTIONS, "_nrt": False}
 VECTORISED = {"reassoc", "nsz", "contract"}  # fastmath: long sums may be added in any order
 # parts are inlined into their callers: handing large groups of arrays from one compiled function
 # to another costs more than the mathematics between; wrappers for Python double the compile time
-PART = {**LEAN, "forceinline": True, "no_cpython_wrapper": True, "no_cfunc_wrapper": True}
+PART = {**LEAN, "cache": False, "forceinline": True, "no_cpython_wrapper": True, "no_cfunc_wrapper": True}
 
 
 def kernel(*args: Any, **kwargs: Any) -> Any:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import logging
 from collections.abc import Callable
 from contextlib import nullcontext
 from typing import TYPE_CHECKING, Any
@@ -15,7 +16,8 @@ from flexcage.results.faults import PLACES, hardest, runaway
 from flexcage.results.options import OutputOptions
 from flexcage.results.registry import COMPUTED, VARIABLES
 from flexcage.results.store import MemoryRunStore, RunStore
-from flexcage.solve import bdf
+from flexcage.solve.contract import COUNTS, DONE, LOG_COLUMNS, LOG_FULL, OUTCOMES, T
+from flexcage.solve.integrators import INTEGRATORS
 from flexcage.solve.options import SolverOptions
 from flexcage.system.layout import CONSTRAINTS
 from flexcage.system.model import POWERS
@@ -25,6 +27,8 @@ from flexcage.system.start import Start
 
 if TYPE_CHECKING:
     import xarray
+
+log = logging.getLogger(__name__)
 
 ENERGIES = ("kinetic", "strain", "contact", "mount")
 FILTER_HZ = 10e3  # low-pass of outer_acceleration_filtered
@@ -91,29 +95,44 @@ class Recorder:
         solver: SolverOptions,
         output: OutputOptions,
     ) -> None:
-        self.bearing, self.store, self.output = bearing, store, output
+        self.bearing, self.store, self.solver, self.output = bearing, store, solver, output
         self._computed = _computed(store)
-        self.options = bdf.Options(
-            solver.max_order,
-            solver.max_step,
-            solver.min_step,
-            solver.newton_tolerance,
-            solver.max_steps,
-        )
-        weight = error_weights(bearing.data.model, bearing.layout, solver.tolerance)
-        self.state = bdf.new_state(
-            0.0, start.y, start.yd, weight=weight, h0=FIRST_STEP, n_quad=len(POWERS)
-        )
+        self.weight = error_weights(bearing.data.model, bearing.layout, solver.tolerance)
+        self.bound = np.inf  # [s] least stability bound of explicit steps so far
+        self._take("bdf" if solver.method == "auto" else solver.method, 0.0, start.y, start.yd)
         self._sos = butter(4, min(FILTER_HZ / (0.5 * output.vibration_rate), 0.95), output="sos")
         self._filter = np.zeros((self._sos.shape[0], 2, 2))
         saved = store.checkpoint()
         if saved is not None:
             self._restore(saved)
 
+    def _take(self, method: str, time: float, y: np.ndarray, yd: np.ndarray) -> None:
+        """Go on with this integrator from (time, y, y'); integrals and counters are kept."""
+        before = getattr(self, "state", None)
+        self.integrator = INTEGRATORS[method]
+        self.options = self.integrator.options(self.solver)
+        self.state = self.integrator.new_state(
+            time, y, yd, weight=self.weight, h0=FIRST_STEP, n_quad=len(POWERS)
+        )
+        if before is not None:
+            self.state.quad[:] = before.quad
+            self.state.count[: len(COUNTS)] = before.count[: len(COUNTS)]
+
+    def _choose(self) -> None:
+        """The integrator of the next block, by the stability bound of explicit steps there."""
+        y, yd = self.integrator.last(self.state)
+        step = self.bearing.stable_step(self.time, y, yd, self.weight)
+        self.bound = min(self.bound, step)
+        method = "explicit" if step >= self.solver.stable_step else "bdf"
+        if method != self.integrator.name:
+            log.debug("%s from t = %.4f ms on: explicit steps up to %.3g us are stable", method,
+                      self.time * 1e3, step * 1e6)  # fmt: skip
+            self._take(method, self.time, y, yd)
+
     @property
     def time(self) -> float:
         """Bearing time reached [s]."""
-        return float(self.state.real[bdf.T])
+        return float(self.state.real[T])
 
     def march(self, progress: Callable[..., Any] | None = None) -> None:
         """Integrate the blocks that the store lacks; ``progress`` as core.progress.Progress."""
@@ -133,27 +152,37 @@ class Recorder:
         n = len(times)
         ys, yds = np.zeros((n, layout.size)), np.zeros((n, layout.size))
         quads = np.zeros((n, len(POWERS)))
-        self.state.count[bdf.HAVE_J] = 0  # a resumed run then repeats an unbroken one bit by bit
-        self.state.real[bdf.ALPHA] = 0.0
+        self.integrator.refresh(self.state)  # a resumed run repeats an unbroken one bit by bit
+        if self.solver.method == "auto":
+            self._choose()
         self.bearing.data.events.fill[0] = 0
-        logs, sample, outcome = [], 0, bdf.LOG_FULL
-        while outcome == bdf.LOG_FULL:
-            log = np.zeros((20_000, len(bdf.LOG_COLUMNS)))
+        logs, sample, outcome = [], 0, LOG_FULL
+        while outcome == LOG_FULL:
+            log = np.zeros((20_000, len(LOG_COLUMNS)))
             outcome, sample, rows = self.bearing.advance(
-                self.state, self.options, times[-1], times, ys, yds, sample, log, quads
+                self.integrator,
+                self.state,
+                self.options,
+                times[-1],
+                times,
+                ys,
+                yds,
+                sample,
+                log,
+                quads,
             )
             logs.append(log[:rows])
         done, deep = sample // ratio, runaway(self.bearing, ys[ratio - 1 : sample : ratio])
         if deep:
             done = deep[0]
-        whole = outcome == bdf.DONE and not deep
+        whole = outcome == DONE and not deep
         if done:  # a solver that stops before the first sample leaves nothing to write
             main = slice(ratio - 1, done * ratio, ratio)
             arrays = self._arrays(ys[main], yds[main], done)
             arrays["work"] = quads[main]
             arrays |= self._registered(arrays)
             fine = self._fine(yds[: done * ratio], done * ratio)
-            steps = dict(zip(bdf.LOG_COLUMNS, np.concatenate(logs).T, strict=True))
+            steps = dict(zip(LOG_COLUMNS, np.concatenate(logs).T, strict=True))
             checkpoint = self._checkpoint() if whole else None
             self.store.write_block(index, arrays, fine, checkpoint, steps, self._events())
         if deep:
@@ -169,11 +198,11 @@ class Recorder:
 
     def _stopped(self, outcome: int) -> str:
         """Keep the last accepted state; the sentence that says when and where this was."""
-        y, yd = self.state.D[0].copy(), self.state.D[1] / self.state.real[bdf.H]
+        y, yd = self.integrator.last(self.state)
         self.store.keep_last({"time": self.time, "y": y, "yd": yd})
         place = hardest(self.bearing, self.time, y, yd)
         return (
-            f"the solver stopped at t = {self.time * 1e3:.4f} ms: {bdf.OUTCOMES[outcome]}; the "
+            f"the solver stopped at t = {self.time * 1e3:.4f} ms: {OUTCOMES[outcome]}; the "
             f"hardest contact then was {place}; what was computed is kept"
         )
 
@@ -260,7 +289,7 @@ class Recorder:
         }
 
     def _parts(self) -> dict[str, np.ndarray]:
-        state = {k: getattr(self.state, k) for k in ("D", "real", "count", "quad", "power")}
+        state = self.integrator.checkpoint(self.state)
         memory = {f"memory_{k}": v for k, v in self.bearing.data.memory._asdict().items()}
         events = self.bearing.data.events
         kept = {
@@ -270,9 +299,13 @@ class Recorder:
         return {**state, **memory, **kept, "filter": self._filter}
 
     def _checkpoint(self) -> dict[str, np.ndarray]:
-        return {k: v.copy() for k, v in self._parts().items()}
+        kept = {k: v.copy() for k, v in self._parts().items()}
+        return {**kept, "integrator": np.array(self.integrator.name), "bound": np.array(self.bound)}
 
     def _restore(self, saved: dict[str, np.ndarray]) -> None:
+        y, yd = self.integrator.last(self.state)
+        self._take(str(saved["integrator"]), 0.0, y, yd)
+        self.bound = float(saved["bound"])
         for name, array in self._parts().items():
             array[...] = saved[name]
 

@@ -29,6 +29,7 @@ SHOWN: dict[str, tuple[str, float]] = {
     "mJ": ("J", 1e3),
     "s": ("s", 1.0),
     "ms": ("s", 1e3),
+    "us": ("s", 1e6),
     "deg": ("rad", 180.0 / pi),
     "Hz": ("Hz", 1.0),
     "kHz": ("Hz", 1e-3),

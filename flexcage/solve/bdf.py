@@ -23,28 +23,35 @@ within ten steps, the mark of lightly damped fast oscillation.
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
+
+from flexcage.solve.contract import (
+    DONE,
+    ERROR_FAILS,
+    FACTORS,
+    JACOBIANS,
+    LOG_FULL,
+    NEWTON_FAILS,
+    NOT_FINITE,
+    RESIDUALS,
+    STEPS,
+    TOO_MANY,
+    TOO_SMALL,
+    H,
+    Integrator,
+    T,
+)
 
 MAX_ORDER = 5
 KAPPA = (0.0, -0.1850, -1.0 / 9.0, -0.0823, -0.0415, 0.0)  # Shampine and Reichelt, table 1
 NEWTON_MAX = 4
 GUARD_STEPS = 200
 JACOBIAN_AGE = 60
-# outcomes of ``advance``
-DONE, LOG_FULL, TOO_SMALL, TOO_MANY, NOT_FINITE = 0, 1, 2, 3, 4
-OUTCOMES = {
-    TOO_SMALL: "the step fell below solver.min_step: a contact is too stiff for the tolerance, "
-    "or bodies overlap; look at the start, or loosen solver.tolerance",
-    TOO_MANY: "solver.max_steps was reached; raise it or shorten solver.duration",
-    NOT_FINITE: "a value became infinite or not a number; look at stiffness and damping inputs",
-}
-# entries of BDFState.real and .count
-T, H, ALPHA, RATE, H_LAST = range(5)
-(ORDER, EQUAL, STEPS, RESIDUALS, JACOBIANS, FACTORS, ERROR_FAILS, NEWTON_FAILS, AGE, HAVE_J,
- GUARD, RECENT, ITERATIONS, FAILS) = range(14)  # fmt: skip
-LOG_COLUMNS = ("time", "step", "order", "newton", "error")
+# entries of BDFState.real and .count beyond those of ``contract``
+ALPHA, RATE, H_LAST = range(2, 5)
+ORDER, EQUAL, AGE, HAVE_J, GUARD, RECENT, ITERATIONS, FAILS, BEGUN = range(7, 16)
 
 
 class BDFState(NamedTuple):
@@ -52,7 +59,7 @@ class BDFState(NamedTuple):
 
     D: np.ndarray  # (MAX_ORDER + 3, n) backward differences
     real: np.ndarray  # (5,) t, h, alpha of the factors, convergence rate, last accepted h
-    count: np.ndarray  # type: ignore[assignment]  # (14,) order and counters
+    count: np.ndarray  # type: ignore[assignment]  # (16,) counters of ``contract``, order and more
     weight: np.ndarray  # (n,) 1/allowed local error; 0: not in the error test
     quad: np.ndarray  # (n_quad,) integrals
     power: np.ndarray  # (2, n_quad) integrands at the last and the present point
@@ -77,7 +84,7 @@ def new_state(t0: float, y0, yd0, *, weight, h0: float, n_quad: int = 0) -> BDFS
     kappa = np.array(KAPPA)
     gamma = np.concatenate([[0.0], np.cumsum(1.0 / np.arange(1, MAX_ORDER + 1))])
     error = kappa * gamma + 1.0 / np.arange(1, MAX_ORDER + 2)
-    count = np.zeros(14, np.int64)
+    count = np.zeros(16, np.int64)
     count[ORDER] = 1
     return BDFState(
         D, np.array([t0, h0, 0.0, 1.0, h0]), count, np.array(weight, float), np.zeros(n_quad),
@@ -205,17 +212,15 @@ def correct(fns, data, st, opt, t_new, c):
 
 
 def advance(fns, data, st, opt, t_end, times, ys, yds, first, log, quads):
-    """Integrate until t_end, filling samples ``ys, yds, quads`` at ``times`` from index ``first``.
-
-    ``log`` takes one row a step. Returns (outcome, next sample, log rows).
-    """
+    """Integrate until t_end; see ``contract``."""
     accepted, observe = fns[4], fns[5]
     y_p, psi, d = st.vec[0], st.vec[1], st.vec[2]
     y, yd, r = st.vec[3], st.vec[4], st.vec[5]
     D, count, real = st.D, st.count, st.real
     n = D.shape[1]
     sample, row = first, 0
-    if count[STEPS] == 0:  # the start counts as accepted
+    if count[BEGUN] == 0:  # the start counts as accepted
+        count[BEGUN] = 1
         for k in range(n):
             y[k] = D[0, k]
             yd[k] = D[1, k] / real[H]
@@ -339,3 +344,29 @@ def _choose(st, opt, error):
     change_step(D, new, factor)
     real[H] *= factor
     count[EQUAL] = 0
+
+
+def _options(solver: Any) -> Options:
+    return Options(
+        solver.max_order, solver.max_step, solver.min_step, solver.newton_tolerance,
+        solver.max_steps,
+    )  # fmt: skip
+
+
+def _refresh(state: BDFState) -> None:
+    """Forget the Jacobian and its factors: a resumed run has none."""
+    state.count[HAVE_J] = 0
+    state.real[ALPHA] = 0.0
+
+
+BDF = Integrator(
+    name="bdf",
+    advance=advance,
+    functions=("residual", "linearise", "factor", "backsolve", "accepted", "observe"),
+    helpers=("change_step", "interpolate", "worst", "correct", "_choose"),
+    options=_options,
+    new_state=new_state,
+    kept=("D", "real", "count", "quad", "power"),
+    refresh=_refresh,
+    last=lambda state: (state.D[0].copy(), state.D[1] / state.real[H]),
+)

@@ -21,7 +21,8 @@ from flexcage.core.errors import InputError, RunFailed
 from flexcage.geometry.kinematics import epicyclic
 from flexcage.system.layout import Layout
 from flexcage.system.model import Model
-from flexcage.system.problem import Bearing, newton_step
+from flexcage.system.newton import assemble, newton_step
+from flexcage.system.problem import Bearing
 from flexcage.system.spec import StartOptions
 
 log = logging.getLogger(__name__)
@@ -137,22 +138,25 @@ class _Frictionless:
         self.out = np.zeros(bearing.layout.size)
 
     def residual(self, y: np.ndarray, yd: np.ndarray) -> np.ndarray:
-        self.bearing.functions[0](0.0, y, yd, self.args, self.out)
+        self._evaluate(y, yd, 0)
         return self.out.copy()
 
+    def _evaluate(self, y: np.ndarray, yd: np.ndarray, mode: int) -> None:
+        self.bearing.evaluate(0.0, y, yd, self.args[0], self.args[1], self.out, mode)
+
     def report(self, y: np.ndarray, yd: np.ndarray):
-        self.bearing.evaluate(0.0, y, yd, self.args[0], self.args[1], self.out, 2)
+        self._evaluate(y, yd, 2)
         return self.data.work.report
 
     def step(self, y, yd, r, alpha: float, held: Held) -> np.ndarray:
         """Displacement step dq of the implicit Euler step 1/alpha from rest."""
         tangent = self.data.work.tangent
-        self.bearing.functions[1](0.0, y, yd, self.args)
+        self._evaluate(y, yd, 1)
         roller, row = np.nonzero(held.rollers)
         tangent.Krr[roller, row, row] += _HOLD
         row = _CAGE_ROW + np.flatnonzero(held.cage)
         tangent.Kbb[row, row] += _HOLD
-        if not self.bearing.functions[2](alpha, self.args):
+        if not assemble(alpha, self.data.model.bodies, tangent, self.data.matrix):
             raise RunFailed("the start's equilibrium has a singular matrix; is a body massless?")
         r = r.copy()
         newton_step(alpha, y, r, tangent, self.data.matrix)

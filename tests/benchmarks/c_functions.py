@@ -22,6 +22,7 @@ from flexcage.system.problem import Bearing
 
 _POINTER, _REAL = types.CPointer(types.float64), types.float64
 _HELD = 4096  # bytes kept for the arguments of a bearing
+_NAMES = ("residual", "linearise", "factor", "backsolve", "accepted", "rates")
 
 
 @intrinsic
@@ -76,16 +77,17 @@ def reader(kind: types.Type) -> Any:
 
 
 class CFunctions:
-    """``residual``, ``setup``, ``solve`` and ``accepted`` of a bearing, on float64 arrays.
+    """A bearing's ``residual``, ``rates``, ``setup``, ``solve``, ``accepted``, on float64 arrays.
 
     A snapshot: it calls the bearing with the arguments of the moment when it was made.
     """
 
     def __init__(self, bearing: Bearing) -> None:
-        functions, data = bearing._advance.signatures[0][:2]
-        both = types.Tuple((functions, data))
+        kinds = tuple(types.FunctionType(bearing.signature(name)) for name in _NAMES)
+        both = types.Tuple((types.Tuple(kinds), bearing.data_type))
         self.bearing, self.size = bearing, bearing.layout.size
-        self._keep = (bearing.functions, bearing.args)  # what the memory below refers to
+        functions = tuple(bearing.function(name) for name in _NAMES)
+        self._keep = (functions, bearing.args)  # what the memory below refers to
         self._memory = np.zeros(_HELD, np.uint8)
         self.address = self._memory.ctypes.data
         _store(both)(self.address, self._keep)
@@ -113,15 +115,24 @@ class CFunctions:
             fns, data = read(address)
             fns[4](t, vector(y, n), vector(yd, n), data, vector(power, powers))
 
+        def rates(t, y, yd):
+            fns, data = read(address)
+            fns[5](t, vector(y, n), vector(yd, n), data, vector(yd, 0))
+
         three = (_REAL, _POINTER, _POINTER)
         self._residual = c_function(residual, types.void(*three, _POINTER))
         self._setup = c_function(setup, types.int64(*three, _REAL))
         self._solve = c_function(solve, types.void(*three))
         self._accepted = c_function(accepted, types.void(*three, _POINTER))
+        self._rates = c_function(rates, types.void(*three))
 
     def residual(self, t: float, y: np.ndarray, yd: np.ndarray, out: np.ndarray) -> None:
         """F(t, y, y') into ``out``."""
         self._residual(t, y.ctypes.data, yd.ctypes.data, out.ctypes.data)
+
+    def rates(self, t: float, y: np.ndarray, yd: np.ndarray) -> None:
+        """y' into ``yd``, and into y what the constraints hold."""
+        self._rates(t, y.ctypes.data, yd.ctypes.data)
 
     def setup(self, t: float, y: np.ndarray, yd: np.ndarray, alpha: float) -> None:
         """Factor dF/dy + alpha dF/dy' in bordered blocks."""

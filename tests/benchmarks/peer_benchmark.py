@@ -13,7 +13,7 @@ import numpy as np
 from peers import Path as Integration
 from peers import Peers
 from settled import Forces, Settled
-from solver_benchmark import COUNTS, NUDGE, SHARE, STEP_SHARE, kernel_times, second_method
+from solver_benchmark import COUNTS, LOOSER, NUDGE, REFERENCE, kernel_times, second_method
 
 import flexcage
 
@@ -30,10 +30,9 @@ PEERS = {  # key of the ratio: curves of which the cheapest counts
     "scipy_bdf": ("SciPy BDF",),
     "scipy_radau": ("SciPy Radau",),
     "lsoda": ("LSODA",),
-    "explicit": ("Runge-Kutta 4",),
+    "bdf": ("flexcage BDF, order 2", "flexcage BDF, order 5"),
 }
 SHARES = (30.0, 10.0, 3.0, 1.0, 0.3, 0.1, 0.03, 0.01, 3e-3, 1e-3)  # of the default tolerance
-STEPS = (5e-6, 2.5e-6, 5e-6 / 3, 1.25e-6, 1e-6, 0.5e-6)  # [s] of the explicit method
 GROUPS: dict[str, Callable[[tuple[float, float]], float]] = {
     "larger": max, "race": lambda error: error[0], "cage": lambda error: error[1],
 }  # fmt: skip
@@ -62,9 +61,9 @@ def measure(case: flexcage.Case, *, plot: Path | None = None) -> dict[str, Any]:
         raise SystemExit("peer needs SUNDIALS: install scikit-sundae, as the extra 'peer' does")
     settled = Settled(case)
     peers = Peers(settled, WINDOW)
-    reference = _forces(peers, _flexcage(peers, SHARE, step_share=STEP_SHARE))
-    looser = _forces(peers, _flexcage(peers, 10.0 * SHARE, step_share=STEP_SHARE))
-    aside = _forces(peers, _flexcage(peers, SHARE, step_share=STEP_SHARE, aside=NUDGE))
+    reference = _forces(peers, _flexcage(peers, **REFERENCE))
+    looser = _forces(peers, _flexcage(peers, **LOOSER))
+    aside = _forces(peers, _flexcage(peers, **REFERENCE, aside=NUDGE))
     second = second_method(settled, peers.times)
     curves = _curves(peers, reference)
     if plot is not None:
@@ -100,15 +99,17 @@ def _methods() -> dict[str, tuple[Callable[[Peers, float], Integration], Sequenc
 
     return {
         "flexcage": (_flexcage, SHARES),
-        "flexcage, order 5": (lambda p, share: _flexcage(p, share, max_order=5), SHARES),
+        "flexcage BDF, order 2": (lambda p, share: _flexcage(p, share, method="bdf"), SHARES),
+        "flexcage BDF, order 5": (
+            lambda p, share: _flexcage(p, share, method="bdf", max_order=5), SHARES,
+        ),
         "IDA, order 2": (lambda p, share: p.ida(share, max_order=2), SHARES),
         "IDA, order 5": (lambda p, share: p.ida(share, max_order=5), SHARES),
         "IDA, dense matrix": (lambda p, share: p.ida(share, max_order=5, dense=True), SHARES[1:]),
         "SciPy BDF": (scipy("BDF"), SHARES[1:]),
         "SciPy Radau": (scipy("Radau"), SHARES[2:9:2]),
         "LSODA": (scipy("LSODA"), SHARES[1:9]),
-        "Runge-Kutta 4": (lambda p, step: p.runge_kutta(step), STEPS),
-    }
+    }  # fmt: skip
 
 
 def _flexcage(peers: Peers, share: float, **options: Any) -> Integration:

@@ -11,7 +11,6 @@ their own dense output.
   its direct solvers, the correction is scaled by 2/(1 + c_j/c_j of the factors). ``dense`` instead
   gives it the same matrix whole, for its own LAPACK solver.
 * SciPy's BDF, Radau and LSODA take x' = f(t, x) with the tangent as their dense Jacobian.
-* The explicit method is the classical Runge-Kutta method of order 4 at a fixed step, compiled.
 """
 
 from __future__ import annotations
@@ -122,20 +121,6 @@ class Peers:
                 sample += 1
         cpu = process_time() - begin
         return self._path(cpu, int(solver.nfev), int(solver.njev), steps, xs)
-
-    def runge_kutta(self, step: float) -> Path:
-        """The explicit method at a step [s] that divides the sampling interval."""
-        y, yd = self.settled.restore()
-        x = y[: self.ode.size].copy()
-        every = round(1.0 / (RATE * step))
-        xs = np.empty((len(self.times), len(x)))
-        begin = process_time()
-        self.c.accepted(SETTLE, y, yd)
-        for k, end in enumerate(self.times):
-            self.ode.runge_kutta(end - 1.0 / RATE, x, 1.0 / (RATE * every), every)
-            xs[k] = x
-        cpu, steps = process_time() - begin, every * len(self.times)
-        return self._path(cpu, 4 * steps, 0, steps, xs)
 
     def _path(self, cpu: float, residuals: int, jacobians: int, steps: int, xs) -> Path:
         """A path of the ODE form; forces do not depend on y'."""

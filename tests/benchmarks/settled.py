@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import dataclasses
 from collections.abc import Sequence
 from dataclasses import dataclass
 from time import process_time
+from typing import Any
 
 import numpy as np
 
@@ -14,7 +16,9 @@ from flexcage.core.hashing import content_hash
 from flexcage.core.jit import kernel_sources, source_hash
 from flexcage.results.recording import FIRST_STEP
 from flexcage.simulate import build_bearing, cage_mesh, cage_reduction
-from flexcage.solve import bdf
+from flexcage.solve.contract import DONE, LOG_FULL, OUTCOMES
+from flexcage.solve.integrators import INTEGRATORS
+from flexcage.solve.options import SolverOptions
 from flexcage.system.model import POWERS
 from flexcage.system.problem import new_samples
 from flexcage.system.scales import error_weights
@@ -42,11 +46,11 @@ class Forces:
 
 @dataclass(frozen=True)
 class Outcome:
-    """An integration: processor time, counts, last state, and what the samples hold."""
+    """An integration: processor time, counts, integrals, and what the samples hold."""
 
     cpu: float
     count: np.ndarray
-    state: bdf.BDFState
+    quad: np.ndarray
     ys: np.ndarray
     yds: np.ndarray
 
@@ -64,18 +68,10 @@ class Settled:
     def _settle(self) -> dict[str, np.ndarray]:
         start = find_start(self.bearing, limit_force=self.case.limits.assembly_force)
         self._sample(10, 1)
-        out = self._advance(0.0, start.y, start.yd, np.array([SETTLE]), self.options())
+        out = self._advance(0.0, start.y, start.yd, np.array([SETTLE]), self.case.solver)
         memory = {f"memory_{k}": v for k, v in self.bearing.data.memory._asdict().items()}
         closed = self.bearing.data.events.closed
         return {"y": out.ys[-1], "yd": out.yds[-1], "closed": closed.copy(), **memory}
-
-    def options(
-        self, *, max_step: float | None = None, max_order: int | None = None
-    ) -> bdf.Options:
-        s = self.case.solver
-        step = s.max_step if max_step is None else max_step
-        order = s.max_order if max_order is None else max_order
-        return bdf.Options(order, step, 1e-16, s.newton_tolerance, 10**9)
 
     def restore(self) -> tuple[np.ndarray, np.ndarray]:
         """Put law memory and contact flags back; y and y' of the stored state."""
@@ -93,20 +89,20 @@ class Settled:
         share: float = 1.0,
         step_share: float = 1.0,
         aside: float = 0.0,
-        max_order: int | None = None,
+        **options: Any,
     ) -> Outcome:
         """Integrate from the stored state with tolerance and largest step cut to these shares.
 
-        ``aside`` [m] moves the cage by so much first; ``max_order`` is the case's by default.
+        ``aside`` [m] moves the cage by so much first; ``options`` change those of the solver.
         """
         y, yd = self.restore()
         self.bearing.layout.q(y)["cage"][1] += aside
         n = round(duration * RATE)
         self._sample(n // stride + 1, stride)
-        max_step = self.case.solver.max_step * step_share
-        options = self.options(max_step=max_step, max_order=max_order)
+        own = self.case.solver
+        solver = dataclasses.replace(own, max_step=own.max_step * step_share, **options)
         times = SETTLE + np.arange(1, n + 1) / RATE
-        return self._advance(SETTLE, y, yd, times, options, share=share)
+        return self._advance(SETTLE, y, yd, times, solver, share=share)
 
     def _sample(self, rows: int, stride: int) -> None:
         b = self.bearing
@@ -119,24 +115,25 @@ class Settled:
         y: np.ndarray,
         yd: np.ndarray,
         times: Sequence[float] | np.ndarray,
-        options: bdf.Options,
+        solver: SolverOptions,
         share: float = 1.0,
     ) -> Outcome:
         b, times = self.bearing, np.asarray(times)
-        weight = error_weights(b.data.model, b.layout, self.case.solver.tolerance * share)
-        state = bdf.new_state(t0, y, yd, weight=weight, h0=FIRST_STEP, n_quad=len(POWERS))
+        method = INTEGRATORS["explicit" if solver.method == "auto" else solver.method]
+        weight = error_weights(b.data.model, b.layout, solver.tolerance * share)
+        state = method.new_state(t0, y, yd, weight=weight, h0=FIRST_STEP, n_quad=len(POWERS))
         ys, yds = np.zeros((len(times), len(y))), np.zeros((len(times), len(y)))
         quads = np.zeros((len(times), len(POWERS)))
-        log, sample, outcome, cpu = np.zeros((50_000, 5)), 0, bdf.LOG_FULL, 0.0
-        while outcome == bdf.LOG_FULL:
+        log, sample, outcome, cpu = np.zeros((50_000, 5)), 0, LOG_FULL, 0.0
+        while outcome == LOG_FULL:
             begin = process_time()
             outcome, sample, _ = b.advance(
-                state, options, times[-1], times, ys, yds, sample, log, quads
+                method, state, method.options(solver), times[-1], times, ys, yds, sample, log, quads
             )
             cpu += process_time() - begin
-        if outcome != bdf.DONE:
-            raise RuntimeError(f"the integrator stopped: {bdf.OUTCOMES[outcome]}")
-        return Outcome(cpu, state.count.copy(), state, ys, yds)
+        if outcome != DONE:
+            raise RuntimeError(f"the integrator stopped: {OUTCOMES[outcome]}")
+        return Outcome(cpu, state.count.copy(), state.quad.copy(), ys, yds)
 
     def forces(self, ys: np.ndarray, yds: np.ndarray, times: np.ndarray) -> Forces:
         """Forces at sampled states, evaluated anew: normal and traction of every race contact;

@@ -6,29 +6,25 @@ from statistics import median
 from time import process_time
 from typing import Any
 
+import implicit_runge_kutta
 import numba
 import numpy as np
-import runge_kutta
 from numba import types
 from settled import RATE, SETTLE, Forces, Settled
 
 import flexcage
-from flexcage.solve import bdf
+from flexcage.solve.bdf import BDF
+from flexcage.solve.contract import COUNTS
 from flexcage.system.scales import error_weights
 
 WINDOW = 3e-3  # [s] compared with the reference
 SHARE, STEP_SHARE = 1e-5, 2e-2  # of tolerance and largest step: the reference
+FINE = 1e-4  # of tolerance: the explicit method beside the reference
 NUDGE = 1e-12  # [m] by which the cage is moved at the start, to see how errors grow
 SECOND_STEP = 0.05e-6  # [s] of the second method
 ALPHA = 1.0 / 2e-6  # [1/s] of the timed factorisation
-COUNTS = {
-    "steps": bdf.STEPS,
-    "residuals": bdf.RESIDUALS,
-    "jacobians": bdf.JACOBIANS,
-    "factorisations": bdf.FACTORS,
-    "failed_error_tests": bdf.ERROR_FAILS,
-    "failed_newton": bdf.NEWTON_FAILS,
-}
+REFERENCE: dict[str, Any] = {"method": "bdf", "share": SHARE, "step_share": STEP_SHARE}
+LOOSER = {**REFERENCE, "share": 10.0 * SHARE}
 
 
 def measure(case: flexcage.Case) -> dict[str, Any]:
@@ -36,33 +32,41 @@ def measure(case: flexcage.Case) -> dict[str, Any]:
     settled = Settled(case)
     revolution = 2.0 * np.pi / abs(case.drive.speed)
     stride = case.output.vibration_ratio
-    settled.integrate(1e-4, stride=stride)  # kernels are loaded
-    timed = [settled.integrate(revolution, stride=stride) for _ in range(3)]
+    timed: dict[str, Any] = {}
+    for method in ("explicit", "bdf"):
+        settled.integrate(1e-4, stride=stride, method=method)  # kernels are loaded
+        timed[method] = [
+            settled.integrate(revolution, stride=stride, method=method) for _ in range(3)
+        ]
     times = SETTLE + np.arange(1, round(WINDOW * RATE) + 1) / RATE
 
-    def window(share: float = 1.0, step_share: float = 1.0) -> Forces:
-        out = settled.integrate(WINDOW, stride=1, share=share, step_share=step_share)
+    def window(**options: Any) -> Forces:
+        out = settled.integrate(WINDOW, stride=1, **options)
         return settled.forces(out.ys, out.yds, times)
 
-    reference = window(SHARE, STEP_SHARE)
+    reference = window(**REFERENCE)
     default = window()
     error = default.error(reference)
-    aside = settled.integrate(WINDOW, stride=1, share=SHARE, step_share=STEP_SHARE, aside=NUDGE)
+    aside = settled.integrate(WINDOW, stride=1, aside=NUDGE, **REFERENCE)
+    fine = window(method="explicit", share=FINE)
     touching = np.abs(reference.cage).max(axis=(1, 2)) > 1e-3
     return {
-        "cpu_s_per_revolution": round(median(t.cpu for t in timed), 4),
+        "cpu_s_per_revolution": round(median(t.cpu for t in timed["explicit"]), 4),
+        "bdf_cpu_s_per_revolution": round(median(t.cpu for t in timed["bdf"]), 4),
         "force_error": float(f"{max(error):.3e}"),
         "force_error_race": float(f"{error[0]:.3e}"),
         "force_error_cage": float(f"{error[1]:.3e}"),
         "force_error_by_ms": [_larger(default, reference, n) for n in (200, 400, 600)],
         "window_contact": round(float(touching.mean()), 3),
         "reference": {
-            "tolerance_next": _pair(window(10.0 * SHARE, STEP_SHARE).error(reference)),
+            "tolerance_next": _pair(window(**LOOSER).error(reference)),
+            "explicit": _pair(fine.error(reference)),
             "second_method": _pair(second_method(settled, times).error(reference)),
             "nudged": _pair(settled.forces(aside.ys, aside.yds, times).error(reference)),
         },
         **kernel_times(settled),
-        **{name: int(timed[0].count[i]) for name, i in COUNTS.items()},
+        **{name: int(timed["explicit"][0].count[i]) for name, i in COUNTS.items()},
+        **{f"bdf_{name}": int(timed["bdf"][0].count[i]) for name, i in COUNTS.items()},
         "unknowns": settled.bearing.layout.size,
         "tolerance_um": case.solver.tolerance * 1e6,
     }
@@ -81,7 +85,7 @@ def second_method(settled: Settled, times: np.ndarray) -> Forces:
     """Forces at the times by the second method."""
     y, yd = settled.restore()
     layout, model = settled.bearing.layout, settled.bearing.data.model
-    ys, yds = runge_kutta.integrate(
+    ys, yds = implicit_runge_kutta.integrate(
         settled.bearing, SETTLE, y, yd,
         weight=error_weights(model, layout, settled.case.solver.tolerance),
         step=SECOND_STEP, every=round(1.0 / (RATE * SECOND_STEP)), samples=len(times),
@@ -95,17 +99,17 @@ def kernel_times(settled: Settled) -> dict[str, float]:
     b = settled.bearing
     peak = int(b.data.samples.pocket_normal.max(axis=(1, 2))[: len(out.ys)].argmax())
     y, yd, t = out.ys[peak], out.yds[peak], SETTLE + (peak + 1) / RATE
-    functions, data = b._advance.signatures[0][:2]
+    functions, data = b.function_types(BDF), b.data_type
     f8, i8, vector = types.float64, types.int64, types.Array(types.float64, 1, "C")
     signature = types.void(functions, data, i8, i8, f8, vector, vector, vector, vector)
     compiled = numba.njit(signature)(_repeat)
     r = b.residual(t, y, yd)
-    b.functions[1](t, y, yd, b.args)
-    b.functions[2](ALPHA, b.args)
+    b.function("linearise")(t, y, yd, b.args)
+    b.function("factor")(ALPHA, b.args)
 
     def seconds(which: int, number: int) -> float:
         begin = process_time()
-        compiled(b.functions, b.args, which, number, t, y, yd, r, np.empty_like(r))
+        compiled(b.functions(BDF), b.args, which, number, t, y, yd, r, np.empty_like(r))
         return process_time() - begin
 
     names = ("residual_us", "tangent_us", "factor_us", "solve_us")

@@ -5,7 +5,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
@@ -22,6 +22,9 @@ from flexcage.modes.registry import register_basis
 from flexcage.modes.spec import ModesSpec
 from flexcage.render import register_picture
 from flexcage.results.registry import Variable, register
+from flexcage.solve.contract import DONE, LOG_FULL, RESIDUALS, STEPS, T
+from flexcage.solve.integrators import register_integrator
+from flexcage.solve.runge_kutta import EXPLICIT_METHOD
 
 # ------------------------------------------------------------------- a normal law with own values
 
@@ -111,6 +114,52 @@ def pocket_shapes(solver, *, pocket_count, spec):
 
 
 register_basis("pocket_shapes", pocket_shapes, spec=PocketShapes)
+
+# ------------------------------------------------------------------------------- an integrator
+
+
+def heun(fns, data, st, opt, t_end, times, ys, yds, first, log, quads):
+    """Heun's method at steps of ``solver.max_step``; samples lie on lines between the points."""
+    rates, note, sample = fns
+    y, K, end, power, real, count = st.y, st.K, st.Y[0], st.power, st.real, st.count
+    done, row = first, 0
+    rates(real[T], y, K[0], data, power[0])
+    if count[STEPS] == 0:
+        note(real[T], data)
+    while real[T] < t_end:
+        if row == len(log):
+            return LOG_FULL, done, row
+        h = (t_end - real[T]) / np.ceil((t_end - real[T]) / opt.h_max - 1e-9)
+        for k in range(len(y)):
+            end[k] = y[k] + h * K[0, k]
+        rates(real[T] + h, end, K[1], data, power[1])
+        for k in range(len(y)):
+            end[k] = y[k] + 0.5 * h * (K[0, k] + K[1, k])
+        rates(real[T] + h, end, K[1], data, power[1])
+        real[T] += h
+        note(real[T], data)
+        while done < len(times) and times[done] <= real[T] + 1e-12 * h:
+            x = 1.0 - (real[T] - times[done]) / h
+            for k in range(len(y)):
+                ys[done, k] = y[k] + x * (end[k] - y[k])
+                yds[done, k] = K[0, k] + x * (K[1, k] - K[0, k])
+            for k in range(len(st.quad)):
+                quads[done, k] = st.quad[k] + x * h * power[0, k]
+            sample(done, times[done], ys[done], yds[done], data)
+            done += 1
+        for k in range(len(st.quad)):
+            st.quad[k] += 0.5 * h * (power[0, k] + power[1, k])
+            power[0, k] = power[1, k]
+        for k in range(len(y)):
+            y[k], K[0, k] = end[k], K[1, k]
+        log[row, 0], log[row, 1], log[row, 2] = real[T], h, 2
+        count[STEPS] += 1
+        count[RESIDUALS] += 2
+        row += 1
+    return DONE, done, row
+
+
+register_integrator(replace(EXPLICIT_METHOD, name="heun", advance=heun, helpers=()))
 
 # ------------------------------------------------------------------------------- an output
 

@@ -26,6 +26,8 @@ from flexcage.modes import registry as modes_registry
 from flexcage.modes import spec as modes_spec
 from flexcage.render import album
 from flexcage.results import registry
+from flexcage.solve import integrators
+from flexcage.solve import options as solver_options
 
 HERE = Path(__file__).parent
 ROOT = HERE.parents[1]
@@ -52,6 +54,8 @@ gravity = "0 m/s^2"
 kind = "pocket_shapes"
 count = 8
 [solver]
+method = "heun"
+max_step = "0.5 us"
 duration = "1 ms"
 [output]
 block = 10
@@ -62,7 +66,8 @@ ALL_TABLES = (
     laws.NORMAL_LAWS, laws.FRICTION_LAWS, laws.NORMAL_PARAMETERS, laws.FRICTION_PARAMETERS,
     contact_spec.NORMAL_LAWS, contact_spec.FRICTION_LAWS, modes_registry.BUILDERS,
     modes_spec.KINDS, registry._table, registry._labels, registry.COMPUTED, album.PICTURES,
-    materials.MATERIALS, presets._ADDED, core_registry._sources,
+    materials.MATERIALS, presets._ADDED, core_registry._sources, integrators.INTEGRATORS,
+    solver_options.METHODS,
 )  # fmt: skip
 
 

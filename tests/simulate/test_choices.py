@@ -33,6 +33,27 @@ def test_every_law_at_every_place(normal, friction):
     assert lost["race_damping"] <= 0.0 and lost["pocket_friction"] <= 0.0
 
 
+@pytest.mark.parametrize("method", ["explicit", "bdf"])
+def test_methods(method):
+    run = simulate(n1013(RIGID, SHORT, {"solver.method": method}))
+    steps, explicit = run.summary["steps"], run.summary["explicit_steps"]
+    assert steps > 0 and explicit == (steps if method == "explicit" else 0)
+    assert energy_audit(finite(run)).passed
+
+
+def test_auto_leaves_explicit_steps_when_they_become_too_short():
+    """Damping and stiffness of the races grow with the load, and the bound falls to 7 us."""
+    ramp = {"load.radial": "0 N", "load.ramp_to": "1 kN", "load.ramp_time": "3 ms"}
+    auto = {"solver.stable_step": "12 us", "solver.duration": "4 ms", "output.block": 25}
+    run = simulate(n1013(RIGID, ramp, auto))
+    steps, explicit = run.summary["steps"], run.summary["explicit_steps"]
+    assert 20 < explicit < steps - 20
+    assert 5e-6 < run.summary["stable_step"] < 12e-6
+    order = run.steps["order"]
+    assert set(order[:explicit]) == {4} and set(order[explicit:]) <= {1, 2}  # one change, no more
+    assert energy_audit(finite(run)).passed  # integrals went on through it
+
+
 @pytest.mark.parametrize("kind", ["none", "dry", "film"])
 @pytest.mark.parametrize("guidance", ["roller", "inner", "outer"])
 def test_lands(guidance, kind):

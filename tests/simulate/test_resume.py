@@ -73,7 +73,7 @@ def test_another_case_is_not_resumed(tmp_path):
 
 def test_a_solver_that_runs_out_of_steps_keeps_what_it_has(tmp_path):
     """It stops in the middle of a block; samples before are there, and the sentence says why."""
-    case = case_of("rigid").replace("solver.max_steps", 900)
+    case = case_of("rigid").replace("solver.max_steps", 500)
     with pytest.raises(RunFailed, match=r"stopped at t = .* ms: solver.max_steps") as failure:
         simulate(case, out=tmp_path)
     assert "kept" in str(failure.value)
@@ -84,7 +84,7 @@ def test_a_solver_that_runs_out_of_steps_keeps_what_it_has(tmp_path):
     for name, values in run.dataset.data_vars.items():
         assert np.isfinite(values.values).all(), name
     steps = run.store.steps()["time"]
-    assert len(steps) == 900 and run.dataset["time"].values[-1] <= steps[-1]
+    assert len(steps) == 500 and run.dataset["time"].values[-1] <= steps[-1]
     assert run.summary["inner_speed"] == pytest.approx(6000 * np.pi / 30)
 
 

@@ -6,11 +6,13 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from flexcage.solve import bdf
+from flexcage.solve import bdf, runge_kutta
+from flexcage.solve.integrators import INTEGRATORS
 from flexcage.system.layout import Layout
 from flexcage.system.model import POWERS
 from flexcage.system.problem import Bearing, new_samples
 from flexcage.system.scales import error_weights
+from flexcage.system.spec import Drive, Mount
 from flexcage.system.start import geometric_guess, rolling_velocities
 
 
@@ -42,23 +44,62 @@ class History:
         return self.work[:, POWERS.index(name)]
 
 
-def march(bearing, y0, yd0, *, duration, rate=100e3, tolerance=1e-8, max_order=2, h_max=5e-5):
+def march(bearing, y0, yd0, *, duration, rate=100e3, tolerance=1e-8, max_order=2, h_max=5e-5,
+          method="bdf"):  # fmt: skip
     """Integrate and sample at ``rate``; every sample is a main one."""
     layout = bearing.layout
     times = np.arange(1, int(round(duration * rate)) + 1) / rate
     n, quads = len(times), np.zeros((int(round(duration * rate)), len(POWERS)))
     samples = new_samples(n, 1, bearing.data.model)
-    args = bearing.arguments(bearing.data._replace(samples=samples), bearing.laws)
+    bearing.data = bearing.data._replace(samples=samples)
+    bearing.args = bearing.arguments(bearing.data, bearing.laws)
+    integrator = INTEGRATORS[method]
     weight = error_weights(bearing.data.model, layout, tolerance)
-    state = bdf.new_state(0.0, y0, yd0, weight=weight, h0=1e-8, n_quad=len(POWERS))
-    bearing.functions[4](0.0, y0, yd0, args, state.power[0])
-    options = bdf.Options(max_order, h_max, 1e-14, 0.3, 10**9)
+    state = integrator.new_state(0.0, y0, yd0, weight=weight, h0=1e-8, n_quad=len(POWERS))
+    if method == "bdf":
+        options = bdf.Options(max_order, h_max, 1e-14, 0.3, 10**9)
+    else:
+        options = runge_kutta.Options(h_max, 1e-14, 10**9)
     ys, yds = np.zeros((n, layout.size)), np.zeros((n, layout.size))
     log = np.zeros((400_000, 5))
-    outcome, done, rows = bearing._advance(
-        bearing.functions, args, state, options, times[-1], times, ys, yds, 0, log, quads
+    outcome, done, rows = bearing.advance(
+        integrator, state, options, times[-1], times, ys, yds, 0, log, quads
     )
     assert done == n or outcome != bdf.DONE
     return History(
         times[:done], ys[:done], yds[:done], samples, quads[:done], log[:rows], outcome, state
     )
+
+
+#: Named specs and disturbances of a bearing in which something of every kind touches.
+STATES = {
+    "light": ({}, {}),
+    "every pocket loaded": ({}, {"press": 110e-6, "skew": 3e-4}),
+    "ends in the ribs": ({}, {"axial": 20e-6, "skew": 1e-4}),
+    "bushing": ({"mount": Mount(kind="bushing", mass=1.0)}, {"press": 105e-6}),
+    "housing": ({"mount": Mount(kind="contact", mass=1.0, clearance=1e-6)}, {"press": 105e-6}),
+    "shaft": ({"drive": Drive(kind="shaft")}, {"press": 105e-6}),
+    "flexible": ({"flexible": {"modes": 6}}, {"press": 101e-6}),
+    "flexible, soft walls": ({"flexible": {"modes": 6, "soft": True}}, {"press": 104e-6}),
+}
+
+
+def disturbed(bearing, *, press=0.0, skew=1e-5, axial=8e-6, modal=1e-6, seed=0):
+    """A state in motion: ring pushed in, rollers pressed into crossbeams by ``press`` - 100 um."""
+    rng = np.random.default_rng(seed)
+    y, yd = rolling_start(bearing)
+    q, u = bearing.layout.q(y), bearing.layout.u(y)
+    q["inner"][1] = 13e-6
+    rollers = q["rollers"]
+    rollers[:, 1] += 1e-7 * rng.standard_normal(22)
+    rollers[:, 2] += press * rng.choice([-1, 1], 22) / rollers[:, 1]
+    rollers[:, 3:5] = skew * rng.standard_normal((22, 2))
+    rollers[:, 0] = axial * rng.standard_normal(22)
+    u["rollers"][:] += np.array([0.01, 0.01, 0.05, 20, 1, 1]) * rng.standard_normal((22, 6))
+    u["cage"][:] += 0.02 * rng.standard_normal(3)
+    u["omega"][:] += np.array([1.0, 0.3, 0.3]) * rng.standard_normal(3)
+    if bearing.layout.modes:
+        q["modes"][:] = modal * rng.standard_normal(bearing.layout.modes)
+        u["modes"][:] = 1e-3 * rng.standard_normal(bearing.layout.modes)
+    bearing.function("accepted")(0.0, y, yd, bearing.args, np.zeros(len(POWERS)))  # onset speeds
+    return y, yd, rng

@@ -12,6 +12,7 @@ import numpy as np
 from numba import types
 
 from flexcage.core.jit import kernel
+from flexcage.solve.bdf import BDF
 from flexcage.system.model import POWERS
 from flexcage.system.problem import Bearing
 
@@ -89,7 +90,7 @@ def integrate(
     tolerance: float = 1e-6,
 ) -> tuple[np.ndarray, np.ndarray]:
     """y and y' (samples, n) after each ``every`` steps; ``tolerance`` in units of 1/``weight``."""
-    functions, data = bearing._advance.signatures[0][:2]
+    functions, data = bearing.function_types(BDF), bearing.data_type
     signature = types.int64(
         functions, data, _REAL, _VECTOR, _VECTOR, _VECTOR, _MATRIX, _VECTOR, _REAL, _COUNT, _REAL,
         _VECTOR, _MATRIX, _MATRIX,
@@ -97,8 +98,8 @@ def integrate(
     compiled = numba.njit(signature)(march.py_func)
     ys, yds = np.empty((samples, len(y))), np.empty((samples, len(y)))
     done = compiled(
-        bearing.functions, bearing.args, t0, y, yd, weight, _TABLE, _NODES, step, every, tolerance,
-        np.zeros(len(POWERS)), ys, yds,
+        bearing.functions(BDF), bearing.args, t0, y, yd, weight, _TABLE, _NODES, step, every,
+        tolerance, np.zeros(len(POWERS)), ys, yds,
     )  # fmt: skip
     if done < samples:
         raise RuntimeError(f"no convergence after {done} samples")

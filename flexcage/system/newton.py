@@ -1,0 +1,152 @@
+"""The equations as F(t, y, y') = 0 for an implicit integrator, and their Newton step.
+
+Newton's matrix is formed in velocities: with displacements d = T^+ dq = (du + dmu - r_s)/alpha
+the momentum rows become (alpha M + C + K/alpha) du = -r_u + K r_s/alpha, so that blocks stay
+6 by 6. Constraints are rows of the border.
+"""
+
+from __future__ import annotations
+
+from flexcage.core.jit import VECTORISED, fields, kernel, zero
+from flexcage.core.rotation import quaternion_rate, rotation_of_quaternion_change
+from flexcage.solve import bordered
+
+_factor_bordered = bordered.factor
+_solve_bordered = bordered.solve
+
+# ``data`` is (Parts, laws, evaluate): evaluated through a function value, the residual
+# is compiled once, not again inside each of the functions below.
+
+
+def residual(t, y, yd, data, out):
+    data[2](t, y, yd, data[0], data[1], out, 0)
+
+
+def linearise(t, y, yd, data):
+    data[2](t, y, yd, data[0], data[1], fields(data[0].scratch).out, 1)
+
+
+def factor(alpha, data):
+    d = data[0]
+    return assemble(alpha, fields(d.bodies), fields(d.tangent), fields(d.matrix))
+
+
+@kernel(fastmath=VECTORISED)
+def assemble(alpha, bodies, tan, m):
+    """Newton's matrix alpha M + C + K/alpha in blocks, and its factors."""
+    mass, Ia, It = bodies.roller[0], bodies.roller[1], bodies.roller[2]
+    b = 1.0 / alpha
+    nb = m.S.shape[0]
+    n6 = nb - 7
+    for i in range(m.A.shape[0]):
+        high = nb if m.active[i] else m.low
+        for r in range(6):
+            for c in range(6):
+                m.A[i, r, c] = tan.Crr[i, r, c] + b * tan.Krr[i, r, c]
+            for c in range(high):
+                m.B[i, r, c] = tan.Crb[i, r, c] + b * tan.Krb[i, r, c]
+                m.C[i, c, r] = tan.Cbr[i, c, r] + b * tan.Kbr[i, c, r]
+        # the stored rotation order is (x, r, psi) as velocities: spin, skew, tilt
+        for r in range(3):
+            m.A[i, r, r] += alpha * mass
+        m.A[i, 3, 3] += alpha * Ia
+        m.A[i, 4, 4] += alpha * It
+        m.A[i, 5, 5] += alpha * It
+    for r in range(nb):
+        for c in range(nb):
+            m.S[r, c] = alpha * tan.Mbb[r, c] + tan.Cbb[r, c] + b * tan.Kbb[r, c]
+    # multipliers: forces on ring coordinates (axial, skew, tilt, spin) and position rows
+    coordinate = (0, 4, 5, 3)
+    for k in range(4):
+        m.S[coordinate[k], n6 + k] -= 1.0
+    for k in range(3):
+        m.S[n6 + k, coordinate[k]] = 1.0
+        m.S[n6 + 4 + k, coordinate[k]] = b
+        m.S[n6 + 4 + k, n6 + 4 + k] = b
+    if bodies.drive[0] > 0.0:
+        m.S[n6 + 3, n6 + 3] = 1.0
+    else:
+        m.S[n6 + 3, 3] = 1.0
+    return _factor_bordered(m)
+
+
+def backsolve(alpha, y, r, data):
+    newton_step(alpha, y, r, fields(data[0].tangent), fields(data[0].matrix))
+
+
+@kernel(fastmath=VECTORISED)
+def newton_step(alpha, y, r, tan, m):
+    """r <- Newton step for the residual r, all unknowns; alpha is that of the factors."""
+    Z = m.A.shape[0]
+    nb = m.S.shape[0]
+    nm = nb - 21
+    nq, nu = 6 * Z + 15 + nm, 6 * Z + 14 + nm
+    b = 1.0 / alpha
+    s, sb = m.blocks[0], m.border[0]  # kinematic residuals as displacements
+    x, xb = m.blocks[1], m.border[1]  # right-hand side, then velocities
+    zero(sb)
+    for i in range(Z):
+        o = 6 * i
+        s[i, 0], s[i, 1], s[i, 2] = r[o], r[o + 1], r[o + 2] * y[o + 1]
+        s[i, 3], s[i, 4], s[i, 5] = r[o + 5], r[o + 3], r[o + 4]
+    z = 6 * Z
+    sb[0], sb[1], sb[2] = r[z], r[z + 1], r[z + 2]
+    sb[3], sb[4], sb[5] = r[z + 5], r[z + 3], r[z + 4]
+    for c in range(5):
+        sb[6 + c] = r[z + 6 + c]
+    rotation_of_quaternion_change(y[z + 11 : z + 15], r[z + 11 : z + 15], sb[11:14])
+    stretch, norm = 0.0, 0.0  # of the quaternion: no rotation, but it must not run away
+    for c in range(11, 15):
+        stretch += y[z + c] * r[z + c]
+        norm += y[z + c] * y[z + c]
+    for k in range(nm):
+        sb[14 + k] = r[z + 15 + k]
+    for k in range(14 + nm):
+        f = 0.0
+        for c in range(14 + nm):
+            f += tan.Kbb[k, c] * sb[c]
+        xb[k] = -r[nq + z + k] + b * f
+    for k in range(7):
+        xb[14 + nm + k] = -r[nq + nu + k]
+        if k >= 4:
+            coordinate = 0 if k == 4 else k - 1
+            xb[14 + nm + k] += b * sb[coordinate]
+    for i in range(Z):
+        high = nb if m.active[i] else m.low
+        for k in range(6):
+            f = 0.0
+            for c in range(6):
+                f += tan.Krr[i, k, c] * s[i, c]
+            for c in range(high):
+                f += tan.Krb[i, k, c] * sb[c]
+            x[i, k] = -r[nq + 6 * i + k] + b * f
+        for k in range(high):
+            f = 0.0
+            for c in range(6):
+                f += tan.Kbr[i, k, c] * s[i, c]
+            xb[k] += b * f
+    _solve_bordered(m, x, xb)
+    for i in range(Z):
+        o = 6 * i
+        for k in range(6):
+            r[nq + o + k] = x[i, k]
+            s[i, k] = b * (x[i, k] - s[i, k])
+        r[o], r[o + 1], r[o + 2] = s[i, 0], s[i, 1], s[i, 2] / y[o + 1]
+        r[o + 3], r[o + 4], r[o + 5] = s[i, 4], s[i, 5], s[i, 3]
+    for k in range(14 + nm):
+        r[nq + z + k] = xb[k]
+        sb[k] = b * (xb[k] - sb[k])
+    for k in range(7):
+        r[nq + nu + k] = xb[14 + nm + k]
+    sb[0] += b * xb[14 + nm + 4]
+    sb[4] += b * xb[14 + nm + 5]
+    sb[5] += b * xb[14 + nm + 6]
+    r[z], r[z + 1], r[z + 2] = sb[0], sb[1], sb[2]
+    r[z + 3], r[z + 4], r[z + 5] = sb[4], sb[5], sb[3]
+    for c in range(5):
+        r[z + 6 + c] = sb[6 + c]
+    quaternion_rate(y[z + 11 : z + 15], sb[11:14], r[z + 11 : z + 15])
+    for c in range(11, 15):
+        r[z + c] -= b * stretch / norm * y[z + c]
+    for k in range(nm):
+        r[z + 15 + k] = sb[14 + k]

@@ -1,0 +1,158 @@
+"""The equations as y' = f(t, y) for an explicit integrator: their constraints eliminated.
+
+What the constraints hold are single coordinates of the inner ring, whose mass matrix is diagonal:
+its axial position, skew and tilt stand still, and its spin is a given function of time (unless a
+compliant shaft drives it). These coordinates are set, the others accelerate by M u' = Q, and the
+rows left over say what forces hold them: the multipliers.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+
+from flexcage.core.jit import VECTORISED, fields, kernel, part, zero
+from flexcage.solve.bordered import lu_factor, lu_solve
+from flexcage.system.residual import interpolate
+from flexcage.system.sampling import keep_force, keep_report
+
+
+class RatesWork(NamedTuple):
+    """Workspace for the cage's accelerations; n modes."""
+
+    modal: np.ndarray  # (n, n) inverse of the constant modal mass
+    coupled: np.ndarray  # (6, n) its product with the coupling of rigid motion and modes
+    rigid: np.ndarray  # (6, 6) mass of the rigid motion while modes follow; then its factors
+    pivot: np.ndarray  # (6,)
+    x: np.ndarray  # (6,)
+    given: np.ndarray  # (n,)
+
+
+def new_rates_work(modal_mass: np.ndarray) -> RatesWork:
+    n = len(modal_mass)
+    return RatesWork(
+        np.ascontiguousarray(np.linalg.inv(modal_mass)), np.zeros((6, n)), np.zeros((6, 6)),
+        np.zeros(6, np.int64), np.zeros(6), np.zeros(n),
+    )  # fmt: skip
+
+
+def rates(t, y, yd, data, power):
+    """y' into yd, held coordinates and multipliers into y, powers into ``power`` if it has room."""
+    _rates(t, y, yd, data, 3 if power.shape[0] > 0 else 0)
+    report = fields(data[0].report)
+    for k in range(power.shape[0]):
+        power[k] = report.power[k]
+
+
+def sample(sample, t, y, yd, data):
+    """Keep the report at sampling time t; at whole samples y' and multipliers are those of y."""
+    s = fields(data[0].samples)
+    if sample % s.stride == s.stride - 1:
+        _rates(t, y, yd, data, 2)
+        keep_report(s, sample // s.stride, fields(data[0].report))
+    keep_force(sample, t, s, fields(data[0].events))
+
+
+@kernel
+def _rates(t, y, yd, data, mode):
+    d = data[0]
+    bodies, out, frame = fields(d.bodies), fields(d.scratch).out, fields(d.frame)
+    Z, nm = bodies.radius.shape[0], fields(d.rates).given.shape[0]
+    n_q, n_u = 6 * Z + 15 + nm, 6 * Z + 14 + nm
+    end, ring = n_q + n_u, n_q + 6 * Z
+    driven = bodies.drive[0] == 0.0
+    _hold(t, y[6 * Z : 6 * Z + 6], y[ring : ring + 6], bodies, driven)
+    zero(y[end:])
+    zero(yd)
+    data[2](t, y, yd, d, data[1], out, mode)
+    for k in range(end):
+        yd[k] = -out[k]
+    linear, axial, transverse = (
+        1.0 / bodies.roller[0],
+        1.0 / bodies.roller[1],
+        1.0 / bodies.roller[2],
+    )
+    for i in range(Z):
+        a = yd[n_q + 6 * i : n_q + 6 * i + 6]
+        for c in range(3):
+            a[c] *= linear
+        a[3] *= axial
+        a[4] *= transverse
+        a[5] *= transverse
+    a, row, lam = yd[ring : ring + 8], out[ring : ring + 6], y[end : end + 4]
+    a[0] = a[4] = a[5] = 0.0
+    a[1] /= bodies.ring[0]
+    a[2] /= bodies.ring[0]
+    lam[0], lam[1], lam[2] = row[0], row[4], row[5]
+    if driven:
+        a[3] = slope_of(bodies.speed, t)
+        lam[3] = row[3] + bodies.ring[1] * a[3]
+        if mode >= 2:
+            fields(d.report).power[0] += lam[3] * y[ring + 3]
+    else:
+        a[3] /= bodies.ring[1]
+    if bodies.outer[3] == 0.0:  # a fixed ring has no acceleration
+        a[6] /= bodies.outer[0]
+        a[7] /= bodies.outer[0]
+    cage_accelerations(frame.M, fields(d.scratch).A, yd[ring + 8 : end], fields(d.rates))
+
+
+@part
+def _hold(t, q, u, bodies, driven):
+    """Give the inner ring's held coordinates and velocities their values."""
+    q[0] = q[3] = 0.0
+    q[4] = bodies.misalignment
+    u[0] = u[4] = u[5] = 0.0
+    if driven:
+        u[3] = interpolate(bodies.speed, t)
+
+
+@part
+def slope_of(table, t):
+    """Slope at t of ``interpolate``; at a corner that of the piece before it."""
+    for i in range(1, table.shape[1]):
+        if table[0, i - 1] < t <= table[0, i]:
+            return (table[1, i] - table[1, i - 1]) / (table[0, i] - table[0, i - 1])
+    return 0.0
+
+
+@kernel(fastmath=VECTORISED)
+def cage_accelerations(M, A, v, work):
+    """Solve M a = v in place for a cage's forces v: translations in space, M (6 + n, 6 + n) in the
+    body's frame. Its modal block is constant, so the modes are eliminated by its inverse."""
+    W, X, S, x = work.modal, work.coupled, work.rigid, work.x
+    n = W.shape[0]
+    for c in range(3):
+        x[c] = A[0, c] * v[0] + A[1, c] * v[1] + A[2, c] * v[2]
+        x[3 + c] = v[3 + c]
+    for r in range(6):
+        for m in range(n):
+            X[r, m] = 0.0
+        for l in range(n):
+            coupling = M[r, 6 + l]
+            if coupling != 0.0:
+                for m in range(n):
+                    X[r, m] += coupling * W[l, m]
+    for r in range(6):
+        for m in range(n):
+            x[r] -= X[r, m] * v[6 + m]
+        for c in range(6):
+            taken = 0.0
+            for m in range(n):
+                taken += X[r, m] * M[c, 6 + m]
+            S[r, c] = M[r, c] - taken
+    lu_factor(S, work.pivot)
+    lu_solve(S, work.pivot, x)
+    for m in range(n):
+        total = 0.0
+        for l in range(n):
+            total += W[m, l] * v[6 + l]
+        for r in range(6):
+            total -= X[r, m] * x[r]
+        work.given[m] = total
+    for m in range(n):
+        v[6 + m] = work.given[m]
+    for c in range(3):
+        v[c] = A[c, 0] * x[0] + A[c, 1] * x[1] + A[c, 2] * x[2]
+        v[3 + c] = x[3 + c]

@@ -1,0 +1,104 @@
+"""What happens at accepted points and at sampling times: memory of contacts, events, reports."""
+
+from __future__ import annotations
+
+from flexcage.core.jit import copy_into, fields, kernel
+
+
+def accepted(t, y, yd, data, power):
+    """(t, y, y') was accepted: its powers into ``power``."""
+    report = fields(data[0].report)
+    data[2](t, y, yd, data[0], data[1], fields(data[0].scratch).out, 3)
+    keep_point(t, data[0])
+    for k in range(power.shape[0]):
+        power[k] = report.power[k]
+
+
+def note(t, data):
+    """The point evaluated last was accepted."""
+    keep_point(t, data[0])
+
+
+@kernel
+def keep_point(t, d):
+    """Memory of contacts, events and the force on the outer ring from the last report."""
+    report, events = fields(d.report), fields(d.events)
+    remember(t, fields(d.memory), report, events)
+    for c in range(3):
+        events.force[0, c] = events.force[1, c]
+    events.force[1, 0] = t
+    events.force[1, 1], events.force[1, 2] = report.body_force[0], report.body_force[1]
+
+
+@kernel
+def remember(t, memory, rep, events):
+    """Keep the onset speed of every contact, contact changes, and peaks."""
+    for i in range(rep.contact.shape[0]):
+        for k in range(8):
+            closed = rep.contact[i, k]
+            if closed == 0 or events.closed[i, k] == 0:
+                speed = max(rep.approach[i, k], 0.0)
+                if k < 2:
+                    memory.race[i, k, 3] = speed
+                elif k < 6:
+                    memory.pocket[i, k - 2, 3] = speed
+                else:
+                    memory.rib[i, k - 6, 3] = speed
+            if closed != events.closed[i, k]:
+                events.closed[i, k] = closed
+                _note(events, t, i, k, closed)
+        for f in range(4):
+            if rep.pocket_normal[i, f] > events.peak[i, f]:
+                events.peak[i, f] = rep.pocket_normal[i, f]
+                events.peak_time[i, f] = t
+        copy_into(memory.deflection[i], rep.residual[i])
+    for side in range(2):
+        closed = 1 if rep.land_touch[side, 0] > 0.0 else 0
+        if closed == 0 or events.land[side] == 0:
+            memory.land[side, 3] = max(rep.land_touch[side, 1], 0.0)
+        if closed != events.land[side]:
+            events.land[side] = closed
+            _note(events, t, -1, 8 + side, closed)
+
+
+@kernel
+def _note(events, t, roller, place, closed):
+    """Write down that a contact closed or opened; a full buffer keeps the first ones."""
+    n = events.fill[0]
+    if n < events.rows.shape[0]:
+        row = events.rows[n]
+        row[0], row[1], row[2], row[3] = t, roller, place, closed
+        events.fill[0] = n + 1
+
+
+def observe(sample, t, y, yd, data):
+    """Keep the report at sampling time t, for y and y' of dense output."""
+    s = fields(data[0].samples)
+    if sample % s.stride == s.stride - 1:
+        data[2](t, y, yd, data[0], data[1], fields(data[0].scratch).out, 2)
+        keep_report(s, sample // s.stride, fields(data[0].report))
+    keep_force(sample, t, s, fields(data[0].events))
+
+
+@kernel
+def keep_report(s, k, rep):
+    """Copy a whole report into row k of the samples."""
+    copy_into(s.race[k], rep.race)
+    copy_into(s.pocket_normal[k], rep.pocket_normal)
+    copy_into(s.pocket_friction[k], rep.pocket_friction)
+    copy_into(s.slice_normal[k], rep.slice_normal)
+    copy_into(s.slice_friction[k], rep.slice_friction)
+    copy_into(s.station[k], rep.station)
+    copy_into(s.residual[k], rep.residual)
+    copy_into(s.rib[k], rep.rib)
+    copy_into(s.land[k], rep.land)
+    copy_into(s.energy[k], rep.energy)
+
+
+@kernel
+def keep_force(sample, t, s, events):
+    """Force on the outer ring at time t, between the last two accepted points."""
+    before, after = events.force[0], events.force[1]
+    w = (t - before[0]) / (after[0] - before[0])
+    for c in range(2):
+        s.force[sample, c] = (1.0 - w) * before[1 + c] + w * after[1 + c]

@@ -1,0 +1,93 @@
+"""The equations with their constraints eliminated, against the equations with them."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from bearing_runs import STATES, disturbed, march, rolling_start
+
+from flexcage.contacts.spec import Contacts, NormalLaw, PairSpec
+from flexcage.system.model import POWERS
+from flexcage.system.scales import error_weights
+from flexcage.system.spec import Drive, Load
+
+
+def rates(bearing, t, y):
+    """y' and powers; held coordinates and multipliers are put into y."""
+    yd, power = np.empty_like(y), np.empty(len(POWERS))
+    bearing.function("rates")(t, y, yd, bearing.args, power)
+    return yd, power
+
+
+@pytest.mark.parametrize("name", STATES)
+def test_rates_leave_no_residual(bearing_of, name):
+    """F(t, y, y') = 0 in every row, constraints and cage's mass matrix among them."""
+    specs, state = STATES[name]
+    bearing = bearing_of(load=Load(radial=1000.0), **specs)
+    y, _, _ = disturbed(bearing, **state)
+    layout = bearing.layout
+    layout.u(y)["inner"][[0, 4, 5]] = 1e-3  # they are held at zero, whatever y says
+    yd, power = rates(bearing, 0.0, y)
+    left = bearing.residual(0.0, y, yd, mode=2)
+    scale = np.ones_like(left)
+    force = 0.01 * np.abs(layout.u(bearing.residual(0.0, y, 0.0 * yd))["rollers"]).max()
+    scale[layout.n_q : layout.n_q + layout.n_u] = force  # momentum rows are in newtons
+    assert np.abs(left / scale).max() < 1e-9
+    assert not np.any(layout.u(y)["inner"][[0, 4, 5]])
+    np.testing.assert_allclose(
+        power, bearing.data.work.report.power, rtol=1e-9, atol=1e-9 * np.abs(power).max()
+    )
+    quiet = np.empty_like(y)  # without room for powers, rates are the same
+    bearing.function("rates")(0.0, y, quiet, bearing.args, np.empty(0))
+    np.testing.assert_array_equal(quiet, yd)
+
+
+def test_a_drive_that_speeds_up(bearing_of):
+    """Its spin is the table's, its acceleration the slope; its torque moves the inertia."""
+    drive = Drive(speed=600.0, times=(0.0, 1e-3, 2e-3), speeds=(600.0, 610.0, 580.0))
+    bearing = bearing_of(load=Load(radial=1000.0), drive=drive)
+    y, _, _ = disturbed(bearing)
+    for t, speed, slope in ((0.5e-3, 605.0, 1e4), (1.5e-3, 595.0, -3e4), (3e-3, 580.0, 0.0)):
+        yd, _ = rates(bearing, t, y)
+        assert bearing.layout.u(y)["inner"][3] == pytest.approx(speed)
+        assert bearing.layout.u(yd)["inner"][3] == pytest.approx(slope)
+        assert np.abs(bearing.layout.u(bearing.residual(t, y, yd))["inner"]).max() < 1e-9
+
+
+@pytest.mark.parametrize("name", ["light", "flexible", "shaft"])
+def test_spectral_radius_against_the_whole_jacobian(bearing_of, name):
+    specs, _ = STATES[name]
+    bearing = bearing_of(load=Load(radial=1000.0), **specs)
+    y, _, _ = disturbed(bearing)
+    weight = error_weights(bearing.data.model, bearing.layout, 5e-9)
+    tested = np.flatnonzero(weight)
+    base, _ = rates(bearing, 0.0, y)
+    J = np.empty((len(tested), len(tested)))
+    for column, k in enumerate(tested):
+        moved = y.copy()
+        moved[k] += 1e-3 / weight[k]
+        J[:, column] = (rates(bearing, 0.0, moved)[0] - base)[tested] / (1e-3 / weight[k])
+    radius = np.abs(np.linalg.eigvals(J)).max()
+    step = bearing.stable_step(0.0, y, 0.0 * y, weight)
+    assert step == pytest.approx(2.6 / radius, rel=0.1)
+
+
+def test_both_methods_go_the_same_way(bearing_of):
+    """A loaded bearing that rings after its start, each method at a tight tolerance. Laws without
+    damping, which depend on no remembered onset."""
+    elastic = PairSpec(normal=NormalLaw(law="elastic"))
+    contacts = Contacts(race=elastic, pocket=elastic, side=elastic, rib=elastic)
+    outs = {}
+    for method, h_max in (("bdf", 4e-8), ("explicit", 1e-7)):
+        bearing = bearing_of(load=Load(radial=1000.0), contacts=contacts)
+        y, yd = rolling_start(bearing)
+        bearing.layout.q(y)["inner"][1] = 20e-6
+        outs[method] = march(
+            bearing, y, yd, duration=0.2e-3, tolerance=1e-13, h_max=h_max, method=method
+        )
+    bdf, explicit = outs["bdf"], outs["explicit"]
+    weight = error_weights(bearing.data.model, bearing.layout, 1e-9)
+    assert (
+        np.abs((bdf.y - explicit.y) * weight).max() < 3.0
+    )  # nanometres, or as much in other units
+    np.testing.assert_allclose(bdf.work, explicit.work, atol=1e-4 * np.abs(bdf.work).max())
