@@ -3,6 +3,9 @@
 from __future__ import annotations
 
 import logging
+import os
+import subprocess
+import sys
 from pathlib import Path
 
 from flexcage.bodies.cage import flexible_from_basis, rigid_from_tets
@@ -10,6 +13,7 @@ from flexcage.case import Case
 from flexcage.core import jit
 from flexcage.mesh.build import build_cage_mesh
 from flexcage.mesh.cage_mesh import CageMesh
+from flexcage.mesh.options import MeshOptions
 from flexcage.mesh.quality import check_mesh
 from flexcage.modes.basis import ModeBasis
 from flexcage.modes.interface import rigid_interface
@@ -64,10 +68,49 @@ def cage_modes(case: Case) -> ModeBasis:
     return reduction.basis
 
 
-def build_bearing(case: Case, mesh: CageMesh, cage: CageReduction | None) -> Bearing:
+def begin_compiling() -> subprocess.Popen | None:
+    """Compile the larger half of the kernels in a process of its own, if they are not on disk yet.
+
+    Meanwhile the cage is meshed and reduced. ``build_bearing`` waits for it.
+    """
+    if jit.kernels_cached():
+        return None
+    log.info("compiling the kernels for the first time: about a minute, once")
+    command = "from flexcage.stages import compile_evaluation; compile_evaluation()"
+    try:
+        return subprocess.Popen(
+            [sys.executable, "-c", command], stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL,
+            stderr=subprocess.DEVNULL, env={**os.environ, **jit.cache_environment()},
+        )  # fmt: skip
+    except OSError:
+        return None  # then this process does it alone
+
+
+def compile_evaluation() -> None:
+    """Compile a bearing's equations of motion; they are the same for all bearings."""
+    case = Case.from_preset("N1013", mesh=MeshOptions(fineness="coarse"))
+    _bearing_of(case, cage_mesh(case), None).evaluate  # noqa: B018
+
+
+def build_bearing(
+    case: Case,
+    mesh: CageMesh,
+    cage: CageReduction | None,
+    compiling: subprocess.Popen | None = None,
+) -> Bearing:
     """Bodies, contacts and compiled equations of motion."""
+    bearing = _bearing_of(case, mesh, cage)
     if not jit.kernels_cached():
-        log.info("compiling the kernels for the first time: about a minute, once")
+        compiling = compiling or begin_compiling()
+        bearing.compile_but_evaluate()
+        if compiling is not None:
+            compiling.wait()
+    bearing.evaluate  # noqa: B018  (read from disk, or compiled here)
+    jit.mark_compiled()
+    return bearing
+
+
+def _bearing_of(case: Case, mesh: CageMesh, cage: CageReduction | None) -> Bearing:
     Z = case.bearing.roller_count
     if cage is None:
         body = rigid_from_tets(mesh.points, mesh.tets, case.cage.material.density)

@@ -53,6 +53,7 @@ if "NUMBA_CACHE_DIR" not in os.environ:
 import numba  # noqa: E402  (its cache folder must be known first)
 from numba import types  # noqa: E402
 from numba.core import cgutils  # noqa: E402
+from numba.core.codegen import CPUCodeLibrary  # noqa: E402
 from numba.core.imputils import impl_ret_borrowed  # noqa: E402
 from numba.core.runtime.nrtdynmod import _meminfo_struct_type  # noqa: E402
 from numba.experimental import structref  # noqa: E402
@@ -69,7 +70,13 @@ LEAN = {**OPTIONS, "_nrt": False}
 VECTORISED = {"reassoc", "nsz", "contract"}  # fastmath: long sums may be added in any order
 # parts are inlined into their callers: handing large groups of arrays from one compiled function
 # to another costs more than the mathematics between; wrappers for Python double the compile time
-PART = {**LEAN, "cache": False, "forceinline": True, "no_cpython_wrapper": True, "no_cfunc_wrapper": True}
+PART = {
+    **LEAN,
+    "cache": False,
+    "forceinline": True,
+    "no_cpython_wrapper": True,
+    "no_cfunc_wrapper": True,
+}
 
 
 def kernel(*args: Any, **kwargs: Any) -> Any:
@@ -82,11 +89,36 @@ def kernel(*args: Any, **kwargs: Any) -> Any:
     return numba.njit(*args, **{**LEAN, **kwargs})
 
 
+_PART_NAME = "flexcage_part."
+
+
 def part(*args: Any, **kwargs: Any) -> Any:
     """A kernel that only other kernels call: inlined there, not callable from Python."""
-    if args and callable(args[0]):
-        return numba.njit(**PART)(args[0])
-    return numba.njit(*args, **{**PART, **kwargs})
+    if not (args and callable(args[0])):
+        return lambda function: part(function, **kwargs)
+    args[0].__qualname__ = _PART_NAME + args[0].__qualname__  # known below by it
+    return numba.njit(**{**PART, **kwargs})(args[0])
+
+
+def _leave_parts_to_their_callers() -> None:
+    """Have numba optimise a part only where it is inlined.
+
+    It optimises every function when that is compiled, and then again inside each of its callers: a
+    third of all compile time (measured). The method is numba's own affair, and another release may
+    lack it; then nothing is changed.
+    """
+    whole = getattr(CPUCodeLibrary, "_optimize_final_module", None)
+    if whole is None:
+        return
+
+    def optimise(library: CPUCodeLibrary) -> None:
+        if not library.name.startswith(_PART_NAME):
+            whole(library)
+
+    CPUCodeLibrary._optimize_final_module = optimise
+
+
+_leave_parts_to_their_callers()
 
 
 def allocating_kernel(function: Any) -> Any:
@@ -94,10 +126,26 @@ def allocating_kernel(function: Any) -> Any:
     return numba.njit(**OPTIONS)(function)
 
 
+def compiled_mark() -> Path:
+    """The file that says: on disk are all kernels that a run needs, of exactly these sources."""
+    return Path(numba.config.CACHE_DIR) / "compiled"  # type: ignore[attr-defined]
+
+
 def kernels_cached() -> bool:
-    """True if compiled kernels of these sources are on disk already."""
-    path = Path(os.environ["NUMBA_CACHE_DIR"])
-    return path.is_dir() and any(path.rglob("*.nbi"))
+    """True if nothing is left to be compiled, or nothing ever is."""
+    return bool(numba.config.DISABLE_JIT) or compiled_mark().exists()  # type: ignore[attr-defined]
+
+
+def cache_environment() -> dict[str, str]:
+    """Environment variables by which another process finds the same cache."""
+    return {"NUMBA_CACHE_DIR": str(numba.config.CACHE_DIR)}  # type: ignore[attr-defined]
+
+
+def mark_compiled() -> None:
+    """Say that all kernels are on disk."""
+    if not kernels_cached():
+        compiled_mark().parent.mkdir(parents=True, exist_ok=True)
+        compiled_mark().touch()
 
 
 @structref.register

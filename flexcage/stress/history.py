@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
 
+from flexcage.core.threads import on_all_cores
 from flexcage.stress.fields import StressFields
 
 _BLOCK = 256  # samples at a time: their stresses stay near the processor
@@ -42,27 +42,35 @@ class StressHistory:
         )
 
 
+@dataclass(frozen=True)
+class _Block:
+    """What is kept of one block of samples."""
+
+    places: np.ndarray  # (block, n_places)
+    peak: np.ndarray  # (block,)
+    where: np.ndarray  # (block,) mesh vertex of the peak
+    envelope: np.ndarray  # (n_surface,) largest over the settled samples; 0 if there is none
+    when: np.ndarray  # (n_surface,) sample of it
+
+
 def equivalent_stress(
     fields: StressFields,
     q: np.ndarray,
     station_forces: np.ndarray,
     land_forces: np.ndarray | None = None,
-) -> Iterator[tuple[slice, np.ndarray]]:
-    """Blocks (samples, (n_surface, block)) of equivalent stress [Pa].
+) -> np.ndarray:
+    """Equivalent stress (n_surface, nt) [Pa].
 
     Over nt samples: modal coordinates (nt, n), station forces (nt, Z, 4, n_st, 3) and land forces
     (nt, 2, n_land, 3) [N], components (x, r, psi) of the pockets' and land stations' frames.
     """
-    for first in range(0, len(q), _BLOCK):
-        part = slice(first, min(first + _BLOCK, len(q)))
-        sums = fields.modes @ q[part].T.astype(np.float32)
-        sums += _loaded(fields.forces, fields.reduced_forces(station_forces[part]))
-        if land_forces is not None and np.any(land_forces[part]):
-            flat = land_forces[part].reshape(part.stop - part.start, -1)
-            sums += _loaded(fields.land_forces, flat)
-        parts = sums.reshape(5, -1, sums.shape[1])
-        np.square(parts, out=parts)
-        yield part, np.sqrt(parts.sum(axis=0))
+    sums = fields.modes @ q.T.astype(np.float32)
+    sums += _loaded(fields.forces, fields.reduced_forces(station_forces))
+    if land_forces is not None and np.any(land_forces):
+        sums += _loaded(fields.land_forces, land_forces.reshape(len(q), -1))
+    parts = sums.reshape(5, -1, sums.shape[1])
+    np.square(parts, out=parts)
+    return np.sqrt(parts.sum(axis=0))
 
 
 def _loaded(fields: np.ndarray, loads: np.ndarray) -> np.ndarray:
@@ -83,25 +91,40 @@ def stress_history(
 ) -> StressHistory:
     """Places and peaks over samples, the envelope from sample ``settled`` on.
 
-    Other arguments as in ``equivalent_stress``.
+    Other arguments as in ``equivalent_stress``. Blocks of samples are spread over the cores.
     """
     slots = [np.searchsorted(fields.surface, v) for v in fields.places.values()]
-    places = np.zeros((len(q), len(slots)), np.float32)
-    peak, where = np.zeros(len(q), np.float32), np.zeros(len(q), int)
-    envelope = np.zeros(len(fields.surface), np.float32)
-    when = np.zeros(len(fields.surface), int)
-    for part, values in equivalent_stress(fields, q, station_forces, land_forces):
+    _ = fields.modes, fields.forces  # once, not in every thread
+    if land_forces is not None and np.any(land_forces):
+        _ = fields.land_forces
+
+    def work(first: int) -> _Block:
+        part = slice(first, min(first + _BLOCK, len(q)))
+        land = None if land_forces is None else land_forces[part]
+        values = equivalent_stress(fields, q[part], station_forces[part], land)
+        places = np.zeros((values.shape[1], len(slots)), np.float32)
         for i, slot in enumerate(slots):
-            places[part, i] = values[slot].max(axis=0)
+            places[:, i] = values[slot].max(axis=0)
         searched = values[fields.searched]
-        where[part] = fields.surface[fields.searched[np.argmax(searched, axis=0)]]
-        peak[part] = searched.max(axis=0)
-        skip = max(settled - part.start, 0)
+        where = fields.surface[fields.searched[np.argmax(searched, axis=0)]]
+        skip = max(settled - first, 0)
         if skip >= values.shape[1]:
-            continue
+            none = np.zeros(len(values))
+            return _Block(places, searched.max(axis=0), where, none, none.astype(int))
         best = skip + np.argmax(values[:, skip:], axis=1)
-        largest = values[np.arange(len(values)), best]
-        when = np.where(largest > envelope, part.start + best, when)
-        envelope = np.maximum(envelope, largest)
-    names = tuple(fields.places)
-    return StressHistory(fields.surface, names, places, peak, where, envelope, when, settled)
+        envelope = values[np.arange(len(values)), best]
+        return _Block(places, searched.max(axis=0), where, envelope, first + best)
+
+    blocks = on_all_cores(work, range(0, len(q), _BLOCK))
+    envelopes = np.stack([block.envelope for block in blocks])
+    largest = (np.argmax(envelopes, axis=0), np.arange(len(fields.surface)))
+    return StressHistory(
+        surface=fields.surface,
+        place_names=tuple(fields.places),
+        places=np.concatenate([block.places for block in blocks]),
+        peak=np.concatenate([block.peak for block in blocks]),
+        peak_vertex=np.concatenate([block.where for block in blocks]),
+        envelope=envelopes[largest],
+        envelope_sample=np.stack([block.when for block in blocks])[largest],
+        settled=settled,
+    )

@@ -133,16 +133,15 @@ def compile_kernels(case: Case) -> None:
     """Compile the kernels once a machine: workers that need them at the same time wait."""
     import filelock
 
-    compiled = Path(jit.numba.config.CACHE_DIR) / "compiled"
-    if compiled.exists():
+    if jit.kernels_cached():
         return
-    compiled.parent.mkdir(parents=True, exist_ok=True)
-    with filelock.FileLock(compiled.with_suffix(".lock")):
-        if not compiled.exists():
+    mark = jit.compiled_mark()
+    mark.parent.mkdir(parents=True, exist_ok=True)
+    with filelock.FileLock(mark.with_suffix(".lock")):
+        if not jit.kernels_cached():
             rigid = case.replace("cage.model", "rigid").replace("defects", ())
             coarse = rigid.replace("mesh", MeshOptions(fineness="coarse"))
             simulate(coarse.replace("solver.duration", 2.0 / case.output.rate))
-            compiled.touch()
 
 
 def _failure(exc: Exception) -> Failure:

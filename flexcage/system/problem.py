@@ -7,6 +7,7 @@ once, not again inside each of the functions.
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import cached_property
 from typing import Any, NamedTuple
 
 import numba
@@ -137,7 +138,7 @@ def law_functions(contacts: Contacts) -> tuple:
 
 
 class Bearing:
-    """A bearing ready to be integrated: compiled functions and their data."""
+    """A bearing ready to be integrated: its data, and functions that are compiled when needed."""
 
     def __init__(
         self, model: Model, memory: Memory, contacts: Contacts, layout: Layout,
@@ -158,19 +159,36 @@ class Bearing:
             new_rates_work(model.cage.mff),
         )  # fmt: skip
         self.laws = law_functions(contacts)
-        self._compile()
-        self.args = self.arguments(self.data, self.laws)
-
-    def _compile(self) -> None:
-        bearing = numba.typeof(parts(self.data))
         law_type = types.Tuple((laws.NORMAL_TYPE,) * 5 + (laws.FRICTION_TYPE,) * 5)
-        evaluation = types.void(_REAL, _VECTOR, _VECTOR, bearing, law_type, _VECTOR, _COUNT)
-        compiled: Any = numba.njit(evaluation, **LEAN)
-        self.evaluate: Any = compiled(evaluate)
-        self.data_type = types.Tuple((bearing, law_type, types.FunctionType(evaluation)))
+        bearing = numba.typeof(parts(self.data))
+        self._evaluation = types.void(_REAL, _VECTOR, _VECTOR, bearing, law_type, _VECTOR, _COUNT)
+        self.data_type = types.Tuple((bearing, law_type, types.FunctionType(self._evaluation)))
         self._functions: dict[str, Any] = {}
         self._advance: dict[str, Any] = {}
         self._radius: Any = None
+
+    @cached_property
+    def evaluate(self) -> Any:
+        """``residual.evaluate``, compiled; most of what there is to compile."""
+        compiled: Any = numba.njit(self._evaluation, **LEAN)
+        return compiled(evaluate)
+
+    @cached_property
+    def args(self) -> tuple:
+        """What the compiled functions take as their data."""
+        return self.arguments(self.data, self.laws)
+
+    def compile_but_evaluate(self) -> None:
+        """Compile what a run by the explicit method needs besides ``evaluate``."""
+        work, matrix = self.data.work, self.data.matrix
+        tangent, bodies = numba.typeof(work.tangent), numba.typeof(self.data.model.bodies)
+        newton.assemble.compile((_REAL, bodies, tangent, numba.typeof(matrix)))
+        newton.newton_step.compile((_REAL, _VECTOR, _VECTOR, tangent, numba.typeof(matrix)))
+        method, none = runge_kutta.EXPLICIT_METHOD, np.zeros(1)
+        state = method.new_state(0.0, none, none, weight=none, h0=1.0, n_quad=1)
+        self.functions(method)
+        self._advance_of(method, state, runge_kutta.Options(1.0, 0.0, 1))
+        self._radius_of(state)
 
     def signature(self, name: str) -> Any:
         """numba's signature of a function that ``PROBLEM`` names."""
@@ -207,28 +225,37 @@ class Bearing:
     def advance(self, integrator: Integrator, state, options, t_end, times, ys, yds, first, log,
                 quads) -> tuple[int, int, int]:  # fmt: skip
         """``integrator.advance``, compiled for this bearing when first called."""
+        compiled = self._advance_of(integrator, state, options)
+        return compiled(
+            self.functions(integrator), self.args, state, options, t_end, times, ys, yds, first,
+            log, quads,
+        )  # fmt: skip
+
+    def _advance_of(self, integrator: Integrator, state, options) -> Any:
         if integrator.name not in self._advance:
             signature = types.Tuple((_COUNT, _COUNT, _COUNT))(
                 self.function_types(integrator), self.data_type, numba.typeof(state),
                 numba.typeof(options), _REAL, _VECTOR, _MATRIX, _MATRIX, _COUNT, _MATRIX, _MATRIX,
             )  # fmt: skip
             self._advance[integrator.name] = self._compiled(integrator, "advance", signature)
-        return self._advance[integrator.name](
-            self.functions(integrator), self.args, state, options, t_end, times, ys, yds, first,
-            log, quads,
-        )  # fmt: skip
+        return self._advance[integrator.name]
 
     def stable_step(self, t: float, y: np.ndarray, yd: np.ndarray, weight: np.ndarray) -> float:
         """Largest step [s] that the explicit method bears at (t, y)."""
-        state = runge_kutta.new_state(t, y, yd, weight=weight, h0=1.0, n_quad=len(POWERS))
         method = runge_kutta.EXPLICIT_METHOD
+        state = method.new_state(t, y, yd, weight=weight, h0=1.0, n_quad=len(POWERS))
+        compiled = self._radius_of(state)
+        radius = compiled(self.functions(method), self.args, state, ITERATIONS, NUDGE)
+        return runge_kutta.REACH / radius if radius > 0.0 else np.inf
+
+    def _radius_of(self, state) -> Any:
         if self._radius is None:
+            method = runge_kutta.EXPLICIT_METHOD
             signature = _REAL(
                 self.function_types(method), self.data_type, numba.typeof(state), _COUNT, _REAL
             )
             self._radius = self._compiled(method, "spectral_radius", signature)
-        radius = self._radius(self.functions(method), self.args, state, ITERATIONS, NUDGE)
-        return runge_kutta.REACH / radius if radius > 0.0 else np.inf
+        return self._radius
 
     def _compiled(self, integrator: Integrator, name: str, signature: Any) -> Any:
         """A function of an integrator's module, compiled after those that it calls.

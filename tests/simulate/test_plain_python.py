@@ -12,6 +12,7 @@ from simulate_cases import bent, n1013
 
 from flexcage.case import load_case
 from flexcage.stages import build_bearing, cage_mesh, cage_reduction
+from flexcage.system.model import POWERS
 from flexcage.system.start import find_start
 
 HERE = Path(__file__)
@@ -28,6 +29,10 @@ def evaluated(bearing, y: np.ndarray, yd: np.ndarray) -> dict[str, np.ndarray]:
     out = {"residual": bearing.residual(0.0, y, yd)}
     bearing.residual(0.0, y, yd, mode=1)
     out |= {name: getattr(bearing.data.work.tangent, name).copy() for name in ("Krr", "Krb", "Cbb")}
+    bearing.residual(0.0, y, yd, mode=2)
+    set_y, rates, power = y.copy(), np.empty_like(y), np.empty(len(POWERS))
+    bearing.function("rates")(0.0, set_y, rates, bearing.args, power)
+    out |= {"rates": rates, "multipliers": bearing.layout.multipliers(set_y), "powers": power}
     bearing.residual(0.0, y, yd, mode=2)
     return out | {
         "forces": bearing.data.work.report.pocket_normal,
