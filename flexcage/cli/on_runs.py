@@ -1,4 +1,4 @@
-"""Commands that take the folders of runs: render, compare."""
+"""Commands that take the folders of runs: render, report, compare."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ import argparse
 from pathlib import Path
 from typing import Any
 
-from flexcage.cli.files import existing_run, prepare_out
+from flexcage.cli.files import existing_run, prepare_file, prepare_out
 from flexcage.cli.parser import command, say
 from flexcage.cli.settings import case_from
 from flexcage.core.errors import InputError
@@ -18,6 +18,14 @@ def add_commands(commands: Any) -> None:
     render.add_argument("run", metavar="RUN", help="run folder")
     render.add_argument("-o", "--out", metavar="DIR", help="folder for the pictures")
     render.add_argument("--animate", action="store_true", help="make an animation as well")
+    text = "write a run or a study as one HTML page that needs no other file"
+    report = command(commands, "report", report_command, text)
+    report.add_argument("folder", metavar="RUN_OR_STUDY", help="folder of a run or a study")
+    report.add_argument("-o", "--out", metavar="FILE", help="page (default: report.html in it)")
+    report.add_argument("--force", action="store_true", help="write over an existing file")
+    report.add_argument(
+        "--points", metavar="N,N", help="of a study: points whose stress is shown (default: six)"
+    )
     compare = command(
         commands, "compare", compare_command, "one case rigid and flexible, or two runs"
     )
@@ -36,6 +44,44 @@ def render_command(args: argparse.Namespace) -> int:
     run.draw(out, animate=args.animate)
     say(f"The pictures are in {out}")
     return 0
+
+
+def report_command(args: argparse.Namespace) -> int:
+    """flexcage report RUN_OR_STUDY: one HTML page of what was computed."""
+    folder = Path(args.folder)
+    is_study = (folder / "study.toml").is_file() and (folder / "plan.json").is_file()
+    points = _numbers(args.points) if args.points else None
+    if not is_study:
+        if not folder.is_dir():
+            raise InputError(f"There is no folder '{folder}'; name that of a run or a study.")
+        if not (folder / "results.zarr").exists():
+            raise InputError(
+                f"'{folder}' is neither a run nor a study: it has no results.zarr, and no "
+                "study.toml with its plan.json."
+            )
+        if points is not None:
+            raise InputError(f"--points belongs to a study, and '{folder}' is a run.")
+    out = Path(args.out) if args.out else folder / "report.html"
+    prepare_file(out, (".html",), force=args.force)
+    if is_study:
+        from flexcage.core.progress import Progress
+        from flexcage.study.results import StudyResults
+
+        StudyResults(folder).page(out, points=points, progress=Progress)
+    else:
+        from flexcage.simulate import load_run
+
+        load_run(folder).report(out)
+    say(f"written: {out} ({out.stat().st_size / 1e6:.1f} MB)")
+    return 0
+
+
+def _numbers(text: str) -> list[int]:
+    """Whole numbers of "0,3,5"."""
+    parts = [part.strip() for part in text.split(",") if part.strip()]
+    if not parts or not all(part.isdigit() for part in parts):
+        raise InputError(f"--points {text!r} should be numbers of points, such as '0,3'.")
+    return list(dict.fromkeys(int(part) for part in parts))
 
 
 def compare_command(args: argparse.Namespace) -> int:
