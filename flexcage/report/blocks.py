@@ -17,7 +17,13 @@ class Cell:
 
     text: str
     number: float | None = None
-    tone: str = ""  # "good", "bad" or "open" gives a verdict its colour and its sign
+    tone: str = ""  # "good", "bad" or "open" gives a verdict its colour
+
+    @property
+    def listed(self) -> bool:
+        """Whether it holds short lines, which must not be broken."""
+        lines = self.text.split("\n")
+        return len(lines) > 1 and max(map(len, lines)) < 60
 
 
 @dataclass(frozen=True)

@@ -14,10 +14,11 @@ from scipy.sparse.csgraph import connected_components
 from flexcage.render import sheet
 from flexcage.render.scene import surface_of
 from flexcage.report.blocks import Chart
-from flexcage.report.plots import FONT, plain
+from flexcage.report.plots import FONT
 
 SHARP = radians(35.0)  # faces that meet at more than this have an edge between them
 ELEVATION = radians(34.0)  # of the first view above the ring's plane, as in the pictures
+_BAR = 70  # pixels of height that the colour bar takes
 _OVER = 0.03  # share of the colour bar that stands for values beyond its range
 
 
@@ -38,7 +39,7 @@ class CageStress:
 def cage_chart(cages: Sequence[CageStress], *, scale: float, title: str) -> Chart:
     """One view for all cages: they share the deformation's scale, the colours and the camera."""
     limit, over = common_limit(cages)
-    figures = [(cage.name, cage_figure(cage, scale, limit, over)) for cage in cages]
+    figures = [(_named(cage), cage_figure(cage, scale, limit, over)) for cage in cages]
     beyond = " Vermilion marks what lies beyond the colours' range." if over else ""
     return Chart(
         title,
@@ -48,6 +49,10 @@ def cage_chart(cages: Sequence[CageStress], *, scale: float, title: str) -> Char
         f"to read the stress.{beyond}",
         height=560,
     )
+
+
+def _named(cage: CageStress) -> str:
+    return f"{cage.name}, t = {cage.time * 1e3:.3f} ms" if cage.name else ""
 
 
 def common_limit(cages: Sequence[CageStress]) -> tuple[float, bool]:
@@ -79,15 +84,14 @@ def cage_figure(cage: CageStress, scale: float, limit: float, over: bool) -> Any
             colorscale=scales, cmin=0.0, cmax=top, colorbar=_bar(limit * 1e-6),
             customdata=_places(cage, vertex),
             hovertemplate="%{customdata[0]:.1f} MPa<br>%{customdata[1]}<extra></extra>",
-            lighting={"ambient": 0.72, "diffuse": 0.42, "specular": 0.04, "roughness": 0.9,
+            lighting={"ambient": 0.9, "diffuse": 0.3, "specular": 0.04, "roughness": 0.9,
                       "fresnel": 0.0},
             lightposition={"x": 1e3, "y": 1e3, "z": 1e3}, flatshading=False,
         )
     )  # fmt: skip
     figure.add_trace(_lines(moved[sharp], "rgba(16, 16, 16, 0.45)"))
-    figure.add_trace(_lines(cage.points[sharp], "rgba(110, 110, 110, 0.8)"))
-    figure.add_trace(_mark(cage, moved))
-    return figure.update_layout(**_layout(cage))
+    figure.add_trace(_lines(cage.points[sharp], "rgba(140, 140, 140, 0.9)"))
+    return figure.update_layout(**_layout(cage, moved[cage.peak_vertex], np.ptp(moved, axis=0)))
 
 
 def split_at_edges(points: np.ndarray, triangles: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -146,17 +150,15 @@ def _lines(ends: np.ndarray, colour: str) -> Any:
     )  # fmt: skip
 
 
-def _mark(cage: CageStress, moved: np.ndarray) -> Any:
-    """A ring at the peak, with its value."""
-    import plotly.graph_objects as go
-
+def _peak_note(cage: CageStress, at: np.ndarray) -> dict[str, Any]:
+    """The peak's value, with an arrow to its place [m]; it stays in front when the cage turns."""
     peak = cage.von_mises[cage.peak_vertex] * 1e-6
-    return go.Scatter3d(
-        **_mm(moved[[cage.peak_vertex]]), mode="markers+text", text=[f"peak {peak:.3g} MPa"],
-        textposition="top center", textfont={"size": 13, "color": sheet.INK},
-        marker={"symbol": "circle-open", "size": 11, "color": sheet.INK, "line": {"width": 2}},
-        hoverinfo="skip", showlegend=False,
-    )  # fmt: skip
+    return {
+        **dict(zip("xyz", (1e3 * at).tolist())), "text": f"peak {peak:.3g} MPa",
+        "ax": 60, "ay": 70, "arrowhead": 2, "arrowwidth": 1.5, "arrowcolor": sheet.INK,
+        "font": FONT, "bgcolor": "rgba(255, 255, 255, 0.85)", "bordercolor": sheet.HAIR,
+        "borderpad": 3,
+    }  # fmt: skip
 
 
 def _colours(top: float, over: bool) -> tuple[list[tuple[float, str]], float]:
@@ -180,25 +182,33 @@ def _bar(top: float) -> dict[str, Any]:
     }  # fmt: skip
 
 
-def _layout(cage: CageStress) -> dict[str, Any]:
+def _layout(cage: CageStress, peak: np.ndarray, span: np.ndarray) -> dict[str, Any]:
+    """Layout of a view of a body that spans ``span`` (3,) [m] along x, y and z.
+
+    ``meta`` tells the page's script how wide the body may be in shares of the view's height (its
+    upright size must fit as well), and how many pixels the colour bar takes.
+    """
+    share = span / span.max()
+    upright = sin(ELEVATION) + cos(ELEVATION) * float(share[0])
     hidden = {"visible": False, "showspikes": False}
     _, y, z = cage.points[cage.peak_vertex]
     azimuth = float(np.arctan2(z, y))
     eye = (sin(ELEVATION), cos(ELEVATION) * cos(azimuth), cos(ELEVATION) * sin(azimuth))
     camera = {
         "up": {"x": 1, "y": 0, "z": 0},
-        "eye": dict(zip("xyz", (1.75 * e for e in eye))),
+        "eye": dict(zip("xyz", (1.25 * e for e in eye))),
         "projection": {"type": "orthographic"},
     }
-    note = f"{cage.name}, t = {cage.time * 1e3:.3f} ms" if cage.name else ""
     return {
         "template": "none",
         "font": FONT,
-        "margin": {"l": 0, "r": 0, "t": 26, "b": 0},
-        "title": {"text": plain(note), "font": FONT, "x": 0.0, "y": 0.99, "yanchor": "top"},
+        "margin": {"l": 0, "r": 0, "t": 0, "b": 0},
+        "meta": {"widest": min(0.84 / upright, 1.0), "spare": _BAR},
         "scene": {
-            "xaxis": hidden, "yaxis": hidden, "zaxis": hidden, "aspectmode": "data",
-            "camera": camera, "dragmode": "orbit", "uirevision": "kept",
+            "xaxis": hidden, "yaxis": hidden, "zaxis": hidden,
+            "aspectmode": "manual", "aspectratio": dict(zip("xyz", share.tolist())),
+            "camera": camera, "dragmode": "turntable", "uirevision": "kept",
+            "annotations": [_peak_note(cage, peak)],
         },
         "uirevision": "kept",
         "hoverlabel": {"bgcolor": "white", "font": FONT},

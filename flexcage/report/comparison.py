@@ -13,6 +13,7 @@ from flexcage.report.blocks import Chart
 from flexcage.report.plots import new_figure, plain
 
 MOST_LINES = len(CYCLE)  # lines in a chart; with more combinations only points are drawn
+_BESIDE = 0.1  # of the distance between two words: how far groups stand apart
 _SYMBOLS = ("circle", "square", "diamond", "triangle-up", "x", "star")
 
 
@@ -27,6 +28,11 @@ class Abscissa:
     values: Sequence[Any]
     group: Sequence[str]
 
+    @property
+    def name(self) -> str:
+        """The title without its unit."""
+        return self.title.partition(" [")[0]
+
 
 @dataclass(frozen=True)
 class Output:
@@ -36,6 +42,7 @@ class Output:
     """
 
     title: str
+    unit: str
     mean: np.ndarray
     half: np.ndarray
 
@@ -45,7 +52,7 @@ def comparison_charts(
 ) -> list[Chart]:
     """Every output against every abscissa; ``names`` (n_points,) are what pointing at one shows."""
     return [
-        Chart(f"{output.title} against {abscissa.title}", [("", _figure(output, abscissa, names))])
+        Chart(f"{output.title}, against {abscissa.name}", [("", _figure(output, abscissa, names))])
         for output in outputs
         for abscissa in abscissas
         if np.isfinite(output.mean).any()
@@ -53,10 +60,12 @@ def comparison_charts(
 
 
 def _figure(output: Output, abscissa: Abscissa, names: Sequence[str]) -> Any:
-    figure = new_figure(plain(abscissa.title), plain(output.title))
+    figure = new_figure(plain(abscissa.title), f"[{plain(output.unit)}]")
     numeric = all(_is_number(v) for v in abscissa.values)
-    if not numeric:
-        figure.update_xaxes(type="category")
+    words = [] if numeric else list(dict.fromkeys(map(str, abscissa.values)))
+    if words:
+        ticks, texts = list(range(len(words))), [plain(word) for word in words]
+        figure.update_xaxes(tickvals=ticks, ticktext=texts, range=[-0.5, len(words) - 0.5])
     groups = list(dict.fromkeys(abscissa.group))
     if len(groups) > MOST_LINES:
         groups, member = [""], np.zeros(len(abscissa.values), int)
@@ -68,9 +77,10 @@ def _figure(output: Output, abscissa: Abscissa, names: Sequence[str]) -> Any:
         if numeric:
             points.sort(key=lambda i: abscissa.values[i])
         once = len({str(abscissa.values[i]) for i in points}) == len(points)
+        values, beside = abscissa.values, _BESIDE * (k - 0.5 * (len(groups) - 1))
         lines = numeric and once and len(points) > 1
         figure.add_scatter(
-            x=[_plain_value(abscissa.values[i]) for i in points],
+            x=[words.index(str(values[i])) + beside if words else float(values[i]) for i in points],
             y=output.mean[points].tolist(),
             error_y=_bars(output.half[points], CYCLE[k]),
             mode="lines+markers" if lines else "markers",
@@ -88,10 +98,6 @@ def _is_number(value: Any) -> bool:
     return isinstance(value, (int, float, np.number)) and not isinstance(value, bool)
 
 
-def _plain_value(value: Any) -> Any:
-    return float(value) if _is_number(value) else plain(str(value))
-
-
 def _bars(half: np.ndarray, colour: str) -> dict[str, Any] | None:
     if not np.isfinite(half).any():
         return None
@@ -102,4 +108,5 @@ def _bars(half: np.ndarray, colour: str) -> dict[str, Any] | None:
 def _hover(name: str, output: Output, point: int) -> str:
     half = output.half[point]
     margin = f" ± {half:.2g}" if np.isfinite(half) else ""
-    return f"{plain(name)}<br>{plain(output.title)}: {output.mean[point]:.5g}{margin}"
+    value = f"{output.mean[point]:.5g}{margin} {plain(output.unit)}"
+    return f"{plain(name)}<br>{plain(output.title)}: {value}"

@@ -24,6 +24,7 @@ if TYPE_CHECKING:
 RPM = 30.0 / pi
 TIME = "time [ms]"
 _WASH = "rgba(86, 180, 233, 0.35)"
+_LEFT_OUT = "#eeeeee"  # the time that statistics leave out
 
 
 def history_charts(scene: Scene, numbers: BearingNumbers) -> list[Chart]:
@@ -32,7 +33,15 @@ def history_charts(scene: Scene, numbers: BearingNumbers) -> list[Chart]:
     charts = [_cage_speed(ds, numbers), _pocket_force(ds)]
     if scene.stress is not None:
         charts.append(_root_stress(scene))
-    return [*charts, _roller_spin(ds, numbers), _orbit(ds, scene.clearance, scene.settle)]
+    charts.append(_roller_spin(ds, numbers))
+    t = _ms(ds)
+    for chart in charts:
+        if scene.settle:
+            end = t[0] + scene.settle * (t[-1] - t[0])
+            chart.figures[0][1].add_vrect(
+                t[0], end, fillcolor=_LEFT_OUT, layer="below", line_width=0
+            )
+    return [*charts, _orbit(ds, scene.clearance, scene.settle)]
 
 
 def _ms(ds: xarray.Dataset) -> np.ndarray:
@@ -62,11 +71,11 @@ def _pocket_force(ds: xarray.Dataset) -> Chart:
 def _root_stress(scene: Scene) -> Chart:
     assert scene.stress is not None
     roots, t = scene.stress.roots * 1e-6, _ms(scene.dataset)
-    worst = int(roots.max(axis=0).argmax())
+    worst = int(roots[scene.stress.settled :].max(axis=0).argmax())
     figure = new_figure(TIME, "equivalent stress [MPa]")
     add_band(figure, t, roots.min(axis=1), roots.max(axis=1), "all corners", _WASH)
     name = in_words(scene.stress.root_names[worst])
-    add_curve(figure, t, roots[:, worst], f"highest: {name}", color=BLUE)
+    add_curve(figure, t, roots[:, worst], f"highest once settled: {name}", color=BLUE)
     return Chart("Stress at pocket corners", [("", figure)])
 
 

@@ -8,6 +8,7 @@ from __future__ import annotations
 import base64
 import datetime
 import io
+import re
 from collections.abc import Iterable
 from importlib.resources import files
 from pathlib import Path
@@ -54,7 +55,7 @@ def html(page: Page) -> str:
 
     assets = files("flexcage.report") / "assets"
     environment = jinja2.Environment(autoescape=True, trim_blocks=True, lstrip_blocks=True)
-    environment.filters.update(embedded=embedded, figures=figures)
+    environment.filters.update(embedded=embedded, figures=figures, breakable=breakable)
     template = environment.from_string((assets / "page.html.j2").read_text("utf-8"))
     now = datetime.datetime.now(datetime.UTC)
     charts = any(b.kind in ("chart", "charts") for s in page.sections for b in s.blocks)
@@ -87,6 +88,14 @@ def _webp(data: bytes) -> bytes:
     with PIL.Image.open(io.BytesIO(data)) as picture:
         picture.convert("RGB").save(packed, "WEBP", quality=_QUALITY, method=4)
     return packed.getvalue()
+
+
+def breakable(name: str) -> Any:
+    """A name that may be broken after its dots, lines and brackets; escaped."""
+    from markupsafe import Markup, escape
+
+    marks = re.sub(r"([._=\]])(?=\S)", "\\1\u200b", name)
+    return escape(marks).replace("\u200b", Markup("<wbr>"))
 
 
 def figures(pairs: Iterable[tuple[str, Any]]) -> str:

@@ -102,8 +102,8 @@ def run_page(account: RunAccount) -> Page:
 
 
 _THINNED = Prose(
-    ["Curves are thinned to what a screen can show; the least and the largest value of every "
-     "stretch are kept, so no peak is lost."]
+    ["Shaded: left out of statistics. Curves are thinned to what a screen can show; the least and "
+     "the largest value of every stretch are kept, so no peak is lost."]
 )  # fmt: skip
 
 

@@ -24,6 +24,8 @@ from flexcage.report.extras import extra_figures
 from flexcage.report.tables import mapping_table
 from flexcage.report.verdicts import read_verdicts
 
+_FEWEST_CHARTS, _MOST_MARKS = 4, 40_000  # of comparisons, and of marks in all, to keep a page light
+
 
 @dataclass(frozen=True, kw_only=True)
 class StudyAccount:
@@ -78,8 +80,11 @@ def _comparison(account: StudyAccount) -> Section:
     charts = comparison_charts(account.outputs, account.abscissas, account.points)
     if not charts:
         return Section("Comparison", [Prose(["There is nothing to compare yet."])])
-    note = "Bars are 95 % intervals over the repetitions. Point at a mark for its case."
-    return Section("Comparison", [Prose([note]), Charts(charts)])
+    notes = ["Bars are 95 % intervals over the repetitions. Point at a mark for its case."]
+    most = max(_FEWEST_CHARTS, _MOST_MARKS // len(account.points))
+    if len(charts) > most:
+        notes.append(f"The first {most} of {len(charts)} charts; statistics.csv has all figures.")
+    return Section("Comparison", [Prose(notes), Charts(charts[:most])])
 
 
 def _stress(account: StudyAccount) -> list[Section]:

@@ -43,6 +43,8 @@ def summary_table(sections: Iterable[Section], caption: str = "") -> Table:
 
 def filled(table: Table) -> Table:
     """The table without columns that are empty in every row."""
+    if not table.rows:
+        return table
     kept = [k for k in range(len(table.head)) if any(row[k].text for row in table.cells)]
     rows = [[row[k] for k in kept] for row in table.cells]
     return Table([table.head[k] for k in kept], rows, table.caption)

@@ -13,11 +13,12 @@ from flexcage.report.comparison import Abscissa, Output
 from flexcage.report.tables import figure_cell, filled, number, typeset
 from flexcage.results.summary import SHOWN, Row
 from flexcage.study.axes import Points, Zip
-from flexcage.study.outputs import Figure
+from flexcage.study.outputs import Figure, is_reduction
 
 if TYPE_CHECKING:
     from flexcage.study.results import ResultRow, StudyResults
 
+MOST_ROWS = 2000  # of a table of cases
 _AUDIT = {  # figures of every case, and what the table calls them
     "energy_audit": "audit", "energy_of_drive": "imbalance / drive's work",
     "energy_of_cage": "imbalance / loss in the cage", "steps": "steps",
@@ -47,17 +48,20 @@ def _short(value: Any) -> str:
     return f"{value:g}" if isinstance(value, float) else str(value)
 
 
+def _words(output: str) -> str:
+    """Name of an output as a reader wants it; a reduction stays as the study writes it."""
+    return output if is_reduction(output) else output.replace("_", " ")
+
+
 def _titles(results: StudyResults) -> dict[str, str]:
     """Title of every output, with the unit that it is shown in."""
     units = {name: _unit(results.known.get(name)) for name in results.study.outputs}
-    return {
-        name: f"{name} [{typeset(unit)}]" if unit not in ("", "1") else name
-        for name, unit in units.items()
-    }
+    return {n: f"{_words(n)} [{u}]" if u != "1" else _words(n) for n, u in units.items()}
 
 
 def _unit(figure: Figure | None) -> str:
-    return (figure.shown or figure.unit) if figure else ""
+    """Unit that an output is shown in; "1" for none."""
+    return (typeset(figure.shown or figure.unit) if figure else "") or "1"
 
 
 def _factor(figure: Figure | None) -> float:
@@ -65,6 +69,7 @@ def _factor(figure: Figure | None) -> float:
 
 
 def statistics_table(results: StudyResults) -> Table:
+    """A row a point: what varies, how many runs, and every output's mean and interval."""
     titles, frame = _titles(results), results.statistics
     axes = list(results.axes_of(results.rows[0].planned))
     si = results.titles
@@ -92,9 +97,10 @@ def _mean_cell(results: StudyResults, name: str, mean: Any, half: float) -> Cell
 
 
 def cases_table(results: StudyResults) -> Table:
+    """A row a case: what varies, its outputs, and what became of it."""
     titles = _titles(results)
     rows = []
-    for r in results.rows:
+    for r in results.rows[:MOST_ROWS]:
         values = [_value_cell(v) for v in results.axes_of(r.planned).values()]
         figures = [_cell(r.figures.get(name)) for name in titles]
         rows.append([
@@ -104,7 +110,14 @@ def cases_table(results: StudyResults) -> Table:
         ])  # fmt: skip
     axes = results.axes_of(results.rows[0].planned)
     head = ("point", "repetition", *axes, *titles.values(), "state", "time [s]", "reason", "folder")
-    return filled(Table(head, rows, "All cases; a case's run lies in cases/ under its folder"))
+    return filled(Table(head, rows, f"{_share(results)} Runs lie in the folder cases."))
+
+
+def _share(results: StudyResults) -> str:
+    """Which of the cases a table holds."""
+    if len(results.rows) <= MOST_ROWS:
+        return "All cases."
+    return f"The first {MOST_ROWS:,} of {len(results.rows):,} cases; table.csv has all."
 
 
 def _cell(figure: Figure | None) -> Cell:
@@ -115,15 +128,16 @@ def _cell(figure: Figure | None) -> Cell:
 
 def stored_figure(results: StudyResults, row: ResultRow, key: str) -> Any:
     """Any figure of a finished case's summary, in SI; None if it has none."""
-    stored = results.folder.row(row.planned.hash)
+    stored = results.stored.get(row.planned.hash)
     figure = stored.figures.get(key) if stored else None
     return None if figure is None else figure.value
 
 
 def audit_table(results: StudyResults) -> Table:
+    """Energy audit and the solver's work, a row a finished case."""
     rows, units = [], dict[str, str]()
-    for r in results.rows:
-        stored = results.folder.row(r.planned.hash)
+    for r in results.rows[:MOST_ROWS]:
+        stored = results.stored.get(r.planned.hash)
         if stored is None:
             continue
         found = [stored.figures.get(key) for key in _AUDIT]
@@ -131,16 +145,19 @@ def audit_table(results: StudyResults) -> Table:
         place = [number(r.planned.number), number(r.planned.repetition)]
         rows.append([*place, *map(_cell, found)])
     heads = [f"{text} [{units[key]}]" if key in units else text for key, text in _AUDIT.items()]
-    return filled(Table(("point", "repetition", *heads), rows, "Energy audit and work of cases"))
+    caption = f"Energy audit and the solver's work. {_share(results)}"
+    return filled(Table(("point", "repetition", *heads), rows, caption))
 
 
 def outputs(results: StudyResults) -> list[Output]:
+    """Means and intervals of every output at every point, in the units that they are shown in."""
     frame = results.statistics
     found = []
-    for name, title in _titles(results).items():
+    for name in results.study.outputs:
+        unit = _unit(results.known.get(name))
         factor, si = _factor(results.known.get(name)), results.titles[name]
         mean = np.array([_float(v) for v in frame[si]]) * factor
-        found.append(Output(title, mean, np.array(frame[f"+- {si}"], float) * factor))
+        found.append(Output(_words(name), unit, mean, np.array(frame[f"+- {si}"], float) * factor))
     return found
 
 

@@ -20,7 +20,7 @@ from flexcage.results.export import frame_to_csv, frame_to_parquet
 from flexcage.results.summary import Row
 from flexcage.run import Run
 from flexcage.simulate import load_run
-from flexcage.study.folder import Folder
+from flexcage.study.folder import CaseRow, Folder
 from flexcage.study.outputs import Figure
 from flexcage.study.plan import Planned
 from flexcage.study.spec import value_at
@@ -62,13 +62,19 @@ class StudyResults:
         return [self._row(planned) for planned in self.plan.cases]
 
     def _row(self, planned: Planned) -> ResultRow:
-        row, failure = self.folder.row(planned.hash), self.folder.failure(planned.hash)
+        row, failure = self.stored.get(planned.hash), self.folder.failure(planned.hash)
         if row is not None:
             wanted = {k: row.figures[k] for k in self.study.outputs if k in row.figures}
             return ResultRow(planned, "done", "", row.seconds, wanted)
         if failure is not None:
             return ResultRow(planned, "failed", failure.reason, nan, {})
         return ResultRow(planned, "open", "", nan, {})
+
+    @cached_property
+    def stored(self) -> dict[str, CaseRow]:
+        """All figures of every finished case, by its hash."""
+        found = {planned.hash: self.folder.row(planned.hash) for planned in self.plan.cases}
+        return {name: row for name, row in found.items() if row is not None}
 
     def count(self, state: str) -> int:
         """How many cases are "done", "failed" or "open"."""

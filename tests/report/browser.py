@@ -66,6 +66,7 @@ def complaints(browser: Any) -> list[str]:
         if entry["level"] in ("SEVERE", "WARNING")
         and "GPU stall due to ReadPixels" not in entry["message"]
         and "GL Driver Message" not in entry["message"]
+        and "willReadFrequently" not in entry["message"]
     ]
 
 

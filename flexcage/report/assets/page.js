@@ -26,19 +26,19 @@ for (const button of document.querySelectorAll("th button"))
 // Charts: each holds one figure, or several that its list chooses from.
 const BUTTONS = (layout) => [layout.scene ? ["resetCameraDefault3d", "toImage"] : ["resetScale2d", "toImage"]];
 const CONFIG = (layout) => ({ responsive: true, displaylogo: false, modeBarButtons: BUTTONS(layout) });
-// A narrow view must stand further back to hold a whole ring: by how much, from its width and height.
-function standBack(layout, plot) {
+// A ring fills its view: its size comes with the figure, the view's shape is known only here. A size
+// of 1 spans 0.44 of the view's height (plotly's orthographic projection).
+function fillView(layout, plot) {
   if (!layout.scene) return;
-  const aspect = plot.clientWidth / plot.clientHeight;
-  const eye = layout.scene.camera.eye;
-  const factor = Math.max(1, 1.25 / aspect);
-  for (const axis of ["x", "y", "z"]) eye[axis] *= factor;
+  const width = plot.clientWidth, height = plot.clientHeight - layout.meta.spare;
+  const size = Math.min(0.94 * width, layout.meta.widest * height) / (0.44 * height);
+  for (const axis of ["x", "y", "z"]) layout.scene.aspectratio[axis] *= size;
 }
 function drawChart(chart) {
   const figures = JSON.parse(chart.querySelector("script").textContent);
   const plot = chart.querySelector(".plot");
   const choice = chart.querySelector("select");
-  for (const figure of figures) standBack(figure.layout, plot);
+  for (const figure of figures) fillView(figure.layout, plot);
   const show = (k) => Plotly.react(plot, figures[k].data, figures[k].layout, CONFIG(figures[k].layout));
   if (choice) choice.addEventListener("change", () => show(Number(choice.value)));
   return show(0).then(() => plot.classList.add("drawn"));
