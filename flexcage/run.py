@@ -203,7 +203,7 @@ class Run:
             ),
             steps=self.steps,
             settings=words.settings(case),
-            assumptions=case.assumptions,
+            assumptions=words.assumed(case),
             sources=words.grounds(case),
             case_text=case.to_toml(),
             commands=f"{command} -o runs/again\nflexcage report runs/again",

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 from flexcage.case.case import Case
 from flexcage.case.extensions import sources
 from flexcage.core import units
@@ -20,7 +22,7 @@ def describe(value: float, unit: str) -> str:
 
 def in_words(case: Case) -> list[str]:
     """Paragraphs: bearing, cage and defects; drive and load; and how it was computed."""
-    asked = f"{case.description.rstrip('.')}." if case.description else ""
+    asked = f"The case calls itself “{case.description}”." if case.description else ""
     what = f"{_bearing(case)} {_cage(case)} {_defects(case)}"
     return [text for text in (asked, what, f"{_motion(case)} {_method(case)}") if text]
 
@@ -127,6 +129,18 @@ def settings(case: Case) -> dict[str, str]:
         found["mesh"] = f"{case.mesh.file or case.mesh.fineness}, order {case.mesh.order}"
         found["basis"] = f"{kind}, damping ratio {modes.damping:g}"
     return found
+
+
+def assumed(case: Case) -> dict[str, tuple[str, str]]:
+    """Values that no source gives: by path, the value as a case file writes it and the reason."""
+    table = case.to_table()
+    return {path: (_value(table, path), why) for path, why in case.assumptions.items()}
+
+
+def _value(table: Any, path: str) -> str:
+    for key in path.split("."):
+        table = table.get(key, "") if isinstance(table, dict) else ""
+    return str(table.get("name", "its own values") if isinstance(table, dict) else table)
 
 
 def grounds(case: Case) -> dict[str, str]:

@@ -61,6 +61,8 @@ def prepare_file(path: Path, endings: Iterable[str], *, force: bool) -> None:
         raise InputError(
             f"'{path}' should end in {' or '.join(endings)}.", where="out", value=str(path)
         )
+    if path.is_dir():
+        raise InputError(f"'{path}' is a folder; name a file.", where="out", value=str(path))
     if path.exists() and not force:
         raise InputError(f"'{path}' exists already; --force writes it anew.", where="out")
     if not path.parent.is_dir() or not os.access(path.parent, os.W_OK):

@@ -20,6 +20,11 @@ class Cell:
     tone: str = ""  # "good", "bad" or "open" gives a verdict its colour
 
     @property
+    def is_name(self) -> bool:
+        """Whether it is one long word, which may be broken after its dots and lines."""
+        return len(self.text) > 12 and not any(c.isspace() for c in self.text)
+
+    @property
     def listed(self) -> bool:
         """Whether it holds short lines, which must not be broken."""
         lines = self.text.split("\n")

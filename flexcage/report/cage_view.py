@@ -124,9 +124,11 @@ def split_at_edges(points: np.ndarray, triangles: np.ndarray) -> tuple[np.ndarra
 
 
 def _mm(points: np.ndarray) -> dict[str, np.ndarray]:
-    """Coordinates in mm, in single precision."""
-    x, y, z = (points * 1e3).astype(np.float32).T
-    return {"x": x, "y": y, "z": z}
+    """Coordinates in mm, in single precision, by the view's own axes.
+
+    The view turns about its z, so that is the bearing's x; its x and y are the bearing's y and z.
+    """
+    return dict(zip("zxy", (points * 1e3).astype(np.float32).T))
 
 
 def _places(cage: CageStress, vertex: np.ndarray) -> list[list[Any]]:
@@ -154,7 +156,7 @@ def _peak_note(cage: CageStress, at: np.ndarray) -> dict[str, Any]:
     """The peak's value, with an arrow to its place [m]; it stays in front when the cage turns."""
     peak = cage.von_mises[cage.peak_vertex] * 1e-6
     return {
-        **dict(zip("xyz", (1e3 * at).tolist())), "text": f"peak {peak:.3g} MPa",
+        **dict(zip("zxy", (1e3 * at).tolist())), "text": f"peak {peak:.3g} MPa",
         "ax": 60, "ay": 70, "arrowhead": 2, "arrowwidth": 1.5, "arrowcolor": sheet.INK,
         "font": FONT, "bgcolor": "rgba(255, 255, 255, 0.85)", "bordercolor": sheet.HAIR,
         "borderpad": 3,
@@ -195,8 +197,8 @@ def _layout(cage: CageStress, peak: np.ndarray, span: np.ndarray) -> dict[str, A
     azimuth = float(np.arctan2(z, y))
     eye = (sin(ELEVATION), cos(ELEVATION) * cos(azimuth), cos(ELEVATION) * sin(azimuth))
     camera = {
-        "up": {"x": 1, "y": 0, "z": 0},
-        "eye": dict(zip("xyz", (1.25 * e for e in eye))),
+        "up": {"x": 0, "y": 0, "z": 1},
+        "eye": dict(zip("zxy", (1.25 * e for e in eye))),
         "projection": {"type": "orthographic"},
     }
     return {
@@ -206,7 +208,7 @@ def _layout(cage: CageStress, peak: np.ndarray, span: np.ndarray) -> dict[str, A
         "meta": {"widest": min(0.84 / upright, 1.0), "spare": _BAR},
         "scene": {
             "xaxis": hidden, "yaxis": hidden, "zaxis": hidden,
-            "aspectmode": "manual", "aspectratio": dict(zip("xyz", share.tolist())),
+            "aspectmode": "manual", "aspectratio": dict(zip("zxy", share.tolist())),
             "camera": camera, "dragmode": "turntable", "uirevision": "kept",
             "annotations": [_peak_note(cage, peak)],
         },

@@ -26,7 +26,13 @@ from flexcage.report.blocks import (
 from flexcage.report.cage_view import CageStress, cage_chart
 from flexcage.report.extras import extra_figures
 from flexcage.report.histories import history_charts, imbalance_chart, step_chart
-from flexcage.report.tables import mapping_table, rows_table, summary_table, typeset
+from flexcage.report.tables import (
+    assumption_table,
+    mapping_table,
+    rows_table,
+    summary_table,
+    typeset,
+)
 from flexcage.results.metrics import BearingNumbers
 from flexcage.results.summary import Row, Summary
 
@@ -69,7 +75,7 @@ class RunAccount:
     warnings: Sequence[str]
     steps: Mapping[str, np.ndarray]  # the solver's: time, step [s]
     settings: Mapping[str, str]  # of the solver and the model
-    assumptions: Mapping[str, str]  # path of a value to the reason for it
+    assumptions: Mapping[str, tuple[str, str]]  # by path: a value, and the reason for it
     sources: Mapping[str, str]
     case_text: str  # case.toml
     commands: str  # that compute the run anew
@@ -164,7 +170,8 @@ def _extras(account: RunAccount) -> list[Section]:
 
 
 def _energy(account: RunAccount) -> Section:
-    blocks: list[Block] = [summary_table(_sections(account, "Energy"))]
+    rows = [row for section in _sections(account, "Energy") for row in section.rows]
+    blocks: list[Block] = [rows_table(rows)]
     if {"energy", "work"} <= set(account.scene.dataset.data_vars):
         blocks.append(Charts([imbalance_chart(account.scene.dataset)]))
     return Section("Energy audit", blocks)
@@ -185,7 +192,6 @@ def _solver(account: RunAccount) -> Section:
 
 def _grounds(account: RunAccount) -> Section:
     return Section("Assumptions and sources", [
-        mapping_table(("value", "why it was chosen"), account.assumptions,
-                      "Values that no source gives"),
+        assumption_table(account.assumptions, "Values that no source gives"),
         mapping_table(("source", "what it gave"), account.sources, "Sources"),
     ])  # fmt: skip

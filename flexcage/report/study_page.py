@@ -21,7 +21,7 @@ from flexcage.report.blocks import (
 from flexcage.report.cage_view import CageStress, cage_chart
 from flexcage.report.comparison import Abscissa, Output, comparison_charts
 from flexcage.report.extras import extra_figures
-from flexcage.report.tables import mapping_table
+from flexcage.report.tables import assumption_table
 from flexcage.report.verdicts import read_verdicts
 
 _FEWEST_CHARTS, _MOST_MARKS = 4, 40_000  # of comparisons, and of marks in all, to keep a page light
@@ -47,7 +47,7 @@ class StudyAccount:
     scale: float = 1.0  # of their deformation
     images: Sequence[Image] = ()  # of their stress
     chosen: str = ""  # which cases are shown, and why not all
-    assumptions: Mapping[str, str]
+    assumptions: Mapping[str, tuple[str, str]]  # by path: a value, and the reason for it
     study_text: str  # study.toml
     commands: str
 
@@ -66,8 +66,7 @@ def study_page(account: StudyAccount) -> Page:
         Section("Energy audit and solver", [account.audits]),
         Section("Base case", [
             Prose(account.base),
-            mapping_table(("value", "why it was chosen"), account.assumptions,
-                          "Values of the base case that no source gives"),
+            assumption_table(account.assumptions, "Its values that no source gives"),
         ]),
         Section("How to reproduce", [
             Text("Commands", account.commands, open=True), Text("study.toml", account.study_text),

@@ -12,6 +12,9 @@ from flexcage.results.summary import Row, Section
 if TYPE_CHECKING:
     import pandas
 
+#: Figures that are verdicts: the word that is good, and the one that is bad.
+_TONES = {"energy_audit": ("passed", "EXCEEDED")}
+
 
 def number(value: Any, text: str | None = None) -> Cell:
     """Cell of a number, by which its column is sorted; a dash for none."""
@@ -28,6 +31,9 @@ def figure_cell(row: Row) -> Cell:
     value = row.value
     if row.text == "-":
         return Cell("–")
+    if row.key in _TONES:
+        good, bad = _TONES[row.key]
+        return Cell(row.text, tone="good" if value == good else "bad" if value == bad else "")
     return number(value if not isinstance(value, str) else str(value), row.text)
 
 
@@ -70,6 +76,12 @@ def rows_table(rows: Sequence[Row], caption: str = "") -> Table:
 def mapping_table(head: tuple[str, str], values: Mapping[str, Any], caption: str = "") -> Table:
     """Names and texts."""
     return Table(head, [[str(k), str(v)] for k, v in values.items()], caption)
+
+
+def assumption_table(assumptions: Mapping[str, tuple[str, str]], caption: str) -> Table:
+    """Paths of a case, their values, and the reasons for them."""
+    rows = [[path, value, reason] for path, (value, reason) in assumptions.items()]
+    return Table(("path in the case", "value", "why it was chosen"), rows, caption)
 
 
 def frame_table(frame: pandas.DataFrame, caption: str = "") -> Table:

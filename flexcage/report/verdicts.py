@@ -59,7 +59,14 @@ def _row(verdict: Mapping[str, Any], path: Path) -> list[Cell]:
         )
     shown, tone = OUTCOMES[outcome]
     claim = ": ".join(part for part in (key, str(verdict.get("claim", ""))) if part)
-    figures = "\n".join(_figure(f) for f in verdict.get("figures") or ())
+    given = verdict.get("figures") or []
+    if not isinstance(given, list) or not all(isinstance(f, Mapping) for f in given):
+        raise InputError(
+            f"'{path}': the figures of verdict '{key}' should be a list of tables with label and "
+            "value.",
+            where=FILE,
+        )
+    figures = "\n".join(map(_figure, given))
     rest = (str(verdict.get(name) or "") for name in ("range", "reason", "source"))
     return [Cell(claim), Cell(shown, tone=tone), Cell(figures), *map(Cell, rest)]
 

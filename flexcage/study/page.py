@@ -66,7 +66,7 @@ def _account(
         scale=common_scale(cages),
         images=images,
         chosen=chosen,
-        assumptions=study.case.assumptions,
+        assumptions=words.assumed(study.case),
         study_text=study.to_toml(),
         commands="flexcage study run study.toml -o runs/again\nflexcage report runs/again",
     )

@@ -35,6 +35,8 @@ class Shown:
 def to_show(results: StudyResults, points: Sequence[int] | None) -> tuple[list[ResultRow], str]:
     """First finished case with stress of the points to show, and a sentence on the choice."""
     if results.study.keep != "runs":
+        if points is not None:
+            raise InputError("The study kept figures only, so no point's stress can be shown.")
         return [], "The study kept figures only, so no stress can be shown."
     able: dict[int, ResultRow] = {}
     for row in results.rows:
