@@ -5,11 +5,13 @@ from __future__ import annotations
 import logging
 import os
 import shutil
+from collections.abc import Callable
+from contextlib import nullcontext
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
 from tempfile import TemporaryDirectory
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -162,17 +164,27 @@ class Run:
         scene = self.scene(animate=animate)
         return self.stages("pictures", draw_album, scene, Path(folder), animate=animate)
 
-    def report(self, path: str | Path) -> Path:
+    def report(self, path: str | Path, *, progress: Callable[..., Any] | None = None) -> Path:
         """Write the run's report, one HTML file that needs no other; returns its path.
 
         The run's pictures are drawn if its folder has none; where this machine cannot draw, the
-        page says why. Raises InputError if ``path`` cannot be written.
+        page says why. ``progress`` is a context like ``core.progress.Progress``. Raises InputError
+        if ``path`` cannot be written.
         """
         from flexcage.report.page import write_page
         from flexcage.report.run_page import run_page
 
-        with TemporaryDirectory() as spare:
+        if self.store.n_time < 2:
+            raise InputError(
+                "The run holds fewer than two samples, too few to report on; 'flexcage run "
+                "--resume' goes on with it.",
+                where="run",
+            )
+        bar = progress(2, "report") if progress else nullcontext()
+        with TemporaryDirectory() as spare, bar as drawn:
             images, lacking = self._images(Path(spare))
+            if drawn is not None:
+                drawn.advance()
             return write_page(run_page(self._account(images, lacking)), path)
 
     def _images(self, spare: Path) -> tuple[list[Path], str]:

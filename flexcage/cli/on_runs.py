@@ -63,15 +63,16 @@ def report_command(args: argparse.Namespace) -> int:
             raise InputError(f"--points belongs to a study, and '{folder}' is a run.")
     out = Path(args.out) if args.out else folder / "report.html"
     prepare_file(out, (".html",), force=args.force)
+    from flexcage.core.progress import Progress
+
     if is_study:
-        from flexcage.core.progress import Progress
         from flexcage.study.results import StudyResults
 
         StudyResults(folder).page(out, points=points, progress=Progress)
     else:
         from flexcage.simulate import load_run
 
-        load_run(folder).report(out)
+        load_run(folder).report(out, progress=Progress)
     say(f"written: {out} ({out.stat().st_size / 1e6:.1f} MB)")
     return 0
 

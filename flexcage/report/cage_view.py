@@ -83,7 +83,7 @@ def cage_figure(cage: CageStress, scale: float, limit: float, over: bool) -> Any
             **_mm(at), i=i, j=j, k=k, intensity=stress.astype(np.float32), name="",
             colorscale=scales, cmin=0.0, cmax=top, colorbar=_bar(limit * 1e-6),
             customdata=_places(cage, vertex),
-            hovertemplate="%{customdata[0]:.1f} MPa<br>%{customdata[1]}<extra></extra>",
+            hovertemplate="%{customdata[0]:.1f} MPa<br>at pocket %{customdata[1]}<extra></extra>",
             lighting={"ambient": 0.9, "diffuse": 0.3, "specular": 0.04, "roughness": 0.9,
                       "fresnel": 0.0},
             lightposition={"x": 1e3, "y": 1e3, "z": 1e3}, flatshading=False,
@@ -131,13 +131,12 @@ def _mm(points: np.ndarray) -> dict[str, np.ndarray]:
     return dict(zip("zxy", (points * 1e3).astype(np.float32).T))
 
 
-def _places(cage: CageStress, vertex: np.ndarray) -> list[list[Any]]:
-    """Stress [MPa] and pocket of every vertex, as the hover shows them."""
+def _places(cage: CageStress, vertex: np.ndarray) -> np.ndarray:
+    """Stress [MPa] and nearest pocket of every vertex (n, 2), for pointing at them."""
     x, y, z = cage.points[vertex].T
     pitch = 2.0 * np.pi / cage.pocket_count
     pocket = np.round(np.arctan2(z, y) / pitch).astype(int) % cage.pocket_count
-    stress = np.round(cage.von_mises[vertex] * 1e-6, 2)
-    return [[float(s), f"at pocket {p}"] for s, p in zip(stress, pocket)]
+    return np.stack([cage.von_mises[vertex] * 1e-6, pocket], axis=1).astype(np.float32)
 
 
 def _lines(ends: np.ndarray, colour: str) -> Any:

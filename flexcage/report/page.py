@@ -24,14 +24,18 @@ _MOST_PICTURE = 150_000  # bytes of a picture above which it is packed tighter
 _QUALITY = 88  # of a picture packed tighter (WebP)
 
 
+class PageTooLarge(InputError):
+    """A page that would be larger than ``LIMIT``."""
+
+
 def write_page(page: Page, path: str | Path) -> Path:
     """Write the page to ``path`` in one move; InputError if it is too big or cannot be written."""
     path = Path(path)
     text = html(page).encode()
     if len(text) > LIMIT:
-        raise InputError(
+        raise PageTooLarge(
             f"The report would take {len(text) / 1e6:.1f} MB, more than {LIMIT / 1e6:.0f} MB; "
-            "show fewer cases or pictures.",
+            "show fewer pictures, or fewer points of a study (--points).",
             where="report",
             value=len(text),
         )

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 from flexcage.case import words
 from flexcage.report.blocks import Image
-from flexcage.report.page import write_page
+from flexcage.report.page import PageTooLarge, write_page
 from flexcage.report.study_page import StudyAccount, study_page
 from flexcage.study.axes import Grid, Points, Zip
 from flexcage.study.page_stress import Shown, common_scale, stress_images, stress_of, to_show
@@ -42,7 +42,17 @@ def write_study_page(
     cages = stress_of(results, shown, progress)
     with TemporaryDirectory() as folder:
         images, why = stress_images(cages, Path(folder))
-        return write_page(study_page(_account(results, cages, images, f"{chosen}{why}")), path)
+        notes = [chosen, why]
+        while True:
+            kept = images[: len(cages)] if images else []
+            account = _account(results, cages, kept, " ".join(filter(None, notes)))
+            try:
+                return write_page(study_page(account), path)
+            except PageTooLarge:
+                if not cages:
+                    raise
+                cages = cages[: len(cages) // 2]
+                notes = [chosen, why, f"Only the first {len(cages)} fitted into the page."]
 
 
 def _account(

@@ -106,7 +106,7 @@ def stress_images(cages: Sequence[Shown], folder: Path) -> tuple[list[Image], st
                 azimuth=float(np.arctan2(z, y)), limit=limit,
             )  # fmt: skip
         except EnvironmentLacks as exc:
-            return [], f" No pictures: {exc}"
+            return [], f"No pictures: {exc}"
         peak = f"{cage.von_mises[cage.peak_vertex] / 1e6:.3g} MPa"
         where = f" in {shown.peak_place}" if shown.peak_place else ""
         images.append(Image(path, f"{shown.caption}. Peak {peak}{where}, same colours in all."))

@@ -120,10 +120,10 @@ def _share(results: StudyResults) -> str:
     return f"The first {MOST_ROWS:,} of {len(results.rows):,} cases; table.csv has all."
 
 
-def _cell(figure: Figure | None) -> Cell:
+def _cell(figure: Figure | None, key: str = "") -> Cell:
     if figure is None:
         return Cell("–")
-    return figure_cell(Row("", "", figure.value, figure.shown))
+    return figure_cell(Row(key, "", figure.value, figure.shown))
 
 
 def stored_figure(results: StudyResults, row: ResultRow, key: str) -> Any:
@@ -143,7 +143,7 @@ def audit_table(results: StudyResults) -> Table:
         found = [stored.figures.get(key) for key in _AUDIT]
         units |= {key: f.shown for key, f in zip(_AUDIT, found) if f is not None and f.shown}
         place = [number(r.planned.number), number(r.planned.repetition)]
-        rows.append([*place, *map(_cell, found)])
+        rows.append([*place, *map(_cell, found, _AUDIT)])
     heads = [f"{text} [{units[key]}]" if key in units else text for key, text in _AUDIT.items()]
     caption = f"Energy audit and the solver's work. {_share(results)}"
     return filled(Table(("point", "repetition", *heads), rows, caption))

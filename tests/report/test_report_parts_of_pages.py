@@ -174,7 +174,7 @@ def test_a_page_without_charts_carries_no_plotly():
 
 def test_a_page_too_large_is_refused(tmp_path, monkeypatch):
     monkeypatch.setattr(page_module, "LIMIT", 1000)
-    with pytest.raises(InputError, match="more than 0 MB; show fewer cases"):
+    with pytest.raises(InputError, match="more than 0 MB; show fewer pictures"):
         write_page(Page("Large", "", [Section("A", [Text("b", "c" * 2000)])]), tmp_path / "a.html")
     assert not list(tmp_path.iterdir())
 
