@@ -40,11 +40,11 @@ def figure_cell(row: Row) -> Cell:
 def summary_table(sections: Iterable[Section], caption: str = "") -> Table:
     """Figures of a summary's sections, with their intervals."""
     rows: list[list[Cell | str]] = [
-        [section.title, row.label, figure_cell(row), _margin(row), typeset(row.shown), row.note]
+        [row.label, figure_cell(row), _margin(row), typeset(row.shown), section.title, row.note]
         for section in sections
         for row in section.rows
     ]
-    return filled(Table(("part", "figure", "value", "± 95 %", "unit", "remark"), rows, caption))
+    return filled(Table(("figure", "value", "± 95 %", "unit", "part", "remark"), rows, caption))
 
 
 def filled(table: Table) -> Table:

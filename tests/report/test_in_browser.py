@@ -169,6 +169,8 @@ def test_tables_sort_by_number_and_by_word(browser, study_file):
     assert browser.execute_script(COLUMN, means, 1) == ["9", "10", "100"]
     heading[1].click()
     assert browser.execute_script(COLUMN, means, 1) == ["100", "10", "9"]
+    heading[1].click()
+    assert browser.execute_script(COLUMN, means, 1) == ["10", "9", "100"], "as it was"
     heading[2].click()
     assert browser.execute_script(COLUMN, means, 2) == ["0.5", "0.7", "–"], "nothing stands last"
     verdicts = browser.find_element("css selector", "table")

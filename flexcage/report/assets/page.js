@@ -1,10 +1,12 @@
 "use strict";
 
-// Tables: a click on a heading sorts by that column, numbers by their value, texts by the alphabet.
+// Tables: a click on a heading sorts by that column, numbers by their value, texts by the alphabet;
+// a second click turns the order round, and a third brings back the first.
 function sortTable(heading) {
   const table = heading.closest("table");
   const column = [...heading.parentNode.children].indexOf(heading);
-  const descending = heading.getAttribute("aria-sort") === "ascending";
+  const state = heading.getAttribute("aria-sort");
+  const descending = state === "ascending";
   const key = (row) => {
     const cell = row.children[column];
     return cell.dataset.number === undefined ? cell.textContent.trim() : Number(cell.dataset.number);
@@ -16,10 +18,17 @@ function sortTable(heading) {
     return descending ? -less : less;
   };
   for (const other of table.querySelectorAll("th")) other.removeAttribute("aria-sort");
-  heading.setAttribute("aria-sort", descending ? "descending" : "ascending");
-  const body = table.tBodies[0];
-  body.append(...[...body.rows].sort(order));
+  const rows = [...table.tBodies[0].rows];
+  if (state === "descending") {
+    rows.sort((a, b) => a.dataset.place - b.dataset.place);
+  } else {
+    heading.setAttribute("aria-sort", descending ? "descending" : "ascending");
+    rows.sort(order);
+  }
+  table.tBodies[0].append(...rows);
 }
+for (const body of document.querySelectorAll("tbody"))
+  [...body.rows].forEach((row, place) => { row.dataset.place = place; });
 for (const button of document.querySelectorAll("th button"))
   button.addEventListener("click", () => sortTable(button.parentNode));
 
