@@ -27,6 +27,7 @@ class Abscissa:
     title: str
     values: Sequence[Any]
     group: Sequence[str]
+    joined: bool = True  # whether lines join a group: not where points are scattered
 
     @property
     def name(self) -> str:
@@ -78,7 +79,7 @@ def _figure(output: Output, abscissa: Abscissa, names: Sequence[str]) -> Any:
             points.sort(key=lambda i: abscissa.values[i])
         once = len({str(abscissa.values[i]) for i in points}) == len(points)
         values, beside = abscissa.values, _BESIDE * (k - 0.5 * (len(groups) - 1))
-        lines = numeric and once and len(points) > 1
+        lines = abscissa.joined and numeric and once and len(points) > 1
         figure.add_scatter(
             x=[words.index(str(values[i])) + beside if words else float(values[i]) for i in points],
             y=output.mean[points].tolist(),

@@ -12,7 +12,7 @@ from flexcage.report.blocks import Cell, Table
 from flexcage.report.comparison import Abscissa, Output
 from flexcage.report.tables import figure_cell, filled, number, typeset
 from flexcage.results.summary import SHOWN, Row
-from flexcage.study.axes import Points, Zip
+from flexcage.study.axes import LatinHypercube, Points, Sobol, Zip
 from flexcage.study.outputs import Figure, is_reduction
 
 if TYPE_CHECKING:
@@ -177,7 +177,8 @@ def abscissas(results: StudyResults) -> list[Abscissa]:
         others = [i for i in range(len(axes)) if i != k]
         group = [_group(axes, others, at, columns, v) for at, v in zip(place, values)]
         for name in _abscissa_columns(axis, columns):
-            found.append(Abscissa(name, [v[name] for v in values], group))
+            scattered = isinstance(axis, (LatinHypercube, Sobol)) and len(axis.paths) > 1
+            found.append(Abscissa(name, [v[name] for v in values], group, joined=not scattered))
     return found
 
 

@@ -90,6 +90,7 @@ def test_labels_pairs_and_samples_are_axes_as_well(tmp_path):
     )
     found = abscissas(study_folder(tmp_path / "c", box))
     assert [a.name for a in found] == ["load.radial", "drive.speed"]
+    assert not any(a.joined for a in found), "lines between scattered points mean nothing"
     assert study_folder(tmp_path / "d", box).page(tmp_path / "d.html").is_file()
 
 
