@@ -24,7 +24,7 @@ from flexcage.report.extras import extra_figures
 from flexcage.report.tables import assumption_table
 from flexcage.report.verdicts import read_verdicts
 
-_FEWEST_CHARTS, _MOST_MARKS = 4, 40_000  # of comparisons, and of marks in all, to keep a page light
+_FEWEST_CHARTS, _MOST_MARKS = 2, 16_000  # of comparisons, and of marks in all, to keep a page light
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -18,7 +18,7 @@ from flexcage.study.outputs import Figure, is_reduction
 if TYPE_CHECKING:
     from flexcage.study.results import ResultRow, StudyResults
 
-MOST_ROWS = 2000  # of a table of cases
+MOST_ROWS = 1000  # of a table of cases
 _AUDIT = {  # figures of every case, and what the table calls them
     "energy_audit": "audit", "energy_of_drive": "imbalance / drive's work",
     "energy_of_cage": "imbalance / loss in the cage", "steps": "steps",
@@ -74,13 +74,15 @@ def statistics_table(results: StudyResults) -> Table:
     axes = list(results.axes_of(results.rows[0].planned))
     si = results.titles
     rows = []
-    for cells in frame.to_dict("records"):
+    for cells in frame[:MOST_ROWS].to_dict("records"):
         row = [number(int(cells["point"])), *(_value_cell(cells[a]) for a in axes)]
         row.append(number(int(cells["done"])))
         for name in titles:
             row.append(_mean_cell(results, name, cells[si[name]], cells[f"+- {si[name]}"]))
         rows.append(row)
     caption = "Means over the repetitions, ± half of the 95 % interval. A click on a heading sorts."
+    if len(frame) > MOST_ROWS:
+        caption += f" The first {MOST_ROWS:,} of {len(frame):,} points; statistics.csv has all."
     return Table(("point", *axes, "runs", *titles.values()), rows, caption)
 
 
