@@ -98,11 +98,10 @@ class Image:
 
 @dataclass(frozen=True)
 class Gallery:
-    """Pictures; ``wide`` gives each the whole width, otherwise they stand side by side."""
+    """Pictures, side by side where there is room."""
 
     kind: ClassVar[str] = "gallery"
     images: Sequence[Image]
-    wide: bool = False
 
 
 @dataclass(frozen=True)

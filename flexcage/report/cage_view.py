@@ -72,7 +72,7 @@ def cage_figure(cage: CageStress, scale: float, limit: float, over: bool) -> Any
 
     triangles = surface_of(cage.tets).triangles
     moved = cage.points + scale * cage.displacement
-    corner, sharp = split_at_edges(moved, triangles)
+    corner, sharp = split_at_edges(cage.points, triangles)
     vertex = np.empty(int(corner.max()) + 1, int)
     vertex[corner.ravel()] = triangles.ravel()
     at, stress = moved[vertex], cage.von_mises[vertex] * 1e-6
