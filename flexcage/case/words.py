@@ -110,25 +110,15 @@ def _method(case: Case) -> str:
 
 
 def settings(case: Case) -> dict[str, str]:
-    """How the case was computed: name of a setting to its value."""
-    s, modes, race, pocket = case.solver, case.modes, case.contacts.race, case.contacts.pocket
-    found = {
-        "integrator": f"BDF to order {s.max_order}, modified Newton-Raphson",
-        "tolerance": f"{describe(s.tolerance, 'um')} a step",
-        "largest step": describe(s.max_step, "us"),
-        "duration": describe(s.duration, "ms"),
-        "samples": f"{describe(case.output.rate, 'kHz')}",
-        "contact with the races": f"{race.normal.law}, friction {race.friction.law}, "
-        f"{race.slices} slices",
-        "contact with the pockets": f"{pocket.normal.law}, friction {pocket.friction.law}, "
-        f"{pocket.slices} slices",
-        "cage": case.cage_model,
-    }
-    if case.cage_model == "flexible":
-        kind = f"{modes.kind}, {modes.count} modes, dynamic: {modes.dynamic}"
-        found["mesh"] = f"{case.mesh.file or case.mesh.fineness}, order {case.mesh.order}"
-        found["basis"] = f"{kind}, damping ratio {modes.damping:g}"
-    return found
+    """How the case was computed: path of a setting to its value, as a case file writes it."""
+    table = case.to_table()
+    rooms = ["solver", *(("mesh", "modes") if case.cage_model == "flexible" else ())]
+    found = {f"{room}.{key}": str(value) for room in rooms for key, value in table[room].items()}
+    for place, laws in table["contacts"].items():
+        for key in ("slices", "normal.law", "friction.law"):
+            if value := _value(laws, key):
+                found[f"contacts.{place}.{key}"] = value
+    return {path: value for path, value in found.items() if value not in ("", "[]")}
 
 
 def assumed(case: Case) -> dict[str, tuple[str, str]]:

@@ -182,7 +182,9 @@ def _sections(account: RunAccount, *titles: str) -> list:
 
 
 def _solver(account: RunAccount) -> Section:
-    blocks: list[Block] = [mapping_table(("setting", "value"), account.settings, "Settings")]
+    blocks: list[Block] = [
+        mapping_table(("path in the case", "value"), account.settings, "Settings")
+    ]
     for section in _sections(account, "Solver", "Wall time"):
         blocks.append(rows_table(section.rows, section.title))
     if len(account.steps.get("time", ())):
