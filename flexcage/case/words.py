@@ -113,12 +113,16 @@ def settings(case: Case) -> dict[str, str]:
     """How the case was computed: path of a setting to its value, as a case file writes it."""
     table = case.to_table()
     rooms = ["solver", *(("mesh", "modes") if case.cage_model == "flexible" else ())]
-    found = {f"{room}.{key}": str(value) for room in rooms for key, value in table[room].items()}
+    found = {f"{room}.{key}": _text(value) for room in rooms for key, value in table[room].items()}
     for place, laws in table["contacts"].items():
         for key in ("slices", "normal.law", "friction.law"):
             if value := _value(laws, key):
                 found[f"contacts.{place}.{key}"] = value
     return {path: value for path, value in found.items() if value not in ("", "[]")}
+
+
+def _text(value: Any) -> str:
+    return str(value).lower() if isinstance(value, bool) else str(value)
 
 
 def assumed(case: Case) -> dict[str, tuple[str, str]]:
