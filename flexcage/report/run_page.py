@@ -183,12 +183,12 @@ def _sections(account: RunAccount, *titles: str) -> list:
 
 def _solver(account: RunAccount) -> Section:
     blocks: list[Block] = [
-        mapping_table(("path in the case", "value"), account.settings, "Settings")
+        rows_table(section.rows, section.title)
+        for section in _sections(account, "Solver", "Wall time")
     ]
-    for section in _sections(account, "Solver", "Wall time"):
-        blocks.append(rows_table(section.rows, section.title))
     if len(account.steps.get("time", ())):
         blocks.append(Charts([step_chart(account.steps["time"], account.steps["step"])]))
+    blocks.append(mapping_table(("path in the case", "value"), account.settings, "Settings"))
     return Section("Solver and model", blocks)
 
 
