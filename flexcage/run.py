@@ -3,17 +3,21 @@
 from __future__ import annotations
 
 import logging
+import os
 import shutil
+from collections.abc import Callable
+from contextlib import nullcontext
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
-from typing import TYPE_CHECKING
+from tempfile import TemporaryDirectory
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from flexcage.case import Case, load_case
+from flexcage.case import Case, load_case, words
 from flexcage.core.cache import cached_arrays
-from flexcage.core.errors import InputError
+from flexcage.core.errors import EnvironmentLacks, InputError
 from flexcage.core.threads import one_blas_thread
 from flexcage.core.timing import Stages
 from flexcage.mesh.cage_mesh import CageMesh
@@ -30,6 +34,7 @@ from flexcage.stress.history import StressHistory, stress_history
 from flexcage.stress.loads import cage_loads, land_station_forces
 from flexcage.stress.operators import von_mises
 from flexcage.stress.places import contact_zone, root_places
+from flexcage.stress.places import in_words as place_in_words
 from flexcage.stress.recovery import CageLoads, StressRecovery
 from flexcage.system.start import Start
 
@@ -37,6 +42,7 @@ if TYPE_CHECKING:
     import xarray
 
     from flexcage.render.album import Scene, StressPictures
+    from flexcage.report.run_page import RunAccount
     from flexcage.results.recording import Recorder
 
 log = logging.getLogger(__name__)
@@ -155,10 +161,72 @@ class Run:
         """Draw every picture of the run into ``folder``; paths of the files."""
         from flexcage.render.album import draw_album
 
-        scene = self._scene(animate)
+        scene = self.scene(animate=animate)
         return self.stages("pictures", draw_album, scene, Path(folder), animate=animate)
 
-    def _scene(self, animate: bool) -> Scene:
+    def report(self, path: str | Path, *, progress: Callable[..., Any] | None = None) -> Path:
+        """Write the run's report, one HTML file that needs no other; returns its path.
+
+        The run's pictures are drawn if its folder has none; where this machine cannot draw, the
+        page says why. ``progress`` is a context like ``core.progress.Progress``. Raises InputError
+        if ``path`` cannot be written.
+        """
+        from flexcage.report.page import write_page
+        from flexcage.report.run_page import run_page
+
+        if self.store.n_time < 2:
+            raise InputError(
+                "The run holds fewer than two samples, too few to report on; 'flexcage run "
+                "--resume' goes on with it.",
+                where="run",
+            )
+        bar = progress(2, "report") if progress else nullcontext()
+        with TemporaryDirectory() as spare, bar as drawn:
+            images, lacking = self._images(Path(spare))
+            if drawn is not None:
+                drawn.advance()
+            return write_page(run_page(self._account(images, lacking)), path)
+
+    def _images(self, spare: Path) -> tuple[list[Path], str]:
+        """The run's pictures, and why there are none; drawn into ``spare`` if it has no folder."""
+        folder = self.folder / "images" if self.folder else spare
+        images = sorted(folder.glob("*.png"))
+        try:
+            drawn = images or self.draw(folder if os.access(folder.parent, os.W_OK) else spare)
+        except EnvironmentLacks as exc:
+            return [], str(exc)
+        return [path for path in drawn if path.suffix == ".png"], ""
+
+    def _account(self, images: list[Path], no_images: str) -> RunAccount:
+        from flexcage.report.cautions import cautions
+        from flexcage.report.run_page import RunAccount
+
+        case, material = self.case, self.case.cage.material
+        command = words.run_command("case.toml")
+        return RunAccount(
+            scene=self.scene(),
+            summary=self.summary,
+            numbers=self.numbers,
+            statement=words.in_words(case),
+            warnings=cautions(
+                self.summary, reached=float(self.dataset["time"][-1]),
+                duration=case.solver.duration, proof_stress=material.proof_stress,
+                material=material.name,
+            ),
+            steps=self.steps,
+            settings=words.settings(case),
+            assumptions=words.assumed(case),
+            sources=words.grounds(case),
+            case_text=case.to_toml(),
+            commands=f"{command} -o runs/again\nflexcage report runs/again",
+            images=images,
+            no_images=no_images,
+            folder=self.folder,
+            hash=case.hash,
+        )  # fmt: skip
+
+    def scene(self, *, animate: bool = False) -> Scene:
+        """What pictures and reports show of the run; ``animate`` adds an animation's frames."""
         from flexcage.render.album import Scene
 
         case, load = self.case, self.case.load
@@ -214,7 +282,7 @@ class Run:
         vertex = h.peak_vertex[h.peak_sample]
         for name, vertices in root_places(self.recovery.model, self.mesh.pocket_count).items():
             if vertex in vertices:
-                return name.replace("_root_", ", corner ").replace("pocket", "pocket ")
+                return place_in_words(name)
         return ""
 
     def finish(self, recorder: Recorder) -> Run:
@@ -277,7 +345,7 @@ class Run:
             Row.of("stress_root_pass_peak", "At a pocket corner, peak of a pass", corner, "MPa",
                    PASS_PEAK),
             Row("stress_root", "Largest at a pocket corner", float(roots[root]), "MPa",
-                h.place_names[root]),
+                place_in_words(h.place_names[root])),
             Row("stress_start", "Before settling", float(h.peak[: h.settled].max(initial=0.0)),
                 "MPa"),
         ]  # fmt: skip

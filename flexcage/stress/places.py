@@ -50,3 +50,10 @@ def contact_zone(model: FEModel, pocket_count: int) -> np.ndarray:
     faces = np.concatenate([model.group(name).ravel() for name in names])
     corners = list(root_places(model, pocket_count).values())
     return np.setdiff1d(faces, np.concatenate(corners)) if corners else np.unique(faces)
+
+
+def in_words(name: str) -> str:
+    """A place's name as a reader wants it: "pocket5_root_rear+x" is pocket 5, corner rear +x."""
+    pocket, _, corner = name.partition("_root_")
+    corner = corner.replace("+", " +").replace("-", " -")
+    return f"{pocket.replace('pocket', 'pocket ')}, corner {corner}" if corner else name

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 from collections import Counter
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from math import isfinite, nan, sqrt
@@ -20,7 +20,7 @@ from flexcage.results.export import frame_to_csv, frame_to_parquet
 from flexcage.results.summary import Row
 from flexcage.run import Run
 from flexcage.simulate import load_run
-from flexcage.study.folder import Folder
+from flexcage.study.folder import CaseRow, Folder
 from flexcage.study.outputs import Figure
 from flexcage.study.plan import Planned
 from flexcage.study.spec import value_at
@@ -62,13 +62,19 @@ class StudyResults:
         return [self._row(planned) for planned in self.plan.cases]
 
     def _row(self, planned: Planned) -> ResultRow:
-        row, failure = self.folder.row(planned.hash), self.folder.failure(planned.hash)
+        row, failure = self.stored.get(planned.hash), self.folder.failure(planned.hash)
         if row is not None:
             wanted = {k: row.figures[k] for k in self.study.outputs if k in row.figures}
             return ResultRow(planned, "done", "", row.seconds, wanted)
         if failure is not None:
             return ResultRow(planned, "failed", failure.reason, nan, {})
         return ResultRow(planned, "open", "", nan, {})
+
+    @cached_property
+    def stored(self) -> dict[str, CaseRow]:
+        """All figures of every finished case, by its hash."""
+        found = {planned.hash: self.folder.row(planned.hash) for planned in self.plan.cases}
+        return {name: row for name, row in found.items() if row is not None}
 
     def count(self, state: str) -> int:
         """How many cases are "done", "failed" or "open"."""
@@ -81,8 +87,8 @@ class StudyResults:
 
         return pd.DataFrame([
             {"point": row.planned.number, "repetition": row.planned.repetition}
-            | self._axes(row.planned)
-            | {self._titles[name]: _value(row.figures.get(name)) for name in self._titles}
+            | self.axes_of(row.planned)
+            | {self.titles[name]: _value(row.figures.get(name)) for name in self.titles}
             | {"state": row.state, "reason": row.reason, "seconds": row.seconds}
             | {"hash": row.planned.hash}
             for row in self.rows
@@ -100,20 +106,20 @@ class StudyResults:
         points = []
         for number, group in self.table.groupby("point"):
             first = self.rows[group.index[0]].planned
-            point: dict[str, Any] = {"point": number, **self._axes(first)}
+            point: dict[str, Any] = {"point": number, **self.axes_of(first)}
             point["done"] = int((group["state"] == "done").sum())
-            for title in self._titles.values():
+            for title in self.titles.values():
                 point[title], point[f"+- {title}"] = mean_and_half_width(group[title])
             points.append(point)
         return pd.DataFrame(points)
 
     def report(self) -> str:
         """The table over the points: mean +- half width of every output, then what failed."""
-        first = ["point", *self._axes(self.rows[0].planned)]
-        lines = [[*first, *(self._shown(name) for name in self._titles)]]
+        first = ["point", *self.axes_of(self.rows[0].planned)]
+        lines = [[*first, *(self._shown(name) for name in self.titles)]]
         for cells in self.statistics.to_dict("records"):
             lines.append([str(cells[head]) for head in first])
-            for name, title in self._titles.items():
+            for name, title in self.titles.items():
                 lines[-1].append(self._text(name, cells[title], cells[f"+- {title}"]))
         text = _aligned(lines)
         reasons = Counter(row.reason for row in self.rows if row.state == "failed")
@@ -150,15 +156,31 @@ class StudyResults:
                       frame_to_parquet(frame, self.folder.path / f"{name}.parquet")]  # fmt: skip
         return paths
 
+    def page(
+        self,
+        path: str | Path,
+        *,
+        points: Sequence[int] | None = None,
+        progress: Callable[..., Any] | None = None,
+    ) -> Path:
+        """Write the study's report, one HTML file that needs no other; returns its path.
+
+        ``points`` are those whose stress is shown (default: up to six, evenly spread).
+        ``progress`` is a context like ``core.progress.Progress``.
+        """
+        from flexcage.study.page import write_study_page
+
+        return write_study_page(self, path, points=points, progress=progress)
+
     @cached_property
-    def _known(self) -> dict[str, Figure]:
+    def known(self) -> dict[str, Figure]:
         """One figure of every output that any case has, for its units."""
         return {k: f for row in self.rows for k, f in row.figures.items()}
 
     @cached_property
-    def _titles(self) -> dict[str, str]:
+    def titles(self) -> dict[str, str]:
         """Header of every output in tables, by its name."""
-        units = {name: f" [{figure.unit}]" for name, figure in self._known.items()}
+        units = {name: f" [{figure.unit}]" for name, figure in self.known.items()}
         return {name: f"{name}{units.get(name, '')}" for name in self.study.outputs}
 
     @cached_property
@@ -167,7 +189,7 @@ class StudyResults:
         case = self.study.case
         return {path: unit_at(case, path) for axis in self.study.axes for path in axis.paths}
 
-    def _axes(self, planned: Planned) -> dict[str, Any]:
+    def axes_of(self, planned: Planned) -> dict[str, Any]:
         """Labels and axis values of a case, as tables show them."""
         values = {
             f"{path} [{unit}]" if unit else path: _cell(planned, path, unit, self._base)
@@ -186,12 +208,12 @@ class StudyResults:
         return self.study.case.to_table()
 
     def _shown(self, name: str) -> str:
-        figure = self._known.get(name)
+        figure = self.known.get(name)
         unit = (figure.shown or figure.unit) if figure else ""
         return f"{name} [{unit}]" if unit else name
 
     def _text(self, name: str, mean: float, half: float) -> str:
-        figure = self._known.get(name)
+        figure = self.known.get(name)
         shown = figure.shown if figure else ""
         text = Row(name, name, mean, shown).text
         return f"{text} +- {Row(name, name, half, shown).text}" if isfinite(half) else text

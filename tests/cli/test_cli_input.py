@@ -8,6 +8,7 @@ from pathlib import Path
 import pytest
 
 from flexcage import cli
+from flexcage.cli.files import prepare_out
 
 EXAMPLE = str(Path(__file__).parents[2] / "examples" / "n1013.toml")
 
@@ -108,7 +109,7 @@ def test_force_replaces_a_former_run(elsewhere):
     out = elsewhere / "run"
     (out / "results.zarr").mkdir(parents=True)
     (out / "old.png").write_text("")
-    cli.prepare_out(out, resume=False, force=True)
+    prepare_out(out, resume=False, force=True)
     assert list(out.iterdir()) == []
 
 

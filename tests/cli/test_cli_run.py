@@ -8,6 +8,7 @@ from pathlib import Path
 import pytest
 
 from flexcage import cli
+from flexcage.cli.settings import parse_setting
 from flexcage.core.errors import EnvironmentLacks, RunFailed
 
 EXAMPLE = str(Path(__file__).parents[2] / "examples" / "n1013.toml")
@@ -160,4 +161,4 @@ def test_version(capsys):
     ],
 )
 def test_settings(text, expected):
-    assert cli.parse_setting(text) == expected
+    assert parse_setting(text) == expected

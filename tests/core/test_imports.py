@@ -39,6 +39,8 @@ def test_a_case_needs_no_heavy_module():
         "pandas",
         "zarr",
         "meshio",
+        "plotly",
+        "jinja2",
     }
     assert not heavy & set(done.stdout.split())
 

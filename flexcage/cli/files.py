@@ -1,0 +1,77 @@
+"""Files and folders that commands read and write: what is refused before work begins."""
+
+from __future__ import annotations
+
+import os
+import tempfile
+from collections.abc import Iterable
+from pathlib import Path
+
+from flexcage.core.errors import InputError
+
+
+def prepare_out(out: Path, *, resume: bool, force: bool, resumable: bool = True) -> None:
+    """Refuse an output folder that would be overwritten by accident or cannot be written."""
+    if out.exists() and not out.is_dir():
+        raise InputError(f"'{out}' is a file; name a folder for the output.", where="out")
+    if resume:
+        existing_run(out)
+    elif out.is_dir() and any(out.iterdir()):
+        if not force:
+            raise InputError(
+                f"The output folder '{out}' exists already; "
+                f"{'--resume goes on with it, ' if resumable else ''}--force writes it anew, "
+                "-o names another.",
+                where="out",
+                value=str(out),
+            )
+        empty_run(out)
+    try:
+        out.mkdir(parents=True, exist_ok=True)
+        with tempfile.TemporaryFile(dir=out):
+            pass
+    except OSError as exc:
+        reason = (exc.strerror or str(exc)).lower()
+        raise InputError(
+            f"The output folder '{out}' cannot be written ({reason}); name another with -o.",
+            where="out",
+            value=str(out),
+        ) from exc
+
+
+def empty_run(out: Path) -> None:
+    """Remove a former output of flexcage; anything else in that folder is not ours to remove."""
+    import shutil
+
+    ours = ("case.toml", "results.zarr", "compare.json")
+    if not any((out / name).exists() for name in ours):
+        raise InputError(
+            f"'{out}' holds files that flexcage did not write, so --force leaves it alone; name "
+            "another folder with -o.",
+            where="out",
+            value=str(out),
+        )
+    shutil.rmtree(out)
+
+
+def prepare_file(path: Path, endings: Iterable[str], *, force: bool) -> None:
+    """Refuse an output file of another ending, or one that exists or cannot be written."""
+    endings = tuple(endings)
+    if path.suffix not in endings:
+        raise InputError(
+            f"'{path}' should end in {' or '.join(endings)}.", where="out", value=str(path)
+        )
+    if path.is_dir():
+        raise InputError(f"'{path}' is a folder; name a file.", where="out", value=str(path))
+    if path.exists() and not force:
+        raise InputError(f"'{path}' exists already; --force writes it anew.", where="out")
+    if not path.parent.is_dir() or not os.access(path.parent, os.W_OK):
+        raise InputError(f"'{path.parent}' is not a folder that can be written.", where="out")
+
+
+def existing_run(path: str | Path) -> Path:
+    """Folder of a stored run, or InputError."""
+    path = Path(path)
+    if not (path / "results.zarr").exists():
+        raise InputError(f"'{path}' is not the folder of a run: it has no results.zarr.")
+    return path

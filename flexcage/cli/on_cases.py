@@ -1,0 +1,124 @@
+"""Commands that take a case: run, mesh, modes, converge."""
+
+from __future__ import annotations
+
+import argparse
+import logging
+from pathlib import Path
+from typing import Any
+
+from flexcage.cli.files import prepare_file, prepare_out
+from flexcage.cli.parser import case_options, command, say
+from flexcage.cli.settings import case_from
+
+
+def add_commands(commands: Any) -> None:
+    """Add this module's commands to the parser."""
+    _add_run(commands)
+    _add_mesh_and_modes(commands)
+    _add_converge(commands)
+
+
+def _add_run(commands: Any) -> None:
+    run = command(commands, "run", run_command, "simulate a case: results, summary, pictures")
+    case_options(run)
+    run.add_argument("-o", "--out", metavar="DIR", help="run folder (default: runs/NAME)")
+    again = run.add_mutually_exclusive_group()
+    again.add_argument("--resume", action="store_true", help="go on with a run that stopped")
+    again.add_argument("--force", action="store_true", help="write an existing run anew")
+    run.add_argument("--animate", action="store_true", help="make an animation as well")
+    run.add_argument("--no-images", action="store_true", help="results only")
+
+
+def _add_mesh_and_modes(commands: Any) -> None:
+    mesh = command(commands, "mesh", mesh_command, "build and check the cage's mesh")
+    case_options(mesh)
+    mesh.add_argument("-o", "--out", metavar="FILE", help="mesh file (default: NAME.msh)")
+    mesh.add_argument("--force", action="store_true", help="write over an existing file")
+    modes = command(commands, "modes", modes_command, "compute the cage's modes")
+    case_options(modes)
+
+
+def _add_converge(commands: Any) -> None:
+    text = "repeat a case finer and finer: which outputs have converged"
+    study = command(commands, "converge", converge_command, text)
+    case_options(study)
+    study.add_argument(
+        "--axes", default="", metavar="A,B", help="of tolerance,slices,modes,mesh (default: all)"
+    )
+    study.add_argument("--duration", metavar="TIME", help="bearing time of each run, as '40 ms'")
+    study.add_argument("-o", "--out", metavar="DIR", help="folder (default: runs/NAME-converge)")
+    study.add_argument("--force", action="store_true", help="repeat runs that are there already")
+
+
+def run_command(args: argparse.Namespace) -> int:
+    """flexcage run CASE: simulate, summarise, draw."""
+    case = case_from(args)
+    args.out = out = Path(args.out) if args.out else Path("runs") / case.name
+    prepare_out(out, resume=args.resume, force=args.force)
+    from flexcage.core.progress import Progress
+    from flexcage.simulate import simulate
+
+    run = simulate(case, out=out, resume=args.resume, progress=Progress)
+    say(run.summary)
+    say(f"\nThe run is in {out}")
+    if not args.no_images:
+        draw(run, out / "images", animate=args.animate)
+    return 0
+
+
+def mesh_command(args: argparse.Namespace) -> int:
+    """flexcage mesh CASE: build, check and write the cage's mesh."""
+    case = case_from(args)
+    out = Path(args.out) if args.out else Path(f"{case.name}.msh")
+    prepare_file(out, (".msh", ".vtu"), force=args.force)
+    from flexcage.mesh.build import build_cage_mesh
+    from flexcage.mesh.io import write_mesh
+    from flexcage.mesh.quality import report_mesh
+
+    mesh = build_cage_mesh(**case.cage_shape)
+    say(report_mesh(mesh, density=case.cage.material.density))
+    for path in dict.fromkeys((out, out.with_suffix(".vtu"))):
+        say(f"written: {write_mesh(mesh, path)}")
+    return 0
+
+
+def modes_command(args: argparse.Namespace) -> int:
+    """flexcage modes CASE: the modal basis of the cage, as a table."""
+    case = case_from(args)
+    from flexcage.stages import cage_modes
+
+    basis = cage_modes(case)
+    say(f"{'mode':>5}  {'kind':<12}  {'frequency':>12}")
+    for i, (frequency, kind) in enumerate(zip(basis.frequencies, basis.kind)):
+        say(f"{i:>5}  {kind:<12}  {frequency:>9.1f} Hz")
+    return 0
+
+
+def converge_command(args: argparse.Namespace) -> int:
+    """flexcage converge CASE: how far its outputs move with tolerance, slices, modes and mesh."""
+    from flexcage.core.progress import Progress
+    from flexcage.study.converge import converge, levels
+
+    case = case_from(args)
+    if args.duration:
+        case = case.replace("solver.duration", args.duration)
+    axes = [name.strip() for name in args.axes.split(",") if name.strip()]
+    levels(case, axes)
+    out = Path(args.out) if args.out else Path("runs") / f"{case.name}-converge"
+    goes_on = (out / "cases").is_dir() and not args.force
+    if not goes_on:
+        prepare_out(out, resume=False, force=args.force, resumable=False)
+    say(converge(case, out=out, axes=axes, progress=Progress))
+    say(f"\nThe table, its picture and the runs are in {out}")
+    return 0
+
+
+def draw(run: Any, folder: Path, *, animate: bool) -> None:
+    """Draw a run's pictures; a machine that cannot draw costs the pictures, not the run."""
+    from flexcage.core.errors import EnvironmentLacks
+
+    try:
+        run.draw(folder, animate=animate)
+    except EnvironmentLacks as exc:
+        logging.getLogger(__name__).warning("no pictures: %s", exc)

@@ -1,0 +1,106 @@
+"""Commands that take the folders of runs: render, report, compare."""
+
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+from typing import Any
+
+from flexcage.cli.files import existing_run, prepare_file, prepare_out
+from flexcage.cli.parser import command, say
+from flexcage.cli.settings import case_from
+from flexcage.core.errors import InputError
+
+
+def add_commands(commands: Any) -> None:
+    """Add this module's commands to the parser."""
+    render = command(commands, "render", render_command, "draw the pictures of a stored run")
+    render.add_argument("run", metavar="RUN", help="run folder")
+    render.add_argument("-o", "--out", metavar="DIR", help="folder for the pictures")
+    render.add_argument("--animate", action="store_true", help="make an animation as well")
+    text = "write a run or a study as one HTML page that needs no other file"
+    report = command(commands, "report", report_command, text)
+    report.add_argument("folder", metavar="RUN_OR_STUDY", help="folder of a run or a study")
+    report.add_argument("-o", "--out", metavar="FILE", help="page (default: report.html in it)")
+    report.add_argument("--force", action="store_true", help="write over an existing file")
+    report.add_argument(
+        "--points", metavar="N,N", help="of a study: points whose stress is shown (default: six)"
+    )
+    compare = command(
+        commands, "compare", compare_command, "one case rigid and flexible, or two runs"
+    )
+    compare.add_argument("what", nargs="+", metavar="CASE|RUN", help="a case, or two run folders")
+    compare.add_argument("--set", action="append", metavar="PATH=VALUE", help="change a value")
+    compare.add_argument("-o", "--out", metavar="DIR", help="folder for table, plot and runs")
+    compare.add_argument("--force", action="store_true", help="write an existing folder anew")
+
+
+def render_command(args: argparse.Namespace) -> int:
+    """flexcage render RUN: draw the pictures of a stored run again."""
+    from flexcage.simulate import load_run
+
+    run = load_run(existing_run(args.run))
+    out = Path(args.out) if args.out else Path(args.run) / "images"
+    run.draw(out, animate=args.animate)
+    say(f"The pictures are in {out}")
+    return 0
+
+
+def report_command(args: argparse.Namespace) -> int:
+    """flexcage report RUN_OR_STUDY: one HTML page of what was computed."""
+    folder = Path(args.folder)
+    is_study = (folder / "study.toml").is_file() and (folder / "plan.json").is_file()
+    points = _numbers(args.points) if args.points else None
+    if not is_study:
+        if not folder.is_dir():
+            raise InputError(f"There is no folder '{folder}'; name that of a run or a study.")
+        if not (folder / "results.zarr").exists():
+            raise InputError(
+                f"'{folder}' is neither a run nor a study: it has no results.zarr, and no "
+                "study.toml with its plan.json."
+            )
+        if points is not None:
+            raise InputError(f"--points belongs to a study, and '{folder}' is a run.")
+    out = Path(args.out) if args.out else folder / "report.html"
+    prepare_file(out, (".html",), force=args.force)
+    from flexcage.core.progress import Progress
+
+    if is_study:
+        from flexcage.study.results import StudyResults
+
+        StudyResults(folder).page(out, points=points, progress=Progress)
+    else:
+        from flexcage.simulate import load_run
+
+        load_run(folder).report(out, progress=Progress)
+    say(f"written: {out} ({out.stat().st_size / 1e6:.1f} MB)")
+    return 0
+
+
+def _numbers(text: str) -> list[int]:
+    """Whole numbers of "0,3,5"."""
+    parts = [part.strip() for part in text.split(",") if part.strip()]
+    if not parts or not all(part.isdigit() for part in parts):
+        raise InputError(f"--points {text!r} should be numbers of points, such as '0,3'.")
+    return list(dict.fromkeys(int(part) for part in parts))
+
+
+def compare_command(args: argparse.Namespace) -> int:
+    """flexcage compare CASE (rigid against flexible), or RUN RUN."""
+    from flexcage.core.progress import Progress
+    from flexcage.study.compare import compare, compare_case
+
+    if len(args.what) == 2:
+        first, second = (existing_run(path) for path in args.what)
+        out = Path(args.out) if args.out else Path("compare")
+        prepare_out(out, resume=False, force=args.force, resumable=False)
+        say(compare(first, second, out=out))
+        return 0
+    if len(args.what) != 1:
+        raise InputError("compare wants one case, or two run folders.", where="compare")
+    args.case = args.what[0]
+    case = case_from(args)
+    out = Path(args.out) if args.out else Path("runs") / f"{case.name}-compare"
+    prepare_out(out, resume=False, force=args.force, resumable=False)
+    say(compare_case(case, out=out, progress=Progress))
+    return 0

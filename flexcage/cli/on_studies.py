@@ -1,0 +1,90 @@
+"""Commands that take a study: run, resume, status, report."""
+
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+from typing import Any
+
+from flexcage.cli.parser import command, say
+from flexcage.cli.settings import settings_of
+
+
+def add_commands(commands: Any) -> None:
+    """Add this module's commands to the parser."""
+    study = commands.add_parser("study", help="many cases on all cores or a cluster, and one table")
+    actions = study.add_subparsers(title="actions", metavar="ACTION", required=True)
+    run = command(actions, "run", study_run_command, "compute what a study's folder lacks")
+    run.add_argument("study", metavar="STUDY", help="study file (.toml)")
+    run.add_argument("-o", "--out", metavar="DIR", help="study folder (default: runs/NAME)")
+    run.add_argument(
+        "--set", action="append", metavar="PATH=VALUE", help="change a value of the base case"
+    )
+    resume = command(actions, "resume", study_resume_command, "go on with a study that stopped")
+    resume.add_argument("dir", metavar="DIR", help="study folder")
+    for parser in (run, resume):
+        where = parser.add_mutually_exclusive_group()
+        where.add_argument("--workers", type=_count, metavar="N", help="processes (default: cores)")
+        where.add_argument("--scheduler", metavar="ADDRESS", help="a running Dask scheduler")
+        parser.add_argument("--retry", action="store_true", help="try failed cases again")
+    for name, function, text in (
+        ("status", study_status_command, "count what is done, failed and open"),
+        ("report", study_report_command, "print and write the table"),
+    ):
+        command(actions, name, function, text).add_argument("dir", metavar="DIR", help="folder")
+
+
+def _count(text: str) -> int:
+    if not text.isdigit() or int(text) < 1:
+        raise argparse.ArgumentTypeError(f"'{text}' should be a whole number, 1 or more")
+    return int(text)
+
+
+def study_run_command(args: argparse.Namespace) -> int:
+    """flexcage study run STUDY: compute what the study's folder lacks, and print its table."""
+    from flexcage.study.spec import load_study
+
+    study = load_study(args.study, overrides=settings_of(args))
+    args.out = Path(args.out) if args.out else Path("runs") / study.name
+    return compute_study(study, args)
+
+
+def study_resume_command(args: argparse.Namespace) -> int:
+    """flexcage study resume DIR: go on with a study that stopped."""
+    from flexcage.study.folder import Folder
+
+    args.out = Path(args.dir)
+    return compute_study(Folder(args.out).study(), args)
+
+
+def compute_study(study: Any, args: argparse.Namespace) -> int:
+    """Run a study in the folder ``args.out``; 1 if a case of it failed."""
+    from flexcage.core.progress import Progress
+    from flexcage.study.run import run_study
+
+    results = run_study(
+        study, out=args.out, workers=args.workers, scheduler=args.scheduler, retry=args.retry,
+        progress=Progress,
+    )  # fmt: skip
+    say(results.report())
+    say(f"\nThe study is in {args.out}")
+    return 1 if results.count("failed") else 0
+
+
+def study_status_command(args: argparse.Namespace) -> int:
+    """flexcage study status DIR: how many cases are done, failed and open."""
+    from flexcage.study.results import StudyResults
+
+    say(StudyResults(args.dir).status())
+    return 0
+
+
+def study_report_command(args: argparse.Namespace) -> int:
+    """flexcage study report DIR: the table, printed and written anew from the cases."""
+    from flexcage.study.results import StudyResults
+
+    results = StudyResults(args.dir)
+    say(results.report())
+    for path in results.write():
+        say(f"written: {path}")
+    return 0

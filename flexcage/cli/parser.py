@@ -1,0 +1,51 @@
+"""What all commands share on the command line: the parser, common options, output."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from typing import Any, NoReturn
+
+from flexcage._version import __version__
+
+
+def say(text: object = "") -> None:
+    """Write to standard output: what the command was asked for."""
+    sys.stdout.write(f"{text}\n")
+
+
+class _Parser(argparse.ArgumentParser):
+    """Options that are wrong get one sentence, as any other mistake."""
+
+    def error(self, message: str) -> NoReturn:
+        self.exit(2, f"flexcage: {message}; '{self.prog} --help' lists the options.\n")
+
+
+def new_parser() -> argparse.ArgumentParser:
+    """The parser without its commands."""
+    parser = _Parser(
+        prog="flexcage", description="Rolling bearings with an elastic, deformed cage."
+    )
+    parser.add_argument("--version", action="version", version=f"flexcage {__version__}")
+    parser.add_argument("-v", "--verbose", action="count", default=0, help="say more")
+    parser.add_argument("-q", "--quiet", action="store_true", help="warnings only")
+    return parser
+
+
+def command(commands: Any, name: str, function: Any, text: str) -> argparse.ArgumentParser:
+    """Add a command that calls ``function`` with the parsed arguments; its own parser."""
+    parser = commands.add_parser(name, help=text, description=text)
+    parser.set_defaults(command=function)
+    parser.add_argument(
+        "--use", action="append", metavar="FILE", help="a .py of your own laws ..., or a preset"
+    )
+    return parser
+
+
+def case_options(parser: argparse.ArgumentParser) -> None:
+    """Add what every command that takes a case understands."""
+    parser.add_argument("case", metavar="CASE", help="case file (.toml)")
+    parser.add_argument("--cage", choices=("rigid", "flexible"), help="how the cage is modelled")
+    parser.add_argument(
+        "--set", action="append", metavar="PATH=VALUE", help="change a value of the case"
+    )

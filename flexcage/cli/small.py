@@ -1,0 +1,113 @@
+"""Commands without a case or a run: presets, verify, doctor, cache."""
+
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+from typing import Any
+
+from flexcage.cli.files import prepare_file
+from flexcage.cli.parser import command, say
+
+
+def add_commands(commands: Any) -> None:
+    """Add this module's commands to the parser."""
+    _add_verify(commands)
+    _add_small(commands)
+
+
+def _add_verify(commands: Any) -> None:
+    text = "compute cases with known answers, and compare"
+    verify = command(commands, "verify", verify_command, text)
+    verify.add_argument("names", nargs="*", metavar="NAME", help="cases (default: all)")
+    extent = verify.add_mutually_exclusive_group()
+    extent.add_argument(
+        "--quick", action="store_true", help="only those that need no compiled bearing"
+    )
+    extent.add_argument("--all", action="store_true", help="the long ones as well (the default)")
+    verify.add_argument("--list", action="store_true", help="name the cases, compute nothing")
+    verify.add_argument("-o", "--out", metavar="FILE", help="write a chapter (.md), or .json")
+    verify.add_argument("--force", action="store_true", help="write over an existing file")
+
+
+def _add_small(commands: Any) -> None:
+    presets = command(commands, "presets", presets_command, "list presets, or show one")
+    presets.add_argument("name", nargs="?", metavar="NAME")
+    command(commands, "doctor", doctor_command, "what this machine lacks, and the remedy")
+    cache = command(commands, "cache", cache_command, "what the cache on disk holds")
+    cache.add_argument("--clear", action="store_true", help="remove all of it")
+
+
+def presets_command(args: argparse.Namespace) -> int:
+    """flexcage presets [NAME]: the list, or one preset with its assumptions."""
+    from flexcage.geometry.presets import load_preset, preset_names
+
+    if args.name is None:
+        for name in preset_names():
+            say(f"{name:<12} {load_preset(name).title}")
+        return 0
+    preset = load_preset(args.name)
+    say(preset.title)
+    for path, value in flat(preset.tables):
+        reason = preset.assumptions.get(path)
+        say(f"  {path:<30} {value!s:<12} {f'assumption: {reason}' if reason else ''}".rstrip())
+    say()
+    for name, stated, computed in preset.ratings():
+        say(f"  {name}: catalogue {stated / 1e3:.1f} kN, from this inside {computed / 1e3:.2f} kN")
+    for name, text in preset.sources.items():
+        say(f"  {name}: {text}")
+    return 0
+
+
+def verify_command(args: argparse.Namespace) -> int:
+    """flexcage verify [NAMES]: known answers against what flexcage computes; 1 if one is missed."""
+    from flexcage.verification import chosen, report, run_case
+
+    cases = chosen(args.names, quick=args.quick)
+    if args.list:
+        for case in cases:
+            say(f"{case.name:<24} {'quick' if case.quick else 'long':<6} {case.title}")
+        return 0
+    out = Path(args.out) if args.out else None
+    if out is not None:
+        prepare_file(out, report.FORMATS, force=args.force)
+    outcomes = [run_case(case) for case in cases]
+    say(report.table(outcomes))
+    if out is not None:
+        report.write(outcomes, out)
+        say(f"written: {out}")
+    return 0 if all(outcome.passed for outcome in outcomes) else 1
+
+
+def doctor_command(args: argparse.Namespace) -> int:
+    """flexcage doctor: what this machine lacks, and the remedy."""
+    from flexcage.core.environment import probe
+
+    lacking = 0
+    for finding in probe():
+        word = "ok" if finding.ok else ("LACKS" if finding.needed else "could be better")
+        say(f"{finding.name:<14} {word:<16} {finding.detail}")
+        if not finding.ok:
+            say(f"{'':<14} remedy: {finding.remedy}")
+            lacking += finding.needed
+    return 1 if lacking else 0
+
+
+def cache_command(args: argparse.Namespace) -> int:
+    """flexcage cache [--clear]: what the cache holds."""
+    from flexcage.core.cache import cache_info, clear_cache
+
+    if args.clear:
+        say(f"freed {clear_cache() / 1e6:.1f} MB")
+    else:
+        say(cache_info())
+    return 0
+
+
+def flat(table: Any, where: str = "") -> list[tuple[str, Any]]:
+    """Dotted path and value of every entry of nested tables."""
+    rows: list[tuple[str, Any]] = []
+    for key, value in table.items():
+        path = f"{where}.{key}" if where else key
+        rows += flat(value, path) if hasattr(value, "items") else [(path, value)]
+    return rows

@@ -1,0 +1,104 @@
+"""What a reader of a run's figures must be warned of, from the figures themselves."""
+
+from __future__ import annotations
+
+from math import isfinite
+
+from flexcage.results.audit import OF_CAGE, OF_DRIVE
+from flexcage.results.bootstrap import FEWEST
+from flexcage.results.summary import Summary
+
+
+def cautions(
+    summary: Summary, *, reached: float, duration: float, proof_stress: float, material: str
+) -> list[str]:
+    """Warnings, one sentence each: an unfinished run, too few passes, drift, audit, slip, yield.
+
+    ``reached`` and ``duration`` [s]: where the run stands and where it should end;
+    ``proof_stress`` [Pa] of the cage's ``material``.
+    """
+    found = [
+        _unfinished(reached, duration),
+        _few_passes(summary),
+        _drift(summary),
+        _audit(summary),
+        _slip(summary),
+        _yield(summary, proof_stress, material),
+        _pinched(summary),
+    ]
+    return [text for text in found if text]
+
+
+def _number(summary: Summary, key: str) -> float:
+    """A figure, or NaN where the summary has none."""
+    value = summary[key] if key in summary else None
+    return float(value) if isinstance(value, (int, float)) else float("nan")
+
+
+def _unfinished(reached: float, duration: float) -> str:
+    if reached >= duration * (1.0 - 1e-3):
+        return ""
+    return (
+        f"The run stopped at {reached * 1e3:.4g} ms of {duration * 1e3:.4g} ms; 'flexcage run "
+        "--resume' goes on with it."
+    )
+
+
+def _few_passes(summary: Summary) -> str:
+    count = _number(summary, "roller_passes")
+    if not count < FEWEST:
+        return ""
+    return (
+        f"Statistics rest on {count:.0f} roller passes, and intervals want {FEWEST}: they are "
+        "missing or too narrow; a longer solver.duration gives more."
+    )
+
+
+def _drift(summary: Summary) -> str:
+    drift = summary["drift"] if "drift" in summary else None
+    if drift in (None, "nothing"):
+        return ""
+    return (
+        f"The two halves of the run differ beyond the intervals in: {drift}; it has not settled, "
+        "so raise output.settle or solver.duration."
+    )
+
+
+def _audit(summary: Summary) -> str:
+    if "energy_audit" not in summary or summary["energy_audit"] == "passed":
+        return ""
+    drive, cage = _number(summary, "energy_of_drive"), _number(summary, "energy_of_cage")
+    return (
+        f"The energy audit is exceeded: the imbalance is {100.0 * drive:.2g} % of the drive's work "
+        f"(at most {100.0 * OF_DRIVE:g} %) and {100.0 * cage:.2g} % of the cage's losses (at most "
+        f"{100.0 * OF_CAGE:g} %); tighten solver.tolerance."
+    )
+
+
+def _slip(summary: Summary) -> str:
+    note = summary.row("slip_loaded").note if "slip_loaded" in summary else ""
+    return f"Roller slip in the loaded zone is {note}." if note.startswith("unresolved") else ""
+
+
+def _yield(summary: Summary, proof_stress: float, material: str) -> str:
+    peak = max(
+        (v for v in (_number(summary, k) for k in ("stress_peak", "stress_start")) if isfinite(v)),
+        default=0.0,
+    )
+    if peak <= proof_stress:
+        return ""
+    return (
+        f"The stress reaches {peak / 1e6:.0f} MPa, more than the proof stress of {material} "
+        f"({proof_stress / 1e6:.0f} MPa): a real cage would yield there, and this one is linear "
+        "elastic."
+    )
+
+
+def _pinched(summary: Summary) -> str:
+    if "pinch_force" not in summary:
+        return ""
+    row = summary.row("pinch_force")
+    return (
+        f"The bearing was assembled with rollers pinched by up to {row.text} N ({row.note}): the "
+        "cage is pre-stressed."
+    )

@@ -1,0 +1,129 @@
+"""A run's histories as charts that can be zoomed: speeds, pocket forces, root stress, orbit."""
+
+from __future__ import annotations
+
+from math import pi
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from flexcage.render.sheet import BLUE, GREEN, INK, VERMILION
+from flexcage.report.blocks import Chart
+from flexcage.report.plots import add_band, add_curve, new_figure
+from flexcage.report.thinning import thinned
+from flexcage.results import metrics
+from flexcage.results.audit import imbalance
+from flexcage.stress.places import in_words
+
+if TYPE_CHECKING:
+    import xarray
+
+    from flexcage.render.album import Scene
+    from flexcage.results.metrics import BearingNumbers
+
+RPM = 30.0 / pi
+TIME = "time [ms]"
+_WASH = "rgba(86, 180, 233, 0.35)"
+_LEFT_OUT = "#eeeeee"  # the time that statistics leave out
+
+
+def history_charts(scene: Scene, numbers: BearingNumbers) -> list[Chart]:
+    """Charts over time of a run, and the orbit of its cage's centre."""
+    ds = scene.dataset
+    charts = [_cage_speed(ds, numbers), _pocket_force(ds)]
+    if scene.stress is not None:
+        charts.append(_root_stress(scene))
+    charts.append(_roller_spin(ds, numbers))
+    t = _ms(ds)
+    for chart in charts:
+        if scene.settle:
+            end = t[0] + scene.settle * (t[-1] - t[0])
+            chart.figures[0][1].add_vrect(
+                t[0], end, fillcolor=_LEFT_OUT, layer="below", line_width=0
+            )
+    return [*charts, _orbit(ds, scene.clearance, scene.settle)]
+
+
+def _ms(ds: xarray.Dataset) -> np.ndarray:
+    return ds["time"].values * 1e3
+
+
+def _cage_speed(ds: xarray.Dataset, numbers: BearingNumbers) -> Chart:
+    figure = new_figure(TIME, "speed [rpm]")
+    ideal = ds["inner_speed"].values * numbers.kinematics(1.0).cage_speed * RPM
+    add_curve(figure, _ms(ds), ds["cage_omega"].sel(axis="x").values * RPM, "cage", color=BLUE)
+    add_curve(figure, _ms(ds), ideal, "without slip", color=VERMILION, dash="dash")
+    return Chart("Cage speed", [("", figure)])
+
+
+def _pocket_force(ds: xarray.Dataset) -> Chart:
+    force = ds["pocket_force"].max("pocket")
+    figure = new_figure(TIME, "force [N]")
+    for faces, name, colour in (
+        (["front"], "front faces", VERMILION),
+        (["rear"], "rear faces", BLUE),
+        (["side+x", "side-x"], "side beams", GREEN),
+    ):
+        add_curve(figure, _ms(ds), force.sel(face=faces).max("face").values, name, color=colour)
+    return Chart("Pocket force, largest of all pockets", [("", figure)])
+
+
+def _root_stress(scene: Scene) -> Chart:
+    assert scene.stress is not None
+    roots, t = scene.stress.roots * 1e-6, _ms(scene.dataset)
+    worst = int(roots[scene.stress.settled :].max(axis=0).argmax())
+    figure = new_figure(TIME, "equivalent stress [MPa]")
+    add_band(figure, t, roots.min(axis=1), roots.max(axis=1), "all corners", _WASH)
+    name = in_words(scene.stress.root_names[worst])
+    add_curve(figure, t, roots[:, worst], f"highest once settled: {name}", color=BLUE)
+    return Chart("Stress at pocket corners", [("", figure)])
+
+
+def _roller_spin(ds: xarray.Dataset, numbers: BearingNumbers) -> Chart:
+    spin = ds["roller_omega"].isel(spin_axis=0).transpose("time", "roller").values
+    spin = np.abs(spin) * RPM
+    ideal = np.abs(ds["inner_speed"].values * numbers.kinematics(1.0).roller_spin) * RPM
+    figure = new_figure(TIME, "spin [rpm]")
+    add_band(figure, _ms(ds), spin.min(axis=1), spin.max(axis=1), "all rollers", _WASH)
+    add_curve(figure, _ms(ds), spin[:, 0], "roller 0", color=BLUE)
+    add_curve(figure, _ms(ds), ideal, "pure rolling", color=VERMILION, dash="dash")
+    return Chart("Roller spin, inertial frame", [("", figure)])
+
+
+def _orbit(ds: xarray.Dataset, clearance: float, settle: float) -> Chart:
+    part = metrics.settled(ds, settle)
+    y, z = (metrics.orbit(part) * 1e6).T
+    kept = np.union1d(thinned(y), thinned(z))
+    reach = 1.08 * max(float(np.abs([y, z]).max()), clearance * 1e6)
+    span = {"range": [-reach, reach]}
+    figure = new_figure("z [µm]", "y [µm]")
+    # z to the left, as seen when looking along -x with y upwards, as in the pictures
+    figure.update_xaxes(range=[reach, -reach], constrain="domain")
+    figure.update_yaxes(**span, scaleanchor="x", constrain="domain")
+    angle = np.linspace(0.0, 2.0 * pi, 181)
+    ring = clearance * 1e6 * np.stack([np.cos(angle), np.sin(angle)])
+    add_curve(figure, ring[0], ring[1], "land clearance", color=VERMILION, dash="dash")
+    figure.add_scatter(
+        x=z[kept].astype(np.float32), y=y[kept].astype(np.float32), mode="lines",
+        line={"width": 1.1, "color": BLUE}, name="cage centre",
+    )  # fmt: skip
+    figure.add_scatter(
+        x=[float(z.mean())], y=[float(y.mean())], mode="markers", name="mean",
+        marker={"symbol": "cross-thin", "size": 13, "line": {"width": 2, "color": INK}},
+    )  # fmt: skip
+    return Chart("Orbit of the cage's centre, settled part", [("", figure)], height=420)
+
+
+def imbalance_chart(ds: xarray.Dataset) -> Chart:
+    """Energy gained less work done, over time."""
+    figure = new_figure(TIME, "imbalance [mJ]", showlegend=False)
+    add_curve(figure, _ms(ds), imbalance(ds).values * 1e3, "imbalance", color=BLUE)
+    return Chart("Energy gained less work done", [("", figure)])
+
+
+def step_chart(time: np.ndarray, step: np.ndarray) -> Chart:
+    """The solver's steps [s] over time [s]."""
+    figure = new_figure(TIME, "step [µs]", showlegend=False)
+    figure.update_yaxes(type="log", dtick=1)
+    add_curve(figure, time * 1e3, step * 1e6, "step", color=BLUE)
+    return Chart("Steps of the solver", [("", figure)])

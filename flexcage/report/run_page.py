@@ -1,0 +1,199 @@
+"""The page of one run."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from flexcage.render.album import Scene
+from flexcage.report.blocks import (
+    Block,
+    Charts,
+    Gallery,
+    Image,
+    Notices,
+    Page,
+    Prose,
+    Section,
+    Text,
+    Tile,
+    Tiles,
+)
+from flexcage.report.cage_view import CageStress, cage_chart
+from flexcage.report.extras import extra_figures
+from flexcage.report.histories import history_charts, imbalance_chart, step_chart
+from flexcage.report.tables import (
+    assumption_table,
+    mapping_table,
+    rows_table,
+    summary_table,
+    typeset,
+)
+from flexcage.results.metrics import BearingNumbers
+from flexcage.results.summary import Row, Summary
+
+if TYPE_CHECKING:
+    from flexcage.render.album import StressPictures
+
+_APART = ("Energy", "Solver", "Wall time")  # sections of a summary that have their own place
+#: Figures that are shown large, and what they are called where no heading stands above them.
+_FIRST = {
+    "cage_speed": "Cage speed",
+    "cage_slip_ratio": "Cage slip ratio",
+    "whirl_radius": "Whirl radius, mean",
+    "pocket_force_mean": "Pocket force, mean in contact",
+    "pocket_force_peak": "Pocket force, largest",
+    "stress_peak": "Stress, largest",
+    "stress_root_pass_peak": "Corner stress, peak of a pass",
+    "energy_audit": "Energy audit",
+}
+#: Pictures of a run by file name: their captions, and whether they stand side by side at the top.
+CAPTIONS = {
+    "stress_peak": "Stress at the instant of its peak, on the deformed cage",
+    "stress_envelope": "Largest stress of every place over the settled part",
+    "deformation": "Elastic deformation at the same instant",
+    "mesh": "Mesh, with defects marked",
+    "modes": "Mode shapes and frequencies",
+    "bearing": "Bearing at that instant, rollers coloured by load",
+    "orbit": "Orbit of the cage's centre",
+    "histories": "Histories",
+}
+
+
+@dataclass(frozen=True, kw_only=True)
+class RunAccount:
+    """What the page of a run tells, as values."""
+
+    scene: Scene
+    summary: Summary
+    numbers: BearingNumbers
+    statement: Sequence[str]  # what was computed, in words
+    warnings: Sequence[str]
+    steps: Mapping[str, np.ndarray]  # the solver's: time, step [s]
+    settings: Mapping[str, str]  # of the solver and the model
+    assumptions: Mapping[str, tuple[str, str]]  # by path: a value, and the reason for it
+    sources: Mapping[str, str]
+    case_text: str  # case.toml
+    commands: str  # that compute the run anew
+    images: Sequence[Path] = ()
+    no_images: str = ""  # why there are none
+    folder: Path | None = None
+    hash: str = field(default="")
+
+
+def run_page(account: RunAccount) -> Page:
+    """The page: what was computed and its figures first, how to repeat it last."""
+    sections = [
+        Section("What was computed", [Prose(account.statement)]),
+        Section("Warnings", [Notices(account.warnings, none="None.")]),
+        _figures(account),
+        *_stress(account),
+        Section("Histories", [Charts(history_charts(account.scene, account.numbers)), _THINNED]),
+        _pictures(account),
+        *_extras(account),
+        _energy(account),
+        _solver(account),
+        _grounds(account),
+        Section("How to reproduce", [
+            Text("Commands", account.commands, open=True), Text("case.toml", account.case_text),
+        ]),
+    ]  # fmt: skip
+    ds = account.scene.dataset
+    span = f"{float(ds['time'][-1]) * 1e3:g} ms of motion, {ds.sizes['time']:,} samples"
+    return Page(f"{account.scene.name}: report of a run", f"{span}; case {account.hash}", sections)
+
+
+_THINNED = Prose(
+    ["Shaded: left out of statistics. Curves are thinned to what a screen can show; the least and "
+     "the largest value of every stretch are kept, so no peak is lost."]
+)  # fmt: skip
+
+
+def _figures(account: RunAccount) -> Section:
+    rows = {row.key: row for row in account.summary}
+    tiles = [_tile(rows[key], label) for key, label in _FIRST.items() if key in rows]
+    kept = [s for s in account.summary.sections if s.title not in _APART]
+    note = "± is half of a 95 % interval. A click on a heading sorts."
+    return Section("Key figures", [Tiles(tiles), summary_table(kept, note)])
+
+
+def _tile(row: Row, label: str) -> Tile:
+    return Tile(label, f"{row.text} {typeset(row.shown)}".strip(), row.margin_text)
+
+
+def cage_stress(scene: Scene, stress: StressPictures, name: str = "") -> CageStress:
+    """What the 3D view needs of a run."""
+    n = len(scene.mesh.points)
+    return CageStress(
+        name, scene.mesh.points, scene.mesh.tets, stress.displacement[:n], stress.von_mises,
+        stress.time, stress.peak_vertex, scene.mesh.pocket_count,
+    )  # fmt: skip
+
+
+def _stress(account: RunAccount) -> list[Section]:
+    from flexcage.render.stress_pictures import nice_scale
+
+    stress = account.scene.stress
+    if stress is None:
+        none = Prose(["The cage of this run is rigid: it has no stress."])
+        return [Section("Stress in the cage", [none])]
+    cage = cage_stress(account.scene, stress)
+    scale = nice_scale(cage.points, cage.displacement)
+    title = f"Equivalent stress at its peak, t = {stress.time * 1e3:.3f} ms"
+    blocks: list[Block] = [cage_chart([cage], scale=scale, title=title)]
+    pictures = _named(account, "stress_peak", "stress_envelope")
+    return [Section("Stress in the cage", [*blocks, *([Gallery(pictures)] if pictures else [])])]
+
+
+def _named(account: RunAccount, *names: str) -> list[Image]:
+    found = {path.stem: path for path in account.images}
+    return [Image(found[n], CAPTIONS.get(n, n)) for n in names if n in found]
+
+
+def _pictures(account: RunAccount) -> Section:
+    shown = {"stress_peak", "stress_envelope"} if account.scene.stress is not None else set()
+    known = [name for name in CAPTIONS if name not in shown]
+    own = sorted({path.stem for path in account.images} - set(CAPTIONS))
+    images = _named(account, *known, *own)
+    if not images:
+        return Section("Pictures", [Notices([f"No pictures: {account.no_images or 'none found'}"])])
+    return Section("Pictures", [Gallery(images), Prose(["A click shows a picture in full size."])])
+
+
+def _extras(account: RunAccount) -> list[Section]:
+    found = extra_figures(account.folder) if account.folder else None
+    return [found] if found else []
+
+
+def _energy(account: RunAccount) -> Section:
+    rows = [row for section in _sections(account, "Energy") for row in section.rows]
+    blocks: list[Block] = [rows_table(rows)]
+    if {"energy", "work"} <= set(account.scene.dataset.data_vars):
+        blocks.append(Charts([imbalance_chart(account.scene.dataset)]))
+    return Section("Energy audit", blocks)
+
+
+def _sections(account: RunAccount, *titles: str) -> list:
+    return [s for s in account.summary.sections if s.title in titles]
+
+
+def _solver(account: RunAccount) -> Section:
+    blocks: list[Block] = [
+        rows_table(section.rows, section.title)
+        for section in _sections(account, "Solver", "Wall time")
+    ]
+    if len(account.steps.get("time", ())):
+        blocks.append(Charts([step_chart(account.steps["time"], account.steps["step"])]))
+    blocks.append(mapping_table(("path in the case", "value"), account.settings, "Settings"))
+    return Section("Solver and model", blocks)
+
+
+def _grounds(account: RunAccount) -> Section:
+    return Section("Assumptions and sources", [
+        assumption_table(account.assumptions, "Values that no source gives"),
+        mapping_table(("source", "what it gave"), account.sources, "Sources"),
+    ])  # fmt: skip

@@ -1,0 +1,96 @@
+"""The page of a study."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+from flexcage.report.blocks import (
+    Block,
+    Charts,
+    Gallery,
+    Image,
+    Notices,
+    Page,
+    Prose,
+    Section,
+    Table,
+    Text,
+)
+from flexcage.report.cage_view import CageStress, cage_chart
+from flexcage.report.comparison import Abscissa, Output, comparison_charts
+from flexcage.report.extras import extra_figures
+from flexcage.report.tables import assumption_table
+from flexcage.report.verdicts import read_verdicts
+
+_FEWEST_CHARTS, _MOST_MARKS = 2, 16_000  # of comparisons, and of marks in all, to keep a page light
+
+
+@dataclass(frozen=True, kw_only=True)
+class StudyAccount:
+    """What the page of a study tells, as values."""
+
+    name: str
+    folder: Path
+    status: str  # how many cases are done
+    varied: Sequence[str]  # what was varied, in words
+    base: Sequence[str]  # the base case, in words
+    statistics: Table  # a row a point
+    cases: Table  # a row a case
+    audits: Table  # energy and work, a row a case
+    outputs: Sequence[Output]
+    abscissas: Sequence[Abscissa]
+    points: Sequence[str]  # names of the points
+    failures: Sequence[str]
+    stress: Sequence[CageStress] = ()  # of the cases shown
+    scale: float = 1.0  # of their deformation
+    images: Sequence[Image] = ()  # of their stress
+    chosen: str = ""  # which cases are shown, and why not all
+    assumptions: Mapping[str, tuple[str, str]]  # by path: a value, and the reason for it
+    study_text: str  # study.toml
+    commands: str
+
+
+def study_page(account: StudyAccount) -> Page:
+    """The page: what was varied, verdicts and tables first; how to repeat it last."""
+    verdicts = read_verdicts(account.folder)
+    sections = [
+        Section("What was varied", [Prose(account.varied)]),
+        *([Section("Verdicts", [verdicts])] if verdicts else []),
+        Section("Warnings", [Notices(account.failures, none="No case failed.")]),
+        Section("Results", [account.statistics, account.cases]),
+        _comparison(account),
+        *_stress(account),
+        *filter(None, [extra_figures(account.folder)]),
+        Section("Energy audit and solver", [account.audits]),
+        Section("Base case", [
+            Prose(account.base),
+            assumption_table(account.assumptions, "Its values that no source gives"),
+        ]),
+        Section("How to reproduce", [
+            Text("Commands", account.commands, open=True), Text("study.toml", account.study_text),
+        ]),
+    ]  # fmt: skip
+    return Page(f"{account.name}: report of a study", account.status, sections)
+
+
+def _comparison(account: StudyAccount) -> Section:
+    charts = comparison_charts(account.outputs, account.abscissas, account.points)
+    if not charts:
+        return Section("Comparison", [Prose(["There is nothing to compare yet."])])
+    notes = ["Bars are 95 % intervals over the repetitions. Point at a mark for its case."]
+    most = max(_FEWEST_CHARTS, _MOST_MARKS // len(account.points))
+    if len(charts) > most:
+        notes.append(f"The first {most} of {len(charts)} charts; statistics.csv has all figures.")
+    return Section("Comparison", [Prose(notes), Charts(charts[:most])])
+
+
+def _stress(account: StudyAccount) -> list[Section]:
+    blocks: list[Block] = [Prose([account.chosen])] if account.chosen else []
+    if account.images:
+        blocks.append(Gallery(account.images))
+    if account.stress:
+        title = "Equivalent stress at each case's peak"
+        blocks.append(cage_chart(account.stress, scale=account.scale, title=title))
+    return [Section("Stress in the cage", blocks)] if blocks else []

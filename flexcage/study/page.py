@@ -1,0 +1,137 @@
+"""A study's folder as its report wants it: what was varied, what went wrong, and all the rest."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from typing import TYPE_CHECKING, Any
+
+from flexcage.case import words
+from flexcage.report.blocks import Image
+from flexcage.report.page import PageTooLarge, write_page
+from flexcage.report.study_page import StudyAccount, study_page
+from flexcage.study.axes import Grid, Points, Zip
+from flexcage.study.page_stress import Shown, common_scale, stress_images, stress_of, to_show
+from flexcage.study.page_tables import (
+    abscissas,
+    audit_table,
+    cases_table,
+    first_rows,
+    outputs,
+    point_names,
+    statistics_table,
+    stored_figure,
+)
+
+if TYPE_CHECKING:
+    from flexcage.study.results import StudyResults
+
+_MOST_FAILURES = 20  # reasons written out
+
+
+def write_study_page(
+    results: StudyResults,
+    path: str | Path,
+    *,
+    points: Sequence[int] | None = None,
+    progress: Callable[..., Any] | None = None,
+) -> Path:
+    """Write the report of a study; ``points`` are those whose stress is shown (default: six)."""
+    shown, chosen = to_show(results, points)
+    cages = stress_of(results, shown, progress)
+    with TemporaryDirectory() as folder:
+        images, why = stress_images(cages, Path(folder))
+        notes = [chosen, why]
+        while True:
+            kept = images[: len(cages)] if images else []
+            account = _account(results, cages, kept, " ".join(filter(None, notes)))
+            try:
+                return write_page(study_page(account), path)
+            except PageTooLarge:
+                if not cages:
+                    raise
+                cages = cages[: len(cages) // 2]
+                notes = [chosen, why, f"Only the first {len(cages)} fitted into the page."]
+
+
+def _account(
+    results: StudyResults, cages: list[Shown], images: list[Image], chosen: str
+) -> StudyAccount:
+    study, folder = results.study, results.folder.path
+    return StudyAccount(
+        name=study.name,
+        folder=folder,
+        status=results.status(),
+        varied=_varied(results),
+        base=words.in_words(study.case),
+        statistics=statistics_table(results),
+        cases=cases_table(results),
+        audits=audit_table(results),
+        outputs=outputs(results),
+        abscissas=abscissas(results),
+        points=point_names(results),
+        failures=_warnings(results),
+        stress=[shown.cage for shown in cages],
+        scale=common_scale(cages),
+        images=images,
+        chosen=chosen,
+        assumptions=words.assumed(study.case),
+        study_text=study.to_toml(),
+        commands="flexcage study run study.toml -o runs/again\nflexcage report runs/again",
+    )
+
+
+def _varied(results: StudyResults) -> list[str]:
+    study, count = results.study, len(first_rows(results))
+    lines = [_axis_in_words(axis) for axis in study.axes]
+    times = study.repeat.count
+    many = f"{count} points" if count != 1 else "One point"
+    total = f"{many}, every combination of these." if len(study.axes) > 1 else f"{many}."
+    if times > 1:
+        total += (
+            f" Each was computed {times} times, the cage pushed off at "
+            f"{words.describe(study.repeat.push, 'mm/s')} in another random direction: means and "
+            "intervals are over these repetitions."
+        )
+    return [*lines, total]
+
+
+def _axis_in_words(axis: Any) -> str:
+    if isinstance(axis, Grid):
+        return f"{axis.path}: {', '.join(map(str, axis.values))}."
+    if isinstance(axis, Zip):
+        parts = (f"{p}: {', '.join(map(str, values))}" for p, values in axis.values.items())
+        return f"Together {'; '.join(parts)}."
+    if isinstance(axis, Points):
+        return f"Cases: {'; '.join(str(point) for point in axis.expand())}."
+    parts = (f"{path} from {low} to {high}" for path, (low, high) in axis.ranges.items())
+    kind = {"lhs": "a Latin hypercube", "sobol": "a Sobol sequence"}.get(axis.tag, axis.tag)
+    return f"{axis.count} points of {kind} in {'; '.join(parts)}."
+
+
+def _warnings(results: StudyResults) -> list[str]:
+    names = point_names(results)
+    lines = [
+        f"Point {r.planned.number}, repetition {r.planned.repetition} "
+        f"({names[r.planned.number]}) failed: {r.reason}"
+        for r in results.rows
+        if r.state == "failed"
+    ]
+    if len(lines) > _MOST_FAILURES:
+        more = len(lines) - _MOST_FAILURES
+        lines = [*lines[:_MOST_FAILURES], f"{more} more failed; the table of cases has them all."]
+    if results.count("open"):
+        lines.append(
+            f"{results.count('open')} of {len(results.rows)} cases are not computed yet; 'flexcage "
+            "study resume' computes them."
+        )
+    for key, bad, text in (
+        ("energy_audit", "EXCEEDED", "exceed the energy audit; tighten solver.tolerance"),
+        ("drift", None, "had not settled: the halves of the run differ beyond the intervals"),
+    ):
+        found = [stored_figure(results, r, key) for r in results.rows if r.state == "done"]
+        wrong = [v for v in found if (v == bad if bad else v not in (None, "nothing"))]
+        if wrong:
+            lines.append(f"{len(wrong)} of {len(found)} cases {text}.")
+    return lines

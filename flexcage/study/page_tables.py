@@ -1,0 +1,203 @@
+"""Tables and comparisons of a study's report."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from math import isfinite, nan
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from flexcage.report.blocks import Cell, Table
+from flexcage.report.comparison import Abscissa, Output
+from flexcage.report.tables import figure_cell, filled, number, typeset
+from flexcage.results.summary import SHOWN, Row
+from flexcage.study.axes import LatinHypercube, Points, Sobol, Zip
+from flexcage.study.outputs import Figure, is_reduction
+
+if TYPE_CHECKING:
+    from flexcage.study.results import ResultRow, StudyResults
+
+MOST_ROWS = 1000  # of a table of cases
+_AUDIT = {  # figures of every case, and what the table calls them
+    "energy_audit": "audit", "energy_of_drive": "imbalance / drive's work",
+    "energy_of_cage": "imbalance / loss in the cage", "steps": "steps",
+    "failed_error_tests": "failed error tests", "failed_newton": "failed Newton",
+    "wall_solve": "solving", "wall_stress": "stress",
+}  # fmt: skip
+
+
+def first_rows(results: StudyResults) -> list[ResultRow]:
+    """The first case of every point, in order."""
+    return list({row.planned.number: row for row in reversed(results.rows)}.values())[::-1]
+
+
+def point_names(results: StudyResults) -> list[str]:
+    """What a reader calls every point: its labels and the values that vary."""
+    names = []
+    for row in first_rows(results):
+        parts = []
+        for title, value in results.axes_of(row.planned).items():
+            path, _, unit = title.partition(" [")
+            parts.append(f"{path} = {_short(value)} {unit.rstrip(']')}".rstrip())
+        names.append(", ".join(parts) or "the base case")
+    return names
+
+
+def _short(value: Any) -> str:
+    return f"{value:g}" if isinstance(value, float) else str(value)
+
+
+def _words(output: str) -> str:
+    """Name of an output as a reader wants it; a reduction stays as the study writes it."""
+    return output if is_reduction(output) else output.replace("_", " ")
+
+
+def _titles(results: StudyResults) -> dict[str, str]:
+    """Title of every output, with the unit that it is shown in."""
+    units = {name: _unit(results.known.get(name)) for name in results.study.outputs}
+    return {n: f"{_words(n)} [{u}]" if u != "1" else _words(n) for n, u in units.items()}
+
+
+def _unit(figure: Figure | None) -> str:
+    """Unit that an output is shown in; "1" for none."""
+    return (typeset(figure.shown or figure.unit) if figure else "") or "1"
+
+
+def _factor(figure: Figure | None) -> float:
+    return SHOWN[figure.shown][1] if figure else 1.0
+
+
+def statistics_table(results: StudyResults) -> Table:
+    """A row a point: what varies, how many runs, and every output's mean and interval."""
+    titles, frame = _titles(results), results.statistics
+    axes = list(results.axes_of(results.rows[0].planned))
+    si = results.titles
+    rows = []
+    for cells in frame[:MOST_ROWS].to_dict("records"):
+        row = [number(int(cells["point"])), *(_value_cell(cells[a]) for a in axes)]
+        row.append(number(int(cells["done"])))
+        for name in titles:
+            row.append(_mean_cell(results, name, cells[si[name]], cells[f"+- {si[name]}"]))
+        rows.append(row)
+    caption = "Means over the repetitions, ± half of the 95 % interval. A click on a heading sorts."
+    if len(frame) > MOST_ROWS:
+        caption += f" The first {MOST_ROWS:,} of {len(frame):,} points; statistics.csv has all."
+    return Table(("point", *axes, "runs", *titles.values()), rows, caption)
+
+
+def _value_cell(value: Any) -> Cell:
+    return number(value, _short(value)) if isinstance(value, (int, float)) else Cell(str(value))
+
+
+def _mean_cell(results: StudyResults, name: str, mean: Any, half: float) -> Cell:
+    if not isinstance(mean, (int, float)) or not isfinite(mean):
+        return Cell("–")
+    shown = results.known[name].shown if name in results.known else ""
+    row = Row(name, name, float(mean), shown, margin=half if isfinite(half) else None)
+    return number(float(mean), f"{row.text} {row.margin_text}".rstrip())
+
+
+def cases_table(results: StudyResults) -> Table:
+    """A row a case: what varies, its outputs, and what became of it."""
+    titles = _titles(results)
+    rows = []
+    for r in results.rows[:MOST_ROWS]:
+        values = [_value_cell(v) for v in results.axes_of(r.planned).values()]
+        figures = [_cell(r.figures.get(name)) for name in titles]
+        rows.append([
+            number(r.planned.number), number(r.planned.repetition), *values, *figures,
+            Cell(r.state), number(r.seconds, f"{r.seconds:.1f}") if r.seconds == r.seconds
+            else Cell(""), Cell(r.reason), Cell(r.planned.hash),
+        ])  # fmt: skip
+    axes = results.axes_of(results.rows[0].planned)
+    head = ("point", "repetition", *axes, *titles.values(), "state", "time [s]", "reason", "folder")
+    return filled(Table(head, rows, f"{_share(results)} Runs lie in the folder cases."))
+
+
+def _share(results: StudyResults) -> str:
+    """Which of the cases a table holds."""
+    if len(results.rows) <= MOST_ROWS:
+        return "All cases."
+    return f"The first {MOST_ROWS:,} of {len(results.rows):,} cases; table.csv has all."
+
+
+def _cell(figure: Figure | None, key: str = "") -> Cell:
+    if figure is None:
+        return Cell("–")
+    return figure_cell(Row(key, "", figure.value, figure.shown))
+
+
+def stored_figure(results: StudyResults, row: ResultRow, key: str) -> Any:
+    """Any figure of a finished case's summary, in SI; None if it has none."""
+    stored = results.stored.get(row.planned.hash)
+    figure = stored.figures.get(key) if stored else None
+    return None if figure is None else figure.value
+
+
+def audit_table(results: StudyResults) -> Table:
+    """Energy audit and the solver's work, a row a finished case."""
+    rows, units = [], dict[str, str]()
+    for r in results.rows[:MOST_ROWS]:
+        stored = results.stored.get(r.planned.hash)
+        if stored is None:
+            continue
+        found = [stored.figures.get(key) for key in _AUDIT]
+        units |= {key: f.shown for key, f in zip(_AUDIT, found) if f is not None and f.shown}
+        place = [number(r.planned.number), number(r.planned.repetition)]
+        rows.append([*place, *map(_cell, found, _AUDIT)])
+    heads = [f"{text} [{units[key]}]" if key in units else text for key, text in _AUDIT.items()]
+    caption = f"Energy audit and the solver's work. {_share(results)}"
+    return filled(Table(("point", "repetition", *heads), rows, caption))
+
+
+def outputs(results: StudyResults) -> list[Output]:
+    """Means and intervals of every output at every point, in the units that they are shown in."""
+    frame = results.statistics
+    found = []
+    for name in results.study.outputs:
+        unit = _unit(results.known.get(name))
+        factor, si = _factor(results.known.get(name)), results.titles[name]
+        mean = np.array([_float(v) for v in frame[si]]) * factor
+        found.append(Output(_words(name), unit, mean, np.array(frame[f"+- {si}"], float) * factor))
+    return found
+
+
+def _float(value: Any) -> float:
+    return float(value) if isinstance(value, (int, float)) else nan
+
+
+def abscissas(results: StudyResults) -> list[Abscissa]:
+    """One for every axis, or for every range of a sampled axis; other axes make groups."""
+    rows, axes = first_rows(results), results.study.axes
+    values = [results.axes_of(row.planned) for row in rows]
+    sizes = [len(axis.expand()) for axis in axes]
+    place = np.array(np.unravel_index(range(len(rows)), sizes)).T if sizes else np.zeros((1, 0))
+    columns = {title.partition(" [")[0]: title for title in values[0]} if values else {}
+    found = []
+    for k, axis in enumerate(axes):
+        others = [i for i in range(len(axes)) if i != k]
+        group = [_group(axes, others, at, columns, v) for at, v in zip(place, values)]
+        for name in _abscissa_columns(axis, columns):
+            scattered = isinstance(axis, (LatinHypercube, Sobol)) and len(axis.paths) > 1
+            found.append(Abscissa(name, [v[name] for v in values], group, joined=not scattered))
+    return found
+
+
+def _abscissa_columns(axis: Any, columns: dict[str, str]) -> list[str]:
+    """Columns of the tables that an axis is drawn along."""
+    if isinstance(axis, Points) and axis.name in columns:
+        return [columns[axis.name]]
+    paths = [columns[path] for path in axis.paths if path in columns]
+    return paths[:1] if isinstance(axis, Zip) else paths
+
+
+def _group(
+    axes: Sequence[Any], others: list[int], at: np.ndarray, columns: dict[str, str], values: Any
+) -> str:
+    names = [c for i in others for c in _abscissa_columns(axes[i], columns)]
+    parts = []
+    for title in names:
+        path, _, unit = title.partition(" [")
+        parts.append(f"{path} = {_short(values[title])} {unit.rstrip(']')}".rstrip())
+    return ", ".join(parts)

@@ -1,0 +1,266 @@
+"""What pages are made of: thinned curves, split surfaces, verdicts, cautions, escaped texts."""
+
+from __future__ import annotations
+
+import json
+import re
+from html.parser import HTMLParser
+
+import numpy as np
+import pytest
+from report_parts import (
+    NUMBERS,
+    PEAK,
+    SPIKE,
+    SPIKE_AT,
+    VERDICTS,
+    account,
+    cage_stress,
+    dataset,
+    scene,
+)
+
+from flexcage.core.errors import InputError
+from flexcage.render.scene import surface_of
+from flexcage.report import page as page_module
+from flexcage.report.blocks import Cell, Page, Section, Table, Text
+from flexcage.report.cage_view import cage_figure, common_limit, split_at_edges
+from flexcage.report.cautions import cautions
+from flexcage.report.comparison import Abscissa, Output, comparison_charts
+from flexcage.report.extras import extra_figures
+from flexcage.report.histories import history_charts
+from flexcage.report.page import html, write_page
+from flexcage.report.run_page import run_page
+from flexcage.report.tables import filled
+from flexcage.report.thinning import thinned
+from flexcage.report.verdicts import read_verdicts
+from flexcage.results.summary import Row, Summary
+from flexcage.results.summary import Section as Part
+
+
+class _Texts(HTMLParser):
+    """Elements of a page, and its text as a reader sees it."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.tags, self.text = [], []
+
+    def handle_starttag(self, tag, attrs):
+        self.tags.append((tag, dict(attrs)))
+
+    def handle_data(self, data):
+        self.text.append(data)
+
+
+def read(text: str) -> _Texts:
+    parser = _Texts()
+    parser.feed(text)
+    return parser
+
+
+def test_thinning_keeps_every_peak_and_draws_the_same_envelope():
+    rng = np.random.default_rng(3)
+    values = rng.normal(size=50_001)
+    values[31_415], values[271] = 99.0, -77.0
+    kept = thinned(values, 100)
+    assert len(kept) <= 202 and {0, 50_000, 31_415, 271} <= set(kept)
+    assert (np.diff(kept) > 0).all()
+    for part in np.array_split(np.arange(50_000), 50):  # halves of buckets cannot hide a peak
+        inside = kept[(kept >= part[0]) & (kept <= part[-1])]
+        assert values[inside].max() == values[part].max()
+
+
+def test_thinning_leaves_short_records_and_gaps():
+    assert (thinned(np.arange(10.0)) == np.arange(10)).all()
+    gap = np.ones(10_000)
+    gap[3000:7000] = np.nan
+    kept = thinned(gap, 50)
+    assert np.isnan(gap[kept]).any() and np.isfinite(gap[kept]).any()
+
+
+def test_histories_show_the_one_sample_that_bears_most():
+    charts = history_charts(scene(dataset()), NUMBERS)
+    force = next(c for c in charts if c.title.startswith("Pocket force"))
+    rear = next(t for t in force.figures[0][1].data if t.name == "rear faces")
+    assert max(rear.y) == pytest.approx(SPIKE)
+    assert rear.x[int(np.argmax(rear.y))] == pytest.approx(SPIKE_AT / 50.0, rel=1e-6)
+    assert len(rear.x) < 1500
+
+
+def test_a_cube_is_split_into_its_faces():
+    corners = np.array([[x, y, z] for x in (0, 1) for y in (0, 1) for z in (0, 1)], float)
+    tets = np.array([(0, 1, 3, 7), (0, 3, 2, 7), (0, 2, 6, 7), (0, 6, 4, 7), (0, 4, 5, 7),
+                     (0, 5, 1, 7)])  # fmt: skip
+    corner, sharp = split_at_edges(corners, surface_of(tets).triangles)
+    assert corner.shape == (12, 3) and corner.max() + 1 == 24  # four of its own for each face
+    lengths = np.linalg.norm(corners[sharp[:, 0]] - corners[sharp[:, 1]], axis=1)
+    assert len(sharp) == 12 and lengths == pytest.approx(1.0)  # the diagonals are flat
+
+
+def test_the_view_shows_the_deformed_cage_in_megapascals():
+    cage = cage_stress()
+    limit, over = common_limit([cage])
+    assert over and 22e6 <= limit < PEAK  # one hot spot does not set the range
+    figure = cage_figure(cage, 500.0, limit, over)
+    body = figure.data[0]
+    at = np.stack([body.z, body.x, body.y], axis=1) * 1e-3  # the view's z is the bearing's x
+    moved = cage.points + 500.0 * cage.displacement
+    hottest = int(np.argmax(body.intensity))
+    assert body.intensity[hottest] == pytest.approx(PEAK / 1e6)
+    assert at[hottest] == pytest.approx(moved[cage.peak_vertex], abs=1e-8)
+    faces = np.stack([body.i, body.j, body.k], axis=1)
+    a, b, c = (at[faces[:, k]] for k in range(3))
+    volume = np.einsum("ij,ij->", a, np.cross(b, c)) / 6.0
+    corners = moved[cage.tets]
+    edges = corners[:, 1:] - corners[:, :1]
+    assert volume == pytest.approx(np.linalg.det(edges).sum() / 6.0, rel=1e-4)
+
+
+def test_one_range_suits_all_cages():
+    cages = [cage_stress("a", 0.5), cage_stress("b", 1.0)]
+    assert common_limit(cages)[0] == common_limit(cages[1:])[0] > common_limit(cages[:1])[0]
+
+
+NASTY = "</script><script>alert(1)</script><b>&amp;"
+
+
+def test_texts_are_escaped_everywhere():
+    text = html(run_page(account(name=NASTY, case_text=NASTY, statement=[NASTY])))
+    seen = read(text)
+    assert "".join(seen.text).count("<script>alert(1)</script>") >= 4  # as words
+    assert "<script>alert" not in text
+    assert sum(tag == "script" and "type" not in given for tag, given in seen.tags) == 2
+
+
+def test_names_of_cases_are_words_for_plotly_too():
+    axis = Abscissa("label", ["<b>one</b>", "two"], [NASTY, "b"])
+    (chart,) = comparison_charts(
+        [Output("slip", "%", np.array([1.0, 2.0]), np.full(2, np.nan))], [axis], [NASTY, "second"]
+    )
+    figure = chart.figures[0][1]
+    texts = [*figure.layout.xaxis.ticktext, figure.data[0].name, figure.data[0].text[0]]
+    assert all("<b>" not in text and "<script" not in text for text in texts)
+
+
+def test_points_of_a_group_are_joined_in_order_and_carry_intervals():
+    values = [3.0, 1.0, 2.0, 1.0, 2.0, 3.0]
+    group = ["a"] * 3 + ["b"] * 3
+    mean = np.array([30.0, 10.0, 20.0, 1.0, np.nan, 3.0])
+    half = np.array([3.0, 1.0, 2.0, np.nan, np.nan, 0.3])
+    names = [f"case {k}" for k in range(6)]
+    (chart,) = comparison_charts(
+        [Output("force", "N", mean, half)], [Abscissa("load [N]", values, group)], names
+    )
+    first, second = chart.figures[0][1].data
+    assert list(first.x) == [1.0, 2.0, 3.0] and list(first.y) == [10.0, 20.0, 30.0]
+    assert list(first.error_y.array) == [1.0, 2.0, 3.0] and first.mode == "lines+markers"
+    assert list(second.x) == [1.0, 3.0], "what failed is left out"
+    assert "case 1" in first.text[0] and "10 ± 1 N" in first.text[0]
+    assert "±" not in second.text[0]
+
+
+def test_a_page_asks_for_nothing_outside():
+    text = html(run_page(account()))
+    for _, given in read(text).tags:
+        for name in ("src", "href", "action", "data", "poster"):
+            assert re.match("data:|#|$", given.get(name, ""))
+    assert "default-src 'none'" in text and len(text.encode()) < 15e6
+
+
+def test_a_page_without_charts_carries_no_plotly():
+    page = Page("Small", "", [Section("Only", [Text("file", "x = 1")])])
+    assert len(html(page)) < 20_000
+
+
+def test_a_page_too_large_is_refused(tmp_path, monkeypatch):
+    monkeypatch.setattr(page_module, "LIMIT", 1000)
+    with pytest.raises(InputError, match="more than 0 MB; show fewer pictures"):
+        write_page(Page("Large", "", [Section("A", [Text("b", "c" * 2000)])]), tmp_path / "a.html")
+    assert not list(tmp_path.iterdir())
+
+
+def test_a_page_that_cannot_be_written(tmp_path):
+    (tmp_path / "file").write_text("")
+    with pytest.raises(InputError, match="cannot be written"):
+        write_page(Page("A", "", []), tmp_path / "file" / "a.html")
+
+
+def test_verdicts_are_read(tmp_path):
+    assert read_verdicts(tmp_path) is None
+    (tmp_path / "verdicts.json").write_text(json.dumps(VERDICTS))
+    table = read_verdicts(tmp_path)
+    assert table.caption == "3 claims: 1 holds, 1 does not hold, 1 undecided"
+    first, second, third = table.cells
+    assert [cell.text for cell in first[:4]] == [
+        "a-1: It slips.", "✔ holds", "slip: 1.234 ± 0.1 %", "all clearances",
+    ]  # fmt: skip
+    assert second[1].text == "✘ does not hold" and third[1].text == "? undecided"
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        ("{", "cannot be read as JSON"),
+        ("[]", "is of format None"),
+        ('{"format": 2}', "is of format 2, and this flexcage reads format 1"),
+        ('{"format": 1}', "lacks its list of verdicts"),
+        ('{"format": 1, "verdicts": [{"key": "k", "outcome": "maybe"}]}', "'k' has the outcome"),
+        (
+            '{"format": 1, "verdicts": [{"outcome": "holds", "figures": 3}]}',
+            "a list of tables",
+        ),
+    ],
+)
+def test_verdicts_that_are_none_get_a_sentence(tmp_path, text, words):
+    (tmp_path / "verdicts.json").write_text(text)
+    with pytest.raises(InputError, match=re.escape(words)):
+        read_verdicts(tmp_path)
+
+
+def test_figures_of_a_folder(tmp_path):
+    assert extra_figures(tmp_path) is None
+    place = tmp_path / "figures"
+    place.mkdir()
+    for name in ("b_two.png", "a.png"):
+        (place / name).write_bytes(b"")
+    (place / "captions.json").write_text('{"a.png": "The first <one>"}')
+    (place / "margins.csv").write_text("case,margin\nsound,0.25\n")
+    gallery, table = extra_figures(tmp_path).blocks
+    assert [i.caption for i in gallery.images] == ["The first <one>", "B two"]
+    assert table.cells[0][1] == Cell("0.25", 0.25)
+    (place / "captions.json").write_text('["a"]')
+    with pytest.raises(InputError, match="should map file names to captions"):
+        extra_figures(tmp_path)
+
+
+def _summary(**values) -> Summary:
+    rows = [Row(key, key, value, "", "a note") for key, value in values.items()]
+    return Summary((Part("All", tuple(rows)),))
+
+
+GOOD = {"roller_passes": 60, "drift": "nothing", "energy_audit": "passed", "stress_peak": 1e6}
+END = {"reached": 0.1, "duration": 0.1, "proof_stress": 160e6, "material": "brass"}
+
+
+@pytest.mark.parametrize(
+    ("values", "end", "words"),
+    [
+        ({}, {"reached": 0.05}, "stopped at 50 ms of 100 ms"),
+        ({"roller_passes": 7}, {}, "7 roller passes"),
+        ({"drift": "cage speed"}, {}, "differ beyond the intervals in: cage speed"),
+        ({"energy_audit": "EXCEEDED", "energy_of_drive": 2e-3, "energy_of_cage": 0.07}, {},
+         "0.2 % of the drive's work (at most 0.1 %) and 7 %"),
+        ({"stress_start": 200e6}, {}, "200 MPa, more than the proof stress of brass (160 MPa)"),
+        ({"pinch_force": 12.0}, {}, "pinched by up to 12"),
+    ],
+)  # fmt: skip
+def test_cautions(values, end, words):
+    assert cautions(_summary(**GOOD), **END) == []
+    (found,) = cautions(_summary(**GOOD | values), **END | end)
+    assert words in found
+
+
+def test_columns_without_content_are_left_out():
+    table = filled(Table(("a", "b", "c"), [["1", "", "x"], ["2", "", ""]]))
+    assert list(table.head) == ["a", "c"]
+    assert filled(Table(("a", "b"), [])).head == ("a", "b")

@@ -1,0 +1,151 @@
+"""Reports of studies whose rows were written here, and the command: what it refuses, and says."""
+
+from __future__ import annotations
+
+import re
+
+import pytest
+
+from flexcage import cli
+from flexcage.case import load_case
+from flexcage.core.errors import InputError
+from flexcage.report.comparison import Output
+from flexcage.study.axes import Grid, LatinHypercube, Points, Zip
+from flexcage.study.folder import CaseRow, Failure, Folder
+from flexcage.study.outputs import Figure
+from flexcage.study.page_tables import abscissas, outputs, point_names
+from flexcage.study.plan import make_plan
+from flexcage.study.results import StudyResults
+from flexcage.study.spec import Repeat, Study
+
+CASE = {"bearing": {"preset": "N1013"}, "cage": {"model": "rigid"}, "load": {"radial": "1 kN"}}
+
+
+def study_folder(path, *axes, fails=(), open_=(), outputs=("cage_slip_ratio",), **rest):
+    """A study as it would lie on disk, with figures that follow from each case's place."""
+    rest = {"keep": "figures", **rest}
+    plan = make_plan(Study(case=load_case(CASE), axes=axes, outputs=outputs, **rest))
+    folder = Folder(path)
+    folder.prepare(plan)
+    for k, planned in enumerate(plan.cases):
+        if k in fails:
+            folder.write_failure(planned.hash, Failure("RunFailed", f"case {k} broke", True))
+        elif k not in open_:
+            figures = {name: Figure(0.01 + 0.001 * k, "1", "%") for name in outputs}
+            figures |= {"energy_audit": Figure("EXCEEDED" if k == 0 else "passed", "1"),
+                        "steps": Figure(100 + k, "1")}  # fmt: skip
+            folder.case(planned.hash).mkdir(parents=True)
+            folder.write_row(folder.case(planned.hash), CaseRow(planned.hash, 1.5, figures))
+    return StudyResults(path)
+
+
+LOADS = Grid("load.radial", ["500 N", "1 kN"])
+SPEEDS = Grid("drive.speed", ["3000 rpm", "6000 rpm", "9000 rpm"])
+
+
+def test_the_page_of_a_study(tmp_path):
+    results = study_folder(
+        tmp_path / "s", LOADS, SPEEDS, repeat=Repeat(count=2), name="<i>mine</i>", fails=(3,),
+        open_=(11,),
+    )  # fmt: skip
+    path = results.page(tmp_path / "page.html")
+    text = path.read_text("utf-8")
+    assert path.stat().st_size < 15e6
+    assert "&lt;i&gt;mine&lt;/i&gt;: report of a study" in text and "<i>mine" not in text
+    assert "12 cases: 10 done, 1 failed, 1 open" in text
+    assert "Point 1, repetition 1 (load.radial = 500 N, drive.speed = 6000 rpm) failed" in text
+    assert "1 of 12 cases are not computed yet" in text
+    assert "1 of 10 cases exceed the energy audit" in text
+    assert "kept figures only" in text
+    order = [text.index(f"<h2>{t}</h2>") for t in ("What was varied", "Results", "Comparison")]
+    assert order == sorted(order)
+
+
+def test_means_and_intervals_are_those_of_the_statistics(tmp_path):
+    results = study_folder(tmp_path / "s", LOADS, repeat=Repeat(count=3))
+    (output,) = outputs(results)
+    assert isinstance(output, Output) and output.unit == "%"
+    assert output.mean == pytest.approx([1.1, 1.4])  # % of 0.010 0.011 0.012, 0.013 0.014 0.015
+    assert output.half == pytest.approx([4.30265 * 0.1 / 3**0.5] * 2, rel=1e-4)  # t(0.975, 2)
+
+
+def test_axes_become_abscissas_and_the_others_groups(tmp_path):
+    results = study_folder(tmp_path / "s", LOADS, SPEEDS)
+    load, speed = abscissas(results)
+    assert (load.title, speed.title) == ("load.radial [N]", "drive.speed [rpm]")
+    assert list(load.values) == [500.0] * 3 + [1000.0] * 3
+    assert list(load.group) == [f"drive.speed = {v} rpm" for v in (3000, 6000, 9000)] * 2
+    assert list(speed.group) == ["load.radial = 500 N"] * 3 + ["load.radial = 1000 N"] * 3
+    assert point_names(results)[5] == "load.radial = 1000 N, drive.speed = 9000 rpm"
+
+
+def test_labels_pairs_and_samples_are_axes_as_well(tmp_path):
+    labels = Points(({"label": "slow", "drive.speed": "1000 rpm"}, {"label": "base"}))
+    (axis,) = abscissas(study_folder(tmp_path / "a", labels))
+    assert list(axis.values) == ["slow", "base"] and set(axis.group) == {""}
+    pairs = Zip({"load.radial": ["1 N", "2 N"], "drive.speed": ["1 rpm", "2 rpm"]})
+    assert [a.name for a in abscissas(study_folder(tmp_path / "b", pairs))] == ["load.radial"]
+    box = LatinHypercube(
+        ranges={"load.radial": ("1 N", "9 N"), "drive.speed": ("1 rpm", "9 rpm")}, count=4
+    )
+    found = abscissas(study_folder(tmp_path / "c", box))
+    assert [a.name for a in found] == ["load.radial", "drive.speed"]
+    assert not any(a.joined for a in found), "lines between scattered points mean nothing"
+    assert study_folder(tmp_path / "d", box).page(tmp_path / "d.html").is_file()
+
+
+def test_a_study_without_axes_or_results(tmp_path):
+    results = study_folder(tmp_path / "s", open_=(0,))
+    text = results.page(tmp_path / "page.html").read_text("utf-8")
+    assert "One point." in text and "nothing to compare yet" in text
+
+
+@pytest.fixture
+def here(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.delenv("FLEXCAGE_DEBUG", raising=False)
+    study_folder(tmp_path / "study", LOADS)
+    (tmp_path / "empty").mkdir()
+    (tmp_path / "run" / "results.zarr").mkdir(parents=True)
+    (tmp_path / "there.html").write_text("precious")
+    return tmp_path
+
+
+MISTAKES = {
+    "nothing there": (["nowhere"], "no folder 'nowhere'"),
+    "neither": (["empty"], "'empty' is neither a run nor a study"),
+    "a file": (["there.html"], "no folder 'there.html'"),
+    "exists": (["study", "-o", "there.html"], "'there.html' exists already; --force"),
+    "ending": (["study", "-o", "page.pdf"], "'page.pdf' should end in .html"),
+    "no such folder": (["study", "-o", "none/page.html"], "'none' is not a folder"),
+    "a folder": (["study", "-o", "dir.html", "--force"], "'dir.html' is a folder"),
+    "points of a run": (["run", "--points", "1"], "--points belongs to a study"),
+    "no numbers": (["study", "--points", "a"], "--points 'a' should be numbers"),
+    "kept no runs": (["study", "--points", "0"], "kept figures only"),
+}
+
+
+@pytest.mark.parametrize("name", MISTAKES)
+def test_mistakes_get_one_sentence(name, here, capsys):
+    argv, words = MISTAKES[name]
+    (here / "dir.html").mkdir()
+    assert cli.main(["report", *argv]) == 2
+    err = capsys.readouterr().err
+    assert words in err and re.fullmatch(r"flexcage: [^\n]*\.\n", err), err
+    assert (here / "there.html").read_text() == "precious"
+
+
+def test_the_command_writes_into_the_folder_unless_told(here, capsys):
+    assert cli.main(["report", "study"]) == 0
+    assert "written: study/report.html (" in capsys.readouterr().out
+    assert cli.main(["report", "study"]) == 2
+    assert cli.main(["report", "study", "--force", "-o", "there.html"]) == 0
+    assert "report of a study" in (here / "there.html").read_text("utf-8")
+
+
+def test_points_are_chosen_among_those_with_a_run(tmp_path):
+    results = study_folder(tmp_path / "s", LOADS, keep="runs")
+    with pytest.raises(InputError, match="Point 7 has no finished run with a flexible cage"):
+        results.page(tmp_path / "page.html", points=[7])
+    text = results.page(tmp_path / "page.html").read_text("utf-8")
+    assert "No finished case has a flexible cage" in text
