@@ -114,6 +114,22 @@ def run_command(args: argparse.Namespace) -> int:
     return 0
 
 
+def static_command(args: argparse.Namespace) -> int:
+    """flexcage static CASE: equilibrium of the inner ring, contact loads, stiffness, life."""
+    from flexcage.case import load_static
+    from flexcage.static import solve_static, write_static
+
+    case = load_static(Path(args.case), overrides=settings_of(args))
+    if args.out:
+        prepare_out(Path(args.out), resume=False, force=args.force, resumable=False)
+    solution = solve_static(case)
+    say(solution.table())
+    if args.out:
+        write_static(case, solution, Path(args.out))
+        say(f"\nThe table, its numbers and a picture are in {args.out}")
+    return 0
+
+
 def mesh_command(args: argparse.Namespace) -> int:
     """flexcage mesh CASE: build, check and write the cage's mesh."""
     case = case_from(args)
@@ -445,6 +461,7 @@ def build_parser() -> argparse.ArgumentParser:
     parser.add_argument("-q", "--quiet", action="store_true", help="warnings only")
     commands = parser.add_subparsers(title="commands", metavar="COMMAND")
     _add_run(commands)
+    _add_static(commands)
     _add_case_commands(commands)
     _add_run_commands(commands)
     _add_converge(commands)
@@ -463,6 +480,17 @@ def _add_run(commands: Any) -> None:
     again.add_argument("--force", action="store_true", help="write an existing run anew")
     run.add_argument("--animate", action="store_true", help="make an animation as well")
     run.add_argument("--no-images", action="store_true", help="results only")
+
+
+def _add_static(commands: Any) -> None:
+    text = "equilibrium under load: displacements, contact loads, stiffness, life"
+    static = _command(commands, "static", static_command, text)
+    static.add_argument("case", metavar="CASE", help="case file (.toml)")
+    static.add_argument(
+        "--set", action="append", metavar="PATH=VALUE", help="change a value of the case"
+    )
+    static.add_argument("-o", "--out", metavar="DIR", help="folder for table, JSON and picture")
+    static.add_argument("--force", action="store_true", help="write an existing folder anew")
 
 
 def _add_case_commands(commands: Any) -> None:
