@@ -10,7 +10,7 @@ import numpy as np
 
 from flexcage.render import sheet
 
-_SIDE, _TOP, _LEFT, _GAP = 560, 190, 90, 170
+_SIDE, _TOP, _LEFT, _GAP = 560, 230, 100, 190
 _NAMES = ("inner race", "outer race")
 
 
@@ -32,7 +32,7 @@ def static_picture(
     """
     angles = bool(np.nanmax(np.abs(angle), initial=0.0) > 0.0)
     with sheet.style():
-        figure = sheet.new_figure(2 * _LEFT + 2 * _SIDE + _GAP, _TOP + _SIDE + 120)
+        figure = sheet.new_figure(2 * _LEFT + 2 * _SIDE + _GAP, _TOP + _SIDE + 140)
         facts = [f"axial load {load[0]:.5g} N" if load[0] else ""]
         radial = float(np.hypot(load[1], load[2]))
         facts.append(f"radial load {radial:.5g} N" if radial else "")
@@ -44,7 +44,9 @@ def static_picture(
             _arrow(left, float(np.arctan2(load[2], load[1])))
         right = _panel(figure, 1, "Contact angle [deg]" if angles else "Largest pressure [MPa]")
         _curves(right, azimuth, np.degrees(angle) if angles else 1e-6 * pressure)
-        left.legend(loc="upper center", bbox_to_anchor=(1.15, -0.04), ncols=3)
+        left.legend(
+            loc="upper center", bbox_to_anchor=(0.5 + 0.5 * (1.0 + _GAP / _SIDE), -0.10), ncols=3
+        )
         return sheet.save(figure, path)
 
 
@@ -56,11 +58,11 @@ def _panel(figure: Any, k: int, label: str) -> Any:
     rect = (_LEFT + k * (_SIDE + _GAP), _TOP, _SIDE, _SIDE)
     ax = sheet.axes_at(figure, rect, projection="polar")
     ax.set_theta_zero_location("N")  # type: ignore[attr-defined]
-    ax.set_title(label, pad=22, weight="bold")
+    ax.set_title(label, pad=16, weight="bold")
     marks = [f"{45 * k}°" for k in range(8)]
     marks[0], marks[2] = "y, 0°", "z, 90°"
     ax.set_xticks(np.arange(8) * pi / 4.0, marks)
-    ax.tick_params(axis="x", pad=14)
+    ax.tick_params(axis="x", pad=11)
     ax.set_rlabel_position(202.5)  # type: ignore[attr-defined]
     ax.yaxis.set_major_locator(MaxNLocator(5))
     halo = [Stroke(linewidth=2.5, foreground="white"), Normal()]
@@ -86,8 +88,8 @@ def _arrow(ax: Any, direction: float) -> None:
     from matplotlib.lines import Line2D
 
     reach = ax.get_ylim()[1]
+    form = {"arrowstyle": "-|>", "color": sheet.INK, "lw": 1.8, "shrinkA": 0, "shrinkB": 0}
     ax.annotate(
-        "", (direction, 1.10 * reach), (direction, 1.0 * reach), annotation_clip=False,
-        arrowprops={"arrowstyle": "-|>", "color": sheet.INK, "lw": 2.0, "mutation_scale": 16},
-    )  # fmt: skip
-    ax.add_line(Line2D([], [], color=sheet.INK, lw=2.0, label="direction of the radial load"))
+        "", (direction, 1.10 * reach), (direction, reach), arrowprops=form, annotation_clip=False
+    )
+    ax.add_line(Line2D([], [], color=sheet.INK, marker="^", ls="none", label="radial load"))

@@ -101,13 +101,30 @@ class Balls:
         """Inner groove's centre (2, Z) from the outer one's at displacements v (Z, 3)."""
         return np.array(self.bearing.groove_offset)[:, None] + self._levers[0] @ v.T
 
-    def start(self) -> np.ndarray:
-        """Balls on the outer race at the free contact angle, pressed in as far as they push."""
-        _, outer = self.bearing.contacts
-        axial, radial = self.bearing.groove_offset
-        depth = (self.push / outer.stiffness) ** (2.0 / 3.0)
-        share = (self.lengths[1] + depth) / float(np.hypot(axial, radial))
-        return np.tile([share * axial, share * radial], (self.bearing.ball_count, 1))
+    def guesses(self, v: np.ndarray) -> list[np.ndarray]:
+        """Balls on the outer race alone, where they push; squeezed along the line of both grooves'
+        centres; and wedged between both grooves, too far apart to squeeze them."""
+        groove, (inner, outer) = self.groove(v), self.bearing.contacts
+        apart, toward = np.hypot(*groove), np.arctan2(groove[0], groove[1])
+        depths = [(self.push / c.stiffness) ** (2.0 / 3.0) for c in (inner, outer)]
+        reach = [length + depth for length, depth in zip(self.lengths, depths)]
+        soft = [c.stiffness ** (-2.0 / 3.0) for c in (inner, outer)]
+        squeezed = self.lengths[1] + np.maximum(apart - sum(self.lengths), 0.0) * soft[1] / sum(
+            soft
+        )
+        cosine = (reach[1] ** 2 + apart**2 - reach[0] ** 2) / (2.0 * reach[1] * apart)
+        outwards = toward - np.sign(toward) * np.arccos(np.clip(cosine, -1.0, 1.0))
+        places = (reach[1] + 0.0 * apart, 0.0 * toward), (squeezed, toward), (reach[1], outwards)
+        return [np.stack([r * np.sin(t), r * np.cos(t)], axis=1) for r, t in places]
+
+    def moved(self, w: np.ndarray, step: np.ndarray) -> np.ndarray:
+        """Balls slide round the outer groove: along its tangent they would run into its wall."""
+        reach = np.hypot(*w.T)[:, None]
+        normal = w / reach
+        across = np.stack([normal[:, 1], -normal[:, 0]], axis=1)
+        turn = (step * across).sum(axis=1, keepdims=True) / reach
+        new = reach + (step * normal).sum(axis=1, keepdims=True)
+        return new * (np.cos(turn) * normal + np.sin(turn) * across)
 
     def respond(self, v: np.ndarray, w: np.ndarray, share: float) -> Response:
         ball, groove = w.T, self.groove(v)

@@ -63,8 +63,13 @@ class Elements(Protocol):
     own_energy: bool  # is there more than ``share`` 0, and do forces have a potential?
     pressure_limit: float  # Pa, where ISO 76 sets the static rating
 
-    def start(self) -> np.ndarray:
-        """Coordinates w (Z, 2) to begin with."""
+    def guesses(self, v: np.ndarray) -> list[np.ndarray]:
+        """Coordinates w (Z, 2) from which equilibrium at v (Z, 3) may be near, one or more."""
+        ...
+
+    def moved(self, w: np.ndarray, step: np.ndarray) -> np.ndarray:
+        """Coordinates (Z, 2) after a step of Newton's method from w, along the way that forces
+        leave free; w + step to first order."""
         ...
 
     def respond(self, v: np.ndarray, w: np.ndarray, share: float) -> Response:

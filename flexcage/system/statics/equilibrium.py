@@ -1,35 +1,32 @@
 """Equilibrium of the inner ring, and of every rolling element between it and the outer ring.
 
-Newton's method on all coordinates at once, the elements' own eliminated. Where forces have a
-potential it is convex (springs that bear only pressure, between centres), so that a step which
-lowers it leads to its one minimum from anywhere; this comes first, with the centrifugal force
-at the free contact angle. Then what has no potential is added, in steps if need be.
+Two nested Newton methods with exact tangents: every element finds its place between the rings,
+whereupon the ring takes a step. Where forces have a potential it is convex (springs that bear only
+pressure, between centres), so that steps which lower it lead to its one minimum from anywhere; this
+comes first, with the centrifugal force at the free contact angle. Then what has no potential is
+added, in parts if need be.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
 from flexcage.core.errors import RunFailed
 from flexcage.system.statics.elements import Elements, Response
 
-_CLOSE = 1e-11  # unbalanced force, as a share of the load
-_ITERATIONS = 200
-_HALVINGS = 30
+_CLOSE = 1e-10  # unbalanced force of the ring, as a share of the load
+_SETTLED = 1e-12  # and of an element
+_ITERATIONS = 50
+_HALVINGS = 14
+_ENOUGH = 1e-4  # of the decrease that the slope promises
 _SOFT = 1e-9  # of a hard-pressed element's stiffness: holds what touches nothing
+_RANK = 1e-13  # of an element's largest stiffness: below, there is none
 _FAR = 40.0  # of the elements' scale: a ring so far away has fallen out
-_SHARES = (1, 4, 16, 64)  # steps in which speed's other effects come in: all at once, or more
-
-
-@dataclass(frozen=True)
-class Posture:
-    """Displacement u (5,) of the inner ring and coordinates w (Z, 2) of the elements."""
-
-    ring: np.ndarray
-    own: np.ndarray
-    unbalanced: float = np.inf  # largest force, as a share of the load
+_LOST = 1e-3  # unbalanced force of an element with which a step is not worth taking
+_PARTS = (1, 3, 9)  # in which speed's other effects come in: all at once, or more
 
 
 @dataclass(frozen=True)
@@ -41,17 +38,23 @@ class Problem:
     free: np.ndarray  # (5,) bool
     held: np.ndarray  # (5,)
 
-    @property
+    @cached_property
     def lever(self) -> np.ndarray:
         """Lengths (5,) that make displacements and forces of rotations comparable: 1, or an arm."""
         arm = 100.0 * self.elements.scale
         return np.array([1.0, 1.0, 1.0, arm, arm])
 
-    @property
+    @cached_property
     def size(self) -> float:
         """Magnitude of the load [N], for what is small beside it."""
         return max(float(np.abs(self.load / self.lever).max()), 1e-6)
 
+    @property
+    def soft(self) -> float:
+        """Stiffness [N/m] that is small beside that of a pressed element."""
+        return _SOFT * self.size / self.elements.scale
+
+    @cached_property
     def at_azimuths(self) -> np.ndarray:
         """B (Z, 3, 5): displacements v = B u at every element."""
         psi = self.elements.azimuth
@@ -64,29 +67,32 @@ class Problem:
 
 
 @dataclass(frozen=True)
-class State:
-    """A posture with the elements' response there, its forces on the ring and its tangent."""
+class Posture:
+    """Displacement u (5,) of the inner ring, elements settled between the rings, and forces."""
 
-    posture: Posture
+    ring: np.ndarray
+    own: np.ndarray  # (Z, 2) coordinates of the elements
     response: Response
     force: np.ndarray  # (5,) that the elements bear
-    energy: float
+    unbalanced: float  # largest force left over, as a share of the load; inf: none settled
+    energy: float  # of elements and load; a potential while ``share`` is 0
 
 
 def balance(problem: Problem) -> Posture:
     """Posture in equilibrium. Raises RunFailed if there is none, or none is found."""
-    posture = Posture(problem.held.copy(), problem.elements.start())
-    posture = _march(problem, posture, 0.0)
+    still = _march(problem, _posture(problem, problem.held, None, 0.0), 0.0)
+    if still.unbalanced > _CLOSE:
+        raise _no_equilibrium(problem, still)
     if problem.elements.own_energy:
-        return posture
-    for count in _SHARES:
-        found, reached = posture, True
-        for k in range(count):
-            found = _march(problem, found, (k + 1) / count, fails=False)
-            reached = found.unbalanced < _CLOSE
-            if not reached:
+        return still
+    for parts in _PARTS:
+        found = still
+        for k in range(parts):
+            share = (k + 1) / parts
+            found = _march(problem, _posture(problem, found.ring, found.own, share), share)
+            if found.unbalanced > _CLOSE:
                 break
-        if reached:
+        else:
             return found
     raise RunFailed(
         f"no equilibrium was found at this speed: {found.unbalanced:.1e} of the load stays "
@@ -94,118 +100,109 @@ def balance(problem: Problem) -> Posture:
     )
 
 
-def stiffness(problem: Problem, posture: Posture) -> np.ndarray:
-    """Exact tangent (5, 5) of the forces on the ring, the elements following."""
-    share = 0.0 if problem.elements.own_energy else 1.0
-    state = _evaluate(problem, posture, share)
-    direct, coupling, _ = _tangent(problem, state, 0.0)
-    return direct - coupling
+def tangent(problem: Problem, posture: Posture) -> np.ndarray:
+    """Exact tangent (5, 5) of the forces that elements bear over u, the elements following."""
+    B, r = problem.at_azimuths, posture.response
+    follow = np.linalg.pinv(r.unbalance_w, rcond=_RANK) @ r.unbalance_v
+    return np.einsum("zia,zij,zjb->ab", B, r.ring_v - r.ring_w @ follow, B)
 
 
-def bears(problem: Problem, posture: Posture) -> np.ndarray:
-    """Forces and moments (5,) that the elements bear; load where free, and reactions."""
-    share = 0.0 if problem.elements.own_energy else 1.0
-    return _evaluate(problem, posture, share).force
-
-
-def _evaluate(problem: Problem, posture: Posture, share: float) -> State:
-    B = problem.at_azimuths()
-    response = problem.elements.respond(B @ posture.ring, posture.own, share)
+def _posture(problem: Problem, ring: np.ndarray, own: np.ndarray | None, share: float) -> Posture:
+    B = problem.at_azimuths
+    v = B @ ring
+    own, response, unsettled = settle(problem, v, nearest(problem, v, own, share), share)
     force = np.einsum("zij,zi->j", B, response.ring)
-    energy = float(response.energy.sum() - problem.load @ posture.ring)
-    return State(posture, response, force, energy)
+    gap = ((force - problem.load) / problem.lever)[problem.free]
+    left = float(np.abs(gap).max(initial=0.0)) / problem.size
+    left = max(left, unsettled) if unsettled < _LOST else np.inf
+    energy = float(response.energy.sum() - problem.load @ ring)
+    return Posture(ring, own, response, force, left, energy)
 
 
-def _tangent(
-    problem: Problem, state: State, soft: float
-) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Stiffness (5, 5) with elements held, what their following takes from it, and (Z, 2, 5) how
-    they follow."""
-    B, r = problem.at_azimuths(), state.response
-    direct = np.einsum("zia,zij,zjb->ab", B, r.ring_v, B)
-    own = r.unbalance_w + soft * np.eye(2)
-    if soft == 0.0:  # elements that touch nothing follow nothing
-        loose = np.abs(own).max(axis=(1, 2)) == 0.0
-        own = np.where(loose[:, None, None], np.eye(2), own)
-    follow = np.linalg.solve(own, r.unbalance_v @ B)
-    return direct, np.einsum("zia,zij,zjb->ab", B, r.ring_w, follow), follow
+def nearest(problem: Problem, v: np.ndarray, own: np.ndarray | None, share: float) -> np.ndarray:
+    """Coordinates (Z, 2) from which to settle: the present ones, or guesses of less energy."""
+    if own is not None and share > 0.0:
+        return own
+    choices = problem.elements.guesses(v) + ([] if own is None else [own])
+    energy = np.stack([problem.elements.respond(v, w, 0.0).energy for w in choices])
+    return np.stack(choices)[energy.argmin(axis=0), np.arange(len(v))]
 
 
-def _unbalanced(problem: Problem, state: State) -> float:
-    ring = ((state.force - problem.load) / problem.lever)[problem.free]
-    return (
-        max(float(np.abs(ring).max(initial=0.0)), float(np.abs(state.response.unbalance).max()))
-        / problem.size
-    )
+def settle(
+    problem: Problem, v: np.ndarray, w: np.ndarray, share: float
+) -> tuple[np.ndarray, Response, float]:
+    """Elements in equilibrium at displacements v (Z, 3) of the ring, sought from w (Z, 2).
 
-
-def _march(problem: Problem, posture: Posture, share: float, *, fails: bool = True) -> Posture:
-    """Newton's method at one share of what has no potential; ``fails``: raise if none is found."""
-    scale = problem.elements.scale
-    state = _evaluate(problem, posture, share)
-    hard = problem.size / scale
+    Their coordinates w, their response, and the largest force left over, as a share of the load.
+    """
+    elements, least = problem.elements, _SETTLED * problem.size
+    r = elements.respond(v, w, share)
+    stuck = np.zeros(len(w), bool)
     for _ in range(_ITERATIONS):
-        left = _unbalanced(problem, state)
-        if left < _CLOSE:
-            return replace(state.posture, unbalanced=left)
-        ring, own, slope = _step(problem, state, _SOFT * hard)
-        largest = max(float(np.abs(ring * problem.lever).max()), float(np.abs(own).max()))
-        state = _shorter(problem, state, ring, own, slope, share, min(1.0, scale / largest))
-        if np.abs(state.posture.ring * problem.lever).max() > _FAR * scale:
+        left = np.abs(r.unbalance).max(axis=1)
+        going = (left > least) & ~stuck
+        if not going.any():
             break
-    left = _unbalanced(problem, state)
-    if fails:
-        raise _no_equilibrium(problem, state, left)
-    return replace(state.posture, unbalanced=left)
+        stiffness = r.unbalance_w + problem.soft * np.eye(2)
+        step = -np.linalg.solve(stiffness, r.unbalance[..., None])[..., 0]
+        slope = (step * r.unbalance).sum(axis=1)
+        far = np.abs(step).max(axis=1)
+        length = np.where(going, np.minimum(1.0, elements.scale / np.maximum(far, 1e-300)), 0.0)
+        for _ in range(_HALVINGS):
+            trial = elements.respond(v, elements.moved(w, length[:, None] * step), share)
+            fine = np.abs(trial.unbalance).max(axis=1) < (1.0 - _ENOUGH * length) * left
+            if share == 0.0:
+                fine |= trial.energy - r.energy <= _ENOUGH * length * slope
+            if (fine | ~going).all():
+                break
+            length = np.where(fine | ~going, length, 0.5 * length)
+        else:
+            stuck |= going & ~fine
+            length = np.where(stuck, 0.0, length)
+            trial = elements.respond(v, elements.moved(w, length[:, None] * step), share)
+        w, r = elements.moved(w, length[:, None] * step), trial
+        if (left[stuck] > _LOST * problem.size).any():
+            break
+    return w, r, float(np.abs(r.unbalance).max()) / problem.size
 
 
-def _step(problem: Problem, state: State, soft: float) -> tuple[np.ndarray, np.ndarray, float]:
-    """Newton's step of ring (5,) and elements (Z, 2), and the energy's slope along it."""
-    B, r, free = problem.at_azimuths(), state.response, problem.free
-    direct, coupling, follow = _tangent(problem, state, soft)
-    own = r.unbalance_w + soft * np.eye(2)
-    eased = np.linalg.solve(own, r.unbalance[..., None])[..., 0]
-    gap = state.force - problem.load
-    right = gap - np.einsum("zia,zij,zj->a", B, r.ring_w, eased)
-    matrix = direct - coupling + np.diag(soft * problem.lever**2)
-    ring = np.zeros(5)
-    ring[free] = -np.linalg.solve(matrix[np.ix_(free, free)], right[free])
-    moved = -eased - follow @ ring
-    return ring, moved, float(gap[free] @ ring[free] + (r.unbalance * moved).sum())
+def _march(problem: Problem, posture: Posture, share: float) -> Posture:
+    """Steps of the ring at one share of what has no potential, until it is balanced or stuck."""
+    free, scale = problem.free, problem.elements.scale
+    for _ in range(_ITERATIONS):
+        far = np.abs(posture.ring * problem.lever).max() > _FAR * scale
+        if posture.unbalanced <= _CLOSE or far or posture.unbalanced == np.inf:
+            break
+        matrix = tangent(problem, posture) + np.diag(problem.soft * problem.lever**2)
+        gap = posture.force - problem.load
+        step = np.zeros(5)
+        step[free] = -np.linalg.solve(matrix[np.ix_(free, free)], gap[free])
+        length = min(1.0, scale / float(np.abs(step * problem.lever).max()))
+        for _ in range(_HALVINGS):
+            new = _posture(problem, posture.ring + length * step, posture.own, share)
+            fine = new.unbalanced < (1.0 - _ENOUGH * length) * posture.unbalanced
+            if share == 0.0 and new.unbalanced < np.inf:
+                promised = length * float(gap[free] @ step[free])
+                fine |= new.energy - posture.energy <= _ENOUGH * promised
+            if fine:
+                break
+            length *= 0.5
+        else:
+            break
+        posture = new
+    return posture
 
 
-def _shorter(
-    problem: Problem,
-    state: State,
-    ring: np.ndarray,
-    own: np.ndarray,
-    slope: float,
-    share: float,
-    length: float,
-) -> State:
-    """The step, or as much of it as lowers the energy; where there is none, the unbalance."""
-    before, potential = _unbalanced(problem, state), share == 0.0
-    for _ in range(_HALVINGS):
-        posture = Posture(state.posture.ring + length * ring, state.posture.own + length * own)
-        new = _evaluate(problem, posture, share)
-        drop = new.energy - state.energy <= 1e-4 * length * slope + 1e-14 * abs(state.energy)
-        after = _unbalanced(problem, new)
-        if (potential and drop) or after < (1.0 - 1e-4 * length) * before:
-            return new
-        length *= 0.5
-    return new
-
-
-def _no_equilibrium(problem: Problem, state: State, left: float) -> RunFailed:
-    where = state.posture.ring
-    if np.abs(where * problem.lever).max() > _FAR * problem.elements.scale:
+def _no_equilibrium(problem: Problem, posture: Posture) -> RunFailed:
+    where = np.abs(posture.ring)
+    if (where * problem.lever).max() > _FAR * problem.elements.scale:
         return RunFailed(
-            f"the bearing cannot bear this load: the inner ring moves off by more than "
-            f"{np.abs(where[:3]).max() * 1e3:.2g} mm or {np.abs(where[3:]).max() * 1e3:.2g} mrad; "
-            "a single angular contact bearing needs an axial load of about 1.2 times the radial "
-            "one times tan(contact angle) or more, a moment-free ring no tilt of its own"
+            "the bearing cannot bear this load: its inner ring moves off, by "
+            f"{1e3 * where[:3].max():.2g} mm and {where[3:].max():.2g} rad when the search was "
+            "given up; a single angular contact bearing wants an axial load towards +x, of about "
+            "1.2 tan(contact angle) times the radial load or more"
         )
     return RunFailed(
-        f"no equilibrium was found: {left:.1e} of the load stays unbalanced "
+        f"no equilibrium was found: {posture.unbalanced:.1e} of the load stays unbalanced "
         f"({_CLOSE:.0e} is allowed)"
     )

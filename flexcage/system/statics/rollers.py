@@ -1,6 +1,7 @@
 """Cylindrical rollers between two races, in slices with their profile: ISO/TS 16281.
 
-A roller's own coordinates are its centre's radial displacement and its tilt about the tangent.
+A roller's own coordinates are its centre's radial displacement and, for its tilt about the tangent,
+by how much more the end of its effective length at +x is displaced, so that both are lengths.
 Each race bears its share of the slices with the stiffness of one contact, so that centrifugal force
 divides the races; without it both slices are as the standard has them, in series. Small angles.
 """
@@ -69,6 +70,13 @@ class Rollers:
     def azimuth(self) -> np.ndarray:
         return azimuths(self.bearing.roller_count)
 
+    @cached_property
+    def shapes(self) -> np.ndarray:
+        """How a roller's coordinates displace its slices (2, n)."""
+        return np.stack(
+            [np.ones_like(self.places), 2.0 * self.places / self.bearing.effective_length]
+        )
+
     @property
     def scale(self) -> float:
         return 0.01 * self.bearing.roller_diameter
@@ -78,16 +86,20 @@ class Rollers:
         """Centrifugal force [N] on the pitch circle."""
         return self.bearing.roller_mass * self.bearing.pitch_radius * self.cage_speed**2
 
-    def start(self) -> np.ndarray:
-        """Rollers on the outer race, pressed in as far as they push."""
+    def guesses(self, v: np.ndarray) -> list[np.ndarray]:
+        """Rollers on the outer race, pressed in as far as they push; or halfway between races."""
         depth = (self.push / (self.stiffness * len(self.places))) ** (1.0 / EXPONENT)
         shift = 0.25 * self.bearing.radial_clearance + float(self.drop.min()) + depth
-        return np.tile([shift, 0.0], (self.bearing.roller_count, 1))
+        halfway = 0.5 * v[:, 1:] * np.array([1.0, 0.5 * self.bearing.effective_length])
+        return [np.tile([shift, 0.0], (len(v), 1)), halfway]
+
+    def moved(self, w: np.ndarray, step: np.ndarray) -> np.ndarray:
+        return w + step
 
     def depths(self, v: np.ndarray, w: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """How deep (Z, n) the slices are pressed into the inner and the outer race."""
         gap = 0.25 * self.bearing.radial_clearance + self.drop
-        roller = w[:, :1] + w[:, 1:] * self.places
+        roller = w @ self.shapes
         ring = v[:, 1:2] + v[:, 2:] * self.places
         return np.maximum(ring - roller - gap, 0.0), np.maximum(roller - gap, 0.0)
 
@@ -100,21 +112,19 @@ class Rollers:
         depth = self.depths(v, w)
         force = self.slice_forces(v, w)
         slope = [EXPONENT * self.stiffness * d ** (EXPONENT - 1.0) for d in depth]
-        arms = np.stack([np.ones_like(self.places), self.places])  # of push and tilt
-        inner, outer = (f @ arms.T for f in force)
-        k_inner, k_outer = (np.einsum("zn,an,bn->zab", s, arms, arms) for s in slope)
-        Z = len(v)
-        ring, ring_v, ring_w = np.zeros((Z, 3)), np.zeros((Z, 3, 3)), np.zeros((Z, 3, 2))
-        ring[:, 1:], ring_v[:, 1:, 1:], ring_w[:, 1:] = inner, k_inner, -k_inner
+        own = self.shapes
+        arms = np.stack([0.0 * self.places, np.ones_like(self.places), self.places])
+        inner, outer = (np.einsum("zn,an,bn->zab", s, own, own) for s in slope)
+        across = np.einsum("zn,an,bn->zab", slope[0], arms, own)
         stored = sum((f * d).sum(axis=1) for f, d in zip(force, depth)) / (EXPONENT + 1.0)
         return Response(
             energy=stored - self.push * w[:, 0],
-            ring=ring,
-            unbalance=outer - inner - np.array([self.push, 0.0]),
-            ring_v=ring_v,
-            ring_w=ring_w,
-            unbalance_v=ring_w.transpose(0, 2, 1),
-            unbalance_w=k_inner + k_outer,
+            ring=force[0] @ arms.T,
+            unbalance=(force[1] - force[0]) @ own.T - np.array([self.push, 0.0]),
+            ring_v=np.einsum("zn,an,bn->zab", slope[0], arms, arms),
+            ring_w=-across,
+            unbalance_v=-across.transpose(0, 2, 1),
+            unbalance_w=inner + outer,
         )
 
     def loads(self, v: np.ndarray, w: np.ndarray) -> ElementLoads:

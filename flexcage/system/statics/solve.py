@@ -8,6 +8,7 @@ import numpy as np
 
 from flexcage.contacts.spec import Contacts
 from flexcage.core.errors import InputError
+from flexcage.core.threads import one_blas_thread
 from flexcage.core.units import describe
 from flexcage.geometry.bearing import Bearing
 from flexcage.geometry.catalogue import (
@@ -19,7 +20,7 @@ from flexcage.geometry.catalogue import (
 from flexcage.system.spec import Load
 from flexcage.system.statics import balls, rollers
 from flexcage.system.statics.elements import ElementLoads, Elements, elements_of
-from flexcage.system.statics.equilibrium import Problem, balance, bears, stiffness
+from flexcage.system.statics.equilibrium import Problem, balance, tangent
 from flexcage.system.statics.options import StaticOptions
 from flexcage.system.statics.solution import Ratings, StaticSolution
 
@@ -27,6 +28,7 @@ SHIPPED = (balls, rollers)  # importing them registers their elements
 _PLACES = ("load.axial", "load.radial", "load.radial", "load.moment_y", "load.moment_z")
 
 
+@one_blas_thread
 def solve_bearing(
     bearing: Bearing,
     *,
@@ -44,16 +46,16 @@ def solve_bearing(
     elements = elements_of(bearing, speed=speed, contacts=contacts or Contacts(), options=options)
     problem = posed(bearing, elements, load, options)
     posture = balance(problem)
-    v = problem.at_azimuths() @ posture.ring
+    v = problem.at_azimuths @ posture.ring
     loads = elements.loads(v, posture.own)
-    reaction = np.where(problem.free, 0.0, bears(problem, posture) - problem.load)
+    reaction = np.where(problem.free, 0.0, posture.force - problem.load)
     return StaticSolution(
         title=f"{bearing.designation or 'bearing'}, {bearing.kind} with {len(v)} rolling elements",
         speed=speed,
         load=problem.load,
         displacement=posture.ring,
         reaction=reaction,
-        stiffness=stiffness(problem, posture),
+        stiffness=tangent(problem, posture),
         elements=loads,
         ratings=_ratings(
             bearing, load_vector(load), options, elements.reference_life(v, posture.own)
