@@ -21,6 +21,7 @@ class AngularContactBallBearing(BallBearing):
     """
 
     kind: ClassVar[str] = "angular contact ball bearing"
+    one_sided: ClassVar[bool] = True
 
     type: str = option("angular_contact_ball", doc="type of bearing", choices=BEARING_TYPES)
     contact_angle: float | None = quantity(

@@ -28,6 +28,7 @@ class BallBearing(Bearing):
     """
 
     cage_spec: ClassVar[Spec] = BallCage
+    one_sided: ClassVar[bool] = False  # are there shoulders for one direction of load alone?
 
     bore: float = quantity("mm", doc="bearing bore d", above=0.0)
     outside_diameter: float = quantity("mm", doc="bearing outside diameter D", above=0.0)

@@ -13,7 +13,6 @@ from math import cos, degrees, nan, sin, tan
 
 import numpy as np
 
-from flexcage.geometry.angular_contact_ball import AngularContactBallBearing
 from flexcage.geometry.ball_bearing import BallBearing
 from flexcage.geometry.catalogue import (
     EquivalentLoad,
@@ -21,7 +20,6 @@ from flexcage.geometry.catalogue import (
     equivalent_load,
     static_rating,
 )
-from flexcage.geometry.deep_groove_ball import DeepGrooveBallBearing
 from flexcage.geometry.hertz import PointContact, load_at_pressure
 
 STATIC_PRESSURE = 4.2e9  # Pa, ISO 76, balls
@@ -33,20 +31,23 @@ _B_M = 1.3  # ISO 281: today's steel and manufacture, ball bearings
 _RADIAL, _THRUST = 98.0665 * 0.41 * 0.95, 98.0665 * 0.9
 _SIZE_LIMIT = 25.4  # mm: beyond, the standard has 3.647 Dw^1.4 for Dw^1.8
 
-# ISO 281, table 3. Angular contact up to 15 degrees and deep grooves: e and Y over f0 Fa/C0r
+# ISO 281, table 3: X and e; Y = (1 - X)/e is the table's to its rounding, without its jumps. Deep
+# grooves (0) and angular contact of 10 and 15 degrees over f0 Fa/C0r
 _RELATIVE_LOADS = {
     0.0: (0.172, 0.345, 0.689, 1.03, 1.38, 2.07, 3.45, 5.17, 6.89),
+    10.0: (0.175, 0.35, 0.7, 1.05, 1.4, 2.1, 3.5, 5.25, 7.0),
     15.0: (0.178, 0.357, 0.714, 1.07, 1.43, 2.14, 3.57, 5.35, 7.14),
 }
 _LIMITS = {
     0.0: (0.19, 0.22, 0.26, 0.28, 0.30, 0.34, 0.38, 0.42, 0.44),
+    10.0: (0.29, 0.32, 0.36, 0.38, 0.40, 0.44, 0.49, 0.54, 0.54),
     15.0: (0.38, 0.40, 0.43, 0.46, 0.47, 0.50, 0.55, 0.56, 0.56),
 }
-_RADIAL_FACTORS = {0.0: 0.56, 15.0: 0.44}
-# from 20 degrees on: contact angle, e, X, Y; from 45 degrees on for axial ratings, with Y = 1
+_RADIAL_FACTORS = {0.0: 0.56, 10.0: 0.46, 15.0: 0.44}
+# from 20 degrees on: contact angle, e, X; and of thrust bearings, with Y = 1
 _STEEP = np.array([
-    (20.0, 0.57, 0.43, 1.00), (25.0, 0.68, 0.41, 0.87), (30.0, 0.80, 0.39, 0.76),
-    (35.0, 0.95, 0.37, 0.66), (40.0, 1.14, 0.35, 0.57), (45.0, 1.34, 0.33, 0.50),
+    (20.0, 0.57, 0.43), (25.0, 0.68, 0.41), (30.0, 0.80, 0.39), (35.0, 0.95, 0.37),
+    (40.0, 1.14, 0.35), (45.0, 1.34, 0.33),
 ])  # fmt: skip
 _THRUST_TABLE = np.array([
     (45.0, 1.25, 0.66), (50.0, 1.49, 0.73), (55.0, 1.79, 0.81), (60.0, 2.17, 0.92),
@@ -131,47 +132,33 @@ def _(bearing: BallBearing) -> float:
     return size * radial_factor(bearing.gamma, *grooves)
 
 
-def _chosen(radial: float, axial: float, limit: float, x: float, y: float) -> EquivalentLoad:
-    """P = Fr up to Fa/Fr = e, then X Fr + Y Fa."""
-    if axial <= limit * radial:
-        x, y = 1.0, 0.0
-    return EquivalentLoad(x * radial + y * axial, x, y, 3.0)
-
-
-def _by_relative_load(
-    bearing: BallBearing, angle: float, radial: float, axial: float
-) -> tuple[float, float, float]:
-    """e, X and Y of the table's column at 0 or 15 degrees, e interpolated over f0 Fa/C0r."""
-    per_ball = static_factor(bearing.gamma, 0.52, 0.53) / _STRIBECK
-    relative = per_ball * axial / static_rating(bearing)
-    limit = float(np.interp(relative, _RELATIVE_LOADS[angle], _LIMITS[angle]))
-    x = _RADIAL_FACTORS[angle]
-    return limit, x, (1.0 - x) / limit
-
-
-@equivalent_load.register
-def _(bearing: DeepGrooveBallBearing, radial: float, axial: float) -> EquivalentLoad:
-    return _chosen(radial, axial, *_by_relative_load(bearing, 0.0, radial, axial))
-
-
-@equivalent_load.register
-def _(bearing: AngularContactBallBearing, radial: float, axial: float) -> EquivalentLoad:
-    """Columns of the table are interpolated over the contact angle, as the standard allows."""
+def factors(bearing: BallBearing, axial: float) -> tuple[float, float]:
+    """Limit e and factor X of ISO 281 under an axial load [N], interpolated over the table's
+    contact angles, as the standard allows, and over its loads. 0 stands for deep grooves."""
     angle = degrees(bearing.nominal_contact_angle)
     if bearing.is_thrust:
-        limit, x = (
-            float(np.interp(angle, _THRUST_TABLE[:, 0], _THRUST_TABLE[:, k])) for k in (1, 2)
-        )
+        return _at(angle, _THRUST_TABLE)
+    per_ball = static_factor(bearing.gamma, 0.52, 0.53) / _STRIBECK
+    relative = per_ball * axial / static_rating(bearing)
+    flat = [
+        (column, float(np.interp(relative, _RELATIVE_LOADS[column], _LIMITS[column])), x)
+        for column, x in _RADIAL_FACTORS.items()
+    ]
+    return _at(angle, np.concatenate([np.array(flat), _STEEP]))
+
+
+def _at(angle: float, rows: np.ndarray) -> tuple[float, float]:
+    limit, x = (float(np.interp(angle, rows[:, 0], rows[:, k])) for k in (1, 2))
+    return limit, x
+
+
+@equivalent_load.register
+def _(bearing: BallBearing, radial: float, axial: float) -> EquivalentLoad:
+    """P = Fr up to Fa/Fr = e, then X Fr + Y Fa."""
+    limit, x = factors(bearing, axial)
+    beyond = axial > limit * radial
+    if bearing.is_thrust:
         # the standard has no factors for less axial load in one direction
-        load = x * radial + axial if axial > limit * radial else nan
-        return EquivalentLoad(load, x, 1.0, 3.0)
-    if angle >= 20.0:
-        limit, x, y = (float(np.interp(angle, _STEEP[:, 0], _STEEP[:, k])) for k in (1, 2, 3))
-        return _chosen(radial, axial, limit, x, y)
-    low = np.array(_by_relative_load(bearing, 0.0 if angle < 15.0 else 15.0, radial, axial))
-    high = (
-        np.array(_by_relative_load(bearing, 15.0, radial, axial)) if angle < 15.0 else _STEEP[0, 1:]
-    )
-    start, end = (0.0, 15.0) if angle < 15.0 else (15.0, 20.0)
-    share = (angle - start) / (end - start)
-    return _chosen(radial, axial, *((1.0 - share) * low + share * high).tolist())
+        return EquivalentLoad(x * radial + axial if beyond else nan, x, 1.0, 3.0)
+    x, y = (x, (1.0 - x) / limit) if beyond else (1.0, 0.0)
+    return EquivalentLoad(x * radial + y * axial, x, y, 3.0)

@@ -9,11 +9,12 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
-from math import acos, cos, inf, sin
+from math import acos, cos, degrees, inf, sin
 
 import numpy as np
 
 from flexcage.contacts.spec import Contacts
+from flexcage.core.errors import RunFailed
 from flexcage.geometry.ball_bearing import BallBearing
 from flexcage.geometry.ball_catalogue import STATIC_PRESSURE, ring_share
 from flexcage.geometry.catalogue import dynamic_rating
@@ -25,6 +26,7 @@ from flexcage.system.statics.race_control import BallMotion, directions, with_de
 _SHARES = {"outer_race": (0.0, 1.0), "shared": (0.5, 0.5), "none": (0.0, 0.0)}
 # ISO/TS 16281:2008, rating of a ball: C/(0.407 Z ...) and C/(0.389 Z ...) of radial bearings
 _INNER, _OUTER = 0.407, 0.389
+_GROOVE_BOTTOM = 1e-6  # rad: at a lower contact angle nothing holds the ring axially
 
 
 @elements_of.register(BallBearing)
@@ -193,6 +195,18 @@ class Balls:
             for height, radius in zip((b.inner_shoulder, b.outer_shoulder), radii)
         ])  # fmt: skip
         return np.abs(angle) + across / radii - edges
+
+    def check(self, loads: ElementLoads) -> None:
+        """Angular contact bearings have no shoulder on the other side."""
+        angle = np.nan_to_num(loads.angle[:, 0], nan=np.inf)
+        worst = int(angle.argmin())
+        if self.bearing.one_sided and angle[worst] < _GROOVE_BOTTOM:
+            raise RunFailed(
+                f"the bearing cannot bear this load: ball {worst} would bear "
+                f"{loads.force[worst, 0]:.4g} N at a contact angle of "
+                f"{degrees(angle[worst]):.3g} deg, where an {self.bearing.kind} has no shoulder; "
+                "give it more axial load, towards +x"
+            )
 
     def reference_life(self, v: np.ndarray, w: np.ndarray) -> float:
         force = self.loads(v, w).force

@@ -80,6 +80,10 @@ class Elements(Protocol):
         """Loads in equilibrium."""
         ...
 
+    def check(self, loads: ElementLoads) -> None:
+        """Raise RunFailed if what balances could not be: a contact where there is no race."""
+        ...
+
     def reference_life(self, v: np.ndarray, w: np.ndarray) -> float:
         """Basic reference rating life L10r of ISO/TS 16281 [10^6 revolutions]."""
         ...

@@ -20,7 +20,8 @@ from flexcage.system.statics.elements import Elements, Response
 _CLOSE = 1e-10  # unbalanced force of the ring, as a share of the load
 _SETTLED = 1e-12  # and of an element
 _ITERATIONS = 50
-_HALVINGS = 14
+_HALVINGS = 40  # an element that touches nothing must find a race by them
+_FEW = 14  # halvings where there is no potential to guide them
 _ENOUGH = 1e-4  # of the decrease that the slope promises
 _SOFT = 1e-9  # of a hard-pressed element's stiffness: holds what touches nothing
 _RANK = 1e-13  # of an element's largest stiffness: below, there is none
@@ -137,7 +138,7 @@ def settle(
     """
     elements, least = problem.elements, _SETTLED * problem.size
     r = elements.respond(v, w, share)
-    stuck = np.zeros(len(w), bool)
+    stuck, halvings = np.zeros(len(w), bool), _HALVINGS if share == 0.0 else _FEW
     for _ in range(_ITERATIONS):
         left = np.abs(r.unbalance).max(axis=1)
         going = (left > least) & ~stuck
@@ -148,7 +149,7 @@ def settle(
         slope = (step * r.unbalance).sum(axis=1)
         far = np.abs(step).max(axis=1)
         length = np.where(going, np.minimum(1.0, elements.scale / np.maximum(far, 1e-300)), 0.0)
-        for _ in range(_HALVINGS):
+        for _ in range(halvings):
             trial = elements.respond(v, elements.moved(w, length[:, None] * step), share)
             fine = np.abs(trial.unbalance).max(axis=1) < (1.0 - _ENOUGH * length) * left
             if share == 0.0:
@@ -178,7 +179,7 @@ def _march(problem: Problem, posture: Posture, share: float) -> Posture:
         step = np.zeros(5)
         step[free] = -np.linalg.solve(matrix[np.ix_(free, free)], gap[free])
         length = min(1.0, scale / float(np.abs(step * problem.lever).max()))
-        for _ in range(_HALVINGS):
+        for _ in range(_FEW):
             new = _posture(problem, posture.ring + length * step, posture.own, share)
             fine = new.unbalanced < (1.0 - _ENOUGH * length) * posture.unbalanced
             if share == 0.0 and new.unbalanced < np.inf:
@@ -199,8 +200,7 @@ def _no_equilibrium(problem: Problem, posture: Posture) -> RunFailed:
         return RunFailed(
             "the bearing cannot bear this load: its inner ring moves off, by "
             f"{1e3 * where[:3].max():.2g} mm and {where[3:].max():.2g} rad when the search was "
-            "given up; a single angular contact bearing wants an axial load towards +x, of about "
-            "1.2 tan(contact angle) times the radial load or more"
+            "given up; is its axial load towards +x, and large enough?"
         )
     return RunFailed(
         f"no equilibrium was found: {posture.unbalanced:.1e} of the load stays unbalanced "

@@ -13,6 +13,7 @@ from functools import cached_property
 from math import inf, pi
 
 import numpy as np
+from scipy.optimize import brentq
 
 from flexcage.contacts.spec import Contacts
 from flexcage.geometry.catalogue import dynamic_rating
@@ -86,10 +87,23 @@ class Rollers:
         """Centrifugal force [N] on the pitch circle."""
         return self.bearing.roller_mass * self.bearing.pitch_radius * self.cage_speed**2
 
+    @cached_property
+    def rest(self) -> float:
+        """Displacement [m] from the outer race at which it bears a roller's push alone."""
+        top = float(self.drop.min())
+        if self.push == 0.0:
+            return top
+        reach = (self.push / self.stiffness) ** (1.0 / EXPONENT)  # if one slice bore it all
+
+        def missing(x: float) -> float:
+            depth = np.maximum(x - self.drop, 0.0)
+            return self.push - self.stiffness * float((depth**EXPONENT).sum())
+
+        return float(brentq(missing, top, top + reach, xtol=1e-24, rtol=1e-15))
+
     def guesses(self, v: np.ndarray) -> list[np.ndarray]:
-        """Rollers on the outer race, pressed in as far as they push; or halfway between races."""
-        depth = (self.push / (self.stiffness * len(self.places))) ** (1.0 / EXPONENT)
-        shift = 0.25 * self.bearing.radial_clearance + float(self.drop.min()) + depth
+        """Rollers on the outer race alone, where they push; or halfway between races."""
+        shift = 0.25 * self.bearing.radial_clearance + self.rest
         halfway = 0.5 * v[:, 1:] * np.array([1.0, 0.5 * self.bearing.effective_length])
         return [np.tile([shift, 0.0], (len(v), 1)), halfway]
 
@@ -151,6 +165,9 @@ class Rollers:
             orbital_speed=np.full(Z, self.cage_speed),
             friction=np.where(force > 0.0, 0.0, np.nan),
         )
+
+    def check(self, loads: ElementLoads) -> None:
+        """Slices bear only where there is a race."""
 
     def reference_life(self, v: np.ndarray, w: np.ndarray) -> float:
         inner, outer = self.slice_forces(v, w)

@@ -48,6 +48,7 @@ def solve_bearing(
     posture = balance(problem)
     v = problem.at_azimuths @ posture.ring
     loads = elements.loads(v, posture.own)
+    elements.check(loads)
     reaction = np.where(problem.free, 0.0, posture.force - problem.load)
     return StaticSolution(
         title=f"{bearing.designation or 'bearing'}, {bearing.kind} with {len(v)} rolling elements",
