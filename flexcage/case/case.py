@@ -113,6 +113,8 @@ class Case:
                     "other preset instead.",
                     where=where,
                 )
+            if where == "bearing":
+                refuse_without_motion(new)
             if where == "mesh.file" and isinstance(new, (str, Path)):
                 new = _absolute(new, Path.cwd())
             with words_of_text():
@@ -226,6 +228,9 @@ def without_aliases(table: Mapping[str, Any]) -> dict[str, Any]:
 def with_preset(table: dict[str, Any]) -> dict[str, Any]:
     """Tables of the preset that a case names, overridden by its own."""
     name = table.get("preset")
+    if isinstance(name, int) and not isinstance(name, bool):
+        name = str(name)  # many designations are
+        table = {**table, "preset": name}
     if not name:
         return dict(table)
     if not isinstance(name, str):

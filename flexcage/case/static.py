@@ -88,6 +88,11 @@ class StaticCase:
         return write_toml(self.to_table())
 
 
+_CASE_ONLY = {f.name for f in dataclasses.fields(Case)} - {
+    f.name for f in dataclasses.fields(StaticCase)
+}
+
+
 def load_static(
     source: str | Path | Mapping[str, Any], *, overrides: Mapping[str, Any] | None = None
 ) -> StaticCase:
@@ -97,6 +102,11 @@ def load_static(
     """
     table, _ = read_case(source)
     for path, value in (overrides or {}).items():
+        head = path.partition(".")[0]
+        if head in _CASE_ONLY and head != "cage":
+            raise InputError(
+                f"'{path}' takes no part in a static solution; leave it out.", where=path
+            )
         table = _put(table, path.split("."), value, path)
     return StaticCase.from_table(table)
 

@@ -74,6 +74,15 @@ def _life(s: StaticSolution) -> str:
 
 
 def _elements(s: StaticSolution) -> str:
+    note = (
+        "Q force, p largest pressure, a and b half of the contact across and in rolling direction"
+    )
+    if s.speed != 0.0:
+        note += ", Fc centrifugal force"
+    return f"{note}\n{_element_table(s)}"
+
+
+def _element_table(s: StaticSolution) -> str:
     e = s.elements
     balls = bool(np.isfinite(e.edge).any() or np.nanmax(np.abs(e.angle), initial=0.0) > 0.0)
     names = ["element", "azimuth, deg", "Q inner, N", "Q outer, N"]
