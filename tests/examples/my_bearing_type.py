@@ -51,7 +51,7 @@ class Springs:
     options: object = None
     carries = (False, True, True, False, False)
     scale = 1e-4
-    own_energy = True
+    conservative = True
     pressure_limit = np.inf
 
     @property

@@ -129,7 +129,7 @@ def test_work_of_the_load_is_stored():
     series = series_stiffness(*(c.stiffness for c in STEEP.contacts))
     stored = 0.4 * (s.elements.force[:, 0] ** (5.0 / 3.0)).sum() * series ** (-2.0 / 3.0)
     assert work == pytest.approx(stored, rel=2e-3)
-    assert e.own_energy
+    assert e.conservative
 
 
 @pytest.mark.parametrize("angle", [12.0, 25.0, 40.0])
@@ -321,3 +321,11 @@ def test_pressure_beyond_the_static_rating_is_warned_of():
     (text,) = solve_bearing(replace(DEEP, inner_shoulder=None, outer_shoulder=None),
                             load=Load(radial=9000.0)).warnings  # fmt: skip
     assert "4200 MPa" in text
+
+
+def test_a_race_law_of_ones_own_is_not_passed_over():
+    from flexcage.contacts.spec import NormalLaw
+
+    race = PairSpec(normal=replace(NormalLaw(), law="spring"))
+    with pytest.raises(InputError, match="normal.law is 'spring'.*ISO/TS 16281"):
+        solve_bearing(ROLLERS, load=Load(radial=9.0), contacts=Contacts(race=race))

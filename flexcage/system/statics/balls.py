@@ -74,7 +74,8 @@ class Balls:
         return 0.25 * self.bearing.groove_distance
 
     @property
-    def own_energy(self) -> bool:
+    def conservative(self) -> bool:
+        """True at rest, with one lever for tilts."""
         return self.push == 0.0 and self.arms[0] == self.arms[1]
 
     @cached_property
@@ -111,9 +112,8 @@ class Balls:
         depths = [(self.push / c.stiffness) ** (2.0 / 3.0) for c in (inner, outer)]
         reach = [length + depth for length, depth in zip(self.lengths, depths)]
         soft = [c.stiffness ** (-2.0 / 3.0) for c in (inner, outer)]
-        squeezed = self.lengths[1] + np.maximum(apart - sum(self.lengths), 0.0) * soft[1] / sum(
-            soft
-        )
+        squeeze = np.maximum(apart - sum(self.lengths), 0.0)
+        squeezed = self.lengths[1] + squeeze * soft[1] / sum(soft)
         cosine = (reach[1] ** 2 + apart**2 - reach[0] ** 2) / (2.0 * reach[1] * apart)
         outwards = toward - np.sign(toward) * np.arccos(np.clip(cosine, -1.0, 1.0))
         places = (reach[1] + 0.0 * apart, 0.0 * toward), (squeezed, toward), (reach[1], outwards)

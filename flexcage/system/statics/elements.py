@@ -60,7 +60,7 @@ class Elements(Protocol):
     azimuth: np.ndarray  # (Z,)
     carries: tuple[bool, ...]  # which of x, y, z and tilts about y, z find resistance
     scale: float  # m, a displacement that presses elements hard
-    own_energy: bool  # is there more than ``share`` 0, and do forces have a potential?
+    conservative: bool  # have all forces the potential that they have while ``share`` is 0?
     pressure_limit: float  # Pa, where ISO 76 sets the static rating
 
     def guesses(self, v: np.ndarray) -> list[np.ndarray]:

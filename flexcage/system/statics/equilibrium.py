@@ -84,7 +84,7 @@ def balance(problem: Problem) -> Posture:
     still = _march(problem, _posture(problem, problem.held, None, 0.0), 0.0)
     if still.unbalanced > _CLOSE:
         raise _no_equilibrium(problem, still)
-    if problem.elements.own_energy:
+    if problem.elements.conservative:
         return still
     for parts in _PARTS:
         found = still
@@ -178,7 +178,7 @@ def _march(problem: Problem, posture: Posture, share: float) -> Posture:
         gap = posture.force - problem.load
         step = np.zeros(5)
         step[free] = -np.linalg.solve(matrix[np.ix_(free, free)], gap[free])
-        length = min(1.0, scale / float(np.abs(step * problem.lever).max()))
+        length = min(1.0, scale / max(float(np.abs(step * problem.lever).max()), 1e-300))
         for _ in range(_FEW):
             new = _posture(problem, posture.ring + length * step, posture.own, share)
             fine = new.unbalanced < (1.0 - _ENOUGH * length) * posture.unbalanced

@@ -3,7 +3,8 @@
 A roller's own coordinates are its centre's radial displacement and, for its tilt about the tangent,
 by how much more the end of its effective length at +x is displaced, so that both are lengths.
 Each race bears its share of the slices with the stiffness of one contact, so that centrifugal force
-divides the races; without it both slices are as the standard has them, in series. Small angles.
+divides the races; without it both slices are as the standard has them, in series. Small angles;
+waviness and scatter of diameters are left out.
 """
 
 from __future__ import annotations
@@ -16,6 +17,7 @@ import numpy as np
 from scipy.optimize import brentq
 
 from flexcage.contacts.spec import Contacts
+from flexcage.core.errors import InputError
 from flexcage.geometry.catalogue import dynamic_rating
 from flexcage.geometry.cylindrical_roller import RollerBearing
 from flexcage.geometry.kinematics import epicyclic
@@ -23,6 +25,7 @@ from flexcage.system.statics.elements import ElementLoads, Response, azimuths, e
 from flexcage.system.statics.options import StaticOptions
 
 EXPONENT = 10.0 / 9.0
+_AT_REST = ("restitution", "impact_step", "elastic")  # laws that are K d^n without motion
 # ISO/TS 16281:2008: ratings of one roller, and lambda nu of radial roller bearings
 _INNER, _OUTER, _LAMBDA_NU, _SPREAD = 0.378, 0.364, 0.83, 1.038
 
@@ -32,6 +35,14 @@ def rollers_of(
     bearing: RollerBearing, *, speed: float, contacts: Contacts, options: StaticOptions
 ) -> Rollers:
     """Rollers of a bearing, in the slices and with the stiffness of ``contacts.race``."""
+    law = contacts.race.normal.law
+    if law not in _AT_REST:
+        raise InputError(
+            f"contacts.race.normal.law is '{law}', but a static solution has rollers on races by "
+            f"ISO/TS 16281, as {', '.join(_AT_REST)} have at rest; take one of these.",
+            where="contacts.race.normal.law",
+            value=law,
+        )
     from flexcage.contacts.laws import iso_line_stiffness  # its kernels take seconds to load
     from flexcage.system.model import slice_grid
 
@@ -64,7 +75,7 @@ class Rollers:
     cage_speed: float
     rating: float
     carries = (False, True, True, True, True)
-    own_energy = True
+    conservative = True
     pressure_limit = 4.0e9  # ISO 76, roller bearings
 
     @cached_property

@@ -8,7 +8,7 @@ from math import radians
 
 from flexcage.geometry.ball_catalogue import radial_factor, static_factor, thrust_factor
 from flexcage.geometry.catalogue import dynamic_rating, static_rating
-from flexcage.verification.ball_bearings import deep_groove
+from flexcage.verification.ball_bearings import deep_groove, preset
 from flexcage.verification.known_answer import KnownAnswer, Row, Tolerance
 
 # ISO 281:2007, f_c of single-row radial and angular contact ball bearings
@@ -57,13 +57,22 @@ def rows() -> Iterator[Row]:
     )  # fmt: skip
     yield Row("6203, dynamic rating Cr", "kN", 9.55, dynamic_rating(inside) / 1e3, CATALOGUE)
     yield Row("6203, static rating C0r", "kN", 4.80, static_rating(inside) / 1e3, CATALOGUE)
+    spindle = preset("7010C-PA66")
+    size = spindle.ball_diameter
+    spindle = replace(
+        spindle, inner_groove_radius=0.52 * size, outer_groove_radius=0.53 * size
+    )  # the catalogue's, closer than those of the paper
+    found = static_factor(spindle.gamma, 0.52, 0.53) / 5.0
+    yield Row("7010C, f_0", "", 15.7, found, LAST_DIGIT)
+    yield Row("7010C, static rating C0r", "kN", 20.7, static_rating(spindle) / 1e3, CATALOGUE)
 
 
 CASE = KnownAnswer(
     name="ball_ratings",
     title="Load ratings of ball bearings",
     source="ISO 281:2007, tables of f_c; ISO 76:2006, table of f_0; a 6203 in makers' catalogues "
-    "(17 x 40 x 12 mm, eight balls of 17/64 inch: 9.55 and 4.8 kN)",
+    "(17 x 40 x 12 mm, eight balls of 17/64 inch: 9.55 and 4.8 kN) and a 7010C (18 balls of 11/32 "
+    "inch: f_0 15.7, C0r from 20.7 kN on)",
     checks="f_0 from exact Hertz contact at 4200 MPa, f_c from Lundberg and Palmgren's formula "
     "with the standards' reduction factors; and both ratings of a common bearing from its inside.",
     rows=rows,

@@ -26,6 +26,7 @@ from flexcage.verification.cases.static_load import (
 )
 from flexcage.verification.known_answer import KnownAnswer, Row, Tolerance
 
+HERTZ = Tolerance(3e-4, "printed to four digits; the clearance moves radii by 1e-7")
 SAME = Tolerance(1e-4, "printed to four digits or more; small angles on both sides")
 
 
@@ -59,6 +60,14 @@ def rows() -> Iterator[Row]:
             yield Row(f"{name}: largest force", "N", largest, found.largest_force, SAME)
             count = int(np.count_nonzero(found.elements.force[:, 0] > 1e-3))
             yield Row(f"{name}: loaded rollers", "", loaded, count, COUNT)
+    found = solution(bearing(0.0))
+    share = (185.3 / found.elements.force[0, 0]) ** 0.5
+    for side, width, pressure in ((0, 32.12, 503.2), (1, 35.40, 456.5)):
+        name = f"185.3 N, {('inner', 'outer')[side]} race"
+        value = 1e6 * share * found.elements.along[0, side]
+        yield Row(f"{name}: half-width", "um", width, value, HERTZ)
+        value = 1e-6 * share * found.elements.pressure[0, side]
+        yield Row(f"{name}: pressure", "MPa", pressure, value, HERTZ)
     for clearance, (moved, largest) in PROFILED.items():
         found = solution(bearing(clearance, profile="logarithmic"), slices=30)
         name = f"Pd {clearance} um, profiled"
@@ -84,7 +93,8 @@ CASE = KnownAnswer(
     title="Static solution of an N1013 under 1000 N",
     source="independent program after H. Sjoevall with the stiffness of ISO/TS 16281:2008, or A. "
     "Palmgren's: the same numbers as for 'static_load'",
-    checks="Displacement, largest force and number of loaded rollers by the static solution, which "
-    "shares nothing but spec and stiffness with the start of a run that 'static_load' checks.",
+    checks="Displacement, largest force, number of loaded rollers and Hertz pressure by the static "
+    "solution, which shares nothing but spec and stiffness with the start of a run that "
+    "'static_load' checks.",
     rows=rows,
 )
