@@ -12,8 +12,6 @@ from functools import cached_property
 from math import exp, expm1, log, pi, sqrt
 
 import numpy as np
-from scipy.optimize import brentq
-from scipy.special import ellipe, ellipk, elliprd
 
 _LONGEST = 40.0  # log of the axis ratio up to which an ellipse is sought
 
@@ -43,6 +41,8 @@ class PointContact:
     @cached_property
     def integrals(self) -> tuple[float, float]:
         """Complete elliptic integrals E and F of the second and the first kind."""
+        from scipy.special import ellipe, ellipk  # late: every case loads this module
+
         m = -expm1(-2.0 * log(self.ratio))
         return float(ellipe(m)), float(ellipk(m))
 
@@ -73,6 +73,9 @@ def axis_ratio(radii: float) -> float:
     radii = B(m)/((1 - m) D(m)) with m = 1 - kappa^-2, D = (F - E)/m and B = F - D, by Carlson's
     integrals so that nothing cancels near the circle (Johnson 4.28 in other words).
     """
+    from scipy.optimize import brentq
+    from scipy.special import ellipk, elliprd
+
     wanted = log(radii)
     if wanted < 1e-12:
         return 1.0
