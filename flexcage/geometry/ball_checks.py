@@ -23,8 +23,30 @@ def _mm(value: float) -> str:
 
 
 @check_geometry.register
-def _(bearing: BallBearing, cage: BallCage | None = None, defects: Sequence[Defect] = ()) -> None:
-    raise_first(find_in_bearing(bearing))
+def _(
+    bearing: AngularContactBallBearing, cage: BallCage | None = None, defects: Sequence[Defect] = ()
+) -> None:
+    _check(bearing, cage, defects, _find_in_angle(bearing))
+
+
+@check_geometry.register
+def _(
+    bearing: DeepGrooveBallBearing, cage: BallCage | None = None, defects: Sequence[Defect] = ()
+) -> None:
+    _check(bearing, cage, defects, _find_in_clearance(bearing, bearing.radial_clearance))
+
+
+def _check(
+    bearing: BallBearing,
+    cage: BallCage | None,
+    defects: Sequence[Defect],
+    of_its_type: Iterator[Finding],
+) -> None:
+    """Raise InputError for the first impossibility: of all ball bearings, of one type, of cages."""
+    raise_first(_find_in_grooves(bearing))
+    raise_first(_find_in_balls(bearing))
+    raise_first(_find_in_shoulders(bearing))
+    raise_first(of_its_type)
     if cage is not None:
         raise_first(find_in_cage(bearing, cage))
     if defects:
@@ -32,17 +54,6 @@ def _(bearing: BallBearing, cage: BallCage | None = None, defects: Sequence[Defe
             "defects are those of window cages; a ball bearing's cage takes none so far.",
             where="defects",
         )
-
-
-def find_in_bearing(b: BallBearing) -> Iterator[Finding]:
-    """What is impossible in the bearing alone."""
-    yield from _find_in_grooves(b)
-    yield from _find_in_balls(b)
-    yield from _find_in_shoulders(b)
-    if isinstance(b, AngularContactBallBearing):
-        yield from _find_in_angle(b)
-    if isinstance(b, DeepGrooveBallBearing):
-        yield from _find_in_clearance(b, b.radial_clearance)
 
 
 def _find_in_grooves(b: BallBearing) -> Iterator[Finding]:

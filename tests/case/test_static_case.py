@@ -21,6 +21,14 @@ def test_the_example():
     assert case.speed == pytest.approx(1e4 * np.pi / 30.0) and case.load.axial == 100.0
 
 
+def test_the_example_in_the_readme():
+    readme = (EXAMPLES.parent / "README.md").read_text("utf-8")
+    section = readme.split("## Static solution")[1].split("\n## ")[0]
+    case = load_static(section.split("```toml\n")[1].split("```")[0])
+    assert case.preset == "7010C-PI" and case.static.tilt == "free"
+    assert case.bearing == load_static(EXAMPLES / "c7010_static.toml").bearing
+
+
 def test_without_a_drive_the_bearing_stands():
     assert load_static(BALLS).speed == 0.0
     assert load_static(BALLS + '[drive]\nspeed = "60 rpm"\n').speed == pytest.approx(2.0 * np.pi)
