@@ -1,8 +1,10 @@
 from flexcage import render as render
 from flexcage._version import __version__ as __version__
 from flexcage.case import Case as Case
+from flexcage.case import StaticCase as StaticCase
 from flexcage.case import load_case as load_case
 from flexcage.case import load_extension as load_extension
+from flexcage.case import load_static as load_static
 from flexcage.contacts.spec import Contacts as Contacts
 from flexcage.contacts.spec import FrictionLaw as FrictionLaw
 from flexcage.contacts.spec import LandSpec as LandSpec
@@ -13,11 +15,16 @@ from flexcage.core.errors import EnvironmentLacks as EnvironmentLacks
 from flexcage.core.errors import FlexcageError as FlexcageError
 from flexcage.core.errors import InputError as InputError
 from flexcage.core.errors import RunFailed as RunFailed
+from flexcage.geometry.angular_contact_ball import (
+    AngularContactBallBearing as AngularContactBallBearing,
+)
+from flexcage.geometry.ball_cages import BallCage as BallCage
 from flexcage.geometry.cages import CrossbeamDefect as CrossbeamDefect
 from flexcage.geometry.cages import SideBeamDefect as SideBeamDefect
 from flexcage.geometry.cages import WindowCage as WindowCage
 from flexcage.geometry.cylindrical_roller import RollerBearing as RollerBearing
 from flexcage.geometry.cylindrical_roller import RollerProfile as RollerProfile
+from flexcage.geometry.deep_groove_ball import DeepGrooveBallBearing as DeepGrooveBallBearing
 from flexcage.geometry.kinematics import epicyclic as epicyclic
 from flexcage.geometry.materials import MATERIALS as MATERIALS
 from flexcage.geometry.materials import Material as Material
@@ -31,6 +38,7 @@ from flexcage.simulate import Run as Run
 from flexcage.simulate import load_run as load_run
 from flexcage.simulate import simulate as simulate
 from flexcage.solve.options import SolverOptions as SolverOptions
+from flexcage.static import solve_static as solve_static
 from flexcage.study.axes import Grid as Grid
 from flexcage.study.axes import LatinHypercube as LatinHypercube
 from flexcage.study.axes import Points as Points
@@ -47,3 +55,5 @@ from flexcage.system.spec import Limits as Limits
 from flexcage.system.spec import Load as Load
 from flexcage.system.spec import Mount as Mount
 from flexcage.system.spec import StartOptions as StartOptions
+from flexcage.system.statics.options import StaticOptions as StaticOptions
+from flexcage.system.statics.solution import StaticSolution as StaticSolution

@@ -3,5 +3,6 @@
 from flexcage.case.case import Case
 from flexcage.case.extensions import load_extension
 from flexcage.case.load import load_case
+from flexcage.case.static import StaticCase, load_static
 
-__all__ = ["Case", "load_case", "load_extension"]
+__all__ = ["Case", "StaticCase", "load_case", "load_extension", "load_static"]

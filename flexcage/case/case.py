@@ -14,7 +14,7 @@ from math import pi
 from pathlib import Path
 from typing import Any
 
-from flexcage.case.checks import check_case
+from flexcage.case.checks import check_case, refuse_without_motion
 from flexcage.contacts.spec import Contacts, Lubricant
 from flexcage.core.binding import (
     Binder,
@@ -88,9 +88,11 @@ class Case:
         cls, table: Mapping[str, Any], *, folder: Path | None = None, si: bool = False
     ) -> Case:
         """Case from nested tables as TOML gives them; ``folder`` is where relative paths start."""
-        merged = _with_preset(_without_aliases(table))
+        merged = with_preset(without_aliases(table))
+        refuse_without_motion(merged.get("bearing"))
+        merged.pop("static", None)  # read by the static solution alone
         merged = _with_mesh_file(merged, folder or Path.cwd())
-        with _words_of_text():
+        with words_of_text():
             return Binder(named=NAMED, si=si).bind(cls, merged, "")
 
     def replace(
@@ -111,9 +113,11 @@ class Case:
                     "other preset instead.",
                     where=where,
                 )
+            if where == "bearing":
+                refuse_without_motion(new)
             if where == "mesh.file" and isinstance(new, (str, Path)):
                 new = _absolute(new, Path.cwd())
-            with _words_of_text():
+            with words_of_text():
                 bare = set_path(bare, ALIASES.get(where, where), new, binder)
         return Case(**{f.name: getattr(bare, f.name) for f in dataclasses.fields(bare)})
 
@@ -192,7 +196,7 @@ class _Unchecked(Case):
 
 
 @contextmanager
-def _words_of_text() -> Iterator[None]:
+def words_of_text() -> Iterator[None]:
     """Name values in errors as the text does: cage.model, not cage_model."""
     try:
         yield
@@ -209,7 +213,8 @@ def _as_table(section: Any) -> Mapping[str, Any]:
     return section if isinstance(section, Mapping) else to_table(section, named=NAMED)
 
 
-def _without_aliases(table: Mapping[str, Any]) -> dict[str, Any]:
+def without_aliases(table: Mapping[str, Any]) -> dict[str, Any]:
+    """Tables of a text with its aliases replaced by the fields that they stand for."""
     plain = dict(table)
     for alias, field in ALIASES.items():
         room, key = alias.split(".")
@@ -220,10 +225,14 @@ def _without_aliases(table: Mapping[str, Any]) -> dict[str, Any]:
     return plain
 
 
-def _with_preset(table: dict[str, Any]) -> dict[str, Any]:
+def with_preset(table: dict[str, Any]) -> dict[str, Any]:
+    """Tables of the preset that a case names, overridden by its own."""
     name = table.get("preset")
+    if isinstance(name, int) and not isinstance(name, bool):
+        name = str(name)  # many designations are
+        table = {**table, "preset": name}
     if not name:
-        return table
+        return dict(table)
     if not isinstance(name, str):
         raise InputError(f"bearing.preset is {name!r}, but should be text.", where="bearing.preset")
     return _merge(load_preset(name).tables, table)

@@ -3,18 +3,20 @@
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Iterator
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from math import inf, pi
 from typing import TYPE_CHECKING, Any
 
-from flexcage.core.binding import default_of, join
+from flexcage.core.binding import check_value, chosen_spec, default_of, join
 from flexcage.core.errors import InputError
 from flexcage.core.units import describe
+from flexcage.geometry.bearing import BEARING_TYPES, Bearing
 from flexcage.geometry.catalogue import static_rating
 from flexcage.geometry.checks import check_geometry
 
 if TYPE_CHECKING:
     from flexcage.case.case import Case
+    from flexcage.case.static import StaticCase
 
 Finding = tuple[str, str]  # where, sentence
 
@@ -28,21 +30,48 @@ _MOST_ELEMENTS = 1e7  # assumption: more than a machine of 64 GB factors
 
 def check_case(case: Case) -> None:
     """Raise InputError for the first thing in the case that cannot be."""
+    refuse_without_motion(case.bearing)
     check_geometry(case.bearing, case.cage, case.defects)
-    for find in (
-        _find_infinite,
-        _find_in_name,
-        _find_in_tables,
-        _find_in_ramps,
-        _find_in_load,
-        _find_in_mesh,
-        _find_in_solver,
-        _find_in_output,
-        _find_in_laws,
-        _find_in_land,
-    ):
+    _raise_first(
+        case,
+        (
+            *_OF_EVERY_CASE,
+            _find_in_static_loads,
+            _find_in_mesh,
+            _find_in_solver,
+            _find_in_output,
+            _find_in_laws,
+            _find_in_land,
+        ),
+    )
+
+
+def check_static_case(case: StaticCase) -> None:
+    """Raise InputError for the first thing that cannot be in the case of a static solution."""
+    check_geometry(case.bearing)
+    _raise_first(case, _OF_EVERY_CASE)
+
+
+def _raise_first(case: Any, finders: Iterable[Callable[[Any], Iterator[Finding]]]) -> None:
+    for find in finders:
         for where, sentence in find(case):
             raise InputError(sentence, where=where)
+
+
+def refuse_without_motion(bearing: Any) -> None:
+    """Raise InputError if a bearing, or a table of one, is of a type that cannot be simulated."""
+    kind = type(bearing)
+    if isinstance(bearing, Mapping):
+        check_value(bearing.get("type"), {"choices": BEARING_TYPES}, "bearing.type")
+        kind = chosen_spec(Bearing, bearing)
+    if issubclass(kind, Bearing) and not kind.in_motion:
+        name = kind.__dataclass_fields__["type"].default
+        raise InputError(
+            f"bearing.type is '{name}', and the motion of {kind.kind}s is not computed yet; "
+            "'flexcage static' gives their static solution.",
+            where="bearing.type",
+            value=name,
+        )
 
 
 def _find_infinite(spec: Any, where: str = "") -> Iterator[Finding]:
@@ -71,6 +100,7 @@ def _find_in_load(case: Case) -> Iterator[Finding]:
     load = case.load
     for where, value in (
         ("load.radial", load.radial),
+        ("load.axial", abs(load.axial)),
         ("load.ramp_to", load.ramp_to or 0.0),
         ("load.values", max(load.values, default=0.0)),
     ):
@@ -80,6 +110,18 @@ def _find_in_load(case: Case) -> Iterator[Finding]:
                 f"{where} is {describe(value, 'kN')}, but contacts are elastic: give "
                 f"{_OVERLOAD:g} times the bearing's static rating of "
                 f"{describe(round(rating, -2), 'kN')} (ISO 76) or less.",
+            )
+
+
+def _find_in_static_loads(case: Case) -> Iterator[Finding]:
+    for key in ("axial", "moment_y", "moment_z"):
+        value = getattr(case.load, key)
+        if value != 0.0:
+            unit = "N" if key == "axial" else "N*m"
+            yield (
+                f"load.{key}",
+                f"load.{key} is {describe(value, unit)}, but in a run the inner ring's axial "
+                "motion and tilts are held; leave it out, or take 'flexcage static'.",
             )
 
 
@@ -237,3 +279,12 @@ def _find_in_land(case: Case) -> Iterator[Finding]:
             f"contacts.land.clearance is {describe(land.clearance, 'mm')}, but {what} leave "
             f"{describe(there, 'mm')}; give that, or change the dimensions.",
         )
+
+
+_OF_EVERY_CASE = (
+    _find_infinite,
+    _find_in_name,
+    _find_in_tables,
+    _find_in_ramps,
+    _find_in_load,
+)

@@ -29,14 +29,15 @@ def load_case(
     if isinstance(source, Case):
         case = source
     else:
-        table, folder = _read(source)
+        table, folder = read_case(source)
         if preset is not None:
             table = {**table, "bearing": {**table.get("bearing", {}), "preset": preset}}
         case = Case.from_table(table, folder=folder)
     return case.replace(si=False, **overrides) if overrides else case
 
 
-def _read(source: str | Path | Mapping[str, Any]) -> tuple[dict[str, Any], Path | None]:
+def read_case(source: str | Path | Mapping[str, Any]) -> tuple[dict[str, Any], Path | None]:
+    """Nested tables of a file, a text or tables, and the folder where relative paths start."""
     if isinstance(source, Mapping):
         return dict(source), None
     if isinstance(source, str) and ("\n" in source or "=" in source):

@@ -1,4 +1,4 @@
-"""Commands that take a case: run, mesh, modes, converge."""
+"""Commands that take a case: run, static, mesh, modes, converge."""
 
 from __future__ import annotations
 
@@ -9,12 +9,13 @@ from typing import Any
 
 from flexcage.cli.files import prepare_file, prepare_out
 from flexcage.cli.parser import case_options, command, say
-from flexcage.cli.settings import case_from
+from flexcage.cli.settings import case_from, settings_of
 
 
 def add_commands(commands: Any) -> None:
     """Add this module's commands to the parser."""
     _add_run(commands)
+    _add_static(commands)
     _add_mesh_and_modes(commands)
     _add_converge(commands)
 
@@ -28,6 +29,17 @@ def _add_run(commands: Any) -> None:
     again.add_argument("--force", action="store_true", help="write an existing run anew")
     run.add_argument("--animate", action="store_true", help="make an animation as well")
     run.add_argument("--no-images", action="store_true", help="results only")
+
+
+def _add_static(commands: Any) -> None:
+    text = "equilibrium under load: displacements, contact loads, stiffness, life"
+    static = command(commands, "static", static_command, text)
+    static.add_argument("case", metavar="CASE", help="case file (.toml)")
+    static.add_argument(
+        "--set", action="append", metavar="PATH=VALUE", help="change a value of the case"
+    )
+    static.add_argument("-o", "--out", metavar="DIR", help="folder for table, JSON and picture")
+    static.add_argument("--force", action="store_true", help="write an existing folder anew")
 
 
 def _add_mesh_and_modes(commands: Any) -> None:
@@ -64,6 +76,22 @@ def run_command(args: argparse.Namespace) -> int:
     say(f"\nThe run is in {out}")
     if not args.no_images:
         draw(run, out / "images", animate=args.animate)
+    return 0
+
+
+def static_command(args: argparse.Namespace) -> int:
+    """flexcage static CASE: equilibrium of the inner ring, contact loads, stiffness, life."""
+    from flexcage.case import load_static
+    from flexcage.static import solve_static, write_static
+
+    case = load_static(Path(args.case), overrides=settings_of(args))
+    if args.out:
+        prepare_out(Path(args.out), resume=False, force=args.force, resumable=False)
+    solution = solve_static(case)
+    say(solution.table())
+    if args.out:
+        write_static(case, solution, Path(args.out))
+        say(f"\nThe table, its numbers and a picture are in {args.out}")
     return 0
 
 

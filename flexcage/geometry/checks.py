@@ -6,12 +6,15 @@ Specs check each value alone (bounds); here values are checked against one anoth
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from functools import singledispatch
 from math import asin, pi, sin
+from typing import Any
 
 import numpy as np
 
 from flexcage.core.errors import InputError
 from flexcage.core.units import describe
+from flexcage.geometry.bearing import Bearing
 from flexcage.geometry.cages import (
     Defect,
     WindowCage,
@@ -30,18 +33,30 @@ def _mm(value: float) -> str:
     return describe(value, "mm")
 
 
-def check_geometry(
-    bearing: RollerBearing, cage: WindowCage, defects: Sequence[Defect] = ()
+@singledispatch
+def check_geometry(bearing: Bearing, cage: Any = None, defects: Sequence[Defect] = ()) -> None:
+    """Raise InputError for the first impossibility found in bearing, cage or defects.
+
+    Every bearing type registers its own checks; without a cage the bearing alone is checked.
+    """
+    raise NotImplementedError(f"no checks are registered for {type(bearing).__name__}")
+
+
+@check_geometry.register
+def _(
+    bearing: RollerBearing, cage: WindowCage | None = None, defects: Sequence[Defect] = ()
 ) -> None:
-    """Raise InputError for the first impossibility found in bearing, cage or defects."""
-    _raise_first(find_in_bearing(bearing))
+    raise_first(find_in_bearing(bearing))
+    if cage is None:
+        return
     check_cage(cage, pocket_count=bearing.roller_count)
-    _raise_first(find_in_cage(bearing, cage))
+    raise_first(find_in_cage(bearing, cage))
     check_defects(defects, cage, pocket_count=bearing.roller_count)
-    _raise_first(find_in_defects(bearing, cage, defects))
+    raise_first(find_in_defects(bearing, cage, defects))
 
 
-def _raise_first(findings: Iterator[Finding]) -> None:
+def raise_first(findings: Iterator[Finding]) -> None:
+    """Raise the first finding, if any, as an InputError."""
     for where, sentence in findings:
         raise InputError(sentence, where=where)
 

@@ -5,10 +5,13 @@ from __future__ import annotations
 from dataclasses import dataclass
 from functools import cached_property
 from math import pi
+from typing import ClassVar
 
 import numpy as np
 
 from flexcage.core.spec import option, quantity
+from flexcage.geometry.bearing import BEARING_TYPES, Bearing, Spec, bearing_type
+from flexcage.geometry.cages import WindowCage
 from flexcage.geometry.materials import MATERIALS, Material
 
 
@@ -36,15 +39,20 @@ class RollerProfile:
         return -0.0005 * diameter * np.log(1.0 - over**2)
 
 
+@bearing_type
 @dataclass(frozen=True, kw_only=True)
-class RollerBearing:
+class RollerBearing(Bearing):
     """A single-row cylindrical roller bearing, N design: ribs on the inner ring, outer ring plain.
 
     Race diameters are those at zero clearance; half of the radial clearance is taken from the
     inner race's diameter and half added to the outer's.
     """
 
-    designation: str = option("", doc="name in a catalogue")
+    kind: ClassVar[str] = "cylindrical roller bearing"
+    cage_spec: ClassVar[Spec] = WindowCage
+    in_motion: ClassVar[bool] = True
+
+    type: str = option("cylindrical_roller", doc="type of bearing", choices=BEARING_TYPES)
     bore: float = quantity("mm", doc="bearing bore d", above=0.0)
     outside_diameter: float = quantity("mm", doc="bearing outside diameter D", above=0.0)
     width: float = quantity("mm", doc="bearing width B", above=0.0)

@@ -20,10 +20,9 @@ from flexcage.core.binding import Binder
 from flexcage.core.errors import InputError
 from flexcage.core.registry import add, check_free
 from flexcage.core.units import parse
-from flexcage.geometry.cages import WindowCage
-from flexcage.geometry.catalogue import dynamic_rating, static_rating
+from flexcage.geometry import bearings
+from flexcage.geometry.catalogue import dynamic_rating, rating_names, static_rating
 from flexcage.geometry.checks import check_geometry
-from flexcage.geometry.cylindrical_roller import RollerBearing
 from flexcage.geometry.materials import MATERIALS, Material
 
 # specs that text may give by name
@@ -53,19 +52,22 @@ class Preset:
         return f"Preset('{self.name}': {self.title})"
 
     @property
-    def bearing(self) -> RollerBearing:
-        return Binder(named=NAMED).bind(RollerBearing, self.tables["bearing"], "bearing")
+    def bearing(self) -> Any:
+        """The bearing: the spec that its ``type`` chooses."""
+        return Binder(named=NAMED).bind(bearings.Bearing, self.tables["bearing"], "bearing")
 
     @property
-    def cage(self) -> WindowCage:
-        return Binder(named=NAMED).bind(WindowCage, self.tables["cage"], "cage")
+    def cage(self) -> Any:
+        """The cage: the spec that goes with the bearing's type."""
+        return Binder(named=NAMED).bind(self.bearing.cage_spec, self.tables["cage"], "cage")
 
     def ratings(self) -> list[tuple[str, float, float]]:
         """Name, catalogue value and value from the preset's own inside [N] of both ratings."""
         bearing = self.bearing
+        static, dynamic = rating_names(bearing)
         rows = (
-            ("static rating C0r, ISO 76", self.static_rating, static_rating(bearing)),
-            ("dynamic rating Cr, ISO 281", self.dynamic_rating, dynamic_rating(bearing)),
+            (f"static rating {static}, ISO 76", self.static_rating, static_rating(bearing)),
+            (f"dynamic rating {dynamic}, ISO 281", self.dynamic_rating, dynamic_rating(bearing)),
         )
         return [(name, stated, own) for name, stated, own in rows if stated is not None]
 

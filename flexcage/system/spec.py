@@ -33,6 +33,9 @@ class Load:
 
     radial: float = quantity("N", 0.0, doc="radial load", minimum=0.0)
     direction: float = quantity("deg", 0.0, doc="azimuth of the load, from y towards z")
+    axial: float = quantity("N", 0.0, doc="axial load, along +x (static solution)")
+    moment_y: float = quantity("N*m", 0.0, doc="moment about y (static solution)")
+    moment_z: float = quantity("N*m", 0.0, doc="moment about z (static solution)")
     ramp_to: float | None = quantity("N", None, doc="load at the end of a ramp")
     ramp_start: float = quantity("s", 0.0, doc="start of the ramp", minimum=0.0)
     ramp_time: float = quantity("s", 0.0, doc="length of the ramp", minimum=0.0)

@@ -7,7 +7,13 @@ import pytest
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 SHORT = {"solver.duration": "6 ms", "mesh.fineness": "coarse"}
-TESTED = {"ex01_n1013", "ex02_rigid_against_flexible", "ex03_defect_sweep", "ex04_study"}
+TESTED = {
+    "ex01_n1013",
+    "ex02_rigid_against_flexible",
+    "ex03_defect_sweep",
+    "ex04_study",
+    "ex05_static",
+}
 
 
 def example(name):
@@ -35,6 +41,12 @@ def test_rigid_against_flexible():
 def test_defect_sweep():
     first, _, last = example("ex03_defect_sweep").main(**{**SHORT, "solver.duration": "1 ms"})
     assert last / first == pytest.approx(0.05 / 0.01, rel=0.06)
+
+
+def test_static(capsys):
+    still, fast = example("ex05_static").main(0.0, 10000.0)
+    assert abs(still) < 1e-9 and fast == pytest.approx(19.8114 - 10.6191, abs=1e-3)
+    assert "N/um axially" in capsys.readouterr().out
 
 
 def test_study(tmp_path):

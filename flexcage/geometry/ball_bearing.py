@@ -1,0 +1,137 @@
+"""What deep groove and angular contact ball bearings have in common.
+
+Grooves are circular arcs. Their centres lie A = r_i + r_e - D apart when a ball just fills the
+space between them; the line through both is the contact angle. Curvatures: T. A. Harris, Rolling
+Bearing Analysis, 2 and 6; ISO/TS 16281:2008, 4.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from math import cos, pi, sin
+from typing import ClassVar
+
+from flexcage.core.spec import option, quantity
+from flexcage.geometry.ball_cages import BallCage
+from flexcage.geometry.bearing import Bearing, Spec
+from flexcage.geometry.hertz import PointContact
+from flexcage.geometry.materials import MATERIALS, Material
+
+
+@dataclass(frozen=True, kw_only=True)
+class BallBearing(Bearing):
+    """A single-row ball bearing; the types differ in where their grooves stand without load.
+
+    The inner ring is pushed towards +x by an axial load > 0. Shoulder heights are those of the
+    loaded shoulders above the grooves' bottoms; without them nothing is said of ellipses at edges.
+    """
+
+    cage_spec: ClassVar[Spec] = BallCage
+    one_sided: ClassVar[bool] = False  # are there shoulders for one direction of load alone?
+
+    bore: float = quantity("mm", doc="bearing bore d", above=0.0)
+    outside_diameter: float = quantity("mm", doc="bearing outside diameter D", above=0.0)
+    width: float = quantity("mm", doc="bearing width B", above=0.0)
+    pitch_diameter: float = quantity("mm", doc="Dpw, of the circle of ball centres", above=0.0)
+    ball_diameter: float = quantity("mm", doc="Dw", above=0.0)
+    ball_count: int = option(doc="Z", minimum=3)
+    inner_groove_radius: float = quantity("mm", doc="radius r_i of the inner groove", above=0.0)
+    outer_groove_radius: float = quantity("mm", doc="radius r_e of the outer groove", above=0.0)
+    inner_shoulder: float | None = quantity("mm", None, doc="inner shoulder's height", above=0.0)
+    outer_shoulder: float | None = quantity("mm", None, doc="outer shoulder's height", above=0.0)
+    material: Material = option(MATERIALS["GCr15"], doc="material of rings and balls")
+
+    @property
+    def free_contact_angle(self) -> float:
+        """Contact angle [rad] when the rings are pushed together without load."""
+        raise NotImplementedError
+
+    @property
+    def nominal_contact_angle(self) -> float:
+        """Contact angle [rad] to which curvatures and ratings refer."""
+        raise NotImplementedError
+
+    @property
+    def clearance(self) -> float:
+        """Radial internal clearance Pd [m]."""
+        raise NotImplementedError
+
+    @property
+    def groove_offset(self) -> tuple[float, float]:
+        """Inner groove's centre from the outer one's, axially and radially [m], undisplaced."""
+        raise NotImplementedError
+
+    @property
+    def is_thrust(self) -> bool:
+        """ISO 281 rates ball bearings above 45 degrees for axial load."""
+        return self.nominal_contact_angle > 0.25 * pi + 1e-9
+
+    @property
+    def groove_distance(self) -> float:
+        """A = r_i + r_e - D [m]."""
+        return self.inner_groove_radius + self.outer_groove_radius - self.ball_diameter
+
+    @property
+    def inner_conformity(self) -> float:
+        """f_i = r_i/D."""
+        return self.inner_groove_radius / self.ball_diameter
+
+    @property
+    def outer_conformity(self) -> float:
+        """f_e = r_e/D."""
+        return self.outer_groove_radius / self.ball_diameter
+
+    @property
+    def gamma(self) -> float:
+        """D cos(alpha)/Dpw at the nominal contact angle."""
+        return self.ball_diameter * cos(self.nominal_contact_angle) / self.pitch_diameter
+
+    @cached_property
+    def ball_mass(self) -> float:
+        return self.material.density * pi / 6.0 * self.ball_diameter**3
+
+    @cached_property
+    def ball_inertia(self) -> float:
+        """Moment of inertia of a ball about its centre [kg m^2]."""
+        return 0.1 * self.ball_mass * self.ball_diameter**2
+
+    @cached_property
+    def inner_groove_centre(self) -> tuple[float, float]:
+        """Place (x, r) [m] of the inner groove's centre in its ring, from where ball centres lie.
+
+        The radius is ISO/TS 16281's R_i.
+        """
+        axial, radial = self.groove_offset
+        share = (self.inner_groove_radius - 0.5 * self.ball_diameter) / self.groove_distance
+        return share * axial, 0.5 * self.pitch_diameter + share * radial
+
+    @cached_property
+    def outer_groove_centre(self) -> tuple[float, float]:
+        """Place (x, r) [m] of the outer groove's centre, likewise."""
+        axial, radial = self.groove_offset
+        inner = self.inner_groove_centre
+        return inner[0] - axial, inner[1] - radial
+
+    @cached_property
+    def contacts(self) -> tuple[PointContact, PointContact]:
+        """Hertz contact of a ball with inner and outer race."""
+        return (
+            race_contact(self, self.inner_conformity, -1.0),
+            race_contact(self, self.outer_conformity, 1.0),
+        )
+
+
+def race_contact(bearing: BallBearing, conformity: float, side: float) -> PointContact:
+    """Contact of a ball with a race: the inner at ``side`` -1, the outer at +1."""
+    radius = 0.5 * bearing.ball_diameter
+    return PointContact(
+        rolling=radius * (1.0 + side * bearing.gamma),
+        transverse=2.0 * radius * conformity / (2.0 * conformity - 1.0),
+        modulus=bearing.material.plane_strain_modulus,
+    )
+
+
+def clearance_at(angle: float, distance: float) -> float:
+    """Radial clearance [m] that goes with a free contact angle [rad]: 2 A (1 - cos(alpha))."""
+    return 4.0 * distance * sin(0.5 * angle) ** 2

@@ -1,0 +1,160 @@
+"""Is this ball bearing possible? One sentence for each impossibility, and what would be right."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from math import asin, cos, degrees, pi, sin
+
+from flexcage.core.errors import InputError
+from flexcage.core.units import describe
+from flexcage.geometry.angular_contact_ball import AngularContactBallBearing
+from flexcage.geometry.ball_bearing import BallBearing, clearance_at
+from flexcage.geometry.ball_cages import BallCage
+from flexcage.geometry.cages import Defect
+from flexcage.geometry.checks import Finding, check_geometry, raise_first
+from flexcage.geometry.deep_groove_ball import DeepGrooveBallBearing
+
+_AGREE = 1e-6  # m, to which contact angle and clearance must agree: a tenth of a clearance class
+_MOST_PRELOAD = 0.01  # of the ball's diameter: a Hertz pressure far beyond any steel's
+
+
+def _mm(value: float) -> str:
+    return describe(value, "mm")
+
+
+@check_geometry.register
+def _(
+    bearing: AngularContactBallBearing, cage: BallCage | None = None, defects: Sequence[Defect] = ()
+) -> None:
+    _check(bearing, cage, defects, _find_in_angle(bearing))
+
+
+@check_geometry.register
+def _(
+    bearing: DeepGrooveBallBearing, cage: BallCage | None = None, defects: Sequence[Defect] = ()
+) -> None:
+    _check(bearing, cage, defects, _find_in_clearance(bearing, bearing.radial_clearance))
+
+
+def _check(
+    bearing: BallBearing,
+    cage: BallCage | None,
+    defects: Sequence[Defect],
+    of_its_type: Iterator[Finding],
+) -> None:
+    """Raise InputError for the first impossibility: of all ball bearings, of one type, of cages."""
+    raise_first(_find_in_grooves(bearing))
+    raise_first(_find_in_balls(bearing))
+    raise_first(_find_in_shoulders(bearing))
+    raise_first(of_its_type)
+    if cage is not None:
+        raise_first(find_in_cage(bearing, cage))
+    if defects:
+        raise InputError(
+            "defects are those of window cages; a ball bearing's cage takes none so far.",
+            where="defects",
+        )
+
+
+def _find_in_grooves(b: BallBearing) -> Iterator[Finding]:
+    for key in ("inner_groove_radius", "outer_groove_radius"):
+        radius = getattr(b, key)
+        if radius <= 0.5 * b.ball_diameter:
+            yield (
+                f"bearing.{key}",
+                f"bearing.{key} is {_mm(radius)}, but must be greater than the ball's radius, "
+                f"{_mm(0.5 * b.ball_diameter)}; 0.515 to 0.54 times its diameter is usual.",
+            )
+
+
+def _find_in_balls(b: BallBearing) -> Iterator[Finding]:
+    chord = b.pitch_diameter * sin(pi / b.ball_count)
+    if chord <= b.ball_diameter:
+        most = int(pi / asin(min(b.ball_diameter / b.pitch_diameter, 1.0)))
+        yield (
+            "bearing.ball_count",
+            f"{b.ball_count} balls of {_mm(b.ball_diameter)} overlap on a pitch diameter of "
+            f"{_mm(b.pitch_diameter)}; at most {most} fit.",
+        )
+    reach = b.ball_diameter * cos(b.nominal_contact_angle)
+    if not b.bore < b.pitch_diameter - reach:
+        yield (
+            "bearing.bore",
+            f"bearing.bore is {_mm(b.bore)}, but the balls reach in to "
+            f"{_mm(b.pitch_diameter - reach)} in diameter, which leaves no inner ring.",
+        )
+    if not b.outside_diameter > b.pitch_diameter + reach:
+        yield (
+            "bearing.outside_diameter",
+            f"bearing.outside_diameter is {_mm(b.outside_diameter)}, but the balls reach out to "
+            f"{_mm(b.pitch_diameter + reach)} in diameter, which leaves no outer ring.",
+        )
+
+
+def _find_in_shoulders(b: BallBearing) -> Iterator[Finding]:
+    for side in ("inner", "outer"):
+        height, radius = getattr(b, f"{side}_shoulder"), getattr(b, f"{side}_groove_radius")
+        if height is not None and height >= radius:
+            yield (
+                f"bearing.{side}_shoulder",
+                f"bearing.{side}_shoulder is {_mm(height)}, but must be less than the groove's "
+                f"radius, {_mm(radius)}.",
+            )
+
+
+def _find_in_angle(b: AngularContactBallBearing) -> Iterator[Finding]:
+    if b.contact_angle is None and b.radial_clearance is None:
+        yield (
+            "bearing.contact_angle",
+            "[bearing] has neither contact_angle nor radial_clearance; give one of them.",
+        )
+    elif b.contact_angle is None and b.radial_clearance is not None:
+        if b.radial_clearance <= 0.0:
+            yield (
+                "bearing.radial_clearance",
+                f"bearing.radial_clearance is {describe(b.radial_clearance, 'um')}, but an angular "
+                "contact bearing has its contact angle from a clearance greater than 0 um.",
+            )
+        yield from _find_in_clearance(b, b.radial_clearance)
+    elif b.radial_clearance is not None and b.contact_angle is not None:
+        due = clearance_at(b.contact_angle, b.groove_distance)
+        if abs(due - b.radial_clearance) > _AGREE:
+            yield (
+                "bearing.radial_clearance",
+                f"bearing.radial_clearance is {describe(b.radial_clearance, 'um')}, but a contact "
+                f"angle of {degrees(b.contact_angle):.5g} deg makes it {due * 1e6:.4g} um in these "
+                'grooves; leave one of the two out, as by contact_angle = "none".',
+            )
+
+
+def _find_in_clearance(b: BallBearing, clearance: float) -> Iterator[Finding]:
+    most, least = 2.0 * b.groove_distance, -_MOST_PRELOAD * b.ball_diameter
+    if not least <= clearance < most:
+        yield (
+            "bearing.radial_clearance",
+            f"bearing.radial_clearance is {describe(clearance, 'um')}, but these grooves and balls "
+            f"allow {describe(least, 'um')} (preload) to {most * 1e6:.6g} um.",
+        )
+
+
+def find_in_cage(b: BallBearing, c: BallCage) -> Iterator[Finding]:
+    """What is impossible for the cage in its bearing."""
+    if c.pocket_diameter <= b.ball_diameter:
+        yield (
+            "cage.pocket_diameter",
+            f"cage.pocket_diameter is {_mm(c.pocket_diameter)}, but must be greater than the "
+            f"ball's, {_mm(b.ball_diameter)}.",
+        )
+    chord = b.pitch_diameter * sin(pi / b.ball_count)
+    if c.pocket_diameter >= chord:
+        yield (
+            "cage.pocket_diameter",
+            f"cage.pocket_diameter is {_mm(c.pocket_diameter)}, so the {b.ball_count} pockets run "
+            f"into each other; it must be less than {_mm(chord)}.",
+        )
+    if not c.bore < b.pitch_diameter < c.outside_diameter:
+        yield (
+            "cage",
+            f"The cage from {_mm(c.bore)} to {_mm(c.outside_diameter)} in diameter does not hold "
+            f"the balls' pitch circle of {_mm(b.pitch_diameter)}; its pockets cannot guide them.",
+        )

@@ -1,0 +1,102 @@
+"""What a bearing type supplies to the static solution: its rolling elements between two rings.
+
+An element feels the displacement v of the inner ring at its azimuth and has two coordinates w of
+its own. It answers with the forces that the ring must exert on it, with the unbalance of its own
+forces, and with their exact derivatives. Nothing else here knows balls from rollers.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import singledispatch
+from typing import Protocol
+
+import numpy as np
+
+from flexcage.contacts.spec import Contacts
+from flexcage.geometry.bearing import Bearing
+from flexcage.system.statics.options import StaticOptions
+
+
+@dataclass(frozen=True)
+class Response:
+    """Forces of all elements at given displacements; Z elements, two coordinates w each.
+
+    v: axial and radial displacement [m] of the inner ring at the element's azimuth and its tilt
+    [rad] about the tangent there. ``ring``: what the ring exerts along v; ``unbalance``: of the
+    element, along w, zero in equilibrium. ``energy`` [J] has both as its gradients while ``share``
+    is 0.
+    """
+
+    energy: np.ndarray  # (Z,)
+    ring: np.ndarray  # (Z, 3)
+    unbalance: np.ndarray  # (Z, 2)
+    ring_v: np.ndarray  # (Z, 3, 3)
+    ring_w: np.ndarray  # (Z, 3, 2)
+    unbalance_v: np.ndarray  # (Z, 2, 3)
+    unbalance_w: np.ndarray  # (Z, 2, 2)
+
+
+@dataclass(frozen=True)
+class ElementLoads:
+    """Loads of all elements at inner (0) and outer (1) race, NaN where there is no contact."""
+
+    azimuth: np.ndarray  # (Z,) rad
+    force: np.ndarray  # (Z, 2) N
+    angle: np.ndarray  # (Z, 2) contact angle, rad
+    pressure: np.ndarray  # (Z, 2) largest, Pa
+    across: np.ndarray  # (Z, 2) half of the contact's extent across the rolling direction, m
+    along: np.ndarray  # (Z, 2) half of its extent in rolling direction, m
+    edge: np.ndarray  # (Z, 2) contact's outermost angle less its groove's edge, rad (> 0: over it)
+    centrifugal: np.ndarray  # (Z,) N
+    gyroscopic: np.ndarray  # (Z,) moment, N m
+    orbital_speed: np.ndarray  # (Z,) rad/s
+    friction: np.ndarray  # (Z, 2) coefficient that the gyroscopic moment asks of each race
+
+
+class Elements(Protocol):
+    """The rolling elements of one bearing at one speed."""
+
+    azimuth: np.ndarray  # (Z,)
+    carries: tuple[bool, ...]  # which of x, y, z and tilts about y, z find resistance
+    scale: float  # m, a displacement that presses elements hard
+    conservative: bool  # have all forces the potential that they have while ``share`` is 0?
+    pressure_limit: float  # Pa, where ISO 76 sets the static rating
+
+    def guesses(self, v: np.ndarray) -> list[np.ndarray]:
+        """Coordinates w (Z, 2) from which equilibrium at v (Z, 3) may be near, one or more."""
+        ...
+
+    def moved(self, w: np.ndarray, step: np.ndarray) -> np.ndarray:
+        """Coordinates (Z, 2) after a step of Newton's method from w, along the way that forces
+        leave free; w + step to first order."""
+        ...
+
+    def respond(self, v: np.ndarray, w: np.ndarray, share: float) -> Response:
+        """Response at v (Z, 3) and w (Z, 2); ``share`` of what is not conservative, 0 to 1."""
+        ...
+
+    def loads(self, v: np.ndarray, w: np.ndarray) -> ElementLoads:
+        """Loads in equilibrium."""
+        ...
+
+    def check(self, loads: ElementLoads) -> None:
+        """Raise RunFailed if what balances could not be: a contact where there is no race."""
+        ...
+
+    def reference_life(self, v: np.ndarray, w: np.ndarray) -> float:
+        """Basic reference rating life L10r of ISO/TS 16281 [10^6 revolutions]."""
+        ...
+
+
+@singledispatch
+def elements_of(
+    bearing: Bearing, *, speed: float, contacts: Contacts, options: StaticOptions
+) -> Elements:
+    """Elements of a bearing whose inner ring turns at ``speed`` [rad/s]; types register here."""
+    raise NotImplementedError(f"no elements are registered for {type(bearing).__name__}")
+
+
+def azimuths(count: int) -> np.ndarray:
+    """Azimuths (Z,) [rad] of evenly spaced elements, the first on the y axis."""
+    return 2.0 * np.pi * np.arange(count) / count

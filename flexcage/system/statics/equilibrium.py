@@ -1,0 +1,208 @@
+"""Equilibrium of the inner ring, and of every rolling element between it and the outer ring.
+
+Two nested Newton methods with exact tangents: every element finds its place between the rings,
+whereupon the ring takes a step. Where forces have a potential it is convex (springs that bear only
+pressure, between centres), so that steps which lower it lead to its one minimum from anywhere; this
+comes first, with the centrifugal force at the free contact angle. Then what has no potential is
+added, in parts if need be.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from flexcage.core.errors import RunFailed
+from flexcage.system.statics.elements import Elements, Response
+
+_CLOSE = 1e-10  # unbalanced force of the ring, as a share of the load
+_SETTLED = 1e-12  # and of an element
+_ITERATIONS = 50
+_HALVINGS = 40  # an element that touches nothing must find a race by them
+_FEW = 14  # halvings where there is no potential to guide them
+_ENOUGH = 1e-4  # of the decrease that the slope promises
+_SOFT = 1e-9  # of a hard-pressed element's stiffness: holds what touches nothing
+_RANK = 1e-13  # of an element's largest stiffness: below, there is none
+_FAR = 40.0  # of the elements' scale: a ring so far away has fallen out
+_LOST = 1e-3  # unbalanced force of an element with which a step is not worth taking
+_PARTS = (1, 3, 9)  # in which speed's other effects come in: all at once, or more
+
+
+@dataclass(frozen=True)
+class Problem:
+    """What is to be balanced: ``free`` (5,) marks the ring's free motions, others keep ``held``."""
+
+    elements: Elements
+    load: np.ndarray  # (5,)
+    free: np.ndarray  # (5,) bool
+    held: np.ndarray  # (5,)
+
+    @cached_property
+    def lever(self) -> np.ndarray:
+        """Lengths (5,) that make displacements and forces of rotations comparable: 1, or an arm."""
+        arm = 100.0 * self.elements.scale
+        return np.array([1.0, 1.0, 1.0, arm, arm])
+
+    @cached_property
+    def size(self) -> float:
+        """Magnitude of the load [N], for what is small beside it."""
+        return max(float(np.abs(self.load / self.lever).max()), 1e-6)
+
+    @property
+    def soft(self) -> float:
+        """Stiffness [N/m] that is small beside that of a pressed element."""
+        return _SOFT * self.size / self.elements.scale
+
+    @cached_property
+    def at_azimuths(self) -> np.ndarray:
+        """B (Z, 3, 5): displacements v = B u at every element."""
+        psi = self.elements.azimuth
+        B = np.zeros((len(psi), 3, 5))
+        B[:, 0, 0] = 1.0
+        B[:, 1, 1] = B[:, 2, 4] = np.cos(psi)
+        B[:, 1, 2] = np.sin(psi)
+        B[:, 2, 3] = -np.sin(psi)
+        return B
+
+
+@dataclass(frozen=True)
+class Posture:
+    """Displacement u (5,) of the inner ring, elements settled between the rings, and forces."""
+
+    ring: np.ndarray
+    own: np.ndarray  # (Z, 2) coordinates of the elements
+    response: Response
+    force: np.ndarray  # (5,) that the elements bear
+    unbalanced: float  # largest force left over, as a share of the load; inf: none settled
+    energy: float  # of elements and load; a potential while ``share`` is 0
+
+
+def balance(problem: Problem) -> Posture:
+    """Posture in equilibrium. Raises RunFailed if there is none, or none is found."""
+    still = _march(problem, _posture(problem, problem.held, None, 0.0), 0.0)
+    if still.unbalanced > _CLOSE:
+        raise _no_equilibrium(problem, still)
+    if problem.elements.conservative:
+        return still
+    for parts in _PARTS:
+        found = still
+        for k in range(parts):
+            share = (k + 1) / parts
+            found = _march(problem, _posture(problem, found.ring, found.own, share), share)
+            if found.unbalanced > _CLOSE:
+                break
+        else:
+            return found
+    raise RunFailed(
+        f"no equilibrium was found at this speed: {found.unbalanced:.1e} of the load stays "
+        "unbalanced; is the speed too high for the load?"
+    )
+
+
+def tangent(problem: Problem, posture: Posture) -> np.ndarray:
+    """Exact tangent (5, 5) of the forces that elements bear over u, the elements following."""
+    B, r = problem.at_azimuths, posture.response
+    follow = np.linalg.pinv(r.unbalance_w, rcond=_RANK) @ r.unbalance_v
+    return np.einsum("zia,zij,zjb->ab", B, r.ring_v - r.ring_w @ follow, B)
+
+
+def _posture(problem: Problem, ring: np.ndarray, own: np.ndarray | None, share: float) -> Posture:
+    B = problem.at_azimuths
+    v = B @ ring
+    own, response, unsettled = settle(problem, v, nearest(problem, v, own, share), share)
+    force = np.einsum("zij,zi->j", B, response.ring)
+    gap = ((force - problem.load) / problem.lever)[problem.free]
+    left = float(np.abs(gap).max(initial=0.0)) / problem.size
+    left = max(left, unsettled) if unsettled < _LOST else np.inf
+    energy = float(response.energy.sum() - problem.load @ ring)
+    return Posture(ring, own, response, force, left, energy)
+
+
+def nearest(problem: Problem, v: np.ndarray, own: np.ndarray | None, share: float) -> np.ndarray:
+    """Coordinates (Z, 2) from which to settle: the present ones, or guesses of less energy."""
+    if own is not None and share > 0.0:
+        return own
+    choices = problem.elements.guesses(v) + ([] if own is None else [own])
+    energy = np.stack([problem.elements.respond(v, w, 0.0).energy for w in choices])
+    return np.stack(choices)[energy.argmin(axis=0), np.arange(len(v))]
+
+
+def settle(
+    problem: Problem, v: np.ndarray, w: np.ndarray, share: float
+) -> tuple[np.ndarray, Response, float]:
+    """Elements in equilibrium at displacements v (Z, 3) of the ring, sought from w (Z, 2).
+
+    Their coordinates w, their response, and the largest force left over, as a share of the load.
+    """
+    elements, least = problem.elements, _SETTLED * problem.size
+    r = elements.respond(v, w, share)
+    stuck, halvings = np.zeros(len(w), bool), _HALVINGS if share == 0.0 else _FEW
+    for _ in range(_ITERATIONS):
+        left = np.abs(r.unbalance).max(axis=1)
+        going = (left > least) & ~stuck
+        if not going.any():
+            break
+        stiffness = r.unbalance_w + problem.soft * np.eye(2)
+        step = -np.linalg.solve(stiffness, r.unbalance[..., None])[..., 0]
+        slope = (step * r.unbalance).sum(axis=1)
+        far = np.abs(step).max(axis=1)
+        length = np.where(going, np.minimum(1.0, elements.scale / np.maximum(far, 1e-300)), 0.0)
+        for _ in range(halvings):
+            trial = elements.respond(v, elements.moved(w, length[:, None] * step), share)
+            fine = np.abs(trial.unbalance).max(axis=1) < (1.0 - _ENOUGH * length) * left
+            if share == 0.0:
+                fine |= trial.energy - r.energy <= _ENOUGH * length * slope
+            if (fine | ~going).all():
+                break
+            length = np.where(fine | ~going, length, 0.5 * length)
+        else:
+            stuck |= going & ~fine
+            length = np.where(stuck, 0.0, length)
+            trial = elements.respond(v, elements.moved(w, length[:, None] * step), share)
+        w, r = elements.moved(w, length[:, None] * step), trial
+        if (left[stuck] > _LOST * problem.size).any():
+            break
+    return w, r, float(np.abs(r.unbalance).max()) / problem.size
+
+
+def _march(problem: Problem, posture: Posture, share: float) -> Posture:
+    """Steps of the ring at one share of what has no potential, until it is balanced or stuck."""
+    free, scale = problem.free, problem.elements.scale
+    for _ in range(_ITERATIONS):
+        far = np.abs(posture.ring * problem.lever).max() > _FAR * scale
+        if posture.unbalanced <= _CLOSE or far or posture.unbalanced == np.inf:
+            break
+        matrix = tangent(problem, posture) + np.diag(problem.soft * problem.lever**2)
+        gap = posture.force - problem.load
+        step = np.zeros(5)
+        step[free] = -np.linalg.solve(matrix[np.ix_(free, free)], gap[free])
+        length = min(1.0, scale / max(float(np.abs(step * problem.lever).max()), 1e-300))
+        for _ in range(_FEW):
+            new = _posture(problem, posture.ring + length * step, posture.own, share)
+            fine = new.unbalanced < (1.0 - _ENOUGH * length) * posture.unbalanced
+            if share == 0.0 and new.unbalanced < np.inf:
+                promised = length * float(gap[free] @ step[free])
+                fine |= new.energy - posture.energy <= _ENOUGH * promised
+            if fine:
+                break
+            length *= 0.5
+        else:
+            break
+        posture = new
+    return posture
+
+
+def _no_equilibrium(problem: Problem, posture: Posture) -> RunFailed:
+    where = np.abs(posture.ring)
+    if (where * problem.lever).max() > _FAR * problem.elements.scale:
+        return RunFailed(
+            "the bearing cannot bear this load: its inner ring moves off, by "
+            f"{1e3 * where[:3].max():.2g} mm and {where[3:].max():.2g} rad when the search was "
+            "given up; is its axial load towards +x, and large enough?"
+        )
+    return RunFailed(
+        f"no equilibrium was found: {posture.unbalanced:.1e} of the load stays unbalanced "
+        f"({_CLOSE:.0e} is allowed)"
+    )

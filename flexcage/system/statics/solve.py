@@ -1,0 +1,148 @@
+"""From bearing, load and speed to the static solution."""
+
+from __future__ import annotations
+
+from math import degrees
+
+import numpy as np
+
+from flexcage.contacts.spec import Contacts
+from flexcage.core.errors import InputError
+from flexcage.core.threads import one_blas_thread
+from flexcage.core.units import describe
+from flexcage.geometry.bearing import Bearing
+from flexcage.geometry.catalogue import (
+    dynamic_rating,
+    equivalent_load,
+    rating_names,
+    static_rating,
+)
+from flexcage.system.spec import Load
+from flexcage.system.statics import balls, rollers
+from flexcage.system.statics.elements import ElementLoads, Elements, elements_of
+from flexcage.system.statics.equilibrium import Problem, balance, tangent
+from flexcage.system.statics.options import StaticOptions
+from flexcage.system.statics.solution import Ratings, StaticSolution
+
+SHIPPED = (balls, rollers)  # importing them registers their elements
+_PLACES = ("load.axial", "load.radial", "load.radial", "load.moment_y", "load.moment_z")
+
+
+@one_blas_thread
+def solve_bearing(
+    bearing: Bearing,
+    *,
+    load: Load,
+    speed: float = 0.0,
+    contacts: Contacts | None = None,
+    options: StaticOptions | None = None,
+) -> StaticSolution:
+    """Equilibrium of the inner ring under the load at its start, turning at ``speed`` [rad/s].
+
+    Raises InputError for a load that the bearing cannot be asked to bear, RunFailed if there is no
+    equilibrium.
+    """
+    options = options or StaticOptions()
+    elements = elements_of(bearing, speed=speed, contacts=contacts or Contacts(), options=options)
+    problem = posed(bearing, elements, load, options)
+    posture = balance(problem)
+    v = problem.at_azimuths @ posture.ring
+    loads = elements.loads(v, posture.own)
+    elements.check(loads)
+    reaction = np.where(problem.free, 0.0, posture.force - problem.load)
+    return StaticSolution(
+        title=f"{bearing.designation or 'bearing'}, {bearing.kind} with {len(v)} rolling elements",
+        speed=speed,
+        load=problem.load,
+        displacement=posture.ring,
+        reaction=reaction,
+        stiffness=tangent(problem, posture),
+        elements=loads,
+        ratings=_ratings(
+            bearing, load_vector(load), options, elements.reference_life(v, posture.own)
+        ),
+        warnings=tuple(_warnings(elements, loads)),
+        unbalanced=posture.unbalanced,
+    )
+
+
+def load_vector(load: Load) -> np.ndarray:
+    """Forces and moments (5,) on the inner ring at the start of a load."""
+    radial = load.values[0] if load.times else load.radial
+    return np.array([
+        load.axial, radial * np.cos(load.direction), radial * np.sin(load.direction),
+        load.moment_y, load.moment_z,
+    ])  # fmt: skip
+
+
+def posed(bearing: Bearing, elements: Elements, load: Load, options: StaticOptions) -> Problem:
+    """What is free and what is held; InputError where the load does not fit that."""
+    force = load_vector(load)
+    held = np.array([0.0, 0.0, 0.0, 0.0, load.misalignment])
+    free = np.array(elements.carries)
+    for k, carried in enumerate(elements.carries):
+        if not carried and force[k] != 0.0:
+            raise InputError(
+                f"{_PLACES[k]} is {describe(force[k], 'N')}, but a {bearing.kind} bears none of it "
+                "in the static solution (its ribs are not part of it); leave it out.",
+                where=_PLACES[k],
+            )
+    if options.tilt == "held":
+        free[3:] = False
+        for k in (3, 4):
+            if force[k] != 0.0:
+                raise InputError(
+                    f"{_PLACES[k]} is {describe(force[k], 'N*m')}, but static.tilt is 'held', so "
+                    'moments are reactions; leave it out, or take static.tilt = "free".',
+                    where=_PLACES[k],
+                )
+    elif load.misalignment != 0.0:
+        raise InputError(
+            f"load.misalignment is {describe(load.misalignment, 'mrad')}, but static.tilt is "
+            "'free'; take static.tilt = \"held\" for a tilt that is given.",
+            where="load.misalignment",
+        )
+    if not np.abs(force).max() > 0.0:
+        raise InputError(
+            "The inner ring bears no load; give load.radial, load.axial or a moment.", where="load"
+        )
+    return Problem(elements, force, free, held)
+
+
+def _ratings(
+    bearing: Bearing, force: np.ndarray, options: StaticOptions, reference_life: float
+) -> Ratings:
+    dynamic = options.dynamic_rating or dynamic_rating(bearing)
+    radial = float(np.hypot(force[1], force[2]))
+    equivalent = equivalent_load(bearing, radial, abs(float(force[0])))
+    load = equivalent.load if equivalent.load > 0.0 else float("nan")  # moments are not rated
+    return Ratings(
+        static=static_rating(bearing),
+        dynamic=dynamic,
+        names=rating_names(bearing),
+        equivalent_load=load,
+        life=(dynamic / load) ** equivalent.exponent,
+        reference_life=reference_life,
+    )
+
+
+def _warnings(elements: Elements, loads: ElementLoads) -> list[str]:
+    found = []
+    for side, name in enumerate(("inner", "outer")):
+        worst = int(np.argmax(np.nan_to_num(loads.edge[:, side], nan=-np.inf)))
+        beyond = loads.edge[worst, side]
+        if beyond > 0.0:
+            found.append(
+                f"the contact ellipse of element {worst} runs over the {name} groove's edge by "
+                f"{degrees(beyond):.2g} deg, under {loads.force[worst, side]:.4g} N at a contact "
+                f"angle of {degrees(loads.angle[worst, side]):.4g} deg; its edge pressure is not "
+                "computed."
+            )
+    peak = float(loads.pressure.max())
+    if peak > elements.pressure_limit:
+        found.append(
+            f"the largest pressure, {peak / 1e6:.0f} MPa, is above the "
+            f"{elements.pressure_limit / 1e6:.0f} MPa at which ISO 76 sets the static rating; "
+            "races would be dented."
+        )
+    return found

@@ -1,0 +1,131 @@
+"""The static solution as text."""
+
+from __future__ import annotations
+
+from math import degrees, isfinite, pi
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+if TYPE_CHECKING:
+    from flexcage.system.statics.solution import StaticSolution
+
+_AXES = ("x", "y", "z", "tilt y", "tilt z")
+_SMALL = 1e-9  # of the largest of its kind: shown as 0
+
+
+def table_of(s: StaticSolution) -> str:
+    """Displacements, stiffness, life, and a line for every rolling element."""
+    parts = [_head(s), _ring(s), _stiffness(s), _life(s), _elements(s)]
+    parts += [f"Warning: {text}" for text in s.warnings]
+    return "\n\n".join(parts)
+
+
+def _head(s: StaticSolution) -> str:
+    return f"{s.title}, inner ring at {s.speed * 30.0 / pi:.6g} rpm"
+
+
+def _clean(values: np.ndarray) -> np.ndarray:
+    """Displacements or forces (5,) with what is only rounding as 0; an arm of 10 mm for tilts."""
+    size = np.abs(values) * np.array([1.0, 1.0, 1.0, 1e-2, 1e-2])
+    return np.where(size <= _SMALL * size.max(), 0.0, values)
+
+
+def _ring(s: StaticSolution) -> str:
+    force, moved = _clean(s.load), _clean(s.displacement)
+    reaction = np.where(np.abs(s.reaction) > _SMALL * np.abs(s.load).max(), s.reaction, 0.0)
+    lines = [["", *_AXES], ["load, N and N m", *map(_short, force)]]
+    if reaction.any():
+        lines.append(["reaction, N and N m", *map(_short, reaction)])
+    unit = np.where(np.arange(5) < 3, 1e6, 1e3)
+    lines.append(["displacement, um and mrad", *map(_short, unit * moved)])
+    return _grid(lines)
+
+
+def _stiffness(s: StaticSolution) -> str:
+    unit = np.where(np.arange(5) < 3, 1e6, 1e3)  # per um, per mrad
+    matrix = s.stiffness / unit
+    diagonal = np.sqrt(np.abs(np.outer(np.diag(matrix), np.diag(matrix))))
+    matrix = np.where(np.abs(matrix) > 1e-9 * diagonal.max(), matrix, 0.0)
+    lines = [["stiffness", *(f"per {'um' if k < 3 else 'mrad'} {a}" for k, a in enumerate(_AXES))]]
+    for k, row in enumerate(matrix):
+        name = f"force {_AXES[k]}, N" if k < 3 else f"moment {_AXES[k][-1]}, N m"
+        lines.append([name, *map(_short, row)])
+    return _grid(lines)
+
+
+def _life(s: StaticSolution) -> str:
+    r = s.ratings
+    static, dynamic = r.names
+    lines = [
+        [f"static rating {static}", f"{r.static / 1e3:.4g} kN"],
+        [f"dynamic rating {dynamic}", f"{r.dynamic / 1e3:.4g} kN"],
+        [
+            "equivalent load P, ISO 281",
+            _or_none(r.equivalent_load, "N", "no factors for this load"),
+        ],
+        ["life L10, ISO 281", _or_none(r.life, "million revolutions", "none")],
+        ["life L10r, ISO/TS 16281", _or_none(r.reference_life, "million revolutions", "none")],
+    ]
+    if isfinite(s.life_hours()):
+        lines.append(["", f"{s.life_hours():.6g} h at this speed"])
+    width = max(len(line[0]) for line in lines)
+    return "\n".join(f"{name.ljust(width)}  {text}" for name, text in lines)
+
+
+def _elements(s: StaticSolution) -> str:
+    note = (
+        "Q force, p largest pressure, a and b half of the contact across and in rolling direction"
+    )
+    if s.speed != 0.0:
+        note += ", Fc centrifugal force"
+    return f"{note}\n{_element_table(s)}"
+
+
+def _element_table(s: StaticSolution) -> str:
+    e = s.elements
+    balls = bool(np.isfinite(e.edge).any() or np.nanmax(np.abs(e.angle), initial=0.0) > 0.0)
+    names = ["element", "azimuth, deg", "Q inner, N", "Q outer, N"]
+    if balls:
+        names += ["angle i, deg", "angle o, deg"]
+    names += ["p inner, MPa", "p outer, MPa", "a inner, mm", "b inner, mm"]
+    turning = s.speed != 0.0
+    if turning:
+        names += ["Fc, N"] + (["Mg, N mm", "friction"] if balls else [])
+    lines = [names]
+    for k in range(len(e.azimuth)):
+        cells = [str(k), f"{degrees(e.azimuth[k]):.4g}", *(f"{q:.5g}" for q in e.force[k])]
+        if balls:
+            cells += [_or_dash(degrees(a), ".3f") for a in e.angle[k]]
+        cells += [f"{p / 1e6:.5g}" for p in e.pressure[k]]
+        cells += [f"{1e3 * e.across[k, 0]:.4g}", f"{1e3 * e.along[k, 0]:.4g}"]
+        if turning:
+            cells.append(f"{e.centrifugal[k]:.4g}")
+            if balls:
+                asked = np.nanmax(e.friction[k], initial=0.0)
+                cells += [f"{1e3 * e.gyroscopic[k]:.4g}", f"{asked:.4f}"]
+        lines.append(cells)
+    return _grid(lines, left=0)
+
+
+def _or_none(value: float, unit: str, otherwise: str) -> str:
+    return f"{value:.6g} {unit}" if isfinite(value) else otherwise
+
+
+def _or_dash(value: float, form: str) -> str:
+    return format(value, form) if isfinite(value) else "-"
+
+
+def _short(value: float) -> str:
+    return f"{value:.6g}"
+
+
+def _grid(lines: list[list[str]], *, left: int = 1) -> str:
+    """Columns to the right, the first ``left`` ones to the left."""
+    widths = [max(len(line[k]) for line in lines) for k in range(len(lines[0]))]
+    return "\n".join(
+        "  ".join(
+            c.ljust(w) if k < left else c.rjust(w) for k, (c, w) in enumerate(zip(line, widths))
+        ).rstrip()
+        for line in lines
+    )

@@ -1,0 +1,128 @@
+"""Cases of static solutions: the same files, what takes part, and what is refused."""
+
+from math import radians
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import flexcage
+from flexcage.case import Case, StaticCase, load_case, load_static
+from flexcage.core.errors import InputError
+from flexcage.geometry.presets import load_preset
+
+EXAMPLES = Path(__file__).parents[2] / "examples"
+BALLS = '[bearing]\npreset = "7010C-PI"\n[load]\naxial = "100 N"\n'
+
+
+def test_the_example():
+    case = load_static(EXAMPLES / "c7010_static.toml")
+    assert case.bearing.ball_count == 18 and case.bearing.contact_angle == radians(15.0)
+    assert case.speed == pytest.approx(1e4 * np.pi / 30.0) and case.load.axial == 100.0
+
+
+def test_the_example_in_the_readme():
+    readme = (EXAMPLES.parent / "README.md").read_text("utf-8")
+    section = readme.split("## Static solution")[1].split("\n## ")[0]
+    case = load_static(section.split("```toml\n")[1].split("```")[0])
+    assert case.preset == "7010C-PI" and case.static.tilt == "free"
+    assert case.bearing == load_static(EXAMPLES / "c7010_static.toml").bearing
+
+
+def test_without_a_drive_the_bearing_stands():
+    assert load_static(BALLS).speed == 0.0
+    assert load_static(BALLS + '[drive]\nspeed = "60 rpm"\n').speed == pytest.approx(2.0 * np.pi)
+
+
+def test_a_simulations_case_is_read_as_well():
+    """Its mesh, defects and solver are passed over; bearing, load and race contacts are not."""
+    case = load_static(EXAMPLES / "n1013.toml", overrides={"contacts.race.slices": 30})
+    full = load_case(EXAMPLES / "n1013.toml")
+    assert case.bearing == full.bearing and case.load == full.load and case.speed == 200.0 * np.pi
+    assert case.contacts.race.slices == 30 and full.contacts.race.slices == 16
+    assert flexcage.solve_static(full).displacement == pytest.approx(
+        flexcage.solve_static(load_static(EXAMPLES / "n1013.toml")).displacement
+    )
+
+
+def test_of_tables_over_time_the_start_counts():
+    text = BALLS + '[drive]\ntimes = ["0 s", "1 s"]\nspeeds = ["600 rpm", "0 rpm"]\n'
+    assert load_static(text).speed == pytest.approx(20.0 * np.pi)
+
+
+@pytest.mark.parametrize("name", ["7010C-PI", "7603025", "15x37x10", "N1013"])
+def test_round_trip_through_text(name):
+    case = load_static(
+        {"bearing": {"preset": name}, "load": {"radial": "10 N", "direction": "20 deg"},
+         "static": {"tilt": "held", "cage_speed": "100 rpm"}},
+    )  # fmt: skip
+    again = load_static(case.to_toml())
+    assert again == case and again.preset == name
+
+
+def test_a_designation_of_digits_is_a_name():
+    case = load_static(BALLS, overrides={"bearing.preset": 7603025})
+    assert case.bearing == load_preset("7603025").bearing
+
+
+def test_part_of_a_material_is_overridden():
+    case = load_static(BALLS, overrides={"bearing.material.density": "3200 kg/m^3"})
+    assert case.bearing.material.density == 3200.0
+    assert case.bearing.material.youngs_modulus == 208e9
+
+
+MISTAKES = {
+    "angle and clearance": ({"bearing.radial_clearance": "80 um"}, ["32.46 um", "15 deg"]),
+    "overlap": ({"bearing.ball_count": 24}, ["24 balls", "overlap"]),
+    "pocket": ({"cage.pocket_diameter": "9 mm"}, ["pocket_diameter is 9 mm", "9.525 mm"]),
+    "window": ({"cage.pocket_width": "9 mm"}, ["'pocket_width'", "'pocket_diameter'"]),
+    "rollers": ({"bearing.roller_count": 9}, ["'roller_count'", "'ball_count'"]),
+    "type": ({"bearing.type": "ball"}, ["bearing.type 'ball' is not known"]),
+    "section": ({"laod.axial": "1 N"}, ["'laod'", "'load'"]),
+    "unit": ({"load.moment_z": "1 N"}, ["load.moment_z", "N*m"]),
+    "overload": ({"load.axial": "-1000 kN"}, ["1000 kN", "static rating of 21.2 kN"]),
+    "elsewhere": ({"defects.0.displacement": "1 mm"}, ["takes no part in a static solution"]),
+    "nowhere": ({"load.axial.x": "1 N"}, ["load.axial"]),
+    "negative": ({"static.dynamic_rating": "-3 kN"}, ["static.dynamic_rating"]),
+}
+
+
+@pytest.mark.parametrize("name", MISTAKES)
+def test_mistakes(name):
+    overrides, words = MISTAKES[name]
+    with pytest.raises(InputError) as caught:
+        load_static(BALLS, overrides=overrides)
+    sentence = str(caught.value)
+    assert sentence.endswith(".") and "\n" not in sentence
+    assert all(word in sentence for word in words), sentence
+
+
+def test_motion_of_balls_is_refused_wherever_it_is_asked_for():
+    preset = load_preset("7010C-PI")
+    words = "'angular_contact_ball'.*not computed yet.*'flexcage static'"
+    for attempt in (
+        lambda: load_case(BALLS),
+        lambda: Case.from_preset("7010C-PI"),
+        lambda: Case(bearing=preset.bearing, cage=load_preset("N1013").cage),
+        lambda: load_case('[bearing]\npreset = "N1013"\n').replace("bearing", preset.bearing),
+    ):
+        with pytest.raises(InputError, match=words):
+            attempt()
+
+
+def test_loads_of_the_static_solution_are_refused_in_a_run():
+    for path, value in (("load.axial", "5 N"), ("load.moment_y", "1 N*m")):
+        with pytest.raises(InputError, match=f"{path} is .*axial motion and tilts are held"):
+            load_case('[bearing]\npreset = "N1013"\n', overrides={path: value})
+
+
+def test_a_run_passes_over_the_static_section():
+    text = '[bearing]\npreset = "N1013"\n'
+    assert load_case(text + '[static]\ntilt = "held"\n') == load_case(text)
+
+
+def test_built_from_objects():
+    bearing = load_preset("15x37x10").bearing
+    case = StaticCase(bearing=bearing, load=flexcage.Load(radial=200.0))
+    solution = flexcage.solve_static(case)
+    assert solution.largest_force > 200.0 / 7 and solution.load[1] == 200.0

@@ -1,0 +1,50 @@
+"""A bearing type from outside: one file, and the static solution takes it as any other."""
+
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+FILE = Path(__file__).with_name("my_bearing_type.py")
+CASE = """
+[bearing]
+type = "springs"
+designation = "S12"
+count = 12
+stiffness = "5 N/um"
+[load]
+radial = "120 N"
+direction = "10 deg"
+"""
+
+
+def static(tmp_path, *extra):
+    """In a process of its own: what is registered there is seen by no other test."""
+    case = tmp_path / "case.toml"
+    case.write_text(CASE)
+    command = [sys.executable, "-m", "flexcage.cli", "static", str(case), *extra]
+    return subprocess.run(command, capture_output=True, text=True, cwd=tmp_path, check=False)
+
+
+def test_a_type_of_ones_own(tmp_path):
+    """12 springs k all around bear a displacement u by 6 k u: 120 N give 4 um."""
+    done = static(tmp_path, "--use", str(FILE))
+    assert done.returncode == 0, done.stderr
+    assert "S12, spring bearing with 12 rolling elements" in done.stdout
+    row = next(line for line in done.stdout.splitlines() if line.startswith("displacement"))
+    x, y, z = (float(value) for value in row.split()[4:7])
+    assert x == 0.0 and (y**2 + z**2) ** 0.5 == pytest.approx(4.0, rel=1e-5)
+    stiffness = next(line for line in done.stdout.splitlines() if line.startswith("force y"))
+    assert float(stiffness.split()[4]) == pytest.approx(30.0, rel=1e-5)
+
+
+def test_mistakes_in_it_are_said_like_all_others(tmp_path):
+    done = static(tmp_path)
+    assert done.returncode == 2 and "bearing.type 'springs' is not known" in done.stderr
+    done = static(tmp_path, "--use", str(FILE), "--set", "bearing.stiffness=5 mm")
+    assert done.returncode == 2 and "another kind than N/um" in done.stderr
+    done = static(tmp_path, "--use", str(FILE), "--set", "load.axial=1 N")
+    assert done.returncode == 2 and "a spring bearing bears none of it" in done.stderr
+    done = static(tmp_path, "--use", str(FILE), "--set", "load.radial=0 N")
+    assert done.returncode == 2 and "bears no load" in done.stderr
