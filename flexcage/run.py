@@ -133,11 +133,13 @@ class Run:
     def _stress_history(self) -> StressHistory:
         ds, recovery = self.dataset, self.recovery
         assert self.cage is not None
-        stored = cached_arrays(
-            "stress", self.cage.key, lambda: {"forces": StressFields(recovery).forces}
-        )
+        key = self.cage.key
+
+        def keep(name: str, compute: Callable[[], np.ndarray]) -> np.ndarray:
+            return cached_arrays("stress", f"{key}-{name}", lambda: {name: compute()})[name]
+
         return stress_history(
-            StressFields(recovery, forces=stored["forces"]),
+            StressFields(recovery, keep=keep),
             ds["modal_coordinates"].values,
             ds["station_force"].values,
             land_station_forces(ds, inner=self.case.cage.guidance != "outer"),

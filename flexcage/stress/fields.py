@@ -9,6 +9,7 @@ deviator components of ``operators.deviator`` in single precision.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from functools import cached_property
 
 import numpy as np
@@ -25,12 +26,22 @@ _NORMAL = (2, 2, 0, 0)  # component (x, r, psi) normal to each face
 _TANGENT = ((0, 1), (0, 1), (1, 2), (1, 2))
 
 
+Keep = Callable[[str, Callable[[], np.ndarray]], np.ndarray]
+_TOGETHER = 33  # right-hand sides of land forces that are solved at once
+
+
+def _compute(_name: str, compute: Callable[[], np.ndarray]) -> np.ndarray:
+    """Keeps nothing."""
+    return compute()
+
+
 class StressFields:
     """Precomputed deviators at the surface vertices ``surface`` (mesh vertex numbers)."""
 
-    def __init__(self, recovery: StressRecovery, *, forces: np.ndarray | None = None) -> None:
-        """``forces``: the property of that name, if it was stored before (it costs the most)."""
-        self._recovery, self._stored = recovery, forces
+    def __init__(self, recovery: StressRecovery, *, keep: Keep = _compute) -> None:
+        """``keep(name, compute)`` gives the fields of that name, which cost the most, from where it
+        keeps them, or computes them."""
+        self._recovery, self._keep = recovery, keep
         model = recovery.model
         self.surface = np.unique(model.surface)
         self.places = root_places(model, recovery.pocket_count)
@@ -46,8 +57,9 @@ class StressFields:
     @cached_property
     def forces(self) -> np.ndarray:
         """(5 n_surface, Z per_pocket) per newton of ``reduced_forces``, beyond the modes."""
-        if self._stored is not None:
-            return self._stored
+        return self._keep("forces", self._force_fields)
+
+    def _force_fields(self) -> np.ndarray:
         recovery = self._recovery
         pockets = range(recovery.pocket_count)
         symmetry = find_symmetry(recovery.model, recovery.pocket_count)
@@ -65,6 +77,9 @@ class StressFields:
     @cached_property
     def land_forces(self) -> np.ndarray:
         """(5 n_surface, 2*n_land*3) per newton at the land stations, beyond the modes."""
+        return self._keep("land_forces", self._land_fields)
+
+    def _land_fields(self) -> np.ndarray:
         weights = self._recovery.land_weights
         n_land = weights.shape[0] // 2
         dense = weights.toarray()
@@ -74,7 +89,14 @@ class StressFields:
             for j in range(n_land)
             for axis in pocket_frame(j, n_land)
         ]
-        return self._deviators(self._beyond_modes(np.stack(loads, axis=1)))
+        columns = np.stack(loads, axis=1)
+        fields = on_all_cores(
+            lambda first: self._deviators(
+                self._beyond_modes(columns[:, first : first + _TOGETHER])
+            ),
+            range(0, columns.shape[1], _TOGETHER),
+        )
+        return np.concatenate(fields, axis=1)
 
     def reduced_forces(self, station_forces: np.ndarray) -> np.ndarray:
         """Forces (nt, Z per_pocket) of ``forces``' columns from (nt, Z, 4, n_st, 3)."""
