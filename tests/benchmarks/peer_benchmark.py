@@ -193,6 +193,7 @@ def draw(curves, path: Path) -> None:
         axis.set(xlabel=f"error of the {group} forces", title=f"{group} forces, first millisecond")
         axis.grid(alpha=0.3)
     axes[0].set_ylabel("processor time per simulated ms [s]")
-    axes[1].legend(fontsize=8)
+    handles, labels = axes[0].get_legend_handles_labels()
+    figure.legend(handles, labels, fontsize=8, loc="outside right upper")
     figure.savefig(path, dpi=130)
     plt.close(figure)
