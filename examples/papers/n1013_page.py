@@ -1,0 +1,192 @@
+"""The page of results beside this script, written from a computed study: every number is its."""
+
+from __future__ import annotations
+
+import shutil
+from collections.abc import Iterable, Sequence
+from dataclasses import replace
+from datetime import UTC, datetime
+from math import isfinite
+from pathlib import Path
+
+from n1013_claims import (
+    AFTER,
+    AT,
+    BASE,
+    BEFORE,
+    CAGES,
+    LINE_AT,
+    PITCH,
+    RIPPLE,
+    View,
+    rows_of,
+    shown,
+    slip,
+    spin,
+)  # fmt: skip
+from n1013_figures import NAMES, slug
+from n1013_reasons import FINDINGS, REASONS
+
+from flexcage import StudyResults, __version__
+from flexcage.study.verdicts import Line, Verdict
+
+HERE = Path(__file__).parent
+_BESIDE = (
+    "inner_speed.ripple", "inner_speed.frequency", RIPPLE, PITCH, "cage_omega[axis=x].frequency",
+    "cage_slip_ratio", LINE_AT, "cage_centre_shift", "pinch_force",
+)  # fmt: skip
+
+
+def with_reason(verdict: Verdict, view: View) -> Verdict:
+    """The verdict with the mechanical reason that the figures show, where there is one."""
+    reason = REASONS.get((verdict.key, verdict.outcome))
+    computed = verdict.reason != "not computed"
+    return replace(verdict, reason=reason(view)) if reason and computed else verdict
+
+
+def write(results: StudyResults, verdicts: Sequence[Verdict], pictures: Path) -> Path:
+    """Write README.md and its images beside this script; its path."""
+    view = View(rows_of(results))
+    images = _copy_images(pictures, HERE / "images")
+    parts = [
+        _head(results), _table(verdicts), FINDINGS(view), _details(verdicts),
+        _slips(view), _beside(view), _pictures(images), _TAIL,
+    ]  # fmt: skip
+    path = HERE / "README.md"
+    path.write_text("\n\n".join(part.strip() for part in parts if part) + "\n", encoding="utf-8")
+    return path
+
+
+def _head(results: StudyResults) -> str:
+    study = results.study
+    today = datetime.now(UTC).strftime("%d %B %Y")
+    case = study.case
+    return f"""# An N1013 with a deformed cage pocket
+
+"Dynamic Characteristics of Cylindrical Roller Bearing with Cage Pocket Deformation", Lubricants
+2025, 13(11), 495, as a study with verdicts. Written by `n1013_pocket_deformation.py --page` on
+{today} with flexcage {__version__}, from {results.count("done")} of {len(results.rows)} cases
+({results.count("failed")} failed; the rest is not computed and counts as undecided). Each case is
+{case.solver.duration * 1e3:.0f} ms of bearing time; the first {100 * case.output.settle:.0f} % are
+left out, and 10 turns of the cage remain. "±" is half of a 95 % interval."""
+
+
+def _table(verdicts: Sequence[Verdict]) -> str:
+    rows = [(v.key, v.claim, f"**{v.outcome}**", v.range) for v in verdicts]
+    head = (
+        "",
+        "claim of the paper",
+        "at the base clearances",
+        "over clearances, rollers, friction",
+    )
+    return "## Verdicts\n\n" + markdown(head, rows)
+
+
+def _details(verdicts: Sequence[Verdict]) -> str:
+    parts = ["## Figures and reasons"]
+    for v in verdicts:
+        lines = "; ".join(f"{line.label}: {text(line)}" for line in v.figures)
+        parts.append(f"**{v.key}, {v.outcome}.** {v.reason}\n\n{lines}.")
+    return "\n\n".join(parts)
+
+
+def _slips(view: View) -> str:
+    """What the paper's Tables 2 and 3 hold: slip ratios of the three rollers."""
+    rollers = {"j-1": BEFORE, "j": AT, "j+1": AFTER}
+    rows = [
+        (cage, *(text(shown(kind(r), cage, view(kind(r), cage))) for kind in (slip, spin)
+                 for r in rollers.values()))
+        for cage in CAGES if view.has(cage)
+    ]  # fmt: skip
+    head = ("cage", *(f"slip {name}" for name in rollers), *(f"speed {name}" for name in rollers))
+    return (
+        "## Slip ratios and speeds of the rollers beside the defect\n\n"
+        "Means over ten turns of the cage, loaded and unloaded zone together (Tables 2 and 3 of "
+        "the paper).\n\n" + markdown(head, rows)
+    )
+
+
+def _beside(view: View) -> str:
+    cages = [cage for cage in CAGES if view.has(cage)]
+    rows = []
+    for output in _BESIDE:
+        lines = [shown(output, cage, view(output, cage)) for cage in cages]
+        name = lines[0].label.rpartition(",")[0]
+        rows.append((name, *(text(line) for line in lines)))
+    return "## Beside the claims\n\n" + markdown(("", *cages), rows)
+
+
+def _copy_images(pictures: Path, folder: Path) -> list[Path]:
+    """The stress images of the five cages and the pinch map, under 200 kB each."""
+    folder.mkdir(exist_ok=True)
+    names = [*(f"stress_{slug(cage)}.png" for cage in CAGES), "orbits.png", "pinch.png"]
+    found = []
+    for name in names:
+        if (pictures / name).is_file():
+            found.append(Path(shutil.copy(pictures / name, folder / name)))
+            _shrink(found[-1])
+    return found
+
+
+def _shrink(path: Path) -> None:
+    """Write the image with a palette of 256 colours, which halves it."""
+    from PIL import Image
+
+    image = Image.open(path).convert("RGB")
+    image.quantize(256, dither=Image.Dither.NONE).save(path, optimize=True)
+
+
+def _pictures(images: Sequence[Path]) -> str:
+    names = {f"stress_{slug(cage)}.png": f"Stress at its largest: {NAMES[cage]}" for cage in CAGES}
+    names |= {"orbits.png": "Orbits of the cage centre",
+              "pinch.png": "Corner stress of a shortened pocket against its clearance"}  # fmt: skip
+    lines = [
+        f"![{names[path.name]}](images/{path.name})\n\n*{names[path.name]}.*" for path in images
+    ]
+    return "## Pictures\n\n" + "\n\n".join(lines) if lines else ""
+
+
+_TAIL = f"""## How the paper was read
+
+- The crossbeam between pockets j-1 and j is displaced as a whole (`shape = "shifted"`).
+- Conclusion 1 (a negative deviation *reduces* stress) contradicts conclusions 2 and 3 and the
+  text; the text was taken.
+- "n_rth" of the slip ratio is the roller's theoretical speed, "n_r" its computed one.
+- "The first increases, then decreases" of the whirl radius was taken as 0 < 0.1 > 0.2 mm.
+- "Unchanged" is within 10 % (roller speeds: 1 %), "clearly" is by 25 % or more (roller speeds: a
+  drop of 5 %), "more" is beyond both intervals: fixed before anything was computed.
+- 320.51 MPa is an order of magnitude: within a factor of two.
+
+What the paper does not say is an assumption: the preset's inside of the bearing, the housing
+(a bushing of 200 N/um), the compliant shaft (10 kN m/rad), the traction curve, restitution. The
+clearances Cq - Dw (base 0.20 mm) and Cp - Lw (base 0.25 mm) are varied one at a time.
+
+## Repeat it
+
+```sh
+pip install '.[fast,study]'
+python examples/papers/n1013_pocket_deformation.py --quick             # minutes
+python examples/papers/n1013_pocket_deformation.py --stages {BASE}        # the five cages
+python examples/papers/n1013_pocket_deformation.py --page              # all, and this page
+```
+"""
+
+
+def text(line: Line) -> str:
+    """A figure with its margin and unit, as the page prints it."""
+    if not isfinite(line.value):
+        return "-"
+    margin = f" ± {line.margin:.2g}" if isfinite(line.margin) else ""
+    return f"{_digits(line.value)}{margin} {line.unit}".strip()
+
+
+def _digits(value: float) -> str:
+    size = abs(value)
+    return f"{value:,.0f}" if size >= 1e3 else f"{value:.1f}" if size >= 100 else f"{value:.3g}"
+
+
+def markdown(head: Iterable[str], rows: Iterable[Iterable[str]]) -> str:
+    """A table in Markdown."""
+    head = list(head)
+    lines = [head, ["---"] * len(head), *map(list, rows)]
+    return "\n".join("| " + " | ".join(cells) + " |" for cells in lines)
