@@ -7,11 +7,42 @@ speed: 5 %), and a plain "more" is beyond both intervals. They are this study's 
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from dataclasses import dataclass
-from math import isfinite, nan
+from math import isfinite
 
-from flexcage.study.results import ResultRow, StudyResults
+from n1013_view import (
+    AFTER,
+    AT,
+    BASE,
+    BEFORE,
+    BENT1,
+    BENT2,
+    CAGES,
+    CORNER,
+    CREST,
+    CROSSBEAM,
+    LINE_AT,
+    LINE_SHARE,
+    LONGER,
+    PAPER,
+    PITCH,
+    REACH,
+    RIPPLE,
+    SHORTER,
+    SOUND,
+    SPIKES,
+    SPREAD,
+    STRESS,
+    WHIRL,
+    Rows,
+    View,
+    shown,
+    slip,
+    spin,
+    spin_ripple,
+)
+
 from flexcage.study.verdicts import (
     UNDECIDED,
     Estimate,
@@ -20,101 +51,12 @@ from flexcage.study.verdicts import (
     every,
     less,
     monotone,
-    pooled,
     range_of,
     unchanged,
 )
 
-PAPER = "Lubricants 2025, 13(11), 495"
 SAME, CLEARLY = 0.10, 0.25  # shares
 SAME_SPEED, CLEAR_DROP = 0.01, 0.05  # of a roller's speed
-SOUND, BENT1, BENT2, LONGER, SHORTER = "sound", "dq +0.1", "dq +0.2", "dp +0.3", "dp -0.3"
-CAGES = (SOUND, BENT1, BENT2, LONGER, SHORTER)
-BASE, RIGID = "base", "rigid cage"
-BEFORE, AT, AFTER = 4, 5, 6  # rollers j-1, j, j+1: crossbeam 5 lies between pockets 4 and 5
-CROSSBEAM = (SOUND, BENT1, BENT2)
-
-RIPPLE, PITCH = "cage_speed_ripple", "cage_omega[axis=x].mean_frequency"
-STRESS, CORNER = "stress_mean_peak", "stress_root_pass_peak"
-RADIAL, WHIRL = "cage_radial_displacement.ripple", "whirl_radius"
-REACH, SPREAD = "cage_radial_displacement.std", "cage_whirl_radius.ripple"
-SPIKES, CREST = (f"outer_acceleration_filtered[axis2=y].{k}" for k in ("kurtosis", "crest"))
-LINE_AT, LINE_SHARE = (f"cage_position[axis=y].{k}" for k in ("frequency", "line_share"))
-
-
-def spin(roller: int) -> str:
-    return f"roller_omega[roller={roller},spin_axis=axial].mean"
-
-
-def spin_ripple(roller: int) -> str:
-    return f"roller_omega[roller={roller},spin_axis=axial].ripple"
-
-
-def slip(roller: int) -> str:
-    return f"roller_slip_ratio[roller={roller}].mean"
-
-
-#: How figures are shown: name, unit, factor from SI.
-SHOWN: Mapping[str, tuple[str, str, float]] = {
-    STRESS: ("mean of the cage's peak stress", "MPa", 1e-6),
-    CORNER: ("pocket corner stress, peak of a roller pass", "MPa", 1e-6),
-    "stress_peak": ("largest stress", "MPa", 1e-6),
-    RIPPLE: ("cage speed ripple", "%", 100.0),
-    PITCH: ("mean frequency of the ripple", "Hz", 1.0),
-    RADIAL: ("ripple of the radial displacement", "%", 100.0),
-    REACH: ("radial displacement, standard deviation", "um", 1e6),
-    "cage_radial_displacement.mean": ("mean radial displacement", "um", 1e6),
-    WHIRL: ("mean whirl radius", "um", 1e6),
-    SPREAD: ("scatter of the whirl radius", "%", 100.0),
-    SPIKES: ("kurtosis of the ring's acceleration", "", 1.0),
-    CREST: ("crest factor of the ring's acceleration", "", 1.0),
-    LINE_AT: ("strongest line of the cage centre", "Hz", 1.0),
-    LINE_SHARE: ("its share of the variance", "%", 100.0),
-    "outer_acceleration_filtered[axis2=y].rms": ("rms of the ring's acceleration", "m/s²", 1.0),
-    "stress_root": ("largest pocket corner stress", "MPa", 1e-6),
-    "cage_omega[axis=x].frequency": ("strongest line of the ripple", "Hz", 1.0),
-    "whirl_ratio": ("whirl (max - min)/mean", "", 1.0),
-    "cage_slip_ratio": ("cage slip ratio", "%", 100.0),
-    "inner_speed.ripple": ("inner ring's speed ripple", "%", 100.0),
-    "inner_speed.frequency": ("its strongest line", "Hz", 1.0),
-    "cage_centre_shift": ("shift of the mass centre", "um", 1e6),
-    "pinch_force": ("pinch force", "N", 1.0),
-}  # fmt: skip
-_ROLLERS = {BEFORE: "j-1", AT: "j", AFTER: "j+1"}
-
-
-@dataclass(frozen=True)
-class View:
-    """Figures of the five cages in one variation of the study."""
-
-    rows: Mapping[tuple[str, str], tuple[ResultRow, ...]]  # by cage and variation: done cases
-    variation: str = BASE
-
-    def __call__(self, output: str, cage: str) -> Estimate:
-        """A figure over the repetitions; NaN where nothing was computed."""
-        figures = [
-            row.figures[output]
-            for row in self.rows.get((cage, self.variation), ())
-            if output in row.figures and row.figures[output].value is not None
-        ]
-        return pooled([float(f.value) for f in figures], [f.margin for f in figures])
-
-    def along(self, output: str, cages: tuple[str, ...]) -> list[Estimate]:
-        return [self(output, cage) for cage in cages]
-
-    def has(self, cage: str) -> bool:
-        return bool(self.rows.get((cage, self.variation)))
-
-
-def rows_of(results: StudyResults) -> dict[tuple[str, str], tuple[ResultRow, ...]]:
-    """Finished cases of the study by cage and variation."""
-    found: dict[tuple[str, str], tuple[ResultRow, ...]] = {}
-    for row in results.rows:
-        labels = row.planned.point.labels
-        if row.state == "done":
-            key = (labels["cage"], labels["variation"])
-            found[key] = (*found.get(key, ()), row)
-    return found
 
 
 @dataclass(frozen=True)
@@ -128,9 +70,7 @@ class Claim:
     cages: tuple[str, ...]
     source: str = PAPER
 
-    def verdict(
-        self, rows: Mapping[tuple[str, str], tuple[ResultRow, ...]], variations: tuple[str, ...]
-    ) -> Verdict:
+    def verdict(self, rows: Rows, variations: tuple[str, ...]) -> Verdict:
         """The verdict at the base clearances, and where else it holds of what was computed."""
         base = View(rows)
         outcomes, missing = {}, []
@@ -156,23 +96,6 @@ class Claim:
 
     def _line(self, view: View, output: str, cage: str) -> Line:
         return shown(output, cage, view(output, cage))
-
-
-def shown(output: str, cage: str, figure: Estimate) -> Line:
-    """A figure as a verdict shows it."""
-    label, unit, factor = SHOWN.get(output) or _of_roller(output)
-    margin = factor * figure.margin if isfinite(figure.margin) else nan
-    return Line(f"{label}, {cage}", factor * figure.value, abs(margin), unit)
-
-
-def _of_roller(output: str) -> tuple[str, str, float]:
-    roller = next(r for r in _ROLLERS if f"[roller={r}" in output)
-    name = _ROLLERS[roller]
-    if output == slip(roller):
-        return f"slip of roller {name}", "%", 100.0
-    if output == spin(roller):
-        return f"speed of roller {name}", "rpm", -9.549296585513721  # it spins backwards
-    return f"speed ripple of roller {name}", "%", 100.0
 
 
 def _magnitude(figure: Estimate) -> Estimate:

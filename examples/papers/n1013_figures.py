@@ -4,20 +4,20 @@ from __future__ import annotations
 
 import json
 from collections.abc import Callable, Mapping
+from dataclasses import dataclass
 from math import pi
 from pathlib import Path
 from typing import Any
 
 import numpy as np
-from n1013_claims import AFTER, AT, BASE, BEFORE, CAGES
 from n1013_pinch import CLAIMED, DISPLACEMENT, PinchMap
+from n1013_view import AFTER, AT, BASE, BEFORE, CAGES, Rows
 
 import flexcage
 from flexcage import Run, StudyResults
 from flexcage.render import sheet
 from flexcage.render.stress_pictures import nice_scale, stress_picture
 from flexcage.results import metrics
-from flexcage.study.results import ResultRow
 
 RPM = 30.0 / pi
 NAMES = {
@@ -29,7 +29,6 @@ NAMES = {
 }
 _EDGE, _TOP, _WIDTH, _HEIGHT, _GAP = 120, 118, 1400, 170, 44
 
-Rows = Mapping[tuple[str, str], tuple[ResultRow, ...]]
 Draw = Callable[[Any, Run], None]
 
 
@@ -39,10 +38,10 @@ def draw(results: StudyResults, rows: Rows, squeezed: PinchMap, folder: Path) ->
     captions: dict[str, str] = {"pinch.png": _CAPTION_PINCH}
     paths = [pinch_picture(squeezed, folder / "pinch.png")]
     if runs:
-        for name, (panel, label, title, caption) in _HISTORIES.items():
+        for name, curve in _HISTORIES.items():
             path = folder / f"{name}.png"
-            paths.append(_histories(runs, panel, label, title, path))
-            captions[path.name] = caption
+            paths.append(_histories(runs, curve, path))
+            captions[path.name] = curve.caption
         paths.append(orbits(runs, folder / "orbits.png"))
         captions["orbits.png"] = (
             "Orbit of the cage centre after settling, every cage, relative to the outer ring."
@@ -77,24 +76,24 @@ def _settled(run: Run) -> Any:
     return metrics.settled(run.dataset, run.case.output.settle)
 
 
-def _histories(runs: Mapping[str, Run], panel: Draw, label: str, title: str, path: Path) -> Path:
-    """One panel a cage, one below the other, all on the same scales."""
+def _histories(runs: Mapping[str, Run], curve: Curve, path: Path) -> Path:
+    """One panel a cage, one below the other."""
     with sheet.style():
         height = _TOP + len(runs) * (_HEIGHT + _GAP) + 50
         figure = sheet.new_figure(_EDGE + _WIDTH + 50, height)
-        sheet.heading(
-            figure, title, "6000 rpm, 1000 N; the part that statistics leave out is shaded"
-        )
+        scales = "" if curve.shared else "every panel has its own scale"
+        facts = ["6000 rpm, 1000 N", "shaded: left out of statistics", scales]
+        sheet.heading(figure, curve.title, sheet.join(facts))
         axes = []
         for i, (cage, run) in enumerate(runs.items()):
             top = _TOP + i * (_HEIGHT + _GAP)
             ax = sheet.axes_at(figure, (_EDGE, top, _WIDTH, _HEIGHT))
-            panel(ax, run)
+            curve.panel(ax, run)
             end = 1e3 * run.case.solver.duration
             ax.axvspan(0.0, run.case.output.settle * end, color="#eeeeee", zorder=0, lw=0)
-            ax.set_title(f"{cage}: {NAMES[cage]}", loc="left", weight="bold")
+            ax.set_title(_name(cage), loc="left", weight="bold")
             ax.yaxis.set_label_coords(-78 / _WIDTH, 0.5)
-            ax.set_ylabel(label)
+            ax.set_ylabel(curve.label)
             if i == 0 and ax.get_legend_handles_labels()[1]:
                 ax.legend(loc="lower right", bbox_to_anchor=(1.0, 1.0), ncols=3, borderaxespad=0.2)
             axes.append(ax)
@@ -102,10 +101,16 @@ def _histories(runs: Mapping[str, Run], panel: Draw, label: str, title: str, pat
         high = max(ax.get_ylim()[1] for ax in axes)
         longest = max(1e3 * run.case.solver.duration for run in runs.values())
         for ax in axes:
-            ax.set(ylim=(low, high), xlim=(0.0, longest))
+            if curve.shared:
+                ax.set_ylim(low, high)
+            ax.set_xlim(0.0, longest)
             ax.tick_params(labelbottom=ax is axes[-1])
         axes[-1].set_xlabel("time [ms]")
         return sheet.save(figure, path)
+
+
+def _name(cage: str) -> str:
+    return NAMES[cage] if cage == "sound" else f"{cage}: {NAMES[cage]}"
 
 
 def _extremes(ax: Any, t: np.ndarray, values: np.ndarray, **style: Any) -> None:
@@ -149,60 +154,85 @@ def _roller_speeds(ax: Any, run: Run) -> None:
         values = spin[:, roller] * RPM / 1e3
         _extremes(ax, run.dataset["time"].values, values, color=colour, alpha=0.8,
                   label=f"roller {name}")  # fmt: skip
-    ax.set_ylim(bottom=0.0)
 
 
-_HISTORIES: Mapping[str, tuple[Draw, str, str, str]] = {
-    "stress": (
+@dataclass(frozen=True)
+class Curve:
+    """One figure of histories: what a panel draws, its unit, and whether panels share a scale."""
+
+    panel: Draw
+    label: str
+    title: str
+    caption: str
+    shared: bool = True
+
+
+_HISTORIES: Mapping[str, Curve] = {
+    "stress": Curve(
         _stress,
         "stress [MPa]",
         "Largest equivalent stress in the cage",
-        "Largest equivalent stress in the cage over time, contact zones left out.",
+        "Largest equivalent stress in the cage over time, contact zones left out; own scales.",
+        shared=False,
     ),
-    "radial_displacement": (
+    "radial_displacement": Curve(
         _radial,
-        "displacement [um]",
+        "distance [um]",
         "Radial displacement of the cage centre",
         "Distance of the cage centre from the outer ring's axis over time.",
     ),
-    "acceleration": (
+    "acceleration": Curve(
         _acceleration,
         "m/s²",
         "Acceleration of the outer ring along the load",
         "Acceleration of the outer ring in its housing along the load, low-passed at 10 kHz.",
     ),
-    "cage_speed": (
-        _cage_speed,
-        "speed [rpm]",
-        "Cage speed",
-        "Speed of the cage over time.",
-    ),
-    "roller_speeds": (
+    "cage_speed": Curve(_cage_speed, "speed [rpm]", "Cage speed", "Speed of the cage over time."),
+    "roller_speeds": Curve(
         _roller_speeds,
         "10³ rpm",
         "Speeds of rollers j-1, j and j+1",
-        "Speeds of the rollers beside the defect, inertial frame.",
+        "Speeds of the rollers beside the defect over time, inertial frame; own scales.",
+        shared=False,
     ),
-}  # fmt: skip
+}
 
 
 def orbits(runs: Mapping[str, Run], path: Path) -> Path:
-    """Orbit of the cage centre, one square a cage, all on one scale."""
-    side, gap = 330, 40
+    """Orbit of the cage centre, one column a cage: on one scale with the land's clearance, and
+    each on its own."""
+    side, gap, between = 330, 60, 96
     paths = {cage: metrics.orbit(_settled(run)) * 1e6 for cage, run in runs.items()}
-    reach = 1.08 * max(float(np.abs(yz).max()) for yz in paths.values())
+    reach = 1.12 * max(float(np.abs(yz).max()) for yz in paths.values())
     with sheet.style():
-        figure = sheet.new_figure(_EDGE + len(runs) * (side + gap) + 20, _TOP + side + 90)
-        sheet.heading(figure, "Orbit of the cage centre after settling", "6000 rpm, 1000 N along y")
+        width = _EDGE + len(runs) * (side + gap) + 10
+        figure = sheet.new_figure(width, _TOP + 2 * side + between + 80)
+        facts = ["load along y", "circle: clearance of the land", "below, on scales of their own"]
+        sheet.heading(figure, "Orbit of the cage centre after settling", sheet.join(facts))
         for i, (cage, yz) in enumerate(paths.items()):
-            ax = sheet.axes_at(figure, (_EDGE + i * (side + gap), _TOP, side, side))
+            left = _EDGE + i * (side + gap)
+            ax = sheet.axes_at(figure, (left, _TOP, side, side))
+            _land(ax, runs[cage])
             ax.plot(yz[:, 0], yz[:, 1], color=sheet.BLUE, lw=0.4)
-            ax.set(xlim=(-reach, reach), ylim=(-reach, reach), xlabel="y [um]")
+            ax.set(xlim=(-reach, reach), ylim=(-reach, reach))
             ax.set_title(cage, loc="left", weight="bold")
-            ax.tick_params(labelleft=i == 0)
+            near = sheet.axes_at(figure, (left, _TOP + side + between, side, side))
+            near.plot(yz[:, 0], yz[:, 1], color=sheet.BLUE, lw=0.4)
+            middle = 0.5 * (yz.max(axis=0) + yz.min(axis=0))
+            half = 0.55 * float(np.ptp(yz, axis=0).max())
+            near.set(xlim=middle[0] + [-half, half], ylim=middle[1] + [-half, half])
+            near.set_xlabel("y [um]")
             if i == 0:
                 ax.set_ylabel("z [um]")
+                near.set_ylabel("z [um]")
         return sheet.save(figure, path)
+
+
+def _land(ax: Any, run: Run) -> None:
+    """The circle in which the land lets the cage centre move."""
+    angle = np.linspace(0.0, 2.0 * pi, 200)
+    clearance = run.case.contacts.land.clearance * 1e6
+    ax.plot(clearance * np.cos(angle), clearance * np.sin(angle), color=sheet.FAINT, lw=0.8)
 
 
 def _stress_image(run: Run, cage: str, path: Path) -> Path:

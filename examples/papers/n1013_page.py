@@ -9,7 +9,9 @@ from datetime import UTC, datetime
 from math import isfinite
 from pathlib import Path
 
-from n1013_claims import (
+from n1013_figures import NAMES, slug
+from n1013_reasons import FINDINGS, REASONS
+from n1013_view import (
     AFTER,
     AT,
     BASE,
@@ -24,8 +26,6 @@ from n1013_claims import (
     slip,
     spin,
 )  # fmt: skip
-from n1013_figures import NAMES, slug
-from n1013_reasons import FINDINGS, REASONS
 
 from flexcage import StudyResults, __version__
 from flexcage.study.verdicts import Line, Verdict

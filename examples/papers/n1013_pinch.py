@@ -9,7 +9,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from n1013_claims import BASE, PAPER, SHORTER, STRESS, View, shown
+from n1013_view import BASE, PAPER, SHORTER, STRESS, View, shown
 
 from flexcage import Case
 from flexcage.fem.free import FreeBodySolver

@@ -16,11 +16,11 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 
-import n1013_claims as claims
 import n1013_figures as figures
 import n1013_page as page
 import n1013_pinch as pinch
-from n1013_claims import BASE, CAGES, RIGID, SOUND
+from n1013_claims import CLAIMS
+from n1013_view import BASE, CAGES, CROSSBEAM, LONGER, RIGID, SHORTER, SOUND, View, rows_of
 
 import flexcage
 from flexcage.core.errors import FlexcageError, InputError
@@ -51,10 +51,8 @@ class Stage:
 STAGES = {
     "base": Stage(CAGES, (BASE,), 3, 0.7, "runs"),
     "rigid": Stage(CAGES, (RIGID,), 2, 0.3),
-    "crossbeam": Stage(claims.CROSSBEAM, ("Cq - Dw 0.15", "Cq - Dw 0.25"), 1, 0.2),
-    "side_beam": Stage(
-        (SOUND, claims.LONGER, claims.SHORTER), ("Cp - Lw 0.20", "Cp - Lw 0.30"), 1, 0.3
-    ),
+    "crossbeam": Stage(CROSSBEAM, ("Cq - Dw 0.15", "Cq - Dw 0.25"), 1, 0.2),
+    "side_beam": Stage((SOUND, LONGER, SHORTER), ("Cp - Lw 0.20", "Cp - Lw 0.30"), 1, 0.3),
     "friction": Stage(CAGES, ("creep / 10", "traction 2"), 1, 0.4),
     "rollers": Stage(CAGES, ("Z 21",), 1, 0.2),
     "rest": Stage((), (), 3, 3.0),  # every combination and start that is still missing
@@ -98,12 +96,12 @@ def evaluate(out: Path) -> list[Verdict]:
     """Verdicts of what the folder holds; they, the tables and the figures are written into it."""
     results = flexcage.StudyResults(out)
     results.write()
-    rows = claims.rows_of(results)
+    rows = rows_of(results)
     variations = tuple(p["label"] for p in results.study.axes[1].points)
     squeezed = pinch.pinch_map(results.study.case)
-    found = [claim.verdict(rows, variations) for claim in claims.CLAIMS]
-    found.append(pinch.verdict(squeezed, claims.View(rows)))
-    found = [page.with_reason(verdict, claims.View(rows)) for verdict in found]
+    found = [claim.verdict(rows, variations) for claim in CLAIMS]
+    found.append(pinch.verdict(squeezed, View(rows)))
+    found = [page.with_reason(verdict, View(rows)) for verdict in found]
     write_verdicts(out, found)
     figures.draw(results, rows, squeezed, out / "figures")
     return found

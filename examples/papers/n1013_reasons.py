@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 
-from n1013_claims import View
+from n1013_view import View
 
 Reason = Callable[[View], str]
 

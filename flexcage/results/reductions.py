@@ -4,12 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from math import sqrt
 from types import MappingProxyType
 from typing import TYPE_CHECKING
 
 import numpy as np
+from scipy.special import stdtrit
 
 from flexcage.results import metrics
+from flexcage.results.bootstrap import CONFIDENCE
 from flexcage.results.metrics import BearingNumbers
 from flexcage.results.registry import TIME, Variable
 from flexcage.results.statistics import Record, Windows
@@ -17,20 +20,33 @@ from flexcage.results.statistics import Record, Windows
 if TYPE_CHECKING:
     import xarray
 
+FEWEST_TURNS = 5  # of the cage, below which their spread gives no margin
 LINE = 2  # bins of a Hann window's spectrum on either side of a line that belong to it
 
 
 @dataclass(frozen=True)
 class Reducer:
     """``value`` of samples (n, ...) evenly taken every ``step`` seconds, in ``unit`` (None: the
-    variable's). ``record`` gives it by windows, from which its margin follows; ``series`` says
-    that it wants one series (n,).
+    variable's). ``record`` gives it by windows of a roller pass, from which its margin follows;
+    ``by_turns`` says that its values of single turns of the cage do. ``series`` says that it wants
+    one series (n,).
     """
 
     value: Callable[[np.ndarray, float], float]
     unit: str | None = None
     record: Callable[[Windows, np.ndarray], Record] | None = None
     series: bool = False
+    by_turns: bool = False
+
+    def margin_by_turns(self, x: np.ndarray, step: float, turns: int) -> float:
+        """Half the width of the 95 % interval by Student's t over the values of single turns of
+        ``x`` (n, ...), which holds ``turns`` of them; NaN for fewer than ``FEWEST_TURNS``.
+        """
+        if turns < FEWEST_TURNS:
+            return float("nan")
+        values = np.array([self.value(part, step) for part in np.array_split(x, turns)])
+        t = float(stdtrit(turns - 1, 0.5 * (1.0 + CONFIDENCE)))
+        return t * float(values.std(ddof=1)) / sqrt(turns)
 
 
 def kurtosis(x: np.ndarray) -> float:
@@ -84,14 +100,14 @@ REDUCTIONS: Mapping[str, Reducer] = MappingProxyType(
         "min": Reducer(lambda x, step: float(np.min(x))),
         "max": Reducer(lambda x, step: float(np.max(x))),
         "range": Reducer(lambda x, step: float(np.ptp(x))),
-        "std": Reducer(lambda x, step: float(np.std(x))),
-        "rms": Reducer(lambda x, step: float(np.sqrt(np.mean(np.square(x))))),
+        "std": Reducer(lambda x, step: float(np.std(x)), by_turns=True),
+        "rms": Reducer(lambda x, step: float(np.sqrt(np.mean(np.square(x)))), by_turns=True),
         "ripple": Reducer(_ripple, "1", lambda w, x: w.deviation(np.asarray(x, float)), True),
-        "kurtosis": Reducer(lambda x, step: kurtosis(x), "1", series=True),
+        "kurtosis": Reducer(lambda x, step: kurtosis(x), "1", series=True, by_turns=True),
         "crest": Reducer(lambda x, step: crest_factor(x), "1", series=True),
         "frequency": Reducer(lambda x, step: main_line(x, step)[0], "Hz", series=True),
         "line_share": Reducer(lambda x, step: main_line(x, step)[1], "1", series=True),
-        "mean_frequency": Reducer(mean_frequency, "Hz", series=True),
+        "mean_frequency": Reducer(mean_frequency, "Hz", series=True, by_turns=True),
     }
 )
 

@@ -5,15 +5,17 @@ from __future__ import annotations
 import re
 from collections.abc import Mapping
 from dataclasses import dataclass
-from math import isfinite
+from math import isfinite, nan, pi
 from typing import TYPE_CHECKING
+
+import numpy as np
 
 from flexcage.core.binding import did_you_mean
 from flexcage.core.errors import InputError
-from flexcage.results.metrics import settled, whole_revolutions
+from flexcage.results.metrics import cage_angle, settled, whole_revolutions
 from flexcage.results.recording import ENERGIES
 from flexcage.results.reductions import DERIVED, REDUCTIONS
-from flexcage.results.registry import LABELS, VARIABLES, Variable, variable
+from flexcage.results.registry import LABELS, TIME, VARIABLES, Variable, variable
 from flexcage.results.statistics import roller_passes
 from flexcage.results.summary import Value
 from flexcage.system.layout import CONSTRAINTS
@@ -80,11 +82,13 @@ class Reduction:
         step = float(t[-1] - t[0]) / (len(t) - 1)
         reducer = REDUCTIONS[self.reduce]
         unit = self.variable.unit if reducer.unit is None else reducer.unit
-        margin = None
-        if reducer.record is not None and dim == "time":
+        half = nan
+        if reducer.record is not None and dim == TIME:
             half = reducer.record(roller_passes(part, run.numbers), values).margin
-            margin = half if isfinite(half) else None
-        return Figure(reducer.value(values, step), unit, "", margin)
+        elif reducer.by_turns:
+            turns = round(abs(float(np.ptp(cage_angle(part)))) / (2.0 * pi))
+            half = reducer.margin_by_turns(values, step, turns)
+        return Figure(reducer.value(values, step), unit, "", half if isfinite(half) else None)
 
 
 def is_reduction(name: str) -> bool:

@@ -22,8 +22,11 @@ def papers():
     import n1013_page
     import n1013_pinch
     import n1013_pocket_deformation as script
+    import n1013_view
 
-    yield SimpleNamespace(claims=n1013_claims, page=n1013_page, pinch=n1013_pinch, script=script)
+    yield SimpleNamespace(
+        view=n1013_view, claims=n1013_claims, page=n1013_page, pinch=n1013_pinch, script=script
+    )
     sys.path.remove(str(PAPERS))
 
 
@@ -47,7 +50,7 @@ def test_the_whole_study_is_a_plan(papers):
     plan = make_plan(study)
     assert len(plan.cases) == 5 * 9 * 3
     labels = {(p.point.labels["cage"], p.point.labels["variation"]) for p in plan.cases}
-    assert {cage for cage, _ in labels} == set(papers.claims.CAGES)
+    assert {cage for cage, _ in labels} == set(papers.view.CAGES)
     case = plan.case(next(p for p in plan.cases if p.point.labels["cage"] == "dp -0.3"))
     assert case.defects[0].displacement == pytest.approx(-0.3e-3)
     assert case.cage.pocket_length - case.bearing.roller_length == pytest.approx(0.25e-3)
@@ -74,7 +77,7 @@ def test_stages_are_parts_of_the_study(papers):
 
 
 def test_stress_that_rises_holds_and_one_that_does_not_fails(papers):
-    c = papers.claims
+    c = papers.view
     rising = {cage: {c.STRESS: s, c.CORNER: s} for cage, s in zip(c.CROSSBEAM, (10e6, 12e6, 30e6))}
     one = claim(papers, "000-1")
     found = one.verdict(rows_with(rising), ("base", "Z 21"))
@@ -89,7 +92,7 @@ def test_stress_that_rises_holds_and_one_that_does_not_fails(papers):
 
 
 def test_a_roller_that_stops_drops_and_one_that_slows_by_a_percent_does_not(papers):
-    c = papers.claims
+    c = papers.view
     twelve = claim(papers, "000-12")
 
     def outcome(longer, shorter):
@@ -109,7 +112,7 @@ def test_every_claim_of_the_paper_is_there(papers):
     for c in papers.claims.CLAIMS:
         assert set(c.figures) <= outputs, c.key
         for output in c.figures:  # each has a name and a unit
-            papers.claims.shown(output, "sound", papers.claims.Estimate(1.0))
+            papers.view.shown(output, "sound", papers.view.Estimate(1.0))
 
 
 def test_the_static_pair_is_linear_and_loses_its_force_with_the_interference(papers):

@@ -58,3 +58,15 @@ def test_means_have_the_margins_of_their_windows(known_run, bearing):
     record = REDUCTIONS["mean"].record(windows, speed)
     assert record.value == pytest.approx(speed.mean())
     assert np.isfinite(record.margin)
+
+
+def test_margins_by_turns_hold_what_they_estimate():
+    """The standard deviation of white noise, of known size 2, in most of 200 records."""
+    rng = np.random.default_rng(5)
+    std, inside = REDUCTIONS["std"], 0
+    for _ in range(200):
+        x = 2.0 * rng.normal(size=4000)
+        half = std.margin_by_turns(x, STEP, 10)
+        inside += abs(std.value(x, STEP) - 2.0) <= half
+    assert 0.90 <= inside / 200 <= 0.99
+    assert np.isnan(std.margin_by_turns(x, STEP, 4))
