@@ -7,8 +7,9 @@ speed: 5 %), and a plain "more" is beyond both intervals. They are this study's 
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from functools import partial
 from math import isfinite
 
 from n1013_view import (
@@ -46,7 +47,6 @@ from n1013_view import (
 from flexcage.study.verdicts import (
     UNDECIDED,
     Estimate,
-    Line,
     Verdict,
     every,
     less,
@@ -59,43 +59,54 @@ SAME, CLEARLY = 0.10, 0.25  # shares
 SAME_SPEED, CLEAR_DROP = 0.01, 0.05  # of a roller's speed
 
 
+Test = Callable[[View], str]
+
+
 @dataclass(frozen=True)
 class Claim:
-    """One statement of the paper, its test on a view, and the figures that show it."""
+    """One statement of the paper: the tests of its parts, all of which must hold, and the figures
+    that show it."""
 
     key: str
     text: str
-    test: Callable[[View], str]
+    parts: Mapping[str, Test]
     figures: tuple[str, ...]
     cages: tuple[str, ...]
     source: str = PAPER
 
     def verdict(self, rows: Rows, variations: tuple[str, ...]) -> Verdict:
         """The verdict at the base clearances, and where else it holds of what was computed."""
-        base = View(rows)
-        outcomes, missing = {}, []
-        for name in variations:
-            view = View(rows, name)
-            if all(view.has(cage) for cage in self.cages):
-                outcomes[name] = self.test(view)
-            else:
-                missing.append(name)
-        text = range_of(outcomes)
-        if missing:
-            text += ("; " if text else "") + f"undecided, not computed: {', '.join(missing)}"
-        lines = [self._line(base, name, cage) for name in self.figures for cage in self.cages]
+        views = {name: View(rows, name) for name in variations}
+        computed = [name for name, v in views.items() if self._shown_by(v)]
+        found = {
+            part: {name: test(views[name]) for name in computed}
+            for part, test in self.parts.items()
+        }
+        whole = {name: every(outcomes[name] for outcomes in found.values()) for name in computed}
+        missing = [name for name in variations if name not in computed]
+        texts = [range_of(whole)] if computed else []
+        texts += [f"{UNDECIDED}, not computed: {', '.join(missing)}"] if missing else []
+        if len(self.parts) > 1 and computed:
+            texts += [f"({part}) {range_of(outcomes)}" for part, outcomes in found.items()]
+        lines = [
+            shown(output, cage, views[BASE](output, cage))
+            for output in self.figures
+            for cage in self.cages
+        ]
         return Verdict(
             key=self.key,
             claim=self.text,
-            outcome=outcomes.get(BASE, UNDECIDED),
+            outcome=whole.get(BASE, UNDECIDED),
             figures=tuple(line for line in lines if isfinite(line.value)),
-            range=text,
-            reason="" if BASE in outcomes else "not computed",
+            range=". ".join(texts),
+            reason="" if BASE in computed else "not computed",
             source=self.source,
         )
 
-    def _line(self, view: View, output: str, cage: str) -> Line:
-        return shown(output, cage, view(output, cage))
+    def _shown_by(self, view: View) -> bool:
+        """Whether every cage was computed, and has what the claim is about: a rigid one has no
+        stress."""
+        return all(isfinite(view(self.figures[0], cage).value) for cage in self.cages)
 
 
 def _magnitude(figure: Estimate) -> Estimate:
@@ -126,16 +137,23 @@ def _more(view: View, output: str, cage: str, *, than: str = SOUND, by: float = 
     return less(view(output, than), view(output, cage), by=by)
 
 
-def _rises_then_falls(view: View, output: str) -> str:
-    sound, first, second = view.along(output, CROSSBEAM)
-    return every([less(sound, first), less(second, first)])
+def _rises(output: str) -> Test:
+    return lambda v: less(v(output, SOUND), v(output, BENT1))
+
+
+def _falls_again(output: str) -> Test:
+    return lambda v: less(v(output, BENT2), v(output, BENT1))
+
+
+def _all_rise(output: str) -> Test:
+    return lambda v: monotone(v.along(output, CROSSBEAM))
 
 
 CLAIMS: tuple[Claim, ...] = (
     Claim(
         "000-1",
         "Cage stress rises with delta_q: 0 < 0.1 < 0.2 mm",
-        lambda v: every(monotone(v.along(o, CROSSBEAM)) for o in (STRESS, CORNER)),
+        {"mean of the peak": _all_rise(STRESS), "pocket corners": _all_rise(CORNER)},
         (STRESS, CORNER, "stress_peak"),
         CROSSBEAM,
     ),
@@ -143,7 +161,7 @@ CLAIMS: tuple[Claim, ...] = (
         "000-2",
         "The amplitude of the cage's radial displacement rises from delta_q = 0 to 0.1 mm and "
         "falls at 0.2 mm",
-        lambda v: _rises_then_falls(v, REACH),
+        {"rises to 0.1": _rises(REACH), "falls at 0.2": _falls_again(REACH)},
         (REACH, "cage_radial_displacement.mean"),
         CROSSBEAM,
     ),
@@ -151,7 +169,11 @@ CLAIMS: tuple[Claim, ...] = (
         "000-3",
         "The whirl radius grows from delta_q = 0 to 0.1 mm and falls at 0.2 mm, and the orbit is "
         "more dispersed",
-        lambda v: every([_rises_then_falls(v, WHIRL), _more(v, SPREAD, BENT2)]),
+        {
+            "grows to 0.1": _rises(WHIRL),
+            "falls at 0.2": _falls_again(WHIRL),
+            "more dispersed": lambda v: _more(v, SPREAD, BENT2),
+        },
         (WHIRL, SPREAD),
         CROSSBEAM,
     ),
@@ -159,7 +181,7 @@ CLAIMS: tuple[Claim, ...] = (
         "000-4",
         "The outer ring's acceleration is a stable band in a sound cage and gets irregular spikes "
         "(kurtosis) with any deformation",
-        lambda v: every(_more(v, SPIKES, cage) for cage in CAGES[1:]),
+        {cage: partial(_more, output=SPIKES, cage=cage) for cage in CAGES[1:]},
         (SPIKES, CREST, "outer_acceleration_filtered[axis2=y].rms"),
         CAGES,
     ),
@@ -167,28 +189,26 @@ CLAIMS: tuple[Claim, ...] = (
         "000-5",
         "Cage speed ripple: unchanged at delta_q = 0.1 mm; amplitude and frequency clearly up at "
         "0.2 mm",
-        lambda v: every(
-            [
-                _same(v, RIPPLE, BENT1),
-                _more(v, RIPPLE, BENT2, by=CLEARLY),
-                _more(v, PITCH, BENT2, by=CLEARLY),
-            ]
-        ),
-        (RIPPLE, PITCH),
+        {
+            "unchanged at 0.1": partial(_same, output=RIPPLE, cage=BENT1),
+            "amplitude up at 0.2": partial(_more, output=RIPPLE, cage=BENT2, by=CLEARLY),
+            "frequency up at 0.2": partial(_more, output=PITCH, cage=BENT2, by=CLEARLY),
+        },
+        (RIPPLE, PITCH, "cage_omega[axis=x].frequency"),
         CROSSBEAM,
     ),
     Claim(
         "000-6",
         "Speed of roller j-1: unchanged at delta_q = 0.1 mm, a large drop and more ripple at "
         "0.2 mm; rollers j and j+1 unchanged",
-        lambda v: every(
-            [
-                _steady(v, BEFORE, BENT1),
-                _drops(v, BEFORE, BENT2),
-                _more(v, spin_ripple(BEFORE), BENT2),
-                *(_steady(v, r, cage) for r in (AT, AFTER) for cage in (BENT1, BENT2)),
-            ]
-        ),
+        {
+            "j-1 unchanged at 0.1": partial(_steady, roller=BEFORE, cage=BENT1),
+            "j-1 drops at 0.2": partial(_drops, roller=BEFORE, cage=BENT2),
+            "j-1 more ripple at 0.2": partial(_more, output=spin_ripple(BEFORE), cage=BENT2),
+            "j and j+1 unchanged": lambda v: every(
+                _steady(v, r, cage) for r in (AT, AFTER) for cage in (BENT1, BENT2)
+            ),
+        },
         (spin(BEFORE), spin_ripple(BEFORE), spin(AT), spin(AFTER)),
         CROSSBEAM,
     ),
@@ -196,23 +216,25 @@ CLAIMS: tuple[Claim, ...] = (
         "000-7",
         "Slip of roller j-1: slightly lower at delta_q = 0.1 mm, sharply higher at 0.2 mm; others "
         "unchanged",
-        lambda v: every(
-            [
-                less(v(slip(BEFORE), BENT1), v(slip(BEFORE), SOUND)),
-                _more(v, slip(BEFORE), BENT2, by=CLEARLY),
-                *(_same(v, slip(r), cage) for r in (AT, AFTER) for cage in (BENT1, BENT2)),
-            ]
-        ),
+        {
+            "j-1 lower at 0.1": lambda v: less(v(slip(BEFORE), BENT1), v(slip(BEFORE), SOUND)),
+            "j-1 sharply higher at 0.2": partial(
+                _more, output=slip(BEFORE), cage=BENT2, by=CLEARLY
+            ),
+            "j and j+1 unchanged": lambda v: every(
+                _same(v, slip(r), cage) for r in (AT, AFTER) for cage in (BENT1, BENT2)
+            ),
+        },
         (slip(BEFORE), slip(AT), slip(AFTER)),
         CROSSBEAM,
     ),
     Claim(
         "000-8",
-        "Cage stress: unchanged at delta_p = +0.3 mm, a strong increase at -0.3 mm (the paper: "
-        "320.51 MPa)",
-        lambda v: every(
-            [_same(v, STRESS, LONGER), _more(v, STRESS, SHORTER, by=CLEARLY)]
-        ),
+        "Cage stress: unchanged at delta_p = +0.3 mm, a strong increase at -0.3 mm",
+        {
+            "unchanged at +0.3": partial(_same, output=STRESS, cage=LONGER),
+            "strong increase at -0.3": partial(_more, output=STRESS, cage=SHORTER, by=CLEARLY),
+        },
         (STRESS, CORNER, "stress_peak"),
         (SOUND, LONGER, SHORTER),
     ),
@@ -220,21 +242,22 @@ CLAIMS: tuple[Claim, ...] = (
         "000-9",
         "Radial displacement of the cage: unchanged at delta_p = +0.3 mm, sinusoidal at -0.3 mm, "
         "at one characteristic frequency",
-        lambda v: every([_same(v, REACH, LONGER), _more(v, LINE_SHARE, SHORTER, by=CLEARLY)]),
+        {
+            "unchanged at +0.3": partial(_same, output=REACH, cage=LONGER),
+            "one line at -0.3": partial(_more, output=LINE_SHARE, cage=SHORTER, by=CLEARLY),
+        },
         (REACH, LINE_AT, LINE_SHARE),
         (SOUND, LONGER, SHORTER),
     ),
     Claim(
         "000-10",
         "Orbit: larger and more chaotic at delta_p = +0.3 mm; regular and smaller at -0.3 mm",
-        lambda v: every(
-            [
-                _more(v, WHIRL, LONGER),
-                _more(v, SPREAD, LONGER),
-                less(v(WHIRL, SHORTER), v(WHIRL, SOUND)),
-                less(v(SPREAD, SHORTER), v(SPREAD, SOUND)),
-            ]
-        ),
+        {
+            "larger at +0.3": partial(_more, output=WHIRL, cage=LONGER),
+            "more chaotic at +0.3": partial(_more, output=SPREAD, cage=LONGER),
+            "smaller at -0.3": lambda v: less(v(WHIRL, SHORTER), v(WHIRL, SOUND)),
+            "regular at -0.3": lambda v: less(v(SPREAD, SHORTER), v(SPREAD, SOUND)),
+        },
         (WHIRL, SPREAD, "whirl_ratio"),
         (SOUND, LONGER, SHORTER),
     ),
@@ -242,34 +265,37 @@ CLAIMS: tuple[Claim, ...] = (
         "000-11",
         "Cage speed ripple: smaller at delta_p = +0.3 mm; larger and of higher frequency at "
         "-0.3 mm",
-        lambda v: every(
-            [
-                less(v(RIPPLE, LONGER), v(RIPPLE, SOUND)),
-                _more(v, RIPPLE, SHORTER),
-                _more(v, PITCH, SHORTER),
-            ]
-        ),
-        (RIPPLE, PITCH),
+        {
+            "smaller at +0.3": lambda v: less(v(RIPPLE, LONGER), v(RIPPLE, SOUND)),
+            "larger at -0.3": partial(_more, output=RIPPLE, cage=SHORTER),
+            "of higher frequency at -0.3": partial(_more, output=PITCH, cage=SHORTER),
+        },
+        (RIPPLE, PITCH, "cage_omega[axis=x].frequency"),
         (SOUND, LONGER, SHORTER),
     ),
     Claim(
         "000-12",
         "Speed of roller j: unchanged at delta_p = +0.3 mm, drops at -0.3 mm",
-        lambda v: every([_steady(v, AT, LONGER), _drops(v, AT, SHORTER)]),
+        {
+            "unchanged at +0.3": partial(_steady, roller=AT, cage=LONGER),
+            "drops at -0.3": partial(_drops, roller=AT, cage=SHORTER),
+        },
         (spin(AT), spin_ripple(AT)),
         (SOUND, LONGER, SHORTER),
     ),
     Claim(
         "000-13",
-        "A side-beam fault (-0.3 mm) changes the slip of rollers j-1 and j+1; a crossbeam fault "
+        "A side-beam fault (-0.3 mm) raises the slip of rollers j-1 and j+1; a crossbeam fault "
         "(0.2 mm) leaves that of rollers j and j+1 as it was",
-        lambda v: every(
-            [
-                *(_more(v, slip(r), SHORTER, by=SAME) for r in (BEFORE, AFTER)),
-                *(_same(v, slip(r), BENT2) for r in (AT, AFTER)),
-            ]
-        ),
+        {
+            "side beam: j-1 and j+1 slip more": lambda v: every(
+                _more(v, slip(r), SHORTER, by=SAME) for r in (BEFORE, AFTER)
+            ),
+            "crossbeam: j and j+1 unchanged": lambda v: every(
+                _same(v, slip(r), BENT2) for r in (AT, AFTER)
+            ),
+        },
         (slip(BEFORE), slip(AT), slip(AFTER)),
         (SOUND, BENT2, SHORTER),
     ),
-)  # fmt: skip
+)

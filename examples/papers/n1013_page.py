@@ -6,7 +6,6 @@ import shutil
 from collections.abc import Iterable, Sequence
 from dataclasses import replace
 from datetime import UTC, datetime
-from math import isfinite
 from pathlib import Path
 
 from n1013_figures import NAMES, slug
@@ -25,10 +24,12 @@ from n1013_view import (
     shown,
     slip,
     spin,
+    written,
 )  # fmt: skip
 
 from flexcage import StudyResults, __version__
-from flexcage.study.verdicts import Line, Verdict
+from flexcage.render import sheet
+from flexcage.study.verdicts import Verdict
 
 HERE = Path(__file__).parent
 _BESIDE = (
@@ -85,7 +86,7 @@ def _table(verdicts: Sequence[Verdict]) -> str:
 def _details(verdicts: Sequence[Verdict]) -> str:
     parts = ["## Figures and reasons"]
     for v in verdicts:
-        lines = "; ".join(f"{line.label}: {text(line)}" for line in v.figures)
+        lines = "; ".join(f"{line.label}: {written(line)}" for line in v.figures)
         parts.append(f"**{v.key}, {v.outcome}.** {v.reason}\n\n{lines}.")
     return "\n\n".join(parts)
 
@@ -94,7 +95,7 @@ def _slips(view: View) -> str:
     """What the paper's Tables 2 and 3 hold: slip ratios of the three rollers."""
     rollers = {"j-1": BEFORE, "j": AT, "j+1": AFTER}
     rows = [
-        (cage, *(text(shown(kind(r), cage, view(kind(r), cage))) for kind in (slip, spin)
+        (cage, *(written(shown(kind(r), cage, view(kind(r), cage))) for kind in (slip, spin)
                  for r in rollers.values()))
         for cage in CAGES if view.has(cage)
     ]  # fmt: skip
@@ -112,7 +113,7 @@ def _beside(view: View) -> str:
     for output in _BESIDE:
         lines = [shown(output, cage, view(output, cage)) for cage in cages]
         name = lines[0].label.rpartition(",")[0]
-        rows.append((name, *(text(line) for line in lines)))
+        rows.append((name, *(written(line) for line in lines)))
     return "## Beside the claims\n\n" + markdown(("", *cages), rows)
 
 
@@ -128,12 +129,24 @@ def _copy_images(pictures: Path, folder: Path) -> list[Path]:
     return found
 
 
-def _shrink(path: Path) -> None:
-    """Write the image with a palette of 256 colours, which halves it."""
-    from PIL import Image
+def _shrink(path: Path, *, width: int = 1250) -> None:
+    """Write the image no wider than ``width`` pixels, in the 256 colours of stress pictures: their
+    colour map, greys, and the colour of what lies beyond the range."""
+    import matplotlib as mpl
+    from PIL import Image, ImageColor
 
     image = Image.open(path).convert("RGB")
-    image.quantize(256, dither=Image.Dither.NONE).save(path, optimize=True)
+    if image.width > width:
+        size = (width, round(image.height * width / image.width))
+        image = image.resize(size, Image.Resampling.LANCZOS)
+    viridis = mpl.colormaps["viridis"].resampled(200)
+    colours = [round(255 * part) for k in range(200) for part in viridis(k)[:3]]
+    colours += [level for k in range(51) for level in [round(5.1 * k)] * 3]
+    for name in (sheet.VERMILION, sheet.BLUE, sheet.SKY, sheet.GREEN, sheet.ORANGE):
+        colours += ImageColor.getrgb(name)[:3]
+    palette = Image.new("P", (1, 1))
+    palette.putpalette(colours)
+    image.quantize(palette=palette, dither=Image.Dither.NONE).save(path, optimize=True)
 
 
 def _pictures(images: Sequence[Path]) -> str:
@@ -170,19 +183,6 @@ python examples/papers/n1013_pocket_deformation.py --stages {BASE}        # the 
 python examples/papers/n1013_pocket_deformation.py --page              # all, and this page
 ```
 """
-
-
-def text(line: Line) -> str:
-    """A figure with its margin and unit, as the page prints it."""
-    if not isfinite(line.value):
-        return "-"
-    margin = f" ± {line.margin:.2g}" if isfinite(line.margin) else ""
-    return f"{_digits(line.value)}{margin} {line.unit}".strip()
-
-
-def _digits(value: float) -> str:
-    size = abs(value)
-    return f"{value:,.0f}" if size >= 1e3 else f"{value:.1f}" if size >= 100 else f"{value:.3g}"
 
 
 def markdown(head: Iterable[str], rows: Iterable[Iterable[str]]) -> str:

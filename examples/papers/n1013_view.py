@@ -59,6 +59,12 @@ SHOWN: Mapping[str, tuple[str, str, float]] = {
     "inner_speed.ripple": ("inner ring's speed ripple", "%", 100.0),
     "inner_speed.frequency": ("its strongest line", "Hz", 1.0),
     "cage_centre_shift": ("shift of the mass centre", "um", 1e6),
+    "pocket_force[pocket=4,face=front].mean": ("push of roller j-1 on the cage, mean", "N", 1.0),
+    "pocket_force[pocket=5,face=front].mean": ("push of roller j on the cage, mean", "N", 1.0),
+    "pocket_force[pocket=5,face=side+x].mean": ("force on the pushed side beam, mean", "N", 1.0),
+    "land_force[axis=z].mean": ("land force on the cage along z", "N", 1.0),
+    "cage_position[axis=z].mean": ("mean displacement of the cage along z", "um", 1e6),
+    "slip_loaded": ("slip in the loaded zone", "%", 100.0),
     "pinch_force": ("pinch force", "N", 1.0),
 }  # fmt: skip
 _ROLLERS = {BEFORE: "j-1", AT: "j", AFTER: "j+1"}
@@ -106,6 +112,19 @@ def shown(output: str, cage: str, figure: Estimate) -> Line:
     label, unit, factor = SHOWN.get(output) or _of_roller(output)
     margin = factor * figure.margin if isfinite(figure.margin) else nan
     return Line(f"{label}, {cage}", factor * figure.value, abs(margin), unit)
+
+
+def written(line: Line) -> str:
+    """A figure with its margin and unit, in words."""
+    if not isfinite(line.value):
+        return "-"
+    margin = f" ± {line.margin:.2g}" if isfinite(line.margin) and line.margin else ""
+    return f"{_digits(line.value)}{margin} {line.unit}".strip()
+
+
+def _digits(value: float) -> str:
+    size = abs(value)
+    return f"{value:,.0f}" if size >= 1e3 else f"{value:.1f}" if size >= 100 else f"{value:.3g}"
 
 
 def _of_roller(output: str) -> tuple[str, str, float]:
