@@ -246,7 +246,7 @@ CLAIMS: tuple[Claim, ...] = (
             "unchanged at +0.3": partial(_same, output=REACH, cage=LONGER),
             "one line at -0.3": partial(_more, output=LINE_SHARE, cage=SHORTER, by=CLEARLY),
         },
-        (REACH, LINE_AT, LINE_SHARE),
+        (REACH, LINE_AT, LINE_SHARE, "whirl_speed_ratio"),
         (SOUND, LONGER, SHORTER),
     ),
     Claim(

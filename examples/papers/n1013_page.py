@@ -9,7 +9,7 @@ from datetime import UTC, datetime
 from pathlib import Path
 
 from n1013_figures import NAMES, slug
-from n1013_reasons import FINDINGS, REASONS
+from n1013_reasons import reason_of
 from n1013_view import (
     AFTER,
     AT,
@@ -40,9 +40,9 @@ _BESIDE = (
 
 def with_reason(verdict: Verdict, view: View) -> Verdict:
     """The verdict with the mechanical reason that the figures show, where there is one."""
-    reason = REASONS.get((verdict.key, verdict.outcome))
-    computed = verdict.reason != "not computed"
-    return replace(verdict, reason=reason(view)) if reason and computed else verdict
+    if verdict.reason:  # not computed
+        return verdict
+    return replace(verdict, reason=reason_of(verdict.key, verdict.outcome, view))
 
 
 def write(results: StudyResults, verdicts: Sequence[Verdict], pictures: Path) -> Path:
@@ -50,7 +50,7 @@ def write(results: StudyResults, verdicts: Sequence[Verdict], pictures: Path) ->
     view = View(rows_of(results))
     images = _copy_images(pictures, HERE / "images")
     parts = [
-        _head(results), _table(verdicts), FINDINGS(view), _details(verdicts),
+        _head(results), _table(verdicts), _details(verdicts),
         _slips(view), _beside(view), _pictures(images), _TAIL,
     ]  # fmt: skip
     path = HERE / "README.md"
@@ -73,7 +73,7 @@ left out, and 10 turns of the cage remain. "±" is half of a 95 % interval."""
 
 
 def _table(verdicts: Sequence[Verdict]) -> str:
-    rows = [(v.key, v.claim, f"**{v.outcome}**", v.range) for v in verdicts]
+    rows = [(v.key, v.claim, f"**{v.outcome}**", v.range.partition(". (")[0]) for v in verdicts]
     head = (
         "",
         "claim of the paper",

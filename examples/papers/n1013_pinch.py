@@ -144,6 +144,14 @@ def verdict(found: PinchMap, view: View) -> Verdict:
         range=f"Cp - Lw of {_clearance(found, WITHIN)} to {_clearance(found, 1 / WITHIN)} mm by "
         "the static pair, exact at "
         f"{found.clearance_of(CLAIMED) * 1e3:.3f} mm; {BASE}: 0.25 mm",
+        reason="The load is a self-equilibrated pair of axial forces: it needs no motion, so the "
+        "stress is there from the assembly on and stands still while the bearing turns. It is the "
+        "interference over the compliance of the pocket, so 0.01 mm of clearance is worth "
+        f"{0.01e-3 / found.compliance * found.corner * 1e-6:.0f} MPa, and the clearance decides. "
+        "A real cage of cast brass (proof stress "
+        f"{found.proof * 1e-6:.0f} MPa) yields once the pocket is shortened by more than "
+        f"{(DISPLACEMENT - limit) * 1e6:.0f} um beyond its clearance; past it the stress of a "
+        "linear cage is not that of the metal, and the interference turns into a permanent set.",
         source=f"{PAPER}, conclusion 2",
     )
 

@@ -100,7 +100,7 @@ def compute(study: Study, stages: Sequence[str], out: Path, *, workers: int) -> 
     Folder(out).prepare(make_plan(study))  # the folder's study is the whole of it again
 
 
-def evaluate(out: Path) -> list[Verdict]:
+def evaluate(out: Path, *, draw: bool = True) -> list[Verdict]:
     """Verdicts of what the folder holds; they, the tables and the figures are written into it."""
     results = flexcage.StudyResults(out)
     results.write()
@@ -111,7 +111,8 @@ def evaluate(out: Path) -> list[Verdict]:
     found.append(pinch.verdict(squeezed, View(rows)))
     found = [page.with_reason(verdict, View(rows)) for verdict in found]
     write_verdicts(out, found)
-    figures.draw(results, rows, squeezed, out / "figures")
+    if draw:
+        figures.draw(results, rows, squeezed, out / "figures")
     return found
 
 
@@ -124,7 +125,7 @@ def main(arguments: Sequence[str] | None = None) -> list[Verdict]:
         flexcage.run_study(study, out=out, workers=options.workers, progress=Progress)
     else:
         compute(study, _chosen(options.stages), out, workers=options.workers)
-    found = evaluate(out)
+    found = evaluate(out, draw=not options.no_figures)
     for verdict in found:
         print(f"{verdict.key:8} {verdict.outcome:14} {verdict.claim}")
     if options.page:
@@ -143,7 +144,10 @@ def _chosen(text: str) -> list[str]:
 def _parser() -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
     parser.add_argument("--quick", action="store_true", help="one short start of every cage")
-    parser.add_argument("--stages", default=",".join(STAGES), help="parts to compute, in order")
+    parser.add_argument(
+        "--stages", default=",".join(STAGES), help="parts to compute, in order; '' for none"
+    )
+    parser.add_argument("--no-figures", action="store_true", help="draw nothing anew")
     parser.add_argument("-o", "--out", type=Path, help="the study's folder")
     parser.add_argument("--workers", type=int, default=1, help="processes")
     parser.add_argument("--page", action="store_true", help="write README.md beside this script")

@@ -54,6 +54,8 @@ SHOWN: Mapping[str, tuple[str, str, float]] = {
     "outer_acceleration_filtered[axis2=y].rms": ("rms of the ring's acceleration", "m/s²", 1.0),
     "stress_root": ("largest pocket corner stress", "MPa", 1e-6),
     "cage_omega[axis=x].frequency": ("strongest line of the ripple", "Hz", 1.0),
+    "whirl_speed_ratio": ("whirl speed over cage speed", "", 1.0),
+    "pocket_force_peak": ("hardest blow in a pocket", "N", 1.0),
     "whirl_ratio": ("whirl (max - min)/mean", "", 1.0),
     "cage_slip_ratio": ("cage slip ratio", "%", 100.0),
     "inner_speed.ripple": ("inner ring's speed ripple", "%", 100.0),

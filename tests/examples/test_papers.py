@@ -1,6 +1,7 @@
 """The papers' studies: their texts load and plan, and their claims judge figures of known order."""
 
 import sys
+from dataclasses import replace
 from pathlib import Path
 from types import SimpleNamespace
 
@@ -138,6 +139,19 @@ def test_the_page_is_a_table(papers):
     verdict = Verdict(key="1", claim="a < b", outcome=HOLDS)
     table = papers.page._table([verdict]).splitlines()
     assert table[-1] == "| 1 | a < b | **holds** |  |"
+
+
+def test_a_reason_has_the_figures_and_only_for_the_outcome_it_explains(papers):
+    c = papers.view
+    speeds = {c.SOUND: -2900.0, c.LONGER: -2900.0, c.SHORTER: 280.0}
+    rows = rows_with({cage: {c.spin(5): w, c.spin_ripple(5): 0.01} for cage, w in speeds.items()})
+    found = claim(papers, "000-12").verdict(rows, ("base",))
+    text = papers.page.with_reason(found, c.View(rows)).reason
+    assert found.outcome == HOLDS and "-2,674" in text and "27,693" in text  # rpm
+    failed = replace(found, outcome=FAILS)
+    assert papers.page.with_reason(failed, c.View(rows)).reason == ""
+    missing = claim(papers, "000-12").verdict({}, ("base",))
+    assert papers.page.with_reason(missing, c.View({})).reason == "not computed"
 
 
 @pytest.mark.slow
