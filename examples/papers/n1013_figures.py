@@ -201,7 +201,7 @@ _HISTORIES: Mapping[str, Curve] = {
 def orbits(runs: Mapping[str, Run], path: Path) -> Path:
     """Orbit of the cage centre, one column a cage: on one scale with the land's clearance, and
     each on its own."""
-    side, gap, between = 330, 60, 96
+    side, gap, between = 320, 84, 70
     paths = {cage: metrics.orbit(_settled(run)) * 1e6 for cage, run in runs.items()}
     reach = 1.12 * max(float(np.abs(yz).max()) for yz in paths.values())
     with sheet.style():
@@ -216,6 +216,7 @@ def orbits(runs: Mapping[str, Run], path: Path) -> Path:
             ax.plot(yz[:, 0], yz[:, 1], color=sheet.BLUE, lw=0.4)
             ax.set(xlim=(-reach, reach), ylim=(-reach, reach))
             ax.set_title(cage, loc="left", weight="bold")
+            ax.tick_params(labelleft=i == 0)
             near = sheet.axes_at(figure, (left, _TOP + side + between, side, side))
             near.plot(yz[:, 0], yz[:, 1], color=sheet.BLUE, lw=0.4)
             middle = 0.5 * (yz.max(axis=0) + yz.min(axis=0))
@@ -254,9 +255,12 @@ _CAPTION_PINCH = (
 )
 
 
+_NARROWEST = 0.19e-3  # m, the least clearance that is drawn
+
+
 def pinch_picture(found: PinchMap, path: Path) -> Path:
     """Corner stress of the pinched pocket against the clearance."""
-    clearances = np.linspace(0.0, DISPLACEMENT, 61)
+    clearances = np.linspace(_NARROWEST, DISPLACEMENT, 61)
     pair = np.array([found.static(c).corner for c in clearances]) * 1e-6
     with sheet.style():
         figure = sheet.new_figure(1100, 760)
@@ -277,8 +281,8 @@ def pinch_picture(found: PinchMap, path: Path) -> Path:
         lines = ((CLAIMED, "the paper: 320.51 MPa"), (found.proof, "proof stress of cast brass"))
         for level, text in lines:
             ax.axhline(level * 1e-6, color=sheet.FAINT, ls="--", lw=1.0)
-            ax.text(0.002, level * 1e-6, f" {text}", va="bottom", color=sheet.FAINT)
+            ax.text(_NARROWEST * 1e3, level * 1e-6, f" {text}", va="bottom", color=sheet.FAINT)
         ax.set(xlabel="axial clearance Cp - Lw of a sound pocket [mm]", ylabel="stress [MPa]")
-        ax.set(xlim=(0.0, 0.32), ylim=(0.0, None))
+        ax.set(xlim=(_NARROWEST * 1e3, 0.305), ylim=(0.0, None))
         ax.legend(loc="upper right")
         return sheet.save(figure, path)

@@ -2,6 +2,7 @@
 
 import sys
 from dataclasses import replace
+from math import isnan
 from pathlib import Path
 from types import SimpleNamespace
 
@@ -127,6 +128,10 @@ def test_the_static_pair_is_linear_and_loses_its_force_with_the_interference(pap
     assert found.static(0.25e-3).corner == pytest.approx(250e6)
     assert found.static(0.31e-3).force == 0.0
     assert found.clearance_of(250e6) == pytest.approx(0.25e-3)
+    two = tuple(p.Squeezed(c, 0.0, s, s) for c, s in ((0.2e-3, 700e6), (0.28e-3, 100e6)))
+    bearings = replace(found, assembled=two)
+    assert bearings.assembled_clearance_of(400e6) == pytest.approx(0.24e-3)
+    assert isnan(bearings.assembled_clearance_of(50e6))
 
 
 def test_a_mistaken_stage_is_refused(papers, tmp_path):
