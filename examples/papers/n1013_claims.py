@@ -78,6 +78,7 @@ class Claim:
         """The verdict at the base clearances, and where else it holds of what was computed."""
         views = {name: View(rows, name) for name in variations}
         computed = [name for name, v in views.items() if self._shown_by(v)]
+        partly = [name for name in computed if not all(map(views[name].has, self.cages))]
         found = {
             part: {name: test(views[name]) for name in computed}
             for part, test in self.parts.items()
@@ -85,6 +86,7 @@ class Claim:
         whole = {name: every(outcomes[name] for outcomes in found.values()) for name in computed}
         missing = [name for name in variations if name not in computed]
         texts = [range_of(whole)] if computed else []
+        texts += [f"in part computed: {', '.join(partly)}"] if partly else []
         texts += [f"{UNDECIDED}, not computed: {', '.join(missing)}"] if missing else []
         if len(self.parts) > 1 and computed:
             texts += [f"({part}) {range_of(outcomes)}" for part, outcomes in found.items()]
@@ -104,9 +106,10 @@ class Claim:
         )
 
     def _shown_by(self, view: View) -> bool:
-        """Whether every cage was computed, and has what the claim is about: a rigid one has no
-        stress."""
-        return all(isfinite(view(self.figures[0], cage).value) for cage in self.cages)
+        """Whether the sound cage and another were computed, and have what the claim is about: a
+        rigid cage has no stress. A part that needs a cage which is missing stays undecided."""
+        first, *others = (isfinite(view(self.figures[0], cage).value) for cage in self.cages)
+        return first and any(others)
 
 
 def _magnitude(figure: Estimate) -> Estimate:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from math import isfinite, nan
+from math import floor, isfinite, log10, nan
 
 from flexcage.study.results import ResultRow, StudyResults
 from flexcage.study.verdicts import Estimate, Line, pooled
@@ -120,13 +120,19 @@ def written(line: Line) -> str:
     """A figure with its margin and unit, in words."""
     if not isfinite(line.value):
         return "-"
-    margin = f" ± {line.margin:.2g}" if isfinite(line.margin) and line.margin else ""
-    return f"{_digits(line.value)}{margin} {line.unit}".strip()
+    told = isfinite(line.margin) and line.margin > 1e-9 * abs(line.value)
+    margin = f" ± {_digits(line.margin, 2)}" if told else ""
+    return f"{_digits(line.value, 4)}{margin} {line.unit}".strip()
 
 
-def _digits(value: float) -> str:
+def _digits(value: float, count: int) -> str:
+    """``count`` significant digits without an exponent, and no decimals from a thousand on."""
     size = abs(value)
-    return f"{value:,.0f}" if size >= 1e3 else f"{value:.1f}" if size >= 100 else f"{value:.3g}"
+    if size < 1e-9:
+        return "0"
+    if size >= 1e3:
+        return f"{value:,.0f}"
+    return f"{value:.{max(count - 1 - floor(log10(size)), 0)}f}"
 
 
 def _of_roller(output: str) -> tuple[str, str, float]:
