@@ -83,13 +83,18 @@ class Claim:
             part: {name: test(views[name]) for name in computed}
             for part, test in self.parts.items()
         }
+        decided = {
+            part: {n: o for n, o in outcomes.items() if n not in partly or o != UNDECIDED}
+            for part, outcomes in found.items()
+        }
         whole = {name: every(outcomes[name] for outcomes in found.values()) for name in computed}
         missing = [name for name in variations if name not in computed]
-        texts = [range_of(whole)] if computed else []
+        known = {n: o for n, o in whole.items() if n not in partly or o != UNDECIDED}
+        texts = [range_of(known)] if known else []
         texts += [f"in part computed: {', '.join(partly)}"] if partly else []
         texts += [f"{UNDECIDED}, not computed: {', '.join(missing)}"] if missing else []
         if len(self.parts) > 1 and computed:
-            texts += [f"({part}) {range_of(outcomes)}" for part, outcomes in found.items()]
+            texts += [f"({part}) {range_of(outcomes)}" for part, outcomes in decided.items()]
         lines = [
             shown(output, cage, views[BASE](output, cage))
             for output in self.figures

@@ -9,7 +9,7 @@ from datetime import UTC, datetime
 from pathlib import Path
 
 from n1013_figures import NAMES, slug
-from n1013_reasons import reason_of
+from n1013_reasons import findings, reason_of
 from n1013_view import (
     AFTER,
     AT,
@@ -52,7 +52,7 @@ def write(results: StudyResults, verdicts: Sequence[Verdict], pictures: Path) ->
     view = View(rows_of(results))
     images = _copy_images(pictures, HERE / "images")
     parts = [
-        _head(results), _table(verdicts), _details(verdicts),
+        _head(results), _table(verdicts), _short(verdicts), findings(view), _details(verdicts),
         _slips(view), _beside(results, view), _pictures(images), _TAIL,
     ]  # fmt: skip
     path = HERE / "README.md"
@@ -113,11 +113,11 @@ def _details(verdicts: Sequence[Verdict]) -> str:
 def _figures(verdict: Verdict) -> str:
     """The figures as a table with a column a cage, or one below the other."""
     table: dict[str, dict[str, str]] = {}
-    for line in verdict.figures:
-        name, _, cage = line.label.rpartition(", ")
-        if cage not in CAGES:
-            name, cage = line.label, ""
-        table.setdefault(name, {})[cage] = written(line)
+    split = [line.label.rpartition(", ") for line in verdict.figures]
+    by_cage = all(cage in CAGES for _, _, cage in split)
+    for line, (name, _, cage) in zip(verdict.figures, split):
+        row, column = (name, cage) if by_cage else (line.label, "")
+        table.setdefault(row, {})[column] = written(line)
     cages = [cage for cage in (*CAGES, "") if any(cage in cells for cells in table.values())]
     rows = [(name, *(cells.get(cage, "") for cage in cages)) for name, cells in table.items()]
     return markdown(("", *cages), rows)

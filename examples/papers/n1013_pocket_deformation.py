@@ -119,6 +119,8 @@ def evaluate(out: Path, *, draw: bool = True) -> list[Verdict]:
 def main(arguments: Sequence[str] | None = None) -> list[Verdict]:
     """Compute, evaluate, and print the verdicts."""
     options = _parser().parse_args(arguments)
+    if options.quick and options.page:
+        raise InputError("The page is that of the whole study; leave out --quick or --page.")
     out = options.out or (OUT.with_name(f"{OUT.name}_quick") if options.quick else OUT)
     study = load(quick=options.quick)
     if options.quick:

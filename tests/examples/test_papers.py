@@ -134,9 +134,11 @@ def test_the_static_pair_is_linear_and_loses_its_force_with_the_interference(pap
     assert isnan(bearings.assembled_clearance_of(50e6))
 
 
-def test_a_mistaken_stage_is_refused(papers, tmp_path):
+def test_mistakes_are_refused_before_anything_is_computed(papers, tmp_path):
     with pytest.raises(InputError, match="There is no stage 'bsae'; choose from base"):
         papers.script.main(["--stages", "bsae", "-o", str(tmp_path / "out")])
+    with pytest.raises(InputError, match="leave out --quick or --page"):
+        papers.script.main(["--quick", "--page", "-o", str(tmp_path / "out")])
     assert not (tmp_path / "out").exists()
 
 
