@@ -1,11 +1,12 @@
 """Lubricants 2025, 13(11), 495 as a study: five cages in an N1013, and what becomes of its claims.
 
-    python examples/papers/n1013_pocket_deformation.py --quick     # a look: minutes
+    python examples/papers/n1013_pocket_deformation.py --quick     # a look, ten minutes
     python examples/papers/n1013_pocket_deformation.py --stages base,rigid
     python examples/papers/n1013_pocket_deformation.py             # all of it: hours
 
-The study's folder (default runs/n1013_pocket_deformation) holds what ``flexcage study`` writes,
-and verdicts.json and figures/ beside it. What is computed already is not computed again.
+A quick look is on a coarse mesh and too short for most claims: they stay undecided. The study's
+folder (default runs/n1013_pocket_deformation) holds what ``flexcage study`` writes, and beside it
+verdicts.json and figures/. What is computed already is not computed again.
 """
 
 from __future__ import annotations
