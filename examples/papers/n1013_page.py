@@ -31,6 +31,7 @@ from n1013_view import (
 
 from flexcage import StudyResults, __version__
 from flexcage.render import sheet
+from flexcage.results.audit import OF_DRIVE
 from flexcage.study.verdicts import OUTCOMES, Verdict
 
 HERE = Path(__file__).parent
@@ -154,7 +155,8 @@ def _beside(results: StudyResults, view: View) -> str:
         f"{finest:.1f} Hz ({SHORTER}: {coarser:.1f} Hz). The mass centre moves because the "
         "displaced beam does."
     )
-    return f"## Beside the claims\n\n{text}\n\n" + markdown(("", *cages), rows)
+    table = markdown(("", *cages), rows)
+    return f"## Beside the claims\n\n{text}\n\n{table}\n\n{_audit(results)}"
 
 
 def _resolution(results: StudyResults, cage: str) -> float:
@@ -162,6 +164,22 @@ def _resolution(results: StudyResults, cage: str) -> float:
     found = next(p for p in results.plan.cases if p.point.labels["cage"] == cage)
     case = results.plan.case(found)
     return 1.0 / (case.solver.duration * (1.0 - case.output.settle))
+
+
+def _audit(results: StudyResults) -> str:
+    """How far the energy of the cases closes, and which of them close too badly."""
+    worst = {
+        ", ".join(row.planned.point.labels.values()): float(row.figures["energy_of_drive"].value)
+        for row in results.rows
+        if row.state == "done"
+    }
+    if not worst:
+        return ""
+    beyond = [f"{name} ({100 * value:.2f} %)" for name, value in worst.items() if value > OF_DRIVE]
+    within = max((v for v in worst.values() if v <= OF_DRIVE), default=float("nan"))
+    return f"The energy of a case closes to {100 * within:.3f} % of the drive's work or better" + (
+        f", but for {'; '.join(beyond)}." if beyond else "."
+    )
 
 
 def _copy_images(pictures: Path, folder: Path) -> list[Path]:

@@ -20,6 +20,7 @@ from n1013_view import (
     LONGER,
     PITCH,
     REACH,
+    RIGID,
     RIPPLE,
     SHORTER,
     SOUND,
@@ -108,13 +109,24 @@ def _whirl(v: View) -> str:
     )
 
 
+def _if_rigid(v: View) -> str:
+    """How hard a rigid cage strikes, if that was computed."""
+    rigid = View(v.rows, RIGID)
+    if not isfinite(rigid(SPIKES, BENT2).value):
+        return ""
+    return (
+        " An elastic cage softens the blows: with a rigid one a moved crossbeam does make them "
+        f"felt, {row(rigid, SPIKES, SOUND, BENT1, BENT2)} (sound, 0.1 and 0.2 mm)."
+    )
+
+
 def _spikes(v: View) -> str:
     return (
         "Blows in pockets reach the outer ring only through a roller that the cage strikes, and "
         "with clearance left they are no harder than in a sound cage: the kurtosis of the ring's "
         f"acceleration is {row(v, SPIKES, SOUND, BENT1, BENT2, LONGER)}. The roller that cannot "
         f"turn in its pocket does make spikes: {figure(v, SPIKES, SHORTER)}."
-    )
+    ) + _if_rigid(v)
 
 
 def _ripple(v: View) -> str:
