@@ -1,6 +1,6 @@
 """The claims of Lubricants 2025, 13(11), 495 as comparisons of a study's figures.
 
-Thresholds that turn the paper's words into numbers were chosen before anything was computed:
+Thresholds that turn the paper's words into numbers were chosen before the study was computed:
 "unchanged" is within 10 % (a roller's speed: 1 %), "clearly" is by a quarter or more (a roller's
 speed: 5 %), and a plain "more" is beyond both intervals. They are this study's reading.
 """

@@ -21,6 +21,9 @@ from n1013_view import (
     RIPPLE,
     SHORTER,
     SOUND,
+    SPIKES,
+    STRESS,
+    WHIRL,
     View,
     rows_of,
     shown,
@@ -54,7 +57,7 @@ def write(results: StudyResults, verdicts: Sequence[Verdict], pictures: Path) ->
     images = _copy_images(pictures, HERE / "images")
     parts = [
         _head(results), _table(verdicts), _short(verdicts), findings(view), _details(verdicts),
-        _slips(view), _beside(results, view), _pictures(images), _TAIL,
+        _slips(view), _sweep(results, view), _beside(results, view), _pictures(images), _TAIL,
     ]  # fmt: skip
     path = HERE / "README.md"
     path.write_text("\n\n".join(part.strip() for part in parts if part) + "\n", encoding="utf-8")
@@ -139,6 +142,22 @@ def _slips(view: View) -> str:
         "3 of the paper hold, whose numbers are not in the text that we have.\n\n"
         + markdown(head, rows)
     )
+
+
+def _sweep(results: StudyResults, view: View) -> str:
+    """The figures that the claims rest on, in every variation that was computed."""
+    outputs = (slip(BEFORE), slip(AT), slip(AFTER), STRESS, RIPPLE, WHIRL, SPIKES)
+    rows = []
+    for point in results.study.axes[1].points:
+        there = View(view.rows, point["label"])
+        for cage in CAGES:
+            if there.has(cage):
+                cells = (written(shown(o, cage, there(o, cage))) for o in outputs)
+                starts = str(len(view.rows[cage, point["label"]]))
+                rows.append((point["label"], cage, starts, *cells))
+    head = ("variation", "cage", "starts", "slip j-1", "slip j", "slip j+1", "mean peak stress",
+            "cage speed ripple", "whirl radius", "kurtosis")  # fmt: skip
+    return "## Over clearances, rollers and friction\n\n" + markdown(head, rows)
 
 
 def _beside(results: StudyResults, view: View) -> str:
@@ -232,7 +251,7 @@ _TAIL = f"""## How the paper was read
 - "n_rth" of the slip ratio is the roller's theoretical speed, "n_r" its computed one.
 - "The first increases, then decreases" of the whirl radius was taken as 0 < 0.1 > 0.2 mm.
 - "Unchanged" is within 10 % (roller speeds: 1 %), "clearly" is by 25 % or more (roller speeds: a
-  drop of 5 %), "more" is beyond both intervals: fixed before anything was computed.
+  drop of 5 %), "more" is beyond both intervals: fixed before the study was computed.
 - 320.51 MPa is an order of magnitude, within a factor of two: a linear cage of unknown clearance
   and fillet allows no more.
 
