@@ -8,6 +8,7 @@ from dataclasses import replace
 from datetime import UTC, datetime
 from pathlib import Path
 
+import numpy as np
 from n1013_figures import NAMES, slug
 from n1013_reasons import findings, reason_of
 from n1013_view import (
@@ -215,22 +216,25 @@ def _copy_images(pictures: Path, folder: Path) -> list[Path]:
 
 def _shrink(path: Path, *, width: int = 1250) -> None:
     """Write the image no wider than ``width`` pixels, in the 256 colours of stress pictures: their
-    colour map, greys, and the colour of what lies beyond the range."""
+    colour map, greys, and the colours of marks and of what lies beyond the range."""
     import matplotlib as mpl
-    from PIL import Image, ImageColor
+    from PIL import Image
+    from scipy.spatial import KDTree
 
     image = Image.open(path).convert("RGB")
     if image.width > width:
         size = (width, round(image.height * width / image.width))
         image = image.resize(size, Image.Resampling.LANCZOS)
-    viridis = mpl.colormaps["viridis"].resampled(200)
-    colours = [round(255 * part) for k in range(200) for part in viridis(k)[:3]]
-    colours += [level for k in range(51) for level in [round(5.1 * k)] * 3]
-    for name in (sheet.VERMILION, sheet.BLUE, sheet.SKY, sheet.GREEN, sheet.ORANGE):
-        colours += ImageColor.getrgb(name)[:3]
-    palette = Image.new("P", (1, 1))
-    palette.putpalette(colours)
-    image.quantize(palette=palette, dither=Image.Dither.NONE).save(path, optimize=True)
+    marks = (sheet.VERMILION, sheet.BLUE, sheet.SKY, sheet.GREEN, sheet.ORANGE)
+    colours = np.vstack([
+        mpl.colormaps["viridis"](np.linspace(0.0, 1.0, 200))[:, :3],
+        np.linspace(0.0, 1.0, 51)[:, None].repeat(3, axis=1),
+        [mpl.colors.to_rgb(mark) for mark in marks],
+    ])  # fmt: skip
+    nearest = KDTree(colours).query(np.asarray(image) / 255.0)[1].astype(np.uint8)
+    small = Image.fromarray(nearest, "P")
+    small.putpalette(np.rint(255.0 * colours).astype(np.uint8).tobytes())
+    small.save(path, optimize=True)
 
 
 def _pictures(images: Sequence[Path]) -> str:
