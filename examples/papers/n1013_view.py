@@ -6,6 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from math import floor, isfinite, log10, nan
 
+from flexcage.results.audit import OF_DRIVE
 from flexcage.study.results import ResultRow, StudyResults
 from flexcage.study.verdicts import Estimate, Line, pooled
 
@@ -98,15 +99,20 @@ class View:
         return bool(self.rows.get((cage, self.variation)))
 
 
-def rows_of(results: StudyResults) -> dict[tuple[str, str], tuple[ResultRow, ...]]:
-    """Finished cases of the study by cage and variation."""
+def rows_of(results: StudyResults) -> Rows:
+    """Finished cases of the study by cage and variation, those whose energy closes."""
     found: dict[tuple[str, str], tuple[ResultRow, ...]] = {}
     for row in results.rows:
-        labels = row.planned.point.labels
-        if row.state == "done":
+        if row.state == "done" and imbalance(row) <= OF_DRIVE:
+            labels = row.planned.point.labels
             key = (labels["cage"], labels["variation"])
             found[key] = (*found.get(key, ()), row)
     return found
+
+
+def imbalance(row: ResultRow) -> float:
+    """Largest energy that is missing in a finished case, over the drive's work."""
+    return float(row.figures["energy_of_drive"].value)  # type: ignore[arg-type]
 
 
 def shown(output: str, cage: str, figure: Estimate) -> Line:

@@ -111,6 +111,18 @@ def test_a_roller_that_stops_drops_and_one_that_slows_by_a_percent_does_not(pape
     assert outcome(-2500.0, -280.0) == FAILS
 
 
+def test_a_case_whose_energy_does_not_close_is_left_out(papers):
+    def case(state, missing):
+        labels = {"cage": "sound", "variation": "base"}
+        figures = {"energy_of_drive": Figure(missing, "1")} if state == "done" else {}
+        point = SimpleNamespace(labels=labels)
+        return SimpleNamespace(state=state, figures=figures, planned=SimpleNamespace(point=point))
+
+    cases = [case("done", 2e-4), case("done", 2e-3), case("failed", 0.0)]
+    rows = papers.view.rows_of(SimpleNamespace(rows=cases))
+    assert rows == {("sound", "base"): (cases[0],)}
+
+
 def test_every_claim_of_the_paper_is_there(papers):
     keys = [c.key for c in papers.claims.CLAIMS]
     assert keys == [f"000-{k}" for k in range(1, 14)]
