@@ -123,9 +123,10 @@ def _if_rigid(v: View) -> str:
 def _spikes(v: View) -> str:
     return (
         "Blows in pockets reach the outer ring only through a roller that the cage strikes, and "
-        "with clearance left they are no harder than in a sound cage: the kurtosis of the ring's "
-        f"acceleration is {row(v, SPIKES, SOUND, BENT1, BENT2, LONGER)}. The roller that cannot "
-        f"turn in its pocket does make spikes: {figure(v, SPIKES, SHORTER)}."
+        "at the base clearances they are no harder, beyond the intervals, than in a sound cage: "
+        "the kurtosis of the ring's acceleration is "
+        f"{row(v, SPIKES, SOUND, BENT1, BENT2, LONGER)}. The roller that cannot turn in its "
+        f"pocket does make spikes: {figure(v, SPIKES, SHORTER)}."
     ) + _if_rigid(v)
 
 
