@@ -134,7 +134,7 @@ class Folder:
 
     def write_row(self, where: Path, row: CaseRow) -> None:
         """Write a case's row into the folder ``where`` of its run."""
-        figures = {k: [f.value, f.unit, f.shown] for k, f in row.figures.items()}
+        figures = {k: [f.value, f.unit, f.shown, f.margin] for k, f in row.figures.items()}
         stored = {"format": FORMAT, "hash": row.hash, "seconds": row.seconds, "figures": figures}
         _write_json(where / _ROW, stored)
 

@@ -3,18 +3,20 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass
-from types import MappingProxyType
+from math import isfinite, nan, pi
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from flexcage.core.binding import did_you_mean
 from flexcage.core.errors import InputError
-from flexcage.results.metrics import settled
+from flexcage.results.metrics import cage_angle, settled, whole_revolutions
 from flexcage.results.recording import ENERGIES
-from flexcage.results.registry import LABELS, VARIABLES, Variable, variable
+from flexcage.results.reductions import DERIVED, REDUCTIONS
+from flexcage.results.registry import LABELS, TIME, VARIABLES, Variable, variable
+from flexcage.results.statistics import roller_passes
 from flexcage.results.summary import Value
 from flexcage.system.layout import CONSTRAINTS
 from flexcage.system.model import POWERS
@@ -41,47 +43,52 @@ FLEXIBLE_FIGURES = (
     "stress_root_pass_peak", "stress_start", "wall_stress",
 )  # fmt: skip
 
-REDUCTIONS: Mapping[str, Callable[[np.ndarray], float]] = MappingProxyType(
-    {
-        "mean": np.mean,
-        "min": np.min,
-        "max": np.max,
-        "range": np.ptp,
-        "std": np.std,
-        "rms": lambda x: np.sqrt(np.mean(np.square(x))),
-    }
-)
-
 _REDUCTION = re.compile(r"(\w+)(?:\[([^\]]*)\])?\.(\w+)")
 _LABELS_OF_A_RUN = {"constraint": CONSTRAINTS, "energy_kind": ENERGIES, "channel": tuple(POWERS)}
 
 
 @dataclass(frozen=True)
 class Figure:
-    """One number of a run: SI ``value``, its unit, and the unit it is printed in ("" for SI)."""
+    """One number of a run: SI ``value``, its unit, and the unit it is printed in ("" for SI).
+
+    ``margin`` is half the width of its 95 % interval by the run itself, None where it has none.
+    """
 
     value: Value
     unit: str
     shown: str = ""
+    margin: float | None = None
 
 
 @dataclass(frozen=True)
 class Reduction:
-    """One number of a result variable over the settled part of a run."""
+    """One number of a variable over the settled part of a run, cut to whole turns of the cage."""
 
     variable: Variable
     selection: Mapping[str, str]
     reduce: str
 
     def of(self, run: Run) -> Figure:
-        """The figure, in the variable's unit."""
-        array = settled(run.dataset, run.case.output.settle)[self.variable.name]
-        for dim, label in self.selection.items():
+        """The figure, with its unit and, where windows of the run give one, its margin."""
+        part = whole_revolutions(settled(run.dataset, run.case.output.settle))
+        name, dim = self.variable.name, self.variable.dims[0]
+        array = DERIVED[name].compute(part, run.numbers) if name in DERIVED else part[name]
+        for along, label in self.selection.items():
             if label.isdigit():
-                array = array.isel({dim: int(label)})
+                array = array.isel({along: int(label)})
             else:
-                array = array.sel({dim: label})
-        return Figure(float(REDUCTIONS[self.reduce](array.values)), self.variable.unit)
+                array = array.sel({along: label})
+        values, t = array.transpose(dim, ...).values, array[dim].values
+        step = float(t[-1] - t[0]) / (len(t) - 1)
+        reducer = REDUCTIONS[self.reduce]
+        unit = self.variable.unit if reducer.unit is None else reducer.unit
+        half = nan
+        if reducer.record is not None and dim == TIME:
+            half = reducer.record(roller_passes(part, run.numbers), values).margin
+        elif reducer.by_turns:
+            turns = round(abs(float(np.ptp(cage_angle(part)))) / (2.0 * pi))
+            half = reducer.margin_by_turns(values, step, turns)
+        return Figure(reducer.value(values, step), unit, "", half if isfinite(half) else None)
 
 
 def is_reduction(name: str) -> bool:
@@ -98,7 +105,7 @@ def parse_reduction(name: str) -> Reduction:
     """Reduction from "variable.mean" or "variable[dim=label,...].max"."""
     match = _REDUCTION.fullmatch(name)
     assert match is not None
-    found = variable(match[1])
+    found = DERIVED[match[1]].variable if match[1] in DERIVED else variable(match[1])
     if match[3] not in REDUCTIONS:
         hint = did_you_mean(match[3], REDUCTIONS, "choose from")
         raise InputError(f"Output '{name}' reduces by '{match[3]}', which is not known; {hint}.")
@@ -106,6 +113,12 @@ def parse_reduction(name: str) -> Reduction:
     selection = {dim.strip(): label.strip() for dim, _, label in pairs}
     for dim, label in selection.items():
         _check_label(name, found, dim, label)
+    over = [dim for dim in found.dims[1:] if dim not in selection]
+    if over and REDUCTIONS[match[3]].series:
+        raise InputError(
+            f"Output '{name}': '{match[3]}' is that of one series; say which {over[0]}, as in "
+            f"'{match[1]}[{over[0]}=...].{match[3]}'."
+        )
     return Reduction(found, selection, match[3])
 
 
@@ -153,14 +166,14 @@ def _check_figure(name: str) -> None:
     known = (*RIGID_FIGURES, *FLEXIBLE_FIGURES)
     if name in known:
         return
-    if name in VARIABLES:
+    if name in VARIABLES or name in DERIVED:
         raise InputError(
             f"Output '{name}' is a variable over time; say how it becomes a number, such as "
             f"'{name}.mean' ({', '.join(REDUCTIONS)}).",
             where="outputs",
             value=name,
         )
-    hint = did_you_mean(name, (*known, *VARIABLES), "")
+    hint = did_you_mean(name, (*known, *VARIABLES, *DERIVED), "")
     if not hint.startswith("the nearest"):
         hint = "look at a run's summary.json for figures, such as 'cage_speed'"
     raise InputError(f"There is no output '{name}'; {hint}.", where="outputs", value=name)
@@ -168,5 +181,5 @@ def _check_figure(name: str) -> None:
 
 def figures_of(run: Run, reductions: tuple[str, ...]) -> dict[str, Figure]:
     """All figures of the run's summary, and the reductions asked for; by name."""
-    found = {row.key: Figure(row.value, row.unit, row.shown) for row in run.summary}
+    found = {r.key: Figure(r.value, r.unit, r.shown, r.margin) for r in run.summary}
     return found | {name: parse_reduction(name).of(run) for name in reductions}
