@@ -264,6 +264,14 @@ def reason_of(key: str, outcome: str, view: View) -> str:
     return _TEXTS[key](view) if outcome in EXPLAINED.get(key, ()) else ""
 
 
+def _if_creeping(view: View) -> str:
+    """The same with a tenth of the creep speed, if that was computed."""
+    there = View(view.rows, "creep / 10")
+    if not isfinite(there(slip(BEFORE), BENT2).value):
+        return ""
+    return f", {change(there, slip(BEFORE), BENT2)} with the creep speed divided by ten"
+
+
 def findings(view: View) -> str:
     """What decides most of the claims, if the two pinched cages were computed."""
     there = View(view.rows, SQUEEZED)
@@ -272,7 +280,7 @@ def findings(view: View) -> str:
     return (
         "One thing decides most of it: whether the displacement exceeds the clearance. With "
         "clearance left, however little, a displaced beam shifts who drives the cage and changes "
-        f"slips by a few percent: {change(view, slip(BEFORE), BENT2)} for roller j-1 at 0.2 mm. "
+        f"slips: {change(view, slip(BEFORE), BENT2)} for roller j-1 at 0.2 mm{_if_creeping(view)}. "
         "Once it is exceeded, friction holds the roller in its pocket, it turns with the cage, and "
         "stress, whirl, ripple and spikes come together:\n\n"
         f"- side beam, -0.3 mm of 0.25 mm: stress {figure(view, STRESS, SHORTER)}, slip of roller "
