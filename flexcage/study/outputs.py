@@ -35,8 +35,9 @@ RIGID_FIGURES = tuple(
     pocket_force_sum pocket_force_pass_peak pocket_force_peak pocket_contact race_force_inner
     race_force_outer stored_kinetic stored_strain stored_contact stored_mount energy_moved
     energy_imbalance energy_relative energy_of_drive energy_of_cage cage_mass cage_centre_shift
-    pinch_force steps explicit_steps stable_step residuals jacobians factorisations failed_error_tests
-    failed_newton wall_mesh wall_modes wall_kernels wall_start wall_solve""".split()
+    pinch_force steps explicit_steps stable_step residuals jacobians factorisations
+    failed_error_tests failed_newton wall_mesh wall_modes wall_kernels wall_start
+    wall_solve""".split()
 ) + tuple(f"work_{name}" for name in POWERS)
 FLEXIBLE_FIGURES = (
     "first_frequency", "far_coupling", "stress_peak", "stress_mean_peak", "stress_root",
