@@ -19,8 +19,8 @@ from flexcage.results.store import MemoryRunStore, RunStore
 from flexcage.solve.contract import COUNTS, DONE, LOG_COLUMNS, LOG_FULL, OUTCOMES, T
 from flexcage.solve.integrators import INTEGRATORS
 from flexcage.solve.options import SolverOptions
+from flexcage.system.data import POWERS
 from flexcage.system.layout import CONSTRAINTS
-from flexcage.system.model import POWERS
 from flexcage.system.problem import Bearing
 from flexcage.system.scales import error_weights
 from flexcage.system.start import Start
@@ -292,10 +292,7 @@ class Recorder:
         state = self.integrator.checkpoint(self.state)
         memory = {f"memory_{k}": v for k, v in self.bearing.data.memory._asdict().items()}
         events = self.bearing.data.events
-        kept = {
-            f"events_{k}": getattr(events, k)
-            for k in ("closed", "land", "force", "peak", "peak_time")
-        }
+        kept = {f"events_{k}": getattr(events, k) for k in ("closed", "land", "force")}
         return {**state, **memory, **kept, "filter": self._filter}
 
     def _checkpoint(self) -> dict[str, np.ndarray]:
