@@ -1,37 +1,64 @@
-"""The mesh of a window cage: a quarter sector mirrored, copied to the ring, and morphed."""
+"""The mesh of a cage: a quarter sector mirrored, copied to the ring, and morphed by its defects."""
 
 from __future__ import annotations
 
 import logging
 from collections.abc import Sequence
-from dataclasses import replace
-from math import pi
-from types import MappingProxyType
+from functools import singledispatch
+from typing import Any
 
-import numpy as np
-
+from flexcage.core.errors import InputError
+from flexcage.geometry.ball_cages import BallCage
 from flexcage.geometry.cages import Defect, WindowCage, check_cage, check_defects
-from flexcage.mesh.cage_mesh import POCKET_GROUPS, RING_GROUPS, CageMesh
+from flexcage.mesh.ball_build import build_ball_cage_mesh
+from flexcage.mesh.cage_mesh import CageMesh
 from flexcage.mesh.morph import apply_defects
 from flexcage.mesh.options import MeshOptions
-from flexcage.mesh.sector import Quarter, mesh_quarter
+from flexcage.mesh.ring import ring_of
+from flexcage.mesh.sector import mesh_quarter
 
 log = logging.getLogger(__name__)
 
 
 def build_cage_mesh(
-    cage: WindowCage,
+    cage: Any,
     *,
     pocket_count: int,
     pitch_diameter: float,
-    defects: Sequence[Defect] = (),
+    defects: Sequence[Any] = (),
     options: MeshOptions | None = None,
 ) -> CageMesh:
     """Mesh of a cage with its defects, or the user's own file checked against both.
 
-    ``pitch_diameter`` [m] is where the displacement of a defect is defined and measured.
+    ``pitch_diameter`` [m] is where the displacement of a defect is defined and measured. Cage and
+    defects are those of one type of bearing; InputError for a cage of none.
     """
-    options = options or MeshOptions()
+    return build_mesh_of(cage, pocket_count, pitch_diameter, defects, options or MeshOptions())
+
+
+@singledispatch
+def build_mesh_of(
+    cage: object,
+    pocket_count: int,
+    pitch_diameter: float,
+    defects: Sequence[Any],
+    options: MeshOptions,
+) -> CageMesh:
+    """Every type of cage registers here how it is meshed."""
+    raise InputError(
+        f"no mesh is known for a {type(cage).__name__}; a cage is a WindowCage or a BallCage",
+        where="cage",
+    )
+
+
+@build_mesh_of.register
+def _(
+    cage: WindowCage,
+    pocket_count: int,
+    pitch_diameter: float,
+    defects: Sequence[Defect],
+    options: MeshOptions,
+) -> CageMesh:
     check_cage(cage, pocket_count=pocket_count)
     check_defects(defects, cage, pocket_count=pocket_count)
     if options.file:
@@ -40,6 +67,9 @@ def build_cage_mesh(
     mesh = ring_of(quarter, pocket_count)
     log.debug("%r from %d tetrahedra in a quarter sector", mesh, len(quarter.tets))
     return apply_defects(mesh, cage, defects, pitch_radius=0.5 * pitch_diameter)
+
+
+build_mesh_of.register(BallCage, build_ball_cage_mesh)
 
 
 def _from_file(
@@ -56,100 +86,3 @@ def _from_file(
     return measure_file_defects(
         mesh, cage, defects, pitch_radius=0.5 * pitch_diameter, source=options.file
     )
-
-
-def ring_of(quarter: Quarter, pocket_count: int) -> CageMesh:
-    """The whole ring, numbered sector by sector.
-
-    A sector owns its vertices but for those on its +psi cut, which are the next one's on its
-    -psi cut: so vertex and cell numbers of sector k are those of sector 0 plus k times a constant.
-    """
-    number, base = _sector_numbers(quarter)
-    n_sector = len(base)
-    turns = [_turn(2.0 * pi * k / pocket_count) for k in range(pocket_count)]
-    points = np.vstack([base @ turn.T for turn in turns])
-    cells, groups = _sector_cells(quarter, number)
-    total = n_sector * pocket_count
-    shift = n_sector * np.arange(pocket_count)
-    tets = (cells[None] + shift[:, None, None]).reshape(-1, 4) % total
-    named: dict[str, np.ndarray] = {
-        name: ((groups[name][None] + shift[:, None, None]) % total).reshape(-1, 3)
-        for name in RING_GROUPS
-    }
-    for k in range(pocket_count):
-        for part in POCKET_GROUPS:
-            named[f"pocket{k}_{part}"] = (groups[part] + shift[k]) % total
-    plan = quarter.plan
-    info = {
-        "source": "built",
-        "sector_points": n_sector,
-        "sector_cells": len(cells),
-        "altered_sectors": (),
-        "size": plan.size,
-        "fillet_edges": plan.arc_edges,
-        "defects": [],
-    }
-    mesh = CageMesh(points, tets, MappingProxyType(named), pocket_count, MappingProxyType(info))
-    return replace(mesh, info=MappingProxyType({**info, "undamaged_volume": mesh.volume}))
-
-
-_MIRRORS = ((1, 1), (-1, 1), (1, -1), (-1, -1))  # signs of x and z of the four copies
-
-
-def _sector_numbers(quarter: Quarter) -> tuple[np.ndarray, np.ndarray]:
-    """number (4, n): vertex of each mirror copy in sector numbering; points (n_sector, 3).
-
-    Vertices on the +psi cut get the number of their partner on the -psi cut plus n_sector.
-    """
-    n = len(quarter.points)
-    on = {}
-    for name in ("cut_x", "cut_z", "cut_psi"):
-        on[name] = np.zeros(n, bool)
-        on[name][np.unique(quarter.surfaces[name])] = True
-    number = np.full((4, n), -1)
-    points: list[np.ndarray] = []
-    count = 0
-    for copy in (2, 3, 0, 1):  # the -psi half first: it owns the shared cuts
-        sx, sz = _MIRRORS[copy]
-        own = np.ones(n, bool)
-        if sx < 0:
-            own &= ~on["cut_x"]
-        if sz > 0:
-            own &= ~on["cut_z"] & ~on["cut_psi"]
-        number[copy, own] = count + np.arange(own.sum())
-        count += int(own.sum())
-        points.append(quarter.points[own] * (sx, 1.0, sz))
-    number[3] = np.where(on["cut_x"], number[2], number[3])
-    for copy, below in ((0, 2), (1, 3)):
-        number[copy] = np.where(on["cut_z"], number[below], number[copy])
-        number[copy] = np.where(on["cut_psi"], number[below] + count, number[copy])
-    number[1] = np.where(on["cut_x"], number[0], number[1])
-    return number, np.vstack(points)
-
-
-def _sector_cells(quarter: Quarter, number: np.ndarray) -> tuple[np.ndarray, dict[str, np.ndarray]]:
-    """Cells (n, 4) and groups of sector 0; mirrored copies would be inside out, so are flipped."""
-    cells: list[np.ndarray] = []
-    parts: dict[str, list[np.ndarray]] = {name: [] for name in (*RING_GROUPS, *POCKET_GROUPS)}
-    for copy, (sx, sz) in enumerate(_MIRRORS):
-        flipped = sx * sz < 0
-        order = [0, 2, 1, 3] if flipped else [0, 1, 2, 3]
-        cells.append(number[copy][quarter.tets[:, order]])
-        names = {
-            "land_inner": "land_inner",
-            "land_outer": "land_outer",
-            "end": "end+x" if sx > 0 else "end-x",
-            "beam": "front" if sz > 0 else "rear",
-            "side": "side+x" if sx > 0 else "side-x",
-            "fillet": "fillet",
-        }
-        for surface, name in names.items():
-            triangles = quarter.surfaces[surface][:, order[:3]]
-            parts[name].append(number[copy][triangles])
-    return np.vstack(cells), {name: np.vstack(list_) for name, list_ in parts.items()}
-
-
-def _turn(angle: float) -> np.ndarray:
-    """Rotation matrix about x by an angle from y towards z."""
-    c, s = np.cos(angle), np.sin(angle)
-    return np.array([[1.0, 0.0, 0.0], [0.0, c, -s], [0.0, s, c]])

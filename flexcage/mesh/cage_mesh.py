@@ -2,19 +2,29 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+import re
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from types import MappingProxyType
 
 import numpy as np
 
-POCKET_GROUPS = ("front", "rear", "side+x", "side-x", "fillet")
+POCKET_GROUPS = ("front", "rear", "side+x", "side-x", "fillet")  # of window cages
+WALL_GROUPS = ("wall",)  # of cages with round pockets
 RING_GROUPS = ("land_inner", "land_outer", "end+x", "end-x")
+_WALL = re.compile(r"pocket\d+_wall")
 
 
-def group_names(pocket_count: int, *, fillets: bool = True) -> list[str]:
+def pocket_groups(names: Iterable[str]) -> tuple[str, ...]:
+    """What the groups of one pocket are called in a mesh that has groups of these names."""
+    return WALL_GROUPS if any(_WALL.fullmatch(name) for name in names) else POCKET_GROUPS
+
+
+def group_names(
+    pocket_count: int, *, fillets: bool = True, parts: Sequence[str] = POCKET_GROUPS
+) -> list[str]:
     """Names of all groups of a cage, rings first, then pocket by pocket; their order is fixed."""
-    parts = POCKET_GROUPS if fillets else POCKET_GROUPS[:-1]
+    parts = [part for part in parts if fillets or part != "fillet"]
     return [*RING_GROUPS, *(f"pocket{k}_{part}" for k in range(pocket_count) for part in parts)]
 
 
@@ -31,7 +41,8 @@ class CageMesh:
     ``groups`` maps a name to (n, 3) vertex indices of boundary triangles, outward orientation.
     Names, for every pocket k: ``pocket{k}_front`` (crossbeam face at +psi of the pocket),
     ``pocket{k}_rear`` (at -psi), ``pocket{k}_side+x``, ``pocket{k}_side-x`` (side-beam faces),
-    ``pocket{k}_fillet`` (all four corners); and ``land_inner``, ``land_outer`` (bore and outside),
+    ``pocket{k}_fillet`` (all four corners), or ``pocket{k}_wall`` alone where pockets are round;
+    and ``land_inner``, ``land_outer`` (bore and outside),
     ``end+x``, ``end-x``. Pocket k is centred at azimuth 2 pi k/Z from y towards z.
 
     ``info`` of a built mesh holds ``sector_points`` and ``sector_cells``: vertex i of sector k is

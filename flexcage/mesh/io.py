@@ -4,8 +4,9 @@
   gmsh 2.2, which keeps one physical tag an element; 4.1 is read as well).
 * .vtu: triangles beside the tetrahedra, with an integer cell array ``group``: 0 for none and
   1 + the position in ``group_names(Z)``: 1 land_inner, 2 land_outer, 3 end+x, 4 end-x, and
-  5 + 5 k + (0 front, 1 rear, 2 side+x, 3 side-x, 4 fillet) for pocket k. A cell array that has
-  itself the name of a group, non-zero on its triangles, is read as well.
+  5 + 5 k + (0 front, 1 rear, 2 side+x, 3 side-x, 4 fillet) for pocket k. With round pockets the
+  array is ``round_group``, and 5 + k is the wall of pocket k. A cell array that has itself the
+  name of a group, non-zero on its triangles, is read as well.
 * .inp (read only): element sets of surface triangles, named as the groups.
 
 Ten-node tetrahedra and six-node triangles are read by their corners.
@@ -25,13 +26,16 @@ from flexcage.core.errors import InputError
 from flexcage.mesh.cage_mesh import (
     POCKET_GROUPS,
     RING_GROUPS,
+    WALL_GROUPS,
     CageMesh,
     group_names,
+    pocket_groups,
     signed_volumes,
 )
 from flexcage.mesh.quality import check_mesh, nearest_hint
 from flexcage.mesh.sector import orient_outward
 
+_ARRAYS = {POCKET_GROUPS: "group", WALL_GROUPS: "round_group"}  # of a .vtu
 _READABLE = (".msh", ".inp", ".vtu")
 _POCKET = re.compile(r"pocket(\d+)_")
 _TETS, _TRIANGLES = ("tetra", "tetra10"), ("triangle", "triangle6")
@@ -44,7 +48,8 @@ def write_mesh(mesh: CageMesh, path: str | Path) -> Path:
     path = Path(path)
     if path.suffix not in (".msh", ".vtu"):
         raise InputError(f"{path}: a mesh is written as .msh or .vtu", where="path")
-    every = group_names(mesh.pocket_count)
+    parts = pocket_groups(mesh.groups)
+    every = group_names(mesh.pocket_count, parts=parts)
     code = {name: i + 1 for i, name in enumerate(every)}
     names = [n for n in every if len(mesh.groups.get(n, ()))]
     triangles = np.vstack([np.empty((0, 3), mesh.tets.dtype), *(mesh.groups[n] for n in names)])
@@ -54,7 +59,7 @@ def write_mesh(mesh: CageMesh, path: str | Path) -> Path:
     try:
         if path.suffix == ".vtu":
             data = [np.zeros(len(mesh.tets), np.int32), tags.astype(np.int32)]
-            meshio.write(path, meshio.Mesh(mesh.points, cells, cell_data={"group": data}))
+            meshio.write(path, meshio.Mesh(mesh.points, cells, cell_data={_ARRAYS[parts]: data}))
         else:
             data = [np.full(len(mesh.tets), body, np.int32), tags.astype(np.int32)]
             fields = {n: np.array([code[n], 2]) for n in names}
@@ -80,7 +85,7 @@ def read_mesh(path: str | Path, *, pocket_count: int | None = None, unit: str = 
     points, tets = points[used] * {"m": 1.0, "mm": 1e-3}[unit], number[tets]
     tets = _positive(points, tets, path)
     groups: dict[str, np.ndarray] = {}
-    for name in group_names(count):
+    for name in group_names(count, parts=pocket_groups(found)):
         triangles = orient_outward(points, tets, number[found.get(name, np.empty((0, 3), int))])
         if (triangles < 0).any():
             raise InputError(
@@ -157,8 +162,10 @@ def _named_triangles(raw: Any, path: Path) -> Mapping[str, np.ndarray]:
 
     tagged = raw.cell_data.get("gmsh:physical")
     surfaces = {int(v[0]): n for n, v in raw.field_data.items() if len(v) > 1 and v[1] == 2}
-    group = raw.cell_data.get("group")
-    codes = _code_names(group, surface)
+    coded = [
+        (_code_names(raw.cell_data.get(array), surface, parts), raw.cell_data.get(array))
+        for parts, array in _ARRAYS.items()
+    ]
     for i in surface:
         for name, chosen in raw.cell_sets.items():
             if not name.startswith("gmsh:") and chosen[i] is not None and tagged is None:
@@ -166,7 +173,7 @@ def _named_triangles(raw: Any, path: Path) -> Mapping[str, np.ndarray]:
         for name, values in raw.cell_data.items():
             if name in RING_GROUPS or _POCKET.match(name):
                 add(name, i, np.flatnonzero(values[i]))
-        for table, tags in ((surfaces, tagged), (codes, group)):
+        for table, tags in ((surfaces, tagged), *coded):
             if tags is not None:
                 for tag in np.unique(tags[i]):
                     if int(tag) in table:
@@ -174,20 +181,20 @@ def _named_triangles(raw: Any, path: Path) -> Mapping[str, np.ndarray]:
     if not collected:
         raise InputError(
             f"{path} has no named surfaces; name the pocket faces, lands and end faces "
-            "(pocket0_front, ..., land_inner, end+x)",
+            "(pocket0_front or pocket0_wall, ..., land_inner, end+x)",
             where="mesh.file",
             value=str(path),
         )
     return {name: np.vstack(parts) for name, parts in collected.items()}
 
 
-def _code_names(group: Any, surface: list[int]) -> dict[int, str]:
-    """Names of the integers in a .vtu's array ``group``."""
+def _code_names(group: Any, surface: list[int], parts: tuple[str, ...]) -> dict[int, str]:
+    """Names of the integers in a .vtu's array of groups."""
     if group is None:
         return {}
     top = max((int(np.max(group[i], initial=0)) for i in surface), default=0)
-    pockets = -(-max(top - len(RING_GROUPS), 0) // len(POCKET_GROUPS))
-    return {i + 1: name for i, name in enumerate(group_names(pockets))}
+    pockets = -(-max(top - len(RING_GROUPS), 0) // len(parts))
+    return {i + 1: name for i, name in enumerate(group_names(pockets, parts=parts))}
 
 
 def _pocket_count(found: Mapping[str, Any], wanted: int | None, path: Path) -> int:
@@ -206,10 +213,12 @@ def _refuse_missing(mesh: CageMesh, unknown: Mapping[str, Any], path: Path) -> N
     """Name the group that is missing and the file's own name that is most like it."""
     if mesh.pocket_count == 0:
         raise InputError(
-            f"{path} has no group 'pocket0_front'; it names " + ", ".join(sorted(unknown)[:5]),
+            f"{path} has no group 'pocket0_front' or 'pocket0_wall'; it names "
+            + ", ".join(sorted(unknown)[:5]),
             where="mesh.file",
         )
-    for name in group_names(mesh.pocket_count, fillets=False):
+    parts = pocket_groups({**mesh.groups, **unknown})
+    for name in group_names(mesh.pocket_count, fillets=False, parts=parts):
         if name not in mesh.groups:
             near = nearest_hint(name, unknown)
             raise InputError(

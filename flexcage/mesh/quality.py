@@ -12,9 +12,19 @@ from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
 
 from flexcage.core.errors import InputError
-from flexcage.mesh.cage_mesh import RING_GROUPS, CageMesh, group_names, signed_volumes
+from flexcage.mesh.cage_mesh import (
+    POCKET_GROUPS,
+    RING_GROUPS,
+    WALL_GROUPS,
+    CageMesh,
+    group_names,
+    pocket_groups,
+    signed_volumes,
+)
 from flexcage.mesh.measure import pocket_frame
 
+_PLACE = {POCKET_GROUPS: "side+x", WALL_GROUPS: "wall"}  # the group that says where a pocket is
+_SIDES = {"front": (2, 1), "rear": (2, -1), "side+x": (0, 1), "side-x": (0, -1)}  # axis and sign
 _EDGES = np.array([(0, 1), (0, 2), (0, 3), (1, 2), (1, 3), (2, 3)])
 
 
@@ -153,7 +163,8 @@ def _check_connected(mesh: CageMesh, where: str) -> None:
 
 def _check_groups(mesh: CageMesh, where: str) -> None:
     """Every group but the fillets must be there, with every pocket at its own azimuth."""
-    for name in group_names(mesh.pocket_count, fillets=False):
+    parts = pocket_groups(mesh.groups)
+    for name in group_names(mesh.pocket_count, fillets=False, parts=parts):
         if len(mesh.groups.get(name, ())) == 0:
             near = nearest_hint(name, mesh.groups)
             raise InputError(
@@ -162,7 +173,7 @@ def _check_groups(mesh: CageMesh, where: str) -> None:
                 value=name,
             )
     for k in range(mesh.pocket_count):
-        vertices = np.unique(mesh.groups[f"pocket{k}_side+x"])
+        vertices = np.unique(mesh.groups[f"pocket{k}_{_PLACE[parts]}"])
         _, y, t = pocket_frame(mesh.points[vertices], k, mesh.pocket_count).mean(axis=0)
         if abs(np.arctan2(t, y)) > pi / mesh.pocket_count:
             raise InputError(
@@ -171,11 +182,13 @@ def _check_groups(mesh: CageMesh, where: str) -> None:
                 f"towards z, where {360.0 * k / mesh.pocket_count:.1f} deg belongs",
                 where=f"mesh.groups pocket{k}",
             )
-        _check_sides(mesh, k, where)
+        _check_sides(mesh, k, parts, where)
 
 
-def _check_sides(mesh: CageMesh, pocket: int, where: str) -> None:
-    for face, axis, sign in (("front", 2, 1), ("rear", 2, -1), ("side+x", 0, 1), ("side-x", 0, -1)):
+def _check_sides(mesh: CageMesh, pocket: int, parts: tuple[str, ...], where: str) -> None:
+    for face, (axis, sign) in _SIDES.items():
+        if face not in parts:
+            continue
         vertices = np.unique(mesh.groups[f"pocket{pocket}_{face}"])
         place = pocket_frame(mesh.points[vertices], pocket, mesh.pocket_count).mean(axis=0)
         if sign * place[axis] <= 0.0:

@@ -57,7 +57,7 @@ class Quarter:
 
     points: np.ndarray  # (n, 3) [m]
     tets: np.ndarray  # (m, 4), positive volumes
-    surfaces: dict[str, np.ndarray]  # name (SURFACES and "fillet") -> (., 3) outward triangles
+    surfaces: dict[str, np.ndarray]  # name -> (., 3) outward triangles: three cuts, then groups
     plan: SizePlan
 
 
@@ -87,7 +87,7 @@ def mesh_quarter(cage: WindowCage, *, pocket_count: int, options: MeshOptions) -
         fillet = _fillet_surface(gmsh, cage)
         _sizes(gmsh, plan, fillet)
         gmsh.model.mesh.generate(3)
-        points, tets, faces = _arrays(gmsh, plan.stretch)
+        points, tets, faces = mesh_arrays(gmsh, plan.stretch)
     surfaces = {
         _surface_name(points[np.unique(triangles)], cage, pocket_count): triangles
         for triangles in faces
@@ -104,12 +104,8 @@ def _shape(gmsh: Any, cage: WindowCage, pocket_count: int, stretch: float) -> No
     occ = gmsh.model.occ
     inner, outer = 0.5 * cage.bore / MM, 0.5 * cage.outside_diameter / MM
     width, length, tangential = cage.width / MM, cage.pocket_length / MM, cage.pocket_width / MM
-    slope = sin(pi / pocket_count)  # of the cut: t = slope * radius
-    corners = ((inner, 0.0), (outer, 0.0), (outer, slope * outer), (inner, slope * inner))
-    points = [occ.addPoint(0.0, radius / stretch, t) for radius, t in corners]
-    lines = [occ.addLine(points[i - 1], points[i]) for i in range(4)]
-    section = occ.addPlaneSurface([occ.addCurveLoop(lines)])
-    body = occ.extrude([(2, section)], 0.5 * width, 0.0, 0.0)
+    slope = sin(pi / pocket_count)
+    body = section_prism(occ, (inner, outer), slope, 0.5 * width, stretch)
     window = occ.addRectangle(
         -0.5 * length, -0.5 * tangential, 0.0, length, tangential,
         roundedRadius=cage.fillet_radius / MM,
@@ -117,10 +113,25 @@ def _shape(gmsh: Any, cage: WindowCage, pocket_count: int, stretch: float) -> No
     occ.rotate([(2, window)], 0, 0, 0, 1, 0, 0, 0.5 * pi)
     occ.translate([(2, window)], 0.0, 0.5 * inner / stretch, 0.0)
     prism = occ.extrude([(2, window)], 0.0, outer / stretch, 0.0)
-    occ.cut([e for e in body if e[0] == 3], [e for e in prism if e[0] == 3])
+    occ.cut(body, [e for e in prism if e[0] == 3])
     occ.synchronize()
     if len(gmsh.model.getEntities(3)) != 1:
         raise RunFailed("the pocket cuts the cage's sector into several pieces")
+
+
+def section_prism(
+    occ: Any, radii: tuple[float, float], slope: float, length: float, stretch: float
+) -> list[tuple[int, int]]:
+    """The quarter sector without its pocket, [(3, tag)], in (x, radius/stretch, t) [mm].
+
+    ``slope`` is that of the psi cut: t = slope * radius.
+    """
+    inner, outer = radii
+    corners = ((inner, 0.0), (outer, 0.0), (outer, slope * outer), (inner, slope * inner))
+    points = [occ.addPoint(0.0, radius / stretch, t) for radius, t in corners]
+    lines = [occ.addLine(points[i - 1], points[i]) for i in range(4)]
+    section = occ.addPlaneSurface([occ.addCurveLoop(lines)])
+    return [e for e in occ.extrude([(2, section)], length, 0.0, 0.0) if e[0] == 3]
 
 
 def _x_extent(gmsh: Any, dim: int, tag: int) -> float:
@@ -162,7 +173,7 @@ def _sizes(gmsh: Any, plan: SizePlan, fillet: int) -> None:
     option.setNumber("Mesh.OptimizeNetgen", 1)
 
 
-def _arrays(gmsh: Any, stretch: float) -> tuple[np.ndarray, np.ndarray, list[np.ndarray]]:
+def mesh_arrays(gmsh: Any, stretch: float) -> tuple[np.ndarray, np.ndarray, list[np.ndarray]]:
     """Points [m], positive tets, and the outward triangles of each surface, compactly numbered."""
     mesh = gmsh.model.mesh
     tags, coordinates, _ = mesh.getNodes()

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import ClassVar, Protocol
 
 import numpy as np
 import scipy.sparse as sp
@@ -52,6 +53,34 @@ class ModeBasis:
         return self.shapes.shape[2]
 
 
+class ContactInterface(Protocol):
+    """What every cage's interface has: stations on F faces of Z pockets, and the lands'.
+
+    ``single`` and ``even`` list, face by face, components (0: x, 1: r, 2: psi) of contact forces.
+    A force along the former acts at its station alone; of those along the latter the resultant
+    counts, spread evenly over the face.
+    """
+
+    single: ClassVar[tuple[tuple[int, ...], ...]]
+    even: ClassVar[tuple[tuple[int, ...], ...]]
+
+    @property
+    def modes(self) -> np.ndarray:
+        """Dynamic modes at the stations: (Z, F, n_st, 3, n), without F where there is one face."""
+
+    @property
+    def land(self) -> np.ndarray:
+        """(2, n_land, 3, n) the same on inner and outer land."""
+
+    @property
+    def weights(self) -> sp.csr_matrix | None:
+        """(Z*F*n_st, n_nodes): station <- nodal displacement."""
+
+    @property
+    def land_weights(self) -> sp.csr_matrix | None:
+        """(2*n_land, n_nodes), the same for land stations."""
+
+
 @dataclass(frozen=True)
 class CageInterface:
     """Where contacts touch the cage: a few stations on every pocket face, and what moves there.
@@ -66,6 +95,9 @@ class CageInterface:
     pocket's centre: + widens the pocket), from defects, at the points ``offset_at`` along the face
     (evenly spaced; the stations if None).
     """
+
+    single: ClassVar[tuple[tuple[int, ...], ...]] = ((2,), (2,), (0,), (0,))  # the faces' normals
+    even: ClassVar[tuple[tuple[int, ...], ...]] = ((0, 1), (0, 1), (1, 2), (1, 2))  # tangents
 
     stations: np.ndarray  # (4, n_st) station coordinates [m]
     offset: np.ndarray  # (Z, 4, n_o) [m]

@@ -116,7 +116,7 @@ def cage_interface(
         residual=residual,
         compliance=compliance,
         patch_half_width=_patch_half_width(cage),
-        land=_modes_at_land(basis, land_weights, n_land),
+        land=land_modes(basis, land_weights, n_land),
         weights=weights,
         land_weights=land_weights,
     )
@@ -136,7 +136,7 @@ def station_weights(model: FEModel, stations: np.ndarray, pocket_count: int) -> 
                 return _hats(face_coordinate(points, p, f, pocket_count), stations[f])
 
             rows.append(model.face_weights(model.group(face_group(pocket, face)), hats))
-    return _normalised(sp.vstack(rows))
+    return normalised(sp.vstack(rows))
 
 
 def _hats(s: np.ndarray, stations: np.ndarray) -> np.ndarray:
@@ -145,7 +145,8 @@ def _hats(s: np.ndarray, stations: np.ndarray) -> np.ndarray:
     return np.stack([np.interp(s, stations, row) for row in unit])
 
 
-def _normalised(weights: sp.spmatrix) -> sp.csr_matrix:
+def normalised(weights: sp.spmatrix) -> sp.csr_matrix:
+    """Rows divided by their sums, so that each is a weighted mean."""
     total = np.asarray(weights.sum(axis=1)).ravel()
     return sp.csr_matrix(sp.diags_array(1.0 / total) @ weights)
 
@@ -161,7 +162,7 @@ def land_station_weights(model: FEModel, n_land: int) -> sp.csr_matrix:
             log.warning("the mesh has no group %s: that land stays rigid", name)
             rows.append(sp.csr_matrix((n_land, len(model.nodes))))
             continue
-        rows.append(_normalised(model.face_weights(model.group(name), _azimuth_hats(n_land))))
+        rows.append(normalised(model.face_weights(model.group(name), _azimuth_hats(n_land))))
     return sp.csr_matrix(sp.vstack(rows))
 
 
@@ -189,7 +190,8 @@ def _modes_at_stations(
     return np.ascontiguousarray(np.einsum("kab,kfsbn->kfsan", frames, means))
 
 
-def _modes_at_land(basis: ModeBasis, weights: sp.csr_matrix, n_land: int) -> np.ndarray:
+def land_modes(basis: ModeBasis, weights: sp.csr_matrix, n_land: int) -> np.ndarray:
+    """Modes (2, n_land, 3, n) at the lands' stations, components (x, r, psi) of their frames."""
     means = _averaged(basis.shapes, weights).reshape(2, n_land, 3, basis.size)
     frames = np.array([pocket_frame(j, n_land) for j in range(n_land)]).reshape(n_land, 3, 3)
     return np.ascontiguousarray(np.einsum("jab,ljbn->ljan", frames, means))

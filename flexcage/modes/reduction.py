@@ -3,19 +3,30 @@
 from __future__ import annotations
 
 import logging
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cache, cached_property, singledispatch
+from typing import Any
 
 import numpy as np
 
 from flexcage.core.cache import cached_arrays
+from flexcage.core.errors import InputError
 from flexcage.core.hashing import content_hash
 from flexcage.core.threads import one_blas_thread
 from flexcage.fem.free import FreeBodySolver
 from flexcage.fem.model import FEModel, assemble
+from flexcage.geometry.ball_cage_defects import BallCageDefect, pocket_shapes
+from flexcage.geometry.ball_cages import BallCage
 from flexcage.geometry.cages import Defect, WindowCage
 from flexcage.mesh.cage_mesh import CageMesh
+from flexcage.modes.ball_interface import (
+    BallCageInterface,
+    ball_cage_interface,
+    static_compliance,
+    wall_stations,
+    wall_weights,
+)
 from flexcage.modes.basis import CageInterface, ModeBasis, ResidualFlexibility
 from flexcage.modes.interface import cage_interface
 from flexcage.modes.registry import basis_version, build_basis
@@ -24,6 +35,7 @@ from flexcage.modes.spec import ModesSpec
 log = logging.getLogger(__name__)
 
 MODEL_VERSION = 3  # of the reduction: raise it when the same input gives another basis
+BALL_VERSION = 1  # of a ball cage's static compliances, likewise
 
 
 @dataclass(frozen=True)
@@ -32,7 +44,7 @@ class CageReduction:
 
     model: FEModel
     basis: ModeBasis
-    interface: CageInterface
+    interface: Any  # CageInterface or BallCageInterface
     key: str
 
     @cached_property
@@ -45,8 +57,8 @@ class CageReduction:
 def reduce_cage(
     mesh: CageMesh,
     *,
-    cage: WindowCage,
-    defects: Sequence[Defect],
+    cage: Any,
+    defects: Sequence[Any],
     spec: ModesSpec,
     order: int = 2,
 ) -> CageReduction:
@@ -63,16 +75,69 @@ def reduce_cage(
         dict(mesh.groups),
         *basis_version(spec.kind),
     )
-    arrays = cached_arrays(
-        "basis",
-        key,
-        lambda: _to_arrays(build_basis(model, pocket_count=mesh.pocket_count, spec=spec)),
+    solver = cache(lambda: FreeBodySolver(model))
+
+    def make() -> dict[str, np.ndarray]:
+        return _to_arrays(
+            build_basis(model, pocket_count=mesh.pocket_count, spec=spec, solver=solver())
+        )
+
+    arrays = cached_arrays("basis", key, make)
+    reduced = Reduced(model, _from_arrays(arrays), mesh.pocket_count, key, solver)
+    return CageReduction(model, reduced.basis, interface_of(cage, defects, reduced), key)
+
+
+@dataclass(frozen=True)
+class Reduced:
+    """What the interface of a cage is made from."""
+
+    model: FEModel
+    basis: ModeBasis
+    pocket_count: int
+    key: str  # names model and basis
+    solver: Callable[[], FreeBodySolver]  # the factored free body, made once
+
+
+@singledispatch
+def interface_of(cage: object, defects: Sequence[Any], reduced: Reduced) -> Any:
+    """The interface of a reduced cage; every type of cage registers here how it is touched."""
+    raise InputError(
+        f"no interface is known for a {type(cage).__name__}; a cage is a WindowCage or a BallCage",
+        where="cage",
     )
-    basis = _from_arrays(arrays)
-    interface = cage_interface(
-        model, basis, pocket_count=mesh.pocket_count, cage=cage, defects=defects
+
+
+@interface_of.register
+def _(cage: WindowCage, defects: Sequence[Defect], reduced: Reduced) -> CageInterface:
+    return cage_interface(
+        reduced.model,
+        reduced.basis,
+        pocket_count=reduced.pocket_count,
+        cage=cage,
+        defects=defects,
     )
-    return CageReduction(model, basis, interface, key)
+
+
+@interface_of.register
+def _(cage: BallCage, defects: Sequence[BallCageDefect], reduced: Reduced) -> BallCageInterface:
+    """Its static compliances are kept on disk beside the basis."""
+    model, count = reduced.model, reduced.pocket_count
+    shapes = pocket_shapes(cage, defects, pocket_count=count)
+
+    def make() -> dict[str, np.ndarray]:
+        weights = wall_weights(model, wall_stations(), shapes, cage)
+        return {"static": static_compliance(reduced.solver(), weights, count)}
+
+    key = content_hash(BALL_VERSION, reduced.key, cage, shapes)
+    static = cached_arrays("compliance", key, make)["static"]
+    return ball_cage_interface(
+        reduced.model,
+        reduced.basis,
+        pocket_count=reduced.pocket_count,
+        cage=cage,
+        defects=defects,
+        static=static,
+    )
 
 
 def _to_arrays(basis: ModeBasis) -> dict[str, np.ndarray]:

@@ -13,6 +13,7 @@ from flexcage.core.errors import InputError
 from flexcage.core.registry import add, check_free, source_of
 from flexcage.fem.free import FreeBodySolver
 from flexcage.fem.model import FEModel
+from flexcage.mesh.cage_mesh import WALL_GROUPS, pocket_groups
 from flexcage.modes import craig_bampton, free_free, ritz
 from flexcage.modes.basis import ModeBasis
 from flexcage.modes.spec import KINDS, ModesSpec
@@ -24,6 +25,11 @@ BUILDERS: dict[str, Callable[..., ModeBasis]] = {
     "ritz": ritz.build,
     "craig_bampton": craig_bampton.build,
     "free_free": free_free.build,
+}
+# kinds of bases that are others for a cage with round pockets, or (None) have no form for it
+ROUND_POCKETS: dict[str, Callable[..., ModeBasis] | None] = {
+    "ritz": ritz.build_without_attachments,
+    "craig_bampton": None,
 }
 _RIGID = 1e-9  # of the largest squared frequency: what rounding leaves of a rigid motion
 
@@ -80,6 +86,7 @@ def build_basis(
             where="modes.kind",
             value=spec.kind,
         )
+    builder = _builder(spec.kind, model)
     if spec.count > model.n_dof // 4:
         raise InputError(
             f"{spec.count} modes are asked of a mesh with {model.n_dof} unknowns; "
@@ -89,13 +96,29 @@ def build_basis(
         )
     if solver is None:
         solver = FreeBodySolver(model, kind=solver_kind)
-    basis = BUILDERS[spec.kind](solver, pocket_count=pocket_count, spec=spec)
+    basis = builder(solver, pocket_count=pocket_count, spec=spec)
     if spec.geometric_stiffening and basis.geometric is None:
         basis = replace(basis, geometric=spin_stiffness(solver, basis.shapes))
     check_basis(basis, len(model.nodes))
     first = ", ".join(f"{f:.1f}" for f in basis.frequencies[:6])
     log.info("basis %s: %d dynamic modes, first %s Hz", basis.name, basis.size, first)
     return basis
+
+
+def _builder(kind: str, model: FEModel) -> Callable[..., ModeBasis]:
+    """The builder of a kind for this cage; InputError for a kind that has no form for it."""
+    if pocket_groups(model.groups) != WALL_GROUPS:
+        return BUILDERS[kind]
+    builder = ROUND_POCKETS.get(kind, BUILDERS[kind])
+    if builder is None:
+        known = ", ".join(k for k in BUILDERS if ROUND_POCKETS.get(k, 1))
+        raise InputError(
+            f"mode basis {kind!r} needs pockets with plane faces; a cage with round pockets takes "
+            f"one of {known}.",
+            where="modes.kind",
+            value=kind,
+        )
+    return builder
 
 
 def check_basis(basis: ModeBasis, nodes: int) -> None:

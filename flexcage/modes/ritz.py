@@ -16,6 +16,7 @@ import numpy as np
 import scipy.sparse as sp
 from scipy.linalg import eigh
 
+from flexcage.core.errors import InputError
 from flexcage.fem.free import FreeBodySolver
 from flexcage.fem.modal import free_modes
 from flexcage.fem.symmetry import find_symmetry
@@ -30,19 +31,45 @@ log = logging.getLogger(__name__)
 def build(solver: FreeBodySolver, *, pocket_count: int, spec: ModesSpec) -> ModeBasis:
     """Free modes + centrifugal shape + residual attachment vectors of all pocket faces."""
     check_groups(solver.model, pocket_count)
+    kept, kept_stiffness, kinds = dynamic_modes(solver, spec)
+    vectors, own_stiffness = residual_vectors(solver, kept, kept_stiffness, pocket_count)
+    if spec.dynamic == "all":
+        n = kinds.count("free")
+        others = np.column_stack([kept[:, n:], vectors])
+        return _all_dynamic(solver, (kept[:, :n], kept_stiffness[:n]), others)
+    residual = residual_flexibility(vectors, own_stiffness, pocket_count)
+    return eigen_basis("ritz", kept, kept_stiffness, kinds, residual)
+
+
+def build_without_attachments(
+    solver: FreeBodySolver, *, pocket_count: int, spec: ModesSpec
+) -> ModeBasis:
+    """Free modes + centrifugal shape, and land vectors if asked for.
+
+    For cages whose interface has the rest of a pocket's flexibility in itself.
+    """
+    if spec.dynamic == "all":
+        raise InputError(
+            "modes.dynamic = 'all' makes attachment vectors of pocket faces dynamic, and this cage "
+            "has none; take 'free'.",
+            where="modes.dynamic",
+            value=spec.dynamic,
+        )
+    return eigen_basis("ritz", *dynamic_modes(solver, spec))
+
+
+def dynamic_modes(
+    solver: FreeBodySolver, spec: ModesSpec
+) -> tuple[np.ndarray, np.ndarray, list[str]]:
+    """Shapes (3N, n), stiffnesses (n,) and kinds: free modes, centrifugal shape, land vectors."""
     omega2, free = free_modes(solver, spec.count)
     centrifugal = centrifugal_mode(solver, free)
     kept = np.column_stack([free, centrifugal])
     kept_stiffness = np.append(omega2, centrifugal @ (solver.model.K @ centrifugal))
     kinds = ["free"] * len(omega2) + ["centrifugal"]
     if spec.land:
-        kept, kept_stiffness, kinds = with_lands(solver, kept, kept_stiffness, kinds)
-    vectors, own_stiffness = residual_vectors(solver, kept, kept_stiffness, pocket_count)
-    if spec.dynamic == "all":
-        others = np.column_stack([kept[:, len(omega2) :], vectors])
-        return _all_dynamic(solver, (free, omega2), others)
-    residual = residual_flexibility(vectors, own_stiffness, pocket_count)
-    return eigen_basis("ritz", kept, kept_stiffness, kinds, residual)
+        return with_lands(solver, kept, kept_stiffness, kinds)
+    return kept, kept_stiffness, kinds
 
 
 def eigen_basis(

@@ -1,0 +1,63 @@
+"""The mesh of a ball cage with its defects."""
+
+from __future__ import annotations
+
+import logging
+from collections.abc import Sequence
+
+from flexcage.geometry.ball_cage_defects import (
+    BallCageDefect,
+    check_ball_cage,
+    check_ball_defects,
+    cracks_of,
+)
+from flexcage.geometry.ball_cages import BallCage
+from flexcage.mesh.ball_morph import apply_ball_defects
+from flexcage.mesh.ball_sector import mesh_ball_quarter
+from flexcage.mesh.cage_mesh import CageMesh
+from flexcage.mesh.options import MeshOptions
+from flexcage.mesh.ring import ring_of
+
+log = logging.getLogger(__name__)
+
+
+def build_ball_cage_mesh(
+    cage: BallCage,
+    pocket_count: int,
+    pitch_diameter: float,
+    defects: Sequence[BallCageDefect],
+    options: MeshOptions,
+) -> CageMesh:
+    """Mesh of a ball cage with its defects, or the user's own file checked against both."""
+    check_ball_cage(cage, pocket_count=pocket_count)
+    check_ball_defects(defects, cage, pocket_count=pocket_count, pitch_diameter=pitch_diameter)
+    if options.file:
+        return _from_file(cage, pocket_count, pitch_diameter, defects, options)
+    quarter = mesh_ball_quarter(
+        cage, pocket_count=pocket_count, options=options, tips=_tips(cage, defects)
+    )
+    mesh = ring_of(quarter, pocket_count)
+    log.debug("%r from %d tetrahedra in a quarter sector", mesh, len(quarter.tets))
+    return apply_ball_defects(mesh, cage, defects, pitch_radius=0.5 * pitch_diameter)
+
+
+def _tips(cage: BallCage, defects: Sequence[BallCageDefect]) -> tuple[float, ...]:
+    """Distances [m] of cracks' tips from the cage's middle, where edges must be; each once."""
+    shares = {abs(0.5 - crack.share) for crack in cracks_of(defects)}
+    return tuple(share * cage.width for share in sorted(shares) if share > 1e-6)
+
+
+def _from_file(
+    cage: BallCage,
+    pocket_count: int,
+    pitch_diameter: float,
+    defects: Sequence[BallCageDefect],
+    options: MeshOptions,
+) -> CageMesh:
+    from flexcage.mesh.ball_measure import measure_ball_file
+    from flexcage.mesh.io import read_mesh
+
+    mesh = read_mesh(options.file, pocket_count=pocket_count, unit=options.file_unit)
+    return measure_ball_file(
+        mesh, cage, defects, pitch_radius=0.5 * pitch_diameter, source=options.file
+    )

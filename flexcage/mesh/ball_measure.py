@@ -1,0 +1,177 @@
+"""What round pockets and cracks measure on a mesh: walls fitted to the vertices, free faces."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from functools import singledispatch
+from math import pi
+from types import MappingProxyType
+from typing import Any
+
+import numpy as np
+
+from flexcage.core.errors import InputError
+from flexcage.geometry.ball_cage_defects import (
+    BallCageDefect,
+    DisplacedPocket,
+    ElongatedPocket,
+    EnlargedPocket,
+    PocketShapes,
+    WebCrack,
+    pocket_shapes,
+)
+from flexcage.geometry.ball_cages import BallCage
+from flexcage.mesh.cage_mesh import CageMesh
+from flexcage.mesh.measure import pocket_frame
+
+_OPPOSITE = np.array([[1, 2, 3], [0, 2, 3], [0, 1, 3], [0, 1, 2]])
+_ENOUGH = 20e-6  # m, to which a user's mesh must agree with the case
+
+
+def measure_pockets(mesh: CageMesh, pockets: Sequence[int], *, pitch_radius: float) -> PocketShapes:
+    """Shapes of the walls of some pockets, in that order: the slots nearest to their vertices."""
+    fits = [_fit(mesh, k, pitch_radius) for k in pockets]
+    return PocketShapes(
+        np.array([f[:2] for f in fits]).reshape(-1, 2),
+        np.array([f[2] for f in fits]),
+        np.array([f[3:] for f in fits]).reshape(-1, 2),
+    )
+
+
+def _fit(mesh: CageMesh, pocket: int, pitch_radius: float) -> np.ndarray:
+    """Axial shift, arc at pitch radius, radius, half straight lengths along x and psi (5,) [m]."""
+    from scipy.optimize import least_squares
+
+    count = mesh.pocket_count
+    points = mesh.points[np.unique(mesh.groups[f"pocket{pocket}_wall"])]
+    at = pocket_frame(points, pocket, count)
+    middle = 0.5 * (at.max(axis=0) + at.min(axis=0))
+    scale = 0.5 * np.ptp(at[:, 0])
+
+    def misses(p: np.ndarray) -> np.ndarray:
+        shift, arc, radius, *slot = p * scale
+        turned = pocket_frame(points, pocket + arc / pitch_radius * count / (2.0 * pi), count)
+        beyond = np.abs(turned[:, [0, 2]] - (shift, 0.0)) - slot
+        return np.hypot(*np.maximum(beyond, 0.0).T) / scale - radius / scale
+
+    arc = np.arctan2(middle[2], middle[1]) * pitch_radius
+    start = np.array([middle[0], arc, 0.9 * scale, 0.05 * scale, 0.05 * scale]) / scale
+    low = [-np.inf, -np.inf, 0.0, 0.0, 0.0]
+    found = least_squares(misses, start, bounds=(low, np.inf), xtol=1e-14, ftol=1e-14, gtol=1e-14)
+    return found.x * scale
+
+
+def crack_length(mesh: CageMesh, web: int, side: str) -> float:
+    """Axial length [m] of a web's crack: of its free faces, which belong to no group."""
+    _, y, t = pocket_frame(mesh.points, web - 0.5, mesh.pocket_count).T
+    middle = np.abs(np.arctan2(t, y)) < 0.25 * pi / mesh.pocket_count
+    faces = np.sort(mesh.tets[:, _OPPOSITE][middle[mesh.tets].any(axis=1)].reshape(-1, 3), axis=1)
+    faces, times = np.unique(faces, axis=0, return_counts=True)
+    free = faces[(times == 1) & middle[faces].all(axis=1)]
+    named = np.sort(np.vstack(list(mesh.groups.values())), axis=1)
+    n = len(mesh.points)
+    x = mesh.points[free[~np.isin(_keys(free, n), _keys(named, n))], 0]
+    sign = 1.0 if side == "+x" else -1.0
+    end = float((sign * mesh.points[:, 0]).max())
+    return end - float((sign * x).min(initial=end))
+
+
+def _keys(faces: np.ndarray, n: int) -> np.ndarray:
+    a, b, c = faces.astype(np.int64).T
+    return (a * n + b) * n + c
+
+
+@dataclass(frozen=True)
+class Reading:
+    """One size of a defect: what it is called, what is asked of it and what the mesh has [m]."""
+
+    kind: str
+    asked: float
+    measured: float
+
+
+@singledispatch
+def readings(defect: Any, mesh: CageMesh, cage: BallCage, *, pitch_radius: float) -> list[Reading]:
+    """What a mesh has of a defect, measured from the undamaged cage; one row a size."""
+    raise InputError(f"a {type(defect).__name__} is no defect of a ball cage", where="defects")
+
+
+@readings.register
+def _(
+    defect: EnlargedPocket, mesh: CageMesh, cage: BallCage, *, pitch_radius: float
+) -> list[Reading]:
+    found = measure_pockets(mesh, [defect.pocket], pitch_radius=pitch_radius)
+    change = 2.0 * float(found.radius[0]) - cage.pocket_diameter
+    return [Reading(defect.tag, defect.increase, change)]
+
+
+@readings.register
+def _(
+    defect: ElongatedPocket, mesh: CageMesh, cage: BallCage, *, pitch_radius: float
+) -> list[Reading]:
+    found = measure_pockets(mesh, [defect.pocket], pitch_radius=pitch_radius)
+    along = 0 if defect.direction == "axial" else 1
+    return [Reading(defect.tag, defect.elongation, 2.0 * float(found.slot[0, along]))]
+
+
+@readings.register
+def _(
+    defect: DisplacedPocket, mesh: CageMesh, cage: BallCage, *, pitch_radius: float
+) -> list[Reading]:
+    found = measure_pockets(mesh, [defect.pocket], pitch_radius=pitch_radius).centre[0]
+    return [
+        Reading(f"{defect.tag} {name}", asked, float(size))
+        for name, asked, size in zip(
+            ("axial", "circumferential"), (defect.axial, defect.circumferential), found
+        )
+        if asked
+    ]
+
+
+@readings.register
+def _(defect: WebCrack, mesh: CageMesh, cage: BallCage, *, pitch_radius: float) -> list[Reading]:
+    return [
+        Reading(defect.tag, defect.share * cage.width, crack_length(mesh, defect.web, defect.side))
+    ]
+
+
+def measure_ball_file(
+    mesh: CageMesh,
+    cage: BallCage,
+    defects: Sequence[BallCageDefect],
+    *,
+    pitch_radius: float,
+    source: str,
+) -> CageMesh:
+    """A user's mesh with its defects measured; refused if a pocket is not what the case says."""
+    count = mesh.pocket_count
+    asked = pocket_shapes(cage, defects, pocket_count=count)
+    found = measure_pockets(mesh, range(count), pitch_radius=pitch_radius)
+    sizes = {
+        "shifted axially by": (asked.centre[:, 0], found.centre[:, 0]),
+        "shifted circumferentially by": (asked.centre[:, 1], found.centre[:, 1]),
+        "long": (2.0 * (asked.radius + asked.slot[:, 0]), 2.0 * (found.radius + found.slot[:, 0])),
+        "wide": (2.0 * (asked.radius + asked.slot[:, 1]), 2.0 * (found.radius + found.slot[:, 1])),
+    }
+    for name, (should, is_) in sizes.items():
+        worst = int(np.argmax(np.abs(is_ - should)))
+        if abs(is_[worst] - should[worst]) > _ENOUGH:
+            raise InputError(
+                f"{source}: pocket {worst} is {name} {is_[worst] * 1e3:.3f} mm, but the case says "
+                f"{should[worst] * 1e3:.3f} mm; give the cage and the defects that the file "
+                "contains",
+                where=f"mesh.file pocket{worst}",
+                value=float(is_[worst]),
+            )
+    rows = [r for d in defects for r in readings(d, mesh, cage, pitch_radius=pitch_radius)]
+    delivered = [
+        {
+            "kind": r.kind,
+            "asked": r.asked,
+            "delivered": r.measured,
+            "volume_change": float("nan"),  # there is no undamaged mesh to compare with
+        }
+        for r in rows
+    ]
+    return replace(mesh, info=MappingProxyType({**mesh.info, "defects": delivered}))
