@@ -5,12 +5,15 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from math import asin, cos, degrees, pi, sin
 
-from flexcage.core.errors import InputError
 from flexcage.core.units import describe
 from flexcage.geometry.angular_contact_ball import AngularContactBallBearing
 from flexcage.geometry.ball_bearing import BallBearing, clearance_at
+from flexcage.geometry.ball_cage_defects import (
+    BallCageDefect,
+    check_ball_cage,
+    check_ball_defects,
+)
 from flexcage.geometry.ball_cages import BallCage
-from flexcage.geometry.cages import Defect
 from flexcage.geometry.checks import Finding, check_geometry, raise_first
 from flexcage.geometry.deep_groove_ball import DeepGrooveBallBearing
 
@@ -24,14 +27,18 @@ def _mm(value: float) -> str:
 
 @check_geometry.register
 def _(
-    bearing: AngularContactBallBearing, cage: BallCage | None = None, defects: Sequence[Defect] = ()
+    bearing: AngularContactBallBearing,
+    cage: BallCage | None = None,
+    defects: Sequence[BallCageDefect] = (),
 ) -> None:
     _check(bearing, cage, defects, _find_in_angle(bearing))
 
 
 @check_geometry.register
 def _(
-    bearing: DeepGrooveBallBearing, cage: BallCage | None = None, defects: Sequence[Defect] = ()
+    bearing: DeepGrooveBallBearing,
+    cage: BallCage | None = None,
+    defects: Sequence[BallCageDefect] = (),
 ) -> None:
     _check(bearing, cage, defects, _find_in_clearance(bearing, bearing.radial_clearance))
 
@@ -39,7 +46,7 @@ def _(
 def _check(
     bearing: BallBearing,
     cage: BallCage | None,
-    defects: Sequence[Defect],
+    defects: Sequence[BallCageDefect],
     of_its_type: Iterator[Finding],
 ) -> None:
     """Raise InputError for the first impossibility: of all ball bearings, of one type, of cages."""
@@ -49,10 +56,14 @@ def _check(
     raise_first(of_its_type)
     if cage is not None:
         raise_first(find_in_cage(bearing, cage))
-    if defects:
-        raise InputError(
-            "defects are those of window cages; a ball bearing's cage takes none so far.",
-            where="defects",
+    if cage is not None and defects:
+        check_ball_cage(cage, pocket_count=bearing.ball_count)
+        check_ball_defects(
+            defects,
+            cage,
+            pocket_count=bearing.ball_count,
+            pitch_diameter=bearing.pitch_diameter,
+            ball_diameter=bearing.ball_diameter,
         )
 
 

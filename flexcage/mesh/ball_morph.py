@@ -131,7 +131,8 @@ def _harmonic(mesh: CageMesh, values: np.ndarray, held: np.ndarray) -> np.ndarra
     """Each column of ``values`` (n, 2) where it is ``held``, and harmonic between."""
     from scipy.sparse.linalg import splu
 
-    tets = mesh.tets[(~held).any(axis=1)[mesh.tets].any(axis=1)]
+    loose = ~(held[:, 0] & held[:, 1])
+    tets = mesh.tets[loose[mesh.tets].any(axis=1)]
     corners = mesh.points[tets]
     edges = corners[:, 1:] - corners[:, :1]
     inverse = np.linalg.inv(edges)  # columns: gradients of the corners 1 to 3

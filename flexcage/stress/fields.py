@@ -2,9 +2,10 @@
 
 A unit force's field is what the dynamic modes miss: its inertia-relieved answer on the full mesh
 less the part that the modes carry. Modes times q plus these fields times the forces is then
-exactly mode acceleration, for any basis. Every station has its normal force; tangential
-(friction) forces of a face enter by their resultant, spread evenly. Fields are kept as the five
-deviator components of ``operators.deviator`` in single precision.
+exactly mode acceleration, for any basis. The interface says which forces of a station have fields
+of their own and which enter by their resultant, spread evenly over the face: with window cages
+normal forces and friction, with round pockets all of them have their own. Fields are kept as the
+five deviator components of ``operators.deviator`` in single precision.
 """
 
 from __future__ import annotations
@@ -16,15 +17,10 @@ import numpy as np
 
 from flexcage.core.threads import on_all_cores
 from flexcage.fem.symmetry import CyclicSymmetry, find_symmetry
-from flexcage.modes.basis import FACES
 from flexcage.modes.pockets import pocket_frame
 from flexcage.stress.operators import VertexStress, deviator
 from flexcage.stress.places import contact_zone, root_places
 from flexcage.stress.recovery import StressRecovery
-
-_NORMAL = (2, 2, 0, 0)  # component (x, r, psi) normal to each face
-_TANGENT = ((0, 1), (0, 1), (1, 2), (1, 2))
-
 
 Keep = Callable[[str, Callable[[], np.ndarray]], np.ndarray]
 _TOGETHER = 33  # right-hand sides of land forces that are solved at once
@@ -99,25 +95,29 @@ class StressFields:
         return np.concatenate(fields, axis=1)
 
     def reduced_forces(self, station_forces: np.ndarray) -> np.ndarray:
-        """Forces (nt, Z per_pocket) of ``forces``' columns from (nt, Z, 4, n_st, 3)."""
-        columns = []
-        for face in range(len(FACES)):
-            columns.append(station_forces[:, :, face, :, _NORMAL[face]])
-            for component in _TANGENT[face]:
+        """Forces (nt, Z per_pocket) of ``forces``' columns from (nt, Z, F, n_st, 3)."""
+        interface, columns = self._recovery.interface, []
+        for face, (single, even) in enumerate(zip(interface.single, interface.even)):
+            for component in single:
+                columns.append(station_forces[:, :, face, :, component])
+            for component in even:
                 columns.append(station_forces[:, :, face, :, component].sum(-1)[..., None])
         return np.concatenate(columns, axis=2).reshape(len(station_forces), -1)
 
     def _loads(self, pocket: int) -> np.ndarray:
         """Nodal loads (3N, per_pocket) in the order of ``reduced_forces``."""
-        n_stations = self._recovery.interface.stations.shape[1]
-        first = pocket * len(FACES) * n_stations
-        weights = self._recovery.weights[first : first + len(FACES) * n_stations].toarray()
+        interface, count = self._recovery.interface, self._recovery.pocket_count
+        every = self._recovery.weights
+        rows_of_pocket = every.shape[0] // count
+        weights = every[pocket * rows_of_pocket : (pocket + 1) * rows_of_pocket].toarray()
+        by_face = weights.reshape(len(interface.single), -1, every.shape[1])
         frame = self._recovery.frames[pocket]
         columns = []
-        for face, rows in enumerate(weights.reshape(len(FACES), n_stations, -1)):
-            columns += [np.outer(row, frame[_NORMAL[face]]).ravel() for row in rows]
-            even = rows.mean(axis=0)
-            columns += [np.outer(even, frame[component]).ravel() for component in _TANGENT[face]]
+        for rows, single, even in zip(by_face, interface.single, interface.even):
+            for component in single:
+                columns += [np.outer(row, frame[component]).ravel() for row in rows]
+            mean = rows.mean(axis=0)
+            columns += [np.outer(mean, frame[component]).ravel() for component in even]
         return np.stack(columns, axis=1)
 
     def _turned(self, symmetry: CyclicSymmetry, first: np.ndarray, pocket: int) -> np.ndarray:

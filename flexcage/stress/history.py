@@ -61,7 +61,7 @@ def equivalent_stress(
 ) -> np.ndarray:
     """Equivalent stress (n_surface, nt) [Pa].
 
-    Over nt samples: modal coordinates (nt, n), station forces (nt, Z, 4, n_st, 3) and land forces
+    Over nt samples: modal coordinates (nt, n), station forces (nt, Z, F, n_st, 3) and land forces
     (nt, 2, n_land, 3) [N], components (x, r, psi) of the pockets' and land stations' frames.
     """
     sums = fields.modes @ q.T.astype(np.float32)

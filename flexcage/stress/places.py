@@ -5,17 +5,27 @@ from __future__ import annotations
 import numpy as np
 
 from flexcage.fem.model import FEModel
+from flexcage.mesh.cage_mesh import POCKET_GROUPS, WALL_GROUPS, pocket_groups
 from flexcage.modes.basis import FACES
+from flexcage.modes.lands import LANDS
 from flexcage.modes.pockets import face_group, pocket_frame
 
 CORNERS = ("front+x", "front-x", "rear+x", "rear-x")
+SECTIONS = ("waist_front", "rim+x", "waist_rear", "rim-x")  # by quarters of a turn from +psi
 
 
 def root_places(model: FEModel, pocket_count: int) -> dict[str, np.ndarray]:
-    """Vertices of ``pocket{k}_root_{front|rear}{+x|-x}``: the fillet at each pocket corner.
+    """Vertices of every named place.
 
-    A mesh without fillet groups has the edges there at which a crossbeam and a side face meet.
+    Window cages: ``pocket{k}_root_{front|rear}{+x|-x}``, the fillet at each pocket corner; a mesh
+    without fillet groups has the edges there at which a crossbeam and a side face meet. Round
+    pockets: ``pocket{k}_waist_{front|rear}`` and ``pocket{k}_rim{+x|-x}``, the surface of the
+    thinnest sections, towards the next pockets and towards the ends.
     """
+    return _PLACES[pocket_groups(model.groups)](model, pocket_count)
+
+
+def _corners(model: FEModel, pocket_count: int) -> dict[str, np.ndarray]:
     places: dict[str, np.ndarray] = {}
     for pocket in range(pocket_count):
         for corner in CORNERS:
@@ -23,6 +33,21 @@ def root_places(model: FEModel, pocket_count: int) -> dict[str, np.ndarray]:
             vertices = _fillet_vertices(model, pocket, pocket_count, beam, side)
             if len(vertices):
                 places[f"pocket{pocket}_root_{corner}"] = vertices
+    return places
+
+
+def _sections(model: FEModel, pocket_count: int) -> dict[str, np.ndarray]:
+    """Surface vertices of a sector in an eighth of a turn about the pocket's axis each."""
+    surface = np.setdiff1d(model.surface, contact_zone(model, pocket_count))
+    places: dict[str, np.ndarray] = {}
+    for pocket in range(pocket_count):
+        x, r, t = (model.points[surface] @ pocket_frame(pocket, pocket_count).T).T
+        wall = model.points[np.unique(model.group(f"pocket{pocket}_wall")), 0]
+        angle = np.arctan2(x - 0.5 * (wall.max() + wall.min()), t)
+        own = np.abs(np.arctan2(t, r)) < np.pi / pocket_count * (1.0 + 1e-9)
+        for name, middle in zip(SECTIONS, 0.5 * np.pi * np.arange(4)):
+            near = np.abs((angle - middle + np.pi) % (2.0 * np.pi) - np.pi) < np.pi / 8.0
+            places[f"pocket{pocket}_{name}"] = surface[own & near]
     return places
 
 
@@ -41,19 +66,35 @@ def _fillet_vertices(
 
 
 def contact_zone(model: FEModel, pocket_count: int) -> np.ndarray:
-    """Vertices of the pocket faces less those on fillets (or corner edges, without fillets).
+    """Vertices of the pockets' walls less those on fillets (or corner edges, without fillets).
 
-    There the spread contact force acts; the stress right under it is that of the contact law,
-    not of the mesh, so peaks leave these vertices out.
+    Round pockets: less those on the edges with the lands. There the spread contact force acts; the
+    stress right under it is that of the contact law, not of the mesh, so peaks leave these vertices
+    out.
     """
+    return _ZONES[pocket_groups(model.groups)](model, pocket_count)
+
+
+def _plane_faces(model: FEModel, pocket_count: int) -> np.ndarray:
     names = [face_group(k, f) for k in range(pocket_count) for f in range(len(FACES))]
     faces = np.concatenate([model.group(name).ravel() for name in names])
-    corners = list(root_places(model, pocket_count).values())
+    corners = list(_corners(model, pocket_count).values())
     return np.setdiff1d(faces, np.concatenate(corners)) if corners else np.unique(faces)
+
+
+def _round_walls(model: FEModel, pocket_count: int) -> np.ndarray:
+    walls = [model.group(f"pocket{k}_wall").ravel() for k in range(pocket_count)]
+    edges = [model.group(name).ravel() for name in LANDS]
+    return np.setdiff1d(np.concatenate(walls), np.concatenate(edges))
+
+
+_PLACES = {POCKET_GROUPS: _corners, WALL_GROUPS: _sections}
+_ZONES = {POCKET_GROUPS: _plane_faces, WALL_GROUPS: _round_walls}
 
 
 def in_words(name: str) -> str:
     """A place's name as a reader wants it: "pocket5_root_rear+x" is pocket 5, corner rear +x."""
-    pocket, _, corner = name.partition("_root_")
-    corner = corner.replace("+", " +").replace("-", " -")
-    return f"{pocket.replace('pocket', 'pocket ')}, corner {corner}" if corner else name
+    pocket, _, place = name.partition("_")
+    place = place.replace("root_", "corner ").replace("_", " ")
+    place = place.replace("+x", " +x").replace("-x", " -x")
+    return f"{pocket.replace('pocket', 'pocket ')}, {place}" if place else name

@@ -16,7 +16,7 @@ import scipy.sparse as sp
 from flexcage.core.errors import InputError
 from flexcage.fem.free import FreeBodySolver
 from flexcage.fem.model import FEModel
-from flexcage.modes.basis import CageInterface, ModeBasis
+from flexcage.modes.basis import ContactInterface, ModeBasis
 from flexcage.modes.pockets import pocket_frame
 from flexcage.stress.operators import VertexStress
 
@@ -32,7 +32,7 @@ class CageLoads:
     motion, which inertia relief removes exactly, as it does the resultant of the forces.
     """
 
-    station_forces: np.ndarray  # (Z, 4, n_st, 3) [N], components (x, r, psi) of the pocket frames
+    station_forces: np.ndarray  # (Z, F, n_st, 3) [N], components (x, r, psi) of the pocket frames
     land_forces: np.ndarray | None = None  # (2, n_land, 3) [N], components (x, r, psi)
     angular_velocity: np.ndarray = field(default_factory=lambda: np.zeros(3))  # body frame [rad/s]
     modal_coordinates: np.ndarray | None = None  # (n,)
@@ -47,7 +47,7 @@ class StressRecovery:
         self,
         model: FEModel,
         basis: ModeBasis,
-        interface: CageInterface,
+        interface: ContactInterface,
         *,
         solver: FreeBodySolver | None = None,
         solver_kind: str = "auto",
