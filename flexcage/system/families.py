@@ -8,6 +8,8 @@ from dataclasses import dataclass
 from typing import Any
 
 from flexcage.modes.basis import FACES
+from flexcage.system.ball_model import BallModel, ball_work
+from flexcage.system.ball_residual import evaluate as evaluate_balls
 from flexcage.system.data import Work
 from flexcage.system.layout import Layout
 from flexcage.system.model import Model, roller_work
@@ -24,6 +26,7 @@ def parts_type(name: str, model: type) -> Any:
 
 
 RollerParts = parts_type("RollerParts", Model)
+BallParts = parts_type("BallParts", BallModel)
 
 
 @dataclass(frozen=True)
@@ -53,7 +56,8 @@ class Family:
 FAMILIES: dict[type, Family] = {
     Model: Family(
         "roller", evaluate_rollers, RollerParts, roller_work, FACES, ("rib +x", "rib -x"), True
-    )
+    ),
+    BallModel: Family("ball", evaluate_balls, BallParts, ball_work, ("pocket",), (), False),
 }
 
 
