@@ -5,6 +5,7 @@ from __future__ import annotations
 import logging
 from collections.abc import Sequence
 
+from flexcage.core.errors import InputError
 from flexcage.geometry.ball_cage_defects import (
     BallCageDefect,
     check_ball_cage,
@@ -33,6 +34,12 @@ def build_ball_cage_mesh(
     check_ball_defects(defects, cage, pocket_count=pocket_count, pitch_diameter=pitch_diameter)
     if options.file:
         return _from_file(cage, pocket_count, pitch_diameter, defects, options)
+    if options.fillet_size is not None:
+        raise InputError(
+            "mesh.fillet_size is of window cages; round pockets have no fillets: give mesh.size.",
+            where="mesh.fillet_size",
+            value=options.fillet_size,
+        )
     quarter = mesh_ball_quarter(
         cage, pocket_count=pocket_count, options=options, tips=_tips(cage, defects)
     )

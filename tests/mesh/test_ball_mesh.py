@@ -299,3 +299,5 @@ def test_a_cage_of_no_known_type_is_refused():
         )
     with pytest.raises(InputError, match="numbered 0 to 7"):
         mesh_of(EnlargedPocket(pocket=8, increase=0.1 * MM))
+    with pytest.raises(InputError, match="fillet_size is of window cages"):
+        mesh_of(fillet_size=0.1 * MM)

@@ -24,6 +24,7 @@ from flexcage.modes.ball_interface import (
 from flexcage.modes.pockets import pocket_frame
 from flexcage.modes.registry import build_basis
 from flexcage.modes.spec import ModesSpec
+from flexcage.modes.table import mode_table
 
 MATERIAL = MATERIALS["polyimide"]
 
@@ -130,6 +131,35 @@ def test_deflection_at_a_wall_is_the_full_mesh_one(request, which):
         ours = modal @ np.linalg.solve(cage.basis.stiffness, modal)
         ours += interface.local[pocket, station] + shown[pocket, station]
         assert ours == pytest.approx(full, rel=0.02)
+
+
+@pytest.mark.parametrize("station", [0.0, 0.5, 2.0, 2.5, 4.0, 9.3])
+def test_a_patch_of_its_own_between_stations(finer, station):
+    """A pressure that falls off over 2 mm by 3 mm at mid-height, on the full mesh.
+
+    What is left is the wall's edges, which a half-space has not.
+    """
+    model, interface = finer.model, finer.interface
+    theta = 2.0 * np.pi * station / 16
+
+    def pressure(points):
+        x, y, t = points.T
+        along = 3e-3 * ((np.arctan2(x, t) - theta + np.pi) % (2.0 * np.pi) - np.pi)
+        high = np.hypot(y, t) - 11.5e-3
+        lobes = (1.5 - np.abs(along) / 1e-3, 1.5 - np.abs(high) / 1.5e-3)
+        return (np.clip(lobes[0], 0.0, 1.0) * np.clip(lobes[1], 0.0, 1.0))[None]
+
+    spread = model.face_weights(model.group("pocket0_wall"), pressure).toarray()[0]
+    normal = np.array([np.sin(theta), 0.0, np.cos(theta)])
+    load = np.outer(spread / spread.sum(), normal).reshape(-1, 1)
+    full = (load.T @ finer.solver.solve(load)).item()
+    first, share = int(station), station % 1.0
+    pair = [first, (first + 1) % 16]
+    modal = normal @ np.tensordot([1.0 - share, share], interface.modes[0, pair], axes=1)
+    ours = modal @ np.linalg.solve(finer.basis.stiffness, modal)
+    ours += [1.0 - share, share] @ interface.local[0, pair]
+    ours += mean_indentation(MATERIAL, 2e-3, 3e-3)
+    assert ours == pytest.approx(full, rel=0.04)
 
 
 def test_a_pinched_cage_gives_way_as_the_full_mesh(sound):
@@ -266,6 +296,13 @@ def test_reduction_keeps_its_compliances_on_disk(monkeypatch, tmp_path):
     np.testing.assert_array_equal(stored.interface.local, built.interface.local)
     np.testing.assert_array_equal(stored.interface.modes, built.interface.modes)
     assert stored.interface.modes.shape == (POCKETS, 16, 3, 5)
+
+
+def test_the_mode_table_knows_round_pockets(sound):
+    table = mode_table(sound.model, sound.basis, pocket_count=POCKETS)
+    np.testing.assert_allclose(table.share.sum(axis=0), 1.0)
+    assert table.effective_mass.max() < 1e-15 * sound.model.mass
+    assert "web" in str(table) and "share_rim" in table.columns()
 
 
 def test_bases_of_a_ball_cage(sound):
