@@ -1,4 +1,4 @@
-"""A small ball cage of eight pockets on the coarse mesh, sound and with defects, reduced."""
+"""A small ball cage of six pockets on the coarse mesh, sound and with defects, reduced."""
 
 from __future__ import annotations
 
@@ -14,22 +14,22 @@ from flexcage.modes.registry import build_basis
 from flexcage.modes.spec import ModesSpec
 from flexcage.stress.recovery import StressRecovery
 
-BALL_POCKETS = 8
+BALL_POCKETS = 6
 BALL_CAGE = BallCage(
     material=MATERIALS["polyimide"],
-    bore=20e-3,
-    outside_diameter=26e-3,
+    bore=16e-3,
+    outside_diameter=22e-3,
     width=12e-3,
     pocket_diameter=6e-3,
 )
-BALL_DEFECTS = (EnlargedPocket(pocket=2, increase=0.4e-3), WebCrack(web=6, share=0.3))
+BALL_DEFECTS = (EnlargedPocket(pocket=2, increase=0.4e-3), WebCrack(web=5, share=0.3))
 
 
 def ball_recovery(defects=(), fineness="coarse", **spec):
     mesh = build_cage_mesh(
         BALL_CAGE,
         pocket_count=BALL_POCKETS,
-        pitch_diameter=23e-3,
+        pitch_diameter=19e-3,
         defects=defects,
         options=MeshOptions(fineness=fineness),
     )
