@@ -90,10 +90,11 @@ class Run:
 
     @cached_property
     def events(self) -> xarray.Dataset:
-        """Contacts that closed or opened: time [s], roller, place, closed (an xarray.Dataset)."""
+        """Contacts that closed or opened: time [s], roller or ball, place, closed (an
+        xarray.Dataset)."""
         from flexcage.results.recording import contact_events
 
-        return contact_events(self.store.events())
+        return contact_events(self.store.events(), self.store.layout.attrs)
 
     @property
     def steps(self) -> dict[str, np.ndarray]:
@@ -105,8 +106,9 @@ class Run:
         b = self.case.bearing
         return BearingNumbers(
             pitch_diameter=b.pitch_diameter,
-            roller_diameter=b.roller_diameter,
-            roller_count=b.roller_count,
+            roller_diameter=b.element_diameter,
+            roller_count=b.element_count,
+            contact_angle=b.nominal_contact_angle,
         )
 
     @cached_property
@@ -232,10 +234,7 @@ class Run:
         from flexcage.render.album import Scene
 
         case, load = self.case, self.case.load
-        if case.cage.guidance == "outer":
-            clearance = case.bearing.outer_race_radius - 0.5 * case.cage.outside_diameter
-        else:
-            clearance = 0.5 * (case.cage.bore - case.bearing.rib_diameter)
+        left = case.bearing.land_clearance(case.cage)
         return Scene(
             name=case.name,
             dataset=self.dataset,
@@ -243,7 +242,7 @@ class Run:
             mesh=self.mesh,
             defects=case.defects,
             load=(load.radial * np.cos(load.direction), load.radial * np.sin(load.direction)),
-            clearance=clearance,
+            clearance=left[0] if left else None,
             settle=case.output.settle,
             stress=self._stress_pictures(animate) if self.cage is not None else None,
         )

@@ -12,8 +12,15 @@ from flexcage.case import Case
 from flexcage.core.timing import Stages
 from flexcage.results.recording import Recorder
 from flexcage.run import Run, check_assembly, check_resumed, open_folder
-from flexcage.stages import begin_compiling, build_bearing, cage_mesh, cage_reduction, run_store
-from flexcage.system.start import find_start, pushed
+from flexcage.stages import (
+    assembled_start,
+    begin_compiling,
+    build_bearing,
+    cage_mesh,
+    cage_reduction,
+    run_store,
+)
+from flexcage.system.start import pushed
 
 
 def simulate(
@@ -29,11 +36,11 @@ def simulate(
     stages = Stages()
     if folder is not None and resume:
         check_resumed(folder, case)
-    compiling = begin_compiling()
+    compiling = begin_compiling(case.bearing.element)
     mesh = stages("mesh", cage_mesh, case)
     cage = stages("modes", cage_reduction, case, mesh)
     bearing = stages("kernels", build_bearing, case, mesh, cage, compiling)
-    start = stages("start", find_start, bearing, limit_force=case.limits.assembly_force)
+    start = stages("start", assembled_start, case, bearing)
     check_assembly(case, mesh, cage, start)
     start = pushed(start, bearing.layout, case.start)
     store = run_store(case, bearing, folder, resume=resume)

@@ -16,14 +16,16 @@ from flexcage.mesh.cage_mesh import CageMesh
 from flexcage.mesh.options import MeshOptions
 from flexcage.mesh.quality import check_mesh
 from flexcage.modes.basis import ModeBasis
-from flexcage.modes.interface import rigid_interface
-from flexcage.modes.reduction import CageReduction, reduce_cage
+from flexcage.modes.reduction import CageReduction, reduce_cage, rigid_interface_of
 from flexcage.results.recording import new_store
 from flexcage.results.store import MemoryRunStore, RunStore
 from flexcage.run import write_case
+from flexcage.static import solve_static
+from flexcage.system import ball_start  # noqa: F401  (registers the start of ball bearings)
 from flexcage.system.layout import Layout
 from flexcage.system.model import build_model
 from flexcage.system.problem import Bearing
+from flexcage.system.start import Start, find_start
 
 log = logging.getLogger(__name__)
 
@@ -68,15 +70,16 @@ def cage_modes(case: Case) -> ModeBasis:
     return reduction.basis
 
 
-def begin_compiling() -> subprocess.Popen | None:
-    """Compile the larger half of the kernels in a process of its own, if they are not on disk yet.
+def begin_compiling(element: str) -> subprocess.Popen | None:
+    """Compile the larger half of the kernels in a process of its own, if they are not on disk yet:
+    those of bearings with these elements ("roller", "ball").
 
     Meanwhile the cage is meshed and reduced. ``build_bearing`` waits for it.
     """
-    if jit.kernels_cached():
+    if jit.kernels_cached(element):
         return None
     log.info("compiling the kernels for the first time: about a minute, once")
-    command = "from flexcage.stages import compile_evaluation; compile_evaluation()"
+    command = f"from flexcage.stages import compile_evaluation; compile_evaluation({element!r})"
     try:
         return subprocess.Popen(
             [sys.executable, "-c", command], stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL,
@@ -86,9 +89,13 @@ def begin_compiling() -> subprocess.Popen | None:
         return None  # then this process does it alone
 
 
-def compile_evaluation() -> None:
-    """Compile a bearing's equations of motion; they are the same for all bearings."""
-    case = Case.from_preset("N1013", mesh=MeshOptions(fineness="coarse"))
+#: A preset with each kind of elements: equations of motion are the same for all of a kind.
+EXAMPLES = {"roller": "N1013", "ball": "7010C-PI"}
+
+
+def compile_evaluation(element: str) -> None:
+    """Compile the equations of motion of bearings with these elements."""
+    case = Case.from_preset(EXAMPLES[element], mesh=MeshOptions(fineness="coarse"))
     _bearing_of(case, cage_mesh(case), None).evaluate  # noqa: B018
 
 
@@ -99,22 +106,28 @@ def build_bearing(
     compiling: subprocess.Popen | None = None,
 ) -> Bearing:
     """Bodies, contacts and compiled equations of motion."""
-    bearing = _bearing_of(case, mesh, cage)
-    if not jit.kernels_cached():
-        compiling = compiling or begin_compiling()
+    bearing, element = _bearing_of(case, mesh, cage), case.bearing.element
+    if not jit.kernels_cached(element):
+        compiling = compiling or begin_compiling(element)
         bearing.compile_but_evaluate()
         if compiling is not None:
             compiling.wait()
     bearing.evaluate  # noqa: B018  (read from disk, or compiled here)
-    jit.mark_compiled()
+    jit.mark_compiled(element)
     return bearing
 
 
+def assembled_start(case: Case, bearing: Bearing) -> Start:
+    """Where a run begins: the bearing assembled and in equilibrium at the drive's first speed."""
+    limit = case.limits.assembly_force
+    return find_start(bearing, limit_force=limit, statics=lambda: solve_static(case))
+
+
 def _bearing_of(case: Case, mesh: CageMesh, cage: CageReduction | None) -> Bearing:
-    Z = case.bearing.roller_count
+    Z = case.bearing.element_count
     if cage is None:
         body = rigid_from_tets(mesh.points, mesh.tets, case.cage.material.density)
-        interface = rigid_interface(case.cage, pocket_count=Z, defects=case.defects)
+        interface = rigid_interface_of(case.cage, pocket_count=Z, defects=case.defects)
     else:
         ratios = case.modes.damping_ratios(cage.basis.frequencies)
         body = flexible_from_basis(cage.model.nodes, cage.model.mass_scalar, cage.basis, ratios)

@@ -28,8 +28,10 @@ from flexcage.core.errors import InputError
 from flexcage.core.hashing import content_hash
 from flexcage.core.registry import source_of
 from flexcage.core.spec import option
-from flexcage.geometry.cages import Defect, WindowCage
-from flexcage.geometry.cylindrical_roller import RollerBearing
+from flexcage.geometry.ball_cage_defects import BallCageDefect
+from flexcage.geometry.bearings import Bearing
+from flexcage.geometry.cage import Cage
+from flexcage.geometry.cages import Defect
 from flexcage.geometry.presets import NAMED, load_preset
 from flexcage.mesh.options import MeshOptions
 from flexcage.modes.spec import ModesSpec
@@ -54,10 +56,12 @@ class Case:
     name: str = option("case", doc="name, for titles and folders")
     description: str = option("", doc="what this case is for")
     preset: str = option("", doc="preset that the case started from")
-    bearing: RollerBearing = option(doc="the bearing")
-    cage: WindowCage = option(doc="the cage")
+    bearing: Bearing = option(doc="the bearing")
+    cage: Cage = option(doc="the cage")
     cage_model: str = option("flexible", doc="how the cage is modelled", choices=CAGE_MODELS)
-    defects: tuple[Defect, ...] = option((), doc="deformations of the cage, any number")
+    defects: tuple[Defect | BallCageDefect, ...] = option(
+        (), doc="deformations of the cage, any number"
+    )
     mesh: MeshOptions = option(MeshOptions(), doc="the cage's mesh")
     modes: ModesSpec = option(ModesSpec(), doc="the cage's modes")
     lubricant: Lubricant = option(Lubricant(), doc="the lubricant")
@@ -92,8 +96,9 @@ class Case:
         refuse_without_motion(merged.get("bearing"))
         merged.pop("static", None)  # read by the static solution alone
         merged = _with_mesh_file(merged, folder or Path.cwd())
+        binder = Binder(named=NAMED, si=si)
         with words_of_text():
-            return Binder(named=NAMED, si=si).bind(cls, merged, "")
+            return binder.bind(cls, _with_cage(merged, binder), "")
 
     def replace(
         self, path: str | None = None, value: Any = None, /, *, si: bool = True, **changes: Any
@@ -115,6 +120,9 @@ class Case:
                 )
             if where == "bearing":
                 refuse_without_motion(new)
+            if where == "cage" and isinstance(new, Mapping):
+                with words_of_text():
+                    new = binder.bind(type(bare.cage), new, "cage", base=bare.cage)
             if where == "mesh.file" and isinstance(new, (str, Path)):
                 new = _absolute(new, Path.cwd())
             with words_of_text():
@@ -158,7 +166,7 @@ class Case:
         """What ``mesh.build.build_cage_mesh`` asks for, by name."""
         return {
             "cage": self.cage,
-            "pocket_count": self.bearing.roller_count,
+            "pocket_count": self.bearing.element_count,
             "pitch_diameter": self.bearing.pitch_diameter,
             "defects": self.defects,
             "options": self.mesh,
@@ -182,10 +190,20 @@ class Case:
         designation = self.bearing.designation or "bearing"
         speed = self.drive.speed * 30.0 / pi
         return (
-            f"Case('{self.name}': {designation}, {self.bearing.roller_count} rollers, "
+            f"Case('{self.name}': {designation}, {self.bearing.element_count} "
+            f"{self.bearing.element}s, "
             f"{self.cage_model} {self.cage.material.name} cage{defects}, {speed:g} rpm, "
             f"{self.load.radial:g} N, {self.solver.duration:g} s; {self.hash})"
         )
+
+
+def _with_cage(table: dict[str, Any], binder: Binder) -> dict[str, Any]:
+    """The tables with the cage as a spec: the bearing's type says of which class."""
+    if not isinstance(table.get("cage"), Mapping) or "bearing" not in table:
+        return table
+    bearing = binder.bind(Bearing, table["bearing"], "bearing")
+    cage = binder.bind(bearing.cage_spec, table["cage"], "cage")
+    return {**table, "bearing": bearing, "cage": cage}
 
 
 class _Unchecked(Case):

@@ -11,6 +11,7 @@ from flexcage.core.binding import check_value, chosen_spec, default_of, join
 from flexcage.core.errors import InputError
 from flexcage.core.units import describe
 from flexcage.geometry.bearing import BEARING_TYPES, Bearing
+from flexcage.geometry.cage import Cage
 from flexcage.geometry.catalogue import static_rating
 from flexcage.geometry.checks import check_geometry
 
@@ -31,12 +32,13 @@ _MOST_ELEMENTS = 1e7  # assumption: more than a machine of 64 GB factors
 def check_case(case: Case) -> None:
     """Raise InputError for the first thing in the case that cannot be."""
     refuse_without_motion(case.bearing)
+    _check_cage_type(case.bearing, case.cage)
     check_geometry(case.bearing, case.cage, case.defects)
     _raise_first(
         case,
         (
             *_OF_EVERY_CASE,
-            _find_in_static_loads,
+            _find_in_held_motions,
             _find_in_mesh,
             _find_in_solver,
             _find_in_output,
@@ -44,6 +46,16 @@ def check_case(case: Case) -> None:
             _find_in_land,
         ),
     )
+
+
+def _check_cage_type(bearing: Bearing, cage: Cage) -> None:
+    wanted = bearing.cage_spec
+    if not isinstance(cage, wanted):
+        raise InputError(
+            f"bearing.type is '{bearing.type}', whose cage is a {wanted.__name__}, but the case's "
+            f"cage is a {type(cage).__name__}; give bearing and cage together, or take a preset.",
+            where="cage",
+        )
 
 
 def check_static_case(case: StaticCase) -> None:
@@ -113,15 +125,31 @@ def _find_in_load(case: Case) -> Iterator[Finding]:
             )
 
 
-def _find_in_static_loads(case: Case) -> Iterator[Finding]:
-    for key in ("axial", "moment_y", "moment_z"):
+def _find_in_held_motions(case: Case) -> Iterator[Finding]:
+    """Loads along motions of the inner ring that are held, and motions that cannot be free."""
+    axial, tilt = case.bearing.carries_axial_load, case.load.tilt == "free"
+    if tilt and not axial:
+        yield (
+            "load.tilt",
+            f"load.tilt is 'free', but nothing in the motion of a {case.bearing.kind} brings its "
+            "inner ring back; take 'held'.",
+        )
+    if tilt and case.load.misalignment != 0.0:
+        yield (
+            "load.misalignment",
+            f"load.misalignment is {describe(case.load.misalignment, 'mrad')}, but load.tilt is "
+            "'free'; take load.tilt = \"held\" for a tilt that is given.",
+        )
+    for key, free in (("axial", axial), ("moment_y", tilt), ("moment_z", tilt)):
         value = getattr(case.load, key)
-        if value != 0.0:
+        if value != 0.0 and not free:
             unit = "N" if key == "axial" else "N*m"
             yield (
                 f"load.{key}",
-                f"load.{key} is {describe(value, unit)}, but in a run the inner ring's axial "
-                "motion and tilts are held; leave it out, or take 'flexcage static'.",
+                f"load.{key} is {describe(value, unit)}, but in this run the inner ring's "
+                f"{'axial motion is' if key == 'axial' else 'tilts are'} held; leave it out, "
+                + ('take load.tilt = "free", ' if axial else "")
+                + "or take 'flexcage static'.",
             )
 
 
@@ -130,7 +158,7 @@ def _find_in_mesh(case: Case) -> Iterator[Finding]:
     if mesh.file:
         return
     volume = 0.25 * pi * (cage.outside_diameter**2 - cage.bore**2) * cage.width
-    arc = 2.0 * pi * case.bearing.roller_count * cage.fillet_radius  # four quarters a pocket
+    arc = 2.0 * pi * case.bearing.element_count * cage.fillet  # four quarters a pocket
     surface = arc * 0.5 * (cage.outside_diameter - cage.bore)
     # a regular tetrahedron of edge a has the volume a^3/(6 sqrt 2), its face the area a^2 sqrt(3)/4
     for key, size, count in (
@@ -143,8 +171,7 @@ def _find_in_mesh(case: Case) -> Iterator[Finding]:
                 f"mesh.{key} is {describe(size, 'mm')}, which makes about {count:.0e} elements of "
                 f"this cage; give a size that makes {_MOST_ELEMENTS:.0e} or fewer.",
             )
-    beam = 2.0 * pi * case.bearing.pitch_radius / case.bearing.roller_count - cage.pocket_width
-    least = min(0.5 * (cage.outside_diameter - cage.bore), beam)
+    least = cage.thinnest(case.bearing.pitch_diameter, case.bearing.element_count)
     if mesh.size is not None and mesh.size > 2.0 * least:
         yield (
             "mesh.size",
@@ -258,21 +285,16 @@ def _find_in_laws(case: Case) -> Iterator[Finding]:
 
 def _find_in_land(case: Case) -> Iterator[Finding]:
     land = case.contacts.land
-    if case.cage.guidance != "roller" and land.kind == "none":
+    if case.cage.guidance in ("inner", "outer") and land.kind == "none":
         yield (
             "contacts.land.kind",
             f"cage.guidance is '{case.cage.guidance}', but contacts.land.kind is 'none'; take "
             "'dry' or 'film'.",
         )
-    if land.kind == "none" or land.clearance is None:
+    left = case.bearing.land_clearance(case.cage)
+    if land.kind == "none" or left is None:
         return
-    outer = case.cage.guidance == "outer"
-    if outer:
-        there = case.bearing.outer_race_radius - 0.5 * case.cage.outside_diameter
-        what = "cage.outside_diameter and the outer race"
-    else:
-        there = 0.5 * (case.cage.bore - case.bearing.rib_diameter)
-        what = "cage.bore and bearing.rib_diameter"
+    there, what = left
     if abs(land.clearance - there) > _LAND_TOLERANCE:
         yield (
             "contacts.land.clearance",

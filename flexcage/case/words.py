@@ -7,7 +7,7 @@ from typing import Any
 from flexcage.case.case import Case
 from flexcage.case.extensions import sources
 from flexcage.core import units
-from flexcage.geometry.cages import CrossbeamDefect, Defect
+from flexcage.geometry.cages import CrossbeamDefect
 from flexcage.geometry.presets import load_preset
 
 _GUIDED = {"roller": "guided by its rollers", "inner": "guided by the inner ring's ribs",
@@ -50,11 +50,11 @@ def _cage(case: Case) -> str:
 def _defects(case: Case) -> str:
     if not case.defects:
         return "The cage has no defect."
-    texts = [_defect(d, case.bearing.roller_count) for d in case.defects]
+    texts = [_defect(d, case.bearing.element_count) for d in case.defects]
     return f"Deformed: {'; '.join(texts)}."
 
 
-def _defect(defect: Defect, pockets: int) -> str:
+def _defect(defect: Any, pockets: int) -> str:
     size = describe(abs(defect.displacement), "mm")
     if isinstance(defect, CrossbeamDefect):
         before, after = (defect.crossbeam - 1) % pockets, defect.crossbeam

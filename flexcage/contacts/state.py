@@ -42,16 +42,21 @@ def new_pair() -> Pair:
 
 
 @part
+def set_frame(psi, F):
+    """Rows (e_x, e_r, e_psi) of the orbital frame at an azimuth."""
+    c, s = cos(psi), sin(psi)
+    F[0, 0], F[0, 1], F[0, 2] = 1.0, 0.0, 0.0
+    F[1, 0], F[1, 1], F[1, 2] = 0.0, c, s
+    F[2, 0], F[2, 1], F[2, 2] = 0.0, -s, c
+
+
+@part
 def set_pose(q, u, pose):
     """Fill the pose from a roller's coordinates (x, r, psi, skew, tilt, spin) and velocities.
 
     The axis is e_x turned by the skew about e_r, then by the tilt about the turned e_psi.
     """
-    c, s = cos(q[2]), sin(q[2])
-    F = pose.F
-    F[0, 0], F[0, 1], F[0, 2] = 1.0, 0.0, 0.0
-    F[1, 0], F[1, 1], F[1, 2] = 0.0, c, s
-    F[2, 0], F[2, 1], F[2, 2] = 0.0, -s, c
+    set_frame(q[2], pose.F)
     cx, sx, ce, se = cos(q[3]), sin(q[3]), cos(q[4]), sin(q[4])
     a = pose.axis
     a[0, 0], a[0, 1], a[0, 2] = cx * ce, se, -sx * ce

@@ -126,14 +126,15 @@ def allocating_kernel(function: Any) -> Any:
     return numba.njit(**OPTIONS)(function)
 
 
-def compiled_mark() -> Path:
-    """The file that says: on disk are all kernels that a run needs, of exactly these sources."""
-    return Path(numba.config.CACHE_DIR) / "compiled"  # type: ignore[attr-defined]
+def compiled_mark(what: str) -> Path:
+    """The file that says: on disk are all kernels that a run of ``what`` ("roller", "ball") needs,
+    of exactly these sources."""
+    return Path(numba.config.CACHE_DIR) / f"compiled-{what}"  # type: ignore[attr-defined]
 
 
-def kernels_cached() -> bool:
+def kernels_cached(what: str) -> bool:
     """True if nothing is left to be compiled, or nothing ever is."""
-    return bool(numba.config.DISABLE_JIT) or compiled_mark().exists()  # type: ignore[attr-defined]
+    return bool(numba.config.DISABLE_JIT) or compiled_mark(what).exists()  # type: ignore[attr-defined]
 
 
 def cache_environment() -> dict[str, str]:
@@ -141,11 +142,11 @@ def cache_environment() -> dict[str, str]:
     return {"NUMBA_CACHE_DIR": str(numba.config.CACHE_DIR)}  # type: ignore[attr-defined]
 
 
-def mark_compiled() -> None:
+def mark_compiled(what: str) -> None:
     """Say that all kernels are on disk."""
-    if not kernels_cached():
-        compiled_mark().parent.mkdir(parents=True, exist_ok=True)
-        compiled_mark().touch()
+    if not kernels_cached(what):
+        compiled_mark(what).parent.mkdir(parents=True, exist_ok=True)
+        compiled_mark(what).touch()
 
 
 @structref.register

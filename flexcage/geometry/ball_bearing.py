@@ -14,7 +14,7 @@ from typing import ClassVar
 
 from flexcage.core.spec import option, quantity
 from flexcage.geometry.ball_cages import BallCage
-from flexcage.geometry.bearing import Bearing, Spec
+from flexcage.geometry.bearing import Bearing, Spec, hollow_cylinder_inertia
 from flexcage.geometry.hertz import PointContact
 from flexcage.geometry.materials import MATERIALS, Material
 
@@ -28,6 +28,9 @@ class BallBearing(Bearing):
     """
 
     cage_spec: ClassVar[Spec] = BallCage
+    element: ClassVar[str] = "ball"
+    in_motion: ClassVar[bool] = True
+    carries_axial_load: ClassVar[bool] = True
     one_sided: ClassVar[bool] = False  # are there shoulders for one direction of load alone?
 
     bore: float = quantity("mm", doc="bearing bore d", above=0.0)
@@ -40,6 +43,9 @@ class BallBearing(Bearing):
     outer_groove_radius: float = quantity("mm", doc="radius r_e of the outer groove", above=0.0)
     inner_shoulder: float | None = quantity("mm", None, doc="inner shoulder's height", above=0.0)
     outer_shoulder: float | None = quantity("mm", None, doc="outer shoulder's height", above=0.0)
+    ball_scatter: float = quantity(
+        "um", 0.0, doc="standard deviation of ball diameters", minimum=0.0
+    )
     material: Material = option(MATERIALS["GCr15"], doc="material of rings and balls")
 
     @property
@@ -51,6 +57,14 @@ class BallBearing(Bearing):
     def nominal_contact_angle(self) -> float:
         """Contact angle [rad] to which curvatures and ratings refer."""
         raise NotImplementedError
+
+    @property
+    def element_count(self) -> int:
+        return self.ball_count
+
+    @property
+    def element_diameter(self) -> float:
+        return self.ball_diameter
 
     @property
     def clearance(self) -> float:
@@ -95,6 +109,35 @@ class BallBearing(Bearing):
     def ball_inertia(self) -> float:
         """Moment of inertia of a ball about its centre [kg m^2]."""
         return 0.1 * self.ball_mass * self.ball_diameter**2
+
+    @cached_property
+    def shoulder_diameters(self) -> tuple[float, float]:
+        """Diameters [m] of inner and outer ring at their shoulders; a fifth of the ball's diameter
+        above the grooves' bottoms where heights are not given."""
+        share = 0.2 * self.ball_diameter
+        inner, outer = (h or share for h in (self.inner_shoulder, self.outer_shoulder))
+        return (
+            self.pitch_diameter - self.ball_diameter + 2.0 * inner,
+            self.pitch_diameter + self.ball_diameter - 2.0 * outer,
+        )
+
+    @cached_property
+    def inner_ring_mass(self) -> float:
+        """Inner ring as a hollow cylinder from bore to shoulder, without its groove [kg]."""
+        area = 0.25 * pi * (self.shoulder_diameters[0] ** 2 - self.bore**2)
+        return self.material.density * area * self.width
+
+    @cached_property
+    def inner_ring_inertia(self) -> tuple[float, float]:
+        """Axial and transverse moments of inertia of that hollow cylinder [kg m^2]."""
+        return hollow_cylinder_inertia(
+            self.inner_ring_mass, self.bore, self.shoulder_diameters[0], self.width
+        )
+
+    @cached_property
+    def outer_ring_mass(self) -> float:
+        area = 0.25 * pi * (self.outside_diameter**2 - self.shoulder_diameters[1] ** 2)
+        return self.material.density * area * self.width
 
     @cached_property
     def inner_groove_centre(self) -> tuple[float, float]:

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import typing
 from collections.abc import Iterator, Sequence
 from math import asin, cos, degrees, pi, sin
+from typing import Any
 
 from flexcage.core.units import describe
 from flexcage.geometry.angular_contact_ball import AngularContactBallBearing
@@ -14,7 +16,7 @@ from flexcage.geometry.ball_cage_defects import (
     check_ball_defects,
 )
 from flexcage.geometry.ball_cages import BallCage
-from flexcage.geometry.checks import Finding, check_geometry, raise_first
+from flexcage.geometry.checks import Finding, check_geometry, raise_first, refuse_foreign
 from flexcage.geometry.deep_groove_ball import DeepGrooveBallBearing
 
 _AGREE = 1e-6  # m, to which contact angle and clearance must agree: a tenth of a clearance class
@@ -27,18 +29,14 @@ def _mm(value: float) -> str:
 
 @check_geometry.register
 def _(
-    bearing: AngularContactBallBearing,
-    cage: BallCage | None = None,
-    defects: Sequence[BallCageDefect] = (),
+    bearing: AngularContactBallBearing, cage: BallCage | None = None, defects: Sequence[Any] = ()
 ) -> None:
     _check(bearing, cage, defects, _find_in_angle(bearing))
 
 
 @check_geometry.register
 def _(
-    bearing: DeepGrooveBallBearing,
-    cage: BallCage | None = None,
-    defects: Sequence[BallCageDefect] = (),
+    bearing: DeepGrooveBallBearing, cage: BallCage | None = None, defects: Sequence[Any] = ()
 ) -> None:
     _check(bearing, cage, defects, _find_in_clearance(bearing, bearing.radial_clearance))
 
@@ -46,7 +44,7 @@ def _(
 def _check(
     bearing: BallBearing,
     cage: BallCage | None,
-    defects: Sequence[BallCageDefect],
+    defects: Sequence[Any],
     of_its_type: Iterator[Finding],
 ) -> None:
     """Raise InputError for the first impossibility: of all ball bearings, of one type, of cages."""
@@ -54,17 +52,16 @@ def _check(
     raise_first(_find_in_balls(bearing))
     raise_first(_find_in_shoulders(bearing))
     raise_first(of_its_type)
-    if cage is not None:
-        raise_first(find_in_cage(bearing, cage))
-    if cage is not None and defects:
+    refuse_foreign(defects, typing.get_args(BallCageDefect), "ball cages")
+    if cage is None:
+        return
+    raise_first(find_in_cage(bearing, cage))
+    if defects:
         check_ball_cage(cage, pocket_count=bearing.ball_count)
         check_ball_defects(
-            defects,
-            cage,
-            pocket_count=bearing.ball_count,
-            pitch_diameter=bearing.pitch_diameter,
+            defects, cage, pocket_count=bearing.ball_count, pitch_diameter=bearing.pitch_diameter,
             ball_diameter=bearing.ball_diameter,
-        )
+        )  # fmt: skip
 
 
 def _find_in_grooves(b: BallBearing) -> Iterator[Finding]:

@@ -9,10 +9,11 @@ parts by being registered with the functions that want them: ``checks.check_geom
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import ClassVar, TypeVar
+from typing import TYPE_CHECKING, Any, ClassVar, TypeVar
 
 from flexcage.core.registry import add
 from flexcage.core.spec import option
+from flexcage.geometry.cage import Cage
 
 Spec = type  # by another name, for inside the spec ``type`` is a field
 
@@ -25,11 +26,38 @@ class Bearing:
 
     # in words for sentences and titles, and the spec of the cage that goes with it
     kind: ClassVar[str] = "bearing"
+    element: ClassVar[str] = "element"
     cage_spec: ClassVar[Spec]
+    carries_axial_load: ClassVar[bool] = False  # in a run, with the ring free axially and in tilt
     in_motion: ClassVar[bool] = False  # are there equations of motion for this type?
 
     type: str = option("cylindrical_roller", doc="type of bearing", choices=BEARING_TYPES)
     designation: str = option("", doc="name in a catalogue")
+
+    if TYPE_CHECKING:
+
+        def __getattr__(self, name: str) -> Any:  # dimensions of its own type
+            ...
+
+    @property
+    def element_count(self) -> int:
+        """Z."""
+        raise NotImplementedError
+
+    @property
+    def element_diameter(self) -> float:
+        """Dw [m]."""
+        raise NotImplementedError
+
+    @property
+    def nominal_contact_angle(self) -> float:
+        """Contact angle [rad] to which kinematics refer."""
+        return 0.0
+
+    def land_clearance(self, cage: Cage) -> tuple[float, str] | None:
+        """Radial clearance [m] of the cage's land and the dimensions that leave it; None where the
+        spec says nothing of the ring's land, and the case gives the clearance."""
+        return None
 
     @property
     def is_thrust(self) -> bool:
@@ -44,3 +72,11 @@ def bearing_type(cls: AnyBearing) -> AnyBearing:
     """Register a spec, as a decorator, under the default of its own ``type``."""
     add(BEARING_TYPES, str(cls.__dataclass_fields__["type"].default), cls, what="bearing type")
     return cls
+
+
+def hollow_cylinder_inertia(
+    mass: float, bore: float, diameter: float, width: float
+) -> tuple[float, float]:
+    """Axial and transverse moments of inertia [kg m^2] about the centre."""
+    r2 = 0.25 * (diameter**2 + bore**2)
+    return 0.5 * mass * r2, mass * (3.0 * r2 + width**2) / 12.0

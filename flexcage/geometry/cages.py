@@ -12,35 +12,33 @@ import numpy as np
 from flexcage.core.errors import InputError
 from flexcage.core.spec import option, quantity
 from flexcage.core.units import describe
-from flexcage.geometry.materials import MATERIALS, Material
+from flexcage.geometry.cage import Cage
 
 GUIDANCE = ("roller", "inner", "outer")
 
 
 @dataclass(frozen=True, kw_only=True)
-class WindowCage:
+class WindowCage(Cage):
     """A machined window cage: a hollow cylinder with one rectangular pocket per roller.
 
     Pocket walls are planes: the crossbeam faces parallel to the pocket's radial mid-plane at
     +-pocket_width/2, the side-beam faces normal to the bearing axis at +-pocket_length/2.
     """
 
-    material: Material = option(MATERIALS["brass"], doc="cage material (a name or its values)")
-    bore: float = quantity("mm", doc="inside diameter", above=0.0)
-    outside_diameter: float = quantity("mm", doc="outside diameter", above=0.0)
-    width: float = quantity("mm", doc="axial width", above=0.0)
     pocket_width: float = quantity("mm", doc="circumferential pocket width Cq", above=0.0)
     pocket_length: float = quantity("mm", doc="axial pocket length Cp", above=0.0)
     fillet_radius: float = quantity(
         "mm", 0.5e-3, doc="pocket corner fillet radius", above=0.0, assumption="not in the paper"
     )
     guidance: str = option("roller", doc="what guides the cage radially", choices=GUIDANCE)
-    unbalance: float = quantity("g*mm", 0.0, doc="mass-radius product of an unbalance", minimum=0.0)
-    unbalance_phase: float = quantity("deg", 0.0, doc="azimuth of the unbalance from pocket 0")
 
     @property
-    def mean_radius(self) -> float:
-        return 0.25 * (self.bore + self.outside_diameter)
+    def fillet(self) -> float:
+        return self.fillet_radius
+
+    def thinnest(self, pitch_diameter: float, pocket_count: int) -> float:
+        beam = pi * pitch_diameter / pocket_count - self.pocket_width
+        return min(0.5 * (self.outside_diameter - self.bore), beam)
 
     @property
     def side_beam_width(self) -> float:

@@ -16,7 +16,9 @@ from flexcage.core.errors import InputError
 from flexcage.core.units import describe
 from flexcage.geometry.bearing import Bearing
 from flexcage.geometry.cages import (
+    CrossbeamDefect,
     Defect,
+    SideBeamDefect,
     WindowCage,
     check_cage,
     check_defects,
@@ -34,7 +36,7 @@ def _mm(value: float) -> str:
 
 
 @singledispatch
-def check_geometry(bearing: Bearing, cage: Any = None, defects: Sequence[Defect] = ()) -> None:
+def check_geometry(bearing: Bearing, cage: Any = None, defects: Sequence[Any] = ()) -> None:
     """Raise InputError for the first impossibility found in bearing, cage or defects.
 
     Every bearing type registers its own checks; without a cage the bearing alone is checked.
@@ -43,9 +45,8 @@ def check_geometry(bearing: Bearing, cage: Any = None, defects: Sequence[Defect]
 
 
 @check_geometry.register
-def _(
-    bearing: RollerBearing, cage: WindowCage | None = None, defects: Sequence[Defect] = ()
-) -> None:
+def _(bearing: RollerBearing, cage: WindowCage | None = None, defects: Sequence[Any] = ()) -> None:
+    refuse_foreign(defects, (CrossbeamDefect, SideBeamDefect), "window cages")
     raise_first(find_in_bearing(bearing))
     if cage is None:
         return
@@ -53,6 +54,19 @@ def _(
     raise_first(find_in_cage(bearing, cage))
     check_defects(defects, cage, pocket_count=bearing.roller_count)
     raise_first(find_in_defects(bearing, cage, defects))
+
+
+def refuse_foreign(defects: Sequence[Any], kinds: tuple[type, ...], cages: str) -> None:
+    """Raise InputError for a defect of another type of cage than the bearing's."""
+    for i, defect in enumerate(defects):
+        if not isinstance(defect, kinds):
+            known = ", ".join(f"'{kind.tag}'" for kind in kinds)  # type: ignore[attr-defined]
+            raise InputError(
+                f"defects.{i}.type is '{defect.tag}', but this bearing's cage is one of the "
+                f"{cages}, whose defects are {known}.",
+                where=f"defects.{i}.type",
+                value=defect.tag,
+            )
 
 
 def raise_first(findings: Iterator[Finding]) -> None:

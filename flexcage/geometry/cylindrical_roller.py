@@ -10,7 +10,14 @@ from typing import ClassVar
 import numpy as np
 
 from flexcage.core.spec import option, quantity
-from flexcage.geometry.bearing import BEARING_TYPES, Bearing, Spec, bearing_type
+from flexcage.geometry.bearing import (
+    BEARING_TYPES,
+    Bearing,
+    Spec,
+    bearing_type,
+    hollow_cylinder_inertia,
+)
+from flexcage.geometry.cage import Cage
 from flexcage.geometry.cages import WindowCage
 from flexcage.geometry.materials import MATERIALS, Material
 
@@ -50,6 +57,7 @@ class RollerBearing(Bearing):
 
     kind: ClassVar[str] = "cylindrical roller bearing"
     cage_spec: ClassVar[Spec] = WindowCage
+    element: ClassVar[str] = "roller"
     in_motion: ClassVar[bool] = True
 
     type: str = option("cylindrical_roller", doc="type of bearing", choices=BEARING_TYPES)
@@ -107,6 +115,20 @@ class RollerBearing(Bearing):
         transverse = self.roller_mass * (3.0 * radius**2 + self.roller_length**2) / 12.0
         return axial, transverse
 
+    @property
+    def element_count(self) -> int:
+        return self.roller_count
+
+    @property
+    def element_diameter(self) -> float:
+        return self.roller_diameter
+
+    def land_clearance(self, cage: Cage) -> tuple[float, str]:
+        if cage.guidance == "outer":
+            there = self.outer_race_radius - 0.5 * cage.outside_diameter
+            return there, "cage.outside_diameter and the outer race"
+        return 0.5 * (cage.bore - self.rib_diameter), "cage.bore and bearing.rib_diameter"
+
     @cached_property
     def inner_ring_mass(self) -> float:
         """Inner ring as a hollow cylinder from bore to race, without ribs [kg]."""
@@ -116,10 +138,9 @@ class RollerBearing(Bearing):
     @cached_property
     def inner_ring_inertia(self) -> tuple[float, float]:
         """Axial and transverse moments of inertia of that hollow cylinder [kg m^2]."""
-        r2 = 0.25 * (self.inner_race_diameter**2 + self.bore**2)
-        return 0.5 * self.inner_ring_mass * r2, self.inner_ring_mass * (
-            3.0 * r2 + self.width**2
-        ) / 12.0
+        return hollow_cylinder_inertia(
+            self.inner_ring_mass, self.bore, self.inner_race_diameter, self.width
+        )
 
     @cached_property
     def outer_ring_mass(self) -> float:

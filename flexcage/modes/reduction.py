@@ -23,12 +23,13 @@ from flexcage.mesh.cage_mesh import CageMesh
 from flexcage.modes.ball_interface import (
     BallCageInterface,
     ball_cage_interface,
+    rigid_ball_interface,
     static_compliance,
     wall_stations,
     wall_weights,
 )
 from flexcage.modes.basis import CageInterface, ModeBasis, ResidualFlexibility
-from flexcage.modes.interface import cage_interface
+from flexcage.modes.interface import cage_interface, rigid_interface
 from flexcage.modes.registry import basis_version, build_basis
 from flexcage.modes.spec import ModesSpec
 
@@ -105,6 +106,16 @@ def interface_of(cage: object, defects: Sequence[Any], reduced: Reduced) -> Any:
         f"no interface is known for a {type(cage).__name__}; a cage is a WindowCage or a BallCage",
         where="cage",
     )
+
+
+@singledispatch
+def rigid_interface_of(cage: object, *, pocket_count: int, defects: Sequence[Any] = ()) -> Any:
+    """The interface of a rigid cage; every type of cage registers here how it is touched."""
+    raise InputError(f"no interface is known for a {type(cage).__name__}", where="cage")
+
+
+rigid_interface_of.register(WindowCage, rigid_interface)
+rigid_interface_of.register(BallCage, rigid_ball_interface)
 
 
 @interface_of.register

@@ -8,13 +8,12 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from flexcage.core.registry import add, check_free
-from flexcage.geometry.cages import CrossbeamDefect, Defect
-from flexcage.geometry.cylindrical_roller import RollerBearing
+from flexcage.geometry.cages import CrossbeamDefect
 from flexcage.mesh.cage_mesh import CageMesh
 from flexcage.modes.basis import ModeBasis
 from flexcage.results.metrics import BearingNumbers
@@ -54,11 +53,11 @@ class Scene:
 
     name: str
     dataset: xarray.Dataset
-    bearing: RollerBearing
+    bearing: Any  # its spec
     mesh: CageMesh
-    defects: Sequence[Defect]
+    defects: Sequence[Any]
     load: tuple[float, float]  # (F_y, F_z) [N] on the inner ring
-    clearance: float  # radial land clearance [m]
+    clearance: float | None  # radial land clearance [m], where dimensions leave one
     settle: float
     stress: StressPictures | None = None
 
@@ -139,8 +138,8 @@ def _motion(scene: Scene, folder: Path) -> list[Path]:
     b, ds = scene.bearing, scene.dataset
     numbers = BearingNumbers(
         pitch_diameter=b.pitch_diameter,
-        roller_diameter=b.roller_diameter,
-        roller_count=b.roller_count,
+        roller_diameter=b.element_diameter,
+        roller_count=b.element_count,
     )
     root = None
     if scene.stress is not None:

@@ -90,19 +90,20 @@ def _roller_spin(ds: xarray.Dataset, numbers: BearingNumbers) -> Chart:
     return Chart("Roller spin, inertial frame", [("", figure)])
 
 
-def _orbit(ds: xarray.Dataset, clearance: float, settle: float) -> Chart:
+def _orbit(ds: xarray.Dataset, clearance: float | None, settle: float) -> Chart:
     part = metrics.settled(ds, settle)
     y, z = (metrics.orbit(part) * 1e6).T
     kept = np.union1d(thinned(y), thinned(z))
-    reach = 1.08 * max(float(np.abs([y, z]).max()), clearance * 1e6)
+    reach = 1.08 * max(float(np.abs([y, z]).max()), (clearance or 0.0) * 1e6)
     span = {"range": [-reach, reach]}
     figure = new_figure("z [µm]", "y [µm]")
     # z to the left, as seen when looking along -x with y upwards, as in the pictures
     figure.update_xaxes(range=[reach, -reach], constrain="domain")
     figure.update_yaxes(**span, scaleanchor="x", constrain="domain")
-    angle = np.linspace(0.0, 2.0 * pi, 181)
-    ring = clearance * 1e6 * np.stack([np.cos(angle), np.sin(angle)])
-    add_curve(figure, ring[0], ring[1], "land clearance", color=VERMILION, dash="dash")
+    if clearance is not None:
+        angle = np.linspace(0.0, 2.0 * pi, 181)
+        ring = clearance * 1e6 * np.stack([np.cos(angle), np.sin(angle)])
+        add_curve(figure, ring[0], ring[1], "land clearance", color=VERMILION, dash="dash")
     figure.add_scatter(
         x=z[kept].astype(np.float32), y=y[kept].astype(np.float32), mode="lines",
         line={"width": 1.1, "color": BLUE}, name="cage centre",

@@ -2,26 +2,37 @@
 
 from __future__ import annotations
 
+from functools import singledispatch
+from typing import Any
+
 import numpy as np
 from scipy.spatial.transform import Rotation
 
 from flexcage.modes.basis import FACES
+from flexcage.results.recorded import in_plane
+from flexcage.system.ball_model import BallModel
+from flexcage.system.layout import Layout
+from flexcage.system.model import Model
 from flexcage.system.problem import Bearing
 
-# places of contacts, in order; a land is the cage's and names no roller
-PLACES = ("inner race", "outer race", *FACES, "rib +x", "rib -x", "land -x", "land +x")
-# assumption: an overlap of this share of a roller's radius is no contact any more. Ten static
+# assumption: an overlap of this share of an element's radius is no contact any more. Ten static
 # ratings, the largest load that a case may have, press an N1013's rollers in by less than a tenth.
 DEEPEST = 0.25
 
 
-def overlaps(bearing: Bearing, y: np.ndarray) -> np.ndarray:
-    """Depths (n, Z, 4) [m] of rollers in the inner and outer race and in the front and rear wall
-    of their pockets, negative when apart, in states ``y`` (n, size).
+@singledispatch
+def overlaps(model: Any, layout: Layout, y: np.ndarray) -> np.ndarray:
+    """Depths (n, Z, places) [m] of elements in both races and in faces of their pockets, negative
+    when apart, in states ``y`` (n, size).
 
     Bodies are as they were made, without waves and deflection; a wall lies where it is widest.
     """
-    model, q = bearing.data.model, bearing.layout.q(y)
+    raise NotImplementedError(f"{type(model).__name__} has no overlaps")
+
+
+@overlaps.register
+def _(model: Model, layout: Layout, y: np.ndarray) -> np.ndarray:
+    q = layout.q(y)
     radius, (cos, sin) = model.bodies.radius, model.pocket.azimuth.T
     r, psi = q["rollers"][..., 1], q["rollers"][..., 2]
     at = np.stack([r * np.cos(psi), r * np.sin(psi)], axis=-1)
@@ -43,27 +54,55 @@ def overlaps(bearing: Bearing, y: np.ndarray) -> np.ndarray:
     )
 
 
+@overlaps.register
+def _(model: BallModel, layout: Layout, y: np.ndarray) -> np.ndarray:
+    q, radius = layout.q(y), model.bodies.radius
+    x, r, psi = np.moveaxis(q["rollers"][..., :3], -1, 0)
+    at = np.stack([x, r * np.cos(psi), r * np.sin(psi)], axis=-1)
+    races = [
+        np.hypot(p[..., 0] - race.axial, np.hypot(p[..., 1], p[..., 2]) - race.centre)
+        - (race.radius - radius)
+        for race, p in (
+            (model.inner, at - q["inner"][:, None, :3]),
+            (model.outer, at - in_plane(q["outer"])[:, None]),
+        )
+    ]
+    frames = Rotation.from_quat(q["quaternion"], scalar_first=True).as_matrix()
+    seen = np.einsum("nzc,ncd->nzd", at - q["cage"][:, None], frames)
+    cos, sin = model.pocket.azimuth.T
+    ahead = seen[..., 2] * cos - seen[..., 1] * sin - model.pocket.shift[:, 1]
+    aside = seen[..., 0] - model.pocket.shift[:, 0]
+    free = np.hypot(
+        *(np.maximum(np.abs(d) - h, 0.0) for d, h in zip((aside, ahead), model.pocket.slot.T))
+    )
+    return np.stack([*races, free - (model.pocket.radius - radius)], axis=-1)
+
+
 def runaway(bearing: Bearing, y: np.ndarray) -> tuple[int, str] | None:
     """The first of the states ``y`` (n, size) in which a contact is too deep, and which it is."""
-    share = overlaps(bearing, y) / bearing.data.model.bodies.radius[:, None]
+    model = bearing.data.model
+    share = overlaps(model, bearing.layout, y) / model.bodies.radius[:, None]
     bad = np.flatnonzero((share > DEEPEST).any(axis=(1, 2)))
     if not len(bad):
         return None
     first = int(bad[0])
-    roller, place = np.unravel_index(int(np.argmax(share[first])), share.shape[1:])
-    depth = share[first, roller, place] * bearing.data.model.bodies.radius[roller]
-    return first, f"roller {roller} lies {depth * 1e3:.2g} mm deep in its {_place(int(place))}"
+    number, place = np.unravel_index(int(np.argmax(share[first])), share.shape[1:])
+    depth = share[first, number, place] * model.bodies.radius[number] * 1e3
+    element = f"{bearing.family.element} {number}"
+    return first, f"{element} lies {depth:.2g} mm deep in its {_place(bearing, int(place))}"
 
 
 def hardest(bearing: Bearing, t: float, y: np.ndarray, yd: np.ndarray) -> str:
-    """The contact of a roller with the largest normal force, or one that is not a number."""
+    """The contact of an element with the largest normal force, or one that is not a number."""
     bearing.residual(t, y, yd, mode=2)
     report = bearing.data.work.report
     force = np.concatenate([report.race[:, :, 0], report.pocket_normal, report.rib], axis=1)
     rank = np.where(np.isnan(force), np.inf, force)
-    roller, place = np.unravel_index(int(np.argmax(rank)), rank.shape)
-    return f"roller {roller} on its {_place(int(place))} with {force[roller, place]:.3g} N"
+    number, place = np.unravel_index(int(np.argmax(rank)), rank.shape)
+    where = f"{bearing.family.element} {number} on its {_place(bearing, int(place))}"
+    return f"{where} with {force[number, place]:.3g} N"
 
 
-def _place(index: int) -> str:
-    return f"pocket's face {PLACES[index]}" if PLACES[index] in FACES else PLACES[index]
+def _place(bearing: Bearing, index: int) -> str:
+    name = bearing.family.places[index]
+    return f"pocket's face {name}" if name in FACES else name

@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from dataclasses import dataclass
 from math import isfinite
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from flexcage.core.errors import InputError
-from flexcage.results import audit, metrics
+from flexcage.results import audit, ball_figures, metrics
 from flexcage.results.bootstrap import FEWEST
 from flexcage.results.metrics import BearingNumbers
 from flexcage.results.statistics import Record, Windows, roller_passes
@@ -38,11 +40,12 @@ def summarise(
         raise InputError(f"settle must lie in 0 ... 1, not {settle}.", where="output.settle")
     part = metrics.settled(ds, settle)
     windows = roller_passes(part, bearing)
+    own = FIGURES[ds.attrs.get("element", "roller")]
     sections = [
-        Section("Speeds", _speed_rows(part, bearing)),
-        Section("Roller slip (inertial frame)", _slip_rows(part, bearing, creep_speed)),
-        Section("Cage motion", _motion_rows(part, bearing)),
-        Section("Forces", _force_rows(part, windows)),
+        Section("Speeds", (*_speed_rows(part, bearing), *own.speeds(part, bearing))),
+        own.slip(part, bearing, creep_speed),
+        Section("Cage motion", (*_motion_rows(part, bearing), *own.motion(part))),
+        Section("Forces", (*_force_rows(part, windows), *own.races(part))),
     ]
     records = {r.key: r.record for s in sections for r in s.rows if r.record is not None}
     sections.insert(0, Section("Statistics", _statistics_rows(part, windows, settle, records)))
@@ -77,7 +80,6 @@ def _speed_rows(ds: xarray.Dataset, bearing: BearingNumbers) -> tuple[Row, ...]:
     omega = part["cage_omega"].sel(axis="x").values
     ideal = part["inner_speed"].values * bearing.kinematics(1.0).cage_speed
     inner = float(ds["inner_speed"].mean())
-    spin = float(np.abs(ds["roller_omega"].isel(spin_axis=0)).mean())
     whole = f"mean of {speed.revolutions:.2f} cage revolutions"
     return (
         Row("inner_speed", "Inner ring speed", inner, "rpm"),
@@ -97,6 +99,13 @@ def _speed_rows(ds: xarray.Dataset, bearing: BearingNumbers) -> tuple[Row, ...]:
             "%",
             "standard deviation over mean",
         ),
+    )
+
+
+def _spin_rows(ds: xarray.Dataset, bearing: BearingNumbers) -> tuple[Row, ...]:
+    inner = float(ds["inner_speed"].mean())
+    spin = float(np.abs(ds["roller_omega"].isel(spin_axis=0)).mean())
+    return (
         Row("roller_spin", "Roller spin, mean of all", spin, "rpm", "inertial frame"),
         Row(
             "roller_spin_ideal",
@@ -107,9 +116,9 @@ def _speed_rows(ds: xarray.Dataset, bearing: BearingNumbers) -> tuple[Row, ...]:
     )
 
 
-def _slip_rows(
+def _slip_section(
     ds: xarray.Dataset, bearing: BearingNumbers, creep_speed: float | None
-) -> tuple[Row, ...]:
+) -> Section:
     slip = metrics.roller_slip(ds, bearing, creep_speed=creep_speed)
     part = metrics.whole_revolutions(ds)
     ratio = metrics.roller_slip_ratio(part, bearing).values
@@ -122,7 +131,7 @@ def _slip_rows(
     if slip.unresolved and creep_speed is not None:
         note = f"unresolved: sliding is under the law's creep speed {creep_speed:.3g} m/s"
     mean = "mean over the zone"
-    return (
+    rows = (
         Row.of("slip_loaded", "Loaded zone, slip ratio", loaded, "%", note),
         Row.of("slip_unloaded", "Unloaded zone, slip ratio", unloaded, "%"),
         Row(
@@ -153,6 +162,7 @@ def _slip_rows(
         ),
         Row("loaded_share", "Rollers in the loaded zone", slip.loaded_share, "%"),
     )
+    return Section("Roller slip (inertial frame)", rows)
 
 
 def _motion_rows(ds: xarray.Dataset, bearing: BearingNumbers) -> tuple[Row, ...]:
@@ -181,8 +191,6 @@ def _motion_rows(ds: xarray.Dataset, bearing: BearingNumbers) -> tuple[Row, ...]
 def _force_rows(ds: xarray.Dataset, windows: Windows) -> tuple[Row, ...]:
     pocket = metrics.pocket_forces(ds)
     total, faces, largest = metrics.pocket_force_series(ds)
-    race = ds["race_force"].max("time")
-    inner, outer = (float(race.sel(race=r).max()) for r in ("inner", "outer"))
     where = f"pocket {pocket.peak_pocket}, {pocket.peak_face}, t = {pocket.peak_time * 1e3:.3f} ms"
     return (
         Row.of(
@@ -202,6 +210,13 @@ def _force_rows(ds: xarray.Dataset, windows: Windows) -> tuple[Row, ...]:
         ),
         Row("pocket_force_peak", "Pocket force, largest", pocket.peak, "N", where),
         Row("pocket_contact", "Pocket faces in contact", pocket.contact_share, "%", "of the time"),
+    )
+
+
+def _race_rows(ds: xarray.Dataset) -> tuple[Row, ...]:
+    race = ds["race_force"].max("time")
+    inner, outer = (float(race.sel(race=r).max()) for r in ("inner", "outer"))
+    return (
         Row("race_force_inner", "Inner race on a roller, peak", inner, "N"),
         Row("race_force_outer", "Outer race on a roller, peak", outer, "N"),
     )
@@ -237,3 +252,24 @@ def _energy_rows(ds: xarray.Dataset) -> tuple[Row, ...]:
         ),
         *(Row(f"work_{k}", f"Work: {k}", v, "mJ") for k, v in check.channels.items()),
     )
+
+
+@dataclass(frozen=True)
+class ElementFigures:
+    """What a summary says of one kind of rolling elements."""
+
+    speeds: Callable[[xarray.Dataset, BearingNumbers], tuple[Row, ...]]
+    slip: Callable[[xarray.Dataset, BearingNumbers, float | None], Section]
+    races: Callable[[xarray.Dataset], tuple[Row, ...]]
+    motion: Callable[[xarray.Dataset], tuple[Row, ...]]
+
+
+FIGURES = {
+    "roller": ElementFigures(_spin_rows, _slip_section, _race_rows, lambda ds: ()),
+    "ball": ElementFigures(
+        ball_figures.speed_rows,
+        ball_figures.slip_section,
+        ball_figures.race_rows,
+        ball_figures.motion_rows,
+    ),
+}

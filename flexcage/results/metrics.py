@@ -30,6 +30,7 @@ class BearingNumbers:
     pitch_diameter: float
     roller_diameter: float
     roller_count: int
+    contact_angle: float = 0.0
 
     def kinematics(self, inner_speed: float, outer_speed: float = 0.0) -> Kinematics:
         """Speeds without slip at the given speeds of the rings [rad/s]."""
@@ -37,6 +38,7 @@ class BearingNumbers:
             roller_diameter=self.roller_diameter,
             pitch_diameter=self.pitch_diameter,
             roller_count=self.roller_count,
+            contact_angle=self.contact_angle,
             inner_speed=inner_speed,
             outer_speed=outer_speed,
         )
@@ -152,6 +154,28 @@ def roller_slip_ratio(
     out = (ideal - spin) / ideal
     out.attrs = {"units": "1", "long_name": f"roller slip ratio, {frame} frame"}
     return out.transpose("time", "roller").rename("roller_slip_ratio")
+
+
+def ball_spin(ds: xarray.Dataset) -> xarray.DataArray:
+    """Speed of every ball about its own axis, relative to the cage, (time, ball) [rad/s]."""
+    omega = ds["ball_omega"].transpose("time", "ball", "cyl")
+    axial = omega.sel(cyl="x", drop=True) - ds["cage_omega"].sel(axis="x", drop=True)
+    across = (omega.sel(cyl=["r", "psi"]) ** 2).sum("cyl")
+    out: xarray.DataArray = (axial**2 + across) ** 0.5
+    out.attrs = {"units": "rad/s", "long_name": "speed of the ball about its own axis, cage frame"}
+    return out.transpose("time", "ball").rename("ball_spin")
+
+
+def ball_slip_ratio(ds: xarray.Dataset, bearing: BearingNumbers) -> xarray.DataArray:
+    """(n_th - n)/n_th of every ball over time, (time, ball), both relative to the cage.
+
+    n_th follows from the instantaneous inner speed by pure rolling at the nominal contact angle
+    with an ideal cage.
+    """
+    ideal = abs(ds["inner_speed"] * bearing.kinematics(1.0).roller_spin_in_cage)
+    out: xarray.DataArray = (ideal - ball_spin(ds)) / ideal
+    out.attrs = {"units": "1", "long_name": "ball slip ratio, cage frame"}
+    return out.transpose("time", "ball").rename("ball_slip_ratio")
 
 
 def loaded_zone(ds: xarray.Dataset, share: float = LOADED_SHARE) -> xarray.DataArray:

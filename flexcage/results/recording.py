@@ -3,24 +3,24 @@
 from __future__ import annotations
 
 import logging
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from contextlib import nullcontext
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from scipy.signal import butter, sosfilt
-from scipy.spatial.transform import Rotation
 
 from flexcage.core.errors import InputError, RunFailed
-from flexcage.results.faults import PLACES, hardest, runaway
+from flexcage.results.faults import hardest, runaway
 from flexcage.results.options import OutputOptions
-from flexcage.results.registry import COMPUTED, VARIABLES
+from flexcage.results.recorded import own_coords, recorded
+from flexcage.results.registry import COMPUTED, VARIABLES, variables_of
 from flexcage.results.store import MemoryRunStore, RunStore
 from flexcage.solve.contract import COUNTS, DONE, LOG_COLUMNS, LOG_FULL, OUTCOMES, T
 from flexcage.solve.integrators import INTEGRATORS
 from flexcage.solve.options import SolverOptions
+from flexcage.system.data import POWERS
 from flexcage.system.layout import CONSTRAINTS
-from flexcage.system.model import POWERS
 from flexcage.system.problem import Bearing
 from flexcage.system.scales import error_weights
 from flexcage.system.start import Start
@@ -40,22 +40,22 @@ def new_store(
 ) -> MemoryRunStore:
     """Allocate a run for this bearing on its sampling grids, at ``path`` or in memory."""
     n, ratio = max(round(duration * output.rate), 2), output.vibration_ratio
-    layout, data = bearing.layout, bearing.data
-    Z = np.arange(layout.rollers)
+    layout, element = bearing.layout, bearing.family.element
+    numbers = np.arange(layout.rollers)
     coords = {
         "time": np.arange(1, n + 1) / output.rate,
         "time_hf": np.arange(1, n * ratio + 1) / output.vibration_rate,
-        "roller": Z,
-        "pocket": Z,
+        element: numbers,
+        "pocket": numbers,
+        "face": np.array(bearing.family.faces),
         "mode": np.arange(layout.modes),
-        "slice": data.model.pocket.s,
-        "station": np.arange(data.model.pocket.phi.shape[2]),
-        "residual": np.arange(8),
         "constraint": np.array(CONSTRAINTS),
         "energy_kind": np.array(ENERGIES),
         "channel": np.array(POWERS),
+        **own_coords(bearing.data.model),
     }
-    names = [name for name, v in VARIABLES.items() if layout.modes or "mode" not in v.dims]
+    every = variables_of(element)
+    names = [name for name in every if layout.modes or "mode" not in VARIABLES[name].dims]
     return RunStore.create(
         path,
         coords=coords,
@@ -64,19 +64,19 @@ def new_store(
         n_time_hf=n * ratio,
         block=output.block,
         block_hf=output.block_hf,
-        attrs=attrs,
+        attrs={**attrs, "element": element, "places": list(bearing.family.places)},
     )
 
 
-def contact_events(table: dict[str, np.ndarray]) -> xarray.Dataset:
-    """Contacts that closed or opened, from a store's table, one entry an event."""
+def contact_events(table: dict[str, np.ndarray], attrs: Mapping[str, Any]) -> xarray.Dataset:
+    """Contacts that closed or opened, from a store's table and attributes, one entry an event."""
     import xarray
 
-    names = np.array(PLACES)
+    names, element = np.array(attrs["places"]), str(attrs["element"])
     return xarray.Dataset(
         {
             "time": ("event", table["time"], {"units": "s", "long_name": "step that found it"}),
-            "roller": ("event", table["roller"], {"long_name": "roller; -1: the cage's land"}),
+            element: ("event", table["element"], {"long_name": f"{element}; -1: the cage's land"}),
             "place": ("event", names[table["place"]], {"long_name": "contact place"}),
             "closed": ("event", table["closed"].astype(bool), {"long_name": "closed, not opened"}),
         }
@@ -178,7 +178,7 @@ class Recorder:
         whole = outcome == DONE and not deep
         if done:  # a solver that stops before the first sample leaves nothing to write
             main = slice(ratio - 1, done * ratio, ratio)
-            arrays = self._arrays(ys[main], yds[main], done)
+            arrays = recorded(self.bearing.data.model, self.bearing, ys[main], yds[main])
             arrays["work"] = quads[main]
             arrays |= self._registered(arrays)
             fine = self._fine(yds[: done * ratio], done * ratio)
@@ -205,53 +205,6 @@ class Recorder:
             f"the solver stopped at t = {self.time * 1e3:.4f} ms: {OUTCOMES[outcome]}; the "
             f"hardest contact then was {place}; what was computed is kept"
         )
-
-    def _arrays(self, y: np.ndarray, yd: np.ndarray, done: int) -> dict[str, np.ndarray]:
-        """Main-grid variables of one block by name."""
-        layout, s = self.bearing.layout, self.bearing.data.samples
-        q, u, a = layout.q(y), layout.u(y), layout.u(yd)
-        quaternion = q["quaternion"] / np.linalg.norm(q["quaternion"], axis=1, keepdims=True)
-        arrays = {
-            "inner_position": q["inner"][:, :3],
-            "inner_velocity": u["inner"][:, :3],
-            "inner_angle": q["inner"][:, 5],
-            "inner_speed": u["inner"][:, 3],
-            "inner_quaternion": orientation(np.zeros(done), q["inner"][:, 3:]),
-            "outer_position": in_plane(q["outer"]),
-            "outer_velocity": in_plane(u["outer"]),
-            "roller_position": q["rollers"][:, :, :3],
-            "roller_velocity": u["rollers"][:, :, :3],
-            "roller_quaternion": orientation(q["rollers"][:, :, 2], q["rollers"][:, :, 3:]),
-            "roller_tilt": q["rollers"][:, :, 3:5],
-            "roller_omega": u["rollers"][:, :, 3:],
-            "cage_position": q["cage"],
-            "cage_velocity": u["cage"],
-            "cage_quaternion": quaternion,
-            "cage_omega": u["omega"],
-            "cage_acceleration": to_body(quaternion, a["cage"]),
-            "cage_angular_acceleration": a["omega"],
-            "race_force": s.race[:done, :, :, 0],
-            "race_traction": s.race[:done, :, :, 1],
-            "race_moment": s.race[:done, :, :, [3, 2]],
-            "race_slip": s.race[:done, :, :, 4],
-            "pocket_force": s.pocket_normal[:done],
-            "pocket_friction": s.pocket_friction[:done],
-            "pocket_slice_force": s.slice_normal[:done],
-            "pocket_slice_friction": s.slice_friction[:done],
-            "station_force": s.station[:done],
-            "residual_coordinates": np.einsum(
-                "zab,tzb->tza", self.bearing.data.model.pocket.root, s.residual[:done]
-            ),
-            "rib_force": s.rib[:done],
-            "land_force": s.land[:done],
-            "multiplier": layout.multipliers(y),
-            "energy": s.energy[:done],
-        }
-        if layout.modes:
-            arrays["modal_coordinates"] = q["modes"]
-            arrays["modal_velocity"] = u["modes"]
-            arrays["modal_acceleration"] = a["modes"]
-        return arrays
 
     def _registered(self, arrays: dict[str, np.ndarray]) -> dict[str, np.ndarray]:
         """Variables that were registered from outside, from those of the program."""
@@ -283,7 +236,7 @@ class Recorder:
         rows = self.bearing.data.events.rows[: self.bearing.data.events.fill[0]]
         return {
             "time": rows[:, 0].copy(),
-            "roller": rows[:, 1].astype(np.int16),
+            "element": rows[:, 1].astype(np.int16),
             "place": rows[:, 2].astype(np.int8),
             "closed": rows[:, 3].astype(np.int8),
         }
@@ -292,10 +245,7 @@ class Recorder:
         state = self.integrator.checkpoint(self.state)
         memory = {f"memory_{k}": v for k, v in self.bearing.data.memory._asdict().items()}
         events = self.bearing.data.events
-        kept = {
-            f"events_{k}": getattr(events, k)
-            for k in ("closed", "land", "force", "peak", "peak_time")
-        }
+        kept = {f"events_{k}": getattr(events, k) for k in ("closed", "land", "force")}
         return {**state, **memory, **kept, "filter": self._filter}
 
     def _checkpoint(self) -> dict[str, np.ndarray]:
@@ -321,24 +271,3 @@ def _computed(store: MemoryRunStore) -> dict[str, Callable[..., np.ndarray]]:
             where=unknown[0],
         )
     return {name: COMPUTED[name] for name in held if name in COMPUTED}
-
-
-def in_plane(yz: np.ndarray) -> np.ndarray:
-    """Vectors (n, 3) in space of components (n, 2) in the plane of rotation."""
-    return np.concatenate([np.zeros((len(yz), 1)), yz], axis=1)
-
-
-def orientation(azimuth: np.ndarray, angles: np.ndarray) -> np.ndarray:
-    """Unit quaternions (..., 4), scalar first, of bodies at ``azimuth`` (...,) about x, turned by
-    ``angles`` (..., 3): skew about the radial, tilt about the tangential axis, and spin [rad]."""
-    turned = np.concatenate([azimuth[..., None], angles[..., :2]], axis=-1).reshape(-1, 3)
-    frame = Rotation.from_euler("XYZ", turned)
-    spin = Rotation.from_euler("X", angles[..., 2].reshape(-1, 1))
-    return (frame * spin).as_quat(scalar_first=True).reshape(*azimuth.shape, 4)
-
-
-def to_body(quaternion: np.ndarray, vectors: np.ndarray) -> np.ndarray:
-    """Space vectors (n, 3) in the body frames of unit quaternions (n, 4), scalar first."""
-    w, v = quaternion[:, :1], -quaternion[:, 1:]
-    t = 2.0 * np.cross(v, vectors)
-    return vectors + w * t + np.cross(v, t)

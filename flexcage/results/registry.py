@@ -42,12 +42,13 @@ _labels: dict[str, tuple[str, ...]] = {
     "face": FACES,
     "crossbeam_face": FACES[:2],
     "rib": ("+x", "-x"),
+    "direction": ("rolling", "across"),
 }
 LABELS: Mapping[str, tuple[str, ...]] = MappingProxyType(_labels)
 
 #: Dimensions whose labels a run gives.
 RUN_DIMS = (
-    "roller", "pocket", "mode", "slice", "station", "residual", "constraint", "energy_kind",
+    "roller", "ball", "pocket", "mode", "slice", "station", "residual", "constraint", "energy_kind",
     "channel",
 )  # fmt: skip
 
@@ -66,6 +67,16 @@ class Variable:
     def attrs(self) -> dict[str, str]:
         return {"units": self.unit, "long_name": self.long_name}
 
+    @property
+    def of(self) -> str:
+        """Rolling elements ("roller", "ball") whose bearings have it; "": all bearings."""
+        if "ball" in self.dims:
+            return "ball"
+        return "roller" if _ROLLER_DIMS & set(self.dims) else ""
+
+
+_ROLLER_DIMS = {"roller", "slice", "residual", "rib", "crossbeam_face"}
+
 
 def _variables() -> list[Variable]:
     def on(*dims: str) -> tuple[str, ...]:
@@ -75,7 +86,7 @@ def _variables() -> list[Variable]:
         small = bool({"slice", "station", "face", "crossbeam_face"} & set(dims))
         return Variable(name, dims, unit, long_name, "float32" if small else "float64")
 
-    body, roller, pocket = "axis", "roller", "pocket"
+    body, roller, ball, pocket = "axis", "roller", "ball", "pocket"
     return [
         row("inner_position", on(body), "m", "inner ring centre, ring frame"),
         row("inner_velocity", on(body), "m/s", "velocity of the inner ring centre, ring frame"),
@@ -122,6 +133,44 @@ def _variables() -> list[Variable]:
         row("race_traction", on(roller, "race"), "N", "traction of a race on a roller, along psi"),
         row("race_moment", on(roller, "race", "moment"), "N m", "moment of a race on a roller"),
         row("race_slip", on(roller, "race"), "m/s", "sliding speed at a race, roller mid-length"),
+        row("ball_position", on(ball, "cyl"), "m, m, rad", "ball centre (x, r, psi)"),
+        row(
+            "ball_velocity",
+            on(ball, "cyl"),
+            "m/s",
+            "velocity of the ball centre (axial, radial, tangential)",
+        ),
+        row(
+            "ball_omega",
+            on(ball, "cyl"),
+            "rad/s",
+            "inertial angular velocity of the ball, about the axes at its azimuth",
+        ),
+        row("contact_force", on(ball, "race"), "N", "normal force of a race on a ball"),
+        row(
+            "contact_angle",
+            on(ball, "race"),
+            "rad",
+            "angle of the line from a groove's centre through the ball's",
+        ),
+        row(
+            "contact_traction",
+            on(ball, "race", "direction"),
+            "N",
+            "traction of a race on a ball, along the rolling direction and across it",
+        ),
+        row(
+            "contact_slip",
+            on(ball, "race"),
+            "m/s",
+            "sliding speed along the rolling direction, in the middle of the contact",
+        ),
+        row(
+            "pocket_direction",
+            on(ball),
+            "rad",
+            "where a ball stands in its pocket, from +psi towards +x",
+        ),
         row("pocket_force", on(pocket, "face"), "N", "normal force on a pocket face"),
         row("pocket_friction", on(pocket, "face"), "N", "friction force on a pocket face"),
         row(
@@ -172,6 +221,11 @@ _table = {v.name: v for v in _variables()}
 
 #: Every result variable by name, a read-only view.
 VARIABLES: Mapping[str, Variable] = MappingProxyType(_table)
+
+
+def variables_of(element: str) -> list[str]:
+    """Names of the variables of bearings with these rolling elements ("roller", "ball")."""
+    return [name for name, v in VARIABLES.items() if v.of in ("", element)]
 
 
 def variable(name: str) -> Variable:

@@ -18,8 +18,8 @@ from flexcage.results.reductions import DERIVED, REDUCTIONS
 from flexcage.results.registry import LABELS, TIME, VARIABLES, Variable, variable
 from flexcage.results.statistics import roller_passes
 from flexcage.results.summary import Value
+from flexcage.system.data import POWERS
 from flexcage.system.layout import CONSTRAINTS
-from flexcage.system.model import POWERS
 
 if TYPE_CHECKING:
     from flexcage.run import Run

@@ -49,7 +49,7 @@ def make_plan(study: Study) -> Plan:
     _check_paths(study)
     points = _points(study)
     cases, seen = [], dict[str, int]()
-    rollers, flexible = study.case.bearing.roller_count, False
+    rollers, flexible = study.case.bearing.element_count, False
     for number, point in enumerate(points):
         for repetition in range(study.repeat.count):
             try:
@@ -66,7 +66,7 @@ def make_plan(study: Study) -> Plan:
                     where="axes",
                 )
             seen[case.hash] = number
-            rollers = min(rollers, case.bearing.roller_count)
+            rollers = min(rollers, case.bearing.element_count)
             flexible |= case.cage_model == "flexible"
             cases.append(Planned(number, point, repetition, case.hash, _modes_key(case)))
     check_outputs(study.outputs, rollers=rollers, flexible=flexible)
@@ -84,7 +84,7 @@ def _modes_key(case: Case) -> str:
     if case.cage_model == "rigid":
         return ""
     return content_hash(
-        case.cage, case.defects, case.mesh, case.modes, case.bearing.roller_count,
+        case.cage, case.defects, case.mesh, case.modes, case.bearing.element_count,
         case.bearing.pitch_diameter, *basis_version(case.modes.kind),
     )  # fmt: skip
 

@@ -133,12 +133,12 @@ def compile_kernels(case: Case) -> None:
     """Compile the kernels once a machine: workers that need them at the same time wait."""
     import filelock
 
-    if jit.kernels_cached():
+    if jit.kernels_cached(case.bearing.element):
         return
-    mark = jit.compiled_mark()
+    mark = jit.compiled_mark(case.bearing.element)
     mark.parent.mkdir(parents=True, exist_ok=True)
     with filelock.FileLock(mark.with_suffix(".lock")):
-        if not jit.kernels_cached():
+        if not jit.kernels_cached(case.bearing.element):
             rigid = case.replace("cage.model", "rigid").replace("defects", ())
             coarse = rigid.replace("mesh", MeshOptions(fineness="coarse"))
             simulate(coarse.replace("solver.duration", 2.0 / case.output.rate))

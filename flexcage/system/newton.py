@@ -34,7 +34,7 @@ def factor(alpha, data):
 @kernel(fastmath=VECTORISED)
 def assemble(alpha, bodies, tan, m):
     """Newton's matrix alpha M + C + K/alpha in blocks, and its factors."""
-    mass, Ia, It = bodies.roller[0], bodies.roller[1], bodies.roller[2]
+    mass, Ia, It = bodies.element[0], bodies.element[1], bodies.element[2]
     b = 1.0 / alpha
     nb = m.S.shape[0]
     n6 = nb - 7

@@ -16,15 +16,15 @@ from numba import types
 
 from flexcage.contacts import laws
 from flexcage.contacts.spec import Contacts
-from flexcage.core.jit import LEAN, OPTIONS, Box, allocating_kernel, boxed
+from flexcage.core.jit import LEAN, OPTIONS, allocating_kernel, boxed
 from flexcage.solve import runge_kutta
 from flexcage.solve.bordered import Bordered, new_bordered
 from flexcage.solve.contract import Integrator
 from flexcage.system import newton, rates, sampling
+from flexcage.system.data import POWERS, Memory, Report, Work
+from flexcage.system.families import family_of
 from flexcage.system.layout import Layout
-from flexcage.system.model import POWERS, Memory, Model, Work, new_work
 from flexcage.system.rates import RatesWork, new_rates_work
-from flexcage.system.residual import evaluate
 
 ITERATIONS = 40  # of the spectral radius
 NUDGE = 1e-3  # of the allowed local error, over which it takes differences
@@ -46,36 +46,34 @@ PROBLEM: dict[str, tuple[Callable[..., Any], tuple[Any, ...]]] = {
 
 
 class Events(NamedTuple):
-    """Contact changes: a buffer of (time, roller or -1, place, 1 closed, 0 opened) and its fill."""
+    """Contact changes: a buffer of (time, element or -1, place, 1 closed, 0 opened), its fill."""
 
     rows: np.ndarray  # (n, 4)
     fill: np.ndarray  # (1,)
-    closed: np.ndarray  # (Z, 8) contact flags at the last accepted step
+    closed: np.ndarray  # (Z, places) contact flags at the last accepted step
     land: np.ndarray  # (2,) the same for the cage's lands
     force: np.ndarray  # (2, 3) of the last two accepted steps: time, force on the outer ring
-    peak: np.ndarray  # (Z, 4) largest pocket force of a step so far
-    peak_time: np.ndarray  # (Z, 4)
 
 
 class Samples(NamedTuple):
     """One block of reports on the sampling grid; every ``stride``-th fine sample is a main one."""
 
     stride: int
-    race: np.ndarray  # (n, Z, 2, 9)
-    pocket_normal: np.ndarray  # (n, Z, 4)
+    race: np.ndarray  # (n, Z, 2, 9), and so on: the report's arrays
+    pocket_normal: np.ndarray
     pocket_friction: np.ndarray
-    slice_normal: np.ndarray  # (n, Z, 2, ns)
+    slice_normal: np.ndarray
     slice_friction: np.ndarray
-    station: np.ndarray  # (n, Z, 4, nst, 3)
-    residual: np.ndarray  # (n, Z, 8)
-    rib: np.ndarray  # (n, Z, 2)
-    land: np.ndarray  # (n, 3)
-    energy: np.ndarray  # (n, 4)
+    station: np.ndarray
+    residual: np.ndarray
+    rib: np.ndarray
+    land: np.ndarray
+    energy: np.ndarray
     force: np.ndarray  # (n * stride, 2) on the outer ring, fine grid
 
 
 class BearingData(NamedTuple):
-    model: Model
+    model: Any
     memory: Memory
     work: Work
     matrix: Bordered
@@ -84,49 +82,18 @@ class BearingData(NamedTuple):
     rates: RatesWork
 
 
-class Parts(NamedTuple):
-    """The same as the compiled functions receive it: a reference to each group of arrays."""
-
-    bodies: Box
-    cage: Box
-    inner: Box
-    outer: Box
-    rib: Box
-    pocket: Box
-    land: Box
-    memory: Box
-    pose: Box
-    slices: Box
-    pair: Box
-    pocket_work: Box
-    land_work: Box
-    frame: Box
-    scratch: Box
-    tangent: Box
-    report: Box
-    matrix: Box
-    events: Box
-    samples: Box
-    rates: Box
-
-
-def parts(data: BearingData) -> Parts:
-    """References to the groups of arrays of a bearing."""
+def parts(data: BearingData) -> Any:
+    """References to the groups of arrays of a bearing, as the compiled functions receive them."""
     groups = (
         *data.model, data.memory, *data.work, data.matrix, data.events, data.samples, data.rates,
     )  # fmt: skip
-    return Parts(*(boxed(group) for group in groups))
+    return family_of(data.model).parts(*(boxed(group) for group in groups))
 
 
-def new_samples(n: int, stride: int, model: Model) -> Samples:
-    Z = len(model.bodies.radius)
-    ns, nst = len(model.pocket.s), model.pocket.phi.shape[2]
-    z = np.zeros
-    return Samples(
-        stride, z((n, Z, 2, 9)), z((n, Z, 4)), z((n, Z, 4)), z((n, Z, 2, ns)), z((n, Z, 2, ns)),
-        z((n, Z, 4, nst, 3)), z((n, Z, 8)), z((n, Z, 2)), z((n, 3)), z((n, 4)),
-        z((n * stride, 2)),
-    )  # fmt: skip
+def new_samples(n: int, stride: int, report: Report) -> Samples:
+    """Room for n reports."""
+    kept = {k: np.zeros((n, *getattr(report, k).shape)) for k in Samples._fields[1:-1]}
+    return Samples(stride=stride, **kept, force=np.zeros((n * stride, 2)))
 
 
 def law_functions(contacts: Contacts) -> tuple:
@@ -141,21 +108,19 @@ class Bearing:
     """A bearing ready to be integrated: its data, and functions that are compiled when needed."""
 
     def __init__(
-        self, model: Model, memory: Memory, contacts: Contacts, layout: Layout,
+        self, model: Any, memory: Memory, contacts: Contacts, layout: Layout,
         *, block: int = 250, stride: int = 4,
     ) -> None:  # fmt: skip
-        self.layout = layout
-        work = new_work(model, layout)
+        self.layout, self.family = layout, family_of(model)
+        work = self.family.new_work(model, layout)
         self.data = BearingData(
             model, memory, work,
             new_bordered(layout.rollers, layout.n_border, 8, work.tangent.active),
             Events(
                 np.zeros((200_000, 4)), np.zeros(1, np.int64),
-                np.zeros((layout.rollers, 8), np.int64), np.zeros(2, np.int64),
-                np.zeros((2, 3)),
-                np.zeros((layout.rollers, 4)), np.zeros((layout.rollers, 4)),
+                np.zeros_like(work.report.contact), np.zeros(2, np.int64), np.zeros((2, 3)),
             ),
-            new_samples(block, stride, model),
+            new_samples(block, stride, work.report),
             new_rates_work(model.cage.mff),
         )  # fmt: skip
         self.laws = law_functions(contacts)
@@ -169,9 +134,9 @@ class Bearing:
 
     @cached_property
     def evaluate(self) -> Any:
-        """``residual.evaluate``, compiled; most of what there is to compile."""
+        """The family's residual, compiled; most of what there is to compile."""
         compiled: Any = numba.njit(self._evaluation, **LEAN)
-        return compiled(evaluate)
+        return compiled(self.family.evaluate)
 
     @cached_property
     def args(self) -> tuple:

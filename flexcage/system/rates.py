@@ -1,9 +1,9 @@
 """The equations as y' = f(t, y) for an explicit integrator: their constraints eliminated.
 
 What the constraints hold are single coordinates of the inner ring, whose mass matrix is diagonal:
-its axial position, skew and tilt stand still, and its spin is a given function of time (unless a
-compliant shaft drives it). These coordinates are set, the others accelerate by M u' = Q, and the
-rows left over say what forces hold them: the multipliers.
+its axial position, skew and tilt stand still (those that are not free), and its spin is a given
+function of time (unless a compliant shaft drives it). These coordinates are set, the others
+accelerate by M u' = Q, and the rows left over say what forces hold them: the multipliers.
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ import numpy as np
 
 from flexcage.core.jit import VECTORISED, fields, kernel, part, zero
 from flexcage.solve.bordered import lu_factor, lu_solve
-from flexcage.system.residual import interpolate
+from flexcage.system.rows import interpolate
 from flexcage.system.sampling import keep_force, keep_report
 
 
@@ -69,9 +69,9 @@ def _rates(t, y, yd, data, mode):
     for k in range(end):
         yd[k] = -out[k]
     linear, axial, transverse = (
-        1.0 / bodies.roller[0],
-        1.0 / bodies.roller[1],
-        1.0 / bodies.roller[2],
+        1.0 / bodies.element[0],
+        1.0 / bodies.element[1],
+        1.0 / bodies.element[2],
     )
     for i in range(Z):
         a = yd[n_q + 6 * i : n_q + 6 * i + 6]
@@ -81,10 +81,14 @@ def _rates(t, y, yd, data, mode):
         a[4] *= transverse
         a[5] *= transverse
     a, row, lam = yd[ring : ring + 8], out[ring : ring + 6], y[end : end + 4]
-    a[0] = a[4] = a[5] = 0.0
-    a[1] /= bodies.ring[0]
-    a[2] /= bodies.ring[0]
-    lam[0], lam[1], lam[2] = row[0], row[4], row[5]
+    for k in range(3):
+        a[k] /= bodies.ring[0]
+    a[4] /= bodies.ring[2]
+    a[5] /= bodies.ring[2]
+    for k in range(3):
+        if bodies.free[k] == 0.0:
+            c = 0 if k == 0 else 3 + k
+            a[c], lam[k] = 0.0, row[c]
     if driven:
         a[3] = slope_of(bodies.speed, t)
         lam[3] = row[3] + bodies.ring[1] * a[3]
@@ -101,9 +105,12 @@ def _rates(t, y, yd, data, mode):
 @part
 def _hold(t, q, u, bodies, driven):
     """Give the inner ring's held coordinates and velocities their values."""
-    q[0] = q[3] = 0.0
-    q[4] = bodies.misalignment
-    u[0] = u[4] = u[5] = 0.0
+    if bodies.free[0] == 0.0:
+        q[0] = u[0] = 0.0
+    if bodies.free[1] == 0.0:
+        q[3] = u[4] = 0.0
+    if bodies.free[2] == 0.0:
+        q[4], u[5] = bodies.misalignment, 0.0
     if driven:
         u[3] = interpolate(bodies.speed, t)
 

@@ -32,25 +32,23 @@ def keep_point(t, d):
 
 @kernel
 def remember(t, memory, rep, events):
-    """Keep the onset speed of every contact, contact changes, and peaks."""
+    """Keep the onset speed of every contact, and contact changes; races come before the faces of
+    pockets, those before ribs."""
+    ribs = 2 + memory.pocket.shape[1]
     for i in range(rep.contact.shape[0]):
-        for k in range(8):
+        for k in range(rep.contact.shape[1]):
             closed = rep.contact[i, k]
             if closed == 0 or events.closed[i, k] == 0:
                 speed = max(rep.approach[i, k], 0.0)
                 if k < 2:
                     memory.race[i, k, 3] = speed
-                elif k < 6:
+                elif k < ribs:
                     memory.pocket[i, k - 2, 3] = speed
                 else:
-                    memory.rib[i, k - 6, 3] = speed
+                    memory.rib[i, k - ribs, 3] = speed
             if closed != events.closed[i, k]:
                 events.closed[i, k] = closed
                 _note(events, t, i, k, closed)
-        for f in range(4):
-            if rep.pocket_normal[i, f] > events.peak[i, f]:
-                events.peak[i, f] = rep.pocket_normal[i, f]
-                events.peak_time[i, f] = t
         copy_into(memory.deflection[i], rep.residual[i])
     for side in range(2):
         closed = 1 if rep.land_touch[side, 0] > 0.0 else 0
@@ -58,16 +56,16 @@ def remember(t, memory, rep, events):
             memory.land[side, 3] = max(rep.land_touch[side, 1], 0.0)
         if closed != events.land[side]:
             events.land[side] = closed
-            _note(events, t, -1, 8 + side, closed)
+            _note(events, t, -1, rep.contact.shape[1] + side, closed)
 
 
 @kernel
-def _note(events, t, roller, place, closed):
+def _note(events, t, element, place, closed):
     """Write down that a contact closed or opened; a full buffer keeps the first ones."""
     n = events.fill[0]
     if n < events.rows.shape[0]:
         row = events.rows[n]
-        row[0], row[1], row[2], row[3] = t, roller, place, closed
+        row[0], row[1], row[2], row[3] = t, element, place, closed
         events.fill[0] = n + 1
 
 

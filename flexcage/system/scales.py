@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from functools import singledispatch
+from typing import Any
+
 import numpy as np
 
 from flexcage.system.layout import Layout
@@ -11,13 +14,19 @@ from flexcage.system.model import Model
 ERROR_RATE = 2.0 * np.pi * 5e3
 
 
-def error_weights(model: Model, layout: Layout, length: float) -> np.ndarray:
+@singledispatch
+def error_weights(model: Any, layout: Layout, length: float) -> np.ndarray:
     """1/(allowed local error) of y for a position error of ``length`` [m]; 0: not tested.
 
     Angles are scaled by the lever over which they move a contact, modal coordinates by the
     largest displacement of a station, velocities by ``ERROR_RATE``; spin angles and multipliers
     are left out (nothing depends on them, or they follow).
     """
+    raise NotImplementedError(f"{type(model).__name__} has no error weights")
+
+
+@error_weights.register
+def _(model: Model, layout: Layout, length: float) -> np.ndarray:
     allowed = np.full(layout.size, np.inf)
     q, u = layout.q(allowed), layout.u(allowed)
     rw = float(model.bodies.radius.mean())

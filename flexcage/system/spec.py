@@ -29,19 +29,25 @@ class Drive:
 
 @dataclass(frozen=True, kw_only=True)
 class Load:
-    """Load on the inner ring, its misalignment, and gravity."""
+    """Load on the inner ring, its misalignment, and gravity.
+
+    Ramps and tables are of the radial load. What is held is borne by a reaction.
+    """
 
     radial: float = quantity("N", 0.0, doc="radial load", minimum=0.0)
     direction: float = quantity("deg", 0.0, doc="azimuth of the load, from y towards z")
-    axial: float = quantity("N", 0.0, doc="axial load, along +x (static solution)")
-    moment_y: float = quantity("N*m", 0.0, doc="moment about y (static solution)")
-    moment_z: float = quantity("N*m", 0.0, doc="moment about z (static solution)")
+    axial: float = quantity("N", 0.0, doc="axial load, along +x")
+    moment_y: float = quantity("N*m", 0.0, doc="moment about y")
+    moment_z: float = quantity("N*m", 0.0, doc="moment about z")
     ramp_to: float | None = quantity("N", None, doc="load at the end of a ramp")
     ramp_start: float = quantity("s", 0.0, doc="start of the ramp", minimum=0.0)
     ramp_time: float = quantity("s", 0.0, doc="length of the ramp", minimum=0.0)
     times: tuple[float, ...] = quantity("s", (), doc="table: times")
     values: tuple[float, ...] = quantity("N", (), doc="table: loads")
-    misalignment: float = quantity("mrad", 0.0, doc="tilt of the inner ring about z")
+    tilt: str = option(
+        "held", doc="is the inner ring held in tilt, or free in a run?", choices=("held", "free")
+    )
+    misalignment: float = quantity("mrad", 0.0, doc="held tilt of the inner ring about z")
     gravity: float = quantity("m/s^2", 9.80665, doc="acceleration of gravity", minimum=0.0)
     gravity_direction: float = quantity("deg", 0.0, doc="azimuth of gravity")
     shaft_mass: float = quantity("kg", 0.0, doc="mass that moves with the inner ring", minimum=0.0)

@@ -11,7 +11,10 @@ assembled.
 from __future__ import annotations
 
 import logging
+from collections.abc import Callable
 from dataclasses import dataclass, replace
+from functools import singledispatch
+from typing import Any
 
 import numpy as np
 
@@ -24,9 +27,11 @@ from flexcage.system.model import Model
 from flexcage.system.newton import assemble, newton_step
 from flexcage.system.problem import Bearing
 from flexcage.system.spec import StartOptions
+from flexcage.system.statics.solution import StaticSolution
 
 log = logging.getLogger(__name__)
 
+StaticStart = Callable[[], StaticSolution]
 RESIDUAL = 1e-7  # of the load: where an equilibrium is accepted
 TOUCH = 1e-9  # [m] interference that is only a touch
 STAGES = 8  # steps of a pinching defect's growth
@@ -236,9 +241,27 @@ def _stages(model: Model, offset: np.ndarray) -> np.ndarray:
     return np.linspace(max(first, 0.0), 1.0, STAGES + 1)[1:]
 
 
-def find_start(bearing: Bearing, *, limit_force: float) -> Start:
-    """Assemble the bearing and bring it to equilibrium at the drive's first speed."""
-    model, layout = bearing.data.model, bearing.layout
+def find_start(
+    bearing: Bearing, *, limit_force: float, statics: StaticStart | None = None
+) -> Start:
+    """Assemble the bearing and bring it to equilibrium at the drive's first speed.
+
+    ``statics`` computes the static solution, for bearings whose run begins with it.
+    """
+    return start_of(bearing.data.model, bearing, limit_force=limit_force, statics=statics)
+
+
+@singledispatch
+def start_of(
+    model: Any, bearing: Bearing, *, limit_force: float, statics: StaticStart | None
+) -> Start:
+    """The start of one family of bearings, by its model."""
+    raise NotImplementedError(f"{type(model).__name__} has no start")
+
+
+@start_of.register
+def _(model: Model, bearing: Bearing, *, limit_force: float, statics: StaticStart | None) -> Start:
+    layout = bearing.layout
     offset = model.pocket.offset
     y = geometric_guess(model, layout)
     load = max(float(model.bodies.load[1, 0]), 1.0)

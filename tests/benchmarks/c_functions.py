@@ -17,7 +17,7 @@ from numba.extending import intrinsic
 from numba.np.arrayobj import populate_array
 
 from flexcage.core.jit import LEAN
-from flexcage.system.model import POWERS
+from flexcage.system.data import POWERS
 from flexcage.system.problem import Bearing
 
 _POINTER, _REAL = types.CPointer(types.float64), types.float64

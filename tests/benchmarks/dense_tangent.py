@@ -44,7 +44,7 @@ def momentum_matrices(
     """M, C, K (n_u, n_u) of M u' + C du + K d = 0, d the displacements that belong to u."""
     functions.setup(t, y, yd, _ALPHA)
     layout, data = functions.bearing.layout, functions.bearing.data
-    tangent, (mass, axial, transverse) = data.work.tangent, data.model.bodies.roller[:3]
+    tangent, (mass, axial, transverse) = data.work.tangent, data.model.bodies.element[:3]
     M = np.zeros((layout.n_u, layout.n_u))
     ring = 6 * layout.rollers
     np.fill_diagonal(M[:ring, :ring], [*[mass] * 3, axial, transverse, transverse])

@@ -13,7 +13,7 @@ from numba import types
 
 from flexcage.core.jit import kernel
 from flexcage.solve.bdf import BDF
-from flexcage.system.model import POWERS
+from flexcage.system.data import POWERS
 from flexcage.system.problem import Bearing
 
 _G = 0.43586652150845899942  # root of g^3 - 3 g^2 + 3 g/2 - 1/6

@@ -19,7 +19,7 @@ from flexcage.simulate import build_bearing, cage_mesh, cage_reduction
 from flexcage.solve.contract import DONE, LOG_FULL, OUTCOMES
 from flexcage.solve.integrators import INTEGRATORS
 from flexcage.solve.options import SolverOptions
-from flexcage.system.model import POWERS
+from flexcage.system.data import POWERS
 from flexcage.system.problem import new_samples
 from flexcage.system.scales import error_weights
 from flexcage.system.start import find_start
@@ -106,7 +106,7 @@ class Settled:
 
     def _sample(self, rows: int, stride: int) -> None:
         b = self.bearing
-        b.data = b.data._replace(samples=new_samples(rows, stride, b.data.model))
+        b.data = b.data._replace(samples=new_samples(rows, stride, b.data.work.report))
         b.args = b.arguments(b.data, b.laws)
 
     def _advance(

@@ -75,7 +75,7 @@ MISTAKES = {
     "angle and clearance": ({"bearing.radial_clearance": "80 um"}, ["32.46 um", "15 deg"]),
     "overlap": ({"bearing.ball_count": 24}, ["24 balls", "overlap"]),
     "pocket": ({"cage.pocket_diameter": "9 mm"}, ["pocket_diameter is 9 mm", "9.525 mm"]),
-    "window": ({"cage.pocket_width": "9 mm"}, ["'pocket_width'", "'pocket_diameter'"]),
+    "window": ({"cage.pocket_width": "9 mm"}, ["'pocket_width'", "'pocket_shape'"]),
     "rollers": ({"bearing.roller_count": 9}, ["'roller_count'", "'ball_count'"]),
     "type": ({"bearing.type": "ball"}, ["bearing.type 'ball' is not known"]),
     "section": ({"laod.axial": "1 N"}, ["'laod'", "'load'"]),
@@ -97,12 +97,10 @@ def test_mistakes(name):
     assert all(word in sentence for word in words), sentence
 
 
-def test_motion_of_balls_is_refused_wherever_it_is_asked_for():
+def test_a_cage_goes_with_its_type_of_bearing():
     preset = load_preset("7010C-PI")
-    words = "'angular_contact_ball'.*not computed yet.*'flexcage static'"
+    words = "'angular_contact_ball', whose cage is a BallCage, but .* a WindowCage"
     for attempt in (
-        lambda: load_case(BALLS),
-        lambda: Case.from_preset("7010C-PI"),
         lambda: Case(bearing=preset.bearing, cage=load_preset("N1013").cage),
         lambda: load_case('[bearing]\npreset = "N1013"\n').replace("bearing", preset.bearing),
     ):
@@ -110,9 +108,26 @@ def test_motion_of_balls_is_refused_wherever_it_is_asked_for():
             attempt()
 
 
+def test_what_is_not_free_in_a_run_takes_no_load():
+    assert load_case(BALLS).load.axial == 100.0
+    free = load_case(BALLS, overrides={"load.tilt": "free", "load.moment_y": "1 N*m"})
+    assert free.load.moment_y == 1.0
+    for path, value, words in (
+        ("load.moment_y", "1 N*m", "tilts are held.*load.tilt = \"free\""),
+        ("defects", [{"type": "crossbeam", "crossbeam": 1, "displacement": "0.1 mm"}],
+         "'crossbeam'.*ball cages.*'enlarged'"),
+    ):  # fmt: skip
+        with pytest.raises(InputError, match=words):
+            load_case(BALLS, overrides={path: value})
+    with pytest.raises(InputError, match="load.tilt is 'free', but nothing"):
+        load_case('[bearing]\npreset = "N1013"\n', overrides={"load.tilt": "free"})
+
+
 def test_loads_of_the_static_solution_are_refused_in_a_run():
-    for path, value in (("load.axial", "5 N"), ("load.moment_y", "1 N*m")):
-        with pytest.raises(InputError, match=f"{path} is .*axial motion and tilts are held"):
+    for path, value, held in (
+        ("load.axial", "5 N", "axial motion is"), ("load.moment_y", "1 N*m", "tilts are"),
+    ):  # fmt: skip
+        with pytest.raises(InputError, match=f"{path} is .*{held} held"):
             load_case('[bearing]\npreset = "N1013"\n', overrides={path: value})
 
 

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from flexcage.results.metrics import BearingNumbers
-from flexcage.results.registry import VARIABLES
+from flexcage.results.registry import variables_of
 from flexcage.results.store import RunStore
 
 N1013 = BearingNumbers(pitch_diameter=82.5e-3, roller_diameter=8e-3, roller_count=22)
@@ -42,7 +42,7 @@ def known_run():
     store = RunStore.create(
         None,
         coords=run_coords(n),
-        variables=list(VARIABLES),
+        variables=variables_of("roller"),
         n_time=n,
         n_time_hf=4 * (n - 1) + 1,
         block=n,

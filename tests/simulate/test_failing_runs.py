@@ -69,14 +69,14 @@ def test_a_race_that_gives_way(recorder):
     last = kept(recorder, 4e-3)
     roller = int(re.search(r"roller (\d+)", str(said.value))[1])
     assert np.cos(bearing.layout.q(last["y"])["rollers"][roller, 2]) > 0.95  # where the load points
-    depth = overlaps(bearing, last["y"][None])[0]
+    depth = overlaps(bearing.data.model, bearing.layout, last["y"][None])[0]
     assert 0.5e-3 < depth[:, 0].max() < 1e-3 and depth[:, 1:].max() < 0.2e-3
 
 
 def test_overlaps_of_a_start(recorder):
     """Loaded rollers touch both races by micrometres, and lie in the middle of their pockets."""
     bearing = recorder.bearing
-    depth = overlaps(bearing, recorder.state.D[:1])[0]
+    depth = overlaps(bearing.data.model, bearing.layout, recorder.state.D[:1])[0]
     play = bearing.data.model.pocket.half[0] - bearing.data.model.bodies.radius[0]
     assert 1e-6 < depth[0, 0] < 20e-6 and 1e-6 < depth[0, 1] < 20e-6
     np.testing.assert_allclose(depth[:, 2] + depth[:, 3], -2.0 * play, rtol=0.02)

@@ -12,7 +12,7 @@ from simulate_cases import bent, n1013
 
 from flexcage.case import load_case
 from flexcage.stages import build_bearing, cage_mesh, cage_reduction
-from flexcage.system.model import POWERS
+from flexcage.system.data import POWERS
 from flexcage.system.start import find_start
 
 HERE = Path(__file__)

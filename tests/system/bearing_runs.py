@@ -8,8 +8,8 @@ import numpy as np
 
 from flexcage.solve import bdf, runge_kutta
 from flexcage.solve.integrators import INTEGRATORS
+from flexcage.system.data import POWERS
 from flexcage.system.layout import Layout
-from flexcage.system.model import POWERS
 from flexcage.system.problem import Bearing, new_samples
 from flexcage.system.scales import error_weights
 from flexcage.system.spec import Drive, Mount
@@ -50,7 +50,7 @@ def march(bearing, y0, yd0, *, duration, rate=100e3, tolerance=1e-8, max_order=2
     layout = bearing.layout
     times = np.arange(1, int(round(duration * rate)) + 1) / rate
     n, quads = len(times), np.zeros((int(round(duration * rate)), len(POWERS)))
-    samples = new_samples(n, 1, bearing.data.model)
+    samples = new_samples(n, 1, bearing.data.work.report)
     bearing.data = bearing.data._replace(samples=samples)
     bearing.args = bearing.arguments(bearing.data, bearing.laws)
     integrator = INTEGRATORS[method]

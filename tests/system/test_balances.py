@@ -70,7 +70,7 @@ def forces_on_bodies(bearing, y, yd):
         part[...] = 0.0
     r = layout.u(bearing.residual(0.0, y, still))
     q, u = layout.q(y), layout.u(y)
-    mass = bearing.data.model.bodies.roller[0]
+    mass = bearing.data.model.bodies.element[0]
     out = []
     for i in range(layout.rollers):
         x, radius, psi = q["rollers"][i, :3]
@@ -151,7 +151,7 @@ def test_angular_momentum_of_a_run(bearing_of):
     h = march(bearing, *rolling_start(bearing), duration=2e-3, rate=400e3)
     layout, model = bearing.layout, bearing.data.model
     q, u = layout.q(h.y), layout.u(h.y)
-    mass, axial, _ = model.bodies.roller
+    mass, axial, _ = model.bodies.element
     rollers = q["rollers"][:, :, 1] * u["rollers"][:, :, 2] * mass + axial * u["rollers"][:, :, 3]
     d = model.cage
     spin = (np.trace(d.G0) - d.G0[0, 0]) * u["omega"][:, 0]

@@ -40,7 +40,7 @@ def test_spin_of_one_roller(bearing_of, lubricant, slip):
         lubricant=lubricant, load=Load(gravity=0.0),
     )  # fmt: skip
     model, layout = bearing.data.model, bearing.layout
-    mass, axial, _ = model.bodies.roller
+    mass, axial, _ = model.bodies.element
     ri, ro, rw = model.inner.radius, model.outer.radius, 4e-3
     # radial balance of a roller on two springs c d^(10/9), with its centrifugal force
     c = laws.iso_line_stiffness(7.3e-3)

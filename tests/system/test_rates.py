@@ -7,7 +7,7 @@ import pytest
 from bearing_runs import STATES, disturbed, march, rolling_start
 
 from flexcage.contacts.spec import Contacts, NormalLaw, PairSpec
-from flexcage.system.model import POWERS
+from flexcage.system.data import POWERS
 from flexcage.system.scales import error_weights
 from flexcage.system.spec import Drive, Load
 

@@ -41,7 +41,7 @@ KEPT = Tolerance(1e-5, "share of the throw's; falls with solver.tolerance", abso
 def momentum(bearing: Bearing, ds: Any) -> tuple[np.ndarray, np.ndarray]:
     """Momentum across the axis (time, 2) [kg m/s] and angular momentum about it (time,)."""
     model = bearing.data.model
-    mass, axial, _ = model.bodies.roller
+    mass, axial, _ = model.bodies.element
     psi, r = (ds["roller_position"].sel(cyl=c).values for c in ("psi", "r"))
     radial, around = (ds["roller_velocity"].sel(cyl=c).values for c in ("r", "psi"))
     cos, sin = np.cos(psi), np.sin(psi)

@@ -1,0 +1,194 @@
+"""Ball in its pocket: a cylinder about a radial axis, or a sphere, in a cage that deforms.
+
+The pocket may be a slot (its axis drawn out to a line), larger or displaced. The wall's motion by
+the cage's modes is known at stations round the pocket and interpolated smoothly between them; what
+modes do not carry of a wall's yielding is a compliance of each station, in series with the
+contact's own. Forces are slopes of one energy: where the wall's displacement changes round the
+pocket, the force leans.
+"""
+
+from __future__ import annotations
+
+from math import atan2, floor, pi, sqrt
+from typing import NamedTuple
+
+import numpy as np
+
+from flexcage.contacts.slices import (
+    elastic_forces,
+    friction_factors,
+    friction_power,
+    normal_forces,
+)
+from flexcage.core.jit import part, zero
+from flexcage.core.splines import smooth_weights
+from flexcage.core.vectors import combine, cross, dot, minus, plus, row, times
+
+ITERATIONS = 8  # of Newton's method for a contact and a compliance in series
+
+
+class BallPockets(NamedTuple):
+    """All pockets of a cage."""
+
+    azimuth: np.ndarray  # (Z, 2) cos, sin of their middles in the cage
+    shift: np.ndarray  # (Z, 2) of the axis, axially and along the circumference
+    slot: np.ndarray  # (Z, 2) half of the axis' length, if it is drawn out, likewise
+    radius: np.ndarray  # (Z,)
+    height: float  # radius of the spheres' middles
+    sphere: float  # 1.0: spheres, 0.0: cylinders
+    phi: np.ndarray  # (Z, 1, nst, 3, nm) modes at the stations (x, r, psi), from +psi towards +x
+    phi_max: np.ndarray  # (nm,) largest displacement of a wall along its normal
+    local: np.ndarray  # (Z, nst) compliance beyond the modes
+    friction: np.ndarray  # (N_FRICTION,)
+
+
+class BallPocketWork(NamedTuple):
+    """Buffers of one pocket."""
+
+    G: np.ndarray  # (3, 3) rows: the pocket's x, r, psi
+    st: np.ndarray  # (1, nst, 3) station forces on the cage
+    normal: np.ndarray  # (1,) normal force
+    tangential: np.ndarray  # (1,) friction force
+    place: np.ndarray  # (4,) stations near the contact (as floats), refilled for each
+
+
+def ball_pocket_work(stations: int) -> BallPocketWork:
+    return BallPocketWork(
+        np.zeros((3, 3)), np.zeros((1, stations, 3)), np.zeros(1), np.zeros(1), np.zeros(4)
+    )
+
+
+@part
+def pocket_wall_contact(
+    rb, data, i, D, v, spin, q, qd, margin, p, law, friction, sl, pw, wrench, mode, sums
+):
+    """Wrench of pocket i's wall on its ball, added to ``wrench``, and station forces in ``pw.st``.
+
+    D: ball centre from the cage's origin; v: its velocity less that of the cage's body there; spin:
+    the difference of angular velocities; all in the ball's frame, as are the rows of ``pw.G``.
+    q, qd: modal coordinates and rates, ``margin``: a bound of the wall's motion. From mode 2 on
+    ``sums``: elastic energy, power of damping and friction, direction of the contact from +psi
+    towards +x, and the speed at which ball and wall approach.
+    """
+    pw.normal[0] = pw.tangential[0] = 0.0
+    if mode >= 2:
+        zero(sums)
+    x = dot(D, row(pw.G, 0)) - data.shift[i, 0]
+    t = dot(D, row(pw.G, 2)) - data.shift[i, 1]
+    h = data.sphere * (dot(D, row(pw.G, 1)) - data.height)
+    x -= min(max(x, -data.slot[i, 0]), data.slot[i, 0])
+    t -= min(max(t, -data.slot[i, 1]), data.slot[i, 1])
+    flat = sqrt(x * x + t * t)
+    reach = sqrt(flat * flat + h * h)
+    play = data.radius[i] - rb
+    if reach == 0.0:
+        return False
+    n = (x / reach, h / reach, t / reach)
+    if mode >= 2:
+        sums[3] = atan2(x, t)
+        sums[4] = _along(n, v, pw)
+    if reach - play + margin <= 0.0:
+        return False
+    place = atan2(x, t) * data.phi.shape[2] / (2.0 * pi)
+    first = floor(place)
+    weight, slope = smooth_weights(place - first)
+    nst = data.phi.shape[2]
+    u = du = ud = (0.0, 0.0, 0.0)
+    soft = 0.0
+    for k in range(4):
+        s = (int(first) + k - 1 + nst) % nst
+        here, rate = _wall(data, i, s, q), _wall(data, i, s, qd)
+        u, ud = combine(u, weight[k], here), combine(ud, weight[k], rate)
+        du = combine(du, slope[k] * nst / (2.0 * pi), here)
+        soft += weight[k] * data.local[i, s]
+    depth = reach - play - dot(u, n)
+    if depth <= 0.0:
+        return False
+    # slope of the depth: along n, and round the pocket as the wall's displacement changes there
+    across = (u[0], data.sphere * u[1], u[2])
+    push = combine(n, -1.0 / reach, combine(across, -dot(across, n), n))
+    if flat > 0.0:
+        push = combine(push, -dot(du, n) / (flat * flat), (t, 0.0, -x))
+    rate = _along(push, v, pw) - dot(ud, n)
+    N, pressed, eased = _press(depth, rate, max(soft, 0.0), p, law, sl)
+    if mode >= 2:
+        elastic_forces(law, 1, sl, p)
+        sums[0] = sl.Ne[0] * pressed / (p[1] + 1.0) + 0.5 * max(soft, 0.0) * sl.Ne[0] * sl.Ne[0]
+        sums[1] = -(N - sl.Ne[0]) * rate
+    if N <= 0.0:
+        return True
+    # friction, where the ball touches the wall
+    nF = _in_frame(n, pw)
+    arm = times(rb, nF)
+    slip = minus(plus(v, cross(spin, arm)), _in_frame(ud, pw))
+    slip = combine(slip, -dot(slip, nF), nF)
+    sl.u[0] = sqrt(dot(slip, slip))
+    sl.N[0] = N
+    friction_factors(friction, 1, sl, data.friction)
+    drag = times(-N * sl.g[0], slip)
+    total = combine(drag, -N, _in_frame(push, pw))
+    moment = cross(arm, drag)
+    for c in range(3):
+        wrench[c] += total[c]
+        wrench[3 + c] += moment[c]
+    on_wall = (
+        N * n[0] - dot(drag, row(pw.G, 0)),
+        N * n[1] - dot(drag, row(pw.G, 1)),
+        N * n[2] - dot(drag, row(pw.G, 2)),
+    )
+    zero(pw.st)
+    for k in range(4):
+        s = (int(first) + k - 1 + nst) % nst
+        for c in range(3):
+            pw.st[0, s, c] += weight[k] * on_wall[c]
+    pw.normal[0], pw.tangential[0] = N, N * sl.g[0] * sl.u[0]
+    if mode >= 2:
+        sums[2] = friction_power(1, sl)
+    return True
+
+
+@part
+def _wall(data, i, s, q):
+    """Displacement of station s of pocket i by modal coordinates q, or its rate by theirs."""
+    x = r = psi = 0.0
+    for m in range(q.shape[0]):
+        x += data.phi[i, 0, s, 0, m] * q[m]
+        r += data.phi[i, 0, s, 1, m] * q[m]
+        psi += data.phi[i, 0, s, 2, m] * q[m]
+    return x, r, psi
+
+
+@part
+def _in_frame(a, pw):
+    """A vector of the pocket's axes in the ball's frame."""
+    first = combine(times(a[0], row(pw.G, 0)), a[1], row(pw.G, 1))
+    return combine(first, a[2], row(pw.G, 2))
+
+
+@part
+def _along(a, v, pw):
+    """Component along ``a`` (pocket's axes) of a vector in the ball's frame."""
+    return dot(_in_frame(a, pw), v)
+
+
+@part
+def _press(depth, rate, soft, p, law, sl):
+    """Force of a contact in series with a compliance; its own depth, and its share of the rate.
+
+    Both bear the elastic force of the contact's own depth d: d + soft K d^n = depth.
+    """
+    d, stiff = depth, 0.0
+    if soft > 0.0:
+        for _ in range(ITERATIONS):
+            power = p[0] * d ** (p[1] - 1.0)
+            stiff = soft * p[1] * power
+            step = (d + soft * power * d - depth) / (1.0 + stiff)
+            d -= step
+            if abs(step) < 1e-15:
+                break
+        d = max(d, 0.0)
+        stiff = soft * p[1] * p[0] * d ** (p[1] - 1.0)
+    eased = 1.0 / (1.0 + stiff)
+    sl.d[0], sl.v[0] = d, rate * eased
+    normal_forces(law, 1, sl, p)
+    return sl.N[0], d, eased

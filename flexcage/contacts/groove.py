@@ -1,0 +1,125 @@
+"""Ball against a grooved race: elliptical Hertz contact, traction in strips over the ellipse.
+
+The race is a torus about the ring's axis: groove centres lie on a circle. A ball that is further
+from its groove's centre than it would just touch presses along the line from there. Strips of the
+ellipse slide at the speed of their own points on the curved surface of contact, so that spin,
+differential slip across the groove (Heathcote's) and gyroscopic slip are all one velocity (T. A.
+Harris, Rolling Bearing Analysis, 2 and 8). The races control nothing.
+"""
+
+from __future__ import annotations
+
+from math import atan2, sqrt
+from typing import NamedTuple
+
+import numpy as np
+
+from flexcage.contacts.slices import (
+    elastic_forces,
+    friction_factors,
+    normal_forces,
+    stored_and_damped,
+)
+from flexcage.core.jit import VECTORISED, part, zero
+from flexcage.core.vectors import combine, cross, dot, minus, plus, times
+
+LEAST_ROLLING = 1e-3  # rad/s: below it the rolling resistance fades out
+
+
+class Groove(NamedTuple):
+    """One raceway: geometry and parameters that all balls share."""
+
+    side: float  # +1 outer, -1 inner
+    axial: float  # place of the groove's centre in the ring
+    centre: float  # radius of the circle of groove centres
+    radius: float  # of the groove's arc
+    long: float  # semi-axes of the ellipse at 1 N, across the rolling direction and along it
+    short: float
+    bend: float  # curvature of the surface of contact across the rolling direction
+    strip: np.ndarray  # (ns,) middles of the strips, in -1..1 of the long axis
+    share: np.ndarray  # (ns,) of the load that each bears
+    friction: np.ndarray  # (N_FRICTION,)
+    rolling: np.ndarray  # (3,) moment of rolling resistance: factor, powers of speed and load
+
+
+@part
+def groove_contact(rb, race, P, b, V, w, Vr, wr, p, law, friction, sl, wrench, mode, sums):
+    """Wrench on a ball of radius ``rb`` from one raceway, added to ``wrench``; does it touch?
+
+    P: ball centre from the ring's centre; b: ring axis; V, w and Vr, wr: velocities and angular
+    velocities of ball and ring; all in one frame. From mode 2 on ``sums``: normal force, contact
+    angle, traction along the rolling direction and across it, sliding speed in the middle, elastic
+    energy, power of damping, friction and rolling resistance. ``sums[1]`` of a ball that does not
+    touch is the angle of the line of centres, ``sums[4]`` the speed at which it approaches.
+    """
+    if mode >= 2:
+        zero(sums)
+    along = dot(P, b)
+    radial = combine(P, -along, b)
+    distance = sqrt(dot(radial, radial))
+    e = times(1.0 / distance, radial)
+    line = combine(times(along - race.axial, b), distance - race.centre, e)
+    reach = sqrt(dot(line, line))
+    n = times(1.0 / reach, line)
+    spin = minus(w, wr)
+    v = minus(minus(V, Vr), cross(wr, P))
+    sl.d[0], sl.v[0] = reach - race.radius + rb, dot(n, v)
+    if mode >= 2:
+        sums[1] = atan2(race.side * dot(n, b), race.side * dot(n, e))
+        sums[4] = sl.v[0]
+    if sl.d[0] <= 0.0:
+        return False
+    normal_forces(law, 1, sl, p)
+    N = sl.N[0]
+    if mode >= 2:
+        elastic_forces(law, 1, sl, p)
+        sums[5], sums[6] = stored_and_damped(1, sl, p[1])
+    g = cross(b, e)  # rolling direction, along the race
+    t = cross(n, g)
+    size = N ** (1.0 / 3.0)
+    middle = rb - 0.5 * sl.d[0]
+    _slide(race, race.long * size, middle, n, g, t, v, spin, sl)
+    friction_factors(friction, race.strip.shape[0], sl, race.friction)
+    force, moment = _drag(race, race.long * size, middle, N, n, g, t, sl)
+    roll = combine(spin, -dot(spin, n), n)
+    speed = sqrt(dot(roll, roll))
+    resisting = 0.0
+    if race.rolling[0] > 0.0 and N > 0.0:
+        fast = max(speed, LEAST_ROLLING)
+        resisting = race.rolling[0] * fast ** race.rolling[1] * N ** race.rolling[2] / fast
+    moment = combine(moment, -resisting, roll)
+    total = combine(force, -N, n)
+    for c in range(3):
+        wrench[c] += total[c]
+        wrench[3 + c] += moment[c]
+    if mode >= 2:
+        sums[0], sums[2], sums[3] = N, dot(force, g), dot(force, t)
+        sums[4] = dot(plus(v, cross(spin, times(middle, n))), g)
+        sums[7] = dot(force, v) + dot(moment, spin) + resisting * speed * speed
+        sums[8] = -resisting * speed * speed
+    return True
+
+
+@part(fastmath=VECTORISED)
+def _slide(race, long, middle, n, g, t, v, spin, sl):
+    """Sliding velocities of the strips, along the rolling direction and across it."""
+    for k in range(race.strip.shape[0]):
+        across = race.strip[k] * long
+        at = combine(times(middle - 0.5 * race.bend * across * across, n), across, t)
+        slip = plus(v, cross(spin, at))
+        sl.t1[k], sl.t2[k] = dot(slip, g), dot(slip, t)
+        sl.u[k] = sqrt(sl.t1[k] * sl.t1[k] + sl.t2[k] * sl.t2[k])
+
+
+@part(fastmath=VECTORISED)
+def _drag(race, long, middle, N, n, g, t, sl):
+    """Friction force of the strips and its moment about the ball's centre."""
+    force = moment = (0.0, 0.0, 0.0)
+    for k in range(race.strip.shape[0]):
+        across = race.strip[k] * long
+        at = combine(times(middle - 0.5 * race.bend * across * across, n), across, t)
+        size = -N * race.share[k] * sl.g[k]
+        f = combine(times(size * sl.t1[k], g), size * sl.t2[k], t)
+        force = plus(force, f)
+        moment = plus(moment, cross(at, f))
+    return force, moment

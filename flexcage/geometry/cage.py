@@ -1,0 +1,41 @@
+"""What all cages share: their body of revolution, what guides them, and their unbalance."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+from flexcage.core.spec import option, quantity
+from flexcage.geometry.materials import MATERIALS, Material
+
+
+@dataclass(frozen=True, kw_only=True)
+class Cage:
+    """A cage of some type; ``cage_spec`` of a bearing's type says which."""
+
+    material: Material = option(MATERIALS["brass"], doc="cage material (a name or its values)")
+    bore: float = quantity("mm", doc="inside diameter", above=0.0)
+    outside_diameter: float = quantity("mm", doc="outside diameter", above=0.0)
+    width: float = quantity("mm", doc="axial width", above=0.0)
+    guidance: str = option("", doc="what guides the cage radially")
+    unbalance: float = quantity("g*mm", 0.0, doc="mass-radius product of an unbalance", minimum=0.0)
+    unbalance_phase: float = quantity("deg", 0.0, doc="azimuth of the unbalance from pocket 0")
+
+    @property
+    def mean_radius(self) -> float:
+        """Radius [m] of the middle of its wall."""
+        return 0.25 * (self.bore + self.outside_diameter)
+
+    @property
+    def fillet(self) -> float:
+        """Radius [m] of its pockets' corners; zero without corners."""
+        return 0.0
+
+    if TYPE_CHECKING:
+
+        def __getattr__(self, name: str) -> Any:  # dimensions of its own type
+            ...
+
+    def thinnest(self, pitch_diameter: float, pocket_count: int) -> float:
+        """Least thickness [m] of wall and webs, for which elements must not be too large."""
+        raise NotImplementedError

@@ -1,0 +1,134 @@
+"""What a run records of a bearing at its samples, by name: common to all, and of each family."""
+
+from __future__ import annotations
+
+from functools import singledispatch
+from typing import Any
+
+import numpy as np
+from scipy.spatial.transform import Rotation
+
+from flexcage.system.ball_model import BallModel
+from flexcage.system.model import Model
+from flexcage.system.problem import Bearing
+
+Arrays = dict[str, np.ndarray]
+
+
+@singledispatch
+def own_coords(model: Any) -> Arrays:
+    """Labels of the dimensions that only runs of this model's family have."""
+    raise NotImplementedError(f"{type(model).__name__} records nothing")
+
+
+@singledispatch
+def recorded(model: Any, bearing: Bearing, y: np.ndarray, yd: np.ndarray) -> Arrays:
+    """Main-grid variables of one block by name, from states (n, size) and the samples kept."""
+    raise NotImplementedError(f"{type(model).__name__} records nothing")
+
+
+def common(bearing: Bearing, y: np.ndarray, yd: np.ndarray) -> Arrays:
+    """Rings, cage, lands, pockets and energies of any bearing."""
+    layout, s, n = bearing.layout, bearing.data.samples, len(y)
+    q, u, a = layout.q(y), layout.u(y), layout.u(yd)
+    quaternion = q["quaternion"] / np.linalg.norm(q["quaternion"], axis=1, keepdims=True)
+    arrays = {
+        "inner_position": q["inner"][:, :3],
+        "inner_velocity": u["inner"][:, :3],
+        "inner_angle": q["inner"][:, 5],
+        "inner_speed": u["inner"][:, 3],
+        "inner_quaternion": orientation(np.zeros(n), q["inner"][:, 3:]),
+        "outer_position": in_plane(q["outer"]),
+        "outer_velocity": in_plane(u["outer"]),
+        "cage_position": q["cage"],
+        "cage_velocity": u["cage"],
+        "cage_quaternion": quaternion,
+        "cage_omega": u["omega"],
+        "cage_acceleration": to_body(quaternion, a["cage"]),
+        "cage_angular_acceleration": a["omega"],
+        "pocket_force": s.pocket_normal[:n],
+        "pocket_friction": s.pocket_friction[:n],
+        "station_force": s.station[:n],
+        "land_force": s.land[:n],
+        "multiplier": layout.multipliers(y),
+        "energy": s.energy[:n],
+    }
+    if layout.modes:
+        arrays["modal_coordinates"] = q["modes"]
+        arrays["modal_velocity"] = u["modes"]
+        arrays["modal_acceleration"] = a["modes"]
+    return arrays
+
+
+@own_coords.register
+def _(model: Model) -> Arrays:
+    return {
+        "slice": model.pocket.s,
+        "station": np.arange(model.pocket.phi.shape[2]),
+        "residual": np.arange(8),
+    }
+
+
+@recorded.register
+def _(model: Model, bearing: Bearing, y: np.ndarray, yd: np.ndarray) -> Arrays:
+    s, n = bearing.data.samples, len(y)
+    q, u = bearing.layout.q(y)["rollers"], bearing.layout.u(y)["rollers"]
+    return {
+        **common(bearing, y, yd),
+        "roller_position": q[:, :, :3],
+        "roller_velocity": u[:, :, :3],
+        "roller_quaternion": orientation(q[:, :, 2], q[:, :, 3:]),
+        "roller_tilt": q[:, :, 3:5],
+        "roller_omega": u[:, :, 3:],
+        "race_force": s.race[:n, :, :, 0],
+        "race_traction": s.race[:n, :, :, 1],
+        "race_moment": s.race[:n, :, :, [3, 2]],
+        "race_slip": s.race[:n, :, :, 4],
+        "pocket_slice_force": s.slice_normal[:n],
+        "pocket_slice_friction": s.slice_friction[:n],
+        "residual_coordinates": np.einsum("zab,tzb->tza", model.pocket.root, s.residual[:n]),
+        "rib_force": s.rib[:n],
+    }
+
+
+@own_coords.register
+def _(model: BallModel) -> Arrays:
+    return {"station": np.arange(model.pocket.phi.shape[2])}
+
+
+@recorded.register
+def _(model: BallModel, bearing: Bearing, y: np.ndarray, yd: np.ndarray) -> Arrays:
+    s, n = bearing.data.samples, len(y)
+    q, u = bearing.layout.q(y)["rollers"], bearing.layout.u(y)["rollers"]
+    return {
+        **common(bearing, y, yd),
+        "ball_position": q[:, :, :3],
+        "ball_velocity": u[:, :, :3],
+        "ball_omega": u[:, :, 3:],
+        "contact_force": s.race[:n, :, :, 0],
+        "contact_angle": s.race[:n, :, :, 1],
+        "contact_traction": s.race[:n, :, :, 2:4],
+        "contact_slip": s.race[:n, :, :, 4],
+        "pocket_direction": s.residual[:n, :, 0],
+    }
+
+
+def in_plane(yz: np.ndarray) -> np.ndarray:
+    """Vectors (n, 3) in space of components (n, 2) in the plane of rotation."""
+    return np.concatenate([np.zeros((len(yz), 1)), yz], axis=1)
+
+
+def orientation(azimuth: np.ndarray, angles: np.ndarray) -> np.ndarray:
+    """Unit quaternions (..., 4), scalar first, of bodies at ``azimuth`` (...,) about x, turned by
+    ``angles`` (..., 3): skew about the radial, tilt about the tangential axis, and spin [rad]."""
+    turned = np.concatenate([azimuth[..., None], angles[..., :2]], axis=-1).reshape(-1, 3)
+    frame = Rotation.from_euler("XYZ", turned)
+    spin = Rotation.from_euler("X", angles[..., 2].reshape(-1, 1))
+    return (frame * spin).as_quat(scalar_first=True).reshape(*azimuth.shape, 4)
+
+
+def to_body(quaternion: np.ndarray, vectors: np.ndarray) -> np.ndarray:
+    """Space vectors (n, 3) in the body frames of unit quaternions (n, 4), scalar first."""
+    w, v = quaternion[:, :1], -quaternion[:, 1:]
+    t = 2.0 * np.cross(v, vectors)
+    return vectors + w * t + np.cross(v, t)

@@ -1,0 +1,198 @@
+"""A ball bearing from its specs to the arrays that kernels read."""
+
+from __future__ import annotations
+
+from math import pi
+from typing import NamedTuple
+
+import numpy as np
+
+from flexcage.bodies.floating_frame import BodyData, FlexibleBody
+from flexcage.contacts import laws
+from flexcage.contacts.ball_pocket import BallPockets, ball_pocket_work
+from flexcage.contacts.groove import Groove
+from flexcage.contacts.land import LandData
+from flexcage.contacts.spec import Contacts, Lubricant, NormalLaw
+from flexcage.geometry.ball_bearing import BallBearing
+from flexcage.geometry.ball_cages import BallCage
+from flexcage.geometry.hertz import PointContact
+from flexcage.modes.ball_interface import BallCageInterface
+from flexcage.system.bodies import bodies_of, land_data, unbalanced
+from flexcage.system.data import Bodies, Memory, Work, new_work
+from flexcage.system.layout import Layout
+from flexcage.system.model import build_model
+from flexcage.system.spec import Drive, Load, Mount
+
+POINT = 1.5  # exponent of a Hertz contact
+
+
+class BallModel(NamedTuple):
+    """Everything constant that a ball bearing's residual reads."""
+
+    bodies: Bodies
+    cage: BodyData
+    inner: Groove
+    outer: Groove
+    pocket: BallPockets
+    land: LandData
+
+
+def strips(count: int) -> tuple[np.ndarray, np.ndarray]:
+    """Middles (n,) of equal strips of -1..1 across an ellipse, and the share (n,) of a Hertz
+    contact's load that each bears: 3/4 (1 - s^2) ds, exactly."""
+    edges = np.linspace(-1.0, 1.0, count + 1)
+    return 0.5 * (edges[1:] + edges[:-1]), 0.75 * np.diff(edges - edges**3 / 3.0)
+
+
+def point_rolling_resistance(lubricant: Lubricant, contact: PointContact) -> np.ndarray:
+    """(factor, powers of roll rate [rad/s] and load [N]) of a ball's resisting moment [N m].
+
+    Houpert's force at one surface of a point contact, F = 2.86 E' R^2 kappa^0.348 G^0.022 U^0.66
+    W^0.47, with U = eta u/(E' R), W = Q/(E' R^2), G = alpha E' (L. Houpert, Piezoviscous-rigid
+    rolling and sliding traction forces, J. Tribol. 107 (1985) 241): isothermal and fully flooded.
+    Two surfaces lose 2 F u while ball and race turn at u/R against each other, so M = 2 F R: a
+    couple, which leaves both in balance. The line contact's two formulas have no counterpart: any
+    choice but "none" is this one.
+    """
+    if lubricant.rolling_resistance == "none":
+        return np.zeros(3)
+    R, modulus = contact.rolling, contact.modulus
+    speed = lubricant.viscosity / modulus  # U = eta (w R)/(E' R)
+    load = 1.0 / (modulus * R * R)
+    force = 2.86 * modulus * R * R * contact.ratio**0.348
+    force *= (lubricant.pressure_coefficient * modulus) ** 0.022 * speed**0.66 * load**0.47
+    return np.array([2.0 * force * R, 0.66, 0.47])
+
+
+def _groove(bearing: BallBearing, contacts: Contacts, lubricant: Lubricant, *, inner: bool):
+    contact = bearing.contacts[0 if inner else 1]
+    axial, centre = bearing.inner_groove_centre if inner else bearing.outer_groove_centre
+    radius = bearing.inner_groove_radius if inner else bearing.outer_groove_radius
+    strip, share = strips(contacts.race.slices)
+    long, short = (float(a) for a in contact.semi_axes(1.0))
+    return Groove(
+        side=-1.0 if inner else 1.0,
+        axial=axial,
+        centre=centre,
+        radius=radius,
+        long=long,
+        short=short,
+        bend=0.5 * (2.0 / bearing.ball_diameter + 1.0 / radius),
+        strip=strip,
+        share=share,
+        friction=laws.friction_parameters(contacts.race.friction),
+        rolling=point_rolling_resistance(lubricant, contact),
+    )
+
+
+def pocket_contact(bearing: BallBearing, cage: BallCage, radius: float) -> PointContact:
+    """Hertz contact of a ball with the wall of a pocket of that radius [m].
+
+    Across a cylinder's axis, and all round in a sphere, ball and wall nearly fit: the contact is
+    long, but small against both while loads are those of cages.
+    """
+    ball = 0.5 * bearing.ball_diameter
+    fit = 1.0 / (1.0 / ball - 1.0 / radius)
+    sides = (
+        (1.0 - material.poisson_ratio**2) / material.youngs_modulus
+        for material in (bearing.material, cage.material)
+    )
+    along = fit if cage.pocket_shape == "spherical" else ball
+    return PointContact(rolling=along, transverse=fit, modulus=2.0 / sum(sides))
+
+
+def _memory(
+    bearing: BallBearing, cage: BallCage, contacts: Contacts, interface: BallCageInterface
+) -> Memory:
+    Z = bearing.ball_count
+
+    def hertz(law: NormalLaw, stiffness: float) -> np.ndarray:
+        return laws.normal_parameters(law, stiffness, POINT)
+
+    race = np.stack([hertz(contacts.race.normal, c.stiffness) for c in bearing.contacts])
+    pocket = np.stack([
+        hertz(contacts.pocket.normal, pocket_contact(bearing, cage, float(r)).stiffness)
+        for r in interface.radius
+    ])  # fmt: skip
+    outer, radius = _land_radius(cage)
+    ring, wall = ((m.youngs_modulus, m.poisson_ratio) for m in (bearing.material, cage.material))
+    k, e = laws.land_line_law(
+        radius=radius, clearance=contacts.land.clearance, length=contacts.land.width, cage=wall,
+        ring=ring, depth=0.25 * (cage.outside_diameter - cage.bore),
+    )  # fmt: skip
+    land = laws.normal_parameters(contacts.land.normal, k, e)
+    return Memory(
+        race=np.tile(race, (Z, 1, 1)),
+        pocket=pocket[:, None, :].copy(),
+        rib=np.zeros((Z, 0, laws.N_NORMAL)),
+        land=np.tile(land, (2, 1)),
+        deflection=np.zeros((Z, 8)),
+    )
+
+
+def _land_radius(cage: BallCage) -> tuple[bool, float]:
+    """Is the cage's outside its land, and that land's radius [m]?"""
+    outer = cage.guidance == "outer"
+    return outer, 0.5 * (cage.outside_diameter if outer else cage.bore)
+
+
+def _pockets(
+    bearing: BallBearing, cage: BallCage, contacts: Contacts, interface: BallCageInterface
+) -> BallPockets:
+    st = np.ascontiguousarray
+    angle = 2.0 * pi * np.arange(bearing.ball_count) / bearing.ball_count
+    theta = interface.stations
+    normal = np.sin(theta)[None, :, None] * interface.modes[:, :, 0]
+    normal = normal + np.cos(theta)[None, :, None] * interface.modes[:, :, 2]
+    n = interface.modes.shape[-1]
+    return BallPockets(
+        azimuth=st(np.stack([np.cos(angle), np.sin(angle)], axis=1)),
+        shift=st(interface.centre),
+        slot=st(interface.slot),
+        radius=st(interface.radius),
+        height=0.5 * bearing.pitch_diameter,
+        sphere=float(cage.pocket_shape == "spherical"),
+        phi=st(interface.modes[:, None]),
+        phi_max=np.abs(normal).max(axis=(0, 1)) if n else np.zeros(0),
+        local=st(interface.local),
+        friction=laws.friction_parameters(contacts.pocket.friction),
+    )
+
+
+@build_model.register
+def _(
+    bearing: BallBearing, cage: BallCage, body: FlexibleBody, interface: BallCageInterface, *,
+    contacts: Contacts, lubricant: Lubricant, drive: Drive, load: Load, mount: Mount, seed: int = 0,
+) -> tuple[BallModel, Memory]:  # fmt: skip
+    rng = np.random.default_rng(seed)
+    scatter = bearing.ball_scatter * rng.standard_normal(bearing.ball_count)
+    outer, radius = _land_radius(cage)
+    tilts = load.tilt == "free"
+    model = BallModel(
+        bodies=bodies_of(
+            bearing, cage, lubricant, drive, load, mount,
+            element=np.array([bearing.ball_mass, bearing.ball_inertia, bearing.ball_inertia]),
+            radius=0.5 * (bearing.ball_diameter + scatter),
+            area=0.25 * pi * bearing.ball_diameter**2,
+            free=(True, tilts, tilts),
+        ),
+        cage=unbalanced(body, cage).data,
+        inner=_groove(bearing, contacts, lubricant, inner=True),
+        outer=_groove(bearing, contacts, lubricant, inner=False),
+        pocket=_pockets(bearing, cage, contacts, interface),
+        land=land_data(
+            cage, contacts, lubricant, interface.land,
+            kind="none" if cage.guidance == "ball" else contacts.land.kind, outer=outer,
+            radius=radius, clearance=contacts.land.clearance,
+        ),
+    )  # fmt: skip
+    return model, _memory(bearing, cage, contacts, interface)
+
+
+def ball_work(model: BallModel, layout: Layout) -> Work:
+    """Fresh workspaces of a ball bearing for one thread."""
+    stations = model.pocket.phi.shape[2]
+    return new_work(
+        layout, ball_pocket_work(stations), slices=0, faces=1, stations=stations, ribs=0,
+        land_stations=len(model.land.angle),
+    )  # fmt: skip

@@ -1,0 +1,204 @@
+"""The residual F(t, y, y') = 0 of a ball bearing, and its report.
+
+A ball's coordinates are (x, r, psi) of its centre and the angles that it has turned about the axes
+of its orbiting frame F = (e_x, e_r, e_psi); its velocities are those of its centre and its angular
+velocity, both in F. ``mode``: 0 residual, 2 also the whole report, 3 without its stations; there
+is no tangent.
+"""
+
+from __future__ import annotations
+
+from flexcage.contacts.ball_pocket import pocket_wall_contact
+from flexcage.contacts.groove import groove_contact
+from flexcage.contacts.state import set_frame
+from flexcage.core.jit import copy_into, fields, part, zero
+from flexcage.core.rotation import matrix_from_quaternion
+from flexcage.core.vectors import (
+    column,
+    combine,
+    cross,
+    minus,
+    plus,
+    put,
+    times,
+    turned,
+    xyz,
+)
+from flexcage.system.rows import (
+    CAGE_SPIN,
+    RING_AXIS,
+    RING_SPIN,
+    cage_rows,
+    clear_sums,
+    inner_ring,
+    land_rows,
+    push_modes,
+    react,
+    ring_rows,
+)
+
+
+def evaluate(t, y, yd, d, law, out, mode):
+    """Residual into ``out``; see the module's text. Index letters: i ball, c component, m mode.
+
+    ``law`` holds the normal laws of race, pocket, (side, rib,) land, then their friction laws.
+    """
+    work, phi_max = fields(d.scratch), fields(d.pocket).phi_max
+    Z, nm = fields(d.bodies).radius.shape[0], phi_max.shape[0]
+    nq, nu = 6 * Z + 15 + nm, 6 * Z + 14 + nm
+    q, u, qd, ud = y[:nq], y[nq : nq + nu], yd[:nq], yd[nq : nq + nu]
+    lam, mu = y[nq + nu : nq + nu + 4], y[nq + nu + 4 :]
+    r_q, r_u = out[:nq], out[nq : nq + nu]
+    zq, border = 6 * Z, work.border
+    clear_sums(border, d, mode)
+    Rc, quat, qf = q[zq + 8 : zq + 11], q[zq + 11 : zq + 15], q[zq + 15 :]
+    Vc, wb, qfd = u[zq + 8 : zq + 11], u[zq + 11 : zq + 14], u[zq + 14 :]
+    matrix_from_quaternion(quat, work.A)
+    put(work.vec[CAGE_SPIN], turned(work.A, xyz(wb)))
+    inner_ring(q[zq : zq + 6], u[zq : zq + 6], work.vec)
+    margin = 0.0
+    for m in range(nm):
+        margin += phi_max[m] * abs(qf[m])
+    for i in range(Z):
+        o = 6 * i
+        qi, ui = q[o : o + 6], u[o : o + 6]
+        set_frame(qi[2], fields(d.pose).F)
+        zero(work.roller)
+        _races(i, qi, ui, q, u, zq, d, law, mode)
+        _pocket(i, qi, ui, Rc, Vc, qf, qfd, margin, d, law, mode)
+        _ball_rows(qi, ui, qd[o : o + 6], ud[o : o + 6], d, r_q[o : o + 6], r_u[o : o + 6], mode)
+    land_rows(q, u, zq, nm, d, law, mode)
+    cage_rows(d, quat, Vc, wb, qf, qfd, qd, ud, zq, r_q, r_u, mode)
+    ring_rows(t, d, q, u, qd, ud, lam, mu, zq, r_q, r_u, out, nq + nu, mode)
+
+
+@part
+def _races(i, qi, ui, q, u, zq, d, law, mode):
+    """Ball i on both races, in its frame F."""
+    F, work, pair = fields(d.pose).F, fields(d.scratch), fields(d.pair)
+    vec, border = work.vec, work.border
+    V, w = xyz(ui), (ui[3], ui[4], ui[5])
+    P = minus((qi[0], qi[1], 0.0), turned(F, xyz(q[zq : zq + 3])))
+    zero(pair.wrench)
+    hit = groove_contact(
+        fields(d.bodies).radius[i], fields(d.inner), P, turned(F, xyz(vec[RING_AXIS])), V, w,
+        turned(F, xyz(u[zq : zq + 3])), turned(F, xyz(vec[RING_SPIN])),
+        fields(d.memory).race[i, 0], law[0], law[5], fields(d.slices).row[0], pair.wrench, mode,
+        work.sums,
+    )  # fmt: skip
+    if hit:
+        react(F, work.unit, pair.wrench, P, border, 0)
+        _add(work.roller, pair.wrench)
+    if mode >= 2:
+        _report_race(i, 0, work.sums, fields(d.report))
+    P = minus((qi[0], qi[1], 0.0), turned(F, (0.0, q[zq + 6], q[zq + 7])))
+    zero(pair.wrench)
+    hit = groove_contact(
+        fields(d.bodies).radius[i], fields(d.outer), P, (1.0, 0.0, 0.0), V, w,
+        turned(F, (0.0, u[zq + 6], u[zq + 7])), (0.0, 0.0, 0.0),
+        fields(d.memory).race[i, 1], law[0], law[5], fields(d.slices).row[0], pair.wrench, mode,
+        work.sums,
+    )  # fmt: skip
+    if hit:
+        _add(work.roller, pair.wrench)
+        for c in range(2):
+            border[6 + c] -= F[1, 1 + c] * pair.wrench[1] + F[2, 1 + c] * pair.wrench[2]
+    if mode >= 2:
+        _report_race(i, 1, work.sums, fields(d.report))
+
+
+@part
+def _add(total, wrench):
+    for c in range(6):
+        total[c] += wrench[c]
+
+
+@part
+def _report_race(i, side, sums, rep):
+    closed = 1 if sums[0] > 0.0 else 0
+    rep.contact[i, side] = closed
+    rep.approach[i, side] = sums[4]
+    for c in range(5):
+        rep.race[i, side, c] = sums[c]
+    if closed == 0:
+        rep.race[i, side, 4] = 0.0
+    rep.energy[2] += sums[5]
+    rep.power[3] += sums[6]
+    rep.power[4] += sums[7]
+    rep.power[5] += sums[8]
+
+
+@part
+def _pocket(i, qi, ui, Rc, Vc, qf, qfd, margin, d, law, mode):
+    """Ball i in its pocket."""
+    data, pw, pair, work = (
+        fields(d.pocket),
+        fields(d.pocket_work),
+        fields(d.pair),
+        fields(d.scratch),
+    )
+    F, A, sums = fields(d.pose).F, work.A, work.sums
+    D = plus((0.0, qi[1], 0.0), turned(F, (qi[0] - Rc[0], -Rc[1], -Rc[2])))
+    ca, sa = data.azimuth[i, 0], data.azimuth[i, 1]
+    e1, e2 = column(A, 1), column(A, 2)
+    put(pw.G[0], turned(F, column(A, 0)))
+    put(pw.G[1], turned(F, combine(times(ca, e1), sa, e2)))
+    put(pw.G[2], turned(F, combine(times(ca, e2), -sa, e1)))
+    turn = turned(F, xyz(work.vec[CAGE_SPIN]))
+    v = minus(minus(xyz(ui), turned(F, xyz(Vc))), cross(turn, D))
+    spin = minus((ui[3], ui[4], ui[5]), turn)
+    zero(pair.wrench)
+    hit = pocket_wall_contact(
+        fields(d.bodies).radius[i], data, i, D, v, spin, qf, qfd, margin,
+        fields(d.memory).pocket[i, 0], law[1], law[6], fields(d.slices).row[0], pw, pair.wrench,
+        mode, sums,
+    )  # fmt: skip
+    if hit:
+        _add(work.roller, pair.wrench)
+        react(F, A, pair.wrench, D, work.border, 8)
+        push_modes(data, i, pw, work.border)
+    if mode >= 2:
+        _report_pocket(i, hit, sums, pw, fields(d.report), mode)
+
+
+@part
+def _report_pocket(i, hit, sums, pw, rep, mode):
+    rep.energy[2] += sums[0]
+    rep.power[6] += sums[1]
+    rep.power[7] += sums[2]
+    rep.residual[i, 0] = sums[3]
+    rep.contact[i, 2] = 1 if pw.normal[0] > 0.0 else 0
+    rep.approach[i, 2] = sums[4]
+    rep.pocket_normal[i, 0] = pw.normal[0]
+    rep.pocket_friction[i, 0] = pw.tangential[0]
+    if mode == 2 and pw.normal[0] > 0.0:
+        copy_into(rep.station[i], pw.st)
+    elif mode == 2:
+        zero(rep.station[i])
+
+
+@part
+def _ball_rows(qi, ui, qdi, udi, d, r_q, r_u, mode):
+    """Kinematics and momentum of a ball, with drag and gravity."""
+    bodies, rep, FR = fields(d.bodies), fields(d.report), fields(d.scratch).roller
+    F = fields(d.pose).F
+    mass, inertia, r = bodies.element[0], bodies.element[1], qi[1]
+    orbit = ui[2] / r
+    drag = -bodies.drag[0] * abs(ui[2]) * ui[2]
+    gr = F[1, 1] * bodies.gravity[1] + F[1, 2] * bodies.gravity[2]
+    gp = F[2, 1] * bodies.gravity[1] + F[2, 2] * bodies.gravity[2]
+    for c in range(6):
+        r_q[c] = qdi[c] - ui[c]
+    r_q[2] = qdi[2] - orbit
+    r_u[0] = mass * (udi[0] - bodies.gravity[0]) - FR[0]
+    r_u[1] = mass * (udi[1] - orbit * ui[2] - gr) - FR[1]
+    r_u[2] = mass * (udi[2] + orbit * ui[1] - gp) - FR[2] - drag
+    r_u[3] = inertia * udi[3] - FR[3]
+    r_u[4] = inertia * (udi[4] - orbit * ui[5]) - FR[4]
+    r_u[5] = inertia * (udi[5] + orbit * ui[4]) - FR[5]
+    if mode >= 2:
+        rep.power[2] += mass * (gr * ui[1] + gp * ui[2])
+        rep.power[10] += drag * ui[2]
+        v2 = ui[0] * ui[0] + ui[1] * ui[1] + ui[2] * ui[2]
+        w2 = ui[3] * ui[3] + ui[4] * ui[4] + ui[5] * ui[5]
+        rep.energy[0] += 0.5 * (mass * v2 + inertia * w2)

@@ -1,0 +1,119 @@
+"""The start of a ball bearing's run: its static solution, with the balls rolling.
+
+The quasi-static solution places ring and balls, centrifugal forces included. Every ball orbits as
+that has it and turns so that it rolls on both races, as far as contact angles allow; what spin
+and gyroscopic moment do to it is left to the run. The cage is centred on the balls.
+"""
+
+from __future__ import annotations
+
+from math import pi
+
+import numpy as np
+
+from flexcage.system.ball_model import BallModel
+from flexcage.system.layout import Layout
+from flexcage.system.problem import Bearing
+from flexcage.system.scales import ERROR_RATE, error_weights
+from flexcage.system.start import Start, StaticStart, start_of
+from flexcage.system.statics.solution import StaticSolution
+
+_ALIKE = 1e-3  # rad: contact angles closer than this leave a ball's axis to their mean
+
+
+@start_of.register
+def _(model: BallModel, bearing: Bearing, *, limit_force: float, statics: StaticStart) -> Start:
+    solution = statics()
+    y = ball_places(bearing, solution)
+    yd = rolling_balls(model, bearing.layout, solution, y)
+    station = np.zeros_like(bearing.data.work.report.station)
+    return Start(y, yd, (), 0.0, solution.unbalanced, station)
+
+
+def ball_places(bearing: Bearing, solution: StaticSolution) -> np.ndarray:
+    """y with ring and balls where the static solution has them, the cage centred on the balls.
+
+    A ball that bears nothing lies on the outer race at the angle of the others, or at none.
+    """
+    model, layout, balls = bearing.data.model, bearing.layout, solution.elements
+    y = np.zeros(layout.size)
+    q = layout.q(y)
+    angle = np.nan_to_num(balls.angle[:, 1])
+    depth = (balls.force[:, 1] / bearing.data.memory.race[:, 1, 0]) ** (2.0 / 3.0)
+    reach = model.outer.radius - model.bodies.radius + depth
+    q["rollers"][:, 0] = model.outer.axial + reach * np.sin(angle)
+    q["rollers"][:, 1] = model.outer.centre + reach * np.cos(angle)
+    q["rollers"][:, 2] = 2.0 * pi * np.arange(layout.rollers) / layout.rollers
+    q["inner"][:5] = solution.displacement
+    q["cage"][0] = q["rollers"][:, 0].mean()
+    q["quaternion"][0] = 1.0
+    return y
+
+
+def rolling_balls(
+    model: BallModel, layout: Layout, solution: StaticSolution, y: np.ndarray
+) -> np.ndarray:
+    """Set velocities in y: balls that orbit and roll; returns y' (accelerations zero)."""
+    yd = np.zeros_like(y)
+    q, u, qd = layout.q(y), layout.u(y), layout.q(yd)
+    speed = float(model.bodies.speed[1, 0])
+    orbit = np.nan_to_num(solution.elements.orbital_speed)
+    bears = (solution.elements.force > 0.0).all(axis=1)
+    cage = float(orbit[bears].mean()) if bears.any() else float(orbit.mean())
+    orbit = np.where(bears, orbit, cage)
+    r, rb = q["rollers"][:, 1], model.bodies.radius
+    u["rollers"][:, 2] = r * orbit
+    inner, outer = np.nan_to_num(solution.elements.angle).T
+    for i in range(layout.rollers):
+        u["rollers"][i, 3:5] = _rolling(
+            float(inner[i]), float(outer[i]), float(r[i]), float(rb[i]), float(orbit[i]), speed
+        )
+    qd["rollers"][:, 2] = orbit
+    qd["rollers"][:, 3:] = u["rollers"][:, 3:]
+    u["inner"][3] = qd["inner"][5] = speed
+    u["omega"][0] = cage
+    qd["quaternion"][1] = 0.5 * cage
+    return yd
+
+
+def _rolling(
+    inner: float, outer: float, r: float, rb: float, orbit: float, speed: float
+) -> tuple[float, float]:
+    """Angular velocity (x, r) [rad/s] of a ball whose centre at r orbits, rolling on both races.
+
+    On the outer race its surface stands still, on the inner it has the ring's speed. Where both
+    contacts face each other two speeds cannot be met: they are met on the mean.
+    """
+    rows = np.array([[np.cos(outer), -np.sin(outer)], [np.cos(inner), -np.sin(inner)]])
+    wanted = np.array([-r * orbit, r * orbit - speed * (r - rb * np.cos(inner))]) / rb
+    if abs(inner - outer) < _ALIKE:
+        axis = np.array([np.cos(0.5 * (inner + outer)), -np.sin(0.5 * (inner + outer))])
+        return tuple(wanted.mean() * axis)  # type: ignore[return-value]
+    return tuple(np.linalg.solve(rows, wanted))  # type: ignore[return-value]
+
+
+@error_weights.register
+def _(model: BallModel, layout: Layout, length: float) -> np.ndarray:
+    allowed = np.full(layout.size, np.inf)
+    q, u = layout.q(allowed), layout.u(allowed)
+    rb, pitch = float(model.bodies.radius.mean()), model.pocket.height
+    q["rollers"][:, :2] = length
+    q["rollers"][:, 2] = length / pitch
+    q["inner"][:3] = length
+    q["inner"][3:5] = length / pitch
+    q["outer"][:] = length
+    q["cage"][:] = length
+    q["quaternion"][:] = 0.5 * length / pitch
+    speed = length * ERROR_RATE
+    u["rollers"][:, :3] = speed
+    u["rollers"][:, 3:] = 10.0 * speed / rb
+    u["inner"][:3] = speed
+    u["inner"][3:] = speed / pitch
+    u["outer"][:] = speed
+    u["cage"][:] = speed
+    u["omega"][:] = speed / pitch
+    if layout.modes:
+        largest = np.maximum(model.pocket.phi_max, 1e-3 * model.pocket.phi_max.max())
+        q["modes"][:] = length / largest
+        u["modes"][:] = speed / largest
+    return 1.0 / allowed

@@ -1,0 +1,109 @@
+"""What every bearing type's model takes from a case: its bodies, its land, and its cage's body."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from flexcage.bodies.floating_frame import FlexibleBody, with_point_mass
+from flexcage.contacts import laws
+from flexcage.contacts.land import LandData
+from flexcage.contacts.spec import Contacts, Lubricant
+from flexcage.system.data import Bodies
+from flexcage.system.spec import Drive, Load, Mount
+
+CAGE_SKIN_FRICTION = 0.01  # assumption: turbulent skin friction of the cage's outer surface
+
+
+def unbalanced(body: FlexibleBody, cage) -> FlexibleBody:
+    """The cage's body with the point mass of its unbalance, at its mean radius."""
+    if cage.unbalance == 0.0:
+        return body
+    r = cage.mean_radius
+    where = r * np.array([0.0, np.cos(cage.unbalance_phase), np.sin(cage.unbalance_phase)])
+    return with_point_mass(body, cage.unbalance / r, where)
+
+
+def _table(value, ramp_to, start, length, times, values) -> np.ndarray:
+    if len(times) > 0:
+        return np.array([times, values], float)
+    if ramp_to is None:
+        return np.array([[0.0, 1.0], [value, value]])
+    return np.array([[start, start + max(length, 1e-12)], [value, ramp_to]])
+
+
+def land_data(
+    cage, contacts: Contacts, lubricant: Lubricant, modes: np.ndarray, *, kind: str, outer: bool,
+    radius: float, clearance: float,
+) -> LandData:  # fmt: skip
+    """Land of a cage: is it its outside, its radius [m], and its clearance on the ring [m].
+
+    ``modes`` (2, nl, 3, n) at the stations of the inner and the outer land.
+    """
+    spec = contacts.land
+    modes = modes[1 if outer else 0]  # (nl, 3, n)
+    n_l = modes.shape[0]
+    angle = 2.0 * np.pi * np.arange(n_l) / n_l
+    n = modes.shape[-1]
+    return LandData(
+        kind={"none": 0, "dry": 1, "film": 2}[kind],
+        inner=-1.0 if outer else 1.0,
+        clearance=clearance,
+        radius=radius,
+        x=np.array([-0.5, 0.5]) * (cage.width - spec.width),
+        angle=np.ascontiguousarray(np.stack([np.cos(angle), np.sin(angle)], axis=1)),
+        phi=np.ascontiguousarray(modes),
+        phi_max=np.abs(modes[:, 1]).max(axis=0) if n else np.zeros(0),
+        friction=laws.friction_parameters(spec.friction),
+        film=np.array([lubricant.viscosity, spec.width, radius, clearance]),
+    )
+
+
+def bodies_of(
+    bearing, cage, lubricant: Lubricant, drive: Drive, load: Load, mount: Mount,
+    *, element: np.ndarray, radius: np.ndarray, area: float, free: tuple[bool, bool, bool],
+) -> Bodies:  # fmt: skip
+    """Masses, drive and loads.
+
+    ``element`` (3,): mass [kg] and inertias [kg m^2] of a rolling element, ``radius`` (Z,) [m]
+    theirs, ``area`` [m^2] that one meets the oil with; ``free``: is the inner ring free axially, in
+    skew and in tilt?
+    """
+    speed = _table(
+        drive.speed, drive.ramp_to, drive.ramp_start, drive.ramp_time, drive.times, drive.speeds
+    )
+    steps = 0.5 * np.diff(speed[0]) * (speed[1, 1:] + speed[1, :-1])
+    rho = lubricant.density * lubricant.oil_fraction
+    ro = 0.5 * cage.outside_diameter
+    fixed = mount.kind == "fixed"
+    azimuth = load.gravity_direction
+    return Bodies(
+        element=element,
+        radius=radius,
+        ring=np.array([bearing.inner_ring_mass + load.shaft_mass, *bearing.inner_ring_inertia]),
+        outer=np.array(
+            [
+                bearing.outer_ring_mass + mount.mass,
+                mount.stiffness,
+                mount.damping,
+                float(fixed),
+                mount.clearance if mount.kind == "contact" else -1.0,
+            ]
+        ),
+        gravity=load.gravity * np.array([0.0, np.cos(azimuth), np.sin(azimuth)]),
+        drag=np.array(
+            [
+                0.5 * rho * lubricant.drag_coefficient * area,
+                0.5 * rho * CAGE_SKIN_FRICTION * 2.0 * np.pi * ro**4 * cage.width,
+            ]
+        ),
+        drive=np.array([float(drive.kind == "shaft"), drive.shaft_stiffness, drive.shaft_damping]),
+        speed=speed,
+        angle=np.concatenate([[0.0], np.cumsum(steps)]),
+        load=_table(
+            load.radial, load.ramp_to, load.ramp_start, load.ramp_time, load.times, load.values
+        ),
+        load_direction=np.array([np.cos(load.direction), np.sin(load.direction)]),
+        steady=np.array([load.axial, load.moment_y, load.moment_z]),
+        free=np.array(free, float),
+        misalignment=load.misalignment,
+    )

@@ -1,0 +1,152 @@
+"""The arrays that all bearings' kernels share: bodies, contact memory, report, workspaces."""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from flexcage.bodies.floating_frame import FrameWork, frame_work
+from flexcage.contacts.land import LandWork, land_work
+from flexcage.contacts.slices import Slices, new_slices
+from flexcage.contacts.state import Pair, RollerPose, new_pair, new_pose
+from flexcage.system.layout import Layout
+
+POWERS = (
+    "drive",
+    "load",
+    "gravity",
+    "race_damping",
+    "race_friction",
+    "rolling_resistance",
+    "pocket_damping",
+    "pocket_friction",
+    "rib",
+    "land",
+    "drag",
+    "modal_damping",
+    "mount",
+)
+
+
+class Bodies(NamedTuple):
+    """Masses and what acts on bodies apart from contacts."""
+
+    element: np.ndarray  # (3,) of a rolling element: mass, axial and transverse inertia
+    radius: np.ndarray  # (Z,) roller radii
+    ring: np.ndarray  # (3,) inner ring with what moves with it
+    outer: np.ndarray  # (5,) mass, stiffness, damping, 1.0 if fixed, clearance (< 0: a bushing)
+    gravity: np.ndarray  # (3,)
+    drag: np.ndarray  # (2,) roller 0.5 rho C A, cage 0.5 rho C_f 2 pi r^4 b
+    drive: np.ndarray  # (3,) 1.0 if through a shaft, stiffness, damping
+    speed: np.ndarray  # (2, n) table of time and speed
+    angle: np.ndarray  # (n,) drive angle at the table's times
+    load: np.ndarray  # (2, m) table of time and radial load
+    load_direction: np.ndarray  # (2,) y, z
+    steady: np.ndarray  # (3,) axial load, moments about y and z on the inner ring
+    free: np.ndarray  # (3,) 1.0 if the inner ring is free axially, in skew, in tilt
+    misalignment: float
+
+
+class Memory(NamedTuple):
+    """Law parameters of every pair; slot 3 keeps the onset speed of a contact."""
+
+    race: np.ndarray  # (Z, 2, N_NORMAL)
+    pocket: np.ndarray  # (Z, faces, N_NORMAL)
+    rib: np.ndarray  # (Z, ribs, N_NORMAL)
+    land: np.ndarray  # (2, N_NORMAL)
+    deflection: np.ndarray  # (Z, 8) residual coordinates of the pockets, to begin the next solve
+
+
+class Tangent(NamedTuple):
+    """Stiffness K and damping C of Newton's matrix in blocks: rollers r, border b."""
+
+    Krr: np.ndarray  # (Z, 6, 6)
+    Crr: np.ndarray
+    Krb: np.ndarray  # (Z, 6, nb)
+    Crb: np.ndarray
+    Kbr: np.ndarray  # (Z, nb, 6)
+    Cbr: np.ndarray
+    Kbb: np.ndarray  # (nb, nb)
+    Cbb: np.ndarray
+    Mbb: np.ndarray  # (nb, nb)
+    active: np.ndarray  # (Z,) roller touches its pocket
+
+
+class Report(NamedTuple):
+    """What one evaluation reports beyond the residual (mode 2)."""
+
+    race: np.ndarray  # (Z, 2, 9) sums of a race's contact kernel
+    pocket_normal: np.ndarray  # (Z, faces)
+    pocket_friction: np.ndarray  # (Z, faces)
+    slice_normal: np.ndarray  # (Z, 2, ns)
+    slice_friction: np.ndarray  # (Z, 2, ns)
+    station: np.ndarray  # (Z, faces, nst, 3)
+    residual: np.ndarray  # (Z, 8)
+    rib: np.ndarray  # (Z, ribs)
+    land: np.ndarray  # (3,)
+    land_touch: np.ndarray  # (2, 2) of the lands at -x, +x: normal force, approach speed
+    power: np.ndarray  # (len(POWERS),)
+    energy: np.ndarray  # (4,) kinetic, strain, contact, mount
+    contact: np.ndarray  # (Z, places) booleans: races 2, faces of the pocket, ribs
+    approach: np.ndarray  # (Z, places) approach speed of each
+    body_force: np.ndarray  # (3,) contact force on the outer ring
+
+
+class Scratch(NamedTuple):
+    """Small buffers of the residual."""
+
+    S: np.ndarray  # (6, 6)
+    T6: np.ndarray  # (2, 6, 6) products
+    R: np.ndarray  # (2, 3, 3)
+    A: np.ndarray  # (3, 3) cage attitude
+    unit: np.ndarray  # (3, 3) unit matrix
+    roller: np.ndarray  # (6,) wrench of all contacts on one roller
+    sums: np.ndarray  # (9,)
+    vec: np.ndarray  # (9, 3), see residual.py
+    border: np.ndarray  # (nb,) generalised forces on the border
+    Lm: np.ndarray  # (6, n) roller-modal products
+    Bm: np.ndarray  # (n, 6)
+    PR: np.ndarray  # (n, 8) modal-residual products
+    out: np.ndarray  # (size,) residual that nobody asked for
+
+
+class Work(NamedTuple):
+    """Workspaces of one evaluation."""
+
+    pose: RollerPose
+    slices: Slices
+    pair: Pair
+    pocket_work: Any  # of the pockets' kernel
+    land_work: LandWork
+    frame: FrameWork
+    scratch: Scratch
+    tangent: Tangent
+    report: Report
+
+
+def new_work(
+    layout: Layout, pocket_work: Any, *, slices: int, faces: int, stations: int, ribs: int,
+    land_stations: int,
+) -> Work:  # fmt: skip
+    """Fresh workspaces for one thread, of elements with so many contact places."""
+    Z, n, nb = layout.rollers, layout.modes, layout.n_border
+    places = 2 + faces + ribs
+    z = np.zeros
+    tangent = Tangent(
+        z((Z, 6, 6)), z((Z, 6, 6)), z((Z, 6, nb)), z((Z, 6, nb)), z((Z, nb, 6)), z((Z, nb, 6)),
+        z((nb, nb)), z((nb, nb)), z((nb, nb)), z(Z, np.int64),
+    )  # fmt: skip
+    report = Report(
+        z((Z, 2, 9)), z((Z, faces)), z((Z, faces)), z((Z, 2, slices)), z((Z, 2, slices)),
+        z((Z, faces, stations, 3)), z((Z, 8)), z((Z, ribs)), z(3), z((2, 2)), z(len(POWERS)), z(4),
+        z((Z, places), np.int64), z((Z, places)), z(3),
+    )  # fmt: skip
+    scratch = Scratch(
+        z((6, 6)), z((2, 6, 6)), z((2, 3, 3)), z((3, 3)), np.eye(3), z(6), z(9), z((9, 3)),
+        z(14 + n), z((6, n)), z((n, 6)), z((n, 8)), z(layout.size),
+    )  # fmt: skip
+    return Work(
+        new_pose(), new_slices(), new_pair(), pocket_work, land_work(land_stations), frame_work(n),
+        scratch, tangent, report,
+    )  # fmt: skip

@@ -1,0 +1,386 @@
+"""Rows of the residual that all bearings share: rings, cage, lands, drive and constraints.
+
+Rolling elements differ from type to type; what they push is collected in ``Scratch.border`` (inner
+ring 6, outer ring 2, cage 6 + n) and balanced here.
+"""
+
+from __future__ import annotations
+
+from math import cos, sin, sqrt
+
+from flexcage.bodies.floating_frame import inertia_terms
+from flexcage.contacts.land import land_contact
+from flexcage.core.jit import VECTORISED, copy_into, fields, part, zero
+from flexcage.core.rotation import quaternion_rate
+from flexcage.core.vectors import (
+    combine,
+    cross,
+    plus,
+    put,
+    times,
+    turned_back,
+    xyz,
+)
+
+# rows of ``Work.vec``: of the bodies, in space; of the pair under work, in the roller's frame F
+CAGE_SPIN, RING_AXIS, RING_SPIN, LEVER, AXIS, PARTNER_V, PARTNER_W, GUIDE, GUIDE_V = range(9)
+
+
+@part
+def interpolate(table, t):
+    """Linear interpolation in a (2, n) table, constant outside."""
+    n = table.shape[1]
+    if t <= table[0, 0]:
+        return table[1, 0]
+    for i in range(1, n):
+        if t <= table[0, i]:
+            f = (t - table[0, i - 1]) / (table[0, i] - table[0, i - 1])
+            return table[1, i - 1] + f * (table[1, i] - table[1, i - 1])
+    return table[1, n - 1]
+
+
+@part
+def drive_angle(bodies, t):
+    """Angle that the prescribed speed has turned by time t since t = 0."""
+    table = bodies.speed
+    n = table.shape[1]
+    if t <= table[0, 0]:
+        return table[1, 0] * t
+    base = table[1, 0] * table[0, 0]
+    for i in range(1, n):
+        if t <= table[0, i]:
+            h = t - table[0, i - 1]
+            f = h / (table[0, i] - table[0, i - 1])
+            slope = 0.5 * f * (table[1, i] - table[1, i - 1])
+            return base + bodies.angle[i - 1] + h * (table[1, i - 1] + slope)
+    return base + bodies.angle[n - 1] + table[1, n - 1] * (t - table[0, n - 1])
+
+
+@part
+def ring_rates(q, u, out):
+    """Kinematics of the inner ring (its frame does not orbit); returns its frame's axial rate."""
+    skew = u[4] / cos(q[4])
+    frame = skew * sin(q[4])
+    out[0], out[1], out[2] = u[0], u[1], u[2]
+    out[3], out[4], out[5] = skew, u[5], u[3] - frame
+    return frame
+
+
+@part
+def react(F, R, wrench, lever, border, at):
+    """Reaction of an element's wrench on a partner at ``lever`` from it: force in space, moment in
+    the frame with columns R."""
+    f = xyz(wrench)
+    m = plus((wrench[3], wrench[4], wrench[5]), cross(lever, f))
+    f, m = turned_back(F, f), turned_back(R, turned_back(F, m))
+    for c in range(3):
+        border[at + c] -= f[c]
+        border[at + 3 + c] -= m[c]
+
+
+@part
+def clear_sums(border, d, mode):
+    """Set to zero what the contacts add to."""
+    tan, rep = fields(d.tangent), fields(d.report)
+    zero(border)
+    if mode == 1:
+        zero(tan.Krr)
+        zero(tan.Crr)
+        zero(tan.Krb)
+        zero(tan.Crb)
+        zero(tan.Kbr)
+        zero(tan.Cbr)
+        zero(tan.Kbb)
+        zero(tan.Cbb)
+        zero(tan.Mbb)
+    elif mode >= 2:
+        zero(rep.power)
+        zero(rep.energy)
+        zero(rep.race)
+        zero(rep.rib)
+        zero(rep.contact)
+        zero(rep.body_force)
+        zero(rep.land)
+
+
+@part
+def inner_ring(q, u, vec):
+    """Axis and angular velocity of the inner ring in space (its frame does not spin)."""
+    cx, sx, ce, se = cos(q[3]), sin(q[3]), cos(q[4]), sin(q[4])
+    axis = (cx * ce, se, -sx * ce)
+    put(vec[RING_AXIS], axis)
+    skew = (-cx * se, ce, sx * se)
+    put(vec[RING_SPIN], combine(combine(times(u[3], axis), u[4], skew), u[5], (sx, 0.0, cx)))
+
+
+@part
+def add_to_element(total, pair):
+    for c in range(6):
+        total[c] += pair.wrench[c]
+
+
+@part
+def push_modes(data, i, pw, border):
+    """Generalised forces of pocket i's station forces on the cage's modes."""
+    for f in range(pw.st.shape[0]):
+        if pw.normal[f] <= 0.0:
+            continue
+        for s in range(pw.st.shape[1]):
+            for c in range(3):
+                x = pw.st[f, s, c]
+                if x != 0.0:
+                    shape = data.phi[i, f, s, c]
+                    for m in range(shape.shape[0]):
+                        border[14 + m] += x * shape[m]
+
+
+@part
+def land_rows(q, u, zq, nm, d, law, mode):
+    """Cage's lands on the ring that guides it, and the drag on the cage."""
+    work, data, rep = fields(d.scratch), fields(d.land), fields(d.report)
+    vec, border, A = work.vec, work.border, work.A
+    Fc, Mc, Fr, Mr = vec[LEVER], vec[AXIS], vec[PARTNER_V], vec[PARTNER_W]
+    zero(Fc)
+    zero(Mc)
+    zero(Fr)
+    zero(Mr)
+    wg, where, speed, spin = vec[CAGE_SPIN], vec[GUIDE], vec[GUIDE_V], 0.0
+    rides_inner = data.inner > 0.0
+    if rides_inner:
+        put(where, xyz(q[zq : zq + 3]))
+        put(speed, xyz(u[zq : zq + 3]))
+        spin = u[zq + 3]
+    else:
+        put(where, (0.0, q[zq + 6], q[zq + 7]))
+        put(speed, (0.0, u[zq + 6], u[zq + 7]))
+    land_contact(
+        A, q[zq + 8 : zq + 11], u[zq + 8 : zq + 11], wg, q[zq + 15 :], u[zq + 14 :], where, speed,
+        spin, data, fields(d.memory).land, (law[4], law[9]), fields(d.slices).row[0],
+        fields(d.land_work), Fc, Mc, border[14 : 14 + nm], Fr, Mr, work.sums,
+    )  # fmt: skip
+    drag = fields(d.bodies).drag[1] * abs(wg[0]) * wg[0]
+    Mc[0] -= drag
+    moment = turned_back(A, xyz(Mc))
+    for c in range(3):
+        border[8 + c] += Fc[c]
+        border[11 + c] += moment[c]
+        if rides_inner:
+            border[c] += Fr[c]
+            border[3 + c] += Mr[c]
+    if not rides_inner:
+        border[6] += Fr[1]
+        border[7] += Fr[2]
+    if mode >= 2:
+        sums = work.sums
+        copy_into(rep.land, Fc)
+        for c in range(2):
+            rep.land_touch[c, 0], rep.land_touch[c, 1] = sums[4 + c], sums[6 + c]
+        rep.energy[2] += sums[0]
+        rep.power[9] += sums[1] + sums[2] + sums[3]
+        rep.power[10] -= drag * wg[0]
+
+
+@part(fastmath=VECTORISED)
+def cage_rows(d, quat, Vc, wb, qf, qfd, qd, ud, zq, r_q, r_u, mode):
+    """Rows of the cage: floating frame, translations in space, rotations in the body."""
+    data, tan, rep, work = fields(d.cage), fields(d.tangent), fields(d.report), fields(d.scratch)
+    frame, A, border = fields(d.frame), work.A, work.border
+    nm = qf.shape[0]
+    acc, rows, v = frame.w[0], frame.w[1], frame.w[2]
+    M, h = frame.M, frame.h
+    inertia_terms(data, wb, qf, qfd, frame)
+    rate = work.S[0]
+    quaternion_rate(quat, wb, rate)
+    for c in range(3):
+        r_q[zq + 8 + c] = qd[zq + 8 + c] - Vc[c]
+    for c in range(4):
+        r_q[zq + 11 + c] = qd[zq + 11 + c] - rate[c]
+    for m in range(nm):
+        r_q[zq + 15 + m] = qd[zq + 15 + m] - qfd[m]
+    gb = turned_back(A, xyz(fields(d.bodies).gravity))
+    put(acc, turned_back(A, xyz(ud[zq + 8 : zq + 11])))
+    for c in range(3 + nm):
+        acc[3 + c] = ud[zq + 11 + c]
+    for k in range(6 + nm):
+        x = h[k]
+        for c in range(3):  # gravity is an acceleration of the whole body
+            x += M[k, c] * (acc[c] - gb[c])
+        for c in range(3, 6 + nm):
+            x += M[k, c] * acc[c]
+        rows[k] = x
+    for c in range(3):
+        x = A[c, 0] * rows[0] + A[c, 1] * rows[1] + A[c, 2] * rows[2]
+        r_u[zq + 8 + c] = x - border[8 + c]
+        r_u[zq + 11 + c] = rows[3 + c] - border[11 + c]
+    for m in range(nm):
+        x = rows[6 + m] - border[14 + m]
+        for l in range(nm):
+            x += data.kff[m, l] * qf[l] + data.dff[m, l] * qfd[l]
+        r_u[zq + 14 + m] = x
+    if mode == 1:
+        n6 = 6 + nm
+        for a in range(n6):
+            for b in range(n6):
+                tan.Mbb[8 + a, 8 + b] = M[a, b]
+        for a in range(3):  # translations to space
+            for b in range(n6):
+                x = y = 0.0
+                for c in range(3):
+                    x += A[a, c] * M[c, b]
+                    y += M[b, c] * A[a, c]
+                if b >= 3:
+                    tan.Mbb[8 + a, 8 + b] = x
+                    tan.Mbb[8 + b, 8 + a] = y
+        for a in range(3):
+            for b in range(3):
+                tan.Mbb[8 + a, 8 + b] = data.mass if a == b else 0.0
+        for m in range(nm):
+            for l in range(nm):
+                tan.Kbb[14 + m, 14 + l] += data.kff[m, l]
+                tan.Cbb[14 + m, 14 + l] += data.dff[m, l]
+    elif mode >= 2:
+        put(v, turned_back(A, xyz(Vc)))
+        for c in range(3):
+            v[3 + c] = wb[c]
+        for m in range(nm):
+            v[6 + m] = qfd[m]
+        for a in range(6 + nm):
+            momentum = 0.0
+            for b in range(6 + nm):
+                momentum += M[a, b] * v[b]
+            rep.energy[0] += 0.5 * v[a] * momentum
+            for c in range(3):
+                rep.power[2] += v[a] * M[a, c] * gb[c]
+        for m in range(nm):
+            spring = damper = 0.0
+            for l in range(nm):
+                spring += data.kff[m, l] * qf[l]
+                damper += data.dff[m, l] * qfd[l]
+            rep.energy[1] += 0.5 * qf[m] * spring
+            rep.power[11] -= qfd[m] * damper
+
+
+@part
+def _housing(outer, q, u, held, tan, mode):
+    """Force ``held`` of the outer ring on its housing; returns energy stored and power lost."""
+    k, c, clearance = outer[1], outer[2], outer[4]
+    held[0] = held[1] = 0.0
+    distance = sqrt(q[0] * q[0] + q[1] * q[1])
+    n = (1.0, 0.0) if distance == 0.0 else (q[0] / distance, q[1] / distance)
+    if clearance < 0.0:  # a bushing
+        for i in range(2):
+            held[i] = k * q[i] + c * u[i]
+            if mode == 1:
+                tan.Kbb[6 + i, 6 + i] += k
+                tan.Cbb[6 + i, 6 + i] += c
+        return 0.5 * k * distance * distance, c * (u[0] * u[0] + u[1] * u[1])
+    depth = distance - clearance
+    rate = n[0] * u[0] + n[1] * u[1]
+    force = k * depth + c * rate
+    if depth <= 0.0:
+        return 0.0, 0.0
+    if force <= 0.0:  # it parts while still compressed: what is stored relaxes unseen
+        return 0.5 * k * depth * depth, -k * depth * rate
+    for i in range(2):
+        held[i] = force * n[i]
+        if mode == 1:
+            for j in range(2):
+                across = (1.0 if i == j else 0.0) - n[i] * n[j]
+                tan.Kbb[6 + i, 6 + j] += k * n[i] * n[j] + force / distance * across
+                tan.Cbb[6 + i, 6 + j] += c * n[i] * n[j]
+    return 0.5 * k * depth * depth, c * rate * rate
+
+
+@part
+def ring_rows(t, d, q, u, qd, ud, lam, mu_, zq, r_q, r_u, out, end, mode):
+    """Rows of the inner and outer rings and of the constraints."""
+    bodies, tan, rep = fields(d.bodies), fields(d.tangent), fields(d.report)
+    work, border = fields(d.scratch), fields(d.scratch).border
+    rq, ru, rud = q[zq : zq + 6], u[zq : zq + 6], ud[zq : zq + 6]
+    rates = work.S[0]
+    frame = ring_rates(rq, ru, rates)
+    for c in range(6):
+        r_q[zq + c] = qd[zq + c] - rates[c]
+    r_q[zq] -= mu_[0]
+    r_q[zq + 3] -= mu_[1]
+    r_q[zq + 4] -= mu_[2]
+    mass, Ia, It = bodies.ring[0], bodies.ring[1], bodies.ring[2]
+    load = interpolate(bodies.load, t)
+    # moments about the ring's own (non-spinning) axes
+    cx, sx, ce, se = cos(rq[3]), sin(rq[3]), cos(rq[4]), sin(rq[4])
+    Mx, My, Mz = border[3], border[4] + bodies.steady[1], border[5] + bodies.steady[2]
+    M1 = cx * ce * Mx + se * My - sx * ce * Mz
+    M2 = -cx * se * Mx + ce * My + sx * se * Mz
+    M3 = sx * Mx + cx * Mz
+    target = interpolate(bodies.speed, t)
+    shaft = 0.0
+    if bodies.drive[0] > 0.0:
+        shaft = bodies.drive[1] * (drive_angle(bodies, t) - rq[5])
+        shaft += bodies.drive[2] * (target - ru[3])
+    for c in range(3):
+        r_u[zq + c] = mass * (rud[c] - bodies.gravity[c]) - border[c]
+    r_u[zq] -= lam[0] + bodies.steady[0]
+    r_u[zq + 1] -= load * bodies.load_direction[0]
+    r_u[zq + 2] -= load * bodies.load_direction[1]
+    r_u[zq + 3] = Ia * rud[3] - M1 - lam[3] - shaft
+    r_u[zq + 4] = It * (rud[4] - frame * ru[5]) + Ia * ru[3] * ru[5] - M2 - lam[1]
+    r_u[zq + 5] = It * (rud[5] + frame * ru[4]) - Ia * ru[3] * ru[4] - M3 - lam[2]
+    # outer ring
+    oq, ou, oud = q[zq + 6 : zq + 8], u[zq + 6 : zq + 8], ud[zq + 6 : zq + 8]
+    mo, fixed = bodies.outer[0], bodies.outer[3]
+    held = work.vec[LEVER]
+    stored, lost = _housing(bodies.outer, oq, ou, held, tan, mode)
+    for c in range(2):
+        r_q[zq + 6 + c] = qd[zq + 6 + c] - ou[c]
+        if fixed > 0.0:
+            r_u[zq + 6 + c] = oud[c]
+        else:
+            force = border[6 + c] - held[c] + mo * bodies.gravity[1 + c]
+            r_u[zq + 6 + c] = mo * oud[c] - force
+    # constraints: lambda rows hold rates, mu rows positions
+    g = out[end:]
+    free = bodies.free
+    g[0] = lam[0] if free[0] > 0.0 else ru[0]
+    g[1] = lam[1] if free[1] > 0.0 else ru[4]
+    g[2] = lam[2] if free[2] > 0.0 else ru[5]
+    g[3] = ru[3] - target if bodies.drive[0] == 0.0 else lam[3]
+    g[4] = mu_[0] if free[0] > 0.0 else rq[0]
+    g[5] = mu_[1] if free[1] > 0.0 else rq[3]
+    g[6] = mu_[2] if free[2] > 0.0 else rq[4] - bodies.misalignment
+    if mode == 1:
+        for c in range(3):
+            tan.Mbb[c, c] = mass
+        tan.Mbb[3, 3] = Ia
+        tan.Mbb[4, 4] = tan.Mbb[5, 5] = It
+        tan.Cbb[4, 5] += Ia * ru[3]
+        tan.Cbb[5, 4] -= Ia * ru[3]
+        if bodies.drive[0] > 0.0:
+            tan.Kbb[3, 3] += bodies.drive[1]
+            tan.Cbb[3, 3] += bodies.drive[2]
+        for c in range(2):
+            tan.Mbb[6 + c, 6 + c] = 1.0 if fixed > 0.0 else mo
+            if fixed > 0.0:  # its row is u' = 0, whatever pushes it
+                zero(tan.Kbb[6 + c])
+                zero(tan.Cbb[6 + c])
+                for i in range(tan.Kbr.shape[0]):
+                    zero(tan.Kbr[i, 6 + c])
+                    zero(tan.Cbr[i, 6 + c])
+    elif mode >= 2:
+        w2 = ru[4] * ru[4] + ru[5] * ru[5]
+        v2 = ru[0] * ru[0] + ru[1] * ru[1] + ru[2] * ru[2]
+        rep.energy[0] += 0.5 * (mass * v2 + Ia * ru[3] * ru[3] + It * w2)
+        rep.power[0] += lam[3] * ru[3] + shaft * ru[3]
+        rep.power[1] += load * (bodies.load_direction[0] * ru[1] + bodies.load_direction[1] * ru[2])
+        spin = work.vec[RING_SPIN]
+        rep.power[1] += bodies.steady[0] * ru[0]
+        rep.power[1] += bodies.steady[1] * spin[1] + bodies.steady[2] * spin[2]
+        for c in range(3):
+            rep.power[2] += mass * bodies.gravity[c] * ru[c]
+        if fixed == 0.0:
+            rep.energy[3] += stored
+            rep.power[12] -= lost
+            for c in range(2):
+                rep.energy[0] += 0.5 * mo * ou[c] * ou[c]
+                rep.power[2] += mo * bodies.gravity[1 + c] * ou[c]
+        for c in range(2):
+            rep.body_force[c] = border[6 + c]
