@@ -301,3 +301,60 @@ def test_a_cage_of_no_known_type_is_refused():
         mesh_of(EnlargedPocket(pocket=8, increase=0.1 * MM))
     with pytest.raises(InputError, match="fillet_size is of window cages"):
         mesh_of(fillet_size=0.1 * MM)
+
+
+SPHERES = replace(CAGE, pocket_shape="spherical", pocket_diameter=7.2 * MM)
+
+
+def spherical_mesh(*defects, fineness="coarse"):
+    return build_cage_mesh(
+        SPHERES,
+        pocket_count=POCKETS,
+        pitch_diameter=2.0 * PITCH_RADIUS,
+        defects=defects,
+        options=MeshOptions(fineness=fineness),
+    )
+
+
+@pytest.mark.parametrize(
+    ("defects", "radius", "shift"),
+    [
+        ((), 3.6, (0.0, 0.0)),
+        ((EnlargedPocket(pocket=3, increase=0.3 * MM),), 3.75, (0.0, 0.0)),
+        ((DisplacedPocket(pocket=3, axial=0.3 * MM, circumferential=-0.2 * MM),), 3.6, (0.3, -0.2)),
+    ],
+)
+def test_spherical_pockets_lie_on_their_spheres(defects, radius, shift):
+    mesh = spherical_mesh(*defects)
+    check_mesh(mesh)
+    assert report_mesh(mesh).min_quality > 0.1
+    turned = 3 + shift[1] * MM / PITCH_RADIUS * POCKETS / (2.0 * np.pi)
+    wall = pocket_frame(mesh.points[np.unique(mesh.groups["pocket3_wall"])], turned, POCKETS)
+    distance = np.linalg.norm(wall - (shift[0] * MM, PITCH_RADIUS, 0.0), axis=1)
+    assert distance == pytest.approx(radius * MM, abs=1e-12)
+    for row in mesh.info["defects"]:
+        assert row["delivered"] == pytest.approx(row["asked"], abs=1e-8)
+    for name, land in (("land_inner", 10 * MM), ("land_outer", 13 * MM)):
+        points = mesh.points[np.unique(mesh.groups[name])]
+        assert np.hypot(points[:, 1], points[:, 2]) == pytest.approx(land, abs=1e-12)
+
+
+def test_spherical_pockets_take_their_volume():
+    """What two cylinders leave of a sphere, by a cloud of points."""
+    mesh = spherical_mesh(fineness="fine")
+    rng = np.random.default_rng(0)
+    cloud = rng.uniform(-3.6, 3.6, size=(2_000_000, 3)) * MM
+    radius = np.hypot(cloud[:, 1] + PITCH_RADIUS, cloud[:, 2])
+    inside = (np.linalg.norm(cloud, axis=1) < 3.6 * MM) & (radius > 10 * MM) & (radius < 13 * MM)
+    hole = inside.mean() * (7.2 * MM) ** 3
+    whole = np.pi * (13**2 - 10**2) * 12 * MM**3
+    assert mesh.volume == pytest.approx(whole - POCKETS * hole, rel=8e-3)
+    n = mesh.info["sector_points"]
+    first, other = (pocket_frame(mesh.points[k * n : (k + 1) * n], k, POCKETS) for k in (0, 5))
+    assert other == pytest.approx(first, abs=1e-15)
+
+
+def test_a_sphere_that_does_not_open_is_refused():
+    thick = replace(SPHERES, bore=15 * MM, outside_diameter=31 * MM)
+    with pytest.raises(InputError, match="does not open at the cage's bore of 15 mm"):
+        build_cage_mesh(thick, pocket_count=POCKETS, pitch_diameter=2.0 * PITCH_RADIUS)
