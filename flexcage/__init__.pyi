@@ -18,6 +18,10 @@ from flexcage.core.errors import RunFailed as RunFailed
 from flexcage.geometry.angular_contact_ball import (
     AngularContactBallBearing as AngularContactBallBearing,
 )
+from flexcage.geometry.ball_cage_defects import DisplacedPocket as DisplacedPocket
+from flexcage.geometry.ball_cage_defects import ElongatedPocket as ElongatedPocket
+from flexcage.geometry.ball_cage_defects import EnlargedPocket as EnlargedPocket
+from flexcage.geometry.ball_cage_defects import WebCrack as WebCrack
 from flexcage.geometry.ball_cages import BallCage as BallCage
 from flexcage.geometry.cages import CrossbeamDefect as CrossbeamDefect
 from flexcage.geometry.cages import SideBeamDefect as SideBeamDefect

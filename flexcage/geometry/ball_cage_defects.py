@@ -1,8 +1,9 @@
 """Defects of ball cages: frozen specs, their checks, and where they leave the pockets' walls.
 
-A pocket is bored radially. Its wall, cut by any plane across its axis, is a circle of the pocket's
-radius or, elongated, a slot: that circle swept along a straight line. Web k lies between the
-pockets k-1 and k (mod Z), thinnest at the bore and at the pockets' waist.
+A pocket's axis is radial. Its wall, cut by any plane across that axis, is a circle or, elongated,
+a slot: that circle swept along a straight line. The circle has the pocket's radius where the
+pocket is cylindrical; a spherical one has it at the pitch radius alone. Web k lies between the
+pockets k-1 and k (mod Z), thinnest at the pockets' waist.
 """
 
 from __future__ import annotations
@@ -135,30 +136,50 @@ def _(defect: WebCrack, shapes: PocketShapes) -> None:
     """A crack leaves the pockets as they are."""
 
 
-def wall_reach(direction: np.ndarray, radius: float, slot: np.ndarray) -> np.ndarray:
-    """Distance (n,) [m] from a pocket's axis to its wall along unit directions (n, 2) in x, psi."""
+def wall_reach(direction: np.ndarray, radius: float | np.ndarray, slot: np.ndarray) -> np.ndarray:
+    """Distance (n,) [m] from a slot's middle to its wall along unit directions (n, 2) in x, psi.
+
+    ``radius`` [m] is that of all or of each direction (n,).
+    """
     along, half = np.abs(direction), np.asarray(slot, float)
-    with np.errstate(divide="ignore"):
-        flat = (half[::-1] + radius) / along[:, ::-1]  # to the straight walls at +-psi and at +-x
+    radius = np.broadcast_to(radius, len(along))
+    with np.errstate(divide="ignore"):  # to the straight walls at +-psi and at +-x
+        flat = (half[::-1] + radius[:, None]) / along[:, ::-1]
     straight = [flat[:, i] * along[:, i] <= half[i] for i in range(2)]
     middle = along @ half
     corner = middle + np.sqrt(np.maximum(middle**2 - half @ half + radius**2, 0.0))
     return np.where(straight[0], flat[:, 0], np.where(straight[1], flat[:, 1], corner))
 
 
+def is_sphere(cage: BallCage) -> bool:
+    """Are the pockets spherical?"""
+    return cage.pocket_shape == "spherical"
+
+
+def level_radius(
+    cage: BallCage, radius: float, height: np.ndarray, pitch_radius: float
+) -> np.ndarray:
+    """Radius [m] of a pocket's circle at heights [m] along its axis from the cage's axis."""
+    if not is_sphere(cage):
+        return np.full(np.shape(height), radius)
+    return np.sqrt(np.maximum(radius**2 - (height - pitch_radius) ** 2, 0.0))
+
+
 def web_thickness(cage: BallCage, shapes: PocketShapes, *, pitch_diameter: float) -> np.ndarray:
-    """Least thickness (Z,) [m] of each web at the bore, along the circumference; < 0: none."""
-    radius = 0.5 * cage.bore
+    """Least thickness (Z,) [m] of each web along the circumference, at any radius; < 0: none."""
+    pitch_radius = 0.5 * pitch_diameter
+    radii = np.linspace(0.5 * cage.bore, 0.5 * cage.outside_diameter, 21)[:, None]
     x = np.linspace(-0.5, 0.5, 2001) * cage.width
     ahead, behind = [], []
     for (shift, arc), hole, slot in zip(shapes.centre, shapes.radius, shapes.slot):
-        inside = hole**2 - np.maximum(np.abs(x - shift) - slot[0], 0.0) ** 2
+        circle = level_radius(cage, hole, radii, pitch_radius)
+        inside = circle**2 - np.maximum(np.abs(x - shift) - slot[0], 0.0) ** 2
         half = np.where(inside > 0.0, slot[1] + np.sqrt(np.maximum(inside, 0.0)), 0.0)
-        reach = np.arcsin(np.minimum(half / radius, 1.0))
-        ahead.append(2.0 * arc / pitch_diameter + reach)
-        behind.append(2.0 * arc / pitch_diameter - reach)
+        reach = np.arcsin(np.minimum(half / radii, 1.0))
+        ahead.append(arc / pitch_radius + reach)
+        behind.append(arc / pitch_radius - reach)
     gap = 2.0 * pi / len(ahead) + np.array(behind) - np.roll(ahead, 1, axis=0)
-    return radius * gap.min(axis=1)
+    return (radii * gap).min(axis=(1, 2))
 
 
 def check_ball_cage(cage: BallCage, *, pocket_count: int) -> None:
@@ -168,7 +189,7 @@ def check_ball_cage(cage: BallCage, *, pocket_count: int) -> None:
         where, what = "outside_diameter", f"must exceed its bore, {_mm(cage.bore)}"
     elif cage.pocket_diameter >= cage.width:
         where, what = "pocket_diameter", f"leaves no rims in a cage {_mm(cage.width)} wide"
-    elif cage.pocket_diameter >= chord:
+    elif cage.pocket_diameter >= chord and not is_sphere(cage):
         where = "pocket_diameter"
         what = (
             f"makes the {pocket_count} webs thinner than zero at the bore; it must be less than "
@@ -194,12 +215,13 @@ def check_ball_defects(
     _raise_first(_find_in_cracks(defects))
     shapes = pocket_shapes(cage, defects, pocket_count=pocket_count)
     _raise_first(_find_in_pockets(cage, shapes, ball_diameter))
+    _raise_first(_find_in_openings(cage, shapes, 0.5 * pitch_diameter))
     webs = web_thickness(cage, shapes, pitch_diameter=pitch_diameter)
     if webs.min() <= 0.0:
         k = int(np.argmin(webs))
         raise InputError(
-            f"The defects let pockets {(k - 1) % pocket_count} and {k} run into each other: web "
-            f"{k} would be {_mm(webs[k])} thick at the bore; it must be greater than zero.",
+            f"Pockets {(k - 1) % pocket_count} and {k} run into each other: web {k} would be "
+            f"{_mm(webs[k])} thick; it must be greater than zero.",
             where="defects",
             value=float(webs[k]),
         )
@@ -297,6 +319,20 @@ def _find_in_pockets(
                 f"The defects let pocket {k} reach {_mm(end)} from the cage's middle, through the "
                 f"cage's end at {_mm(0.5 * cage.width)}.",
                 float(end),
+            )
+
+
+def _find_in_openings(
+    cage: BallCage, shapes: PocketShapes, pitch_radius: float
+) -> Iterator[Finding]:
+    for name, diameter in (("bore", cage.bore), ("outside", cage.outside_diameter)):
+        open_ = level_radius(cage, shapes.radius.min(), np.array(0.5 * diameter), pitch_radius)
+        if not open_ > 0.0:
+            yield (
+                "cage.pocket_shape",
+                f"A spherical pocket of {_mm(2.0 * shapes.radius.min())} about the pitch circle of "
+                f"{_mm(2.0 * pitch_radius)} does not open at the cage's {name} of {_mm(diameter)}.",
+                cage.pocket_shape,
             )
 
 

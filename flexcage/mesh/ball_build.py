@@ -5,14 +5,16 @@ from __future__ import annotations
 import logging
 from collections.abc import Sequence
 
+from flexcage.core.errors import InputError
 from flexcage.geometry.ball_cage_defects import (
     BallCageDefect,
     check_ball_cage,
     check_ball_defects,
     cracks_of,
+    is_sphere,
 )
 from flexcage.geometry.ball_cages import BallCage
-from flexcage.mesh.ball_morph import apply_ball_defects
+from flexcage.mesh.ball_morph import apply_ball_defects, make_spherical
 from flexcage.mesh.ball_sector import mesh_ball_quarter
 from flexcage.mesh.cage_mesh import CageMesh
 from flexcage.mesh.options import MeshOptions
@@ -33,9 +35,17 @@ def build_ball_cage_mesh(
     check_ball_defects(defects, cage, pocket_count=pocket_count, pitch_diameter=pitch_diameter)
     if options.file:
         return _from_file(cage, pocket_count, pitch_diameter, defects, options)
+    if options.fillet_size is not None:
+        raise InputError(
+            "mesh.fillet_size is of window cages; round pockets have no fillets: give mesh.size.",
+            where="mesh.fillet_size",
+            value=options.fillet_size,
+        )
     quarter = mesh_ball_quarter(
         cage, pocket_count=pocket_count, options=options, tips=_tips(cage, defects)
     )
+    if is_sphere(cage):
+        quarter = make_spherical(quarter, cage, pitch_radius=0.5 * pitch_diameter)
     mesh = ring_of(quarter, pocket_count)
     log.debug("%r from %d tetrahedra in a quarter sector", mesh, len(quarter.tets))
     return apply_ball_defects(mesh, cage, defects, pitch_radius=0.5 * pitch_diameter)

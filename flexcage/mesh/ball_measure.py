@@ -19,6 +19,7 @@ from flexcage.geometry.ball_cage_defects import (
     EnlargedPocket,
     PocketShapes,
     WebCrack,
+    is_sphere,
     pocket_shapes,
 )
 from flexcage.geometry.ball_cages import BallCage
@@ -29,9 +30,11 @@ _OPPOSITE = np.array([[1, 2, 3], [0, 2, 3], [0, 1, 3], [0, 1, 2]])
 _ENOUGH = 20e-6  # m, to which a user's mesh must agree with the case
 
 
-def measure_pockets(mesh: CageMesh, pockets: Sequence[int], *, pitch_radius: float) -> PocketShapes:
+def measure_pockets(
+    mesh: CageMesh, pockets: Sequence[int], *, pitch_radius: float, spherical: bool = False
+) -> PocketShapes:
     """Shapes of the walls of some pockets, in that order: the slots nearest to their vertices."""
-    fits = [_fit(mesh, k, pitch_radius) for k in pockets]
+    fits = [_fit(mesh, k, pitch_radius, float(spherical)) for k in pockets]
     return PocketShapes(
         np.array([f[:2] for f in fits]).reshape(-1, 2),
         np.array([f[2] for f in fits]),
@@ -39,7 +42,7 @@ def measure_pockets(mesh: CageMesh, pockets: Sequence[int], *, pitch_radius: flo
     )
 
 
-def _fit(mesh: CageMesh, pocket: int, pitch_radius: float) -> np.ndarray:
+def _fit(mesh: CageMesh, pocket: int, pitch_radius: float, bulge: float) -> np.ndarray:
     """Axial shift, arc at pitch radius, radius, half straight lengths along x and psi (5,) [m]."""
     from scipy.optimize import least_squares
 
@@ -53,7 +56,9 @@ def _fit(mesh: CageMesh, pocket: int, pitch_radius: float) -> np.ndarray:
         shift, arc, radius, *slot = p * scale
         turned = pocket_frame(points, pocket + arc / pitch_radius * count / (2.0 * pi), count)
         beyond = np.abs(turned[:, [0, 2]] - (shift, 0.0)) - slot
-        return np.hypot(*np.maximum(beyond, 0.0).T) / scale - radius / scale
+        level = bulge * (turned[:, 1] - pitch_radius)
+        across = np.hypot(*np.maximum(beyond, 0.0).T)
+        return np.hypot(across, level) / scale - radius / scale
 
     arc = np.arctan2(middle[2], middle[1]) * pitch_radius
     start = np.array([middle[0], arc, 0.9 * scale, 0.05 * scale, 0.05 * scale]) / scale
@@ -91,6 +96,11 @@ class Reading:
     measured: float
 
 
+def _measured(mesh: CageMesh, cage: BallCage, pocket: int, pitch_radius: float) -> PocketShapes:
+    sphere = is_sphere(cage)
+    return measure_pockets(mesh, [pocket], pitch_radius=pitch_radius, spherical=sphere)
+
+
 @singledispatch
 def readings(defect: Any, mesh: CageMesh, cage: BallCage, *, pitch_radius: float) -> list[Reading]:
     """What a mesh has of a defect, measured from the undamaged cage; one row a size."""
@@ -101,7 +111,7 @@ def readings(defect: Any, mesh: CageMesh, cage: BallCage, *, pitch_radius: float
 def _(
     defect: EnlargedPocket, mesh: CageMesh, cage: BallCage, *, pitch_radius: float
 ) -> list[Reading]:
-    found = measure_pockets(mesh, [defect.pocket], pitch_radius=pitch_radius)
+    found = _measured(mesh, cage, defect.pocket, pitch_radius)
     change = 2.0 * float(found.radius[0]) - cage.pocket_diameter
     return [Reading(defect.tag, defect.increase, change)]
 
@@ -110,7 +120,7 @@ def _(
 def _(
     defect: ElongatedPocket, mesh: CageMesh, cage: BallCage, *, pitch_radius: float
 ) -> list[Reading]:
-    found = measure_pockets(mesh, [defect.pocket], pitch_radius=pitch_radius)
+    found = _measured(mesh, cage, defect.pocket, pitch_radius)
     along = 0 if defect.direction == "axial" else 1
     return [Reading(defect.tag, defect.elongation, 2.0 * float(found.slot[0, along]))]
 
@@ -119,7 +129,7 @@ def _(
 def _(
     defect: DisplacedPocket, mesh: CageMesh, cage: BallCage, *, pitch_radius: float
 ) -> list[Reading]:
-    found = measure_pockets(mesh, [defect.pocket], pitch_radius=pitch_radius).centre[0]
+    found = _measured(mesh, cage, defect.pocket, pitch_radius).centre[0]
     return [
         Reading(f"{defect.tag} {name}", asked, float(size))
         for name, asked, size in zip(
@@ -147,7 +157,9 @@ def measure_ball_file(
     """A user's mesh with its defects measured; refused if a pocket is not what the case says."""
     count = mesh.pocket_count
     asked = pocket_shapes(cage, defects, pocket_count=count)
-    found = measure_pockets(mesh, range(count), pitch_radius=pitch_radius)
+    found = measure_pockets(
+        mesh, range(count), pitch_radius=pitch_radius, spherical=is_sphere(cage)
+    )
     sizes = {
         "shifted axially by": (asked.centre[:, 0], found.centre[:, 0]),
         "shifted circumferentially by": (asked.centre[:, 1], found.centre[:, 1]),

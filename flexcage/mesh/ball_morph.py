@@ -26,6 +26,8 @@ from flexcage.geometry.ball_cage_defects import (
     PocketShapes,
     WebCrack,
     cracks_of,
+    is_sphere,
+    level_radius,
     pocket_shapes,
     wall_reach,
 )
@@ -33,6 +35,9 @@ from flexcage.geometry.ball_cages import BallCage
 from flexcage.mesh.ball_measure import readings
 from flexcage.mesh.cage_mesh import CageMesh, signed_volumes
 from flexcage.mesh.measure import pocket_frame
+from flexcage.mesh.sector import Quarter
+
+_LEVELS = 60  # steps to where a sphere is at a vertex' distance from the axis; each gains a digit
 
 
 def apply_ball_defects(
@@ -107,33 +112,59 @@ def move_walls(
         wall = np.unique(mesh.groups[f"pocket{k}_wall"])
         held[wall] = True
         if k in altered:
-            moved[wall] = _wall_steps(mesh.points[wall], k, count, shapes, pitch_radius)
-    moved = _harmonic(mesh, moved, held)
-    c, s = np.cos(moved[:, 1]), np.sin(moved[:, 1])
-    x, y, z = mesh.points.T
-    return np.column_stack([x + moved[:, 0], c * y - s * z, s * y + c * z])
+            moved[wall] = _wall_steps(mesh.points[wall], k, cage, shapes, pitch_radius)
+    return _moved(mesh.points, _harmonic(mesh.points, mesh.tets, moved, held))
+
+
+def make_spherical(quarter: Quarter, cage: BallCage, *, pitch_radius: float) -> Quarter:
+    """A quarter sector with a cylindrical pocket drawn to its sphere; cuts and lands stay."""
+    held = np.zeros((len(quarter.points), 2), bool)  # axial, angular
+    for name, column in (("cut_x", 0), ("end", 0), ("cut_z", 1), ("cut_psi", 0), ("cut_psi", 1)):
+        held[np.unique(quarter.surfaces[name]), column] = True
+    wall = np.unique(quarter.surfaces["wall"])
+    held[wall] = True
+    moved = np.zeros(held.shape)
+    shapes = pocket_shapes(cage, (), pocket_count=1)
+    moved[wall] = _wall_steps(quarter.points[wall], 0, cage, shapes, pitch_radius)
+    points = _moved(quarter.points, _harmonic(quarter.points, quarter.tets, moved, held))
+    for name, axis in (("cut_x", 0), ("cut_z", 2)):
+        points[np.unique(quarter.surfaces[name]), axis] = 0.0
+    return replace(quarter, points=points)
+
+
+def _moved(points: np.ndarray, steps: np.ndarray) -> np.ndarray:
+    """Points (n, 3) after axial [m] and angular [rad] steps (n, 2)."""
+    c, s = np.cos(steps[:, 1]), np.sin(steps[:, 1])
+    x, y, z = points.T
+    return np.column_stack([x + steps[:, 0], c * y - s * z, s * y + c * z])
 
 
 def _wall_steps(
-    points: np.ndarray, pocket: int, count: int, shapes: PocketShapes, pitch_radius: float
+    points: np.ndarray, pocket: int, cage: BallCage, shapes: PocketShapes, pitch_radius: float
 ) -> np.ndarray:
-    """Axial [m] and angular [rad] steps (n, 2) of vertices of a sound wall to the altered one."""
+    """Axial [m] and angular [rad] steps (n, 2) of vertices of a wall to the altered one."""
     shift, arc = shapes.centre[pocket]
-    x, y, t = pocket_frame(points, pocket, count).T
+    x, y, t = pocket_frame(points, pocket, len(shapes.radius)).T
     direction = np.column_stack([x, t]) / np.hypot(x, t)[:, None]
-    reach = wall_reach(direction, shapes.radius[pocket], shapes.slot[pocket])
-    new_x, new_t = (reach[:, None] * direction).T
+    height = y
+    for _ in range(_LEVELS if is_sphere(cage) else 1):
+        circle = level_radius(cage, shapes.radius[pocket], height, pitch_radius)
+        reach = wall_reach(direction, circle, shapes.slot[pocket])
+        new_x, new_t = (reach[:, None] * direction).T
+        height = np.sqrt(y**2 + t**2 - new_t**2)
     turn = np.arcsin(new_t / np.hypot(y, t)) - np.arctan2(t, y)
     return np.column_stack([new_x + shift - x, turn + arc / pitch_radius])
 
 
-def _harmonic(mesh: CageMesh, values: np.ndarray, held: np.ndarray) -> np.ndarray:
+def _harmonic(
+    points: np.ndarray, every: np.ndarray, values: np.ndarray, held: np.ndarray
+) -> np.ndarray:
     """Each column of ``values`` (n, 2) where it is ``held``, and harmonic between."""
     from scipy.sparse.linalg import splu
 
     loose = ~(held[:, 0] & held[:, 1])
-    tets = mesh.tets[loose[mesh.tets].any(axis=1)]
-    corners = mesh.points[tets]
+    tets = every[loose[every].any(axis=1)]
+    corners = points[tets]
     edges = corners[:, 1:] - corners[:, :1]
     inverse = np.linalg.inv(edges)  # columns: gradients of the corners 1 to 3
     gradients = np.concatenate([-inverse.sum(axis=2, keepdims=True), inverse], axis=2)

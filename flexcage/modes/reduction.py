@@ -139,7 +139,7 @@ def _(cage: BallCage, defects: Sequence[BallCageDefect], reduced: Reduced) -> Ba
         weights = wall_weights(model, wall_stations(), shapes, cage)
         return {"static": static_compliance(reduced.solver(), weights, count)}
 
-    key = content_hash(BALL_VERSION, reduced.key, cage, shapes)
+    key = content_hash(BALL_VERSION, reduced.key, cage.bore, cage.outside_diameter, shapes)
     static = cached_arrays("compliance", key, make)["static"]
     return ball_cage_interface(
         reduced.model,

@@ -7,10 +7,12 @@ from dataclasses import dataclass
 import numpy as np
 
 from flexcage.fem.model import FEModel
+from flexcage.mesh.cage_mesh import POCKET_GROUPS, WALL_GROUPS, pocket_groups
 from flexcage.modes.basis import ModeBasis
-from flexcage.modes.pockets import pocket_loads
+from flexcage.modes.pockets import pocket_frame, pocket_loads
 
-_GROUPED = ("crossbeam", "side_beam")
+_WINDOW = ("crossbeam", "side_beam")
+_ROUND = ("web", "rim")
 
 
 @dataclass(frozen=True)
@@ -20,7 +22,9 @@ class ModeTable:
     ``effective_mass`` [kg]: the part of the body's mass that translations along x, y, z couple to
     the mode; zero for modes of a free body, and a check that they are. ``share``: the part of the
     static deflection under a uniform force on a crossbeam (front face, pocket 0) and on a side
-    beam (+x face) that the mode carries, of all dynamic modes and residual vectors together.
+    beam (+x face) that the mode carries, of all dynamic modes and residual vectors together. With
+    round pockets the forces are spread as a cosine over half of the wall, along +psi (on the web)
+    and +x (on the rim).
     """
 
     frequency: np.ndarray  # (n,) Hz
@@ -28,12 +32,14 @@ class ModeTable:
     effective_mass: np.ndarray  # (n, 3)
     share: np.ndarray  # (n, 2)
     residual_share: np.ndarray  # (2,)
+    loaded: tuple[str, str] = _WINDOW  # what the two forces act on
 
     def __str__(self) -> str:
+        first, second = (name.replace("_", " ") for name in self.loaded)
         head = f"{'no':>4s}  {'kind':<12s} {'frequency':>12s} {'eff. mass':>10s}"
         lines = [
             f"{'':42s}  share of deflection under a force on",
-            f"{head}  {'crossbeam':>12s} {'side beam':>12s}",
+            f"{head}  {first:>12s} {second:>12s}",
         ]
         for i, frequency in enumerate(self.frequency):
             row = f"{i + 1:4d}  {self.kind[i]:<12s} {frequency:9.1f} Hz"
@@ -51,7 +57,7 @@ class ModeTable:
             "frequency": self.frequency,
             "kind": np.array(self.kind),
             **{f"effective_mass_{a}": self.effective_mass[:, i] for i, a in enumerate("xyz")},
-            **{f"share_{name}": self.share[:, i] for i, name in enumerate(_GROUPED)},
+            **{f"share_{name}": self.share[:, i] for i, name in enumerate(self.loaded)},
         }
 
 
@@ -64,7 +70,7 @@ def mode_table(model: FEModel, basis: ModeBasis, *, pocket_count: int) -> ModeTa
     shapes = basis.shapes.reshape(model.n_dof, -1)
     translation = np.einsum("i,ian->na", model.nodal_mass, basis.shapes)
     modal_mass = np.diag(basis.mass)
-    loads = pocket_loads(model, 0, pocket_count)[:, [0, 4]]
+    names, loads = _LOADS[pocket_groups(model.groups)](model, pocket_count)
     work = shapes.T @ loads
     carried = work * np.linalg.solve(basis.stiffness, work)
     residual = np.zeros(2)
@@ -79,4 +85,25 @@ def mode_table(model: FEModel, basis: ModeBasis, *, pocket_count: int) -> ModeTa
         effective_mass=translation**2 / modal_mass[:, None],
         share=carried / total,
         residual_share=residual / total,
+        loaded=names,
     )
+
+
+def _on_faces(model: FEModel, pocket_count: int) -> tuple[tuple[str, str], np.ndarray]:
+    return _WINDOW, pocket_loads(model, 0, pocket_count)[:, [0, 4]]
+
+
+def _on_wall(model: FEModel, pocket_count: int) -> tuple[tuple[str, str], np.ndarray]:
+    frame = pocket_frame(0, pocket_count)
+
+    def cosines(points: np.ndarray) -> np.ndarray:
+        x, _, t = frame @ points.T
+        return np.maximum(np.stack([t, x]), 0.0) / np.hypot(x, t)
+
+    weights = model.face_weights(model.group("pocket0_wall"), cosines).toarray()
+    spread = weights / weights.sum(axis=1, keepdims=True)
+    loads = [np.outer(row, frame[axis]).ravel() for row, axis in zip(spread, (2, 0))]
+    return _ROUND, np.stack(loads, axis=1)
+
+
+_LOADS = {POCKET_GROUPS: _on_faces, WALL_GROUPS: _on_wall}

@@ -160,7 +160,7 @@ def test_impossible_cages(change, sentence):
         (
             [EnlargedPocket(pocket=1, increase=1.5 * MM), EnlargedPocket(pocket=2, increase=MM)],
             "defects",
-            "let pockets 1 and 2 run into each other: web 2",
+            "Pockets 1 and 2 run into each other: web 2",
         ),
         (
             [SideBeamDefect(pocket=1, displacement=0.1 * MM)],

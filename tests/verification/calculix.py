@@ -60,20 +60,31 @@ def cage_model(name: str) -> FEModel:
 def solve(model: FEModel) -> Answer:
     """Free frequencies, and displacement and stress under the pressure."""
     with tempfile.TemporaryDirectory() as folder:
-        mesh = _mesh(model)
-        free = _run(Path(folder), "free", [*mesh, *_free_step()])
-        loaded = _run(Path(folder), "loaded", [*mesh, *_loaded_step(model)])
-    modes = np.array(_tables(free)["E I G E N V A L U E O U T P U T"])
+        frequencies = free_frequencies(model, Path(folder))
+        loaded = _run(Path(folder), "loaded", [*_mesh(model), *_loaded_step(model)])
     tables = _tables(loaded)
     moved = np.array(tables["displacements"])
     stress, place = np.array(tables["stresses"]), np.array(tables["global coordinates"])
     assert np.array_equal(stress[:, :2], place[:, :2])  # element and point
     voigt = stress[:, [2, 3, 4, 5, 7, 6]]  # ccx prints xy, xz, yz
     return Answer(
-        modes[_RIGID : _RIGID + FREQUENCIES, 3],
+        frequencies,
         np.hstack([model.nodes[moved[:, 0].astype(int) - 1], moved[:, 1:4]]),
         np.hstack([place[:, 2:5], voigt]),
     )
+
+
+def free_frequencies(model: FEModel, folder: Path) -> np.ndarray:
+    """First elastic frequencies (FREQUENCIES,) [Hz] of a free body, worked out in ``folder``."""
+    free = _run(folder, "free", [*_mesh(model), *_free_step()])
+    modes = np.array(_tables(free)["E I G E N V A L U E O U T P U T"])
+    return modes[_RIGID : _RIGID + FREQUENCIES, 3]
+
+
+def version() -> str:
+    """Of the ccx that is installed."""
+    said = subprocess.run(["ccx", "-v"], capture_output=True, text=True, check=False).stdout
+    return said.split()[-1]
 
 
 def _mesh(model: FEModel) -> list[str]:
@@ -175,10 +186,9 @@ def main() -> None:
     """Solve all cages and store what ``kept`` keeps."""
     if not available():
         raise SystemExit("ccx is not installed (Debian: apt-get install calculix-ccx)")
-    version = subprocess.run(["ccx", "-v"], capture_output=True, text=True, check=False).stdout
     models = {name: cage_model(name) for name in CAGES}
     cages = {name: kept(model, solve(model)) for name, model in models.items()}
-    stored = {"source": f"CalculiX {version.split()[-1]}", "cages": cages}
+    stored = {"source": f"CalculiX {version()}", "cages": cages}
     STORED.parent.mkdir(exist_ok=True)
     STORED.write_text(json.dumps(stored, indent=1) + "\n", encoding="utf-8")
 
