@@ -19,9 +19,9 @@ sys.path[:0] = [str(Path(__file__).parent)]
 
 def main(argv: list[str] | None = None) -> int:
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("what", choices=("solver", "fe", "peer", "scale", "study"))
+    parser.add_argument("what", choices=("solver", "fe", "peer", "scale", "study", "ball"))
     parser.add_argument("--json", action="store_true", help="one JSON object")
-    parser.add_argument("--case", type=Path, default=ROOT / "examples" / "n1013.toml")
+    parser.add_argument("--case", type=Path, help="default: n1013, or c7010 for ball")
     parser.add_argument("--fineness", default="medium", help="fe: fineness of the mesh")
     parser.add_argument("--solver", default="auto", help="fe: linear solver")
     parser.add_argument("--plot", type=Path, metavar="FILE", help="peer, scale: draw curves")
@@ -31,7 +31,10 @@ def main(argv: list[str] | None = None) -> int:
     import flexcage
 
     logging.basicConfig(level=logging.WARNING)
-    case = flexcage.load_case(args.case, overrides=dict(s.split("=", 1) for s in args.set))
+    file = args.case or ROOT / "examples" / ("c7010" if args.what == "ball" else "n1013")
+    case = flexcage.load_case(
+        file.with_suffix(".toml"), overrides=dict(s.split("=", 1) for s in args.set)
+    )
     if args.what == "solver":
         import solver_benchmark
 
@@ -44,6 +47,10 @@ def main(argv: list[str] | None = None) -> int:
         import scale_benchmark
 
         figures = scale_benchmark.measure(case, plot=args.plot)
+    elif args.what == "ball":
+        import ball_benchmark
+
+        figures = ball_benchmark.measure(case)
     elif args.what == "study":
         import study_benchmark
 

@@ -15,14 +15,13 @@ from flexcage.core.cache import cached_arrays
 from flexcage.core.hashing import content_hash
 from flexcage.core.jit import kernel_sources, source_hash
 from flexcage.results.recording import FIRST_STEP
-from flexcage.simulate import build_bearing, cage_mesh, cage_reduction
 from flexcage.solve.contract import DONE, LOG_FULL, OUTCOMES
 from flexcage.solve.integrators import INTEGRATORS
 from flexcage.solve.options import SolverOptions
+from flexcage.stages import assembled_start, build_bearing, cage_mesh, cage_reduction
 from flexcage.system.data import POWERS
 from flexcage.system.problem import new_samples
 from flexcage.system.scales import error_weights
-from flexcage.system.start import find_start
 
 SETTLE = 20e-3  # [s] of bearing time before the stored state
 RATE = 200e3  # [1/s] samples of the compared window
@@ -66,7 +65,7 @@ class Settled:
         self.stored = cached_arrays("benchmark", key, self._settle)
 
     def _settle(self) -> dict[str, np.ndarray]:
-        start = find_start(self.bearing, limit_force=self.case.limits.assembly_force)
+        start = assembled_start(self.case, self.bearing)
         self._sample(10, 1)
         out = self._advance(0.0, start.y, start.yd, np.array([SETTLE]), self.case.solver)
         memory = {f"memory_{k}": v for k, v in self.bearing.data.memory._asdict().items()}
@@ -104,6 +103,11 @@ class Settled:
         times = SETTLE + np.arange(1, n + 1) / RATE
         return self._advance(SETTLE, y, yd, times, solver, share=share)
 
+    def weights(self, share: float) -> np.ndarray:
+        """1/(allowed local error) of y at this share of the case's tolerance; 0: not tested."""
+        b = self.bearing
+        return error_weights(b.data.model, b.layout, self.case.solver.tolerance * share)
+
     def _sample(self, rows: int, stride: int) -> None:
         b = self.bearing
         b.data = b.data._replace(samples=new_samples(rows, stride, b.data.work.report))
@@ -120,7 +124,7 @@ class Settled:
     ) -> Outcome:
         b, times = self.bearing, np.asarray(times)
         method = INTEGRATORS["explicit" if solver.method == "auto" else solver.method]
-        weight = error_weights(b.data.model, b.layout, solver.tolerance * share)
+        weight = self.weights(share)
         state = method.new_state(t0, y, yd, weight=weight, h0=FIRST_STEP, n_quad=len(POWERS))
         ys, yds = np.zeros((len(times), len(y))), np.zeros((len(times), len(y)))
         quads = np.zeros((len(times), len(POWERS)))
@@ -136,16 +140,17 @@ class Settled:
         return Outcome(cpu, state.count.copy(), state.quad.copy(), ys, yds)
 
     def forces(self, ys: np.ndarray, yds: np.ndarray, times: np.ndarray) -> Forces:
-        """Forces at sampled states, evaluated anew: normal and traction of every race contact;
+        """Forces at sampled states, evaluated anew: normal and tractions of every race contact;
         (x, r, psi) of every pocket face, and the land's force on the cage.
 
         Contacts remember what they do in the stored state, so that equal states have equal forces.
         """
         self.restore()
         report, race, cage = self.bearing.data.work.report, [], []
+        kept = {"roller": (0, 1), "ball": (0, 2, 3)}[self.bearing.family.element]
         for t, y, yd in zip(times, ys, yds, strict=True):
             self.bearing.residual(float(t), y, yd, mode=2)
-            race.append(report.race[:, :, :2].reshape(-1, 2).copy())
+            race.append(report.race[:, :, kept].reshape(-1, len(kept)).copy())
             faces = report.station.sum(axis=2).reshape(-1, 3)
             cage.append(np.concatenate([faces, report.land[None]]))
         return Forces(np.array(race), np.array(cage))

@@ -16,7 +16,7 @@ DAMPED = {  # inelastic races, so that the start's oscillations die out; a cage 
     "cage.pocket_diameter": "10.4 mm",
     "contacts.race.normal.restitution": 0.1,
     "contacts.race.normal.speed_floor": "0.05 m/s",
-    "solver.duration": "0.2 s",
+    "solver.duration": "0.12 s",
     "output.rate": "10 kHz",
     "output.vibration_rate": "10 kHz",
 }
