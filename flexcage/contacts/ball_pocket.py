@@ -3,8 +3,8 @@
 The pocket may be a slot (its axis drawn out to a line), larger or displaced. The wall's motion by
 the cage's modes is known at stations round the pocket and interpolated smoothly between them; what
 modes do not carry of a wall's yielding is a compliance of each station, in series with the
-contact's own. Forces are slopes of one energy: where the wall's displacement changes round the
-pocket, the force leans.
+contact's own. Forces are slopes of one energy: where the wall's displacement or compliance changes
+round the pocket, the force leans.
 """
 
 from __future__ import annotations
@@ -94,27 +94,32 @@ def pocket_wall_contact(
     weight, slope = smooth_weights(place - first)
     nst = data.phi.shape[2]
     u = du = ud = (0.0, 0.0, 0.0)
-    soft = 0.0
+    soft = softer = 0.0
     for k in range(4):
         s = (int(first) + k - 1 + nst) % nst
         here, rate = _wall(data, i, s, q), _wall(data, i, s, qd)
         u, ud = combine(u, weight[k], here), combine(ud, weight[k], rate)
         du = combine(du, slope[k] * nst / (2.0 * pi), here)
         soft += weight[k] * data.local[i, s]
+        softer += slope[k] * nst / (2.0 * pi) * data.local[i, s]
     depth = reach - play - dot(u, n)
     if depth <= 0.0:
         return False
     # slope of the depth: along n, and round the pocket as the wall's displacement changes there
     across = (u[0], data.sphere * u[1], u[2])
     push = combine(n, -1.0 / reach, combine(across, -dot(across, n), n))
+    round_it = (0.0, 0.0, 0.0)  # slope of the angle
     if flat > 0.0:
-        push = combine(push, -dot(du, n) / (flat * flat), (t, 0.0, -x))
+        round_it = times(1.0 / (flat * flat), (t, 0.0, -x))
+        push = combine(push, -dot(du, n), round_it)
     rate = _along(push, v, pw) - dot(ud, n)
-    N, pressed, eased = _press(depth, rate, max(soft, 0.0), p, law, sl)
+    softening = softer * _along(round_it, v, pw)
+    N, pressed = _press(depth, rate, soft, softening, p, law, sl)
     if mode >= 2:
         elastic_forces(law, 1, sl, p)
-        sums[0] = sl.Ne[0] * pressed / (p[1] + 1.0) + 0.5 * max(soft, 0.0) * sl.Ne[0] * sl.Ne[0]
-        sums[1] = -(N - sl.Ne[0]) * rate
+        Ne = sl.Ne[0]
+        sums[0] = Ne * pressed / (p[1] + 1.0) + 0.5 * soft * Ne * Ne
+        sums[1] = -(N - Ne) * (rate - 0.5 * (N + Ne) * softening)
     if N <= 0.0:
         return True
     # friction, where the ball touches the wall
@@ -127,6 +132,7 @@ def pocket_wall_contact(
     friction_factors(friction, 1, sl, data.friction)
     drag = times(-N * sl.g[0], slip)
     total = combine(drag, -N, _in_frame(push, pw))
+    total = combine(total, 0.5 * N * N * softer, _in_frame(round_it, pw))
     moment = cross(arm, drag)
     for c in range(3):
         wrench[c] += total[c]
@@ -172,10 +178,11 @@ def _along(a, v, pw):
 
 
 @part
-def _press(depth, rate, soft, p, law, sl):
-    """Force of a contact in series with a compliance; its own depth, and its share of the rate.
+def _press(depth, rate, soft, softening, p, law, sl):
+    """Force of a contact in series with a compliance, and the contact's own depth.
 
-    Both bear the elastic force of the contact's own depth d: d + soft K d^n = depth.
+    Both bear the elastic force of the contact's own depth d: d + soft K d^n = depth; ``rate`` and
+    ``softening`` are those of depth and compliance.
     """
     d, stiff = depth, 0.0
     if soft > 0.0:
@@ -188,7 +195,7 @@ def _press(depth, rate, soft, p, law, sl):
                 break
         d = max(d, 0.0)
         stiff = soft * p[1] * p[0] * d ** (p[1] - 1.0)
-    eased = 1.0 / (1.0 + stiff)
-    sl.d[0], sl.v[0] = d, rate * eased
+    force = p[0] * d ** p[1]
+    sl.d[0], sl.v[0] = d, (rate - force * softening) / (1.0 + stiff)
     normal_forces(law, 1, sl, p)
-    return sl.N[0], d, eased
+    return sl.N[0], d

@@ -49,8 +49,8 @@ def groove_contact(rb, race, P, b, V, w, Vr, wr, p, law, friction, sl, wrench, m
     P: ball centre from the ring's centre; b: ring axis; V, w and Vr, wr: velocities and angular
     velocities of ball and ring; all in one frame. From mode 2 on ``sums``: normal force, contact
     angle, traction along the rolling direction and across it, sliding speed in the middle, elastic
-    energy, power of damping, friction and rolling resistance. ``sums[1]`` of a ball that does not
-    touch is the angle of the line of centres, ``sums[4]`` the speed at which it approaches.
+    energy, power of damping, friction and rolling resistance, and speed of approach; angle and
+    approach also of a ball that does not touch.
     """
     if mode >= 2:
         zero(sums)
@@ -66,7 +66,7 @@ def groove_contact(rb, race, P, b, V, w, Vr, wr, p, law, friction, sl, wrench, m
     sl.d[0], sl.v[0] = reach - race.radius + rb, dot(n, v)
     if mode >= 2:
         sums[1] = atan2(race.side * dot(n, b), race.side * dot(n, e))
-        sums[4] = sl.v[0]
+        sums[9] = sl.v[0]
     if sl.d[0] <= 0.0:
         return False
     normal_forces(law, 1, sl, p)

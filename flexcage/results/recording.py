@@ -123,7 +123,8 @@ class Recorder:
         y, yd = self.integrator.last(self.state)
         step = self.bearing.stable_step(self.time, y, yd, self.weight)
         self.bound = min(self.bound, step)
-        method = "explicit" if step >= self.solver.stable_step else "bdf"
+        small = self.bearing.family.implicit and step < self.solver.stable_step
+        method = "bdf" if small else "explicit"
         if method != self.integrator.name:
             log.debug("%s from t = %.4f ms on: explicit steps up to %.3g us are stable", method,
                       self.time * 1e3, step * 1e6)  # fmt: skip

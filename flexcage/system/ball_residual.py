@@ -117,11 +117,9 @@ def _add(total, wrench):
 def _report_race(i, side, sums, rep):
     closed = 1 if sums[0] > 0.0 else 0
     rep.contact[i, side] = closed
-    rep.approach[i, side] = sums[4]
+    rep.approach[i, side] = sums[9]
     for c in range(5):
         rep.race[i, side, c] = sums[c]
-    if closed == 0:
-        rep.race[i, side, 4] = 0.0
     rep.energy[2] += sums[5]
     rep.power[3] += sums[6]
     rep.power[4] += sums[7]

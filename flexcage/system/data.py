@@ -102,7 +102,7 @@ class Scratch(NamedTuple):
     A: np.ndarray  # (3, 3) cage attitude
     unit: np.ndarray  # (3, 3) unit matrix
     roller: np.ndarray  # (6,) wrench of all contacts on one roller
-    sums: np.ndarray  # (9,)
+    sums: np.ndarray  # (10,)
     vec: np.ndarray  # (9, 3), see residual.py
     border: np.ndarray  # (nb,) generalised forces on the border
     Lm: np.ndarray  # (6, n) roller-modal products
@@ -143,7 +143,7 @@ def new_work(
         z((Z, places), np.int64), z((Z, places)), z(3),
     )  # fmt: skip
     scratch = Scratch(
-        z((6, 6)), z((2, 6, 6)), z((2, 3, 3)), z((3, 3)), np.eye(3), z(6), z(9), z((9, 3)),
+        z((6, 6)), z((2, 6, 6)), z((2, 3, 3)), z((3, 3)), np.eye(3), z(6), z(10), z((9, 3)),
         z(14 + n), z((6, n)), z((n, 6)), z((n, 8)), z(layout.size),
     )  # fmt: skip
     return Work(

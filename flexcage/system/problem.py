@@ -16,6 +16,7 @@ from numba import types
 
 from flexcage.contacts import laws
 from flexcage.contacts.spec import Contacts
+from flexcage.core.errors import InputError
 from flexcage.core.jit import LEAN, OPTIONS, allocating_kernel, boxed
 from flexcage.solve import runge_kutta
 from flexcage.solve.bordered import Bordered, new_bordered
@@ -43,6 +44,7 @@ PROBLEM: dict[str, tuple[Callable[..., Any], tuple[Any, ...]]] = {
     "note": (sampling.note, (_NONE, _REAL, None)),
     "sample": (rates.sample, (_NONE, _COUNT, _REAL, _VECTOR, _VECTOR, None)),
 }
+_OF_TANGENT = ("linearise", "factor", "backsolve")
 
 
 class Events(NamedTuple):
@@ -162,6 +164,12 @@ class Bearing:
 
     def function(self, name: str) -> Any:
         """A function that ``PROBLEM`` names, compiled for this bearing when first asked for."""
+        if name in _OF_TANGENT and not self.family.implicit:
+            raise InputError(
+                f"A bearing's {self.family.element}s have no tangent yet, which implicit methods "
+                'want; take solver.method = "auto" or "explicit".',
+                where="solver.method",
+            )
         if name not in self._functions:
             compiled: Any = numba.njit(self.signature(name), **LEAN)
             self._functions[name] = compiled(PROBLEM[name][0])

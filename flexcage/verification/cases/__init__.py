@@ -1,13 +1,16 @@
 """One file a case; ``IN_ORDER`` is the order in which the chapter reads."""
 
 from flexcage.verification.cases import (
+    ball_race_run,
     ball_ratings,
     ball_speed,
+    ball_speed_run,
     ball_statics,
     beam,
     epicyclic_run,
     flexible_body,
     flexible_body_on_a_face,
+    free_ball_bearing,
     free_bearing,
     free_rigid_body,
     friction,
@@ -58,8 +61,11 @@ IN_ORDER = (
     static_load.CASE,
     race_impact.CASE,
     sliding_to_rolling.CASE,
+    ball_race_run.CASE,
+    ball_speed_run.CASE,
     epicyclic_run.CASE,
     land_rebound.CASE,
     free_bearing.CASE,
+    free_ball_bearing.CASE,
     lossless_bounce.CASE,
 )

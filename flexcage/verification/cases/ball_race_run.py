@@ -1,0 +1,109 @@
+"""Balls that strike the outer groove, and balls that slide along it until they roll."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from flexcage.core.errors import RunFailed
+from flexcage.verification.c7010 import (
+    ELASTIC,
+    NO_OIL,
+    SMOOTH,
+    balls_on_outer,
+    bearing_of,
+    c7010,
+    march,
+)
+from flexcage.verification.known_answer import KnownAnswer, Row, Tolerance
+
+SPEED, GAP = 0.5, 2e-6  # m/s outwards, m
+FLIGHT = {
+    "drive.speed": "0 rpm",
+    "load.axial": "0 N",
+    "solver.duration": "80 us",
+    "solver.tolerance": "0.00001 um",
+    "output.rate": "5 MHz",
+    "output.vibration_rate": "5 MHz",
+}
+MU, ORBIT = 0.1, 200.0  # friction of the outer race; rad/s of the balls' orbit
+SLIDE = {
+    "drive.speed": "0 rpm",
+    "load.axial": "0 N",
+    "contacts.race.friction.law": "step_coulomb",
+    "contacts.race.friction.static": MU,
+    "contacts.race.friction.dynamic": MU,
+    "contacts.race.friction.v_static": "0.001 m/s",
+    "contacts.race.friction.v_dynamic": "0.002 m/s",
+    "contacts.pocket.friction.law": "none",
+    "cage.material.density": "1e-3 kg/m^3",  # or it would push the balls along
+    "solver.duration": "25 ms",
+    "output.rate": "20 kHz",
+    "output.vibration_rate": "20 kHz",
+}
+STEPS = Tolerance(1e-3, "the solver's step and tolerance in a contact of 40 us")
+CREEP = Tolerance(2e-3, "friction of 1 mm/s creep, and differential slip across the groove")
+
+
+def impact_rows() -> Iterator[Row]:
+    for e in (1.0, 0.7):
+        law = ELASTIC if e == 1.0 else {"contacts.race.normal.restitution": e}
+        case = c7010(SMOOTH, NO_OIL, FLIGHT, law)
+        bearing = bearing_of(case)
+        y, yd = balls_on_outer(bearing)
+        bearing.layout.q(y)["rollers"][:, 1] -= GAP
+        for part in (bearing.layout.u(y), bearing.layout.q(yd)):
+            part["rollers"][:, 1] = SPEED
+        ds = march(case, bearing, y, yd).isel(ball=0)
+        back = -float(ds["ball_velocity"].sel(cyl="r").min())  # before it meets the inner race
+        yield Row(f"restitution {e:g}: speed back", "m/s", e * SPEED, back, STEPS)
+        if e == 1.0:
+            K, mass = bearing.data.memory.race[0, 1, 0], bearing.data.model.bodies.element[0]
+            depth = (1.25 * mass * SPEED**2 / K) ** 0.4
+            force = ds["contact_force"].sel(race="outer").values
+            yield Row("elastic: largest force", "N", K * depth**1.5, float(force.max()), STEPS)
+
+
+def sliding_rows() -> Iterator[Row]:
+    case = c7010(NO_OIL, SLIDE)
+    bearing = bearing_of(case)
+    y, yd = balls_on_outer(bearing)
+    u, rate = bearing.layout.u(y), bearing.layout.q(yd)
+    radius = float(bearing.layout.q(y)["rollers"][0, 1])
+    first = radius * ORBIT
+    u["rollers"][:, 2], rate["rollers"][:, 2] = first, ORBIT
+    u["omega"][0], rate["quaternion"][1] = ORBIT, 0.5 * ORBIT
+    ds = march(case, bearing, y, yd)
+    if float(ds["contact_force"].sel(race="inner").max()) > 0.0:
+        raise RunFailed("a ball touched the inner race: the closed form is not tried")
+    speed = ds["ball_velocity"].sel(cyl="psi").mean("ball").values
+    spin = -ds["ball_omega"].sel(cyl="x").mean("ball").values
+    time, size = ds["time"].values, 0.5 * case.bearing.ball_diameter
+    rolling = 0.4 * radius / (MU * first)  # when first/(1 + mu first t/r) is 5/7 of the first
+    for share in (0.25, 0.5, 0.75):
+        at = int(np.argmin(np.abs(time - share * rolling)))
+        expected = first / (1.0 + MU * first * time[at] / radius)
+        yield Row(f"speed at {share:.0%} of the sliding", "m/s", expected, speed[at], CREEP)
+        yield Row(f"surface speed of spin at {share:.0%} of the sliding", "m/s",
+                  2.5 * (first - expected), size * spin[at], CREEP)  # fmt: skip
+    yield Row("speed when it rolls", "m/s", first / 1.4, speed[-1], CREEP)
+    yield Row("surface speed of spin then", "m/s", first / 1.4, size * spin[-1], CREEP)
+
+
+def rows() -> Iterator[Row]:
+    yield from impact_rows()
+    yield from sliding_rows()
+
+
+CASE = KnownAnswer(
+    name="ball_race_run",
+    title="Balls that strike a race, and balls that slide until they roll",
+    source="closed form: depth (5 m v^2/(4 K))^(2/5) of an elastic Hertz impact; along a race of "
+    "radius r, with N = m v^2/r, a sphere's v = v0/(1 + mu v0 t/r), down to 5/7 v0",
+    checks="All balls of a 7010C fly at 0.5 m/s against the bottom of the outer groove and come "
+    "back. All balls orbit at 200 rad/s without spin and without load, friction 0.1 on the outer "
+    "race: speed and spin on the way and at the end.",
+    rows=rows,
+    quick=False,
+)

@@ -1,0 +1,97 @@
+"""A ball bearing that nothing holds across its axis: its momentum stays; nothing is lost."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Any
+
+import numpy as np
+
+from flexcage.core.errors import RunFailed
+from flexcage.system.problem import Bearing
+from flexcage.verification.c7010 import (
+    ELASTIC,
+    NO_OIL,
+    SMOOTH,
+    balls_on_outer,
+    bearing_of,
+    c7010,
+    march,
+)
+from flexcage.verification.known_answer import KnownAnswer, Row, Tolerance
+
+SPEED, DIRECTION, SPIN = 0.3, 0.4, 10.0  # m/s, rad, rad/s of the cage
+FREE = {
+    "drive.speed": "0 rpm",
+    "load.axial": "0 N",
+    "load.tilt": "free",
+    "mount.kind": "bushing",  # as good as none
+    "mount.stiffness": "1e-6 N/m",
+    "mount.damping": "0 N*s/m",
+    "contacts.race.friction.law": "none",  # the outer ring does not turn
+    "solver.duration": "10 ms",
+    "solver.tolerance": "0.0001 um",
+    "output.rate": "100 kHz",
+    "output.vibration_rate": "200 kHz",
+}
+KEPT = Tolerance(1e-5, "share of the throw's; falls with solver.tolerance", absolute=True)
+LOSSLESS = Tolerance(1e-3, "share of the throw's energy, in several blows", absolute=True)
+
+
+def momentum(bearing: Bearing, ds: Any) -> tuple[np.ndarray, np.ndarray]:
+    """Momentum across the axis (time, 2) [kg m/s] and angular momentum about it (time,)."""
+    model = bearing.data.model
+    mass, inertia, _ = model.bodies.element
+    r, psi = (ds["ball_position"].sel(cyl=c).values for c in ("r", "psi"))
+    radial, around = (ds["ball_velocity"].sel(cyl=c).values for c in ("r", "psi"))
+    cos, sin = np.cos(psi), np.sin(psi)
+    across = np.stack([radial * cos - around * sin, radial * sin + around * cos])
+    linear = mass * across.sum(axis=2).T
+    spin = ds["ball_omega"].sel(cyl="x").values
+    angular = (mass * r * around + inertia * spin).sum(axis=1)
+    for name, m in {
+        "inner": model.bodies.ring[0], "outer": model.bodies.outer[0], "cage": model.cage.mass,
+    }.items():  # fmt: skip
+        at, v = (ds[f"{name}_{what}"].values[:, 1:] for what in ("position", "velocity"))
+        linear = linear + m * v
+        angular = angular + m * (at[:, 0] * v[:, 1] - at[:, 1] * v[:, 0])
+    polar = np.diag(np.trace(model.cage.G0) * np.eye(3) - model.cage.G0)
+    return linear, angular + polar[0] * ds["cage_omega"].sel(axis="x").values
+
+
+def rows() -> Iterator[Row]:
+    for name, table in (
+        ("elastic contacts", {**ELASTIC, **SMOOTH}), ("contacts with losses", {}),
+    ):  # fmt: skip
+        case = c7010(NO_OIL, FREE, table)
+        bearing = bearing_of(case)
+        y, yd = balls_on_outer(bearing)
+        layout = bearing.layout
+        layout.u(y)["omega"][0], layout.q(yd)["quaternion"][1] = SPIN, 0.5 * SPIN
+        thrown = SPEED * np.array([np.cos(DIRECTION), np.sin(DIRECTION)])
+        layout.u(y)["cage"][1:] = layout.q(yd)["cage"][1:] = thrown
+        ds = march(case, bearing, y, yd)
+        if min(float(ds[f].max()) for f in ("pocket_force", "contact_force")) < 1.0:
+            raise RunFailed("the cage struck no ball, or no ball a race: nothing was tried")
+        linear, angular = momentum(bearing, ds)
+        throw = bearing.data.model.cage.mass * SPEED
+        drift = np.abs(linear - linear[0]).max() / throw
+        yield Row(f"{name}: drift of momentum", "", 0.0, float(drift), KEPT)
+        drift = np.abs(angular - angular[0]).max() / abs(angular[0])
+        yield Row(f"{name}: drift of angular momentum", "", 0.0, float(drift), KEPT)
+        if table:
+            energy = ds["energy"].sum("energy_kind").values
+            drift = np.abs(energy - energy[0]).max() / (0.5 * throw * SPEED)
+            yield Row(f"{name}: drift of energy", "", 0.0, float(drift), LOSSLESS)
+
+
+CASE = KnownAnswer(
+    name="free_ball_bearing",
+    title="A ball bearing that nothing holds",
+    source="conservation of momentum, of angular momentum about the bearing's axis, and of energy",
+    checks="No load, no weight, no oil, and an outer ring on a bushing of 1e-6 N/m: a cage thrown "
+    "at 0.3 m/s and turning at 10 rad/s strikes balls at rest, and they the races; the inner ring "
+    "may tilt.",
+    rows=rows,
+    quick=False,
+)

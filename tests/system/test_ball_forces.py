@@ -1,0 +1,120 @@
+"""Forces of a ball bearing: slopes of one energy, in balance, and the same from any side."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from ball_parts import ball_bearing, contacts_of, pressed
+from scipy.spatial.transform import Rotation
+
+from flexcage.contacts.spec import Lubricant
+
+
+def energy(bearing, y):
+    bearing.residual(0.0, y, np.zeros_like(y), mode=2)
+    return float(bearing.data.work.report.energy[1:].sum())
+
+
+def slots(interface):
+    """Pockets that are no circles any more: slots, shifted, wider."""
+    interface.slot[::3, 1] = 20e-6
+    interface.slot[1::3, 0] = 15e-6
+    interface.centre[::2] = 10e-6, -8e-6
+    interface.radius[::4] += 5e-6
+
+
+@pytest.mark.parametrize("change", [None, slots], ids=["round", "slots"])
+def test_forces_are_the_slopes_of_the_energy(change):
+    """Of balls, ring (tilts too), cage (turned about each axis) and every mode."""
+    bearing = ball_bearing(change=change)
+    layout, y = bearing.layout, pressed(bearing)
+    force = -bearing.residual(0.0, y, np.zeros_like(y))
+    touching = bearing.data.work.report
+    rows = layout.u(force)
+
+    def slope(move, h):
+        high, low = y.copy(), y.copy()
+        move(layout.q(high), h)
+        move(layout.q(low), -h)
+        return -(energy(bearing, high) - energy(bearing, low)) / (2.0 * h)
+
+    def turn(axis):
+        def move(q, h):
+            now = Rotation.from_quat(q["quaternion"], scalar_first=True)
+            step = Rotation.from_rotvec(h * np.eye(3)[axis])
+            q["quaternion"][:] = (now * step).as_quat(scalar_first=True)
+
+        return move
+
+    def shift(name, *index):
+        def move(q, h):
+            q[name][index] += h
+
+        return move
+
+    found, expected = [], []
+    for i in range(layout.rollers):
+        r = layout.q(y)["rollers"][i, 1]
+        found += list(rows["rollers"][i, :3] * (1.0, 1.0, r))
+        expected += [slope(shift("rollers", i, c), (1e-9, 1e-9, 1e-9 / r)[c]) for c in range(3)]
+    found += [*rows["inner"][:3], *rows["cage"], *rows["modes"]]
+    expected += [slope(shift("inner", c), 1e-9) for c in range(3)]
+    expected += [slope(shift("cage", c), 1e-9) for c in range(3)]
+    expected += [slope(shift("modes", m), 1e-9) for m in range(layout.modes)]
+    scale = np.abs(expected).max()
+    np.testing.assert_allclose(found, expected, atol=2e-6 * scale)
+    moments = [*rows["inner"][4:6], *rows["omega"]]
+    levers = [slope(shift("inner", c), 3e-8) for c in (3, 4)] + [
+        slope(turn(a), 3e-8) for a in range(3)
+    ]
+    np.testing.assert_allclose(moments, levers, atol=2e-6 * np.abs(levers).max())
+    energy(bearing, y)
+    assert (touching.pocket_normal > 1.0).sum() > 5 and (touching.race[:, :, 0] > 1.0).sum() > 20
+
+
+def test_all_forces_balance():
+    """Friction, damping and rolling resistance included: balls clear of the outer race, inner ring
+    and cage push each other only."""
+    bearing = ball_bearing(
+        contacts=contacts_of("restitution", "step_coulomb"), lubricant=Lubricant(oil_fraction=0.0)
+    )
+    layout, y = bearing.layout, pressed(bearing, seed=3)
+    layout.q(y)["rollers"][:, 1] -= 15e-6
+    rng = np.random.default_rng(1)
+    u = layout.u(y)
+    u["rollers"][:] = rng.standard_normal((layout.rollers, 6)) * (0.1, 0.1, 0.1, 50, 50, 50)
+    u["inner"][:] = rng.standard_normal(6) * (0.1, 0.1, 0.1, 30, 5, 5)
+    u["cage"][:], u["omega"][:] = 0.1 * rng.standard_normal(3), 5.0 * rng.standard_normal(3)
+    yd = np.zeros_like(y)
+    bearing.residual(0.0, y, yd, mode=2)
+    work = bearing.data.work
+    q = layout.q(y)
+    border, report = work.scratch.border, work.report
+    psi, r = q["rollers"][:, 2], q["rollers"][:, 1]
+    # what acts on each ball, from its rows without inertia
+    rows = layout.u(-bearing.residual(0.0, y, yd))["rollers"].copy()
+    model = bearing.data.model
+    orbit = u["rollers"][:, 2] / r
+    mass, inertia = model.bodies.element[:2]
+    rows[:, 1] -= mass * orbit * u["rollers"][:, 2]
+    rows[:, 2] += mass * orbit * u["rollers"][:, 1]
+    rows[:, 4] -= inertia * orbit * u["rollers"][:, 5]
+    rows[:, 5] += inertia * orbit * u["rollers"][:, 4]
+    er = np.stack([0 * psi, np.cos(psi), np.sin(psi)], axis=1)
+    et = np.stack([0 * psi, -np.sin(psi), np.cos(psi)], axis=1)
+    ex = np.tile([1.0, 0.0, 0.0], (len(psi), 1))
+
+    def space(a):
+        return a[:, :1] * ex + a[:, 1:2] * er + a[:, 2:] * et
+
+    forces, couples = space(rows[:, :3]), space(rows[:, 3:])
+    at = q["rollers"][:, :1] * ex + r[:, None] * er
+    total = forces.sum(axis=0) + border[:3] + border[8:11]
+    assert np.abs(total).max() < 1e-10 * np.abs(forces).sum()
+    A = work.scratch.A
+    moment = (np.cross(at, forces) + couples).sum(axis=0)
+    moment = moment + np.cross(q["inner"][:3], border[:3]) + border[3:6]
+    moment = moment + np.cross(q["cage"], border[8:11]) + A @ border[11:14]
+    assert np.abs(moment).max() < 1e-9 * np.abs(np.cross(at, forces)).sum()
+    assert (report.pocket_friction > 0.0).any() and (report.race[:, 0, 0] > 0.0).all()
+    assert not (report.race[:, 1, 0] > 0.0).any()
