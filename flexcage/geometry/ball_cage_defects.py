@@ -143,7 +143,9 @@ def wall_reach(direction: np.ndarray, radius: float | np.ndarray, slot: np.ndarr
     """
     along, half = np.abs(direction), np.asarray(slot, float)
     radius = np.broadcast_to(radius, len(along))
-    with np.errstate(divide="ignore"):  # to the straight walls at +-psi and at +-x
+    with np.errstate(
+        divide="ignore", invalid="ignore"
+    ):  # to the straight walls at +-psi and at +-x
         flat = (half[::-1] + radius[:, None]) / along[:, ::-1]
     straight = [flat[:, i] * along[:, i] <= half[i] for i in range(2)]
     middle = along @ half

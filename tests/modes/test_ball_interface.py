@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from ball_parts import BALL_CAGE, BALL_DEFECTS, POCKETS, ball_mesh
+from modes_ball_cage import BALL_CAGE, BALL_DEFECTS, POCKETS, ball_mesh
 
 from flexcage.core.errors import InputError
 from flexcage.fem.free import FreeBodySolver
