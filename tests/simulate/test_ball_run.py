@@ -1,0 +1,136 @@
+"""Runs of ball bearings: complete, in balance, resumable, and near what statics and rolling say."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from simulate_cases import Interrupted
+
+from flexcage.case import load_case
+from flexcage.core.errors import InputError
+from flexcage.results.audit import energy_audit
+from flexcage.results.registry import VARIABLES, variables_of
+from flexcage.simulate import load_run, simulate
+
+BASE = {
+    "bearing": {"preset": "7010C-PI"},
+    "mesh": {"fineness": "coarse"},
+    "drive": {"speed": "4000 rpm"},
+    "load": {"axial": "100 N", "radial": "40 N", "tilt": "free"},
+    "output": {"block": 50},
+    "solver": {"duration": "10 ms"},
+}
+RIGID = {"cage.model": "rigid"}
+
+
+def c7010(*tables):
+    return load_case(BASE, overrides={k: v for table in tables for k, v in table.items()})
+
+
+@pytest.fixture(scope="module")
+def flexible(tmp_path_factory):
+    return simulate(c7010(), out=tmp_path_factory.mktemp("balls"))
+
+
+def test_every_variable_of_balls_is_there_and_finite(flexible):
+    ds = flexible.dataset
+    assert set(ds.data_vars) == set(variables_of("ball"))
+    for name, values in ds.data_vars.items():
+        assert np.isfinite(values.values).all(), name
+        assert values.attrs["units"] == VARIABLES[name].unit
+    assert ds["contact_force"].dims == ("time", "ball", "race") and ds.sizes["ball"] == 18
+    assert list(ds["face"].values) == ["pocket"]
+    assert set(flexible.events["place"].values) <= {"inner race", "outer race", "pocket"}
+
+
+def test_its_energy_balances_and_balls_roll(flexible):
+    audit = energy_audit(flexible.dataset)
+    assert audit.of_drive < 1e-4 and audit.of_cage < 0.02
+    s = flexible.summary
+    assert s["energy_audit"] == "passed"
+    assert abs(s["cage_slip_ratio"]) < 0.01 and abs(s["slip_loaded"]) < 0.01
+    outer, inner = (np.degrees(s[f"contact_angle_{race}"]) for race in ("outer", "inner"))
+    assert 13.0 < outer < inner < 19.0
+    assert 0.0 < s["pocket_force_peak"] < 50.0 and s["stress_peak"] > 1e4
+    assert s["explicit_steps"] == s["steps"]
+
+
+def test_the_ring_bears_its_loads(flexible):
+    """What the inner ring pushes balls with is, on average, its load and weight: their tractions
+    across the groove, which hold the gyroscopic moment, bear three hundredths of the axial load."""
+    ds = flexible.dataset.isel(time=slice(100, None)).sel(race="inner")
+    N, angle = ds["contact_force"].values, ds["contact_angle"].values
+    along, across = (ds["contact_traction"].sel(direction=d).values for d in ("rolling", "across"))
+    psi = ds["ball_position"].sel(cyl="psi").values
+    outwards = N * np.cos(angle) + across * np.sin(angle)
+    axial = (N * np.sin(angle) - across * np.cos(angle)).sum(axis=1).mean()
+    radial = (outwards * np.cos(psi) - along * np.sin(psi)).sum(axis=1).mean()
+    weight = flexible.case.bearing.inner_ring_mass * flexible.case.load.gravity
+    assert axial == pytest.approx(100.0, rel=2e-3)
+    assert radial == pytest.approx(40.0 + weight, rel=0.01)
+
+
+def test_a_run_comes_back_from_its_folder(flexible):
+    again = load_run(flexible.folder)
+    assert again.case == flexible.case and str(again.summary) == str(flexible.summary)
+
+
+def test_a_resumed_run_is_the_unbroken_one(tmp_path):
+    case = c7010(RIGID, {"solver.duration": "4 ms"})
+    whole = simulate(case)
+    with pytest.raises(KeyboardInterrupt):
+        simulate(case, out=tmp_path / "run", progress=Interrupted(2, 1e-3))
+    resumed = simulate(case, out=tmp_path / "run", resume=True)
+    for name in ("ball_position", "ball_omega", "cage_position", "contact_force", "work"):
+        assert np.array_equal(resumed.dataset[name].values, whole.dataset[name].values), name
+
+
+def test_contact_loads_of_a_thrust_bearing_are_those_published():
+    """7603025 under 3500 N and 1200 N at 2000 rpm: every ball's load, from the loaded side on."""
+    table = {
+        **BASE, "bearing": {"preset": "7603025"}, "drive": {"speed": "2000 rpm"},
+        "load": {"axial": "3500 N", "radial": "1200 N", "gravity": "0 m/s^2"},
+    }  # fmt: skip
+    case = load_case(table, overrides={**RIGID, "solver.duration": "1 ms"})
+    force = simulate(case).dataset["contact_force"].sel(race="inner").mean("time").values
+    published = (542.523, 514.965, 439.615, 335.616, 226.814, 133.675, 67.710, 30.199, 15.004)
+    pairs = [0.5 * (force[k] + force[-k]) for k in range(9)]  # the bearing turns a little
+    np.testing.assert_allclose(pairs, published, rtol=0.02, atol=1.5)
+
+
+def test_a_deformed_pocket_is_felt_where_it_is():
+    """A cage pressed forward meets the ball of a pocket that is displaced backwards first."""
+    from flexcage.stages import build_bearing, cage_mesh
+    from flexcage.verification.c7010 import bearing_of
+    from flexcage.verification.c7010 import c7010 as rigid
+
+    def touching(*defects):
+        case = rigid({"defects": list(defects)}) if defects else rigid()
+        bearing = build_bearing(case, cage_mesh(case), None) if defects else bearing_of(case)
+        layout, model = bearing.layout, bearing.data.model
+        y = np.zeros(layout.size)
+        q = layout.q(y)
+        q["rollers"][:, 1] = model.pocket.height
+        q["rollers"][:, 2] = 2 * np.pi * np.arange(18) / 18 + 0.2e-3 / model.pocket.height
+        q["quaternion"][0] = 1.0
+        bearing.residual(0.0, y, np.zeros_like(y), mode=2)
+        return set(np.flatnonzero(bearing.data.work.report.pocket_normal[:, 0] > 0.0))
+
+    assert touching() == set()
+    assert touching({"type": "displaced", "pocket": 3, "circumferential": "-0.1 mm"}) == {3}
+    assert touching({"type": "enlarged", "pocket": 4, "increase": "-0.2 mm"}) == {4}
+    slot = {
+        "type": "elongated",
+        "pocket": 4,
+        "direction": "circumferential",
+        "elongation": "0.2 mm",
+    }
+    assert touching({"type": "enlarged", "pocket": 4, "increase": "-0.2 mm"}, slot) == set()
+
+
+def test_what_balls_have_not_is_one_sentence():
+    with pytest.raises(InputError, match="balls have no tangent yet.*solver.method"):
+        simulate(c7010(RIGID, {"solver.method": "bdf"}))
+    narrow = load_case('[bearing]\npreset = "15x37x10"\n[load]\nradial = "100 N"\n')
+    with pytest.raises(InputError, match="leaves no rims in a cage 6.5 mm wide"):
+        simulate(narrow)
