@@ -1,0 +1,154 @@
+"""A virtual measurement of the cage's motion by lasers, and its inversion to the cage's centre.
+
+Two sensors look along -y and -z at the cage's outside, in a plane across the bearing axis at
+``plane`` [m] from the bearing's middle; three look along -x at its end face. A tilted cage shows
+the radial sensors another displacement than its centre has: by ``plane`` times the slope of its
+axis. The set-up, and the equations of ``by_tilt_angles``, are those of "Measurement and Dynamic
+Analysis of the Centroid Trajectories of Angular-Contact Ball Bearing Cages"; ``invert`` solves for
+the cage that shows just these readings.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import cos, pi, sin
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+from scipy.spatial.transform import Rotation
+
+from flexcage.core.errors import InputError
+
+if TYPE_CHECKING:
+    import xarray
+
+ITERATIONS = 20  # of the inversion; it gains five digits in each
+CHANNELS = ("Y", "Z", "X1", "X2", "X3")
+
+
+@dataclass(frozen=True, kw_only=True)
+class LaserSetup:
+    """Where the sensors are, and how good; lengths in metres, readings from a centred cage's."""
+
+    radius: float  # of the cage's outside
+    half_width: float  # from the cage's centre to the end face that is looked at
+    plane: float  # axial place of the radial sensors, seen from the bearing's middle
+    circle: float  # radius of the circle on which the axial sensors stand
+    angles: tuple[float, float, float] = (0.0, 2.0 * pi / 3.0, 4.0 * pi / 3.0)  # from y to z
+    repeatability: float = 0.0  # standard deviation of a reading
+    resolution: float = 0.0  # readings are whole multiples of it; 0: none
+    reach: float = np.inf  # readings beyond +-reach are not a number
+
+    @property
+    def spots(self) -> np.ndarray:
+        """Places (3, 2) as (y, z) of the axial sensors."""
+        return self.circle * np.array([(cos(a), sin(a)) for a in self.angles])
+
+
+def readings(
+    centre: np.ndarray, axis: np.ndarray, setup: LaserSetup, *, seed: int | None = None
+) -> np.ndarray:
+    """Readings (n, 5) [m] in the order of ``CHANNELS`` of a cage at ``centre`` (n, 3) with unit
+    ``axis`` (n, 3).
+
+    Lines of sight meet the cylinder and the plane exactly. ``seed`` adds the sensors' noise.
+    """
+    out = np.empty((len(centre), 5))
+    for k, component in enumerate((1, 2)):
+        start = np.zeros(3)
+        start[0] = setup.plane
+        direction = np.eye(3)[component]
+        out[:, k] = _cylinder(start, direction, centre, axis, setup.radius) - setup.radius
+    for k, (y, z) in enumerate(setup.spots):
+        across = axis[:, 1] * (y - centre[:, 1]) + axis[:, 2] * (z - centre[:, 2])
+        out[:, 2 + k] = centre[:, 0] + (setup.half_width - across) / axis[:, 0] - setup.half_width
+    if seed is not None:
+        out = out + setup.repeatability * np.random.default_rng(seed).standard_normal(out.shape)
+    if setup.resolution > 0.0:
+        out = setup.resolution * np.round(out / setup.resolution)
+    return np.where(np.abs(out) <= setup.reach, out, np.nan)
+
+
+def _cylinder(
+    start: np.ndarray, direction: np.ndarray, centre: np.ndarray, axis: np.ndarray, radius: float
+) -> np.ndarray:
+    """Distance (n,) along a line at which it leaves each of the cylinders."""
+    from_centre = start - centre
+    d = direction - (axis @ direction)[:, None] * axis
+    o = from_centre - np.einsum("ni,ni->n", from_centre, axis)[:, None] * axis
+    a, b = (d * d).sum(axis=1), (d * o).sum(axis=1)
+    root = np.sqrt(b * b - a * ((o * o).sum(axis=1) - radius**2))
+    return (root - b) / a
+
+
+def slopes(values: np.ndarray, setup: LaserSetup) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """x0, p, q (n,) of the end face x = x0 + p y + q z that three axial readings show."""
+    rows = np.column_stack([np.ones(3), setup.spots])
+    face = values[:, 2:] + setup.half_width
+    return tuple(np.linalg.solve(rows, face.T))  # type: ignore[return-value]
+
+
+def invert(values: np.ndarray, setup: LaserSetup) -> tuple[np.ndarray, np.ndarray]:
+    """Centre (n, 3) [m] and unit axis (n, 3) of the cage that shows these readings (n, 5)."""
+    x0, p, q = slopes(values, setup)
+    axis = np.column_stack([np.ones(len(p)), -p, -q])
+    axis /= np.linalg.norm(axis, axis=1, keepdims=True)
+    centre = np.zeros((len(p), 3))
+    for _ in range(ITERATIONS):
+        # the end face passes through the centre moved by half a width along the axis
+        end = centre[:, 1:] + setup.half_width * axis[:, 1:]
+        centre[:, 0] = x0 + p * end[:, 0] + q * end[:, 1] - setup.half_width * axis[:, 0]
+        missed = values[:, :2] - readings(centre, axis, _ideal(setup))[:, :2]
+        centre[:, 1:] += missed
+        if not np.nanmax(np.abs(missed), initial=0.0) > 1e-12:
+            break
+    return centre, axis
+
+
+def _ideal(setup: LaserSetup) -> LaserSetup:
+    return LaserSetup(
+        radius=setup.radius, half_width=setup.half_width, plane=setup.plane, circle=setup.circle,
+        angles=setup.angles,
+    )  # fmt: skip
+
+
+def by_tilt_angles(values: np.ndarray, setup: LaserSetup) -> np.ndarray:
+    """Centre (n, 2) as (y, z) [m] by the paper's equation: each sensor in a plane of its own.
+
+    d = Y - R (1 - cos(theta))/cos(theta) - plane tan(theta), theta the tilt that the end face
+    shows in the sensor's plane: exact for a cage that tilts in that plane alone.
+    """
+    _, p, q = slopes(values, setup)
+    theta = np.arctan(np.column_stack([-p, -q]))
+    lifted = setup.radius * (1.0 - np.cos(theta)) / np.cos(theta)
+    return values[:, :2] - lifted - setup.plane * np.tan(theta)
+
+
+def of_run(ds: xarray.Dataset) -> tuple[np.ndarray, np.ndarray]:
+    """Centre (n, 3) [m] and unit axis (n, 3) of a run's cage, seen from the outer ring."""
+    turn = Rotation.from_quat(ds["cage_quaternion"].values, scalar_first=True)
+    centre = ds["cage_position"].values - ds["outer_position"].values
+    return centre, turn.as_matrix()[:, :, 0]
+
+
+def load_readings(path: str | Path) -> np.ndarray:
+    """Readings (n, 5) [m] of a test rig from a CSV file: a line with the names Y, Z, X1, X2, X3 in
+    any order, then numbers in millimetres. Raises InputError for a file that has them not."""
+    path = Path(path)
+    try:
+        with path.open(encoding="utf-8") as file:
+            names = [name.strip() for name in file.readline().split(",")]
+            table = np.loadtxt(file, delimiter=",", ndmin=2)
+    except OSError as exc:
+        raise InputError(f"The readings '{path}' cannot be read: {exc.strerror}.") from exc
+    except ValueError as exc:
+        raise InputError(f"The readings '{path}' hold what is no number: {exc}.") from exc
+    lacking = [name for name in CHANNELS if name not in names]
+    if lacking:
+        raise InputError(
+            f"The readings '{path}' have no column '{lacking[0]}'; the first line must name "
+            f"{', '.join(CHANNELS)}, then numbers in mm.",
+            where=lacking[0],
+        )
+    return 1e-3 * table[:, [names.index(name) for name in CHANNELS]]

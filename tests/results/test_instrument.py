@@ -1,0 +1,75 @@
+"""The virtual lasers: known readings, an inversion that gives the cage back, real files."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from flexcage.core.errors import InputError
+from flexcage.results.instrument import (
+    LaserSetup,
+    by_tilt_angles,
+    invert,
+    load_readings,
+    readings,
+)
+
+SETUP = LaserSetup(radius=33e-3, half_width=10e-3, plane=15e-3, circle=31e-3)
+
+
+def tilted(about_z, about_y=0.0):
+    """Unit axis (1, 3) with slopes tan(about_z) in x-y and tan(about_y) in x-z."""
+    axis = np.array([[1.0, np.tan(about_z), np.tan(about_y)]])
+    return axis / np.linalg.norm(axis)
+
+
+def test_a_tilt_in_the_sensors_plane():
+    """dy 0.1 mm, R 33 mm, d 15 mm, 0.2 deg: 0.15256113874 mm by an independent program."""
+    out = readings(np.array([[0.0, 0.1e-3, 0.0]]), tilted(np.radians(0.2)), SETUP)
+    assert out[0, 0] == pytest.approx(0.15256113874e-3, abs=1e-14)
+    assert by_tilt_angles(out, SETUP)[0, 0] == pytest.approx(0.1e-3, abs=1e-13)
+
+
+def test_a_cross_tilt_and_shift_that_the_papers_equation_misses():
+    """A lateral shift of 0.12 mm and a cross tilt of 0.3 deg: off by -0.60 um."""
+    centre = np.array([[0.0, 0.1e-3, 0.12e-3]])
+    out = readings(centre, tilted(np.radians(0.2), np.radians(0.3)), SETUP)
+    off = by_tilt_angles(out, SETUP)[0, 0] - 0.1e-3
+    assert off == pytest.approx(-0.60e-6, abs=0.01e-6)
+    found, _ = invert(out, SETUP)
+    np.testing.assert_allclose(found, centre, atol=1e-11)
+
+
+def test_the_inversion_gives_any_cage_back():
+    rng = np.random.default_rng(4)
+    centre = 0.3e-3 * rng.standard_normal((200, 3))
+    axis = np.column_stack([np.ones(200), 0.004 * rng.standard_normal((200, 2))])
+    axis /= np.linalg.norm(axis, axis=1, keepdims=True)
+    found, direction = invert(readings(centre, axis, SETUP), SETUP)
+    np.testing.assert_allclose(found, centre, atol=1e-10)
+    np.testing.assert_allclose(direction, axis, atol=1e-13)
+
+
+def test_noise_resolution_and_reach():
+    centre, axis = np.zeros((4000, 3)), np.tile([1.0, 0.0, 0.0], (4000, 1))
+    noisy = LaserSetup(radius=33e-3, half_width=10e-3, plane=15e-3, circle=31e-3,
+                       repeatability=0.02e-6, resolution=0.01e-6, reach=3e-3)  # fmt: skip
+    out = readings(centre, axis, noisy, seed=1)
+    assert out.std() == pytest.approx(0.02e-6, rel=0.05)
+    np.testing.assert_allclose(out / 0.01e-6, np.round(out / 0.01e-6), atol=1e-6)
+    centre[:, 1] = 4e-3
+    assert np.isnan(readings(centre, axis, noisy)[:, 0]).all()
+
+
+def test_readings_of_a_rig(tmp_path):
+    file = tmp_path / "rig.csv"
+    file.write_text("X1,Y,Z,X2,X3\n1,2,3,4,5\n0,0,0,0,0\n")
+    np.testing.assert_allclose(load_readings(file)[0], [2e-3, 3e-3, 1e-3, 4e-3, 5e-3])
+    file.write_text("X1,Y,Z,X2\n1,2,3,4\n")
+    with pytest.raises(InputError, match="no column 'X3'"):
+        load_readings(file)
+    file.write_text("X1,Y,Z,X2,X3\n1,2,3,4,five\n")
+    with pytest.raises(InputError, match="what is no number"):
+        load_readings(file)
+    with pytest.raises(InputError, match="cannot be read"):
+        load_readings(tmp_path / "none.csv")
