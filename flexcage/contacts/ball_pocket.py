@@ -35,6 +35,7 @@ class BallPockets(NamedTuple):
     slot: np.ndarray  # (Z, 2) half of the axis' length, if it is drawn out, likewise
     radius: np.ndarray  # (Z,)
     height: float  # radius of the spheres' middles
+    wall: np.ndarray  # (2,) inner and outer radius of the cage's wall
     sphere: float  # 1.0: spheres, 0.0: cylinders
     phi: np.ndarray  # (Z, 1, nst, 3, nm) modes at the stations (x, r, psi), from +psi towards +x
     phi_max: np.ndarray  # (nm,) largest displacement of a wall along its normal

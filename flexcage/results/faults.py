@@ -23,7 +23,7 @@ DEEPEST = 0.25
 @singledispatch
 def overlaps(model: Any, layout: Layout, y: np.ndarray) -> np.ndarray:
     """Depths (n, Z, places) [m] of elements in both races and in faces of their pockets, negative
-    when apart, in states ``y`` (n, size).
+    when apart, in states ``y`` (n, size); of balls, too, how far outside the cage's wall they are.
 
     Bodies are as they were made, without waves and deflection; a wall lies where it is widest.
     """
@@ -75,7 +75,9 @@ def _(model: BallModel, layout: Layout, y: np.ndarray) -> np.ndarray:
     free = np.hypot(
         *(np.maximum(np.abs(d) - h, 0.0) for d, h in zip((aside, ahead), model.pocket.slot.T))
     )
-    return np.stack([*races, free - (model.pocket.radius - radius)], axis=-1)
+    away = np.hypot(seen[..., 1], seen[..., 2])
+    outside = np.maximum(model.pocket.wall[0] - away, away - model.pocket.wall[1])
+    return np.stack([*races, free - (model.pocket.radius - radius), outside], axis=-1)
 
 
 def runaway(bearing: Bearing, y: np.ndarray) -> tuple[int, str] | None:
@@ -89,6 +91,8 @@ def runaway(bearing: Bearing, y: np.ndarray) -> tuple[int, str] | None:
     number, place = np.unravel_index(int(np.argmax(share[first])), share.shape[1:])
     depth = share[first, number, place] * model.bodies.radius[number] * 1e3
     element = f"{bearing.family.element} {number}"
+    if place >= 2 + len(bearing.family.faces):
+        return first, f"{element} is {depth:.2g} mm outside its pocket, the cage came off"
     return first, f"{element} lies {depth:.2g} mm deep in its {_place(bearing, int(place))}"
 
 

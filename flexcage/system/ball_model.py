@@ -151,6 +151,7 @@ def _pockets(
         slot=st(interface.slot),
         radius=st(interface.radius),
         height=0.5 * bearing.pitch_diameter,
+        wall=0.5 * np.array([cage.bore, cage.outside_diameter]),
         sphere=float(cage.pocket_shape == "spherical"),
         phi=st(interface.modes[:, None]),
         phi_max=np.abs(normal).max(axis=(0, 1)) if n else np.zeros(0),

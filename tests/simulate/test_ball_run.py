@@ -7,7 +7,7 @@ import pytest
 from simulate_cases import Interrupted
 
 from flexcage.case import load_case
-from flexcage.core.errors import InputError
+from flexcage.core.errors import InputError, RunFailed
 from flexcage.results.audit import energy_audit
 from flexcage.results.registry import VARIABLES, variables_of
 from flexcage.simulate import load_run, simulate
@@ -126,6 +126,18 @@ def test_a_deformed_pocket_is_felt_where_it_is():
         "elongation": "0.2 mm",
     }
     assert touching({"type": "enlarged", "pocket": 4, "increase": "-0.2 mm"}, slot) == set()
+
+
+def test_a_cage_that_comes_off_ends_the_run():
+    """Nothing but traction holds a cage with radial holes across the axis; without any, and out of
+    balance, it is thrown off."""
+    smooth = {f"contacts.{p}.friction.law": "none" for p in ("race", "pocket")}
+    case = c7010(RIGID, smooth, {
+        "drive.speed": "10000 rpm", "cage.unbalance": "5 g*mm", "solver.duration": "0.2 s",
+        "output.rate": "20 kHz", "output.vibration_rate": "20 kHz", "load.radial": "0 N",
+    })  # fmt: skip
+    with pytest.raises(RunFailed, match="outside its pocket, the cage came off at t = .* ms"):
+        simulate(case)
 
 
 def test_what_balls_have_not_is_one_sentence():
