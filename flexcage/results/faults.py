@@ -80,8 +80,9 @@ def _(model: BallModel, layout: Layout, y: np.ndarray) -> np.ndarray:
     return np.stack([*races, free - (model.pocket.radius - radius), outside], axis=-1)
 
 
-def runaway(bearing: Bearing, y: np.ndarray) -> tuple[int, str] | None:
-    """The first of the states ``y`` (n, size) in which a contact is too deep, and which it is."""
+def runaway(bearing: Bearing, y: np.ndarray) -> tuple[int, str, str] | None:
+    """The first of the states ``y`` (n, size) in which a contact is too deep, which it is, and what
+    to look at."""
     model = bearing.data.model
     share = overlaps(model, bearing.layout, y) / model.bodies.radius[:, None]
     bad = np.flatnonzero((share > DEEPEST).any(axis=(1, 2)))
@@ -92,8 +93,10 @@ def runaway(bearing: Bearing, y: np.ndarray) -> tuple[int, str] | None:
     depth = share[first, number, place] * model.bodies.radius[number] * 1e3
     element = f"{bearing.family.element} {number}"
     if place >= 2 + len(bearing.family.faces):
-        return first, f"{element} is {depth:.2g} mm outside its pocket, the cage came off"
-    return first, f"{element} lies {depth:.2g} mm deep in its {_place(bearing, int(place))}"
+        what = f"the cage came off, {element} is {depth:.2g} mm outside its pocket"
+        return first, what, "a land (cage.guidance) or spherical pockets would hold it"
+    what = f"{element} lies {depth:.2g} mm deep in its {_place(bearing, int(place))}"
+    return first, f"a contact ran away: {what}", "look at loads and contact stiffness"
 
 
 def hardest(bearing: Bearing, t: float, y: np.ndarray, yd: np.ndarray) -> str:

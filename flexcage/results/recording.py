@@ -191,8 +191,8 @@ class Recorder:
                 last = ratio * done - 1
                 self.store.keep_last({"time": times[last], "y": ys[last], "yd": yds[last]})
             raise RunFailed(
-                f"a contact ran away: {deep[1]} at t = {times[ratio * (done + 1) - 1] * 1e3:.4f} "
-                "ms; look at loads and contact stiffness; what was computed before is kept"
+                f"{deep[1]} at t = {times[ratio * (done + 1) - 1] * 1e3:.4f} ms; {deep[2]}; what "
+                "was computed before is kept"
             )
         if not whole:
             raise RunFailed(self._stopped(outcome))
