@@ -17,13 +17,14 @@ log = logging.getLogger(__name__)
 def solve_static(case: StaticCase | Case) -> StaticSolution:
     """Equilibrium of the inner ring of a case, at the start of its drive and load.
 
-    Of a simulation's case tilts are held or free as they are in the run.
+    Of a simulation's case tilts are held or free as they are in the run, and no race controls
+    balls.
     Raises InputError for a load that does not fit the bearing, RunFailed if none is found.
     """
     if isinstance(case, Case):
         case = StaticCase(
             name=case.name, preset=case.preset, bearing=case.bearing, contacts=case.contacts,
-            drive=case.drive, load=case.load, static=StaticOptions(tilt=case.load.tilt),
+            drive=case.drive, load=case.load, static=StaticOptions(tilt=case.load.tilt, gyroscopic="none"),
         )  # fmt: skip
     return solve_bearing(
         case.bearing, load=case.load, speed=case.speed, contacts=case.contacts, options=case.static

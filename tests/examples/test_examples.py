@@ -13,6 +13,7 @@ TESTED = {
     "ex03_defect_sweep",
     "ex04_study",
     "ex05_static",
+    "ex06_ball_bearing",
 }
 
 
@@ -47,6 +48,12 @@ def test_static(capsys):
     still, fast = example("ex05_static").main(0.0, 10000.0)
     assert abs(still) < 1e-9 and fast == pytest.approx(19.8114 - 10.6191, abs=1e-3)
     assert "N/um axially" in capsys.readouterr().out
+
+
+def test_ball_bearing():
+    rigid = {"mesh.fineness": "coarse", "cage.model": "rigid"}
+    inner, outer = example("ex06_ball_bearing").main(duration="10 ms", **rigid)
+    assert outer < 11.5 and 19.0 < inner
 
 
 def test_study(tmp_path):

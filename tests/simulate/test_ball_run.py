@@ -70,6 +70,19 @@ def test_the_ring_bears_its_loads(flexible):
     assert radial == pytest.approx(40.0 + weight, rel=0.01)
 
 
+def test_races_bear_the_gyroscopic_moment(flexible):
+    """A ball that orbits with its axis tilted wants I psi' w_r about the direction of its orbit;
+    tractions across both grooves give it, towards the shoulder that is not loaded."""
+    ds = flexible.dataset.isel(time=slice(200, None))
+    across = ds["contact_traction"].sel(direction="across").mean(("time", "ball"))
+    orbit = (ds["ball_velocity"].sel(cyl="psi") / ds["ball_position"].sel(cyl="r")).values
+    bearing = flexible.case.bearing
+    wanted = bearing.ball_inertia * (orbit * ds["ball_omega"].sel(cyl="r").values).mean()
+    given = -0.5 * bearing.ball_diameter * float(across.sum())
+    assert wanted > 0.0 and given == pytest.approx(wanted, rel=0.03)
+    assert float(across.sel(race="outer")) < 0.0
+
+
 def test_a_run_comes_back_from_its_folder(flexible):
     again = load_run(flexible.folder)
     assert again.case == flexible.case and str(again.summary) == str(flexible.summary)
