@@ -22,6 +22,7 @@ if TYPE_CHECKING:
 RPM, DEGREE = 30.0 / pi, 180.0 / pi
 EDGE, TOP = 110, 110
 _WIDTH, _HEIGHT, _BETWEEN = 1480, 250, 66
+_MARGIN = {"roller": EDGE, "ball": EDGE + 30}  # of histories; small sliding speeds want digits
 
 
 def orbit(
@@ -150,14 +151,14 @@ def histories(
     if not 0 <= element < count:
         name = elements_in(ds).one
         raise InputError(f"There is no {name} {element}; the bearing has {count}.")
-    t = ds["time"].values * 1e3
+    t, left = ds["time"].values * 1e3, _MARGIN[elements_in(ds).one]
     with sheet.style():
         height = TOP + len(panels) * (_HEIGHT + _BETWEEN) + 40
-        figure = sheet.new_figure(EDGE + _WIDTH + 60, height)
+        figure = sheet.new_figure(left + _WIDTH + 60, height)
         span = f"t = {t[0]:.1f} … {t[-1]:.1f} ms"
         sheet.heading(figure, title, sheet.join([span, note]))
         for i, panel in enumerate(panels):
-            rect = (EDGE, TOP + 22 + i * (_HEIGHT + _BETWEEN), _WIDTH, _HEIGHT)
+            rect = (left, TOP + 22 + i * (_HEIGHT + _BETWEEN), _WIDTH, _HEIGHT)
             ax = sheet.axes_at(figure, rect)
             panel(ax, t, ds, bearing=bearing, root_stress=root_stress, element=element)
             ax.set_xlim(t[0], t[-1])
@@ -169,16 +170,8 @@ def histories(
             else:
                 shaded = "   (shaded: left out of statistics)" if settle else ""
                 ax.set_xlabel(f"time [ms]{shaded}")
-            ax.yaxis.set_label_coords(-_label_place(figure, ax) / _WIDTH, 0.5)
+            ax.yaxis.set_label_coords((40.0 - left) / _WIDTH, 0.5)
         return sheet.save(figure, path)
-
-
-def _label_place(figure: Any, ax: Any) -> float:
-    """Pixels from an axis to its title on the left, one for all panels unless ticks are wide."""
-    renderer = figure.canvas.get_renderer()
-    ax.apply_aspect()
-    wide = max(t.get_window_extent(renderer).width for t in ax.get_yticklabels())
-    return min(max(70.0, wide + 18.0), EDGE - 24.0)
 
 
 def _legend(ax: Any, name: str, columns: int = 4) -> None:

@@ -196,7 +196,11 @@ def _motion_rows(ds: xarray.Dataset, bearing: BearingNumbers) -> tuple[Row, ...]
 def _force_rows(ds: xarray.Dataset, windows: Windows) -> tuple[Row, ...]:
     pocket = metrics.pocket_forces(ds)
     total, faces, largest = metrics.pocket_force_series(ds)
-    where = f"pocket {pocket.peak_pocket}, {pocket.peak_face}, t = {pocket.peak_time * 1e3:.3f} ms"
+    place = f"pocket {pocket.peak_pocket}"
+    if ds.sizes["face"] > 1:
+        place += f", {pocket.peak_face}"
+    where = f"{place}, t = {pocket.peak_time * 1e3:.3f} ms"
+    walls = "Pocket faces" if ds.sizes["face"] > 1 else "Pockets"
     return (
         Row.of(
             "pocket_force_mean",
@@ -214,7 +218,7 @@ def _force_rows(ds: xarray.Dataset, windows: Windows) -> tuple[Row, ...]:
             pass_peak(metrics.element(ds)),
         ),
         Row("pocket_force_peak", "Pocket force, largest", pocket.peak, "N", where),
-        Row("pocket_contact", "Pocket faces in contact", pocket.contact_share, "%", "of the time"),
+        Row("pocket_contact", f"{walls} in contact", pocket.contact_share, "%", "of the time"),
     )
 
 

@@ -101,11 +101,12 @@ class PlaceKind:
 
     one: str
     many: str
+    short: str  # many of them, in few words
 
 
 _KINDS = {
-    POCKET_GROUPS: PlaceKind("pocket corner", "pocket corners"),
-    WALL_GROUPS: PlaceKind("waist or rim", "waists and rims of pockets"),
+    POCKET_GROUPS: PlaceKind("pocket corner", "pocket corners", "corners"),
+    WALL_GROUPS: PlaceKind("waist or rim", "waists and rims of pockets", "waists and rims"),
 }
 
 
