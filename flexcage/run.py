@@ -235,6 +235,8 @@ class Run:
 
         case, load = self.case, self.case.load
         left = case.bearing.land_clearance(case.cage)
+        guided = case.cage.guidance in ("inner", "outer")
+        stated = case.contacts.land.clearance if guided else None
         return Scene(
             name=case.name,
             dataset=self.dataset,
@@ -243,7 +245,7 @@ class Run:
             defects=case.defects,
             load=(load.radial * np.cos(load.direction), load.radial * np.sin(load.direction)),
             axial=load.axial,
-            clearance=left[0] if left else None,
+            clearance=left[0] if left else stated,
             settle=case.output.settle,
             stress=self._stress_pictures(animate) if self.cage is not None else None,
         )

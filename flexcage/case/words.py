@@ -37,9 +37,10 @@ _GUIDED = {
 _CHANGED = {"roller": "Deformed", "ball": "Defects"}
 
 
-def describe(value: float, unit: str) -> str:
+def describe(value: float, unit: str, *, digits: int = 6) -> str:
     """Short text of an SI value, its unit as print writes it."""
-    text = units.describe(value, unit).replace("*", "·")
+    number, _, name = units.describe(value, unit).partition(" ")
+    text = f"{float(number):.{digits}g} {name.replace('*', '·')}"
     return text.replace(" um", " µm").replace(" us", " µs").replace(" deg", "°")
 
 
@@ -70,7 +71,8 @@ def _(b: BallBearing) -> str:
     return (
         f"{_named(b)} of {_sizes(b)} with {b.ball_count} balls of "
         f"{describe(b.ball_diameter, 'mm')}, free contact angle "
-        f"{describe(b.free_contact_angle, 'deg')}, radial clearance {_short(b.clearance, 'um')}; "
+        f"{describe(b.free_contact_angle, 'deg', digits=4)}, radial clearance "
+        f"{describe(b.clearance, 'um', digits=4)}; "
         f"the grooves' radii are {b.inner_conformity:.4g} (inner) and {b.outer_conformity:.4g} "
         "(outer) times the ball's diameter."
     )
@@ -85,11 +87,6 @@ def _sizes(b: Bearing) -> str:
     """Bore, outside diameter and width."""
     sizes = " × ".join(describe(v, "mm").removesuffix(" mm") for v in (b.bore, b.outside_diameter))
     return f"{sizes} × {describe(b.width, 'mm')}"
-
-
-def _short(value: float, unit: str) -> str:
-    """A value that follows from others, to four digits."""
-    return describe(float(f"{value:.4g}"), unit)
 
 
 def _cage(case: Case) -> str:

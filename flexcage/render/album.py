@@ -57,7 +57,7 @@ class Scene:
     mesh: CageMesh
     defects: Sequence[Any]
     load: tuple[float, float]  # (F_y, F_z) [N] on the inner ring
-    clearance: float | None  # radial land clearance [m], where dimensions leave one
+    clearance: float | None  # radial land clearance [m], where there is a land
     settle: float
     stress: StressPictures | None = None
     axial: float = 0.0  # F_x [N] on the inner ring

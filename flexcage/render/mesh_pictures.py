@@ -118,20 +118,19 @@ def _fill_pocket(ax, picture: Picture, mesh: CageMesh, pocket: int, colour: str)
 
 
 def _crack_line(ax, picture: Picture, mesh: CageMesh, crack: WebCrack) -> None:
-    """A crack on the outside and on the end of the cage, if the place faces the viewer."""
+    """What is seen of a crack: on the outside, across the end, and on the inside of the cage."""
     psi = azimuth_of(crack, mesh.pocket_count)
-    radial = np.array([0.0, np.cos(psi), np.sin(psi)])
+    radial, axis = np.array([0.0, np.cos(psi), np.sin(psi)]), np.array([1.0, 0.0, 0.0])
     r, half = np.hypot(mesh.points[:, 1], mesh.points[:, 2]), float(mesh.points[:, 0].max())
-    sign = 1.0 if crack.side == "+x" else -1.0
-    end, tip = sign * half, sign * half * (1.0 - 2.0 * crack.share)
-    axis = np.array([1.0, 0.0, 0.0])
-    line = [tip * axis + r.max() * radial, end * axis + r.max() * radial]
-    if sign * picture.view.direction[0] > 0.0:
-        line.append(end * axis + r.min() * radial)
-    if not any(picture.sees(0.5 * (a + b)) for a, b in zip(line, line[1:])):
-        return
-    xy = picture.place(np.array(line))
-    ax.plot(xy[:, 0], xy[:, 1], color=CRACK, lw=2.2, path_effects=marks.halo(4.0))
+    end = half if crack.side == "+x" else -half
+    tip = end * (1.0 - 2.0 * crack.share)
+    places = [(tip, r.max()), (end, r.max()), (end, r.min()), (tip, r.min())]
+    path = np.array([x * axis + radius * radial for x, radius in places])
+    seen = [picture.sees(0.5 * (a + b)) for a, b in zip(path, path[1:])]
+    xy = picture.place(path)
+    for width, colour in ((4.0, "white"), (2.2, CRACK)):  # the rim of all parts below all lines
+        for k in np.flatnonzero(seen):
+            ax.plot(*xy[k : k + 2].T, color=colour, lw=width, solid_capstyle="round")
 
 
 def _close_view(shown: CageDefect | str, mesh: CageMesh, radius: float) -> View:
