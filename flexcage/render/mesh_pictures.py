@@ -146,7 +146,7 @@ def _close_view(shown: CageDefect | str, mesh: CageMesh, radius: float) -> View:
         focus, height = rim[np.argmax(rim[:, 0] + rim[:, 2])], 0.22 * width
         direction = radial - 0.45 * axis - np.array([0.0, 0.0, 0.45])
     elif not isinstance(shown, str) and (way := way_of(shown, mesh.pocket_count)):
-        focus = focus + 0.16 / 0.78 * way[0] * width * axis
+        focus = focus + 0.16 / 0.78 * way[0] * width * axis  # a fifth of the way to its place
     return View(tuple(direction / np.linalg.norm(direction)), tuple(focus), height)
 
 
