@@ -23,7 +23,7 @@ from flexcage.core.timing import Stages
 from flexcage.mesh.cage_mesh import CageMesh
 from flexcage.mesh.quality import report_mesh
 from flexcage.modes.reduction import CageReduction
-from flexcage.results.figures import PASS_PEAK, summarise
+from flexcage.results.figures import pass_peak, summarise
 from flexcage.results.metrics import BearingNumbers
 from flexcage.results.statistics import roller_passes
 from flexcage.results.store import MemoryRunStore, RunStore
@@ -33,7 +33,7 @@ from flexcage.stress.fields import StressFields
 from flexcage.stress.history import StressHistory, stress_history
 from flexcage.stress.loads import cage_loads, land_station_forces
 from flexcage.stress.operators import von_mises
-from flexcage.stress.places import contact_zone, root_places
+from flexcage.stress.places import contact_zone, place_kind, root_places
 from flexcage.stress.places import in_words as place_in_words
 from flexcage.stress.recovery import CageLoads, StressRecovery
 from flexcage.system.start import Start
@@ -215,7 +215,7 @@ class Run:
             warnings=cautions(
                 self.summary, reached=float(self.dataset["time"][-1]),
                 duration=case.solver.duration, proof_stress=material.proof_stress,
-                material=material.name,
+                material=material.name, element=case.bearing.element,
             ),
             steps=self.steps,
             settings=words.settings(case),
@@ -235,6 +235,8 @@ class Run:
 
         case, load = self.case, self.case.load
         left = case.bearing.land_clearance(case.cage)
+        guided = case.cage.guidance in ("inner", "outer")
+        stated = case.contacts.land.clearance if guided else None
         return Scene(
             name=case.name,
             dataset=self.dataset,
@@ -242,7 +244,8 @@ class Run:
             mesh=self.mesh,
             defects=case.defects,
             load=(load.radial * np.cos(load.direction), load.radial * np.sin(load.direction)),
-            clearance=left[0] if left else None,
+            axial=load.axial,
+            clearance=left[0] if left else stated,
             settle=case.output.settle,
             stress=self._stress_pictures(animate) if self.cage is not None else None,
         )
@@ -278,7 +281,7 @@ class Run:
         )
 
     def _peak_place(self) -> str:
-        """Name of the place nearest to the peak: a pocket corner, or nothing."""
+        """Name of the followed place in which the peak is, or nothing."""
         h = self.stress_history
         vertex = h.peak_vertex[h.peak_sample]
         for name, vertices in root_places(self.recovery.model, self.mesh.pocket_count).items():
@@ -339,13 +342,14 @@ class Run:
         place = f"t = {when:.3f} ms at ({at[0]:.1f}, {at[1]:.1f}, {at[2]:.1f}) mm, cage frame"
         part = self.dataset.isel(time=slice(h.settled, None))
         windows, peak = roller_passes(part, self.numbers), h.peak[h.settled :]
+        kind = place_kind(self.mesh.groups).one
         corner = windows.peak(h.places[h.settled :].max(axis=1))
         return [
             Row("stress_peak", "Peak, contact zones left out", float(h.peak[k]), "MPa", place),
             Row.of("stress_mean_peak", "Mean of the cage's peak", windows.mean(peak), "MPa"),
-            Row.of("stress_root_pass_peak", "At a pocket corner, peak of a pass", corner, "MPa",
-                   PASS_PEAK),
-            Row("stress_root", "Largest at a pocket corner", float(roots[root]), "MPa",
+            Row.of("stress_root_pass_peak", f"At a {kind}, peak of a pass", corner, "MPa",
+                   pass_peak(self.case.bearing.element)),
+            Row("stress_root", f"Largest at a {kind}", float(roots[root]), "MPa",
                 place_in_words(h.place_names[root])),
             Row("stress_start", "Before settling", float(h.peak[: h.settled].max(initial=0.0)),
                 "MPa"),

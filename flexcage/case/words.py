@@ -2,74 +2,184 @@
 
 from __future__ import annotations
 
+from functools import singledispatch
 from typing import Any
 
 from flexcage.case.case import Case
 from flexcage.case.extensions import sources
 from flexcage.core import units
-from flexcage.geometry.cages import CrossbeamDefect
+from flexcage.geometry.ball_bearing import BallBearing
+from flexcage.geometry.ball_cage_defects import (
+    DisplacedPocket,
+    ElongatedPocket,
+    EnlargedPocket,
+    WebCrack,
+)
+from flexcage.geometry.ball_cages import BallCage
+from flexcage.geometry.bearings import Bearing
+from flexcage.geometry.cage import Cage
+from flexcage.geometry.cages import CrossbeamDefect, SideBeamDefect, WindowCage
+from flexcage.geometry.cylindrical_roller import RollerBearing
 from flexcage.geometry.presets import load_preset
 
-_GUIDED = {"roller": "guided by its rollers", "inner": "guided by the inner ring's ribs",
-           "outer": "guided by the outer ring"}  # fmt: skip
+_GUIDED = {
+    "roller": {
+        "roller": "guided by its rollers",
+        "inner": "guided by the inner ring's ribs",
+        "outer": "guided by the outer ring",
+    },
+    "ball": {
+        "ball": "guided by its balls",
+        "inner": "guided by the inner ring",
+        "outer": "guided by the outer ring",
+    },
+}
+_CHANGED = {"roller": "Deformed", "ball": "Defects"}
 
 
-def describe(value: float, unit: str) -> str:
+def describe(value: float, unit: str, *, digits: int = 6) -> str:
     """Short text of an SI value, its unit as print writes it."""
-    text = units.describe(value, unit).replace("*", "·")
-    return text.replace(" um", " µm").replace(" us", " µs")
+    number, _, name = units.describe(value, unit).partition(" ")
+    text = f"{float(number):.{digits}g} {name.replace('*', '·')}"
+    return text.replace(" um", " µm").replace(" us", " µs").replace(" deg", "°")
 
 
 def in_words(case: Case) -> list[str]:
     """Paragraphs: bearing, cage and defects; drive and load; and how it was computed."""
     asked = f"The case calls itself “{case.description}”." if case.description else ""
-    what = f"{_bearing(case)} {_cage(case)} {_defects(case)}"
+    what = f"{_bearing(case.bearing)} {_cage(case)} {_defects(case)}"
     return [text for text in (asked, what, f"{_motion(case)} {_method(case)}") if text]
 
 
-def _bearing(case: Case) -> str:
-    b = case.bearing
-    sizes = " × ".join(describe(v, "mm").removesuffix(" mm") for v in (b.bore, b.outside_diameter))
-    name = f"{b.designation}, a cylindrical" if b.designation else "A cylindrical"
+@singledispatch
+def _bearing(b: Bearing) -> str:
+    """The bearing and its main dimensions."""
+    return f"{_named(b)} of {_sizes(b)}."
+
+
+@_bearing.register
+def _(b: RollerBearing) -> str:
     return (
-        f"{name} roller bearing of {sizes} × {describe(b.width, 'mm')} with {b.roller_count} "
+        f"{_named(b)} of {_sizes(b)} with {b.roller_count} "
         f"rollers of {describe(b.roller_diameter, 'mm')}, radial clearance "
         f"{describe(b.radial_clearance, 'um')}."
     )
 
 
-def _cage(case: Case) -> str:
-    cage = case.cage
+@_bearing.register
+def _(b: BallBearing) -> str:
     return (
-        f"Its cage is {case.cage_model}, of {cage.material.name}, "
-        f"{_GUIDED.get(cage.guidance, cage.guidance)}; pockets are "
-        f"{describe(cage.pocket_width, 'mm')} wide and {describe(cage.pocket_length, 'mm')} long."
+        f"{_named(b)} of {_sizes(b)} with {b.ball_count} balls of "
+        f"{describe(b.ball_diameter, 'mm')}, free contact angle "
+        f"{describe(b.free_contact_angle, 'deg', digits=4)}, radial clearance "
+        f"{describe(b.clearance, 'um', digits=4)}; "
+        f"the grooves' radii are {b.inner_conformity:.4g} (inner) and {b.outer_conformity:.4g} "
+        "(outer) times the ball's diameter."
     )
+
+
+def _named(b: Bearing) -> str:
+    kind = f"{'an' if b.kind[0] in 'aeiou' else 'a'} {b.kind}"
+    return f"{b.designation}, {kind}" if b.designation else kind.capitalize()
+
+
+def _sizes(b: Bearing) -> str:
+    """Bore, outside diameter and width."""
+    sizes = " × ".join(describe(v, "mm").removesuffix(" mm") for v in (b.bore, b.outside_diameter))
+    return f"{sizes} × {describe(b.width, 'mm')}"
+
+
+def _cage(case: Case) -> str:
+    cage, guided = case.cage, _GUIDED[case.bearing.element][case.cage.guidance]
+    return f"Its cage is {case.cage_model}, of {cage.material.name}, {guided}; {_pockets(cage)}."
+
+
+@singledispatch
+def _pockets(cage: Cage) -> str:
+    """The pockets of a sound cage."""
+    return f"it is {describe(cage.width, 'mm')} wide"
+
+
+@_pockets.register
+def _(cage: WindowCage) -> str:
+    return (
+        f"pockets are {describe(cage.pocket_width, 'mm')} wide and "
+        f"{describe(cage.pocket_length, 'mm')} long"
+    )
+
+
+@_pockets.register
+def _(cage: BallCage) -> str:
+    return f"its pockets are {cage.pocket_shape}, {describe(cage.pocket_diameter, 'mm')} across"
 
 
 def _defects(case: Case) -> str:
     if not case.defects:
         return "The cage has no defect."
     texts = [_defect(d, case.bearing.element_count) for d in case.defects]
-    return f"Deformed: {'; '.join(texts)}."
+    return f"{_CHANGED[case.bearing.element]}: {'; '.join(texts)}."
 
 
+@singledispatch
 def _defect(defect: Any, pockets: int) -> str:
-    size = describe(abs(defect.displacement), "mm")
-    if isinstance(defect, CrossbeamDefect):
-        before, after = (defect.crossbeam - 1) % pockets, defect.crossbeam
-        if defect.displacement < 0.0:
-            before, after = after, before
-        how = "bent" if defect.shape == "bent" else "shifted as a whole"
-        return (
-            f"crossbeam {defect.crossbeam} is {how} by {size}, so that pocket {before} is narrower "
-            f"and pocket {after} wider by as much"
-        )
+    """What a defect did to a cage with so many ``pockets``."""
+    return type(defect).__name__
+
+
+@_defect.register
+def _(defect: CrossbeamDefect, pockets: int) -> str:
+    before, after = (defect.crossbeam - 1) % pockets, defect.crossbeam
+    if defect.displacement < 0.0:
+        before, after = after, before
+    how = "bent" if defect.shape == "bent" else "shifted as a whole"
+    return (
+        f"crossbeam {defect.crossbeam} is {how} by {_size(defect.displacement)}, so that pocket "
+        f"{before} is narrower and pocket {after} wider by as much"
+    )
+
+
+@_defect.register
+def _(defect: SideBeamDefect, pockets: int) -> str:
     change = "longer" if defect.displacement > 0.0 else "shorter"
     return (
-        f"the side beam {defect.side} of pocket {defect.pocket} is displaced by {size}, so that "
-        f"the pocket is {change} by as much"
+        f"the side beam {defect.side} of pocket {defect.pocket} is displaced by "
+        f"{_size(defect.displacement)}, so that the pocket is {change} by as much"
     )
+
+
+@_defect.register
+def _(defect: EnlargedPocket, pockets: int) -> str:
+    change = "larger" if defect.increase > 0.0 else "smaller"
+    return f"pocket {defect.pocket} is {change} in diameter by {_size(defect.increase)}"
+
+
+@_defect.register
+def _(defect: ElongatedPocket, pockets: int) -> str:
+    way = {"axial": "axially", "circumferential": "around the cage"}[defect.direction]
+    return f"pocket {defect.pocket} is a slot, longer {way} by {_size(defect.elongation)}"
+
+
+@_defect.register
+def _(defect: DisplacedPocket, pockets: int) -> str:
+    ahead = (defect.pocket + (1 if defect.circumferential > 0.0 else -1)) % pockets
+    ways = {
+        f"towards {'+x' if defect.axial > 0.0 else '-x'}": defect.axial,
+        f"towards pocket {ahead}": defect.circumferential,
+    }
+    moved = " and ".join(f"{_size(size)} {way}" for way, size in ways.items() if size)
+    return f"pocket {defect.pocket} is displaced by {moved or 'nothing'}"
+
+
+@_defect.register
+def _(defect: WebCrack, pockets: int) -> str:
+    return (
+        f"web {defect.web}, between pockets {(defect.web - 1) % pockets} and {defect.web}, is "
+        f"cracked from the end {defect.side} over {100.0 * defect.share:g} % of the cage's width"
+    )
+
+
+def _size(value: float) -> str:
+    return describe(abs(value), "mm")
 
 
 def _motion(case: Case) -> str:
@@ -79,19 +189,32 @@ def _motion(case: Case) -> str:
         speed = "turns at a speed that a table gives over time"
     elif drive.ramp_to is not None:
         speed += f", then up to {describe(drive.ramp_to, 'rpm')}"
-    force = f"a radial load of {describe(load.radial, 'N')}"
-    if load.times:
-        force = "a radial load that a table gives over time"
-    elif load.ramp_to is not None:
-        force += f", then {describe(load.ramp_to, 'N')}"
     tilted = ""
     if load.misalignment:
         tilted = f", tilted by {describe(load.misalignment, 'mrad')}"
+    if case.bearing.carries_axial_load:
+        tilted += ", free in tilt" if load.tilt == "free" else ", held in tilt"
     held = "" if case.mount.kind == "fixed" else ", the outer ring in an elastic mount"
     return (
-        f"The inner ring {speed} under {force}{tilted}{held}. Lubricant: {case.lubricant.name}, "
-        f"{describe(case.lubricant.viscosity, 'mPa*s')}."
+        f"The inner ring {speed} under {_load(case)}{tilted}{held}. Lubricant: "
+        f"{case.lubricant.name}, {describe(case.lubricant.viscosity, 'mPa*s')}."
     )
+
+
+def _load(case: Case) -> str:
+    """What loads the inner ring."""
+    load = case.load
+    radial = f"a radial load of {describe(load.radial, 'N')}"
+    if load.times:
+        radial = "a radial load that a table gives over time"
+    elif load.ramp_to is not None:
+        radial += f", then {describe(load.ramp_to, 'N')}"
+    moments = {"about y": load.moment_y, "about z": load.moment_z}
+    parts = [f"an axial load of {describe(load.axial, 'N')}"] if load.axial else []
+    if load.radial or load.times or load.ramp_to is not None or not parts:
+        parts.append(radial)
+    parts += [f"a moment of {describe(m, 'N*m')} {way}" for way, m in moments.items() if m]
+    return " and ".join(filter(None, [", ".join(parts[:-1]), parts[-1]]))
 
 
 def _method(case: Case) -> str:

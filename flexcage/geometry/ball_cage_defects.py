@@ -78,7 +78,7 @@ class WebCrack:
 BallCageDefect = EnlargedPocket | ElongatedPocket | DisplacedPocket | WebCrack
 
 
-def cracks_of(defects: Sequence[BallCageDefect]) -> list[WebCrack]:
+def cracks_of(defects: Sequence[object]) -> list[WebCrack]:
     """The cracks among some defects."""
     return [defect for defect in defects if isinstance(defect, WebCrack)]
 

@@ -13,9 +13,9 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from flexcage.core.registry import add, check_free
-from flexcage.geometry.cages import CrossbeamDefect
 from flexcage.mesh.cage_mesh import CageMesh
 from flexcage.modes.basis import ModeBasis
+from flexcage.render.defects import pockets_of
 from flexcage.results.metrics import BearingNumbers
 
 if TYPE_CHECKING:
@@ -57,9 +57,10 @@ class Scene:
     mesh: CageMesh
     defects: Sequence[Any]
     load: tuple[float, float]  # (F_y, F_z) [N] on the inner ring
-    clearance: float | None  # radial land clearance [m], where dimensions leave one
+    clearance: float | None  # radial land clearance [m], where there is a land
     settle: float
     stress: StressPictures | None = None
+    axial: float = 0.0  # F_x [N] on the inner ring
 
 
 #: Pictures registered from outside by name, with whether they need a flexible cage's stress.
@@ -94,21 +95,9 @@ def draw_album(scene: Scene, folder: Path, *, animate: bool = False) -> list[Pat
     return paths
 
 
-def _azimuth(scene: Scene) -> float:
-    """Azimuth of the first defect, or of pocket 0 [rad], cage frame."""
-    if not scene.defects:
-        return 0.0
-    first = scene.defects[0]
-    place = first.crossbeam - 0.5 if isinstance(first, CrossbeamDefect) else first.pocket
-    return 2.0 * np.pi * place / scene.mesh.pocket_count
-
-
-def _followed_roller(scene: Scene) -> int:
-    if not scene.defects:
-        return 0
-    first = scene.defects[0]
-    pocket = first.crossbeam - 1 if isinstance(first, CrossbeamDefect) else first.pocket
-    return pocket % scene.mesh.pocket_count
+def _followed(scene: Scene) -> int:
+    """Number of the element whose history is shown: that of the first damaged pocket, or 0."""
+    return pockets_of(scene.defects[0], scene.mesh.pocket_count)[0] if scene.defects else 0
 
 
 def _geometry(scene: Scene, folder: Path) -> list[Path]:
@@ -140,6 +129,7 @@ def _motion(scene: Scene, folder: Path) -> list[Path]:
         pitch_diameter=b.pitch_diameter,
         roller_diameter=b.element_diameter,
         roller_count=b.element_count,
+        contact_angle=b.nominal_contact_angle,
     )
     root = None
     if scene.stress is not None:
@@ -159,12 +149,12 @@ def _motion(scene: Scene, folder: Path) -> list[Path]:
     return [
         bearing_picture(
             ds, b, index, folder / "bearing.png", cage_points=scene.mesh.points,
-            cage_tets=scene.mesh.tets, load=scene.load,
+            cage_tets=scene.mesh.tets, load=scene.load, axial=scene.axial,
         ),
         orbit(ds, folder / "orbit.png", clearance=scene.clearance, settle=scene.settle),
         histories(
             ds, folder / "histories.png", bearing=numbers, root_stress=root,
-            roller=_followed_roller(scene), settle=scene.settle,
+            element=_followed(scene), settle=scene.settle,
         ),
     ]  # fmt: skip
 
@@ -206,6 +196,7 @@ def _animations(scene: Scene, folder: Path) -> list[Path]:
         animate_bearing(
             scene.dataset, scene.bearing, folder / "bearing.gif", frames=40,
             cage_points=scene.mesh.points, cage_tets=scene.mesh.tets, load=scene.load,
+            axial=scene.axial,
         )
     ]  # fmt: skip
     if scene.stress is not None and scene.stress.frames:

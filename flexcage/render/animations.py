@@ -10,14 +10,16 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from flexcage.core.errors import EnvironmentLacks, InputError
-from flexcage.geometry.cylindrical_roller import RollerBearing
+from flexcage.geometry.bearing import Bearing
 from flexcage.render import marks, sheet
 from flexcage.render.bearing_pictures import (
     bearing_layers,
+    bearing_title,
     bearing_view,
     cut_cage,
     instant,
     label_bearing,
+    load_limit,
 )
 from flexcage.render.scene import Stage, ring_size, ring_view, surface_of
 from flexcage.render.stress_pictures import Field, field_layers, nice_scale
@@ -116,7 +118,7 @@ def _stress_frames(
 
 def animate_bearing(
     ds: xarray.Dataset,
-    bearing: RollerBearing,
+    bearing: Bearing,
     path: str | Path,
     *,
     frames: int = 60,
@@ -124,16 +126,21 @@ def animate_bearing(
     cage_points: np.ndarray | None = None,
     cage_tets: np.ndarray | None = None,
     load: tuple[float, float] | None = None,
+    axial: float = 0.0,
     limit: float | None = None,
     fps: float = 20.0,
-    title: str = "The bearing, rollers coloured by load",
+    title: str = "",
 ) -> Path:
-    """The bearing's motion over ``span`` [s] (the whole run if not given) in so many frames."""
+    """The bearing's motion over ``span`` [s] (the whole run if not given) in so many frames.
+
+    ``load`` (F_y, F_z) and ``axial`` [N] act on the inner ring.
+    """
     t = ds["time"].values
     first, last = span if span is not None else (t[0], t[-1])
     at = np.unique(np.searchsorted(t, np.linspace(first, last, frames)).clip(0, len(t) - 1))
-    top = limit if limit is not None else sheet.rounded_up(float(ds["race_force"].max()))
-    pictures = _bearing_frames(ds, bearing, at, (cage_points, cage_tets), load, top, title)
+    top = limit if limit is not None else load_limit(ds)
+    cage, title = (cage_points, cage_tets), title or bearing_title(ds)
+    pictures = _bearing_frames(ds, bearing, at, cage, (load, axial), top, title)
     return write_animation(pictures, path, fps=fps)
 
 

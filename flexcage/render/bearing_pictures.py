@@ -1,7 +1,8 @@
-"""The whole bearing at one instant: rollers coloured by load between translucent rings."""
+"""The whole bearing at one instant: its elements coloured by load between translucent rings."""
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from math import pi
 from pathlib import Path
@@ -10,8 +11,10 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from flexcage.core.errors import InputError
-from flexcage.geometry.cylindrical_roller import RollerBearing
+from flexcage.geometry.bearing import Bearing
 from flexcage.render import marks, sheet
+from flexcage.render.element_shapes import element_end, element_shape, ring_profiles
+from flexcage.render.elements import elements_in
 from flexcage.render.scene import (
     Layer,
     Picture,
@@ -31,9 +34,13 @@ if TYPE_CHECKING:
 MAIN = (1080, 1000)
 SIDE_WIDTH = 560
 TOP, GAP, EDGE = 96, 84, 36
-IDLE = "#c4c8ce"  # a roller that the inner race does not load
+IDLE = "#c4c8ce"  # an element that the inner race does not load
 RING, BRASS = "#8fa3b8", "#c9a253"
 LOADED_SHARE = 0.01
+_FACE_COLOURS = (sheet.VERMILION, sheet.GREEN, sheet.PURPLE)
+
+
+Loads = tuple[tuple[float, float] | None, float]  # (F_y, F_z), and F_x [N] on the inner ring
 
 
 @dataclass(frozen=True)
@@ -41,11 +48,12 @@ class Instant:
     """What is drawn of one instant."""
 
     time: float
+    element: str  # "roller" or "ball"
     position: np.ndarray  # (n, 3) x, r, psi
-    tilt: np.ndarray  # (n, 2) skew, tilt
+    tilt: np.ndarray  # (n, 2) skew, tilt; zero for balls
     inner_load: np.ndarray  # (n,) N
     outer_load: np.ndarray
-    pocket: np.ndarray  # (n, 4) N
+    pocket: Mapping[str, np.ndarray]  # by name of faces: (n,) N
     cage_position: np.ndarray
     cage_quaternion: np.ndarray
     inner_position: np.ndarray
@@ -55,24 +63,27 @@ class Instant:
 
 def bearing_picture(
     ds: xarray.Dataset,
-    bearing: RollerBearing,
+    bearing: Bearing,
     index: int,
     path: str | Path,
     *,
     cage_points: np.ndarray | None = None,
     cage_tets: np.ndarray | None = None,
     load: tuple[float, float] | None = None,
+    axial: float = 0.0,
     limit: float | None = None,
-    title: str = "The bearing, rollers coloured by load",
+    title: str = "",
     note: str = "",
 ) -> Path:
-    """Sample ``index`` of a run: rollers by the inner race's normal force, and bars of forces.
+    """Sample ``index`` of a run: elements by the inner race's normal force, and bars of forces.
 
     ``cage_points`` (n, 3) [m] and ``cage_tets`` draw the cage where it is; ``load`` (F_y, F_z) [N]
-    draws the load on the inner ring; ``limit`` [N] fixes the colour range.
+    draws the load on the inner ring, and ``axial`` [N] names what acts along x; ``limit`` [N] fixes
+    the colour range.
     """
     now = instant(ds, index)
-    top = limit if limit is not None else sheet.rounded_up(float(ds["race_force"].max()))
+    top = limit if limit is not None else load_limit(ds)
+    title = title or bearing_title(ds)
     cage = cut_cage(cage_points, cage_tets)
     with Stage(*MAIN) as stage:
         picture = stage.shoot(
@@ -80,8 +91,17 @@ def bearing_picture(
         )
     with sheet.style():
         figure = sheet.new_figure(EDGE + MAIN[0] + GAP + SIDE_WIDTH + EDGE, TOP + MAIN[1] + EDGE)
-        compose(figure, picture, now, bearing, top, load=load, title=title, note=note)
+        compose(figure, picture, now, bearing, top, load=(load, axial), title=title, note=note)
         return sheet.save(figure, path)
+
+
+def bearing_title(ds: xarray.Dataset) -> str:
+    return f"The bearing, {elements_in(ds).many} coloured by load"
+
+
+def load_limit(ds: xarray.Dataset) -> float:
+    """Upper end of the colours of a run's loads [N]."""
+    return sheet.rounded_up(float(elements_in(ds).loads(ds).max()))
 
 
 def instant(ds: xarray.Dataset, index: int) -> Instant:
@@ -89,15 +109,20 @@ def instant(ds: xarray.Dataset, index: int) -> Instant:
     n = ds.sizes["time"]
     if not -n <= index < n:
         raise InputError(f"The run has {n} samples; there is no sample {index}.", value=index)
-    at = ds.isel(time=index)
-    force = at["race_force"].transpose("roller", "race")
+    at, names = ds.isel(time=index), elements_in(ds)
+    position = at[names.position].transpose(names.one, "cyl").values
+    tilt = np.zeros((len(position), 2))
+    if names.tilt:
+        tilt = at[names.tilt].transpose(names.one, "tilt").values
+    force, pocket = names.loads(at), at["pocket_force"].transpose("pocket", "face")
     return Instant(
         float(at["time"]),
-        at["roller_position"].transpose("roller", "cyl").values,
-        at["roller_tilt"].transpose("roller", "tilt").values,
-        force.sel(race="inner").values,
-        force.sel(race="outer").values,
-        at["pocket_force"].transpose("pocket", "face").values,
+        names.one,
+        position,
+        tilt,
+        force[:, 0],
+        force[:, 1],
+        {name: pocket.sel(face=list(faces)).sum("face").values for name, faces in names.faces},
         at["cage_position"].values,
         at["cage_quaternion"].values,
         at["inner_position"].values,
@@ -106,7 +131,7 @@ def instant(ds: xarray.Dataset, index: int) -> Instant:
     )
 
 
-def bearing_view(bearing: RollerBearing) -> View:
+def bearing_view(bearing: Bearing) -> View:
     """Nearly along the axis: y upwards, psi counter-clockwise."""
     direction = np.array([1.0, 0.36, 0.0])
     return View(
@@ -118,17 +143,14 @@ def bearing_view(bearing: RollerBearing) -> View:
 
 
 def bearing_layers(
-    now: Instant, bearing: RollerBearing, cage: pyvista.PolyData | None, top: float
+    now: Instant, bearing: Bearing, cage: pyvista.PolyData | None, top: float
 ) -> list[Layer]:
-    """Rings and cage cut at mid-width, so that the rollers stand free; the rings translucent.
+    """Rings and cage cut at mid-width, so that the elements stand free; the rings translucent.
 
     ``cage`` is the cut cage at rest, in its own frame.
     """
-    half, race = 0.5 * bearing.width, 0.5 * bearing.outer_race_diameter
-    outside = 0.5 * bearing.outside_diameter
-    inner = revolved(_inner_profile(bearing))
+    inner, outer = (revolved(profile) for profile in ring_profiles(bearing))
     inner.points = inner.points + now.inner_position
-    outer = revolved([(-half, race), (0.0, race), (0.0, outside), (-half, outside)])
     loaded = now.inner_load > LOADED_SHARE * top
     cmap = sheet.colour_map("viridis")
     layers = [
@@ -142,9 +164,9 @@ def bearing_layers(
         (~loaded, {"color": IDLE}),
     ):
         if chosen.any():
-            rollers = _rollers(now, bearing, chosen)
-            layers.append(body_layer(rollers, **style))
-            layers.append(outline_layer(rollers, colour="#30363c", width=0.9))
+            elements = _elements(now, bearing, chosen)
+            layers.append(body_layer(elements, **style))
+            layers.append(outline_layer(elements, colour="#30363c", width=0.9))
     if cage is not None:
         moved = cage.copy()
         moved.points = cage.points @ rotation(now.cage_quaternion).T + now.cage_position
@@ -153,19 +175,9 @@ def bearing_layers(
     return layers
 
 
-def _inner_profile(b: RollerBearing) -> list[tuple[float, float]]:
-    half, gap = 0.5 * b.width, 0.5 * b.rib_gap
-    bore, race, rib = 0.5 * b.bore, 0.5 * b.inner_race_diameter, 0.5 * b.rib_diameter
-    return [(-half, bore), (0.0, bore), (0.0, race), (-gap, race), (-gap, rib), (-half, rib)]
-
-
-def _rollers(now: Instant, b: RollerBearing, chosen: np.ndarray) -> pyvista.PolyData:
+def _elements(now: Instant, bearing: Bearing, chosen: np.ndarray) -> pyvista.PolyData:
     pv = load_pyvista()
-    r, half = 0.5 * b.roller_diameter, 0.5 * b.roller_length
-    c = 0.05 * b.roller_diameter
-    shape = [(-half, 0.0), (half, 0.0), (half, r - c), (half - c, r), (c - half, r), (-half, r - c)]
-    one = revolved(shape, segments=48)
-    parts = []
+    one, parts = element_shape(bearing), []
     for k in np.flatnonzero(chosen):
         x, radius, psi = now.position[k]
         skew, tilt = now.tilt[k]
@@ -192,17 +204,17 @@ def compose(
     figure: Any,
     picture: Picture,
     now: Instant,
-    bearing: RollerBearing,
+    bearing: Bearing,
     top: float,
     *,
-    load: tuple[float, float] | None,
+    load: Loads,
     title: str,
     note: str,
 ) -> None:
     """Lay the picture, its labels and the bars of forces out on a figure."""
     most = int(np.argmax(now.inner_load))
     head = f"t = {now.time * 1e3:.3f} ms"
-    peak = f"most loaded: roller {most}, {now.inner_load[most]:.0f} N"
+    peak = f"most loaded: {now.element} {most}, {now.inner_load[most]:.0f} N"
     sheet.heading(figure, title, sheet.join([head, peak, "cut at mid-width", note]))
     ax = sheet.image_at(figure, (EDGE, TOP, *MAIN), picture.pixels)
     label_bearing(ax, picture, now, bearing, top, load)
@@ -213,7 +225,7 @@ def compose(
         (left, TOP + MAIN[1] - 78, SIDE_WIDTH, 26),
         cmap=sheet.colour_map("viridis"),
         limits=(0.0, top),
-        label="normal force of the inner race on a roller [N]   (grey: none)",
+        label=f"normal force of the inner race on a {now.element} [N]   (grey: none)",
         over=bool(now.inner_load.max() > top * 1.0001),
     )
 
@@ -222,9 +234,9 @@ def label_bearing(
     ax: Any,
     picture: Picture,
     now: Instant,
-    bearing: RollerBearing,
+    bearing: Bearing,
     top: float,
-    load: tuple[float, float] | None,
+    load: Loads,
 ) -> None:
     """Axes, numbers, loads and speeds on a picture of the bearing."""
     marks.triad(ax, picture)
@@ -232,9 +244,9 @@ def label_bearing(
     _middle(ax, picture, now, bearing, load)
 
 
-def _load_labels(ax: Any, picture: Picture, now: Instant, b: RollerBearing, top: float) -> None:
-    """Number of every roller on its end, and the load of the loaded ones outside the ring."""
-    end = np.array([0.5 * b.roller_length, 0.0, 0.0])
+def _load_labels(ax: Any, picture: Picture, now: Instant, b: Bearing, top: float) -> None:
+    """Number of every element on its end, and the load of the loaded ones outside the ring."""
+    end = np.array([element_end(b), 0.0, 0.0])
     for k, (_, r, psi) in enumerate(now.position):
         radial = np.array([0.0, np.cos(psi), np.sin(psi)])
         x, y = picture.place(r * radial + end)[0]
@@ -252,8 +264,8 @@ def _middle(
     ax: Any,
     picture: Picture,
     now: Instant,
-    b: RollerBearing,
-    load: tuple[float, float] | None,
+    b: Bearing,
+    load: Loads,
 ) -> None:
     """Speeds in the bore, and the load's arrow."""
     half = np.array([0.5 * b.width, 0.0, 0.0])
@@ -263,9 +275,12 @@ def _middle(
     lines = (
         f"{turn} inner ring {now.inner_speed * rpm:.0f} rpm\ncage {now.cage_speed * rpm:.0f} rpm"
     )
+    radial, axial = load
+    if axial:
+        lines += f"\naxial load {axial:+.0f} N".replace("-", "−")
     shift = 0.0
-    if load is not None and np.hypot(*load) > 0.0:
-        way = np.array([0.0, *load]) / np.hypot(*load)
+    if radial is not None and np.hypot(*radial) > 0.0:
+        way = np.array([0.0, *radial]) / np.hypot(*radial)
         a, tip = picture.place(np.array([half - 0.002 * way, half + 0.30 * b.bore * way]))
         ax.annotate(
             "",
@@ -284,7 +299,7 @@ def _middle(
         ax.text(
             mx,
             my,
-            f"load {np.hypot(*load):.0f} N",
+            f"{'radial' if axial else 'load'} {np.hypot(*radial):.0f} N",
             va="center",
             ha="left",
             fontsize=10,
@@ -296,25 +311,22 @@ def _middle(
 
 
 def _bars(figure: Any, left: float, now: Instant, top: float) -> None:
-    """Race forces by roller, pocket forces by pocket."""
+    """Race forces by element, pocket forces by pocket."""
     n = len(now.inner_load)
     height = 330
     ax = sheet.axes_at(figure, (left, TOP + 30, SIDE_WIDTH, height))
     k = np.arange(n)
     ax.bar(k - 0.21, now.inner_load, 0.4, color=sheet.BLUE, label="inner race")
     ax.bar(k + 0.21, now.outer_load, 0.4, color=sheet.SKY, label="outer race")
-    ax.set(ylabel="race force [N]", xlabel="roller", ylim=(0.0, 1.05 * top))
+    ax.set(ylabel="race force [N]", xlabel=now.element, ylim=(0.0, 1.05 * top))
     _bar_axis(ax, n)
     below = sheet.axes_at(figure, (left, TOP + 30 + height + 110, SIDE_WIDTH, height - 60))
-    sides = now.pocket[:, 2:].sum(axis=1)
-    rows = (
-        (-0.27, now.pocket[:, 0], sheet.VERMILION, "front"),
-        (0.0, now.pocket[:, 1], sheet.GREEN, "rear"),
-        (0.27, sides, sheet.PURPLE, "side beams"),
-    )
-    for shift, values, colour, name in rows:
-        below.bar(k + shift, values, 0.26, color=colour, label=name)
-    most = float(now.pocket.max(initial=0.0))
+    count = len(now.pocket)
+    wide = min(0.5, 0.81 / count)
+    for i, (name, values) in enumerate(now.pocket.items()):
+        shift, label = (i - 0.5 * (count - 1)) * wide, name.removesuffix(" face")
+        below.bar(k + shift, values, wide - 0.01, color=_FACE_COLOURS[i], label=label)
+    most = max(float(values.max()) for values in now.pocket.values())
     below.set(
         ylabel="pocket force [N]",
         xlabel="pocket",

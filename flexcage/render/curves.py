@@ -11,15 +11,18 @@ import numpy as np
 
 from flexcage.core.errors import InputError
 from flexcage.render import sheet
+from flexcage.render.elements import elements_in
 from flexcage.results import metrics
 from flexcage.results.metrics import BearingNumbers
+from flexcage.stress.places import in_words
 
 if TYPE_CHECKING:
     import xarray
 
-RPM = 30.0 / pi
+RPM, DEGREE = 30.0 / pi, 180.0 / pi
 EDGE, TOP = 110, 110
 _WIDTH, _HEIGHT, _BETWEEN = 1480, 250, 66
+_MARGIN = {"roller": EDGE, "ball": EDGE + 30}  # of histories; small sliding speeds want digits
 
 
 def orbit(
@@ -128,30 +131,36 @@ def histories(
     *,
     bearing: BearingNumbers | None = None,
     root_stress: xarray.DataArray | None = None,
-    roller: int = 0,
+    element: int = 0,
     settle: float = 0.0,
     title: str = "Histories",
     note: str = "",
 ) -> Path:
-    """Cage speed, pocket forces, root stress (if given) and roller speeds over time.
+    """Cage speed, pocket forces, root stress (if given) and speeds of elements over time; for ball
+    bearings sliding speeds and contact angles as well.
 
     ``bearing`` adds the speeds without slip. ``root_stress`` (time, place) or (time,) is in Pa.
-    ``roller`` is shown by itself over the band of all. The share ``settle`` that statistics
+    ``element`` is shown by itself over the band of all. The share ``settle`` that statistics
     leave out is shaded.
     """
-    panels: list[Callable[..., None]] = [_speed_panel, _pocket_panel, _stress_panel, _roller_panel]
-    if root_stress is None:
-        panels.remove(_stress_panel)
-    t = ds["time"].values * 1e3
+    panels: list[Callable[..., None]] = [_speed_panel, _pocket_panel]
+    if root_stress is not None:
+        panels.append(_stress_panel)
+    panels += _OWN_PANELS[elements_in(ds).one]
+    count = ds.sizes[elements_in(ds).one]
+    if not 0 <= element < count:
+        name = elements_in(ds).one
+        raise InputError(f"There is no {name} {element}; the bearing has {count}.")
+    t, left = ds["time"].values * 1e3, _MARGIN[elements_in(ds).one]
     with sheet.style():
         height = TOP + len(panels) * (_HEIGHT + _BETWEEN) + 40
-        figure = sheet.new_figure(EDGE + _WIDTH + 60, height)
+        figure = sheet.new_figure(left + _WIDTH + 60, height)
         span = f"t = {t[0]:.1f} … {t[-1]:.1f} ms"
         sheet.heading(figure, title, sheet.join([span, note]))
         for i, panel in enumerate(panels):
-            rect = (EDGE, TOP + 22 + i * (_HEIGHT + _BETWEEN), _WIDTH, _HEIGHT)
+            rect = (left, TOP + 22 + i * (_HEIGHT + _BETWEEN), _WIDTH, _HEIGHT)
             ax = sheet.axes_at(figure, rect)
-            panel(ax, t, ds, bearing=bearing, root_stress=root_stress, roller=roller)
+            panel(ax, t, ds, bearing=bearing, root_stress=root_stress, element=element)
             ax.set_xlim(t[0], t[-1])
             if settle:
                 end = t[0] + settle * (t[-1] - t[0])
@@ -161,7 +170,7 @@ def histories(
             else:
                 shaded = "   (shaded: left out of statistics)" if settle else ""
                 ax.set_xlabel(f"time [ms]{shaded}")
-            ax.yaxis.set_label_coords(-70 / _WIDTH, 0.5)
+            ax.yaxis.set_label_coords((40.0 - left) / _WIDTH, 0.5)
         return sheet.save(figure, path)
 
 
@@ -182,20 +191,23 @@ def _speed_panel(ax: Any, t: np.ndarray, ds: xarray.Dataset, *, bearing, **_: An
 
 def _pocket_panel(ax: Any, t: np.ndarray, ds: xarray.Dataset, **_: Any) -> None:
     force = ds["pocket_force"].max("pocket")
-    sides = force.sel(face=["side+x", "side-x"]).max("face")
-    rows = (
-        (force.sel(face="front"), sheet.VERMILION, "front face"),
-        (force.sel(face="rear"), sheet.BLUE, "rear face"),
-        (sides, sheet.GREEN, "side beams"),
-    )
-    for values, colour, name in rows:
-        ax.plot(t, values, color=colour, lw=0.8, label=name)
+    colours = (sheet.VERMILION, sheet.BLUE, sheet.GREEN)
+    for (name, faces), colour in zip(elements_in(ds).faces, colours):
+        ax.plot(t, force.sel(face=list(faces)).max("face"), color=colour, lw=0.8, label=name)
     ax.set_ylim(bottom=0.0)
     ax.set_ylabel("force [N]")
     _legend(ax, "Largest pocket force at each instant")
 
 
+#: Heading of the stress panel, and how it shows the name of a place.
+_STRESSED: dict[str, tuple[str, Callable[[str], str]]] = {
+    "roller": ("Equivalent stress at crossbeam roots", str),
+    "ball": ("Equivalent stress at waists and rims of pockets", in_words),
+}
+
+
 def _stress_panel(ax: Any, t: np.ndarray, ds: xarray.Dataset, *, root_stress, **_: Any) -> None:
+    heading, words = _STRESSED[elements_in(ds).one]
     places = [d for d in root_stress.dims if d != "time"]
     if not places:
         ax.plot(root_stress["time"] * 1e3, root_stress * 1e-6, color=sheet.BLUE)
@@ -214,33 +226,80 @@ def _stress_panel(ax: Any, t: np.ndarray, ds: xarray.Dataset, *, root_stress, **
         )
         most = int(values.max(axis=0).argmax())
         name = str(root_stress[place].values[most]) if place in root_stress.coords else str(most)
-        ax.plot(when, values[:, most], color=sheet.BLUE, label=f"highest: {name}")
+        ax.plot(when, values[:, most], color=sheet.BLUE, label=f"highest: {words(name)}")
     ax.set_ylim(bottom=0.0)
     ax.set_ylabel("stress [MPa]")
-    _legend(ax, "Equivalent stress at crossbeam roots")
+    _legend(ax, heading)
 
 
 def _roller_panel(
-    ax: Any, t: np.ndarray, ds: xarray.Dataset, *, bearing, roller: int, **_: Any
+    ax: Any, t: np.ndarray, ds: xarray.Dataset, *, bearing, element: int, **_: Any
 ) -> None:
     spin = np.abs(ds["roller_omega"].isel(spin_axis=0).transpose("time", "roller").values) * RPM
-    if not 0 <= roller < spin.shape[1]:
-        raise InputError(f"There is no roller {roller}; the bearing has {spin.shape[1]}.")
-    ax.fill_between(t, spin.min(axis=1), spin.max(axis=1), color="#cfd4da", lw=0, label="all")
-    ax.plot(t, spin[:, roller], color=sheet.BLUE, label=f"roller {roller}")
-    loaded = metrics.loaded_zone(ds).transpose("time", "roller").values[:, roller]
-    ax.plot(
-        t,
-        np.where(loaded, spin[:, roller], np.nan),
-        color=sheet.ORANGE,
-        lw=2.2,
-        label=f"roller {roller} in the loaded zone",
-    )
+    _element_speed(ax, t, ds, spin, element)
     if bearing is not None:
         ideal = np.abs(ds["inner_speed"] * bearing.kinematics(1.0).roller_spin) * RPM
         ax.plot(t, ideal, color=sheet.VERMILION, ls="--", lw=1.3, label="pure rolling")
-    ax.set_ylabel("speed [rpm]")
     _legend(ax, "Roller spin, inertial frame")
+
+
+def _ball_panel(
+    ax: Any, t: np.ndarray, ds: xarray.Dataset, *, bearing, element: int, **_: Any
+) -> None:
+    _element_speed(ax, t, ds, metrics.ball_spin(ds).values * RPM, element)
+    if bearing is not None:
+        ideal = np.abs(ds["inner_speed"] * bearing.kinematics(1.0).roller_spin_in_cage) * RPM
+        ax.plot(t, ideal, color=sheet.VERMILION, ls="--", lw=1.3, label="pure rolling")
+    _legend(ax, "Ball speed about its own axis, cage frame")
+
+
+def _element_speed(
+    ax: Any, t: np.ndarray, ds: xarray.Dataset, speed: np.ndarray, element: int
+) -> None:
+    """Speeds (time, element) [rpm]: the band of all, one by itself, and where it is loaded."""
+    one = elements_in(ds).one
+    ax.fill_between(t, speed.min(axis=1), speed.max(axis=1), color="#cfd4da", lw=0, label="all")
+    ax.plot(t, speed[:, element], color=sheet.BLUE, label=f"{one} {element}")
+    loaded = metrics.loaded_zone(ds).transpose("time", one).values[:, element]
+    ax.plot(
+        t,
+        np.where(loaded, speed[:, element], np.nan),
+        color=sheet.ORANGE,
+        lw=2.2,
+        label=f"{one} {element} in the loaded zone",
+    )
+    ax.set_ylabel("speed [rpm]")
+
+
+def _sliding_panel(ax: Any, t: np.ndarray, ds: xarray.Dataset, *, element: int, **_: Any) -> None:
+    _race_bands(ax, t, ds, ds["contact_slip"], element)
+    ax.set_ylabel("speed [m/s]")
+    _legend(ax, "Sliding speed at the races")
+
+
+def _angle_panel(ax: Any, t: np.ndarray, ds: xarray.Dataset, *, element: int, **_: Any) -> None:
+    _race_bands(ax, t, ds, ds["contact_angle"] * DEGREE, element)
+    ax.set_ylabel("angle [°]")
+    _legend(ax, "Contact angles")
+
+
+def _race_bands(
+    ax: Any, t: np.ndarray, ds: xarray.Dataset, of: xarray.DataArray, element: int
+) -> None:
+    """Values ``of`` (time, ball, race) of balls that touch: bands of all, lines of one."""
+    touching = metrics.touching(ds, of)
+    for race, colour in (("inner", sheet.BLUE), ("outer", sheet.ORANGE)):
+        values = touching.sel(race=race).transpose("time", "ball")
+        low, high = values.min("ball"), values.max("ball")
+        ax.fill_between(t, low, high, color=colour, alpha=0.25, lw=0, label=f"{race} race, all")
+        own = values.isel(ball=element)
+        ax.plot(t, own, color=colour, lw=0.9, label=f"{race} race, ball {element}")
+
+
+_OWN_PANELS: dict[str, tuple[Callable[..., None], ...]] = {
+    "roller": (_roller_panel,),
+    "ball": (_ball_panel, _sliding_panel, _angle_panel),
+}
 
 
 def compare_forces(

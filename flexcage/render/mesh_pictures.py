@@ -8,10 +8,20 @@ from pathlib import Path
 
 import numpy as np
 
-from flexcage.geometry.cages import CrossbeamDefect, Defect, SideBeamDefect
-from flexcage.mesh.cage_mesh import CageMesh
-from flexcage.modes.basis import FACES
+from flexcage.geometry.ball_cage_defects import BallCageDefect, WebCrack, cracks_of
+from flexcage.geometry.cages import Defect
+from flexcage.mesh.cage_mesh import POCKET_GROUPS, WALL_GROUPS, CageMesh, pocket_groups
 from flexcage.render import marks, sheet
+from flexcage.render.defects import (
+    CRACK,
+    azimuth_of,
+    changes_of,
+    label_of,
+    legend,
+    pocket_colours,
+    pockets_of,
+    way_of,
+)
 from flexcage.render.scene import (
     Layer,
     Picture,
@@ -29,34 +39,35 @@ MAIN = (1180, 880)
 SIDE = (520, 355)
 TOP, GAP, EDGE = 96, 30, 36
 BODY = "#d9dde3"
-INTO, OUT_OF = sheet.VERMILION, sheet.BLUE
+CageDefect = Defect | BallCageDefect
+_DETAIL = {POCKET_GROUPS: "corner of pocket 0", WALL_GROUPS: "edge of pocket 0"}
 
 
 def mesh_picture(
     mesh: CageMesh,
     path: str | Path,
     *,
-    defects: Sequence[Defect] = (),
+    defects: Sequence[CageDefect] = (),
     title: str = "Mesh of the cage",
     note: str = "",
     azimuth: float | None = None,
 ) -> Path:
     """The whole mesh, damaged pockets coloured, and close-ups of the first two defects.
 
-    Pockets made narrower or shorter are vermilion, those made wider or longer blue; dashed lines
-    show where a pocket's outer rim would be without the defect. With fewer than two defects the
-    close-ups show a pocket and its corner instead.
+    Pockets made smaller are vermilion, those made larger blue, displaced ones purple, and cracks
+    vermilion lines; dashed lines show where a pocket's outer rim would be without the defect. With
+    fewer than two defects the close-ups show a pocket and its corner or edge instead.
     ``azimuth`` [rad] is the place turned to the viewer: that of the first defect if not given.
     """
     radius, width = ring_size(mesh.points)
     if azimuth is None:
-        azimuth = _azimuth(defects[0], mesh.pocket_count) if defects else 0.0
+        azimuth = azimuth_of(defects[0], mesh.pocket_count) if defects else 0.0
     layers = _mesh_layers(mesh)
     with Stage(*MAIN) as stage:
         main = stage.shoot(
             layers, ring_view(radius, width, aspect=MAIN[0] / MAIN[1], azimuth=azimuth)
         )
-    shown: list[Defect | str] = [*defects[:2], "pocket", "corner"]
+    shown: list[CageDefect | str] = [*defects[:2], "pocket", "corner"]
     shown = shown[:2] if len(defects) != 1 else [defects[0], "corner"]
     with Stage(*SIDE) as stage:
         closes = [stage.shoot(layers, _close_view(d, mesh, radius)) for d in shown]
@@ -64,19 +75,23 @@ def mesh_picture(
     with sheet.style():
         figure = sheet.new_figure(left + SIDE[0] + EDGE, TOP + MAIN[1] + EDGE)
         cells = f"{len(mesh.points):,} vertices, {len(mesh.tets):,} tetrahedra"
-        sheet.heading(figure, title, sheet.join([cells, *map(_text, defects), note]))
+        sheet.heading(figure, title, sheet.join([cells, *map(label_of, defects), note]))
         ax = sheet.image_at(figure, (EDGE, TOP, *MAIN), main.pixels)
         marks.triad(ax, main)
-        colours = _pocket_colours(defects, mesh.pocket_count)
+        colours = pocket_colours(defects, mesh.pocket_count)
         marks.pocket_numbers(
             ax, main, count=mesh.pocket_count, radius=radius, width=width, colours=colours
         )
         for pocket, colour in colours.items():
             _fill_pocket(ax, main, mesh, pocket, colour)
+        for crack in cracks_of(defects):
+            _crack_line(ax, main, mesh, crack)
         for i, (defect, close) in enumerate(zip(shown, closes)):
             rect = (left, TOP + i * (SIDE[1] + 44), *SIDE)
             _close_panel(figure, rect, close, mesh, defect, defects)
-        _mesh_key(figure, left, TOP + len(shown) * (SIDE[1] + 44) + 8, defects)
+        rows = legend(defects, mesh.pocket_count)
+        if rows:
+            marks.key(figure, (left, TOP + len(shown) * (SIDE[1] + 44) + 8, SIDE[0], 0), rows)
         return sheet.save(figure, path)
 
 
@@ -86,29 +101,6 @@ def _mesh_layers(mesh: CageMesh) -> list[Layer]:
         body_layer(whole, color=BODY, show_edges=True, edge_color="#70777f", line_width=0.7),
         outline_layer(whole, width=1.4),
     ]
-
-
-def _moved_faces(defects: Sequence[Defect], count: int) -> dict[tuple[int, str], float]:
-    """(pocket, face) -> change of that pocket's width or length, by all defects together."""
-    moved: dict[tuple[int, str], float] = {}
-    for d in defects:
-        if isinstance(d, CrossbeamDefect):
-            before, after = (d.crossbeam - 1) % count, d.crossbeam % count
-            for key, change in (((before, "front"), -1.0), ((after, "rear"), 1.0)):
-                moved[key] = moved.get(key, 0.0) + change * d.displacement
-        else:
-            key = (d.pocket, f"side{d.side}")
-            moved[key] = moved.get(key, 0.0) + d.displacement
-    return moved
-
-
-def _pocket_colours(defects: Sequence[Defect], count: int) -> dict[int, str]:
-    """Colour of every pocket that a defect touches, by its largest change of size."""
-    change: dict[int, float] = {}
-    for (pocket, _), size in _moved_faces(defects, count).items():
-        if abs(size) > abs(change.get(pocket, 0.0)):
-            change[pocket] = size
-    return {pocket: INTO if size < 0.0 else OUT_OF for pocket, size in change.items()}
 
 
 def _fill_pocket(ax, picture: Picture, mesh: CageMesh, pocket: int, colour: str) -> None:
@@ -125,21 +117,25 @@ def _fill_pocket(ax, picture: Picture, mesh: CageMesh, pocket: int, colour: str)
     ax.plot(xy[:, 0], xy[:, 1], color=colour, lw=1.4)
 
 
-def _azimuth(defect: Defect, count: int) -> float:
-    place = defect.crossbeam - 0.5 if isinstance(defect, CrossbeamDefect) else defect.pocket
-    return 2.0 * pi * place / count
+def _crack_line(ax, picture: Picture, mesh: CageMesh, crack: WebCrack) -> None:
+    """What is seen of a crack: on the outside, across the end, and on the inside of the cage."""
+    psi = azimuth_of(crack, mesh.pocket_count)
+    radial, axis = np.array([0.0, np.cos(psi), np.sin(psi)]), np.array([1.0, 0.0, 0.0])
+    r, half = np.hypot(mesh.points[:, 1], mesh.points[:, 2]), float(mesh.points[:, 0].max())
+    end = half if crack.side == "+x" else -half
+    tip = end * (1.0 - 2.0 * crack.share)
+    places = [(tip, r.max()), (end, r.max()), (end, r.min()), (tip, r.min())]
+    path = np.array([x * axis + radius * radial for x, radius in places])
+    seen = [picture.sees(0.5 * (a + b)) for a, b in zip(path, path[1:])]
+    xy = picture.place(path)
+    for width, colour in ((4.0, "white"), (2.2, CRACK)):  # the rim of all parts below all lines
+        for k in np.flatnonzero(seen):
+            ax.plot(*xy[k : k + 2].T, color=colour, lw=width, solid_capstyle="round")
 
 
-def _text(defect: Defect) -> str:
-    size = f"{defect.displacement * 1e3:+.3g} mm".replace("-", "−")
-    if isinstance(defect, CrossbeamDefect):
-        return f"crossbeam {defect.crossbeam} {defect.shape}, $δ_q$ = {size}"
-    return f"pocket {defect.pocket}, side beam {defect.side.replace('-', '−')}, $δ_p$ = {size}"
-
-
-def _close_view(shown: Defect | str, mesh: CageMesh, radius: float) -> View:
+def _close_view(shown: CageDefect | str, mesh: CageMesh, radius: float) -> View:
     """Nearly radial view of a beam that moved, or of pocket 0; axis upwards, +psi to the right."""
-    psi = 0.0 if isinstance(shown, str) else _azimuth(shown, mesh.pocket_count)
+    psi = 0.0 if isinstance(shown, str) else azimuth_of(shown, mesh.pocket_count)
     radial, axis = np.array([0.0, np.cos(psi), np.sin(psi)]), np.array([1.0, 0.0, 0.0])
     width = 2.0 * float(np.abs(mesh.points[:, 0]).max())
     focus, height, direction = 0.96 * radius * radial, 0.8 * width, radial + 0.22 * axis
@@ -149,8 +145,8 @@ def _close_view(shown: Defect | str, mesh: CageMesh, radius: float) -> View:
         rim = mesh.points[np.unique(_rim(mesh, 0))]
         focus, height = rim[np.argmax(rim[:, 0] + rim[:, 2])], 0.22 * width
         direction = radial - 0.45 * axis - np.array([0.0, 0.0, 0.45])
-    elif isinstance(shown, SideBeamDefect):
-        focus = focus + (0.16 if shown.side == "+x" else -0.16) * width * axis
+    elif not isinstance(shown, str) and (way := way_of(shown, mesh.pocket_count)):
+        focus = focus + 0.16 / 0.78 * way[0] * width * axis  # a fifth of the way to its place
     return View(tuple(direction / np.linalg.norm(direction)), tuple(focus), height)
 
 
@@ -159,24 +155,23 @@ def _close_panel(
     rect: sheet.Rect,
     picture: Picture,
     mesh: CageMesh,
-    shown: Defect | str,
-    defects: Sequence[Defect],
+    shown: CageDefect | str,
+    defects: Sequence[CageDefect],
 ) -> None:
     ax = sheet.image_at(figure, rect, picture.pixels, frame=sheet.FAINT)
     marks.length_bar(ax, picture, share=0.12)
-    text = {"pocket": "pocket 0", "corner": "corner of pocket 0"}.get(str(shown), "")
-    if not isinstance(shown, str):
-        text = _text(shown)
-        if isinstance(shown, CrossbeamDefect):
-            pockets = [(shown.crossbeam - 1) % mesh.pocket_count, shown.crossbeam]
-        else:
-            pockets = [shown.pocket]
-        colours = _pocket_colours(defects, mesh.pocket_count)
-        for pocket in pockets:
+    if isinstance(shown, str):
+        text = {"corner": _DETAIL[pocket_groups(mesh.groups)]}.get(shown, "pocket 0")
+    else:
+        text = label_of(shown)
+        colours = pocket_colours(defects, mesh.pocket_count)
+        for pocket in pockets_of(shown, mesh.pocket_count):
             if pocket in colours:
                 _fill_pocket(ax, picture, mesh, pocket, colours[pocket])
-            _sound_outline(ax, picture, mesh, pocket, defects)
+                _sound_outline(ax, picture, mesh, pocket, defects)
             _pocket_name(ax, picture, mesh, pocket)
+        for crack in cracks_of(defects):
+            _crack_line(ax, picture, mesh, crack)
         _arrow(ax, picture, mesh, shown)
     caption = sheet.text_at(
         figure, rect[0], rect[1] + rect[3] + 8, text, fontsize=9.5, weight="bold"
@@ -185,10 +180,10 @@ def _close_panel(
 
 
 def _sound_outline(
-    ax, picture: Picture, mesh: CageMesh, pocket: int, defects: Sequence[Defect]
+    ax, picture: Picture, mesh: CageMesh, pocket: int, defects: Sequence[CageDefect]
 ) -> None:
     """Outer rim of a sound pocket, turned to where this one would be, as dashed lines."""
-    touched = {p for p, _ in _moved_faces(defects, mesh.pocket_count)}
+    touched = {p for d in defects for p, _ in changes_of(d, mesh.pocket_count)}
     sound = next((k for k in range(mesh.pocket_count) if k not in touched), None)
     if sound is None:
         return
@@ -206,7 +201,7 @@ def _sound_outline(
 
 def _rim(mesh: CageMesh, pocket: int) -> np.ndarray:
     """Edges (n, 2) of a pocket's wall on the outside of the cage."""
-    names = [f"pocket{pocket}_{face}" for face in (*FACES, "fillet")]
+    names = [f"pocket{pocket}_{face}" for face in pocket_groups(mesh.groups)]
     triangles = np.concatenate([mesh.groups[n] for n in names if n in mesh.groups])
     edges = np.concatenate([triangles[:, pair] for pair in ([0, 1], [1, 2], [2, 0])])
     edges, count = np.unique(np.sort(edges, axis=1), axis=0, return_counts=True)
@@ -253,19 +248,16 @@ def _pocket_name(ax, picture: Picture, mesh: CageMesh, pocket: int) -> None:
         )
 
 
-def _arrow(ax, picture: Picture, mesh: CageMesh, defect: Defect) -> None:
-    """Where the beam went, on the outside of the cage; its length is not to scale."""
-    psi = _azimuth(defect, mesh.pocket_count)
+def _arrow(ax, picture: Picture, mesh: CageMesh, defect: CageDefect) -> None:
+    """Where beam or pocket went, on the outside of the cage; its length is not to scale."""
+    way = way_of(defect, mesh.pocket_count)
+    if way is None:
+        return
+    psi = azimuth_of(defect, mesh.pocket_count)
     radius, width = ring_size(mesh.points)
-    radial = np.array([0.0, np.cos(psi), np.sin(psi)])
-    if isinstance(defect, CrossbeamDefect):
-        way = -np.sign(defect.displacement) * np.array([0.0, -np.sin(psi), np.cos(psi)])
-        middle = radius * radial
-    else:
-        sign = 1.0 if defect.side == "+x" else -1.0
-        way = sign * np.sign(defect.displacement) * np.array([1.0, 0.0, 0.0])
-        middle = radius * radial + sign * 0.39 * width * np.array([1.0, 0.0, 0.0])
-    a, b = picture.place(np.array([middle - 1.1e-3 * way, middle + 1.1e-3 * way]))
+    middle = radius * np.array([0.0, np.cos(psi), np.sin(psi)])
+    middle[0] = 0.5 * way[0] * width
+    a, b = picture.place(np.array([middle - 1.1e-3 * way[1], middle + 1.1e-3 * way[1]]))
     ax.annotate(
         "",
         xy=b,
@@ -279,16 +271,3 @@ def _arrow(ax, picture: Picture, mesh: CageMesh, defect: Defect) -> None:
             "shrinkB": 0,
         },
     )
-
-
-def _mesh_key(figure, left: float, top: float, defects: Sequence[Defect]) -> None:
-    if not defects:
-        return
-    colours = _pocket_colours(defects, 10**6).values()
-    rows = []
-    if INTO in colours:
-        rows.append(("patch", INTO, "pocket made narrower or shorter"))
-    if OUT_OF in colours:
-        rows.append(("patch", OUT_OF, "pocket made wider or longer"))
-    rows.append(("dashes", sheet.BLACK, "rim without the defect; arrow: way of the beam"))
-    marks.key(figure, (left, top, SIDE[0], 0), rows)

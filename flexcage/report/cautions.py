@@ -10,21 +10,27 @@ from flexcage.results.summary import Summary
 
 
 def cautions(
-    summary: Summary, *, reached: float, duration: float, proof_stress: float, material: str
+    summary: Summary,
+    *,
+    reached: float,
+    duration: float,
+    proof_stress: float,
+    material: str,
+    element: str = "roller",
 ) -> list[str]:
     """Warnings, one sentence each: an unfinished run, too few passes, drift, audit, slip, yield.
 
     ``reached`` and ``duration`` [s]: where the run stands and where it should end;
-    ``proof_stress`` [Pa] of the cage's ``material``.
+    ``proof_stress`` [Pa] of the cage's ``material``; ``element`` is "roller" or "ball".
     """
     found = [
         _unfinished(reached, duration),
-        _few_passes(summary),
+        _few_passes(summary, element),
         _drift(summary),
         _audit(summary),
-        _slip(summary),
+        _slip(summary, element),
         _yield(summary, proof_stress, material),
-        _pinched(summary),
+        _pinched(summary, element),
     ]
     return [text for text in found if text]
 
@@ -44,12 +50,12 @@ def _unfinished(reached: float, duration: float) -> str:
     )
 
 
-def _few_passes(summary: Summary) -> str:
+def _few_passes(summary: Summary, element: str) -> str:
     count = _number(summary, "roller_passes")
     if not count < FEWEST:
         return ""
     return (
-        f"Statistics rest on {count:.0f} roller passes, and intervals want {FEWEST}: they are "
+        f"Statistics rest on {count:.0f} {element} passes, and intervals want {FEWEST}: they are "
         "missing or too narrow; a longer solver.duration gives more."
     )
 
@@ -75,9 +81,11 @@ def _audit(summary: Summary) -> str:
     )
 
 
-def _slip(summary: Summary) -> str:
+def _slip(summary: Summary, element: str) -> str:
     note = summary.row("slip_loaded").note if "slip_loaded" in summary else ""
-    return f"Roller slip in the loaded zone is {note}." if note.startswith("unresolved") else ""
+    if not note.startswith("unresolved"):
+        return ""
+    return f"{element.capitalize()} slip in the loaded zone is {note}."
 
 
 def _yield(summary: Summary, proof_stress: float, material: str) -> str:
@@ -94,11 +102,11 @@ def _yield(summary: Summary, proof_stress: float, material: str) -> str:
     )
 
 
-def _pinched(summary: Summary) -> str:
+def _pinched(summary: Summary, element: str) -> str:
     if "pinch_force" not in summary:
         return ""
     row = summary.row("pinch_force")
     return (
-        f"The bearing was assembled with rollers pinched by up to {row.text} N ({row.note}): the "
-        "cage is pre-stressed."
+        f"The bearing was assembled with {element}s pinched by up to {row.text} N ({row.note}): "
+        "the cage is pre-stressed."
     )

@@ -1,19 +1,21 @@
-"""A run's histories as charts that can be zoomed: speeds, pocket forces, root stress, orbit."""
+"""A run's histories as charts that can be zoomed: speeds, forces, contact angles, stress, orbit."""
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from math import pi
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from flexcage.render.sheet import BLUE, GREEN, INK, VERMILION
+from flexcage.render.elements import elements_in
+from flexcage.render.sheet import BLUE, GREEN, INK, ORANGE, VERMILION
 from flexcage.report.blocks import Chart
 from flexcage.report.plots import add_band, add_curve, new_figure
 from flexcage.report.thinning import thinned
 from flexcage.results import metrics
 from flexcage.results.audit import imbalance
-from flexcage.stress.places import in_words
+from flexcage.stress.places import in_words, place_kind
 
 if TYPE_CHECKING:
     import xarray
@@ -23,7 +25,7 @@ if TYPE_CHECKING:
 
 RPM = 30.0 / pi
 TIME = "time [ms]"
-_WASH = "rgba(86, 180, 233, 0.35)"
+_WASH, _SAND = "rgba(86, 180, 233, 0.35)", "rgba(230, 159, 0, 0.3)"
 _LEFT_OUT = "#eeeeee"  # the time that statistics leave out
 
 
@@ -33,7 +35,7 @@ def history_charts(scene: Scene, numbers: BearingNumbers) -> list[Chart]:
     charts = [_cage_speed(ds, numbers), _pocket_force(ds)]
     if scene.stress is not None:
         charts.append(_root_stress(scene))
-    charts.append(_roller_spin(ds, numbers))
+    charts += [chart(ds, numbers) for chart in _OWN_CHARTS[elements_in(ds).one]]
     t = _ms(ds)
     for chart in charts:
         if scene.settle:
@@ -59,12 +61,9 @@ def _cage_speed(ds: xarray.Dataset, numbers: BearingNumbers) -> Chart:
 def _pocket_force(ds: xarray.Dataset) -> Chart:
     force = ds["pocket_force"].max("pocket")
     figure = new_figure(TIME, "force [N]")
-    for faces, name, colour in (
-        (["front"], "front faces", VERMILION),
-        (["rear"], "rear faces", BLUE),
-        (["side+x", "side-x"], "side beams", GREEN),
-    ):
-        add_curve(figure, _ms(ds), force.sel(face=faces).max("face").values, name, color=colour)
+    for (name, faces), colour in zip(elements_in(ds).faces, (VERMILION, BLUE, GREEN)):
+        values = force.sel(face=list(faces)).max("face").values
+        add_curve(figure, _ms(ds), values, name.replace("face", "faces"), color=colour)
     return Chart("Pocket force, largest of all pockets", [("", figure)])
 
 
@@ -73,21 +72,52 @@ def _root_stress(scene: Scene) -> Chart:
     roots, t = scene.stress.roots * 1e-6, _ms(scene.dataset)
     worst = int(roots[scene.stress.settled :].max(axis=0).argmax())
     figure = new_figure(TIME, "equivalent stress [MPa]")
-    add_band(figure, t, roots.min(axis=1), roots.max(axis=1), "all corners", _WASH)
+    kind = place_kind(scene.mesh.groups)
+    add_band(figure, t, roots.min(axis=1), roots.max(axis=1), f"all {kind.short}", _WASH)
     name = in_words(scene.stress.root_names[worst])
     add_curve(figure, t, roots[:, worst], f"highest once settled: {name}", color=BLUE)
-    return Chart("Stress at pocket corners", [("", figure)])
+    return Chart(f"Stress at {kind.many}", [("", figure)])
 
 
 def _roller_spin(ds: xarray.Dataset, numbers: BearingNumbers) -> Chart:
     spin = ds["roller_omega"].isel(spin_axis=0).transpose("time", "roller").values
-    spin = np.abs(spin) * RPM
-    ideal = np.abs(ds["inner_speed"].values * numbers.kinematics(1.0).roller_spin) * RPM
-    figure = new_figure(TIME, "spin [rpm]")
-    add_band(figure, _ms(ds), spin.min(axis=1), spin.max(axis=1), "all rollers", _WASH)
-    add_curve(figure, _ms(ds), spin[:, 0], "roller 0", color=BLUE)
-    add_curve(figure, _ms(ds), ideal, "pure rolling", color=VERMILION, dash="dash")
+    ideal = np.abs(ds["inner_speed"].values * numbers.kinematics(1.0).roller_spin)
+    figure = _speeds("spin [rpm]", ds, np.abs(spin), ideal)
     return Chart("Roller spin, inertial frame", [("", figure)])
+
+
+def _ball_speed(ds: xarray.Dataset, numbers: BearingNumbers) -> Chart:
+    ideal = np.abs(ds["inner_speed"].values * numbers.kinematics(1.0).roller_spin_in_cage)
+    figure = _speeds("speed [rpm]", ds, metrics.ball_spin(ds).values, ideal)
+    return Chart("Ball speed about its own axis, cage frame", [("", figure)])
+
+
+def _speeds(title: str, ds: xarray.Dataset, speed: np.ndarray, ideal: np.ndarray) -> Any:
+    """Speeds (time, element) [rad/s]: the band of all, the first, and the one without slip."""
+    speed, names = speed * RPM, elements_in(ds)
+    figure = new_figure(TIME, title)
+    add_band(figure, _ms(ds), speed.min(axis=1), speed.max(axis=1), f"all {names.many}", _WASH)
+    add_curve(figure, _ms(ds), speed[:, 0], f"{names.one} 0", color=BLUE)
+    add_curve(figure, _ms(ds), ideal * RPM, "pure rolling", color=VERMILION, dash="dash")
+    return figure
+
+
+def _contact_angles(ds: xarray.Dataset, numbers: BearingNumbers) -> Chart:
+    angle = metrics.touching(ds, ds["contact_angle"]) * (180.0 / pi)
+    figure = new_figure(TIME, "angle [°]")
+    for race, colour, wash in (("inner", BLUE, _WASH), ("outer", ORANGE, _SAND)):
+        values = angle.sel(race=race).transpose("time", "ball")
+        low, high = values.min("ball").values, values.max("ball").values
+        add_band(figure, _ms(ds), low, high, f"{race} race, all balls", wash)
+        own = values.isel(ball=0).values
+        add_curve(figure, _ms(ds), own, f"{race} race, ball 0", color=colour)
+    return Chart("Contact angles", [("", figure)])
+
+
+_OWN_CHARTS: dict[str, tuple[Callable[[xarray.Dataset, BearingNumbers], Chart], ...]] = {
+    "roller": (_roller_spin,),
+    "ball": (_ball_speed, _contact_angles),
+}
 
 
 def _orbit(ds: xarray.Dataset, clearance: float | None, settle: float) -> Chart:

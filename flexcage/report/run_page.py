@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from flexcage.render.album import Scene
+from flexcage.render.elements import elements_in
 from flexcage.report.blocks import (
     Block,
     Charts,
@@ -35,12 +36,14 @@ from flexcage.report.tables import (
 )
 from flexcage.results.metrics import BearingNumbers
 from flexcage.results.summary import Row, Summary
+from flexcage.stress.places import place_kind
 
 if TYPE_CHECKING:
     from flexcage.render.album import StressPictures
 
 _APART = ("Energy", "Solver", "Wall time")  # sections of a summary that have their own place
-#: Figures that are shown large, and what they are called where no heading stands above them.
+#: Figures that are shown large, and what they are called where no heading stands above them;
+#: {place} is where stress is followed.
 _FIRST = {
     "cage_speed": "Cage speed",
     "cage_slip_ratio": "Cage slip ratio",
@@ -48,17 +51,18 @@ _FIRST = {
     "pocket_force_mean": "Pocket force, mean in contact",
     "pocket_force_peak": "Pocket force, largest",
     "stress_peak": "Stress, largest",
-    "stress_root_pass_peak": "Corner stress, peak of a pass",
+    "stress_root_pass_peak": "{place} stress, peak of a pass",
     "energy_audit": "Energy audit",
 }
-#: Pictures of a run by file name: their captions, and whether they stand side by side at the top.
+#: Pictures of a run by file name: their captions ({elements}: rollers or balls), in the order in
+#: which they stand.
 CAPTIONS = {
     "stress_peak": "Stress at the instant of its peak, on the deformed cage",
     "stress_envelope": "Largest stress of every place over the settled part",
     "deformation": "Elastic deformation at the same instant",
     "mesh": "Mesh, with defects marked",
     "modes": "Mode shapes and frequencies",
-    "bearing": "Bearing at that instant, rollers coloured by load",
+    "bearing": "Bearing at that instant, {elements} coloured by load",
     "orbit": "Orbit of the cage's centre",
     "histories": "Histories",
 }
@@ -115,7 +119,10 @@ _THINNED = Prose(
 
 def _figures(account: RunAccount) -> Section:
     rows = {row.key: row for row in account.summary}
-    tiles = [_tile(rows[key], label) for key, label in _FIRST.items() if key in rows]
+    place = place_kind(account.scene.mesh.groups).one.removeprefix("pocket ").capitalize()
+    tiles = [
+        _tile(rows[key], label.format(place=place)) for key, label in _FIRST.items() if key in rows
+    ]
     kept = [s for s in account.summary.sections if s.title not in _APART]
     note = "± is half of a 95 % interval. A click on a heading sorts."
     return Section("Key figures", [Tiles(tiles), summary_table(kept, note)])
@@ -151,7 +158,12 @@ def _stress(account: RunAccount) -> list[Section]:
 
 def _named(account: RunAccount, *names: str) -> list[Image]:
     found = {path.stem: path for path in account.images}
-    return [Image(found[n], CAPTIONS.get(n, n)) for n in names if n in found]
+    return [Image(found[n], _caption(account, n)) for n in names if n in found]
+
+
+def _caption(account: RunAccount, name: str) -> str:
+    elements = elements_in(account.scene.dataset).many
+    return CAPTIONS[name].format(elements=elements) if name in CAPTIONS else name
 
 
 def _pictures(account: RunAccount) -> Section:

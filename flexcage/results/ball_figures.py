@@ -33,7 +33,7 @@ def slip_section(ds: xarray.Dataset, bearing: BearingNumbers, creep_speed: float
     part = metrics.whole_revolutions(ds)
     ratio = metrics.ball_slip_ratio(part, bearing).transpose("time", "ball").values
     force = part["contact_force"].transpose("time", "ball", "race").values
-    zone = force[..., 0] > metrics.LOADED_SHARE * force[..., 0].max()
+    zone = metrics.loaded_zone(part).transpose("time", "ball").values
     windows = roller_passes(part, bearing)
     loaded, unloaded = (
         windows.ratio(np.where(z, ratio, 0.0).sum(axis=1), z.sum(axis=1)) for z in (zone, ~zone)

@@ -23,7 +23,11 @@ if TYPE_CHECKING:
 WATCHED = {
     "cage_speed": "cage speed", "whirl_radius": "whirl radius", "pocket_force_mean": "pocket force"
 }  # fmt: skip
-PASS_PEAK = "mean of the largest in each roller pass"
+
+
+def pass_peak(element: str) -> str:
+    """What the peak of a pass is, in words."""
+    return f"mean of the largest in each {element} pass"
 
 
 def summarise(
@@ -40,7 +44,7 @@ def summarise(
         raise InputError(f"settle must lie in 0 ... 1, not {settle}.", where="output.settle")
     part = metrics.settled(ds, settle)
     windows = roller_passes(part, bearing)
-    own = FIGURES[ds.attrs.get("element", "roller")]
+    own = FIGURES[metrics.element(ds)]
     sections = [
         Section("Speeds", (*_speed_rows(part, bearing), *own.speeds(part, bearing))),
         own.slip(part, bearing, creep_speed),
@@ -67,7 +71,8 @@ def _statistics_rows(
     return (
         Row("settled_at", "Settled from", begin, "ms", f"{100.0 * settle:g} % of the run left out"),
         Row("settled_time", "Time in statistics", end - begin, "ms"),
-        Row("roller_passes", "Roller passes in it", count, "", f"± is a 95 % interval{few}"),
+        Row("roller_passes", f"{metrics.element(ds).capitalize()} passes in it", count, "",
+            f"± is a 95 % interval{few}"),
         Row("drift", "Differs between its halves", (drifting or "nothing") if known else None, "",
             remedy),
     )  # fmt: skip
@@ -191,7 +196,11 @@ def _motion_rows(ds: xarray.Dataset, bearing: BearingNumbers) -> tuple[Row, ...]
 def _force_rows(ds: xarray.Dataset, windows: Windows) -> tuple[Row, ...]:
     pocket = metrics.pocket_forces(ds)
     total, faces, largest = metrics.pocket_force_series(ds)
-    where = f"pocket {pocket.peak_pocket}, {pocket.peak_face}, t = {pocket.peak_time * 1e3:.3f} ms"
+    place = f"pocket {pocket.peak_pocket}"
+    if ds.sizes["face"] > 1:
+        place += f", {pocket.peak_face}"
+    where = f"{place}, t = {pocket.peak_time * 1e3:.3f} ms"
+    walls = "Pocket faces" if ds.sizes["face"] > 1 else "Pockets"
     return (
         Row.of(
             "pocket_force_mean",
@@ -206,10 +215,10 @@ def _force_rows(ds: xarray.Dataset, windows: Windows) -> tuple[Row, ...]:
             "Pocket force, peak of a pass",
             windows.peak(largest),
             "N",
-            PASS_PEAK,
+            pass_peak(metrics.element(ds)),
         ),
         Row("pocket_force_peak", "Pocket force, largest", pocket.peak, "N", where),
-        Row("pocket_contact", "Pocket faces in contact", pocket.contact_share, "%", "of the time"),
+        Row("pocket_contact", f"{walls} in contact", pocket.contact_share, "%", "of the time"),
     )
 
 

@@ -95,6 +95,11 @@ class PocketForces:
     contact_share: float
 
 
+def element(ds: xarray.Dataset) -> str:
+    """Rolling elements of a run's bearing: "roller" or "ball"."""
+    return str(ds.attrs.get("element", "roller"))
+
+
 def settled(ds: xarray.Dataset, settle: float = 0.3) -> xarray.Dataset:
     """The run without its first part; ``settle`` is the share of its duration left out."""
     t = ds["time"].values
@@ -178,9 +183,15 @@ def ball_slip_ratio(ds: xarray.Dataset, bearing: BearingNumbers) -> xarray.DataA
     return out.transpose("time", "ball").rename("ball_slip_ratio")
 
 
+def touching(ds: xarray.Dataset, of: xarray.DataArray) -> xarray.DataArray:
+    """Values ``of`` (time, ball, race), NaN where a ball does not touch the race."""
+    return of.where(ds["contact_force"] > 0.0)
+
+
 def loaded_zone(ds: xarray.Dataset, share: float = LOADED_SHARE) -> xarray.DataArray:
-    """True where the inner race carries a roller, (time, roller)."""
-    force = ds["race_force"].sel(race="inner", drop=True)
+    """True where the inner race carries a roller, (time, roller), or a ball, (time, ball)."""
+    name = "contact_force" if element(ds) == "ball" else "race_force"
+    force = ds[name].sel(race="inner", drop=True)
     return force > share * float(force.max())
 
 

@@ -138,6 +138,15 @@ DERIVED: Mapping[str, Derived] = MappingProxyType(
             ),
             metrics.roller_slip_ratio,
         ),
+        "ball_slip_ratio": Derived(
+            Variable(
+                "ball_slip_ratio",
+                (TIME, "ball"),
+                "1",
+                "slip ratio (n_th - n)/n_th of a ball, cage frame",
+            ),
+            metrics.ball_slip_ratio,
+        ),
         "cage_whirl_radius": Derived(
             Variable(
                 "cage_whirl_radius",

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
+from dataclasses import dataclass
+
 import numpy as np
 
 from flexcage.fem.model import FEModel
@@ -90,6 +93,26 @@ def _round_walls(model: FEModel, pocket_count: int) -> np.ndarray:
 
 _PLACES = {POCKET_GROUPS: _corners, WALL_GROUPS: _sections}
 _ZONES = {POCKET_GROUPS: _plane_faces, WALL_GROUPS: _round_walls}
+
+
+@dataclass(frozen=True)
+class PlaceKind:
+    """What the places at which a cage's stress is followed are called."""
+
+    one: str
+    many: str
+    short: str  # many of them, in few words
+
+
+_KINDS = {
+    POCKET_GROUPS: PlaceKind("pocket corner", "pocket corners", "corners"),
+    WALL_GROUPS: PlaceKind("waist or rim", "waists and rims of pockets", "waists and rims"),
+}
+
+
+def place_kind(groups: Iterable[str]) -> PlaceKind:
+    """What the places of a cage whose mesh has these groups are called."""
+    return _KINDS[pocket_groups(groups)]
 
 
 def in_words(name: str) -> str:

@@ -24,8 +24,8 @@ from flexcage.system.layout import CONSTRAINTS
 if TYPE_CHECKING:
     from flexcage.run import Run
 
-#: Figures of a summary that every run has, and those that only a flexible cage gives. Rows that
-#: hold a verdict in words are no figures.
+#: Figures of a summary that every run of a roller bearing has, and those that only a flexible cage
+#: gives. Rows that hold a verdict in words are no figures.
 RIGID_FIGURES = tuple(
     """settled_at settled_time roller_passes inner_speed cage_speed cage_speed_ripple
     epicyclic_speed cage_slip_ratio roller_spin roller_spin_ideal
@@ -39,6 +39,16 @@ RIGID_FIGURES = tuple(
     failed_error_tests failed_newton wall_mesh wall_modes wall_kernels wall_start
     wall_solve""".split()
 ) + tuple(f"work_{name}" for name in POWERS)
+#: Figures that are of one kind of rolling elements alone.
+ELEMENT_FIGURES = {
+    "roller": (
+        "roller_spin", "roller_spin_ideal", "sliding_inner_unloaded", "sliding_outer_unloaded",
+    ),
+    "ball": (
+        "ball_spin", "ball_spin_ideal", "contact_angle_inner", "contact_angle_outer",
+        "whirl_difference", "velocity_deviation",
+    ),
+}  # fmt: skip
 FLEXIBLE_FIGURES = (
     "first_frequency", "far_coupling", "stress_peak", "stress_mean_peak", "stress_root",
     "stress_root_pass_peak", "stress_start", "wall_stress",
@@ -135,10 +145,13 @@ def _check_label(name: str, found: Variable, dim: str, label: str) -> None:
         raise InputError(f"Output '{name}': there is no {dim} '{label}'; {hint}.")
 
 
-def check_outputs(names: tuple[str, ...], *, rollers: int, flexible: bool) -> None:
+def check_outputs(
+    names: tuple[str, ...], *, elements: int, flexible: bool, element: str = "roller"
+) -> None:
     """Raise InputError for the first output that no run of the study can give.
 
-    ``rollers`` is the least number of rollers of any case; ``flexible`` says whether any cage is.
+    ``elements`` is the least number of rolling elements of any case, ``element`` their kind, and
+    ``flexible`` says whether any cage is.
     """
     if not names:
         raise InputError("The study has no outputs; name some, such as 'cage_speed'.")
@@ -148,12 +161,15 @@ def check_outputs(names: tuple[str, ...], *, rollers: int, flexible: bool) -> No
         if is_reduction(name):
             reduction = parse_reduction(name)
             needs = reduction.variable.name.startswith(("modal_", "residual_"))
-            for dim in {"roller", "pocket"} & set(reduction.selection):
-                if int(reduction.selection[dim]) >= rollers:
-                    raise InputError(f"Output '{name}': the {dim}s count from 0 to {rollers - 1}.")
+            _check_element(name, reduction.variable.of, element)
+            for dim in {"roller", "ball", "pocket"} & set(reduction.selection):
+                if int(reduction.selection[dim]) >= elements:
+                    raise InputError(f"Output '{name}': the {dim}s count from 0 to {elements - 1}.")
         else:
             needs = name in FLEXIBLE_FIGURES
             _check_figure(name)
+            for kind, figures in ELEMENT_FIGURES.items():
+                _check_element(name, kind if name in figures else "", element)
         if needs and not flexible:
             raise InputError(
                 f"Output '{name}' wants a flexible cage, and every cage of the study is rigid; "
@@ -163,8 +179,18 @@ def check_outputs(names: tuple[str, ...], *, rollers: int, flexible: bool) -> No
             )
 
 
+def _check_element(name: str, of: str, element: str) -> None:
+    """Refuse an output of elements that the bearings of the study do not have."""
+    if of not in ("", element):
+        raise InputError(
+            f"Output '{name}' is of {of}s, but the study's bearings have {element}s.",
+            where="outputs",
+            value=name,
+        )
+
+
 def _check_figure(name: str) -> None:
-    known = (*RIGID_FIGURES, *FLEXIBLE_FIGURES)
+    known = (*RIGID_FIGURES, *ELEMENT_FIGURES["ball"], *FLEXIBLE_FIGURES)
     if name in known:
         return
     if name in VARIABLES or name in DERIVED:

@@ -49,7 +49,7 @@ def make_plan(study: Study) -> Plan:
     _check_paths(study)
     points = _points(study)
     cases, seen = [], dict[str, int]()
-    rollers, flexible = study.case.bearing.element_count, False
+    elements, flexible = study.case.bearing.element_count, False
     for number, point in enumerate(points):
         for repetition in range(study.repeat.count):
             try:
@@ -66,10 +66,12 @@ def make_plan(study: Study) -> Plan:
                     where="axes",
                 )
             seen[case.hash] = number
-            rollers = min(rollers, case.bearing.element_count)
+            elements = min(elements, case.bearing.element_count)
             flexible |= case.cage_model == "flexible"
             cases.append(Planned(number, point, repetition, case.hash, _modes_key(case)))
-    check_outputs(study.outputs, rollers=rollers, flexible=flexible)
+    check_outputs(
+        study.outputs, elements=elements, flexible=flexible, element=study.case.bearing.element
+    )
     return Plan(study, tuple(cases))
 
 

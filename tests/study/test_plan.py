@@ -6,13 +6,14 @@ import pytest
 from study_cases import short_study, study_file
 
 from flexcage import cli
+from flexcage.case import load_case
 from flexcage.core.errors import InputError
 from flexcage.geometry.cages import CrossbeamDefect
 from flexcage.geometry.materials import MATERIALS
 from flexcage.study.axes import Grid, LatinHypercube, Points, Zip
 from flexcage.study.folder import Folder
 from flexcage.study.plan import make_plan
-from flexcage.study.spec import Repeat, load_study
+from flexcage.study.spec import Repeat, Study, load_study
 
 
 def test_every_combination_is_a_case():
@@ -150,6 +151,8 @@ def test_mistakes_in_the_file(name, tmp_path, capsys):
         (("pocket_force[face=frontal].max",), "'front'"),
         (("pocket_force[pocket=22].max",), "count from 0 to 21"),
         (("roller_omega[roller=first].mean",), "counted from 0"),
+        (("contact_angle.mean",), "is of balls, but the study's bearings have rollers"),
+        (("contact_angle_inner",), "is of balls"),
         (("stress_peak",), "wants a flexible cage"),
         (("modal_velocity.rms",), "wants a flexible cage"),
         (("cage_speed", "cage_speed"), "twice"),
@@ -158,6 +161,19 @@ def test_mistakes_in_the_file(name, tmp_path, capsys):
 def test_outputs_that_no_run_gives(outputs, words):
     with pytest.raises(InputError, match=words):
         make_plan(short_study(outputs=outputs))
+
+
+def test_outputs_of_a_study_of_ball_bearings():
+    case = load_case({"bearing": {"preset": "7010C-PI"}, "load": {"axial": "100 N"}})
+    fine = ("contact_angle_inner", "ball_slip_ratio[ball=17].mean", "contact_force[ball=0].max")
+    make_plan(Study(case=case, outputs=fine))
+    for wrong, words in (
+        ("roller_spin", "is of rollers, but the study's bearings have balls"),
+        ("roller_slip_ratio.mean", "is of rollers"),
+        ("contact_force[ball=18].max", "the balls count from 0 to 17"),
+    ):
+        with pytest.raises(InputError, match=words):
+            make_plan(Study(case=case, outputs=(wrong,)))
 
 
 def test_a_study_without_a_case(tmp_path):
