@@ -24,7 +24,8 @@ def solve_static(case: StaticCase | Case) -> StaticSolution:
     if isinstance(case, Case):
         case = StaticCase(
             name=case.name, preset=case.preset, bearing=case.bearing, contacts=case.contacts,
-            drive=case.drive, load=case.load, static=StaticOptions(tilt=case.load.tilt, gyroscopic="none"),
+            drive=case.drive, load=case.load,
+            static=StaticOptions(tilt=case.load.tilt, gyroscopic="none"),
         )  # fmt: skip
     return solve_bearing(
         case.bearing, load=case.load, speed=case.speed, contacts=case.contacts, options=case.static
