@@ -22,7 +22,7 @@ import flexcage
 from flexcage.core.progress import Progress
 from flexcage.results import instrument, metrics
 from flexcage.study.spec import Study
-from flexcage.study.verdicts import FAILS, HOLDS, Line, Verdict, write_verdicts
+from flexcage.study.verdicts import FAILS, HOLDS, Line, Verdict, range_of, write_verdicts
 
 FOLDER = Path(__file__).with_suffix("")
 OUT = Path("runs/c7010_centroid")
@@ -125,7 +125,7 @@ def verdicts(found: Table) -> list[Verdict]:
         base = BASE if BASE in where else next(iter(where))
         out.append(Verdict(
             key=key, claim=text, outcome=where[base], source=PAPER,
-            range="; ".join(f"{v}: {o}" for v, o in where.items()),
+            range=range_of(where),
             figures=tuple(_lines(whole[base])),
         ))  # fmt: skip
     return out
@@ -133,7 +133,7 @@ def verdicts(found: Table) -> list[Verdict]:
 
 def _errors_fall(found: Sequence[Found]) -> bool:
     errors = [f.raw / f.solved - 1.0 for f in found]
-    return all(e > 0.0 for e in errors) and int(np.argmin(errors)) == 2
+    return all(0.02 < e < 0.08 for e in errors) and int(np.argmin(errors)) == 2
 
 
 def _order(values: Sequence[float]) -> bool:
@@ -151,9 +151,10 @@ def _lines(found: Sequence[Found]) -> list[Line]:
 def table(found: Table) -> str:
     """All figures as a table of Markdown."""
     head = ("variation | rpm | cage speed [rpm] | against eq. 18 | mean whirl radius [mm] | "
-            "max - min [mm] | ratio | the same by sensors [mm] | corrected [mm] | error")  # fmt: skip
+            "max - min [mm] | ratio | by sensors [mm] | corrected [mm] | error")  # fmt: skip
     lines = [f"| {head} |", "|" + " --- |" * (head.count("|") + 1)]
-    for (rpm, variation), f in sorted(found.items(), key=lambda kv: (kv[0][1], int(kv[0][0]))):
+    in_order = sorted(found.items(), key=lambda item: (item[0][1], int(item[0][0])))
+    for (rpm, variation), f in in_order:
         lines.append(
             f"| {variation} | {rpm} | {f.speed * RPM:,.1f} | {f.speed / f.theory - 1.0:+.2%} | "
             f"{f.mean * MM:.4f} | {f.difference * MM:.4f} | {f.ratio:.2f} | {f.raw * MM:.4f} | "
@@ -167,9 +168,10 @@ def page(found: Table, judged: Sequence[Verdict]) -> str:
     claims = "\n".join(f"| {v.key} | {v.claim} | **{v.outcome}** | {v.range} |" for v in judged)
     return f"""# A 7010C's cage, measured by virtual lasers
 
-"{PAPER}" as a study. Written by `c7010_centroid.py --page` on {date.today():%-d %B %Y} with
-flexcage {flexcage.__version__}. 0.6 s of motion at each speed, of which the first 40 % are left
-out; 100 N axial, the inner ring held in tilt, friction as in the paper's model.
+"{PAPER}"
+as a study. Written by `c7010_centroid.py --page` on {date.today():%-d %B %Y} with flexcage
+{flexcage.__version__}. 0.6 s of motion at each speed, of which the first 40 % are left out; 100 N
+axial, the inner ring held in tilt, friction as in the paper's model.
 
 Two things the paper does not say decide the orbit: what keeps the cage centred, and its unbalance.
 With the cylindrical pockets that one would expect nothing but the balls' traction holds a cage
@@ -181,6 +183,23 @@ here, an assumption. The sensors' plane is taken {PLANE * MM:g} mm from the cage
 {claims}
 
 {table(found)}
+
+What decides the claims:
+
+- **Orbit.** In pockets that centre it a cage uses up its play, half of the pocket clearance, and
+  stays there: on the side of its weight (balanced, and 0.2 g mm at all speeds), or on that of its
+  unbalance, turning with the cage (1 g mm from 7000 rpm on, whirl at 1.00 times the cage's speed).
+  The difference of largest and least radius is then hundredths of a millimetre. It becomes the
+  paper's only where weight and unbalance are of one size, and the cage goes from side to side: at
+  1 g mm at 4000 and 7000 rpm. So the measured 0.24 mm at all speeds want an unbalance that falls with
+  speed, or another play than a fixed one; the paper's data do not tell which.
+- **Deflection error.** It is the tilt times the sensors' distance, tenths of a degree times
+  {PLANE * MM:g} mm: tens of micrometres whatever the whirl is. As a share it is the paper's 3 to
+  5 % only where the difference is tenths of a millimetre.
+- **Cage speed.** Equation 18 takes 15 degrees at both races. Under 100 N centrifugal force parts
+  the angles, and balls go round faster: 0.1 % at 4000, 2 % at 10,000 rpm. Where the outer race
+  controls the balls it is 1.1 % at 10,000 rpm; the paper's model, 0.8 % slower than equation 18,
+  slips.
 
 The paper measured differences of 0.244 and 0.238 mm at 4000 and 10,000 rpm (0.231 mm both,
 corrected) and simulated 0.255 and 0.189 mm; its simulated cage speeds were 1712.5 and 4258.3 rpm
