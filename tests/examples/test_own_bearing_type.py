@@ -48,3 +48,12 @@ def test_mistakes_in_it_are_said_like_all_others(tmp_path):
     assert done.returncode == 2 and "a spring bearing bears none of it" in done.stderr
     done = static(tmp_path, "--use", str(FILE), "--set", "load.radial=0 N")
     assert done.returncode == 2 and "bears no load" in done.stderr
+
+
+def test_a_type_without_equations_of_motion_is_not_run(tmp_path):
+    case = tmp_path / "case.toml"
+    case.write_text(CASE)
+    command = [sys.executable, "-m", "flexcage.cli", "run", str(case), "--use", str(FILE)]
+    done = subprocess.run(command, capture_output=True, text=True, cwd=tmp_path, check=False)
+    assert done.returncode == 2 and done.stderr.count("\n") == 1
+    assert "the motion of spring bearings is not computed yet; 'flexcage static'" in done.stderr
