@@ -191,8 +191,8 @@ What decides the claims:
   unbalance, turning with the cage (1 g mm from 7000 rpm on, whirl at 1.00 times the cage's speed).
   The difference of largest and least radius is then hundredths of a millimetre. It becomes the
   paper's only where weight and unbalance are of one size, and the cage goes from side to side: at
-  1 g mm at 4000 and 7000 rpm. So the measured 0.24 mm at all speeds want an unbalance that falls with
-  speed, or another play than a fixed one; the paper's data do not tell which.
+  1 g mm at 4000 and 7000 rpm. So the measured 0.24 mm at all speeds want an unbalance that falls
+  with speed, or another play than a fixed one; the paper's data do not tell which.
 - **Deflection error.** It is the tilt times the sensors' distance, tenths of a degree times
   {PLANE * MM:g} mm: tens of micrometres whatever the whirl is. As a share it is the paper's 3 to
   5 % only where the difference is tenths of a millimetre.
