@@ -40,6 +40,7 @@ def check_case(case: Case) -> None:
             *_OF_EVERY_CASE,
             _find_in_held_motions,
             _find_in_mesh,
+            _find_in_waves,
             _find_in_solver,
             _find_in_output,
             _find_in_laws,
@@ -214,6 +215,32 @@ def _find_in_ramps(case: Case) -> Iterator[Finding]:
             )
         if spec.ramp_to is not None and spec.times:
             yield f"{room}.times", f"[{room}] has both a ramp and a table; keep one of them."
+
+
+def _find_in_waves(case: Case) -> Iterator[Finding]:
+    for room in ("drive", "load"):
+        spec = getattr(case, room)
+        if spec.wave == "none":
+            if spec.wave_amplitude != 0.0:
+                yield (
+                    f"{room}.wave",
+                    f"{room}.wave_amplitude is given, but {room}.wave is 'none'; say which shape.",
+                )
+            continue
+        least = 2.0 / case.output.rate
+        if spec.wave_period < least:
+            yield (
+                f"{room}.wave_period",
+                f"{room}.wave_period is {describe(spec.wave_period, 'ms')}, but two samples of "
+                f"output.rate take {describe(least, 'ms')}; give a longer period.",
+            )
+    if case.load.wave != "none" and case.load.wave_of == "axial":
+        if not case.bearing.carries_axial_load:
+            yield (
+                "load.wave_of",
+                f"load.wave_of is 'axial', but in a run of a {case.bearing.kind} the inner ring's "
+                "axial motion is held; take 'radial'.",
+            )
 
 
 def _find_in_solver(case: Case) -> Iterator[Finding]:

@@ -21,6 +21,7 @@ from flexcage.geometry.cage import Cage
 from flexcage.geometry.cages import CrossbeamDefect, SideBeamDefect, WindowCage
 from flexcage.geometry.cylindrical_roller import RollerBearing
 from flexcage.geometry.presets import load_preset
+from flexcage.system.spec import Wave
 
 _GUIDED = {
     "roller": {
@@ -189,6 +190,8 @@ def _motion(case: Case) -> str:
         speed = "turns at a speed that a table gives over time"
     elif drive.ramp_to is not None:
         speed += f", then up to {describe(drive.ramp_to, 'rpm')}"
+    if drive.wave != "none":
+        speed += f" with {_wave(drive, describe(drive.wave_amplitude, 'rpm'))}"
     tilted = ""
     if load.misalignment:
         tilted = f", tilted by {describe(load.misalignment, 'mrad')}"
@@ -199,6 +202,10 @@ def _motion(case: Case) -> str:
         f"The inner ring {speed} under {_load(case)}{tilted}{held}. Lubricant: "
         f"{case.lubricant.name}, {describe(case.lubricant.viscosity, 'mPa*s')}."
     )
+
+
+def _wave(spec: Wave, amplitude: str) -> str:
+    return f"a {spec.wave} wave of {amplitude} and {describe(spec.wave_period, 'ms')}"
 
 
 def _load(case: Case) -> str:
@@ -213,6 +220,10 @@ def _load(case: Case) -> str:
     parts = [f"an axial load of {describe(load.axial, 'N')}"] if load.axial else []
     if load.radial or load.times or load.ramp_to is not None or not parts:
         parts.append(radial)
+    if load.wave != "none":
+        parts.append(
+            f"{_wave(load, describe(load.wave_amplitude, 'N'))} of the {load.wave_of} load"
+        )
     parts += [f"a moment of {describe(m, 'N*m')} {way}" for way, m in moments.items() if m]
     return " and ".join(filter(None, [", ".join(parts[:-1]), parts[-1]]))
 

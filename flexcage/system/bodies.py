@@ -8,8 +8,9 @@ from flexcage.bodies.floating_frame import FlexibleBody, with_point_mass
 from flexcage.contacts import laws
 from flexcage.contacts.land import LandData
 from flexcage.contacts.spec import Contacts, Lubricant
+from flexcage.system import waves
 from flexcage.system.data import Bodies
-from flexcage.system.spec import Drive, Load, Mount
+from flexcage.system.spec import WAVES, Drive, Load, Mount, Wave
 
 CAGE_SKIN_FRICTION = 0.01  # assumption: turbulent skin friction of the cage's outer surface
 
@@ -29,6 +30,14 @@ def _table(value, ramp_to, start, length, times, values) -> np.ndarray:
     if ramp_to is None:
         return np.array([[0.0, 1.0], [value, value]])
     return np.array([[start, start + max(length, 1e-12)], [value, ramp_to]])
+
+
+def _wave(spec: Wave, amplitude: float) -> tuple[float, float, float, float]:
+    """Shape, share of a rise, amplitude and period as the kernels take them."""
+    if spec.wave == "none" or amplitude == 0.0:
+        return waves.NONE, 0.0, 0.0, 1.0
+    shape = waves.SINE if spec.wave == "sine" else waves.TRAPEZOID
+    return shape, WAVES[spec.wave], amplitude, spec.wave_period
 
 
 def land_data(
@@ -101,6 +110,13 @@ def bodies_of(
         angle=np.concatenate([[0.0], np.cumsum(steps)]),
         load=_table(
             load.radial, load.ramp_to, load.ramp_start, load.ramp_time, load.times, load.values
+        ),
+        waves=np.array(
+            [
+                _wave(drive, drive.wave_amplitude),
+                _wave(load, load.wave_amplitude * (load.wave_of == "radial")),
+                _wave(load, load.wave_amplitude * (load.wave_of == "axial")),
+            ]
         ),
         load_direction=np.array([np.cos(load.direction), np.sin(load.direction)]),
         steady=np.array([load.axial, load.moment_y, load.moment_z]),

@@ -43,6 +43,7 @@ class Bodies(NamedTuple):
     angle: np.ndarray  # (n,) drive angle at the table's times
     load: np.ndarray  # (2, m) table of time and radial load
     load_direction: np.ndarray  # (2,) y, z
+    waves: np.ndarray  # (3, 4) of speed, radial load, axial load, see waves.py
     steady: np.ndarray  # (3,) axial load, moments about y and z on the inner ring
     free: np.ndarray  # (3,) 1.0 if the inner ring is free axially, in skew, in tilt
     misalignment: float

@@ -14,8 +14,9 @@ import numpy as np
 
 from flexcage.core.jit import VECTORISED, fields, kernel, part, zero
 from flexcage.solve.bordered import lu_factor, lu_solve
-from flexcage.system.rows import interpolate
+from flexcage.system.rows import speed_at
 from flexcage.system.sampling import keep_force, keep_report
+from flexcage.system.waves import wave_slope
 
 
 class RatesWork(NamedTuple):
@@ -90,7 +91,7 @@ def _rates(t, y, yd, data, mode):
             c = 0 if k == 0 else 3 + k
             a[c], lam[k] = 0.0, row[c]
     if driven:
-        a[3] = slope_of(bodies.speed, t)
+        a[3] = slope_of(bodies.speed, t) + wave_slope(bodies.waves[0], t)
         lam[3] = row[3] + bodies.ring[1] * a[3]
         if mode >= 2:
             fields(d.report).power[0] += lam[3] * y[ring + 3]
@@ -112,12 +113,12 @@ def _hold(t, q, u, bodies, driven):
     if bodies.free[2] == 0.0:
         q[4], u[5] = bodies.misalignment, 0.0
     if driven:
-        u[3] = interpolate(bodies.speed, t)
+        u[3] = speed_at(bodies, t)
 
 
 @part
 def slope_of(table, t):
-    """Slope at t of ``interpolate``; at a corner that of the piece before it."""
+    """Slope at t of ``rows.interpolate``; at a corner that of the piece before it."""
     for i in range(1, table.shape[1]):
         if table[0, i - 1] < t <= table[0, i]:
             return (table[1, i] - table[1, i - 1]) / (table[0, i] - table[0, i - 1])

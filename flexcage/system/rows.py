@@ -21,6 +21,7 @@ from flexcage.core.vectors import (
     turned_back,
     xyz,
 )
+from flexcage.system.waves import wave_integral, wave_value
 
 # rows of ``Work.vec``: of the bodies, in space; of the pair under work, in the roller's frame F
 CAGE_SPIN, RING_AXIS, RING_SPIN, LEVER, AXIS, PARTNER_V, PARTNER_W, GUIDE, GUIDE_V = range(9)
@@ -40,8 +41,20 @@ def interpolate(table, t):
 
 
 @part
+def speed_at(bodies, t):
+    """Prescribed speed of the inner ring."""
+    return interpolate(bodies.speed, t) + wave_value(bodies.waves[0], t)
+
+
+@part
 def drive_angle(bodies, t):
     """Angle that the prescribed speed has turned by time t since t = 0."""
+    return _table_angle(bodies, t) + wave_integral(bodies.waves[0], t)
+
+
+@part
+def _table_angle(bodies, t):
+    """The same without the wave."""
     table = bodies.speed
     n = table.shape[1]
     if t <= table[0, 0]:
@@ -305,21 +318,22 @@ def ring_rows(t, d, q, u, qd, ud, lam, mu_, zq, r_q, r_u, out, end, mode):
     r_q[zq + 3] -= mu_[1]
     r_q[zq + 4] -= mu_[2]
     mass, Ia, It = bodies.ring[0], bodies.ring[1], bodies.ring[2]
-    load = interpolate(bodies.load, t)
+    load = interpolate(bodies.load, t) + wave_value(bodies.waves[1], t)
+    axial = bodies.steady[0] + wave_value(bodies.waves[2], t)
     # moments about the ring's own (non-spinning) axes
     cx, sx, ce, se = cos(rq[3]), sin(rq[3]), cos(rq[4]), sin(rq[4])
     Mx, My, Mz = border[3], border[4] + bodies.steady[1], border[5] + bodies.steady[2]
     M1 = cx * ce * Mx + se * My - sx * ce * Mz
     M2 = -cx * se * Mx + ce * My + sx * se * Mz
     M3 = sx * Mx + cx * Mz
-    target = interpolate(bodies.speed, t)
+    target = speed_at(bodies, t)
     shaft = 0.0
     if bodies.drive[0] > 0.0:
         shaft = bodies.drive[1] * (drive_angle(bodies, t) - rq[5])
         shaft += bodies.drive[2] * (target - ru[3])
     for c in range(3):
         r_u[zq + c] = mass * (rud[c] - bodies.gravity[c]) - border[c]
-    r_u[zq] -= lam[0] + bodies.steady[0]
+    r_u[zq] -= lam[0] + axial
     r_u[zq + 1] -= load * bodies.load_direction[0]
     r_u[zq + 2] -= load * bodies.load_direction[1]
     r_u[zq + 3] = Ia * rud[3] - M1 - lam[3] - shaft
@@ -372,7 +386,7 @@ def ring_rows(t, d, q, u, qd, ud, lam, mu_, zq, r_q, r_u, out, end, mode):
         rep.power[0] += lam[3] * ru[3] + shaft * ru[3]
         rep.power[1] += load * (bodies.load_direction[0] * ru[1] + bodies.load_direction[1] * ru[2])
         spin = work.vec[RING_SPIN]
-        rep.power[1] += bodies.steady[0] * ru[0]
+        rep.power[1] += axial * ru[0]
         rep.power[1] += bodies.steady[1] * spin[1] + bodies.steady[2] * spin[2]
         for c in range(3):
             rep.power[2] += mass * bodies.gravity[c] * ru[c]

@@ -7,9 +7,24 @@ from math import pi
 
 from flexcage.core.spec import option, quantity
 
+#: Shapes, and the share of the period that each takes from zero to its amplitude.
+WAVES = {"none": 0.0, "sine": 0.0, "triangle": 0.25, "rectangle": 0.01}
+
 
 @dataclass(frozen=True, kw_only=True)
-class Drive:
+class Wave:
+    """A periodic part of a speed or load: zero at t = 0, then rising to its amplitude.
+
+    ``rectangle`` takes a hundredth of its period from zero to the amplitude: a jump of speed would
+    want an infinite torque.
+    """
+
+    wave: str = option("none", doc="shape of a wave", choices=tuple(WAVES))
+    wave_period: float = quantity("s", 0.0, doc="its period", minimum=0.0)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Drive(Wave):
     """Rotation of the inner ring: prescribed, or through a compliant shaft.
 
     ``speed`` holds from the start, unless ``ramp_to`` and ``ramp_time`` give a linear ramp that
@@ -22,16 +37,18 @@ class Drive:
     ramp_time: float = quantity("s", 0.0, doc="length of the ramp", minimum=0.0)
     times: tuple[float, ...] = quantity("s", (), doc="table: times")
     speeds: tuple[float, ...] = quantity("rpm", (), doc="table: speeds")
+    wave_amplitude: float = quantity("rpm", 0.0, doc="amplitude of the wave")
     kind: str = option("prescribed", doc="how it is driven", choices=("prescribed", "shaft"))
     shaft_stiffness: float = quantity("N*m/rad", 1e4, doc="torsional stiffness", above=0.0)
     shaft_damping: float = quantity("N*m*s/rad", 1.0, doc="torsional damping", minimum=0.0)
 
 
 @dataclass(frozen=True, kw_only=True)
-class Load:
+class Load(Wave):
     """Load on the inner ring, its misalignment, and gravity.
 
-    Ramps and tables are of the radial load. What is held is borne by a reaction.
+    Ramps and tables are of the radial load, a wave of that which ``wave_of`` names. What is held is
+    borne by a reaction.
     """
 
     radial: float = quantity("N", 0.0, doc="radial load", minimum=0.0)
@@ -44,6 +61,8 @@ class Load:
     ramp_time: float = quantity("s", 0.0, doc="length of the ramp", minimum=0.0)
     times: tuple[float, ...] = quantity("s", (), doc="table: times")
     values: tuple[float, ...] = quantity("N", (), doc="table: loads")
+    wave_amplitude: float = quantity("N", 0.0, doc="amplitude of the wave")
+    wave_of: str = option("radial", doc="load that has a wave", choices=("radial", "axial"))
     tilt: str = option(
         "held", doc="is the inner ring held in tilt, or free in a run?", choices=("held", "free")
     )
