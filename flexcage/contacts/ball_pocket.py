@@ -50,13 +50,10 @@ class BallPocketWork(NamedTuple):
     st: np.ndarray  # (1, nst, 3) station forces on the cage
     normal: np.ndarray  # (1,) normal force
     tangential: np.ndarray  # (1,) friction force
-    place: np.ndarray  # (4,) stations near the contact (as floats), refilled for each
 
 
 def ball_pocket_work(stations: int) -> BallPocketWork:
-    return BallPocketWork(
-        np.zeros((3, 3)), np.zeros((1, stations, 3)), np.zeros(1), np.zeros(1), np.zeros(4)
-    )
+    return BallPocketWork(np.zeros((3, 3)), np.zeros((1, stations, 3)), np.zeros(1), np.zeros(1))
 
 
 @part

@@ -33,8 +33,7 @@ class Groove(NamedTuple):
     axial: float  # place of the groove's centre in the ring
     centre: float  # radius of the circle of groove centres
     radius: float  # of the groove's arc
-    long: float  # semi-axes of the ellipse at 1 N, across the rolling direction and along it
-    short: float
+    long: float  # semi-axis of the ellipse at 1 N, across the rolling direction
     bend: float  # curvature of the surface of contact across the rolling direction
     strip: np.ndarray  # (ns,) middles of the strips, in -1..1 of the long axis
     share: np.ndarray  # (ns,) of the load that each bears

@@ -16,7 +16,14 @@ from flexcage.core.errors import RunFailed
 from flexcage.geometry.ball_cages import BallCage
 from flexcage.mesh.gmsh_session import gmsh_model
 from flexcage.mesh.options import MeshOptions
-from flexcage.mesh.sector import MM, Quarter, SizePlan, mesh_arrays, section_prism
+from flexcage.mesh.sector import (
+    MM,
+    Quarter,
+    SizePlan,
+    mesh_arrays,
+    section_prism,
+    set_sizes,
+)
 
 # of the sector's length scale (cube root of its volume): size, size at the pocket's wall; growth
 # of the size with distance; edges along a quarter of the wall; stretch along the radius
@@ -52,7 +59,7 @@ def mesh_ball_quarter(
     plan = ball_size_plan(cage, pocket_count, options)
     with gmsh_model("flexcage quarter sector of a ball cage") as gmsh:
         _shape(gmsh, cage, pocket_count, plan.stretch, tips)
-        _sizes(gmsh, plan, _wall(gmsh, cage))
+        set_sizes(gmsh, plan, _wall(gmsh, cage))
         gmsh.model.mesh.generate(3)
         points, tets, faces = mesh_arrays(gmsh, plan.stretch)
     found: dict[str, list[np.ndarray]] = {}
@@ -98,27 +105,6 @@ def _wall(gmsh: Any, cage: BallCage) -> int:
     if len(tags) != 1:
         raise RunFailed(f"one pocket wall was expected in the quarter sector, not {len(tags)}")
     return tags[0]
-
-
-def _sizes(gmsh: Any, plan: SizePlan, wall: int) -> None:
-    """A regular grid on the wall; away from it the size grows to the far one."""
-    mesh, option = gmsh.model.mesh, gmsh.option
-    for dim, tag in gmsh.model.getBoundary([(2, wall)], combined=False, oriented=False):
-        box = gmsh.model.getBoundingBox(dim, tag)
-        arc = box[3] - box[0] > 1e-3
-        mesh.setTransfiniteCurve(abs(tag), 1 + (plan.arc_edges if arc else plan.radial_edges))
-    mesh.setTransfiniteSurface(wall)
-    distance = mesh.field.add("Distance")
-    mesh.field.setNumbers(distance, "SurfacesList", [wall])
-    mesh.field.setNumber(distance, "Sampling", 40)
-    size = mesh.field.add("MathEval")
-    near, far = plan.near_fillet / MM, plan.size / MM
-    mesh.field.setString(size, "F", f"Min({far}, {near} + {plan.growth}*F{distance})")
-    mesh.field.setAsBackgroundMesh(size)
-    for name in ("ExtendFromBoundary", "FromPoints", "FromCurvature"):
-        option.setNumber(f"Mesh.MeshSize{name}", 0)
-    option.setNumber("Mesh.Optimize", 1)
-    option.setNumber("Mesh.OptimizeNetgen", 1)
 
 
 def _surface_name(points: np.ndarray, cage: BallCage, pocket_count: int) -> str:

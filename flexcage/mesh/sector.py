@@ -36,6 +36,7 @@ _NAMED = {
     "fine": (0.24, 0.1, 2.0, 5, 1.35),
     "paper": (0.0703, 0.0580, 0.4, 3, 1.0),
 }
+_STRAIGHT = 1e-3  # mm: a radial edge's extent along x, in which boxes are rounded
 SURFACES = ("cut_x", "cut_z", "cut_psi", "land_inner", "land_outer", "end", "beam", "side")
 
 
@@ -85,7 +86,7 @@ def mesh_quarter(cage: WindowCage, *, pocket_count: int, options: MeshOptions) -
     with gmsh_model("flexcage quarter sector") as gmsh:
         _shape(gmsh, cage, pocket_count, plan.stretch)
         fillet = _fillet_surface(gmsh, cage)
-        _sizes(gmsh, plan, fillet)
+        set_sizes(gmsh, plan, fillet)
         gmsh.model.mesh.generate(3)
         points, tets, faces = mesh_arrays(gmsh, plan.stretch)
     surfaces = {
@@ -153,15 +154,16 @@ def _fillet_surface(gmsh: Any, cage: WindowCage) -> int:
     return tags[0]
 
 
-def _sizes(gmsh: Any, plan: SizePlan, fillet: int) -> None:
-    """Structured fillet, long along the radius where stress varies slowly; graded elsewhere."""
+def set_sizes(gmsh: Any, plan: SizePlan, curved: int) -> None:
+    """A regular grid on the curved surface, a fillet or a pocket's wall, long along the radius
+    where stress varies slowly; away from it the size grows to the far one."""
     mesh, option = gmsh.model.mesh, gmsh.option
-    for dim, tag in gmsh.model.getBoundary([(2, fillet)], combined=False, oriented=False):
-        arc = _x_extent(gmsh, dim, tag) > 1e-3 * plan.near_fillet
+    for dim, tag in gmsh.model.getBoundary([(2, curved)], combined=False, oriented=False):
+        arc = _x_extent(gmsh, dim, tag) > _STRAIGHT
         mesh.setTransfiniteCurve(tag, 1 + (plan.arc_edges if arc else plan.radial_edges))
-    mesh.setTransfiniteSurface(fillet)
+    mesh.setTransfiniteSurface(curved)
     distance = mesh.field.add("Distance")
-    mesh.field.setNumbers(distance, "SurfacesList", [fillet])
+    mesh.field.setNumbers(distance, "SurfacesList", [curved])
     mesh.field.setNumber(distance, "Sampling", 40)
     size = mesh.field.add("MathEval")
     near, far = plan.near_fillet / MM, plan.size / MM

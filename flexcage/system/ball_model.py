@@ -69,14 +69,12 @@ def _groove(bearing: BallBearing, contacts: Contacts, lubricant: Lubricant, *, i
     axial, centre = bearing.inner_groove_centre if inner else bearing.outer_groove_centre
     radius = bearing.inner_groove_radius if inner else bearing.outer_groove_radius
     strip, share = strips(contacts.race.slices)
-    long, short = (float(a) for a in contact.semi_axes(1.0))
     return Groove(
         side=-1.0 if inner else 1.0,
         axial=axial,
         centre=centre,
         radius=radius,
-        long=long,
-        short=short,
+        long=float(contact.semi_axes(1.0)[0]),
         bend=0.5 * (2.0 / bearing.ball_diameter + 1.0 / radius),
         strip=strip,
         share=share,

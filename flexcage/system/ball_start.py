@@ -14,7 +14,7 @@ import numpy as np
 from flexcage.system.ball_model import BallModel
 from flexcage.system.layout import Layout
 from flexcage.system.problem import Bearing
-from flexcage.system.scales import ERROR_RATE, error_weights
+from flexcage.system.scales import ERROR_RATE, error_weights, shared_weights
 from flexcage.system.start import Start, StaticStart, start_of
 from flexcage.system.statics.solution import StaticSolution
 
@@ -94,26 +94,10 @@ def _rolling(
 
 @error_weights.register
 def _(model: BallModel, layout: Layout, length: float) -> np.ndarray:
-    allowed = np.full(layout.size, np.inf)
-    q, u = layout.q(allowed), layout.u(allowed)
-    rb, pitch = float(model.bodies.radius.mean()), model.pocket.height
-    q["rollers"][:, :2] = length
-    q["rollers"][:, 2] = length / pitch
-    q["inner"][:3] = length
-    q["inner"][3:5] = length / pitch
-    q["outer"][:] = length
-    q["cage"][:] = length
-    q["quaternion"][:] = 0.5 * length / pitch
-    speed = length * ERROR_RATE
-    u["rollers"][:, :3] = speed
-    u["rollers"][:, 3:] = 10.0 * speed / rb
-    u["inner"][:3] = speed
-    u["inner"][3:] = speed / pitch
-    u["outer"][:] = speed
-    u["cage"][:] = speed
-    u["omega"][:] = speed / pitch
-    if layout.modes:
-        largest = np.maximum(model.pocket.phi_max, 1e-3 * model.pocket.phi_max.max())
-        q["modes"][:] = length / largest
-        u["modes"][:] = speed / largest
-    return 1.0 / allowed
+    pitch, speed = model.pocket.height, length * ERROR_RATE
+    weight = shared_weights(model, layout, length, pitch)
+    q, u = layout.q(weight), layout.u(weight)
+    q["inner"][0], q["inner"][3:5] = 1.0 / length, pitch / length
+    u["rollers"][:, 3:] = float(model.bodies.radius.mean()) / (10.0 * speed)
+    u["inner"][0], u["inner"][3:] = 1.0 / speed, pitch / speed
+    return weight

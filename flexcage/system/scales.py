@@ -25,31 +25,34 @@ def error_weights(model: Any, layout: Layout, length: float) -> np.ndarray:
     raise NotImplementedError(f"{type(model).__name__} has no error weights")
 
 
-@error_weights.register
-def _(model: Model, layout: Layout, length: float) -> np.ndarray:
+def shared_weights(model: Any, layout: Layout, length: float, pitch: float) -> np.ndarray:
+    """The same of what all bearings have: places and speeds of elements and bodies, modes.
+
+    ``pitch`` [m] is the lever of the cage's turns and of elements along their orbit.
+    """
     allowed = np.full(layout.size, np.inf)
-    q, u = layout.q(allowed), layout.u(allowed)
-    rw = float(model.bodies.radius.mean())
-    reach = float(model.pocket.half_roller)
-    pitch = 0.5 * (model.inner.radius + model.outer.radius)
+    q, u, speed = layout.q(allowed), layout.u(allowed), length * ERROR_RATE
     q["rollers"][:, :2] = length
     q["rollers"][:, 2] = length / pitch
-    q["rollers"][:, 3:5] = length / reach
-    q["inner"][1:3] = length
-    q["outer"][:] = length
-    q["cage"][:] = length
+    q["inner"][1:3] = q["outer"][:] = q["cage"][:] = length
     q["quaternion"][:] = 0.5 * length / pitch
-    speed = length * ERROR_RATE
     u["rollers"][:, :3] = speed
-    u["rollers"][:, 3] = 10.0 * speed / rw
-    u["rollers"][:, 4:] = speed / reach
-    u["inner"][1:3] = speed
-    u["inner"][3] = speed / model.inner.radius
-    u["outer"][:] = speed
-    u["cage"][:] = speed
+    u["inner"][1:3] = u["outer"][:] = u["cage"][:] = speed
     u["omega"][:] = speed / pitch
     if layout.modes:
         largest = np.maximum(model.pocket.phi_max, 1e-3 * model.pocket.phi_max.max())
         q["modes"][:] = length / largest
         u["modes"][:] = speed / largest
     return 1.0 / allowed
+
+
+@error_weights.register
+def _(model: Model, layout: Layout, length: float) -> np.ndarray:
+    reach, speed = float(model.pocket.half_roller), length * ERROR_RATE
+    weight = shared_weights(model, layout, length, 0.5 * (model.inner.radius + model.outer.radius))
+    q, u = layout.q(weight), layout.u(weight)
+    q["rollers"][:, 3:5] = reach / length
+    u["rollers"][:, 3] = float(model.bodies.radius.mean()) / (10.0 * speed)
+    u["rollers"][:, 4:] = reach / speed
+    u["inner"][3] = model.inner.radius / speed
+    return weight
