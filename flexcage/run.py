@@ -305,6 +305,7 @@ class Run:
             self.numbers,
             settle=case.output.settle,
             creep_speed=creep.get(friction.law),
+            events=self.events,
         )
         summary = summary.with_section("Cage", self._cage_rows())
         if self.cage is not None:

@@ -14,8 +14,6 @@ from flexcage.results.summary import Row, Section
 if TYPE_CHECKING:
     import xarray
 
-RATE, LOW_PASS = 20e3, 2e3  # Hz, at which the deviation of the cage's speed is taken
-
 
 def speed_rows(ds: xarray.Dataset, bearing: BearingNumbers) -> tuple[Row, ...]:
     """Speed of balls about their own axes, against pure rolling."""
@@ -62,16 +60,11 @@ def slip_section(ds: xarray.Dataset, bearing: BearingNumbers, creep_speed: float
 
 
 def motion_rows(ds: xarray.Dataset) -> tuple[Row, ...]:
-    """How steadily the cage's centre moves."""
-    whole = metrics.whole_revolutions(ds)
-    axis = metrics.whirl(whole, about="axis")
-    rate = 1.0 / float(np.median(np.diff(ds["time"].values)))
-    note = f"of the centre's speed, at {rate / 1e3:g} kHz, low-pass {LOW_PASS / 1e3:g} kHz"
-    steady = metrics.velocity_deviation(ds, low_pass=LOW_PASS) if rate > 2.2 * LOW_PASS else None
+    """How far the cage's centre comes and goes."""
+    axis = metrics.whirl(metrics.whole_revolutions(ds), about="axis")
     return (
         Row("whirl_difference", "Whirl radius, max - min", axis.largest - axis.smallest, "um",
             "about the ring's axis"),
-        Row("velocity_deviation", "Deviation over mean", steady, "%", note),
     )  # fmt: skip
 
 

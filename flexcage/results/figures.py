@@ -12,6 +12,7 @@ import numpy as np
 from flexcage.core.errors import InputError
 from flexcage.results import audit, ball_figures, metrics
 from flexcage.results.bootstrap import FEWEST
+from flexcage.results.contact_activity import EVENTS, contact_series
 from flexcage.results.metrics import BearingNumbers
 from flexcage.results.statistics import Record, Windows, roller_passes
 from flexcage.results.summary import Row, Section, Summary
@@ -23,6 +24,7 @@ if TYPE_CHECKING:
 WATCHED = {
     "cage_speed": "cage speed", "whirl_radius": "whirl radius", "pocket_force_mean": "pocket force"
 }  # fmt: skip
+LOW_PASS = 2e3  # Hz, of the second deviation of the cage centre's speed
 
 
 def pass_peak(element: str) -> str:
@@ -36,9 +38,11 @@ def summarise(
     *,
     settle: float = 0.3,
     creep_speed: float | None = None,
+    events: xarray.Dataset | None = None,
 ) -> Summary:
     """Summary of a run's motion and forces after its start; stress, solver and times come from
-    those who know them, by :meth:`Summary.with_section`.
+    those who know them, by :meth:`Summary.with_section`. ``events`` are the run's contacts that
+    closed or opened; without them contacts are counted at samples.
     """
     if not 0.0 <= settle < 1.0:
         raise InputError(f"settle must lie in 0 ... 1, not {settle}.", where="output.settle")
@@ -50,6 +54,7 @@ def summarise(
         own.slip(part, bearing, creep_speed),
         Section("Cage motion", (*_motion_rows(part, bearing), *own.motion(part))),
         Section("Forces", (*_force_rows(part, windows), *own.races(part))),
+        Section("Contacts of the cage", _contact_rows(part, windows, events)),
     ]
     records = {r.key: r.record for s in sections for r in s.rows if r.record is not None}
     sections.insert(0, Section("Statistics", _statistics_rows(part, windows, settle, records)))
@@ -179,6 +184,7 @@ def _motion_rows(ds: xarray.Dataset, bearing: BearingNumbers) -> tuple[Row, ...]
     mean, axis = metrics.whirl(whole, about="mean"), metrics.whirl(whole, about="axis")
     lean = metrics.tilt(ds).sel(component="total")
     leaning = roller_passes(ds, bearing).mean(lean.values)
+    rate = f"{metrics.sampling_rate(ds) / 1e3:g} kHz"
     return (
         Row.of("whirl_radius", "Whirl radius, mean", about_mean, "um", "about the orbit's mean"),
         Row("whirl_radius_max", "Whirl radius, largest", mean.largest, "um"),
@@ -187,10 +193,16 @@ def _motion_rows(ds: xarray.Dataset, bearing: BearingNumbers) -> tuple[Row, ...]
             "whirl_radius_axis", "Whirl radius, mean", about_axis, "um", "about the ring's axis"
         ),
         Row("whirl_ratio_axis", "Whirl (max - min)/mean", axis.ratio, "", "about the ring's axis"),
-        Row("whirl_speed_ratio", "Whirl speed / cage speed", axis.speed_ratio, ""),
+        Row("whirl_speed_ratio", "Whirl speed / cage speed", axis.speed_ratio, "",
+            f"net turns about the ring's axis over the cage's, at {rate}"),
+        Row("velocity_deviation", "Centre's speed, ripple", metrics.velocity_deviation(ds), "%",
+            f"standard deviation over mean, at {rate}, no filter"),
+        Row("velocity_deviation_2khz", "Centre's speed, slow ripple",
+            metrics.velocity_deviation(ds, low_pass=LOW_PASS), "%",
+            f"the same, low-passed at {LOW_PASS / 1e3:g} kHz"),
         Row.of("tilt_mean", "Cage tilt, mean", leaning, "deg"),
         Row("tilt_max", "Cage tilt, largest", float(lean.max()), "deg"),
-    )
+    )  # fmt: skip
 
 
 def _force_rows(ds: xarray.Dataset, windows: Windows) -> tuple[Row, ...]:
@@ -218,8 +230,26 @@ def _force_rows(ds: xarray.Dataset, windows: Windows) -> tuple[Row, ...]:
             pass_peak(metrics.element(ds)),
         ),
         Row("pocket_force_peak", "Pocket force, largest", pocket.peak, "N", where),
+        Row("pocket_force_ratio", "Pocket force, largest / mean", pocket.ratio, ""),
         Row("pocket_contact", f"{walls} in contact", pocket.contact_share, "%", "of the time"),
     )
+
+
+def _contact_rows(
+    ds: xarray.Dataset, windows: Windows, events: xarray.Dataset | None
+) -> tuple[Row, ...]:
+    series = contact_series(ds, events)
+    begun = series.onsets.sum(axis=1) / series.step
+    source = "to a step of the solver"
+    if series.source != EVENTS:
+        source = f"at samples, {metrics.sampling_rate(ds) / 1e3:g} kHz, that miss shorter ones"
+    return (
+        Row.of("contact_frequency", "Contacts begun, mean of a pocket",
+               windows.mean(begun / ds.sizes["pocket"]), "Hz", f"counted {source}"),
+        Row.of("contact_frequency_total", "Contacts begun, all pockets", windows.mean(begun), "Hz"),
+        Row.of("free_flight_share", "Free flight", windows.mean(series.free), "%",
+               "of the time: no pocket and no land touches the cage"),
+    )  # fmt: skip
 
 
 def _race_rows(ds: xarray.Dataset) -> tuple[Row, ...]:

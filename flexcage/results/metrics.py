@@ -21,6 +21,7 @@ if TYPE_CHECKING:
 
 TOUCHING = 1e-3  # N, above which a pocket face counts as in contact
 LOADED_SHARE = 0.01  # a roller is in the loaded zone above this share of the largest inner force
+FEWEST_FILTERED = 16  # samples, below which a low pass has nothing to begin from
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -93,6 +94,11 @@ class PocketForces:
     peak_face: str
     peak_time: float
     contact_share: float
+
+    @property
+    def ratio(self) -> float:
+        """Largest over mean force; NaN where nothing touched."""
+        return self.peak / self.mean if self.mean else float("nan")
 
 
 def element(ds: xarray.Dataset) -> str:
@@ -261,16 +267,26 @@ def orbit(ds: xarray.Dataset) -> np.ndarray:
 def velocity_deviation(ds: xarray.Dataset, *, low_pass: float | None = None) -> float:
     """Standard deviation over mean of the cage centre's speed; ``low_pass`` [Hz] filters first.
 
-    The figure depends on sampling and filter, so state both (paper 004: 20 kHz and 2 kHz).
+    The filter is a Butterworth of order 4, run forwards and backwards over the components of the
+    velocity. The figure depends on sampling and filter, so state both (paper 004: 20 kHz and
+    2 kHz). NaN for a centre that rests, and where the samples are too slow or too few to filter.
     """
     v = ds["cage_velocity"].values
     if low_pass is not None:
         from scipy.signal import butter, sosfiltfilt
 
-        rate = 1.0 / float(np.median(np.diff(ds["time"].values)))
+        rate = sampling_rate(ds)
+        if rate <= 2.2 * low_pass or len(v) < FEWEST_FILTERED:
+            return float("nan")
         v = sosfiltfilt(butter(4, low_pass, fs=rate, output="sos"), v, axis=0)
     speed = np.linalg.norm(v, axis=1)
-    return float(speed.std(ddof=1) / speed.mean())
+    mean = float(speed.mean())
+    return float(speed.std(ddof=1)) / mean if mean else float("nan")
+
+
+def sampling_rate(ds: xarray.Dataset) -> float:
+    """Samples a second of the main grid [Hz]."""
+    return 1.0 / float(np.median(np.diff(ds["time"].values)))
 
 
 def tilt(ds: xarray.Dataset) -> xarray.DataArray:

@@ -31,12 +31,13 @@ RIGID_FIGURES = tuple(
     epicyclic_speed cage_slip_ratio roller_spin roller_spin_ideal
     slip_loaded slip_unloaded sliding_inner_loaded sliding_outer_loaded sliding_inner_unloaded
     sliding_outer_unloaded loaded_share whirl_radius whirl_radius_max whirl_ratio
-    whirl_radius_axis whirl_ratio_axis whirl_speed_ratio tilt_mean tilt_max pocket_force_mean
-    pocket_force_sum pocket_force_pass_peak pocket_force_peak pocket_contact race_force_inner
-    race_force_outer stored_kinetic stored_strain stored_contact stored_mount energy_moved
-    energy_imbalance energy_relative energy_of_drive energy_of_cage cage_mass cage_centre_shift
-    pinch_force steps explicit_steps stable_step residuals jacobians factorisations
-    failed_error_tests failed_newton wall_mesh wall_modes wall_kernels wall_start
+    whirl_radius_axis whirl_ratio_axis whirl_speed_ratio velocity_deviation velocity_deviation_2khz
+    tilt_mean tilt_max pocket_force_mean pocket_force_sum pocket_force_pass_peak pocket_force_peak
+    pocket_force_ratio pocket_contact race_force_inner race_force_outer contact_frequency
+    contact_frequency_total free_flight_share stored_kinetic stored_strain stored_contact
+    stored_mount energy_moved energy_imbalance energy_relative energy_of_drive energy_of_cage
+    cage_mass cage_centre_shift pinch_force steps explicit_steps stable_step residuals jacobians
+    factorisations failed_error_tests failed_newton wall_mesh wall_modes wall_kernels wall_start
     wall_solve""".split()
 ) + tuple(f"work_{name}" for name in POWERS)
 #: Figures that are of one kind of rolling elements alone.
@@ -46,7 +47,7 @@ ELEMENT_FIGURES = {
     ),
     "ball": (
         "ball_spin", "ball_spin_ideal", "contact_angle_inner", "contact_angle_outer",
-        "whirl_difference", "velocity_deviation",
+        "whirl_difference",
     ),
 }  # fmt: skip
 FLEXIBLE_FIGURES = (

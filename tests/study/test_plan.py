@@ -12,6 +12,7 @@ from flexcage.geometry.cages import CrossbeamDefect
 from flexcage.geometry.materials import MATERIALS
 from flexcage.study.axes import Grid, LatinHypercube, Points, Zip
 from flexcage.study.folder import Folder
+from flexcage.study.outputs import check_outputs
 from flexcage.study.plan import make_plan
 from flexcage.study.spec import Repeat, Study, load_study
 
@@ -30,6 +31,13 @@ def test_every_combination_is_a_case():
         (314, "rigid"),
         (628, "flexible"),
     }
+
+
+@pytest.mark.parametrize("element", ["roller", "ball"])
+def test_the_cages_motion_and_contacts_are_outputs_of_every_family(element):
+    names = ("contact_frequency", "contact_frequency_total", "free_flight_share")
+    names += ("whirl_speed_ratio", "velocity_deviation", "velocity_deviation_2khz")
+    check_outputs(names, elements=12, flexible=False, element=element)
 
 
 def test_repetitions_differ_in_their_start_alone():
