@@ -16,6 +16,7 @@ if TYPE_CHECKING:
     from flexcage.render.curves import compare_forces, histories, orbit
     from flexcage.render.mesh_pictures import mesh_picture
     from flexcage.render.mode_pictures import mode_sheet
+    from flexcage.render.spectra import spectra_picture
     from flexcage.render.static_pictures import static_picture
     from flexcage.render.stress_pictures import (
         deformation_picture,
@@ -36,6 +37,7 @@ _HOME = {
     "mesh_picture": "mesh_pictures",
     "mode_sheet": "mode_pictures",
     "convergence_picture": "convergence",
+    "spectra_picture": "spectra",
     "static_picture": "static_pictures",
     "deformation_picture": "stress_pictures",
     "envelope_picture": "stress_pictures",
@@ -56,6 +58,7 @@ __all__ = [
     "mode_sheet",
     "orbit",
     "register_picture",
+    "spectra_picture",
     "static_picture",
     "stress_picture",
     "write_animation",

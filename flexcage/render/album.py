@@ -16,14 +16,15 @@ from flexcage.core.registry import add, check_free
 from flexcage.mesh.cage_mesh import CageMesh
 from flexcage.modes.basis import ModeBasis
 from flexcage.render.defects import pockets_of
-from flexcage.results.metrics import BearingNumbers
+from flexcage.results import spectra
+from flexcage.results.metrics import BearingNumbers, settled
 
 if TYPE_CHECKING:
     import xarray
 
 
 _FILES = (
-    "mesh", "modes", "bearing", "orbit", "histories", "stress_peak", "stress_envelope",
+    "mesh", "modes", "bearing", "orbit", "histories", "spectra", "stress_peak", "stress_envelope",
     "deformation",
 )  # fmt: skip
 
@@ -123,6 +124,7 @@ def _geometry(scene: Scene, folder: Path) -> list[Path]:
 def _motion(scene: Scene, folder: Path) -> list[Path]:
     from flexcage.render.bearing_pictures import bearing_picture
     from flexcage.render.curves import histories, orbit
+    from flexcage.render.spectra import spectra_picture
 
     b, ds = scene.bearing, scene.dataset
     numbers = BearingNumbers(
@@ -146,7 +148,7 @@ def _motion(scene: Scene, folder: Path) -> list[Path]:
     index = busiest if scene.stress is None else int(
         np.abs(ds["time"].values - scene.stress.time).argmin()
     )  # fmt: skip
-    return [
+    paths = [
         bearing_picture(
             ds, b, index, folder / "bearing.png", cage_points=scene.mesh.points,
             cage_tets=scene.mesh.tets, load=scene.load, axial=scene.axial,
@@ -157,6 +159,11 @@ def _motion(scene: Scene, folder: Path) -> list[Path]:
             element=_followed(scene), settle=scene.settle,
         ),
     ]  # fmt: skip
+    if spectra.resolves(settled(ds, scene.settle), numbers):
+        paths.append(
+            spectra_picture(ds, folder / "spectra.png", bearing=numbers, settle=scene.settle)
+        )
+    return paths
 
 
 def _stress(scene: Scene, s: StressPictures, folder: Path) -> list[Path]:

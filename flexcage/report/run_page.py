@@ -65,6 +65,7 @@ CAPTIONS = {
     "bearing": "Bearing at that instant, {elements} coloured by load",
     "orbit": "Orbit of the cage's centre",
     "histories": "Histories",
+    "spectra": "Spectra, with the bearing's frequencies",
 }
 
 

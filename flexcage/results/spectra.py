@@ -1,17 +1,169 @@
-"""Spectra of result variables."""
+"""Spectra of what a run records, and the frequencies at which its bearing excites them.
+
+``amplitude_spectrum`` reads the amplitude of lines; ``spectral_density`` (Welch's method) shows
+noise and lines of a chaotic motion alike, whatever the length of the record.
+"""
 
 from __future__ import annotations
 
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from math import ceil, pi
+from types import MappingProxyType
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from flexcage.core.errors import InputError
+from flexcage.results import metrics
+from flexcage.results.metrics import BearingNumbers
 
 if TYPE_CHECKING:
     import xarray
 
 GRIDS = ("time", "time_hf")
+FEWEST = 8  # samples of a spectrum
+TURNS = 8  # of the cage in a segment of a run's spectra, if the run is that long
+APART = 3  # bins of a Hann window from which on a line stands apart from the mean and its like
+
+
+def bearing_frequencies(
+    bearing: BearingNumbers, inner_speed: float, outer_speed: float = 0.0
+) -> dict[str, float]:
+    """Frequencies [Hz] by name, without slip, of a bearing whose rings turn at speeds [rad/s].
+
+    ``FTF``: the cage's turns; ``shaft``: the inner ring's; ``BSF``: those of an element relative to
+    the cage, and ``2 BSF``, at which a defect on it strikes the races; ``BPFO`` and ``BPFI``: the
+    elements' passing of a place on the outer and the inner race. Source: ``geometry.kinematics``.
+    """
+    speeds = bearing.kinematics(inner_speed, outer_speed)
+    return {
+        "FTF": speeds.cage_frequency,
+        "shaft": abs(inner_speed) / (2.0 * pi),
+        "BSF": speeds.roller_frequency,
+        "2 BSF": 2.0 * speeds.roller_frequency,
+        "BPFO": speeds.outer_race_passing,
+        "BPFI": speeds.inner_race_passing,
+    }
+
+
+@dataclass(frozen=True)
+class Signal:
+    """One signal of a run: what it is called, and how it follows from the dataset.
+
+    ``of`` gives (time,) or (time, axis2), or None where the run does not record it.
+    """
+
+    title: str
+    of: Callable[[xarray.Dataset], xarray.DataArray | None]
+
+
+def _cage_centre(ds: xarray.Dataset) -> xarray.DataArray:
+    import xarray as xr
+
+    return xr.DataArray(
+        metrics.orbit(ds), dims=("time", "axis2"),
+        coords={"time": ds["time"], "axis2": ["y", "z"]}, attrs={"units": "m"},
+    )  # fmt: skip
+
+
+def _cage_speed(ds: xarray.Dataset) -> xarray.DataArray:
+    return ds["cage_omega"].sel(axis="x", drop=True)
+
+
+def _pocket_forces(ds: xarray.Dataset) -> xarray.DataArray:
+    return ds["pocket_force"].astype(float).sum(("pocket", "face")).assign_attrs(units="N")
+
+
+def _outer_ring(ds: xarray.Dataset) -> xarray.DataArray | None:
+    return ds.get("outer_acceleration")
+
+
+#: Signals whose spectra are shown of every run, by name.
+SIGNALS: Mapping[str, Signal] = MappingProxyType(
+    {
+        "cage_centre": Signal("Cage centre, from the outer ring's", _cage_centre),
+        "cage_speed": Signal("Cage speed", _cage_speed),
+        "pocket_forces": Signal("Sum of the pocket forces", _pocket_forces),
+        "outer_acceleration": Signal("Acceleration of the outer ring", _outer_ring),
+    }
+)
+
+
+def run_frequencies(ds: xarray.Dataset, bearing: BearingNumbers) -> dict[str, float]:
+    """The bearing's frequencies [Hz] by name at the run's mean inner speed."""
+    return bearing_frequencies(bearing, float(ds["inner_speed"].mean()))
+
+
+def run_resolution(ds: xarray.Dataset, bearing: BearingNumbers) -> float:
+    """Distance of bins [Hz] that suits a run: an eighth of the cage's frequency, or the inverse of
+    the run's length, which is the least there is.
+
+    Raises InputError for a run in which no line of the bearing stands apart.
+    """
+    length = _length(ds)
+    if not resolves(ds, bearing):
+        fastest = max(run_frequencies(ds, bearing).values())
+        raise InputError(
+            f"Spectra want {APART} periods of the bearing's fastest line, {fastest:.4g} Hz; there "
+            f"are {length * fastest:.2g} in {length * 1e3:.4g} ms: raise solver.duration.",
+            where="solver.duration",
+            value=length,
+        )
+    return max(run_frequencies(ds, bearing)["FTF"] / TURNS, 1.0 / length)
+
+
+def resolves(ds: xarray.Dataset, bearing: BearingNumbers) -> bool:
+    """Whether the run is long enough for any line of its bearing to stand apart."""
+    return _length(ds) * max(run_frequencies(ds, bearing).values()) >= APART
+
+
+def _length(ds: xarray.Dataset) -> float:
+    return float(ds["time"][-1] - ds["time"][0])
+
+
+def spectral_density(
+    signal: xarray.DataArray, *, resolution: float | None = None, window: str = "hann"
+) -> xarray.DataArray:
+    """One-sided power spectral density by Welch's method, in squared units per hertz.
+
+    ``signal`` has one of the time grids as a dimension, evenly sampled [s]; the result has
+    ``frequency`` [Hz] in its place. Segments of 1/``resolution`` seconds (default: one, the whole
+    record) overlap by a half; each has its mean taken off and is multiplied by ``window``, and
+    their periodograms are averaged. The integral over frequency is the variance; of a sine of
+    amplitude A, A^2/2 lies within two bins of its frequency under a Hann window.
+    ``attrs`` hold units, window, ``resolution`` [Hz] between bins and the number of ``segments``.
+
+    Raises InputError for too short a signal and for a resolution that its length cannot give.
+    """
+    from scipy.signal import welch
+
+    x, rate = _series(signal)
+    count = x.shape[-1]
+    length = count if resolution is None else _segment(resolution, rate, count)
+    half = length // 2
+    frequency, power = welch(
+        x, rate, window, nperseg=length, noverlap=half, detrend="constant", scaling="density"
+    )
+    units = signal.attrs.get("units", "1")
+    attrs = {
+        "units": f"({units})^2/Hz", "window": window, "resolution": rate / length,
+        "segments": 1 + (count - length) // (length - half),
+    }  # fmt: skip
+    return _over_frequency(signal, frequency, power, attrs)
+
+
+def _segment(resolution: float, rate: float, count: int) -> int:
+    """Samples of a segment whose bins lie ``resolution`` [Hz] apart."""
+    finest, coarsest = rate / count, rate / FEWEST
+    if not finest * (1.0 - 1e-9) <= resolution <= coarsest:
+        raise InputError(
+            f"A resolution of {resolution:g} Hz is out of reach: {count} samples at {rate:g} Hz "
+            f"give {finest:.4g} to {coarsest:.4g} Hz.",
+            where="resolution",
+            value=resolution,
+        )
+    return min(ceil(rate / resolution * (1.0 - 1e-9)), count)
 
 
 def amplitude_spectrum(
@@ -22,33 +174,50 @@ def amplitude_spectrum(
     ``signal`` has one of the time grids as a dimension, evenly sampled [s]; the result has
     ``frequency`` [Hz] in its place. ``detrend`` takes the mean off first.
     """
-    import xarray as xr
     from scipy.signal import get_window
 
-    dim = next((d for d in GRIDS if d in signal.dims), None)
-    if dim is None:
-        raise InputError(f"A spectrum needs a time dimension; this array has {signal.dims}.")
-    t = signal[dim].values
-    if len(t) < 8:
-        raise InputError(f"A spectrum needs 8 samples or more; there are {len(t)}.")
-    step = (t[-1] - t[0]) / (len(t) - 1)
-    axis = signal.dims.index(dim)
-    x = np.moveaxis(np.asarray(signal.values, float), axis, -1)
+    x, rate = _series(signal)
     if detrend:
         x = x - x.mean(axis=-1, keepdims=True)
-    w = get_window(window, len(t))
+    w = get_window(window, x.shape[-1])
     amplitude = 2.0 * np.abs(np.fft.rfft(x * w, axis=-1)) / w.sum()
     amplitude[..., 0] *= 0.5
-    others = [d for d in signal.dims if d != dim]
-    frequency = xr.Variable(
-        "frequency", np.fft.rfftfreq(len(t), step), {"units": "Hz", "long_name": "frequency"}
-    )
-    coords = {d: signal[d] for d in others if d in signal.coords}
+    attrs = {**signal.attrs, "long_name": f"amplitude of {signal.attrs.get('long_name', '')}"}
+    return _over_frequency(signal, np.fft.rfftfreq(x.shape[-1], 1.0 / rate), amplitude, attrs)
+
+
+def _grid(signal: xarray.DataArray) -> str:
+    found = next((d for d in GRIDS if d in signal.dims), None)
+    if found is None:
+        raise InputError(f"A spectrum needs a time dimension; this array has {signal.dims}.")
+    return found
+
+
+def _series(signal: xarray.DataArray) -> tuple[np.ndarray, float]:
+    """Values with time last (..., n), and samples a second [Hz]."""
+    grid = _grid(signal)
+    t = signal[grid].values
+    if len(t) < FEWEST:
+        raise InputError(f"A spectrum needs {FEWEST} samples or more; there are {len(t)}.")
+    values = np.asarray(signal.values, float)
+    x = np.moveaxis(values, signal.dims.index(grid), -1)
+    return x, (len(t) - 1) / float(t[-1] - t[0])
+
+
+def _over_frequency(
+    signal: xarray.DataArray, frequency: np.ndarray, values: np.ndarray, attrs: dict
+) -> xarray.DataArray:
+    """``values`` (..., frequency) with the labels of the signal, frequency in time's place."""
+    import xarray as xr
+
+    grid = _grid(signal)
+    others = [d for d in signal.dims if d != grid]
+    axis = xr.Variable("frequency", frequency, {"units": "Hz", "long_name": "frequency"})
     out = xr.DataArray(
-        amplitude,
+        values,
         dims=(*others, "frequency"),
-        coords={**coords, "frequency": frequency},
+        coords={**{d: signal[d] for d in others if d in signal.coords}, "frequency": axis},
         name=signal.name,
-        attrs={**signal.attrs, "long_name": f"amplitude of {signal.attrs.get('long_name', '')}"},
+        attrs=attrs,
     )
-    return out.transpose(*(d if d != dim else "frequency" for d in signal.dims))
+    return out.transpose(*(d if d != grid else "frequency" for d in signal.dims))

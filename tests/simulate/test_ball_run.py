@@ -8,8 +8,12 @@ from simulate_cases import Interrupted
 
 from flexcage.case import load_case
 from flexcage.core.errors import InputError, RunFailed
+from flexcage.render import spectra_picture
 from flexcage.results.audit import energy_audit
+from flexcage.results.contact_activity import contact_activity
+from flexcage.results.metrics import settled
 from flexcage.results.registry import VARIABLES, variables_of
+from flexcage.results.spectra import run_frequencies
 from flexcage.simulate import load_run, simulate
 
 BASE = {
@@ -81,6 +85,30 @@ def test_races_bear_the_gyroscopic_moment(flexible):
     given = -0.5 * bearing.ball_diameter * float(across.sum())
     assert wanted > 0.0 and given == pytest.approx(wanted, rel=0.03)
     assert float(across.sel(race="outer")) < 0.0
+
+
+def test_contacts_of_the_cage_by_events_are_those_of_its_forces(flexible):
+    """Two accounts of one run: flags of the solver's steps, and forces between them."""
+    ds, s = settled(flexible.dataset, flexible.case.output.settle), flexible.summary
+    sampled = contact_activity(ds)
+    assert 0.0 < s["contact_frequency"] < 2e3
+    assert s["contact_frequency_total"] == pytest.approx(18 * s["contact_frequency"])
+    assert s["contact_frequency_total"] == pytest.approx(sampled.total, rel=0.1, abs=400.0)
+    assert s["free_flight_share"] == pytest.approx(sampled.free_flight_share, abs=0.02)
+    assert "step of the solver" in s.row("contact_frequency").note
+    assert 0.0 < s["velocity_deviation_2khz"] < 2.0 and 0.0 < s["velocity_deviation"] < 2.0
+
+
+def test_its_spectra_and_the_lines_that_so_short_a_run_tells(flexible, tmp_path):
+    numbers, settle = flexible.numbers, flexible.case.output.settle
+    lines = run_frequencies(flexible.dataset, numbers)
+    assert lines["BPFO"] == pytest.approx(515.0728, abs=1e-3)
+    path = spectra_picture(
+        flexible.dataset, tmp_path / "spectra.png", bearing=numbers, settle=settle
+    )
+    assert path.stat().st_size > 40_000
+    with pytest.raises(InputError, match="684.9 Hz; there are .* raise solver.duration"):
+        spectra_picture(flexible.dataset, path, bearing=numbers, settle=0.7)
 
 
 def test_a_run_comes_back_from_its_folder(flexible):

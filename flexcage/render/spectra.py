@@ -1,0 +1,149 @@
+"""Spectra of a run, with the frequencies at which its bearing excites them marked."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from math import pi
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from flexcage.render import sheet
+from flexcage.results import metrics
+from flexcage.results.metrics import BearingNumbers
+from flexcage.results.spectra import (
+    APART,
+    SIGNALS,
+    run_frequencies,
+    run_resolution,
+    spectral_density,
+)
+
+if TYPE_CHECKING:
+    import xarray
+
+_LEFT, _WIDTH, _HEIGHT, _BETWEEN, _TOP = 140, 1450, 240, 34, 190
+_NAMES = 118  # pixels from one name of a line to the next
+_REACH = 3.0  # frequencies shown, over the fastest line
+_DECADES = 6.0  # shown at most
+#: Units as shown, and the factor from SI, by the unit of a signal.
+_SHOWN = {"m": ("µm", 1e6), "rad/s": ("rpm", 30.0 / pi)}
+
+
+def spectra_picture(
+    ds: xarray.Dataset,
+    path: str | Path,
+    *,
+    bearing: BearingNumbers,
+    settle: float = 0.0,
+    title: str = "Spectra",
+    note: str = "",
+) -> Path:
+    """Amplitude spectral densities of a run's signals over frequency, one panel a signal.
+
+    The bearing's frequencies without slip stand at the run's mean inner speed, those that its
+    length sets apart from the mean. ``settle`` leaves the start out. Raises InputError for a run
+    too short for any of them.
+    """
+    part = metrics.settled(ds, settle)
+    resolution = run_resolution(part, bearing)
+    lines = run_frequencies(part, bearing)
+    marked = {name: f for name, f in lines.items() if f >= APART * resolution}
+    found = {signal.title: signal.of(part) for signal in SIGNALS.values()}
+    shown = {
+        name: spectral_density(series, resolution=resolution)
+        for name, series in found.items() if series is not None
+    }  # fmt: skip
+    reach = min(_REACH * max(lines.values()), *(float(d["frequency"][-1]) for d in shown.values()))
+    with sheet.style():
+        height = _TOP + len(shown) * (_HEIGHT + _BETWEEN) + 60
+        figure = sheet.new_figure(_LEFT + _WIDTH + 60, height)
+        sheet.heading(figure, title, _facts(part, next(iter(shown.values())), note))
+        for i, (name, density) in enumerate(shown.items()):
+            rect = (_LEFT, _TOP + i * (_HEIGHT + _BETWEEN), _WIDTH, _HEIGHT)
+            ax = sheet.axes_at(figure, rect)
+            _panel(ax, density, name, reach)
+            for frequency in marked.values():
+                ax.axvline(frequency, color=sheet.FAINT, lw=0.8, ls=(0, (4, 3)), zorder=1)
+            ax.yaxis.set_label_coords((40.0 - _LEFT) / _WIDTH, 0.5)
+            if i == 0:
+                _name_lines(ax, marked, reach)
+            if i < len(shown) - 1:
+                ax.tick_params(labelbottom=False)
+        ax.set_xlabel(sheet.join(["frequency [Hz]", _unmarked(lines, marked, resolution)]))
+        return sheet.save(figure, path)
+
+
+def _facts(ds: xarray.Dataset, density: xarray.DataArray, note: str) -> str:
+    t, speed = ds["time"].values * 1e3, np.abs(ds["inner_speed"].values) * 30.0 / pi
+    segments = int(density.attrs["segments"])
+    steady = np.ptp(speed) < 0.01 * speed.mean()
+    span = "" if steady else f", which runs from {speed.min():,.0f} to {speed.max():,.0f}"
+    return sheet.join([
+        f"t = {t[0]:.1f} … {t[-1]:.1f} ms",
+        f"{segments} segment{'s' if segments > 1 else ''}, Hann window, mean taken off",
+        f"bins {density.attrs['resolution']:.3g} Hz apart",
+        f"lines without slip at {speed.mean():,.0f} rpm{span}",
+        note,
+    ])  # fmt: skip
+
+
+def _panel(ax: Any, density: xarray.DataArray, name: str, reach: float) -> None:
+    power_unit = density.attrs["units"].removesuffix("^2/Hz").strip("()")
+    unit, factor = _SHOWN.get(power_unit, (power_unit.replace("^2", "²"), 1.0))
+    part = density.isel(frequency=slice(1, None))
+    part = part.isel(frequency=part["frequency"].values <= reach)
+    values = np.sqrt(part.values).reshape(part.sizes["frequency"], -1) * factor
+    labels = part["axis2"].values if "axis2" in part.dims else [""]
+    for column, label, colour in zip(values.T, labels, (sheet.BLUE, sheet.ORANGE)):
+        text = f"{name}, {label}" if label else name
+        ax.plot(part["frequency"], column, color=colour, lw=1.1, label=text)
+    top = float(values.max())
+    if top > 0.0:
+        ax.set_yscale("log")
+        ax.set_ylim(max(0.5 * values.min(), top * 10.0**-_DECADES), 8.0 * top)
+    ax.set(xlim=(0.0, reach), ylabel=f"{unit}/√Hz")
+    ax.legend(
+        loc="upper right", ncols=2, frameon=True, facecolor="white", edgecolor="none",
+        framealpha=0.9, borderaxespad=0.3,
+    )  # fmt: skip
+
+
+def _name_lines(ax: Any, lines: Mapping[str, float], reach: float) -> None:
+    """Names and frequencies above the panel, moved apart where lines are close to each other."""
+    ordered = sorted(lines.items(), key=lambda line: line[1])
+    at = np.array([f for _, f in ordered])
+    gap = _NAMES * reach / _WIDTH
+    places = spread(at, gap, low=0.0, high=reach)
+    across = ax.get_xaxis_transform()
+    for (name, frequency), place in zip(ordered, places):
+        ax.plot(
+            [frequency, frequency, place], [1.0, 1.03, 1.13], transform=across, clip_on=False,
+            color=sheet.FAINT, lw=0.8,
+        )  # fmt: skip
+        ax.text(
+            place, 1.15, f"{name}\n{frequency:,.1f} Hz", transform=across, ha="center",
+            va="bottom", fontsize=8.5, linespacing=1.15,
+        )  # fmt: skip
+
+
+def spread(at: np.ndarray, gap: float, *, low: float, high: float) -> np.ndarray:
+    """Places nearest to rising ``at`` (n,), at least ``gap`` apart, in ``low`` to ``high`` if they
+    fit there."""
+    from scipy.optimize import isotonic_regression
+
+    steps = gap * np.arange(len(at))
+    if not len(at):
+        return steps
+    free = isotonic_regression(at - steps).x
+    return np.clip(free, low, max(high - steps[-1], low)) + steps
+
+
+def _unmarked(lines: Mapping[str, float], marked: Mapping[str, float], resolution: float) -> str:
+    """Which lines a run of this length does not set apart, in words."""
+    names = [f"{name} {f:.1f} Hz" for name, f in lines.items() if name not in marked]
+    if not names:
+        return ""
+    least = f"{APART * resolution:.0f} Hz"
+    return f"a run this short tells lines from {least} on; not marked: {', '.join(names)}"

@@ -1,0 +1,180 @@
+"""Spectra of signals whose power and lines are known, and the frequencies of known bearings."""
+
+from __future__ import annotations
+
+from math import radians
+
+import numpy as np
+import pytest
+import xarray as xr
+
+from flexcage.core.errors import InputError
+from flexcage.geometry.presets import load_preset
+from flexcage.results import metrics
+from flexcage.results.features import cage_motion_features
+from flexcage.results.metrics import BearingNumbers
+from flexcage.results.spectra import (
+    SIGNALS,
+    bearing_frequencies,
+    resolves,
+    run_frequencies,
+    run_resolution,
+    spectral_density,
+)
+
+RPM = np.pi / 30.0
+RATE = 20e3
+
+
+def signal(values: np.ndarray, unit: str = "m") -> xr.DataArray:
+    t = np.arange(len(values)) / RATE
+    return xr.DataArray(values, dims=("time",), coords={"time": t}, attrs={"units": unit})
+
+
+def numbers_of(preset: str) -> BearingNumbers:
+    b = load_preset(preset).bearing
+    return BearingNumbers(
+        pitch_diameter=b.pitch_diameter, roller_diameter=b.element_diameter,
+        roller_count=b.element_count, contact_angle=b.nominal_contact_angle,
+    )  # fmt: skip
+
+
+def small(diameter: float, pitch: float, count: int, angle: float = 0.0) -> BearingNumbers:
+    return BearingNumbers(
+        pitch_diameter=pitch * 1e-3, roller_diameter=diameter * 1e-3, roller_count=count,
+        contact_angle=radians(angle),
+    )  # fmt: skip
+
+
+@pytest.mark.parametrize(
+    ("bearing", "rpm", "cage", "outer", "inner", "element"),
+    [
+        (numbers_of("N1013"), 6000, 2709.0909, 993.3333, 1206.6667, 510.7765),
+        (numbers_of("7010C-PI"), 4000, 1716.9094, 515.0728, 684.9272, 222.9142),
+        (numbers_of("7010C-PI"), -10000, 4292.2736, 1287.6821, 1712.3179, 557.2854),
+        (small(6.47, 26.0, 7), 9000, 3380.1923, 394.3558, 655.6442, 282.7276),
+        (small(5.55, 42.4, 17, 60.0), 2000, 934.5519, 264.7897, 301.8770, 126.7819),
+    ],
+    ids=["N1013", "7010C", "7010C backwards", "6202-like", "thrust"],
+)
+def test_frequencies_of_known_bearings(bearing, rpm, cage, outer, inner, element):
+    """Reference values by hand from the epicyclic relations, to all their digits."""
+    lines = bearing_frequencies(bearing, rpm * RPM)
+    assert list(lines) == ["FTF", "shaft", "BSF", "2 BSF", "BPFO", "BPFI"]
+    assert 60.0 * lines["FTF"] == pytest.approx(cage, abs=6e-5)
+    assert lines["shaft"] == pytest.approx(abs(rpm) / 60.0)
+    assert lines["BPFO"] == pytest.approx(outer, abs=6e-5)
+    assert lines["BPFI"] == pytest.approx(inner, abs=6e-5)
+    assert lines["BSF"] == pytest.approx(element, abs=6e-5)
+    assert lines["2 BSF"] == 2.0 * lines["BSF"]
+
+
+def test_an_outer_ring_that_turns_along_lets_nothing_pass():
+    lines = bearing_frequencies(numbers_of("N1013"), 100.0, 100.0)
+    assert lines["FTF"] == pytest.approx(lines["shaft"])
+    assert [lines[name] for name in ("BPFO", "BPFI", "BSF")] == pytest.approx([0.0] * 3, abs=1e-12)
+
+
+def test_parseval():
+    """Without a window, power over frequency is the variance, to rounding."""
+    x = signal(np.random.default_rng(1).normal(3.0, 2.0, 5001))
+    density = spectral_density(x, window="boxcar")
+    assert density.attrs["segments"] == 1 and density.attrs["units"] == "(m)^2/Hz"
+    total = float(density.sum()) * density.attrs["resolution"]
+    assert total == pytest.approx(float(x.values.var()), rel=1e-12)
+
+
+def test_the_level_of_white_noise():
+    """Of standard deviation 2 at 20 kHz: 4/10 kHz at every frequency, on average."""
+    x = signal(np.random.default_rng(2).normal(0.0, 2.0, 200_000))
+    density = spectral_density(x, resolution=100.0)
+    assert (density.attrs["segments"], density.attrs["resolution"]) == (1999, 100.0)
+    inner = density.sel(frequency=slice(500, 9500))
+    assert float(inner.mean()) == pytest.approx(4.0 / 10e3, rel=0.01)
+    assert float(inner.std()) < 0.05 * float(inner.mean())
+
+
+@pytest.mark.parametrize("frequency", [440.0, 443.7])
+@pytest.mark.parametrize("resolution", [None, 10.0])
+def test_a_sine_has_its_power_at_its_frequency(frequency, resolution):
+    """Amplitude 3 in two bins on either side, wherever it lies between bins."""
+    t = np.arange(10_000) / RATE
+    density = spectral_density(
+        signal(7.0 + 3.0 * np.sin(2 * np.pi * frequency * t)), resolution=resolution
+    )
+    step = density.attrs["resolution"]
+    assert float(density.idxmax("frequency")) == pytest.approx(frequency, abs=0.5 * step + 1e-9)
+    line = density.sel(frequency=slice(frequency - 3 * step, frequency + 3 * step))
+    assert np.sqrt(2.0 * float(line.sum()) * step) == pytest.approx(3.0, rel=2e-3)
+
+
+def test_components_keep_their_names():
+    t = np.arange(2000) / RATE
+    pair = xr.DataArray(
+        np.stack([np.sin(2 * np.pi * 500 * t), np.cos(2 * np.pi * 900 * t)], axis=1),
+        dims=("time", "axis2"), coords={"time": t, "axis2": ["y", "z"]},
+    )  # fmt: skip
+    density = spectral_density(pair)
+    assert density.dims == ("frequency", "axis2")
+    assert density.idxmax("frequency").values.tolist() == [500.0, 900.0]
+
+
+def test_a_resolution_out_of_reach_is_one_sentence():
+    x = signal(np.zeros(1000))
+    for resolution in (19.0, 3e3, 0.0, -5.0, float("nan")):
+        with pytest.raises(InputError, match=r"out of reach.* 20 to 2500 Hz"):
+            spectral_density(x, resolution=resolution)
+
+
+def test_signals_of_a_run_with_a_known_orbit(known_run, bearing):
+    """40 um of whirl at 0.98 of the cage's ideal frequency; the pocket forces step once."""
+    resolution = run_resolution(known_run, bearing)
+    assert resolution == pytest.approx(1.0 / 0.1)
+    assert run_frequencies(known_run, bearing)["BPFO"] == pytest.approx(993.3333, abs=1e-4)
+    shown = {
+        name: spectral_density(found.of(known_run), resolution=resolution)
+        for name, found in SIGNALS.items()
+    }
+    centre, step = shown["cage_centre"], shown["cage_centre"].attrs["resolution"]
+    whirling = 0.98 * 2709.0909 / 60.0
+    assert centre.attrs["units"] == "(m)^2/Hz"
+    for axis in "yz":
+        line = centre.sel(axis2=axis)
+        assert float(line.idxmax("frequency")) == pytest.approx(whirling, abs=step)
+        power = float(line.sel(frequency=slice(1.0, whirling + 3 * step)).sum()) * step
+        assert np.sqrt(2.0 * power) == pytest.approx(40e-6, rel=0.02)
+    assert float(shown["pocket_forces"].idxmax("frequency")) <= 2 * step
+    assert shown["outer_acceleration"].attrs["resolution"] == pytest.approx(step, rel=1e-3)
+    assert SIGNALS["outer_acceleration"].of(known_run.drop_dims("time_hf")) is None
+
+
+def test_a_run_too_short_for_any_line(known_run, bearing):
+    short = known_run.isel(time=slice(100))
+    assert resolves(known_run, bearing) and not resolves(short, bearing)
+    with pytest.raises(InputError, match=r"1207 Hz; there are 2.4 in 1.98 ms: raise solver"):
+        run_resolution(short, bearing)
+
+
+def test_features_of_a_known_motion(known_run):
+    """Synchronous whirl, 11 N at most and about 3 N on average, a centre that goes on evenly."""
+    ds = known_run.copy(deep=True)
+    ds["cage_position"][:] -= [0.0, 10e-6, -20e-6]
+    ds["cage_velocity"][:, 1] = 1.0 + 0.3 * np.sin(2 * np.pi * 100 * ds["time"].values)
+    features = cage_motion_features(ds)
+    assert features.velocity_deviation == pytest.approx(0.3 / np.sqrt(2), rel=1e-3)
+    assert features.whirl_speed_ratio == pytest.approx(1.0, abs=1e-6)
+    assert features.pocket_force_ratio == pytest.approx(11.0 * 2501 / (2500 * 3 + 11))
+    assert features.vector.tolist() == [
+        features.velocity_deviation, features.whirl_speed_ratio, features.pocket_force_ratio,
+    ]  # fmt: skip
+
+
+def test_a_centre_at_rest_has_no_deviation(known_run):
+    """Nor has a run whose samples are too slow or too few for the filter."""
+    assert np.isnan(metrics.velocity_deviation(known_run))
+    moving = known_run.copy(deep=True)
+    moving["cage_velocity"][:, 1] = 1.0
+    assert metrics.velocity_deviation(moving) == 0.0
+    assert metrics.velocity_deviation(moving, low_pass=2e3) == pytest.approx(0.0, abs=1e-9)
+    assert np.isnan(metrics.velocity_deviation(moving, low_pass=24e3))
+    assert np.isnan(metrics.velocity_deviation(moving.isel(time=slice(10)), low_pass=2e3))
