@@ -59,7 +59,7 @@ def cage_reduction(case: Case, mesh: CageMesh) -> CageReduction | None:
     if case.cage_model == "rigid":
         return None
     return reduce_cage(
-        mesh, cage=case.cage, defects=case.defects, spec=case.modes, order=case.mesh.order
+        mesh, cage=case.cage, defects=case.all_defects, spec=case.modes, order=case.mesh.order
     )
 
 
@@ -127,7 +127,7 @@ def _bearing_of(case: Case, mesh: CageMesh, cage: CageReduction | None) -> Beari
     Z = case.bearing.element_count
     if cage is None:
         body = rigid_from_tets(mesh.points, mesh.tets, case.cage.material.density)
-        interface = rigid_interface_of(case.cage, pocket_count=Z, defects=case.defects)
+        interface = rigid_interface_of(case.cage, pocket_count=Z, defects=case.all_defects)
     else:
         ratios = case.modes.damping_ratios(cage.basis.frequencies)
         body = flexible_from_basis(cage.model.nodes, cage.model.mass_scalar, cage.basis, ratios)

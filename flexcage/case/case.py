@@ -28,7 +28,7 @@ from flexcage.core.errors import InputError
 from flexcage.core.hashing import content_hash
 from flexcage.core.registry import source_of
 from flexcage.core.spec import option
-from flexcage.geometry.ball_cage_defects import BallCageDefect
+from flexcage.geometry.ball_cage_defects import BallCageDefect, uneven_pockets
 from flexcage.geometry.bearings import Bearing
 from flexcage.geometry.cage import Cage
 from flexcage.geometry.cages import Defect
@@ -73,7 +73,7 @@ class Case:
     solver: SolverOptions = option(SolverOptions(), doc="the integrator")
     output: OutputOptions = option(OutputOptions(), doc="what is kept of a run")
     limits: Limits = option(Limits(), doc="limits beyond which a start is refused")
-    seed: int = option(0, doc="seed of everything random (roller scatter)", minimum=0)
+    seed: int = option(0, doc="seed of everything random in a bearing: sizes, places", minimum=0)
 
     def __post_init__(self) -> None:
         check_spec(self)
@@ -168,9 +168,15 @@ class Case:
             "cage": self.cage,
             "pocket_count": self.bearing.element_count,
             "pitch_diameter": self.bearing.pitch_diameter,
-            "defects": self.defects,
+            "defects": self.all_defects,
             "options": self.mesh,
         }
+
+    @property
+    def all_defects(self) -> tuple[Defect | BallCageDefect, ...]:
+        """Defects that the case names, and those that make its pockets' spacing uneven."""
+        uneven = uneven_pockets(self.cage, self.bearing.element_count, self.seed)
+        return (*self.defects, *uneven)
 
     @property
     def assumptions(self) -> dict[str, str]:

@@ -33,7 +33,7 @@ def check_case(case: Case) -> None:
     """Raise InputError for the first thing in the case that cannot be."""
     refuse_without_motion(case.bearing)
     _check_cage_type(case.bearing, case.cage)
-    check_geometry(case.bearing, case.cage, case.defects)
+    check_geometry(case.bearing, case.cage, case.all_defects)
     _raise_first(
         case,
         (
@@ -141,6 +141,7 @@ def _find_in_held_motions(case: Case) -> Iterator[Finding]:
             f"load.misalignment is {describe(case.load.misalignment, 'mrad')}, but load.tilt is "
             "'free'; take load.tilt = \"held\" for a tilt that is given.",
         )
+    yield from _find_in_held_centre(case)
     for key, free in (("axial", axial), ("moment_y", tilt), ("moment_z", tilt)):
         value = getattr(case.load, key)
         if value != 0.0 and not free:
@@ -151,6 +152,26 @@ def _find_in_held_motions(case: Case) -> Iterator[Finding]:
                 f"{'axial motion is' if key == 'axial' else 'tilts are'} held; leave it out, "
                 + ('take load.tilt = "free", ' if axial else "")
                 + "or take 'flexcage static'.",
+            )
+
+
+def _find_in_held_centre(case: Case) -> Iterator[Finding]:
+    """What a ring whose centre is held cannot have: another integrator, loads that vary."""
+    load, method = case.load, case.solver.method
+    if load.centre == "free":
+        return
+    if method != "explicit":
+        yield (
+            "load.centre",
+            f"load.centre is 'held', which wants solver.method = \"explicit\", not {method!r}.",
+        )
+    for key, idle in (("ramp_to", None), ("times", ()), ("wave", "none")):
+        if getattr(load, key) != idle:
+            yield (
+                f"load.{key}",
+                f"load.{key} is {getattr(load, key)!r}, but load.centre is 'held': the load says "
+                "where the ring stands and cannot vary; leave it out, or take load.centre = "
+                '"free".',
             )
 
 

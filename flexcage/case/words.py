@@ -111,7 +111,10 @@ def _(cage: WindowCage) -> str:
 
 @_pockets.register
 def _(cage: BallCage) -> str:
-    return f"its pockets are {cage.pocket_shape}, {describe(cage.pocket_diameter, 'mm')} across"
+    shape = f"its pockets are {cage.pocket_shape}, {describe(cage.pocket_diameter, 'mm')} across"
+    if cage.pocket_scatter:
+        shape += f", unevenly spaced by {describe(cage.pocket_scatter, 'um')} (standard deviation)"
+    return shape
 
 
 def _defects(case: Case) -> str:
@@ -195,6 +198,8 @@ def _motion(case: Case) -> str:
     tilted = ""
     if load.misalignment:
         tilted = f", tilted by {describe(load.misalignment, 'mrad')}"
+    if load.centre == "held":
+        tilted += ", held at its centre where that puts it"
     if case.bearing.carries_axial_load:
         tilted += ", free in tilt" if load.tilt == "free" else ", held in tilt"
     held = "" if case.mount.kind == "fixed" else ", the outer ring in an elastic mount"

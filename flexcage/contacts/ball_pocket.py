@@ -1,10 +1,11 @@
 """Ball in its pocket: a cylinder about a radial axis, or a sphere, in a cage that deforms.
 
-The pocket may be a slot (its axis drawn out to a line), larger or displaced. The wall's motion by
-the cage's modes is known at stations round the pocket and interpolated smoothly between them; what
-modes do not carry of a wall's yielding is a compliance of each station, in series with the
-contact's own. Forces are slopes of one energy: where the wall's displacement or compliance changes
-round the pocket, the force leans.
+The pocket may be a slot (its axis drawn out to a line), larger or displaced. A sphere is whole: it
+holds the ball along the radius as well. The wall's motion by the cage's modes is known at stations
+round the pocket and interpolated smoothly between them; towards a sphere's poles it fades into the
+mean of all stations. What modes do not carry of a wall's yielding is a compliance of each station,
+in series with the contact's own. Forces are slopes of one energy: where the wall's displacement or
+compliance changes round the pocket, the force leans.
 """
 
 from __future__ import annotations
@@ -25,6 +26,7 @@ from flexcage.core.splines import smooth_weights
 from flexcage.core.vectors import combine, cross, dot, minus, plus, row, times
 
 ITERATIONS = 8  # of Newton's method for a contact and a compliance in series
+POLAR = 0.3  # cosine of the latitude from which on a sphere's wall moves as its stations do
 
 
 class BallPockets(NamedTuple):
@@ -87,10 +89,10 @@ def pocket_wall_contact(
         sums[4] = _along(n, v, pw)
     if reach - play + margin <= 0.0:
         return False
-    place = atan2(x, t) * data.phi.shape[2] / (2.0 * pi)
+    nst = data.phi.shape[2]
+    place = atan2(x, t) * nst / (2.0 * pi)
     first = floor(place)
     weight, slope = smooth_weights(place - first)
-    nst = data.phi.shape[2]
     u = du = ud = (0.0, 0.0, 0.0)
     soft = softer = 0.0
     for k in range(4):
@@ -100,18 +102,33 @@ def pocket_wall_contact(
         du = combine(du, slope[k] * nst / (2.0 * pi), here)
         soft += weight[k] * data.local[i, s]
         softer += slope[k] * nst / (2.0 * pi) * data.local[i, s]
+    # fading towards a pole: what changes with azimuth, and with the cosine of the latitude
+    cosine = flat / reach
+    share, fade = _fading(cosine)
+    faded, fading = (0.0, 0.0, 0.0), 0.0
+    if share < 1.0:
+        mean, rate, yielding = _mean_wall(data, i, q, qd)
+        faded, fading = times(fade, minus(u, mean)), fade * (soft - yielding)
+        u = combine(times(share, u), 1.0 - share, mean)
+        ud = combine(times(share, ud), 1.0 - share, rate)
+        soft = share * soft + (1.0 - share) * yielding
+        du, softer = times(share, du), share * softer
     depth = reach - play - dot(u, n)
     if depth <= 0.0:
         return False
-    # slope of the depth: along n, and round the pocket as the wall's displacement changes there
+    # slope of the depth: along n, and as the wall's displacement changes there
     across = (u[0], data.sphere * u[1], u[2])
     push = combine(n, -1.0 / reach, combine(across, -dot(across, n), n))
-    round_it = (0.0, 0.0, 0.0)  # slope of the angle
+    round_it = polewards = (0.0, 0.0, 0.0)  # slopes of the azimuth and of that cosine
     if flat > 0.0:
         round_it = times(1.0 / (flat * flat), (t, 0.0, -x))
+        tall = h / (flat * reach**3)
+        polewards = (tall * h * x, -tall * flat * flat, tall * h * t)
         push = combine(push, -dot(du, n), round_it)
+        push = combine(push, -dot(faded, n), polewards)
+    yields = combine(times(softer, round_it), fading, polewards)  # slope of the compliance
     rate = _along(push, v, pw) - dot(ud, n)
-    softening = softer * _along(round_it, v, pw)
+    softening = _along(yields, v, pw)
     N, pressed = _press(depth, rate, soft, softening, p, law, sl)
     if mode >= 2:
         elastic_forces(law, 1, sl, p)
@@ -130,7 +147,7 @@ def pocket_wall_contact(
     friction_factors(friction, 1, sl, data.friction)
     drag = times(-N * sl.g[0], slip)
     total = combine(drag, -N, _in_frame(push, pw))
-    total = combine(total, 0.5 * N * N * softer, _in_frame(round_it, pw))
+    total = combine(total, 0.5 * N * N, _in_frame(yields, pw))
     moment = cross(arm, drag)
     for c in range(3):
         wrench[c] += total[c]
@@ -144,7 +161,11 @@ def pocket_wall_contact(
     for k in range(4):
         s = (int(first) + k - 1 + nst) % nst
         for c in range(3):
-            pw.st[0, s, c] += weight[k] * on_wall[c]
+            pw.st[0, s, c] += share * weight[k] * on_wall[c]
+    if share < 1.0:
+        for s in range(nst):
+            for c in range(3):
+                pw.st[0, s, c] += (1.0 - share) / nst * on_wall[c]
     pw.normal[0], pw.tangential[0] = N, N * sl.g[0] * sl.u[0]
     if mode >= 2:
         sums[2] = friction_power(1, sl)
@@ -160,6 +181,27 @@ def _wall(data, i, s, q):
         r += data.phi[i, 0, s, 1, m] * q[m]
         psi += data.phi[i, 0, s, 2, m] * q[m]
     return x, r, psi
+
+
+@part
+def _fading(cosine):
+    """Share of the wall's motion that is as at the azimuth, and its slope over the cosine."""
+    x = cosine / POLAR
+    if x >= 1.0:
+        return 1.0, 0.0
+    return x * x * (3.0 - 2.0 * x), 6.0 * x * (1.0 - x) / POLAR
+
+
+@part
+def _mean_wall(data, i, q, qd):
+    """Means over the stations of pocket i: displacement, its rate, compliance."""
+    u = ud = (0.0, 0.0, 0.0)
+    soft, nst = 0.0, data.phi.shape[2]
+    for s in range(nst):
+        u = combine(u, 1.0 / nst, _wall(data, i, s, q))
+        ud = combine(ud, 1.0 / nst, _wall(data, i, s, qd))
+        soft += data.local[i, s] / nst
+    return u, ud, soft
 
 
 @part

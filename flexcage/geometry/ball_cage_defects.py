@@ -22,6 +22,7 @@ from flexcage.core.units import describe
 from flexcage.geometry.ball_cages import BallCage
 
 _DIRECTIONS = ("axial", "circumferential")
+_SPACING = 1  # what tells the seed of pockets' places from that of ball diameters
 Finding = tuple[str, str, object]  # where, sentence, value
 
 
@@ -76,6 +77,16 @@ class WebCrack:
 
 
 BallCageDefect = EnlargedPocket | ElongatedPocket | DisplacedPocket | WebCrack
+
+
+def uneven_pockets(cage: object, pocket_count: int, seed: int) -> tuple[DisplacedPocket, ...]:
+    """Pockets displaced around a ball cage at random by its ``pocket_scatter``, not on average;
+    none for other cages."""
+    if not isinstance(cage, BallCage) or cage.pocket_scatter == 0.0:
+        return ()
+    shift = np.random.default_rng([seed, _SPACING]).standard_normal(pocket_count)
+    shift = cage.pocket_scatter * (shift - shift.mean())
+    return tuple(DisplacedPocket(pocket=k, circumferential=float(s)) for k, s in enumerate(shift))
 
 
 def cracks_of(defects: Sequence[object]) -> list[WebCrack]:

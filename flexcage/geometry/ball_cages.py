@@ -24,6 +24,9 @@ class BallCage(Cage):
     material: Material = option(MATERIALS["PA66"], doc="cage material (a name or its values)")
     pocket_diameter: float = quantity("mm", doc="diameter of a pocket", above=0.0)
     pocket_shape: str = option("cylindrical", doc="shape of pockets", choices=POCKET_SHAPES)
+    pocket_scatter: float = quantity(
+        "um", 0.0, doc="standard deviation of pockets' places around the cage", minimum=0.0
+    )
     guidance: str = option("ball", doc="what guides the cage radially", choices=GUIDANCE)
 
     def thinnest(self, pitch_diameter: float, pocket_count: int) -> float:

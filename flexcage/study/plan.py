@@ -86,7 +86,7 @@ def _modes_key(case: Case) -> str:
     if case.cage_model == "rigid":
         return ""
     return content_hash(
-        case.cage, case.defects, case.mesh, case.modes, case.bearing.element_count,
+        case.cage, case.all_defects, case.mesh, case.modes, case.bearing.element_count,
         case.bearing.pitch_diameter, *basis_version(case.modes.kind),
     )  # fmt: skip
 

@@ -142,6 +142,8 @@ def _pockets(
     theta = interface.stations
     normal = np.sin(theta)[None, :, None] * interface.modes[:, :, 0]
     normal = normal + np.cos(theta)[None, :, None] * interface.modes[:, :, 2]
+    if cage.pocket_shape == "spherical":
+        normal = np.linalg.norm(interface.modes, axis=2)
     n = interface.modes.shape[-1]
     return BallPockets(
         azimuth=st(np.stack([np.cos(angle), np.sin(angle)], axis=1)),

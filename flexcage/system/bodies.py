@@ -120,6 +120,6 @@ def bodies_of(
         ),
         load_direction=np.array([np.cos(load.direction), np.sin(load.direction)]),
         steady=np.array([load.axial, load.moment_y, load.moment_z]),
-        free=np.array(free, float),
+        free=np.array([*free, load.centre == "free"], float),
         misalignment=load.misalignment,
     )

@@ -45,7 +45,7 @@ class Bodies(NamedTuple):
     load_direction: np.ndarray  # (2,) y, z
     waves: np.ndarray  # (3, 4) of speed, radial load, axial load, see waves.py
     steady: np.ndarray  # (3,) axial load, moments about y and z on the inner ring
-    free: np.ndarray  # (3,) 1.0 if the inner ring is free axially, in skew, in tilt
+    free: np.ndarray  # (4,) 1.0 if the inner ring is free axially, in skew, in tilt, at its centre
     misalignment: float
 
 

@@ -1,8 +1,8 @@
 """The equations as y' = f(t, y) for an explicit integrator: their constraints eliminated.
 
 What the constraints hold are single coordinates of the inner ring, whose mass matrix is diagonal:
-its axial position, skew and tilt stand still (those that are not free), and its spin is a given
-function of time (unless a compliant shaft drives it). These coordinates are set, the others
+its axial position, skew and tilt stand still (those that are not free), or its whole centre, and
+its spin is a given function of time (unless a compliant shaft drives it). These coordinates are set, the others
 accelerate by M u' = Q, and the rows left over say what forces hold them: the multipliers.
 """
 
@@ -90,6 +90,9 @@ def _rates(t, y, yd, data, mode):
         if bodies.free[k] == 0.0:
             c = 0 if k == 0 else 3 + k
             a[c], lam[k] = 0.0, row[c]
+    if bodies.free[3] == 0.0:
+        lam[0] = row[0]
+        a[0] = a[1] = a[2] = 0.0
     if driven:
         a[3] = slope_of(bodies.speed, t) + wave_slope(bodies.waves[0], t)
         lam[3] = row[3] + bodies.ring[1] * a[3]
@@ -112,6 +115,8 @@ def _hold(t, q, u, bodies, driven):
         q[3] = u[4] = 0.0
     if bodies.free[2] == 0.0:
         q[4], u[5] = bodies.misalignment, 0.0
+    if bodies.free[3] == 0.0:  # wherever it stands
+        u[0] = u[1] = u[2] = 0.0
     if driven:
         u[3] = speed_at(bodies, t)
 

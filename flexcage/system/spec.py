@@ -48,7 +48,7 @@ class Load(Wave):
     """Load on the inner ring, its misalignment, and gravity.
 
     Ramps and tables are of the radial load, a wave of that which ``wave_of`` names. What is held is
-    borne by a reaction.
+    borne by a reaction; a centre is held where the loads put it at the start.
     """
 
     radial: float = quantity("N", 0.0, doc="radial load", minimum=0.0)
@@ -65,6 +65,9 @@ class Load(Wave):
     wave_of: str = option("radial", doc="load that has a wave", choices=("radial", "axial"))
     tilt: str = option(
         "held", doc="is the inner ring held in tilt, or free in a run?", choices=("held", "free")
+    )
+    centre: str = option(
+        "free", doc="does the inner ring's centre move, or is it held?", choices=("free", "held")
     )
     misalignment: float = quantity("mrad", 0.0, doc="held tilt of the inner ring about z")
     gravity: float = quantity("m/s^2", 9.80665, doc="acceleration of gravity", minimum=0.0)

@@ -58,7 +58,7 @@ def _plain(case: Case, modes: ModesSpec | None = None) -> Case:
     contacts = n1013().contacts
     land = replace(contacts.land, clearance=case.contacts.land.clearance)  # follows from the cage
     return Case(
-        bearing=case.bearing, cage=case.cage, defects=case.defects, mesh=case.mesh,
+        bearing=case.bearing, cage=case.cage, defects=case.all_defects, mesh=case.mesh,
         modes=modes or ModesSpec(), contacts=replace(contacts, land=land),
     )  # fmt: skip
 

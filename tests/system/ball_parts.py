@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 from flexible_parts import shapes_at
 from scipy import sparse
@@ -59,16 +61,18 @@ def ball_cage(preset, *, modes=6, soft=3e-8):
 
 
 def ball_bearing(
-    *, contacts=None, load=None, speed=0.0, mount=None, lubricant=DRY, modes=6, change=None
-):
+    *, contacts=None, load=None, speed=0.0, mount=None, lubricant=DRY, modes=6, change=None,
+    shape="cylindrical",
+):  # fmt: skip
     """A ``Bearing`` of the preset 7010C-PI; ``change(interface)`` alters the cage's walls."""
     preset = load_preset("7010C-PI")
+    cage = replace(preset.cage, pocket_shape=shape)
     body, interface = ball_cage(preset, modes=modes)
     if change is not None:
         change(interface)
     contacts = contacts or contacts_of()
     model, memory = build_model(
-        preset.bearing, preset.cage, body, interface, contacts=contacts, lubricant=lubricant,
+        preset.bearing, cage, body, interface, contacts=contacts, lubricant=lubricant,
         drive=Drive(speed=speed), load=load or Load(gravity=0.0, tilt="free"),
         mount=mount or Mount(),
     )  # fmt: skip

@@ -23,10 +23,13 @@ def slots(interface):
     interface.radius[::4] += 5e-6
 
 
-@pytest.mark.parametrize("change", [None, slots], ids=["round", "slots"])
-def test_forces_are_the_slopes_of_the_energy(change):
+@pytest.mark.parametrize(
+    ("change", "shape"),
+    [(None, "cylindrical"), (slots, "cylindrical"), (None, "spherical"), (slots, "spherical")],
+)
+def test_forces_are_the_slopes_of_the_energy(change, shape):
     """Of balls, ring (tilts too), cage (turned about each axis) and every mode."""
-    bearing = ball_bearing(change=change)
+    bearing = ball_bearing(change=change, shape=shape)
     layout, y = bearing.layout, pressed(bearing)
     force = -bearing.residual(0.0, y, np.zeros_like(y))
     touching = bearing.data.work.report
@@ -70,6 +73,45 @@ def test_forces_are_the_slopes_of_the_energy(change):
     np.testing.assert_allclose(moments, levers, atol=2e-6 * np.abs(levers).max())
     energy(bearing, y)
     assert (touching.pocket_normal > 1.0).sum() > 5 and (touching.race[:, :, 0] > 1.0).sum() > 20
+
+
+def at_poles(bearing):
+    """Balls within and near the polar zones of spherical pockets, and pressed into them."""
+    y = pressed(bearing)
+    q = bearing.layout.q(y)
+    model = bearing.data.model
+    play = model.pocket.radius - model.bodies.radius
+    way = np.append(0.0, np.linspace(-0.45, 0.45, bearing.layout.rollers - 1))
+    q["cage"][:], q["quaternion"][:] = 0.0, (1.0, 0.0, 0.0, 0.0)
+    balls = q["rollers"]
+    balls[:, 0] = 1.03 * play * np.sin(way) * 0.6 + model.pocket.shift[:, 0]
+    balls[:, 1] = model.pocket.height + 1.03 * play * np.cos(way)
+    balls[:, 2] = 2.0 * np.pi * np.arange(bearing.layout.rollers) / bearing.layout.rollers
+    balls[:, 2] += 1.03 * play * np.sin(way) * 0.8 / balls[:, 1]
+    return y
+
+
+def test_forces_near_the_poles_of_spheres_are_slopes_of_the_energy_too():
+    """Of balls, cage and modes, where the stations' motion fades into their mean; and finite at the
+    pole itself."""
+    bearing = ball_bearing(shape="spherical")
+    layout, y = bearing.layout, at_poles(bearing)
+    rows = layout.u(-bearing.residual(0.0, y, np.zeros_like(y)))
+
+    def slope(name, *index, h=1e-9):
+        high, low = y.copy(), y.copy()
+        layout.q(high)[name][index] += h
+        layout.q(low)[name][index] -= h
+        return -(energy(bearing, high) - energy(bearing, low)) / (2.0 * h)
+
+    balls = [slope("rollers", i, c) for i in range(layout.rollers) for c in range(2)]
+    others = [slope("cage", c) for c in range(3)] + [slope("modes", m) for m in range(layout.modes)]
+    found = [*rows["rollers"][:, :2].ravel(), *rows["cage"], *rows["modes"]]
+    scale = np.abs([*balls, *others]).max()
+    np.testing.assert_allclose(found, [*balls, *others], atol=2e-6 * scale)
+    energy(bearing, y)
+    touching = bearing.data.work.report.pocket_normal[:, 0] > 1.0
+    assert touching[0] and touching.sum() > 8
 
 
 def test_all_forces_balance():

@@ -1,0 +1,272 @@
+"""The seven claims of the vibro-impact paper, as tests on the figures of a reading.
+
+What counts was fixed before anything was computed: "regular" or a "circle" is an orbit whose
+strongest line has half of its variance or more, "chaotic" one that is not; "independent" is within
+5 %; "rises" and "falls" are beyond the intervals, from each point of a sweep to the next.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from math import degrees, isnan, nan
+
+from c7010_vibro_figures import LINE, Figures
+
+from flexcage.study.verdicts import (
+    FAILS,
+    HOLDS,
+    UNDECIDED,
+    Estimate,
+    Line,
+    Verdict,
+    above,
+    every,
+    monotone,
+    pooled,
+    range_of,
+    unchanged,
+)
+
+PAPER = "Lubricants 2025, 13(5), 216"
+Found = Mapping[str, Sequence[Figures]]  # of one reading: every start of every case, by label
+SPEEDS = tuple(f"{n} rpm" for n in (4000, 6000, 8000, 10000, 12000))
+LOADS = ("5000 N", "9000 N", "12500 N")
+POCKETS = tuple(f"pocket {c} mm" for c in ("0.02", "0.08", "0.14"))
+RADIAL = tuple(f"radial {c} mm" for c in ("0.02", "0.08", "0.14"))
+LOAD_WAVES = ("load sine", "load triangle", "load rectangle")
+SPEED_WAVES = ("speed sine", "speed triangle", "speed rectangle")
+RAMPS = ("slow ramp", "medium ramp", "fast ramp")
+CLEAR = 0.01  # share of time without contact from which "intermittent zeros" are there
+
+
+class View:
+    """Figures of one reading, pooled over starts."""
+
+    def __init__(self, found: Found) -> None:
+        self.found = found
+
+    def has(self, labels: Sequence[str]) -> bool:
+        return all(self.found.get(label) for label in labels)
+
+    def __call__(self, key: str, label: str) -> Estimate:
+        starts = [getattr(f, key) for f in self.found.get(label, ())]
+        known = [_estimate(s) for s in starts if s is not None]
+        return pooled([k.value for k in known], [None if isnan(k.margin) else k.margin
+                                                 for k in known])  # fmt: skip
+
+    def all(self, key: str, labels: Sequence[str]) -> list[Estimate]:
+        return [self(key, label) for label in labels]
+
+
+def _estimate(value: Estimate | float) -> Estimate:
+    return value if isinstance(value, Estimate) else Estimate(float(value), nan)
+
+
+def sure(value: Estimate) -> Estimate:
+    """A figure that has no interval (a range, a share of a spectrum), taken as it is."""
+    return Estimate(value.value, 0.0) if isnan(value.margin) else value
+
+
+def rising(key: str, labels: Sequence[str], *, up: bool = True) -> Callable[[View], str]:
+    """Does a figure rise (or fall) along these cases?"""
+    return lambda view: monotone([sure(e) for e in view.all(key, labels)], rising=up)
+
+
+def regular(label: str) -> Callable[[View], str]:
+    return lambda view: above(sure(view("line", label)), LINE)
+
+
+def chaotic(label: str) -> Callable[[View], str]:
+    return lambda view: {HOLDS: FAILS, FAILS: HOLDS}.get(regular(label)(view), UNDECIDED)
+
+
+def same(key: str, labels: Sequence[str], within: float = 0.05) -> Callable[[View], str]:
+    """Is a figure the same at all these cases?"""
+
+    def test(view: View) -> str:
+        first, *others = view.all(key, labels)
+        return every(unchanged(first, other, within=within) for other in others)
+
+    return test
+
+
+def apart(view: View) -> str:
+    """Do inner and outer contact angles differ at every speed?"""
+    found = (view("inner_angle", s) - view("outer_angle", s) for s in SPEEDS)
+    return every(above(Estimate(abs(d.value), d.margin), 0.0) for d in found)
+
+
+def gaps(view: View) -> str:
+    """Do balls lose the inner race off the load, at every speed?"""
+    return every(above(view("empty_opposite", s), CLEAR) for s in SPEEDS)
+
+
+@dataclass(frozen=True)
+class Claim:
+    """One statement: parts that must all hold, and the figures and cases that show it."""
+
+    key: str
+    text: str
+    parts: Mapping[str, Callable[[View], str]]
+    cases: tuple[str, ...]
+    figures: tuple[str, ...]
+    reason: str = ""
+
+    def verdict(self, views: Mapping[str, View], base: str) -> Verdict:
+        known = {name: view for name, view in views.items() if view.has(self.cases)}
+        outcomes = {
+            part: {name: test(view) for name, view in known.items()}
+            for part, test in self.parts.items()
+        }
+        whole = {name: every(o[name] for o in outcomes.values()) for name in known}
+        texts = [range_of(whole)] if whole else ["not computed"]
+        texts += [f"({part}) {range_of(found)}" for part, found in outcomes.items() if known]
+        return Verdict(
+            key=self.key,
+            claim=self.text,
+            outcome=whole.get(base, UNDECIDED),
+            figures=tuple(
+                _line(key, label, views[base](key, label))
+                for key in self.figures
+                for label in self.cases
+                if base in known
+            ),
+            range=". ".join(texts) if len(self.parts) > 1 else texts[0],
+            source=PAPER,
+            reason="" if base in known else "not computed",
+        )
+
+
+#: How figures are shown: name, unit, factor from SI.
+SHOWN: Mapping[str, tuple[str, str, float]] = {
+    "peak": ("inner contact force of a pass, peak", "N", 1.0),
+    "empty_opposite": ("time without inner contact, off the load", "%", 100.0),
+    "deviation": ("deviation ratio, 2 kHz", "%", 100.0),
+    "line": ("strongest line of the orbit", "%", 100.0),
+    "inner_angle": ("inner contact angle", "deg", degrees(1.0)),
+    "outer_angle": ("outer contact angle", "deg", degrees(1.0)),
+    "radius": ("orbit's mean radius", "um", 1e6),
+    "axial_range": ("axial displacement, range", "um", 1e6),
+    "axial_rate": ("axial displacement over time", "um/s", 1e6),
+    "ball_ripple": ("slip ripple of loaded balls", "%", 100.0),
+    "cage_ripple": ("cage speed ripple", "%", 100.0),
+    "frequency": ("mean frequency of a ball's force", "Hz", 1.0),
+}
+
+
+def _line(key: str, label: str, value: Estimate) -> Line:
+    name, unit, factor = SHOWN[key]
+    return Line(f"{label}: {name}", factor * value.value, factor * value.margin, unit)
+
+
+CLAIMS = (
+    Claim(
+        "004-1",
+        "The peak force of balls on the inner ring rises with speed; off the load zone it is zero "
+        "from time to time",
+        {"rises": rising("peak", SPEEDS), "zeros off the load": gaps},
+        SPEEDS,
+        ("peak", "empty_opposite"),
+    ),
+    Claim(
+        "004-2",
+        "The orbit is chaotic at 4000 rpm; the deviation ratio falls with speed; beyond 10,000 rpm "
+        "the orbit is a circle",
+        {
+            "chaotic at 4000": chaotic(SPEEDS[0]),
+            "ratio falls": rising("deviation", SPEEDS, up=False),
+            "regular at 12,000": regular(SPEEDS[-1]),
+        },
+        SPEEDS,
+        ("deviation", "line"),
+    ),
+    Claim(
+        "004-3",
+        "Contact angles hardly depend on speed; inner and outer differ",
+        {
+            "inner within 5 %": same("inner_angle", SPEEDS),
+            "outer within 5 %": same("outer_angle", SPEEDS),
+            "they differ": apart,
+        },
+        SPEEDS,
+        ("inner_angle", "outer_angle"),
+    ),
+    Claim(
+        "004-4",
+        "From 5000 to 12,500 N the deviation ratio rises (to 24.44 %) and the orbit becomes "
+        "chaotic",
+        {"ratio rises": rising("deviation", LOADS), "chaotic at 12,500": chaotic(LOADS[-1])},
+        LOADS,
+        ("deviation", "line"),
+    ),
+    Claim(
+        "004-5 pockets",
+        "With clearance (0.02, 0.08, 0.14 mm, read as the pockets') steady whirl goes, the "
+        "deviation ratio rises, contact force and angle fall",
+        {
+            "steady at 0.02": regular(POCKETS[0]),
+            "chaotic at 0.14": chaotic(POCKETS[-1]),
+            "ratio rises": rising("deviation", POCKETS),
+            "force falls": rising("peak", POCKETS, up=False),
+            "angle falls": rising("inner_angle", POCKETS, up=False),
+        },
+        POCKETS,
+        ("deviation", "line", "peak", "inner_angle"),
+    ),
+    Claim(
+        "004-5 radial",
+        "The same, read as the radial internal clearance",
+        {
+            "steady at 0.02": regular(RADIAL[0]),
+            "chaotic at 0.14": chaotic(RADIAL[-1]),
+            "ratio rises": rising("deviation", RADIAL),
+            "force falls": rising("peak", RADIAL, up=False),
+            "angle falls": rising("inner_angle", RADIAL, up=False),
+        },
+        RADIAL,
+        ("deviation", "line", "peak", "inner_angle"),
+    ),
+    Claim(
+        "004-6 load",
+        "Of three waves of the load the rectangle is worst and the sine best: peak force, axial "
+        "displacement, slip ripple",
+        {
+            "peak force": rising("peak", LOAD_WAVES),
+            "axial displacement": rising("axial_range", LOAD_WAVES),
+            "slip ripple": rising("ball_ripple", LOAD_WAVES),
+        },
+        LOAD_WAVES,
+        ("peak", "axial_range", "ball_ripple"),
+    ),
+    Claim(
+        "004-6 speed",
+        "The same of three waves of the speed",
+        {
+            "peak force": rising("peak", SPEED_WAVES),
+            "axial displacement": rising("axial_range", SPEED_WAVES),
+            "slip ripple": rising("ball_ripple", SPEED_WAVES),
+        },
+        SPEED_WAVES,
+        ("peak", "axial_range", "ball_ripple"),
+    ),
+    Claim(
+        "004-7",
+        "With acceleration the orbit grows, forces and their frequency rise, the axial "
+        "displacement is faster",
+        {
+            "orbit": rising("radius", RAMPS),
+            "force": rising("peak", RAMPS),
+            "frequency": rising("frequency", RAMPS),
+            "axial displacement": rising("axial_rate", RAMPS),
+        },
+        RAMPS,
+        ("radius", "peak", "frequency", "axial_rate"),
+    ),
+)
+
+
+def verdicts(found: Mapping[str, Found], base: str) -> list[Verdict]:
+    """A verdict on every claim by the base reading, and where else it holds."""
+    views = {name: View(f) for name, f in found.items()}
+    return [claim.verdict(views, base) for claim in CLAIMS]

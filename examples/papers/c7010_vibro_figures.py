@@ -1,0 +1,143 @@
+"""What one run of the 7010C under vibro-impacts shows: figures with the halves of their intervals."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import nan
+
+import numpy as np
+from scipy.signal import butter, sosfiltfilt
+
+import flexcage
+from flexcage.results import metrics
+from flexcage.results.reductions import main_line, mean_frequency
+from flexcage.results.statistics import Record, Windows, roller_passes
+from flexcage.study.verdicts import Estimate
+
+LOW_PASS = 2e3  # Hz, of the cage's speed beside the raw 20 kHz
+LINE = 0.5  # an orbit is regular if its strongest line has this share of its variance
+
+
+@dataclass(frozen=True)
+class Figures:
+    """One run, its settled part over whole turns of the cage; SI."""
+
+    peak: Estimate  # largest inner contact force of a ball pass
+    largest: float  # and of all
+    empty_loaded: Estimate  # share of time without inner contact, balls on the load's side
+    empty_opposite: Estimate  # the same on the other side
+    deviation: Estimate  # of the cage centre's speed over its mean, low pass
+    deviation_raw: Estimate
+    radius: Estimate  # of the orbit about its mean
+    displacement: Estimate  # of the cage's centre from the axis
+    line: float  # share of the strongest line in the orbit's variance, 0 to 1
+    circle: float  # (largest - least)/mean of the radius about the orbit's mean
+    inner_angle: Estimate  # of loaded balls
+    outer_angle: Estimate
+    axial: Estimate  # inner ring's displacement
+    axial_range: float
+    axial_rate: float  # range over the time it took
+    cage_ripple: Estimate  # standard deviation over mean of the cage's speed
+    ball_ripple: Estimate  # of the loaded balls' slip ratio: its standard deviation
+    cage_slip: Estimate
+    frequency: float  # centre of gravity of the spectrum of the forces of a ball
+    pocket_peak: Estimate  # largest force of a ball pass on the cage
+    stress: Estimate | None  # largest of a ball pass, at waists and rims
+
+
+def evaluate(run: flexcage.Run) -> Figures:
+    """Figures of a run."""
+    ds = metrics.whole_revolutions(metrics.settled(run.dataset, run.case.output.settle))
+    numbers = run.numbers
+    windows = roller_passes(ds, numbers)
+    time = ds["time"].values
+    step = float(np.median(np.diff(time)))
+    force = ds["contact_force"].transpose("time", "ball", "race").values.astype(float)
+    inner = force[..., 0]
+    towards = _towards_load(run, ds)
+    orbit = metrics.orbit(ds)
+    radius = metrics.whirl_radius(ds)
+    axial = ds["inner_position"].sel(axis="x").values
+    slip = metrics.ball_slip_ratio(ds, numbers).values
+    angle = ds["contact_angle"].transpose("time", "ball", "race").values
+    loaded = metrics.loaded_zone(ds).transpose("time", "ball").values
+    pockets = ds["pocket_force"].transpose("time", "pocket", "face").values.astype(float)
+    omega = ds["cage_omega"].sel(axis="x").values
+    speed = metrics.cage_speed(ds, numbers)
+    key = "stress_root_pass_peak"
+    stressed = run.summary.row(key) if key in run.summary else None
+    return Figures(
+        peak=_of(windows.peak(inner.max(axis=1))),
+        largest=float(inner.max()),
+        empty_loaded=_share(windows, inner <= 0.0, towards),
+        empty_opposite=_share(windows, inner <= 0.0, ~towards),
+        deviation=_of(windows.deviation(_speed(ds, step, filtered=True))),
+        deviation_raw=_of(windows.deviation(_speed(ds, step, filtered=False))),
+        radius=_of(windows.mean(radius)),
+        displacement=_of(windows.mean(metrics.whirl_radius(ds, about="axis"))),
+        line=float(np.average(
+            [main_line(x, step)[1] for x in orbit.T], weights=orbit.var(axis=0)
+        )),
+        circle=metrics.whirl(ds).ratio,
+        inner_angle=_mean(windows, angle[..., 0], loaded & (inner > 0.0)),
+        outer_angle=_mean(windows, angle[..., 1], loaded & (force[..., 1] > 0.0)),
+        axial=_of(windows.mean(axial)),
+        axial_range=float(np.ptp(axial)),
+        axial_rate=float(np.ptp(axial) / (time[-1] - time[0])),
+        cage_ripple=_of(windows.deviation(omega)),
+        ball_ripple=_spread(windows, slip, loaded),
+        cage_slip=Estimate(speed.slip_ratio, _of(windows.mean(omega)).margin / speed.epicyclic),
+        frequency=float(np.mean([mean_frequency(inner[:, k], step) for k in (0, 6, 12)])),
+        pocket_peak=_of(windows.peak(pockets.max(axis=(1, 2)))),
+        stress=Estimate(float(stressed.value), stressed.margin or nan) if stressed else None,
+    )  # fmt: skip
+
+
+def by_azimuth(run: flexcage.Run, count: int = 18) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Middles of ``count`` sectors from the load's line [rad], mean inner force [N] and mean inner
+    contact angle [rad] (NaN: never touched) of balls that pass them."""
+    ds = metrics.whole_revolutions(metrics.settled(run.dataset, run.case.output.settle))
+    psi = ds["ball_position"].transpose("time", "ball", "cyl").sel(cyl="psi").values
+    at = np.round((psi - run.case.load.direction) * count / (2.0 * np.pi)).astype(int) % count
+    force = ds["contact_force"].sel(race="inner").transpose("time", "ball").values.astype(float)
+    angle = ds["contact_angle"].sel(race="inner").transpose("time", "ball").values
+    mean = np.array([force[at == k].mean() for k in range(count)])
+    touching = [(at == k) & (force > 0.0) for k in range(count)]
+    angles = np.array([angle[m].mean() if m.any() else nan for m in touching])
+    return 2.0 * np.pi * np.arange(count) / count, mean, angles
+
+
+def _towards_load(run: flexcage.Run, ds) -> np.ndarray:
+    """(time, ball): is the ball on the half that a radial load presses on?"""
+    psi = ds["ball_position"].transpose("time", "ball", "cyl").sel(cyl="psi").values
+    return np.cos(psi - run.case.load.direction) > 0.0
+
+
+def _speed(ds, step: float, *, filtered: bool) -> np.ndarray:
+    """Speed of the cage's centre (time,) [m/s]."""
+    v = ds["cage_velocity"].values
+    if filtered:
+        v = sosfiltfilt(butter(4, LOW_PASS, fs=1.0 / step, output="sos"), v, axis=0)
+    return np.linalg.norm(v, axis=1)
+
+
+def _of(record: Record) -> Estimate:
+    return Estimate(record.value, record.margin)
+
+
+def _share(windows: Windows, what: np.ndarray, where: np.ndarray) -> Estimate:
+    """Share of the samples ``where`` (time, ball) in which ``what`` is true."""
+    return _of(windows.ratio((what & where).sum(axis=1), where.sum(axis=1)))
+
+
+def _mean(windows: Windows, values: np.ndarray, where: np.ndarray) -> Estimate:
+    """Mean of ``values`` (time, ball) over the samples ``where``."""
+    return _of(windows.ratio(np.where(where, values, 0.0).sum(axis=1), where.sum(axis=1)))
+
+
+def _spread(windows: Windows, values: np.ndarray, where: np.ndarray) -> Estimate:
+    """Standard deviation of ``values`` (time, ball) over the samples ``where``."""
+    mean = values[where].mean()
+    square = _mean(windows, (values - mean) ** 2, where)
+    root = float(np.sqrt(square.value))
+    return Estimate(root, 0.5 * square.margin / root if root else nan)
