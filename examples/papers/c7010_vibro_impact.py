@@ -29,7 +29,7 @@ FOLDER = Path(__file__).with_suffix("")
 OUT = Path("runs/c7010_vibro_impact")
 BASE = "radial"
 SPEEDS = (4000, 6000, 8000, 10000, 12000)
-LOADS = (1500, 5000, 9000, 12500)
+LOADS = (5000, 9000, 12500)  # 1500 N is the case at 8000 rpm
 CLEARANCES = ("0.02", "0.08", "0.14")
 # free contact angles that go with these radial clearances: 1 - cos(alpha) = Pd/(2 A), A = 0.48 mm
 ANGLES = {"0.02": "11.716 deg", "0.08": "23.556 deg", "0.14": "31.333 deg"}
