@@ -1,4 +1,4 @@
-"""What one run of the 7010C under vibro-impacts shows: figures with the halves of their intervals."""
+"""What one run of the 7010C under vibro-impacts shows: figures and halves of their intervals."""
 
 from __future__ import annotations
 

@@ -12,11 +12,10 @@ from __future__ import annotations
 
 import argparse
 from collections.abc import Mapping, Sequence
-from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
-from c7010_vibro_claims import PAPER, Found, verdicts
+from c7010_vibro_claims import Found, verdicts
 from c7010_vibro_figures import evaluate
 from c7010_vibro_page import draw, page, table
 

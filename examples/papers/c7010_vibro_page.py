@@ -113,8 +113,8 @@ def _orbits(runs: Mapping[str, flexcage.Run], path: Path) -> Path:
     size, gap, top = 300, 70, 110
     with sheet.style():
         figure = sheet.new_figure(gap + len(runs) * (size + gap), top + size + 90)
-        sheet.heading(figure, "Orbits of the cage centre over speed",
-                      "about the outer ring's axis, settled part; load down, gravity with it")  # fmt: skip
+        note = "about the outer ring's axis, settled part; load down, gravity with it"
+        sheet.heading(figure, "Orbits of the cage centre over speed", note)
         orbits = {k: 1e6 * metrics.orbit(metrics.settled(r.dataset, r.case.output.settle))
                   for k, r in runs.items()}  # fmt: skip
         reach = 1.05 * max(float(np.abs(o).max()) for o in orbits.values())
@@ -135,8 +135,9 @@ def _round(runs: Mapping[str, flexcage.Run], path: Path) -> Path:
     colours = (sheet.BLUE, sheet.VERMILION, "#009E73")
     with sheet.style():
         figure = sheet.new_figure(2 * (wide + gap) + 40, top + high + 90)
-        sheet.heading(figure, "Round the bearing: full dynamics and quasi-static equations",
-                      "inner race; points: mean of a run, lines: quasi-static solution")  # fmt: skip
+        title = "Round the bearing: full dynamics and quasi-static equations"
+        note = "inner race; points: mean of a run, lines: quasi-static solution"
+        sheet.heading(figure, title, note)
         axes = [sheet.axes_at(figure, (gap + k * (wide + gap), top, wide, high)) for k in (0, 1)]
         for colour, (label, run) in zip(colours, list(runs.items())[::2], strict=False):
             at, force, angle = by_azimuth(run)

@@ -2,8 +2,9 @@
 
 What the constraints hold are single coordinates of the inner ring, whose mass matrix is diagonal:
 its axial position, skew and tilt stand still (those that are not free), or its whole centre, and
-its spin is a given function of time (unless a compliant shaft drives it). These coordinates are set, the others
-accelerate by M u' = Q, and the rows left over say what forces hold them: the multipliers.
+its spin is a given function of time (unless a compliant shaft drives it). These coordinates are
+set, the others accelerate by M u' = Q, and the rows left over say what forces hold them: the
+multipliers (of a held centre the axial one alone).
 """
 
 from __future__ import annotations

@@ -54,6 +54,17 @@ BAD = {
     ),
     "ramp without time": ('[drive]\nramp_to = "1 rpm"', "drive.ramp_time", ["how long"]),
     "decimal comma": ('[load]\nradial = "1,5 kN"', "load.radial", ["with a point", "'1.5 kN'"]),
+    "held by another method": (
+        '[load]\ncentre = "held"',
+        "load.centre",
+        ["'held'", 'solver.method = "explicit"', "'auto'"],
+    ),
+    "held under a wave": (
+        '[load]\ncentre = "held"\nwave = "sine"\nwave_period = "1 ms"\nwave_amplitude = "1 N"\n'
+        '[solver]\nmethod = "explicit"',
+        "load.wave",
+        ["'sine'", "cannot vary", "leave it out"],
+    ),
     "overload": ('[load]\nradial = "800 kN"', "load.radial", ["800 kN", "51 kN"]),
     "tiny elements": ('[mesh]\nsize = "1 um"', "mesh.size", ["0.001 mm", "elements"]),
     "coarse elements": ('[mesh]\nsize = "9 mm"', "mesh.size", ["9 mm", "3.58", "twice"]),

@@ -16,6 +16,7 @@ from flexcage.geometry.ball_cage_defects import (
     check_ball_cage,
     check_ball_defects,
     pocket_shapes,
+    uneven_pockets,
     wall_reach,
     web_thickness,
 )
@@ -173,6 +174,17 @@ def test_impossible_defects(defects, where, sentence):
     with pytest.raises(InputError, match=sentence) as caught:
         check(*defects)
     assert caught.value.where == where
+
+
+def test_uneven_pockets_are_random_by_their_seed_and_centred():
+    cage = replace(CAGE, pocket_scatter=20e-6)
+    shifts = np.array([
+        [d.circumferential for d in uneven_pockets(cage, Z, seed)] for seed in range(200)
+    ])  # fmt: skip
+    np.testing.assert_allclose(shifts.mean(axis=1), 0.0, atol=1e-12)
+    assert shifts.std() == pytest.approx(20e-6 * np.sqrt(1 - 1 / Z), rel=0.03)
+    assert uneven_pockets(cage, Z, 3) == uneven_pockets(cage, Z, 3)
+    assert uneven_pockets(CAGE, Z, 3) == ()
 
 
 def test_a_bearing_checks_its_cages_defects():

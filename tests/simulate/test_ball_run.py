@@ -126,6 +126,18 @@ def test_a_resumed_run_is_the_unbroken_one(tmp_path):
         assert np.array_equal(resumed.dataset[name].values, whole.dataset[name].values), name
 
 
+def test_a_held_centre_stays_and_bears_what_a_free_one_does():
+    """Its load says where it stands: balls press on it as if it were free, to what they vibrate."""
+    held = {"load.centre": "held", "solver.method": "explicit", "solver.duration": "4 ms"}
+    ds = simulate(c7010(RIGID, held)).dataset
+    assert np.ptp(ds["inner_position"].values, axis=0).max() == 0.0
+    assert np.abs(ds["inner_velocity"].values).max() == 0.0
+    free = simulate(c7010(RIGID, {**held, "load.centre": "free"})).dataset
+    assert np.ptp(free["inner_position"].sel(axis="x").values) > 1e-9
+    loads = [d["contact_force"].sel(race="inner").values for d in (ds, free)]
+    assert loads[0].mean() == pytest.approx(loads[1].mean(), rel=0.05)
+
+
 def test_contact_loads_of_a_thrust_bearing_are_those_published():
     """7603025 under 3500 N and 1200 N at 2000 rpm: every ball's load, from the loaded side on."""
     table = {
