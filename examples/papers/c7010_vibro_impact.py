@@ -58,7 +58,7 @@ READINGS: Mapping[str, tuple[Loads, Mapping[str, Any]]] = {
         },
     ),
 }
-SHORT = ("steeper friction",)  # speeds, loads and clearances only
+SHORT = ("guided by a land", "steeper friction")  # speeds, loads and clearances only
 
 
 def points(reading: str, *, quick: bool = False) -> list[dict[str, Any]]:

@@ -1,0 +1,110 @@
+"""The 7010C's papers as studies: they plan, and their claims judge figures of known order."""
+
+import sys
+from dataclasses import fields, replace
+from math import nan
+from pathlib import Path
+from types import SimpleNamespace
+
+import pytest
+
+from flexcage.study.plan import make_plan
+from flexcage.study.verdicts import FAILS, HOLDS, UNDECIDED, Estimate, read_verdicts
+
+PAPERS = Path(__file__).parents[2] / "examples" / "papers"
+
+
+@pytest.fixture(scope="module")
+def papers():
+    sys.path.insert(0, str(PAPERS))
+    import c7010_centroid
+    import c7010_vibro_claims
+    import c7010_vibro_figures
+    import c7010_vibro_impact
+
+    yield SimpleNamespace(
+        centroid=c7010_centroid, vibro=c7010_vibro_impact, claims=c7010_vibro_claims,
+        figures=c7010_vibro_figures,
+    )  # fmt: skip
+    sys.path.remove(str(PAPERS))
+
+
+def judged(papers, key, cases):
+    """The verdict on a claim by figures of some cases: {label: {figure: value}}."""
+    plain = {f.name: Estimate(1.0, 0.01) for f in fields(papers.figures.Figures)}
+    steady = papers.figures.Figures(**plain)
+    found = {
+        label: [replace(steady, **{k: Estimate(v, 0.01) for k, v in changed.items()})] * 2
+        for label, changed in cases.items()
+    }
+    claim = next(c for c in papers.claims.CLAIMS if c.key == key)
+    return claim.verdict({"radial": papers.claims.View(found)}, "radial")
+
+
+def test_every_reading_is_a_plan(papers):
+    counts = {}
+    for reading in papers.vibro.READINGS:
+        plan = make_plan(papers.vibro.study(reading))
+        counts[reading] = len(plan.cases)
+        asked = [p["label"] for p in papers.vibro.points(reading)]
+        assert len(set(asked)) == len(asked)
+    assert counts["radial"] == 2 * counts["axial"] == 2 * 28 and counts["steeper friction"] == 14 == counts["guided by a land"]
+    assert len(make_plan(papers.centroid.load()).cases) == 48
+
+
+def test_readings_load_what_they_say(papers):
+    assert papers.vibro.points("axial")[0]["load.radial"] == "0 N"
+    top = next(p for p in papers.vibro.points("combined") if p["label"] == "12500 N")
+    assert top["load.radial"] == top["load.axial"] == "12500 N"
+    waves = next(p for p in papers.vibro.points("axial") if p["label"] == "load sine")
+    assert waves["load.wave_of"] == "axial"
+
+
+def test_a_peak_that_rises_with_gaps_holds_and_one_that_falls_does_not(papers):
+    speeds = papers.claims.SPEEDS
+    rising = {s: {"peak": 100.0 + 5.0 * k, "empty_opposite": 0.3} for k, s in enumerate(speeds)}
+    assert judged(papers, "004-1", rising).outcome == HOLDS
+    falling = {s: {"peak": 100.0 - 5.0 * k, "empty_opposite": 0.3} for k, s in enumerate(speeds)}
+    assert judged(papers, "004-1", falling).outcome == FAILS
+    full = {s: {**v, "empty_opposite": 0.0} for s, v in rising.items()}
+    assert judged(papers, "004-1", full).outcome in (FAILS, UNDECIDED)
+
+
+def test_waves_rank_as_claimed_or_not(papers):
+    ranked = {
+        w: {"peak": 10.0 + k, "axial_range": 2.0 + k, "ball_ripple": 5.0 + k}
+        for k, w in enumerate(papers.claims.LOAD_WAVES)
+    }
+    assert judged(papers, "004-6 load", ranked).outcome == HOLDS
+    swapped = dict(zip(ranked, list(ranked.values())[::-1], strict=True))
+    assert judged(papers, "004-6 load", swapped).outcome == FAILS
+    verdict = judged(papers, "004-6 load", {"load sine": {}})
+    assert verdict.outcome == UNDECIDED and verdict.reason == "not computed"
+
+
+def test_a_circle_is_known_by_its_line(papers):
+    view = papers.claims.View({
+        "a": [SimpleNamespace(line=0.9)], "b": [SimpleNamespace(line=0.2)],
+    })  # fmt: skip
+    assert papers.claims.regular("a")(view) == HOLDS and papers.claims.chaotic("b")(view) == HOLDS
+    assert papers.claims.sure(Estimate(2.0, nan)).margin == 0.0
+
+
+def test_the_measured_cage_from_end_to_end(papers, tmp_path, capsys):
+    found = papers.centroid.main(["--quick", "-o", str(tmp_path / "quick")])
+    assert [v.key for v in found] == [v.key for v in read_verdicts(tmp_path / "quick")]
+    assert len(found) == 5 and all(v.figures for v in found)
+    shown = capsys.readouterr().out
+    assert "| 0.2 g mm | 11000 |" in shown and "003-5" in shown
+
+
+@pytest.mark.slow
+def test_vibro_impacts_from_end_to_end(papers, tmp_path):
+    found = papers.vibro.main(["--quick", "-o", str(tmp_path / "quick")])
+    stored = read_verdicts(tmp_path / "quick" / "radial")
+    assert [(v.key, v.outcome) for v in stored] == [(v.key, v.outcome) for v in found]
+    angles = next(v for v in found if v.key == "004-3")
+    at = {line.label: line.value for line in angles.figures}
+    # centrifugal force parts the angles
+    assert at["12000 rpm: inner contact angle"] > at["4000 rpm: inner contact angle"] + 2.0
+    assert at["12000 rpm: outer contact angle"] < at["4000 rpm: outer contact angle"] - 2.0
