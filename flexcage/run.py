@@ -298,13 +298,12 @@ class Run:
         return self
 
     def _summarise(self) -> Summary:
-        case, friction = self.case, self.case.contacts.race.friction
-        creep = {"step_coulomb": friction.v_static, "ramp_coulomb": friction.v_static}
+        case = self.case
         summary = summarise(
             self.dataset,
             self.numbers,
             settle=case.output.settle,
-            creep_speed=creep.get(friction.law),
+            creep_speed=case.contacts.race.friction.creeps_below,
             events=self.events,
         )
         summary = summary.with_section("Cage", self._cage_rows())

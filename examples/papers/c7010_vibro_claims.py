@@ -50,10 +50,15 @@ class View:
         return all(self.found.get(label) for label in labels)
 
     def __call__(self, key: str, label: str) -> Estimate:
+        """Mean over starts. A figure that has no interval of its own (a range, a share of a
+        spectrum) gets half of the range over the starts, and none from a single one."""
         starts = [getattr(f, key) for f in self.found.get(label, ())]
         known = [_estimate(s) for s in starts if s is not None]
-        return pooled([k.value for k in known], [None if isnan(k.margin) else k.margin
-                                                 for k in known])  # fmt: skip
+        values = [k.value for k in known]
+        if known and all(isnan(k.margin) for k in known):
+            spread = 0.5 * (max(values) - min(values)) if len(values) > 1 else nan
+            return Estimate(sum(values) / len(values), spread)
+        return pooled(values, [None if isnan(k.margin) else k.margin for k in known])
 
     def all(self, key: str, labels: Sequence[str]) -> list[Estimate]:
         return [self(key, label) for label in labels]

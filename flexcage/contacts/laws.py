@@ -24,7 +24,7 @@ from numba import types
 from scipy.optimize import brentq
 
 from flexcage.contacts import spec as specs
-from flexcage.contacts.spec import FrictionLaw, NormalLaw
+from flexcage.contacts.spec import EhlTraction, FrictionLaw, NormalLaw
 from flexcage.core.elementary import exponentials, powers, product_of_powers
 from flexcage.core.errors import InputError
 from flexcage.core.jit import kernel
@@ -185,6 +185,12 @@ def _traction_parameters(law: FrictionLaw) -> Sequence[float]:
     return a, b, c, d, b - c * a
 
 
+def _ehl_parameters(law: EhlTraction) -> Sequence[float]:
+    """Gupta's curve without its maximum."""
+    slope = law.limit / law.creep_speed
+    return -law.limit, 0.0, 1.0 / law.creep_speed, law.limit, slope
+
+
 def _coulomb_parameters(law: FrictionLaw) -> Sequence[float]:
     return law.static, law.dynamic, law.v_static, law.v_dynamic
 
@@ -199,6 +205,7 @@ FRICTION_LAWS: dict[str, Any] = {
     "traction": traction,
     "step_coulomb": step_coulomb,
     "ramp_coulomb": ramp_coulomb,
+    "ehl": traction,
 }
 # those not named here take the parameters of "elastic" and of "step_coulomb"
 NORMAL_PARAMETERS: dict[str, Callable[[Any, float, float], Sequence[float]]] = {
@@ -207,6 +214,7 @@ NORMAL_PARAMETERS: dict[str, Callable[[Any, float, float], Sequence[float]]] = {
 }
 FRICTION_PARAMETERS: dict[str, Callable[[Any], Sequence[float]]] = {
     "traction": _traction_parameters,
+    "ehl": _ehl_parameters,
 }
 
 

@@ -55,6 +55,34 @@ class FrictionLaw:
     peak_speed: float = quantity("m/s", 0.3, doc="sliding speed of the maximum", above=0.0)
     high_speed: float = option(0.03, doc="traction at large sliding speed", minimum=0.0)
 
+    @property
+    def creeps_below(self) -> float | None:
+        """Sliding speed [m/s] below which the law only creeps, so that slip under it says nothing;
+        None for a law whose rise from rest is the physics."""
+        return self.v_static if self.law in ("step_coulomb", "ramp_coulomb") else None
+
+
+@dataclass(frozen=True, kw_only=True)
+class EhlTraction(FrictionLaw):
+    """Traction of an elastohydrodynamic film: mu = limit (1 - exp(-u/creep_speed)).
+
+    Shear stress of a film between its modulus and its limiting stress (S. Bair and W. O. Winer, J.
+    Lubr. Tech. 101 (1979) 258), with one slope for the contact; ``flexcage.ehl_traction`` gives it
+    from film, pressure and speed.
+    """
+
+    law: str = option("ehl", doc="name of the law", choices=FRICTION_LAWS)
+    limit: float = option(
+        0.06, doc="limiting shear stress over pressure", minimum=1e-6,
+        assumption="0.04 to 0.08 for mineral oils",
+    )  # fmt: skip
+    creep_speed: float = quantity(
+        "m/s", 0.1, doc="sliding speed at which the slope at rest meets the limit", above=0.0
+    )
+
+
+FRICTION_LAWS["ehl"] = EhlTraction
+
 
 @dataclass(frozen=True, kw_only=True)
 class PairSpec:

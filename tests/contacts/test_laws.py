@@ -8,7 +8,8 @@ from law_checks import check_friction_law, check_normal_law, friction, normal
 from scipy.integrate import quad
 
 from flexcage.contacts import laws
-from flexcage.contacts.spec import FrictionLaw, Lubricant, NormalLaw
+from flexcage.contacts.spec import FRICTION_LAWS as FRICTION_SPECS
+from flexcage.contacts.spec import EhlTraction, FrictionLaw, Lubricant, NormalLaw
 from flexcage.core.jit import kernel
 from flexcage.geometry.presets import load_preset
 from flexcage.verification.cases.land_film import film
@@ -45,7 +46,7 @@ def test_every_normal_law(name, k, n):
 
 @pytest.mark.parametrize("name", sorted(laws.FRICTION_LAWS))
 def test_every_friction_law(name):
-    spec = FrictionLaw(law=name)
+    spec = (FRICTION_SPECS[name] or FrictionLaw)(law=name)
     top = max(spec.static, spec.dynamic, spec.peak)
     check_friction_law(laws.FRICTION_LAWS[name], laws.friction_parameters(spec), top=top)
 
@@ -91,6 +92,13 @@ def test_traction_is_smooth_at_rest_and_has_one_maximum(peak, speed, high):
     assert np.count_nonzero(np.diff(np.sign(np.diff(mu)))) == 1
     small = friction(laws.traction, p, [0.0, 1e-6 * speed])[0]
     assert small[0] == pytest.approx(small[1], rel=1e-5)
+
+
+def test_ehl_traction_rises_by_its_creep_speed_to_its_limit():
+    p = laws.friction_parameters(EhlTraction(limit=0.05, creep_speed=0.02))
+    u = np.array([1e-9, 0.02, 2.0])
+    mu = friction(laws.FRICTION_LAWS["ehl"], p, u)[0] * u
+    np.testing.assert_allclose(mu, 0.05 * -np.expm1(-u / 0.02), rtol=1e-6)
 
 
 def test_rolling_resistance():

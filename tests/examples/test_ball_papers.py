@@ -48,7 +48,10 @@ def test_every_reading_is_a_plan(papers):
         counts[reading] = len(plan.cases)
         asked = [p["label"] for p in papers.vibro.points(reading)]
         assert len(set(asked)) == len(asked)
-    assert counts["radial"] == 2 * counts["axial"] == 2 * 28 and counts["steeper friction"] == 14 == counts["guided by a land"]
+    assert (
+        counts["radial"] == 2 * counts["axial"] == 2 * 28
+        and counts["steeper friction"] == 14 == counts["guided by a land"]
+    )
     assert len(make_plan(papers.centroid.load()).cases) == 48
 
 
