@@ -8,8 +8,8 @@ from math import asin, hypot
 from flexcage.stages import build_bearing, cage_mesh
 from flexcage.verification.ball_bearings import deep_groove
 from flexcage.verification.c7010 import NO_OIL, balls_on_outer, march
+from flexcage.verification.deep_groove import case_of
 from flexcage.verification.known_answer import KnownAnswer, Row, Tolerance
-from flexcage.verification.seven_balls import case_of
 
 SLOT = {"type": "elongated", "direction": "axial", "elongation": "0.5 mm"}
 STANDING = {  # a heavy cage keeps balls at their azimuths within 0.5 um, and lets them move aside
