@@ -1,6 +1,7 @@
 """One file a case; ``IN_ORDER`` is the order in which the chapter reads."""
 
 from flexcage.verification.cases import (
+    ball_epicyclic_run,
     ball_race_run,
     ball_ratings,
     ball_speed,
@@ -67,6 +68,7 @@ IN_ORDER = (
     ball_speed_run.CASE,
     ball_tilt_run.CASE,
     epicyclic_run.CASE,
+    ball_epicyclic_run.CASE,
     cage_friction.CASE,
     land_rebound.CASE,
     free_bearing.CASE,
