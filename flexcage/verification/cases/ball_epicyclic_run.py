@@ -33,15 +33,16 @@ ROLLS = Tolerance(5e-4, "demanded; loads change the radii of rolling by 1e-4, an
 
 
 def without_angle(rpm: float, model: str) -> Case:
-    """Seven balls without contact angle, lightly preloaded."""
+    """Seven balls without contact angle, preloaded by some newtons, with 5 um of play in their
+    pockets: the cage soon goes as they do."""
     ball, pitch, count = TABLE["6203"][:3]
     bearing = replace(
-        deep_groove(-0.5e-6, ball=ball * 1e-3, count=int(count)), pitch_diameter=pitch * 1e-3,
+        deep_groove(-1e-6, ball=ball * 1e-3, count=int(count)), pitch_diameter=pitch * 1e-3,
         bore=15e-3, outside_diameter=37e-3, width=10e-3,
     )  # fmt: skip
     return case_of(bearing, NO_OIL, GRIP, {
         "drive.speed": f"{rpm:g} rpm", "load.radial": "1 N", "cage.model": model,
-        "solver.duration": "0.12 s",
+        "solver.duration": "60 ms", "cage.pocket_diameter": "6.48 mm",
     })  # fmt: skip
 
 
