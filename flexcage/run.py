@@ -23,6 +23,7 @@ from flexcage.core.timing import Stages
 from flexcage.mesh.cage_mesh import CageMesh
 from flexcage.mesh.quality import report_mesh
 from flexcage.modes.reduction import CageReduction
+from flexcage.results.edges import groove_edges
 from flexcage.results.figures import pass_peak, summarise
 from flexcage.results.metrics import BearingNumbers
 from flexcage.results.statistics import roller_passes
@@ -293,6 +294,9 @@ class Run:
         """Complete a run that has come to its end: summary, stored beside the results."""
         self.solver = recorder
         self.summary = self._summarise()
+        for edge in groove_edges(self.case.bearing, self.dataset):
+            if edge.warning:
+                log.warning(edge.warning)
         if self.folder:
             self.summary.write(self.folder)
         return self
@@ -306,6 +310,8 @@ class Run:
             settle=case.output.settle,
             creep_speed=creep.get(friction.law),
         )
+        if edges := groove_edges(case.bearing, self.dataset):
+            summary = summary.with_section("Grooves", [edge.row for edge in edges])
         summary = summary.with_section("Cage", self._cage_rows())
         if self.cage is not None:
             summary = summary.with_section("Equivalent stress", self._stress_rows())

@@ -14,7 +14,8 @@ from flexcage.results.summary import Row, Section
 if TYPE_CHECKING:
     import xarray
 
-RATE, LOW_PASS = 20e3, 2e3  # Hz, at which the deviation of the cage's speed is taken
+LOW_PASS = 2e3  # Hz, below which the deviation of the cage's speed is taken
+LEAST = 16  # samples, of which that filter wants more than 15
 
 
 def speed_rows(ds: xarray.Dataset, bearing: BearingNumbers) -> tuple[Row, ...]:
@@ -67,7 +68,8 @@ def motion_rows(ds: xarray.Dataset) -> tuple[Row, ...]:
     axis = metrics.whirl(whole, about="axis")
     rate = 1.0 / float(np.median(np.diff(ds["time"].values)))
     note = f"of the centre's speed, at {rate / 1e3:g} kHz, low-pass {LOW_PASS / 1e3:g} kHz"
-    steady = metrics.velocity_deviation(ds, low_pass=LOW_PASS) if rate > 2.2 * LOW_PASS else None
+    enough = rate > 2.2 * LOW_PASS and ds.sizes["time"] >= max(LEAST, 4.0 * rate / LOW_PASS)
+    steady = metrics.velocity_deviation(ds, low_pass=LOW_PASS) if enough else None
     return (
         Row("whirl_difference", "Whirl radius, max - min", axis.largest - axis.smallest, "um",
             "about the ring's axis"),
