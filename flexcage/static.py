@@ -19,17 +19,18 @@ def solve_static(case: StaticCase | Case) -> StaticSolution:
 
     Of a simulation's case tilts are held or free as they are in the run, and no race controls
     balls.
-    Raises InputError for a load that does not fit the bearing, RunFailed if none is found.
+    Raises InputError for a load that the bearing cannot bear, RunFailed if none is found.
     """
     if isinstance(case, Case):
         case = StaticCase(
             name=case.name, preset=case.preset, bearing=case.bearing, contacts=case.contacts,
-            drive=case.drive, load=case.load,
+            lubricant=case.lubricant, drive=case.drive, load=case.load,
             static=StaticOptions(tilt=case.load.tilt, gyroscopic="none"),
         )  # fmt: skip
     return solve_bearing(
-        case.bearing, load=case.load, speed=case.speed, contacts=case.contacts, options=case.static
-    )
+        case.bearing, load=case.load, speed=case.speed, contacts=case.contacts,
+        lubricant=case.lubricant, options=case.static,
+    )  # fmt: skip
 
 
 def write_static(case: StaticCase, solution: StaticSolution, folder: Path) -> list[Path]:

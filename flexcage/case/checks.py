@@ -266,6 +266,12 @@ def _find_in_waves(case: Case) -> Iterator[Finding]:
 
 def _find_in_solver(case: Case) -> Iterator[Finding]:
     solver = case.solver
+    if solver.method == "bdf" and case.bearing.explicit_only:
+        yield (
+            "solver.method",
+            f"solver.method is 'bdf', but a bearing's {case.bearing.element}s have no tangent yet, "
+            "which implicit methods want; take 'auto' or 'explicit'.",
+        )
     if solver.min_step > solver.max_step:
         yield (
             "solver.min_step",

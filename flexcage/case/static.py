@@ -15,7 +15,7 @@ from typing import Any
 from flexcage.case.case import Case, with_preset, without_aliases, words_of_text
 from flexcage.case.checks import check_static_case
 from flexcage.case.load import read_case
-from flexcage.contacts.spec import Contacts
+from flexcage.contacts.spec import Contacts, Lubricant
 from flexcage.core.binding import Binder, check_spec, check_value, to_table, unknown_key
 from flexcage.core.errors import InputError
 from flexcage.core.spec import option
@@ -39,6 +39,7 @@ class StaticCase:
     preset: str = option("", doc="preset that the case started from")
     bearing: Bearing = option(doc="the bearing")
     contacts: Contacts = option(Contacts(), doc="rollers' slices and stiffness factor at races")
+    lubricant: Lubricant = option(Lubricant(), doc="what makes a film where the bearing turns")
     drive: Drive = option(Drive(speed=0.0), doc="speed of the inner ring")
     load: Load = option(Load(), doc="what loads the inner ring")
     static: StaticOptions = option(StaticOptions(), doc="how equilibrium is meant")

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
-from math import cos, pi, sin
+from math import acos, cos, inf, pi, sin
 from typing import ClassVar
 
 from flexcage.core.spec import option, quantity
@@ -30,6 +30,7 @@ class BallBearing(Bearing):
     cage_spec: ClassVar[Spec] = BallCage
     element: ClassVar[str] = "ball"
     in_motion: ClassVar[bool] = True
+    explicit_only: ClassVar[bool] = True
     carries_axial_load: ClassVar[bool] = True
     one_sided: ClassVar[bool] = False  # are there shoulders for one direction of load alone?
 
@@ -120,6 +121,15 @@ class BallBearing(Bearing):
             self.pitch_diameter - self.ball_diameter + 2.0 * inner,
             self.pitch_diameter + self.ball_diameter - 2.0 * outer,
         )
+
+    @cached_property
+    def groove_edges(self) -> tuple[float, float]:
+        """Angles [rad] from the bottoms of inner and outer groove to the edges of their loaded
+        shoulders; infinite where a height is not given."""
+        heights = (self.inner_shoulder, self.outer_shoulder)
+        radii = (self.inner_groove_radius, self.outer_groove_radius)
+        inner, outer = (inf if h is None else acos(1.0 - h / r) for h, r in zip(heights, radii))
+        return inner, outer
 
     @cached_property
     def inner_ring_mass(self) -> float:

@@ -234,7 +234,8 @@ def check_ball_defects(
         k = int(np.argmin(webs))
         raise InputError(
             f"Pockets {(k - 1) % pocket_count} and {k} run into each other: web {k} would be "
-            f"{_mm(webs[k])} thick; it must be greater than zero.",
+            f"{_mm(webs[k])} thick, but must be thicker than zero; displace or widen these pockets "
+            "less.",
             where="defects",
             value=float(webs[k]),
         )

@@ -30,6 +30,7 @@ class Bearing:
     cage_spec: ClassVar[Spec]
     carries_axial_load: ClassVar[bool] = False  # in a run, with the ring free axially and in tilt
     in_motion: ClassVar[bool] = False  # are there equations of motion for this type?
+    explicit_only: ClassVar[bool] = False  # do they lack the tangent that implicit methods want?
 
     type: str = option("cylindrical_roller", doc="type of bearing", choices=BEARING_TYPES)
     designation: str = option("", doc="name in a catalogue")

@@ -31,6 +31,7 @@ def cautions(
         _slip(summary, element),
         _yield(summary, proof_stress, material),
         _pinched(summary, element),
+        *(_over_edge(summary, race) for race in ("inner", "outer")),
     ]
     return [text for text in found if text]
 
@@ -99,6 +100,16 @@ def _yield(summary: Summary, proof_stress: float, material: str) -> str:
         f"The stress reaches {peak / 1e6:.0f} MPa, more than the proof stress of {material} "
         f"({proof_stress / 1e6:.0f} MPa): a real cage would yield there, and this one is linear "
         "elastic."
+    )
+
+
+def _over_edge(summary: Summary, race: str) -> str:
+    if not _number(summary, f"edge_{race}") > 0.0:
+        return ""
+    row = summary.row(f"edge_{race}")
+    return (
+        f"A contact ellipse runs over the {race} groove's edge by {row.text} deg ({row.note}); its "
+        "edge pressure is not computed."
     )
 
 

@@ -7,6 +7,7 @@ and gyroscopic moment do to it is left to the run. The cage is centred on the ba
 
 from __future__ import annotations
 
+import logging
 from math import pi
 
 import numpy as np
@@ -18,12 +19,16 @@ from flexcage.system.scales import ERROR_RATE, error_weights, shared_weights
 from flexcage.system.start import Start, StaticStart, start_of
 from flexcage.system.statics.solution import StaticSolution
 
+log = logging.getLogger(__name__)
+
 _ALIKE = 1e-3  # rad: contact angles closer than this leave a ball's axis to their mean
 
 
 @start_of.register
 def _(model: BallModel, bearing: Bearing, *, limit_force: float, statics: StaticStart) -> Start:
     solution = statics()
+    for text in solution.warnings:
+        log.warning("at the start %s", text)
     y = ball_places(bearing, solution)
     yd = rolling_balls(model, bearing.layout, solution, y)
     station = np.zeros_like(bearing.data.work.report.station)

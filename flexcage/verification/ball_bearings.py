@@ -28,7 +28,9 @@ def preset(name: str) -> AngularContactBallBearing:
     return bearing
 
 
-def deep_groove(clearance: float, *, ball: float = 11.5e-3, count: int = 7) -> BallBearing:
+def deep_groove(
+    clearance: float, *, ball: float = 11.5e-3, count: int = 7
+) -> DeepGrooveBallBearing:
     """The deep groove bearing of a published set of ISO/TS 16281 cases, at a clearance [m]."""
     steel = Material(name="steel", youngs_modulus=210e9, poisson_ratio=0.3, density=7850.0)
     return DeepGrooveBallBearing(

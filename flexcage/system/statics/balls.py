@@ -9,12 +9,12 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
-from math import acos, cos, degrees, inf, sin
+from math import cos, degrees, inf, sin
 
 import numpy as np
 
 from flexcage.contacts.spec import Contacts
-from flexcage.core.errors import RunFailed
+from flexcage.core.errors import InputError
 from flexcage.geometry.ball_bearing import BallBearing
 from flexcage.geometry.ball_catalogue import STATIC_PRESSURE, ring_share
 from flexcage.geometry.catalogue import dynamic_rating
@@ -190,22 +190,19 @@ class Balls:
     def _beyond_edge(self, angle: np.ndarray, across: np.ndarray) -> np.ndarray:
         b = self.bearing
         radii = np.array([b.inner_groove_radius, b.outer_groove_radius])
-        edges = np.array([
-            inf if height is None else acos(1.0 - height / radius)
-            for height, radius in zip((b.inner_shoulder, b.outer_shoulder), radii)
-        ])  # fmt: skip
-        return np.abs(angle) + across / radii - edges
+        return np.abs(angle) + across / radii - np.array(b.groove_edges)
 
     def check(self, loads: ElementLoads) -> None:
         """Angular contact bearings have no shoulder on the other side."""
         angle = np.nan_to_num(loads.angle[:, 0], nan=np.inf)
         worst = int(angle.argmin())
         if self.bearing.one_sided and angle[worst] < _GROOVE_BOTTOM:
-            raise RunFailed(
+            raise InputError(
                 f"the bearing cannot bear this load: ball {worst} would bear "
                 f"{loads.force[worst, 0]:.4g} N at a contact angle of "
                 f"{degrees(angle[worst]):.3g} deg, where an {self.bearing.kind} has no shoulder; "
-                "give it more axial load, towards +x"
+                "give it more axial load, towards +x",
+                where="load",
             )
 
     def reference_life(self, v: np.ndarray, w: np.ndarray) -> float:

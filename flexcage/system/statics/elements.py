@@ -81,7 +81,7 @@ class Elements(Protocol):
         ...
 
     def check(self, loads: ElementLoads) -> None:
-        """Raise RunFailed if what balances could not be: a contact where there is no race."""
+        """Raise InputError if what balances could not be: a contact where there is no race."""
         ...
 
     def reference_life(self, v: np.ndarray, w: np.ndarray) -> float:

@@ -14,7 +14,7 @@ from functools import cached_property
 
 import numpy as np
 
-from flexcage.core.errors import RunFailed
+from flexcage.core.errors import FlexcageError, InputError, RunFailed
 from flexcage.system.statics.elements import Elements, Response
 
 _CLOSE = 1e-10  # unbalanced force of the ring, as a share of the load
@@ -80,7 +80,8 @@ class Posture:
 
 
 def balance(problem: Problem) -> Posture:
-    """Posture in equilibrium. Raises RunFailed if there is none, or none is found."""
+    """Posture in equilibrium. Raises InputError if the load leaves none, RunFailed if none is
+    found."""
     still = _march(problem, _posture(problem, problem.held, None, 0.0), 0.0)
     if still.unbalanced > _CLOSE:
         raise _no_equilibrium(problem, still)
@@ -194,13 +195,14 @@ def _march(problem: Problem, posture: Posture, share: float) -> Posture:
     return posture
 
 
-def _no_equilibrium(problem: Problem, posture: Posture) -> RunFailed:
+def _no_equilibrium(problem: Problem, posture: Posture) -> FlexcageError:
     where = np.abs(posture.ring)
     if (where * problem.lever).max() > _FAR * problem.elements.scale:
-        return RunFailed(
+        return InputError(
             "the bearing cannot bear this load: its inner ring moves off, by "
             f"{1e3 * where[:3].max():.2g} mm and {where[3:].max():.2g} rad when the search was "
-            "given up; is its axial load towards +x, and large enough?"
+            "given up; is its axial load towards +x, and large enough?",
+            where="load",
         )
     return RunFailed(
         f"no equilibrium was found: {posture.unbalanced:.1e} of the load stays unbalanced "

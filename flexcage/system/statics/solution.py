@@ -12,6 +12,7 @@ from typing import Any
 import numpy as np
 
 from flexcage._version import __version__
+from flexcage.geometry.film import Film
 from flexcage.system.statics.elements import ElementLoads
 from flexcage.system.statics.table import table_of
 
@@ -37,7 +38,8 @@ class StaticSolution:
     Arrays of five are x, y, z and the tilts about y and z, of forces and moments on the inner ring
     likewise; they refer to the middle of the plane of ball centres, or of the rollers. ``load`` is
     what was asked, ``reaction`` what holds motions that are held. ``elements`` lists every element,
-    inner race before outer. ``stiffness`` (5, 5) is the exact tangent of load over displacement, at
+    inner race before outer, and ``film`` (Z, 2) the lubricant's thickness there, of rolling without
+    slip. ``stiffness`` (5, 5) is the exact tangent of load over displacement, at
     constant speed, the rolling elements following.
     """
 
@@ -48,6 +50,7 @@ class StaticSolution:
     reaction: np.ndarray
     stiffness: np.ndarray
     elements: ElementLoads
+    film: Film
     ratings: Ratings
     warnings: tuple[str, ...]
     unbalanced: float  # largest force left over, as a share of the load

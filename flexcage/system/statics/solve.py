@@ -6,7 +6,7 @@ from math import degrees
 
 import numpy as np
 
-from flexcage.contacts.spec import Contacts
+from flexcage.contacts.spec import Contacts, Lubricant
 from flexcage.core.errors import InputError
 from flexcage.core.threads import one_blas_thread
 from flexcage.core.units import describe
@@ -17,6 +17,7 @@ from flexcage.geometry.catalogue import (
     rating_names,
     static_rating,
 )
+from flexcage.geometry.film import Film, Oil, race_film, rolling_entrainment
 from flexcage.system.spec import Load
 from flexcage.system.statics import balls, rollers
 from flexcage.system.statics.elements import ElementLoads, Elements, elements_of
@@ -35,12 +36,13 @@ def solve_bearing(
     load: Load,
     speed: float = 0.0,
     contacts: Contacts | None = None,
+    lubricant: Lubricant | None = None,
     options: StaticOptions | None = None,
 ) -> StaticSolution:
-    """Equilibrium of the inner ring under the load at its start, turning at ``speed`` [rad/s].
+    """Equilibrium of the inner ring under the load at its start, turning at ``speed`` [rad/s], and
+    the film that the lubricant then makes.
 
-    Raises InputError for a load that the bearing cannot be asked to bear, RunFailed if there is no
-    equilibrium.
+    Raises InputError for a load that the bearing cannot bear, RunFailed if no equilibrium is found.
     """
     options = options or StaticOptions()
     elements = elements_of(bearing, speed=speed, contacts=contacts or Contacts(), options=options)
@@ -58,12 +60,20 @@ def solve_bearing(
         reaction=reaction,
         stiffness=tangent(problem, posture),
         elements=loads,
+        film=_film(bearing, loads, speed, lubricant or Lubricant()),
         ratings=_ratings(
             bearing, load_vector(load), options, elements.reference_life(v, posture.own)
         ),
         warnings=tuple(_warnings(elements, loads)),
         unbalanced=posture.unbalanced,
     )
+
+
+def _film(bearing: Bearing, loads: ElementLoads, speed: float, lubricant: Lubricant) -> Film:
+    """Film of elements that roll without slip."""
+    entrained = rolling_entrainment(bearing, loads.angle, loads.orbital_speed, speed)
+    oil = Oil(lubricant.viscosity, lubricant.pressure_coefficient)
+    return race_film(bearing, loads.force, entrained, oil)
 
 
 def load_vector(load: Load) -> np.ndarray:

@@ -78,7 +78,7 @@ def _elements(s: StaticSolution) -> str:
         "Q force, p largest pressure, a and b half of the contact across and in rolling direction"
     )
     if s.speed != 0.0:
-        note += ", Fc centrifugal force"
+        note += ", h least film (isothermal, fully flooded), Fc centrifugal force"
     return f"{note}\n{_element_table(s)}"
 
 
@@ -91,7 +91,8 @@ def _element_table(s: StaticSolution) -> str:
     names += ["p inner, MPa", "p outer, MPa", "a inner, mm", "b inner, mm"]
     turning = s.speed != 0.0
     if turning:
-        names += ["Fc, N"] + (["Mg, N mm", "friction"] if balls else [])
+        names += ["h inner, um", "h outer, um", "Fc, N"]
+        names += ["Mg, N mm", "friction"] if balls else []
     lines = [names]
     for k in range(len(e.azimuth)):
         cells = [str(k), f"{degrees(e.azimuth[k]):.4g}", *(f"{q:.5g}" for q in e.force[k])]
@@ -100,6 +101,7 @@ def _element_table(s: StaticSolution) -> str:
         cells += [f"{p / 1e6:.5g}" for p in e.pressure[k]]
         cells += [f"{1e3 * e.across[k, 0]:.4g}", f"{1e3 * e.along[k, 0]:.4g}"]
         if turning:
+            cells += [_or_dash(1e6 * h, ".4g") for h in s.film.least[k]]
             cells.append(f"{e.centrifugal[k]:.4g}")
             if balls:
                 asked = np.nanmax(e.friction[k], initial=0.0)
