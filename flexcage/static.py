@@ -5,8 +5,12 @@ from __future__ import annotations
 import logging
 from pathlib import Path
 
+import numpy as np
+
 from flexcage.case import Case, StaticCase
-from flexcage.core.errors import EnvironmentLacks
+from flexcage.contacts.spec import EhlTraction
+from flexcage.core.errors import EnvironmentLacks, InputError
+from flexcage.geometry.film import Oil, creep_speed, patch, rolling_entrainment
 from flexcage.system.statics.options import StaticOptions
 from flexcage.system.statics.solution import StaticSolution
 from flexcage.system.statics.solve import solve_bearing
@@ -31,6 +35,40 @@ def solve_static(case: StaticCase | Case) -> StaticSolution:
         case.bearing, load=case.load, speed=case.speed, contacts=case.contacts,
         lubricant=case.lubricant, options=case.static,
     )  # fmt: skip
+
+
+def ehl_traction(
+    case: StaticCase | Case, *, limit: float = 0.06, shear_modulus: float = 50e6
+) -> EhlTraction:
+    """Traction law of the lubricant's film at the heaviest contacts of a case, for
+    ``case.replace("contacts.race.friction", ehl_traction(case))``.
+
+    Film thickness, pressure and speed are the static solution's; the law's creep speed is the mean
+    of those of the heaviest contact on either race. ``limit`` is the limiting shear stress over the
+    pressure; ``shear_modulus`` [Pa] is that of the film with what the surfaces yield, an assumption
+    of the order that disc machines show. Raises InputError for a bearing that stands still.
+    """
+    if case.drive.speed == 0.0:
+        raise InputError(
+            "drive.speed is 0 rpm: without motion there is no film whose traction could be given.",
+            where="drive.speed",
+        )
+    bearing, solution = case.bearing, solve_static(case)
+    oil = Oil(case.lubricant.viscosity, case.lubricant.pressure_coefficient)
+    balls = solution.elements
+    entrained = rolling_entrainment(bearing, balls.angle, balls.orbital_speed, case.drive.speed)
+    found = []
+    for race in range(2):
+        k = int(np.argmax(balls.force[:, race]))
+        pressure, half = patch(bearing, balls.force[k, race], balls.pressure[k, race], race)
+        found.append(
+            creep_speed(
+                limit=limit, pressure=pressure, film=float(solution.film.central[k, race]),
+                half_length=half, speed=abs(float(entrained[k, race])), oil=oil,
+                shear_modulus=shear_modulus,
+            )
+        )  # fmt: skip
+    return EhlTraction(limit=limit, creep_speed=float(np.mean(found)))
 
 
 def write_static(case: StaticCase, solution: StaticSolution, folder: Path) -> list[Path]:

@@ -19,6 +19,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import singledispatch
+from math import exp, pi
 
 import numpy as np
 
@@ -127,3 +128,37 @@ def _(bearing: Bearing, angle: np.ndarray, orbit: np.ndarray, inner_speed: float
     middle = 0.5 * bearing.pitch_diameter
     inner = (inner_speed - orbit) * (middle - reach[:, 0])
     return np.abs(np.stack([inner, orbit * (middle + reach[:, 1])], axis=1))
+
+
+@singledispatch
+def patch(bearing: Bearing, force: float, pressure: float, race: int) -> tuple[float, float]:
+    """Mean pressure [Pa] of a contact under a force [N] and a largest pressure [Pa], and the half
+    of its length [m] in the rolling direction; ``race`` 0 is the inner."""
+    raise NotImplementedError(f"{type(bearing).__name__} has no contact patches")
+
+
+@patch.register
+def _(bearing: BallBearing, force: float, pressure: float, race: int) -> tuple[float, float]:
+    return 2.0 / 3.0 * pressure, float(bearing.contacts[race].semi_axes(force)[1])
+
+
+@patch.register
+def _(bearing: RollerBearing, force: float, pressure: float, race: int) -> tuple[float, float]:
+    return 0.25 * pi * pressure, 2.0 * force / (pi * pressure * bearing.effective_length)
+
+
+def creep_speed(
+    *, limit: float, pressure: float, film: float, half_length: float, speed: float, oil: Oil,
+    shear_modulus: float,
+) -> float:  # fmt: skip
+    """Sliding speed [m/s] at which the slope of a film's traction at rest reaches ``limit`` times
+    the mean pressure [Pa].
+
+    A film of thickness ``film`` [m] shears by u/h: viscously, by Barus' viscosity at the mean
+    pressure, and elastically by ``shear_modulus`` [Pa] during the time b/U that its oil has been in
+    the contact on average. Both compliances add (K. L. Johnson and J. L. Tevaarwerk, Proc. R. Soc.
+    A 356 (1977) 215).
+    """
+    viscous = 1.0 / (oil.viscosity * exp(oil.pressure_coefficient * pressure))
+    elastic = speed / (shear_modulus * half_length)
+    return limit * pressure * film * (viscous + elastic)
