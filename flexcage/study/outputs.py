@@ -33,7 +33,8 @@ RIGID_FIGURES = tuple(
     sliding_outer_unloaded loaded_share whirl_radius whirl_radius_max whirl_ratio
     whirl_radius_axis whirl_ratio_axis whirl_speed_ratio tilt_mean tilt_max pocket_force_mean
     pocket_force_sum pocket_force_pass_peak pocket_force_peak pocket_contact race_force_inner
-    race_force_outer stored_kinetic stored_strain stored_contact stored_mount energy_moved
+    race_force_outer film_inner film_least_inner film_outer film_least_outer stored_kinetic
+    stored_strain stored_contact stored_mount energy_moved
     energy_imbalance energy_relative energy_of_drive energy_of_cage cage_mass cage_centre_shift
     pinch_force steps explicit_steps stable_step residuals jacobians factorisations
     failed_error_tests failed_newton wall_mesh wall_modes wall_kernels wall_start
@@ -46,7 +47,7 @@ ELEMENT_FIGURES = {
     ),
     "ball": (
         "ball_spin", "ball_spin_ideal", "contact_angle_inner", "contact_angle_outer",
-        "whirl_difference", "velocity_deviation",
+        "whirl_difference", "velocity_deviation", "edge_inner", "edge_outer",
     ),
 }  # fmt: skip
 FLEXIBLE_FIGURES = (
