@@ -63,10 +63,10 @@ def reasons(found: Mapping[str, Found]) -> str:
   {n(axial, "peak", "radial 0.14 mm")} N), where the angle rises.
 - **Waves (004-6).** A rectangle of the load moves the ring axially twice as far as a sine
   ({n(base, "axial_range", "load rectangle", 1e6)} and
-  {n(base, "axial_range", "load sine", 1e6)} um) and has no more slip ripple. A rectangle of the speed has: jumps of speed throw the balls against
-  the pockets ({n(base, "pocket_peak", "speed rectangle")} N, sine
-  {n(base, "pocket_peak", "speed sine")} N). Triangle and sine do not differ beyond their
-  intervals.
+  {n(base, "axial_range", "load sine", 1e6)} um) and has no more slip ripple. A rectangle of the
+  speed has: jumps of speed throw the balls against the pockets
+  ({n(base, "pocket_peak", "speed rectangle")} N, sine {n(base, "pocket_peak", "speed sine")} N).
+  Triangle and sine do not differ beyond their intervals.
 - **Acceleration (004-7).** Forces follow the speed that was reached, not how fast: axial motion is
   faster, as it must be, and nothing else changes beyond the intervals.
 - **Rigid or flexible.** A rigid cage of this PA66 overstates the peak of a pocket's force:
