@@ -26,14 +26,19 @@ def solve_static(case: StaticCase | Case) -> StaticSolution:
     Raises InputError for a load that the bearing cannot bear, RunFailed if none is found.
     """
     if isinstance(case, Case):
-        case = StaticCase(
-            name=case.name, preset=case.preset, bearing=case.bearing, contacts=case.contacts,
-            lubricant=case.lubricant, drive=case.drive, load=case.load,
-            static=StaticOptions(tilt=case.load.tilt, gyroscopic="none"),
-        )  # fmt: skip
+        case = _static_case(case)
     return solve_bearing(
         case.bearing, load=case.load, speed=case.speed, contacts=case.contacts,
         lubricant=case.lubricant, options=case.static,
+    )  # fmt: skip
+
+
+def _static_case(case: Case) -> StaticCase:
+    """The start of a run as a case of its own."""
+    return StaticCase(
+        name=case.name, preset=case.preset, bearing=case.bearing, contacts=case.contacts,
+        lubricant=case.lubricant, drive=case.drive, load=case.load,
+        static=StaticOptions(tilt=case.load.tilt, gyroscopic="none"),
     )  # fmt: skip
 
 
@@ -48,15 +53,17 @@ def ehl_traction(
     pressure; ``shear_modulus`` [Pa] is that of the film with what the surfaces yield, an assumption
     of the order that disc machines show. Raises InputError for a bearing that stands still.
     """
-    if case.drive.speed == 0.0:
+    speed = case.speed if isinstance(case, StaticCase) else _static_case(case).speed
+    if speed == 0.0:
         raise InputError(
-            "drive.speed is 0 rpm: without motion there is no film whose traction could be given.",
+            "The bearing stands still at the start (drive.speed): without motion there is no film "
+            "whose traction could be given.",
             where="drive.speed",
         )
     bearing, solution = case.bearing, solve_static(case)
     oil = Oil(case.lubricant.viscosity, case.lubricant.pressure_coefficient)
     balls = solution.elements
-    entrained = rolling_entrainment(bearing, balls.angle, balls.orbital_speed, case.drive.speed)
+    entrained = rolling_entrainment(bearing, balls.angle, balls.orbital_speed, speed)
     found = []
     for race in range(2):
         k = int(np.argmax(balls.force[:, race]))

@@ -127,6 +127,11 @@ def pocket_wall_contact(
         push = combine(push, -dot(du, n), round_it)
         push = combine(push, -dot(faded, n), polewards)
     yields = combine(times(softer, round_it), fading, polewards)  # slope of the compliance
+    # along the straight part of a slot nothing changes
+    dx = 0.0 if x == 0.0 and data.slot[i, 0] > 0.0 else 1.0
+    dt = 0.0 if t == 0.0 and data.slot[i, 1] > 0.0 else 1.0
+    push = (dx * push[0], push[1], dt * push[2])
+    yields = (dx * yields[0], yields[1], dt * yields[2])
     rate = _along(push, v, pw) - dot(ud, n)
     softening = _along(yields, v, pw)
     N, pressed = _press(depth, rate, soft, softening, p, law, sl)

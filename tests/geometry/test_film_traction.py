@@ -56,6 +56,12 @@ def test_a_case_takes_the_law_of_its_film_and_runs_with_it():
     assert summary["energy_audit"] == "passed" and abs(summary["cage_slip_ratio"]) < 0.02
 
 
+def test_the_film_is_that_of_the_first_speed():
+    table = {"drive.times": ["0 s", "1 s"], "drive.speeds": ["1000 rpm", "2000 rpm"]}
+    of_table = flexcage.ehl_traction(load_case(CASE, overrides=table))
+    assert of_table == flexcage.ehl_traction(load_case(CASE, overrides={"drive.speed": "1000 rpm"}))
+
+
 def test_standing_still_has_no_film():
-    with pytest.raises(InputError, match="drive.speed is 0 rpm: without motion"):
+    with pytest.raises(InputError, match="stands still at the start .drive.speed.: without motion"):
         flexcage.ehl_traction(load_case(CASE, overrides={"drive.speed": "0 rpm"}))

@@ -75,6 +75,37 @@ def test_forces_are_the_slopes_of_the_energy(change, shape):
     assert (touching.pocket_normal > 1.0).sum() > 5 and (touching.race[:, :, 0] > 1.0).sum() > 20
 
 
+@pytest.mark.parametrize("along", [0, 1], ids=["axial", "circumferential"])
+@pytest.mark.parametrize("shape", ["cylindrical", "spherical"])
+def test_along_the_straight_part_of_a_slot_a_bent_wall_does_not_push(along, shape):
+    """Balls between a slot's rounds, pressed on its straight wall, which the modes have bent."""
+
+    def slot(interface):
+        interface.slot[:, along] = 150e-6
+
+    bearing = ball_bearing(change=slot, shape=shape)
+    layout, model = bearing.layout, bearing.data.model
+    y = pressed(bearing)
+    q, Z = layout.q(y), layout.rollers
+    q["cage"][:], q["quaternion"][:] = 0.0, (1.0, 0.0, 0.0, 0.0)
+    beyond = 1.03 * float(model.pocket.radius[0] - model.bodies.radius[0])
+    x, t = ((40e-6, beyond), (beyond, 40e-6))[along]
+    balls, height = q["rollers"], model.pocket.height
+    balls[:, 0], balls[:, 1] = x, height
+    balls[:, 2] = 2.0 * np.pi * np.arange(Z) / Z + t / height
+    rows = layout.u(-bearing.residual(0.0, y, np.zeros_like(y)))["rollers"]
+    energy(bearing, y)
+    assert (bearing.data.work.report.pocket_normal > 1.0).sum() > 8
+    component, lever = ((0, 1.0), (2, height))[along]
+    for i in range(0, Z, 3):
+        high, low = y.copy(), y.copy()
+        layout.q(high)["rollers"][i, component] += 1e-9 / lever
+        layout.q(low)["rollers"][i, component] -= 1e-9 / lever
+        slope = -(energy(bearing, high) - energy(bearing, low)) / 2e-9
+        scale = np.abs(rows[i, :3]).max()
+        assert rows[i, component] == pytest.approx(slope, abs=2e-6 * scale)
+
+
 def at_poles(bearing):
     """Balls within and near the polar zones of spherical pockets, and pressed into them."""
     y = pressed(bearing)
