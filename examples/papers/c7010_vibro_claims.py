@@ -1,35 +1,29 @@
 """The seven claims of the vibro-impact paper, as tests on the figures of a reading.
 
-What counts was fixed before anything was computed: "regular" or a "circle" is an orbit whose
-strongest line has half of its variance or more, "chaotic" one that is not; "independent" is within
-5 %; "rises" and "falls" are beyond the intervals, from each point of a sweep to the next.
+What counts was fixed before anything was computed (but for the circle): "regular" is an orbit whose
+strongest line has half of its variance or more, "chaotic" one that is not, a "circle" one whose
+radius changes by less than half of its mean; "independent" is within 5 %; "rises" and "falls" are
+beyond the intervals, from each point of a sweep to the next.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
-from math import degrees, isnan, nan
+from math import degrees
 
-from c7010_vibro_figures import LINE, Figures
+from c7010_claim import Claim, Found, Shown, View, rising
+from c7010_vibro_figures import LINE
 
 from flexcage.study.verdicts import (
-    FAILS,
-    HOLDS,
-    UNDECIDED,
     Estimate,
-    Line,
     Verdict,
     above,
     every,
-    monotone,
-    pooled,
-    range_of,
+    opposite,
     unchanged,
 )
 
 PAPER = "Lubricants 2025, 13(5), 216"
-Found = Mapping[str, Sequence[Figures]]  # of one reading: every start of every case, by label
 SPEEDS = tuple(f"{n} rpm" for n in (4000, 6000, 8000, 10000, 12000))
 LOADS = ("5000 N", "9000 N", "12500 N")
 POCKETS = tuple(f"pocket {c} mm" for c in ("0.02", "0.08", "0.14"))
@@ -37,53 +31,21 @@ RADIAL = tuple(f"radial {c} mm" for c in ("0.02", "0.08", "0.14"))
 LOAD_WAVES = ("load sine", "load triangle", "load rectangle")
 SPEED_WAVES = ("speed sine", "speed triangle", "speed rectangle")
 RAMPS = ("slow ramp", "medium ramp", "fast ramp")
+ROUND = 0.5  # (largest - least)/mean of the radius, below which an orbit is a circle
 CLEAR = 0.01  # share of time without contact from which "intermittent zeros" are there
 
 
-class View:
-    """Figures of one reading, pooled over starts."""
-
-    def __init__(self, found: Found) -> None:
-        self.found = found
-
-    def has(self, labels: Sequence[str]) -> bool:
-        return all(self.found.get(label) for label in labels)
-
-    def __call__(self, key: str, label: str) -> Estimate:
-        """Mean over starts. A figure that has no interval of its own (a range, a share of a
-        spectrum) gets half of the range over the starts, and none from a single one."""
-        starts = [getattr(f, key) for f in self.found.get(label, ())]
-        known = [_estimate(s) for s in starts if s is not None]
-        values = [k.value for k in known]
-        if known and all(isnan(k.margin) for k in known):
-            spread = 0.5 * (max(values) - min(values)) if len(values) > 1 else nan
-            return Estimate(sum(values) / len(values), spread)
-        return pooled(values, [None if isnan(k.margin) else k.margin for k in known])
-
-    def all(self, key: str, labels: Sequence[str]) -> list[Estimate]:
-        return [self(key, label) for label in labels]
-
-
-def _estimate(value: Estimate | float) -> Estimate:
-    return value if isinstance(value, Estimate) else Estimate(float(value), nan)
-
-
-def sure(value: Estimate) -> Estimate:
-    """A figure that has no interval (a range, a share of a spectrum), taken as it is."""
-    return Estimate(value.value, 0.0) if isnan(value.margin) else value
-
-
-def rising(key: str, labels: Sequence[str], *, up: bool = True) -> Callable[[View], str]:
-    """Does a figure rise (or fall) along these cases?"""
-    return lambda view: monotone([sure(e) for e in view.all(key, labels)], rising=up)
-
-
 def regular(label: str) -> Callable[[View], str]:
-    return lambda view: above(sure(view("line", label)), LINE)
+    return lambda view: above(view("line", label), LINE)
 
 
 def chaotic(label: str) -> Callable[[View], str]:
-    return lambda view: {HOLDS: FAILS, FAILS: HOLDS}.get(regular(label)(view), UNDECIDED)
+    return lambda view: opposite(regular(label)(view))
+
+
+def round_(label: str) -> Callable[[View], str]:
+    """Is an orbit a circle: does its radius change by less than half of its mean?"""
+    return lambda view: opposite(above(view("circle", label), ROUND))
 
 
 def same(key: str, labels: Sequence[str], within: float = 0.05) -> Callable[[View], str]:
@@ -107,44 +69,8 @@ def gaps(view: View) -> str:
     return every(above(view("empty_opposite", s), CLEAR) for s in SPEEDS)
 
 
-@dataclass(frozen=True)
-class Claim:
-    """One statement: parts that must all hold, and the figures and cases that show it."""
-
-    key: str
-    text: str
-    parts: Mapping[str, Callable[[View], str]]
-    cases: tuple[str, ...]
-    figures: tuple[str, ...]
-    reason: str = ""
-
-    def verdict(self, views: Mapping[str, View], base: str) -> Verdict:
-        known = {name: view for name, view in views.items() if view.has(self.cases)}
-        outcomes = {
-            part: {name: test(view) for name, view in known.items()}
-            for part, test in self.parts.items()
-        }
-        whole = {name: every(o[name] for o in outcomes.values()) for name in known}
-        texts = [range_of(whole)] if whole else ["not computed"]
-        texts += [f"({part}) {range_of(found)}" for part, found in outcomes.items() if known]
-        return Verdict(
-            key=self.key,
-            claim=self.text,
-            outcome=whole.get(base, UNDECIDED),
-            figures=tuple(
-                _line(key, label, views[base](key, label))
-                for key in self.figures
-                for label in self.cases
-                if base in known
-            ),
-            range=". ".join(texts) if len(self.parts) > 1 else texts[0],
-            source=PAPER,
-            reason="" if base in known else "not computed",
-        )
-
-
 #: How figures are shown: name, unit, factor from SI.
-SHOWN: Mapping[str, tuple[str, str, float]] = {
+SHOWN: Shown = {
     "peak": ("inner contact force of a pass, peak", "N", 1.0),
     "empty_opposite": ("time without inner contact, off the load", "%", 100.0),
     "deviation": ("deviation ratio, 2 kHz", "%", 100.0),
@@ -155,14 +81,9 @@ SHOWN: Mapping[str, tuple[str, str, float]] = {
     "axial_range": ("axial displacement, range", "um", 1e6),
     "axial_rate": ("axial displacement over time", "um/s", 1e6),
     "ball_ripple": ("slip ripple of loaded balls", "%", 100.0),
-    "cage_ripple": ("cage speed ripple", "%", 100.0),
+    "circle": ("orbit, (max - min)/mean of its radius", "", 1.0),
     "frequency": ("mean frequency of a ball's force", "Hz", 1.0),
 }
-
-
-def _line(key: str, label: str, value: Estimate) -> Line:
-    name, unit, factor = SHOWN[key]
-    return Line(f"{label}: {name}", factor * value.value, factor * value.margin, unit)
 
 
 CLAIMS = (
@@ -182,9 +103,10 @@ CLAIMS = (
             "chaotic at 4000": chaotic(SPEEDS[0]),
             "ratio falls": rising("deviation", SPEEDS, up=False),
             "regular at 12,000": regular(SPEEDS[-1]),
+            "a circle at 12,000": round_(SPEEDS[-1]),
         },
         SPEEDS,
-        ("deviation", "line"),
+        ("deviation", "line", "circle"),
     ),
     Claim(
         "004-3",
@@ -274,4 +196,4 @@ CLAIMS = (
 def verdicts(found: Mapping[str, Found], base: str) -> list[Verdict]:
     """A verdict on every claim by the base reading, and where else it holds."""
     views = {name: View(f) for name, f in found.items()}
-    return [claim.verdict(views, base) for claim in CLAIMS]
+    return [claim.verdict(views, base, shown=SHOWN, source=PAPER) for claim in CLAIMS]

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
+from itertools import pairwise
 from math import nan
 
 import numpy as np
-from scipy.signal import butter, sosfiltfilt
+from scipy.special import stdtrit
 
 import flexcage
 from flexcage.results import metrics
@@ -14,6 +16,7 @@ from flexcage.results.reductions import main_line, mean_frequency
 from flexcage.results.statistics import Record, Windows, roller_passes
 from flexcage.study.verdicts import Estimate
 
+PARTS = 3  # of a record, whose figures give those that have no other interval one
 LOW_PASS = 2e3  # Hz, of the cage's speed beside the raw 20 kHz
 LINE = 0.5  # an orbit is regular if its strongest line has this share of its variance
 
@@ -23,24 +26,22 @@ class Figures:
     """One run, its settled part over whole turns of the cage; SI."""
 
     peak: Estimate  # largest inner contact force of a ball pass
-    largest: float  # and of all
     empty_loaded: Estimate  # share of time without inner contact, balls on the load's side
     empty_opposite: Estimate  # the same on the other side
     deviation: Estimate  # of the cage centre's speed over its mean, low pass
     deviation_raw: Estimate
     radius: Estimate  # of the orbit about its mean
     displacement: Estimate  # of the cage's centre from the axis
-    line: float  # share of the strongest line in the orbit's variance, 0 to 1
-    circle: float  # (largest - least)/mean of the radius about the orbit's mean
+    line: Estimate  # share of the strongest line in the orbit's variance, 0 to 1
+    circle: Estimate  # (largest - least)/mean of the radius about the orbit's mean
     inner_angle: Estimate  # of loaded balls
     outer_angle: Estimate
     axial: Estimate  # inner ring's displacement
-    axial_range: float
-    axial_rate: float  # range over the time it took
-    cage_ripple: Estimate  # standard deviation over mean of the cage's speed
+    axial_range: Estimate
+    axial_rate: Estimate  # range over the time it took
     ball_ripple: Estimate  # of the loaded balls' slip ratio: its standard deviation
     cage_slip: Estimate
-    frequency: float  # centre of gravity of the spectrum of the forces of a ball
+    frequency: Estimate  # centre of gravity of the spectrum of the forces of a ball
     pocket_peak: Estimate  # largest force of a ball pass on the cage
     stress: Estimate | None  # largest of a ball pass, at waists and rims
 
@@ -68,26 +69,25 @@ def evaluate(run: flexcage.Run) -> Figures:
     stressed = run.summary.row(key) if key in run.summary else None
     return Figures(
         peak=_of(windows.peak(inner.max(axis=1))),
-        largest=float(inner.max()),
         empty_loaded=_share(windows, inner <= 0.0, towards),
         empty_opposite=_share(windows, inner <= 0.0, ~towards),
-        deviation=_of(windows.deviation(_speed(ds, step, filtered=True))),
-        deviation_raw=_of(windows.deviation(_speed(ds, step, filtered=False))),
+        deviation=_of(windows.deviation(metrics.centre_speed(ds, low_pass=LOW_PASS))),
+        deviation_raw=_of(windows.deviation(metrics.centre_speed(ds))),
         radius=_of(windows.mean(radius)),
         displacement=_of(windows.mean(metrics.whirl_radius(ds, about="axis"))),
-        line=float(np.average(
-            [main_line(x, step)[1] for x in orbit.T], weights=orbit.var(axis=0)
-        )),
-        circle=metrics.whirl(ds).ratio,
+        line=_by_parts(lambda k: _line(orbit[k], step), len(time)),
+        circle=_by_parts(lambda k: float(np.ptp(radius[k]) / radius[k].mean()), len(time)),
         inner_angle=_mean(windows, angle[..., 0], loaded & (inner > 0.0)),
         outer_angle=_mean(windows, angle[..., 1], loaded & (force[..., 1] > 0.0)),
         axial=_of(windows.mean(axial)),
-        axial_range=float(np.ptp(axial)),
-        axial_rate=float(np.ptp(axial) / (time[-1] - time[0])),
-        cage_ripple=_of(windows.deviation(omega)),
+        axial_range=_by_parts(lambda k: float(np.ptp(axial[k])), len(time)),
+        axial_rate=_by_parts(lambda k: float(np.ptp(axial[k]) / np.ptp(time[k])), len(time)),
         ball_ripple=_spread(windows, slip, loaded),
         cage_slip=Estimate(speed.slip_ratio, _of(windows.mean(omega)).margin / speed.epicyclic),
-        frequency=float(np.mean([mean_frequency(inner[:, k], step) for k in (0, 6, 12)])),
+        frequency=_by_parts(
+            lambda k: float(np.mean([mean_frequency(inner[k, b], step) for b in (0, 6, 12)])),
+            len(time),
+        ),
         pocket_peak=_of(windows.peak(pockets.max(axis=(1, 2)))),
         stress=Estimate(float(stressed.value), stressed.margin or nan) if stressed else None,
     )  # fmt: skip
@@ -113,12 +113,19 @@ def _towards_load(run: flexcage.Run, ds) -> np.ndarray:
     return np.cos(psi - run.case.load.direction) > 0.0
 
 
-def _speed(ds, step: float, *, filtered: bool) -> np.ndarray:
-    """Speed of the cage's centre (time,) [m/s]."""
-    v = ds["cage_velocity"].values
-    if filtered:
-        v = sosfiltfilt(butter(4, LOW_PASS, fs=1.0 / step, output="sos"), v, axis=0)
-    return np.linalg.norm(v, axis=1)
+def _line(orbit: np.ndarray, step: float) -> float:
+    """Share of the strongest line of both components in their variance."""
+    shares = [main_line(x, step)[1] for x in orbit.T]
+    return float(np.average(shares, weights=orbit.var(axis=0)))
+
+
+def _by_parts(figure: Callable[[slice], float], samples: int) -> Estimate:
+    """A figure that windows of a ball pass cannot give: mean over ``PARTS`` equal parts of the
+    record, and half of Student's 95 % interval."""
+    ends = np.linspace(0, samples, PARTS + 1).astype(int)
+    values = np.array([figure(slice(a, b)) for a, b in pairwise(ends)])
+    half = float(stdtrit(PARTS - 1, 0.975)) * float(values.std(ddof=1)) / np.sqrt(PARTS)
+    return Estimate(float(values.mean()), float(half))
 
 
 def _of(record: Record) -> Estimate:

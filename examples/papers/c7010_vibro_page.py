@@ -207,8 +207,8 @@ of the base reading, one of the others.
 
 ## Verdicts
 
-"±" is half of a 95 % interval (block bootstrap over ball passes). A figure without it, a range or a
-share of a spectrum, is compared as it is.
+"±" is half of a 95 % interval: by block bootstrap over ball passes, of ranges and spectra by
+Student's t over thirds of the record.
 
 |  | claim of the paper | by the base reading | by reading |
 | --- | --- | --- | --- |

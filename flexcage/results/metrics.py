@@ -264,12 +264,11 @@ def orbit(ds: xarray.Dataset) -> np.ndarray:
     return yz
 
 
-def velocity_deviation(ds: xarray.Dataset, *, low_pass: float | None = None) -> float:
-    """Standard deviation over mean of the cage centre's speed; ``low_pass`` [Hz] filters first.
+def centre_speed(ds: xarray.Dataset, *, low_pass: float | None = None) -> np.ndarray:
+    """Speed of the cage's centre [m/s], (time,); ``low_pass`` [Hz] filters its velocity first.
 
-    The filter is a Butterworth of order 4, run forwards and backwards over the components of the
-    velocity. The figure depends on sampling and filter, so state both (paper 004: 20 kHz and
-    2 kHz). NaN for a centre that rests, and where the samples are too slow or too few to filter.
+    The filter is a Butterworth of order 4, run forwards and backwards over the components. NaN
+    where the samples are too slow or too few to filter.
     """
     v = ds["cage_velocity"].values
     if low_pass is not None:
@@ -277,9 +276,18 @@ def velocity_deviation(ds: xarray.Dataset, *, low_pass: float | None = None) -> 
 
         rate = sampling_rate(ds)
         if rate <= 2.2 * low_pass or len(v) < FEWEST_FILTERED:
-            return float("nan")
+            return np.full(len(v), np.nan)
         v = sosfiltfilt(butter(4, low_pass, fs=rate, output="sos"), v, axis=0)
-    speed = np.linalg.norm(v, axis=1)
+    return np.linalg.norm(v, axis=1)
+
+
+def velocity_deviation(ds: xarray.Dataset, *, low_pass: float | None = None) -> float:
+    """Standard deviation over mean of the cage centre's speed, of ``centre_speed``.
+
+    The figure depends on sampling and filter, so state both (paper 004: 20 kHz and 2 kHz). NaN for
+    a centre that rests, and where it cannot be filtered.
+    """
+    speed = centre_speed(ds, low_pass=low_pass)
     mean = float(speed.mean())
     return float(speed.std(ddof=1)) / mean if mean else float("nan")
 

@@ -2,7 +2,6 @@
 
 import sys
 from dataclasses import fields, replace
-from math import nan
 from pathlib import Path
 from types import SimpleNamespace
 
@@ -38,7 +37,8 @@ def judged(papers, key, cases):
         for label, changed in cases.items()
     }
     claim = next(c for c in papers.claims.CLAIMS if c.key == key)
-    return claim.verdict({"radial": papers.claims.View(found)}, "radial")
+    view = papers.claims.View(found)
+    return claim.verdict({"radial": view}, "radial", shown=papers.claims.SHOWN, source="")
 
 
 def test_every_reading_is_a_plan(papers):
@@ -52,7 +52,7 @@ def test_every_reading_is_a_plan(papers):
         counts["radial"] == 2 * counts["axial"] == 2 * 28
         and counts["steeper friction"] == 14 == counts["guided by a land"]
     )
-    assert len(make_plan(papers.centroid.load()).cases) == 48
+    assert len(make_plan(papers.centroid.load()).cases) == 60
 
 
 def test_readings_load_what_they_say(papers):
@@ -85,12 +85,13 @@ def test_waves_rank_as_claimed_or_not(papers):
     assert verdict.outcome == UNDECIDED and verdict.reason == "not computed"
 
 
-def test_a_circle_is_known_by_its_line(papers):
+def test_a_line_tells_regular_orbits_beyond_its_interval(papers):
     view = papers.claims.View({
-        "a": [SimpleNamespace(line=0.9)], "b": [SimpleNamespace(line=0.2)],
+        name: [SimpleNamespace(line=Estimate(value, 0.05))]
+        for name, value in {"a": 0.9, "b": 0.2, "c": 0.52}.items()
     })  # fmt: skip
     assert papers.claims.regular("a")(view) == HOLDS and papers.claims.chaotic("b")(view) == HOLDS
-    assert papers.claims.sure(Estimate(2.0, nan)).margin == 0.0
+    assert papers.claims.regular("c")(view) == UNDECIDED
 
 
 def test_the_measured_cage_from_end_to_end(papers, tmp_path, capsys):
