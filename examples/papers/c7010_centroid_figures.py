@@ -5,46 +5,46 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 import numpy as np
+from c7010_claim import by_parts
 
 import flexcage
 from flexcage.results import instrument, metrics
+from flexcage.results.statistics import Record, roller_passes
+from flexcage.study.verdicts import Estimate
 
 PLANE = 15e-3  # assumption: axial distance of the radial sensors, which the paper does not give
 PLANES = (5e-3, 10e-3, 15e-3, 20e-3, 25e-3)  # over which it is swept
-WRONG = 2e-3  # m, by which the radius that the inversion takes is made wrong
+RADII = (-5e-3, -2e-3, 2e-3, 5e-3)  # m, by which the radius that the correction takes is off
 
 
 @dataclass(frozen=True)
 class Found:
     """What one run's cage does, and what lasers would show of it [rad/s, m, 1]."""
 
-    speed: float
-    theory: float  # the paper's equation 18: 15 degrees at both races
-    mean: float  # whirl radius about the axis
-    difference: float  # largest less least of it
-    ratio: float
+    speed: Estimate
+    beyond_theory: Estimate  # share by which it exceeds the paper's equation 18: 15 deg both races
+    mean: Estimate  # whirl radius about the axis
+    difference: Estimate  # largest less least of it
+    ratio: Estimate
     turns: float  # of the centre about the axis, over those of the cage
-    axial: float  # range of the centre's axial motion
-    tilt: float  # mean, rad
-    deviation: float  # of the centre's speed over its mean, low pass 2 kHz
-    raw: float  # difference at the sensors' plane
-    solved: float  # difference of the centre by the paper's equation
-    axial_raw: float  # share of the axial reading's variance at the cage's frequency
-    axial_solved: float
-    errors: tuple[float, ...]  # raw over solved, less one, for ``PLANES``
-    by_radius: float  # what a radius wrong by ``WRONG`` changes in the solved difference
-    beyond: float  # share of readings out of the sensors' range
-
-    @property
-    def error(self) -> float:
-        """Deflection error at ``PLANE``."""
-        return self.raw / self.solved - 1.0
+    axial: Estimate  # range of the centre's axial motion
+    tilt: Estimate  # mean, rad
+    deviation: Estimate  # of the centre's speed over its mean, low pass 2 kHz
+    raw: Estimate  # difference at the sensors' plane
+    solved: Estimate  # difference of the centre by the paper's equation
+    error: Estimate  # raw over solved, less one
+    axial_raw: Estimate  # share of the axial reading's variance at the cage's frequency
+    axial_solved: Estimate
+    errors: tuple[float, ...]  # the error over the whole record, for ``PLANES``
+    by_radius: tuple[float, ...]  # what a radius wrong by ``RADII`` changes in the solved one
+    lost: float  # share of readings out of the sensors' range
 
 
 def evaluate(run: flexcage.Run) -> Found:
     """Figures of one run, its settled part."""
     case, ds = run.case, metrics.settled(run.dataset, run.case.output.settle)
-    speed, whirl = metrics.cage_speed(ds, run.numbers), metrics.whirl(ds, about="axis")
+    speed, windows = metrics.cage_speed(ds, run.numbers), roller_passes(ds, run.numbers)
+    omega, radius = ds["cage_omega"].sel(axis="x").values, metrics.whirl_radius(ds, about="axis")
     centre, axis = instrument.of_run(ds)
     setup = instrument.LaserSetup(
         radius=0.5 * case.cage.outside_diameter, half_width=0.5 * case.cage.width, plane=PLANE,
@@ -52,28 +52,37 @@ def evaluate(run: flexcage.Run) -> Found:
     )  # fmt: skip
     shown = instrument.readings(centre, axis, setup, seed=1)
     full, _ = instrument.invert(shown, setup)
-    solved = difference(instrument.by_tilt_angles(shown, setup))
-    wrong = instrument.by_tilt_angles(shown, replace(setup, radius=setup.radius + WRONG))
+    solved = instrument.by_tilt_angles(shown, setup)
     turns = abs(speed.mean) / (2.0 * np.pi)
-    rate = 1.0 / float(np.median(np.diff(ds["time"].values)))
+    rate, n = metrics.sampling_rate(ds), len(radius)
+    mean = windows.mean(omega)
     return Found(
-        speed=speed.mean,
-        theory=speed.epicyclic,  # the preset's contact angle is 15 degrees
-        mean=whirl.mean,
-        difference=whirl.largest - whirl.smallest,
-        ratio=whirl.ratio,
-        turns=whirl.speed_ratio,
-        axial=float(np.ptp(centre[:, 0])),
-        tilt=float(metrics.tilt(ds).sel(component="total").mean()),
-        deviation=metrics.velocity_deviation(ds, low_pass=2e3),
-        raw=difference(shown[:, :2]),
-        solved=solved,
-        axial_raw=_share(shown[:, 2], turns, rate),
-        axial_solved=_share(full[:, 0], turns, rate),
+        speed=Estimate(mean.value, mean.margin),
+        beyond_theory=Estimate(mean.value / speed.epicyclic - 1.0, mean.margin / speed.epicyclic),
+        mean=Estimate(*_value(windows.mean(radius))),
+        difference=by_parts(lambda k: float(np.ptp(radius[k])), n),
+        ratio=by_parts(lambda k: float(np.ptp(radius[k]) / radius[k].mean()), n),
+        turns=metrics.whirl(ds, about="axis").speed_ratio,
+        axial=by_parts(lambda k: float(np.ptp(centre[k, 0])), n),
+        tilt=Estimate(*_value(windows.mean(metrics.tilt(ds).sel(component="total").values))),
+        deviation=Estimate(*_value(windows.deviation(metrics.centre_speed(ds, low_pass=2e3)))),
+        raw=by_parts(lambda k: difference(shown[k, :2]), n),
+        solved=by_parts(lambda k: difference(solved[k]), n),
+        error=by_parts(lambda k: difference(shown[k, :2]) / difference(solved[k]) - 1.0, n),
+        axial_raw=by_parts(lambda k: _share(shown[k, 2], turns, rate), n),
+        axial_solved=by_parts(lambda k: _share(full[k, 0], turns, rate), n),
         errors=tuple(_error(centre, axis, replace(setup, plane=p)) for p in PLANES),
-        by_radius=difference(wrong) - solved,
-        beyond=float(np.isnan(shown).any(axis=1).mean()),
+        by_radius=tuple(
+            difference(instrument.by_tilt_angles(shown, replace(setup, radius=setup.radius + r)))
+            - difference(solved)
+            for r in RADII
+        ),
+        lost=float(np.isnan(shown).any(axis=1).mean()),
     )
+
+
+def _value(record: Record) -> tuple[float, float]:
+    return record.value, record.margin
 
 
 def _error(centre: np.ndarray, axis: np.ndarray, setup: instrument.LaserSetup) -> float:
@@ -83,12 +92,14 @@ def _error(centre: np.ndarray, axis: np.ndarray, setup: instrument.LaserSetup) -
 
 
 def difference(yz: np.ndarray) -> float:
-    """Largest less least distance (n, 2) from the axis."""
-    return float(np.ptp(np.hypot(yz[:, 0], yz[:, 1])))
+    """Largest less least distance (n, 2) from the axis, of readings that are there."""
+    away = np.hypot(yz[:, 0], yz[:, 1])
+    return float(np.nanmax(away) - np.nanmin(away))
 
 
 def _share(values: np.ndarray, frequency: float, rate: float) -> float:
     """Share of the variance within a tenth of a frequency."""
+    values = np.where(np.isnan(values), np.nanmean(values), values)
     power = np.abs(np.fft.rfft(values - values.mean())) ** 2
     at = np.fft.rfftfreq(len(values), 1.0 / rate)
     near = np.abs(at - frequency) <= 0.1 * frequency

@@ -4,8 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
-from math import isnan
+from itertools import pairwise
+from math import isfinite, isnan
 from typing import Any
+
+import numpy as np
+from scipy.special import stdtrit
 
 from flexcage.study.verdicts import (
     UNDECIDED,
@@ -18,8 +22,35 @@ from flexcage.study.verdicts import (
     range_of,
 )
 
+PARTS = 3  # of a record, whose figures give those that have no other interval one
 Found = Mapping[str, Sequence[Any]]  # figures of every start of every case, by label
 Shown = Mapping[str, tuple[str, str, float]]  # of a figure: name, unit, factor from SI
+
+
+def by_parts(figure: Callable[[slice], float], samples: int) -> Estimate:
+    """A figure that windows of a ball pass cannot give: mean over ``PARTS`` equal parts of the
+    record, and half of Student's 95 % interval."""
+    ends = np.linspace(0, samples, PARTS + 1).astype(int)
+    values = np.array([figure(slice(a, b)) for a, b in pairwise(ends)])
+    half = float(stdtrit(PARTS - 1, 0.975)) * float(values.std(ddof=1)) / np.sqrt(PARTS)
+    return Estimate(float(values.mean()), float(half))
+
+
+def short(figure: Estimate, factor: float = 1.0) -> str:
+    """A figure with its margin, to the digits that the margin leaves."""
+    value, margin = factor * figure.value, factor * figure.margin
+    if not isfinite(value):
+        return "-"
+    if not isfinite(margin) or margin == 0.0:
+        return f"{value:,.4g}"
+    digits = max(0, 1 - int(np.floor(np.log10(margin))))
+    return f"{value:,.{digits}f} ± {margin:.2g}"
+
+
+def percent(figure: Estimate) -> str:
+    """The same of a ratio, in percent."""
+    text = short(figure, 100.0)
+    return text if text == "-" else f"{text} %"
 
 
 class View:

@@ -2,13 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass
-from itertools import pairwise
 from math import nan
 
 import numpy as np
-from scipy.special import stdtrit
+from c7010_claim import by_parts
 
 import flexcage
 from flexcage.results import metrics
@@ -16,7 +14,6 @@ from flexcage.results.reductions import main_line, mean_frequency
 from flexcage.results.statistics import Record, Windows, roller_passes
 from flexcage.study.verdicts import Estimate
 
-PARTS = 3  # of a record, whose figures give those that have no other interval one
 LOW_PASS = 2e3  # Hz, of the cage's speed beside the raw 20 kHz
 LINE = 0.5  # an orbit is regular if its strongest line has this share of its variance
 
@@ -75,16 +72,16 @@ def evaluate(run: flexcage.Run) -> Figures:
         deviation_raw=_of(windows.deviation(metrics.centre_speed(ds))),
         radius=_of(windows.mean(radius)),
         displacement=_of(windows.mean(metrics.whirl_radius(ds, about="axis"))),
-        line=_by_parts(lambda k: _line(orbit[k], step), len(time)),
-        circle=_by_parts(lambda k: float(np.ptp(radius[k]) / radius[k].mean()), len(time)),
+        line=by_parts(lambda k: _line(orbit[k], step), len(time)),
+        circle=by_parts(lambda k: float(np.ptp(radius[k]) / radius[k].mean()), len(time)),
         inner_angle=_mean(windows, angle[..., 0], loaded & (inner > 0.0)),
         outer_angle=_mean(windows, angle[..., 1], loaded & (force[..., 1] > 0.0)),
         axial=_of(windows.mean(axial)),
-        axial_range=_by_parts(lambda k: float(np.ptp(axial[k])), len(time)),
-        axial_rate=_by_parts(lambda k: float(np.ptp(axial[k]) / np.ptp(time[k])), len(time)),
+        axial_range=by_parts(lambda k: float(np.ptp(axial[k])), len(time)),
+        axial_rate=by_parts(lambda k: float(np.ptp(axial[k]) / np.ptp(time[k])), len(time)),
         ball_ripple=_spread(windows, slip, loaded),
         cage_slip=Estimate(speed.slip_ratio, _of(windows.mean(omega)).margin / speed.epicyclic),
-        frequency=_by_parts(
+        frequency=by_parts(
             lambda k: float(np.mean([mean_frequency(inner[k, b], step) for b in (0, 6, 12)])),
             len(time),
         ),
@@ -117,15 +114,6 @@ def _line(orbit: np.ndarray, step: float) -> float:
     """Share of the strongest line of both components in their variance."""
     shares = [main_line(x, step)[1] for x in orbit.T]
     return float(np.average(shares, weights=orbit.var(axis=0)))
-
-
-def _by_parts(figure: Callable[[slice], float], samples: int) -> Estimate:
-    """A figure that windows of a ball pass cannot give: mean over ``PARTS`` equal parts of the
-    record, and half of Student's 95 % interval."""
-    ends = np.linspace(0, samples, PARTS + 1).astype(int)
-    values = np.array([figure(slice(a, b)) for a, b in pairwise(ends)])
-    half = float(stdtrit(PARTS - 1, 0.975)) * float(values.std(ddof=1)) / np.sqrt(PARTS)
-    return Estimate(float(values.mean()), float(half))
 
 
 def _of(record: Record) -> Estimate:

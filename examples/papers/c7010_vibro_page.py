@@ -8,9 +8,10 @@ from math import degrees
 from pathlib import Path
 
 import numpy as np
-from c7010_vibro_claims import PAPER, SPEEDS, Found, View
+from c7010_claim import Found, View, percent, short
+from c7010_vibro_claims import PAPER, SPEEDS
 from c7010_vibro_figures import by_azimuth
-from c7010_vibro_reasons import percent, reasons, short
+from c7010_vibro_reasons import reasons
 
 import flexcage
 from flexcage.render import sheet

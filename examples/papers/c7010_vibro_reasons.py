@@ -3,29 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from math import degrees, isfinite
+from math import degrees
 
-import numpy as np
-from c7010_vibro_claims import SPEEDS, Found, View
-
-from flexcage.study.verdicts import Estimate
-
-
-def short(figure: Estimate, factor: float = 1.0) -> str:
-    """A figure with its margin, to the digits that the margin leaves."""
-    value, margin = factor * figure.value, factor * figure.margin
-    if not isfinite(value):
-        return "-"
-    if not isfinite(margin) or margin == 0.0:
-        return f"{value:,.4g}"
-    digits = max(0, 1 - int(np.floor(np.log10(margin))))
-    return f"{value:,.{digits}f} ± {margin:.2g}"
-
-
-def percent(figure: Estimate) -> str:
-    """The same of a ratio, in percent."""
-    text = short(figure, 100.0)
-    return text if text == "-" else f"{text} %"
+from c7010_claim import Found, View, percent, short
+from c7010_vibro_claims import SPEEDS
 
 
 def reasons(found: Mapping[str, Found]) -> str:
