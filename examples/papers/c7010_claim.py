@@ -41,7 +41,7 @@ def short(figure: Estimate, factor: float = 1.0) -> str:
     value, margin = factor * figure.value, factor * figure.margin
     if not isfinite(value):
         return "-"
-    if not isfinite(margin) or margin == 0.0:
+    if not isfinite(margin) or margin <= 1e-9 * abs(value):
         return f"{value:,.4g}"
     digits = max(0, 1 - int(np.floor(np.log10(margin))))
     return f"{value:,.{digits}f} ± {margin:.2g}"
