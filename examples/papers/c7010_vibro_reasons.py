@@ -31,7 +31,8 @@ def reasons(found: Mapping[str, Found]) -> str:
   components 52 %: the ratio says that the cage rattles in no preferred way, not how much. Only
   a steady whirl brings it far below, and none of these cages whirls: weight and balls hold them on
   one side of their play, {n(base, "displacement", "8000 rpm", 1e6)} um off the axis of 150 um.
-  At 12,500 N it is {p(base, "deviation", "12500 N")}, where the paper has 24.44 %: a whirl with noise on it.
+  At 12,500 N it is {p(base, "deviation", "12500 N")}, where the paper has 24.44 %: a whirl with
+  noise on it.
   Under an axial load alone the cage drifts, slower than a turn: its strongest line is that drift.
 - **Contact angles (004-3).** At 1500 N they part by centrifugal force, under a radial load to
   {n(base, "inner_angle", high, degrees(1.0))} and {n(base, "outer_angle", high, degrees(1.0))}

@@ -160,7 +160,7 @@ def _find_in_held_centre(case: Case) -> Iterator[Finding]:
     load, method = case.load, case.solver.method
     if load.centre == "free":
         return
-    if method != "explicit":
+    if method != "explicit" and not (method == "auto" and case.bearing.explicit_only):
         yield (
             "load.centre",
             f"load.centre is 'held', which wants solver.method = \"explicit\", not {method!r}.",
