@@ -139,6 +139,28 @@ def test_a_held_centre_stays_and_bears_what_a_free_one_does():
     assert loads[0].mean() == pytest.approx(loads[1].mean(), rel=0.05)
 
 
+def test_unequal_balls_bear_unequal_loads_and_uneven_pockets_meet_them_elsewhere():
+    """Larger balls are pressed harder than their neighbours."""
+    plain = {"load.radial": "0 N", "load.gravity": "0 m/s^2", "solver.duration": "4 ms"}
+    uneven = {"bearing.ball_scatter": "0.3 um", "cage.pocket_scatter": "40 um"}
+    even = simulate(c7010(RIGID, plain)).dataset
+    ds = simulate(c7010(RIGID, plain, uneven)).dataset
+    half = slice(ds.sizes["time"] // 2, None)
+    force, equal = (
+        d["contact_force"].sel(race="inner").isel(time=half).mean("time").values for d in (ds, even)
+    )
+    assert np.ptp(equal) < 0.02 * equal.mean() and np.ptp(force) > 0.1 * equal.mean()
+    case = c7010(RIGID, plain, uneven)
+    radius = bearing_of(case).data.model.bodies.radius
+    # what the ring's displacement and tilt even out goes once round the bearing
+    at = 2.0 * np.pi * np.arange(18) / 18
+    once = np.stack([np.ones(18), np.cos(at), np.sin(at)], axis=1)
+    left = [v - once @ np.linalg.lstsq(once, v, rcond=None)[0] for v in (force, radius)]
+    assert np.corrcoef(*left)[0, 1] > 0.95
+    moved = [d.circumferential for d in case.all_defects]
+    assert len(moved) == 18 and np.std(moved) > 20e-6
+
+
 def test_contact_loads_of_a_thrust_bearing_are_those_published():
     """7603025 under 3500 N and 1200 N at 2000 rpm: every ball's load, from the loaded side on."""
     table = {
