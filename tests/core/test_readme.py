@@ -1,9 +1,28 @@
-"""README's walk through a bearing type names files and things that are there."""
+"""README's examples of cases load, and its walk through a bearing type names what is there."""
 
 import re
 from pathlib import Path
 
+import pytest
+
+from flexcage.case import load_case
+
 ROOT = Path(__file__).parents[2]
+
+
+def cases():
+    """Blocks of "What a case may say", each with a preset where it has none."""
+    text = (ROOT / "README.md").read_text("utf-8").split("## What a case may say")[1]
+    text = text.split("## Static solution")[0]
+    for block, preset in zip(
+        re.findall(r"```toml\n(.*?)```", text, flags=re.S), ("N1013", "", "7010C-PI", "")
+    ):
+        yield f'bearing.preset = "{preset}"\n{block}' if preset else block
+
+
+@pytest.mark.parametrize("text", cases())
+def test_what_a_case_may_say(text):
+    assert load_case(text).bearing.in_motion
 
 
 def test_what_extending_names_is_there():
