@@ -61,6 +61,8 @@ _LAZY: dict[str, str] = {
     "StartOptions": "flexcage.system.spec",
     "SolverOptions": "flexcage.solve.options",
     "OutputOptions": "flexcage.results.options",
+    "LaserSetup": "flexcage.results.instrument",
+    "load_readings": "flexcage.results.instrument",
     "Study": "flexcage.study.spec",
     "Repeat": "flexcage.study.spec",
     "load_study": "flexcage.study.spec",

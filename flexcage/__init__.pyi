@@ -6,6 +6,7 @@ from flexcage.case import load_case as load_case
 from flexcage.case import load_extension as load_extension
 from flexcage.case import load_static as load_static
 from flexcage.contacts.spec import Contacts as Contacts
+from flexcage.contacts.spec import EhlTraction as EhlTraction
 from flexcage.contacts.spec import FrictionLaw as FrictionLaw
 from flexcage.contacts.spec import LandSpec as LandSpec
 from flexcage.contacts.spec import Lubricant as Lubricant
@@ -37,11 +38,14 @@ from flexcage.geometry.presets import preset_names as preset_names
 from flexcage.mesh.options import MeshOptions as MeshOptions
 from flexcage.modes.spec import DampingBand as DampingBand
 from flexcage.modes.spec import ModesSpec as ModesSpec
+from flexcage.results.instrument import LaserSetup as LaserSetup
+from flexcage.results.instrument import load_readings as load_readings
 from flexcage.results.options import OutputOptions as OutputOptions
 from flexcage.simulate import Run as Run
 from flexcage.simulate import load_run as load_run
 from flexcage.simulate import simulate as simulate
 from flexcage.solve.options import SolverOptions as SolverOptions
+from flexcage.static import ehl_traction as ehl_traction
 from flexcage.static import solve_static as solve_static
 from flexcage.study.axes import Grid as Grid
 from flexcage.study.axes import LatinHypercube as LatinHypercube

@@ -248,6 +248,7 @@ class Run:
         from flexcage.render.album import Scene
 
         case, load = self.case, self.case.load
+        radial, axial = load.at_start
         left = case.bearing.land_clearance(case.cage)
         guided = case.cage.guidance in ("inner", "outer")
         stated = case.contacts.land.clearance if guided else None
@@ -257,8 +258,8 @@ class Run:
             bearing=case.bearing,
             mesh=self.mesh,
             defects=case.defects,
-            load=(load.radial * np.cos(load.direction), load.radial * np.sin(load.direction)),
-            axial=load.axial,
+            load=(radial * np.cos(load.direction), radial * np.sin(load.direction)),
+            axial=axial,
             clearance=left[0] if left else stated,
             settle=case.output.settle,
             stress=self._stress_pictures(animate) if self.cage is not None else None,

@@ -114,8 +114,9 @@ def _find_in_load(case: Case) -> Iterator[Finding]:
     for where, value in (
         ("load.radial", load.radial),
         ("load.axial", abs(load.axial)),
-        ("load.ramp_to", load.ramp_to or 0.0),
-        ("load.values", max(load.values, default=0.0)),
+        ("load.ramp_to", abs(load.ramp_to or 0.0)),
+        ("load.values", max(map(abs, load.values), default=0.0)),
+        ("load.wave_amplitude", abs(load.wave_amplitude)),
     ):
         if value > _OVERLOAD * rating:
             yield (
@@ -142,6 +143,7 @@ def _find_in_held_motions(case: Case) -> Iterator[Finding]:
             "'free'; take load.tilt = \"held\" for a tilt that is given.",
         )
     yield from _find_in_held_centre(case)
+    yield from _find_in_changes(case)
     for key, free in (("axial", axial), ("moment_y", tilt), ("moment_z", tilt)):
         value = getattr(case.load, key)
         if value != 0.0 and not free:
@@ -152,6 +154,19 @@ def _find_in_held_motions(case: Case) -> Iterator[Finding]:
                 f"{'axial motion is' if key == 'axial' else 'tilts are'} held; leave it out, "
                 + ('take load.tilt = "free", ' if axial else "")
                 + "or take 'flexcage static'.",
+            )
+
+
+def _find_in_changes(case: Case) -> Iterator[Finding]:
+    """Axial loads that change over time where the inner ring's axial motion is held."""
+    load = case.load
+    changes = {"varies": load.ramp_to is not None or load.times, "wave_of": load.wave != "none"}
+    for key, used in changes.items():
+        if used and getattr(load, key) == "axial" and not case.bearing.carries_axial_load:
+            yield (
+                f"load.{key}",
+                f"load.{key} is 'axial', but in a run of a {case.bearing.kind} the inner ring's "
+                "axial motion is held; take 'radial'.",
             )
 
 
@@ -221,13 +236,15 @@ def _find_in_tables(case: Case) -> Iterator[Finding]:
 
 
 def _find_in_ramps(case: Case) -> Iterator[Finding]:
+    yield from _find_in_acceleration(case)
     for room in ("drive", "load"):
         spec = getattr(case, room)
-        if spec.ramp_to is not None and spec.ramp_time <= 0.0:
+        by_time = room == "load" or case.drive.acceleration is None
+        if spec.ramp_to is not None and spec.ramp_time <= 0.0 and by_time:
             yield (
                 f"{room}.ramp_time",
                 f"{room}.ramp_to is given, but {room}.ramp_time is 0 s; say how long the ramp "
-                "takes.",
+                f"takes{', or give drive.acceleration' if room == 'drive' else ''}.",
             )
         if spec.ramp_to is None and spec.ramp_time > 0.0:
             yield (
@@ -236,6 +253,24 @@ def _find_in_ramps(case: Case) -> Iterator[Finding]:
             )
         if spec.ramp_to is not None and spec.times:
             yield f"{room}.times", f"[{room}] has both a ramp and a table; keep one of them."
+
+
+def _find_in_acceleration(case: Case) -> Iterator[Finding]:
+    """A ramp of speed takes its time or its acceleration, not both."""
+    drive = case.drive
+    if drive.acceleration is None:
+        return
+    if drive.ramp_to is None:
+        yield (
+            "drive.ramp_to",
+            "drive.acceleration is given, but not where the ramp ends; give drive.ramp_to.",
+        )
+    if drive.ramp_time > 0.0:
+        yield (
+            "drive.acceleration",
+            "drive.acceleration and drive.ramp_time are both given, but each says how long the "
+            "ramp takes; keep one of them.",
+        )
 
 
 def _find_in_waves(case: Case) -> Iterator[Finding]:
@@ -254,13 +289,6 @@ def _find_in_waves(case: Case) -> Iterator[Finding]:
                 f"{room}.wave_period",
                 f"{room}.wave_period is {describe(spec.wave_period, 'ms')}, but two samples of "
                 f"output.rate take {describe(least, 'ms')}; give a longer period.",
-            )
-    if case.load.wave != "none" and case.load.wave_of == "axial":
-        if not case.bearing.carries_axial_load:
-            yield (
-                "load.wave_of",
-                f"load.wave_of is 'axial', but in a run of a {case.bearing.kind} the inner ring's "
-                "axial motion is held; take 'radial'.",
             )
 
 

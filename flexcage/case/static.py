@@ -51,7 +51,7 @@ class StaticCase:
     @property
     def speed(self) -> float:
         """Speed of the inner ring [rad/s] at the start."""
-        return self.drive.speeds[0] if self.drive.times else self.drive.speed
+        return self.drive.at_start
 
     @classmethod
     def from_table(cls, table: Mapping[str, Any], *, si: bool = False) -> StaticCase:

@@ -21,7 +21,7 @@ from flexcage.geometry.cage import Cage
 from flexcage.geometry.cages import CrossbeamDefect, SideBeamDefect, WindowCage
 from flexcage.geometry.cylindrical_roller import RollerBearing
 from flexcage.geometry.presets import load_preset
-from flexcage.system.spec import Wave
+from flexcage.system.spec import Load, Wave
 
 _GUIDED = {
     "roller": {
@@ -216,21 +216,28 @@ def _wave(spec: Wave, amplitude: str) -> str:
 def _load(case: Case) -> str:
     """What loads the inner ring."""
     load = case.load
-    radial = f"a radial load of {describe(load.radial, 'N')}"
-    if load.times:
-        radial = "a radial load that a table gives over time"
-    elif load.ramp_to is not None:
-        radial += f", then {describe(load.ramp_to, 'N')}"
     moments = {"about y": load.moment_y, "about z": load.moment_z}
-    parts = [f"an axial load of {describe(load.axial, 'N')}"] if load.axial else []
-    if load.radial or load.times or load.ramp_to is not None or not parts:
-        parts.append(radial)
+    parts = [_load_along(load, along) for along in ("axial", "radial")]
+    parts = [text for text in parts if text] or [f"a radial load of {describe(0.0, 'N')}"]
     if load.wave != "none":
         parts.append(
             f"{_wave(load, describe(load.wave_amplitude, 'N'))} of the {load.wave_of} load"
         )
     parts += [f"a moment of {describe(m, 'N*m')} {way}" for way, m in moments.items() if m]
     return " and ".join(filter(None, [", ".join(parts[:-1]), parts[-1]]))
+
+
+def _load_along(load: Load, along: str) -> str:
+    """The "axial" or "radial" load and how it changes, without its wave; "" where there is none."""
+    value, article = getattr(load, along), "an" if along == "axial" else "a"
+    varies = load.varies == along
+    if load.times and varies:
+        return f"{article} {along} load that a table gives over time"
+    if load.ramp_to is not None and varies:
+        return (
+            f"{article} {along} load of {describe(value, 'N')}, then {describe(load.ramp_to, 'N')}"
+        )
+    return f"{article} {along} load of {describe(value, 'N')}" if value else ""
 
 
 def _method(case: Case) -> str:

@@ -91,7 +91,10 @@ class PairSpec:
     normal: NormalLaw = option(NormalLaw(), doc="normal law")
     friction: FrictionLaw = option(FrictionLaw(), doc="friction law")
     slices: int = option(
-        16, doc="slices along the roller; multiples of 8 are fast", minimum=3, maximum=64
+        16,
+        doc="slices along a roller, strips of a ball's contact ellipse; multiples of 8 are fast",
+        minimum=3,
+        maximum=64,
     )
 
 
@@ -108,7 +111,7 @@ class LandSpec:
 
 @dataclass(frozen=True, kw_only=True)
 class Contacts:
-    """All contact places of a cylindrical roller bearing."""
+    """All contact places; "roller" is any rolling element. Balls have no side and no rib."""
 
     race: PairSpec = option(
         PairSpec(friction=FrictionLaw(law="traction")), doc="roller against both races"
@@ -137,4 +140,4 @@ class Lubricant:
     rolling_resistance: str = option(
         "blended", doc="rolling resistance", choices=("none", "goksem_hargreaves", "blended")
     )
-    drag_coefficient: float = option(0.4, doc="C_D of a shadowed roller", minimum=0.0)
+    drag_coefficient: float = option(0.4, doc="C_D of a shadowed rolling element", minimum=0.0)

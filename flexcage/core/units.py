@@ -36,6 +36,7 @@ _COMMON: dict[str, tuple[str, int, float]] = {
     "mrad": ("angle", -3, 1.0),
     "deg": ("angle", 0, math.pi / 180.0),
     "rad/s": ("angular speed", 0, 1.0),
+    "rad/s^2": ("angular acceleration", 0, 1.0),
     "rpm": ("angular speed", 0, math.pi / 30.0),
     "Hz": ("frequency", 0, 1.0),
     "kHz": ("frequency", 3, 1.0),

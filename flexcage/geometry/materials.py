@@ -39,6 +39,15 @@ MATERIALS: dict[str, Material] = {
             source="GCr15/SAE 52100 handbook values; hardened proof stress is an assumption",
         ),
         Material(
+            name="steel",
+            youngs_modulus=206e9,
+            poisson_ratio=0.3,
+            density=7850.0,
+            proof_stress=200e6,
+            source="low-carbon strip steel of pressed cages (DC04/SPCC class), handbook E, nu and "
+            "density; proof stress is an assumption: annealed strip, which pressing hardens",
+        ),
+        Material(
             name="brass",
             youngs_modulus=105e9,
             poisson_ratio=0.34,

@@ -34,7 +34,7 @@ class ElementNames:
 
 _NAMES = {
     "roller": ElementNames(
-        "roller", "roller_position", "race_force", "roller_tilt",
+        "roller", "roller_position", metrics.RACE_NAMES["roller"].force, "roller_tilt",
         (
             ("front face", ("front",)),
             ("rear face", ("rear",)),
@@ -42,7 +42,8 @@ _NAMES = {
         ),
     ),
     "ball": ElementNames(
-        "ball", "ball_position", "contact_force", "", (("pocket wall", ("pocket",)),)
+        "ball", "ball_position", metrics.RACE_NAMES["ball"].force, "",
+        (("pocket wall", ("pocket",)),),
     ),
 }  # fmt: skip
 

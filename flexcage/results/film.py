@@ -33,11 +33,12 @@ def _motion(ds: xarray.Dataset, element: str) -> _Motion:
     def of(name: str) -> np.ndarray:
         return np.asarray(ds[name].transpose("time", element, ...).values)
 
+    names = metrics.RACE_NAMES[element]
     radius = of(f"{element}_position")[..., 1]
-    force = of("contact_force" if element == "ball" else "race_force")
+    force = of(names.force)
     return _Motion(
         force=force,
-        angle=of("contact_angle") if element == "ball" else np.zeros_like(force),
+        angle=of(names.angle) if names.angle else np.zeros_like(force),
         radius=radius,
         orbit=of(f"{element}_velocity")[..., 2] / radius,
         spin=of(f"{element}_omega")[..., :2],

@@ -25,6 +25,7 @@ if TYPE_CHECKING:
 
 ITERATIONS = 20  # of the inversion; it gains five digits in each
 CHANNELS = ("Y", "Z", "X1", "X2", "X3")
+TIME = "t"  # column of a rig's file that holds times in seconds
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -39,6 +40,7 @@ class LaserSetup:
     repeatability: float = 0.0  # standard deviation of a reading
     resolution: float = 0.0  # readings are whole multiples of it; 0: none
     reach: float = np.inf  # readings beyond +-reach are not a number
+    rate: float | None = None  # readings a second, Hz; None: as many as the run has samples
 
     @property
     def spots(self) -> np.ndarray:
@@ -125,25 +127,59 @@ def by_tilt_angles(values: np.ndarray, setup: LaserSetup) -> np.ndarray:
     return values[:, :2] - lifted - setup.plane * np.tan(theta)
 
 
-def of_run(ds: xarray.Dataset) -> tuple[np.ndarray, np.ndarray]:
-    """Centre (n, 3) [m] and unit axis (n, 3) of a run's cage, seen from the outer ring."""
+def measured(ds: xarray.Dataset, setup: LaserSetup, *, seed: int | None = None) -> np.ndarray:
+    """Readings (n, 5) [m] that the set-up would take of a run's cage, at the set-up's rate."""
+    return readings(*of_run(ds, rate=setup.rate), setup, seed=seed)
+
+
+def of_run(ds: xarray.Dataset, *, rate: float | None = None) -> tuple[np.ndarray, np.ndarray]:
+    """Centre (n, 3) [m] and unit axis (n, 3) of a run's cage, seen from the outer ring.
+
+    At the run's samples, or ``rate`` [Hz] times a second from its first sample on, by linear
+    interpolation between them (``sample_times``).
+    """
     turn = Rotation.from_quat(ds["cage_quaternion"].values, scalar_first=True)
     centre = ds["cage_position"].values - ds["outer_position"].values
-    return centre, turn.as_matrix()[:, :, 0]
+    axis = turn.as_matrix()[:, :, 0]
+    if rate is None:
+        return centre, axis
+    taken = sample_times(ds, rate=rate)
+    centre, axis = (_at(taken, ds["time"].values, values) for values in (centre, axis))
+    return centre, axis / np.linalg.norm(axis, axis=1, keepdims=True)
+
+
+def sample_times(ds: xarray.Dataset, *, rate: float | None = None) -> np.ndarray:
+    """Instants (n,) [s] of what ``of_run`` gives: the run's own, or ``rate`` [Hz] of them a second.
+
+    Raises InputError for a rate that takes fewer than two samples of the run.
+    """
+    t: np.ndarray = ds["time"].values
+    if rate is None:
+        return t
+    length = t[-1] - t[0]
+    if not rate * length >= 1.0:
+        raise InputError(
+            f"The lasers' rate is {rate:g} Hz, which takes fewer than two samples of a run of "
+            f"{length:g} s; give a higher one.",
+            where="rate",
+            value=rate,
+        )
+    return t[0] + np.arange(int(rate * length * (1.0 + 1e-12)) + 1) / rate
+
+
+def _at(taken: np.ndarray, t: np.ndarray, values: np.ndarray) -> np.ndarray:
+    """Values (n, 3) at the times ``taken`` (n,) from those (m, 3) at ``t`` (m,)."""
+    return np.column_stack([np.interp(taken, t, column) for column in values.T])
 
 
 def load_readings(path: str | Path) -> np.ndarray:
-    """Readings (n, 5) [m] of a test rig from a CSV file: a line with the names Y, Z, X1, X2, X3 in
-    any order, then numbers in millimetres. Raises InputError for a file that has them not."""
-    path = Path(path)
-    try:
-        with path.open(encoding="utf-8") as file:
-            names = [name.strip() for name in file.readline().split(",")]
-            table = np.loadtxt(file, delimiter=",", ndmin=2)
-    except OSError as exc:
-        raise InputError(f"The readings '{path}' cannot be read: {exc.strerror}.") from exc
-    except ValueError as exc:
-        raise InputError(f"The readings '{path}' hold what is no number: {exc}.") from exc
+    """Readings (n, 5) [m] of a test rig from a CSV file, in the order of ``CHANNELS``.
+
+    Its first line names the columns Y, Z, X1, X2, X3 in any order; below are numbers in
+    millimetres. Other columns are passed over; ``load_times`` reads one of times. Raises InputError
+    for a file that has them not.
+    """
+    names, table = _columns(path)
     lacking = [name for name in CHANNELS if name not in names]
     if lacking:
         raise InputError(
@@ -152,3 +188,28 @@ def load_readings(path: str | Path) -> np.ndarray:
             where=lacking[0],
         )
     return 1e-3 * table[:, [names.index(name) for name in CHANNELS]]
+
+
+def load_times(path: str | Path) -> np.ndarray | None:
+    """Times (n,) [s] of a rig's readings: the column t of their file; None if it has none."""
+    names, table = _columns(path)
+    return table[:, names.index(TIME)] if TIME in names else None
+
+
+def _columns(path: str | Path) -> tuple[list[str], np.ndarray]:
+    """Names of a CSV file's columns, and its numbers (n, columns)."""
+    try:
+        with Path(path).open(encoding="utf-8-sig") as file:
+            names = [name.strip() for name in file.readline().split(",")]
+            lines = [line for line in file if line.strip()]
+        table = np.loadtxt(lines, delimiter=",", ndmin=2) if lines else np.empty((0, 0))
+    except OSError as exc:
+        raise InputError(f"The readings '{path}' cannot be read: {exc.strerror}.") from exc
+    except ValueError as exc:
+        raise InputError(f"The readings '{path}' hold what is no number: {exc}.") from exc
+    if table.shape[1] != len(names):
+        raise InputError(
+            f"The readings '{path}' name {len(names)} columns, but their lines hold "
+            f"{table.shape[1]} numbers; give one number a column and line."
+        )
+    return names, table

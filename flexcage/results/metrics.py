@@ -101,6 +101,21 @@ class PocketForces:
         return self.peak / self.mean if self.mean else float("nan")
 
 
+@dataclass(frozen=True)
+class RaceNames:
+    """Names of what a run records of the races, each (time, element, race)."""
+
+    force: str  # N
+    angle: str  # contact angle, rad; "" where it is zero
+
+
+#: By the kind of rolling elements.
+RACE_NAMES = {
+    "roller": RaceNames("race_force", ""),
+    "ball": RaceNames("contact_force", "contact_angle"),
+}
+
+
 def element(ds: xarray.Dataset) -> str:
     """Rolling elements of a run's bearing: "roller" or "ball"."""
     return str(ds.attrs.get("element", "roller"))
@@ -196,8 +211,7 @@ def touching(ds: xarray.Dataset, of: xarray.DataArray) -> xarray.DataArray:
 
 def loaded_zone(ds: xarray.Dataset, share: float = LOADED_SHARE) -> xarray.DataArray:
     """True where the inner race carries a roller, (time, roller), or a ball, (time, ball)."""
-    name = "contact_force" if element(ds) == "ball" else "race_force"
-    force = ds[name].sel(race="inner", drop=True)
+    force = ds[RACE_NAMES[element(ds)].force].sel(race="inner", drop=True)
     return force > share * float(force.max())
 
 

@@ -70,12 +70,15 @@ class Variable:
     @property
     def of(self) -> str:
         """Rolling elements ("roller", "ball") whose bearings have it; "": all bearings."""
-        if "ball" in self.dims:
-            return "ball"
-        return "roller" if _ROLLER_DIMS & set(self.dims) else ""
+        own = (one for one, dims in _OWN_DIMS.items() if dims & set(self.dims))
+        return next(own, "")
 
 
-_ROLLER_DIMS = {"roller", "slice", "residual", "rib", "crossbeam_face"}
+#: Dimensions that only runs with one kind of rolling elements have.
+_OWN_DIMS = {
+    "ball": {"ball"},
+    "roller": {"roller", "slice", "residual", "rib", "crossbeam_face"},
+}
 
 
 def _variables() -> list[Variable]:

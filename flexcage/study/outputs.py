@@ -164,7 +164,7 @@ def check_outputs(
             reduction = parse_reduction(name)
             needs = reduction.variable.name.startswith(("modal_", "residual_"))
             _check_element(name, reduction.variable.of, element)
-            for dim in {"roller", "ball", "pocket"} & set(reduction.selection):
+            for dim in {*ELEMENT_FIGURES, "pocket"} & set(reduction.selection):
                 if int(reduction.selection[dim]) >= elements:
                     raise InputError(f"Output '{name}': the {dim}s count from 0 to {elements - 1}.")
         else:
@@ -192,7 +192,8 @@ def _check_element(name: str, of: str, element: str) -> None:
 
 
 def _check_figure(name: str) -> None:
-    known = (*RIGID_FIGURES, *ELEMENT_FIGURES["ball"], *FLEXIBLE_FIGURES)
+    own = [figure for figures in ELEMENT_FIGURES.values() for figure in figures]
+    known = (*RIGID_FIGURES, *own, *FLEXIBLE_FIGURES)
     if name in known:
         return
     if name in VARIABLES or name in DERIVED:

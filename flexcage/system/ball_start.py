@@ -61,7 +61,7 @@ def rolling_balls(
     """Set velocities in y: balls that orbit and roll; returns y' (accelerations zero)."""
     yd = np.zeros_like(y)
     q, u, qd = layout.q(y), layout.u(y), layout.q(yd)
-    speed = float(model.bodies.speed[1, 0])
+    speed = float(np.interp(0.0, *model.bodies.speed))
     orbit = np.nan_to_num(solution.elements.orbital_speed)
     bears = (solution.elements.force > 0.0).all(axis=1)
     cage = float(orbit[bears].mean()) if bears.any() else float(orbit.mean())

@@ -24,12 +24,27 @@ def unbalanced(body: FlexibleBody, cage) -> FlexibleBody:
     return with_point_mass(body, cage.unbalance / r, where)
 
 
-def _table(value, ramp_to, start, length, times, values) -> np.ndarray:
-    if len(times) > 0:
-        return np.array([times, values], float)
-    if ramp_to is None:
-        return np.array([[0.0, 1.0], [value, value]])
-    return np.array([[start, start + max(length, 1e-12)], [value, ramp_to]])
+def _constant(value: float) -> np.ndarray:
+    """Table (2, 2) of time [s] and a value that stays."""
+    return np.array([[0.0, 1.0], [value, value]])
+
+
+def _table(value: float, spec: Drive | Load, length: float, values: tuple) -> np.ndarray:
+    """Table (2, n) of time [s] and value: from ``value`` along the ramp, or over the times."""
+    if spec.times:
+        return np.array([spec.times, values], float)
+    if spec.ramp_to is None:
+        return _constant(value)
+    start = spec.ramp_start
+    return np.array([[start, start + max(length, 1e-12)], [value, spec.ramp_to]])
+
+
+def _load_table(load: Load, along: str) -> np.ndarray:
+    """Table (2, n) of time [s] and the "radial" or "axial" load [N], without its wave."""
+    value: float = getattr(load, along)
+    if load.varies != along:
+        return _constant(value)
+    return _table(value, load, load.ramp_time, load.values)
 
 
 def _wave(spec: Wave, amplitude: float) -> tuple[float, float, float, float]:
@@ -77,9 +92,7 @@ def bodies_of(
     theirs, ``area`` [m^2] that one meets the oil with; ``free``: is the inner ring free axially, in
     skew and in tilt?
     """
-    speed = _table(
-        drive.speed, drive.ramp_to, drive.ramp_start, drive.ramp_time, drive.times, drive.speeds
-    )
+    speed = _table(drive.speed, drive, drive.ramp_length, drive.speeds)
     steps = 0.5 * np.diff(speed[0]) * (speed[1, 1:] + speed[1, :-1])
     rho = lubricant.density * lubricant.oil_fraction
     ro = 0.5 * cage.outside_diameter
@@ -108,9 +121,8 @@ def bodies_of(
         drive=np.array([float(drive.kind == "shaft"), drive.shaft_stiffness, drive.shaft_damping]),
         speed=speed,
         angle=np.concatenate([[0.0], np.cumsum(steps)]),
-        load=_table(
-            load.radial, load.ramp_to, load.ramp_start, load.ramp_time, load.times, load.values
-        ),
+        load=_load_table(load, "radial"),
+        axial=_load_table(load, "axial"),
         waves=np.array(
             [
                 _wave(drive, drive.wave_amplitude),
@@ -119,7 +131,7 @@ def bodies_of(
             ]
         ),
         load_direction=np.array([np.cos(load.direction), np.sin(load.direction)]),
-        steady=np.array([load.axial, load.moment_y, load.moment_z]),
+        moments=np.array([load.moment_y, load.moment_z]),
         free=np.array([*free, load.centre == "free"], float),
         misalignment=load.misalignment,
     )

@@ -42,9 +42,10 @@ class Bodies(NamedTuple):
     speed: np.ndarray  # (2, n) table of time and speed
     angle: np.ndarray  # (n,) drive angle at the table's times
     load: np.ndarray  # (2, m) table of time and radial load
+    axial: np.ndarray  # (2, k) table of time and axial load
     load_direction: np.ndarray  # (2,) y, z
     waves: np.ndarray  # (3, 4) of speed, radial load, axial load, see waves.py
-    steady: np.ndarray  # (3,) axial load, moments about y and z on the inner ring
+    moments: np.ndarray  # (2,) about y and z on the inner ring
     free: np.ndarray  # (4,) 1.0 if the inner ring is free axially, in skew, in tilt, at its centre
     misalignment: float
 

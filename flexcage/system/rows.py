@@ -319,10 +319,10 @@ def ring_rows(t, d, q, u, qd, ud, lam, mu_, zq, r_q, r_u, out, end, mode):
     r_q[zq + 4] -= mu_[2]
     mass, Ia, It = bodies.ring[0], bodies.ring[1], bodies.ring[2]
     load = interpolate(bodies.load, t) + wave_value(bodies.waves[1], t)
-    axial = bodies.steady[0] + wave_value(bodies.waves[2], t)
+    axial = interpolate(bodies.axial, t) + wave_value(bodies.waves[2], t)
     # moments about the ring's own (non-spinning) axes
     cx, sx, ce, se = cos(rq[3]), sin(rq[3]), cos(rq[4]), sin(rq[4])
-    Mx, My, Mz = border[3], border[4] + bodies.steady[1], border[5] + bodies.steady[2]
+    Mx, My, Mz = border[3], border[4] + bodies.moments[0], border[5] + bodies.moments[1]
     M1 = cx * ce * Mx + se * My - sx * ce * Mz
     M2 = -cx * se * Mx + ce * My + sx * se * Mz
     M3 = sx * Mx + cx * Mz
@@ -387,7 +387,7 @@ def ring_rows(t, d, q, u, qd, ud, lam, mu_, zq, r_q, r_u, out, end, mode):
         rep.power[1] += load * (bodies.load_direction[0] * ru[1] + bodies.load_direction[1] * ru[2])
         spin = work.vec[RING_SPIN]
         rep.power[1] += axial * ru[0]
-        rep.power[1] += bodies.steady[1] * spin[1] + bodies.steady[2] * spin[2]
+        rep.power[1] += bodies.moments[0] * spin[1] + bodies.moments[1] * spin[2]
         for c in range(3):
             rep.power[2] += mass * bodies.gravity[c] * ru[c]
         if fixed == 0.0:

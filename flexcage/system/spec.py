@@ -5,6 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from math import pi
 
+import numpy as np
+
 from flexcage.core.spec import option, quantity
 
 #: Shapes, and the share of the period that each takes from zero to its amplitude.
@@ -27,14 +29,18 @@ class Wave:
 class Drive(Wave):
     """Rotation of the inner ring: prescribed, or through a compliant shaft.
 
-    ``speed`` holds from the start, unless ``ramp_to`` and ``ramp_time`` give a linear ramp that
-    begins at ``ramp_start``, or ``times`` and ``speeds`` give a table (linear between points).
+    ``speed`` holds from the start, unless ``ramp_to`` with either ``ramp_time`` or ``acceleration``
+    gives a linear ramp that begins at ``ramp_start``, or ``times`` and ``speeds`` give a table
+    (linear between points).
     """
 
     speed: float = quantity("rpm", 6000 * 2 * pi / 60, doc="inner ring speed (negative: reversed)")
     ramp_to: float | None = quantity("rpm", None, doc="speed at the end of a ramp")
     ramp_start: float = quantity("s", 0.0, doc="start of the ramp", minimum=0.0)
     ramp_time: float = quantity("s", 0.0, doc="length of the ramp", minimum=0.0)
+    acceleration: float | None = quantity(
+        "rad/s^2", None, doc="change of speed per second along the ramp, up or down", above=0.0
+    )
     times: tuple[float, ...] = quantity("s", (), doc="table: times")
     speeds: tuple[float, ...] = quantity("rpm", (), doc="table: speeds")
     wave_amplitude: float = quantity("rpm", 0.0, doc="amplitude of the wave")
@@ -42,13 +48,25 @@ class Drive(Wave):
     shaft_stiffness: float = quantity("N*m/rad", 1e4, doc="torsional stiffness", above=0.0)
     shaft_damping: float = quantity("N*m*s/rad", 1.0, doc="torsional damping", minimum=0.0)
 
+    @property
+    def at_start(self) -> float:
+        """Speed [rad/s] at t = 0, where a ramp begins at the earliest and a wave is zero."""
+        return float(np.interp(0.0, self.times, self.speeds)) if self.times else self.speed
+
+    @property
+    def ramp_length(self) -> float:
+        """Length of the ramp [s], as given or from its acceleration."""
+        if self.ramp_to is None or self.acceleration is None:
+            return self.ramp_time
+        return abs(self.ramp_to - self.speed) / self.acceleration
+
 
 @dataclass(frozen=True, kw_only=True)
 class Load(Wave):
     """Load on the inner ring, its misalignment, and gravity.
 
-    Ramps and tables are of the radial load, a wave of that which ``wave_of`` names. What is held is
-    borne by a reaction; a centre is held where the loads put it at the start.
+    A ramp or a table is of the load that ``varies`` names, a wave of that which ``wave_of`` names.
+    What is held is borne by a reaction; a centre is held where the loads put it at the start.
     """
 
     radial: float = quantity("N", 0.0, doc="radial load", minimum=0.0)
@@ -56,6 +74,9 @@ class Load(Wave):
     axial: float = quantity("N", 0.0, doc="axial load, along +x")
     moment_y: float = quantity("N*m", 0.0, doc="moment about y")
     moment_z: float = quantity("N*m", 0.0, doc="moment about z")
+    varies: str = option(
+        "radial", doc="load that ramps, or that the table gives", choices=("radial", "axial")
+    )
     ramp_to: float | None = quantity("N", None, doc="load at the end of a ramp")
     ramp_start: float = quantity("s", 0.0, doc="start of the ramp", minimum=0.0)
     ramp_time: float = quantity("s", 0.0, doc="length of the ramp", minimum=0.0)
@@ -73,6 +94,14 @@ class Load(Wave):
     gravity: float = quantity("m/s^2", 9.80665, doc="acceleration of gravity", minimum=0.0)
     gravity_direction: float = quantity("deg", 0.0, doc="azimuth of gravity")
     shaft_mass: float = quantity("kg", 0.0, doc="mass that moves with the inner ring", minimum=0.0)
+
+    @property
+    def at_start(self) -> tuple[float, float]:
+        """Radial and axial load [N] at t = 0, where ramps begin at the earliest and waves are 0."""
+        if not self.times:
+            return self.radial, self.axial
+        value = float(np.interp(0.0, self.times, self.values))
+        return (value, self.axial) if self.varies == "radial" else (self.radial, value)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -96,7 +125,7 @@ class StartOptions:
     """How the start departs from equilibrium: the cage moves off in a random direction.
 
     A speed, unlike an offset, leaves every contact as the equilibrium found it, so that it suits
-    a pinched cage as well. ``seed`` picks the azimuth; rollers and rings stay the same.
+    a pinched cage as well. ``seed`` picks the azimuth; rolling elements and rings stay the same.
     """
 
     push: float = quantity("mm/s", 0.0, doc="speed of the cage centre at the start", minimum=0.0)

@@ -56,7 +56,7 @@ def rolling_velocities(model: Model, layout: Layout, y: np.ndarray) -> np.ndarra
     b = model.bodies
     rw = float(b.radius.mean())
     pitch = 0.5 * (model.inner.radius + model.outer.radius)
-    speed = b.speed[1, 0]
+    speed = float(np.interp(0.0, *b.speed))
     k = epicyclic(
         roller_diameter=2.0 * rw, pitch_diameter=2.0 * pitch, roller_count=layout.rollers,
         inner_speed=speed,
@@ -264,7 +264,7 @@ def _(model: Model, bearing: Bearing, *, limit_force: float, statics: StaticStar
     layout = bearing.layout
     offset = model.pocket.offset
     y = geometric_guess(model, layout)
-    load = max(float(model.bodies.load[1, 0]), 1.0)
+    load = max(float(np.interp(0.0, *model.bodies.load)), 1.0)
     residual = 0.0
     placed = np.zeros((layout.rollers, 2))
     for share in _stages(model, offset):

@@ -53,6 +53,42 @@ BAD = {
         ["must rise"],
     ),
     "ramp without time": ('[drive]\nramp_to = "1 rpm"', "drive.ramp_time", ["how long"]),
+    "ramp by time and acceleration": (
+        '[drive]\nramp_to = "1 rpm"\nramp_time = "1 s"\nacceleration = "5 rad/s^2"',
+        "drive.acceleration",
+        ["drive.ramp_time", "keep one"],
+    ),
+    "acceleration to nowhere": (
+        '[drive]\nacceleration = "5 rad/s^2"',
+        "drive.ramp_to",
+        ["drive.acceleration is given", "give drive.ramp_to"],
+    ),
+    "acceleration as a length": (
+        '[drive]\nramp_to = "1 rpm"\nacceleration = "5 m/s^2"',
+        "drive.acceleration",
+        ["another kind", "rad/s^2"],
+    ),
+    "no acceleration": (
+        '[drive]\nramp_to = "1 rpm"\nacceleration = "0 rad/s^2"',
+        "drive.acceleration",
+        ["greater than 0"],
+    ),
+    "axial ramp where none is borne": (
+        '[load]\nvaries = "axial"\nramp_to = "1 N"\nramp_time = "1 s"',
+        "load.varies",
+        ["axial motion is held", "'radial'"],
+    ),
+    "axial table where none is borne": (
+        '[load]\nvaries = "axial"\ntimes = ["0 s", "1 s"]\nvalues = ["0 N", "1 N"]',
+        "load.varies",
+        ["cylindrical roller bearing", "axial motion is held"],
+    ),
+    "varies in no direction": ('[load]\nvaries = "axail"', "load.varies", ["'axial'"]),
+    "overload by a wave": (
+        '[load]\nwave = "sine"\nwave_period = "9 ms"\nwave_amplitude = "800 kN"',
+        "load.wave_amplitude",
+        ["800 kN", "51 kN"],
+    ),
     "decimal comma": ('[load]\nradial = "1,5 kN"', "load.radial", ["with a point", "'1.5 kN'"]),
     "held by another method": (
         '[load]\ncentre = "held"',
@@ -109,6 +145,24 @@ def test_mistake_is_one_sentence(name):
     assert sentence.endswith(".") and "\n" not in sentence
     assert all(word in sentence for word in words), sentence
     assert caught.value.exit_code == 2
+
+
+BALLS = '[bearing]\npreset = "7010C-PI"\n[load]\naxial = "100 N"\n'
+OVERLOADS = {
+    "wave": ('wave = "sine"\nwave_of = "axial"\nwave_period = "9 ms"\nwave_amplitude = "500 kN"',
+             "load.wave_amplitude"),
+    "ramp": ('varies = "axial"\nramp_to = "-500 kN"\nramp_time = "9 ms"', "load.ramp_to"),
+    "table": ('varies = "axial"\ntimes = ["0 s", "9 s"]\nvalues = ["0 N", "-500 kN"]',
+              "load.values"),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("name", OVERLOADS)
+def test_axial_loads_that_change_have_a_limit_too(name):
+    text, where = OVERLOADS[name]
+    with pytest.raises(InputError, match=f"{where} is 500 kN.*static rating") as caught:
+        load_case(BALLS + text + "\n")
+    assert caught.value.where == where
 
 
 @pytest.mark.parametrize(

@@ -95,6 +95,7 @@ def test_variation_leaves_the_original_alone(case):
         ("cage.pocket_width", 8.25e-3, 8.25e-3),
         ("bearing.roller_count", 21, 21),
         ("cage.material", "PEEK", MATERIALS["PEEK"]),
+        ("cage.material", "steel", MATERIALS["steel"]),
         ("contacts.pocket.friction", FrictionLaw(static=0.2), FrictionLaw(static=0.2)),
         ("contacts.pocket.friction.static", 0.2, 0.2),
         ("defects", [], ()),

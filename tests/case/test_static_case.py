@@ -131,6 +131,17 @@ def test_loads_of_the_static_solution_are_refused_in_a_run():
             load_case('[bearing]\npreset = "N1013"\n', overrides={path: value})
 
 
+def test_the_start_of_a_table_counts():
+    """Also of one that begins before the run does."""
+    table = {"load.times": ["-1 s", "1 s"], "load.values": ["100 N", "300 N"]}
+    axial = load_static(BALLS, overrides={**table, "load.varies": "axial"})
+    np.testing.assert_array_equal(flexcage.solve_static(axial).load[:3], [200.0, 0.0, 0.0])
+    radial = load_static(BALLS, overrides=table)
+    np.testing.assert_array_equal(flexcage.solve_static(radial).load[:3], [100.0, 200.0, 0.0])
+    drive = {"drive.times": ["-1 s", "1 s"], "drive.speeds": ["0 rpm", "60 rpm"]}
+    assert load_static(BALLS, overrides=drive).speed == pytest.approx(np.pi)
+
+
 def test_a_run_passes_over_the_static_section():
     text = '[bearing]\npreset = "N1013"\n'
     assert load_case(text + '[static]\ntilt = "held"\n') == load_case(text)

@@ -36,6 +36,14 @@ def test_a_ball_bearing():
         ),
         ({"axial": "100 N", "misalignment": "1 mrad"}, "100 N, tilted by 1 mrad, held in tilt."),
         ({"radial": "0 N"}, "under a radial load of 0 N, held in tilt."),
+        (
+            {"axial": "80 N", "varies": "axial", "ramp_to": "300 N", "ramp_time": "1 ms"},
+            "under an axial load of 80 N, then 300 N, held in tilt.",
+        ),
+        (
+            {"varies": "axial", "times": ["0 s", "1 s"], "values": ["1 N", "2 N"], "radial": "5 N"},
+            "an axial load that a table gives over time and a radial load of 5 N, held",
+        ),
     ],
 )
 def test_loads_of_a_ball_bearing(load, says):

@@ -2,8 +2,12 @@
 
 from __future__ import annotations
 
+import re
+from pathlib import Path
+
 import numpy as np
 import pytest
+import xarray as xr
 
 from flexcage.core.errors import InputError
 from flexcage.results.instrument import (
@@ -11,7 +15,11 @@ from flexcage.results.instrument import (
     by_tilt_angles,
     invert,
     load_readings,
+    load_times,
+    measured,
+    of_run,
     readings,
+    sample_times,
 )
 
 SETUP = LaserSetup(radius=33e-3, half_width=10e-3, plane=15e-3, circle=31e-3)
@@ -73,3 +81,68 @@ def test_readings_of_a_rig(tmp_path):
         load_readings(file)
     with pytest.raises(InputError, match="cannot be read"):
         load_readings(tmp_path / "none.csv")
+    file.write_text("X1,Y,Z,X2,X3\n1,2,3,4\n")
+    with pytest.raises(InputError, match="name 5 columns, but their lines hold 4"):
+        load_readings(file)
+    file.write_text("X1,Y,Z,X2,X3\n")
+    with pytest.raises(InputError, match="hold 0 numbers"):
+        load_readings(file)
+
+
+def test_times_of_a_rig(tmp_path):
+    """A column t in seconds, which the readings pass over."""
+    file = tmp_path / "rig.csv"
+    file.write_text("t,Y,Z,X1,X2,X3\n0,1,2,3,4,5\n1e-4,0,0,0,0,0\n\n")
+    np.testing.assert_array_equal(load_times(file), [0.0, 1e-4])
+    np.testing.assert_allclose(load_readings(file)[0], [1e-3, 2e-3, 3e-3, 4e-3, 5e-3])
+    file.write_text("Y,Z,X1,X2,X3\n1,2,3,4,5\n")
+    assert load_times(file) is None
+
+
+def turning_cage():
+    """A cage that goes round by 0.1 mm at 10 Hz with a tilt of 2 mrad, 100 kHz for 0.1 s."""
+    t = np.arange(10_001) / 1e5
+    phase = 20.0 * np.pi * t
+    zero = np.zeros_like(t)
+    place = 1e-4 * np.column_stack([zero, np.cos(phase), np.sin(phase)])
+    tilt = np.column_stack([np.ones_like(t), zero, 1e-3 * np.cos(phase), 1e-3 * np.sin(phase)])
+    return xr.Dataset(
+        {
+            "cage_position": (("time", "axis"), place),
+            "outer_position": (("time", "axis"), 0.0 * place),
+            "cage_quaternion": (("time", "quaternion"), tilt),
+        },
+        coords={"time": t},
+    )
+
+
+def test_a_run_at_the_lasers_rate():
+    """Between samples on the circle, as far as a chord leaves it: r (pi f/rate)^2/2."""
+    ds = turning_cage()
+    t = sample_times(ds, rate=7e3)
+    assert len(t) == 701 and t[1] == pytest.approx(1 / 7e3) and t[-1] == pytest.approx(0.1)
+    centre, axis = of_run(ds, rate=7e3)
+    phase = 20.0 * np.pi * t
+    circle = 1e-4 * np.column_stack([0.0 * t, np.cos(phase), np.sin(phase)])
+    np.testing.assert_allclose(centre, circle, atol=1e-4 * (np.pi * 10 / 1e5) ** 2)
+    np.testing.assert_allclose(np.linalg.norm(axis, axis=1), 1.0, atol=1e-14)
+    slow = LaserSetup(radius=33e-3, half_width=10e-3, plane=15e-3, circle=31e-3, rate=7e3)
+    np.testing.assert_allclose(invert(measured(ds, slow), slow)[0], centre, atol=1e-10)
+    assert len(measured(ds, SETUP)) == 10_001
+    with pytest.raises(InputError, match="5 Hz.*fewer than two samples"):
+        of_run(ds, rate=5.0)
+
+
+def test_the_example_in_the_readme(tmp_path, monkeypatch):
+    """As printed, on a file of a cage with a known centre."""
+    readme = Path(__file__).parents[2] / "README.md"
+    section = readme.read_text("utf-8").split("### Measured by lasers")[1].split("\n## ")[0]
+    code = re.findall(r"```python\n(.*?)```", section, flags=re.S)[0]
+    shown = readings(np.array([[0.0, 0.1e-3, 0.0]] * 3), np.repeat(tilted(0.003), 3, axis=0), SETUP)
+    lines = [",".join(f"{1e3 * v:.12g}" for v in row) for row in shown]
+    (tmp_path / "rig.csv").write_text("\n".join(["Y,Z,X1,X2,X3", *lines]))
+    monkeypatch.chdir(tmp_path)
+    names: dict[str, np.ndarray] = {}
+    exec(code, names)
+    np.testing.assert_allclose(names["centre"][:, 1], 0.1e-3, atol=1e-12)
+    np.testing.assert_allclose(names["by_paper"][:, 0], 0.1e-3, atol=1e-12)

@@ -30,6 +30,11 @@ def test_roller_slip_zones_apart(known_run, bearing):
     assert not metrics.roller_slip(known_run, bearing, creep_speed=0.01).unresolved
 
 
+def test_elements_without_names_are_not_taken_for_rollers(known_run):
+    with pytest.raises(KeyError, match="needle"):
+        metrics.loaded_zone(known_run.assign_attrs(element="needle"))
+
+
 def test_mixing_frames_would_fake_slip(known_run, bearing):
     """A roller in pure rolling slips by nothing in either frame; mixed, by 8.8 %."""
     ideal = known_run.copy(deep=True)

@@ -75,6 +75,43 @@ def test_the_ring_bears_its_loads(flexible):
     assert radial == pytest.approx(40.0 + weight, rel=0.01)
 
 
+@pytest.mark.parametrize("kind", ["ramp", "table"])
+def test_the_ring_bears_an_axial_load_that_rises(kind):
+    """100 N, from 2 to 6 ms up to 300 N: what balls push back along the axis follows it."""
+    times, values = [0.0, 2e-3, 6e-3, 8e-3], [100.0, 100.0, 300.0, 300.0]
+    changes = {
+        "ramp": {"load.ramp_to": "300 N", "load.ramp_start": "2 ms", "load.ramp_time": "4 ms"},
+        "table": {
+            "load.axial": "0 N", "load.times": [f"{1e3 * t} ms" for t in times],
+            "load.values": [f"{f} N" for f in values],
+        },
+    }  # fmt: skip
+    along = {"load.varies": "axial", "load.radial": "0 N", "solver.duration": "8 ms"}
+    run = simulate(c7010(RIGID, along, changes[kind]))
+    ds = run.dataset.sel(race="inner")
+    angle, across = ds["contact_angle"], ds["contact_traction"].sel(direction="across")
+    borne = (ds["contact_force"] * np.sin(angle) - across * np.cos(angle)).sum("ball").values
+    ring = run.case.bearing.inner_ring_mass * np.gradient(
+        ds["inner_velocity"].sel(axis="x").values, ds["time"].values
+    )
+    load = np.interp(ds["time"].values, times, values)
+    np.testing.assert_allclose((borne + ring)[2:-2], load[2:-2], atol=1.0)
+    assert run.summary["energy_audit"] == "passed"
+
+
+def test_a_ramp_by_acceleration_is_the_ramp_by_time():
+    """1500 rad/s^2 over 300 rpm are 20.94 ms, up as well as down."""
+    for ramp_to in ("4300 rpm", "3700 rpm"):
+        tables = [
+            bearing_of(c7010(RIGID, {"drive.ramp_to": ramp_to, **how})).data.model.bodies.speed
+            for how in (
+                {"drive.acceleration": "1500 rad/s^2"},
+                {"drive.ramp_time": f"{300.0 * np.pi / 30.0 / 1500.0} s"},
+            )
+        ]
+        np.testing.assert_allclose(tables[0], tables[1], rtol=1e-12)
+
+
 def test_races_bear_the_gyroscopic_moment(flexible):
     """A ball that orbits with its axis tilted wants I psi' w_r about the direction of its orbit;
     tractions across both grooves give it, towards the shoulder that is not loaded."""

@@ -78,9 +78,9 @@ def _film(bearing: Bearing, loads: ElementLoads, speed: float, lubricant: Lubric
 
 def load_vector(load: Load) -> np.ndarray:
     """Forces and moments (5,) on the inner ring at the start of a load."""
-    radial = load.values[0] if load.times else load.radial
+    radial, axial = load.at_start
     return np.array([
-        load.axial, radial * np.cos(load.direction), radial * np.sin(load.direction),
+        axial, radial * np.cos(load.direction), radial * np.sin(load.direction),
         load.moment_y, load.moment_z,
     ])  # fmt: skip
 
