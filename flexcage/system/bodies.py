@@ -29,7 +29,9 @@ def _constant(value: float) -> np.ndarray:
     return np.array([[0.0, 1.0], [value, value]])
 
 
-def _table(value: float, spec: Drive | Load, length: float, values: tuple) -> np.ndarray:
+def _table(
+    value: float, spec: Drive | Load, length: float, values: tuple[float, ...]
+) -> np.ndarray:
     """Table (2, n) of time [s] and value: from ``value`` along the ramp, or over the times."""
     if spec.times:
         return np.array([spec.times, values], float)
