@@ -20,7 +20,7 @@ from flexcage.study.verdicts import Verdict
 
 RPM, MM = 30.0 / pi, 1e3
 MEASURED = {"4000": 0.2311, "10000": 0.2314}  # mm, the paper's differences, corrected
-SHOWN = ("0.2 g mm", "1 g mm", "uneven", "flexible, 1 g mm", "land, 1 g mm")  # in the pictures
+SHOWN = ("0.2 g mm", "1 g mm", "uneven", "flexible + 1 g mm", "land + 1 g mm")  # in the pictures
 
 
 def _rows(found: Table) -> list[tuple[str, str, Found]]:
@@ -117,7 +117,7 @@ def _orbits(runs: dict[tuple[str, str], flexcage.Run], path: Path) -> Path:
                         middle, over = x + 0.5 * side, top - 34
                         sheet.text_at(figure, middle, over, f"{int(speed):,} rpm", ha="center")
             sheet.text_at(figure, 24, top + i * (side + gap) + 0.5 * side,
-                          variation.replace(", ", ",\n"))  # fmt: skip
+                          variation.replace(" + ", "\n+ "))  # fmt: skip
         return sheet.save(figure, path)
 
 
@@ -202,7 +202,7 @@ by Student's t over thirds of the record.
   to side, and there alone the difference of radii is the paper's. At 1 g mm the orbit is chaotic at
   4000 rpm and a circle from 10,000 on, as the paper has it, but the difference falls with it by a
   factor of ten, where the paper measured 0.24 mm at both ends.
-- **Uneven balls and pockets** (0.5 and 30 um standard deviation) hold a balanced cage off its play:
+- **Uneven balls and pockets** (0.5 and 30 um standard deviation) hold the cage off its play:
   it whirls with its own speed, on a mean radius that grows with speed, as the third claim says.
 - **Gravity.** Without it the cage has no side to rest on and wanders.
 - **Deflection error.** It is the tilt times the sensors' distance, tenths of a degree times
@@ -212,7 +212,7 @@ by Student's t over thirds of the record.
   the angles, and balls go round faster, the more the faster the ring turns. Where the outer race
   controls the balls it is 1.1 % at 10,000 rpm; the paper's model, 0.8 % slower than equation 18,
   slips.
-- **Flexible cage.** Compare "flexible" with the base, and "flexible, 1 g mm" with "1 g mm": races
+- **Flexible cage.** Compare "flexible" with the base, and "flexible + 1 g mm" with "1 g mm": races
   and cage speed are the same; orbits differ as much as two starts do where weight and unbalance
   compete.
 
