@@ -57,3 +57,56 @@ def test_a_type_without_equations_of_motion_is_not_run(tmp_path):
     done = subprocess.run(command, capture_output=True, text=True, cwd=tmp_path, check=False)
     assert done.returncode == 2 and done.stderr.count("\n") == 1
     assert "the motion of spring bearings is not computed yet; 'flexcage static'" in done.stderr
+
+
+MAGNETO = """
+name = "magneto"
+[bearing]
+type = "magneto"
+designation = "E15"
+bore = "15 mm"
+outside_diameter = "40 mm"
+width = "10 mm"
+pitch_diameter = "27.5 mm"
+ball_diameter = "5.5 mm"
+ball_count = 10
+inner_groove_radius = "2.9 mm"
+outer_groove_radius = "2.95 mm"
+radial_clearance = "15 um"
+[cage]
+model = "rigid"
+bore = "25 mm"
+outside_diameter = "30 mm"
+width = "9 mm"
+pocket_diameter = "5.8 mm"
+[mesh]
+fineness = "coarse"
+[drive]
+speed = "3000 rpm"
+[load]
+axial = "60 N"
+[solver]
+duration = "2 ms"
+"""
+
+
+def test_a_type_whose_elements_are_there_runs(tmp_path):
+    """A class of ten lines in a user's file moves by the balls' kernels, and keeps its own limits."""
+    file, case = FILE.with_name("my_ball_bearing_type.py"), tmp_path / "case.toml"
+    case.write_text(MAGNETO)
+
+    def run(*extra):
+        command = [sys.executable, "-m", "flexcage.cli", "run", str(case), "--use", str(file)]
+        return subprocess.run(
+            [*command, *extra], capture_output=True, text=True, cwd=tmp_path, check=False
+        )
+
+    done = run("-o", "out")
+    assert done.returncode == 0, done.stderr
+    speed = next(line for line in done.stdout.splitlines() if line.startswith("  Cage speed  "))
+    gamma = 5.5 / 27.5  # at a small contact angle
+    assert float(speed.split()[2].replace(",", "")) == pytest.approx(1500 * (1 - gamma), rel=0.02)
+    assert 'type = "magneto"' in (tmp_path / "out" / "case.toml").read_text()
+    assert (tmp_path / "out" / "images" / "bearing.png").is_file()
+    wrong = run("-o", "other", "--set", "load.axial=-60 N")
+    assert wrong.returncode == 2 and "where magneto bearings have no shoulder" in wrong.stderr

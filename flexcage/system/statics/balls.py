@@ -200,7 +200,7 @@ class Balls:
             raise InputError(
                 f"the bearing cannot bear this load: ball {worst} would bear "
                 f"{loads.force[worst, 0]:.4g} N at a contact angle of "
-                f"{degrees(angle[worst]):.3g} deg, where an {self.bearing.kind} has no shoulder; "
+                f"{degrees(angle[worst]):.3g} deg, where {self.bearing.kind}s have no shoulder; "
                 "give it more axial load, towards +x",
                 where="load",
             )

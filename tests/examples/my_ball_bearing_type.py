@@ -1,0 +1,20 @@
+"""A user's own type of ball bearing, in motion: README's "a type whose elements are there already"."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import ClassVar
+
+from flexcage.core.spec import option
+from flexcage.geometry.bearing import BEARING_TYPES, bearing_type
+from flexcage.geometry.deep_groove_ball import DeepGrooveBallBearing
+
+
+@bearing_type
+@dataclass(frozen=True, kw_only=True)
+class MagnetoBearing(DeepGrooveBallBearing):
+    """A separable ball bearing: its outer ring has a shoulder on one side alone."""
+
+    kind: ClassVar[str] = "magneto bearing"
+    one_sided: ClassVar[bool] = True
+    type: str = option("magneto", doc="type of bearing", choices=BEARING_TYPES)
