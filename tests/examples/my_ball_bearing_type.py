@@ -1,4 +1,4 @@
-"""A user's own type of ball bearing, in motion: README's "a type whose elements are there already"."""
+"""A user's own type of ball bearing in motion, whose elements are there already."""
 
 from __future__ import annotations
 

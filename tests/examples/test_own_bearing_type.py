@@ -91,7 +91,7 @@ duration = "2 ms"
 
 
 def test_a_type_whose_elements_are_there_runs(tmp_path):
-    """A class of ten lines in a user's file moves by the balls' kernels, and keeps its own limits."""
+    """Ten lines in a user's file move by the balls' kernels, and keep limits of their own."""
     file, case = FILE.with_name("my_ball_bearing_type.py"), tmp_path / "case.toml"
     case.write_text(MAGNETO)
 
