@@ -40,7 +40,9 @@ Loads = Mapping[str, float]
 READINGS: Mapping[str, tuple[Loads, Mapping[str, Any]]] = {
     BASE: ({"radial": 1.0, "axial": 1.0 / 3.0}, {}),
     "rigid cage": ({"radial": 1.0, "axial": 1.0 / 3.0}, {"cage.model": "rigid"}),
+    "1 g mm": ({"radial": 1.0, "axial": 1.0 / 3.0}, {"cage.unbalance": "1 g*mm"}),
     "axial": ({"radial": 0.0, "axial": 1.0}, {}),
+    "axial + 1 g mm": ({"radial": 0.0, "axial": 1.0}, {"cage.unbalance": "1 g*mm"}),
     "combined": ({"radial": 1.0, "axial": 1.0}, {}),
     "guided by a land": (
         {"radial": 1.0, "axial": 1.0 / 3.0},
@@ -58,6 +60,7 @@ READINGS: Mapping[str, tuple[Loads, Mapping[str, Any]]] = {
         },
     ),
 }
+SPEEDS_ALONE = ("1 g mm", "axial + 1 g mm")
 SHORT = ("guided by a land", "steeper friction")  # speeds, loads and clearances only
 
 
@@ -74,7 +77,7 @@ def points(reading: str, *, quick: bool = False) -> list[dict[str, Any]]:
         return {"drive.speed": f"{rpm} rpm"}
 
     out = [point(f"{n} rpm", **at(n)) for n in SPEEDS]
-    if quick:
+    if quick or reading in SPEEDS_ALONE:
         return out
     out += [point(f"{p} N", p) for p in LOADS]
     out += [point(f"pocket {c} mm", **_pocket(c)) for c in CLEARANCES]

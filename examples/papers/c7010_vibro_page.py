@@ -204,7 +204,8 @@ of the base reading, one of the others.
   clearance).
 - Waves: a fifth of the load at 100 Hz, or a tenth of the speed at 50 Hz. Accelerations: 4000 to
   12,000 rpm in 0.4, 0.2 and 0.1 s. Friction 0.05 on races, 0.1 in pockets, full from 50 mm/s on
-  (10 mm/s in "steeper friction"). All assumptions: the paper has them in figures, or not at all.
+  (10 mm/s in "steeper friction"); unbalance none, or 1 g mm at every speed. All assumptions: the
+  paper has them in figures, or not at all.
 
 ## Verdicts
 
