@@ -20,11 +20,10 @@ from flexcage.core.cache import cached_arrays
 from flexcage.core.errors import EnvironmentLacks, InputError
 from flexcage.core.threads import one_blas_thread
 from flexcage.core.timing import Stages
-from flexcage.geometry.film import Oil
 from flexcage.mesh.cage_mesh import CageMesh
 from flexcage.mesh.quality import report_mesh
 from flexcage.modes.reduction import CageReduction
-from flexcage.results.edges import groove_edges
+from flexcage.results.edges import Edge, groove_edges
 from flexcage.results.figures import pass_peak, summarise
 from flexcage.results.film import film_rows, film_thickness
 from flexcage.results.metrics import BearingNumbers, settled
@@ -114,16 +113,11 @@ class Run:
             contact_angle=b.nominal_contact_angle,
         )
 
-    @property
-    def _oil(self) -> Oil:
-        lubricant = self.case.lubricant
-        return Oil(lubricant.viscosity, lubricant.pressure_coefficient)
-
     @cached_property
     def film_thickness(self) -> xarray.DataArray:
         """Lubricant's film [m] at every element and race, central and least (an xarray.DataArray):
         isothermal, fully flooded, by the recorded forces and speeds."""
-        return film_thickness(self.dataset, self.case.bearing, self._oil)
+        return film_thickness(self.dataset, self.case.bearing, self.case.lubricant.oil)
 
     @cached_property
     def summary(self) -> Summary:
@@ -308,12 +302,16 @@ class Run:
         """Complete a run that has come to its end: summary, stored beside the results."""
         self.solver = recorder
         self.summary = self._summarise()
-        for edge in groove_edges(self.case.bearing, self.dataset):
+        for edge in self._groove_edges:
             if edge.warning:
                 log.warning(edge.warning)
         if self.folder:
             self.summary.write(self.folder)
         return self
+
+    @cached_property
+    def _groove_edges(self) -> list[Edge]:
+        return groove_edges(self.case.bearing, self.dataset)
 
     def _summarise(self) -> Summary:
         case = self.case
@@ -325,10 +323,11 @@ class Run:
             events=self.events,
         )
         part = settled(self.dataset, case.output.settle)
-        if film := film_rows(part, case.bearing, self._oil):
+        if film := film_rows(part, case.bearing, case.lubricant.oil):
             summary = summary.with_section("Lubricant's film", film)
-        if edges := groove_edges(case.bearing, self.dataset):
-            summary = summary.with_section("Grooves", [edge.row for edge in edges])
+        if self._groove_edges:
+            rows = [edge.row for edge in self._groove_edges]
+            summary = summary.with_section("Grooves", rows)
         summary = summary.with_section("Cage", self._cage_rows())
         if self.cage is not None:
             summary = summary.with_section("Equivalent stress", self._stress_rows())

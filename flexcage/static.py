@@ -10,7 +10,7 @@ import numpy as np
 from flexcage.case import Case, StaticCase
 from flexcage.contacts.spec import EhlTraction
 from flexcage.core.errors import EnvironmentLacks, InputError
-from flexcage.geometry.film import Oil, creep_speed, patch, rolling_entrainment
+from flexcage.geometry.film import creep_speed, patch, rolling_entrainment
 from flexcage.system.statics.options import StaticOptions
 from flexcage.system.statics.solution import StaticSolution
 from flexcage.system.statics.solve import solve_bearing
@@ -53,17 +53,17 @@ def ehl_traction(
     pressure; ``shear_modulus`` [Pa] is that of the film with what the surfaces yield, an assumption
     of the order that disc machines show. Raises InputError for a bearing that stands still.
     """
-    speed = case.speed if isinstance(case, StaticCase) else _static_case(case).speed
-    if speed == 0.0:
+    if isinstance(case, Case):
+        case = _static_case(case)
+    if case.speed == 0.0:
         raise InputError(
             "The bearing stands still at the start (drive.speed): without motion there is no film "
             "whose traction could be given.",
             where="drive.speed",
         )
     bearing, solution = case.bearing, solve_static(case)
-    oil = Oil(case.lubricant.viscosity, case.lubricant.pressure_coefficient)
     balls = solution.elements
-    entrained = rolling_entrainment(bearing, balls.angle, balls.orbital_speed, speed)
+    entrained = rolling_entrainment(bearing, balls.angle, balls.orbital_speed, case.speed)
     found = []
     for race in range(2):
         k = int(np.argmax(balls.force[:, race]))
@@ -71,7 +71,7 @@ def ehl_traction(
         found.append(
             creep_speed(
                 limit=limit, pressure=pressure, film=float(solution.film.central[k, race]),
-                half_length=half, speed=abs(float(entrained[k, race])), oil=oil,
+                half_length=half, speed=float(entrained[k, race]), oil=case.lubricant.oil,
                 shear_modulus=shear_modulus,
             )
         )  # fmt: skip

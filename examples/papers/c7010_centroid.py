@@ -18,6 +18,7 @@ from pathlib import Path
 from c7010_centroid_claims import verdicts
 from c7010_centroid_figures import Found, evaluate
 from c7010_centroid_page import draw, page, table
+from c7010_claim import finished
 
 import flexcage
 from flexcage.core.progress import Progress
@@ -42,14 +43,9 @@ def load(*, quick: bool = False) -> Study:
 def collect(results: flexcage.StudyResults) -> dict[str, dict[str, list[Found]]]:
     """Figures of every finished case, by variation and speed."""
     found: dict[str, dict[str, list[Found]]] = {}
-    for row in results.rows:
-        labels = row.planned.point.labels
-        if row.state == "done":
-            run = results.run(row.planned.number, row.planned.repetition)
-            at = found.setdefault(labels["variation"], {})
-            at.setdefault(labels["speed"], []).append(evaluate(run))
-        elif row.state == "failed":
-            print(f"{row.planned.point} failed: {row.reason}")
+    for labels, run in finished(results):
+        at = found.setdefault(labels["variation"], {})
+        at.setdefault(labels["speed"], []).append(evaluate(run))
     return found
 
 

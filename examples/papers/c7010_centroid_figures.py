@@ -5,11 +5,11 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 import numpy as np
-from c7010_claim import by_parts
+from c7010_claim import by_parts, estimate
 
 import flexcage
 from flexcage.results import instrument, metrics
-from flexcage.results.statistics import Record, roller_passes
+from flexcage.results.statistics import roller_passes
 from flexcage.study.verdicts import Estimate
 
 PLANE = 15e-3  # assumption: axial distance of the radial sensors, which the paper does not give
@@ -57,15 +57,15 @@ def evaluate(run: flexcage.Run) -> Found:
     rate, n = metrics.sampling_rate(ds), len(radius)
     mean = windows.mean(omega)
     return Found(
-        speed=Estimate(mean.value, mean.margin),
+        speed=estimate(mean),
         beyond_theory=Estimate(mean.value / speed.epicyclic - 1.0, mean.margin / speed.epicyclic),
-        mean=Estimate(*_value(windows.mean(radius))),
+        mean=estimate(windows.mean(radius)),
         difference=by_parts(lambda k: float(np.ptp(radius[k])), n),
         ratio=by_parts(lambda k: float(np.ptp(radius[k]) / radius[k].mean()), n),
         turns=metrics.whirl(ds, about="axis").speed_ratio,
         axial=by_parts(lambda k: float(np.ptp(centre[k, 0])), n),
-        tilt=Estimate(*_value(windows.mean(metrics.tilt(ds).sel(component="total").values))),
-        deviation=Estimate(*_value(windows.deviation(metrics.centre_speed(ds, low_pass=2e3)))),
+        tilt=estimate(windows.mean(metrics.tilt(ds).sel(component="total").values)),
+        deviation=estimate(windows.deviation(metrics.centre_speed(ds, low_pass=2e3))),
         raw=by_parts(lambda k: difference(shown[k, :2]), n),
         solved=by_parts(lambda k: difference(solved[k]), n),
         error=by_parts(lambda k: difference(shown[k, :2]) / difference(solved[k]) - 1.0, n),
@@ -79,10 +79,6 @@ def evaluate(run: flexcage.Run) -> Found:
         ),
         lost=float(np.isnan(shown).any(axis=1).mean()),
     )
-
-
-def _value(record: Record) -> tuple[float, float]:
-    return record.value, record.margin
 
 
 def _error(centre: np.ndarray, axis: np.ndarray, setup: instrument.LaserSetup) -> float:

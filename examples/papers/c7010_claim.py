@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
 from math import isfinite, isnan
@@ -11,6 +11,8 @@ from typing import Any
 import numpy as np
 from scipy.special import stdtrit
 
+from flexcage import Run, StudyResults
+from flexcage.results.statistics import Record
 from flexcage.study.verdicts import (
     UNDECIDED,
     Estimate,
@@ -51,6 +53,21 @@ def percent(figure: Estimate) -> str:
     """The same of a ratio, in percent."""
     text = short(figure, 100.0)
     return text if text == "-" else f"{text} %"
+
+
+def estimate(record: Record) -> Estimate:
+    """A statistic by windows with its margin."""
+    return Estimate(record.value, record.margin)
+
+
+def finished(results: StudyResults) -> Iterator[tuple[Mapping[str, str], Run]]:
+    """Labels and run of every finished case of a study; says why others failed."""
+    for row in results.rows:
+        if row.state == "done":
+            run = results.run(row.planned.number, row.planned.repetition)
+            yield row.planned.point.labels, run
+        elif row.state == "failed":
+            print(f"{results.study.name}: {row.planned.point} failed: {row.reason}")
 
 
 class View:

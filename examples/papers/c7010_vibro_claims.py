@@ -86,6 +86,29 @@ SHOWN: Shown = {
 }
 
 
+Parts = Mapping[str, Callable[[View], str]]
+
+
+def _with_clearance(labels: Sequence[str]) -> Parts:
+    """What the paper says of growing clearance, in either reading."""
+    return {
+        "steady at 0.02": regular(labels[0]),
+        "chaotic at 0.14": chaotic(labels[-1]),
+        "ratio rises": rising("deviation", labels),
+        "force falls": rising("peak", labels, up=False),
+        "angle falls": rising("inner_angle", labels, up=False),
+    }
+
+
+def _with_waves(labels: Sequence[str]) -> Parts:
+    """What the paper says of three waves, the best first."""
+    return {
+        "peak force": rising("peak", labels),
+        "axial displacement": rising("axial_range", labels),
+        "slip ripple": rising("ball_ripple", labels),
+    }
+
+
 CLAIMS = (
     Claim(
         "004-1",
@@ -131,26 +154,14 @@ CLAIMS = (
         "004-5 pockets",
         "With clearance (0.02, 0.08, 0.14 mm, read as the pockets') steady whirl goes, the "
         "deviation ratio rises, contact force and angle fall",
-        {
-            "steady at 0.02": regular(POCKETS[0]),
-            "chaotic at 0.14": chaotic(POCKETS[-1]),
-            "ratio rises": rising("deviation", POCKETS),
-            "force falls": rising("peak", POCKETS, up=False),
-            "angle falls": rising("inner_angle", POCKETS, up=False),
-        },
+        _with_clearance(POCKETS),
         POCKETS,
         ("deviation", "line", "peak", "inner_angle"),
     ),
     Claim(
         "004-5 radial",
         "The same, read as the radial internal clearance",
-        {
-            "steady at 0.02": regular(RADIAL[0]),
-            "chaotic at 0.14": chaotic(RADIAL[-1]),
-            "ratio rises": rising("deviation", RADIAL),
-            "force falls": rising("peak", RADIAL, up=False),
-            "angle falls": rising("inner_angle", RADIAL, up=False),
-        },
+        _with_clearance(RADIAL),
         RADIAL,
         ("deviation", "line", "peak", "inner_angle"),
     ),
@@ -158,22 +169,14 @@ CLAIMS = (
         "004-6 load",
         "Of three waves of the load the rectangle is worst and the sine best: peak force, axial "
         "displacement, slip ripple",
-        {
-            "peak force": rising("peak", LOAD_WAVES),
-            "axial displacement": rising("axial_range", LOAD_WAVES),
-            "slip ripple": rising("ball_ripple", LOAD_WAVES),
-        },
+        _with_waves(LOAD_WAVES),
         LOAD_WAVES,
         ("peak", "axial_range", "ball_ripple"),
     ),
     Claim(
         "004-6 speed",
         "The same of three waves of the speed",
-        {
-            "peak force": rising("peak", SPEED_WAVES),
-            "axial displacement": rising("axial_range", SPEED_WAVES),
-            "slip ripple": rising("ball_ripple", SPEED_WAVES),
-        },
+        _with_waves(SPEED_WAVES),
         SPEED_WAVES,
         ("peak", "axial_range", "ball_ripple"),
     ),

@@ -6,12 +6,12 @@ from dataclasses import dataclass
 from math import nan
 
 import numpy as np
-from c7010_claim import by_parts
+from c7010_claim import by_parts, estimate
 
 import flexcage
 from flexcage.results import metrics
 from flexcage.results.reductions import main_line, mean_frequency
-from flexcage.results.statistics import Record, Windows, roller_passes
+from flexcage.results.statistics import Windows, roller_passes
 from flexcage.study.verdicts import Estimate
 
 LOW_PASS = 2e3  # Hz, of the cage's speed beside the raw 20 kHz
@@ -65,27 +65,27 @@ def evaluate(run: flexcage.Run) -> Figures:
     key = "stress_root_pass_peak"
     stressed = run.summary.row(key) if key in run.summary else None
     return Figures(
-        peak=_of(windows.peak(inner.max(axis=1))),
+        peak=estimate(windows.peak(inner.max(axis=1))),
         empty_loaded=_share(windows, inner <= 0.0, towards),
         empty_opposite=_share(windows, inner <= 0.0, ~towards),
-        deviation=_of(windows.deviation(metrics.centre_speed(ds, low_pass=LOW_PASS))),
-        deviation_raw=_of(windows.deviation(metrics.centre_speed(ds))),
-        radius=_of(windows.mean(radius)),
-        displacement=_of(windows.mean(metrics.whirl_radius(ds, about="axis"))),
+        deviation=estimate(windows.deviation(metrics.centre_speed(ds, low_pass=LOW_PASS))),
+        deviation_raw=estimate(windows.deviation(metrics.centre_speed(ds))),
+        radius=estimate(windows.mean(radius)),
+        displacement=estimate(windows.mean(metrics.whirl_radius(ds, about="axis"))),
         line=by_parts(lambda k: _line(orbit[k], step), len(time)),
         circle=by_parts(lambda k: float(np.ptp(radius[k]) / radius[k].mean()), len(time)),
         inner_angle=_mean(windows, angle[..., 0], loaded & (inner > 0.0)),
         outer_angle=_mean(windows, angle[..., 1], loaded & (force[..., 1] > 0.0)),
-        axial=_of(windows.mean(axial)),
+        axial=estimate(windows.mean(axial)),
         axial_range=by_parts(lambda k: float(np.ptp(axial[k])), len(time)),
         axial_rate=by_parts(lambda k: float(np.ptp(axial[k]) / np.ptp(time[k])), len(time)),
         ball_ripple=_spread(windows, slip, loaded),
-        cage_slip=Estimate(speed.slip_ratio, _of(windows.mean(omega)).margin / speed.epicyclic),
+        cage_slip=Estimate(speed.slip_ratio, windows.mean(omega).margin / speed.epicyclic),
         frequency=by_parts(
             lambda k: float(np.mean([mean_frequency(inner[k, b], step) for b in (0, 6, 12)])),
             len(time),
         ),
-        pocket_peak=_of(windows.peak(pockets.max(axis=(1, 2)))),
+        pocket_peak=estimate(windows.peak(pockets.max(axis=(1, 2)))),
         stress=Estimate(float(stressed.value), stressed.margin or nan) if stressed else None,
     )  # fmt: skip
 
@@ -116,18 +116,14 @@ def _line(orbit: np.ndarray, step: float) -> float:
     return float(np.average(shares, weights=orbit.var(axis=0)))
 
 
-def _of(record: Record) -> Estimate:
-    return Estimate(record.value, record.margin)
-
-
 def _share(windows: Windows, what: np.ndarray, where: np.ndarray) -> Estimate:
     """Share of the samples ``where`` (time, ball) in which ``what`` is true."""
-    return _of(windows.ratio((what & where).sum(axis=1), where.sum(axis=1)))
+    return estimate(windows.ratio((what & where).sum(axis=1), where.sum(axis=1)))
 
 
 def _mean(windows: Windows, values: np.ndarray, where: np.ndarray) -> Estimate:
     """Mean of ``values`` (time, ball) over the samples ``where``."""
-    return _of(windows.ratio(np.where(where, values, 0.0).sum(axis=1), where.sum(axis=1)))
+    return estimate(windows.ratio(np.where(where, values, 0.0).sum(axis=1), where.sum(axis=1)))
 
 
 def _spread(windows: Windows, values: np.ndarray, where: np.ndarray) -> Estimate:

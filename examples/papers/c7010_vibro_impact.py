@@ -15,6 +15,7 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
+from c7010_claim import finished
 from c7010_vibro_claims import Found, verdicts
 from c7010_vibro_figures import evaluate
 from c7010_vibro_page import draw, page, table
@@ -144,14 +145,9 @@ def compute(reading: str, out: Path, *, workers: int, quick: bool = False) -> Fo
 
 def collect(out: Path) -> Found:
     """The same of what a folder holds."""
-    results = flexcage.StudyResults(out)
     found: dict[str, list[Any]] = {}
-    for row in results.rows:
-        if row.state == "done":
-            run = results.run(row.planned.number, row.planned.repetition)
-            found.setdefault(row.planned.point.labels["case"], []).append(evaluate(run))
-        elif row.state == "failed":
-            print(f"{results.study.name}: {row.planned.point} failed: {row.reason}")
+    for labels, run in finished(flexcage.StudyResults(out)):
+        found.setdefault(labels["case"], []).append(evaluate(run))
     return found
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from flexcage.core.spec import option, quantity
+from flexcage.geometry.film import Oil
 
 # Names of laws, and the spec that a name brings along, None for the one below; ``contacts.laws``
 # registers further ones.
@@ -141,3 +142,8 @@ class Lubricant:
         "blended", doc="rolling resistance", choices=("none", "goksem_hargreaves", "blended")
     )
     drag_coefficient: float = option(0.4, doc="C_D of a shadowed rolling element", minimum=0.0)
+
+    @property
+    def oil(self) -> Oil:
+        """What of it makes films."""
+        return Oil(self.viscosity, self.pressure_coefficient)

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
-from math import acos, cos, inf, pi, sin
+from math import acos, cos, degrees, inf, pi, sin
 from typing import ClassVar
 
 from flexcage.core.spec import option, quantity
@@ -188,3 +188,15 @@ def race_contact(bearing: BallBearing, conformity: float, side: float) -> PointC
 def clearance_at(angle: float, distance: float) -> float:
     """Radial clearance [m] that goes with a free contact angle [rad]: 2 A (1 - cos(alpha))."""
     return 4.0 * distance * sin(0.5 * angle) ** 2
+
+
+def over_edge(
+    element: str, race: str, beyond: float, *, force: float, angle: float, when: str = ""
+) -> str:
+    """What to say of an ellipse that runs ``beyond`` [rad] over a groove's edge, under ``force``
+    [N] at a contact ``angle`` [rad]."""
+    return (
+        f"the contact ellipse of {element} runs over the {race} groove's edge by "
+        f"{degrees(beyond):.2g} deg{when}, under {force:.4g} N at a contact angle of "
+        f"{degrees(angle):.4g} deg; its edge pressure is not computed."
+    )

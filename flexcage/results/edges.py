@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from flexcage.geometry.ball_bearing import BallBearing
+from flexcage.geometry.ball_bearing import BallBearing, over_edge
 from flexcage.geometry.bearing import Bearing
 from flexcage.results.summary import Row
 
@@ -35,12 +35,10 @@ class Edge:
         """One sentence if the ellipse runs over the edge, otherwise nothing."""
         if not self.beyond > 0.0:
             return ""
-        return (
-            f"the contact ellipse of ball {self.element} runs over the {self.race} groove's edge "
-            f"by {degrees(self.beyond):.2g} deg at t = {self.time * 1e3:.4g} ms, under "
-            f"{self.force:.4g} N at a contact angle of {degrees(self.angle):.4g} deg; its edge "
-            "pressure is not computed."
-        )
+        return over_edge(
+            f"ball {self.element}", self.race, self.beyond, force=self.force, angle=self.angle,
+            when=f" at t = {self.time * 1e3:.4g} ms",
+        )  # fmt: skip
 
     @property
     def row(self) -> Row:

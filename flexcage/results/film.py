@@ -50,8 +50,10 @@ def entrainment_speed(ds: xarray.Dataset, bearing: Bearing) -> np.ndarray:
 
     It goes round with the element: the rings' surfaces pass with their speed less its orbit's.
     """
-    element = metrics.element(ds)
-    m = _motion(ds, element)
+    return _entrained(_motion(ds, metrics.element(ds)), ds, bearing)
+
+
+def _entrained(m: _Motion, ds: xarray.Dataset, bearing: Bearing) -> np.ndarray:
     size = 0.5 * bearing.element_diameter
     ring = np.stack([ds["inner_speed"].values, np.zeros(ds.sizes["time"])], axis=1)[:, None, :]
     side = np.array([-1.0, 1.0])
@@ -70,7 +72,8 @@ def film_thickness(ds: xarray.Dataset, bearing: Bearing, oil: Oil) -> xarray.Dat
     import xarray as xr
 
     element = metrics.element(ds)
-    film = race_film(bearing, _motion(ds, element).force, entrainment_speed(ds, bearing), oil)
+    motion = _motion(ds, element)
+    film = race_film(bearing, motion.force, _entrained(motion, ds, bearing), oil)
     return xr.DataArray(
         np.stack([film.central, film.least], axis=-1),
         dims=("time", element, "race", "film"),

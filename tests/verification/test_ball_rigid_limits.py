@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from verification_bearing import log, relative_error
+from verification_bearing import log, relative_error, with_modes
 
 from flexcage.bodies.cage import flexible_from_basis, rigid_from_tets
 from flexcage.modes.reduction import rigid_interface_of
@@ -105,7 +105,7 @@ def test_frozen_modes_leave_the_rigid_equations(frozen_and_rigid):
             values[...] = rng.standard_normal(values.shape)
         small.u(y)["omega"][0] = 180.0
         expected = small.u(rigid.residual(0.0, y, yd))
-        there = [_with_modes(small, large, v) for v in (y, yd)]
+        there = [with_modes(small, large, v) for v in (y, yd)]
         ours = large.u(frozen.residual(0.0, *there))
         rigid.residual(0.0, y, yd, 2)
         assert np.count_nonzero(rigid.data.work.report.pocket_normal) >= 4
@@ -113,14 +113,3 @@ def test_frozen_modes_leave_the_rigid_equations(frozen_and_rigid):
             if name != "modes":
                 scale = np.abs(values).max() + 10.0 * rigid.data.model.cage.mass
                 np.testing.assert_allclose(ours[name], values, atol=1e-9 * scale, err_msg=name)
-
-
-def _with_modes(small: Layout, large: Layout, y: np.ndarray) -> np.ndarray:
-    """A rigid state in the layout of a flexible one, modes at rest."""
-    out = np.zeros(large.size)
-    for view in ("q", "u"):
-        for name, values in getattr(large, view)(out).items():
-            if name != "modes":
-                values[:] = getattr(small, view)(y)[name]
-    out[large.n_q + large.n_u :] = y[small.n_q + small.n_u :]
-    return out

@@ -12,6 +12,7 @@ from verification_bearing import (
     march,
     n1013,
     relative_error,
+    with_modes,
 )  # fmt: skip
 
 from flexcage.bodies.cage import flexible_from_basis, rigid_from_tets
@@ -90,17 +91,6 @@ def frozen_and_rigid():
         frozen.data.memory.pocket,
     )
     return case, frozen, rigid
-
-
-def with_modes(small: Layout, large: Layout, y: np.ndarray) -> np.ndarray:
-    """A rigid state in the layout of a flexible one, modes at rest."""
-    out = np.zeros(large.size)
-    for view in ("q", "u"):
-        for name, values in getattr(large, view)(out).items():
-            if name != "modes":
-                values[:] = getattr(small, view)(y)[name]
-    out[large.n_q + large.n_u :] = y[small.n_q + small.n_u :]
-    return out
 
 
 def test_frozen_modes_leave_the_rigid_equations(frozen_and_rigid):

@@ -7,6 +7,7 @@ import logging
 import numpy as np
 from scipy.interpolate import CubicHermiteSpline
 
+from flexcage.system.layout import Layout
 from flexcage.verification.n1013 import (
     FRICTIONLESS,
     NO_OIL,
@@ -30,6 +31,7 @@ __all__ = [
     "relative_error",
     "state_at_rest",
     "station_reading",
+    "with_modes",
 ]
 
 log = logging.getLogger("verification")
@@ -64,3 +66,14 @@ def pushed(displacement: str, *, pocket: int = 5, side: str = "+x") -> list[dict
 def relative_error(ours: np.ndarray, theirs: np.ndarray) -> float:
     """Root of summed squared differences over that of the reference."""
     return float(np.sqrt(np.sum((ours - theirs) ** 2) / np.sum(theirs**2)))
+
+
+def with_modes(small: Layout, large: Layout, y: np.ndarray) -> np.ndarray:
+    """A rigid state in the layout of a flexible one, modes at rest."""
+    out = np.zeros(large.size)
+    for view in ("q", "u"):
+        for name, values in getattr(large, view)(out).items():
+            if name != "modes":
+                values[:] = getattr(small, view)(y)[name]
+    out[large.n_q + large.n_u :] = y[small.n_q + small.n_u :]
+    return out

@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-from math import degrees
-
 import numpy as np
 
 from flexcage.contacts.spec import Contacts, Lubricant
 from flexcage.core.errors import InputError
 from flexcage.core.threads import one_blas_thread
 from flexcage.core.units import describe
+from flexcage.geometry.ball_bearing import over_edge
 from flexcage.geometry.bearing import Bearing
 from flexcage.geometry.catalogue import (
     dynamic_rating,
@@ -17,7 +16,7 @@ from flexcage.geometry.catalogue import (
     rating_names,
     static_rating,
 )
-from flexcage.geometry.film import Film, Oil, race_film, rolling_entrainment
+from flexcage.geometry.film import Film, race_film, rolling_entrainment
 from flexcage.system.spec import Load
 from flexcage.system.statics import balls, rollers
 from flexcage.system.statics.elements import ElementLoads, Elements, elements_of
@@ -72,8 +71,7 @@ def solve_bearing(
 def _film(bearing: Bearing, loads: ElementLoads, speed: float, lubricant: Lubricant) -> Film:
     """Film of elements that roll without slip."""
     entrained = rolling_entrainment(bearing, loads.angle, loads.orbital_speed, speed)
-    oil = Oil(lubricant.viscosity, lubricant.pressure_coefficient)
-    return race_film(bearing, loads.force, entrained, oil)
+    return race_film(bearing, loads.force, entrained, lubricant.oil)
 
 
 def load_vector(load: Load) -> np.ndarray:
@@ -143,10 +141,13 @@ def _warnings(elements: Elements, loads: ElementLoads) -> list[str]:
         beyond = loads.edge[worst, side]
         if beyond > 0.0:
             found.append(
-                f"the contact ellipse of element {worst} runs over the {name} groove's edge by "
-                f"{degrees(beyond):.2g} deg, under {loads.force[worst, side]:.4g} N at a contact "
-                f"angle of {degrees(loads.angle[worst, side]):.4g} deg; its edge pressure is not "
-                "computed."
+                over_edge(
+                    f"element {worst}",
+                    name,
+                    beyond,
+                    force=loads.force[worst, side],
+                    angle=loads.angle[worst, side],
+                )
             )
     peak = float(loads.pressure.max())
     if peak > elements.pressure_limit:
