@@ -34,6 +34,7 @@ _LAZY: dict[str, str] = {
     "WebCrack": "flexcage.geometry.ball_cage_defects",
     "RollerBearing": "flexcage.geometry.cylindrical_roller",
     "RollerProfile": "flexcage.geometry.cylindrical_roller",
+    "Spall": "flexcage.geometry.cylindrical_roller",
     "WindowCage": "flexcage.geometry.cages",
     "CrossbeamDefect": "flexcage.geometry.cages",
     "SideBeamDefect": "flexcage.geometry.cages",

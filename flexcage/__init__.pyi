@@ -29,6 +29,7 @@ from flexcage.geometry.cages import SideBeamDefect as SideBeamDefect
 from flexcage.geometry.cages import WindowCage as WindowCage
 from flexcage.geometry.cylindrical_roller import RollerBearing as RollerBearing
 from flexcage.geometry.cylindrical_roller import RollerProfile as RollerProfile
+from flexcage.geometry.cylindrical_roller import Spall as Spall
 from flexcage.geometry.deep_groove_ball import DeepGrooveBallBearing as DeepGrooveBallBearing
 from flexcage.geometry.kinematics import epicyclic as epicyclic
 from flexcage.geometry.materials import MATERIALS as MATERIALS

@@ -19,7 +19,7 @@ from flexcage.geometry.ball_cages import BallCage
 from flexcage.geometry.bearings import Bearing
 from flexcage.geometry.cage import Cage
 from flexcage.geometry.cages import CrossbeamDefect, SideBeamDefect, WindowCage
-from flexcage.geometry.cylindrical_roller import RollerBearing
+from flexcage.geometry.cylindrical_roller import RollerBearing, Spall
 from flexcage.geometry.presets import load_preset
 from flexcage.system.spec import Load, Wave
 
@@ -64,6 +64,16 @@ def _(b: RollerBearing) -> str:
         f"{_named(b)} of {_sizes(b)} with {b.roller_count} "
         f"rollers of {describe(b.roller_diameter, 'mm')}, radial clearance "
         f"{describe(b.radial_clearance, 'um')}."
+        f"{_spall('inner', b.inner_spall)}{_spall('outer', b.outer_spall)}"
+    )
+
+
+def _spall(race: str, spall: Spall) -> str:
+    if not spall.length:
+        return ""
+    return (
+        f" The {race} race has a spall of {describe(spall.length, 'mm')}, "
+        f"{describe(spall.depth, 'um')} deep, at {describe(spall.azimuth, 'deg')}."
     )
 
 

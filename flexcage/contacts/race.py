@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from math import cos, sin, sqrt
+from math import copysign, cos, pi, sin, sqrt
 from typing import NamedTuple
 
 import numpy as np
@@ -37,7 +37,10 @@ class RaceSide(NamedTuple):
     friction: np.ndarray  # (5,)
     rolling: np.ndarray  # (2,) rolling resistance
     hydro: float  # 2 R/Rw: pressure share of the rolling resistance
-    wave: np.ndarray  # (2,) waviness amplitude and order
+    wave: np.ndarray  # (2,) waviness: amplitude and order
+    spall: np.ndarray  # (4,) half angle, azimuth, depth, and drop over the square of an angle
+    spalled: np.ndarray  # (ns,) share of each slice that lies over the spall
+    uneven: int  # 1 if there is a wave or a spall (records hold no booleans)
 
 
 @part
@@ -45,7 +48,7 @@ def race_contact(pose, side, Rw, P, b, Vr, wr, theta, p, law, friction, sl, pair
     """Wrench on the roller from one raceway.
 
     P: roller centre from the ring's centre; b: ring axis; Vr, wr: the ring's velocity and angular
-    velocity; all in F. ``theta``: the ring's spin angle (waviness). ``mode``: 0 wrench, 1 with
+    velocity; all in F. ``theta``: the ring's spin angle (waves, spall). ``mode``: 0 wrench, 1 with
     tangent, from 2 with ``sums``: normal, traction, moments about e_r and e_psi, sliding speed at
     the middle, elastic energy, power of damping, friction and rolling resistance.
     """
@@ -67,15 +70,15 @@ def race_contact(pose, side, Rw, P, b, Vr, wr, theta, p, law, friction, sl, pair
     spin = minus(xyz(pose.w), ring_spin)
     v0 = minus(minus(xyz(pose.V), xyz(Vr)), cross(ring_spin, centre))
     _meet(side, Rw, ring_axis, x0, x1, v0, cross(spin, a), spin, sl)
-    if side.wave[0] > 0.0:
-        _ride_waves(pose, side, sqrt(dot(x0, x0)), ring_spin[0], theta, sl)
+    if side.uneven:
+        _ride(pose, side, sqrt(dot(x0, x0)), ring_spin[0], theta, sl)
     if largest(n, sl.d) <= 0.0:
         return False
     normal_forces(law, n, sl, p)
     friction_factors(friction, n, sl, side.friction)
     load = _push(side, Rw, a, ring_axis, sl, pair.wrench)
-    if side.wave[0] > 0.0:
-        _lean_on_waves(pose, side, centre, ring_axis, theta, sl, pair, mode, sums)
+    if side.uneven:
+        _lean(pose, side, centre, ring_axis, theta, sl, pair, mode, sums)
     if mode == 1:
         _tangent(pose, side, Rw, centre, ring_axis, theta, sl, pair)
     elif mode >= 2:
@@ -154,34 +157,55 @@ def theta_at(pose, y, z):
 
 
 @part
-def _ride_waves(pose, side, distance, ring_spin, theta, sl):
-    """What the race's waviness adds to penetrations and their rates; ``distance`` of the roller's
-    axis from the ring's."""
+def _unevenness(side, phi, k):
+    """How much larger the race's radius is at azimuth ``phi`` [rad] on the ring, under slice k,
+    and its slope over phi [m, m/rad].
+
+    Over a spall a roller's axis goes down by (l - |x|)^2/(2 R) at a distance x from its middle,
+    as it turns about the edge at l, until it rolls on the bottom.
+    """
     amplitude, order = side.wave[0], side.wave[1]
+    rise, slope = amplitude * cos(order * phi), -amplitude * order * sin(order * phi)
+    half, middle, depth, bend = side.spall
+    off = (phi - middle + pi) % (2.0 * pi) - pi
+    beyond = half - abs(off)
+    if beyond > 0.0:
+        outwards = -side.sign * side.spalled[k]
+        if bend * beyond * beyond < depth:
+            rise += outwards * bend * beyond * beyond
+            slope -= outwards * 2.0 * bend * copysign(beyond, off)
+        else:
+            rise += outwards * depth
+    return rise, slope
+
+
+@part
+def _ride(pose, side, distance, ring_spin, theta, sl):
+    """What an uneven race adds to penetrations and their rates; ``distance`` of the roller's axis
+    from the ring's."""
+    turn = pose.V[2] / distance - ring_spin
     for k in range(side.s.shape[0]):
-        y, z = side.sign * sl.n2[k], side.sign * sl.n3[k]
-        phase = order * (theta_at(pose, y, z) - theta)
-        turn = pose.V[2] / distance - ring_spin
-        sl.d[k] += side.sign * amplitude * cos(phase)
-        sl.v[k] -= side.sign * amplitude * order * sin(phase) * turn
+        phi = theta_at(pose, side.sign * sl.n2[k], side.sign * sl.n3[k]) - theta
+        rise, slope = _unevenness(side, phi, k)
+        sl.d[k] += side.sign * rise
+        sl.v[k] += side.sign * slope * turn
 
 
 @part
-def _wave_slope(pose, side, P, n, theta):
-    """Slope of the penetration along the race, dd/(d dtheta), on a wavy race."""
-    phase = side.wave[1] * (theta_at(pose, side.sign * n[1], side.sign * n[2]) - theta)
-    distance = sqrt(P[1] * P[1] + P[2] * P[2])
-    return -side.sign * side.wave[0] * side.wave[1] * sin(phase) / distance
+def _incline(pose, side, P, n, theta, k):
+    """Slope of the penetration along the race, dd/(d dtheta), on an uneven race."""
+    phi = theta_at(pose, side.sign * n[1], side.sign * n[2]) - theta
+    return side.sign * _unevenness(side, phi, k)[1] / sqrt(P[1] * P[1] + P[2] * P[2])
 
 
 @part
-def _lean_on_waves(pose, side, P, b, theta, sl, pair, mode, sums):
-    """What the waves' slope adds: their energy depends on the azimuth of the roller's axis, so
+def _lean(pose, side, P, b, theta, sl, pair, mode, sums):
+    """What an uneven race's slope adds: its energy depends on the azimuth of the roller's axis, so
     that share of the force acts there."""
     a = row(pose.axis, 0)
     for k in range(side.s.shape[0]):
         n = (sl.n1[k], sl.n2[k], sl.n3[k])
-        f = times(-sl.N[k] * _wave_slope(pose, side, P, n, theta) * side.sign, cross(b, n))
+        f = times(-sl.N[k] * _incline(pose, side, P, n, theta, k) * side.sign, cross(b, n))
         on_axis = times(side.s[k], a)
         add_wrench(pair.wrench, f, on_axis)
         if mode >= 2:
@@ -202,7 +226,7 @@ def _tangent(pose, side, Rw, P, b, theta, sl, pair):
         t = times(side.sign, cross(b, n))
         on_axis = times(side.s[k], a)
         r = combine(on_axis, side.drop[k] - Rw, n)
-        slope = _wave_slope(pose, side, P, n, theta) if side.wave[0] > 0.0 else 0.0
+        slope = _incline(pose, side, P, n, theta, k) if side.uneven else 0.0
         g1, g2 = sl.g[k] * sl.t1[k], sl.g[k] * sl.t2[k]
         add_generator(t, on_axis, Wt)
         add_generator(n, r, Wn)

@@ -112,6 +112,33 @@ def find_in_bearing(b: RollerBearing) -> Iterator[Finding]:
             "clearance (preload) is not modelled; give 0 um or more.",
         )
     yield from _find_in_lengths(b)
+    yield from _find_in_spalls(b)
+
+
+def _find_in_spalls(b: RollerBearing) -> Iterator[Finding]:
+    for name, radius in (("inner", b.inner_race_radius), ("outer", b.outer_race_radius)):
+        spall, where = getattr(b, f"{name}_spall"), f"bearing.{name}_spall"
+        pitch = 2.0 * pi * radius / b.roller_count
+        if spall.length >= pitch:
+            yield (
+                f"{where}.length",
+                f"{where}.length is {_mm(spall.length)}, but must be less than the distance of two "
+                f"rollers there, {_mm(pitch)}: a longer one is no spall but another race.",
+            )
+        if spall.length and spall.depth > 0.1 * b.roller_diameter:
+            yield (
+                f"{where}.depth",
+                f"{where}.depth is {_mm(spall.depth)}; give a tenth of the roller's diameter, "
+                f"{_mm(0.1 * b.roller_diameter)}, or less.",
+            )
+        reach = 0.5 * b.effective_length
+        if spall.length and spall.width is not None:
+            if abs(spall.offset) - 0.5 * spall.width >= reach:
+                yield (
+                    f"{where}.offset",
+                    f"{where}.offset is {_mm(spall.offset)}, where no roller runs: rollers touch "
+                    f"the race to {_mm(reach)} from its middle.",
+                )
 
 
 def _find_in_lengths(b: RollerBearing) -> Iterator[Finding]:

@@ -46,6 +46,32 @@ class RollerProfile:
         return -0.0005 * diameter * np.log(1.0 - over**2)
 
 
+@dataclass(frozen=True, kw_only=True)
+class Spall:
+    """A spall of a race: a pit with sharp edges, of one depth; none while its length is zero.
+
+    A roller's axis goes down by (l - x)^2/(2 R) at a distance x from the middle of a spall of half
+    length l, as it turns about the edge that it still touches (R: effective radius of roller and
+    race), and never deeper than the pit. Its edges do not yield more than the race does.
+    """
+
+    length: float = quantity("mm", 0.0, doc="length along the race; 0: no spall", minimum=0.0)
+    depth: float = quantity("um", 100.0e-6, doc="depth", above=0.0)
+    azimuth: float = quantity("deg", 0.0, doc="azimuth of its middle on its ring, from y towards z")
+    width: float | None = quantity("mm", None, doc="axial width (default: all)", above=0.0)
+    offset: float = quantity("mm", 0.0, doc="axial distance of its middle from the race's")
+
+    def covered(self, centres: np.ndarray, slice_width: float) -> np.ndarray:
+        """Share (n,) of slices of a roller that stands in the middle of the race, by the axial
+        places of their centres (n,) [m]."""
+        if self.width is None:
+            return np.ones_like(centres)
+        low, high = self.offset - 0.5 * self.width, self.offset + 0.5 * self.width
+        half = 0.5 * slice_width
+        over = np.minimum(centres + half, high) - np.maximum(centres - half, low)
+        return np.clip(over / slice_width, 0.0, 1.0)
+
+
 @bearing_type
 @dataclass(frozen=True, kw_only=True)
 class RollerBearing(Bearing):
@@ -82,6 +108,8 @@ class RollerBearing(Bearing):
     inner_waviness_order: int = option(2, doc="waves per turn, inner race", minimum=1)
     outer_waviness: float = quantity("um", 0.0, doc="amplitude of outer race waviness", minimum=0.0)
     outer_waviness_order: int = option(2, doc="waves per turn, outer race", minimum=1)
+    inner_spall: Spall = option(Spall(), doc="a pit of the inner race, which turns with its ring")
+    outer_spall: Spall = option(Spall(), doc="a pit of the outer race")
 
     @property
     def pitch_diameter(self) -> float:

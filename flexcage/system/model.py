@@ -63,6 +63,8 @@ def _race_side(bearing, contacts: Contacts, lubricant: Lubricant, *, inner: bool
         if inner
         else (bearing.outer_waviness, bearing.outer_waviness_order)
     )
+    spall = bearing.inner_spall if inner else bearing.outer_spall
+    angle, bend = 0.5 * spall.length / radius, radius**2 / (2.0 * equivalent)
     return RaceSide(
         sign=sign,
         radius=radius,
@@ -72,6 +74,9 @@ def _race_side(bearing, contacts: Contacts, lubricant: Lubricant, *, inner: bool
         rolling=laws.rolling_resistance(lubricant, equivalent, bearing.effective_length, modulus),
         hydro=2.0 * equivalent / rw,
         wave=np.array(wave, float),
+        spall=np.array([angle, spall.azimuth, spall.depth, bend]),
+        spalled=spall.covered(s, bearing.effective_length / contacts.race.slices),
+        uneven=int(wave[0] > 0.0 or angle > 0.0),
     )
 
 

@@ -10,7 +10,7 @@ from contact_kernels import race, turned
 
 from flexcage.contacts import laws
 from flexcage.contacts.spec import Contacts, FrictionLaw, NormalLaw, PairSpec
-from flexcage.geometry.cylindrical_roller import RollerProfile
+from flexcage.geometry.cylindrical_roller import RollerProfile, Spall
 
 
 @pytest.fixture(scope="module")
@@ -88,6 +88,68 @@ def test_force_is_the_slope_of_the_energy_on_a_wavy_race(sides):
     flat = race(inner._replace(wave=np.zeros(2)), p, P)[1][0]
     deeper = race(inner._replace(wave=np.zeros(2)), p, P - [0, 1e-6, 0])[1][0]
     assert bump == pytest.approx(deeper, rel=1e-9) and bump > flat
+
+
+@pytest.fixture(scope="module")
+def spalled(build_parts):
+    """spalled(**spall) -> inner side with a spall, outer side with the same, law parameters."""
+
+    def make(**spall):
+        pit = Spall(length=1.2e-3, azimuth=0.3, **spall)
+        pair = PairSpec(normal=NormalLaw(law="elastic"), friction=FrictionLaw(law="traction"))
+        model, memory = build_parts(
+            bearing={"inner_spall": pit, "outer_spall": pit}, contacts=Contacts(race=pair)
+        )
+        return model.inner, model.outer, memory.race[0, 0]
+
+    return make
+
+
+@pytest.mark.parametrize("which", [0, 1])
+def test_roller_axis_follows_a_circle_about_the_edge_of_a_spall(spalled, which):
+    """Where the roller is free, found from two circles (race and roller) and the edge's corner."""
+    side, p = spalled(depth=300e-6)[which], spalled(depth=300e-6)[2]
+    R, sign, half = side.radius, side.sign, 0.6e-3 / side.radius
+    edge = R * np.array([np.cos(half), np.sin(half)])
+    flat = side._replace(drop=np.zeros_like(side.drop))
+    for off in (0.1e-3 / R, 0.3e-3 / R, 0.55e-3 / R):
+        # the axis at azimuth ``off`` from the spall's middle, at Rw from its edge
+        along = edge @ [np.cos(off), np.sin(off)]
+        touching = along + sign * np.sqrt(along**2 - R**2 + 4e-3**2)
+        lift = [0.0, sign * 0.3e-6, 0.0]
+        for shift, expected in ((lift, False), (np.negative(lift), True)):
+            at = np.array([0.0, touching, 0.0]) + shift
+            pressed = race(flat, p, at, azimuth=0.3 + off)[1][0] > 0.0
+            assert pressed == expected, (off, shift)
+    pit = spalled(depth=5e-6)[which]._replace(drop=np.zeros_like(side.drop))
+    inside = race(pit, p, [0.0, R + sign * 4e-3 - sign * 6e-6, 0.0], azimuth=0.3)[1][0]
+    outside = race(pit, p, [0.0, R + sign * 4e-3 - sign * 1e-6, 0.0], azimuth=0.5)[1][0]
+    assert inside == pytest.approx(outside, rel=1e-9)  # the bottom bears like the race
+
+
+@pytest.mark.parametrize("off", [-0.35e-3, 0.2e-3])
+def test_force_is_the_slope_of_the_energy_on_the_way_into_a_spall(spalled, off):
+    inner, _, p = spalled(depth=300e-6)
+    off /= inner.radius
+    P = np.array([0.0, inner.radius + 4e-3 - 60e-6, 0.0])
+
+    def energy(psi, theta):
+        at = [0.0, P[1] * np.cos(psi), P[1] * np.sin(psi)]
+        return race(inner, p, at, theta=theta, azimuth=0.3 + off)[1][5]
+
+    wrench, h = race(inner, p, P, azimuth=0.3 + off)[0], 1e-6
+    along = -(energy(h, 0.0) - energy(-h, 0.0)) / (2 * h)
+    torque = -(energy(0.0, h) - energy(0.0, -h)) / (2 * h)
+    assert np.sign(along) == -np.sign(off) and abs(along) > 1e-2  # it rolls in
+    assert P[1] * wrench[2] == pytest.approx(along, rel=1e-4)
+    assert -P[1] * wrench[2] == pytest.approx(torque, rel=1e-4)
+
+
+def test_narrow_spall_takes_its_share_of_the_slices(spalled):
+    side = spalled(width=2e-3, offset=1.0e-3)[0]
+    width = side.s[1] - side.s[0]
+    assert side.spalled.sum() * width == pytest.approx(2e-3, rel=1e-12)
+    assert (side.spalled @ side.s) / side.spalled.sum() == pytest.approx(1e-3, abs=0.1 * width)
 
 
 MOTION = {

@@ -4,8 +4,8 @@ A roller's own coordinates are its centre's radial displacement and, for its til
 by how much more the end of its effective length at +x is displaced, so that both are lengths.
 Each race bears its share of the slices with the stiffness of one contact, so that centrifugal force
 divides the races; without it both slices are as the standard has them, in series. Small angles;
-waviness and scatter of diameters are left out, and so are gyroscopic moments of rollers that follow
-a tilted ring (6 % of the moment that holds an N1013 tilted by 1 mrad at 6000 rpm).
+waviness, spalls and scatter of diameters are left out, and so are gyroscopic moments of rollers
+that follow a tilted ring (6 % of the moment that holds an N1013 tilted by 1 mrad at 6000 rpm).
 """
 
 from __future__ import annotations
