@@ -347,7 +347,7 @@ class Run:
             basis = self.cage.basis
             rows.append(Row("first_frequency", "First frequency", basis.frequencies[0], "Hz"))
             if basis.residual is not None:
-                far, note = basis.residual.far_coupling, "of the own residual deflection"
+                far, note = basis.residual.far_coupling, "of the deflection under a push"
                 rows.append(Row("far_coupling", "Residual coupling cut", far, "%", note))
         if self.start is not None and self.start.pinched:
             rows.append(Row("pinch_force", "Pinch force at the start", self.start.pinch_force, "N",

@@ -19,8 +19,8 @@ class ResidualFlexibility:
     Coordinates a [m, mean outward displacement of the own face] obey stiffness a = Psi^T F with
     ``stiffness`` Psi^T K Psi. ``compliance`` holds the inverses of its pocket blocks: the answer
     with the coupling between pockets cut, exact for the own displacement of a pocket.
-    ``far_coupling`` is the largest ratio, over pockets and loads, of the deflection that a load
-    makes in another pocket (cut) to the one it makes in its own; the shared crossbeam leads.
+    ``far_coupling`` is the largest ratio, over pockets and even loads, of the residual deflection
+    that a load makes in another pocket (cut) to the whole one, modes and all, in its own.
     """
 
     shapes: np.ndarray  # (n_nodes, 3, n_residual) displacement [m] per unit coordinate
@@ -33,7 +33,8 @@ class ResidualFlexibility:
 class ModeBasis:
     """Dynamic modes of a free body: r = r_i + A (s + shapes . q_f).
 
-    ``kind[i]`` names mode i ("free", "centrifugal", "land", "attachment", "constraint").
+    ``kind[i]`` names mode i ("free", "centrifugal", "crossbeam", "land", "attachment",
+    "constraint").
     ``stiffness`` and ``mass`` are the reduced matrices (n, n); for a mass-orthonormal basis
     of eigenmodes they are diag(omega^2) and 1. ``geometric`` is the geometric stiffness of the
     dynamic modes per squared spin about x, or None: the stiffness does not grow with spin.

@@ -1,16 +1,16 @@
-"""Ritz basis: free modes, the centrifugal shape, and residual attachment vectors of the pockets.
+"""Ritz basis: free modes, static shapes, and residual attachment vectors of the pockets.
 
-The default keeps the free modes and the centrifugal shape as dynamic coordinates and leaves the
-attachments quasi-static and local. ``land=True`` makes static land vectors dynamic as well.
-``dynamic='all'`` makes one mass-orthonormal basis of the same space, the reference for the default
-(tests/verification/test_basis_in_the_bearing.py: right in motion, loads and root stress; the peaks
-of single contacts come out 20 to 50 % high).
+The default keeps the free modes, the centrifugal shape and the bending of every crossbeam as
+dynamic coordinates and leaves the attachments quasi-static and local. ``land=True`` makes static
+land vectors dynamic as well. ``dynamic='all'`` makes one mass-orthonormal basis of the same space,
+the reference for the default (tests/verification/test_basis_in_the_bearing.py: the same motion,
+loads, contacts and root stress).
 """
 
 from __future__ import annotations
 
 import logging
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping, Sequence
 
 import numpy as np
 import scipy.sparse as sp
@@ -27,17 +27,21 @@ from flexcage.modes.spec import ModesSpec
 
 log = logging.getLogger(__name__)
 
+Answer = tuple[np.ndarray, np.ndarray]  # a pocket's loads (3N, 8) and what they do to the cage
+_STIFF = 1.5  # times the middle frequency of crossbeams: no bending of their own
+
 
 def build(solver: FreeBodySolver, *, pocket_count: int, spec: ModesSpec) -> ModeBasis:
     """Free modes + centrifugal shape + residual attachment vectors of all pocket faces."""
     check_groups(solver.model, pocket_count)
-    kept, kept_stiffness, kinds = dynamic_modes(solver, spec)
-    vectors, own_stiffness = residual_vectors(solver, kept, kept_stiffness, pocket_count)
+    answers = list(pocket_statics(solver, pocket_count))
+    kept, kept_stiffness, kinds = dynamic_modes(solver, spec, answers)
+    vectors, own_stiffness, share = residual_vectors(kept, kept_stiffness, answers)
     if spec.dynamic == "all":
         n = kinds.count("free")
         others = np.column_stack([kept[:, n:], vectors])
         return _all_dynamic(solver, (kept[:, :n], kept_stiffness[:n]), others)
-    residual = residual_flexibility(vectors, own_stiffness, pocket_count)
+    residual = residual_flexibility(vectors, own_stiffness, share, pocket_count)
     return eigen_basis("ritz", kept, kept_stiffness, kinds, residual)
 
 
@@ -59,17 +63,47 @@ def build_without_attachments(
 
 
 def dynamic_modes(
-    solver: FreeBodySolver, spec: ModesSpec
+    solver: FreeBodySolver, spec: ModesSpec, answers: Sequence[Answer] = ()
 ) -> tuple[np.ndarray, np.ndarray, list[str]]:
-    """Shapes (3N, n), stiffnesses (n,) and kinds: free modes, centrifugal shape, land vectors."""
+    """Shapes (3N, n), stiffnesses (n,) and kinds: free modes, centrifugal shape, crossbeams' and
+    lands' static shapes. ``answers``: the pockets' loads and answers to them, if any."""
     omega2, free = free_modes(solver, spec.count)
-    centrifugal = centrifugal_mode(solver, free)
-    kept = np.column_stack([free, centrifugal])
-    kept_stiffness = np.append(omega2, centrifugal @ (solver.model.K @ centrifugal))
-    kinds = ["free"] * len(omega2) + ["centrifugal"]
+    static = {"centrifugal": centrifugal_mode(solver, free)[:, None]}
+    if spec.crossbeams and answers:
+        static["crossbeam"] = crossbeam_vectors(solver, free, answers)
+    values, shapes = ritz_modes(solver, np.hstack([*static.values()]), away_from=free)
     if spec.land:
-        return with_lands(solver, kept, kept_stiffness, kinds)
-    return kept, kept_stiffness, kinds
+        kept, stiffness = np.hstack([free, shapes]), np.append(omega2, values)
+        static["land"] = land_vectors(solver, kept, stiffness)
+        values, shapes = ritz_modes(solver, np.hstack([*static.values()]), away_from=free)
+    kinds = ["free"] * len(omega2) + _mostly(solver, shapes, static)
+    return np.hstack([free, shapes]), np.append(omega2, values), kinds
+
+
+def crossbeam_vectors(
+    solver: FreeBodySolver, free: np.ndarray, answers: Sequence[Answer]
+) -> np.ndarray:
+    """Mass-orthonormal shapes (3N, m), m <= Z, that pushing crossbeams adds to eigenmodes (3N, n).
+
+    A push is even, circumferential, half of it on either face. What free modes and rigid motion
+    leave of pushes that move the cage as a whole is stiff: such shapes are left out.
+    """
+    statics = [static for _, static in answers]
+    front, rear = 0, 2  # a pocket's even loads there
+    after = statics[1:] + statics[:1]
+    pushed = [this[:, front] - other[:, rear] for this, other in zip(statics, after)]
+    values, shapes = ritz_modes(solver, np.column_stack(pushed), away_from=free)
+    return shapes[:, values < _STIFF**2 * np.median(values)]
+
+
+def _mostly(
+    solver: FreeBodySolver, shapes: np.ndarray, groups: Mapping[str, np.ndarray]
+) -> list[str]:
+    """The name of the group of vectors that each of the mass-orthonormal ``shapes`` is most of."""
+    spans = [np.linalg.qr(shapes.T @ solver.model.mass_times(v))[0] for v in groups.values()]
+    share = [np.sum(span**2, axis=1) for span in spans]
+    names = list(groups)
+    return [names[k] for k in np.argmax(share, axis=0)]
 
 
 def eigen_basis(
@@ -105,51 +139,31 @@ def centrifugal_mode(solver: FreeBodySolver, modes: np.ndarray) -> np.ndarray:
     return shape / np.sqrt(shape @ solver.model.mass_times(shape))
 
 
-def with_lands(
-    solver: FreeBodySolver, kept: np.ndarray, kept_stiffness: np.ndarray, kinds: list[str]
-) -> tuple[np.ndarray, np.ndarray, list[str]]:
-    """Shapes, stiffnesses and kinds with static land vectors among them.
-
-    The last of ``kept``, the centrifugal shape, is made stiffness-orthogonal to the land vectors
-    together with them; the vector that is most of it keeps its name.
-    """
-    free, centrifugal = kept[:, :-1], kept[:, -1]
-    lands = land_vectors(solver, kept, kept_stiffness)
-    values, shapes = ritz_modes(solver, np.column_stack([centrifugal, lands]), away_from=free)
-    names = ["land"] * len(values)
-    names[int(np.argmax(np.abs(shapes.T @ solver.model.mass_times(centrifugal))))] = "centrifugal"
-    return (
-        np.column_stack([free, shapes]),
-        np.concatenate([kept_stiffness[:-1], values]),
-        kinds[:-1] + names,
-    )
-
-
 def residual_vectors(
-    solver: FreeBodySolver, kept: np.ndarray, kept_stiffness: np.ndarray, pocket_count: int
-) -> tuple[np.ndarray, np.ndarray]:
-    """Residual attachment vectors Psi (3N, 8 Z) and their stiffness Psi^T K Psi.
+    kept: np.ndarray, kept_stiffness: np.ndarray, answers: Sequence[Answer]
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Residual attachment vectors Psi (3N, 8 Z), their stiffness Psi^T K Psi, and how much of the
+    deflection under a load is theirs (8 Z,).
 
     A vector is the inertia-relieved answer to a pocket load less the part that the kept modes
-    carry, so that K-products with all kept modes vanish (mass products too with eigenmodes; the
-    centrifugal shape is none). It is scaled so that its own load does a work of one on it:
+    carry, so that K-products with all kept modes vanish (mass products too with eigenmodes; static
+    shapes are none). It is scaled so that its own load does a work of one on it:
     coordinates are metres of mean face displacement. As K Psi_j is then the load j over its
     scale but for forces that do no work on Psi, the stiffness needs no product with K.
     """
-    vectors, work = [], []
-    for loads, static in pocket_statics(solver, pocket_count):
+    vectors, work, share = [], [], []
+    for loads, static in answers:
         beyond = static - kept @ ((kept.T @ loads) / kept_stiffness[:, None])
         scale = np.einsum("ij,ij->j", loads, beyond)
         vectors.append(beyond / scale)
         work.append(sp.csr_matrix((loads / scale).T))
+        share.append(scale / np.einsum("ij,ij->j", loads, static))
     shapes = np.column_stack(vectors)
     stiffness = sp.vstack(work) @ shapes
-    return shapes, 0.5 * (stiffness + stiffness.T)
+    return shapes, 0.5 * (stiffness + stiffness.T), np.concatenate(share)
 
 
-def pocket_statics(
-    solver: FreeBodySolver, pocket_count: int
-) -> Iterator[tuple[np.ndarray, np.ndarray]]:
+def pocket_statics(solver: FreeBodySolver, pocket_count: int) -> Iterator[Answer]:
     """Pocket by pocket: its loads (3N, 8) and their inertia-relieved answers (3N, 8).
 
     On a cyclic model pocket 0 is solved and turned, otherwise all are solved.
@@ -166,9 +180,11 @@ def pocket_statics(
 
 
 def residual_flexibility(
-    vectors: np.ndarray, stiffness: np.ndarray, pocket_count: int
+    vectors: np.ndarray, stiffness: np.ndarray, share: np.ndarray, pocket_count: int
 ) -> ResidualFlexibility:
     """Residual vectors (3N, 8 Z) with the compliances of their pockets and the coupling cut.
+
+    ``share`` (8 Z,): their part of the whole deflection under a load of their own.
 
     Coordinates a obey stiffness a = Psi^T F. Cutting the coupling between pockets leaves
     a_p = compliance_p Psi_p^T F with the inverse of the pocket's own stiffness block: exact for
@@ -177,25 +193,27 @@ def residual_flexibility(
     per = LOADS_PER_POCKET
     blocks = stiffness.reshape(pocket_count, per, pocket_count, per)
     own = np.stack([np.linalg.inv(blocks[k, :, k]) for k in range(pocket_count)])
-    far = coupling(stiffness, pocket_count, distance=1)
-    beyond = coupling(stiffness, pocket_count, distance=2)
-    log.info("residual coupling cut: %.2f to the next pocket, %.2f beyond it", far, beyond)
+    pushes, tilting = coupling(stiffness, share, pocket_count)
+    log.info("coupling cut: %.3f of a push's deflection, %.3f of a tilting load's", pushes, tilting)
     return ResidualFlexibility(
         shapes=vectors.reshape(-1, 3, vectors.shape[1]),
         stiffness=stiffness,
         compliance=own,
-        far_coupling=far,
+        far_coupling=pushes,
     )
 
 
-def coupling(stiffness: np.ndarray, pocket_count: int, *, distance: int) -> float:
-    """Largest deflection a load makes at least ``distance`` pockets away, relative to its own."""
-    scale = np.sqrt(np.diag(stiffness))
+def coupling(
+    stiffness: np.ndarray, share: np.ndarray, pocket_count: int
+) -> tuple[float, float]:
+    """Largest residual deflection that a load makes at other pockets, relative to the whole one
+    that it makes where it acts: under even loads, and under linear ones, which have no resultant.
+    """
+    scale = np.sqrt(np.diag(stiffness) / share)
     pocket = np.arange(len(stiffness)) // LOADS_PER_POCKET
-    apart = np.abs(pocket[:, None] - pocket[None, :])
-    apart = np.minimum(apart, pocket_count - apart)
-    ratios = np.abs(stiffness) / np.outer(scale, scale)
-    return float(ratios[apart >= distance].max(initial=0.0))
+    apart = pocket[:, None] != pocket[None, :]
+    ratios = np.where(apart, np.abs(stiffness) / np.outer(scale, scale), 0.0)
+    return float(ratios[:, 0::2].max()), float(ratios[:, 1::2].max())
 
 
 def _all_dynamic(

@@ -31,6 +31,11 @@ class ModesSpec:
         doc="ritz: 'free' keeps attachments quasi-static, 'all' makes every vector dynamic",
         choices=("free", "all"),
     )
+    crossbeams: bool = option(
+        True,
+        doc="ritz: add the static shape under a push on every crossbeam as a dynamic coordinate, "
+        "so that crossbeams have their own bending with its inertia",
+    )
     damping: float = option(
         0.01,
         doc="modal damping ratio where no band says otherwise",

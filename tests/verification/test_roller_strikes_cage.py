@@ -126,21 +126,28 @@ def test_fully_dynamic_basis_strikes_as_the_full_mesh(full_mesh):
     assert error < 0.11
 
 
-def test_quasi_static_residuals_strike_harder(full_mesh):
-    """The default: a crossbeam without inertia of its own beyond 24 modes (12 kHz) gives 21 % more
-    peak, 11 % more impulse and a blow shorter by 10 %; a rigid cage gives 85 % more peak."""
+def test_default_basis_strikes_as_the_full_mesh(full_mesh):
+    """3 % more peak, 4 % more impulse, 6 % shorter; a rigid cage gives 85 % more peak."""
     blow, _ = compared(n1013(ALONE), full_mesh)
-    assert full_mesh.peak < blow.peak < 1.25 * full_mesh.peak
-    assert full_mesh.impulse < blow.impulse < 1.15 * full_mesh.impulse
-    assert 0.85 * full_mesh.duration < blow.duration < 1.02 * full_mesh.duration
+    assert blow.peak == pytest.approx(full_mesh.peak, rel=0.06)
+    assert blow.impulse == pytest.approx(full_mesh.impulse, rel=0.06)
+    assert blow.duration == pytest.approx(full_mesh.duration, rel=0.08)
     rigid, _ = compared(n1013(ALONE, {"cage.model": "rigid"}), full_mesh)
     assert rigid.peak > 1.6 * full_mesh.peak
 
 
-def test_more_modes_bring_the_quasi_static_blow_nearer(full_mesh):
-    """With crossbeam bending among the modes (100 of them, to 45 kHz): 13 %, 3 % and 4 %."""
+def test_crossbeams_without_inertia_of_their_own_strike_harder(full_mesh):
+    """What the crossbeams' shapes are for: without them, beyond 24 modes (12 kHz), the blow has
+    21 % more peak and 11 % more impulse, and is shorter by 10 %."""
+    blow, _ = compared(n1013(ALONE, {"modes.crossbeams": False}), full_mesh)
+    assert 1.10 * full_mesh.peak < blow.peak < 1.25 * full_mesh.peak
+    assert 1.06 * full_mesh.impulse < blow.impulse < 1.15 * full_mesh.impulse
+
+
+def test_more_modes_bring_the_blow_nearer(full_mesh):
+    """100 of them, to 45 kHz: 1 %, 0.4 % and 2 %."""
     blow, error = compared(n1013(ALONE, {"modes.count": 100}), full_mesh)
-    assert blow.peak == pytest.approx(full_mesh.peak, rel=0.14)
-    assert blow.impulse == pytest.approx(full_mesh.impulse, rel=0.04)
-    assert blow.duration == pytest.approx(full_mesh.duration, rel=0.06)
+    assert blow.peak == pytest.approx(full_mesh.peak, rel=0.02)
+    assert blow.impulse == pytest.approx(full_mesh.impulse, rel=0.01)
+    assert blow.duration == pytest.approx(full_mesh.duration, rel=0.04)
     assert error < 0.12
