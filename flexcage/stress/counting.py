@@ -86,12 +86,11 @@ def damage(amplitude: np.ndarray, curve: SNCurve) -> np.ndarray:
     return 1.0 / np.asarray(accessor.cycles(amplitude))
 
 
-def equivalent_amplitude(damage_per_cycle: float, curve: SNCurve) -> float:
-    """Amplitude [Pa] at R = -1 whose one cycle does this damage."""
-    if damage_per_cycle <= 0.0:
-        return 0.0
+def equivalent_amplitude(damages: np.ndarray, curve: SNCurve) -> np.ndarray:
+    """Amplitudes (n,) [Pa] at R = -1 whose one cycle does these damages (n,)."""
     accessor: Any = _woehler(curve).fatigue.miner_elementary()
-    return float(accessor.load(np.array([1.0 / damage_per_cycle]))[0])
+    with np.errstate(divide="ignore"):
+        return np.asarray(accessor.load(1.0 / damages))
 
 
 def _woehler(curve: SNCurve) -> Any:

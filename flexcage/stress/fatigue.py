@@ -15,7 +15,7 @@ stress gradient helps: nothing but the local stress and the curve enters.
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 
 import numpy as np
@@ -37,6 +37,7 @@ from flexcage.stress.sn_curves import SNCurve
 _DIRECTIONS = 64  # planes looked at first, spread evenly
 _STEPS = np.radians([10.0, 5.0, 2.5, 1.25])  # by which the best one is turned then
 _HOUR = 3600.0
+_LONG = 1e9  # hours that no cage is asked for
 
 
 @dataclass(frozen=True, eq=False)
@@ -61,7 +62,7 @@ class PlaceFatigue:
     place: str
     vertex: int  # of the mesh
     normal: np.ndarray  # (3,) of the plane, cage frame
-    rate: Record
+    rate: Record = field(repr=False)
     cycles: float  # per second
     largest: tuple[float, float]
     amplitude: float
@@ -117,7 +118,7 @@ class Fatigue:
         lines = [f"{'place':<{width}}  {head}"]
         lines += [
             f"{p.place:<{width}}  {p.damage_rate * _HOUR:8.2e} {p.margin * _HOUR:8.1e}  "
-            f"{p.life_hours:9.3g}  {p.cycles:8.0f}  {p.largest[0] / 1e6:9.2f}  "
+            f"{_hours(p.life_hours):>9}  {p.cycles:8.0f}  {p.largest[0] / 1e6:9.2f}  "
             f"{p.largest[1] / 1e6:9.2f}  {p.amplitude / 1e6:16.2f}"
             for p in order
         ]
@@ -135,6 +136,11 @@ class Fatigue:
         return "\n".join([*words, *([f"assumption: {c.assumption}"] if c.assumption else [])])
 
     __str__ = table
+
+
+def _hours(life: float) -> str:
+    """A life in hours; beyond any use it is only said to be long."""
+    return f"{life:.3g}" if life < _LONG else f"> {_LONG:.0e}"
 
 
 def normal_stresses(tensors: np.ndarray, normals: np.ndarray) -> np.ndarray:
@@ -198,18 +204,22 @@ def place_fatigue(
     loops = [count(counted.stress) for _, counted in stresses.values()]
     amplitudes = corrected_amplitude(*joined(loops), curve.mean_stress_sensitivity)
     damages = np.split(damage(amplitudes, curve), np.cumsum([len(one) for one in loops])[:-1])
+    time = windows.samples * step
+    totals = np.array([each.sum() for each in damages])
+    even = equivalent_amplitude(totals / time * turn, curve)
     places = [
-        _place(name, vertex, counted, cycles, each, curve, windows, step, turn)
-        for (name, (vertex, counted)), cycles, each in zip(stresses.items(), loops, damages)
+        _place(name, at, cycles, each, amplitude, windows, time)
+        for (name, at), cycles, each, amplitude in zip(stresses.items(), loops, damages, even)
     ]
-    return Fatigue(curve, windows.samples * step, tuple(places))
+    return Fatigue(curve, time, tuple(places))
 
 
 def _place(
-    name: str, vertex: int, counted: CountedStress, loops: Loops, each: np.ndarray,
-    curve: SNCurve, windows: Windows, step: float, turn: float,
+    name: str, at: tuple[int, CountedStress], loops: Loops, each: np.ndarray, amplitude: float,
+    windows: Windows, time: float,
 ) -> PlaceFatigue:  # fmt: skip
-    rate = np.bincount(loops.sample, each, windows.samples) / step
+    vertex, counted = at
+    rate = np.bincount(loops.sample, each, windows.samples) * (windows.samples / time)
     largest = int(np.argmax(loops.high - loops.low)) if len(loops) else -1
     ends = (loops.low[largest], loops.high[largest]) if len(loops) else (counted.stress[0],) * 2
     total = float(each.sum())
@@ -218,9 +228,9 @@ def _place(
         vertex=vertex,
         normal=counted.normal,
         rate=windows.mean(rate),
-        cycles=len(loops) / (windows.samples * step),
+        cycles=len(loops) / time,
         largest=(float(ends[0]), float(ends[1])),
-        amplitude=equivalent_amplitude(total / (windows.samples * step) * turn, curve),
+        amplitude=float(amplitude),
         dominance=float(each.max()) / total if total > 0.0 else float("nan"),
     )
 

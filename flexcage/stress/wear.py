@@ -20,6 +20,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from flexcage.contacts.spec import LandSpec
+from flexcage.core.errors import InputError
 from flexcage.geometry.bearing import Bearing
 from flexcage.geometry.cage import Cage
 from flexcage.geometry.hertz import PointContact
@@ -144,7 +145,14 @@ def wear(
     ds: xarray.Dataset, bearing: Bearing, cage: Cage, land: LandSpec, law: WearLaw, windows: Windows
 ) -> Wear:
     """Wear by the (settled) dataset of a run, which ``windows`` cut."""
-    rubbing = RUBBING[metrics.element(ds)](ds, bearing, cage)
+    element = metrics.element(ds)
+    if element not in RUBBING:
+        raise InputError(
+            f"Wear of pockets is known for {' and '.join(RUBBING)} bearings alone; elements of "
+            f"the kind '{element}' want a function of their own in stress.wear.RUBBING.",
+            where="bearing.type",
+        )
+    rubbing = RUBBING[element](ds, bearing, cage)
     t, recorded = ds["time"].values, ds["work"].sel(channel="pocket_friction").values
     lost, found = float(recorded[0] - recorded[-1]), float(np.trapezoid(rubbing.friction, t))
     table = _tabled(rubbing, ds, law.coefficient, windows, land_rubbing(ds, cage, land))

@@ -85,7 +85,9 @@ def test_a_constant_stress_does_no_damage():
     place = life_of(np.full(500, 30e6))
     assert place.damage_rate == 0.0 and place.life_hours == np.inf and place.cycles == 0.0
     assert place.largest_range == 0.0 and place.amplitude == 0.0
-    assert len(corrected_amplitude(np.zeros(0), np.zeros(0), 0.3)) == len(damage(np.zeros(0), CURVE))
+    assert len(corrected_amplitude(np.zeros(0), np.zeros(0), 0.3)) == len(
+        damage(np.zeros(0), CURVE)
+    )
 
 
 def uniaxial(direction, size):
@@ -144,9 +146,7 @@ def test_curves_have_sources_and_unknown_materials_are_refused():
     assert all(curve.source for curve in SN_CURVES.values()) and set(SN_CURVES) <= set(MATERIALS)
     with pytest.raises(InputError, match="No published S-N curve of polyimide.*your own"):
         sn_curve("polyimide")
-    nameless = SNCurve(
-        material="x", amplitude=1e6, cycles=1e6, slope=5.0, tensile_strength=1e8
-    )
+    nameless = SNCurve(material="x", amplitude=1e6, cycles=1e6, slope=5.0, tensile_strength=1e8)
     with pytest.raises(InputError, match="no source"):
         register_sn_curve(nameless)
     with pytest.raises(InputError, match="'brass' exists already"):
