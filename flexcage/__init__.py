@@ -43,6 +43,8 @@ _LAZY: dict[str, str] = {
     "load_preset": "flexcage.geometry.presets",
     "preset_names": "flexcage.geometry.presets",
     "epicyclic": "flexcage.geometry.kinematics",
+    "SNCurve": "flexcage.stress.sn_curves",
+    "WearLaw": "flexcage.stress.wear_laws",
     "MeshOptions": "flexcage.mesh.options",
     "ModesSpec": "flexcage.modes.spec",
     "DampingBand": "flexcage.modes.spec",

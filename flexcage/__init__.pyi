@@ -48,6 +48,8 @@ from flexcage.simulate import simulate as simulate
 from flexcage.solve.options import SolverOptions as SolverOptions
 from flexcage.static import ehl_traction as ehl_traction
 from flexcage.static import solve_static as solve_static
+from flexcage.stress.sn_curves import SNCurve as SNCurve
+from flexcage.stress.wear_laws import WearLaw as WearLaw
 from flexcage.study.axes import Grid as Grid
 from flexcage.study.axes import LatinHypercube as LatinHypercube
 from flexcage.study.axes import Points as Points

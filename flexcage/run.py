@@ -26,18 +26,23 @@ from flexcage.modes.reduction import CageReduction
 from flexcage.results.edges import Edge, groove_edges
 from flexcage.results.figures import pass_peak, summarise
 from flexcage.results.film import film_rows, film_thickness
-from flexcage.results.metrics import BearingNumbers, settled
+from flexcage.results.metrics import BearingNumbers, cage_angle, settled
 from flexcage.results.statistics import roller_passes
 from flexcage.results.store import MemoryRunStore, RunStore
 from flexcage.results.summary import Row, Summary
 from flexcage.solve.contract import COUNTS
-from flexcage.stress.fields import StressFields
-from flexcage.stress.history import StressHistory, stress_history
+from flexcage.stress.counting import require_pylife
+from flexcage.stress.fatigue import Fatigue, chosen_places, counted_stress, place_fatigue
+from flexcage.stress.fields import Keep, StressFields, TensorFields
+from flexcage.stress.history import StressHistory, stress_history, tensor_histories
 from flexcage.stress.loads import cage_loads, land_station_forces
 from flexcage.stress.operators import von_mises
 from flexcage.stress.places import contact_zone, place_kind, root_places
 from flexcage.stress.places import in_words as place_in_words
 from flexcage.stress.recovery import CageLoads, StressRecovery
+from flexcage.stress.sn_curves import SNCurve, sn_curve
+from flexcage.stress.wear import Wear, wear
+from flexcage.stress.wear_laws import WearLaw, wear_law
 from flexcage.system.start import Start
 
 if TYPE_CHECKING:
@@ -141,20 +146,62 @@ class Run:
 
     @one_blas_thread
     def _stress_history(self) -> StressHistory:
-        ds, recovery = self.dataset, self.recovery
+        ds = self.dataset
+        return stress_history(
+            StressFields(self.recovery, keep=self._keep()),
+            ds["modal_coordinates"].values,
+            ds["station_force"].values,
+            land_station_forces(ds, inner=self.case.cage.guidance != "outer"),
+            settled=int(self.case.output.settle * ds.sizes["time"]),
+        )
+
+    def _keep(self) -> Keep:
+        """How stress fields of this cage are kept in the cache."""
         assert self.cage is not None
         key = self.cage.key
 
         def keep(name: str, compute: Callable[[], np.ndarray]) -> np.ndarray:
             return cached_arrays("stress", f"{key}-{name}", lambda: {name: compute()})[name]
 
-        return stress_history(
-            StressFields(recovery, keep=keep),
+        return keep
+
+    @one_blas_thread
+    def fatigue(self, place: str | None = None, *, curve: SNCurve | None = None) -> Fatigue:
+        """Damage and life of the cage at its named places, or at one of them, over the settled part
+        (``stress.fatigue`` says what is counted); by default with the S-N curve of its material.
+
+        Raises InputError for a rigid cage, a place that is not there, or a material without a
+        published curve, and EnvironmentLacks without pyLife (the extra ``fatigue``).
+        """
+        require_pylife()
+        used = curve or sn_curve(self.case.cage.material.name)
+        fields = TensorFields(self.recovery, keep=self._keep())
+        ds = settled(self.dataset, self.case.output.settle)
+        histories = tensor_histories(
+            fields,
             ds["modal_coordinates"].values,
             ds["station_force"].values,
             land_station_forces(ds, inner=self.case.cage.guidance != "outer"),
-            settled=int(self.case.output.settle * ds.sizes["time"]),
+            places=chosen_places(place, tuple(fields.places)),
         )
+        stresses = {}
+        for name, tensors in histories:
+            counted = counted_stress(tensors, used.mean_stress_sensitivity)
+            stresses[name] = (int(fields.vertices[fields.places[name][counted.vertex]]), counted)
+        windows, t = roller_passes(ds, self.numbers), ds["time"].values
+        turns = abs(float(np.ptp(cage_angle(ds)))) / (2.0 * np.pi)
+        time = float(t[-1] - t[0])
+        turn = time / turns if turns else float("nan")
+        return place_fatigue(stresses, used, windows, step=time / (len(t) - 1), turn=turn)
+
+    def wear(self, law: WearLaw | None = None) -> Wear:
+        """Rates of wear of pockets and land over the settled part by Archard's law; by default
+        with the dry coefficient of the cage's material. InputError for a material without one."""
+        case = self.case
+        used = law or wear_law(case.cage.material.name)
+        ds = settled(self.dataset, case.output.settle)
+        windows = roller_passes(ds, self.numbers)
+        return wear(ds, case.bearing, case.cage, case.contacts.land, used, windows)
 
     @one_blas_thread
     def stress(self, *, time: float | None = None) -> StressField:

@@ -1,4 +1,4 @@
-"""Commands that take the folders of runs: render, report, compare."""
+"""Commands that take the folders of runs: render, report, fatigue, wear, compare."""
 
 from __future__ import annotations
 
@@ -26,6 +26,16 @@ def add_commands(commands: Any) -> None:
     report.add_argument(
         "--points", metavar="N,N", help="of a study: points whose stress is shown (default: six)"
     )
+    text = "damage and life of a stored run's cage at its pocket corners"
+    fatigue = command(commands, "fatigue", fatigue_command, text)
+    fatigue.add_argument("run", metavar="RUN", help="run folder")
+    fatigue.add_argument("--place", metavar="NAME", help="one place, such as pocket5_root_rear+x")
+    fatigue.add_argument("--rows", type=int, metavar="N", help="the worst N places alone")
+    text = "wear of a stored run's pockets and land by Archard's law"
+    wear = command(commands, "wear", wear_command, text)
+    wear.add_argument("run", metavar="RUN", help="run folder")
+    wear.add_argument("--coefficient", metavar="K", help='of wear, such as "1e-8 mm^3/(N*m)"')
+    wear.add_argument("--hours", type=float, default=1.0, metavar="H", help="depths after H hours")
     compare = command(
         commands, "compare", compare_command, "one case rigid and flexible, or two runs"
     )
@@ -74,6 +84,28 @@ def report_command(args: argparse.Namespace) -> int:
 
         load_run(folder).report(out, progress=Progress)
     say(f"written: {out} ({out.stat().st_size / 1e6:.1f} MB)")
+    return 0
+
+
+def fatigue_command(args: argparse.Namespace) -> int:
+    """flexcage fatigue RUN: damage and life at the named places of the cage."""
+    from flexcage.simulate import load_run
+
+    say(load_run(existing_run(args.run)).fatigue(args.place).table(args.rows))
+    return 0
+
+
+def wear_command(args: argparse.Namespace) -> int:
+    """flexcage wear RUN: rates of wear, with the material's coefficient or another."""
+    from flexcage.core.units import parse
+    from flexcage.simulate import load_run
+    from flexcage.stress.wear_laws import WearLaw
+
+    run, law = load_run(existing_run(args.run)), None
+    if args.coefficient:
+        k = parse(args.coefficient, "mm^3/(N*m)", where="--coefficient")
+        law = WearLaw(material=run.case.cage.material.name, coefficient=k)
+    say(run.wear(law).table(args.hours))
     return 0
 
 

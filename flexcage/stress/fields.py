@@ -4,8 +4,9 @@ A unit force's field is what the dynamic modes miss: its inertia-relieved answer
 less the part that the modes carry. Modes times q plus these fields times the forces is then
 exactly mode acceleration, for any basis. The interface says which forces of a station have fields
 of their own and which enter by their resultant, spread evenly over the face: with window cages
-normal forces and friction, with round pockets all of them have their own. Fields are kept as the
-five deviator components of ``operators.deviator`` in single precision.
+normal forces and friction, with round pockets all of them have their own. Fields are kept in single
+precision: over the whole surface as the five deviator components of ``operators.deviator``, and as
+all six stresses at chosen vertices.
 """
 
 from __future__ import annotations
@@ -31,49 +32,49 @@ def _compute(_name: str, compute: Callable[[], np.ndarray]) -> np.ndarray:
     return compute()
 
 
-class StressFields:
-    """Precomputed deviators at the surface vertices ``surface`` (mesh vertex numbers)."""
+class UnitFields:
+    """Precomputed fields at ``vertices`` (mesh vertex numbers): ``parts`` numbers each."""
 
-    def __init__(self, recovery: StressRecovery, *, keep: Keep = _compute) -> None:
+    parts = 6
+    prefix = "tensor_"
+
+    def __init__(
+        self, recovery: StressRecovery, vertices: np.ndarray, *, keep: Keep = _compute
+    ) -> None:
         """``keep(name, compute)`` gives the fields of that name, which cost the most, from where it
         keeps them, or computes them."""
-        self._recovery, self._keep = recovery, keep
-        model = recovery.model
-        self.surface = np.unique(model.surface)
-        self.places = root_places(model, recovery.pocket_count)
-        zone = contact_zone(model, recovery.pocket_count)
-        self.searched = np.flatnonzero(~np.isin(self.surface, zone))
-        self._stress = VertexStress(model, self.surface)
+        self._recovery, self._keep, self.vertices = recovery, keep, vertices
+        self._stress = VertexStress(recovery.model, vertices)
+
+    def _parts(self, stress: np.ndarray) -> np.ndarray:
+        """What is kept (..., parts) of stresses (..., 6)."""
+        return stress
 
     @cached_property
     def modes(self) -> np.ndarray:
-        """(5 n_surface, n) per unit modal coordinate."""
-        return self._deviators(self._recovery.basis.shapes)
+        """(parts n_vertices, n) per unit modal coordinate."""
+        return self._kept(self._recovery.basis.shapes)
 
     @cached_property
     def forces(self) -> np.ndarray:
-        """(5 n_surface, Z per_pocket) per newton of ``reduced_forces``, beyond the modes."""
-        return self._keep("forces", self._force_fields)
+        """(parts n_vertices, Z per_pocket) per newton of ``reduced_forces``, beyond the modes."""
+        return self._keep(f"{self.prefix}forces", self._force_fields)
 
     def _force_fields(self) -> np.ndarray:
         recovery = self._recovery
         pockets = range(recovery.pocket_count)
         symmetry = find_symmetry(recovery.model, recovery.pocket_count)
         if symmetry is None:
-            fields = on_all_cores(
-                lambda k: self._deviators(self._beyond_modes(self._loads(k))), pockets
-            )
+            fields = on_all_cores(lambda k: self._kept(self._beyond_modes(self._loads(k))), pockets)
         else:
             first = recovery.solver.solve(self._loads(0))
-            fields = on_all_cores(
-                lambda k: self._deviators(self._turned(symmetry, first, k)), pockets
-            )
+            fields = on_all_cores(lambda k: self._kept(self._turned(symmetry, first, k)), pockets)
         return np.concatenate(fields, axis=1)
 
     @cached_property
     def land_forces(self) -> np.ndarray:
-        """(5 n_surface, 2*n_land*3) per newton at the land stations, beyond the modes."""
-        return self._keep("land_forces", self._land_fields)
+        """(parts n_vertices, 2*n_land*3) per newton at the land stations, beyond the modes."""
+        return self._keep(f"{self.prefix}land_forces", self._land_fields)
 
     def _land_fields(self) -> np.ndarray:
         weights = self._recovery.land_weights
@@ -87,9 +88,7 @@ class StressFields:
         ]
         columns = np.stack(loads, axis=1)
         fields = on_all_cores(
-            lambda first: self._deviators(
-                self._beyond_modes(columns[:, first : first + _TOGETHER])
-            ),
+            lambda first: self._kept(self._beyond_modes(columns[:, first : first + _TOGETHER])),
             range(0, columns.shape[1], _TOGETHER),
         )
         return np.concatenate(fields, axis=1)
@@ -133,9 +132,40 @@ class StressFields:
         beyond = static - shapes @ np.linalg.solve(basis.stiffness, shapes.T @ loads)
         return beyond.reshape(-1, 3, loads.shape[1])
 
-    def _deviators(self, shapes: np.ndarray) -> np.ndarray:
+    def _kept(self, shapes: np.ndarray) -> np.ndarray:
         columns = []
         for first in range(0, shapes.shape[2], 32):  # bounds the memory of full stresses
-            parts = deviator(self._stress(shapes[:, :, first : first + 32]))
+            parts = self._parts(self._stress(shapes[:, :, first : first + 32]))
             columns.append(parts.transpose(2, 0, 1).reshape(-1, parts.shape[1]))
         return np.concatenate(columns, axis=1, dtype=np.float32)
+
+
+class StressFields(UnitFields):
+    """Precomputed deviators at the surface vertices ``surface`` (mesh vertex numbers)."""
+
+    parts = 5
+    prefix = ""
+
+    def __init__(self, recovery: StressRecovery, *, keep: Keep = _compute) -> None:
+        model = recovery.model
+        self.surface = np.unique(model.surface)
+        self.places = root_places(model, recovery.pocket_count)
+        zone = contact_zone(model, recovery.pocket_count)
+        self.searched = np.flatnonzero(~np.isin(self.surface, zone))
+        super().__init__(recovery, self.surface, keep=keep)
+
+    def _parts(self, stress: np.ndarray) -> np.ndarray:
+        return deviator(stress)
+
+
+class TensorFields(UnitFields):
+    """Precomputed stresses xx, yy, zz, xy, yz, xz at the vertices of the named places.
+
+    ``places`` holds, by name, the rows of its vertices in ``vertices``.
+    """
+
+    def __init__(self, recovery: StressRecovery, *, keep: Keep = _compute) -> None:
+        named = root_places(recovery.model, recovery.pocket_count)
+        vertices = np.unique(np.concatenate(list(named.values()))) if named else np.zeros(0, int)
+        self.places = {name: np.searchsorted(vertices, v) for name, v in named.items()}
+        super().__init__(recovery, vertices, keep=keep)

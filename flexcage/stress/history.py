@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 
 import numpy as np
 
 from flexcage.core.threads import on_all_cores
-from flexcage.stress.fields import StressFields
+from flexcage.stress.fields import StressFields, TensorFields, UnitFields
 
 _BLOCK = 256  # samples at a time: their stresses stay near the processor
 
@@ -64,13 +65,51 @@ def equivalent_stress(
     Over nt samples: modal coordinates (nt, n), station forces (nt, Z, F, n_st, 3) and land forces
     (nt, 2, n_land, 3) [N], components (x, r, psi) of the pockets' and land stations' frames.
     """
-    sums = fields.modes @ q.T.astype(np.float32)
-    sums += _loaded(fields.forces, fields.reduced_forces(station_forces))
-    if land_forces is not None and np.any(land_forces):
-        sums += _loaded(fields.land_forces, land_forces.reshape(len(q), -1))
-    parts = sums.reshape(5, -1, sums.shape[1])
+    parts = _superposed(
+        fields, slice(None), q, fields.reduced_forces(station_forces), _land(land_forces, len(q))
+    )
     np.square(parts, out=parts)
     return np.sqrt(parts.sum(axis=0))
+
+
+def tensor_histories(
+    fields: TensorFields,
+    q: np.ndarray,
+    station_forces: np.ndarray,
+    land_forces: np.ndarray | None = None,
+    *,
+    places: Iterable[str],
+) -> Iterator[tuple[str, np.ndarray]]:
+    """Name and stresses (6, n, nt) [Pa] of every place, at its n vertices: xx, yy, zz, xy, yz, xz
+    in the cage's frame. Other arguments as in ``equivalent_stress``."""
+    loads, land = fields.reduced_forces(station_forces), _land(land_forces, len(q))
+    for name in places:
+        yield name, _superposed(fields, fields.places[name], q, loads, land)
+
+
+def _land(forces: np.ndarray | None, samples: int) -> np.ndarray | None:
+    """Land forces (nt, m) of the fields' columns; None without any."""
+    return forces.reshape(samples, -1) if forces is not None and np.any(forces) else None
+
+
+def _superposed(
+    fields: UnitFields,
+    vertices: slice | np.ndarray,
+    q: np.ndarray,
+    loads: np.ndarray,
+    land: np.ndarray | None,
+) -> np.ndarray:
+    """Parts (parts, n, nt) of the stress at some of the fields' vertices."""
+
+    def at(table: np.ndarray) -> np.ndarray:
+        columns = table.shape[1]
+        return table.reshape(fields.parts, -1, columns)[:, vertices].reshape(-1, columns)
+
+    sums = at(fields.modes) @ q.T.astype(np.float32)
+    sums += _loaded(at(fields.forces), loads)
+    if land is not None:
+        sums += _loaded(at(fields.land_forces), land)
+    return sums.reshape(fields.parts, -1, sums.shape[1])
 
 
 def _loaded(fields: np.ndarray, loads: np.ndarray) -> np.ndarray:

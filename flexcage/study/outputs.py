@@ -1,9 +1,10 @@
-"""What a study asks of every run: figures of its summary, and reductions of result variables."""
+"""What a study asks of every run: figures of its summary, reductions of result variables, and
+figures of fatigue and wear, which are computed only where they are asked for."""
 
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
+from collections.abc import Callable, Collection, Mapping
 from dataclasses import dataclass
 from math import isfinite, nan, pi
 from typing import TYPE_CHECKING
@@ -18,6 +19,9 @@ from flexcage.results.reductions import DERIVED, REDUCTIONS
 from flexcage.results.registry import LABELS, TIME, VARIABLES, Variable, variable
 from flexcage.results.statistics import roller_passes
 from flexcage.results.summary import Value
+from flexcage.stress.counting import require_pylife
+from flexcage.stress.sn_curves import sn_curve
+from flexcage.stress.wear_laws import wear_law
 from flexcage.system.data import POWERS
 from flexcage.system.layout import CONSTRAINTS
 
@@ -104,14 +108,44 @@ class Reduction:
         return Figure(reducer.value(values, step), unit, "", half if isfinite(half) else None)
 
 
+def _fatigue(run: Run) -> dict[str, Figure]:
+    """Damage and life at the worst place."""
+    worst = run.fatigue().worst
+    rate, half = worst.damage_rate, worst.margin if isfinite(worst.margin) else None
+    life = 1.0 / rate if rate > 0.0 else float("inf")
+    spread = None if half is None or not isfinite(life) else life * half / rate
+    return {
+        "fatigue_damage_rate": Figure(rate, "1/s", "1/h", half),
+        "fatigue_life": Figure(life, "s", "h", spread),
+    }
+
+
+def _wear(run: Run) -> dict[str, Figure]:
+    """Volume from all pockets, and the depth of the deepest track at first."""
+    worn = run.wear()
+    return {
+        "wear_volume_rate": Figure(worn.volume_rate, "m^3/s", "mm^3/h"),
+        "wear_depth_rate": Figure(worn.depth_rate, "m/s", "um/h"),
+    }
+
+
+#: Figures that no summary holds: what computes them together.
+LATE_FIGURES: Mapping[str, Callable[[Run], dict[str, Figure]]] = {
+    "fatigue_damage_rate": _fatigue,
+    "fatigue_life": _fatigue,
+    "wear_volume_rate": _wear,
+    "wear_depth_rate": _wear,
+}
+
+
 def is_reduction(name: str) -> bool:
     """True for "pocket_force.max", False for the name of a figure."""
     return _REDUCTION.fullmatch(name) is not None
 
 
-def reductions_of(names: tuple[str, ...]) -> tuple[str, ...]:
-    """Those among the outputs that are reductions."""
-    return tuple(name for name in names if is_reduction(name))
+def beyond_summary(names: tuple[str, ...]) -> tuple[str, ...]:
+    """Those among the outputs that a summary does not hold: reductions, fatigue and wear."""
+    return tuple(name for name in names if is_reduction(name) or name in LATE_FIGURES)
 
 
 def parse_reduction(name: str) -> Reduction:
@@ -148,12 +182,14 @@ def _check_label(name: str, found: Variable, dim: str, label: str) -> None:
 
 
 def check_outputs(
-    names: tuple[str, ...], *, elements: int, flexible: bool, element: str = "roller"
-) -> None:
+    names: tuple[str, ...], *, elements: int, flexible: bool, element: str = "roller",
+    materials: Collection[str] = (),
+) -> None:  # fmt: skip
     """Raise InputError for the first output that no run of the study can give.
 
     ``elements`` is the least number of rolling elements of any case, ``element`` their kind, and
-    ``flexible`` says whether any cage is.
+    ``flexible`` says whether any cage is, and ``materials`` names those of all cages. Raises
+    EnvironmentLacks for fatigue without pyLife.
     """
     if not names:
         raise InputError("The study has no outputs; name some, such as 'cage_speed'.")
@@ -168,8 +204,9 @@ def check_outputs(
                 if int(reduction.selection[dim]) >= elements:
                     raise InputError(f"Output '{name}': the {dim}s count from 0 to {elements - 1}.")
         else:
-            needs = name in FLEXIBLE_FIGURES
+            needs = name in FLEXIBLE_FIGURES or LATE_FIGURES.get(name) is _fatigue
             _check_figure(name)
+            _check_late(name, materials)
             for kind, figures in ELEMENT_FIGURES.items():
                 _check_element(name, kind if name in figures else "", element)
         if needs and not flexible:
@@ -191,9 +228,21 @@ def _check_element(name: str, of: str, element: str) -> None:
         )
 
 
+def _check_late(name: str, materials: Collection[str]) -> None:
+    """Refuse fatigue and wear for which something is lacking."""
+    late = LATE_FIGURES.get(name)
+    if late is _fatigue:
+        require_pylife()
+    for material in materials:
+        if late is _fatigue:
+            sn_curve(material)
+        elif late is _wear:
+            wear_law(material)
+
+
 def _check_figure(name: str) -> None:
     own = [figure for figures in ELEMENT_FIGURES.values() for figure in figures]
-    known = (*RIGID_FIGURES, *own, *FLEXIBLE_FIGURES)
+    known = (*RIGID_FIGURES, *own, *FLEXIBLE_FIGURES, *LATE_FIGURES)
     if name in known:
         return
     if name in VARIABLES or name in DERIVED:
@@ -209,7 +258,9 @@ def _check_figure(name: str) -> None:
     raise InputError(f"There is no output '{name}'; {hint}.", where="outputs", value=name)
 
 
-def figures_of(run: Run, reductions: tuple[str, ...]) -> dict[str, Figure]:
-    """All figures of the run's summary, and the reductions asked for; by name."""
+def figures_of(run: Run, beyond: tuple[str, ...]) -> dict[str, Figure]:
+    """All figures of the run's summary, and those asked for beyond it; by name."""
     found = {r.key: Figure(r.value, r.unit, r.shown, r.margin) for r in run.summary}
-    return found | {name: parse_reduction(name).of(run) for name in reductions}
+    for compute in dict.fromkeys(LATE_FIGURES[name] for name in beyond if name in LATE_FIGURES):
+        found |= compute(run)
+    return found | {name: parse_reduction(name).of(run) for name in beyond if is_reduction(name)}

@@ -50,6 +50,7 @@ def make_plan(study: Study) -> Plan:
     points = _points(study)
     cases, seen = [], dict[str, int]()
     elements, flexible = study.case.bearing.element_count, False
+    materials = dict[str, None]()
     for number, point in enumerate(points):
         for repetition in range(study.repeat.count):
             try:
@@ -68,10 +69,12 @@ def make_plan(study: Study) -> Plan:
             seen[case.hash] = number
             elements = min(elements, case.bearing.element_count)
             flexible |= case.cage_model == "flexible"
+            materials[case.cage.material.name] = None
             cases.append(Planned(number, point, repetition, case.hash, _modes_key(case)))
     check_outputs(
-        study.outputs, elements=elements, flexible=flexible, element=study.case.bearing.element
-    )
+        study.outputs, elements=elements, flexible=flexible, element=study.case.bearing.element,
+        materials=materials,
+    )  # fmt: skip
     return Plan(study, tuple(cases))
 
 

@@ -13,7 +13,7 @@ from flexcage.core.errors import RunFailed
 from flexcage.core.hashing import content_hash
 from flexcage.study.cluster import connect, require_packages
 from flexcage.study.folder import Failure, Folder
-from flexcage.study.outputs import reductions_of
+from flexcage.study.outputs import beyond_summary
 from flexcage.study.plan import Plan, Planned, make_plan
 from flexcage.study.results import StudyResults
 from flexcage.study.spec import Study
@@ -65,7 +65,7 @@ def run_study(
 
 def _lacking(plan: Plan, folder: Folder, *, retry: bool) -> set[str]:
     """Hashes of the cases to compute."""
-    todo, wanted = set(), set(reductions_of(plan.study.outputs))
+    todo, wanted = set(), set(beyond_summary(plan.study.outputs))
     for planned in plan.cases:
         failure = folder.failure(planned.hash)
         if failure is not None and retry:

@@ -21,7 +21,7 @@ from flexcage.run import Run, can_go_on, write_case
 from flexcage.simulate import load_run, simulate
 from flexcage.stages import cage_mesh, cage_reduction
 from flexcage.study.folder import CaseRow, Failure, Folder
-from flexcage.study.outputs import figures_of, reductions_of
+from flexcage.study.outputs import beyond_summary, figures_of
 from flexcage.study.plan import Plan, Planned
 
 
@@ -32,7 +32,7 @@ class Order:
     hash: str
     text: str  # the case, canonical TOML
     folder: str  # of the study, absolute
-    reductions: tuple[str, ...]
+    beyond: tuple[str, ...]  # outputs that no summary holds
     use: tuple[str, ...]  # extensions to load
     keep: str
     version: str = __version__
@@ -44,7 +44,7 @@ def order_of(plan: Plan, planned: Planned, folder: Path) -> Order:
         hash=planned.hash,
         text=plan.case(planned).to_toml(),
         folder=str(folder),
-        reductions=reductions_of(plan.study.outputs),
+        beyond=beyond_summary(plan.study.outputs),
         use=sources(),
         keep=plan.study.keep,
     )
@@ -84,19 +84,19 @@ def prepare(order: Order) -> None:
 
 def _complete(order: Order, folder: Folder) -> None:
     row = folder.row(order.hash)
-    if row is not None and set(order.reductions) <= set(row.figures):
+    if row is not None and set(order.beyond) <= set(row.figures):
         return
     begin = time.perf_counter()
     if row is not None and order.keep == "runs":  # only outputs were added
         run = load_run(folder.case(order.hash))
-        figures = {**row.figures, **figures_of(run, order.reductions)}
+        figures = {**row.figures, **figures_of(run, order.beyond)}
         folder.write_row(folder.case(order.hash), CaseRow(order.hash, row.seconds, figures))
         return
     case = _case_of(order)
     compile_kernels(case)
     part = folder.part(order.hash)
     run = _march(case, part, keep=order.keep)
-    figures = figures_of(run, order.reductions)
+    figures = figures_of(run, order.beyond)
     seconds = time.perf_counter() - begin
     folder.write_row(part, CaseRow(order.hash, seconds, figures))
     folder.finish(order.hash)

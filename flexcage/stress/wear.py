@@ -1,0 +1,312 @@
+"""Wear of a cage's pockets and land by Archard's law, from recorded forces and sliding.
+
+Worn volume = k * integral of normal force times sliding speed. Depth is that volume over the area
+of the track that an element leaves: on a crossbeam face, slice by slice, the slice's length times
+the height over which the line of contact wanders; on a round pocket's wall, the same by sectors; on
+side beams the band that a roller's end covers; on a land all of it. The height is that of a uniform
+spread with the same standard deviation, sqrt(12) times it, plus the width of the Hertz contact.
+That is the depth at first. An element works itself in and its track grows wider: ``Wear.depth``
+takes the groove to have the element's radius. Neither changes the pocket in the model: forces and
+speeds are those of the unworn cage.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from math import pi, sqrt
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from flexcage.contacts.spec import LandSpec
+from flexcage.core.errors import InputError
+from flexcage.geometry.bearing import Bearing
+from flexcage.geometry.cage import Cage
+from flexcage.geometry.hertz import PointContact
+from flexcage.results import metrics
+from flexcage.results.statistics import Windows
+from flexcage.stress.sliding import (
+    ball_touch,
+    end_speeds,
+    pocket_motion,
+    slice_speeds,
+)
+from flexcage.stress.wear_laws import WearLaw
+from flexcage.system.model import end_points
+
+if TYPE_CHECKING:
+    import xarray
+
+SECTORS = 24  # round a round pocket, whose depths are told apart
+_HOUR = 3600.0
+_ITERATIONS = 40  # of Newton's method for a depth; each near its end doubles the digits
+
+
+@dataclass(frozen=True, eq=False)
+class Rubbing:
+    """Normal force times sliding speed on pocket faces: ``power`` (nt, z, face) [W].
+
+    Of every cell of a track (z, face, cell): its mean ``cells`` [W], ``length`` and ``height`` [m].
+    ``groove`` (face,) [m] is the radius that a groove takes, zero where its height stays, and
+    ``friction`` (nt,) [W] what friction takes at those speeds.
+    """
+
+    power: np.ndarray
+    cells: np.ndarray
+    length: np.ndarray
+    height: np.ndarray
+    groove: np.ndarray
+    friction: np.ndarray
+
+
+@dataclass(frozen=True, eq=False)
+class Wear:
+    """Rates of wear over ``duration`` [s] of settled motion.
+
+    ``dataset`` holds, by pocket and face, ``volume_rate`` [m^3/s] with its ``margin`` (half the
+    width of the 95 % interval; NaN for too few windows), ``depth_rate`` [m/s] at first of the
+    deepest slice or sector and ``track_area`` [m^2]; by cell ``cell_volume_rate`` [m^3/s],
+    ``cell_length`` and ``cell_height`` [m]; by face ``groove_radius`` [m]; and
+    ``land_volume_rate`` and ``land_depth_rate``, zero without a land, NaN where a film carries it,
+    for which Archard's law says nothing.
+    ``friction_check`` is the work of pocket friction at the speeds used over the recorded one.
+    """
+
+    law: WearLaw
+    duration: float
+    dataset: xarray.Dataset
+    friction_check: float
+
+    @property
+    def depth_rate(self) -> float:
+        """Largest rate of depth on any pocket face [m/s]."""
+        return float(self.dataset["depth_rate"].max())
+
+    @property
+    def volume_rate(self) -> float:
+        """Volume worn from all pockets [m^3/s]."""
+        return float(self.dataset["volume_rate"].sum())
+
+    def depth(self, hours: float) -> xarray.DataArray:
+        """Depth [m] of the deepest cell by pocket and face after ``hours`` of such operation.
+
+        A groove of radius R and depth d that is ``h`` high at first has the cross-section
+        h d + (4/3) sqrt(2 R) d^(3/2): a circular segment, as long as d is small beside R.
+        """
+        ds = self.dataset
+        section = ds["cell_volume_rate"] / ds["cell_length"] * (hours * _HOUR)
+        bend = 4.0 / 3.0 * np.sqrt(2.0 * ds["groove_radius"])
+        root: Any = np.sqrt(section / ds["cell_height"])  # of the depth; Newton's method from above
+        for _ in range(_ITERATIONS):
+            over = ds["cell_height"] * root**2 + bend * root**3 - section
+            slope = 2.0 * ds["cell_height"] * root + 3.0 * bend * root**2
+            root = root - (over / slope).where(slope > 0.0, 0.0)
+        depth: xarray.DataArray = (root**2).max("cell").assign_attrs(units="m")
+        return depth
+
+    def table(self, hours: float = 1.0) -> str:
+        """An aligned table of the pocket faces that wear and of the land, with depths at first and
+        after ``hours``, and what stands behind."""
+        ds, after = self.dataset, self.depth(hours)
+        after_text = f"um in {hours:g} h"
+        lines = [f"{'pocket':>6}  {'face':<6}  mm^3/h       +-    um/h, first  {after_text:>12}"]
+        for k, face in ((k, f) for k in ds["pocket"].values for f in ds["face"].values):
+            at = {"pocket": k, "face": face}
+            if float(ds["volume_rate"].sel(at)) > 0.0:
+                volume, margin, depth = (
+                    float(ds[name].sel(at)) * _HOUR
+                    for name in ("volume_rate", "margin", "depth_rate")
+                )
+                lines.append(
+                    f"{k:>6}  {face:<6}  {volume * 1e9:8.2e} {margin * 1e9:8.1e}  "
+                    f"{depth * 1e6:11.4g}  {float(after.sel(at)) * 1e6:12.4g}"
+                )
+        volume, depth = (float(ds[f"land_{what}_rate"]) * _HOUR for what in ("volume", "depth"))
+        lines.append(
+            f"{'land':>6}  {'':<6}  {volume * 1e9:8.2e} {'':8}  {depth * 1e6:11.4g}  "
+            f"{depth * hours * 1e6:12.4g}"
+        )
+        return "\n".join([*lines, self.grounds()])
+
+    def grounds(self) -> str:
+        """The coefficient with its source and what it assumes."""
+        law = self.law
+        words = [
+            f"{law.material}: k = {law.coefficient * 1e9:.3g} mm^3/(N m) (Archard)",
+            f"source: {law.source or 'the user'}",
+        ]
+        return "\n".join([*words, *([f"assumption: {law.assumption}"] if law.assumption else [])])
+
+    __str__ = table
+
+
+def wear(
+    ds: xarray.Dataset, bearing: Bearing, cage: Cage, land: LandSpec, law: WearLaw, windows: Windows
+) -> Wear:
+    """Wear by the (settled) dataset of a run, which ``windows`` cut."""
+    element = metrics.element(ds)
+    if element not in RUBBING:
+        raise InputError(
+            f"Wear of pockets is known for {' and '.join(RUBBING)} bearings alone; elements of "
+            f"the kind '{element}' want a function of their own in stress.wear.RUBBING.",
+            where="bearing.type",
+        )
+    rubbing = RUBBING[element](ds, bearing, cage)
+    t, recorded = ds["time"].values, ds["work"].sel(channel="pocket_friction").values
+    lost, found = float(recorded[0] - recorded[-1]), float(np.trapezoid(rubbing.friction, t))
+    table = _tabled(rubbing, ds, law.coefficient, windows, land_rubbing(ds, cage, land))
+    return Wear(law, float(t[-1] - t[0]), table, found / lost if lost else float("nan"))
+
+
+def _tabled(
+    rubbing: Rubbing, ds: xarray.Dataset, k: float, windows: Windows, land: tuple[float, float]
+) -> xarray.Dataset:
+    """The rates as a dataset, with the coefficient k [m^3/(N m)]."""
+    import xarray as xr
+
+    series = rubbing.power.reshape(len(rubbing.power), -1).T
+    margins = np.reshape([windows.mean(one).margin for one in series], rubbing.power.shape[1:])
+    area = np.where(rubbing.cells > 0.0, rubbing.length * rubbing.height, 0.0)
+    depth = np.divide(rubbing.cells, area, out=np.zeros_like(area), where=area > 0.0)
+    face, cell = ("pocket", "face"), ("pocket", "face", "cell")
+    slid, land_area = land
+    rows = {
+        "volume_rate": (face, k * rubbing.power.mean(axis=0), "m^3/s", "worn volume by time"),
+        "margin": (face, k * margins, "m^3/s", "half of the 95 % interval of volume_rate"),
+        "depth_rate": (face, k * depth.max(axis=-1), "m/s", "worn depth by time, at first"),
+        "track_area": (face, area.sum(axis=-1), "m^2", "area of the wear track"),
+        "cell_volume_rate": (cell, k * rubbing.cells, "m^3/s", "worn volume by time"),
+        "cell_length": (cell, rubbing.length, "m", "length of a cell of the track"),
+        "cell_height": (cell, rubbing.height, "m", "height of the track at first"),
+        "groove_radius": (("face",), rubbing.groove, "m", "radius that a groove takes"),
+        "land_volume_rate": ((), k * slid, "m^3/s", "worn volume of the land by time"),
+        "land_depth_rate": ((), k * slid / land_area, "m/s", "worn depth of the land by time"),
+    }
+    return xr.Dataset(
+        {n: (d, v, {"units": unit, "long_name": words}) for n, (d, v, unit, words) in rows.items()},
+        coords={"pocket": ds["pocket"].values, "face": ds["face"].values},
+    )
+
+
+def roller_rubbing(ds: xarray.Dataset, bearing: Bearing, cage: Cage) -> Rubbing:
+    """Rollers on crossbeams by slices, and on side beams with the mean speed of their ends."""
+    motion = pocket_motion(ds)
+    radius, x = 0.5 * bearing.element_diameter, ds["slice"].values
+    points = end_points(bearing, cage)  # type: ignore[arg-type]
+    beams = slice_speeds(motion, x, radius)
+    ends = end_speeds(motion, points, 0.5 * bearing.roller_length)
+    order = ("time", "pocket", "face")
+    faces = [
+        ds[f"pocket_{what}"].transpose(*order).values[..., 2:] for what in ("force", "friction")
+    ]
+    slices = [
+        ds[f"pocket_slice_{what}"].transpose("time", "pocket", "crossbeam_face", "slice").values
+        for what in ("force", "friction")
+    ]
+    by_slice, side = slices[0] * beams, faces[0] * ends
+    power = np.concatenate([by_slice.sum(axis=-1), side], axis=2)
+    cells = np.zeros((*power.shape[1:], len(x)))
+    cells[:, :2], cells[:, 2:] = by_slice.mean(axis=0), side.mean(axis=0)[..., None] / len(x)
+    length = len(x) * (x[1] - x[0])
+    width = contact_width(slices[0].sum(axis=-1), length, bearing, cage)
+    height = _spread(motion.along(motion.place)[..., 1][..., None], power[..., :2]) + width
+    lengths, heights = np.full_like(cells, length / len(x)), np.empty_like(cells)
+    heights[:, :2], heights[:, 2:] = height[..., None], end_band(points) / length
+    drag = (slices[1] * beams).sum(axis=(1, 2, 3)) + (faces[1] * ends).sum(axis=(1, 2))
+    return Rubbing(power, cells, lengths, heights, np.array([radius, radius, 0.0, 0.0]), drag)
+
+
+def ball_rubbing(ds: xarray.Dataset, bearing: Bearing, cage: Cage) -> Rubbing:
+    """Balls on the walls of round pockets, by sectors round the pocket."""
+    motion, radius = pocket_motion(ds), 0.5 * bearing.element_diameter
+    station = ds["station_force"].transpose("time", "pocket", "face", "station", "cyl").values
+    force, friction = (
+        ds[f"pocket_{what}"].transpose("time", "pocket", "face").values[..., 0].astype(float)
+        for what in ("force", "friction")
+    )
+    touch = ball_touch(motion, station.sum(axis=(2, 3)), force, friction, radius)
+    power = (force * touch.speed)[..., None]
+    place = motion.along(motion.place)[..., 1] + radius * touch.normal[..., 1]
+    wall = 0.5 * cage.pocket_diameter
+    across = 1.0 / (1.0 / radius - 1.0 / wall)
+    along = across if cage.pocket_shape == "spherical" else radius
+    hertz = PointContact(across, along, _modulus(bearing, cage))
+    height = _spread(place[..., None], power) + 2.0 * hertz.semi_axes(_weighted(force))[0][:, None]
+    turn = np.arctan2(touch.normal[..., 0], touch.normal[..., 2]) / (2.0 * pi) % 1.0
+    sector = np.minimum((SECTORS * turn).astype(int), SECTORS - 1)
+    cells = np.stack([np.bincount(s, p, SECTORS) for s, p in zip(sector.T, power[..., 0].T)])[
+        :, None
+    ] / len(power)
+    lengths = np.full_like(cells, 2.0 * pi * wall / SECTORS)
+    heights = np.broadcast_to(height[..., None], cells.shape)
+    drag = (friction * touch.speed).sum(axis=1)
+    return Rubbing(power, cells, lengths, heights, np.array([radius]), drag)
+
+
+#: By the kind of rolling elements.
+RUBBING: dict[str, Callable[[xarray.Dataset, Bearing, Cage], Rubbing]] = {
+    "roller": roller_rubbing,
+    "ball": ball_rubbing,
+}
+
+
+def land_rubbing(ds: xarray.Dataset, cage: Cage, land: LandSpec) -> tuple[float, float]:
+    """Mean of normal force times sliding speed on the land [W], NaN under a film, and its area
+    [m^2], two lands of the stated width all round. The force's part along the line of centres is
+    taken as normal."""
+    outer = cage.guidance == "outer"
+    radius = 0.5 * (cage.outside_diameter if outer else cage.bore)
+    area = 4.0 * pi * radius * land.width
+    force = ds["land_force"].values[:, 1:]
+    if not np.any(force):
+        return 0.0, area
+    if land.kind == "film":
+        return float("nan"), area
+    ring = "outer" if outer else "inner"
+    apart = (ds["cage_position"] - ds[f"{ring}_position"]).values[:, 1:]
+    drift = (ds["cage_velocity"] - ds[f"{ring}_velocity"]).values[:, 1:]
+    reach = np.linalg.norm(apart, axis=1)
+    line = apart / np.where(reach > 0.0, reach, 1.0)[:, None]
+    normal = np.abs((force * line).sum(axis=1))
+    turning = ds["cage_omega"].sel(axis="x").values - (0.0 if outer else ds["inner_speed"].values)
+    side = 1.0 if outer else -1.0  # the land touches ahead of the centre, or behind it
+    across = drift[:, 1] * line[:, 0] - drift[:, 0] * line[:, 1]
+    return float((normal * np.abs(side * radius * turning + across)).mean()), area
+
+
+def contact_width(force: np.ndarray, length: float, bearing: Bearing, cage: Cage) -> np.ndarray:
+    """Width 2b [m] (...) of the line contact of rollers with a plane under their mean forces while
+    touching, of ``force`` (nt, ...) [N] over a length [m] (Hertz; K. L. Johnson, Contact
+    Mechanics, 4.3)."""
+    modulus = 0.5 * _modulus(bearing, cage)
+    radius = 0.5 * bearing.element_diameter
+    return 2.0 * np.sqrt(4.0 * _weighted(force) / length * radius / (pi * modulus))
+
+
+def end_band(points: np.ndarray) -> float:
+    """Area [m^2] of the band whose Gauss points (``system.model.end_points``) these are."""
+    height = sqrt(3.0) * float(np.ptp(points[:, 0]))
+    return height * float(np.ptp(points[:, 1])) / float(np.polynomial.legendre.leggauss(7)[0][-1])
+
+
+def _modulus(bearing: Bearing, cage: Cage) -> float:
+    """2/((1 - nu_1^2)/E_1 + (1 - nu_2^2)/E_2) of element and cage [Pa]."""
+    one, other = bearing.material.plane_strain_modulus, cage.material.plane_strain_modulus
+    return float(2.0 / (1.0 / one + 1.0 / other))
+
+
+def _weighted(force: np.ndarray) -> np.ndarray:
+    """Mean force (...) over time (nt, ...), weighted by itself: that of the samples that touch."""
+    total = force.sum(axis=0, dtype=float)
+    return np.divide(
+        (force.astype(float) ** 2).sum(axis=0), total, out=np.zeros_like(total), where=total > 0.0
+    )
+
+
+def _spread(place: np.ndarray, weight: np.ndarray) -> np.ndarray:
+    """Width (...) of a uniform spread with the standard deviation of ``place`` (nt, ...) under
+    ``weight`` (nt, ...)."""
+    total = np.maximum(weight.sum(axis=0), 1e-300)
+    mean = (weight * place).sum(axis=0) / total
+    return np.sqrt(12.0 * (weight * (place - mean) ** 2).sum(axis=0) / total)

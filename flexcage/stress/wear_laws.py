@@ -1,0 +1,74 @@
+"""Wear coefficients of cage materials against bearing steel with their sources.
+
+J. F. Archard, J. Appl. Phys. 24 (1953) 981: worn volume = k * normal force * sliding distance. The
+coefficients are those of dry sliding. A lubricant lowers them by orders of magnitude, and by how
+much depends on its film: a lubricated cage wants a coefficient of its own.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from flexcage.core.binding import check_spec
+from flexcage.core.errors import InputError
+from flexcage.core.registry import add
+from flexcage.core.spec import option
+
+
+@dataclass(frozen=True, kw_only=True)
+class WearLaw:
+    """Archard's law for one material: ``coefficient`` k [m^3/(N m)] (1 mm^3/(N m) is 1e-9)."""
+
+    material: str = option(doc="name of the material that wears")
+    coefficient: float = option(doc="worn volume by force and distance, m^3/(N m)", minimum=0.0)
+    source: str = option("", doc="where the value comes from")
+    assumption: str = option("", doc="what no source gives")
+
+
+#: By the name of the cage's material.
+WEAR_LAWS: dict[str, WearLaw] = {
+    law.material: law
+    for law in (
+        WearLaw(
+            material="brass",
+            coefficient=6.4e-13,
+            source="J. F. Archard and W. Hirst, Proc. R. Soc. A 236 (1956) 397: leaded 60/40 brass "
+            "on tool steel, dry, K = 6e-4, by its hardness of 95 kgf/mm^2",
+            assumption="dry: an upper bound for a lubricated cage",
+        ),
+        WearLaw(
+            material="PA66",
+            coefficient=1.61e-15,
+            source="Quadrant Nylon 101 (extruded PA66) on steel, dry, QTM 55010: 161e-8 mm^3/(N m)",
+            assumption="dry: an upper bound for a lubricated cage",
+        ),
+    )
+}
+
+
+def register_wear_law(law: WearLaw) -> WearLaw:
+    """Add a material's law: runs and studies with that material then use it; returns it.
+
+    Raises InputError for a material that has one, a value out of its bounds, or a law without its
+    ``source``.
+    """
+    check_spec(law, "wear_law")
+    if not law.source:
+        raise InputError(
+            f"The wear law of '{law.material}' has no source; say where its value comes from.",
+            where="wear_law.source",
+        )
+    return add(WEAR_LAWS, law.material, law, what="wear law")
+
+
+def wear_law(material: str) -> WearLaw:
+    """The law of a material; InputError where none is known."""
+    if material in WEAR_LAWS:
+        return WEAR_LAWS[material]
+    raise InputError(
+        f"No published wear coefficient of {material} on steel is known here (there are "
+        f"{', '.join(WEAR_LAWS)}); give your own, run.wear(flexcage.WearLaw(...)), or register it "
+        "with flexcage.stress.wear_laws.register_wear_law.",
+        where="law",
+        value=material,
+    )

@@ -1,0 +1,73 @@
+"""Fatigue and wear as outputs of a study: what is lacking is said before anything runs."""
+
+import importlib.util
+
+import numpy as np
+import pytest
+from study_cases import short_case, short_study
+
+from flexcage.core.errors import EnvironmentLacks, InputError
+from flexcage.results.metrics import settled
+from flexcage.results.summary import SHOWN
+from flexcage.simulate import simulate
+from flexcage.study.axes import Grid
+from flexcage.study.outputs import LATE_FIGURES, beyond_summary, figures_of
+from flexcage.study.plan import make_plan
+
+FLEXIBLE = Grid("cage.model", ["flexible"])
+
+
+def test_no_summary_holds_them_and_a_plan_takes_them():
+    outputs = ("cage_speed", *LATE_FIGURES, "pocket_force.max")
+    make_plan(short_study(FLEXIBLE, outputs=outputs))
+    assert beyond_summary(outputs) == outputs[1:]
+
+
+def test_fatigue_wants_a_flexible_cage():
+    with pytest.raises(InputError, match="'fatigue_life' wants a flexible cage"):
+        make_plan(short_study(outputs=("fatigue_life",)))
+
+
+def test_materials_without_data_are_refused():
+    materials = Grid("cage.material", ["brass", "polyimide"])
+    for name, words in (("fatigue_life", "S-N curve"), ("wear_depth_rate", "wear coefficient")):
+        with pytest.raises(InputError, match=f"No published {words} of polyimide"):
+            make_plan(short_study(FLEXIBLE, materials, outputs=(name,)))
+
+
+def test_without_pylife_fatigue_is_refused_and_wear_is_not(monkeypatch):
+    find = importlib.util.find_spec
+    monkeypatch.setattr(
+        importlib.util, "find_spec", lambda name, *a: None if name == "pylife" else find(name, *a)
+    )
+    make_plan(short_study(outputs=("wear_depth_rate",)))
+    with pytest.raises(EnvironmentLacks, match="pyLife"):
+        make_plan(short_study(FLEXIBLE, outputs=("fatigue_damage_rate",)))
+
+
+def test_figures_are_those_of_the_run():
+    pushed = {"start.push": "200 mm/s", "solver.duration": "2 ms"}
+    run = simulate(short_case(**{"cage.model": "flexible", **pushed}))
+    figures = figures_of(run, tuple(LATE_FIGURES))
+    worst, worn = run.fatigue().worst, run.wear()
+    assert figures["fatigue_damage_rate"].value == worst.damage_rate > 0.0
+    assert figures["fatigue_life"].value == pytest.approx(3600.0 * worst.life_hours)
+    assert figures["wear_volume_rate"].value == worn.volume_rate > 0.0
+    assert figures["wear_depth_rate"].value == worn.depth_rate
+    for figure in map(figures.get, LATE_FIGURES):
+        assert SHOWN[figure.shown][0] == figure.unit
+    check_place(run, worst)
+
+
+def check_place(run, worst):
+    """The counted stress is that of the full mesh: on its plane, at its vertex, within its range
+    at any time, and from end to end of it."""
+    times = settled(run.dataset, run.case.output.settle)["time"].values
+    x, y, z = worst.normal
+    weights = np.array([x * x, y * y, z * z, 2 * x * y, 2 * y * z, 2 * x * z])
+    found = [run.stress(time=t).stress[worst.vertex] @ weights for t in times]
+    assert min(found) == pytest.approx(worst.largest[0], rel=2e-3, abs=1e4)
+    assert max(found) == pytest.approx(worst.largest[1], rel=2e-3, abs=1e4)
+    assert run.fatigue(worst.place).worst.largest == worst.largest
+    with pytest.raises(InputError, match=f"nearest known one is '{worst.place}'"):
+        run.fatigue(worst.place + "x")
