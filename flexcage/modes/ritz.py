@@ -203,9 +203,7 @@ def residual_flexibility(
     )
 
 
-def coupling(
-    stiffness: np.ndarray, share: np.ndarray, pocket_count: int
-) -> tuple[float, float]:
+def coupling(stiffness: np.ndarray, share: np.ndarray, pocket_count: int) -> tuple[float, float]:
     """Largest residual deflection that a load makes at other pockets, relative to the whole one
     that it makes where it acts: under even loads, and under linear ones, which have no resultant.
     """

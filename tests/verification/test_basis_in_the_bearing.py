@@ -5,30 +5,28 @@ crossbeam bent by 0.2 mm. Three runs each, told apart by a tenth of the toleranc
 chaotic, so only statistics compare. Means and standard deviations over the runs, and the ratio:
 
     quantity                  sound: default, dynamic, ratio     bent: default, dynamic, ratio
-    cage speed, rad/s      281.929+-.001 281.927+-.001 1.000  282.175+-.002 282.178+-.004 1.000
-    sum of pocket forces, N   18.90+-.09    19.00+-.04 0.995     20.47+-.08    20.49+-.19 0.999
-    in contact, mean, N        2.04+-.01     3.06+-.10 0.667      1.86+-.03     2.53+-.09 0.737
-    in contact, rms, N         4.59+-.03     5.77+-.12 0.796      4.11+-.03     4.84+-.13 0.850
-    largest force, N          109.4+-2.8     90.2+-3.4 1.212     109.1+-4.6     90.2+-5.6 1.210
-    contact peaks, mean, N     4.74+-.13     4.94+-.17 0.961      4.17+-.02     3.95+-.16 1.056
-    contact peaks, 99 %, N     58.5+-3.2     46.1+-0.8 1.269      52.7+-1.8     38.0+-0.8 1.388
-    contacts per ms            73.4+-1.8     91.3+-3.0 0.803      73.9+-1.4    107.9+-2.0 0.685
-    duration, mean, us        126.5+-3.2     68.1+-1.8 1.857     148.8+-4.8     75.2+-2.2 1.978
-    duration, median, us            55.0          45.0 1.222           55.0          46.7 1.179
-    duration, 90 %, us          299+-19         89+-2  3.358       365+-27       112+-14  3.256
-    root stress, mean, MPa     8.48+-.03     8.65+-.08 0.980      8.78+-.03     8.86+-.03 0.990
-    root stress, 99 %, MPa     17.4+-0.3     17.6+-0.6 0.985      16.6+-0.2     16.9+-0.3 0.981
-    root stress, largest, MPa  18.4+-0.4     19.2+-0.3 0.957      17.2+-0.3     17.9+-0.4 0.961
-    steps                           6264          8560 0.732           6938          8703 0.797
-    CPU of the march, s              1.8          18.0 0.10             2.1          18.5 0.11
+    cage speed, rad/s      281.933+-.004 281.930+-.004 1.000  282.175+-.001 282.174+-.002 1.000
+    sum of pocket forces, N   18.85+-.13    19.04+-.22 0.990     20.51+-.14    20.34+-.13 1.009
+    in contact, mean, N        3.67+-.04     3.75+-.03 0.979      3.22+-.04     3.33+-.09 0.965
+    in contact, rms, N         6.48+-.06     6.59+-.02 0.982      5.81+-.04     5.97+-.11 0.973
+    largest force, N           87.1+-2.0     90.6+-3.5 0.962      92.5+-4.0     91.9+-2.6 1.006
+    contact peaks, mean, N     5.57+-.03     5.58+-.05 0.998      4.88+-.05     5.03+-.09 0.969
+    contact peaks, 99 %, N     46.2+-0.3     47.7+-0.7 0.969      43.8+-1.2     44.9+-2.4 0.976
+    contacts per ms            86.8+-0.1     89.4+-1.0 0.971      96.8+-1.1     99.2+-0.6 0.976
+    duration, mean, us         59.1+-0.4     56.8+-1.7 1.041      65.9+-1.7     61.6+-1.6 1.070
+    duration, median, us            40.0          40.0 1.000           45.0          41.7 1.080
+    duration, 90 %, us           70+-0         68+-3   1.024        78+-3         75+-5   1.044
+    root stress, mean, MPa     8.53+-.07     8.67+-.13 0.984      8.86+-.04     8.89+-.04 0.997
+    root stress, 99 %, MPa     17.4+-0.4     17.6+-0.3 0.986      17.1+-0.1     17.2+-0.4 0.995
+    root stress, largest, MPa  18.6+-0.2     18.6+-0.1 1.002      18.0+-0.1     18.4+-0.8 0.978
+    steps                          3472         13116 0.265           3441         13091 0.263
+    CPU of the march, s              2.2          22.2 0.10             1.9          21.4 0.09
 
-So the default has motion, load on the cage and root stress (mean 1 to 2 %, peak 4 % low), but not
-the single contact: peaks 20 to 50 % high (99 % peaks of the bent cage by 1.39 and 1.49 before and
-after walls lost their kinks) and contacts twice as long, far beyond the scatter. Runs
-of 60 ms repeat it (two each: peaks at 99 % 1.37 and 1.28, mean duration 2.17 and 2.11, mean root
-stress 0.985 and 0.984), and so does the sound cage with a fifth of the tolerance (one run each:
-1.34, 1.76, 0.99). With 100 free modes, to 45 kHz, its ratios are 1.06, 1.11 and 1.00, the largest
-force is 1.16 times the reference's, at a quarter of the dynamic basis's CPU time.
+Without inertia of the crossbeams' own bending (``modes.crossbeams = false``: 25 dynamic modes, to
+12 kHz) motion, loads and root stress are as near, but single contacts are not: the largest force is
+1.21 times the reference's, 99 % peaks 1.27 and 1.39 times, and contacts last 1.9 and 2.0 times as
+long on average, because a wall without inertia stays with its roller where one that rings breaks a
+push into blows.
 """
 
 from __future__ import annotations
@@ -103,11 +101,11 @@ def statistics(case, fields: StressFields) -> dict[str, float]:
 
 
 @cache
-def sample(defect: str, dynamic: str, count: int) -> dict[str, np.ndarray]:
+def sample(defect: str, dynamic: str, crossbeams: bool) -> dict[str, np.ndarray]:
     """Statistics of runs that differ in tolerance alone: name -> one value a run."""
     options = {
         "modes.dynamic": dynamic,
-        "modes.count": count,
+        "modes.crossbeams": crossbeams,
         "solver.duration": "20 ms",
         "output.rate": "200 kHz",
         "output.vibration_rate": "200 kHz",
@@ -128,10 +126,10 @@ def both(request):
     return tuple(logged(request.param, dynamic) for dynamic in ("free", "all"))
 
 
-def logged(defect: str, dynamic: str, count: int = 24) -> dict[str, np.ndarray]:
-    values = sample(defect, dynamic, count)
+def logged(defect: str, dynamic: str, crossbeams: bool = True) -> dict[str, np.ndarray]:
+    values = sample(defect, dynamic, crossbeams)
     for name, v in values.items():
-        log.info("%-5s %-4s %3d %-28s %9.3f +- %.3f", defect, dynamic, count, name, v.mean(),
+        log.info("%-5s %-4s %d %-28s %9.3f +- %.3f", defect, dynamic, crossbeams, name, v.mean(),
                  v.std(ddof=1))  # fmt: skip
     return values
 
@@ -146,39 +144,31 @@ def test_motion_and_loads_are_the_same(both):
     """What pushes the cage and how fast it turns; within the scatter of the runs."""
     assert ratio(both, "cage speed, rad/s") == pytest.approx(1.0, abs=1e-4)
     assert ratio(both, "sum of pocket forces, N") == pytest.approx(1.0, abs=0.03)
-    # single contacts are harder on the default basis: 0.84 to 0.9 here
-    assert ratio(both, "peaks of contacts: mean, N") == pytest.approx(1.0, abs=0.2)
 
 
 def test_root_stress_is_the_same(both):
-    """Stress follows the cage's own modes, not the local blow: 1 to 2 % low in the mean."""
     assert ratio(both, "root stress: mean, MPa") == pytest.approx(1.0, abs=0.04)
     assert ratio(both, "root stress: 99 %, MPa") == pytest.approx(1.0, abs=0.07)
     assert ratio(both, "root stress: largest, MPa") == pytest.approx(1.0, abs=0.10)
 
 
-def test_blows_are_harder(both):
-    """Beyond the scatter, and as one blow on the full mesh has it (21 %)."""
-    assert 1.08 < ratio(both, "largest force, N") < 1.40
-    assert 1.12 < ratio(both, "peaks of contacts: 99 %, N") < 1.60
-
-
-def test_contacts_are_fewer_and_longer(both):
-    """A wall without inertia stays with its roller; one that rings breaks a push into blows."""
-    assert 0.6 < ratio(both, "contacts per ms") < 0.92
-    assert 1.5 < ratio(both, "duration: mean, us") < 2.4
-    assert 1.05 < ratio(both, "duration: median, us") < 1.45
-    assert 0.55 < ratio(both, "in contact: mean force, N") < 0.85
-    assert 0.70 < ratio(both, "in contact: rms force, N") < 0.93
+def test_contacts_are_the_same(both):
+    """Crossbeams bend with their own inertia: blows are as hard, as many and as long."""
+    assert ratio(both, "peaks of contacts: mean, N") == pytest.approx(1.0, abs=0.06)
+    assert ratio(both, "peaks of contacts: 99 %, N") == pytest.approx(1.0, abs=0.10)
+    assert ratio(both, "largest force, N") == pytest.approx(1.0, abs=0.15)
+    assert ratio(both, "contacts per ms") == pytest.approx(1.0, abs=0.06)
+    assert ratio(both, "duration: mean, us") == pytest.approx(1.0, abs=0.12)
+    assert ratio(both, "in contact: mean force, N") == pytest.approx(1.0, abs=0.07)
+    assert ratio(both, "in contact: rms force, N") == pytest.approx(1.0, abs=0.07)
 
 
 def test_the_default_takes_fewer_steps(both):
-    assert ratio(both, "steps") < 0.9
+    assert ratio(both, "steps") < 0.5
 
 
-def test_a_hundred_free_modes_bring_both_nearer():
-    """Crossbeams bend among them; what is left is in the last lines of the file's docstring."""
-    more, reference = logged("sound", "free", 100), logged("sound", "all")
-    assert ratio((more, reference), "duration: mean, us") < 1.35
-    assert ratio((more, reference), "peaks of contacts: 99 %, N") < 1.2
-    assert ratio((more, reference), "in contact: mean force, N") > 0.8
+def test_crossbeams_without_inertia_of_their_own_blow_harder_and_longer():
+    """What the crossbeams' shapes are for."""
+    found = logged("sound", "free", crossbeams=False), logged("sound", "all")
+    assert 1.12 < ratio(found, "peaks of contacts: 99 %, N") < 1.60
+    assert 1.3 < ratio(found, "duration: mean, us") < 2.4
