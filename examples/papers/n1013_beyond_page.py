@@ -244,7 +244,8 @@ _PAGE = """# An N1013 beyond the paper: rigid against flexible, growing, several
 
 Written by `n1013_beyond.py --page` (flexcage {version}) from {done}; energy
 closes to {worst:.2g} % of the drive's work or better. Two starts of each point; ± is half of a 95 %
-interval. The bearing is that of the [paper's study](../README.md): clearances, housing, lubricant and shaft are assumptions.
+interval. The bearing is that of the [paper's study](../README.md): clearances, housing and
+lubricant are assumptions.
 
 ## Does a rigid cage overstate pocket forces?
 

@@ -1,0 +1,77 @@
+"""Beyond the N1013's paper: the studies plan, and the page's figures are what rows say."""
+
+import sys
+from pathlib import Path
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+
+from flexcage.study.outputs import Figure
+from flexcage.study.plan import make_plan
+
+PAPERS = Path(__file__).parents[2] / "examples" / "papers"
+
+
+@pytest.fixture(scope="module")
+def beyond():
+    sys.path.insert(0, str(PAPERS))
+    import n1013_beyond
+    import n1013_beyond_page
+
+    yield SimpleNamespace(script=n1013_beyond, page=n1013_beyond_page)
+    sys.path.remove(str(PAPERS))
+
+
+def results(points):
+    """A study's rows with these figures by labels, from two starts each."""
+    rows = [
+        SimpleNamespace(
+            planned=SimpleNamespace(point=SimpleNamespace(labels=dict(enumerate(labels)))),
+            figures={k: Figure(v, "", "", 0.01 * abs(v)) for k, v in figures.items()},
+            state="done",
+        )
+        for labels, figures in points.items()
+        for _ in range(2)
+    ]
+    return SimpleNamespace(rows=rows)
+
+
+def test_every_cage_at_every_speed_and_load_is_a_plan(beyond):
+    plan = make_plan(beyond.script.load("peaks"))
+    labels = {tuple(c.point.labels.values()) for c in plan.cases}
+    page = beyond.page
+    assert len(plan.cases) == 2 * len(labels) == 2 * 4 * 3 * 4
+    kinds = {f"{m}, {k}" for m in page.MATERIALS for k in ("rigid", "flexible")}
+    assert labels == {(s, p, k) for s in page.SPEEDS for p in page.LOADS for k in kinds}
+    assert len(make_plan(beyond.script.load("peaks", quick=True)).cases) == 4
+
+
+def test_every_cage_of_the_page_is_in_the_study(beyond):
+    page, plan = beyond.page, make_plan(beyond.script.load("cages"))
+    labels = {c.point.labels["cage"] for c in plan.cases}
+    asked = {*page.GROWTH["dq"], *page.GROWTH["dp"], *page.SEVERAL, *page.TOGETHER, *page.CURVES}
+    assert asked == labels
+    outputs = {*page._GROWING, *page._BESIDE, *page._SHAKEN, *page.SLICES}
+    assert outputs <= set(plan.study.outputs) and outputs - set(page.SLICES) <= set(page.NAMES)
+
+
+def test_excess_is_of_the_rigid_cage(beyond):
+    page = beyond.page
+    peaks = results({
+        ("6000", "1000", "brass, rigid"): {page.PEAK: 14.4},
+        ("6000", "1000", "brass, flexible"): {page.PEAK: 10.0},
+    })  # fmt: skip
+    found = page.excess(peaks, page.PEAK, "6000", "1000", "brass")
+    assert found.value == pytest.approx(0.44, rel=1e-12)
+    assert found.margin == pytest.approx(1.44 * 0.01, rel=1e-6)  # two of 1 %, each of two starts
+    assert np.isnan(page.excess(peaks, page.PEAK, "3000", "1000", "brass").value)
+
+
+def test_share_of_the_middle_half(beyond):
+    page = beyond.page
+    ends = {s: float(k in (0, 15)) for k, s in enumerate(page.SLICES)}
+    even = dict.fromkeys(page.SLICES, 2.0)
+    cages = results({("dq 0.1",): ends, ("dq 0.2",): even})
+    assert page.middle_share(cages, "dq 0.1") == 0.0
+    assert page.middle_share(cages, "dq 0.2") == pytest.approx(0.5)
