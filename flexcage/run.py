@@ -136,7 +136,15 @@ class Run:
         """Stress recovery of the flexible cage; InputError for a rigid one."""
         if self.cage is None:
             raise InputError("a rigid cage has no stress; run the case with cage.model = flexible")
-        c = self.cage
+        c, recorded = self.cage, self.dataset.sizes["mode"]
+        if c.basis.size != recorded:
+            raise InputError(
+                f"the run has {recorded} modal coordinates, but its case gives {c.basis.size} "
+                "modes: it was written by another version of flexcage, or its case.toml was "
+                "changed; run the case again",
+                where="modes",
+                value=recorded,
+            )
         return StressRecovery(c.model, c.basis, c.interface, solver=c.solver)
 
     @cached_property

@@ -256,7 +256,7 @@ def _method(case: Case) -> str:
         name = case.modes.kind.replace("_", "-")
         modes = (
             f"The cage's mesh is {case.mesh.file or case.mesh.fineness}, its basis {name} with "
-            f"{case.modes.count} modes. "
+            f"{case.modes.count} eigenmodes. "
         )
     return (
         f"{modes}{describe(case.solver.duration, 'ms')} of motion were asked for, integrated to "

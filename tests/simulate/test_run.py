@@ -1,6 +1,7 @@
 """What a run gives: its folder, its dataset, its summary, with figures of the expected size."""
 
 import json
+import shutil
 
 import numpy as np
 import pytest
@@ -127,6 +128,16 @@ def test_orders_of_magnitude(request, which):
     assert 0.075 < s["cage_mass"] < 0.1
     away = ds["race_force"].sel(race="outer").values[:, 9:14]  # opposite the load
     assert np.median(away) == pytest.approx(10.48, rel=0.05)
+
+
+def test_stress_of_a_run_with_another_basis_is_refused(flexible, tmp_path):
+    """As a run of another version is read: its case gives other modes than were recorded."""
+    folder = shutil.copytree(flexible.folder, tmp_path / "run")
+    text = (folder / "case.toml").read_text("utf-8")
+    assert "crossbeams = true" in text
+    (folder / "case.toml").write_text(text.replace("crossbeams = true", "crossbeams = false"))
+    with pytest.raises(InputError, match="another version of flexcage, or its case.toml"):
+        _ = load_run(folder).stress_history
 
 
 def test_stress_has_the_expected_size(flexible):
