@@ -146,3 +146,12 @@ def test_no_traceback_from_a_real_process(elsewhere):
     assert done.stderr == (
         "flexcage: drive.speed is 6000 without a unit; write it with one, such as '6000 rpm'.\n"
     )
+
+
+def test_the_package_runs_as_a_module():
+    """``python -m flexcage`` is the console script, exit codes included."""
+    argv = [sys.executable, "-m", "flexcage", "presets"]
+    done = subprocess.run([*argv, "N1013"], capture_output=True, text=True, check=False)
+    assert done.returncode == 0 and "Cylindrical roller bearing N1013" in done.stdout
+    done = subprocess.run([*argv, "N1014"], capture_output=True, text=True, check=False)
+    assert done.returncode == 2 and done.stderr.startswith("flexcage: ")
