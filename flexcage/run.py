@@ -5,7 +5,7 @@ from __future__ import annotations
 import logging
 import os
 import shutil
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from contextlib import nullcontext
 from dataclasses import dataclass
 from functools import cached_property
@@ -18,10 +18,12 @@ import numpy as np
 from flexcage.case import Case, load_case, words
 from flexcage.core.cache import cached_arrays
 from flexcage.core.errors import EnvironmentLacks, InputError
+from flexcage.core.progress import Silent
 from flexcage.core.threads import one_blas_thread
 from flexcage.core.timing import Stages
 from flexcage.mesh.cage_mesh import CageMesh
 from flexcage.mesh.quality import report_mesh
+from flexcage.mesh.series import write_series
 from flexcage.modes.reduction import CageReduction
 from flexcage.results.edges import Edge, groove_edges
 from flexcage.results.figures import pass_peak, summarise
@@ -38,6 +40,7 @@ from flexcage.stress.operators import von_mises
 from flexcage.stress.places import contact_zone, place_kind, root_places
 from flexcage.stress.places import in_words as place_in_words
 from flexcage.stress.recovery import CageLoads, StressRecovery
+from flexcage.stress.series import frames, samples_near
 from flexcage.system.start import Start
 
 if TYPE_CHECKING:
@@ -48,6 +51,8 @@ if TYPE_CHECKING:
     from flexcage.results.recording import Recorder
 
 log = logging.getLogger(__name__)
+
+_ABOUT_PEAK = 4e-4  # s before and after the largest stress: what animations and VTU series show
 
 
 @dataclass(frozen=True)
@@ -169,6 +174,36 @@ class Run:
         u = self.recovery.displacement(loads)
         return StressField(float(t[index]), u, self.recovery.stress(u))
 
+    def write_vtu(
+        self,
+        folder: str | Path,
+        *,
+        times: Sequence[float] | None = None,
+        progress: Callable[..., Any] | None = None,
+    ) -> Path:
+        """Write the cage's motion and stress as a .vtu series for ParaView; the path of its .pvd.
+
+        At the samples nearest to ``times`` [s], or all within 0.4 ms of the largest peak of stress:
+        ``displacement`` [m], ``von_mises`` [Pa] and ``stress`` [Pa] (xx, yy, zz, xy, yz, xz) at
+        the vertices of the cage as it is without stress, cage frame. ``progress`` is a context
+        like ``core.progress.Progress``. Raises InputError for a rigid cage, a time outside the
+        run, or a folder that holds files.
+        """
+        self.recovery  # noqa: B018  (refuses a rigid cage)
+        t = self.dataset["time"].values
+        if times is None:
+            chosen = t[np.abs(t - t[self.stress_history.peak_sample]) < _ABOUT_PEAK]
+        else:
+            chosen = samples_near(t, times)
+
+        def field_at(time: float) -> tuple[np.ndarray, np.ndarray]:
+            field = self.stress(time=time)
+            return field.displacement, field.stress
+
+        with (progress or Silent)(len(chosen), "VTU") as bar:
+            series = frames(chosen, field_at, bar.advance)
+            return write_series(folder, "cage", self.mesh.points, self.mesh.tets, series)
+
     def draw(self, folder: str | Path, *, animate: bool = False) -> list[Path]:
         """Draw every picture of the run into ``folder``; paths of the files."""
         from flexcage.render.album import draw_album
@@ -269,7 +304,7 @@ class Run:
         frames = []
         if animate:
             t = self.dataset["time"].values
-            near = np.abs(t - peak.time) < 4e-4
+            near = np.abs(t - peak.time) < _ABOUT_PEAK
             for instant in t[near]:
                 field = self.stress(time=instant)
                 frames.append((field.time, field.displacement, field.von_mises))

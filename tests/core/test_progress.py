@@ -62,3 +62,13 @@ def test_notes_have_a_line_of_their_own():
     lines = stream.getvalue().split("\n")
     assert lines[0].endswith("\rcompiling kernels for the first time")
     assert lines[1].startswith("\rsolving:")
+
+
+def test_a_step_of_unknown_length_is_named_without_an_estimate(clock):
+    stream = Terminal()
+    with Progress(None, "modes", stream=stream) as bar:
+        clock[0] += 3.0
+        bar.advance()
+        assert bar.remaining() is None
+    assert "\rmodes ..." in stream.getvalue() and "%" not in stream.getvalue()
+    assert "modes: done after 3 s" in stream.getvalue()

@@ -184,3 +184,58 @@ def test_orientations_turn_with_the_angular_velocities(flexible):
         else:
             speed = speed[100:200:7]
         np.testing.assert_allclose(about_axis, speed.ravel(), rtol=2e-4)
+
+
+def test_a_vtu_series_holds_what_stress_gives(flexible, tmp_path):
+    """Read back by meshio and by VTK, which takes its times from the .pvd."""
+    import meshio
+    import pyvista
+
+    folder = tmp_path / "vtu"
+    path = flexible.write_vtu(folder, times=[4.5e-3, 6.011e-3, 6.012e-3])
+    assert path == folder / "cage.pvd"
+    reader = pyvista.get_reader(path)
+    assert reader.time_values == pytest.approx([4.5e-3, 6.02e-3])
+    field = flexible.stress(time=6.02e-3)
+    read = meshio.read(folder / "cage_0001.vtu")
+    np.testing.assert_allclose(read.points, flexible.mesh.points)
+    np.testing.assert_array_equal(read.cells_dict["tetra"], flexible.mesh.tets)
+    for name, values in (
+        ("displacement", field.displacement[: len(read.points)]),
+        ("von_mises", field.von_mises),
+        ("stress", field.stress),
+    ):
+        largest = np.abs(values).max()
+        np.testing.assert_allclose(read.point_data[name], values, atol=1e-6 * largest)
+    reader.set_active_time_value(reader.time_values[1])
+    shown = reader.read()[0]
+    assert shown.point_data["von_mises"].max() == pytest.approx(field.von_mises.max(), rel=1e-6)
+
+
+def test_what_a_vtu_series_refuses(flexible, rigid, tmp_path):
+    with pytest.raises(InputError, match="rigid cage has no stress; run the case with"):
+        rigid.write_vtu(tmp_path / "vtu")
+    assert not (tmp_path / "vtu").exists()
+    with pytest.raises(InputError, match=r"no sample at 11 ms; the run has 0\.02 to 10 ms"):
+        flexible.write_vtu(tmp_path / "vtu", times=[11e-3])
+    (tmp_path / "notes.txt").write_text("precious")
+    with pytest.raises(InputError, match="exists already"):
+        flexible.write_vtu(tmp_path, times=[5e-3])
+
+
+def test_export_writes_the_samples_asked_for(flexible, tmp_path, capsys):
+    from flexcage import cli
+
+    run, out = str(flexible.folder), tmp_path / "out"
+    argv = ["export", run, "-o", str(out), "--from", "5 ms", "--to", "5.1 ms"]
+    assert cli.main(argv) == 0
+    assert len(list(out.glob("cage_*.vtu"))) == 6 and "cage.pvd" in capsys.readouterr().out
+    assert cli.main(argv) == 2 and "exists already" in capsys.readouterr().err
+    assert cli.main([*argv, "--count", "3", "--force"]) == 0
+    assert len(list(out.glob("cage_*.vtu"))) == 3
+    assert cli.main(["export", run, "-o", run, "--force"]) == 2
+    assert "did not write" in capsys.readouterr().err
+    assert RunStore.open(flexible.folder / "results.zarr").complete
+    assert cli.main(["export", run, "--from", "20 ms"]) == 2
+    assert "the run has 0.02 to 10 ms" in capsys.readouterr().err
+    assert not (flexible.folder / "vtu").exists()
