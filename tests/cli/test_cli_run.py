@@ -119,6 +119,10 @@ def test_presets_show_assumptions_and_ratings(capsys):
     shown = capsys.readouterr().out
     line = next(x for x in shown.splitlines() if "cage.pocket_width" in x)
     assert "8.2 mm" in line and "assumption:" in line
+    line = next(x for x in shown.splitlines() if "contacts.race.friction.peak " in x)
+    assert "0.05" in line and "assumption: mineral oils" in line
+    line = next(x for x in shown.splitlines() if "lubricant.viscosity" in x)
+    assert "0.01 Pa*s" in line and "assumption: ISO 3448" in line
     assert "51.05 kN" in shown and "41.03 kN" in shown
 
 
