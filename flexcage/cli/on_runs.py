@@ -54,9 +54,10 @@ def _add_export(commands: Any) -> None:
 
 def render_command(args: argparse.Namespace) -> int:
     """flexcage render RUN: draw the pictures of a stored run again."""
+    from flexcage.core.progress import Progress
     from flexcage.simulate import load_run
 
-    run = load_run(existing_run(args.run))
+    run = load_run(existing_run(args.run), progress=Progress)
     out = Path(args.out) if args.out else Path(args.run) / "images"
     run.draw(out, animate=args.animate)
     say(f"The pictures are in {out}")
@@ -68,12 +69,12 @@ def export_command(args: argparse.Namespace) -> int:
     from flexcage.core.progress import Progress
     from flexcage.simulate import load_run
 
-    run = load_run(existing_run(args.run))
+    run = load_run(existing_run(args.run), progress=Progress)
     run.recovery  # noqa: B018  (refuses a rigid cage before a folder is made)
     out = Path(args.out) if args.out else Path(args.run) / "vtu"
     times = _instants(args, run)
     prepare_out(out, resume=False, force=args.force, resumable=False, ours=("cage.pvd",))
-    say(f"written: {run.write_vtu(out, times=times, progress=Progress)}")
+    say(f"written: {run.write_vtu(out, times=times)}")
     return 0
 
 

@@ -91,7 +91,13 @@ class FrictionLaw:
     def creeps_below(self) -> float | None:
         """Sliding speed [m/s] below which the law only creeps, so that slip under it says nothing;
         None for a law whose rise from rest is the physics."""
-        return self.v_static if self.law in ("step_coulomb", "ramp_coulomb") else None
+        return self.v_static if self.law in _COULOMB else None
+
+    @property
+    def rises_below(self) -> float | None:
+        """Sliding speed [m/s] up to which traction rises from rest, so that slip under it is set
+        by the slope of that rise; None for a law without one."""
+        return self.peak_speed if self.law == "traction" else None
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -112,6 +118,11 @@ class EhlTraction(FrictionLaw):
         "m/s", 0.1, doc="sliding speed at which the slope at rest meets the limit", above=0.0,
         assumption="flexcage.ehl_traction finds it from film, pressure and speed",
     )  # fmt: skip
+
+    @property
+    def rises_below(self) -> float | None:
+        """Sliding speed [m/s] up to which traction rises nearly linearly."""
+        return self.creep_speed if self.law == "ehl" else None
 
 
 FRICTION_LAWS["ehl"] = EhlTraction

@@ -10,6 +10,8 @@ from typing import TextIO
 _INTERVAL = 0.2  # s between two drawings
 _PATIENCE = 1.0  # s before the first estimate: earlier ones mislead
 
+_OPEN: list[Progress] = []  # those that are drawn now
+
 
 class Progress:
     """Context of one long step of ``total`` units; draws on a terminal and is quiet elsewhere.
@@ -42,6 +44,7 @@ class Progress:
     def __enter__(self) -> Progress:
         self._start = time.monotonic()
         self._draw()
+        _OPEN.append(self)
         return self
 
     def __exit__(
@@ -50,6 +53,7 @@ class Progress:
         error: BaseException | None,
         tb: TracebackType | None,
     ) -> None:
+        _OPEN.remove(self)
         if not self._enabled:
             return
         if kind is None and self.total is not None:
@@ -85,6 +89,13 @@ class Progress:
             self._width = 0
             self._draw()
 
+    def clear(self) -> None:
+        """Empty the line drawn on, for others to write there; the next drawing comes below."""
+        if self._enabled:
+            self._put("")
+            self._stream.write("\r")
+            self._stream.flush()
+
     def remaining(self) -> float | None:
         """Estimate of the remaining time [s], or None while it would mislead."""
         elapsed = time.monotonic() - self._start
@@ -111,6 +122,12 @@ class Progress:
         self._stream.write("\r" + text.ljust(self._width))
         self._stream.flush()
         self._width = len(text)
+
+
+def clear_line() -> None:
+    """Empty the line on which progress is drawn, if any is."""
+    for progress in _OPEN:
+        progress.clear()
 
 
 class Silent(Progress):

@@ -1,6 +1,7 @@
 """What a run gives: its folder, its dataset, its summary, with figures of the expected size."""
 
 import json
+import time
 
 import numpy as np
 import pytest
@@ -9,9 +10,12 @@ from simulate_cases import bent, n1013
 
 from flexcage.case import load_case
 from flexcage.core.errors import InputError
+from flexcage.core.progress import Silent
+from flexcage.render import album
 from flexcage.results.registry import VARIABLES, variables_of
 from flexcage.results.store import RunStore
 from flexcage.simulate import load_run, simulate
+from flexcage.stress.places import contact_zone
 
 RPM = np.pi / 30.0
 LONG = {"solver.duration": "10 ms"}
@@ -42,6 +46,64 @@ def test_the_folder_of_a_run(flexible):
     assert again.case == flexible.case
     assert again.store.complete and again.dataset.attrs["complete"] == 1
     assert str(again.summary) == str(flexible.summary)
+
+
+def test_pictures_are_among_the_stored_wall_times(flexible, tmp_path, monkeypatch):
+    """Stages add up to no more than all of it, and the stored summary is the one in memory."""
+    stages = ["mesh", "modes", "kernels", "start", "solve", "stress"]
+    assert list(flexible.stages)[:6] == stages and "wall_pictures" not in flexible.summary
+    monkeypatch.setattr(album, "draw_album", lambda *args, **options: time.sleep(0.05) or [])
+    flexible.draw(tmp_path)
+    stored = json.loads((flexible.folder / "summary.json").read_text("utf-8"))["Wall time"]
+    assert [key.removeprefix("wall_") for key in stored] == [*stages, "pictures", "total"]
+    seconds = {key: row["value"] for key, row in stored.items()}
+    total = seconds.pop("wall_total")
+    assert 0.05 <= seconds["wall_pictures"] and sum(seconds.values()) <= total
+    assert "Pictures" in (flexible.folder / "summary.txt").read_text("utf-8")
+    assert flexible.summary["wall_total"] == total
+
+
+class Shown(Silent):
+    """Progress that notes what it was told."""
+
+    seen: list = []
+
+    def __init__(self, total, label):
+        super().__init__(total, label)
+        self.seen.append((label, total, self))
+
+
+def test_every_long_stage_shows_itself(tmp_path):
+    """By name where nobody knows how long it takes, else by what share is done."""
+    Shown.seen = []
+    case = n1013({"solver.duration": "0.4 ms"}, defects=bent("0.3 mm"))
+    run = simulate(case, progress=Shown)
+    known = {label: (total, bar.done) for label, total, bar in Shown.seen}
+    assert list(known) == ["mesh", "modes", "kernels", "start", "solving", "stress"]
+    assert known["mesh"][0] is known["modes"][0] is known["kernels"][0] is None
+    assert known["start"] == (1.0, 1.0)
+    assert known["solving"][1] == pytest.approx(known["solving"][0]) == pytest.approx(0.4e-3)
+    assert known["stress"] == (1, 1)
+    run.write_vtu(tmp_path / "vtu", times=[1e-4, 2e-4])
+    assert Shown.seen[-1][0] == "VTU" and Shown.seen[-1][2].done == 2
+
+
+def test_the_mode_table_is_stored_and_the_summary_says_where(flexible, rigid):
+    """Elastic modes of a free body move no mass centre: their effective masses are zero."""
+    row = flexible.summary.row("mode_count")
+    assert row.value == flexible.cage.basis.size == 25 and row.note == "table: modes.csv"
+    lines = (flexible.folder / "modes.csv").read_text("utf-8").splitlines()
+    head, rows = lines[0].split(","), [line.split(",") for line in lines[1:]]
+    assert head[0] == "number" and "share_crossbeam" in head
+    assert [int(r[0]) for r in rows] == list(range(1, 26))
+    at = head.index("frequency [Hz]")
+    assert [float(r[at]) for r in rows] == list(flexible.cage.basis.frequencies)
+    assert [r[head.index("kind")] for r in rows] == list(flexible.cage.basis.kind)
+    masses = [[float(r[head.index(f"effective_mass_{a} [kg]")]) for a in "xyz"] for r in rows]
+    assert np.abs(masses).max() < 1e-9 * flexible.summary["cage_mass"]
+    assert "mode_count" not in rigid.summary
+    with pytest.raises(InputError, match="rigid cage has no stress"):
+        rigid.mode_table  # noqa: B018
 
 
 def test_a_folder_with_a_run_is_not_overwritten(flexible):
@@ -140,6 +202,19 @@ def test_stress_has_the_expected_size(flexible):
     field = flexible.stress()
     assert field.von_mises.max() >= 0.999 * h.peak[h.settled :].max()
     assert np.abs(field.displacement).max() < 0.1e-3
+
+
+def test_the_summary_says_what_its_peaks_and_cuts_leave_out(flexible):
+    """The peak is the largest off the flat walls, which hold more at some instant of the run."""
+    row, h = flexible.summary.row("stress_peak"), flexible.stress_history
+    assert "flat pocket walls" in row.label and "off the fillets are never searched" in row.note
+    walls = contact_zone(flexible.cage.model, 22)
+    assert not np.isin(h.peak_vertex, walls).any()
+    assert np.isin(h.surface, walls).sum() == len(walls)
+    searched = h.envelope[~np.isin(h.surface, walls)]
+    assert searched.max() == pytest.approx(row.value, rel=1e-6)
+    cut = flexible.summary.row("far_coupling")
+    assert "neighbour misses" in cut.note and "under 0.5 %" in cut.note
 
 
 def test_inner_ring_carries_the_load(rigid):
