@@ -5,7 +5,7 @@ from __future__ import annotations
 import logging
 import os
 import shutil
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from contextlib import nullcontext
 from dataclasses import dataclass
 from functools import cached_property
@@ -22,11 +22,15 @@ from flexcage.core.threads import one_blas_thread
 from flexcage.core.timing import Stages
 from flexcage.mesh.cage_mesh import CageMesh
 from flexcage.mesh.quality import report_mesh
+from flexcage.mesh.series import write_series
 from flexcage.modes.reduction import CageReduction
+from flexcage.modes.table import ModeTable, mode_table
+from flexcage.results import mode_file
 from flexcage.results.edges import Edge, groove_edges
 from flexcage.results.figures import pass_peak, summarise
 from flexcage.results.film import film_rows, film_thickness
-from flexcage.results.metrics import BearingNumbers, cage_angle, settled
+from flexcage.results.metrics import BearingNumbers, SlipRange, cage_angle, settled
+from flexcage.results.mode_file import write_modes
 from flexcage.results.statistics import roller_passes
 from flexcage.results.store import MemoryRunStore, RunStore
 from flexcage.results.summary import Row, Summary
@@ -40,6 +44,7 @@ from flexcage.stress.operators import von_mises
 from flexcage.stress.places import contact_zone, place_kind, root_places
 from flexcage.stress.places import in_words as place_in_words
 from flexcage.stress.recovery import CageLoads, StressRecovery
+from flexcage.stress.series import frames, samples_near
 from flexcage.stress.sn_curves import SNCurve, sn_curve
 from flexcage.stress.wear import Wear, wear
 from flexcage.stress.wear_laws import WearLaw, wear_law
@@ -53,6 +58,13 @@ if TYPE_CHECKING:
     from flexcage.results.recording import Recorder
 
 log = logging.getLogger(__name__)
+
+# measured on pinched pockets of an N1013, in tests/verification/test_pinch.py
+_FAR = (
+    "of what a push deflects its own pocket: what another pocket would feel of it beyond the modes; "
+    "changes an N1013's pinch forces by under 0.5 %"
+)
+_ABOUT_PEAK = 4e-4  # s before and after the largest stress: what animations and VTU series show
 
 
 @dataclass(frozen=True)
@@ -148,6 +160,12 @@ class Run:
         return StressRecovery(c.model, c.basis, c.interface, solver=c.solver)
 
     @cached_property
+    def mode_table(self) -> ModeTable:
+        """Number, kind, frequency and effective masses of the flexible cage's dynamic modes."""
+        recovery = self.recovery  # refuses a rigid cage
+        return mode_table(recovery.model, recovery.basis, pocket_count=self.mesh.pocket_count)
+
+    @cached_property
     def stress_history(self) -> StressHistory:
         """Equivalent stress at named places, peaks, and the envelope over all samples."""
         return self.stages("stress", self._stress_history)
@@ -161,6 +179,7 @@ class Run:
             ds["station_force"].values,
             land_station_forces(ds, inner=self.case.cage.guidance != "outer"),
             settled=int(self.case.output.settle * ds.sizes["time"]),
+            progress=self.stages.progress,
         )
 
     def _keep(self) -> Keep:
@@ -224,12 +243,53 @@ class Run:
         u = self.recovery.displacement(loads)
         return StressField(float(t[index]), u, self.recovery.stress(u))
 
+    def write_vtu(
+        self,
+        folder: str | Path,
+        *,
+        times: Sequence[float] | None = None,
+    ) -> Path:
+        """Write the cage's motion and stress as a .vtu series for ParaView; the path of its .pvd.
+
+        At the samples nearest to ``times`` [s], or all within 0.4 ms of the largest peak of stress:
+        ``displacement`` [m], ``von_mises`` [Pa] and ``stress`` [Pa] (xx, yy, zz, xy, yz, xz) at
+        the vertices of the cage as it is without stress, cage frame. Raises InputError for a rigid
+        cage, a time outside the run, or a folder that holds files.
+        """
+        self.recovery  # noqa: B018  (refuses a rigid cage)
+        t = self.dataset["time"].values
+        if times is None:
+            chosen = t[np.abs(t - t[self.stress_history.peak_sample]) < _ABOUT_PEAK]
+        else:
+            chosen = samples_near(t, times)
+
+        def field_at(time: float) -> tuple[np.ndarray, np.ndarray]:
+            field = self.stress(time=time)
+            return field.displacement, field.stress
+
+        with self.stages.progress(len(chosen), "VTU") as bar:
+            series = frames(chosen, field_at, bar.advance)
+            return write_series(folder, "cage", self.mesh.points, self.mesh.tets, series)
+
     def draw(self, folder: str | Path, *, animate: bool = False) -> list[Path]:
         """Draw every picture of the run into ``folder``; paths of the files."""
+        paths = self.stages("pictures", self._draw, Path(folder), animate)
+        if hasattr(self, "solver"):
+            self.tell_times()
+        return paths
+
+    def _draw(self, folder: Path, animate: bool) -> list[Path]:
         from flexcage.render.album import draw_album
 
         scene = self.scene(animate=animate)
-        return self.stages("pictures", draw_album, scene, Path(folder), animate=animate)
+        return draw_album(scene, folder, animate=animate, progress=self.stages.progress)
+
+    def tell_times(self) -> None:
+        """Bring the wall times of a run just computed up to now in its summary, the stored one
+        included."""
+        self.summary = self.summary.with_section("Wall time", self._time_rows())
+        if self.folder:
+            self.summary.write(self.folder)
 
     def report(self, path: str | Path, *, progress: Callable[..., Any] | None = None) -> Path:
         """Write the run's report, one HTML file that needs no other; returns its path.
@@ -324,7 +384,7 @@ class Run:
         frames = []
         if animate:
             t = self.dataset["time"].values
-            near = np.abs(t - peak.time) < 4e-4
+            near = np.abs(t - peak.time) < _ABOUT_PEAK
             for instant in t[near]:
                 field = self.stress(time=instant)
                 frames.append((field.time, field.displacement, field.von_mises))
@@ -362,6 +422,8 @@ class Run:
                 log.warning(edge.warning)
         if self.folder:
             self.summary.write(self.folder)
+            if self.cage is not None:
+                write_modes(self.mode_table, self.folder / mode_file.FILE)
         return self
 
     @cached_property
@@ -369,12 +431,12 @@ class Run:
         return groove_edges(self.case.bearing, self.dataset)
 
     def _summarise(self) -> Summary:
-        case = self.case
+        case, friction = self.case, self.case.contacts.race.friction
         summary = summarise(
             self.dataset,
             self.numbers,
             settle=case.output.settle,
-            creep_speed=case.contacts.race.friction.creeps_below,
+            slip_range=SlipRange(friction.creeps_below, friction.rises_below),
             events=self.events,
         )
         part = settled(self.dataset, case.output.settle)
@@ -388,9 +450,11 @@ class Run:
             summary = summary.with_section("Equivalent stress", self._stress_rows())
         if hasattr(self, "solver"):
             summary = summary.with_section("Solver", self._solver_rows())
-        return summary.with_section("Wall time", [
-            Row(f"wall_{k}", k.capitalize(), v, "s") for k, v in self.stages.items()
-        ])  # fmt: skip
+        return summary.with_section("Wall time", self._time_rows())
+
+    def _time_rows(self) -> list[Row]:
+        rows = [Row(f"wall_{k}", k.capitalize(), v, "s") for k, v in self.stages.items()]
+        return [*rows, Row("wall_total", "In all", self.stages.total, "s")]
 
     def _cage_rows(self) -> list[Row]:
         report = report_mesh(self.mesh, density=self.case.cage.material.density)
@@ -400,10 +464,19 @@ class Run:
         ]
         if self.cage is not None:
             basis = self.cage.basis
+            where = mode_file.FILE if self.folder else "run.mode_table"
+            rows.append(Row("mode_count", "Dynamic modes", basis.size, "", f"table: {where}"))
             rows.append(Row("first_frequency", "First frequency", basis.frequencies[0], "Hz"))
             if basis.residual is not None:
-                far, note = basis.residual.far_coupling, "of the deflection under a push"
-                rows.append(Row("far_coupling", "Residual coupling cut", far, "%", note))
+                rows.append(
+                    Row(
+                        "far_coupling",
+                        "Pockets' local coupling cut",
+                        basis.residual.far_coupling,
+                        "%",
+                        _FAR,
+                    )
+                )
         if self.start is not None and self.start.pinched:
             rows.append(Row("pinch_force", "Pinch force at the start", self.start.pinch_force, "N",
                             f"pockets {', '.join(map(str, self.start.pinched))}"))  # fmt: skip
@@ -419,14 +492,15 @@ class Run:
         place = f"t = {when:.3f} ms at ({at[0]:.1f}, {at[1]:.1f}, {at[2]:.1f}) mm, cage frame"
         part = self.dataset.isel(time=slice(h.settled, None))
         windows, peak = roller_passes(part, self.numbers), h.peak[h.settled :]
-        kind = place_kind(self.mesh.groups).one
+        kind = place_kind(self.mesh.groups)
         corner = windows.peak(h.places[h.settled :].max(axis=1))
         return [
-            Row("stress_peak", "Peak, contact zones left out", float(h.peak[k]), "MPa", place),
+            Row("stress_peak", f"Peak, without {kind.walls}", float(h.peak[k]), "MPa",
+                f"{place}; {kind.left_out} are never searched"),
             Row.of("stress_mean_peak", "Mean of the cage's peak", windows.mean(peak), "MPa"),
-            Row.of("stress_root_pass_peak", f"At a {kind}, peak of a pass", corner, "MPa",
+            Row.of("stress_root_pass_peak", f"At a {kind.one}, peak of a pass", corner, "MPa",
                    pass_peak(self.case.bearing.element)),
-            Row("stress_root", f"Largest at a {kind}", float(roots[root]), "MPa",
+            Row("stress_root", f"Largest at a {kind.one}", float(roots[root]), "MPa",
                 place_in_words(h.place_names[root])),
             Row("stress_start", "Before settling", float(h.peak[: h.settled].max(initial=0.0)),
                 "MPa"),

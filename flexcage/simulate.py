@@ -33,14 +33,14 @@ def simulate(
     RunFailed for a run that cannot go on, with what was computed kept.
     """
     folder = Path(out) if out is not None else None
-    stages = Stages()
+    stages = Stages(progress)
     if folder is not None and resume:
         check_resumed(folder, case)
     compiling = begin_compiling(case.bearing.element)
-    mesh = stages("mesh", cage_mesh, case)
-    cage = stages("modes", cage_reduction, case, mesh)
-    bearing = stages("kernels", build_bearing, case, mesh, cage, compiling)
-    start = stages("start", assembled_start, case, bearing)
+    mesh = stages.named("mesh", cage_mesh, case)
+    cage = stages.named("modes", cage_reduction, case, mesh)
+    bearing = stages.named("kernels", build_bearing, case, mesh, cage, compiling)
+    start = stages("start", assembled_start, case, bearing, stages.progress)
     check_assembly(case, mesh, cage, start)
     start = pushed(start, bearing.layout, case.start)
     store = run_store(case, bearing, folder, resume=resume)
@@ -50,8 +50,10 @@ def simulate(
     return run.finish(recorder)
 
 
-def load_run(folder: str | Path) -> Run:
-    """A stored run, finished or not, for looking at and drawing."""
+def load_run(folder: str | Path, *, progress: Any = None) -> Run:
+    """A stored run, finished or not, for looking at and drawing; ``progress`` as above."""
     case, store = open_folder(Path(folder))
-    mesh = cage_mesh(case)
-    return Run(case, store, Path(folder), mesh, cage_reduction(case, mesh))
+    stages = Stages(progress)
+    mesh = stages.named("mesh", cage_mesh, case)
+    cage = stages.named("modes", cage_reduction, case, mesh)
+    return Run(case, store, Path(folder), mesh, cage, stages=stages)

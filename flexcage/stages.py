@@ -6,17 +6,20 @@ import logging
 import os
 import subprocess
 import sys
+from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 from flexcage.bodies.cage import flexible_from_basis, rigid_from_tets
 from flexcage.case import Case
 from flexcage.core import jit
+from flexcage.core.progress import Silent
 from flexcage.mesh.build import build_cage_mesh
 from flexcage.mesh.cage_mesh import CageMesh
 from flexcage.mesh.options import MeshOptions
 from flexcage.mesh.quality import check_mesh
-from flexcage.modes.basis import ModeBasis
 from flexcage.modes.reduction import CageReduction, reduce_cage, rigid_interface_of
+from flexcage.modes.table import ModeTable, mode_table
 from flexcage.results.recording import new_store
 from flexcage.results.store import MemoryRunStore, RunStore
 from flexcage.run import write_case
@@ -63,11 +66,12 @@ def cage_reduction(case: Case, mesh: CageMesh) -> CageReduction | None:
     )
 
 
-def cage_modes(case: Case) -> ModeBasis:
-    """Modal basis of the case's cage."""
-    reduction = cage_reduction(case.replace("cage.model", "flexible"), cage_mesh(case))
+def cage_modes(case: Case) -> ModeTable:
+    """Mode table of the case's cage, taken as flexible."""
+    mesh = cage_mesh(case)
+    reduction = cage_reduction(case.replace("cage.model", "flexible"), mesh)
     assert reduction is not None
-    return reduction.basis
+    return mode_table(reduction.model, reduction.basis, pocket_count=mesh.pocket_count)
 
 
 def begin_compiling(element: str) -> subprocess.Popen | None:
@@ -117,10 +121,16 @@ def build_bearing(
     return bearing
 
 
-def assembled_start(case: Case, bearing: Bearing) -> Start:
-    """Where a run begins: the bearing assembled and in equilibrium at the drive's first speed."""
+def assembled_start(case: Case, bearing: Bearing, progress: Callable[..., Any] = Silent) -> Start:
+    """Where a run begins: the bearing assembled and in equilibrium at the drive's first speed.
+
+    ``progress`` is a context like ``core.progress.Progress``.
+    """
     limit = case.limits.assembly_force
-    return find_start(bearing, limit_force=limit, statics=lambda: solve_static(case))
+    with progress(1.0, "start") as bar:
+        return find_start(
+            bearing, limit_force=limit, statics=lambda: solve_static(case), told=bar.to
+        )
 
 
 def _bearing_of(case: Case, mesh: CageMesh, cage: CageReduction | None) -> Bearing:

@@ -294,14 +294,17 @@ def _at(spec: Any, path: str) -> Any:
     return spec
 
 
-def _standing_assumptions(spec: Any, where: str) -> list[tuple[str, str]]:
+def _standing_assumptions(spec: Any, where: str, default: Any = None) -> list[tuple[str, str]]:
+    """Path and reason of values that are assumptions, count, and are as ``default`` has them, or
+    as their own fields do where the default is a spec of another class."""
     found = []
     for field in dataclasses.fields(spec):
         value = getattr(spec, field.name)
+        usual = getattr(default, field.name) if type(default) is type(spec) else default_of(field)
         path = f"{where}.{field.name}" if where else field.name
-        reason = field.metadata.get("assumption")
-        if reason and value == default_of(field):
+        reason, laws = field.metadata.get("assumption"), field.metadata.get("of")
+        if reason and value == usual and (not laws or spec.law in laws):
             found.append((path, reason))
         if dataclasses.is_dataclass(value):
-            found.extend(_standing_assumptions(value, path))
+            found.extend(_standing_assumptions(value, path, usual))
     return found

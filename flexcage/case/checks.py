@@ -13,7 +13,7 @@ from flexcage.core.units import describe
 from flexcage.geometry.bearing import BEARING_TYPES, Bearing
 from flexcage.geometry.cage import Cage
 from flexcage.geometry.catalogue import static_rating
-from flexcage.geometry.checks import check_geometry
+from flexcage.geometry.checks import OVERLOAD, check_geometry, greatest_speed, greatest_tilt
 
 if TYPE_CHECKING:
     from flexcage.case.case import Case
@@ -22,7 +22,6 @@ if TYPE_CHECKING:
 Finding = tuple[str, str]  # where, sentence
 
 _LAND_TOLERANCE = 5e-6  # m between a stated land clearance and the one that the dimensions leave
-_OVERLOAD = 10.0  # static ratings C0r: beyond, at a contact pressure of 12 GPa, no law here holds
 # m, allowed errors of a position: above what 16 digits of it and Newton's matrix leave, and below
 # the few micrometres by which loaded rollers are pressed in
 _TOLERANCES = (1e-13, 1e-6)
@@ -118,12 +117,42 @@ def _find_in_load(case: Case) -> Iterator[Finding]:
         ("load.values", max(map(abs, load.values), default=0.0)),
         ("load.wave_amplitude", abs(load.wave_amplitude)),
     ):
-        if value > _OVERLOAD * rating:
+        if value > OVERLOAD * rating:
             yield (
                 where,
-                f"{where} is {describe(value, 'kN')}, but contacts are elastic: give "
-                f"{_OVERLOAD:g} times the bearing's static rating of "
+                f"{where} is {describe(value, 'kN')}, but contacts are elastic, and steel gives "
+                f"way: give {OVERLOAD:g} times the bearing's static rating of "
                 f"{describe(round(rating, -2), 'kN')} (ISO 76) or less.",
+            )
+
+
+def _find_in_tilt(case: Case) -> Iterator[Finding]:
+    tilt, most = abs(case.load.misalignment), greatest_tilt(case.bearing)
+    if tilt > most:
+        yield (
+            "load.misalignment",
+            f"load.misalignment is {describe(case.load.misalignment, 'mrad')}, which presses the "
+            f"rollers' ends into the races by more than 1 % of their diameter, and contacts are "
+            f"elastic; give {describe(round(most, 4), 'mrad')} or less.",
+        )
+
+
+def _find_in_speed(case: Case) -> Iterator[Finding]:
+    drive, most = case.drive, greatest_speed(case.bearing)
+    for where, value in (
+        ("drive.speed", abs(drive.speed)),
+        ("drive.ramp_to", abs(drive.ramp_to or 0.0)),
+        ("drive.speeds", max(map(abs, drive.speeds), default=0.0)),
+        ("drive.wave_amplitude", abs(drive.wave_amplitude)),
+    ):
+        if value > most:
+            thousands = int(most * 30.0 / pi / 1e3)
+            yield (
+                where,
+                f"{where} is {describe(value, 'rpm')}, where centrifugal force presses every "
+                f"{case.bearing.element} on the outer race as hard as {OVERLOAD:g} times the "
+                "bearing's static rating (ISO 76) would the most loaded one; give "
+                f"{thousands}000 rpm or less.",
             )
 
 
@@ -391,4 +420,6 @@ _OF_EVERY_CASE = (
     _find_in_tables,
     _find_in_ramps,
     _find_in_load,
+    _find_in_tilt,
+    _find_in_speed,
 )

@@ -10,6 +10,7 @@ import argparse
 import errno
 import os
 import sys
+import time
 from collections.abc import Sequence
 from pathlib import Path
 
@@ -23,7 +24,9 @@ _STOPPED = 130
 def main(argv: Sequence[str] | None = None) -> int:
     """Run one command; the exit code."""
     parser = build_parser()
+    begun = time.perf_counter()
     args = parser.parse_args(argv)
+    args.begun = begun
     if not hasattr(args, "command"):
         parser.print_help()
         return 2

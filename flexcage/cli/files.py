@@ -9,9 +9,21 @@ from pathlib import Path
 
 from flexcage.core.errors import InputError
 
+_OURS = ("case.toml", "results.zarr", "compare.json")  # one of them is in every folder of ours
 
-def prepare_out(out: Path, *, resume: bool, force: bool, resumable: bool = True) -> None:
-    """Refuse an output folder that would be overwritten by accident or cannot be written."""
+
+def prepare_out(
+    out: Path,
+    *,
+    resume: bool,
+    force: bool,
+    resumable: bool = True,
+    ours: Iterable[str] = _OURS,
+) -> None:
+    """Refuse an output folder that would be overwritten by accident or cannot be written.
+
+    ``force`` empties one that holds a file named in ``ours``.
+    """
     if out.exists() and not out.is_dir():
         raise InputError(f"'{out}' is a file; name a folder for the output.", where="out")
     if resume:
@@ -25,7 +37,7 @@ def prepare_out(out: Path, *, resume: bool, force: bool, resumable: bool = True)
                 where="out",
                 value=str(out),
             )
-        empty_run(out)
+        empty_run(out, ours)
     try:
         out.mkdir(parents=True, exist_ok=True)
         with tempfile.TemporaryFile(dir=out):
@@ -39,15 +51,14 @@ def prepare_out(out: Path, *, resume: bool, force: bool, resumable: bool = True)
         ) from exc
 
 
-def empty_run(out: Path) -> None:
+def empty_run(out: Path, ours: Iterable[str] = _OURS) -> None:
     """Remove a former output of flexcage; anything else in that folder is not ours to remove."""
     import shutil
 
-    ours = ("case.toml", "results.zarr", "compare.json")
     if not any((out / name).exists() for name in ours):
         raise InputError(
-            f"'{out}' holds files that flexcage did not write, so --force leaves it alone; name "
-            "another folder with -o.",
+            f"'{out}' holds files that this command did not write, so --force leaves it alone; "
+            "name another folder with -o.",
             where="out",
             value=str(out),
         )

@@ -47,8 +47,10 @@ def _add_mesh_and_modes(commands: Any) -> None:
     case_options(mesh)
     mesh.add_argument("-o", "--out", metavar="FILE", help="mesh file (default: NAME.msh)")
     mesh.add_argument("--force", action="store_true", help="write over an existing file")
-    modes = command(commands, "modes", modes_command, "compute the cage's modes")
+    modes = command(commands, "modes", modes_command, "compute the cage's modes: their table")
     case_options(modes)
+    modes.add_argument("-o", "--out", metavar="FILE", help="table (default: NAME_modes.csv)")
+    modes.add_argument("--force", action="store_true", help="write over an existing file")
 
 
 def _add_converge(commands: Any) -> None:
@@ -72,10 +74,14 @@ def run_command(args: argparse.Namespace) -> int:
     from flexcage.simulate import simulate
 
     run = simulate(case, out=out, resume=args.resume, progress=Progress)
+    run.stages.begun = args.begun
+    run.tell_times()
     say(run.summary)
     say(f"\nThe run is in {out}")
     if not args.no_images:
         draw(run, out / "images", animate=args.animate)
+        drawing = run.stages.get("pictures", 0.0)
+        say(f"Pictures took {drawing:.1f} s, all of it {run.stages.total:.1f} s")
     return 0
 
 
@@ -100,11 +106,13 @@ def mesh_command(args: argparse.Namespace) -> int:
     case = case_from(args)
     out = Path(args.out) if args.out else Path(f"{case.name}.msh")
     prepare_file(out, (".msh", ".vtu"), force=args.force)
+    from flexcage.core.progress import Progress
+    from flexcage.core.timing import Stages
     from flexcage.mesh.build import build_cage_mesh
     from flexcage.mesh.io import write_mesh
     from flexcage.mesh.quality import report_mesh
 
-    mesh = build_cage_mesh(**case.cage_shape)
+    mesh = Stages(Progress).named("mesh", build_cage_mesh, **case.cage_shape)
     say(report_mesh(mesh, density=case.cage.material.density))
     for path in dict.fromkeys((out, out.with_suffix(".vtu"))):
         say(f"written: {write_mesh(mesh, path)}")
@@ -112,14 +120,18 @@ def mesh_command(args: argparse.Namespace) -> int:
 
 
 def modes_command(args: argparse.Namespace) -> int:
-    """flexcage modes CASE: the modal basis of the cage, as a table."""
+    """flexcage modes CASE: the modal basis of the cage, as a table printed and stored."""
     case = case_from(args)
+    out = Path(args.out) if args.out else Path(f"{case.name}_modes.csv")
+    prepare_file(out, (".csv",), force=args.force)
+    from flexcage.core.progress import Progress
+    from flexcage.core.timing import Stages
+    from flexcage.results.mode_file import write_modes
     from flexcage.stages import cage_modes
 
-    basis = cage_modes(case)
-    say(f"{'mode':>5}  {'kind':<12}  {'frequency':>12}")
-    for i, (frequency, kind) in enumerate(zip(basis.frequencies, basis.kind)):
-        say(f"{i:>5}  {kind:<12}  {frequency:>9.1f} Hz")
+    table = Stages(Progress).named("mesh and modes", cage_modes, case)
+    say(table)
+    say(f"written: {write_modes(table, out)}")
     return 0
 
 

@@ -1,4 +1,4 @@
-"""Commands that take the folders of runs: render, report, fatigue, wear, compare."""
+"""Commands that take the folders of runs: render, export, report, fatigue, wear, compare."""
 
 from __future__ import annotations
 
@@ -18,6 +18,7 @@ def add_commands(commands: Any) -> None:
     render.add_argument("run", metavar="RUN", help="run folder")
     render.add_argument("-o", "--out", metavar="DIR", help="folder for the pictures")
     render.add_argument("--animate", action="store_true", help="make an animation as well")
+    _add_export(commands)
     text = "write a run or a study as one HTML page that needs no other file"
     report = command(commands, "report", report_command, text)
     report.add_argument("folder", metavar="RUN_OR_STUDY", help="folder of a run or a study")
@@ -45,15 +46,71 @@ def add_commands(commands: Any) -> None:
     compare.add_argument("--force", action="store_true", help="write an existing folder anew")
 
 
+def _add_export(commands: Any) -> None:
+    text = "write a run's cage, deformed and stressed, as a .vtu series for ParaView"
+    export = command(commands, "export", export_command, text)
+    export.add_argument("run", metavar="RUN", help="run folder")
+    export.add_argument("-o", "--out", metavar="DIR", help="folder (default: vtu in the run's)")
+    export.add_argument("--force", action="store_true", help="write an existing series anew")
+    export.add_argument(
+        "--from", dest="begin", metavar="TIME", help="first instant, as '3 ms' (default without "
+        "--to and --count: 0.4 ms about the largest stress)",
+    )  # fmt: skip
+    export.add_argument("--to", dest="end", metavar="TIME", help="last instant")
+    export.add_argument(
+        "--count", type=int, metavar="N", help="so many, evenly (default: every sample)"
+    )
+
+
 def render_command(args: argparse.Namespace) -> int:
     """flexcage render RUN: draw the pictures of a stored run again."""
+    from flexcage.core.progress import Progress
     from flexcage.simulate import load_run
 
-    run = load_run(existing_run(args.run))
+    run = load_run(existing_run(args.run), progress=Progress)
     out = Path(args.out) if args.out else Path(args.run) / "images"
     run.draw(out, animate=args.animate)
     say(f"The pictures are in {out}")
     return 0
+
+
+def export_command(args: argparse.Namespace) -> int:
+    """flexcage export RUN: displacement and stress of the cage over time, for ParaView."""
+    from flexcage.core.progress import Progress
+    from flexcage.simulate import load_run
+
+    run = load_run(existing_run(args.run), progress=Progress)
+    run.recovery  # noqa: B018  (refuses a rigid cage before a folder is made)
+    out = Path(args.out) if args.out else Path(args.run) / "vtu"
+    times = _instants(args, run)
+    prepare_out(out, resume=False, force=args.force, resumable=False, ours=("cage.pvd",))
+    say(f"written: {run.write_vtu(out, times=times)}")
+    return 0
+
+
+def _instants(args: argparse.Namespace, run: Any) -> Any:
+    """Times [s] that --from, --to and --count ask for; None for those about the largest stress."""
+    import numpy as np
+
+    from flexcage.core.units import parse
+
+    if args.count is not None and args.count < 1:
+        raise InputError(f"--count is {args.count}, but must be 1 or more.", where="count")
+    if args.begin is None and args.end is None and args.count is None:
+        return None
+    t = run.dataset["time"].values
+    begin = t[0] if args.begin is None else parse(args.begin, "ms", where="--from")
+    end = t[-1] if args.end is None else parse(args.end, "ms", where="--to")
+    if args.count is None:
+        chosen = t[(t >= begin) & (t <= end)]
+        if not len(chosen):
+            raise InputError(
+                f"There is no sample from {begin * 1e3:g} to {end * 1e3:g} ms; the run has "
+                f"{t[0] * 1e3:g} to {t[-1] * 1e3:g} ms.",
+                where="from",
+            )
+        return chosen
+    return np.linspace(begin, end, args.count)
 
 
 def report_command(args: argparse.Namespace) -> int:

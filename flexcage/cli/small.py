@@ -51,12 +51,26 @@ def presets_command(args: argparse.Namespace) -> int:
     for path, value in flat(preset.tables):
         reason = preset.assumptions.get(path)
         say(f"  {path:<30} {value!s:<12} {f'assumption: {reason}' if reason else ''}".rstrip())
+    if beside := _beside(preset):
+        say("\n  and in a case that says no more:")
+    for path, (value, reason) in beside.items():
+        say(f"  {path:<38} {value:<20} assumption: {reason}")
     say()
     for name, stated, computed in preset.ratings():
         say(f"  {name}: catalogue {stated / 1e3:.1f} kN, from this inside {computed / 1e3:.2f} kN")
     for name, text in preset.sources.items():
         say(f"  {name}: {text}")
     return 0
+
+
+def _beside(preset: Any) -> dict[str, tuple[str, str]]:
+    """Assumptions of a case that names the preset and no more, beside the preset's own."""
+    if not preset.bearing.in_motion:
+        return {}
+    from flexcage.case import Case, words
+
+    assumed = words.assumed(Case.from_preset(preset.name))
+    return {path: found for path, found in assumed.items() if path not in preset.assumptions}
 
 
 def verify_command(args: argparse.Namespace) -> int:

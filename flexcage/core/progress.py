@@ -10,18 +10,27 @@ from typing import TextIO
 _INTERVAL = 0.2  # s between two drawings
 _PATIENCE = 1.0  # s before the first estimate: earlier ones mislead
 
+_OPEN: list[Progress] = []  # those that are drawn now
+
 
 class Progress:
     """Context of one long step of ``total`` units; draws on a terminal and is quiet elsewhere.
+
+    Where ``total`` is None nobody knows how long it takes: its name is shown, and no estimate.
 
     >>> with Progress(0.1, "solving") as progress:
     ...     progress.to(0.05)
     """
 
     def __init__(
-        self, total: float, label: str, *, stream: TextIO | None = None, enabled: bool | None = None
+        self,
+        total: float | None,
+        label: str,
+        *,
+        stream: TextIO | None = None,
+        enabled: bool | None = None,
     ) -> None:
-        self.total = float(total)
+        self.total = None if total is None else float(total)
         self.label = label
         self.done = 0.0
         self._stream = stream if stream is not None else sys.stderr
@@ -35,6 +44,7 @@ class Progress:
     def __enter__(self) -> Progress:
         self._start = time.monotonic()
         self._draw()
+        _OPEN.append(self)
         return self
 
     def __exit__(
@@ -43,13 +53,15 @@ class Progress:
         error: BaseException | None,
         tb: TracebackType | None,
     ) -> None:
+        _OPEN.remove(self)
         if not self._enabled:
             return
-        if kind is None:
+        if kind is None and self.total is not None:
             self.done = self.total
         elapsed = _clock(time.monotonic() - self._start)
         word = "done" if kind is None else "stopped"
-        self._put(f"{self.label}: {word} at {self._percent():.0f} % after {elapsed}")
+        share = "" if self.total is None else f" at {self._percent():.0f} %"
+        self._put(f"{self.label}: {word}{share} after {elapsed}")
         self._stream.write("\n")
         self._stream.flush()
 
@@ -77,21 +89,31 @@ class Progress:
             self._width = 0
             self._draw()
 
+    def clear(self) -> None:
+        """Empty the line drawn on, for others to write there; the next drawing comes below."""
+        if self._enabled:
+            self._put("")
+            self._stream.write("\r")
+            self._stream.flush()
+
     def remaining(self) -> float | None:
         """Estimate of the remaining time [s], or None while it would mislead."""
         elapsed = time.monotonic() - self._start
         advanced = self.done - self._begun_at
-        if elapsed < _PATIENCE or advanced <= 0.0:
+        if self.total is None or elapsed < _PATIENCE or advanced <= 0.0:
             return None
         return elapsed * max(self.total - self.done, 0.0) / advanced
 
     def _percent(self) -> float:
-        return 100.0 * min(self.done / self.total, 1.0) if self.total > 0 else 100.0
+        return 100.0 * min(self.done / self.total, 1.0) if self.total else 100.0
 
     def _draw(self) -> None:
         if not self._enabled:
             return
         self._drawn = time.monotonic()
+        if self.total is None:
+            self._put(f"{self.label} ...")
+            return
         left = self.remaining()
         estimate = f", about {_clock(left)} left" if left is not None else ""
         self._put(f"{self.label}: {self._percent():3.0f} %{estimate}")
@@ -100,6 +122,19 @@ class Progress:
         self._stream.write("\r" + text.ljust(self._width))
         self._stream.flush()
         self._width = len(text)
+
+
+def clear_line() -> None:
+    """Empty the line on which progress is drawn, if any is."""
+    for progress in _OPEN:
+        progress.clear()
+
+
+class Silent(Progress):
+    """Progress that nobody wants to see."""
+
+    def __init__(self, total: float | None = None, label: str = "") -> None:
+        super().__init__(total, label, enabled=False)
 
 
 def _clock(seconds: float) -> str:

@@ -22,11 +22,13 @@ def quantity(
     above: float | None = None,
     maximum: float | None = None,
     assumption: str = "",
+    of: Collection[str] = (),
 ) -> Any:
     """A physical value held in SI; ``unit`` is the unit a person would write ("mm", "rpm").
 
     ``minimum`` and ``maximum`` are inclusive and ``above`` exclusive bounds, in SI.
-    ``assumption`` says why a default that no source gives was chosen.
+    ``assumption`` says why a default that no source gives was chosen. ``of`` names those of the
+    spec's laws (``law``) that read the value; without it all do.
     """
     meta = {
         "unit": unit,
@@ -35,6 +37,7 @@ def quantity(
         "above": above,
         "maximum": maximum,
         "assumption": assumption,
+        "of": of,
     }
     return dataclasses.field(default=default, metadata=meta)
 
@@ -47,11 +50,13 @@ def option(
     minimum: float | None = None,
     maximum: float | None = None,
     assumption: str = "",
+    of: Collection[str] = (),
 ) -> Any:
     """A dimensionless value, count, flag or name; ``choices`` holds the names accepted.
 
     Choices that are a mapping may grow while the program runs (``core.registry``). It gives the
     spec that a name brings along with values of its own, a subclass of the one at hand, or None.
+    ``assumption`` and ``of`` as for ``quantity``.
     """
     meta = {
         "doc": doc,
@@ -59,5 +64,6 @@ def option(
         "minimum": minimum,
         "maximum": maximum,
         "assumption": assumption,
+        "of": of,
     }
     return dataclasses.field(default=default, metadata=meta)

@@ -16,7 +16,13 @@ from flexcage.geometry.ball_cage_defects import (
     check_ball_defects,
 )
 from flexcage.geometry.ball_cages import BallCage
-from flexcage.geometry.checks import Finding, check_geometry, raise_first, refuse_foreign
+from flexcage.geometry.checks import (
+    Finding,
+    check_geometry,
+    element_mass,
+    raise_first,
+    refuse_foreign,
+)
 from flexcage.geometry.deep_groove_ball import DeepGrooveBallBearing
 
 _AGREE = 1e-6  # m, to which contact angle and clearance must agree: a tenth of a clearance class
@@ -39,6 +45,11 @@ def _(
     bearing: DeepGrooveBallBearing, cage: BallCage | None = None, defects: Sequence[Any] = ()
 ) -> None:
     _check(bearing, cage, defects, _find_in_clearance(bearing, bearing.radial_clearance))
+
+
+@element_mass.register
+def _(bearing: BallBearing) -> float:
+    return bearing.ball_mass
 
 
 def _check(

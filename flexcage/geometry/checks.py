@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from functools import singledispatch
-from math import asin, pi, sin
+from math import asin, inf, pi, sin, sqrt
 from typing import Any
 
 import numpy as np
@@ -24,10 +24,16 @@ from flexcage.geometry.cages import (
     check_defects,
     pocket_changes,
 )
+from flexcage.geometry.catalogue import static_rating
 from flexcage.geometry.cylindrical_roller import RollerBearing
 
 Finding = tuple[str, str]  # where, sentence
 
+# of the roller's diameter: a clearance that leaves one roller to bear a moderate load, and rollers
+# that differ by a hundred times what those of one bearing do
+_MOST_CLEARANCE, _MOST_SCATTER = 0.05, 0.01
+_MOST_PRESSED = 0.01  # of a roller's diameter, a hundred times what C0 leaves for good (ISO 76)
+OVERLOAD = 4.0  # static ratings C0: line contacts then bear 8 GPa, the hardness of bearing steel
 _PINCH_LIMIT = 0.1  # of the roller's diameter: far beyond what any cage material survives
 
 
@@ -42,6 +48,40 @@ def check_geometry(bearing: Bearing, cage: Any = None, defects: Sequence[Any] = 
     Every bearing type registers its own checks; without a cage the bearing alone is checked.
     """
     raise NotImplementedError(f"no checks are registered for {type(bearing).__name__}")
+
+
+@singledispatch
+def greatest_tilt(bearing: Bearing) -> float:
+    """Misalignment [rad] of the inner ring beyond which no contact law holds; infinite for types
+    that register none."""
+    return inf
+
+
+@greatest_tilt.register
+def _(bearing: RollerBearing) -> float:
+    return 2.0 * _MOST_PRESSED * bearing.roller_diameter / bearing.effective_length
+
+
+@singledispatch
+def element_mass(bearing: Bearing) -> float:
+    """Mass of a rolling element [kg]; 0 for types that register none."""
+    return 0.0
+
+
+@element_mass.register
+def _(bearing: RollerBearing) -> float:
+    return bearing.roller_mass
+
+
+def greatest_speed(bearing: Bearing) -> float:
+    """Speed [rad/s] of the inner ring at which centrifugal force alone loads every element as
+    ``OVERLOAD`` static ratings load the first one, 5 C0/Z; infinite where masses are not known."""
+    mass = element_mass(bearing)
+    if mass == 0.0:
+        return inf
+    pitch, diameter = bearing.pitch_diameter, bearing.element_diameter
+    most = 5.0 * OVERLOAD * static_rating(bearing) / bearing.element_count
+    return 2.0 / (1.0 - diameter / pitch) * sqrt(most / (0.5 * mass * pitch))
 
 
 @check_geometry.register
@@ -110,6 +150,22 @@ def find_in_bearing(b: RollerBearing) -> Iterator[Finding]:
             "bearing.radial_clearance",
             f"bearing.radial_clearance is {describe(b.radial_clearance, 'um')}, but a negative "
             "clearance (preload) is not modelled; give 0 um or more.",
+        )
+    widest = _MOST_CLEARANCE * b.roller_diameter
+    if b.radial_clearance > widest:
+        yield (
+            "bearing.radial_clearance",
+            f"bearing.radial_clearance is {_mm(b.radial_clearance)}, so wide that one roller alone "
+            f"would bear; give {_mm(widest)} or less, {100.0 * _MOST_CLEARANCE:g} % of a roller's "
+            "diameter.",
+        )
+    widest = _MOST_SCATTER * b.roller_diameter
+    if b.roller_scatter > widest:
+        yield (
+            "bearing.roller_scatter",
+            f"bearing.roller_scatter is {_mm(b.roller_scatter)}, but rollers of one bearing differ "
+            f"by micrometres; give {_mm(widest)} or less, {100.0 * _MOST_SCATTER:g} % of their "
+            "diameter.",
         )
     yield from _find_in_lengths(b)
     yield from _find_in_spalls(b)
@@ -190,6 +246,11 @@ def _find_in_pockets(b: RollerBearing, c: WindowCage) -> Iterator[Finding]:
 
 
 def _find_in_space(b: RollerBearing, c: WindowCage) -> Iterator[Finding]:
+    if c.width > b.width:
+        yield (
+            "cage.width",
+            f"cage.width is {_mm(c.width)}, wider than the bearing, {_mm(b.width)}.",
+        )
     if c.bore <= b.rib_diameter:
         yield (
             "cage.bore",

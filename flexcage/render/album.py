@@ -7,11 +7,13 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from flexcage.core.progress import Silent
 from flexcage.core.registry import add, check_free
 from flexcage.mesh.cage_mesh import CageMesh
 from flexcage.modes.basis import ModeBasis
@@ -22,6 +24,7 @@ from flexcage.results.metrics import BearingNumbers, settled
 if TYPE_CHECKING:
     import xarray
 
+Drawing = partial[Path]  # draws one picture, and gives its path
 
 _FILES = (
     "mesh", "modes", "bearing", "orbit", "histories", "spectra", "stress_peak", "stress_envelope",
@@ -82,17 +85,29 @@ def register_picture(
     add(PICTURES, name, (draw, needs_stress), what="picture")
 
 
-def draw_album(scene: Scene, folder: Path, *, animate: bool = False) -> list[Path]:
-    """Draw all pictures into ``folder``; their paths."""
+def draw_album(
+    scene: Scene,
+    folder: Path,
+    *,
+    animate: bool = False,
+    progress: Callable[..., Any] = Silent,
+) -> list[Path]:
+    """Draw all pictures into ``folder``; their paths. ``progress`` is a context like
+    ``core.progress.Progress``."""
     folder.mkdir(parents=True, exist_ok=True)
-    paths = [*_geometry(scene, folder), *_motion(scene, folder)]
+    drawings = [*_geometry(scene, folder), *_motion(scene, folder)]
     if scene.stress is not None:
-        paths += _stress(scene, scene.stress, folder)
+        drawings += _stress(scene, scene.stress, folder)
     for name, (draw, needs_stress) in PICTURES.items():
         if scene.stress is not None or not needs_stress:
-            paths.append(draw(scene, folder / f"{name}.png"))
+            drawings.append(partial(draw, scene, folder / f"{name}.png"))
     if animate:
-        paths += _animations(scene, folder)
+        drawings += _animations(scene, folder)
+    paths = []
+    with progress(len(drawings), "pictures") as bar:
+        for drawing in drawings:
+            paths.append(drawing())
+            bar.advance()
     return paths
 
 
@@ -101,27 +116,28 @@ def _followed(scene: Scene) -> int:
     return pockets_of(scene.defects[0], scene.mesh.pocket_count)[0] if scene.defects else 0
 
 
-def _geometry(scene: Scene, folder: Path) -> list[Path]:
+def _geometry(scene: Scene, folder: Path) -> list[Drawing]:
     from flexcage.render.mesh_pictures import mesh_picture
     from flexcage.render.mode_pictures import mode_sheet
 
-    paths = [mesh_picture(scene.mesh, folder / "mesh.png", defects=scene.defects)]
+    drawings = [partial(mesh_picture, scene.mesh, folder / "mesh.png", defects=scene.defects)]
     if scene.stress is not None:
         b = scene.stress.basis
-        paths.append(
-            mode_sheet(
+        drawings.append(
+            partial(
+                mode_sheet,
                 scene.stress.nodes,
                 scene.stress.cells,
                 b.shapes,
                 b.frequencies,
                 b.kind,
                 folder / "modes.png",
-            )  # fmt: skip
+            )
         )
-    return paths
+    return drawings
 
 
-def _motion(scene: Scene, folder: Path) -> list[Path]:
+def _motion(scene: Scene, folder: Path) -> list[Drawing]:
     from flexcage.render.bearing_pictures import bearing_picture
     from flexcage.render.curves import histories, orbit
     from flexcage.render.spectra import spectra_picture
@@ -148,25 +164,26 @@ def _motion(scene: Scene, folder: Path) -> list[Path]:
     index = busiest if scene.stress is None else int(
         np.abs(ds["time"].values - scene.stress.time).argmin()
     )  # fmt: skip
-    paths = [
-        bearing_picture(
-            ds, b, index, folder / "bearing.png", cage_points=scene.mesh.points,
+    drawings = [
+        partial(
+            bearing_picture, ds, b, index, folder / "bearing.png", cage_points=scene.mesh.points,
             cage_tets=scene.mesh.tets, load=scene.load, axial=scene.axial,
         ),
-        orbit(ds, folder / "orbit.png", clearance=scene.clearance, settle=scene.settle),
-        histories(
-            ds, folder / "histories.png", bearing=numbers, root_stress=root,
+        partial(
+            orbit, ds, folder / "orbit.png", clearance=scene.clearance, settle=scene.settle,
+        ),
+        partial(
+            histories, ds, folder / "histories.png", bearing=numbers, root_stress=root,
             element=_followed(scene), settle=scene.settle,
         ),
     ]  # fmt: skip
     if spectra.resolves(settled(ds, scene.settle), numbers):
-        paths.append(
-            spectra_picture(ds, folder / "spectra.png", bearing=numbers, settle=scene.settle)
-        )
-    return paths
+        path = folder / "spectra.png"
+        drawings.append(partial(spectra_picture, ds, path, bearing=numbers, settle=scene.settle))
+    return drawings
 
 
-def _stress(scene: Scene, s: StressPictures, folder: Path) -> list[Path]:
+def _stress(scene: Scene, s: StressPictures, folder: Path) -> list[Drawing]:
     from flexcage.render.stress_pictures import (
         deformation_picture,
         envelope_picture,
@@ -179,29 +196,29 @@ def _stress(scene: Scene, s: StressPictures, folder: Path) -> list[Path]:
     points, tets = scene.mesh.points, scene.mesh.tets
     at_vertices = s.displacement[: len(points)]
     return [
-        stress_picture(
-            points, tets, at_vertices, s.von_mises, folder / "stress_peak.png", time=s.time,
-            peak_label=s.peak_place, peak_node=s.peak_vertex,
+        partial(
+            stress_picture, points, tets, at_vertices, s.von_mises, folder / "stress_peak.png",
+            time=s.time, peak_label=s.peak_place, peak_node=s.peak_vertex,
             pocket_count=count, azimuth=azimuth, note=scene.name,
         ),
-        envelope_picture(
-            points, tets, s.envelope, folder / "stress_envelope.png", span=(t[s.settled], t[-1]),
-            peak_label=s.peak_place, peak_node=s.peak_vertex, pocket_count=count,
-            azimuth=azimuth, note=scene.name,
+        partial(
+            envelope_picture, points, tets, s.envelope, folder / "stress_envelope.png",
+            span=(t[s.settled], t[-1]), peak_label=s.peak_place, peak_node=s.peak_vertex,
+            pocket_count=count, azimuth=azimuth, note=scene.name,
         ),
-        deformation_picture(
-            points, tets, at_vertices, folder / "deformation.png", time=s.time,
+        partial(
+            deformation_picture, points, tets, at_vertices, folder / "deformation.png", time=s.time,
             pocket_count=count, azimuth=azimuth, note=scene.name,
         ),
     ]  # fmt: skip
 
 
-def _animations(scene: Scene, folder: Path) -> list[Path]:
+def _animations(scene: Scene, folder: Path) -> list[Drawing]:
     from flexcage.render.animations import animate_bearing, animate_stress
 
-    paths = [
-        animate_bearing(
-            scene.dataset, scene.bearing, folder / "bearing.gif", frames=40,
+    drawings = [
+        partial(
+            animate_bearing, scene.dataset, scene.bearing, folder / "bearing.gif", frames=40,
             cage_points=scene.mesh.points, cage_tets=scene.mesh.tets, load=scene.load,
             axial=scene.axial,
         )
@@ -209,8 +226,9 @@ def _animations(scene: Scene, folder: Path) -> list[Path]:
     if scene.stress is not None and scene.stress.frames:
         times, shifts, stresses = zip(*scene.stress.frames, strict=True)
         n = len(scene.mesh.points)
-        paths.append(
-            animate_stress(
+        drawings.append(
+            partial(
+                animate_stress,
                 scene.mesh.points,
                 scene.mesh.tets,
                 [u[:n] for u in shifts],
@@ -219,6 +237,6 @@ def _animations(scene: Scene, folder: Path) -> list[Path]:
                 folder / "stress.gif",
                 pocket_count=scene.mesh.pocket_count,
                 azimuth=float(np.arctan2(*scene.mesh.points[scene.stress.peak_vertex, [2, 1]])),
-            )  # fmt: skip
+            )
         )
-    return paths
+    return drawings

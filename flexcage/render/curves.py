@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 RPM, DEGREE = 30.0 / pi, 180.0 / pi
 EDGE, TOP = 110, 110
 _WIDTH, _HEIGHT, _BETWEEN = 1480, 250, 66
-_MARGIN = {"roller": EDGE, "ball": EDGE + 30}  # of histories; small sliding speeds want digits
+_MARGIN = EDGE + 30  # of histories: speeds of five digits, small sliding speeds with many
 
 
 def orbit(
@@ -151,7 +151,7 @@ def histories(
     if not 0 <= element < count:
         name = elements_in(ds).one
         raise InputError(f"There is no {name} {element}; the bearing has {count}.")
-    t, left = ds["time"].values * 1e3, _MARGIN[elements_in(ds).one]
+    t, left = ds["time"].values * 1e3, _MARGIN
     with sheet.style():
         height = TOP + len(panels) * (_HEIGHT + _BETWEEN) + 40
         figure = sheet.new_figure(left + _WIDTH + 60, height)

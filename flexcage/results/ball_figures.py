@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from flexcage.results import metrics
-from flexcage.results.metrics import BearingNumbers
+from flexcage.results.metrics import BearingNumbers, SlipRange
 from flexcage.results.statistics import roller_passes
 from flexcage.results.summary import Row, Section
 
@@ -26,7 +26,7 @@ def speed_rows(ds: xarray.Dataset, bearing: BearingNumbers) -> tuple[Row, ...]:
     )  # fmt: skip
 
 
-def slip_section(ds: xarray.Dataset, bearing: BearingNumbers, creep_speed: float | None) -> Section:
+def slip_section(ds: xarray.Dataset, bearing: BearingNumbers, slip_range: SlipRange) -> Section:
     """Slip ratios of loaded and unloaded balls, sliding and contact angles of loaded ones."""
     part = metrics.whole_revolutions(ds)
     ratio = metrics.ball_slip_ratio(part, bearing).transpose("time", "ball").values
@@ -39,9 +39,7 @@ def slip_section(ds: xarray.Dataset, bearing: BearingNumbers, creep_speed: float
     sliding = np.abs(part["contact_slip"].transpose("time", "ball", "race").values)
     angle = part["contact_angle"].transpose("time", "ball", "race").values
     fast = [float(sliding[..., k][zone].mean()) if zone.any() else np.nan for k in range(2)]
-    note = ""
-    if creep_speed is not None and max(fast) < creep_speed:
-        note = f"unresolved: sliding is under the law's creep speed {creep_speed:.3g} m/s"
+    note = slip_range.note(max(fast))
     rows = [
         Row.of("slip_loaded", "Loaded balls, slip ratio", loaded, "%", note),
         Row.of("slip_unloaded", "Unloaded balls, slip ratio", unloaded, "%"),

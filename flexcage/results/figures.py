@@ -13,7 +13,7 @@ from flexcage.core.errors import InputError
 from flexcage.results import audit, ball_figures, metrics
 from flexcage.results.bootstrap import FEWEST
 from flexcage.results.contact_activity import EVENTS, contact_series
-from flexcage.results.metrics import BearingNumbers
+from flexcage.results.metrics import BearingNumbers, SlipRange
 from flexcage.results.statistics import Record, Windows, roller_passes
 from flexcage.results.summary import Row, Section, Summary
 
@@ -37,7 +37,7 @@ def summarise(
     bearing: BearingNumbers,
     *,
     settle: float = 0.3,
-    creep_speed: float | None = None,
+    slip_range: SlipRange | None = None,
     events: xarray.Dataset | None = None,
 ) -> Summary:
     """Summary of a run's motion and forces after its start; stress, solver and times come from
@@ -51,7 +51,7 @@ def summarise(
     own = FIGURES[metrics.element(ds)]
     sections = [
         Section("Speeds", (*_speed_rows(part, bearing), *own.speeds(part, bearing))),
-        own.slip(part, bearing, creep_speed),
+        own.slip(part, bearing, slip_range or SlipRange()),
         Section("Cage motion", (*_motion_rows(part, bearing), *own.motion(part))),
         Section("Forces", (*_force_rows(part, windows), *own.races(part))),
         Section("Contacts of the cage", _contact_rows(part, windows, events)),
@@ -126,10 +126,8 @@ def _spin_rows(ds: xarray.Dataset, bearing: BearingNumbers) -> tuple[Row, ...]:
     )
 
 
-def _slip_section(
-    ds: xarray.Dataset, bearing: BearingNumbers, creep_speed: float | None
-) -> Section:
-    slip = metrics.roller_slip(ds, bearing, creep_speed=creep_speed)
+def _slip_section(ds: xarray.Dataset, bearing: BearingNumbers, slip_range: SlipRange) -> Section:
+    slip = metrics.roller_slip(ds, bearing)
     part = metrics.whole_revolutions(ds)
     ratio = metrics.roller_slip_ratio(part, bearing).values
     zone = metrics.loaded_zone(part).transpose("time", "roller").values
@@ -137,9 +135,7 @@ def _slip_section(
     loaded, unloaded = (
         windows.ratio(np.where(z, ratio, 0.0).sum(axis=1), z.sum(axis=1)) for z in (zone, ~zone)
     )
-    note = ""
-    if slip.unresolved and creep_speed is not None:
-        note = f"unresolved: sliding is under the law's creep speed {creep_speed:.3g} m/s"
+    note = slip_range.note(max(slip.sliding_loaded))
     mean = "mean over the zone"
     rows = (
         Row.of("slip_loaded", "Loaded zone, slip ratio", loaded, "%", note),
@@ -298,7 +294,7 @@ class ElementFigures:
     """What a summary says of one kind of rolling elements."""
 
     speeds: Callable[[xarray.Dataset, BearingNumbers], tuple[Row, ...]]
-    slip: Callable[[xarray.Dataset, BearingNumbers, float | None], Section]
+    slip: Callable[[xarray.Dataset, BearingNumbers, SlipRange], Section]
     races: Callable[[xarray.Dataset], tuple[Row, ...]]
     motion: Callable[[xarray.Dataset], tuple[Row, ...]]
 

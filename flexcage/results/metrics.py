@@ -67,7 +67,6 @@ class RollerSlip:
     sliding_loaded: tuple[float, float]
     sliding_unloaded: tuple[float, float]
     loaded_share: float
-    unresolved: bool
 
 
 @dataclass(frozen=True)
@@ -215,18 +214,37 @@ def loaded_zone(ds: xarray.Dataset, share: float = LOADED_SHARE) -> xarray.DataA
     return force > share * float(force.max())
 
 
+@dataclass(frozen=True)
+class SlipRange:
+    """Sliding speeds [m/s] of a friction law that say what a slip ratio rests on.
+
+    ``creep``: under it the law only creeps, where a real contact sticks; ``rise``: up to it the
+    traction curve rises from rest. None where the law has no such speed.
+    """
+
+    creep: float | None = None
+    rise: float | None = None
+
+    def note(self, sliding: float) -> str:
+        """What a slip ratio at the sliding speed [m/s] rests on; "" where the law sets no more
+        than its own value."""
+        if self.creep is not None and sliding < self.creep:
+            return f"unresolved: sliding is under the law's creep speed {self.creep:.3g} m/s"
+        if self.rise is not None and sliding < self.rise:
+            return (
+                "set by the traction curve's slope: sliding is on its rise, which ends at "
+                f"{self.rise:.3g} m/s"
+            )
+        return ""
+
+
 def roller_slip(
     ds: xarray.Dataset,
     bearing: BearingNumbers,
     *,
     frame: str = "inertial",
-    creep_speed: float | None = None,
 ) -> RollerSlip:
-    """Roller slip, loaded and unloaded zone apart, over whole cage revolutions.
-
-    ``creep_speed`` [m/s] is the sliding speed below which the case's friction law only creeps:
-    slip under it in the loaded zone, on both races, is reported as unresolved.
-    """
+    """Roller slip, loaded and unloaded zone apart, over whole cage revolutions."""
     part = whole_revolutions(ds)
     slip = roller_slip_ratio(part, bearing, frame=frame).values
     zone = loaded_zone(part).transpose("time", "roller").values
@@ -240,10 +258,7 @@ def roller_slip(
 
     loaded, speed_in = inside(zone)
     unloaded, speed_out = inside(~zone)
-    unresolved = creep_speed is not None and max(speed_in) < creep_speed
-    return RollerSlip(
-        loaded, unloaded, float(slip.mean()), speed_in, speed_out, float(zone.mean()), unresolved
-    )
+    return RollerSlip(loaded, unloaded, float(slip.mean()), speed_in, speed_out, float(zone.mean()))
 
 
 def whirl_radius(ds: xarray.Dataset, *, about: str = "mean") -> np.ndarray:

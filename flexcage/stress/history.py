@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
+from flexcage.core.progress import Silent
 from flexcage.core.threads import on_all_cores
 from flexcage.stress.fields import StressFields, TensorFields, UnitFields
 
@@ -127,15 +129,14 @@ def stress_history(
     land_forces: np.ndarray | None = None,
     *,
     settled: int = 0,
+    progress: Callable[..., Any] = Silent,
 ) -> StressHistory:
     """Places and peaks over samples, the envelope from sample ``settled`` on.
 
-    Other arguments as in ``equivalent_stress``. Blocks of samples are spread over the cores.
+    Other arguments as in ``equivalent_stress``. Blocks of samples are spread over the cores;
+    ``progress`` is a context like ``core.progress.Progress``.
     """
     slots = [np.searchsorted(fields.surface, v) for v in fields.places.values()]
-    _ = fields.modes, fields.forces  # once, not in every thread
-    if land_forces is not None and np.any(land_forces):
-        _ = fields.land_forces
 
     def work(first: int) -> _Block:
         part = slice(first, min(first + _BLOCK, len(q)))
@@ -147,6 +148,7 @@ def stress_history(
         searched = values[fields.searched]
         where = fields.surface[fields.searched[np.argmax(searched, axis=0)]]
         skip = max(settled - first, 0)
+        bar.advance()
         if skip >= values.shape[1]:
             none = np.zeros(len(values))
             return _Block(places, searched.max(axis=0), where, none, none.astype(int))
@@ -154,7 +156,12 @@ def stress_history(
         envelope = values[np.arange(len(values)), best]
         return _Block(places, searched.max(axis=0), where, envelope, first + best)
 
-    blocks = on_all_cores(work, range(0, len(q), _BLOCK))
+    starts = range(0, len(q), _BLOCK)
+    with progress(len(starts), "stress") as bar:
+        _ = fields.modes, fields.forces  # once, not in every thread
+        if land_forces is not None and np.any(land_forces):
+            _ = fields.land_forces
+        blocks = on_all_cores(work, starts)
     envelopes = np.stack([block.envelope for block in blocks])
     largest = (np.argmax(envelopes, axis=0), np.arange(len(fields.surface)))
     return StressHistory(

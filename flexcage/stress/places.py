@@ -73,7 +73,7 @@ def contact_zone(model: FEModel, pocket_count: int) -> np.ndarray:
 
     Round pockets: less those on the edges with the lands. There the spread contact force acts; the
     stress right under it is that of the contact law, not of the mesh, so peaks leave these vertices
-    out.
+    out: all of them at all times, wherever the contacts are.
     """
     return _ZONES[pocket_groups(model.groups)](model, pocket_count)
 
@@ -102,11 +102,25 @@ class PlaceKind:
     one: str
     many: str
     short: str  # many of them, in few words
+    walls: str  # what the search for a peak leaves out, in few words
+    left_out: str  # the same, exactly: see ``contact_zone``
 
 
 _KINDS = {
-    POCKET_GROUPS: PlaceKind("pocket corner", "pocket corners", "corners"),
-    WALL_GROUPS: PlaceKind("waist or rim", "waists and rims of pockets", "waists and rims"),
+    POCKET_GROUPS: PlaceKind(
+        "pocket corner",
+        "pocket corners",
+        "corners",
+        "flat pocket walls",
+        "vertices of the flat pocket walls off the fillets",
+    ),
+    WALL_GROUPS: PlaceKind(
+        "waist or rim",
+        "waists and rims of pockets",
+        "waists and rims",
+        "pocket walls",
+        "vertices of the pockets' walls off their edges",
+    ),
 }
 
 

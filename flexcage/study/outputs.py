@@ -43,7 +43,7 @@ RIGID_FIGURES = tuple(
     energy_imbalance energy_relative energy_of_drive energy_of_cage cage_mass cage_centre_shift
     pinch_force steps explicit_steps stable_step residuals jacobians factorisations
     failed_error_tests failed_newton wall_mesh wall_modes wall_kernels wall_start
-    wall_solve""".split()
+    wall_solve wall_total""".split()
 ) + tuple(f"work_{name}" for name in POWERS)
 #: Figures that are of one kind of rolling elements alone.
 ELEMENT_FIGURES = {
@@ -56,8 +56,8 @@ ELEMENT_FIGURES = {
     ),
 }  # fmt: skip
 FLEXIBLE_FIGURES = (
-    "first_frequency", "far_coupling", "stress_peak", "stress_mean_peak", "stress_root",
-    "stress_root_pass_peak", "stress_start", "wall_stress",
+    "mode_count", "first_frequency", "far_coupling", "stress_peak", "stress_mean_peak",
+    "stress_root", "stress_root_pass_peak", "stress_start", "wall_stress",
 )  # fmt: skip
 
 _REDUCTION = re.compile(r"(\w+)(?:\[([^\]]*)\])?\.(\w+)")

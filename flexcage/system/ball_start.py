@@ -16,7 +16,7 @@ from flexcage.system.ball_model import BallModel
 from flexcage.system.layout import Layout
 from flexcage.system.problem import Bearing
 from flexcage.system.scales import ERROR_RATE, error_weights, shared_weights
-from flexcage.system.start import Start, StaticStart, start_of
+from flexcage.system.start import Start, StaticStart, Told, start_of
 from flexcage.system.statics.solution import StaticSolution
 
 log = logging.getLogger(__name__)
@@ -25,7 +25,9 @@ _ALIKE = 1e-3  # rad: contact angles closer than this leave a ball's axis to the
 
 
 @start_of.register
-def _(model: BallModel, bearing: Bearing, *, limit_force: float, statics: StaticStart) -> Start:
+def _(
+    model: BallModel, bearing: Bearing, *, limit_force: float, statics: StaticStart, told: Told
+) -> Start:
     solution = statics()
     for text in solution.warnings:
         log.warning("at the start %s", text)

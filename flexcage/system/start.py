@@ -32,7 +32,10 @@ from flexcage.system.statics.solution import StaticSolution
 log = logging.getLogger(__name__)
 
 StaticStart = Callable[[], StaticSolution]
+Told = Callable[[float], None]
 RESIDUAL = 1e-7  # of the load: where an equilibrium is accepted
+_BALANCED = 1e-6  # of the load: what may stay unbalanced at last
+_OTHERS = "the load, the speed, the misalignment or the clearance"  # that may be too large
 TOUCH = 1e-9  # [m] interference that is only a touch
 STAGES = 8  # steps of a pinching defect's growth
 _CAGE_ROW = 8  # of the border: where the cage's rigid motion begins
@@ -168,6 +171,54 @@ class _Frictionless:
         return r
 
 
+def _not_assembled(
+    bearing: Bearing, force: float, limit: float, share: float, pinched: np.ndarray
+) -> InputError:
+    """What is to blame for a pocket's ``force`` beyond ``limit`` [N] at a share of the defects."""
+    model = bearing.data.model
+    beyond = f"{force:,.0f} N, more than limits.assembly_force ({limit:,.0f} N)"
+    room = pocket_clearance(model, 0.0 * model.pocket.offset).min(axis=1)
+    if room.min() < -TOUCH:
+        roller = int(room.argmin())
+        return InputError(
+            f"roller {roller} is {-1e3 * room[roller]:.3g} mm larger than its pocket, without any "
+            f"defect, and is pinched with {beyond}; make bearing.roller_scatter smaller, or the "
+            "pocket larger",
+            where="bearing.roller_scatter",
+            value=force,
+        )
+    if model.pocket.offset.any() and _sound_one_assembles(bearing, limit):
+        name = f"a defect pinches roller {int(pinched[0])}" if len(pinched) else "a pocket pushes"
+        return InputError(
+            f"{name} with {beyond}, at {share:.0%} of the defects' size: the bearing cannot be "
+            "assembled; make the defect smaller, the pocket larger, or raise the limit",
+            where="defects",
+            value=force,
+        )
+    return InputError(
+        f"a pocket pushes with {beyond}, whatever the defects: no equilibrium to start from was "
+        f"found; {_OTHERS} is too large",
+        where="load",
+        value=force,
+    )
+
+
+def _sound_one_assembles(bearing: Bearing, limit: float) -> bool:
+    """Does the bearing come to equilibrium, no pocket beyond ``limit`` [N], without defects?"""
+    model, layout = bearing.data.model, bearing.layout
+    none = 0.0 * model.pocket.offset
+    y = geometric_guess(model, layout)
+    yd = standing_cage(model, layout, y)
+    system, tight = _Frictionless(bearing, none), pocket_clearance(model, none) < -TOUCH
+    residual = _equilibrate(system, y, yd, _load(model), tight)
+    return residual <= _BALANCED and system.report(y, yd).pocket_normal.max() <= limit
+
+
+def _load(model: Model) -> float:
+    """The load at the start [N], by which unbalanced forces are measured."""
+    return max(float(np.interp(0.0, *model.bodies.load)), 1.0)
+
+
 @dataclass(frozen=True)
 class Held:
     """Motions that friction holds while the bearing is brought to equilibrium without it."""
@@ -237,37 +288,54 @@ def _stages(model: Model, offset: np.ndarray) -> np.ndarray:
     if not np.any(full < -TOUCH):
         return np.array([1.0])
     tight = full < -TOUCH
-    first = float((free[tight] / (free[tight] - full[tight])).min())
+    lost = free[tight] - full[tight]
+    touch = np.divide(free[tight], lost, out=np.zeros_like(lost), where=lost > 0.0)
+    first = float(touch.min())
     return np.linspace(max(first, 0.0), 1.0, STAGES + 1)[1:]
 
 
 def find_start(
-    bearing: Bearing, *, limit_force: float, statics: StaticStart | None = None
+    bearing: Bearing,
+    *,
+    limit_force: float,
+    statics: StaticStart | None = None,
+    told: Told = lambda share: None,
 ) -> Start:
     """Assemble the bearing and bring it to equilibrium at the drive's first speed.
 
-    ``statics`` computes the static solution, for bearings whose run begins with it.
+    ``statics`` computes the static solution, for bearings whose run begins with it; ``told`` hears
+    what share of the work is done.
     """
-    return start_of(bearing.data.model, bearing, limit_force=limit_force, statics=statics)
+    return start_of(
+        bearing.data.model, bearing, limit_force=limit_force, statics=statics, told=told
+    )
 
 
 @singledispatch
 def start_of(
-    model: Any, bearing: Bearing, *, limit_force: float, statics: StaticStart | None
+    model: Any, bearing: Bearing, *, limit_force: float, statics: StaticStart | None, told: Told
 ) -> Start:
     """The start of one family of bearings, by its model."""
     raise NotImplementedError(f"{type(model).__name__} has no start")
 
 
 @start_of.register
-def _(model: Model, bearing: Bearing, *, limit_force: float, statics: StaticStart | None) -> Start:
+def _(
+    model: Model,
+    bearing: Bearing,
+    *,
+    limit_force: float,
+    statics: StaticStart | None,
+    told: Told,
+) -> Start:
     layout = bearing.layout
     offset = model.pocket.offset
     y = geometric_guess(model, layout)
-    load = max(float(np.interp(0.0, *model.bodies.load)), 1.0)
+    load = _load(model)
     residual = 0.0
     placed = np.zeros((layout.rollers, 2))
-    for share in _stages(model, offset):
+    shares = _stages(model, offset)
+    for stage, share in enumerate(shares, start=1):
         system = _Frictionless(bearing, offset * share)
         tight = pocket_clearance(model, offset * share) < -TOUCH
         pinched = np.flatnonzero(np.any(tight, axis=1))
@@ -282,25 +350,14 @@ def _(model: Model, bearing: Bearing, *, limit_force: float, statics: StaticStar
         residual = _equilibrate(system, y, yd, load, tight)
         force = float(system.report(y, yd).pocket_normal.max())
         if force > limit_force:
-            name = (
-                f"a defect pinches roller {int(pinched[0])}" if len(pinched) else "a pocket pushes"
-            )
-            raise InputError(
-                f"{name} with {force:,.0f} N at {share:.0%} of the defects' size, more than "
-                f"limits.assembly_force ({limit_force:,.0f} N): the bearing cannot be assembled; "
-                "make the defect smaller, the pocket larger, or raise the limit",
-                where="defects",
-                value=force,
-            )
-    if residual > 1e-6:
+            raise _not_assembled(bearing, force, limit_force, share, pinched)
+        told(stage / len(shares))
+    if residual > _BALANCED:
+        by_defects = len(pinched) and _sound_one_assembles(bearing, limit_force)
         raise RunFailed(
             f"no equilibrium to start from was found: {residual:.1e} of the load stays "
-            "unbalanced (1e-6 is allowed); is "
-            + (
-                "a defect too large?"
-                if len(pinched)
-                else "the load, or the misalignment, too large?"
-            )
+            f"unbalanced ({_BALANCED:g} is allowed); is {'a defect' if by_defects else _OTHERS} "
+            "too large?"
         )
     report = system.report(y, yd)
     yd = rolling_velocities(model, layout, y)
@@ -308,5 +365,5 @@ def _(model: Model, bearing: Bearing, *, limit_force: float, statics: StaticStar
     force = float(report.pocket_normal[list(held)].max()) if held else 0.0
     if held:
         names = ", ".join(map(str, held))
-        log.warning("the defect pinches the roller of pocket %s with %.0f N", names, force)
+        log.warning("at the start the roller of pocket %s is pinched with %.0f N", names, force)
     return Start(y, yd, held, force, residual, report.station.copy())

@@ -102,6 +102,37 @@ BAD = {
         ["'sine'", "cannot vary", "leave it out"],
     ),
     "overload": ('[load]\nradial = "800 kN"', "load.radial", ["800 kN", "51 kN"]),
+    "overload of a few ratings": (
+        '[load]\nradial = "500 kN"',
+        "load.radial",
+        ["500 kN", "4 times", "51 kN"],
+    ),
+    "clearance of a hand": (
+        '[bearing]\nradial_clearance = "5 mm"',
+        "bearing.radial_clearance",
+        ["5 mm", "one roller alone", "0.4 mm"],
+    ),
+    "rollers of any size": (
+        '[bearing]\nroller_scatter = "1 mm"',
+        "bearing.roller_scatter",
+        ["1 mm", "0.08 mm"],
+    ),
+    "tilt of a fan": (
+        '[load]\nmisalignment = "200 mrad"',
+        "load.misalignment",
+        ["200 mrad", "1 %", "21.9 mrad"],
+    ),
+    "speed of a drill": (
+        '[drive]\nspeed = "6000000 rpm"',
+        "drive.speed",
+        ["centrifugal", "every roller", "399000 rpm"],
+    ),
+    "speed at a ramp's end": (
+        '[drive]\nramp_to = "500000 rpm"\nramp_time = "1 s"',
+        "drive.ramp_to",
+        ["500000 rpm", "centrifugal"],
+    ),
+    "cage wider than its bearing": ('[cage]\nwidth = "30 mm"', "cage.width", ["30 mm", "18 mm"]),
     "tiny elements": ('[mesh]\nsize = "1 um"', "mesh.size", ["0.001 mm", "elements"]),
     "coarse elements": ('[mesh]\nsize = "9 mm"', "mesh.size", ["9 mm", "3.58", "twice"]),
     "tiny fillets": ('[mesh]\nfillet_size = "1 um"', "mesh.fillet_size", ["elements"]),
@@ -135,11 +166,18 @@ BAD = {
 }
 
 
+def with_preset(text):
+    """The mistake in a case of the preset; one in [bearing] stands beside the preset's name."""
+    if text.startswith("[bearing]\n"):
+        return PRESET + text.removeprefix("[bearing]\n") + "\n"
+    return PRESET + text + "\n"
+
+
 @pytest.mark.parametrize("name", BAD)
 def test_mistake_is_one_sentence(name):
     text, where, words = BAD[name]
     with pytest.raises(InputError) as caught:
-        load_case(PRESET + text + "\n")
+        load_case(with_preset(text))
     sentence = str(caught.value)
     assert caught.value.where == where, sentence
     assert sentence.endswith(".") and "\n" not in sentence

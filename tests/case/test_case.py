@@ -165,6 +165,29 @@ def test_assumptions_are_told_until_they_are_replaced(case):
     assert "modes.damping" in case.assumptions
 
 
+def test_what_slip_follows_from_is_an_assumption_with_its_reason(case):
+    """Lubricant, traction, rolling resistance, oil, pocket friction, restitution at every place."""
+    told = case.assumptions
+    named = [f"lubricant.{f.name}" for f in dataclasses.fields(case.lubricant)]
+    named += [f"contacts.race.friction.{key}" for key in ("peak", "peak_speed", "high_speed")]
+    for place in ("pocket", "side", "rib", "land"):
+        named += [f"contacts.{place}.friction.{key}" for key in ("static", "dynamic", "v_static")]
+    named += [f"contacts.{place}.normal.restitution" for place in ("race", "pocket", "land")]
+    assert all(told.get(path) for path in named), set(named) - set(told)
+
+
+def test_only_values_that_the_chosen_law_reads_are_assumptions(case):
+    assert "contacts.race.friction.static" not in case.assumptions
+    assert "contacts.pocket.friction.peak" not in case.assumptions
+    film = case.replace("contacts.race.friction.law", "ehl").assumptions
+    assert "contacts.race.friction.creep_speed" in film
+    assert "contacts.race.friction.peak" not in film
+    elastic = case.replace("contacts.pocket.normal.law", "elastic").assumptions
+    assert "contacts.pocket.normal.restitution" not in elastic
+    own = case.replace("contacts.pocket.normal.restitution", 0.9).assumptions
+    assert "contacts.pocket.normal.restitution" not in own  # though races have it by default
+
+
 def test_overrides_want_units(case):
     assert load_case(EXAMPLE, overrides={"load.radial": "2 kN"}).load.radial == 2000.0
     with pytest.raises(InputError, match="'2000 N'"):

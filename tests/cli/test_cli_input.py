@@ -60,6 +60,9 @@ MISTAKES = {
     "mesh folder": (["mesh", EXAMPLE, "-o", "none/cage.msh"], ["not a folder"]),
     "other preset": (["run", EXAMPLE, "--set", "bearing.preset=N1014"], ["'N1014'", "'N1013'"]),
     "preset": (["presets", "N1014"], ["'N1014' is not known", "'N1013'"]),
+    "drill": (["run", EXAMPLE, "--set", "drive.speed=6000000 rpm"], ["centrifugal"]),
+    "clearance": (["run", EXAMPLE, "--set", "bearing.radial_clearance=5 mm"], ["0.4 mm"]),
+    "overload": (["run", EXAMPLE, "--set", "load.radial=500 kN"], ["4 times", "51 kN"]),
     "no run": (["render", "nothing"], ["not the folder of a run"]),
     "three to compare": (["compare", "a", "b", "c"], ["one case, or two"]),
     "compare no run": (["compare", "a", "b"], ["'a' is not the folder of a run"]),
@@ -146,3 +149,12 @@ def test_no_traceback_from_a_real_process(elsewhere):
     assert done.stderr == (
         "flexcage: drive.speed is 6000 without a unit; write it with one, such as '6000 rpm'.\n"
     )
+
+
+def test_the_package_runs_as_a_module():
+    """``python -m flexcage`` is the console script, exit codes included."""
+    argv = [sys.executable, "-m", "flexcage", "presets"]
+    done = subprocess.run([*argv, "N1013"], capture_output=True, text=True, check=False)
+    assert done.returncode == 0 and "Cylindrical roller bearing N1013" in done.stdout
+    done = subprocess.run([*argv, "N1014"], capture_output=True, text=True, check=False)
+    assert done.returncode == 2 and done.stderr.startswith("flexcage: ")

@@ -1,6 +1,7 @@
 """Commands call the corridor with what was asked, and failures end with the right exit code."""
 
 import errno
+import re
 import sys
 import types
 from pathlib import Path
@@ -10,6 +11,7 @@ import pytest
 from flexcage import cli
 from flexcage.cli.settings import parse_setting
 from flexcage.core.errors import EnvironmentLacks, RunFailed
+from flexcage.core.timing import Stages
 
 EXAMPLE = str(Path(__file__).parents[2] / "examples" / "n1013.toml")
 
@@ -18,10 +20,14 @@ class FakeRun:
     summary = "cage speed 2709 rpm"
 
     def __init__(self):
-        self.drawn = []
+        self.drawn, self.stages, self.told = [], Stages(), []
+
+    def tell_times(self):
+        self.told.append(self.stages.total)
 
     def draw(self, folder, *, animate=False):
         self.drawn.append((Path(folder), animate))
+        self.stages["pictures"] = 1.25
 
 
 @pytest.fixture
@@ -42,7 +48,7 @@ def corridor(monkeypatch, tmp_path):
         return module.run
 
     module.simulate, module.keeps = simulate, False
-    module.load_run = lambda path: module.run
+    module.load_run = lambda path, progress=None: module.run
     monkeypatch.setitem(sys.modules, "flexcage.simulate", module)
     return module
 
@@ -57,7 +63,9 @@ def test_run(corridor, capsys):
     assert case.bearing.roller_count == 21 and not resume
     assert out == Path("out") and out.is_dir()
     assert corridor.run.drawn == [(Path("out/images"), True)]
-    assert "2709 rpm" in capsys.readouterr().out
+    shown = capsys.readouterr().out
+    assert "2709 rpm" in shown and re.search(r"Pictures took 1\.2 s, all of it \d+\.\d s", shown)
+    assert 0.0 < corridor.run.told[0] <= corridor.run.stages.total  # from the command's beginning
 
 
 def test_run_without_images_in_the_default_folder(corridor):
@@ -119,6 +127,10 @@ def test_presets_show_assumptions_and_ratings(capsys):
     shown = capsys.readouterr().out
     line = next(x for x in shown.splitlines() if "cage.pocket_width" in x)
     assert "8.2 mm" in line and "assumption:" in line
+    line = next(x for x in shown.splitlines() if "contacts.race.friction.peak " in x)
+    assert "0.05" in line and "assumption: mineral oils" in line
+    line = next(x for x in shown.splitlines() if "lubricant.viscosity" in x)
+    assert "0.01 Pa*s" in line and "assumption: ISO 3448" in line
     assert "51.05 kN" in shown and "41.03 kN" in shown
 
 
@@ -162,3 +174,28 @@ def test_version(capsys):
 )
 def test_settings(text, expected):
     assert parse_setting(text) == expected
+
+
+def test_modes_prints_its_table_and_stores_it(monkeypatch, tmp_path, capsys):
+    import numpy as np
+
+    from flexcage import stages
+    from flexcage.modes.table import ModeTable
+
+    table = ModeTable(
+        frequency=np.array([869.1, 1605.4]),
+        kind=("free", "centrifugal"),
+        effective_mass=np.array([[0.0, 0.0, 0.0], [2e-3, 0.0, 1e-4]]),
+        share=np.array([[0.6, 0.5], [0.2, 0.1]]),
+        residual_share=np.array([0.2, 0.4]),
+    )
+    monkeypatch.setattr(stages, "cage_modes", lambda case: table)
+    monkeypatch.chdir(tmp_path)
+    assert cli.main(["modes", EXAMPLE]) == 0
+    shown = capsys.readouterr().out
+    assert "eff. mass" in shown and "2.0e+00 g" in shown and "n1013_modes.csv" in shown
+    lines = (tmp_path / "n1013_modes.csv").read_text("utf-8").splitlines()
+    assert lines[0].startswith("number,") and len(lines) == 3
+    assert dict(zip(lines[0].split(","), lines[2].split(",")))["effective_mass_x [kg]"] == "0.002"
+    assert cli.main(["modes", EXAMPLE]) == 2 and "exists already" in capsys.readouterr().err
+    assert cli.main(["modes", EXAMPLE, "-o", "t.txt"]) == 2

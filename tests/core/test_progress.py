@@ -1,10 +1,12 @@
 """Progress is drawn on a terminal, and nowhere else."""
 
 import io
+import logging
+import sys
 
 import pytest
 
-from flexcage.core import progress
+from flexcage.core import logs, progress
 from flexcage.core.progress import Progress
 
 
@@ -62,3 +64,31 @@ def test_notes_have_a_line_of_their_own():
     lines = stream.getvalue().split("\n")
     assert lines[0].endswith("\rcompiling kernels for the first time")
     assert lines[1].startswith("\rsolving:")
+
+
+def test_log_records_have_a_line_of_their_own(monkeypatch):
+    stream = Terminal()
+    monkeypatch.setattr(sys, "stderr", stream)
+    logger = logging.getLogger("flexcage")
+    kept = logger.handlers[:], logger.level, logger.propagate
+    try:
+        logs.setup()
+        with Progress(None, "modes", stream=stream):
+            logger.warning("a slow solver")
+        logger.warning("done")
+    finally:
+        logger.handlers[:], logger.propagate = kept[0], kept[2]
+        logger.setLevel(kept[1])
+    shown = [line.rsplit("\r", 1)[-1] for line in stream.getvalue().split("\n")]
+    assert shown[0] == "warning: a slow solver"
+    assert shown[1].startswith("modes: done") and shown[2] == "warning: done"
+
+
+def test_a_step_of_unknown_length_is_named_without_an_estimate(clock):
+    stream = Terminal()
+    with Progress(None, "modes", stream=stream) as bar:
+        clock[0] += 3.0
+        bar.advance()
+        assert bar.remaining() is None
+    assert "\rmodes ..." in stream.getvalue() and "%" not in stream.getvalue()
+    assert "modes: done after 3 s" in stream.getvalue()

@@ -179,6 +179,21 @@ def test_curves_need_no_window(run, tmp_path):
     check(render.compare_forces({"rigid": run, "flexible": run}, tmp_path / "c.png"))
 
 
+def test_labels_of_histories_stand_clear_of_five_digit_ticks(run, tmp_path, monkeypatch):
+    shown = []
+    monkeypatch.setattr(sheet, "save", lambda figure, path: shown.append(figure))
+    render.histories(run, tmp_path / "h.png", bearing=NUMBERS)
+    (figure,) = shown
+    figure.canvas.draw()
+    ticks = figure.axes[-1].yaxis.get_ticklabels()
+    assert max(len(tick.get_text()) for tick in ticks) == 5
+    for ax in figure.axes:
+        label = ax.yaxis.label.get_window_extent()
+        assert label.x0 > 0.0
+        for tick in ax.yaxis.get_ticklabels():
+            assert tick.get_window_extent().x0 - label.x1 > 4.0, tick.get_text()
+
+
 def test_animations(run, field, canvas, tmp_path):
     nodes, cells, u, stress, _ = field
     path = render.animate_stress(

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 import xarray as xr
 
+from flexcage.contacts.spec import EhlTraction, FrictionLaw
 from flexcage.results import audit, metrics
 from flexcage.results.figures import summarise
 from flexcage.results.spectra import amplitude_spectrum
@@ -20,14 +21,31 @@ def test_cage_speed_and_slip(known_run, bearing):
 
 
 def test_roller_slip_zones_apart(known_run, bearing):
-    slip = metrics.roller_slip(known_run, bearing, creep_speed=0.05)
+    slip = metrics.roller_slip(known_run, bearing)
     assert slip.loaded == pytest.approx(0.01, abs=1e-6)
     assert slip.unloaded == pytest.approx(0.05, abs=1e-6)
     assert slip.overall == pytest.approx((3 * 0.01 + 19 * 0.05) / 22, abs=1e-6)
     assert slip.loaded_share == pytest.approx(3 / 22)
     assert slip.sliding_loaded == pytest.approx((0.02, 0.02))
-    assert slip.unresolved
-    assert not metrics.roller_slip(known_run, bearing, creep_speed=0.01).unresolved
+
+
+@pytest.mark.parametrize(
+    ("law", "note"),
+    [
+        (FrictionLaw(law="step_coulomb", v_static=0.05), "unresolved.*creep speed 0.05 m/s"),
+        (FrictionLaw(law="ramp_coulomb", v_static=0.01), "^$"),
+        (FrictionLaw(law="traction"), "traction curve's slope.*rise, which ends at 0.3 m/s"),
+        (FrictionLaw(law="traction", peak_speed=0.01), "^$"),
+        (EhlTraction(creep_speed=0.05), "traction curve's slope.*ends at 0.05 m/s"),
+        (EhlTraction(creep_speed=0.01), "^$"),
+        (FrictionLaw(law="none"), "^$"),
+    ],
+)
+def test_the_summary_says_what_loaded_slip_rests_on(known_run, bearing, law, note):
+    """Loaded rollers of this run slide at 0.02 m/s."""
+    limits = metrics.SlipRange(law.creeps_below, law.rises_below)
+    told = summarise(known_run, bearing, slip_range=limits).row("slip_loaded").note
+    assert re.search(note, told), told
 
 
 def test_elements_without_names_are_not_taken_for_rollers(known_run):
@@ -136,7 +154,7 @@ def test_velocity_deviation_of_a_pulsing_circle(known_run):
 
 
 def test_summary_prints_and_comes_back(known_run, bearing, tmp_path):
-    summary = summarise(known_run, bearing, creep_speed=0.05).with_section(
+    summary = summarise(known_run, bearing, slip_range=metrics.SlipRange(creep=0.05)).with_section(
         "Solver", [Row("steps", "Steps", 12345), Row("wall", "Wall time", 1.5, "s")]
     )
     text = summary.text()

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 from flexcage.case import Case, load_case
+from flexcage.core.progress import Silent
 
 PLACES = ("race", "pocket", "side", "rib", "land")
 BASE = {
@@ -31,7 +32,9 @@ class Interrupted:
     def __init__(self, blocks: int, length: float) -> None:
         self.stop_at, self.calls = (blocks - 0.5) * length, []
 
-    def __call__(self, total: float, label: str) -> Interrupted:
+    def __call__(self, total: float | None, label: str) -> Interrupted | Silent:
+        if label != "solving":
+            return Silent(total, label)
         self.total, self.label = total, label
         return self
 

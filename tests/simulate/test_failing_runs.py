@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from simulate_cases import Interrupted
 
-from flexcage.core.errors import RunFailed
+from flexcage.core.errors import InputError, RunFailed
 from flexcage.results.faults import overlaps
 from flexcage.results.recording import Recorder, new_store
 from flexcage.system.start import find_start
@@ -71,6 +71,31 @@ def test_a_race_that_gives_way(recorder):
     assert np.cos(bearing.layout.q(last["y"])["rollers"][roller, 2]) > 0.95  # where the load points
     depth = overlaps(bearing.data.model, bearing.layout, last["y"][None])[0]
     assert 0.5e-3 < depth[:, 0].max() < 1e-3 and depth[:, 1:].max() < 0.2e-3
+
+
+def started(limit, load=None, **changes):
+    case = n1013({"cage.model": "rigid", "mesh.fineness": "coarse", **changes})
+    bearing = bearing_of(case)
+    if load is not None:
+        bearing.data.model.bodies.load[1][:] = load  # beyond what a case may ask for
+    return find_start(bearing, limit_force=limit)
+
+
+def test_a_defect_is_blamed_only_if_the_bearing_without_it_assembles():
+    bent = {"defects": [{"type": "crossbeam", "crossbeam": 5, "displacement": "0.5 mm"}]}
+    with pytest.raises(InputError, match=r"a defect pinches roller 4 with .* make the defect sm"):
+        started(1e3, **bent)
+    with pytest.raises(InputError, match=r"whatever the defects: .* the load, the speed"):
+        started(1e3, load=5e5, **bent)
+    with pytest.raises(InputError, match=r"whatever the defects: .* the load, the speed"):
+        started(1e3, load=5e5)
+
+
+def test_rollers_larger_than_their_pockets_are_not_called_a_defect():
+    changes = {"bearing.roller_scatter": "50 um", "cage.pocket_width": "8.02 mm"}
+    with pytest.raises(InputError, match=r"roller \d+ is 0\.\d+ mm larger than its pocket") as said:
+        started(100.0, **changes)
+    assert said.value.where == "bearing.roller_scatter"
 
 
 def test_overlaps_of_a_start(recorder):

@@ -2,6 +2,7 @@
 
 import json
 import shutil
+import time
 
 import numpy as np
 import pytest
@@ -10,9 +11,12 @@ from simulate_cases import bent, n1013
 
 from flexcage.case import load_case
 from flexcage.core.errors import InputError
+from flexcage.core.progress import Silent
+from flexcage.render import album
 from flexcage.results.registry import VARIABLES, variables_of
 from flexcage.results.store import RunStore
 from flexcage.simulate import load_run, simulate
+from flexcage.stress.places import contact_zone
 
 RPM = np.pi / 30.0
 LONG = {"solver.duration": "10 ms"}
@@ -43,6 +47,64 @@ def test_the_folder_of_a_run(flexible):
     assert again.case == flexible.case
     assert again.store.complete and again.dataset.attrs["complete"] == 1
     assert str(again.summary) == str(flexible.summary)
+
+
+def test_pictures_are_among_the_stored_wall_times(flexible, tmp_path, monkeypatch):
+    """Stages add up to no more than all of it, and the stored summary is the one in memory."""
+    stages = ["mesh", "modes", "kernels", "start", "solve", "stress"]
+    assert list(flexible.stages)[:6] == stages and "wall_pictures" not in flexible.summary
+    monkeypatch.setattr(album, "draw_album", lambda *args, **options: time.sleep(0.05) or [])
+    flexible.draw(tmp_path)
+    stored = json.loads((flexible.folder / "summary.json").read_text("utf-8"))["Wall time"]
+    assert [key.removeprefix("wall_") for key in stored] == [*stages, "pictures", "total"]
+    seconds = {key: row["value"] for key, row in stored.items()}
+    total = seconds.pop("wall_total")
+    assert 0.05 <= seconds["wall_pictures"] and sum(seconds.values()) <= total
+    assert "Pictures" in (flexible.folder / "summary.txt").read_text("utf-8")
+    assert flexible.summary["wall_total"] == total
+
+
+class Shown(Silent):
+    """Progress that notes what it was told."""
+
+    seen: list = []
+
+    def __init__(self, total, label):
+        super().__init__(total, label)
+        self.seen.append((label, total, self))
+
+
+def test_every_long_stage_shows_itself(tmp_path):
+    """By name where nobody knows how long it takes, else by what share is done."""
+    Shown.seen = []
+    case = n1013({"solver.duration": "0.4 ms"}, defects=bent("0.3 mm"))
+    run = simulate(case, progress=Shown)
+    known = {label: (total, bar.done) for label, total, bar in Shown.seen}
+    assert list(known) == ["mesh", "modes", "kernels", "start", "solving", "stress"]
+    assert known["mesh"][0] is known["modes"][0] is known["kernels"][0] is None
+    assert known["start"] == (1.0, 1.0)
+    assert known["solving"][1] == pytest.approx(known["solving"][0]) == pytest.approx(0.4e-3)
+    assert known["stress"] == (1, 1)
+    run.write_vtu(tmp_path / "vtu", times=[1e-4, 2e-4])
+    assert Shown.seen[-1][0] == "VTU" and Shown.seen[-1][2].done == 2
+
+
+def test_the_mode_table_is_stored_and_the_summary_says_where(flexible, rigid):
+    """Elastic modes of a free body move no mass centre: their effective masses are zero."""
+    row = flexible.summary.row("mode_count")
+    assert row.value == flexible.cage.basis.size == 25 and row.note == "table: modes.csv"
+    lines = (flexible.folder / "modes.csv").read_text("utf-8").splitlines()
+    head, rows = lines[0].split(","), [line.split(",") for line in lines[1:]]
+    assert head[0] == "number" and "share_crossbeam" in head
+    assert [int(r[0]) for r in rows] == list(range(1, 26))
+    at = head.index("frequency [Hz]")
+    assert [float(r[at]) for r in rows] == list(flexible.cage.basis.frequencies)
+    assert [r[head.index("kind")] for r in rows] == list(flexible.cage.basis.kind)
+    masses = [[float(r[head.index(f"effective_mass_{a} [kg]")]) for a in "xyz"] for r in rows]
+    assert np.abs(masses).max() < 1e-9 * flexible.summary["cage_mass"]
+    assert "mode_count" not in rigid.summary
+    with pytest.raises(InputError, match="rigid cage has no stress"):
+        rigid.mode_table  # noqa: B018
 
 
 def test_a_folder_with_a_run_is_not_overwritten(flexible):
@@ -153,6 +215,19 @@ def test_stress_has_the_expected_size(flexible):
     assert np.abs(field.displacement).max() < 0.1e-3
 
 
+def test_the_summary_says_what_its_peaks_and_cuts_leave_out(flexible):
+    """The peak is the largest off the flat walls, which hold more at some instant of the run."""
+    row, h = flexible.summary.row("stress_peak"), flexible.stress_history
+    assert "flat pocket walls" in row.label and "off the fillets are never searched" in row.note
+    walls = contact_zone(flexible.cage.model, 22)
+    assert not np.isin(h.peak_vertex, walls).any()
+    assert np.isin(h.surface, walls).sum() == len(walls)
+    searched = h.envelope[~np.isin(h.surface, walls)]
+    assert searched.max() == pytest.approx(row.value, rel=1e-6)
+    cut = flexible.summary.row("far_coupling")
+    assert "neighbour misses" in cut.note and "under 0.5 %" in cut.note
+
+
 def test_inner_ring_carries_the_load(rigid):
     """Race forces on the rollers, summed as vectors, hold 1000 N and the rings' weight."""
     ds = rigid.dataset.isel(time=slice(100, None))
@@ -195,3 +270,58 @@ def test_orientations_turn_with_the_angular_velocities(flexible):
         else:
             speed = speed[100:200:7]
         np.testing.assert_allclose(about_axis, speed.ravel(), rtol=2e-4)
+
+
+def test_a_vtu_series_holds_what_stress_gives(flexible, tmp_path):
+    """Read back by meshio and by VTK, which takes its times from the .pvd."""
+    import meshio
+    import pyvista
+
+    folder = tmp_path / "vtu"
+    path = flexible.write_vtu(folder, times=[4.5e-3, 6.011e-3, 6.012e-3])
+    assert path == folder / "cage.pvd"
+    reader = pyvista.get_reader(path)
+    assert reader.time_values == pytest.approx([4.5e-3, 6.02e-3])
+    field = flexible.stress(time=6.02e-3)
+    read = meshio.read(folder / "cage_0001.vtu")
+    np.testing.assert_allclose(read.points, flexible.mesh.points)
+    np.testing.assert_array_equal(read.cells_dict["tetra"], flexible.mesh.tets)
+    for name, values in (
+        ("displacement", field.displacement[: len(read.points)]),
+        ("von_mises", field.von_mises),
+        ("stress", field.stress),
+    ):
+        largest = np.abs(values).max()
+        np.testing.assert_allclose(read.point_data[name], values, atol=1e-6 * largest)
+    reader.set_active_time_value(reader.time_values[1])
+    shown = reader.read()[0]
+    assert shown.point_data["von_mises"].max() == pytest.approx(field.von_mises.max(), rel=1e-6)
+
+
+def test_what_a_vtu_series_refuses(flexible, rigid, tmp_path):
+    with pytest.raises(InputError, match="rigid cage has no stress; run the case with"):
+        rigid.write_vtu(tmp_path / "vtu")
+    assert not (tmp_path / "vtu").exists()
+    with pytest.raises(InputError, match=r"no sample at 11 ms; the run has 0\.02 to 10 ms"):
+        flexible.write_vtu(tmp_path / "vtu", times=[11e-3])
+    (tmp_path / "notes.txt").write_text("precious")
+    with pytest.raises(InputError, match="exists already"):
+        flexible.write_vtu(tmp_path, times=[5e-3])
+
+
+def test_export_writes_the_samples_asked_for(flexible, tmp_path, capsys):
+    from flexcage import cli
+
+    run, out = str(flexible.folder), tmp_path / "out"
+    argv = ["export", run, "-o", str(out), "--from", "5 ms", "--to", "5.1 ms"]
+    assert cli.main(argv) == 0
+    assert len(list(out.glob("cage_*.vtu"))) == 6 and "cage.pvd" in capsys.readouterr().out
+    assert cli.main(argv) == 2 and "exists already" in capsys.readouterr().err
+    assert cli.main([*argv, "--count", "3", "--force"]) == 0
+    assert len(list(out.glob("cage_*.vtu"))) == 3
+    assert cli.main(["export", run, "-o", run, "--force"]) == 2
+    assert "did not write" in capsys.readouterr().err
+    assert RunStore.open(flexible.folder / "results.zarr").complete
+    assert cli.main(["export", run, "--from", "20 ms"]) == 2
+    assert "the run has 0.02 to 10 ms" in capsys.readouterr().err
+    assert not (flexible.folder / "vtu").exists()
