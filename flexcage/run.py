@@ -61,7 +61,7 @@ log = logging.getLogger(__name__)
 
 # measured on pinched pockets of an N1013, in tests/verification/test_pinch.py
 _FAR = (
-    "of what a push deflects its own pocket: what another pocket would feel of it beyond the modes; "
+    "of a push's deflection of its own pocket, what others would feel of it beyond the modes; "
     "changes an N1013's pinch forces by under 0.5 %"
 )
 _ABOUT_PEAK = 4e-4  # s before and after the largest stress: what animations and VTU series show
