@@ -22,15 +22,14 @@ MATERIALS = ("brass", "PA66")
 _SLICE = "pocket_slice_force[pocket=4,crossbeam_face=front,slice={}].mean"
 SLICES = tuple(_SLICE.format(k) for k in range(16))
 GROWTH = {
-    "dq": ("sound", "dq 0.05", "dq 0.1", "dq 0.15", "dq 0.2", "dq 0.25", "dq 0.3"),
-    "dp": ("dp -0.3", "dp -0.25", "dp -0.2", "dp -0.1", "sound", "dp +0.1", "dp +0.2", "dp +0.3"),
+    "dq": ("sound", "dq 0.1", "dq 0.2", "dq 0.25", "dq 0.3"),
+    "dp": ("dp -0.3", "dp -0.2", "dp -0.1", "sound", "dp +0.3"),
 }
 SEVERAL = ("sound", "dq 0.1", "dq 0.2", "two neighbours", "two opposite", "every second",
            "dq and dp")  # fmt: skip
 TOGETHER = ("sound", "dq 0.2", "outer spall", "outer spall + dq 0.2", "inner spall",
             "inner spall + dq 0.2", "tilted", "tilted + dq 0.2")  # fmt: skip
-CURVES = {"sound": "sound", "dq 0.1": "shifted by 0.1 mm", "dq 0.2": "shifted by 0.2 mm",
-          "dq 0.1, bent": "bent by 0.1 mm", "dq 0.2, bent": "bent by 0.2 mm"}  # fmt: skip
+CURVES = {"sound": "sound", "dq 0.1": "shifted by 0.1 mm", "dq 0.2": "shifted by 0.2 mm", "dq 0.2, bent": "bent by 0.2 mm"}  # fmt: skip
 NAMES = {
     **SHOWN,
     PEAK: ("pocket force, mean peak of a roller pass", "N", 1.0),
@@ -199,7 +198,7 @@ def _growth_picture(cages: StudyResults, path: Path) -> Path:
 
 
 def _slices_picture(cages: StudyResults, path: Path) -> Path:
-    colours = (sheet.FAINT, sheet.SKY, sheet.BLUE, sheet.ORANGE, sheet.VERMILION)
+    colours = (sheet.FAINT, sheet.SKY, sheet.BLUE, sheet.VERMILION)
     with sheet.style():
         figure_ = sheet.new_figure(1000, 640)
         sheet.heading(figure_, "Where a crossbeam pushes its roller",

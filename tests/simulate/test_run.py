@@ -225,7 +225,7 @@ def test_the_summary_says_what_its_peaks_and_cuts_leave_out(flexible):
     searched = h.envelope[~np.isin(h.surface, walls)]
     assert searched.max() == pytest.approx(row.value, rel=1e-6)
     cut = flexible.summary.row("far_coupling")
-    assert "neighbour misses" in cut.note and "under 0.5 %" in cut.note
+    assert "what others would feel" in cut.note and "under 0.5 %" in cut.note
 
 
 def test_inner_ring_carries_the_load(rigid):
