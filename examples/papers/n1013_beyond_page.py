@@ -29,7 +29,10 @@ SEVERAL = ("sound", "dq 0.1", "dq 0.2", "two neighbours", "two opposite", "every
            "dq and dp")  # fmt: skip
 TOGETHER = ("sound", "dq 0.2", "outer spall", "outer spall + dq 0.2", "inner spall",
             "inner spall + dq 0.2", "tilted", "tilted + dq 0.2")  # fmt: skip
-CURVES = {"sound": "sound", "dq 0.1": "shifted by 0.1 mm", "dq 0.2": "shifted by 0.2 mm", "dq 0.2, bent": "bent by 0.2 mm"}  # fmt: skip
+CURVES = {
+    "sound": "sound", "dq 0.1": "shifted by 0.1 mm", "dq 0.2": "shifted by 0.2 mm",
+    "dq 0.2, bent": "bent by 0.2 mm",
+}  # fmt: skip
 NAMES = {
     **SHOWN,
     PEAK: ("pocket force, mean peak of a roller pass", "N", 1.0),
@@ -138,6 +141,8 @@ def verdict(peaks: StudyResults) -> str:
             for speed in SPEEDS
             if isfinite((e := excess(peaks, PEAK, speed, load, material)).value)
         ]
+        if not found:
+            continue
         values = [100.0 * e.value for e in found]
         within = sum(abs(e.value - CLAIMED) <= e.margin for e in found)
         texts.append(
@@ -145,6 +150,27 @@ def verdict(peaks: StudyResults) -> str:
             f"%; 44 % lies within the interval at {within} of {len(found)} speeds and loads"
         )
     return "; ".join(texts) + "."
+
+
+def reading(peaks: StudyResults) -> str:
+    """What else differs between rigid and flexible, as medians over speeds and loads."""
+    texts = []
+    for material in MATERIALS:
+        parts = []
+        for output, name in (
+            ("pocket_force_sum", "sum of pocket forces"),
+            ("contact_frequency", "contacts a second"),
+            ("pocket_contact", "share of time in contact"),
+            ("pocket_force_mean", "force in contact"),
+        ):
+            found = [
+                excess(peaks, output, s, load, material).value for s in SPEEDS for load in LOADS
+            ]
+            known = [v for v in found if isfinite(v)]
+            if known:
+                parts.append(f"{name} {100.0 * np.median(known):+.0f} %")
+        texts.append(f"{material}: {', '.join(parts) or 'nothing computed'}")
+    return "With a rigid cage, as medians over all speeds and loads, " + "; ".join(texts) + "."
 
 
 def draw(peaks: StudyResults, cages: StudyResults, folder: Path) -> list[Path]:
@@ -230,13 +256,19 @@ def page(peaks: StudyResults, cages: StudyResults) -> str:
         if row.state == "failed"
     ]
     return _PAGE.format(
-        version=__version__, done=" and ".join(done), worst=100.0 * worst, verdict=verdict(peaks),
-        peaks=peaks_table(peaks), growth_q=cages_table(cages, _GROWING, GROWTH["dq"]),
+        version=__version__,
+        done=" and ".join(done),
+        worst=100.0 * worst,
+        verdict=verdict(peaks),
+        reading=reading(peaks),
+        peaks=peaks_table(peaks),
+        growth_q=cages_table(cages, _GROWING, GROWTH["dq"]),
         growth_p=cages_table(cages, _GROWING, GROWTH["dp"]),
-        several=cages_table(cages, _BESIDE, SEVERAL), shares=share_table(cages),
+        several=cages_table(cages, _BESIDE, SEVERAL),
+        shares=share_table(cages),
         together=cages_table(cages, _SHAKEN, TOGETHER),
         failed="\n".join(failed) or "None.",
-    )  # fmt: skip
+    )
 
 
 _PAGE = """# An N1013 beyond the paper: rigid against flexible, growing, several, together

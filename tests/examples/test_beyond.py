@@ -34,7 +34,11 @@ def results(points):
         for labels, figures in points.items()
         for _ in range(2)
     ]
-    return SimpleNamespace(rows=rows)
+    return SimpleNamespace(
+        rows=rows,
+        study=SimpleNamespace(name="n1013-test"),
+        count=lambda state: sum(row.state == state for row in rows),
+    )
 
 
 def test_every_cage_at_every_speed_and_load_is_a_plan(beyond):
@@ -75,3 +79,22 @@ def test_share_of_the_middle_half(beyond):
     cages = results({("dq 0.1",): ends, ("dq 0.2",): even})
     assert page.middle_share(cages, "dq 0.1") == 0.0
     assert page.middle_share(cages, "dq 0.2") == pytest.approx(0.5)
+
+
+def test_page_of_half_a_study_is_written(beyond, tmp_path):
+    """Every field of the page has its text, whatever is computed."""
+    page = beyond.page
+    at = {page.PEAK: 10.0, page.BLOW: 30.0, "energy_of_drive": 1e-4, "pocket_force_sum": 20.0}
+    peaks = results(
+        {
+            ("6000", "1000", "PA66, rigid"): {**at, page.PEAK: 15.0},
+            ("6000", "1000", "PA66, flexible"): at,
+        }
+    )
+    cages = results(
+        {("sound",): {page.CORNER: 2e7, "stress_root": 3e7, **dict.fromkeys(page.SLICES, 1.0)}}
+    )
+    text = page.page(peaks, cages)
+    assert "{" not in text and "PA66: 50 to 50 %, median 50 %" in text
+    assert "4 of 4 cases of `n1013-test`" in text
+    assert all(path.stat().st_size > 2000 for path in page.draw(peaks, cages, tmp_path))
