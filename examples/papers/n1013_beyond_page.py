@@ -28,7 +28,8 @@ GROWTH = {
 SEVERAL = ("sound", "dq 0.1", "dq 0.2", "two neighbours", "two opposite", "every second",
            "dq and dp")  # fmt: skip
 TOGETHER = ("sound", "dq 0.2", "outer spall", "outer spall + dq 0.2", "inner spall",
-            "inner spall + dq 0.2", "tilted", "tilted + dq 0.2")  # fmt: skip
+            "inner spall + dq 0.2", "tilted", "tilted + dq 0.2", "loose seat",
+            "loose seat + dq 0.2")  # fmt: skip
 CURVES = {
     "sound": "sound", "dq 0.1": "shifted by 0.1 mm", "dq 0.2": "shifted by 0.2 mm",
     "dq 0.2, bent": "bent by 0.2 mm",
@@ -315,10 +316,11 @@ eleven crossbeams by 0.1 mm; "dq and dp": crossbeam 5 by 0.2 mm and pocket 12 sh
 
 ![Force along the roller](slices.png)
 
-## With a spall, or a tilted inner ring
+## With a spall, a tilted inner ring, or an outer ring loose in its seat
 
 Spalls are 1.5 mm long and 50 um deep, the outer race's in the middle of the loaded zone; the inner
-ring is tilted by 1 mrad.
+ring is tilted by 1 mrad; the outer ring lies in a bore with 10 um of radial clearance, where the
+others sit in an elastic bushing of the same stiffness.
 
 {together}
 
