@@ -191,9 +191,15 @@ def _modes_at_stations(
 
 
 def land_modes(basis: ModeBasis, weights: sp.csr_matrix, n_land: int) -> np.ndarray:
-    """Modes (2, n_land, 3, n) at the lands' stations, components (x, r, psi) of their frames."""
+    """Modes (2, n_land, 3, n) at the lands' stations, components (x, r, psi) of their frames.
+
+    Crossbeams' shapes repeat with the pockets, too fast for the stations, and would carry half a
+    percent of a land's yielding: without land vectors in the basis they are zero here.
+    """
     means = _averaged(basis.shapes, weights).reshape(2, n_land, 3, basis.size)
     frames = np.array([pocket_frame(j, n_land) for j in range(n_land)]).reshape(n_land, 3, 3)
+    if "land" not in basis.kind:
+        means[..., np.array(basis.kind) == "crossbeam"] = 0.0
     return np.ascontiguousarray(np.einsum("jab,ljbn->ljan", frames, means))
 
 

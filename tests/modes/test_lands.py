@@ -41,7 +41,7 @@ def missed(solver, basis, *, stations=(0, 1, 5)):
 
 @pytest.mark.parametrize("which", ["sound", "damaged"])
 def test_a_land_yields_to_a_radial_force_as_the_full_model_does(request, which):
-    """What the modes miss of a station's deflection, 0.6 to 1.7 %, falls to under 0.4 %.
+    """What the modes miss of a station's deflection, 1.1 to 1.8 %, falls to under 0.4 %.
 
     On the N1013's cage (coarse mesh) it falls from 0.5 to 0.7 % to 0.05 %; the rest is how unlike
     a force on one land is to one on both.
@@ -51,8 +51,8 @@ def test_a_land_yields_to_a_radial_force_as_the_full_model_does(request, which):
     without = missed(solver, request.getfixturevalue(prefix + "basis"))
     ours = missed(solver, with_lands(solver))
     assert ours.min() > -1e-9  # never softer than the mesh
-    assert without.min() > 0.006
-    assert ours.max() < 4e-3 and np.all(ours < 0.5 * without)
+    assert without.min() > 0.01
+    assert ours.max() < 4e-3 and np.all(ours < 0.25 * without)
 
 
 def test_land_patterns_are_radial_harmonics(solver):
