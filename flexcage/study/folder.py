@@ -58,6 +58,10 @@ class Folder:
     def case(self, name: str) -> Path:
         return self.cases / name
 
+    def has_run(self, name: str) -> bool:
+        """Whether the finished case of this hash kept its run, whatever the study keeps now."""
+        return (self.case(name) / "results.zarr").is_dir()
+
     def part(self, name: str) -> Path:
         return self.cases / f"{name}{_PART}"
 

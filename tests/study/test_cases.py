@@ -72,6 +72,23 @@ def test_figures_alone_are_small_and_computed_again_for_new_outputs(folder):
         StudyResults(folder.path).run()
 
 
+def test_a_kept_run_stays_when_the_study_comes_to_keep_figures(folder, monkeypatch):
+    (order,) = orders(folder, short_study())
+    assert do_case(order) == "done"
+    monkeypatch.setattr(work, "simulate", no_simulation)
+    (order,) = orders(folder, short_study(outputs=("pocket_force.max",), keep="figures"))
+    assert do_case(order) == "done"
+    assert folder.row(order.hash).figures["pocket_force.max"].unit == "N"
+    assert StudyResults(folder.path).run().case.hash == order.hash
+
+
+def test_a_run_is_computed_where_figures_alone_were_kept(folder):
+    (order,) = orders(folder, short_study(keep="figures"))
+    assert do_case(order) == "done" and not folder.has_run(order.hash)
+    (order,) = orders(folder, short_study(outputs=("pocket_force.max",)))
+    assert do_case(order) == "done" and folder.has_run(order.hash)
+
+
 def test_a_stopped_case_goes_on_where_it_was(folder):
     class CtrlC:
         def __init__(self, total, label):
