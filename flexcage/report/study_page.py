@@ -88,7 +88,8 @@ def _comparison(account: StudyAccount) -> Section:
         notes.append(f"The first {most} of {len(charts)} charts; statistics.csv has all figures.")
     shown, folded = _folded(groups, most)
     if folded:
-        notes.append(f"{sum(len(block.charts) for block in folded)} of them are folded away.")
+        more = sum(len(block.charts) for block in folded)
+        notes.append(f"The first {len(shown)} charts are open, {more} more are folded by output.")
     return Section("Comparison", [Prose(notes), Charts(shown), *folded])
 
 

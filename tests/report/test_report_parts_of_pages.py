@@ -191,7 +191,7 @@ def test_charts_after_the_first_are_folded_away_by_output(tmp_path):
     page = study_page(study_account(tmp_path, outputs=outputs, abscissas=axes))
     blocks = next(s for s in page.sections if s.title == "Comparison").blocks
     note, shown, *folded = blocks
-    assert "30 of them are folded away." in note.paragraphs
+    assert "The first 10 charts are open, 30 more are folded by output." in note.paragraphs
     assert [len(b.charts) for b in (shown, *folded)] == [10] + [5] * 6
     assert [b.title for b in folded] == [f"output {k}" for k in range(2, 8)]
     text = html(page)
