@@ -38,7 +38,7 @@ def draw(results: StudyResults, rows: Rows, squeezed: PinchMap, folder: Path) ->
     captions: dict[str, str] = {"pinch.png": _CAPTION_PINCH}
     paths = [pinch_picture(squeezed, folder / "pinch.png")]
     if runs:
-        for name, curve in _HISTORIES.items():
+        for name, curve in HISTORIES.items():
             path = folder / f"{name}.png"
             paths.append(_histories(runs, curve, path))
             captions[path.name] = curve.caption
@@ -167,7 +167,7 @@ class Curve:
     shared: bool = True
 
 
-_HISTORIES: Mapping[str, Curve] = {
+HISTORIES: Mapping[str, Curve] = {
     "stress": Curve(
         _stress,
         "stress [MPa]",

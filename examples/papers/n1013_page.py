@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 import shutil
+from collections import Counter
 from collections.abc import Iterable, Sequence
 from dataclasses import replace
 from datetime import UTC, datetime
 from pathlib import Path
+from typing import Any
 
 import numpy as np
-from n1013_figures import NAMES, slug
+from n1013_figures import HISTORIES, NAMES, slug
 from n1013_reasons import findings, reason_of
 from n1013_view import (
     AFTER,
@@ -37,6 +39,7 @@ from n1013_view import (
 from flexcage import StudyResults, __version__
 from flexcage.render import sheet
 from flexcage.results.audit import OF_DRIVE
+from flexcage.study.results import ResultRow
 from flexcage.study.verdicts import OUTCOMES, Verdict
 
 HERE = Path(__file__).parent
@@ -177,7 +180,8 @@ def _beside(results: StudyResults, view: View) -> str:
         "displaced beam does."
     )
     table = markdown(("", *cages), rows)
-    return f"## Beside the claims\n\n{text}\n\n{table}\n\n{_audit(results)}"
+    checks = "\n\n".join(filter(None, [_audit(results), _unsettled(results)]))
+    return f"## Beside the claims\n\n{text}\n\n{table}\n\n{checks}"
 
 
 def _resolution(results: StudyResults, cage: str) -> float:
@@ -204,12 +208,45 @@ def _audit(results: StudyResults) -> str:
     )
 
 
+def _unsettled(results: StudyResults) -> str:
+    """How many cases had not settled by flexcage's own check, and in which quantity."""
+    found = [(row.planned.point.labels, _drifting(results, row)) for row in results.rows]
+    known = [(labels, names) for labels, names in found if names is not None]
+    wrong = [(labels, names) for labels, names in known if names]
+    if not known:
+        return ""
+    if not wrong:
+        return f"Every one of {len(known)} cases had settled: no figure differs between its halves."
+    times = Counter(name for _, names in wrong for name in names)
+    text = (
+        f"{len(wrong)} of {len(known)} cases had not settled: the halves of the run differ beyond "
+        f"the intervals in {_counted(times)}."
+    )
+    base = [(labels["cage"], names) for labels, names in known if labels["variation"] == BASE]
+    starts = Counter(cage for cage, _ in base)
+    drifts = Counter((cage, name) for cage, names in base for name in names)
+    parts = [f"{c}: {name} in {n} of {starts[c]} starts" for (c, name), n in drifts.items()]
+    return f"{text} At the base clearances, {'; '.join(parts)}." if parts else text
+
+
+def _drifting(results: StudyResults, row: ResultRow) -> list[str] | None:
+    """Quantities that differ between the halves of a case's run; None where it is not known."""
+    stored = results.stored.get(row.planned.hash)
+    figure = stored.figures.get("drift") if stored else None
+    if figure is None or figure.value is None:
+        return None
+    return [] if figure.value == "nothing" else str(figure.value).split(", ")
+
+
+def _counted(times: Counter[str]) -> str:
+    return ", ".join(f"{name} ({count})" for name, count in times.most_common())
+
+
 def _copy_images(pictures: Path, folder: Path) -> list[Path]:
-    """The stress images of the five cages and the pinch map, under 200 kB each."""
+    """What the paper plots, as far as it was drawn, under 200 kB each."""
     folder.mkdir(exist_ok=True)
-    names = [*(f"stress_{slug(cage)}.png" for cage in CAGES), "orbits.png", "pinch.png"]
     found = []
-    for name in names:
+    for name in _captions():
         if (pictures / name).is_file():
             found.append(Path(shutil.copy(pictures / name, folder / name)))
             _shrink(found[-1])
@@ -217,16 +254,27 @@ def _copy_images(pictures: Path, folder: Path) -> list[Path]:
 
 
 def _shrink(path: Path, *, width: int = 1250) -> None:
-    """Write the image no wider than ``width`` pixels, in the 256 colours of stress pictures: their
-    colour map, greys, and the colours of marks and of what lies beyond the range."""
-    import matplotlib as mpl
+    """Write the image no wider than ``width`` pixels, in 256 colours."""
     from PIL import Image
-    from scipy.spatial import KDTree
 
     image = Image.open(path).convert("RGB")
     if image.width > width:
         size = (width, round(image.height * width / image.width))
         image = image.resize(size, Image.Resampling.LANCZOS)
+    if path.stem in HISTORIES:  # lines over each other have colours of their own, but few
+        small = image.quantize(256, dither=Image.Dither.NONE)
+    else:
+        small = _in_colours_of_stress(image)
+    small.save(path, optimize=True)
+
+
+def _in_colours_of_stress(image: Any) -> Any:
+    """The image in the 256 colours of stress pictures: their colour map, greys, and the colours of
+    marks and of what lies beyond the range."""
+    import matplotlib as mpl
+    from PIL import Image
+    from scipy.spatial import KDTree
+
     marks = (sheet.VERMILION, sheet.BLUE, sheet.SKY, sheet.GREEN, sheet.ORANGE)
     colours = np.vstack([
         mpl.colormaps["viridis"](np.linspace(0.0, 1.0, 200))[:, :3],
@@ -236,15 +284,26 @@ def _shrink(path: Path, *, width: int = 1250) -> None:
     nearest = KDTree(colours).query(np.asarray(image) / 255.0)[1].astype(np.uint8)
     small = Image.fromarray(nearest, "P")
     small.putpalette(np.rint(255.0 * colours).astype(np.uint8).tobytes())
-    small.save(path, optimize=True)
+    return small
+
+
+def _captions() -> dict[str, str]:
+    """What the page says of every picture, by its file's name, in the order of the page."""
+    captions = {
+        f"stress_{slug(cage)}.png": f"Stress at its largest: {NAMES[cage]}." for cage in CAGES
+    }
+    captions |= {f"{name}.png": curve.caption for name, curve in HISTORIES.items()}
+    return captions | {
+        "orbits.png": "Orbits of the cage centre.",
+        "pinch.png": "Corner stress of a shortened pocket against its clearance.",
+    }
 
 
 def _pictures(images: Sequence[Path]) -> str:
-    names = {f"stress_{slug(cage)}.png": f"Stress at its largest: {NAMES[cage]}" for cage in CAGES}
-    names |= {"orbits.png": "Orbits of the cage centre",
-              "pinch.png": "Corner stress of a shortened pocket against its clearance"}  # fmt: skip
+    captions = _captions()
     lines = [
-        f"![{names[path.name]}](images/{path.name})\n\n*{names[path.name]}.*" for path in images
+        f"![{captions[path.name].rstrip('.')}](images/{path.name})\n\n*{captions[path.name]}*"
+        for path in images
     ]
     return "## Pictures\n\n" + "\n\n".join(lines) if lines else ""
 

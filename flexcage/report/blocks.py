@@ -118,10 +118,11 @@ class Chart:
 
 @dataclass(frozen=True)
 class Charts:
-    """Charts that stand side by side where there is room."""
+    """Charts that stand side by side where there is room; folded away under a ``title``."""
 
     kind: ClassVar[str] = "charts"
     charts: Sequence[Chart]
+    title: str = ""
 
 
 @dataclass(frozen=True)

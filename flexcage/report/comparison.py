@@ -13,8 +13,11 @@ from flexcage.report.blocks import Chart
 from flexcage.report.plots import new_figure, plain
 
 MOST_LINES = len(CYCLE)  # lines in a chart; with more combinations only points are drawn
-_BESIDE = 0.1  # of the distance between two words: how far groups stand apart
+_BESIDE = 0.1  # of the distance between two words: how far groups stand apart, if there are few
+_SPREAD = 0.8  # of that distance: how far all groups may reach
 _SYMBOLS = ("circle", "square", "diamond", "triangle-up", "x", "star")
+MOST_NAMED = 2 * len(_SYMBOLS) * len(CYCLE)  # kinds of marks; with more groups, pointing names one
+_HEIGHT, _HIGHEST, _LINE = 300, 900, 20  # pixels, of a chart and of a line of its legend
 
 
 @dataclass(frozen=True)
@@ -50,14 +53,30 @@ class Output:
 
 def comparison_charts(
     outputs: Sequence[Output], abscissas: Sequence[Abscissa], names: Sequence[str]
-) -> list[Chart]:
-    """Every output against every abscissa; ``names`` (n_points,) are what pointing at one shows."""
-    return [
-        Chart(f"{output.title}, against {abscissa.name}", [("", _figure(output, abscissa, names))])
+) -> dict[str, list[Chart]]:
+    """By title, every output against every abscissa; pointing at a mark shows one of ``names``
+    (n_points,)."""
+    return {
+        output.title: [_chart(output, abscissa, names) for abscissa in abscissas]
         for output in outputs
-        for abscissa in abscissas
-        if np.isfinite(output.mean).any()
-    ]
+        if abscissas and np.isfinite(output.mean).any()
+    }
+
+
+def _chart(output: Output, abscissa: Abscissa, names: Sequence[str]) -> Chart:
+    many = len(set(abscissa.group))
+    legend = _LINE * many if MOST_LINES < many <= MOST_NAMED else 0
+    height = min(max(_HEIGHT + legend, 2 * legend), _HIGHEST)  # a legend takes half at most
+    title = f"{output.title}, against {abscissa.name}"
+    return Chart(title, [("", _figure(output, abscissa, names))], height=height)
+
+
+def mark(group: int) -> dict[str, Any]:
+    """Colour and symbol of a group; no two of the first ``MOST_NAMED`` are alike."""
+    turn, colour = divmod(group, len(CYCLE))
+    symbol = _SYMBOLS[(colour + turn) % len(_SYMBOLS)]
+    hollow = "-open" if turn % (2 * len(_SYMBOLS)) >= len(_SYMBOLS) else ""
+    return {"color": CYCLE[colour], "symbol": symbol + hollow}
 
 
 def _figure(output: Output, abscissa: Abscissa, names: Sequence[str]) -> Any:
@@ -68,7 +87,7 @@ def _figure(output: Output, abscissa: Abscissa, names: Sequence[str]) -> Any:
         ticks, texts = list(range(len(words))), [plain(word) for word in words]
         figure.update_xaxes(tickvals=ticks, ticktext=texts, range=[-0.5, len(words) - 0.5])
     groups = list(dict.fromkeys(abscissa.group))
-    if len(groups) > MOST_LINES:
+    if len(groups) > MOST_NAMED:
         groups, member = [""], np.zeros(len(abscissa.values), int)
     else:
         member = np.array([groups.index(g) for g in abscissa.group])
@@ -78,15 +97,17 @@ def _figure(output: Output, abscissa: Abscissa, names: Sequence[str]) -> Any:
         if numeric:
             points.sort(key=lambda i: abscissa.values[i])
         once = len({str(abscissa.values[i]) for i in points}) == len(points)
-        values, beside = abscissa.values, _BESIDE * (k - 0.5 * (len(groups) - 1))
-        lines = abscissa.joined and numeric and once and len(points) > 1
+        apart = min(_BESIDE, _SPREAD / len(groups))
+        values, beside = abscissa.values, apart * (k - 0.5 * (len(groups) - 1))
+        few = len(groups) <= MOST_LINES
+        lines = abscissa.joined and numeric and once and few and len(points) > 1
         figure.add_scatter(
             x=[words.index(str(values[i])) + beside if words else float(values[i]) for i in points],
             y=output.mean[points].tolist(),
-            error_y=_bars(output.half[points], CYCLE[k]),
+            error_y=_bars(output.half[points], mark(k)["color"]),
             mode="lines+markers" if lines else "markers",
-            line={"color": CYCLE[k], "width": 1.3},
-            marker={"color": CYCLE[k], "size": 8, "symbol": _SYMBOLS[k]},
+            line={"color": mark(k)["color"], "width": 1.3},
+            marker={**mark(k), "size": 8},
             name=plain(group),
             text=[_hover(names[i], output, i) for i in points],
             hovertemplate="%{text}<extra></extra>",

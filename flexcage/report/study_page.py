@@ -8,6 +8,7 @@ from pathlib import Path
 
 from flexcage.report.blocks import (
     Block,
+    Chart,
     Charts,
     Gallery,
     Image,
@@ -25,6 +26,7 @@ from flexcage.report.tables import assumption_table
 from flexcage.report.verdicts import read_verdicts
 
 _FEWEST_CHARTS, _MOST_MARKS = 2, 16_000  # of comparisons, and of marks in all, to keep a page light
+_MOST_OPEN = 12  # charts that are not folded away
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -76,14 +78,33 @@ def study_page(account: StudyAccount) -> Page:
 
 
 def _comparison(account: StudyAccount) -> Section:
-    charts = comparison_charts(account.outputs, account.abscissas, account.points)
+    groups = comparison_charts(account.outputs, account.abscissas, account.points)
+    charts = [chart for group in groups.values() for chart in group]
     if not charts:
         return Section("Comparison", [Prose(["There is nothing to compare yet."])])
     notes = ["Bars are 95 % intervals over the repetitions. Point at a mark for its case."]
     most = max(_FEWEST_CHARTS, _MOST_MARKS // len(account.points))
     if len(charts) > most:
         notes.append(f"The first {most} of {len(charts)} charts; statistics.csv has all figures.")
-    return Section("Comparison", [Prose(notes), Charts(charts[:most])])
+    shown, folded = _folded(groups, most)
+    if folded:
+        more = sum(len(block.charts) for block in folded)
+        notes.append(f"The first {len(shown)} charts are open, {more} more are folded by output.")
+    return Section("Comparison", [Prose(notes), Charts(shown), *folded])
+
+
+def _folded(groups: Mapping[str, Sequence[Chart]], most: int) -> tuple[list[Chart], list[Charts]]:
+    """The first charts, which all see, and the others folded by output; ``most`` in all."""
+    shown: list[Chart] = []
+    folded: list[Charts] = []
+    for title, group in groups.items():
+        kept = group[: max(most, 0)]
+        most -= len(kept)
+        if not folded and (not shown or len(shown) + len(kept) <= _MOST_OPEN):
+            shown += kept
+        elif kept:
+            folded.append(Charts(kept, title))
+    return shown, folded
 
 
 def _stress(account: StudyAccount) -> list[Section]:

@@ -27,6 +27,7 @@ from flexcage.study.plan import Plan, stored_plan
 from flexcage.study.spec import FORMAT, Study, load_study
 
 _ROW, _PART = "row.json", ".part"
+_NOT_THERE = (KeyError, TypeError, AttributeError)  # a text that is not what was written
 _ZARR_GROUP = {"zarr_format": 3, "node_type": "group", "attributes": {}}
 
 
@@ -58,6 +59,10 @@ class Folder:
     def case(self, name: str) -> Path:
         return self.cases / name
 
+    def has_run(self, name: str) -> bool:
+        """Whether the finished case of this hash kept its run, whatever the study keeps now."""
+        return (self.case(name) / "results.zarr").is_dir()
+
     def part(self, name: str) -> Path:
         return self.cases / f"{name}{_PART}"
 
@@ -74,10 +79,10 @@ class Folder:
 
     def plan(self) -> Plan:
         """The study's cases, as they were planned last; InputError if they are not there."""
-        study, hashes = self.study(), _read_json(self.path / "plan.json")
+        study = self.study()
         try:
-            return stored_plan(study, hashes)
-        except (TypeError, ValueError) as exc:
+            return stored_plan(study, json.loads((self.path / "plan.json").read_text("utf-8")))
+        except (OSError, TypeError, ValueError) as exc:
             raise InputError(
                 f"'{self.path}' does not hold the plan of its study.toml; go on with 'flexcage "
                 f"study resume {self.path}', which plans it anew.",
@@ -114,9 +119,12 @@ class Folder:
 
     def row(self, name: str) -> CaseRow | None:
         """The finished case of this hash, or None."""
-        stored = _read_json(self.case(name) / _ROW)
+        path = self.case(name) / _ROW
+        stored = _read_json(path)
         if stored is None:
             return None
+        if not isinstance(stored, dict) or "format" not in stored:
+            raise _lacks(path, "the figures of a case")
         if stored["format"] != FORMAT:
             raise InputError(
                 f"'{self.case(name)}' is a case of study format {stored['format']}, and this "
@@ -124,13 +132,20 @@ class Folder:
                 where="format",
                 value=stored["format"],
             )
-        figures = {key: Figure(*values) for key, values in stored["figures"].items()}
-        return CaseRow(name, stored["seconds"], figures)
+        try:
+            figures = {key: Figure(*values) for key, values in stored["figures"].items()}
+            return CaseRow(name, stored["seconds"], figures)
+        except _NOT_THERE as exc:
+            raise _lacks(path, "the figures of a case") from exc
 
     def failure(self, name: str) -> Failure | None:
         """Why the case of this hash failed, or None."""
-        stored = _read_json(self.failed / f"{name}.json")
-        return None if stored is None else Failure(**stored)
+        path = self.failed / f"{name}.json"
+        stored = _read_json(path)
+        try:
+            return None if stored is None else Failure(**stored)
+        except _NOT_THERE as exc:
+            raise _lacks(path, "the reason of a failure") from exc
 
     def write_row(self, where: Path, row: CaseRow) -> None:
         """Write a case's row into the folder ``where`` of its run."""
@@ -174,7 +189,19 @@ def _read_json(path: Path) -> Any:
     except FileNotFoundError:
         return None
     except (OSError, ValueError) as exc:
-        raise InputError(f"'{path}' cannot be read ({exc}); remove it to compute it anew.") from exc
+        raise InputError(
+            f"'{path}' cannot be read ({exc}); remove it to compute the case anew.",
+            where="study",
+            value=str(path),
+        ) from exc
+
+
+def _lacks(path: Path, what: str) -> InputError:
+    return InputError(
+        f"'{path}' does not hold {what}; remove it to compute the case anew.",
+        where="study",
+        value=str(path),
+    )
 
 
 def _sync(path: Path) -> None:

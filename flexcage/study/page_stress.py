@@ -34,33 +34,35 @@ class Shown:
 
 def to_show(results: StudyResults, points: Sequence[int] | None) -> tuple[list[ResultRow], str]:
     """First finished case with stress of the points to show, and a sentence on the choice."""
-    if results.study.keep != "runs":
+    done = [row for row in results.rows if row.state == "done"]
+    kept_runs = [row for row in done if results.folder.has_run(row.planned.hash)]
+    if done and not kept_runs:
         if points is not None:
             raise InputError("The study kept figures only, so no point's stress can be shown.")
         return [], "The study kept figures only, so no stress can be shown."
     able: dict[int, ResultRow] = {}
-    for row in results.rows:
-        if row.state == "done" and stored_figure(results, row, "stress_peak") is not None:
+    for row in kept_runs:
+        if stored_figure(results, row, "stress_peak") is not None:
             able.setdefault(row.planned.number, row)
     if points is not None:
         missing = [p for p in points if p not in able]
         if missing:
             raise InputError(
-                f"Point {missing[0]} has no finished run with a flexible cage; choose from "
+                f"Point {missing[0]} has no kept run with a flexible cage; choose from "
                 f"{', '.join(map(str, able)) or 'none'}.",
                 where="points",
                 value=missing[0],
             )
         return [able[p] for p in points], ""
     if not able:
-        return [], "No finished case has a flexible cage, so there is no stress to show."
+        return [], "No kept run has a flexible cage, so there is no stress to show."
     numbers = list(able)
     if len(numbers) <= MOST:
-        return list(able.values()), "Shown is the first repetition of every point with stress."
-    kept = sorted({numbers[round(k)] for k in np.linspace(0, len(numbers) - 1, MOST)})
-    return [able[p] for p in kept], (
-        f"Shown are {len(kept)} of the {len(numbers)} points with stress, evenly spread, the first "
-        "repetition of each; --points chooses others."
+        return list(able.values()), "Shown is the first kept run of every point with stress."
+    spread = sorted({numbers[round(k)] for k in np.linspace(0, len(numbers) - 1, MOST)})
+    return [able[p] for p in spread], (
+        f"Shown are {len(spread)} of the {len(numbers)} points with stress, evenly spread, the "
+        "first kept run of each; --points chooses others."
     )
 
 

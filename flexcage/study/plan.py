@@ -14,9 +14,12 @@ from flexcage.core.errors import InputError
 from flexcage.core.hashing import content_hash
 from flexcage.core.units import format_si
 from flexcage.modes.registry import basis_version
-from flexcage.study.axes import Point
+from flexcage.study.axes import Point, Points
 from flexcage.study.outputs import check_outputs
 from flexcage.study.spec import Study
+
+#: What tables hold of every case or point beside labels, values that vary, and outputs.
+COLUMNS = ("point", "repetition", "state", "reason", "seconds", "hash", "done")
 
 
 @dataclass(frozen=True)
@@ -47,6 +50,7 @@ class Plan:
 def make_plan(study: Study) -> Plan:
     """Build and check every case; the first mistake raises InputError with its point."""
     _check_paths(study)
+    _check_columns(study)
     points = _points(study)
     cases, seen = [], dict[str, int]()
     elements, flexible = study.case.bearing.element_count, False
@@ -124,6 +128,23 @@ def _check_paths(study: Study) -> None:
                         value=path,
                     )
             owners[plain] = f"axis {i}"
+
+
+def _check_columns(study: Study) -> None:
+    """Raise InputError if the labels of a list would share a column with anything else."""
+    owners = dict.fromkeys((*COLUMNS, *study.outputs), "the tables have a column of that name")
+    owners |= {path: "an axis sets that path" for axis in study.axes for path in axis.paths}
+    for i, axis in enumerate(study.axes):
+        if not isinstance(axis, Points) or not any("label" in point for point in axis.points):
+            continue
+        if axis.name in owners:
+            raise InputError(
+                f"Axis {i} shows its labels in a column '{axis.name}', but {owners[axis.name]}; "
+                'give the axis another name, as in name = "variant".',
+                where=f"axes.{i}.name",
+                value=axis.name,
+            )
+        owners[axis.name] = f"axis {i} does so too"
 
 
 def _overlap(a: str, b: str) -> bool:

@@ -142,7 +142,7 @@ class StudyResults:
         """The run of one case; InputError if it is not there."""
         for row in self.rows:
             if (row.planned.number, row.planned.repetition) == (point, repetition):
-                if row.state != "done" or self.study.keep != "runs":
+                if row.state != "done" or not self.folder.has_run(row.planned.hash):
                     why = row.state if row.state != "done" else "kept as figures only"
                     raise InputError(f"Point {point}, repetition {repetition} has no run: {why}.")
                 return load_run(self.folder.case(row.planned.hash))

@@ -41,26 +41,48 @@ def run_study(
     that failed. ``progress`` is a context like ``core.progress.Progress``.
 
     A case that fails is a row with its reason. Raises InputError for a mistake in the plan,
-    before anything is computed, and RunFailed if the scheduler is lost; what is finished stays.
+    before anything is computed, and RunFailed if the scheduler is lost; what is finished stays,
+    and the tables show it.
     """
     require_packages()
     plan = make_plan(study)
     folder = Folder(Path(out).resolve())
     folder.prepare(plan)
     todo = _lacking(plan, folder, retry=retry)
-    if todo:
-        done = len(plan.cases) - len(todo)
-        with connect(scheduler, workers) as client:
-            with progress(len(plan.cases), "cases") if progress else nullcontext() as bar:
-                if bar is not None:
-                    bar.begin_at(done)
-                desk = _Desk(client, plan, folder)
-                for _ in desk.work_off(todo):
-                    if bar is not None:
-                        bar.advance()
+    try:
+        if todo:
+            _compute(plan, folder, todo, (scheduler, workers), progress)
+    except BaseException:  # Ctrl-C as well: the tables show what is finished
+        _try_to_write(folder)
+        raise
     results = StudyResults(folder.path)
     results.write()
     return results
+
+
+def _compute(
+    plan: Plan,
+    folder: Folder,
+    todo: set[str],
+    where: tuple[str | None, int | None],
+    progress: Callable[..., Any] | None,
+) -> None:
+    """Compute the cases ``todo`` on a scheduler or a number of workers: ``where``."""
+    with connect(*where) as client:
+        with progress(len(plan.cases), "cases") if progress else nullcontext() as bar:
+            if bar is not None:
+                bar.begin_at(len(plan.cases) - len(todo))
+            for _ in _Desk(client, plan, folder).work_off(todo):
+                if bar is not None:
+                    bar.advance()
+
+
+def _try_to_write(folder: Folder) -> None:
+    """Write the tables of a study that ended early; what ended it matters more than a failure."""
+    try:
+        StudyResults(folder.path).write()
+    except Exception as exc:
+        log.warning("the tables were not written: %s", exc)
 
 
 def _lacking(plan: Plan, folder: Folder, *, retry: bool) -> set[str]:

@@ -87,7 +87,7 @@ def _complete(order: Order, folder: Folder) -> None:
     if row is not None and set(order.beyond) <= set(row.figures):
         return
     begin = time.perf_counter()
-    if row is not None and order.keep == "runs":  # only outputs were added
+    if row is not None and folder.has_run(order.hash):  # only outputs were added
         run = load_run(folder.case(order.hash))
         figures = {**row.figures, **figures_of(run, order.beyond)}
         folder.write_row(folder.case(order.hash), CaseRow(order.hash, row.seconds, figures))

@@ -1,10 +1,13 @@
 """README's examples of cases load, and its walk through a bearing type names what is there."""
 
+import ast
 import re
 from pathlib import Path
 
 import pytest
 
+import flexcage
+from flexcage import cli
 from flexcage.case import load_case
 
 ROOT = Path(__file__).parents[2]
@@ -23,6 +26,35 @@ def cases():
 @pytest.mark.parametrize("text", cases())
 def test_what_a_case_may_say(text):
     assert load_case(text).bearing.in_motion
+
+
+def test_snippets_of_clusters_name_only_what_they_import():
+    section = (ROOT / "README.md").read_text("utf-8").split("## Studies")[1].split("\n## ")[0]
+    blocks = re.findall(r"```python\n(.*?)```", section, flags=re.S)
+    assert len(blocks) == 2
+    for block in blocks:
+        tree = list(ast.walk(ast.parse(block)))
+        given = {a.asname or a.name for n in tree if isinstance(n, ast.ImportFrom | ast.Import)
+                 for a in n.names}  # fmt: skip
+        names = [n for n in tree if isinstance(n, ast.Name)]
+        given |= {n.id for n in names if isinstance(n.ctx, ast.Store)}
+        assert {n.id for n in names} <= given
+        for name in re.findall(r"flexcage\.(\w+)\(", block):
+            assert callable(getattr(flexcage, name))
+        assert re.search("nthreads 1|cores=1, processes=1", block)
+
+
+def test_the_cluster_on_loopback_is_one_that_dask_and_flexcage_know():
+    section = (ROOT / "README.md").read_text("utf-8").split("## Studies")[1].split("\n## ")[0]
+    block = next(b for b in re.findall(r"```sh\n(.*?)```", section, flags=re.S) if "dask" in b)
+    scheduler, worker, study = (line.split() for line in block.strip().splitlines())
+    pytest.importorskip("distributed")
+    from distributed.cli import dask_scheduler, dask_worker
+
+    dask_scheduler.main.make_context("scheduler", scheduler[2:])
+    dask_worker.main.make_context("worker", worker[2:])
+    parsed = cli.build_parser().parse_args(study[1:])
+    assert parsed.scheduler == worker[2] and (ROOT / parsed.study).is_file()
 
 
 def test_what_extending_names_is_there():

@@ -7,6 +7,7 @@ from pathlib import Path
 from types import SimpleNamespace
 
 import pytest
+from PIL import Image
 
 from flexcage.core.errors import InputError
 from flexcage.study.outputs import Figure
@@ -21,14 +22,16 @@ def papers():
     """The modules of examples/papers, which import each other as scripts do."""
     sys.path.insert(0, str(PAPERS))
     import n1013_claims
+    import n1013_figures
     import n1013_page
     import n1013_pinch
     import n1013_pocket_deformation as script
     import n1013_view
 
     yield SimpleNamespace(
-        view=n1013_view, claims=n1013_claims, page=n1013_page, pinch=n1013_pinch, script=script
-    )
+        view=n1013_view, claims=n1013_claims, page=n1013_page, pinch=n1013_pinch, script=script,
+        figures=n1013_figures,
+    )  # fmt: skip
     sys.path.remove(str(PAPERS))
 
 
@@ -158,6 +161,53 @@ def test_the_page_is_a_table(papers):
     verdict = Verdict(key="1", claim="a < b", outcome=HOLDS)
     table = papers.page._table([verdict]).splitlines()
     assert table[-1] == "| 1 | a < b | **holds** |  |"
+
+
+def test_the_page_shows_all_that_the_paper_plots_and_keeps_its_colours(papers, tmp_path):
+    drawn = {"acceleration", "cage_speed", "radial_displacement", "roller_speeds", "stress"}
+    assert set(papers.figures.HISTORIES) == drawn
+    names = {f"{name}.png" for name in drawn} | {"orbits.png", "pinch.png", "stress_sound.png"}
+    pictures = tmp_path / "figures"
+    pictures.mkdir()
+    blend = (51, 177, 143)  # a band of the second roller over white
+    for name in {*names, "other.png"}:
+        image = Image.new("RGB", (2500, 200), "white")
+        image.paste(blend, (0, 0, 1250, 200))
+        image.save(pictures / name)
+    found = papers.page._copy_images(pictures, tmp_path / "images")
+    assert {path.name for path in found} == names == {p.name for p in found[0].parent.iterdir()}
+    for path in found:
+        with Image.open(path) as image:
+            assert image.size == (1250, 100) and path.stat().st_size < 200_000
+            if path.stem in drawn:
+                assert image.convert("RGB").getpixel((100, 50)) == pytest.approx(blend, abs=2)
+    text = papers.page._pictures(found)
+    for path in found:
+        caption = text.partition(f"](images/{path.name})\n\n*")[2].partition("*\n")[0]
+        assert caption.strip("*").endswith(".") and len(caption) > 20, path.name
+    assert "*Speed of the cage over time.*" in text
+
+
+def test_the_page_counts_the_cases_that_had_not_settled(papers):
+    def results(**drifts):
+        rows, stored = [], {}
+        for name, drift in drifts.items():
+            labels = {"cage": "sound", "variation": "base" if name < "c" else "Z 21"}
+            planned = SimpleNamespace(hash=name, point=SimpleNamespace(labels=labels))
+            rows.append(SimpleNamespace(planned=planned))
+            if drift != "open":
+                figures = {} if drift == "lacking" else {"drift": Figure(drift, "")}
+                stored[name] = SimpleNamespace(figures=figures)
+        return SimpleNamespace(rows=rows, stored=stored)
+
+    told = papers.page._unsettled(
+        results(a="whirl radius", b="nothing", c="cage speed, whirl radius", d=None, e="open")
+    )
+    assert "2 of 3 cases had not settled" in told
+    assert "in whirl radius (2), cage speed (1)." in told
+    assert told.endswith("At the base clearances, sound: whirl radius in 1 of 2 starts.")
+    assert "Every one of 2 cases" in papers.page._unsettled(results(a="nothing", c="nothing"))
+    assert papers.page._unsettled(results(a="lacking", b="open")) == ""
 
 
 def test_a_reason_has_the_figures_and_only_for_the_outcome_it_explains(papers):

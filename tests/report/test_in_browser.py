@@ -8,10 +8,12 @@ import time
 import browser as looking
 import numpy as np
 import pytest
-from report_parts import account
+from report_parts import account, study_account
 
+from flexcage.report.comparison import Abscissa, Output
 from flexcage.report.page import write_page
 from flexcage.report.run_page import run_page as run_page_of
+from flexcage.report.study_page import study_page
 
 pytestmark = pytest.mark.skipif(bool(looking.why_not()), reason=looking.why_not())
 
@@ -115,6 +117,28 @@ def test_it_loads_offline_without_errors_and_is_legible(browser, request, page, 
     assert len(texts) > 50
     assert min(t[0] for t in texts) >= 12.0
     assert [t for t in texts if t[1] < 4.5 or t[2] < 0.7] == []
+
+
+def test_charts_that_are_folded_away_are_drawn_when_unfolded(browser, tmp_path):
+    axes = [Abscissa(f"axis {k}", [1.0, 2.0, 3.0], [""] * 3) for k in range(5)]
+    outputs = [Output(f"output {k}", "N", np.ones(3), np.full(3, np.nan)) for k in range(4)]
+    page = study_page(study_account(tmp_path, outputs=outputs, abscissas=axes, stress=()))
+    looking.load(browser, write_page(page, tmp_path / "page.html"), width=1280)
+    drawn = "return document.querySelectorAll('.plot.drawn').length"
+    assert browser.execute_script(drawn) == 10
+    fold = "return document.querySelectorAll('details:has(.chart)')[0]"
+    summary = browser.execute_script(f"{fold}.querySelector('summary')")
+    for _ in range(3):  # opened, closed, opened again: drawn once
+        summary.click()
+        time.sleep(1.0)
+    assert browser.execute_script(drawn) == 15
+    widths = browser.execute_script(
+        f"const fold = (() => {{ {fold} }})();"
+        "return [...fold.querySelectorAll('.plot')].map(e => [e.clientWidth,"
+        " e.querySelector('.main-svg').clientWidth])"
+    )
+    assert len(widths) == 5 and all(plot == svg > 200 for plot, svg in widths)
+    assert looking.complaints(browser) == []
 
 
 def test_the_watch_would_see_a_page_that_misbehaves(browser, tmp_path):

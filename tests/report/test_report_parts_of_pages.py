@@ -18,6 +18,7 @@ from report_parts import (
     cage_stress,
     dataset,
     scene,
+    study_account,
 )
 
 from flexcage.core.errors import InputError
@@ -26,11 +27,18 @@ from flexcage.report import page as page_module
 from flexcage.report.blocks import Cell, Page, Section, Table, Text
 from flexcage.report.cage_view import cage_figure, common_limit, split_at_edges
 from flexcage.report.cautions import cautions
-from flexcage.report.comparison import Abscissa, Output, comparison_charts
+from flexcage.report.comparison import (
+    MOST_NAMED,
+    Abscissa,
+    Output,
+    comparison_charts,
+    mark,
+)
 from flexcage.report.extras import extra_figures
 from flexcage.report.histories import history_charts
 from flexcage.report.page import html, write_page
 from flexcage.report.run_page import run_page
+from flexcage.report.study_page import study_page
 from flexcage.report.tables import filled
 from flexcage.report.thinning import thinned
 from flexcage.report.verdicts import read_verdicts
@@ -134,9 +142,9 @@ def test_texts_are_escaped_everywhere():
 
 def test_names_of_cases_are_words_for_plotly_too():
     axis = Abscissa("label", ["<b>one</b>", "two"], [NASTY, "b"])
-    (chart,) = comparison_charts(
+    ((chart,),) = comparison_charts(
         [Output("slip", "%", np.array([1.0, 2.0]), np.full(2, np.nan))], [axis], [NASTY, "second"]
-    )
+    ).values()
     figure = chart.figures[0][1]
     texts = [*figure.layout.xaxis.ticktext, figure.data[0].name, figure.data[0].text[0]]
     assert all("<b>" not in text and "<script" not in text for text in texts)
@@ -148,15 +156,48 @@ def test_points_of_a_group_are_joined_in_order_and_carry_intervals():
     mean = np.array([30.0, 10.0, 20.0, 1.0, np.nan, 3.0])
     half = np.array([3.0, 1.0, 2.0, np.nan, np.nan, 0.3])
     names = [f"case {k}" for k in range(6)]
-    (chart,) = comparison_charts(
+    ((chart,),) = comparison_charts(
         [Output("force", "N", mean, half)], [Abscissa("load [N]", values, group)], names
-    )
+    ).values()
     first, second = chart.figures[0][1].data
     assert list(first.x) == [1.0, 2.0, 3.0] and list(first.y) == [10.0, 20.0, 30.0]
     assert list(first.error_y.array) == [1.0, 2.0, 3.0] and first.mode == "lines+markers"
     assert list(second.x) == [1.0, 3.0], "what failed is left out"
     assert "case 1" in first.text[0] and "10 ± 1 N" in first.text[0]
     assert "±" not in second.text[0]
+
+
+@pytest.mark.parametrize("values", [[1.0, 2.0], ["one", "two"]])
+def test_every_case_is_named_where_there_are_more_groups_than_colours(values):
+    many = 45
+    group = [f"cage {k}" for k in range(many) for _ in values]
+    axis, n = Abscissa("load", values * many, group), len(group)
+    output = Output("force", "N", np.arange(float(n)), np.full(n, np.nan))
+    ((chart,),) = comparison_charts([output], [axis], group).values()
+    data = chart.figures[0][1].data
+    assert [s.name for s in data] == [f"cage {k}" for k in range(many)]
+    assert all(s.showlegend and s.mode == "markers" for s in data)
+    assert len({(s.marker.color, s.marker.symbol) for s in data}) == many
+    if "one" in values:
+        assert all(abs(x - i) < 0.5 for s in data for i, x in enumerate(s.x))
+    assert chart.height > 300
+    assert len({tuple(mark(k).items()) for k in range(MOST_NAMED)}) == MOST_NAMED
+
+
+def test_charts_after_the_first_are_folded_away_by_output(tmp_path):
+    n, loads = 3, [1.0, 2.0, 3.0]
+    axes = [Abscissa(f"axis {k}", loads, [""] * n) for k in range(5)]
+    outputs = [Output(f"output {k}", "N", np.ones(n), np.full(n, np.nan)) for k in range(8)]
+    page = study_page(study_account(tmp_path, outputs=outputs, abscissas=axes))
+    blocks = next(s for s in page.sections if s.title == "Comparison").blocks
+    note, shown, *folded = blocks
+    assert "The first 10 charts are open, 30 more are folded by output." in note.paragraphs
+    assert [len(b.charts) for b in (shown, *folded)] == [10] + [5] * 6
+    assert [b.title for b in folded] == [f"output {k}" for k in range(2, 8)]
+    text = html(page)
+    assert text.count("<details><summary>output ") == 6
+    closed = re.findall(r"<details><summary>output .*?</details>", text, flags=re.S)
+    assert sum(block.count('class="chart"') for block in closed) == 30
 
 
 def test_a_page_asks_for_nothing_outside():

@@ -13,6 +13,7 @@ from flexcage.report.comparison import Output
 from flexcage.study.axes import Grid, LatinHypercube, Points, Zip
 from flexcage.study.folder import CaseRow, Failure, Folder
 from flexcage.study.outputs import Figure
+from flexcage.study.page_stress import to_show
 from flexcage.study.page_tables import abscissas, outputs, point_names
 from flexcage.study.plan import make_plan
 from flexcage.study.results import StudyResults
@@ -144,8 +145,36 @@ def test_the_command_writes_into_the_folder_unless_told(here, capsys):
 
 
 def test_points_are_chosen_among_those_with_a_run(tmp_path):
-    results = study_folder(tmp_path / "s", LOADS, keep="runs")
-    with pytest.raises(InputError, match="Point 7 has no finished run with a flexible cage"):
+    results = with_runs(study_folder(tmp_path / "s", LOADS, keep="runs"))
+    with pytest.raises(InputError, match="Point 7 has no kept run with a flexible cage"):
         results.page(tmp_path / "page.html", points=[7])
     text = results.page(tmp_path / "page.html").read_text("utf-8")
-    assert "No finished case has a flexible cage" in text
+    assert "No kept run has a flexible cage" in text
+
+
+def with_runs(results, *points):
+    """The study with a run's folder in the cases of these points, or in all."""
+    for row in results.rows:
+        if not points or row.planned.number in points:
+            (results.folder.case(row.planned.hash) / "results.zarr").mkdir()
+    return results
+
+
+@pytest.mark.parametrize("keep", ["runs", "figures"])
+def test_stress_is_shown_of_the_cases_that_kept_their_run(keep, tmp_path):
+    """Whatever the study says that it keeps: that may have changed since."""
+    outputs = ("stress_peak", "cage_speed")
+    repeat, flexible = Repeat(count=2), Grid("cage.model", ["flexible"])
+    results = study_folder(
+        tmp_path / "s", SPEEDS, flexible, keep=keep, outputs=outputs, repeat=repeat
+    )
+    assert to_show(results, None) == (
+        [], "The study kept figures only, so no stress can be shown."
+    )  # fmt: skip
+    with_runs(results, 1)
+    shown, chosen = to_show(results, None)
+    assert [(r.planned.number, r.planned.repetition) for r in shown] == [(1, 0)]
+    assert chosen == "Shown is the first kept run of every point with stress."
+    assert to_show(results, [1])[0] == shown
+    with pytest.raises(InputError, match="Point 2 has no kept run .* choose from 1"):
+        to_show(results, [2])

@@ -3,14 +3,15 @@
 from dataclasses import replace
 
 import numpy as np
+import pandas
 import pytest
 import xarray
 from study_cases import short_case, short_study
 
 from flexcage import cli
-from flexcage.core.errors import InputError
+from flexcage.core.errors import InputError, RunFailed
 from flexcage.simulate import simulate
-from flexcage.study import work
+from flexcage.study import run, work
 from flexcage.study.axes import Grid, Points
 from flexcage.study.folder import Folder
 from flexcage.study.outputs import FLEXIBLE_FIGURES, RIGID_FIGURES
@@ -72,6 +73,23 @@ def test_figures_alone_are_small_and_computed_again_for_new_outputs(folder):
         StudyResults(folder.path).run()
 
 
+def test_a_kept_run_stays_when_the_study_comes_to_keep_figures(folder, monkeypatch):
+    (order,) = orders(folder, short_study())
+    assert do_case(order) == "done"
+    monkeypatch.setattr(work, "simulate", no_simulation)
+    (order,) = orders(folder, short_study(outputs=("pocket_force.max",), keep="figures"))
+    assert do_case(order) == "done"
+    assert folder.row(order.hash).figures["pocket_force.max"].unit == "N"
+    assert StudyResults(folder.path).run().case.hash == order.hash
+
+
+def test_a_run_is_computed_where_figures_alone_were_kept(folder):
+    (order,) = orders(folder, short_study(keep="figures"))
+    assert do_case(order) == "done" and not folder.has_run(order.hash)
+    (order,) = orders(folder, short_study(outputs=("pocket_force.max",)))
+    assert do_case(order) == "done" and folder.has_run(order.hash)
+
+
 def test_a_stopped_case_goes_on_where_it_was(folder):
     class CtrlC:
         def __init__(self, total, label):
@@ -119,6 +137,20 @@ def test_a_failed_case_is_a_row_with_its_reason(folder, capsys):
     said = capsys.readouterr().out
     assert "1 failed: a defect pinches roller 5" in said and "1 done, 1 failed" in said
     assert (folder.path / "table.csv").is_file() and (folder.path / "table.parquet").is_file()
+
+
+@pytest.mark.parametrize("end", [KeyboardInterrupt, RunFailed])
+def test_the_tables_are_written_when_a_study_ends_early(end, folder, monkeypatch):
+    def ends(plan, *args):
+        do_case(order_of(plan, plan.cases[0], folder.path))
+        raise end("early")
+
+    monkeypatch.setattr(run, "_compute", ends)
+    with pytest.raises(end, match="early"):
+        run.run_study(short_study(Grid("load.radial", ["500 N", "1 kN"])), out=folder.path)
+    stored = pandas.read_parquet(folder.path / "table.parquet")
+    assert list(stored["state"]) == ["done", "open"]
+    assert list(pandas.read_csv(folder.path / "statistics.csv")["done"]) == [1, 0]
 
 
 def test_what_the_machine_lacked_is_tried_again(folder, monkeypatch):

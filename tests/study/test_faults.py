@@ -73,7 +73,7 @@ def test_a_worker_killed_in_the_middle_of_a_case(cluster, tmp_path):
     assert row.figures["race_force_inner"].value == unbroken["race_force_inner"]
 
 
-def test_a_lost_scheduler_ends_the_study_with_a_sentence(cluster, tmp_path):
+def test_a_lost_scheduler_ends_the_study_with_a_sentence_and_resume_goes_on(cluster, tmp_path):
     out = tmp_path / "study"
     with ThreadPoolExecutor(1) as aside:
         study = study_of("5000 rpm")
@@ -82,7 +82,16 @@ def test_a_lost_scheduler_ends_the_study_with_a_sentence(cluster, tmp_path):
         kill_family(cluster[1])
         with pytest.raises(RunFailed, match="lost; what is finished is kept"):
             future.result(timeout=PATIENCE)
-    assert StudyResults(out).count("done") >= 1
+    lost = pd.read_parquet(out / "table.parquet")
+    assert len(lost) == len(LOADS) and (lost["state"] == "done").any()
+
+    finished = when_written(out)
+    results = run_study(StudyResults(out).study, out=out, workers=1)
+    assert list(results.table["state"]) == ["done"] * len(LOADS)
+    assert finished and finished.items() <= when_written(out).items()
+    for row in results.rows:
+        unbroken = simulate(results.plan.case(row.planned)).summary
+        assert row.figures["race_force_inner"].value == unbroken["race_force_inner"]
 
 
 def test_ctrl_c_stops_at_once_and_resume_goes_on(tmp_path):
@@ -109,6 +118,8 @@ def test_ctrl_c_stops_at_once_and_resume_goes_on(tmp_path):
     assert not psutil.wait_procs(children, timeout=20)[1]
 
     finished = when_written(out)
+    stopped = pd.read_parquet(out / "table.parquet")
+    assert set(stopped.loc[stopped["state"] == "done", "hash"]) == set(finished)
     resumed = start(*command, "resume", out, "--workers", 1, **PIPES)
     said, complained = resumed.communicate(timeout=PATIENCE)
     assert resumed.returncode == 0, complained

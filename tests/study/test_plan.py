@@ -1,6 +1,7 @@
 """Plans: which cases a study has, and every mistake found before one of them runs."""
 
 import socket
+from dataclasses import replace
 
 import pytest
 from study_cases import short_study, study_file
@@ -10,6 +11,7 @@ from flexcage.case import load_case
 from flexcage.core.errors import InputError
 from flexcage.geometry.cages import CrossbeamDefect
 from flexcage.geometry.materials import MATERIALS
+from flexcage.study import run
 from flexcage.study.axes import Grid, LatinHypercube, Points, Zip
 from flexcage.study.folder import Folder
 from flexcage.study.outputs import check_outputs
@@ -100,6 +102,7 @@ def test_a_table_with_a_path_is_a_grid(tmp_path):
 
 AXIS = '[[axes]]\npath = "{}"\nvalues = {}\n'
 LOAD = AXIS.format("load.radial", '["500 N", "1 kN"]')
+LABELS = '[[axes]]\ntype = "list"\n{}\npoints = [{{label = "a", "{}" = "{}"}}, {{label = "b"}}]\n'
 MISTAKES = {
     "unknown path": ([AXIS.format("load.radail", '["1 N"]')], ["'radail'", "'radial'"]),
     "unknown room": ([AXIS.format("laod.radial", '["1 N"]')], ["'laod'", "'load'"]),
@@ -128,6 +131,30 @@ MISTAKES = {
         ["Point 7 of 7", "12 mm", "thinner than zero"],
     ),
     "same value twice": ([AXIS.format("load.radial", '["1 kN", "1000 N"]')], ["the same case"]),
+    "two columns of labels": (
+        [LABELS.format("", "load.radial", "1 N"), LABELS.format("", "drive.speed", "1 rpm")],
+        ["Axis 1 shows its labels in a column 'label', but axis 0 does so too"],
+    ),
+    **{
+        f"labels in the column {name}": (
+            [LABELS.format(f'name = "{name}"', "load.radial", "1 N")],
+            [f"column '{name}', but the tables have a column of that name"],
+        )
+        for name in (
+            "point",
+            "repetition",
+            "state",
+            "reason",
+            "seconds",
+            "hash",
+            "done",
+            "cage_speed",
+        )
+    },
+    "labels in the column of a path": (
+        [LABELS.format('name = "drive.speed"', "drive.speed", "1 rpm")],
+        ["'drive.speed', but an axis sets that path"],
+    ),
     "unknown type": (['[[axes]]\ntype = "grdi"'], ["'grdi'", "'grid'"]),
     "unknown key": (["repeats = 3"], ["'repeats'", "'repeat'"]),
     "no points": (["[repeat]\ncount = 0"], ["repeat.count is 0"]),
@@ -188,6 +215,52 @@ def test_a_study_without_a_case(tmp_path):
     (tmp_path / "study.toml").write_text('outputs = ["cage_speed"]')
     with pytest.raises(InputError, match="names no case"):
         load_study(tmp_path / "study.toml")
+
+
+def test_lists_without_labels_share_no_column():
+    axes = [Points([{path: value}, {}]) for path, value in (("load.radial", "1 N"),
+                                                            ("drive.speed", "1 rpm"))]  # fmt: skip
+    assert len(make_plan(short_study(*axes)).cases) == 4
+    named = replace(axes[0], name="state"), axes[1]
+    assert len(make_plan(short_study(*named)).cases) == 4
+
+
+@pytest.mark.parametrize("text", ["{", '"a"', '{"format": 1}', '{"format": 1, "seconds": 1.0, '
+                                  '"figures": {"cage_speed": 3.0}}'])  # fmt: skip
+def test_a_broken_row_is_named(text, tmp_path, capsys):
+    folder, plan = Folder(tmp_path / "s"), make_plan(short_study())
+    folder.prepare(plan)
+    name = plan.cases[0].hash
+    folder.case(name).mkdir()
+    (folder.case(name) / "row.json").write_text(text)
+    err = refusal(capsys, "study", "status", str(folder.path))
+    assert f"{name}/row.json" in err and "remove it to compute the case anew" in err
+    (folder.case(name) / "row.json").unlink()
+    (folder.failed / f"{name}.json").write_text(text)
+    err = refusal(capsys, "study", "status", str(folder.path))
+    assert f"{name}.json" in err and "remove it to compute the case anew" in err
+
+
+def test_a_broken_plan_is_written_again_by_resume(tmp_path, capsys, monkeypatch):
+    folder, plan = Folder(tmp_path / "s"), make_plan(short_study())
+    folder.prepare(plan)
+    for text in ("{", "[]", "3", "null", '["a", "b"]'):
+        (folder.path / "plan.json").write_text(text)
+        err = refusal(capsys, "study", "status", str(folder.path))
+        assert f"'flexcage study resume {folder.path}', which plans it anew" in err
+        with monkeypatch.context() as patch:
+            patch.setattr(run, "_compute", lambda *args: None)
+            assert cli.main(["study", "resume", str(folder.path)]) == 0
+        capsys.readouterr()
+        assert folder.plan() == plan
+
+
+def refusal(capsys, *command):
+    """What the command line says as it refuses, one sentence."""
+    assert cli.main(list(command)) == 2
+    err = capsys.readouterr().err
+    assert err.startswith("flexcage: ") and err.count("\n") == 1, err
+    return err
 
 
 def test_a_folder_with_other_things_is_left_alone(tmp_path):

@@ -52,14 +52,17 @@ function drawChart(chart) {
   if (choice) choice.addEventListener("change", () => show(Number(choice.value)));
   return show(0).then(() => plot.classList.add("drawn"));
 }
-async function drawAll() {
-  for (const chart of document.querySelectorAll(".chart")) {
+async function drawThose(charts) {
+  for (const chart of charts) {
     await drawChart(chart);
     await new Promise((resolve) => setTimeout(resolve)); // lets the page scroll in between
   }
-  document.body.dataset.drawn = "yes";
 }
-drawAll();
+// A chart that is folded away has no size: it is drawn when it is first unfolded.
+for (const fold of document.querySelectorAll("details:has(.chart)"))
+  fold.addEventListener("toggle", () => drawThose(fold.querySelectorAll(".chart")), { once: true });
+const seen = [...document.querySelectorAll(".chart")].filter((chart) => !chart.closest("details"));
+drawThose(seen).then(() => { document.body.dataset.drawn = "yes"; });
 
 // Pictures: a click shows one at its full size, another click puts it back.
 const dialog = document.createElement("dialog");
