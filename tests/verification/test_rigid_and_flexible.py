@@ -29,7 +29,7 @@ class Forces:
     mean_largest: float  # mean over time of the most loaded roller's
     peak_race: float
     mean_pocket: float
-    hard: float  # 99th percentile of pocket forces while in contact
+    hard: float  # what a crossbeam face feels for a ten-thousandth of the time
     peak_pocket: float
     cage: float
 
@@ -38,10 +38,9 @@ class Forces:
         ds = metrics.settled(run.dataset, 0.3)
         largest = ds["race_force"].sel(race="inner").max("roller")
         pocket = ds["pocket_force"].values[:, :, :2]
-        pocket = pocket[pocket > 0.0]
         return cls(
-            float(largest.mean()), float(largest.max()), float(pocket.mean()),
-            float(np.percentile(pocket, 99.0)), float(pocket.max()),
+            float(largest.mean()), float(largest.max()), float(pocket[pocket > 0.0].mean()),
+            float(np.percentile(pocket, 99.99)), float(pocket.max()),
             metrics.cage_speed(ds, run.numbers).mean / RPM,
         )  # fmt: skip
 
@@ -73,14 +72,13 @@ def test_cage_speeds_agree(both):
 
 
 def test_a_flexible_cage_softens_blows(both):
-    """Newtons to tens of newtons; hard and hardest blows lower than a rigid cage's, or like them.
-
-    Hardest: 20 % for chaos, for a run has one of them.
+    """Newtons to tens of newtons; hard blows half of a rigid cage's (51 and 102 N, 54 and 92 N),
+    and so the hardest (61 and 130 N), for which chaos takes its share: a run has one of them.
     """
     rigid, flexible = both
     assert 0.3 < flexible.mean_pocket < 10.0 and 0.3 < rigid.mean_pocket < 10.0
-    assert flexible.hard < 1.1 * rigid.hard
-    assert 10.0 < flexible.peak_pocket < 1.2 * rigid.peak_pocket
+    assert flexible.hard < 0.8 * rigid.hard
+    assert 10.0 < flexible.peak_pocket < rigid.peak_pocket
 
 
 def peak_by_hand(case) -> float:
@@ -119,8 +117,12 @@ def peak_by_hand(case) -> float:
 
 
 def test_static_compliance_explains_a_blow_s_peak():
-    """One roller at 0.3 m/s onto a free cage: rigid, flexible and their ratio, by hand."""
-    cases = [n1013(ALONE, {"cage.model": m}) for m in ("rigid", "flexible")]
+    """One roller at 0.3 m/s onto a free cage: rigid, flexible and their ratio, by hand.
+
+    Without the crossbeams' own inertia, for which a spring is no model: they bend in 22 us.
+    """
+    changes = {"cage.model": "rigid"}, {"modes.crossbeams": False}
+    cases = [n1013(ALONE, change) for change in changes]
     rigid, flexible = (strike(c).peak for c in cases)
     by_hand = [peak_by_hand(c) for c in cases]
     log.info(
