@@ -41,7 +41,7 @@ def test_snippets_of_clusters_name_only_what_they_import():
         assert {n.id for n in names} <= given
         for name in re.findall(r"flexcage\.(\w+)\(", block):
             assert callable(getattr(flexcage, name))
-        assert re.search("nthreads 1|cores=1,\s+processes=1", block)
+        assert re.search(r"nthreads 1|cores=1,\s+processes=1", block)
 
 
 def test_the_cluster_on_loopback_is_one_that_dask_and_flexcage_know():
