@@ -64,8 +64,11 @@ class UnitFields:
         recovery = self._recovery
         pockets = range(recovery.pocket_count)
         symmetry = find_symmetry(recovery.model, recovery.pocket_count)
+        every = np.ones(recovery.basis.size)
         if symmetry is None:
-            fields = on_all_cores(lambda k: self._kept(self._beyond_modes(self._loads(k))), pockets)
+            fields = on_all_cores(
+                lambda k: self._kept(self._beyond_modes(self._loads(k), every)), pockets
+            )
         else:
             first = recovery.solver.solve(self._loads(0))
             fields = on_all_cores(lambda k: self._kept(self._turned(symmetry, first, k)), pockets)
@@ -77,7 +80,7 @@ class UnitFields:
         return self._keep(f"{self.prefix}land_forces", self._land_fields)
 
     def _land_fields(self) -> np.ndarray:
-        weights = self._recovery.land_weights
+        recovery, weights = self._recovery, self._recovery.land_weights
         n_land = weights.shape[0] // 2
         dense = weights.toarray()
         loads = [
@@ -88,7 +91,9 @@ class UnitFields:
         ]
         columns = np.stack(loads, axis=1)
         fields = on_all_cores(
-            lambda first: self._kept(self._beyond_modes(columns[:, first : first + _TOGETHER])),
+            lambda first: self._kept(
+                self._beyond_modes(columns[:, first : first + _TOGETHER], recovery.felt_by_lands)
+            ),
             range(0, columns.shape[1], _TOGETHER),
         )
         return np.concatenate(fields, axis=1)
@@ -123,13 +128,17 @@ class UnitFields:
         static = symmetry.rotate(first, pocket)
         return self._less_modes(static, self._loads(pocket))
 
-    def _beyond_modes(self, loads: np.ndarray) -> np.ndarray:
-        return self._less_modes(self._recovery.solver.solve(loads), loads)
+    def _beyond_modes(self, loads: np.ndarray, pushed: np.ndarray) -> np.ndarray:
+        return self._less_modes(self._recovery.solver.solve(loads), loads, pushed)
 
-    def _less_modes(self, static: np.ndarray, loads: np.ndarray) -> np.ndarray:
+    def _less_modes(
+        self, static: np.ndarray, loads: np.ndarray, pushed: np.ndarray | float = 1.0
+    ) -> np.ndarray:
+        """Less what the modes carry, those that the loads push (n,) as 1."""
         basis = self._recovery.basis
         shapes = basis.shapes.reshape(len(loads), -1)
-        beyond = static - shapes @ np.linalg.solve(basis.stiffness, shapes.T @ loads)
+        work = (shapes.T @ loads) * np.reshape(pushed, (-1, 1))
+        beyond = static - shapes @ np.linalg.solve(basis.stiffness, work)
         return beyond.reshape(-1, 3, loads.shape[1])
 
     def _kept(self, shapes: np.ndarray) -> np.ndarray:

@@ -78,12 +78,18 @@ class StressRecovery:
         """Nodal contact forces (N, 3), cage frame: station forces spread with their weights."""
         at_stations = np.einsum("kfsa,kab->kfsb", loads.station_forces, self.frames)
         nodal = self.weights.T @ at_stations.reshape(-1, 3)
-        if loads.land_forces is not None:
-            n_land = loads.land_forces.shape[1]
-            turns = np.stack([pocket_frame(j, n_land) for j in range(n_land)])
-            on_land = np.einsum("lja,jab->ljb", loads.land_forces, turns)
-            nodal = nodal + self.land_weights.T @ on_land.reshape(-1, 3)
-        return nodal
+        return nodal if loads.land_forces is None else nodal + self._on_lands(loads.land_forces)
+
+    def _on_lands(self, forces: np.ndarray) -> np.ndarray:
+        n_land = forces.shape[1]
+        turns = np.stack([pocket_frame(j, n_land) for j in range(n_land)])
+        on_land = np.einsum("lja,jab->ljb", forces, turns)
+        return np.asarray(self.land_weights.T @ on_land.reshape(-1, 3))
+
+    @cached_property
+    def felt_by_lands(self) -> np.ndarray:
+        """Modes (n,) that land forces push and that move the lands, as 1, others as 0."""
+        return self.interface.land.any(axis=(0, 1, 2)).astype(float)
 
     def spin_forces(self, loads: CageLoads) -> np.ndarray:
         """Centrifugal forces (N, 3) on the undeformed cage."""
@@ -92,16 +98,24 @@ class StressRecovery:
         return -model.mass_times(acceleration)
 
     def modal_forces(self, loads: CageLoads, others: np.ndarray) -> np.ndarray:
-        """Elastic inertia and modal damping as forces (N, 3), beside the ``others`` (N, 3)."""
+        """Elastic inertia and modal damping as forces (N, 3), beside the ``others`` (N, 3).
+
+        An eigenmode's are its own inertia, M times its shape; a static shape's act as the load does
+        that makes the shape, so that both are K times shapes.
+        """
         basis, modal = self.basis, np.zeros(self.basis.size)
         if loads.modal_coordinates is not None:
             push = np.einsum("aik,ai->k", basis.shapes, others)
+            if loads.land_forces is not None:
+                on_lands = np.einsum("aik,ai->k", basis.shapes, self._on_lands(loads.land_forces))
+                push -= (1.0 - self.felt_by_lands) * on_lands
             modal = np.linalg.solve(basis.mass, push - basis.stiffness @ loads.modal_coordinates)
         if loads.modal_acceleration is not None:
             modal = modal + loads.modal_acceleration
         if loads.modal_damping is not None:
             modal = modal + np.linalg.solve(basis.mass, loads.modal_damping)
-        return -self.model.mass_times(basis.shapes @ modal)
+        moved = basis.shapes @ np.linalg.solve(basis.stiffness, basis.mass @ modal)
+        return -np.asarray(self.model.K @ moved.ravel()).reshape(-1, 3)
 
     def displacement(self, loads: CageLoads) -> np.ndarray:
         """Elastic displacement (N, 3) [m] by mode acceleration on the full mesh."""

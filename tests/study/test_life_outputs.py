@@ -1,6 +1,7 @@
 """Fatigue and wear as outputs of a study: what is lacking is said before anything runs."""
 
 import importlib.util
+import re
 
 import numpy as np
 import pytest
@@ -69,5 +70,5 @@ def check_place(run, worst):
     assert min(found) == pytest.approx(worst.largest[0], rel=2e-3, abs=1e4)
     assert max(found) == pytest.approx(worst.largest[1], rel=2e-3, abs=1e4)
     assert run.fatigue(worst.place).worst.largest == worst.largest
-    with pytest.raises(InputError, match=f"nearest known one is '{worst.place}'"):
+    with pytest.raises(InputError, match=re.escape(f"nearest known one is '{worst.place}'")):
         run.fatigue(worst.place + "x")

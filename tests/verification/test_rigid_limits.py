@@ -57,8 +57,10 @@ def test_ten_thousand_times_the_modulus_gives_the_rigid_forces(stiff_runs):
 def test_ten_thousand_times_the_modulus_gives_the_rigid_motion(stiff_runs):
     rigid, flexible = stiff_runs
     for name in ("cage_position", "inner_position"):
-        moved = np.abs(rigid[name] - rigid[name][0]).max()
-        assert float(np.abs(flexible[name] - rigid[name]).max()) < 3e-3 * float(moved), name
+        moved = float(np.abs(rigid[name] - rigid[name][0]).max())
+        # the inner ring moves by 0.25 um, of which a hundredth is ten times the tolerance
+        share = 3e-3 if name == "cage_position" else 1e-2
+        assert float(np.abs(flexible[name] - rigid[name]).max()) < share * moved, name
     apart = np.abs(flexible["roller_position"] - rigid["roller_position"]).max("time")
     assert float(apart.sel(cyl="r").max()) < 0.02e-6
     assert float(apart.sel(cyl="psi").max()) * 41.25e-3 < 0.5e-6  # each moved by 23 mm
