@@ -299,9 +299,9 @@ Read from the tables below on 22 November 2026:
   Beyond it a roller is pinched and stress rises twentyfold at once.
 - Shifted crossbeams lower the cage's slip and steady its speed, the more of them the more.
 - Rollers are pushed by the middle of a crossbeam; a bent one pushes with its crest alone.
-- A spall multiplies the ring's vibration a hundredfold and leaves pocket forces and corner stress as
-  they were; a tilt of 1 mrad lowers pocket forces by a tenth. Neither adds to what a shifted
-  crossbeam does.
+- A spall of the outer race multiplies the ring's vibration a hundredfold and leaves pocket forces
+  and corner stress as they were; a tilt of 1 mrad lowers pocket forces by a tenth. Neither adds to
+  what a shifted crossbeam does.
 - A sound or shifted cage's corners do not tire; a pinched one's last for thousands of hours.
 
 ## Does a rigid cage overstate pocket forces?
