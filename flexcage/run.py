@@ -6,7 +6,6 @@ import logging
 import os
 import shutil
 from collections.abc import Callable, Sequence
-from contextlib import nullcontext
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
@@ -18,6 +17,7 @@ import numpy as np
 from flexcage.case import Case, load_case, words
 from flexcage.core.cache import cached_arrays
 from flexcage.core.errors import EnvironmentLacks, InputError
+from flexcage.core.progress import Silent
 from flexcage.core.threads import one_blas_thread
 from flexcage.core.timing import Stages
 from flexcage.mesh.cage_mesh import CageMesh
@@ -30,7 +30,6 @@ from flexcage.results.edges import Edge, groove_edges
 from flexcage.results.figures import pass_peak, summarise
 from flexcage.results.film import film_rows, film_thickness
 from flexcage.results.metrics import BearingNumbers, SlipRange, cage_angle, settled
-from flexcage.results.mode_file import write_modes
 from flexcage.results.statistics import roller_passes
 from flexcage.results.store import MemoryRunStore, RunStore
 from flexcage.results.summary import Row, Summary
@@ -175,12 +174,15 @@ class Run:
         ds = self.dataset
         return stress_history(
             StressFields(self.recovery, keep=self._keep()),
-            ds["modal_coordinates"].values,
-            ds["station_force"].values,
-            land_station_forces(ds, inner=self.case.cage.guidance != "outer"),
+            *self._moved_and_pushed(ds),
             settled=int(self.case.output.settle * ds.sizes["time"]),
             progress=self.stages.progress,
         )
+
+    def _moved_and_pushed(self, ds: xarray.Dataset) -> tuple[np.ndarray, np.ndarray, Any]:
+        """Modal coordinates, station forces and land forces of samples: what histories want."""
+        land = land_station_forces(ds, inner=self.case.cage.guidance != "outer")
+        return ds["modal_coordinates"].values, ds["station_force"].values, land
 
     def _keep(self) -> Keep:
         """How stress fields of this cage are kept in the cache."""
@@ -204,13 +206,8 @@ class Run:
         used = curve or sn_curve(self.case.cage.material.name)
         fields = TensorFields(self.recovery, keep=self._keep())
         ds = settled(self.dataset, self.case.output.settle)
-        histories = tensor_histories(
-            fields,
-            ds["modal_coordinates"].values,
-            ds["station_force"].values,
-            land_station_forces(ds, inner=self.case.cage.guidance != "outer"),
-            places=chosen_places(place, tuple(fields.places)),
-        )
+        places = chosen_places(place, tuple(fields.places))
+        histories = tensor_histories(fields, *self._moved_and_pushed(ds), places=places)
         stresses = {}
         for name, tensors in histories:
             counted = counted_stress(tensors, used.mean_stress_sensitivity)
@@ -307,11 +304,9 @@ class Run:
                 "--resume' goes on with it.",
                 where="run",
             )
-        bar = progress(2, "report") if progress else nullcontext()
-        with TemporaryDirectory() as spare, bar as drawn:
+        with TemporaryDirectory() as spare, (progress or Silent)(2, "report") as bar:
             images, lacking = self._images(Path(spare))
-            if drawn is not None:
-                drawn.advance()
+            bar.advance()
             return write_page(run_page(self._account(images, lacking)), path)
 
     def _images(self, spare: Path) -> tuple[list[Path], str]:
@@ -423,7 +418,7 @@ class Run:
         if self.folder:
             self.summary.write(self.folder)
             if self.cage is not None:
-                write_modes(self.mode_table, self.folder / mode_file.FILE)
+                mode_file.write_modes(self.mode_table, self.folder / mode_file.FILE)
         return self
 
     @cached_property

@@ -16,6 +16,7 @@ from dataclasses import replace
 from pathlib import Path
 
 from n1013_beyond_page import draw, page, tables
+from n1013_pocket_deformation import shortened
 
 import flexcage
 from flexcage.core.progress import Progress
@@ -36,11 +37,7 @@ def load(name: str, *, quick: bool = False) -> Study:
     axes = [replace(axis, points=axis.points[1:2]) for axis in before]
     axes.append(replace(last, points=last.points[:4]))
     case = study.case.replace("solver.duration", "30 ms")
-    short = [
-        replace(a, points=tuple({k: v for k, v in p.items() if k != "solver.duration"}
-                                for p in a.points))
-        for a in axes
-    ]  # fmt: skip
+    short = [replace(axis, points=tuple(map(shortened, axis.points))) for axis in axes]
     return replace(study, case=case, axes=tuple(short), repeat=Repeat())
 
 

@@ -8,11 +8,11 @@ from pathlib import Path
 
 import numpy as np
 from n1013_page import markdown
-from n1013_view import SHOWN, written
+from n1013_view import SHOWN, over_starts, written
 
 from flexcage import StudyResults, __version__
 from flexcage.render import sheet
-from flexcage.study.verdicts import Estimate, Line, pooled
+from flexcage.study.verdicts import Estimate, Line
 
 CLAIMED = 0.44  # rigid cages are widely said to overstate pocket forces by this much
 PEAK, BLOW = "pocket_force_pass_peak", "pocket_force_peak"
@@ -46,13 +46,8 @@ NAMES = {
 
 def figure(results: StudyResults, output: str, *labels: str) -> Estimate:
     """A figure over the repetitions of the point with these labels, NaN where none is done."""
-    found = [
-        row.figures[output]
-        for row in results.rows
-        if tuple(row.planned.point.labels.values()) == labels and output in row.figures
-    ]
-    known = [f for f in found if isinstance(f.value, int | float)]
-    return pooled([float(f.value) for f in known], [f.margin for f in known])
+    rows = (row for row in results.rows if tuple(row.planned.point.labels.values()) == labels)
+    return over_starts(rows, output)
 
 
 def excess(peaks: StudyResults, output: str, speed: str, load: str, material: str) -> Estimate:

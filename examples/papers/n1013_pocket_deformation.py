@@ -66,12 +66,12 @@ def load(*, quick: bool = False) -> Study:
     study = flexcage.load_study(TEXT, overrides=QUICK if quick else None)
     if not quick:
         return study
-    axes = tuple(replace(axis, points=tuple(map(_shortened, axis.points))) for axis in study.axes)
+    axes = tuple(replace(axis, points=tuple(map(shortened, axis.points))) for axis in study.axes)
     study = replace(study, axes=axes, name=f"{study.name}-quick")
     return part(study, Stage(CAGES, (BASE,), 1, 0.0, "runs"))
 
 
-def _shortened(point: Mapping[str, Any]) -> dict[str, Any]:
+def shortened(point: Mapping[str, Any]) -> dict[str, Any]:
     """The point without a duration of its own."""
     return {path: value for path, value in point.items() if path != "solver.duration"}
 

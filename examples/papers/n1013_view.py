@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from math import floor, isfinite, log10, nan
 
@@ -76,6 +76,16 @@ _ROLLERS = {BEFORE: "j-1", AT: "j", AFTER: "j+1"}
 Rows = Mapping[tuple[str, str], tuple[ResultRow, ...]]  # finished cases by cage and variation
 
 
+def over_starts(rows: Iterable[ResultRow], output: str) -> Estimate:
+    """A figure over the repetitions of a case; NaN where nothing was computed."""
+    known = [
+        row.figures[output]
+        for row in rows
+        if output in row.figures and row.figures[output].value is not None
+    ]
+    return pooled([float(f.value) for f in known], [f.margin for f in known])  # type: ignore[arg-type]
+
+
 @dataclass(frozen=True)
 class View:
     """Figures of the five cages in one variation of the study."""
@@ -85,12 +95,7 @@ class View:
 
     def __call__(self, output: str, cage: str) -> Estimate:
         """A figure over the repetitions; NaN where nothing was computed."""
-        figures = [
-            row.figures[output]
-            for row in self.rows.get((cage, self.variation), ())
-            if output in row.figures and row.figures[output].value is not None
-        ]
-        return pooled([float(f.value) for f in figures], [f.margin for f in figures])
+        return over_starts(self.rows.get((cage, self.variation), ()), output)
 
     def along(self, output: str, cages: tuple[str, ...]) -> list[Estimate]:
         return [self(output, cage) for cage in cages]

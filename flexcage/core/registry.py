@@ -13,6 +13,7 @@ from collections.abc import Callable, MutableMapping
 from pathlib import Path
 from typing import Any, TypeVar
 
+from flexcage.core.binding import check_spec
 from flexcage.core.errors import InputError
 
 T = TypeVar("T")
@@ -42,6 +43,20 @@ def add(
     if source is not None:
         _sources[name] = _sources.get(name, "") + fingerprint(source)
     return value
+
+
+def add_sourced(
+    table: MutableMapping[str, T], name: str, spec: T, *, what: str, where: str, unsourced: str
+) -> T:
+    """Put a spec of measured values under a free name into a table, and return it.
+
+    Raises InputError as ``add`` does, for a value out of its bounds, and with the sentence
+    ``unsourced`` for a spec without its ``source``.
+    """
+    check_spec(spec, where)
+    if not spec.source:  # type: ignore[attr-defined]
+        raise InputError(unsourced, where=f"{where}.source")
+    return add(table, name, spec, what=what)
 
 
 def source_of(name: str) -> str:

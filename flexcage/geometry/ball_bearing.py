@@ -68,6 +68,10 @@ class BallBearing(Bearing):
         return self.ball_diameter
 
     @property
+    def element_mass(self) -> float:
+        return self.ball_mass
+
+    @property
     def clearance(self) -> float:
         """Radial internal clearance Pd [m]."""
         raise NotImplementedError

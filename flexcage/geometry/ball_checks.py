@@ -19,7 +19,6 @@ from flexcage.geometry.ball_cages import BallCage
 from flexcage.geometry.checks import (
     Finding,
     check_geometry,
-    element_mass,
     raise_first,
     refuse_foreign,
 )
@@ -45,11 +44,6 @@ def _(
     bearing: DeepGrooveBallBearing, cage: BallCage | None = None, defects: Sequence[Any] = ()
 ) -> None:
     _check(bearing, cage, defects, _find_in_clearance(bearing, bearing.radial_clearance))
-
-
-@element_mass.register
-def _(bearing: BallBearing) -> float:
-    return bearing.ball_mass
 
 
 def _check(

@@ -51,6 +51,11 @@ class Bearing:
         raise NotImplementedError
 
     @property
+    def element_mass(self) -> float:
+        """Mass of a rolling element [kg]; 0 for types that do not say."""
+        return 0.0
+
+    @property
     def nominal_contact_angle(self) -> float:
         """Contact angle [rad] to which kinematics refer."""
         return 0.0

@@ -62,21 +62,10 @@ def _(bearing: RollerBearing) -> float:
     return 2.0 * _MOST_PRESSED * bearing.roller_diameter / bearing.effective_length
 
 
-@singledispatch
-def element_mass(bearing: Bearing) -> float:
-    """Mass of a rolling element [kg]; 0 for types that register none."""
-    return 0.0
-
-
-@element_mass.register
-def _(bearing: RollerBearing) -> float:
-    return bearing.roller_mass
-
-
 def greatest_speed(bearing: Bearing) -> float:
     """Speed [rad/s] of the inner ring at which centrifugal force alone loads every element as
     ``OVERLOAD`` static ratings load the first one, 5 C0/Z; infinite where masses are not known."""
-    mass = element_mass(bearing)
+    mass = bearing.element_mass
     if mass == 0.0:
         return inf
     pitch, diameter = bearing.pitch_diameter, bearing.element_diameter

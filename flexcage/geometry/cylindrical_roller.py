@@ -151,6 +151,10 @@ class RollerBearing(Bearing):
     def element_diameter(self) -> float:
         return self.roller_diameter
 
+    @property
+    def element_mass(self) -> float:
+        return self.roller_mass
+
     def land_clearance(self, cage: Cage) -> tuple[float, str]:
         if cage.guidance == "outer":
             there = self.outer_race_radius - 0.5 * cage.outside_diameter

@@ -4,9 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from flexcage.core.binding import check_spec
-from flexcage.core.errors import InputError
-from flexcage.core.registry import add
+from flexcage.core.registry import add_sourced
 from flexcage.core.spec import option, quantity
 
 
@@ -89,10 +87,7 @@ def register_material(material: Material) -> Material:
     SI units. Raises InputError for a name that is taken, a value out of its bounds, or a material
     without its ``source``.
     """
-    check_spec(material, "material")
-    if not material.source:
-        raise InputError(
-            f"Material '{material.name}' has no source; say where its values come from.",
-            where="material.source",
-        )
-    return add(MATERIALS, material.name, material, what="material")
+    return add_sourced(
+        MATERIALS, material.name, material, what="material", where="material",
+        unsourced=f"Material '{material.name}' has no source; say where its values come from.",
+    )  # fmt: skip

@@ -24,7 +24,7 @@ from flexcage.geometry.ball_cages import BallCage
 from flexcage.geometry.materials import Material
 from flexcage.modes.basis import ModeBasis
 from flexcage.modes.interface import land_modes, land_station_weights, normalised
-from flexcage.modes.pockets import pocket_frame
+from flexcage.modes.pockets import pocket_frame, pocket_frames
 
 N_STATIONS = 16
 
@@ -169,7 +169,7 @@ def _modes_at_stations(
 ) -> np.ndarray:
     n_nodes, _, n = basis.shapes.shape
     means = (weights @ basis.shapes.reshape(n_nodes, 3 * n)).reshape(pocket_count, n_stations, 3, n)
-    frames = np.stack([pocket_frame(k, pocket_count) for k in range(pocket_count)])
+    frames = pocket_frames(pocket_count)
     return np.ascontiguousarray(np.einsum("kab,ksbn->ksan", frames, means))
 
 

@@ -24,6 +24,7 @@ from flexcage.modes.pockets import (
     face_coordinate,
     face_group,
     pocket_frame,
+    pocket_frames,
 )
 
 log = logging.getLogger(__name__)
@@ -186,7 +187,7 @@ def _modes_at_stations(
 ) -> np.ndarray:
     means = _averaged(basis.shapes, weights)
     means = means.reshape(pocket_count, len(FACES), n_stations, 3, basis.size)
-    frames = np.stack([pocket_frame(k, pocket_count) for k in range(pocket_count)])
+    frames = pocket_frames(pocket_count)
     return np.ascontiguousarray(np.einsum("kab,kfsbn->kfsan", frames, means))
 
 
@@ -197,7 +198,7 @@ def land_modes(basis: ModeBasis, weights: sp.csr_matrix, n_land: int) -> np.ndar
     percent of a land's yielding: without land vectors in the basis they are zero here.
     """
     means = _averaged(basis.shapes, weights).reshape(2, n_land, 3, basis.size)
-    frames = np.array([pocket_frame(j, n_land) for j in range(n_land)]).reshape(n_land, 3, 3)
+    frames = pocket_frames(n_land)
     if "land" not in basis.kind:
         means[..., np.array(basis.kind) == "crossbeam"] = 0.0
     return np.ascontiguousarray(np.einsum("jab,ljbn->ljan", frames, means))

@@ -14,11 +14,22 @@ LOADS_PER_POCKET = 2 * len(FACES)
 NORMALS = np.array([[0.0, 0.0, 1.0], [0.0, 0.0, -1.0], [1.0, 0.0, 0.0], [-1.0, 0.0, 0.0]])
 
 
+def frames_at(azimuth: np.ndarray | float) -> np.ndarray:
+    """Rows: unit vectors x, r, psi (..., 3, 3) of the frames at azimuths (...,) [rad]."""
+    c, s = np.cos(azimuth), np.sin(azimuth)
+    zero, one = np.zeros_like(c), np.ones_like(c)
+    rows = [[one, zero, zero], [zero, c, s], [zero, -s, c]]
+    return np.stack([np.stack(row, axis=-1) for row in rows], axis=-2)
+
+
 def pocket_frame(pocket: float, pocket_count: int) -> np.ndarray:
     """Rows: unit vectors x, r, psi (3, 3) of the frame at azimuth 2 pi pocket/pocket_count."""
-    angle = 2.0 * np.pi * pocket / pocket_count
-    c, s = np.cos(angle), np.sin(angle)
-    return np.array([[1.0, 0.0, 0.0], [0.0, c, s], [0.0, -s, c]])
+    return frames_at(2.0 * np.pi * pocket / pocket_count)
+
+
+def pocket_frames(pocket_count: int) -> np.ndarray:
+    """The frames (Z, 3, 3) of all pockets, or of stations evenly round the cage."""
+    return frames_at(2.0 * np.pi * np.arange(pocket_count) / max(pocket_count, 1))
 
 
 def face_coordinate(points: np.ndarray, pocket: int, face: int, pocket_count: int) -> np.ndarray:

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import logging
 from collections.abc import Callable, Mapping
-from contextlib import nullcontext
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from scipy.signal import butter, sosfilt
 
 from flexcage.core.errors import InputError, RunFailed
+from flexcage.core.progress import Silent
 from flexcage.results.faults import hardest, runaway
 from flexcage.results.options import OutputOptions
 from flexcage.results.recorded import own_coords, recorded
@@ -138,13 +138,11 @@ class Recorder:
     def march(self, progress: Callable[..., Any] | None = None) -> None:
         """Integrate the blocks that the store lacks; ``progress`` as core.progress.Progress."""
         duration = self.store.layout.n_time / self.output.rate
-        with progress(duration, "solving") if progress else nullcontext() as bar:
-            if bar is not None:
-                bar.begin_at(self.time)
+        with (progress or Silent)(duration, "solving") as bar:
+            bar.begin_at(self.time)
             while not self.store.complete:
                 self._block(self.store.blocks)
-                if bar is not None:
-                    bar.to(self.time)
+                bar.to(self.time)
 
     def _block(self, index: int) -> None:
         ratio, layout = self.output.vibration_ratio, self.bearing.layout

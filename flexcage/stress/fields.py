@@ -18,7 +18,7 @@ import numpy as np
 
 from flexcage.core.threads import on_all_cores
 from flexcage.fem.symmetry import CyclicSymmetry, find_symmetry
-from flexcage.modes.pockets import pocket_frame
+from flexcage.modes.pockets import pocket_frames
 from flexcage.stress.operators import VertexStress, deviator
 from flexcage.stress.places import contact_zone, root_places
 from flexcage.stress.recovery import StressRecovery
@@ -64,11 +64,8 @@ class UnitFields:
         recovery = self._recovery
         pockets = range(recovery.pocket_count)
         symmetry = find_symmetry(recovery.model, recovery.pocket_count)
-        every = np.ones(recovery.basis.size)
         if symmetry is None:
-            fields = on_all_cores(
-                lambda k: self._kept(self._beyond_modes(self._loads(k), every)), pockets
-            )
+            fields = on_all_cores(lambda k: self._kept(self._beyond_modes(self._loads(k))), pockets)
         else:
             first = recovery.solver.solve(self._loads(0))
             fields = on_all_cores(lambda k: self._kept(self._turned(symmetry, first, k)), pockets)
@@ -86,8 +83,8 @@ class UnitFields:
         loads = [
             np.outer(dense[land * n_land + j], axis).ravel()
             for land in range(2)
-            for j in range(n_land)
-            for axis in pocket_frame(j, n_land)
+            for j, frame in enumerate(pocket_frames(n_land))
+            for axis in frame
         ]
         columns = np.stack(loads, axis=1)
         fields = on_all_cores(
@@ -128,7 +125,7 @@ class UnitFields:
         static = symmetry.rotate(first, pocket)
         return self._less_modes(static, self._loads(pocket))
 
-    def _beyond_modes(self, loads: np.ndarray, pushed: np.ndarray) -> np.ndarray:
+    def _beyond_modes(self, loads: np.ndarray, pushed: np.ndarray | float = 1.0) -> np.ndarray:
         return self._less_modes(self._recovery.solver.solve(loads), loads, pushed)
 
     def _less_modes(

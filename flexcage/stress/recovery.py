@@ -17,7 +17,7 @@ from flexcage.core.errors import InputError
 from flexcage.fem.free import FreeBodySolver
 from flexcage.fem.model import FEModel
 from flexcage.modes.basis import ContactInterface, ModeBasis
-from flexcage.modes.pockets import pocket_frame
+from flexcage.modes.pockets import pocket_frames
 from flexcage.stress.operators import VertexStress
 
 
@@ -72,7 +72,7 @@ class StressRecovery:
     @cached_property
     def frames(self) -> np.ndarray:
         """Rows x, r, psi of every pocket's frame (Z, 3, 3)."""
-        return np.stack([pocket_frame(k, self.pocket_count) for k in range(self.pocket_count)])
+        return pocket_frames(self.pocket_count)
 
     def nodal_forces(self, loads: CageLoads) -> np.ndarray:
         """Nodal contact forces (N, 3), cage frame: station forces spread with their weights."""
@@ -81,9 +81,7 @@ class StressRecovery:
         return nodal if loads.land_forces is None else nodal + self._on_lands(loads.land_forces)
 
     def _on_lands(self, forces: np.ndarray) -> np.ndarray:
-        n_land = forces.shape[1]
-        turns = np.stack([pocket_frame(j, n_land) for j in range(n_land)])
-        on_land = np.einsum("lja,jab->ljb", forces, turns)
+        on_land = np.einsum("lja,jab->ljb", forces, pocket_frames(forces.shape[1]))
         return np.asarray(self.land_weights.T @ on_land.reshape(-1, 3))
 
     @cached_property

@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from scipy.spatial.transform import Rotation
 
+from flexcage.modes.pockets import frames_at, pocket_frames
 from flexcage.results import metrics
 
 if TYPE_CHECKING:
@@ -49,7 +50,7 @@ def pocket_motion(ds: xarray.Dataset) -> PocketMotion:
     position, moving, omega = (of(f"{name}_{what}") for what in ("position", "velocity", "omega"))
     tilt = of("roller_tilt") if name == "roller" else np.zeros((*omega.shape[:2], 2))
     azimuth = position[..., 2]
-    around = _frames(azimuth)
+    around = frames_at(azimuth)
     own = _turned(azimuth, tilt)
     centre = position[..., :1] * around[..., 0, :] + position[..., 1:2] * around[..., 1, :]
     velocity = np.einsum("tzi,tzij->tzj", moving, around)
@@ -58,17 +59,8 @@ def pocket_motion(ds: xarray.Dataset) -> PocketMotion:
     cage_spin = np.einsum("tij,tj->ti", attitude, ds["cage_omega"].values)[:, None]
     place = centre - ds["cage_position"].values[:, None]
     relative = velocity - ds["cage_velocity"].values[:, None] - np.cross(cage_spin, place)
-    count = position.shape[1]
-    pockets = _frames(2.0 * np.pi * np.arange(count) / count)
-    axes = np.einsum("tij,zaj->tzai", attitude, pockets)
+    axes = np.einsum("tij,zaj->tzai", attitude, pocket_frames(position.shape[1]))
     return PocketMotion(place, relative, spin - cage_spin, axes, own)
-
-
-def _frames(azimuth: np.ndarray) -> np.ndarray:
-    """Rows x, r, psi (..., 3, 3) at azimuths (...,)."""
-    c, s, zero = np.cos(azimuth), np.sin(azimuth), np.zeros_like(azimuth)
-    x = np.stack([zero + 1.0, zero, zero], axis=-1)
-    return np.stack([x, np.stack([zero, c, s], -1), np.stack([zero, -s, c], -1)], axis=-2)
 
 
 def _turned(azimuth: np.ndarray, tilt: np.ndarray) -> np.ndarray:

@@ -9,9 +9,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from flexcage.core.binding import check_spec
 from flexcage.core.errors import InputError
-from flexcage.core.registry import add
+from flexcage.core.registry import add_sourced
 from flexcage.core.spec import option, quantity
 
 
@@ -89,13 +88,10 @@ def register_sn_curve(curve: SNCurve) -> SNCurve:
     SI units. Raises InputError for a material that has one, a value out of its bounds, or a curve
     without its ``source``.
     """
-    check_spec(curve, "sn_curve")
-    if not curve.source:
-        raise InputError(
-            f"The S-N curve of '{curve.material}' has no source; say where its values come from.",
-            where="sn_curve.source",
-        )
-    return add(SN_CURVES, curve.material, curve, what="S-N curve")
+    lacking = f"The S-N curve of '{curve.material}' has no source; say where its values come from."
+    return add_sourced(
+        SN_CURVES, curve.material, curve, what="S-N curve", where="sn_curve", unsourced=lacking
+    )
 
 
 def sn_curve(material: str) -> SNCurve:

@@ -9,9 +9,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from flexcage.core.binding import check_spec
 from flexcage.core.errors import InputError
-from flexcage.core.registry import add
+from flexcage.core.registry import add_sourced
 from flexcage.core.spec import option
 
 
@@ -52,13 +51,10 @@ def register_wear_law(law: WearLaw) -> WearLaw:
     Raises InputError for a material that has one, a value out of its bounds, or a law without its
     ``source``.
     """
-    check_spec(law, "wear_law")
-    if not law.source:
-        raise InputError(
-            f"The wear law of '{law.material}' has no source; say where its value comes from.",
-            where="wear_law.source",
-        )
-    return add(WEAR_LAWS, law.material, law, what="wear law")
+    lacking = f"The wear law of '{law.material}' has no source; say where its value comes from."
+    return add_sourced(
+        WEAR_LAWS, law.material, law, what="wear law", where="wear_law", unsourced=lacking
+    )
 
 
 def wear_law(material: str) -> WearLaw:

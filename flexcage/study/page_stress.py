@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from contextlib import nullcontext
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -11,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from flexcage.core.errors import EnvironmentLacks, InputError
+from flexcage.core.progress import Silent
 from flexcage.report.blocks import Image
 from flexcage.report.cage_view import CageStress, common_limit
 from flexcage.report.run_page import cage_stress
@@ -70,15 +70,15 @@ def stress_of(
     results: StudyResults, rows: list[ResultRow], progress: Callable[..., Any] | None
 ) -> list[Shown]:
     names, found = point_names(results), []
-    with progress(len(rows), "stress") if progress and rows else nullcontext() as bar:
+    shown = progress if progress and rows else Silent
+    with shown(len(rows), "stress") as bar:
         for row in rows:
             scene = load_run(results.folder.case(row.planned.hash)).scene()
             assert scene.stress is not None
             name = f"Point {row.planned.number}: {names[row.planned.number]}"
             cage = cage_stress(scene, scene.stress, name)
             found.append(Shown(cage, name, scene.stress.peak_place))
-            if bar is not None:
-                bar.advance()
+            bar.advance()
     return found
 
 

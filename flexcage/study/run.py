@@ -5,12 +5,12 @@ from __future__ import annotations
 import logging
 import time
 from collections.abc import Callable, Iterator
-from contextlib import nullcontext
 from pathlib import Path
 from typing import Any
 
 from flexcage.core.errors import RunFailed
 from flexcage.core.hashing import content_hash
+from flexcage.core.progress import Silent
 from flexcage.study.cluster import connect, require_packages
 from flexcage.study.folder import Failure, Folder
 from flexcage.study.outputs import beyond_summary
@@ -69,12 +69,10 @@ def _compute(
 ) -> None:
     """Compute the cases ``todo`` on a scheduler or a number of workers: ``where``."""
     with connect(*where) as client:
-        with progress(len(plan.cases), "cases") if progress else nullcontext() as bar:
-            if bar is not None:
-                bar.begin_at(len(plan.cases) - len(todo))
+        with (progress or Silent)(len(plan.cases), "cases") as bar:
+            bar.begin_at(len(plan.cases) - len(todo))
             for _ in _Desk(client, plan, folder).work_off(todo):
-                if bar is not None:
-                    bar.advance()
+                bar.advance()
 
 
 def _try_to_write(folder: Folder) -> None:

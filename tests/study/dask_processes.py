@@ -17,9 +17,16 @@ PATIENCE = 300.0  # s that anything here may take on a busy machine
 
 
 def start(*command: object, **options: Any) -> subprocess.Popen:
-    """A process of this Python, in a session of its own."""
+    """A process of this Python, in a session of its own, as a terminal starts it.
+
+    What a shell puts in the background ignores Ctrl-C, and so do all that it starts: not this one.
+    """
     return subprocess.Popen(
-        [sys.executable, "-m", *map(str, command)], start_new_session=True, text=True, **options
+        [sys.executable, "-m", *map(str, command)],
+        start_new_session=True,
+        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL),
+        text=True,
+        **options,
     )
 
 

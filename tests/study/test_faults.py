@@ -104,7 +104,7 @@ def test_ctrl_c_stops_at_once_and_resume_goes_on(tmp_path):
     (tmp_path / "mine.py").write_text(MINE)
     use = 'use = ["mine.py"]\n[[axes]]\npath = "load.radial"\nvalues = '
     outputs = ("inner_speed", "twice_the_speed.mean")
-    file = study_file(tmp_path, use + str(LOADS[:3]), duration="12 ms", outputs=outputs)
+    file = study_file(tmp_path, use + str(LOADS[:3]), duration="4 ms", outputs=outputs)
     out = tmp_path / "out"
     command = ("flexcage.cli", "study")
     client = start(*command, "run", file, "-o", out, "--workers", 1, **PIPES)
