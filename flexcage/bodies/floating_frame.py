@@ -46,6 +46,7 @@ class BodyData(NamedTuple):
     kff: np.ndarray  # (n, n)
     dff: np.ndarray  # (n, n) modal damping
     gff: np.ndarray  # (n, n) geometric stiffness per squared spin about x; (0, 0) for none
+    plain: int  # 1 if mff, kff and dff are diagonal, as eigenmodes make them
 
 
 @dataclass(frozen=True)
@@ -113,6 +114,14 @@ def flexible_body(
     ms, m1 = m @ nodes, m @ ones
     mphi = (m @ shapes.reshape(len(nodes), 3 * n)).reshape(shapes.shape)
     SS = np.einsum("aik,ajl->klij", shapes, mphi, optimize=True)
+    matrices = [
+        _without_rounding(np.asarray(matrix, float).reshape(n, n))
+        for matrix in (
+            np.einsum("klii->kl", SS),
+            stiffness,
+            np.zeros((n, n)) if damping is None else damping,
+        )
+    ]
     data = BodyData(
         mass=float(ones @ m1),
         c0=nodes.T @ m1,
@@ -120,12 +129,20 @@ def flexible_body(
         G0=np.ascontiguousarray(nodes.T @ ms),
         S=np.ascontiguousarray(np.einsum("aik,aj->kij", shapes, ms)),
         SS=np.ascontiguousarray(SS),
-        mff=np.ascontiguousarray(np.einsum("klii->kl", SS)),
-        kff=np.ascontiguousarray(stiffness, dtype=float).reshape(n, n),
-        dff=np.zeros((n, n)) if damping is None else np.ascontiguousarray(damping),
+        mff=matrices[0],
+        kff=matrices[1],
+        dff=matrices[2],
         gff=np.zeros((0, 0)) if geometric is None else np.ascontiguousarray(geometric, float),
+        plain=int(all(np.array_equal(m, np.diag(np.diag(m))) for m in matrices)),
     )
     return FlexibleBody(data)
+
+
+def _without_rounding(matrix: np.ndarray) -> np.ndarray:
+    """The symmetric matrix without entries that are rounding beside their diagonal."""
+    size = np.sqrt(np.abs(np.diag(matrix)))
+    kept = np.abs(matrix) > 1e-12 * np.outer(size, size)
+    return np.ascontiguousarray(np.where(kept, matrix, 0.0))
 
 
 def rigid_body(mass: float, centre: np.ndarray, second_moment: np.ndarray) -> FlexibleBody:
@@ -134,7 +151,7 @@ def rigid_body(mass: float, centre: np.ndarray, second_moment: np.ndarray) -> Fl
     data = BodyData(
         float(mass), mass * np.asarray(centre, float), z((3, 0)),
         np.ascontiguousarray(second_moment, dtype=float),
-        z((0, 3, 3)), z((0, 0, 3, 3)), z((0, 0)), z((0, 0)), z((0, 0)), z((0, 0)),
+        z((0, 3, 3)), z((0, 0, 3, 3)), z((0, 0)), z((0, 0)), z((0, 0)), z((0, 0)), 1,
     )  # fmt: skip
     return FlexibleBody(data)
 
@@ -151,9 +168,11 @@ def with_point_mass(body: FlexibleBody, mass: float, position: np.ndarray) -> Fl
 
 
 class FrameWork(NamedTuple):
-    """Workspace of the inertia kernel: the assembled mass matrix and velocity terms."""
+    """Workspace of the inertia kernel: the mass matrix, whose modal block is constant, and the
+    velocity terms; translations in body axes."""
 
-    M: np.ndarray  # (6+n, 6+n), translations in body axes
+    rigid: np.ndarray  # (6, 6) mass of the rigid motion
+    coupled: np.ndarray  # (6, n) coupling of the rigid motion and the modes
     h: np.ndarray  # (6+n,) gyroscopic and centrifugal terms
     E: np.ndarray  # (n, 3, 3) int phi_k (s + u)^T dm
     Ed: np.ndarray  # (n, 3, 3) int u' phi_k^T dm
@@ -165,45 +184,56 @@ class FrameWork(NamedTuple):
 def frame_work(n: int) -> FrameWork:
     z = np.zeros
     return FrameWork(
-        z((6 + n, 6 + n)), z(6 + n), z((n, 3, 3)), z((n, 3, 3)), z((2, 3)), z((2, 3, 3)),
+        z((6, 6)), z((6, n)), z(6 + n), z((n, 3, 3)), z((n, 3, 3)), z((2, 3)), z((2, 3, 3)),
         z((4, 6 + n)),
     )  # fmt: skip
 
 
+def mass_matrix(data: BodyData, work: FrameWork) -> np.ndarray:
+    """Mass matrix (6+n, 6+n) of what ``inertia_terms`` left, translations in body axes."""
+    return np.block([[work.rigid, work.coupled], [work.coupled.T, data.mff]])
+
+
 @part(fastmath=VECTORISED)
-def _superpose(parts, q, out):
-    """out = sum_l q_l parts[l], entry by entry, four parts at a time."""
+def _superpose(parts, q, qd, out, outd):
+    """out = sum_l q_l parts[l] and outd = sum_l qd_l parts[l], entry by entry.
+
+    Both in one pass, and four parts at a time: ``parts`` are more than the nearest cache holds.
+    """
     n = q.shape[0]
-    total = out.reshape(out.size)
+    total, rate = out.reshape(out.size), outd.reshape(out.size)
     rows = parts.reshape(n, total.size)
     first = n % 4
     zero(total)
+    zero(rate)
     for l in range(first):
         for k in range(total.size):
             total[k] += q[l] * rows[l, k]
+            rate[k] += qd[l] * rows[l, k]
     for l in range(first, n, 4):
         a, b, c, d = q[l], q[l + 1], q[l + 2], q[l + 3]
+        ad, bd, cd, dd = qd[l], qd[l + 1], qd[l + 2], qd[l + 3]
         for k in range(total.size):
-            total[k] += (
-                a * rows[l, k] + b * rows[l + 1, k] + c * rows[l + 2, k] + d * rows[l + 3, k]
-            )  # fmt: skip
+            x, y, z, w = rows[l, k], rows[l + 1, k], rows[l + 2, k], rows[l + 3, k]
+            total[k] += a * x + b * y + c * z + d * w
+            rate[k] += ad * x + bd * y + cd * z + dd * w
 
 
 @kernel
 def inertia_terms(d, w, q, qd, work):
     """Mass matrix and velocity terms at modal state (q, qd) and body angular velocity w.
 
-    Fills ``work.M`` and ``work.h`` so that M [A^T v', w', q''] + h = generalised forces, all three
-    groups in body axes; elastic and damping forces are not included. SS_lk = int phi_l phi_k^T dm
-    is the transpose of SS_kl, so that sums over modes run along memory.
+    Fills ``work.rigid``, ``work.coupled`` and ``work.h`` so that M [A^T v', w', q''] + h =
+    generalised forces, all three groups in body axes, with ``mass_matrix`` M; elastic and damping
+    forces are not included. SS_lk = int phi_l phi_k^T dm is the transpose of SS_kl, so that sums
+    over modes run along memory.
     """
-    M, h, E, Ed = work.M, work.h, work.E, work.Ed
+    M, H, h, E, Ed = work.rigid, work.coupled, work.h, work.E, work.Ed
     c, cd, G, D = work.c[0], work.c[1], work.G[0], work.G[1]
     n = q.shape[0]
-    zero(M)
     zero(h)
     zero(D)
-    _superpose(d.SS, q, Ed)
+    _superpose(d.SS, q, qd, E, Ed)
     for i in range(3):
         c[i], cd[i] = d.c0[i], 0.0
         for k in range(n):
@@ -212,19 +242,24 @@ def inertia_terms(d, w, q, qd, work):
         for j in range(3):
             G[i, j] = d.G0[i, j]
     for k in range(n):
+        for i in range(3):  # E_k = S_k + the transpose of what was superposed
+            for j in range(i):
+                x = E[k, i, j]
+                E[k, i, j] = d.S[k, i, j] + E[k, j, i]
+                E[k, j, i] = d.S[k, j, i] + x
+            E[k, i, i] += d.S[k, i, i]
         for i in range(3):
             for j in range(3):
-                E[k, i, j] = d.S[k, i, j] + Ed[k, j, i]
                 # int p p^T = G0 + sum q_k (S_k + S_k^T) + q q SS; E_k already holds S_k + SS q
                 G[i, j] += q[k] * (E[k, i, j] + d.S[k, j, i])
                 D[j, i] += E[k, i, j] * qd[k]
-    _superpose(d.SS, qd, Ed)
     trace = G[0, 0] + G[1, 1] + G[2, 2]
     w2 = w[0] * w[0] + w[1] * w[1] + w[2] * w[2]
     for i in range(3):
-        M[i, i] = d.mass
         for j in range(3):
+            M[i, j] = M[i, 3 + j] = 0.0
             M[3 + i, 3 + j] = -0.5 * (G[i, j] + G[j, i])
+        M[i, i] = d.mass
         M[3 + i, 3 + i] += trace
     shortening = 0.0  # half the rate of the inertia that geometric stiffening takes
     for k in range(d.gff.shape[0]):
@@ -256,11 +291,11 @@ def inertia_terms(d, w, q, qd, work):
             h[3 + j] -= 2.0 * D[i, j] * w[i]
     for k in range(n):
         for i in range(3):
-            M[i, 6 + k] = M[6 + k, i] = d.C[i, k]
+            H[i, k] = d.C[i, k]
         # int p x phi_k from E_k,ij = int phi_i p_j
-        M[3, 6 + k] = M[6 + k, 3] = E[k, 2, 1] - E[k, 1, 2]
-        M[4, 6 + k] = M[6 + k, 4] = E[k, 0, 2] - E[k, 2, 0]
-        M[5, 6 + k] = M[6 + k, 5] = E[k, 1, 0] - E[k, 0, 1]
+        H[3, k] = E[k, 2, 1] - E[k, 1, 2]
+        H[4, k] = E[k, 0, 2] - E[k, 2, 0]
+        H[5, k] = E[k, 1, 0] - E[k, 0, 1]
         s = w[0] * w[0] * h[6 + k] - w2 * (E[k, 0, 0] + E[k, 1, 1] + E[k, 2, 2])
         for i in range(3):
             for j in range(3):
@@ -270,5 +305,17 @@ def inertia_terms(d, w, q, qd, work):
         s += 2.0 * w[1] * (Ed[k, 2, 0] - Ed[k, 0, 2])
         s += 2.0 * w[2] * (Ed[k, 0, 1] - Ed[k, 1, 0])
         h[6 + k] = s
-        for l in range(n):
-            M[6 + k, 6 + l] = d.mff[k, l]
+
+
+@part(fastmath=VECTORISED)
+def modal_product(matrix, plain, x, out):
+    """out = matrix . x for a matrix (n, n) over the modes; ``plain``: it is diagonal."""
+    n = x.shape[0]
+    for k in range(n):
+        total = 0.0
+        if plain != 0:
+            total = matrix[k, k] * x[k]
+        else:
+            for l in range(n):
+                total += matrix[k, l] * x[l]
+        out[k] = total

@@ -15,7 +15,7 @@ from flexcage.contacts.slices import (
     normal_forces,
     stored_and_damped,
 )
-from flexcage.core.jit import part, zero
+from flexcage.core.jit import VECTORISED, part, zero
 from flexcage.core.splines import smooth_weights
 from flexcage.core.vectors import add_to, column, combine, cross, dot, minus, plus, times, xyz
 
@@ -72,10 +72,7 @@ def land_contact(
     if reach < data.clearance:
         return
     n_l = data.angle.shape[0]
-    for s in range(n_l):
-        lw.u[s] = 0.0
-        for m in range(q.shape[0]):
-            lw.u[s] += data.phi[s, 1, m] * q[m]
+    _displaced(data, q, lw.u)
     ring = data.radius - data.inner * data.clearance
     offset = minus(xyz(Rc), xyz(Rr))
     for side in range(2):
@@ -99,6 +96,17 @@ def land_contact(
                     A, offset, minus(xyz(Vc), xyz(Vr)), xyz(w), qd, spin, data, side, place,
                     p[side], laws, sl, lw, Fc, Mc, Qm, Fr, Mr, sums,
                 )  # fmt: skip
+
+
+@part(fastmath=VECTORISED)
+def _displaced(data, q, u):
+    """Radial displacement u of the stations by the modes."""
+    for s in range(u.shape[0]):
+        shape = data.phi[s, 1]
+        total = 0.0
+        for m in range(q.shape[0]):
+            total += shape[m] * q[m]
+        u[s] = total
 
 
 @part

@@ -13,6 +13,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from flexcage.bodies.floating_frame import modal_product
 from flexcage.core.jit import VECTORISED, fields, kernel, part, zero
 from flexcage.solve.bordered import lu_factor, lu_solve
 from flexcage.system.rows import speed_at
@@ -104,7 +105,10 @@ def _rates(t, y, yd, data, mode):
     if bodies.outer[3] == 0.0:  # a fixed ring has no acceleration
         a[6] /= bodies.outer[0]
         a[7] /= bodies.outer[0]
-    cage_accelerations(frame.M, fields(d.scratch).A, yd[ring + 8 : end], fields(d.rates))
+    cage_accelerations(
+        frame.rigid, frame.coupled, fields(d.cage).plain, fields(d.scratch).A,
+        yd[ring + 8 : end], fields(d.rates),
+    )  # fmt: skip
 
 
 @part
@@ -132,41 +136,36 @@ def slope_of(table, t):
 
 
 @kernel(fastmath=VECTORISED)
-def cage_accelerations(M, A, v, work):
-    """Solve M a = v in place for a cage's forces v: translations in space, M (6 + n, 6 + n) in the
-    body's frame. Its modal block is constant, so the modes are eliminated by its inverse."""
-    W, X, S, x = work.modal, work.coupled, work.rigid, work.x
+def cage_accelerations(M, H, plain, A, v, work):
+    """Solve for the accelerations of a cage in place of its forces v, translations in space.
+
+    M (6, 6) and H (6, n): the rigid motion's mass and its coupling with the modes, in the body's
+    frame. The modal mass is constant (``plain``: diagonal), so the modes are eliminated by its
+    inverse.
+    """
+    W, X, S, x, given = work.modal, work.coupled, work.rigid, work.x, work.given
     n = W.shape[0]
+    forces = v[6 : 6 + n]
     for c in range(3):
         x[c] = A[0, c] * v[0] + A[1, c] * v[1] + A[2, c] * v[2]
         x[3 + c] = v[3 + c]
     for r in range(6):
+        modal_product(W, plain, H[r], X[r])
         for m in range(n):
-            X[r, m] = 0.0
-        for l in range(n):
-            coupling = M[r, 6 + l]
-            if coupling != 0.0:
-                for m in range(n):
-                    X[r, m] += coupling * W[l, m]
-    for r in range(6):
-        for m in range(n):
-            x[r] -= X[r, m] * v[6 + m]
+            x[r] -= X[r, m] * forces[m]
         for c in range(6):
             taken = 0.0
             for m in range(n):
-                taken += X[r, m] * M[c, 6 + m]
+                taken += X[r, m] * H[c, m]
             S[r, c] = M[r, c] - taken
     lu_factor(S, work.pivot)
     lu_solve(S, work.pivot, x)
+    modal_product(W, plain, forces, given)
     for m in range(n):
-        total = 0.0
-        for l in range(n):
-            total += W[m, l] * v[6 + l]
+        total = given[m]
         for r in range(6):
             total -= X[r, m] * x[r]
-        work.given[m] = total
-    for m in range(n):
-        v[6 + m] = work.given[m]
+        forces[m] = total
     for c in range(3):
         v[c] = A[c, 0] * x[0] + A[c, 1] * x[1] + A[c, 2] * x[2]
         v[3 + c] = x[3 + c]

@@ -8,13 +8,14 @@ from __future__ import annotations
 
 from math import cos, sin, sqrt
 
-from flexcage.bodies.floating_frame import inertia_terms
+from flexcage.bodies.floating_frame import inertia_terms, modal_product
 from flexcage.contacts.land import land_contact
 from flexcage.core.jit import VECTORISED, copy_into, fields, part, zero
 from flexcage.core.rotation import quaternion_rate
 from flexcage.core.vectors import (
     combine,
     cross,
+    minus,
     plus,
     put,
     times,
@@ -199,8 +200,8 @@ def cage_rows(d, quat, Vc, wb, qf, qfd, qd, ud, zq, r_q, r_u, mode):
     data, tan, rep, work = fields(d.cage), fields(d.tangent), fields(d.report), fields(d.scratch)
     frame, A, border = fields(d.frame), work.A, work.border
     nm = qf.shape[0]
-    acc, rows, v = frame.w[0], frame.w[1], frame.w[2]
-    M, h = frame.M, frame.h
+    acc, v, product = frame.w[0], frame.w[1], frame.w[2]
+    M, H, h = frame.rigid, frame.coupled, frame.h
     inertia_terms(data, wb, qf, qfd, frame)
     rate = work.S[0]
     quaternion_rate(quat, wb, rate)
@@ -211,66 +212,81 @@ def cage_rows(d, quat, Vc, wb, qf, qfd, qd, ud, zq, r_q, r_u, mode):
     for m in range(nm):
         r_q[zq + 15 + m] = qd[zq + 15 + m] - qfd[m]
     gb = turned_back(A, xyz(fields(d.bodies).gravity))
-    put(acc, turned_back(A, xyz(ud[zq + 8 : zq + 11])))
-    for c in range(3 + nm):
-        acc[3 + c] = ud[zq + 11 + c]
-    for k in range(6 + nm):
-        x = h[k]
-        for c in range(3):  # gravity is an acceleration of the whole body
-            x += M[k, c] * (acc[c] - gb[c])
-        for c in range(3, 6 + nm):
-            x += M[k, c] * acc[c]
-        rows[k] = x
+    # gravity is an acceleration of the whole body
+    put(acc, minus(turned_back(A, xyz(ud[zq + 8 : zq + 11])), gb))
     for c in range(3):
-        x = A[c, 0] * rows[0] + A[c, 1] * rows[1] + A[c, 2] * rows[2]
+        acc[3 + c] = ud[zq + 11 + c]
+    modes = ud[zq + 14 : zq + 14 + nm]
+    for k in range(6):
+        x = h[k]
+        for c in range(6):
+            x += M[k, c] * acc[c]
+        for m in range(nm):
+            x += H[k, m] * modes[m]
+        v[k] = x
+    for c in range(3):
+        x = A[c, 0] * v[0] + A[c, 1] * v[1] + A[c, 2] * v[2]
         r_u[zq + 8 + c] = x - border[8 + c]
-        r_u[zq + 11 + c] = rows[3 + c] - border[11 + c]
+        r_u[zq + 11 + c] = v[3 + c] - border[11 + c]
+    row_of = r_u[zq + 14 : zq + 14 + nm]
     for m in range(nm):
-        x = rows[6 + m] - border[14 + m]
-        for l in range(nm):
-            x += data.kff[m, l] * qf[l] + data.dff[m, l] * qfd[l]
-        r_u[zq + 14 + m] = x
+        row_of[m] = h[6 + m] - border[14 + m]
+        for c in range(6):
+            row_of[m] += H[c, m] * acc[c]
+    modal_product(data.mff, data.plain, modes, product)
+    for m in range(nm):
+        row_of[m] += product[m]
+    modal_product(data.kff, data.plain, qf, product)
+    for m in range(nm):
+        row_of[m] += product[m]
+    modal_product(data.dff, data.plain, qfd, product)
+    for m in range(nm):
+        row_of[m] += product[m]
     if mode == 1:
-        n6 = 6 + nm
-        for a in range(n6):
-            for b in range(n6):
-                tan.Mbb[8 + a, 8 + b] = M[a, b]
         for a in range(3):  # translations to space
-            for b in range(n6):
+            for b in range(3):
                 x = y = 0.0
                 for c in range(3):
-                    x += A[a, c] * M[c, b]
-                    y += M[b, c] * A[a, c]
-                if b >= 3:
-                    tan.Mbb[8 + a, 8 + b] = x
-                    tan.Mbb[8 + b, 8 + a] = y
-        for a in range(3):
-            for b in range(3):
+                    x += A[a, c] * M[c, 3 + b]
+                    y += M[3 + b, c] * A[a, c]
                 tan.Mbb[8 + a, 8 + b] = data.mass if a == b else 0.0
+                tan.Mbb[8 + a, 11 + b] = x
+                tan.Mbb[11 + b, 8 + a] = y
+                tan.Mbb[11 + a, 11 + b] = M[3 + a, 3 + b]
+        for m in range(nm):
+            for a in range(3):
+                x = A[a, 0] * H[0, m] + A[a, 1] * H[1, m] + A[a, 2] * H[2, m]
+                tan.Mbb[8 + a, 14 + m] = tan.Mbb[14 + m, 8 + a] = x
+                tan.Mbb[11 + a, 14 + m] = tan.Mbb[14 + m, 11 + a] = H[3 + a, m]
+            for l in range(nm):
+                tan.Mbb[14 + m, 14 + l] = data.mff[m, l]
         for m in range(nm):
             for l in range(nm):
                 tan.Kbb[14 + m, 14 + l] += data.kff[m, l]
                 tan.Cbb[14 + m, 14 + l] += data.dff[m, l]
     elif mode >= 2:
+        for m in range(nm):  # the product is that of the damping
+            rep.power[11] -= qfd[m] * product[m]
         put(v, turned_back(A, xyz(Vc)))
         for c in range(3):
             v[3 + c] = wb[c]
-        for m in range(nm):
-            v[6 + m] = qfd[m]
-        for a in range(6 + nm):
+        for k in range(6):
             momentum = 0.0
-            for b in range(6 + nm):
-                momentum += M[a, b] * v[b]
-            rep.energy[0] += 0.5 * v[a] * momentum
-            for c in range(3):
-                rep.power[2] += v[a] * M[a, c] * gb[c]
+            for m in range(nm):
+                momentum += H[k, m] * qfd[m]
+            if k < 3:  # what gravity does on the body's first moment of mass
+                rep.power[2] += gb[k] * momentum
+            rep.energy[0] += v[k] * momentum
+            for c in range(6):
+                rep.energy[0] += 0.5 * v[k] * M[k, c] * v[c]
+                if c < 3:
+                    rep.power[2] += v[k] * M[k, c] * gb[c]
+        modal_product(data.mff, data.plain, qfd, product)
         for m in range(nm):
-            spring = damper = 0.0
-            for l in range(nm):
-                spring += data.kff[m, l] * qf[l]
-                damper += data.dff[m, l] * qfd[l]
-            rep.energy[1] += 0.5 * qf[m] * spring
-            rep.power[11] -= qfd[m] * damper
+            rep.energy[0] += 0.5 * qfd[m] * product[m]
+        modal_product(data.kff, data.plain, qf, product)
+        for m in range(nm):
+            rep.energy[1] += 0.5 * qf[m] * product[m]
 
 
 @part

@@ -10,7 +10,13 @@ from scipy import sparse
 from scipy.integrate import solve_ivp
 from scipy.spatial.transform import Rotation
 
-from flexcage.bodies.floating_frame import FlexibleBody, flexible_body, frame_work, inertia_terms
+from flexcage.bodies.floating_frame import (
+    FlexibleBody,
+    flexible_body,
+    frame_work,
+    inertia_terms,
+    mass_matrix,
+)
 from flexcage.core.errors import RunFailed
 from flexcage.core.rotation import matrix_from_quaternion, quaternion_rate
 
@@ -44,7 +50,7 @@ class Tumbler:
         inertia_terms(self.data, w, q, qd, self.work)
         force = -self.work.h.copy()
         force[6:] -= self.data.kff @ q
-        return np.linalg.solve(self.work.M, force)
+        return np.linalg.solve(mass_matrix(self.data, self.work), force)
 
     def rate(self, t: float, y: np.ndarray) -> np.ndarray:
         """y' of a state."""

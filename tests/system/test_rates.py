@@ -5,9 +5,13 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from bearing_runs import STATES, disturbed, march, rolling_start
+from scipy import sparse
 
+from flexcage.bodies.floating_frame import flexible_body, frame_work, inertia_terms, mass_matrix
 from flexcage.contacts.spec import Contacts, NormalLaw, PairSpec
+from flexcage.core.rotation import matrix_from_quaternion
 from flexcage.system.data import POWERS
+from flexcage.system.rates import cage_accelerations, new_rates_work
 from flexcage.system.scales import error_weights
 from flexcage.system.spec import Drive, Load
 
@@ -91,3 +95,26 @@ def test_both_methods_go_the_same_way(bearing_of):
         np.abs((bdf.y - explicit.y) * weight).max() < 3.0
     )  # nanometres, or as much in other units
     np.testing.assert_allclose(bdf.work, explicit.work, atol=1e-4 * np.abs(bdf.work).max())
+
+
+@pytest.mark.parametrize("eigenmodes", [True, False])
+def test_accelerations_of_a_flexible_cage_against_its_whole_mass_matrix(eigenmodes):
+    """The modes eliminated by their own inverse: one by one where they are orthogonal."""
+    rng = np.random.default_rng(4)
+    points, mass, n = rng.normal(size=(40, 3)), rng.uniform(0.5, 1.5, 40), 5
+    shapes = rng.normal(size=(40, 3, n))
+    if eigenmodes:
+        modal = np.einsum("a,aik,ail->kl", mass, shapes, shapes)
+        shapes = shapes @ np.linalg.inv(np.linalg.cholesky(modal)).T
+    body = flexible_body(points, sparse.diags(mass).tocsr(), shapes, np.eye(n)).data
+    assert body.plain == eigenmodes
+    frame, work, A = frame_work(n), new_rates_work(body.mff), np.empty((3, 3))
+    matrix_from_quaternion(np.array([0.8, 0.0, 0.6, 0.0]), A)
+    inertia_terms(body, rng.normal(size=3), 0.1 * rng.normal(size=n), rng.normal(size=n), frame)
+    force = rng.normal(size=6 + n)
+    expected = np.linalg.solve(
+        mass_matrix(body, frame), np.concatenate([A.T @ force[:3], force[3:]])
+    )
+    expected[:3] = A @ expected[:3]
+    cage_accelerations(frame.rigid, frame.coupled, body.plain, A, force, work)
+    np.testing.assert_allclose(force, expected, rtol=1e-9)
