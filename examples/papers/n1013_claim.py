@@ -8,9 +8,17 @@ from math import isfinite
 
 from n1013_view import BASE, PAPER, Rows, View, shown
 
-from flexcage.study.verdicts import UNDECIDED, Verdict, every, range_of
+from flexcage.study.verdicts import UNDECIDED, Verdict, every, range_along, range_of
 
 Test = Callable[[View], str]
+
+#: What the paper does not say: the axes over which a claim's range is sought, their units, and the
+#: variation at each value.
+AXES = {
+    "Cq - Dw": ("mm", {0.15: "Cq - Dw 0.15", 0.20: BASE, 0.25: "Cq - Dw 0.25"}),
+    "Cp - Lw": ("mm", {0.20: "Cp - Lw 0.20", 0.25: BASE, 0.30: "Cp - Lw 0.30"}),
+    "Z": ("", {21: "Z 21", 22: BASE}),
+}
 
 
 @dataclass(frozen=True)
@@ -43,7 +51,7 @@ class Claim:
         without = [name for name in other if all(map(views[name].has, self.cages))]
         missing = [name for name in other if name not in without]
         known = {n: o for n, o in whole.items() if n not in partly or o != UNDECIDED}
-        texts = [range_of(known)] if known else []
+        texts = _over_axes(known)
         texts += [f"in part computed: {', '.join(partly)}"] if partly else []
         texts += [f"has no such figure: {', '.join(without)}"] if without else []
         texts += [f"{UNDECIDED}, not computed: {', '.join(missing)}"] if missing else []
@@ -69,3 +77,15 @@ class Claim:
         rigid cage has no stress. A part that needs a cage which is missing stays undecided."""
         first, *others = (isfinite(view(self.figures[0], cage).value) for cage in self.cages)
         return first and any(others)
+
+
+def _over_axes(outcomes: Mapping[str, str]) -> list[str]:
+    """The range of a claim along every axis, and in the variations that lie on none."""
+    texts, on_axes = [], set()
+    for name, (unit, points) in AXES.items():
+        along = {value: outcomes[at] for value, at in points.items() if at in outcomes}
+        on_axes.update(points.values())
+        if along:
+            texts.append(range_along(name, along, unit=unit))
+    rest = {name: outcome for name, outcome in outcomes.items() if name not in on_axes}
+    return [*texts, range_of(rest)] if rest else texts

@@ -140,6 +140,22 @@ def range_of(outcomes: Mapping[str, str]) -> str:
     return "; ".join(parts)
 
 
+def range_along(name: str, outcomes: Mapping[float, str], *, unit: str = "") -> str:
+    """Where along an axis a claim holds, in words: its values by outcome, neighbours together."""
+    values = sorted(outcomes)
+    runs = [[values[0]]]
+    for last, value in pairwise(values):
+        if outcomes[value] == outcomes[last]:
+            runs[-1].append(value)
+        else:
+            runs.append([value])
+    parts = []
+    for run in runs:
+        ends = f"{run[0]:g}" if len(run) == 1 else f"{run[0]:g} to {run[-1]:g}"
+        parts.append(f"{outcomes[run[0]]} at {ends} {unit}".rstrip())
+    return f"{name}: {', '.join(parts)}"
+
+
 @dataclass(frozen=True)
 class Line:
     """One figure that a verdict rests on, in the unit it is shown in."""

@@ -88,7 +88,8 @@ def test_stress_that_rises_holds_and_one_that_does_not_fails(papers):
     found = one.verdict(rows_with(rising), ("base", "Z 21"))
     assert (found.outcome, found.range) == (
         HOLDS,
-        "holds: base. undecided, not computed: Z 21. (mean of the peak) holds: base. "
+        "Cq - Dw: holds at 0.2 mm. Cp - Lw: holds at 0.25 mm. Z: holds at 22. "
+        "undecided, not computed: Z 21. (mean of the peak) holds: base. "
         "(pocket corners) holds: base",
     )
     assert found.figures[0].value == pytest.approx(10.0) and found.figures[0].unit == "MPa"

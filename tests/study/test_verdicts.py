@@ -20,6 +20,7 @@ from flexcage.study.verdicts import (
     monotone,
     opposite,
     pooled,
+    range_along,
     range_of,
     read_verdicts,
     unchanged,
@@ -83,6 +84,10 @@ def test_outcomes_together():
     assert [opposite(o) for o in (HOLDS, FAILS, UNDECIDED)] == [FAILS, HOLDS, UNDECIDED]
     text = range_of({"0.15": HOLDS, "0.20": HOLDS, "0.25": FAILS})
     assert text == "holds: 0.15, 0.20; does not hold: 0.25"
+    along = {0.3: UNDECIDED, 0.2: HOLDS, 0.15: HOLDS, 0.25: FAILS}
+    expected = "gap: holds at 0.15 to 0.2 mm, does not hold at 0.25 mm, undecided at 0.3 mm"
+    assert range_along("gap", along, unit="mm") == expected
+    assert range_along("Z", {21.0: FAILS}) == "Z: does not hold at 21"
 
 
 def test_quotients_and_differences_carry_margins():
