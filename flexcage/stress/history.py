@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, Protocol
 
 import numpy as np
 
@@ -13,6 +13,14 @@ from flexcage.core.threads import on_all_cores
 from flexcage.stress.fields import StressFields, TensorFields, UnitFields
 
 _BLOCK = 256  # samples at a time: their stresses stay near the processor
+_READ = 4096  # samples at a time of what is read and reduced only
+
+
+class Sliced(Protocol):
+    """Values along samples, an array or what reads one from disk slice by slice."""
+
+    def __len__(self) -> int: ...
+    def __getitem__(self, part: slice, /) -> Any: ...
 
 
 @dataclass(frozen=True)
@@ -76,17 +84,21 @@ def equivalent_stress(
 
 def tensor_histories(
     fields: TensorFields,
-    q: np.ndarray,
-    station_forces: np.ndarray,
-    land_forces: np.ndarray | None = None,
+    q: Sliced,
+    station_forces: Sliced,
+    land_forces: Sliced | None = None,
     *,
     places: Iterable[str],
 ) -> Iterator[tuple[str, np.ndarray]]:
     """Name and stresses (6, n, nt) [Pa] of every place, at its n vertices: xx, yy, zz, xy, yz, xz
     in the cage's frame. Other arguments as in ``equivalent_stress``."""
-    loads, land = fields.reduced_forces(station_forces), _land(land_forces, len(q))
+    parts = [slice(first, first + _READ) for first in range(0, len(q), _READ)]
+    loads = np.concatenate([fields.reduced_forces(np.asarray(station_forces[p])) for p in parts])
+    moved, land = np.asarray(q[:]), None
+    if land_forces is not None:
+        land = _land(np.asarray(land_forces[:]), len(q))
     for name in places:
-        yield name, _superposed(fields, fields.places[name], q, loads, land)
+        yield name, _superposed(fields, fields.places[name], moved, loads, land)
 
 
 def _land(forces: np.ndarray | None, samples: int) -> np.ndarray | None:
@@ -124,24 +136,27 @@ def _loaded(fields: np.ndarray, loads: np.ndarray) -> np.ndarray:
 
 def stress_history(
     fields: StressFields,
-    q: np.ndarray,
-    station_forces: np.ndarray,
-    land_forces: np.ndarray | None = None,
+    q: Sliced,
+    station_forces: Sliced,
+    land_forces: Sliced | None = None,
     *,
     settled: int = 0,
     progress: Callable[..., Any] = Silent,
 ) -> StressHistory:
     """Places and peaks over samples, the envelope from sample ``settled`` on.
 
-    Other arguments as in ``equivalent_stress``. Blocks of samples are spread over the cores;
-    ``progress`` is a context like ``core.progress.Progress``.
+    Other arguments as in ``equivalent_stress``, but read block by block, so that a long run may
+    stay on disk. Blocks of samples are spread over the cores; ``progress`` is a context like
+    ``core.progress.Progress``.
     """
     slots = [np.searchsorted(fields.surface, v) for v in fields.places.values()]
 
     def work(first: int) -> _Block:
         part = slice(first, min(first + _BLOCK, len(q)))
-        land = None if land_forces is None else land_forces[part]
-        values = equivalent_stress(fields, q[part], station_forces[part], land)
+        land = None if land_forces is None else np.asarray(land_forces[part])
+        values = equivalent_stress(
+            fields, np.asarray(q[part]), np.asarray(station_forces[part]), land
+        )
         places = np.zeros((values.shape[1], len(slots)), np.float32)
         for i, slot in enumerate(slots):
             places[:, i] = values[slot].max(axis=0)
@@ -159,7 +174,7 @@ def stress_history(
     starts = range(0, len(q), _BLOCK)
     with progress(len(starts), "stress") as bar:
         _ = fields.modes, fields.forces  # once, not in every thread
-        if land_forces is not None and np.any(land_forces):
+        if land_forces is not None:
             _ = fields.land_forces
         blocks = on_all_cores(work, starts)
     envelopes = np.stack([block.envelope for block in blocks])

@@ -39,6 +39,24 @@ def land_station_forces(ds: xarray.Dataset, *, inner: bool, n_land: int = N_LAND
     return out
 
 
+class LandForces:
+    """``land_station_forces`` of a recorded run, sample by sample as they are asked for."""
+
+    def __init__(self, ds: xarray.Dataset, *, inner: bool) -> None:
+        self._recorded = ds[["land_force", "cage_quaternion"]].load()
+        self._inner = inner
+
+    def __len__(self) -> int:
+        return self._recorded.sizes["time"]
+
+    def __bool__(self) -> bool:
+        """Whether any sample has a force."""
+        return bool(np.any(self._recorded["land_force"].values))
+
+    def __getitem__(self, part: slice) -> np.ndarray:
+        return land_station_forces(self._recorded.isel(time=part), inner=self._inner)
+
+
 def cage_loads(ds: xarray.Dataset, index: int, *, inner: bool) -> CageLoads:
     """Loads at sample ``index``; ``inner``: the cage rides on the inner ring's land."""
     one = ds.isel(time=[index])

@@ -2,6 +2,7 @@
 
 import errno
 import json
+import math
 import os
 import signal
 import subprocess
@@ -69,7 +70,7 @@ def check(ds, n):
     for j, name in enumerate(VARS):
         values = ds[name].values
         expected = np.arange(len(values)) + j / 10.0
-        flat = values.reshape(len(values), -1)
+        flat = values.reshape(len(values), math.prod(values.shape[1:]))
         assert np.allclose(flat, expected[:, None], rtol=1e-6), name
 
 
