@@ -51,7 +51,9 @@ SN_CURVES: dict[str, SNCurve] = {
             tensile_strength=370e6,
             source="tensile strength of CuZn39Pb3 (UNS C38500), hot rolled: makeitfrom.com",
             assumption="a third of the tensile strength at 1e8 cycles, a rule of thumb of copper "
-            "alloys; slope of the line from there to 0.9 of the tensile strength at 1e3 cycles",
+            "alloys (measured: 138 MPa at 1e8 cycles for half-hard rod of UNS C36000, tensile "
+            "strength 395 MPa, Copper Development Association's data by AZoM); slope of the line "
+            "from there to 0.9 of the tensile strength at 1e3 cycles",
         ),
         SNCurve(
             material="PA66",
