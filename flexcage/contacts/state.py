@@ -68,6 +68,24 @@ def set_pose(q, u, pose):
 
 
 @part
+def keep_pose(pose, row):
+    """Copy a pose into a row of 24 numbers."""
+    for j in range(3):
+        for k in range(3):
+            row[3 * j + k], row[9 + 3 * j + k] = pose.F[j, k], pose.axis[j, k]
+        row[18 + j], row[21 + j] = pose.V[j], pose.w[j]
+
+
+@part
+def take_pose(row, pose):
+    """The pose that ``keep_pose`` put into a row."""
+    for j in range(3):
+        for k in range(3):
+            pose.F[j, k], pose.axis[j, k] = row[3 * j + k], row[9 + 3 * j + k]
+        pose.V[j], pose.w[j] = row[18 + j], row[21 + j]
+
+
+@part
 def clear(pair, tangent):
     """Zero a pair's wrench and, if asked, its tangent."""
     zero(pair.wrench)

@@ -1,7 +1,9 @@
 """The residual F(t, y, y') = 0 of a roller bearing, its tangent, and its report.
 
-One pass over the rollers calls the contact kernels, adds their wrenches to the bodies, and forms
-the rows: kinematics q' - T(q) u - G^T mu, momentum M u' + h - Q - G^T lambda, g and its rate.
+One kind of contact after another is evaluated for all rollers, and its wrenches added to the
+bodies; then the rows are formed: kinematics q' - T(q) u - G^T mu, momentum M u' + h - Q - G^T
+lambda, g and its rate. (With one roller's contacts after the other the code of all of them passes
+through the processor's cache 22 times: a sixth more time.)
 ``mode``: 0 residual, 1 also the tangent blocks, 2 also the whole report, 3 without its arrays of
 slices and stations.
 """
@@ -11,7 +13,7 @@ from __future__ import annotations
 from flexcage.contacts.pocket import pocket_contact
 from flexcage.contacts.race import race_contact
 from flexcage.contacts.rib import rib_contact
-from flexcage.contacts.state import set_pose, shift_matrix
+from flexcage.contacts.state import keep_pose, set_pose, shift_matrix, take_pose
 from flexcage.core.jit import copy_into, fields, part, zero
 from flexcage.core.rotation import matrix_from_quaternion
 from flexcage.core.vectors import (
@@ -196,19 +198,30 @@ def evaluate(t, y, yd, d, law, out, mode):
     margin = 0.0
     for m in range(nm):
         margin += phi_max[m] * abs(qf[m])
+    pose, poses = fields(d.pose), work.poses
+    zero(work.wrenches)
     for i in range(Z):
         o = 6 * i
-        qi, ui = q[o : o + 6], u[o : o + 6]
-        set_pose(qi, ui, fields(d.pose))
-        zero(work.roller)
-        _inner_contacts(i, qi, ring_q, ring_u, d, law, mode)
-        _outer_contact(i, qi, q[zq + 6 : zq + 8], u[zq + 6 : zq + 8], d, law, mode)
-        _pocket(i, qi, Rc, Vc, qf, qfd, margin, d, law, mode)
+        set_pose(q[o : o + 6], u[o : o + 6], pose)
+        keep_pose(pose, poses[i])
+        _inner_contacts(i, q[o : o + 6], ring_q, ring_u, d, law, mode)
+    for i in range(Z):
+        o = 6 * i
+        take_pose(poses[i], pose)
+        _outer_contact(i, q[o : o + 6], q[zq + 6 : zq + 8], u[zq + 6 : zq + 8], d, law, mode)
+    for i in range(Z):
+        o = 6 * i
+        take_pose(poses[i], pose)
+        _pocket(i, q[o : o + 6], Rc, Vc, qf, qfd, margin, d, law, mode)
         if mode >= 2:
             _approach(i, ring_u, u[zq + 6 : zq + 8], d)
+    for i in range(Z):
+        o = 6 * i
+        take_pose(poses[i], pose)
         _roller_rows(
-            i, qi, ui, qd[o : o + 6], ud[o : o + 6], d, r_q[o : o + 6], r_u[o : o + 6], mode
-        )
+            i, q[o : o + 6], u[o : o + 6], qd[o : o + 6], ud[o : o + 6], d, r_q[o : o + 6],
+            r_u[o : o + 6], mode,
+        )  # fmt: skip
     land_rows(q, u, zq, nm, d, law, mode)
     cage_rows(d, quat, Vc, wb, qf, qfd, qd, ud, zq, r_q, r_u, mode)
     ring_rows(t, d, q, u, qd, ud, lam, mu, zq, r_q, r_u, out, nq + nu, mode)
@@ -237,7 +250,7 @@ def _inner_contacts(i, qi, ring_q, ring_u, d, law, mode):
             )  # fmt: skip
         if not hit:
             continue
-        add_to_element(work.roller, pair)
+        add_to_element(work.wrenches[i], pair)
         react(F, work.unit, pair.wrench, xyz(P), work.border, 0)
         if mode == 1:
             copy_into(work.R[0], F)
@@ -270,7 +283,7 @@ def _outer_contact(i, qi, out_q, out_u, d, law, mode):
     )  # fmt: skip
     if not hit:
         return
-    add_to_element(work.roller, pair)
+    add_to_element(work.wrenches[i], pair)
     for c in range(2):
         border[6 + c] -= F[1, 1 + c] * pair.wrench[1] + F[2, 1 + c] * pair.wrench[2]
     if mode == 1:
@@ -311,7 +324,7 @@ def _pocket(i, qi, Rc, Vc, qf, qfd, margin, d, law, mode):
         mode, sums,
     )  # fmt: skip
     if hit:
-        add_to_element(work.roller, pair)
+        add_to_element(work.wrenches[i], pair)
         react(F, A, pair.wrench, xyz(D), border, 8)
         push_modes(data, i, pw, border)
     if mode == 1:
@@ -356,7 +369,7 @@ def _roller_rows(i, qi, ui, qdi, udi, d, r_q, r_u, mode):
     """Kinematics and momentum of roller i, with drag and gravity."""
     pose, work, bodies = fields(d.pose), fields(d.scratch), fields(d.bodies)
     tan, rep = fields(d.tangent), fields(d.report)
-    F, FR, rates = pose.F, work.roller, work.S[0]
+    F, FR, rates = pose.F, work.wrenches[i], work.S[0]
     mass, Ia, It = bodies.element[0], bodies.element[1], bodies.element[2]
     drag = -bodies.drag[0] * abs(ui[2]) * ui[2]
     gr = F[1, 1] * bodies.gravity[1] + F[1, 2] * bodies.gravity[2]
