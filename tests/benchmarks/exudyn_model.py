@@ -29,6 +29,7 @@ from settled import Forces
 
 FLAT = 1e3  # [m]
 NEVER = 10.0  # [m/s] faster than any impact
+NEWTON = (1e-4, 1e-3)  # tolerances of implicit methods: its defaults, 1e-8, are below rounding here
 HEAVY = 1e9  # [kg m^2] inertia of a ring that no torque slows down
 
 
@@ -42,6 +43,7 @@ class Motion:
 
     q: np.ndarray  # (n, Z + 2, 3)
     u: np.ndarray  # (n, Z + 2, 3)
+    modes: np.ndarray  # (n, m) modal coordinates of the cage, as flexcage has them
     forces: Forces
     cpu: float
 
@@ -71,14 +73,17 @@ class ExudynBearing:
         inertias += [(b.ring[0], HEAVY), (cage.mass, cage.G0[1, 1] + cage.G0[2, 2])]
         forces = np.outer([mass for mass, _ in inertias], b.gravity[1:])
         forces[-2] += b.load[1, 0] * b.load_direction
-        bodies = list(map(self._body, inertias, self.start, speed))
-        self.nodes = [node for node, _ in bodies]
-        centres = [self._at(body, q[:2]) for (_, body), q in zip(bodies, self.start, strict=True)]
+        bodies = list(map(self._body, inertias[:-1], self.start, speed))
+        centres = [self._at(body, q[:2]) for (_, body), q in zip(bodies, self.start, strict=False)]
+        self.walls, self.modal = self._walls(), None
+        node, middle, faces = self._cage(inertias[-1], speed[-1])
+        self.nodes = [*(node for node, _ in bodies), node]
+        centres.append(middle)
         for marker, force in zip(centres, forces, strict=True):
             self.system.AddLoad(
                 {"loadType": "ForceVector", "markerNumber": marker, "loadVector": [*force, 0.0]}
             )
-        self.contacts = self._contacts(centres, bodies[-1][1], stiffness)
+        self.contacts = self._contacts(centres, faces, stiffness)
         self._sense = self._sensors(sensors)
         self.system.Assemble()
 
@@ -99,12 +104,33 @@ class ExudynBearing:
         self._place[marker] = np.asarray(place)
         return marker
 
-    def _contacts(self, centres: Sequence[Any], cage: Any, stiffness: float) -> list[Any]:
+    def _walls(self) -> np.ndarray:
+        """Centres (Z, 2, 2) of the circles that stand for pocket faces, in the cage's frame."""
+        data = self.planar.bearing.data.model.pocket
+        along = data.azimuth[:, None]
+        across = np.stack([-along[..., 1], along[..., 0]], axis=-1)
+        r = np.hypot(*(self.start[: len(along), :2] - self.start[-1, :2]).T)
+        off = np.array([1.0, -1.0]) * (data.half[0] + FLAT)
+        return r[:, None, None] * along + off[:, None] * across
+
+    def _cage(self, inertia: tuple[float, float], speed: np.ndarray) -> tuple[Any, Any, list[Any]]:
+        """The cage's node, and markers of its centre and of every pocket's front and rear."""
+        node, body = self._body(inertia, self.start[-1], speed)
+        faces = [self._at(body, self._in_space(at), at) for at in self.walls.reshape(-1, 2)]
+        return node, self._at(body, self.start[-1, :2]), faces
+
+    def _in_space(self, local: np.ndarray) -> np.ndarray:
+        y, z, turn = self.start[-1]
+        c, s = np.cos(turn), np.sin(turn)
+        return np.array([y + c * local[0] - s * local[1], z + s * local[0] + c * local[1]])
+
+    def _contacts(
+        self, centres: Sequence[Any], faces: Sequence[Any], stiffness: float
+    ) -> list[Any]:
         """Every roller's inner and outer race, every roller's front and rear face, the land."""
         model, memory = self.planar.bearing.data.model, self.planar.bearing.data.memory
         ring, radii = centres[-2], model.bodies.radius
         ground = self._at(self.system.AddObject({"objectType": "Ground"}), np.zeros(2))
-        *_, (y, z, turn) = self.start
         found = []
         for i, Rw in enumerate(radii):
             for j, (race, other) in enumerate(((model.inner, ring), (model.outer, ground))):
@@ -113,17 +139,10 @@ class ExudynBearing:
                 shift = self._shift(centres[i], other, Rw, race.radius, j == 1)
                 pair = (Rw + shift, race.radius - (shift if j == 0 else -shift))
                 found.append(self._touch(centres[i], other, pair, j == 1, law))
-        for i, Rw in enumerate(radii):
-            along = model.pocket.azimuth[i]
-            r = np.hypot(*(self.start[i, :2] - (y, z)))
-            for f, sign in enumerate((1.0, -1.0)):
-                law = _law(memory.pocket[i, f], len(model.pocket.s), model.pocket.friction[0])
-                off = sign * (model.pocket.half[0] + FLAT)
-                local = r * along + off * np.array([-along[1], along[0]])
-                c, s = np.cos(turn), np.sin(turn)
-                place = (y + c * local[0] - s * local[1], z + s * local[0] + c * local[1])
-                wall = self._at(cage, np.array(place), local)
-                found.append(self._touch(centres[i], wall, (Rw, FLAT), False, law))
+        for k, wall in enumerate(faces):
+            i, f = divmod(k, 2)
+            law = _law(memory.pocket[i, f], len(model.pocket.s), model.pocket.friction[0])
+            found.append(self._touch(centres[i], wall, (radii[i], FLAT), False, law))
         rib = model.land.radius - model.land.clearance
         law = _law(memory.land[0], len(model.land.x), model.land.friction)
         found.append(self._touch(ring, centres[-1], (rib, model.land.radius), True, law))
@@ -160,7 +179,9 @@ class ExudynBearing:
 
         if which == "cage":
             return {"q": [sensor("Node", "nodeNumber", self.nodes[-1], kinds.Coordinates)]}
+        modal = [] if self.modal is None else [self.modal]
         return {
+            "modes": [sensor("Node", "nodeNumber", n, kinds.Coordinates) for n in modal],
             "q": [sensor("Node", "nodeNumber", n, kinds.Coordinates) for n in self.nodes],
             "u": [sensor("Node", "nodeNumber", n, kinds.Coordinates_t) for n in self.nodes],
             "force": [sensor("Object", "objectNumber", n, kinds.Force) for n in self.contacts],
@@ -173,6 +194,8 @@ class ExudynBearing:
         time.numberOfSteps, time.endTime, time.verboseMode = round(duration / step), duration, 0
         time.adaptiveStep = time.discontinuous.useRecommendedStepSize = False
         time.explicit.computeEndOfStepAccelerations = False
+        time.newton.relativeTolerance, time.newton.absoluteTolerance = NEWTON
+        time.newton.useModifiedNewton = True
         settings.solution.file.write = False
         settings.solution.sensors.writePeriod = every
         begin = process_time()
@@ -182,7 +205,10 @@ class ExudynBearing:
 
     def _read(self, name: str, times: np.ndarray) -> np.ndarray:
         """What sensors stored at these times (n, sensors, 1 + components)."""
-        rows = np.stack([self.system.GetSensorStoredData(s) for s in self._sense[name]], axis=1)
+        stored = [self.system.GetSensorStoredData(s) for s in self._sense[name]]
+        if name in "qu":  # a flexible cage's node has z and three angles
+            stored[-1] = stored[-1][:, [0, 1, 2, -1]]
+        rows = np.stack(stored, axis=1)
         return rows[np.argmin(np.abs(rows[:, 0, :1] - times), axis=0)]
 
     def cage_path(self, times: np.ndarray, *, method: str, step: float) -> tuple[float, np.ndarray]:
@@ -199,7 +225,8 @@ class ExudynBearing:
         races, faces = on_first[:, : 2 * Z], on_first[:, 2 * Z : 4 * Z]
         pairs = [f.reshape(n, Z, 2, 2) for f in (races, faces)]
         forces = Forces(np.concatenate(pairs, axis=2), -on_first[:, -1:])
-        return Motion(q[..., 1:] + self.start, u[..., 1:], forces, cpu)
+        modes = np.zeros((n, 0)) if self.modal is None else self._read("modes", times)[:, 0, 1:]
+        return Motion(q[..., 1:] + self.start, u[..., 1:], modes, forces, cpu)
 
 
 def _law(p: np.ndarray, parts: int, friction: np.ndarray) -> dict[str, Any]:

@@ -1,0 +1,133 @@
+"""Work and precision of flexcage and of Exudyn on one planar bearing, each against itself."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from importlib.metadata import version
+from importlib.util import find_spec
+from typing import Any
+
+import numpy as np
+
+WINDOW = 1e-3  # [s] from the settled state
+SAMPLE = 5e-6  # [s]
+EQUAL = 2e-8  # [m] error of the cage's position at which processor times are compared
+ERRORS = (1e-7, 5e-8, 2e-8, 1e-8, 5e-9)
+REPEATS = 3
+SHARES = (100.0, 30.0, 10.0, 3.0, 1.0, 0.3, 0.1, 0.03)  # of flexcage's default tolerance
+REFERENCE = {"rigid": 2.5e-7, "flexible": 5e-7}  # [s] steps of Exudyn's RK4; a share of flexcage's:
+TIGHT = 1e-4
+EXPLICIT = (5e-6, 2.5e-6, 1.25e-6)
+METHODS = {  # Exudyn's names, and steps [s]
+    "RK44": EXPLICIT,
+    "RK33": EXPLICIT,
+    "VelocityVerlet": (1.25e-6, 6.25e-7),
+    "GeneralizedAlpha": (2e-5, 1e-5, 5e-6, 2.5e-6),
+    "TrapezoidalIndex2": (2e-5, 1e-5, 5e-6, 2.5e-6),
+}
+Row = tuple[str, float, float, float]  # method, share or step [s], processor time [s/ms], error [m]
+
+
+def measure() -> dict[str, Any]:
+    """Figures that README.md lists under ``peer``; ratios are None where Exudyn is missing."""
+    if find_spec("exudyn") is None:
+        reason = "exudyn is not installed (the extra 'peer')"
+        return {"exudyn_ratio": None, "exudyn_rigid_ratio": None, "exudyn": {"missing": reason}}
+    from exudyn_cage import FlexibleExudynBearing
+    from exudyn_model import ExudynBearing
+
+    found = {
+        "flexible": _compare("flexible", FlexibleExudynBearing),
+        "rigid": _compare("rigid", ExudynBearing),
+    }
+    return {
+        "exudyn_ratio": found["flexible"]["ratios_by_error"][f"{EQUAL:g}"],
+        "exudyn_rigid_ratio": found["rigid"]["ratios_by_error"][f"{EQUAL:g}"],
+        "exudyn": {
+            "version": version("exudyn"),
+            "equal_error_m": EQUAL,
+            "columns": ["method", "share or step_s", "cpu_s_per_ms", "error_m"],
+            **found,
+        },
+    }
+
+
+def _compare(model: str, program: Callable[..., Any]) -> dict[str, Any]:
+    """Both programs' curves with a rigid or a flexible cage, and what Exudyn costs more."""
+    from exudyn_model import coordinates
+    from planar_case import Planar
+
+    planar = Planar(model)
+    exudyn = program(planar, sensors="cage")
+    stride = planar.case.output.vibration_ratio
+
+    def ours(share: float, times: np.ndarray) -> tuple[float, np.ndarray]:
+        out = planar.integrate(WINDOW, stride=stride, share=share)
+        return out.cpu, coordinates(planar, out.ys)[0][:, -1]
+
+    def theirs(method: str) -> Callable[[float, np.ndarray], tuple[float, np.ndarray]]:
+        return lambda step, times: exudyn.cage_path(times, method=method, step=step)
+
+    fine = _times(SAMPLE)
+    (_, own), (_, other) = ours(TIGHT, fine), theirs("RK44")(REFERENCE[model], fine)
+    rows: list[Row] = []
+    for name, path, reference, levels in (
+        ("flexcage", ours, own, SHARES),
+        *((name, theirs(name), other, steps) for name, steps in METHODS.items()),
+    ):
+        rows += [(name, level, *_point(path, level, reference)) for level in levels]
+    rows = [row for row in rows if np.isfinite(row[3])]
+    curves = [
+        _best([r for r in rows if (r[0] == "flexcage") == is_own]) for is_own in (True, False)
+    ]
+    costs = {error: [cost(curve, error) for curve in curves] for error in ERRORS}
+    return {
+        "ratios_by_error": {f"{e:g}": _ratio(*pair) for e, pair in costs.items()},
+        "cpu_s_per_ms": {f"{e:g}": [_short(c) for c in pair] for e, pair in costs.items()},
+        "cage_apart_m": float(f"{_far(own, other):.2g}"),
+        "curves": [[name, level, _short(cpu), _short(error)] for name, level, cpu, error in rows],
+    }
+
+
+def _times(step: float) -> np.ndarray:
+    """Sampling times [s] that steps of this length reach."""
+    every = max(step, SAMPLE)
+    return every * np.arange(1, round(WINDOW / every) + 1)
+
+
+def _point(path, level: float, reference: np.ndarray) -> tuple[float, float]:
+    """Least processor time of several [s per ms], and the error of the cage's position [m]."""
+    times = _times(level if level < 1e-3 else SAMPLE)
+    runs = [path(level, times) for _ in range(REPEATS)]
+    stride = len(reference) // len(times)
+    error = _far(runs[0][1], reference[stride - 1 :: stride])
+    return min(cpu for cpu, _ in runs) / (WINDOW * 1e3), error
+
+
+def _far(one: np.ndarray, other: np.ndarray) -> float:
+    return float(np.linalg.norm((one - other)[:, :2], axis=1).max())
+
+
+def _best(rows: Sequence[Row]) -> tuple[np.ndarray, np.ndarray]:
+    """Errors (falling back from the smallest) and times of the points no cheaper one betters."""
+    best: list[tuple[float, float]] = []
+    for *_, cpu, error in sorted(rows, key=lambda row: row[2]):
+        if not best or error < best[-1][0]:
+            best.append((error, cpu))
+    errors, times = np.array(best[::-1]).T
+    return errors, times
+
+
+def cost(curve: tuple[np.ndarray, np.ndarray], error: float) -> float:
+    """Processor time at an error, log-log; infinite where no point is as precise, and that of the
+    cheapest where all are more precise."""
+    errors, times = np.log(curve[0]), np.log(curve[1])
+    return float(np.exp(np.interp(np.log(error), errors, times, left=np.inf)))
+
+
+def _ratio(ours: float, theirs: float) -> float | None:
+    return round(theirs / ours, 1) if np.isfinite(theirs) and np.isfinite(ours) else None
+
+
+def _short(value: float) -> float | None:
+    return float(f"{value:.3g}") if np.isfinite(value) else None
