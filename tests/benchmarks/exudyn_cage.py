@@ -65,9 +65,15 @@ class FlexibleExudynBearing(ExudynBearing):
 
     def _triple(self, body: Any, k: int) -> Any:
         return self.system.AddMarker(
-            {"markerType": "SuperElementRigid", "bodyNumber": body,
-             "meshNodeNumbers": [3 * k, 3 * k + 1, 3 * k + 2], "weightingFactors": [1.0 / 3.0] * 3}
-        )  # fmt: skip
+            {
+                "markerType": "SuperElementRigid",
+                "bodyNumber": body,
+                "meshNodeNumbers": [3 * k, 3 * k + 1, 3 * k + 2],
+                "weightingFactors": [1.0 / 3.0] * 3,
+                "useAlternativeApproach": False,
+                "rotationsExponentialMap": 0,
+            }
+        )  # fmt: skip  (faces do not turn, so the cheapest rotation will do)
 
     def _reduced(self) -> Any:
         """Exudyn's terms of the floating frame from flexcage's finite elements and mode shapes."""

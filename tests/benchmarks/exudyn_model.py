@@ -136,8 +136,9 @@ class ExudynBearing:
             for j, (race, other) in enumerate(((model.inner, ring), (model.outer, ground))):
                 law = _law(memory.race[i, j], len(race.s), race.friction)
                 law["contactStiffness"] *= stiffness
-                shift = self._shift(centres[i], other, Rw, race.radius, j == 1)
-                pair = (Rw + shift, race.radius - (shift if j == 0 else -shift))
+                gap = self._gap(centres[i], other, (Rw, race.radius), j == 1)
+                shift = 0.5 * max(-gap, 0.0) if self._surface else 0.0
+                pair = (Rw + shift, race.radius - race.sign * shift)
                 found.append(self._touch(centres[i], other, pair, j == 1, law))
         for k, wall in enumerate(faces):
             i, f = divmod(k, 2)
@@ -151,11 +152,6 @@ class ExudynBearing:
     def _gap(self, one: Any, other: Any, radii: Sequence[float], hollow: bool) -> float:
         apart = float(np.linalg.norm(self._place[one] - self._place[other]))
         return radii[1] - radii[0] - apart if hollow else apart - radii[0] - radii[1]
-
-    def _shift(self, one: Any, other: Any, Rw: float, radius: float, hollow: bool) -> float:
-        if not self._surface:
-            return 0.0
-        return 0.5 * max(-self._gap(one, other, (Rw, radius), hollow), 0.0)
 
     def _touch(self, one, other, radii, hollow: bool, law: dict[str, Any]) -> Any:
         gap = self._gap(one, other, radii, hollow)
