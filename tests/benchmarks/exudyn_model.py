@@ -29,7 +29,7 @@ from settled import Forces
 
 FLAT = 1e3  # [m]
 NEVER = 10.0  # [m/s] faster than any impact
-NEWTON = (1e-4, 1e-3)  # tolerances of implicit methods: its defaults, 1e-8, are below rounding here
+NEWTON = (1e-4, 1e-3)  # tolerances of implicit methods; at its defaults, 1e-8 and 1e-10, it fails
 HEAVY = 1e9  # [kg m^2] inertia of a ring that no torque slows down
 
 

@@ -83,7 +83,7 @@ def differences(planar: Planar, ours, **options) -> dict[str, float]:
     }
 
 
-@pytest.fixture(scope="module", params=["rigid", "flexible"])
+@pytest.fixture(scope="module", params=["rigid", pytest.param("flexible", marks=pytest.mark.slow)])
 def planar(request) -> Planar:
     return Planar(request.param)
 
