@@ -41,8 +41,12 @@ def measure() -> dict[str, Any]:
     if find_spec("exudyn") is None:
         reason = "exudyn is not installed (the extra 'peer')"
         return {**dict.fromkeys(RATIOS), "exudyn": {"missing": reason}}
-    found = _own_process({"EXUDYN_MODULE": ""})
-    fast = _own_process({"EXUDYN_MODULE": "fast"})
+    try:
+        found = _own_process({"EXUDYN_MODULE": ""})
+        fast = _own_process({"EXUDYN_MODULE": "fast"})
+    except subprocess.CalledProcessError as error:
+        reason = f"exudyn failed, see above: {error}"
+        return {**dict.fromkeys(RATIOS), "exudyn": {"missing": reason}}
     ratios = [found["flexible"], found["rigid"], fast["flexible"], fast["rigid"]]
     return {
         **{k: v["ratios_by_error"][f"{EQUAL:g}"] for k, v in zip(RATIOS, ratios, strict=True)},
