@@ -9,6 +9,7 @@ from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
 
+import exudyn_benchmark
 import numpy as np
 from peers import Path as Integration
 from peers import Peers
@@ -70,6 +71,7 @@ def measure(case: flexcage.Case, *, plot: Path | None = None) -> dict[str, Any]:
         draw(curves, plot)
     return {
         **{f"{key}_ratio": ratio(curves, names, EQUAL) for key, names in PEERS.items()},
+        **exudyn_benchmark.measure(),
         "equal_error": EQUAL,
         "ratios_by_error": {
             f"{group} {level:g}": {

@@ -15,11 +15,12 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
 sys.path[:0] = [str(Path(__file__).parent)]
+WHAT = ("solver", "fe", "peer", "exudyn", "scale", "study", "ball")
 
 
 def main(argv: list[str] | None = None) -> int:
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("what", choices=("solver", "fe", "peer", "scale", "study", "ball"))
+    parser.add_argument("what", choices=WHAT)
     parser.add_argument("--json", action="store_true", help="one JSON object")
     parser.add_argument("--case", type=Path, help="default: n1013, or c7010 for ball")
     parser.add_argument("--fineness", default="medium", help="fe: fineness of the mesh")
@@ -43,6 +44,10 @@ def main(argv: list[str] | None = None) -> int:
         import peer_benchmark
 
         figures = peer_benchmark.measure(case, plot=args.plot)
+    elif args.what == "exudyn":
+        import exudyn_benchmark
+
+        figures = exudyn_benchmark.measure()
     elif args.what == "scale":
         import scale_benchmark
 
