@@ -1,0 +1,178 @@
+"""Static solutions of a ring cut into parts, of which those that are alike are factored once.
+
+The ring is cut through the middle of every pocket, where it is thinnest, into parts of one
+crossbeam each. With the interiors of all parts eliminated, the stiffness of the nodes on the cuts,
+
+    S = K_cc - sum_p K_cp K_pp^-1 K_pc,
+
+is small and block-cyclic. Parts that differ by a turn share K_pp^-1 and G = K_pp^-1 K_pc, so that a
+damaged cage costs a factorisation for every kind of part and one of S, and a load an
+interior solution only in those parts where it acts. The elimination is exact (static condensation,
+R. J. Guyan, AIAA Journal 3 (1965) 380, as substructuring: J. S. Przemieniecki, ibid. 1 (1963) 138).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+import scipy.sparse as sp
+
+from flexcage.fem.linear import LinearSolver, linear_solver
+from flexcage.fem.model import FEModel
+from flexcage.fem.sectors import Sectors, group_alike
+
+_ALIKE = 1e-11  # misfit of stiffness acting on a turned random field, relative to its action
+
+
+@dataclass(frozen=True)
+class RingParts:
+    """Nodes of a ring cut into parts: cut k lies between parts k - 1 and k."""
+
+    sectors: Sectors
+    inside: np.ndarray  # (count, n_inside)
+    cuts: np.ndarray  # (count, n_cut)
+
+
+def find_parts(model: FEModel) -> RingParts | None:
+    """The parts between mid-pockets of a ring of sectors, or None if the model is no such ring."""
+    sectors = model.sectors
+    if sectors is None:
+        return None
+    n, count = sectors.cells, sectors.count
+    middle = model.points[model.tets[: 2 * n]].mean(axis=1)
+    upper = np.arctan2(middle[:n, 2], middle[:n, 1]) > 0.0  # of sector 0, around psi = 0
+    following = model.cells[n : 2 * n]
+    own = np.unique(np.concatenate([model.cells[:n][upper].ravel(), following[~upper].ravel()]))
+    places = sectors.followed(own)
+    shared = np.isin(own, places[-1]), np.isin(places[0], places[1])
+    cuts = sectors.followed(own[shared[0]])
+    inside = places[:, ~(shared[0] | shared[1])]
+    numbers = np.concatenate([inside.ravel(), cuts.ravel()])
+    if (shared[0] & shared[1]).any() or len(np.unique(numbers)) != len(model.nodes):
+        return None
+    if len(numbers) != len(model.nodes) or not len(inside[0]) or not len(cuts[0]):
+        return None
+    return RingParts(sectors, inside, cuts)
+
+
+@dataclass(frozen=True)
+class _Kind:
+    """Parts that differ by a turn; matrices are those of the first of them."""
+
+    members: list[int]
+    solver: LinearSolver  # of K_pp
+    coupling: np.ndarray  # G = K_pp^-1 K_pc (3 n_inside, 6 n_cut): cut k, then cut k + 1
+    condensed: np.ndarray  # K_cp G (6 n_cut, 6 n_cut)
+
+
+class CondensedRing:
+    """The factored stiffness of a ring held at six dofs on its cuts.
+
+    ``held`` are dofs of nodes on cuts that keep the body from rigid motion.
+    """
+
+    def __init__(
+        self, model: FEModel, parts: RingParts, held: np.ndarray, *, kind: str = "auto"
+    ) -> None:
+        self._parts, self._count = parts, parts.sectors.count
+        self._kinds = [self._condense(model, members, kind) for members in _alike(model, parts)]
+        self._cut_dofs = _dofs(parts.cuts.ravel())
+        free = np.flatnonzero(~np.isin(self._cut_dofs, held))
+        stiffness = self._cut_stiffness(model)[free][:, free]
+        self._free = free
+        self._cut_solver = linear_solver(sp.csr_matrix(stiffness), kind=kind)
+        different = "1 kind" if len(self._kinds) == 1 else f"{len(self._kinds)} kinds"
+        self.name = f"{self._cut_solver.name}, {self._count} parts of {different}"
+
+    def solve(self, loads: np.ndarray) -> np.ndarray:
+        """Displacements (3N, m) of nodal loads (3N, m); reactions at the held dofs are free."""
+        m = loads.shape[1]
+        fields = np.ascontiguousarray(loads.T).reshape(m, -1, 3)
+        answer = np.empty_like(fields)
+        on_cuts = fields[:, self._parts.cuts]  # (m, count, n_cut, 3)
+        pulls = np.zeros((m, self._count, 2, on_cuts.shape[2], 3))
+        for kind in self._kinds:
+            loaded = self._turned(kind, fields[:, self._parts.inside[kind.members]], back=True)
+            columns = loaded.reshape(m * len(kind.members), -1)
+            acting = columns.any(axis=1)
+            pull = np.zeros((len(columns), kind.coupling.shape[1]))
+            inner = np.zeros_like(columns)
+            if acting.any():
+                pull[acting] = columns[acting] @ kind.coupling
+                inner[acting] = kind.solver.solve(columns[acting].T).T
+            shape = (m, len(kind.members), -1, 3)
+            pulls[:, kind.members] = self._turned(kind, pull.reshape(shape)).reshape(
+                m, len(kind.members), 2, -1, 3
+            )
+            answer[:, self._parts.inside[kind.members]] = self._turned(kind, inner.reshape(shape))
+        on_cuts = on_cuts - pulls[:, :, 0] - np.roll(pulls[:, :, 1], 1, axis=1)
+        moved = np.zeros((m, on_cuts[0].size))
+        moved[:, self._free] = self._cut_solver.solve(on_cuts.reshape(m, -1)[:, self._free].T).T
+        cuts = moved.reshape(on_cuts.shape)
+        answer[:, self._parts.cuts] = cuts
+        ends = np.stack([cuts, np.roll(cuts, -1, axis=1)], axis=2)
+        for kind in self._kinds:
+            chosen = ends[:, kind.members].reshape(m, len(kind.members), -1, 3)
+            own = self._turned(kind, chosen, back=True).reshape(m * len(kind.members), -1)
+            inner = (own @ kind.coupling.T).reshape(m, len(kind.members), -1, 3)
+            answer[:, self._parts.inside[kind.members]] -= self._turned(kind, inner)
+        return np.ascontiguousarray(answer.reshape(m, -1).T)
+
+    def _turned(self, kind: _Kind, fields: np.ndarray, *, back: bool = False) -> np.ndarray:
+        """Fields (m, members, n, 3) turned from the first member to each, or back."""
+        turns = np.stack([self._parts.sectors.turn(k - kind.members[0]) for k in kind.members])
+        return fields @ (turns if back else turns.transpose(0, 2, 1))
+
+    def _condense(self, model: FEModel, members: list[int], kind: str) -> _Kind:
+        first = members[0]
+        inside = _dofs(self._parts.inside[first])
+        ends = _dofs(self._ends[first])
+        rows = model.K[inside]
+        solver = linear_solver(sp.csr_matrix(rows[:, inside]), kind=kind)
+        across = rows[:, ends]
+        coupling = np.asarray(solver.solve(across.toarray(order="F")))
+        return _Kind(members, solver, coupling, np.asarray(across.T @ coupling))
+
+    @cached_property
+    def _ends(self) -> np.ndarray:
+        """Nodes of the cuts at both ends of every part (count, 2 n_cut)."""
+        cuts = self._parts.cuts
+        return np.concatenate([cuts, np.roll(cuts, -1, axis=0)], axis=1)
+
+    def _cut_stiffness(self, model: FEModel) -> sp.csr_matrix:
+        """S with all its dofs, numbered cut by cut."""
+        size = len(self._cut_dofs)
+        number = np.empty(model.n_dof, np.int32)
+        number[self._cut_dofs] = np.arange(size)
+        rows, columns, values = [], [], []
+        for kind in self._kinds:
+            for k in kind.members:
+                turn = self._parts.sectors.turn(k - kind.members[0])
+                n = len(kind.condensed) // 3
+                blocks = kind.condensed.reshape(n, 3, n, 3)
+                turned = np.einsum("ab,ibjd,cd->iajc", turn, blocks, turn, optimize=True)
+                own = number[_dofs(self._ends[k])]
+                rows.append(np.repeat(own, len(own)))
+                columns.append(np.tile(own, len(own)))
+                values.append(turned.ravel())
+        pairs = np.concatenate(rows), np.concatenate(columns)
+        taken = sp.coo_matrix((np.concatenate(values), pairs), (size, size)).tocsr()
+        return sp.csr_matrix(model.K[self._cut_dofs][:, self._cut_dofs] - taken)
+
+
+def _dofs(nodes: np.ndarray) -> np.ndarray:
+    return (3 * nodes[:, None] + np.arange(3)).ravel()
+
+
+def _alike(model: FEModel, parts: RingParts) -> list[list[int]]:
+    """Parts on whose inside the stiffness acts alike, proved on a random field that repeats."""
+    count = parts.sectors.count
+    rng = np.random.default_rng(0)
+    turns = np.stack([parts.sectors.turn(k) for k in range(count)])
+    field = np.empty((len(model.nodes), 3))
+    for nodes in (parts.inside, parts.cuts):
+        field[nodes] = rng.standard_normal((nodes.shape[1], 3)) @ turns.transpose(0, 2, 1)
+    force = (model.K @ field.ravel()).reshape(-1, 3)[parts.inside] @ turns
+    return group_alike(force, _ALIKE * np.abs(force).max())
