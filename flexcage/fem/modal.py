@@ -102,17 +102,18 @@ class _MassSpace:
         total = np.zeros((self.size, image.shape[1]))
         triangle = np.eye(image.shape[1])
         block = image
+        mass_block = self._model.mass_times(block)
         for _ in range(2):  # once more: the first pass loses digits where images are parallel
-            mass_block = self._model.mass_times(block)
             part = old.T @ mass_block
             block = block - old @ part
             total += part @ triangle
             mass_block = self._model.mass_times(block)
             gram = block.T @ mass_block
             upper = np.linalg.cholesky(0.5 * (gram + gram.T)).T
-            block = np.linalg.solve(upper.T, block.T).T
+            inverse = np.linalg.inv(upper)
+            block, mass_block = block @ inverse, mass_block @ inverse
             triangle = upper @ triangle
-        self._mass_last = self._model.mass_times(block)
+        self._mass_last = mass_block
         self._store(block)
         return total, triangle
 
