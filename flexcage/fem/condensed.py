@@ -58,7 +58,7 @@ def find_parts(model: FEModel) -> RingParts | None:
 
 
 @dataclass(frozen=True)
-class _Kind:
+class Kind:
     """Parts that differ by a turn; matrices are those of the first of them."""
 
     members: list[int]
@@ -76,25 +76,30 @@ class CondensedRing:
     def __init__(
         self, model: FEModel, parts: RingParts, held: np.ndarray, *, kind: str = "auto"
     ) -> None:
-        self._parts, self._count = parts, parts.sectors.count
-        self._kinds = [self._condense(model, members, kind) for members in _alike(model, parts)]
-        self._cut_dofs = _dofs(parts.cuts.ravel())
+        self.parts, self._count = parts, parts.sectors.count
+        self.kinds = [self._condense(model, members, kind) for members in _alike(model, parts)]
+        self._cut_dofs = dofs_of(parts.cuts.ravel())
         free = np.flatnonzero(~np.isin(self._cut_dofs, held))
         stiffness = self._cut_stiffness(model)[free][:, free]
         self._free = free
         self._cut_solver = linear_solver(sp.csr_matrix(stiffness), kind=kind)
-        different = "1 kind" if len(self._kinds) == 1 else f"{len(self._kinds)} kinds"
+        different = "1 kind" if len(self.kinds) == 1 else f"{len(self.kinds)} kinds"
         self.name = f"{self._cut_solver.name}, {self._count} parts of {different}"
+
+    @property
+    def is_cyclic(self) -> bool:
+        """Whether all parts are alike, in stiffness and mass."""
+        return len(self.kinds) == 1
 
     def solve(self, loads: np.ndarray) -> np.ndarray:
         """Displacements (3N, m) of nodal loads (3N, m); reactions at the held dofs are free."""
         m = loads.shape[1]
         fields = np.ascontiguousarray(loads.T).reshape(m, -1, 3)
         answer = np.empty_like(fields)
-        on_cuts = fields[:, self._parts.cuts]  # (m, count, n_cut, 3)
+        on_cuts = fields[:, self.parts.cuts]  # (m, count, n_cut, 3)
         pulls = np.zeros((m, self._count, 2, on_cuts.shape[2], 3))
-        for kind in self._kinds:
-            loaded = self._turned(kind, fields[:, self._parts.inside[kind.members]], back=True)
+        for kind in self.kinds:
+            loaded = self._turned(kind, fields[:, self.parts.inside[kind.members]], back=True)
             columns = loaded.reshape(m * len(kind.members), -1)
             acting = columns.any(axis=1)
             pull = np.zeros((len(columns), kind.coupling.shape[1]))
@@ -106,39 +111,39 @@ class CondensedRing:
             pulls[:, kind.members] = self._turned(kind, pull.reshape(shape)).reshape(
                 m, len(kind.members), 2, -1, 3
             )
-            answer[:, self._parts.inside[kind.members]] = self._turned(kind, inner.reshape(shape))
+            answer[:, self.parts.inside[kind.members]] = self._turned(kind, inner.reshape(shape))
         on_cuts = on_cuts - pulls[:, :, 0] - np.roll(pulls[:, :, 1], 1, axis=1)
         moved = np.zeros((m, on_cuts[0].size))
         moved[:, self._free] = self._cut_solver.solve(on_cuts.reshape(m, -1)[:, self._free].T).T
         cuts = moved.reshape(on_cuts.shape)
-        answer[:, self._parts.cuts] = cuts
+        answer[:, self.parts.cuts] = cuts
         ends = np.stack([cuts, np.roll(cuts, -1, axis=1)], axis=2)
-        for kind in self._kinds:
+        for kind in self.kinds:
             chosen = ends[:, kind.members].reshape(m, len(kind.members), -1, 3)
             own = self._turned(kind, chosen, back=True).reshape(m * len(kind.members), -1)
             inner = (own @ kind.coupling.T).reshape(m, len(kind.members), -1, 3)
-            answer[:, self._parts.inside[kind.members]] -= self._turned(kind, inner)
+            answer[:, self.parts.inside[kind.members]] -= self._turned(kind, inner)
         return np.ascontiguousarray(answer.reshape(m, -1).T)
 
-    def _turned(self, kind: _Kind, fields: np.ndarray, *, back: bool = False) -> np.ndarray:
+    def _turned(self, kind: Kind, fields: np.ndarray, *, back: bool = False) -> np.ndarray:
         """Fields (m, members, n, 3) turned from the first member to each, or back."""
-        turns = np.stack([self._parts.sectors.turn(k - kind.members[0]) for k in kind.members])
+        turns = np.stack([self.parts.sectors.turn(k - kind.members[0]) for k in kind.members])
         return fields @ (turns if back else turns.transpose(0, 2, 1))
 
-    def _condense(self, model: FEModel, members: list[int], kind: str) -> _Kind:
+    def _condense(self, model: FEModel, members: list[int], kind: str) -> Kind:
         first = members[0]
-        inside = _dofs(self._parts.inside[first])
-        ends = _dofs(self._ends[first])
+        inside = dofs_of(self.parts.inside[first])
+        ends = dofs_of(self._ends[first])
         rows = model.K[inside]
         solver = linear_solver(sp.csr_matrix(rows[:, inside]), kind=kind)
         across = rows[:, ends]
         coupling = np.asarray(solver.solve(across.toarray(order="F")))
-        return _Kind(members, solver, coupling, np.asarray(across.T @ coupling))
+        return Kind(members, solver, coupling, np.asarray(across.T @ coupling))
 
     @cached_property
     def _ends(self) -> np.ndarray:
         """Nodes of the cuts at both ends of every part (count, 2 n_cut)."""
-        cuts = self._parts.cuts
+        cuts = self.parts.cuts
         return np.concatenate([cuts, np.roll(cuts, -1, axis=0)], axis=1)
 
     def _cut_stiffness(self, model: FEModel) -> sp.csr_matrix:
@@ -147,13 +152,13 @@ class CondensedRing:
         number = np.empty(model.n_dof, np.int32)
         number[self._cut_dofs] = np.arange(size)
         rows, columns, values = [], [], []
-        for kind in self._kinds:
+        for kind in self.kinds:
             for k in kind.members:
-                turn = self._parts.sectors.turn(k - kind.members[0])
+                turn = self.parts.sectors.turn(k - kind.members[0])
                 n = len(kind.condensed) // 3
                 blocks = kind.condensed.reshape(n, 3, n, 3)
                 turned = np.einsum("ab,ibjd,cd->iajc", turn, blocks, turn, optimize=True)
-                own = number[_dofs(self._ends[k])]
+                own = number[dofs_of(self._ends[k])]
                 rows.append(np.repeat(own, len(own)))
                 columns.append(np.tile(own, len(own)))
                 values.append(turned.ravel())
@@ -162,17 +167,21 @@ class CondensedRing:
         return sp.csr_matrix(model.K[self._cut_dofs][:, self._cut_dofs] - taken)
 
 
-def _dofs(nodes: np.ndarray) -> np.ndarray:
+def dofs_of(nodes: np.ndarray) -> np.ndarray:
+    """Unknowns (3 n,) of nodes (n,)."""
     return (3 * nodes[:, None] + np.arange(3)).ravel()
 
 
 def _alike(model: FEModel, parts: RingParts) -> list[list[int]]:
-    """Parts on whose inside the stiffness acts alike, proved on a random field that repeats."""
+    """Parts in which stiffness and mass act alike, proved on a random field that repeats."""
     count = parts.sectors.count
     rng = np.random.default_rng(0)
     turns = np.stack([parts.sectors.turn(k) for k in range(count)])
     field = np.empty((len(model.nodes), 3))
     for nodes in (parts.inside, parts.cuts):
         field[nodes] = rng.standard_normal((nodes.shape[1], 3)) @ turns.transpose(0, 2, 1)
-    force = (model.K @ field.ravel()).reshape(-1, 3)[parts.inside] @ turns
-    return group_alike(force, _ALIKE * np.abs(force).max())
+    acts = []
+    for force in (model.K @ field.ravel(), model.mass_times(field.ravel())):
+        placed = force.reshape(-1, 3)[parts.inside] @ turns
+        acts.append(placed / np.abs(placed).max())
+    return group_alike(np.concatenate(acts, axis=1), _ALIKE)

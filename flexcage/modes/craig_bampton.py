@@ -14,7 +14,7 @@ import scipy.sparse as sp
 from scipy.linalg import lu_factor, lu_solve
 
 from flexcage.fem.free import FreeBodySolver
-from flexcage.fem.modal import lowest_modes
+from flexcage.fem.lanczos import lowest_modes
 from flexcage.modes.basis import ModeBasis
 from flexcage.modes.lands import land_vectors
 from flexcage.modes.pockets import check_groups
