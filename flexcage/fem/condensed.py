@@ -63,7 +63,8 @@ class Kind:
 
     members: list[int]
     solver: LinearSolver  # of K_pp
-    coupling: np.ndarray  # G = K_pp^-1 K_pc (3 n_inside, 6 n_cut): cut k, then cut k + 1
+    across: sp.csr_matrix  # K_pc (3 n_inside, 6 n_cut): cut k, then cut k + 1
+    coupling: np.ndarray  # G = K_pp^-1 K_pc (3 n_inside, 6 n_cut)
     condensed: np.ndarray  # K_cp G (6 n_cut, 6 n_cut)
 
 
@@ -97,33 +98,37 @@ class CondensedRing:
         fields = np.ascontiguousarray(loads.T).reshape(m, -1, 3)
         answer = np.empty_like(fields)
         on_cuts = fields[:, self.parts.cuts]  # (m, count, n_cut, 3)
-        pulls = np.zeros((m, self._count, 2, on_cuts.shape[2], 3))
-        for kind in self.kinds:
-            loaded = self._turned(kind, fields[:, self.parts.inside[kind.members]], back=True)
-            columns = loaded.reshape(m * len(kind.members), -1)
-            acting = columns.any(axis=1)
-            pull = np.zeros((len(columns), kind.coupling.shape[1]))
-            inner = np.zeros_like(columns)
+        inside = [self._gather(kind, fields) for kind in self.kinds]
+        for kind, (acting, forces) in zip(self.kinds, inside):
+            pulls = np.zeros((len(acting), kind.coupling.shape[1]))
+            pulls[acting] = forces @ kind.coupling
+            ends = self._turned(kind, pulls.reshape(m, len(kind.members), -1, 3))
+            first, second = np.split(ends, 2, axis=2)
+            on_cuts[:, kind.members] -= first
+            on_cuts[:, (np.array(kind.members) + 1) % self._count] -= second
+        cuts = np.zeros((m, on_cuts[0].size))
+        cuts[:, self._free] = self._cut_solver.solve(on_cuts.reshape(m, -1)[:, self._free].T).T
+        answer[:, self.parts.cuts] = cuts = cuts.reshape(on_cuts.shape)
+        both = np.concatenate([cuts, np.roll(cuts, -1, axis=1)], axis=2)
+        for kind, (acting, forces) in zip(self.kinds, inside):
+            ends = self._turned(kind, both[:, kind.members], back=True)
+            ends = ends.reshape(len(acting), -1)
+            moved = np.empty((len(acting), len(kind.coupling)))
+            moved[~acting] = -ends[~acting] @ kind.coupling.T
             if acting.any():
-                pull[acting] = columns[acting] @ kind.coupling
-                inner[acting] = kind.solver.solve(columns[acting].T).T
-            shape = (m, len(kind.members), -1, 3)
-            pulls[:, kind.members] = self._turned(kind, pull.reshape(shape)).reshape(
-                m, len(kind.members), 2, -1, 3
-            )
-            answer[:, self.parts.inside[kind.members]] = self._turned(kind, inner.reshape(shape))
-        on_cuts = on_cuts - pulls[:, :, 0] - np.roll(pulls[:, :, 1], 1, axis=1)
-        moved = np.zeros((m, on_cuts[0].size))
-        moved[:, self._free] = self._cut_solver.solve(on_cuts.reshape(m, -1)[:, self._free].T).T
-        cuts = moved.reshape(on_cuts.shape)
-        answer[:, self.parts.cuts] = cuts
-        ends = np.stack([cuts, np.roll(cuts, -1, axis=1)], axis=2)
-        for kind in self.kinds:
-            chosen = ends[:, kind.members].reshape(m, len(kind.members), -1, 3)
-            own = self._turned(kind, chosen, back=True).reshape(m * len(kind.members), -1)
-            inner = (own @ kind.coupling.T).reshape(m, len(kind.members), -1, 3)
-            answer[:, self.parts.inside[kind.members]] -= self._turned(kind, inner)
+                forces = forces - (kind.across @ ends[acting].T).T
+                moved[acting] = kind.solver.solve(forces.T).T
+            moved = moved.reshape(m, len(kind.members), -1, 3)
+            answer[:, self.parts.inside[kind.members]] = self._turned(kind, moved)
         return np.ascontiguousarray(answer.reshape(m, -1).T)
+
+    def _gather(self, kind: Kind, fields: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Which of the (m, members) loads act inside a part, (m members,), and those (n, 3 n_inside),
+        turned to the first member."""
+        loads = self._turned(kind, fields[:, self.parts.inside[kind.members]], back=True)
+        columns = loads.reshape(loads.shape[0] * loads.shape[1], -1)
+        acting = columns.any(axis=1)
+        return acting, columns if acting.all() else columns[acting]
 
     def _turned(self, kind: Kind, fields: np.ndarray, *, back: bool = False) -> np.ndarray:
         """Fields (m, members, n, 3) turned from the first member to each, or back."""
@@ -136,9 +141,9 @@ class CondensedRing:
         ends = dofs_of(self._ends[first])
         rows = model.K[inside]
         solver = linear_solver(sp.csr_matrix(rows[:, inside]), kind=kind)
-        across = rows[:, ends]
+        across = sp.csr_matrix(rows[:, ends])
         coupling = np.asarray(solver.solve(across.toarray(order="F")))
-        return Kind(members, solver, coupling, np.asarray(across.T @ coupling))
+        return Kind(members, solver, across, coupling, np.asarray(across.T @ coupling))
 
     @cached_property
     def _ends(self) -> np.ndarray:

@@ -9,6 +9,7 @@ n = 0 to Z/2: so x, on the nodes of one sector, is an eigenvector of a small Her
 from __future__ import annotations
 
 import logging
+from collections.abc import Callable
 
 import numpy as np
 import scipy.sparse as sp
@@ -118,19 +119,20 @@ class Harmonic:
         loads = loads - self.mass_times(self._rigid) @ (self._rigid.conj().T @ loads)
         inside, cut = np.split(loads, [self._n_inside])
         coupling = self._kind.coupling
-        moved = cho_solve(self._cut_factor, cut - self._both_ends(coupling.T @ inside))
+        pulls = self._really(lambda columns: coupling.T @ columns, inside)
+        moved = cho_solve(self._cut_factor, cut - self._both_ends(pulls))
         nodal = moved.reshape(-1, 3, moved.shape[1])
         ahead = np.einsum("ab,nbm->nam", self._turn, nodal).reshape(moved.shape)
-        alone = self._solve(inside) - coupling @ np.vstack([moved, ahead])
-        answer = np.vstack([alone, moved])
+        inside = inside - self._kind.across @ np.vstack([moved, ahead])
+        answer = np.vstack([self._really(self._kind.solver.solve, inside), moved])
         return answer - self._rigid @ (self._rigid.conj().T @ self.mass_times(answer))
 
-    def _solve(self, inside: np.ndarray) -> np.ndarray:
-        if self.dtype is float:
-            return self._kind.solver.solve(inside)
-        columns = np.hstack([inside.real, inside.imag])
-        real, imaginary = np.split(self._kind.solver.solve(columns), 2, axis=1)
-        return real + 1j * imaginary
+    def _really(
+        self, operate: Callable[[np.ndarray], np.ndarray], fields: np.ndarray
+    ) -> np.ndarray:
+        """What a real operator makes of fields (n, m): real and imaginary parts as its columns."""
+        columns = np.ascontiguousarray(fields, self.dtype).view(float)
+        return np.ascontiguousarray(operate(columns)).view(self.dtype)
 
     def shapes(self, fields: np.ndarray) -> np.ndarray:
         """Mass-orthonormal shapes of the ring (3N, m or 2 m) from orthonormal fields (3n, m)."""
