@@ -40,7 +40,7 @@ def find_parts(model: FEModel) -> RingParts | None:
     sectors = model.sectors
     if sectors is None:
         return None
-    n, count = sectors.cells, sectors.count
+    n = sectors.cells
     middle = model.points[model.tets[: 2 * n]].mean(axis=1)
     upper = np.arctan2(middle[:n, 2], middle[:n, 1]) > 0.0  # of sector 0, around psi = 0
     following = model.cells[n : 2 * n]
@@ -78,7 +78,9 @@ class CondensedRing:
         self, model: FEModel, parts: RingParts, held: np.ndarray, *, kind: str = "auto"
     ) -> None:
         self.parts, self._count = parts, parts.sectors.count
-        self.kinds = [self._condense(model, members, kind) for members in _alike(model, parts)]
+        alike = [group_alike(action, _ALIKE) for action in _actions(model, parts)]
+        self.kinds = [self._condense(model, members, kind) for members in alike[0]]
+        self.is_cyclic = len(alike[0]) == len(alike[1]) == 1  # all sectors differ by turns only
         self._cut_dofs = dofs_of(parts.cuts.ravel())
         free = np.flatnonzero(~np.isin(self._cut_dofs, held))
         stiffness = self._cut_stiffness(model)[free][:, free]
@@ -86,11 +88,6 @@ class CondensedRing:
         self._cut_solver = linear_solver(sp.csr_matrix(stiffness), kind=kind)
         different = "1 kind" if len(self.kinds) == 1 else f"{len(self.kinds)} kinds"
         self.name = f"{self._cut_solver.name}, {self._count} parts of {different}"
-
-    @property
-    def is_cyclic(self) -> bool:
-        """Whether all parts are alike, in stiffness and mass."""
-        return len(self.kinds) == 1
 
     def solve(self, loads: np.ndarray) -> np.ndarray:
         """Displacements (3N, m) of nodal loads (3N, m); reactions at the held dofs are free."""
@@ -102,8 +99,8 @@ class CondensedRing:
         for kind, (acting, forces) in zip(self.kinds, inside):
             pulls = np.zeros((len(acting), kind.coupling.shape[1]))
             pulls[acting] = forces @ kind.coupling
-            ends = self._turned(kind, pulls.reshape(m, len(kind.members), -1, 3))
-            first, second = np.split(ends, 2, axis=2)
+            pulls = pulls.reshape(m, len(kind.members), -1, 3)
+            first, second = np.split(self._turned(kind, pulls), 2, axis=2)
             on_cuts[:, kind.members] -= first
             on_cuts[:, (np.array(kind.members) + 1) % self._count] -= second
         cuts = np.zeros((m, on_cuts[0].size))
@@ -111,8 +108,7 @@ class CondensedRing:
         answer[:, self.parts.cuts] = cuts = cuts.reshape(on_cuts.shape)
         both = np.concatenate([cuts, np.roll(cuts, -1, axis=1)], axis=2)
         for kind, (acting, forces) in zip(self.kinds, inside):
-            ends = self._turned(kind, both[:, kind.members], back=True)
-            ends = ends.reshape(len(acting), -1)
+            ends = self._turned(kind, both[:, kind.members], back=True).reshape(len(acting), -1)
             moved = np.empty((len(acting), len(kind.coupling)))
             moved[~acting] = -ends[~acting] @ kind.coupling.T
             if acting.any():
@@ -123,11 +119,11 @@ class CondensedRing:
         return np.ascontiguousarray(answer.reshape(m, -1).T)
 
     def _gather(self, kind: Kind, fields: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Which of the (m, members) loads act inside a part, (m members,), and those (n, 3 n_inside),
-        turned to the first member."""
+        """Which loads act inside a part of a kind (m members,), and these (n, 3 n_inside) turned to
+        its first member."""
         loads = self._turned(kind, fields[:, self.parts.inside[kind.members]], back=True)
         columns = loads.reshape(loads.shape[0] * loads.shape[1], -1)
-        acting = columns.any(axis=1)
+        acting: np.ndarray = np.any(columns, axis=1)
         return acting, columns if acting.all() else columns[acting]
 
     def _turned(self, kind: Kind, fields: np.ndarray, *, back: bool = False) -> np.ndarray:
@@ -177,16 +173,17 @@ def dofs_of(nodes: np.ndarray) -> np.ndarray:
     return (3 * nodes[:, None] + np.arange(3)).ravel()
 
 
-def _alike(model: FEModel, parts: RingParts) -> list[list[int]]:
-    """Parts in which stiffness and mass act alike, proved on a random field that repeats."""
-    count = parts.sectors.count
+def _actions(model: FEModel, parts: RingParts) -> list[np.ndarray]:
+    """What stiffness and mass make of a random field that repeats, on the inside of every part
+    (count, 2 n, 3) and on every cut: turned back, and relative to the largest."""
+    turns = np.stack([parts.sectors.turn(k) for k in range(parts.sectors.count)])
     rng = np.random.default_rng(0)
-    turns = np.stack([parts.sectors.turn(k) for k in range(count)])
     field = np.empty((len(model.nodes), 3))
     for nodes in (parts.inside, parts.cuts):
         field[nodes] = rng.standard_normal((nodes.shape[1], 3)) @ turns.transpose(0, 2, 1)
-    acts = []
-    for force in (model.K @ field.ravel(), model.mass_times(field.ravel())):
-        placed = force.reshape(-1, 3)[parts.inside] @ turns
-        acts.append(placed / np.abs(placed).max())
-    return group_alike(np.concatenate(acts, axis=1), _ALIKE)
+    forces = [model.K @ field.ravel(), model.mass_times(field.ravel())]
+    nodal = [force.reshape(-1, 3) / np.abs(force).max() for force in forces]
+    return [
+        np.concatenate([force[nodes] @ turns for force in nodal], axis=1)
+        for nodes in (parts.inside, parts.cuts)
+    ]

@@ -21,7 +21,7 @@ from flexcage.fem.model import FEModel
 
 log = logging.getLogger(__name__)
 
-_FIRST = 3  # modes looked for in every harmonic before it is known where most of them lie
+_MORE = 3  # modes by which a harmonic is searched further, at least
 
 
 def cyclic_modes(model: FEModel, ring: CondensedRing, count: int) -> tuple[np.ndarray, np.ndarray]:
@@ -30,22 +30,20 @@ def cyclic_modes(model: FEModel, ring: CondensedRing, count: int) -> tuple[np.nd
     Every harmonic is searched until it has a mode above the last one counted, so none is missed.
     """
     harmonics = [Harmonic(model, ring, n) for n in range(ring.parts.sectors.count // 2 + 1)]
-    wanted = [_FIRST] * len(harmonics)
+    wanted = [max(_MORE, count // len(harmonics))] * len(harmonics)
     found = [_modes(h, w) for h, w in zip(harmonics, wanted)]
     while True:
         values = np.concatenate([np.repeat(v, h.copies) for h, (v, _) in zip(harmonics, found)])
-        last = np.sort(values)[count - 1]
-        short = [i for i, (v, _) in enumerate(found) if v[-1] <= last * (1.0 + 1e-3)]
+        last = np.sort(values)[:count][-1]
+        short = [i for i, (v, _) in enumerate(found) if v[-1] <= last]
         if not short:
             break
         for i in short:
-            wanted[i] += 3
+            wanted[i] += max(_MORE, wanted[i] // 2)
             found[i] = _modes(harmonics[i], wanted[i])
     log.info("%d modes among %d of %d harmonics", count, sum(wanted), len(harmonics))
     shapes = [h.shapes(x[:, v <= last]) for h, (v, x) in zip(harmonics, found)]
-    low = np.concatenate(
-        [np.tile(v[v <= last], h.copies) for h, (v, _) in zip(harmonics, found)]
-    )
+    low = np.concatenate([np.tile(v[v <= last], h.copies) for h, (v, _) in zip(harmonics, found)])
     order = np.argsort(low, kind="stable")
     return low[order], np.hstack(shapes)[:, order]
 
@@ -148,6 +146,4 @@ class Harmonic:
 
 
 def _modes(harmonic: Harmonic, count: int) -> tuple[np.ndarray, np.ndarray]:
-    return lowest_modes(
-        harmonic, harmonic.flexibility, count, block=2, dtype=harmonic.dtype
-    )
+    return lowest_modes(harmonic, harmonic.flexibility, count, block=2, dtype=harmonic.dtype)

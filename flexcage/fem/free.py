@@ -59,9 +59,7 @@ class HeldBody:
 
     def __init__(self, stiffness: sp.csr_matrix, held: np.ndarray, *, kind: str = "auto") -> None:
         self._free = np.setdiff1d(np.arange(stiffness.shape[0]), held)
-        self._solver = linear_solver(
-            sp.csr_matrix(stiffness[self._free][:, self._free]), kind=kind
-        )
+        self._solver = linear_solver(sp.csr_matrix(stiffness[self._free][:, self._free]), kind=kind)
         self.name = self._solver.name
 
     def solve(self, loads: np.ndarray) -> np.ndarray:

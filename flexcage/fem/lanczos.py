@@ -20,7 +20,8 @@ _TOLERANCE = 1e-11  # of the residual relative to the eigenvalue of the flexibil
 class Massive(Protocol):
     """A body of which the mass is known."""
 
-    n_dof: int
+    @property
+    def n_dof(self) -> int: ...
 
     def mass_times(self, fields: np.ndarray) -> np.ndarray: ...
 
@@ -37,20 +38,20 @@ def lowest_modes(
     """Lowest ``count`` modes K phi = omega^2 M phi of a (supported or free) body.
 
     ``flexibility`` maps loads (3N, m) to displacements, symmetric and positive on the space of
-    admitted motions (Hermitian where ``dtype`` is complex). Blocks find the double eigenvalues of a cyclic body, which a single vector
-    cannot see in exact arithmetic. Full orthogonalisation; no restart is needed as the inverse
-    separates the lowest modes well.
+    admitted motions (Hermitian where ``dtype`` is complex). Blocks find the double eigenvalues of
+    a cyclic body, which a single vector cannot see in exact arithmetic. Full orthogonalisation; no
+    restart is needed as the inverse separates the lowest modes well.
     """
     start = np.random.default_rng(seed).standard_normal((model.n_dof, min(block, count + 2)))
     smooth = flexibility(model.mass_times(start.astype(dtype)))
     space = _MassSpace(model, smooth)
     limit = min(12 * count + 20 * block, model.n_dof - 6)
-    projected = np.zeros((0, 0), dtype)
+    projected: np.ndarray = np.zeros((0, 0), dtype)
     while True:
         last, size = space.last, space.size
         image = flexibility(space.mass_last)
         coefficients, remainder = space.append(image)
-        grown = np.zeros((size, size), dtype)
+        grown: np.ndarray = np.zeros((size, size), dtype)
         grown[: len(projected), : len(projected)] = projected
         grown[:, last] = coefficients[:size]
         grown[last, :] = coefficients[:size].conj().T
@@ -114,7 +115,9 @@ class _MassSpace:
     def _store(self, block: np.ndarray) -> None:
         width = block.shape[1]
         if self.size + width > self._vectors.shape[1]:
-            grown = np.empty((len(block), 2 * self._vectors.shape[1] + 8 * width), block.dtype, order="F")
+            grown = np.empty(
+                (len(block), 2 * self._vectors.shape[1] + 8 * width), block.dtype, order="F"
+            )
             grown[:, : self.size] = self._vectors[:, : self.size]
             self._vectors = grown
         self._vectors[:, self.size : self.size + width] = block

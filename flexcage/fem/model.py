@@ -225,7 +225,7 @@ def assemble(mesh, material: Material, *, order: int = 2) -> FEModel:
     tets = np.ascontiguousarray(fe_mesh.t.T)
     form = Elements(element, (basis.X, basis.W), mass_rule, lame(material), material.density)
     edges = np.sort(fe_mesh.edges.T, axis=1) if order == 2 else np.empty((0, 2), np.int64)
-    info = getattr(mesh, "info", MappingProxyType({}))
+    info: Mapping[str, object] = getattr(mesh, "info", MappingProxyType({}))
     sectors = find_sectors(info, tets, len(mesh.points), edges)
     if sectors is None:
         stiffness, mass = assemble_whole(form, mesh.points, tets, cells, basis.N)
