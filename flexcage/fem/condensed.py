@@ -99,8 +99,8 @@ class CondensedRing:
         for kind, (acting, forces) in zip(self.kinds, inside):
             pulls = np.zeros((len(acting), kind.coupling.shape[1]))
             pulls[acting] = forces @ kind.coupling
-            pulls = pulls.reshape(m, len(kind.members), -1, 3)
-            first, second = np.split(self._turned(kind, pulls), 2, axis=2)
+            nodal = pulls.reshape(m, len(kind.members), -1, 3)
+            first, second = np.split(self._turned(kind, nodal), 2, axis=2)
             on_cuts[:, kind.members] -= first
             on_cuts[:, (np.array(kind.members) + 1) % self._count] -= second
         cuts = np.zeros((m, on_cuts[0].size))
@@ -114,8 +114,8 @@ class CondensedRing:
             if acting.any():
                 forces = forces - (kind.across @ ends[acting].T).T
                 moved[acting] = kind.solver.solve(forces.T).T
-            moved = moved.reshape(m, len(kind.members), -1, 3)
-            answer[:, self.parts.inside[kind.members]] = self._turned(kind, moved)
+            nodal = moved.reshape(m, len(kind.members), -1, 3)
+            answer[:, self.parts.inside[kind.members]] = self._turned(kind, nodal)
         return np.ascontiguousarray(answer.reshape(m, -1).T)
 
     def _gather(self, kind: Kind, fields: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
