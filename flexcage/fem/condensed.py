@@ -91,8 +91,8 @@ class CondensedRing:
 
     def solve(self, loads: np.ndarray) -> np.ndarray:
         """Displacements (3N, m) of nodal loads (3N, m); reactions at the held dofs are free."""
-        m = loads.shape[1]
-        fields = np.ascontiguousarray(loads.T).reshape(m, -1, 3)
+        m = loads.size // len(loads)
+        fields = np.ascontiguousarray(loads.T, float).reshape(m, -1, 3)
         answer = np.empty_like(fields)
         on_cuts = fields[:, self.parts.cuts]  # (m, count, n_cut, 3)
         inside = [self._gather(kind, fields) for kind in self.kinds]
@@ -116,7 +116,7 @@ class CondensedRing:
                 moved[acting] = kind.solver.solve(forces.T).T
             nodal = moved.reshape(m, len(kind.members), -1, 3)
             answer[:, self.parts.inside[kind.members]] = self._turned(kind, nodal)
-        return np.ascontiguousarray(answer.reshape(m, -1).T)
+        return np.ascontiguousarray(answer.reshape(m, -1).T).reshape(loads.shape)
 
     def _gather(self, kind: Kind, fields: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Which loads act inside a part of a kind (m members,), and these (n, 3 n_inside) turned to
