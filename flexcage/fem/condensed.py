@@ -121,15 +121,20 @@ class CondensedRing:
     def _gather(self, kind: Kind, fields: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Which loads act inside a part of a kind (m members,), and these (n, 3 n_inside) turned to
         its first member."""
-        loads = self._turned(kind, fields[:, self.parts.inside[kind.members]], back=True)
-        columns = loads.reshape(loads.shape[0] * loads.shape[1], -1)
-        acting: np.ndarray = np.any(columns, axis=1)
-        return acting, columns if acting.all() else columns[acting]
+        loads = fields[:, self.parts.inside[kind.members]]
+        acting: np.ndarray = np.any(loads, axis=(2, 3))
+        turns = np.broadcast_to(self._turns(kind), (*acting.shape, 3, 3))
+        forces = loads[acting] @ turns[acting]
+        return acting.ravel(), forces.reshape(len(forces), len(kind.coupling))
 
     def _turned(self, kind: Kind, fields: np.ndarray, *, back: bool = False) -> np.ndarray:
         """Fields (m, members, n, 3) turned from the first member to each, or back."""
-        turns = np.stack([self.parts.sectors.turn(k - kind.members[0]) for k in kind.members])
+        turns = self._turns(kind)
         return fields @ (turns if back else turns.transpose(0, 2, 1))
+
+    def _turns(self, kind: Kind) -> np.ndarray:
+        """Rotations (members, 3, 3) from the first member of a kind to each."""
+        return np.stack([self.parts.sectors.turn(k - kind.members[0]) for k in kind.members])
 
     def _condense(self, model: FEModel, members: list[int], kind: str) -> Kind:
         first = members[0]
