@@ -5,9 +5,9 @@ crossbeam each. With the interiors of all parts eliminated, the stiffness of the
 
     S = K_cc - sum_p K_cp K_pp^-1 K_pc,
 
-is small and block-cyclic. Parts that differ by a turn share K_pp^-1 and G = K_pp^-1 K_pc, so that a
-damaged cage costs a factorisation for every kind of part and one of S, and a load an
-interior solution only in those parts where it acts. The elimination is exact (static condensation,
+is small and couples neighbouring cuts only. Parts that differ by a turn share K_pp^-1 and
+G = K_pp^-1 K_pc, so that a damaged cage costs a factorisation for every kind of part and one of S,
+and a load an interior solution only in those parts where it acts. The elimination is exact (static condensation,
 R. J. Guyan, AIAA Journal 3 (1965) 380, as substructuring: J. S. Przemieniecki, ibid. 1 (1963) 138).
 """
 
