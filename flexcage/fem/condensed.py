@@ -7,8 +7,9 @@ crossbeam each. With the interiors of all parts eliminated, the stiffness of the
 
 is small and couples neighbouring cuts only. Parts that differ by a turn share K_pp^-1 and
 G = K_pp^-1 K_pc, so that a damaged cage costs a factorisation for every kind of part and one of S,
-and a load an interior solution only in those parts where it acts. The elimination is exact (static condensation,
-R. J. Guyan, AIAA Journal 3 (1965) 380, as substructuring: J. S. Przemieniecki, ibid. 1 (1963) 138).
+and a load an interior solution only in those parts where it acts. The elimination is exact (static
+condensation, R. J. Guyan, AIAA Journal 3 (1965) 380; as substructuring, J. S. Przemieniecki, ibid.
+1 (1963) 138).
 """
 
 from __future__ import annotations
