@@ -71,19 +71,49 @@ class BlockPattern:
 
     def __init__(self, cells: np.ndarray, n_nodes: int) -> None:
         n = cells.shape[1]
-        row = np.repeat(cells, n, axis=1).ravel()
-        column = np.tile(cells, (1, n)).ravel()
-        keys, self.slots = np.unique(row * np.int64(n_nodes) + column, return_inverse=True)
+        self._number(np.repeat(cells, n, axis=1).ravel(), np.tile(cells, (1, n)).ravel(), n_nodes)
+
+    @classmethod
+    def of_pairs(cls, rows: np.ndarray, columns: np.ndarray, n_nodes: int) -> BlockPattern:
+        """The same of node pairs (n,), (n,), which are then cells of one block each."""
+        pattern = cls.__new__(cls)
+        pattern._number(rows, columns, n_nodes)
+        return pattern
+
+    def _number(self, rows: np.ndarray, columns: np.ndarray, n_nodes: int) -> None:
+        keys, self.slots = np.unique(rows * np.int64(n_nodes) + columns, return_inverse=True)
         self.columns = (keys % n_nodes).astype(np.int32)
         counts = np.bincount(keys // n_nodes, minlength=n_nodes)
         self.starts = np.concatenate([[0], np.cumsum(counts)]).astype(np.int32)
         self.n_nodes = n_nodes
+
+    @property
+    def rows(self) -> np.ndarray:
+        """Row of every entry (nnz,)."""
+        return np.repeat(np.arange(self.n_nodes), np.diff(self.starts))
 
     def sum(self, blocks: np.ndarray, first: int = 0) -> np.ndarray:
         """Sum (n_cells, n, n) values of cells ``first``.. into the pattern's data."""
         n2 = blocks.shape[1] * blocks.shape[2]
         slots = self.slots[first * n2 : (first + len(blocks)) * n2]
         return np.bincount(slots, weights=blocks.ravel(), minlength=len(self.columns))
+
+    def sum_symmetric(self, blocks: np.ndarray, first: int = 0) -> np.ndarray:
+        """The upper triangles (nnz, 3, 3) of sums of (n_cells, n, n, 3, 3) blocks."""
+        data = np.zeros((len(self.columns), 3, 3))
+        for a in range(3):
+            for b in range(a, 3):
+                data[:, a, b] = self.sum(np.ascontiguousarray(blocks[..., a, b]), first)
+        return data
+
+    def complete(self, data: np.ndarray) -> np.ndarray:
+        """``data`` with lower triangles: the block (b, a) at (i, j) is (a, b) at (j, i)."""
+        numbered = self.scalar(np.arange(1, len(self.columns) + 1, dtype=np.int64))
+        transposed = numbered.T.tocsr().data - 1
+        for a in range(3):
+            for b in range(a):
+                data[:, a, b] = data[transposed, b, a]
+        return data
 
     def scalar(self, data: np.ndarray) -> sp.csr_matrix:
         return sp.csr_matrix((data, self.columns, self.starts), (self.n_nodes, self.n_nodes))
@@ -92,27 +122,3 @@ class BlockPattern:
         """csr (3N, 3N) of (nnz, 3, 3) node blocks; dof = 3 node + component."""
         size = 3 * self.n_nodes
         return sp.bsr_matrix((data, self.columns, self.starts), shape=(size, size)).tocsr()
-
-
-def assemble_stiffness(pattern: BlockPattern, element, quadrature, geometry, lame) -> sp.csr_matrix:
-    """Stiffness (3N, 3N); ``geometry`` is (gradients, volumes) of all tetrahedra."""
-    gradients, volumes = geometry
-    data = np.zeros((len(pattern.columns), 3, 3))
-    for first in range(0, len(volumes), CHUNK):
-        part = slice(first, first + CHUNK)
-        blocks = stiffness_blocks(element, quadrature, gradients[part], volumes[part], lame)
-        for a in range(3):
-            for b in range(a, 3):
-                data[:, a, b] += pattern.sum(np.ascontiguousarray(blocks[..., a, b]), first)
-    # K is symmetric: the block (b, a) at (i, j) is the block (a, b) at (j, i)
-    transposed = _transpose_slots(pattern)
-    for a in range(3):
-        for b in range(a):
-            data[:, a, b] = data[transposed, b, a]
-    return pattern.vector(data)
-
-
-def _transpose_slots(pattern: BlockPattern) -> np.ndarray:
-    """For every entry (i, j) of the pattern, the slot of (j, i)."""
-    numbered = pattern.scalar(np.arange(1, len(pattern.columns) + 1, dtype=np.int64))
-    return numbered.T.tocsr().data - 1

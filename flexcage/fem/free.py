@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+from functools import cached_property
+
 import numpy as np
 import scipy.sparse as sp
 
 from flexcage.core.errors import InputError
-from flexcage.fem.linear import LinearSolver, linear_solver
+from flexcage.fem.condensed import CondensedRing, find_parts
+from flexcage.fem.linear import linear_solver
 from flexcage.fem.model import FEModel
 
 
@@ -16,26 +19,54 @@ class FreeBodySolver:
     The stiffness is factored with six dofs held at three distant vertices. A balanced load has
     no reaction there, so the supports leave no trace once the rigid part of the answer is
     removed. The operator is symmetric, and the pseudo-inverse of K in the metric of the mass.
+    A ring built of sectors is cut into parts that are factored once for every kind
+    (``condensed``), any other body as a whole.
     """
 
     def __init__(self, model: FEModel, *, kind: str = "auto") -> None:
         self.model = model
-        self._free = np.setdiff1d(np.arange(model.n_dof), _supports(model.points))
-        held = model.K[self._free][:, self._free]
-        self.solver: LinearSolver = linear_solver(sp.csr_matrix(held), kind=kind)
+        parts = find_parts(model)
+        self.solver: HeldBody | CondensedRing
+        if parts is None:
+            self.solver = HeldBody(model.K, _supports(model.points), kind=kind)
+        else:
+            on_cuts = np.sort(parts.cuts[parts.cuts < len(model.points)])
+            held = _supports(model.points[on_cuts])
+            held = 3 * on_cuts[held // 3] + held % 3
+            self.solver = CondensedRing(model, parts, held, kind=kind)
 
     def solve(self, loads: np.ndarray) -> np.ndarray:
         """Displacements (3N, m) of nodal loads (3N, m), orthogonal in mass to rigid motions.
 
-        Solves K u = F - M R (R^T F), R the mass-orthonormal rigid motions.
+        Solves K u = F - M R (R^T F), R the mass-orthonormal rigid motions. The answer to M R is
+        kept, so that a load on few nodes stays one.
         """
-        return self.solve_balanced(self.model.balance(loads))
+        work = self.model.rigid_modes.T @ loads
+        return self.model.remove_rigid(self.solver.solve(loads) - self._inertia_answers @ work)
 
     def solve_balanced(self, loads: np.ndarray) -> np.ndarray:
         """The same for loads known to be balanced (no work on rigid motions)."""
+        return self.model.remove_rigid(self.solver.solve(loads))
+
+    @cached_property
+    def _inertia_answers(self) -> np.ndarray:
+        """What the held body answers (3N, 6) to the inertia of rigid motions."""
+        return self.solver.solve(self.model.mass_times(self.model.rigid_modes))
+
+
+class HeldBody:
+    """The factored stiffness (3N, 3N) of a body held at the dofs ``held``."""
+
+    def __init__(self, stiffness: sp.csr_matrix, held: np.ndarray, *, kind: str = "auto") -> None:
+        self._free = np.setdiff1d(np.arange(stiffness.shape[0]), held)
+        self._solver = linear_solver(sp.csr_matrix(stiffness[self._free][:, self._free]), kind=kind)
+        self.name = self._solver.name
+
+    def solve(self, loads: np.ndarray) -> np.ndarray:
+        """Displacements (3N, m) of nodal loads (3N, m); reactions at the held dofs are free."""
         answer = np.zeros_like(loads, dtype=float)
-        answer[self._free] = self.solver.solve(loads[self._free])
-        return self.model.remove_rigid(answer)
+        answer[self._free] = self._solver.solve(loads[self._free])
+        return answer
 
 
 def _supports(points: np.ndarray) -> np.ndarray:

@@ -3,7 +3,8 @@
 ``linear_solver(A)`` factors A once with CHOLMOD (cvxopt), PARDISO (pypardiso), or SciPy's SuperLU,
 which is always there. On an N1013 cage of 98,000 unknowns (one thread) they factor in 1.2, 1.9
 and 2.0 s and solve one of many right-hand sides in 33, 34 and 18 ms; on one of 263,000
-in 8, 6 and 30 s, and 118, 105 and 105 ms.
+in 8, 6 and 30 s, and 118, 105 and 105 ms. Cages that flexcage meshes itself are solved part by
+part (``condensed``), with matrices of a few thousand unknowns.
 """
 
 from __future__ import annotations
@@ -23,6 +24,7 @@ log = logging.getLogger(__name__)
 
 KINDS = ("cholmod", "pardiso", "superlu")
 _SUPERLU_LIMIT = 150_000  # unknowns up to which 'auto' takes it
+_TOGETHER = 16  # right-hand sides that SuperLU solves fastest: more do not stay in the cache
 _MODULES = {"cholmod": "cvxopt", "pardiso": "pypardiso", "superlu": "scipy"}
 _SINGULAR = (
     "the matrix is not positive definite ({what}): the body has loose parts, "
@@ -112,13 +114,23 @@ class SuperLu(LinearSolver):
             raise RunFailed(_SINGULAR.format(what=str(error))) from error
 
     def solve(self, rhs: np.ndarray) -> np.ndarray:
-        threads = _thread_count()
-        if threads == 1 or rhs.ndim == 1 or rhs.shape[1] < 2 * threads:
-            return self._factor.solve(np.asarray(rhs, float))
-        # SuperLU's triangular solution releases the interpreter: columns in parallel
-        parts = np.array_split(np.asarray(rhs, float), threads, axis=1)
-        with ThreadPoolExecutor(threads) as pool:
-            return np.concatenate(list(pool.map(self._factor.solve, parts)), axis=1)
+        rhs = np.asarray(rhs, float)
+        if rhs.ndim == 1 or rhs.shape[1] == 1:
+            return self._factor.solve(rhs)
+        answer, threads = np.empty(rhs.shape, order="F"), _thread_count()
+        together = min(_TOGETHER, -(-rhs.shape[1] // threads))
+        parts = [slice(i, i + together) for i in range(0, rhs.shape[1], together)]
+
+        def solve_part(part: slice) -> None:
+            answer[:, part] = self._factor.solve(rhs[:, part])
+
+        if threads == 1:
+            for part in parts:
+                solve_part(part)
+        else:  # SuperLU's triangular solution releases the interpreter: columns in parallel
+            with ThreadPoolExecutor(threads) as pool:
+                list(pool.map(solve_part, parts))
+        return answer
 
 
 def _thread_count() -> int:

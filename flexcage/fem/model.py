@@ -13,6 +13,8 @@ import scipy.sparse as sp
 
 from flexcage.core.errors import InputError
 from flexcage.fem import elements
+from flexcage.fem.assembly import Elements, assemble_ring, assemble_whole
+from flexcage.fem.sectors import Sectors, find_sectors
 from flexcage.geometry.materials import Material
 from flexcage.mesh.cage_mesh import signed_volumes
 
@@ -106,6 +108,11 @@ class FEModel:
     @cached_property
     def _mass_rigid(self) -> np.ndarray:
         return self.mass_times(self.rigid_modes)
+
+    @cached_property
+    def sectors(self) -> Sectors | None:
+        """How nodes repeat where the mesh was built of sectors, else None."""
+        return find_sectors(self.info, self.tets, len(self.points), self.edges)
 
     @cached_property
     def element_geometry(self) -> tuple[np.ndarray, np.ndarray]:
@@ -216,13 +223,14 @@ def assemble(mesh, material: Material, *, order: int = 2) -> FEModel:
     mass_rule = skfem.quadrature.get_quadrature(fe_mesh.refdom, 2 * order)
     cells = np.ascontiguousarray(basis.element_dofs.T)
     tets = np.ascontiguousarray(fe_mesh.t.T)
-    geometry = elements.barycentric_gradients(mesh.points, tets)
-    pattern = elements.BlockPattern(cells, basis.N)
-    stiffness = elements.assemble_stiffness(
-        pattern, element, (basis.X, basis.W), geometry, lame(material)
-    )
-    mass_data = elements.mass_blocks(element, mass_rule, geometry[1], material.density)
+    form = Elements(element, (basis.X, basis.W), mass_rule, lame(material), material.density)
     edges = np.sort(fe_mesh.edges.T, axis=1) if order == 2 else np.empty((0, 2), np.int64)
+    info: Mapping[str, object] = getattr(mesh, "info", MappingProxyType({}))
+    sectors = find_sectors(info, tets, len(mesh.points), edges)
+    if sectors is None:
+        stiffness, mass = assemble_whole(form, mesh.points, tets, cells, basis.N)
+    else:
+        stiffness, mass = assemble_ring(form, mesh.points, tets, cells, sectors)
     return FEModel(
         points=np.asarray(mesh.points),
         tets=tets,
@@ -230,11 +238,11 @@ def assemble(mesh, material: Material, *, order: int = 2) -> FEModel:
         nodes=np.ascontiguousarray(basis.doflocs.T),
         edges=edges,
         K=stiffness,
-        mass_scalar=pattern.scalar(pattern.sum(mass_data)),
+        mass_scalar=mass,
         material=material,
         order=order,
         groups=mesh.groups,
-        info=getattr(mesh, "info", MappingProxyType({})),
+        info=info,
     )
 
 

@@ -8,6 +8,7 @@ import numpy as np
 from scipy.spatial import cKDTree
 
 from flexcage.fem.model import FEModel
+from flexcage.fem.sectors import rotation_x
 
 
 @dataclass(frozen=True)
@@ -27,12 +28,6 @@ class CyclicSymmetry:
         nodal = fields.reshape(len(self.image), 3, -1)
         turned.reshape(nodal.shape)[target] = np.einsum("ab,nbm->nam", matrix, nodal)
         return turned
-
-
-def rotation_x(angle: float) -> np.ndarray:
-    """Rotation about x by ``angle``, y towards z."""
-    c, s = np.cos(angle), np.sin(angle)
-    return np.array([[1.0, 0.0, 0.0], [0.0, c, -s], [0.0, s, c]])
 
 
 def find_symmetry(model: FEModel, count: int, *, tolerance: float = 1e-8) -> CyclicSymmetry | None:

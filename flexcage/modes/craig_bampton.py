@@ -10,10 +10,11 @@ The six rigid motions in their span are removed and the rest made mass-orthonorm
 from __future__ import annotations
 
 import numpy as np
+import scipy.sparse as sp
 from scipy.linalg import lu_factor, lu_solve
 
 from flexcage.fem.free import FreeBodySolver
-from flexcage.fem.modal import lowest_modes
+from flexcage.fem.lanczos import lowest_modes
 from flexcage.modes.basis import ModeBasis
 from flexcage.modes.lands import land_vectors
 from flexcage.modes.pockets import check_groups
@@ -46,7 +47,7 @@ class HeldInterface:
         self._solver = solver
         model = solver.model
         pairs = list(pocket_statics(solver, pocket_count))
-        self._loads = np.column_stack([loads for loads, _ in pairs])
+        self._loads = sp.hstack([loads for loads, _ in pairs], format="csc")
         self._static = np.column_stack([static for _, static in pairs])
         self._rigid = model.rigid_modes
         motion = self._loads.T @ self._rigid

@@ -62,13 +62,17 @@ def pocket_loads(model: FEModel, pocket: int, pocket_count: int) -> np.ndarray:
     Uniform: a total force of 1 N along the face's outward normal. Linear: the same pressure
     times 2 s/length, s the face coordinate: -1 to +1 from end to end, no resultant.
     """
-    columns = []
+    return sparse_pocket_loads(model, pocket, pocket_count).toarray()
+
+
+def sparse_pocket_loads(model: FEModel, pocket: int, pocket_count: int) -> sp.csc_matrix:
+    """The same as a sparse matrix: few nodes of the cage are on a pocket's faces."""
     frame = pocket_frame(pocket, pocket_count)
-    for face in range(len(FACES)):
-        weights = _load_weights(model, pocket, face, pocket_count)
-        normal = NORMALS[face] @ frame
-        columns += [np.outer(row, normal).ravel() for row in weights.toarray()]
-    return np.stack(columns, axis=1)
+    rows = [
+        sp.kron(_load_weights(model, pocket, face, pocket_count), NORMALS[face : face + 1] @ frame)
+        for face in range(len(FACES))
+    ]
+    return sp.csc_matrix(sp.vstack(rows).T)
 
 
 def _load_weights(model: FEModel, pocket: int, face: int, pocket_count: int) -> sp.csr_matrix:

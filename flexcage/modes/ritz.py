@@ -22,12 +22,12 @@ from flexcage.fem.modal import free_modes
 from flexcage.fem.symmetry import find_symmetry
 from flexcage.modes.basis import ModeBasis, ResidualFlexibility
 from flexcage.modes.lands import land_vectors
-from flexcage.modes.pockets import LOADS_PER_POCKET, check_groups, pocket_loads
+from flexcage.modes.pockets import LOADS_PER_POCKET, check_groups, sparse_pocket_loads
 from flexcage.modes.spec import ModesSpec
 
 log = logging.getLogger(__name__)
 
-Answer = tuple[np.ndarray, np.ndarray]  # a pocket's loads (3N, 8) and what they do to the cage
+Answer = tuple[sp.csc_matrix, np.ndarray]  # a pocket's loads (3N, 8) and what they do to the cage
 _STIFF = 1.5  # times the middle frequency of crossbeams: no bending of their own
 
 
@@ -151,14 +151,17 @@ def residual_vectors(
     coordinates are metres of mean face displacement. As K Psi_j is then the load j over its
     scale but for forces that do no work on Psi, the stiffness needs no product with K.
     """
-    vectors, work, share = [], [], []
+    work, share = [], []
+    shapes = np.empty((len(kept), sum(loads.shape[1] for loads, _ in answers)))
+    done = 0
     for loads, static in answers:
-        beyond = static - kept @ ((kept.T @ loads) / kept_stiffness[:, None])
-        scale = np.einsum("ij,ij->j", loads, beyond)
-        vectors.append(beyond / scale)
-        work.append(sp.csr_matrix((loads / scale).T))
-        share.append(scale / np.einsum("ij,ij->j", loads, static))
-    shapes = np.column_stack(vectors)
+        own = shapes[:, done : done + loads.shape[1]]
+        done += loads.shape[1]
+        own[:] = static - kept @ ((loads.T @ kept).T / kept_stiffness[:, None])
+        scale = np.diag(loads.T @ own)
+        own /= scale
+        work.append(sp.diags_array(1.0 / scale) @ loads.T)
+        share.append(scale / np.diag(loads.T @ static))
     stiffness = sp.vstack(work) @ shapes
     return shapes, 0.5 * (stiffness + stiffness.T), np.concatenate(share)
 
@@ -170,11 +173,12 @@ def pocket_statics(solver: FreeBodySolver, pocket_count: int) -> Iterator[Answer
     """
     symmetry = find_symmetry(solver.model, pocket_count)
     log.info("static answers of %d pockets, cyclic symmetry: %s", pocket_count, bool(symmetry))
-    first = solver.solve(pocket_loads(solver.model, 0, pocket_count)) if symmetry else None
+    first = None
     for pocket in range(pocket_count):
-        loads = pocket_loads(solver.model, pocket, pocket_count)
+        loads = sparse_pocket_loads(solver.model, pocket, pocket_count)
         if symmetry is None or first is None:
-            yield loads, solver.solve(loads)
+            first = solver.solve(loads.toarray())
+            yield loads, first
         else:
             yield loads, symmetry.rotate(first, pocket)
 

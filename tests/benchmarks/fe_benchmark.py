@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import resource
 import sys
+import time
 from typing import Any
 
 import flexcage
@@ -20,7 +21,7 @@ def measure(case: flexcage.Case, *, solver_kind: str = "auto") -> dict[str, Any]
     import gmsh  # noqa: F401  (imports are not measured)
     import skfem  # noqa: F401
 
-    stages = Stages()
+    started, stages = time.process_time(), Stages()
     mesh = stages("mesh", cage_mesh, case)
     model = stages("assemble", assemble, mesh, case.cage.material, order=case.mesh.order)
     solver = stages("modes", FreeBodySolver, model, kind=solver_kind)
@@ -30,11 +31,13 @@ def measure(case: flexcage.Case, *, solver_kind: str = "auto") -> dict[str, Any]
         "modes", cage_interface, model, basis, pocket_count=count, cage=case.cage,
         defects=case.defects,
     )  # fmt: skip
+    spent = time.process_time() - started
     peak = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
     return {
         "nodes": len(model.nodes),
         **{f"{name}_s": round(seconds, 3) for name, seconds in stages.items()},
         "total_s": round(sum(stages.values()), 3),
+        "cpu_s": round(spent, 3),
         "peak_rss_gb": round(peak * (1 if sys.platform == "darwin" else 1024) / 1e9, 3),
         "tetrahedra": len(model.tets),
         "modes": basis.size,

@@ -1,6 +1,7 @@
 """Reduced bases against full finite-element statics, and against each other."""
 
 import dataclasses
+from types import MappingProxyType
 
 import numpy as np
 import pytest
@@ -118,6 +119,23 @@ def test_turned_vectors_equal_solved_ones(solver, basis, monkeypatch):
         basis.residual.stiffness,
         atol=1e-6 * np.abs(basis.residual.stiffness).max(),
     )
+
+
+@pytest.mark.parametrize("which", ["sound", "damaged"])
+def test_a_basis_by_parts_is_that_of_the_whole_ring(request, which):
+    """A model that does not tell of its sectors is factored whole: the same space comes out."""
+    ours = request.getfixturevalue({"sound": "basis", "damaged": "damaged_basis"}[which])
+    told = request.getfixturevalue({"sound": "solver", "damaged": "damaged_solver"}[which]).model
+    model = dataclasses.replace(told, info=MappingProxyType({}))
+    theirs = build_basis(model, pocket_count=POCKETS, spec=ModesSpec())
+    assert ours.kind == theirs.kind
+    np.testing.assert_allclose(ours.frequencies, theirs.frequencies, rtol=1e-8)
+    shapes, expected = (b.shapes.reshape(model.n_dof, -1) for b in (ours, theirs))
+    within = shapes @ (shapes.T @ model.mass_times(expected))
+    assert np.abs(within - expected).max() < 1e-8 * np.abs(expected).max()
+    for name in ("shapes", "stiffness", "compliance"):
+        found, wanted = getattr(ours.residual, name), getattr(theirs.residual, name)
+        assert np.abs(found - wanted).max() < 1e-8 * np.abs(wanted).max()
 
 
 @pytest.mark.parametrize(
