@@ -68,7 +68,7 @@ class Settled:
         start = assembled_start(self.case, self.bearing)
         self._sample(10, 1)
         out = self._advance(0.0, start.y, start.yd, np.array([SETTLE]), self.case.solver)
-        memory = {f"memory_{k}": v for k, v in self.bearing.data.memory._asdict().items()}
+        memory = {f"memory_{k}": v.copy() for k, v in self.bearing.data.memory._asdict().items()}
         closed = self.bearing.data.events.closed
         return {"y": out.ys[-1], "yd": out.yds[-1], "closed": closed.copy(), **memory}
 
