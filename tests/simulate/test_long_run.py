@@ -66,10 +66,8 @@ def test_a_thousand_turns_and_twenty_kills(case, tmp_path):
     whole, broken = tmp_path / "whole", tmp_path / "broken"
     process, seen = begin(case, whole), []
     watcher = threading.Thread(target=watch, args=(process, whole, seen))
-    started = time.monotonic()
     watcher.start()
     assert process.wait() == 0
-    lasted = time.monotonic() - started
     watcher.join()
     total = RunStore.open(whole / "results.zarr").n_time
     marching = [(n, memory) for n, memory in seen if 0 < n < total]
@@ -77,21 +75,24 @@ def test_a_thousand_turns_and_twenty_kills(case, tmp_path):
     late = max(memory for n, memory in marching if n > 0.8 * total)
     assert late < early + 30.0, (early, late)
 
-    rng, kept, kills = np.random.default_rng(11), 0, 0
-    while kills < KILLS:
-        process = begin(case, broken)
-        time.sleep(rng.uniform(0.3, 1.6) * lasted / KILLS)
-        if process.poll() is not None:
-            break
-        process.kill()
-        process.wait()
-        kills += 1
-        now = committed(broken)
-        assert now >= kept, "a kill lost what had been committed"
-        kept = now
-    assert kills > KILLS / 2 and 0 < kept
+    killed(case, broken, np.random.default_rng(11), total)
     assert begin(case, broken).wait() == 0
     same_runs(RunStore.open(whole / "results.zarr"), RunStore.open(broken / "results.zarr"))
+
+
+def killed(case: Path, out: Path, rng: np.random.Generator, total: int) -> None:
+    """Begin the run, kill it, go on with it, ``KILLS`` times, all along its ``total`` samples."""
+    kept = 0
+    for wanted in np.sort(rng.integers(1, total, KILLS)):
+        process = begin(case, out)
+        while committed(out) < wanted and process.poll() is None:
+            time.sleep(0.1)
+        time.sleep(rng.uniform(0.0, 0.3))
+        process.kill()
+        process.wait()
+        now = committed(out)
+        assert now >= max(kept, wanted), "a kill lost what had been committed"
+        kept = now
 
 
 def same_runs(one: RunStore, other: RunStore) -> None:
