@@ -151,7 +151,8 @@ def range_along(name: str, outcomes: Mapping[float, str], *, unit: str = "") -> 
             runs.append([value])
     parts = []
     for run in runs:
-        ends = f"{run[0]:g}" if len(run) == 1 else f"{run[0]:g} to {run[-1]:g}"
+        between = " to " if len(run) > 2 else " and "
+        ends = between.join(f"{value:g}" for value in dict.fromkeys((run[0], run[-1])))
         parts.append(f"{outcomes[run[0]]} at {ends} {unit}".rstrip())
     return f"{name}: {', '.join(parts)}"
 

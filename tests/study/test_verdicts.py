@@ -85,9 +85,10 @@ def test_outcomes_together():
     text = range_of({"0.15": HOLDS, "0.20": HOLDS, "0.25": FAILS})
     assert text == "holds: 0.15, 0.20; does not hold: 0.25"
     along = {0.3: UNDECIDED, 0.2: HOLDS, 0.15: HOLDS, 0.25: FAILS}
-    expected = "gap: holds at 0.15 to 0.2 mm, does not hold at 0.25 mm, undecided at 0.3 mm"
+    expected = "gap: holds at 0.15 and 0.2 mm, does not hold at 0.25 mm, undecided at 0.3 mm"
     assert range_along("gap", along, unit="mm") == expected
     assert range_along("Z", {21.0: FAILS}) == "Z: does not hold at 21"
+    assert range_along("n", {1.0: HOLDS, 2.0: HOLDS, 3.0: HOLDS}) == "n: holds at 1 to 3"
 
 
 def test_quotients_and_differences_carry_margins():
