@@ -114,14 +114,6 @@ def flexible_body(
     ms, m1 = m @ nodes, m @ ones
     mphi = (m @ shapes.reshape(len(nodes), 3 * n)).reshape(shapes.shape)
     SS = np.einsum("aik,ajl->klij", shapes, mphi, optimize=True)
-    matrices = [
-        _without_rounding(np.asarray(matrix, float).reshape(n, n))
-        for matrix in (
-            np.einsum("klii->kl", SS),
-            stiffness,
-            np.zeros((n, n)) if damping is None else damping,
-        )
-    ]
     data = BodyData(
         mass=float(ones @ m1),
         c0=nodes.T @ m1,
@@ -129,13 +121,20 @@ def flexible_body(
         G0=np.ascontiguousarray(nodes.T @ ms),
         S=np.ascontiguousarray(np.einsum("aik,aj->kij", shapes, ms)),
         SS=np.ascontiguousarray(SS),
-        mff=matrices[0],
-        kff=matrices[1],
-        dff=matrices[2],
+        mff=_without_rounding(np.einsum("klii->kl", SS)),
+        kff=_without_rounding(np.asarray(stiffness, float).reshape(n, n)),
+        dff=np.zeros((n, n)) if damping is None else _without_rounding(damping),
         gff=np.zeros((0, 0)) if geometric is None else np.ascontiguousarray(geometric, float),
-        plain=int(all(np.array_equal(m, np.diag(np.diag(m))) for m in matrices)),
+        plain=0,
     )
-    return FlexibleBody(data)
+    return FlexibleBody(marked(data))
+
+
+def marked(data: BodyData) -> BodyData:
+    """The invariants with ``plain`` as their matrices are, whoever changed those."""
+    matrices = (data.mff, data.kff, data.dff)
+    plain = all(np.array_equal(m, np.diag(np.diag(m))) for m in matrices)
+    return data._replace(plain=int(plain))
 
 
 def _without_rounding(matrix: np.ndarray) -> np.ndarray:
@@ -178,14 +177,14 @@ class FrameWork(NamedTuple):
     Ed: np.ndarray  # (n, 3, 3) int u' phi_k^T dm
     c: np.ndarray  # (2, 3) first moment of mass and its rate
     G: np.ndarray  # (2, 3, 3) second moment of mass, and int p u'^T dm
-    w: np.ndarray  # (4, 6+n) vectors of the cage's rows
+    w: np.ndarray  # (3, 6+n) vectors of the cage's rows
 
 
 def frame_work(n: int) -> FrameWork:
     z = np.zeros
     return FrameWork(
         z((6, 6)), z((6, n)), z(6 + n), z((n, 3, 3)), z((n, 3, 3)), z((2, 3)), z((2, 3, 3)),
-        z((4, 6 + n)),
+        z((3, 6 + n)),
     )  # fmt: skip
 
 

@@ -59,14 +59,14 @@ def evaluate(t, y, yd, d, law, out, mode):
     margin = 0.0
     for m in range(nm):
         margin += phi_max[m] * abs(qf[m])
+    zero(work.wrenches)
     for i in range(Z):
         o = 6 * i
         qi, ui = q[o : o + 6], u[o : o + 6]
         set_frame(qi[2], fields(d.pose).F)
-        zero(work.roller)
         _races(i, qi, ui, q, u, zq, d, law, mode)
         _pocket(i, qi, ui, Rc, Vc, qf, qfd, margin, d, law, mode)
-        _ball_rows(qi, ui, qd[o : o + 6], ud[o : o + 6], d, r_q[o : o + 6], r_u[o : o + 6], mode)
+        _ball_rows(i, qi, ui, qd[o : o + 6], ud[o : o + 6], d, r_q[o : o + 6], r_u[o : o + 6], mode)
     land_rows(q, u, zq, nm, d, law, mode)
     cage_rows(d, quat, Vc, wb, qf, qfd, qd, ud, zq, r_q, r_u, mode)
     ring_rows(t, d, q, u, qd, ud, lam, mu, zq, r_q, r_u, out, nq + nu, mode)
@@ -88,7 +88,7 @@ def _races(i, qi, ui, q, u, zq, d, law, mode):
     )  # fmt: skip
     if hit:
         react(F, work.unit, pair.wrench, P, border, 0)
-        _add(work.roller, pair.wrench)
+        _add(work.wrenches[i], pair.wrench)
     if mode >= 2:
         _report_race(i, 0, work.sums, fields(d.report))
     P = minus((qi[0], qi[1], 0.0), turned(F, (0.0, q[zq + 6], q[zq + 7])))
@@ -100,7 +100,7 @@ def _races(i, qi, ui, q, u, zq, d, law, mode):
         work.sums,
     )  # fmt: skip
     if hit:
-        _add(work.roller, pair.wrench)
+        _add(work.wrenches[i], pair.wrench)
         for c in range(2):
             border[6 + c] -= F[1, 1 + c] * pair.wrench[1] + F[2, 1 + c] * pair.wrench[2]
     if mode >= 2:
@@ -152,7 +152,7 @@ def _pocket(i, qi, ui, Rc, Vc, qf, qfd, margin, d, law, mode):
         mode, sums,
     )  # fmt: skip
     if hit:
-        _add(work.roller, pair.wrench)
+        _add(work.wrenches[i], pair.wrench)
         react(F, A, pair.wrench, D, work.border, 8)
         push_modes(data, i, pw, work.border)
     if mode >= 2:
@@ -176,9 +176,9 @@ def _report_pocket(i, hit, sums, pw, rep, mode):
 
 
 @part
-def _ball_rows(qi, ui, qdi, udi, d, r_q, r_u, mode):
-    """Kinematics and momentum of a ball, with drag and gravity."""
-    bodies, rep, FR = fields(d.bodies), fields(d.report), fields(d.scratch).roller
+def _ball_rows(i, qi, ui, qdi, udi, d, r_q, r_u, mode):
+    """Kinematics and momentum of ball i, with drag and gravity."""
+    bodies, rep, FR = fields(d.bodies), fields(d.report), fields(d.scratch).wrenches[i]
     F = fields(d.pose).F
     mass, inertia, r = bodies.element[0], bodies.element[1], qi[1]
     orbit = ui[2] / r

@@ -103,9 +103,8 @@ class Scratch(NamedTuple):
     R: np.ndarray  # (2, 3, 3)
     A: np.ndarray  # (3, 3) cage attitude
     unit: np.ndarray  # (3, 3) unit matrix
-    roller: np.ndarray  # (6,) wrench of all contacts on one ball
     poses: np.ndarray  # (Z, 24) of the rollers, see ``keep_pose``
-    wrenches: np.ndarray  # (Z, 6) of all contacts on each roller
+    wrenches: np.ndarray  # (Z, 6) of all contacts on each element
     sums: np.ndarray  # (10,)
     vec: np.ndarray  # (9, 3), see residual.py
     border: np.ndarray  # (nb,) generalised forces on the border
@@ -147,9 +146,8 @@ def new_work(
         z((Z, places), np.int64), z((Z, places)), z(3),
     )  # fmt: skip
     scratch = Scratch(
-        z((6, 6)), z((2, 6, 6)), z((2, 3, 3)), z((3, 3)), np.eye(3), z(6),
-        z((Z, 24)), z((Z, 6)), z(10), z((9, 3)),
-        z(14 + n), z((6, n)), z((n, 6)), z((n, 8)), z(layout.size),
+        z((6, 6)), z((2, 6, 6)), z((2, 3, 3)), z((3, 3)), np.eye(3), z((Z, 24)), z((Z, 6)),
+        z(10), z((9, 3)), z(14 + n), z((6, n)), z((n, 6)), z((n, 8)), z(layout.size),
     )  # fmt: skip
     return Work(
         new_pose(), new_slices(), new_pair(), pocket_work, land_work(land_stations), frame_work(n),

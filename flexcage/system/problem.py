@@ -14,6 +14,7 @@ import numba
 import numpy as np
 from numba import types
 
+from flexcage.bodies.floating_frame import marked
 from flexcage.contacts import laws
 from flexcage.contacts.spec import Contacts
 from flexcage.core.errors import InputError
@@ -113,6 +114,7 @@ class Bearing:
         self, model: Any, memory: Memory, contacts: Contacts, layout: Layout,
         *, block: int = 250, stride: int = 4,
     ) -> None:  # fmt: skip
+        model = model._replace(cage=marked(model.cage))
         self.layout, self.family = layout, family_of(model)
         work = self.family.new_work(model, layout)
         self.data = BearingData(

@@ -12,6 +12,7 @@ from flexcage.bodies.floating_frame import (
     flexible_body,
     frame_work,
     inertia_terms,
+    marked,
     mass_matrix,
     scalar_mass,
     with_point_mass,
@@ -205,3 +206,11 @@ def test_mass_matrix_of_three_directions_or_of_one():
     assert abs(scalar_mass(three, 405) - mass).max() < 1e-18
     with pytest.raises(InputError, match="same value in x, y and z"):
         scalar_mass(sparse.kron(mass, sparse.diags([1.0, 1.0, 2.0])).tocsr(), 405)
+
+
+def test_matrices_that_are_replaced_are_looked_at_anew():
+    """Kernels take matrices marked as diagonal by their diagonals alone."""
+    body = particles()[0].data
+    own = body._replace(mff=np.eye(4), kff=np.eye(4), dff=np.zeros((4, 4)))
+    assert marked(own).plain == 1
+    assert marked(marked(own)._replace(kff=np.ones((4, 4)))).plain == 0
