@@ -16,7 +16,6 @@ from typing import NamedTuple
 import numpy as np
 
 from flexcage.contacts.slices import (
-    elastic_forces,
     friction_factors,
     friction_power,
     normal_forces,
@@ -136,7 +135,6 @@ def pocket_wall_contact(
     softening = _along(yields, v, pw)
     N, pressed = _press(depth, rate, soft, softening, p, law, sl)
     if mode >= 2:
-        elastic_forces(law, 1, sl, p)
         Ne = sl.Ne[0]
         sums[0] = Ne * pressed / (p[1] + 1.0) + 0.5 * soft * Ne * Ne
         sums[1] = -(N - Ne) * (rate - 0.5 * (N + Ne) * softening)

@@ -15,7 +15,6 @@ from typing import NamedTuple
 import numpy as np
 
 from flexcage.contacts.slices import (
-    elastic_forces,
     friction_factors,
     normal_forces,
     stored_and_damped,
@@ -71,7 +70,6 @@ def groove_contact(rb, race, P, b, V, w, Vr, wr, p, law, friction, sl, wrench, m
     normal_forces(law, 1, sl, p)
     N = sl.N[0]
     if mode >= 2:
-        elastic_forces(law, 1, sl, p)
         sums[5], sums[6] = stored_and_damped(1, sl, p[1])
     g = cross(b, e)  # rolling direction, along the race
     t = cross(n, g)

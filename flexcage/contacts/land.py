@@ -9,7 +9,6 @@ import numpy as np
 
 from flexcage.contacts.laws import short_bearing
 from flexcage.contacts.slices import (
-    elastic_forces,
     friction_factors,
     friction_power,
     normal_forces,
@@ -209,7 +208,6 @@ def _touch(
         shape = data.phi[(j + k - 1) % n_l, 1]
         for m in range(qd.shape[0]):
             Qm[m] += weights[k] * radial * shape[m]
-    elastic_forces(law, 1, sl, p)
     energy, damped = stored_and_damped(1, sl, p[1])
     sums[4 + side] += N
     sums[0] += energy

@@ -21,7 +21,6 @@ from flexcage.contacts.pocket_wall import (
     read_stations,
 )
 from flexcage.contacts.slices import (
-    elastic_forces,
     friction_factors,
     friction_power,
     largest,
@@ -121,7 +120,6 @@ def _face(pose, data, i, f, Rw, distance, rel, spin, qd, p, laws, sl, pw, pair, 
                 pw.slice_N[f, k] = sl.N[k]
                 pw.slice_T[f, k] = sl.N[k] * sl.g[k] * sl.u[k]
         sums[2] += friction_power(n, sl)
-        elastic_forces(normal, n, sl, p)
         energy, damped = stored_and_damped(n, sl, p[1])
         sums[0] += energy
         sums[1] += damped

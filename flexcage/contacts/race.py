@@ -9,7 +9,6 @@ import numpy as np
 
 from flexcage.contacts.laws import rolling_force
 from flexcage.contacts.slices import (
-    elastic_forces,
     friction_factors,
     friction_power,
     largest,
@@ -83,7 +82,6 @@ def race_contact(pose, side, Rw, P, b, Vr, wr, theta, p, law, friction, sl, pair
         _tangent(pose, side, Rw, centre, ring_axis, theta, sl, pair)
     elif mode >= 2:
         _report(side, Rw, a, sl, sums)
-        elastic_forces(law, n, sl, p)
         sums[5], sums[6] = stored_and_damped(n, sl, p[1])
     _roll(pose, side, Rw, centre, ring_spin[0], load, pair, mode, sums)
     return True

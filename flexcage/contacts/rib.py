@@ -8,7 +8,6 @@ from typing import NamedTuple
 import numpy as np
 
 from flexcage.contacts.slices import (
-    elastic_forces,
     friction_factors,
     friction_power,
     normal_forces,
@@ -98,7 +97,6 @@ def rib_contact(pose, data, P, b, Vr, wr, p, laws, sl, pair, mode, sums):
             elif mode >= 2:
                 sums[f] += N
         if mode >= 2:
-            elastic_forces(law, count, sl, p[f])
             energy, damped = stored_and_damped(count, sl, p[f, 1])
             sums[2] += energy
             sums[3] += damped

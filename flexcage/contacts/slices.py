@@ -19,7 +19,7 @@ _NAMES = (
     "N",  # normal force
     "Nd",  # dN/dd
     "Nv",  # dN/dv
-    "Ne",  # elastic normal force, at zero rate
+    "Ne",  # its elastic part, at zero rate
     "u",  # sliding speed
     "g",  # mu/u
     "dg",  # d(mu/u)/du
@@ -48,17 +48,20 @@ def new_slices() -> Slices:
 
 @part
 def normal_forces(law, n, sl, p):
-    """Forces sl.N and their slopes sl.Nd, sl.Nv at penetrations sl.d and rates sl.v."""
+    """Forces sl.N, their elastic part sl.Ne and their slopes sl.Nd, sl.Nv at penetrations sl.d and
+    rates sl.v."""
     law(
-        n, as_array(sl.d), as_array(sl.v), p, as_array(sl.N), as_array(sl.Nd), as_array(sl.Nv)
+        n, as_array(sl.d), as_array(sl.v), p, as_array(sl.N), as_array(sl.Ne), as_array(sl.Nd),
+        as_array(sl.Nv),
     )  # fmt: skip
 
 
 @part
 def elastic_forces(law, n, sl, p):
-    """Forces sl.Ne without rates, and their slopes sl.Nd; what was in sl.Nv is lost."""
+    """The same without rates."""
     law(
-        n, as_array(sl.d), as_array(sl.still), p, as_array(sl.Ne), as_array(sl.Nd), as_array(sl.Nv)
+        n, as_array(sl.d), as_array(sl.still), p, as_array(sl.N), as_array(sl.Ne), as_array(sl.Nd),
+        as_array(sl.Nv),
     )  # fmt: skip
 
 
@@ -90,7 +93,7 @@ def friction_power(n, sl):
 def stored_and_damped(n, sl, exponent):
     """Elastic energy of the slices [J], and the power that damping takes from them [W].
 
-    ``exponent`` of the elastic force; needs sl.N of the present rates and sl.Ne.
+    ``exponent`` of the elastic force.
     """
     energy = power = 0.0
     for k in range(n):

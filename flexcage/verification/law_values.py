@@ -15,12 +15,13 @@ Law = Callable[..., None]
 
 
 def normal(law: Law, p: np.ndarray, d: ArrayLike, v: ArrayLike) -> tuple[np.ndarray, ...]:
-    """Force [N] and its derivatives by d and v on penetrations d [m] and their rates v [m/s]."""
+    """Force [N], its elastic part, and its derivatives by d and v on penetrations d [m] and their
+    rates v [m/s]."""
     shaped = np.broadcast_arrays(np.asarray(d, float), np.asarray(v, float))
     d, v = (np.ascontiguousarray(x) for x in shaped)
-    F, Fd, Fv = np.full(d.shape, np.nan), np.full(d.shape, np.nan), np.full(d.shape, np.nan)
-    law(d.size, d, v, p, F, Fd, Fv)
-    return F, Fd, Fv
+    F, Fe, Fd, Fv = np.full((4, *d.shape), np.nan)
+    law(d.size, d, v, p, F, Fe, Fd, Fv)
+    return F, Fe, Fd, Fv
 
 
 def friction(law: Law, p: np.ndarray, u: ArrayLike) -> tuple[np.ndarray, np.ndarray]:

@@ -11,7 +11,7 @@ def check_normal_law(law, p, *, depth=2e-5, speed=0.5):
     """What every normal law owes its callers; ``depth`` and ``speed`` bound the range looked at."""
     rng = np.random.default_rng(1)
     d, v = depth * rng.uniform(0.02, 1.0, 400), speed * rng.uniform(-1.0, 1.0, 400)
-    F, Fd, Fv = normal(law, p, d, v)
+    F, Fe, Fd, Fv = normal(law, p, d, v)
     assert np.all(F >= 0.0)  # contacts do not pull
     h = 1e-4 * d
     for got, (dd, dv), step in ((Fd, (h, 0.0), h), (Fv, (0.0, 1e-6), 1e-6)):
@@ -29,6 +29,7 @@ def check_normal_law(law, p, *, depth=2e-5, speed=0.5):
     near = normal(law, p, [1e-15], [0.1])[0]
     assert near[0] < 1e-3 * F.max()  # no jump at touch
     still = normal(law, p, d, np.zeros_like(d))[0]
+    np.testing.assert_allclose(Fe, still, rtol=1e-12)
     assert np.all((F - still) * v >= 0.0)  # takes energy, never gives
 
 

@@ -52,13 +52,14 @@ def test_every_friction_law(name):
 
 
 @kernel(laws.NORMAL_SIGNATURE)
-def stiffening(n, d, v, p, F, Fd, Fv):
+def stiffening(n, d, v, p, F, Fe, Fd, Fv):
     """A user's law: linear at touch, exponential later, no damping."""
     for k in range(n):
-        F[k] = Fd[k] = Fv[k] = 0.0
+        F[k] = Fe[k] = Fd[k] = Fv[k] = 0.0
         if d[k] > 0.0:
             e = np.exp(d[k] / 1e-5)
-            F[k], Fd[k] = p[0] * 1e-5 * (e - 1.0), p[0] * e
+            F[k] = Fe[k] = p[0] * 1e-5 * (e - 1.0)
+            Fd[k] = p[0] * e
 
 
 @kernel(laws.FRICTION_SIGNATURE)

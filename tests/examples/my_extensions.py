@@ -38,11 +38,12 @@ class Spring(NormalLaw):
     loss: float = quantity("us", 1e-7, doc="time constant of the dashpot", minimum=0.0)
 
 
-def spring(n, d, v, p, F, Fd, Fv):
+def spring(n, d, v, p, F, Fe, Fd, Fv):
     """F = k (d + loss v), clipped at zero; the dashpot fades in over the first 0.1 um."""
     for i in range(n):
-        F[i] = Fd[i] = Fv[i] = 0.0
+        F[i] = Fe[i] = Fd[i] = Fv[i] = 0.0
         if d[i] > 0.0:
+            Fe[i] = p[0] * d[i]
             share = min(d[i] / p[4], 1.0)
             force = p[0] * (d[i] + p[2] * share * v[i])
             if force > 0.0:

@@ -247,6 +247,7 @@ def test_taken_names_and_wrong_parts_are_refused(mine):
         (lambda: materials.register_material(unnamed), "has no source"),
         (lambda: presets.register_preset(HERE / "my_bearing.toml"), "'my_bearing' exists already"),
         (lambda: presets.register_preset(HERE / "none.toml"), "cannot be read"),
+        (lambda: laws.register_normal("bad", law_of_old), r"takes .*Fd, Fv\), but .*F, Fe, Fd, Fv"),
     ]
     if not os.environ.get("NUMBA_DISABLE_JIT"):
         attempts.append((lambda: laws.register_normal("bad", unbound_law), "cannot be compiled"))
@@ -260,7 +261,11 @@ class FrictionLike:
     law = "coil"
 
 
-def unbound_law(n, d, v, p, F, Fd, Fv):
+def law_of_old(n, d, v, p, F, Fd, Fv):
+    """Before laws had to give their elastic part."""
+
+
+def unbound_law(n, d, v, p, F, Fe, Fd, Fv):
     F[0] = undefined_name  # noqa: F821
 
 

@@ -241,12 +241,12 @@ def test_reversed_rotation_is_the_mirror_image(bearing_of):
 
 
 @laws.kernel(laws.NORMAL_SIGNATURE)
-def softer(n, d, v, p, F, Fd, Fv):
+def softer(n, d, v, p, F, Fe, Fd, Fv):
     """A user's law: half of the elastic force."""
     for k in range(n):
-        F[k] = Fd[k] = Fv[k] = 0.0
+        F[k] = Fe[k] = Fd[k] = Fv[k] = 0.0
         if d[k] > 0.0:
-            F[k] = 0.5 * p[0] * d[k] ** p[1]
+            F[k] = Fe[k] = 0.5 * p[0] * d[k] ** p[1]
             Fd[k] = p[1] * F[k] / d[k]
 
 
