@@ -11,12 +11,12 @@ What is computed already is not computed again. Wants ``pip install '.[fast,stud
 from __future__ import annotations
 
 import argparse
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 from n1013_beyond_page import draw, page, tables
-from n1013_pocket_deformation import shortened
 
 import flexcage
 from flexcage.core.progress import Progress
@@ -39,6 +39,11 @@ def load(name: str, *, quick: bool = False) -> Study:
     case = study.case.replace("solver.duration", "30 ms")
     short = [replace(axis, points=tuple(map(shortened, axis.points))) for axis in axes]
     return replace(study, case=case, axes=tuple(short), repeat=Repeat())
+
+
+def shortened(point: Mapping[str, Any]) -> dict[str, Any]:
+    """The point without a duration of its own."""
+    return {path: value for path, value in point.items() if path != "solver.duration"}
 
 
 def main(arguments: Sequence[str] | None = None) -> str:

@@ -80,8 +80,8 @@ def _head(results: StudyResults) -> str:
 {today} with flexcage {__version__}, from {results.count("done")} of {len(results.rows)} cases
 ({results.count("failed")} failed; what is not computed counts as undecided). A case is
 {case.solver.duration * 1e3:.0f} ms of bearing time, of which the first
-{100 * case.output.settle:.0f} % are left out: 10 turns of the cage remain, and 5 where a pocket is
-shortened, which costs the solver far more. "±" is half of a 95 % interval.
+{100 * case.output.settle:.0f} % are left out: 10 turns of the cage remain. "±" is half of a 95 %
+interval.
 
 Pocket 5 is the paper's j. The cages: `dq` the crossbeam between rollers j-1 and j moved towards
 j-1 by 0.1 or 0.2 mm, `dp` a side beam of pocket j moved by 0.3 mm, `+` away from its roller."""
