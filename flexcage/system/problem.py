@@ -18,7 +18,7 @@ from flexcage.bodies.floating_frame import marked
 from flexcage.contacts import laws
 from flexcage.contacts.spec import Contacts
 from flexcage.core.errors import InputError
-from flexcage.core.jit import LEAN, OPTIONS, allocating_kernel, boxed
+from flexcage.core.jit import OPTIONS, allocating_kernel, boxed, compiled
 from flexcage.solve import runge_kutta
 from flexcage.solve.bordered import Bordered, new_bordered
 from flexcage.solve.contract import Integrator
@@ -27,6 +27,7 @@ from flexcage.system.data import POWERS, Memory, Report, Work
 from flexcage.system.families import family_of
 from flexcage.system.layout import Layout
 from flexcage.system.rates import RatesWork, new_rates_work
+from flexcage.system.rows import shared_rows
 
 ITERATIONS = 40  # of the spectral radius
 NUDGE = 1e-3  # of the allowed local error, over which it takes differences
@@ -107,6 +108,11 @@ def law_functions(contacts: Contacts) -> tuple:
     )
 
 
+def _evaluation(bearing: Any, law: Any) -> Any:
+    """numba's signature of ``Family.evaluate`` and of ``rows.shared_rows``."""
+    return types.void(_REAL, _VECTOR, _VECTOR, bearing, law, _VECTOR, _COUNT)
+
+
 class Bearing:
     """A bearing ready to be integrated: its data, and functions that are compiled when needed."""
 
@@ -128,9 +134,11 @@ class Bearing:
             new_rates_work(model.cage.mff),
         )  # fmt: skip
         self.laws = law_functions(contacts)
-        law_type = types.Tuple((laws.NORMAL_TYPE,) * 5 + (laws.FRICTION_TYPE,) * 5)
+        contact_laws = (laws.NORMAL_TYPE,) * 5 + (laws.FRICTION_TYPE,) * 5
         bearing = numba.typeof(parts(self.data))
-        self._evaluation = types.void(_REAL, _VECTOR, _VECTOR, bearing, law_type, _VECTOR, _COUNT)
+        self._rows = _evaluation(bearing, types.Tuple(contact_laws))
+        law_type = types.Tuple((*contact_laws, types.FunctionType(self._rows)))
+        self._evaluation = _evaluation(bearing, law_type)
         self.data_type = types.Tuple((bearing, law_type, types.FunctionType(self._evaluation)))
         self._functions: dict[str, Any] = {}
         self._advance: dict[str, Any] = {}
@@ -139,8 +147,12 @@ class Bearing:
     @cached_property
     def evaluate(self) -> Any:
         """The family's residual, compiled; most of what there is to compile."""
-        compiled: Any = numba.njit(self._evaluation, **LEAN)
-        return compiled(self.family.evaluate)
+        return compiled(self.family.evaluate, self._evaluation)
+
+    @cached_property
+    def rows(self) -> Any:
+        """The rows that all bearings share, compiled."""
+        return compiled(shared_rows, self._rows)
 
     @cached_property
     def args(self) -> tuple:
@@ -149,6 +161,7 @@ class Bearing:
 
     def compile_but_evaluate(self) -> None:
         """Compile what a run by the explicit method needs besides ``evaluate``."""
+        self.rows  # noqa: B018
         work, matrix = self.data.work, self.data.matrix
         tangent, bodies = numba.typeof(work.tangent), numba.typeof(self.data.model.bodies)
         newton.assemble.compile((_REAL, bodies, tangent, numba.typeof(matrix)))
@@ -173,8 +186,7 @@ class Bearing:
                 where="solver.method",
             )
         if name not in self._functions:
-            compiled: Any = numba.njit(self.signature(name), **LEAN)
-            self._functions[name] = compiled(PROBLEM[name][0])
+            self._functions[name] = compiled(PROBLEM[name][0], self.signature(name))
         return self._functions[name]
 
     def functions(self, integrator: Integrator) -> tuple[Any, ...]:
@@ -189,7 +201,7 @@ class Bearing:
 
     def arguments(self, data: BearingData, law: tuple) -> tuple:
         """What the compiled functions take as their data."""
-        return parts(data), law, self.evaluate
+        return parts(data), (*law, self.rows), self.evaluate
 
     def residual(self, t: float, y: np.ndarray, yd: np.ndarray, mode: int = 0) -> np.ndarray:
         """F(t, y, y'), a new array; mode 1 also fills the tangent, mode 2 the report."""
@@ -200,8 +212,8 @@ class Bearing:
     def advance(self, integrator: Integrator, state, options, t_end, times, ys, yds, first, log,
                 quads) -> tuple[int, int, int]:  # fmt: skip
         """``integrator.advance``, compiled for this bearing when first called."""
-        compiled = self._advance_of(integrator, state, options)
-        return compiled(
+        function = self._advance_of(integrator, state, options)
+        return function(
             self.functions(integrator), self.args, state, options, t_end, times, ys, yds, first,
             log, quads,
         )  # fmt: skip
@@ -219,8 +231,8 @@ class Bearing:
         """Largest step [s] that the explicit method bears at (t, y)."""
         method = runge_kutta.EXPLICIT_METHOD
         state = method.new_state(t, y, yd, weight=weight, h0=1.0, n_quad=len(POWERS))
-        compiled = self._radius_of(state)
-        radius = compiled(self.functions(method), self.args, state, ITERATIONS, NUDGE)
+        function = self._radius_of(state)
+        radius = function(self.functions(method), self.args, state, ITERATIONS, NUDGE)
         return runge_kutta.REACH / radius if radius > 0.0 else np.inf
 
     def _radius_of(self, state) -> Any:
@@ -243,5 +255,4 @@ class Bearing:
         for helper in integrator.helpers:
             if not hasattr(module[helper], "py_func"):
                 module[helper] = allocating_kernel(module[helper])
-        compiled: Any = numba.njit(signature, **OPTIONS)
-        return compiled(getattr(function, "py_func", function))
+        return compiled(getattr(function, "py_func", function), signature, OPTIONS)
