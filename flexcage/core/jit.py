@@ -12,6 +12,8 @@ import hashlib
 import os
 import struct
 import warnings
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
@@ -149,10 +151,9 @@ def _compare_flags_quickly() -> None:
     """
     same = TargetConfig.__eq__
 
-    def equal(flags: TargetConfig, other: object) -> Any:
-        if type(flags) is type(other) and flags._values == other._values:
-            return True
-        return same(flags, other)
+    def equal(flags: Any, other: Any) -> Any:
+        quickly = type(flags) is type(other) and flags._values == other._values
+        return quickly or same(flags, other)
 
     TargetConfig.__eq__ = equal
     TargetConfig.__hash__ = lambda flags: hash(type(flags))
@@ -167,19 +168,25 @@ def allocating_kernel(function: Any) -> Any:
     return numba.njit(**OPTIONS)(function)
 
 
-def compiled(function: Any, signature: Any, options: dict[str, Any] = LEAN) -> Any:
-    """``function`` compiled for one signature.
+@contextmanager
+def uncollected() -> Iterator[None]:
+    """Python's search for unused objects pauses while something is compiled.
 
-    Python's search for unused objects pauses: a compiler makes many and they die with it, and the
-    search takes a sixth of the time (measured).
+    A compiler makes many objects that live until it is done: a sixth of its time (measured).
     """
     was_on = gc.isenabled()
     gc.disable()
     try:
-        return numba.njit(signature, **options)(function)
+        yield
     finally:
         if was_on:
             gc.enable()
+
+
+def compiled(function: Any, signature: Any, options: dict[str, Any] = LEAN) -> Any:
+    """``function`` compiled for one signature."""
+    with uncollected():
+        return numba.njit(signature, **options)(function)
 
 
 def compiled_mark(what: str) -> Path:

@@ -7,7 +7,7 @@ once, not again inside each of the functions.
 from __future__ import annotations
 
 from collections.abc import Callable
-from functools import cached_property
+from functools import cached_property, partial
 from typing import Any, NamedTuple
 
 import numba
@@ -18,7 +18,7 @@ from flexcage.bodies.floating_frame import marked
 from flexcage.contacts import laws
 from flexcage.contacts.spec import Contacts
 from flexcage.core.errors import InputError
-from flexcage.core.jit import OPTIONS, allocating_kernel, boxed, compiled
+from flexcage.core.jit import OPTIONS, allocating_kernel, boxed, compiled, uncollected
 from flexcage.solve import runge_kutta
 from flexcage.solve.bordered import Bordered, new_bordered
 from flexcage.solve.contract import Integrator
@@ -159,18 +159,26 @@ class Bearing:
         """What the compiled functions take as their data."""
         return self.arguments(self.data, self.laws)
 
-    def compile_but_evaluate(self) -> None:
-        """Compile what a run by the explicit method needs besides ``evaluate``."""
-        self.rows  # noqa: B018
-        work, matrix = self.data.work, self.data.matrix
-        tangent, bodies = numba.typeof(work.tangent), numba.typeof(self.data.model.bodies)
-        newton.assemble.compile((_REAL, bodies, tangent, numba.typeof(matrix)))
-        newton.newton_step.compile((_REAL, _VECTOR, _VECTOR, tangent, numba.typeof(matrix)))
+    def pieces(self) -> list[Callable[[], object]]:
+        """What a run by the explicit method wants compiled, one call each, the longest first."""
+        tangent, matrix = (numba.typeof(x) for x in (self.data.work.tangent, self.data.matrix))
+        bodies = numba.typeof(self.data.model.bodies)
         method, none = runge_kutta.EXPLICIT_METHOD, np.zeros(1)
         state = method.new_state(0.0, none, none, weight=none, h0=1.0, n_quad=1)
-        self.functions(method)
-        self._advance_of(method, state, runge_kutta.Options(1.0, 0.0, 1))
-        self._radius_of(state)
+
+        def kernel_for(kernel: Any, *arguments: Any) -> None:
+            with uncollected():
+                kernel.compile(arguments)
+
+        return [
+            lambda: self.evaluate,
+            lambda: self.rows,
+            lambda: self._advance_of(method, state, runge_kutta.Options(1.0, 0.0, 1)),
+            lambda: kernel_for(newton.newton_step, _REAL, _VECTOR, _VECTOR, tangent, matrix),
+            lambda: kernel_for(newton.assemble, _REAL, bodies, tangent, matrix),
+            *(partial(self.function, name) for name in method.functions),
+            lambda: self._radius_of(state),
+        ]
 
     def signature(self, name: str) -> Any:
         """numba's signature of a function that ``PROBLEM`` names."""
