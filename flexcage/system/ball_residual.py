@@ -38,7 +38,8 @@ from flexcage.system.rows import (
 def evaluate(t, y, yd, d, law, out, mode):
     """Residual into ``out``; see the module's text. Index letters: i ball, c component, m mode.
 
-    ``law`` holds the normal laws of race, pocket, (side, rib,) land, then their friction laws.
+    ``law`` holds the normal laws of race, pocket, (side, rib,) land, their friction laws, and
+    ``rows.shared_rows``.
     """
     work, phi_max = fields(d.scratch), fields(d.pocket).phi_max
     Z, nm = fields(d.bodies).radius.shape[0], phi_max.shape[0]

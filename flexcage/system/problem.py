@@ -1,7 +1,8 @@
 """The bearing as a problem for integrators: compiled functions over one tuple of data.
 
-``data`` is (Parts, laws, evaluate): evaluated through a function value, the residual is compiled
-once, not again inside each of the functions.
+``data`` is (Parts, laws, evaluate), the last of the laws ``rows.shared_rows``: evaluated through
+function values, the residual is compiled once, not again inside each of the functions, and its two
+halves at the same time.
 """
 
 from __future__ import annotations

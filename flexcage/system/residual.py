@@ -174,7 +174,7 @@ def evaluate(t, y, yd, d, law, out, mode):
     """Residual into ``out``; see the module's text. Index letters: i roller, c component, m mode.
 
     ``d`` (``problem.Parts``) refers to the model, its memory and its workspaces; ``law`` holds
-    the normal laws of race, pocket, side, rib and land, then their friction laws.
+    the normal laws of race, pocket, side, rib and land, their friction laws, and ``shared_rows``.
     """
     work, phi_max = fields(d.scratch), fields(d.pocket).phi_max
     Z, nm = fields(d.bodies).radius.shape[0], phi_max.shape[0]
