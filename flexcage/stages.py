@@ -7,6 +7,7 @@ import os
 import subprocess
 import sys
 from collections.abc import Callable
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -74,49 +75,72 @@ def cage_modes(case: Case) -> ModeTable:
     return mode_table(reduction.model, reduction.basis, pocket_count=mesh.pocket_count)
 
 
-def begin_compiling(element: str) -> subprocess.Popen | None:
-    """Compile the larger half of the kernels in a process of its own, if they are not on disk yet:
-    those of bearings with these elements ("roller", "ball").
+@dataclass(frozen=True)
+class Compiling:
+    """Pieces of kernels left to be compiled, as bytes in a pipe, and a process that takes them
+    too; whoever is free takes the next."""
 
-    Meanwhile the cage is meshed and reduced. ``build_bearing`` waits for it.
+    pieces: int  # the pipe's end to read from
+    helper: subprocess.Popen | None
+
+
+def begin_compiling(element: str) -> Compiling | None:
+    """Begin to compile the kernels in a process of its own, if they are not on disk yet: those of
+    bearings with these elements ("roller", "ball").
+
+    Meanwhile the cage is meshed and reduced. ``build_bearing`` helps, and waits for it.
     """
     if jit.kernels_cached(element):
         return None
-    log.info("compiling the kernels for the first time: about a minute, once")
-    command = f"from flexcage.stages import compile_evaluation; compile_evaluation({element!r})"
+    log.info("compiling the kernels for the first time: about half a minute, once")
+    pieces, end = os.pipe()
+    os.write(end, bytes(range(MOST_PIECES)))
+    os.close(end)
+    command = f"from flexcage.stages import compile_pieces; compile_pieces({element!r})"
     try:
-        return subprocess.Popen(
-            [sys.executable, "-c", command], stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL,
+        helper = subprocess.Popen(
+            [sys.executable, "-c", command], stdin=pieces, stdout=subprocess.DEVNULL,
             stderr=subprocess.DEVNULL, env={**os.environ, **jit.cache_environment()},
         )  # fmt: skip
     except OSError:
-        return None  # then this process does it alone
+        helper = None  # then this process does it alone
+    return Compiling(pieces, helper)
 
 
 #: A preset with each kind of elements: equations of motion are the same for all of a kind.
 EXAMPLES = {"roller": "N1013", "ball": "7010C-PI"}
+MOST_PIECES = 32  # there are fewer
 
 
-def compile_evaluation(element: str) -> None:
-    """Compile the equations of motion of bearings with these elements."""
+def compile_pieces(element: str) -> None:
+    """Compile pieces of the kernels of bearings with these elements: those that standard input
+    numbers."""
     case = Case.from_preset(EXAMPLES[element], mesh=MeshOptions(fineness="coarse"))
-    _bearing_of(case, cage_mesh(case), None).evaluate  # noqa: B018
+    _compile_from(sys.stdin.fileno(), _bearing_of(case, cage_mesh(case), None))
+
+
+def _compile_from(pieces: int, bearing: Bearing) -> None:
+    """Compile what can be read from ``pieces``, until nothing is left."""
+    all_pieces = bearing.pieces()
+    while number := os.read(pieces, 1):
+        if number[0] < len(all_pieces):
+            all_pieces[number[0]]()
 
 
 def build_bearing(
-    case: Case,
-    mesh: CageMesh,
-    cage: CageReduction | None,
-    compiling: subprocess.Popen | None = None,
+    case: Case, mesh: CageMesh, cage: CageReduction | None, compiling: Compiling | None = None
 ) -> Bearing:
     """Bodies, contacts and compiled equations of motion."""
     bearing, element = _bearing_of(case, mesh, cage), case.bearing.element
-    if not jit.kernels_cached(element):
-        compiling = compiling or begin_compiling(element)
-        bearing.compile_but_evaluate()
-        if compiling is not None:
-            compiling.wait()
-    bearing.evaluate  # noqa: B018  (read from disk, or compiled here)
+    compiling = compiling or begin_compiling(element)
+    if compiling is not None:
+        _compile_from(compiling.pieces, bearing)
+        os.close(compiling.pieces)
+        if compiling.helper is not None:
+            compiling.helper.wait()
+        for piece in bearing.pieces():  # what the helper took: read from disk, or compiled here
+            piece()
+    bearing.evaluate  # noqa: B018
     jit.mark_compiled(element)
     return bearing
 

@@ -7,13 +7,17 @@ every source file of the package that defines kernels.
 
 from __future__ import annotations
 
+import gc
 import hashlib
 import os
 import struct
 import warnings
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import platformdirs
 
 _PACKAGE = Path(__file__).resolve().parents[1]
@@ -52,12 +56,17 @@ if "NUMBA_CACHE_DIR" not in os.environ:
 
 import numba  # noqa: E402  (its cache folder must be known first)
 from numba import types  # noqa: E402
-from numba.core import cgutils  # noqa: E402
-from numba.core.codegen import CPUCodeLibrary  # noqa: E402
+from numba.core.codegen import CPUCodeLibrary, JITCPUCodegen  # noqa: E402
 from numba.core.imputils import impl_ret_borrowed  # noqa: E402
-from numba.core.runtime.nrtdynmod import _meminfo_struct_type  # noqa: E402
-from numba.experimental import structref  # noqa: E402
-from numba.extending import intrinsic  # noqa: E402
+from numba.core.targetconfig import TargetConfig  # noqa: E402
+from numba.extending import (  # noqa: E402
+    NativeValue,
+    intrinsic,
+    models,
+    register_model,
+    typeof_impl,
+    unbox,
+)
 
 numba.config.CACHE_DIR = os.environ["NUMBA_CACHE_DIR"]  # type: ignore[attr-defined]
 # laws are passed to kernels as first-class functions, which numba calls experimental
@@ -101,29 +110,83 @@ def part(*args: Any, **kwargs: Any) -> Any:
 
 
 def _leave_parts_to_their_callers() -> None:
-    """Have numba optimise a part only where it is inlined.
+    """Have numba neither optimise a part nor make machine code of it, but where it is inlined.
 
-    It optimises every function when that is compiled, and then again inside each of its callers: a
-    third of all compile time (measured). The method is numba's own affair, and another release may
-    lack it; then nothing is changed.
+    It does both for every function when that is compiled, and optimises it again inside each of
+    its callers: half of all compile time (measured). The methods are numba's own affair, and
+    another release may lack one; then nothing is changed.
     """
     whole = getattr(CPUCodeLibrary, "_optimize_final_module", None)
-    if whole is None:
+    ready = getattr(CPUCodeLibrary, "_finalize_final_module", None)
+    address = getattr(JITCPUCodegen, "set_env", None)
+    if whole is None or ready is None or address is None:
         return
 
     def optimise(library: CPUCodeLibrary) -> None:
         if not library.name.startswith(_PART_NAME):
             whole(library)
 
+    def finalise(library: CPUCodeLibrary) -> None:
+        if library.name.startswith(_PART_NAME):
+            library._finalized = True
+        else:
+            ready(library)
+
+    def set_environment(codegen: JITCPUCodegen, name: str, environment: Any) -> None:
+        if codegen._engine.is_symbol_defined(name):
+            address(codegen, name, environment)
+
     CPUCodeLibrary._optimize_final_module = optimise
+    CPUCodeLibrary._finalize_final_module = finalise
+    JITCPUCodegen.set_env = set_environment
 
 
 _leave_parts_to_their_callers()
 
 
+def _compare_flags_quickly() -> None:
+    """Have numba compare its compiler flags by what was set: a sixth of its Python (measured).
+
+    It does so 400,000 times, option by option, and hashes their names.
+    """
+    same = TargetConfig.__eq__
+
+    def equal(flags: Any, other: Any) -> Any:
+        quickly = type(flags) is type(other) and flags._values == other._values
+        return quickly or same(flags, other)
+
+    TargetConfig.__eq__ = equal
+    TargetConfig.__hash__ = lambda flags: hash(type(flags))
+
+
+if hasattr(TargetConfig, "_values"):
+    _compare_flags_quickly()
+
+
 def allocating_kernel(function: Any) -> Any:
     """``kernel`` for the few that make arrays or boxes, away from the contact loops."""
     return numba.njit(**OPTIONS)(function)
+
+
+@contextmanager
+def uncollected() -> Iterator[None]:
+    """Python's search for unused objects pauses while something is compiled.
+
+    A compiler makes many objects that live until it is done: a sixth of its time (measured).
+    """
+    was_on = gc.isenabled()
+    gc.disable()
+    try:
+        yield
+    finally:
+        if was_on:
+            gc.enable()
+
+
+def compiled(function: Any, signature: Any, options: dict[str, Any] = LEAN) -> Any:
+    """``function`` compiled for one signature."""
+    with uncollected():
+        return numba.njit(signature, **options)(function)
 
 
 def compiled_mark(what: str) -> Path:
@@ -149,50 +212,67 @@ def mark_compiled(what: str) -> None:
         compiled_mark(what).touch()
 
 
-@structref.register
-class BoxType(numba.types.StructRef):
-    """Type of a ``Box``."""
+class Box:
+    """A NamedTuple of arrays and numbers as one address: a call passes that for all of them.
 
-    def preprocess_fields(self, fields):
-        return tuple((name, numba.types.unliteral(kind)) for name, kind in fields)
+    At the address stands what numba's compiled functions take the NamedTuple to be; a box holds
+    its arrays, so that they live as long. (Made by a compiled function, boxes took 5 s to compile.)
+    """
 
-
-class Box(structref.StructRefProxy):
-    """A reference to a NamedTuple of arrays: a call passes one pointer for all of them."""
-
-
-structref.define_proxy(Box, BoxType, ["value"])
+    def __init__(self, value: Any) -> None:
+        self.value, self.type = value, BoxType(numba.typeof(value))
+        self.words = np.array([word for field in value for word in _words(field)], np.int64)
+        self.address = self.words.ctypes.data
 
 
-@allocating_kernel
-def boxed(value):
+def _words(field: Any) -> list[int]:
+    """The 64-bit words of a field: of an array no owner, sizes, address, shape and strides."""
+    if isinstance(field, np.ndarray):
+        return [0, 0, field.size, field.itemsize, field.ctypes.data, *field.shape, *field.strides]
+    if isinstance(field, float):
+        return list(struct.unpack("<q", struct.pack("<d", field)))
+    return [int(field)]
+
+
+class BoxType(types.Type):
+    """Type of a ``Box`` that holds a value of type ``held``."""
+
+    def __init__(self, held: Any) -> None:
+        self.held = held
+        super().__init__(f"Box({held})")
+
+
+register_model(BoxType)(models.OpaqueModel)
+
+
+@typeof_impl.register(Box)
+def _type_of_box(box, _context):
+    return box.type
+
+
+@unbox(BoxType)
+def _unbox(_kind, box, context):
+    address = context.pyapi.object_getattr_string(box, "address")
+    pointer = context.pyapi.long_as_voidptr(address)
+    context.pyapi.decref(address)
+    return NativeValue(pointer, is_error=context.pyapi.c_api_error())
+
+
+def boxed(value: Any) -> Any:
     """A ``Box`` of the value."""
     return Box(value)
 
 
 @intrinsic
-def _fields(_typing, box):
-    """What a box holds, read in place (numba's own access wants reference counts)."""
-    kind = box.field_dict["value"]
+def fields(_typing, box):
+    """The NamedTuple that a box holds."""
 
     def codegen(context, builder, signature, args):
-        box_type = signature.args[0]
-        reference = cgutils.create_struct_proxy(box_type)(context, builder, value=args[0])
-        info = builder.bitcast(reference.meminfo, _meminfo_struct_type.as_pointer())
-        data = builder.load(cgutils.gep_inbounds(builder, info, 0, 3))  # its payload
-        data_type = box_type.get_data_type()
-        layout = context.data_model_manager[data_type].get_value_type()
-        held = builder.bitcast(data, layout.as_pointer())
-        value = context.make_data_helper(builder, data_type, ref=held).value
-        return impl_ret_borrowed(context, builder, signature.return_type, value)
+        layout = context.get_value_type(box.held)
+        value = builder.load(builder.bitcast(args[0], layout.as_pointer()))
+        return impl_ret_borrowed(context, builder, box.held, value)
 
-    return kind(box), codegen
-
-
-@part
-def fields(box):
-    """The NamedTuple that a box holds."""
-    return _fields(box)
+    return box.held(box), codegen
 
 
 def _bitcast(to: Any) -> Any:

@@ -7,7 +7,6 @@ from collections.abc import Callable, Mapping
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from scipy.signal import butter, sosfilt
 
 from flexcage.core.errors import InputError, RunFailed
 from flexcage.core.progress import Silent
@@ -100,8 +99,7 @@ class Recorder:
         self.weight = error_weights(bearing.data.model, bearing.layout, solver.tolerance)
         self.bound = np.inf  # [s] least stability bound of explicit steps so far
         self._take("bdf" if solver.method == "auto" else solver.method, 0.0, start.y, start.yd)
-        self._sos = butter(4, min(FILTER_HZ / (0.5 * output.vibration_rate), 0.95), output="sos")
-        self._filter = np.zeros((self._sos.shape[0], 2, 2))
+        self._filter = np.zeros((2, 2, 2))
         saved = store.checkpoint()
         if saved is not None:
             self._restore(saved)
@@ -228,7 +226,11 @@ class Recorder:
         raw = self.bearing.data.samples.force[:n] / mass
         if not fixed:
             raw = self.bearing.layout.u(yd)["outer"]
-        filtered, self._filter = sosfilt(self._sos, raw, axis=0, zi=self._filter)
+        from scipy.signal import butter, sosfilt  # a third of a second that no step waits for
+
+        cut = min(FILTER_HZ / (0.5 * self.output.vibration_rate), 0.95)
+        sections = butter(4, cut, output="sos")
+        filtered, self._filter = sosfilt(sections, raw, axis=0, zi=self._filter)
         return {"outer_acceleration": raw, "outer_acceleration_filtered": filtered}
 
     def _events(self) -> dict[str, np.ndarray]:

@@ -28,26 +28,23 @@ from flexcage.system.rows import (
     CAGE_SPIN,
     RING_AXIS,
     RING_SPIN,
-    cage_rows,
     clear_sums,
     inner_ring,
-    land_rows,
     push_modes,
     react,
-    ring_rows,
 )
 
 
 def evaluate(t, y, yd, d, law, out, mode):
     """Residual into ``out``; see the module's text. Index letters: i ball, c component, m mode.
 
-    ``law`` holds the normal laws of race, pocket, (side, rib,) land, then their friction laws.
+    ``law`` holds the normal laws of race, pocket, (side, rib,) land, their friction laws, and
+    ``rows.shared_rows``.
     """
     work, phi_max = fields(d.scratch), fields(d.pocket).phi_max
     Z, nm = fields(d.bodies).radius.shape[0], phi_max.shape[0]
     nq, nu = 6 * Z + 15 + nm, 6 * Z + 14 + nm
     q, u, qd, ud = y[:nq], y[nq : nq + nu], yd[:nq], yd[nq : nq + nu]
-    lam, mu = y[nq + nu : nq + nu + 4], y[nq + nu + 4 :]
     r_q, r_u = out[:nq], out[nq : nq + nu]
     zq, border = 6 * Z, work.border
     clear_sums(border, d, mode)
@@ -67,9 +64,7 @@ def evaluate(t, y, yd, d, law, out, mode):
         _races(i, qi, ui, q, u, zq, d, law, mode)
         _pocket(i, qi, ui, Rc, Vc, qf, qfd, margin, d, law, mode)
         _ball_rows(i, qi, ui, qd[o : o + 6], ud[o : o + 6], d, r_q[o : o + 6], r_u[o : o + 6], mode)
-    land_rows(q, u, zq, nm, d, law, mode)
-    cage_rows(d, quat, Vc, wb, qf, qfd, qd, ud, zq, r_q, r_u, mode)
-    ring_rows(t, d, q, u, qd, ud, lam, mu, zq, r_q, r_u, out, nq + nu, mode)
+    law[10](t, y, yd, d, law[:10], out, mode)
 
 
 @part

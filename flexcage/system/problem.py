@@ -1,13 +1,14 @@
 """The bearing as a problem for integrators: compiled functions over one tuple of data.
 
-``data`` is (Parts, laws, evaluate): evaluated through a function value, the residual is compiled
-once, not again inside each of the functions.
+``data`` is (Parts, laws, evaluate), the last of the laws ``rows.shared_rows``: evaluated through
+function values, the residual is compiled once, not again inside each of the functions, and its two
+halves at the same time.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable
-from functools import cached_property
+from functools import cached_property, partial
 from typing import Any, NamedTuple
 
 import numba
@@ -18,7 +19,7 @@ from flexcage.bodies.floating_frame import marked
 from flexcage.contacts import laws
 from flexcage.contacts.spec import Contacts
 from flexcage.core.errors import InputError
-from flexcage.core.jit import LEAN, OPTIONS, allocating_kernel, boxed
+from flexcage.core.jit import OPTIONS, allocating_kernel, boxed, compiled, uncollected
 from flexcage.solve import runge_kutta
 from flexcage.solve.bordered import Bordered, new_bordered
 from flexcage.solve.contract import Integrator
@@ -27,6 +28,7 @@ from flexcage.system.data import POWERS, Memory, Report, Work
 from flexcage.system.families import family_of
 from flexcage.system.layout import Layout
 from flexcage.system.rates import RatesWork, new_rates_work
+from flexcage.system.rows import shared_rows
 
 ITERATIONS = 40  # of the spectral radius
 NUDGE = 1e-3  # of the allowed local error, over which it takes differences
@@ -107,6 +109,11 @@ def law_functions(contacts: Contacts) -> tuple:
     )
 
 
+def _evaluation(bearing: Any, law: Any) -> Any:
+    """numba's signature of ``Family.evaluate`` and of ``rows.shared_rows``."""
+    return types.void(_REAL, _VECTOR, _VECTOR, bearing, law, _VECTOR, _COUNT)
+
+
 class Bearing:
     """A bearing ready to be integrated: its data, and functions that are compiled when needed."""
 
@@ -128,9 +135,11 @@ class Bearing:
             new_rates_work(model.cage.mff),
         )  # fmt: skip
         self.laws = law_functions(contacts)
-        law_type = types.Tuple((laws.NORMAL_TYPE,) * 5 + (laws.FRICTION_TYPE,) * 5)
+        contact_laws = (laws.NORMAL_TYPE,) * 5 + (laws.FRICTION_TYPE,) * 5
         bearing = numba.typeof(parts(self.data))
-        self._evaluation = types.void(_REAL, _VECTOR, _VECTOR, bearing, law_type, _VECTOR, _COUNT)
+        self._rows = _evaluation(bearing, types.Tuple(contact_laws))
+        law_type = types.Tuple((*contact_laws, types.FunctionType(self._rows)))
+        self._evaluation = _evaluation(bearing, law_type)
         self.data_type = types.Tuple((bearing, law_type, types.FunctionType(self._evaluation)))
         self._functions: dict[str, Any] = {}
         self._advance: dict[str, Any] = {}
@@ -139,25 +148,38 @@ class Bearing:
     @cached_property
     def evaluate(self) -> Any:
         """The family's residual, compiled; most of what there is to compile."""
-        compiled: Any = numba.njit(self._evaluation, **LEAN)
-        return compiled(self.family.evaluate)
+        return compiled(self.family.evaluate, self._evaluation)
+
+    @cached_property
+    def rows(self) -> Any:
+        """The rows that all bearings share, compiled."""
+        return compiled(shared_rows, self._rows)
 
     @cached_property
     def args(self) -> tuple:
         """What the compiled functions take as their data."""
         return self.arguments(self.data, self.laws)
 
-    def compile_but_evaluate(self) -> None:
-        """Compile what a run by the explicit method needs besides ``evaluate``."""
-        work, matrix = self.data.work, self.data.matrix
-        tangent, bodies = numba.typeof(work.tangent), numba.typeof(self.data.model.bodies)
-        newton.assemble.compile((_REAL, bodies, tangent, numba.typeof(matrix)))
-        newton.newton_step.compile((_REAL, _VECTOR, _VECTOR, tangent, numba.typeof(matrix)))
+    def pieces(self) -> list[Callable[[], object]]:
+        """What a run by the explicit method wants compiled, one call each, the longest first."""
+        tangent, matrix = (numba.typeof(x) for x in (self.data.work.tangent, self.data.matrix))
+        bodies = numba.typeof(self.data.model.bodies)
         method, none = runge_kutta.EXPLICIT_METHOD, np.zeros(1)
         state = method.new_state(0.0, none, none, weight=none, h0=1.0, n_quad=1)
-        self.functions(method)
-        self._advance_of(method, state, runge_kutta.Options(1.0, 0.0, 1))
-        self._radius_of(state)
+
+        def kernel_for(kernel: Any, *arguments: Any) -> None:
+            with uncollected():
+                kernel.compile(arguments)
+
+        return [
+            lambda: self.evaluate,
+            lambda: self.rows,
+            lambda: self._advance_of(method, state, runge_kutta.Options(1.0, 0.0, 1)),
+            lambda: kernel_for(newton.newton_step, _REAL, _VECTOR, _VECTOR, tangent, matrix),
+            lambda: kernel_for(newton.assemble, _REAL, bodies, tangent, matrix),
+            *(partial(self.function, name) for name in method.functions),
+            lambda: self._radius_of(state),
+        ]
 
     def signature(self, name: str) -> Any:
         """numba's signature of a function that ``PROBLEM`` names."""
@@ -173,8 +195,7 @@ class Bearing:
                 where="solver.method",
             )
         if name not in self._functions:
-            compiled: Any = numba.njit(self.signature(name), **LEAN)
-            self._functions[name] = compiled(PROBLEM[name][0])
+            self._functions[name] = compiled(PROBLEM[name][0], self.signature(name))
         return self._functions[name]
 
     def functions(self, integrator: Integrator) -> tuple[Any, ...]:
@@ -189,7 +210,7 @@ class Bearing:
 
     def arguments(self, data: BearingData, law: tuple) -> tuple:
         """What the compiled functions take as their data."""
-        return parts(data), law, self.evaluate
+        return parts(data), (*law, self.rows), self.evaluate
 
     def residual(self, t: float, y: np.ndarray, yd: np.ndarray, mode: int = 0) -> np.ndarray:
         """F(t, y, y'), a new array; mode 1 also fills the tangent, mode 2 the report."""
@@ -200,8 +221,8 @@ class Bearing:
     def advance(self, integrator: Integrator, state, options, t_end, times, ys, yds, first, log,
                 quads) -> tuple[int, int, int]:  # fmt: skip
         """``integrator.advance``, compiled for this bearing when first called."""
-        compiled = self._advance_of(integrator, state, options)
-        return compiled(
+        function = self._advance_of(integrator, state, options)
+        return function(
             self.functions(integrator), self.args, state, options, t_end, times, ys, yds, first,
             log, quads,
         )  # fmt: skip
@@ -219,8 +240,8 @@ class Bearing:
         """Largest step [s] that the explicit method bears at (t, y)."""
         method = runge_kutta.EXPLICIT_METHOD
         state = method.new_state(t, y, yd, weight=weight, h0=1.0, n_quad=len(POWERS))
-        compiled = self._radius_of(state)
-        radius = compiled(self.functions(method), self.args, state, ITERATIONS, NUDGE)
+        function = self._radius_of(state)
+        radius = function(self.functions(method), self.args, state, ITERATIONS, NUDGE)
         return runge_kutta.REACH / radius if radius > 0.0 else np.inf
 
     def _radius_of(self, state) -> Any:
@@ -243,5 +264,4 @@ class Bearing:
         for helper in integrator.helpers:
             if not hasattr(module[helper], "py_func"):
                 module[helper] = allocating_kernel(module[helper])
-        compiled: Any = numba.njit(signature, **OPTIONS)
-        return compiled(getattr(function, "py_func", function))
+        return compiled(getattr(function, "py_func", function), signature, OPTIONS)

@@ -57,7 +57,7 @@ def sample(sample, t, y, yd, data):
     keep_force(sample, t, s, fields(data[0].events))
 
 
-@kernel
+@part
 def _rates(t, y, yd, data, mode):
     d = data[0]
     bodies, out, frame = fields(d.bodies), fields(d.scratch).out, fields(d.frame)

@@ -39,13 +39,10 @@ from flexcage.system.rows import (
     RING_AXIS,
     RING_SPIN,
     add_to_element,
-    cage_rows,
     clear_sums,
     inner_ring,
-    land_rows,
     push_modes,
     react,
-    ring_rows,
 )
 
 
@@ -177,13 +174,12 @@ def evaluate(t, y, yd, d, law, out, mode):
     """Residual into ``out``; see the module's text. Index letters: i roller, c component, m mode.
 
     ``d`` (``problem.Parts``) refers to the model, its memory and its workspaces; ``law`` holds
-    the normal laws of race, pocket, side, rib and land, then their friction laws.
+    the normal laws of race, pocket, side, rib and land, their friction laws, and ``shared_rows``.
     """
     work, phi_max = fields(d.scratch), fields(d.pocket).phi_max
     Z, nm = fields(d.bodies).radius.shape[0], phi_max.shape[0]
     nq, nu = 6 * Z + 15 + nm, 6 * Z + 14 + nm
     q, u, qd, ud = y[:nq], y[nq : nq + nu], yd[:nq], yd[nq : nq + nu]
-    lam, mu = y[nq + nu : nq + nu + 4], y[nq + nu + 4 :]
     r_q, r_u = out[:nq], out[nq : nq + nu]
     zq, border = 6 * Z, work.border
     clear_sums(border, d, mode)
@@ -222,9 +218,7 @@ def evaluate(t, y, yd, d, law, out, mode):
             i, q[o : o + 6], u[o : o + 6], qd[o : o + 6], ud[o : o + 6], d, r_q[o : o + 6],
             r_u[o : o + 6], mode,
         )  # fmt: skip
-    land_rows(q, u, zq, nm, d, law, mode)
-    cage_rows(d, quat, Vc, wb, qf, qfd, qd, ud, zq, r_q, r_u, mode)
-    ring_rows(t, d, q, u, qd, ud, lam, mu, zq, r_q, r_u, out, nq + nu, mode)
+    law[10](t, y, yd, d, law[:10], out, mode)
 
 
 @part

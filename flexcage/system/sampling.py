@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from flexcage.core.jit import copy_into, fields, kernel
+from flexcage.core.jit import copy_into, fields, part
 
 
 def accepted(t, y, yd, data, power):
@@ -19,7 +19,7 @@ def note(t, data):
     keep_point(t, data[0])
 
 
-@kernel
+@part
 def keep_point(t, d):
     """Memory of contacts, events and the force on the outer ring from the last report."""
     report, events = fields(d.report), fields(d.events)
@@ -30,7 +30,7 @@ def keep_point(t, d):
     events.force[1, 1], events.force[1, 2] = report.body_force[0], report.body_force[1]
 
 
-@kernel
+@part
 def remember(t, memory, rep, events):
     """Keep the onset speed of every contact, and contact changes; races come before the faces of
     pockets, those before ribs."""
@@ -59,7 +59,7 @@ def remember(t, memory, rep, events):
             _note(events, t, -1, rep.contact.shape[1] + side, closed)
 
 
-@kernel
+@part
 def _note(events, t, element, place, closed):
     """Write down that a contact closed or opened; a full buffer keeps the first ones."""
     n = events.fill[0]
@@ -78,7 +78,7 @@ def observe(sample, t, y, yd, data):
     keep_force(sample, t, s, fields(data[0].events))
 
 
-@kernel
+@part
 def keep_report(s, k, rep):
     """Copy a whole report into row k of the samples."""
     copy_into(s.race[k], rep.race)
@@ -93,7 +93,7 @@ def keep_report(s, k, rep):
     copy_into(s.energy[k], rep.energy)
 
 
-@kernel
+@part
 def keep_force(sample, t, s, events):
     """Force on the outer ring at time t, between the last two accepted points."""
     before, after = events.force[0], events.force[1]

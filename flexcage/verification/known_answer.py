@@ -51,7 +51,7 @@ class Row:
 class KnownAnswer:
     """One case: what is checked, against which source, and the function that computes its rows.
 
-    ``quick`` cases do without the compiled bearing, whose kernels take a minute the first time.
+    ``quick`` cases do without the compiled bearing, whose kernels take a while the first time.
     """
 
     name: str

@@ -15,7 +15,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
 sys.path[:0] = [str(Path(__file__).parent)]
-WHAT = ("solver", "fe", "peer", "exudyn", "scale", "study", "ball")
+WHAT = ("solver", "fe", "peer", "exudyn", "scale", "study", "ball", "start")
 
 
 def main(argv: list[str] | None = None) -> int:
@@ -56,6 +56,10 @@ def main(argv: list[str] | None = None) -> int:
         import ball_benchmark
 
         figures = ball_benchmark.measure(case)
+    elif args.what == "start":
+        import start_benchmark
+
+        figures = start_benchmark.measure(case)
     elif args.what == "study":
         import study_benchmark
 
