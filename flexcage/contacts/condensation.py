@@ -44,7 +44,7 @@ def yielded(n, face, b, sl):
 
 @part
 def condense(data, i, p, laws, guess, sl, pw):
-    """Solve pocket i's residual coordinates pw.b from ``guess`` (8,), by Newton's method.
+    """Solve pocket i's residual coordinates pw.b from ``guess`` (12,), by Newton's method.
 
     Faces that nothing touches before the walls yield join if those that are touched push them in.
     """
@@ -81,7 +81,7 @@ def _solve(data, i, p, laws, sl, pw):
         for l in range(N_LOCAL):
             pw.g[l] = -pw.b[l]
         if anew:
-            zero(pw.A8)
+            zero(pw.A)
         for f in range(4):
             if pw.live[f] != 0:
                 n = points_of_face(data, f)
@@ -89,10 +89,10 @@ def _solve(data, i, p, laws, sl, pw):
                 elastic_forces(laws[0] if f < 2 else laws[1], n, sl, p[f])
                 _load(n, pw.face[f], sl, pw.g)
                 if anew:
-                    _stiffen(n, pw.face[f], sl, pw.h, pw.A8)
+                    _stiffen(n, pw.face[f], sl, pw.h, pw.A)
         if anew:
-            factor(pw.A8)
-        back_substitute(pw.A8, pw.g)
+            factor(pw.A)
+        back_substitute(pw.A, pw.g)
         before, step = step, 0.0
         for l in range(N_LOCAL):
             pw.b[l] += pw.g[l]
@@ -171,11 +171,11 @@ def lean_of_residual(data, i, f, pw):
 @part
 def soften(pw, pair):
     """Condense the residual coordinates out of the tangent, and keep X for the modes."""
-    factor(pw.A8)
+    factor(pw.A)
     for l in range(N_LOCAL):
         zero(pw.g)
         pw.g[l] = 1.0
-        back_substitute(pw.A8, pw.g)
+        back_substitute(pw.A, pw.g)
         for m in range(N_LOCAL):
             pw.X[m, l] = pw.g[m]
     zero(pw.XB)

@@ -226,7 +226,7 @@ def _add_residual(k, Nd, face, Wn, V, pw):
     for l in range(N_LOCAL):
         h = Nd * face.R[l, k]
         for m in range(l + 1):
-            pw.A8[l, m] += h * face.R[m, k]
+            pw.A[l, m] += h * face.R[m, k]
         for c in range(6):
             pw.RB[l, c] += h * Wn[c]
             pw.LR[c, l] += h * V[c]

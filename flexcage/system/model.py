@@ -174,6 +174,8 @@ def _pocket_data(bearing, cage, contacts: Contacts, interface: CageInterface) ->
     n = interface.modes.shape[-1]
     at = interface.stations if interface.offset_at is None else interface.offset_at
     st = np.ascontiguousarray
+    if interface.compliance.shape[1:] != (N_LOCAL, N_LOCAL):
+        raise ValueError(f"compliances are {interface.compliance.shape}, not (Z, {N_LOCAL}, same)")
     root = compliance_root(interface.compliance)
     res = with_end_stations(np.einsum("zfsa,zab->zfsb", interface.residual, root))
     return PocketData(

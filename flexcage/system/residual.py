@@ -11,6 +11,7 @@ slices and stations.
 from __future__ import annotations
 
 from flexcage.contacts.pocket import pocket_contact
+from flexcage.contacts.pocket_wall import N_LOCAL
 from flexcage.contacts.race import race_contact
 from flexcage.contacts.rib import rib_contact
 from flexcage.contacts.state import keep_pose, set_pose, shift_matrix, take_pose
@@ -151,15 +152,15 @@ def _scatter_modes(data, i, pw, S, tan, Lm, Bm, PR):
             sgn = 1.0 if f % 2 == 0 else -1.0
             comp = 2 if f < 2 else 0
             for s in range(n_st):
-                for l in range(8):
+                for l in range(N_LOCAL):
                     h = sgn * pw.HR[f, s, l]
                     if h != 0.0:
                         for m in range(n_m):
                             PR[m, l] += h * data.phi[i, f, s, comp, m]
         for m in range(n_m):
-            for l in range(8):
+            for l in range(N_LOCAL):
                 h = 0.0
-                for k in range(8):
+                for k in range(N_LOCAL):
                     h += PR[m, k] * pw.X[k, l]
                 if h != 0.0:
                     for o in range(n_m):

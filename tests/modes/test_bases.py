@@ -22,7 +22,8 @@ def dynamic_answer(basis, loads):
 
 def own_residual(basis, pocket, loads):
     """The residual answer with the coupling between pockets cut."""
-    part = slice(8 * pocket, 8 * pocket + 8)
+    m = basis.residual.compliance.shape[1]
+    part = slice(m * pocket, m * pocket + m)
     shapes = basis.residual.shapes[:, :, part].reshape(len(loads), -1)
     return shapes @ (basis.residual.compliance[pocket] @ (shapes.T @ loads))
 
@@ -30,7 +31,7 @@ def own_residual(basis, pocket, loads):
 @pytest.mark.parametrize("pocket", [0, 2, 7])
 @pytest.mark.parametrize("which", ["sound", "damaged"])
 def test_reduced_deflection_is_the_full_one(request, which, pocket):
-    """Modes plus the pocket's own residual vectors carry its uniform and linear loads exactly."""
+    """Modes plus the pocket's own residual vectors carry all of its loads exactly."""
     prefix = "" if which == "sound" else "damaged_"
     solver = request.getfixturevalue(prefix + "solver")
     basis = request.getfixturevalue(prefix + "basis")
@@ -78,7 +79,7 @@ def test_residual_vectors_are_orthogonal_to_the_modes(solver, basis):
     free = shapes[:, [k == "free" for k in basis.kind]]
     assert np.abs(free.T @ solver.model.mass_times(vectors) / mass).max() < 1e-8
     loads = pocket_loads(solver.model, 5, POCKETS)
-    work = np.einsum("ij,ij->j", loads, vectors[:, 40:48])
+    work = np.einsum("ij,ij->j", loads, vectors[:, 60:72])
     np.testing.assert_allclose(work, 1.0, rtol=1e-7)  # metres of mean displacement of its face
 
 
