@@ -150,11 +150,12 @@ class Case:
         """16 digits that name the case's physics and outputs; names and words do not count.
 
         A mesh file of the user's own counts by its bytes, wherever it lies; a law or basis of
-        the user's own by the file that defines it. Round pockets have no attachments.
+        the user's own by the file that defines it. Attachments count where there are any: not with
+        a rigid cage or round pockets.
         """
         fields = {f.name: getattr(self, f.name) for f in dataclasses.fields(self)}
         physics = {k: v for k, v in fields.items() if k not in _NOT_PHYSICS}
-        if isinstance(self.cage, BallCage):
+        if self.cage_model == "rigid" or isinstance(self.cage, BallCage):
             physics["modes"] = dataclasses.replace(self.modes, attachments="linear")
         file = Path(self.mesh.file)
         content = b""

@@ -19,6 +19,7 @@ from flexcage.core.splines import smooth_weights
 from flexcage.core.vectors import dot, row
 
 N_LOCAL = 12  # residual coordinates of a pocket: uniform, linear and quadratic on four faces
+N_FACE = 4  # those that move one face
 
 
 class PocketData(NamedTuple):
@@ -41,6 +42,11 @@ class PocketData(NamedTuple):
     soft: int  # 1 if pockets have residual flexibility
     res: np.ndarray  # (Z, 4, nst + 2, 12) residual shapes of unit compliance, with the end stations
     res_max: np.ndarray  # (Z, 4, 12) their largest values
+    own: (
+        np.ndarray
+    )  # (Z, 4, nst + 2, 4) the same of a face touched alone, in coordinates of its own
+    own_max: np.ndarray  # (Z, 4, 4) their largest values
+    turn: np.ndarray  # (Z, 4, 4, 12) those coordinates from the pocket's
     root: np.ndarray  # (Z, 12, 12) residual coordinates of the modal basis from those of the shapes
     friction: np.ndarray  # (2, 5) crossbeams, side beams
 
@@ -76,6 +82,8 @@ class PocketWork(NamedTuple):
     slice_N: np.ndarray  # (2, ns) of the crossbeams
     slice_T: np.ndarray  # (2, ns)
     b: np.ndarray  # (12,) residual coordinates
+    size: np.ndarray  # (1,) coordinates in use: 12, or 4 of a face that is touched alone
+    c: np.ndarray  # (12,) those coordinates
     g: np.ndarray  # (12,) right-hand side of the condensation
     A: np.ndarray  # (12, 12) 1 + R^T H R, then its factors
     h: np.ndarray  # (MOST,)
@@ -95,8 +103,8 @@ def pocket_work(n_slices: int, n_stations: int) -> PocketWork:
     return PocketWork(
         z((3, 3)), z(4, FACE).view(np.recarray), z(4, np.int64), z(4, np.int64), z(4),
         z((3, st + 2)), z(st + 2), z((3, st + 2)), z((4, st, 3)), z(4), z(4), z((2, n_slices)),
-        z((2, n_slices)), z(m), z(m), z((m, m)), z(MOST), z((4, st, 6)), z((4, st, 6)),
-        z((4, st, st)), z((4, st, m)),
+        z((2, n_slices)), z(m), z(1, np.int64), z(m), z(m), z((m, m)), z(MOST), z((4, st, 6)),
+        z((4, st, 6)), z((4, st, st)), z((4, st, m)),
         z((m, m)), z((m, 6)), z((6, m)), z((m, 6)), z((6, m)),
     )  # fmt: skip
 

@@ -111,7 +111,7 @@ class Scratch(NamedTuple):
     border: np.ndarray  # (nb,) generalised forces on the border
     Lm: np.ndarray  # (6, n) roller-modal products
     Bm: np.ndarray  # (n, 6)
-    PR: np.ndarray  # (n, 12) modal-residual products
+    PR: np.ndarray  # (12, n) modal-residual products
     out: np.ndarray  # (size,) residual that nobody asked for
 
 
@@ -148,7 +148,7 @@ def new_work(
     )  # fmt: skip
     scratch = Scratch(
         z((6, 6)), z((2, 6, 6)), z((2, 3, 3)), z((3, 3)), np.eye(3), z((Z, 24)), z((Z, 6)),
-        z(10), z((9, 3)), z(14 + n), z((6, n)), z((n, 6)), z((n, N_LOCAL)), z(layout.size),
+        z(10), z((9, 3)), z(14 + n), z((6, n)), z((n, 6)), z((N_LOCAL, n)), z(layout.size),
     )  # fmt: skip
     return Work(
         new_pose(), new_slices(), new_pair(), pocket_work, land_work(land_stations), frame_work(n),

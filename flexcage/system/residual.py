@@ -11,7 +11,6 @@ slices and stations.
 from __future__ import annotations
 
 from flexcage.contacts.pocket import pocket_contact
-from flexcage.contacts.pocket_wall import N_LOCAL
 from flexcage.contacts.race import race_contact
 from flexcage.contacts.rib import rib_contact
 from flexcage.contacts.state import keep_pose, set_pose, shift_matrix, take_pose
@@ -152,19 +151,19 @@ def _scatter_modes(data, i, pw, S, tan, Lm, Bm, PR):
             sgn = 1.0 if f % 2 == 0 else -1.0
             comp = 2 if f < 2 else 0
             for s in range(n_st):
-                for l in range(N_LOCAL):
+                for l in range(pw.size[0]):
                     h = sgn * pw.HR[f, s, l]
                     if h != 0.0:
                         for m in range(n_m):
-                            PR[m, l] += h * data.phi[i, f, s, comp, m]
+                            PR[l, m] += h * data.phi[i, f, s, comp, m]
         for m in range(n_m):
-            for l in range(N_LOCAL):
+            for l in range(pw.size[0]):
                 h = 0.0
-                for k in range(N_LOCAL):
-                    h += PR[m, k] * pw.X[k, l]
+                for k in range(pw.size[0]):
+                    h += PR[k, m] * pw.X[k, l]
                 if h != 0.0:
                     for o in range(n_m):
-                        tan.Kbb[14 + m, 14 + o] -= h * PR[o, l]
+                        tan.Kbb[14 + m, 14 + o] -= h * PR[l, o]
     for c in range(6):
         for m in range(n_m):
             tan.Krb[i, c, 14 + m] += Lm[c, m]

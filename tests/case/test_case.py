@@ -135,8 +135,10 @@ def test_names_and_words_do_not_change_the_hash(case):
     assert case.replace("cage.model", "rigid").hash != case.hash
 
 
-def test_attachments_count_where_pockets_have_faces(case):
+def test_attachments_count_where_there_are_any(case):
     assert case.replace("modes.attachments", "linear").hash != case.hash
+    rigid = case.replace("cage.model", "rigid")
+    assert rigid.replace("modes.attachments", "linear").hash == rigid.hash
     ball = load_case('[bearing]\npreset = "7010C-PI"\n[load]\naxial = "100 N"\n')
     assert ball.replace("modes.attachments", "linear").hash == ball.hash
 

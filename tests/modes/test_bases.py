@@ -5,11 +5,12 @@ from types import MappingProxyType
 
 import numpy as np
 import pytest
-from modes_cage import POCKETS
+from modes_cage import CAGE, POCKETS
 
 from flexcage.core.errors import InputError
 from flexcage.fem.free import FreeBodySolver
 from flexcage.modes import ritz
+from flexcage.modes.interface import cage_interface
 from flexcage.modes.pockets import pocket_loads
 from flexcage.modes.registry import build_basis
 from flexcage.modes.spec import DampingBand, ModesSpec
@@ -44,6 +45,19 @@ def test_reduced_deflection_is_the_full_one(request, which, pocket):
     assert np.abs(reduced - full).max() < 1e-8 * np.abs(full).max()
     missed = np.abs(dynamic_answer(basis, loads) - full).max(axis=0) / np.abs(full).max(axis=0)
     assert missed[0] > 0.005  # the modes alone are too stiff: the residual is needed
+
+
+def test_linear_attachments_are_the_first_of_the_quadratic_ones(solver, basis):
+    """Vectors do not depend on each other; an interface has zeros for those that are missing."""
+    spec = ModesSpec(attachments="linear")
+    linear = build_basis(solver.model, pocket_count=POCKETS, spec=spec, solver=solver)
+    shapes = basis.residual.shapes.reshape(solver.model.n_dof, POCKETS, 12)[:, :, :8]
+    found = linear.residual.shapes.reshape(solver.model.n_dof, POCKETS, 8)
+    np.testing.assert_allclose(found, shapes, atol=1e-9 * np.abs(shapes).max())
+    interface = cage_interface(solver.model, linear, pocket_count=POCKETS, cage=CAGE)
+    assert interface.residual.shape[-1] == 12 and not interface.residual[..., 8:].any()
+    np.testing.assert_array_equal(interface.compliance[:, :8, :8], linear.residual.compliance)
+    assert not interface.compliance[:, 8:].any() and not interface.compliance[:, :, 8:].any()
 
 
 def test_partial_contact_deflects_as_the_full_model(solver, basis):
