@@ -7,8 +7,8 @@ With R(x) the pocket's residual shapes, scaled so that their compliance is one, 
 so no unknown is added to the DAE, energy stays consistent (the wall stores b . b/2), and damping
 acts on the rate of the remaining motion. A rigid cage has no such shapes.
 
-What a face reads of them has four coordinates of its own (``model.own_coordinates``), in which a
-face that is touched alone, nearly all that are, is solved.
+Seven stations of a face move with seven combinations of them at the most
+(``model.own_coordinates``): in these a face that is touched alone, as nearly all are, is solved.
 """
 
 from __future__ import annotations

@@ -19,7 +19,7 @@ from flexcage.core.splines import smooth_weights
 from flexcage.core.vectors import dot, row
 
 N_LOCAL = 12  # residual coordinates of a pocket: uniform, linear and quadratic on four faces
-N_FACE = 4  # those that move one face
+N_FACE = 8  # those that move one face: as many as it has stations, and one more
 
 
 class PocketData(NamedTuple):
@@ -42,11 +42,9 @@ class PocketData(NamedTuple):
     soft: int  # 1 if pockets have residual flexibility
     res: np.ndarray  # (Z, 4, nst + 2, 12) residual shapes of unit compliance, with the end stations
     res_max: np.ndarray  # (Z, 4, 12) their largest values
-    own: (
-        np.ndarray
-    )  # (Z, 4, nst + 2, 4) the same of a face touched alone, in coordinates of its own
-    own_max: np.ndarray  # (Z, 4, 4) their largest values
-    turn: np.ndarray  # (Z, 4, 4, 12) those coordinates from the pocket's
+    own: np.ndarray  # (Z, 4, nst + 2, 8) the same in a face's own coordinates
+    own_max: np.ndarray  # (Z, 4, 8) their largest values
+    turn: np.ndarray  # (Z, 4, 8, 12) those coordinates from the pocket's
     root: np.ndarray  # (Z, 12, 12) residual coordinates of the modal basis from those of the shapes
     friction: np.ndarray  # (2, 5) crossbeams, side beams
 
@@ -82,7 +80,7 @@ class PocketWork(NamedTuple):
     slice_N: np.ndarray  # (2, ns) of the crossbeams
     slice_T: np.ndarray  # (2, ns)
     b: np.ndarray  # (12,) residual coordinates
-    size: np.ndarray  # (1,) coordinates in use: 12, or 4 of a face that is touched alone
+    size: np.ndarray  # (1,) coordinates in use: 12, or 8 of a face that is touched alone
     c: np.ndarray  # (12,) those coordinates
     g: np.ndarray  # (12,) right-hand side of the condensation
     A: np.ndarray  # (12, 12) 1 + R^T H R, then its factors

@@ -167,11 +167,10 @@ def compliance_root(compliance: np.ndarray) -> np.ndarray:
 
 
 def own_coordinates(shapes: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """What residual coordinates (Z, 4, nst, 12) do to each face, in four coordinates of its own.
+    """What residual coordinates (Z, 4, nst, 12) do to each face, in eight coordinates of its own.
 
-    The shapes (Z, 4, nst, 4) of those, and their directions (Z, 4, 4, 12), orthonormal. Left out is
-    what a face's softest four miss: 1e-4 of the residual deflection on an N1013's cage, where all
-    loads of the other faces do little more than its own three.
+    The shapes (Z, 4, nst, 8) of those, and their directions (Z, 4, 8, 12), orthonormal or zero.
+    Exact while a face has no more stations than that; with more, its softest eight.
     """
     left, values, right = np.linalg.svd(shapes, full_matrices=False)
     own, turn = (
@@ -195,9 +194,10 @@ def _pocket_data(bearing, cage, contacts: Contacts, interface: CageInterface) ->
     if interface.compliance.shape[1:] != (N_LOCAL, N_LOCAL):
         raise ValueError(f"compliances are {interface.compliance.shape}, not (Z, {N_LOCAL}, same)")
     root = compliance_root(interface.compliance)
-    shapes, turn = own_coordinates(np.einsum("zfsa,zab->zfsb", interface.residual, root))
-    own = with_end_stations(shapes)
-    res = np.einsum("zfsl,zfla->zfsa", own, turn)
+    shapes = np.einsum("zfsa,zab->zfsb", interface.residual, root)
+    res = with_end_stations(shapes)
+    own, turn = own_coordinates(shapes)
+    own = with_end_stations(own)
     return PocketData(
         azimuth=st(np.stack([np.cos(angle), np.sin(angle)], axis=1)),
         half=0.5 * np.array([cage.pocket_width, cage.pocket_length]),

@@ -193,6 +193,17 @@ def test_condensed_walls_against_minimisation(walls):
     assert np.abs(pocket(stiff_data, p, D, axis=axis)[0]).max() > np.abs(wrench).max()
 
 
+def test_a_face_alone_yields_as_among_others(walls):
+    """The coordinates of one face give what the pocket's twelve do: the same roller, once with
+    another face that is touched by a hair."""
+    data, p = walls(interface(soft=True))
+    alone, _, one, _ = pocket(data, p, squeeze(8e-6, -1e-9))
+    beside, _, two, _ = pocket(data, p, squeeze(8e-6, 1e-9))
+    assert one.size[0] == 8 and two.size[0] == 12
+    np.testing.assert_allclose(alone, beside, atol=1e-3 * np.abs(alone).max())
+    np.testing.assert_allclose(one.b, two.b, atol=1e-3 * np.abs(one.b).max())
+
+
 def test_two_springs_in_series(walls):
     """A uniform wall compliance c under a straight push: F = K (d - c F)^n, solved apart."""
     itf = interface()
