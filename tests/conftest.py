@@ -17,8 +17,8 @@ def rigid_interface(pockets: int, *, stations: int = 7, land: int = 24):
         stations=np.stack([np.linspace(-4e-3, 4e-3, stations)] * 4),
         offset=z((pockets, 4, stations)),
         modes=z((pockets, 4, stations, 3, 0)),
-        residual=z((pockets, 4, stations, 8)),
-        compliance=z((pockets, 8, 8)),
+        residual=z((pockets, 4, stations, 12)),
+        compliance=z((pockets, 12, 12)),
         patch_half_width=1.9e-3,
         land=z((2, land, 3, 0)),
     )

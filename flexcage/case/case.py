@@ -29,6 +29,7 @@ from flexcage.core.hashing import content_hash
 from flexcage.core.registry import source_of
 from flexcage.core.spec import option
 from flexcage.geometry.ball_cage_defects import BallCageDefect, uneven_pockets
+from flexcage.geometry.ball_cages import BallCage
 from flexcage.geometry.bearings import Bearing
 from flexcage.geometry.cage import Cage
 from flexcage.geometry.cages import Defect
@@ -149,10 +150,13 @@ class Case:
         """16 digits that name the case's physics and outputs; names and words do not count.
 
         A mesh file of the user's own counts by its bytes, wherever it lies; a law or basis of
-        the user's own by the file that defines it.
+        the user's own by the file that defines it. Attachments count where there are any: not with
+        a rigid cage or round pockets.
         """
         fields = {f.name: getattr(self, f.name) for f in dataclasses.fields(self)}
         physics = {k: v for k, v in fields.items() if k not in _NOT_PHYSICS}
+        if self.cage_model == "rigid" or isinstance(self.cage, BallCage):
+            physics["modes"] = dataclasses.replace(self.modes, attachments="linear")
         file = Path(self.mesh.file)
         content = b""
         if self.mesh.file and file.is_file():

@@ -6,11 +6,14 @@ With R(x) the pocket's residual shapes, scaled so that their compliance is one, 
 
 so no unknown is added to the DAE, energy stays consistent (the wall stores b . b/2), and damping
 acts on the rate of the remaining motion. A rigid cage has no such shapes.
+
+Seven stations of a face move with seven combinations of them at the most
+(``model.own_coordinates``): in these a face that is touched alone, as nearly all are, is solved.
 """
 
 from __future__ import annotations
 
-from flexcage.contacts.pocket_wall import N_LOCAL, mixed, points_of_face
+from flexcage.contacts.pocket_wall import N_FACE, N_LOCAL, mixed, points_of_face
 from flexcage.contacts.slices import elastic_forces, largest
 from flexcage.core.jit import VECTORISED, copy_into, part, zero
 
@@ -20,82 +23,123 @@ SLOW = 0.1  # a step this large of the one before asks for new factors
 
 
 @part(fastmath=VECTORISED)
-def read_residual(data, i, f, face):
-    """Residual shapes under the slices of face f into face.R."""
-    shapes = data.res[i, f]
-    for k in range(points_of_face(data, f)):
+def _read(m, n, shapes, face):
+    """m residual shapes (nst + 2, m) under the n slices of a face into face.R."""
+    for k in range(n):
         j = face.j[k]
         w0, w1, w2, w3 = face.w[0, k], face.w[1, k], face.w[2, k], face.w[3, k]
-        for l in range(N_LOCAL):
+        for l in range(m):
             x = w0 * shapes[j, l] + w1 * shapes[j + 1, l]
             face.R[l, k] = x + w2 * shapes[j + 2, l] + w3 * shapes[j + 3, l]
 
 
 @part(fastmath=VECTORISED)
-def yielded(n, face, b, sl):
-    """Penetration sl.d of a face after the residual deflection of its n slices."""
+def _yielded(m, n, face, c, sl):
     for k in range(n):
         sl.d[k] = face.d0[k]
-    for l in range(N_LOCAL):
-        x = b[l]
+    for l in range(m):
+        x = c[l]
         for k in range(n):
             sl.d[k] -= x * face.R[l, k]
 
 
 @part
+def yielded(n, face, pw, sl):
+    """Penetration sl.d of a face after the residual deflection of its n slices."""
+    if pw.size[0] == N_FACE:
+        _yielded(N_FACE, n, face, pw.c, sl)
+    else:
+        _yielded(N_LOCAL, n, face, pw.c, sl)
+
+
+@part
 def condense(data, i, p, laws, guess, sl, pw):
-    """Solve pocket i's residual coordinates pw.b from ``guess`` (8,), by Newton's method.
+    """Solve pocket i's residual coordinates pw.b from ``guess`` (12,), by Newton's method.
 
     Faces that nothing touches before the walls yield join if those that are touched push them in.
     """
+    touched, last = 0, 0
     for f in range(4):
         pw.live[f] = 1 if pw.near[f] != 0 and pw.deep[f] > 0.0 else 0
         if pw.live[f] != 0:
-            read_residual(data, i, f, pw.face[f])
+            touched, last = touched + 1, f
+    if touched == 0:
+        zero(pw.b)
+        return
     copy_into(pw.b, guess)
+    if touched == 1:
+        _solve_alone(data, i, last, p, laws, sl, pw)
+        if not _join(data, i, sl, pw):
+            return
+    pw.size[0] = N_LOCAL
+    copy_into(pw.c, pw.b)
+    for f in range(4):
+        if pw.live[f] != 0:
+            _read(N_LOCAL, points_of_face(data, f), data.res[i, f], pw.face[f])
     joined = True
     while joined:
         _solve(data, i, p, laws, sl, pw)
-        joined = False
-        for f in range(4):
-            if pw.near[f] == 0 or pw.live[f] != 0:
-                continue
-            bound = pw.deep[f]
-            for l in range(N_LOCAL):
-                bound += abs(pw.b[l]) * data.res_max[i, f, l]
-            if bound > 0.0:
-                n = points_of_face(data, f)
-                read_residual(data, i, f, pw.face[f])
-                yielded(n, pw.face[f], pw.b, sl)
-                if largest(n, sl.d) > 0.0:
-                    pw.live[f] = 1
-                    joined = True
+        copy_into(pw.b, pw.c)
+        joined = _join(data, i, sl, pw)
+
+
+@part
+def _join(data, i, sl, pw):
+    """Whether faces join that the residual deflection pushes to the roller."""
+    joined = False
+    for f in range(4):
+        if pw.near[f] == 0 or pw.live[f] != 0:
+            continue
+        bound = pw.deep[f]
+        for l in range(N_LOCAL):
+            bound += abs(pw.b[l]) * data.res_max[i, f, l]
+        if bound > 0.0:
+            n = points_of_face(data, f)
+            _read(N_LOCAL, n, data.res[i, f], pw.face[f])
+            _yielded(N_LOCAL, n, pw.face[f], pw.b, sl)
+            if largest(n, sl.d) > 0.0:
+                pw.live[f] = 1
+                joined = True
+    return joined
+
+
+@part
+def _solve_alone(data, i, f, p, laws, sl, pw):
+    """The coordinates pw.c of face f alone, which no other face pushes; from and to pw.b."""
+    pw.size[0] = N_FACE
+    _read(N_FACE, points_of_face(data, f), data.own[i, f], pw.face[f])
+    for l in range(N_FACE):
+        x = 0.0
+        for k in range(N_LOCAL):
+            x += data.turn[i, f, l, k] * pw.b[k]
+        pw.c[l] = x
+    before, step = 0.0, 1.0
+    for _ in range(40):
+        anew = step > SLOW * before
+        _balance(N_FACE, data, f, p, laws, anew, sl, pw)
+        before, step = step, 0.0
+        for l in range(N_FACE):
+            pw.c[l] += pw.g[l]
+            step = max(step, abs(pw.g[l]) * data.own_max[i, f, l])
+        if step < (SOLVED if anew else SOLVED_AGAIN):
+            break
+    for k in range(N_LOCAL):
+        x = 0.0
+        for l in range(N_FACE):
+            x += data.turn[i, f, l, k] * pw.c[l]
+        pw.b[k] = x
 
 
 @part
 def _solve(data, i, p, laws, sl, pw):
-    """Newton's method on the faces that are live; factors are kept while it converges fast."""
+    """The coordinates pw.c of all faces that are live."""
     before, step = 0.0, 1.0
     for _ in range(40):
         anew = step > SLOW * before
-        for l in range(N_LOCAL):
-            pw.g[l] = -pw.b[l]
-        if anew:
-            zero(pw.A8)
-        for f in range(4):
-            if pw.live[f] != 0:
-                n = points_of_face(data, f)
-                yielded(n, pw.face[f], pw.b, sl)
-                elastic_forces(laws[0] if f < 2 else laws[1], n, sl, p[f])
-                _load(n, pw.face[f], sl, pw.g)
-                if anew:
-                    _stiffen(n, pw.face[f], sl, pw.h, pw.A8)
-        if anew:
-            factor(pw.A8)
-        back_substitute(pw.A8, pw.g)
+        _balance(N_LOCAL, data, -1, p, laws, anew, sl, pw)
         before, step = step, 0.0
         for l in range(N_LOCAL):
-            pw.b[l] += pw.g[l]
+            pw.c[l] += pw.g[l]
             scale = 0.0
             for f in range(4):
                 scale = max(scale, data.res_max[i, f, l])
@@ -104,10 +148,35 @@ def _solve(data, i, p, laws, sl, pw):
             break
 
 
+@part
+def _balance(m, data, alone, p, laws, anew, sl, pw):
+    """Newton's step of m coordinates into pw.g, with new factors or those of an earlier step.
+
+    ``alone``: the one face that is live, or -1: all that are.
+    """
+    for l in range(m):
+        pw.g[l] = -pw.c[l]
+    if anew:
+        for l in range(m):
+            for k in range(l + 1):
+                pw.A[l, k] = 0.0
+    for f in range(4):
+        if pw.live[f] != 0 and (alone < 0 or f == alone):
+            n = points_of_face(data, f)
+            _yielded(m, n, pw.face[f], pw.c, sl)
+            elastic_forces(laws[0] if f < 2 else laws[1], n, sl, p[f])
+            _load(m, n, pw.face[f], sl, pw.g)
+            if anew:
+                _stiffen(m, n, pw.face[f], sl, pw.h, pw.A)
+    if anew:
+        factor(m, pw.A)
+    back_substitute(m, pw.A, pw.g)
+
+
 @part(fastmath=VECTORISED)
-def _load(n, face, sl, g):
+def _load(m, n, face, sl, g):
     """Add the residual coordinates' loads to g."""
-    for l in range(N_LOCAL):
+    for l in range(m):
         x = 0.0
         for k in range(n):
             x += face.R[l, k] * sl.Ne[k]
@@ -115,42 +184,42 @@ def _load(n, face, sl, g):
 
 
 @part(fastmath=VECTORISED)
-def _stiffen(n, face, sl, h, A):
-    """Add R^T H R to the lower triangle of A."""
-    for l in range(N_LOCAL):
+def _stiffen(m, n, face, sl, h, A):
+    """Add R^T H R to the lower triangle of A (m, m)."""
+    for l in range(m):
         for k in range(n):
             h[k] = face.R[l, k] * sl.Nd[k]
-        for m in range(l + 1):
+        for o in range(l + 1):
             x = 0.0
             for k in range(n):
-                x += h[k] * face.R[m, k]
-            A[l, m] += x
+                x += h[k] * face.R[o, k]
+            A[l, o] += x
 
 
 @part(forceinline=False)
-def factor(A):
-    """L D L^T of 1 + A in place of the lower triangle of A: L, and 1/D in the diagonal."""
-    for l in range(N_LOCAL):
+def factor(n, A):
+    """L D L^T of 1 + A (n, n) in place of the lower triangle of A: L, and 1/D in the diagonal."""
+    for l in range(n):
         A[l, l] += 1.0
-    for m in range(N_LOCAL):
+    for m in range(n):
         A[m, m] = 1.0 / A[m, m]
-        for l in range(m + 1, N_LOCAL):
+        for l in range(m + 1, n):
             x = A[l, m] * A[m, m]
             for k in range(m + 1, l + 1):
                 A[l, k] -= x * A[k, m]
-        for l in range(m + 1, N_LOCAL):
+        for l in range(m + 1, n):
             A[l, m] *= A[m, m]
 
 
 @part(forceinline=False)
-def back_substitute(A, x):
-    """x <- (1 + A)^-1 x with the factors that ``factor`` left."""
-    for m in range(N_LOCAL):
-        for l in range(m + 1, N_LOCAL):
+def back_substitute(n, A, x):
+    """x <- (1 + A)^-1 x (n,) with the factors that ``factor`` left."""
+    for m in range(n):
+        for l in range(m + 1, n):
             x[l] -= A[l, m] * x[m]
-    for l in range(N_LOCAL - 1, -1, -1):
+    for l in range(n - 1, -1, -1):
         y = x[l] * A[l, l]
-        for k in range(l + 1, N_LOCAL):
+        for k in range(l + 1, n):
             y -= A[k, l] * x[k]
         x[l] = y
 
@@ -161,8 +230,12 @@ def lean_of_residual(data, i, f, pw):
     face = pw.face[f]
     for s in range(pw.lean.shape[0]):
         x = 0.0
-        for l in range(N_LOCAL):
-            x += data.res[i, f, s, l] * pw.b[l]
+        if pw.size[0] == N_FACE:
+            for l in range(N_FACE):
+                x += data.own[i, f, s, l] * pw.c[l]
+        else:
+            for l in range(N_LOCAL):
+                x += data.res[i, f, s, l] * pw.c[l]
         pw.lean[s] = x
     for k in range(points_of_face(data, f)):
         face.slope[k] += mixed(face.ws, face, k, pw.lean)
@@ -171,29 +244,30 @@ def lean_of_residual(data, i, f, pw):
 @part
 def soften(pw, pair):
     """Condense the residual coordinates out of the tangent, and keep X for the modes."""
-    factor(pw.A8)
-    for l in range(N_LOCAL):
+    n = pw.size[0]
+    factor(n, pw.A)
+    for l in range(n):
         zero(pw.g)
         pw.g[l] = 1.0
-        back_substitute(pw.A8, pw.g)
-        for m in range(N_LOCAL):
+        back_substitute(n, pw.A, pw.g)
+        for m in range(n):
             pw.X[m, l] = pw.g[m]
     zero(pw.XB)
     zero(pw.LX)
-    for l in range(N_LOCAL):
-        for m in range(N_LOCAL):
+    for l in range(n):
+        for m in range(n):
             for c in range(6):
                 pw.XB[l, c] += pw.X[l, m] * pw.RB[m, c]
                 pw.LX[c, l] += pw.LR[c, m] * pw.X[m, l]
     for c in range(6):
         for e in range(6):
-            for l in range(N_LOCAL):
+            for l in range(n):
                 pair.K[c, e] -= pw.LR[c, l] * pw.XB[l, e]
     for f in range(4):
         if pw.live[f] == 0:
             continue
         for s in range(pw.HR.shape[1]):
             for c in range(6):
-                for l in range(N_LOCAL):
+                for l in range(n):
                     pw.BW[f, s, c] -= pw.HR[f, s, l] * pw.XB[l, c]
                     pw.LV[f, s, c] -= pw.LX[c, l] * pw.HR[f, s, l]

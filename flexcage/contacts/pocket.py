@@ -83,7 +83,7 @@ def _press(data, i, f, sl, pw):
     if data.soft != 0:
         if pw.live[f] == 0:
             return False
-        yielded(n, pw.face[f], pw.b, sl)
+        yielded(n, pw.face[f], pw, sl)
         lean_of_residual(data, i, f, pw)
     else:
         for k in range(n):

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from math import sqrt
 
-from flexcage.contacts.pocket_wall import N_LOCAL, mixed, points_of_face, station_weight
+from flexcage.contacts.pocket_wall import mixed, points_of_face, station_weight
 from flexcage.contacts.state import (
     add_end_generator,
     add_generator,
@@ -214,7 +214,7 @@ def add_tangent(pose, data, f, Rw, distance, sl, pw, pair):
             for t in range(first, last):
                 pw.H[f, s, t] += ws * station_weight(face, k, n_st, t)
             if data.soft != 0:
-                for l in range(N_LOCAL):
+                for l in range(pw.size[0]):
                     pw.HR[f, s, l] += ws * face.R[l, k]
         if data.soft != 0:
             _add_residual(k, sl.Nd[k], face, Wn, V, pw)
@@ -223,10 +223,10 @@ def add_tangent(pose, data, f, Rw, distance, sl, pw, pair):
 @part
 def _add_residual(k, Nd, face, Wn, V, pw):
     """One slice's products with the residual coordinates."""
-    for l in range(N_LOCAL):
+    for l in range(pw.size[0]):
         h = Nd * face.R[l, k]
         for m in range(l + 1):
-            pw.A8[l, m] += h * face.R[m, k]
+            pw.A[l, m] += h * face.R[m, k]
         for c in range(6):
             pw.RB[l, c] += h * Wn[c]
             pw.LR[c, l] += h * V[c]

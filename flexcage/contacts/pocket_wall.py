@@ -18,7 +18,8 @@ from flexcage.core.jit import VECTORISED, part, zero
 from flexcage.core.splines import smooth_weights
 from flexcage.core.vectors import dot, row
 
-N_LOCAL = 8  # residual coordinates of a pocket: uniform and linear on four faces
+N_LOCAL = 12  # residual coordinates of a pocket: uniform, linear and quadratic on four faces
+N_FACE = 8  # those that move one face: as many as it has stations, and one more
 
 
 class PocketData(NamedTuple):
@@ -39,9 +40,12 @@ class PocketData(NamedTuple):
     phi: np.ndarray  # (Z, 4, nst, 3, nm)
     phi_max: np.ndarray  # (nm,) largest normal value over all stations
     soft: int  # 1 if pockets have residual flexibility
-    res: np.ndarray  # (Z, 4, nst + 2, 8) residual shapes of unit compliance, with the end stations
-    res_max: np.ndarray  # (Z, 4, 8) their largest values
-    root: np.ndarray  # (Z, 8, 8) residual coordinates of the modal basis from those of the shapes
+    res: np.ndarray  # (Z, 4, nst + 2, 12) residual shapes of unit compliance, with the end stations
+    res_max: np.ndarray  # (Z, 4, 12) their largest values
+    own: np.ndarray  # (Z, 4, nst + 2, 8) the same in a face's own coordinates
+    own_max: np.ndarray  # (Z, 4, 8) their largest values
+    turn: np.ndarray  # (Z, 4, 8, 12) those coordinates from the pocket's
+    root: np.ndarray  # (Z, 12, 12) residual coordinates of the modal basis from those of the shapes
     friction: np.ndarray  # (2, 5) crossbeams, side beams
 
 
@@ -75,29 +79,31 @@ class PocketWork(NamedTuple):
     tangential: np.ndarray  # (4,)
     slice_N: np.ndarray  # (2, ns) of the crossbeams
     slice_T: np.ndarray  # (2, ns)
-    b: np.ndarray  # (8,) residual coordinates
-    g: np.ndarray  # (8,) right-hand side of the condensation
-    A8: np.ndarray  # (8, 8) 1 + R^T H R, then its factors
+    b: np.ndarray  # (12,) residual coordinates
+    size: np.ndarray  # (1,) coordinates in use: 12, or 8 of a face that is touched alone
+    c: np.ndarray  # (12,) those coordinates
+    g: np.ndarray  # (12,) right-hand side of the condensation
+    A: np.ndarray  # (12, 12) 1 + R^T H R, then its factors
     h: np.ndarray  # (MOST,)
     BW: np.ndarray  # (4, nst, 6) station-generator products
     LV: np.ndarray  # (4, nst, 6)
     H: np.ndarray  # (4, nst, nst) station stiffness, before the residual is condensed
-    HR: np.ndarray  # (4, nst, 8) the same between stations and residual coordinates
-    X: np.ndarray  # (8, 8) (1 + R^T H R)^-1; zero for a rigid pocket
-    RB: np.ndarray  # (8, 6) residual coordinates and generators
-    LR: np.ndarray  # (6, 8)
-    XB: np.ndarray  # (8, 6)
-    LX: np.ndarray  # (6, 8)
+    HR: np.ndarray  # (4, nst, 12) the same between stations and residual coordinates
+    X: np.ndarray  # (12, 12) (1 + R^T H R)^-1; zero for a rigid pocket
+    RB: np.ndarray  # (12, 6) residual coordinates and generators
+    LR: np.ndarray  # (6, 12)
+    XB: np.ndarray  # (12, 6)
+    LX: np.ndarray  # (6, 12)
 
 
 def pocket_work(n_slices: int, n_stations: int) -> PocketWork:
-    st, z = n_stations, np.zeros
+    st, z, m = n_stations, np.zeros, N_LOCAL
     return PocketWork(
         z((3, 3)), z(4, FACE).view(np.recarray), z(4, np.int64), z(4, np.int64), z(4),
         z((3, st + 2)), z(st + 2), z((3, st + 2)), z((4, st, 3)), z(4), z(4), z((2, n_slices)),
-        z((2, n_slices)), z(8), z(8), z((8, 8)), z(MOST), z((4, st, 6)), z((4, st, 6)),
-        z((4, st, st)), z((4, st, 8)),
-        z((8, 8)), z((8, 6)), z((6, 8)), z((8, 6)), z((6, 8)),
+        z((2, n_slices)), z(m), z(1, np.int64), z(m), z(m), z((m, m)), z(MOST), z((4, st, 6)),
+        z((4, st, 6)), z((4, st, st)), z((4, st, m)),
+        z((m, m)), z((m, 6)), z((6, m)), z((m, 6)), z((6, m)),
     )  # fmt: skip
 
 
@@ -298,6 +304,6 @@ def clear_tangent(pw):
     zero(pw.H)
     zero(pw.HR)
     zero(pw.X)
-    zero(pw.A8)
+    zero(pw.A)
     zero(pw.RB)
     zero(pw.LR)

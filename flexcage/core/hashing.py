@@ -19,7 +19,9 @@ _DIGITS = 12  # 0.2 * 1e-3 and 200 * 1e-6 differ in the 16th digit and mean the 
 def canonical(obj: Any) -> Any:
     """Plain JSON values of nested dataclasses: numbers rounded to 12 significant digits.
 
-    Integers and floats of the same value are the same; arrays enter by shape, type and bytes.
+    Integers and floats of the same value are the same; arrays enter by shape, type and bytes. An
+    option that was added later (``former`` of ``core.spec.option``) enters where it asks for
+    something else than what was done before, so that results found by hash stay found.
     """
     if obj is None or isinstance(obj, (bool, str)):
         return obj
@@ -30,8 +32,8 @@ def canonical(obj: Any) -> Any:
     if isinstance(obj, np.bool_):
         return bool(obj)
     if dataclasses.is_dataclass(obj) and not isinstance(obj, type):
-        fields = {f.name: canonical(getattr(obj, f.name)) for f in dataclasses.fields(obj)}
-        return {"": type(obj).__name__, **fields}
+        values = {f.name: getattr(obj, f.name) for f in dataclasses.fields(obj) if _counts(obj, f)}
+        return {"": type(obj).__name__, **{name: canonical(v) for name, v in values.items()}}
     if isinstance(obj, Mapping):
         return {str(k): canonical(v) for k, v in obj.items()}
     if isinstance(obj, (list, tuple)):
@@ -49,6 +51,11 @@ def canonical(obj: Any) -> Any:
     if isinstance(obj, PurePath):
         return str(obj)
     raise TypeError(f"no canonical form for {type(obj).__name__}")
+
+
+def _counts(obj: Any, field: dataclasses.Field[Any]) -> bool:
+    former = field.metadata.get("former", dataclasses.MISSING)
+    return former is dataclasses.MISSING or getattr(obj, field.name) != former
 
 
 def _number(x: Any) -> Any:

@@ -51,12 +51,15 @@ def option(
     maximum: float | None = None,
     assumption: str = "",
     of: Collection[str] = (),
+    former: Any = MISSING,
 ) -> Any:
     """A dimensionless value, count, flag or name; ``choices`` holds the names accepted.
 
     Choices that are a mapping may grow while the program runs (``core.registry``). It gives the
     spec that a name brings along with values of its own, a subclass of the one at hand, or None.
-    ``assumption`` and ``of`` as for ``quantity``.
+    ``assumption`` and ``of`` as for ``quantity``. ``former`` is for an option that is added
+    later: what was done before, which leaves the hashes of specs as they were
+    (``core.hashing``).
     """
     meta = {
         "doc": doc,
@@ -65,5 +68,6 @@ def option(
         "maximum": maximum,
         "assumption": assumption,
         "of": of,
+        "former": former,
     }
     return dataclasses.field(default=default, metadata=meta)

@@ -15,7 +15,8 @@ FACES = ("front", "rear", "side+x", "side-x")  # face numbers 0..3 of a pocket, 
 class ResidualFlexibility:
     """Quasi-static residual vectors of the pocket faces, stiffness-orthogonal to the modes.
 
-    Vector j = pocket * per_pocket + local; local 2f is the uniform, 2f+1 the linear load on face f.
+    Vector j = pocket * per_pocket + local; local 2f is the uniform, 2f+1 the linear, and, with 12 a
+    pocket in place of 8, 8+f the quadratic load on face f.
     Coordinates a [m, mean outward displacement of the own face] obey stiffness a = Psi^T F with
     ``stiffness`` Psi^T K Psi. ``compliance`` holds the inverses of its pocket blocks: the answer
     with the coupling between pockets cut, exact for the own displacement of a pocket.
@@ -103,8 +104,8 @@ class CageInterface:
     stations: np.ndarray  # (4, n_st) station coordinates [m]
     offset: np.ndarray  # (Z, 4, n_o) [m]
     modes: np.ndarray  # (Z, 4, n_st, 3, n) dynamic modes at stations
-    residual: np.ndarray  # (Z, 4, n_st, 8) outward displacement by the pocket's own vectors
-    compliance: np.ndarray  # (Z, 8, 8) of the residual coordinates; zeros for a rigid cage
+    residual: np.ndarray  # (Z, 4, n_st, 12) outward displacement by the pocket's own vectors
+    compliance: np.ndarray  # (Z, 12, 12) of the residual coordinates; zeros for a rigid cage
     patch_half_width: float  # half-width [m] of the strip over which a station's force is spread
     land: np.ndarray  # (2, n_land, 3, n): radial-frame modes on the inner/outer land ring stations
     offset_at: np.ndarray | None = None  # (4, n_o) [m]

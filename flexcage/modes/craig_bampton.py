@@ -1,7 +1,8 @@
 """Craig-Bampton basis over generalised interface displacements of the pocket faces.
 
-Interface coordinate j is the work-conjugate displacement b_j^T u of pocket load j (mean and
-first moment of the face's normal displacement), so that faces stay flexible in themselves.
+Interface coordinate j is the work-conjugate displacement b_j^T u of pocket load j (mean, first
+and, with quadratic attachments, second moment of the face's normal displacement), so that faces
+stay flexible in themselves.
 Constraint modes move one of them and hold the others; fixed-interface modes hold all. Both come
 from the flexibility of the free body, with the rigid motion as an unknown of a small system.
 The six rigid motions in their span are removed and the rest made mass-orthonormal.
@@ -17,7 +18,7 @@ from flexcage.fem.free import FreeBodySolver
 from flexcage.fem.lanczos import lowest_modes
 from flexcage.modes.basis import ModeBasis
 from flexcage.modes.lands import land_vectors
-from flexcage.modes.pockets import check_groups
+from flexcage.modes.pockets import LOADS, LOADS_PER_POCKET, check_groups
 from flexcage.modes.ritz import eigen_basis, pocket_statics, ritz_modes
 from flexcage.modes.spec import ModesSpec
 
@@ -28,7 +29,7 @@ def build(solver: FreeBodySolver, *, pocket_count: int, spec: ModesSpec) -> Mode
     ``spec.land`` adds static land vectors; all are mixed into one mass-orthonormal basis.
     """
     check_groups(solver.model, pocket_count)
-    held = HeldInterface(solver, pocket_count)
+    held = HeldInterface(solver, pocket_count, LOADS[spec.attachments])
     _, fixed = lowest_modes(solver.model, held.flexibility, spec.count)
     vectors = np.column_stack([held.constraint_modes(), fixed])
     values, shapes = ritz_modes(solver, vectors)
@@ -41,12 +42,14 @@ def build(solver: FreeBodySolver, *, pocket_count: int, spec: ModesSpec) -> Mode
 
 
 class HeldInterface:
-    """The body held at its generalised interface displacements B^T u = 0."""
+    """The body held at its generalised interface displacements B^T u = 0, ``count`` a pocket."""
 
-    def __init__(self, solver: FreeBodySolver, pocket_count: int) -> None:
+    def __init__(
+        self, solver: FreeBodySolver, pocket_count: int, count: int = LOADS_PER_POCKET
+    ) -> None:
         self._solver = solver
         model = solver.model
-        pairs = list(pocket_statics(solver, pocket_count))
+        pairs = list(pocket_statics(solver, pocket_count, count))
         self._loads = sp.hstack([loads for loads, _ in pairs], format="csc")
         self._static = np.column_stack([static for _, static in pairs])
         self._rigid = model.rigid_modes
@@ -57,7 +60,7 @@ class HeldInterface:
         self._system = lu_factor(np.block([[compliance, motion], [motion.T, corner]]))
 
     def constraint_modes(self) -> np.ndarray:
-        """Displacements (3N, 8 Z) that move one interface coordinate by one, the others not."""
+        """Displacements (3N, m Z) that move one interface coordinate by one, the others not."""
         n = self._loads.shape[1]
         answer = lu_solve(self._system, np.vstack([np.eye(n), np.zeros((6, n))]))
         return self._static @ answer[:n] + self._rigid @ answer[n:]

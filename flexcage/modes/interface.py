@@ -207,16 +207,23 @@ def land_modes(basis: ModeBasis, weights: sp.csr_matrix, n_land: int) -> np.ndar
 def _residual_at_stations(
     basis: ModeBasis, weights: sp.csr_matrix, pocket_count: int, n_stations: int
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Outward displacement (Z, 4, n_st, 8) of each pocket's own vectors, and compliances."""
-    per = LOADS_PER_POCKET
-    at_stations = np.zeros((pocket_count, len(FACES), n_stations, per))
+    """Outward displacement (Z, 4, n_st, 12) of each pocket's own vectors, and compliances.
+
+    Vectors that the basis lacks are zero: quadratic ones with linear attachments.
+    """
+    room = LOADS_PER_POCKET
+    at_stations = np.zeros((pocket_count, len(FACES), n_stations, room))
+    compliance = np.zeros((pocket_count, room, room))
     if basis.residual is None:
-        return at_stations, np.zeros((pocket_count, per, per))
+        return at_stations, compliance
     shapes = basis.residual.shapes
+    per = shapes.shape[2] // pocket_count
+    compliance[:, :per, :per] = basis.residual.compliance
     rows = len(FACES) * n_stations
     for pocket in range(pocket_count):
         own = shapes[:, :, pocket * per : (pocket + 1) * per]
         normals = np.repeat(NORMALS @ pocket_frame(pocket, pocket_count), n_stations, axis=0)
         means = _averaged(own, weights[pocket * rows : (pocket + 1) * rows])
-        at_stations[pocket] = np.einsum("sa,san->sn", normals, means).reshape(4, n_stations, per)
-    return at_stations, basis.residual.compliance
+        outward = np.einsum("sa,san->sn", normals, means)
+        at_stations[pocket, ..., :per] = outward.reshape(len(FACES), n_stations, per)
+    return at_stations, compliance

@@ -9,7 +9,9 @@ from flexcage.core.errors import InputError
 from flexcage.fem.model import FEModel
 from flexcage.modes.basis import FACES
 
-LOADS_PER_POCKET = 2 * len(FACES)
+# of the residual vectors by modes.attachments; an interface has room for all of them
+LOADS = {"linear": 2 * len(FACES), "quadratic": 3 * len(FACES)}
+LOADS_PER_POCKET = LOADS["quadratic"]
 # outward normals, away from the pocket's centre, in its frame (x, r, psi)
 NORMALS = np.array([[0.0, 0.0, 1.0], [0.0, 0.0, -1.0], [1.0, 0.0, 0.0], [-1.0, 0.0, 0.0]])
 
@@ -57,22 +59,29 @@ def check_groups(model: FEModel, pocket_count: int) -> None:
 
 
 def pocket_loads(model: FEModel, pocket: int, pocket_count: int) -> np.ndarray:
-    """Nodal loads (3N, 8) of a pocket: on face f columns 2f (uniform) and 2f + 1 (linear).
+    """Nodal loads (3N, 12) of a pocket: on face f columns 2f (uniform), 2f + 1 (linear) and 8 + f
+    (quadratic).
 
     Uniform: a total force of 1 N along the face's outward normal. Linear: the same pressure
-    times 2 s/length, s the face coordinate: -1 to +1 from end to end, no resultant.
+    times x = 2 s/length, s the face coordinate: -1 to +1 from end to end, no resultant. Quadratic:
+    times Legendre's (3 x^2 - 1)/2, no resultant and no moment on a face of even height.
     """
     return sparse_pocket_loads(model, pocket, pocket_count).toarray()
 
 
-def sparse_pocket_loads(model: FEModel, pocket: int, pocket_count: int) -> sp.csc_matrix:
-    """The same as a sparse matrix: few nodes of the cage are on a pocket's faces."""
+def sparse_pocket_loads(
+    model: FEModel, pocket: int, pocket_count: int, *, count: int = LOADS_PER_POCKET
+) -> sp.csc_matrix:
+    """The first ``count`` of them, sparse: few nodes of the cage are on a pocket's faces."""
     frame = pocket_frame(pocket, pocket_count)
-    rows = [
-        sp.kron(_load_weights(model, pocket, face, pocket_count), NORMALS[face : face + 1] @ frame)
+    faces = [
+        sp.kron(
+            _load_weights(model, pocket, face, pocket_count), NORMALS[face : face + 1] @ frame
+        ).tocsr()
         for face in range(len(FACES))
     ]
-    return sp.csc_matrix(sp.vstack(rows).T)
+    rows = [face[:2] for face in faces] + [face[2:] for face in faces]
+    return sp.csc_matrix(sp.vstack(rows)[:count].T)
 
 
 def _load_weights(model: FEModel, pocket: int, face: int, pocket_count: int) -> sp.csr_matrix:
@@ -80,9 +89,9 @@ def _load_weights(model: FEModel, pocket: int, face: int, pocket_count: int) -> 
     ends = face_coordinate(model.points[np.unique(triangles)], pocket, face, pocket_count)
     middle, half = 0.5 * (ends.max() + ends.min()), 0.5 * np.ptp(ends)
 
-    def uniform_and_linear(points: np.ndarray) -> np.ndarray:
-        s = face_coordinate(points, pocket, face, pocket_count)
-        return np.stack([np.ones_like(s), (s - middle) / half])
+    def patterns(points: np.ndarray) -> np.ndarray:
+        x = (face_coordinate(points, pocket, face, pocket_count) - middle) / half
+        return np.stack([np.ones_like(x), x, 1.5 * x**2 - 0.5])
 
-    weights = model.face_weights(triangles, uniform_and_linear)
+    weights = model.face_weights(triangles, patterns)
     return weights / weights[0].sum()

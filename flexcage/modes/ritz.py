@@ -22,19 +22,19 @@ from flexcage.fem.modal import free_modes
 from flexcage.fem.symmetry import find_symmetry
 from flexcage.modes.basis import ModeBasis, ResidualFlexibility
 from flexcage.modes.lands import land_vectors
-from flexcage.modes.pockets import LOADS_PER_POCKET, check_groups, sparse_pocket_loads
+from flexcage.modes.pockets import LOADS, LOADS_PER_POCKET, check_groups, sparse_pocket_loads
 from flexcage.modes.spec import ModesSpec
 
 log = logging.getLogger(__name__)
 
-Answer = tuple[sp.csc_matrix, np.ndarray]  # a pocket's loads (3N, 8) and what they do to the cage
+Answer = tuple[sp.csc_matrix, np.ndarray]  # a pocket's loads (3N, m) and what they do to the cage
 _STIFF = 1.5  # times the middle frequency of crossbeams: no bending of their own
 
 
 def build(solver: FreeBodySolver, *, pocket_count: int, spec: ModesSpec) -> ModeBasis:
     """Free modes + centrifugal shape + residual attachment vectors of all pocket faces."""
     check_groups(solver.model, pocket_count)
-    answers = list(pocket_statics(solver, pocket_count))
+    answers = list(pocket_statics(solver, pocket_count, LOADS[spec.attachments]))
     kept, kept_stiffness, kinds = dynamic_modes(solver, spec, answers)
     vectors, own_stiffness, share = residual_vectors(kept, kept_stiffness, answers)
     if spec.dynamic == "all":
@@ -142,8 +142,8 @@ def centrifugal_mode(solver: FreeBodySolver, modes: np.ndarray) -> np.ndarray:
 def residual_vectors(
     kept: np.ndarray, kept_stiffness: np.ndarray, answers: Sequence[Answer]
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Residual attachment vectors Psi (3N, 8 Z), their stiffness Psi^T K Psi, and how much of the
-    deflection under a load is theirs (8 Z,).
+    """Residual attachment vectors Psi (3N, m Z), m a pocket, their stiffness Psi^T K Psi, and how
+    much of the deflection under a load is theirs (m Z,).
 
     A vector is the inertia-relieved answer to a pocket load less the part that the kept modes
     carry, so that K-products with all kept modes vanish (mass products too with eigenmodes; static
@@ -166,8 +166,10 @@ def residual_vectors(
     return shapes, 0.5 * (stiffness + stiffness.T), np.concatenate(share)
 
 
-def pocket_statics(solver: FreeBodySolver, pocket_count: int) -> Iterator[Answer]:
-    """Pocket by pocket: its loads (3N, 8) and their inertia-relieved answers (3N, 8).
+def pocket_statics(
+    solver: FreeBodySolver, pocket_count: int, count: int = LOADS_PER_POCKET
+) -> Iterator[Answer]:
+    """Pocket by pocket: its first ``count`` loads (3N, m) and their inertia-relieved answers.
 
     On a cyclic model pocket 0 is solved and turned, otherwise all are solved.
     """
@@ -175,7 +177,7 @@ def pocket_statics(solver: FreeBodySolver, pocket_count: int) -> Iterator[Answer
     log.info("static answers of %d pockets, cyclic symmetry: %s", pocket_count, bool(symmetry))
     first = None
     for pocket in range(pocket_count):
-        loads = sparse_pocket_loads(solver.model, pocket, pocket_count)
+        loads = sparse_pocket_loads(solver.model, pocket, pocket_count, count=count)
         if symmetry is None or first is None:
             first = solver.solve(loads.toarray())
             yield loads, first
@@ -186,19 +188,19 @@ def pocket_statics(solver: FreeBodySolver, pocket_count: int) -> Iterator[Answer
 def residual_flexibility(
     vectors: np.ndarray, stiffness: np.ndarray, share: np.ndarray, pocket_count: int
 ) -> ResidualFlexibility:
-    """Residual vectors (3N, 8 Z) with the compliances of their pockets and the coupling cut.
+    """Residual vectors (3N, m Z) with the compliances of their pockets and the coupling cut.
 
-    ``share`` (8 Z,): their part of the whole deflection under a load of their own.
+    ``share`` (m Z,): their part of the whole deflection under a load of their own.
 
     Coordinates a obey stiffness a = Psi^T F. Cutting the coupling between pockets leaves
     a_p = compliance_p Psi_p^T F with the inverse of the pocket's own stiffness block: exact for
-    the pocket's own displacement under loads in the span of its eight patterns.
+    the pocket's own displacement under loads in the span of its m patterns.
     """
-    per = LOADS_PER_POCKET
+    per = len(share) // pocket_count
     blocks = stiffness.reshape(pocket_count, per, pocket_count, per)
     own = np.stack([np.linalg.inv(blocks[k, :, k]) for k in range(pocket_count)])
-    pushes, tilting = coupling(stiffness, share, pocket_count)
-    log.info("coupling cut: %.3f of a push's deflection, %.3f of a tilting load's", pushes, tilting)
+    pushes, others = coupling(stiffness, share, pocket_count)
+    log.info("coupling cut: %.3f of a push's deflection, %.3f of another load's", pushes, others)
     return ResidualFlexibility(
         shapes=vectors.reshape(-1, 3, vectors.shape[1]),
         stiffness=stiffness,
@@ -209,13 +211,14 @@ def residual_flexibility(
 
 def coupling(stiffness: np.ndarray, share: np.ndarray, pocket_count: int) -> tuple[float, float]:
     """Largest residual deflection that a load makes at other pockets, relative to the whole one
-    that it makes where it acts: under even loads, and under linear ones, which have no resultant.
+    that it makes where it acts: under even loads, and under the others, which have no resultant.
     """
     scale = np.sqrt(np.diag(stiffness) / share)
-    pocket = np.arange(len(stiffness)) // LOADS_PER_POCKET
+    pocket, local = np.divmod(np.arange(len(stiffness)), len(stiffness) // pocket_count)
     apart = pocket[:, None] != pocket[None, :]
     ratios = np.where(apart, np.abs(stiffness) / np.outer(scale, scale), 0.0)
-    return float(ratios[:, 0::2].max()), float(ratios[:, 1::2].max())
+    even = (local < 8) & (local % 2 == 0)
+    return float(ratios[:, even].max()), float(ratios[:, ~even].max())
 
 
 def _all_dynamic(

@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 from scipy.spatial.transform import Rotation
 
+from flexcage.contacts.pocket_wall import N_LOCAL
 from flexcage.system.ball_model import BallModel
 from flexcage.system.model import Model
 from flexcage.system.problem import Bearing
@@ -65,7 +66,7 @@ def _(model: Model) -> Arrays:
     return {
         "slice": model.pocket.s,
         "station": np.arange(model.pocket.phi.shape[2]),
-        "residual": np.arange(8),
+        "residual": np.arange(N_LOCAL),
     }
 
 

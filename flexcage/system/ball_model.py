@@ -12,6 +12,7 @@ from flexcage.contacts import laws
 from flexcage.contacts.ball_pocket import BallPockets, ball_pocket_work
 from flexcage.contacts.groove import Groove
 from flexcage.contacts.land import LandData
+from flexcage.contacts.pocket_wall import N_LOCAL
 from flexcage.contacts.spec import Contacts, Lubricant, NormalLaw
 from flexcage.geometry.ball_bearing import BallBearing
 from flexcage.geometry.ball_cages import BallCage
@@ -124,7 +125,7 @@ def _memory(
         pocket=pocket[:, None, :].copy(),
         rib=np.zeros((Z, 0, laws.N_NORMAL)),
         land=np.tile(land, (2, 1)),
-        deflection=np.zeros((Z, 8)),
+        deflection=np.zeros((Z, N_LOCAL)),
     )
 
 

@@ -8,6 +8,7 @@ import numpy as np
 
 from flexcage.bodies.floating_frame import FrameWork, frame_work
 from flexcage.contacts.land import LandWork, land_work
+from flexcage.contacts.pocket_wall import N_LOCAL
 from flexcage.contacts.slices import Slices, new_slices
 from flexcage.contacts.state import Pair, RollerPose, new_pair, new_pose
 from flexcage.system.layout import Layout
@@ -57,7 +58,7 @@ class Memory(NamedTuple):
     pocket: np.ndarray  # (Z, faces, N_NORMAL)
     rib: np.ndarray  # (Z, ribs, N_NORMAL)
     land: np.ndarray  # (2, N_NORMAL)
-    deflection: np.ndarray  # (Z, 8) residual coordinates of the pockets, to begin the next solve
+    deflection: np.ndarray  # (Z, 12) residual coordinates of the pockets, to begin the next solve
 
 
 class Tangent(NamedTuple):
@@ -84,7 +85,7 @@ class Report(NamedTuple):
     slice_normal: np.ndarray  # (Z, 2, ns)
     slice_friction: np.ndarray  # (Z, 2, ns)
     station: np.ndarray  # (Z, faces, nst, 3)
-    residual: np.ndarray  # (Z, 8)
+    residual: np.ndarray  # (Z, 12)
     rib: np.ndarray  # (Z, ribs)
     land: np.ndarray  # (3,)
     land_touch: np.ndarray  # (2, 2) of the lands at -x, +x: normal force, approach speed
@@ -110,7 +111,7 @@ class Scratch(NamedTuple):
     border: np.ndarray  # (nb,) generalised forces on the border
     Lm: np.ndarray  # (6, n) roller-modal products
     Bm: np.ndarray  # (n, 6)
-    PR: np.ndarray  # (n, 8) modal-residual products
+    PR: np.ndarray  # (12, n) modal-residual products
     out: np.ndarray  # (size,) residual that nobody asked for
 
 
@@ -142,12 +143,12 @@ def new_work(
     )  # fmt: skip
     report = Report(
         z((Z, 2, 9)), z((Z, faces)), z((Z, faces)), z((Z, 2, slices)), z((Z, 2, slices)),
-        z((Z, faces, stations, 3)), z((Z, 8)), z((Z, ribs)), z(3), z((2, 2)), z(len(POWERS)), z(4),
-        z((Z, places), np.int64), z((Z, places)), z(3),
+        z((Z, faces, stations, 3)), z((Z, N_LOCAL)), z((Z, ribs)), z(3), z((2, 2)), z(len(POWERS)),
+        z(4), z((Z, places), np.int64), z((Z, places)), z(3),
     )  # fmt: skip
     scratch = Scratch(
         z((6, 6)), z((2, 6, 6)), z((2, 3, 3)), z((3, 3)), np.eye(3), z((Z, 24)), z((Z, 6)),
-        z(10), z((9, 3)), z(14 + n), z((6, n)), z((n, 6)), z((n, 8)), z(layout.size),
+        z(10), z((9, 3)), z(14 + n), z((6, n)), z((n, 6)), z((N_LOCAL, n)), z(layout.size),
     )  # fmt: skip
     return Work(
         new_pose(), new_slices(), new_pair(), pocket_work, land_work(land_stations), frame_work(n),

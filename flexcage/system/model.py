@@ -11,6 +11,7 @@ from flexcage.bodies.floating_frame import BodyData, FlexibleBody
 from flexcage.contacts import laws
 from flexcage.contacts.land import LandData
 from flexcage.contacts.pocket_wall import (
+    N_FACE,
     N_LOCAL,
     PocketData,
     pocket_work,
@@ -165,6 +166,22 @@ def compliance_root(compliance: np.ndarray) -> np.ndarray:
     return np.ascontiguousarray(vectors * np.sqrt(np.maximum(values, 0.0))[:, None, :])
 
 
+def own_coordinates(shapes: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """What residual coordinates (Z, 4, nst, 12) do to each face, in eight coordinates of its own.
+
+    The shapes (Z, 4, nst, 8) of those, and their directions (Z, 4, 8, 12), orthonormal or zero.
+    Exact while a face has no more stations than that; with more, its softest eight.
+    """
+    left, values, right = np.linalg.svd(shapes, full_matrices=False)
+    own, turn = (
+        np.zeros((*shapes.shape[:3], N_FACE)),
+        np.zeros((*shapes.shape[:2], N_FACE, N_LOCAL)),
+    )
+    n = min(N_FACE, values.shape[-1])
+    own[..., :n], turn[..., :n, :] = (left * values[..., None, :])[..., :n], right[..., :n, :]
+    return own, turn
+
+
 def _pocket_data(bearing, cage, contacts: Contacts, interface: CageInterface) -> PocketData:
     s, drop = slice_grid(bearing, contacts.pocket.slices)
     angle = 2.0 * np.pi * np.arange(bearing.roller_count) / bearing.roller_count
@@ -174,8 +191,13 @@ def _pocket_data(bearing, cage, contacts: Contacts, interface: CageInterface) ->
     n = interface.modes.shape[-1]
     at = interface.stations if interface.offset_at is None else interface.offset_at
     st = np.ascontiguousarray
+    if interface.compliance.shape[1:] != (N_LOCAL, N_LOCAL):
+        raise ValueError(f"compliances are {interface.compliance.shape}, not (Z, {N_LOCAL}, same)")
     root = compliance_root(interface.compliance)
-    res = with_end_stations(np.einsum("zfsa,zab->zfsb", interface.residual, root))
+    shapes = np.einsum("zfsa,zab->zfsb", interface.residual, root)
+    res = with_end_stations(shapes)
+    own, turn = own_coordinates(shapes)
+    own = with_end_stations(own)
     return PocketData(
         azimuth=st(np.stack([np.cos(angle), np.sin(angle)], axis=1)),
         half=0.5 * np.array([cage.pocket_width, cage.pocket_length]),
@@ -194,6 +216,9 @@ def _pocket_data(bearing, cage, contacts: Contacts, interface: CageInterface) ->
         soft=int(interface.compliance.any()),
         res=res,
         res_max=np.abs(res).max(axis=2),
+        own=own,
+        own_max=np.abs(own).max(axis=2),
+        turn=turn,
         root=root,
         friction=np.stack(
             [

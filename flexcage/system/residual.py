@@ -148,19 +148,19 @@ def _scatter_modes(data, i, pw, S, tan, Lm, Bm, PR):
             sgn = 1.0 if f % 2 == 0 else -1.0
             comp = 2 if f < 2 else 0
             for s in range(n_st):
-                for l in range(8):
+                for l in range(pw.size[0]):
                     h = sgn * pw.HR[f, s, l]
                     if h != 0.0:
                         for m in range(n_m):
-                            PR[m, l] += h * data.phi[i, f, s, comp, m]
+                            PR[l, m] += h * data.phi[i, f, s, comp, m]
         for m in range(n_m):
-            for l in range(8):
+            for l in range(pw.size[0]):
                 h = 0.0
-                for k in range(8):
-                    h += PR[m, k] * pw.X[k, l]
+                for k in range(pw.size[0]):
+                    h += PR[k, m] * pw.X[k, l]
                 if h != 0.0:
                     for o in range(n_m):
-                        tan.Kbb[14 + m, 14 + o] -= h * PR[o, l]
+                        tan.Kbb[14 + m, 14 + o] -= h * PR[l, o]
     for c in range(6):
         for m in range(n_m):
             tan.Krb[i, c, 14 + m] += Lm[c, m]

@@ -135,6 +135,14 @@ def test_names_and_words_do_not_change_the_hash(case):
     assert case.replace("cage.model", "rigid").hash != case.hash
 
 
+def test_attachments_count_where_there_are_any(case):
+    assert case.replace("modes.attachments", "linear").hash != case.hash
+    rigid = case.replace("cage.model", "rigid")
+    assert rigid.replace("modes.attachments", "linear").hash == rigid.hash
+    ball = load_case('[bearing]\npreset = "7010C-PI"\n[load]\naxial = "100 N"\n')
+    assert ball.replace("modes.attachments", "linear").hash == ball.hash
+
+
 def test_hash_counts_the_bytes_of_a_mesh_file(tmp_path):
     (tmp_path / "case.toml").write_text(MINIMAL + '[mesh]\nfile = "cage.msh"\n')
     (tmp_path / "cage.msh").write_text("one")

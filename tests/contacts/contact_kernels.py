@@ -12,7 +12,7 @@ from scipy.spatial.transform import Rotation
 from flexcage.contacts import laws
 from flexcage.contacts.land import land_contact, land_work
 from flexcage.contacts.pocket import pocket_contact
-from flexcage.contacts.pocket_wall import pocket_work
+from flexcage.contacts.pocket_wall import N_LOCAL, pocket_work
 from flexcage.contacts.race import race_contact
 from flexcage.contacts.rib import rib_contact
 from flexcage.contacts.slices import new_slices
@@ -144,7 +144,7 @@ def pocket(
     margin = float(data.phi_max @ np.abs(arrays[3])) if len(q) else 0.0
     _pocket_kernel(numba.typeof(data))(
         pose, data, i, radius, *arrays, margin, p, (normal, normal, friction, friction),
-        np.zeros(8), new_slices(), work, pair, mode, sums,
+        np.zeros(N_LOCAL), new_slices(), work, pair, mode, sums,
     )  # fmt: skip
     return pair.wrench, sums, work, pair
 

@@ -26,15 +26,16 @@ def interface(*, stations=9, modes=None, soft=False, offset=None):
     """A synthetic cage's interface; ``modes`` (22, 4, stations, 3, n); ``soft``: soft walls."""
     z = np.zeros
     at = np.stack([np.linspace(-4e-3, 4e-3, stations)] * 4)
-    residual, compliance = z((22, 4, stations, 8)), z((22, 8, 8))
+    residual, compliance = z((22, 4, stations, 12)), z((22, 12, 12))
     if soft:
-        for f in range(4):  # uniform and linear on each face, and a neighbour's echo
+        for f in range(4):  # three patterns on each face, and a neighbour's echo
             residual[:, f, :, 2 * f] = 1.0
             residual[:, f, :, 2 * f + 1] = 1.5 * at[f] / 4e-3
+            residual[:, f, :, 8 + f] = 1.5 * (at[f] / 4e-3) ** 2 - 0.5
             residual[:, f, :, (2 * f + 2) % 8] = 0.1
-        root = np.random.default_rng(5).normal(size=(8, 8))
-        spread = np.diag([4e-8, 2e-8] * 4)  # m/N
-        compliance[:] = spread + 2e-9 * root @ root.T / 8
+        root = np.random.default_rng(5).normal(size=(12, 12))
+        spread = np.diag([4e-8, 2e-8] * 4 + [1e-8] * 4)  # m/N
+        compliance[:] = spread + 2e-9 * root @ root.T / 12
     return CageInterface(
         stations=at, offset=z((22, 4, stations)) if offset is None else offset,
         modes=z((22, 4, stations, 3, 0)) if modes is None else modes, residual=residual,
@@ -179,7 +180,7 @@ def test_condensed_walls_against_minimisation(walls):
             e += np.sum(p[f, 0] * d ** (p[f, 1] + 1) / (p[f, 1] + 1))
         return e
 
-    best = minimize(total, np.zeros(8), method="BFGS", options={"gtol": 1e-12})
+    best = minimize(total, np.zeros(12), method="BFGS", options={"gtol": 1e-12})
     assert sums[0] == pytest.approx(total(work.b), rel=1e-10)
     assert sums[0] <= best.fun * (1 + 1e-9)
     assert sums[0] == pytest.approx(best.fun, rel=1e-5)
@@ -192,11 +193,22 @@ def test_condensed_walls_against_minimisation(walls):
     assert np.abs(pocket(stiff_data, p, D, axis=axis)[0]).max() > np.abs(wrench).max()
 
 
+def test_a_face_alone_yields_as_among_others(walls):
+    """The coordinates of one face give what the pocket's twelve do: the same roller, once with
+    another face that is touched by a hair."""
+    data, p = walls(interface(soft=True))
+    alone, _, one, _ = pocket(data, p, squeeze(8e-6, -1e-9))
+    beside, _, two, _ = pocket(data, p, squeeze(8e-6, 1e-9))
+    assert one.size[0] == 8 and two.size[0] == 12
+    np.testing.assert_allclose(alone, beside, atol=1e-3 * np.abs(alone).max())
+    np.testing.assert_allclose(one.b, two.b, atol=1e-3 * np.abs(one.b).max())
+
+
 def test_two_springs_in_series(walls):
     """A uniform wall compliance c under a straight push: F = K (d - c F)^n, solved apart."""
     itf = interface()
     itf.residual[:, 0, :, 0] = 1.0
-    itf.compliance[:] = np.diag([3e-8, 0, 0, 0, 0, 0, 0, 0])
+    itf.compliance[:] = np.diag([3e-8] + [0] * 11)
     data, p = walls(itf)
     data = data._replace(drop=np.zeros_like(data.drop))
     wrench, _, work, _ = pocket(data, p, squeeze(10e-6))

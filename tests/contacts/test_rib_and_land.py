@@ -104,8 +104,8 @@ def land_modes(stations=24, n=3):
 def dry_land(request, build_parts):
     itf = CageInterface(
         stations=np.stack([np.linspace(-4e-3, 4e-3, 3)] * 4), offset=np.zeros((22, 4, 3)),
-        modes=np.zeros((22, 4, 3, 3, 3)), residual=np.zeros((22, 4, 3, 8)),
-        compliance=np.zeros((22, 8, 8)), patch_half_width=1.9e-3, land=land_modes(),
+        modes=np.zeros((22, 4, 3, 3, 3)), residual=np.zeros((22, 4, 3, 12)),
+        compliance=np.zeros((22, 12, 12)), patch_half_width=1.9e-3, land=land_modes(),
     )  # fmt: skip
     model, memory = build_parts(
         interface=itf, cage={"guidance": request.param},

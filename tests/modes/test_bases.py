@@ -5,11 +5,12 @@ from types import MappingProxyType
 
 import numpy as np
 import pytest
-from modes_cage import POCKETS
+from modes_cage import CAGE, POCKETS
 
 from flexcage.core.errors import InputError
 from flexcage.fem.free import FreeBodySolver
 from flexcage.modes import ritz
+from flexcage.modes.interface import cage_interface
 from flexcage.modes.pockets import pocket_loads
 from flexcage.modes.registry import build_basis
 from flexcage.modes.spec import DampingBand, ModesSpec
@@ -22,7 +23,8 @@ def dynamic_answer(basis, loads):
 
 def own_residual(basis, pocket, loads):
     """The residual answer with the coupling between pockets cut."""
-    part = slice(8 * pocket, 8 * pocket + 8)
+    m = basis.residual.compliance.shape[1]
+    part = slice(m * pocket, m * pocket + m)
     shapes = basis.residual.shapes[:, :, part].reshape(len(loads), -1)
     return shapes @ (basis.residual.compliance[pocket] @ (shapes.T @ loads))
 
@@ -30,7 +32,7 @@ def own_residual(basis, pocket, loads):
 @pytest.mark.parametrize("pocket", [0, 2, 7])
 @pytest.mark.parametrize("which", ["sound", "damaged"])
 def test_reduced_deflection_is_the_full_one(request, which, pocket):
-    """Modes plus the pocket's own residual vectors carry its uniform and linear loads exactly."""
+    """Modes plus the pocket's own residual vectors carry all of its loads exactly."""
     prefix = "" if which == "sound" else "damaged_"
     solver = request.getfixturevalue(prefix + "solver")
     basis = request.getfixturevalue(prefix + "basis")
@@ -43,6 +45,19 @@ def test_reduced_deflection_is_the_full_one(request, which, pocket):
     assert np.abs(reduced - full).max() < 1e-8 * np.abs(full).max()
     missed = np.abs(dynamic_answer(basis, loads) - full).max(axis=0) / np.abs(full).max(axis=0)
     assert missed[0] > 0.005  # the modes alone are too stiff: the residual is needed
+
+
+def test_linear_attachments_are_the_first_of_the_quadratic_ones(solver, basis):
+    """Vectors do not depend on each other; an interface has zeros for those that are missing."""
+    spec = ModesSpec(attachments="linear")
+    linear = build_basis(solver.model, pocket_count=POCKETS, spec=spec, solver=solver)
+    shapes = basis.residual.shapes.reshape(solver.model.n_dof, POCKETS, 12)[:, :, :8]
+    found = linear.residual.shapes.reshape(solver.model.n_dof, POCKETS, 8)
+    np.testing.assert_allclose(found, shapes, atol=1e-9 * np.abs(shapes).max())
+    interface = cage_interface(solver.model, linear, pocket_count=POCKETS, cage=CAGE)
+    assert interface.residual.shape[-1] == 12 and not interface.residual[..., 8:].any()
+    np.testing.assert_array_equal(interface.compliance[:, :8, :8], linear.residual.compliance)
+    assert not interface.compliance[:, 8:].any() and not interface.compliance[:, :, 8:].any()
 
 
 def test_partial_contact_deflects_as_the_full_model(solver, basis):
@@ -78,7 +93,7 @@ def test_residual_vectors_are_orthogonal_to_the_modes(solver, basis):
     free = shapes[:, [k == "free" for k in basis.kind]]
     assert np.abs(free.T @ solver.model.mass_times(vectors) / mass).max() < 1e-8
     loads = pocket_loads(solver.model, 5, POCKETS)
-    work = np.einsum("ij,ij->j", loads, vectors[:, 40:48])
+    work = np.einsum("ij,ij->j", loads, vectors[:, 60:72])
     np.testing.assert_allclose(work, 1.0, rtol=1e-7)  # metres of mean displacement of its face
 
 

@@ -22,7 +22,7 @@ def run_coords(n: int, rate: float = 50e3, ratio: int = 4) -> dict:
         "mode": np.arange(3),
         "slice": np.linspace(-3e-3, 3e-3, 5),
         "station": np.arange(3),
-        "residual": np.arange(8),
+        "residual": np.arange(12),
         "constraint": ["drive"],
         "energy_kind": ["kinetic", "elastic"],
         "channel": ["drive", "friction"],

@@ -53,11 +53,12 @@ def _interface(modes, soft):
             local = np.full((STATIONS, 3), PITCH)
             local[:, 0], local[:, 2] = (at, side) if f < 2 else (side, at)
             phi[z, f] = np.einsum("ij,sjm->sim", frame, shapes_at(local @ frame, modes=modes))
-    residual, compliance = np.zeros((22, 4, STATIONS, 8)), np.zeros((22, 8, 8))
+    residual, compliance = np.zeros((22, 4, STATIONS, 12)), np.zeros((22, 12, 12))
     if soft:
         for f in range(4):
             residual[:, f, :, 2 * f], residual[:, f, :, 2 * f + 1] = 1.0, at / 4e-3
-        compliance[:] = np.diag([2e-8, 1e-8] * 4)
+            residual[:, f, :, 8 + f] = 1.5 * (at / 4e-3) ** 2 - 0.5
+        compliance[:] = np.diag([2e-8, 1e-8] * 4 + [6e-9] * 4)
     angle = 2 * np.pi * np.arange(LAND) / LAND
     land = np.zeros((2, LAND, 3, modes))
     er = np.stack([0 * angle, np.cos(angle), np.sin(angle)], axis=1)

@@ -115,8 +115,13 @@ def test_the_assembly_is_an_equilibrium(pinch):
 
 
 def test_pinch_force_against_the_full_mesh(pinch):
-    """Within 7 %: uniform and linear attachments are too stiff under a touch in the middle."""
-    assert pinch.start.pinch_force == pytest.approx(pinch.force, rel=0.07)
+    """Within 0.5 %, and within 2.5 % where a side beam's bump is touched at one place.
+
+    What remains is how narrow a touch in the middle is: uniform, linear and quadratic loads are
+    too stiff under it. Without the quadratic ones it was 2 to 3 % and 6 %.
+    """
+    bound = 5e-3 if pinch.faces == (0, 1) else 0.025
+    assert pinch.start.pinch_force == pytest.approx(pinch.force, rel=bound)
     assert pinch.start.pinch_force > 0.999 * pinch.force  # a reduced cage is never softer
 
 
@@ -137,8 +142,7 @@ def test_pinch_force_is_that_of_the_reduced_cage(pinch):
 def test_root_stress_against_the_full_mesh(pinch):
     """Largest equivalent stress in the pinched pocket's corners: as near as the force is.
 
-    Per newton it is exact to 1 %, but for a bump on a side beam: there forces lean with its flanks,
-    which the reference's do not, and the corners feel 6 % more.
+    Per newton it is exact to 1 %.
     """
     cage, recovery = pinch.cage, pinch.recovery
     moved = recovery.displacement(CageLoads(station_forces=pinch.start.station))
@@ -152,9 +156,9 @@ def test_root_stress_against_the_full_mesh(pinch):
     )
     ours, theirs = (von_mises(recovery.stress(u))[corners].max() for u in (moved, full))
     log.info("root stress %.1f MPa, full mesh %.1f MPa", 1e-6 * ours, 1e-6 * theirs)
-    assert ours == pytest.approx(theirs, rel=0.07)
+    assert ours == pytest.approx(theirs, rel=0.01 if pinch.faces == (0, 1) else 0.03)
     shape = ours / pinch.start.pinch_force * pinch.force / theirs
-    assert shape == pytest.approx(1.0, abs=0.01 if pinch.faces == (0, 1) else 0.07)
+    assert shape == pytest.approx(1.0, abs=0.01)
 
 
 def test_a_shifted_beam_starts_with_a_slice_on_a_station():

@@ -1,5 +1,7 @@
 """Deflection under static contact forces: the reduced cage against the full mesh, every pocket."""
 
+from itertools import product
+
 import numpy as np
 import pytest
 from full_mesh import reduced_compliance, station_rows
@@ -36,13 +38,14 @@ def deflections(damaged_cage):
 
 
 def test_every_pocket_yields_as_the_full_mesh(deflections):
-    """Within 1 % for any pattern; uniform and linear loads are in the span."""
+    """Within 0.3 % for any pattern; uniform and linear loads are in the span, and nearly a
+    profile's. The worst is a force in the middle alone, narrower than any load of the basis."""
     error = deflections[..., 0] / deflections[..., 1] - 1.0
     for k, name in enumerate(PATTERNS):
         log.info("%s: largest error %.4f", name, np.abs(error[:, :, k]).max())
     assert np.abs(error[:, :, :2]).max() < 5e-4
-    assert np.abs(error[:, :, 2]).max() < 4e-3
-    assert np.abs(error).max() < 0.01
+    assert np.abs(error[:, :, 2]).max() < 5e-4
+    assert np.abs(error).max() < 4e-3
     assert error.max() < 1e-4  # never softer than the mesh
 
 
@@ -54,18 +57,21 @@ def test_drive_point_compliance_has_the_expected_size(deflections):
 
 
 def test_a_pocket_s_opening_under_a_pinch(damaged_cage):
-    """Opposite forces on both faces of a pocket, the load of a squeezed roller: within 4 %.
+    """Opposite forces on both faces of a pocket, the load of a squeezed roller: within 0.2 %, and
+    within 5 % if both act in the middle alone.
 
-    Ovalisation cancels, so that what a pattern between uniform and linear misses weighs more.
+    Ovalisation cancels, so that what uniform, linear and quadratic loads miss weighs more.
     """
-    middle = PATTERNS["roller with profile"]
-    for pocket, faces in ((0, (0, 1)), (4, (0, 1)), (5, (2, 3)), (11, (2, 3))):
-        pair = np.concatenate([middle, middle])
+    places = ((0, (0, 1)), (4, (0, 1)), (5, (2, 3)), (11, (2, 3)))
+    for (pocket, faces), (name, bound) in product(
+        places, {"roller with profile": 2e-3, "middle": 0.05}.items()
+    ):
+        pair = np.tile(PATTERNS[name], 2)
         rows = np.concatenate([station_rows(damaged_cage, pocket, f) for f in faces])
         full = pair @ rows @ damaged_cage.solver.solve((pair @ rows)[:, None])[:, 0]
         reduced = pair @ reduced_compliance(damaged_cage, pocket, faces) @ pair
         log.info("pocket %d %s: %.4e against %.4e mm/N", pocket, faces, 1e3 * reduced, 1e3 * full)
-        assert reduced == pytest.approx(full, rel=0.04)
+        assert reduced == pytest.approx(full, rel=bound)
 
 
 def test_what_cutting_the_coupling_costs(damaged_cage):
