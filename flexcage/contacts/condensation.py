@@ -108,11 +108,8 @@ def _solve_alone(data, i, f, p, laws, sl, pw):
     """The coordinates pw.c of face f alone, which no other face pushes; from and to pw.b."""
     pw.size[0] = N_FACE
     _read(N_FACE, points_of_face(data, f), data.own[i, f], pw.face[f])
-    for l in range(N_FACE):
-        x = 0.0
-        for k in range(N_LOCAL):
-            x += data.turn[i, f, l, k] * pw.b[k]
-        pw.c[l] = x
+    turn = data.turn[i, f]
+    _take(turn, pw.b, pw.c)
     before, step = 0.0, 1.0
     for _ in range(40):
         anew = step > SLOW * before
@@ -123,11 +120,27 @@ def _solve_alone(data, i, f, p, laws, sl, pw):
             step = max(step, abs(pw.g[l]) * data.own_max[i, f, l])
         if step < (SOLVED if anew else SOLVED_AGAIN):
             break
-    for k in range(N_LOCAL):
+    _give(turn, pw.c, pw.b)
+
+
+@part(fastmath=VECTORISED)
+def _take(turn, b, c):
+    """A face's own coordinates c from the pocket's."""
+    for l in range(N_FACE):
         x = 0.0
-        for l in range(N_FACE):
-            x += data.turn[i, f, l, k] * pw.c[l]
-        pw.b[k] = x
+        for k in range(N_LOCAL):
+            x += turn[l, k] * b[k]
+        c[l] = x
+
+
+@part(fastmath=VECTORISED)
+def _give(turn, c, b):
+    """The pocket's coordinates b from a face's own."""
+    zero(b)
+    for l in range(N_FACE):
+        x = c[l]
+        for k in range(N_LOCAL):
+            b[k] += turn[l, k] * x
 
 
 @part
