@@ -22,8 +22,6 @@ from n1013_view import (
     LINE_AT,
     PITCH,
     RIPPLE,
-    SHORTER,
-    SOUND,
     SPIKES,
     STRESS,
     WHIRL,
@@ -36,7 +34,7 @@ from n1013_view import (
     written,
 )  # fmt: skip
 
-from flexcage import StudyResults, __version__
+from flexcage import Case, StudyResults, __version__
 from flexcage.render import sheet
 from flexcage.results.audit import OF_DRIVE
 from flexcage.study.results import ResultRow
@@ -166,7 +164,6 @@ def _sweep(results: StudyResults, view: View) -> str:
 
 
 def _beside(results: StudyResults, view: View) -> str:
-    finest, coarser = (_resolution(results, cage) for cage in (SOUND, SHORTER))
     cages = [cage for cage in CAGES if view.has(cage)]
     rows = []
     for output in _BESIDE:
@@ -176,18 +173,16 @@ def _beside(results: StudyResults, view: View) -> str:
     text = (
         "The inner ring turns through a compliant shaft, so its speed fluctuates. Frequencies of "
         "strongest lines are resolved to the inverse of the time after settling, "
-        f"{finest:.1f} Hz ({SHORTER}: {coarser:.1f} Hz). The mass centre moves because the "
-        "displaced beam does."
+        f"{_resolution(results.study.case):.1f} Hz. The mass centre moves because the displaced "
+        "beam does."
     )
     table = markdown(("", *cages), rows)
     checks = "\n\n".join(filter(None, [_audit(results), _unsettled(results)]))
     return f"## Beside the claims\n\n{text}\n\n{table}\n\n{checks}"
 
 
-def _resolution(results: StudyResults, cage: str) -> float:
+def _resolution(case: Case) -> float:
     """Distance of the lines of a spectrum [Hz]."""
-    found = next(p for p in results.plan.cases if p.point.labels["cage"] == cage)
-    case = results.plan.case(found)
     return 1.0 / (case.solver.duration * (1.0 - case.output.settle))
 
 

@@ -50,13 +50,13 @@ class Stage:
 
 #: In the order of computation: what matters most comes first.
 STAGES = {
-    "base": Stage(CAGES, (BASE,), 3, 0.7, "runs"),
+    "base": Stage(CAGES, (BASE,), 3, 0.8, "runs"),
     "rigid": Stage(CAGES, (RIGID,), 2, 0.3),
     "crossbeam": Stage(CROSSBEAM, ("Cq - Dw 0.15", "Cq - Dw 0.25"), 1, 0.2),
-    "side_beam": Stage((SOUND, LONGER, SHORTER), ("Cp - Lw 0.20", "Cp - Lw 0.30"), 1, 0.3),
-    "friction": Stage(CAGES, ("creep / 10", "traction 2"), 1, 0.4),
+    "side_beam": Stage((SOUND, LONGER, SHORTER), ("Cp - Lw 0.20", "Cp - Lw 0.30"), 1, 0.4),
+    "friction": Stage(CAGES, ("creep / 10", "traction 2"), 1, 0.6),
     "rollers": Stage(CAGES, ("Z 21",), 1, 0.2),
-    "rest": Stage((), (), 3, 3.0),  # every combination and start that is still missing
+    "rest": Stage((), (), 3, 3.4),  # every combination and start that is still missing
 }
 
 
