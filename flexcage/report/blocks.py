@@ -28,7 +28,12 @@ class Cell:
     def listed(self) -> bool:
         """Whether it holds short lines, which must not be broken."""
         lines = self.text.split("\n")
-        return len(lines) > 1 and max(map(len, lines)) < 60
+        return len(lines) > 1 and max(map(len, lines)) < 45
+
+    @property
+    def told(self) -> bool:
+        """Whether it holds sentences, which want a broad column."""
+        return len(self.text) > 90 and not self.listed
 
 
 @dataclass(frozen=True)

@@ -45,6 +45,7 @@ class StudyAccount:
     abscissas: Sequence[Abscissa]
     points: Sequence[str]  # names of the points
     failures: Sequence[str]
+    named: Sequence[Table] = ()  # what points with names of their own change
     stress: Sequence[CageStress] = ()  # of the cases shown
     scale: float = 1.0  # of their deformation
     images: Sequence[Image] = ()  # of their stress
@@ -58,7 +59,7 @@ def study_page(account: StudyAccount) -> Page:
     """The page: what was varied, verdicts and tables first; how to repeat it last."""
     verdicts = read_verdicts(account.folder)
     sections = [
-        Section("What was varied", [Prose(account.varied)]),
+        Section("What was varied", [Prose(account.varied), *account.named]),
         *([Section("Verdicts", [verdicts])] if verdicts else []),
         Section("Warnings", [Notices(account.failures, none="No case failed.")]),
         Section("Results", [account.statistics, account.cases]),

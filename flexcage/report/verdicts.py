@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Mapping
+from math import floor, isfinite, log10
 from pathlib import Path
 from typing import Any
 
@@ -17,7 +18,7 @@ OUTCOMES = {
     "does not hold": ("✘ does not hold", "bad"),
     "undecided": ("? undecided", "open"),
 }
-_HEAD = ("claim", "verdict", "figures", "holds for", "reason", "source")
+_HEAD = ("claim", "verdict", "figures", "reason", "where it holds", "source")
 
 
 def read_verdicts(folder: str | Path) -> Table | None:
@@ -40,7 +41,11 @@ def read_verdicts(folder: str | Path) -> Table | None:
     if not isinstance(verdicts, list) or not all(isinstance(v, Mapping) for v in verdicts):
         raise InputError(f"'{path}' lacks its list of verdicts.", where=FILE)
     rows = [_row(verdict, path) for verdict in verdicts]
-    return Table(_HEAD, rows, _count(verdicts))
+    sources = {row[-1].text for row in rows}
+    if len(sources) > 1:
+        return Table(_HEAD, rows, f"{_count(verdicts)}.")
+    source = f" Source: {sources.pop()}." if any(sources) else ""
+    return Table(_HEAD[:-1], [row[:-1] for row in rows], f"{_count(verdicts)}.{source}")
 
 
 def _count(verdicts: list[Mapping[str, Any]]) -> str:
@@ -67,18 +72,24 @@ def _row(verdict: Mapping[str, Any], path: Path) -> list[Cell]:
             where=FILE,
         )
     figures = "\n".join(map(_figure, given))
-    rest = (str(verdict.get(name) or "") for name in ("range", "reason", "source"))
-    return [Cell(claim), Cell(shown, tone=tone), Cell(figures), *map(Cell, rest)]
+    where, reason, source = (str(verdict.get(k) or "") for k in ("range", "reason", "source"))
+    where = where.replace(". ", ".\n")  # a line a parameter
+    return [Cell(claim), Cell(shown, tone=tone), Cell(figures), *map(Cell, (reason, where, source))]
 
 
 def _figure(figure: Mapping[str, Any]) -> str:
     value, margin, unit = (figure.get(name) for name in ("value", "margin", "unit"))
-    text = _text(value)
-    if margin is not None:
-        text += f" ± {_text(margin)}"
+    text = _text(value, margin)
     label = figure.get("label")
     return f"{label}: {text} {unit or ''}".strip() if label else f"{text} {unit or ''}".strip()
 
 
-def _text(value: Any) -> str:
-    return f"{value:.4g}" if isinstance(value, (int, float)) else str(value)
+def _text(value: Any, margin: Any = None) -> str:
+    """A value to the second digit of its margin, or to its fourth."""
+    if margin is None or not all(isinstance(x, (int, float)) for x in (value, margin)):
+        text = f"{value:.4g}" if isinstance(value, (int, float)) else str(value)
+        return text if margin is None else f"{text} ± {margin}"
+    if not (isfinite(margin) and margin > 0.0):
+        return f"{value:.4g} ± {margin:.2g}"
+    places = max(1 - floor(log10(margin)), 0)
+    return f"{value:,.{places}f} ± {margin:,.{places}f}"

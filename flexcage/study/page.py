@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING, Any
 
 from flexcage.case import words
-from flexcage.report.blocks import Image
+from flexcage.report.blocks import Image, Table
 from flexcage.report.page import PageTooLarge, write_page
 from flexcage.report.study_page import StudyAccount, study_page
 from flexcage.study.axes import Grid, Points, Zip
@@ -64,6 +64,7 @@ def _account(
         folder=folder,
         status=results.status(),
         varied=_varied(results),
+        named=[_named(axis) for axis in study.axes if _has_names(axis)],
         base=words.in_words(study.case),
         statistics=statistics_table(results),
         cases=cases_table(results),
@@ -103,11 +104,36 @@ def _axis_in_words(axis: Any) -> str:
     if isinstance(axis, Zip):
         parts = (f"{p}: {', '.join(map(str, values))}" for p, values in axis.values.items())
         return f"Together {'; '.join(parts)}."
+    if _has_names(axis):
+        return f"{axis.name}: {', '.join(str(point['label']) for point in axis.points)}."
     if isinstance(axis, Points):
         return f"Cases: {'; '.join(str(point) for point in axis.expand())}."
     parts = (f"{path} from {low} to {high}" for path, (low, high) in axis.ranges.items())
     kind = {"lhs": "a Latin hypercube", "sobol": "a Sobol sequence"}.get(axis.tag, axis.tag)
     return f"{axis.count} points of {kind} in {'; '.join(parts)}."
+
+
+def _has_names(axis: Any) -> bool:
+    return isinstance(axis, Points) and all("label" in point for point in axis.points)
+
+
+def _named(axis: Any) -> Table:
+    """A row for every point of an axis: its name, and what it changes in the base case."""
+    rows = [[str(p["label"]), "; ".join(_changes(p)) or "nothing"] for p in axis.points]
+    return Table((axis.name, "changes"), rows)
+
+
+def _changes(point: Mapping[str, Any]) -> Iterator[str]:
+    for path, value in point.items():
+        if path == "defects":
+            yield from map(_change, value)
+        elif path != "label":
+            yield f"{path} {value}"
+
+
+def _change(defect: Mapping[str, Any]) -> str:
+    rest = (f"{k} {v}" for k, v in defect.items() if k != "type")
+    return f"{str(defect['type']).replace('_', ' ')}: {', '.join(rest)}"
 
 
 def _warnings(results: StudyResults) -> list[str]:

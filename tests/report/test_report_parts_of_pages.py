@@ -230,10 +230,10 @@ def test_verdicts_are_read(tmp_path):
     assert read_verdicts(tmp_path) is None
     (tmp_path / "verdicts.json").write_text(json.dumps(VERDICTS))
     table = read_verdicts(tmp_path)
-    assert table.caption == "3 claims: 1 holds, 1 does not hold, 1 undecided"
+    assert table.caption.startswith("3 claims: 1 holds, 1 does not hold, 1 undecided.")
     first, second, third = table.cells
-    assert [cell.text for cell in first[:4]] == [
-        "a-1: It slips.", "✔ holds", "slip: 1.234 ± 0.1 %", "all clearances",
+    assert [cell.text for cell in first[:5]] == [
+        "a-1: It slips.", "✔ holds", "slip: 1.23 ± 0.10 %", "", "all clearances",
     ]  # fmt: skip
     assert second[1].text == "✘ does not hold" and third[1].text == "? undecided"
 
