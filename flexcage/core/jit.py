@@ -183,10 +183,16 @@ def uncollected() -> Iterator[None]:
             gc.enable()
 
 
+_compiled: dict[tuple[Any, ...], Any] = {}
+
+
 def compiled(function: Any, signature: Any, options: dict[str, Any] = LEAN) -> Any:
-    """``function`` compiled for one signature."""
-    with uncollected():
-        return numba.njit(signature, **options)(function)
+    """``function`` compiled for one signature, once in a process: compiled code is never freed."""
+    key = function, signature, tuple(options.items())
+    if key not in _compiled:
+        with uncollected():
+            _compiled[key] = numba.njit(signature, **options)(function)
+    return _compiled[key]
 
 
 def compiled_mark(what: str) -> Path:

@@ -10,6 +10,7 @@ from scipy import sparse
 from flexcage.bodies.floating_frame import flexible_body, frame_work, inertia_terms, mass_matrix
 from flexcage.contacts.spec import Contacts, NormalLaw, PairSpec
 from flexcage.core.rotation import matrix_from_quaternion
+from flexcage.solve.runge_kutta import EXPLICIT_METHOD
 from flexcage.system.data import POWERS
 from flexcage.system.rates import cage_accelerations, new_rates_work
 from flexcage.system.scales import error_weights
@@ -118,3 +119,10 @@ def test_accelerations_of_a_flexible_cage_against_its_whole_mass_matrix(eigenmod
     expected[:3] = A @ expected[:3]
     cage_accelerations(frame.rigid, frame.coupled, body.plain, A, force, work)
     np.testing.assert_allclose(force, expected, rtol=1e-9)
+
+
+def test_bearings_of_a_kind_share_their_compiled_functions(bearing_of):
+    """Compiled code is never freed: a worker that simulates case after case would grow."""
+    one, other = bearing_of(), bearing_of(load=Load(radial=2000.0))
+    assert one.evaluate is other.evaluate and one.rows is other.rows
+    assert one.functions(EXPLICIT_METHOD) == other.functions(EXPLICIT_METHOD)
