@@ -258,6 +258,15 @@ class Recorder:
         self._take(str(saved["integrator"]), 0.0, y, yd)
         self.bound = float(saved["bound"])
         for name, array in self._parts().items():
+            found = saved[name].shape if name in saved else "nothing"
+            if found != array.shape:
+                raise InputError(
+                    f"The run was begun by another flexcage: its checkpoint holds {found} of "
+                    f"'{name}', and this one wants {array.shape}; finish it with the flexcage that "
+                    "began it, or begin it again.",
+                    where=name,
+                    value=found,
+                )
             array[...] = saved[name]
 
 

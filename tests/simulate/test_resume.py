@@ -95,3 +95,16 @@ def test_a_smallest_step_that_is_too_large_ends_with_a_sentence(tmp_path):
     with pytest.raises(RunFailed, match="solver.min_step"):
         simulate(case, out=tmp_path)
     assert RunStore.open(tmp_path / "results.zarr").n_time < 250
+
+
+def test_a_checkpoint_of_another_flexcage_is_refused(tmp_path, monkeypatch):
+    with pytest.raises(KeyboardInterrupt):
+        simulate(case_of("rigid"), out=tmp_path, progress=Interrupted(1, BLOCK))
+    whole = RunStore.checkpoint
+    monkeypatch.setattr(
+        RunStore,
+        "checkpoint",
+        lambda store: {**whole(store), "memory_deflection": np.zeros((22, 8))},
+    )
+    with pytest.raises(InputError, match=r"holds \(22, 8\) of 'memory_deflection'"):
+        simulate(case_of("rigid"), out=tmp_path, resume=True)
