@@ -84,6 +84,14 @@ class Compiling:
     helper: subprocess.Popen | None
 
 
+#: Has another process import the flexcage of this one, of which compiled kernels are found by their
+#: path: one installed and one in the working folder are two.
+SAME_PACKAGE = (
+    f"import sys; home = {str(Path(__file__).resolve().parents[1])!r}; "
+    "home in sys.path or sys.path.insert(0, home)"
+)
+
+
 def begin_compiling(element: str) -> Compiling | None:
     """Begin to compile the kernels in a process of its own, if they are not on disk yet: those of
     bearings with these elements ("roller", "ball").
@@ -96,10 +104,11 @@ def begin_compiling(element: str) -> Compiling | None:
     pieces, end = os.pipe()
     os.write(end, bytes(range(MOST_PIECES)))
     os.close(end)
-    command = f"from flexcage.stages import compile_pieces; compile_pieces({element!r})"
+    command = f"{SAME_PACKAGE}; from flexcage.stages import compile_pieces; "
+    command += f"compile_pieces({element!r})"
     try:
         helper = subprocess.Popen(
-            [sys.executable, "-c", command], stdin=pieces, stdout=subprocess.DEVNULL,
+            [sys.executable, "-P", "-c", command], stdin=pieces, stdout=subprocess.DEVNULL,
             stderr=subprocess.DEVNULL, env={**os.environ, **jit.cache_environment()},
         )  # fmt: skip
     except OSError:
