@@ -78,7 +78,7 @@ def condense(data, i, p, laws, guess, sl, pw):
             _read(N_LOCAL, points_of_face(data, f), data.res[i, f], pw.face[f])
     joined = True
     while joined:
-        _solve(data, i, p, laws, sl, pw)
+        _solve(N_LOCAL, data.most[i], data, p, laws, sl, pw)
         copy_into(pw.b, pw.c)
         joined = _join(data, i, sl, pw)
 
@@ -110,16 +110,7 @@ def _solve_alone(data, i, f, p, laws, sl, pw):
     _read(N_FACE, points_of_face(data, f), data.own[i, f], pw.face[f])
     turn = data.turn[i, f]
     _take(turn, pw.b, pw.c)
-    before, step = 0.0, 1.0
-    for _ in range(40):
-        anew = step > SLOW * before
-        _balance(N_FACE, data, f, p, laws, anew, sl, pw)
-        before, step = step, 0.0
-        for l in range(N_FACE):
-            pw.c[l] += pw.g[l]
-            step = max(step, abs(pw.g[l]) * data.own_max[i, f, l])
-        if step < (SOLVED if anew else SOLVED_AGAIN):
-            break
+    _solve(N_FACE, data.own_max[i, f], data, p, laws, sl, pw)
     _give(turn, pw.c, pw.b)
 
 
@@ -144,29 +135,23 @@ def _give(turn, c, b):
 
 
 @part
-def _solve(data, i, p, laws, sl, pw):
-    """The coordinates pw.c of all faces that are live."""
+def _solve(m, most, data, p, laws, sl, pw):
+    """The m coordinates pw.c of the live faces; ``most`` (m,): what one of each moves the walls."""
     before, step = 0.0, 1.0
     for _ in range(40):
         anew = step > SLOW * before
-        _balance(N_LOCAL, data, -1, p, laws, anew, sl, pw)
+        _balance(m, data, p, laws, anew, sl, pw)
         before, step = step, 0.0
-        for l in range(N_LOCAL):
+        for l in range(m):
             pw.c[l] += pw.g[l]
-            scale = 0.0
-            for f in range(4):
-                scale = max(scale, data.res_max[i, f, l])
-            step = max(step, abs(pw.g[l]) * scale)
+            step = max(step, abs(pw.g[l]) * most[l])
         if step < (SOLVED if anew else SOLVED_AGAIN):
             break
 
 
 @part
-def _balance(m, data, alone, p, laws, anew, sl, pw):
-    """Newton's step of m coordinates into pw.g, with new factors or those of an earlier step.
-
-    ``alone``: the one face that is live, or -1: all that are.
-    """
+def _balance(m, data, p, laws, anew, sl, pw):
+    """Newton's step of m coordinates into pw.g, with new factors or those of an earlier step."""
     for l in range(m):
         pw.g[l] = -pw.c[l]
     if anew:
@@ -174,7 +159,7 @@ def _balance(m, data, alone, p, laws, anew, sl, pw):
             for k in range(l + 1):
                 pw.A[l, k] = 0.0
     for f in range(4):
-        if pw.live[f] != 0 and (alone < 0 or f == alone):
+        if pw.live[f] != 0:
             n = points_of_face(data, f)
             _yielded(m, n, pw.face[f], pw.c, sl)
             elastic_forces(laws[0] if f < 2 else laws[1], n, sl, p[f])

@@ -42,6 +42,7 @@ class PocketData(NamedTuple):
     soft: int  # 1 if pockets have residual flexibility
     res: np.ndarray  # (Z, 4, nst + 2, 12) residual shapes of unit compliance, with the end stations
     res_max: np.ndarray  # (Z, 4, 12) their largest values
+    most: np.ndarray  # (Z, 12) those of all faces
     own: np.ndarray  # (Z, 4, nst + 2, 8) the same in a face's own coordinates
     own_max: np.ndarray  # (Z, 4, 8) their largest values
     turn: np.ndarray  # (Z, 4, 8, 12) those coordinates from the pocket's

@@ -217,7 +217,7 @@ def coupling(stiffness: np.ndarray, share: np.ndarray, pocket_count: int) -> tup
     pocket, local = np.divmod(np.arange(len(stiffness)), len(stiffness) // pocket_count)
     apart = pocket[:, None] != pocket[None, :]
     ratios = np.where(apart, np.abs(stiffness) / np.outer(scale, scale), 0.0)
-    even = (local < 8) & (local % 2 == 0)
+    even = (local < LOADS["linear"]) & (local % 2 == 0)
     return float(ratios[:, even].max()), float(ratios[:, ~even].max())
 
 

@@ -173,10 +173,8 @@ def own_coordinates(shapes: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     Exact while a face has no more stations than that; with more, its softest eight.
     """
     left, values, right = np.linalg.svd(shapes, full_matrices=False)
-    own, turn = (
-        np.zeros((*shapes.shape[:3], N_FACE)),
-        np.zeros((*shapes.shape[:2], N_FACE, N_LOCAL)),
-    )
+    own = np.zeros((*shapes.shape[:3], N_FACE))
+    turn = np.zeros((*shapes.shape[:2], N_FACE, N_LOCAL))
     n = min(N_FACE, values.shape[-1])
     own[..., :n], turn[..., :n, :] = (left * values[..., None, :])[..., :n], right[..., :n, :]
     return own, turn
@@ -216,6 +214,7 @@ def _pocket_data(bearing, cage, contacts: Contacts, interface: CageInterface) ->
         soft=int(interface.compliance.any()),
         res=res,
         res_max=np.abs(res).max(axis=2),
+        most=np.abs(res).max(axis=(1, 2)),
         own=own,
         own_max=np.abs(own).max(axis=2),
         turn=turn,

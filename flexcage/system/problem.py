@@ -19,7 +19,14 @@ from flexcage.bodies.floating_frame import marked
 from flexcage.contacts import laws
 from flexcage.contacts.spec import Contacts
 from flexcage.core.errors import InputError
-from flexcage.core.jit import OPTIONS, allocating_kernel, boxed, compiled, uncollected
+from flexcage.core.jit import (
+    OPTIONS,
+    FieldsType,
+    allocating_kernel,
+    boxed,
+    compiled,
+    uncollected,
+)
 from flexcage.solve import runge_kutta
 from flexcage.solve.bordered import Bordered, new_bordered
 from flexcage.solve.contract import Integrator
@@ -162,8 +169,8 @@ class Bearing:
 
     def pieces(self) -> list[Callable[[], object]]:
         """What a run by the explicit method wants compiled, one call each, the longest first."""
-        tangent, matrix = (numba.typeof(x) for x in (self.data.work.tangent, self.data.matrix))
-        bodies = numba.typeof(self.data.model.bodies)
+        groups = (self.data.work.tangent, self.data.matrix, self.data.model.bodies)
+        tangent, matrix, bodies = (FieldsType(numba.typeof(group)) for group in groups)
         method, none = runge_kutta.EXPLICIT_METHOD, np.zeros(1)
         state = method.new_state(0.0, none, none, weight=none, h0=1.0, n_quad=1)
 

@@ -109,6 +109,7 @@ def _compare(model: str, program: Callable[..., Any]) -> dict[str, Any]:
                 least = min(cpu, found[name, level][2]) if (name, level) in found else cpu
                 found[name, level] = (name, level, least, error)
     rows = [row for row in found.values() if np.isfinite(row[3])]
+    failed = [[name, _short(level)] for name, level, _, error in found.values() if error == np.inf]
     best = [
         _best([row for row in rows if row[0] in names])
         for names in (("flexcage",), tuple(METHODS), ("GeneralizedAlpha",))
@@ -119,6 +120,7 @@ def _compare(model: str, program: Callable[..., Any]) -> dict[str, Any]:
         "default_method_ratios_by_error": {f"{e:g}": _ratio(c[0], c[2]) for e, c in costs.items()},
         "cpu_s_per_ms": {f"{e:g}": [_short(c) for c in pair] for e, pair in costs.items()},
         "cage_apart_m": float(f"{_far(own, other):.2g}"),
+        "failed": failed,
         "curves": [
             [name, _short(level), _short(cpu), _short(error)] for name, level, cpu, error in rows
         ],
@@ -133,9 +135,12 @@ def _times(step: float) -> np.ndarray:
 
 def _point(path, level: float, reference: np.ndarray, name: str) -> tuple[float, float]:
     """Processor time [s per ms], and the error of the cage's position [m]; ours is the least of
-    several, so that both take about as long to be measured."""
+    several, so that both take about as long to be measured. Infinite where a program gives up."""
     times = _times(SAMPLE if name == "flexcage" else level)
-    runs = [path(level, times) for _ in range(OURS if name == "flexcage" else 1)]
+    try:
+        runs = [path(level, times) for _ in range(OURS if name == "flexcage" else 1)]
+    except RuntimeError:
+        return np.inf, np.inf
     stride = len(reference) // len(times)
     error = _far(runs[0][1], reference[stride - 1 :: stride])
     return min(cpu for cpu, _ in runs) / (WINDOW * 1e3), error
