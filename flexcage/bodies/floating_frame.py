@@ -9,7 +9,8 @@ Multibody Systems, ch. 5), v in space, w in the body frame:
     c x A^T v' + J w' + H q'' + w x J w + 2 (tr(D) 1 - D^T) w                  = M
     C^T A^T v' + H^T w' + m_ff q'' + [w^T E_k w - w^2 tr E_k] + 2 w.(P_k q')   = Q - K q - d q'
 
-with D = int p u^T dm, u = Phi q', and (P_k)_l = int phi_l x phi_k dm.
+with D = int p u^T dm, u = Phi q', and (P_k)_l = int phi_l x phi_k dm. Of E_k only the symmetric
+part enters, H_k = int p x phi_k dm has the other; and 2 D^T w = 2 sym(D) w + (int p x u dm) x w.
 
 Geometric stiffening, if asked for, adds w_x^2 G q to the last row: G is the geometric stiffness of
 the centrifugal stress at unit spin about x (Wallrapp and Schwertassek, Int. J. Numer. Methods Eng.
@@ -30,18 +31,24 @@ import numpy as np
 from scipy import sparse
 
 from flexcage.core.errors import InputError
-from flexcage.core.jit import VECTORISED, kernel, part, zero
+from flexcage.core.jit import VECTORISED, copy_into, kernel, part, zero
+from flexcage.core.vectors import combine, cross, minus, plus, times, xyz
 
 
 class BodyData(NamedTuple):
-    """Invariants of one body for the kernels; n may be zero (a rigid body)."""
+    """Invariants of one body for the kernels; n may be zero (a rigid body).
+
+    Symmetric parts of second moments are six rows: xx, yy, zz, yz, zx, xy.
+    """
 
     mass: float
     c0: np.ndarray  # (3,) first moment
     C: np.ndarray  # (3, n) translation-modal coupling
     G0: np.ndarray  # (3, 3) second moment int s s^T
-    S: np.ndarray  # (n, 3, 3) int phi_k s^T
-    SS: np.ndarray  # (n, n, 3, 3) int phi_k phi_l^T
+    S: np.ndarray  # (6, n) int phi_k s^T, symmetric part
+    X: np.ndarray  # (3, n) int s x phi_k
+    SS: np.ndarray  # (n, 6, n) int phi_l phi_k^T, symmetric part
+    XX: np.ndarray  # (n, 3, n) int phi_l x phi_k
     mff: np.ndarray  # (n, n)
     kff: np.ndarray  # (n, n)
     dff: np.ndarray  # (n, n) modal damping
@@ -113,21 +120,38 @@ def flexible_body(
     ones = np.ones(len(nodes))
     ms, m1 = m @ nodes, m @ ones
     mphi = (m @ shapes.reshape(len(nodes), 3 * n)).reshape(shapes.shape)
-    SS = np.einsum("aik,ajl->klij", shapes, mphi, optimize=True)
+    S = np.einsum("aik,aj->ijk", shapes, ms)
+    SS = np.einsum("aik,ajl->kijl", shapes, mphi, optimize=True)
     data = BodyData(
         mass=float(ones @ m1),
         c0=nodes.T @ m1,
         C=np.ascontiguousarray(np.einsum("a,aik->ik", m1, shapes)),
         G0=np.ascontiguousarray(nodes.T @ ms),
-        S=np.ascontiguousarray(np.einsum("aik,aj->kij", shapes, ms)),
-        SS=np.ascontiguousarray(SS),
-        mff=_without_rounding(np.einsum("klii->kl", SS)),
+        S=_symmetric_part(S),
+        X=_cross(np.swapaxes(S, 0, 1)),
+        SS=_symmetric_part(SS),
+        XX=_cross(SS),
+        mff=_without_rounding(np.einsum("kiil->kl", SS)),
         kff=_without_rounding(np.asarray(stiffness, float).reshape(n, n)),
         dff=np.zeros((n, n)) if damping is None else _without_rounding(damping),
         gff=np.zeros((0, 0)) if geometric is None else np.ascontiguousarray(geometric, float),
         plain=0,
     )
     return FlexibleBody(marked(data))
+
+
+def _symmetric_part(moments: np.ndarray) -> np.ndarray:
+    """Six rows of the symmetric part of second moments (..., 3, 3, n)."""
+    pairs = ((0, 0), (1, 1), (2, 2), (1, 2), (2, 0), (0, 1))
+    rows = [0.5 * (moments[..., i, j, :] + moments[..., j, i, :]) for i, j in pairs]
+    return np.ascontiguousarray(np.stack(rows, axis=-2))
+
+
+def _cross(moments: np.ndarray) -> np.ndarray:
+    """int a x b (..., 3, n) from int a b^T (..., 3, 3, n)."""
+    pairs = ((1, 2), (2, 0), (0, 1))
+    rows = [moments[..., i, j, :] - moments[..., j, i, :] for i, j in pairs]
+    return np.ascontiguousarray(np.stack(rows, axis=-2))
 
 
 def marked(data: BodyData) -> BodyData:
@@ -150,7 +174,8 @@ def rigid_body(mass: float, centre: np.ndarray, second_moment: np.ndarray) -> Fl
     data = BodyData(
         float(mass), mass * np.asarray(centre, float), z((3, 0)),
         np.ascontiguousarray(second_moment, dtype=float),
-        z((0, 3, 3)), z((0, 0, 3, 3)), z((0, 0)), z((0, 0)), z((0, 0)), z((0, 0)), 1,
+        z((6, 0)), z((3, 0)), z((0, 6, 0)), z((0, 3, 0)), z((0, 0)), z((0, 0)), z((0, 0)),
+        z((0, 0)), 1,
     )  # fmt: skip
     return FlexibleBody(data)
 
@@ -173,17 +198,17 @@ class FrameWork(NamedTuple):
     rigid: np.ndarray  # (6, 6) mass of the rigid motion
     coupled: np.ndarray  # (6, n) coupling of the rigid motion and the modes
     h: np.ndarray  # (6+n,) gyroscopic and centrifugal terms
-    E: np.ndarray  # (n, 3, 3) int phi_k (s + u)^T dm
-    Ed: np.ndarray  # (n, 3, 3) int u' phi_k^T dm
+    E: np.ndarray  # (6, n) int phi_k p^T dm, symmetric part
+    P: np.ndarray  # (2, 3, n) int p x phi_k dm, and int u x phi_k dm
     c: np.ndarray  # (2, 3) first moment of mass and its rate
-    G: np.ndarray  # (2, 3, 3) second moment of mass, and int p u'^T dm
+    G: np.ndarray  # (2, 6) second moment of mass, and the symmetric part of int p u^T dm
     w: np.ndarray  # (3, 6+n) vectors of the cage's rows
 
 
 def frame_work(n: int) -> FrameWork:
     z = np.zeros
     return FrameWork(
-        z((6, 6)), z((6, n)), z(6 + n), z((n, 3, 3)), z((n, 3, 3)), z((2, 3)), z((2, 3, 3)),
+        z((6, 6)), z((6, n)), z(6 + n), z((6, n)), z((2, 3, n)), z((2, 3)), z((2, 6)),
         z((3, 6 + n)),
     )  # fmt: skip
 
@@ -194,17 +219,30 @@ def mass_matrix(data: BodyData, work: FrameWork) -> np.ndarray:
 
 
 @part(fastmath=VECTORISED)
-def _superpose(parts, q, qd, out, outd):
-    """out = sum_l q_l parts[l] and outd = sum_l qd_l parts[l], entry by entry.
+def _superpose(parts, q, out):
+    """out += sum_l q_l parts[l], entry by entry.
 
-    Both in one pass, and four parts at a time: ``parts`` are more than the nearest cache holds.
+    Four parts at a time: all of them are more than the nearest cache holds.
     """
-    n = q.shape[0]
-    total, rate = out.reshape(out.size), outd.reshape(out.size)
+    n, total = q.shape[0], out.reshape(out.size)
     rows = parts.reshape(n, total.size)
     first = n % 4
-    zero(total)
-    zero(rate)
+    for l in range(first):
+        for k in range(total.size):
+            total[k] += q[l] * rows[l, k]
+    for l in range(first, n, 4):
+        a, b, c, d = q[l], q[l + 1], q[l + 2], q[l + 3]
+        for k in range(total.size):
+            x, y, z, w = rows[l, k], rows[l + 1, k], rows[l + 2, k], rows[l + 3, k]
+            total[k] += a * x + b * y + c * z + d * w
+
+
+@part(fastmath=VECTORISED)
+def _superpose_both(parts, q, qd, out, outd):
+    """The same for two sets of factors in one pass."""
+    n, total, rate = q.shape[0], out.reshape(out.size), outd.reshape(out.size)
+    rows = parts.reshape(n, total.size)
+    first = n % 4
     for l in range(first):
         for k in range(total.size):
             total[k] += q[l] * rows[l, k]
@@ -218,54 +256,53 @@ def _superpose(parts, q, qd, out, outd):
             rate[k] += ad * x + bd * y + cd * z + dd * w
 
 
-@kernel
-def inertia_terms(d, w, q, qd, work):
-    """Mass matrix and velocity terms at modal state (q, qd) and body angular velocity w.
+@part
+def _times_symmetric(G, w):
+    """Product of a symmetric matrix, given as six numbers, with a vector."""
+    return (
+        G[0] * w[0] + G[5] * w[1] + G[4] * w[2],
+        G[5] * w[0] + G[1] * w[1] + G[3] * w[2],
+        G[4] * w[0] + G[3] * w[1] + G[2] * w[2],
+    )
 
-    Fills ``work.rigid``, ``work.coupled`` and ``work.h`` so that M [A^T v', w', q''] + h =
-    generalised forces, all three groups in body axes, with ``mass_matrix`` M; elastic and damping
-    forces are not included. SS_lk = int phi_l phi_k^T dm is the transpose of SS_kl, so that sums
-    over modes run along memory.
-    """
-    M, H, h, E, Ed = work.rigid, work.coupled, work.h, work.E, work.Ed
+
+@part(fastmath=VECTORISED)
+def _moments(d, q, qd, work):
+    """First and second moments of mass, their rates, and the coupling with the modes."""
     c, cd, G, D = work.c[0], work.c[1], work.G[0], work.G[1]
+    H, E, P, Pd = work.coupled, work.E, work.P[0], work.P[1]
     n = q.shape[0]
-    zero(h)
-    zero(D)
-    _superpose(d.SS, q, qd, E, Ed)
+    copy_into(E, d.S)
+    copy_into(P, d.X)
+    zero(Pd)
+    _superpose(d.SS, q, E)
+    _superpose_both(d.XX, q, qd, P, Pd)
     for i in range(3):
-        c[i], cd[i] = d.c0[i], 0.0
+        moved = rate = 0.0
         for k in range(n):
-            c[i] += d.C[i, k] * q[k]
-            cd[i] += d.C[i, k] * qd[k]
-        for j in range(3):
-            G[i, j] = d.G0[i, j]
-    for k in range(n):
-        for i in range(3):  # E_k = S_k + the transpose of what was superposed
-            for j in range(i):
-                x = E[k, i, j]
-                E[k, i, j] = d.S[k, i, j] + E[k, j, i]
-                E[k, j, i] = d.S[k, j, i] + x
-            E[k, i, i] += d.S[k, i, i]
-        for i in range(3):
-            for j in range(3):
-                # int p p^T = G0 + sum q_k (S_k + S_k^T) + q q SS; E_k already holds S_k + SS q
-                G[i, j] += q[k] * (E[k, i, j] + d.S[k, j, i])
-                D[j, i] += E[k, i, j] * qd[k]
-    trace = G[0, 0] + G[1, 1] + G[2, 2]
-    w2 = w[0] * w[0] + w[1] * w[1] + w[2] * w[2]
+            H[i, k], H[3 + i, k] = d.C[i, k], P[i, k]
+            moved += d.C[i, k] * q[k]
+            rate += d.C[i, k] * qd[k]
+        c[i], cd[i] = d.c0[i] + moved, rate
+    for r in range(6):
+        moved = rate = 0.0
+        for k in range(n):  # int p p^T = G0 + sum q_k (S_k + S_k^T) + q q SS
+            moved += q[k] * (E[r, k] + d.S[r, k])
+            rate += qd[k] * E[r, k]
+        i, j = (r, r) if r < 3 else ((r + 1) % 3, (r + 2) % 3)
+        G[r], D[r] = d.G0[i, j] + moved, rate
+
+
+@part
+def _rigid_mass(mass, c, G, M):
+    """Mass matrix (6, 6) of the rigid motion."""
     for i in range(3):
-        for j in range(3):
-            M[i, j] = M[i, 3 + j] = 0.0
-            M[3 + i, 3 + j] = -0.5 * (G[i, j] + G[j, i])
-        M[i, i] = d.mass
-        M[3 + i, 3 + i] += trace
-    shortening = 0.0  # half the rate of the inertia that geometric stiffening takes
-    for k in range(d.gff.shape[0]):
-        for l in range(n):
-            h[6 + k] += d.gff[k, l] * q[l]
-        M[3, 3] -= q[k] * h[6 + k]
-        shortening += qd[k] * h[6 + k]
+        j, k = (i + 1) % 3, (i + 2) % 3
+        for l in range(3):
+            M[i, l] = M[i, 3 + l] = M[3 + l, i] = 0.0
+        M[i, i] = mass
+        M[3 + i, 3 + i] = G[j] + G[k]
+        M[3 + j, 3 + k] = M[3 + k, 3 + j] = -G[3 + i]
     # rows of translation: w' x c = -c~ w'
     M[0, 4], M[0, 5] = c[2], -c[1]
     M[1, 3], M[1, 5] = -c[2], c[0]
@@ -273,37 +310,51 @@ def inertia_terms(d, w, q, qd, work):
     for i in range(3):
         for j in range(3):
             M[3 + j, i] = M[i, 3 + j]
-    wc = w[0] * c[0] + w[1] * c[1] + w[2] * c[2]
-    h[0] = w[0] * wc - c[0] * w2 + 2.0 * (w[1] * cd[2] - w[2] * cd[1])
-    h[1] = w[1] * wc - c[1] * w2 + 2.0 * (w[2] * cd[0] - w[0] * cd[2])
-    h[2] = w[2] * wc - c[2] * w2 + 2.0 * (w[0] * cd[1] - w[1] * cd[0])
-    Jw0 = M[3, 3] * w[0] + M[3, 4] * w[1] + M[3, 5] * w[2]
-    Jw1 = M[4, 3] * w[0] + M[4, 4] * w[1] + M[4, 5] * w[2]
-    Jw2 = M[5, 3] * w[0] + M[5, 4] * w[1] + M[5, 5] * w[2]
-    trD = D[0, 0] + D[1, 1] + D[2, 2]
-    h[3] = w[1] * Jw2 - w[2] * Jw1 + 2.0 * trD * w[0]
-    h[4] = w[2] * Jw0 - w[0] * Jw2 + 2.0 * trD * w[1]
-    h[5] = w[0] * Jw1 - w[1] * Jw0 + 2.0 * trD * w[2]
-    h[3] -= 2.0 * shortening * w[0]
-    for j in range(3):
-        for i in range(3):
-            h[3 + j] -= 2.0 * D[i, j] * w[i]
+
+
+@kernel(fastmath=VECTORISED)
+def inertia_terms(d, w, q, qd, work):
+    """Mass matrix and velocity terms at modal state (q, qd) and body angular velocity w.
+
+    Fills ``work.rigid``, ``work.coupled`` and ``work.h`` so that M [A^T v', w', q''] + h =
+    generalised forces, all three groups in body axes, with ``mass_matrix`` M; elastic and damping
+    forces are not included.
+    """
+    _moments(d, q, qd, work)
+    M, H, h, E, Pd, D = work.rigid, work.coupled, work.h, work.E, work.P[1], work.G[1]
+    _rigid_mass(d.mass, work.c[0], work.G[0], M)
+    n, spin = q.shape[0], xyz(w)
+    wx, wy, wz = spin
+    shortening = 0.0  # half the rate of the inertia that geometric stiffening takes
+    zero(h)
+    for k in range(d.gff.shape[0]):
+        for l in range(n):
+            h[6 + k] += d.gff[k, l] * q[l]
+        M[3, 3] -= q[k] * h[6 + k]
+        shortening += qd[k] * h[6 + k]
+    w2 = wx * wx + wy * wy + wz * wz
     for k in range(n):
-        for i in range(3):
-            H[i, k] = d.C[i, k]
-        # int p x phi_k from E_k,ij = int phi_i p_j
-        H[3, k] = E[k, 2, 1] - E[k, 1, 2]
-        H[4, k] = E[k, 0, 2] - E[k, 2, 0]
-        H[5, k] = E[k, 1, 0] - E[k, 0, 1]
-        s = w[0] * w[0] * h[6 + k] - w2 * (E[k, 0, 0] + E[k, 1, 1] + E[k, 2, 2])
-        for i in range(3):
-            for j in range(3):
-                s += w[i] * w[j] * E[k, i, j]
-        # 2 w . int u' x phi_k
-        s += 2.0 * w[0] * (Ed[k, 1, 2] - Ed[k, 2, 1])
-        s += 2.0 * w[1] * (Ed[k, 2, 0] - Ed[k, 0, 2])
-        s += 2.0 * w[2] * (Ed[k, 0, 1] - Ed[k, 1, 0])
-        h[6 + k] = s
+        # w^T E_k w - w^2 tr E_k + 2 w . int u x phi_k
+        s = (wx * wx - w2) * E[0, k] + (wy * wy - w2) * E[1, k] + (wz * wz - w2) * E[2, k]
+        s += 2.0 * (wy * wz * E[3, k] + wz * wx * E[4, k] + wx * wy * E[5, k])
+        s += 2.0 * (wx * Pd[0, k] + wy * Pd[1, k] + wz * Pd[2, k])
+        h[6 + k] = wx * wx * h[6 + k] + s
+    flow = (0.0, 0.0, 0.0)  # int p x u
+    for k in range(n):
+        flow = combine(flow, qd[k], (H[3, k], H[4, k], H[5, k]))
+    first, rate = xyz(work.c[0]), xyz(work.c[1])
+    force = plus(cross(spin, cross(spin, first)), times(2.0, cross(spin, rate)))
+    Jw = (
+        M[3, 3] * wx + M[3, 4] * wy + M[3, 5] * wz,
+        M[4, 3] * wx + M[4, 4] * wy + M[4, 5] * wz,
+        M[5, 3] * wx + M[5, 4] * wy + M[5, 5] * wz,
+    )
+    moment = minus(cross(spin, Jw), cross(flow, spin))
+    moment = combine(moment, 2.0 * (D[0] + D[1] + D[2]), spin)
+    moment = combine(moment, -2.0, _times_symmetric(D, spin))
+    for i in range(3):
+        h[i], h[3 + i] = force[i], moment[i]
+    h[3] -= 2.0 * shortening * wx
 
 
 @part(fastmath=VECTORISED)

@@ -7,15 +7,16 @@ With R(x) the pocket's residual shapes, scaled so that their compliance is one, 
 so no unknown is added to the DAE, energy stays consistent (the wall stores b . b/2), and damping
 acts on the rate of the remaining motion. A rigid cage has no such shapes.
 
-Seven stations of a face move with seven combinations of them at the most
-(``model.own_coordinates``): in these a face that is touched alone, as nearly all are, is solved.
+A face's stations move with as many combinations of them as it has stations, at the most; a face
+that is touched alone, as nearly all are, is solved in the softest of these
+(``model.own_coordinates``).
 """
 
 from __future__ import annotations
 
 from flexcage.contacts.pocket_wall import N_FACE, N_LOCAL, mixed, points_of_face
 from flexcage.contacts.slices import elastic_forces, largest
-from flexcage.core.jit import VECTORISED, copy_into, part, zero
+from flexcage.core.jit import VECTORISED, copy_into, outlined, part, zero
 
 SOLVED = 3e-11  # [m] a last Newton step this small leaves an error of its square over d
 SOLVED_AGAIN = 3e-12  # [m] the same with factors of an earlier step, which gain less
@@ -52,7 +53,7 @@ def yielded(n, face, pw, sl):
         _yielded(N_LOCAL, n, face, pw.c, sl)
 
 
-@part
+@outlined
 def condense(data, i, p, laws, guess, sl, pw):
     """Solve pocket i's residual coordinates pw.b from ``guess`` (12,), by Newton's method.
 
@@ -84,16 +85,26 @@ def condense(data, i, p, laws, guess, sl, pw):
 
 
 @part
+def left_out(pw):
+    """Whether the residual deflection may push a face to the roller that was not near before."""
+    for f in range(4):
+        if pw.near[f] == 0 and pw.deep[f] + pw.push[f] > 0.0:
+            return True
+    return False
+
+
+@part
 def _join(data, i, sl, pw):
     """Whether faces join that the residual deflection pushes to the roller."""
     joined = False
     for f in range(4):
-        if pw.near[f] == 0 or pw.live[f] != 0:
+        if pw.live[f] != 0:
             continue
-        bound = pw.deep[f]
+        push = 0.0
         for l in range(N_LOCAL):
-            bound += abs(pw.b[l]) * data.res_max[i, f, l]
-        if bound > 0.0:
+            push += abs(pw.b[l]) * data.res_max[i, f, l]
+        pw.push[f] = max(push, pw.push[f])
+        if pw.near[f] != 0 and pw.deep[f] + push > 0.0:
             n = points_of_face(data, f)
             _read(N_LOCAL, n, data.res[i, f], pw.face[f])
             _yielded(N_LOCAL, n, pw.face[f], pw.b, sl)
@@ -194,7 +205,7 @@ def _stiffen(m, n, face, sl, h, A):
             A[l, o] += x
 
 
-@part(forceinline=False)
+@outlined
 def factor(n, A):
     """L D L^T of 1 + A (n, n) in place of the lower triangle of A: L, and 1/D in the diagonal."""
     for l in range(n):
@@ -209,7 +220,7 @@ def factor(n, A):
             A[l, m] *= A[m, m]
 
 
-@part(forceinline=False)
+@outlined
 def back_substitute(n, A, x):
     """x <- (1 + A)^-1 x (n,) with the factors that ``factor`` left."""
     for m in range(n):
@@ -239,7 +250,7 @@ def lean_of_residual(data, i, f, pw):
         face.slope[k] += mixed(face.ws, face, k, pw.lean)
 
 
-@part
+@outlined
 def soften(pw, pair):
     """Condense the residual coordinates out of the tangent, and keep X for the modes."""
     n = pw.size[0]

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from flexcage.contacts.condensation import condense, lean_of_residual, soften, yielded
+from flexcage.contacts.condensation import condense, lean_of_residual, left_out, soften, yielded
 from flexcage.contacts.pocket_forces import (
     add_tangent,
     crossbeam_rates,
@@ -28,11 +28,11 @@ from flexcage.contacts.slices import (
     stored_and_damped,
 )
 from flexcage.contacts.state import clear
-from flexcage.core.jit import part, zero
+from flexcage.core.jit import outlined, part, zero
 from flexcage.core.vectors import row, xyz
 
 
-@part
+@outlined
 def pocket_contact(
     pose, data, i, Rw, D, Vc, wc, q, qd, margin, p, laws, guess, sl, pw, pair, mode, sums
 ):
@@ -53,11 +53,16 @@ def pocket_contact(
         zero(pw.slice_T)
         zero(pw.b)
     centre = xyz(D)
-    if not penetrations(pose, data, i, Rw, centre, q, margin, pw):
-        return False
+    zero(pw.push)
+    looking = True
+    while looking:
+        if not penetrations(pose, data, i, Rw, centre, q, margin, pw):
+            return False
+        looking = False
+        if data.soft != 0:
+            condense(data, i, p, laws, guess, sl, pw)
+            looking = left_out(pw)
     zero(pw.st)
-    if data.soft != 0:
-        condense(data, i, p, laws, guess, sl, pw)
     if mode == 1:
         clear_tangent(pw)
     rel, spin = relative_motion(pose, xyz(Vc), xyz(wc), centre)

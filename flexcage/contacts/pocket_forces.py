@@ -17,7 +17,7 @@ from flexcage.contacts.state import (
     approach,
     friction_tangent,
 )
-from flexcage.core.jit import VECTORISED, part, zero
+from flexcage.core.jit import VECTORISED, outlined, part, zero
 from flexcage.core.vectors import (
     combine,
     cross,
@@ -184,7 +184,7 @@ def push_by_side_beam(pose, data, f, distance, sl, pw, pair):
         pw.tangential[f] += N * sl.g[k] * sl.u[k]
 
 
-@part
+@outlined
 def add_tangent(pose, data, f, Rw, distance, sl, pw, pair):
     """Share of face f in the pair's tangent and in the products with stations and residual."""
     n, e1, e2 = _axes(pw, f)

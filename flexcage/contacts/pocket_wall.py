@@ -19,7 +19,7 @@ from flexcage.core.splines import smooth_weights
 from flexcage.core.vectors import dot, row
 
 N_LOCAL = 12  # residual coordinates of a pocket: uniform, linear and quadratic on four faces
-N_FACE = 8  # those that move one face: as many as it has stations, and one more
+N_FACE = 6  # the softest of those that move one face
 
 
 class PocketData(NamedTuple):
@@ -39,13 +39,14 @@ class PocketData(NamedTuple):
     bent: np.ndarray  # (Z, 4) 1 if a face has any offset
     phi: np.ndarray  # (Z, 4, nst, 3, nm)
     phi_max: np.ndarray  # (nm,) largest normal value over all stations
+    rows: np.ndarray  # (Z, 4, 3, n4, n8) phi for ``read_stations``, filled up with zeros
     soft: int  # 1 if pockets have residual flexibility
     res: np.ndarray  # (Z, 4, nst + 2, 12) residual shapes of unit compliance, with the end stations
     res_max: np.ndarray  # (Z, 4, 12) their largest values
     most: np.ndarray  # (Z, 12) those of all faces
-    own: np.ndarray  # (Z, 4, nst + 2, 8) the same in a face's own coordinates
-    own_max: np.ndarray  # (Z, 4, 8) their largest values
-    turn: np.ndarray  # (Z, 4, 8, 12) those coordinates from the pocket's
+    own: np.ndarray  # (Z, 4, nst + 2, 6) the same in a face's own coordinates
+    own_max: np.ndarray  # (Z, 4, 6) their largest values
+    turn: np.ndarray  # (Z, 4, 6, 12) those coordinates from the pocket's
     root: np.ndarray  # (Z, 12, 12) residual coordinates of the modal basis from those of the shapes
     friction: np.ndarray  # (2, 5) crossbeams, side beams
 
@@ -71,8 +72,9 @@ class PocketWork(NamedTuple):
     face: np.ndarray  # (4,) records FACE
     near: np.ndarray  # (4,) face may touch
     live: np.ndarray  # (4,) face is touched, or pushed to by the deflection of another
-    deep: np.ndarray  # (4,) largest penetration before the residual deflection
-    wall: np.ndarray  # (3, nst + 2) displacement or velocity (x, r, psi) of a face's stations
+    deep: np.ndarray  # (4,) largest penetration before the residual deflection; not near: a bound
+    push: np.ndarray  # (4,) the most by which the residual deflection may add to it
+    wall: np.ndarray  # (3, n4 + 2) displacement or velocity (x, r, psi) of a face's stations
     lean: np.ndarray  # (nst + 2,) residual deflection of a face's stations
     spread: np.ndarray  # (3, nst + 2) forces on a face's stations
     st: np.ndarray  # (4, nst, 3) forces on the cage, pocket axes
@@ -81,7 +83,7 @@ class PocketWork(NamedTuple):
     slice_N: np.ndarray  # (2, ns) of the crossbeams
     slice_T: np.ndarray  # (2, ns)
     b: np.ndarray  # (12,) residual coordinates
-    size: np.ndarray  # (1,) coordinates in use: 12, or 8 of a face that is touched alone
+    size: np.ndarray  # (1,) coordinates in use: 12, or 6 of a face that is touched alone
     c: np.ndarray  # (12,) those coordinates
     g: np.ndarray  # (12,) right-hand side of the condensation
     A: np.ndarray  # (12, 12) 1 + R^T H R, then its factors
@@ -100,12 +102,26 @@ class PocketWork(NamedTuple):
 def pocket_work(n_slices: int, n_stations: int) -> PocketWork:
     st, z, m = n_stations, np.zeros, N_LOCAL
     return PocketWork(
-        z((3, 3)), z(4, FACE).view(np.recarray), z(4, np.int64), z(4, np.int64), z(4),
-        z((3, st + 2)), z(st + 2), z((3, st + 2)), z((4, st, 3)), z(4), z(4), z((2, n_slices)),
-        z((2, n_slices)), z(m), z(1, np.int64), z(m), z(m), z((m, m)), z(MOST), z((4, st, 6)),
-        z((4, st, 6)), z((4, st, st)), z((4, st, m)),
+        z((3, 3)), z(4, FACE).view(np.recarray), z(4, np.int64), z(4, np.int64), z(4), z(4),
+        z((3, filled(st, 4) + 2)), z(st + 2), z((3, st + 2)), z((4, st, 3)), z(4), z(4),
+        z((2, n_slices)), z((2, n_slices)), z(m), z(1, np.int64), z(m), z(m), z((m, m)), z(MOST),
+        z((4, st, 6)), z((4, st, 6)), z((4, st, st)), z((4, st, m)),
         z((m, m)), z((m, 6)), z((6, m)), z((m, 6)), z((6, m)),
     )  # fmt: skip
+
+
+def filled(n: int, whole: int) -> int:
+    """n, or the next larger number that is ``whole`` times another."""
+    return -(-n // whole) * whole
+
+
+def modal_rows(phi: np.ndarray) -> np.ndarray:
+    """Modes at stations (Z, 4, nst, 3, nm) as (Z, 4, 3, n4, n8): four stations are read at a time,
+    and modes fill whole vectors; zeros where there is none."""
+    z, faces, n, _, m = phi.shape
+    rows = np.zeros((z, faces, 3, filled(n, 4), filled(m, 8)))
+    rows[..., :n, :m] = np.swapaxes(phi, 2, 3)
+    return rows
 
 
 def with_end_stations(values: np.ndarray) -> np.ndarray:
@@ -130,14 +146,19 @@ def points_of_face(data, f):
 
 @part(fastmath=VECTORISED)
 def read_stations(data, i, f, q, c, wall):
-    """Component c of the modal displacement (or velocity) of face f's stations into a row."""
-    n = data.phi.shape[2]
-    for s in range(n):
-        shape = data.phi[i, f, s, c]
-        x = 0.0
+    """Component c of the modal displacement (or velocity) of face f's stations into a row.
+
+    q: modal coordinates, best filled up with zeros to n8 (a remainder is slow).
+    """
+    n, rows = data.phi.shape[2], data.rows[i, f, c]
+    for s in range(0, rows.shape[0], 4):
+        x = y = z = w = 0.0
         for m in range(q.shape[0]):
-            x += shape[m] * q[m]
-        wall[1 + s] = x
+            x += rows[s, m] * q[m]
+            y += rows[s + 1, m] * q[m]
+            z += rows[s + 2, m] * q[m]
+            w += rows[s + 3, m] * q[m]
+        wall[1 + s], wall[2 + s], wall[3 + s], wall[4 + s] = x, y, z, w
     wall[0] = 2.0 * wall[1] - wall[2]
     wall[n + 1] = 2.0 * wall[n] - wall[n - 1]
 
@@ -181,13 +202,17 @@ def mixed(weights, face, k, values):
 
 @part
 def penetrations(pose, data, i, Rw, D, q, margin, pw):
-    """Penetration of every slice of every face that is near; returns whether any touches."""
+    """Penetration of every slice of every face that is near; returns whether any touches.
+
+    Near is what touches, or may when the residual deflection pushes it by ``pw.push``. No station
+    moves by more than ``margin``, and no curve through them by more than twice that.
+    """
     X, T = dot(row(pw.G, 0), D), dot(row(pw.G, 2), D)
     a0, a1, a2 = row(pose.axis, 0), row(pose.axis, 1), row(pose.axis, 2)
     ax = (dot(row(pw.G, 0), a0), dot(row(pw.G, 0), a1), dot(row(pw.G, 0), a2))
     at = (dot(row(pw.G, 2), a0), dot(row(pw.G, 2), a1), dot(row(pw.G, 2), a2))
     reach = abs(data.s[data.s.shape[0] - 1])
-    touch = False
+    touch, n_st = False, data.phi.shape[2]
     for f in range(4):
         sgn = 1.0 if f % 2 == 0 else -1.0
         if f < 2:
@@ -195,23 +220,27 @@ def penetrations(pose, data, i, Rw, D, q, margin, pw):
         else:
             tilt = (abs(ax[1]) + abs(ax[2])) * Rw
             gap = data.half[1] + data.low[i, f] - sgn * X - tilt - data.half_roller
-        pw.near[f] = 0
-        if gap > margin:
+        pw.near[f], pw.deep[f] = 0, 2.0 * margin - gap
+        if pw.deep[f] + pw.push[f] <= 0.0:
             continue
-        across, along = (2, 0) if f < 2 else (0, 2)
-        read_stations(data, i, f, q, across, pw.wall[across])
-        if gap > _inward(sgn, pw.wall[across]):
-            continue
-        pw.near[f] = 1
-        read_stations(data, i, f, q, along, pw.wall[along])
-        face = pw.face[f]
+        face, n = pw.face[f], points_of_face(data, f)
         if f < 2:
             _lay_crossbeam(data, f, sgn, X, T + sgn * (Rw - data.half[0]), ax[0], at[0], face)
         else:
             _lay_side_beam(data, f, sgn, sgn * X - data.half[1], T, ax, at, face)
-        n = points_of_face(data, f)
-        _follow(n, data.phi.shape[2], pw.wall[along], data.dx[f], face)
-        _weigh(n, data.phi.shape[2], data.dx[f], face)
+        bare = largest(n, face.d0) - data.low[i, f]
+        pw.deep[f] = bare + 2.0 * margin
+        if pw.deep[f] + pw.push[f] <= 0.0:
+            continue
+        across, along = (2, 0) if f < 2 else (0, 2)
+        read_stations(data, i, f, q, across, pw.wall[across])
+        pw.deep[f] = bare + _inward(sgn, n_st, pw.wall[across])
+        if pw.deep[f] + pw.push[f] <= 0.0:
+            continue
+        pw.near[f] = 1
+        read_stations(data, i, f, q, along, pw.wall[along])
+        _follow(n, n_st, pw.wall[along], data.dx[f], face)
+        _weigh(n, n_st, data.dx[f], face)
         for k in range(n):
             face.d0[k] -= sgn * mixed(face.w, face, k, pw.wall[across])
             face.slope[k] = sgn * mixed(face.ws, face, k, pw.wall[across])
@@ -223,11 +252,11 @@ def penetrations(pose, data, i, Rw, D, q, margin, pw):
 
 
 @part
-def _inward(sgn, wall):
-    """Bound of how far a face has moved into its pocket; curves may pass their stations by half of
-    what those differ."""
+def _inward(sgn, n, wall):
+    """Bound of how far a face has moved into its pocket; curves may pass their n stations by half
+    of what those differ."""
     most = least = -sgn * wall[1]
-    for s in range(2, wall.shape[0] - 1):
+    for s in range(2, n + 1):
         most, least = max(most, -sgn * wall[s]), min(least, -sgn * wall[s])
     return most + 0.5 * (most - least)
 

@@ -22,7 +22,7 @@ from flexcage.contacts.state import (
     clear,
     friction_tangent,
 )
-from flexcage.core.jit import VECTORISED, part, zero
+from flexcage.core.jit import VECTORISED, outlined, part, zero
 from flexcage.core.vectors import combine, cross, dot, minus, plus, row, times, xyz
 
 
@@ -212,7 +212,7 @@ def _lean(pose, side, P, b, theta, sl, pair, mode, sums):
             sums[3] += moment[2]
 
 
-@part
+@outlined
 def _tangent(pose, side, Rw, P, b, theta, sl, pair):
     """The slices' share of the pair's tangent."""
     a = row(pose.axis, 0)

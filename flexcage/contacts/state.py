@@ -12,7 +12,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from flexcage.core.jit import part, zero
+from flexcage.core.jit import outlined, part, zero
 
 
 class RollerPose(NamedTuple):
@@ -141,7 +141,7 @@ def approach(W, rel, spin):
     return -(s + W[3] * spin[0] + W[4] * spin[1] + W[5] * spin[2])
 
 
-@part(forceinline=False)
+@outlined
 def add_outer(M, scale, a, b):
     """M += scale a b^T for 6-vectors."""
     for i in range(6):
@@ -169,7 +169,7 @@ def shift_matrix(R, lever, S):
         S[2, 3 + j] = R[1, 0, j] * lever[1] - R[1, 1, j] * lever[0]
 
 
-@part(forceinline=False)
+@outlined
 def friction_tangent(C, N, g, dg, u, tx, tt, Wx, Wt):
     """C += -d(friction)/d(velocity) of one slice; sliding (tx, tt) along generators Wx, Wt."""
     h = dg / u if u > 1e-12 else 0.0

@@ -11,7 +11,7 @@ from __future__ import annotations
 from flexcage.contacts.ball_pocket import pocket_wall_contact
 from flexcage.contacts.groove import groove_contact
 from flexcage.contacts.state import set_frame
-from flexcage.core.jit import copy_into, fields, part, zero
+from flexcage.core.jit import copy_into, fields, outlined, part, zero
 from flexcage.core.rotation import matrix_from_quaternion
 from flexcage.core.vectors import (
     column,
@@ -154,7 +154,7 @@ def _pocket(i, qi, ui, Rc, Vc, qf, qfd, margin, d, law, mode):
         _report_pocket(i, hit, sums, pw, fields(d.report), mode)
 
 
-@part
+@outlined
 def _report_pocket(i, hit, sums, pw, rep, mode):
     rep.energy[2] += sums[0]
     rep.power[6] += sums[1]

@@ -8,7 +8,7 @@ import numpy as np
 
 from flexcage.bodies.floating_frame import FrameWork, frame_work
 from flexcage.contacts.land import LandWork, land_work
-from flexcage.contacts.pocket_wall import N_LOCAL
+from flexcage.contacts.pocket_wall import N_LOCAL, filled
 from flexcage.contacts.slices import Slices, new_slices
 from flexcage.contacts.state import Pair, RollerPose, new_pair, new_pose
 from flexcage.system.layout import Layout
@@ -109,6 +109,7 @@ class Scratch(NamedTuple):
     sums: np.ndarray  # (10,)
     vec: np.ndarray  # (9, 3), see residual.py
     border: np.ndarray  # (nb,) generalised forces on the border
+    modal: np.ndarray  # (2, n8) modal coordinates and rates, filled up with zeros
     Lm: np.ndarray  # (6, n) roller-modal products
     Bm: np.ndarray  # (n, 6)
     PR: np.ndarray  # (12, n) modal-residual products
@@ -148,7 +149,8 @@ def new_work(
     )  # fmt: skip
     scratch = Scratch(
         z((6, 6)), z((2, 6, 6)), z((2, 3, 3)), z((3, 3)), np.eye(3), z((Z, 24)), z((Z, 6)),
-        z(10), z((9, 3)), z(14 + n), z((6, n)), z((n, 6)), z((N_LOCAL, n)), z(layout.size),
+        z(10), z((9, 3)), z(14 + n), z((2, filled(n, 8))), z((6, n)), z((n, 6)),
+        z((N_LOCAL, n)), z(layout.size),
     )  # fmt: skip
     return Work(
         new_pose(), new_slices(), new_pair(), pocket_work, land_work(land_stations), frame_work(n),

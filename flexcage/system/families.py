@@ -14,6 +14,8 @@ from flexcage.system.data import Work
 from flexcage.system.layout import Layout
 from flexcage.system.model import Model, roller_work
 from flexcage.system.residual import evaluate as evaluate_rollers
+from flexcage.system.roller_pockets import roller_pockets
+from flexcage.system.rows import shared_rows
 
 
 def parts_type(name: str, model: type) -> Any:
@@ -34,13 +36,16 @@ class Family:
     """One kind of rolling elements in motion.
 
     ``evaluate(t, y, yd, d, law, out, mode)`` is the residual in plain Python, which ``problem``
-    compiles for a ``d`` of type ``parts``; ``new_work(model, layout)`` its workspaces. ``faces``
+    compiles for a ``d`` of type ``parts``; ``new_work(model, layout)`` its workspaces. It calls
+    the functions ``apart``, of the same arguments, as values: they are compiled on their own, in
+    another process at the same time, and follow the laws in ``law``. ``faces``
     names the faces of a pocket, ``ribs`` what else an element touches besides its races.
     ``implicit``: does mode 1 fill the tangent, so that implicit integrators may be used?
     """
 
     element: str  # in words
     evaluate: Callable[..., None]
+    apart: tuple[Callable[..., None], ...]
     parts: Any
     new_work: Callable[[Any, Layout], Work]
     faces: tuple[str, ...]
@@ -55,9 +60,18 @@ class Family:
 
 FAMILIES: dict[type, Family] = {
     Model: Family(
-        "roller", evaluate_rollers, RollerParts, roller_work, FACES, ("rib +x", "rib -x"), True
+        "roller",
+        evaluate_rollers,
+        (shared_rows, roller_pockets),
+        RollerParts,
+        roller_work,
+        FACES,
+        ("rib +x", "rib -x"),
+        True,
     ),
-    BallModel: Family("ball", evaluate_balls, BallParts, ball_work, ("pocket",), (), False),
+    BallModel: Family(
+        "ball", evaluate_balls, (shared_rows,), BallParts, ball_work, ("pocket",), (), False
+    ),
 }
 
 

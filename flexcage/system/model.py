@@ -14,6 +14,7 @@ from flexcage.contacts.pocket_wall import (
     N_FACE,
     N_LOCAL,
     PocketData,
+    modal_rows,
     pocket_work,
     with_end_stations,
 )
@@ -167,10 +168,10 @@ def compliance_root(compliance: np.ndarray) -> np.ndarray:
 
 
 def own_coordinates(shapes: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """What residual coordinates (Z, 4, nst, 12) do to each face, in eight coordinates of its own.
+    """What residual coordinates (Z, 4, nst, 12) do to each face, in six coordinates of its own.
 
-    The shapes (Z, 4, nst, 8) of those, and their directions (Z, 4, 8, 12), orthonormal or zero.
-    Exact while a face has no more stations than that; with more, its softest eight.
+    The shapes (Z, 4, nst, 6) of those, and their directions (Z, 4, 6, 12), orthonormal or zero. Of
+    the seven that seven stations have, the one left out holds 1e-8 of the compliance (N1013).
     """
     left, values, right = np.linalg.svd(shapes, full_matrices=False)
     own = np.zeros((*shapes.shape[:3], N_FACE))
@@ -211,6 +212,7 @@ def _pocket_data(bearing, cage, contacts: Contacts, interface: CageInterface) ->
         bent=np.any(interface.offset, axis=2).astype(np.int64),
         phi=st(interface.modes),
         phi_max=np.abs(normal).max(axis=(0, 1, 2)) if n else np.zeros(0),
+        rows=modal_rows(interface.modes),
         soft=int(interface.compliance.any()),
         res=res,
         res_max=np.abs(res).max(axis=2),

@@ -1,8 +1,8 @@
 """The bearing as a problem for integrators: compiled functions over one tuple of data.
 
-``data`` is (Parts, laws, evaluate), the last of the laws ``rows.shared_rows``: evaluated through
-function values, the residual is compiled once, not again inside each of the functions, and its two
-halves at the same time.
+``data`` is (Parts, laws, evaluate), the last of the laws ``Family.apart``: evaluated through
+function values, the residual is compiled once, not again inside each of the functions, and its
+pieces at the same time.
 """
 
 from __future__ import annotations
@@ -35,7 +35,6 @@ from flexcage.system.data import POWERS, Memory, Report, Work
 from flexcage.system.families import family_of
 from flexcage.system.layout import Layout
 from flexcage.system.rates import RatesWork, new_rates_work
-from flexcage.system.rows import shared_rows
 
 ITERATIONS = 40  # of the spectral radius
 NUDGE = 1e-3  # of the allowed local error, over which it takes differences
@@ -117,7 +116,7 @@ def law_functions(contacts: Contacts) -> tuple:
 
 
 def _evaluation(bearing: Any, law: Any) -> Any:
-    """numba's signature of ``Family.evaluate`` and of ``rows.shared_rows``."""
+    """numba's signature of ``Family.evaluate`` and of ``Family.apart``."""
     return types.void(_REAL, _VECTOR, _VECTOR, bearing, law, _VECTOR, _COUNT)
 
 
@@ -144,8 +143,9 @@ class Bearing:
         self.laws = law_functions(contacts)
         contact_laws = (laws.NORMAL_TYPE,) * 5 + (laws.FRICTION_TYPE,) * 5
         bearing = numba.typeof(parts(self.data))
-        self._rows = _evaluation(bearing, types.Tuple(contact_laws))
-        law_type = types.Tuple((*contact_laws, types.FunctionType(self._rows)))
+        self._apart = _evaluation(bearing, types.Tuple(contact_laws))
+        apart = (types.FunctionType(self._apart),) * len(self.family.apart)
+        law_type = types.Tuple((*contact_laws, *apart))
         self._evaluation = _evaluation(bearing, law_type)
         self.data_type = types.Tuple((bearing, law_type, types.FunctionType(self._evaluation)))
         self._functions: dict[str, Any] = {}
@@ -157,10 +157,10 @@ class Bearing:
         """The family's residual, compiled; most of what there is to compile."""
         return compiled(self.family.evaluate, self._evaluation)
 
-    @cached_property
-    def rows(self) -> Any:
-        """The rows that all bearings share, compiled."""
-        return compiled(shared_rows, self._rows)
+    @property
+    def apart(self) -> tuple[Any, ...]:
+        """What the residual calls as values, compiled."""
+        return tuple(compiled(function, self._apart) for function in self.family.apart)
 
     @cached_property
     def args(self) -> tuple:
@@ -180,7 +180,7 @@ class Bearing:
 
         return [
             lambda: self.evaluate,
-            lambda: self.rows,
+            *(partial(compiled, f, self._apart) for f in reversed(self.family.apart)),
             lambda: self._advance_of(method, state, runge_kutta.Options(1.0, 0.0, 1)),
             lambda: kernel_for(newton.newton_step, _REAL, _VECTOR, _VECTOR, tangent, matrix),
             lambda: kernel_for(newton.assemble, _REAL, bodies, tangent, matrix),
@@ -217,7 +217,7 @@ class Bearing:
 
     def arguments(self, data: BearingData, law: tuple) -> tuple:
         """What the compiled functions take as their data."""
-        return parts(data), (*law, self.rows), self.evaluate
+        return parts(data), (*law, *self.apart), self.evaluate
 
     def residual(self, t: float, y: np.ndarray, yd: np.ndarray, mode: int = 0) -> np.ndarray:
         """F(t, y, y'), a new array; mode 1 also fills the tangent, mode 2 the report."""

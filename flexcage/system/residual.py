@@ -10,26 +10,18 @@ slices and stations.
 
 from __future__ import annotations
 
-from flexcage.contacts.pocket import pocket_contact
 from flexcage.contacts.race import race_contact
 from flexcage.contacts.rib import rib_contact
 from flexcage.contacts.state import keep_pose, set_pose, shift_matrix, take_pose
 from flexcage.core.jit import copy_into, fields, part, zero
 from flexcage.core.rotation import matrix_from_quaternion
 from flexcage.core.vectors import (
-    column,
-    combine,
-    cross,
-    dot,
     minus,
-    plus,
     put,
-    row,
-    times,
     turned,
-    turned_back,
     xyz,
 )
+from flexcage.system.blocks import scatter, scatter_outer
 from flexcage.system.rows import (
     AXIS,
     CAGE_SPIN,
@@ -41,7 +33,6 @@ from flexcage.system.rows import (
     add_to_element,
     clear_sums,
     inner_ring,
-    push_modes,
     react,
 )
 
@@ -61,139 +52,24 @@ def roller_rates(q, u, axis, out):
     return frame
 
 
-@part
-def _scatter(pair, S, i, start, tan, T6):
-    """Add a roller-partner pair's tangent; the partner's columns begin at ``start``."""
-    for m in range(2):
-        M = pair.K if m == 0 else pair.C
-        rr = tan.Krr if m == 0 else tan.Crr
-        rb = tan.Krb if m == 0 else tan.Crb
-        br = tan.Kbr if m == 0 else tan.Cbr
-        bb = tan.Kbb if m == 0 else tan.Cbb
-        MS, SM = T6[0], T6[1]
-        for a in range(6):
-            for b in range(6):
-                rr[i, a, b] += M[a, b]
-                x = y = 0.0
-                for c in range(6):
-                    x += M[a, c] * S[c, b]
-                    y += S[c, a] * M[c, b]
-                MS[a, b], SM[a, b] = x, y
-        for a in range(6):
-            for b in range(6):
-                rb[i, a, start + b] -= MS[a, b]
-                br[i, start + a, b] -= SM[a, b]
-                x = 0.0
-                for c in range(6):
-                    x += SM[a, c] * S[c, b]
-                bb[start + a, start + b] += x
-
-
-@part
-def _scatter_outer(pair, F, i, tan):
-    """The same for the outer ring, which only moves in y and z (columns 6 and 7)."""
-    for m in range(2):
-        M = pair.K if m == 0 else pair.C
-        rr = tan.Krr if m == 0 else tan.Crr
-        rb = tan.Krb if m == 0 else tan.Crb
-        br = tan.Kbr if m == 0 else tan.Cbr
-        bb = tan.Kbb if m == 0 else tan.Cbb
-        for a in range(6):
-            for b in range(6):
-                rr[i, a, b] += M[a, b]
-            for b in range(2):
-                x = y = 0.0
-                for c in range(1, 3):
-                    x += M[a, c] * F[c, 1 + b]
-                    y += F[c, 1 + b] * M[c, a]
-                rb[i, a, 6 + b] -= x
-                br[i, 6 + b, a] -= y
-        for a in range(2):
-            for b in range(2):
-                for c in range(1, 3):
-                    for e in range(1, 3):
-                        bb[6 + a, 6 + b] += F[c, 1 + a] * M[c, e] * F[e, 1 + b]
-
-
-@part
-def _scatter_modes(data, i, pw, S, tan, Lm, Bm, PR):
-    """Stiffness between pocket i's roller, the cage's rigid motion and its modes."""
-    n_m = data.phi.shape[4]
-    n_st = data.phi.shape[2]
-    zero(Lm)
-    zero(Bm)
-    for f in range(4):
-        if pw.near[f] == 0:
-            continue
-        sgn = 1.0 if f % 2 == 0 else -1.0
-        comp = 2 if f < 2 else 0
-        for s in range(n_st):
-            if pw.H[f, s, s] == 0.0:
-                continue
-            for m in range(n_m):
-                phi = sgn * data.phi[i, f, s, comp, m]
-                for c in range(6):
-                    Lm[c, m] += pw.LV[f, s, c] * phi
-                    Bm[m, c] += phi * pw.BW[f, s, c]
-                for t in range(max(s - 3, 0), min(s + 4, n_st)):
-                    h = pw.H[f, s, t] * phi
-                    if h != 0.0:
-                        for o in range(n_m):
-                            tan.Kbb[14 + m, 14 + o] += h * sgn * data.phi[i, f, t, comp, o]
-    if pw.X[0, 0] != 0.0:  # less what the residual flexibility yields
-        zero(PR)
-        for f in range(4):
-            if pw.near[f] == 0:
-                continue
-            sgn = 1.0 if f % 2 == 0 else -1.0
-            comp = 2 if f < 2 else 0
-            for s in range(n_st):
-                for l in range(pw.size[0]):
-                    h = sgn * pw.HR[f, s, l]
-                    if h != 0.0:
-                        for m in range(n_m):
-                            PR[l, m] += h * data.phi[i, f, s, comp, m]
-        for m in range(n_m):
-            for l in range(pw.size[0]):
-                h = 0.0
-                for k in range(pw.size[0]):
-                    h += PR[k, m] * pw.X[k, l]
-                if h != 0.0:
-                    for o in range(n_m):
-                        tan.Kbb[14 + m, 14 + o] -= h * PR[l, o]
-    for c in range(6):
-        for m in range(n_m):
-            tan.Krb[i, c, 14 + m] += Lm[c, m]
-            tan.Kbr[i, 14 + m, c] += Bm[m, c]
-            for e in range(6):
-                tan.Kbb[8 + e, 14 + m] -= S[c, e] * Lm[c, m]
-                tan.Kbb[14 + m, 8 + e] -= Bm[m, c] * S[c, e]
-
-
 def evaluate(t, y, yd, d, law, out, mode):
     """Residual into ``out``; see the module's text. Index letters: i roller, c component, m mode.
 
     ``d`` (``problem.Parts``) refers to the model, its memory and its workspaces; ``law`` holds
-    the normal laws of race, pocket, side, rib and land, their friction laws, and ``shared_rows``.
+    the normal laws of race, pocket, side, rib and land, their friction laws, and what is compiled
+    apart: ``rows.shared_rows`` and ``roller_pockets``.
     """
-    work, phi_max = fields(d.scratch), fields(d.pocket).phi_max
-    Z, nm = fields(d.bodies).radius.shape[0], phi_max.shape[0]
+    work, Z = fields(d.scratch), fields(d.bodies).radius.shape[0]
+    nm = fields(d.pocket).phi_max.shape[0]
     nq, nu = 6 * Z + 15 + nm, 6 * Z + 14 + nm
     q, u, qd, ud = y[:nq], y[nq : nq + nu], yd[:nq], yd[nq : nq + nu]
     r_q, r_u = out[:nq], out[nq : nq + nu]
-    zq, border = 6 * Z, work.border
-    clear_sums(border, d, mode)
+    zq = 6 * Z
+    clear_sums(work.border, d, mode)
     ring_q, ring_u = q[zq : zq + 6], u[zq : zq + 6]
-    Rc, quat, qf = q[zq + 8 : zq + 11], q[zq + 11 : zq + 15], q[zq + 15 :]
-    Vc, wb, qfd = u[zq + 8 : zq + 11], u[zq + 11 : zq + 14], u[zq + 14 :]
-    A = work.A
-    matrix_from_quaternion(quat, A)
-    wg = work.vec[CAGE_SPIN]
-    put(wg, turned(A, xyz(wb)))
+    matrix_from_quaternion(q[zq + 11 : zq + 15], work.A)
+    put(work.vec[CAGE_SPIN], turned(work.A, xyz(u[zq + 11 : zq + 14])))
     inner_ring(ring_q, ring_u, work.vec)
-    margin = 0.0
-    for m in range(nm):
-        margin += phi_max[m] * abs(qf[m])
     pose, poses = fields(d.pose), work.poses
     zero(work.wrenches)
     for i in range(Z):
@@ -205,12 +81,7 @@ def evaluate(t, y, yd, d, law, out, mode):
         o = 6 * i
         take_pose(poses[i], pose)
         _outer_contact(i, q[o : o + 6], q[zq + 6 : zq + 8], u[zq + 6 : zq + 8], d, law, mode)
-    for i in range(Z):
-        o = 6 * i
-        take_pose(poses[i], pose)
-        _pocket(i, q[o : o + 6], Rc, Vc, qf, qfd, margin, d, law, mode)
-        if mode >= 2:
-            _approach(i, ring_u, u[zq + 6 : zq + 8], d)
+    law[11](t, y, yd, d, law[:10], out, mode)
     for i in range(Z):
         o = 6 * i
         take_pose(poses[i], pose)
@@ -250,7 +121,7 @@ def _inner_contacts(i, qi, ring_q, ring_u, d, law, mode):
             copy_into(work.R[0], F)
             copy_into(work.R[1], F)
             shift_matrix(work.R, P, work.S)
-            _scatter(pair, work.S, i, 0, fields(d.tangent), work.T6)
+            scatter(pair, work.S, i, 0, fields(d.tangent), work.T6)
         elif mode >= 2 and k == 0:
             _report_race(i, 0, sums, rep)
         elif mode >= 2:
@@ -281,7 +152,7 @@ def _outer_contact(i, qi, out_q, out_u, d, law, mode):
     for c in range(2):
         border[6 + c] -= F[1, 1 + c] * pair.wrench[1] + F[2, 1 + c] * pair.wrench[2]
     if mode == 1:
-        _scatter_outer(pair, F, i, fields(d.tangent))
+        scatter_outer(pair, F, i, fields(d.tangent))
     elif mode >= 2:
         _report_race(i, 1, work.sums, fields(d.report))
 
@@ -295,67 +166,6 @@ def _report_race(i, side, sums, rep):
     rep.power[3] += sums[6]
     rep.power[4] += sums[7]
     rep.power[5] += sums[8]
-
-
-@part
-def _pocket(i, qi, Rc, Vc, qf, qfd, margin, d, law, mode):
-    """Roller i in its pocket."""
-    pose, pair, pw, work = fields(d.pose), fields(d.pair), fields(d.pocket_work), fields(d.scratch)
-    data, memory, tan = fields(d.pocket), fields(d.memory), fields(d.tangent)
-    F, A, vec, sums, border = pose.F, work.A, work.vec, work.sums, work.border
-    D, Vr, wr = vec[LEVER], vec[PARTNER_V], vec[PARTNER_W]
-    put(D, plus((0.0, qi[1], 0.0), turned(F, (qi[0] - Rc[0], -Rc[1], -Rc[2]))))
-    ca, sa = data.azimuth[i, 0], data.azimuth[i, 1]
-    e1, e2 = column(A, 1), column(A, 2)
-    put(pw.G[0], turned(F, column(A, 0)))
-    put(pw.G[1], turned(F, combine(times(ca, e1), sa, e2)))
-    put(pw.G[2], turned(F, combine(times(ca, e2), -sa, e1)))
-    put(Vr, turned(F, xyz(Vc)))
-    put(wr, turned(F, xyz(vec[CAGE_SPIN])))
-    hit = pocket_contact(
-        pose, data, i, fields(d.bodies).radius[i], D, Vr, wr, qf, qfd, margin, memory.pocket[i],
-        (law[1], law[2], law[6], law[7]), memory.deflection[i], fields(d.slices).row[0], pw, pair,
-        mode, sums,
-    )  # fmt: skip
-    if hit:
-        add_to_element(work.wrenches[i], pair)
-        react(F, A, pair.wrench, xyz(D), border, 8)
-        push_modes(data, i, pw, border)
-    if mode == 1:
-        tan.active[i] = 1 if hit else 0
-        if hit:
-            copy_into(work.R[0], F)
-            for c in range(3):
-                put(work.R[1, c], turned_back(A, row(F, c)))
-            shift_matrix(work.R, D, work.S)
-            _scatter(pair, work.S, i, 8, tan, work.T6)
-            if qf.shape[0] > 0:
-                _scatter_modes(data, i, pw, work.S, tan, work.Lm, work.Bm, work.PR)
-    elif mode >= 2:
-        _report_pocket(i, hit, sums, pw, fields(d.report), mode)
-
-
-@part
-def _report_pocket(i, hit, sums, pw, rep, mode):
-    if hit:
-        rep.energy[2] += sums[0]
-        rep.power[6] += sums[1]
-        rep.power[7] += sums[2]
-    if hit and mode == 2:
-        copy_into(rep.station[i], pw.st)
-        for f in range(2):
-            for k in range(rep.slice_normal.shape[2]):
-                rep.slice_normal[i, f, k] = pw.slice_N[f, k]
-                rep.slice_friction[i, f, k] = pw.slice_T[f, k]
-    elif mode == 2:
-        zero(rep.station[i])
-        zero(rep.slice_normal[i])
-        zero(rep.slice_friction[i])
-    copy_into(rep.residual[i], pw.b)
-    for f in range(4):
-        rep.pocket_normal[i, f] = pw.normal[f]
-        rep.pocket_friction[i, f] = pw.tangential[f]
-        rep.contact[i, 2 + f] = 1 if pw.normal[f] > 0.0 else 0
 
 
 @part
@@ -391,20 +201,3 @@ def _roller_rows(i, qi, ui, qdi, udi, d, r_q, r_u, mode):
         v2 = ui[0] * ui[0] + ui[1] * ui[1] + ui[2] * ui[2]
         w2 = ui[4] * ui[4] + ui[5] * ui[5]
         rep.energy[0] += 0.5 * (mass * v2 + Ia * ui[3] * ui[3] + It * w2)
-
-
-@part
-def _approach(i, ring_u, out_u, d):
-    """Approach speed of roller i at each of its contacts, at its centre (for the onset memory)."""
-    pose, vec, G = fields(d.pose), fields(d.scratch).vec, fields(d.pocket_work).G
-    rep = fields(d.report)
-    F, V = pose.F, xyz(pose.V)
-    rep.approach[i, 0] = F[1, 1] * ring_u[1] + F[1, 2] * ring_u[2] - V[1]
-    rep.approach[i, 1] = V[1] - F[1, 1] * out_u[0] - F[1, 2] * out_u[1]
-    cage = plus(xyz(vec[PARTNER_V]), cross(xyz(vec[PARTNER_W]), xyz(vec[LEVER])))
-    v = minus(V, cage)
-    t, x = dot(row(G, 2), v), dot(row(G, 0), v)
-    rep.approach[i, 2], rep.approach[i, 3] = t, -t
-    rep.approach[i, 4], rep.approach[i, 5] = x, -x
-    rep.approach[i, 6] = V[0] - ring_u[0]
-    rep.approach[i, 7] = -rep.approach[i, 6]

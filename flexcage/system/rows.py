@@ -152,19 +152,20 @@ def add_to_element(total, pair):
         total[c] += pair.wrench[c]
 
 
-@part
+@part(fastmath=VECTORISED)
 def push_modes(data, i, pw, border):
     """Generalised forces of pocket i's station forces on the cage's modes."""
+    modes = border[14:]
     for f in range(pw.st.shape[0]):
         if pw.normal[f] <= 0.0:
             continue
         for s in range(pw.st.shape[1]):
-            for c in range(3):
-                x = pw.st[f, s, c]
-                if x != 0.0:
-                    shape = data.phi[i, f, s, c]
-                    for m in range(shape.shape[0]):
-                        border[14 + m] += x * shape[m]
+            x, y, z = pw.st[f, s, 0], pw.st[f, s, 1], pw.st[f, s, 2]
+            if x == 0.0 and y == 0.0 and z == 0.0:
+                continue
+            shape = data.phi[i, f, s]
+            for m in range(modes.shape[0]):
+                modes[m] += x * shape[0, m] + y * shape[1, m] + z * shape[2, m]
 
 
 @part

@@ -199,7 +199,7 @@ def test_a_face_alone_yields_as_among_others(walls):
     data, p = walls(interface(soft=True))
     alone, _, one, _ = pocket(data, p, squeeze(8e-6, -1e-9))
     beside, _, two, _ = pocket(data, p, squeeze(8e-6, 1e-9))
-    assert one.size[0] == 8 and two.size[0] == 12
+    assert one.size[0] == N_FACE and two.size[0] == N_LOCAL
     np.testing.assert_allclose(alone, beside, atol=1e-3 * np.abs(alone).max())
     np.testing.assert_allclose(one.b, two.b, atol=1e-3 * np.abs(one.b).max())
 

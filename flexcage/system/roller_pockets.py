@@ -1,0 +1,132 @@
+"""Pockets of a roller bearing: every roller's contacts with the cage, one pocket after another.
+
+``evaluate`` in ``residual`` calls it as a function value, as it does ``rows.shared_rows``.
+"""
+
+from __future__ import annotations
+
+from flexcage.contacts.pocket import pocket_contact
+from flexcage.contacts.state import shift_matrix, take_pose
+from flexcage.core.jit import copy_into, fields, outlined, part, zero
+from flexcage.core.vectors import (
+    column,
+    combine,
+    cross,
+    dot,
+    minus,
+    plus,
+    put,
+    row,
+    times,
+    turned,
+    turned_back,
+    xyz,
+)
+from flexcage.system.blocks import scatter, scatter_modes
+from flexcage.system.rows import (
+    CAGE_SPIN,
+    LEVER,
+    PARTNER_V,
+    PARTNER_W,
+    add_to_element,
+    push_modes,
+    react,
+)
+
+
+def roller_pockets(t, y, yd, d, law, out, mode):
+    """Add the pockets' wrenches to ``Scratch.wrenches`` and ``border``; for other arguments see
+    ``residual.evaluate``. Poses of rollers and cage are in ``Scratch`` already."""
+    work, phi_max = fields(d.scratch), fields(d.pocket).phi_max
+    Z, nm = fields(d.bodies).radius.shape[0], phi_max.shape[0]
+    zq, nq = 6 * Z, 6 * Z + 15 + nm
+    q, u = y[:nq], y[nq : nq + nq - 1]
+    qf, qfd, modal = q[zq + 15 :], u[zq + 14 :], work.modal
+    margin = 0.0
+    for m in range(nm):
+        margin += phi_max[m] * abs(qf[m])
+        modal[0, m], modal[1, m] = qf[m], qfd[m]
+    Rc, Vc = q[zq + 8 : zq + 11], u[zq + 8 : zq + 11]
+    for i in range(Z):
+        take_pose(work.poses[i], fields(d.pose))
+        _pocket(i, q[6 * i : 6 * i + 6], Rc, Vc, modal[0], modal[1], margin, d, law, mode)
+        if mode >= 2:
+            _approach(i, u[zq : zq + 6], u[zq + 6 : zq + 8], d)
+
+
+@part
+def _pocket(i, qi, Rc, Vc, qf, qfd, margin, d, law, mode):
+    """Roller i in its pocket."""
+    pose, pair, pw, work = fields(d.pose), fields(d.pair), fields(d.pocket_work), fields(d.scratch)
+    data, memory, tan = fields(d.pocket), fields(d.memory), fields(d.tangent)
+    F, A, vec, sums, border = pose.F, work.A, work.vec, work.sums, work.border
+    D, Vr, wr = vec[LEVER], vec[PARTNER_V], vec[PARTNER_W]
+    put(D, plus((0.0, qi[1], 0.0), turned(F, (qi[0] - Rc[0], -Rc[1], -Rc[2]))))
+    ca, sa = data.azimuth[i, 0], data.azimuth[i, 1]
+    e1, e2 = column(A, 1), column(A, 2)
+    put(pw.G[0], turned(F, column(A, 0)))
+    put(pw.G[1], turned(F, combine(times(ca, e1), sa, e2)))
+    put(pw.G[2], turned(F, combine(times(ca, e2), -sa, e1)))
+    put(Vr, turned(F, xyz(Vc)))
+    put(wr, turned(F, xyz(vec[CAGE_SPIN])))
+    hit = pocket_contact(
+        pose, data, i, fields(d.bodies).radius[i], D, Vr, wr, qf, qfd, margin, memory.pocket[i],
+        (law[1], law[2], law[6], law[7]), memory.deflection[i], fields(d.slices).row[0], pw, pair,
+        mode, sums,
+    )  # fmt: skip
+    if hit:
+        add_to_element(work.wrenches[i], pair)
+        react(F, A, pair.wrench, xyz(D), border, 8)
+        push_modes(data, i, pw, border)
+    if mode == 1:
+        tan.active[i] = 1 if hit else 0
+        if hit:
+            copy_into(work.R[0], F)
+            for c in range(3):
+                put(work.R[1, c], turned_back(A, row(F, c)))
+            shift_matrix(work.R, D, work.S)
+            scatter(pair, work.S, i, 8, tan, work.T6)
+            if qf.shape[0] > 0:
+                scatter_modes(data, i, pw, work.S, tan, work.Lm, work.Bm, work.PR)
+    elif mode >= 2:
+        _report_pocket(i, hit, sums, pw, fields(d.report), mode)
+
+
+@outlined
+def _report_pocket(i, hit, sums, pw, rep, mode):
+    if hit:
+        rep.energy[2] += sums[0]
+        rep.power[6] += sums[1]
+        rep.power[7] += sums[2]
+    if hit and mode == 2:
+        copy_into(rep.station[i], pw.st)
+        for f in range(2):
+            for k in range(rep.slice_normal.shape[2]):
+                rep.slice_normal[i, f, k] = pw.slice_N[f, k]
+                rep.slice_friction[i, f, k] = pw.slice_T[f, k]
+    elif mode == 2:
+        zero(rep.station[i])
+        zero(rep.slice_normal[i])
+        zero(rep.slice_friction[i])
+    copy_into(rep.residual[i], pw.b)
+    for f in range(4):
+        rep.pocket_normal[i, f] = pw.normal[f]
+        rep.pocket_friction[i, f] = pw.tangential[f]
+        rep.contact[i, 2 + f] = 1 if pw.normal[f] > 0.0 else 0
+
+
+@part
+def _approach(i, ring_u, out_u, d):
+    """Approach speed of roller i at each of its contacts, at its centre (for the onset memory)."""
+    pose, vec, G = fields(d.pose), fields(d.scratch).vec, fields(d.pocket_work).G
+    rep = fields(d.report)
+    F, V = pose.F, xyz(pose.V)
+    rep.approach[i, 0] = F[1, 1] * ring_u[1] + F[1, 2] * ring_u[2] - V[1]
+    rep.approach[i, 1] = V[1] - F[1, 1] * out_u[0] - F[1, 2] * out_u[1]
+    cage = plus(xyz(vec[PARTNER_V]), cross(xyz(vec[PARTNER_W]), xyz(vec[LEVER])))
+    v = minus(V, cage)
+    t, x = dot(row(G, 2), v), dot(row(G, 0), v)
+    rep.approach[i, 2], rep.approach[i, 3] = t, -t
+    rep.approach[i, 4], rep.approach[i, 5] = x, -x
+    rep.approach[i, 6] = V[0] - ring_u[0]
+    rep.approach[i, 7] = -rep.approach[i, 6]
