@@ -76,9 +76,8 @@ class CageReduction:
         return assemble(self.mesh, self.cage.material, order=self.order)
 
     @cached_property
-    @one_blas_thread
     def solver(self) -> FreeBodySolver:
-        """The factored free body."""
+        """The free body, factored when a load asks for it."""
         return FreeBodySolver(self.model)
 
     @cached_property
