@@ -38,6 +38,10 @@ class FreeBodySolver:
         held = 3 * on_cuts[held // 3] + held % 3
         return CondensedRing(model, parts, held, kind=self._kind)
 
+    def factor(self) -> None:
+        """Factor the body now: before threads share it, each of which would."""
+        self._inertia_answers  # noqa: B018
+
     def solve(self, loads: np.ndarray) -> np.ndarray:
         """Displacements (3N, m) of nodal loads (3N, m), orthogonal in mass to rigid motions.
 
