@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from flexcage.bodies.cage import flexible_from_basis, rigid_from_tets
+from flexcage.bodies.cage import flexible_from_reduction, rigid_from_tets
 from flexcage.case import Case
 from flexcage.core import jit
 from flexcage.core.progress import Silent
@@ -172,8 +172,7 @@ def _bearing_of(case: Case, mesh: CageMesh, cage: CageReduction | None) -> Beari
         body = rigid_from_tets(mesh.points, mesh.tets, case.cage.material.density)
         interface = rigid_interface_of(case.cage, pocket_count=Z, defects=case.all_defects)
     else:
-        ratios = case.modes.damping_ratios(cage.basis.frequencies)
-        body = flexible_from_basis(cage.model.nodes, cage.model.mass_scalar, cage.basis, ratios)
+        body = flexible_from_reduction(cage, case.modes)
         interface = cage.interface
     model, memory = build_model(
         case.bearing, case.cage, body, interface, contacts=case.contacts,

@@ -4,8 +4,15 @@ from __future__ import annotations
 
 import numpy as np
 
-from flexcage.bodies.floating_frame import FlexibleBody, flexible_body, rigid_body
+from flexcage.bodies.floating_frame import BodyData, FlexibleBody, flexible_body, rigid_body
+from flexcage.core.cache import cached_arrays
+from flexcage.core.hashing import content_hash
+from flexcage.core.threads import blas_threads
 from flexcage.modes.basis import ModeBasis
+from flexcage.modes.reduction import CageReduction
+from flexcage.modes.spec import ModesSpec
+
+BODY_VERSION = 1  # of ``flexible_body``: raise it when the same input gives other invariants
 
 
 def rigid_from_tets(points: np.ndarray, tets: np.ndarray, density: float) -> FlexibleBody:
@@ -34,3 +41,17 @@ def flexible_from_basis(
     return flexible_body(
         nodes, mass_scalar, basis.shapes, basis.stiffness, damping, geometric=basis.geometric
     )
+
+
+def flexible_from_reduction(cage: CageReduction, spec: ModesSpec) -> FlexibleBody:
+    """Flexible cage with the damping of ``spec``; its invariants are kept on disk."""
+
+    def make() -> dict[str, np.ndarray]:
+        ratios = spec.damping_ratios(cage.basis.frequencies)
+        body = flexible_from_basis(cage.model.nodes, cage.model.mass_scalar, cage.basis, ratios)
+        return body.data._asdict()
+
+    key = content_hash(BODY_VERSION, cage.version, spec, blas_threads())
+    stored = cached_arrays("body", key, make)
+    numbers = {"mass": float(stored["mass"]), "plain": int(stored["plain"])}
+    return FlexibleBody(BodyData(**{**stored, **numbers}))  # type: ignore[arg-type]

@@ -14,7 +14,7 @@ import shutil
 import tempfile
 import zipfile
 import zlib
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
@@ -48,17 +48,20 @@ def cache_limit() -> int:
         return int(_DEFAULT_LIMIT_GB * 1e9)
 
 
-def cached_arrays(kind: str, key: str, make: Callable[[], Arrays]) -> Arrays:
+def cached_arrays(
+    kind: str, key: str, make: Callable[[], Arrays], *, only: Sequence[str] = ()
+) -> Arrays:
     """Arrays named ``kind``/``key`` from disk, or made by ``make()`` and stored there.
 
-    ``key`` must name everything that the arrays depend on (see ``hashing.content_hash``).
+    ``key`` must name everything that the arrays depend on (see ``hashing.content_hash``). ``only``
+    names those that are read, where not all are; all come back where they had to be made.
     """
     path = cache_root() / "arrays" / kind / f"{key}.npz"
-    found = _read(path)
+    found = _read(path, only)
     if found is not None:
         return found
     with _lock(path):
-        found = _read(path)  # another process may have made it while this one waited
+        found = _read(path, only)  # another process may have made it while this one waited
         if found is not None:
             return found
         arrays = {name: np.asarray(value) for name, value in make().items()}
@@ -67,12 +70,12 @@ def cached_arrays(kind: str, key: str, make: Callable[[], Arrays]) -> Arrays:
     return arrays
 
 
-def _read(path: Path) -> Arrays | None:
+def _read(path: Path, only: Sequence[str]) -> Arrays | None:
     if not path.is_file():
         return None
     try:
         with np.load(path, allow_pickle=False) as stored:
-            arrays = {name: stored[name] for name in stored.files}
+            arrays = {name: stored[name] for name in only or stored.files}
     except _BROKEN as exc:
         logger.warning("cache entry %s cannot be read (%s); it is made anew", path.name, exc)
         return None

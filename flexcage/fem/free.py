@@ -14,7 +14,8 @@ from flexcage.fem.model import FEModel
 
 
 class FreeBodySolver:
-    """Inertia-relieved flexibility of a free body: one factorization, any number of loads.
+    """Inertia-relieved flexibility of a free body: one factorization, when first needed, and any
+    number of loads.
 
     The stiffness is factored with six dofs held at three distant vertices. A balanced load has
     no reaction there, so the supports leave no trace once the rigid part of the answer is
@@ -24,16 +25,22 @@ class FreeBodySolver:
     """
 
     def __init__(self, model: FEModel, *, kind: str = "auto") -> None:
-        self.model = model
-        parts = find_parts(model)
-        self.solver: HeldBody | CondensedRing
+        self.model, self._kind = model, kind
+
+    @cached_property
+    def solver(self) -> HeldBody | CondensedRing:
+        """The factored body, held."""
+        model, parts = self.model, find_parts(self.model)
         if parts is None:
-            self.solver = HeldBody(model.K, _supports(model.points), kind=kind)
-        else:
-            on_cuts = np.sort(parts.cuts[parts.cuts < len(model.points)])
-            held = _supports(model.points[on_cuts])
-            held = 3 * on_cuts[held // 3] + held % 3
-            self.solver = CondensedRing(model, parts, held, kind=kind)
+            return HeldBody(model.K, _supports(model.points), kind=self._kind)
+        on_cuts = np.sort(parts.cuts[parts.cuts < len(model.points)])
+        held = _supports(model.points[on_cuts])
+        held = 3 * on_cuts[held // 3] + held % 3
+        return CondensedRing(model, parts, held, kind=self._kind)
+
+    def factor(self) -> None:
+        """Factor the body now: before threads share it, each of which would."""
+        self._inertia_answers  # noqa: B018
 
     def solve(self, loads: np.ndarray) -> np.ndarray:
         """Displacements (3N, m) of nodal loads (3N, m), orthogonal in mass to rigid motions.

@@ -98,24 +98,21 @@ def ball_cage_interface(
     pocket_count: int,
     cage: BallCage,
     defects: Sequence[BallCageDefect] = (),
-    static: np.ndarray | None = None,
     solver: FreeBodySolver | None = None,
     n_stations: int = N_STATIONS,
     n_land: int = 24,
 ) -> BallCageInterface:
     """Interface of a flexible cage.
 
-    ``static`` (Z, n_st) [m/N] are the ``static_compliance``s where they are known; otherwise they
-    are computed, with the model's factored free body ``solver`` if there is one. ``n_land`` = 0
-    leaves the lands out.
+    ``solver``: the model's factored free body, if there is one. ``n_land`` = 0 leaves the lands
+    out.
     """
     stations = wall_stations(n_stations)
     shapes = pocket_shapes(cage, defects, pocket_count=pocket_count)
     weights = wall_weights(model, stations, shapes, cage)
     land_weights = land_station_weights(model, n_land)
     modes = _modes_at_stations(basis, weights, pocket_count, n_stations)
-    if static is None:
-        static = static_compliance(solver or FreeBodySolver(model), weights, pocket_count)
+    static = static_compliance(solver or FreeBodySolver(model), weights, pocket_count)
     beyond = static - carried_compliance(basis, modes, stations)
     return BallCageInterface(
         stations=stations,

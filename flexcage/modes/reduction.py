@@ -1,11 +1,10 @@
-"""From a cage's mesh to its reduced model: FE matrices, modal basis, interface; basis cached."""
+"""From a cage's mesh to its reduced model: FE matrices, modal basis and interface, both cached."""
 
 from __future__ import annotations
 
-import logging
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from functools import cache, cached_property, singledispatch
+from functools import cached_property, singledispatch
 from typing import Any
 
 import numpy as np
@@ -24,37 +23,96 @@ from flexcage.modes.ball_interface import (
     BallCageInterface,
     ball_cage_interface,
     rigid_ball_interface,
-    static_compliance,
-    wall_stations,
-    wall_weights,
 )
-from flexcage.modes.basis import CageInterface, ModeBasis, ResidualFlexibility
+from flexcage.modes.basis import CageInterface, ModeBasis
 from flexcage.modes.interface import cage_interface, rigid_interface
 from flexcage.modes.registry import basis_version, build_basis
 from flexcage.modes.spec import ModesSpec
+from flexcage.modes.storage import (
+    Interface,
+    basis_arrays,
+    basis_from,
+    interface_arrays,
+    interface_from,
+)
 
-log = logging.getLogger(__name__)
-
-MODEL_VERSION = 7  # of the reduction: raise it when the same input gives another basis
-BALL_VERSION = 1  # of a ball cage's static compliances, likewise
+MODEL_VERSION = 8  # of the reduction: raise it when the same input gives another basis
+INTERFACE_VERSION = 1  # of both kinds of interfaces, likewise
 
 
 @dataclass(frozen=True)
 class CageReduction:
-    """A cage's finite-element model with its modal basis and contact interface."""
+    """A flexible cage's finite-element model, modal basis and contact interface.
 
-    model: FEModel
-    basis: ModeBasis
-    interface: Any  # CageInterface or BallCageInterface
-    key: str
+    Each is made, or read from disk, when first asked for. With basis and interface on disk a run
+    begins without matrices and nodal shapes, the large parts, which wait for stresses.
+    """
+
+    mesh: CageMesh
+    cage: Any
+    defects: tuple[Any, ...]
+    spec: ModesSpec
+    order: int
+
+    @cached_property
+    def key(self) -> str:
+        """Names model and basis by what they are made from."""
+        return content_hash(
+            MODEL_VERSION,
+            self.spec,
+            self.order,
+            self.cage.material,
+            self.mesh.pocket_count,
+            self.mesh.points,
+            self.mesh.tets,
+            dict(self.mesh.groups),
+            *basis_version(self.spec.kind),
+        )
+
+    @cached_property
+    @one_blas_thread
+    def model(self) -> FEModel:
+        """The elements, with stiffness and mass."""
+        return assemble(self.mesh, self.cage.material, order=self.order)
 
     @cached_property
     def solver(self) -> FreeBodySolver:
-        """Factored free body, made when first needed."""
+        """The free body, factored when a load asks for it."""
         return FreeBodySolver(self.model)
 
+    @cached_property
+    def basis(self) -> ModeBasis:
+        """The modal basis with its nodal shapes."""
+        arrays = self._known
+        if "shapes" not in arrays:
+            arrays = cached_arrays("basis", self.key, self._make_basis)
+        return basis_from(arrays)
 
-@one_blas_thread
+    @property
+    def version(self) -> str:
+        """Names this very basis: what else is kept of it on disk fits no other."""
+        return f"{self.key}-{self._known['digest']}"
+
+    @cached_property
+    @one_blas_thread
+    def interface(self) -> Any:
+        """The contact interface: a CageInterface or BallCageInterface."""
+        return interface_of(self.cage, self.defects, self)
+
+    @cached_property
+    @one_blas_thread
+    def _known(self) -> dict[str, np.ndarray]:
+        """The digest of the basis on disk, or all of a basis just made."""
+        return cached_arrays("basis", self.key, self._make_basis, only=("digest",))
+
+    @one_blas_thread
+    def _make_basis(self) -> dict[str, np.ndarray]:
+        count = self.mesh.pocket_count
+        return basis_arrays(
+            build_basis(self.model, pocket_count=count, spec=self.spec, solver=self.solver)
+        )
+
+
 def reduce_cage(
     mesh: CageMesh,
     *,
@@ -63,44 +121,14 @@ def reduce_cage(
     spec: ModesSpec,
     order: int = 2,
 ) -> CageReduction:
-    """Assemble the cage and reduce it; the basis comes from the disk cache if it is there."""
-    model = assemble(mesh, cage.material, order=order)
-    key = content_hash(
-        MODEL_VERSION,
-        spec,
-        order,
-        cage.material,
-        mesh.pocket_count,
-        mesh.points,
-        mesh.tets,
-        dict(mesh.groups),
-        *basis_version(spec.kind),
-    )
-    solver = cache(lambda: FreeBodySolver(model))
-
-    def make() -> dict[str, np.ndarray]:
-        return _to_arrays(
-            build_basis(model, pocket_count=mesh.pocket_count, spec=spec, solver=solver())
-        )
-
-    arrays = cached_arrays("basis", key, make)
-    reduced = Reduced(model, _from_arrays(arrays), mesh.pocket_count, key, solver)
-    return CageReduction(model, reduced.basis, interface_of(cage, defects, reduced), key)
-
-
-@dataclass(frozen=True)
-class Reduced:
-    """What the interface of a cage is made from."""
-
-    model: FEModel
-    basis: ModeBasis
-    pocket_count: int
-    key: str  # names model and basis
-    solver: Callable[[], FreeBodySolver]  # the factored free body, made once
+    """Reduce a cage; basis and interface come from the disk cache if they are there."""
+    reduction = CageReduction(mesh, cage, tuple(defects), spec, order)
+    reduction.interface  # noqa: B018  (what a run needs is made now)
+    return reduction
 
 
 @singledispatch
-def interface_of(cage: object, defects: Sequence[Any], reduced: Reduced) -> Any:
+def interface_of(cage: object, defects: Sequence[Any], reduced: CageReduction) -> Any:
     """The interface of a reduced cage; every type of cage registers here how it is touched."""
     raise InputError(
         f"no interface is known for a {type(cage).__name__}; a cage is a WindowCage or a BallCage",
@@ -119,76 +147,35 @@ rigid_interface_of.register(BallCage, rigid_ball_interface)
 
 
 @interface_of.register
-def _(cage: WindowCage, defects: Sequence[Defect], reduced: Reduced) -> CageInterface:
-    return cage_interface(
-        reduced.model,
-        reduced.basis,
-        pocket_count=reduced.pocket_count,
-        cage=cage,
-        defects=defects,
-    )
+def _(cage: WindowCage, defects: Sequence[Defect], reduced: CageReduction) -> CageInterface:
+    def make() -> CageInterface:
+        return cage_interface(
+            reduced.model, reduced.basis, pocket_count=count, cage=cage, defects=defects
+        )
+
+    count = reduced.mesh.pocket_count
+    pocket = (cage.pocket_length, cage.pocket_width, cage.fillet_radius)
+    content = (reduced.version, pocket, cage.bore, cage.outside_diameter, defects)
+    return _kept(CageInterface, content, make)
 
 
 @interface_of.register
-def _(cage: BallCage, defects: Sequence[BallCageDefect], reduced: Reduced) -> BallCageInterface:
-    """Its static compliances are kept on disk beside the basis."""
-    model, count = reduced.model, reduced.pocket_count
-    shapes = pocket_shapes(cage, defects, pocket_count=count)
+def _(
+    cage: BallCage, defects: Sequence[BallCageDefect], reduced: CageReduction
+) -> BallCageInterface:
+    def make() -> BallCageInterface:
+        return ball_cage_interface(
+            reduced.model, reduced.basis, pocket_count=count, cage=cage, defects=defects,
+            solver=reduced.solver,
+        )  # fmt: skip
 
-    def make() -> dict[str, np.ndarray]:
-        weights = wall_weights(model, wall_stations(), shapes, cage)
-        return {"static": static_compliance(reduced.solver(), weights, count)}
-
-    key = content_hash(BALL_VERSION, reduced.key, cage.bore, cage.outside_diameter, shapes)
-    static = cached_arrays("compliance", key, make)["static"]
-    return ball_cage_interface(
-        reduced.model,
-        reduced.basis,
-        pocket_count=reduced.pocket_count,
-        cage=cage,
-        defects=defects,
-        static=static,
-    )
+    count = reduced.mesh.pocket_count
+    pockets = pocket_shapes(cage, defects, pocket_count=count)
+    content = (reduced.version, pockets, cage.bore, cage.outside_diameter)
+    return _kept(BallCageInterface, content, make)
 
 
-def _to_arrays(basis: ModeBasis) -> dict[str, np.ndarray]:
-    arrays = {
-        "name": np.array(basis.name),
-        "shapes": basis.shapes,
-        "stiffness": basis.stiffness,
-        "mass": basis.mass,
-        "frequencies": basis.frequencies,
-        "kind": np.array(basis.kind),
-    }
-    if basis.geometric is not None:
-        arrays["geometric"] = basis.geometric
-    if basis.residual is not None:
-        r = basis.residual
-        arrays |= {
-            "r_shapes": r.shapes,
-            "r_stiffness": r.stiffness,
-            "r_compliance": r.compliance,
-            "r_far": np.array(r.far_coupling),
-        }
-    return arrays
-
-
-def _from_arrays(a: dict[str, np.ndarray]) -> ModeBasis:
-    residual = None
-    if "r_shapes" in a:
-        residual = ResidualFlexibility(
-            shapes=a["r_shapes"],
-            stiffness=a["r_stiffness"],
-            compliance=a["r_compliance"],
-            far_coupling=float(a["r_far"]),
-        )
-    return ModeBasis(
-        name=str(a["name"]),
-        shapes=a["shapes"],
-        stiffness=a["stiffness"],
-        mass=a["mass"],
-        frequencies=a["frequencies"],
-        kind=tuple(str(k) for k in a["kind"]),
-        residual=residual,
-        geometric=a.get("geometric"),
-    )
+def _kept(kind: type[Interface], content: tuple, make: Callable[[], Interface]) -> Interface:
+    """The interface from disk, or made and kept there; ``content``: all that it depends on."""
+    key = content_hash(INTERFACE_VERSION, content)
+    return interface_from(kind, cached_arrays("interface", key, lambda: interface_arrays(make())))

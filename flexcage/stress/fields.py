@@ -65,6 +65,7 @@ class UnitFields:
         pockets = range(recovery.pocket_count)
         symmetry = find_symmetry(recovery.model, recovery.pocket_count)
         if symmetry is None:
+            recovery.solver.factor()
             fields = on_all_cores(lambda k: self._kept(self._beyond_modes(self._loads(k))), pockets)
         else:
             first = recovery.solver.solve(self._loads(0))
@@ -87,6 +88,7 @@ class UnitFields:
             for axis in frame
         ]
         columns = np.stack(loads, axis=1)
+        recovery.solver.factor()
         fields = on_all_cores(
             lambda first: self._kept(
                 self._beyond_modes(columns[:, first : first + _TOGETHER], recovery.felt_by_lands)

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
+from dataclasses import fields, replace
+from functools import cached_property
+from typing import Any
 
 import numpy as np
 from settled import SETTLE, Forces, Settled
@@ -63,7 +65,10 @@ class Planar(Settled):
     def __init__(self, model: str = "rigid") -> None:
         self.case = planar_case(model)
         self.mesh = cage_mesh(self.case)
-        self.reduction = _faces_as_one(cage_reduction(self.case, self.mesh))
+        reduced = cage_reduction(self.case, self.mesh)
+        self.reduction = reduced and FacesAsOne(
+            **{f.name: getattr(reduced, f.name) for f in fields(reduced)}
+        )
         self.bearing = build_bearing(self.case, self.mesh, self.reduction)
         code = source_hash(kernel_sources())
         key = content_hash("planar", self.case.hash, code, SETTLE)
@@ -107,14 +112,15 @@ class Planar(Settled):
         return Forces(np.concatenate([normals + tractions, walls], axis=2), found.cage[:, -1:, 1:])
 
 
-def _faces_as_one(reduction: CageReduction | None) -> CageReduction | None:
-    """The reduction with one displacement, without its axial component, for all of a face."""
-    if reduction is None:
-        return None
-    face = reduction.interface
-    mean = np.repeat(face.modes.mean(axis=2, keepdims=True), face.modes.shape[2], axis=2)
-    mean[..., 0, :] = 0.0
-    return replace(reduction, interface=replace(face, modes=mean, land=np.zeros_like(face.land)))
+class FacesAsOne(CageReduction):
+    """A reduction with one displacement, without its axial component, for all of a face."""
+
+    @cached_property
+    def interface(self) -> Any:
+        face = super().interface
+        mean = np.repeat(face.modes.mean(axis=2, keepdims=True), face.modes.shape[2], axis=2)
+        mean[..., 0, :] = 0.0
+        return replace(face, modes=mean, land=np.zeros_like(face.land))
 
 
 def _axes(angle: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

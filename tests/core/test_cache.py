@@ -33,6 +33,15 @@ def test_is_made_once():
     assert all(np.array_equal(first[k], second[k]) for k in first)
 
 
+def test_only_what_is_asked_for_is_read(folder):
+    make = Maker(5000)
+    assert cached_arrays("modes", "k", make, only=["n"]).keys() == {"x", "n"}  # was made
+    assert cached_arrays("modes", "k", make, only=["n"]).keys() == {"n"}
+    assert cached_arrays("modes", "k", make).keys() == {"x", "n"} and make.calls == 1
+    again = cached_arrays("modes", "k", make, only=["x", "added later"])
+    assert again["n"] == make.calls == 2
+
+
 def test_key_and_kind_count():
     make = Maker()
     for kind, key in (("modes", "a"), ("modes", "b"), ("mesh", "a")):

@@ -2,6 +2,11 @@
 
 from __future__ import annotations
 
+from dataclasses import fields
+
+import numpy as np
+import scipy.sparse as sp
+
 from flexcage.geometry.cages import CrossbeamDefect, SideBeamDefect, WindowCage
 from flexcage.mesh.build import build_cage_mesh
 from flexcage.mesh.options import MeshOptions
@@ -24,3 +29,15 @@ def cage_mesh(defects=(), fineness="coarse"):
         defects=defects,
         options=MeshOptions(fineness=fineness),
     )
+
+
+def assert_same_fields(ours, theirs):
+    """Two interfaces are the same, number by number."""
+    assert type(ours) is type(theirs)
+    for field in fields(ours):
+        a, b = getattr(ours, field.name), getattr(theirs, field.name)
+        assert type(a) is type(b), field.name
+        if sp.issparse(a):
+            assert a.shape == b.shape and (a != b).nnz == 0, field.name
+        else:
+            np.testing.assert_array_equal(a, b, err_msg=field.name)

@@ -1,18 +1,27 @@
-import numpy as np
-from modes_cage import CAGE, cage_mesh
+from dataclasses import replace
 
+import numpy as np
+import pytest
+from modes_cage import CAGE, DEFECTS, assert_same_fields, cage_mesh
+
+from flexcage.bodies.cage import flexible_from_reduction
 from flexcage.modes import reduction
 from flexcage.modes.spec import ModesSpec
 
 
-def test_a_cached_basis_is_the_one_that_was_built(monkeypatch, tmp_path):
+@pytest.fixture(autouse=True)
+def folder(tmp_path, monkeypatch):
     monkeypatch.setenv("FLEXCAGE_CACHE_DIR", str(tmp_path))
+    return tmp_path
+
+
+def never(*args, **kwargs):
+    raise AssertionError("made again")
+
+
+def test_a_cached_basis_is_the_one_that_was_built(monkeypatch):
     mesh, spec = cage_mesh(), ModesSpec(count=4)
     built = reduction.reduce_cage(mesh, cage=CAGE, defects=(), spec=spec)
-
-    def never(*args, **kwargs):
-        raise AssertionError("the basis was built again")
-
     monkeypatch.setattr(reduction, "build_basis", never)
     stored = reduction.reduce_cage(mesh, cage=CAGE, defects=(), spec=spec)
     assert (stored.basis.name, stored.basis.kind) == (built.basis.name, built.basis.kind)
@@ -25,10 +34,9 @@ def test_a_cached_basis_is_the_one_that_was_built(monkeypatch, tmp_path):
         np.testing.assert_array_equal(getattr(ours, name), getattr(theirs, name))
 
 
-def test_geometric_stiffening_comes_with_the_basis_and_with_the_cached_one(monkeypatch, tmp_path):
+def test_geometric_stiffening_comes_with_the_basis_and_with_the_cached_one():
     """A ring of brass at 1 rad/s: the ovals gain (n^2-1)^2/(n^2+1) = 9/5 (rad/s)^2, a cage nearly
     so; no mode loses."""
-    monkeypatch.setenv("FLEXCAGE_CACHE_DIR", str(tmp_path))
     mesh, spec = cage_mesh(), ModesSpec(count=4, crossbeams=False, geometric_stiffening=True)
     built = reduction.reduce_cage(mesh, cage=CAGE, defects=(), spec=spec).basis
     stored = reduction.reduce_cage(mesh, cage=CAGE, defects=(), spec=spec).basis
@@ -42,3 +50,66 @@ def test_geometric_stiffening_comes_with_the_basis_and_with_the_cached_one(monke
     oval = np.diag(built.geometric)[:4][in_plane[:4] > 0.8]
     assert len(oval) == 2
     np.testing.assert_allclose(oval, 1.8, rtol=0.1)
+
+
+def test_a_run_needs_neither_matrices_nor_shapes_of_a_stored_reduction(monkeypatch):
+    """Body and interface come from disk as they were made; what is asked for later is made then."""
+    mesh, spec = cage_mesh(DEFECTS), ModesSpec(count=4)
+    built = reduction.reduce_cage(mesh, cage=CAGE, defects=DEFECTS, spec=spec)
+    body = flexible_from_reduction(built, spec)
+    with monkeypatch.context() as patch:
+        patch.setattr(reduction, "assemble", never)
+        patch.setattr(reduction, "basis_from", never)
+        stored = reduction.reduce_cage(mesh, cage=CAGE, defects=DEFECTS, spec=spec)
+        again = flexible_from_reduction(stored, spec)
+    assert_same_fields(stored.interface, built.interface)
+    for name, value in body.data._asdict().items():
+        np.testing.assert_array_equal(getattr(again.data, name), value, err_msg=name)
+    assert type(again.data.mass) is float and type(again.data.plain) is int
+    assert (stored.model.K != built.model.K).nnz == 0
+    np.testing.assert_array_equal(stored.basis.shapes, built.basis.shapes)
+
+
+def test_another_damping_makes_another_body_of_the_same_reduction():
+    spec = ModesSpec(count=4)
+    cage = reduction.reduce_cage(cage_mesh(), cage=CAGE, defects=(), spec=spec)
+    some, twice = (
+        flexible_from_reduction(cage, replace(spec, damping=d)).data for d in (0.01, 0.02)
+    )
+    np.testing.assert_allclose(twice.dff, 2.0 * some.dff)
+    assert np.all(np.diag(some.dff) > 0.0)
+    np.testing.assert_array_equal(twice.SS, some.SS)
+
+
+def test_a_basis_made_anew_gets_an_interface_and_a_body_of_its_own(monkeypatch, folder):
+    """Another build of the solver may find other modes of equal frequency, or the same reversed."""
+    mesh, spec = cage_mesh(), ModesSpec(count=4)
+    built = reduction.reduce_cage(mesh, cage=CAGE, defects=(), spec=spec)
+    body = flexible_from_reduction(built, spec)
+    (entry,) = (folder / "arrays" / "basis").glob("*.npz")
+    entry.unlink()
+    reversed_ = replace(built.basis, shapes=-built.basis.shapes)
+    monkeypatch.setattr(reduction, "build_basis", lambda *args, **kwargs: reversed_)
+    other = reduction.reduce_cage(mesh, cage=CAGE, defects=(), spec=spec)
+    np.testing.assert_array_equal(other.interface.modes, -built.interface.modes)
+    np.testing.assert_array_equal(flexible_from_reduction(other, spec).data.S, -body.data.S)
+
+
+def test_a_stored_basis_that_is_gone_when_asked_for_is_made_again(folder):
+    mesh, spec = cage_mesh(), ModesSpec(count=4)
+    built = reduction.reduce_cage(mesh, cage=CAGE, defects=(), spec=spec)
+    stored = reduction.reduce_cage(mesh, cage=CAGE, defects=(), spec=spec)
+    (entry,) = (folder / "arrays" / "basis").glob("*.npz")
+    entry.unlink()
+    np.testing.assert_array_equal(stored.basis.shapes, built.basis.shapes)
+
+
+def test_defects_and_sizes_name_the_interface():
+    """On one mesh, as from a file, what the case says of pockets is the interface's own."""
+    mesh, spec = cage_mesh(), ModesSpec(count=4)
+    sound = reduction.reduce_cage(mesh, cage=CAGE, defects=(), spec=spec).interface
+    bent = reduction.reduce_cage(mesh, cage=CAGE, defects=DEFECTS, spec=spec).interface
+    longer = replace(CAGE, pocket_length=CAGE.pocket_length + 1e-5)
+    other = reduction.reduce_cage(mesh, cage=longer, defects=(), spec=spec).interface
+    assert not sound.offset.any() and bent.offset.any()
+    assert other.stations[0, 0] == pytest.approx(sound.stations[0, 0] - 1e-5 * 3.0 / 7.0)
