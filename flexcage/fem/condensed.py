@@ -103,7 +103,9 @@ class CondensedRing:
         nodal = np.ascontiguousarray(loads, float).reshape(len(loads) // 3, 3, -1)
         everywhere = np.arange(self._count)
         cuts = self._local(nodal, self.parts.cuts, everywhere)  # (n_cut, 3, count, m)
-        condensed = [self._condensed(kind, nodal, cuts) for kind in self.kinds]
+        touched = nodal.reshape(len(nodal), -1).any(axis=1)
+        acting = touched[self.parts.inside].any(axis=1)
+        condensed = [self._condensed(kind, acting, nodal, cuts) for kind in self.kinds]
         moved = self._solve_cuts(cuts)
         answer = np.empty_like(nodal)
         self._store(answer, self.parts.cuts, everywhere, moved)
@@ -120,12 +122,12 @@ class CondensedRing:
         return answer.reshape(loads.shape)
 
     def _condensed(
-        self, kind: Kind, nodal: np.ndarray, cuts: np.ndarray
+        self, kind: Kind, acting: np.ndarray, nodal: np.ndarray, cuts: np.ndarray
     ) -> tuple[np.ndarray, np.ndarray]:
-        """The loaded parts of a kind, and the condensed loads inside them (3 n_inside, parts m);
-        what these do to the ``cuts`` (n_cut, 3, count, m) is added there."""
-        acting = np.any(nodal[self.parts.inside[kind.members]], axis=(1, 2, 3))
-        loaded = kind.members[acting]
+        """The loaded parts of a kind, of all ``acting`` (count,), and the condensed loads inside
+        them (3 n_inside, parts m); what these do to the ``cuts`` (n_cut, 3, count, m) is added
+        there."""
+        loaded = kind.members[acting[kind.members]]
         inside = self._local(nodal, self.parts.inside[loaded], loaded)
         fields = np.zeros((kind.elimination.size, len(loaded) * nodal.shape[2]))
         n = kind.elimination.eliminated

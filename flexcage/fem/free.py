@@ -42,16 +42,20 @@ class FreeBodySolver:
         kept, so that a load on few nodes stays one.
         """
         work = self.model.rigid_modes.T @ loads
-        return self.model.remove_rigid(self.solver.solve(loads) - self._inertia_answers @ work)
+        answer = self.solver.solve(loads)
+        rigid = self.model.rigid_part(answer)
+        answer -= self._rigid_and_inertia @ np.concatenate([rigid, work])
+        return answer
 
     def solve_balanced(self, loads: np.ndarray) -> np.ndarray:
         """The same for loads known to be balanced (no work on rigid motions)."""
         return self.model.remove_rigid(self.solver.solve(loads))
 
     @cached_property
-    def _inertia_answers(self) -> np.ndarray:
-        """What the held body answers (3N, 6) to the inertia of rigid motions."""
-        return self.solver.solve(self.model.mass_times(self.model.rigid_modes))
+    def _rigid_and_inertia(self) -> np.ndarray:
+        """Rigid motions, and answers to their inertia without rigid motion (3N, 12)."""
+        rigid = self.model.rigid_modes
+        return np.hstack([rigid, self.solve_balanced(self.model.mass_times(rigid))])
 
 
 class HeldBody:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import logging
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from typing import Protocol
 
 import numpy as np
@@ -14,6 +14,7 @@ from flexcage.core.errors import RunFailed
 log = logging.getLogger(__name__)
 
 _BLOCK = 4
+_GROUP = 8  # blocks stored together
 _TOLERANCE = 1e-11  # of the residual relative to the eigenvalue of the flexibility
 
 
@@ -67,16 +68,16 @@ def lowest_modes(
         if size >= limit:
             raise RunFailed(f"the {count} lowest modes did not converge in {size} vectors")
     log.info("%d modes found in a space of %d vectors", count, size)
-    return 1.0 / theta, space.basis(size) @ vectors
+    return 1.0 / theta, space.combined(vectors)
 
 
 class _MassSpace:
-    """A growing mass-orthonormal basis, stored in blocks with its products with the mass."""
+    """A growing mass-orthonormal basis (3N, size), stored in groups of columns."""
 
     def __init__(self, model: Massive, first: np.ndarray) -> None:
         self._model = model
-        self._capacity = 0
-        self._vectors = np.empty((model.n_dof, 0), first.dtype, order="F")
+        self._groups: list[np.ndarray] = []
+        self._room = 0  # columns in all groups
         self.size = 0
         self.append(first)
 
@@ -84,25 +85,33 @@ class _MassSpace:
     def mass_last(self) -> np.ndarray:
         return self._mass_last
 
-    def basis(self, size: int) -> np.ndarray:
-        return self._vectors[:, :size]
+    def combined(self, coefficients: np.ndarray, first: int = 0) -> np.ndarray:
+        """Vectors from ``first`` on times their coefficients (n, m)."""
+        total: np.ndarray | None = None
+        for columns, place in self._between(first, first + len(coefficients)):
+            part = columns @ coefficients[place]
+            total = part if total is None else np.add(total, part, out=total)
+        assert total is not None
+        return total
 
     def append(self, image: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Orthonormalise ``image`` and add it.
 
         Returns the coefficients (size, b) on the vectors before, and the upper triangle (b, b)
-        that turns the added vectors into what was left.
+        that turns the added vectors into what was left. All but rounding is on the last two blocks,
+        as the flexibility is symmetric: they are taken off first, then what is left on any.
         """
-        old = self._vectors[:, : self.size]
-        total = np.zeros((self.size, image.shape[1]), image.dtype)
-        triangle = np.eye(image.shape[1])
-        block = image
-        mass_block = self._model.mass_times(block)
-        for _ in range(2):  # once more: the first pass loses digits where images are parallel
-            part = old.conj().T @ mass_block
-            block = block - old @ part
-            total += part @ triangle
-            mass_block = self._model.mass_times(block)
+        width = image.shape[1]
+        total = np.zeros((self.size, width), image.dtype)
+        triangle = np.eye(width)
+        block, mass_block = image, self._model.mass_times(image)
+        for first in (max(self.size - 2 * width, 0), 0):
+            if self.size:
+                against = self._between(first, self.size)
+                part = np.concatenate([v.conj().T @ mass_block for v, _ in against])
+                block = block - self.combined(part, first)
+                total[first:] += part @ triangle
+                mass_block = self._model.mass_times(block)
             gram = block.conj().T @ mass_block
             upper = np.linalg.cholesky(0.5 * (gram + gram.conj().T)).conj().T
             inverse = np.linalg.inv(upper)
@@ -112,14 +121,21 @@ class _MassSpace:
         self._store(block)
         return total, triangle
 
+    def _between(self, first: int, end: int) -> Iterator[tuple[np.ndarray, slice]]:
+        """Groups of the vectors ``first`` to ``end``, and where each is among these."""
+        start = 0
+        for group in self._groups:
+            own = slice(max(first - start, 0), min(end - start, group.shape[1]))
+            if own.start < own.stop:
+                yield group[:, own], slice(start + own.start - first, start + own.stop - first)
+            start += group.shape[1]
+
     def _store(self, block: np.ndarray) -> None:
         width = block.shape[1]
-        if self.size + width > self._vectors.shape[1]:
-            grown = np.empty(
-                (len(block), 2 * self._vectors.shape[1] + 8 * width), block.dtype, order="F"
-            )
-            grown[:, : self.size] = self._vectors[:, : self.size]
-            self._vectors = grown
-        self._vectors[:, self.size : self.size + width] = block
+        if self.size + width > self._room:
+            self._groups.append(np.empty((len(block), _GROUP * width), block.dtype, order="F"))
+            self._room += _GROUP * width
+        place = self.size - (self._room - self._groups[-1].shape[1])
+        self._groups[-1][:, place : place + width] = block
         self.last = slice(self.size, self.size + width)
         self.size += width

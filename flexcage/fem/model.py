@@ -98,8 +98,11 @@ class FEModel:
 
     def remove_rigid(self, fields: np.ndarray) -> np.ndarray:
         """Displacements (3N, m) less their rigid part: orthogonal in mass to rigid motions."""
-        rigid = self.rigid_modes
-        return fields - rigid @ (self._mass_rigid.T @ fields)
+        return fields - self.rigid_modes @ self.rigid_part(fields)
+
+    def rigid_part(self, fields: np.ndarray) -> np.ndarray:
+        """Rigid motion (6, m) in displacements (3N, m)."""
+        return self._mass_rigid.T @ fields
 
     def balance(self, loads: np.ndarray) -> np.ndarray:
         """Nodal loads (3N, m) less the inertia of the rigid acceleration they cause."""
@@ -167,11 +170,10 @@ class FEModel:
         area = 0.5 * np.linalg.norm(normal, axis=1)
         values = functions(where.reshape(-1, 3)).reshape(-1, *where.shape[:2])
         entries = np.einsum("mtq,kq,q,t->mtk", values, shapes, rule_weights, area, optimize=True)
-        nodes = self.face_nodes(triangles)
-        rows = np.broadcast_to(np.arange(len(values))[:, None, None], entries.shape)
-        columns = np.broadcast_to(nodes[None], entries.shape)
+        function, triangle, corner = np.nonzero(entries)
+        columns = self.face_nodes(triangles)[triangle, corner]
         shape = (len(values), len(self.nodes))
-        return sp.coo_matrix((entries.ravel(), (rows.ravel(), columns.ravel())), shape).tocsr()
+        return sp.coo_matrix((entries[entries != 0.0], (function, columns)), shape).tocsr()
 
     def group(self, name: str) -> np.ndarray:
         """Triangles (n, 3) of a named group."""

@@ -155,11 +155,11 @@ def residual_vectors(
     shapes = np.empty((len(kept), sum(loads.shape[1] for loads, _ in answers)))
     done = 0
     for loads, static in answers:
-        own = shapes[:, done : done + loads.shape[1]]
-        done += loads.shape[1]
-        own[:] = static - kept @ ((loads.T @ kept).T / kept_stiffness[:, None])
+        own = kept @ ((loads.T @ kept).T / kept_stiffness[:, None])
+        np.subtract(static, own, out=own)
         scale = np.diag(loads.T @ own)
-        own /= scale
+        np.divide(own, scale, out=shapes[:, done : done + len(scale)])
+        done += len(scale)
         work.append(sp.diags_array(1.0 / scale) @ loads.T)
         share.append(scale / np.diag(loads.T @ static))
     stiffness = sp.vstack(work) @ shapes
