@@ -100,80 +100,80 @@ class CondensedRing:
 
     def solve(self, loads: np.ndarray) -> np.ndarray:
         """Displacements (3N, m) of nodal loads (3N, m); reactions at the held dofs are free."""
-        nodal = np.ascontiguousarray(loads, float).reshape(len(loads) // 3, 3, -1)
+        columns = np.ascontiguousarray(loads, float).reshape(len(loads), -1)
         everywhere = np.arange(self._count)
-        cuts = self._local(nodal, self.parts.cuts, everywhere)  # (n_cut, 3, count, m)
-        touched = nodal.reshape(len(nodal), -1).any(axis=1)
-        acting = touched[self.parts.inside].any(axis=1)
-        condensed = [self._condensed(kind, acting, nodal, cuts) for kind in self.kinds]
+        cuts = self._local(columns, self.parts.cuts, everywhere)  # (3 n_cut, count, m)
+        touched = np.any(columns.reshape(len(loads) // 3, -1), axis=1)
+        acting = np.any(touched[self.parts.inside], axis=1)
+        condensed = [self._condensed(kind, acting, columns, cuts) for kind in self.kinds]
         moved = self._solve_cuts(cuts)
-        answer = np.empty_like(nodal)
-        self._store(answer, self.parts.cuts, everywhere, moved)
+        answer = np.empty_like(columns)
         for kind, (loaded, inside) in zip(self.kinds, condensed):
             members = np.concatenate([loaded, np.setdiff1d(kind.members, loaded)])
-            fields = np.empty((kind.elimination.size, len(members) * nodal.shape[2]))
+            fields = np.empty((kind.elimination.size, len(members) * columns.shape[1]))
             fields[: len(inside), : inside.shape[1]] = inside
             fields[: len(inside), inside.shape[1] :] = 0.0
-            ends = np.stack([moved[:, :, members], moved[:, :, (members + 1) % self._count]])
+            ends = np.stack([moved[:, members], moved[:, (members + 1) % self._count]])
             fields[len(inside) :] = ends.reshape(-1, fields.shape[1])
             kind.elimination.expand(fields, inside.shape[1])
-            own = fields[: len(inside)].reshape(-1, 3, len(members), nodal.shape[2])
-            self._store(answer, self.parts.inside[members], members, own)
+            self._store(answer, self.parts.inside[members], members, fields[: len(inside)])
+        self._store(answer, self.parts.cuts, everywhere, moved)
         return answer.reshape(loads.shape)
 
     def _condensed(
-        self, kind: Kind, acting: np.ndarray, nodal: np.ndarray, cuts: np.ndarray
+        self, kind: Kind, acting: np.ndarray, loads: np.ndarray, cuts: np.ndarray
     ) -> tuple[np.ndarray, np.ndarray]:
         """The loaded parts of a kind, of all ``acting`` (count,), and the condensed loads inside
-        them (3 n_inside, parts m); what these do to the ``cuts`` (n_cut, 3, count, m) is added
+        them (3 n_inside, parts m); what these do to the ``cuts`` (3 n_cut, count, m) is added
         there."""
         loaded = kind.members[acting[kind.members]]
-        inside = self._local(nodal, self.parts.inside[loaded], loaded)
-        fields = np.zeros((kind.elimination.size, len(loaded) * nodal.shape[2]))
         n = kind.elimination.eliminated
-        fields[:n] = inside.reshape(n, fields.shape[1])
+        fields = np.zeros((kind.elimination.size, len(loaded) * loads.shape[1]))
+        own = self._local(loads, self.parts.inside[loaded], loaded)
+        fields[:n] = own.reshape(n, fields.shape[1])
         kind.elimination.condense(fields)
-        first, second = fields[n:].reshape(2, *cuts[:, :, loaded].shape)
-        cuts[:, :, loaded] += first
-        cuts[:, :, (loaded + 1) % self._count] += second
+        first, second = fields[n:].reshape(2, *cuts[:, loaded].shape)
+        cuts[:, loaded] += first
+        cuts[:, (loaded + 1) % self._count] += second
         return loaded, fields[:n]
 
     def _solve_cuts(self, cuts: np.ndarray) -> np.ndarray:
-        """Displacements of the cuts (n_cut, 3, count, m) under loads there."""
-        by_cut = cuts.transpose(2, 0, 1, 3)
+        """Displacements of the cuts (3 n_cut, count, m) under loads there."""
+        by_cut = cuts.transpose(1, 0, 2)
         fields = by_cut.reshape(len(self._cut_order), -1)[self._cut_order]
         self._cuts.condense(fields)
         fields[self._cuts.eliminated :] = 0.0
         self._cuts.expand(fields)
         moved = np.empty_like(fields)
         moved[self._cut_order] = fields
-        return moved.reshape(by_cut.shape).transpose(1, 2, 0, 3)
+        return np.ascontiguousarray(moved.reshape(by_cut.shape).transpose(1, 0, 2))
 
-    def _local(self, nodal: np.ndarray, places: np.ndarray, sectors: np.ndarray) -> np.ndarray:
-        """Vectors (N, 3, m) at the nodes ``places`` (k, n) of k sectors in their frames:
-        (n, 3, k, m)."""
-        taken = nodal[places.T]
-        cosine, sine = self._directions(sectors)
-        local = np.empty((len(taken), 3, *taken.shape[1::2]))
-        local[:, 0] = taken[:, :, 0]
-        local[:, 1] = cosine * taken[:, :, 1] + sine * taken[:, :, 2]
-        local[:, 2] = cosine * taken[:, :, 2] - sine * taken[:, :, 1]
-        return local
+    def _local(self, fields: np.ndarray, places: np.ndarray, sectors: np.ndarray) -> np.ndarray:
+        """What fields (3N, m) are at the nodes ``places`` (k, n) of k sectors, in the frames of
+        these: (3 n, k, m)."""
+        taken = fields.take(_by_sector(places), axis=0)
+        self._turn(taken, sectors, back=True)
+        return taken
 
     def _store(
-        self, nodal: np.ndarray, places: np.ndarray, sectors: np.ndarray, local: np.ndarray
+        self, fields: np.ndarray, places: np.ndarray, sectors: np.ndarray, local: np.ndarray
     ) -> None:
-        """The way back of ``_local``, into ``nodal``."""
-        cosine, sine = self._directions(sectors)
-        turned = np.empty((len(local), len(sectors), 3, local.shape[3]))
-        turned[:, :, 0] = local[:, 0]
-        turned[:, :, 1] = cosine * local[:, 1] - sine * local[:, 2]
-        turned[:, :, 2] = cosine * local[:, 2] + sine * local[:, 1]
-        nodal[places.T] = turned
+        """The way back of ``_local``, into ``fields``; overwrites ``local``."""
+        local = local.reshape(-1, len(sectors), fields.shape[1])
+        self._turn(local, sectors)
+        fields[_by_sector(places)] = local
 
-    def _directions(self, sectors: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        turns = self.parts.sectors.turns[sectors]
-        return turns[:, 1, 1, None], turns[:, 2, 1, None]
+    def _turn(self, local: np.ndarray, sectors: np.ndarray, *, back: bool = False) -> None:
+        """Turn fields (3 n, k, m) from the frames of k sectors into the ring's, or back."""
+        turns = self.parts.sectors.turns[sectors].repeat(local.shape[2], axis=0)
+        cosine, sine = turns[:, 1, 1], -turns[:, 2, 1] if back else turns[:, 2, 1]
+        flat = local.reshape(len(local) // 3, 3, len(turns))  # long rows are fast
+        y, z = flat[:, 1], flat[:, 2]
+        across = sine * y
+        y *= cosine
+        y -= sine * z
+        z *= cosine
+        z += across
 
     def _eliminate_cuts(self, model: FEModel, held: np.ndarray) -> Elimination:
         """S cut by cut; what is left are the held dofs."""
@@ -199,6 +199,12 @@ class CondensedRing:
 def dofs_of(nodes: np.ndarray) -> np.ndarray:
     """Unknowns (3 n,) of nodes (n,)."""
     return (3 * nodes[:, None] + np.arange(3)).ravel()
+
+
+def _by_sector(places: np.ndarray) -> np.ndarray:
+    """Unknowns (3 n, k) of nodes (k, n)."""
+    dofs = 3 * places.T[:, None, :] + np.arange(3)[:, None]
+    return dofs.reshape(3 * places.shape[1], len(places))
 
 
 Turned = tuple[np.ndarray, np.ndarray]  # nodes (n,) and rotations (n, 3, 3) to their frames

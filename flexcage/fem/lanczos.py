@@ -78,17 +78,18 @@ class _MassSpace:
         self._model = model
         self._groups: list[np.ndarray] = []
         self._room = 0  # columns in all groups
+        self._recent: list[tuple[np.ndarray, np.ndarray]] = []  # last two blocks, and their mass
         self.size = 0
         self.append(first)
 
     @property
     def mass_last(self) -> np.ndarray:
-        return self._mass_last
+        return self._recent[-1][1]
 
-    def combined(self, coefficients: np.ndarray, first: int = 0) -> np.ndarray:
-        """Vectors from ``first`` on times their coefficients (n, m)."""
+    def combined(self, coefficients: np.ndarray) -> np.ndarray:
+        """The first vectors times their coefficients (n, m)."""
         total: np.ndarray | None = None
-        for columns, place in self._between(first, first + len(coefficients)):
+        for columns, place in self._groups_of(len(coefficients)):
             part = columns @ coefficients[place]
             total = part if total is None else np.add(total, part, out=total)
         assert total is not None
@@ -103,39 +104,47 @@ class _MassSpace:
         """
         width = image.shape[1]
         total = np.zeros((self.size, width), image.dtype)
-        triangle = np.eye(width)
         block, mass_block = image, self._model.mass_times(image)
-        for first in (max(self.size - 2 * width, 0), 0):
-            if self.size:
-                against = self._between(first, self.size)
-                part = np.concatenate([v.conj().T @ mass_block for v, _ in against])
-                block = block - self.combined(part, first)
-                total[first:] += part @ triangle
-                mass_block = self._model.mass_times(block)
-            gram = block.conj().T @ mass_block
-            upper = np.linalg.cholesky(0.5 * (gram + gram.conj().T)).conj().T
-            inverse = np.linalg.inv(upper)
-            block, mass_block = block @ inverse, mass_block @ inverse
-            triangle = upper @ triangle
-        self._mass_last = mass_block
+        for number, (vectors, mass) in enumerate(self._recent):
+            part = vectors.conj().T @ mass_block
+            block, mass_block = block - vectors @ part, mass_block - mass @ part
+            total[self.size - (len(self._recent) - number) * width :][:width] = part
+        block, mass_block, triangle = _normalised(block, mass_block)
+        if self.size:
+            against = self._groups_of(self.size)
+            part = np.concatenate([v.conj().T @ mass_block for v, _ in against])
+            total += part @ triangle
+            block = block - self.combined(part)
+        block, mass_block, upper = _normalised(block, self._model.mass_times(block))
+        self._recent = [*self._recent[-1:], (block, mass_block)]
         self._store(block)
-        return total, triangle
+        return total, upper @ triangle
 
-    def _between(self, first: int, end: int) -> Iterator[tuple[np.ndarray, slice]]:
-        """Groups of the vectors ``first`` to ``end``, and where each is among these."""
+    def _groups_of(self, count: int) -> Iterator[tuple[np.ndarray, slice]]:
+        """The groups of the first vectors, and which of these each holds."""
         start = 0
         for group in self._groups:
-            own = slice(max(first - start, 0), min(end - start, group.shape[1]))
-            if own.start < own.stop:
-                yield group[:, own], slice(start + own.start - first, start + own.stop - first)
+            if start < count:
+                own = group[:, : count - start]
+                yield own, slice(start, start + own.shape[1])
             start += group.shape[1]
 
     def _store(self, block: np.ndarray) -> None:
         width = block.shape[1]
         if self.size + width > self._room:
-            self._groups.append(np.empty((len(block), _GROUP * width), block.dtype, order="F"))
+            self._groups.append(np.empty((len(block), _GROUP * width), block.dtype))
             self._room += _GROUP * width
         place = self.size - (self._room - self._groups[-1].shape[1])
         self._groups[-1][:, place : place + width] = block
         self.last = slice(self.size, self.size + width)
         self.size += width
+
+
+def _normalised(
+    block: np.ndarray, mass_block: np.ndarray
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """A mass-orthonormal block, its product with the mass, and the triangle that leads back."""
+    gram = block.conj().T @ mass_block
+    upper = np.linalg.cholesky(0.5 * (gram + gram.conj().T)).conj().T
+    inverse = np.linalg.inv(upper)
+    return block @ inverse, mass_block @ inverse, upper
