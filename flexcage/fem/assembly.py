@@ -41,7 +41,7 @@ class Elements:
             blocks = elements.stiffness_blocks(
                 self.element, self.stiffness_rule, gradients[part], volumes[part], self.lame
             )
-            stiffness += pattern.sum_symmetric(blocks, first)
+            stiffness += pattern.sum_blocks(blocks, first)
         mass = elements.mass_blocks(self.element, self.mass_rule, volumes, self.density)
         return pattern.complete(stiffness), pattern.sum(mass)
 
@@ -74,9 +74,9 @@ def assemble_ring(
             turn = sectors.turn(k - first)
             rows.append(places[k][pattern.rows])
             columns.append(places[k][pattern.columns])
-            stiffness.append(turn @ own_stiffness @ turn.T)
+            stiffness.append(own_stiffness.reshape(-1, 9) @ np.kron(turn, turn).T)
             mass.append(own_mass)
     whole = BlockPattern.of_pairs(np.concatenate(rows), np.concatenate(columns), n_nodes)
-    data = whole.sum_symmetric(np.concatenate(stiffness)[:, None, None])
+    data = whole.sum_blocks(np.concatenate(stiffness).reshape(-1, 1, 1, 3, 3))
     mass_data = whole.sum(np.concatenate(mass)[:, None, None])
     return whole.vector(whole.complete(data)), whole.scalar(mass_data)

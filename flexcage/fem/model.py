@@ -5,7 +5,7 @@ from __future__ import annotations
 import logging
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
-from functools import cached_property
+from functools import cache, cached_property
 from types import MappingProxyType
 
 import numpy as np
@@ -169,7 +169,7 @@ class FEModel:
         normal = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
         area = 0.5 * np.linalg.norm(normal, axis=1)
         values = functions(where.reshape(-1, 3)).reshape(-1, *where.shape[:2])
-        entries = np.einsum("mtq,kq,q,t->mtk", values, shapes, rule_weights, area, optimize=True)
+        entries = values @ (shapes * rule_weights).T * area[:, None]
         function, triangle, corner = np.nonzero(entries)
         columns = self.face_nodes(triangles)[triangle, corner]
         shape = (len(values), len(self.nodes))
@@ -191,6 +191,7 @@ def _edge_keys(pairs: np.ndarray, n_points: int) -> np.ndarray:
     return pairs[..., 0].astype(np.int64) * n_points + pairs[..., 1]
 
 
+@cache
 def _triangle_rule() -> tuple[np.ndarray, np.ndarray]:
     """Degree-6 rule on the reference triangle, weights summing to one (hats have kinks)."""
     from skfem.quadrature import get_quadrature
