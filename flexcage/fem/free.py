@@ -11,6 +11,7 @@ from flexcage.core.errors import InputError
 from flexcage.fem.condensed import CondensedRing, find_parts
 from flexcage.fem.linear import linear_solver
 from flexcage.fem.model import FEModel
+from flexcage.fem.tall import subtract_product
 
 
 class FreeBodySolver:
@@ -44,7 +45,7 @@ class FreeBodySolver:
         work = self.model.rigid_modes.T @ loads
         answer = self.solver.solve(loads)
         rigid = self.model.rigid_part(answer)
-        answer -= self._rigid_and_inertia @ np.concatenate([rigid, work])
+        subtract_product(answer, self._rigid_and_inertia, np.concatenate([rigid, work]))
         return answer
 
     def solve_balanced(self, loads: np.ndarray) -> np.ndarray:

@@ -10,6 +10,7 @@ import numpy as np
 from scipy.linalg import eigh
 
 from flexcage.core.errors import RunFailed
+from flexcage.fem.tall import subtract_product
 
 log = logging.getLogger(__name__)
 
@@ -88,12 +89,13 @@ class _MassSpace:
 
     def combined(self, coefficients: np.ndarray) -> np.ndarray:
         """The first vectors times their coefficients (n, m)."""
-        total: np.ndarray | None = None
-        for columns, place in self._groups_of(len(coefficients)):
-            part = columns @ coefficients[place]
-            total = part if total is None else np.add(total, part, out=total)
-        assert total is not None
+        total = np.zeros((self._model.n_dof, coefficients.shape[1]), self._groups[0].dtype)
+        self._take_off(total, -coefficients)
         return total
+
+    def _take_off(self, fields: np.ndarray, coefficients: np.ndarray) -> None:
+        for columns, place in self._groups_of(len(coefficients)):
+            subtract_product(fields, columns, coefficients[place])
 
     def append(self, image: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Orthonormalise ``image`` and add it.
@@ -114,7 +116,7 @@ class _MassSpace:
             against = self._groups_of(self.size)
             part = np.concatenate([v.conj().T @ mass_block for v, _ in against])
             total += part @ triangle
-            block = block - self.combined(part)
+            self._take_off(block, part)
         block, mass_block, upper = _normalised(block, self._model.mass_times(block))
         self._recent = [*self._recent[-1:], (block, mass_block)]
         self._store(block)

@@ -15,6 +15,7 @@ from flexcage.core.errors import InputError
 from flexcage.fem import elements
 from flexcage.fem.assembly import Elements, assemble_ring, assemble_whole
 from flexcage.fem.sectors import Sectors, find_sectors
+from flexcage.fem.tall import subtract_product
 from flexcage.geometry.materials import Material
 from flexcage.mesh.cage_mesh import signed_volumes
 
@@ -98,7 +99,9 @@ class FEModel:
 
     def remove_rigid(self, fields: np.ndarray) -> np.ndarray:
         """Displacements (3N, m) less their rigid part: orthogonal in mass to rigid motions."""
-        return fields - self.rigid_modes @ self.rigid_part(fields)
+        elastic = np.array(fields, float)
+        subtract_product(elastic, self.rigid_modes, self.rigid_part(fields))
+        return elastic
 
     def rigid_part(self, fields: np.ndarray) -> np.ndarray:
         """Rigid motion (6, m) in displacements (3N, m)."""

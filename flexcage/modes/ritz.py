@@ -15,12 +15,12 @@ from collections.abc import Mapping
 import numpy as np
 import scipy.sparse as sp
 from scipy.linalg import eigh
-from scipy.linalg.blas import dgemm
 
 from flexcage.core.errors import InputError
 from flexcage.fem.free import FreeBodySolver
 from flexcage.fem.modal import free_modes
 from flexcage.fem.symmetry import find_symmetry
+from flexcage.fem.tall import subtract_product
 from flexcage.modes.basis import ModeBasis, ResidualFlexibility
 from flexcage.modes.lands import land_vectors
 from flexcage.modes.pockets import LOADS, LOADS_PER_POCKET, check_groups, sparse_pocket_loads
@@ -152,7 +152,7 @@ def residual_vectors(
     shapes = answers.reshape(loads.shape)
     work = loads.T @ kept
     carried = work / kept_stiffness
-    shapes = dgemm(-1.0, carried, kept.T, beta=1.0, c=shapes.T, overwrite_c=1).T
+    subtract_product(shapes, kept, carried.T)
     deflection = loads.T @ shapes
     scale = np.diag(deflection)
     shapes /= scale
@@ -240,7 +240,7 @@ def ritz_modes(
     model = solver.model
     vectors = model.remove_rigid(vectors)
     if away_from is not None:
-        vectors = vectors - away_from @ (away_from.T @ model.mass_times(vectors))
+        subtract_product(vectors, away_from, away_from.T @ model.mass_times(vectors))
     mass = vectors.T @ model.mass_times(vectors)
     scale = 1.0 / np.sqrt(np.diag(mass))
     size, directions = eigh(mass * np.outer(scale, scale))
