@@ -11,7 +11,7 @@ from flexcage.core.errors import InputError
 from flexcage.fem.condensed import CondensedRing, find_parts
 from flexcage.fem.linear import linear_solver
 from flexcage.fem.model import FEModel
-from flexcage.fem.tall import subtract_product
+from flexcage.fem.tall import inner_products, subtract_product
 
 
 class FreeBodySolver:
@@ -42,7 +42,7 @@ class FreeBodySolver:
         Solves K u = F - M R (R^T F), R the mass-orthonormal rigid motions. The answer to M R is
         kept, so that a load on few nodes stays one.
         """
-        work = self.model.rigid_modes.T @ loads
+        work = inner_products(self.model.rigid_modes, loads)
         answer = self.solver.solve(loads)
         rigid = self.model.rigid_part(answer)
         subtract_product(answer, self._rigid_and_inertia, np.concatenate([rigid, work]))

@@ -10,7 +10,7 @@ import numpy as np
 from scipy.linalg import eigh
 
 from flexcage.core.errors import RunFailed
-from flexcage.fem.tall import subtract_product
+from flexcage.fem.tall import inner_products, subtract_product
 
 log = logging.getLogger(__name__)
 
@@ -108,13 +108,13 @@ class _MassSpace:
         total = np.zeros((self.size, width), image.dtype)
         block, mass_block = image, self._model.mass_times(image)
         for number, (vectors, mass) in enumerate(self._recent):
-            part = vectors.conj().T @ mass_block
+            part = inner_products(vectors, mass_block)
             block, mass_block = block - vectors @ part, mass_block - mass @ part
             total[self.size - (len(self._recent) - number) * width :][:width] = part
         block, mass_block, triangle = _normalised(block, mass_block)
         if self.size:
             against = self._groups_of(self.size)
-            part = np.concatenate([v.conj().T @ mass_block for v, _ in against])
+            part = np.concatenate([inner_products(v, mass_block) for v, _ in against])
             total += part @ triangle
             self._take_off(block, part)
         block, mass_block, upper = _normalised(block, self._model.mass_times(block))
@@ -146,7 +146,7 @@ def _normalised(
     block: np.ndarray, mass_block: np.ndarray
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """A mass-orthonormal block, its product with the mass, and the triangle that leads back."""
-    gram = block.conj().T @ mass_block
+    gram = inner_products(block, mass_block)
     upper = np.linalg.cholesky(0.5 * (gram + gram.conj().T)).conj().T
     inverse = np.linalg.inv(upper)
     return block @ inverse, mass_block @ inverse, upper

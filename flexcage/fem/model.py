@@ -15,7 +15,7 @@ from flexcage.core.errors import InputError
 from flexcage.fem import elements
 from flexcage.fem.assembly import Elements, assemble_ring, assemble_whole
 from flexcage.fem.sectors import Sectors, find_sectors
-from flexcage.fem.tall import subtract_product
+from flexcage.fem.tall import inner_products, subtract_product
 from flexcage.geometry.materials import Material
 from flexcage.mesh.cage_mesh import signed_volumes
 
@@ -105,7 +105,7 @@ class FEModel:
 
     def rigid_part(self, fields: np.ndarray) -> np.ndarray:
         """Rigid motion (6, m) in displacements (3N, m)."""
-        return self._mass_rigid.T @ fields
+        return inner_products(self._mass_rigid, fields)
 
     def balance(self, loads: np.ndarray) -> np.ndarray:
         """Nodal loads (3N, m) less the inertia of the rigid acceleration they cause."""

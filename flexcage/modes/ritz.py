@@ -20,7 +20,7 @@ from flexcage.core.errors import InputError
 from flexcage.fem.free import FreeBodySolver
 from flexcage.fem.modal import free_modes
 from flexcage.fem.symmetry import find_symmetry
-from flexcage.fem.tall import subtract_product
+from flexcage.fem.tall import inner_products, subtract_product
 from flexcage.modes.basis import ModeBasis, ResidualFlexibility
 from flexcage.modes.lands import land_vectors
 from flexcage.modes.pockets import LOADS, LOADS_PER_POCKET, check_groups, sparse_pocket_loads
@@ -240,11 +240,12 @@ def ritz_modes(
     model = solver.model
     vectors = model.remove_rigid(vectors)
     if away_from is not None:
-        subtract_product(vectors, away_from, away_from.T @ model.mass_times(vectors))
-    mass = vectors.T @ model.mass_times(vectors)
+        carried = inner_products(away_from, model.mass_times(vectors))
+        subtract_product(vectors, away_from, carried)
+    mass = inner_products(vectors, model.mass_times(vectors))
     scale = 1.0 / np.sqrt(np.diag(mass))
     size, directions = eigh(mass * np.outer(scale, scale))
     good = size > 1e-10 * size[-1]
     vectors = vectors @ (scale[:, None] * directions[:, good] / np.sqrt(size[good]))
-    values, turn = eigh(vectors.T @ (model.K @ vectors))
+    values, turn = eigh(inner_products(vectors, model.K @ vectors))
     return values, vectors @ turn
