@@ -35,7 +35,7 @@ class Front:
 class Elimination:
     """K of which the ``blocks`` are eliminated one after the other, and the last unknowns left.
 
-    ``matrix`` (n, n): sparse, its unknowns in order of elimination; rows of unknowns that are left
+    ``matrix`` (n, n): sparse, no entry twice, unknowns in order of elimination; rows of those left
     are not read. ``blocks``: sizes. ``more``: dense matrices to add to it, lower triangles read.
     """
 
