@@ -7,7 +7,7 @@ import numpy as np
 from flexcage.bodies.floating_frame import BodyData, FlexibleBody, flexible_body, rigid_body
 from flexcage.core.cache import cached_arrays
 from flexcage.core.hashing import content_hash
-from flexcage.core.threads import blas_threads
+from flexcage.core.threads import one_blas_thread
 from flexcage.modes.basis import ModeBasis
 from flexcage.modes.reduction import CageReduction
 from flexcage.modes.spec import ModesSpec
@@ -46,12 +46,13 @@ def flexible_from_basis(
 def flexible_from_reduction(cage: CageReduction, spec: ModesSpec) -> FlexibleBody:
     """Flexible cage with the damping of ``spec``; its invariants are kept on disk."""
 
+    @one_blas_thread
     def make() -> dict[str, np.ndarray]:
         ratios = spec.damping_ratios(cage.basis.frequencies)
         body = flexible_from_basis(cage.model.nodes, cage.model.mass_scalar, cage.basis, ratios)
         return body.data._asdict()
 
-    key = content_hash(BODY_VERSION, cage.version, spec, blas_threads())
+    key = content_hash(BODY_VERSION, cage.version, spec)
     stored = cached_arrays("body", key, make)
     numbers = {"mass": float(stored["mass"]), "plain": int(stored["plain"])}
     return FlexibleBody(BodyData(**{**stored, **numbers}))  # type: ignore[arg-type]

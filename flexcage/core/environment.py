@@ -171,7 +171,7 @@ def _solver() -> Finding:
     return Finding(
         "linear solver",
         False,
-        "SciPy's SuperLU only: modes take several times as long",
+        "SciPy's SuperLU only: fine meshes from files take several times as long",
         'pip install "flexcage[fast]"',
         needed=False,
     )

@@ -27,14 +27,6 @@ def one_blas_thread(function: Callable[P, R]) -> Callable[P, R]:
     return limited
 
 
-def blas_threads() -> int:
-    """How many threads BLAS may use now: long sums are rounded differently by one and by more."""
-    from threadpoolctl import threadpool_info
-
-    found = (pool["num_threads"] for pool in threadpool_info() if pool["user_api"] == "blas")
-    return max(found, default=1)
-
-
 def on_one_core(function: Callable[P, R]) -> Callable[P, R]:
     """The function, with one thread for BLAS and for ``on_all_cores``: others use the machine."""
 

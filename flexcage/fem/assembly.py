@@ -41,7 +41,7 @@ class Elements:
             blocks = elements.stiffness_blocks(
                 self.element, self.stiffness_rule, gradients[part], volumes[part], self.lame
             )
-            stiffness += pattern.sum_symmetric(blocks, first)
+            stiffness += pattern.sum_blocks(blocks, first)
         mass = elements.mass_blocks(self.element, self.mass_rule, volumes, self.density)
         return pattern.complete(stiffness), pattern.sum(mass)
 
@@ -62,21 +62,26 @@ def assemble_ring(
     n, n_nodes = sectors.cells, len(sectors.image)
     places = sectors.followed(np.unique(cells[:n]))  # (count, n_local) nodes of every sector
     vertices = places[:, places[0] < len(points)]
-    rows, columns, stiffness, mass = [], [], [], []
     local = np.empty(n_nodes, np.int64)
+    kinds = []
     for alike in sectors.alike(points, vertices):
         first = alike[0]
         local[places[first]] = np.arange(places.shape[1])
         part = slice(first * n, (first + 1) * n)
         pattern = BlockPattern(local[cells[part]], places.shape[1])
-        own_stiffness, own_mass = form.sum(pattern, points, tets[part])
+        kinds.append((alike, pattern, *form.sum(pattern, points, tets[part])))
+    pairs = [(places[k], pattern) for alike, pattern, *_ in kinds for k in alike]
+    whole = BlockPattern.of_pairs(
+        np.concatenate([own[pattern.rows] for own, pattern in pairs]),
+        np.concatenate([own[pattern.columns] for own, pattern in pairs]),
+        n_nodes,
+    )
+    stiffness = np.zeros((len(whole.columns), 9))
+    mass = np.zeros(len(whole.columns))
+    slots = iter(whole.slots.reshape(sectors.count, -1))  # none twice in a sector
+    for alike, _, own_stiffness, own_mass in kinds:
         for k in alike:
-            turn = sectors.turn(k - first)
-            rows.append(places[k][pattern.rows])
-            columns.append(places[k][pattern.columns])
-            stiffness.append(turn @ own_stiffness @ turn.T)
-            mass.append(own_mass)
-    whole = BlockPattern.of_pairs(np.concatenate(rows), np.concatenate(columns), n_nodes)
-    data = whole.sum_symmetric(np.concatenate(stiffness)[:, None, None])
-    mass_data = whole.sum(np.concatenate(mass)[:, None, None])
-    return whole.vector(whole.complete(data)), whole.scalar(mass_data)
+            turn, own = sectors.turn(k - alike[0]), next(slots)
+            stiffness[own] += own_stiffness.reshape(-1, 9) @ np.kron(turn, turn).T
+            mass[own] += own_mass
+    return whole.vector(whole.complete(stiffness.reshape(-1, 3, 3))), whole.scalar(mass)

@@ -5,24 +5,29 @@ crossbeam each. With the interiors of all parts eliminated, the stiffness of the
 
     S = K_cc - sum_p K_cp K_pp^-1 K_pc,
 
-is small and couples neighbouring cuts only. Parts that differ by a turn share K_pp^-1 and
-G = K_pp^-1 K_pc, so that a damaged cage costs a factorisation for every kind of part and one of S,
-and a load an interior solution only in those parts where it acts. The elimination is exact (static
+is small and couples neighbouring cuts only. In the frames of their sectors, parts that differ by a
+turn have the same matrices, so that a damaged cage costs an elimination for every kind of part and
+one of S, and a load is condensed only in those parts where it acts. It is exact (static
 condensation, R. J. Guyan, AIAA Journal 3 (1965) 380; as substructuring, J. S. Przemieniecki, ibid.
 1 (1963) 138).
 """
 
 from __future__ import annotations
 
+import logging
+import time
 from dataclasses import dataclass
-from functools import cached_property
 
 import numpy as np
 import scipy.sparse as sp
 
-from flexcage.fem.linear import LinearSolver, linear_solver
+from flexcage.fem.dissection import dissect
+from flexcage.fem.fronts import Contribution, Elimination
+from flexcage.fem.linear import check_factor
 from flexcage.fem.model import FEModel
 from flexcage.fem.sectors import Sectors, group_alike
+
+log = logging.getLogger(__name__)
 
 _ALIKE = 1e-11  # misfit of stiffness acting on a turned random field, relative to its action
 
@@ -32,7 +37,8 @@ class RingParts:
     """Nodes of a ring cut into parts: cut k lies between parts k - 1 and k."""
 
     sectors: Sectors
-    inside: np.ndarray  # (count, n_inside)
+    inside: np.ndarray  # (count, n_inside) in order of elimination
+    blocks: tuple[int, ...]  # nodes inside that are eliminated together
     cuts: np.ndarray  # (count, n_cut)
 
 
@@ -55,123 +61,139 @@ def find_parts(model: FEModel) -> RingParts | None:
         return None
     if len(numbers) != len(model.nodes) or not len(inside[0]) or not len(cuts[0]):
         return None
-    return RingParts(sectors, inside, cuts)
+    first = inside[0]
+    blocks = dissect(model.nodes[first], sp.csr_matrix(model.mass_scalar[first][:, first]))
+    order = np.concatenate(blocks)
+    return RingParts(sectors, inside[:, order], tuple(map(len, blocks)), cuts)
 
 
 @dataclass(frozen=True)
 class Kind:
-    """Parts that differ by a turn; matrices are those of the first of them."""
+    """Parts that differ by a turn; their unknowns are those inside, of cut k, and of cut k + 1,
+    each in its sector's frame."""
 
-    members: list[int]
-    solver: LinearSolver  # of K_pp
-    across: sp.csr_matrix  # K_pc (3 n_inside, 6 n_cut): cut k, then cut k + 1
-    coupling: np.ndarray  # G = K_pp^-1 K_pc (3 n_inside, 6 n_cut)
-    condensed: np.ndarray  # K_cp G (6 n_cut, 6 n_cut)
+    members: np.ndarray
+    elimination: Elimination  # of what is inside
 
 
 class CondensedRing:
-    """The factored stiffness of a ring held at six dofs on its cuts.
-
-    ``held`` are dofs of nodes on cuts that keep the body from rigid motion.
+    """The factored stiffness of a ring held at six dofs on its cuts, which keep it from rigid
+    motion: components ``along`` (6,) of places (6, 2), cuts and nodes on them, in sectors' frames.
     """
 
     def __init__(
-        self, model: FEModel, parts: RingParts, held: np.ndarray, *, kind: str = "auto"
+        self, model: FEModel, parts: RingParts, places: np.ndarray, along: np.ndarray
     ) -> None:
+        started = time.perf_counter()
         self.parts, self._count = parts, parts.sectors.count
         alike = [group_alike(action, _ALIKE) for action in _actions(model, parts)]
-        self.kinds = [self._condense(model, members, kind) for members in alike[0]]
+        self.kinds = [_condense(model, parts, members) for members in alike[0]]
         self.is_cyclic = len(alike[0]) == len(alike[1]) == 1  # all sectors differ by turns only
-        self._cut_dofs = dofs_of(parts.cuts.ravel())
-        free = np.flatnonzero(~np.isin(self._cut_dofs, held))
-        stiffness = self._cut_stiffness(model)[free][:, free]
-        self._free = free
-        self._cut_solver = linear_solver(sp.csr_matrix(stiffness), kind=kind)
+        held = 3 * np.ravel_multi_index(tuple(places.T), parts.cuts.shape) + along
+        self._cut_order = np.append(np.setdiff1d(np.arange(3 * parts.cuts.size), held), held)
+        self._cuts = self._eliminate_cuts(model, held)
         different = "1 kind" if len(self.kinds) == 1 else f"{len(self.kinds)} kinds"
-        self.name = f"{self._cut_solver.name}, {self._count} parts of {different}"
+        self.name = f"dense fronts, {self._count} parts of {different}"
+        check_factor(self.solve, model.K, dofs_of(parts.cuts[tuple(places.T)]))
+        seconds = time.perf_counter() - started
+        log.info("factored %d unknowns with %s in %.1f s", model.n_dof, self.name, seconds)
 
     def solve(self, loads: np.ndarray) -> np.ndarray:
         """Displacements (3N, m) of nodal loads (3N, m); reactions at the held dofs are free."""
-        m = loads.size // len(loads)
-        fields = np.ascontiguousarray(loads.T, float).reshape(m, -1, 3)
-        answer = np.empty_like(fields)
-        on_cuts = fields[:, self.parts.cuts]  # (m, count, n_cut, 3)
-        inside = [self._gather(kind, fields) for kind in self.kinds]
-        for kind, (acting, forces) in zip(self.kinds, inside):
-            pulls = np.zeros((len(acting), kind.coupling.shape[1]))
-            pulls[acting] = forces @ kind.coupling
-            nodal = pulls.reshape(m, len(kind.members), -1, 3)
-            first, second = np.split(self._turned(kind, nodal), 2, axis=2)
-            on_cuts[:, kind.members] -= first
-            on_cuts[:, (np.array(kind.members) + 1) % self._count] -= second
-        cuts = np.zeros((m, on_cuts[0].size))
-        cuts[:, self._free] = self._cut_solver.solve(on_cuts.reshape(m, -1)[:, self._free].T).T
-        answer[:, self.parts.cuts] = cuts = cuts.reshape(on_cuts.shape)
-        both = np.concatenate([cuts, np.roll(cuts, -1, axis=1)], axis=2)
-        for kind, (acting, forces) in zip(self.kinds, inside):
-            ends = self._turned(kind, both[:, kind.members], back=True).reshape(len(acting), -1)
-            moved = np.empty((len(acting), len(kind.coupling)))
-            moved[~acting] = -ends[~acting] @ kind.coupling.T
-            if acting.any():
-                forces = forces - (kind.across @ ends[acting].T).T
-                moved[acting] = kind.solver.solve(forces.T).T
-            nodal = moved.reshape(m, len(kind.members), -1, 3)
-            answer[:, self.parts.inside[kind.members]] = self._turned(kind, nodal)
-        return np.ascontiguousarray(answer.reshape(m, -1).T).reshape(loads.shape)
+        columns = np.ascontiguousarray(loads, float).reshape(len(loads), -1)
+        everywhere = np.arange(self._count)
+        cuts = self._local(columns, self.parts.cuts, everywhere)  # (3 n_cut, count, m)
+        touched = np.any(columns.reshape(len(loads) // 3, -1), axis=1)
+        acting = np.any(touched[self.parts.inside], axis=1)
+        condensed = [self._condensed(kind, acting, columns, cuts) for kind in self.kinds]
+        moved = self._solve_cuts(cuts)
+        answer = np.empty_like(columns)
+        for kind, (loaded, inside) in zip(self.kinds, condensed):
+            members = np.concatenate([loaded, np.setdiff1d(kind.members, loaded)])
+            fields = np.empty((kind.elimination.size, len(members) * columns.shape[1]))
+            fields[: len(inside), : inside.shape[1]] = inside
+            fields[: len(inside), inside.shape[1] :] = 0.0
+            ends = np.stack([moved[:, members], moved[:, (members + 1) % self._count]])
+            fields[len(inside) :] = ends.reshape(-1, fields.shape[1])
+            kind.elimination.expand(fields, inside.shape[1])
+            self._store(answer, self.parts.inside[members], members, fields[: len(inside)])
+        self._store(answer, self.parts.cuts, everywhere, moved)
+        return answer.reshape(loads.shape)
 
-    def _gather(self, kind: Kind, fields: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Which loads act inside a part of a kind (m members,), and these (n, 3 n_inside) turned to
-        its first member."""
-        loads = fields[:, self.parts.inside[kind.members]]
-        acting: np.ndarray = np.any(loads, axis=(2, 3))
-        turns = np.broadcast_to(self._turns(kind), (*acting.shape, 3, 3))
-        forces = loads[acting] @ turns[acting]
-        return acting.ravel(), forces.reshape(len(forces), len(kind.coupling))
+    def _condensed(
+        self, kind: Kind, acting: np.ndarray, loads: np.ndarray, cuts: np.ndarray
+    ) -> tuple[np.ndarray, np.ndarray]:
+        """The loaded parts of a kind, of all ``acting`` (count,), and the condensed loads inside
+        them (3 n_inside, parts m); what these do to the ``cuts`` (3 n_cut, count, m) is added
+        there."""
+        loaded = kind.members[acting[kind.members]]
+        n = kind.elimination.eliminated
+        fields = np.zeros((kind.elimination.size, len(loaded) * loads.shape[1]))
+        own = self._local(loads, self.parts.inside[loaded], loaded)
+        fields[:n] = own.reshape(n, fields.shape[1])
+        kind.elimination.condense(fields)
+        first, second = fields[n:].reshape(2, *cuts[:, loaded].shape)
+        cuts[:, loaded] += first
+        cuts[:, (loaded + 1) % self._count] += second
+        return loaded, fields[:n]
 
-    def _turned(self, kind: Kind, fields: np.ndarray, *, back: bool = False) -> np.ndarray:
-        """Fields (m, members, n, 3) turned from the first member to each, or back."""
-        turns = self._turns(kind)
-        return fields @ (turns if back else turns.transpose(0, 2, 1))
+    def _solve_cuts(self, cuts: np.ndarray) -> np.ndarray:
+        """Displacements of the cuts (3 n_cut, count, m) under loads there."""
+        by_cut = cuts.transpose(1, 0, 2)
+        fields = by_cut.reshape(len(self._cut_order), -1)[self._cut_order]
+        self._cuts.condense(fields)
+        fields[self._cuts.eliminated :] = 0.0
+        self._cuts.expand(fields)
+        moved = np.empty_like(fields)
+        moved[self._cut_order] = fields
+        return np.ascontiguousarray(moved.reshape(by_cut.shape).transpose(1, 0, 2))
 
-    def _turns(self, kind: Kind) -> np.ndarray:
-        """Rotations (members, 3, 3) from the first member of a kind to each."""
-        return np.stack([self.parts.sectors.turn(k - kind.members[0]) for k in kind.members])
+    def _local(self, fields: np.ndarray, places: np.ndarray, sectors: np.ndarray) -> np.ndarray:
+        """What fields (3N, m) are at the nodes ``places`` (k, n) of k sectors, in the frames of
+        these: (3 n, k, m)."""
+        taken = fields.take(_by_sector(places), axis=0)
+        self._turn(taken, sectors, back=True)
+        return taken
 
-    def _condense(self, model: FEModel, members: list[int], kind: str) -> Kind:
-        first = members[0]
-        inside = dofs_of(self.parts.inside[first])
-        ends = dofs_of(self._ends[first])
-        rows = model.K[inside]
-        solver = linear_solver(sp.csr_matrix(rows[:, inside]), kind=kind)
-        across = sp.csr_matrix(rows[:, ends])
-        coupling = np.asarray(solver.solve(across.toarray(order="F")))
-        return Kind(members, solver, across, coupling, np.asarray(across.T @ coupling))
+    def _store(
+        self, fields: np.ndarray, places: np.ndarray, sectors: np.ndarray, local: np.ndarray
+    ) -> None:
+        """The way back of ``_local``, into ``fields``; overwrites ``local``."""
+        local = local.reshape(-1, len(sectors), fields.shape[1])
+        self._turn(local, sectors)
+        fields[_by_sector(places)] = local
 
-    @cached_property
-    def _ends(self) -> np.ndarray:
-        """Nodes of the cuts at both ends of every part (count, 2 n_cut)."""
-        cuts = self.parts.cuts
-        return np.concatenate([cuts, np.roll(cuts, -1, axis=0)], axis=1)
+    def _turn(self, local: np.ndarray, sectors: np.ndarray, *, back: bool = False) -> None:
+        """Turn fields (3 n, k, m) from the frames of k sectors into the ring's, or back."""
+        turns = self.parts.sectors.turns[sectors].repeat(local.shape[2], axis=0)
+        cosine, sine = turns[:, 1, 1], -turns[:, 2, 1] if back else turns[:, 2, 1]
+        flat = local.reshape(len(local) // 3, 3, len(turns))  # long rows are fast
+        y, z = flat[:, 1], flat[:, 2]
+        across = sine * y
+        y *= cosine
+        y -= sine * z
+        z *= cosine
+        z += across
 
-    def _cut_stiffness(self, model: FEModel) -> sp.csr_matrix:
-        """S with all its dofs, numbered cut by cut."""
-        size = len(self._cut_dofs)
-        number = np.empty(model.n_dof, np.int32)
-        number[self._cut_dofs] = np.arange(size)
-        rows, columns, values = [], [], []
+    def _eliminate_cuts(self, model: FEModel, held: np.ndarray) -> Elimination:
+        """S cut by cut; what is left are the held dofs."""
+        n_cut = 3 * self.parts.cuts.shape[1]
+        number = np.argsort(self._cut_order)
+        cuts = self.parts.cuts.ravel()
+        turns = np.repeat(self.parts.sectors.turns, self.parts.cuts.shape[1], axis=0)
+        stiffness = local_stiffness(model, (cuts, turns), (cuts, turns))
+        more: list[Contribution] = []
         for kind in self.kinds:
+            schur = kind.elimination.schur
             for k in kind.members:
-                turn = self.parts.sectors.turn(k - kind.members[0])
-                n = len(kind.condensed) // 3
-                blocks = kind.condensed.reshape(n, 3, n, 3)
-                turned = np.einsum("ab,ibjd,cd->iajc", turn, blocks, turn, optimize=True)
-                own = number[dofs_of(self._ends[k])]
-                rows.append(np.repeat(own, len(own)))
-                columns.append(np.tile(own, len(own)))
-                values.append(turned.ravel())
-        pairs = np.concatenate(rows), np.concatenate(columns)
-        taken = sp.coo_matrix((np.concatenate(values), pairs), (size, size)).tocsr()
-        return sp.csr_matrix(model.K[self._cut_dofs][:, self._cut_dofs] - taken)
+                following = (k + 1) % self._count
+                ends = np.concatenate(
+                    [np.arange(c * n_cut, (c + 1) * n_cut) for c in (k, following)]
+                )
+                rising = np.argsort(number[ends])
+                more.append((number[ends][rising], schur[np.ix_(rising, rising)]))
+        sizes = n_cut - np.bincount(held // n_cut, minlength=self._count)
+        return Elimination(stiffness[self._cut_order][:, self._cut_order], sizes, more)
 
 
 def dofs_of(nodes: np.ndarray) -> np.ndarray:
@@ -179,10 +201,38 @@ def dofs_of(nodes: np.ndarray) -> np.ndarray:
     return (3 * nodes[:, None] + np.arange(3)).ravel()
 
 
+def _by_sector(places: np.ndarray) -> np.ndarray:
+    """Unknowns (3 n, k) of nodes (k, n)."""
+    dofs = 3 * places.T[:, None, :] + np.arange(3)[:, None]
+    return dofs.reshape(3 * places.shape[1], len(places))
+
+
+Turned = tuple[np.ndarray, np.ndarray]  # nodes (n,) and rotations (n, 3, 3) to their frames
+
+
+def local_stiffness(model: FEModel, rows: Turned, columns: Turned) -> sp.csr_matrix:
+    """The stiffness (3 n, 3 m) between nodes, in the frames of their sectors."""
+    taken = model.K[dofs_of(rows[0])][:, dofs_of(columns[0])].tobsr(blocksize=(3, 3))
+    back = rows[1].transpose(0, 2, 1).repeat(np.diff(taken.indptr), axis=0)
+    blocks = back @ taken.data @ columns[1][taken.indices]
+    return sp.bsr_matrix((blocks, taken.indices, taken.indptr), shape=taken.shape).tocsr()
+
+
+def _condense(model: FEModel, parts: RingParts, members: list[int]) -> Kind:
+    first = members[0]
+    following = (first + 1) % parts.sectors.count
+    inside = parts.inside[first]
+    nodes = np.concatenate([inside, parts.cuts[first], parts.cuts[following]])
+    sectors = np.repeat([first, following], [len(nodes) - parts.cuts.shape[1], parts.cuts.shape[1]])
+    turns = parts.sectors.turns[sectors]
+    stiffness = local_stiffness(model, (inside, turns[: len(inside)]), (nodes, turns))
+    return Kind(np.array(members), Elimination(stiffness, 3 * np.array(parts.blocks)))
+
+
 def _actions(model: FEModel, parts: RingParts) -> list[np.ndarray]:
     """What stiffness and mass make of a random field that repeats, on the inside of every part
     (count, 2 n, 3) and on every cut: turned back, and relative to the largest."""
-    turns = np.stack([parts.sectors.turn(k) for k in range(parts.sectors.count)])
+    turns = parts.sectors.turns
     rng = np.random.default_rng(0)
     field = np.empty((len(model.nodes), 3))
     for nodes in (parts.inside, parts.cuts):

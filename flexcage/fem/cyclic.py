@@ -9,13 +9,12 @@ n = 0 to Z/2: so x, on the nodes of one sector, is an eigenvector of a small Her
 from __future__ import annotations
 
 import logging
-from collections.abc import Callable
 
 import numpy as np
 import scipy.sparse as sp
 from scipy.linalg import cho_factor, cho_solve
 
-from flexcage.fem.condensed import CondensedRing, dofs_of
+from flexcage.fem.condensed import CondensedRing, local_stiffness
 from flexcage.fem.lanczos import lowest_modes
 from flexcage.fem.model import FEModel
 
@@ -55,16 +54,16 @@ class Harmonic:
     """
 
     def __init__(self, model: FEModel, ring: CondensedRing, order: int) -> None:
-        parts, self._kind = ring.parts, ring.kinds[0]
+        parts, self._elimination = ring.parts, ring.kinds[0].elimination
         count = parts.sectors.count
         self._model, self._parts, self.order = model, parts, order
         self.copies = 1 if 2 * order in (0, count) else 2  # modes of the ring from one x
         self.dtype = float if self.copies == 1 else complex
         own, following = (np.concatenate([parts.inside[k], parts.cuts[k]]) for k in (0, 1))
-        self.n_dof, self._n_inside = 3 * len(own), 3 * parts.inside.shape[1]
-        self._turn = self._phase(1) * parts.sectors.turn(1)
+        self.n_dof = 3 * len(own)
+        self._ahead = self._phase(1)  # of the next sector's field, in that sector's frame
         mass = model.mass_scalar[own]
-        across = sp.kron(mass[:, following], self._turn)
+        across = sp.kron(mass[:, following], self._ahead * parts.sectors.turn(1))
         self._mass = sp.csr_matrix(
             sp.kron(mass[:, own], np.eye(3)) + across + across.conj().T, dtype=self.dtype
         )
@@ -92,45 +91,33 @@ class Harmonic:
 
     def _cut_stiffness(self) -> np.ndarray:
         """Hermitian stiffness of the cut (3 n_cut, 3 n_cut); rigid motion made stiff."""
-        stiffness, (cut, following) = self._model.K, self._parts.cuts[:2]
-        rows = stiffness[dofs_of(cut)]
-        own = rows[:, dofs_of(cut)].toarray()
-        across = self._spread(rows[:, dofs_of(following)].toarray().T).T
-        condensed = self._both_ends(self._both_ends(self._kind.condensed).conj().T)
-        total = own + across + across.conj().T - condensed
-        rigid = np.linalg.qr(self._rigid[self._n_inside :])[0]
+        cuts, turns = self._parts.cuts[:2], self._parts.sectors.turns[:2]
+        placed = [(cut, np.broadcast_to(turn, (len(cut), 3, 3))) for cut, turn in zip(cuts, turns)]
+        own, across = (local_stiffness(self._model, placed[0], p).toarray() for p in placed)
+        across = self._ahead * across
+        condensed = self._both_ends(self._both_ends(self._elimination.schur).conj().T)
+        total = own + across + across.conj().T + condensed
+        rigid = np.linalg.qr(self._rigid[self._elimination.eliminated :])[0]
         return total + np.abs(np.diag(own)).mean() * (rigid @ rigid.conj().T)
-
-    def _spread(self, fields: np.ndarray) -> np.ndarray:
-        """The transpose of turning on by a sector: fields (3n, m) at the next cut."""
-        nodal = fields.reshape(-1, 3, fields.shape[1])
-        return np.einsum("ab,nam->nbm", self._turn, nodal).reshape(fields.shape)
 
     def _both_ends(self, pulls: np.ndarray) -> np.ndarray:
         """Forces (6 n_cut, m) on both cuts of a part, all brought to the first."""
         first, second = np.split(pulls, 2)
-        nodal = second.reshape(-1, 3, second.shape[1])
-        return first + np.einsum("ba,nbm->nam", self._turn.conj(), nodal).reshape(first.shape)
+        return first + np.conj(self._ahead) * second
 
     def flexibility(self, loads: np.ndarray) -> np.ndarray:
         """Inertia-relieved displacements (3n, m) of loads (3n, m)."""
         loads = loads - self.mass_times(self._rigid) @ (self._rigid.conj().T @ loads)
-        inside, cut = np.split(loads, [self._n_inside])
-        coupling = self._kind.coupling
-        pulls = self._really(lambda columns: coupling.T @ columns, inside)
-        moved = cho_solve(self._cut_factor, cut - self._both_ends(pulls))
-        nodal = moved.reshape(-1, 3, moved.shape[1])
-        ahead = np.einsum("ab,nbm->nam", self._turn, nodal).reshape(moved.shape)
-        inside = inside - self._kind.across @ np.vstack([moved, ahead])
-        answer = np.vstack([self._really(self._kind.solver.solve, inside), moved])
+        elimination, n = self._elimination, self._elimination.eliminated
+        fields = np.zeros((elimination.size, loads.shape[1]), self.dtype)
+        fields[:n] = loads[:n]
+        columns = fields.view(float)  # real and imaginary parts: the elimination is real
+        elimination.condense(columns)
+        moved = cho_solve(self._cut_factor, loads[n:] + self._both_ends(fields[n:]))
+        fields[n:] = np.vstack([moved, self._ahead * moved])
+        elimination.expand(columns)
+        answer = fields[: len(loads)]
         return answer - self._rigid @ (self._rigid.conj().T @ self.mass_times(answer))
-
-    def _really(
-        self, operate: Callable[[np.ndarray], np.ndarray], fields: np.ndarray
-    ) -> np.ndarray:
-        """What a real operator makes of fields (n, m): real and imaginary parts as its columns."""
-        columns = np.ascontiguousarray(fields, self.dtype).view(float)
-        return np.ascontiguousarray(operate(columns)).view(self.dtype)
 
     def shapes(self, fields: np.ndarray) -> np.ndarray:
         """Mass-orthonormal shapes of the ring (3N, m or 2 m) from orthonormal fields (3n, m)."""

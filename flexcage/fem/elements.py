@@ -81,9 +81,14 @@ class BlockPattern:
         return pattern
 
     def _number(self, rows: np.ndarray, columns: np.ndarray, n_nodes: int) -> None:
-        keys, self.slots = np.unique(rows * np.int64(n_nodes) + columns, return_inverse=True)
-        self.columns = (keys % n_nodes).astype(np.int32)
-        counts = np.bincount(keys // n_nodes, minlength=n_nodes)
+        by_column = _counted(columns, n_nodes)
+        order = by_column[_counted(rows[by_column], n_nodes)]
+        rows, columns = rows[order], columns[order]
+        new = np.append(True, (np.diff(rows) != 0) | (np.diff(columns) != 0))
+        self.slots = np.empty(len(order), np.int32)
+        self.slots[order] = np.cumsum(new) - 1
+        self.columns = columns[new].astype(np.int32)
+        counts = np.bincount(rows[new], minlength=n_nodes)
         self.starts = np.concatenate([[0], np.cumsum(counts)]).astype(np.int32)
         self.n_nodes = n_nodes
 
@@ -98,16 +103,16 @@ class BlockPattern:
         slots = self.slots[first * n2 : (first + len(blocks)) * n2]
         return np.bincount(slots, weights=blocks.ravel(), minlength=len(self.columns))
 
-    def sum_symmetric(self, blocks: np.ndarray, first: int = 0) -> np.ndarray:
-        """The upper triangles (nnz, 3, 3) of sums of (n_cells, n, n, 3, 3) blocks."""
-        data = np.zeros((len(self.columns), 3, 3))
-        for a in range(3):
-            for b in range(a, 3):
-                data[:, a, b] = self.sum(np.ascontiguousarray(blocks[..., a, b]), first)
-        return data
+    def sum_blocks(self, blocks: np.ndarray, first: int = 0) -> np.ndarray:
+        """Sums (nnz, 3, 3) of (n_cells, n, n, 3, 3) blocks of cells ``first``..."""
+        n, n2 = blocks.size // 9, blocks.shape[1] * blocks.shape[2]
+        slots = self.slots[first * n2 : first * n2 + n]
+        adding = sp.csc_matrix((np.ones(n), slots, np.arange(n + 1)), (len(self.columns), n))
+        summed = adding @ blocks.reshape(n, 9)
+        return summed.reshape(-1, 3, 3)
 
     def complete(self, data: np.ndarray) -> np.ndarray:
-        """``data`` with lower triangles: the block (b, a) at (i, j) is (a, b) at (j, i)."""
+        """``data`` with other lower triangles: the block (b, a) at (i, j) is (a, b) at (j, i)."""
         numbered = self.scalar(np.arange(1, len(self.columns) + 1, dtype=np.int64))
         transposed = numbered.T.tocsr().data - 1
         for a in range(3):
@@ -122,3 +127,10 @@ class BlockPattern:
         """csr (3N, 3N) of (nnz, 3, 3) node blocks; dof = 3 node + component."""
         size = 3 * self.n_nodes
         return sp.bsr_matrix((data, self.columns, self.starts), shape=(size, size)).tocsr()
+
+
+def _counted(numbers: np.ndarray, n: int) -> np.ndarray:
+    """The stable order of numbers (m,) from 0 to n - 1, by counting: faster than comparing them."""
+    m = len(numbers)
+    entries = (np.ones(m, np.int8), numbers, np.arange(m + 1))
+    return sp.csr_matrix(entries, (m, n)).tocsc().indices

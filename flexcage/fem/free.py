@@ -11,6 +11,7 @@ from flexcage.core.errors import InputError
 from flexcage.fem.condensed import CondensedRing, find_parts
 from flexcage.fem.linear import linear_solver
 from flexcage.fem.model import FEModel
+from flexcage.fem.tall import inner_products, subtract_product
 
 
 class FreeBodySolver:
@@ -21,7 +22,7 @@ class FreeBodySolver:
     no reaction there, so the supports leave no trace once the rigid part of the answer is
     removed. The operator is symmetric, and the pseudo-inverse of K in the metric of the mass.
     A ring built of sectors is cut into parts that are factored once for every kind
-    (``condensed``), any other body as a whole.
+    (``condensed``), any other body as a whole, by the linear solver that ``kind`` names.
     """
 
     def __init__(self, model: FEModel, *, kind: str = "auto") -> None:
@@ -33,14 +34,14 @@ class FreeBodySolver:
         model, parts = self.model, find_parts(self.model)
         if parts is None:
             return HeldBody(model.K, _supports(model.points), kind=self._kind)
-        on_cuts = np.sort(parts.cuts[parts.cuts < len(model.points)])
-        held = _supports(model.points[on_cuts])
-        held = 3 * on_cuts[held // 3] + held % 3
-        return CondensedRing(model, parts, held, kind=self._kind)
+        vertices = np.argwhere(parts.cuts < len(model.points))
+        points = model.points[parts.cuts[*vertices.T]]
+        held = _supports(points, parts.sectors.turns[vertices[:, 0]])
+        return CondensedRing(model, parts, vertices[held // 3], held % 3)
 
     def factor(self) -> None:
         """Factor the body now: before threads share it, each of which would."""
-        self._inertia_answers  # noqa: B018
+        self._rigid_and_inertia  # noqa: B018
 
     def solve(self, loads: np.ndarray) -> np.ndarray:
         """Displacements (3N, m) of nodal loads (3N, m), orthogonal in mass to rigid motions.
@@ -48,17 +49,21 @@ class FreeBodySolver:
         Solves K u = F - M R (R^T F), R the mass-orthonormal rigid motions. The answer to M R is
         kept, so that a load on few nodes stays one.
         """
-        work = self.model.rigid_modes.T @ loads
-        return self.model.remove_rigid(self.solver.solve(loads) - self._inertia_answers @ work)
+        work = inner_products(self.model.rigid_modes, loads)
+        answer = self.solver.solve(loads)
+        rigid = self.model.rigid_part(answer)
+        subtract_product(answer, self._rigid_and_inertia, np.concatenate([rigid, work]))
+        return answer
 
     def solve_balanced(self, loads: np.ndarray) -> np.ndarray:
         """The same for loads known to be balanced (no work on rigid motions)."""
         return self.model.remove_rigid(self.solver.solve(loads))
 
     @cached_property
-    def _inertia_answers(self) -> np.ndarray:
-        """What the held body answers (3N, 6) to the inertia of rigid motions."""
-        return self.solver.solve(self.model.mass_times(self.model.rigid_modes))
+    def _rigid_and_inertia(self) -> np.ndarray:
+        """Rigid motions, and answers to their inertia without rigid motion (3N, 12)."""
+        rigid = self.model.rigid_modes
+        return np.hstack([rigid, self.solve_balanced(self.model.mass_times(rigid))])
 
 
 class HeldBody:
@@ -76,8 +81,11 @@ class HeldBody:
         return answer
 
 
-def _supports(points: np.ndarray) -> np.ndarray:
-    """Six dofs (3-2-1) at three vertices far apart that hold a body without straining it."""
+def _supports(points: np.ndarray, axes: np.ndarray | None = None) -> np.ndarray:
+    """Six dofs (3-2-1) at three vertices far apart that hold a body without straining it.
+
+    ``axes`` (n, 3, 3): directions of every vertex's dofs as columns, by default those of the frame.
+    """
     centre = points.mean(axis=0)
     first = int(np.argmax(np.linalg.norm(points - centre, axis=1)))
     second = int(np.argmax(np.linalg.norm(points - points[first], axis=1)))
@@ -87,14 +95,15 @@ def _supports(points: np.ndarray) -> np.ndarray:
     third = int(np.argmax(np.linalg.norm(normal, axis=1)))
     if np.linalg.norm(normal[third]) < 1e-9 * np.linalg.norm(points[second] - points[first]):
         raise InputError("all mesh points lie on one line", where="mesh", value=len(points))
-    return _hold(points, (first, second, third))
+    axes = np.broadcast_to(np.eye(3), (len(points), 3, 3)) if axes is None else axes
+    return _hold(points, axes, (first, second, third))
 
 
-def _hold(points: np.ndarray, chosen: tuple[int, int, int]) -> np.ndarray:
+def _hold(points: np.ndarray, axes: np.ndarray, chosen: tuple[int, int, int]) -> np.ndarray:
     """All of the first vertex and three best-conditioned dofs of the other two."""
     first, second, third = chosen
     candidates = [3 * node + comp for node in (second, third) for comp in range(3)]
-    rows = np.array([_rotation_row(points, first, dof) for dof in candidates])
+    rows = np.array([_rotation_row(points, axes, first, dof) for dof in candidates])
     rows /= np.linalg.norm(points[second] - points[first])
     best, held = 0.0, candidates[:3]
     for i in range(6):
@@ -106,7 +115,7 @@ def _hold(points: np.ndarray, chosen: tuple[int, int, int]) -> np.ndarray:
     return np.array([3 * first, 3 * first + 1, 3 * first + 2, *held])
 
 
-def _rotation_row(points: np.ndarray, first: int, dof: int) -> np.ndarray:
-    """Displacement of a dof under unit rotations about the three axes through ``first``."""
+def _rotation_row(points: np.ndarray, axes: np.ndarray, first: int, dof: int) -> np.ndarray:
+    """Displacement of a dof under unit rotations about the frame's axes through ``first``."""
     node, comp = divmod(dof, 3)
-    return np.cross(np.eye(3), points[node] - points[first])[:, comp]
+    return np.cross(np.eye(3), points[node] - points[first]) @ axes[node][:, comp]

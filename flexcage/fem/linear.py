@@ -3,8 +3,8 @@
 ``linear_solver(A)`` factors A once with CHOLMOD (cvxopt), PARDISO (pypardiso), or SciPy's SuperLU,
 which is always there. On an N1013 cage of 98,000 unknowns (one thread) they factor in 1.2, 1.9
 and 2.0 s and solve one of many right-hand sides in 33, 34 and 18 ms; on one of 263,000
-in 8, 6 and 30 s, and 118, 105 and 105 ms. Cages that flexcage meshes itself are solved part by
-part (``condensed``), with matrices of a few thousand unknowns.
+in 8, 6 and 30 s, and 118, 105 and 105 ms. Cages that flexcage meshes itself need none of them:
+they are solved part by part (``condensed``).
 """
 
 from __future__ import annotations
@@ -13,6 +13,7 @@ import importlib.util
 import logging
 import os
 import time
+from collections.abc import Callable, Sequence
 from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
@@ -26,7 +27,7 @@ KINDS = ("cholmod", "pardiso", "superlu")
 _SUPERLU_LIMIT = 150_000  # unknowns up to which 'auto' takes it
 _TOGETHER = 16  # right-hand sides that SuperLU solves fastest: more do not stay in the cache
 _MODULES = {"cholmod": "cvxopt", "pardiso": "pypardiso", "superlu": "scipy"}
-_SINGULAR = (
+SINGULAR = (
     "the matrix is not positive definite ({what}): the body has loose parts, "
     "inverted elements or too few supports"
 )
@@ -59,7 +60,7 @@ class Cholmod(LinearSolver):
         try:
             cholmod.numeric(packed, self._factor)
         except ArithmeticError as error:
-            raise RunFailed(_SINGULAR.format(what=f"pivot {error}")) from error
+            raise RunFailed(SINGULAR.format(what=f"pivot {error}")) from error
 
     def solve(self, rhs: np.ndarray) -> np.ndarray:
         columns = self._matrix(np.asfortranarray(rhs.reshape(len(rhs), -1), dtype=float))
@@ -82,7 +83,7 @@ class Pardiso(LinearSolver):
         try:
             self._pardiso.factorize(self._upper)
         except PyPardisoError as error:
-            raise RunFailed(_SINGULAR.format(what=str(error))) from error
+            raise RunFailed(SINGULAR.format(what=str(error))) from error
 
     def solve(self, rhs: np.ndarray) -> np.ndarray:
         columns = np.asfortranarray(rhs.reshape(len(rhs), -1), dtype=float)
@@ -111,7 +112,7 @@ class SuperLu(LinearSolver):
                 options={"SymmetricMode": True},
             )
         except RuntimeError as error:
-            raise RunFailed(_SINGULAR.format(what=str(error))) from error
+            raise RunFailed(SINGULAR.format(what=str(error))) from error
 
     def solve(self, rhs: np.ndarray) -> np.ndarray:
         rhs = np.asarray(rhs, float)
@@ -171,15 +172,23 @@ def linear_solver(matrix: sp.csr_matrix, *, kind: str = "auto") -> LinearSolver:
         )
     started = time.perf_counter()
     solver = _SOLVERS[kind](matrix)
-    _probe(solver, matrix)
+    check_factor(solver.solve, matrix)
     seconds = time.perf_counter() - started
     log.info("factored %d unknowns with %s in %.1f s", matrix.shape[0], solver.name, seconds)
     return solver
 
 
-def _probe(solver: LinearSolver, matrix: sp.csr_matrix) -> None:
-    """Refuse a factor that cannot give back a known solution: a singular matrix may factor."""
+def check_factor(
+    solve: Callable[[np.ndarray], np.ndarray],
+    matrix: sp.csr_matrix,
+    held: Sequence[int] | np.ndarray = (),
+) -> None:
+    """Refuse a factor that cannot give back a known solution: a singular matrix may factor.
+
+    ``held`` unknowns are zero in the solution, and what acts on them does not matter.
+    """
     known = np.random.default_rng(0).standard_normal(matrix.shape[0])
-    error = np.abs(solver.solve(matrix @ known) - known).max()
+    known[np.asarray(held, int)] = 0.0
+    error = np.abs(solve(matrix @ known) - known).max()
     if not error < 1e-3:
-        raise RunFailed(_SINGULAR.format(what=f"a known solution comes back wrong by {error:.1g}"))
+        raise RunFailed(SINGULAR.format(what=f"a known solution comes back wrong by {error:.1g}"))

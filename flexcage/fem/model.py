@@ -5,7 +5,7 @@ from __future__ import annotations
 import logging
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
-from functools import cached_property
+from functools import cache, cached_property
 from types import MappingProxyType
 
 import numpy as np
@@ -15,6 +15,7 @@ from flexcage.core.errors import InputError
 from flexcage.fem import elements
 from flexcage.fem.assembly import Elements, assemble_ring, assemble_whole
 from flexcage.fem.sectors import Sectors, find_sectors
+from flexcage.fem.tall import inner_products, subtract_product
 from flexcage.geometry.materials import Material
 from flexcage.mesh.cage_mesh import signed_volumes
 
@@ -98,8 +99,13 @@ class FEModel:
 
     def remove_rigid(self, fields: np.ndarray) -> np.ndarray:
         """Displacements (3N, m) less their rigid part: orthogonal in mass to rigid motions."""
-        rigid = self.rigid_modes
-        return fields - rigid @ (self._mass_rigid.T @ fields)
+        elastic = np.array(fields, float)
+        subtract_product(elastic, self.rigid_modes, self.rigid_part(fields))
+        return elastic
+
+    def rigid_part(self, fields: np.ndarray) -> np.ndarray:
+        """Rigid motion (6, m) in displacements (3N, m)."""
+        return inner_products(self._mass_rigid, fields)
 
     def balance(self, loads: np.ndarray) -> np.ndarray:
         """Nodal loads (3N, m) less the inertia of the rigid acceleration they cause."""
@@ -166,12 +172,11 @@ class FEModel:
         normal = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
         area = 0.5 * np.linalg.norm(normal, axis=1)
         values = functions(where.reshape(-1, 3)).reshape(-1, *where.shape[:2])
-        entries = np.einsum("mtq,kq,q,t->mtk", values, shapes, rule_weights, area, optimize=True)
-        nodes = self.face_nodes(triangles)
-        rows = np.broadcast_to(np.arange(len(values))[:, None, None], entries.shape)
-        columns = np.broadcast_to(nodes[None], entries.shape)
+        entries = values @ (shapes * rule_weights).T * area[:, None]
+        function, triangle, corner = np.nonzero(entries)
+        columns = self.face_nodes(triangles)[triangle, corner]
         shape = (len(values), len(self.nodes))
-        return sp.coo_matrix((entries.ravel(), (rows.ravel(), columns.ravel())), shape).tocsr()
+        return sp.coo_matrix((entries[entries != 0.0], (function, columns)), shape).tocsr()
 
     def group(self, name: str) -> np.ndarray:
         """Triangles (n, 3) of a named group."""
@@ -189,6 +194,7 @@ def _edge_keys(pairs: np.ndarray, n_points: int) -> np.ndarray:
     return pairs[..., 0].astype(np.int64) * n_points + pairs[..., 1]
 
 
+@cache
 def _triangle_rule() -> tuple[np.ndarray, np.ndarray]:
     """Degree-6 rule on the reference triangle, weights summing to one (hats have kinks)."""
     from skfem.quadrature import get_quadrature

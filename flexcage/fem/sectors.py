@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
@@ -38,6 +39,11 @@ class Sectors:
     def turn(self, sectors: int) -> np.ndarray:
         """Rotation (3, 3) by a number of sectors."""
         return rotation_x(2.0 * np.pi * sectors / self.count)
+
+    @cached_property
+    def turns(self) -> np.ndarray:
+        """Rotations (count, 3, 3) from the first sector's frame, the ring's, to all sectors'."""
+        return np.stack([self.turn(k) for k in range(self.count)])
 
     def alike(self, points: np.ndarray, vertices: np.ndarray) -> list[list[int]]:
         """Sectors whose ``vertices`` (count, n) of ``points`` differ by a turn only, together."""

@@ -24,10 +24,13 @@ class CyclicSymmetry:
         for _ in range(sectors % self.count):
             target = self.image[target]
         matrix = rotation_x(2.0 * np.pi * sectors / self.count)
-        turned = np.empty_like(fields)
         nodal = fields.reshape(len(self.image), 3, -1)
-        turned.reshape(nodal.shape)[target] = np.einsum("ab,nbm->nam", matrix, nodal)
-        return turned
+        moved, turned = np.empty_like(nodal), np.empty_like(nodal)
+        moved[:, 0] = nodal[:, 0]
+        moved[:, 1] = matrix[1, 1] * nodal[:, 1] + matrix[1, 2] * nodal[:, 2]
+        moved[:, 2] = matrix[2, 1] * nodal[:, 1] + matrix[2, 2] * nodal[:, 2]
+        turned[target] = moved
+        return turned.reshape(fields.shape)
 
 
 def find_symmetry(model: FEModel, count: int, *, tolerance: float = 1e-8) -> CyclicSymmetry | None:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
+from functools import cached_property
 from types import MappingProxyType
 
 import numpy as np
@@ -71,7 +72,7 @@ class CageMesh:
         proxies = {key: MappingProxyType(state[key]) for key in ("groups", "info")}
         self.__dict__.update({**state, **proxies})
 
-    @property
+    @cached_property
     def volume(self) -> float:
         """Volume [m^3], the sum of signed tetrahedra."""
         return float(signed_volumes(self.points, self.tets).sum())

@@ -11,7 +11,6 @@ The six rigid motions in their span are removed and the rest made mass-orthonorm
 from __future__ import annotations
 
 import numpy as np
-import scipy.sparse as sp
 from scipy.linalg import lu_factor, lu_solve
 
 from flexcage.fem.free import FreeBodySolver
@@ -49,9 +48,8 @@ class HeldInterface:
     ) -> None:
         self._solver = solver
         model = solver.model
-        pairs = list(pocket_statics(solver, pocket_count, count))
-        self._loads = sp.hstack([loads for loads, _ in pairs], format="csc")
-        self._static = np.column_stack([static for _, static in pairs])
+        self._loads, answers = pocket_statics(solver, pocket_count, count)
+        self._static = answers.reshape(self._loads.shape)
         self._rigid = model.rigid_modes
         motion = self._loads.T @ self._rigid
         compliance = self._loads.T @ self._static

@@ -10,7 +10,7 @@ loads, contacts and root stress).
 from __future__ import annotations
 
 import logging
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping
 
 import numpy as np
 import scipy.sparse as sp
@@ -20,6 +20,7 @@ from flexcage.core.errors import InputError
 from flexcage.fem.free import FreeBodySolver
 from flexcage.fem.modal import free_modes
 from flexcage.fem.symmetry import find_symmetry
+from flexcage.fem.tall import inner_products, subtract_product
 from flexcage.modes.basis import ModeBasis, ResidualFlexibility
 from flexcage.modes.lands import land_vectors
 from flexcage.modes.pockets import LOADS, LOADS_PER_POCKET, check_groups, sparse_pocket_loads
@@ -27,16 +28,15 @@ from flexcage.modes.spec import ModesSpec
 
 log = logging.getLogger(__name__)
 
-Answer = tuple[sp.csc_matrix, np.ndarray]  # a pocket's loads (3N, m) and what they do to the cage
 _STIFF = 1.5  # times the middle frequency of crossbeams: no bending of their own
 
 
 def build(solver: FreeBodySolver, *, pocket_count: int, spec: ModesSpec) -> ModeBasis:
     """Free modes + centrifugal shape + residual attachment vectors of all pocket faces."""
     check_groups(solver.model, pocket_count)
-    answers = list(pocket_statics(solver, pocket_count, LOADS[spec.attachments]))
+    loads, answers = pocket_statics(solver, pocket_count, LOADS[spec.attachments])
     kept, kept_stiffness, kinds = dynamic_modes(solver, spec, answers)
-    vectors, own_stiffness, share = residual_vectors(kept, kept_stiffness, answers)
+    vectors, own_stiffness, share = residual_vectors(kept, kept_stiffness, loads, answers)
     if spec.dynamic == "all":
         n = kinds.count("free")
         others = np.column_stack([kept[:, n:], vectors])
@@ -63,13 +63,13 @@ def build_without_attachments(
 
 
 def dynamic_modes(
-    solver: FreeBodySolver, spec: ModesSpec, answers: Sequence[Answer] = ()
+    solver: FreeBodySolver, spec: ModesSpec, answers: np.ndarray | None = None
 ) -> tuple[np.ndarray, np.ndarray, list[str]]:
     """Shapes (3N, n), stiffnesses (n,) and kinds: free modes, centrifugal shape, crossbeams' and
-    lands' static shapes. ``answers``: the pockets' loads and answers to them, if any."""
+    lands' static shapes. ``answers``: to the pockets' loads (3N, Z, m), if any."""
     omega2, free = free_modes(solver, spec.count)
     static = {"centrifugal": centrifugal_mode(solver, free)[:, None]}
-    if spec.crossbeams and answers:
+    if spec.crossbeams and answers is not None:
         static["crossbeam"] = crossbeam_vectors(solver, free, answers)
     values, shapes = ritz_modes(solver, np.hstack([*static.values()]), away_from=free)
     if spec.land:
@@ -80,19 +80,17 @@ def dynamic_modes(
     return np.hstack([free, shapes]), np.append(omega2, values), kinds
 
 
-def crossbeam_vectors(
-    solver: FreeBodySolver, free: np.ndarray, answers: Sequence[Answer]
-) -> np.ndarray:
-    """Mass-orthonormal shapes (3N, m), m <= Z, that pushing crossbeams adds to eigenmodes (3N, n).
+def crossbeam_vectors(solver: FreeBodySolver, free: np.ndarray, answers: np.ndarray) -> np.ndarray:
+    """Mass-orthonormal shapes (3N, n), n <= Z, that pushing crossbeams adds to eigenmodes.
+
+    ``free``: these (3N, ...); ``answers``: to the pockets' loads (3N, Z, m).
 
     A push is even, circumferential, half of it on either face. What free modes and rigid motion
     leave of pushes that move the cage as a whole is stiff: such shapes are left out.
     """
-    statics = [static for _, static in answers]
     front, rear = 0, 2  # a pocket's even loads there
-    after = statics[1:] + statics[:1]
-    pushed = [this[:, front] - other[:, rear] for this, other in zip(statics, after)]
-    values, shapes = ritz_modes(solver, np.column_stack(pushed), away_from=free)
+    pushed = answers[:, :, front] - np.roll(answers[:, :, rear], -1, axis=1)
+    values, shapes = ritz_modes(solver, pushed, away_from=free)
     return shapes[:, values < _STIFF**2 * np.median(values)]
 
 
@@ -140,10 +138,10 @@ def centrifugal_mode(solver: FreeBodySolver, modes: np.ndarray) -> np.ndarray:
 
 
 def residual_vectors(
-    kept: np.ndarray, kept_stiffness: np.ndarray, answers: Sequence[Answer]
+    kept: np.ndarray, kept_stiffness: np.ndarray, loads: sp.csc_matrix, answers: np.ndarray
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Residual attachment vectors Psi (3N, m Z), m a pocket, their stiffness Psi^T K Psi, and how
-    much of the deflection under a load is theirs (m Z,).
+    much of the deflection under a load is theirs (m Z,). Psi takes the place of ``answers``.
 
     A vector is the inertia-relieved answer to a pocket load less the part that the kept modes
     carry, so that K-products with all kept modes vanish (mass products too with eigenmodes; static
@@ -151,38 +149,37 @@ def residual_vectors(
     coordinates are metres of mean face displacement. As K Psi_j is then the load j over its
     scale but for forces that do no work on Psi, the stiffness needs no product with K.
     """
-    work, share = [], []
-    shapes = np.empty((len(kept), sum(loads.shape[1] for loads, _ in answers)))
-    done = 0
-    for loads, static in answers:
-        own = shapes[:, done : done + loads.shape[1]]
-        done += loads.shape[1]
-        own[:] = static - kept @ ((loads.T @ kept).T / kept_stiffness[:, None])
-        scale = np.diag(loads.T @ own)
-        own /= scale
-        work.append(sp.diags_array(1.0 / scale) @ loads.T)
-        share.append(scale / np.diag(loads.T @ static))
-    stiffness = sp.vstack(work) @ shapes
-    return shapes, 0.5 * (stiffness + stiffness.T), np.concatenate(share)
+    shapes = answers.reshape(loads.shape)
+    work = loads.T @ kept
+    carried = work / kept_stiffness
+    subtract_product(shapes, kept, carried.T)
+    deflection = loads.T @ shapes
+    scale = np.diag(deflection)
+    shapes /= scale
+    stiffness = deflection / np.outer(scale, scale)
+    share = scale / (scale + np.sum(carried * work, axis=1))
+    return shapes, 0.5 * (stiffness + stiffness.T), share
 
 
 def pocket_statics(
     solver: FreeBodySolver, pocket_count: int, count: int = LOADS_PER_POCKET
-) -> Iterator[Answer]:
-    """Pocket by pocket: its first ``count`` loads (3N, m) and their inertia-relieved answers.
+) -> tuple[sp.csc_matrix, np.ndarray]:
+    """The first ``count`` loads of every pocket (3N, m Z), and the inertia-relieved answers to them
+    (3N, Z, m).
 
     On a cyclic model pocket 0 is solved and turned, otherwise all are solved.
     """
     symmetry = find_symmetry(solver.model, pocket_count)
     log.info("static answers of %d pockets, cyclic symmetry: %s", pocket_count, bool(symmetry))
-    first = None
-    for pocket in range(pocket_count):
-        loads = sparse_pocket_loads(solver.model, pocket, pocket_count, count=count)
-        if symmetry is None or first is None:
-            first = solver.solve(loads.toarray())
-            yield loads, first
-        else:
-            yield loads, symmetry.rotate(first, pocket)
+    pockets = range(pocket_count)
+    loads = [sparse_pocket_loads(solver.model, k, pocket_count, count=count) for k in pockets]
+    answers = np.empty((solver.model.n_dof, pocket_count, count))
+    first = solver.solve(loads[0].toarray())
+    answers[:, 0] = first
+    for k in pockets[1:]:
+        turned = symmetry.rotate(first, k) if symmetry else solver.solve(loads[k].toarray())
+        answers[:, k] = turned
+    return sp.hstack(loads, format="csc"), answers
 
 
 def residual_flexibility(
@@ -243,11 +240,12 @@ def ritz_modes(
     model = solver.model
     vectors = model.remove_rigid(vectors)
     if away_from is not None:
-        vectors = vectors - away_from @ (away_from.T @ model.mass_times(vectors))
-    mass = vectors.T @ model.mass_times(vectors)
+        carried = inner_products(away_from, model.mass_times(vectors))
+        subtract_product(vectors, away_from, carried)
+    mass = inner_products(vectors, model.mass_times(vectors))
     scale = 1.0 / np.sqrt(np.diag(mass))
     size, directions = eigh(mass * np.outer(scale, scale))
     good = size > 1e-10 * size[-1]
     vectors = vectors @ (scale[:, None] * directions[:, good] / np.sqrt(size[good]))
-    values, turn = eigh(vectors.T @ (model.K @ vectors))
+    values, turn = eigh(inner_products(vectors, model.K @ vectors))
     return values, vectors @ turn

@@ -15,6 +15,7 @@ from flexcage.core.hashing import content_hash
 from flexcage.core.jit import kernel_sources, source_hash
 from flexcage.modes.reduction import CageReduction
 from flexcage.stages import build_bearing, cage_mesh, cage_reduction
+from flexcage.system.layout import Layout
 
 #: Proportional to sliding up to 0.5 m/s, Coulomb's beyond.
 FRICTION = {
@@ -62,7 +63,8 @@ class Planar(Settled):
     plane, and its lands do not deform: what three points of another program can follow.
     """
 
-    def __init__(self, model: str = "rigid") -> None:
+    def __init__(self, model: str = "rigid", state: np.ndarray | None = None) -> None:
+        """``state``: y of the rigid model to begin with, in place of a settled one."""
         self.case = planar_case(model)
         self.mesh = cage_mesh(self.case)
         reduced = cage_reduction(self.case, self.mesh)
@@ -70,9 +72,24 @@ class Planar(Settled):
             **{f.name: getattr(reduced, f.name) for f in fields(reduced)}
         )
         self.bearing = build_bearing(self.case, self.mesh, self.reduction)
+        if state is not None:
+            self.stored = self._undeformed(state)
+            return
         code = source_hash(kernel_sources())
         key = content_hash("planar", self.case.hash, code, SETTLE)
         self.stored = cached_arrays("benchmark", key, self._settle)
+
+    def _undeformed(self, state: np.ndarray) -> dict[str, np.ndarray]:
+        """As ``Settled.stored``: coordinates and velocities of the rigid model's y."""
+        own, rigid = self.bearing.layout, Layout(self.bearing.layout.rollers, 0)
+        y = np.zeros(own.size)
+        for views, given in ((own.q(y), rigid.q(state)), (own.u(y), rigid.u(state))):
+            for name in given:
+                if name != "modes":
+                    views[name][...] = given[name]
+        memory = {f"memory_{k}": v.copy() for k, v in self.bearing.data.memory._asdict().items()}
+        closed = np.zeros_like(self.bearing.data.events.closed)
+        return {"y": y, "yd": np.zeros_like(y), "closed": closed, **memory}
 
     def restore(self) -> tuple[np.ndarray, np.ndarray]:
         y, yd = super().restore()

@@ -30,11 +30,12 @@ def main(argv: list[str] | None = None) -> int:
     parser.add_argument("--set", action="append", default=[], metavar="PATH=VALUE")
     args = parser.parse_args(argv)
     import flexcage
+    from flexcage.cli.settings import parse_setting
 
     logging.basicConfig(level=logging.WARNING)
     file = args.case or ROOT / "examples" / ("c7010" if args.what == "ball" else "n1013")
     case = flexcage.load_case(
-        file.with_suffix(".toml"), overrides=dict(s.split("=", 1) for s in args.set)
+        file.with_suffix(".toml"), overrides=dict(parse_setting(text) for text in args.set)
     )
     if args.what == "solver":
         import solver_benchmark

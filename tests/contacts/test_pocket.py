@@ -8,6 +8,7 @@ from contact_kernels import pocket, turned
 from scipy.optimize import brentq, minimize
 
 from flexcage.contacts import laws
+from flexcage.contacts.pocket_wall import N_FACE, N_LOCAL
 from flexcage.contacts.spec import Contacts, FrictionLaw, NormalLaw, PairSpec
 from flexcage.geometry.cages import CrossbeamDefect, crossbeam_shape
 from flexcage.modes.basis import CageInterface
@@ -202,6 +203,29 @@ def test_a_face_alone_yields_as_among_others(walls):
     assert one.size[0] == N_FACE and two.size[0] == N_LOCAL
     np.testing.assert_allclose(alone, beside, atol=1e-3 * np.abs(alone).max())
     np.testing.assert_allclose(one.b, two.b, atol=1e-3 * np.abs(one.b).max())
+
+
+def test_a_wall_pushes_the_opposite_one_to_the_roller(walls):
+    """A push that moves the front wall out by a moves the rear one in by 5 a; the rear one, 2 um
+    away, is looked at only then. a = c (F_front - 5 F_rear), solved apart."""
+    itf, c, ratio = interface(), 1e-6, 5.0
+    itf.residual[:, 0, :, 0], itf.residual[:, 1, :, 0] = 1.0, -ratio
+    itf.compliance[:] = np.diag([c] + [0] * 11)
+    data, p = walls(itf)
+    play, press = 0.5e-6, 1e-6
+    data = data._replace(drop=np.zeros_like(data.drop), half=np.array([4e-3 + play, HALF[1]]))
+    k, n = p[0, 0] * len(data.s), p[0, 1]
+    gap = 2.0 * play + press
+
+    def miss(a):
+        return a - c * k * (max(press - a, 0.0) ** n - ratio * max(ratio * a - gap, 0.0) ** n)
+
+    a = brentq(miss, 0.0, press, xtol=1e-20)
+    _, _, work, _ = pocket(data, p, [0.0, PITCH, play + press])
+    assert ratio * a > gap
+    np.testing.assert_allclose(
+        work.normal[:2], k * np.array([press - a, ratio * a - gap]) ** n, rtol=1e-6
+    )
 
 
 def test_two_springs_in_series(walls):

@@ -5,7 +5,7 @@ from __future__ import annotations
 import threading
 import time
 
-from flexcage.core.threads import blas_threads, on_all_cores, on_one_core, one_blas_thread
+from flexcage.core.threads import on_all_cores, on_one_core
 
 
 def _threads() -> int:
@@ -26,9 +26,3 @@ def test_a_worker_among_others_takes_one_thread():
     before = _threads()
     assert on_one_core(_threads)() == 1
     assert _threads() == before
-
-
-def test_blas_threads_are_those_that_blas_may_use_now():
-    before = blas_threads()
-    assert before >= 1 and one_blas_thread(blas_threads)() == 1
-    assert blas_threads() == before

@@ -3,18 +3,20 @@ contacts have amplified what differs, then the same statistics.
 
 The model is in ``tests/benchmarks/planar_case.py``, ``exudyn_model.py`` and ``exudyn_cage.py``:
 N1013, 22 rollers, cage rigid or flexible with its 24 lowest free modes, 6000 rpm, 1000 N, gravity,
-the same laws of all contacts. In the first millisecond seven (four) pocket faces and the land are
-struck with up to 50 (66) N. Both integrate the cage's position with smaller errors of their own
-(flexcage at 1e-3 of its tolerance: 0.05 (0.02) nm; Exudyn: 1 nm), so that most of what remains is
-the model. Largest differences with a rigid cage over 0.1, 0.5, 1 and 2 ms, and with a flexible one:
+the same laws of all contacts. Both begin in a state that is kept with the tests: another build,
+rounded otherwise, settles into another, in which impacts may be harder. In the first millisecond
+seven (eight) pocket faces and the land are struck with up to 50 (40) N. Both integrate the cage's
+position with smaller errors of their own (flexcage at 1e-3 of its tolerance: 0.05 (0.02) nm;
+Exudyn: 1 nm), so that most of what remains is the model. Largest differences with a rigid cage over
+0.1, 0.5, 1 and 2 ms, and with a flexible one that is undeformed at first:
 
-    cage's position                0        0.3 nm   2.3 nm   58 nm      5.5 nm (1 ms)
-    inner ring's position          1.5 nm   1.5 nm   1.5 nm   12 nm      1.5 nm
+    cage's position                0        0.3 nm   2.3 nm   58 nm      6.0 nm (1 ms)
+    inner ring's position          1.5 nm   1.5 nm   1.5 nm   12 nm      1.9 nm
     rollers' position              11 nm    92 nm    180 nm   360 nm     180 nm
     rollers' speed, of 2930 rad/s  0.61     0.62     0.62     0.70       0.62
-    race forces, relative L2       2.1e-4   1.7e-4   1.8e-4   9e-4       2.0e-4
-    pocket forces, relative L2     -        0.030    0.038    0.4        0.034
-    modal coordinates, relative L2                                       8e-4
+    race forces, relative L2       2.1e-4   1.7e-4   1.8e-4   9e-4       2.4e-4
+    pocket forces, relative L2     -        0.030    0.038    0.4        0.058
+    modal coordinates, relative L2                                       3.0e-3
 
 The models differ in one thing that matters here: friction acts at the middle of the overlap in
 Exudyn, on the roller's surface in flexcage, at a lever that is 0.7 um of 4 mm longer. It is the
@@ -31,7 +33,9 @@ pocket forces) and 0.004 % (cage speed); bounds are three of these.
 
 from __future__ import annotations
 
+import json
 from importlib.util import find_spec
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -45,6 +49,8 @@ from flexcage.contacts.laws import SLOT_ONSET
 pytestmark = pytest.mark.skipif(
     find_spec("exudyn") is None, reason="exudyn is not installed (the extra 'peer')"
 )
+DATA = Path(__file__).parent / "data"
+STATE = np.array(json.loads((DATA / "planar_state.json").read_text("utf-8"))["y"])
 WINDOW = np.arange(1, 201) / RATE  # [s] the first millisecond
 LONG = np.arange(1, 2001) / RATE
 PROGRAMS = {"rigid": ExudynBearing, "flexible": FlexibleExudynBearing}
@@ -85,7 +91,7 @@ def differences(planar: Planar, ours, **options) -> dict[str, float]:
 
 @pytest.fixture(scope="module", params=["rigid", pytest.param("flexible", marks=pytest.mark.slow)])
 def planar(request) -> Planar:
-    return Planar(request.param)
+    return Planar(request.param, STATE)
 
 
 @pytest.fixture(scope="module")
@@ -99,26 +105,27 @@ def test_same_motion_and_forces(planar, ours):
     struck = np.linalg.norm(forces.race[:, :, 2:], axis=-1).max(axis=0) > 1.0
     assert struck.sum() >= 4 and np.linalg.norm(forces.cage, axis=-1).max() > 10.0
     assert planar.bearing.data.memory.pocket[..., SLOT_ONSET].max() < 0.5  # as the model assumes
-    found = differences(planar, ours)
-    assert found["cage"] < {"rigid": 5e-9, "flexible": 11e-9}[planar.case.cage_model]
-    assert found["ring"] < 3e-9
+    found, flexible = differences(planar, ours), planar.case.cage_model == "flexible"
+    assert found["cage"] < (12e-9 if flexible else 5e-9)
+    assert found["ring"] < (4e-9 if flexible else 3e-9)
     assert found["rollers"] < 0.4e-6
     assert found["cage_turning"] < 6e-3
     assert found["spin"] < 1.3
-    assert found["race"] < 4e-4
-    assert found["pocket"] < 0.08
+    assert found["race"] < 5e-4
+    assert found["pocket"] < (0.12 if flexible else 0.08)
     assert found["land"] < 0.05
-    assert found["modes"] < 1.7e-3
+    assert found["modes"] < 6e-3
 
 
 def test_what_differs_is_where_friction_acts(planar, ours):
     """With friction on the rollers' surface in Exudyn too, only integration and pockets differ."""
     found = differences(planar, ours, surface=True)
+    flexible = planar.case.cage_model == "flexible"
     assert found["spin_at_first"] < 1e-3
-    assert found["ring"] < 1.5e-9
-    assert found["cage"] < 3.5e-9
+    assert found["ring"] < (1.7e-9 if flexible else 1e-9)
+    assert found["cage"] < (9e-9 if flexible else 3.5e-9)
     assert found["race"] < 3e-4
-    assert found["pocket"] < 0.03
+    assert found["pocket"] < (0.07 if flexible else 0.03)
 
 
 def test_five_percent_of_stiffness_would_be_seen(planar, ours):
