@@ -100,7 +100,7 @@ def begin_compiling(element: str) -> Compiling | None:
     """
     if jit.kernels_cached(element):
         return None
-    log.info("compiling the kernels for the first time: about half a minute, once")
+    log.info("compiling the kernels for the first time: 20 to 30 seconds, once")
     pieces, end = os.pipe()
     os.write(end, bytes(range(MOST_PIECES)))
     os.close(end)

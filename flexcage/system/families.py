@@ -37,8 +37,8 @@ class Family:
 
     ``evaluate(t, y, yd, d, law, out, mode)`` is the residual in plain Python, which ``problem``
     compiles for a ``d`` of type ``parts``; ``new_work(model, layout)`` its workspaces. It calls
-    the functions ``apart``, of the same arguments, as values: they are compiled on their own, in
-    another process at the same time, and follow the laws in ``law``. ``faces``
+    the functions ``apart``, of the same arguments, as values: they are compiled on their own, by
+    another process at the same time, and follow the laws in ``law``; the longest first. ``faces``
     names the faces of a pocket, ``ribs`` what else an element touches besides its races.
     ``implicit``: does mode 1 fill the tangent, so that implicit integrators may be used?
     """
@@ -60,17 +60,24 @@ class Family:
 
 FAMILIES: dict[type, Family] = {
     Model: Family(
-        "roller",
-        evaluate_rollers,
-        (shared_rows, roller_pockets),
-        RollerParts,
-        roller_work,
-        FACES,
-        ("rib +x", "rib -x"),
-        True,
+        element="roller",
+        evaluate=evaluate_rollers,
+        apart=(roller_pockets, shared_rows),
+        parts=RollerParts,
+        new_work=roller_work,
+        faces=FACES,
+        ribs=("rib +x", "rib -x"),
+        implicit=True,
     ),
     BallModel: Family(
-        "ball", evaluate_balls, (shared_rows,), BallParts, ball_work, ("pocket",), (), False
+        element="ball",
+        evaluate=evaluate_balls,
+        apart=(shared_rows,),
+        parts=BallParts,
+        new_work=ball_work,
+        faces=("pocket",),
+        ribs=(),
+        implicit=False,
     ),
 }
 

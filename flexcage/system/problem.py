@@ -179,8 +179,8 @@ class Bearing:
                 kernel.compile(arguments)
 
         return [
+            *(partial(compiled, function, self._apart) for function in self.family.apart),
             lambda: self.evaluate,
-            *(partial(compiled, f, self._apart) for f in reversed(self.family.apart)),
             lambda: self._advance_of(method, state, runge_kutta.Options(1.0, 0.0, 1)),
             lambda: kernel_for(newton.newton_step, _REAL, _VECTOR, _VECTOR, tangent, matrix),
             lambda: kernel_for(newton.assemble, _REAL, bodies, tangent, matrix),

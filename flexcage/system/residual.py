@@ -57,7 +57,7 @@ def evaluate(t, y, yd, d, law, out, mode):
 
     ``d`` (``problem.Parts``) refers to the model, its memory and its workspaces; ``law`` holds
     the normal laws of race, pocket, side, rib and land, their friction laws, and what is compiled
-    apart: ``rows.shared_rows`` and ``roller_pockets``.
+    apart: ``roller_pockets`` and ``rows.shared_rows``.
     """
     work, Z = fields(d.scratch), fields(d.bodies).radius.shape[0]
     nm = fields(d.pocket).phi_max.shape[0]
@@ -81,7 +81,7 @@ def evaluate(t, y, yd, d, law, out, mode):
         o = 6 * i
         take_pose(poses[i], pose)
         _outer_contact(i, q[o : o + 6], q[zq + 6 : zq + 8], u[zq + 6 : zq + 8], d, law, mode)
-    law[11](t, y, yd, d, law[:10], out, mode)
+    law[10](t, y, yd, d, law[:10], out, mode)
     for i in range(Z):
         o = 6 * i
         take_pose(poses[i], pose)
@@ -89,7 +89,7 @@ def evaluate(t, y, yd, d, law, out, mode):
             i, q[o : o + 6], u[o : o + 6], qd[o : o + 6], ud[o : o + 6], d, r_q[o : o + 6],
             r_u[o : o + 6], mode,
         )  # fmt: skip
-    law[10](t, y, yd, d, law[:10], out, mode)
+    law[11](t, y, yd, d, law[:10], out, mode)
 
 
 @part
