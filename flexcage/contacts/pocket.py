@@ -49,9 +49,10 @@ def pocket_contact(
     zero(pw.tangential)
     if mode >= 2:
         zero(sums)
+        zero(pw.b)
+    if mode == 2:
         zero(pw.slice_N)
         zero(pw.slice_T)
-        zero(pw.b)
     centre = xyz(D)
     zero(pw.push)
     looking = True
@@ -120,7 +121,7 @@ def _face(pose, data, i, f, Rw, distance, rel, spin, qd, p, laws, sl, pw, pair, 
     if mode == 1:
         add_tangent(pose, data, f, Rw, distance, sl, pw, pair)
     elif mode >= 2:
-        if f < 2:
+        if f < 2 and mode == 2:
             for k in range(n):
                 pw.slice_N[f, k] = sl.N[k]
                 pw.slice_T[f, k] = sl.N[k] * sl.g[k] * sl.u[k]

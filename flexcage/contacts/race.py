@@ -49,7 +49,8 @@ def race_contact(pose, side, Rw, P, b, Vr, wr, theta, p, law, friction, sl, pair
     P: roller centre from the ring's centre; b: ring axis; Vr, wr: the ring's velocity and angular
     velocity; all in F. ``theta``: the ring's spin angle (waves, spall). ``mode``: 0 wrench, 1 with
     tangent, from 2 with ``sums``: normal, traction, moments about e_r and e_psi, sliding speed at
-    the middle, elastic energy, power of damping, friction and rolling resistance.
+    the middle (these four at 2 alone), elastic energy, power of damping, friction and rolling
+    resistance.
     """
     clear(pair, mode == 1)
     if mode >= 2:
@@ -81,8 +82,10 @@ def race_contact(pose, side, Rw, P, b, Vr, wr, theta, p, law, friction, sl, pair
     if mode == 1:
         _tangent(pose, side, Rw, centre, ring_axis, theta, sl, pair)
     elif mode >= 2:
-        _report(side, Rw, a, sl, sums)
+        sums[0], sums[7] = load, friction_power(n, sl)
         sums[5], sums[6] = stored_and_damped(n, sl, p[1])
+        if mode == 2:
+            _report(side, Rw, a, sl, sums)
     _roll(pose, side, Rw, centre, ring_spin[0], load, pair, mode, sums)
     return True
 
@@ -130,17 +133,16 @@ def _push(side, Rw, a, ring_axis, sl, wrench):
 
 @part(fastmath=VECTORISED)
 def _report(side, Rw, a, sl, sums):
-    """Normal force, traction, moments of the normal forces and friction power of the slices."""
-    normal = across = about_r = about_psi = 0.0
+    """Traction, moments of the normal forces, and sliding of the slice in the middle."""
+    across = about_r = about_psi = 0.0
     for k in range(side.s.shape[0]):
         N = sl.N[k]
         n = (sl.n1[k], sl.n2[k], sl.n3[k])
         m = cross(combine(times(side.s[k], a), side.drop[k] - Rw, n), n)
-        normal += N
         across -= N * sl.g[k] * sl.t2[k]
         about_r += N * m[1]
         about_psi += N * m[2]
-    sums[0], sums[1], sums[7] = normal, across, friction_power(side.s.shape[0], sl)
+    sums[1] = across
     sums[2] += about_r
     sums[3] += about_psi
     sums[4] = sl.t2[side.s.shape[0] // 2]

@@ -4,8 +4,8 @@ One kind of contact after another is evaluated for all rollers, and its wrenches
 bodies; then the rows are formed: kinematics q' - T(q) u - G^T mu, momentum M u' + h - Q - G^T
 lambda, g and its rate. (With one roller's contacts after the other the code of all of them passes
 through the processor's cache 22 times: a sixth more time.)
-``mode``: 0 residual, 1 also the tangent blocks, 2 also the whole report, 3 without its arrays of
-slices and stations.
+``mode``: 0 residual, 1 also the tangent blocks, 2 also the whole report, 3 what of it a point that
+may be accepted needs: powers, what touches, how fast it nears, forces on bodies.
 """
 
 from __future__ import annotations
