@@ -208,7 +208,7 @@ def _lean(pose, side, P, b, theta, sl, pair, mode, sums):
         f = times(-sl.N[k] * _incline(pose, side, P, n, theta, k) * side.sign, cross(b, n))
         on_axis = times(side.s[k], a)
         add_wrench(pair.wrench, f, on_axis)
-        if mode >= 2:
+        if mode == 2:
             moment = cross(on_axis, f)
             sums[2] += moment[1]
             sums[3] += moment[2]

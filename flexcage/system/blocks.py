@@ -2,18 +2,22 @@
 
 from __future__ import annotations
 
-from flexcage.core.jit import outlined, zero
+from flexcage.core.jit import outlined, part, zero
+
+
+@part
+def _of(tan, m):
+    """Blocks of the stiffness (m = 0) or the damping: between elements and border."""
+    if m == 0:
+        return tan.Krr, tan.Krb, tan.Kbr, tan.Kbb
+    return tan.Crr, tan.Crb, tan.Cbr, tan.Cbb
 
 
 @outlined
 def scatter(pair, S, i, start, tan, T6):
     """Add a roller-partner pair's tangent; the partner's columns begin at ``start``."""
     for m in range(2):
-        M = pair.K if m == 0 else pair.C
-        rr = tan.Krr if m == 0 else tan.Crr
-        rb = tan.Krb if m == 0 else tan.Crb
-        br = tan.Kbr if m == 0 else tan.Cbr
-        bb = tan.Kbb if m == 0 else tan.Cbb
+        M, (rr, rb, br, bb) = pair.K if m == 0 else pair.C, _of(tan, m)
         MS, SM = T6[0], T6[1]
         for a in range(6):
             for b in range(6):
@@ -37,11 +41,7 @@ def scatter(pair, S, i, start, tan, T6):
 def scatter_outer(pair, F, i, tan):
     """The same for the outer ring, which only moves in y and z (columns 6 and 7)."""
     for m in range(2):
-        M = pair.K if m == 0 else pair.C
-        rr = tan.Krr if m == 0 else tan.Crr
-        rb = tan.Krb if m == 0 else tan.Crb
-        br = tan.Kbr if m == 0 else tan.Cbr
-        bb = tan.Kbb if m == 0 else tan.Cbb
+        M, (rr, rb, br, bb) = pair.K if m == 0 else pair.C, _of(tan, m)
         for a in range(6):
             for b in range(6):
                 rr[i, a, b] += M[a, b]
@@ -66,6 +66,7 @@ def scatter_modes(data, i, pw, S, tan, Lm, Bm, PR):
     n_st = data.phi.shape[2]
     zero(Lm)
     zero(Bm)
+    zero(PR)
     for f in range(4):
         if pw.near[f] == 0:
             continue
@@ -84,19 +85,12 @@ def scatter_modes(data, i, pw, S, tan, Lm, Bm, PR):
                     if h != 0.0:
                         for o in range(n_m):
                             tan.Kbb[14 + m, 14 + o] += h * sgn * data.phi[i, f, t, comp, o]
+            for l in range(pw.size[0]):
+                h = sgn * pw.HR[f, s, l]
+                if h != 0.0:
+                    for m in range(n_m):
+                        PR[l, m] += h * data.phi[i, f, s, comp, m]
     if pw.X[0, 0] != 0.0:  # less what the residual flexibility yields
-        zero(PR)
-        for f in range(4):
-            if pw.near[f] == 0:
-                continue
-            sgn = 1.0 if f % 2 == 0 else -1.0
-            comp = 2 if f < 2 else 0
-            for s in range(n_st):
-                for l in range(pw.size[0]):
-                    h = sgn * pw.HR[f, s, l]
-                    if h != 0.0:
-                        for m in range(n_m):
-                            PR[l, m] += h * data.phi[i, f, s, comp, m]
         for m in range(n_m):
             for l in range(pw.size[0]):
                 h = 0.0

@@ -195,6 +195,7 @@ def _pocket_data(bearing, cage, contacts: Contacts, interface: CageInterface) ->
     root = compliance_root(interface.compliance)
     shapes = np.einsum("zfsa,zab->zfsb", interface.residual, root)
     res = with_end_stations(shapes)
+    res_max = np.abs(res).max(axis=2)
     own, turn = own_coordinates(shapes)
     own = with_end_stations(own)
     return PocketData(
@@ -215,8 +216,8 @@ def _pocket_data(bearing, cage, contacts: Contacts, interface: CageInterface) ->
         rows=modal_rows(interface.modes),
         soft=int(interface.compliance.any()),
         res=res,
-        res_max=np.abs(res).max(axis=2),
-        most=np.abs(res).max(axis=(1, 2)),
+        res_max=res_max,
+        most=res_max.max(axis=1),
         own=own,
         own_max=np.abs(own).max(axis=2),
         turn=turn,

@@ -39,8 +39,8 @@ def roller_pockets(t, y, yd, d, law, out, mode):
     ``residual.evaluate``. Poses of rollers and cage are in ``Scratch`` already."""
     work, phi_max = fields(d.scratch), fields(d.pocket).phi_max
     Z, nm = fields(d.bodies).radius.shape[0], phi_max.shape[0]
-    zq, nq = 6 * Z, 6 * Z + 15 + nm
-    q, u = y[:nq], y[nq : nq + nq - 1]
+    zq, nq, nu = 6 * Z, 6 * Z + 15 + nm, 6 * Z + 14 + nm
+    q, u = y[:nq], y[nq : nq + nu]
     qf, qfd, modal = q[zq + 15 :], u[zq + 14 :], work.modal
     margin = 0.0
     for m in range(nm):

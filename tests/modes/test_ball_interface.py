@@ -258,9 +258,9 @@ def test_frequencies_settle_further_with_a_fine_mesh(sound, finer):
     """Chords of the curved wall leave too much of it: 1.2 % and 0.9 % above the fine mesh's."""
     solver = FreeBodySolver(assemble(ball_mesh(fineness="fine"), MATERIAL))
     fine = np.sqrt(free_modes(solver, 6)[0][:6]) / (2.0 * np.pi)
-    np.testing.assert_allclose(finer.basis.frequencies[:6], fine, rtol=0.012)
+    np.testing.assert_allclose(finer.basis.frequencies[:6], fine, rtol=0.01)
     misses = [np.abs(c.basis.frequencies[:6] / fine - 1.0).max() for c in (sound, finer)]
-    assert misses[1] < 0.85 * misses[0]
+    assert misses[1] < 0.8 * misses[0]
 
 
 def test_rigid_motion_and_inertia_of_the_model(sound):

@@ -85,7 +85,7 @@ def drag(browser, element, dx: int, dy: int) -> None:
     chain = ActionChains(browser).move_to_element(element).click_and_hold()
     for _ in range(4):
         chain.move_by_offset(dx // 4, dy // 4)
-    chain.release().perform()
+    chain.pause(1.0).release().perform()  # the view swings after the mouse: let it come to rest
     time.sleep(1.0)
 
 
@@ -259,8 +259,7 @@ def test_the_view_changes_with_the_case_and_keeps_its_camera(browser, study_file
     )
     assert peak == "peak 20 MPa"
     kept = browser.execute_script(CAMERA, element)
-    # plotly keeps the camera of the moment the button was let go; the view swings on, on a slow
-    # machine by half of all
-    assert _between(first, kept) > 0.2 * _between(first, camera)
+    # plotly keeps the camera of the moment the button was let go; the view swings on a little
+    assert _between(kept, camera) < 0.3 * _between(first, camera)
     assert (np.abs(pixels(element) - before).max(axis=2) > 30).mean() > 0.01
     assert looking.complaints(browser) == []
