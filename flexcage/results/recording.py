@@ -110,8 +110,9 @@ class Recorder:
         self.integrator = INTEGRATORS[method]
         self.options = self.integrator.options(self.solver)
         self.state = self.integrator.new_state(
-            time, y, yd, weight=self.weight, h0=FIRST_STEP, n_quad=len(POWERS)
-        )
+            time, y, yd, weight=self.weight, h0=FIRST_STEP, n_quad=len(POWERS),
+            modes=self.bearing.modes,
+        )  # fmt: skip
         if before is not None:
             self.state.quad[:] = before.quad
             self.state.count[: len(COUNTS)] = before.count[: len(COUNTS)]

@@ -75,8 +75,10 @@ class Options(NamedTuple):
     max_steps: int
 
 
-def new_state(t0: float, y0, yd0, *, weight, h0: float, n_quad: int = 0) -> BDFState:
-    """State at the start: order 1, first difference h0 y'."""
+def new_state(
+    t0: float, y0, yd0, *, weight, h0: float, n_quad: int = 0, modes: Any = None
+) -> BDFState:
+    """State at the start: order 1, first difference h0 y'. ``modes`` are unknowns like others."""
     n = len(y0)
     D = np.zeros((MAX_ORDER + 3, n))
     D[0] = y0

@@ -44,9 +44,10 @@ class Integrator:
     ``functions``: names of the problem's functions in the order in which ``advance`` takes them.
     ``helpers``: names of functions beside ``advance`` that it calls, callees first.
     ``options``: from SolverOptions to the numbers of ``advance``. ``new_state(t0, y0, yd0, *,
-    weight, h0, n_quad)``: a NamedTuple of arrays with ``real``, ``count`` and ``quad``; ``kept``
-    names those that a checkpoint needs. ``refresh``: forget at a block's boundary what a resumed
-    run cannot know. ``last``: y and y' of the last accepted point.
+    weight, h0, n_quad, modes)``: a NamedTuple of arrays with ``real``, ``count`` and ``quad``;
+    ``modes`` are the unknowns' linear oscillators (``oscillators.Oscillators``), of which a method
+    may make use. ``kept`` names the arrays that a checkpoint needs. ``refresh``: forget at a
+    block's boundary what a resumed run cannot know. ``last``: y and y' of the last accepted point.
     """
 
     name: str

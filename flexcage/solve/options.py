@@ -15,10 +15,10 @@ class SolverOptions:
     """How the equations of motion are integrated.
 
     ``method``: ``explicit`` is a Runge-Kutta method of order 4 on the equations with their
-    constraints eliminated; ``bdf`` the variable-order, variable-step BDF with a modified
-    Newton-Raphson corrector on F(t, y, y') = 0; ``auto`` computes the stability bound of explicit
-    steps at every block of samples and takes the explicit method where the bound is at least
-    ``stable_step``, the BDF elsewhere.
+    constraints eliminated, in which a cage's modes swing exactly; ``bdf`` the variable-order,
+    variable-step BDF with a modified Newton-Raphson corrector on F(t, y, y') = 0; ``auto`` computes
+    the stability bound of explicit steps at every block of samples and takes the explicit method
+    where the bound is at least ``stable_step``, the BDF elsewhere.
 
     ``tolerance`` is the local error allowed in a position; angles, modal coordinates and
     velocities are held to what moves a contact as far.
@@ -26,7 +26,7 @@ class SolverOptions:
 
     duration: float = quantity("s", 0.1, doc="bearing time to simulate", above=0.0)
     method: str = option("auto", doc="integrator", choices=METHODS)
-    tolerance: float = quantity("um", 5e-9, doc="local error allowed in a position", above=0.0)
+    tolerance: float = quantity("um", 1e-8, doc="local error allowed in a position", above=0.0)
     max_order: int = option(2, doc="highest BDF order", minimum=1, maximum=5)
     max_step: float = quantity("us", 5e-5, doc="largest step", above=0.0)
     min_step: float = quantity("us", 1e-12, doc="smallest step", above=0.0)

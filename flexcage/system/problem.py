@@ -30,11 +30,12 @@ from flexcage.core.jit import (
 from flexcage.solve import runge_kutta
 from flexcage.solve.bordered import Bordered, new_bordered
 from flexcage.solve.contract import Integrator
+from flexcage.solve.oscillators import Oscillators
 from flexcage.system import newton, rates, sampling
 from flexcage.system.data import POWERS, Memory, Report, Work
 from flexcage.system.families import family_of
 from flexcage.system.layout import Layout
-from flexcage.system.rates import RatesWork, new_rates_work
+from flexcage.system.rates import RatesWork, modal_oscillators, new_rates_work
 
 ITERATIONS = 40  # of the spectral radius
 NUDGE = 1e-3  # of the allowed local error, over which it takes differences
@@ -51,6 +52,7 @@ PROBLEM: dict[str, tuple[Callable[..., Any], tuple[Any, ...]]] = {
     "observe": (sampling.observe, (_NONE, _COUNT, _REAL, _VECTOR, _VECTOR, None)),
     "rates": (rates.rates, (_NONE, _REAL, _VECTOR, _VECTOR, None, _VECTOR)),
     "note": (sampling.note, (_NONE, _REAL, None)),
+    "wanted": (sampling.wanted, (_FLAG, _COUNT, None)),
     "sample": (rates.sample, (_NONE, _COUNT, _REAL, _VECTOR, _VECTOR, None)),
 }
 _OF_TANGENT = ("linearise", "factor", "backsolve")
@@ -157,6 +159,11 @@ class Bearing:
         """The family's residual, compiled; most of what there is to compile."""
         return compiled(self.family.evaluate, self._evaluation)
 
+    @cached_property
+    def modes(self) -> Oscillators:
+        """Which unknowns are linear oscillators but for what drives them."""
+        return modal_oscillators(self.data.model.cage, self.layout)
+
     @property
     def apart(self) -> tuple[Any, ...]:
         """What the residual calls as values, compiled."""
@@ -172,7 +179,7 @@ class Bearing:
         groups = (self.data.work.tangent, self.data.matrix, self.data.model.bodies)
         tangent, matrix, bodies = (FieldsType(numba.typeof(group)) for group in groups)
         method, none = runge_kutta.EXPLICIT_METHOD, np.zeros(1)
-        state = method.new_state(0.0, none, none, weight=none, h0=1.0, n_quad=1)
+        state = method.new_state(0.0, none, none, weight=none, h0=1.0, n_quad=1, modes=self.modes)
 
         def kernel_for(kernel: Any, *arguments: Any) -> None:
             with uncollected():
@@ -246,7 +253,9 @@ class Bearing:
     def stable_step(self, t: float, y: np.ndarray, yd: np.ndarray, weight: np.ndarray) -> float:
         """Largest step [s] that the explicit method bears at (t, y)."""
         method = runge_kutta.EXPLICIT_METHOD
-        state = method.new_state(t, y, yd, weight=weight, h0=1.0, n_quad=len(POWERS))
+        state = method.new_state(
+            t, y, yd, weight=weight, h0=1.0, n_quad=len(POWERS), modes=self.modes
+        )
         function = self._radius_of(state)
         radius = function(self.functions(method), self.args, state, ITERATIONS, NUDGE)
         return runge_kutta.REACH / radius if radius > 0.0 else np.inf

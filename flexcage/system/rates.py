@@ -13,11 +13,13 @@ from typing import NamedTuple
 
 import numpy as np
 
-from flexcage.bodies.floating_frame import modal_product
+from flexcage.bodies.floating_frame import BodyData, modal_product
 from flexcage.core.jit import VECTORISED, fields, kernel, part, zero
 from flexcage.solve.bordered import lu_factor, lu_solve
+from flexcage.solve.oscillators import Oscillators, no_oscillators
+from flexcage.system.layout import Layout
 from flexcage.system.rows import speed_at
-from flexcage.system.sampling import keep_force, keep_report
+from flexcage.system.sampling import is_main, keep_force, keep_report
 from flexcage.system.waves import wave_slope
 
 
@@ -40,6 +42,22 @@ def new_rates_work(modal_mass: np.ndarray) -> RatesWork:
     )  # fmt: skip
 
 
+def modal_oscillators(body: BodyData, layout: Layout) -> Oscillators:
+    """The cage's modes as the linear oscillators that they are where its matrices are diagonal.
+
+    Others, and modes that do not swing (w = 0), are left among the other unknowns.
+    """
+    if not body.plain:
+        return no_oscillators()
+    mass = np.diag(body.mff)
+    decay = 0.5 * np.diag(body.dff) / mass
+    squared = np.diag(body.kff) / mass - decay**2
+    swings = np.flatnonzero(squared > 0.0)
+    at = np.arange(layout.size)
+    place = np.stack([layout.q(at)["modes"][swings], layout.u(at)["modes"][swings]])
+    return Oscillators(place, decay[swings], np.sqrt(squared[swings]))
+
+
 def rates(t, y, yd, data, power):
     """y' into yd, held coordinates and multipliers into y, powers into ``power`` if it has room."""
     _rates(t, y, yd, data, 3 if power.shape[0] > 0 else 0)
@@ -51,7 +69,7 @@ def rates(t, y, yd, data, power):
 def sample(sample, t, y, yd, data):
     """Keep the report at sampling time t; at whole samples y' and multipliers are those of y."""
     s = fields(data[0].samples)
-    if sample % s.stride == s.stride - 1:
+    if is_main(sample, s.stride):
         _rates(t, y, yd, data, 2)
         keep_report(s, sample // s.stride, fields(data[0].report))
     keep_force(sample, t, s, fields(data[0].events))

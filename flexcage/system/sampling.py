@@ -69,10 +69,21 @@ def _note(events, t, element, place, closed):
         events.fill[0] = n + 1
 
 
+@part
+def is_main(sample, stride):
+    """Whether a sample is one of those of which the whole report is kept."""
+    return sample % stride == stride - 1
+
+
+def wanted(sample, data):
+    """Whether y of a sample is wanted to the last mode."""
+    return is_main(sample, fields(data[0].samples).stride)
+
+
 def observe(sample, t, y, yd, data):
     """Keep the report at sampling time t, for y and y' of dense output."""
     s = fields(data[0].samples)
-    if sample % s.stride == s.stride - 1:
+    if is_main(sample, s.stride):
         data[2](t, y, yd, data[0], data[1], fields(data[0].scratch).out, 2)
         keep_report(s, sample // s.stride, fields(data[0].report))
     keep_force(sample, t, s, fields(data[0].events))

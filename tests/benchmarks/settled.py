@@ -125,7 +125,9 @@ class Settled:
         b, times = self.bearing, np.asarray(times)
         method = INTEGRATORS["explicit" if solver.method == "auto" else solver.method]
         weight = self.weights(share)
-        state = method.new_state(t0, y, yd, weight=weight, h0=FIRST_STEP, n_quad=len(POWERS))
+        state = method.new_state(
+            t0, y, yd, weight=weight, h0=FIRST_STEP, n_quad=len(POWERS), modes=b.modes
+        )
         ys, yds = np.zeros((len(times), len(y))), np.zeros((len(times), len(y)))
         quads = np.zeros((len(times), len(POWERS)))
         log, sample, outcome, cpu = np.zeros((50_000, 5)), 0, LOG_FULL, 0.0

@@ -103,7 +103,9 @@ def first_step(file: str, begin: float) -> dict[str, Any]:
     start = done("start", assembled_start(case, bearing))
     method, until = INTEGRATORS["explicit"], 1e-7
     weight = error_weights(bearing.data.model, bearing.layout, case.solver.tolerance)
-    state = method.new_state(0.0, start.y, start.yd, weight=weight, h0=until, n_quad=len(POWERS))
+    state = method.new_state(
+        0.0, start.y, start.yd, weight=weight, h0=until, n_quad=len(POWERS), modes=bearing.modes
+    )
     rows = np.zeros((2, len(start.y)))
     bearing.advance(
         method, state, method.options(case.solver), until, np.array([until]), rows[:1], rows[1:],

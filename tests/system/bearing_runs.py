@@ -55,7 +55,9 @@ def march(bearing, y0, yd0, *, duration, rate=100e3, tolerance=1e-8, max_order=2
     bearing.args = bearing.arguments(bearing.data, bearing.laws)
     integrator = INTEGRATORS[method]
     weight = error_weights(bearing.data.model, layout, tolerance)
-    state = integrator.new_state(0.0, y0, yd0, weight=weight, h0=1e-8, n_quad=len(POWERS))
+    state = integrator.new_state(
+        0.0, y0, yd0, weight=weight, h0=1e-8, n_quad=len(POWERS), modes=bearing.modes
+    )
     if method == "bdf":
         options = bdf.Options(max_order, h_max, 1e-14, 0.3, 10**9)
     else:

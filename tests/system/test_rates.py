@@ -7,12 +7,18 @@ import pytest
 from bearing_runs import STATES, disturbed, march, rolling_start
 from scipy import sparse
 
-from flexcage.bodies.floating_frame import flexible_body, frame_work, inertia_terms, mass_matrix
+from flexcage.bodies.floating_frame import (
+    flexible_body,
+    frame_work,
+    inertia_terms,
+    marked,
+    mass_matrix,
+)
 from flexcage.contacts.spec import Contacts, NormalLaw, PairSpec
 from flexcage.core.rotation import matrix_from_quaternion
 from flexcage.solve.runge_kutta import EXPLICIT_METHOD
 from flexcage.system.data import POWERS
-from flexcage.system.rates import cage_accelerations, new_rates_work
+from flexcage.system.rates import cage_accelerations, modal_oscillators, new_rates_work
 from flexcage.system.scales import error_weights
 from flexcage.system.spec import Drive, Load
 
@@ -77,14 +83,41 @@ def test_spectral_radius_against_the_whole_jacobian(bearing_of, name):
     assert step == pytest.approx(2.6 / radius, rel=0.1)
 
 
-def test_both_methods_go_the_same_way(bearing_of):
+def test_eigenmodes_swing_by_themselves(bearing_of):
+    """A cage that touches nothing: to the first order, the known equation is all that a mode does;
+    whatever mixes modes leaves nothing that could be known."""
+    bearing = bearing_of(flexible={"modes": 6})
+    layout, modes, body = bearing.layout, bearing.modes, bearing.data.model.cage
+    mixed = marked(body._replace(kff=body.kff + 1.0))
+    assert len(modal_oscillators(mixed, layout).decay) == 0
+    hertz = 900.0 * (1.0 + 0.8 * np.arange(6))
+    np.testing.assert_allclose(
+        np.hypot(modes.frequency, modes.decay) / (2.0 * np.pi), hertz, rtol=1e-9
+    )
+    y, _ = rolling_start(bearing)
+    layout.u(y)["omega"][:] = 0.0
+    still = layout.u(rates(bearing, 0.0, y)[0])["modes"].copy()
+    rng = np.random.default_rng(5)
+    layout.q(y)["modes"][:] = 1e-8 * rng.standard_normal(6)
+    layout.u(y)["modes"][:] = 1e-4 * rng.standard_normal(6)
+    moved = rates(bearing, 0.0, y)[0]
+    left = layout.u(moved)["modes"] - still
+    q, u = y[modes.place[0]], y[modes.place[1]]
+    np.testing.assert_array_equal(q, layout.q(y)["modes"])
+    np.testing.assert_array_equal(u, layout.u(y)["modes"])
+    own = -(modes.frequency**2 + modes.decay**2) * q - 2.0 * modes.decay * u
+    np.testing.assert_allclose(left, own, atol=1e-4 * np.abs(own).max())
+
+
+@pytest.mark.parametrize("specs", [{}, {"flexible": {"modes": 6}}])
+def test_both_methods_go_the_same_way(bearing_of, specs):
     """A loaded bearing that rings after its start, each method at a tight tolerance. Laws without
     damping, which depend on no remembered onset."""
     elastic = PairSpec(normal=NormalLaw(law="elastic"))
     contacts = Contacts(race=elastic, pocket=elastic, side=elastic, rib=elastic)
     outs = {}
     for method, h_max in (("bdf", 4e-8), ("explicit", 1e-7)):
-        bearing = bearing_of(load=Load(radial=1000.0), contacts=contacts)
+        bearing = bearing_of(load=Load(radial=1000.0), contacts=contacts, **specs)
         y, yd = rolling_start(bearing)
         bearing.layout.q(y)["inner"][1] = 20e-6
         outs[method] = march(
