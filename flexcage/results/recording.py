@@ -108,7 +108,7 @@ class Recorder:
         """Go on with this integrator from (time, y, y'); integrals and counters are kept."""
         before = getattr(self, "state", None)
         self.integrator = INTEGRATORS[method]
-        self.options = self.integrator.options(self.solver)
+        self.options = self.integrator.options(self.solver, np.inf)
         self.state = self.integrator.new_state(
             time, y, yd, weight=self.weight, h0=FIRST_STEP, n_quad=len(POWERS),
             modes=self.bearing.modes,
@@ -118,16 +118,22 @@ class Recorder:
             self.state.count[: len(COUNTS)] = before.count[: len(COUNTS)]
 
     def _choose(self) -> None:
-        """The integrator of the next block, by the stability bound of explicit steps there."""
+        """The integrator of the next block and its steps, by the stability bound of explicit steps
+        there."""
+        auto = self.solver.method == "auto"
+        if not (auto or self.integrator.bounded):
+            return
         y, yd = self.integrator.last(self.state)
-        step = self.bearing.stable_step(self.time, y, yd, self.weight)
+        step = self.bearing.stable_step(self.time, y, yd)
         self.bound = min(self.bound, step)
         small = self.bearing.family.implicit and step < self.solver.stable_step
         method = "bdf" if small else "explicit"
-        if method != self.integrator.name:
+        if auto and method != self.integrator.name:
             log.debug("%s from t = %.4f ms on: explicit steps up to %.3g us are stable", method,
                       self.time * 1e3, step * 1e6)  # fmt: skip
             self._take(method, self.time, y, yd)
+        if self.integrator.bounded:
+            self.options = self.integrator.options(self.solver, step)
 
     @property
     def time(self) -> float:
@@ -151,8 +157,7 @@ class Recorder:
         ys, yds = np.zeros((n, layout.size)), np.zeros((n, layout.size))
         quads = np.zeros((n, len(POWERS)))
         self.integrator.refresh(self.state)  # a resumed run repeats an unbroken one bit by bit
-        if self.solver.method == "auto":
-            self._choose()
+        self._choose()
         self.bearing.data.events.fill[0] = 0
         logs, sample, outcome = [], 0, LOG_FULL
         while outcome == LOG_FULL:

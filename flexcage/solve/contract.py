@@ -43,22 +43,25 @@ class Integrator:
 
     ``functions``: names of the problem's functions in the order in which ``advance`` takes them.
     ``helpers``: names of functions beside ``advance`` that it calls, callees first.
-    ``options``: from SolverOptions to the numbers of ``advance``. ``new_state(t0, y0, yd0, *,
-    weight, h0, n_quad, modes)``: a NamedTuple of arrays with ``real``, ``count`` and ``quad``;
-    ``modes`` are the unknowns' linear oscillators (``oscillators.Oscillators``), of which a method
-    may make use. ``kept`` names the arrays that a checkpoint needs. ``refresh``: forget at a
-    block's boundary what a resumed run cannot know. ``last``: y and y' of the last accepted point.
+    ``options``: from SolverOptions, and the length [s] of stable explicit steps, to the numbers of
+    ``advance``; ``bounded`` methods are told that length, for others it is infinite.
+    ``new_state(t0, y0, yd0, *, weight, h0, n_quad, modes)``: a NamedTuple of arrays with ``real``,
+    ``count`` and ``quad``; ``modes`` are the unknowns' linear oscillators
+    (``oscillators.Oscillators``), of which a method may make use. ``kept`` names the arrays that a
+    checkpoint needs. ``refresh``: forget at a block's boundary what a resumed run cannot know.
+    ``last``: y and y' of the last accepted point.
     """
 
     name: str
     advance: Callable[..., tuple[int, int, int]]
     functions: tuple[str, ...]
     helpers: tuple[str, ...]
-    options: Callable[[Any], Any]
+    options: Callable[[Any, float], Any]
     new_state: Callable[..., Any]
     kept: tuple[str, ...]
     refresh: Callable[[Any], None]
     last: Callable[[Any], tuple[np.ndarray, np.ndarray]]
+    bounded: bool = False
 
     def checkpoint(self, state: Any) -> Mapping[str, np.ndarray]:
         """Arrays from which the state can be restored, by name."""

@@ -19,8 +19,8 @@ data,
     rates(t, y, yd, data, power)         y' -> yd, what follows from y -> the rest of y, quadrature
                                          integrands -> power
     note(t, data)                        the point evaluated last was accepted
-    wanted(sample, data)                 whether the oscillators are of interest at a sampling time
     sample(sample, t, y, yd, data)       y at sampling time t, by dense output; may complete both
+    wanted(sample, data)                 whether the oscillators are of interest at a sampling time
 
 Stability: where the spectrum of df/dy, without what makes the oscillators swing by themselves, lies
 in the left half-plane within radius rho, steps up to ``REACH``/rho are stable: the classical
@@ -68,7 +68,7 @@ SHARE = 1.0 / 75.0  # of the last weight that moves to the new point in the esti
 CURVE = 1.0 / 500.0  # of the bend of y' in the estimate
 REACH = 2.6  # radius of a half-disk inside the stability region, from abs(R(z)) <= 1
 SAFETY, SLOW, FAST = 0.9, 0.3, 4.0  # of the step's control
-AIM, STEADY, SWIFT = 0.05, 0.075, 0.1  # steps aim at this share of the tolerance
+AIM, STEADY, SWIFT = 0.1, 0.075, 0.1  # steps aim at this share of the tolerance
 ERROR = 2  # further entry of RKState.real: of the last step; 0 before the first
 
 
@@ -132,7 +132,7 @@ def hermite(x, h, y0, f0, y1, f1, y, yd):
 
 def advance(fns, data, st, opt, t_end, times, ys, yds, first, log, quads):
     """Integrate until t_end; see ``contract``."""
-    rates, note, wanted, sample_at = fns[0], fns[1], fns[2], fns[3]
+    rates, note, sample_at, wanted = fns[0], fns[1], fns[2], fns[3]
     y, K, power, real, count = st.y, st.K, st.power, st.real, st.count
     stage, estimate = st.Y[0], st.Y[1]
     modes, N, C, D = st.modes, st.drive, st.exact[0], st.exact[1]
@@ -270,8 +270,8 @@ def spectral_radius(fns, data, st, iterations, nudge):
     return np.exp(growth / used) if used > 0 else 0.0
 
 
-def _options(solver: Any) -> Options:
-    return Options(solver.max_step, solver.min_step, solver.max_steps)
+def _options(solver: Any, bound: float) -> Options:
+    return Options(min(solver.max_step, bound), solver.min_step, solver.max_steps)
 
 
 def _refresh(state: RKState) -> None:
@@ -281,7 +281,7 @@ def _refresh(state: RKState) -> None:
 EXPLICIT_METHOD = Integrator(
     name="explicit",
     advance=advance,
-    functions=("rates", "note", "wanted", "sample"),
+    functions=("rates", "note", "sample", "wanted"),
     helpers=(
         "largest",
         "hermite",
@@ -295,6 +295,7 @@ EXPLICIT_METHOD = Integrator(
         "spectral_radius",
     ),  # fmt: skip
     options=_options,
+    bounded=True,
     new_state=new_state,
     kept=("y", "K", "real", "count", "quad", "power"),
     refresh=_refresh,

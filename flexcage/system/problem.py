@@ -36,9 +36,10 @@ from flexcage.system.data import POWERS, Memory, Report, Work
 from flexcage.system.families import family_of
 from flexcage.system.layout import Layout
 from flexcage.system.rates import RatesWork, modal_oscillators, new_rates_work
+from flexcage.system.scales import error_weights
 
 ITERATIONS = 40  # of the spectral radius
-NUDGE = 1e-3  # of the allowed local error, over which it takes differences
+NUDGE = 5e-12  # [m] over which it takes differences
 _REAL, _COUNT = types.float64, types.int64
 _VECTOR, _MATRIX = types.Array(types.float64, 1, "C"), types.Array(types.float64, 2, "C")
 _NONE, _FLAG = types.void, types.boolean
@@ -250,14 +251,15 @@ class Bearing:
             self._advance[integrator.name] = self._compiled(integrator, "advance", signature)
         return self._advance[integrator.name]
 
-    def stable_step(self, t: float, y: np.ndarray, yd: np.ndarray, weight: np.ndarray) -> float:
+    def stable_step(self, t: float, y: np.ndarray, yd: np.ndarray) -> float:
         """Largest step [s] that the explicit method bears at (t, y)."""
         method = runge_kutta.EXPLICIT_METHOD
+        weight = error_weights(self.data.model, self.layout, NUDGE)
         state = method.new_state(
             t, y, yd, weight=weight, h0=1.0, n_quad=len(POWERS), modes=self.modes
         )
         function = self._radius_of(state)
-        radius = function(self.functions(method), self.args, state, ITERATIONS, NUDGE)
+        radius = function(self.functions(method), self.args, state, ITERATIONS, 1.0)
         return runge_kutta.REACH / radius if radius > 0.0 else np.inf
 
     def _radius_of(self, state) -> Any:

@@ -15,7 +15,7 @@ from flexcage.core.cache import cached_arrays
 from flexcage.core.hashing import content_hash
 from flexcage.core.jit import kernel_sources, source_hash
 from flexcage.results.recording import FIRST_STEP
-from flexcage.solve.contract import DONE, LOG_FULL, OUTCOMES
+from flexcage.solve.contract import DONE, LOG_FULL, OUTCOMES, T
 from flexcage.solve.integrators import INTEGRATORS
 from flexcage.solve.options import SolverOptions
 from flexcage.stages import assembled_start, build_bearing, cage_mesh, cage_reduction
@@ -25,6 +25,7 @@ from flexcage.system.scales import error_weights
 
 SETTLE = 20e-3  # [s] of bearing time before the stored state
 RATE = 200e3  # [1/s] samples of the compared window
+BLOCK = 1000  # samples, as many as a run writes at a time
 
 
 @dataclass(frozen=True)
@@ -90,7 +91,8 @@ class Settled:
         aside: float = 0.0,
         **options: Any,
     ) -> Outcome:
-        """Integrate from the stored state with tolerance and largest step cut to these shares.
+        """Integrate from the stored state, block by block as a run does, with tolerance and largest
+        step cut to these shares.
 
         ``aside`` [m] moves the cage by so much first; ``options`` change those of the solver.
         """
@@ -130,15 +132,19 @@ class Settled:
         )
         ys, yds = np.zeros((len(times), len(y))), np.zeros((len(times), len(y)))
         quads = np.zeros((len(times), len(POWERS)))
-        log, sample, outcome, cpu = np.zeros((50_000, 5)), 0, LOG_FULL, 0.0
-        while outcome == LOG_FULL:
-            begin = process_time()
-            outcome, sample, _ = b.advance(
-                method, state, method.options(solver), times[-1], times, ys, yds, sample, log, quads
-            )
+        log, sample, cpu = np.zeros((50_000, 5)), 0, 0.0
+        for end in [*times[BLOCK - 1 : -1 : BLOCK], times[-1]]:
+            begin, bound, outcome = process_time(), np.inf, LOG_FULL
+            if method.bounded:
+                bound = b.stable_step(state.real[T], *method.last(state))
+            options = method.options(solver, bound)
+            while outcome == LOG_FULL:
+                outcome, sample, _ = b.advance(
+                    method, state, options, end, times, ys, yds, sample, log, quads
+                )
             cpu += process_time() - begin
-        if outcome != DONE:
-            raise RuntimeError(f"the integrator stopped: {OUTCOMES[outcome]}")
+            if outcome != DONE:
+                raise RuntimeError(f"the integrator stopped: {OUTCOMES[outcome]}")
         return Outcome(cpu, state.count.copy(), state.quad.copy(), ys, yds)
 
     def forces(self, ys: np.ndarray, yds: np.ndarray, times: np.ndarray) -> Forces:

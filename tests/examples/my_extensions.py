@@ -160,7 +160,12 @@ def heun(fns, data, st, opt, t_end, times, ys, yds, first, log, quads):
     return DONE, done, row
 
 
-register_integrator(replace(EXPLICIT_METHOD, name="heun", advance=heun, helpers=()))
+register_integrator(
+    replace(
+        EXPLICIT_METHOD, name="heun", advance=heun, functions=("rates", "note", "sample"),
+        helpers=(), bounded=False,
+    )
+)  # fmt: skip
 
 # ------------------------------------------------------------------------------- an output
 

@@ -41,7 +41,7 @@ class Pendulum:
         def sample(sample, t, y, yd, data):
             self.samples.append(t)
 
-        return rates, note, lambda sample, data: True, sample
+        return rates, note, sample, lambda sample, data: True
 
     def energy(self, y):
         return 0.5 * y[1] ** 2 - np.cos(y[0])
@@ -140,7 +140,7 @@ class Linear:
             yd[:] = self.A @ y
             power[:] = 0.0
 
-        return rates, lambda t, data: None, lambda sample, data: True, lambda *_: None
+        return rates, lambda t, data: None, lambda *_: None, lambda sample, data: True
 
 
 def rotation(radius, angle):
@@ -191,7 +191,7 @@ class Wall:
             yd[:] = y[1], -self.stiffness * max(y[0], 0.0)
             power[:] = 0.0
 
-        return rates, lambda t, data: None, lambda sample, data: True, lambda *_: None
+        return rates, lambda t, data: None, lambda *_: None, lambda sample, data: True
 
 
 def test_a_contact_that_closes_within_a_step_is_seen(method):

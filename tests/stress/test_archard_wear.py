@@ -165,7 +165,8 @@ def test_a_land_that_slides(rolling, n1013):
 
 def test_sliding_of_rollers_explains_the_work_of_friction():
     """What friction takes at the speeds of wear is what the solver integrated."""
-    fine = {"solver.duration": "4 ms", "output.rate": "200 kHz", "cage.model": "rigid"}
+    fine = {"solver.duration": "4 ms", "output.rate": "200 kHz", "cage.model": "rigid",
+            "solver.tolerance": "0.001 um"}  # fmt: skip
     assert simulate(n1013_case(fine)).wear().friction_check == near(1.0, rel=0.01)
 
 

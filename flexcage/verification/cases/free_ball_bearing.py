@@ -30,7 +30,7 @@ FREE = {
     "mount.damping": "0 N*s/m",
     "contacts.race.friction.law": "none",  # the outer ring does not turn
     "solver.duration": "10 ms",
-    "solver.tolerance": "0.0001 um",
+    "solver.tolerance": "0.00002 um",
     "output.rate": "100 kHz",
     "output.vibration_rate": "200 kHz",
 }

@@ -29,7 +29,7 @@ GUIDED = {
     "drive.speed": "0 rpm",
     "load.radial": "0 N",
     "solver.duration": "0.8 ms",
-    "solver.tolerance": "0.0001 um",
+    "solver.tolerance": "0.00002 um",
     "solver.max_step": "2 us",
     "output.rate": "500 kHz",
     "output.vibration_rate": "500 kHz",
