@@ -5,31 +5,31 @@ crossbeam bent by 0.2 mm. Three runs each, told apart by a tenth of the toleranc
 chaotic, so only statistics compare. Means and standard deviations over the runs, and the ratio:
 
     quantity                  sound: default, dynamic, ratio     bent: default, dynamic, ratio
-    cage speed, rad/s      281.931+-.001 281.926+-.003 1.000  282.178+-.002 282.175+-.003 1.000
-    sum of pocket forces, N   19.01+-.23    18.89+-.06 1.006     20.48+-.10    20.37+-.01 1.005
-    in contact, mean, N        3.89+-.06     4.00+-.05 0.971      3.20+-.06     3.34+-.02 0.958
-    in contact, rms, N         6.73+-.07     6.88+-.07 0.979      5.78+-.10     6.00+-.06 0.964
-    largest force, N           99.0+-4.9     98.5+-9.3 1.005      90.7+-9.2     95.2+-3.9 0.953
-    contact peaks, mean, N     5.85+-.12     6.08+-.18 0.963      4.86+-.08     5.19+-.06 0.938
-    contact peaks, 99 %, N     46.6+-0.1     50.4+-0.7 0.926      43.7+-1.3     46.4+-1.9 0.942
-    contacts per ms            82.2+-1.2     83.0+-2.5 0.991      97.5+-1.2     94.5+-2.0 1.031
-    duration, mean, us         59.5+-0.5     56.8+-0.9 1.046      65.7+-0.3     64.6+-1.6 1.017
-    duration, median, us            40.0          40.0 1.000           45.0          45.0 1.000
-    duration, 90 %, us           70+-0         65+-0   1.077        80+-0         78+-3   1.021
-    root stress, mean, MPa     8.53+-.06     8.63+-.02 0.988      8.80+-.03     8.93+-.02 0.985
-    root stress, 99 %, MPa     17.5+-0.5     17.7+-0.6 0.987      17.3+-0.4     17.6+-0.6 0.979
-    root stress, largest, MPa  18.3+-0.4     19.5+-0.5 0.936      18.2+-0.5     18.6+-0.7 0.976
-    steps                          3455         24799 0.139           3418         24783 0.138
-    CPU of the march, s             0.95          16.5 0.06            0.95          16.9 0.06
+    cage speed, rad/s      281.930+-.003 281.929+-.002 1.000  282.181+-.011 282.174+-.004 1.000
+    sum of pocket forces, N   18.84+-.09    18.88+-.27 0.998     20.43+-.14    20.23+-.13 1.010
+    in contact, mean, N        3.86+-.03     3.89+-.05 0.993      3.41+-.06     3.26+-.13 1.047
+    in contact, rms, N         6.71+-.05     6.74+-.05 0.997      6.06+-.08     5.83+-.15 1.038
+    largest force, N            90.+-14.     95.5+-6.4 0.946      86.6+-4.0     88.3+-3.1 0.981
+    contact peaks, mean, N     5.76+-.20     5.80+-.03 0.994      5.13+-.03     4.96+-.20 1.033
+    contact peaks, 99 %, N     47.8+-1.6     48.5+-1.5 0.985      45.1+-1.1     45.8+-0.9 0.983
+    contacts per ms            88.0+-3.9     86.6+-0.8 1.017      99.4+-1.0     96.9+-4.4 1.026
+    duration, mean, us         55.5+-2.2     56.1+-0.3 0.990      60.3+-0.9     64.2+-0.6 0.939
+    duration, median, us          40+-0         40+-0  1.000        42+-3         43+-3   0.962
+    duration, 90 %, us            65+-0         65+-0  1.000        73+-3         78+-5   0.942
+    root stress, mean, MPa     8.54+-.05     8.65+-.10 0.986      8.87+-.04     8.87+-.06 1.000
+    root stress, 99 %, MPa     17.6+-0.7     17.6+-0.6 0.999      17.2+-0.8     17.7+-0.5 0.975
+    root stress, largest, MPa  19.4+-0.7     18.8+-0.6 1.031      18.3+-0.8     18.9+-0.7 0.967
+    steps                          2867          4058  0.71           2856          4149  0.69
+    CPU of the march, s             1.1           4.4  0.26            1.1           4.1  0.28
 
-With linear attachments, in the dynamic basis as well, mean peaks were 0.998 and 0.969 of the
-reference.
+Before modes swung exactly (``solve.oscillators``), mean peaks were 0.96 and 0.94 of the reference:
+steps of 5 us took a tenth of a crossbeam mode's swing at every step, in the default basis, and those
+of the reference, seven times as short, did not.
 
 Without inertia of the crossbeams' own bending (``modes.crossbeams = false``: 25 dynamic modes, to
-12 kHz) motion, loads and root stress are as near, but single contacts are not: the largest force is
-1.21 times the reference's, 99 % peaks 1.27 and 1.39 times, and contacts last 1.9 and 2.0 times as
-long on average, because a wall without inertia stays with its roller where one that rings breaks a
-push into blows.
+12 kHz) motion, loads and root stress are as near, but single contacts are not: their 99 % peaks are
+1.24 times the reference's (sound), and contacts last 1.6 times as long on average, because a wall
+without inertia stays with its roller where one that rings breaks a push into blows.
 """
 
 from __future__ import annotations
@@ -167,7 +167,7 @@ def test_contacts_are_the_same(both):
 
 
 def test_the_default_takes_fewer_steps(both):
-    assert ratio(both, "steps") < 0.5
+    assert ratio(both, "steps") < 0.85
 
 
 def test_crossbeams_without_inertia_of_their_own_blow_harder_and_longer():

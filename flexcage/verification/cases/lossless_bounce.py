@@ -15,7 +15,7 @@ SPEED, DIRECTION = 0.3, 0.4  # m/s, rad
 IMPACTS = 10  # at least, of more than 1 N
 TIGHT = {
     "solver.duration": "2 ms",
-    "solver.tolerance": "0.00003 um",
+    "solver.tolerance": "0.00001 um",
     "solver.max_step": "5 us",
     "output.rate": "100 kHz",
     "output.vibration_rate": "200 kHz",
