@@ -23,8 +23,8 @@ chaotic, so only statistics compare. Means and standard deviations over the runs
     CPU of the march, s             1.1           4.4  0.26            1.1           4.1  0.28
 
 Before modes swung exactly (``solve.oscillators``), mean peaks were 0.96 and 0.94 of the reference:
-steps of 5 us took a tenth of a crossbeam mode's swing at every step, in the default basis, and those
-of the reference, seven times as short, did not.
+steps of 5 us took a tenth of a crossbeam mode's swing each, in the default basis, and those of the
+reference, seven times as short, did not.
 
 Without inertia of the crossbeams' own bending (``modes.crossbeams = false``: 25 dynamic modes, to
 12 kHz) motion, loads and root stress are as near, but single contacts are not: their 99 % peaks are
