@@ -108,7 +108,7 @@ class Recorder:
         """Go on with this integrator from (time, y, y'); integrals and counters are kept."""
         before = getattr(self, "state", None)
         self.integrator = INTEGRATORS[method]
-        self.options = self.integrator.options(self.solver, np.inf)
+        self.options = self.integrator.options(self.solver)
         self.state = self.integrator.new_state(
             time, y, yd, weight=self.weight, h0=FIRST_STEP, n_quad=len(POWERS),
             modes=self.bearing.modes,
@@ -132,8 +132,7 @@ class Recorder:
             log.debug("%s from t = %.4f ms on: explicit steps up to %.3g us are stable", method,
                       self.time * 1e3, step * 1e6)  # fmt: skip
             self._take(method, self.time, y, yd)
-        if self.integrator.bounded:
-            self.options = self.integrator.options(self.solver, step)
+        self.options = self.integrator.within(self.integrator.options(self.solver), step)
 
     @property
     def time(self) -> float:

@@ -348,7 +348,7 @@ def _choose(st, opt, error):
     count[EQUAL] = 0
 
 
-def _options(solver: Any, bound: float) -> Options:
+def _options(solver: Any) -> Options:
     return Options(
         solver.max_order, solver.max_step, solver.min_step, solver.newton_tolerance,
         solver.max_steps,

@@ -43,8 +43,8 @@ class Integrator:
 
     ``functions``: names of the problem's functions in the order in which ``advance`` takes them.
     ``helpers``: names of functions beside ``advance`` that it calls, callees first.
-    ``options``: from SolverOptions, and the length [s] of stable explicit steps, to the numbers of
-    ``advance``; ``bounded`` methods are told that length, for others it is infinite.
+    ``options``: from SolverOptions to the numbers of ``advance``. ``bounded``: its steps are held
+    within the stability bound of explicit ones by ``h_max`` of these, as ``within`` says.
     ``new_state(t0, y0, yd0, *, weight, h0, n_quad, modes)``: a NamedTuple of arrays with ``real``,
     ``count`` and ``quad``; ``modes`` are the unknowns' linear oscillators
     (``oscillators.Oscillators``), of which a method may make use. ``kept`` names the arrays that a
@@ -56,12 +56,16 @@ class Integrator:
     advance: Callable[..., tuple[int, int, int]]
     functions: tuple[str, ...]
     helpers: tuple[str, ...]
-    options: Callable[[Any, float], Any]
+    options: Callable[[Any], Any]
     new_state: Callable[..., Any]
     kept: tuple[str, ...]
     refresh: Callable[[Any], None]
     last: Callable[[Any], tuple[np.ndarray, np.ndarray]]
     bounded: bool = False
+
+    def within(self, options: Any, bound: float) -> Any:
+        """Its options with steps of at most ``bound`` [s], if they are to be bounded."""
+        return options._replace(h_max=min(options.h_max, bound)) if self.bounded else options
 
     def checkpoint(self, state: Any) -> Mapping[str, np.ndarray]:
         """Arrays from which the state can be restored, by name."""

@@ -76,12 +76,18 @@ def step_weights(h, modes, out):
         out[LAST, m], out[LAST + 1, m] = h * last.real, h * last.imag
 
 
-def find_drives(y, yd, modes, turn, drive):
-    """Drives N (m,) and z (2, m) of all oscillators, from y and y'."""
+def find_turns(y, modes, turn):
+    """z (2, m) of all oscillators."""
+    for m in range(modes.decay.shape[0]):
+        q, u = y[modes.place[0, m]], y[modes.place[1, m]]
+        turn[0, m], turn[1, m] = u + modes.decay[m] * q, modes.frequency[m] * q
+
+
+def find_drives(y, yd, modes, drive):
+    """Drives N (m,) of all oscillators, from y and y'."""
     for m in range(modes.decay.shape[0]):
         g, w = modes.decay[m], modes.frequency[m]
         q, u = y[modes.place[0, m]], y[modes.place[1, m]]
-        turn[0, m], turn[1, m] = u + g * q, w * q
         drive[m] = yd[modes.place[1, m]] + (g * g + w * w) * q + 2.0 * g * u
 
 
@@ -96,15 +102,14 @@ def drive_half(modes, C, begin, new, old, turn, y):
         y[modes.place[0, m]], y[modes.place[1, m]] = q, x - modes.decay[m] * q
 
 
-def drive_whole(modes, C, begin, N, turn, y):
-    """The whole step under the drives N (4 or more, m) of its stages, likewise."""
+def drive_whole(modes, C, begin, N, y):
+    """The whole step under the drives N (4 or more, m) of its stages, into y."""
     for m in range(modes.decay.shape[0]):
         a, b, inner = C[WHOLE, m], C[WHOLE + 1, m], N[1, m] + N[2, m]
         x = a * begin[0, m] - b * begin[1, m]
         z = a * begin[1, m] + b * begin[0, m]
         x += C[FIRST, m] * N[0, m] + C[INNER, m] * inner + C[LAST, m] * N[3, m]
         z += C[FIRST + 1, m] * N[0, m] + C[INNER + 1, m] * inner + C[LAST + 1, m] * N[3, m]
-        turn[0, m], turn[1, m] = x, z
         q = z / modes.frequency[m]
         y[modes.place[0, m]], y[modes.place[1, m]] = q, x - modes.decay[m] * q
 
@@ -119,38 +124,27 @@ def drive_missed(modes, C, N, late, bend, estimate):
         estimate[modes.place[1, m]] = 6.0 * C[LAST, m] * change - modes.decay[m] * q
 
 
-def drive_within(x, modes, C, D, begin, end, N, y, yd):
-    """y and y' of the oscillators at share x of a step, D: the weights of that share.
+def drive_within(x, modes, C, D, begin, N, y, yd):
+    """y and y' of the oscillators at share x of a step; C, D: weights of the step and that share.
 
-    The drive is the parabola through its ends and the mean of its middle stages. What that misses
-    of the step's end is taken off by a cubic.
+    The drive is the parabola through its ends and the mean of its middle stages, for which weights
+    are exact. The step itself took the last stage's drive for its end; a cubic makes up for that.
     """
     for m in range(modes.decay.shape[0]):
         g, w = modes.decay[m], modes.frequency[m]
-        middle = 0.5 * (N[1, m] + N[2, m])
-        bend = 2.0 * (N[0, m] + N[4, m]) - 4.0 * middle
+        bend = 2.0 * (N[0, m] + N[4, m] - N[1, m] - N[2, m])
         slope = N[4, m] - N[0, m] - bend
-        found = 0j
-        for which in range(2):  # the step's end; at x
-            W, s = (C, 1.0) if which == 0 else (D, x)
-            whole = complex(W[WHOLE, m], W[WHOLE + 1, m])
-            first, inner = (
-                complex(W[FIRST, m], W[FIRST + 1, m]),
-                complex(W[INNER, m], W[INNER + 1, m]),
-            )
-            last = complex(W[LAST, m], W[LAST + 1, m])
-            p1, p2 = first + 2.0 * inner + last, inner + last
-            p3 = 0.25 * (last + p2)
-            z = whole * complex(begin[0, m], begin[1, m])
-            z += p1 * N[0, m] + s * (p2 * slope + 2.0 * s * p3 * bend)
-            if which == 0:
-                found = x * x * (3.0 - 2.0 * x) * (complex(end[0, m], end[1, m]) - z)
-            else:
-                found += z
-        q = found.imag / w
-        u = found.real - g * q
-        y[modes.place[0, m]], y[modes.place[1, m]] = q, u
+        middle = N[0, m] + 0.5 * x * (slope + 0.5 * x * bend)
         drive = N[0, m] + x * (slope + x * bend)
+        late = x * x * (3.0 - 2.0 * x) * (N[3, m] - N[4, m])
+        a, b = D[WHOLE, m], D[WHOLE + 1, m]
+        u = a * begin[0, m] - b * begin[1, m]
+        q = a * begin[1, m] + b * begin[0, m]
+        u += D[FIRST, m] * N[0, m] + 2.0 * D[INNER, m] * middle + D[LAST, m] * drive
+        q += D[FIRST + 1, m] * N[0, m] + 2.0 * D[INNER + 1, m] * middle + D[LAST + 1, m] * drive
+        q = (q + C[LAST + 1, m] * late) / w
+        u += C[LAST, m] * late - g * q
+        y[modes.place[0, m]], y[modes.place[1, m]] = q, u
         yd[modes.place[0, m]] = u
         yd[modes.place[1, m]] = drive - (g * g + w * w) * q - 2.0 * g * u
 

@@ -58,6 +58,7 @@ from flexcage.solve.oscillators import (
     drive_whole,
     drive_within,
     find_drives,
+    find_turns,
     leave_own,
     no_oscillators,
     step_weights,
@@ -85,7 +86,7 @@ class RKState(NamedTuple):
     power: np.ndarray  # (STAGES, n_quad) integrands
     modes: Oscillators  # m of the unknowns' pairs
     drive: np.ndarray  # (STAGES, m) what drives them at the stages
-    turn: np.ndarray  # (4, 2, m) their z: at the last point, at a stage, after it, scratch
+    turn: np.ndarray  # (3, 2, m) their z: at the last point, at the second stage, elsewhere
     exact: np.ndarray  # (2, ROWS, m) weights: of the step, of a part of it
 
 
@@ -104,7 +105,7 @@ def new_state(
     return RKState(
         np.array(y0, float), np.zeros((STAGES, n)), np.zeros((2, n)), np.array([t0, h0, 0.0]),
         np.zeros(7, np.int64), np.array(weight, float), np.zeros(n_quad),
-        np.zeros((STAGES, n_quad)), modes, np.zeros((STAGES, m)), np.zeros((4, 2, m)),
+        np.zeros((STAGES, n_quad)), modes, np.zeros((STAGES, m)), np.zeros((3, 2, m)),
         np.zeros((2, ROWS, m)),
     )  # fmt: skip
 
@@ -136,7 +137,7 @@ def advance(fns, data, st, opt, t_end, times, ys, yds, first, log, quads):
     y, K, power, real, count = st.y, st.K, st.power, st.real, st.count
     stage, estimate = st.Y[0], st.Y[1]
     modes, N, C, D = st.modes, st.drive, st.exact[0], st.exact[1]
-    begin, turn, after, spare = st.turn[0], st.turn[1], st.turn[2], st.turn[3]
+    begin, turn, spare = st.turn[0], st.turn[1], st.turn[2]
     n = y.shape[0]
     sample, row = first, 0
     finite = True
@@ -160,27 +161,28 @@ def advance(fns, data, st, opt, t_end, times, ys, yds, first, log, quads):
             t_new = t_end if steps == 1 else t + h
         half, third, sixth = 0.5 * h, h / 3.0, h / 6.0
         step_weights(h, modes, C)
-        find_drives(y, K[0], modes, begin, N[0])
+        find_turns(y, modes, begin)
+        find_drives(y, K[0], modes, N[0])
         for k in range(n):
             stage[k] = y[k] + half * K[0, k]
         drive_half(modes, C, begin, N[0], N[0], turn, stage)
         rates(t + half, stage, K[1], data, power[1])
-        find_drives(stage, K[1], modes, spare, N[1])
+        find_drives(stage, K[1], modes, N[1])
         for k in range(n):
             stage[k] = y[k] + half * K[1, k]
-        drive_half(modes, C, begin, N[1], N[1], after, stage)
+        drive_half(modes, C, begin, N[1], N[1], spare, stage)
         rates(t + half, stage, K[2], data, power[2])
-        find_drives(stage, K[2], modes, spare, N[2])
+        find_drives(stage, K[2], modes, N[2])
         for k in range(n):
             stage[k] = y[k] + h * K[2, k]
-        drive_half(modes, C, turn, N[2], N[0], after, stage)
+        drive_half(modes, C, turn, N[2], N[0], spare, stage)
         rates(t_new, stage, K[3], data, power[3])
-        find_drives(stage, K[3], modes, spare, N[3])
+        find_drives(stage, K[3], modes, N[3])
         for k in range(n):
             stage[k] = y[k] + sixth * (K[0, k] + K[3, k]) + third * (K[1, k] + K[2, k])
-        drive_whole(modes, C, begin, N, after, stage)
+        drive_whole(modes, C, begin, N, stage)
         rates(t_new, stage, K[4], data, power[4])
-        find_drives(stage, K[4], modes, spare, N[4])
+        find_drives(stage, K[4], modes, N[4])
         count[RESIDUALS] += 4
         for k in range(n):
             late, bend = K[4, k] - K[3, k], K[0, k] - K[1, k] - K[2, k] + K[4, k]
@@ -201,7 +203,7 @@ def advance(fns, data, st, opt, t_end, times, ys, yds, first, log, quads):
             hermite(x, h, y, K[0], stage, K[4], ys[sample], yds[sample])
             if wanted(sample, data):
                 step_weights(x * h, modes, D)
-                drive_within(x, modes, C, D, begin, after, N, ys[sample], yds[sample])
+                drive_within(x, modes, C, D, begin, N, ys[sample], yds[sample])
             sample_at(sample, times[sample], ys[sample], yds[sample], data)
             for k in range(st.quad.shape[0]):  # the quadratic through both ends with its integral
                 p = (power[0, k] + power[3, k]) / 6.0 + (power[1, k] + power[2, k]) / 3.0
@@ -270,8 +272,8 @@ def spectral_radius(fns, data, st, iterations, nudge):
     return np.exp(growth / used) if used > 0 else 0.0
 
 
-def _options(solver: Any, bound: float) -> Options:
-    return Options(min(solver.max_step, bound), solver.min_step, solver.max_steps)
+def _options(solver: Any) -> Options:
+    return Options(solver.max_step, solver.min_step, solver.max_steps)
 
 
 def _refresh(state: RKState) -> None:
@@ -286,6 +288,7 @@ EXPLICIT_METHOD = Integrator(
         "largest",
         "hermite",
         "step_weights",
+        "find_turns",
         "find_drives",
         "drive_half",
         "drive_whole",

@@ -62,9 +62,9 @@ def measure(case: flexcage.Case, *, plot: Path | None = None) -> dict[str, Any]:
         raise SystemExit("peer needs SUNDIALS: install scikit-sundae, as the extra 'peer' does")
     settled = Settled(case, calm=True)
     peers = Peers(settled, WINDOW)
-    reference = _forces(peers, _flexcage(peers, **REFERENCE))
-    looser = _forces(peers, _flexcage(peers, **LOOSER))
-    aside = _forces(peers, _flexcage(peers, **REFERENCE, aside=NUDGE))
+    reference = settled.window(WINDOW, **REFERENCE)
+    looser = settled.window(WINDOW, **LOOSER)
+    aside = settled.window(WINDOW, **REFERENCE, aside=NUDGE)
     second = second_method(settled, peers.times)
     curves = _curves(peers, reference)
     if plot is not None:

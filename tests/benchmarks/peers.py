@@ -24,7 +24,7 @@ import scipy.integrate
 from c_functions import CFunctions
 from dense_tangent import newton_matrix
 from ode_form import OdeForm
-from settled import RATE, SETTLE, Settled
+from settled import SETTLE, Settled, sample_times
 
 from flexcage.results.recording import FIRST_STEP
 from flexcage.system.scales import error_weights
@@ -50,7 +50,7 @@ class Peers:
 
     def __init__(self, settled: Settled, duration: float) -> None:
         self.settled = settled
-        self.times = SETTLE + np.arange(1, round(duration * RATE) + 1) / RATE
+        self.times = sample_times(duration)
         self.c = CFunctions(settled.bearing)
         self.ode = OdeForm(self.c)
 

@@ -30,6 +30,11 @@ NUDGE = 1e-12  # [m] by which the cage is moved aside
 BLOCK = 1000  # samples, as many as a run writes at a time
 
 
+def sample_times(duration: float) -> np.ndarray:
+    """Sampling times of a window that begins in the stored state."""
+    return SETTLE + np.arange(1, round(duration * RATE) + 1) / RATE
+
+
 @dataclass(frozen=True)
 class Forces:
     """Sampled force vectors (n, m, components): both races on rollers, and those on the cage."""
@@ -100,9 +105,7 @@ class Settled:
 
     def _spread(self) -> float:
         """Relative error that a nudge makes in the cage's forces within ``CALM``."""
-        times = SETTLE + np.arange(1, round(CALM * RATE) + 1) / RATE
-        outs = [self.integrate(CALM, stride=1, share=1e-3, aside=a) for a in (0.0, NUDGE)]
-        plain, nudged = (self.forces(out.ys, out.yds, times) for out in outs)
+        plain, nudged = (self.window(CALM, share=1e-3, aside=a) for a in (0.0, NUDGE))
         return nudged.error(plain)[1]
 
     def restore(self) -> tuple[np.ndarray, np.ndarray]:
@@ -130,12 +133,16 @@ class Settled:
         """
         y, yd = self.restore()
         self.bearing.layout.q(y)["cage"][1] += aside
-        n = round(duration * RATE)
-        self._sample(n // stride + 1, stride)
+        times = sample_times(duration)
+        self._sample(len(times) // stride + 1, stride)
         own = self.case.solver
         solver = dataclasses.replace(own, max_step=own.max_step * step_share, **options)
-        times = SETTLE + np.arange(1, n + 1) / RATE
         return self._advance(SETTLE, y, yd, times, solver, share=share)
+
+    def window(self, duration: float, **options: Any) -> Forces:
+        """Forces at all samples of an integration, as ``integrate`` does it."""
+        out = self.integrate(duration, stride=1, **options)
+        return self.forces(out.ys, out.yds, sample_times(duration))
 
     def weights(self, share: float) -> np.ndarray:
         """1/(allowed local error) of y at this share of the case's tolerance; 0: not tested."""
@@ -166,10 +173,10 @@ class Settled:
         quads = np.zeros((len(times), len(POWERS)))
         log, sample, cpu = np.zeros((50_000, 5)), 0, 0.0
         for end in [*times[BLOCK - 1 : -1 : BLOCK], times[-1]]:
-            begin, bound, outcome = process_time(), np.inf, LOG_FULL
+            begin, options, outcome = process_time(), method.options(solver), LOG_FULL
             if method.bounded:
                 bound = b.stable_step(state.real[T], *method.last(state))
-            options = method.options(solver, bound)
+                options = method.within(options, bound)
             while outcome == LOG_FULL:
                 outcome, sample, _ = b.advance(
                     method, state, options, end, times, ys, yds, sample, log, quads

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import partial
 from statistics import median
 from time import process_time
 from typing import Any
@@ -10,7 +11,7 @@ import implicit_runge_kutta
 import numba
 import numpy as np
 from numba import types
-from settled import NUDGE, RATE, SETTLE, Forces, Settled
+from settled import NUDGE, RATE, SETTLE, Forces, Settled, sample_times
 
 import flexcage
 from flexcage.solve.bdf import BDF
@@ -37,16 +38,11 @@ def measure(case: flexcage.Case) -> dict[str, Any]:
         timed[method] = [
             settled.integrate(revolution, stride=stride, method=method) for _ in range(3)
         ]
-    times = SETTLE + np.arange(1, round(WINDOW * RATE) + 1) / RATE
-
-    def window(**options: Any) -> Forces:
-        out = settled.integrate(WINDOW, stride=1, **options)
-        return settled.forces(out.ys, out.yds, times)
-
+    window = partial(settled.window, WINDOW)
     reference = window(**REFERENCE)
     default = window()
     error = default.error(reference)
-    aside = settled.integrate(WINDOW, stride=1, aside=NUDGE, **REFERENCE)
+    aside = window(aside=NUDGE, **REFERENCE)
     fine = window(method="explicit", share=FINE)
     touching = np.abs(reference.cage).max(axis=(1, 2)) > 1e-3
     return {
@@ -60,8 +56,8 @@ def measure(case: flexcage.Case) -> dict[str, Any]:
         "reference": {
             "tolerance_next": _pair(window(**LOOSER).error(reference)),
             "explicit": _pair(fine.error(reference)),
-            "second_method": _pair(second_method(settled, times).error(reference)),
-            "nudged": _pair(settled.forces(aside.ys, aside.yds, times).error(reference)),
+            "second_method": _pair(second_method(settled, sample_times(WINDOW)).error(reference)),
+            "nudged": _pair(aside.error(reference)),
         },
         **kernel_times(settled),
         **{name: int(timed["explicit"][0].count[i]) for name, i in COUNTS.items()},

@@ -108,7 +108,7 @@ def first_step(file: str, begin: float) -> dict[str, Any]:
     )
     rows = np.zeros((2, len(start.y)))
     bearing.advance(
-        method, state, method.options(case.solver, np.inf), until, np.array([until]), rows[:1],
+        method, state, method.options(case.solver), until, np.array([until]), rows[:1],
         rows[1:], 0, np.zeros((100, 5)), np.zeros((1, len(POWERS))),
     )  # fmt: skip
     done("step")

@@ -10,9 +10,9 @@ from scipy.integrate import solve_ivp
 GRAVITY = 9.81
 
 
-def plain_bdf():
-    """A private copy of the integrator's module: plain Python, whatever others have compiled."""
-    spec = importlib.util.find_spec("flexcage.solve.bdf")
+def plain(name: str):
+    """A private copy of an integrator's module: plain Python, whatever others have compiled."""
+    spec = importlib.util.find_spec(f"flexcage.solve.{name}")
     module = importlib.util.module_from_spec(spec)
     spec.loader.exec_module(module)
     return module

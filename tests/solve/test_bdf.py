@@ -4,14 +4,14 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from dae_problems import Oscillator, Pendulum, functions, plain_bdf, run
+from dae_problems import Oscillator, Pendulum, functions, plain, run
 
 from flexcage.solve.contract import OUTCOMES
 
 
 @pytest.fixture(scope="module")
 def bdf():
-    return plain_bdf()
+    return plain("bdf")
 
 
 @pytest.fixture(scope="module")
@@ -21,7 +21,7 @@ def pendulum():
 
 def fixed_step_error(problem, order, steps, end):
     """Error at the end with one order and one step size, started from exact values."""
-    bdf = plain_bdf()
+    bdf = plain("bdf")
     bdf._choose = lambda *_: None
     bdf.NEWTON_MAX = 12
     h = end / steps

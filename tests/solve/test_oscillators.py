@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-import importlib.util
 from math import factorial
 
 import numpy as np
 import pytest
+from dae_problems import plain
 from scipy.integrate import quad, solve_ivp
 
 from flexcage.solve import contract
@@ -25,11 +25,7 @@ from flexcage.solve.oscillators import (
 
 @pytest.fixture(scope="module")
 def method():
-    """The integrator as plain Python, whatever else of this process compiled it."""
-    spec = importlib.util.find_spec("flexcage.solve.runge_kutta")
-    module = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(module)
-    return module
+    return plain("runge_kutta")
 
 
 def oscillators(*modes: tuple[int, int, float, float]) -> Oscillators:

@@ -2,21 +2,16 @@
 
 from __future__ import annotations
 
-import importlib.util
-
 import numpy as np
 import pytest
+from dae_problems import plain
 
 from flexcage.solve import contract
 
 
 @pytest.fixture(scope="module")
 def method():
-    """The integrator as plain Python, whatever else of this process compiled it."""
-    spec = importlib.util.find_spec("flexcage.solve.runge_kutta")
-    module = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(module)
-    return module
+    return plain("runge_kutta")
 
 
 class Pendulum:
