@@ -108,7 +108,7 @@ def _join(data, i, sl, pw):
             n = points_of_face(data, f)
             _read(N_LOCAL, n, data.res[i, f], pw.face[f])
             _yielded(N_LOCAL, n, pw.face[f], pw.b, sl)
-            if largest(n, sl.d) > 0.0:
+            if largest(0, n, sl.d) > 0.0:
                 pw.live[f] = 1
                 joined = True
     return joined

@@ -94,7 +94,7 @@ def _press(data, i, f, sl, pw):
     else:
         for k in range(n):
             sl.d[k] = pw.face[f].d0[k]
-    return largest(n, sl.d) > 0.0
+    return largest(0, n, sl.d) > 0.0
 
 
 @part
@@ -125,7 +125,7 @@ def _face(pose, data, i, f, Rw, distance, rel, spin, qd, p, laws, sl, pw, pair, 
             for k in range(n):
                 pw.slice_N[f, k] = sl.N[k]
                 pw.slice_T[f, k] = sl.N[k] * sl.g[k] * sl.u[k]
-        sums[2] += friction_power(n, sl)
-        energy, damped = stored_and_damped(n, sl, p[1])
+        sums[2] += friction_power(0, n, sl)
+        energy, damped = stored_and_damped(0, n, sl, p[1])
         sums[0] += energy
         sums[1] += damped

@@ -228,7 +228,7 @@ def penetrations(pose, data, i, Rw, D, q, margin, pw):
             _lay_crossbeam(data, f, sgn, X, T + sgn * (Rw - data.half[0]), ax[0], at[0], face)
         else:
             _lay_side_beam(data, f, sgn, sgn * X - data.half[1], T, ax, at, face)
-        bare = largest(n, face.d0) - data.low[i, f]
+        bare = largest(0, n, face.d0) - data.low[i, f]
         pw.deep[f] = bare + 2.0 * margin
         if pw.deep[f] + pw.push[f] <= 0.0:
             continue
@@ -246,7 +246,7 @@ def penetrations(pose, data, i, Rw, D, q, margin, pw):
             face.slope[k] = sgn * mixed(face.ws, face, k, pw.wall[across])
         if data.bent[i, f] != 0:
             _add_offset(data, i, f, n, face)
-        pw.deep[f] = largest(n, face.d0)
+        pw.deep[f] = largest(0, n, face.d0)
         touch = touch or pw.deep[f] > 0.0
     return touch
 

@@ -7,13 +7,16 @@ from typing import NamedTuple
 
 import numpy as np
 
-from flexcage.contacts.laws import rolling_force
+from flexcage.contacts.laws import rolling_forces
 from flexcage.contacts.slices import (
+    LOT,
     friction_factors,
     friction_power,
     largest,
-    normal_forces,
+    new_slices,
+    normal_forces_of_lot,
     stored_and_damped,
+    total,
 )
 from flexcage.contacts.state import (
     add_generator,
@@ -42,20 +45,42 @@ class RaceSide(NamedTuple):
     uneven: int  # 1 if there is a wave or a spall (records hold no booleans)
 
 
-@part
-def race_contact(pose, side, Rw, P, b, Vr, wr, theta, p, law, friction, sl, pair, mode, sums):
-    """Wrench on the roller from one raceway.
+class RaceWork(NamedTuple):
+    """A lot of contacts on one race, of n slices each; those of contact m begin at m n in ``lot``.
 
-    P: roller centre from the ring's centre; b: ring axis; Vr, wr: the ring's velocity and angular
-    velocity; all in F. ``theta``: the ring's spin angle (waves, spall). ``mode``: 0 wrench, 1 with
-    tangent, from 2 with ``sums``: normal, traction, moments about e_r and e_psi, sliding speed at
-    the middle (these four at 2 alone), elastic energy, power of damping, friction and rolling
-    resistance.
+    Laws take no longer for ten contacts than for two, as it is the length of a chain of operations
+    that takes the time, not their number.
     """
-    clear(pair, mode == 1)
-    if mode >= 2:
-        zero(sums)
-    centre, ring_axis, ring_spin = xyz(P), xyz(b), xyz(wr)
+
+    lot: np.ndarray  # (1,) record of their slices
+    who: np.ndarray  # (lots,) roller of each contact
+    partner: np.ndarray  # (lots, 4, 3) roller's centre from the ring's, ring's axis, velocity, spin
+    load: np.ndarray  # (lots,)
+    speed: np.ndarray  # (lots,) of the roller's and of the ring's surface, from the contact's place
+    ring_speed: np.ndarray
+    entrainment: np.ndarray
+    rolling: np.ndarray  # (lots,) rolling resistance
+
+
+def race_work(slices: int) -> RaceWork:
+    most = max(LOT // slices, 1)
+    z = np.zeros
+    return RaceWork(
+        new_slices(LOT).row, z(most, np.int64), z((most, 4, 3)), z(most), z(most), z(most), z(most),
+        z(most),
+    )  # fmt: skip
+
+
+@part
+def meet_race(m, pose, side, Rw, theta, onset, rw):
+    """Whether a roller touches a raceway: geometry and motion of contact m of the lot ``rw``.
+
+    ``rw.partner[m]`` is given: P, roller centre from the ring's centre; b, ring axis; Vr, wr, the
+    ring's velocity and angular velocity; all in F. ``theta``: the ring's spin angle (waves,
+    spall); ``onset``: speed at which the contact closed.
+    """
+    sl, partner = rw.lot[0], rw.partner[m]
+    centre, ring_axis, ring_spin = row(partner, 0), row(partner, 1), row(partner, 3)
     a = row(pose.axis, 0)
     # what of the roller's axis at s is perpendicular to the ring's axis: x0 + s x1
     x0 = combine(centre, -dot(centre, ring_axis), ring_axis)
@@ -68,84 +93,122 @@ def race_contact(pose, side, Rw, P, b, Vr, wr, theta, p, law, friction, sl, pair
         return False
     # velocity of the roller's axis at s, seen from the ring's material there: v0 + s v1
     spin = minus(xyz(pose.w), ring_spin)
-    v0 = minus(minus(xyz(pose.V), xyz(Vr)), cross(ring_spin, centre))
-    _meet(side, Rw, ring_axis, x0, x1, v0, cross(spin, a), spin, sl)
+    v0 = minus(minus(xyz(pose.V), row(partner, 2)), cross(ring_spin, centre))
+    first = np.uint64(m * n)
+    _meet(first, side, Rw, onset, ring_axis, x0, x1, v0, cross(spin, a), spin, sl)
     if side.uneven:
-        _ride(pose, side, sqrt(dot(x0, x0)), ring_spin[0], theta, sl)
-    if largest(n, sl.d) <= 0.0:
+        _ride(first, pose, side, sqrt(dot(x0, x0)), ring_spin[0], theta, sl)
+    if largest(first, first + np.uint64(n), sl.d) <= 0.0:
         return False
-    normal_forces(law, n, sl, p)
-    friction_factors(friction, n, sl, side.friction)
-    load = _push(side, Rw, a, ring_axis, sl, pair.wrench)
-    if side.uneven:
-        _lean(pose, side, centre, ring_axis, theta, sl, pair, mode, sums)
-    if mode == 1:
-        _tangent(pose, side, Rw, centre, ring_axis, theta, sl, pair)
-    elif mode >= 2:
-        sums[0], sums[7] = load, friction_power(n, sl)
-        sums[5], sums[6] = stored_and_damped(n, sl, p[1])
-        if mode == 2:
-            _report(side, Rw, a, sl, sums)
-    _roll(pose, side, Rw, centre, ring_spin[0], load, pair, mode, sums)
+    # the surfaces' speeds along e_psi, seen from the contact, which moves with the orbit
+    orbit = pose.V[2] / centre[1]
+    rw.speed[m] = (orbit - pose.w[0]) * side.sign * Rw
+    rw.ring_speed[m] = (ring_spin[0] - orbit) * side.radius
+    rw.entrainment[m] = 0.5 * (rw.speed[m] + rw.ring_speed[m])
     return True
 
 
+@part
+def press_race(count, side, p, law, friction, rw):
+    """Forces of all ``count`` contacts of the lot ``rw``; p (N_NORMAL,) of a slice, as of all."""
+    sl, n = rw.lot[0], side.s.shape[0]
+    normal_forces_of_lot(law, count * n, sl, p)
+    friction_factors(friction, count * n, sl, side.friction)
+    for m in range(count):
+        rw.load[m] = total(np.uint64(m * n), np.uint64((m + 1) * n), sl.N)
+    if side.rolling[0] > 0.0:
+        rolling_forces(count, side.rolling, rw.entrainment, rw.load, rw.rolling)
+
+
+@part
+def push_by_race(m, pose, side, Rw, theta, exponent, rw, pair, mode, sums):
+    """Wrench on the roller of contact m.
+
+    ``mode``: 0 wrench, 1 with tangent, from 2 with ``sums``: normal, traction, moments about e_r
+    and e_psi, sliding speed at the middle (these four at 2 alone), elastic energy, power of
+    damping, friction and rolling resistance. ``exponent`` of the elastic force.
+    """
+    clear(pair, mode == 1)
+    sl, partner = rw.lot[0], rw.partner[m]
+    centre, ring_axis = row(partner, 0), row(partner, 1)
+    a, n = row(pose.axis, 0), side.s.shape[0]
+    first, end = np.uint64(m * n), np.uint64((m + 1) * n)
+    _push(first, side, Rw, a, ring_axis, sl, pair.wrench)
+    if mode >= 2:
+        zero(sums)
+        sums[0], sums[7] = rw.load[m], friction_power(first, end, sl)
+        sums[5], sums[6] = stored_and_damped(first, end, sl, exponent)
+        if mode == 2:
+            _report(first, side, Rw, a, sl, sums)
+    if side.uneven:
+        _lean(first, pose, side, centre, ring_axis, theta, sl, pair, mode, sums)
+    if mode == 1:
+        _tangent(first, pose, side, Rw, centre, ring_axis, theta, sl, pair)
+    if side.rolling[0] > 0.0:
+        # shear on both surfaces, and the pressure that balances it: on the roller -F t at the
+        # surface and + hydro F t through its centre (hydro = 2 R/Rw); the ring gets the reaction
+        # of the same wrench at the contact point
+        pair.wrench[2] += (side.hydro - 1.0) * rw.rolling[m]
+        pair.wrench[3] += side.sign * Rw * rw.rolling[m]
+        if mode >= 2:
+            sums[8] -= rw.rolling[m] * (rw.speed[m] + rw.ring_speed[m])
+
+
 @part(fastmath=VECTORISED)
-def _meet(side, Rw, ring_axis, x0, x1, v0, v1, spin, sl):
+def _meet(first, side, Rw, onset, ring_axis, x0, x1, v0, v1, spin, sl):
     """Penetration, its rate, normal and sliding velocity of every slice on a round race.
 
     x0 + s x1: the roller's axis at s across the ring's axis; v0 + s v1: its velocity.
     """
     for k in range(side.s.shape[0]):
-        s = side.s[k]
+        s, at = side.s[k], first + np.uint64(k)
         x = combine(x0, s, x1)
         distance = sqrt(dot(x, x))
         n = times(side.sign / distance, x)
-        sl.d[k] = Rw - side.drop[k] - side.sign * (distance - side.radius)
-        sl.n1[k], sl.n2[k], sl.n3[k] = n
+        sl.d[at] = Rw - side.drop[k] - side.sign * (distance - side.radius)
+        sl.onset[at] = onset
+        sl.n1[at], sl.n2[at], sl.n3[at] = n
         v = combine(v0, s, v1)
-        sl.v[k] = -dot(n, v)
+        sl.v[at] = -dot(n, v)
         v = combine(v, side.drop[k] - Rw, cross(spin, n))  # of its surface
         along, across = dot(v, ring_axis), side.sign * dot(v, cross(ring_axis, n))
-        sl.t1[k], sl.t2[k] = along, across
-        sl.u[k] = sqrt(along * along + across * across)
+        sl.t1[at], sl.t2[at] = along, across
+        sl.u[at] = sqrt(along * along + across * across)
 
 
 @part(fastmath=VECTORISED)
-def _push(side, Rw, a, ring_axis, sl, wrench):
-    """Add the slices' forces to the wrench; returns the sum of normal forces."""
+def _push(first, side, Rw, a, ring_axis, sl, wrench):
+    """Add the slices' forces to the wrench."""
     force = moment = (0.0, 0.0, 0.0)
-    load = 0.0
     for k in range(side.s.shape[0]):
-        N = sl.N[k]
-        n = (sl.n1[k], sl.n2[k], sl.n3[k])
-        f = combine(n, -sl.g[k] * sl.t1[k], ring_axis)
-        f = times(N, combine(f, -sl.g[k] * sl.t2[k] * side.sign, cross(ring_axis, n)))
+        at = first + np.uint64(k)
+        n = (sl.n1[at], sl.n2[at], sl.n3[at])
+        f = combine(n, -sl.g[at] * sl.t1[at], ring_axis)
+        f = times(sl.N[at], combine(f, -sl.g[at] * sl.t2[at] * side.sign, cross(ring_axis, n)))
         r = combine(times(side.s[k], a), side.drop[k] - Rw, n)
         force = plus(force, f)
         moment = plus(moment, cross(r, f))
-        load += N
     for c in range(3):
         wrench[c] += force[c]
         wrench[3 + c] += moment[c]
-    return load
 
 
 @part(fastmath=VECTORISED)
-def _report(side, Rw, a, sl, sums):
+def _report(first, side, Rw, a, sl, sums):
     """Traction, moments of the normal forces, and sliding of the slice in the middle."""
     across = about_r = about_psi = 0.0
     for k in range(side.s.shape[0]):
-        N = sl.N[k]
-        n = (sl.n1[k], sl.n2[k], sl.n3[k])
+        at = first + np.uint64(k)
+        N = sl.N[at]
+        n = (sl.n1[at], sl.n2[at], sl.n3[at])
         m = cross(combine(times(side.s[k], a), side.drop[k] - Rw, n), n)
-        across -= N * sl.g[k] * sl.t2[k]
+        across -= N * sl.g[at] * sl.t2[at]
         about_r += N * m[1]
         about_psi += N * m[2]
     sums[1] = across
     sums[2] += about_r
     sums[3] += about_psi
-    sums[4] = sl.t2[side.s.shape[0] // 2]
+    sums[4] = sl.t2[first + np.uint64(side.s.shape[0] // 2)]
 
 
 @part
@@ -180,15 +243,16 @@ def _unevenness(side, phi, k):
 
 
 @part
-def _ride(pose, side, distance, ring_spin, theta, sl):
+def _ride(first, pose, side, distance, ring_spin, theta, sl):
     """What an uneven race adds to penetrations and their rates; ``distance`` of the roller's axis
     from the ring's."""
     turn = pose.V[2] / distance - ring_spin
     for k in range(side.s.shape[0]):
-        phi = theta_at(pose, side.sign * sl.n2[k], side.sign * sl.n3[k]) - theta
+        at = first + np.uint64(k)
+        phi = theta_at(pose, side.sign * sl.n2[at], side.sign * sl.n3[at]) - theta
         rise, slope = _unevenness(side, phi, k)
-        sl.d[k] += side.sign * rise
-        sl.v[k] += side.sign * slope * turn
+        sl.d[at] += side.sign * rise
+        sl.v[at] += side.sign * slope * turn
 
 
 @part
@@ -199,13 +263,14 @@ def _incline(pose, side, P, n, theta, k):
 
 
 @part
-def _lean(pose, side, P, b, theta, sl, pair, mode, sums):
+def _lean(first, pose, side, P, b, theta, sl, pair, mode, sums):
     """What an uneven race's slope adds: its energy depends on the azimuth of the roller's axis, so
     that share of the force acts there."""
     a = row(pose.axis, 0)
     for k in range(side.s.shape[0]):
-        n = (sl.n1[k], sl.n2[k], sl.n3[k])
-        f = times(-sl.N[k] * _incline(pose, side, P, n, theta, k) * side.sign, cross(b, n))
+        at = first + np.uint64(k)
+        n = (sl.n1[at], sl.n2[at], sl.n3[at])
+        f = times(-sl.N[at] * _incline(pose, side, P, n, theta, k) * side.sign, cross(b, n))
         on_axis = times(side.s[k], a)
         add_wrench(pair.wrench, f, on_axis)
         if mode == 2:
@@ -215,19 +280,20 @@ def _lean(pose, side, P, b, theta, sl, pair, mode, sums):
 
 
 @outlined
-def _tangent(pose, side, Rw, P, b, theta, sl, pair):
+def _tangent(first, pose, side, Rw, P, b, theta, sl, pair):
     """The slices' share of the pair's tangent."""
     a = row(pose.axis, 0)
     Wn, Wx, Wt, Wf = pair.W[0], pair.W[1], pair.W[2], pair.W[3]
     for k in range(side.s.shape[0]):
-        if sl.N[k] <= 0.0:
+        at = first + np.uint64(k)
+        if sl.N[at] <= 0.0:
             continue
-        n = (sl.n1[k], sl.n2[k], sl.n3[k])
+        n = (sl.n1[at], sl.n2[at], sl.n3[at])
         t = times(side.sign, cross(b, n))
         on_axis = times(side.s[k], a)
         r = combine(on_axis, side.drop[k] - Rw, n)
         slope = _incline(pose, side, P, n, theta, k) if side.uneven else 0.0
-        g1, g2 = sl.g[k] * sl.t1[k], sl.g[k] * sl.t2[k]
+        g1, g2 = sl.g[at] * sl.t1[at], sl.g[at] * sl.t2[at]
         add_generator(t, on_axis, Wt)
         add_generator(n, r, Wn)
         for j in range(6):
@@ -236,31 +302,8 @@ def _tangent(pose, side, Rw, P, b, theta, sl, pair):
         add_generator(b, r, Wx)
         for j in range(6):
             Wf[j] = Wn[j] - g1 * Wx[j] - g2 * Wt[j]
-        add_outer(pair.K, sl.Nd[k], Wf, Wn)
-        add_outer(pair.C, sl.Nv[k], Wf, Wn)
+        add_outer(pair.K, sl.Nd[at], Wf, Wn)
+        add_outer(pair.C, sl.Nv[at], Wf, Wn)
         friction_tangent(
-            pair.C, sl.N[k], sl.g[k], sl.dg[k], sl.u[k], sl.t1[k], sl.t2[k], Wx, Wt
+            pair.C, sl.N[at], sl.g[at], sl.dg[at], sl.u[at], sl.t1[at], sl.t2[at], Wx, Wt
         )  # fmt: skip
-
-
-@part
-def _roll(pose, side, Rw, P, ring_spin, load, pair, mode, sums):
-    """Rolling resistance: shear on both surfaces, and the pressure that balances it.
-
-    On the roller: -F t at the surface and + hydro F t through its centre (hydro = 2 R/Rw);
-    the ring gets the reaction of the same wrench at the contact point.
-    """
-    if side.rolling[0] <= 0.0 or load <= 0.0:
-        return
-    orbit = pose.V[2] / P[1]
-    lever = -side.sign * Rw  # contact point along e_r from the roller's centre
-    roller_speed = (pose.w[0] - orbit) * lever  # along e_psi, seen from the moving contact
-    ring_speed = (ring_spin - orbit) * side.radius
-    u = 0.5 * (roller_speed + ring_speed)
-    F = rolling_force(side.rolling, abs(u), load)
-    if u < 0.0:
-        F = -F
-    pair.wrench[2] += (side.hydro - 1.0) * F
-    pair.wrench[3] -= lever * F
-    if mode >= 2:
-        sums[8] -= F * (roller_speed + ring_speed)

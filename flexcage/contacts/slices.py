@@ -1,7 +1,9 @@
-"""Buffers over the slices (or points) of one contact, and the laws applied to all of them at once.
+"""Buffers over the slices (or points) of contacts, and the laws applied to all of them at once.
 
 All buffers lie in one record, at distances that the compiler knows, so that it can prove them
 apart and turn loops over slices into vector instructions; multiples of eight slices fill those.
+A record holds one contact, or a lot of them one after the other: a law takes little longer for a
+lot than for one.
 """
 
 from __future__ import annotations
@@ -13,9 +15,12 @@ import numpy as np
 from flexcage.core.jit import VECTORISED, as_array, part
 
 MOST = 64  # slices, or points, of one contact
+LOT = 136  # slices of a lot; buffers a whole power of two apart would share a cache's places
+SLOT_ONSET = 3  # where the parameters of a contact's normal law keep its onset speed
 _NAMES = (
     "d",  # penetration
     "v",  # its rate
+    "onset",  # speed at which the contact closed
     "N",  # normal force
     "Nd",  # dN/dd
     "Nv",  # dN/dv
@@ -23,7 +28,7 @@ _NAMES = (
     "u",  # sliding speed
     "g",  # mu/u
     "dg",  # d(mu/u)/du
-    "still",  # zeros: rates for elastic forces
+    "still",  # zeros: rates and onset speeds for elastic forces
     "t1",  # components of the sliding velocity
     "t2",
     "n1",  # components of the normal on the roller, in F
@@ -33,35 +38,44 @@ _NAMES = (
     "w2",
     "w3",
 )
-RECORD = np.dtype([(name, np.float64, MOST) for name in _NAMES], align=True)
 
 
 class Slices(NamedTuple):
-    """The record, in an array of one (numba hands over arrays, not single records)."""
+    """A record, in an array of one (numba hands over arrays, not single records)."""
 
-    row: np.ndarray  # (1,) of RECORD
+    row: np.ndarray  # (1,) of a record
 
 
-def new_slices() -> Slices:
-    return Slices(np.zeros(1, RECORD).view(np.recarray))
+def new_slices(n: int = MOST) -> Slices:
+    """Buffers of n slices."""
+    record = np.dtype([(name, np.float64, n) for name in _NAMES], align=True)
+    return Slices(np.zeros(1, record).view(np.recarray))
 
 
 @part
 def normal_forces(law, n, sl, p):
     """Forces sl.N, their elastic part sl.Ne and their slopes sl.Nd, sl.Nv at penetrations sl.d and
-    rates sl.v."""
+    rates sl.v of a contact with the parameters p."""
+    for k in range(n):
+        sl.onset[k] = p[SLOT_ONSET]
+    normal_forces_of_lot(law, n, sl, p)
+
+
+@part
+def normal_forces_of_lot(law, n, sl, p):
+    """The same of contacts that differ in their onset speeds, which are in sl.onset."""
     law(
-        n, as_array(sl.d), as_array(sl.v), p, as_array(sl.N), as_array(sl.Ne), as_array(sl.Nd),
-        as_array(sl.Nv),
+        n, as_array(sl.d), as_array(sl.v), as_array(sl.onset), p, as_array(sl.N), as_array(sl.Ne),
+        as_array(sl.Nd), as_array(sl.Nv),
     )  # fmt: skip
 
 
 @part
 def elastic_forces(law, n, sl, p):
-    """The same without rates."""
+    """The same of one contact without rates."""
     law(
-        n, as_array(sl.d), as_array(sl.still), p, as_array(sl.N), as_array(sl.Ne), as_array(sl.Nd),
-        as_array(sl.Nv),
+        n, as_array(sl.d), as_array(sl.still), as_array(sl.still), p, as_array(sl.N),
+        as_array(sl.Ne), as_array(sl.Nd), as_array(sl.Nv),
     )  # fmt: skip
 
 
@@ -72,31 +86,40 @@ def friction_factors(law, n, sl, p):
 
 
 @part(fastmath=VECTORISED)
-def largest(n, values):
-    """Largest of the first n values."""
-    most = values[0]
-    for k in range(1, n):
+def largest(first, end, values):
+    """Largest of the values from ``first`` to before ``end``."""
+    most = values[first]
+    for k in range(first + 1, end):
         most = max(most, values[k])
     return most
 
 
 @part(fastmath=VECTORISED)
-def friction_power(n, sl):
-    """Power that friction takes from the slices [W], negative."""
+def total(first, end, values):
+    """Sum of the values from ``first`` to before ``end``."""
+    x = 0.0
+    for k in range(first, end):
+        x += values[k]
+    return x
+
+
+@part(fastmath=VECTORISED)
+def friction_power(first, end, sl):
+    """Power that friction takes from the slices ``first`` to before ``end`` [W], negative."""
     power = 0.0
-    for k in range(n):
+    for k in range(first, end):
         power -= sl.N[k] * sl.g[k] * sl.u[k] ** 2
     return power
 
 
 @part(fastmath=VECTORISED)
-def stored_and_damped(n, sl, exponent):
+def stored_and_damped(first, end, sl, exponent):
     """Elastic energy of the slices [J], and the power that damping takes from them [W].
 
     ``exponent`` of the elastic force.
     """
     energy = power = 0.0
-    for k in range(n):
+    for k in range(first, end):
         energy += sl.Ne[k] * max(sl.d[k], 0.0)
         power -= (sl.N[k] - sl.Ne[k]) * sl.v[k]
     return energy / (exponent + 1.0), power

@@ -13,6 +13,7 @@ from flexcage.contacts.ball_pocket import BallPockets, ball_pocket_work
 from flexcage.contacts.groove import Groove
 from flexcage.contacts.land import LandData
 from flexcage.contacts.pocket_wall import N_LOCAL
+from flexcage.contacts.race import race_work
 from flexcage.contacts.spec import Contacts, Lubricant, NormalLaw
 from flexcage.geometry.ball_bearing import BallBearing
 from flexcage.geometry.ball_cages import BallCage
@@ -195,6 +196,6 @@ def ball_work(model: BallModel, layout: Layout) -> Work:
     """Fresh workspaces of a ball bearing for one thread."""
     stations = model.pocket.phi.shape[2]
     return new_work(
-        layout, ball_pocket_work(stations), slices=0, faces=1, stations=stations, ribs=0,
-        land_stations=len(model.land.angle),
+        layout, race_work(1), ball_pocket_work(stations), slices=0, faces=1, stations=stations,
+        ribs=0, land_stations=len(model.land.angle),
     )  # fmt: skip

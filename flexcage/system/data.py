@@ -9,6 +9,7 @@ import numpy as np
 from flexcage.bodies.floating_frame import FrameWork, frame_work
 from flexcage.contacts.land import LandWork, land_work
 from flexcage.contacts.pocket_wall import N_LOCAL, filled
+from flexcage.contacts.race import RaceWork
 from flexcage.contacts.slices import Slices, new_slices
 from flexcage.contacts.state import Pair, RollerPose, new_pair, new_pose
 from flexcage.system.layout import Layout
@@ -122,6 +123,7 @@ class Work(NamedTuple):
     pose: RollerPose
     slices: Slices
     pair: Pair
+    race_work: RaceWork
     pocket_work: Any  # of the pockets' kernel
     land_work: LandWork
     frame: FrameWork
@@ -131,8 +133,8 @@ class Work(NamedTuple):
 
 
 def new_work(
-    layout: Layout, pocket_work: Any, *, slices: int, faces: int, stations: int, ribs: int,
-    land_stations: int,
+    layout: Layout, race_work: RaceWork, pocket_work: Any, *, slices: int, faces: int,
+    stations: int, ribs: int, land_stations: int,
 ) -> Work:  # fmt: skip
     """Fresh workspaces for one thread, of elements with so many contact places."""
     Z, n, nb = layout.rollers, layout.modes, layout.n_border
@@ -153,6 +155,6 @@ def new_work(
         z((N_LOCAL, n)), z(layout.size),
     )  # fmt: skip
     return Work(
-        new_pose(), new_slices(), new_pair(), pocket_work, land_work(land_stations), frame_work(n),
-        scratch, tangent, report,
+        new_pose(), new_slices(), new_pair(), race_work, pocket_work, land_work(land_stations),
+        frame_work(n), scratch, tangent, report,
     )  # fmt: skip

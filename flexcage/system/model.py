@@ -18,7 +18,7 @@ from flexcage.contacts.pocket_wall import (
     pocket_work,
     with_end_stations,
 )
-from flexcage.contacts.race import RaceSide
+from flexcage.contacts.race import RaceSide, race_work
 from flexcage.contacts.rib import RibData
 from flexcage.contacts.spec import Contacts, Lubricant
 from flexcage.geometry.bearing import Bearing
@@ -291,6 +291,6 @@ def roller_work(model: Model, layout: Layout) -> Work:
     """Fresh workspaces of a roller bearing for one thread."""
     slices, stations = len(model.pocket.s), model.pocket.phi.shape[2]
     return new_work(
-        layout, pocket_work(slices, stations), slices=slices, faces=4, stations=stations, ribs=2,
-        land_stations=len(model.land.angle),
+        layout, race_work(len(model.inner.s)), pocket_work(slices, stations), slices=slices,
+        faces=4, stations=stations, ribs=2, land_stations=len(model.land.angle),
     )  # fmt: skip

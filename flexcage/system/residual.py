@@ -1,17 +1,18 @@
 """The residual F(t, y, y') = 0 of a roller bearing, its tangent, and its report.
 
-One kind of contact after another is evaluated for all rollers, and its wrenches added to the
-bodies; then the rows are formed: kinematics q' - T(q) u - G^T mu, momentum M u' + h - Q - G^T
-lambda, g and its rate. (With one roller's contacts after the other the code of all of them passes
-through the processor's cache 22 times: a sixth more time.)
+One kind of contact after another is evaluated for all rollers, races in lots of them, and its
+wrenches added to the bodies; then the rows are formed: kinematics q' - T(q) u - G^T mu, momentum
+M u' + h - Q - G^T lambda, g and its rate. (With one roller's contacts after the other the code of
+all of them passes through the processor's cache 22 times: a sixth more time.)
 ``mode``: 0 residual, 1 also the tangent blocks, 2 also the whole report, 3 what of it a point that
 may be accepted needs: powers, what touches, how fast it nears, forces on bodies.
 """
 
 from __future__ import annotations
 
-from flexcage.contacts.race import race_contact
+from flexcage.contacts.race import meet_race, press_race, push_by_race
 from flexcage.contacts.rib import rib_contact
+from flexcage.contacts.slices import SLOT_ONSET
 from flexcage.contacts.state import keep_pose, set_pose, shift_matrix, take_pose
 from flexcage.core.jit import copy_into, fields, part, zero
 from flexcage.core.rotation import matrix_from_quaternion
@@ -23,11 +24,7 @@ from flexcage.core.vectors import (
 )
 from flexcage.system.blocks import scatter, scatter_outer
 from flexcage.system.rows import (
-    AXIS,
     CAGE_SPIN,
-    LEVER,
-    PARTNER_V,
-    PARTNER_W,
     RING_AXIS,
     RING_SPIN,
     add_to_element,
@@ -76,11 +73,12 @@ def evaluate(t, y, yd, d, law, out, mode):
         o = 6 * i
         set_pose(q[o : o + 6], u[o : o + 6], pose)
         keep_pose(pose, poses[i])
-        _inner_contacts(i, q[o : o + 6], ring_q, ring_u, d, law, mode)
-    for i in range(Z):
-        o = 6 * i
-        take_pose(poses[i], pose)
-        _outer_contact(i, q[o : o + 6], q[zq + 6 : zq + 8], u[zq + 6 : zq + 8], d, law, mode)
+    lot = fields(d.race_work).who.shape[0]
+    for first in range(0, Z, lot):
+        _inner_contacts(first, min(first + lot, Z), q, ring_q, ring_u, d, law, mode)
+    out_q, out_u = q[zq + 6 : zq + 8], u[zq + 6 : zq + 8]
+    for first in range(0, Z, lot):
+        _outer_contacts(first, min(first + lot, Z), q, out_q, out_u, d, law, mode)
     law[10](t, y, yd, d, law[:10], out, mode)
     for i in range(Z):
         o = 6 * i
@@ -93,68 +91,96 @@ def evaluate(t, y, yd, d, law, out, mode):
 
 
 @part
-def _inner_contacts(i, qi, ring_q, ring_u, d, law, mode):
-    """Roller i on the inner race and its ribs."""
+def _inner_contacts(first, end, q, ring_q, ring_u, d, law, mode):
+    """Rollers ``first`` to before ``end`` on the inner race and its ribs."""
     pose, pair, rep, work = fields(d.pose), fields(d.pair), fields(d.report), fields(d.scratch)
-    F, vec, sums, memory = pose.F, work.vec, work.sums, fields(d.memory)
-    P, b, Vr, wr = vec[LEVER], vec[AXIS], vec[PARTNER_V], vec[PARTNER_W]
-    put(P, minus((qi[0], qi[1], 0.0), turned(F, xyz(ring_q))))
-    put(b, turned(F, xyz(vec[RING_AXIS])))
-    put(Vr, turned(F, xyz(ring_u)))
-    put(wr, turned(F, xyz(vec[RING_SPIN])))
-    for k in range(2):
-        if k == 0:
-            hit = race_contact(
-                pose, fields(d.inner), fields(d.bodies).radius[i], P, b, Vr, wr, ring_q[5],
-                memory.race[i, 0], law[0], law[5], fields(d.slices).row[0], pair, mode, sums,
-            )  # fmt: skip
-        else:
-            hit = rib_contact(
-                pose, fields(d.rib), P, b, Vr, wr, memory.rib[i], (law[3], law[8]),
-                fields(d.slices).row[0], pair, mode, sums,
-            )  # fmt: skip
-        if not hit:
-            continue
-        add_to_element(work.wrenches[i], pair)
-        react(F, work.unit, pair.wrench, xyz(P), work.border, 0)
-        if mode == 1:
-            copy_into(work.R[0], F)
-            copy_into(work.R[1], F)
-            shift_matrix(work.R, P, work.S)
-            scatter(pair, work.S, i, 0, fields(d.tangent), work.T6)
-        elif mode >= 2 and k == 0:
+    side, rw, memory = fields(d.inner), fields(d.race_work), fields(d.memory)
+    F, vec, sums, radius = pose.F, work.vec, work.sums, fields(d.bodies).radius
+    count = 0
+    for i in range(first, end):
+        take_pose(work.poses[i], pose)
+        at = rw.partner[count]
+        P, b, Vr, wr = at[0], at[1], at[2], at[3]
+        put(P, minus((q[6 * i], q[6 * i + 1], 0.0), turned(F, xyz(ring_q))))
+        put(b, turned(F, xyz(vec[RING_AXIS])))
+        put(Vr, turned(F, xyz(ring_u)))
+        put(wr, turned(F, xyz(vec[RING_SPIN])))
+        if rib_contact(
+            pose, fields(d.rib), P, b, Vr, wr, memory.rib[i], (law[3], law[8]),
+            fields(d.slices).row[0], pair, mode, sums,
+        ):  # fmt: skip
+            _add_inner(i, P, d, mode)
+            if mode >= 2:
+                _report_ribs(i, sums, rep)
+        onset = memory.race[i, 0, SLOT_ONSET]
+        if meet_race(count, pose, side, radius[i], ring_q[5], onset, rw):
+            rw.who[count] = i
+            count += 1
+    press_race(count, side, memory.race[first, 0], law[0], law[5], rw)
+    for m in range(count):
+        i = rw.who[m]
+        take_pose(work.poses[i], pose)
+        push_by_race(
+            m, pose, side, radius[i], ring_q[5], memory.race[i, 0, 1], rw, pair, mode, sums
+        )
+        _add_inner(i, rw.partner[m, 0], d, mode)
+        if mode >= 2:
             _report_race(i, 0, sums, rep)
-        elif mode >= 2:
-            rep.rib[i, 0], rep.rib[i, 1] = sums[0], sums[1]
-            rep.contact[i, 6] = 1 if sums[0] > 0.0 else 0
-            rep.contact[i, 7] = 1 if sums[1] > 0.0 else 0
-            rep.energy[2] += sums[2]
-            rep.power[8] += sums[3] + sums[4]
 
 
 @part
-def _outer_contact(i, qi, out_q, out_u, d, law, mode):
-    """Roller i on the outer race, whose ring moves in its plane only."""
-    pose, pair, work = fields(d.pose), fields(d.pair), fields(d.scratch)
-    F, vec, border = pose.F, work.vec, work.border
-    P, b, Vr, wr = vec[LEVER], vec[AXIS], vec[PARTNER_V], vec[PARTNER_W]
-    put(P, minus((qi[0], qi[1], 0.0), turned(F, (0.0, out_q[0], out_q[1]))))
-    put(b, (1.0, 0.0, 0.0))
-    put(Vr, turned(F, (0.0, out_u[0], out_u[1])))
-    put(wr, (0.0, 0.0, 0.0))
-    hit = race_contact(
-        pose, fields(d.outer), fields(d.bodies).radius[i], P, b, Vr, wr, 0.0,
-        fields(d.memory).race[i, 1], law[0], law[5], fields(d.slices).row[0], pair, mode, work.sums,
-    )  # fmt: skip
-    if not hit:
-        return
+def _add_inner(i, P, d, mode):
+    """Add the pair's wrench to roller i and to the inner ring, from which P leads to the roller."""
+    pair, work, F = fields(d.pair), fields(d.scratch), fields(d.pose).F
     add_to_element(work.wrenches[i], pair)
-    for c in range(2):
-        border[6 + c] -= F[1, 1 + c] * pair.wrench[1] + F[2, 1 + c] * pair.wrench[2]
+    react(F, work.unit, pair.wrench, xyz(P), work.border, 0)
     if mode == 1:
-        scatter_outer(pair, F, i, fields(d.tangent))
-    elif mode >= 2:
-        _report_race(i, 1, work.sums, fields(d.report))
+        copy_into(work.R[0], F)
+        copy_into(work.R[1], F)
+        shift_matrix(work.R, P, work.S)
+        scatter(pair, work.S, i, 0, fields(d.tangent), work.T6)
+
+
+@part
+def _outer_contacts(first, end, q, out_q, out_u, d, law, mode):
+    """Rollers on the outer race, whose ring moves in its plane only."""
+    pose, pair, work = fields(d.pose), fields(d.pair), fields(d.scratch)
+    side, rw, memory = fields(d.outer), fields(d.race_work), fields(d.memory)
+    F, border, radius = pose.F, work.border, fields(d.bodies).radius
+    count = 0
+    for i in range(first, end):
+        take_pose(work.poses[i], pose)
+        at = rw.partner[count]
+        P, b, Vr, wr = at[0], at[1], at[2], at[3]
+        put(P, minus((q[6 * i], q[6 * i + 1], 0.0), turned(F, (0.0, out_q[0], out_q[1]))))
+        put(b, (1.0, 0.0, 0.0))
+        put(Vr, turned(F, (0.0, out_u[0], out_u[1])))
+        put(wr, (0.0, 0.0, 0.0))
+        onset = memory.race[i, 1, SLOT_ONSET]
+        if meet_race(count, pose, side, radius[i], 0.0, onset, rw):
+            rw.who[count] = i
+            count += 1
+    press_race(count, side, memory.race[first, 1], law[0], law[5], rw)
+    for m in range(count):
+        i = rw.who[m]
+        take_pose(work.poses[i], pose)
+        push_by_race(m, pose, side, radius[i], 0.0, memory.race[i, 1, 1], rw, pair, mode, work.sums)
+        add_to_element(work.wrenches[i], pair)
+        for c in range(2):
+            border[6 + c] -= F[1, 1 + c] * pair.wrench[1] + F[2, 1 + c] * pair.wrench[2]
+        if mode == 1:
+            scatter_outer(pair, F, i, fields(d.tangent))
+        elif mode >= 2:
+            _report_race(i, 1, work.sums, fields(d.report))
+
+
+@part
+def _report_ribs(i, sums, rep):
+    rep.rib[i, 0], rep.rib[i, 1] = sums[0], sums[1]
+    rep.contact[i, 6] = 1 if sums[0] > 0.0 else 0
+    rep.contact[i, 7] = 1 if sums[1] > 0.0 else 0
+    rep.energy[2] += sums[2]
+    rep.power[8] += sums[3] + sums[4]
 
 
 @part

@@ -9,6 +9,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 from scipy.integrate import solve_ivp
 
+from flexcage.contacts.laws import rolling_forces
+from flexcage.contacts.slices import SLOT_ONSET
 from flexcage.core.errors import RunFailed
 
 Law = Callable[..., None]
@@ -16,11 +18,12 @@ Law = Callable[..., None]
 
 def normal(law: Law, p: np.ndarray, d: ArrayLike, v: ArrayLike) -> tuple[np.ndarray, ...]:
     """Force [N], its elastic part, and its derivatives by d and v on penetrations d [m] and their
-    rates v [m/s]."""
+    rates v [m/s], at the onset speed that p holds."""
     shaped = np.broadcast_arrays(np.asarray(d, float), np.asarray(v, float))
     d, v = (np.ascontiguousarray(x) for x in shaped)
+    onset = np.full(d.shape, p[SLOT_ONSET])
     F, Fe, Fd, Fv = np.full((4, *d.shape), np.nan)
-    law(d.size, d, v, p, F, Fe, Fd, Fv)
+    law(d.size, d, v, onset, p, F, Fe, Fd, Fv)
     return F, Fe, Fd, Fv
 
 
@@ -35,6 +38,14 @@ def friction(law: Law, p: np.ndarray, u: ArrayLike) -> tuple[np.ndarray, np.ndar
 def coefficient(law: Law, p: np.ndarray, u: ArrayLike) -> np.ndarray:
     """Friction coefficient mu on sliding speeds u [m/s]."""
     return friction(law, p, u)[0] * np.asarray(u, float)
+
+
+def rolling(c: np.ndarray, u: ArrayLike, q: ArrayLike) -> np.ndarray:
+    """Rolling resistance [N] at entrainment speeds u [m/s] under loads q [N]."""
+    u, q = (np.ascontiguousarray(x) for x in np.broadcast_arrays(np.atleast_1d(u), q))
+    force = np.full(u.shape, np.nan)
+    rolling_forces(u.size, c, u.astype(float), q.astype(float), force)
+    return force
 
 
 @dataclass(frozen=True)

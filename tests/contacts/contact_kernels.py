@@ -13,9 +13,9 @@ from flexcage.contacts import laws
 from flexcage.contacts.land import land_contact, land_work
 from flexcage.contacts.pocket import pocket_contact
 from flexcage.contacts.pocket_wall import N_LOCAL, pocket_work
-from flexcage.contacts.race import race_contact
+from flexcage.contacts.race import meet_race, press_race, push_by_race, race_work
 from flexcage.contacts.rib import rib_contact
-from flexcage.contacts.slices import new_slices
+from flexcage.contacts.slices import SLOT_ONSET, new_slices
 from flexcage.contacts.state import RollerPose, new_pair, new_pose
 from flexcage.core.jit import OPTIONS
 
@@ -38,9 +38,12 @@ def turned(axis, rotation):
     return axis @ Rotation.from_rotvec(rotation).as_matrix().T
 
 
-def _race(pose, side, Rw, P, b, Vr, wr, theta, p, law, mu, sl, pair, mode, sums):
-    sl = sl.row[0]
-    return race_contact(pose, side, Rw, P, b, Vr, wr, theta, p, law, mu, sl, pair, mode, sums)
+def _race(pose, side, Rw, theta, p, law, mu, rw, pair, mode, sums):
+    if not meet_race(1, pose, side, Rw, theta, p[SLOT_ONSET], rw):
+        return False
+    press_race(2, side, p, law, mu, rw)
+    push_by_race(1, pose, side, Rw, theta, p[1], rw, pair, mode, sums)
+    return True
 
 
 def _rib(pose, data, P, b, Vr, wr, p, law, sl, pair, mode, sums):
@@ -66,8 +69,7 @@ def _compiled(function, *arguments, returns=types.boolean):
 @cache
 def _race_kernel(side_type):
     return _compiled(
-        _race, new_pose(), side_type, F8, VEC, VEC, VEC, VEC, F8, VEC, N, MU, new_slices(),
-        new_pair(), I8, VEC,
+        _race, new_pose(), side_type, F8, F8, VEC, N, MU, race_work(8), new_pair(), I8, VEC,
     )  # fmt: skip
 
 
@@ -109,11 +111,11 @@ def race(
     """(wrench, sums, pair) of one raceway on a roller at P from the ring's centre."""
     pose = pose_of(np.eye(3) if axis is None else axis, V, w, azimuth)
     pair, sums = new_pair(), np.zeros(9)
-    arrays = [np.array(x, float) for x in (P, b, Vr, wr)]
+    rw = race_work(len(side.s))  # contact 0 of the lot is one that does not touch
+    rw.partner[1] = P, b, Vr, wr
     _race_kernel(numba.typeof(side))(
-        pose, side, radius, *arrays, theta, p, law, friction, new_slices(), pair, mode,
-        sums,
-    )  # fmt: skip
+        pose, side, radius, theta, p, law, friction, rw, pair, mode, sums
+    )
     return pair.wrench, sums, pair
 
 

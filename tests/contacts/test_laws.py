@@ -13,6 +13,7 @@ from flexcage.contacts.spec import EhlTraction, FrictionLaw, Lubricant, NormalLa
 from flexcage.core.jit import kernel
 from flexcage.geometry.presets import load_preset
 from flexcage.verification.cases.land_film import film
+from flexcage.verification.law_values import rolling
 
 HERTZ_BALL = 8.69343e9  # N/m^1.5, ball of a 7010C
 LINE = 454517.4944 * 1e3 ** (10.0 / 9.0)  # N/m^(10/9), N1013 roller on one race
@@ -52,7 +53,7 @@ def test_every_friction_law(name):
 
 
 @kernel(laws.NORMAL_SIGNATURE)
-def stiffening(n, d, v, p, F, Fe, Fd, Fv):
+def stiffening(n, d, v, onset, p, F, Fe, Fd, Fv):
     """A user's law: linear at touch, exponential later, no damping."""
     for k in range(n):
         F[k] = Fe[k] = Fd[k] = Fv[k] = 0.0
@@ -107,18 +108,17 @@ def test_rolling_resistance():
                           rolling_resistance="goksem_hargreaves")  # fmt: skip
     radius, length, modulus = 4e-3 * 37.25 / 41.25, 7.3e-3, 206e9 / (1 - 0.09)
     c = laws.rolling_resistance(lubricant, radius, length, modulus)
-    assert laws.rolling_force(c, 0.0, 185.7) == laws.rolling_force(c, 12.0, 0.0) == 0.0
+    assert not rolling(c, [0.0, 12.0], [185.7, 0.0]).any()
+    assert (rolling(c, [-12.0, 12.0], 50.0) == rolling(c, 12.0, 50.0) * [-1.0, 1.0]).all()
     blended = Lubricant(viscosity=0.02, rolling_resistance="blended")
     both = laws.rolling_resistance(blended, radius, length, modulus)
-    for load in (0.01, 1.0, 100.0, 1e4):
-        martin = laws.IVR_CONSTANT * np.sqrt(0.02 * 12.0 * load * length)
-        got, least = (
-            laws.rolling_force(both, 12.0, load),
-            min(martin, laws.rolling_force(c, 12.0, load)),
-        )
-        assert 0.8 * least < got < least
+    loads = np.array([0.01, 1.0, 100.0, 1e4])
+    martin = laws.IVR_CONSTANT * np.sqrt(0.02 * 12.0 * loads * length)
+    least = np.minimum(martin, rolling(c, 12.0, loads))
+    ratio = rolling(both, 12.0, loads) / least
+    assert (0.8 < ratio).all() and (ratio < 1.0).all()
     nothing = laws.rolling_resistance(Lubricant(rolling_resistance="none"), radius, length, modulus)
-    assert laws.rolling_force(nothing, 12.0, 100.0) == 0.0
+    assert rolling(nothing, 12.0, 100.0) == 0.0
 
 
 def test_pocket_line_law_less_the_patch_of_the_mesh():

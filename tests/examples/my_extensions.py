@@ -38,7 +38,7 @@ class Spring(NormalLaw):
     loss: float = quantity("us", 1e-7, doc="time constant of the dashpot", minimum=0.0)
 
 
-def spring(n, d, v, p, F, Fe, Fd, Fv):
+def spring(n, d, v, onset, p, F, Fe, Fd, Fv):
     """F = k (d + loss v), clipped at zero; the dashpot fades in over the first 0.1 um."""
     for i in range(n):
         F[i] = Fe[i] = Fd[i] = Fv[i] = 0.0

@@ -261,11 +261,11 @@ class FrictionLike:
     law = "coil"
 
 
-def law_of_old(n, d, v, p, F, Fd, Fv):
+def law_of_old(n, d, v, onset, p, F, Fd, Fv):
     """Before laws had to give their elastic part."""
 
 
-def unbound_law(n, d, v, p, F, Fe, Fd, Fv):
+def unbound_law(n, d, v, onset, p, F, Fe, Fd, Fv):
     F[0] = undefined_name  # noqa: F821
 
 

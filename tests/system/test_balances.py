@@ -241,7 +241,7 @@ def test_reversed_rotation_is_the_mirror_image(bearing_of):
 
 
 @laws.kernel(laws.NORMAL_SIGNATURE)
-def softer(n, d, v, p, F, Fe, Fd, Fv):
+def softer(n, d, v, onset, p, F, Fe, Fd, Fv):
     """A user's law: half of the elastic force."""
     for k in range(n):
         F[k] = Fe[k] = Fd[k] = Fv[k] = 0.0
