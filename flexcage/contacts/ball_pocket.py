@@ -147,7 +147,7 @@ def pocket_wall_contact(
     slip = combine(slip, -dot(slip, nF), nF)
     sl.u[0] = sqrt(dot(slip, slip))
     sl.N[0] = N
-    friction_factors(friction, 1, sl, data.friction)
+    friction_factors(friction, (0, 1), sl, data.friction)
     drag = times(-N * sl.g[0], slip)
     total = combine(drag, -N, _in_frame(push, pw))
     total = combine(total, 0.5 * N * N, _in_frame(yields, pw))
@@ -240,5 +240,5 @@ def _press(depth, rate, soft, softening, p, law, sl):
         stiff = soft * p[1] * p[0] * d ** (p[1] - 1.0)
     force = p[0] * d ** p[1]
     sl.d[0], sl.v[0] = d, (rate - force * softening) / (1.0 + stiff)
-    normal_forces(law, 1, sl, p)
+    normal_forces(law, (0, 1), sl, p)
     return sl.N[0], d

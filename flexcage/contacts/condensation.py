@@ -14,7 +14,14 @@ that is touched alone, as nearly all are, is solved in the softest of these
 
 from __future__ import annotations
 
-from flexcage.contacts.pocket_wall import N_FACE, N_LOCAL, mixed, points_of_face
+from flexcage.contacts.pocket_wall import (
+    N_FACE,
+    N_LOCAL,
+    add_share,
+    most_of_curve,
+    read_values,
+    span_of,
+)
 from flexcage.contacts.slices import elastic_forces, largest
 from flexcage.core.jit import VECTORISED, copy_into, outlined, part, zero
 
@@ -24,33 +31,33 @@ SLOW = 0.1  # a step this large of the one before asks for new factors
 
 
 @part(fastmath=VECTORISED)
-def _read(m, n, shapes, face):
-    """m residual shapes (nst + 2, m) under the n slices of a face into face.R."""
-    for k in range(n):
-        j = face.j[k]
-        w0, w1, w2, w3 = face.w[0, k], face.w[1, k], face.w[2, k], face.w[3, k]
+def _read(m, span, shapes, face):
+    """m residual shapes (nst + 2, m) under the slices of a face into face.R."""
+    for j in range(face.j_least, face.j_most + 1):
         for l in range(m):
-            x = w0 * shapes[j, l] + w1 * shapes[j + 1, l]
-            face.R[l, k] = x + w2 * shapes[j + 2, l] + w3 * shapes[j + 3, l]
+            add_share(
+                span, j, face.w, face, shapes[j, l], shapes[j + 1, l], shapes[j + 2, l],
+                shapes[j + 3, l], face.R[l],
+            )  # fmt: skip
 
 
 @part(fastmath=VECTORISED)
-def _yielded(m, n, face, c, sl):
-    for k in range(n):
+def _yielded(m, span, face, c, sl):
+    for k in range(span[0], span[1]):
         sl.d[k] = face.d0[k]
     for l in range(m):
         x = c[l]
-        for k in range(n):
+        for k in range(span[0], span[1]):
             sl.d[k] -= x * face.R[l, k]
 
 
 @part
-def yielded(n, face, pw, sl):
-    """Penetration sl.d of a face after the residual deflection of its n slices."""
+def yielded(span, face, pw, sl):
+    """Penetration sl.d of a face after the residual deflection of its slices."""
     if pw.size[0] == N_FACE:
-        _yielded(N_FACE, n, face, pw.c, sl)
+        _yielded(N_FACE, span, face, pw.c, sl)
     else:
-        _yielded(N_LOCAL, n, face, pw.c, sl)
+        _yielded(N_LOCAL, span, face, pw.c, sl)
 
 
 @outlined
@@ -70,25 +77,29 @@ def condense(data, i, p, laws, guess, sl, pw):
     copy_into(pw.b, guess)
     if touched == 1:
         _solve_alone(data, i, last, p, laws, sl, pw)
+        _lean(data, i, last, pw)
         if not _join(data, i, sl, pw):
             return
     pw.size[0] = N_LOCAL
     copy_into(pw.c, pw.b)
     for f in range(4):
         if pw.live[f] != 0:
-            _read(N_LOCAL, points_of_face(data, f), data.res[i, f], pw.face[f])
+            _read(N_LOCAL, span_of(pw, f), data.res[i, f], pw.face[f])
     joined = True
     while joined:
         _solve(N_LOCAL, data.most[i], data, p, laws, sl, pw)
         copy_into(pw.b, pw.c)
         joined = _join(data, i, sl, pw)
+    for f in range(4):
+        if pw.live[f] != 0:
+            _lean(data, i, f, pw)
 
 
 @part
 def left_out(pw):
-    """Whether the residual deflection may push a face to the roller that was not near before."""
+    """Whether the residual deflection may push to the roller what was not near before."""
     for f in range(4):
-        if pw.near[f] == 0 and pw.deep[f] + pw.push[f] > 0.0:
+        if pw.rest[f] + pw.push[f] > 0.0:
             return True
     return False
 
@@ -105,10 +116,10 @@ def _join(data, i, sl, pw):
             push += abs(pw.b[l]) * data.res_max[i, f, l]
         pw.push[f] = max(push, pw.push[f])
         if pw.near[f] != 0 and pw.deep[f] + push > 0.0:
-            n = points_of_face(data, f)
-            _read(N_LOCAL, n, data.res[i, f], pw.face[f])
-            _yielded(N_LOCAL, n, pw.face[f], pw.b, sl)
-            if largest(0, n, sl.d) > 0.0:
+            span = span_of(pw, f)
+            _read(N_LOCAL, span, data.res[i, f], pw.face[f])
+            _yielded(N_LOCAL, span, pw.face[f], pw.b, sl)
+            if largest(span[0], span[1], sl.d) > 0.0:
                 pw.live[f] = 1
                 joined = True
     return joined
@@ -118,7 +129,7 @@ def _join(data, i, sl, pw):
 def _solve_alone(data, i, f, p, laws, sl, pw):
     """The coordinates pw.c of face f alone, which no other face pushes; from and to pw.b."""
     pw.size[0] = N_FACE
-    _read(N_FACE, points_of_face(data, f), data.own[i, f], pw.face[f])
+    _read(N_FACE, span_of(pw, f), data.own[i, f], pw.face[f])
     turn = data.turn[i, f]
     _take(turn, pw.b, pw.c)
     _solve(N_FACE, data.own_max[i, f], data, p, laws, sl, pw)
@@ -171,36 +182,36 @@ def _balance(m, data, p, laws, anew, sl, pw):
                 pw.A[l, k] = 0.0
     for f in range(4):
         if pw.live[f] != 0:
-            n = points_of_face(data, f)
-            _yielded(m, n, pw.face[f], pw.c, sl)
-            elastic_forces(laws[0] if f < 2 else laws[1], n, sl, p[f])
-            _load(m, n, pw.face[f], sl, pw.g)
+            span = span_of(pw, f)
+            _yielded(m, span, pw.face[f], pw.c, sl)
+            elastic_forces(laws[0] if f < 2 else laws[1], span, sl, p[f])
+            _load(m, span, pw.face[f], sl, pw.g)
             if anew:
-                _stiffen(m, n, pw.face[f], sl, pw.h, pw.A)
+                _stiffen(m, span, pw.face[f], sl, pw.h, pw.A)
     if anew:
         factor(m, pw.A)
     back_substitute(m, pw.A, pw.g)
 
 
 @part(fastmath=VECTORISED)
-def _load(m, n, face, sl, g):
+def _load(m, span, face, sl, g):
     """Add the residual coordinates' loads to g."""
     for l in range(m):
         x = 0.0
-        for k in range(n):
+        for k in range(span[0], span[1]):
             x += face.R[l, k] * sl.Ne[k]
         g[l] += x
 
 
 @part(fastmath=VECTORISED)
-def _stiffen(m, n, face, sl, h, A):
+def _stiffen(m, span, face, sl, h, A):
     """Add R^T H R to the lower triangle of A (m, m)."""
     for l in range(m):
-        for k in range(n):
+        for k in range(span[0], span[1]):
             h[k] = face.R[l, k] * sl.Nd[k]
         for o in range(l + 1):
             x = 0.0
-            for k in range(n):
+            for k in range(span[0], span[1]):
                 x += h[k] * face.R[o, k]
             A[l, o] += x
 
@@ -234,10 +245,10 @@ def back_substitute(n, A, x):
 
 
 @part
-def lean_of_residual(data, i, f, pw):
-    """Add to the slope of face f what the residual deflection gives it."""
-    face = pw.face[f]
-    for s in range(pw.lean.shape[0]):
+def _lean(data, i, f, pw):
+    """Residual deflection of face f's stations, and the most by which it comes to the roller."""
+    lean = pw.lean[f]
+    for s in range(lean.shape[0]):
         x = 0.0
         if pw.size[0] == N_FACE:
             for l in range(N_FACE):
@@ -245,9 +256,17 @@ def lean_of_residual(data, i, f, pw):
         else:
             for l in range(N_LOCAL):
                 x += data.res[i, f, s, l] * pw.c[l]
-        pw.lean[s] = x
-    for k in range(points_of_face(data, f)):
-        face.slope[k] += mixed(face.ws, face, k, pw.lean)
+        lean[s] = x
+    pw.push[f] = max(pw.push[f], most_of_curve(lean.shape[0] - 2, -1.0, lean))
+
+
+@part
+def lean_of_residual(f, pw):
+    """Add to the slope of face f what the residual deflection gives it."""
+    face, span = pw.face[f], span_of(pw, f)
+    read_values(span, face.ws, face, pw.lean[f], face.read)
+    for k in range(span[0], span[1]):
+        face.slope[k] += face.read[k]
 
 
 @outlined

@@ -67,7 +67,7 @@ def groove_contact(rb, race, P, b, V, w, Vr, wr, p, law, friction, sl, wrench, m
         sums[9] = sl.v[0]
     if sl.d[0] <= 0.0:
         return False
-    normal_forces(law, 1, sl, p)
+    normal_forces(law, (0, 1), sl, p)
     N = sl.N[0]
     if mode >= 2:
         sums[5], sums[6] = stored_and_damped(0, 1, sl, p[1])
@@ -76,7 +76,7 @@ def groove_contact(rb, race, P, b, V, w, Vr, wr, p, law, friction, sl, wrench, m
     size = N ** (1.0 / 3.0)
     middle = rb - 0.5 * sl.d[0]
     _slide(race, race.long * size, middle, n, g, t, v, spin, sl)
-    friction_factors(friction, race.strip.shape[0], sl, race.friction)
+    friction_factors(friction, (0, race.strip.shape[0]), sl, race.friction)
     force, moment = _drag(race, race.long * size, middle, N, n, g, t, sl)
     roll = combine(spin, -dot(spin, n), n)
     speed = sqrt(dot(roll, roll))

@@ -190,13 +190,13 @@ def _touch(
     sums[6 + side] = sl.v[0]
     if sl.d[0] <= 0.0:
         return
-    normal_forces(law, 1, sl, p)
+    normal_forces(law, (0, 1), sl, p)
     N = sl.N[0]
     if N <= 0.0:
         return
     slide = n[1] * v[2] - n[2] * v[1]
     sl.u[0] = abs(slide)
-    friction_factors(friction, 1, sl, data.friction)
+    friction_factors(friction, (0, 1), sl, data.friction)
     g = sl.g[0] * slide
     f = times(N, (0.0, n[1] + g * n[2], n[2] - g * n[1]))
     add_to(Fc, f)

@@ -11,14 +11,14 @@ from flexcage.contacts.pocket_forces import (
     relative_motion,
     side_beam_rates,
     spread_over_stations,
-    wall_rates,
 )
 from flexcage.contacts.pocket_wall import (
     clear_tangent,
     give_stations,
     penetrations,
-    points_of_face,
     read_stations,
+    read_values,
+    span_of,
 )
 from flexcage.contacts.slices import (
     friction_factors,
@@ -69,7 +69,7 @@ def pocket_contact(
     rel, spin = relative_motion(pose, xyz(Vc), xyz(wc), centre)
     any_contact = False
     for f in range(4):
-        if pw.near[f] != 0 and _press(data, i, f, sl, pw):
+        if pw.near[f] != 0 and _press(data, f, sl, pw):
             any_contact = True
             _face(pose, data, i, f, Rw, centre[1], rel, spin, qd, p[f], laws, sl, pw, pair, mode,
                   sums)  # fmt: skip
@@ -83,49 +83,49 @@ def pocket_contact(
 
 
 @part
-def _press(data, i, f, sl, pw):
+def _press(data, f, sl, pw):
     """Penetration sl.d of face f after all deflection; returns whether the roller touches."""
-    n = points_of_face(data, f)
+    span = span_of(pw, f)
     if data.soft != 0:
         if pw.live[f] == 0:
             return False
-        yielded(n, pw.face[f], pw, sl)
-        lean_of_residual(data, i, f, pw)
+        yielded(span, pw.face[f], pw, sl)
+        lean_of_residual(f, pw)
     else:
-        for k in range(n):
+        for k in range(span[0], span[1]):
             sl.d[k] = pw.face[f].d0[k]
-    return largest(0, n, sl.d) > 0.0
+    return largest(span[0], span[1], sl.d) > 0.0
 
 
 @part
 def _face(pose, data, i, f, Rw, distance, rel, spin, qd, p, laws, sl, pw, pair, mode, sums):
     """Forces of face f, from the penetrations sl.d; ``distance`` of the roller's centre from the
     bearing's axis; rel, spin: its motion less the cage's."""
-    face, n, a = pw.face[f], points_of_face(data, f), row(pose.axis, 0)
+    face, span, a = pw.face[f], span_of(pw, f), row(pose.axis, 0)
     normal, friction = (laws[0], laws[2]) if f < 2 else (laws[1], laws[3])
     for c in range(3):
         read_stations(data, i, f, qd, c, pw.wall[c])
-    wall_rates(n, face, pw.wall, sl)
+        read_values(span, face.w, face, pw.wall[c], face.rate[c])
     if f < 2:
-        crossbeam_rates(data, f, Rw, a, rel, spin, face, sl, pw)
+        crossbeam_rates(data, f, span, Rw, a, rel, spin, face, sl, pw)
     else:
         side_beam_rates(pose, data, f, distance, rel, spin, sl, pw, pair)
-    normal_forces(normal, n, sl, p)
-    friction_factors(friction, n, sl, data.friction[0 if f < 2 else 1])
+    normal_forces(normal, span, sl, p)
+    friction_factors(friction, span, sl, data.friction[0 if f < 2 else 1])
     if f < 2:
-        push_by_crossbeam(data, f, Rw, a, face, sl, pw, pair.wrench)
+        push_by_crossbeam(data, f, span, Rw, a, face, sl, pw, pair.wrench)
     else:
         push_by_side_beam(pose, data, f, distance, sl, pw, pair)
-    spread_over_stations(n, f, face, sl, pw)
+    spread_over_stations(span, f, face, sl, pw)
     give_stations(f, pw)
     if mode == 1:
         add_tangent(pose, data, f, Rw, distance, sl, pw, pair)
     elif mode >= 2:
         if f < 2 and mode == 2:
-            for k in range(n):
+            for k in range(span[0], span[1]):
                 pw.slice_N[f, k] = sl.N[k]
                 pw.slice_T[f, k] = sl.N[k] * sl.g[k] * sl.u[k]
-        sums[2] += friction_power(0, n, sl)
-        energy, damped = stored_and_damped(0, n, sl, p[1])
+        sums[2] += friction_power(span[0], span[1], sl)
+        energy, damped = stored_and_damped(span[0], span[1], sl, p[1])
         sums[0] += energy
         sums[1] += damped

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from math import sqrt
 
-from flexcage.contacts.pocket_wall import mixed, points_of_face, station_weight
+from flexcage.contacts.pocket_wall import span_of, station_weight
 from flexcage.contacts.state import (
     add_end_generator,
     add_generator,
@@ -32,17 +32,8 @@ from flexcage.core.vectors import (
 )
 
 
-@part
-def wall_rates(n, face, wall, sl):
-    """Velocity (x, r, psi) of the wall under every slice."""
-    for k in range(n):
-        sl.w1[k] = mixed(face.w, face, k, wall[0])
-        sl.w2[k] = mixed(face.w, face, k, wall[1])
-        sl.w3[k] = mixed(face.w, face, k, wall[2])
-
-
 @part(fastmath=VECTORISED)
-def crossbeam_rates(data, f, Rw, a, rel, spin, face, sl, pw):
+def crossbeam_rates(data, f, span, Rw, a, rel, spin, face, sl, pw):
     """Approach speed and sliding of every slice on crossbeam face f.
 
     a: roller's axis; rel, spin: its velocity and angular velocity less those of the cage there.
@@ -51,23 +42,23 @@ def crossbeam_rates(data, f, Rw, a, rel, spin, face, sl, pw):
     v0 = turned(pw.G, rel)  # of the roller's axis at s, in pocket axes: v0 + s v1
     v1 = turned(pw.G, cross(spin, a))
     v2 = turned(pw.G, cross(spin, row(pw.G, 2)))  # what the surface adds, per distance from it
-    for k in range(data.s.shape[0]):
+    for k in range(span[0], span[1]):
         s, h, slope = data.s[k], sgn * (Rw - data.drop[k]), face.slope[k]
-        along = v0[0] + s * v1[0] - sl.w1[k]
-        sl.v[k] = sgn * (v0[2] + s * v1[2] - sl.w3[k]) - slope * along
+        along = v0[0] + s * v1[0] - face.rate[0, k]
+        sl.v[k] = sgn * (v0[2] + s * v1[2] - face.rate[2, k]) - slope * along
         sl.t1[k] = along + h * v2[0]
-        sl.t2[k] = v0[1] + s * v1[1] + h * v2[1] - sl.w2[k]
+        sl.t2[k] = v0[1] + s * v1[1] + h * v2[1] - face.rate[1, k]
         sl.u[k] = sqrt(sl.t1[k] * sl.t1[k] + sl.t2[k] * sl.t2[k])
 
 
 @part(fastmath=VECTORISED)
-def push_by_crossbeam(data, f, Rw, a, face, sl, pw, wrench):
+def push_by_crossbeam(data, f, span, Rw, a, face, sl, pw, wrench):
     """Add the forces of crossbeam face f to the roller's wrench and to the face's sums."""
     sgn = 1.0 if f % 2 == 0 else -1.0
     axis = turned(pw.G, a)
     force = moment = (0.0, 0.0, 0.0)
     normal = tangential = 0.0
-    for k in range(data.s.shape[0]):
+    for k in range(span[0], span[1]):
         N, slope = sl.N[k], face.slope[k]
         on_axis = times(data.s[k], axis)
         r = (on_axis[0], on_axis[1], on_axis[2] + sgn * (Rw - data.drop[k]))
@@ -86,12 +77,12 @@ def push_by_crossbeam(data, f, Rw, a, face, sl, pw, wrench):
 
 
 @part
-def spread_over_stations(n, f, face, sl, pw):
+def spread_over_stations(span, f, face, sl, pw):
     """Forces of face f on the cage, shared among the stations that each slice reads."""
     sgn = 1.0 if f % 2 == 0 else -1.0
     zero(pw.spread)
     across, first, second = (2, 0, 1) if f < 2 else (0, 1, 2)
-    for k in range(n):
+    for k in range(span[0], span[1]):
         N = sl.N[k]
         if N <= 0.0:
             continue
@@ -151,7 +142,7 @@ def side_beam_rates(pose, data, f, distance, rel, spin, sl, pw, pair):
     """
     sgn = 1.0 if f % 2 == 0 else -1.0
     n, e1, e2 = _axes(pw, f)
-    Wn, slope = pair.W[0], pw.face[f].slope
+    Wn, face = pair.W[0], pw.face[f]
     for k in range(data.points.shape[0]):
         sl.v[k] = sl.u[k] = 0.0
         if sl.d[k] <= 0.0:
@@ -159,8 +150,8 @@ def side_beam_rates(pose, data, f, distance, rel, spin, sl, pw, pair):
         r = _lever(pose, data, 0.0, f, k, pw)
         v = plus(rel, cross(spin, r))
         _normal_generator(pose, data, distance, f, k, n, r, pw, Wn)
-        sl.v[k] = approach(Wn, rel, spin) + slope[k] * sl.w3[k] - sgn * sl.w1[k]
-        sl.t1[k], sl.t2[k] = dot(e1, v) - sl.w2[k], dot(e2, v) - sl.w3[k]
+        sl.v[k] = approach(Wn, rel, spin) + face.slope[k] * face.rate[2, k] - sgn * face.rate[0, k]
+        sl.t1[k], sl.t2[k] = dot(e1, v) - face.rate[1, k], dot(e2, v) - face.rate[2, k]
         sl.u[k] = sqrt(sl.t1[k] ** 2 + sl.t2[k] ** 2)
 
 
@@ -190,7 +181,8 @@ def add_tangent(pose, data, f, Rw, distance, sl, pw, pair):
     n, e1, e2 = _axes(pw, f)
     Wn, W1, W2, V = pair.W[0], pair.W[1], pair.W[2], pair.W[3]
     face, n_st = pw.face[f], pw.st.shape[1]
-    for k in range(points_of_face(data, f)):
+    span = span_of(pw, f)
+    for k in range(span[0], span[1]):
         if sl.N[k] <= 0.0:
             continue
         r = _lever(pose, data, Rw, f, k, pw)

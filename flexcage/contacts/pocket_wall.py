@@ -13,13 +13,15 @@ from typing import NamedTuple
 
 import numpy as np
 
-from flexcage.contacts.slices import MOST, largest
+from flexcage.contacts.slices import ROOM, largest
 from flexcage.core.jit import VECTORISED, part, zero
 from flexcage.core.splines import smooth_weights
 from flexcage.core.vectors import dot, row
 
 N_LOCAL = 12  # residual coordinates of a pocket: uniform, linear and quadratic on four faces
 N_FACE = 6  # the softest of those that move one face
+BLOCK = 8  # slices that are looked at together
+SLACK = 0.1  # of a penetration, by which the residual deflection may bring slices to the roller
 
 
 class PocketData(NamedTuple):
@@ -53,13 +55,18 @@ class PocketData(NamedTuple):
 
 FACE = np.dtype(
     [
-        ("d0", np.float64, MOST),  # penetration before the residual deflection
-        ("slope", np.float64, MOST),  # of the wall's offset along the face
-        ("x", np.float64, MOST),  # place on the wall, in stations
-        ("j", np.int64, MOST),  # first of the four stations that a slice reads
-        ("w", np.float64, (4, MOST)),  # their weights
-        ("ws", np.float64, (4, MOST)),  # slopes of the weights along the face [1/m]
-        ("R", np.float64, (N_LOCAL, MOST)),  # residual shapes under the slices
+        ("d0", np.float64, ROOM),  # penetration before the residual deflection
+        ("top", np.float64, ROOM // BLOCK),  # its largest value of every block of slices
+        ("slope", np.float64, ROOM),  # of the wall's offset along the face
+        ("x", np.float64, ROOM),  # place on the wall, in stations
+        ("j", np.int64, ROOM),  # first of the four stations that a slice reads
+        ("w", np.float64, (4, ROOM)),  # their weights
+        ("ws", np.float64, (4, ROOM)),  # slopes of the weights along the face [1/m]
+        ("R", np.float64, (N_LOCAL, ROOM)),  # residual shapes under the slices
+        ("rate", np.float64, (3, ROOM)),  # velocity of the wall there (x, r, psi)
+        ("read", np.float64, ROOM),  # what slices have read
+        ("j_least", np.int64),  # of the span
+        ("j_most", np.int64),
     ],
     align=True,
 )
@@ -71,11 +78,14 @@ class PocketWork(NamedTuple):
     G: np.ndarray  # (3, 3) rows: pocket axes x, r, psi in F
     face: np.ndarray  # (4,) records FACE
     near: np.ndarray  # (4,) face may touch
+    span: np.ndarray  # (4, 2) first slice or point that may, and the one after the last; unsigned,
+    # as a compiler cannot tell that a signed place is not one from the end
     live: np.ndarray  # (4,) face is touched, or pushed to by the deflection of another
     deep: np.ndarray  # (4,) largest penetration before the residual deflection; not near: a bound
-    push: np.ndarray  # (4,) the most by which the residual deflection may add to it
+    rest: np.ndarray  # (4,) bound of that of what is left out of the span; not near: of all
+    push: np.ndarray  # (4,) the most by which the residual deflection may add to them
     wall: np.ndarray  # (3, n4 + 2) displacement or velocity (x, r, psi) of a face's stations
-    lean: np.ndarray  # (nst + 2,) residual deflection of a face's stations
+    lean: np.ndarray  # (4, nst + 2) residual deflection of the faces' stations
     spread: np.ndarray  # (3, nst + 2) forces on a face's stations
     st: np.ndarray  # (4, nst, 3) forces on the cage, pocket axes
     normal: np.ndarray  # (4,) sums of the faces
@@ -87,7 +97,7 @@ class PocketWork(NamedTuple):
     c: np.ndarray  # (12,) those coordinates
     g: np.ndarray  # (12,) right-hand side of the condensation
     A: np.ndarray  # (12, 12) 1 + R^T H R, then its factors
-    h: np.ndarray  # (MOST,)
+    h: np.ndarray  # (ROOM,)
     BW: np.ndarray  # (4, nst, 6) station-generator products
     LV: np.ndarray  # (4, nst, 6)
     H: np.ndarray  # (4, nst, nst) station stiffness, before the residual is condensed
@@ -102,9 +112,10 @@ class PocketWork(NamedTuple):
 def pocket_work(n_slices: int, n_stations: int) -> PocketWork:
     st, z, m = n_stations, np.zeros, N_LOCAL
     return PocketWork(
-        z((3, 3)), z(4, FACE).view(np.recarray), z(4, np.int64), z(4, np.int64), z(4), z(4),
-        z((3, filled(st, 4) + 2)), z(st + 2), z((3, st + 2)), z((4, st, 3)), z(4), z(4),
-        z((2, n_slices)), z((2, n_slices)), z(m), z(1, np.int64), z(m), z(m), z((m, m)), z(MOST),
+        z((3, 3)), z(4, FACE).view(np.recarray), z(4, np.int64), z((4, 2), np.uint64),
+        z(4, np.int64), z(4), z(4), z(4), z((3, filled(st, 4) + 2)), z((4, st + 2)),
+        z((3, st + 2)), z((4, st, 3)), z(4), z(4),
+        z((2, n_slices)), z((2, n_slices)), z(m), z(1, np.int64), z(m), z(m), z((m, m)), z(ROOM),
         z((4, st, 6)), z((4, st, 6)), z((4, st, st)), z((4, st, m)),
         z((m, m)), z((m, 6)), z((6, m)), z((m, 6)), z((6, m)),
     )  # fmt: skip
@@ -140,8 +151,14 @@ def with_offset(data: PocketData, offset: np.ndarray) -> PocketData:
 
 @part
 def points_of_face(data, f):
-    """How many slices (crossbeams) or points (side beams) may touch face f."""
+    """How many slices (crossbeams) or points (side beams) face f has."""
     return data.s.shape[0] if f < 2 else data.points.shape[0]
+
+
+@part
+def span_of(pw, f):
+    """The slices or points of face f that may touch."""
+    return pw.span[f, 0], pw.span[f, 1]
 
 
 @part(fastmath=VECTORISED)
@@ -191,21 +208,37 @@ def station_weight(face, k, n, s):
 
 
 @part
-def mixed(weights, face, k, values):
-    """What slice k reads of the stations' values: with weights ``face.w``, or with ``face.ws`` the
-    slope of that along the face."""
-    total, j = 0.0, face.j[k]
-    for s in range(4):
-        total += weights[s, k] * values[j + s]
-    return total
+def read_values(span, weights, face, values, out):
+    """What the slices of a span read of stations' values, into a field ``out`` of ``face``: with
+    weights ``face.w``, or with ``face.ws`` its slope along the face.
+
+    Few stations are the first for any of them, so the span is gone through once for each: vectors
+    without gathering.
+    """
+    for j in range(face.j_least, face.j_most + 1):
+        add_share(
+            span, j, weights, face, values[j], values[j + 1], values[j + 2], values[j + 3], out
+        )
+
+
+@part(fastmath=VECTORISED)
+def add_share(span, j, weights, face, v0, v1, v2, v3, out):
+    """What slices read whose first station is j; others keep what they have, or zero if j is the
+    first that is looked at."""
+    seen = j > face.j_least
+    for k in range(span[0], span[1]):
+        x = weights[0, k] * v0 + weights[1, k] * v1 + weights[2, k] * v2 + weights[3, k] * v3
+        rest = out[k] if seen else 0.0
+        out[k] = x if face.j[k] == j else rest
 
 
 @part
 def penetrations(pose, data, i, Rw, D, q, margin, pw):
-    """Penetration of every slice of every face that is near; returns whether any touches.
+    """Penetration of the slices of every face that is near; returns whether any touches.
 
-    Near is what touches, or may when the residual deflection pushes it by ``pw.push``. No station
-    moves by more than ``margin``, and no curve through them by more than twice that.
+    Near is what touches, or may when the residual deflection pushes it by ``pw.push``, and so is a
+    slice in ``pw.span``. No station moves by more than ``margin``, and no curve through them by
+    more than twice that.
     """
     X, T = dot(row(pw.G, 0), D), dot(row(pw.G, 2), D)
     a0, a1, a2 = row(pose.axis, 0), row(pose.axis, 1), row(pose.axis, 2)
@@ -220,7 +253,8 @@ def penetrations(pose, data, i, Rw, D, q, margin, pw):
         else:
             tilt = (abs(ax[1]) + abs(ax[2])) * Rw
             gap = data.half[1] + data.low[i, f] - sgn * X - tilt - data.half_roller
-        pw.near[f], pw.deep[f] = 0, 2.0 * margin - gap
+        pw.near[f] = 0
+        pw.deep[f] = pw.rest[f] = 2.0 * margin - gap
         if pw.deep[f] + pw.push[f] <= 0.0:
             continue
         face, n = pw.face[f], points_of_face(data, f)
@@ -228,45 +262,92 @@ def penetrations(pose, data, i, Rw, D, q, margin, pw):
             _lay_crossbeam(data, f, sgn, X, T + sgn * (Rw - data.half[0]), ax[0], at[0], face)
         else:
             _lay_side_beam(data, f, sgn, sgn * X - data.half[1], T, ax, at, face)
-        bare = largest(0, n, face.d0) - data.low[i, f]
-        pw.deep[f] = bare + 2.0 * margin
+        bare = _block_by_block(n, face)
+        pw.deep[f] = pw.rest[f] = bare - data.low[i, f] + 2.0 * margin
         if pw.deep[f] + pw.push[f] <= 0.0:
             continue
         across, along = (2, 0) if f < 2 else (0, 2)
         read_stations(data, i, f, q, across, pw.wall[across])
-        pw.deep[f] = bare + _inward(sgn, n_st, pw.wall[across])
+        inward = most_of_curve(n_st, -sgn, pw.wall[across]) - data.low[i, f]
+        pw.deep[f] = pw.rest[f] = bare + inward
         if pw.deep[f] + pw.push[f] <= 0.0:
             continue
         pw.near[f] = 1
+        _find_span(n, f, inward, face, pw)
+        span = span_of(pw, f)
         read_stations(data, i, f, q, along, pw.wall[along])
-        _follow(n, n_st, pw.wall[along], data.dx[f], face)
-        _weigh(n, n_st, data.dx[f], face)
-        for k in range(n):
-            face.d0[k] -= sgn * mixed(face.w, face, k, pw.wall[across])
-            face.slope[k] = sgn * mixed(face.ws, face, k, pw.wall[across])
+        _follow(span, n_st, pw.wall[along], data.dx[f], face)
+        _weigh(span, n_st, data.dx[f], face)
+        read_values(span, face.w, face, pw.wall[across], face.read)
+        read_values(span, face.ws, face, pw.wall[across], face.slope)
+        for k in range(span[0], span[1]):
+            face.d0[k] -= sgn * face.read[k]
+            face.slope[k] *= sgn
         if data.bent[i, f] != 0:
-            _add_offset(data, i, f, n, face)
-        pw.deep[f] = largest(0, n, face.d0)
+            _add_offset(data, i, f, span, face)
+        pw.deep[f] = largest(span[0], span[1], face.d0)
         touch = touch or pw.deep[f] > 0.0
     return touch
 
 
 @part
-def _inward(sgn, n, wall):
-    """Bound of how far a face has moved into its pocket; curves may pass their n stations by half
-    of what those differ."""
-    most = least = -sgn * wall[1]
+def most_of_curve(n, sign, values):
+    """Bound of a smooth curve through n stations ``values[1:n + 1]``, times ``sign``.
+
+    Weights of stations sum to one, those that are negative to -1/8 at the most; beyond the outer
+    stations the curve goes on straight for half a spacing.
+    """
+    most = least = sign * values[1]
     for s in range(2, n + 1):
-        most, least = max(most, -sgn * wall[s]), min(least, -sgn * wall[s])
-    return most + 0.5 * (most - least)
+        most, least = max(most, sign * values[s]), min(least, sign * values[s])
+    ends = max(
+        sign * (1.5 * values[1] - 0.5 * values[2]), sign * (1.5 * values[n] - 0.5 * values[n - 1])
+    )
+    return max(most + 0.125 * (most - least), ends)
+
+
+@part
+def _block_by_block(n, face):
+    """Largest penetration of each block of the n slices into face.top; returns that of all."""
+    d, blocks, most = face.d0, (n + BLOCK - 1) // BLOCK, -1.0
+    for k in range(n, blocks * BLOCK):
+        d[k] = -1.0
+    for b in range(blocks):
+        k = b * BLOCK
+        one = max(max(d[k], d[k + 1]), max(d[k + 2], d[k + 3]))
+        two = max(max(d[k + 4], d[k + 5]), max(d[k + 6], d[k + 7]))
+        face.top[b] = max(one, two)
+        most = max(most, face.top[b])
+    return most
+
+
+@part
+def _find_span(n, f, inward, face, pw):
+    """What of face f may touch: blocks of slices whose wall may come to the roller by
+    ``inward`` and by the residual deflection ``pw.push``; all points of a side beam.
+
+    A share of the penetration is allowed for that deflection at first, to be asked but once.
+    """
+    if f >= 2:
+        pw.span[f, 0], pw.span[f, 1], pw.rest[f] = 0, n, -1.0
+        return
+    allowed = inward + max(pw.push[f], SLACK * pw.deep[f])
+    first, end, rest = n, 0, -1.0
+    for b in range((n + BLOCK - 1) // BLOCK):
+        if face.top[b] + allowed > 0.0:
+            first, end = min(first, b * BLOCK), min((b + 1) * BLOCK, n)
+        else:
+            rest = max(rest, face.top[b] + inward)
+    pw.span[f, 0], pw.span[f, 1], pw.rest[f] = first, end, rest
 
 
 @part(fastmath=VECTORISED)
 def _lay_crossbeam(data, f, sgn, X, T, ax, at, face):
     """Place of every slice on an even crossbeam face, in stations, and its penetration."""
+    scale = 1.0 / data.dx[f]
     for k in range(data.s.shape[0]):
         s = data.s[k]
-        face.x[k] = (X + s * ax - data.x0[f]) / data.dx[f]
+        face.x[k] = (X + s * ax - data.x0[f]) * scale
         face.d0[k] = sgn * (T + s * at) - data.drop[k]
 
 
@@ -281,9 +362,9 @@ def _lay_side_beam(data, f, sgn, X, T, ax, at, face):
 
 
 @part
-def _follow(n, n_st, wall, dx, face):
+def _follow(span, n_st, wall, dx, face):
     """What lies under a slice has moved there along the face: take its motion off the place."""
-    for k in range(n):
+    for k in range(span[0], span[1]):
         x = face.x[k]
         j = min(max(int(floor(x)), 0), n_st - 2)
         t = min(max(x - j, 0.0), 1.0)
@@ -291,13 +372,13 @@ def _follow(n, n_st, wall, dx, face):
 
 
 @part(fastmath=VECTORISED)
-def _weigh(n, n_st, dx, face):
+def _weigh(span, n_st, dx, face):
     """Stations that every slice reads, their weights, and the weights' slopes along the face.
 
     Beyond its outer stations a wall goes on straight, for half a spacing at the most.
     """
     last = n_st - 1.0
-    for k in range(n):
+    for k in range(span[0], span[1]):
         x = face.x[k]
         held = min(max(x, -0.5), last + 0.5)
         at = min(max(x, 0.0), last)
@@ -310,13 +391,17 @@ def _weigh(n, n_st, dx, face):
         face.w[1, k], face.ws[1, k] = v1 + over * d1, inside * d1
         face.w[2, k], face.ws[2, k] = v2 + over * d2, inside * d2
         face.w[3, k], face.ws[3, k] = v3 + over * d3, inside * d3
+    least = most = face.j[span[0]]
+    for k in range(span[0], span[1]):
+        least, most = min(least, face.j[k]), max(most, face.j[k])
+    face.j_least, face.j_most = least, most
 
 
 @part
-def _add_offset(data, i, f, n, face):
+def _add_offset(data, i, f, span, face):
     """A defect's offset and its slope, linear between the points of its grid."""
     n_o = data.offset.shape[2]
-    for k in range(n):
+    for k in range(span[0], span[1]):
         place = (data.x0[f] + data.dx[f] * face.x[k] - data.grid[0, f]) / data.grid[1, f]
         j = min(max(int(floor(place)), 0), n_o - 2)
         here, there = data.offset[i, f, j], data.offset[i, f, j + 1]

@@ -9,7 +9,7 @@ import numpy as np
 
 from flexcage.contacts.laws import rolling_forces
 from flexcage.contacts.slices import (
-    LOT,
+    ROOM,
     friction_factors,
     friction_power,
     largest,
@@ -63,10 +63,10 @@ class RaceWork(NamedTuple):
 
 
 def race_work(slices: int) -> RaceWork:
-    most = max(LOT // slices, 1)
+    most = ROOM // slices
     z = np.zeros
     return RaceWork(
-        new_slices(LOT).row, z(most, np.int64), z((most, 4, 3)), z(most), z(most), z(most), z(most),
+        new_slices().row, z(most, np.int64), z((most, 4, 3)), z(most), z(most), z(most), z(most),
         z(most),
     )  # fmt: skip
 
@@ -112,8 +112,8 @@ def meet_race(m, pose, side, Rw, theta, onset, rw):
 def press_race(count, side, p, law, friction, rw):
     """Forces of all ``count`` contacts of the lot ``rw``; p (N_NORMAL,) of a slice, as of all."""
     sl, n = rw.lot[0], side.s.shape[0]
-    normal_forces_of_lot(law, count * n, sl, p)
-    friction_factors(friction, count * n, sl, side.friction)
+    normal_forces_of_lot(law, (0, count * n), sl, p)
+    friction_factors(friction, (0, count * n), sl, side.friction)
     for m in range(count):
         rw.load[m] = total(np.uint64(m * n), np.uint64((m + 1) * n), sl.N)
     if side.rolling[0] > 0.0:

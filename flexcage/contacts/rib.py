@@ -76,8 +76,8 @@ def rib_contact(pose, data, P, b, Vr, wr, p, laws, sl, pair, mode, sums):
         if not touched:
             continue
         active = True
-        normal_forces(law, count, sl, p[f])
-        friction_factors(friction, count, sl, data.friction)
+        normal_forces(law, (0, count), sl, p[f])
+        friction_factors(friction, (0, count), sl, data.friction)
         for k in range(count):
             N = sl.N[k]
             if N <= 0.0:

@@ -14,8 +14,8 @@ import numpy as np
 
 from flexcage.core.jit import VECTORISED, as_array, part
 
-MOST = 64  # slices, or points, of one contact
-LOT = 136  # slices of a lot; buffers a whole power of two apart would share a cache's places
+ROOM = 136  # slices of one contact (128 at the most) or of a lot of them: what a near cache
+# holds, and no power of two, at which distance buffers share the cache's places
 SLOT_ONSET = 3  # where the parameters of a contact's normal law keep its onset speed
 _NAMES = (
     "d",  # penetration
@@ -34,9 +34,6 @@ _NAMES = (
     "n1",  # components of the normal on the roller, in F
     "n2",
     "n3",
-    "w1",  # velocity of the wall under a slice (x, r, psi)
-    "w2",
-    "w3",
 )
 
 
@@ -46,46 +43,50 @@ class Slices(NamedTuple):
     row: np.ndarray  # (1,) of a record
 
 
-def new_slices(n: int = MOST) -> Slices:
-    """Buffers of n slices."""
-    record = np.dtype([(name, np.float64, n) for name in _NAMES], align=True)
+def new_slices() -> Slices:
+    record = np.dtype([(name, np.float64, ROOM) for name in _NAMES], align=True)
     return Slices(np.zeros(1, record).view(np.recarray))
 
 
 @part
-def normal_forces(law, n, sl, p):
+def normal_forces(law, span, sl, p):
     """Forces sl.N, their elastic part sl.Ne and their slopes sl.Nd, sl.Nv at penetrations sl.d and
-    rates sl.v of a contact with the parameters p."""
-    for k in range(n):
+    rates sl.v, of the slices of a contact from span[0] to before span[1]; p its parameters."""
+    for k in range(span[0], span[1]):
         sl.onset[k] = p[SLOT_ONSET]
-    normal_forces_of_lot(law, n, sl, p)
+    normal_forces_of_lot(law, span, sl, p)
 
 
 @part
-def normal_forces_of_lot(law, n, sl, p):
+def normal_forces_of_lot(law, span, sl, p):
     """The same of contacts that differ in their onset speeds, which are in sl.onset."""
+    a, b = span
     law(
-        n, as_array(sl.d), as_array(sl.v), as_array(sl.onset), p, as_array(sl.N), as_array(sl.Ne),
-        as_array(sl.Nd), as_array(sl.Nv),
+        np.int64(b - a), as_array(sl.d)[a:b], as_array(sl.v)[a:b], as_array(sl.onset)[a:b], p,
+        as_array(sl.N)[a:b], as_array(sl.Ne)[a:b], as_array(sl.Nd)[a:b], as_array(sl.Nv)[a:b],
     )  # fmt: skip
 
 
 @part
-def elastic_forces(law, n, sl, p):
+def elastic_forces(law, span, sl, p):
     """The same of one contact without rates."""
+    a, b = span
+    still = as_array(sl.still)[a:b]
     law(
-        n, as_array(sl.d), as_array(sl.still), as_array(sl.still), p, as_array(sl.N),
-        as_array(sl.Ne), as_array(sl.Nd), as_array(sl.Nv),
+        np.int64(b - a), as_array(sl.d)[a:b], still, still, p, as_array(sl.N)[a:b],
+        as_array(sl.Ne)[a:b], as_array(sl.Nd)[a:b], as_array(sl.Nv)[a:b],
     )  # fmt: skip
 
 
 @part
-def friction_factors(law, n, sl, p):
+def friction_factors(law, span, sl, p):
     """sl.g = mu/u and its slope sl.dg at sliding speeds sl.u."""
-    law(n, as_array(sl.u), p, as_array(sl.g), as_array(sl.dg))
+    a, b = span
+    n = np.int64(b - a)
+    law(n, as_array(sl.u)[a:b], p, as_array(sl.g)[a:b], as_array(sl.dg)[a:b])
 
 
-@part(fastmath=VECTORISED)
+@part(fastmath={*VECTORISED, "nnan"})  # else one comparison waits for the other
 def largest(first, end, values):
     """Largest of the values from ``first`` to before ``end``."""
     most = values[first]

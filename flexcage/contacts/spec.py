@@ -138,7 +138,7 @@ class PairSpec:
         16,
         doc="slices along a roller, strips of a ball's contact ellipse; multiples of 8 are fast",
         minimum=3,
-        maximum=64,
+        maximum=128,
     )
 
 
@@ -164,7 +164,7 @@ class Contacts:
         PairSpec(friction=FrictionLaw(law="traction")), doc="roller against both races"
     )
     pocket: PairSpec = option(
-        PairSpec(normal=NormalLaw(restitution=0.7)), doc="roller against crossbeams"
+        PairSpec(normal=NormalLaw(restitution=0.7), slices=64), doc="roller against crossbeams"
     )
     side: PairSpec = option(
         PairSpec(normal=NormalLaw(restitution=0.7)), doc="roller end against side beams"

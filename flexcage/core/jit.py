@@ -375,9 +375,13 @@ if numba.config.DISABLE_JIT:  # type: ignore[attr-defined]
 @part
 def copy_into(target, source):
     """Copy a C-contiguous array into one of the same size, element by element."""
-    a, b = target.reshape(target.size), source.reshape(source.size)
-    for k in range(b.shape[0]):
-        a[k] = b[k]
+    if target.ndim == 1:  # nothing to reshape, which is a call
+        for k in range(source.shape[0]):
+            target[k] = source[k]
+    else:
+        a, b = target.reshape(target.size), source.reshape(source.size)
+        for k in range(b.shape[0]):
+            a[k] = b[k]
 
 
 @part

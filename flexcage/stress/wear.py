@@ -39,6 +39,7 @@ if TYPE_CHECKING:
     import xarray
 
 SECTORS = 24  # round a round pocket, whose depths are told apart
+SAMPLES_READ = 2000  # samples whose slices are held at a time
 _HOUR = 3600.0
 _ITERATIONS = 40  # of Newton's method for a depth; each near its end doubles the digits
 
@@ -191,30 +192,44 @@ def _tabled(
 
 def roller_rubbing(ds: xarray.Dataset, bearing: Bearing, cage: Cage) -> Rubbing:
     """Rollers on crossbeams by slices, and on side beams with the mean speed of their ends."""
-    motion = pocket_motion(ds)
-    radius, x = 0.5 * bearing.element_diameter, ds["slice"].values
     points = end_points(bearing, cage)  # type: ignore[arg-type]
-    beams = slice_speeds(motion, x, radius)
-    ends = end_speeds(motion, points, 0.5 * bearing.roller_length)
-    order = ("time", "pocket", "face")
-    faces = [
-        ds[f"pocket_{what}"].transpose(*order).values[..., 2:] for what in ("force", "friction")
+    parts = [
+        _rub(ds.isel(time=slice(first, first + SAMPLES_READ)), bearing, points)
+        for first in range(0, ds.sizes["time"], SAMPLES_READ)
     ]
-    slices = [
-        ds[f"pocket_slice_{what}"].transpose("time", "pocket", "crossbeam_face", "slice").values
-        for what in ("force", "friction")
-    ]
-    by_slice, side = slices[0] * beams, faces[0] * ends
-    power = np.concatenate([by_slice.sum(axis=-1), side], axis=2)
+    power, force, place, drag = (np.concatenate(p) for p in list(zip(*parts))[:4])
+    x, radius = ds["slice"].values, 0.5 * bearing.element_diameter
     cells = np.zeros((*power.shape[1:], len(x)))
-    cells[:, :2], cells[:, 2:] = by_slice.mean(axis=0), side.mean(axis=0)[..., None] / len(x)
+    cells[:, :2] = sum(part[4] for part in parts) / len(power)
+    cells[:, 2:] = power[..., 2:].mean(axis=0)[..., None] / len(x)
     length = len(x) * (x[1] - x[0])
-    width = contact_width(slices[0].sum(axis=-1), length, bearing, cage)
-    height = _spread(motion.along(motion.place)[..., 1][..., None], power[..., :2]) + width
+    width = contact_width(force, length, bearing, cage)
+    height = _spread(place[..., None], power[..., :2]) + width
     lengths, heights = np.full_like(cells, length / len(x)), np.empty_like(cells)
     heights[:, :2], heights[:, 2:] = height[..., None], end_band(points) / length
-    drag = (slices[1] * beams).sum(axis=(1, 2, 3)) + (faces[1] * ends).sum(axis=(1, 2))
     return Rubbing(power, cells, lengths, heights, np.array([radius, radius, 0.0, 0.0]), drag)
+
+
+def _rub(ds: xarray.Dataset, bearing: Bearing, points: np.ndarray) -> tuple[np.ndarray, ...]:
+    """Over some samples: normal force times sliding speed on every face (t, z, 4) [W], normal force
+    on crossbeams (t, z, 2) [N], rollers' radial place in their pockets (t, z) [m], friction of all
+    (t,) [W], and the sum of the first over time by slices of crossbeams (z, 2, s) [W]."""
+    motion = pocket_motion(ds)
+    beams = slice_speeds(motion, ds["slice"].values, 0.5 * bearing.element_diameter)
+    ends = end_speeds(motion, points, 0.5 * bearing.roller_length)
+    order = ("time", "pocket", "face")
+    force, friction = (
+        ds[f"pocket_{what}"].transpose(*order).values[..., 2:] for what in ("force", "friction")
+    )
+    pressed, dragged = (
+        ds[f"pocket_slice_{what}"].transpose("time", "pocket", "crossbeam_face", "slice").values
+        for what in ("force", "friction")
+    )
+    by_slice = pressed * beams
+    power = np.concatenate([by_slice.sum(axis=-1), force * ends], axis=2)
+    drag = (dragged * beams).sum(axis=(1, 2, 3)) + (friction * ends).sum(axis=(1, 2))
+    place = motion.along(motion.place)[..., 1]
+    return power, pressed.sum(axis=-1), place, drag, by_slice.sum(axis=0)
 
 
 def ball_rubbing(ds: xarray.Dataset, bearing: Bearing, cage: Cage) -> Rubbing:

@@ -20,7 +20,7 @@ from flexcage.run import can_go_on, write_case
 from flexcage.simulate import simulate
 from flexcage.study.convergence import Convergence, Finding
 
-FEWEST_SLICES, MOST_SLICES = 3, 64  # as contacts.spec allows
+FEWEST_SLICES, MOST_SLICES = 3, 128  # as contacts.spec allows
 log = logging.getLogger(__name__)
 
 #: Outputs looked at, by their keys in the summary: statistics of the motion, and plain values.

@@ -53,7 +53,8 @@ class Bodies(NamedTuple):
 
 
 class Memory(NamedTuple):
-    """Law parameters of every pair; slot 3 keeps the onset speed of a contact."""
+    """Law parameters of every pair, the same at all contacts of a place but for slot 3, which keeps
+    the contact's onset speed."""
 
     race: np.ndarray  # (Z, 2, N_NORMAL)
     pocket: np.ndarray  # (Z, faces, N_NORMAL)

@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from contact_kernels import pocket, turned
 from scipy.optimize import brentq, minimize
 
 from flexcage.contacts import laws
-from flexcage.contacts.pocket_wall import N_FACE, N_LOCAL
+from flexcage.contacts.pocket_wall import N_FACE, N_LOCAL, most_of_curve, with_end_stations
 from flexcage.contacts.spec import Contacts, FrictionLaw, NormalLaw, PairSpec
+from flexcage.core.splines import smooth_weights
 from flexcage.geometry.cages import CrossbeamDefect, crossbeam_shape
 from flexcage.modes.basis import CageInterface
 
@@ -226,6 +229,55 @@ def test_a_wall_pushes_the_opposite_one_to_the_roller(walls):
     np.testing.assert_allclose(
         work.normal[:2], k * np.array([press - a, ratio * a - gap]) ** n, rtol=1e-6
     )
+
+
+@pytest.mark.parametrize("seesaw", [1.0, 400.0])
+def test_slices_that_are_left_out_do_not_touch(walls, seesaw):
+    """Slices are left out eight at a time; in another order, one of eight from all along the
+    roller, hardly any are. ``seesaw``: the wall's linear compliance, enough to push the far end in.
+    """
+    rng = np.random.default_rng(3)
+    itf = interface(soft=True, modes=smooth_modes())
+    itf.compliance[:, 1::2] *= np.sqrt(seesaw)
+    itf.compliance[:, :, 1::2] *= np.sqrt(seesaw)
+    contacts = replace(CONTACTS, pocket=replace(CONTACTS.pocket, slices=64))
+    data, p = walls(itf, contacts)
+    order = np.arange(64).reshape(8, 8).T.ravel()
+    mixed = data._replace(s=data.s[order].copy(), drop=data.drop[order].copy())
+    fewer = 0
+    for _ in range(40):
+        D = squeeze(rng.uniform(-1e-6, 3e-6)) * [1.0, 1.0, rng.choice([-1.0, 1.0])]
+        axis = turned(np.eye(3), [0.0, rng.normal(0.0, 1e-3), rng.normal(0.0, 1e-3)])
+        q = rng.normal(0.0, 2e-7, 5)
+        call = {"axis": axis, "q": q, "qd": np.zeros(5), "V": [0.0, 0.0, 0.1], "mode": 1}
+        some, sums, work, pair = pocket(data, p, D, **call)
+        all_, _, other, whole = pocket(mixed, p, D, **call)
+        np.testing.assert_allclose(some, all_, rtol=1e-6, atol=1e-9 * np.abs(all_).max())
+        np.testing.assert_allclose(work.st, other.st, rtol=1e-6, atol=1e-7)
+        np.testing.assert_allclose(pair.K, whole.K, rtol=1e-5, atol=1e-6 * np.abs(whole.K).max())
+        touched = work.normal[:2] > 0.0
+        fewer += np.ptp(work.span[:2][touched].astype(int), axis=1).sum() < 64 * touched.sum()
+    assert fewer > 5
+
+
+@pytest.mark.parametrize("stations", [3, 7, 12])
+def test_bound_of_a_wall_between_its_stations(stations):
+    """No curve through random stations passes it, nor half a spacing beyond; one comes near."""
+    rng = np.random.default_rng(stations)
+    x = np.linspace(-0.5, stations - 0.5, 481)
+    at = np.clip(x, 0.0, stations - 1.0)
+    j = np.minimum(np.floor(at), stations - 2.0).astype(int)
+    weights, slopes = (np.array(w) for w in smooth_weights.py_func(at - j))
+    weights = weights + (x - at) * slopes
+    closest = np.inf
+    for _ in range(300):
+        values = with_end_stations(rng.normal(size=(1, stations, 1)))[0, :, 0]
+        curve = (weights * values[j + np.arange(4)[:, None]]).sum(axis=0)
+        for sign in (1.0, -1.0):
+            spare = most_of_curve.py_func(stations, sign, values) - (sign * curve).max()
+            assert spare > -1e-12
+            closest = min(closest, spare)
+    assert closest < 0.02
 
 
 def test_two_springs_in_series(walls):

@@ -14,7 +14,7 @@ STATISTICS = (
 
 @pytest.fixture(scope="module")
 def pair():
-    long = {"cage.model": "rigid", "solver.duration": "70 ms"}
+    long = {"cage.model": "rigid", "solver.duration": "140 ms"}
     cases = [
         n1013(long, {"solver.tolerance": t}, defects=bent("0.2 mm"))
         for t in ("0.01 um", "0.008 um")

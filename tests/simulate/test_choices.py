@@ -138,9 +138,9 @@ def test_a_bent_beam_shows_in_one_sense_of_rotation_and_the_other():
     """Both senses run with the defect, and load the narrowed pocket 4 at its middle slices."""
     for speed in ("6000 rpm", "-6000 rpm"):
         ds = finite(simulate(n1013({"drive.speed": speed}, defects=bent("0.2 mm"))))
-        slices = ds["pocket_slice_force"].sel(crossbeam_face="front").values[:, 4].sum(axis=0)
+        slices = ds["pocket_slice_force"].sel(crossbeam_face="front")[:, 4].sum("time")
         assert slices.sum() > 0.0
-        assert slices[6:9].sum() > 0.8 * slices.sum()
+        assert slices.where(abs(slices["slice"]) < 0.8e-3).sum() > 0.8 * slices.sum()
 
 
 def test_misalignment_is_held_by_tilt_moments():

@@ -50,9 +50,9 @@ def test_a_value_that_is_no_number(recorder):
     memory = recorder.bearing.data.memory.race
 
     def harm():
-        memory[7, 1, 0] = np.nan
+        memory[:, 1, 0] = np.nan
 
-    with pytest.raises(RunFailed, match=r"t = 1\.00.* ms: .*roller 7 on its outer race with nan"):
+    with pytest.raises(RunFailed, match=r"t = 1\.00.* ms: .*roller \d+ on its outer race with nan"):
         recorder.march(Broken(harm))
     kept(recorder, 1.01e-3)
 

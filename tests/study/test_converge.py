@@ -93,11 +93,11 @@ def test_a_second_call_does_only_what_is_new(tmp_path):
 
 
 def test_levels_keep_what_the_case_says():
-    own = CASE.replace("contacts.race.slices", 40).replace("mesh.fineness", "fine")
+    own = CASE.replace("contacts.race.slices", 80).replace("mesh.fineness", "fine")
     names = {axis: [s.name for s in levels(own) if s.axis == axis] for axis in module.AXES}
-    assert names["slices"] == ["20", "40", "64"] and names["mesh"] == ["coarse", "medium", "fine"]
-    twice = next(s for s in levels(own) if s.name == "64").case
-    assert (twice.contacts.race.slices, twice.contacts.pocket.slices) == (64, 32)
+    assert names["slices"] == ["40", "80", "128"] and names["mesh"] == ["coarse", "medium", "fine"]
+    twice = next(s for s in levels(own) if s.name == "128").case
+    assert (twice.contacts.race.slices, twice.contacts.pocket.slices) == (128, 128)
     assert {s.axis for s in levels(CASE.replace("cage.model", "rigid"))} == {"tolerance", "slices"}
 
 

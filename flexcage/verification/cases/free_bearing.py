@@ -6,6 +6,7 @@ from collections.abc import Iterator
 from typing import Any
 
 import numpy as np
+from scipy.spatial.transform import Rotation
 
 from flexcage.core.errors import RunFailed
 from flexcage.system.problem import Bearing
@@ -35,28 +36,32 @@ FREE = {
     "output.vibration_rate": "200 kHz",
 }
 ELASTIC = {f"contacts.{p}.normal.law": "elastic" for p in ("race", "pocket", "side", "rib")}
-KEPT = Tolerance(1e-5, "share of the throw's; falls with solver.tolerance", absolute=True)
+KEPT = Tolerance(1e-8, "share of the throw's; falls with solver.tolerance", absolute=True)
 
 
 def momentum(bearing: Bearing, ds: Any) -> tuple[np.ndarray, np.ndarray]:
     """Momentum across the axis (time, 2) [kg m/s] and angular momentum about it (time,)."""
     model = bearing.data.model
-    mass, axial, _ = model.bodies.element
+    mass, axial, transverse = model.bodies.element
     psi, r = (ds["roller_position"].sel(cyl=c).values for c in ("psi", "r"))
     radial, around = (ds["roller_velocity"].sel(cyl=c).values for c in ("r", "psi"))
     cos, sin = np.cos(psi), np.sin(psi)
     linear = (
         mass * np.stack([radial * cos - around * sin, radial * sin + around * cos]).sum(axis=2).T
     )
-    spin = ds["roller_omega"].isel(spin_axis=0).values
-    angular = (mass * r * around + axial * spin).sum(axis=1)
+    spin = ds["roller_omega"].values * [axial, transverse, transverse]
+    skew, tilt = np.moveaxis(ds["roller_tilt"].values, -1, 0)  # own axes' share along the bearing's
+    shares = (np.cos(skew) * np.cos(tilt), -np.cos(skew) * np.sin(tilt), np.sin(skew))
+    angular = (mass * r * around + (spin * np.stack(shares, axis=-1)).sum(axis=-1)).sum(axis=1)
     rings = {"inner": model.bodies.ring[0], "outer": model.bodies.outer[0]}
     for name, m in {**rings, "cage": model.cage.mass}.items():
         at, v = (ds[f"{name}_{what}"].values[:, 1:] for what in ("position", "velocity"))
         linear = linear + m * v
         angular = angular + m * (at[:, 0] * v[:, 1] - at[:, 1] * v[:, 0])
-    polar = np.trace(model.cage.G0) - model.cage.G0[0, 0]
-    return linear, angular + polar * ds["cage_omega"].sel(axis="x").values
+    inertia = np.trace(model.cage.G0) * np.eye(3) - model.cage.G0
+    attitude = Rotation.from_quat(ds["cage_quaternion"].values, scalar_first=True)
+    own = ds["cage_omega"].values @ inertia
+    return linear, angular + attitude.apply(own)[:, 0]
 
 
 def rows() -> Iterator[Row]:
