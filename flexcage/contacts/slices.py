@@ -12,7 +12,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from flexcage.core.jit import VECTORISED, as_array, part
+from flexcage.core.jit import VECTORISED, array_from, as_array, part
 
 ROOM = 136  # slices of one contact (128 at the most) or of a lot of them: what a near cache
 # holds, and no power of two, at which distance buffers share the cache's places
@@ -60,30 +60,29 @@ def normal_forces(law, span, sl, p):
 @part
 def normal_forces_of_lot(law, span, sl, p):
     """The same of contacts that differ in their onset speeds, which are in sl.onset."""
-    a, b = span
+    a, n = span[0], np.int64(span[1] - span[0])
     law(
-        np.int64(b - a), as_array(sl.d)[a:b], as_array(sl.v)[a:b], as_array(sl.onset)[a:b], p,
-        as_array(sl.N)[a:b], as_array(sl.Ne)[a:b], as_array(sl.Nd)[a:b], as_array(sl.Nv)[a:b],
+        n, array_from(sl.d, a), array_from(sl.v, a), array_from(sl.onset, a), p,
+        array_from(sl.N, a), array_from(sl.Ne, a), array_from(sl.Nd, a), array_from(sl.Nv, a),
     )  # fmt: skip
 
 
 @part
 def elastic_forces(law, span, sl, p):
     """The same of one contact without rates."""
-    a, b = span
-    still = as_array(sl.still)[a:b]
+    a, n = span[0], np.int64(span[1] - span[0])
+    still = as_array(sl.still)
     law(
-        np.int64(b - a), as_array(sl.d)[a:b], still, still, p, as_array(sl.N)[a:b],
-        as_array(sl.Ne)[a:b], as_array(sl.Nd)[a:b], as_array(sl.Nv)[a:b],
+        n, array_from(sl.d, a), still, still, p, array_from(sl.N, a), array_from(sl.Ne, a),
+        array_from(sl.Nd, a), array_from(sl.Nv, a),
     )  # fmt: skip
 
 
 @part
 def friction_factors(law, span, sl, p):
     """sl.g = mu/u and its slope sl.dg at sliding speeds sl.u."""
-    a, b = span
-    n = np.int64(b - a)
-    law(n, as_array(sl.u)[a:b], p, as_array(sl.g)[a:b], as_array(sl.dg)[a:b])
+    a, n = span[0], np.int64(span[1] - span[0])
+    law(n, array_from(sl.u, a), p, array_from(sl.g, a), array_from(sl.dg, a))
 
 
 @part(fastmath={*VECTORISED, "nnan"})  # else one comparison waits for the other

@@ -352,6 +352,19 @@ def as_array(_typing, field):
     return kind(field), codegen
 
 
+@intrinsic
+def array_from(_typing, field, first):
+    """The same from a place on; its length is not cut. (numba's slices are slow to compile.)"""
+    kind = types.Array(field.dtype, field.ndim, "C")
+
+    def codegen(context, builder, signature, args):
+        array = context.make_array(kind)(context, builder, args[0])
+        array.data = cgutils.gep_inbounds(builder, array.data, args[1])
+        return impl_ret_borrowed(context, builder, kind, array._getvalue())
+
+    return kind(field, first), codegen
+
+
 bits_of, real_of = _bitcast(types.int64), _bitcast(types.float64)
 if numba.config.DISABLE_JIT:  # type: ignore[attr-defined]
     # kernels as plain Python, for a debugger
@@ -364,6 +377,9 @@ if numba.config.DISABLE_JIT:  # type: ignore[attr-defined]
 
     def as_array(field):
         return field
+
+    def array_from(field, first):
+        return field[first:]
 
     def bits_of(x):
         return struct.unpack("<q", struct.pack("<d", x))[0]
