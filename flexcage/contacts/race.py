@@ -48,8 +48,8 @@ class RaceSide(NamedTuple):
 class RaceWork(NamedTuple):
     """A lot of contacts on one race, of n slices each; those of contact m begin at m n in ``lot``.
 
-    Laws take no longer for ten contacts than for two, as it is the length of a chain of operations
-    that takes the time, not their number.
+    A law's operations wait for one another: a normal law takes 100 ns for one contact of 16 slices,
+    40 for each of many (measured).
     """
 
     lot: np.ndarray  # (1,) record of their slices
