@@ -171,7 +171,7 @@ def pocket_wall_contact(
                 pw.st[0, s, c] += (1.0 - share) / nst * on_wall[c]
     pw.normal[0], pw.tangential[0] = N, N * sl.g[0] * sl.u[0]
     if mode >= 2:
-        sums[2] = friction_power(0, 1, sl)
+        sums[2] = friction_power((0, 1), sl)
     return True
 
 

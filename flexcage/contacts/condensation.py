@@ -77,8 +77,8 @@ def condense(data, i, p, laws, guess, sl, pw):
     copy_into(pw.b, guess)
     if touched == 1:
         _solve_alone(data, i, last, p, laws, sl, pw)
-        _lean(data, i, last, pw)
         if not _join(data, i, sl, pw):
+            _lean(data, i, last, pw)
             return
     pw.size[0] = N_LOCAL
     copy_into(pw.c, pw.b)
@@ -119,7 +119,7 @@ def _join(data, i, sl, pw):
             span = span_of(pw, f)
             _read(N_LOCAL, span, data.res[i, f], pw.face[f])
             _yielded(N_LOCAL, span, pw.face[f], pw.b, sl)
-            if largest(span[0], span[1], sl.d) > 0.0:
+            if largest(span, sl.d) > 0.0:
                 pw.live[f] = 1
                 joined = True
     return joined

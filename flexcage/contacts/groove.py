@@ -70,7 +70,7 @@ def groove_contact(rb, race, P, b, V, w, Vr, wr, p, law, friction, sl, wrench, m
     normal_forces(law, (0, 1), sl, p)
     N = sl.N[0]
     if mode >= 2:
-        sums[5], sums[6] = stored_and_damped(0, 1, sl, p[1])
+        sums[5], sums[6] = stored_and_damped((0, 1), sl, p[1])
     g = cross(b, e)  # rolling direction, along the race
     t = cross(n, g)
     size = N ** (1.0 / 3.0)

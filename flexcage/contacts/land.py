@@ -208,11 +208,11 @@ def _touch(
         shape = data.phi[(j + k - 1) % n_l, 1]
         for m in range(qd.shape[0]):
             Qm[m] += weights[k] * radial * shape[m]
-    energy, damped = stored_and_damped(0, 1, sl, p[1])
+    energy, damped = stored_and_damped((0, 1), sl, p[1])
     sums[4 + side] += N
     sums[0] += energy
     sums[1] += damped
-    sums[2] += friction_power(0, 1, sl)
+    sums[2] += friction_power((0, 1), sl)
 
 
 @part

@@ -94,7 +94,7 @@ def _press(data, f, sl, pw):
     else:
         for k in range(span[0], span[1]):
             sl.d[k] = pw.face[f].d0[k]
-    return largest(span[0], span[1], sl.d) > 0.0
+    return largest(span, sl.d) > 0.0
 
 
 @part
@@ -125,7 +125,7 @@ def _face(pose, data, i, f, Rw, distance, rel, spin, qd, p, laws, sl, pw, pair, 
             for k in range(span[0], span[1]):
                 pw.slice_N[f, k] = sl.N[k]
                 pw.slice_T[f, k] = sl.N[k] * sl.g[k] * sl.u[k]
-        sums[2] += friction_power(span[0], span[1], sl)
-        energy, damped = stored_and_damped(span[0], span[1], sl, p[1])
+        sums[2] += friction_power(span, sl)
+        energy, damped = stored_and_damped(span, sl, p[1])
         sums[0] += energy
         sums[1] += damped

@@ -285,7 +285,7 @@ def penetrations(pose, data, i, Rw, D, q, margin, pw):
             face.slope[k] *= sgn
         if data.bent[i, f] != 0:
             _add_offset(data, i, f, span, face)
-        pw.deep[f] = largest(span[0], span[1], face.d0)
+        pw.deep[f] = largest(span, face.d0)
         touch = touch or pw.deep[f] > 0.0
     return touch
 
@@ -308,7 +308,10 @@ def most_of_curve(n, sign, values):
 
 @part
 def _block_by_block(n, face):
-    """Largest penetration of each block of the n slices into face.top; returns that of all."""
+    """Largest penetration of each block of the n slices into face.top; returns that of all.
+
+    By halves: one after the other, each comparison would wait for the last.
+    """
     d, blocks, most = face.d0, (n + BLOCK - 1) // BLOCK, -1.0
     for k in range(n, blocks * BLOCK):
         d[k] = -1.0

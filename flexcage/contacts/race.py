@@ -98,7 +98,7 @@ def meet_race(m, pose, side, Rw, theta, onset, rw):
     _meet(first, side, Rw, onset, ring_axis, x0, x1, v0, cross(spin, a), spin, sl)
     if side.uneven:
         _ride(first, pose, side, sqrt(dot(x0, x0)), ring_spin[0], theta, sl)
-    if largest(first, first + np.uint64(n), sl.d) <= 0.0:
+    if largest((first, first + np.uint64(n)), sl.d) <= 0.0:
         return False
     # the surfaces' speeds along e_psi, seen from the contact, which moves with the orbit
     orbit = pose.V[2] / centre[1]
@@ -115,7 +115,7 @@ def press_race(count, side, p, law, friction, rw):
     normal_forces_of_lot(law, (0, count * n), sl, p)
     friction_factors(friction, (0, count * n), sl, side.friction)
     for m in range(count):
-        rw.load[m] = total(np.uint64(m * n), np.uint64((m + 1) * n), sl.N)
+        rw.load[m] = total((np.uint64(m * n), np.uint64((m + 1) * n)), sl.N)
     if side.rolling[0] > 0.0:
         rolling_forces(count, side.rolling, rw.entrainment, rw.load, rw.rolling)
 
@@ -132,12 +132,13 @@ def push_by_race(m, pose, side, Rw, theta, exponent, rw, pair, mode, sums):
     sl, partner = rw.lot[0], rw.partner[m]
     centre, ring_axis = row(partner, 0), row(partner, 1)
     a, n = row(pose.axis, 0), side.s.shape[0]
-    first, end = np.uint64(m * n), np.uint64((m + 1) * n)
+    first = np.uint64(m * n)
+    span = (first, first + np.uint64(n))
     _push(first, side, Rw, a, ring_axis, sl, pair.wrench)
     if mode >= 2:
         zero(sums)
-        sums[0], sums[7] = rw.load[m], friction_power(first, end, sl)
-        sums[5], sums[6] = stored_and_damped(first, end, sl, exponent)
+        sums[0], sums[7] = rw.load[m], friction_power(span, sl)
+        sums[5], sums[6] = stored_and_damped(span, sl, exponent)
         if mode == 2:
             _report(first, side, Rw, a, sl, sums)
     if side.uneven:

@@ -97,8 +97,8 @@ def rib_contact(pose, data, P, b, Vr, wr, p, laws, sl, pair, mode, sums):
             elif mode >= 2:
                 sums[f] += N
         if mode >= 2:
-            energy, damped = stored_and_damped(0, count, sl, p[f, 1])
+            energy, damped = stored_and_damped((0, count), sl, p[f, 1])
             sums[2] += energy
             sums[3] += damped
-            sums[4] += friction_power(0, count, sl)
+            sums[4] += friction_power((0, count), sl)
     return active

@@ -12,7 +12,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from flexcage.core.jit import VECTORISED, array_from, as_array, part
+from flexcage.core.jit import VECTORISED, array_from, part
 
 ROOM = 136  # slices of one contact (128 at the most) or of a lot of them: what a near cache
 # holds, and no power of two, at which distance buffers share the cache's places
@@ -71,7 +71,7 @@ def normal_forces_of_lot(law, span, sl, p):
 def elastic_forces(law, span, sl, p):
     """The same of one contact without rates."""
     a, n = span[0], np.int64(span[1] - span[0])
-    still = as_array(sl.still)
+    still = array_from(sl.still, a)
     law(
         n, array_from(sl.d, a), still, still, p, array_from(sl.N, a), array_from(sl.Ne, a),
         array_from(sl.Nd, a), array_from(sl.Nv, a),
@@ -86,40 +86,40 @@ def friction_factors(law, span, sl, p):
 
 
 @part(fastmath={*VECTORISED, "nnan"})  # else one comparison waits for the other
-def largest(first, end, values):
-    """Largest of the values from ``first`` to before ``end``."""
-    most = values[first]
-    for k in range(first + 1, end):
+def largest(span, values):
+    """Largest of the values of a span."""
+    most = values[span[0]]
+    for k in range(span[0], span[1]):
         most = max(most, values[k])
     return most
 
 
 @part(fastmath=VECTORISED)
-def total(first, end, values):
-    """Sum of the values from ``first`` to before ``end``."""
+def total(span, values):
+    """Sum of the values of a span."""
     x = 0.0
-    for k in range(first, end):
+    for k in range(span[0], span[1]):
         x += values[k]
     return x
 
 
 @part(fastmath=VECTORISED)
-def friction_power(first, end, sl):
-    """Power that friction takes from the slices ``first`` to before ``end`` [W], negative."""
+def friction_power(span, sl):
+    """Power that friction takes from the slices of a span [W], negative."""
     power = 0.0
-    for k in range(first, end):
+    for k in range(span[0], span[1]):
         power -= sl.N[k] * sl.g[k] * sl.u[k] ** 2
     return power
 
 
 @part(fastmath=VECTORISED)
-def stored_and_damped(first, end, sl, exponent):
-    """Elastic energy of the slices [J], and the power that damping takes from them [W].
+def stored_and_damped(span, sl, exponent):
+    """Elastic energy of the slices of a span [J], and the power that damping takes from them [W].
 
     ``exponent`` of the elastic force.
     """
     energy = power = 0.0
-    for k in range(first, end):
+    for k in range(span[0], span[1]):
         energy += sl.Ne[k] * max(sl.d[k], 0.0)
         power -= (sl.N[k] - sl.Ne[k]) * sl.v[k]
     return energy / (exponent + 1.0), power

@@ -128,6 +128,9 @@ class EhlTraction(FrictionLaw):
 FRICTION_LAWS["ehl"] = EhlTraction
 
 
+FEWEST_SLICES, MOST_SLICES = 3, 128
+
+
 @dataclass(frozen=True, kw_only=True)
 class PairSpec:
     """A contact place: its normal law, its friction law, and how finely it is cut."""
@@ -137,8 +140,8 @@ class PairSpec:
     slices: int = option(
         16,
         doc="slices along a roller, strips of a ball's contact ellipse; multiples of 8 are fast",
-        minimum=3,
-        maximum=128,
+        minimum=FEWEST_SLICES,
+        maximum=MOST_SLICES,
     )
 
 

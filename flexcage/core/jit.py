@@ -342,19 +342,11 @@ def _bitcast(to: Any) -> Any:
 
 
 @intrinsic
-def as_array(_typing, field):
-    """An array field of a record as an ordinary array (numba's own conversion refuses)."""
-    kind = types.Array(field.dtype, field.ndim, "C")
-
-    def codegen(context, builder, signature, args):
-        return impl_ret_borrowed(context, builder, kind, args[0])
-
-    return kind(field), codegen
-
-
-@intrinsic
 def array_from(_typing, field, first):
-    """The same from a place on; its length is not cut. (numba's slices are slow to compile.)"""
+    """An array field of a record from a place on, as an ordinary array; its length is not cut.
+
+    (numba's own conversion refuses, and its slices are slow to compile.)
+    """
     kind = types.Array(field.dtype, field.ndim, "C")
 
     def codegen(context, builder, signature, args):
@@ -374,9 +366,6 @@ if numba.config.DISABLE_JIT:  # type: ignore[attr-defined]
 
     def fields(box):
         return box
-
-    def as_array(field):
-        return field
 
     def array_from(field, first):
         return field[first:]

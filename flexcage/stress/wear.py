@@ -197,10 +197,11 @@ def roller_rubbing(ds: xarray.Dataset, bearing: Bearing, cage: Cage) -> Rubbing:
         _rub(ds.isel(time=slice(first, first + SAMPLES_READ)), bearing, points)
         for first in range(0, ds.sizes["time"], SAMPLES_READ)
     ]
-    power, force, place, drag = (np.concatenate(p) for p in list(zip(*parts))[:4])
+    *series, sums = zip(*parts)
+    power, force, place, drag = (np.concatenate(s) for s in series)
     x, radius = ds["slice"].values, 0.5 * bearing.element_diameter
     cells = np.zeros((*power.shape[1:], len(x)))
-    cells[:, :2] = sum(part[4] for part in parts) / len(power)
+    cells[:, :2] = sum(sums) / len(power)
     cells[:, 2:] = power[..., 2:].mean(axis=0)[..., None] / len(x)
     length = len(x) * (x[1] - x[0])
     width = contact_width(force, length, bearing, cage)

@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import Any
 
 from flexcage.case import Case
+from flexcage.contacts.spec import FEWEST_SLICES, MOST_SLICES
 from flexcage.core.errors import FlexcageError, InputError
 from flexcage.mesh.options import FINENESS
 from flexcage.results.files import load, save
@@ -20,7 +21,6 @@ from flexcage.run import can_go_on, write_case
 from flexcage.simulate import simulate
 from flexcage.study.convergence import Convergence, Finding
 
-FEWEST_SLICES, MOST_SLICES = 3, 128  # as contacts.spec allows
 log = logging.getLogger(__name__)
 
 #: Outputs looked at, by their keys in the summary: statistics of the motion, and plain values.

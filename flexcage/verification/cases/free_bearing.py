@@ -36,7 +36,7 @@ FREE = {
     "output.vibration_rate": "200 kHz",
 }
 ELASTIC = {f"contacts.{p}.normal.law": "elastic" for p in ("race", "pocket", "side", "rib")}
-KEPT = Tolerance(1e-8, "share of the throw's; falls with solver.tolerance", absolute=True)
+KEPT = Tolerance(1e-8, "share of the throw's; what is left is rounding", absolute=True)
 
 
 def momentum(bearing: Bearing, ds: Any) -> tuple[np.ndarray, np.ndarray]:
