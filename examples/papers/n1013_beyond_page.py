@@ -20,8 +20,8 @@ PEAK, BLOW = "pocket_force_pass_peak", "pocket_force_peak"
 CORNER, DAMAGE, WORN = "stress_root_pass_peak", "fatigue_damage_rate", "wear_volume_rate"
 SPEEDS, LOADS = ("3000", "6000", "9000", "12000"), ("200", "1000", "5000")
 MATERIALS = ("brass", "PA66")
-_SLICE = "pocket_slice_force[pocket=4,crossbeam_face=front,slice={}].mean"
-SLICES = tuple(_SLICE.format(k) for k in range(16))
+_PART = "pocket_slice_force[pocket=4,crossbeam_face=front,slice={}:{}].mean"
+PARTS = tuple(_PART.format(k, k + 4) for k in range(0, 64, 4))  # of the roller, all of one length
 GROWTH = {
     "dq": ("sound", "dq 0.1", "dq 0.2", "dq 0.25", "dq 0.3"),
     "dp": ("dp -0.3", "dp -0.2", "dp -0.1", "sound", "dp +0.3"),
@@ -105,7 +105,7 @@ def cages_table(cages: StudyResults, outputs: Sequence[str], labels: Sequence[st
 
 def middle_share(cages: StudyResults, label: str) -> float:
     """Share of a crossbeam's push on its roller that acts on the roller's middle half."""
-    mean = np.array([figure(cages, s, label).value for s in SLICES])
+    mean = np.array([figure(cages, s, label).value for s in PARTS])
     return float(mean[4:12].sum() / mean.sum())
 
 
@@ -235,11 +235,11 @@ def _slices_picture(cages: StudyResults, path: Path) -> Path:
     with sheet.style():
         figure_ = sheet.new_figure(1000, 640)
         sheet.heading(figure_, "Where a crossbeam pushes its roller",
-                      "mean force on 16 slices of roller j-1, front face")  # fmt: skip
+                      "mean force on 16 parts of roller j-1, front face")  # fmt: skip
         ax = sheet.axes_at(figure_, (100, 130, 840, 410))
         place = (np.arange(16) + 0.5) / 16.0 - 0.5
         for (label, name), colour in zip(CURVES.items(), colours):
-            mean = np.array([figure(cages, s, label).value for s in SLICES])
+            mean = np.array([figure(cages, s, label).value for s in PARTS])
             ax.plot(place, mean / mean.mean(), "o-", color=colour, label=name)
         ax.set(xlabel="place along the roller, over its effective length")
         ax.set(ylabel="force over its mean along the roller", ylim=(0.0, None))

@@ -61,6 +61,7 @@ FLEXIBLE_FIGURES = (
 )  # fmt: skip
 
 _REDUCTION = re.compile(r"(\w+)(?:\[([^\]]*)\])?\.(\w+)")
+_COUNTED = re.compile(r"(\d+)(?::(\d+))?")  # one place, or those from one to before another
 _LABELS_OF_A_RUN = {"constraint": CONSTRAINTS, "energy_kind": ENERGIES, "channel": tuple(POWERS)}
 
 
@@ -91,10 +92,11 @@ class Reduction:
         name, dim = self.variable.name, self.variable.dims[0]
         array = DERIVED[name].compute(part, run.numbers) if name in DERIVED else part[name]
         for along, label in self.selection.items():
-            if label.isdigit():
-                array = array.isel({along: int(label)})
-            else:
+            places = counted(label)
+            if places is None:
                 array = array.sel({along: label})
+            else:
+                array = array.isel({along: places[0] if ":" not in label else slice(*places)})
         values, t = array.transpose(dim, ...).values, array[dim].values
         step = float(t[-1] - t[0]) / (len(t) - 1)
         reducer = REDUCTIONS[self.reduce]
@@ -138,6 +140,15 @@ LATE_FIGURES: Mapping[str, Callable[[Run], dict[str, Figure]]] = {
 }
 
 
+def counted(label: str) -> tuple[int, int] | None:
+    """First place and the one after the last of "3" or "3:7", None for a label in words."""
+    match = _COUNTED.fullmatch(label)
+    if match is None:
+        return None
+    first = int(match[1])
+    return first, first + 1 if match[2] is None else int(match[2])
+
+
 def is_reduction(name: str) -> bool:
     """True for "pocket_force.max", False for the name of a figure."""
     return _REDUCTION.fullmatch(name) is not None
@@ -149,7 +160,7 @@ def beyond_summary(names: tuple[str, ...]) -> tuple[str, ...]:
 
 
 def parse_reduction(name: str) -> Reduction:
-    """Reduction from "variable.mean" or "variable[dim=label,...].max"."""
+    """Reduction from "variable.mean", "variable[dim=label,...].max" or "variable[dim=3:6].max"."""
     match = _REDUCTION.fullmatch(name)
     assert match is not None
     found = DERIVED[match[1]].variable if match[1] in DERIVED else variable(match[1])
@@ -160,7 +171,7 @@ def parse_reduction(name: str) -> Reduction:
     selection = {dim.strip(): label.strip() for dim, _, label in pairs}
     for dim, label in selection.items():
         _check_label(name, found, dim, label)
-    over = [dim for dim in found.dims[1:] if dim not in selection]
+    over = [dim for dim in found.dims[1:] if ":" in selection.get(dim, ":")]
     if over and REDUCTIONS[match[3]].series:
         raise InputError(
             f"Output '{name}': '{match[3]}' is that of one series; say which {over[0]}, as in "
@@ -174,22 +185,27 @@ def _check_label(name: str, found: Variable, dim: str, label: str) -> None:
         hint = did_you_mean(dim, found.dims[1:], "its dimensions are")
         raise InputError(f"Output '{name}': {found.name} has no dimension '{dim}'; {hint}.")
     labels = LABELS.get(dim) or _LABELS_OF_A_RUN.get(dim)
-    if labels is None and not label.isdigit():
-        raise InputError(f"Output '{name}': '{dim}' is counted from 0, so '{label}' is none.")
+    places = counted(label)
+    if labels is None and (places is None or places[0] >= places[1]):
+        raise InputError(
+            f"Output '{name}': '{dim}' is counted from 0, so '{label}' is none; give one, as in "
+            f"{dim}=3, or those from one to before another, as in {dim}=3:6."
+        )
     if labels is not None and label not in labels:
         hint = did_you_mean(label, labels, "choose from")
         raise InputError(f"Output '{name}': there is no {dim} '{label}'; {hint}.")
 
 
 def check_outputs(
-    names: tuple[str, ...], *, elements: int, flexible: bool, element: str = "roller",
+    names: tuple[str, ...], *, sizes: Mapping[str, int], flexible: bool, element: str = "roller",
     materials: Collection[str] = (),
 ) -> None:  # fmt: skip
     """Raise InputError for the first output that no run of the study can give.
 
-    ``elements`` is the least number of rolling elements of any case, ``element`` their kind, and
-    ``flexible`` says whether any cage is, and ``materials`` names those of all cages. Raises
-    EnvironmentLacks for fatigue without pyLife.
+    ``sizes`` holds the least length in any case of dimensions that are counted (rolling elements,
+    pockets, slices), ``element`` is the kind of rolling elements, ``flexible`` says whether any
+    cage is, and ``materials`` names those of all cages. Raises EnvironmentLacks for fatigue
+    without pyLife.
     """
     if not names:
         raise InputError("The study has no outputs; name some, such as 'cage_speed'.")
@@ -200,9 +216,10 @@ def check_outputs(
             reduction = parse_reduction(name)
             needs = reduction.variable.name.startswith(("modal_", "residual_"))
             _check_element(name, reduction.variable.of, element)
-            for dim in {*ELEMENT_FIGURES, "pocket"} & set(reduction.selection):
-                if int(reduction.selection[dim]) >= elements:
-                    raise InputError(f"Output '{name}': the {dim}s count from 0 to {elements - 1}.")
+            for dim, label in reduction.selection.items():
+                places = counted(label)
+                if places is not None and places[1] > sizes.get(dim, places[1]):
+                    raise InputError(f"Output '{name}': the {dim}s count to {sizes[dim] - 1}.")
         else:
             needs = name in FLEXIBLE_FIGURES or LATE_FIGURES.get(name) is _fatigue
             _check_figure(name)

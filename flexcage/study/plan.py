@@ -53,7 +53,8 @@ def make_plan(study: Study) -> Plan:
     _check_columns(study)
     points = _points(study)
     cases, seen = [], dict[str, int]()
-    elements, flexible = study.case.bearing.element_count, False
+    kind, flexible = study.case.bearing.element, False
+    sizes = _counts(study.case)
     materials = dict[str, None]()
     for number, point in enumerate(points):
         for repetition in range(study.repeat.count):
@@ -71,15 +72,20 @@ def make_plan(study: Study) -> Plan:
                     where="axes",
                 )
             seen[case.hash] = number
-            elements = min(elements, case.bearing.element_count)
+            sizes = {dim: min(size, sizes[dim]) for dim, size in _counts(case).items()}
             flexible |= case.cage_model == "flexible"
             materials[case.cage.material.name] = None
             cases.append(Planned(number, point, repetition, case.hash, _modes_key(case)))
     check_outputs(
-        study.outputs, elements=elements, flexible=flexible, element=study.case.bearing.element,
-        materials=materials,
-    )  # fmt: skip
+        study.outputs, sizes=sizes, flexible=flexible, element=kind, materials=materials
+    )
     return Plan(study, tuple(cases))
+
+
+def _counts(case: Case) -> dict[str, int]:
+    """Lengths of the dimensions of a case's results that are counted from 0."""
+    count = case.bearing.element_count
+    return {case.bearing.element: count, "pocket": count, "slice": case.contacts.pocket.slices}
 
 
 def stored_plan(study: Study, hashes: Sequence[str]) -> Plan:

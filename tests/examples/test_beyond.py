@@ -56,8 +56,8 @@ def test_every_cage_of_the_page_is_in_the_study(beyond):
     labels = {c.point.labels["cage"] for c in plan.cases}
     asked = {*page.GROWTH["dq"], *page.GROWTH["dp"], *page.SEVERAL, *page.TOGETHER, *page.CURVES}
     assert asked == labels
-    outputs = {*page._GROWING, *page._BESIDE, *page._SHAKEN, *page.SLICES}
-    assert outputs <= set(plan.study.outputs) and outputs - set(page.SLICES) <= set(page.NAMES)
+    outputs = {*page._GROWING, *page._BESIDE, *page._SHAKEN, *page.PARTS}
+    assert outputs <= set(plan.study.outputs) and outputs - set(page.PARTS) <= set(page.NAMES)
 
 
 def test_excess_is_of_the_rigid_cage(beyond):
@@ -74,8 +74,8 @@ def test_excess_is_of_the_rigid_cage(beyond):
 
 def test_share_of_the_middle_half(beyond):
     page = beyond.page
-    ends = {s: float(k in (0, 15)) for k, s in enumerate(page.SLICES)}
-    even = dict.fromkeys(page.SLICES, 2.0)
+    ends = {s: float(k in (0, 15)) for k, s in enumerate(page.PARTS)}
+    even = dict.fromkeys(page.PARTS, 2.0)
     cages = results({("dq 0.1",): ends, ("dq 0.2",): even})
     assert page.middle_share(cages, "dq 0.1") == 0.0
     assert page.middle_share(cages, "dq 0.2") == pytest.approx(0.5)
@@ -92,7 +92,7 @@ def test_page_of_half_a_study_is_written(beyond, tmp_path):
         }
     )
     cages = results(
-        {("sound",): {page.CORNER: 2e7, "stress_root": 3e7, **dict.fromkeys(page.SLICES, 1.0)}}
+        {("sound",): {page.CORNER: 2e7, "stress_root": 3e7, **dict.fromkeys(page.PARTS, 1.0)}}
     )
     text = page.page(peaks, cages)
     assert "{" not in text and "PA66: 50 to 50 %, median 50 %" in text

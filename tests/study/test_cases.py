@@ -14,7 +14,7 @@ from flexcage.simulate import simulate
 from flexcage.study import run, work
 from flexcage.study.axes import Grid, Points
 from flexcage.study.folder import Folder
-from flexcage.study.outputs import FLEXIBLE_FIGURES, RIGID_FIGURES
+from flexcage.study.outputs import FLEXIBLE_FIGURES, RIGID_FIGURES, parse_reduction
 from flexcage.study.plan import make_plan
 from flexcage.study.results import StudyResults, mean_and_half_width
 from flexcage.study.spec import Study
@@ -181,6 +181,16 @@ def test_figures_that_a_study_may_name_are_those_of_a_run():
     run = simulate(case)
     keys = {row.key for row in run.summary} - {"drift", "energy_audit"}  # words
     assert keys | {"wall_stress"} == {*RIGID_FIGURES, *FLEXIBLE_FIGURES}
+
+
+def test_parts_of_a_counted_dimension_make_up_the_whole():
+    run = simulate(short_case(**{"output.settle": 0.2}))
+    whole, one, two, rest = (
+        parse_reduction(f"race_force[race=outer{part}].mean").of(run).value
+        for part in ("", ",roller=0", ",roller=1:9", ",roller=9:22")
+    )
+    assert (one + 8 * two + 13 * rest) / 22 == pytest.approx(whole, rel=1e-12)
+    assert whole != pytest.approx(two, rel=1e-2)
 
 
 def test_a_push_moves_the_cage_at_its_speed_in_a_direction_of_its_seed():

@@ -39,7 +39,7 @@ def test_every_combination_is_a_case():
 def test_the_cages_motion_and_contacts_are_outputs_of_every_family(element):
     names = ("contact_frequency", "contact_frequency_total", "free_flight_share")
     names += ("whirl_speed_ratio", "velocity_deviation", "velocity_deviation_2khz")
-    check_outputs(names, elements=12, flexible=False, element=element)
+    check_outputs(names, sizes={element: 12, "pocket": 12}, flexible=False, element=element)
 
 
 def test_repetitions_differ_in_their_start_alone():
@@ -184,7 +184,11 @@ def test_mistakes_in_the_file(name, tmp_path, capsys):
         (("pocket_force.maximum",), "'max'"),
         (("pocket_force[fase=front].max",), "'face'"),
         (("pocket_force[face=frontal].max",), "'front'"),
-        (("pocket_force[pocket=22].max",), "count from 0 to 21"),
+        (("pocket_force[pocket=22].max",), "pockets count to 21"),
+        (("pocket_force[pocket=3:3].max",), "pocket=3:6"),
+        (("pocket_force[pocket=20:23].max",), "pockets count to 21"),
+        (("pocket_slice_force[slice=64].max",), "slices count to 63"),
+        (("roller_omega[roller=3:5,spin_axis=axial].frequency",), "one series; say which roller"),
         (("roller_omega[roller=first].mean",), "counted from 0"),
         (("contact_angle.mean",), "is of balls, but the study's bearings have rollers"),
         (("contact_angle_inner",), "is of balls"),
@@ -205,7 +209,7 @@ def test_outputs_of_a_study_of_ball_bearings():
     for wrong, words in (
         ("roller_spin", "is of rollers, but the study's bearings have balls"),
         ("roller_slip_ratio.mean", "is of rollers"),
-        ("contact_force[ball=18].max", "the balls count from 0 to 17"),
+        ("contact_force[ball=18].max", "the balls count to 17"),
     ):
         with pytest.raises(InputError, match=words):
             make_plan(Study(case=case, outputs=(wrong,)))
