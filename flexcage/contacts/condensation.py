@@ -267,35 +267,3 @@ def lean_of_residual(f, pw):
     read_values(span, face.ws, face, pw.lean[f], face.read)
     for k in range(span[0], span[1]):
         face.slope[k] += face.read[k]
-
-
-@outlined
-def soften(pw, pair):
-    """Condense the residual coordinates out of the tangent, and keep X for the modes."""
-    n = pw.size[0]
-    factor(n, pw.A)
-    for l in range(n):
-        zero(pw.g)
-        pw.g[l] = 1.0
-        back_substitute(n, pw.A, pw.g)
-        for m in range(n):
-            pw.X[m, l] = pw.g[m]
-    zero(pw.XB)
-    zero(pw.LX)
-    for l in range(n):
-        for m in range(n):
-            for c in range(6):
-                pw.XB[l, c] += pw.X[l, m] * pw.RB[m, c]
-                pw.LX[c, l] += pw.LR[c, m] * pw.X[m, l]
-    for c in range(6):
-        for e in range(6):
-            for l in range(n):
-                pair.K[c, e] -= pw.LR[c, l] * pw.XB[l, e]
-    for f in range(4):
-        if pw.live[f] == 0:
-            continue
-        for s in range(pw.HR.shape[1]):
-            for c in range(6):
-                for l in range(n):
-                    pw.BW[f, s, c] -= pw.HR[f, s, l] * pw.XB[l, c]
-                    pw.LV[f, s, c] -= pw.LX[c, l] * pw.HR[f, s, l]

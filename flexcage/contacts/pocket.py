@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from flexcage.contacts.condensation import condense, lean_of_residual, left_out, soften, yielded
+from flexcage.contacts.condensation import condense, lean_of_residual, left_out, yielded
 from flexcage.contacts.pocket_forces import (
-    add_tangent,
     crossbeam_rates,
     push_by_crossbeam,
     push_by_side_beam,
@@ -12,8 +11,8 @@ from flexcage.contacts.pocket_forces import (
     side_beam_rates,
     spread_over_stations,
 )
+from flexcage.contacts.pocket_tangent import add_tangent, clear_tangent, give_pair, soften
 from flexcage.contacts.pocket_wall import (
-    clear_tangent,
     give_stations,
     penetrations,
     read_stations,
@@ -21,6 +20,7 @@ from flexcage.contacts.pocket_wall import (
     span_of,
 )
 from flexcage.contacts.slices import (
+    elastic_forces,
     friction_factors,
     friction_power,
     largest,
@@ -41,7 +41,7 @@ def pocket_contact(
     D: roller centre from the cage's origin; Vc, wc: cage velocity and angular velocity, in F;
     q, qd: modal coordinates and rates; ``margin``: bound of the walls' motion; p (4, N_NORMAL).
     ``laws``: normal (crossbeam, side), friction (crossbeam, side); ``guess``: residual coordinates
-    to begin with. Tangent (mode 1) in ``pair`` and ``pw.BW, pw.LV, pw.H``; report (from mode 2) in
+    to begin with. Tangent (mode 1) in ``pair`` and ``pw.K, pw.C``; report (from mode 2) in
     ``sums``: elastic energy (with the residual's), damping power, friction power.
     """
     clear(pair, mode == 1)
@@ -73,12 +73,13 @@ def pocket_contact(
             any_contact = True
             _face(pose, data, i, f, Rw, centre[1], rel, spin, qd, p[f], laws, sl, pw, pair, mode,
                   sums)  # fmt: skip
-    if data.soft != 0:
-        if mode == 1 and any_contact:
-            soften(pw, pair)
-        elif mode >= 2:
-            for l in range(pw.b.shape[0]):
-                sums[0] += 0.5 * pw.b[l] * pw.b[l]
+    if mode == 1 and any_contact:
+        if data.soft != 0:
+            soften(6 + data.phi.shape[4], pw)
+        give_pair(pw, pair)
+    elif mode >= 2 and data.soft != 0:
+        for l in range(pw.b.shape[0]):
+            sums[0] += 0.5 * pw.b[l] * pw.b[l]
     return any_contact
 
 
@@ -110,6 +111,10 @@ def _face(pose, data, i, f, Rw, distance, rel, spin, qd, p, laws, sl, pw, pair, 
         crossbeam_rates(data, f, span, Rw, a, rel, spin, face, sl, pw)
     else:
         side_beam_rates(pose, data, f, distance, rel, spin, sl, pw, pair)
+    if mode == 1 and data.soft != 0:
+        elastic_forces(normal, span, sl, p)
+        for k in range(span[0], span[1]):
+            pw.h[k] = sl.Nd[k]
     normal_forces(normal, span, sl, p)
     friction_factors(friction, span, sl, data.friction[0 if f < 2 else 1])
     if f < 2:
@@ -119,7 +124,7 @@ def _face(pose, data, i, f, Rw, distance, rel, spin, qd, p, laws, sl, pw, pair, 
     spread_over_stations(span, f, face, sl, pw)
     give_stations(f, pw)
     if mode == 1:
-        add_tangent(pose, data, f, Rw, distance, sl, pw, pair)
+        add_tangent(pose, data, f, i, Rw, distance, sl, pw)
     elif mode >= 2:
         if f < 2 and mode == 2:
             for k in range(span[0], span[1]):

@@ -9,15 +9,8 @@ from __future__ import annotations
 
 from math import sqrt
 
-from flexcage.contacts.pocket_wall import span_of, station_weight
-from flexcage.contacts.state import (
-    add_end_generator,
-    add_generator,
-    add_outer,
-    approach,
-    friction_tangent,
-)
-from flexcage.core.jit import VECTORISED, outlined, part, zero
+from flexcage.contacts.state import add_end_generator, add_generator, approach
+from flexcage.core.jit import VECTORISED, part, zero
 from flexcage.core.vectors import (
     combine,
     cross,
@@ -100,7 +93,7 @@ def spread_over_stations(span, f, face, sl, pw):
 
 
 @part
-def _axes(pw, f):
+def axes_of_face(pw, f):
     """Normal on the roller and the two tangents of face f, in F."""
     sgn = 1.0 if f % 2 == 0 else -1.0
     if f < 2:
@@ -109,7 +102,7 @@ def _axes(pw, f):
 
 
 @part
-def _lever(pose, data, Rw, f, k, pw):
+def lever_of_slice(pose, data, Rw, f, k, pw):
     """Lever from the roller's centre to slice or point k of face f, in F."""
     sgn, a = 1.0 if f % 2 == 0 else -1.0, row(pose.axis, 0)
     if f < 2:
@@ -119,7 +112,7 @@ def _lever(pose, data, Rw, f, k, pw):
 
 
 @part
-def _normal_generator(pose, data, distance, f, k, n, r, pw, out):
+def normal_generator(pose, data, distance, f, k, n, r, pw, out):
     """Generator of the normal force of slice k of face f, leaning with the wall's slope."""
     slope = pw.face[f].slope[k]
     if f >= 2:
@@ -141,15 +134,15 @@ def side_beam_rates(pose, data, f, distance, rel, spin, sl, pw, pair):
     ``distance`` of the roller's centre from the bearing's axis; rel, spin as for a crossbeam.
     """
     sgn = 1.0 if f % 2 == 0 else -1.0
-    n, e1, e2 = _axes(pw, f)
+    n, e1, e2 = axes_of_face(pw, f)
     Wn, face = pair.W[0], pw.face[f]
     for k in range(data.points.shape[0]):
         sl.v[k] = sl.u[k] = 0.0
         if sl.d[k] <= 0.0:
             continue
-        r = _lever(pose, data, 0.0, f, k, pw)
+        r = lever_of_slice(pose, data, 0.0, f, k, pw)
         v = plus(rel, cross(spin, r))
-        _normal_generator(pose, data, distance, f, k, n, r, pw, Wn)
+        normal_generator(pose, data, distance, f, k, n, r, pw, Wn)
         sl.v[k] = approach(Wn, rel, spin) + face.slope[k] * face.rate[2, k] - sgn * face.rate[0, k]
         sl.t1[k], sl.t2[k] = dot(e1, v) - face.rate[1, k], dot(e2, v) - face.rate[2, k]
         sl.u[k] = sqrt(sl.t1[k] ** 2 + sl.t2[k] ** 2)
@@ -158,14 +151,14 @@ def side_beam_rates(pose, data, f, distance, rel, spin, sl, pw, pair):
 @part
 def push_by_side_beam(pose, data, f, distance, sl, pw, pair):
     """Add the forces of side-beam face f to the roller's wrench and to the face's sums."""
-    n, e1, e2 = _axes(pw, f)
+    n, e1, e2 = axes_of_face(pw, f)
     Wn = pair.W[0]
     for k in range(data.points.shape[0]):
         N = sl.N[k]
         if N <= 0.0:
             continue
-        r = _lever(pose, data, 0.0, f, k, pw)
-        _normal_generator(pose, data, distance, f, k, n, r, pw, Wn)
+        r = lever_of_slice(pose, data, 0.0, f, k, pw)
+        normal_generator(pose, data, distance, f, k, n, r, pw, Wn)
         t = combine(times(sl.t1[k], e1), sl.t2[k], e2)
         moment = cross(r, t)
         for c in range(3):
@@ -173,55 +166,6 @@ def push_by_side_beam(pose, data, f, distance, sl, pw, pair):
             pair.wrench[3 + c] += N * (Wn[3 + c] - sl.g[k] * moment[c])
         pw.normal[f] += N
         pw.tangential[f] += N * sl.g[k] * sl.u[k]
-
-
-@outlined
-def add_tangent(pose, data, f, Rw, distance, sl, pw, pair):
-    """Share of face f in the pair's tangent and in the products with stations and residual."""
-    n, e1, e2 = _axes(pw, f)
-    Wn, W1, W2, V = pair.W[0], pair.W[1], pair.W[2], pair.W[3]
-    face, n_st = pw.face[f], pw.st.shape[1]
-    span = span_of(pw, f)
-    for k in range(span[0], span[1]):
-        if sl.N[k] <= 0.0:
-            continue
-        r = _lever(pose, data, Rw, f, k, pw)
-        _normal_generator(pose, data, distance, f, k, n, r, pw, Wn)
-        add_generator(e1, r, W1)
-        add_generator(e2, r, W2)
-        for c in range(6):
-            V[c] = Wn[c] - sl.g[k] * (sl.t1[k] * W1[c] + sl.t2[k] * W2[c])
-        add_outer(pair.K, sl.Nd[k], V, Wn)
-        add_outer(pair.C, sl.Nv[k], V, Wn)
-        friction_tangent(
-            pair.C, sl.N[k], sl.g[k], sl.dg[k], sl.u[k], sl.t1[k], sl.t2[k], W1, W2
-        )  # fmt: skip
-        j = face.j[k]
-        first, last = max(j - 1, 0), min(j + 3, n_st)
-        for s in range(first, last):
-            ws = station_weight(face, k, n_st, s) * sl.Nd[k]
-            for c in range(6):
-                pw.BW[f, s, c] += ws * Wn[c]
-                pw.LV[f, s, c] += ws * V[c]
-            for t in range(first, last):
-                pw.H[f, s, t] += ws * station_weight(face, k, n_st, t)
-            if data.soft != 0:
-                for l in range(pw.size[0]):
-                    pw.HR[f, s, l] += ws * face.R[l, k]
-        if data.soft != 0:
-            _add_residual(k, sl.Nd[k], face, Wn, V, pw)
-
-
-@part
-def _add_residual(k, Nd, face, Wn, V, pw):
-    """One slice's products with the residual coordinates."""
-    for l in range(pw.size[0]):
-        h = Nd * face.R[l, k]
-        for m in range(l + 1):
-            pw.A[l, m] += h * face.R[m, k]
-        for c in range(6):
-            pw.RB[l, c] += h * Wn[c]
-            pw.LR[c, l] += h * V[c]
 
 
 @part

@@ -14,7 +14,7 @@ from typing import NamedTuple
 import numpy as np
 
 from flexcage.contacts.slices import ROOM, largest
-from flexcage.core.jit import VECTORISED, part, zero
+from flexcage.core.jit import VECTORISED, part
 from flexcage.core.splines import smooth_weights
 from flexcage.core.vectors import dot, row
 
@@ -97,27 +97,21 @@ class PocketWork(NamedTuple):
     c: np.ndarray  # (12,) those coordinates
     g: np.ndarray  # (12,) right-hand side of the condensation
     A: np.ndarray  # (12, 12) 1 + R^T H R, then its factors
-    h: np.ndarray  # (ROOM,)
-    BW: np.ndarray  # (4, nst, 6) station-generator products
-    LV: np.ndarray  # (4, nst, 6)
-    H: np.ndarray  # (4, nst, nst) station stiffness, before the residual is condensed
-    HR: np.ndarray  # (4, nst, 12) the same between stations and residual coordinates
-    X: np.ndarray  # (12, 12) (1 + R^T H R)^-1; zero for a rigid pocket
-    RB: np.ndarray  # (12, 6) residual coordinates and generators
-    LR: np.ndarray  # (6, 12)
-    XB: np.ndarray  # (12, 6)
-    LX: np.ndarray  # (6, 12)
+    h: np.ndarray  # (ROOM,) products; slopes of the elastic forces for the tangent
+    gen: np.ndarray  # (4, 18 + n) generators of a slice: normal, two tangents, all of its force
+    K: np.ndarray  # (18 + n, 18 + n) stiffness of the pocket: roller, n modes, residual coordinates
+    C: np.ndarray  # (18 + n, 18 + n) damping, without the latter
 
 
-def pocket_work(n_slices: int, n_stations: int) -> PocketWork:
+def pocket_work(n_slices: int, n_stations: int, n_modes: int) -> PocketWork:
     st, z, m = n_stations, np.zeros, N_LOCAL
+    whole = filled(6 + n_modes + m, 8)
     return PocketWork(
         z((3, 3)), z(4, FACE).view(np.recarray), z(4, np.int64), z((4, 2), np.uint64),
         z(4, np.int64), z(4), z(4), z(4), z((3, filled(st, 4) + 2)), z((4, st + 2)),
         z((3, st + 2)), z((4, st, 3)), z(4), z(4),
         z((2, n_slices)), z((2, n_slices)), z(m), z(1, np.int64), z(m), z(m), z((m, m)), z(ROOM),
-        z((4, st, 6)), z((4, st, 6)), z((4, st, st)), z((4, st, m)),
-        z((m, m)), z((m, 6)), z((6, m)), z((m, 6)), z((6, m)),
+        z((4, whole)), z((whole, whole)), z((whole, whole)),
     )  # fmt: skip
 
 
@@ -412,16 +406,3 @@ def _add_offset(data, i, f, span, face):
         face.d0[k] -= here + t * (there - here)
         if 0.0 <= place - j <= 1.0:
             face.slope[k] += (there - here) / data.grid[1, f]
-
-
-@part
-def clear_tangent(pw):
-    """Zero what the tangent of a pocket adds to."""
-    zero(pw.BW)
-    zero(pw.LV)
-    zero(pw.H)
-    zero(pw.HR)
-    zero(pw.X)
-    zero(pw.A)
-    zero(pw.RB)
-    zero(pw.LR)

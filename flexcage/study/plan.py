@@ -76,9 +76,7 @@ def make_plan(study: Study) -> Plan:
             flexible |= case.cage_model == "flexible"
             materials[case.cage.material.name] = None
             cases.append(Planned(number, point, repetition, case.hash, _modes_key(case)))
-    check_outputs(
-        study.outputs, sizes=sizes, flexible=flexible, element=kind, materials=materials
-    )
+    check_outputs(study.outputs, sizes=sizes, flexible=flexible, element=kind, materials=materials)
     return Plan(study, tuple(cases))
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from flexcage.core.jit import outlined, part, zero
+from flexcage.core.jit import outlined, part
 
 
 @part
@@ -60,49 +60,18 @@ def scatter_outer(pair, F, i, tan):
 
 
 @outlined
-def scatter_modes(data, i, pw, S, tan, Lm, Bm, PR):
-    """Stiffness between pocket i's roller, the cage's rigid motion and its modes."""
-    n_m = data.phi.shape[4]
-    n_st = data.phi.shape[2]
-    zero(Lm)
-    zero(Bm)
-    zero(PR)
-    for f in range(4):
-        if pw.near[f] == 0:
-            continue
-        sgn = 1.0 if f % 2 == 0 else -1.0
-        comp = 2 if f < 2 else 0
-        for s in range(n_st):
-            if pw.H[f, s, s] == 0.0:
-                continue
-            for m in range(n_m):
-                phi = sgn * data.phi[i, f, s, comp, m]
-                for c in range(6):
-                    Lm[c, m] += pw.LV[f, s, c] * phi
-                    Bm[m, c] += phi * pw.BW[f, s, c]
-                for t in range(max(s - 3, 0), min(s + 4, n_st)):
-                    h = pw.H[f, s, t] * phi
-                    if h != 0.0:
-                        for o in range(n_m):
-                            tan.Kbb[14 + m, 14 + o] += h * sgn * data.phi[i, f, t, comp, o]
-            for l in range(pw.size[0]):
-                h = sgn * pw.HR[f, s, l]
-                if h != 0.0:
-                    for m in range(n_m):
-                        PR[l, m] += h * data.phi[i, f, s, comp, m]
-    if pw.X[0, 0] != 0.0:  # less what the residual flexibility yields
-        for m in range(n_m):
-            for l in range(pw.size[0]):
-                h = 0.0
-                for k in range(pw.size[0]):
-                    h += PR[k, m] * pw.X[k, l]
-                if h != 0.0:
-                    for o in range(n_m):
-                        tan.Kbb[14 + m, 14 + o] -= h * PR[l, o]
-    for c in range(6):
-        for m in range(n_m):
-            tan.Krb[i, c, 14 + m] += Lm[c, m]
-            tan.Kbr[i, 14 + m, c] += Bm[m, c]
+def scatter_modes(i, pw, S, tan, n_m):
+    """Add what couples pocket i's roller and the cage's rigid motion to the cage's n_m modes."""
+    for m in range(2):
+        M, (_rr, rb, br, bb) = pw.K if m == 0 else pw.C, _of(tan, m)
+        for c in range(6):
+            for o in range(n_m):
+                rb[i, c, 14 + o] += M[c, 6 + o]
+                br[i, 14 + o, c] += M[6 + o, c]
             for e in range(6):
-                tan.Kbb[8 + e, 14 + m] -= S[c, e] * Lm[c, m]
-                tan.Kbb[14 + m, 8 + e] -= Bm[m, c] * S[c, e]
+                for o in range(n_m):
+                    bb[8 + e, 14 + o] -= S[c, e] * M[c, 6 + o]
+                    bb[14 + o, 8 + e] -= M[6 + o, c] * S[c, e]
+        for o in range(n_m):
+            for l in range(n_m):
+                bb[14 + o, 14 + l] += M[6 + o, 6 + l]

@@ -112,9 +112,6 @@ class Scratch(NamedTuple):
     vec: np.ndarray  # (9, 3), see residual.py
     border: np.ndarray  # (nb,) generalised forces on the border
     modal: np.ndarray  # (2, n8) modal coordinates and rates, filled up with zeros
-    Lm: np.ndarray  # (6, n) roller-modal products
-    Bm: np.ndarray  # (n, 6)
-    PR: np.ndarray  # (12, n) modal-residual products
     out: np.ndarray  # (size,) residual that nobody asked for
 
 
@@ -152,8 +149,7 @@ def new_work(
     )  # fmt: skip
     scratch = Scratch(
         z((6, 6)), z((2, 6, 6)), z((2, 3, 3)), z((3, 3)), np.eye(3), z((Z, 24)), z((Z, 6)),
-        z(10), z((9, 3)), z(14 + n), z((2, filled(n, 8))), z((6, n)), z((n, 6)),
-        z((N_LOCAL, n)), z(layout.size),
+        z(10), z((9, 3)), z(14 + n), z((2, filled(n, 8))), z(layout.size),
     )  # fmt: skip
     return Work(
         new_pose(), new_slices(), new_pair(), race_work, pocket_work, land_work(land_stations),

@@ -291,6 +291,7 @@ def roller_work(model: Model, layout: Layout) -> Work:
     """Fresh workspaces of a roller bearing for one thread."""
     slices, stations = len(model.pocket.s), model.pocket.phi.shape[2]
     return new_work(
-        layout, race_work(len(model.inner.s)), pocket_work(slices, stations), slices=slices,
+        layout, race_work(len(model.inner.s)), pocket_work(slices, stations, layout.modes),
+        slices=slices,
         faces=4, stations=stations, ribs=2, land_stations=len(model.land.angle),
     )  # fmt: skip

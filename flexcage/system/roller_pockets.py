@@ -87,7 +87,7 @@ def _pocket(i, qi, Rc, Vc, qf, qfd, margin, d, law, mode):
             shift_matrix(work.R, D, work.S)
             scatter(pair, work.S, i, 8, tan, work.T6)
             if qf.shape[0] > 0:
-                scatter_modes(data, i, pw, work.S, tan, work.Lm, work.Bm, work.PR)
+                scatter_modes(i, pw, work.S, tan, data.phi.shape[4])
     elif mode >= 2:
         _report_pocket(i, hit, sums, pw, fields(d.report), mode)
 

@@ -412,3 +412,38 @@ def test_tangent_against_differences(walls, name):
         C[:, j] = -(at[0] - at[1]) / (2 * hv)
     assert np.abs(normed(K - pair.K)).max() < 1e-2 * np.abs(normed(K)).max()
     assert np.abs(normed(C - pair.C)).max() < 1e-3 * np.abs(normed(C)).max()
+
+
+@pytest.mark.parametrize("place", ["front", "corner"])
+def test_tangent_of_the_modes_against_differences(walls, place):
+    """Forces on roller and modes by modal motion: stiffness, damping by rates, and friction."""
+    contacts = replace(
+        CONTACTS,
+        pocket=replace(CONTACTS.pocket, normal=NormalLaw(restitution=0.7)),
+        side=replace(CONTACTS.side, normal=NormalLaw(restitution=0.7)),
+    )
+    data, p = walls(interface(modes=smooth_modes(), soft=True), contacts)
+    D, axis = (
+        squeeze(8e-6, side=4e-6 if place == "corner" else 0.0),
+        turned(np.eye(3), [0, 3e-4, 0]),
+    )
+    q, qd = np.zeros(5), 2e-3 * np.linspace(-1.0, 1.0, 5)
+    call = {"axis": axis, "w": [-2900.0, 0.0, 0.0], "normal": laws.restitution,
+            "friction": laws.step_coulomb}  # fmt: skip
+
+    def forces(q, qd):
+        wrench, _, work, _ = pocket(data, p, D, q=q, qd=qd, **call)
+        return np.concatenate([wrench, modal_force(data, work)])
+
+    def check(got, columns, tolerance):
+        want, got = np.array(columns).T, got[:11, 6:11]
+        for part in (slice(0, 3), slice(3, 6), slice(6, 11)):  # forces, moments, modal forces
+            most = np.abs(want[part]).max()
+            assert most > 0.0
+            assert np.abs(got[part] - want[part]).max() < tolerance * most
+
+    tangent = pocket(data, p, D, q=q, qd=qd, mode=1, **call)[2]
+    steps = 1e-10 * np.eye(5)
+    check(tangent.K, [(forces(-e, qd) - forces(e, qd)) / 2e-10 for e in steps], 5e-3)
+    steps = 1e-6 * np.eye(5)
+    check(tangent.C, [(forces(q, qd - e) - forces(q, qd + e)) / 2e-6 for e in steps], 1e-6)
