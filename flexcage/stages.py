@@ -174,12 +174,12 @@ def _bearing_of(case: Case, mesh: CageMesh, cage: CageReduction | None) -> Beari
     else:
         body = flexible_from_reduction(cage, case.modes)
         interface = cage.interface
-    model, memory = build_model(
+    model = build_model(
         case.bearing, case.cage, body, interface, contacts=case.contacts,
         lubricant=case.lubricant, drive=case.drive, load=case.load, mount=case.mount,
         seed=case.seed,
     )  # fmt: skip
     return Bearing(
-        model, memory, case.contacts, Layout(Z, body.modes),
+        model, case.contacts, Layout(Z, body.modes),
         block=case.output.block, stride=case.output.vibration_ratio,
     )  # fmt: skip

@@ -45,7 +45,7 @@ def n1013():
 
 @pytest.fixture(scope="session")
 def build_parts(n1013):
-    """build_parts(...) -> model, memory of the N1013; keywords replace specs or their values."""
+    """build_parts(...) -> model of the N1013; keywords replace specs or their values."""
     from flexcage.contacts.spec import Contacts, Lubricant
     from flexcage.system.model import build_model
     from flexcage.system.spec import Drive, Load, Mount

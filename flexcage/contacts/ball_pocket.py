@@ -41,6 +41,7 @@ class BallPockets(NamedTuple):
     phi: np.ndarray  # (Z, 1, nst, 3, nm) modes at the stations (x, r, psi), from +psi towards +x
     phi_max: np.ndarray  # (nm,) largest displacement of a wall along its normal
     local: np.ndarray  # (Z, nst) compliance beyond the modes
+    normal: np.ndarray  # (Z, N_NORMAL)
     friction: np.ndarray  # (N_FRICTION,)
 
 
@@ -59,7 +60,7 @@ def ball_pocket_work(stations: int) -> BallPocketWork:
 
 @part
 def pocket_wall_contact(
-    rb, data, i, D, v, spin, q, qd, margin, p, law, friction, sl, pw, wrench, mode, sums
+    rb, data, i, D, v, spin, q, qd, margin, onset, law, friction, sl, pw, wrench, mode, sums
 ):
     """Wrench of pocket i's wall on its ball, added to ``wrench``, and station forces in ``pw.st``.
 
@@ -72,7 +73,7 @@ def pocket_wall_contact(
     pw.normal[0] = pw.tangential[0] = 0.0
     if mode >= 2:
         zero(sums)
-    x = dot(D, row(pw.G, 0)) - data.shift[i, 0]
+    p, x = data.normal[i], dot(D, row(pw.G, 0)) - data.shift[i, 0]
     t = dot(D, row(pw.G, 2)) - data.shift[i, 1]
     h = data.sphere * (dot(D, row(pw.G, 1)) - data.height)
     x -= min(max(x, -data.slot[i, 0]), data.slot[i, 0])
@@ -133,7 +134,7 @@ def pocket_wall_contact(
     yields = (dx * yields[0], yields[1], dt * yields[2])
     rate = _along(push, v, pw) - dot(ud, n)
     softening = _along(yields, v, pw)
-    N, pressed = _press(depth, rate, soft, softening, p, law, sl)
+    N, pressed = _press(depth, rate, soft, softening, p, onset, law, sl)
     if mode >= 2:
         Ne = sl.Ne[0]
         sums[0] = Ne * pressed / (p[1] + 1.0) + 0.5 * soft * Ne * Ne
@@ -221,7 +222,7 @@ def _along(a, v, pw):
 
 
 @part
-def _press(depth, rate, soft, softening, p, law, sl):
+def _press(depth, rate, soft, softening, p, onset, law, sl):
     """Force of a contact in series with a compliance, and the contact's own depth.
 
     Both bear the elastic force of the contact's own depth d: d + soft K d^n = depth; ``rate`` and
@@ -240,5 +241,5 @@ def _press(depth, rate, soft, softening, p, law, sl):
         stiff = soft * p[1] * p[0] * d ** (p[1] - 1.0)
     force = p[0] * d ** p[1]
     sl.d[0], sl.v[0] = d, (rate - force * softening) / (1.0 + stiff)
-    normal_forces(law, (0, 1), sl, p)
+    normal_forces(law, (0, 1), sl, p, onset)
     return sl.N[0], d

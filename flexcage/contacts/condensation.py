@@ -61,7 +61,7 @@ def yielded(span, face, pw, sl):
 
 
 @outlined
-def condense(data, i, p, laws, guess, sl, pw):
+def condense(data, i, laws, guess, sl, pw):
     """Solve pocket i's residual coordinates pw.b from ``guess`` (12,), by Newton's method.
 
     Faces that nothing touches before the walls yield join if those that are touched push them in.
@@ -76,7 +76,7 @@ def condense(data, i, p, laws, guess, sl, pw):
         return
     copy_into(pw.b, guess)
     if touched == 1:
-        _solve_alone(data, i, last, p, laws, sl, pw)
+        _solve_alone(data, i, last, laws, sl, pw)
         if not _join(data, i, sl, pw):
             _lean(data, i, last, pw)
             return
@@ -87,7 +87,7 @@ def condense(data, i, p, laws, guess, sl, pw):
             _read(N_LOCAL, span_of(pw, f), data.res[i, f], pw.face[f])
     joined = True
     while joined:
-        _solve(N_LOCAL, data.most[i], data, p, laws, sl, pw)
+        _solve(N_LOCAL, data.most[i], data, laws, sl, pw)
         copy_into(pw.b, pw.c)
         joined = _join(data, i, sl, pw)
     for f in range(4):
@@ -126,13 +126,13 @@ def _join(data, i, sl, pw):
 
 
 @part
-def _solve_alone(data, i, f, p, laws, sl, pw):
+def _solve_alone(data, i, f, laws, sl, pw):
     """The coordinates pw.c of face f alone, which no other face pushes; from and to pw.b."""
     pw.size[0] = N_FACE
     _read(N_FACE, span_of(pw, f), data.own[i, f], pw.face[f])
     turn = data.turn[i, f]
     _take(turn, pw.b, pw.c)
-    _solve(N_FACE, data.own_max[i, f], data, p, laws, sl, pw)
+    _solve(N_FACE, data.own_max[i, f], data, laws, sl, pw)
     _give(turn, pw.c, pw.b)
 
 
@@ -157,12 +157,12 @@ def _give(turn, c, b):
 
 
 @part
-def _solve(m, most, data, p, laws, sl, pw):
+def _solve(m, most, data, laws, sl, pw):
     """The m coordinates pw.c of the live faces; ``most`` (m,): what one of each moves the walls."""
     before, step = 0.0, 1.0
     for _ in range(40):
         anew = step > SLOW * before
-        _balance(m, data, p, laws, anew, sl, pw)
+        _balance(m, data, laws, anew, sl, pw)
         before, step = step, 0.0
         for l in range(m):
             pw.c[l] += pw.g[l]
@@ -172,7 +172,7 @@ def _solve(m, most, data, p, laws, sl, pw):
 
 
 @part
-def _balance(m, data, p, laws, anew, sl, pw):
+def _balance(m, data, laws, anew, sl, pw):
     """Newton's step of m coordinates into pw.g, with new factors or those of an earlier step."""
     for l in range(m):
         pw.g[l] = -pw.c[l]
@@ -184,7 +184,8 @@ def _balance(m, data, p, laws, anew, sl, pw):
         if pw.live[f] != 0:
             span = span_of(pw, f)
             _yielded(m, span, pw.face[f], pw.c, sl)
-            elastic_forces(laws[0] if f < 2 else laws[1], span, sl, p[f])
+            law, p = (laws[0], data.normal[0]) if f < 2 else (laws[1], data.normal[1])
+            elastic_forces(law, span, sl, p)
             _load(m, span, pw.face[f], sl, pw.g)
             if anew:
                 _stiffen(m, span, pw.face[f], sl, pw.h, pw.A)

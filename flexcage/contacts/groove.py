@@ -36,19 +36,20 @@ class Groove(NamedTuple):
     bend: float  # curvature of the surface of contact across the rolling direction
     strip: np.ndarray  # (ns,) middles of the strips, in -1..1 of the long axis
     share: np.ndarray  # (ns,) of the load that each bears
+    normal: np.ndarray  # (N_NORMAL,)
     friction: np.ndarray  # (N_FRICTION,)
     rolling: np.ndarray  # (3,) moment of rolling resistance: factor, powers of speed and load
 
 
 @part
-def groove_contact(rb, race, P, b, V, w, Vr, wr, p, law, friction, sl, wrench, mode, sums):
+def groove_contact(rb, race, P, b, V, w, Vr, wr, onset, law, friction, sl, wrench, mode, sums):
     """Wrench on a ball of radius ``rb`` from one raceway, added to ``wrench``; does it touch?
 
     P: ball centre from the ring's centre; b: ring axis; V, w and Vr, wr: velocities and angular
-    velocities of ball and ring; all in one frame. From mode 2 on ``sums``: normal force, contact
-    angle, traction along the rolling direction and across it, sliding speed in the middle, elastic
-    energy, power of damping, friction and rolling resistance, and speed of approach; angle and
-    approach also of a ball that does not touch.
+    velocities of ball and ring; all in one frame; ``onset``: speed at which the contact closed.
+    From mode 2 on ``sums``: normal force, contact angle, traction along the rolling direction and
+    across it, sliding speed in the middle, elastic energy, power of damping, friction and rolling
+    resistance, and speed of approach; angle and approach also of a ball that does not touch.
     """
     if mode >= 2:
         zero(sums)
@@ -67,10 +68,10 @@ def groove_contact(rb, race, P, b, V, w, Vr, wr, p, law, friction, sl, wrench, m
         sums[9] = sl.v[0]
     if sl.d[0] <= 0.0:
         return False
-    normal_forces(law, (0, 1), sl, p)
+    normal_forces(law, (0, 1), sl, race.normal, onset)
     N = sl.N[0]
     if mode >= 2:
-        sums[5], sums[6] = stored_and_damped((0, 1), sl, p[1])
+        sums[5], sums[6] = stored_and_damped((0, 1), sl, race.normal[1])
     g = cross(b, e)  # rolling direction, along the race
     t = cross(n, g)
     size = N ** (1.0 / 3.0)

@@ -30,6 +30,7 @@ class LandData(NamedTuple):
     angle: np.ndarray  # (nl, 2) cos, sin of the stations in the cage frame
     phi: np.ndarray  # (nl, 3, nm) modes at the stations: (x, r, psi)
     phi_max: np.ndarray  # (nm,)
+    normal: np.ndarray  # (N_NORMAL,)
     friction: np.ndarray  # (5,)
     film: np.ndarray  # (4,) eta, L, R, C
 
@@ -48,12 +49,12 @@ def land_work(n_stations: int) -> LandWork:
 
 @part
 def land_contact(
-    A, Rc, Vc, w, q, qd, Rr, Vr, spin, data, p, laws, sl, lw, Fc, Mc, Qm, Fr, Mr, sums
+    A, Rc, Vc, w, q, qd, Rr, Vr, spin, data, onset, laws, sl, lw, Fc, Mc, Qm, Fr, Mr, sums
 ):
     """Land forces: Fc, Qm on the cage (space, modal), Mc about its origin; Fr, Mr on the ring.
 
     Rc, Vc, w: cage origin, velocity, angular velocity in space; Rr, Vr, spin: ring centre,
-    velocity, spin about x; p (2, N_NORMAL) for the lands at -x and +x. Dry contact acts where the
+    velocity, spin about x; onset speeds (2,) of the lands at -x and +x. Dry contact acts where the
     penetration round the land has a maximum, with the modes interpolated smoothly between their
     stations: a cage that rolls on its land does not feel the stations pass. ``sums``: elastic
     energy, damping power, friction power, film power; then of each land its normal force, and the
@@ -93,7 +94,7 @@ def land_contact(
             if sl.d[0] > 0.0 or s == deepest:
                 _touch(
                     A, offset, minus(xyz(Vc), xyz(Vr)), xyz(w), qd, spin, data, side, place,
-                    p[side], laws, sl, lw, Fc, Mc, Qm, Fr, Mr, sums,
+                    onset[side], laws, sl, lw, Fc, Mc, Qm, Fr, Mr, sums,
                 )  # fmt: skip
 
 
@@ -168,7 +169,7 @@ def _directions(A, angle):
 
 @part
 def _touch(
-    A, offset, rel, w, qd, spin, data, side, place, p, laws, sl, lw, Fc, Mc, Qm, Fr, Mr, sums
+    A, offset, rel, w, qd, spin, data, side, place, onset, laws, sl, lw, Fc, Mc, Qm, Fr, Mr, sums
 ):
     """One touch of a land at ``place``, with the penetration in sl.d[0]; four stations' modes."""
     law, friction = laws
@@ -190,7 +191,7 @@ def _touch(
     sums[6 + side] = sl.v[0]
     if sl.d[0] <= 0.0:
         return
-    normal_forces(law, (0, 1), sl, p)
+    normal_forces(law, (0, 1), sl, data.normal, onset)
     N = sl.N[0]
     if N <= 0.0:
         return
@@ -208,7 +209,7 @@ def _touch(
         shape = data.phi[(j + k - 1) % n_l, 1]
         for m in range(qd.shape[0]):
             Qm[m] += weights[k] * radial * shape[m]
-    energy, damped = stored_and_damped((0, 1), sl, p[1])
+    energy, damped = stored_and_damped((0, 1), sl, data.normal[1])
     sums[4 + side] += N
     sums[0] += energy
     sums[1] += damped

@@ -27,7 +27,6 @@ from numba import types
 from scipy.optimize import brentq
 
 from flexcage.contacts import spec as specs
-from flexcage.contacts.slices import SLOT_ONSET
 from flexcage.contacts.spec import EhlTraction, FrictionLaw, NormalLaw
 from flexcage.core.elementary import exponentials, powers, product_of_powers
 from flexcage.core.errors import InputError
@@ -44,7 +43,7 @@ _ARGUMENTS = {
 NORMAL_TYPE = types.FunctionType(NORMAL_SIGNATURE)
 FRICTION_TYPE = types.FunctionType(FRICTION_SIGNATURE)
 
-N_NORMAL = 10  # K, n, lambda or c_max, the program's, speed floor, d_max; the rest is a user's
+N_NORMAL = 10  # stiffness and exponent of the elastic force, and what else a law wants
 N_FRICTION = 10
 
 
@@ -63,7 +62,7 @@ def restitution(n, d, v, onset, p, F, Fe, Fd, Fv):
     """F = K d^n (1 + (lambda/v0) v), Hunt-Crossley family, clipped at zero."""
     powers(n, d, p[1] - 1.0, Fd)
     for k in range(n):
-        chi = p[2] / max(onset[k], p[4])
+        chi = p[2] / max(onset[k], p[3])
         factor = 1.0 + chi * v[k]
         slope = p[0] * Fd[k]
         Fe[k] = slope * d[k]
@@ -77,13 +76,13 @@ def impact_step(n, d, v, onset, p, F, Fe, Fd, Fv):
     powers(n, d, p[1] - 1.0, Fd)
     for k in range(n):
         slope = p[0] * Fd[k]
-        x = min(max(d[k] / p[5], 0.0), 1.0)
+        x = min(max(d[k] / p[3], 0.0), 1.0)
         c = p[2] * x * x * (3.0 - 2.0 * x)
         Fe[k] = slope * d[k]
         force = Fe[k] + c * v[k]
         if force > 0.0:
             F[k], Fv[k] = force, c
-            Fd[k] = p[1] * slope + p[2] * 6.0 * x * (1.0 - x) / p[5] * v[k]
+            Fd[k] = p[1] * slope + p[2] * 6.0 * x * (1.0 - x) / p[3] * v[k]
         else:
             F[k] = Fd[k] = Fv[k] = 0.0
 
@@ -180,15 +179,15 @@ def gupta_coefficients(peak: float, peak_speed: float, high: float) -> tuple[flo
 
 
 def _elastic_parameters(law: NormalLaw, stiffness: float, exponent: float) -> Sequence[float]:
-    return stiffness, exponent, 0.0, 0.0, law.speed_floor
+    return stiffness, exponent
 
 
 def _restitution_parameters(law: NormalLaw, stiffness: float, exponent: float) -> Sequence[float]:
-    return stiffness, exponent, exact_dissipation(law.restitution), 0.0, law.speed_floor
+    return stiffness, exponent, exact_dissipation(law.restitution), law.speed_floor
 
 
 def _impact_parameters(law: NormalLaw, stiffness: float, exponent: float) -> Sequence[float]:
-    return stiffness, exponent, law.damping, 0.0, law.speed_floor, law.full_damping_depth
+    return stiffness, exponent, law.damping, law.full_damping_depth
 
 
 def _traction_parameters(law: FrictionLaw) -> Sequence[float]:
@@ -245,9 +244,8 @@ def register_normal(
     ``N_NORMAL`` numbers, from the spec and the stiffness K [N/m^n] and exponent n of one slice or
     point as geometry and materials make them. p[0] and p[1] must be the stiffness and exponent of
     an elastic force like the law's: the start's equilibrium uses them, and the stored energy is F
-    d/(p[1] + 1); p[3] is the program's, and 0 here. Without ``parameters`` p is (K, n, 0, 0, speed
-    floor). Compiled code is cached by the file of ``law``, so compiled functions that it calls must
-    stand in the same file.
+    d/(p[1] + 1). Without ``parameters`` p is (K, n). Compiled code is cached by the file of
+    ``law``, so compiled functions that it calls must stand in the same file.
 
     Raises InputError for a name that is taken, a law that cannot be compiled, or a wrong spec.
     """
@@ -345,10 +343,10 @@ def normal_parameters(law: NormalLaw, stiffness: float, exponent: float) -> np.n
         N_NORMAL,
         f"normal law '{law.law}'",
     )
-    if p[0] < 0.0 or p[1] < 1.0 or p[SLOT_ONSET] != 0.0:
+    if p[0] < 0.0 or p[1] < 1.0:
         raise InputError(
-            f"The parameters of normal law '{law.law}' begin with {p[:4]}, but must be a stiffness "
-            "of 0 or more, an exponent of 1 or more, a number of the law's, and 0.",
+            f"The parameters of normal law '{law.law}' begin with {p[:2]}, but must be a stiffness "
+            "of 0 or more and an exponent of 1 or more.",
             where=law.law,
         )
     return p

@@ -34,12 +34,12 @@ from flexcage.core.vectors import row, xyz
 
 @outlined
 def pocket_contact(
-    pose, data, i, Rw, D, Vc, wc, q, qd, margin, p, laws, guess, sl, pw, pair, mode, sums
+    pose, data, i, Rw, D, Vc, wc, q, qd, margin, onset, laws, guess, sl, pw, pair, mode, sums
 ):
     """Wrench of pocket i on its roller, and station forces on the cage in ``pw.st``.
 
     D: roller centre from the cage's origin; Vc, wc: cage velocity and angular velocity, in F;
-    q, qd: modal coordinates and rates; ``margin``: bound of the walls' motion; p (4, N_NORMAL).
+    q, qd: modal coordinates and rates; ``margin``: bound of the walls' motion; onset speeds (4,).
     ``laws``: normal (crossbeam, side), friction (crossbeam, side); ``guess``: residual coordinates
     to begin with. Tangent (mode 1) in ``pair`` and ``pw.K, pw.C``; report (from mode 2) in
     ``sums``: elastic energy (with the residual's), damping power, friction power.
@@ -61,7 +61,7 @@ def pocket_contact(
             return False
         looking = False
         if data.soft != 0:
-            condense(data, i, p, laws, guess, sl, pw)
+            condense(data, i, laws, guess, sl, pw)
             looking = left_out(pw)
     zero(pw.st)
     if mode == 1:
@@ -71,8 +71,10 @@ def pocket_contact(
     for f in range(4):
         if pw.near[f] != 0 and _press(data, f, sl, pw):
             any_contact = True
-            _face(pose, data, i, f, Rw, centre[1], rel, spin, qd, p[f], laws, sl, pw, pair, mode,
-                  sums)  # fmt: skip
+            _face(
+                pose, data, i, f, Rw, centre[1], rel, spin, qd, onset[f], laws, sl, pw, pair, mode,
+                sums,
+            )  # fmt: skip
     if mode == 1 and any_contact:
         if data.soft != 0:
             soften(6 + data.phi.shape[4], pw)
@@ -99,10 +101,12 @@ def _press(data, f, sl, pw):
 
 
 @part
-def _face(pose, data, i, f, Rw, distance, rel, spin, qd, p, laws, sl, pw, pair, mode, sums):
+def _face(pose, data, i, f, Rw, distance, rel, spin, qd, onset, laws, sl, pw, pair, mode, sums):
     """Forces of face f, from the penetrations sl.d; ``distance`` of the roller's centre from the
     bearing's axis; rel, spin: its motion less the cage's."""
     face, span, a = pw.face[f], span_of(pw, f), row(pose.axis, 0)
+    kind = 0 if f < 2 else 1
+    p = data.normal[kind]
     normal, friction = (laws[0], laws[2]) if f < 2 else (laws[1], laws[3])
     for c in range(3):
         read_stations(data, i, f, qd, c, pw.wall[c])
@@ -115,8 +119,8 @@ def _face(pose, data, i, f, Rw, distance, rel, spin, qd, p, laws, sl, pw, pair, 
         elastic_forces(normal, span, sl, p)
         for k in range(span[0], span[1]):
             pw.h[k] = sl.Nd[k]
-    normal_forces(normal, span, sl, p)
-    friction_factors(friction, span, sl, data.friction[0 if f < 2 else 1])
+    normal_forces(normal, span, sl, p, onset)
+    friction_factors(friction, span, sl, data.friction[kind])
     if f < 2:
         push_by_crossbeam(data, f, span, Rw, a, face, sl, pw, pair.wrench)
     else:

@@ -50,7 +50,8 @@ class PocketData(NamedTuple):
     own_max: np.ndarray  # (Z, 4, 6) their largest values
     turn: np.ndarray  # (Z, 4, 6, 12) those coordinates from the pocket's
     root: np.ndarray  # (Z, 12, 12) residual coordinates of the modal basis from those of the shapes
-    friction: np.ndarray  # (2, 5) crossbeams, side beams
+    normal: np.ndarray  # (2, N_NORMAL) of a slice of crossbeams, a point of side beams
+    friction: np.ndarray  # (2, 5) likewise
 
 
 FACE = np.dtype(

@@ -36,6 +36,7 @@ class RaceSide(NamedTuple):
     radius: float
     s: np.ndarray  # (ns,) slice positions along the roller
     drop: np.ndarray  # (ns,) profile
+    normal: np.ndarray  # (N_NORMAL,) normal law of a slice
     friction: np.ndarray  # (5,)
     rolling: np.ndarray  # (2,) rolling resistance
     hydro: float  # 2 R/Rw: pressure share of the rolling resistance
@@ -109,10 +110,10 @@ def meet_race(m, pose, side, Rw, theta, onset, rw):
 
 
 @part
-def press_race(count, side, p, law, friction, rw):
-    """Forces of all ``count`` contacts of the lot ``rw``; p (N_NORMAL,) of a slice, as of all."""
+def press_race(count, side, law, friction, rw):
+    """Forces of all ``count`` contacts of the lot ``rw``."""
     sl, n = rw.lot[0], side.s.shape[0]
-    normal_forces_of_lot(law, (0, count * n), sl, p)
+    normal_forces_of_lot(law, (0, count * n), sl, side.normal)
     friction_factors(friction, (0, count * n), sl, side.friction)
     for m in range(count):
         rw.load[m] = total((np.uint64(m * n), np.uint64((m + 1) * n)), sl.N)
@@ -121,12 +122,12 @@ def press_race(count, side, p, law, friction, rw):
 
 
 @part
-def push_by_race(m, pose, side, Rw, theta, exponent, rw, pair, mode, sums):
+def push_by_race(m, pose, side, Rw, theta, rw, pair, mode, sums):
     """Wrench on the roller of contact m.
 
     ``mode``: 0 wrench, 1 with tangent, from 2 with ``sums``: normal, traction, moments about e_r
     and e_psi, sliding speed at the middle (these four at 2 alone), elastic energy, power of
-    damping, friction and rolling resistance. ``exponent`` of the elastic force.
+    damping, friction and rolling resistance.
     """
     clear(pair, mode == 1)
     sl, partner = rw.lot[0], rw.partner[m]
@@ -138,7 +139,7 @@ def push_by_race(m, pose, side, Rw, theta, exponent, rw, pair, mode, sums):
     if mode >= 2:
         zero(sums)
         sums[0], sums[7] = rw.load[m], friction_power(span, sl)
-        sums[5], sums[6] = stored_and_damped(span, sl, exponent)
+        sums[5], sums[6] = stored_and_damped(span, sl, side.normal[1])
         if mode == 2:
             _report(first, side, Rw, a, sl, sums)
     if side.uneven:

@@ -29,12 +29,14 @@ class RibData(NamedTuple):
     half_gap: float
     half_roller: float
     points: np.ndarray  # (np, 2) points of the end face along the transverse axes
+    normal: np.ndarray  # (N_NORMAL,) normal law of a point
     friction: np.ndarray  # (5,)
 
 
 @part
-def rib_contact(pose, data, P, b, Vr, wr, p, laws, sl, pair, mode, sums):
-    """Wrench on the roller from both ribs (0: +x, 1: -x), as ``race_contact``; p (2, N_NORMAL).
+def rib_contact(pose, data, P, b, Vr, wr, onset, laws, sl, pair, mode, sums):
+    """Wrench on the roller from both ribs (0: +x, 1: -x), as ``race_contact``; their onset
+    speeds (2,).
 
     ``sums``: normal at +x and -x, elastic energy, damping power, friction power.
     """
@@ -76,7 +78,7 @@ def rib_contact(pose, data, P, b, Vr, wr, p, laws, sl, pair, mode, sums):
         if not touched:
             continue
         active = True
-        normal_forces(law, (0, count), sl, p[f])
+        normal_forces(law, (0, count), sl, data.normal, onset[f])
         friction_factors(friction, (0, count), sl, data.friction)
         for k in range(count):
             N = sl.N[k]
@@ -97,7 +99,7 @@ def rib_contact(pose, data, P, b, Vr, wr, p, laws, sl, pair, mode, sums):
             elif mode >= 2:
                 sums[f] += N
         if mode >= 2:
-            energy, damped = stored_and_damped((0, count), sl, p[f, 1])
+            energy, damped = stored_and_damped((0, count), sl, data.normal[1])
             sums[2] += energy
             sums[3] += damped
             sums[4] += friction_power((0, count), sl)

@@ -16,7 +16,6 @@ from flexcage.core.jit import VECTORISED, array_from, part
 
 ROOM = 136  # slices of one contact (128 at the most) or of a lot of them: what a near cache
 # holds, and no power of two, at which distance buffers share the cache's places
-SLOT_ONSET = 3  # where the parameters of a contact's normal law keep its onset speed
 _NAMES = (
     "d",  # penetration
     "v",  # its rate
@@ -49,11 +48,12 @@ def new_slices() -> Slices:
 
 
 @part
-def normal_forces(law, span, sl, p):
+def normal_forces(law, span, sl, p, onset):
     """Forces sl.N, their elastic part sl.Ne and their slopes sl.Nd, sl.Nv at penetrations sl.d and
-    rates sl.v, of the slices of a contact from span[0] to before span[1]; p its parameters."""
+    rates sl.v, of the slices of a contact from span[0] to before span[1], which closed at the speed
+    ``onset``; p the law's parameters."""
     for k in range(span[0], span[1]):
-        sl.onset[k] = p[SLOT_ONSET]
+        sl.onset[k] = onset
     normal_forces_of_lot(law, span, sl, p)
 
 

@@ -12,15 +12,14 @@ from flexcage.contacts import laws
 from flexcage.contacts.ball_pocket import BallPockets, ball_pocket_work
 from flexcage.contacts.groove import Groove
 from flexcage.contacts.land import LandData
-from flexcage.contacts.pocket_wall import N_LOCAL
 from flexcage.contacts.race import race_work
-from flexcage.contacts.spec import Contacts, Lubricant, NormalLaw
+from flexcage.contacts.spec import Contacts, Lubricant
 from flexcage.geometry.ball_bearing import BallBearing
 from flexcage.geometry.ball_cages import BallCage
 from flexcage.geometry.hertz import PointContact
 from flexcage.modes.ball_interface import BallCageInterface
 from flexcage.system.bodies import bodies_of, land_data, unbalanced
-from flexcage.system.data import Bodies, Memory, Work, new_work
+from flexcage.system.data import Bodies, Work, new_work
 from flexcage.system.layout import Layout
 from flexcage.system.model import build_model
 from flexcage.system.spec import Drive, Load, Mount
@@ -80,6 +79,7 @@ def _groove(bearing: BallBearing, contacts: Contacts, lubricant: Lubricant, *, i
         bend=0.5 * (2.0 / bearing.ball_diameter + 1.0 / radius),
         strip=strip,
         share=share,
+        normal=laws.normal_parameters(contacts.race.normal, contact.stiffness, POINT),
         friction=laws.friction_parameters(contacts.race.friction),
         rolling=point_rolling_resistance(lubricant, contact),
     )
@@ -99,35 +99,6 @@ def pocket_contact(bearing: BallBearing, cage: BallCage, radius: float) -> Point
     )
     along = fit if cage.pocket_shape == "spherical" else ball
     return PointContact(rolling=along, transverse=fit, modulus=2.0 / sum(sides))
-
-
-def _memory(
-    bearing: BallBearing, cage: BallCage, contacts: Contacts, interface: BallCageInterface
-) -> Memory:
-    Z = bearing.ball_count
-
-    def hertz(law: NormalLaw, stiffness: float) -> np.ndarray:
-        return laws.normal_parameters(law, stiffness, POINT)
-
-    race = np.stack([hertz(contacts.race.normal, c.stiffness) for c in bearing.contacts])
-    pocket = np.stack([
-        hertz(contacts.pocket.normal, pocket_contact(bearing, cage, float(r)).stiffness)
-        for r in interface.radius
-    ])  # fmt: skip
-    outer, radius = _land_radius(cage)
-    ring, wall = ((m.youngs_modulus, m.poisson_ratio) for m in (bearing.material, cage.material))
-    k, e = laws.land_line_law(
-        radius=radius, clearance=contacts.land.clearance, length=contacts.land.width, cage=wall,
-        ring=ring, depth=0.25 * (cage.outside_diameter - cage.bore),
-    )  # fmt: skip
-    land = laws.normal_parameters(contacts.land.normal, k, e)
-    return Memory(
-        race=np.tile(race, (Z, 1, 1)),
-        pocket=pocket[:, None, :].copy(),
-        rib=np.zeros((Z, 0, laws.N_NORMAL)),
-        land=np.tile(land, (2, 1)),
-        deflection=np.zeros((Z, N_LOCAL)),
-    )
 
 
 def _land_radius(cage: BallCage) -> tuple[bool, float]:
@@ -158,6 +129,14 @@ def _pockets(
         phi=st(interface.modes[:, None]),
         phi_max=np.abs(normal).max(axis=(0, 1)) if n else np.zeros(0),
         local=st(interface.local),
+        normal=np.stack(
+            [
+                laws.normal_parameters(
+                    contacts.pocket.normal, pocket_contact(bearing, cage, float(r)).stiffness, POINT
+                )
+                for r in interface.radius
+            ]
+        ),
         friction=laws.friction_parameters(contacts.pocket.friction),
     )
 
@@ -166,12 +145,12 @@ def _pockets(
 def _(
     bearing: BallBearing, cage: BallCage, body: FlexibleBody, interface: BallCageInterface, *,
     contacts: Contacts, lubricant: Lubricant, drive: Drive, load: Load, mount: Mount, seed: int = 0,
-) -> tuple[BallModel, Memory]:  # fmt: skip
+) -> BallModel:  # fmt: skip
     rng = np.random.default_rng(seed)
     scatter = bearing.ball_scatter * rng.standard_normal(bearing.ball_count)
     outer, radius = _land_radius(cage)
     tilts = load.tilt == "free"
-    model = BallModel(
+    return BallModel(
         bodies=bodies_of(
             bearing, cage, lubricant, drive, load, mount,
             element=np.array([bearing.ball_mass, bearing.ball_inertia, bearing.ball_inertia]),
@@ -186,10 +165,9 @@ def _(
         land=land_data(
             cage, contacts, lubricant, interface.land,
             kind="none" if cage.guidance == "ball" else contacts.land.kind, outer=outer,
-            radius=radius, clearance=contacts.land.clearance,
+            radius=radius, clearance=contacts.land.clearance, ring=bearing.material,
         ),
     )  # fmt: skip
-    return model, _memory(bearing, cage, contacts, interface)
 
 
 def ball_work(model: BallModel, layout: Layout) -> Work:

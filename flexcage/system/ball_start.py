@@ -46,7 +46,7 @@ def ball_places(bearing: Bearing, solution: StaticSolution) -> np.ndarray:
     y = np.zeros(layout.size)
     q = layout.q(y)
     angle = np.nan_to_num(balls.angle[:, 1])
-    depth = (balls.force[:, 1] / bearing.data.memory.race[:, 1, 0]) ** (2.0 / 3.0)
+    depth = (balls.force[:, 1] / model.outer.normal[0]) ** (2.0 / 3.0)
     reach = model.outer.radius - model.bodies.radius + depth
     q["rollers"][:, 0] = model.outer.axial + reach * np.sin(angle)
     q["rollers"][:, 1] = model.outer.centre + reach * np.cos(angle)

@@ -8,6 +8,7 @@ from flexcage.bodies.floating_frame import FlexibleBody, with_point_mass
 from flexcage.contacts import laws
 from flexcage.contacts.land import LandData
 from flexcage.contacts.spec import Contacts, Lubricant
+from flexcage.geometry.materials import Material
 from flexcage.system import waves
 from flexcage.system.data import Bodies
 from flexcage.system.spec import WAVES, Drive, Load, Mount, Wave
@@ -57,11 +58,17 @@ def _wave(spec: Wave, amplitude: float) -> tuple[float, float, float, float]:
     return shape, WAVES[spec.wave], amplitude, spec.wave_period
 
 
+def elastic_constants(material: Material) -> tuple[float, float]:
+    """Modulus [Pa] and Poisson's ratio."""
+    return material.youngs_modulus, material.poisson_ratio
+
+
 def land_data(
     cage, contacts: Contacts, lubricant: Lubricant, modes: np.ndarray, *, kind: str, outer: bool,
-    radius: float, clearance: float,
+    radius: float, clearance: float, ring: Material,
 ) -> LandData:  # fmt: skip
-    """Land of a cage: is it its outside, its radius [m], and its clearance on the ring [m].
+    """Land of a cage: is it its outside, its radius [m], its clearance on the ring [m], and what
+    that is made of.
 
     ``modes`` (2, nl, 3, n) at the stations of the inner and the outer land.
     """
@@ -70,6 +77,14 @@ def land_data(
     n_l = modes.shape[0]
     angle = 2.0 * np.pi * np.arange(n_l) / n_l
     n = modes.shape[-1]
+    k, e = laws.land_line_law(
+        radius=radius,
+        clearance=clearance,
+        length=spec.width,
+        cage=elastic_constants(cage.material),
+        ring=elastic_constants(ring),
+        depth=0.25 * (cage.outside_diameter - cage.bore),
+    )
     return LandData(
         kind={"none": 0, "dry": 1, "film": 2}[kind],
         inner=-1.0 if outer else 1.0,
@@ -79,6 +94,7 @@ def land_data(
         angle=np.ascontiguousarray(np.stack([np.cos(angle), np.sin(angle)], axis=1)),
         phi=np.ascontiguousarray(modes),
         phi_max=np.abs(modes[:, 1]).max(axis=0) if n else np.zeros(0),
+        normal=laws.normal_parameters(spec.normal, k, e),
         friction=laws.friction_parameters(spec.friction),
         film=np.array([lubricant.viscosity, spec.width, radius, clearance]),
     )

@@ -53,13 +53,13 @@ class Bodies(NamedTuple):
 
 
 class Memory(NamedTuple):
-    """Law parameters of every pair, the same at all contacts of a place but for slot 3, which keeps
-    the contact's onset speed."""
+    """What contacts remember of accepted points: the speeds [m/s] at which they closed, and where
+    the pockets' walls were."""
 
-    race: np.ndarray  # (Z, 2, N_NORMAL)
-    pocket: np.ndarray  # (Z, faces, N_NORMAL)
-    rib: np.ndarray  # (Z, ribs, N_NORMAL)
-    land: np.ndarray  # (2, N_NORMAL)
+    race: np.ndarray  # (Z, 2)
+    pocket: np.ndarray  # (Z, faces)
+    rib: np.ndarray  # (Z, ribs)
+    land: np.ndarray  # (2,)
     deflection: np.ndarray  # (Z, 12) residual coordinates of the pockets, to begin the next solve
 
 
@@ -96,6 +96,15 @@ class Report(NamedTuple):
     contact: np.ndarray  # (Z, places) booleans: races 2, faces of the pocket, ribs
     approach: np.ndarray  # (Z, places) approach speed of each
     body_force: np.ndarray  # (3,) contact force on the outer ring
+
+
+def new_memory(report: Report) -> Memory:
+    """That of contacts which closed at rest; as many as ``report`` tells of."""
+    z, like = np.zeros, np.zeros_like
+    return Memory(
+        z((len(report.rib), 2)), like(report.pocket_normal), like(report.rib), z(2),
+        like(report.residual),
+    )  # fmt: skip
 
 
 class Scratch(NamedTuple):

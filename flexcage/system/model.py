@@ -25,8 +25,8 @@ from flexcage.geometry.bearing import Bearing
 from flexcage.geometry.cages import WindowCage
 from flexcage.geometry.cylindrical_roller import RollerBearing
 from flexcage.modes.basis import CageInterface
-from flexcage.system.bodies import bodies_of, land_data, unbalanced
-from flexcage.system.data import Bodies, Memory, Work, new_work
+from flexcage.system.bodies import bodies_of, elastic_constants, land_data, unbalanced
+from flexcage.system.data import Bodies, Work, new_work
 from flexcage.system.layout import Layout
 from flexcage.system.spec import Drive, Load, Mount
 
@@ -67,11 +67,13 @@ def _race_side(bearing, contacts: Contacts, lubricant: Lubricant, *, inner: bool
     )
     spall = bearing.inner_spall if inner else bearing.outer_spall
     angle, bend = 0.5 * spall.length / radius, radius**2 / (2.0 * equivalent)
+    stiffness = laws.iso_line_stiffness(bearing.effective_length) / contacts.race.slices
     return RaceSide(
         sign=sign,
         radius=radius,
         s=s,
         drop=drop,
+        normal=laws.normal_parameters(contacts.race.normal, stiffness, 10.0 / 9.0),
         friction=laws.friction_parameters(contacts.race.friction),
         rolling=laws.rolling_resistance(lubricant, equivalent, bearing.effective_length, modulus),
         hydro=2.0 * equivalent / rw,
@@ -102,10 +104,6 @@ def rib_points(bearing: RollerBearing) -> np.ndarray:
     return np.array([(y, -0.7 * reach), (y, 0.0), (y, 0.7 * reach)])
 
 
-def _elastic(material) -> tuple[float, float]:
-    return material.youngs_modulus, material.poisson_ratio
-
-
 def crossbeam_width(bearing: RollerBearing, cage: WindowCage) -> float:
     """Width of a crossbeam at the pitch radius [m]."""
     return 2.0 * np.pi * bearing.pitch_radius / bearing.roller_count - cage.pocket_width
@@ -118,47 +116,6 @@ def _guiding_land(bearing: RollerBearing, cage: WindowCage) -> tuple[bool, float
         return True, radius, bearing.outer_race_radius - radius
     radius = 0.5 * cage.bore
     return False, radius, radius - 0.5 * bearing.rib_diameter
-
-
-def build_memory(bearing, cage, contacts: Contacts, interface: CageInterface) -> Memory:
-    """Law parameters of every contact pair, per slice or point."""
-    Z, flexible = bearing.roller_count, interface.modes.shape[-1] > 0
-    steel, wall = _elastic(bearing.material), _elastic(cage.material)
-    rw = 0.5 * bearing.roller_diameter
-    n = contacts.race.slices
-    k_race = laws.iso_line_stiffness(bearing.effective_length) / n
-    race = laws.normal_parameters(contacts.race.normal, k_race, 10.0 / 9.0)
-    k, e = laws.pocket_line_law(
-        radius=rw,
-        length=bearing.effective_length,
-        roller=steel,
-        wall=wall,
-        depth=0.5 * crossbeam_width(bearing, cage),
-        patch_half_width=interface.patch_half_width if flexible else 0.0,
-    )
-    pocket = laws.normal_parameters(contacts.pocket.normal, k / contacts.pocket.slices, e)
-    k_end = laws.flat_end_stiffness(0.9 * rw, steel, wall)
-    points = len(end_points(bearing, cage))
-    side = laws.normal_parameters(contacts.side.normal, k_end / points, 1.0)
-    k_rib = laws.flat_end_stiffness(0.45 * rw, steel, steel)
-    rib = laws.normal_parameters(contacts.rib.normal, k_rib / 3, 1.0)
-    _, radius, clearance = _guiding_land(bearing, cage)
-    k, e = laws.land_line_law(
-        radius=radius,
-        clearance=clearance,
-        length=contacts.land.width,
-        cage=wall,
-        ring=steel,
-        depth=0.25 * (cage.outside_diameter - cage.bore),
-    )
-    land = laws.normal_parameters(contacts.land.normal, k, e)
-    return Memory(
-        race=np.tile(race, (Z, 2, 1)),
-        pocket=np.array([[pocket, pocket, side, side]] * Z),
-        rib=np.tile(rib, (Z, 2, 1)),
-        land=np.tile(land, (2, 1)),
-        deflection=np.zeros((Z, N_LOCAL)),
-    )
 
 
 def compliance_root(compliance: np.ndarray) -> np.ndarray:
@@ -179,6 +136,37 @@ def own_coordinates(shapes: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     n = min(N_FACE, values.shape[-1])
     own[..., :n], turn[..., :n, :] = (left * values[..., None, :])[..., :n], right[..., :n, :]
     return own, turn
+
+
+def _pocket_laws(bearing, cage, contacts: Contacts, interface: CageInterface) -> np.ndarray:
+    """Normal laws (2, N_NORMAL) of a slice of a crossbeam and of a point of a side beam."""
+    rw, flexible = 0.5 * bearing.roller_diameter, interface.modes.shape[-1] > 0
+    steel, wall = elastic_constants(bearing.material), elastic_constants(cage.material)
+    k, e = laws.pocket_line_law(
+        radius=rw,
+        length=bearing.effective_length,
+        roller=steel,
+        wall=wall,
+        depth=0.5 * crossbeam_width(bearing, cage),
+        patch_half_width=interface.patch_half_width if flexible else 0.0,
+    )
+    k_end = laws.flat_end_stiffness(0.9 * rw, steel, wall) / len(end_points(bearing, cage))
+    return np.stack([
+        laws.normal_parameters(contacts.pocket.normal, k / contacts.pocket.slices, e),
+        laws.normal_parameters(contacts.side.normal, k_end, 1.0),
+    ])  # fmt: skip
+
+
+def _rib_data(bearing: RollerBearing, contacts: Contacts) -> RibData:
+    steel, points = elastic_constants(bearing.material), rib_points(bearing)
+    stiffness = laws.flat_end_stiffness(0.45 * 0.5 * bearing.roller_diameter, steel, steel)
+    return RibData(
+        half_gap=0.5 * bearing.rib_gap,
+        half_roller=0.5 * bearing.roller_length,
+        points=points,
+        normal=laws.normal_parameters(contacts.rib.normal, stiffness / len(points), 1.0),
+        friction=laws.friction_parameters(contacts.rib.friction),
+    )
 
 
 def _pocket_data(bearing, cage, contacts: Contacts, interface: CageInterface) -> PocketData:
@@ -222,6 +210,7 @@ def _pocket_data(bearing, cage, contacts: Contacts, interface: CageInterface) ->
         own_max=np.abs(own).max(axis=2),
         turn=turn,
         root=root,
+        normal=_pocket_laws(bearing, cage, contacts, interface),
         friction=np.stack(
             [
                 laws.friction_parameters(contacts.pocket.friction),
@@ -244,8 +233,8 @@ def build_model(
     load: Load,
     mount: Mount,
     seed: int = 0,
-) -> tuple[Any, Memory]:
-    """Arrays of one bearing for the kernels, and the law parameters with their memory.
+) -> Any:
+    """Arrays of one bearing for the kernels.
 
     Bearing types register theirs; the model's type names their ``families.Family``.
     """
@@ -256,12 +245,12 @@ def build_model(
 def _(
     bearing: RollerBearing, cage: WindowCage, body: FlexibleBody, interface: CageInterface, *,
     contacts: Contacts, lubricant: Lubricant, drive: Drive, load: Load, mount: Mount, seed: int = 0,
-) -> tuple[Model, Memory]:  # fmt: skip
+) -> Model:  # fmt: skip
     scatter = bearing.roller_scatter * np.random.default_rng(seed).standard_normal(
         bearing.roller_count
     )
     outer, radius, clearance = _guiding_land(bearing, cage)
-    model = Model(
+    return Model(
         bodies=bodies_of(
             bearing, cage, lubricant, drive, load, mount,
             element=np.array([bearing.roller_mass, *bearing.roller_inertia]),
@@ -272,19 +261,13 @@ def _(
         cage=unbalanced(body, cage).data,
         inner=_race_side(bearing, contacts, lubricant, inner=True),
         outer=_race_side(bearing, contacts, lubricant, inner=False),
-        rib=RibData(
-            half_gap=0.5 * bearing.rib_gap,
-            half_roller=0.5 * bearing.roller_length,
-            points=rib_points(bearing),
-            friction=laws.friction_parameters(contacts.rib.friction),
-        ),
+        rib=_rib_data(bearing, contacts),
         pocket=_pocket_data(bearing, cage, contacts, interface),
         land=land_data(
             cage, contacts, lubricant, interface.land, kind=contacts.land.kind, outer=outer,
-            radius=radius, clearance=clearance,
+            radius=radius, clearance=clearance, ring=bearing.material,
         ),
     )  # fmt: skip
-    return model, build_memory(bearing, cage, contacts, interface)
 
 
 def roller_work(model: Model, layout: Layout) -> Work:

@@ -32,7 +32,7 @@ from flexcage.solve.bordered import Bordered, new_bordered
 from flexcage.solve.contract import Integrator
 from flexcage.solve.oscillators import Oscillators
 from flexcage.system import newton, rates, sampling
-from flexcage.system.data import POWERS, Memory, Report, Work
+from flexcage.system.data import POWERS, Memory, Report, Work, new_memory
 from flexcage.system.families import family_of
 from flexcage.system.layout import Layout
 from flexcage.system.rates import RatesWork, modal_oscillators, new_rates_work
@@ -127,14 +127,13 @@ class Bearing:
     """A bearing ready to be integrated: its data, and functions that are compiled when needed."""
 
     def __init__(
-        self, model: Any, memory: Memory, contacts: Contacts, layout: Layout,
-        *, block: int = 250, stride: int = 4,
+        self, model: Any, contacts: Contacts, layout: Layout, *, block: int = 250, stride: int = 4,
     ) -> None:  # fmt: skip
         model = model._replace(cage=marked(model.cage))
         self.layout, self.family = layout, family_of(model)
         work = self.family.new_work(model, layout)
         self.data = BearingData(
-            model, memory, work,
+            model, new_memory(work.report), work,
             new_bordered(layout.rollers, layout.n_border, 8, work.tangent.active),
             Events(
                 np.zeros((200_000, 4)), np.zeros(1, np.int64),

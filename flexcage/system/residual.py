@@ -12,7 +12,6 @@ from __future__ import annotations
 
 from flexcage.contacts.race import meet_race, press_race, push_by_race
 from flexcage.contacts.rib import rib_contact
-from flexcage.contacts.slices import SLOT_ONSET
 from flexcage.contacts.state import keep_pose, set_pose, shift_matrix, take_pose
 from flexcage.core.jit import copy_into, fields, part, zero
 from flexcage.core.rotation import matrix_from_quaternion
@@ -112,17 +111,15 @@ def _inner_contacts(first, end, q, ring_q, ring_u, d, law, mode):
             _add_inner(i, P, d, mode)
             if mode >= 2:
                 _report_ribs(i, sums, rep)
-        onset = memory.race[i, 0, SLOT_ONSET]
+        onset = memory.race[i, 0]
         if meet_race(count, pose, side, radius[i], ring_q[5], onset, rw):
             rw.who[count] = i
             count += 1
-    press_race(count, side, memory.race[first, 0], law[0], law[5], rw)
+    press_race(count, side, law[0], law[5], rw)
     for m in range(count):
         i = rw.who[m]
         take_pose(work.poses[i], pose)
-        push_by_race(
-            m, pose, side, radius[i], ring_q[5], memory.race[i, 0, 1], rw, pair, mode, sums
-        )
+        push_by_race(m, pose, side, radius[i], ring_q[5], rw, pair, mode, sums)
         _add_inner(i, rw.partner[m, 0], d, mode)
         if mode >= 2:
             _report_race(i, 0, sums, rep)
@@ -156,15 +153,15 @@ def _outer_contacts(first, end, q, out_q, out_u, d, law, mode):
         put(b, (1.0, 0.0, 0.0))
         put(Vr, turned(F, (0.0, out_u[0], out_u[1])))
         put(wr, (0.0, 0.0, 0.0))
-        onset = memory.race[i, 1, SLOT_ONSET]
+        onset = memory.race[i, 1]
         if meet_race(count, pose, side, radius[i], 0.0, onset, rw):
             rw.who[count] = i
             count += 1
-    press_race(count, side, memory.race[first, 1], law[0], law[5], rw)
+    press_race(count, side, law[0], law[5], rw)
     for m in range(count):
         i = rw.who[m]
         take_pose(work.poses[i], pose)
-        push_by_race(m, pose, side, radius[i], 0.0, memory.race[i, 1, 1], rw, pair, mode, work.sums)
+        push_by_race(m, pose, side, radius[i], 0.0, rw, pair, mode, work.sums)
         add_to_element(work.wrenches[i], pair)
         for c in range(2):
             border[6 + c] -= F[1, 1 + c] * pair.wrench[1] + F[2, 1 + c] * pair.wrench[2]

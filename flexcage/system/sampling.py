@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from flexcage.contacts.slices import SLOT_ONSET
 from flexcage.core.jit import copy_into, fields, part
 
 
@@ -42,11 +41,11 @@ def remember(t, memory, rep, events):
             if closed == 0 or events.closed[i, k] == 0:
                 speed = max(rep.approach[i, k], 0.0)
                 if k < 2:
-                    memory.race[i, k, SLOT_ONSET] = speed
+                    memory.race[i, k] = speed
                 elif k < ribs:
-                    memory.pocket[i, k - 2, SLOT_ONSET] = speed
+                    memory.pocket[i, k - 2] = speed
                 else:
-                    memory.rib[i, k - ribs, SLOT_ONSET] = speed
+                    memory.rib[i, k - ribs] = speed
             if closed != events.closed[i, k]:
                 events.closed[i, k] = closed
                 _note(events, t, i, k, closed)
@@ -54,7 +53,7 @@ def remember(t, memory, rep, events):
     for side in range(2):
         closed = 1 if rep.land_touch[side, 0] > 0.0 else 0
         if closed == 0 or events.land[side] == 0:
-            memory.land[side, SLOT_ONSET] = max(rep.land_touch[side, 1], 0.0)
+            memory.land[side] = max(rep.land_touch[side, 1], 0.0)
         if closed != events.land[side]:
             events.land[side] = closed
             _note(events, t, -1, rep.contact.shape[1] + side, closed)

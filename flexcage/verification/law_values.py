@@ -10,20 +10,20 @@ from numpy.typing import ArrayLike
 from scipy.integrate import solve_ivp
 
 from flexcage.contacts.laws import rolling_forces
-from flexcage.contacts.slices import SLOT_ONSET
 from flexcage.core.errors import RunFailed
 
 Law = Callable[..., None]
 
 
-def normal(law: Law, p: np.ndarray, d: ArrayLike, v: ArrayLike) -> tuple[np.ndarray, ...]:
+def normal(
+    law: Law, p: np.ndarray, d: ArrayLike, v: ArrayLike, *, onset: float = 0.0
+) -> tuple[np.ndarray, ...]:
     """Force [N], its elastic part, and its derivatives by d and v on penetrations d [m] and their
-    rates v [m/s], at the onset speed that p holds."""
+    rates v [m/s], of contacts that closed at the speed ``onset`` [m/s]."""
     shaped = np.broadcast_arrays(np.asarray(d, float), np.asarray(v, float))
     d, v = (np.ascontiguousarray(x) for x in shaped)
-    onset = np.full(d.shape, p[SLOT_ONSET])
     F, Fe, Fd, Fv = np.full((4, *d.shape), np.nan)
-    law(d.size, d, v, onset, p, F, Fe, Fd, Fv)
+    law(d.size, d, v, np.full(d.shape, onset), p, F, Fe, Fd, Fv)
     return F, Fe, Fd, Fv
 
 
@@ -62,7 +62,7 @@ def strike(law: Law, p: np.ndarray, mass: float, speed: float) -> Impact:
     """A mass [kg] flies against a wall of a normal law at a speed [m/s]; until it parts."""
 
     def rate(t: float, y: np.ndarray) -> list[float]:
-        return [y[1], -normal(law, p, [max(y[0], 0.0)], [y[1]])[0][0] / mass]
+        return [y[1], -normal(law, p, [max(y[0], 0.0)], [y[1]], onset=speed)[0][0] / mass]
 
     def parted(t: float, y: np.ndarray) -> float:  # clipped at zero: beyond, the body flies
         return y[0] if t > 0.0 else 1.0
@@ -79,5 +79,5 @@ def strike(law: Law, p: np.ndarray, mass: float, speed: float) -> Impact:
     if not out.t_events[0].size:
         raise RunFailed("the impact's mass does not leave the wall; is its law damped beyond all?")
     depth = out.y_events[1][0][0]
-    force = normal(law, p, [depth], [0.0])[0][0]
+    force = normal(law, p, [depth], [0.0], onset=speed)[0][0]
     return Impact(-out.y[1, -1] / speed, depth, force, out.t[-1])

@@ -128,13 +128,13 @@ class ExudynBearing:
         self, centres: Sequence[Any], faces: Sequence[Any], stiffness: float
     ) -> list[Any]:
         """Every roller's inner and outer race, every roller's front and rear face, the land."""
-        model, memory = self.planar.bearing.data.model, self.planar.bearing.data.memory
+        model = self.planar.bearing.data.model
         ring, radii = centres[-2], model.bodies.radius
         ground = self._at(self.system.AddObject({"objectType": "Ground"}), np.zeros(2))
         found = []
         for i, Rw in enumerate(radii):
             for j, (race, other) in enumerate(((model.inner, ring), (model.outer, ground))):
-                law = _law(memory.race[i, j], len(race.s), race.friction)
+                law = _law(race.normal, len(race.s), race.friction)
                 law["contactStiffness"] *= stiffness
                 gap = self._gap(centres[i], other, (Rw, race.radius), j == 1)
                 shift = 0.5 * max(-gap, 0.0) if self._surface else 0.0
@@ -142,10 +142,10 @@ class ExudynBearing:
                 found.append(self._touch(centres[i], other, pair, j == 1, law))
         for k, wall in enumerate(faces):
             i, f = divmod(k, 2)
-            law = _law(memory.pocket[i, f], len(model.pocket.s), model.pocket.friction[0])
+            law = _law(model.pocket.normal[0], len(model.pocket.s), model.pocket.friction[0])
             found.append(self._touch(centres[i], wall, (radii[i], FLAT), False, law))
         rib = model.land.radius - model.land.clearance
-        law = _law(memory.land[0], len(model.land.x), model.land.friction)
+        law = _law(model.land.normal, len(model.land.x), model.land.friction)
         found.append(self._touch(ring, centres[-1], (rib, model.land.radius), True, law))
         return found
 
@@ -227,7 +227,7 @@ class ExudynBearing:
 
 def _law(p: np.ndarray, parts: int, friction: np.ndarray) -> dict[str, Any]:
     """Exudyn's numbers of flexcage's ``restitution`` in ``parts`` equal slices, and of its ramp."""
-    x = NEVER * p[2] / p[4]  # = (1 - e^2)/e
+    x = NEVER * p[2] / p[3]  # = (1 - e^2)/e
     return {
         "contactStiffness": parts * p[0],
         "contactStiffnessExponent": p[1],

@@ -15,7 +15,7 @@ from flexcage.contacts.pocket import pocket_contact
 from flexcage.contacts.pocket_wall import N_LOCAL, pocket_work
 from flexcage.contacts.race import meet_race, press_race, push_by_race, race_work
 from flexcage.contacts.rib import rib_contact
-from flexcage.contacts.slices import SLOT_ONSET, new_slices
+from flexcage.contacts.slices import new_slices
 from flexcage.contacts.state import RollerPose, new_pair, new_pose
 from flexcage.core.jit import OPTIONS
 
@@ -38,27 +38,29 @@ def turned(axis, rotation):
     return axis @ Rotation.from_rotvec(rotation).as_matrix().T
 
 
-def _race(pose, side, Rw, theta, p, law, mu, rw, pair, mode, sums):
-    if not meet_race(1, pose, side, Rw, theta, p[SLOT_ONSET], rw):
+def _race(pose, side, Rw, theta, onset, law, mu, rw, pair, mode, sums):
+    if not meet_race(1, pose, side, Rw, theta, onset, rw):
         return False
-    press_race(2, side, p, law, mu, rw)
-    push_by_race(1, pose, side, Rw, theta, p[1], rw, pair, mode, sums)
+    press_race(2, side, law, mu, rw)
+    push_by_race(1, pose, side, Rw, theta, rw, pair, mode, sums)
     return True
 
 
-def _rib(pose, data, P, b, Vr, wr, p, law, sl, pair, mode, sums):
-    return rib_contact(pose, data, P, b, Vr, wr, p, law, sl.row[0], pair, mode, sums)
+def _rib(pose, data, P, b, Vr, wr, onset, law, sl, pair, mode, sums):
+    return rib_contact(pose, data, P, b, Vr, wr, onset, law, sl.row[0], pair, mode, sums)
 
 
-def _pocket(pose, data, i, Rw, D, Vc, wc, q, qd, margin, p, law, a, sl, pw, pair, mode, sums):
+def _pocket(pose, data, i, Rw, D, Vc, wc, q, qd, margin, onset, law, a, sl, pw, pair, mode, sums):
     return pocket_contact(
-        pose, data, i, Rw, D, Vc, wc, q, qd, margin, p, law, a, sl.row[0], pw, pair, mode, sums
+        pose, data, i, Rw, D, Vc, wc, q, qd, margin, onset, law, a, sl.row[0], pw, pair, mode, sums
     )
 
 
-def _land(A, Rc, Vc, w, q, qd, Rr, Vr, spin, data, p, law, sl, lw, Fc, Mc, Qm, Fr, Mr, sums):
+def _land(A, Rc, Vc, w, q, qd, Rr, Vr, spin, data, onset, law, sl, lw, Fc, Mc, Qm, Fr, Mr, sums):
     sl = sl.row[0]
-    land_contact(A, Rc, Vc, w, q, qd, Rr, Vr, spin, data, p, law, sl, lw, Fc, Mc, Qm, Fr, Mr, sums)
+    land_contact(
+        A, Rc, Vc, w, q, qd, Rr, Vr, spin, data, onset, law, sl, lw, Fc, Mc, Qm, Fr, Mr, sums
+    )
 
 
 def _compiled(function, *arguments, returns=types.boolean):
@@ -69,14 +71,14 @@ def _compiled(function, *arguments, returns=types.boolean):
 @cache
 def _race_kernel(side_type):
     return _compiled(
-        _race, new_pose(), side_type, F8, F8, VEC, N, MU, race_work(8), new_pair(), I8, VEC,
+        _race, new_pose(), side_type, F8, F8, F8, N, MU, race_work(8), new_pair(), I8, VEC,
     )  # fmt: skip
 
 
 @cache
 def _rib_kernel(data_type):
     return _compiled(
-        _rib, new_pose(), data_type, VEC, VEC, VEC, VEC, types.Array(F8, 2, "C"),
+        _rib, new_pose(), data_type, VEC, VEC, VEC, VEC, VEC,
         types.Tuple((N, MU)), new_slices(), new_pair(), I8, VEC,
     )  # fmt: skip
 
@@ -85,7 +87,7 @@ def _rib_kernel(data_type):
 def _pocket_kernel(data_type):
     return _compiled(
         _pocket, new_pose(), data_type, I8, F8, VEC, VEC, VEC, VEC, VEC, F8,
-        types.Array(F8, 2, "C"), types.Tuple((N, N, MU, MU)), VEC, new_slices(),
+        VEC, types.Tuple((N, N, MU, MU)), VEC, new_slices(),
         pocket_work(1, 2, 0), new_pair(), I8, VEC,
     )  # fmt: skip
 
@@ -94,7 +96,7 @@ def _pocket_kernel(data_type):
 def _land_kernel(data_type):
     matrix = types.Array(F8, 2, "C")
     return _compiled(
-        _land, matrix, VEC, VEC, VEC, VEC, VEC, VEC, VEC, F8, data_type, matrix,
+        _land, matrix, VEC, VEC, VEC, VEC, VEC, VEC, VEC, F8, data_type, VEC,
         types.Tuple((N, MU)), new_slices(), land_work(1), VEC, VEC, VEC, VEC, VEC, VEC,
         returns=types.void,
     )  # fmt: skip
@@ -105,8 +107,9 @@ X = np.array([1.0, 0.0, 0.0])
 
 
 def race(
-    side, p, P, *, radius=4e-3, axis=None, b=X, V=ZERO, w=ZERO, Vr=ZERO, wr=ZERO, theta=0.0,
+    side, P, *, radius=4e-3, axis=None, b=X, V=ZERO, w=ZERO, Vr=ZERO, wr=ZERO, theta=0.0,
     law=laws.elastic, friction=laws.no_friction, mode=2, azimuth=0.0,
+    onset=0.3,
 ):  # fmt: skip
     """(wrench, sums, pair) of one raceway on a roller at P from the ring's centre."""
     pose = pose_of(np.eye(3) if axis is None else axis, V, w, azimuth)
@@ -114,28 +117,28 @@ def race(
     rw = race_work(len(side.s))  # contact 0 of the lot is one that does not touch
     rw.partner[1] = P, b, Vr, wr
     _race_kernel(numba.typeof(side))(
-        pose, side, radius, theta, p, law, friction, rw, pair, mode, sums
+        pose, side, radius, theta, onset, law, friction, rw, pair, mode, sums
     )
     return pair.wrench, sums, pair
 
 
 def rib(
-    data, p, P, *, axis=None, b=X, V=ZERO, w=ZERO, Vr=ZERO, wr=ZERO, law=laws.elastic,
-    friction=laws.no_friction, mode=2,
+    data, P, *, axis=None, b=X, V=ZERO, w=ZERO, Vr=ZERO, wr=ZERO, law=laws.elastic,
+    friction=laws.no_friction, mode=2, onset=0.05,
 ):  # fmt: skip
     """(wrench, sums, pair) of both ribs on a roller at P from the ring's centre."""
     pose = pose_of(np.eye(3) if axis is None else axis, V, w)
     pair, sums = new_pair(), np.zeros(9)
     arrays = [np.array(x, float) for x in (P, b, Vr, wr)]
     _rib_kernel(numba.typeof(data))(
-        pose, data, *arrays, p, (law, friction), new_slices(), pair, mode, sums
+        pose, data, *arrays, np.full(2, onset), (law, friction), new_slices(), pair, mode, sums
     )
     return pair.wrench, sums, pair
 
 
 def pocket(
-    data, p, D, *, i=0, radius=4e-3, axis=None, G=None, V=ZERO, w=ZERO, Vc=ZERO, wc=ZERO, q=(),
-    qd=(), normal=laws.elastic, friction=laws.no_friction, mode=2,
+    data, D, *, i=0, radius=4e-3, axis=None, G=None, V=ZERO, w=ZERO, Vc=ZERO, wc=ZERO, q=(),
+    qd=(), normal=laws.elastic, friction=laws.no_friction, mode=2, onset=0.0,
 ):  # fmt: skip
     """(wrench, sums, work, pair) of pocket i on its roller at D from the cage's origin."""
     pose = pose_of(np.eye(3) if axis is None else axis, V, w)
@@ -145,22 +148,23 @@ def pocket(
     arrays = [np.array(x, float) for x in (D, Vc, wc, q, qd)]
     margin = float(data.phi_max @ np.abs(arrays[3])) if len(q) else 0.0
     _pocket_kernel(numba.typeof(data))(
-        pose, data, i, radius, *arrays, margin, p, (normal, normal, friction, friction),
-        np.zeros(N_LOCAL), new_slices(), work, pair, mode, sums,
+        pose, data, i, radius, *arrays, margin, np.full(4, onset),
+        (normal, normal, friction, friction), np.zeros(N_LOCAL), new_slices(), work, pair, mode,
+        sums,
     )  # fmt: skip
     return pair.wrench, sums, work, pair
 
 
 def land(
-    data, p, Rc, *, A=None, Vc=ZERO, w=ZERO, q=(), qd=(), Rr=ZERO, Vr=ZERO, spin=0.0,
-    law=laws.elastic, friction=laws.no_friction,
+    data, Rc, *, A=None, Vc=ZERO, w=ZERO, q=(), qd=(), Rr=ZERO, Vr=ZERO, spin=0.0,
+    law=laws.elastic, friction=laws.no_friction, onset=0.05,
 ):  # fmt: skip
     """(Fc, Mc, Qm, Fr, Mr, sums) between cage and ring."""
     A = np.eye(3) if A is None else np.ascontiguousarray(A)
     out = [np.zeros(3), np.zeros(3), np.zeros(len(q)), np.zeros(3), np.zeros(3), np.zeros(9)]
     a = [np.array(x, float) for x in (Rc, Vc, w, q, qd, Rr, Vr)]
     _land_kernel(numba.typeof(data))(
-        A, *a, spin, data, p, (law, friction), new_slices(),
+        A, *a, spin, data, np.full(2, onset), (law, friction), new_slices(),
         land_work(len(data.angle)), *out,
     )  # fmt: skip
     return out

@@ -4,11 +4,16 @@ from __future__ import annotations
 
 import numpy as np
 
-from flexcage.verification.law_values import friction, normal
+from flexcage.verification.law_values import friction
+from flexcage.verification.law_values import normal as at_onset
 
 
-def check_normal_law(law, p, *, depth=2e-5, speed=0.5):
+def check_normal_law(law, p, *, depth=2e-5, speed=0.5, onset=0.2):
     """What every normal law owes its callers; ``depth`` and ``speed`` bound the range looked at."""
+
+    def normal(law, p, d, v):
+        return at_onset(law, p, d, v, onset=onset)
+
     rng = np.random.default_rng(1)
     d, v = depth * rng.uniform(0.02, 1.0, 400), speed * rng.uniform(-1.0, 1.0, 400)
     F, Fe, Fd, Fv = normal(law, p, d, v)

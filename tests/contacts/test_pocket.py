@@ -50,11 +50,10 @@ def interface(*, stations=9, modes=None, soft=False, offset=None):
 
 @pytest.fixture(scope="module")
 def walls(build_parts):
-    """walls(interface) -> pocket data, law parameters (4, N_NORMAL)."""
+    """walls(interface) -> pocket data."""
 
     def make(itf, contacts=CONTACTS):
-        model, memory = build_parts(interface=itf, contacts=contacts)
-        return model.pocket, memory.pocket[0]
+        return build_parts(interface=itf, contacts=contacts).pocket
 
     return make
 
@@ -75,17 +74,17 @@ def test_a_bent_crossbeam_touches_where_geometry_says(walls, displacement, turn)
     offset = itf.offset.copy()
     offset[0, 0] = -displacement * crossbeam_shape(defect, itf.stations[0], 2 * HALF[1])
     offset[1, 1] = displacement * crossbeam_shape(defect, itf.stations[0], 2 * HALF[1])
-    data, p = walls(interface(stations=stations, offset=offset))
+    data = walls(interface(stations=stations, offset=offset))
     axis = turned(np.eye(3), turn)
 
     def first(i, sense):
         face = 0 if sense > 0 else 1
 
         def force(t):  # the opposite face may touch at the same time
-            return pocket(data, p, [0.0, PITCH, sense * t], i=i, axis=axis)[2].normal[face] - 1e-9
+            return pocket(data, [0.0, PITCH, sense * t], i=i, axis=axis)[2].normal[face] - 1e-9
 
         touch = brentq(force, -0.3e-3, 0.6e-3, xtol=1e-12)
-        work = pocket(data, p, [0.0, PITCH, sense * (touch + 1e-9)], i=i, axis=axis)[2]
+        work = pocket(data, [0.0, PITCH, sense * (touch + 1e-9)], i=i, axis=axis)[2]
         return touch, np.flatnonzero(work.slice_N[face])
 
     x = data.s * axis[0, 0]
@@ -102,11 +101,11 @@ def test_a_bent_crossbeam_touches_where_geometry_says(walls, displacement, turn)
 
 
 def test_side_beams_touch_after_half_of_the_play(walls):
-    data, p = walls(interface())
+    data = walls(interface())
     gap = HALF[1] - 4e-3
     for sense, face in ((1, 2), (-1, 3)):
-        assert not pocket(data, p, [sense * (gap - 1e-9), PITCH, 0])[0].any()
-        wrench, _, work, _ = pocket(data, p, [sense * (gap + 1e-6), PITCH, 0])
+        assert not pocket(data, [sense * (gap - 1e-9), PITCH, 0])[0].any()
+        wrench, _, work, _ = pocket(data, [sense * (gap + 1e-6), PITCH, 0])
         assert wrench[0] * sense < 0.0 and work.normal[face] == pytest.approx(-sense * wrench[0])
         k = 2 * 0.9 * 4e-3 / ((1 - 0.3**2) / 206e9 + (1 - 0.34**2) / 105e9)
         assert abs(wrench[0]) == pytest.approx(k * 1e-6, rel=1e-9)  # a flat punch, 2 E* a d
@@ -141,17 +140,17 @@ def modal_force(data, work, i=0):
 @pytest.mark.parametrize("place", ["front", "front, skewed", "corner"])
 def test_forces_are_slopes_of_the_energy(walls, name, place):
     """Roller's wrench and modal forces against the elastic energy, the wall's own included."""
-    data, p = walls(interface(**CAGES[name]))
+    data = walls(interface(**CAGES[name]))
     nm = data.phi.shape[-1]
     D = squeeze(side=2e-6 if place == "corner" else 0.0)
     axis = turned(np.eye(3), [0, 0, 0] if place == "front" else [0, 6e-4, 2e-4])
     q = 1e-6 * np.linspace(-1, 1, nm) if nm else np.zeros(0)
-    wrench, _, work, _ = pocket(data, p, D, axis=axis, q=q, qd=0 * q)
+    wrench, _, work, _ = pocket(data, D, axis=axis, q=q, qd=0 * q)
     assert work.normal[0] > 5.0 and (work.normal[2] > 5.0) == (place == "corner")
 
     def energy(d=0.0, turn=None, dq=0.0):
         a = axis if turn is None else turned(axis, turn)
-        return pocket(data, p, D + d, axis=a, q=q + dq, qd=0 * q)[1][0]
+        return pocket(data, D + d, axis=a, q=q + dq, qd=0 * q)[1][0]
 
     scale = np.abs(wrench).max()
     for j in range(3):
@@ -170,9 +169,9 @@ def test_forces_are_slopes_of_the_energy(walls, name, place):
 
 def test_condensed_walls_against_minimisation(walls):
     """The kernel's residual coordinates make the total energy least; found again by a minimiser."""
-    data, p = walls(interface(soft=True))
+    data = walls(interface(soft=True))
     D, axis = squeeze(12e-6, 3e-6), turned(np.eye(3), [0, 4e-4, 0])
-    wrench, sums, work, _ = pocket(data, p, D, axis=axis)
+    wrench, sums, work, _ = pocket(data, D, axis=axis)
 
     def total(b):  # coordinates of unit compliance
         e = 0.5 * b @ b
@@ -181,7 +180,8 @@ def test_condensed_walls_against_minimisation(walls):
             face = work.face[f]
             shape = sum(face.w[s, :n, None] * data.res[0, f, face.j[:n] + s] for s in range(4))
             d = np.clip(face.d0[:n] - shape @ b, 0.0, None)
-            e += np.sum(p[f, 0] * d ** (p[f, 1] + 1) / (p[f, 1] + 1))
+            k, n = data.normal[f // 2, :2]
+            e += np.sum(k * d ** (n + 1) / (n + 1))
         return e
 
     best = minimize(total, np.zeros(12), method="BFGS", options={"gtol": 1e-12})
@@ -193,16 +193,16 @@ def test_condensed_walls_against_minimisation(walls):
     loads = np.einsum("fs,fsl->l", outward, given.residual[0][[0, 2]])
     np.testing.assert_allclose(data.root[0] @ work.b, given.compliance[0] @ loads, rtol=1e-8)
     # rigid walls give the same law undiminished
-    stiff_data, _ = walls(interface(), CONTACTS)
-    assert np.abs(pocket(stiff_data, p, D, axis=axis)[0]).max() > np.abs(wrench).max()
+    stiff_data = walls(interface(), CONTACTS)
+    assert np.abs(pocket(stiff_data, D, axis=axis)[0]).max() > np.abs(wrench).max()
 
 
 def test_a_face_alone_yields_as_among_others(walls):
     """The coordinates of one face give what the pocket's twelve do: the same roller, once with
     another face that is touched by a hair."""
-    data, p = walls(interface(soft=True))
-    alone, _, one, _ = pocket(data, p, squeeze(8e-6, -1e-9))
-    beside, _, two, _ = pocket(data, p, squeeze(8e-6, 1e-9))
+    data = walls(interface(soft=True))
+    alone, _, one, _ = pocket(data, squeeze(8e-6, -1e-9))
+    beside, _, two, _ = pocket(data, squeeze(8e-6, 1e-9))
     assert one.size[0] == N_FACE and two.size[0] == N_LOCAL
     np.testing.assert_allclose(alone, beside, atol=1e-3 * np.abs(alone).max())
     np.testing.assert_allclose(one.b, two.b, atol=1e-3 * np.abs(one.b).max())
@@ -214,17 +214,17 @@ def test_a_wall_pushes_the_opposite_one_to_the_roller(walls):
     itf, c, ratio = interface(), 1e-6, 5.0
     itf.residual[:, 0, :, 0], itf.residual[:, 1, :, 0] = 1.0, -ratio
     itf.compliance[:] = np.diag([c] + [0] * 11)
-    data, p = walls(itf)
+    data = walls(itf)
     play, press = 0.5e-6, 1e-6
     data = data._replace(drop=np.zeros_like(data.drop), half=np.array([4e-3 + play, HALF[1]]))
-    k, n = p[0, 0] * len(data.s), p[0, 1]
+    k, n = data.normal[0, 0] * len(data.s), data.normal[0, 1]
     gap = 2.0 * play + press
 
     def miss(a):
         return a - c * k * (max(press - a, 0.0) ** n - ratio * max(ratio * a - gap, 0.0) ** n)
 
     a = brentq(miss, 0.0, press, xtol=1e-20)
-    _, _, work, _ = pocket(data, p, [0.0, PITCH, play + press])
+    _, _, work, _ = pocket(data, [0.0, PITCH, play + press])
     assert ratio * a > gap
     np.testing.assert_allclose(
         work.normal[:2], k * np.array([press - a, ratio * a - gap]) ** n, rtol=1e-6
@@ -241,7 +241,7 @@ def test_slices_that_are_left_out_do_not_touch(walls, seesaw):
     itf.compliance[:, 1::2] *= np.sqrt(seesaw)
     itf.compliance[:, :, 1::2] *= np.sqrt(seesaw)
     contacts = replace(CONTACTS, pocket=replace(CONTACTS.pocket, slices=64))
-    data, p = walls(itf, contacts)
+    data = walls(itf, contacts)
     order = np.arange(64).reshape(8, 8).T.ravel()
     mixed = data._replace(s=data.s[order].copy(), drop=data.drop[order].copy())
     fewer = 0
@@ -250,8 +250,8 @@ def test_slices_that_are_left_out_do_not_touch(walls, seesaw):
         axis = turned(np.eye(3), [0.0, rng.normal(0.0, 1e-3), rng.normal(0.0, 1e-3)])
         q = rng.normal(0.0, 2e-7, 5)
         call = {"axis": axis, "q": q, "qd": np.zeros(5), "V": [0.0, 0.0, 0.1], "mode": 1}
-        some, sums, work, pair = pocket(data, p, D, **call)
-        all_, _, other, whole = pocket(mixed, p, D, **call)
+        some, sums, work, pair = pocket(data, D, **call)
+        all_, _, other, whole = pocket(mixed, D, **call)
         np.testing.assert_allclose(some, all_, rtol=1e-6, atol=1e-9 * np.abs(all_).max())
         np.testing.assert_allclose(work.st, other.st, rtol=1e-6, atol=1e-7)
         np.testing.assert_allclose(pair.K, whole.K, rtol=1e-5, atol=1e-6 * np.abs(whole.K).max())
@@ -285,10 +285,10 @@ def test_two_springs_in_series(walls):
     itf = interface()
     itf.residual[:, 0, :, 0] = 1.0
     itf.compliance[:] = np.diag([3e-8] + [0] * 11)
-    data, p = walls(itf)
+    data = walls(itf)
     data = data._replace(drop=np.zeros_like(data.drop))
-    wrench, _, work, _ = pocket(data, p, squeeze(10e-6))
-    k, n = p[0, 0] * len(data.s), p[0, 1]
+    wrench, _, work, _ = pocket(data, squeeze(10e-6))
+    k, n = data.normal[0, 0] * len(data.s), data.normal[0, 1]
     force = brentq(lambda F: k * max(10e-6 - 3e-8 * F, 0.0) ** n - F, 0.0, 1e-5 / 3e-8)
     assert -wrench[2] == pytest.approx(force, rel=1e-9)
     assert (data.root[0] @ work.b)[0] == pytest.approx(3e-8 * force)
@@ -300,25 +300,23 @@ def test_power_is_what_the_channels_say(walls, name, law):
     """Power on roller, cage and modes = - dU/dt + damping + friction."""
     spec = NormalLaw(law=law, restitution=0.6, damping=3e3, full_damping_depth=1e-5)
     pair = PairSpec(normal=spec, friction=CONTACTS.pocket.friction)
-    data, p = walls(interface(**CAGES[name]), Contacts(pocket=pair, side=pair))
-    p = p.copy()
-    p[:, laws.SLOT_ONSET] = 0.1
+    data = walls(interface(**CAGES[name]), Contacts(pocket=pair, side=pair))
     nm = data.phi.shape[-1]
     D, axis = squeeze(9e-6), np.eye(3)
     # no motion along the wall's slope (see above): the roller slides only up and down
     V, w = np.array([0.0, 0.04, 0.06]), np.array([-2900.0, 0.0, 0.0])
     Vc, wc = np.array([0.0, -0.01, -0.02]), np.array([0.3, 0.0, 0.0])
     qd = 1e-2 * np.linspace(1, -1, nm) if nm else np.zeros(0)
-    call = {"normal": laws.NORMAL_LAWS[law], "friction": laws.step_coulomb}
+    call = {"normal": laws.NORMAL_LAWS[law], "friction": laws.step_coulomb, "onset": 0.1}
     wrench, sums, work, _ = pocket(
-        data, p, D, axis=axis, V=V, w=w, Vc=Vc, wc=wc, q=0 * qd, qd=qd, **call
+        data, D, axis=axis, V=V, w=w, Vc=Vc, wc=wc, q=0 * qd, qd=qd, **call
     )
     power = wrench[:3] @ (V - Vc - np.cross(wc, D)) + wrench[3:] @ (w - wc)
     power += modal_force(data, work) @ qd
 
     def energy(t):
         return pocket(
-            data, p, D + t * (V - Vc), axis=axis, G=turned(np.eye(3), t * wc), q=t * qd, qd=qd,
+            data, D + t * (V - Vc), axis=axis, G=turned(np.eye(3), t * wc), q=t * qd, qd=qd,
             **call,
         )[1][0]  # fmt: skip
 
@@ -333,14 +331,12 @@ def test_power_is_what_the_channels_say(walls, name, law):
 def test_a_spinning_end_wastes_friction_only(walls, turn):
     """A roller askew to its side beam: spin has no normal power, whatever the tilt."""
     pair = PairSpec(normal=NormalLaw(restitution=0.6), friction=CONTACTS.side.friction)
-    data, p = walls(interface(), Contacts(pocket=pair, side=pair))
-    p = p.copy()
-    p[:, laws.SLOT_ONSET] = 0.05
+    data = walls(interface(), Contacts(pocket=pair, side=pair))
     axis = turned(np.eye(3), turn)
     D, w = np.array([HALF[1] - 4e-3 + 3e-6, PITCH, 0.0]), -2900.0 * axis[0]
     # nothing orbits; the moment about the spin axis is that of friction
-    call = {"normal": laws.restitution, "friction": laws.step_coulomb}
-    wrench, sums, work, _ = pocket(data, p, D, axis=axis, w=w, **call)
+    call = {"normal": laws.restitution, "friction": laws.step_coulomb, "onset": 0.05}
+    wrench, sums, work, _ = pocket(data, D, axis=axis, w=w, **call)
     assert work.normal[2] > 1.0 and abs(sums[1]) < 1e-25 and sums[2] < -0.1
     assert wrench[3:] @ w == pytest.approx(sums[2], rel=2e-4)
 
@@ -361,11 +357,11 @@ def test_modes_that_are_rigid_motions_feel_the_rigid_wrench(walls):
             e = np.eye(3)[m]
             modes[:, f, :, :, m] = e
             modes[:, f, :, :, 3 + m] = np.cross(e, r)
-    data, p = walls(interface(stations=stations, modes=modes))
+    data = walls(interface(stations=stations, modes=modes))
     D, axis = squeeze(8e-6), turned(np.eye(3), [0, 5e-4, 0])
     V, w = np.array([0.02, 0.04, 0.06]), np.array([-2900.0, 30.0, 0.0])
     wrench, _, work, _ = pocket(
-        data, p, D, axis=axis, V=V, w=w, q=np.zeros(6), qd=np.zeros(6), friction=laws.step_coulomb
+        data, D, axis=axis, V=V, w=w, q=np.zeros(6), qd=np.zeros(6), friction=laws.step_coulomb
     )
     force, moment = -wrench[:3], -wrench[3:] - np.cross(D, wrench[:3])
     got = modal_force(data, work)
@@ -375,21 +371,21 @@ def test_modes_that_are_rigid_motions_feel_the_rigid_wrench(walls):
 
 
 def test_new_wall_shapes_do_not_change_a_far_roller(walls):
-    data, p = walls(interface(modes=smooth_modes(), soft=True))
-    wrench, sums, work, _ = pocket(data, p, [0.0, PITCH, 0.0], q=np.zeros(5), qd=np.ones(5))
+    data = walls(interface(modes=smooth_modes(), soft=True))
+    wrench, sums, work, _ = pocket(data, [0.0, PITCH, 0.0], q=np.zeros(5), qd=np.ones(5))
     assert not wrench.any() and not sums.any() and not work.near[:2].any()
 
 
 @pytest.mark.parametrize("name", CAGES)
 def test_tangent_against_differences(walls, name):
     """Stiffness to roller and cage motion, condensed walls included, and damping from friction."""
-    data, p = walls(interface(**CAGES[name]))
+    data = walls(interface(**CAGES[name]))
     nm = data.phi.shape[-1]
     q = np.zeros(nm)
     D, axis = squeeze(8e-6), turned(np.eye(3), [0, 3e-4, 0])
     V, w = np.array([0.0, 0.0, 0.0]), np.array([-2900.0, 0.0, 0.0])
     call = {"friction": laws.step_coulomb, "q": q, "qd": q}
-    pair = pocket(data, p, D, axis=axis, V=V, w=w, mode=1, **call)[3]
+    pair = pocket(data, D, axis=axis, V=V, w=w, mode=1, **call)[3]
     scale = np.array([1, 1, 1, 4e-3, 4e-3, 4e-3])
 
     def normed(M):
@@ -399,13 +395,13 @@ def test_tangent_against_differences(walls, name):
     for j in range(6):
         e, h, hv = np.eye(3)[j % 3], 1e-9 if j < 3 else 1e-7, 1e-5 if j < 3 else 1e-2
         at = [
-            pocket(data, p, D + (s * h * e if j < 3 else 0), V=V, w=w,
+            pocket(data, D + (s * h * e if j < 3 else 0), V=V, w=w,
                    axis=axis if j < 3 else turned(axis, s * h * e), **call)[0]
             for s in (1, -1)
         ]  # fmt: skip
         K[:, j] = -(at[0] - at[1]) / (2 * h)
         at = [
-            pocket(data, p, D, V=V + (s * hv * e if j < 3 else 0), axis=axis,
+            pocket(data, D, V=V + (s * hv * e if j < 3 else 0), axis=axis,
                    w=w + (s * hv * e if j >= 3 else 0), **call)[0]
             for s in (1, -1)
         ]  # fmt: skip
@@ -422,7 +418,7 @@ def test_tangent_of_the_modes_against_differences(walls, place):
         pocket=replace(CONTACTS.pocket, normal=NormalLaw(restitution=0.7)),
         side=replace(CONTACTS.side, normal=NormalLaw(restitution=0.7)),
     )
-    data, p = walls(interface(modes=smooth_modes(), soft=True), contacts)
+    data = walls(interface(modes=smooth_modes(), soft=True), contacts)
     D, axis = (
         squeeze(8e-6, side=4e-6 if place == "corner" else 0.0),
         turned(np.eye(3), [0, 3e-4, 0]),
@@ -432,7 +428,7 @@ def test_tangent_of_the_modes_against_differences(walls, place):
             "friction": laws.step_coulomb}  # fmt: skip
 
     def forces(q, qd):
-        wrench, _, work, _ = pocket(data, p, D, q=q, qd=qd, **call)
+        wrench, _, work, _ = pocket(data, D, q=q, qd=qd, **call)
         return np.concatenate([wrench, modal_force(data, work)])
 
     def check(got, columns, tolerance):
@@ -442,7 +438,7 @@ def test_tangent_of_the_modes_against_differences(walls, place):
             assert most > 0.0
             assert np.abs(got[part] - want[part]).max() < tolerance * most
 
-    tangent = pocket(data, p, D, q=q, qd=qd, mode=1, **call)[2]
+    tangent = pocket(data, D, q=q, qd=qd, mode=1, **call)[2]
     steps = 1e-10 * np.eye(5)
     check(tangent.K, [(forces(-e, qd) - forces(e, qd)) / 2e-10 for e in steps], 5e-3)
     steps = 1e-6 * np.eye(5)

@@ -16,20 +16,20 @@ from flexcage.verification.law_values import rolling
 
 @pytest.fixture(scope="module")
 def sides(build_parts):
-    """sides(clearance, profile, slices, waviness) -> inner side, outer side, law parameters."""
+    """sides(clearance, profile, slices, waviness) -> inner side, outer side."""
 
     def make(clearance=20e-6, profile="logarithmic", slices=15, law="elastic", **waviness):
         pair = PairSpec(
             normal=NormalLaw(law=law, restitution=0.7), friction=FrictionLaw(law="traction"),
             slices=slices,
         )  # fmt: skip
-        model, memory = build_parts(
+        model = build_parts(
             bearing={
                 "radial_clearance": clearance, "profile": RollerProfile(kind=profile), **waviness
             },
             contacts=Contacts(race=pair),
         )  # fmt: skip
-        return model.inner, model.outer, memory.race[0, 0]
+        return model.inner, model.outer
 
     return make
 
@@ -51,15 +51,15 @@ def state(side, name, depth=3e-6):
 @pytest.mark.parametrize("name", STATES)
 @pytest.mark.parametrize("which", [0, 1])
 def test_force_is_the_slope_of_the_energy(sides, name, which):
-    side, p = sides()[which], sides()[2]
+    side = sides()[which]
     P, axis, b = state(side, name)
-    wrench, sums, _ = race(side, p, P, axis=axis, b=b)
+    wrench, sums, _ = race(side, P, axis=axis, b=b)
     assert wrench[1] * side.sign > 10.0 and sums[0] > 10.0
     slope = np.empty(6)
     for j, h in enumerate([2e-9] * 3 + [1e-7] * 3):
         e = h * np.eye(3)[j % 3]
         energy = [
-            race(side, p, P + (s * e if j < 3 else 0), axis=axis if j < 3 else turned(axis, s * e),
+            race(side, P + (s * e if j < 3 else 0), axis=axis if j < 3 else turned(axis, s * e),
                  b=b)[1][5]
             for s in (1, -1)
         ]  # fmt: skip
@@ -70,14 +70,14 @@ def test_force_is_the_slope_of_the_energy(sides, name, which):
 
 def test_force_is_the_slope_of_the_energy_on_a_wavy_race(sides):
     """Along the race and about the ring's axis too: waves push along, not only in and out."""
-    inner, _, p = sides(inner_waviness=1e-6, inner_waviness_order=12)
+    inner, _ = sides(inner_waviness=1e-6, inner_waviness_order=12)
     P = np.array([0.0, inner.radius + 4e-3 - 3e-6, 0.0])
 
     def energy(psi, theta):
         at = [0.0, P[1] * np.cos(psi), P[1] * np.sin(psi)]
-        return race(inner, p, at, theta=theta, azimuth=0.3)[1][5]
+        return race(inner, at, theta=theta, azimuth=0.3)[1][5]
 
-    wrench = race(inner, p, P, theta=0.2, azimuth=0.3)[0]
+    wrench = race(inner, P, theta=0.2, azimuth=0.3)[0]
     h = 1e-6
     along = -(energy(h, 0.2) - energy(-h, 0.2)) / (2 * h)
     torque = -(energy(0.0, 0.2 + h) - energy(0.0, 0.2 - h)) / (2 * h)
@@ -85,9 +85,9 @@ def test_force_is_the_slope_of_the_energy_on_a_wavy_race(sides):
     assert P[1] * wrench[2] == pytest.approx(along, rel=1e-4)
     assert -P[1] * wrench[2] == pytest.approx(torque, rel=1e-4)  # the ring's reaction
     assert wrench[3] == pytest.approx(0.0, abs=1e-9)  # and nothing turns the roller
-    bump = race(inner, p, P, theta=0.3, azimuth=0.3)[1][0]  # a crest under the roller
-    flat = race(inner._replace(wave=np.zeros(2)), p, P)[1][0]
-    deeper = race(inner._replace(wave=np.zeros(2)), p, P - [0, 1e-6, 0])[1][0]
+    bump = race(inner, P, theta=0.3, azimuth=0.3)[1][0]  # a crest under the roller
+    flat = race(inner._replace(wave=np.zeros(2)), P)[1][0]
+    deeper = race(inner._replace(wave=np.zeros(2)), P - [0, 1e-6, 0])[1][0]
     assert bump == pytest.approx(deeper, rel=1e-9) and bump > flat
 
 
@@ -98,10 +98,10 @@ def spalled(build_parts):
     def make(**spall):
         pit = Spall(length=1.2e-3, azimuth=0.3, **spall)
         pair = PairSpec(normal=NormalLaw(law="elastic"), friction=FrictionLaw(law="traction"))
-        model, memory = build_parts(
+        model = build_parts(
             bearing={"inner_spall": pit, "outer_spall": pit}, contacts=Contacts(race=pair)
         )
-        return model.inner, model.outer, memory.race[0, 0]
+        return model.inner, model.outer
 
     return make
 
@@ -109,7 +109,7 @@ def spalled(build_parts):
 @pytest.mark.parametrize("which", [0, 1])
 def test_roller_axis_follows_a_circle_about_the_edge_of_a_spall(spalled, which):
     """Where the roller is free, found from two circles (race and roller) and the edge's corner."""
-    side, p = spalled(depth=300e-6)[which], spalled(depth=300e-6)[2]
+    side = spalled(depth=300e-6)[which]
     R, sign, half = side.radius, side.sign, 0.6e-3 / side.radius
     edge = R * np.array([np.cos(half), np.sin(half)])
     flat = side._replace(drop=np.zeros_like(side.drop))
@@ -120,25 +120,25 @@ def test_roller_axis_follows_a_circle_about_the_edge_of_a_spall(spalled, which):
         lift = [0.0, sign * 0.3e-6, 0.0]
         for shift, expected in ((lift, False), (np.negative(lift), True)):
             at = np.array([0.0, touching, 0.0]) + shift
-            pressed = race(flat, p, at, azimuth=0.3 + off)[1][0] > 0.0
+            pressed = race(flat, at, azimuth=0.3 + off)[1][0] > 0.0
             assert pressed == expected, (off, shift)
     pit = spalled(depth=5e-6)[which]._replace(drop=np.zeros_like(side.drop))
-    inside = race(pit, p, [0.0, R + sign * 4e-3 - sign * 6e-6, 0.0], azimuth=0.3)[1][0]
-    outside = race(pit, p, [0.0, R + sign * 4e-3 - sign * 1e-6, 0.0], azimuth=0.5)[1][0]
+    inside = race(pit, [0.0, R + sign * 4e-3 - sign * 6e-6, 0.0], azimuth=0.3)[1][0]
+    outside = race(pit, [0.0, R + sign * 4e-3 - sign * 1e-6, 0.0], azimuth=0.5)[1][0]
     assert inside == pytest.approx(outside, rel=1e-9)  # the bottom bears like the race
 
 
 @pytest.mark.parametrize("off", [-0.35e-3, 0.2e-3])
 def test_force_is_the_slope_of_the_energy_on_the_way_into_a_spall(spalled, off):
-    inner, _, p = spalled(depth=300e-6)
+    inner, _ = spalled(depth=300e-6)
     off /= inner.radius
     P = np.array([0.0, inner.radius + 4e-3 - 60e-6, 0.0])
 
     def energy(psi, theta):
         at = [0.0, P[1] * np.cos(psi), P[1] * np.sin(psi)]
-        return race(inner, p, at, theta=theta, azimuth=0.3 + off)[1][5]
+        return race(inner, at, theta=theta, azimuth=0.3 + off)[1][5]
 
-    wrench, h = race(inner, p, P, azimuth=0.3 + off)[0], 1e-6
+    wrench, h = race(inner, P, azimuth=0.3 + off)[0], 1e-6
     along = -(energy(h, 0.0) - energy(-h, 0.0)) / (2 * h)
     torque = -(energy(0.0, h) - energy(0.0, -h)) / (2 * h)
     assert np.sign(along) == -np.sign(off) and abs(along) > 1e-2  # it rolls in
@@ -165,20 +165,17 @@ MOTION = {
 @pytest.mark.parametrize("which", [0, 1])
 def test_power_of_the_wrench_is_what_the_channels_say(sides, name, which):
     """Power of the forces on both bodies = - dU/dt + damping + friction + rolling resistance."""
-    parts = sides(law="restitution")
-    side, p = parts[which], parts[2].copy()
-    p[laws.SLOT_ONSET] = 0.3
+    side = sides(law="restitution")[which]
     P, axis, b = state(side, name)
     V, w, Vr, wr = MOTION.values()
     Vr = Vr if name != "square" else np.zeros(3)
     call = {"law": laws.restitution, "friction": laws.traction}
-    wrench, sums, _ = race(side, p, P, axis=axis, b=b, V=V, w=w, Vr=Vr, wr=wr, **call)
+    wrench, sums, _ = race(side, P, axis=axis, b=b, V=V, w=w, Vr=Vr, wr=wr, **call)
     power = wrench[:3] @ (V - Vr - np.cross(wr, P)) + wrench[3:] @ (w - wr)
 
     def energy(t):
         return race(
             side,
-            p,
             P + t * (V - Vr),
             axis=turned(axis, t * w),
             b=turned(b[None], t * wr)[0],
@@ -197,15 +194,15 @@ def test_power_of_the_wrench_is_what_the_channels_say(sides, name, which):
 def test_rolling_resistance_is_one_force_on_each_surface(sides):
     """Shear F slows both surfaces; the pressure that goes with it acts through both centres."""
     for which, lever in ((0, -4e-3), (1, 4e-3)):
-        side, p = sides()[which], sides()[2]
+        side = sides()[which]
         P = state(side, "square")[0]
         # pure rolling: cage at orbit, the ring's surface and the roller's run together
         orbit = 283.7
         ring = 628.3 if which == 0 else 0.0
         spin = orbit + (ring - orbit) * side.radius / lever
         move = {"V": [0, 0, orbit * P[1]], "w": [spin, 0, 0], "wr": [ring, 0, 0]}
-        with_it, sums, _ = race(side, p, P, **move)
-        without = race(side._replace(rolling=np.zeros(2)), p, P, **move)[0]
+        with_it, sums, _ = race(side, P, **move)
+        without = race(side._replace(rolling=np.zeros(2)), P, **move)[0]
         extra = with_it - without
         entrainment = abs(ring - orbit) * side.radius
         (force,) = rolling(side.rolling, entrainment, sums[0])
@@ -220,27 +217,25 @@ def test_rolling_resistance_is_one_force_on_each_surface(sides):
 @pytest.mark.parametrize("name", STATES)
 def test_tangents_against_differences(sides, name):
     """K and C of a pair; left out: what turning the forces does, and rolling resistance."""
-    inner, _, p = sides(law="restitution")
+    inner, _ = sides(law="restitution")
     inner = inner._replace(rolling=np.zeros(2))
-    p = p.copy()
-    p[laws.SLOT_ONSET] = 0.3
     P, axis, b = state(inner, name)
     V, w = np.array([0.02, -0.03, 11.3]), np.array([-2900.0, 3.0, -5.0])
     wr = np.array([628.0, 0.0, 0.0])
     call = {"law": laws.restitution, "friction": laws.traction, "wr": wr, "b": b}
-    pair = race(inner, p, P, axis=axis, V=V, w=w, mode=1, **call)[2]
+    pair = race(inner, P, axis=axis, V=V, w=w, mode=1, **call)[2]
 
     def column(j, h, moved):
         e = h * np.eye(3)[j % 3]
         if moved:
 
             def at(s):
-                return race(inner, p, P + (s * e if j < 3 else 0), V=V, w=w,
+                return race(inner, P + (s * e if j < 3 else 0), V=V, w=w,
                             axis=axis if j < 3 else turned(axis, s * e), **call)[0]  # fmt: skip
         else:
 
             def at(s):
-                return race(inner, p, P, V=V + (s * e if j < 3 else 0), axis=axis,
+                return race(inner, P, V=V + (s * e if j < 3 else 0), axis=axis,
                             w=w + (s * e if j >= 3 else 0), **call)[0]  # fmt: skip
 
         return -(at(1) - at(-1)) / (2 * h)
@@ -255,11 +250,11 @@ def test_tangents_against_differences(sides, name):
 
 
 def test_traction_drives_the_roller_and_brakes_the_ring(sides):
-    inner, _, p = sides()
+    inner, _ = sides()
     inner = inner._replace(rolling=np.zeros(2))
     P = state(inner, "square")[0]
     slow = {"V": [0, 0, 280.0 * P[1]], "w": [-2500.0, 0, 0], "wr": [628.3, 0, 0]}
-    wrench, sums, _ = race(inner, p, P, friction=laws.traction, **slow)
+    wrench, sums, _ = race(inner, P, friction=laws.traction, **slow)
     slide = 628.3 * inner.radius - 280.0 * P[1] - 2500.0 * 4e-3
     assert sums[4] == pytest.approx(-slide, rel=2e-3)  # the roller lags behind the race
     mu = laws.friction_parameters(FrictionLaw(law="traction"))
@@ -270,25 +265,25 @@ def test_traction_drives_the_roller_and_brakes_the_ring(sides):
 
 
 def test_a_tilted_roller_carries_more_on_one_side(sides):
-    inner, _, p = sides(profile="straight")
+    inner, _ = sides(profile="straight")
     P, _, b = state(inner, "square")
     for sense in (1, -1):  # about e_psi: the +x end comes down for a negative turn
-        wrench = race(inner, p, P, axis=turned(np.eye(3), [0, 0, sense * 5e-4]))[0]
+        wrench = race(inner, P, axis=turned(np.eye(3), [0, 0, sense * 5e-4]))[0]
         assert np.sign(wrench[5]) == -sense  # the race turns it back
     # a tilt of dz over the length with the closed form of the slice law
-    s, k, n = inner.s, p[0], p[1]
+    s, k, n = inner.s, inner.normal[0], inner.normal[1]
     depth = 3e-6 - s * 5e-4
     load = np.sum(k * np.clip(depth, 0, None) ** n)
-    got = race(inner, p, P, axis=turned(np.eye(3), [0, 0, 5e-4]))[1]
+    got = race(inner, P, axis=turned(np.eye(3), [0, 0, 5e-4]))[1]
     assert got[0] == pytest.approx(load, rel=3e-4)
     moment = np.sum(k * np.clip(depth, 0, None) ** n * s)
     assert got[3] == pytest.approx(moment, rel=2e-3)
 
 
 def test_not_touching_is_nothing(sides):
-    inner, outer, p = sides()
-    assert not race(inner, p, [0, inner.radius + 4e-3 + 1e-9, 0])[0].any()
-    assert not race(outer, p, [0, outer.radius - 4e-3 - 1e-9, 0])[0].any()
+    inner, outer = sides()
+    assert not race(inner, [0, inner.radius + 4e-3 + 1e-9, 0])[0].any()
+    assert not race(outer, [0, outer.radius - 4e-3 - 1e-9, 0])[0].any()
 
 
 def test_profile_comes_from_the_bearing(sides, n1013):

@@ -18,26 +18,24 @@ FRICTION = FrictionLaw(static=0.1, dynamic=0.06)
 
 @pytest.fixture(scope="module")
 def ribs(build_parts):
-    model, memory = build_parts(contacts=Contacts(rib=PairSpec(normal=NORMAL, friction=FRICTION)))
-    p = memory.rib[0].copy()
-    p[:, laws.SLOT_ONSET] = 0.05
-    return model.rib, p
+    model = build_parts(contacts=Contacts(rib=PairSpec(normal=NORMAL, friction=FRICTION)))
+    return model.rib
 
 
 def test_ribs_touch_after_half_of_the_play(ribs):
-    data, p = ribs
+    data = ribs
     for sense, face in ((1, 0), (-1, 1)):
-        assert not rib(data, p, [sense * (PLAY - 1e-9), PITCH, 0])[0].any()
-        wrench, sums, _ = rib(data, p, [sense * (PLAY + 1e-6), PITCH, 0])
+        assert not rib(data, [sense * (PLAY - 1e-9), PITCH, 0])[0].any()
+        wrench, sums, _ = rib(data, [sense * (PLAY + 1e-6), PITCH, 0])
         assert sums[face] > 1.0 and wrench[0] == pytest.approx(-sense * sums[face])
         assert sums[1 - face] == 0.0
 
 
 def test_a_skewed_roller_is_turned_back(ribs):
-    data, p = ribs
+    data = ribs
     for sense in (1, -1):  # about e_r: the ends' edges meet opposite ribs
         skew = turned(np.eye(3), [0, sense * 1.3e-2, 0])
-        wrench, sums, _ = rib(data, p, [0.0, PITCH, 0.0], axis=skew)
+        wrench, sums, _ = rib(data, [0.0, PITCH, 0.0], axis=skew)
         assert sums[0] > 1.0 and sums[0] == pytest.approx(sums[1], rel=1e-6)
         assert np.sign(wrench[4]) == -sense
 
@@ -48,10 +46,10 @@ def test_a_skewed_roller_is_turned_back(ribs):
      (-9e-6, [0, 6e-3, 2e-3], [0, 1e-3, -1.5e-3])],
 )  # fmt: skip
 def test_rib_energy_and_power(ribs, shift, turn, ring):
-    data, p = ribs
+    data = ribs
     axis, b = turned(np.eye(3), turn), turned(np.eye(3), ring)[0]
     P = np.array([np.copysign(PLAY, shift) + shift, PITCH, 2e-5])
-    still = rib(data, p, P, axis=axis, b=b)
+    still = rib(data, P, axis=axis, b=b)
     scale = np.abs(still[0]).max()
     assert still[1][:2].sum() > 1.0
     for j in range(6):
@@ -62,7 +60,7 @@ def test_rib_energy_and_power(ribs, shift, turn, ring):
         elif j == 2:
             continue  # the frame turns with the orbit: in the power, below
         at = [
-            rib(data, p, P + (s * e if j < 3 else 0), b=b,
+            rib(data, P + (s * e if j < 3 else 0), b=b,
                 axis=axis if j < 3 else turned(axis, s * e))[1][2]
             for s in (1, -1)
         ]  # fmt: skip
@@ -71,14 +69,14 @@ def test_rib_energy_and_power(ribs, shift, turn, ring):
     V, w = np.array([np.copysign(0.02, shift), -0.03, 11.0]), np.array([-2900.0, 3.0, -5.0])
     Vr, wr = np.array([0.001, 0.002, -0.01]), np.array([628.0, -0.5, 0.2])
     call = {"law": laws.restitution, "friction": laws.step_coulomb}
-    wrench, sums, _ = rib(data, p, P, axis=axis, b=b, V=V, w=w, Vr=Vr, wr=wr, **call)
+    wrench, sums, _ = rib(data, P, axis=axis, b=b, V=V, w=w, Vr=Vr, wr=wr, **call)
     power = wrench[:3] @ (V - Vr - np.cross(wr, P)) + wrench[3:] @ (w - wr)
     # the kernel's points orbit with the roller, they do not spin; its b does not spin either
     orbit = (V - Vr - np.cross(wr, P))[2] / P[1] + wr @ axis[0]
     frame, tip = w + (orbit - w @ axis[0]) * axis[0], wr - (wr @ b) * b
 
     def energy(t):
-        return rib(data, p, P + t * (V - Vr), axis=turned(axis, t * frame),
+        return rib(data, P + t * (V - Vr), axis=turned(axis, t * frame),
                    b=turned(b[None], t * tip)[0], **call)[1][2]  # fmt: skip
 
     h = 1e-10
@@ -107,13 +105,11 @@ def dry_land(request, build_parts):
         modes=np.zeros((22, 4, 3, 3, 3)), residual=np.zeros((22, 4, 3, 12)),
         compliance=np.zeros((22, 12, 12)), patch_half_width=1.9e-3, land=land_modes(),
     )  # fmt: skip
-    model, memory = build_parts(
+    model = build_parts(
         interface=itf, cage={"guidance": request.param},
         contacts=Contacts(land=LandSpec(kind="dry", normal=NORMAL, friction=FRICTION)),
     )  # fmt: skip
-    p = memory.land.copy()
-    p[:, laws.SLOT_ONSET] = 0.05
-    return model.land, p
+    return model.land
 
 
 def pressed(data, depth=4e-6):
@@ -123,28 +119,26 @@ def pressed(data, depth=4e-6):
 
 
 def test_land_touches_after_its_clearance(dry_land):
-    data, p = dry_land
+    data = dry_land
     quiet = np.zeros(3)
-    assert not land(data, p, pressed(data, -1e-8), q=quiet, qd=quiet)[0].any()
-    Fc = land(data, p, pressed(data), q=quiet, qd=quiet)[0]
+    assert not land(data, pressed(data, -1e-8), q=quiet, qd=quiet)[0].any()
+    Fc = land(data, pressed(data), q=quiet, qd=quiet)[0]
     towards = pressed(data) / np.linalg.norm(pressed(data))
     assert Fc @ towards < -10.0 and np.abs(Fc + (-Fc @ towards) * towards).max() < 1e-3 * abs(
         Fc @ towards
     )
     oval = np.array([0.0, -data.inner * (data.clearance + 2e-6), 0.0])  # touches at 0 and 180 deg
-    work = land(data, p, np.zeros(3), q=oval, qd=quiet)
+    work = land(data, np.zeros(3), q=oval, qd=quiet)
     assert work[2][1] * oval[1] < 0.0 and np.abs(work[0]).max() < 1e-6 * abs(work[2][1])
 
 
 def test_a_cage_that_rolls_on_its_land_does_not_feel_the_stations_pass(dry_land):
     """Between two of the 24 stations it touches as deep as at one, to 2e-4 of the clearance (the
     polygon of the stations themselves leaves 9e-3)."""
-    data, p = dry_land
+    data = dry_land
     quiet, size = np.zeros(3), data.clearance + 4e-6
     forces = [
-        -land(data, p, size * Y, A=Rotation.from_rotvec([a, 0, 0]).as_matrix(), q=quiet, qd=quiet)[
-            0
-        ]
+        -land(data, size * Y, A=Rotation.from_rotvec([a, 0, 0]).as_matrix(), q=quiet, qd=quiet)[0]
         @ Y
         for a in np.linspace(0.0, 2.0 * np.pi / 24, 25)
     ]
@@ -153,7 +147,7 @@ def test_a_cage_that_rolls_on_its_land_does_not_feel_the_stations_pass(dry_land)
 
 
 def test_land_energy_power_and_third_law(dry_land):
-    data, p = dry_land
+    data = dry_land
     A = Rotation.from_rotvec([0.02, 2e-4, -3e-4]).as_matrix()
     Rr, Rc = np.array([2e-5, 1e-5, -2e-5]), pressed(data, 8e-6) + [3e-5, 1e-5, -2e-5]
     q, qd = np.array([1e-6, -2e-6, 1e-6]), np.array([2e-3, 5e-3, -4e-3])
@@ -161,7 +155,7 @@ def test_land_energy_power_and_third_law(dry_land):
     w, spin = np.array([283.0, 0.4, -0.3]), 628.0
     call = {"law": laws.restitution, "friction": laws.step_coulomb}
     Fc, Mc, Qm, Fr, Mr, sums = land(
-        data, p, Rc, A=A, Vc=Vc, w=w, q=q, qd=qd, Rr=Rr, Vr=Vr, spin=spin, **call
+        data, Rc, A=A, Vc=Vc, w=w, q=q, qd=qd, Rr=Rr, Vr=Vr, spin=spin, **call
     )
     assert np.abs(Fc).max() > 10.0
     np.testing.assert_allclose(Fc + Fr, 0.0, atol=1e-12 * np.abs(Fc).max())
@@ -171,9 +165,9 @@ def test_land_energy_power_and_third_law(dry_land):
     # a turn about the axis of a ring of discrete stations is left out: only the rate, in power
     def energy(R=Rc, rotation=(0, 0, 0), modes=q, ring=Rr):
         turn = Rotation.from_rotvec(rotation).as_matrix()
-        return land(data, p, R, A=turn @ A, q=modes, qd=0 * qd, Rr=ring)[5][0]
+        return land(data, R, A=turn @ A, q=modes, qd=0 * qd, Rr=ring)[5][0]
 
-    still = land(data, p, Rc, A=A, q=q, qd=0 * qd, Rr=Rr)
+    still = land(data, Rc, A=A, q=q, qd=0 * qd, Rr=Rr)
     for j in range(1, 3):
         e = 1e-10 * np.eye(3)[j]
         assert -(energy(Rc + e) - energy(Rc - e)) / 2e-10 == pytest.approx(still[0][j], rel=1e-4)
@@ -195,25 +189,23 @@ def test_land_energy_power_and_third_law(dry_land):
 
 
 def test_dry_land_friction_drags_towards_the_ring(dry_land):
-    data, p = dry_land
+    data = dry_land
     still = np.zeros(3)
     for spin in (600.0, 0.0):
-        out = land(data, p, pressed(data), q=still, qd=still, w=np.array([283.0, 0, 0]), spin=spin,
+        out = land(data, pressed(data), q=still, qd=still, w=np.array([283.0, 0, 0]), spin=spin,
                    friction=laws.step_coulomb)  # fmt: skip
         assert np.sign(out[1][0]) == np.sign(spin - 283.0)
 
 
 @pytest.mark.parametrize("guidance", ["inner", "outer"])
 def test_film_third_law_and_power(build_parts, guidance):
-    model, memory = build_parts(
-        cage={"guidance": guidance}, contacts=Contacts(land=LandSpec(kind="film"))
-    )
-    data, p = model.land, memory.land
+    model = build_parts(cage={"guidance": guidance}, contacts=Contacts(land=LandSpec(kind="film")))
+    data = model.land
     A = Rotation.from_rotvec([0.3, 2e-3, -3e-3]).as_matrix()
     Rr, Rc = np.array([0.0, 1e-5, -2e-5]), np.array([1e-4, 9e-5, 4e-5])
     Vc, Vr = np.array([0.0, 0.03, 0.05]), np.array([0.0, 0.01, -0.01])
     w, spin = np.array([283.0, 2.0, -3.0]), 628.0 if guidance == "inner" else 0.0
-    Fc, Mc, _, Fr, Mr, sums = land(data, p, Rc, A=A, Vc=Vc, w=w, Rr=Rr, Vr=Vr, spin=spin)
+    Fc, Mc, _, Fr, Mr, sums = land(data, Rc, A=A, Vc=Vc, w=w, Rr=Rr, Vr=Vr, spin=spin)
     assert np.abs(Fc).max() > 1e-4
     np.testing.assert_allclose(Fc + Fr, 0.0, atol=1e-12 * np.abs(Fc).max())
     moment = Mc + np.cross(Rc, Fc) + Mr + np.cross(Rr, Fr)

@@ -44,16 +44,16 @@ def spring(n, d, v, onset, p, F, Fe, Fd, Fv):
         F[i] = Fe[i] = Fd[i] = Fv[i] = 0.0
         if d[i] > 0.0:
             Fe[i] = p[0] * d[i]
-            share = min(d[i] / p[4], 1.0)
+            share = min(d[i] / p[3], 1.0)
             force = p[0] * (d[i] + p[2] * share * v[i])
             if force > 0.0:
                 F[i] = force
-                Fd[i] = p[0] * (1.0 + (p[2] * v[i] / p[4] if d[i] < p[4] else 0.0))
+                Fd[i] = p[0] * (1.0 + (p[2] * v[i] / p[3] if d[i] < p[3] else 0.0))
                 Fv[i] = p[0] * p[2] * share
 
 
 register_normal(
-    "spring", spring, spec=Spring, parameters=lambda s, k, n: (s.stiffness, 1.0, s.loss, 0.0, 1e-7)
+    "spring", spring, spec=Spring, parameters=lambda s, k, n: (s.stiffness, 1.0, s.loss, 1e-7)
 )
 
 # ----------------------------------------------------------------------------- a friction law

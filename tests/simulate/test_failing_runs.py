@@ -47,10 +47,10 @@ def kept(recorder, until):
 
 
 def test_a_value_that_is_no_number(recorder):
-    memory = recorder.bearing.data.memory.race
+    normal = recorder.bearing.data.model.outer.normal
 
     def harm():
-        memory[:, 1, 0] = np.nan
+        normal[0] = np.nan
 
     with pytest.raises(RunFailed, match=r"t = 1\.00.* ms: .*roller \d+ on its outer race with nan"):
         recorder.march(Broken(harm))
@@ -62,7 +62,7 @@ def test_a_race_that_gives_way(recorder):
     bearing = recorder.bearing
 
     def harm():
-        bearing.data.memory.race[:, 0, 0] = 1.0
+        bearing.data.model.inner.normal[0] = 1.0
 
     with pytest.raises(RunFailed, match=r"roller \d+ lies 1 mm deep in its inner race at") as said:
         recorder.march(Broken(harm))

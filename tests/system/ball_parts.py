@@ -71,12 +71,12 @@ def ball_bearing(
     if change is not None:
         change(interface)
     contacts = contacts or contacts_of()
-    model, memory = build_model(
+    model = build_model(
         preset.bearing, cage, body, interface, contacts=contacts, lubricant=lubricant,
         drive=Drive(speed=speed), load=load or Load(gravity=0.0, tilt="free"),
         mount=mount or Mount(),
     )  # fmt: skip
-    return Bearing(model, memory, contacts, Layout(preset.bearing.ball_count, body.modes))
+    return Bearing(model, contacts, Layout(preset.bearing.ball_count, body.modes))
 
 
 def pressed(bearing, *, seed=0, push=0.28e-3):

@@ -16,9 +16,9 @@ from flexcage.system.spec import Drive, Mount
 from flexcage.system.start import geometric_guess, rolling_velocities
 
 
-def assembled(model, memory, contacts) -> Bearing:
+def assembled(model, contacts) -> Bearing:
     layout = Layout(len(model.bodies.radius), model.cage.mff.shape[0])
-    return Bearing(model, memory, contacts, layout)
+    return Bearing(model, contacts, layout)
 
 
 def rolling_start(bearing):

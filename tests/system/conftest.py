@@ -17,6 +17,6 @@ def bearing_of(build_parts):
         contacts = contacts or Contacts()
         if flexible is not None:
             specs["body"], specs["interface"] = flexible_cage(**flexible)
-        return assembled(*build_parts(contacts=contacts, **specs), contacts)
+        return assembled(build_parts(contacts=contacts, **specs), contacts)
 
     return make

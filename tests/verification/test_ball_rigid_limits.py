@@ -74,10 +74,11 @@ def frozen_and_rigid():
     specs = {k: getattr(case, k) for k in ("contacts", "lubricant", "drive", "load", "mount")}
 
     def bearing(body, interface):
-        model, memory = build_model(case.bearing, case.cage, body, interface, **specs)
-        for law in memory:
-            law[..., 3] = 0.3  # the same onset speeds
-        return Bearing(model, memory, case.contacts, Layout(18, body.modes))
+        model = build_model(case.bearing, case.cage, body, interface, **specs)
+        bearing = Bearing(model, case.contacts, Layout(18, body.modes))
+        for speeds in bearing.data.memory[:4]:
+            speeds[...] = 0.3  # at which contacts closed
+        return bearing
 
     ratios = np.ones(cage.basis.size)
     soft = flexible_from_basis(cage.model.nodes, cage.model.mass_scalar, cage.basis, ratios)

@@ -147,7 +147,7 @@ def law(cage_model: str, **cage) -> tuple[float, float]:
     case = CASE.replace("cage.model", cage_model)
     for name, value in cage.items():
         case = case.replace(f"cage.material.{name}", value)
-    K, n = bearing_of(case).data.memory.pocket[0, 0, :2]
+    K, n = bearing_of(case).data.model.pocket.normal[0, :2]
     return K * case.contacts.pocket.slices, n
 
 

@@ -74,7 +74,7 @@ def wall_of(case, bearing, cage, pocket, faces) -> Squeeze:
     # crossbeam 5 is the front of pocket 4; the side beam pushed is that at +x
     offset = np.zeros((2, len(along)))
     offset[0] = curve * (-defect.displacement if faces[0] == 0 else defect.displacement)
-    law = bearing.data.memory.pocket[pocket, list(faces), :2]
+    law = bearing.data.model.pocket.normal[[f // 2 for f in faces], :2]
     return Squeeze(depth=0.5 * (size - gap) - drop - offset, spread=spread, law=law)
 
 

@@ -90,7 +90,7 @@ def peak_by_hand(case) -> float:
     """
     bearing = bearing_of(case)
     model = bearing.data.model
-    K, n = bearing.data.memory.pocket[0, 0, :2]  # of one slice
+    K, n = bearing.data.model.pocket.normal[0, :2]  # of one slice
     drop = model.pocket.drop - model.pocket.drop.min()
     stations = model.pocket.x0[0] + model.pocket.dx[0] * np.arange(model.pocket.phi.shape[2])
     spread = station_reading(stations, model.pocket.s)

@@ -79,18 +79,18 @@ def frozen_and_rigid():
     }
 
     def bearing(body, interface, pocket_law=None):
-        model, memory = build_model(case.bearing, case.cage, body, interface, **parts)
+        model = build_model(case.bearing, case.cage, body, interface, **parts)
         if pocket_law is not None:
-            memory.pocket[:] = pocket_law
+            model.pocket.normal[:] = pocket_law
         layout = Layout(case.bearing.roller_count, body.modes)
-        return Bearing(model, memory, case.contacts, layout)
+        return Bearing(model, case.contacts, layout)
 
     interface = replace(cage.interface, compliance=np.zeros_like(cage.interface.compliance))
     frozen = bearing(flexible, interface)
     rigid = bearing(
         rigid_from_tets(mesh.points, mesh.tets, case.cage.material.density),
         rigid_interface(case.cage, pocket_count=case.bearing.roller_count, defects=case.defects),
-        frozen.data.memory.pocket,
+        frozen.data.model.pocket.normal,
     )
     return case, frozen, rigid
 
@@ -137,7 +137,7 @@ def test_modes_frozen_by_stiffness_run_as_the_rigid_cage(frozen_and_rigid):
         model = bearing.data.model._replace(
             cage=body._replace(kff=1e10 * body.kff, dff=1e5 * body.dff)
         )
-        one = Bearing(model, bearing.data.memory, case.contacts, bearing.layout,
+        one = Bearing(model, case.contacts, bearing.layout,
                       block=case.output.block, stride=case.output.vibration_ratio)  # fmt: skip
         start = _start(one)
         datasets.append(march(case, one, *start))
@@ -149,8 +149,8 @@ def test_modes_frozen_by_stiffness_run_as_the_rigid_cage(frozen_and_rigid):
 
 
 def _set_onset_speeds(bearing: Bearing, speed: float) -> None:
-    for law in bearing.data.memory:
-        law[..., 3] = speed
+    for speeds in bearing.data.memory[:4]:
+        speeds[...] = speed
 
 
 def _start(bearing: Bearing) -> tuple[np.ndarray, np.ndarray]:

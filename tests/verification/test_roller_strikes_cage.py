@@ -100,7 +100,7 @@ def full_mesh():
         station_rows(cage, 0, 0),
         spread,
         pocket.drop,
-        bearing.data.memory.pocket[0, 0, :2],
+        bearing.data.model.pocket.normal[0, :2],
         mass=case.bearing.roller_mass,
         step=1e-6,
     )

@@ -59,7 +59,8 @@ def impact_rows() -> Iterator[Row]:
         back = -float(ds["ball_velocity"].sel(cyl="r").min())  # before it meets the inner race
         yield Row(f"restitution {e:g}: speed back", "m/s", e * SPEED, back, STEPS)
         if e == 1.0:
-            K, mass = bearing.data.memory.race[0, 1, 0], bearing.data.model.bodies.element[0]
+            model = bearing.data.model
+            K, mass = model.outer.normal[0], model.bodies.element[0]
             depth = (1.25 * mass * SPEED**2 / K) ** 0.4
             force = ds["contact_force"].sel(race="outer").values
             yield Row("elastic: largest force", "N", K * depth**1.5, float(force.max()), STEPS)

@@ -51,7 +51,7 @@ def _orbit(bearing, y: np.ndarray, expected: tuple[float, ...], wanted: float) -
     """Orbital speed at the start with which balls, pushed out, arrive at the one ``wanted``."""
     model = bearing.data.model
     angle, force = np.radians(expected[1]), expected[3]
-    depth = (force / bearing.data.memory.race[0, 1, 0]) ** (2.0 / 3.0)
+    depth = (force / model.outer.normal[0]) ** (2.0 / 3.0)
     reach = model.outer.radius - model.bodies.radius[0] + depth
     there = model.outer.centre + reach * np.cos(angle)
     return float(wanted * (there / bearing.layout.q(y)["rollers"][0, 1]) ** 2)

@@ -84,7 +84,7 @@ class PushingBalls:
         """y and y' for a ball's radius [m], orbital speed and spin [rad/s] about x."""
         radius, orbit, spin = unknown
         model, layout = self.bearing.data.model, self.bearing.layout
-        hertz = self.bearing.data.memory.pocket[0, 0, 0]
+        hertz = model.pocket.normal[0, 0]
         depth = (STIFFNESS / (1.5 * hertz)) ** 2  # where the contact is as stiff as wanted
         ahead = model.pocket.radius[0] - model.bodies.radius[0] + depth
         y, yd = np.zeros(layout.size), np.zeros(layout.size)

@@ -41,12 +41,11 @@ def rows() -> Iterator[Row]:
         for (k, n, mass), body in ((BALL, "ball"), (ROLLER, "roller")):
             p = laws.normal_parameters(NormalLaw(law="restitution", restitution=e), k, n)
             for speed in (0.06, 0.5):
-                p[laws.SLOT_ONSET] = speed
                 found = strike(laws.restitution, p, mass, speed).restitution
                 yield Row(f"e = {e}, {body} at {speed} m/s", "", e, found, EXACT)
         for (author, relation), expected in zip(RELATIONS.items(), others):
             p = laws.normal_parameters(NormalLaw(law="restitution"), *BALL[:2])
-            p[2], p[laws.SLOT_ONSET] = relation(e), 0.3
+            p[2] = relation(e)
             found = strike(laws.restitution, p, BALL[2], 0.3).restitution
             yield Row(f"e by {author} for {e}", "", expected, found, PRINTED)
 
