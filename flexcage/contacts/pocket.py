@@ -128,7 +128,7 @@ def _face(pose, data, i, f, Rw, distance, rel, spin, qd, onset, laws, sl, pw, pa
     spread_over_stations(span, f, face, sl, pw)
     give_stations(f, pw)
     if mode == 1:
-        add_tangent(pose, data, f, i, Rw, distance, sl, pw)
+        add_tangent(pose, data, i, f, Rw, distance, sl, pw)
     elif mode >= 2:
         if f < 2 and mode == 2:
             for k in range(span[0], span[1]):

@@ -15,7 +15,7 @@ from flexcage.core.jit import VECTORISED, outlined, part, zero
 
 
 @outlined
-def add_tangent(pose, data, f, i, Rw, distance, sl, pw):
+def add_tangent(pose, data, i, f, Rw, distance, sl, pw):
     """Add the touched slices of face f of pocket i to ``pw.K`` and ``pw.C``.
 
     ``pw.h`` holds the slopes of the elastic forces, which alone move the residual coordinates.
@@ -52,7 +52,7 @@ def _add_modes(data, i, f, k, face, gen):
     sgn = 1.0 if f % 2 == 0 else -1.0
     n_st, n_m, slope = data.phi.shape[2], data.phi.shape[4], face.slope[k]
     across, along = (2, 0) if f < 2 else (0, 2)
-    t1, t2 = (0, 1) if f < 2 else (1, 2)
+    one, two = (0, 1) if f < 2 else (1, 2)
     for g in range(3):
         for m in range(n_m):
             gen[g, 6 + m] = 0.0
@@ -61,8 +61,8 @@ def _add_modes(data, i, f, k, face, gen):
         w, shape = station_weight(face, k, n_st, s), data.phi[i, f, s]
         for m in range(n_m):
             gen[0, 6 + m] += w * (sgn * shape[across, m] - slope * shape[along, m])
-            gen[1, 6 + m] -= w * shape[t1, m]
-            gen[2, 6 + m] -= w * shape[t2, m]
+            gen[1, 6 + m] -= w * shape[one, m]
+            gen[2, 6 + m] -= w * shape[two, m]
 
 
 @part(fastmath=VECTORISED)
