@@ -197,7 +197,7 @@ def _audit(results: StudyResults) -> str:
     ]
     return f"The energy of a case closes to {100 * within:.3f} % of the drive's work or better." + (
         f" Left out, as if not computed, because theirs does not close to "
-        f"{100 * OF_DRIVE:g} % at the tolerance of a shortened pocket: {'; '.join(beyond)}."
+        f"{100 * OF_DRIVE:g} %: {'; '.join(beyond)}."
         if beyond
         else ""
     )

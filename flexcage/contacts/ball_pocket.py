@@ -66,9 +66,10 @@ def pocket_wall_contact(
 
     D: ball centre from the cage's origin; v: its velocity less that of the cage's body there; spin:
     the difference of angular velocities; all in the ball's frame, as are the rows of ``pw.G``.
-    q, qd: modal coordinates and rates, ``margin``: a bound of the wall's motion. From mode 2 on
-    ``sums``: elastic energy, power of damping and friction, direction of the contact from +psi
-    towards +x, and the speed at which ball and wall approach.
+    q, qd: modal coordinates and rates, ``margin``: a bound of the wall's motion, ``onset``: the
+    speed at which the contact closed. From mode 2 on ``sums``: elastic energy, power of damping and
+    friction, direction of the contact from +psi towards +x, and the speed at which ball and wall
+    approach.
     """
     pw.normal[0] = pw.tangential[0] = 0.0
     if mode >= 2:

@@ -31,7 +31,7 @@ class LandData(NamedTuple):
     phi: np.ndarray  # (nl, 3, nm) modes at the stations: (x, r, psi)
     phi_max: np.ndarray  # (nm,)
     normal: np.ndarray  # (N_NORMAL,)
-    friction: np.ndarray  # (5,)
+    friction: np.ndarray  # (N_FRICTION,)
     film: np.ndarray  # (4,) eta, L, R, C
 
 

@@ -16,31 +16,34 @@ from flexcage.core.jit import VECTORISED, outlined, part, zero
 
 @outlined
 def add_tangent(pose, data, i, f, Rw, distance, sl, pw):
-    """Add the touched slices of face f of pocket i to ``pw.K`` and ``pw.C``.
+    """Add the slices of face f of pocket i to ``pw.K`` and ``pw.C``.
 
-    ``pw.h`` holds the slopes of the elastic forces, which alone move the residual coordinates.
+    ``pw.h`` holds the slopes of the elastic forces. They alone move the residual coordinates, and
+    are there as well where damping holds back all force.
     """
     n, e1, e2 = axes_of_face(pw, f)
     normal, first, second, whole = pw.gen[0], pw.gen[1], pw.gen[2], pw.gen[3]
     moving = 6 + data.phi.shape[4]  # what has a velocity: residual coordinates follow at once
-    local = pw.size[0] if data.soft != 0 else 0
+    size = moving + (pw.size[0] if data.soft != 0 else 0)
     span = span_of(pw, f)
     for k in range(span[0], span[1]):
         N, g, t1, t2 = sl.N[k], sl.g[k], sl.t1[k], sl.t2[k]
-        if N <= 0.0:
+        elastic = pw.h[k] if data.soft != 0 else 0.0
+        if N <= 0.0 and elastic <= 0.0:
             continue
         r = lever_of_slice(pose, data, Rw, f, k, pw)
         normal_generator(pose, data, distance, f, k, n, r, pw, normal)
         add_generator(e1, r, first)
         add_generator(e2, r, second)
         _add_modes(data, i, f, k, pw.face[f], pw.gen)
+        for l in range(size - moving):
+            normal[moving + l] = pw.face[f].R[l, k]
+        _add_product(moving, size, elastic, normal, normal, size, pw.K)
+        if N <= 0.0:
+            continue
         for c in range(moving):
             whole[c] = normal[c] - g * (t1 * first[c] + t2 * second[c])
-        elastic = pw.h[k] / sl.Nd[k] if sl.Nd[k] != 0.0 else 0.0
-        for l in range(local):
-            normal[moving + l] = pw.face[f].R[l, k]
-            whole[moving + l] = elastic * normal[moving + l]
-        _add_product(moving + local, sl.Nd[k], whole, normal, pw.K)
+        _add_product(0, moving, sl.Nd[k], whole, normal, size, pw.K)
         h = sl.dg[k] / sl.u[k] if sl.u[k] > 1e-12 else 0.0
         friction = (N * (g + h * t1 * t1), N * h * t1 * t2, N * (g + h * t2 * t2))
         _add_damping(moving, sl.Nv[k], friction, pw.gen, pw.C)
@@ -66,9 +69,9 @@ def _add_modes(data, i, f, k, face, gen):
 
 
 @part(fastmath=VECTORISED)
-def _add_product(n, scale, a, b, M):
-    """M += scale a b^T for the first n coordinates."""
-    for c in range(n):
+def _add_product(first, end, scale, a, b, n, M):
+    """M += scale a b^T in rows ``first`` to before ``end`` and n columns."""
+    for c in range(first, end):
         x = scale * a[c]
         for e in range(n):
             M[c, e] += x * b[e]

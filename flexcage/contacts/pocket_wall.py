@@ -51,7 +51,7 @@ class PocketData(NamedTuple):
     turn: np.ndarray  # (Z, 4, 6, 12) those coordinates from the pocket's
     root: np.ndarray  # (Z, 12, 12) residual coordinates of the modal basis from those of the shapes
     normal: np.ndarray  # (2, N_NORMAL) of a slice of crossbeams, a point of side beams
-    friction: np.ndarray  # (2, 5) likewise
+    friction: np.ndarray  # (2, N_FRICTION) likewise
 
 
 FACE = np.dtype(
@@ -99,9 +99,9 @@ class PocketWork(NamedTuple):
     g: np.ndarray  # (12,) right-hand side of the condensation
     A: np.ndarray  # (12, 12) 1 + R^T H R, then its factors
     h: np.ndarray  # (ROOM,) products; slopes of the elastic forces for the tangent
-    gen: np.ndarray  # (4, 18 + n) generators of a slice: normal, two tangents, all of its force
-    K: np.ndarray  # (18 + n, 18 + n) stiffness of the pocket: roller, n modes, residual coordinates
-    C: np.ndarray  # (18 + n, 18 + n) damping, without the latter
+    gen: np.ndarray  # (4, n) generators of a slice: normal, two tangents, all of its force
+    K: np.ndarray  # (n, n) stiffness of the pocket: roller 6, modes, residual coordinates 12
+    C: np.ndarray  # (n, n) damping, zero for residual coordinates
 
 
 def pocket_work(n_slices: int, n_stations: int, n_modes: int) -> PocketWork:

@@ -37,7 +37,7 @@ class RaceSide(NamedTuple):
     s: np.ndarray  # (ns,) slice positions along the roller
     drop: np.ndarray  # (ns,) profile
     normal: np.ndarray  # (N_NORMAL,) normal law of a slice
-    friction: np.ndarray  # (5,)
+    friction: np.ndarray  # (N_FRICTION,)
     rolling: np.ndarray  # (2,) rolling resistance
     hydro: float  # 2 R/Rw: pressure share of the rolling resistance
     wave: np.ndarray  # (2,) waviness: amplitude and order

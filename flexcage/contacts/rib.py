@@ -30,13 +30,14 @@ class RibData(NamedTuple):
     half_roller: float
     points: np.ndarray  # (np, 2) points of the end face along the transverse axes
     normal: np.ndarray  # (N_NORMAL,) normal law of a point
-    friction: np.ndarray  # (5,)
+    friction: np.ndarray  # (N_FRICTION,)
 
 
 @part
 def rib_contact(pose, data, P, b, Vr, wr, onset, laws, sl, pair, mode, sums):
-    """Wrench on the roller from both ribs (0: +x, 1: -x), as ``race_contact``; their onset
-    speeds (2,).
+    """Wrench on the roller from both ribs (0: +x, 1: -x), met at speeds ``onset`` (2,).
+
+    P, b, Vr, wr: roller's centre from the ring's, ring's axis, velocity and spin.
 
     ``sums``: normal at +x and -x, elastic energy, damping power, friction power.
     """

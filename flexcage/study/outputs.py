@@ -95,6 +95,13 @@ class Reduction:
             places = counted(label)
             if places is None:
                 array = array.sel({along: label})
+            elif places[1] > array.sizes[along]:
+                raise InputError(
+                    f"'{name}' has {array.sizes[along]} places along '{along}', counted from 0; "
+                    f"'{label}' goes beyond.",
+                    where="outputs",
+                    value=label,
+                )
             else:
                 array = array.isel({along: places[0] if ":" not in label else slice(*places)})
         values, t = array.transpose(dim, ...).values, array[dim].values
@@ -219,7 +226,10 @@ def check_outputs(
             for dim, label in reduction.selection.items():
                 places = counted(label)
                 if places is not None and places[1] > sizes.get(dim, places[1]):
-                    raise InputError(f"Output '{name}': the {dim}s count to {sizes[dim] - 1}.")
+                    raise InputError(
+                        f"Output '{name}': the {dim}s count from 0 to {sizes[dim] - 1}, and a "
+                        "range ends before its last number."
+                    )
         else:
             needs = name in FLEXIBLE_FIGURES or LATE_FIGURES.get(name) is _fatigue
             _check_figure(name)

@@ -109,7 +109,7 @@ class Settled:
         return nudged.error(plain)[1]
 
     def restore(self) -> tuple[np.ndarray, np.ndarray]:
-        """Put law memory and contact flags back; y and y' of the stored state."""
+        """Put contacts' memory and flags back; y and y' of the stored state."""
         for name, array in self.bearing.data.memory._asdict().items():
             array[...] = self.stored[f"memory_{name}"]
         self.bearing.data.events.closed[...] = self.stored["closed"]

@@ -93,7 +93,7 @@ def test_force_is_the_slope_of_the_energy_on_a_wavy_race(sides):
 
 @pytest.fixture(scope="module")
 def spalled(build_parts):
-    """spalled(**spall) -> inner side with a spall, outer side with the same, law parameters."""
+    """spalled(**spall) -> inner side with a spall, outer side with the same."""
 
     def make(**spall):
         pit = Spall(length=1.2e-3, azimuth=0.3, **spall)

@@ -191,6 +191,8 @@ def test_parts_of_a_counted_dimension_make_up_the_whole():
     )
     assert (one + 8 * two + 13 * rest) / 22 == pytest.approx(whole, rel=1e-12)
     assert whole != pytest.approx(two, rel=1e-2)
+    with pytest.raises(InputError, match="has 22 places along 'roller'"):
+        parse_reduction("race_force[race=outer,roller=20:23].mean").of(run)
 
 
 def test_a_push_moves_the_cage_at_its_speed_in_a_direction_of_its_seed():

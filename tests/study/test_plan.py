@@ -184,10 +184,10 @@ def test_mistakes_in_the_file(name, tmp_path, capsys):
         (("pocket_force.maximum",), "'max'"),
         (("pocket_force[fase=front].max",), "'face'"),
         (("pocket_force[face=frontal].max",), "'front'"),
-        (("pocket_force[pocket=22].max",), "pockets count to 21"),
+        (("pocket_force[pocket=22].max",), "pockets count from 0 to 21"),
         (("pocket_force[pocket=3:3].max",), "pocket=3:6"),
-        (("pocket_force[pocket=20:23].max",), "pockets count to 21"),
-        (("pocket_slice_force[slice=64].max",), "slices count to 63"),
+        (("pocket_force[pocket=20:23].max",), "pockets count from 0 to 21"),
+        (("pocket_slice_force[slice=64].max",), "slices count from 0 to 63"),
         (("roller_omega[roller=3:5,spin_axis=axial].frequency",), "one series; say which roller"),
         (("roller_omega[roller=first].mean",), "counted from 0"),
         (("contact_angle.mean",), "is of balls, but the study's bearings have rollers"),
@@ -209,7 +209,7 @@ def test_outputs_of_a_study_of_ball_bearings():
     for wrong, words in (
         ("roller_spin", "is of rollers, but the study's bearings have balls"),
         ("roller_slip_ratio.mean", "is of rollers"),
-        ("contact_force[ball=18].max", "the balls count to 17"),
+        ("contact_force[ball=18].max", "the balls count from 0 to 17"),
     ):
         with pytest.raises(InputError, match=words):
             make_plan(Study(case=case, outputs=(wrong,)))

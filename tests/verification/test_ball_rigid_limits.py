@@ -22,7 +22,6 @@ THROWN = {  # against balls of different load; trajectories part soon after
     "start.push": "300 mm/s",
     "solver.duration": "1 ms",
     "solver.tolerance": "0.0003 um",
-    "solver.stable_step": "0.001 us",
     "output.rate": "200 kHz",
     "output.vibration_rate": "200 kHz",
 }
