@@ -5,6 +5,7 @@
     cases/<hash>/         a finished case: its run, and row.json with its figures
     cases/<hash>.part/    a case that is running, or was when its process ended
     failed/<hash>.json    why a case has no figures
+    running.lock          held by the process that runs it
 
 A case's folder gets its name by one rename, once all in it is on disk, so a name without ``.part``
 is a finished case. ``cases`` is one Zarr store, with a group a case (``xarray.open_datatree``).
@@ -15,7 +16,8 @@ from __future__ import annotations
 import json
 import os
 import shutil
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
 from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any
@@ -105,9 +107,10 @@ class Folder:
         try:
             for folder in (self.path, self.cases, self.failed):
                 folder.mkdir(parents=True, exist_ok=True)
-            _write_json(self.cases / "zarr.json", _ZARR_GROUP)
-            _write_json(self.path / "plan.json", [planned.hash for planned in plan.cases])
-            replace(self.path / "study.toml", plan.study.to_toml().encode())
+            with self.held():
+                _write_json(self.cases / "zarr.json", _ZARR_GROUP)
+                _write_json(self.path / "plan.json", [planned.hash for planned in plan.cases])
+                replace(self.path / "study.toml", plan.study.to_toml().encode())
         except OSError as exc:
             reason = (exc.strerror or str(exc)).lower()
             raise InputError(
@@ -116,6 +119,32 @@ class Folder:
                 where="out",
                 value=str(self.path),
             ) from exc
+
+    @contextmanager
+    def held(self) -> Iterator[None]:
+        """Let no other process run a study here meanwhile; InputError if one does.
+
+        The tables of the first would be made by the plan of the second. A killed process holds
+        nothing.
+        """
+        import filelock
+
+        path = self.path / "running.lock"
+        lock = filelock.FileLock(path)
+        try:
+            lock.acquire(timeout=0)
+        except filelock.Timeout:
+            raise InputError(
+                f"Another process is running a study in '{self.path}'; wait until it has finished, "
+                "or name another folder with -o.",
+                where="out",
+                value=str(self.path),
+            ) from None
+        try:
+            yield
+        finally:
+            path.unlink(missing_ok=True)
+            lock.release()
 
     def row(self, name: str) -> CaseRow | None:
         """The finished case of this hash, or None."""

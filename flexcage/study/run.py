@@ -38,25 +38,27 @@ def run_study(
 
     Runs on ``workers`` processes of this machine (default: one a core), or on the Dask scheduler
     at an address. Cases found in the folder are not computed again; ``retry`` tries those again
-    that failed. ``progress`` is a context like ``core.progress.Progress``.
+    that failed. ``progress`` is a context like ``core.progress.Progress``. One process at a time
+    runs a study in a folder.
 
-    A case that fails is a row with its reason. Raises InputError for a mistake in the plan,
-    before anything is computed, and RunFailed if the scheduler is lost; what is finished stays,
-    and the tables show it.
+    A case that fails is a row with its reason. Raises InputError for a mistake in the plan, or a
+    folder in which another process runs a study, before anything is computed, and RunFailed if the
+    scheduler is lost; what is finished stays, and the tables show it.
     """
     require_packages()
     plan = make_plan(study)
     folder = Folder(Path(out).resolve())
     folder.prepare(plan)
-    todo = _lacking(plan, folder, retry=retry)
-    try:
-        if todo:
-            _compute(plan, folder, todo, (scheduler, workers), progress)
-    except BaseException:  # Ctrl-C as well: the tables show what is finished
-        _try_to_write(folder)
-        raise
-    results = StudyResults(folder.path)
-    results.write()
+    with folder.held():
+        todo = _lacking(plan, folder, retry=retry)
+        try:
+            if todo:
+                _compute(plan, folder, todo, (scheduler, workers), progress)
+        except BaseException:  # Ctrl-C as well: the tables show what is finished
+            _try_to_write(folder)
+            raise
+        results = StudyResults(folder.path)
+        results.write()
     return results
 
 

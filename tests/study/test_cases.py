@@ -175,6 +175,16 @@ def test_a_worker_that_would_compute_something_else_refuses(folder, change, word
     assert words in folder.failure(order.hash).reason
 
 
+def test_a_folder_in_which_another_study_runs(folder):
+    one = short_study()
+    folder.prepare(make_plan(one))
+    before = (folder.path / "plan.json").read_text()
+    with folder.held(), pytest.raises(InputError, match="Another process is running a study in"):
+        run.run_study(short_study(Grid("load.radial", ["500 N"])), out=folder.path)
+    assert (folder.path / "plan.json").read_text() == before
+    assert folder.plan().cases and not (folder.path / "running.lock").exists()
+
+
 def test_figures_that_a_study_may_name_are_those_of_a_run():
     pinch = {"type": "side_beam", "pocket": 5, "displacement": "-0.26 mm"}
     case = short_case(**{"cage.model": "flexible"}).replace("defects", [pinch])
