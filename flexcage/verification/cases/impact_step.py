@@ -4,8 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-import numpy as np
-
 from flexcage.contacts import laws
 from flexcage.contacts.spec import NormalLaw
 from flexcage.verification.known_answer import KnownAnswer, Row, Tolerance
@@ -27,7 +25,8 @@ SMALL = Tolerance(6e-5, "printed to 1e-4", absolute=True)
 
 def rows() -> Iterator[Row]:
     depth = 2e-6
-    p = np.array([0.0, 1.5, 100.0, 0.0, 0.05, depth, 0.0, 0.0, 0.0, 0.0])  # no stiffness
+    dashpot = NormalLaw(law="impact_step", damping=100.0, full_damping_depth=depth)
+    p = laws.normal_parameters(dashpot, 0.0, 1.5)  # no stiffness
     for x, expected in STEP.items():
         found = normal(laws.impact_step, p, [depth * x], [0.25])[0][0] / 25.0
         yield Row(f"STEP at {x:g} of its depth", "", expected, found, POLYNOMIAL)
