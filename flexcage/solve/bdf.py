@@ -7,15 +7,17 @@ c = h/((1 - kappa_k) gamma_k) the corrected value is y = y_p + d and its derivat
 y' = (psi + d)/c. ``advance`` is plain Python that numba also compiles: it
 receives the problem as six functions and their data,
 
-    residual(t, y, yd, data, out)            F
+    residual(t, y, yd, data, out, power)     F -> out, quadrature integrands -> power
     linearise(t, y, yd, data)                keep dF/dy, dF/dy' at this point
     factor(alpha, data) -> bool              factor dF/dy + alpha dF/dy'
     backsolve(alpha, y, r, data)             r <- -(that)^-1 r, the Newton step
-    accepted(t, y, yd, data, power)          a step was accepted; quadrature integrands -> power
+    note(t, data)                            the point of the last residual was accepted
     observe(sample, t, y, yd, data)          y and y' at sampling time t, by dense output
 
 Obligations of a problem: ``residual`` depends on nothing but its arguments and memory that only
-``accepted`` changes; it allocates nothing; functions share ``data`` and nothing else.
+``note`` changes; it allocates nothing; functions share ``data`` and nothing else.
+Integrands, and what ``note`` keeps, are those of the corrector's last residual, which lies one
+Newton step before the accepted point.
 Policies follow IDA's experience: few Jacobians, Newton fails early and cuts the step.
 Stability guard: orders above 2 are left for ``GUARD_STEPS`` steps once the error test fails twice
 within ten steps, the mark of lightly damped fast oscillation.
@@ -185,7 +187,7 @@ def correct(fns, data, st, opt, t_new, c):
         converged = False
         scale = 2.0 / (1.0 + 1.0 / ratio)
         for it in range(NEWTON_MAX):
-            residual(t_new, y, yd, data, r)
+            residual(t_new, y, yd, data, r, st.power[1])
             st.count[RESIDUALS] += 1
             backsolve(st.real[ALPHA], y, r, data)
             for k in range(n):
@@ -215,7 +217,7 @@ def correct(fns, data, st, opt, t_new, c):
 
 def advance(fns, data, st, opt, t_end, times, ys, yds, first, log, quads):
     """Integrate until t_end; see ``contract``."""
-    accepted, observe = fns[4], fns[5]
+    residual, note, observe = fns[0], fns[4], fns[5]
     y_p, psi, d = st.vec[0], st.vec[1], st.vec[2]
     y, yd, r = st.vec[3], st.vec[4], st.vec[5]
     D, count, real = st.D, st.count, st.real
@@ -226,7 +228,8 @@ def advance(fns, data, st, opt, t_end, times, ys, yds, first, log, quads):
         for k in range(n):
             y[k] = D[0, k]
             yd[k] = D[1, k] / real[H]
-        accepted(real[T], y, yd, data, st.power[0])
+        residual(real[T], y, yd, data, r, st.power[0])
+        note(real[T], data)
     while real[T] < t_end:
         if row >= log.shape[0]:
             return LOG_FULL, sample, row
@@ -308,7 +311,7 @@ def advance(fns, data, st, opt, t_end, times, ys, yds, first, log, quads):
         count[GUARD] = max(count[GUARD] - 1, 0)
         if count[AGE] > JACOBIAN_AGE or count[ITERATIONS] - iterations > 2:
             count[HAVE_J] = 0
-        accepted(t_new, y, yd, data, st.power[1])
+        note(t_new, data)
         while sample < times.shape[0] and times[sample] <= t_new + 1e-12 * h:
             x = 1.0 - (t_new - times[sample]) / h
             interpolate(D, order, t_new, h, times[sample], ys[sample], yds[sample])
@@ -364,7 +367,7 @@ def _refresh(state: BDFState) -> None:
 BDF = Integrator(
     name="bdf",
     advance=advance,
-    functions=("residual", "linearise", "factor", "backsolve", "accepted", "observe"),
+    functions=("residual", "linearise", "factor", "backsolve", "note", "observe"),
     helpers=("change_step", "interpolate", "worst", "correct", "_choose"),
     options=_options,
     new_state=new_state,

@@ -10,6 +10,7 @@ from __future__ import annotations
 from flexcage.core.jit import VECTORISED, fields, kernel, zero
 from flexcage.core.rotation import quaternion_rate, rotation_of_quaternion_change
 from flexcage.solve import bordered
+from flexcage.system.sampling import give_powers
 
 _factor_bordered = bordered.factor
 _solve_bordered = bordered.solve
@@ -18,8 +19,10 @@ _solve_bordered = bordered.solve
 # is compiled once, not again inside each of the functions below.
 
 
-def residual(t, y, yd, data, out):
-    data[2](t, y, yd, data[0], data[1], out, 0)
+def residual(t, y, yd, data, out, power):
+    """F(t, y, y') into ``out``, powers into ``power`` if it has room."""
+    data[2](t, y, yd, data[0], data[1], out, 3 if power.shape[0] > 0 else 0)
+    give_powers(data[0], power)
 
 
 def linearise(t, y, yd, data):

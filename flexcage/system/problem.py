@@ -45,11 +45,10 @@ _VECTOR, _MATRIX = types.Array(types.float64, 1, "C"), types.Array(types.float64
 _NONE, _FLAG = types.void, types.boolean
 #: What integrators may ask of a problem: a function, its result and its arguments; None: ``data``.
 PROBLEM: dict[str, tuple[Callable[..., Any], tuple[Any, ...]]] = {
-    "residual": (newton.residual, (_NONE, _REAL, _VECTOR, _VECTOR, None, _VECTOR)),
+    "residual": (newton.residual, (_NONE, _REAL, _VECTOR, _VECTOR, None, _VECTOR, _VECTOR)),
     "linearise": (newton.linearise, (_NONE, _REAL, _VECTOR, _VECTOR, None)),
     "factor": (newton.factor, (_FLAG, _REAL, None)),
     "backsolve": (newton.backsolve, (_NONE, _REAL, _VECTOR, _VECTOR, None)),
-    "accepted": (sampling.accepted, (_NONE, _REAL, _VECTOR, _VECTOR, None, _VECTOR)),
     "observe": (sampling.observe, (_NONE, _COUNT, _REAL, _VECTOR, _VECTOR, None)),
     "rates": (rates.rates, (_NONE, _REAL, _VECTOR, _VECTOR, None, _VECTOR)),
     "note": (sampling.note, (_NONE, _REAL, None)),

@@ -19,7 +19,7 @@ from flexcage.solve.bordered import lu_factor, lu_solve
 from flexcage.solve.oscillators import Oscillators, no_oscillators
 from flexcage.system.layout import Layout
 from flexcage.system.rows import speed_at
-from flexcage.system.sampling import is_main, keep_force, keep_report
+from flexcage.system.sampling import give_powers, is_main, keep_force, keep_report
 from flexcage.system.waves import wave_slope
 
 
@@ -61,9 +61,7 @@ def modal_oscillators(body: BodyData, layout: Layout) -> Oscillators:
 def rates(t, y, yd, data, power):
     """y' into yd, held coordinates and multipliers into y, powers into ``power`` if it has room."""
     _rates(t, y, yd, data, 3 if power.shape[0] > 0 else 0)
-    report = fields(data[0].report)
-    for k in range(power.shape[0]):
-        power[k] = report.power[k]
+    give_powers(data[0], power)
 
 
 def sample(sample, t, y, yd, data):

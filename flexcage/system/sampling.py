@@ -5,23 +5,17 @@ from __future__ import annotations
 from flexcage.core.jit import copy_into, fields, part
 
 
-def accepted(t, y, yd, data, power):
-    """(t, y, y') was accepted: its powers into ``power``."""
-    report = fields(data[0].report)
-    data[2](t, y, yd, data[0], data[1], fields(data[0].scratch).out, 3)
-    keep_point(t, data[0])
+@part
+def give_powers(d, power):
+    """Powers of the last report into ``power``, as far as it has room."""
+    report = fields(d.report)
     for k in range(power.shape[0]):
         power[k] = report.power[k]
 
 
 def note(t, data):
-    """The point evaluated last was accepted."""
-    keep_point(t, data[0])
-
-
-@part
-def keep_point(t, d):
-    """Memory of contacts, events and the force on the outer ring from the last report."""
+    """Memory of contacts, events and force on the outer ring: the last point was accepted."""
+    d = data[0]
     report, events = fields(d.report), fields(d.events)
     remember(t, fields(d.memory), report, events)
     for c in range(3):

@@ -12,6 +12,7 @@ from settled import SETTLE, Forces, Settled, sample_times
 
 import flexcage
 from flexcage.solve.contract import COUNTS
+from flexcage.system.data import POWERS
 
 WINDOW = 3e-3  # [s] compared with the reference
 SHARE = 1e-4  # of the tolerance: the reference
@@ -63,15 +64,15 @@ def _second_method(settled: Settled, times: np.ndarray) -> Forces:
     """Forces at the times by SciPy's Runge-Kutta method of order 8, contacts told of its steps."""
     y, _ = settled.restore()
     b = settled.bearing
-    rates, accepted = b.function("rates"), b.function("accepted")
-    size, nothing = b.layout.n_q + b.layout.n_u, np.zeros(0)
+    rates, note = b.function("rates"), b.function("note")
+    size, power = b.layout.n_q + b.layout.n_u, np.zeros(len(POWERS))
 
     def full(x: np.ndarray) -> np.ndarray:
         return np.concatenate([x, np.zeros(len(y) - size)])
 
     def slope(t: float, x: np.ndarray) -> np.ndarray:
         yd = np.zeros_like(y)
-        rates(t, full(x), yd, b.args, nothing)
+        rates(t, full(x), yd, b.args, power)
         return yd[:size]
 
     weight = settled.weights(SHARE)[:size]
@@ -82,7 +83,6 @@ def _second_method(settled: Settled, times: np.ndarray) -> Forces:
         method.step()
         between = method.dense_output()
         ys += [full(between(t)) for t in times[len(ys) :] if t <= method.t]
-        now = full(method.y)
-        accepted(method.t, now, np.concatenate([slope(method.t, method.y), now[size:]]), b.args,
-                 nothing)  # fmt: skip
+        slope(method.t, method.y)
+        note(method.t, b.args)
     return settled.forces(np.array(ys), np.zeros((len(ys), len(y))), times)

@@ -22,7 +22,7 @@ from flexcage.system.problem import Bearing
 
 _POINTER, _REAL = types.CPointer(types.float64), types.float64
 _HELD = 4096  # bytes kept for the arguments of a bearing
-_NAMES = ("residual", "linearise", "factor", "backsolve", "accepted", "rates")
+_NAMES = ("residual", "linearise", "factor", "backsolve", "note", "rates")
 
 
 @intrinsic
@@ -92,7 +92,7 @@ class CFunctions:
         self.address = self._memory.ctypes.data
         _store(both)(self.address, self._keep)
         self.read = reader(both)
-        self.power = np.zeros(len(POWERS))
+        self.out, self.power = np.zeros(self.size), np.zeros(len(POWERS))
         self._compile()
 
     def _compile(self) -> None:
@@ -100,7 +100,7 @@ class CFunctions:
 
         def residual(t, y, yd, out):
             fns, data = read(address)
-            fns[0](t, vector(y, n), vector(yd, n), data, vector(out, n))
+            fns[0](t, vector(y, n), vector(yd, n), data, vector(out, n), vector(out, 0))
 
         def setup(t, y, yd, alpha):
             fns, data = read(address)
@@ -111,9 +111,10 @@ class CFunctions:
             fns, data = read(address)
             fns[3](alpha, vector(y, n), vector(r, n), data)
 
-        def accepted(t, y, yd, power):
+        def accepted(t, y, yd, out, power):
             fns, data = read(address)
-            fns[4](t, vector(y, n), vector(yd, n), data, vector(power, powers))
+            fns[0](t, vector(y, n), vector(yd, n), data, vector(out, n), vector(power, powers))
+            fns[4](t, data)
 
         def rates(t, y, yd):
             fns, data = read(address)
@@ -123,7 +124,7 @@ class CFunctions:
         self._residual = c_function(residual, types.void(*three, _POINTER))
         self._setup = c_function(setup, types.int64(*three, _REAL))
         self._solve = c_function(solve, types.void(*three))
-        self._accepted = c_function(accepted, types.void(*three, _POINTER))
+        self._accepted = c_function(accepted, types.void(*three, _POINTER, _POINTER))
         self._rates = c_function(rates, types.void(*three))
 
     def residual(self, t: float, y: np.ndarray, yd: np.ndarray, out: np.ndarray) -> None:
@@ -145,7 +146,8 @@ class CFunctions:
 
     def accepted(self, t: float, y: np.ndarray, yd: np.ndarray) -> None:
         """A step was accepted: contacts remember their onset."""
-        self._accepted(t, y.ctypes.data, yd.ctypes.data, self.power.ctypes.data)
+        at = (x.ctypes.data for x in (y, yd, self.out, self.power))
+        self._accepted(t, *at)
 
 
 def _store(kind: types.Type) -> Any:

@@ -33,7 +33,7 @@ def march(fns, data, t0, y, yd, weight, table, nodes, step, every, tolerance, po
 
     Returns the number of samples filled: fewer than asked for if Newton's method failed.
     """
-    residual, linearise, factor, backsolve, accepted = fns[0], fns[1], fns[2], fns[3], fns[4]
+    residual, linearise, factor, backsolve, note = fns[0], fns[1], fns[2], fns[3], fns[4]
     n = y.shape[0]
     g = step * table[0, 0]
     alpha = 1.0 / g
@@ -55,7 +55,7 @@ def march(fns, data, t0, y, yd, weight, table, nodes, step, every, tolerance, po
                     if not factor(alpha, data):
                         return count // every
                     age = 0
-                residual(now, Y, yd, data, r)
+                residual(now, Y, yd, data, r, power)
                 backsolve(alpha, Y, r, data)
                 size = 0.0
                 for k in range(n):
@@ -70,7 +70,7 @@ def march(fns, data, t0, y, yd, weight, table, nodes, step, every, tolerance, po
             stages[i] = yd
         y[:] = Y
         age += 1
-        accepted(t + step, y, yd, data, power)
+        note(t + step, data)
         if (count + 1) % every == 0:
             ys[count // every] = y
             yds[count // every] = yd

@@ -95,8 +95,9 @@ def functions(problem):
     """The six functions of a problem, with a dense Newton matrix by differences."""
     keep, n = {}, problem.n
 
-    def residual(t, y, yd, data, out):
+    def residual(t, y, yd, data, out, power):
         out[:] = problem.F(t, y, yd)
+        power[:] = problem.power(t, y, yd)[: len(power)]
 
     def linearise(t, y, yd, data):
         base = problem.F(t, y, yd)
@@ -115,13 +116,13 @@ def functions(problem):
     def backsolve(alpha, y, r, data):
         r[:] = -keep["inverse"] @ r
 
-    def accepted(t, y, yd, data, power):
-        power[:] = problem.power(t, y, yd)[: len(power)]
+    def note(t, data):
+        pass
 
     def observe(sample, t, y, yd, data):
         pass
 
-    return residual, linearise, factor, backsolve, accepted, observe
+    return residual, linearise, factor, backsolve, note, observe
 
 
 def run(bdf, problem, *, tolerance, end=2.0, max_order=2, times=(), h0=1e-6, h_max=0.1, quads=0,

@@ -103,5 +103,7 @@ def disturbed(bearing, *, press=0.0, skew=1e-5, axial=8e-6, modal=1e-6, seed=0):
     if bearing.layout.modes:
         q["modes"][:] = modal * rng.standard_normal(bearing.layout.modes)
         u["modes"][:] = 1e-3 * rng.standard_normal(bearing.layout.modes)
-    bearing.function("accepted")(0.0, y, yd, bearing.args, np.zeros(len(POWERS)))  # onset speeds
+    power = np.zeros(len(POWERS))
+    bearing.function("residual")(0.0, y, yd, bearing.args, np.zeros(len(y)), power)
+    bearing.function("note")(0.0, bearing.args)  # onset speeds
     return y, yd, rng
