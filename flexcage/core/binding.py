@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import dataclasses
 import difflib
+import numbers
 import re
 import types
 import typing
@@ -20,6 +21,11 @@ from flexcage.core.errors import InputError
 from flexcage.core.units import describe, format_si, parse
 
 MISSING = dataclasses.MISSING
+_NUMBERS = {float: numbers.Real, int: numbers.Integral}  # numpy's as well
+_IN_WORDS = {
+    float: "a number", int: "a whole number", bool: "true or false", str: "text", Path: "a path",
+    tuple: "a tuple",
+}  # fmt: skip
 
 
 @dataclasses.dataclass(frozen=True)
@@ -272,16 +278,50 @@ def _set_item(
 
 
 def check_spec(spec: Any, where: str = "") -> None:
-    """Check bounds and choices of a spec built from objects, and of all specs inside it."""
+    """Check kinds, bounds and choices of a spec built from objects, and of all specs inside it."""
     _check_class(spec, where)
+    kinds = hints(typing.cast(Any, type(spec)))
     for field in dataclasses.fields(spec):
         value = getattr(spec, field.name)
         here = join(where, field.name)
+        _check_kind(value, kinds[field.name], field.metadata, here)
         check_value(value, field.metadata, here)
         items = value if isinstance(value, tuple) else (value,)
         for i, item in enumerate(items):
             if dataclasses.is_dataclass(item) and not isinstance(item, type):
                 check_spec(item, join(here, i) if isinstance(value, tuple) else here)
+
+
+def _check_kind(value: Any, hint: Any, meta: Mapping, where: str) -> None:
+    """Raise InputError if a value of a spec is not of the kind that its field declares."""
+    options = union_members(hint)
+    kinds = [typing.get_origin(option) or option for option in options]
+    if isinstance(value, tuple) and tuple in kinds:
+        items = typing.get_args(options[kinds.index(tuple)])
+        if items[1:] == (Ellipsis,):
+            items = items[:1] * len(value)
+        if len(items) != len(value):
+            raise wrong_type(value, f"{len(items)} values", where)
+        for i, (item, kind) in enumerate(zip(value, items)):
+            _check_kind(item, kind, meta, join(where, i))
+        return
+    if any(_is_of(value, kind) for kind in kinds):
+        return
+    words = (_IN_WORDS.get(k, f"a {k.__name__}") for k in kinds if k is not type(None))
+    wanted = " or ".join(words)
+    if meta.get("choices"):
+        wanted = f"one of {', '.join(meta['choices'])}"
+    if meta.get("unit") and isinstance(value, str):
+        wanted += " in SI; text with a unit is for replace, tables and files"
+    raise wrong_type(value, wanted, where)
+
+
+def _is_of(value: Any, kind: Any) -> bool:
+    if kind is Any:
+        return True
+    if isinstance(value, bool):
+        return kind is bool
+    return isinstance(value, _NUMBERS.get(kind, kind))
 
 
 def _check_class(spec: Any, where: str) -> None:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import ClassVar
 
+import numpy as np
 import pytest
 
 from flexcage.core.binding import Binder, check_spec, set_path, to_table
@@ -152,3 +153,28 @@ def test_bounds_hold_for_specs_made_of_objects():
         check_spec(Thing(length=1.0, parts=(Ball(radius=-1e-3),)), "thing")
     with pytest.raises(InputError, match="must be a number"):
         check_spec(Thing(length=float("nan")), "thing")
+
+
+@pytest.mark.parametrize(
+    ("change", "words"),
+    [
+        ({"length": "5 mm"}, "thing.length is '5 mm', but should be a number in SI; text with"),
+        ({"length": True}, "thing.length is True, but should be a number"),
+        ({"count": 2.0}, "thing.count is 2.0, but should be a whole number"),
+        ({"on": 1}, "thing.on is 1, but should be true or false"),
+        ({"limit": [1.0]}, r"thing.limit is \[1.0\], but should be a number"),
+        ({"law": Law(kind=-1)}, "thing.law.kind is -1, but should be one of soft, hard"),  # type: ignore[arg-type]
+        ({"law": Ball(radius=1.0)}, "thing.law is Ball.*, but should be a Law"),
+        ({"parts": (Stuff(name="tin", density=1.0),)}, "should be a Ball or a FlatBox"),
+        ({"times": [0.0, 1.0]}, "thing.times is .*, but should be a tuple"),
+        ({"times": (0.0, "1 ms")}, "thing.times.1 is '1 ms', but should be a number in SI"),
+        ({"pair": (1, 2, 3)}, "thing.pair is .*, but should be 2 values"),
+    ],
+)
+def test_kinds_hold_for_specs_made_of_objects(change, words):
+    with pytest.raises(InputError, match=words):
+        check_spec(Thing(**{"length": 1.0, **change}), "thing")
+
+
+def test_numbers_of_numpy_are_numbers():
+    check_spec(Thing(length=np.float32(0.5), count=np.int64(4), times=(np.float64(1.0), 2)))
