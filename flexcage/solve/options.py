@@ -32,7 +32,7 @@ class SolverOptions:
     max_step: float = quantity("us", 5e-5, doc="largest step", above=0.0)
     min_step: float = quantity("us", 1e-12, doc="smallest step", above=0.0)
     stable_step: float = quantity(
-        "us", 2e-6, doc="least stable explicit step that 'auto' puts up with", above=0.0
+        "us", 4e-6, doc="least stable explicit step that 'auto' puts up with", above=0.0
     )
     newton_tolerance: float = option(0.3, doc="Newton error over the local error allowed")
     max_steps: int = option(50_000_000, doc="steps before giving up", minimum=1)
