@@ -28,6 +28,7 @@ from flexcage.modes.table import ModeTable, mode_table
 from flexcage.results import mode_file
 from flexcage.results.edges import Edge, groove_edges
 from flexcage.results.figures import pass_peak, summarise
+from flexcage.results.files import replace
 from flexcage.results.film import film_rows, film_thickness
 from flexcage.results.metrics import BearingNumbers, SlipRange, cage_angle, settled
 from flexcage.results.statistics import roller_passes
@@ -516,19 +517,32 @@ class Run:
 def write_case(folder: Path, case: Case) -> None:
     """Write the case as run into the folder."""
     folder.mkdir(parents=True, exist_ok=True)
-    (folder / "case.toml").write_text(case.to_toml(), encoding="utf-8")
+    replace(folder / "case.toml", case.to_toml().encode())
 
 
-def can_go_on(folder: Path) -> bool:
-    """Whether a run in ``folder`` has begun; one that stopped before that is removed."""
-    begun = RunStore.begun(folder / "results.zarr")
-    if folder.exists() and not begun:
-        shutil.rmtree(folder)
-    return begun
+def was_written(folder: Path) -> bool:
+    """Whether a run was to be written to ``folder``, though it may not have begun yet."""
+    return (folder / "case.toml").is_file()
 
 
-def check_resumed(folder: Path, case: Case) -> None:
-    """Refuse to go on with a run of another case."""
+def check_written(folder: Path) -> None:
+    """InputError if there is nothing to resume in ``folder``."""
+    if not was_written(folder):
+        raise InputError(
+            f"'{folder}' is not the folder of a run (it has no case.toml), so there is nothing to "
+            "resume there.",
+            where="out",
+            value=str(folder),
+        )
+
+
+def has_begun(folder: Path, case: Case) -> bool:
+    """Whether the case's run in ``folder`` has come so far that it can be gone on with.
+
+    What one left that was killed before is removed, to be begun anew. InputError if the folder
+    holds no run, or that of another case.
+    """
+    check_written(folder)
     stored = load_case(folder / "case.toml")
     if stored.hash != case.hash:
         raise InputError(
@@ -537,6 +551,11 @@ def check_resumed(folder: Path, case: Case) -> None:
             where="case",
             value=case.hash,
         )
+    begun = RunStore.begun(folder / "results.zarr")
+    if not begun:
+        log.warning("the run in '%s' was stopped before its first block; it begins anew", folder)
+        shutil.rmtree(folder / "results.zarr", ignore_errors=True)
+    return begun
 
 
 @one_blas_thread
@@ -577,7 +596,9 @@ __all__ = [
     "Run",
     "StressField",
     "check_assembly",
-    "check_resumed",
+    "check_written",
+    "has_begun",
     "open_folder",
+    "was_written",
     "write_case",
 ]

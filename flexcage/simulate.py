@@ -11,7 +11,7 @@ from typing import Any
 from flexcage.case import Case
 from flexcage.core.timing import Stages
 from flexcage.results.recording import Recorder
-from flexcage.run import Run, check_assembly, check_resumed, open_folder
+from flexcage.run import Run, check_assembly, has_begun, open_folder
 from flexcage.stages import (
     assembled_start,
     begin_compiling,
@@ -35,7 +35,7 @@ def simulate(
     folder = Path(out) if out is not None else None
     stages = Stages(progress)
     if folder is not None and resume:
-        check_resumed(folder, case)
+        resume = has_begun(folder, case)
     compiling = begin_compiling(case.bearing.element)
     mesh = stages.named("mesh", cage_mesh, case)
     cage = stages.named("modes", cage_reduction, case, mesh)

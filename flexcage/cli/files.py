@@ -27,7 +27,9 @@ def prepare_out(
     if out.exists() and not out.is_dir():
         raise InputError(f"'{out}' is a file; name a folder for the output.", where="out")
     if resume:
-        existing_run(out)
+        from flexcage.run import check_written
+
+        check_written(out)
     elif out.is_dir() and any(out.iterdir()):
         if not force:
             raise InputError(

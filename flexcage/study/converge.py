@@ -17,7 +17,7 @@ from flexcage.mesh.options import FINENESS
 from flexcage.results.files import load, save
 from flexcage.results.statistics import spread
 from flexcage.results.summary import Row, Summary
-from flexcage.run import can_go_on, write_case
+from flexcage.run import was_written, write_case
 from flexcage.simulate import simulate
 from flexcage.study.convergence import Convergence, Finding
 
@@ -159,7 +159,7 @@ def _figures_of(case: Case, folder: Path, progress: Any) -> Summary:
     if stored.exists():
         windows = load(kept) if kept.exists() else {}
         return Summary.from_json(stored.read_text("utf-8"), windows=windows)
-    summary = simulate(case, out=folder, resume=can_go_on(folder), progress=progress).summary
+    summary = simulate(case, out=folder, resume=was_written(folder), progress=progress).summary
     save(kept, {row.key: row.record.sums for row in summary if row.record is not None})
     return summary
 

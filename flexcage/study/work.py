@@ -17,7 +17,7 @@ from flexcage.core import jit
 from flexcage.core.errors import EnvironmentLacks, FlexcageError, InputError
 from flexcage.core.threads import on_one_core
 from flexcage.mesh.options import MeshOptions
-from flexcage.run import Run, can_go_on, write_case
+from flexcage.run import Run, was_written, write_case
 from flexcage.simulate import load_run, simulate
 from flexcage.stages import cage_mesh, cage_reduction
 from flexcage.study.folder import CaseRow, Failure, Folder
@@ -122,9 +122,8 @@ def _case_of(order: Order) -> Case:
 
 def _march(case: Case, part: Path, *, keep: str) -> Run:
     """Run the case in its folder, from the last committed block if there is one."""
-    begun = can_go_on(part)
     if keep == "runs":
-        return simulate(case, out=part, resume=begun)
+        return simulate(case, out=part, resume=was_written(part))
     write_case(part, case)
     return simulate(case)
 

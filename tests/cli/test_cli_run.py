@@ -75,7 +75,8 @@ def test_run_without_images_in_the_default_folder(corridor):
 
 
 def test_resume(corridor, tmp_path):
-    (tmp_path / "out" / "results.zarr").mkdir(parents=True)
+    (tmp_path / "out").mkdir()
+    (tmp_path / "out" / "case.toml").touch()
     assert cli.main(["run", EXAMPLE, "-o", "out", "--resume"]) == 0
     assert corridor.calls[0][2] is True
 

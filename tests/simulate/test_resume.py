@@ -6,6 +6,7 @@ from simulate_cases import Interrupted, bent, n1013
 
 from flexcage.core.errors import InputError, RunFailed
 from flexcage.results.store import RunStore
+from flexcage.run import write_case
 from flexcage.simulate import load_run, simulate
 
 BLOCK = 50 / 50e3  # [s]
@@ -108,3 +109,23 @@ def test_a_checkpoint_of_another_flexcage_is_refused(tmp_path, monkeypatch):
     )
     with pytest.raises(InputError, match=r"holds \(22, 8\) of 'memory_deflection'"):
         simulate(case_of("rigid"), out=tmp_path, resume=True)
+
+
+def test_a_run_killed_before_its_first_block_begins_anew(tmp_path, unbroken, caplog):
+    """Whatever it left: the case alone, or arrays that no commit counts."""
+    for left in ((), ("zarr.json",)):
+        folder = tmp_path / f"left{len(left)}"
+        write_case(folder, case_of("rigid"))
+        for name in left:
+            (folder / "results.zarr").mkdir()
+            (folder / "results.zarr" / name).write_text("{")
+        assert_same(simulate(case_of("rigid"), out=folder, resume=True), unbroken["rigid"])
+        assert "begins anew" in caplog.text
+
+
+def test_nothing_is_resumed_where_no_run_was(tmp_path):
+    (tmp_path / "results.zarr").mkdir()
+    (tmp_path / "results.zarr" / "mine").write_text("kept")
+    with pytest.raises(InputError, match="is not the folder of a run"):
+        simulate(case_of("rigid"), out=tmp_path, resume=True)
+    assert (tmp_path / "results.zarr" / "mine").exists()
