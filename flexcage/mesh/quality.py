@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import difflib
+import itertools
 from collections.abc import Iterable
 from dataclasses import dataclass
 from math import pi
@@ -162,7 +163,8 @@ def _check_connected(mesh: CageMesh, where: str) -> None:
 
 
 def _check_groups(mesh: CageMesh, where: str) -> None:
-    """Every group but the fillets must be there, with every pocket at its own azimuth."""
+    """Every group must be there, with every pocket at its own azimuth; fillets may be missing where
+    a pocket's faces meet at edges."""
     parts = pocket_groups(mesh.groups)
     for name in group_names(mesh.pocket_count, fillets=False, parts=parts):
         if len(mesh.groups.get(name, ())) == 0:
@@ -183,6 +185,22 @@ def _check_groups(mesh: CageMesh, where: str) -> None:
                 where=f"mesh.groups pocket{k}",
             )
         _check_sides(mesh, k, parts, where)
+        if "fillet" in parts and len(mesh.groups.get(f"pocket{k}_fillet", ())) == 0:
+            _check_edges(mesh, k, where)
+
+
+def _check_edges(mesh: CageMesh, pocket: int, where: str) -> None:
+    for beam, side in itertools.product(("front", "rear"), ("side+x", "side-x")):
+        one, other = (mesh.groups[f"pocket{pocket}_{face}"] for face in (beam, side))
+        if len(np.intersect1d(one, other)) == 0:
+            name = f"pocket{pocket}_fillet"
+            raise InputError(
+                f"{where} has no surface group {name!r}, and 'pocket{pocket}_{beam}' and "
+                f"'pocket{pocket}_{side}' do not meet at an edge; give the rounded corners between "
+                "them that name",
+                where="mesh.groups",
+                value=name,
+            )
 
 
 def _check_sides(mesh: CageMesh, pocket: int, parts: tuple[str, ...], where: str) -> None:

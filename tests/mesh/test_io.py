@@ -14,6 +14,7 @@ from flexcage.geometry.cages import CrossbeamDefect
 from flexcage.mesh.build import build_cage_mesh
 from flexcage.mesh.cage_mesh import group_names
 from flexcage.mesh.io import read_mesh, write_mesh
+from flexcage.mesh.measure import pocket_frame
 from flexcage.mesh.options import MeshOptions
 from flexcage.mesh.quality import check_mesh
 
@@ -159,10 +160,28 @@ def test_missing_group_names_the_nearest(n1013, tmp_path):
 
 
 def test_fillets_may_be_missing(n1013, tmp_path):
+    """Where a pocket's faces meet."""
     mesh = n1013(fineness="coarse")
-    bare = regrouped(mesh, lambda g: [g.pop(f"pocket{k}_fillet") for k in range(22)])
+
+    def widen(groups):
+        for k in range(22):
+            fillet = groups.pop(f"pocket{k}_fillet")
+            for face in ("front", "rear"):
+                ahead = pocket_frame(mesh.points[fillet].mean(axis=1), k, 22)[:, 2] > 0.0
+                own = fillet[ahead if face == "front" else ~ahead]
+                groups[f"pocket{k}_{face}"] = np.vstack([groups[f"pocket{k}_{face}"], own])
+
+    bare = regrouped(mesh, widen)
     read = read_mesh(write_mesh(bare, tmp_path / "cage.msh"))
     assert set(read.groups) == set(group_names(22)) and len(read.groups["pocket0_fillet"]) == 0
+
+
+def test_fillets_without_a_name_are_refused(n1013):
+    """A pocket whose faces do not meet at edges has fillets, and peaks of stress are there."""
+    mesh = n1013(fineness="coarse")
+    odd = regrouped(mesh, lambda g: g.update({"pocket3_flt": g.pop("pocket3_fillet")}))
+    with pytest.raises(InputError, match=r"no surface group 'pocket3_fillet'; .* do not meet"):
+        check_mesh(odd)
 
 
 def test_misplaced_groups_are_refused(n1013):
