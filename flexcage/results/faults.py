@@ -18,11 +18,12 @@ from flexcage.system.problem import Bearing
 # assumption: an overlap of this share of an element's radius is no contact any more. Ten static
 # ratings, the largest load that a case may have, press an N1013's rollers in by less than a tenth.
 DEEPEST = 0.25
+AHEAD = 1e-9 * 2.0 ** np.arange(17)  # [s] after the last good point, where a fault is looked for
 
 
 @singledispatch
 def overlaps(model: Any, layout: Layout, y: np.ndarray) -> np.ndarray:
-    """Depths (n, Z, places) [m] of elements in both races and in faces of their pockets, negative
+    """Depths (n, Z, places) [m] of elements in races, faces of their pockets and ribs, negative
     when apart, in states ``y`` (n, size); of balls, too, how far outside the cage's wall they are.
 
     Bodies are as they were made, without waves and deflection; a wall lies where it is widest.
@@ -34,21 +35,23 @@ def overlaps(model: Any, layout: Layout, y: np.ndarray) -> np.ndarray:
 def _(model: Model, layout: Layout, y: np.ndarray) -> np.ndarray:
     q = layout.q(y)
     radius, (cos, sin) = model.bodies.radius, model.pocket.azimuth.T
-    r, psi = q["rollers"][..., 1], q["rollers"][..., 2]
-    at = np.stack([r * np.cos(psi), r * np.sin(psi)], axis=-1)
-    from_inner, from_outer = (
-        np.linalg.norm(at - centre[:, None], axis=-1) for centre in (q["inner"][:, 1:3], q["outer"])
-    )
+    x, r, psi = np.moveaxis(q["rollers"][..., :3], -1, 0)
+    at = np.stack([x, r * np.cos(psi), r * np.sin(psi)], axis=-1)
+    in_inner, in_outer = at - q["inner"][:, None, :3], at - in_plane(q["outer"])[:, None]
     frames = Rotation.from_quat(q["quaternion"], scalar_first=True).as_matrix()
-    seen = np.einsum("nzc,ncd->nzd", at - q["cage"][:, None, 1:], frames[:, 1:, 1:])
-    ahead = seen[..., 1] * cos - seen[..., 0] * sin
-    wall = model.pocket.half[0] + np.maximum(model.pocket.offset[:, :2].max(axis=2), 0.0)
+    seen = np.einsum("nzc,ncd->nzd", at - q["cage"][:, None], frames)
+    ahead, end = seen[..., 2] * cos - seen[..., 1] * sin, model.pocket.half_roller
+    walls = np.repeat(model.pocket.half, 2) + np.maximum(model.pocket.offset.max(axis=2), 0.0)
     return np.stack(
         [
-            model.inner.radius + radius - from_inner,
-            from_outer + radius - model.outer.radius,
-            ahead + radius - wall[:, 0],
-            -ahead + radius - wall[:, 1],
+            model.inner.radius + radius - np.hypot(in_inner[..., 1], in_inner[..., 2]),
+            np.hypot(in_outer[..., 1], in_outer[..., 2]) + radius - model.outer.radius,
+            ahead + radius - walls[:, 0],
+            -ahead + radius - walls[:, 1],
+            seen[..., 0] + end - walls[:, 2],
+            -seen[..., 0] + end - walls[:, 3],
+            in_inner[..., 0] + end - model.rib.half_gap,
+            -in_inner[..., 0] + end - model.rib.half_gap,
         ],
         axis=-1,
     )
@@ -92,22 +95,36 @@ def runaway(bearing: Bearing, y: np.ndarray) -> tuple[int, str, str] | None:
     number, place = np.unravel_index(int(np.argmax(share[first])), share.shape[1:])
     depth = share[first, number, place] * model.bodies.radius[number] * 1e3
     element = f"{bearing.family.element} {number}"
-    if place >= 2 + len(bearing.family.faces):
+    if place >= 2 + len(bearing.family.faces) + len(bearing.family.ribs):
         what = f"the cage came off, {element} is {depth:.2g} mm outside its pocket"
         return first, what, "a land (cage.guidance) or spherical pockets would hold it"
     what = f"{element} lies {depth:.2g} mm deep in its {_place(bearing, int(place))}"
     return first, f"a contact ran away: {what}", "look at loads and contact stiffness"
 
 
+def first_undefined(bearing: Bearing, t: float, y: np.ndarray, yd: np.ndarray) -> str:
+    """The contact whose force is the first that is no finite number if the motion goes on as at
+    (t, y); the hardest one if none is."""
+    for ahead in AHEAD:
+        if not np.isfinite(_forces(bearing, t + ahead, y + ahead * yd, yd)).all():
+            return hardest(bearing, t + ahead, y + ahead * yd, yd)
+    return hardest(bearing, t, y, yd)
+
+
 def hardest(bearing: Bearing, t: float, y: np.ndarray, yd: np.ndarray) -> str:
     """The contact of an element with the largest normal force, or one that is not a number."""
-    bearing.residual(t, y, yd, mode=2)
-    report = bearing.data.work.report
-    force = np.concatenate([report.race[:, :, 0], report.pocket_normal, report.rib], axis=1)
+    force = _forces(bearing, t, y, yd)
     rank = np.where(np.isnan(force), np.inf, force)
     number, place = np.unravel_index(int(np.argmax(rank)), rank.shape)
     where = f"{bearing.family.element} {number} on its {_place(bearing, int(place))}"
     return f"{where} with {force[number, place]:.3g} N"
+
+
+def _forces(bearing: Bearing, t: float, y: np.ndarray, yd: np.ndarray) -> np.ndarray:
+    """Normal forces (Z, places) [N] on every element."""
+    bearing.residual(t, y, yd, mode=2)
+    report = bearing.data.work.report
+    return np.concatenate([report.race[:, :, 0], report.pocket_normal, report.rib], axis=1)
 
 
 def _place(bearing: Bearing, index: int) -> str:

@@ -10,12 +10,12 @@ import numpy as np
 
 from flexcage.core.errors import InputError, RunFailed
 from flexcage.core.progress import Silent
-from flexcage.results.faults import hardest, runaway
+from flexcage.results.faults import first_undefined, hardest, runaway
 from flexcage.results.options import OutputOptions
 from flexcage.results.recorded import own_coords, recorded
 from flexcage.results.registry import COMPUTED, VARIABLES, variables_of
 from flexcage.results.store import MemoryRunStore, RunStore
-from flexcage.solve.contract import COUNTS, DONE, LOG_COLUMNS, LOG_FULL, OUTCOMES, T
+from flexcage.solve.contract import COUNTS, DONE, LOG_COLUMNS, LOG_FULL, NOT_FINITE, OUTCOMES, T
 from flexcage.solve.integrators import INTEGRATORS
 from flexcage.solve.options import SolverOptions
 from flexcage.system.data import POWERS
@@ -202,7 +202,8 @@ class Recorder:
         """Keep the last accepted state; the sentence that says when and where this was."""
         y, yd = self.integrator.last(self.state)
         self.store.keep_last({"time": self.time, "y": y, "yd": yd})
-        place = hardest(self.bearing, self.time, y, yd)
+        look = first_undefined if outcome == NOT_FINITE else hardest
+        place = look(self.bearing, self.time, y, yd)
         return (
             f"the solver stopped at t = {self.time * 1e3:.4f} ms: {OUTCOMES[outcome]}; the "
             f"hardest contact then was {place}; what was computed is kept"

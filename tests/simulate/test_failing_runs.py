@@ -57,6 +57,17 @@ def test_a_value_that_is_no_number(recorder):
     kept(recorder, 1.01e-3)
 
 
+def test_a_pocket_that_has_no_force_is_named_before_it_is_touched(recorder):
+    """The last good state has all forces: that of no pocket that touches is asked for in it."""
+    normal = recorder.bearing.data.model.pocket.normal
+
+    def harm():
+        normal[0, 0] = np.nan
+
+    with pytest.raises(RunFailed, match=r"then was roller \d+ on its pocket's face \w+ with nan"):
+        recorder.march(Broken(harm))
+
+
 def test_a_race_that_gives_way(recorder):
     """Its contacts lose their stiffness: the load drives the inner ring through its rollers."""
     bearing = recorder.bearing
@@ -105,3 +116,7 @@ def test_overlaps_of_a_start(recorder):
     play = bearing.data.model.pocket.half[0] - bearing.data.model.bodies.radius[0]
     assert 1e-6 < depth[0, 0] < 20e-6 and 1e-6 < depth[0, 1] < 20e-6
     np.testing.assert_allclose(depth[:, 2] + depth[:, 3], -2.0 * play, rtol=0.02)
+    case = recorder.bearing.data.model
+    for at, room in ((4, case.pocket.half[1]), (6, case.rib.half_gap)):
+        both = depth[:, at] + depth[:, at + 1]
+        np.testing.assert_allclose(both, -2.0 * (room - case.pocket.half_roller), rtol=1e-3)
