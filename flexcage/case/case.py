@@ -23,6 +23,7 @@ from flexcage.core.binding import (
     default_of,
     set_path,
     to_table,
+    with_their_choice,
 )
 from flexcage.core.errors import InputError
 from flexcage.core.hashing import content_hash
@@ -112,7 +113,7 @@ class Case:
         pairs = {**({path: value} if path is not None else {}), **changes}
         binder = Binder(named=NAMED, si=si)
         bare = _Unchecked(**{f.name: getattr(self, f.name) for f in dataclasses.fields(self)})
-        for where, new in pairs.items():
+        for where, new in with_their_choice(bare, pairs).items():
             if where == "bearing.preset":
                 raise InputError(
                     "bearing.preset cannot be replaced in a finished case; load it with the "

@@ -335,11 +335,11 @@ def _find_in_solver(case: Case) -> Iterator[Finding]:
             f"solver.min_step is {describe(solver.min_step, 'us')}, but must not exceed "
             f"solver.max_step, {describe(solver.max_step, 'us')}.",
         )
-    if not 0.0 < solver.newton_tolerance <= 1.0:
+    if not 1e-3 <= solver.newton_tolerance <= 1.0:
         yield (
             "solver.newton_tolerance",
-            f"solver.newton_tolerance is {solver.newton_tolerance:g}, but must be greater than 0 "
-            "and at most 1, such as 0.3.",
+            f"solver.newton_tolerance is {solver.newton_tolerance:g}, but rounding allows "
+            "0.001 or more and convergence 1 or less, such as 0.3.",
         )
     least, most = _TOLERANCES
     if not least <= solver.tolerance <= most:

@@ -184,6 +184,30 @@ def set_path(spec: Any, path: str, value: Any, binder: Binder, *, where: str = "
     return _replaced(spec, head, new, where)
 
 
+def with_their_choice(spec: Any, changes: Mapping[str, Any]) -> dict[str, Any]:
+    """Changes by dotted path, those of a spec joined in one table if one of them is the name that
+    chooses the spec: the others may be values that only the chosen one has."""
+    joined: dict[str, Any] = {}
+    for path, value in changes.items():
+        parent, _, key = path.rpartition(".")
+        found = _choosing(type(_spec_at(spec, parent)))
+        if parent and found and join(parent, found[0]) in changes:
+            joined.setdefault(parent, {})[key] = value
+        else:
+            joined[path] = value
+    return joined
+
+
+def _spec_at(spec: Any, path: str) -> Any:
+    """The spec at a dotted path, or None."""
+    for key in filter(None, path.split(".")):
+        if isinstance(spec, tuple):
+            spec = spec[int(key)] if key.isdigit() and int(key) < len(spec) else None
+        else:
+            spec = getattr(spec, key, None)
+    return spec if dataclasses.is_dataclass(spec) else None
+
+
 def unit_at(spec: Any, path: str) -> str:
     """Unit of the value at a dotted path of a spec; empty if it has none, or is not there."""
     head, _, rest = path.partition(".")
@@ -226,7 +250,7 @@ def chosen_spec(cls: Any, table: Mapping[str, Any], base: Any = None) -> Any:
 
 def _choosing(cls: Any) -> tuple[str, Any, Mapping[str, Any]] | None:
     """Field whose name chooses the spec, the class that declared it first, and its choices."""
-    for field in dataclasses.fields(cls):
+    for field in dataclasses.fields(cls) if dataclasses.is_dataclass(cls) else ():
         holders = [c for c in cls.__mro__ if field.name in c.__dict__.get("__annotations__", {})]
         home = holders[-1] if holders else cls
         choices = home.__dataclass_fields__[field.name].metadata.get("choices")

@@ -148,8 +148,9 @@ BAD = {
     "no tolerance": ('[solver]\ntolerance = "0 um"', "solver.tolerance", ["greater than"]),
     "below rounding": ('[solver]\ntolerance = "1e-9 um"', "solver.tolerance", ["rounding"]),
     "coarser than contacts": ('[solver]\ntolerance = "2 um"', "solver.tolerance", ["2 um", "1 um"]),
-    "newton loose": ("[solver]\nnewton_tolerance = 2", "solver.newton_tolerance", ["at most 1"]),
-    "newton": ("[solver]\nnewton_tolerance = 0", "solver.newton_tolerance", ["greater than 0"]),
+    "newton loose": ("[solver]\nnewton_tolerance = 2", "solver.newton_tolerance", ["1 or less"]),
+    "newton": ("[solver]\nnewton_tolerance = 0", "solver.newton_tolerance", ["0.001 or more"]),
+    "newton fine": ("[solver]\nnewton_tolerance = 1e-30", "solver.newton_tolerance", ["1e-30"]),
     "steps": ('[solver]\nmin_step = "60 us"', "solver.min_step", ["60 us", "50 us"]),
     "friction speeds": (
         '[contacts.rib.friction]\nv_static = "2 m/s"',

@@ -323,6 +323,9 @@ def test_the_example_in_the_readme(tmp_path):
     law = case.contacts.pocket.normal
     p = laws.normal_parameters(law, 1e8, 1.0)
     assert p[0] == pytest.approx(2e6)
+    place = "contacts.pocket.normal"
+    varied = {f"{place}.stiffness": "2 N/um", f"{place}.law": "soft_wall"}  # in any order
+    assert load_case(PLAIN, overrides=varied) == case
     law_checks().check_normal_law(laws.NORMAL_LAWS[law.law], p)
 
 
