@@ -19,6 +19,7 @@ from flexcage.geometry.ball_cages import BallCage
 from flexcage.geometry.checks import (
     Finding,
     check_geometry,
+    find_in_unbalance,
     raise_first,
     refuse_foreign,
 )
@@ -152,6 +153,7 @@ def _find_in_clearance(b: BallBearing, clearance: float) -> Iterator[Finding]:
 
 def find_in_cage(b: BallBearing, c: BallCage) -> Iterator[Finding]:
     """What is impossible for the cage in its bearing."""
+    yield from find_in_unbalance(c)
     if c.pocket_diameter <= b.ball_diameter:
         yield (
             "cage.pocket_diameter",

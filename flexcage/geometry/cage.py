@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from math import pi
 from typing import TYPE_CHECKING, Any
 
 from flexcage.core.spec import option, quantity
@@ -30,6 +31,12 @@ class Cage:
     def fillet(self) -> float:
         """Radius [m] of its pockets' corners; zero without corners."""
         return 0.0
+
+    @property
+    def most_unbalance(self) -> float:
+        """Unbalance [kg m] of half of its body of revolution, taken as solid: more cannot be."""
+        wall = pi / 4.0 * (self.outside_diameter**2 - self.bore**2)
+        return 0.5 * self.material.density * wall * self.width * self.mean_radius
 
     if TYPE_CHECKING:
 

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from functools import singledispatch
-from math import asin, inf, pi, sin, sqrt
+from math import asin, hypot, inf, pi, sin, sqrt
 from typing import Any
 
 import numpy as np
@@ -15,6 +15,7 @@ import numpy as np
 from flexcage.core.errors import InputError
 from flexcage.core.units import describe
 from flexcage.geometry.bearing import Bearing
+from flexcage.geometry.cage import Cage
 from flexcage.geometry.cages import (
     CrossbeamDefect,
     Defect,
@@ -218,7 +219,9 @@ def _find_in_lengths(b: RollerBearing) -> Iterator[Finding]:
 def find_in_cage(b: RollerBearing, c: WindowCage) -> Iterator[Finding]:
     """What is impossible for the cage in its bearing."""
     yield from _find_in_pockets(b, c)
+    yield from _find_in_corners(b, c)
     yield from _find_in_space(b, c)
+    yield from find_in_unbalance(c)
 
 
 def _find_in_pockets(b: RollerBearing, c: WindowCage) -> Iterator[Finding]:
@@ -232,6 +235,30 @@ def _find_in_pockets(b: RollerBearing, c: WindowCage) -> Iterator[Finding]:
                 f"cage.{key} is {_mm(size)}, a clearance of {_mm(size - roller)}; it must be "
                 f"greater than the roller's {name}, {_mm(roller)}.",
             )
+
+
+def _find_in_corners(b: RollerBearing, c: WindowCage) -> Iterator[Finding]:
+    edge = 0.5 * (b.roller_length - b.effective_length)  # taken as the radius of a roller's edge
+    aside = c.fillet_radius - edge - 0.5 * (c.pocket_width - b.roller_diameter)
+    along = c.fillet_radius - edge - 0.5 * (c.pocket_length - b.roller_length)
+    depth = hypot(max(aside, 0.0), max(along, 0.0)) + edge - c.fillet_radius
+    if depth > 0.0 and min(aside, along) > 0.0:
+        yield (
+            "cage.fillet_radius",
+            f"cage.fillet_radius is {_mm(c.fillet_radius)}, so that the edges of a roller in the "
+            f"middle of its pocket, with a radius of {_mm(edge)}, lie {_mm(depth)} inside the "
+            "fillets; make it smaller, or the pockets larger.",
+        )
+
+
+def find_in_unbalance(c: Cage) -> Iterator[Finding]:
+    """An unbalance that no cage of this size can have."""
+    if c.unbalance > c.most_unbalance:
+        yield (
+            "cage.unbalance",
+            f"cage.unbalance is {describe(c.unbalance, 'g*mm')}, but half of the cage's body of "
+            f"revolution makes no more than {describe(c.most_unbalance, 'g*mm')}.",
+        )
 
 
 def _find_in_space(b: RollerBearing, c: WindowCage) -> Iterator[Finding]:

@@ -32,6 +32,8 @@ from flexcage.geometry.cages import (
 from flexcage.mesh.cage_mesh import CageMesh, signed_volumes
 from flexcage.mesh.measure import face_shifts, pocket_frame
 
+MOST_CHANGE = 1e-3  # of the volume, by one defect
+
 
 def apply_defects(
     mesh: CageMesh, cage: WindowCage, defects: Sequence[Defect], *, pitch_radius: float
@@ -56,6 +58,7 @@ def apply_defects(
             }
         )
     _refuse_inverted(mesh, defects)
+    _refuse_swollen(report)
     info = {
         **mesh.info,
         "defects": report,
@@ -84,6 +87,19 @@ def _refuse_inverted(mesh: CageMesh, defects: Sequence[Defect]) -> None:
             where="defects",
             value=worst.displacement,
         )
+
+
+def _refuse_swollen(report: Sequence[dict[str, Any]]) -> None:
+    for i, found in enumerate(report):
+        change = found["volume_change"]
+        if abs(change) >= MOST_CHANGE:
+            raise InputError(
+                f"defects.{i} of {found['asked'] * 1e3:g} mm changes the cage's volume by "
+                f"{change:+.2%}, where deforming it should keep it within {MOST_CHANGE:.1%}; it is "
+                "too large for this cage",
+                where=f"defects.{i}.displacement",
+                value=found["asked"],
+            )
 
 
 def defect_displacement(

@@ -101,6 +101,16 @@ BAD = {
         "load.wave",
         ["'sine'", "cannot vary", "leave it out"],
     ),
+    "fillets as large as pockets": (
+        '[cage]\nfillet_radius = "3 mm"',
+        "cage.fillet_radius",
+        ["3 mm", "0.93861 mm inside the fillets", "smaller"],
+    ),
+    "unbalance of a flywheel": (
+        '[cage]\nunbalance = "100000 g*mm"',
+        "cage.unbalance",
+        ["100000 g*mm", "no more than"],
+    ),
     "overload": ('[load]\nradial = "800 kN"', "load.radial", ["800 kN", "51 kN"]),
     "overload of a few ratings": (
         '[load]\nradial = "500 kN"',

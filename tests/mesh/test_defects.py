@@ -179,3 +179,10 @@ def test_defects_that_close_a_pocket_together_are_refused(n1013):
     pinch.append(CrossbeamDefect(crossbeam=4, displacement=0.3 * MM))
     with pytest.raises(InputError, match="pocket 3"):
         n1013(*pinch, fineness="coarse")
+
+
+def test_a_defect_that_changes_the_volume_is_refused(n1013):
+    defect = SideBeamDefect(pocket=5, side="+x", displacement=3.8 * MM)
+    with pytest.raises(InputError, match=r"3.8 mm changes the cage's volume by \+0.10%") as said:
+        n1013(defect, fineness="coarse")
+    assert said.value.where == "defects.0.displacement"
