@@ -24,6 +24,15 @@ from flexcage.core.vectors import (
     turned,
     xyz,
 )
+from flexcage.system.data import (
+    DRAG,
+    GRAVITY,
+    POCKET_DAMPING,
+    POCKET_FRICTION,
+    RACE_DAMPING,
+    RACE_FRICTION,
+    ROLLING_RESISTANCE,
+)
 from flexcage.system.rows import (
     CAGE_SPIN,
     RING_AXIS,
@@ -116,9 +125,9 @@ def _report_race(i, side, sums, rep):
     for c in range(5):
         rep.race[i, side, c] = sums[c]
     rep.energy[2] += sums[5]
-    rep.power[3] += sums[6]
-    rep.power[4] += sums[7]
-    rep.power[5] += sums[8]
+    rep.power[RACE_DAMPING] += sums[6]
+    rep.power[RACE_FRICTION] += sums[7]
+    rep.power[ROLLING_RESISTANCE] += sums[8]
 
 
 @part
@@ -157,8 +166,8 @@ def _pocket(i, qi, ui, Rc, Vc, qf, qfd, margin, d, law, mode):
 @outlined
 def _report_pocket(i, hit, sums, pw, rep, mode):
     rep.energy[2] += sums[0]
-    rep.power[6] += sums[1]
-    rep.power[7] += sums[2]
+    rep.power[POCKET_DAMPING] += sums[1]
+    rep.power[POCKET_FRICTION] += sums[2]
     rep.residual[i, 0] = sums[3]
     rep.contact[i, 2] = 1 if pw.normal[0] > 0.0 else 0
     rep.approach[i, 2] = sums[4]
@@ -190,8 +199,8 @@ def _ball_rows(i, qi, ui, qdi, udi, d, r_q, r_u, mode):
     r_u[4] = inertia * (udi[4] - orbit * ui[5]) - FR[4]
     r_u[5] = inertia * (udi[5] + orbit * ui[4]) - FR[5]
     if mode >= 2:
-        rep.power[2] += mass * (gr * ui[1] + gp * ui[2])
-        rep.power[10] += drag * ui[2]
+        rep.power[GRAVITY] += mass * (gr * ui[1] + gp * ui[2])
+        rep.power[DRAG] += drag * ui[2]
         v2 = ui[0] * ui[0] + ui[1] * ui[1] + ui[2] * ui[2]
         w2 = ui[3] * ui[3] + ui[4] * ui[4] + ui[5] * ui[5]
         rep.energy[0] += 0.5 * (mass * v2 + inertia * w2)

@@ -23,12 +23,20 @@ POWERS = (
     "rolling_resistance",
     "pocket_damping",
     "pocket_friction",
-    "rib",
-    "land",
+    "rib_damping",
+    "rib_friction",
+    "land_damping",
+    "land_friction",
+    "film",
     "drag",
     "modal_damping",
     "mount",
 )
+(
+    DRIVE, LOAD, GRAVITY, RACE_DAMPING, RACE_FRICTION, ROLLING_RESISTANCE, POCKET_DAMPING,
+    POCKET_FRICTION, RIB_DAMPING, RIB_FRICTION, LAND_DAMPING, LAND_FRICTION, FILM, DRAG,
+    MODAL_DAMPING, MOUNT,
+) = range(len(POWERS))  # fmt: skip
 
 
 class Bodies(NamedTuple):

@@ -22,6 +22,15 @@ from flexcage.core.vectors import (
     xyz,
 )
 from flexcage.system.blocks import scatter, scatter_outer
+from flexcage.system.data import (
+    DRAG,
+    GRAVITY,
+    RACE_DAMPING,
+    RACE_FRICTION,
+    RIB_DAMPING,
+    RIB_FRICTION,
+    ROLLING_RESISTANCE,
+)
 from flexcage.system.rows import (
     CAGE_SPIN,
     RING_AXIS,
@@ -177,7 +186,8 @@ def _report_ribs(i, sums, rep):
     rep.contact[i, 6] = 1 if sums[0] > 0.0 else 0
     rep.contact[i, 7] = 1 if sums[1] > 0.0 else 0
     rep.energy[2] += sums[2]
-    rep.power[8] += sums[3] + sums[4]
+    rep.power[RIB_DAMPING] += sums[3]
+    rep.power[RIB_FRICTION] += sums[4]
 
 
 @part
@@ -186,9 +196,9 @@ def _report_race(i, side, sums, rep):
         rep.race[i, side, c] = sums[c]
     rep.contact[i, side] = 1 if sums[0] > 0.0 else 0
     rep.energy[2] += sums[5]
-    rep.power[3] += sums[6]
-    rep.power[4] += sums[7]
-    rep.power[5] += sums[8]
+    rep.power[RACE_DAMPING] += sums[6]
+    rep.power[RACE_FRICTION] += sums[7]
+    rep.power[ROLLING_RESISTANCE] += sums[8]
 
 
 @part
@@ -219,8 +229,8 @@ def _roller_rows(i, qi, ui, qdi, udi, d, r_q, r_u, mode):
         tan.Crr[i, 4, 5] += Ia * ui[3] - It * frame
         tan.Crr[i, 5, 4] -= Ia * ui[3] - It * frame
     elif mode >= 2:
-        rep.power[2] += mass * (gr * ui[1] + gp * ui[2])
-        rep.power[10] += drag * ui[2]
+        rep.power[GRAVITY] += mass * (gr * ui[1] + gp * ui[2])
+        rep.power[DRAG] += drag * ui[2]
         v2 = ui[0] * ui[0] + ui[1] * ui[1] + ui[2] * ui[2]
         w2 = ui[4] * ui[4] + ui[5] * ui[5]
         rep.energy[0] += 0.5 * (mass * v2 + Ia * ui[3] * ui[3] + It * w2)

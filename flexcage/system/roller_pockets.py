@@ -23,6 +23,7 @@ from flexcage.core.vectors import (
     xyz,
 )
 from flexcage.system.blocks import scatter, scatter_modes
+from flexcage.system.data import POCKET_DAMPING, POCKET_FRICTION
 from flexcage.system.rows import (
     CAGE_SPIN,
     LEVER,
@@ -96,8 +97,8 @@ def _pocket(i, qi, Rc, Vc, qf, qfd, margin, d, law, mode):
 def _report_pocket(i, hit, sums, pw, rep, mode):
     if hit:
         rep.energy[2] += sums[0]
-        rep.power[6] += sums[1]
-        rep.power[7] += sums[2]
+        rep.power[POCKET_DAMPING] += sums[1]
+        rep.power[POCKET_FRICTION] += sums[2]
     if hit and mode == 2:
         copy_into(rep.station[i], pw.st)
         for f in range(2):

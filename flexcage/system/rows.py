@@ -22,6 +22,17 @@ from flexcage.core.vectors import (
     turned_back,
     xyz,
 )
+from flexcage.system.data import (
+    DRAG,
+    DRIVE,
+    FILM,
+    GRAVITY,
+    LAND_DAMPING,
+    LAND_FRICTION,
+    LOAD,
+    MODAL_DAMPING,
+    MOUNT,
+)
 from flexcage.system.waves import wave_integral, wave_value
 
 # rows of ``Work.vec``: of the bodies, in space; of the pair under work, in the roller's frame F
@@ -210,8 +221,10 @@ def land_rows(q, u, zq, nm, d, law, mode):
         for c in range(2):
             rep.land_touch[c, 0], rep.land_touch[c, 1] = sums[4 + c], sums[6 + c]
         rep.energy[2] += sums[0]
-        rep.power[9] += sums[1] + sums[2] + sums[3]
-        rep.power[10] -= drag * wg[0]
+        rep.power[LAND_DAMPING] += sums[1]
+        rep.power[LAND_FRICTION] += sums[2]
+        rep.power[FILM] += sums[3]
+        rep.power[DRAG] -= drag * wg[0]
 
 
 @part(fastmath=VECTORISED)
@@ -286,7 +299,7 @@ def cage_rows(d, quat, Vc, wb, qf, qfd, qd, ud, zq, r_q, r_u, mode):
                 tan.Cbb[14 + m, 14 + l] += data.dff[m, l]
     elif mode >= 2:
         for m in range(nm):  # the product is that of the damping
-            rep.power[11] -= qfd[m] * product[m]
+            rep.power[MODAL_DAMPING] -= qfd[m] * product[m]
         put(v, turned_back(A, xyz(Vc)))
         for c in range(3):
             v[3 + c] = wb[c]
@@ -295,12 +308,12 @@ def cage_rows(d, quat, Vc, wb, qf, qfd, qd, ud, zq, r_q, r_u, mode):
             for m in range(nm):
                 momentum += H[k, m] * qfd[m]
             if k < 3:  # what gravity does on the body's first moment of mass
-                rep.power[2] += gb[k] * momentum
+                rep.power[GRAVITY] += gb[k] * momentum
             rep.energy[0] += v[k] * momentum
             for c in range(6):
                 rep.energy[0] += 0.5 * v[k] * M[k, c] * v[c]
                 if c < 3:
-                    rep.power[2] += v[k] * M[k, c] * gb[c]
+                    rep.power[GRAVITY] += v[k] * M[k, c] * gb[c]
         modal_product(data.mff, data.plain, qfd, product)
         for m in range(nm):
             rep.energy[0] += 0.5 * qfd[m] * product[m]
@@ -419,18 +432,20 @@ def ring_rows(t, d, q, u, qd, ud, lam, mu_, zq, r_q, r_u, out, end, mode):
         w2 = ru[4] * ru[4] + ru[5] * ru[5]
         v2 = ru[0] * ru[0] + ru[1] * ru[1] + ru[2] * ru[2]
         rep.energy[0] += 0.5 * (mass * v2 + Ia * ru[3] * ru[3] + It * w2)
-        rep.power[0] += lam[3] * ru[3] + shaft * ru[3]
-        rep.power[1] += load * (bodies.load_direction[0] * ru[1] + bodies.load_direction[1] * ru[2])
+        rep.power[DRIVE] += lam[3] * ru[3] + shaft * ru[3]
+        rep.power[LOAD] += load * (
+            bodies.load_direction[0] * ru[1] + bodies.load_direction[1] * ru[2]
+        )
         spin = work.vec[RING_SPIN]
-        rep.power[1] += axial * ru[0]
-        rep.power[1] += bodies.moments[0] * spin[1] + bodies.moments[1] * spin[2]
+        rep.power[LOAD] += axial * ru[0]
+        rep.power[LOAD] += bodies.moments[0] * spin[1] + bodies.moments[1] * spin[2]
         for c in range(3):
-            rep.power[2] += mass * bodies.gravity[c] * ru[c]
+            rep.power[GRAVITY] += mass * bodies.gravity[c] * ru[c]
         if fixed == 0.0:
             rep.energy[3] += stored
-            rep.power[12] -= lost
+            rep.power[MOUNT] -= lost
             for c in range(2):
                 rep.energy[0] += 0.5 * mo * ou[c] * ou[c]
-                rep.power[2] += mo * bodies.gravity[1 + c] * ou[c]
+                rep.power[GRAVITY] += mo * bodies.gravity[1 + c] * ou[c]
         for c in range(2):
             rep.body_force[c] = border[6 + c]
