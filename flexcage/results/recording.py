@@ -21,7 +21,7 @@ from flexcage.solve.options import SolverOptions
 from flexcage.system.data import POWERS
 from flexcage.system.layout import CONSTRAINTS
 from flexcage.system.problem import Bearing
-from flexcage.system.scales import error_weights
+from flexcage.system.scales import error_weights, work_weights
 from flexcage.system.start import Start
 
 if TYPE_CHECKING:
@@ -97,6 +97,7 @@ class Recorder:
         self.bearing, self.store, self.solver, self.output = bearing, store, solver, output
         self._computed = _computed(store)
         self.weight = error_weights(bearing.data.model, bearing.layout, solver.tolerance)
+        self.work_weight = work_weights(bearing.data.model, solver.tolerance)
         self.bound = np.inf  # [s] least stability bound of explicit steps so far
         self._take("bdf" if solver.method == "auto" else solver.method, 0.0, start.y, start.yd)
         self._filter = np.zeros((2, 2, 2))
@@ -110,7 +111,7 @@ class Recorder:
         self.integrator = INTEGRATORS[method]
         self.options = self.integrator.options(self.solver)
         self.state = self.integrator.new_state(
-            time, y, yd, weight=self.weight, h0=FIRST_STEP, n_quad=len(POWERS),
+            time, y, yd, weight=self.weight, h0=FIRST_STEP, quad_weight=self.work_weight,
             modes=self.bearing.modes,
         )  # fmt: skip
         if before is not None:

@@ -64,7 +64,8 @@ class BDFState(NamedTuple):
     count: np.ndarray  # type: ignore[assignment]  # (16,) counters of ``contract``, order and more
     weight: np.ndarray  # (n,) 1/allowed local error; 0: not in the error test
     quad: np.ndarray  # (n_quad,) integrals
-    power: np.ndarray  # (2, n_quad) integrands at the last and the present point
+    quad_weight: np.ndarray  # (n_quad,) 1/allowed local error of each; 0: not in the error test
+    power: np.ndarray  # (3, n_quad) integrands at the last, the present and the point before
     vec: np.ndarray  # (6, n) work
     coef: np.ndarray  # (3, MAX_ORDER + 1) gamma, (1 - kappa) gamma, error constants
 
@@ -78,10 +79,10 @@ class Options(NamedTuple):
 
 
 def new_state(
-    t0: float, y0, yd0, *, weight, h0: float, n_quad: int = 0, modes: Any = None
+    t0: float, y0, yd0, *, weight, h0: float, quad_weight=(), modes: Any = None
 ) -> BDFState:
     """State at the start: order 1, first difference h0 y'. ``modes`` are unknowns like others."""
-    n = len(y0)
+    n, n_quad = len(y0), len(quad_weight)
     D = np.zeros((MAX_ORDER + 3, n))
     D[0] = y0
     D[1] = h0 * np.asarray(yd0)
@@ -92,7 +93,8 @@ def new_state(
     count[ORDER] = 1
     return BDFState(
         D, np.array([t0, h0, 0.0, 1.0, h0]), count, np.array(weight, float), np.zeros(n_quad),
-        np.zeros((2, n_quad)), np.zeros((6, n)), np.stack([gamma, (1.0 - kappa) * gamma, error]),
+        np.array(quad_weight, float), np.zeros((3, n_quad)), np.zeros((6, n)),
+        np.stack([gamma, (1.0 - kappa) * gamma, error]),
     )  # fmt: skip
 
 
@@ -149,6 +151,21 @@ def worst(a, weight, factor):
         total += x  # carries whatever is not a number
         s = max(s, x)
     return s * factor if total <= 1e300 else np.inf
+
+
+def missed(h, h_last, power, weight):
+    """Largest weighted error of the trapezoidal rule over a step h after one of ``h_last``."""
+    most = 0.0
+    for k in range(weight.shape[0]):
+        bend = (power[1, k] - power[0, k]) / h - (power[0, k] - power[2, k]) / h_last
+        most = max(most, abs(bend) * weight[k])
+    return most * h**3 / (6.0 * (h + h_last))
+
+
+def allowed(error, order, work):
+    """How many times as long a step could be for these errors of y and of integrals."""
+    of_work = max(work, 1e-10) ** (-1.0 / 3.0)
+    return min(max(error, 1e-10) ** (-1.0 / (order + 1)), of_work)
 
 
 def correct(fns, data, st, opt, t_new, c):
@@ -230,6 +247,8 @@ def advance(fns, data, st, opt, t_end, times, ys, yds, first, log, quads):
             yd[k] = D[1, k] / real[H]
         residual(real[T], y, yd, data, r, st.power[0])
         note(real[T], data)
+        for k in range(st.quad.shape[0]):
+            st.power[2, k] = st.power[0, k]
     while real[T] < t_end:
         if row >= log.shape[0]:
             return LOG_FULL, sample, row
@@ -272,9 +291,10 @@ def advance(fns, data, st, opt, t_end, times, ys, yds, first, log, quads):
             count[EQUAL] = 0
             continue
         error = worst(d, st.weight, st.coef[2, order])
+        work = missed(h, real[H_LAST], st.power, st.quad_weight)
         if not error < 1e300:
             return NOT_FINITE, sample, row
-        if error > 1.0:
+        if max(error, work) > 1.0:
             count[ERROR_FAILS] += 1
             count[RECENT] += 10
             count[FAILS] += 1
@@ -287,7 +307,7 @@ def advance(fns, data, st, opt, t_end, times, ys, yds, first, log, quads):
             if count[RECENT] > 15 and order > 2:
                 count[ORDER] = 2
                 count[GUARD] = GUARD_STEPS
-            ratio = max(0.25, 0.85 * error ** (-1.0 / (order + 1)))
+            ratio = max(0.25, 0.85 * allowed(error, order, work))
             change_step(D, count[ORDER], ratio)
             real[H] = ratio * h
             count[EQUAL] = 0
@@ -322,27 +342,28 @@ def advance(fns, data, st, opt, t_end, times, ys, yds, first, log, quads):
             sample += 1
         for k in range(st.quad.shape[0]):
             st.quad[k] += 0.5 * h * (st.power[0, k] + st.power[1, k])
-            st.power[0, k] = st.power[1, k]
+            st.power[2, k], st.power[0, k] = st.power[0, k], st.power[1, k]
         log[row, 0], log[row, 1], log[row, 2] = t_new, h, order
-        log[row, 3], log[row, 4] = count[ITERATIONS] - iterations, error
+        log[row, 3], log[row, 4] = count[ITERATIONS] - iterations, max(error, work)
         row += 1
         if count[EQUAL] >= order + 1:
-            _choose(st, opt, error)
+            _choose(st, opt, error, work)
     return DONE, sample, row
 
 
-def _choose(st, opt, error):
-    """Order and step for the next steps, from the error estimates of three neighbouring orders."""
+def _choose(st, opt, error, work):
+    """Order and step for the next steps, from the error estimates of three neighbouring orders,
+    and the step by that of the integrals, ``work``, as well."""
     D, count, real = st.D, st.count, st.real
     order = count[ORDER]
     highest = 2 if count[GUARD] > 0 and opt.max_order > 2 else opt.max_order
     best, new = 0.0, order
     for q in range(max(order - 1, 1), min(order + 1, highest) + 1):
         e = error if q == order else worst(D[q + 1], st.weight, st.coef[2, q])
-        f = max(e, 1e-10) ** (-1.0 / (q + 1))
+        f = allowed(e, q, 0.0)
         if f > best:
             best, new = f, q
-    factor = min(8.0, 0.85 * best)
+    factor = min(8.0, 0.85 * min(best, allowed(0.0, new, work)))
     if new == order and 0.9 < factor < 1.2:
         return
     count[ORDER] = new
@@ -368,7 +389,7 @@ BDF = Integrator(
     name="bdf",
     advance=advance,
     functions=("residual", "linearise", "factor", "backsolve", "note", "observe"),
-    helpers=("change_step", "interpolate", "worst", "correct", "_choose"),
+    helpers=("change_step", "interpolate", "worst", "missed", "allowed", "correct", "_choose"),
     options=_options,
     new_state=new_state,
     kept=("D", "real", "count", "quad", "power"),

@@ -45,10 +45,12 @@ class Integrator:
     ``helpers``: names of functions beside ``advance`` that it calls, callees first.
     ``options``: from SolverOptions to the numbers of ``advance``. ``bounded``: its steps are held
     within the stability bound of explicit ones by ``h_max`` of these, as ``within`` says.
-    ``new_state(t0, y0, yd0, *, weight, h0, n_quad, modes)``: a NamedTuple of arrays with ``real``,
-    ``count`` and ``quad``; ``modes`` are the unknowns' linear oscillators
-    (``oscillators.Oscillators``), of which a method may make use. ``kept`` names the arrays that a
-    checkpoint needs. ``refresh``: forget at a block's boundary what a resumed run cannot know.
+    ``new_state(t0, y0, yd0, *, weight, h0, quad_weight, modes)``: a NamedTuple of arrays with
+    ``real``, ``count`` and ``quad``; ``weight`` and ``quad_weight`` are 1/(allowed local error) of
+    the unknowns and of the integrals, 0 for those not tested; ``modes`` are the unknowns' linear
+    oscillators (``oscillators.Oscillators``), of which a method may make use. ``kept`` names the
+    arrays that a checkpoint needs. ``refresh``: forget at a block's boundary what a resumed run
+    cannot know.
     ``last``: y and y' of the last accepted point.
     """
 

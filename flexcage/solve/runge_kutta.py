@@ -11,7 +11,7 @@ last weight may move from one to the other without loss of order 3. A ``SHARE`` 
 difference of the two formulas is the error estimate. Both look at the step's end, and not at a
 contact that closes on the way there; so the bend of y' over the step (start less middle plus end)
 adds ``CURVE`` of itself. The step is carried on with order 4. The powers' integrals take the
-weights of the stages, and so have the order and points of the solution.
+weights of the stages, and so have the order and points of the solution, and its estimate.
 
 ``advance`` is plain Python that numba also compiles: it receives the problem as functions and their
 data,
@@ -83,6 +83,7 @@ class RKState(NamedTuple):
     count: np.ndarray  # type: ignore[assignment]  # (7,) counters of ``contract``
     weight: np.ndarray  # (n,) 1/allowed local error; 0: not in the error test
     quad: np.ndarray  # (n_quad,) integrals
+    quad_weight: np.ndarray  # (n_quad,) 1/allowed local error of each; 0: not in the error test
     power: np.ndarray  # (STAGES, n_quad) integrands
     modes: Oscillators  # m of the unknowns' pairs
     drive: np.ndarray  # (STAGES, m) what drives them at the stages
@@ -97,16 +98,16 @@ class Options(NamedTuple):
 
 
 def new_state(
-    t0: float, y0, yd0, *, weight, h0: float, n_quad: int = 0, modes: Oscillators | None = None
+    t0: float, y0, yd0, *, weight, h0: float, quad_weight=(), modes: Oscillators | None = None
 ) -> RKState:
     """State at the start; y' is computed from y."""
-    n, modes = len(y0), modes or no_oscillators()
+    n, n_quad, modes = len(y0), len(quad_weight), modes or no_oscillators()
     m = len(modes.decay)
     return RKState(
         np.array(y0, float), np.zeros((STAGES, n)), np.zeros((2, n)), np.array([t0, h0, 0.0]),
         np.zeros(7, np.int64), np.array(weight, float), np.zeros(n_quad),
-        np.zeros((STAGES, n_quad)), modes, np.zeros((STAGES, m)), np.zeros((3, 2, m)),
-        np.zeros((2, ROWS, m)),
+        np.array(quad_weight, float), np.zeros((STAGES, n_quad)), modes, np.zeros((STAGES, m)),
+        np.zeros((3, 2, m)), np.zeros((2, ROWS, m)),
     )  # fmt: skip
 
 
@@ -118,6 +119,16 @@ def largest(a, weight):
         total += x  # carries whatever is not a number
         s = max(s, x)
     return s if total <= 1e300 else np.inf
+
+
+def missed(h, power, weight):
+    """Largest weighted estimate of what a step's integrals miss, as that of y."""
+    worst = 0.0
+    for k in range(weight.shape[0]):
+        late = power[4, k] - power[3, k]
+        bend = power[0, k] - power[1, k] - power[2, k] + power[4, k]
+        worst = max(worst, abs(h * (SHARE * late + CURVE * bend)) * weight[k])
+    return worst
 
 
 def hermite(x, h, y0, f0, y1, f1, y, yd):
@@ -188,7 +199,7 @@ def advance(fns, data, st, opt, t_end, times, ys, yds, first, log, quads):
             late, bend = K[4, k] - K[3, k], K[0, k] - K[1, k] - K[2, k] + K[4, k]
             estimate[k] = h * (SHARE * late + CURVE * bend)
         drive_missed(modes, C, N, SHARE, CURVE, estimate)
-        error = largest(estimate, st.weight)
+        error = max(largest(estimate, st.weight), missed(h, power, st.quad_weight))
         if not error <= 1.0:
             count[ERROR_FAILS] += 1
             finite = error < np.inf
@@ -286,6 +297,7 @@ EXPLICIT_METHOD = Integrator(
     functions=("rates", "note", "sample", "wanted"),
     helpers=(
         "largest",
+        "missed",
         "hermite",
         "step_weights",
         "find_turns",

@@ -101,8 +101,8 @@ def _rolling(
 
 @error_weights.register
 def _(model: BallModel, layout: Layout, length: float) -> np.ndarray:
-    pitch, speed = model.pocket.height, length * ERROR_RATE
-    weight = shared_weights(model, layout, length, pitch)
+    pitch, speed = model.bodies.pitch, length * ERROR_RATE
+    weight = shared_weights(model, layout, length)
     q, u = layout.q(weight), layout.u(weight)
     q["inner"][0], q["inner"][3:5] = 1.0 / length, pitch / length
     u["rollers"][:, 3:] = float(model.bodies.radius.mean()) / (10.0 * speed)

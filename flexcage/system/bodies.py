@@ -119,6 +119,7 @@ def bodies_of(
     return Bodies(
         element=element,
         radius=radius,
+        pitch=0.5 * bearing.pitch_diameter,
         ring=np.array([bearing.inner_ring_mass + load.shaft_mass, *bearing.inner_ring_inertia]),
         outer=np.array(
             [

@@ -44,6 +44,7 @@ class Bodies(NamedTuple):
 
     element: np.ndarray  # (3,) of a rolling element: mass, axial and transverse inertia
     radius: np.ndarray  # (Z,) roller radii
+    pitch: float  # radius of the pitch circle
     ring: np.ndarray  # (3,) inner ring with what moves with it
     outer: np.ndarray  # (5,) mass, stiffness, damping, 1.0 if fixed, clearance (< 0: a bushing)
     gravity: np.ndarray  # (3,)

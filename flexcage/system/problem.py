@@ -178,7 +178,9 @@ class Bearing:
         groups = (self.data.work.tangent, self.data.matrix, self.data.model.bodies)
         tangent, matrix, bodies = (FieldsType(numba.typeof(group)) for group in groups)
         method, none = runge_kutta.EXPLICIT_METHOD, np.zeros(1)
-        state = method.new_state(0.0, none, none, weight=none, h0=1.0, n_quad=1, modes=self.modes)
+        state = method.new_state(
+            0.0, none, none, weight=none, h0=1.0, quad_weight=none, modes=self.modes
+        )
 
         def kernel_for(kernel: Any, *arguments: Any) -> None:
             with uncollected():
@@ -254,7 +256,7 @@ class Bearing:
         method = runge_kutta.EXPLICIT_METHOD
         weight = error_weights(self.data.model, self.layout, NUDGE)
         state = method.new_state(
-            t, y, yd, weight=weight, h0=1.0, n_quad=len(POWERS), modes=self.modes
+            t, y, yd, weight=weight, h0=1.0, quad_weight=np.zeros(len(POWERS)), modes=self.modes
         )
         function = self._radius_of(state)
         radius = function(self.functions(method), self.args, state, ITERATIONS, 1.0)

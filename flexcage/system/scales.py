@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 
+from flexcage.system.data import POWERS
 from flexcage.system.layout import Layout
 from flexcage.system.model import Model
 
@@ -25,11 +26,9 @@ def error_weights(model: Any, layout: Layout, length: float) -> np.ndarray:
     raise NotImplementedError(f"{type(model).__name__} has no error weights")
 
 
-def shared_weights(model: Any, layout: Layout, length: float, pitch: float) -> np.ndarray:
-    """The same of what all bearings have: places and speeds of elements and bodies, modes.
-
-    ``pitch`` [m] is the lever of the cage's turns and of elements along their orbit.
-    """
+def shared_weights(model: Any, layout: Layout, length: float) -> np.ndarray:
+    """The same of what all bearings have: places and speeds of elements and bodies, modes."""
+    pitch = model.bodies.pitch  # lever of the cage's turns and of elements along their orbit
     allowed = np.full(layout.size, np.inf)
     q, u, speed = layout.q(allowed), layout.u(allowed), length * ERROR_RATE
     q["rollers"][:, :2] = length
@@ -46,10 +45,24 @@ def shared_weights(model: Any, layout: Layout, length: float, pitch: float) -> n
     return 1.0 / allowed
 
 
+def work_weights(model: Any, length: float) -> np.ndarray:
+    """1/(allowed local error) of the work of every power for a position error of ``length`` [m].
+
+    What all that loads the bearing does over ``length``: its loads at their largest, and the
+    elements' weight and centrifugal force at the drive's largest speed.
+    """
+    bodies = model.bodies
+    orbit = 0.5 * np.abs(bodies.speed[1]).max()
+    pull = 9.81 + orbit**2 * bodies.pitch
+    loads = np.abs(bodies.load[1]).max() + np.abs(bodies.axial[1]).max()
+    force = loads + len(bodies.radius) * bodies.element[0] * pull
+    return np.full(len(POWERS), 1.0 / (length * force))
+
+
 @error_weights.register
 def _(model: Model, layout: Layout, length: float) -> np.ndarray:
     reach, speed = float(model.pocket.half_roller), length * ERROR_RATE
-    weight = shared_weights(model, layout, length, 0.5 * (model.inner.radius + model.outer.radius))
+    weight = shared_weights(model, layout, length)
     q, u = layout.q(weight), layout.u(weight)
     q["rollers"][:, 3:5] = reach / length
     u["rollers"][:, 3] = float(model.bodies.radius.mean()) / (10.0 * speed)

@@ -21,7 +21,7 @@ from flexcage.solve.options import SolverOptions
 from flexcage.stages import assembled_start, build_bearing, cage_mesh, cage_reduction
 from flexcage.system.data import POWERS
 from flexcage.system.problem import new_samples
-from flexcage.system.scales import error_weights
+from flexcage.system.scales import error_weights, work_weights
 
 SETTLE = 20e-3  # [s] of bearing time before the stored state
 RATE = 200e3  # [1/s] samples of the compared window
@@ -167,7 +167,13 @@ class Settled:
         method = INTEGRATORS["explicit" if solver.method == "auto" else solver.method]
         weight = self.weights(share)
         state = method.new_state(
-            t0, y, yd, weight=weight, h0=FIRST_STEP, n_quad=len(POWERS), modes=b.modes
+            t0,
+            y,
+            yd,
+            weight=weight,
+            h0=FIRST_STEP,
+            quad_weight=work_weights(b.data.model, self.case.solver.tolerance * share),
+            modes=b.modes,
         )
         ys, yds = np.zeros((len(times), len(y))), np.zeros((len(times), len(y)))
         quads = np.zeros((len(times), len(POWERS)))

@@ -104,7 +104,13 @@ def first_step(file: str, begin: float) -> dict[str, Any]:
     method, until = INTEGRATORS["explicit"], 1e-7
     weight = error_weights(bearing.data.model, bearing.layout, case.solver.tolerance)
     state = method.new_state(
-        0.0, start.y, start.yd, weight=weight, h0=until, n_quad=len(POWERS), modes=bearing.modes
+        0.0,
+        start.y,
+        start.yd,
+        weight=weight,
+        h0=until,
+        quad_weight=np.zeros(len(POWERS)),
+        modes=bearing.modes,
     )
     rows = np.zeros((2, len(start.y)))
     bearing.advance(

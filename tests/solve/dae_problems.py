@@ -126,10 +126,12 @@ def functions(problem):
 
 
 def run(bdf, problem, *, tolerance, end=2.0, max_order=2, times=(), h0=1e-6, h_max=0.1, quads=0,
-        h_min=1e-14, max_steps=100_000, log_rows=100_000):  # fmt: skip
+        h_min=1e-14, max_steps=100_000, log_rows=100_000, quad_weight=0.0):  # fmt: skip
     """Integrate from the exact start; (outcome, state, log, samples, derivatives, integrals)."""
     y0, yd0 = problem.exact(0.0), problem.rate(0.0)
-    st = bdf.new_state(0.0, y0, yd0, weight=problem.tested / tolerance, h0=h0, n_quad=quads)
+    st = bdf.new_state(
+        0.0, y0, yd0, weight=problem.tested / tolerance, h0=h0, quad_weight=[quad_weight] * quads
+    )
     st.power[0] = problem.power(0.0, y0, yd0)[:quads]
     times = np.append(np.asarray(times, float), end)
     ys, yds, qs = (np.zeros((len(times), w)) for w in (problem.n, problem.n, quads))

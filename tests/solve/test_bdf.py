@@ -150,6 +150,21 @@ def test_quadratures_are_second_order(bdf):
     assert misses[0] / misses[1] == pytest.approx(4.0, rel=0.3)
 
 
+def test_the_error_of_integrals_is_controlled(bdf):
+    """A step is held to what each may miss, where y alone would allow six times as long ones."""
+    problem, misses, steps = Oscillator(w=5.0, z=0.1), [], []
+    for allowed in (np.inf, 1e-6, 1e-8):
+        out = run(
+            bdf, problem, tolerance=1e-8, h_max=0.1, max_order=5, quads=1, quad_weight=1.0 / allowed
+        )
+        (x0, v0), (x1, v1) = problem.exact(0.0), problem.exact(2.0)
+        lost = 0.5 * (v0**2 - v1**2) + 0.5 * problem.w**2 * (x0**2 - x1**2)
+        misses.append(abs(out[5][-1, 0] - lost))
+        steps.append(out[1].count[bdf.STEPS])
+    assert misses[2] < 0.3 * misses[1] < 0.09 * misses[0]
+    assert misses[2] < 1e-8 * steps[2] and 6 * steps[0] < steps[1]
+
+
 def test_work_is_modest(bdf, pendulum):
     """Few Jacobians, hardly more than one residual a step: what modified Newton is for."""
     _, st, log, _, _, _ = run(bdf, pendulum, tolerance=1e-6, max_order=5)

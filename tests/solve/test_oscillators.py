@@ -53,7 +53,7 @@ class Problem:
         """The state, and y and y' at the times; ``known``: what swings is known to the method."""
         y0, times = self.y0, np.append(np.asarray(times, float), end)
         st = method.new_state(
-            0.0, y0, 0.0 * y0, weight=np.full(len(y0), 1.0 / tolerance), h0=h, n_quad=1,
+            0.0, y0, 0.0 * y0, weight=np.full(len(y0), 1.0 / tolerance), h0=h, quad_weight=[0.0],
             modes=self.modes if known else None,
         )  # fmt: skip
         ys, yds = np.zeros((2, len(times), len(y0)))

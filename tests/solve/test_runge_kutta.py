@@ -43,9 +43,11 @@ class Pendulum:
 
 
 def run(method, problem, *, tolerance, end=5.0, h0=1e-3, h_max=1.0, h_min=1e-12, times=(),
-        y0=(0.5, 0.0, 1.0), max_steps=100_000, log_rows=100_000):  # fmt: skip
+        y0=(0.5, 0.0, 1.0), max_steps=100_000, log_rows=100_000, quad_weight=0.0):  # fmt: skip
     y0 = np.array(y0, float)
-    st = method.new_state(0.0, y0, 0.0 * y0, weight=problem.tested / tolerance, h0=h0, n_quad=1)
+    st = method.new_state(
+        0.0, y0, 0.0 * y0, weight=problem.tested / tolerance, h0=h0, quad_weight=[quad_weight]
+    )
     times = np.append(np.asarray(times, float), end)
     ys, yds, quads = np.zeros((len(times), len(y0))), np.zeros((len(times), len(y0))), None
     quads = np.zeros((len(times), 1))
@@ -83,6 +85,18 @@ def test_quadratures_have_the_order_of_the_solution(method):
     assert fine.quad[0] == pytest.approx(Pendulum().energy(fine.y) - start, abs=1e-10)
     misses = [abs(fixed(method, n)[1].quad[0] - fine.quad[0]) for n in (100, 200, 400)]
     assert np.log2(np.array(misses[:-1]) / misses[1:]) == pytest.approx(4.0, abs=0.5)
+
+
+def test_the_error_of_integrals_is_controlled(method):
+    """Where y alone would allow steps of any length, the integral asks for those that it wants."""
+    exact = run(method, Pendulum(), tolerance=1e-13)[1].quad[0]
+    misses, steps = [], []
+    for allowed in (1e-6, 1e-8):
+        found = run(method, Pendulum(), tolerance=1e9, quad_weight=1.0 / allowed)[1]
+        misses.append(abs(found.quad[0] - exact))
+        steps.append(found.count[contract.STEPS])
+    assert misses[0] < 1e-6 * steps[0] and misses[1] < 1e-8 * steps[1]
+    assert 10 < 2 * steps[0] < steps[1]
 
 
 def test_dense_output_is_of_order_three_or_more(method):
@@ -162,7 +176,7 @@ def test_spectral_radius(method):
     A[0, 2], A[1, 4] = 2e5, 1e5
     A[5, 5] = -9e6  # not tested: its growth does not count
     problem = Linear(A)
-    st = method.new_state(0.0, np.ones(6), np.zeros(6), weight=[1e8] * 5 + [0.0], h0=1.0, n_quad=0)
+    st = method.new_state(0.0, np.ones(6), np.zeros(6), weight=[1e8] * 5 + [0.0], h0=1.0)
     found = method.spectral_radius(problem.functions(), None, st, 40, 1e-3)
     assert found == pytest.approx(3e5, rel=0.05)
 

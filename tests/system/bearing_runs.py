@@ -11,7 +11,7 @@ from flexcage.solve.integrators import INTEGRATORS
 from flexcage.system.data import POWERS
 from flexcage.system.layout import Layout
 from flexcage.system.problem import Bearing, new_samples
-from flexcage.system.scales import error_weights
+from flexcage.system.scales import error_weights, work_weights
 from flexcage.system.spec import Drive, Mount
 from flexcage.system.start import geometric_guess, rolling_velocities
 
@@ -56,7 +56,13 @@ def march(bearing, y0, yd0, *, duration, rate=100e3, tolerance=1e-8, max_order=2
     integrator = INTEGRATORS[method]
     weight = error_weights(bearing.data.model, layout, tolerance)
     state = integrator.new_state(
-        0.0, y0, yd0, weight=weight, h0=1e-8, n_quad=len(POWERS), modes=bearing.modes
+        0.0,
+        y0,
+        yd0,
+        weight=weight,
+        h0=1e-8,
+        quad_weight=work_weights(bearing.data.model, tolerance),
+        modes=bearing.modes,
     )
     if method == "bdf":
         options = bdf.Options(max_order, h_max, 1e-14, 0.3, 10**9)

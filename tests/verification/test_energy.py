@@ -21,10 +21,10 @@ def audited(*tables) -> tuple[float, float]:
 
 
 def test_audit_of_a_default_run():
-    """Powers are integrated with the order of the solution: far within the bounds."""
+    """Powers are integrated with the order of the solution: within a tenth of the bounds."""
     over_drive, over_cage = audited()
-    assert over_drive < 0.06 * OF_DRIVE
-    assert over_cage < 0.06 * OF_CAGE
+    assert over_drive < 0.1 * OF_DRIVE
+    assert over_cage < 0.1 * OF_CAGE
 
 
 def test_audit_at_a_tight_tolerance():
