@@ -76,7 +76,7 @@ def wall_law(roller: tuple[float, float], wall: tuple[float, float]) -> tuple[fl
     return laws.pocket_line_law(radius=RADIUS, length=LENGTH, depth=DEPTH, roller=roller, wall=wall)
 
 
-def approach(law: Sequence[float], force: float) -> float:
+def approach(law: Sequence[float] | np.ndarray, force: float) -> float:
     """Penetration [m] of F = K d^n at a force [N]."""
     return (force / law[0]) ** (1.0 / law[1])
 
