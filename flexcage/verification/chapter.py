@@ -7,7 +7,7 @@ import logging
 import time
 from collections.abc import Sequence
 
-from flexcage.core.errors import InputError
+from flexcage.core.errors import FlexcageError, InputError
 from flexcage.core.registry import add
 from flexcage.core.threads import one_blas_thread
 from flexcage.verification import cases
@@ -66,5 +66,7 @@ def run_case(case: KnownAnswer) -> Outcome:
         rows.extend(case.rows())
     except Exception as exc:
         log.debug("case %s stopped", case.name, exc_info=True)
-        error = f"{type(exc).__name__}: {' '.join(str(exc).split())}"
+        error = " ".join(str(exc).split())
+        if not isinstance(exc, FlexcageError):  # its sentence does not say what it is
+            error = f"{type(exc).__name__}: {error}"
     return Outcome(case, tuple(rows), time.perf_counter() - start, error)

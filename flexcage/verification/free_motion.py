@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from importlib import resources
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -19,6 +19,7 @@ from flexcage.bodies.floating_frame import (
 )
 from flexcage.core.errors import RunFailed
 from flexcage.core.rotation import matrix_from_quaternion, quaternion_rate
+from flexcage.verification.data_files import stored_arrays
 
 ZERO = (0.0, 0.0, 0.0)
 
@@ -110,9 +111,7 @@ class ProjectedMesh(Tumbler):
 
 def free_body() -> tuple[dict[str, np.ndarray], sparse.csr_matrix]:
     """The body of ``data/README.md``: its arrays, and its scalar mass matrix (405, 405)."""
-    source = resources.files("flexcage.verification") / "data" / "free_body.npz"
-    with source.open("rb") as stream, np.load(stream) as stored:
-        d = dict(stored)
+    d = stored_arrays("free_body.npz")
     upper = sparse.coo_matrix((d["mass_value"], (d["mass_row"], d["mass_col"])), shape=(405, 405))
     return d, sparse.csr_matrix(upper + sparse.triu(upper, 1).T)
 
@@ -140,3 +139,22 @@ def full_mesh_invariants(
     q = flyer.split(y)[4]
     energy = 0.5 * np.sum(v * mv) + 0.5 * q @ flyer.data.kff @ q
     return energy, mv.sum(axis=0), np.cross(r, mv).sum(axis=0)
+
+
+def momentum_by_nodes(
+    ds: Any, nodes: np.ndarray, shapes: np.ndarray, mass: sparse.csr_matrix
+) -> tuple[np.ndarray, np.ndarray]:
+    """Momentum [kg m/s] and angular momentum about the origin [kg m^2/s] of a run's flexible cage,
+    both (time, 3), in space, from nodal motion and the mesh's own mass matrix (N, N)."""
+    turns = Rotation.from_quat(ds["cage_quaternion"].values, scalar_first=True).as_matrix()
+    names = ("position", "velocity", "omega")
+    parts = [ds[f"cage_{name}"].values for name in names]
+    parts += [ds["modal_coordinates"].values, ds["modal_velocity"].values]
+    linear, angular = [], []
+    for A, x, v, w, q, qd in zip(turns, *parts):
+        local = nodes + shapes @ q
+        speed = v + (np.cross(w, local) + shapes @ qd) @ A.T
+        pushed = mass @ speed
+        linear.append(pushed.sum(axis=0))
+        angular.append(np.cross(x + local @ A.T, pushed).sum(axis=0))
+    return np.array(linear), np.array(angular)

@@ -36,6 +36,7 @@ from flexcage.verification.cases import (
     rolling_resistance,
     sliding_to_rolling,
     solid_ring,
+    speed_fluctuation,
     spinning_ring,
     static_load,
 )
@@ -73,6 +74,7 @@ IN_ORDER = (
     ball_tilt_run.CASE,
     epicyclic_run.CASE,
     ball_epicyclic_run.CASE,
+    speed_fluctuation.CASE,
     cage_friction.CASE,
     land_rebound.CASE,
     free_bearing.CASE,

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 import numpy as np
+from scipy.integrate import solve_ivp
 from scipy.optimize import minimize_scalar
 
 from flexcage.contacts import laws
@@ -16,6 +17,7 @@ STATIC = FrictionLaw(law="step_coulomb", static=0.12, dynamic=0.08, v_static=0.1
 RAMP = FrictionLaw(law="ramp_coulomb", dynamic=0.06, v_static=0.01, v_dynamic=0.05)
 CREEP = {0.134138: 0.2, 0.347296: 0.5, 0.729299: 0.9}  # speed over v_static: mu over mu_static
 BEYOND = {0.1: 0.12, 0.55: 0.10, 1.0: 0.08, 7.0: 0.08}  # speed [m/s]: mu
+INCLINE = {0.25: 0.02, 0.5: 0.03, 0.9: 0.046}  # slope over mu: v0 + r (v1 - v0) [m/s]
 DEAD_BAND = {0.01: 0.0, 0.02: 0.015, 0.03: 0.03, 0.05: 0.06, 2.0: 0.06}
 # peak mu, its speed [m/s], mu at large speed: A, B [s/m], C [s/m]
 TRACTION = (
@@ -26,6 +28,7 @@ TRACTION = (
 CUBIC = Tolerance(4e-6, "the speeds are printed to 1e-6")
 EXACT = Tolerance(1e-12, "a polynomial, to rounding", absolute=True)
 PRINTED = Tolerance(3e-6, "printed to 1e-6")
+STEADY = Tolerance(1e-6, "closed form against an integration with 1e-10")
 ROOT = Tolerance(1e-6, "closed form against a search for the maximum")
 
 
@@ -43,8 +46,21 @@ def rows() -> Iterator[Row]:
     for u, mu in DEAD_BAND.items():
         found = coefficient(laws.ramp_coulomb, p, [u])[0]
         yield Row(f"ramp: mu at {u} m/s", "", mu, found, EXACT)
+    for share, speed in INCLINE.items():
+        found = speed_on_incline(p, 0.06 * share)
+        yield Row(f"ramp: speed down a slope of {share} mu", "m/s", speed, found, STEADY)
     for peak, speed, high, *abc in TRACTION:
         yield from traction_rows(peak, speed, high, abc)
+
+
+def speed_on_incline(p: np.ndarray, slope: float) -> float:
+    """Speed [m/s] at which a body from rest slides down a slope in the end; weight 10 m/s^2."""
+
+    def rate(t: float, v: np.ndarray) -> list[float]:
+        return [10.0 * (slope - coefficient(laws.ramp_coulomb, p, v)[0])]
+
+    out = solve_ivp(rate, (0.0, 2.0), [0.0], rtol=1e-10, atol=1e-14, max_step=1e-3)
+    return float(out.y[0, -1])
 
 
 def traction_rows(peak: float, speed: float, high: float, abc: list[float]) -> Iterator[Row]:
@@ -69,6 +85,7 @@ CASE = KnownAnswer(
     "13(5), 216); P. K. Gupta, Advanced Dynamics of Rolling Elements (1984), traction curve fitted "
     "through rest, maximum and high speed; numbers from an independent program",
     checks="A regularised law creeps: below the static peak a demand is met at the speeds of the "
-    "table. The ramp has a dead band. The traction curve goes through its three points.",
+    "table. The ramp has a dead band: a body slides down any slope, at v0 + r (v1 - v0) where the "
+    "slope is r times the friction. The traction curve goes through its three points.",
     rows=rows,
 )

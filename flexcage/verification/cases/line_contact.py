@@ -2,18 +2,24 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 import numpy as np
 from scipy.integrate import dblquad, quad
 
 from flexcage.contacts import laws
+from flexcage.contacts.spec import NormalLaw
 from flexcage.verification.known_answer import KnownAnswer, Row, Tolerance
 
 STEEL, BRASS, RIGID = (206e9, 0.3), (105e9, 0.34), (1e16, 0.3)
 LENGTH, RADIUS, DEPTH = 7.3e-3, 4e-3, 1.5e-3
 MM = 1e3 ** (10.0 / 9.0)  # N/mm^(10/9) to N/m^(10/9)
+PALMGREN = 8.06e4 / (35948.0 * 2.0 ** (10.0 / 9.0))  # of the ISO stiffness of one contact
+# load [N]: approach [um] of a roller and one race by the standard, and by Palmgren
+APPROACH = {185.3: (0.8898, 0.8605), 1000.0: (4.06, 3.92)}
 PRINTED = Tolerance(1e-6, "printed to seven digits")
+SHORT = Tolerance(1e-4, "8.06e4 is 3.84e-5^(-10/9) = 80593 in three digits")
+ROUNDED = Tolerance(1.3e-3, "printed to three or four digits; 8.06e4 to three")
 POWER_LAW = Tolerance(0.025, "a power law fitted to a logarithm over 0.5 to 500 N")
 PUNCH = Tolerance(1e-6, "quadrature; the roller is 5e6 times as stiff as the wall")
 
@@ -70,7 +76,7 @@ def wall_law(roller: tuple[float, float], wall: tuple[float, float]) -> tuple[fl
     return laws.pocket_line_law(radius=RADIUS, length=LENGTH, depth=DEPTH, roller=roller, wall=wall)
 
 
-def approach(law: tuple[float, float], force: float) -> float:
+def approach(law: Sequence[float] | np.ndarray, force: float) -> float:
     """Penetration [m] of F = K d^n at a force [N]."""
     return (force / law[0]) ** (1.0 / law[1])
 
@@ -80,6 +86,15 @@ def rows() -> Iterator[Row]:
     yield Row("roller on one race, K", "N/mm^(10/9)", 454517.5, one, PRINTED)
     series = one * 2.0 ** (-10.0 / 9.0)
     yield Row("both races in series, c_L", "N/mm^(10/9)", 210413.1, series, PRINTED)
+    by_iso, by_palmgren = (
+        laws.normal_parameters(NormalLaw(stiffness_factor=f), one * MM, 10.0 / 9.0)[:2]
+        for f in (1.0, PALMGREN)
+    )
+    yield Row("the same by Palmgren, K", "N/mm^(10/9)", 471733.5, by_palmgren[0] / MM, SHORT)
+    for load, both in APPROACH.items():
+        for author, law, expected in zip(("ISO", "Palmgren"), (by_iso, by_palmgren), both):
+            found = 1e6 * approach(law, load)
+            yield Row(f"approach at {load:g} N, {author}", "um", expected, found, ROUNDED)
     wall = wall_law(RIGID, BRASS)
     for force in (1.0, 30.0, 300.0):
         expected = wall_by_quadrature(force / LENGTH, BRASS)
@@ -98,9 +113,11 @@ def rows() -> Iterator[Row]:
 CASE = KnownAnswer(
     name="line_contact",
     title="Line contact of a roller",
-    source="ISO/TS 16281:2008 (c_L = 35948 Lwe^(8/9)); K. L. Johnson, Contact Mechanics (1985), "
-    "3.4, 5.6; Flamant's and Boussinesq's answers, integrated here",
-    checks="Stiffness on a race by the standard; on a cage wall against quadrature of the stress "
-    "under a Hertzian pressure; of a flat end as a rigid punch on a half-space.",
+    source="ISO/TS 16281:2008 (c_L = 35948 Lwe^(8/9)); A. Palmgren, d = 3.84e-5 Q^0.9/L^0.8 (N, "
+    "mm), which a stiffness factor stands for; numbers from an independent program; K. L. Johnson, "
+    "Contact Mechanics (1985), 3.4, 5.6; Flamant's and Boussinesq's answers, integrated here",
+    checks="Stiffness and approach on a race by the standard, and by Palmgren; on a cage wall "
+    "against quadrature of the stress under a Hertzian pressure; of a flat end as a rigid punch on "
+    "a half-space.",
     rows=rows,
 )

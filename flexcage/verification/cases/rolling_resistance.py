@@ -1,8 +1,10 @@
-"""Force that rolls a lubricated roller on: elastohydrodynamic, and of a rigid film."""
+"""Force that rolls a lubricated roller or ball on: elastohydrodynamic, and of a rigid film."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import replace
+from math import log
 
 import numpy as np
 from scipy.integrate import quad
@@ -10,12 +12,20 @@ from scipy.optimize import brentq
 
 from flexcage.contacts import laws
 from flexcage.contacts.spec import Lubricant
+from flexcage.geometry.hertz import PointContact
+from flexcage.geometry.presets import load_preset
+from flexcage.system.ball_model import point_rolling_resistance
 from flexcage.verification.known_answer import KnownAnswer, Row, Tolerance
 from flexcage.verification.law_values import rolling
 
+OIL = Lubricant(viscosity=0.02, pressure_coefficient=2e-8, rolling_resistance="goksem_hargreaves")
 RADIUS = 4e-3 * 37.25 / 41.25  # roller and inner race of the N1013 [m]
 LENGTH, MODULUS = 7.3e-3, 206e9 / (1.0 - 0.3**2)
+BALL_LOAD, BALL_SPEED = 255.0, 13.37  # N, m/s: a 7010C at 8000 rpm under 1500 N
+# exponents of U, W and G in Houpert's formula
+POWERS = {"speed": 0.66, "viscosity": 0.66, "load": 0.47, "pressure coefficient": 0.022}
 PRINTED = Tolerance(1e-4, "printed to four digits")
+EXACT = Tolerance(1e-9, "arithmetic", absolute=True)
 QUADRATURE = Tolerance(1e-9, "quadrature to 1e-8 of Reynolds' equation, and a root")
 
 
@@ -35,22 +45,50 @@ def martin_constant() -> float:
     return 12.0 * np.sqrt(2.0) * shear / np.sqrt(24.0 * load)
 
 
+def ball_force(
+    oil: Lubricant, contact: PointContact, *, load: float = BALL_LOAD, speed: float = BALL_SPEED
+) -> float:
+    """Force [N] at one surface of a ball's contact: the moment is that of two, R from the axis."""
+    factor, of_rate, of_load = point_rolling_resistance(oil, contact)
+    moment = factor * (speed / contact.rolling) ** of_rate * load**of_load
+    return float(moment / (2.0 * contact.rolling))
+
+
+def ball_rows() -> Iterator[Row]:
+    contact = load_preset("7010C-PA66").bearing.contacts[0]
+    force = ball_force(OIL, contact)
+    yield Row("ball, 255 N at 13.37 m/s", "N", 0.1435, force, PRINTED)
+    doubled = {
+        "speed": ball_force(OIL, contact, speed=2.0 * BALL_SPEED),
+        "load": ball_force(OIL, contact, load=2.0 * BALL_LOAD),
+        "viscosity": ball_force(replace(OIL, viscosity=2.0 * OIL.viscosity), contact),
+        "pressure coefficient": ball_force(
+            replace(OIL, pressure_coefficient=2.0 * OIL.pressure_coefficient), contact
+        ),
+    }
+    for name, power in POWERS.items():
+        grown = log(doubled[name] / force) / log(2.0)
+        yield Row(f"ball, power of {name}", "", power, grown, EXACT)
+
+
 def rows() -> Iterator[Row]:
-    oil = Lubricant(
-        viscosity=0.02, pressure_coefficient=2e-8, rolling_resistance="goksem_hargreaves"
-    )
-    c = laws.rolling_resistance(oil, RADIUS, LENGTH, MODULUS)
+    c = laws.rolling_resistance(OIL, RADIUS, LENGTH, MODULUS)
     (force,) = rolling(c, 12.837, 185.7)
-    yield Row("elastohydrodynamic, 185.7 N at 12.837 m/s", "N", 0.7097, force, PRINTED)
+    yield Row("roller, 185.7 N at 12.837 m/s", "N", 0.7097, force, PRINTED)
     yield Row("rigid film, constant", "", martin_constant(), laws.IVR_CONSTANT, QUADRATURE)
+    yield from ball_rows()
 
 
 CASE = KnownAnswer(
     name="rolling_resistance",
-    title="Rolling resistance of a lubricated roller",
-    source="Goksem and Hargreaves, J. Lubr. Technol. 100 (1978) 346, fully flooded and isothermal, "
-    "number from an independent program; H. M. Martin, Engineering 102 (1916) 119, integrated here",
+    title="Rolling resistance of a lubricated roller and ball",
+    source="Goksem and Hargreaves, J. Lubr. Technol. 100 (1978) 346, and for balls L. Houpert, J. "
+    "Tribol. 107 (1985) 241, F = 2.86 E' R^2 kappa^0.348 G^0.022 U^0.66 W^0.47, both fully flooded "
+    "and isothermal, numbers from an independent program; H. M. Martin, Engineering 102 (1916) "
+    "119, integrated here",
     checks="The force on one surface of the most loaded inner contact of an N1013 in oil of 20 mPa "
-    "s, and the constant of the film between rigid surfaces that replaces it at light load.",
+    "s, and the constant of the film between rigid surfaces that replaces it at light load; the "
+    "force on one surface of a 7010C's ball in the same oil, and how it grows. That the bearing in "
+    "motion feels the latter is in `ball_race_run`.",
     rows=rows,
 )

@@ -40,7 +40,8 @@ SPLIT = Tolerance(1e-4, "2 x 2 n W/(n^2+1); one frequency less the other")
 def ring(orders: Sequence[int], *, count: int = 120, stiffened: bool = False) -> FlexibleBody:
     """A ring of points with inextensional shapes of the orders (pairs); order 0 is breathing.
 
-    ``stiffened`` adds the geometric stiffness of the hoop tension rho A R^2 W^2.
+    ``stiffened`` adds the geometric stiffness of the hoop tension rho A R^2 W^2 in closed form: it
+    has no elements. That of ``modes.stiffening`` enters the same equations in `solid_ring`.
     """
     angle = 2.0 * np.pi * np.arange(count) / count
     er = np.stack([0 * angle, np.cos(angle), np.sin(angle)], axis=1)
