@@ -41,17 +41,20 @@ class LandWork(NamedTuple):
     u: np.ndarray  # (nl,) radial displacement of the stations by the modes
     d: np.ndarray  # (nl,) penetration of one land's stations
     film: np.ndarray  # (3,) the film's forces
+    st: np.ndarray  # (nl, 2) force on the cage at the stations, outwards and forwards
 
 
 def land_work(n_stations: int) -> LandWork:
-    return LandWork(np.zeros(n_stations), np.zeros(n_stations), np.zeros(3))
+    zeros = np.zeros
+    return LandWork(zeros(n_stations), zeros(n_stations), zeros(3), zeros((n_stations, 2)))
 
 
 @part
 def land_contact(
     A, Rc, Vc, w, q, qd, Rr, Vr, spin, data, onset, laws, sl, lw, Fc, Mc, Qm, Fr, Mr, sums
 ):
-    """Land forces: Fc, Qm on the cage (space, modal), Mc about its origin; Fr, Mr on the ring.
+    """Land forces: Fc, Qm on the cage (space, modal), Mc about its origin; Fr, Mr on the ring;
+    those at the cage's stations in ``lw.st``.
 
     Rc, Vc, w: cage origin, velocity, angular velocity in space; Rr, Vr, spin: ring centre,
     velocity, spin about x; onset speeds (2,) of the lands at -x and +x. Dry contact acts where the
@@ -61,6 +64,7 @@ def land_contact(
     approach speed where it is nearest to the ring.
     """
     zero(sums)
+    zero(lw.st)
     if data.kind == 0:
         return
     ey, ez = Rc[1] - Rr[1], Rc[2] - Rr[2]
@@ -68,7 +72,7 @@ def land_contact(
     for m in range(q.shape[0]):
         reach += data.phi_max[m] * abs(q[m])
     if data.kind == 2:
-        _film(A, Rc, Vc, w, Rr, Vr, spin, data, lw, Fc, Mc, Fr, Mr, sums)
+        _film(A, Rc, Vc, w, qd, Rr, Vr, spin, data, lw, Fc, Mc, Qm, Fr, Mr, sums)
     if reach < data.clearance:
         return
     n_l = data.angle.shape[0]
@@ -176,18 +180,20 @@ def _touch(
     n_l = data.angle.shape[0]
     j, t = _around(place, n_l)
     weights, _ = smooth_weights(t)
-    ud = 0.0
+    outwards = forwards = 0.0  # velocity of the surface by the modes
     for k in range(4):
-        shape = data.phi[(j + k - 1) % n_l, 1]
+        shape = data.phi[(j + k - 1) % n_l]
         for m in range(qd.shape[0]):
-            ud += weights[k] * shape[m] * qd[m]
+            outwards += weights[k] * shape[1, m] * qd[m]
+            forwards += weights[k] * shape[2, m] * qd[m]
     c, _, e = _surface(A, data, side, place, lw)
+    _, along = _directions(A, place * 2.0 * pi / n_l)
     at = plus(offset, c)
     size = data.inner / sqrt(at[1] * at[1] + at[2] * at[2])
     n = (0.0, size * at[1], size * at[2])  # on the cage, in the plane of rotation
     v = plus(rel, cross(w, c))
     v = (0.0, v[1] + spin * at[2], v[2] - spin * at[1])
-    sl.v[0] = -(dot(n, v) + dot(n, e) * ud)
+    sl.v[0] = -(dot(n, v) + dot(n, e) * outwards)
     sums[6 + side] = sl.v[0]
     if sl.d[0] <= 0.0:
         return
@@ -195,20 +201,22 @@ def _touch(
     N = sl.N[0]
     if N <= 0.0:
         return
-    slide = n[1] * v[2] - n[2] * v[1]
+    ahead = (0.0, -n[2], n[1])
+    slide = dot(ahead, combine(plus(v, times(outwards, e)), forwards, along))
     sl.u[0] = abs(slide)
     friction_factors(friction, (0, 1), sl, data.friction)
     g = sl.g[0] * slide
-    f = times(N, (0.0, n[1] + g * n[2], n[2] - g * n[1]))
+    f = combine(times(N, n), -N * g, ahead)
     add_to(Fc, f)
     add_to(Fr, times(-1.0, f))
     add_to(Mc, cross(c, f))
     add_to(Mr, cross(f, at))
-    radial = dot(f, e)
+    radial, rubbed = dot(f, e), -N * g * dot(ahead, along)  # the depth knows radial modes alone
     for k in range(4):
-        shape = data.phi[(j + k - 1) % n_l, 1]
-        for m in range(qd.shape[0]):
-            Qm[m] += weights[k] * radial * shape[m]
+        s = (j + k - 1) % n_l
+        _push_modes(weights[k] * radial, weights[k] * rubbed, data.phi[s], Qm)
+        lw.st[s, 0] += weights[k] * radial
+        lw.st[s, 1] += weights[k] * dot(f, along)
     energy, damped = stored_and_damped((0, 1), sl, data.normal[1])
     sums[4 + side] += N
     sums[0] += energy
@@ -216,9 +224,37 @@ def _touch(
     sums[2] += friction_power((0, 1), sl)
 
 
+@part(fastmath=VECTORISED)
+def _push_modes(radial, tangential, shape, Qm):
+    """Add to Qm what a force at a station with ``shape`` (3, n) does to the modes."""
+    for m in range(Qm.shape[0]):
+        Qm[m] += radial * shape[1, m] + tangential * shape[2, m]
+
+
 @part
-def _film(A, Rc, Vc, w, Rr, Vr, spin, data, lw, Fc, Mc, Fr, Mr, sums):
-    """Short-bearing film on both lands: whirl and squeeze included."""
+def _spread_film(A, data, fy, fz, torque, qd, lw, Qm, sums):
+    """A film's force as pressure round the half of the land that it pushes, by the cosine, and its
+    torque evenly: on the stations, on the modes, and the power of these."""
+    n_l, size = data.angle.shape[0], sqrt(fy * fy + fz * fz)
+    total = 0.0
+    for s in range(n_l):
+        e, _ = _directions(A, s * 2.0 * pi / n_l)
+        lw.d[s] = max(data.inner * (fy * e[1] + fz * e[2]), 0.0)
+        total += lw.d[s] * lw.d[s]
+    for s in range(n_l):
+        radial = data.inner * size * size * lw.d[s] / total if total > 0.0 else 0.0
+        tangential = torque / (n_l * data.radius)
+        shape = data.phi[s]
+        _push_modes(radial, tangential, shape, Qm)
+        lw.st[s, 0] += radial
+        lw.st[s, 1] += tangential
+        for m in range(qd.shape[0]):
+            sums[3] += (radial * shape[1, m] + tangential * shape[2, m]) * qd[m]
+
+
+@part
+def _film(A, Rc, Vc, w, qd, Rr, Vr, spin, data, lw, Fc, Mc, Qm, Fr, Mr, sums):
+    """Short-bearing film on both lands: whirl and squeeze of a rigid cage included."""
     out = lw.film
     eta, L, R, C = data.film[0], data.film[1], data.film[2], data.film[3]
     for side in range(2):
@@ -229,6 +265,7 @@ def _film(A, Rc, Vc, w, Rr, Vr, spin, data, lw, Fc, Mc, Fr, Mr, sums):
         vz = Vc[2] - Vr[2] + w[0] * cy - w[1] * x * A[0, 0]
         short_bearing(eta, L, R, C, ey, ez, vy, vz, spin + w[0], abs(spin - w[0]), out)
         torque = out[2] if spin > w[0] else -out[2]
+        _spread_film(A, data, out[0], out[1], torque, qd, lw, Qm, sums)
         Fc[1] += out[0]
         Fc[2] += out[1]
         Fr[1] -= out[0]

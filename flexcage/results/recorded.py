@@ -51,6 +51,7 @@ def common(bearing: Bearing, y: np.ndarray, yd: np.ndarray) -> Arrays:
         "pocket_friction": s.pocket_friction[:n],
         "station_force": s.station[:n],
         "land_force": s.land[:n],
+        "land_station_force": s.land_station[:n],
         "multiplier": layout.multipliers(y),
         "energy": s.energy[:n],
     }

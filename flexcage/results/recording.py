@@ -51,6 +51,7 @@ def new_store(
         "constraint": np.array(CONSTRAINTS),
         "energy_kind": np.array(ENERGIES),
         "channel": np.array(POWERS),
+        "land_station": np.arange(len(bearing.data.model.land.angle)),
         **own_coords(bearing.data.model),
     }
     every = variables_of(element)

@@ -34,6 +34,7 @@ _labels: dict[str, tuple[str, ...]] = {
     "axis": ("x", "y", "z"),
     "axis2": ("y", "z"),
     "cyl": ("x", "r", "psi"),
+    "polar": ("r", "psi"),
     "tilt": ("skew", "tilt"),
     "spin_axis": ("axial", "radial", "tangential"),
     "quaternion": ("w", "x", "y", "z"),
@@ -49,7 +50,7 @@ LABELS: Mapping[str, tuple[str, ...]] = MappingProxyType(_labels)
 #: Dimensions whose labels a run gives.
 RUN_DIMS = (
     "roller", "ball", "pocket", "mode", "slice", "station", "residual", "constraint", "energy_kind",
-    "channel",
+    "channel", "land_station",
 )  # fmt: skip
 
 
@@ -202,6 +203,12 @@ def _variables() -> list[Variable]:
         ),
         row("rib_force", on(roller, "rib"), "N", "normal force of a rib on a roller end"),
         row("land_force", on(body), "N", "force of the guiding land on the cage, ring frame"),
+        row(
+            "land_station_force",
+            on("land_station", "polar"),
+            "N",
+            "force of the guiding land on the cage at stations round it (r, psi)",
+        ),
         row("multiplier", on("constraint"), "N or N m", "constraint force or torque"),
         row("energy", on("energy_kind"), "J", "energy stored"),
         row("work", on("channel"), "J", "work done on the bearing since the start (losses < 0)"),

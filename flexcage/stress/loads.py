@@ -11,31 +11,13 @@ from flexcage.stress.recovery import CageLoads
 if TYPE_CHECKING:
     import xarray
 
-N_LAND = 24
 
-
-def land_station_forces(ds: xarray.Dataset, *, inner: bool, n_land: int = N_LAND) -> np.ndarray:
-    """Land force of every sample as station forces (nt, 2, n_land, 3), components (x, r, psi).
-
-    Only the resultant is recorded; it is given to the two land stations next to its direction,
-    as a radial force (a land pushes along its normal; its friction is left out).
-    """
-    force = ds["land_force"].values
-    out = np.zeros((len(force), 2, n_land, 3))
-    size = np.hypot(force[:, 1], force[:, 2])
-    hit = np.flatnonzero(size > 0.0)
-    if not len(hit):
-        return out
-    w, x, y, z = ds["cage_quaternion"].values[hit].T
-    turn = np.arctan2(2.0 * (y * z + w * x), 1.0 - 2.0 * (x * x + z * z))
-    outward = np.arctan2(force[hit, 2], force[hit, 1]) - turn
-    place = (outward if inner else outward + np.pi) * n_land / (2.0 * np.pi) % n_land
-    first = place.astype(int) % n_land
-    share = place - np.floor(place)
-    sign = 1.0 if inner else -1.0
-    land = 0 if inner else 1
-    out[hit, land, first, 1] = sign * size[hit] * (1.0 - share)
-    out[hit, land, (first + 1) % n_land, 1] = sign * size[hit] * share
+def land_station_forces(ds: xarray.Dataset, *, inner: bool) -> np.ndarray:
+    """Land forces of every sample (nt, 2, n_land, 3) on the stations of the inner and the outer
+    land, components (x, r, psi), those on the land that guides the cage."""
+    force = ds["land_station_force"].values
+    out = np.zeros((len(force), 2, force.shape[1], 3))
+    out[:, 0 if inner else 1, :, 1:] = force
     return out
 
 
@@ -43,7 +25,7 @@ class LandForces:
     """``land_station_forces`` of a recorded run, sample by sample as they are asked for."""
 
     def __init__(self, ds: xarray.Dataset, *, inner: bool) -> None:
-        self._recorded = ds[["land_force", "cage_quaternion"]].load()
+        self._recorded = ds[["land_station_force"]].load()
         self._inner = inner
 
     def __len__(self) -> int:
@@ -51,7 +33,7 @@ class LandForces:
 
     def __bool__(self) -> bool:
         """Whether any sample has a force."""
-        return bool(np.any(self._recorded["land_force"].values))
+        return bool(np.any(self._recorded["land_station_force"].values))
 
     def __getitem__(self, part: slice) -> np.ndarray:
         return land_station_forces(self._recorded.isel(time=part), inner=self._inner)

@@ -99,6 +99,7 @@ class Report(NamedTuple):
     residual: np.ndarray  # (Z, 12)
     rib: np.ndarray  # (Z, ribs)
     land: np.ndarray  # (3,)
+    land_station: np.ndarray  # (nl, 2) on the cage, outwards and forwards
     land_touch: np.ndarray  # (2, 2) of the lands at -x, +x: normal force, approach speed
     power: np.ndarray  # (len(POWERS),)
     energy: np.ndarray  # (4,) kinetic, strain, contact, mount
@@ -162,8 +163,9 @@ def new_work(
     )  # fmt: skip
     report = Report(
         z((Z, 2, 9)), z((Z, faces)), z((Z, faces)), z((Z, 2, slices)), z((Z, 2, slices)),
-        z((Z, faces, stations, 3)), z((Z, N_LOCAL)), z((Z, ribs)), z(3), z((2, 2)), z(len(POWERS)),
-        z(4), z((Z, places), np.int64), z((Z, places)), z(3),
+        z((Z, faces, stations, 3)), z((Z, N_LOCAL)), z((Z, ribs)), z(3),
+        z((land_stations, 2)), z((2, 2)), z(len(POWERS)), z(4), z((Z, places), np.int64),
+        z((Z, places)), z(3),
     )  # fmt: skip
     scratch = Scratch(
         z((6, 6)), z((2, 6, 6)), z((2, 3, 3)), z((3, 3)), np.eye(3), z((Z, 24)), z((Z, 6)),

@@ -81,6 +81,7 @@ class Samples(NamedTuple):
     residual: np.ndarray
     rib: np.ndarray
     land: np.ndarray
+    land_station: np.ndarray
     energy: np.ndarray
     force: np.ndarray  # (n * stride, 2) on the outer ring, fine grid
 

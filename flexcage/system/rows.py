@@ -218,6 +218,7 @@ def land_rows(q, u, zq, nm, d, law, mode):
     if mode >= 2:
         sums = work.sums
         copy_into(rep.land, Fc)
+        copy_into(rep.land_station, fields(d.land_work).st)
         for c in range(2):
             rep.land_touch[c, 0], rep.land_touch[c, 1] = sums[4 + c], sums[6 + c]
         rep.energy[2] += sums[0]

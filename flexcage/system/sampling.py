@@ -95,6 +95,7 @@ def keep_report(s, k, rep):
     copy_into(s.residual[k], rep.residual)
     copy_into(s.rib[k], rep.rib)
     copy_into(s.land[k], rep.land)
+    copy_into(s.land_station[k], rep.land_station)
     copy_into(s.energy[k], rep.energy)
 
 

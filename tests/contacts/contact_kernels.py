@@ -157,14 +157,14 @@ def pocket(
 
 def land(
     data, Rc, *, A=None, Vc=ZERO, w=ZERO, q=(), qd=(), Rr=ZERO, Vr=ZERO, spin=0.0,
-    law=laws.elastic, friction=laws.no_friction, onset=0.05,
+    law=laws.elastic, friction=laws.no_friction, onset=0.05, work=None,
 ):  # fmt: skip
-    """(Fc, Mc, Qm, Fr, Mr, sums) between cage and ring."""
+    """(Fc, Mc, Qm, Fr, Mr, sums) between cage and ring; forces at stations in ``work.st``."""
     A = np.eye(3) if A is None else np.ascontiguousarray(A)
     out = [np.zeros(3), np.zeros(3), np.zeros(len(q)), np.zeros(3), np.zeros(3), np.zeros(9)]
     a = [np.array(x, float) for x in (Rc, Vc, w, q, qd, Rr, Vr)]
     _land_kernel(numba.typeof(data))(
         A, *a, spin, data, np.full(2, onset), (law, friction), new_slices(),
-        land_work(len(data.angle)), *out,
+        work or land_work(len(data.angle)), *out,
     )  # fmt: skip
     return out

@@ -8,6 +8,7 @@ from contact_kernels import land, rib, turned
 from scipy.spatial.transform import Rotation
 
 from flexcage.contacts import laws
+from flexcage.contacts.land import land_work
 from flexcage.contacts.spec import Contacts, FrictionLaw, LandSpec, NormalLaw, PairSpec
 from flexcage.modes.basis import CageInterface
 
@@ -90,26 +91,41 @@ Y = np.array([0.0, 1.0, 0.0])
 
 
 def land_modes(stations=24, n=3):
-    """Smooth synthetic radial shapes round the land: breathing, oval, bent."""
+    """Smooth synthetic shapes round the land: breathing, oval, bent; the last two turn as well."""
     a = 2 * np.pi * np.arange(stations) / stations
     radial = np.stack([np.ones(stations), np.cos(2 * a), np.sin(a)], axis=1)
     modes = np.zeros((2, stations, 3, n))
     modes[:, :, 1, :] = radial
+    modes[:, :, 2, 1:] = np.stack([-0.5 * np.sin(2 * a), np.cos(a)], axis=1)
     return modes
 
 
-@pytest.fixture(scope="module", params=["inner", "outer"])
-def dry_land(request, build_parts):
+def flexible_land(build_parts, guidance, spec):
     itf = CageInterface(
         stations=np.stack([np.linspace(-4e-3, 4e-3, 3)] * 4), offset=np.zeros((22, 4, 3)),
         modes=np.zeros((22, 4, 3, 3, 3)), residual=np.zeros((22, 4, 3, 12)),
         compliance=np.zeros((22, 12, 12)), patch_half_width=1.9e-3, land=land_modes(),
     )  # fmt: skip
-    model = build_parts(
-        interface=itf, cage={"guidance": request.param},
-        contacts=Contacts(land=LandSpec(kind="dry", normal=NORMAL, friction=FRICTION)),
-    )  # fmt: skip
-    return model.land
+    cage, contacts = {"guidance": guidance}, Contacts(land=spec)
+    return build_parts(interface=itf, cage=cage, contacts=contacts).land
+
+
+@pytest.fixture(scope="module", params=["inner", "outer"])
+def dry_land(request, build_parts):
+    spec = LandSpec(kind="dry", normal=NORMAL, friction=FRICTION)
+    return flexible_land(build_parts, request.param, spec)
+
+
+def resultant_and_turn(data, st, A):
+    """Force in space and moment about the cage's axis [N, N m] of forces st at its stations, and
+    what they do to its modes."""
+    a = 2 * np.pi * np.arange(len(st)) / len(st)
+    zero = np.zeros_like(a)
+    e = np.stack([zero, np.cos(a), np.sin(a)], axis=1)
+    along = np.stack([zero, -np.sin(a), np.cos(a)], axis=1)
+    force = A @ (st[:, :1] * e + st[:, 1:] * along).sum(axis=0)
+    modal = np.einsum("sc,scm->m", st, data.phi[:, 1:])
+    return force, data.radius * st[:, 1].sum(), modal
 
 
 def pressed(data, depth=4e-6):
@@ -188,6 +204,20 @@ def test_land_energy_power_and_third_law(dry_land):
     assert power == pytest.approx(sums[1] + sums[2] - stored, abs=1e-4 * scale)
 
 
+def test_forces_at_stations_of_a_dry_land_are_its_forces(dry_land):
+    """On the four stations about the touch: the resultant to the bend of an arc of 15 degrees."""
+    data, work = dry_land, land_work(24)
+    A = Rotation.from_rotvec([0.02, 0.0, 0.0]).as_matrix()
+    Rc, q = pressed(data, 8e-6), np.array([1e-6, -2e-6, 1e-6])
+    Fc, Mc, Qm, *_ = land(data, Rc, A=A, q=q, qd=0 * q, w=np.array([283.0, 0, 0]), spin=628.0,
+                          friction=laws.step_coulomb, work=work)  # fmt: skip
+    force, turn, modal = resultant_and_turn(data, work.st, A)
+    np.testing.assert_allclose(force, Fc, atol=0.02 * np.abs(Fc).max())
+    assert turn == pytest.approx(Mc[0], rel=0.02) and abs(Mc[0]) > 0.01
+    np.testing.assert_allclose(modal, Qm, atol=0.02 * np.abs(Qm).max())
+    assert (np.abs(work.st).max(axis=1) > 0.0).sum() == 4
+
+
 def test_dry_land_friction_drags_towards_the_ring(dry_land):
     data = dry_land
     still = np.zeros(3)
@@ -212,3 +242,26 @@ def test_film_third_law_and_power(build_parts, guidance):
     np.testing.assert_allclose(moment, 0.0, atol=1e-9 * np.abs(Mc).max())
     power = Fc @ Vc + Mc @ w + Fr @ Vr + Mr[0] * spin
     assert power == pytest.approx(sums[3], rel=1e-4) and np.sign(Mc[0]) == np.sign(spin - 283.0)
+
+
+@pytest.mark.parametrize("guidance", ["inner", "outer"])
+def test_a_film_pushes_half_of_a_flexible_land(build_parts, guidance):
+    """Its stations bear the resultant and the torque, and what these do to the modes is work."""
+    data, work = flexible_land(build_parts, guidance, LandSpec(kind="film")), land_work(24)
+    A = Rotation.from_rotvec([0.3, 0.0, 0.0]).as_matrix()
+    Rc, Vc, qd = (
+        np.array([0.0, 9e-5, 4e-5]),
+        np.array([0.0, 0.03, 0.05]),
+        np.array([2e-3, 5e-3, 1e-3]),
+    )
+    w, spin = np.array([283.0, 0.0, 0.0]), 628.0 if guidance == "inner" else 0.0
+    call = {"A": A, "Vc": Vc, "w": w, "q": 0 * qd, "spin": spin}
+    Fc, Mc, Qm, Fr, Mr, sums = land(data, Rc, qd=qd, work=work, **call)
+    force, turn, modal = resultant_and_turn(data, work.st, A)
+    np.testing.assert_allclose(force, Fc, atol=1e-3 * np.abs(Fc).max())
+    assert turn == pytest.approx(Mc[0], rel=1e-9) and abs(turn) > 1e-6
+    np.testing.assert_allclose(modal, Qm, rtol=1e-12)
+    pushed = data.inner * work.st[:, 0]
+    assert (pushed >= 0.0).all() and 11 <= (pushed > 0.0).sum() <= 13
+    still = land(data, Rc, qd=0 * qd, **call)[5]
+    assert sums[3] == pytest.approx(still[3] + Qm @ qd, rel=1e-12)
