@@ -186,9 +186,9 @@ def _motion_rows(ds: xarray.Dataset, bearing: BearingNumbers) -> tuple[Row, ...]
         Row("whirl_radius_max", "Whirl radius, largest", mean.largest, "um"),
         Row("whirl_ratio", "Whirl (max - min)/mean", mean.ratio, ""),
         Row.of(
-            "whirl_radius_axis", "Whirl radius, mean", about_axis, "um", "about the ring's axis"
+            "whirl_radius_axis", "Whirl about axis, mean", about_axis, "um", "the ring's axis"
         ),
-        Row("whirl_ratio_axis", "Whirl (max - min)/mean", axis.ratio, "", "about the ring's axis"),
+        Row("whirl_ratio_axis", "Whirl about axis (max - min)/mean", axis.ratio, ""),
         Row("whirl_speed_ratio", "Whirl speed / cage speed", axis.speed_ratio, "",
             f"net turns about the ring's axis over the cage's, at {rate}"),
         Row("velocity_deviation", "Centre's speed, ripple", metrics.velocity_deviation(ds), "%",

@@ -10,7 +10,7 @@ import xarray as xr
 from ring_with_pockets import Z, quadratic
 
 from flexcage import render
-from flexcage.core.errors import EnvironmentLacks, InputError
+from flexcage.core.errors import EnvironmentLacks, InputError, RunFailed
 from flexcage.geometry.cages import CrossbeamDefect, SideBeamDefect
 from flexcage.geometry.cylindrical_roller import RollerBearing
 from flexcage.render import sheet
@@ -226,6 +226,16 @@ def test_no_backend_is_a_sentence(field, tmp_path, monkeypatch):
     nodes, cells, u, stress, _ = field
     with pytest.raises(EnvironmentLacks, match="apt-get install"):
         render.stress_picture(nodes, cells, u, stress, tmp_path / "x.png")
+
+
+def test_a_full_disk_is_no_mistake_in_the_input(run, tmp_path):
+    picture = tmp_path / "h.png"
+    picture.symlink_to("/dev/full")
+    with pytest.raises(RunFailed, match=r"picture .*h.png cannot be written: the disk is full"):
+        render.histories(run, picture)
+    (tmp_path / "file").write_text("")
+    with pytest.raises(InputError, match="cannot be written"):
+        render.histories(run, tmp_path / "file" / "h.png")
 
 
 def test_importing_render_loads_nothing_heavy():

@@ -172,6 +172,8 @@ def test_summary_prints_and_comes_back(known_run, bearing, tmp_path):
     assert [p.name for p in summary.write(tmp_path)] == ["summary.txt", "summary.json"]
     both = side_by_side({"rigid": summary, "flexible": back})
     assert both.splitlines()[0].split() == ["rigid", "flexible"]
+    names = [row.label for row in summary]
+    assert len(set(names)) == len(names), "tables without notes tell all rows apart"
 
 
 def test_summary_sees_a_run_that_has_not_settled(known_run, bearing):
