@@ -114,9 +114,10 @@ def _speed_rows(ds: xarray.Dataset, bearing: BearingNumbers) -> tuple[Row, ...]:
 
 def _spin_rows(ds: xarray.Dataset, bearing: BearingNumbers) -> tuple[Row, ...]:
     inner = float(ds["inner_speed"].mean())
-    spin = float(np.abs(ds["roller_omega"].isel(spin_axis=0)).mean())
+    spin = float(metrics.roller_spin(ds).mean())
+    note = "inertial frame, positive as rolling has it"
     return (
-        Row("roller_spin", "Roller spin, mean of all", spin, "rpm", "inertial frame"),
+        Row("roller_spin", "Roller spin, mean of all", spin, "rpm", note),
         Row(
             "roller_spin_ideal",
             "Roller spin, pure rolling",
@@ -135,11 +136,22 @@ def _slip_section(ds: xarray.Dataset, bearing: BearingNumbers, slip_range: SlipR
     loaded, unloaded = (
         windows.ratio(np.where(z, ratio, 0.0).sum(axis=1), z.sum(axis=1)) for z in (zone, ~zone)
     )
-    note = slip_range.note(max(slip.sliding_loaded))
     mean = "mean over the zone"
     rows = (
-        Row.of("slip_loaded", "Loaded zone, slip ratio", loaded, "%", note),
-        Row.of("slip_unloaded", "Unloaded zone, slip ratio", unloaded, "%"),
+        Row.of(
+            "slip_loaded",
+            "Loaded zone, slip ratio",
+            loaded,
+            "%",
+            slip_range.note(loaded.value, slip.sliding_loaded),
+        ),
+        Row.of(
+            "slip_unloaded",
+            "Unloaded zone, slip ratio",
+            unloaded,
+            "%",
+            slip_range.note(unloaded.value, slip.sliding_unloaded),
+        ),
         Row(
             "sliding_inner_loaded",
             "Sliding, inner race, loaded",

@@ -179,6 +179,21 @@ def test_curves_need_no_window(run, tmp_path):
     check(render.compare_forces({"rigid": run, "flexible": run}, tmp_path / "c.png"))
 
 
+def test_a_roller_locked_in_its_pocket_is_drawn_below_zero(run, tmp_path, monkeypatch):
+    shown = []
+    monkeypatch.setattr(sheet, "save", lambda figure, path: shown.append(figure))
+    locked = run.copy(deep=True)
+    locked["roller_omega"][:, 2, 0] = locked["cage_omega"].sel(axis="x").values
+    for sense in (1.0, -1.0):
+        turned = locked.copy(deep=True)
+        for name in ("inner_speed", "roller_omega", "cage_omega"):
+            turned[name] = sense * locked[name]
+        render.histories(turned, tmp_path / "h.png", bearing=NUMBERS, element=2)
+        lines = {line.get_label(): line.get_ydata() for line in shown[-1].axes[-1].lines}
+        assert np.allclose(lines["roller 2"], -2700.0)
+        assert np.allclose(lines["pure rolling"], 27937.5)
+
+
 def test_labels_of_histories_stand_clear_of_five_digit_ticks(run, tmp_path, monkeypatch):
     shown = []
     monkeypatch.setattr(sheet, "save", lambda figure, path: shown.append(figure))

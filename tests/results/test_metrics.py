@@ -12,6 +12,8 @@ from flexcage.results.figures import summarise
 from flexcage.results.spectra import amplitude_spectrum
 from flexcage.results.summary import Row, Summary, side_by_side
 
+RPM = np.pi / 30
+
 
 def test_cage_speed_and_slip(known_run, bearing):
     speed = metrics.cage_speed(metrics.settled(known_run), bearing)
@@ -33,7 +35,8 @@ def test_roller_slip_zones_apart(known_run, bearing):
     ("law", "note"),
     [
         (FrictionLaw(law="step_coulomb", v_static=0.05), "unresolved.*creep speed 0.05 m/s"),
-        (FrictionLaw(law="ramp_coulomb", v_static=0.01), "^$"),
+        (FrictionLaw(law="ramp_coulomb", v_static=0.01), "unresolved.*creep speed 1 m/s"),
+        (FrictionLaw(law="ramp_coulomb", v_static=0.001, v_dynamic=0.01), "^$"),
         (FrictionLaw(law="traction"), "traction curve's slope.*rise, which ends at 0.3 m/s"),
         (FrictionLaw(law="traction", peak_speed=0.01), "^$"),
         (EhlTraction(creep_speed=0.05), "traction curve's slope.*ends at 0.05 m/s"),
@@ -46,6 +49,43 @@ def test_the_summary_says_what_loaded_slip_rests_on(known_run, bearing, law, not
     limits = metrics.SlipRange(law.creeps_below, law.rises_below)
     told = summarise(known_run, bearing, slip_range=limits).row("slip_loaded").note
     assert re.search(note, told), told
+
+
+def test_unloaded_slip_is_noted_by_its_own_sliding(known_run, bearing):
+    """Unloaded rollers of this run do not slide on their races; then most do at 0.8 m/s."""
+    limits = metrics.SlipRange(creep=0.1)
+    summary = summarise(known_run, bearing, slip_range=limits)
+    assert "unresolved" in summary.row("slip_unloaded").note
+    sliding = known_run.copy(deep=True)
+    sliding["race_slip"][:, 6:, 1] = -0.8
+    summary = summarise(sliding, bearing, slip_range=limits)
+    assert summary.row("slip_unloaded").note == ""
+    assert "unresolved" in summary.row("slip_loaded").note
+
+
+@pytest.mark.filterwarnings("error")
+def test_a_bearing_that_stands_has_no_slip_ratio_and_no_note(known_run, bearing):
+    ds = known_run.copy(deep=True)
+    ds["inner_speed"][:] = 0.0
+    summary = summarise(ds, bearing, slip_range=metrics.SlipRange(creep=1.0))
+    for key in ("cage_slip_ratio", "slip_loaded", "slip_unloaded"):
+        row = summary.row(key)
+        assert row.text == "-" and row.note == "" and row.margin is None
+
+
+@pytest.mark.parametrize("sense", [1.0, -1.0])
+def test_a_roller_that_turns_backwards_spins_against_rolling(known_run, bearing, sense):
+    ds = known_run.copy(deep=True)
+    for name in ("inner_speed", "roller_omega", "cage_omega"):
+        ds[name][:] *= sense
+    rolling = summarise(ds, bearing)
+    assert rolling["roller_spin"] == pytest.approx((19 * 0.95 + 3 * 0.99) / 22 * 27937.5 * RPM)
+    assert rolling["roller_spin_ideal"] == pytest.approx(27937.5 * RPM)
+    ds["roller_omega"][:, 8, 0] *= -1.0
+    spin = metrics.roller_spin(ds)
+    assert float(spin.max("time")[8]) == pytest.approx(-0.95 * 27937.5 * RPM)
+    assert float(spin.isel(roller=7).min()) > 0.0
+    assert summarise(ds, bearing)["roller_spin"] < rolling["roller_spin"]
 
 
 def test_elements_without_names_are_not_taken_for_rollers(known_run):
