@@ -271,22 +271,23 @@ def _race_rows(ds: xarray.Dataset) -> tuple[Row, ...]:
 
 def _energy_rows(ds: xarray.Dataset) -> tuple[Row, ...]:
     check = audit.energy_audit(ds)
-    verdict = "passed" if check.passed else "EXCEEDED"
-    remedy = "" if check.passed else ": tighten solver.tolerance"
+    bounds = (
+        f"at most {100.0 * audit.OF_DRIVE:g} % of the drive's work, "
+        f"{100.0 * audit.OF_CAGE:g} % of the cage's losses"
+    )
+    note = {
+        audit.PASSED: bounds,
+        audit.UNJUDGED: "too little work to judge by",
+        audit.EXCEEDED: f"{bounds}: tighten solver.tolerance",
+    }[check.verdict]
     return (
-        Row(
-            "energy_audit",
-            "Energy audit",
-            verdict,
-            "",
-            f"at most {100.0 * audit.OF_DRIVE:g} % of "
-            f"the drive's work, {100.0 * audit.OF_CAGE:g} % of the cage's losses{remedy}",
-        ),
+        Row("energy_audit", "Energy audit", check.verdict, "", note),
         *(
             Row(f"stored_{k}", f"Gained: {k}", v, "mJ", "whole run")
             for k, v in check.stored.items()
         ),
         Row("energy_moved", "Energy moved", check.moved, "mJ", "whole run"),
+        Row("energy_elastic", "Elastic energy held", check.elastic, "mJ", "largest"),
         Row("energy_imbalance", "Largest imbalance", check.worst, "mJ"),
         Row("energy_relative", "Imbalance / energy moved", check.relative, "%"),
         Row("energy_of_drive", "Imbalance / drive's work", check.of_drive, "%"),

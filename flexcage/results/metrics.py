@@ -23,6 +23,7 @@ if TYPE_CHECKING:
 
 TOUCHING = 1e-3  # N, above which a pocket face counts as in contact
 LOADED_SHARE = 0.01  # a roller is in the loaded zone above this share of the largest inner force
+STANDING = 1e-9  # rad/s, what a constrained speed of zero may be by rounding, and more
 FEWEST_FILTERED = 16  # samples, below which a low pass has nothing to begin from
 
 
@@ -157,7 +158,7 @@ def cage_speed(ds: xarray.Dataset, bearing: BearingNumbers) -> CageSpeed:
     t, angle = part["time"].values, cage_angle(part)
     mean = (angle[-1] - angle[0]) / (t[-1] - t[0])
     ideal = bearing.kinematics(_mean(t, part["inner_speed"].values)).cage_speed
-    slip = (ideal - mean) / ideal if ideal else float("nan")
+    slip = (ideal - mean) / ideal if abs(ideal) > STANDING else float("nan")
     return CageSpeed(mean, ideal, slip, abs(angle[-1] - angle[0]) / (2.0 * np.pi))
 
 
@@ -185,7 +186,7 @@ def roller_slip_ratio(
 
 def _slip(ideal: xarray.DataArray, spin: xarray.DataArray) -> xarray.DataArray:
     """(ideal - spin)/ideal, NaN where nothing should turn."""
-    return (ideal - spin) / ideal.where(ideal != 0.0)
+    return (ideal - spin) / ideal.where(abs(ideal) > STANDING)
 
 
 def rolling_sense(ds: xarray.Dataset) -> float:

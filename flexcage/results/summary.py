@@ -64,10 +64,10 @@ class Row:
         *, value: float | None = None,
     ) -> Row:  # fmt: skip
         """Row of a statistic: its value (unless given), its margin and its windows."""
-        margin = record.margin if isfinite(record.margin) else None
-        return cls(
-            key, label, record.value if value is None else value, shown, note, margin, record
-        )
+        figure = record.value if value is None else value
+        known = isfinite(figure) and isfinite(record.margin)
+        margin = record.margin if known else None
+        return cls(key, label, figure, shown, note, margin, record)
 
     @property
     def unit(self) -> str:

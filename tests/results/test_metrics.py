@@ -64,9 +64,10 @@ def test_unloaded_slip_is_noted_by_its_own_sliding(known_run, bearing):
 
 
 @pytest.mark.filterwarnings("error")
-def test_a_bearing_that_stands_has_no_slip_ratio_and_no_note(known_run, bearing):
+@pytest.mark.parametrize("speed", [0.0, 4e-27])
+def test_a_bearing_that_stands_has_no_slip_ratio_and_no_note(known_run, bearing, speed):
     ds = known_run.copy(deep=True)
-    ds["inner_speed"][:] = 0.0
+    ds["inner_speed"][:] = speed
     summary = summarise(ds, bearing, slip_range=metrics.SlipRange(creep=1.0))
     for key in ("cage_slip_ratio", "slip_loaded", "slip_unloaded"):
         row = summary.row(key)
@@ -166,6 +167,31 @@ def test_energy_audit_of_the_cage(known_run, bearing, leak, of_drive, of_cage, v
     assert check.of_cage == pytest.approx(of_cage, abs=1e-12)
     assert check.passed == (verdict == "passed")
     assert summarise(ds, bearing)["energy_audit"] == verdict
+
+
+@pytest.mark.parametrize(
+    ("work", "lost", "leak", "verdict"),
+    [
+        (0.0, 0.0, 0.0, "not judged"),
+        (2e-10, 2e-10, 5e-8, "not judged"),  # a bearing that stands, pinched
+        (6e-5, 1e-4, 8e-8, "passed"),  # by the cage's losses; the drive does too little
+        (2e-10, 2e-10, 2e-7, "EXCEEDED"),  # more than a thousandth of what is held
+        (0.5, 1e-2, 6e-4, "EXCEEDED"),
+        (0.5, 1e-2, 4e-4, "passed"),
+    ],
+)
+def test_too_little_work_is_no_leak(known_run, bearing, work, lost, leak, verdict):
+    """Contacts hold 0.1 mJ; drive and cage move less than that, or as much as in a run."""
+    ds = known_run.assign_coords(channel=["drive", "pocket_friction"])
+    share = ds["time"].values / ds["time"].values[-1]
+    ds["work"][:, 0], ds["work"][:, 1] = work * share, -lost * share
+    ds["energy"][:, 0] = ds["work"].sum("channel").values + leak * share
+    ds["energy"][:, 1] = 1e-4
+    summary = summarise(ds, bearing)
+    assert summary["energy_audit"] == verdict
+    assert summary["energy_elastic"] == pytest.approx(1e-4)
+    assert ("too little work" in summary.row("energy_audit").note) == (verdict == "not judged")
+    assert ("tighten" in summary.row("energy_audit").note) == (verdict == "EXCEEDED")
 
 
 def test_spectrum_reads_amplitude():
