@@ -139,7 +139,7 @@ class Run:
     def summary(self) -> Summary:
         """Figures of the run: speeds, slip, motion, forces, stress, energy, solver, times."""
         if self.folder and (self.folder / "summary.json").exists():
-            return Summary.from_json((self.folder / "summary.json").read_text("utf-8"))
+            return Summary.read(self.folder / "summary.json")
         return self._summarise()
 
     @cached_property

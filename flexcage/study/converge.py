@@ -158,7 +158,7 @@ def _figures_of(case: Case, folder: Path, progress: Any) -> Summary:
     stored, kept = folder / "summary.json", folder / "windows.npz"
     if stored.exists():
         windows = load(kept) if kept.exists() else {}
-        return Summary.from_json(stored.read_text("utf-8"), windows=windows)
+        return Summary.read(stored, windows=windows)
     summary = simulate(case, out=folder, resume=can_go_on(folder), progress=progress).summary
     save(kept, {row.key: row.record.sums for row in summary if row.record is not None})
     return summary

@@ -7,6 +7,7 @@ import pytest
 import xarray as xr
 
 from flexcage.contacts.spec import EhlTraction, FrictionLaw
+from flexcage.core.errors import InputError
 from flexcage.results import audit, metrics
 from flexcage.results.figures import summarise
 from flexcage.results.spectra import amplitude_spectrum
@@ -233,6 +234,8 @@ def test_summary_prints_and_comes_back(known_run, bearing, tmp_path):
     assert summary["drift"] == "pocket force"  # the face bears nothing in the second half
     back = Summary.from_json(summary.to_json())
     assert back.text() == text
+    summary.write(tmp_path)
+    assert Summary.read(tmp_path / "summary.json").text() == text
     assert back.row("pocket_force_mean") == summary.row("pocket_force_mean")
     assert back["cage_slip_ratio"] == pytest.approx(0.02, abs=1e-6)
     assert [p.name for p in summary.write(tmp_path)] == ["summary.txt", "summary.json"]
@@ -240,6 +243,23 @@ def test_summary_prints_and_comes_back(known_run, bearing, tmp_path):
     assert both.splitlines()[0].split() == ["rigid", "flexible"]
     names = [row.label for row in summary]
     assert len(set(names)) == len(names), "tables without notes tell all rows apart"
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        ("{", "Expecting property name"),
+        ("{}", "it has no figures"),
+        ("[1]", "it is no table of figures"),
+        ('{"Speeds": {"cage_speed": 1}}', "it is no table of figures"),
+        ('{"Speeds": {"cage_speed": {}}}', "it is no table of figures"),
+    ],
+)
+def test_a_summary_that_is_none_gets_a_sentence(tmp_path, text, words):
+    path = tmp_path / "summary.json"
+    path.write_text(text)
+    with pytest.raises(InputError, match=f"summary.json' cannot be read: {words}.*; delete it"):
+        Summary.read(path)
 
 
 def test_summary_sees_a_run_that_has_not_settled(known_run, bearing):
