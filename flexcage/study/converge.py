@@ -46,13 +46,13 @@ def _tolerances(case: Case) -> dict[str, dict[str, Any]]:
 
 
 def _slices(case: Case) -> dict[str, dict[str, Any]]:
-    places = {f"contacts.{p}.slices": getattr(case.contacts, p).slices for p in ("race", "pocket")}
-    return {
-        str(_sliced(case.contacts.race.slices, factor)): {
-            path: _sliced(own, factor) for path, own in places.items()
-        }
-        for factor in (0.5, 1.0, 2.0)
-    }
+    own = {place: getattr(case.contacts, place).slices for place in ("race", "pocket")}
+    found = {}
+    for factor in (0.5, 1.0, 2.0):
+        cut = {place: _sliced(count, factor) for place, count in own.items()}
+        name = ", ".join(f"{place} {count}" for place, count in cut.items())
+        found[name] = {f"contacts.{place}.slices": count for place, count in cut.items()}
+    return found
 
 
 def _sliced(own: int, factor: float) -> int:
