@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from flexcage.case import Case, load_case, words
+from flexcage.core.binding import Binder
 from flexcage.core.cache import cached_arrays
 from flexcage.core.errors import EnvironmentLacks, InputError
 from flexcage.core.progress import Silent
@@ -54,6 +55,7 @@ if TYPE_CHECKING:
     import xarray
 
     from flexcage.render.album import Scene, StressPictures
+    from flexcage.render.look import Look
     from flexcage.report.run_page import RunAccount
     from flexcage.results.recording import Recorder
 
@@ -140,7 +142,7 @@ class Run:
     def summary(self) -> Summary:
         """Figures of the run: speeds, slip, motion, forces, stress, energy, solver, times."""
         if self.folder and (self.folder / "summary.json").exists():
-            return Summary.from_json((self.folder / "summary.json").read_text("utf-8"))
+            return Summary.read(self.folder / "summary.json")
         return self._summarise()
 
     @cached_property
@@ -272,18 +274,37 @@ class Run:
             series = frames(chosen, field_at, bar.advance)
             return write_series(folder, "cage", self.mesh.points, self.mesh.tets, series)
 
-    def draw(self, folder: str | Path, *, animate: bool = False) -> list[Path]:
-        """Draw every picture of the run into ``folder``; paths of the files."""
-        paths = self.stages("pictures", self._draw, Path(folder), animate)
+    def draw(
+        self,
+        folder: str | Path,
+        *,
+        animate: bool = False,
+        view: float | str | None = None,
+        stress_limit: float | str | None = None,
+        scale: float | None = None,
+    ) -> list[Path]:
+        """Draw every picture of the run into ``folder``; paths of the files.
+
+        ``view``, an azimuth of the cage [rad], is turned to the viewer in pictures of the cage;
+        ``stress_limit`` [Pa] ends the colours of stress, and deformation is drawn ``scale`` times:
+        the same for several runs, their pictures can be laid side by side. Text carries units. Not
+        given, the view is from pocket 0, that of the mesh from its first defect, and the other two
+        follow the run (``render.Look``).
+        """
+        from flexcage.render.look import Look
+
+        given = {"view": view, "stress_limit": stress_limit, "scale": scale}
+        look = Binder(si=True).bind(Look, given, "")
+        paths = self.stages("pictures", self._draw, Path(folder), animate, look)
         if hasattr(self, "solver"):
             self.tell_times()
         return paths
 
-    def _draw(self, folder: Path, animate: bool) -> list[Path]:
+    def _draw(self, folder: Path, animate: bool, look: Look) -> list[Path]:
         from flexcage.render.album import draw_album
 
         scene = self.scene(animate=animate)
-        return draw_album(scene, folder, animate=animate, progress=self.stages.progress)
+        return draw_album(scene, folder, animate=animate, look=look, progress=self.stages.progress)
 
     def tell_times(self) -> None:
         """Bring the wall times of a run just computed up to now in its summary, the stored one

@@ -7,7 +7,6 @@ input, 130 stopped by Ctrl-C. FLEXCAGE_DEBUG=1 shows tracebacks.
 from __future__ import annotations
 
 import argparse
-import errno
 import os
 import sys
 import time
@@ -16,7 +15,7 @@ from pathlib import Path
 
 from flexcage.cli import on_cases, on_runs, on_studies, small
 from flexcage.cli.parser import new_parser
-from flexcage.core.errors import FlexcageError
+from flexcage.core.errors import FlexcageError, is_full
 
 _STOPPED = 130
 
@@ -61,7 +60,7 @@ def _sentence(exc: Exception) -> tuple[str, int]:
         return str(exc), exc.exit_code
     if isinstance(exc, OSError):
         place = f" at '{exc.filename}'" if exc.filename else ""
-        if exc.errno in (errno.ENOSPC, errno.EDQUOT):
+        if is_full(exc):
             return f"The disk is full{place}; what was written before is kept.", 1
         return f"A file could not be read or written{place}: {exc.strerror or exc}.", 1
     if isinstance(exc, MemoryError):

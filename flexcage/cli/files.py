@@ -7,7 +7,7 @@ import tempfile
 from collections.abc import Iterable
 from pathlib import Path
 
-from flexcage.core.errors import InputError
+from flexcage.core.errors import InputError, refuse_full
 
 _OURS = ("case.toml", "results.zarr", "compare.json")  # one of them is in every folder of ours
 
@@ -45,6 +45,7 @@ def prepare_out(
         with tempfile.TemporaryFile(dir=out):
             pass
     except OSError as exc:
+        refuse_full(f"The output folder '{out}'", exc)
         reason = (exc.strerror or str(exc)).lower()
         raise InputError(
             f"The output folder '{out}' cannot be written ({reason}); name another with -o.",

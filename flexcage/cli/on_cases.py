@@ -8,8 +8,8 @@ from pathlib import Path
 from typing import Any
 
 from flexcage.cli.files import prepare_file, prepare_out
-from flexcage.cli.parser import case_options, command, say
-from flexcage.cli.settings import case_from, settings_of
+from flexcage.cli.parser import case_options, command, picture_options, say
+from flexcage.cli.settings import case_from, look_of, settings_of
 
 
 def add_commands(commands: Any) -> None:
@@ -27,7 +27,7 @@ def _add_run(commands: Any) -> None:
     again = run.add_mutually_exclusive_group()
     again.add_argument("--resume", action="store_true", help="go on with a run that stopped")
     again.add_argument("--force", action="store_true", help="write an existing run anew")
-    run.add_argument("--animate", action="store_true", help="make an animation as well")
+    picture_options(run)
     run.add_argument("--no-images", action="store_true", help="results only")
 
 
@@ -67,7 +67,7 @@ def _add_converge(commands: Any) -> None:
 
 def run_command(args: argparse.Namespace) -> int:
     """flexcage run CASE: simulate, summarise, draw."""
-    case = case_from(args)
+    case, look = case_from(args), look_of(args)
     args.out = out = Path(args.out) if args.out else Path("runs") / case.name
     prepare_out(out, resume=args.resume, force=args.force)
     from flexcage.core.progress import Progress
@@ -79,7 +79,7 @@ def run_command(args: argparse.Namespace) -> int:
     say(run.summary)
     say(f"\nThe run is in {out}")
     if not args.no_images:
-        draw(run, out / "images", animate=args.animate)
+        draw(run, out / "images", animate=args.animate, **look)
         drawing = run.stages.get("pictures", 0.0)
         say(f"Pictures took {drawing:.1f} s, all of it {run.stages.total:.1f} s")
     return 0
@@ -154,11 +154,11 @@ def converge_command(args: argparse.Namespace) -> int:
     return 0
 
 
-def draw(run: Any, folder: Path, *, animate: bool) -> None:
+def draw(run: Any, folder: Path, *, animate: bool, **look: float) -> None:
     """Draw a run's pictures; a machine that cannot draw costs the pictures, not the run."""
     from flexcage.core.errors import EnvironmentLacks
 
     try:
-        run.draw(folder, animate=animate)
+        run.draw(folder, animate=animate, **look)
     except EnvironmentLacks as exc:
         logging.getLogger(__name__).warning("no pictures: %s", exc)

@@ -7,8 +7,8 @@ from pathlib import Path
 from typing import Any
 
 from flexcage.cli.files import existing_run, prepare_file, prepare_out
-from flexcage.cli.parser import command, say
-from flexcage.cli.settings import case_from
+from flexcage.cli.parser import command, picture_options, say
+from flexcage.cli.settings import case_from, look_of
 from flexcage.core.errors import InputError
 
 
@@ -17,7 +17,7 @@ def add_commands(commands: Any) -> None:
     render = command(commands, "render", render_command, "draw the pictures of a stored run")
     render.add_argument("run", metavar="RUN", help="run folder")
     render.add_argument("-o", "--out", metavar="DIR", help="folder for the pictures")
-    render.add_argument("--animate", action="store_true", help="make an animation as well")
+    picture_options(render)
     _add_export(commands)
     text = "write a run or a study as one HTML page that needs no other file"
     report = command(commands, "report", report_command, text)
@@ -67,9 +67,10 @@ def render_command(args: argparse.Namespace) -> int:
     from flexcage.core.progress import Progress
     from flexcage.simulate import load_run
 
+    look = look_of(args)
     run = load_run(existing_run(args.run), progress=Progress)
     out = Path(args.out) if args.out else Path(args.run) / "images"
-    run.draw(out, animate=args.animate)
+    run.draw(out, animate=args.animate, **look)
     say(f"The pictures are in {out}")
     return 0
 

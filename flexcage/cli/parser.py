@@ -42,6 +42,18 @@ def command(commands: Any, name: str, function: Any, text: str) -> argparse.Argu
     return parser
 
 
+def picture_options(parser: argparse.ArgumentParser) -> None:
+    """Add what every command that draws a run understands."""
+    parser.add_argument("--animate", action="store_true", help="make an animation as well")
+    parser.add_argument(
+        "--view", metavar="ANGLE", help="azimuth of the cage turned to the viewer, as '120 deg'"
+    )
+    parser.add_argument(
+        "--stress-limit", metavar="STRESS", help="stress at the end of the colours, as '25 MPa'"
+    )
+    parser.add_argument("--scale", metavar="N", help="factor of the deformation that is drawn")
+
+
 def case_options(parser: argparse.ArgumentParser) -> None:
     """Add what every command that takes a case understands."""
     parser.add_argument("case", metavar="CASE", help="case file (.toml)")

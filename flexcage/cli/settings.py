@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import dataclasses
 from pathlib import Path
 from typing import Any
 
@@ -22,6 +23,31 @@ def case_from(args: argparse.Namespace) -> Any:
 def settings_of(args: argparse.Namespace) -> dict[str, Any]:
     """Values of --set by path."""
     return dict(parse_setting(text) for text in args.set or ())
+
+
+def look_of(args: argparse.Namespace) -> dict[str, float]:
+    """Values of --view, --stress-limit and --scale in SI, those that are given, checked."""
+    from flexcage.core.binding import check_value
+    from flexcage.core.units import parse
+    from flexcage.render.look import Look
+
+    found = {}
+    for field in dataclasses.fields(Look):
+        text, name = getattr(args, field.name), "--" + field.name.replace("_", "-")
+        if text is not None:
+            unit = field.metadata.get("unit")
+            found[field.name] = parse(text, unit, where=name) if unit else _number(text, name)
+            check_value(found[field.name], field.metadata, name)
+    return found
+
+
+def _number(text: str, name: str) -> float:
+    try:
+        return float(text)
+    except ValueError:
+        raise InputError(
+            f"{name} is '{text}', but should be a number, such as 50.", where=name, value=text
+        ) from None
 
 
 def parse_setting(text: str) -> tuple[str, Any]:

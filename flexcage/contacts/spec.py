@@ -14,6 +14,7 @@ FRICTION_LAWS: dict[str, type | None] = dict.fromkeys(
     ("traction", "step_coulomb", "ramp_coulomb", "none")
 )
 _COULOMB = ("step_coulomb", "ramp_coulomb")
+_CREEP_END = {"step_coulomb": "v_static", "ramp_coulomb": "v_dynamic"}  # by law, the speed's field
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -90,8 +91,13 @@ class FrictionLaw:
     @property
     def creeps_below(self) -> float | None:
         """Sliding speed [m/s] below which the law only creeps, so that slip under it says nothing;
-        None for a law whose rise from rest is the physics."""
-        return self.v_static if self.law in _COULOMB else None
+        None for a law whose rise from rest is the physics.
+
+        ``step_coulomb`` creeps up to its static peak; ``ramp_coulomb``, which has no force at all
+        below v_static, up to its full force at v_dynamic.
+        """
+        end = _CREEP_END.get(self.law)
+        return getattr(self, end) if end else None
 
     @property
     def rises_below(self) -> float | None:

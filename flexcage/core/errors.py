@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from errno import EDQUOT, ENOSPC
+
 
 class FlexcageError(Exception):
     """Base of all errors that flexcage raises on purpose."""
@@ -30,3 +32,17 @@ class RunFailed(FlexcageError, RuntimeError):
     """A computation that could not go on; what was computed before is kept."""
 
     exit_code = 1
+
+
+def is_full(error: OSError) -> bool:
+    """Whether an error of the disk says that it is full, or one's share of it."""
+    return error.errno in (ENOSPC, EDQUOT)
+
+
+def refuse_full(what: str, error: OSError) -> None:
+    """Raise RunFailed if ``what`` could not be written because the disk is full: no mistake in the
+    input, as other errors of writing are."""
+    if is_full(error):
+        raise RunFailed(
+            f"{what} cannot be written: the disk is full; make room and try again."
+        ) from error

@@ -22,7 +22,7 @@ from typing import Any
 
 import numpy as np
 
-from flexcage.core.errors import InputError
+from flexcage.core.errors import InputError, refuse_full
 from flexcage.mesh.cage_mesh import (
     POCKET_GROUPS,
     RING_GROUPS,
@@ -68,6 +68,7 @@ def write_mesh(mesh: CageMesh, path: str | Path) -> Path:
             out = meshio.Mesh(mesh.points, cells, cell_data=both, field_data=fields)
             meshio.write(path, out, file_format="gmsh22", binary=True)
     except OSError as error:
+        refuse_full(f"The mesh '{path}'", error)
         raise InputError(f"{path} cannot be written: {error.strerror or error}") from error
     return path
 

@@ -10,7 +10,7 @@ from pathlib import Path
 
 import numpy as np
 
-from flexcage.core.errors import InputError
+from flexcage.core.errors import InputError, refuse_full
 
 Frame = tuple[float, Mapping[str, np.ndarray]]  # time [s]; name to values (n_points, ...)
 
@@ -49,6 +49,7 @@ def new_folder(folder: str | Path) -> Path:
         folder.mkdir(parents=True, exist_ok=True)
         full = any(folder.iterdir())
     except OSError as exc:
+        refuse_full(f"The folder '{folder}'", exc)
         reason = (exc.strerror or str(exc)).lower()
         raise InputError(f"The folder '{folder}' cannot be written ({reason}).") from exc
     if full:

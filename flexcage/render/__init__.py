@@ -14,6 +14,7 @@ if TYPE_CHECKING:
     from flexcage.render.bearing_pictures import bearing_picture
     from flexcage.render.convergence import convergence_picture
     from flexcage.render.curves import compare_forces, histories, orbit
+    from flexcage.render.look import Look
     from flexcage.render.mesh_pictures import mesh_picture
     from flexcage.render.mode_pictures import mode_sheet
     from flexcage.render.spectra import spectra_picture
@@ -25,6 +26,7 @@ if TYPE_CHECKING:
     )
 
 _HOME = {
+    "Look": "look",
     "Scene": "album",
     "register_picture": "album",
     "animate_bearing": "animations",
@@ -45,6 +47,7 @@ _HOME = {
 }
 
 __all__ = [
+    "Look",
     "Scene",
     "animate_bearing",
     "animate_stress",

@@ -1,5 +1,7 @@
 """All pictures of one run, with fixed file names and cameras, so that runs lie side by side.
 
+The mesh's picture alone turns to what it marks, the first defect. A ``Look`` turns all pictures of
+the cage, and fixes the range of stress and the factor of deformation, which else follow the run.
 ``register_picture`` adds a user's own to every album.
 """
 
@@ -18,6 +20,7 @@ from flexcage.core.registry import add, check_free
 from flexcage.mesh.cage_mesh import CageMesh
 from flexcage.modes.basis import ModeBasis
 from flexcage.render.defects import pockets_of
+from flexcage.render.look import Look
 from flexcage.results import spectra
 from flexcage.results.metrics import BearingNumbers, settled
 
@@ -90,19 +93,21 @@ def draw_album(
     folder: Path,
     *,
     animate: bool = False,
+    look: Look | None = None,
     progress: Callable[..., Any] = Silent,
 ) -> list[Path]:
     """Draw all pictures into ``folder``; their paths. ``progress`` is a context like
     ``core.progress.Progress``."""
     folder.mkdir(parents=True, exist_ok=True)
-    drawings = [*_geometry(scene, folder), *_motion(scene, folder)]
+    look = look or Look()
+    drawings = [*_geometry(scene, folder, look), *_motion(scene, folder)]
     if scene.stress is not None:
-        drawings += _stress(scene, scene.stress, folder)
+        drawings += _stress(scene, scene.stress, folder, look)
     for name, (draw, needs_stress) in PICTURES.items():
         if scene.stress is not None or not needs_stress:
             drawings.append(partial(draw, scene, folder / f"{name}.png"))
     if animate:
-        drawings += _animations(scene, folder)
+        drawings += _animations(scene, folder, look)
     paths = []
     with progress(len(drawings), "pictures") as bar:
         for drawing in drawings:
@@ -116,11 +121,15 @@ def _followed(scene: Scene) -> int:
     return pockets_of(scene.defects[0], scene.mesh.pocket_count)[0] if scene.defects else 0
 
 
-def _geometry(scene: Scene, folder: Path) -> list[Drawing]:
+def _geometry(scene: Scene, folder: Path, look: Look) -> list[Drawing]:
     from flexcage.render.mesh_pictures import mesh_picture
     from flexcage.render.mode_pictures import mode_sheet
 
-    drawings = [partial(mesh_picture, scene.mesh, folder / "mesh.png", defects=scene.defects)]
+    drawings = [
+        partial(
+            mesh_picture, scene.mesh, folder / "mesh.png", defects=scene.defects, azimuth=look.view
+        )
+    ]
     if scene.stress is not None:
         b = scene.stress.basis
         drawings.append(
@@ -153,11 +162,10 @@ def _motion(scene: Scene, folder: Path) -> list[Drawing]:
     if scene.stress is not None:
         import xarray
 
-        worst = int(np.argmax(scene.stress.roots.max(axis=0)))
         root = xarray.DataArray(
-            scene.stress.roots[:, [worst]],
+            scene.stress.roots,
             dims=("time", "place"),
-            coords={"time": ds["time"], "place": [scene.stress.root_names[worst]]},
+            coords={"time": ds["time"], "place": list(scene.stress.root_names)},
             attrs={"units": "Pa", "long_name": "equivalent stress"},
         )
     busiest = int(np.argmax(ds["pocket_force"].sum(["pocket", "face"]).values))
@@ -183,7 +191,7 @@ def _motion(scene: Scene, folder: Path) -> list[Drawing]:
     return drawings
 
 
-def _stress(scene: Scene, s: StressPictures, folder: Path) -> list[Drawing]:
+def _stress(scene: Scene, s: StressPictures, folder: Path, look: Look) -> list[Drawing]:
     from flexcage.render.stress_pictures import (
         deformation_picture,
         envelope_picture,
@@ -191,29 +199,28 @@ def _stress(scene: Scene, s: StressPictures, folder: Path) -> list[Drawing]:
     )
 
     ds, count = scene.dataset, scene.mesh.pocket_count
-    azimuth = float(np.arctan2(*scene.mesh.points[s.peak_vertex, [2, 1]]))
     t = ds["time"].values
     points, tets = scene.mesh.points, scene.mesh.tets
     at_vertices = s.displacement[: len(points)]
     return [
         partial(
             stress_picture, points, tets, at_vertices, s.von_mises, folder / "stress_peak.png",
-            time=s.time, peak_label=s.peak_place, peak_node=s.peak_vertex,
-            pocket_count=count, azimuth=azimuth, note=scene.name,
+            time=s.time, peak_label=s.peak_place, peak_node=s.peak_vertex, scale=look.scale,
+            limit=look.stress_limit, pocket_count=count, azimuth=look.azimuth, note=scene.name,
         ),
         partial(
             envelope_picture, points, tets, s.envelope, folder / "stress_envelope.png",
             span=(t[s.settled], t[-1]), peak_label=s.peak_place, peak_node=s.peak_vertex,
-            pocket_count=count, azimuth=azimuth, note=scene.name,
+            limit=look.stress_limit, pocket_count=count, azimuth=look.azimuth, note=scene.name,
         ),
         partial(
             deformation_picture, points, tets, at_vertices, folder / "deformation.png", time=s.time,
-            pocket_count=count, azimuth=azimuth, note=scene.name,
+            scale=look.scale, pocket_count=count, azimuth=look.azimuth, note=scene.name,
         ),
     ]  # fmt: skip
 
 
-def _animations(scene: Scene, folder: Path) -> list[Drawing]:
+def _animations(scene: Scene, folder: Path, look: Look) -> list[Drawing]:
     from flexcage.render.animations import animate_bearing, animate_stress
 
     drawings = [
@@ -236,7 +243,9 @@ def _animations(scene: Scene, folder: Path) -> list[Drawing]:
                 times,
                 folder / "stress.gif",
                 pocket_count=scene.mesh.pocket_count,
-                azimuth=float(np.arctan2(*scene.mesh.points[scene.stress.peak_vertex, [2, 1]])),
+                azimuth=look.azimuth,
+                limit=look.stress_limit,
+                scale=look.scale,
             )
         )
     return drawings

@@ -11,7 +11,7 @@ import numpy as np
 
 from flexcage.render import sheet
 
-_LEFT, _PANEL, _GAP, _ROW, _TOP = 330, 330, 40, 44, 170
+_LEFT, _PANEL, _GAP, _ROW, _TOP = 330, 330, 40, 44, 220
 _WIDEST = 100.0  # % shown at most
 
 
@@ -56,6 +56,8 @@ def _panel(ax: Any, records: list[Mapping[str, Any]], labels: list[str], goal: f
     limit = min(110.0 * reach, _WIDEST)
     ax.set(xlim=(-limit, limit), ylim=(len(labels) - 0.4, -0.6), xlabel="difference [%]")
     ax.set_yticks(range(len(labels)), labels)
-    title = f"{records[0]['axis']}, against {records[0]['finest']}"
-    ax.set_title(title, loc="left", weight="bold", pad=24)
-    ax.legend(loc="lower left", bbox_to_anchor=(-0.02, 1.0), ncols=3, borderpad=0.2)
+    ax.set_title(records[0]["axis"], loc="left", weight="bold", pad=50)
+    ax.legend(
+        loc="lower left", bbox_to_anchor=(-0.02, 1.0), borderpad=0.2, alignment="left",
+        title=f"against {records[0]['finest']}", title_fontsize="medium",
+    )  # fmt: skip

@@ -235,10 +235,9 @@ def _stress_panel(ax: Any, t: np.ndarray, ds: xarray.Dataset, *, root_stress, **
 def _roller_panel(
     ax: Any, t: np.ndarray, ds: xarray.Dataset, *, bearing, element: int, **_: Any
 ) -> None:
-    spin = np.abs(ds["roller_omega"].isel(spin_axis=0).transpose("time", "roller").values) * RPM
-    _element_speed(ax, t, ds, spin, element)
+    _element_speed(ax, t, ds, metrics.roller_spin(ds).values * RPM, element)
     if bearing is not None:
-        ideal = np.abs(ds["inner_speed"] * bearing.kinematics(1.0).roller_spin) * RPM
+        ideal = _rolling(ds, bearing.kinematics(1.0).roller_spin)
         ax.plot(t, ideal, color=sheet.VERMILION, ls="--", lw=1.3, label="pure rolling")
     _legend(ax, "Roller spin, inertial frame")
 
@@ -248,9 +247,15 @@ def _ball_panel(
 ) -> None:
     _element_speed(ax, t, ds, metrics.ball_spin(ds).values * RPM, element)
     if bearing is not None:
-        ideal = np.abs(ds["inner_speed"] * bearing.kinematics(1.0).roller_spin_in_cage) * RPM
+        ideal = _rolling(ds, bearing.kinematics(1.0).roller_spin_in_cage)
         ax.plot(t, ideal, color=sheet.VERMILION, ls="--", lw=1.3, label="pure rolling")
     _legend(ax, "Ball speed about its own axis, cage frame")
+
+
+def _rolling(ds: xarray.Dataset, unit: float) -> xarray.DataArray:
+    """Speed of rolling [rpm] in its own sense; ``unit`` is the speed at 1 rad/s of the inner
+    ring."""
+    return metrics.rolling_sense(ds) * unit * ds["inner_speed"] * RPM
 
 
 def _element_speed(

@@ -57,7 +57,8 @@ def mesh_picture(
     Pockets made smaller are vermilion, those made larger blue, displaced ones purple, and cracks
     vermilion lines; dashed lines show where a pocket's outer rim would be without the defect. With
     fewer than two defects the close-ups show a pocket and its corner or edge instead.
-    ``azimuth`` [rad] is the place turned to the viewer: that of the first defect if not given.
+    ``azimuth`` [rad] is the place turned to the viewer; if not given, that of the first defect, so
+    that its mark is seen: meshes with other defects are then seen from elsewhere.
     """
     radius, width = ring_size(mesh.points)
     if azimuth is None:

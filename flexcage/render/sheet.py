@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from flexcage.core.errors import InputError
+from flexcage.core.errors import InputError, refuse_full
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -197,6 +197,8 @@ def save(figure: Figure, path: str | Path) -> Path:
         path.parent.mkdir(parents=True, exist_ok=True)
         figure.savefig(path, dpi=DPI)
     except (OSError, ValueError) as error:
+        if isinstance(error, OSError):
+            refuse_full(f"The picture {path}", error)
         raise InputError(
             f"The picture {path} cannot be written: {error}.", where="path", value=str(path)
         ) from error

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from math import isfinite
 
-from flexcage.results.audit import OF_CAGE, OF_DRIVE
+from flexcage.results.audit import EXCEEDED, OF_CAGE, OF_DRIVE
 from flexcage.results.bootstrap import FEWEST
 from flexcage.results.summary import Summary
 
@@ -72,14 +72,18 @@ def _drift(summary: Summary) -> str:
 
 
 def _audit(summary: Summary) -> str:
-    if "energy_audit" not in summary or summary["energy_audit"] == "passed":
+    if "energy_audit" not in summary or summary["energy_audit"] != EXCEEDED:
         return ""
-    drive, cage = _number(summary, "energy_of_drive"), _number(summary, "energy_of_cage")
-    return (
-        f"The energy audit is exceeded: the imbalance is {100.0 * drive:.2g} % of the drive's work "
-        f"(at most {100.0 * OF_DRIVE:g} %) and {100.0 * cage:.2g} % of the cage's losses (at most "
-        f"{100.0 * OF_CAGE:g} %); tighten solver.tolerance."
+    shares = (
+        (_number(summary, "energy_of_drive"), "the drive's work", OF_DRIVE),
+        (_number(summary, "energy_of_cage"), "the cage's losses", OF_CAGE),
     )
+    known = " and ".join(
+        f"{100.0 * share:.2g} % of {what} (at most {100.0 * most:g} %)"
+        for share, what, most in shares
+        if isfinite(share)
+    )
+    return f"The energy audit is exceeded: the imbalance is {known}; tighten solver.tolerance."
 
 
 def _slip(summary: Summary, element: str) -> str:

@@ -80,16 +80,21 @@ def _root_stress(scene: Scene) -> Chart:
 
 
 def _roller_spin(ds: xarray.Dataset, numbers: BearingNumbers) -> Chart:
-    spin = ds["roller_omega"].isel(spin_axis=0).transpose("time", "roller").values
-    ideal = np.abs(ds["inner_speed"].values * numbers.kinematics(1.0).roller_spin)
-    figure = _speeds("spin [rpm]", ds, np.abs(spin), ideal)
+    ideal = _rolling(ds, numbers.kinematics(1.0).roller_spin)
+    figure = _speeds("spin [rpm]", ds, metrics.roller_spin(ds).values, ideal)
     return Chart("Roller spin, inertial frame", [("", figure)])
 
 
 def _ball_speed(ds: xarray.Dataset, numbers: BearingNumbers) -> Chart:
-    ideal = np.abs(ds["inner_speed"].values * numbers.kinematics(1.0).roller_spin_in_cage)
+    ideal = _rolling(ds, numbers.kinematics(1.0).roller_spin_in_cage)
     figure = _speeds("speed [rpm]", ds, metrics.ball_spin(ds).values, ideal)
     return Chart("Ball speed about its own axis, cage frame", [("", figure)])
+
+
+def _rolling(ds: xarray.Dataset, unit: float) -> np.ndarray:
+    """Speed of rolling [rad/s] in its own sense, (time,); ``unit`` is that at 1 rad/s of the inner
+    ring."""
+    return np.asarray(metrics.rolling_sense(ds) * unit * ds["inner_speed"].values)
 
 
 def _speeds(title: str, ds: xarray.Dataset, speed: np.ndarray, ideal: np.ndarray) -> Any:

@@ -7,13 +7,14 @@ from math import isfinite
 from typing import TYPE_CHECKING, Any
 
 from flexcage.report.blocks import Cell, Table
+from flexcage.results.audit import EXCEEDED, PASSED
 from flexcage.results.summary import Row, Section
 
 if TYPE_CHECKING:
     import pandas
 
 #: Figures that are verdicts: the word that is good, and the one that is bad.
-_TONES = {"energy_audit": ("passed", "EXCEEDED")}
+_TONES = {"energy_audit": (PASSED, EXCEEDED)}
 
 
 def number(value: Any, text: str | None = None) -> Cell:

@@ -19,8 +19,9 @@ def speed_rows(ds: xarray.Dataset, bearing: BearingNumbers) -> tuple[Row, ...]:
     """Speed of balls about their own axes, against pure rolling."""
     inner = float(ds["inner_speed"].mean())
     spin = float(metrics.ball_spin(ds).mean())
+    note = "about its own axis, cage frame, positive as rolling has it"
     return (
-        Row("ball_spin", "Ball speed, mean of all", spin, "rpm", "about its own axis, cage frame"),
+        Row("ball_spin", "Ball speed, mean of all", spin, "rpm", note),
         Row("ball_spin_ideal", "Ball speed, pure rolling",
             abs(bearing.kinematics(inner).roller_spin_in_cage), "rpm"),
     )  # fmt: skip
@@ -38,12 +39,16 @@ def slip_section(ds: xarray.Dataset, bearing: BearingNumbers, slip_range: SlipRa
     )
     sliding = np.abs(part["contact_slip"].transpose("time", "ball", "race").values)
     angle = part["contact_angle"].transpose("time", "ball", "race").values
-    fast = [float(sliding[..., k][zone].mean()) if zone.any() else np.nan for k in range(2)]
-    note = slip_range.note(max(fast))
+    fast, free = (
+        [float(sliding[..., k][z].mean()) if z.any() else np.nan for k in range(2)]
+        for z in (zone, ~zone)
+    )
     rows = [
-        Row.of("slip_loaded", "Loaded balls, slip ratio", loaded, "%", note),
-        Row.of("slip_unloaded", "Unloaded balls, slip ratio", unloaded, "%"),
-    ]
+        Row.of("slip_loaded", "Loaded balls, slip ratio", loaded, "%",
+               slip_range.note(loaded.value, fast)),
+        Row.of("slip_unloaded", "Unloaded balls, slip ratio", unloaded, "%",
+               slip_range.note(unloaded.value, free)),
+    ]  # fmt: skip
     for k, race in enumerate(("inner", "outer")):
         touching = force[..., k] > 0.0
         rows.append(Row(f"sliding_{race}_loaded", f"Sliding, {race} race, loaded", fast[k], "m/s",

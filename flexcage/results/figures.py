@@ -114,9 +114,10 @@ def _speed_rows(ds: xarray.Dataset, bearing: BearingNumbers) -> tuple[Row, ...]:
 
 def _spin_rows(ds: xarray.Dataset, bearing: BearingNumbers) -> tuple[Row, ...]:
     inner = float(ds["inner_speed"].mean())
-    spin = float(np.abs(ds["roller_omega"].isel(spin_axis=0)).mean())
+    spin = float(metrics.roller_spin(ds).mean())
+    note = "inertial frame, positive as rolling has it"
     return (
-        Row("roller_spin", "Roller spin, mean of all", spin, "rpm", "inertial frame"),
+        Row("roller_spin", "Roller spin, mean of all", spin, "rpm", note),
         Row(
             "roller_spin_ideal",
             "Roller spin, pure rolling",
@@ -135,11 +136,22 @@ def _slip_section(ds: xarray.Dataset, bearing: BearingNumbers, slip_range: SlipR
     loaded, unloaded = (
         windows.ratio(np.where(z, ratio, 0.0).sum(axis=1), z.sum(axis=1)) for z in (zone, ~zone)
     )
-    note = slip_range.note(max(slip.sliding_loaded))
     mean = "mean over the zone"
     rows = (
-        Row.of("slip_loaded", "Loaded zone, slip ratio", loaded, "%", note),
-        Row.of("slip_unloaded", "Unloaded zone, slip ratio", unloaded, "%"),
+        Row.of(
+            "slip_loaded",
+            "Loaded zone, slip ratio",
+            loaded,
+            "%",
+            slip_range.note(loaded.value, slip.sliding_loaded),
+        ),
+        Row.of(
+            "slip_unloaded",
+            "Unloaded zone, slip ratio",
+            unloaded,
+            "%",
+            slip_range.note(unloaded.value, slip.sliding_unloaded),
+        ),
         Row(
             "sliding_inner_loaded",
             "Sliding, inner race, loaded",
@@ -186,9 +198,9 @@ def _motion_rows(ds: xarray.Dataset, bearing: BearingNumbers) -> tuple[Row, ...]
         Row("whirl_radius_max", "Whirl radius, largest", mean.largest, "um"),
         Row("whirl_ratio", "Whirl (max - min)/mean", mean.ratio, ""),
         Row.of(
-            "whirl_radius_axis", "Whirl radius, mean", about_axis, "um", "about the ring's axis"
+            "whirl_radius_axis", "Whirl about axis, mean", about_axis, "um", "the ring's axis"
         ),
-        Row("whirl_ratio_axis", "Whirl (max - min)/mean", axis.ratio, "", "about the ring's axis"),
+        Row("whirl_ratio_axis", "Whirl about axis (max - min)/mean", axis.ratio, ""),
         Row("whirl_speed_ratio", "Whirl speed / cage speed", axis.speed_ratio, "",
             f"net turns about the ring's axis over the cage's, at {rate}"),
         Row("velocity_deviation", "Centre's speed, ripple", metrics.velocity_deviation(ds), "%",
@@ -259,22 +271,23 @@ def _race_rows(ds: xarray.Dataset) -> tuple[Row, ...]:
 
 def _energy_rows(ds: xarray.Dataset) -> tuple[Row, ...]:
     check = audit.energy_audit(ds)
-    verdict = "passed" if check.passed else "EXCEEDED"
-    remedy = "" if check.passed else ": tighten solver.tolerance"
+    bounds = (
+        f"at most {100.0 * audit.OF_DRIVE:g} % of the drive's work, "
+        f"{100.0 * audit.OF_CAGE:g} % of the cage's losses"
+    )
+    note = {
+        audit.PASSED: bounds,
+        audit.UNJUDGED: "too little work to judge by",
+        audit.EXCEEDED: f"{bounds}: tighten solver.tolerance",
+    }[check.verdict]
     return (
-        Row(
-            "energy_audit",
-            "Energy audit",
-            verdict,
-            "",
-            f"at most {100.0 * audit.OF_DRIVE:g} % of "
-            f"the drive's work, {100.0 * audit.OF_CAGE:g} % of the cage's losses{remedy}",
-        ),
+        Row("energy_audit", "Energy audit", check.verdict, "", note),
         *(
             Row(f"stored_{k}", f"Gained: {k}", v, "mJ", "whole run")
             for k, v in check.stored.items()
         ),
         Row("energy_moved", "Energy moved", check.moved, "mJ", "whole run"),
+        Row("energy_elastic", "Elastic energy held", check.elastic, "mJ", "largest"),
         Row("energy_imbalance", "Largest imbalance", check.worst, "mJ"),
         Row("energy_relative", "Imbalance / energy moved", check.relative, "%"),
         Row("energy_of_drive", "Imbalance / drive's work", check.of_drive, "%"),

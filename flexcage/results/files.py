@@ -7,13 +7,12 @@ import os
 import shutil
 from collections.abc import Iterable, Iterator, Mapping
 from contextlib import contextmanager
-from errno import EDQUOT, ENOSPC
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
-from flexcage.core.errors import InputError, RunFailed
+from flexcage.core.errors import InputError, RunFailed, is_full, refuse_full
 
 
 def make_room(path: Path, overwrite: bool) -> None:
@@ -30,6 +29,7 @@ def make_room(path: Path, overwrite: bool) -> None:
             shutil.rmtree(path)
         path.mkdir(parents=True, exist_ok=True)
     except OSError as error:
+        refuse_full(f"The folder {path}", error)
         raise InputError(
             f"The folder {path} cannot be written: {error.strerror}.", where="path", value=str(path)
         ) from error
@@ -41,7 +41,7 @@ def disk(path: Path, kept: int) -> Iterator[None]:
     try:
         yield
     except OSError as error:
-        full = error.errno in (ENOSPC, EDQUOT)
+        full = is_full(error)
         what = "the disk is full" if full else (error.strerror or str(error))
         raise RunFailed(
             f"Results could not be written to {path}: {what}; the first {kept:,} samples are kept "

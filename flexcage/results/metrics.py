@@ -8,7 +8,9 @@ taken over whole cage revolutions after the start was left out. Whirl is positiv
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
+from math import isfinite
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -21,6 +23,7 @@ if TYPE_CHECKING:
 
 TOUCHING = 1e-3  # N, above which a pocket face counts as in contact
 LOADED_SHARE = 0.01  # a roller is in the loaded zone above this share of the largest inner force
+STANDING = 1e-9  # rad/s, what a constrained speed of zero may be by rounding, and more
 FEWEST_FILTERED = 16  # samples, below which a low pass has nothing to begin from
 
 
@@ -155,7 +158,7 @@ def cage_speed(ds: xarray.Dataset, bearing: BearingNumbers) -> CageSpeed:
     t, angle = part["time"].values, cage_angle(part)
     mean = (angle[-1] - angle[0]) / (t[-1] - t[0])
     ideal = bearing.kinematics(_mean(t, part["inner_speed"].values)).cage_speed
-    slip = (ideal - mean) / ideal if ideal else float("nan")
+    slip = (ideal - mean) / ideal if abs(ideal) > STANDING else float("nan")
     return CageSpeed(mean, ideal, slip, abs(angle[-1] - angle[0]) / (2.0 * np.pi))
 
 
@@ -176,17 +179,37 @@ def roller_slip_ratio(
         spin = spin - ds["cage_omega"].sel(axis="x", drop=True)
     else:
         raise InputError(f"Slip is taken in the frame 'inertial' or 'cage', not {frame!r}.")
-    out = (ideal - spin) / ideal
+    out = _slip(ideal, spin)
     out.attrs = {"units": "1", "long_name": f"roller slip ratio, {frame} frame"}
     return out.transpose("time", "roller").rename("roller_slip_ratio")
 
 
+def _slip(ideal: xarray.DataArray, spin: xarray.DataArray) -> xarray.DataArray:
+    """(ideal - spin)/ideal, NaN where nothing should turn."""
+    return (ideal - spin) / ideal.where(abs(ideal) > STANDING)
+
+
+def rolling_sense(ds: xarray.Dataset) -> float:
+    """Sense about the bearing axis in which elements roll, +1 or -1: against the inner ring's."""
+    return 1.0 if float(ds["inner_speed"].mean()) < 0.0 else -1.0
+
+
+def roller_spin(ds: xarray.Dataset) -> xarray.DataArray:
+    """Spin of every roller about its own axis, inertial frame, (time, roller) [rad/s]; positive in
+    the sense of rolling."""
+    out: xarray.DataArray = rolling_sense(ds) * ds["roller_omega"].isel(spin_axis=0, drop=True)
+    out.attrs = {"units": "rad/s", "long_name": "roller spin in the sense of rolling"}
+    return out.transpose("time", "roller").rename("roller_spin")
+
+
 def ball_spin(ds: xarray.Dataset) -> xarray.DataArray:
-    """Speed of every ball about its own axis, relative to the cage, (time, ball) [rad/s]."""
+    """Speed of every ball about its own axis, relative to the cage, (time, ball) [rad/s]; negative
+    where it turns about the bearing axis against the sense of rolling."""
     omega = ds["ball_omega"].transpose("time", "ball", "cyl")
     axial = omega.sel(cyl="x", drop=True) - ds["cage_omega"].sel(axis="x", drop=True)
     across = (omega.sel(cyl=["r", "psi"]) ** 2).sum("cyl")
-    out: xarray.DataArray = (axial**2 + across) ** 0.5
+    speed = (axial**2 + across) ** 0.5
+    out: xarray.DataArray = speed.where(rolling_sense(ds) * axial >= 0.0, -speed)
     out.attrs = {"units": "rad/s", "long_name": "speed of the ball about its own axis, cage frame"}
     return out.transpose("time", "ball").rename("ball_spin")
 
@@ -197,8 +220,8 @@ def ball_slip_ratio(ds: xarray.Dataset, bearing: BearingNumbers) -> xarray.DataA
     n_th follows from the instantaneous inner speed by pure rolling at the nominal contact angle
     with an ideal cage.
     """
-    ideal = abs(ds["inner_speed"] * bearing.kinematics(1.0).roller_spin_in_cage)
-    out: xarray.DataArray = (ideal - ball_spin(ds)) / ideal
+    unit = bearing.kinematics(1.0).roller_spin_in_cage
+    out = _slip(rolling_sense(ds) * unit * ds["inner_speed"], ball_spin(ds))
     out.attrs = {"units": "1", "long_name": "ball slip ratio, cage frame"}
     return out.transpose("time", "ball").rename("ball_slip_ratio")
 
@@ -225,12 +248,15 @@ class SlipRange:
     creep: float | None = None
     rise: float | None = None
 
-    def note(self, sliding: float) -> str:
-        """What a slip ratio at the sliding speed [m/s] rests on; "" where the law sets no more
-        than its own value."""
-        if self.creep is not None and sliding < self.creep:
+    def note(self, slip: float, sliding: Sequence[float]) -> str:
+        """What a slip ratio rests on where both races slide at mean speeds [m/s]; "" where the law
+        sets no more than its own value, or where there is no ratio."""
+        if not isfinite(slip):
+            return ""
+        fastest = max(sliding)
+        if self.creep is not None and fastest < self.creep:
             return f"unresolved: sliding is under the law's creep speed {self.creep:.3g} m/s"
-        if self.rise is not None and sliding < self.rise:
+        if self.rise is not None and fastest < self.rise:
             return (
                 "set by the traction curve's slope: sliding is on its rise, which ends at "
                 f"{self.rise:.3g} m/s"

@@ -13,6 +13,7 @@ import json
 import os
 import warnings
 from collections.abc import Mapping, Sequence
+from math import ceil
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -29,7 +30,7 @@ from flexcage.results.layout import (
     label_dataset,
     make_layout,
 )
-from flexcage.results.registry import TIME, TIME_HF, Variable
+from flexcage.results.registry import COMPUTED, TIME, TIME_HF, VARIABLES, Variable
 
 if TYPE_CHECKING:
     import xarray
@@ -244,6 +245,7 @@ class RunStore(MemoryRunStore):
             raise
         except Exception as error:
             raise InputError(f"The arrays of {path} cannot be opened: {error}.") from error
+        _check_whole(path, layout, commit)
         return cls(path, layout, commit, group)
 
     def _store(self, index, data, commit, checkpoint, steps, events) -> None:
@@ -347,6 +349,40 @@ def _layout_from(group: Any) -> Layout:
         stored["block"],
         stored["block_hf"],
         dict(group.attrs["run"]),
+    )
+
+
+def _check_whole(path: Path, layout: Layout, commit: Mapping[str, Any]) -> None:
+    """Refuse a run that lacks an array, or samples that were committed: they would read as NaN;
+    or one of the tables of its blocks.
+
+    Variables from elsewhere may be NaN throughout a block, which then has no file of its own.
+    """
+    for grid, n in ((TIME, layout.n_time), (TIME_HF, layout.n_time_hf)):
+        if n and not (path / grid / "zarr.json").exists():
+            raise _damaged(path, f"lacks the instants '{grid}'")
+    for v in layout.variables:
+        if not (path / v.name / "zarr.json").exists():
+            raise _damaged(path, f"lacks the array '{v.name}'")
+        if v.name not in VARIABLES or v.name in COMPUTED or 0 in layout.shape(v):
+            continue
+        count = ceil(commit["n_time" if v.dims[0] == TIME else "n_time_hf"] / layout.chunk(v)[0])
+        rest = ["0"] * (len(v.dims) - 1)
+        for k in range(count):
+            if not path.joinpath(v.name, "c", str(k), *rest).exists():
+                raise _damaged(path, f"lacks samples of the array '{v.name}'")
+    for kind in ("steps", "events"):
+        for k in range(commit["blocks"]):
+            if not (path / SIDE / kind / f"{k:06d}.npz").exists():
+                raise _damaged(path, f"lacks the {kind} of block {k}")
+
+
+def _damaged(path: Path, what: str) -> InputError:
+    return InputError(
+        f"The run in {path} is damaged: it {what}; bring it back from a copy, or run the case "
+        "again.",
+        where="path",
+        value=str(path),
     )
 
 

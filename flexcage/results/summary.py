@@ -11,6 +11,7 @@ from typing import Any
 
 import numpy as np
 
+from flexcage.core.errors import InputError
 from flexcage.results.files import replace as replace_file
 from flexcage.results.statistics import Record
 
@@ -64,10 +65,10 @@ class Row:
         *, value: float | None = None,
     ) -> Row:  # fmt: skip
         """Row of a statistic: its value (unless given), its margin and its windows."""
-        margin = record.margin if isfinite(record.margin) else None
-        return cls(
-            key, label, record.value if value is None else value, shown, note, margin, record
-        )
+        figure = record.value if value is None else value
+        known = isfinite(figure) and isfinite(record.margin)
+        margin = record.margin if known else None
+        return cls(key, label, figure, shown, note, margin, record)
 
     @property
     def unit(self) -> str:
@@ -186,6 +187,25 @@ class Summary:
                 for title, rows in json.loads(text).items()
             )
         )  # fmt: skip
+
+    @classmethod
+    def read(cls, path: Path, *, windows: Mapping[str, np.ndarray] | None = None) -> Summary:
+        """The summary in a file that ``write`` wrote; InputError if it holds none."""
+        try:
+            summary = cls.from_json(path.read_text("utf-8"), windows=windows)
+            wrong = "" if list(summary) else "it has no figures"
+        except (OSError, UnicodeDecodeError, json.JSONDecodeError) as error:
+            wrong = str(error)
+        except (AttributeError, KeyError, TypeError):
+            wrong = "it is no table of figures"
+        if wrong:
+            raise InputError(
+                f"The summary '{path}' cannot be read: {wrong}; delete it, and it is computed "
+                "again from the results.",
+                where="summary",
+                value=str(path),
+            )
+        return summary
 
     def write(self, folder: str | Path) -> tuple[Path, Path]:
         """Write ``summary.txt`` and ``summary.json`` into ``folder``; returns their paths."""

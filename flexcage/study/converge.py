@@ -46,13 +46,13 @@ def _tolerances(case: Case) -> dict[str, dict[str, Any]]:
 
 
 def _slices(case: Case) -> dict[str, dict[str, Any]]:
-    places = {f"contacts.{p}.slices": getattr(case.contacts, p).slices for p in ("race", "pocket")}
-    return {
-        str(_sliced(case.contacts.race.slices, factor)): {
-            path: _sliced(own, factor) for path, own in places.items()
-        }
-        for factor in (0.5, 1.0, 2.0)
-    }
+    own = {place: getattr(case.contacts, place).slices for place in ("race", "pocket")}
+    found = {}
+    for factor in (0.5, 1.0, 2.0):
+        cut = {place: _sliced(count, factor) for place, count in own.items()}
+        name = ", ".join(f"{place} {count}" for place, count in cut.items())
+        found[name] = {f"contacts.{place}.slices": count for place, count in cut.items()}
+    return found
 
 
 def _sliced(own: int, factor: float) -> int:
@@ -158,7 +158,7 @@ def _figures_of(case: Case, folder: Path, progress: Any) -> Summary:
     stored, kept = folder / "summary.json", folder / "windows.npz"
     if stored.exists():
         windows = load(kept) if kept.exists() else {}
-        return Summary.from_json(stored.read_text("utf-8"), windows=windows)
+        return Summary.read(stored, windows=windows)
     summary = simulate(case, out=folder, resume=was_written(folder), progress=progress).summary
     save(kept, {row.key: row.record.sums for row in summary if row.record is not None})
     return summary

@@ -22,7 +22,7 @@ from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any
 
-from flexcage.core.errors import InputError
+from flexcage.core.errors import InputError, refuse_full
 from flexcage.results.files import replace
 from flexcage.study.outputs import Figure
 from flexcage.study.plan import Plan, stored_plan
@@ -112,6 +112,7 @@ class Folder:
                 _write_json(self.path / "plan.json", [planned.hash for planned in plan.cases])
                 replace(self.path / "study.toml", plan.study.to_toml().encode())
         except OSError as exc:
+            refuse_full(f"The study's folder '{self.path}'", exc)
             reason = (exc.strerror or str(exc)).lower()
             raise InputError(
                 f"The study's folder '{self.path}' cannot be written ({reason}); name another "

@@ -11,6 +11,7 @@ from flexcage.case import words
 from flexcage.report.blocks import Image, Table
 from flexcage.report.page import PageTooLarge, write_page
 from flexcage.report.study_page import StudyAccount, study_page
+from flexcage.results.audit import EXCEEDED
 from flexcage.study.axes import Grid, Points, Zip
 from flexcage.study.page_stress import Shown, common_scale, stress_images, stress_of, to_show
 from flexcage.study.page_tables import (
@@ -153,7 +154,7 @@ def _warnings(results: StudyResults) -> list[str]:
             "study resume' computes them."
         )
     for key, bad, text in (
-        ("energy_audit", "EXCEEDED", "exceed the energy audit; tighten solver.tolerance"),
+        ("energy_audit", EXCEEDED, "exceed the energy audit; tighten solver.tolerance"),
         ("drift", None, "had not settled: the halves of the run differ beyond the intervals"),
     ):
         found = [stored_figure(results, r, key) for r in results.rows if r.state == "done"]

@@ -1,6 +1,7 @@
 """Commands call the corridor with what was asked, and failures end with the right exit code."""
 
 import errno
+import math
 import re
 import sys
 import types
@@ -20,13 +21,14 @@ class FakeRun:
     summary = "cage speed 2709 rpm"
 
     def __init__(self):
-        self.drawn, self.stages, self.told = [], Stages(), []
+        self.drawn, self.stages, self.told, self.look = [], Stages(), [], {}
 
     def tell_times(self):
         self.told.append(self.stages.total)
 
-    def draw(self, folder, *, animate=False):
+    def draw(self, folder, *, animate=False, **look):
         self.drawn.append((Path(folder), animate))
+        self.look = look
         self.stages["pictures"] = 1.25
 
 
@@ -119,6 +121,34 @@ def test_render(corridor, tmp_path):
     assert cli.main(["render", "out"]) == 0
     assert cli.main(["render", "out", "-o", "elsewhere", "--animate"]) == 0
     assert corridor.run.drawn == [(Path("out/images"), False), (Path("elsewhere"), True)]
+
+
+@pytest.mark.parametrize("command", [["render", "out"], ["run", EXAMPLE, "-o", "new"]])
+def test_how_pictures_look(corridor, tmp_path, command):
+    (tmp_path / "out" / "results.zarr").mkdir(parents=True)
+    given = ["--view", "-30 deg", "--stress-limit", "25 MPa", "--scale", "50"]
+    assert cli.main([*command, *given]) == 0
+    assert corridor.run.look == pytest.approx(
+        {"view": -math.pi / 6.0, "stress_limit": 25e6, "scale": 50.0}
+    )
+
+
+@pytest.mark.parametrize(
+    ("wrong", "words"),
+    [
+        (["--view", "120"], "--view is 120 without a unit; write it with one, such as '120 deg'."),
+        (["--view", "400 deg"], "--view is 400 deg, but must be 360 deg or less."),
+        (["--stress-limit", "0 MPa"], "--stress-limit is 0 MPa, but must be greater than 0 MPa."),
+        (["--stress-limit", "25 mm"], "--stress-limit is '25 mm', but 'mm' is of another kind"),
+        (["--scale", "50 x"], "--scale is '50 x', but should be a number, such as 50."),
+        (["--scale", "nan"], "--scale is nan, but must be a number."),
+    ],
+)
+def test_a_look_that_cannot_be_is_refused_before_the_run(corridor, capsys, wrong, words):
+    assert cli.main(["run", EXAMPLE, "-o", "new", *wrong]) == 2
+    err = capsys.readouterr().err
+    assert err.startswith(f"flexcage: {words}") and err.count("\n") == 1
+    assert not corridor.calls
 
 
 def test_presets_show_assumptions_and_ratings(capsys):

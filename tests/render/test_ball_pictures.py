@@ -23,6 +23,7 @@ from flexcage.mesh.build import build_cage_mesh
 from flexcage.mesh.options import MeshOptions
 from flexcage.render import sheet
 from flexcage.render.element_shapes import element_shape, ring_profiles
+from flexcage.results import metrics
 from flexcage.results.metrics import BearingNumbers
 from flexcage.results.registry import VARIABLES
 from flexcage.results.store import RunStore
@@ -138,6 +139,18 @@ def test_histories_show_balls_slip_and_contact_angles(run, texts, tmp_path):
     assert plain.shape[0] > 1500, "five panels"
     with pytest.raises(InputError, match="no ball 18"):
         render.histories(run, tmp_path / "x.png", element=Z)
+
+
+@pytest.mark.parametrize("sense", [1.0, -1.0])
+def test_a_ball_that_turns_backwards_has_a_negative_speed(run, sense):
+    rolling = abs(NUMBERS.kinematics(4000 * np.pi / 30).roller_spin_in_cage)
+    ds = run.copy(deep=True)
+    ds["ball_omega"][:, 5, 0] = 2.0 * ds["cage_omega"][:, 0] - ds["ball_omega"][:, 5, 0]
+    for name in ("inner_speed", "ball_omega", "cage_omega"):
+        ds[name] = sense * ds[name]
+    spin = metrics.ball_spin(ds)
+    assert np.allclose(spin[:, 5], -rolling) and np.allclose(spin[:, 4], rolling)
+    assert np.allclose(metrics.ball_slip_ratio(ds, NUMBERS)[:, 5], 2.0)
 
 
 def test_angles_count_only_where_balls_touch(run, monkeypatch, tmp_path):

@@ -10,7 +10,7 @@ import xarray as xr
 from ring_with_pockets import Z, quadratic
 
 from flexcage import render
-from flexcage.core.errors import EnvironmentLacks, InputError
+from flexcage.core.errors import EnvironmentLacks, InputError, RunFailed
 from flexcage.geometry.cages import CrossbeamDefect, SideBeamDefect
 from flexcage.geometry.cylindrical_roller import RollerBearing
 from flexcage.render import sheet
@@ -179,6 +179,21 @@ def test_curves_need_no_window(run, tmp_path):
     check(render.compare_forces({"rigid": run, "flexible": run}, tmp_path / "c.png"))
 
 
+def test_a_roller_locked_in_its_pocket_is_drawn_below_zero(run, tmp_path, monkeypatch):
+    shown = []
+    monkeypatch.setattr(sheet, "save", lambda figure, path: shown.append(figure))
+    locked = run.copy(deep=True)
+    locked["roller_omega"][:, 2, 0] = locked["cage_omega"].sel(axis="x").values
+    for sense in (1.0, -1.0):
+        turned = locked.copy(deep=True)
+        for name in ("inner_speed", "roller_omega", "cage_omega"):
+            turned[name] = sense * locked[name]
+        render.histories(turned, tmp_path / "h.png", bearing=NUMBERS, element=2)
+        lines = {line.get_label(): line.get_ydata() for line in shown[-1].axes[-1].lines}
+        assert np.allclose(lines["roller 2"], -2700.0)
+        assert np.allclose(lines["pure rolling"], 27937.5)
+
+
 def test_labels_of_histories_stand_clear_of_five_digit_ticks(run, tmp_path, monkeypatch):
     shown = []
     monkeypatch.setattr(sheet, "save", lambda figure, path: shown.append(figure))
@@ -226,6 +241,16 @@ def test_no_backend_is_a_sentence(field, tmp_path, monkeypatch):
     nodes, cells, u, stress, _ = field
     with pytest.raises(EnvironmentLacks, match="apt-get install"):
         render.stress_picture(nodes, cells, u, stress, tmp_path / "x.png")
+
+
+def test_a_full_disk_is_no_mistake_in_the_input(run, tmp_path):
+    picture = tmp_path / "h.png"
+    picture.symlink_to("/dev/full")
+    with pytest.raises(RunFailed, match=r"picture .*h.png cannot be written: the disk is full"):
+        render.histories(run, picture)
+    (tmp_path / "file").write_text("")
+    with pytest.raises(InputError, match="cannot be written"):
+        render.histories(run, tmp_path / "file" / "h.png")
 
 
 def test_importing_render_loads_nothing_heavy():

@@ -23,6 +23,7 @@ def run_coords(n: int, rate: float = 50e3, ratio: int = 4) -> dict:
         "slice": np.linspace(-3e-3, 3e-3, 5),
         "station": np.arange(3),
         "residual": np.arange(12),
+        "land_station": np.arange(24),
         "constraint": ["drive"],
         "energy_kind": ["kinetic", "elastic"],
         "channel": ["drive", "friction"],

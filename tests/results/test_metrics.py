@@ -7,10 +7,13 @@ import pytest
 import xarray as xr
 
 from flexcage.contacts.spec import EhlTraction, FrictionLaw
+from flexcage.core.errors import InputError
 from flexcage.results import audit, metrics
 from flexcage.results.figures import summarise
 from flexcage.results.spectra import amplitude_spectrum
 from flexcage.results.summary import Row, Summary, side_by_side
+
+RPM = np.pi / 30
 
 
 def test_cage_speed_and_slip(known_run, bearing):
@@ -33,7 +36,8 @@ def test_roller_slip_zones_apart(known_run, bearing):
     ("law", "note"),
     [
         (FrictionLaw(law="step_coulomb", v_static=0.05), "unresolved.*creep speed 0.05 m/s"),
-        (FrictionLaw(law="ramp_coulomb", v_static=0.01), "^$"),
+        (FrictionLaw(law="ramp_coulomb", v_static=0.01), "unresolved.*creep speed 1 m/s"),
+        (FrictionLaw(law="ramp_coulomb", v_static=0.001, v_dynamic=0.01), "^$"),
         (FrictionLaw(law="traction"), "traction curve's slope.*rise, which ends at 0.3 m/s"),
         (FrictionLaw(law="traction", peak_speed=0.01), "^$"),
         (EhlTraction(creep_speed=0.05), "traction curve's slope.*ends at 0.05 m/s"),
@@ -46,6 +50,44 @@ def test_the_summary_says_what_loaded_slip_rests_on(known_run, bearing, law, not
     limits = metrics.SlipRange(law.creeps_below, law.rises_below)
     told = summarise(known_run, bearing, slip_range=limits).row("slip_loaded").note
     assert re.search(note, told), told
+
+
+def test_unloaded_slip_is_noted_by_its_own_sliding(known_run, bearing):
+    """Unloaded rollers of this run do not slide on their races; then most do at 0.8 m/s."""
+    limits = metrics.SlipRange(creep=0.1)
+    summary = summarise(known_run, bearing, slip_range=limits)
+    assert "unresolved" in summary.row("slip_unloaded").note
+    sliding = known_run.copy(deep=True)
+    sliding["race_slip"][:, 6:, 1] = -0.8
+    summary = summarise(sliding, bearing, slip_range=limits)
+    assert summary.row("slip_unloaded").note == ""
+    assert "unresolved" in summary.row("slip_loaded").note
+
+
+@pytest.mark.filterwarnings("error")
+@pytest.mark.parametrize("speed", [0.0, 4e-27])
+def test_a_bearing_that_stands_has_no_slip_ratio_and_no_note(known_run, bearing, speed):
+    ds = known_run.copy(deep=True)
+    ds["inner_speed"][:] = speed
+    summary = summarise(ds, bearing, slip_range=metrics.SlipRange(creep=1.0))
+    for key in ("cage_slip_ratio", "slip_loaded", "slip_unloaded"):
+        row = summary.row(key)
+        assert row.text == "-" and row.note == "" and row.margin is None
+
+
+@pytest.mark.parametrize("sense", [1.0, -1.0])
+def test_a_roller_that_turns_backwards_spins_against_rolling(known_run, bearing, sense):
+    ds = known_run.copy(deep=True)
+    for name in ("inner_speed", "roller_omega", "cage_omega"):
+        ds[name][:] *= sense
+    rolling = summarise(ds, bearing)
+    assert rolling["roller_spin"] == pytest.approx((19 * 0.95 + 3 * 0.99) / 22 * 27937.5 * RPM)
+    assert rolling["roller_spin_ideal"] == pytest.approx(27937.5 * RPM)
+    ds["roller_omega"][:, 8, 0] *= -1.0
+    spin = metrics.roller_spin(ds)
+    assert float(spin.max("time")[8]) == pytest.approx(-0.95 * 27937.5 * RPM)
+    assert float(spin.isel(roller=7).min()) > 0.0
+    assert summarise(ds, bearing)["roller_spin"] < rolling["roller_spin"]
 
 
 def test_elements_without_names_are_not_taken_for_rollers(known_run):
@@ -128,6 +170,31 @@ def test_energy_audit_of_the_cage(known_run, bearing, leak, of_drive, of_cage, v
     assert summarise(ds, bearing)["energy_audit"] == verdict
 
 
+@pytest.mark.parametrize(
+    ("work", "lost", "leak", "verdict"),
+    [
+        (0.0, 0.0, 0.0, "not judged"),
+        (2e-10, 2e-10, 5e-8, "not judged"),  # a bearing that stands, pinched
+        (6e-5, 1e-4, 8e-8, "passed"),  # by the cage's losses; the drive does too little
+        (2e-10, 2e-10, 2e-7, "EXCEEDED"),  # more than a thousandth of what is held
+        (0.5, 1e-2, 6e-4, "EXCEEDED"),
+        (0.5, 1e-2, 4e-4, "passed"),
+    ],
+)
+def test_too_little_work_is_no_leak(known_run, bearing, work, lost, leak, verdict):
+    """Contacts hold 0.1 mJ; drive and cage move less than that, or as much as in a run."""
+    ds = known_run.assign_coords(channel=["drive", "pocket_friction"])
+    share = ds["time"].values / ds["time"].values[-1]
+    ds["work"][:, 0], ds["work"][:, 1] = work * share, -lost * share
+    ds["energy"][:, 0] = ds["work"].sum("channel").values + leak * share
+    ds["energy"][:, 1] = 1e-4
+    summary = summarise(ds, bearing)
+    assert summary["energy_audit"] == verdict
+    assert summary["energy_elastic"] == pytest.approx(1e-4)
+    assert ("too little work" in summary.row("energy_audit").note) == (verdict == "not judged")
+    assert ("tighten" in summary.row("energy_audit").note) == (verdict == "EXCEEDED")
+
+
 def test_spectrum_reads_amplitude():
     t = np.arange(2000) / 20e3
     signal = xr.DataArray(
@@ -167,11 +234,32 @@ def test_summary_prints_and_comes_back(known_run, bearing, tmp_path):
     assert summary["drift"] == "pocket force"  # the face bears nothing in the second half
     back = Summary.from_json(summary.to_json())
     assert back.text() == text
+    summary.write(tmp_path)
+    assert Summary.read(tmp_path / "summary.json").text() == text
     assert back.row("pocket_force_mean") == summary.row("pocket_force_mean")
     assert back["cage_slip_ratio"] == pytest.approx(0.02, abs=1e-6)
     assert [p.name for p in summary.write(tmp_path)] == ["summary.txt", "summary.json"]
     both = side_by_side({"rigid": summary, "flexible": back})
     assert both.splitlines()[0].split() == ["rigid", "flexible"]
+    names = [row.label for row in summary]
+    assert len(set(names)) == len(names), "tables without notes tell all rows apart"
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        ("{", "Expecting property name"),
+        ("{}", "it has no figures"),
+        ("[1]", "it is no table of figures"),
+        ('{"Speeds": {"cage_speed": 1}}', "it is no table of figures"),
+        ('{"Speeds": {"cage_speed": {}}}', "it is no table of figures"),
+    ],
+)
+def test_a_summary_that_is_none_gets_a_sentence(tmp_path, text, words):
+    path = tmp_path / "summary.json"
+    path.write_text(text)
+    with pytest.raises(InputError, match=f"summary.json' cannot be read: {words}.*; delete it"):
+        Summary.read(path)
 
 
 def test_summary_sees_a_run_that_has_not_settled(known_run, bearing):

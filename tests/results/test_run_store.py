@@ -4,6 +4,7 @@ import errno
 import json
 import math
 import os
+import shutil
 import signal
 import subprocess
 import sys
@@ -154,6 +155,28 @@ def test_sentences_for_paths_and_versions(tmp_path):
     (tmp_path / "file").write_text("")
     with pytest.raises(InputError, match="cannot be written"):
         make(tmp_path / "file" / "r.zarr")
+
+
+@pytest.mark.parametrize(
+    ("lost", "words"),
+    [
+        ("cage_position", "lacks the array 'cage_position'"),
+        ("cage_position/c", "lacks samples of the array 'cage_position'"),
+        ("pocket_slice_force/c/1", "lacks samples of the array 'pocket_slice_force'"),
+        ("outer_acceleration/c/0", "lacks samples of the array 'outer_acceleration'"),
+        ("time", "lacks the instants 'time'"),
+        ("_run/events", "lacks the events of block 0"),
+    ],
+)
+def test_a_damaged_run_is_refused_when_it_is_opened(tmp_path, lost, words):
+    path = tmp_path / "r.zarr"
+    store = make(path)
+    for k in range(2):
+        store.write_block(k, *block(store, k), {"i": k})
+    assert RunStore.open(path).blocks == 2  # of five: blocks to come are not missed
+    shutil.rmtree(path / lost)
+    with pytest.raises(InputError, match=f"r.zarr is damaged: it {words}; .* run the case again"):
+        RunStore.open(path)
 
 
 @pytest.mark.parametrize("step", ["array", "checkpoint", "commit"])

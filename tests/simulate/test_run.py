@@ -13,6 +13,7 @@ from flexcage.case import load_case
 from flexcage.core.errors import InputError
 from flexcage.core.progress import Silent
 from flexcage.render import album
+from flexcage.render.look import Look
 from flexcage.results.registry import VARIABLES, variables_of
 from flexcage.results.store import RunStore
 from flexcage.simulate import load_run, simulate
@@ -62,6 +63,18 @@ def test_pictures_are_among_the_stored_wall_times(flexible, tmp_path, monkeypatc
     assert 0.05 <= seconds["wall_pictures"] and sum(seconds.values()) <= total
     assert "Pictures" in (flexible.folder / "summary.txt").read_text("utf-8")
     assert flexible.summary["wall_total"] == total
+
+
+def test_text_with_units_says_how_pictures_look(flexible, tmp_path, monkeypatch):
+    looks = []
+    monkeypatch.setattr(album, "draw_album", lambda *_, look, **__: looks.append(look) or [])
+    flexible.draw(tmp_path)
+    flexible.draw(tmp_path, view="90 deg", stress_limit="25 MPa", scale=50)
+    flexible.draw(tmp_path, view=0.5 * np.pi, stress_limit=25e6, scale=50.0)
+    assert looks[0] == Look() and looks[1] == looks[2]
+    assert looks[2] == Look(view=0.5 * np.pi, stress_limit=25e6, scale=50.0)
+    with pytest.raises(InputError, match="stress_limit is '25 mm', but 'mm' is of another kind"):
+        flexible.draw(tmp_path, stress_limit="25 mm")
 
 
 class Shown(Silent):

@@ -57,20 +57,20 @@ def at(found, axis, level, output):
 
 def test_what_it_says_of_each_output(tmp_path):
     found = converge(CASE, out=tmp_path)
-    slices = at(found, "slices", "8", "pocket_force_mean")
+    slices = at(found, "slices", "race 8, pocket 32", "pocket_force_mean")
     assert slices.difference == pytest.approx(0.02) and slices.spread == pytest.approx(
         0.02**0.5 / 10
     )
     assert slices.verdict == "apart"
-    paired = at(found, "slices", "8", "cage_speed")
+    paired = at(found, "slices", "race 8, pocket 32", "cage_speed")
     assert paired.margin > 2.0 and paired.difference == pytest.approx(0.5 / 89.0, rel=0.02)
     assert paired.verdict == "within 2 %" and paired.spread < 1e-3
-    assert at(found, "slices", "16", "pocket_force_mean").verdict == "within 2 %"
+    assert at(found, "slices", "race 16, pocket 64", "pocket_force_mean").verdict == "within 2 %"
     assert at(found, "tolerance", "x1", "pocket_force_mean").verdict == "apart"
-    assert at(found, "slices", "16", "whirl_radius").verdict == "overlap"
-    assert at(found, "slices", "16", "slip_loaded").verdict == "no interval"
+    assert at(found, "slices", "race 16, pocket 64", "whirl_radius").verdict == "overlap"
+    assert at(found, "slices", "race 16, pocket 64", "slip_loaded").verdict == "no interval"
     assert at(found, "mesh", "medium", "first_frequency").verdict == "2 digits"
-    assert at(found, "slices", "8", "first_frequency").digits == 9
+    assert at(found, "slices", "race 8, pocket 32", "first_frequency").digits == 9
     assert list(found.failures) == ["modes 96"] and "too stiff" in str(found)
     assert found.compared["mesh"] == ("medium", "fine")
     table = pd.read_csv(tmp_path / "converge.csv")
@@ -95,10 +95,15 @@ def test_a_second_call_does_only_what_is_new(tmp_path):
 def test_levels_keep_what_the_case_says():
     own = CASE.replace("contacts.race.slices", 80).replace("mesh.fineness", "fine")
     names = {axis: [s.name for s in levels(own) if s.axis == axis] for axis in module.AXES}
-    assert names["slices"] == ["40", "80", "128"] and names["mesh"] == ["coarse", "medium", "fine"]
-    twice = next(s for s in levels(own) if s.name == "128").case
+    cut = ["race 40, pocket 32", "race 80, pocket 64", "race 128, pocket 128"]
+    assert names["slices"] == cut and names["mesh"] == ["coarse", "medium", "fine"]
+    twice = next(s for s in levels(own) if s.name == cut[-1]).case
     assert (twice.contacts.race.slices, twice.contacts.pocket.slices) == (128, 128)
     assert {s.axis for s in levels(CASE.replace("cage.model", "rigid"))} == {"tolerance", "slices"}
+    most = levels(CASE.replace("contacts.race.slices", 128), ["slices"])
+    assert [s.name for s in most] == [
+        "race 64, pocket 32", "race 128, pocket 64", "race 128, pocket 128",
+    ]  # fmt: skip
 
 
 @pytest.mark.parametrize(
@@ -126,7 +131,7 @@ def test_the_command(tmp_path, monkeypatch, capsys):
     (tmp_path / "c.toml").write_text('[bearing]\npreset = "N1013"\n', encoding="utf-8")
     argv = ["converge", "c.toml", "--axes", "slices", "--duration", "40 ms", "-o", "out"]
     assert cli.main(argv) == 0 and len(FakeRun.calls) == 3
-    assert "slices: 16 against 32" in capsys.readouterr().out
+    assert "slices: race 16, pocket 64 against race 32, pocket 128" in capsys.readouterr().out
     assert cli.main(argv) == 0 and len(FakeRun.calls) == 3
     assert cli.main([*argv, "--force"]) == 0 and len(FakeRun.calls) == 6
     for wrong, words in ((["--axes", "x"], "'x' is not known"), (["--duration", "4"], "unit")):
@@ -143,7 +148,7 @@ def test_a_real_study_keeps_its_windows(tmp_path, monkeypatch):
     changes = {"cage.model": "rigid", "mesh.fineness": "coarse", "output.block": 50}
     case = CASE.replace(**changes)
     first = converge(case, out=tmp_path, axes=["slices"], duration="34 ms")
-    speed = at(first, "slices", "8", "cage_speed")
+    speed = at(first, "slices", "race 8, pocket 32", "cage_speed")
     assert 0.0 < speed.spread < 0.01 and speed.verdict == "within 2 %"
     folders = list((tmp_path / "cases").iterdir())
     assert len(folders) == 3 and all((f / "windows.npz").exists() for f in folders)

@@ -1,0 +1,106 @@
+"""The album of a run: what its pictures are given, so that those of two runs lie side by side."""
+
+from __future__ import annotations
+
+import inspect
+from importlib import import_module
+from math import pi
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+from test_pictures import N1013, run
+
+from flexcage.core.errors import InputError
+from flexcage.geometry.cages import CrossbeamDefect
+from flexcage.render.album import Scene, StressPictures, draw_album
+from flexcage.render.look import Look
+
+__all__ = ["run"]  # a fixture
+PICTURES = {
+    "mesh_pictures": ["mesh_picture"],
+    "mode_pictures": ["mode_sheet"],
+    "bearing_pictures": ["bearing_picture"],
+    "curves": ["orbit", "histories"],
+    "stress_pictures": ["stress_picture", "envelope_picture", "deformation_picture"],
+    "animations": ["animate_bearing", "animate_stress"],
+}
+OF_CAGE = ("stress_picture", "envelope_picture", "deformation_picture", "animate_stress")
+
+
+@pytest.fixture
+def drawn(monkeypatch):
+    """What every picture was given, by its name; nothing is drawn."""
+    seen = {}
+
+    def instead(name, function):
+        def draw(*args, **options):
+            seen[name] = inspect.signature(function).bind(*args, **options).arguments
+
+        return draw
+
+    for room, names in PICTURES.items():
+        module = import_module(f"flexcage.render.{room}")
+        for name in names:
+            monkeypatch.setattr(module, name, instead(name, getattr(module, name)))
+    return seen
+
+
+def scene(run, ring, peak: int) -> Scene:
+    """A run whose stress has its peak at the mesh's vertex ``peak``; root 1 bears most."""
+    n, points = run.sizes["time"], ring.points
+    stress = np.ones(len(points))
+    stress[peak] = 3e7
+    roots = np.abs(np.sin(np.arange(n)[:, None] * 1e-2)) * [3e6, 8e6, 1e6]
+    pictures = StressPictures(
+        nodes=points, cells=ring.tets, time=0.001, displacement=np.zeros_like(points),
+        basis=SimpleNamespace(shapes=None, frequencies=None, kind=None),
+        von_mises=stress, envelope=stress, peak_vertex=peak, peak_place="", settled=n // 3,
+        roots=roots, root_names=["a", "b", "c"], frames=[(0.001, np.zeros_like(points), stress)],
+    )  # fmt: skip
+    return Scene(
+        name="n", dataset=run, bearing=N1013, mesh=ring, load=(1e3, 0.0), clearance=None,
+        settle=0.3, defects=[CrossbeamDefect(crossbeam=5, displacement=1e-4)], stress=pictures,
+    )  # fmt: skip
+
+
+def test_cameras_do_not_follow_the_peak(run, ring, drawn, tmp_path):
+    near, far = int(ring.points[:, 1].argmax()), int(ring.points[:, 1].argmin())
+    for peak in (near, far):
+        draw_album(scene(run, ring, peak), tmp_path, animate=True)
+        assert [drawn[name]["azimuth"] for name in OF_CAGE] == [0.0] * 4
+        assert drawn["stress_picture"]["peak_node"] == peak  # where the close-up looks
+        assert drawn["mesh_picture"]["azimuth"] is None  # turns to the defect
+
+
+def test_a_look_holds_for_all_pictures_of_the_cage(run, ring, drawn, tmp_path):
+    look = Look(view=pi / 3, stress_limit=25e6, scale=50.0)
+    draw_album(scene(run, ring, 0), tmp_path, animate=True, look=look)
+    assert all(drawn[name]["azimuth"] == pi / 3 for name in (*OF_CAGE, "mesh_picture"))
+    limited = ("stress_picture", "envelope_picture", "animate_stress")
+    assert all(drawn[name]["limit"] == 25e6 for name in limited)
+    moved = ("stress_picture", "deformation_picture", "animate_stress")
+    assert all(drawn[name]["scale"] == 50.0 for name in moved)
+    assert "limit" not in drawn["deformation_picture"]
+
+
+def test_histories_are_given_the_stress_of_all_places(run, ring, drawn, tmp_path):
+    shown = scene(run, ring, 0)
+    draw_album(shown, tmp_path)
+    root = drawn["histories"]["root_stress"]
+    assert list(root["place"].values) == ["a", "b", "c"]
+    assert np.array_equal(root.values, shown.stress.roots)
+
+
+@pytest.mark.parametrize(
+    ("wrong", "words"),
+    [
+        ({"view": 7.0}, "view is 401.07 deg, but must be 360 deg or less"),
+        ({"view": "120 deg"}, "view is '120 deg', but should be a number in SI"),
+        ({"stress_limit": 0.0}, "stress_limit is 0 MPa, but must be greater than 0 MPa"),
+        ({"scale": float("nan")}, "scale is nan, but must be a number"),
+    ],
+)
+def test_a_look_that_cannot_be(wrong, words):
+    with pytest.raises(InputError, match=words):
+        Look(**wrong)
