@@ -11,13 +11,13 @@ receives the problem as six functions and their data,
     linearise(t, y, yd, data)                keep dF/dy, dF/dy' at this point
     factor(alpha, data) -> bool              factor dF/dy + alpha dF/dy'
     backsolve(alpha, y, r, data)             r <- -(that)^-1 r, the Newton step
-    note(t, data)                            the point of the last residual was accepted
+    settle(t, y, data, power)                y, a Newton step beyond the last residual, was accepted
     observe(sample, t, y, yd, data)          y and y' at sampling time t, by dense output
 
 Obligations of a problem: ``residual`` depends on nothing but its arguments and memory that only
-``note`` changes; it allocates nothing; functions share ``data`` and nothing else.
-Integrands, and what ``note`` keeps, are those of the corrector's last residual, which lies one
-Newton step before the accepted point.
+``settle`` changes; it allocates nothing; functions share ``data`` and nothing else.
+Integrands, and what ``settle`` keeps, are those of the corrector's last residual, which lies one
+Newton step before the accepted point, but for what ``settle`` itself knows better.
 Policies follow IDA's experience: few Jacobians, Newton fails early and cuts the step.
 Stability guard: orders above 2 are left for ``GUARD_STEPS`` steps once the error test fails twice
 within ten steps, the mark of lightly damped fast oscillation.
@@ -234,7 +234,7 @@ def correct(fns, data, st, opt, t_new, c):
 
 def advance(fns, data, st, opt, t_end, times, ys, yds, first, log, quads):
     """Integrate until t_end; see ``contract``."""
-    residual, note, observe = fns[0], fns[4], fns[5]
+    residual, settle, observe = fns[0], fns[4], fns[5]
     y_p, psi, d = st.vec[0], st.vec[1], st.vec[2]
     y, yd, r = st.vec[3], st.vec[4], st.vec[5]
     D, count, real = st.D, st.count, st.real
@@ -246,7 +246,7 @@ def advance(fns, data, st, opt, t_end, times, ys, yds, first, log, quads):
             y[k] = D[0, k]
             yd[k] = D[1, k] / real[H]
         residual(real[T], y, yd, data, r, st.power[0])
-        note(real[T], data)
+        settle(real[T], y, data, st.power[0])
         for k in range(st.quad.shape[0]):
             st.power[2, k] = st.power[0, k]
     while real[T] < t_end:
@@ -331,7 +331,7 @@ def advance(fns, data, st, opt, t_end, times, ys, yds, first, log, quads):
         count[GUARD] = max(count[GUARD] - 1, 0)
         if count[AGE] > JACOBIAN_AGE or count[ITERATIONS] - iterations > 2:
             count[HAVE_J] = 0
-        note(t_new, data)
+        settle(t_new, y, data, st.power[1])
         while sample < times.shape[0] and times[sample] <= t_new + 1e-12 * h:
             x = 1.0 - (t_new - times[sample]) / h
             interpolate(D, order, t_new, h, times[sample], ys[sample], yds[sample])
@@ -388,7 +388,7 @@ def _refresh(state: BDFState) -> None:
 BDF = Integrator(
     name="bdf",
     advance=advance,
-    functions=("residual", "linearise", "factor", "backsolve", "note", "observe"),
+    functions=("residual", "linearise", "factor", "backsolve", "settle", "observe"),
     helpers=("change_step", "interpolate", "worst", "missed", "allowed", "correct", "_choose"),
     options=_options,
     new_state=new_state,

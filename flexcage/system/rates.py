@@ -17,7 +17,6 @@ from flexcage.bodies.floating_frame import BodyData, modal_product
 from flexcage.core.jit import VECTORISED, fields, kernel, part, zero
 from flexcage.solve.bordered import lu_factor, lu_solve
 from flexcage.solve.oscillators import Oscillators, no_oscillators
-from flexcage.system.data import DRIVE
 from flexcage.system.layout import Layout
 from flexcage.system.rows import speed_at
 from flexcage.system.sampling import give_powers, is_main, keep_force, keep_report
@@ -62,7 +61,7 @@ def modal_oscillators(body: BodyData, layout: Layout) -> Oscillators:
 def rates(t, y, yd, data, power):
     """y' into yd, held coordinates and multipliers into y, powers into ``power`` if it has room."""
     _rates(t, y, yd, data, 3 if power.shape[0] > 0 else 0)
-    give_powers(data[0], power)
+    give_powers(data[0], y, power)
 
 
 def sample(sample, t, y, yd, data):
@@ -115,8 +114,6 @@ def _rates(t, y, yd, data, mode):
     if driven:
         a[3] = slope_of(bodies.speed, t) + wave_slope(bodies.waves[0], t)
         lam[3] = row[3] + bodies.ring[1] * a[3]
-        if mode >= 2:
-            fields(d.report).power[DRIVE] += lam[3] * y[ring + 3]
     else:
         a[3] /= bodies.ring[1]
     if bodies.outer[3] == 0.0:  # a fixed ring has no acceleration

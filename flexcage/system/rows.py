@@ -433,7 +433,7 @@ def ring_rows(t, d, q, u, qd, ud, lam, mu_, zq, r_q, r_u, out, end, mode):
         w2 = ru[4] * ru[4] + ru[5] * ru[5]
         v2 = ru[0] * ru[0] + ru[1] * ru[1] + ru[2] * ru[2]
         rep.energy[0] += 0.5 * (mass * v2 + Ia * ru[3] * ru[3] + It * w2)
-        rep.power[DRIVE] += lam[3] * ru[3] + shaft * ru[3]
+        rep.power[DRIVE] += shaft * ru[3]  # a constraint's work is added where its torque is known
         rep.power[LOAD] += load * (
             bodies.load_direction[0] * ru[1] + bodies.load_direction[1] * ru[2]
         )

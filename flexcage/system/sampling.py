@@ -3,19 +3,40 @@
 from __future__ import annotations
 
 from flexcage.core.jit import copy_into, fields, part
+from flexcage.system.data import DRIVE
 
 
 @part
-def give_powers(d, power):
-    """Powers of the last report into ``power``, as far as it has room."""
+def give_powers(d, y, power):
+    """Powers of the last report into ``power``, if it has room, with the drive's by y."""
+    if power.shape[0] == 0:
+        return
     report = fields(d.report)
     for k in range(power.shape[0]):
         power[k] = report.power[k]
+    Z, nm = fields(d.bodies).radius.shape[0], fields(d.pocket).phi_max.shape[0]
+    speed, torque = 12 * Z + 15 + nm + 3, 12 * Z + 29 + 2 * nm + 3
+    power[DRIVE] += y[torque] * y[speed]
+
+
+def settle(t, y, data, power):
+    """The point y, a Newton step beyond the one evaluated last, was accepted.
+
+    Multipliers are what that step changes: they follow from all the rest. So the drive's power is
+    that of y.
+    """
+    keep_point(t, data[0])
+    give_powers(data[0], y, power)
 
 
 def note(t, data):
-    """Memory of contacts, events and force on the outer ring: the last point was accepted."""
-    d = data[0]
+    """The point evaluated last was accepted."""
+    keep_point(t, data[0])
+
+
+@part
+def keep_point(t, d):
+    """Memory of contacts, events and force on the outer ring from the last report."""
     report, events = fields(d.report), fields(d.events)
     remember(t, fields(d.memory), report, events)
     for c in range(3):

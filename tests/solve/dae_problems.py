@@ -116,13 +116,13 @@ def functions(problem):
     def backsolve(alpha, y, r, data):
         r[:] = -keep["inverse"] @ r
 
-    def note(t, data):
+    def settle(t, y, data, power):
         pass
 
     def observe(sample, t, y, yd, data):
         pass
 
-    return residual, linearise, factor, backsolve, note, observe
+    return residual, linearise, factor, backsolve, settle, observe
 
 
 def run(bdf, problem, *, tolerance, end=2.0, max_order=2, times=(), h0=1e-6, h_max=0.1, quads=0,
