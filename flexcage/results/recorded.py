@@ -17,8 +17,9 @@ Arrays = dict[str, np.ndarray]
 
 
 @singledispatch
-def own_coords(model: Any) -> Arrays:
-    """Labels of the dimensions that only runs of this model's family have."""
+def own_coords(model: Any) -> dict[str, Any]:
+    """Labels of the dimensions that only runs of this model's family have, and places that go
+    with them, as ``RunStore.create`` takes both."""
     raise NotImplementedError(f"{type(model).__name__} records nothing")
 
 
@@ -63,10 +64,17 @@ def common(bearing: Bearing, y: np.ndarray, yd: np.ndarray) -> Arrays:
 
 
 @own_coords.register
-def _(model: Model) -> Arrays:
+def _(model: Model) -> dict[str, Any]:
+    pocket, stations = model.pocket, np.arange(model.pocket.phi.shape[2])
+    along = pocket.x0[:, None] + pocket.dx[:, None] * stations
     return {
-        "slice": model.pocket.s,
-        "station": np.arange(model.pocket.phi.shape[2]),
+        "slice": (("slice",), pocket.s, {"units": "m", "long_name": "place along the roller"}),
+        "station": stations,
+        "station_place": (
+            ("face", "station"),
+            along,
+            {"units": "m", "long_name": "place along the face: x on crossbeams, else tangential"},
+        ),
         "residual": np.arange(N_LOCAL),
     }
 
@@ -94,7 +102,7 @@ def _(model: Model, bearing: Bearing, y: np.ndarray, yd: np.ndarray) -> Arrays:
 
 
 @own_coords.register
-def _(model: BallModel) -> Arrays:
+def _(model: BallModel) -> dict[str, Any]:
     return {"station": np.arange(model.pocket.phi.shape[2])}
 
 
