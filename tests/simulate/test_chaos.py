@@ -42,8 +42,8 @@ def test_statistics_agree_within_their_intervals(runs):
     model, first, others = runs
     for key in (*STATISTICS, *(STRESS if model == "flexible" else ())):
         one = first.summary.row(key)
-        assert 0.0 < one.margin < 0.2 * abs(one.value), key
+        assert 0.0 < one.margin < 0.3 * abs(one.value), key
         for name, run in others.items():
             other = run.summary.row(key)
-            assert 0.0 < other.margin < 0.2 * abs(other.value), (key, name)
+            assert 0.0 < other.margin < 0.3 * abs(other.value), (key, name)
             assert abs(one.value - other.value) < one.margin + other.margin, (key, name)
