@@ -46,10 +46,18 @@ class ModesSpec:
     )
     damping: float = option(
         0.01,
-        doc="modal damping ratio where no band says otherwise",
+        doc="modal damping ratio where neither ratios nor a band say otherwise",
         minimum=0.0,
         maximum=1.0,
         assumption="order of a machined metal part in an oiled assembly; no source gives one",
+    )
+    ratios: tuple[float, ...] = option(
+        (),
+        doc="damping ratios mode by mode, in the order of the mode table, where no band says "
+        "otherwise; the last holds for all further modes",
+        minimum=0.0,
+        maximum=1.0,
+        former=(),
     )
     bands: tuple[DampingBand, ...] = option((), doc="damping ratios by frequency band")
     land: bool = option(
@@ -64,8 +72,13 @@ class ModesSpec:
     )
 
     def damping_ratios(self, frequencies: np.ndarray) -> np.ndarray:
-        """Damping ratio of every mode (n,) from its frequency [Hz]; the first band wins."""
-        ratios = np.full(len(frequencies), self.damping)
+        """Damping ratio of every mode (n,) from its number and its frequency [Hz].
+
+        A band wins over the mode's own ratio, and the first band over the others.
+        """
+        ratios = np.full(len(frequencies), self.ratios[-1] if self.ratios else self.damping)
+        given = self.ratios[: len(ratios)]
+        ratios[: len(given)] = given
         for band in reversed(self.bands):
             ratios[(frequencies >= band.low) & (frequencies < band.high)] = band.ratio
         return ratios

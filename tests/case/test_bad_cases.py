@@ -22,6 +22,7 @@ BAD = {
     "not a choice": ('[cage]\nguidance = "ouetr"', "cage.guidance", ["'outer'"]),
     "not a model": ('[cage]\nmodel = "elastic"', "cage.model", ["cage.model 'elastic'", "rigid"]),
     "not a material": ('[cage]\nmaterial = "bras"', "cage.material", ["'brass'"]),
+    "not a ratio": ("[modes]\nratios = [0.01, 2]", "modes.ratios", ["is 2", "1 or less"]),
     "not a bound": ("[modes]\ndamping = 2", "modes.damping", ["is 2", "1 or less"]),
     "defect without type": ("[[defects]]\ncrossbeam = 5", "defects.0.type", ["crossbeam"]),
     "defect of another type": ('[[defects]]\ntype = "crosbeam"', "defects.0.type", ["'crossbeam'"]),

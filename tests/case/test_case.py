@@ -50,6 +50,7 @@ def test_round_trip_through_text(case):
             "limits.stress": "200 MPa",
             "drive.times": ["0 s", "10 ms"],
             "drive.speeds": ["0 rpm", "6000 rpm"],
+            "modes.ratios": [0.01, 0.02],
             "modes.bands": [{"low": "0 Hz", "high": "5 kHz", "ratio": 0.02}],
             "description": 'quotes " and \\ and\nlines, and µ',
             "cage.model": "rigid",

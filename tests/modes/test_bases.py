@@ -8,6 +8,7 @@ import pytest
 from modes_cage import CAGE, POCKETS
 
 from flexcage.core.errors import InputError
+from flexcage.core.hashing import content_hash
 from flexcage.fem.free import FreeBodySolver
 from flexcage.modes import ritz
 from flexcage.modes.interface import cage_interface
@@ -226,3 +227,15 @@ def test_damping_bands_override_the_common_ratio():
     np.testing.assert_allclose(
         spec.damping_ratios(np.array([500.0, 1500.0, 2000.0])), [0.02, 0.1, 0.02]
     )
+
+
+def test_damping_ratios_mode_by_mode():
+    """The last holds for the rest, those beyond the last mode for none; a band wins."""
+    frequencies = np.array([500.0, 1500.0, 2000.0, 3000.0])
+    spec = ModesSpec(damping=0.5, ratios=(0.01, 0.02, 0.03))
+    np.testing.assert_array_equal(spec.damping_ratios(frequencies), [0.01, 0.02, 0.03, 0.03])
+    np.testing.assert_array_equal(spec.damping_ratios(frequencies[:2]), [0.01, 0.02])
+    spec = dataclasses.replace(spec, bands=(DampingBand(low=1e3, high=2e3, ratio=0.1),))
+    np.testing.assert_array_equal(spec.damping_ratios(frequencies), [0.01, 0.1, 0.03, 0.03])
+    assert content_hash(ModesSpec(ratios=())) == content_hash(ModesSpec())
+    assert content_hash(ModesSpec(ratios=(0.01,))) != content_hash(ModesSpec())

@@ -32,7 +32,6 @@ def test_a_missing_package_is_named(known_run, tmp_path, monkeypatch, writer):
 
 
 def test_netcdf_round_trip(known_run, tmp_path):
-    pytest.importorskip("netCDF4")
     path = export.to_netcdf(known_run, tmp_path / "r.nc")
     with xr.open_dataset(path) as back:
         assert back["cage_position"].attrs["units"] == "m"
@@ -40,7 +39,6 @@ def test_netcdf_round_trip(known_run, tmp_path):
 
 
 def test_parquet_round_trip(known_run, tmp_path):
-    pytest.importorskip("pyarrow")
     back = pd.read_parquet(export.to_parquet(known_run, tmp_path / "r.parquet"))
     assert np.array_equal(back["inner_speed [rad/s]"], known_run["inner_speed"])
 
