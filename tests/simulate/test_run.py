@@ -338,3 +338,10 @@ def test_export_writes_the_samples_asked_for(flexible, tmp_path, capsys):
     assert cli.main(["export", run, "--from", "20 ms"]) == 2
     assert "the run has 0.02 to 10 ms" in capsys.readouterr().err
     assert not (flexible.folder / "vtu").exists()
+
+
+def test_places_of_forces_have_units(flexible):
+    ds = flexible.dataset
+    np.testing.assert_allclose(ds["station_place"], flexible.cage.interface.stations, atol=1e-12)
+    assert ds["slice"].attrs["units"] == ds["station_place"].attrs["units"] == "m"
+    assert ds["station_place"].dims == ("face", "station")
