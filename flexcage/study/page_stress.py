@@ -99,13 +99,12 @@ def stress_images(cages: Sequence[Shown], folder: Path) -> tuple[list[Image], st
     scale, images = common_scale(cages), []
     for k, shown in enumerate(cages):
         cage = shown.cage
-        _, y, z = cage.points[cage.peak_vertex]
         try:
             path = stress_picture(
                 cage.points, cage.tets, cage.displacement, cage.von_mises, folder / f"{k}.png",
                 scale=scale, time=cage.time, note=shown.caption, peak_label=shown.peak_place,
                 peak_node=cage.peak_vertex, pocket_count=cage.pocket_count,
-                azimuth=float(np.arctan2(z, y)), limit=limit,
+                limit=limit,
             )  # fmt: skip
         except EnvironmentLacks as exc:
             return [], f"No pictures: {exc}"

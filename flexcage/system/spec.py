@@ -136,5 +136,7 @@ class StartOptions:
 class Limits:
     """Limits beyond which a start is refused rather than warned about."""
 
-    stress: float | None = quantity("MPa", None, doc="greatest stress of the assembled cage")
+    stress: float | None = quantity(
+        "MPa", None, doc="greatest stress of a cage by rollers that it pinches when assembled"
+    )
     assembly_force: float = quantity("N", 2e4, doc="greatest pinch force", above=0.0)
