@@ -6,16 +6,30 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from flexcage.core.errors import InputError
 from flexcage.stress.recovery import CageLoads
 
 if TYPE_CHECKING:
     import xarray
 
 
+LANDS = "land_station_force"
+
+
+def _with_lands(ds: xarray.Dataset) -> xarray.Dataset:
+    if LANDS not in ds:
+        raise InputError(
+            f"The run has no variable '{LANDS}', which stress wants: an earlier flexcage made it; "
+            "run the case again.",
+            where=LANDS,
+        )
+    return ds
+
+
 def land_station_forces(ds: xarray.Dataset, *, inner: bool) -> np.ndarray:
     """Land forces of every sample (nt, 2, n_land, 3) on the stations of the inner and the outer
     land, components (x, r, psi), those on the land that guides the cage."""
-    force = ds["land_station_force"].values
+    force = _with_lands(ds)[LANDS].values
     out = np.zeros((len(force), 2, force.shape[1], 3))
     out[:, 0 if inner else 1, :, 1:] = force
     return out
@@ -25,7 +39,7 @@ class LandForces:
     """``land_station_forces`` of a recorded run, sample by sample as they are asked for."""
 
     def __init__(self, ds: xarray.Dataset, *, inner: bool) -> None:
-        self._recorded = ds[["land_station_force"]].load()
+        self._recorded = _with_lands(ds)[[LANDS]].load()
         self._inner = inner
 
     def __len__(self) -> int:
@@ -33,7 +47,7 @@ class LandForces:
 
     def __bool__(self) -> bool:
         """Whether any sample has a force."""
-        return bool(np.any(self._recorded["land_station_force"].values))
+        return bool(np.any(self._recorded[LANDS].values))
 
     def __getitem__(self, part: slice) -> np.ndarray:
         return land_station_forces(self._recorded.isel(time=part), inner=self._inner)
