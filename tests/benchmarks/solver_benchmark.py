@@ -118,7 +118,7 @@ def kernel_times(settled: Settled) -> dict[str, float]:
 def _repeat(fns, data, which, number, t, y, yd, r, out):
     for _ in range(number):
         if which == 0:
-            fns[0](t, y, yd, data, out)
+            fns[0](t, y, yd, data, out, out[:0])
         elif which == 1:
             fns[1](t, y, yd, data)
         elif which == 2:
