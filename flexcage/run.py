@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import logging
 import os
-import shutil
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
@@ -574,8 +573,8 @@ def has_begun(folder: Path, case: Case) -> bool:
         )
     begun = RunStore.begun(folder / "results.zarr")
     if not begun:
+        RunStore.clear_unbegun(folder / "results.zarr")
         log.warning("the run in '%s' was stopped before its first block; it begins anew", folder)
-        shutil.rmtree(folder / "results.zarr", ignore_errors=True)
     return begun
 
 

@@ -191,7 +191,8 @@ def with_their_choice(spec: Any, changes: Mapping[str, Any]) -> dict[str, Any]:
     for path, value in changes.items():
         parent, _, key = path.rpartition(".")
         found = _choosing(type(_spec_at(spec, parent)))
-        if parent and found and join(parent, found[0]) in changes:
+        chosen = parent and found and join(parent, found[0]) in changes
+        if chosen and parent not in changes:  # else in the order given
             joined.setdefault(parent, {})[key] = value
         else:
             joined[path] = value

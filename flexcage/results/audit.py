@@ -13,7 +13,7 @@ thirtieth of what the drive does within half a millisecond, so that the floor de
 from __future__ import annotations
 
 from dataclasses import dataclass
-from math import isnan, nan
+from math import inf, isnan, nan
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -98,7 +98,7 @@ def energy_audit(ds: xarray.Dataset) -> EnergyAudit:
         _change(stored.transpose("time", "energy_kind"), "energy_kind"),
         channels,
         elastic,
-        _share(worst, drive, OF_DRIVE, floor),
+        _share(worst, drive, OF_DRIVE, floor) if drive or lost or worst <= floor else inf,
         _share(worst, lost, OF_CAGE, floor),
     )
 
@@ -107,7 +107,7 @@ def _share(imbalance: float, work: float, bound: float, floor: float) -> float:
     """Imbalance over work; NaN where it exceeds its bound for want of work alone."""
     if not work or bound * abs(work) < imbalance <= floor:
         return nan
-    return imbalance / work
+    return imbalance / abs(work)
 
 
 def _change(values: xarray.DataArray, dim: str) -> dict[str, float]:

@@ -11,6 +11,7 @@ from __future__ import annotations
 
 import json
 import os
+import shutil
 import warnings
 from collections.abc import Mapping, Sequence
 from math import ceil
@@ -220,6 +221,15 @@ class RunStore(MemoryRunStore):
     def begun(path: Path) -> bool:
         """Whether a run has its place on disk, so that it can be opened and gone on with."""
         return (path / SIDE / "commit.json").exists()
+
+    @staticmethod
+    def clear_unbegun(path: Path) -> None:
+        """Remove what a run left that was stopped before its first block; InputError if there are
+        blocks, which then only lack the file that counts them."""
+        side = path / SIDE
+        if any(side.glob("checkpoint*")) or any(side.glob("*/*.npz")):
+            raise _damaged(path, f"holds blocks, but lacks {SIDE}/commit.json")
+        shutil.rmtree(path, ignore_errors=True)
 
     @classmethod
     def open(cls, path: str | Path) -> RunStore:

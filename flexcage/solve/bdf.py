@@ -11,13 +11,14 @@ receives the problem as six functions and their data,
     linearise(t, y, yd, data)                keep dF/dy, dF/dy' at this point
     factor(alpha, data) -> bool              factor dF/dy + alpha dF/dy'
     backsolve(alpha, y, r, data)             r <- -(that)^-1 r, the Newton step
-    settle(t, y, data, power)                y, a Newton step beyond the last residual, was accepted
+    powers(y, data, power)                   integrands at y, a Newton step beyond that -> power
+    settle(t, y, data)                       that y was accepted
     observe(sample, t, y, yd, data)          y and y' at sampling time t, by dense output
 
 Obligations of a problem: ``residual`` depends on nothing but its arguments and memory that only
 ``settle`` changes; it allocates nothing; functions share ``data`` and nothing else.
-Integrands, and what ``settle`` keeps, are those of the corrector's last residual, which lies one
-Newton step before the accepted point, but for what ``settle`` itself knows better.
+Integrands, and what ``settle`` keeps, may be those of the corrector's last residual, one Newton
+step before the accepted point, but for what would miss that step.
 Policies follow IDA's experience: few Jacobians, Newton fails early and cuts the step.
 Stability guard: orders above 2 are left for ``GUARD_STEPS`` steps once the error test fails twice
 within ten steps, the mark of lightly damped fast oscillation.
@@ -155,11 +156,13 @@ def worst(a, weight, factor):
 
 def missed(h, h_last, power, weight):
     """Largest weighted error of the trapezoidal rule over a step h after one of ``h_last``."""
-    most = 0.0
+    most = total = 0.0
     for k in range(weight.shape[0]):
         bend = (power[1, k] - power[0, k]) / h - (power[0, k] - power[2, k]) / h_last
-        most = max(most, abs(bend) * weight[k])
-    return most * h**3 / (6.0 * (h + h_last))
+        x = abs(bend) * weight[k]
+        total += x  # carries whatever is not a number
+        most = max(most, x)
+    return most * h**3 / (6.0 * (h + h_last)) if total <= 1e300 else np.inf
 
 
 def allowed(error, order, work):
@@ -234,7 +237,7 @@ def correct(fns, data, st, opt, t_new, c):
 
 def advance(fns, data, st, opt, t_end, times, ys, yds, first, log, quads):
     """Integrate until t_end; see ``contract``."""
-    residual, settle, observe = fns[0], fns[4], fns[5]
+    residual, powers, settle, observe = fns[0], fns[4], fns[5], fns[6]
     y_p, psi, d = st.vec[0], st.vec[1], st.vec[2]
     y, yd, r = st.vec[3], st.vec[4], st.vec[5]
     D, count, real = st.D, st.count, st.real
@@ -246,7 +249,8 @@ def advance(fns, data, st, opt, t_end, times, ys, yds, first, log, quads):
             y[k] = D[0, k]
             yd[k] = D[1, k] / real[H]
         residual(real[T], y, yd, data, r, st.power[0])
-        settle(real[T], y, data, st.power[0])
+        powers(y, data, st.power[0])
+        settle(real[T], y, data)
         for k in range(st.quad.shape[0]):
             st.power[2, k] = st.power[0, k]
     while real[T] < t_end:
@@ -291,22 +295,24 @@ def advance(fns, data, st, opt, t_end, times, ys, yds, first, log, quads):
             count[EQUAL] = 0
             continue
         error = worst(d, st.weight, st.coef[2, order])
+        powers(y, data, st.power[1])
         work = missed(h, real[H_LAST], st.power, st.quad_weight)
-        if not error < 1e300:
+        if not max(error, work) < 1e300:
             return NOT_FINITE, sample, row
         if max(error, work) > 1.0:
             count[ERROR_FAILS] += 1
-            count[RECENT] += 10
-            count[FAILS] += 1
-            if count[FAILS] > 1:
-                count[HAVE_J] = 0
-            if count[FAILS] > 3 and error < 5.0:
-                # what no shorter step removes is the last point's distance from a constraint
-                for k in range(n):
-                    D[0, k] += d[k]
-            if count[RECENT] > 15 and order > 2:
-                count[ORDER] = 2
-                count[GUARD] = GUARD_STEPS
+            if error > 1.0:  # an integral's failure says nothing of y
+                count[RECENT] += 10
+                count[FAILS] += 1
+                if count[FAILS] > 1:
+                    count[HAVE_J] = 0
+                if count[FAILS] > 3 and error < 5.0:
+                    # what no shorter step removes is the last point's distance from a constraint
+                    for k in range(n):
+                        D[0, k] += d[k]
+                if count[RECENT] > 15 and order > 2:
+                    count[ORDER] = 2
+                    count[GUARD] = GUARD_STEPS
             ratio = max(0.25, 0.85 * allowed(error, order, work))
             change_step(D, count[ORDER], ratio)
             real[H] = ratio * h
@@ -331,7 +337,7 @@ def advance(fns, data, st, opt, t_end, times, ys, yds, first, log, quads):
         count[GUARD] = max(count[GUARD] - 1, 0)
         if count[AGE] > JACOBIAN_AGE or count[ITERATIONS] - iterations > 2:
             count[HAVE_J] = 0
-        settle(t_new, y, data, st.power[1])
+        settle(t_new, y, data)
         while sample < times.shape[0] and times[sample] <= t_new + 1e-12 * h:
             x = 1.0 - (t_new - times[sample]) / h
             interpolate(D, order, t_new, h, times[sample], ys[sample], yds[sample])
@@ -388,7 +394,7 @@ def _refresh(state: BDFState) -> None:
 BDF = Integrator(
     name="bdf",
     advance=advance,
-    functions=("residual", "linearise", "factor", "backsolve", "settle", "observe"),
+    functions=("residual", "linearise", "factor", "backsolve", "powers", "settle", "observe"),
     helpers=("change_step", "interpolate", "worst", "missed", "allowed", "correct", "_choose"),
     options=_options,
     new_state=new_state,

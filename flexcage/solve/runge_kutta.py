@@ -123,12 +123,14 @@ def largest(a, weight):
 
 def missed(h, power, weight):
     """Largest weighted estimate of what a step's integrals miss, as that of y."""
-    worst = 0.0
+    most = total = 0.0
     for k in range(weight.shape[0]):
         late = power[4, k] - power[3, k]
         bend = power[0, k] - power[1, k] - power[2, k] + power[4, k]
-        worst = max(worst, abs(h * (SHARE * late + CURVE * bend)) * weight[k])
-    return worst
+        x = abs(h * (SHARE * late + CURVE * bend)) * weight[k]
+        total += x  # carries whatever is not a number
+        most = max(most, x)
+    return most if total <= 1e300 else np.inf
 
 
 def hermite(x, h, y0, f0, y1, f1, y, yd):

@@ -106,6 +106,7 @@ class Report(NamedTuple):
     contact: np.ndarray  # (Z, places) booleans: races 2, faces of the pocket, ribs
     approach: np.ndarray  # (Z, places) approach speed of each
     body_force: np.ndarray  # (3,) contact force on the outer ring
+    outer_races: np.ndarray  # (2,) the share of its races
 
 
 def new_memory(report: Report) -> Memory:
@@ -165,7 +166,7 @@ def new_work(
         z((Z, 2, 9)), z((Z, faces)), z((Z, faces)), z((Z, 2, slices)), z((Z, 2, slices)),
         z((Z, faces, stations, 3)), z((Z, N_LOCAL)), z((Z, ribs)), z(3),
         z((land_stations, 2)), z((2, 2)), z(len(POWERS)), z(4), z((Z, places), np.int64),
-        z((Z, places)), z(3),
+        z((Z, places)), z(3), z(2),
     )  # fmt: skip
     scratch = Scratch(
         z((6, 6)), z((2, 6, 6)), z((2, 3, 3)), z((3, 3)), np.eye(3), z((Z, 24)), z((Z, 6)),

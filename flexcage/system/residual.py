@@ -5,7 +5,8 @@ wrenches added to the bodies; then the rows are formed: kinematics q' - T(q) u -
 M u' + h - Q - G^T lambda, g and its rate. (With one roller's contacts after the other the code of
 all of them passes through the processor's cache 22 times: a sixth more time.)
 ``mode``: 0 residual, 1 also the tangent blocks, 2 also the whole report, 3 what of it a point that
-may be accepted needs: powers, what touches, how fast it nears, forces on bodies.
+may be accepted needs: powers, what touches, how fast it nears, forces on bodies; 4 the races' force
+on the outer ring alone.
 """
 
 from __future__ import annotations
@@ -70,7 +71,7 @@ def evaluate(t, y, yd, d, law, out, mode):
     q, u, qd, ud = y[:nq], y[nq : nq + nu], yd[:nq], yd[nq : nq + nu]
     r_q, r_u = out[:nq], out[nq : nq + nu]
     zq = 6 * Z
-    clear_sums(work.border, d, mode)
+    clear_sums(work.border, d, mode % 4)
     ring_q, ring_u = q[zq : zq + 6], u[zq : zq + 6]
     matrix_from_quaternion(q[zq + 11 : zq + 15], work.A)
     put(work.vec[CAGE_SPIN], turned(work.A, xyz(u[zq + 11 : zq + 14])))
@@ -82,11 +83,16 @@ def evaluate(t, y, yd, d, law, out, mode):
         set_pose(q[o : o + 6], u[o : o + 6], pose)
         keep_pose(pose, poses[i])
     lot = fields(d.race_work).who.shape[0]
-    for first in range(0, Z, lot):
+    for first in range(0, Z if mode != 4 else 0, lot):
         _inner_contacts(first, min(first + lot, Z), q, ring_q, ring_u, d, law, mode)
     out_q, out_u = q[zq + 6 : zq + 8], u[zq + 6 : zq + 8]
     for first in range(0, Z, lot):
-        _outer_contacts(first, min(first + lot, Z), q, out_q, out_u, d, law, mode)
+        _outer_contacts(first, min(first + lot, Z), q, out_q, out_u, d, law, mode % 4)
+    if mode >= 2:
+        for c in range(2):
+            fields(d.report).outer_races[c] = work.border[6 + c]
+    if mode == 4:
+        return
     law[10](t, y, yd, d, law[:10], out, mode)
     for i in range(Z):
         o = 6 * i

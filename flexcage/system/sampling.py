@@ -19,14 +19,25 @@ def give_powers(d, y, power):
     power[DRIVE] += y[torque] * y[speed]
 
 
-def settle(t, y, data, power):
-    """The point y, a Newton step beyond the one evaluated last, was accepted.
-
-    Multipliers are what that step changes: they follow from all the rest. So the drive's power is
-    that of y.
-    """
-    keep_point(t, data[0])
+def powers(y, data, power):
+    """Powers at y, a Newton step beyond the point evaluated last: those of that point, and the
+    drive's by y, because multipliers are what such a step changes most."""
     give_powers(data[0], y, power)
+
+
+def settle(t, y, data):
+    """Such a y was accepted.
+
+    What contacts remember is that of the point evaluated last; the races' force on the outer ring,
+    whose acceleration is a result, is evaluated at y.
+    """
+    d = data[0]
+    force, races = fields(d.report).body_force, fields(d.report).outer_races
+    before = races[0], races[1]
+    data[2](t, y, y, d, data[1], fields(d.scratch).out, 4)
+    for c in range(2):
+        force[c] += races[c] - before[c]
+    keep_point(t, d)
 
 
 def note(t, data):

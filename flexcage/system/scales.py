@@ -48,8 +48,9 @@ def shared_weights(model: Any, layout: Layout, length: float) -> np.ndarray:
 def work_weights(model: Any, length: float) -> np.ndarray:
     """1/(allowed local error) of the work of every power for a position error of ``length`` [m].
 
-    What all that loads the bearing does over ``length``: its loads at their largest, and the
-    elements' weight and centrifugal force at the drive's largest speed.
+    What forces of the bearing's size do over ``length``: its radial and axial loads at their
+    largest, waves left out, and the elements' weight on earth and centrifugal force at the drive's
+    largest speed.
     """
     bodies = model.bodies
     orbit = 0.5 * np.abs(bodies.speed[1]).max()

