@@ -14,7 +14,7 @@ from flexcage.contacts.slices import (
     normal_forces,
     stored_and_damped,
 )
-from flexcage.core.jit import VECTORISED, part, zero
+from flexcage.core.jit import VECTORISED, outlined, part, zero
 from flexcage.core.splines import smooth_weights
 from flexcage.core.vectors import add_to, column, combine, cross, dot, minus, plus, times, xyz
 
@@ -252,7 +252,7 @@ def _spread_film(A, data, fy, fz, torque, qd, lw, Qm, sums):
             sums[3] += (radial * shape[1, m] + tangential * shape[2, m]) * qd[m]
 
 
-@part
+@outlined
 def _film(A, Rc, Vc, w, qd, Rr, Vr, spin, data, lw, Fc, Mc, Qm, Fr, Mr, sums):
     """Short-bearing film on both lands: whirl and squeeze of a rigid cage included."""
     out = lw.film
