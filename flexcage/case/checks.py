@@ -13,7 +13,13 @@ from flexcage.core.units import describe
 from flexcage.geometry.bearing import BEARING_TYPES, Bearing
 from flexcage.geometry.cage import Cage
 from flexcage.geometry.catalogue import static_rating
-from flexcage.geometry.checks import OVERLOAD, check_geometry, greatest_speed, greatest_tilt
+from flexcage.geometry.checks import (
+    OVERLOAD,
+    check_geometry,
+    greatest_shift,
+    greatest_speed,
+    greatest_tilt,
+)
 
 if TYPE_CHECKING:
     from flexcage.case.case import Case
@@ -198,8 +204,17 @@ def _bears_axially(case: Case) -> bool:
 
 
 def _find_in_shaft(case: Case) -> Iterator[Finding]:
-    """Springs and dampers of the shaft that hold nothing."""
+    """Springs and dampers of the shaft that hold nothing, or too little."""
     load = case.load
+    later = (load.ramp_to or 0.0, *load.values) if load.varies == "axial" else ()
+    largest, most = max(map(abs, (load.axial, *later))), greatest_shift(case.bearing)
+    if load.axial_stiffness > 0.0 and largest > load.axial_stiffness * most:
+        yield (
+            "load.axial_stiffness",
+            f"load.axial_stiffness is {describe(load.axial_stiffness, 'N/um')}, which lets an axial "
+            f"load of {describe(largest, 'N')} move the {case.bearing.element}s off the outer race; "
+            f"give {describe(largest / most, 'N/um')} or more.",
+        )
     if load.tilt_stiffness > 0.0 and load.tilt == "held":
         yield (
             "load.tilt_stiffness",
