@@ -211,9 +211,9 @@ def _find_in_shaft(case: Case) -> Iterator[Finding]:
     if load.axial_stiffness > 0.0 and largest > load.axial_stiffness * most:
         yield (
             "load.axial_stiffness",
-            f"load.axial_stiffness is {describe(load.axial_stiffness, 'N/um')}, which lets an axial "
-            f"load of {describe(largest, 'N')} move the {case.bearing.element}s off the outer race; "
-            f"give {describe(largest / most, 'N/um')} or more.",
+            f"load.axial_stiffness is {describe(load.axial_stiffness, 'N/um')}, which lets "
+            f"{describe(largest, 'N')} move the {case.bearing.element}s off the outer race; give "
+            f"{describe(largest / most, 'N/um')} or more.",
         )
     if load.tilt_stiffness > 0.0 and load.tilt == "held":
         yield (

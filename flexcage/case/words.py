@@ -42,7 +42,9 @@ def describe(value: float, unit: str, *, digits: int = 6) -> str:
     """Short text of an SI value, its unit as print writes it."""
     number, _, name = units.describe(value, unit).partition(" ")
     text = f"{float(number):.{digits}g} {name.replace('*', '·')}"
-    return text.replace(" um", " µm").replace(" us", " µs").replace(" deg", "°")
+    return (
+        text.replace(" um", " µm").replace("/um", "/µm").replace(" us", " µs").replace(" deg", "°")
+    )
 
 
 def in_words(case: Case) -> list[str]:
