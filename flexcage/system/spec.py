@@ -104,7 +104,7 @@ class Load(Wave):
     centre: str = option(
         "free", doc="does the inner ring's centre move, or is it held?", choices=("free", "held")
     )
-    misalignment: float = quantity("mrad", 0.0, doc="held tilt of the inner ring about z")
+    misalignment: float = quantity("mrad", 0.0, doc="tilt about z at which the ring is held")
     gravity: float = quantity("m/s^2", 9.80665, doc="acceleration of gravity", minimum=0.0)
     gravity_direction: float = quantity("deg", 0.0, doc="azimuth of gravity")
     shaft_mass: float = quantity("kg", 0.0, doc="mass that moves with the inner ring", minimum=0.0)

@@ -90,13 +90,14 @@ def posed(bearing: Bearing, elements: Elements, load: Load, options: StaticOptio
     axial, *tilts = load.stiffness
     spring = np.array([axial, 0.0, 0.0, *tilts])
     free = np.array(elements.carries) | (spring > 0.0)
-    for k in np.flatnonzero(~free & (force != 0.0)):
-        raise InputError(
-            f"{_PLACES[k]} is {describe(force[k], 'N')}, but a {bearing.kind} bears none of it "
-            "in the static solution (its ribs are not part of it); leave it out, or give the "
-            "shaft's stiffness, load.axial_stiffness.",
-            where=_PLACES[k],
-        )
+    for k in range(5):
+        if force[k] != 0.0 and not free[k]:
+            raise InputError(
+                f"{_PLACES[k]} is {describe(force[k], 'N')}, but a {bearing.kind} bears none of it "
+                "in the static solution (its ribs are not part of it); leave it out, or give the "
+                "shaft's load.axial_stiffness.",
+                where=_PLACES[k],
+            )
     if options.tilt == "held":
         free[3:] = False
         spring[3:] = 0.0
