@@ -13,7 +13,13 @@ from flexcage.core.units import describe
 from flexcage.geometry.bearing import BEARING_TYPES, Bearing
 from flexcage.geometry.cage import Cage
 from flexcage.geometry.catalogue import static_rating
-from flexcage.geometry.checks import OVERLOAD, check_geometry, greatest_speed, greatest_tilt
+from flexcage.geometry.checks import (
+    OVERLOAD,
+    check_geometry,
+    greatest_shift,
+    greatest_speed,
+    greatest_tilt,
+)
 
 if TYPE_CHECKING:
     from flexcage.case.case import Case
@@ -158,31 +164,70 @@ def _find_in_speed(case: Case) -> Iterator[Finding]:
 
 def _find_in_held_motions(case: Case) -> Iterator[Finding]:
     """Loads along motions of the inner ring that are held, and motions that cannot be free."""
-    axial, tilt = case.bearing.carries_axial_load, case.load.tilt == "free"
-    if tilt and not axial:
+    bears, tilt, spring = _bears_axially(case), case.load.tilt == "free", case.load.tilt_stiffness
+    own = case.bearing.carries_axial_load  # without a shaft's springs
+    if tilt and spring == 0.0 and not own:
         yield (
             "load.tilt",
             f"load.tilt is 'free', but nothing in the motion of a {case.bearing.kind} brings its "
-            "inner ring back; take 'held'.",
+            "inner ring back; give the shaft's load.tilt_stiffness, or take 'held'.",
         )
-    if tilt and case.load.misalignment != 0.0:
+    if tilt and spring == 0.0 and case.load.misalignment != 0.0:
         yield (
             "load.misalignment",
             f"load.misalignment is {describe(case.load.misalignment, 'mrad')}, but load.tilt is "
-            "'free'; take load.tilt = \"held\" for a tilt that is given.",
+            "'free'; take load.tilt = \"held\" for a tilt that is given, or give the "
+            "load.tilt_stiffness of a shaft that is so tilted.",
         )
+    yield from _find_in_shaft(case)
     yield from _find_in_held_centre(case)
     yield from _find_in_changes(case)
-    for key, free in (("axial", axial), ("moment_y", tilt), ("moment_z", tilt)):
+    shaft = "give the shaft's load.axial_stiffness"
+    freed = 'take load.tilt = "free"' + ("" if own else " with the shaft's load.tilt_stiffness")
+    for key, unit, free, held, remedy in (
+        ("axial", "N", bears, "axial motion is", shaft),
+        ("moment_y", "N*m", tilt, "tilts are", freed),
+        ("moment_z", "N*m", tilt, "tilts are", freed),
+    ):
         value = getattr(case.load, key)
         if value != 0.0 and not free:
-            unit = "N" if key == "axial" else "N*m"
             yield (
                 f"load.{key}",
-                f"load.{key} is {describe(value, unit)}, but in this run the inner ring's "
-                f"{'axial motion is' if key == 'axial' else 'tilts are'} held; leave it out, "
-                + ('take load.tilt = "free", ' if axial else "")
-                + "or take 'flexcage static'.",
+                f"load.{key} is {describe(value, unit)}, but in this run the inner ring's {held} "
+                f"held; leave it out, {remedy}, or take 'flexcage static'.",
+            )
+
+
+def _bears_axially(case: Case) -> bool:
+    """Is the inner ring free along the axis in a run, with something that brings it back?"""
+    return case.bearing.carries_axial_load or case.load.axial_stiffness > 0.0
+
+
+def _find_in_shaft(case: Case) -> Iterator[Finding]:
+    """Springs and dampers of the shaft that hold nothing, or too little."""
+    load = case.load
+    later = (load.ramp_to or 0.0, *load.values) if load.varies == "axial" else ()
+    largest, most = max(map(abs, (load.axial, *later))), greatest_shift(case.bearing)
+    if load.axial_stiffness > 0.0 and largest > load.axial_stiffness * most:
+        yield (
+            "load.axial_stiffness",
+            f"load.axial_stiffness is {describe(load.axial_stiffness, 'N/um')}, which lets "
+            f"{describe(largest, 'N')} move the {case.bearing.element}s off the outer race; give "
+            f"{describe(largest / most, 'N/um')} or more.",
+        )
+    if load.tilt_stiffness > 0.0 and load.tilt == "held":
+        yield (
+            "load.tilt_stiffness",
+            f"load.tilt_stiffness is {describe(load.tilt_stiffness, 'N*m/rad')}, but load.tilt is "
+            "'held'; leave it out, or take load.tilt = \"free\".",
+        )
+    for way, unit in (("axial", "N*s/m"), ("tilt", "N*m*s/rad")):
+        damping = getattr(load, f"{way}_damping")
+        if damping > 0.0 and getattr(load, f"{way}_stiffness") == 0.0:
+            yield (
+                f"load.{way}_damping",
+                f"load.{way}_damping is {describe(damping, unit)}, but the shaft has no stiffness "
+                f"that it goes with; give load.{way}_stiffness as well, or leave it out.",
             )
 
 
@@ -191,11 +236,11 @@ def _find_in_changes(case: Case) -> Iterator[Finding]:
     load = case.load
     changes = {"varies": load.ramp_to is not None or load.times, "wave_of": load.wave != "none"}
     for key, used in changes.items():
-        if used and getattr(load, key) == "axial" and not case.bearing.carries_axial_load:
+        if used and getattr(load, key) == "axial" and not _bears_axially(case):
             yield (
                 f"load.{key}",
                 f"load.{key} is 'axial', but in a run of a {case.bearing.kind} the inner ring's "
-                "axial motion is held; take 'radial'.",
+                "axial motion is held; take 'radial', or give the shaft's load.axial_stiffness.",
             )
 
 

@@ -42,7 +42,9 @@ def describe(value: float, unit: str, *, digits: int = 6) -> str:
     """Short text of an SI value, its unit as print writes it."""
     number, _, name = units.describe(value, unit).partition(" ")
     text = f"{float(number):.{digits}g} {name.replace('*', '·')}"
-    return text.replace(" um", " µm").replace(" us", " µs").replace(" deg", "°")
+    return (
+        text.replace(" um", " µm").replace("/um", "/µm").replace(" us", " µs").replace(" deg", "°")
+    )
 
 
 def in_words(case: Case) -> list[str]:
@@ -212,6 +214,11 @@ def _motion(case: Case) -> str:
         tilted += ", held at its centre where that puts it"
     if case.bearing.carries_axial_load:
         tilted += ", free in tilt" if load.tilt == "free" else ", held in tilt"
+    springs = (("axial", "N/um", "axially"), ("tilt", "N*m/rad", "in tilt"))
+    stiff = [(getattr(load, f"{key}_stiffness"), unit, way) for key, unit, way in springs]
+    if any(value for value, _, _ in stiff):
+        parts = [f"{describe(value, unit)} {way}" for value, unit, way in stiff if value]
+        tilted += f", on a shaft of {' and '.join(parts)}"
     held = "" if case.mount.kind == "fixed" else ", the outer ring in an elastic mount"
     return (
         f"The inner ring {speed} under {_load(case)}{tilted}{held}. Lubricant: "

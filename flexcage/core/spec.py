@@ -23,12 +23,13 @@ def quantity(
     maximum: float | None = None,
     assumption: str = "",
     of: Collection[str] = (),
+    former: Any = MISSING,
 ) -> Any:
     """A physical value held in SI; ``unit`` is the unit a person would write ("mm", "rpm").
 
     ``minimum`` and ``maximum`` are inclusive and ``above`` exclusive bounds, in SI.
     ``assumption`` says why a default that no source gives was chosen. ``of`` names those of the
-    spec's laws (``law``) that read the value; without it all do.
+    spec's laws (``law``) that read the value; without it all do. ``former`` as for ``option``.
     """
     meta = {
         "unit": unit,
@@ -38,6 +39,7 @@ def quantity(
         "maximum": maximum,
         "assumption": assumption,
         "of": of,
+        "former": former,
     }
     return dataclasses.field(default=default, metadata=meta)
 

@@ -63,6 +63,18 @@ def _(bearing: RollerBearing) -> float:
     return 2.0 * _MOST_PRESSED * bearing.roller_diameter / bearing.effective_length
 
 
+@singledispatch
+def greatest_shift(bearing: Bearing) -> float:
+    """Axial displacement [m] of the inner ring beyond which its elements leave the outer race;
+    infinite for types that register none."""
+    return inf
+
+
+@greatest_shift.register
+def _(bearing: RollerBearing) -> float:
+    return 0.5 * (bearing.width - bearing.roller_length)
+
+
 def greatest_speed(bearing: Bearing) -> float:
     """Speed [rad/s] of the inner ring at which centrifugal force alone loads every element as
     ``OVERLOAD`` static ratings load the first one, 5 C0/Z; infinite where masses are not known."""

@@ -152,5 +152,6 @@ def bodies_of(
         load_direction=np.array([np.cos(load.direction), np.sin(load.direction)]),
         moments=np.array([load.moment_y, load.moment_z]),
         free=np.array([*free, load.centre == "free"], float),
+        spring=np.array([load.stiffness, load.damping]).T * np.array(free, float)[:, None],
         misalignment=load.misalignment,
     )

@@ -58,6 +58,7 @@ class Bodies(NamedTuple):
     waves: np.ndarray  # (3, 4) of speed, radial load, axial load, see waves.py
     moments: np.ndarray  # (2,) about y and z on the inner ring
     free: np.ndarray  # (4,) 1.0 if the inner ring is free axially, in skew, in tilt, at its centre
+    spring: np.ndarray  # (3, 2) stiffness and damping of the shaft, axially, in skew, in tilt
     misalignment: float
 
 
@@ -102,7 +103,7 @@ class Report(NamedTuple):
     land_station: np.ndarray  # (nl, 2) on the cage, outwards and forwards
     land_touch: np.ndarray  # (2, 2) of the lands at -x, +x: normal force, approach speed
     power: np.ndarray  # (len(POWERS),)
-    energy: np.ndarray  # (4,) kinetic, strain, contact, mount
+    energy: np.ndarray  # (4,) kinetic, strain, contact, mount with the shaft's springs
     contact: np.ndarray  # (Z, places) booleans: races 2, faces of the pocket, ribs
     approach: np.ndarray  # (Z, places) approach speed of each
     body_force: np.ndarray  # (3,) contact force on the outer ring

@@ -250,13 +250,14 @@ def _(
         bearing.roller_count
     )
     outer, radius, clearance = _guiding_land(bearing, cage)
+    tilts = load.tilt == "free"
     return Model(
         bodies=bodies_of(
             bearing, cage, lubricant, drive, load, mount,
             element=np.array([bearing.roller_mass, *bearing.roller_inertia]),
             radius=0.5 * (bearing.roller_diameter + scatter),
             area=bearing.roller_diameter * bearing.roller_length,
-            free=(False, False, False),
+            free=(load.axial_stiffness > 0.0, tilts, tilts),
         ),
         cage=unbalanced(body, cage).data,
         inner=_race_side(bearing, contacts, lubricant, inner=True),

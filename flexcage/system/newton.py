@@ -58,18 +58,10 @@ def assemble(alpha, bodies, tan, m):
     for r in range(nb):
         for c in range(nb):
             m.S[r, c] = alpha * tan.Mbb[r, c] + tan.Cbb[r, c] + b * tan.Kbb[r, c]
-    # multipliers: forces on ring coordinates (axial, skew, tilt, spin) and position rows
+    # multipliers: forces on ring coordinates (axial, skew, tilt, spin)
     coordinate = (0, 4, 5, 3)
     for k in range(4):
         m.S[coordinate[k], n6 + k] -= 1.0
-    for k in range(3):
-        m.S[n6 + k, coordinate[k]] = 1.0
-        m.S[n6 + 4 + k, coordinate[k]] = b
-        m.S[n6 + 4 + k, n6 + 4 + k] = b
-    if bodies.drive[0] > 0.0:
-        m.S[n6 + 3, n6 + 3] = 1.0
-    else:
-        m.S[n6 + 3, 3] = 1.0
     return _factor_bordered(m)
 
 
@@ -104,16 +96,11 @@ def newton_step(alpha, y, r, tan, m):
         norm += y[z + c] * y[z + c]
     for k in range(nm):
         sb[14 + k] = r[z + 15 + k]
-    for k in range(14 + nm):
+    for k in range(nb):
         f = 0.0
         for c in range(14 + nm):
             f += tan.Kbb[k, c] * sb[c]
         xb[k] = -r[nq + z + k] + b * f
-    for k in range(7):
-        xb[14 + nm + k] = -r[nq + nu + k]
-        if k >= 4:
-            coordinate = 0 if k == 4 else k - 1
-            xb[14 + nm + k] += b * sb[coordinate]
     for i in range(Z):
         high = nb if m.active[i] else m.low
         for k in range(6):

@@ -4,7 +4,7 @@ What the constraints hold are single coordinates of the inner ring, whose mass m
 its axial position, skew and tilt stand still (those that are not free), or its whole centre, and
 its spin is a given function of time (unless a compliant shaft drives it). These coordinates are
 set, the others accelerate by M u' = Q, and the rows left over say what forces hold them: the
-multipliers (of a held centre the axial one alone).
+multipliers (of a held centre the axial one alone). Of motions that are free these are the shaft's.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ from flexcage.core.jit import VECTORISED, fields, kernel, part, zero
 from flexcage.solve.bordered import lu_factor, lu_solve
 from flexcage.solve.oscillators import Oscillators, no_oscillators
 from flexcage.system.layout import Layout
-from flexcage.system.rows import speed_at
+from flexcage.system.rows import shaft_pull, speed_at
 from flexcage.system.sampling import give_powers, is_main, keep_force, keep_report
 from flexcage.system.waves import wave_slope
 
@@ -83,6 +83,7 @@ def _rates(t, y, yd, data, mode):
     driven = bodies.drive[0] == 0.0
     _hold(t, y[6 * Z : 6 * Z + 6], y[ring : ring + 6], bodies, driven)
     zero(y[end:])
+    shaft_pull(bodies, y[6 * Z : 6 * Z + 6], y[ring : ring + 6], y[end : end + 3])
     zero(yd)
     data[2](t, y, yd, d, data[1], out, mode)
     for k in range(end):
@@ -109,7 +110,8 @@ def _rates(t, y, yd, data, mode):
             c = 0 if k == 0 else 3 + k
             a[c], lam[k] = 0.0, row[c]
     if bodies.free[3] == 0.0:
-        lam[0] = row[0]
+        if bodies.free[0] > 0.0:
+            lam[0] += row[0]
         a[0] = a[1] = a[2] = 0.0
     if driven:
         a[3] = slope_of(bodies.speed, t) + wave_slope(bodies.waves[0], t)

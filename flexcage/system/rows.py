@@ -355,6 +355,43 @@ def _housing(outer, q, u, held, tan, mode):
 
 
 @part
+def shaft_pull(bodies, q, u, pull):
+    """Force of the shaft on the inner ring, axial and moments of skew and tilt, into ``pull``.
+
+    What pulls motions that are free is known, not a constraint's; zero where there is no spring.
+    Returns energy stored and power lost.
+    """
+    away = (q[0], q[3], q[4] - bodies.misalignment)
+    speed = (u[0], u[4], u[5])
+    stored = lost = 0.0
+    for k in range(3):
+        stiffness, damping = bodies.spring[k, 0], bodies.spring[k, 1]
+        force = stiffness * away[k]
+        if k == 1:  # the ring's own axis turns slower than skew
+            force /= cos(q[4])
+        pull[k] = -force - damping * speed[k]
+        stored += 0.5 * stiffness * away[k] * away[k]
+        lost += damping * speed[k] * speed[k]
+    return stored, lost
+
+
+@part
+def constraint_slopes(bodies, tan):
+    """Slopes of the constraints' rows of ``ring_rows`` in coordinates, velocities and multipliers
+    (the position rows' own multipliers are displacements)."""
+    first = tan.Kbb.shape[0] - 7
+    for k in range(3):
+        rate, place, at = first + k, first + 4 + k, 0 if k == 0 else 3 + k
+        if bodies.free[k] > 0.0:
+            tan.Kbb[rate, at], tan.Cbb[rate, at] = bodies.spring[k, 0], bodies.spring[k, 1]
+            tan.Cbb[rate, rate] = tan.Cbb[place, place] = 1.0
+        else:
+            tan.Cbb[rate, at] = tan.Kbb[place, at] = tan.Kbb[place, place] = 1.0
+    drive = first + 3
+    tan.Cbb[drive, 3 if bodies.drive[0] == 0.0 else drive] = 1.0
+
+
+@part
 def ring_rows(t, d, q, u, qd, ud, lam, mu_, zq, r_q, r_u, out, end, mode):
     """Rows of the inner and outer rings and of the constraints."""
     bodies, tan, rep = fields(d.bodies), fields(d.tangent), fields(d.report)
@@ -401,17 +438,19 @@ def ring_rows(t, d, q, u, qd, ud, lam, mu_, zq, r_q, r_u, out, end, mode):
         else:
             force = border[6 + c] - held[c] + mo * bodies.gravity[1 + c]
             r_u[zq + 6 + c] = mo * oud[c] - force
-    # constraints: lambda rows hold rates, mu rows positions
+    # constraints: lambda rows hold rates, mu rows positions; what is free has the shaft's lambda
     g = out[end:]
-    free = bodies.free
-    g[0] = lam[0] if free[0] > 0.0 else ru[0]
-    g[1] = lam[1] if free[1] > 0.0 else ru[4]
-    g[2] = lam[2] if free[2] > 0.0 else ru[5]
+    free, pull = bodies.free, work.vec[AXIS]
+    bent, damped = shaft_pull(bodies, rq, ru, pull)
+    g[0] = lam[0] - pull[0] if free[0] > 0.0 else ru[0]
+    g[1] = lam[1] - pull[1] if free[1] > 0.0 else ru[4]
+    g[2] = lam[2] - pull[2] if free[2] > 0.0 else ru[5]
     g[3] = ru[3] - target if bodies.drive[0] == 0.0 else lam[3]
     g[4] = mu_[0] if free[0] > 0.0 else rq[0]
     g[5] = mu_[1] if free[1] > 0.0 else rq[3]
     g[6] = mu_[2] if free[2] > 0.0 else rq[4] - bodies.misalignment
     if mode == 1:
+        constraint_slopes(bodies, tan)
         for c in range(3):
             tan.Mbb[c, c] = mass
         tan.Mbb[3, 3] = Ia
@@ -442,6 +481,8 @@ def ring_rows(t, d, q, u, qd, ud, lam, mu_, zq, r_q, r_u, out, end, mode):
         rep.power[LOAD] += bodies.moments[0] * spin[1] + bodies.moments[1] * spin[2]
         for c in range(3):
             rep.power[GRAVITY] += mass * bodies.gravity[c] * ru[c]
+        rep.energy[3] += bent
+        rep.power[MOUNT] -= damped
         if fixed == 0.0:
             rep.energy[3] += stored
             rep.power[MOUNT] -= lost

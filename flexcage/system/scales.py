@@ -69,4 +69,6 @@ def _(model: Model, layout: Layout, length: float) -> np.ndarray:
     u["rollers"][:, 3] = float(model.bodies.radius.mean()) / (10.0 * speed)
     u["rollers"][:, 4:] = reach / speed
     u["inner"][3] = model.inner.radius / speed
+    arm = np.array([1.0, model.bodies.pitch, model.bodies.pitch]) * model.bodies.free[:3]
+    q["inner"][[0, 3, 4]], u["inner"][[0, 4, 5]] = arm / length, arm / speed
     return weight

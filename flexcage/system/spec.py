@@ -67,6 +67,8 @@ class Load(Wave):
 
     A ramp or a table is of the load that ``varies`` names, a wave of that which ``wave_of`` names.
     What is held is borne by a reaction; a centre is held where the loads put it at the start.
+    A compliant shaft holds the ring by springs and dampers between it and its held axial position
+    (``axial_stiffness``), or its misalignment (``tilt_stiffness``, where ``tilt`` is "free").
     """
 
     radial: float = quantity("N", 0.0, doc="radial load", minimum=0.0)
@@ -87,13 +89,35 @@ class Load(Wave):
     tilt: str = option(
         "held", doc="is the inner ring held in tilt, or free in a run?", choices=("held", "free")
     )
+    axial_stiffness: float = quantity(
+        "N/m", 0.0, doc="axial stiffness of the shaft; 0: none", minimum=0.0, former=0.0
+    )
+    axial_damping: float = quantity(
+        "N*s/m", 0.0, doc="axial damping of the shaft", minimum=0.0, former=0.0
+    )
+    tilt_stiffness: float = quantity(
+        "N*m/rad", 0.0, doc="stiffness of the shaft in tilt; 0: none", minimum=0.0, former=0.0
+    )
+    tilt_damping: float = quantity(
+        "N*m*s/rad", 0.0, doc="damping of the shaft in tilt", minimum=0.0, former=0.0
+    )
     centre: str = option(
         "free", doc="does the inner ring's centre move, or is it held?", choices=("free", "held")
     )
-    misalignment: float = quantity("mrad", 0.0, doc="held tilt of the inner ring about z")
+    misalignment: float = quantity("mrad", 0.0, doc="tilt about z at which the ring is held")
     gravity: float = quantity("m/s^2", 9.80665, doc="acceleration of gravity", minimum=0.0)
     gravity_direction: float = quantity("deg", 0.0, doc="azimuth of gravity")
     shaft_mass: float = quantity("kg", 0.0, doc="mass that moves with the inner ring", minimum=0.0)
+
+    @property
+    def stiffness(self) -> tuple[float, float, float]:
+        """Of the shaft: axial [N/m], in tilt about y and z [N m/rad]."""
+        return self.axial_stiffness, self.tilt_stiffness, self.tilt_stiffness
+
+    @property
+    def damping(self) -> tuple[float, float, float]:
+        """Of the shaft: axial [N s/m], in tilt about y and z [N m s/rad]."""
+        return self.axial_damping, self.tilt_damping, self.tilt_damping
 
     @property
     def at_start(self) -> tuple[float, float]:

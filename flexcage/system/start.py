@@ -3,9 +3,9 @@
 Rings, rollers and a pinched cage are brought to equilibrium without friction: Newton's method
 on the momentum rows with the velocities of pure rolling, in the metric of the mass matrix (an
 implicit Euler step from rest, whose length grows as it succeeds). Rollers stay where they are along
-their orbit, where friction would hold them; a pinched cage finds its place. Where a defect leaves
-less than no clearance its size grows in steps from the first touch, so that the run begins
-assembled.
+their orbit, where friction would hold them, and between the ribs of a ring that is free along the
+axis or in tilt; a pinched cage finds its place. Where a defect leaves less than no clearance its
+size grows in steps from the first touch, so that the run begins assembled.
 """
 
 from __future__ import annotations
@@ -118,8 +118,10 @@ def geometric_guess(model: Model, layout: Layout) -> np.ndarray:
     q["rollers"][:, 1] = model.outer.radius - model.bodies.radius
     q["rollers"][:, 2] = 2.0 * np.pi * np.arange(Z) / Z
     q["quaternion"][0] = 1.0
-    q["inner"][4] = tilt = model.bodies.misalignment
-    q["rollers"][:, 0] = -q["rollers"][:, 1] * np.cos(q["rollers"][:, 2]) * np.tan(tilt)
+    q["inner"][4] = model.bodies.misalignment
+    if model.bodies.free[0]:
+        q["inner"][0] = q["cage"][0] = _axial_load(model) / model.bodies.spring[0, 0]
+    q["rollers"][:, 0] = _between_ribs(layout, y)
     shift = max(float(model.bodies.outer[4]), 0.0) * (1.0 - model.bodies.outer[3])
     q["outer"][:] = shift * model.bodies.load_direction  # a ring in its bore lies on the ground
     psi = q["rollers"][:, 2]
@@ -129,13 +131,30 @@ def geometric_guess(model: Model, layout: Layout) -> np.ndarray:
     return y
 
 
+def _axial_load(model: Model) -> float:
+    """The axial load at the start [N]."""
+    return float(np.interp(0.0, *model.bodies.axial))
+
+
+def _between_ribs(layout: Layout, y: np.ndarray) -> np.ndarray:
+    """Where (Z,) along the axis the inner ring's middle plane meets the rollers' centres [m]."""
+    q = layout.q(y)
+    r, psi, (skew, tilt) = q["rollers"][:, 1], q["rollers"][:, 2], q["inner"][3:5]
+    up, across = np.tan(tilt) / np.cos(skew), np.tan(skew)
+    return q["inner"][0] - r * np.cos(psi) * up + r * np.sin(psi) * across
+
+
 class _Frictionless:
     """The bearing without friction, damping, drag, rolling resistance and gravity."""
 
     def __init__(self, bearing: Bearing, offset: np.ndarray) -> None:
         model = bearing.data.model
         still = model._replace(
-            bodies=model.bodies._replace(gravity=np.zeros(3), drag=np.zeros(2)),
+            bodies=model.bodies._replace(
+                gravity=np.zeros(3),
+                drag=np.zeros(2),
+                spring=model.bodies.spring * np.array([1.0, 0.0]),
+            ),
             inner=model.inner._replace(rolling=np.zeros(2)),
             outer=model.outer._replace(rolling=np.zeros(2)),
             pocket=with_offset(model.pocket, offset),
@@ -216,7 +235,7 @@ def _sound_one_assembles(bearing: Bearing, limit: float) -> bool:
 
 def _load(model: Model) -> float:
     """The load at the start [N], by which unbalanced forces are measured."""
-    return max(float(np.interp(0.0, *model.bodies.load)), 1.0)
+    return max(float(np.interp(0.0, *model.bodies.load)), abs(_axial_load(model)), 1.0)
 
 
 @dataclass(frozen=True)
@@ -239,11 +258,13 @@ def _held(tight: np.ndarray) -> Held:
     return Held(rollers, cage)
 
 
-def _measure(layout: Layout, r: np.ndarray, lever: float, held: Held) -> float:
+def _measure(layout: Layout, r: np.ndarray, lever: float, held: Held, free: np.ndarray) -> float:
     """Largest unbalanced force [N] (moments over a lever) of the rows that are free."""
     u = {k: v.copy() for k, v in layout.u(r).items()}
     u["rollers"][:, 3:] /= lever
-    u["inner"][[0, 3, 4, 5]] = 0.0  # constrained: their multipliers balance them
+    u["inner"][[0, 4, 5]] *= free[:3]  # the others are constrained: their multipliers balance them
+    u["inner"][3] = 0.0
+    u["inner"][4:] /= lever
     u["omega"] /= 10.0 * lever
     names = u if held.cage.any() else ("rollers", "inner", "outer")  # nothing holds a free cage
     return max(float(np.abs(u[k]).max()) for k in names if u[k].size)
@@ -258,8 +279,9 @@ def _equilibrate(
     """
     held = _held(tight)
     layout = system.bearing.layout
-    nq = layout.n_q
-    lever = float(system.data.model.bodies.radius.mean())
+    nq, n_qu = layout.n_q, layout.n_q + layout.n_u
+    bodies = system.data.model.bodies
+    lever, loose = float(bodies.radius.mean()), np.flatnonzero(bodies.free[:3])
     alpha, last = 1e5, np.inf
     for _ in range(400):
         r = system.residual(y, yd)
@@ -267,7 +289,7 @@ def _equilibrate(
         rows["rollers"][held.rollers] = 0.0
         rows["cage"][held.cage[:3]] = 0.0
         rows["omega"][held.cage[3:]] = 0.0
-        size = _measure(layout, r, lever, held) / load
+        size = _measure(layout, r, lever, held, bodies.free) / load
         if size < RESIDUAL:
             break
         alpha = max(alpha * 0.5, 500.0) if size <= 3.0 * last else min(alpha * 10.0, 1e6)
@@ -275,7 +297,12 @@ def _equilibrate(
         step = system.step(y, yd, r, alpha, held)
         dq = layout.q(step)
         largest = max(np.abs(dq["rollers"][:, :2]).max(), np.abs(dq["inner"][:3]).max())
-        y[:nq] += step[:nq] * min(1.0, 1e-5 / max(largest, 1e-30))
+        share, ribs = min(1.0, 1e-5 / max(largest, 1e-30)), _between_ribs(layout, y)
+        y[:nq] += step[:nq] * share
+        if len(loose):
+            y[n_qu + loose] += step[n_qu + loose] * share
+            layout.q(y)["rollers"][:, 0] += _between_ribs(layout, y) - ribs
+            layout.q(y)["cage"][0] += dq["inner"][0] * share
         layout.q(y)["quaternion"][:] /= np.linalg.norm(layout.q(y)["quaternion"])
         yd[:] = standing_cage(system.data.model, layout, y)
     return size

@@ -53,6 +53,46 @@ BAD = {
         "load.times",
         ["must rise"],
     ),
+    "tilt free on nothing": (
+        '[load]\ntilt = "free"',
+        "load.tilt",
+        ["nothing in the motion", "load.tilt_stiffness", "'held'"],
+    ),
+    "axial load on nothing": (
+        '[load]\naxial = "5 N"',
+        "load.axial",
+        ["axial motion is held", "load.axial_stiffness", "static"],
+    ),
+    "moment on nothing": (
+        '[load]\nmoment_y = "5 N*m"',
+        "load.moment_y",
+        ["tilts are held", "load.tilt_stiffness", "static"],
+    ),
+    "axial wave on nothing": (
+        '[load]\nwave = "sine"\nwave_of = "axial"',
+        "load.wave_of",
+        ["axial motion is held", "load.axial_stiffness"],
+    ),
+    "stiffness of a tilt that is held": (
+        '[load]\ntilt_stiffness = "1000 N*m/rad"',
+        "load.tilt_stiffness",
+        ["1000 N*m/rad", 'load.tilt = "free"'],
+    ),
+    "damper without a spring": (
+        '[load]\naxial_damping = "10 N*s/m"',
+        "load.axial_damping",
+        ["10 N*s/m", "load.axial_stiffness"],
+    ),
+    "shaft too soft": (
+        '[load]\naxial = "1 kN"\naxial_stiffness = "0.1 N/um"',
+        "load.axial_stiffness",
+        ["1000 N", "off the outer race", "0.2 N/um"],
+    ),
+    "negative stiffness": (
+        '[load]\naxial_stiffness = "-1 N/um"',
+        "load.axial_stiffness",
+        ["0 N/m or more"],
+    ),
     "ramp without time": ('[drive]\nramp_to = "1 rpm"', "drive.ramp_time", ["how long"]),
     "ramp by time and acceleration": (
         '[drive]\nramp_to = "1 rpm"\nramp_time = "1 s"\nacceleration = "5 rad/s^2"',

@@ -50,6 +50,15 @@ def test_loads_of_a_ball_bearing(load, says):
     assert says in told(BALLS, load=load)
 
 
+def test_a_shaft_that_yields():
+    load = {"axial_stiffness": "10 N/um", "tilt": "free", "tilt_stiffness": "500 N*m/rad"}
+    rollers = {"bearing": {"preset": "N1013"}}
+    both = "on a shaft of 10 N/µm axially and 500 N·m/rad in tilt."
+    assert f"0 N, {both}" in told(rollers, load=load)
+    assert f"free in tilt, {both}" in told(BALLS, load={"axial": "9 N", **load})
+    assert "shaft" not in told(rollers)
+
+
 @pytest.mark.parametrize(
     ("defect", "says"),
     [

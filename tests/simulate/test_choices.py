@@ -7,6 +7,7 @@ from simulate_cases import PLACES, bent, n1013
 from flexcage.contacts.spec import FRICTION_LAWS, NORMAL_LAWS
 from flexcage.results.audit import energy_audit
 from flexcage.simulate import build_bearing, cage_mesh, simulate
+from flexcage.static import solve_static
 
 RIGID = {"cage.model": "rigid"}
 SHORT = {"solver.duration": "0.5 ms"}
@@ -237,6 +238,45 @@ def test_a_compliant_shaft_drives():
     assert torque > 0.0
     assert wound == pytest.approx(torque / stiffness, rel=0.1)
     assert float(ds["inner_speed"].mean()) == pytest.approx(speed, rel=1e-3)
+
+
+@pytest.mark.parametrize("method", ["explicit", "bdf"])
+def test_a_shaft_that_yields_along_the_axis_and_in_tilt(method):
+    """It bears the loads as springs do, as the static solution has them, and the audit closes."""
+    shaft = {
+        "load.axial": "200 N", "load.axial_stiffness": "10 N/um",
+        "load.axial_damping": "2000 N*s/m", "load.tilt": "free", "load.moment_z": "1 N*m",
+        "load.tilt_stiffness": "2000 N*m/rad", "load.tilt_damping": "0.1 N*m*s/rad",
+        "solver.method": method, "solver.duration": "4 ms",
+    }  # fmt: skip
+    run = simulate(n1013(RIGID, shaft))
+    ds = finite(run)
+    along = ds["inner_position"].sel(axis="x").values
+    borne = ds["multiplier"].values[:, :3]
+    damped = 2000.0 * ds["inner_velocity"].sel(axis="x").values
+    np.testing.assert_allclose(borne[:, 0], -1e7 * along - damped, atol=0.5)
+    still = solve_static(run.case).reaction
+    assert along.mean() == pytest.approx(2e-5, rel=0.05) and still[0] == pytest.approx(-200.0)
+    assert borne[0, 0] == pytest.approx(-200.0, rel=0.01)
+    assert borne[0, 2] == pytest.approx(still[4], rel=0.01) and -0.9 < still[4] < -0.5
+    assert -1.0 < borne[100:, 2].mean() < still[4]  # rollers in motion bear less of it
+    assert energy_audit(ds).passed and energy_audit(ds).channels["mount"] < 0.0
+
+
+def test_a_very_stiff_shaft_is_a_constraint():
+    """It bears the moment that holds a misaligned ring."""
+    tilted = {"load.misalignment": "0.2 mrad"}
+    stiff = {
+        "load.tilt": "free",
+        "load.tilt_stiffness": "1e7 N*m/rad",
+        "load.tilt_damping": "10 N*m*s/rad",
+    }
+    held, free = (
+        finite(simulate(n1013(RIGID, tilted, more)))["multiplier"].isel(time=slice(20, None))
+        for more in ({}, stiff)
+    )
+    about_z = [float(ds.sel(constraint="moment_z").mean()) for ds in (held, free)]
+    assert about_z[0] > 0.1 and about_z[1] == pytest.approx(about_z[0], rel=0.02)
 
 
 def test_speed_and_load_follow_their_tables():

@@ -28,7 +28,10 @@ def evaluated(bearing, y: np.ndarray, yd: np.ndarray) -> dict[str, np.ndarray]:
     """Residual, tangent and report at one state."""
     out = {"residual": bearing.residual(0.0, y, yd)}
     bearing.residual(0.0, y, yd, mode=1)
-    out |= {name: getattr(bearing.data.work.tangent, name).copy() for name in ("Krr", "Krb", "Cbb")}
+    out |= {
+        name: getattr(bearing.data.work.tangent, name).copy()
+        for name in ("Krr", "Krb", "Kbb", "Cbb")
+    }
     bearing.residual(0.0, y, yd, mode=2)
     set_y, rates, power = y.copy(), np.empty_like(y), np.empty(len(POWERS))
     bearing.function("rates")(0.0, set_y, rates, bearing.args, power)
@@ -41,9 +44,14 @@ def evaluated(bearing, y: np.ndarray, yd: np.ndarray) -> dict[str, np.ndarray]:
 
 
 def test_plain_python_gives_what_the_compiler_gives(tmp_path):
-    """A flexible cage whose bent crossbeam presses on its roller, the ring under load."""
+    """A flexible cage whose bent crossbeam presses on its roller, the ring under load on a
+    compliant shaft."""
+    shaft = {
+        "load.axial": "50 N", "load.axial_stiffness": "10 N/um", "load.axial_damping": "10 N*s/m",
+        "load.tilt": "free", "load.tilt_stiffness": "1000 N*m/rad", "load.moment_z": "0.5 N*m",
+    }  # fmt: skip
     text = n1013(
-        {"cage.model": "flexible", "mesh.fineness": "coarse"}, defects=bent("0.25 mm")
+        {"cage.model": "flexible", "mesh.fineness": "coarse"}, shaft, defects=bent("0.25 mm")
     ).to_toml()
     compiled = bearing(text)
     start = find_start(compiled, limit_force=1e4)

@@ -12,7 +12,7 @@ from flexcage.system.data import POWERS
 from flexcage.system.layout import Layout
 from flexcage.system.problem import Bearing, new_samples
 from flexcage.system.scales import error_weights, work_weights
-from flexcage.system.spec import Drive, Mount
+from flexcage.system.spec import Drive, Load, Mount
 from flexcage.system.start import geometric_guess, rolling_velocities
 
 
@@ -79,6 +79,12 @@ def march(bearing, y0, yd0, *, duration, rate=100e3, tolerance=1e-8, max_order=2
     )
 
 
+#: An inner ring that is free axially and in tilt, on springs and dampers.
+SOFT = Load(
+    radial=1000.0, axial=300.0, moment_y=0.5, moment_z=-1.0, misalignment=1e-4, tilt="free",
+    axial_stiffness=3e7, axial_damping=500.0, tilt_stiffness=2e3, tilt_damping=0.05,
+)  # fmt: skip
+
 #: Named specs and disturbances of a bearing in which something of every kind touches.
 STATES = {
     "light": ({}, {}),
@@ -87,17 +93,21 @@ STATES = {
     "bushing": ({"mount": Mount(kind="bushing", mass=1.0)}, {"press": 105e-6}),
     "housing": ({"mount": Mount(kind="contact", mass=1.0, clearance=1e-6)}, {"press": 105e-6}),
     "shaft": ({"drive": Drive(kind="shaft")}, {"press": 105e-6}),
+    "compliant shaft": ({"load": SOFT}, {"press": 105e-6, "ring": 2e-5}),
     "flexible": ({"flexible": {"modes": 6}}, {"press": 101e-6}),
     "flexible, soft walls": ({"flexible": {"modes": 6, "soft": True}}, {"press": 104e-6}),
 }
 
 
-def disturbed(bearing, *, press=0.0, skew=1e-5, axial=8e-6, modal=1e-6, seed=0):
-    """A state in motion: ring pushed in, rollers pressed into crossbeams by ``press`` - 100 um."""
+def disturbed(bearing, *, press=0.0, skew=1e-5, axial=8e-6, modal=1e-6, ring=0.0, seed=0):
+    """A state in motion: ring pushed in, and displaced along its axis and in tilt by ``ring``,
+    rollers pressed into crossbeams by ``press`` - 100 um."""
     rng = np.random.default_rng(seed)
     y, yd = rolling_start(bearing)
     q, u = bearing.layout.q(y), bearing.layout.u(y)
     q["inner"][1] = 13e-6
+    q["inner"][[0, 3, 4]] += ring * np.array([1.0, -4.0, 3.0])
+    u["inner"][[0, 4, 5]] += ring * np.array([5e2, 3e3, 4e3])
     rollers = q["rollers"]
     rollers[:, 1] += 1e-7 * rng.standard_normal(22)
     rollers[:, 2] += press * rng.choice([-1, 1], 22) / rollers[:, 1]

@@ -55,7 +55,7 @@ def test_full_matrix(bearing_of, name):
     Left out besides: how friction and rolling resistance follow the load of a light contact.
     """
     specs, state = STATES[name]
-    bearing = bearing_of(load=Load(radial=1000.0), **specs)
+    bearing = bearing_of(**{"load": Load(radial=1000.0), **specs})
     y, yd, rng = disturbed(bearing, **state)
     assert max(miss(bearing, y, yd, rng, 3e5) for _ in range(5)) < 0.2
 

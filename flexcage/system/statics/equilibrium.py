@@ -32,12 +32,20 @@ _PARTS = (1, 3, 9)  # in which speed's other effects come in: all at once, or mo
 
 @dataclass(frozen=True)
 class Problem:
-    """What is to be balanced: ``free`` (5,) marks the ring's free motions, others keep ``held``."""
+    """What is to be balanced: ``free`` (5,) marks the ring's free motions, others keep ``held``.
+
+    Springs (5,) [N/m, N m/rad] draw what is free back to ``held``.
+    """
 
     elements: Elements
     load: np.ndarray  # (5,)
     free: np.ndarray  # (5,) bool
     held: np.ndarray  # (5,)
+    spring: np.ndarray  # (5,)
+
+    def pull(self, ring: np.ndarray) -> np.ndarray:
+        """Forces (5,) of load and springs on a ring displaced by u (5,)."""
+        return self.load - self.spring * (ring - self.held)
 
     @cached_property
     def lever(self) -> np.ndarray:
@@ -76,7 +84,7 @@ class Posture:
     response: Response
     force: np.ndarray  # (5,) that the elements bear
     unbalanced: float  # largest force left over, as a share of the load; inf: none settled
-    energy: float  # of elements and load; a potential while ``share`` is 0
+    energy: float  # of elements, load and springs; a potential while ``share`` is 0
 
 
 def balance(problem: Problem) -> Posture:
@@ -114,10 +122,11 @@ def _posture(problem: Problem, ring: np.ndarray, own: np.ndarray | None, share: 
     v = B @ ring
     own, response, unsettled = settle(problem, v, nearest(problem, v, own, share), share)
     force = np.einsum("zij,zi->j", B, response.ring)
-    gap = ((force - problem.load) / problem.lever)[problem.free]
+    gap = ((force - problem.pull(ring)) / problem.lever)[problem.free]
     left = float(np.abs(gap).max(initial=0.0)) / problem.size
     left = max(left, unsettled) if unsettled < _LOST else np.inf
     energy = float(response.energy.sum() - problem.load @ ring)
+    energy += 0.5 * float(problem.spring @ (ring - problem.held) ** 2)
     return Posture(ring, own, response, force, left, energy)
 
 
@@ -175,8 +184,9 @@ def _march(problem: Problem, posture: Posture, share: float) -> Posture:
         far = np.abs(posture.ring * problem.lever).max() > _FAR * scale
         if posture.unbalanced <= _CLOSE or far or posture.unbalanced == np.inf:
             break
-        matrix = tangent(problem, posture) + np.diag(problem.soft * problem.lever**2)
-        gap = posture.force - problem.load
+        matrix = tangent(problem, posture)
+        matrix += np.diag(problem.soft * problem.lever**2 + problem.spring)
+        gap = posture.force - problem.pull(posture.ring)
         step = np.zeros(5)
         step[free] = -np.linalg.solve(matrix[np.ix_(free, free)], gap[free])
         length = min(1.0, scale / max(float(np.abs(step * problem.lever).max()), 1e-300))

@@ -37,10 +37,10 @@ class StaticSolution:
 
     Arrays of five are x, y, z and the tilts about y and z, of forces and moments on the inner ring
     likewise; they refer to the middle of the plane of ball centres, or of the rollers. ``load`` is
-    what was asked, ``reaction`` what holds motions that are held. ``elements`` lists every element,
-    inner race before outer, and ``film`` (Z, 2) the lubricant's thickness there, of rolling without
-    slip. ``stiffness`` (5, 5) is the exact tangent of load over displacement, at
-    constant speed, the rolling elements following.
+    what was asked, ``reaction`` what holds motions that are held, and what a compliant shaft's
+    springs bear. ``elements`` lists every element, inner race before outer, and ``film`` (Z, 2) the
+    lubricant's thickness there, of rolling without slip. ``stiffness`` (5, 5) is the exact tangent
+    of what the elements bear over displacement, at constant speed, the elements following.
     """
 
     title: str

@@ -50,7 +50,9 @@ def solve_bearing(
     v = problem.at_azimuths @ posture.ring
     loads = elements.loads(v, posture.own)
     elements.check(loads)
-    reaction = np.where(problem.free, 0.0, posture.force - problem.load)
+    springs = problem.pull(posture.ring) - problem.load
+    reaction = np.where(problem.free, springs, posture.force - problem.load)
+    borne = np.where(problem.spring > 0.0, posture.force, problem.load)  # by the elements
     return StaticSolution(
         title=f"{bearing.designation or 'bearing'}, {bearing.kind} with {len(v)} rolling elements",
         speed=speed,
@@ -60,9 +62,7 @@ def solve_bearing(
         stiffness=tangent(problem, posture),
         elements=loads,
         film=_film(bearing, loads, speed, lubricant or Lubricant()),
-        ratings=_ratings(
-            bearing, load_vector(load), options, elements.reference_life(v, posture.own)
-        ),
+        ratings=_ratings(bearing, borne, options, elements.reference_life(v, posture.own)),
         warnings=tuple(_warnings(elements, loads)),
         unbalanced=posture.unbalanced,
     )
@@ -87,16 +87,20 @@ def posed(bearing: Bearing, elements: Elements, load: Load, options: StaticOptio
     """What is free and what is held; InputError where the load does not fit that."""
     force = load_vector(load)
     held = np.array([0.0, 0.0, 0.0, 0.0, load.misalignment])
-    free = np.array(elements.carries)
-    for k, carried in enumerate(elements.carries):
-        if not carried and force[k] != 0.0:
+    axial, *tilts = load.stiffness
+    spring = np.array([axial, 0.0, 0.0, *tilts])
+    free = np.array(elements.carries) | (spring > 0.0)
+    for k in range(5):
+        if force[k] != 0.0 and not free[k]:
             raise InputError(
                 f"{_PLACES[k]} is {describe(force[k], 'N')}, but a {bearing.kind} bears none of it "
-                "in the static solution (its ribs are not part of it); leave it out.",
+                "in the static solution (its ribs are not part of it); leave it out, or give the "
+                "shaft's load.axial_stiffness.",
                 where=_PLACES[k],
             )
     if options.tilt == "held":
         free[3:] = False
+        spring[3:] = 0.0
         for k in (3, 4):
             if force[k] != 0.0:
                 raise InputError(
@@ -104,17 +108,18 @@ def posed(bearing: Bearing, elements: Elements, load: Load, options: StaticOptio
                     'moments are reactions; leave it out, or take static.tilt = "free".',
                     where=_PLACES[k],
                 )
-    elif load.misalignment != 0.0:
+    elif load.misalignment != 0.0 and load.tilt_stiffness == 0.0:
         raise InputError(
             f"load.misalignment is {describe(load.misalignment, 'mrad')}, but static.tilt is "
-            "'free'; take static.tilt = \"held\" for a tilt that is given.",
+            "'free'; take static.tilt = \"held\" for a tilt that is given, or give "
+            "load.tilt_stiffness of a shaft that is so tilted.",
             where="load.misalignment",
         )
     if not np.abs(force).max() > 0.0:
         raise InputError(
             "The inner ring bears no load; give load.radial, load.axial or a moment.", where="load"
         )
-    return Problem(elements, force, free, held)
+    return Problem(elements, force, free, held, spring)
 
 
 def _ratings(
