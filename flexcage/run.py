@@ -32,7 +32,7 @@ from flexcage.results.files import replace
 from flexcage.results.film import film_rows, film_thickness
 from flexcage.results.metrics import BearingNumbers, SlipRange, cage_angle, settled
 from flexcage.results.statistics import roller_passes
-from flexcage.results.store import MemoryRunStore, RunStore
+from flexcage.results.store import MemoryRunStore, RunStore, read_commit
 from flexcage.results.summary import Row, Summary
 from flexcage.solve.contract import COUNTS
 from flexcage.stress.counting import require_pylife
@@ -153,8 +153,7 @@ class Run:
         if c.basis.size != recorded:
             raise InputError(
                 f"the run has {recorded} modal coordinates, but its case gives {c.basis.size} "
-                "modes: it was written by another version of flexcage, or its case.toml was "
-                "changed; run the case again",
+                "modes: its case.toml was changed; run the case again",
                 where="modes",
                 value=recorded,
             )
@@ -560,9 +559,12 @@ def has_begun(folder: Path, case: Case) -> bool:
     """Whether the case's run in ``folder`` has come so far that it can be gone on with.
 
     What one left that was killed before is removed, to be begun anew. InputError if the folder
-    holds no run, or that of another case.
+    holds no run, or that of another case, or one in another format.
     """
     check_written(folder)
+    begun = RunStore.begun(folder / "results.zarr")
+    if begun:
+        read_commit(folder / "results.zarr")
     stored = load_case(folder / "case.toml")
     if stored.hash != case.hash:
         raise InputError(
@@ -571,7 +573,6 @@ def has_begun(folder: Path, case: Case) -> bool:
             where="case",
             value=case.hash,
         )
-    begun = RunStore.begun(folder / "results.zarr")
     if not begun:
         RunStore.clear_unbegun(folder / "results.zarr")
         log.warning("the run in '%s' was stopped before its first block; it begins anew", folder)
@@ -609,7 +610,8 @@ def check_assembly(case: Case, mesh: CageMesh, cage: CageReduction | None, start
 
 def open_folder(folder: Path) -> tuple[Case, MemoryRunStore]:
     """The case and the store of a run folder."""
-    return load_case(folder / "case.toml"), RunStore.open(folder / "results.zarr")
+    store = RunStore.open(folder / "results.zarr")  # first: another format has another case.toml
+    return load_case(folder / "case.toml"), store
 
 
 __all__ = [

@@ -31,6 +31,8 @@ _LAND_TOLERANCE = 5e-6  # m between a stated land clearance and the one that the
 # m, allowed errors of a position: above what 16 digits of it and Newton's matrix leave, and below
 # the few micrometres by which loaded rollers are pressed in
 _TOLERANCES = (1e-13, 1e-6)
+# kg/m^3; cages as good as weightless have 1e-3, and steel's is 7.85e-6 in kg/mm^3
+_LEAST_DENSITY = 1e-4
 _MOST_ELEMENTS = 1e7  # assumption: more than a machine of 64 GB factors
 
 
@@ -111,6 +113,18 @@ def _find_in_name(case: Case) -> Iterator[Finding]:
             f"name is {name!r}, but must be usable as the name of a folder: one line, not empty, "
             "without '/', '\\' or ':'.",
         )
+
+
+def _find_in_materials(case: Any) -> Iterator[Finding]:
+    for where in ("bearing", "cage"):
+        material = getattr(getattr(case, where, None), "material", None)
+        if material is not None and material.density < _LEAST_DENSITY:
+            here = f"{where}.material.density"
+            yield (
+                here,
+                f"{here} is {describe(material.density, 'kg/m^3')}, far below that of any solid; "
+                "a bare number is in kg/m^3: steel has 7850, polymers have about 1200.",
+            )
 
 
 def _find_in_load(case: Case) -> Iterator[Finding]:
@@ -462,6 +476,7 @@ def _find_in_land(case: Case) -> Iterator[Finding]:
 _OF_EVERY_CASE = (
     _find_infinite,
     _find_in_name,
+    _find_in_materials,
     _find_in_tables,
     _find_in_ramps,
     _find_in_load,

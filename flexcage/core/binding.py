@@ -17,6 +17,8 @@ from functools import cache
 from pathlib import Path
 from typing import Any, Union
 
+import numpy as np
+
 from flexcage.core.errors import InputError
 from flexcage.core.units import describe, format_si, parse
 
@@ -142,6 +144,8 @@ class Binder:
         )
 
     def _scalar(self, kind: Any, meta: Mapping, value: Any, where: str) -> Any:
+        if isinstance(value, np.generic):
+            value = value.item()
         unit = meta.get("unit")
         if unit and kind in (float, int):
             number = isinstance(value, (int, float)) and not isinstance(value, bool)

@@ -24,7 +24,7 @@ from flexcage.geometry.ball_cage_defects import (
 )
 from flexcage.geometry.ball_cages import BallCage
 from flexcage.mesh.cage_mesh import CageMesh
-from flexcage.mesh.measure import pocket_frame
+from flexcage.mesh.measure import in_pocket_frame
 
 _OPPOSITE = np.array([[1, 2, 3], [0, 2, 3], [0, 1, 3], [0, 1, 2]])
 _ENOUGH = 20e-6  # m, to which a user's mesh must agree with the case
@@ -48,13 +48,13 @@ def _fit(mesh: CageMesh, pocket: int, pitch_radius: float, bulge: float) -> np.n
 
     count = mesh.pocket_count
     points = mesh.points[np.unique(mesh.groups[f"pocket{pocket}_wall"])]
-    at = pocket_frame(points, pocket, count)
+    at = in_pocket_frame(points, pocket, count)
     middle = 0.5 * (at.max(axis=0) + at.min(axis=0))
     scale = 0.5 * np.ptp(at[:, 0])
 
     def misses(p: np.ndarray) -> np.ndarray:
         shift, arc, radius, *slot = p * scale
-        turned = pocket_frame(points, pocket + arc / pitch_radius * count / (2.0 * pi), count)
+        turned = in_pocket_frame(points, pocket + arc / pitch_radius * count / (2.0 * pi), count)
         beyond = np.abs(turned[:, [0, 2]] - (shift, 0.0)) - slot
         level = bulge * (turned[:, 1] - pitch_radius)
         across = np.hypot(*np.maximum(beyond, 0.0).T)
@@ -69,7 +69,7 @@ def _fit(mesh: CageMesh, pocket: int, pitch_radius: float, bulge: float) -> np.n
 
 def crack_length(mesh: CageMesh, web: int, side: str) -> float:
     """Axial length [m] of a web's crack: of its free faces, which belong to no group."""
-    _, y, t = pocket_frame(mesh.points, web - 0.5, mesh.pocket_count).T
+    _, y, t = in_pocket_frame(mesh.points, web - 0.5, mesh.pocket_count).T
     middle = np.abs(np.arctan2(t, y)) < 0.25 * pi / mesh.pocket_count
     faces = np.sort(mesh.tets[:, _OPPOSITE][middle[mesh.tets].any(axis=1)].reshape(-1, 3), axis=1)
     faces, times = np.unique(faces, axis=0, return_counts=True)

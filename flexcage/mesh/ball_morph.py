@@ -34,7 +34,7 @@ from flexcage.geometry.ball_cage_defects import (
 from flexcage.geometry.ball_cages import BallCage
 from flexcage.mesh.ball_measure import readings
 from flexcage.mesh.cage_mesh import CageMesh, signed_volumes
-from flexcage.mesh.measure import pocket_frame
+from flexcage.mesh.measure import in_pocket_frame
 from flexcage.mesh.sector import Quarter
 
 _LEVELS = 60  # steps to where a sphere is at a vertex' distance from the axis; each gains a digit
@@ -144,7 +144,7 @@ def _wall_steps(
 ) -> np.ndarray:
     """Axial [m] and angular [rad] steps (n, 2) of vertices of a wall to the altered one."""
     shift, arc = shapes.centre[pocket]
-    x, y, t = pocket_frame(points, pocket, len(shapes.radius)).T
+    x, y, t = in_pocket_frame(points, pocket, len(shapes.radius)).T
     direction = np.column_stack([x, t]) / np.hypot(x, t)[:, None]
     height = y
     for _ in range(_LEVELS if is_sphere(cage) else 1):
@@ -188,7 +188,7 @@ def open_crack(sound: CageMesh, mesh: CageMesh, cage: BallCage, crack: WebCrack)
     count = mesh.pocket_count
     sign = 1.0 if crack.side == "+x" else -1.0
     tip = sign * 0.5 * cage.width - sign * crack.share * cage.width
-    x, y, t = pocket_frame(sound.points, crack.web - 0.5, count).T
+    x, y, t = in_pocket_frame(sound.points, crack.web - 0.5, count).T
     tiny = 1e-6 * cage.width
     faces = (np.abs(t) < tiny) & (y > 0.0) & (sign * (x - tip) > tiny)
     old = np.flatnonzero(faces)
@@ -206,7 +206,8 @@ def open_crack(sound: CageMesh, mesh: CageMesh, cage: BallCage, crack: WebCrack)
 
 def _behind(sound: CageMesh, cells: np.ndarray, web: int) -> np.ndarray:
     """Which cells (n, .) lie on the side of pocket k-1 of web k, within half a turn."""
-    return pocket_frame(sound.points[cells].mean(axis=1), web - 0.5, sound.pocket_count)[:, 2] < 0.0
+    centres = sound.points[cells].mean(axis=1)
+    return in_pocket_frame(centres, web - 0.5, sound.pocket_count)[:, 2] < 0.0
 
 
 def _altered(sound: CageMesh, mesh: CageMesh) -> tuple[int, ...]:

@@ -16,7 +16,7 @@ from flexcage.mesh.cage_mesh import CageMesh
 FACE_SIGN = {"front": 1.0, "rear": -1.0, "side+x": 1.0, "side-x": -1.0}
 
 
-def pocket_frame(points: np.ndarray, pocket: float, pocket_count: int) -> np.ndarray:
+def in_pocket_frame(points: np.ndarray, pocket: float, pocket_count: int) -> np.ndarray:
     """Coordinates (n, 3) in a pocket's frame: axial x, radial y, tangential t [m].
 
     ``pocket`` may be a half: k - 1/2 is crossbeam k.
@@ -34,7 +34,7 @@ def face_position(mesh: CageMesh, pocket: int, face: str, *, pitch_radius: float
     that the face has), along the tangent for crossbeam faces and along x for side-beam faces.
     """
     triangles = mesh.groups[f"pocket{pocket}_{face}"]
-    local = pocket_frame(mesh.points[triangles.ravel()], pocket, mesh.pocket_count)
+    local = in_pocket_frame(mesh.points[triangles.ravel()], pocket, mesh.pocket_count)
     x, y, t = local.reshape(-1, 3, 3).transpose(2, 0, 1)  # each (n_triangles, 3)
     along, across = (x, t) if face.startswith("side") else (t, x)
     weights = _barycentric(across, y, (0.0, pitch_radius))

@@ -30,7 +30,7 @@ from flexcage.geometry.cages import (
     side_beam_shape,
 )
 from flexcage.mesh.cage_mesh import CageMesh, signed_volumes
-from flexcage.mesh.measure import face_shifts, pocket_frame
+from flexcage.mesh.measure import face_shifts, in_pocket_frame
 
 MOST_CHANGE = 1e-3  # of the volume, by one defect
 
@@ -116,7 +116,7 @@ def crossbeam_displacement(
 ) -> np.ndarray:
     """Translation of crossbeam k along its own tangent; > 0 towards pocket k-1."""
     k, half = defect.crossbeam, pi / pocket_count
-    x, radial, tangential = pocket_frame(points, k - 0.5, pocket_count).T
+    x, radial, tangential = in_pocket_frame(points, k - 0.5, pocket_count).T
     near = np.abs(np.arctan2(tangential, radial)) < half * (1.0 + 1e-9)  # up to mid-pockets
     field = near * crossbeam_field(points, defect, cage, pocket_count=pocket_count)
     angle = 2.0 * half * (k - 0.5)
@@ -132,8 +132,8 @@ def crossbeam_field(
     if defect.shape == "bent":  # zero with zero slope where the side beams begin
         return crossbeam_shape(defect, x, cage.pocket_length)
     reach = 0.5 * cage.pocket_width - cage.fillet_radius  # the fillets move with the beam
-    behind = pocket_frame(points, defect.crossbeam - 1, pocket_count)[:, 2]
-    ahead = -pocket_frame(points, defect.crossbeam, pocket_count)[:, 2]
+    behind = in_pocket_frame(points, defect.crossbeam - 1, pocket_count)[:, 2]
+    ahead = -in_pocket_frame(points, defect.crossbeam, pocket_count)[:, 2]
     into_side = (np.abs(x) - 0.5 * cage.pocket_length) / cage.side_beam_width
     return (
         _smooth(1.0 - into_side)
@@ -147,7 +147,7 @@ def side_beam_displacement(
     points: np.ndarray, defect: SideBeamDefect, cage: WindowCage, *, pocket_count: int
 ) -> np.ndarray:
     """Translation of one side beam of a pocket along x; > 0 away from the pocket's middle."""
-    x, radial, tangential = pocket_frame(points, defect.pocket, pocket_count).T
+    x, radial, tangential = in_pocket_frame(points, defect.pocket, pocket_count).T
     sign = 1.0 if defect.side == "+x" else -1.0
     here = (sign * x > 0.0) & (radial > 0.0)  # other pockets' beams have |t| > half a width
     shape = np.where(here, side_beam_shape(tangential, cage.pocket_width), 0.0)

@@ -22,7 +22,7 @@ from flexcage.mesh.cage_mesh import (
     pocket_groups,
     signed_volumes,
 )
-from flexcage.mesh.measure import pocket_frame
+from flexcage.mesh.measure import in_pocket_frame
 
 _PLACE = {POCKET_GROUPS: "side+x", WALL_GROUPS: "wall"}  # the group that says where a pocket is
 _SIDES = {"front": (2, 1), "rear": (2, -1), "side+x": (0, 1), "side-x": (0, -1)}  # axis and sign
@@ -176,7 +176,7 @@ def _check_groups(mesh: CageMesh, where: str) -> None:
             )
     for k in range(mesh.pocket_count):
         vertices = np.unique(mesh.groups[f"pocket{k}_{_PLACE[parts]}"])
-        _, y, t = pocket_frame(mesh.points[vertices], k, mesh.pocket_count).mean(axis=0)
+        _, y, t = in_pocket_frame(mesh.points[vertices], k, mesh.pocket_count).mean(axis=0)
         if abs(np.arctan2(t, y)) > pi / mesh.pocket_count:
             raise InputError(
                 f"{where} has pocket {k} at azimuth "
@@ -208,7 +208,7 @@ def _check_sides(mesh: CageMesh, pocket: int, parts: tuple[str, ...], where: str
         if face not in parts:
             continue
         vertices = np.unique(mesh.groups[f"pocket{pocket}_{face}"])
-        place = pocket_frame(mesh.points[vertices], pocket, mesh.pocket_count).mean(axis=0)
+        place = in_pocket_frame(mesh.points[vertices], pocket, mesh.pocket_count).mean(axis=0)
         if sign * place[axis] <= 0.0:
             raise InputError(
                 f"{where} has 'pocket{pocket}_{face}' on the other side of the pocket; front is "

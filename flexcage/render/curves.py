@@ -160,7 +160,9 @@ def histories(
         for i, panel in enumerate(panels):
             rect = (left, TOP + 22 + i * (_HEIGHT + _BETWEEN), _WIDTH, _HEIGHT)
             ax = sheet.axes_at(figure, rect)
-            panel(ax, t, ds, bearing=bearing, root_stress=root_stress, element=element)
+            panel(
+                ax, t, ds, bearing=bearing, root_stress=root_stress, element=element, settle=settle
+            )
             ax.set_xlim(t[0], t[-1])
             if settle:
                 end = t[0] + settle * (t[-1] - t[0])
@@ -206,7 +208,9 @@ _STRESSED: dict[str, tuple[str, Callable[[str], str]]] = {
 }
 
 
-def _stress_panel(ax: Any, t: np.ndarray, ds: xarray.Dataset, *, root_stress, **_: Any) -> None:
+def _stress_panel(
+    ax: Any, t: np.ndarray, ds: xarray.Dataset, *, root_stress, settle: float, **_: Any
+) -> None:
     heading, words = _STRESSED[elements_in(ds).one]
     places = [d for d in root_stress.dims if d != "time"]
     if not places:
@@ -224,9 +228,11 @@ def _stress_panel(ax: Any, t: np.ndarray, ds: xarray.Dataset, *, root_stress, **
             lw=0,
             label="all places",
         )
-        most = int(values.max(axis=0).argmax())
+        part = metrics.settled(root_stress, settle)
+        most = int(np.asarray(part.max("time")).argmax())
         name = str(root_stress[place].values[most]) if place in root_stress.coords else str(most)
-        ax.plot(when, values[:, most], color=sheet.BLUE, label=f"highest: {words(name)}")
+        highest = "highest once settled" if settle else "highest"
+        ax.plot(when, values[:, most], color=sheet.BLUE, label=f"{highest}: {words(name)}")
     ax.set_ylim(bottom=0.0)
     ax.set_ylabel("stress [MPa]")
     _legend(ax, heading)

@@ -9,10 +9,15 @@ from collections.abc import Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
+from zipfile import BadZipFile
+from zlib import error as BadStream
 
 import numpy as np
 
 from flexcage.core.errors import InputError, RunFailed, is_full, refuse_full
+
+#: What ``load`` raises for a file that was cut short or changed.
+UNREADABLE = (BadZipFile, BadStream, EOFError, KeyError, ValueError)
 
 
 def make_room(path: Path, overwrite: bool) -> None:
@@ -58,6 +63,7 @@ def save(path: Path, arrays: Mapping[str, Any]) -> None:
 
 
 def load(path: Path) -> dict[str, np.ndarray]:
+    """The arrays of a file that ``save`` wrote; one of ``UNREADABLE`` for a damaged one."""
     with np.load(path, allow_pickle=False) as stored:
         return {k: stored[k] for k in stored.files}
 

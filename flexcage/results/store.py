@@ -14,6 +14,7 @@ import os
 import shutil
 import warnings
 from collections.abc import Mapping, Sequence
+from functools import partial
 from math import ceil
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -22,7 +23,7 @@ import numpy as np
 
 from flexcage import _version
 from flexcage.core.errors import InputError
-from flexcage.results.files import disk, joined, load, make_room, replace, save
+from flexcage.results.files import UNREADABLE, disk, joined, load, make_room, replace, save
 from flexcage.results.layout import (
     Arrays,
     Layout,
@@ -36,7 +37,7 @@ from flexcage.results.registry import COMPUTED, TIME, TIME_HF, VARIABLES, Variab
 if TYPE_CHECKING:
     import xarray
 
-FORMAT = 1
+FORMAT = 2  # of variables, labels, checkpoints and modal coordinates; old ones are not read
 SIDE = "_run"  # folder beside the arrays: commit, checkpoint, steps, events
 LAST = "last_state.npz"  # in SIDE, of a run whose solver stopped
 _NOTHING: Mapping[str, np.ndarray] = {}
@@ -237,17 +238,7 @@ class RunStore(MemoryRunStore):
         import zarr
 
         path = Path(path)
-        try:
-            commit = json.loads((path / SIDE / "commit.json").read_text("utf-8"))
-        except FileNotFoundError:
-            raise InputError(
-                f"{path} holds no run of flexcage (it has no {SIDE}/commit.json).",
-                where="path",
-                value=str(path),
-            ) from None
-        except (OSError, ValueError) as error:
-            raise InputError(f"The commit file of {path} cannot be read: {error}.") from error
-        _check_format(path, commit.get("format"))
+        commit = read_commit(path)
         try:
             group = zarr.open_group(str(path), mode="r+" if os.access(path, os.W_OK) else "r")
             layout = _layout_from(group)
@@ -276,32 +267,65 @@ class RunStore(MemoryRunStore):
             (side / before).unlink(missing_ok=True)
 
     def _arrays(self) -> Mapping[str, Any]:
-        import xarray as xr
+        from flexcage.results.lazy import lazy_variable
 
-        lazy = xr.open_zarr(str(self.path), chunks=None, consolidated=True, decode_cf=False)
-        return {v.name: lazy[v.name].variable for v in self.layout.variables}
+        found = {}
+        for name in (v.name for v in self.layout.variables):
+            what = f"holds samples of the array '{name}' that cannot be read"
+            found[name] = lazy_variable(self._group[name], partial(_damaged, self.path, what))
+        return found
 
     def checkpoint(self) -> dict[str, np.ndarray] | None:
         name = self._commit["checkpoint"]
-        return load(self.path / SIDE / name) if name else None
+        return self._load(name) if name else None
 
     def keep_last(self, state: Mapping[str, Any]) -> None:
         with disk(self.path, self.n_time):
             save(self.path / SIDE / LAST, state)
 
     def last(self) -> dict[str, np.ndarray] | None:
-        path = self.path / SIDE / LAST
-        return load(path) if path.exists() else None
+        return self._load(LAST) if (self.path / SIDE / LAST).exists() else None
 
     def _table(self, kind: str) -> dict[str, np.ndarray]:
         partial = self.n_time > self.layout.span(self.blocks, TIME)[0]
         count = self.blocks + int(partial)
-        return joined(load(self.path / SIDE / kind / f"{i:06d}.npz") for i in range(count))
+        return joined(self._load(f"{kind}/{i:06d}.npz") for i in range(count))
+
+    def _load(self, name: str) -> dict[str, np.ndarray]:
+        """Arrays of a file of ``SIDE``."""
+        try:
+            return load(self.path / SIDE / name)
+        except UNREADABLE as error:
+            raise _damaged(self.path, f"holds {SIDE}/{name}, which cannot be read") from error
+
+
+def read_commit(path: Path) -> dict[str, Any]:
+    """What a run on disk counts as committed; InputError for one of another format."""
+    try:
+        commit = json.loads((path / SIDE / "commit.json").read_text("utf-8"))
+    except FileNotFoundError:
+        raise InputError(
+            f"{path} holds no run of flexcage (it has no {SIDE}/commit.json).",
+            where="path",
+            value=str(path),
+        ) from None
+    except (OSError, ValueError) as error:
+        raise InputError(f"The commit file of {path} cannot be read: {error}.") from error
+    found = commit.get("format") if isinstance(commit, dict) else None
+    if found != FORMAT:
+        raise InputError(
+            f"The run in {path} is stored in format {found}, and this flexcage "
+            f"({_version.__version__}) reads format {FORMAT}: open it with the flexcage that wrote "
+            "it, or run the case again.",
+            where="path",
+            value=str(path),
+        )
+    return commit
 
 
 def _create_arrays(path: Path, layout: Layout) -> Any:
     import zarr
-    from zarr.codecs import BloscCodec
+    from zarr.codecs import BloscCodec, Crc32cCodec
 
     stored: dict[str, Any] = {
         "flexcage_format": FORMAT,
@@ -319,7 +343,7 @@ def _create_arrays(path: Path, layout: Layout) -> Any:
         "run": dict(layout.attrs),
     }
     group = zarr.create_group(store=str(path), attributes=stored)
-    codec = BloscCodec(cname="zstd", clevel=1, shuffle="shuffle")
+    codecs = [BloscCodec(cname="zstd", clevel=1, shuffle="shuffle"), Crc32cCodec()]
     for v in layout.variables:
         group.create_array(
             v.name,
@@ -327,7 +351,7 @@ def _create_arrays(path: Path, layout: Layout) -> Any:
             chunks=layout.chunk(v),
             dtype=v.dtype,
             fill_value=np.nan,
-            compressors=codec,
+            compressors=codecs,
             dimension_names=v.dims,
             attributes=dict[str, Any](v.attrs),
         )
@@ -394,14 +418,3 @@ def _damaged(path: Path, what: str) -> InputError:
         where="path",
         value=str(path),
     )
-
-
-def _check_format(path: Path, found: object) -> None:
-    if found != FORMAT:
-        raise InputError(
-            f"The run in {path} is stored in format {found}, and this flexcage "
-            f"({_version.__version__}) reads format {FORMAT}: open it with the flexcage that wrote "
-            "it, or run the case again.",
-            where="path",
-            value=str(path),
-        )

@@ -194,7 +194,14 @@ class Summary:
         try:
             summary = cls.from_json(path.read_text("utf-8"), windows=windows)
             wrong = "" if list(summary) else "it has no figures"
-        except (OSError, UnicodeDecodeError, json.JSONDecodeError) as error:
+        except OSError as error:
+            raise InputError(
+                f"The summary '{path}' cannot be read ({(error.strerror or str(error)).lower()}); "
+                "make it a file that this user may read.",
+                where="summary",
+                value=str(path),
+            ) from error
+        except (UnicodeDecodeError, json.JSONDecodeError) as error:
             wrong = str(error)
         except (AttributeError, KeyError, TypeError):
             wrong = "it is no table of figures"

@@ -6,7 +6,7 @@ import json
 import os
 import subprocess
 import sys
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from importlib.metadata import version
 from importlib.util import find_spec
 from pathlib import Path
@@ -30,20 +30,27 @@ METHODS = {  # Exudyn's names, and steps [s]
     "GeneralizedAlpha": (2e-5, 1e-5, 5e-6, 2.5e-6),  # what Exudyn takes if not told otherwise
     "TrapezoidalIndex2": (1e-5, 5e-6),
 }
+QUICK: dict[str, Any] = {  # whether it runs
+    "rounds": 1, "shares": (1.0, 0.3),
+    "methods": {"RK44": (5e-6, 2.5e-6), "GeneralizedAlpha": (1e-5, 5e-6)},
+}  # fmt: skip
 RATIOS = (
     "exudyn_ratio", "exudyn_rigid_ratio", "exudyn_fast_ratio", "exudyn_fast_rigid_ratio",
 )  # fmt: skip
 Row = tuple[str, float, float, float]  # method, share or step [s], processor time [s/ms], error [m]
 
 
-def measure() -> dict[str, Any]:
-    """Figures that README.md lists under ``peer``; ratios are None where Exudyn is missing."""
+def measure(**options: Any) -> dict[str, Any]:
+    """Figures that README.md lists under ``peer``; ratios are None where Exudyn is missing.
+
+    ``options`` are those of ``_compare``.
+    """
     if find_spec("exudyn") is None:
         reason = "exudyn is not installed (the extra 'peer')"
         return {**dict.fromkeys(RATIOS), "exudyn": {"missing": reason}}
     try:
-        found = _own_process({"EXUDYN_MODULE": ""})
-        fast = _own_process({"EXUDYN_MODULE": "fast"})
+        found = _own_process({"EXUDYN_MODULE": ""}, options)
+        fast = _own_process({"EXUDYN_MODULE": "fast"}, options)
     except subprocess.CalledProcessError as error:
         reason = f"exudyn failed, see above: {error}"
         return {**dict.fromkeys(RATIOS), "exudyn": {"missing": reason}}
@@ -60,9 +67,9 @@ def measure() -> dict[str, Any]:
     }
 
 
-def _own_process(environment: dict[str, str]) -> dict[str, Any]:
+def _own_process(environment: dict[str, str], options: dict[str, Any]) -> dict[str, Any]:
     """``compare_both`` in a process of its own, as the first import picks Exudyn's module."""
-    code = "import exudyn_benchmark as b, json; print(json.dumps(b.compare_both()))"
+    code = f"import exudyn_benchmark as b, json; print(json.dumps(b.compare_both(**{options!r})))"
     done = subprocess.run(
         [sys.executable, "-c", code], cwd=Path(__file__).parent, check=True, text=True,
         stdout=subprocess.PIPE, env={**os.environ, **environment},
@@ -70,18 +77,25 @@ def _own_process(environment: dict[str, str]) -> dict[str, Any]:
     return json.loads(done.stdout.splitlines()[-1])  # Exudyn has a word before
 
 
-def compare_both() -> dict[str, Any]:
+def compare_both(**options: Any) -> dict[str, Any]:
     """Both programs with a flexible and with a rigid cage."""
     from exudyn_cage import FlexibleExudynBearing
     from exudyn_model import ExudynBearing
 
     return {
-        "flexible": _compare("flexible", FlexibleExudynBearing),
-        "rigid": _compare("rigid", ExudynBearing),
+        "flexible": _compare("flexible", FlexibleExudynBearing, **options),
+        "rigid": _compare("rigid", ExudynBearing, **options),
     }
 
 
-def _compare(model: str, program: Callable[..., Any]) -> dict[str, Any]:
+def _compare(
+    model: str,
+    program: Callable[..., Any],
+    *,
+    rounds: int = ROUNDS,
+    shares: Sequence[float] = SHARES,
+    methods: Mapping[str, Sequence[float]] = METHODS,
+) -> dict[str, Any]:
     """Both programs' curves with a rigid or a flexible cage, and what Exudyn costs more."""
     from exudyn_model import coordinates
     from planar_case import Planar
@@ -99,10 +113,10 @@ def _compare(model: str, program: Callable[..., Any]) -> dict[str, Any]:
 
     fine = _times(SAMPLE)
     (_, own), (_, other) = ours(TIGHT, fine), theirs("RK44")(REFERENCE[model], fine)
-    curves = [("flexcage", ours, own, SHARES)]
-    curves += [(name, theirs(name), other, steps) for name, steps in METHODS.items()]
+    curves = [("flexcage", ours, own, shares)]
+    curves += [(name, theirs(name), other, steps) for name, steps in methods.items()]
     found: dict[tuple[str, float], Row] = {}
-    for _ in range(ROUNDS):
+    for _ in range(rounds):
         for name, path, reference, levels in curves:
             for level in levels:
                 cpu, error = _point(path, level, reference, name)
@@ -112,7 +126,7 @@ def _compare(model: str, program: Callable[..., Any]) -> dict[str, Any]:
     failed = [[name, _short(level)] for name, level, _, error in found.values() if error == np.inf]
     best = [
         _best([row for row in rows if row[0] in names])
-        for names in (("flexcage",), tuple(METHODS), ("GeneralizedAlpha",))
+        for names in (("flexcage",), tuple(methods), ("GeneralizedAlpha",))
     ]
     costs = {error: [cost(curve, error) for curve in best] for error in ERRORS}
     return {

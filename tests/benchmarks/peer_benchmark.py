@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import logging
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from importlib.util import find_spec
 from pathlib import Path
@@ -34,9 +34,15 @@ PEERS = {  # key of the ratio: curves of which the cheapest counts
     "bdf": ("flexcage BDF, order 2", "flexcage BDF, order 5"),
 }
 SHARES = (10.0, 3.0, 1.0, 0.3, 0.1, 0.03, 0.01, 3e-3, 1e-3, 3e-4)  # of the default tolerance
+QUICK: dict[str, Any] = {  # whether it runs
+    "window": 0.15e-3, "calm": False, "shares": (1.0, 0.1), "repeats": 1,
+    "exudyn": exudyn_benchmark.QUICK,
+}  # fmt: skip
 GROUPS: dict[str, Callable[[tuple[float, float]], float]] = {
     "larger": max, "race": lambda error: error[0], "cage": lambda error: error[1],
 }  # fmt: skip
+
+Method = tuple[Callable[[Peers, float], Integration], Sequence[float]]  # and its shares or steps
 
 
 @dataclass(frozen=True)
@@ -56,22 +62,35 @@ class Point:
         return [*(float(f"{v:.3g}") for v in values), self.steps, self.residuals, self.jacobians]
 
 
-def measure(case: flexcage.Case, *, plot: Path | None = None) -> dict[str, Any]:
-    """All figures that README.md lists."""
+def measure(
+    case: flexcage.Case,
+    *,
+    plot: Path | None = None,
+    window: float = WINDOW,
+    calm: bool = True,
+    shares: Sequence[float] | None = None,
+    repeats: int = REPEATS,
+    exudyn: Mapping[str, Any] | None = None,
+) -> dict[str, Any]:
+    """All figures that README.md lists; ``shares`` instead of every method's own, ``exudyn``:
+    options of that part."""
     if find_spec("sksundae") is None:
         raise SystemExit("peer needs SUNDIALS: install scikit-sundae, as the extra 'peer' does")
-    settled = Settled(case, calm=True)
-    peers = Peers(settled, WINDOW)
-    reference = settled.window(WINDOW, **REFERENCE)
-    looser = settled.window(WINDOW, **LOOSER)
-    aside = settled.window(WINDOW, **REFERENCE, aside=NUDGE)
+    settled = Settled(case, calm=calm)
+    peers = Peers(settled, window)
+    reference = settled.window(window, **REFERENCE)
+    looser = settled.window(window, **LOOSER)
+    aside = settled.window(window, **REFERENCE, aside=NUDGE)
     second = second_method(settled, peers.times)
-    curves = _curves(peers, reference)
+    methods = _methods()
+    if shares is not None:
+        methods = {name: (method, shares) for name, (method, _) in methods.items()}
+    curves = _curves(peers, reference, methods, repeats)
     if plot is not None:
         draw(curves, plot)
     return {
         **{f"{key}_ratio": ratio(curves, names, EQUAL) for key, names in PEERS.items()},
-        **exudyn_benchmark.measure(),
+        **exudyn_benchmark.measure(**(exudyn or {})),
         "equal_error": EQUAL,
         "ratios_by_error": {
             f"{group} {level:g}": {
@@ -80,7 +99,7 @@ def measure(case: flexcage.Case, *, plot: Path | None = None) -> dict[str, Any]:
             for group, levels in LEVELS.items()
             for level in levels
         },
-        "window_ms": WINDOW * 1e3,
+        "window_ms": window * 1e3,
         "reference": {
             "tolerance_next": _short(looser.error(reference)),
             "second_method": _short(second.error(reference)),
@@ -89,11 +108,11 @@ def measure(case: flexcage.Case, *, plot: Path | None = None) -> dict[str, Any]:
         "columns": ["share or step", "cpu_s_per_ms", "error_race", "error_cage", "steps",
                     "residuals", "jacobians"],
         "curves": {name: [p.row() for p in points] for name, points in curves.items()},
-        **kernel_times(settled),
+        **kernel_times(settled, window),
     }  # fmt: skip
 
 
-def _methods() -> dict[str, tuple[Callable[[Peers, float], Integration], Sequence[float]]]:
+def _methods() -> dict[str, Method]:
     """Each integrator and the tolerances, as shares of the default, or steps that it takes."""
 
     def scipy(method: str) -> Callable[[Peers, float], Integration]:
@@ -117,8 +136,8 @@ def _methods() -> dict[str, tuple[Callable[[Peers, float], Integration], Sequenc
 def _flexcage(peers: Peers, share: float, **options: Any) -> Integration:
     """The bearing's own integrator: its time as a run samples, its states in full at every one."""
     stride = peers.settled.case.output.vibration_ratio
-    cpu = peers.settled.integrate(WINDOW, stride=stride, share=share, **options).cpu
-    out = peers.settled.integrate(WINDOW, stride=1, share=share, **options)
+    cpu = peers.settled.integrate(peers.duration, stride=stride, share=share, **options).cpu
+    out = peers.settled.integrate(peers.duration, stride=1, share=share, **options)
     steps, residuals, jacobians = (
         int(out.count[COUNTS[name]]) for name in ("steps", "residuals", "factorisations")
     )
@@ -129,18 +148,20 @@ def _forces(peers: Peers, path: Integration) -> Forces:
     return peers.settled.forces(path.ys, path.yds, peers.times)
 
 
-def _curves(peers: Peers, reference: Forces) -> dict[str, list[Point]]:
+def _curves(
+    peers: Peers, reference: Forces, methods: Mapping[str, Method], repeats: int
+) -> dict[str, list[Point]]:
     """All curves, each point at its least processor time of several rounds through them all."""
-    found: dict[str, dict[float, Point]] = {name: {} for name in _methods()}
-    for _ in range(REPEATS):
-        for name, (method, levels) in _methods().items():
+    found: dict[str, dict[float, Point]] = {name: {} for name in methods}
+    for _ in range(repeats):
+        for name, (method, levels) in methods.items():
             for level in levels:
                 try:
                     path = method(peers, level)
                 except RuntimeError as error:
                     log.warning("%s at %g is left out: %s", name, level, error)
                     continue
-                cpu, before = path.cpu / (WINDOW * 1e3), found[name].get(level)
+                cpu, before = path.cpu / (peers.duration * 1e3), found[name].get(level)
                 if before is not None:
                     found[name][level] = replace(before, cpu=min(cpu, before.cpu))
                     continue

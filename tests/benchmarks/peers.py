@@ -49,7 +49,7 @@ class Peers:
     """Integrations of one settled bearing over ``duration`` [s], sampled at ``RATE``."""
 
     def __init__(self, settled: Settled, duration: float) -> None:
-        self.settled = settled
+        self.settled, self.duration = settled, duration
         self.times = sample_times(duration)
         self.c = CFunctions(settled.bearing)
         self.ode = OdeForm(self.c)

@@ -11,11 +11,14 @@ import argparse
 import json
 import logging
 import sys
+from importlib import import_module
 from pathlib import Path
+from typing import Any
 
-ROOT = Path(__file__).resolve().parents[2]
+EXAMPLES = Path(__file__).resolve().parents[2] / "examples"
 sys.path[:0] = [str(Path(__file__).parent)]
 WHAT = ("solver", "fe", "peer", "exudyn", "scale", "study", "ball", "start")
+QUICK = {"mesh.fineness": "coarse", "cage.model": "rigid"}  # of the case, with --quick
 
 
 def main(argv: list[str] | None = None) -> int:
@@ -27,50 +30,32 @@ def main(argv: list[str] | None = None) -> int:
     parser.add_argument("--solver", default="auto", help="fe: linear solver")
     parser.add_argument("--plot", type=Path, metavar="FILE", help="peer, scale: draw curves")
     parser.add_argument("--cases", type=int, default=1000, help="study: number of trivial cases")
+    parser.add_argument("--quick", action="store_true", help="only see whether it runs")
     parser.add_argument("--set", action="append", default=[], metavar="PATH=VALUE")
     args = parser.parse_args(argv)
     import flexcage
     from flexcage.cli.settings import parse_setting
 
     logging.basicConfig(level=logging.WARNING)
-    file = args.case or ROOT / "examples" / ("c7010" if args.what == "ball" else "n1013")
+    small = QUICK if args.quick else {}
+    file = args.case or EXAMPLES / ("c7010" if args.what == "ball" else "n1013")
     case = flexcage.load_case(
-        file.with_suffix(".toml"), overrides=dict(parse_setting(text) for text in args.set)
+        file.with_suffix(".toml"),
+        overrides={**small, **dict(parse_setting(text) for text in args.set)},
     )
-    if args.what == "solver":
-        import solver_benchmark
-
-        figures = solver_benchmark.measure(case)
-    elif args.what == "peer":
-        import peer_benchmark
-
-        figures = peer_benchmark.measure(case, plot=args.plot)
-    elif args.what == "exudyn":
-        import exudyn_benchmark
-
-        figures = exudyn_benchmark.measure()
-    elif args.what == "scale":
-        import scale_benchmark
-
-        figures = scale_benchmark.measure(case, plot=args.plot)
-    elif args.what == "ball":
-        import ball_benchmark
-
-        figures = ball_benchmark.measure(case)
-    elif args.what == "start":
-        import start_benchmark
-
-        figures = start_benchmark.measure(case)
+    benchmark = import_module(f"{args.what}_benchmark")
+    options: dict[str, Any] = dict(benchmark.QUICK) if args.quick else {}
+    if args.what == "ball":
+        options["rollers"] = flexcage.load_case(EXAMPLES / "n1013.toml", overrides=small)
+    elif args.what in ("peer", "scale"):
+        options["plot"] = args.plot
     elif args.what == "study":
-        import study_benchmark
-
-        figures = study_benchmark.measure(case, trivial_cases=args.cases)
-    else:
-        import fe_benchmark
-
-        figures = fe_benchmark.measure(
-            case.replace("mesh.fineness", args.fineness), solver_kind=args.solver
-        )
+        options.setdefault("trivial_cases", args.cases)
+    elif args.what == "fe":
+        case = case if args.quick else case.replace("mesh.fineness", args.fineness)
+        options["solver_kind"] = args.solver
+    cases = () if args.what == "exudyn" else (case,)  # it has planar ones of its own
+    figures = benchmark.measure(*cases, **options)
     if args.json:
         sys.stdout.write(json.dumps(figures) + "\n")
     else:

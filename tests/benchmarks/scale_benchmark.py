@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from time import process_time
 from typing import Any, NamedTuple
@@ -16,11 +16,20 @@ from flexcage.solve import bdf
 
 WINDOW = 3e-3  # [s] after the settled state
 REPEATS = 3
-ROLLERS = (11, 16, 22, 28)
-SLICES = (7, 15, 31, 61)
-MODES = (10, 24, 50, 100)
-FINENESS = ("coarse", "medium", "fine")
-DURATIONS = (1e-3, 2e-3, 4e-3, 8e-3)  # [s]
+SIZES: dict[str, Sequence[Any]] = {
+    "rollers": (11, 16, 22, 28),
+    "slices": (7, 15, 31, 61),
+    "modes": (10, 24, 50, 100),
+    "time_ms": (1.0, 2.0, 4.0, 8.0),
+    "nodes": ("coarse", "medium", "fine"),
+}
+QUICK: dict[str, Any] = {  # whether it runs
+    "window": 0.2e-3,
+    "sizes": {
+        "rollers": (11, 12), "slices": (7, 9), "modes": (6, 8), "time_ms": (0.1, 0.2),
+        "nodes": ("coarse", "medium"),
+    },
+}  # fmt: skip
 
 
 class Row(NamedTuple):
@@ -31,15 +40,21 @@ class Row(NamedTuple):
     residuals: int = 0
 
 
-def measure(case: flexcage.Case, *, plot: Path | None = None) -> dict[str, Any]:
-    """All figures that README.md lists."""
+def measure(
+    case: flexcage.Case,
+    *,
+    plot: Path | None = None,
+    window: float = WINDOW,
+    sizes: Mapping[str, Sequence[Any]] = SIZES,
+) -> dict[str, Any]:
+    """All figures that README.md lists, of runs of ``window`` [s]."""
     coarse = case.replace("mesh.fineness", "coarse")  # motion does not feel the mesh
     tables = {
-        "rollers": [_run(of_family(coarse, z), z) for z in ROLLERS],
-        "slices": [_run(_sliced(coarse, n), n) for n in SLICES],
-        "modes": [_run(coarse.replace("modes.count", n), n) for n in MODES],
-        "time_ms": _durations(coarse),
-        "nodes": [_reduced(case.replace("mesh.fineness", name)) for name in FINENESS],
+        "rollers": [_run(of_family(coarse, z), z, window) for z in sizes["rollers"]],
+        "slices": [_run(_sliced(coarse, n), n, window) for n in sizes["slices"]],
+        "modes": [_run(coarse.replace("modes.count", n), n, window) for n in sizes["modes"]],
+        "time_ms": [_run(coarse, ms, ms * 1e-3) for ms in sizes["time_ms"]],
+        "nodes": [_reduced(case.replace("mesh.fineness", name)) for name in sizes["nodes"]],
     }
     if plot is not None:
         draw(tables, plot)
@@ -52,7 +67,7 @@ def measure(case: flexcage.Case, *, plot: Path | None = None) -> dict[str, Any]:
         },
         "columns": ["size", "cpu_s", "residuals"],
         **{name: [[r.size, round(r.cpu, 4), r.residuals] for r in tables[name]] for name in tables},
-        "window_ms": WINDOW * 1e3,
+        "window_ms": window * 1e3,
     }
 
 
@@ -91,19 +106,10 @@ def _sliced(case: flexcage.Case, slices: int) -> flexcage.Case:
     return case.replace(**{f"contacts.{place}.slices": slices for place in ("race", "pocket")})
 
 
-def _run(case: flexcage.Case, size: float) -> Row:
-    """Processor time of the window, from the case's own settled state."""
-    return _timed(Settled(case), WINDOW, size)
-
-
-def _durations(case: flexcage.Case) -> list[Row]:
-    settled = Settled(case)
-    return [_timed(settled, duration, duration * 1e3) for duration in DURATIONS]
-
-
-def _timed(settled: Settled, duration: float, size: float) -> Row:
-    stride = settled.case.output.vibration_ratio
-    runs = [settled.integrate(duration, stride=stride) for _ in range(REPEATS)]
+def _run(case: flexcage.Case, size: float, window: float) -> Row:
+    """Processor time of the window [s], from the case's own settled state."""
+    settled, stride = Settled(case), case.output.vibration_ratio
+    runs = [settled.integrate(window, stride=stride) for _ in range(REPEATS)]
     return Row(size, min(r.cpu for r in runs), int(runs[0].count[bdf.RESIDUALS]))
 
 

@@ -24,15 +24,16 @@ CASES = 32
 WARM = 4  # cases that return before rates are taken: by then every worker has begun
 OUTPUTS = ("cage_speed", "pocket_force.max")
 DURATION = 1e-3
+QUICK: dict[str, Any] = {"cases": 6, "trivial_cases": 6}  # whether it runs
 MB = 1e6
 
 
-def measure(case: Case, *, trivial_cases: int) -> dict[str, Any]:
+def measure(case: Case, *, cases: int = CASES, trivial_cases: int = 1000) -> dict[str, Any]:
     """Figures by name, as README.md describes them."""
     case = case.replace("cage.model", "rigid").replace("mesh.fineness", "coarse")
     with tempfile.TemporaryDirectory() as folder:
         top = Path(folder)
-        study = _study(case.replace("solver.duration", DURATION), CASES)
+        study = _study(case.replace("solver.duration", DURATION), cases)
         plain, longer = _loop_seconds(study, top / "loop")
         one, two = (_timed(study, top / f"{n}", workers=n) for n in (1, 2))
         handling = 1.0 / one["rate"] - one["seconds"]

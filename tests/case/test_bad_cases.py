@@ -42,6 +42,11 @@ BAD = {
         "cage.material.youngs_modulus",
         ["lacks 'youngs_modulus'", "GPa"],
     ),
+    "density in other units": (
+        '[cage]\nmaterial = {name = "brass", density = "8.5e-9 kg/m^3"}',
+        "cage.material.density",
+        ["is 8.5e-09 kg/m^3, far below", "steel has 7850"],
+    ),
     "negative clearance": ('[cage]\npocket_width = "7.9 mm"', "cage.pocket_width", ["-0.1 mm"]),
     "table and speeds differ": (
         '[drive]\ntimes = ["0 s", "1 s"]\nspeeds = ["0 rpm"]',

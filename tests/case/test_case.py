@@ -4,6 +4,7 @@ import dataclasses
 from math import pi
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 from flexcage.case import Case, load_case
@@ -110,6 +111,31 @@ def test_replace_takes_text_si_and_objects(case, path, value, expected):
         found = getattr(found, key)
     assert found == expected
     assert case.replace(**{path: value}) == changed
+
+
+@pytest.mark.parametrize(
+    ("path", "value", "plain"),
+    [
+        ("modes.crossbeams", np.bool_(False), False),
+        ("modes.count", np.int64(12), 12),
+        ("modes.damping", np.float32(0.5), 0.5),
+        ("load.radial", np.float32(800.0), 800.0),
+        ("load.radial", np.int16(800), 800.0),
+        ("modes.ratios", np.array([0.25, 0.5], np.float32), (0.25, 0.5)),
+    ],
+)
+def test_replace_takes_numbers_of_numpy(case, path, value, plain):
+    changed = case.replace(path, value)
+    room, key = path.split(".")
+    found = getattr(getattr(changed, room), key)
+    assert found == plain and type(found) is type(plain)
+    assert changed == case.replace(path, plain) == load_case(changed.to_toml())
+
+
+def test_numbers_of_numpy_of_another_kind_are_refused(case):
+    for path, value in (("modes.count", np.float64(3.0)), ("modes.land", np.int64(1))):
+        with pytest.raises(InputError, match=f"{path} is {value.item()}, but should be"):
+            case.replace(path, value)
 
 
 def test_changes_that_only_fit_together_are_made_together(case):

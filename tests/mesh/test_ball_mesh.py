@@ -21,7 +21,7 @@ from flexcage.mesh.ball_measure import crack_length, measure_pockets
 from flexcage.mesh.build import build_cage_mesh
 from flexcage.mesh.cage_mesh import CageMesh, group_names
 from flexcage.mesh.io import read_mesh, write_mesh
-from flexcage.mesh.measure import pocket_frame
+from flexcage.mesh.measure import in_pocket_frame
 from flexcage.mesh.options import MeshOptions
 from flexcage.mesh.quality import check_mesh, report_mesh
 
@@ -115,7 +115,7 @@ def test_groups_are_the_whole_surface_and_where_they_say():
     assert area["end+x"] == pytest.approx(np.pi * (13**2 - 10**2) * 1e-6, rel=0.02)
     for k in range(POCKETS):
         points = mesh.points[np.unique(mesh.groups[f"pocket{k}_wall"])]
-        x, y, t = pocket_frame(points, k, POCKETS).T
+        x, y, t = in_pocket_frame(points, k, POCKETS).T
         assert np.hypot(x, t) == pytest.approx(3.0 * MM, abs=1e-12)
         assert y.min() > 0.0
     for name, radius in (("land_inner", 10.0), ("land_outer", 13.0)):
@@ -127,9 +127,9 @@ def test_groups_are_the_whole_surface_and_where_they_say():
 def test_every_sector_is_the_first_one_turned():
     mesh = mesh_of()
     n = mesh.info["sector_points"]
-    first = pocket_frame(mesh.points[:n], 0, POCKETS)
+    first = in_pocket_frame(mesh.points[:n], 0, POCKETS)
     for k in range(POCKETS):
-        own = pocket_frame(mesh.points[k * n : (k + 1) * n], k, POCKETS)
+        own = in_pocket_frame(mesh.points[k * n : (k + 1) * n], k, POCKETS)
         assert own == pytest.approx(first, abs=1e-15)
 
 
@@ -208,7 +208,7 @@ def test_walls_are_where_the_defect_says(defect, radius, slot, shift, arc, finen
     assert report_mesh(mesh).min_quality > 0.08
     k = defect.pocket
     turned = k + arc * MM / PITCH_RADIUS * POCKETS / (2.0 * np.pi)
-    wall = pocket_frame(mesh.points[np.unique(mesh.groups[f"pocket{k}_wall"])], turned, POCKETS)[
+    wall = in_pocket_frame(mesh.points[np.unique(mesh.groups[f"pocket{k}_wall"])], turned, POCKETS)[
         :, [0, 2]
     ]
     distance = slot_distance(wall, (shift * MM, 0.0), np.multiply(slot, MM))
@@ -250,7 +250,7 @@ def test_a_crack_parts_the_web_and_nothing_else(web, side, share, fineness):
     faces, times = np.unique(faces, axis=0, return_counts=True)
     named = {tuple(t) for t in np.sort(np.vstack(list(mesh.groups.values())))}
     free = np.array([f for f in faces[times == 1] if tuple(f) not in named])
-    corners = pocket_frame(mesh.points, web - 0.5, POCKETS)[free]
+    corners = in_pocket_frame(mesh.points, web - 0.5, POCKETS)[free]
     assert np.abs(corners[..., 2]).max() < 1e-12  # in the plane between the pockets
     assert (sign * corners[..., 0]).min() == pytest.approx((6 - 12 * share) * MM, abs=1e-12)
     sides = corners[:, 1:] - corners[:, :1]
@@ -329,7 +329,7 @@ def test_spherical_pockets_lie_on_their_spheres(defects, radius, shift):
     check_mesh(mesh)
     assert report_mesh(mesh).min_quality > 0.1
     turned = 3 + shift[1] * MM / PITCH_RADIUS * POCKETS / (2.0 * np.pi)
-    wall = pocket_frame(mesh.points[np.unique(mesh.groups["pocket3_wall"])], turned, POCKETS)
+    wall = in_pocket_frame(mesh.points[np.unique(mesh.groups["pocket3_wall"])], turned, POCKETS)
     distance = np.linalg.norm(wall - (shift[0] * MM, PITCH_RADIUS, 0.0), axis=1)
     assert distance == pytest.approx(radius * MM, abs=1e-12)
     for row in mesh.info["defects"]:
@@ -350,7 +350,7 @@ def test_spherical_pockets_take_their_volume():
     whole = np.pi * (13**2 - 10**2) * 12 * MM**3
     assert mesh.volume == pytest.approx(whole - POCKETS * hole, rel=8e-3)
     n = mesh.info["sector_points"]
-    first, other = (pocket_frame(mesh.points[k * n : (k + 1) * n], k, POCKETS) for k in (0, 5))
+    first, other = (in_pocket_frame(mesh.points[k * n : (k + 1) * n], k, POCKETS) for k in (0, 5))
     assert other == pytest.approx(first, abs=1e-15)
 
 

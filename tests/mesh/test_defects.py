@@ -13,7 +13,7 @@ from flexcage.geometry.cages import (
     pocket_changes,
     side_beam_shape,
 )
-from flexcage.mesh.measure import pocket_frame, pocket_size
+from flexcage.mesh.measure import in_pocket_frame, pocket_size
 from flexcage.mesh.quality import check_mesh, report_mesh
 
 MM = 1e-3
@@ -90,13 +90,13 @@ def test_both_faces_follow_the_shape_and_the_beam_keeps_its_width(n1013, shape):
     sound, bent = n1013(fineness="fine"), n1013(defect, fineness="fine")
     for pocket, face, sign in ((4, "front", -1.0), (5, "rear", -1.0)):
         vertices = np.unique(sound.groups[f"pocket{pocket}_{face}"])
-        step = pocket_frame(bent.points[vertices] - sound.points[vertices], pocket, 22)
+        step = in_pocket_frame(bent.points[vertices] - sound.points[vertices], pocket, 22)
         wanted = sign * delta * crossbeam_shape(defect, sound.points[vertices, 0], 8.25e-3)
         assert step[:, 2] == pytest.approx(wanted, abs=1e-15)
         assert np.abs(step[:, 0]).max() < 1e-15
-    beam = pocket_frame(sound.points, 4.5, 22)
+    beam = in_pocket_frame(sound.points, 4.5, 22)
     middle = (np.abs(beam[:, 0]) < 1e-9) & (beam[:, 1] > 0) & (np.abs(beam[:, 2]) < 2.5e-3)
-    step = pocket_frame((bent.points - sound.points)[middle], 4.5, 22)
+    step = in_pocket_frame((bent.points - sound.points)[middle], 4.5, 22)
     assert middle.sum() > 10
     assert np.ptp(step, axis=0).max() < 1e-15  # the section only translates
     assert np.abs(step[:, 1]).max() < 1e-15  # along the beam's own tangent
@@ -108,7 +108,7 @@ def test_side_beam_follows_its_shape_and_keeps_its_width(n1013):
     sound, bent = n1013(fineness="fine"), n1013(defect, fineness="fine")
     for name in ("pocket5_side+x", "end+x"):
         vertices = np.unique(sound.groups[name])
-        local = pocket_frame(sound.points[vertices], 5, 22)
+        local = in_pocket_frame(sound.points[vertices], 5, 22)
         here = local[:, 1] > 0.0
         wanted = np.where(here, delta * side_beam_shape(local[:, 2], 8.2e-3), 0.0)
         assert bent.points[vertices, 0] - sound.points[vertices, 0] == pytest.approx(

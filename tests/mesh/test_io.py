@@ -14,7 +14,7 @@ from flexcage.geometry.cages import CrossbeamDefect
 from flexcage.mesh.build import build_cage_mesh
 from flexcage.mesh.cage_mesh import group_names
 from flexcage.mesh.io import read_mesh, write_mesh
-from flexcage.mesh.measure import pocket_frame
+from flexcage.mesh.measure import in_pocket_frame
 from flexcage.mesh.options import MeshOptions
 from flexcage.mesh.quality import check_mesh
 
@@ -167,7 +167,7 @@ def test_fillets_may_be_missing(n1013, tmp_path):
         for k in range(22):
             fillet = groups.pop(f"pocket{k}_fillet")
             for face in ("front", "rear"):
-                ahead = pocket_frame(mesh.points[fillet].mean(axis=1), k, 22)[:, 2] > 0.0
+                ahead = in_pocket_frame(mesh.points[fillet].mean(axis=1), k, 22)[:, 2] > 0.0
                 own = fillet[ahead if face == "front" else ~ahead]
                 groups[f"pocket{k}_{face}"] = np.vstack([groups[f"pocket{k}_{face}"], own])
 

@@ -10,7 +10,7 @@ from modes_cage import CAGE, POCKETS
 from flexcage.core.errors import InputError
 from flexcage.core.hashing import content_hash
 from flexcage.fem.free import FreeBodySolver
-from flexcage.modes import ritz
+from flexcage.modes import registry, ritz
 from flexcage.modes.interface import cage_interface
 from flexcage.modes.pockets import pocket_loads
 from flexcage.modes.registry import build_basis
@@ -216,10 +216,23 @@ def test_free_modes_alone_have_no_residual(solver):
 def test_bad_specs_are_refused(solver):
     with pytest.raises(InputError, match="not one of ritz"):
         build_basis(solver.model, pocket_count=POCKETS, spec=ModesSpec(kind="magic"))
-    with pytest.raises(InputError, match="modes are asked"):
+    with pytest.raises(InputError, match="modes.count is 1,000,000, but"):
         build_basis(solver.model, pocket_count=POCKETS, spec=ModesSpec(count=10**6))
     with pytest.raises(InputError, match="pocket face groups"):
         build_basis(solver.model, pocket_count=POCKETS + 1, solver=solver)
+
+
+def test_many_modes_are_warned_of_before_they_are_sought(solver, monkeypatch, caplog):
+    def sought(*args, **kwargs):
+        raise KeyboardInterrupt
+
+    monkeypatch.setitem(registry.BUILDERS, "ritz", sought)
+    for count, said in ((300, False), (301, True)):
+        with pytest.raises(KeyboardInterrupt):
+            build_basis(
+                solver.model, pocket_count=POCKETS, spec=ModesSpec(count=count), solver=solver
+            )
+        assert ("modes.count is 301: finding so many" in caplog.text) is said
 
 
 def test_damping_bands_override_the_common_ratio():

@@ -179,6 +179,19 @@ def test_curves_need_no_window(run, tmp_path):
     check(render.compare_forces({"rigid": run, "flexible": run}, tmp_path / "c.png"))
 
 
+def test_the_highest_place_is_that_of_the_settled_part(run, tmp_path, monkeypatch):
+    shown = []
+    monkeypatch.setattr(sheet, "save", lambda figure, path: shown.append(figure))
+    values = np.ones((run.sizes["time"], 3))
+    values[0, 2], values[-1, 1] = 9.0, 5.0  # the start's highest, and the one after
+    stress = xr.DataArray(
+        values, dims=("time", "place"), coords={"time": run["time"], "place": ["a", "b", "c"]}
+    )
+    for settle, label in ((0.3, "highest once settled: b"), (0.0, "highest: c")):
+        render.histories(run, tmp_path / "h.png", root_stress=stress, settle=settle)
+        assert [line.get_label() for line in shown[-1].axes[2].lines] == [label]
+
+
 def test_a_roller_locked_in_its_pocket_is_drawn_below_zero(run, tmp_path, monkeypatch):
     shown = []
     monkeypatch.setattr(sheet, "save", lambda figure, path: shown.append(figure))

@@ -264,6 +264,14 @@ def test_a_summary_that_is_none_gets_a_sentence(tmp_path, text, words):
         Summary.read(path)
 
 
+def test_a_summary_that_cannot_be_opened_is_not_to_be_deleted(tmp_path):
+    path = tmp_path / "summary.json"
+    path.mkdir()
+    with pytest.raises(InputError, match=r"cannot be read \(.*\); make it a file that") as caught:
+        Summary.read(path)
+    assert "delete" not in str(caught.value)
+
+
 def test_summary_sees_a_run_that_has_not_settled(known_run, bearing):
     ds = known_run.copy(deep=True)
     ds["cage_omega"][:, 0] *= np.linspace(1.0, 1.1, ds.sizes["time"])

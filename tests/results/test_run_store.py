@@ -149,9 +149,10 @@ def test_sentences_for_paths_and_versions(tmp_path):
     make(path, overwrite=True)
     commit = path / "_run" / "commit.json"
     stored = json.loads(commit.read_text())
-    commit.write_text(json.dumps({**stored, "format": 99}))
-    with pytest.raises(InputError, match="format 99.*reads format 1"):
-        RunStore.open(path)
+    for other, said in (({**stored, "format": 1}, "1"), ({}, "None"), ([1], "None")):
+        commit.write_text(json.dumps(other))
+        with pytest.raises(InputError, match=f"format {said}, .*reads format 2: open it with"):
+            RunStore.open(path)
     (tmp_path / "file").write_text("")
     with pytest.raises(InputError, match="cannot be written"):
         make(tmp_path / "file" / "r.zarr")
@@ -177,6 +178,33 @@ def test_a_damaged_run_is_refused_when_it_is_opened(tmp_path, lost, words):
     shutil.rmtree(path / lost)
     with pytest.raises(InputError, match=f"r.zarr is damaged: it {words}; .* run the case again"):
         RunStore.open(path)
+
+
+@pytest.mark.parametrize("how", ["cut", "empty", "changed"])
+@pytest.mark.parametrize(
+    ("file", "words"),
+    [
+        ("cage_position/c/1/0", "samples of the array 'cage_position' that"),
+        ("outer_acceleration/c/0/0", "samples of the array 'outer_acceleration' that"),
+        ("_run/steps/000001.npz", "_run/steps/000001.npz, which"),
+        ("_run/checkpoint-000002.npz", "_run/checkpoint-000002.npz, which"),
+    ],
+)
+def test_a_damaged_file_of_a_run_gets_a_sentence_when_it_is_read(tmp_path, file, words, how):
+    path = tmp_path / "r.zarr"
+    store = make(path)
+    for k in range(2):
+        store.write_block(k, *block(store, k), {"i": np.arange(9)}, {"t": np.arange(9.0)})
+    content = bytearray((path / file).read_bytes())
+    middle = len(content) // 2
+    if how == "changed":
+        content[middle] ^= 0xFF
+    else:
+        del content[middle if how == "cut" else 0 :]
+    (path / file).write_bytes(content)
+    again = RunStore.open(path)
+    with pytest.raises(InputError, match=f"r.zarr is damaged: it holds {words} cannot be read; "):
+        again.dataset().load(), again.steps(), again.checkpoint()
 
 
 @pytest.mark.parametrize("step", ["array", "checkpoint", "commit"])

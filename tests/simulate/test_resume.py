@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 from simulate_cases import Interrupted, bent, n1013
 
+from flexcage.cli import main
 from flexcage.core.errors import InputError, RunFailed
 from flexcage.results.store import RunStore
 from flexcage.run import write_case
@@ -130,6 +131,24 @@ def test_blocks_without_the_file_that_counts_them_are_kept(tmp_path):
     with pytest.raises(InputError, match=r"damaged: it holds blocks, but lacks _run/commit.json"):
         simulate(case_of("rigid"), out=tmp_path, resume=True)
     assert sorted(tmp_path.rglob("*")) == before
+
+
+def test_a_run_of_another_format_is_refused_wherever_it_is_read(tmp_path, capsys):
+    """Before its case is read, which another flexcage may have written with other words."""
+    case, folder = tmp_path / "case.toml", tmp_path / "run"
+    case.write_text(case_of("rigid").to_toml(), encoding="utf-8")
+    simulate(case_of("rigid"), out=folder)
+    commit = folder / "results.zarr" / "_run" / "commit.json"
+    commit.write_text(commit.read_text("utf-8").replace('"format": 2', '"format": 1'), "utf-8")
+    (folder / "case.toml").write_text("[bearing]\nformer_word = 1\n", encoding="utf-8")
+    for command in (
+        ["run", str(case), "-o", str(folder), "--resume"],
+        ["render", str(folder)],
+        ["report", str(folder)],
+        ["compare", str(folder), str(folder), "-o", str(tmp_path / "both")],
+    ):
+        assert main(command) == 2
+        assert "is stored in format 1, and this flexcage" in capsys.readouterr().err
 
 
 def test_nothing_is_resumed_where_no_run_was(tmp_path):
