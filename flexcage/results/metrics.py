@@ -352,14 +352,14 @@ def sampling_rate(ds: xarray.Dataset) -> float:
     return 1.0 / float(np.median(np.diff(ds["time"].values)))
 
 
-def tilt(ds: xarray.Dataset) -> xarray.DataArray:
-    """Tilt of the cage's axis a against the bearing axis [rad], (time, component).
+def tilt(ds: xarray.Dataset, *, body: str = "cage") -> xarray.DataArray:
+    """Tilt of the axis a of the cage, or of the "inner" ring, against the bearing axis [rad].
 
-    Components: total acos(a.x), and the signed atan2(a_y, a_x) and atan2(a_z, a_x).
+    (time, component): total acos(a.x), and the signed atan2(a_y, a_x) and atan2(a_z, a_x).
     """
     import xarray as xr
 
-    w, x, y, z = ds["cage_quaternion"].values.T
+    w, x, y, z = ds[f"{body}_quaternion"].values.T
     a = np.stack([1.0 - 2.0 * (y * y + z * z), 2.0 * (x * y + w * z), 2.0 * (x * z - w * y)])
     total = np.arctan2(np.hypot(a[1], a[2]), a[0])
     parts = np.stack([total, np.arctan2(a[1], a[0]), np.arctan2(a[2], a[0])], axis=1)
@@ -367,8 +367,8 @@ def tilt(ds: xarray.Dataset) -> xarray.DataArray:
         parts,
         dims=("time", "component"),
         coords={"time": ds["time"], "component": ["total", "towards y", "towards z"]},
-        attrs={"units": "rad", "long_name": "tilt of the cage axis"},
-        name="cage_tilt",
+        attrs={"units": "rad", "long_name": f"tilt of the {body} axis"},
+        name=f"{body}_tilt",
     )
 
 

@@ -38,8 +38,10 @@ def dataset(n: int = 5000):
     t = np.arange(n) / 50e3
     names = ["inner_speed", "roller_omega", "cage_position", "cage_quaternion", "cage_omega"]
     names += ["cage_velocity", "race_force", "race_slip", "pocket_force", "energy", "work"]
+    names += ["inner_position", "inner_quaternion", "multiplier"]
     coords = {
         "time": t, "roller": np.arange(Z), "pocket": np.arange(Z),
+        "constraint": ["axial_force", "moment_y", "moment_z", "drive_torque"],
         "energy_kind": ["kinetic", "strain"], "channel": ["drive", "pocket_friction"],
     }  # fmt: skip
     store = RunStore.create(None, coords=coords, variables=names, n_time=n, block=n, attrs={})
@@ -47,6 +49,7 @@ def dataset(n: int = 5000):
     inner = 6000 * np.pi / 30
     cage = 0.99 * NUMBERS.kinematics(inner).cage_speed
     a["inner_speed"][:] = inner
+    a["inner_position"][:, 1], a["inner_quaternion"][:, 0] = 15e-6, 1.0
     a["cage_quaternion"][:, 0], a["cage_quaternion"][:, 1] = (
         np.cos(cage * t / 2),
         np.sin(cage * t / 2),

@@ -24,7 +24,7 @@ def run_coords(n: int, rate: float = 50e3, ratio: int = 4) -> dict:
         "station": np.arange(3),
         "residual": np.arange(12),
         "land_station": np.arange(24),
-        "constraint": ["drive"],
+        "constraint": ["axial_force", "moment_y", "moment_z", "drive_torque"],
         "energy_kind": ["kinetic", "elastic"],
         "channel": ["drive", "friction"],
     }

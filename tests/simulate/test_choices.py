@@ -6,6 +6,7 @@ from simulate_cases import PLACES, bent, n1013
 
 from flexcage.contacts.spec import FRICTION_LAWS, NORMAL_LAWS
 from flexcage.results.audit import energy_audit
+from flexcage.results.metrics import settled
 from flexcage.simulate import build_bearing, cage_mesh, simulate
 from flexcage.static import solve_static
 
@@ -261,6 +262,10 @@ def test_a_shaft_that_yields_along_the_axis_and_in_tilt(method):
     assert borne[0, 2] == pytest.approx(still[4], rel=0.01) and -0.9 < still[4] < -0.5
     assert -1.0 < borne[100:, 2].mean() < still[4]  # rollers in motion bear less of it
     assert energy_audit(ds).passed and energy_audit(ds).channels["mount"] < 0.0
+    told = run.summary
+    assert told["reaction_axial_force"] == pytest.approx(-1e7 * told["inner_axial"], rel=0.01)
+    torque = ds["multiplier"].sel(constraint="drive_torque")
+    assert told["drive_torque"] == pytest.approx(float(settled(torque, 0.3).mean()), rel=0.02)
 
 
 def test_a_very_stiff_shaft_is_a_constraint():
