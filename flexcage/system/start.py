@@ -40,6 +40,9 @@ TOUCH = 1e-9  # [m] interference that is only a touch
 STAGES = 8  # steps of a pinching defect's growth
 _CAGE_ROW = 8  # of the border: where the cage's rigid motion begins
 _HOLD = 1e12  # stiffness that holds a coordinate, far above that of any contact
+# longest step of centres [m], and of a roller's tilt and skew [rad], by which its ends move by some
+# 0.4 um: one that is hardly loaded resists so little that longer ones may swing over for ever
+_SHIFT, _TURN = 1e-5, 1e-4
 
 
 @dataclass(frozen=True)
@@ -296,8 +299,10 @@ def _equilibrate(
         last = size
         step = system.step(y, yd, r, alpha, held)
         dq = layout.q(step)
-        largest = max(np.abs(dq["rollers"][:, :2]).max(), np.abs(dq["inner"][:3]).max())
-        share, ribs = min(1.0, 1e-5 / max(largest, 1e-30)), _between_ribs(layout, y)
+        shift = max(np.abs(dq["rollers"][:, :2]).max(), np.abs(dq["inner"][:3]).max())
+        turn = np.abs(dq["rollers"][:, 3:5]).max()
+        share = min(1.0, _SHIFT / max(shift, 1e-30), _TURN / max(turn, 1e-30))
+        ribs = _between_ribs(layout, y)
         y[:nq] += step[:nq] * share
         if len(loose):
             y[n_qu + loose] += step[n_qu + loose] * share
