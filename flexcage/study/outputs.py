@@ -40,7 +40,9 @@ RIGID_FIGURES = tuple(
     pocket_force_ratio pocket_contact race_force_inner race_force_outer contact_frequency
     contact_frequency_total free_flight_share film_inner film_least_inner film_outer
     film_least_outer stored_kinetic stored_strain stored_contact stored_mount energy_moved
-    energy_elastic energy_imbalance energy_relative energy_of_drive energy_of_cage cage_mass
+    drive_power drive_torque inner_displacement inner_axial inner_tilt reaction_axial_force
+    reaction_moment_y reaction_moment_z energy_elastic energy_imbalance energy_relative
+    energy_of_drive energy_of_cage cage_mass
     cage_centre_shift pinch_force steps explicit_steps stable_step residuals jacobians
     factorisations failed_error_tests failed_newton wall_mesh wall_modes wall_kernels wall_start
     wall_solve wall_total""".split()
