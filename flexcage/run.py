@@ -37,13 +37,13 @@ from flexcage.results.summary import Row, Summary
 from flexcage.solve.contract import COUNTS
 from flexcage.stress.counting import require_pylife
 from flexcage.stress.fatigue import Fatigue, chosen_places, counted_stress, place_fatigue
-from flexcage.stress.fields import Keep, StressFields, TensorFields
+from flexcage.stress.fields import StressFields, TensorFields
 from flexcage.stress.history import StressHistory, stress_history, tensor_histories
 from flexcage.stress.loads import LandForces, cage_loads
 from flexcage.stress.operators import von_mises
 from flexcage.stress.places import contact_zone, place_kind, root_places
 from flexcage.stress.places import in_words as place_in_words
-from flexcage.stress.recovery import CageLoads, StressRecovery
+from flexcage.stress.recovery import STRESS_VERSION, CageLoads, Keep, StressRecovery
 from flexcage.stress.series import frames, samples_near
 from flexcage.stress.sn_curves import SNCurve, sn_curve
 from flexcage.stress.wear import Wear, wear
@@ -157,7 +157,7 @@ class Run:
                 where="modes",
                 value=recorded,
             )
-        return StressRecovery(c.model, c.basis, c.interface, solver=c.solver)
+        return StressRecovery(c.model, c.basis, c.interface, solver=c.solver, keep=kept_stress(c))
 
     @cached_property
     def mode_table(self) -> ModeTable:
@@ -174,7 +174,7 @@ class Run:
     def _stress_history(self) -> StressHistory:
         ds = self.dataset
         return stress_history(
-            StressFields(self.recovery, keep=self._keep()),
+            StressFields(self.recovery),
             *self._moved_and_pushed(ds),
             settled=int(self.case.output.settle * ds.sizes["time"]),
             progress=self.stages.progress,
@@ -188,16 +188,6 @@ class Run:
         land = LandForces(ds, inner=self.case.cage.guidance != "outer")
         return ds["modal_coordinates"], ds["station_force"], land or None
 
-    def _keep(self) -> Keep:
-        """How stress fields of this cage are kept in the cache."""
-        assert self.cage is not None
-        key = self.cage.key
-
-        def keep(name: str, compute: Callable[[], np.ndarray]) -> np.ndarray:
-            return cached_arrays("stress", f"{key}-{name}", lambda: {name: compute()})[name]
-
-        return keep
-
     @one_blas_thread
     def fatigue(self, place: str | None = None, *, curve: SNCurve | None = None) -> Fatigue:
         """Damage and life of the cage at its named places, or at one of them, over the settled part
@@ -208,7 +198,7 @@ class Run:
         """
         require_pylife()
         used = curve or sn_curve(self.case.cage.material.name)
-        fields = TensorFields(self.recovery, keep=self._keep())
+        fields = TensorFields(self.recovery)
         ds = settled(self.dataset, self.case.output.settle)
         places = chosen_places(place, tuple(fields.places))
         histories = tensor_histories(fields, *self._moved_and_pushed(ds), places=places)
@@ -242,7 +232,7 @@ class Run:
         index = self.stress_history.peak_sample if time is None else int(np.abs(t - time).argmin())
         loads = cage_loads(ds, index, inner=self.case.cage.guidance != "outer")
         u = self.recovery.displacement(loads)
-        return StressField(float(t[index]), u, self.recovery.stress(u))
+        return StressField(float(t[index]), u, self.recovery.stress(u, loads))
 
     def write_vtu(
         self,
@@ -579,14 +569,25 @@ def has_begun(folder: Path, case: Case) -> bool:
     return begun
 
 
+def kept_stress(cage: CageReduction) -> Keep:
+    """How what the stress of this cage rests on is kept in the cache."""
+
+    def keep(name: str, make: Callable[[], dict[str, np.ndarray]]) -> dict[str, np.ndarray]:
+        return cached_arrays("stress", f"{cage.key}-{STRESS_VERSION}-{name}", make)
+
+    return keep
+
+
 @one_blas_thread
 def check_assembly(case: Case, mesh: CageMesh, cage: CageReduction | None, start: Start) -> None:
     """Warn of, or refuse, a cage that its assembly alone stresses too much."""
     if cage is None or not start.pinched:
         return
-    recovery = StressRecovery(cage.model, cage.basis, cage.interface, solver=cage.solver)
-    u = recovery.displacement(CageLoads(station_forces=start.station))
-    stress = von_mises(recovery.stress(u))
+    recovery = StressRecovery(
+        cage.model, cage.basis, cage.interface, solver=cage.solver, keep=kept_stress(cage)
+    )
+    loads = CageLoads(station_forces=start.station)
+    stress = von_mises(recovery.stress(recovery.displacement(loads), loads))
     stress[contact_zone(cage.model, mesh.pocket_count)] = 0.0
     peak, material = float(stress.max()), case.cage.material
     text = f"assembling the bearing stresses the cage to {peak / 1e6:.0f} MPa"

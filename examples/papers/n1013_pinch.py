@@ -117,8 +117,8 @@ def _assemble(case: Case, clearance: float) -> Squeezed:
     assert cage is not None
     start = find_start(build_bearing(case, mesh, cage), limit_force=case.limits.assembly_force)
     recovery = StressRecovery(cage.model, cage.basis, cage.interface, solver=cage.solver)
-    moved = recovery.displacement(CageLoads(station_forces=start.station))
-    stress = von_mises(recovery.stress(moved))
+    loads = CageLoads(station_forces=start.station)
+    stress = von_mises(recovery.stress(recovery.displacement(loads), loads))
     return Squeezed(clearance, start.pinch_force, *_stresses(stress, cage.model, mesh))
 
 

@@ -166,9 +166,9 @@ class FEModel:
         is the integral of f_m u; its transpose spreads a pressure f_m consistently to the nodes.
         """
         rule_points, rule_weights = _triangle_rule()
-        shapes = _triangle_shapes(rule_points, self.order)  # (n_shape, q)
+        shapes = triangle_shapes(rule_points, self.order)  # (n_shape, q)
         corners = self.points[triangles]
-        where = np.einsum("kq,tkd->tqd", _triangle_shapes(rule_points, 1), corners)
+        where = np.einsum("kq,tkd->tqd", triangle_shapes(rule_points, 1), corners)
         normal = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
         area = 0.5 * np.linalg.norm(normal, axis=1)
         values = functions(where.reshape(-1, 3)).reshape(-1, *where.shape[:2])
@@ -204,7 +204,7 @@ def _triangle_rule() -> tuple[np.ndarray, np.ndarray]:
     return points, weights / weights.sum()
 
 
-def _triangle_shapes(points: np.ndarray, order: int) -> np.ndarray:
+def triangle_shapes(points: np.ndarray, order: int) -> np.ndarray:
     """Shape functions (3 or 6, n) of a triangle: vertices, midpoints of 01, 12, 02."""
     bary = np.stack([1.0 - points[0] - points[1], points[0], points[1]])
     if order == 1:

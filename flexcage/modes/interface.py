@@ -129,15 +129,21 @@ def _patch_half_width(cage: WindowCage) -> float:
 
 def station_weights(model: FEModel, stations: np.ndarray, pocket_count: int) -> sp.csr_matrix:
     """Weights (Z*4*n_st, N): station value <- nodal values, rows summing to one."""
-    rows = []
-    for pocket in range(pocket_count):
-        for face in range(len(FACES)):
+    faces = [(k, f) for k in range(pocket_count) for f in range(len(FACES))]
+    return normalised(
+        sp.vstack([hat_weights(model, k, f, stations[f], pocket_count) for k, f in faces])
+    )
 
-            def hats(points: np.ndarray, p: int = pocket, f: int = face) -> np.ndarray:
-                return _hats(face_coordinate(points, p, f, pocket_count), stations[f])
 
-            rows.append(model.face_weights(model.group(face_group(pocket, face)), hats))
-    return normalised(sp.vstack(rows))
+def hat_weights(
+    model: FEModel, pocket: int, face: int, stations: np.ndarray, pocket_count: int
+) -> sp.csr_matrix:
+    """Integrals (n_st, N) [m^2] over a face, as far as the model has it, of the stations' hats."""
+
+    def hats(points: np.ndarray) -> np.ndarray:
+        return _hats(face_coordinate(points, pocket, face, pocket_count), stations)
+
+    return model.face_weights(model.group(face_group(pocket, face)), hats)
 
 
 def _hats(s: np.ndarray, stations: np.ndarray) -> np.ndarray:

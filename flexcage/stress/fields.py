@@ -19,32 +19,24 @@ import numpy as np
 from flexcage.core.threads import on_all_cores
 from flexcage.fem.symmetry import CyclicSymmetry, find_symmetry
 from flexcage.modes.pockets import pocket_frames
-from flexcage.stress.operators import VertexStress, deviator
+from flexcage.stress.operators import deviator
 from flexcage.stress.places import contact_zone, root_places
 from flexcage.stress.recovery import StressRecovery
 
-Keep = Callable[[str, Callable[[], np.ndarray]], np.ndarray]
 _TOGETHER = 33  # right-hand sides of land forces that are solved at once
 
 
-def _compute(_name: str, compute: Callable[[], np.ndarray]) -> np.ndarray:
-    """Keeps nothing."""
-    return compute()
-
-
 class UnitFields:
-    """Precomputed fields at ``vertices`` (mesh vertex numbers): ``parts`` numbers each."""
+    """Precomputed fields at the points of mesh vertices (``surface.SurfaceStress``): ``parts``
+    numbers each. ``vertices`` (n,), rising: the vertex of every point."""
 
     parts = 6
     prefix = "tensor_"
 
-    def __init__(
-        self, recovery: StressRecovery, vertices: np.ndarray, *, keep: Keep = _compute
-    ) -> None:
-        """``keep(name, compute)`` gives the fields of that name, which cost the most, from where it
-        keeps them, or computes them."""
-        self._recovery, self._keep, self.vertices = recovery, keep, vertices
-        self._stress = VertexStress(recovery.model, vertices)
+    def __init__(self, recovery: StressRecovery, vertices: np.ndarray) -> None:
+        self._recovery = recovery
+        self._stress = recovery.stress_at(vertices)
+        self.vertices = self._stress.owner
 
     def _parts(self, stress: np.ndarray) -> np.ndarray:
         """What is kept (..., parts) of stresses (..., 6)."""
@@ -52,13 +44,13 @@ class UnitFields:
 
     @cached_property
     def modes(self) -> np.ndarray:
-        """(parts n_vertices, n) per unit modal coordinate."""
+        """(parts n_points, n) per unit modal coordinate."""
         return self._kept(self._recovery.basis.shapes)
 
     @cached_property
     def forces(self) -> np.ndarray:
-        """(parts n_vertices, Z per_pocket) per newton of ``reduced_forces``, beyond the modes."""
-        return self._keep(f"{self.prefix}forces", self._force_fields)
+        """(parts n_points, Z per_pocket) per newton of ``reduced_forces``, beyond the modes."""
+        return self._kept_as("forces", self._force_fields)
 
     def _force_fields(self) -> np.ndarray:
         recovery = self._recovery
@@ -66,16 +58,24 @@ class UnitFields:
         symmetry = find_symmetry(recovery.model, recovery.pocket_count)
         if symmetry is None:
             recovery.solver.factor()
-            fields = on_all_cores(lambda k: self._kept(self._beyond_modes(self._loads(k))), pockets)
+            fields = on_all_cores(
+                lambda k: self._kept(self._beyond_modes(self._loads(k)), pocket=k), pockets
+            )
         else:
             first = recovery.solver.solve(self._loads(0))
-            fields = on_all_cores(lambda k: self._kept(self._turned(symmetry, first, k)), pockets)
+            fields = on_all_cores(
+                lambda k: self._kept(self._turned(symmetry, first, k), pocket=k), pockets
+            )
         return np.concatenate(fields, axis=1)
 
     @cached_property
     def land_forces(self) -> np.ndarray:
-        """(parts n_vertices, 2*n_land*3) per newton at the land stations, beyond the modes."""
-        return self._keep(f"{self.prefix}land_forces", self._land_fields)
+        """(parts n_points, 2*n_land*3) per newton at the land stations, beyond the modes."""
+        return self._kept_as("land_forces", self._land_fields)
+
+    def _kept_as(self, name: str, make: Callable[[], np.ndarray]) -> np.ndarray:
+        kept = self._recovery.keep(f"{self.prefix}{name}", lambda: {"fields": make()})
+        return kept["fields"]
 
     def _land_fields(self) -> np.ndarray:
         recovery, weights = self._recovery, self._recovery.land_weights
@@ -123,6 +123,23 @@ class UnitFields:
             columns += [np.outer(mean, frame[component]).ravel() for component in even]
         return np.stack(columns, axis=1)
 
+    def _forces(self, pocket: int) -> np.ndarray:
+        """The same loads as forces (Z, F, n_st, 3, per_pocket) at the stations."""
+        interface, count = self._recovery.interface, self._recovery.pocket_count
+        n_faces = len(interface.single)
+        n_st = self._recovery.weights.shape[0] // (count * n_faces)
+        alone, evenly, columns = np.eye(n_st), np.full((1, n_st), 1.0 / n_st), []
+        for face, (single, even) in enumerate(zip(interface.single, interface.even)):
+            for components, shares in ((single, alone), (even, evenly)):
+                for component in components:
+                    one = np.zeros((n_faces, n_st, 3, len(shares)))
+                    one[face, :, component] = shares.T
+                    columns.append(one)
+        own = np.concatenate(columns, axis=-1)
+        forces = np.zeros((count, *own.shape))
+        forces[pocket] = own
+        return forces
+
     def _turned(self, symmetry: CyclicSymmetry, first: np.ndarray, pocket: int) -> np.ndarray:
         static = symmetry.rotate(first, pocket)
         return self._less_modes(static, self._loads(pocket))
@@ -140,40 +157,50 @@ class UnitFields:
         beyond = static - shapes @ np.linalg.solve(basis.stiffness, work)
         return beyond.reshape(-1, 3, loads.shape[1])
 
-    def _kept(self, shapes: np.ndarray) -> np.ndarray:
+    def _kept(self, shapes: np.ndarray, *, pocket: int | None = None) -> np.ndarray:
+        """What is kept of shapes (N, 3, m), those of a pocket's forces if it is given."""
+        forces = None if pocket is None else self._forces(pocket)
         columns = []
         for first in range(0, shapes.shape[2], 32):  # bounds the memory of full stresses
-            parts = self._parts(self._stress(shapes[:, :, first : first + 32]))
+            some = slice(first, first + 32)
+            push = None if forces is None else forces[..., some]
+            parts = self._parts(self._stress(shapes[:, :, some], push))
             columns.append(parts.transpose(2, 0, 1).reshape(-1, parts.shape[1]))
         return np.concatenate(columns, axis=1, dtype=np.float32)
 
 
 class StressFields(UnitFields):
-    """Precomputed deviators at the surface vertices ``surface`` (mesh vertex numbers)."""
+    """Precomputed deviators at the points of the surface vertices ``surface`` (vertex numbers)."""
 
     parts = 5
     prefix = ""
 
-    def __init__(self, recovery: StressRecovery, *, keep: Keep = _compute) -> None:
+    def __init__(self, recovery: StressRecovery) -> None:
         model = recovery.model
         self.surface = np.unique(model.surface)
         self.places = root_places(model, recovery.pocket_count)
         zone = contact_zone(model, recovery.pocket_count)
         self.searched = np.flatnonzero(~np.isin(self.surface, zone))
-        super().__init__(recovery, self.surface, keep=keep)
+        super().__init__(recovery, self.surface)
 
     def _parts(self, stress: np.ndarray) -> np.ndarray:
         return deviator(stress)
 
+    def equivalent(self, parts: np.ndarray) -> np.ndarray:
+        """Equivalent stress (n_surface, nt) of deviators (5, n_points, nt), whose place it takes:
+        the largest of a vertex's points."""
+        np.square(parts, out=parts)
+        return self._stress.largest(np.sqrt(parts.sum(axis=0)))
+
 
 class TensorFields(UnitFields):
-    """Precomputed stresses xx, yy, zz, xy, yz, xz at the vertices of the named places.
+    """Precomputed stresses xx, yy, zz, xy, yz, xz at the points of the named places.
 
-    ``places`` holds, by name, the rows of its vertices in ``vertices``.
+    ``places`` holds, by name, the rows of its points.
     """
 
-    def __init__(self, recovery: StressRecovery, *, keep: Keep = _compute) -> None:
+    def __init__(self, recovery: StressRecovery) -> None:
         named = root_places(recovery.model, recovery.pocket_count)
         vertices = np.unique(np.concatenate(list(named.values()))) if named else np.zeros(0, int)
-        self.places = {name: np.searchsorted(vertices, v) for name, v in named.items()}
-        super().__init__(recovery, vertices, keep=keep)
+        super().__init__(recovery, vertices)
+        self.places = {n: np.flatnonzero(np.isin(self.vertices, v)) for n, v in named.items()}

@@ -78,8 +78,7 @@ def equivalent_stress(
     parts = _superposed(
         fields, slice(None), q, fields.reduced_forces(station_forces), _land(land_forces, len(q))
     )
-    np.square(parts, out=parts)
-    return np.sqrt(parts.sum(axis=0))
+    return fields.equivalent(parts)
 
 
 def tensor_histories(
@@ -90,7 +89,7 @@ def tensor_histories(
     *,
     places: Iterable[str],
 ) -> Iterator[tuple[str, np.ndarray]]:
-    """Name and stresses (6, n, nt) [Pa] of every place, at its n vertices: xx, yy, zz, xy, yz, xz
+    """Name and stresses (6, n, nt) [Pa] of every place, at its n points: xx, yy, zz, xy, yz, xz
     in the cage's frame. Other arguments as in ``equivalent_stress``."""
     parts = [slice(first, first + _READ) for first in range(0, len(q), _READ)]
     loads = np.concatenate([fields.reduced_forces(np.asarray(station_forces[p])) for p in parts])
@@ -108,16 +107,16 @@ def _land(forces: np.ndarray | None, samples: int) -> np.ndarray | None:
 
 def _superposed(
     fields: UnitFields,
-    vertices: slice | np.ndarray,
+    points: slice | np.ndarray,
     q: np.ndarray,
     loads: np.ndarray,
     land: np.ndarray | None,
 ) -> np.ndarray:
-    """Parts (parts, n, nt) of the stress at some of the fields' vertices."""
+    """Parts (parts, n, nt) of the stress at some of the fields' points."""
 
     def at(table: np.ndarray) -> np.ndarray:
         columns = table.shape[1]
-        return table.reshape(fields.parts, -1, columns)[:, vertices].reshape(-1, columns)
+        return table.reshape(fields.parts, -1, columns)[:, points].reshape(-1, columns)
 
     sums = at(fields.modes) @ q.T.astype(np.float32)
     sums += _loaded(at(fields.forces), loads)

@@ -98,7 +98,7 @@ class VertexStress:
         n_nodes = len(self.model.nodes)
         flat = fields.reshape(n_nodes, -1)
         parts = [matrix @ flat for matrix in self._gradient]
-        gradient = np.stack(parts, axis=-1).reshape(len(self.vertices), 3, -1, 3)
+        gradient = np.stack(parts, axis=-1).reshape(len(self.vertices), 3, flat.shape[1] // 3, 3)
         stress = hooke(self.model, gradient.transpose(0, 2, 1, 3))
         return stress[:, 0] if fields.ndim == 2 else stress
 

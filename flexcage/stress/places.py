@@ -68,6 +68,24 @@ def _fillet_vertices(
     return vertices[ahead & right]
 
 
+def corner_fillets(model: FEModel, pocket_count: int) -> dict[tuple[int, int, int], np.ndarray]:
+    """Triangles (n, 3) of the fillet at every pocket corner, by pocket and signs of x and psi; none
+    where a mesh has no fillet groups."""
+    found: dict[tuple[int, int, int], np.ndarray] = {}
+    for pocket in range(pocket_count):
+        fillet = model.groups.get(f"pocket{pocket}_fillet")
+        if fillet is None or not len(fillet):
+            continue
+        along, _, across = (
+            model.points[fillet].mean(axis=1) @ pocket_frame(pocket, pocket_count).T
+        ).T
+        for signs in ((1, 1), (-1, 1), (1, -1), (-1, -1)):
+            own = (along * signs[0] > 0.0) & (across * signs[1] > 0.0)
+            if own.any():
+                found[pocket, *signs] = fillet[own]
+    return found
+
+
 def contact_zone(model: FEModel, pocket_count: int) -> np.ndarray:
     """Vertices of the pockets' walls less those on fillets (or corner edges, without fillets).
 

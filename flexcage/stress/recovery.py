@@ -7,6 +7,7 @@ carry, plus for every contact force the static field that the modes miss.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from functools import cached_property
 
@@ -16,9 +17,18 @@ import scipy.sparse as sp
 from flexcage.core.errors import InputError
 from flexcage.fem.free import FreeBodySolver
 from flexcage.fem.model import FEModel
-from flexcage.modes.basis import ContactInterface, ModeBasis
+from flexcage.modes.basis import CageInterface, ContactInterface, ModeBasis
 from flexcage.modes.pockets import pocket_frames
-from flexcage.stress.operators import VertexStress
+from flexcage.stress.fillets import Arrays, Fillet, find_fillets
+from flexcage.stress.surface import SurfaceStress
+
+STRESS_VERSION = 1  # of what is kept: raise it when the same cage gives other fields
+Keep = Callable[[str, Callable[[], Arrays]], Arrays]
+
+
+def _compute(_name: str, make: Callable[[], Arrays]) -> Arrays:
+    """Keeps nothing."""
+    return make()
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -41,7 +51,11 @@ class CageLoads:
 
 
 class StressRecovery:
-    """Displacements and stresses of one cage; costly parts are made when first needed."""
+    """Displacements and stresses of one cage; costly parts are made when first needed.
+
+    ``keep(name, make)`` gives the arrays of that name, which cost the most, from where it keeps
+    them, or makes them.
+    """
 
     def __init__(
         self,
@@ -51,13 +65,14 @@ class StressRecovery:
         *,
         solver: FreeBodySolver | None = None,
         solver_kind: str = "auto",
+        keep: Keep = _compute,
     ) -> None:
         if interface.weights is None or interface.land_weights is None:
             raise InputError("a rigid cage has no stress to recover", where="cage", value="rigid")
         self.model, self.basis, self.interface = model, basis, interface
         self.weights: sp.csr_matrix = interface.weights
         self.land_weights: sp.csr_matrix = interface.land_weights
-        self.pocket_count = interface.modes.shape[0]
+        self.pocket_count, self.keep = interface.modes.shape[0], keep
         self._given_solver, self._solver_kind = solver, solver_kind
 
     @cached_property
@@ -65,9 +80,26 @@ class StressRecovery:
         return self._given_solver or FreeBodySolver(self.model, kind=self._solver_kind)
 
     @cached_property
-    def vertex_stress(self) -> VertexStress:
-        """Smoothed stress at all mesh vertices."""
-        return VertexStress(self.model, np.arange(len(self.model.points)))
+    def fillets(self) -> list[Fillet]:
+        """Submodels of the pockets' corners, where the mesh has fillets."""
+        interface = self.interface
+        if not isinstance(interface, CageInterface):
+            return []
+        return find_fillets(
+            self.model,
+            interface.stations,
+            self.pocket_count,
+            keep=lambda make: self.keep("fillets", make),
+        )
+
+    @cached_property
+    def vertex_stress(self) -> SurfaceStress:
+        """Stress at all mesh vertices."""
+        return self.stress_at(np.arange(len(self.model.points)))
+
+    def stress_at(self, vertices: np.ndarray) -> SurfaceStress:
+        """Stress at mesh vertices (n,), rising."""
+        return SurfaceStress(self.model, vertices, self.fillets)
 
     @cached_property
     def frames(self) -> np.ndarray:
@@ -121,6 +153,12 @@ class StressRecovery:
         total = forces + self.modal_forces(loads, forces)
         return self.solver.solve(total.reshape(-1, 1)).reshape(-1, 3)
 
-    def stress(self, displacement: np.ndarray) -> np.ndarray:
-        """Smoothed stress (n_points, 6) [Pa] at the mesh's vertices."""
-        return self.vertex_stress(displacement)
+    def stress(self, displacement: np.ndarray, loads: CageLoads | None = None) -> np.ndarray:
+        """Stress (n_points, 6) [Pa] at the mesh's vertices of a displacement (N, 3) under loads.
+
+        Of the loads those count that act on pocket faces close to a fillet. At a vertex of a
+        fillet it is the stress of the most stressed of the points that are nearest to it.
+        """
+        forces = None if loads is None else loads.station_forces[..., None]
+        at_points = self.vertex_stress(displacement[..., None], forces)
+        return self.vertex_stress.worst(at_points[:, 0])

@@ -13,52 +13,64 @@ from flexcage.geometry.cages import WindowCage
 from flexcage.geometry.materials import MATERIALS
 from flexcage.mesh.build import build_cage_mesh
 from flexcage.mesh.options import MeshOptions
-from flexcage.modes.pockets import pocket_loads
+from flexcage.modes.interface import face_stations, station_weights
+from flexcage.modes.pockets import pocket_frames
+from flexcage.stress.fillets import find_fillets
 from flexcage.stress.operators import VertexStress, von_mises
-from flexcage.stress.places import root_places
+
+# 1 N on a crossbeam: all over its front face, at its middle, at its end; and on a side beam
+LOADS = {
+    "uniform": (0, slice(None), [0.0, 0.0, 1.0 / 7.0]),
+    "middle": (0, 3, [0.0, 0.0, 1.0]),
+    "end": (0, 6, [0.0, 0.0, 1.0]),
+    "side beam": (2, slice(None), [1.0 / 7.0, 0.0, 0.0]),
+}
 
 
 @dataclass(frozen=True)
 class Reading:
-    """A cage's answers: rows are loads of 1 N, crossbeam (uniform, middle) and side beam."""
+    """A cage's answers to LOADS on pocket 0."""
 
+    nodes: int
     frequency: float
-    compliance: np.ndarray  # (3,) m/N
-    root: np.ndarray  # (3,) Pa/N
+    compliance: np.ndarray  # (4,) m/N at the load
+    root: np.ndarray  # (4,) Pa/N, largest in any fillet
+    vertices: np.ndarray  # (4,) the same at vertices of the mesh alone
 
 
 def read(cage, pockets, pitch_diameter, *, frequency=False, **options):
-    """Loads are on pocket 0: all of its front face, a line across its middle, its +x side face."""
     mesh = build_cage_mesh(
         cage, pocket_count=pockets, pitch_diameter=pitch_diameter, options=MeshOptions(**options)
     )
     model = assemble(mesh, MATERIALS["brass"])
-    solver = FreeBodySolver(model)
-    # a line is a band of half-width 0.5 mm across the face
-    line = model.face_weights(
-        model.group("pocket0_front"), lambda p: np.exp(-((p[:, 0] / 0.5e-3) ** 2))[None]
-    ).toarray()
-    uniform = pocket_loads(model, 0, pockets)
-    middle = np.outer(line / line.sum(), [0.0, 0.0, 1.0]).ravel()
-    loads = np.column_stack([uniform[:, 0], middle, uniform[:, 4]])
+    solver, stations = FreeBodySolver(model), face_stations(cage, 7)
+    forces = np.zeros((pockets, 4, 7, 3, len(LOADS)))
+    for column, (face, station, vector) in enumerate(LOADS.values()):
+        forces[0, face, station, :, column] = vector
+    spread = np.einsum("kfsam,kab->kfsbm", forces, pocket_frames(pockets))
+    loads = station_weights(model, stations, pockets).T @ spread.reshape(-1, 3 * len(LOADS))
+    loads = loads.reshape(-1, len(LOADS))
     moved = solver.solve(loads)
-    places = root_places(model, pockets)
-    crossbeam = [f"pocket0_root_front{s}x" for s in "+-"] + [f"pocket1_root_rear{s}x" for s in "+-"]
-    side_beam = ["pocket0_root_front+x", "pocket0_root_rear+x"]
-    root = np.zeros(3)
-    for rows, names in (([0, 1], crossbeam), ([2], side_beam)):
-        stress = VertexStress(model, np.concatenate([places[n] for n in names]))
-        fields = moved[:, rows].reshape(-1, 3, len(rows))
-        root[rows] = von_mises(stress(fields)).max(axis=0)
+    fields = moved.reshape(-1, 3, len(LOADS))
+    fillets = find_fillets(model, stations, pockets)
+    root = [von_mises(f.stress(fields, forces)).max(axis=0) for f in fillets]
+    vertices = np.unique(np.concatenate([f.vertices for f in fillets]))
     first = np.sqrt(free_modes(solver, 1)[0][0]) / (2.0 * np.pi) if frequency else np.nan
-    return Reading(float(first), np.einsum("ij,ij->j", loads, moved), root)
+    return Reading(
+        len(model.nodes), float(first), np.einsum("ij,ij->j", loads, moved), np.max(root, axis=0),
+        von_mises(VertexStress(model, vertices)(fields)).max(axis=0),
+    )  # fmt: skip
 
 
 def test_medium_mesh_resolves_the_fillets():
-    """Twelve pockets: within 10 % of six edges on an arc at a third of the size around them."""
-    medium = read(CAGE, POCKETS, 43.5e-3)
-    finer = read(CAGE, POCKETS, 43.5e-3, fillet_size=0.131e-3)
-    np.testing.assert_allclose(medium.root, finer.root, rtol=0.10)
+    """Twelve pockets, against six edges on an arc at a third of the size around.
+
+    Within 3 % under loads on a crossbeam, 5 % on a side beam. Vertices of the medium mesh alone are
+    7 % low there.
+    """
+    medium, finer = read(CAGE, POCKETS, 43.5e-3), read(CAGE, POCKETS, 43.5e-3, fillet_size=0.131e-3)
+    np.testing.assert_allclose(medium.root[:3], finer.root[:3], rtol=0.03)
+    np.testing.assert_allclose(medium.root[3], finer.root[3], rtol=0.05)
     np.testing.assert_allclose(medium.compliance, finer.compliance, rtol=0.03)
 
 
@@ -72,12 +84,15 @@ def test_root_stress_of_the_n1013_has_converged():
     arc = 0.5 * np.pi * cage.fillet_radius
     args = (cage, 22, 82.5e-3)
     best = read(*args, fineness="fine", fillet_size=arc / 8.0, frequency=True)
-    for fineness, root, compliance, frequency in (
-        ("medium", 0.08, 0.05, 4e-3),
-        ("fine", 0.10, 0.005, 1e-3),
+    for fineness, crossbeam, side_beam, compliance, frequency in (
+        ("medium", 0.025, 0.05, 0.05, 4e-3),
+        ("fine", 0.02, 0.02, 0.005, 1e-3),
     ):
         ours = read(*args, fineness=fineness, frequency=True)
-        np.testing.assert_allclose(ours.root, best.root, rtol=root)
+        np.testing.assert_allclose(ours.root[:3], best.root[:3], rtol=crossbeam)
+        np.testing.assert_allclose(ours.root[3], best.root[3], rtol=side_beam)
         np.testing.assert_allclose(ours.compliance, best.compliance, rtol=compliance)
         assert ours.frequency == pytest.approx(best.frequency, rel=frequency)
-    assert best.root[1] == pytest.approx(0.29e6, rel=0.05)  # a line load on a crossbeam's middle
+    # the mesh with 8 edges needs its submodels little
+    np.testing.assert_allclose(best.root, best.vertices, rtol=0.07)
+    assert best.root[1] == pytest.approx(0.30e6, rel=0.05)
