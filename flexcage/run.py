@@ -205,7 +205,7 @@ class Run:
         stresses = {}
         for name, tensors in histories:
             counted = counted_stress(tensors, used.mean_stress_sensitivity)
-            stresses[name] = (int(fields.vertices[fields.places[name][counted.vertex]]), counted)
+            stresses[name] = (int(fields.vertices[fields.places[name][counted.point]]), counted)
         windows, t = roller_passes(ds, self.numbers), ds["time"].values
         turns = abs(float(np.ptp(cage_angle(ds)))) / (2.0 * np.pi)
         time = float(t[-1] - t[0])

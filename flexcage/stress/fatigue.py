@@ -1,7 +1,7 @@
 """Fatigue of a cage at its named places: signed stress, rainflow cycles, damage and life.
 
 Equivalent stress is never negative and would count a reversal twice. What is counted instead is the
-normal stress on a plane fixed in the material, at the vertex and on the plane where half the range
+normal stress on a plane fixed in the material, at the point and on the plane where half the range
 plus the mean stress sensitivity times the middle is largest: the critical plane of materials that
 crack under tension (D. F. Socie and G. B. Marquis, Multiaxial Fatigue, SAE 2000). Von Mises' stress
 with the sign of the trace is an alternative, but jumps from plus to minus where the trace passes
@@ -42,10 +42,10 @@ _LONG = 1e9  # hours that no cage is asked for
 
 @dataclass(frozen=True, eq=False)
 class CountedStress:
-    """The normal stress that is counted: ``vertex`` (a row of the place's), the plane's normal (3,)
+    """The normal stress that is counted: ``point`` (a row of the place's), the plane's normal (3,)
     in the cage's frame, and its history (nt,) [Pa]."""
 
-    vertex: int
+    point: int
     normal: np.ndarray
     stress: np.ndarray
 
@@ -60,7 +60,7 @@ class PlaceFatigue:
     """
 
     place: str
-    vertex: int  # of the mesh
+    vertex: int  # of the mesh, nearest to the point
     normal: np.ndarray  # (3,) of the plane, cage frame
     rate: Record = field(repr=False)
     cycles: float  # per second
@@ -152,23 +152,23 @@ def normal_stresses(tensors: np.ndarray, normals: np.ndarray) -> np.ndarray:
 
 
 def counted_stress(tensors: np.ndarray, sensitivity: float) -> CountedStress:
-    """The normal stress to count among tensors (6, n, nt) [Pa] at n vertices of a place, for a
+    """The normal stress to count among tensors (6, n, nt) [Pa] at n points of a place, for a
     material of that mean stress sensitivity."""
 
-    def badness(vertex: int, normals: np.ndarray) -> np.ndarray:
-        values = normal_stresses(tensors[:, vertex], normals)
+    def badness(point: int, normals: np.ndarray) -> np.ndarray:
+        values = normal_stresses(tensors[:, point], normals)
         low, high = values.min(axis=1), values.max(axis=1)
         return 0.5 * (high - low) + 0.5 * sensitivity * (high + low)
 
     planes = half_sphere(_DIRECTIONS)
-    found = np.stack([badness(v, planes) for v in range(tensors.shape[1])])
-    vertex, best = np.unravel_index(int(np.argmax(found)), found.shape)
+    found = np.stack([badness(p, planes) for p in range(tensors.shape[1])])
+    point, best = np.unravel_index(int(np.argmax(found)), found.shape)
     normal = planes[best]
     for step in _STEPS:
         around = _turned(normal, step)
-        normal = around[int(np.argmax(badness(int(vertex), around)))]
-    history = normal_stresses(tensors[:, vertex], normal[None])[0]
-    return CountedStress(int(vertex), normal, history.astype(float))
+        normal = around[int(np.argmax(badness(int(point), around)))]
+    history = normal_stresses(tensors[:, point], normal[None])[0]
+    return CountedStress(int(point), normal, history.astype(float))
 
 
 def half_sphere(count: int) -> np.ndarray:

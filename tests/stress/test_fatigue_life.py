@@ -101,7 +101,7 @@ def test_reversed_tension_is_counted_once_with_its_sign():
     size = 50e6 * np.sin(2.0 * np.pi * np.arange(400) / 100)
     quiet = 0.5 * uniaxial(along, size)
     counted = counted_stress(np.stack([quiet, uniaxial(along, size)], axis=1), 0.3)
-    assert counted.vertex == 1
+    assert counted.point == 1
     assert abs(counted.normal @ along) == pytest.approx(1.0, abs=2e-4)
     assert np.ptp(counted.stress) == pytest.approx(100e6, rel=1e-3)
     assert len(count(counted.stress)) == 4  # von Mises' stress would have eight
@@ -122,7 +122,7 @@ def test_of_equal_ranges_the_one_under_tension_is_counted():
     size = 50e6 * np.sin(2.0 * np.pi * np.arange(200) / 100)
     pull = uniaxial(np.array([0.0, 1.0, 0.0]), size + 20e6)
     push = uniaxial(np.array([1.0, 0.0, 0.0]), size - 20e6)
-    assert counted_stress(np.stack([push, pull], axis=1), 0.3).vertex == 1
+    assert counted_stress(np.stack([push, pull], axis=1), 0.3).point == 1
 
 
 @pytest.mark.parametrize("which", ["recovery", "damaged"])
