@@ -168,7 +168,6 @@ def find_fillets(
                 log.info("the mesh's pocket corners differ: stress in fillets is the mesh's own")
                 return []
     arrays = keep(lambda: _operators(model, kinds, stations, pocket_count)) if kinds else {}
-    keys = _edge_rows(model)
     fillets = []
     for corner, (kind, place) in zip(corners, matched):
         first = kinds[kind]
@@ -176,7 +175,7 @@ def find_fillets(
         image[first.vertices] = corner.vertices[place]
         fillets.append(
             Fillet(
-                corner, kind, keys(image, arrays[f"drivers{kind}"]),
+                corner, kind, _nodes_at(model, image, arrays[f"drivers{kind}"]),
                 image[np.unique(first.fillet)], image[arrays[f"owner{kind}"]],
                 arrays[f"moved{kind}"], arrays[f"pushed{kind}"], pocket_count,
             )
@@ -197,19 +196,14 @@ def _match(model: FEModel, first: Corner, other: Corner) -> np.ndarray | None:
     return place if alike else None
 
 
-def _edge_rows(model: FEModel) -> Callable[[np.ndarray, np.ndarray], np.ndarray]:
-    """A function that gives the nodes which other vertices make of nodes, by ``image`` (n_points,)
-    of vertices."""
+def _nodes_at(model: FEModel, image: np.ndarray, nodes: np.ndarray) -> np.ndarray:
+    """Nodes (n,) that are to vertices ``image`` (n_points,) what ``nodes`` are to all vertices."""
     count = len(model.points)
-
-    def images(image: np.ndarray, nodes: np.ndarray) -> np.ndarray:
-        out = image[np.minimum(nodes, count - 1)]
-        middle = nodes >= count
-        pairs = np.sort(image[model.edges[nodes[middle] - count]], axis=1)
-        out[middle] = count + row_of(model.edges, pairs)
-        return out
-
-    return images
+    out = image[np.minimum(nodes, count - 1)]
+    middle = nodes >= count
+    pairs = np.sort(image[model.edges[nodes[middle] - count]], axis=1)
+    out[middle] = count + row_of(model.edges, pairs)
+    return out
 
 
 def _operators(
