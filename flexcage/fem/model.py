@@ -145,9 +145,13 @@ class FEModel:
         if self.order == 1:
             return triangles
         pairs = np.stack([triangles[:, [0, 1]], triangles[:, [1, 2]], triangles[:, [0, 2]]], axis=1)
-        keys = _edge_keys(np.sort(pairs, axis=2), len(self.points))
+        return np.concatenate([triangles, self.edge_nodes(pairs)], axis=1)
+
+    def edge_nodes(self, pairs: np.ndarray) -> np.ndarray:
+        """Nodes (...,) in the middle of edges (..., 2), pairs of vertices; order 2."""
+        keys = _edge_keys(np.sort(pairs, axis=-1), len(self.points))
         slot = np.searchsorted(self._sorted_keys, keys)
-        return np.concatenate([triangles, len(self.points) + self._key_order[slot]], axis=1)
+        return len(self.points) + self._key_order[slot]
 
     @cached_property
     def _key_order(self) -> np.ndarray:

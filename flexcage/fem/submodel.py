@@ -16,6 +16,7 @@ from types import MappingProxyType
 import numpy as np
 import scipy.sparse as sp
 
+from flexcage.fem.condensed import dofs_of
 from flexcage.fem.dissection import dissect
 from flexcage.fem.fronts import Elimination
 from flexcage.fem.model import FEModel, assemble, triangle_shapes
@@ -31,8 +32,9 @@ _INSIDE = (
 )
 _DIAGONALS = ((4, 9), (5, 8), (6, 7))
 _TRIANGLE = ((0, 3, 5), (3, 1, 4), (5, 4, 2), (3, 4, 5))  # children; 3, 4, 5: mids of 01, 12, 20
-_THIRDS = np.array([[1, 0, 0], [0, 1, 0], [0, 0, 1], [1, 1, 0], [0, 1, 1], [1, 0, 1]], float)
-_THIRDS[3:] *= 0.5
+# barycentric places of corners and mids
+_PLACES = np.array([[1, 0, 0], [0, 1, 0], [0, 0, 1], [1, 1, 0], [0, 1, 1], [1, 0, 1]], float)
+_PLACES[3:] *= 0.5
 
 
 @dataclass(frozen=True)
@@ -80,11 +82,6 @@ class Submodel:
         factors.expand(own)
         flat[inside] = own
         return answer
-
-
-def dofs_of(nodes: np.ndarray) -> np.ndarray:
-    """Dofs (3n,) of nodes (n,)."""
-    return (3 * nodes[:, None] + np.arange(3)).ravel()
 
 
 def submodel(
@@ -139,7 +136,7 @@ def _driven(
 
     ``children`` (4n, 3): what the ``triangles`` (n, 3) of the cut are divided into.
     """
-    corners = _THIRDS[np.array(_TRIANGLE)]  # (4, 3, 3) barycentric places of children's corners
+    corners = _PLACES[np.array(_TRIANGLE)]  # (4, 3, 3) barycentric places of children's corners
     mids = 0.5 * (corners + np.roll(corners, -1, axis=1))  # of 01, 12, 20
     places = np.concatenate([corners, mids], axis=1) if fine.order == 2 else corners
     shapes = triangle_shapes(places[..., 1:].reshape(-1, 2).T, model.order)

@@ -13,7 +13,6 @@ from flexcage.results.summary import Row, Section
 if TYPE_CHECKING:
     import xarray
 
-_LEAST = 1e-3  # N, N m: less is rounding, or what a sound bearing makes by chance
 REACTIONS = {
     "axial_force": ("Axial reaction", "N"),
     "moment_y": ("Moment about y", "N mm"),

@@ -109,19 +109,11 @@ class UnitFields:
 
     def _loads(self, pocket: int) -> np.ndarray:
         """Nodal loads (3N, per_pocket) in the order of ``reduced_forces``."""
-        interface, count = self._recovery.interface, self._recovery.pocket_count
-        every = self._recovery.weights
-        rows_of_pocket = every.shape[0] // count
-        weights = every[pocket * rows_of_pocket : (pocket + 1) * rows_of_pocket].toarray()
-        by_face = weights.reshape(len(interface.single), -1, every.shape[1])
-        frame = self._recovery.frames[pocket]
-        columns = []
-        for rows, single, even in zip(by_face, interface.single, interface.even):
-            for component in single:
-                columns += [np.outer(row, frame[component]).ravel() for row in rows]
-            mean = rows.mean(axis=0)
-            columns += [np.outer(mean, frame[component]).ravel() for component in even]
-        return np.stack(columns, axis=1)
+        own = self._forces(pocket)[pocket]
+        at_stations = np.einsum("fsac,ab->fsbc", own, self._recovery.frames[pocket])
+        n_rows, per_pocket = own.shape[0] * own.shape[1], own.shape[3]
+        weights = self._recovery.weights[pocket * n_rows : (pocket + 1) * n_rows]
+        return (weights.T @ at_stations.reshape(n_rows, -1)).reshape(-1, per_pocket)
 
     def _forces(self, pocket: int) -> np.ndarray:
         """The same loads as forces (Z, F, n_st, 3, per_pocket) at the stations."""

@@ -201,8 +201,8 @@ def _nodes_at(model: FEModel, image: np.ndarray, nodes: np.ndarray) -> np.ndarra
     count = len(model.points)
     out = image[np.minimum(nodes, count - 1)]
     middle = nodes >= count
-    pairs = np.sort(image[model.edges[nodes[middle] - count]], axis=1)
-    out[middle] = count + row_of(model.edges, pairs)
+    if middle.any():
+        out[middle] = model.edge_nodes(image[model.edges[nodes[middle] - count]])
     return out
 
 
@@ -280,9 +280,8 @@ def _close(around: Submodel, corner: Corner) -> np.ndarray:
 def _points(model: FEModel, corner: Corner, zooms: list[Submodel]) -> np.ndarray:
     """Vertices of the last submodel at which stress is looked for: those of the mesh, in the middle
     between them along the arc, and next to the lands, where a peak along the radius is."""
-    edges = edges_of(corner.fillet)
-    arcs = edges[_radial_share(model.points, edges) < 0.5]
     found = np.searchsorted(zooms[0].kept, np.unique(corner.fillet))
+    arcs = _along_arc(model.points, corner.fillet)
     found = np.concatenate([found, zooms[0].midpoints(arcs)])
     whole, curved = model, corner.fillet
     for zoom in zooms[1:]:
@@ -303,11 +302,16 @@ def _off_lands(model: FEModel, curved: np.ndarray) -> np.ndarray:
     return edges[order[steepest]]
 
 
+def _along_arc(points: np.ndarray, fillet: np.ndarray) -> np.ndarray:
+    """A fillet's edges (n, 2) along its arc."""
+    edges = edges_of(fillet)
+    return edges[_radial_share(points, edges) < 0.5]
+
+
 def _arc_edge(points: np.ndarray, fillet: np.ndarray) -> float:
     """Mean length [m] of a fillet's edges along its arc."""
-    edges = edges_of(fillet)
-    arcs = edges[_radial_share(points, edges) < 0.5]
-    return float(np.linalg.norm(np.diff(points[arcs], axis=1), axis=2).mean())
+    arcs = points[_along_arc(points, fillet)]
+    return float(np.linalg.norm(np.diff(arcs, axis=1), axis=2).mean())
 
 
 def _on_lands(model: FEModel) -> np.ndarray:
