@@ -53,6 +53,8 @@ def pocket_contact(
     if mode == 2:
         zero(pw.slice_N)
         zero(pw.slice_T)
+        zero(pw.point_N)
+        zero(pw.point_T)
     centre = xyz(D)
     zero(pw.push)
     looking = True
@@ -130,10 +132,13 @@ def _face(pose, data, i, f, Rw, distance, rel, spin, qd, onset, laws, sl, pw, pa
     if mode == 1:
         add_tangent(pose, data, i, f, Rw, distance, sl, pw)
     elif mode >= 2:
-        if f < 2 and mode == 2:
+        if mode == 2:
+            N, T = (
+                (pw.slice_N[f], pw.slice_T[f]) if f < 2 else (pw.point_N[f - 2], pw.point_T[f - 2])
+            )
             for k in range(span[0], span[1]):
-                pw.slice_N[f, k] = sl.N[k]
-                pw.slice_T[f, k] = sl.N[k] * sl.g[k] * sl.u[k]
+                N[k] = sl.N[k]
+                T[k] = sl.N[k] * sl.g[k] * sl.u[k]
         sums[2] += friction_power(span, sl)
         energy, damped = stored_and_damped(span, sl, p[1])
         sums[0] += energy

@@ -93,6 +93,8 @@ class PocketWork(NamedTuple):
     tangential: np.ndarray  # (4,)
     slice_N: np.ndarray  # (2, ns) of the crossbeams
     slice_T: np.ndarray  # (2, ns)
+    point_N: np.ndarray  # (2, np) of the side beams
+    point_T: np.ndarray  # (2, np)
     b: np.ndarray  # (12,) residual coordinates
     size: np.ndarray  # (1,) coordinates in use: 12, or 6 of a face that is touched alone
     c: np.ndarray  # (12,) those coordinates
@@ -104,14 +106,15 @@ class PocketWork(NamedTuple):
     C: np.ndarray  # (n, n) damping, zero for residual coordinates
 
 
-def pocket_work(n_slices: int, n_stations: int, n_modes: int) -> PocketWork:
+def pocket_work(n_slices: int, n_points: int, n_stations: int, n_modes: int) -> PocketWork:
     st, z, m = n_stations, np.zeros, N_LOCAL
     whole = filled(6 + n_modes + m, 8)
     return PocketWork(
         z((3, 3)), z(4, FACE).view(np.recarray), z(4, np.int64), z((4, 2), np.uint64),
         z(4, np.int64), z(4), z(4), z(4), z((3, filled(st, 4) + 2)), z((4, st + 2)),
         z((3, st + 2)), z((4, st, 3)), z(4), z(4),
-        z((2, n_slices)), z((2, n_slices)), z(m), z(1, np.int64), z(m), z(m), z((m, m)), z(ROOM),
+        z((2, n_slices)), z((2, n_slices)), z((2, n_points)), z((2, n_points)),
+        z(m), z(1, np.int64), z(m), z(m), z((m, m)), z(ROOM),
         z((4, whole)), z((whole, whole)), z((whole, whole)),
     )  # fmt: skip
 

@@ -69,6 +69,12 @@ def _(model: Model) -> dict[str, Any]:
     along = pocket.x0[:, None] + pocket.dx[:, None] * stations
     return {
         "slice": (("slice",), pocket.s, {"units": "m", "long_name": "place along the roller"}),
+        "end_point": np.arange(len(pocket.points)),
+        "end_point_place": (
+            ("end_point", "polar"),
+            pocket.points,
+            {"units": "m", "long_name": "place on the roller's end, along r and psi"},
+        ),
         "station": stations,
         "station_place": (
             ("face", "station"),
@@ -96,6 +102,8 @@ def _(model: Model, bearing: Bearing, y: np.ndarray, yd: np.ndarray) -> Arrays:
         "race_slip": s.race[:n, :, :, 4],
         "pocket_slice_force": s.slice_normal[:n],
         "pocket_slice_friction": s.slice_friction[:n],
+        "pocket_point_force": s.point_normal[:n],
+        "pocket_point_friction": s.point_friction[:n],
         "residual_coordinates": np.einsum("zab,tzb->tza", model.pocket.root, s.residual[:n]),
         "rib_force": s.rib[:n],
     }

@@ -42,6 +42,7 @@ _labels: dict[str, tuple[str, ...]] = {
     "moment": ("tilt", "skew"),
     "face": FACES,
     "crossbeam_face": FACES[:2],
+    "side_face": FACES[2:],
     "rib": ("+x", "-x"),
     "direction": ("rolling", "across"),
 }
@@ -49,8 +50,8 @@ LABELS: Mapping[str, tuple[str, ...]] = MappingProxyType(_labels)
 
 #: Dimensions whose labels a run gives.
 RUN_DIMS = (
-    "roller", "ball", "pocket", "mode", "slice", "station", "residual", "constraint", "energy_kind",
-    "channel", "land_station",
+    "roller", "ball", "pocket", "mode", "slice", "end_point", "station", "residual", "constraint",
+    "energy_kind", "channel", "land_station",
 )  # fmt: skip
 
 
@@ -78,7 +79,7 @@ class Variable:
 #: Dimensions that only runs with one kind of rolling elements have.
 _OWN_DIMS = {
     "ball": {"ball"},
-    "roller": {"roller", "slice", "residual", "rib", "crossbeam_face"},
+    "roller": {"roller", "slice", "residual", "rib", "crossbeam_face", "side_face"},
 }
 
 
@@ -87,7 +88,7 @@ def _variables() -> list[Variable]:
         return (TIME, *dims)
 
     def row(name: str, dims: tuple[str, ...], unit: str, long_name: str) -> Variable:
-        small = bool({"slice", "station", "face", "crossbeam_face"} & set(dims))
+        small = bool({"station", "face", "crossbeam_face", "side_face"} & set(dims))
         return Variable(name, dims, unit, long_name, "float32" if small else "float64")
 
     body, roller, ball, pocket = "axis", "roller", "ball", "pocket"
@@ -188,6 +189,18 @@ def _variables() -> list[Variable]:
             on(pocket, "crossbeam_face", "slice"),
             "N",
             "friction force of a slice on a crossbeam face",
+        ),
+        row(
+            "pocket_point_force",
+            on(pocket, "side_face", "end_point"),
+            "N",
+            "normal force of a point of a roller's end on a side-beam face",
+        ),
+        row(
+            "pocket_point_friction",
+            on(pocket, "side_face", "end_point"),
+            "N",
+            "friction force of a point of a roller's end on a side-beam face",
         ),
         row(
             "station_force",

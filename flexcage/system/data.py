@@ -96,6 +96,8 @@ class Report(NamedTuple):
     pocket_friction: np.ndarray  # (Z, faces)
     slice_normal: np.ndarray  # (Z, 2, ns)
     slice_friction: np.ndarray  # (Z, 2, ns)
+    point_normal: np.ndarray  # (Z, 2, np) of a roller's end on side beams
+    point_friction: np.ndarray  # (Z, 2, np)
     station: np.ndarray  # (Z, faces, nst, 3)
     residual: np.ndarray  # (Z, 12)
     rib: np.ndarray  # (Z, ribs)
@@ -152,8 +154,8 @@ class Work(NamedTuple):
 
 
 def new_work(
-    layout: Layout, race_work: RaceWork, pocket_work: Any, *, slices: int, faces: int,
-    stations: int, ribs: int, land_stations: int,
+    layout: Layout, race_work: RaceWork, pocket_work: Any, *, slices: int, points: int,
+    faces: int, stations: int, ribs: int, land_stations: int,
 ) -> Work:  # fmt: skip
     """Fresh workspaces for one thread, of elements with so many contact places."""
     Z, n, nb = layout.rollers, layout.modes, layout.n_border
@@ -165,6 +167,7 @@ def new_work(
     )  # fmt: skip
     report = Report(
         z((Z, 2, 9)), z((Z, faces)), z((Z, faces)), z((Z, 2, slices)), z((Z, 2, slices)),
+        z((Z, 2, points)), z((Z, 2, points)),
         z((Z, faces, stations, 3)), z((Z, N_LOCAL)), z((Z, ribs)), z(3),
         z((land_stations, 2)), z((2, 2)), z(len(POWERS)), z(4), z((Z, places), np.int64),
         z((Z, places)), z(3), z(2),

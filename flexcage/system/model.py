@@ -273,9 +273,13 @@ def _(
 
 def roller_work(model: Model, layout: Layout) -> Work:
     """Fresh workspaces of a roller bearing for one thread."""
-    slices, stations = len(model.pocket.s), model.pocket.phi.shape[2]
+    slices, points, stations = (
+        len(model.pocket.s),
+        len(model.pocket.points),
+        model.pocket.phi.shape[2],
+    )
     return new_work(
-        layout, race_work(len(model.inner.s)), pocket_work(slices, stations, layout.modes),
-        slices=slices,
-        faces=4, stations=stations, ribs=2, land_stations=len(model.land.angle),
+        layout, race_work(len(model.inner.s)), pocket_work(slices, points, stations, layout.modes),
+        slices=slices, points=points, faces=4, stations=stations, ribs=2,
+        land_stations=len(model.land.angle),
     )  # fmt: skip

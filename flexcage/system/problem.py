@@ -79,6 +79,8 @@ class Samples(NamedTuple):
     pocket_friction: np.ndarray
     slice_normal: np.ndarray
     slice_friction: np.ndarray
+    point_normal: np.ndarray
+    point_friction: np.ndarray
     station: np.ndarray
     residual: np.ndarray
     rib: np.ndarray

@@ -101,14 +101,16 @@ def _report_pocket(i, hit, sums, pw, rep, mode):
         rep.power[POCKET_FRICTION] += sums[2]
     if hit and mode == 2:
         copy_into(rep.station[i], pw.st)
-        for f in range(2):
-            for k in range(rep.slice_normal.shape[2]):
-                rep.slice_normal[i, f, k] = pw.slice_N[f, k]
-                rep.slice_friction[i, f, k] = pw.slice_T[f, k]
+        copy_into(rep.slice_normal[i], pw.slice_N)
+        copy_into(rep.slice_friction[i], pw.slice_T)
+        copy_into(rep.point_normal[i], pw.point_N)
+        copy_into(rep.point_friction[i], pw.point_T)
     elif mode == 2:
         zero(rep.station[i])
         zero(rep.slice_normal[i])
         zero(rep.slice_friction[i])
+        zero(rep.point_normal[i])
+        zero(rep.point_friction[i])
     copy_into(rep.residual[i], pw.b)
     for f in range(4):
         rep.pocket_normal[i, f] = pw.normal[f]

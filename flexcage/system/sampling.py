@@ -123,6 +123,8 @@ def keep_report(s, k, rep):
     copy_into(s.pocket_friction[k], rep.pocket_friction)
     copy_into(s.slice_normal[k], rep.slice_normal)
     copy_into(s.slice_friction[k], rep.slice_friction)
+    copy_into(s.point_normal[k], rep.point_normal)
+    copy_into(s.point_friction[k], rep.point_friction)
     copy_into(s.station[k], rep.station)
     copy_into(s.residual[k], rep.residual)
     copy_into(s.rib[k], rep.rib)

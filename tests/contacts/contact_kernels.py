@@ -88,7 +88,7 @@ def _pocket_kernel(data_type):
     return _compiled(
         _pocket, new_pose(), data_type, I8, F8, VEC, VEC, VEC, VEC, VEC, F8,
         VEC, types.Tuple((N, N, MU, MU)), VEC, new_slices(),
-        pocket_work(1, 2, 0), new_pair(), I8, VEC,
+        pocket_work(1, 1, 2, 0), new_pair(), I8, VEC,
     )  # fmt: skip
 
 
@@ -142,7 +142,7 @@ def pocket(
 ):  # fmt: skip
     """(wrench, sums, work, pair) of pocket i on its roller at D from the cage's origin."""
     pose = pose_of(np.eye(3) if axis is None else axis, V, w)
-    work = pocket_work(len(data.s), data.phi.shape[2], data.phi.shape[4])
+    work = pocket_work(len(data.s), len(data.points), data.phi.shape[2], data.phi.shape[4])
     work.G[:] = np.eye(3) if G is None else G
     pair, sums = new_pair(), np.zeros(9)
     arrays = [np.array(x, float) for x in (D, Vc, wc, q, qd)]

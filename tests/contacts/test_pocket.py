@@ -341,39 +341,31 @@ def test_a_spinning_end_wastes_friction_only(walls, turn):
     assert wrench[3:] @ w == pytest.approx(sums[2], rel=2e-4)
 
 
-def test_modes_that_are_rigid_motions_feel_the_rigid_wrench(walls):
-    """Third law to the modes: shapes that move the cage as a whole must feel -(force, moment)."""
-    stations = 9
-    at = np.linspace(-4e-3, 4e-3, stations)
-    modes = np.zeros((22, 4, stations, 3, 6))
-    for f in range(4):
-        if f < 2:
-            sgn = 1.0 if f == 0 else -1.0
-            r = np.stack([at, np.full(stations, PITCH), np.full(stations, sgn * HALF[0])], axis=1)
-        else:
-            sgn = 1.0 if f == 2 else -1.0
-            r = np.stack([np.full(stations, sgn * HALF[1]), np.full(stations, PITCH), at], axis=1)
-        for m in range(3):
-            e = np.eye(3)[m]
-            modes[:, f, :, :, m] = e
-            modes[:, f, :, :, 3 + m] = np.cross(e, r)
-    data = walls(interface(stations=stations, modes=modes))
-    D, axis = squeeze(8e-6), turned(np.eye(3), [0, 5e-4, 0])
-    V, w = np.array([0.02, 0.04, 0.06]), np.array([-2900.0, 30.0, 0.0])
-    wrench, _, work, _ = pocket(
-        data, D, axis=axis, V=V, w=w, q=np.zeros(6), qd=np.zeros(6), friction=laws.step_coulomb
-    )
-    force, moment = -wrench[:3], -wrench[3:] - np.cross(D, wrench[:3])
-    got = modal_force(data, work)
-    np.testing.assert_allclose(got[:3], force, atol=1e-9 * np.abs(force).max())
-    # moments: the stations lie on the undeformed wall at the pitch radius, the contact 8 um off
-    np.testing.assert_allclose(got[3:], moment, atol=2e-3 * np.abs(moment).max())
-
-
-def test_new_wall_shapes_do_not_change_a_far_roller(walls):
-    data = walls(interface(modes=smooth_modes(), soft=True))
-    wrench, sums, work, _ = pocket(data, [0.0, PITCH, 0.0], q=np.zeros(5), qd=np.ones(5))
-    assert not wrench.any() and not sums.any() and not work.near[:2].any()
+@pytest.mark.parametrize("turn", [[0, 0, 0], [0, 3e-4, -8e-4]])
+@pytest.mark.parametrize("sense, side", [(1.0, 0), (-1.0, 1)])
+def test_points_of_an_end_bear_its_wrench(walls, turn, sense, side):
+    """Each pushes along x where it stands and rubs against its own velocity; together they make
+    the wrench on the roller, those of the other side beam nothing."""
+    pair = PairSpec(normal=NormalLaw(restitution=0.6), friction=CONTACTS.side.friction)
+    data = walls(interface(), Contacts(pocket=pair, side=pair))
+    axis = turned(np.eye(3), turn)
+    D, w = np.array([sense * (HALF[1] - 4e-3 + 3e-6), PITCH, 0.0]), -2900.0 * axis[0]
+    law = {"normal": laws.restitution, "friction": laws.step_coulomb, "onset": 0.05}
+    wrench, _, work, _ = pocket(data, D, axis=axis, w=w, **law)
+    normal, rubbing = work.point_N[side], work.point_T[side]
+    assert 2 < np.count_nonzero(normal) and not work.point_N[1 - side].any()
+    lever = sense * 4e-3 * axis[0] + data.points @ axis[1:]
+    velocity = np.cross(w, lever)
+    velocity[:, 0] = 0.0  # along the wall
+    along = velocity / np.linalg.norm(velocity, axis=1)[:, None]
+    pressing = normal[:, None] * [-sense, 0.0, 0.0]
+    force = pressing - rubbing[:, None] * along
+    total, moment = force.sum(axis=0), np.cross(lever, force).sum(axis=0)
+    twist = axis[0] @ np.cross(lever, pressing).sum(axis=0)  # an end that spins feels none of it
+    total[2] += twist / PITCH  # ``state.add_end_generator``
+    moment -= twist * axis[0]
+    np.testing.assert_allclose(total, wrench[:3], atol=1e-12 * normal.sum())
+    np.testing.assert_allclose(moment, wrench[3:], atol=1e-12 * normal.sum())
 
 
 @pytest.mark.parametrize("name", CAGES)

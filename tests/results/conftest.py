@@ -21,6 +21,7 @@ def run_coords(n: int, rate: float = 50e3, ratio: int = 4) -> dict:
         "pocket": np.arange(Z),
         "mode": np.arange(3),
         "slice": np.linspace(-3e-3, 3e-3, 5),
+        "end_point": np.arange(4),
         "station": np.arange(3),
         "residual": np.arange(12),
         "land_station": np.arange(24),

@@ -180,6 +180,9 @@ def test_slices_and_stations_sum_to_the_faces(flexible):
     np.testing.assert_allclose(
         ds["pocket_slice_force"].sum("slice").values, faces[:, :, :2], rtol=1e-4, atol=1e-4
     )
+    np.testing.assert_allclose(
+        ds["pocket_point_force"].sum("end_point").values, faces[:, :, 2:], rtol=1e-4, atol=1e-4
+    )
     stations = ds["station_force"].sum("station")
     for face, (component, sign) in enumerate((("psi", 1), ("psi", -1), ("x", 1), ("x", -1))):
         along = sign * stations.isel(face=face).sel(cyl=component).values
@@ -344,3 +347,4 @@ def test_places_of_forces_have_units(flexible):
     np.testing.assert_allclose(ds["station_place"], flexible.cage.interface.stations, atol=1e-12)
     assert ds["slice"].attrs["units"] == ds["station_place"].attrs["units"] == "m"
     assert ds["station_place"].dims == ("face", "station")
+    assert ds["end_point_place"].attrs["units"] == "m"
