@@ -61,7 +61,11 @@ from flexcage.study.run import run_study as run_study
 from flexcage.study.spec import Repeat as Repeat
 from flexcage.study.spec import Study as Study
 from flexcage.study.spec import load_study as load_study
+from flexcage.system.spec import CageCentre as CageCentre
+from flexcage.system.spec import CageSpeed as CageSpeed
+from flexcage.system.spec import Constraint as Constraint
 from flexcage.system.spec import Drive as Drive
+from flexcage.system.spec import InnerPath as InnerPath
 from flexcage.system.spec import Limits as Limits
 from flexcage.system.spec import Load as Load
 from flexcage.system.spec import Mount as Mount

@@ -26,10 +26,11 @@ from flexcage.results.store import MemoryRunStore, RunStore
 from flexcage.run import write_case
 from flexcage.static import solve_static
 from flexcage.system import ball_start  # noqa: F401  (registers the start of ball bearings)
+from flexcage.system.constraints import names_of
 from flexcage.system.layout import Layout
 from flexcage.system.model import build_model
 from flexcage.system.problem import Bearing
-from flexcage.system.start import Start, find_start
+from flexcage.system.start import Start, constrained, find_start
 
 log = logging.getLogger(__name__)
 
@@ -161,9 +162,10 @@ def assembled_start(case: Case, bearing: Bearing, progress: Callable[..., Any] =
     """
     limit = case.limits.assembly_force
     with progress(1.0, "start") as bar:
-        return find_start(
+        start = find_start(
             bearing, limit_force=limit, statics=lambda: solve_static(case), told=bar.to
         )
+    return constrained(start, bearing, case.constraints)
 
 
 def _bearing_of(case: Case, mesh: CageMesh, cage: CageReduction | None) -> Bearing:
@@ -180,6 +182,6 @@ def _bearing_of(case: Case, mesh: CageMesh, cage: CageReduction | None) -> Beari
         seed=case.seed,
     )  # fmt: skip
     return Bearing(
-        model, case.contacts, Layout(Z, body.modes),
-        block=case.output.block, stride=case.output.vibration_ratio,
+        model, case.contacts, Layout(Z, body.modes, names_of(case.constraints)),
+        constraints=case.constraints, block=case.output.block, stride=case.output.vibration_ratio,
     )  # fmt: skip

@@ -26,7 +26,7 @@ from flexcage.core.binding import (
     with_their_choice,
 )
 from flexcage.core.errors import InputError
-from flexcage.core.hashing import content_hash
+from flexcage.core.hashing import content_hash, counts
 from flexcage.core.registry import source_of
 from flexcage.core.spec import option
 from flexcage.geometry.ball_cage_defects import BallCageDefect, uneven_pockets
@@ -39,7 +39,7 @@ from flexcage.mesh.options import MeshOptions
 from flexcage.modes.spec import ModesSpec
 from flexcage.results.options import OutputOptions
 from flexcage.solve.options import SolverOptions
-from flexcage.system.spec import Drive, Limits, Load, Mount, StartOptions
+from flexcage.system.spec import Constraint, Drive, Limits, Load, Mount, StartOptions
 
 CAGE_MODELS = ("flexible", "rigid")
 _NOT_PHYSICS = ("name", "description", "preset")
@@ -71,6 +71,9 @@ class Case:
     drive: Drive = option(Drive(), doc="what turns the inner ring")
     load: Load = option(Load(), doc="what loads the inner ring")
     mount: Mount = option(Mount(), doc="what holds the outer ring")
+    constraints: tuple[Constraint, ...] = option(
+        (), doc="what holds or moves rings and cage besides, any number", former=()
+    )
     start: StartOptions = option(StartOptions(), doc="how the start departs from equilibrium")
     solver: SolverOptions = option(SolverOptions(), doc="the integrator")
     output: OutputOptions = option(OutputOptions(), doc="what is kept of a run")
@@ -154,8 +157,8 @@ class Case:
         the user's own by the file that defines it. Attachments count where there are any: not with
         a rigid cage or round pockets.
         """
-        fields = {f.name: getattr(self, f.name) for f in dataclasses.fields(self)}
-        physics = {k: v for k, v in fields.items() if k not in _NOT_PHYSICS}
+        fields = [f for f in dataclasses.fields(self) if counts(self, f)]
+        physics = {f.name: getattr(self, f.name) for f in fields if f.name not in _NOT_PHYSICS}
         if self.cage_model == "rigid" or isinstance(self.cage, BallCage):
             physics["modes"] = dataclasses.replace(self.modes, attachments="linear")
         file = Path(self.mesh.file)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 from functools import singledispatch
 from typing import Any
 
@@ -221,9 +222,19 @@ def _motion(case: Case) -> str:
         tilted += f", on a shaft of {' and '.join(parts)}"
     held = "" if case.mount.kind == "fixed" else ", the outer ring in an elastic mount"
     return (
-        f"The inner ring {speed} under {_load(case)}{tilted}{held}. Lubricant: "
+        f"The inner ring {speed} under {_load(case)}{tilted}{held}. {_constraints(case)}Lubricant: "
         f"{case.lubricant.name}, {describe(case.lubricant.viscosity, 'mPa*s')}."
     )
+
+
+def _constraints(case: Case) -> str:
+    """What holds or moves rings and cage besides: kinds, with what is not as it would be anyway."""
+    parts = []
+    for spec, table in zip(case.constraints, case.to_table()["constraints"], strict=True):
+        usual = {f.name: f.default for f in dataclasses.fields(spec)}
+        own = [f"{k} {v}" for k, v in table.items() if getattr(spec, k) != usual[k]]
+        parts.append(f"{spec.type} ({', '.join(own)})" if own else spec.type)
+    return f"Constraints: {', '.join(parts)}. " if parts else ""
 
 
 def _wave(spec: Wave, amplitude: str) -> str:

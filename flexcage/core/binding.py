@@ -50,6 +50,9 @@ class Binder:
         cls = chosen_spec(cls, table, base)
         known = {f.name: f for f in dataclasses.fields(cls) if f.init}
         values = {}
+        key = _chosen_by(cls)
+        if key and base is None and key not in table and default_of(known[key]) is MISSING:
+            raise missing_key(known[key], where)  # before its keys, which nothing explains yet
         if base is not None and type(base) is not cls:
             values, base = common_values(base, cls), None
         for key, value in table.items():
@@ -262,6 +265,12 @@ def _choosing(cls: Any) -> tuple[str, Any, Mapping[str, Any]] | None:
         if isinstance(choices, Mapping):
             return field.name, home, choices
     return None
+
+
+def _chosen_by(cls: Any) -> str:
+    """The field whose name chooses the spec, "" where none does."""
+    found = _choosing(cls)
+    return found[0] if found else ""
 
 
 def chosen_names(spec: Any) -> Iterator[str]:
@@ -485,10 +494,10 @@ def missing_key(field: dataclasses.Field, where: str) -> InputError:
     """Error for a value that must be given."""
     doc = f" ({field.metadata['doc']})" if field.metadata.get("doc") else ""
     unit = f", with a unit such as {field.metadata['unit']}" if field.metadata.get("unit") else ""
+    choices = field.metadata.get("choices")
+    names = f"; choose from {', '.join(sorted(choices))}" if choices else f"; give it{unit}"
     place = f"[{where}]" if where else "The case"
-    return InputError(
-        f"{place} lacks '{field.name}'{doc}; give it{unit}.", where=join(where, field.name)
-    )
+    return InputError(f"{place} lacks '{field.name}'{doc}{names}.", where=join(where, field.name))
 
 
 def wrong_type(value: Any, wanted: str, where: str) -> InputError:

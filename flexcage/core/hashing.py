@@ -32,7 +32,7 @@ def canonical(obj: Any) -> Any:
     if isinstance(obj, np.bool_):
         return bool(obj)
     if dataclasses.is_dataclass(obj) and not isinstance(obj, type):
-        values = {f.name: getattr(obj, f.name) for f in dataclasses.fields(obj) if _counts(obj, f)}
+        values = {f.name: getattr(obj, f.name) for f in dataclasses.fields(obj) if counts(obj, f)}
         return {"": type(obj).__name__, **{name: canonical(v) for name, v in values.items()}}
     if isinstance(obj, Mapping):
         return {str(k): canonical(v) for k, v in obj.items()}
@@ -53,7 +53,8 @@ def canonical(obj: Any) -> Any:
     raise TypeError(f"no canonical form for {type(obj).__name__}")
 
 
-def _counts(obj: Any, field: dataclasses.Field[Any]) -> bool:
+def counts(obj: Any, field: dataclasses.Field[Any]) -> bool:
+    """Does a field enter: has it no ``former`` value, or another one?"""
     former = field.metadata.get("former", dataclasses.MISSING)
     return former is dataclasses.MISSING or getattr(obj, field.name) != former
 

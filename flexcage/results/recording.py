@@ -19,7 +19,6 @@ from flexcage.solve.contract import COUNTS, DONE, LOG_COLUMNS, LOG_FULL, NOT_FIN
 from flexcage.solve.integrators import INTEGRATORS
 from flexcage.solve.options import SolverOptions
 from flexcage.system.data import POWERS
-from flexcage.system.layout import CONSTRAINTS
 from flexcage.system.problem import Bearing
 from flexcage.system.scales import error_weights, work_weights
 from flexcage.system.start import Start
@@ -48,7 +47,7 @@ def new_store(
         "pocket": numbers,
         "face": np.array(bearing.family.faces),
         "mode": np.arange(layout.modes),
-        "constraint": np.array(CONSTRAINTS),
+        "constraint": np.array(layout.reactions),
         "energy_kind": np.array(ENERGIES),
         "channel": np.array(POWERS),
         "land_station": np.arange(len(bearing.data.model.land.angle)),

@@ -64,7 +64,7 @@ FLEXIBLE_FIGURES = (
 
 _REDUCTION = re.compile(r"(\w+)(?:\[([^\]]*)\])?\.(\w+)")
 _COUNTED = re.compile(r"(\d+)(?::(\d+))?")  # one place, or those from one to before another
-_LABELS_OF_A_RUN = {"constraint": CONSTRAINTS, "energy_kind": ENERGIES, "channel": tuple(POWERS)}
+_LABELS_OF_A_RUN = {"energy_kind": ENERGIES, "channel": tuple(POWERS)}
 
 
 @dataclass(frozen=True)
@@ -193,6 +193,8 @@ def _check_label(name: str, found: Variable, dim: str, label: str) -> None:
     if dim not in found.dims[1:]:
         hint = did_you_mean(dim, found.dims[1:], "its dimensions are")
         raise InputError(f"Output '{name}': {found.name} has no dimension '{dim}'; {hint}.")
+    if dim == "constraint":  # ``check_outputs`` knows which there are
+        return
     labels = LABELS.get(dim) or _LABELS_OF_A_RUN.get(dim)
     places = counted(label)
     if labels is None and (places is None or places[0] >= places[1]):
@@ -200,21 +202,26 @@ def _check_label(name: str, found: Variable, dim: str, label: str) -> None:
             f"Output '{name}': '{dim}' is counted from 0, so '{label}' is none; give one, as in "
             f"{dim}=3, or those from one to before another, as in {dim}=3:6."
         )
-    if labels is not None and label not in labels:
+    if labels is not None:
+        _check_known(name, dim, label, labels)
+
+
+def _check_known(name: str, dim: str, label: str, labels: Collection[str]) -> None:
+    if label not in labels:
         hint = did_you_mean(label, labels, "choose from")
         raise InputError(f"Output '{name}': there is no {dim} '{label}'; {hint}.")
 
 
 def check_outputs(
     names: tuple[str, ...], *, sizes: Mapping[str, int], flexible: bool, element: str = "roller",
-    materials: Collection[str] = (),
+    materials: Collection[str] = (), reactions: Collection[str] = CONSTRAINTS,
 ) -> None:  # fmt: skip
     """Raise InputError for the first output that no run of the study can give.
 
     ``sizes`` holds the least length in any case of dimensions that are counted (rolling elements,
     pockets, slices), ``element`` is the kind of rolling elements, ``flexible`` says whether any
-    cage is, and ``materials`` names those of all cages. Raises EnvironmentLacks for fatigue
-    without pyLife.
+    cage is, ``materials`` names those of all cages, and ``reactions`` the constraints that every
+    case has. Raises EnvironmentLacks for fatigue without pyLife.
     """
     if not names:
         raise InputError("The study has no outputs; name some, such as 'cage_speed'.")
@@ -226,6 +233,8 @@ def check_outputs(
             needs = reduction.variable.name.startswith(("modal_", "residual_"))
             _check_element(name, reduction.variable.of, element)
             for dim, label in reduction.selection.items():
+                if dim == "constraint":
+                    _check_known(name, dim, label, reactions)
                 places = counted(label)
                 if places is not None and places[1] > sizes.get(dim, places[1]):
                     raise InputError(

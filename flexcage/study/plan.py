@@ -17,6 +17,8 @@ from flexcage.modes.registry import basis_version
 from flexcage.study.axes import Point, Points
 from flexcage.study.outputs import check_outputs
 from flexcage.study.spec import Study
+from flexcage.system.constraints import names_of
+from flexcage.system.layout import CONSTRAINTS
 
 #: What tables hold of every case or point beside labels, values that vary, and outputs.
 COLUMNS = ("point", "repetition", "state", "reason", "seconds", "hash", "done")
@@ -55,7 +57,7 @@ def make_plan(study: Study) -> Plan:
     cases, seen = [], dict[str, int]()
     kind, flexible = study.case.bearing.element, False
     sizes = _counts(study.case)
-    materials = dict[str, None]()
+    materials, held = dict[str, None](), set(names_of(study.case.constraints))
     for number, point in enumerate(points):
         for repetition in range(study.repeat.count):
             try:
@@ -75,8 +77,12 @@ def make_plan(study: Study) -> Plan:
             sizes = {dim: min(size, sizes[dim]) for dim, size in _counts(case).items()}
             flexible |= case.cage_model == "flexible"
             materials[case.cage.material.name] = None
+            held = held.intersection(names_of(case.constraints))
             cases.append(Planned(number, point, repetition, case.hash, _modes_key(case)))
-    check_outputs(study.outputs, sizes=sizes, flexible=flexible, element=kind, materials=materials)
+    check_outputs(
+        study.outputs, sizes=sizes, flexible=flexible, element=kind, materials=materials,
+        reactions=(*CONSTRAINTS, *sorted(held)),
+    )  # fmt: skip
     return Plan(study, tuple(cases))
 
 

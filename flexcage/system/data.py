@@ -31,11 +31,12 @@ POWERS = (
     "drag",
     "modal_damping",
     "mount",
+    "constraints",
 )
 (
     DRIVE, LOAD, GRAVITY, RACE_DAMPING, RACE_FRICTION, ROLLING_RESISTANCE, POCKET_DAMPING,
     POCKET_FRICTION, RIB_DAMPING, RIB_FRICTION, LAND_DAMPING, LAND_FRICTION, FILM, DRAG,
-    MODAL_DAMPING, MOUNT,
+    MODAL_DAMPING, MOUNT, CONSTRAINTS,
 ) = range(len(POWERS))  # fmt: skip
 
 
@@ -85,6 +86,7 @@ class Tangent(NamedTuple):
     Kbb: np.ndarray  # (nb, nb)
     Cbb: np.ndarray
     Mbb: np.ndarray  # (nb, nb)
+    held: np.ndarray  # (m, 14) G of the constraints beyond drive and load
     active: np.ndarray  # (Z,) roller touches its pocket
 
 
@@ -134,6 +136,8 @@ class Scratch(NamedTuple):
     sums: np.ndarray  # (10,)
     vec: np.ndarray  # (9, 3), see residual.py
     border: np.ndarray  # (nb,) generalised forces on the border
+    shift: np.ndarray  # (14,) displacement of rings and cage
+    moved: np.ndarray  # (15,) what it makes of their coordinates
     modal: np.ndarray  # (2, n8) modal coordinates and rates, filled up with zeros
     out: np.ndarray  # (size,) residual that nobody asked for
 
@@ -163,7 +167,7 @@ def new_work(
     z = np.zeros
     tangent = Tangent(
         z((Z, 6, 6)), z((Z, 6, 6)), z((Z, 6, nb)), z((Z, 6, nb)), z((Z, nb, 6)), z((Z, nb, 6)),
-        z((nb, nb)), z((nb, nb)), z((nb, nb)), z(Z, np.int64),
+        z((nb, nb)), z((nb, nb)), z((nb, nb)), z((len(layout.held), 14)), z(Z, np.int64),
     )  # fmt: skip
     report = Report(
         z((Z, 2, 9)), z((Z, faces)), z((Z, faces)), z((Z, 2, slices)), z((Z, 2, slices)),
@@ -174,7 +178,7 @@ def new_work(
     )  # fmt: skip
     scratch = Scratch(
         z((6, 6)), z((2, 6, 6)), z((2, 3, 3)), z((3, 3)), np.eye(3), z((Z, 24)), z((Z, 6)),
-        z(10), z((9, 3)), z(14 + n), z((2, filled(n, 8))), z(layout.size),
+        z(10), z((9, 3)), z(14 + n), z(14), z(15), z((2, filled(n, 8))), z(layout.size),
     )  # fmt: skip
     return Work(
         new_pose(), new_slices(), new_pair(), race_work, pocket_work, land_work(land_stations),

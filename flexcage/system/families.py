@@ -23,7 +23,11 @@ def parts_type(name: str, model: type) -> Any:
 
     The kernels' cache finds it again by its name in this module.
     """
-    groups = (*model._fields, "memory", *Work._fields, "matrix", "events", "samples", "rates")  # type: ignore[attr-defined]
+    own: Any = model
+    groups = (
+        *own._fields, "memory", *Work._fields, "matrix", "events", "samples", "rates",
+        "constraints",
+    )  # fmt: skip
     return namedtuple(name, groups, module=__name__)
 
 

@@ -18,11 +18,13 @@ class Layout:
     q: rollers (x, r, psi, skew, tilt, spin); inner ring (x, y, z, skew, tilt, spin); outer ring
     (y, z); cage (x, y, z, quaternion, modes). u: rollers (v_x, v_r, v_psi, w_axis, w_2, w_3);
     ring (v, w in its non-spinning frame); outer (v_y, v_z); cage (v in space, w in the body,
-    modal rates). The border of Newton's matrix is (ring 6, outer 2, cage 6 + n, lambda, mu).
+    modal rates). The border of Newton's matrix is (ring 6, outer 2, cage 6 + n, lambda, mu), and
+    the further constraints' lambda and mu, one of each for every name in ``held``.
     """
 
     rollers: int
     modes: int
+    held: tuple[str, ...] = ()  # names of the scalar constraints beyond ``CONSTRAINTS``
 
     @property
     def n_q(self) -> int:
@@ -34,11 +36,16 @@ class Layout:
 
     @property
     def n_border(self) -> int:
-        return 14 + self.modes + N_LAMBDA + N_MU
+        return 14 + self.modes + N_LAMBDA + N_MU + 2 * len(self.held)
 
     @property
     def size(self) -> int:
-        return self.n_q + self.n_u + N_LAMBDA + N_MU
+        return self.n_q + self.n_u + N_LAMBDA + N_MU + 2 * len(self.held)
+
+    @property
+    def reactions(self) -> tuple[str, ...]:
+        """Names of the multipliers, in their order."""
+        return (*CONSTRAINTS, *self.held)
 
     def q(self, y: np.ndarray) -> dict[str, np.ndarray]:
         """Named views of the coordinates in y (or of their rates in y')."""
@@ -66,5 +73,8 @@ class Layout:
         }
 
     def multipliers(self, y: np.ndarray) -> np.ndarray:
+        """Forces and torques of the constraints ``reactions``, a copy."""
         start = self.n_q + self.n_u
-        return y[..., start : start + N_LAMBDA]
+        further = start + N_LAMBDA + N_MU
+        own, more = y[..., start : start + N_LAMBDA], y[..., further : further + len(self.held)]
+        return np.concatenate([own, more], axis=-1)

@@ -39,8 +39,8 @@ def assemble(alpha, bodies, tan, m):
     """Newton's matrix alpha M + C + K/alpha in blocks, and its factors."""
     mass, Ia, It = bodies.element[0], bodies.element[1], bodies.element[2]
     b = 1.0 / alpha
-    nb = m.S.shape[0]
-    n6 = nb - 7
+    nb, further = m.S.shape[0], tan.held.shape[0]
+    n6 = nb - 7 - 2 * further
     for i in range(m.A.shape[0]):
         high = nb if m.active[i] else m.low
         for r in range(6):
@@ -62,6 +62,9 @@ def assemble(alpha, bodies, tan, m):
     coordinate = (0, 4, 5, 3)
     for k in range(4):
         m.S[coordinate[k], n6 + k] -= 1.0
+    for k in range(further):
+        for c in range(14):
+            m.S[c, n6 + 7 + k] -= tan.held[k, c]
     return _factor_bordered(m)
 
 
@@ -73,8 +76,8 @@ def backsolve(alpha, y, r, data):
 def newton_step(alpha, y, r, tan, m):
     """r <- Newton step for the residual r, all unknowns; alpha is that of the factors."""
     Z = m.A.shape[0]
-    nb = m.S.shape[0]
-    nm = nb - 21
+    nb, further = m.S.shape[0], tan.held.shape[0]
+    nm = nb - 21 - 2 * further
     nq, nu = 6 * Z + 15 + nm, 6 * Z + 14 + nm
     b = 1.0 / alpha
     s, sb = m.blocks[0], m.border[0]  # kinematic residuals as displacements
@@ -126,11 +129,14 @@ def newton_step(alpha, y, r, tan, m):
     for k in range(14 + nm):
         r[nq + z + k] = xb[k]
         sb[k] = b * (xb[k] - sb[k])
-    for k in range(7):
+    for k in range(7 + 2 * further):
         r[nq + nu + k] = xb[14 + nm + k]
     sb[0] += b * xb[14 + nm + 4]
     sb[4] += b * xb[14 + nm + 5]
     sb[5] += b * xb[14 + nm + 6]
+    for k in range(further):
+        for c in range(14):
+            sb[c] += b * tan.held[k, c] * xb[21 + nm + further + k]
     r[z], r[z + 1], r[z + 2] = sb[0], sb[1], sb[2]
     r[z + 3], r[z + 4], r[z + 5] = sb[4], sb[5], sb[3]
     for c in range(5):

@@ -7,7 +7,7 @@ pieces at the same time.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from functools import cached_property, partial
 from typing import Any, NamedTuple
 
@@ -32,11 +32,13 @@ from flexcage.solve.bordered import Bordered, new_bordered
 from flexcage.solve.contract import Integrator
 from flexcage.solve.oscillators import Oscillators
 from flexcage.system import newton, rates, sampling
+from flexcage.system.constraints import ALL_ROWS_TYPE, Constraints, constraints_of
 from flexcage.system.data import POWERS, Memory, Report, Work, new_memory
 from flexcage.system.families import family_of
 from flexcage.system.layout import Layout
 from flexcage.system.rates import RatesWork, modal_oscillators, new_rates_work
 from flexcage.system.scales import error_weights
+from flexcage.system.spec import Constraint
 
 ITERATIONS = 40  # of the spectral radius
 NUDGE = 5e-12  # [m] over which it takes differences
@@ -98,12 +100,14 @@ class BearingData(NamedTuple):
     events: Events
     samples: Samples
     rates: RatesWork
+    constraints: Constraints
 
 
 def parts(data: BearingData) -> Any:
     """References to the groups of arrays of a bearing, as the compiled functions receive them."""
     groups = (
         *data.model, data.memory, *data.work, data.matrix, data.events, data.samples, data.rates,
+        data.constraints,
     )  # fmt: skip
     return family_of(data.model).parts(*(boxed(group) for group in groups))
 
@@ -131,11 +135,14 @@ class Bearing:
     """A bearing ready to be integrated: its data, and functions that are compiled when needed."""
 
     def __init__(
-        self, model: Any, contacts: Contacts, layout: Layout, *, block: int = 250, stride: int = 4,
+        self, model: Any, contacts: Contacts, layout: Layout, *,
+        constraints: Sequence[Constraint] = (), block: int = 250, stride: int = 4,
     ) -> None:  # fmt: skip
+        """``layout.held`` holds the ``constraints.names_of`` the constraints."""
         model = model._replace(cage=marked(model.cage))
         self.layout, self.family = layout, family_of(model)
         work = self.family.new_work(model, layout)
+        held, rows = constraints_of(constraints, model, layout)
         self.data = BearingData(
             model, new_memory(work.report), work,
             new_bordered(layout.rollers, layout.n_border, 8, work.tangent.active),
@@ -145,13 +152,14 @@ class Bearing:
             ),
             new_samples(block, stride, work.report),
             new_rates_work(model.cage.mff),
+            held,
         )  # fmt: skip
-        self.laws = law_functions(contacts)
-        contact_laws = (laws.NORMAL_TYPE,) * 5 + (laws.FRICTION_TYPE,) * 5
+        self.laws = (*law_functions(contacts), rows)
+        own_laws = (laws.NORMAL_TYPE,) * 5 + (laws.FRICTION_TYPE,) * 5 + (ALL_ROWS_TYPE,)
         bearing = numba.typeof(parts(self.data))
-        self._apart = _evaluation(bearing, types.Tuple(contact_laws))
+        self._apart = _evaluation(bearing, types.Tuple(own_laws))
         apart = (types.FunctionType(self._apart),) * len(self.family.apart)
-        law_type = types.Tuple((*contact_laws, *apart))
+        law_type = types.Tuple((*own_laws, *apart))
         self._evaluation = _evaluation(bearing, law_type)
         self.data_type = types.Tuple((bearing, law_type, types.FunctionType(self._evaluation)))
         self._functions: dict[str, Any] = {}

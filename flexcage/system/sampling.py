@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from flexcage.core.jit import copy_into, fields, part
-from flexcage.system.data import DRIVE
+from flexcage.system.data import CONSTRAINTS, DRIVE
 
 
 @part
 def give_powers(d, y, power):
-    """Powers of the last report into ``power``, if it has room, with the drive's by y."""
+    """Powers of the last report into ``power``, if it has room, with those of constraints by y."""
     if power.shape[0] == 0:
         return
     report = fields(d.report)
@@ -17,6 +17,11 @@ def give_powers(d, y, power):
     Z, nm = fields(d.bodies).radius.shape[0], fields(d.pocket).phi_max.shape[0]
     speed, torque = 12 * Z + 15 + nm + 3, 12 * Z + 29 + 2 * nm + 3
     power[DRIVE] += y[torque] * y[speed]
+    c = fields(d.constraints)
+    first, u = 12 * Z + 36 + 2 * nm, 12 * Z + 15 + nm
+    for k in range(c.level.shape[0]):  # those that move bodies
+        for j in range(14):
+            power[CONSTRAINTS] += y[first + k] * c.G[k, j] * y[u + j]
 
 
 def powers(y, data, power):

@@ -144,6 +144,53 @@ class Mount:
     clearance: float = quantity("um", 10e-6, doc="radial clearance of the bore", minimum=0.0)
 
 
+#: Kinds of constraints, and the spec that each brings along; ``system.constraints`` registers
+#: further ones.
+CONSTRAINTS: dict[str, type | None] = {}
+
+
+@dataclass(frozen=True, kw_only=True)
+class Constraint:
+    """What holds or moves rings and cage beside drive, load and mount: g(q, t) = 0, or
+    h(q, u, t) = 0 of velocities; ``type`` picks one of the kinds below."""
+
+    type: str = option(doc="kind of constraint", choices=CONSTRAINTS)
+
+
+@dataclass(frozen=True, kw_only=True)
+class CageSpeed(Constraint):
+    """The cage turns about its own axis at ``speed`` + ``ratio`` times the inner ring's speed."""
+
+    type: str = option("cage_speed", doc="kind of constraint", choices=CONSTRAINTS)
+    speed: float = quantity("rpm", 0.0, doc="speed of the cage that is given")
+    ratio: float = option(0.0, doc="share of the inner ring's speed that is added")
+
+
+@dataclass(frozen=True, kw_only=True)
+class CageCentre(Constraint):
+    """The cage's frame stays with its origin at (y, z): it neither whirls nor rides on a land."""
+
+    type: str = option("cage_centre", doc="kind of constraint", choices=CONSTRAINTS)
+    y: float = quantity("um", 0.0, doc="where along y")
+    z: float = quantity("um", 0.0, doc="where along z")
+
+
+@dataclass(frozen=True, kw_only=True)
+class InnerPath(Constraint):
+    """The inner ring's centre moves on a circle about (y, z), as a rotor that whirls would have
+    it: at azimuth ``phase`` at t = 0, from y towards z, and on at ``speed``."""
+
+    type: str = option("inner_path", doc="kind of constraint", choices=CONSTRAINTS)
+    y: float = quantity("um", 0.0, doc="centre of the circle along y")
+    z: float = quantity("um", 0.0, doc="centre of the circle along z")
+    radius: float = quantity("um", 0.0, doc="radius of the circle", minimum=0.0)
+    speed: float = quantity("rpm", 0.0, doc="speed along it (negative: from z towards y)")
+    phase: float = quantity("deg", 0.0, doc="azimuth at t = 0")
+
+
+CONSTRAINTS.update(cage_speed=CageSpeed, cage_centre=CageCentre, inner_path=InnerPath)
+
+
 @dataclass(frozen=True, kw_only=True)
 class StartOptions:
     """How the start departs from equilibrium: the cage moves off in a random direction.

@@ -11,7 +11,7 @@ size grows in steps from the first touch, so that the run begins assembled.
 from __future__ import annotations
 
 import logging
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from functools import singledispatch
 from typing import Any
@@ -22,11 +22,13 @@ from flexcage.contacts import laws
 from flexcage.contacts.pocket_wall import with_offset
 from flexcage.core.errors import InputError, RunFailed
 from flexcage.geometry.kinematics import epicyclic
+from flexcage.system.constraints import OFF, check_independent
 from flexcage.system.layout import Layout
 from flexcage.system.model import Model
 from flexcage.system.newton import assemble, newton_step
 from flexcage.system.problem import Bearing
-from flexcage.system.spec import StartOptions
+from flexcage.system.scales import ERROR_RATE
+from flexcage.system.spec import Constraint, StartOptions
 from flexcage.system.statics.solution import StaticSolution
 
 log = logging.getLogger(__name__)
@@ -40,6 +42,7 @@ TOUCH = 1e-9  # [m] interference that is only a touch
 STAGES = 8  # steps of a pinching defect's growth
 _CAGE_ROW = 8  # of the border: where the cage's rigid motion begins
 _HOLD = 1e12  # stiffness that holds a coordinate, far above that of any contact
+_ONTO, _NEAR = 10, 1e-12  # steps onto constraints; [m, rad] how near they must come
 # longest step of centres [m], and of a roller's tilt and skew [rad], by which its ends move by some
 # 0.4 um: one that is hardly loaded resists so little that longer ones may swing over for ever
 _SHIFT, _TURN = 1e-5, 1e-4
@@ -104,6 +107,28 @@ def pushed(start: Start, layout: Layout, options: StartOptions) -> Start:
     return replace(start, y=y, yd=yd)
 
 
+def constrained(start: Start, bearing: Bearing, constraints: Sequence[Constraint]) -> Start:
+    """The start with rings and cage moved onto the bearing's further constraints.
+
+    Raises InputError for a constraint on what is held already, RunFailed for one that the start
+    cannot be moved onto.
+    """
+    if not constraints:
+        return start
+    layout, data, rows = bearing.layout, bearing.data.constraints, bearing.laws[-1]
+    z, y, yd = 6 * layout.rollers, start.y.copy(), np.zeros_like(start.yd)
+    q, u = y[z : z + 15], y[layout.n_q + z : layout.n_q + z + 14]
+    check_independent(constraints, data, rows, q, u)
+    rates = bearing.function("rates")
+    for _ in range(_ONTO):  # each moves y one step of Newton's nearer
+        rates(0.0, y, yd, bearing.args, np.zeros(0))
+    missed = np.abs(np.concatenate([data.g / _NEAR, data.h / (_NEAR * ERROR_RATE)]))
+    if not missed.max() < 1.0:
+        name = layout.held[int(missed.argmax()) % len(layout.held)]
+        raise RunFailed(f"the start cannot be moved onto the constraint '{name}'; can it be met?")
+    return replace(start, y=y, yd=yd)
+
+
 def pocket_clearance(model: Model, offset: np.ndarray) -> np.ndarray:
     """Least clearance (Z, 2) of each pocket for its roller, across and along [m]."""
     width = 2.0 * model.pocket.half[0] - 2.0 * model.bodies.radius[:, None]
@@ -163,8 +188,11 @@ class _Frictionless:
             pocket=with_offset(model.pocket, offset),
         )
         self.bearing = bearing
-        self.data = bearing.data._replace(model=still)
-        self.args = bearing.arguments(self.data, (laws.elastic,) * 5 + (laws.no_friction,) * 5)
+        free = bearing.data.constraints
+        free = free._replace(level=np.full(len(free.level), float(OFF)))
+        self.data = bearing.data._replace(model=still, constraints=free)
+        own = (laws.elastic,) * 5 + (laws.no_friction,) * 5 + (bearing.laws[-1],)
+        self.args = bearing.arguments(self.data, own)
         self.out = np.zeros(bearing.layout.size)
 
     def residual(self, y: np.ndarray, yd: np.ndarray) -> np.ndarray:

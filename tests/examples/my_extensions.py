@@ -25,6 +25,8 @@ from flexcage.results.registry import Variable, register
 from flexcage.solve.contract import DONE, LOG_FULL, RESIDUALS, STEPS, T
 from flexcage.solve.integrators import register_integrator
 from flexcage.solve.runge_kutta import EXPLICIT_METHOD
+from flexcage.system.constraints import CAGE, Q_CAGE, register_constraint
+from flexcage.system.spec import Constraint
 
 # ------------------------------------------------------------------- a normal law with own values
 
@@ -55,6 +57,29 @@ def spring(n, d, v, onset, p, F, Fe, Fd, Fv):
 register_normal(
     "spring", spring, spec=Spring, parameters=lambda s, k, n: (s.stiffness, 1.0, s.loss, 1e-7)
 )
+
+# ------------------------------------------------------------------------------- a constraint
+
+
+@dataclass(frozen=True, kw_only=True)
+class Rail(Constraint):
+    """The cage's centre stays on a line through the axis, at ``azimuth`` from y towards z."""
+
+    type: str = "rail"
+    azimuth: float = quantity("deg", 0.0, doc="azimuth of the line")
+
+
+def rail(t, q, u, p, G, g, h):
+    """g: distance from the line; G: slopes of its rate h in the velocities of the cage's centre."""
+    G[0, CAGE + 1], G[0, CAGE + 2] = -p[0], p[1]
+    g[0] = G[0, CAGE + 1] * q[Q_CAGE + 1] + G[0, CAGE + 2] * q[Q_CAGE + 2]
+    h[0] = G[0, CAGE + 1] * u[CAGE + 1] + G[0, CAGE + 2] * u[CAGE + 2]
+
+
+register_constraint(
+    "rail", rail, level="position", spec=Rail,
+    parameters=lambda s: (np.sin(s.azimuth), np.cos(s.azimuth)),
+)  # fmt: skip
 
 # ----------------------------------------------------------------------------- a friction law
 

@@ -28,6 +28,8 @@ from flexcage.render import album
 from flexcage.results import registry
 from flexcage.solve import integrators
 from flexcage.solve import options as solver_options
+from flexcage.system import constraints
+from flexcage.system import spec as system_spec
 
 HERE = Path(__file__).parent
 ROOT = HERE.parents[1]
@@ -50,6 +52,9 @@ ramp_time = "1 ms"
 [load]
 radial = "800 N"
 gravity = "0 m/s^2"
+[[constraints]]
+type = "rail"
+azimuth = "30 deg"
 [modes]
 kind = "pocket_shapes"
 count = 8
@@ -67,7 +72,7 @@ ALL_TABLES = (
     contact_spec.NORMAL_LAWS, contact_spec.FRICTION_LAWS, modes_registry.BUILDERS,
     modes_spec.KINDS, registry._table, registry._labels, registry.COMPUTED, album.PICTURES,
     materials.MATERIALS, presets._ADDED, core_registry._sources, integrators.INTEGRATORS,
-    solver_options.METHODS,
+    solver_options.METHODS, constraints.KINDS, system_spec.CONSTRAINTS,
 )  # fmt: skip
 
 
@@ -155,6 +160,9 @@ def test_a_run_with_all_of_it(mine, tmp_path):
     mu = 0.05 * np.tanh(np.abs(slip) / 0.3)
     assert np.abs(np.abs(traction) - mu * force).max() < 0.01 * np.abs(traction).max()
     assert np.abs(traction).max() > 0.1 and mu.max() > 0.005
+
+    cage = ds["cage_position"].values[:, 1:]
+    assert np.abs(cage @ [-0.5, np.sqrt(0.75)]).max() < 1e-12 < 1e-9 < np.abs(cage).max()
 
     ring = ds["ring_force"]
     assert ring.dims == ("time", "axis2") and ring.attrs["units"] == "N"

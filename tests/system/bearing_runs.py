@@ -8,6 +8,7 @@ import numpy as np
 
 from flexcage.solve import bdf, runge_kutta
 from flexcage.solve.integrators import INTEGRATORS
+from flexcage.system.constraints import names_of
 from flexcage.system.data import POWERS
 from flexcage.system.layout import Layout
 from flexcage.system.problem import Bearing, new_samples
@@ -16,9 +17,10 @@ from flexcage.system.spec import Drive, Load, Mount
 from flexcage.system.start import geometric_guess, rolling_velocities
 
 
-def assembled(model, contacts) -> Bearing:
-    layout = Layout(len(model.bodies.radius), model.cage.mff.shape[0])
-    return Bearing(model, contacts, layout)
+def assembled(model, contacts, constraints=()) -> Bearing:
+    held = names_of(constraints)
+    layout = Layout(len(model.bodies.radius), model.cage.mff.shape[0], held)
+    return Bearing(model, contacts, layout, constraints=constraints)
 
 
 def rolling_start(bearing):

@@ -11,12 +11,12 @@ from flexcage.contacts.spec import Contacts
 
 @pytest.fixture(scope="session")
 def bearing_of(build_parts):
-    """bearing_of(flexible={...}, contacts=..., drive=..., ...) -> a Bearing of the N1013."""
+    """bearing_of(flexible={...}, contacts=..., constraints=..., ...) -> a Bearing of the N1013."""
 
-    def make(*, contacts=None, flexible=None, **specs):
+    def make(*, contacts=None, flexible=None, constraints=(), **specs):
         contacts = contacts or Contacts()
         if flexible is not None:
             specs["body"], specs["interface"] = flexible_cage(**flexible)
-        return assembled(build_parts(contacts=contacts, **specs), contacts)
+        return assembled(build_parts(contacts=contacts, **specs), contacts, constraints)
 
     return make

@@ -1,0 +1,260 @@
+"""Constraints beyond those of drive and load: on rings and cage, by any function.
+
+A kind of constraint is a function of the signature
+
+    rows(t, q, u, p, G, g, h)
+
+that says of m scalar constraints at time t [s] what they miss: in place, g (m,), and in velocity, h
+(m,), with G (m, 14) = dh/du. q (15,) and u (14,) are the coordinates and velocities of the rings
+and the cage, at the places that the constants below name; p is the kind's vector of parameters.
+Arrays to fill hold zeros. Of level "position", a holonomic g(q, t), h is dg/dt; a kind of level
+"velocity" is a h(q, u, t) and leaves g alone. Both enter the equations as index 2, stabilised where
+there is a place to keep: G^T lambda acts on the bodies, and lambda is the result ``multiplier``.
+``register_constraint`` adds a kind from any module.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, fields
+from math import cos, sin
+from typing import Any, NamedTuple
+
+import numba
+import numpy as np
+from numba import types
+
+from flexcage.core.errors import InputError
+from flexcage.core.jit import LEAN, kernel
+from flexcage.core.registry import add, check_free
+from flexcage.system import spec as specs
+from flexcage.system.layout import Layout
+from flexcage.system.spec import Constraint
+
+# places in u: velocity of the centre (x, y, z) in space; angular velocity of the inner ring in its
+# non-spinning frame (spin first), of the cage in its own
+INNER, INNER_TURN, OUTER, CAGE, CAGE_TURN = 0, 3, 6, 8, 11
+# places in q: centre; skew, tilt and spin of the inner ring; the outer's centre (y, z); quaternion
+Q_INNER, Q_INNER_TURN, Q_OUTER, Q_CAGE, Q_QUATERNION = 0, 3, 6, 8, 11
+
+N_PARAMETERS = 10
+OFF, VELOCITY, POSITION = 0, 1, 2  # levels; OFF while a start is brought to equilibrium
+LEVELS = {"velocity": VELOCITY, "position": POSITION}
+_ALIKE = 1e-9  # of normalised constraints: below it they hold the same
+
+_F8, _VECTOR = types.float64, types.Array(types.float64, 1, "C")
+_MATRIX = types.Array(types.float64, 2, "C")
+ROWS = types.void(_F8, _VECTOR, _VECTOR, _VECTOR, _MATRIX, _VECTOR, _VECTOR)
+ALL_ROWS = types.void(_F8, _VECTOR, _VECTOR, _MATRIX, _MATRIX, _VECTOR, _VECTOR)
+ALL_ROWS_TYPE = types.FunctionType(ALL_ROWS)
+_ARGUMENTS = "t, q, u, p, G, g, h"
+
+
+@kernel(ROWS)
+def cage_speed(t, q, u, p, G, g, h):
+    """p: speed [rad/s], share of the inner ring's."""
+    h[0] = u[CAGE_TURN] - p[0] - p[1] * u[INNER_TURN]
+    G[0, CAGE_TURN], G[0, INNER_TURN] = 1.0, -p[1]
+
+
+@kernel(ROWS)
+def cage_centre(t, q, u, p, G, g, h):
+    """p: y, z [m]."""
+    for k in range(2):
+        g[k] = q[Q_CAGE + 1 + k] - p[k]
+        h[k] = u[CAGE + 1 + k]
+        G[k, CAGE + 1 + k] = 1.0
+
+
+@kernel(ROWS)
+def inner_path(t, q, u, p, G, g, h):
+    """p: y, z, radius [m], speed [rad/s], phase [rad]."""
+    azimuth = p[3] * t + p[4]
+    c, s = p[2] * cos(azimuth), p[2] * sin(azimuth)
+    g[0], g[1] = q[Q_INNER + 1] - p[0] - c, q[Q_INNER + 2] - p[1] - s
+    h[0], h[1] = u[INNER + 1] + p[3] * s, u[INNER + 2] - p[3] * c
+    for k in range(2):
+        G[k, INNER + 1 + k] = 1.0
+
+
+@kernel(ALL_ROWS)
+def no_rows(t, q, u, p, G, g, h):
+    """Nothing is held beyond drive and load."""
+
+
+@dataclass(frozen=True)
+class ConstraintKind:
+    """Rows of a kind, compiled; which level; names of its scalar constraints; its parameters."""
+
+    rows: Any
+    level: str
+    labels: tuple[str, ...]
+    parameters: Callable[[Any], Sequence[float]]
+
+    def named(self, name: str) -> tuple[str, ...]:
+        return tuple(f"{name}_{label}" if label else name for label in self.labels)
+
+
+def _values(spec: Constraint) -> tuple[float, ...]:
+    """The values of a spec, in the order of its fields."""
+    return tuple(getattr(spec, f.name) for f in fields(spec) if f.name != "type")
+
+
+KINDS: dict[str, ConstraintKind] = {
+    "cage_speed": ConstraintKind(cage_speed, "velocity", ("",), _values),
+    "cage_centre": ConstraintKind(cage_centre, "position", ("y", "z"), _values),
+    "inner_path": ConstraintKind(inner_path, "position", ("y", "z"), _values),
+}
+
+
+def register_constraint(
+    name: str,
+    rows: Callable[..., None],
+    *,
+    level: str,
+    spec: type[Constraint] | None = None,
+    labels: Sequence[str] = ("",),
+    parameters: Callable[[Any], Sequence[float]] | None = None,
+) -> None:
+    """Add a kind of constraint: ``[[constraints]]`` with ``type = "name"`` then asks for it.
+
+    ``rows`` is a function of the signature above, in plain Python that is compiled here; ``level``
+    is "position" or "velocity"; ``labels`` names its scalar constraints, as many as it fills rows
+    ("" for a single one). ``spec``, if it has values of its own, is a frozen dataclass derived from
+    ``Constraint`` whose fields carry their units and whose ``type`` defaults to ``name``.
+    ``parameters(spec)`` gives p, at most ``N_PARAMETERS`` numbers; without it p holds the spec's
+    values in their order.
+
+    Raises InputError for a name that is taken, another level, a wrong spec, or rows that cannot be
+    compiled.
+    """
+    check_free(KINDS, name, what="kind of constraint")
+    if level not in LEVELS:
+        raise InputError(
+            f"The level of constraint '{name}' is {level!r}, but must be 'position' or 'velocity'.",
+            where=name, value=level,
+        )  # fmt: skip
+    own = spec or _spec_of(name)
+    default = own.__dataclass_fields__["type"].default if issubclass(own, Constraint) else None
+    if default != name:
+        raise InputError(
+            f"The spec of constraint '{name}' must be a dataclass derived from Constraint whose "
+            f"type defaults to '{name}'.",
+            where=name, value=default,
+        )  # fmt: skip
+    try:
+        compiled = kernel(ROWS)(rows) if not hasattr(rows, "py_func") else rows
+    except (numba.errors.NumbaError, TypeError) as exc:
+        raise InputError(
+            f"The rows of constraint '{name}' cannot be compiled as a function "
+            f"({_ARGUMENTS}): {str(exc).strip().splitlines()[-1]}",
+            where=name,
+        ) from exc
+    kind = ConstraintKind(compiled, level, tuple(labels), parameters or _values)
+    add(KINDS, name, kind, what="kind of constraint", source=rows)
+    specs.CONSTRAINTS[name] = own
+
+
+def _spec_of(name: str) -> type[Constraint]:
+    """A spec without values."""
+    from dataclasses import make_dataclass
+
+    from flexcage.core.spec import option
+
+    kind = option(name, doc="kind of constraint", choices=specs.CONSTRAINTS)
+    return make_dataclass(
+        "".join(word.capitalize() for word in name.split("_")), [("type", str, kind)],
+        bases=(Constraint,), frozen=True, kw_only=True,
+    )  # fmt: skip
+
+
+def names_of(constraints: Sequence[Constraint]) -> tuple[str, ...]:
+    """Names of all scalar constraints, numbered where a kind comes twice."""
+    found: list[str] = []
+    for i, spec in enumerate(constraints):
+        before = sum(other.type == spec.type for other in constraints[:i])
+        name = f"{spec.type}_{before + 1}" if before else spec.type
+        found.extend(KINDS[spec.type].named(name))
+    return tuple(found)
+
+
+class Constraints(NamedTuple):
+    """What the kernels know of m scalar constraints of k specs, and their workspaces."""
+
+    level: np.ndarray  # (m,) OFF, VELOCITY or POSITION
+    p: np.ndarray  # (k, N_PARAMETERS)
+    ease: np.ndarray  # (14,) inverse masses and inertias; 0: drive, load or mount hold it
+    G: np.ndarray  # (m, 14) dh/du at the point evaluated last
+    g: np.ndarray  # (m,)
+    h: np.ndarray  # (m,)
+    pull: np.ndarray  # (m, 14 + n) accelerations that unit multipliers give
+    S: np.ndarray  # (m, m) G times those, then its factors
+    pivot: np.ndarray  # (m,)
+    x: np.ndarray  # (m,)
+    place: np.ndarray  # (2, 15) coordinates
+    late: np.ndarray  # (2, m) h a little before and after
+    spare: np.ndarray  # (m, 14) G and g there, which nobody asked for
+
+
+def constraints_of(
+    constraints: Sequence[Constraint], model: Any, layout: Layout
+) -> tuple[Constraints, Any]:
+    """The constraints' arrays, and their rows as one function of the type ``ALL_ROWS_TYPE``."""
+    kinds = [KINDS[spec.type] for spec in constraints]
+    m, z = len(layout.held), np.zeros
+    p = z((len(kinds), N_PARAMETERS))
+    for row, kind, spec in zip(p, kinds, constraints, strict=True):
+        values = kind.parameters(spec)
+        row[: len(values)] = values
+    level = [LEVELS[kind.level] for kind in kinds for _ in kind.labels]
+    data = Constraints(
+        np.array(level, float), p, _ease(model), z((m, 14)), z(m), z(m), z((m, 14 + layout.modes)),
+        z((m, m)), z(m, np.int64), z(m), z((2, 15)), z((2, m)), z((m, 14)),
+    )  # fmt: skip
+    return data, _joined(tuple((kind.rows, len(kind.labels)) for kind in kinds))
+
+
+def _ease(model: Any) -> np.ndarray:
+    """Inverse mass or inertia (14,) of every motion of rings and cage, 0 where it is held."""
+    bodies, cage = model.bodies, model.cage
+    axial, skew, tilt, centre = bodies.free
+    mass, spin, across = bodies.ring
+    inner = [axial * centre / mass, centre / mass, centre / mass]
+    inner += [bodies.drive[0] / spin, skew / across, tilt / across]
+    outer = 0.0 if bodies.outer[3] else 1.0 / bodies.outer[0]
+    inertia = np.trace(cage.G0) - np.diag(cage.G0)
+    return np.array([*inner, outer, outer, *[1.0 / cage.mass] * 3, *(1.0 / inertia)])
+
+
+def check_independent(
+    constraints: Sequence[Constraint], data: Constraints, rows: Any, q: np.ndarray, u: np.ndarray
+) -> None:
+    """Raise InputError for a constraint on what drive, load, mount or those before it hold, where
+    rings and cage are at q (15,) and move as u (14,)."""
+    own = [i for i, spec in enumerate(constraints) for _ in KINDS[spec.type].labels]
+    G, g, h = np.zeros_like(data.G), np.zeros_like(data.g), np.zeros_like(data.h)
+    rows(0.0, q, u, data.p, G, g, h)
+    basis = np.zeros((0, 14))
+    for i, row in zip(own, G * np.sqrt(data.ease), strict=True):
+        size, left = np.linalg.norm(row), row - basis.T @ (basis @ row)
+        if not np.linalg.norm(left) > _ALIKE * size:
+            by = "another constraint holds" if size > 0.0 else "drive, load or mount hold"
+            raise InputError(
+                f"constraints.{i} ({constraints[i].type}) is on what {by} already; leave one of "
+                "them out.",
+                where=f"constraints.{i}", value=constraints[i].type,
+            )  # fmt: skip
+        basis = np.vstack([basis, left / np.linalg.norm(left)])
+
+
+def _joined(kinds: tuple[tuple[Any, int], ...]) -> Any:
+    """The rows of all constraints, one after the other, as one compiled function."""
+    if not kinds:
+        return no_rows
+    (first, m), rest = kinds[0], _joined(kinds[1:])
+
+    def rows(t, q, u, p, G, g, h):
+        first(t, q, u, p[0], G[:m], g[:m], h[:m])
+        rest(t, q, u, p[1:], G[m:], g[m:], h[m:])
+
+    return numba.njit(ALL_ROWS, **{**LEAN, "cache": False})(rows)
