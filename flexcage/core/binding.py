@@ -357,7 +357,7 @@ def _check_kind(value: Any, hint: Any, meta: Mapping, where: str) -> None:
 def _is_of(value: Any, kind: Any) -> bool:
     if kind is Any:
         return True
-    if isinstance(value, bool):
+    if isinstance(value, (bool, np.bool_)):
         return kind is bool
     return isinstance(value, _NUMBERS.get(kind, kind))
 

@@ -128,11 +128,7 @@ class FEModel:
     @cached_property
     def surface_cells(self) -> tuple[np.ndarray, np.ndarray]:
         """Boundary triangles as (tetrahedron (n,), its three local corners (n, 3))."""
-        corners = np.array([[0, 1, 2], [0, 1, 3], [0, 2, 3], [1, 2, 3]])
-        faces = np.sort(self.tets[:, corners].reshape(-1, 3), axis=1)
-        _, first, count = np.unique(faces, axis=0, return_index=True, return_counts=True)
-        cell, face = np.divmod(first[count == 1], 4)
-        return cell, corners[face]
+        return boundary_of(self.tets)
 
     @cached_property
     def surface(self) -> np.ndarray:
@@ -192,6 +188,16 @@ class FEModel:
                 value=name,
             )
         return self.groups[name]
+
+
+def boundary_of(tets: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Triangles that one tetrahedron alone has, of tetrahedra (m, 4): which (n,), and its three
+    local corners there (n, 3)."""
+    corners = np.array([[0, 1, 2], [0, 1, 3], [0, 2, 3], [1, 2, 3]])
+    faces = np.sort(tets[:, corners].reshape(-1, 3), axis=1)
+    _, first, count = np.unique(faces, axis=0, return_index=True, return_counts=True)
+    cell, face = np.divmod(first[count == 1], 4)
+    return cell, corners[face]
 
 
 def _edge_keys(pairs: np.ndarray, n_points: int) -> np.ndarray:

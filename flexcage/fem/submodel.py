@@ -19,7 +19,7 @@ import scipy.sparse as sp
 from flexcage.fem.condensed import dofs_of
 from flexcage.fem.dissection import dissect
 from flexcage.fem.fronts import Elimination
-from flexcage.fem.model import FEModel, assemble, triangle_shapes
+from flexcage.fem.model import FEModel, assemble, boundary_of, triangle_shapes
 from flexcage.mesh.cage_mesh import CageMesh
 
 _PAIRS = ((0, 1), (0, 2), (0, 3), (1, 2), (1, 3), (2, 3))
@@ -122,9 +122,9 @@ def submodel(
     groups = {name: triangles for name, triangles in own.items() if len(triangles)}
     mesh = CageMesh(points, fine_tets, MappingProxyType(groups))
     fine = assemble(mesh, model.material, order=model.order)
-    faces = np.sort(tets[:, [[0, 1, 2], [0, 1, 3], [0, 2, 3], [1, 2, 3]]].reshape(-1, 3), axis=1)
-    faces, count = np.unique(faces, axis=0, return_counts=True)
-    cut = faces[(count == 1) & (row_of(surface, faces) < 0)]
+    cell, corners = boundary_of(tets)
+    faces = np.sort(tets[cell[:, None], corners], axis=1)
+    cut = faces[row_of(surface, faces) < 0]
     return Submodel(fine, old, edges, divided(curved), *_driven(model, cut, fine, divided(cut)))
 
 

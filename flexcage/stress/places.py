@@ -13,7 +13,14 @@ from flexcage.modes.basis import FACES
 from flexcage.modes.lands import LANDS
 from flexcage.modes.pockets import face_group, pocket_frame
 
-CORNERS = ("front+x", "front-x", "rear+x", "rear-x")
+# faces that meet in each corner of a pocket, and its signs of x and psi
+_CORNERS: dict[str, tuple[str, str, int, int]] = {
+    "front+x": ("front", "side+x", 1, 1),
+    "front-x": ("front", "side-x", -1, 1),
+    "rear+x": ("rear", "side+x", 1, -1),
+    "rear-x": ("rear", "side-x", -1, -1),
+}
+CORNERS = tuple(_CORNERS)
 SECTIONS = ("waist_front", "rim+x", "waist_rear", "rim-x")  # by quarters of a turn from +psi
 
 
@@ -30,10 +37,15 @@ def root_places(model: FEModel, pocket_count: int) -> dict[str, np.ndarray]:
 
 def _corners(model: FEModel, pocket_count: int) -> dict[str, np.ndarray]:
     places: dict[str, np.ndarray] = {}
+    fillets = corner_fillets(model, pocket_count)
     for pocket in range(pocket_count):
-        for corner in CORNERS:
-            beam, side = corner[:-2], corner[-2:]
-            vertices = _fillet_vertices(model, pocket, pocket_count, beam, side)
+        for corner, (beam, side, along, across) in _CORNERS.items():
+            if rounded(model, pocket):
+                fillet = fillets.get((pocket, along, across), np.empty(0, int))
+                vertices = np.unique(fillet)
+            else:
+                crossbeam = model.group(f"pocket{pocket}_{beam}")
+                vertices = np.intersect1d(crossbeam, model.group(f"pocket{pocket}_{side}"))
             if len(vertices):
                 places[f"pocket{pocket}_root_{corner}"] = vertices
     return places
@@ -54,18 +66,9 @@ def _sections(model: FEModel, pocket_count: int) -> dict[str, np.ndarray]:
     return places
 
 
-def _fillet_vertices(
-    model: FEModel, pocket: int, pocket_count: int, beam: str, side: str
-) -> np.ndarray:
-    fillet = model.groups.get(f"pocket{pocket}_fillet")
-    if fillet is None or not len(fillet):
-        crossbeam = model.group(f"pocket{pocket}_{beam}")
-        return np.intersect1d(crossbeam, model.group(f"pocket{pocket}_side{side}"))
-    vertices = np.unique(fillet)
-    along, _, across = (model.points[vertices] @ pocket_frame(pocket, pocket_count).T).T
-    ahead = across > 0.0 if beam == "front" else across < 0.0
-    right = along > 0.0 if side == "+x" else along < 0.0
-    return vertices[ahead & right]
+def rounded(model: FEModel, pocket: int) -> bool:
+    """Has the mesh a group of the fillets at this pocket's corners?"""
+    return bool(len(model.groups.get(f"pocket{pocket}_fillet", ())))
 
 
 def corner_fillets(model: FEModel, pocket_count: int) -> dict[tuple[int, int, int], np.ndarray]:
@@ -73,16 +76,16 @@ def corner_fillets(model: FEModel, pocket_count: int) -> dict[tuple[int, int, in
     where a mesh has no fillet groups."""
     found: dict[tuple[int, int, int], np.ndarray] = {}
     for pocket in range(pocket_count):
-        fillet = model.groups.get(f"pocket{pocket}_fillet")
-        if fillet is None or not len(fillet):
+        if not rounded(model, pocket):
             continue
+        fillet = model.groups[f"pocket{pocket}_fillet"]
         along, _, across = (
             model.points[fillet].mean(axis=1) @ pocket_frame(pocket, pocket_count).T
         ).T
-        for signs in ((1, 1), (-1, 1), (1, -1), (-1, -1)):
-            own = (along * signs[0] > 0.0) & (across * signs[1] > 0.0)
+        for _, _, right, ahead in _CORNERS.values():
+            own = (along * right > 0.0) & (across * ahead > 0.0)
             if own.any():
-                found[pocket, *signs] = fillet[own]
+                found[pocket, right, ahead] = fillet[own]
     return found
 
 

@@ -132,6 +132,11 @@ def test_replace_takes_numbers_of_numpy(case, path, value, plain):
     assert changed == case.replace(path, plain) == load_case(changed.to_toml())
 
 
+def test_a_spec_of_objects_takes_numpys_truth(case):
+    one, other = (dataclasses.replace(case.modes, crossbeams=v) for v in (np.bool_(False), False))
+    assert dataclasses.replace(case, modes=one).hash == dataclasses.replace(case, modes=other).hash
+
+
 def test_numbers_of_numpy_of_another_kind_are_refused(case):
     for path, value in (("modes.count", np.float64(3.0)), ("modes.land", np.int64(1))):
         with pytest.raises(InputError, match=f"{path} is {value.item()}, but should be"):

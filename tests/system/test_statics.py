@@ -284,6 +284,7 @@ REFUSED = [
     (ROLLERS, {"axial": 10.0, "radial": 10.0}, {}, ["load.axial is 10 N", "roller bearing"]),
     (BALLS, {"axial": 9.0, "moment_z": 1.0}, {"tilt": "held"}, ["moment_z is 1 N*m", "reactions"]),
     (BALLS, {"axial": 9.0, "misalignment": 1e-3}, {}, ["misalignment is 1 mrad", "'free'"]),
+    (BALLS, {"axial": 9.0, "tilt_stiffness": 1e3}, {"tilt": "held"}, ["1000 N*m/rad", "'held'"]),
 ]
 
 

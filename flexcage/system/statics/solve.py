@@ -99,8 +99,13 @@ def posed(bearing: Bearing, elements: Elements, load: Load, options: StaticOptio
                 where=_PLACES[k],
             )
     if options.tilt == "held":
+        if load.tilt_stiffness > 0.0:
+            raise InputError(
+                f"load.tilt_stiffness is {describe(load.tilt_stiffness, 'N*m/rad')}, but "
+                "static.tilt is 'held'; leave it out, or take static.tilt = \"free\".",
+                where="load.tilt_stiffness",
+            )
         free[3:] = False
-        spring[3:] = 0.0
         for k in (3, 4):
             if force[k] != 0.0:
                 raise InputError(
