@@ -20,7 +20,6 @@ from flexcage.stages import (
     cage_reduction,
     run_store,
 )
-from flexcage.system.start import pushed
 
 
 def simulate(
@@ -42,7 +41,6 @@ def simulate(
     bearing = stages.named("kernels", build_bearing, case, mesh, cage, compiling)
     start = stages("start", assembled_start, case, bearing, stages.progress)
     check_assembly(case, mesh, cage, start)
-    start = pushed(start, bearing.layout, case.start)
     store = run_store(case, bearing, folder, resume=resume)
     run = Run(case, store, folder, mesh, cage, start, stages)
     recorder = Recorder(bearing, start, store, solver=case.solver, output=case.output)

@@ -30,7 +30,7 @@ from flexcage.system.constraints import names_of
 from flexcage.system.layout import Layout
 from flexcage.system.model import build_model
 from flexcage.system.problem import Bearing
-from flexcage.system.start import Start, constrained, find_start
+from flexcage.system.start import Start, constrained, find_start, pushed
 
 log = logging.getLogger(__name__)
 
@@ -156,7 +156,8 @@ def build_bearing(
 
 
 def assembled_start(case: Case, bearing: Bearing, progress: Callable[..., Any] = Silent) -> Start:
-    """Where a run begins: the bearing assembled and in equilibrium at the drive's first speed.
+    """Where a run begins: the bearing assembled and in equilibrium at the drive's first speed, its
+    cage pushed off if the case says so, and all on the constraints.
 
     ``progress`` is a context like ``core.progress.Progress``.
     """
@@ -165,6 +166,7 @@ def assembled_start(case: Case, bearing: Bearing, progress: Callable[..., Any] =
         start = find_start(
             bearing, limit_force=limit, statics=lambda: solve_static(case), told=bar.to
         )
+    start = pushed(start, bearing.layout, case.start)
     return constrained(start, bearing, case.constraints)
 
 

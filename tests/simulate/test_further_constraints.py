@@ -69,6 +69,14 @@ def test_a_resumed_run_is_the_unbroken_one(tmp_path, method):
         np.testing.assert_array_equal(again[name].values, whole[name].values)
 
 
+@pytest.mark.parametrize("method", ["bdf", "explicit"])
+def test_a_held_cage_that_is_pushed_stays(method):
+    more = {"start.push": "5 mm/s", "solver.method": method, "solver.duration": "0.5 ms"}
+    ds = simulate(n1013(RIGID, more, constraints=[{"type": "cage_centre", "y": "10 um"}])).dataset
+    assert np.abs(ds["cage_position"].values[:, 1:] - [10e-6, 0.0]).max() < 1e-11
+    assert np.abs(ds["cage_velocity"].values[:, 1:]).max() < 1e-8
+
+
 def test_a_ball_bearing_whose_cage_is_held():
     case = load_case(
         {"bearing": {"preset": "7010C-PI"}, "mesh": {"fineness": "coarse"},
