@@ -167,7 +167,7 @@ def assembled_start(case: Case, bearing: Bearing, progress: Callable[..., Any] =
             bearing, limit_force=limit, statics=lambda: solve_static(case), told=bar.to
         )
     start = pushed(start, bearing.layout, case.start)
-    return constrained(start, bearing, case.constraints)
+    return constrained(start, bearing, case.constraints, limit_force=limit)
 
 
 def _bearing_of(case: Case, mesh: CageMesh, cage: CageReduction | None) -> Bearing:

@@ -444,6 +444,8 @@ def _plain(value: Any, meta: Mapping, named: Mapping, *, tagged: bool) -> Any:
             return name
         tag = {"type": tag_of(type(value))} if tagged else {}
         return {**tag, **to_table(value, named=named)}
+    if isinstance(value, np.generic):
+        value = value.item()
     unit = meta.get("unit")
     if unit and isinstance(value, (int, float)) and not isinstance(value, bool):
         return format_si(value, unit)

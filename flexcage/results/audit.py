@@ -35,7 +35,8 @@ class EnergyAudit:
     """Balance of a run [J]: stored energy gained less work done, at its worst and at the end.
 
     ``relative`` is the worst imbalance over the energy that moved (the larger of the gain's
-    range and the sum over channels of their ranges). ``channels`` holds each channel's total.
+    range and the sum over channels of their ranges). ``channels`` holds each channel's total; the
+    drive is what turns the inner ring, and constraints that move bodies.
     ``elastic`` is the largest energy held other than kinetic. ``of_drive`` and ``of_cage`` are the
     worst imbalance over the drive's work and over what pockets and modes dissipate; NaN where there
     was none, or so little that the share exceeds its bound with an imbalance under ``OF_ELASTIC``
@@ -85,7 +86,7 @@ def energy_audit(ds: xarray.Dataset) -> EnergyAudit:
     moved = max(gain, through)
     worst = float(np.abs(gap).max())
     channels = _change(work.transpose("time", "channel"), "channel")
-    drive = abs(channels.get("drive", 0.0))
+    drive = abs(channels.get("drive", 0.0)) + abs(channels.get("constraints", 0.0))
     lost = -sum(channels.get(name, 0.0) for name in CAGE_LOSSES)
     held = stored.sel(energy_kind=stored["energy_kind"] != "kinetic").sum("energy_kind")
     elastic = float(held.max())

@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 from functools import reduce
 from itertools import product
+from math import prod
 from operator import or_
 
 from flexcage.case import Case
@@ -19,6 +20,7 @@ from flexcage.study.outputs import check_outputs
 from flexcage.study.spec import Study
 from flexcage.system.constraints import names_of
 from flexcage.system.layout import CONSTRAINTS
+from flexcage.system.model import END_POINTS
 
 #: What tables hold of every case or point beside labels, values that vary, and outputs.
 COLUMNS = ("point", "repetition", "state", "reason", "seconds", "hash", "done")
@@ -89,7 +91,10 @@ def make_plan(study: Study) -> Plan:
 def _counts(case: Case) -> dict[str, int]:
     """Lengths of the dimensions of a case's results that are counted from 0."""
     count = case.bearing.element_count
-    return {case.bearing.element: count, "pocket": count, "slice": case.contacts.pocket.slices}
+    slices = case.contacts.pocket.slices
+    return {
+        case.bearing.element: count, "pocket": count, "slice": slices, "end_point": prod(END_POINTS)
+    }  # fmt: skip
 
 
 def stored_plan(study: Study, hashes: Sequence[str]) -> Plan:

@@ -7,9 +7,10 @@ A kind of constraint is a function of the signature
 that says of m scalar constraints at time t [s] what they miss: in place, g (m,), and in velocity, h
 (m,), with G (m, 14) = dh/du. q (15,) and u (14,) are the coordinates and velocities of the rings
 and the cage, at the places that the constants below name; p is the kind's vector of parameters.
-Arrays to fill hold zeros. Of level "position", a holonomic g(q, t), h is dg/dt; a kind of level
-"velocity" is a h(q, u, t) and leaves g alone. Both enter the equations as index 2, stabilised where
-there is a place to keep: G^T lambda acts on the bodies, and lambda is the result ``multiplier``.
+Arrays to fill hold zeros; t may be a microsecond before the start. Of level "position", a holonomic
+g(q, t), h is dg/dt; a kind of level "velocity" is a h(q, u, t) and leaves g alone. Both enter the
+equations as index 2, stabilised where there is a place to keep: G^T lambda acts on the bodies, and
+lambda is the result ``multiplier``.
 ``register_constraint`` adds a kind from any module.
 """
 
@@ -18,6 +19,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, fields
 from math import cos, sin
+from numbers import Real
 from typing import Any, NamedTuple
 
 import numba
@@ -28,6 +30,7 @@ from flexcage.core.errors import InputError
 from flexcage.core.jit import LEAN, kernel
 from flexcage.core.registry import add, check_free
 from flexcage.system import spec as specs
+from flexcage.system.layout import CONSTRAINTS as REACTIONS
 from flexcage.system.layout import Layout
 from flexcage.system.spec import Constraint
 
@@ -41,6 +44,8 @@ N_PARAMETERS = 10
 OFF, VELOCITY, POSITION = 0, 1, 2  # levels; OFF while a start is brought to equilibrium
 LEVELS = {"velocity": VELOCITY, "position": POSITION}
 _ALIKE = 1e-9  # of normalised constraints: below it they hold the same
+_NUDGE = np.array([1e-6, 5e-7])  # [m] away from a place without slopes
+_BEYOND = 16  # rows more than a kind has labels for, in which it is caught writing
 
 _F8, _VECTOR = types.float64, types.Array(types.float64, 1, "C")
 _MATRIX = types.Array(types.float64, 2, "C")
@@ -119,14 +124,14 @@ def register_constraint(
     """Add a kind of constraint: ``[[constraints]]`` with ``type = "name"`` then asks for it.
 
     ``rows`` is a function of the signature above, in plain Python that is compiled here; ``level``
-    is "position" or "velocity"; ``labels`` names its scalar constraints, as many as it fills rows
-    ("" for a single one). ``spec``, if it has values of its own, is a frozen dataclass derived from
-    ``Constraint`` whose fields carry their units and whose ``type`` defaults to ``name``.
-    ``parameters(spec)`` gives p, at most ``N_PARAMETERS`` numbers; without it p holds the spec's
-    values in their order.
+    is "position" or "velocity"; ``labels`` names its scalar constraints, one for every row that it
+    fills ("" for a single one). ``spec``, if it has values of its own, is a frozen dataclass
+    derived from ``Constraint`` whose fields carry their units and whose ``type`` defaults to
+    ``name``. ``parameters(spec)`` gives p, at most ``N_PARAMETERS`` numbers; without it p holds the
+    spec's values in their order.
 
-    Raises InputError for a name that is taken, another level, a wrong spec, or rows that cannot be
-    compiled.
+    Raises InputError for a name that is taken, another level, labels that are none, a wrong spec,
+    or rows that cannot be compiled.
     """
     check_free(KINDS, name, what="kind of constraint")
     if level not in LEVELS:
@@ -134,16 +139,23 @@ def register_constraint(
             f"The level of constraint '{name}' is {level!r}, but must be 'position' or 'velocity'.",
             where=name, value=level,
         )  # fmt: skip
-    own = spec or _spec_of(name)
-    default = own.__dataclass_fields__["type"].default if issubclass(own, Constraint) else None
-    if default != name:
+    words = not isinstance(labels, str) and all(isinstance(label, str) for label in labels)
+    if not (words and len(labels) > 0 and len(set(labels)) == len(labels)):
+        raise InputError(
+            f"The labels of constraint '{name}' are {labels!r}, but must be texts that differ, one "
+            'for every row, as in ("y", "z").',
+            where=name, value=labels,
+        )  # fmt: skip
+    own: Any = spec or _spec_of(name)
+    derived = isinstance(own, type) and issubclass(own, Constraint)
+    if not derived or own.__dataclass_fields__["type"].default != name:
         raise InputError(
             f"The spec of constraint '{name}' must be a dataclass derived from Constraint whose "
             f"type defaults to '{name}'.",
-            where=name, value=default,
+            where=name, value=own,
         )  # fmt: skip
     try:
-        compiled = kernel(ROWS)(rows) if not hasattr(rows, "py_func") else rows
+        compiled = kernel(ROWS)(getattr(rows, "py_func", rows))
     except (numba.errors.NumbaError, TypeError) as exc:
         raise InputError(
             f"The rows of constraint '{name}' cannot be compiled as a function "
@@ -169,12 +181,22 @@ def _spec_of(name: str) -> type[Constraint]:
 
 
 def names_of(constraints: Sequence[Constraint]) -> tuple[str, ...]:
-    """Names of all scalar constraints, numbered where a kind comes twice."""
+    """Names of all scalar constraints, numbered where a kind comes twice.
+
+    Raises InputError where two have one name.
+    """
     found: list[str] = []
     for i, spec in enumerate(constraints):
         before = sum(other.type == spec.type for other in constraints[:i])
         name = f"{spec.type}_{before + 1}" if before else spec.type
-        found.extend(KINDS[spec.type].named(name))
+        for own in KINDS[spec.type].named(name):
+            if own in (*REACTIONS, *found):
+                raise InputError(
+                    f"constraints.{i} is called '{own}' in results, as another multiplier is; "
+                    "register its kind under another name.",
+                    where=f"constraints.{i}", value=own,
+                )  # fmt: skip
+            found.append(own)
     return tuple(found)
 
 
@@ -203,9 +225,15 @@ def constraints_of(
     kinds = [KINDS[spec.type] for spec in constraints]
     m, z = len(layout.held), np.zeros
     p = z((len(kinds), N_PARAMETERS))
-    for row, kind, spec in zip(p, kinds, constraints, strict=True):
+    for i, (kind, spec) in enumerate(zip(kinds, constraints, strict=True)):
         values = kind.parameters(spec)
-        row[: len(values)] = values
+        if len(values) > N_PARAMETERS or not all(isinstance(v, Real) for v in values):
+            raise InputError(
+                f"The parameters of constraint '{spec.type}' are {tuple(values)}, but must be "
+                f"numbers, at most {N_PARAMETERS}.",
+                where=f"constraints.{i}", value=values,
+            )  # fmt: skip
+        p[i, : len(values)] = values
     level = [LEVELS[kind.level] for kind in kinds for _ in kind.labels]
     data = Constraints(
         np.array(level, float), p, _ease(model), z((m, 14)), z(m), z(m), z((m, 14 + layout.modes)),
@@ -227,24 +255,56 @@ def _ease(model: Any) -> np.ndarray:
 
 
 def check_independent(
-    constraints: Sequence[Constraint], data: Constraints, rows: Any, q: np.ndarray, u: np.ndarray
+    constraints: Sequence[Constraint], data: Constraints, q: np.ndarray, u: np.ndarray
 ) -> None:
     """Raise InputError for a constraint on what drive, load, mount or those before it hold, where
-    rings and cage are at q (15,) and move as u (14,)."""
-    own = [i for i, spec in enumerate(constraints) for _ in KINDS[spec.type].labels]
-    G, g, h = np.zeros_like(data.G), np.zeros_like(data.g), np.zeros_like(data.h)
-    rows(0.0, q, u, data.p, G, g, h)
+    rings and cage are at q (15,) and move as u (14,).
+
+    A place at which a constraint has no slope, as the middle of a circle has none towards it, is
+    left by a nudge of the centres in q.
+    """
     basis = np.zeros((0, 14))
-    for i, row in zip(own, G * np.sqrt(data.ease), strict=True):
-        size, left = np.linalg.norm(row), row - basis.T @ (basis @ row)
-        if not np.linalg.norm(left) > _ALIKE * size:
-            by = "another constraint holds" if size > 0.0 else "drive, load or mount hold"
+    for i, spec in enumerate(constraints):
+        G = _slopes(spec, data.p[i], q, u)
+        if not _has_slope(G):
+            for centre in (Q_INNER, Q_CAGE):
+                q[centre + 1 : centre + 3] += _NUDGE
+            G = _slopes(spec, data.p[i], q, u)
+        if not _has_slope(G):
             raise InputError(
-                f"constraints.{i} ({constraints[i].type}) is on what {by} already; leave one of "
-                "them out.",
-                where=f"constraints.{i}", value=constraints[i].type,
+                f"constraints.{i} ({spec.type}) has no slope G at the start, or one that is not a "
+                "number: does every label have its row?",
+                where=f"constraints.{i}", value=spec.type,
             )  # fmt: skip
-        basis = np.vstack([basis, left / np.linalg.norm(left)])
+        for row in G * np.sqrt(data.ease):
+            size, left = np.linalg.norm(row), row - basis.T @ (basis @ row)
+            if not np.linalg.norm(left) > _ALIKE * size:
+                by = "another constraint holds" if size > 0.0 else "drive, load or mount hold"
+                raise InputError(
+                    f"constraints.{i} ({spec.type}) is on what {by} already; leave one of them "
+                    "out.",
+                    where=f"constraints.{i}", value=spec.type,
+                )  # fmt: skip
+            basis = np.vstack([basis, left / np.linalg.norm(left)])
+
+
+def _slopes(spec: Constraint, p: np.ndarray, q: np.ndarray, u: np.ndarray) -> np.ndarray:
+    """G (m, 14) of one constraint; InputError if it fills more rows than it has labels."""
+    kind = KINDS[spec.type]
+    m = len(kind.labels)
+    G, g, h = np.zeros((m + _BEYOND, 14)), np.zeros(m + _BEYOND), np.zeros(m + _BEYOND)
+    kind.rows(0.0, q, u, p, G, g, h)
+    if G[m:].any() or g[m:].any() or h[m:].any():
+        raise InputError(
+            f"Constraint '{spec.type}' fills more rows than the {m} that its labels name; register "
+            "it with a label for each.",
+            where=spec.type,
+        )
+    return G[:m]
+
+
+def _has_slope(G: np.ndarray) -> bool:
+    return bool(np.isfinite(G).all() and np.all(np.any(G, axis=1)))
 
 
 def _joined(kinds: tuple[tuple[Any, int], ...]) -> Any:

@@ -86,7 +86,7 @@ class Tangent(NamedTuple):
     Kbb: np.ndarray  # (nb, nb)
     Cbb: np.ndarray
     Mbb: np.ndarray  # (nb, nb)
-    held: np.ndarray  # (m, 14) G of the constraints beyond drive and load
+    held: np.ndarray  # (m, 14) G of the constraints beyond drive and load, where it acts
     active: np.ndarray  # (Z,) roller touches its pocket
 
 

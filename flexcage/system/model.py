@@ -84,16 +84,19 @@ def _race_side(bearing, contacts: Contacts, lubricant: Lubricant, *, inner: bool
     )
 
 
+END_POINTS = (2, 7)  # of a roller's end on a side beam: across the band and along it
+
+
 def end_points(bearing: RollerBearing, cage: WindowCage) -> np.ndarray:
-    """Points (14, 2) of a roller's end over the band that a side beam covers, as offsets along e_r
-    and e_psi [m]: 2-point Gauss across the band by 7-point Gauss along it, enough to feel a
-    side beam that is bent within one pocket."""
+    """Points (n, 2) of a roller's end over the band that a side beam covers, as offsets along e_r
+    and e_psi [m]: Gauss points across the band by those along it (``END_POINTS``), enough to feel
+    a side beam that is bent within one pocket."""
     low = max(0.5 * cage.bore - bearing.pitch_radius, -0.45 * bearing.roller_diameter)
     high = min(0.5 * cage.outside_diameter - bearing.pitch_radius, 0.45 * bearing.roller_diameter)
-    across = 0.5 * (low + high) + 0.5 * (high - low) * np.array([-1.0, 1.0]) / np.sqrt(3.0)
+    across, along = (np.polynomial.legendre.leggauss(n)[0] for n in END_POINTS)
+    across = 0.5 * (low + high) + 0.5 * (high - low) * across
     reach = np.sqrt((0.45 * bearing.roller_diameter) ** 2 - max(abs(low), abs(high)) ** 2)
-    along = reach * np.polynomial.legendre.leggauss(7)[0]
-    return np.array([(y, z) for y in across for z in along])
+    return np.array([(y, z) for y in across for z in reach * along])
 
 
 def rib_points(bearing: RollerBearing) -> np.ndarray:

@@ -196,6 +196,7 @@ def _constrain(t, y, yd, zq, ring, end, d, law):
             c.place[side, j] = q[j] + late * yd[zq + j]
         zero(c.spare)
         zero(c.late[side])
+        zero(c.g)
         law[10](t + late, c.place[side], u, c.p, c.spare, c.g, c.late[side])
     evaluate_constraints(t, q, u, c, law)
     for k in range(m):

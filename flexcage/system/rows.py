@@ -399,6 +399,7 @@ def constraint_rows(t, y, d, law, out, zq, nq, at, mode):
     """Rows of the constraints of ``constraints``, whose multipliers begin at ``at``, and what these
     add to the rows of rings and cage."""
     c, tan, work = fields(d.constraints), fields(d.tangent), fields(d.scratch)
+    fixed = fields(d.bodies).outer[3] > 0.0  # then nothing moves the outer ring
     q, u, r_q, r_u = y[zq : zq + 15], y[nq + zq : nq + zq + 14], out[zq:nq], out[nq + zq :]
     evaluate_constraints(t, q, u, c, law)
     m = c.level.shape[0]
@@ -410,9 +411,12 @@ def constraint_rows(t, y, d, law, out, zq, nq, at, mode):
         out[at + k] = c.h[k] if held else lam[k]
         out[at + m + k] = c.g[k] if c.level[k] == POSITION else mu[k]
         for j in range(14):
-            r_u[j] -= c.G[k, j] * lam[k] if held else 0.0
+            acts = 0.0 if fixed and 6 <= j < 8 else c.G[k, j]
+            r_u[j] -= acts * lam[k] if held else 0.0
             if c.level[k] == POSITION:
-                shift[j] += c.G[k, j] * mu[k]
+                shift[j] += acts * mu[k]
+            if mode == 1:
+                tan.held[k, j] = acts if held else 0.0
     rates = work.S[0]
     displaced(q, shift, rates, work.moved)
     for j in range(15):
@@ -423,7 +427,6 @@ def constraint_rows(t, y, d, law, out, zq, nq, at, mode):
             rate, place = first + k, first + m + k
             held, kept = c.level[k] != OFF, c.level[k] == POSITION
             for j in range(14):
-                tan.held[k, j] = c.G[k, j] if held else 0.0
                 if held:
                     tan.Cbb[rate, j] = c.G[k, j]
                 if kept:
@@ -435,7 +438,7 @@ def constraint_rows(t, y, d, law, out, zq, nq, at, mode):
             for l in range(m if kept else 0):
                 if c.level[l] == POSITION:
                     for j in range(14):
-                        tan.Kbb[place, first + m + l] += c.G[k, j] * c.G[l, j]
+                        tan.Kbb[place, first + m + l] += c.G[k, j] * tan.held[l, j]
 
 
 @part

@@ -22,7 +22,7 @@ from flexcage.contacts import laws
 from flexcage.contacts.pocket_wall import with_offset
 from flexcage.core.errors import InputError, RunFailed
 from flexcage.geometry.kinematics import epicyclic
-from flexcage.system.constraints import OFF, check_independent
+from flexcage.system.constraints import OFF, POSITION, check_independent, no_rows
 from flexcage.system.layout import Layout
 from flexcage.system.model import Model
 from flexcage.system.newton import assemble, newton_step
@@ -42,7 +42,7 @@ TOUCH = 1e-9  # [m] interference that is only a touch
 STAGES = 8  # steps of a pinching defect's growth
 _CAGE_ROW = 8  # of the border: where the cage's rigid motion begins
 _HOLD = 1e12  # stiffness that holds a coordinate, far above that of any contact
-_ONTO, _NEAR = 10, 1e-12  # steps onto constraints; [m, rad] how near they must come
+_ONTO, _NEAR = 40, 1e-12  # steps onto constraints; [m, rad] how near they must come
 # longest step of centres [m], and of a roller's tilt and skew [rad], by which its ends move by some
 # 0.4 um: one that is hardly loaded resists so little that longer ones may swing over for ever
 _SHIFT, _TURN = 1e-5, 1e-4
@@ -107,25 +107,41 @@ def pushed(start: Start, layout: Layout, options: StartOptions) -> Start:
     return replace(start, y=y, yd=yd)
 
 
-def constrained(start: Start, bearing: Bearing, constraints: Sequence[Constraint]) -> Start:
+def constrained(
+    start: Start, bearing: Bearing, constraints: Sequence[Constraint], *, limit_force: float
+) -> Start:
     """The start with rings and cage moved onto the bearing's further constraints.
 
-    Raises InputError for a constraint on what is held already, RunFailed for one that the start
-    cannot be moved onto.
+    Raises InputError for a constraint on what is held already, or that presses a rolling element
+    with more than ``limit_force`` [N], RunFailed for one that the start cannot be moved onto.
     """
     if not constraints:
         return start
-    layout, data, rows = bearing.layout, bearing.data.constraints, bearing.laws[-1]
+    layout, data = bearing.layout, bearing.data.constraints
     z, y, yd = 6 * layout.rollers, start.y.copy(), np.zeros_like(start.yd)
-    q, u = y[z : z + 15], y[layout.n_q + z : layout.n_q + z + 14]
-    check_independent(constraints, data, rows, q, u)
+    check_independent(constraints, data, y[z : z + 15], y[layout.n_q + z : layout.n_q + z + 14])
     rates = bearing.function("rates")
     for _ in range(_ONTO):  # each moves y one step of Newton's nearer
         rates(0.0, y, yd, bearing.args, np.zeros(0))
-    missed = np.abs(np.concatenate([data.g / _NEAR, data.h / (_NEAR * ERROR_RATE)]))
-    if not missed.max() < 1.0:
-        name = layout.held[int(missed.argmax()) % len(layout.held)]
+        place = np.where(data.level == POSITION, data.g, 0.0) / _NEAR
+        missed = np.abs([place, data.h / (_NEAR * ERROR_RATE)]).max(axis=0)
+        if missed.max() < 1.0:
+            break
+    else:
+        name = layout.held[int(missed.argmax())]
         raise RunFailed(f"the start cannot be moved onto the constraint '{name}'; can it be met?")
+    bearing.residual(0.0, y, yd, mode=2)
+    report = bearing.data.work.report
+    for force, where in ((report.pocket_normal, "its pocket"), (report.race[:, :, 0], "a race")):
+        if force.max() > limit_force:
+            number = int(force.max(axis=1).argmax())
+            raise InputError(
+                f"where the constraints put rings and cage, {bearing.family.element} {number} and "
+                f"{where} press each other with {force.max():,.0f} N, more than "
+                f"limits.assembly_force ({limit_force:,.0f} N); make them smaller, or raise the "
+                "limit",
+                where="constraints", value=float(force.max()),
+            )  # fmt: skip
     return replace(start, y=y, yd=yd)
 
 
@@ -191,7 +207,7 @@ class _Frictionless:
         free = bearing.data.constraints
         free = free._replace(level=np.full(len(free.level), float(OFF)))
         self.data = bearing.data._replace(model=still, constraints=free)
-        own = (laws.elastic,) * 5 + (laws.no_friction,) * 5 + (bearing.laws[-1],)
+        own = (laws.elastic,) * 5 + (laws.no_friction,) * 5 + (no_rows,)
         self.args = bearing.arguments(self.data, own)
         self.out = np.zeros(bearing.layout.size)
 

@@ -12,6 +12,7 @@ from flexcage.core.errors import InputError, RunFailed
 from flexcage.results.audit import energy_audit
 from flexcage.simulate import simulate
 from flexcage.study.outputs import check_outputs
+from flexcage.system import constraints
 from flexcage.system.layout import CONSTRAINTS
 from flexcage.system.spec import CageSpeed, InnerPath
 
@@ -90,7 +91,7 @@ def test_a_ball_bearing_whose_cage_is_held():
 
 
 @pytest.mark.parametrize(
-    "constraints, more, words",
+    "asked, more, words",
     [
         ([{"type": "cage_sped"}], {}, "constraints.0.type 'cage_sped' is not known; the nearest"),
         ([{"ratio": 0.4}], {}, r"\[constraints.0\] lacks 'type' .*; choose from cage_centre, cage"),
@@ -101,26 +102,65 @@ def test_a_ball_bearing_whose_cage_is_held():
          r"constraints.0 \(inner_path\) is on what drive, load or mount hold"),
     ],
 )  # fmt: skip
-def test_impossible_constraints(constraints, more, words):
+def test_impossible_constraints(asked, more, words):
     with pytest.raises(InputError, match=words):
-        simulate(n1013(RIGID, more, constraints=constraints))
+        simulate(n1013(RIGID, more, constraints=asked))
 
 
-def test_a_constraint_that_cannot_be_met():
-    """The cage's centre on a circle of imaginary radius."""
-    from flexcage.system import constraints
+@pytest.fixture
+def kinds():
+    """Tables of kinds, left as they were."""
+    tables = constraints.KINDS, constraints.specs.CONSTRAINTS
+    saved = [dict(table) for table in tables]
+    yield
+    for table, before in zip(tables, saved):
+        table.clear()
+        table.update(before)
 
-    def circle(t, q, u, p, G, g, h):  # y^2 + z^2 = -1
-        g[0] = q[9] ** 2 + (q[10] - 1.0) ** 2 + 1.0
-        G[0, 9], G[0, 10] = 2.0 * q[9], 2.0 * (q[10] - 1.0)
-        h[0] = G[0, 9] * u[9] + G[0, 10] * u[10]
 
-    constraints.register_constraint("nowhere", circle, level="position")
-    try:
-        with pytest.raises(RunFailed, match="moved onto the constraint 'nowhere'; can it be met"):
-            simulate(n1013(RIGID, constraints=[{"type": "nowhere"}]))
-    finally:
-        del constraints.KINDS["nowhere"], constraints.specs.CONSTRAINTS["nowhere"]
+def circle(t, q, u, p, G, g, h):
+    """(y - p1)^2 + z^2 = p0, of the cage's centre: no slope in the middle."""
+    y, z = q[9] - p[1], q[10]
+    g[0] = y * y + z * z - p[0]
+    G[0, 9], G[0, 10] = 2.0 * y, 2.0 * z
+    h[0] = G[0, 9] * u[9] + G[0, 10] * u[10]
+
+
+def test_a_constraint_that_cannot_be_met(kinds):
+    constraints.register_constraint(
+        "nowhere", circle, level="position", parameters=lambda s: (-1.0, 1.0)
+    )
+    with pytest.raises(RunFailed, match="moved onto the constraint 'nowhere'; can it be met"):
+        simulate(n1013(RIGID, constraints=[{"type": "nowhere"}]))
+
+
+def test_a_start_leaves_a_place_without_slopes(kinds):
+    constraints.register_constraint(
+        "orbit", circle, level="position", parameters=lambda s: (4e-10, 0.0)
+    )
+    more = {"solver.duration": "0.5 ms"}
+    ds = simulate(n1013(RIGID, more, constraints=[{"type": "orbit"}])).dataset
+    radius = np.linalg.norm(ds["cage_position"].values[:, 1:], axis=1)
+    np.testing.assert_allclose(radius, 20e-6, rtol=1e-8)
+
+
+def test_a_place_at_which_contacts_are_pressed_beyond_measure():
+    for constraint, words in (
+        ({"type": "cage_centre", "y": "500 um"}, "and its pocket press each other with"),
+        ({"type": "inner_path", "y": "400 um"}, "and a race press each other with"),
+    ):
+        with pytest.raises(InputError, match=words) as caught:
+            simulate(n1013(RIGID, constraints=[constraint]))
+        assert "limits.assembly_force (20,000 N)" in str(caught.value)
+
+
+def test_what_a_constraint_drives_is_a_drive():
+    """The inner ring stands; the cage is turned, and takes the rollers along."""
+    held = [{"type": "cage_speed", "speed": "500 rpm"}]
+    ds = simulate(n1013(RIGID, {"drive.speed": "0 rpm"}, constraints=held)).dataset
+    audit = energy_audit(ds)
+    assert audit.channels["constraints"] > 1e-3 > abs(audit.channels["drive"])
+    assert audit.passed and audit.of_drive < 1e-3
 
 
 def test_outputs_of_studies_name_constraints_that_every_case_has():
