@@ -337,6 +337,20 @@ def test_the_example_in_the_readme(tmp_path):
     law_checks().check_normal_law(laws.NORMAL_LAWS[law.law], p)
 
 
+def test_the_constraint_in_the_readme(tmp_path):
+    from flexcage.simulate import simulate
+
+    section = (ROOT / "README.md").read_text("utf-8").split("## Extending")[1].split("\n## ")[0]
+    file = tmp_path / "my_constraint.py"
+    file.write_text(re.findall(r"```python\n(.*?)```", section, flags=re.S)[1])
+    load_extension(file)
+    case = load_case(PLAIN + '[[constraints]]\ntype = "in_plane"\n')
+    varied = {"cage.model": "rigid", "mesh.fineness": "coarse", "solver.duration": "0.5 ms"}
+    ds = simulate(case.replace(**varied)).dataset
+    assert np.abs(ds["cage_position"].sel(axis="x")).max() < 1e-12
+    assert ds["constraint"].values[-1] == "in_plane"
+
+
 PLAIN = '[bearing]\npreset = "N1013"\n'
 CASE_OF_README = """
 bearing.preset = "N1013"
