@@ -37,7 +37,6 @@ StaticStart = Callable[[], StaticSolution]
 Told = Callable[[float], None]
 RESIDUAL = 1e-7  # of the load: where an equilibrium is accepted
 _BALANCED = 1e-6  # of the load: what may stay unbalanced at last
-_OTHERS = "the load, the speed, the misalignment or the clearance"  # that may be too large
 TOUCH = 1e-9  # [m] interference that is only a touch
 STAGES = 8  # steps of a pinching defect's growth
 _CAGE_ROW = 8  # of the border: where the cage's rigid motion begins
@@ -263,10 +262,17 @@ def _not_assembled(
         )
     return InputError(
         f"a pocket pushes with {beyond}, whatever the defects: no equilibrium to start from was "
-        f"found; {_OTHERS} is too large",
+        f"found; {_others(model)} is too large",
         where="load",
         value=force,
     )
+
+
+def _others(model: Model) -> str:
+    """What besides defects may be too large for an equilibrium."""
+    soft = np.any(model.bodies.moments) and np.any(model.bodies.free[1:3])
+    moment = "the moment for such a load.tilt_stiffness, " if soft else ""
+    return f"the load, {moment}the speed, the misalignment or the clearance"
 
 
 def _sound_one_assembles(bearing: Bearing, limit: float) -> bool:
@@ -430,10 +436,10 @@ def _(
         told(stage / len(shares))
     if residual > _BALANCED:
         by_defects = len(pinched) and _sound_one_assembles(bearing, limit_force)
+        blamed = "a defect" if by_defects else _others(model)
         raise RunFailed(
             f"no equilibrium to start from was found: {residual:.1e} of the load stays "
-            f"unbalanced ({_BALANCED:g} is allowed); is {'a defect' if by_defects else _OTHERS} "
-            "too large?"
+            f"unbalanced ({_BALANCED:g} is allowed); is {blamed} too large?"
         )
     report = system.report(y, yd)
     yd = rolling_velocities(model, layout, y)

@@ -120,3 +120,9 @@ def test_overlaps_of_a_start(recorder):
     for at, room in ((4, case.pocket.half[1]), (6, case.rib.half_gap)):
         both = depth[:, at] + depth[:, at + 1]
         np.testing.assert_allclose(both, -2.0 * (room - case.pocket.half_roller), rtol=1e-3)
+
+
+def test_a_moment_that_a_soft_shaft_does_not_bear():
+    soft = {"load.tilt": "free", "load.tilt_stiffness": "500 N*m/rad", "load.moment_z": "100 N*m"}
+    with pytest.raises(RunFailed, match="the moment for such a load.tilt_stiffness, the speed"):
+        started(2e4, **soft)
