@@ -14,7 +14,7 @@ from flexcage.results import audit, ball_figures, metrics
 from flexcage.results.bootstrap import FEWEST
 from flexcage.results.contact_activity import EVENTS, contact_series
 from flexcage.results.metrics import BearingNumbers, SlipRange
-from flexcage.results.ring_figures import ring_section
+from flexcage.results.ring_figures import constraint_sections, ring_section
 from flexcage.results.statistics import Record, Windows, roller_passes
 from flexcage.results.summary import Row, Section, Summary
 
@@ -57,6 +57,7 @@ def summarise(
         Section("Forces", (*_force_rows(part, windows), *own.races(part))),
         Section("Contacts of the cage", _contact_rows(part, windows, events)),
         ring_section(part, windows),
+        *constraint_sections(part, windows),
     ]
     records = {r.key: r.record for s in sections for r in s.rows if r.record is not None}
     sections.insert(0, Section("Statistics", _statistics_rows(part, windows, settle, records)))

@@ -48,6 +48,11 @@ def new_store(
         "face": np.array(bearing.family.faces),
         "mode": np.arange(layout.modes),
         "constraint": np.array(layout.reactions),
+        "multiplier_unit": (
+            ("constraint",),
+            np.array(bearing.reaction_units),
+            {"long_name": "unit of multipliers"},
+        ),
         "energy_kind": np.array(ENERGIES),
         "channel": np.array(POWERS),
         "land_station": np.arange(len(bearing.data.model.land.angle)),

@@ -1,4 +1,5 @@
-"""Figures of the inner ring: what drives it, where the load puts it, what holds it."""
+"""Figures of the inner ring: what drives it, where the load puts it, what holds it; and of further
+constraints."""
 
 from __future__ import annotations
 
@@ -9,6 +10,7 @@ import numpy as np
 from flexcage.results import metrics
 from flexcage.results.statistics import Windows
 from flexcage.results.summary import Row, Section
+from flexcage.system.layout import CONSTRAINTS
 
 if TYPE_CHECKING:
     import xarray
@@ -65,3 +67,15 @@ def _reaction_rows(ds: xarray.Dataset, windows: Windows) -> tuple[Row, ...]:
         note = "what holds the ring" if force.any() else ""
         rows.append(Row.of(f"reaction_{key}", label, windows.mean(force), unit, note))
     return tuple(rows)
+
+
+def constraint_sections(ds: xarray.Dataset, windows: Windows) -> tuple[Section, ...]:
+    """Means of what the constraints beyond drive and load bear, one section, or none."""
+    further = [str(name) for name in ds["constraint"].values if name not in CONSTRAINTS]
+    rows = []
+    for name in further:
+        borne = ds["multiplier"].sel(constraint=name)
+        shown = {"N": "N", "N m": "N mm"}[str(borne["multiplier_unit"].values)]
+        label = name.replace("_", " ").capitalize()
+        rows.append(Row.of(f"constraint_{name}", label, windows.mean(borne.values), shown))
+    return (Section("Constraints", tuple(rows)),) if rows else ()

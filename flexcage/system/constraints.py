@@ -31,7 +31,7 @@ from flexcage.core.jit import LEAN, kernel
 from flexcage.core.registry import add, check_free
 from flexcage.system import spec as specs
 from flexcage.system.layout import CONSTRAINTS as REACTIONS
-from flexcage.system.layout import Layout
+from flexcage.system.layout import REACTION_UNITS, Layout
 from flexcage.system.spec import Constraint
 
 # places in u: velocity of the centre (x, y, z) in space; angular velocity of the inner ring in its
@@ -43,6 +43,7 @@ Q_INNER, Q_INNER_TURN, Q_OUTER, Q_CAGE, Q_QUATERNION = 0, 3, 6, 8, 11
 N_PARAMETERS = 10
 OFF, VELOCITY, POSITION = 0, 1, 2  # levels; OFF while a start is brought to equilibrium
 LEVELS = {"velocity": VELOCITY, "position": POSITION}
+UNITS = ("N", "N m")  # of multipliers
 _ALIKE = 1e-9  # of normalised constraints: below it they hold the same
 _NUDGE = np.array([1e-6, 5e-7])  # [m] away from a place without slopes
 _BEYOND = 16  # rows more than a kind has labels for, in which it is caught writing
@@ -89,11 +90,13 @@ def no_rows(t, q, u, p, G, g, h):
 
 @dataclass(frozen=True)
 class ConstraintKind:
-    """Rows of a kind, compiled; which level; names of its scalar constraints; its parameters."""
+    """Rows of a kind, compiled; which level; names of its scalar constraints and the unit of their
+    multipliers; its parameters."""
 
     rows: Any
     level: str
     labels: tuple[str, ...]
+    unit: str
     parameters: Callable[[Any], Sequence[float]]
 
     def named(self, name: str) -> tuple[str, ...]:
@@ -106,9 +109,9 @@ def _values(spec: Constraint) -> tuple[float, ...]:
 
 
 KINDS: dict[str, ConstraintKind] = {
-    "cage_speed": ConstraintKind(cage_speed, "velocity", ("",), _values),
-    "cage_centre": ConstraintKind(cage_centre, "position", ("y", "z"), _values),
-    "inner_path": ConstraintKind(inner_path, "position", ("y", "z"), _values),
+    "cage_speed": ConstraintKind(cage_speed, "velocity", ("",), "N m", _values),
+    "cage_centre": ConstraintKind(cage_centre, "position", ("y", "z"), "N", _values),
+    "inner_path": ConstraintKind(inner_path, "position", ("y", "z"), "N", _values),
 }
 
 
@@ -119,25 +122,32 @@ def register_constraint(
     level: str,
     spec: type[Constraint] | None = None,
     labels: Sequence[str] = ("",),
+    unit: str = "N",
     parameters: Callable[[Any], Sequence[float]] | None = None,
 ) -> None:
     """Add a kind of constraint: ``[[constraints]]`` with ``type = "name"`` then asks for it.
 
     ``rows`` is a function of the signature above, in plain Python that is compiled here; ``level``
     is "position" or "velocity"; ``labels`` names its scalar constraints, one for every row that it
-    fills ("" for a single one). ``spec``, if it has values of its own, is a frozen dataclass
-    derived from ``Constraint`` whose fields carry their units and whose ``type`` defaults to
-    ``name``. ``parameters(spec)`` gives p, at most ``N_PARAMETERS`` numbers; without it p holds the
-    spec's values in their order.
+    fills ("" for a single one), and ``unit`` is that of their multipliers: "N" where h is a
+    velocity [m/s], "N m" where it is an angular one [rad/s]. ``spec``, if it has values of its own,
+    is a frozen dataclass derived from ``Constraint`` whose fields carry their units and whose
+    ``type`` defaults to ``name``. ``parameters(spec)`` gives p, at most ``N_PARAMETERS`` numbers;
+    without it p holds the spec's values in their order.
 
-    Raises InputError for a name that is taken, another level, labels that are none, a wrong spec,
-    or rows that cannot be compiled.
+    Raises InputError for a name that is taken, another level or unit, labels that are none, a
+    wrong spec, or rows that cannot be compiled.
     """
     check_free(KINDS, name, what="kind of constraint")
     if level not in LEVELS:
         raise InputError(
             f"The level of constraint '{name}' is {level!r}, but must be 'position' or 'velocity'.",
             where=name, value=level,
+        )  # fmt: skip
+    if unit not in UNITS:
+        raise InputError(
+            f"The unit of constraint '{name}' is {unit!r}, but must be 'N' or 'N m'.",
+            where=name, value=unit,
         )  # fmt: skip
     words = not isinstance(labels, str) and all(isinstance(label, str) for label in labels)
     if not (words and len(labels) > 0 and len(set(labels)) == len(labels)):
@@ -162,7 +172,7 @@ def register_constraint(
             f"({_ARGUMENTS}): {str(exc).strip().splitlines()[-1]}",
             where=name,
         ) from exc
-    kind = ConstraintKind(compiled, level, tuple(labels), parameters or _values)
+    kind = ConstraintKind(compiled, level, tuple(labels), unit, parameters or _values)
     add(KINDS, name, kind, what="kind of constraint", source=rows)
     specs.CONSTRAINTS[name] = own
 
@@ -198,6 +208,12 @@ def names_of(constraints: Sequence[Constraint]) -> tuple[str, ...]:
                 )  # fmt: skip
             found.append(own)
     return tuple(found)
+
+
+def units_of(constraints: Sequence[Constraint]) -> tuple[str, ...]:
+    """Units of the multipliers of all scalar constraints, those of drive and load first."""
+    further = [KINDS[spec.type].unit for spec in constraints for _ in KINDS[spec.type].labels]
+    return (*REACTION_UNITS, *further)
 
 
 class Constraints(NamedTuple):

@@ -9,6 +9,7 @@ import numpy as np
 N_LAMBDA = 4  # inner ring: axial position, skew, tilt, drive
 N_MU = 3  # position-level constraints among them
 CONSTRAINTS = ("axial_force", "moment_y", "moment_z", "drive_torque")
+REACTION_UNITS = ("N", "N m", "N m", "N m")  # of their multipliers
 
 
 @dataclass(frozen=True)

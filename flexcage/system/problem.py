@@ -32,7 +32,7 @@ from flexcage.solve.bordered import Bordered, new_bordered
 from flexcage.solve.contract import Integrator
 from flexcage.solve.oscillators import Oscillators
 from flexcage.system import newton, rates, sampling
-from flexcage.system.constraints import ALL_ROWS_TYPE, Constraints, constraints_of
+from flexcage.system.constraints import ALL_ROWS_TYPE, Constraints, constraints_of, units_of
 from flexcage.system.data import POWERS, Memory, Report, Work, new_memory
 from flexcage.system.families import family_of
 from flexcage.system.layout import Layout
@@ -141,6 +141,7 @@ class Bearing:
         """``layout.held`` holds the ``constraints.names_of`` the constraints."""
         model = model._replace(cage=marked(model.cage))
         self.layout, self.family = layout, family_of(model)
+        self.reaction_units = units_of(constraints)
         work = self.family.new_work(model, layout)
         held, rows = constraints_of(constraints, model, layout)
         self.data = BearingData(

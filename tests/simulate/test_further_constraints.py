@@ -44,6 +44,10 @@ def test_a_flexible_cage_in_gear_with_a_ring_on_its_path(geared):
     assert work["drive"] > 0.0 and work["constraints"] != 0.0
     # what holds the ring bears the load, but for what little a ring inside its clearance presses
     held = ds["multiplier"].sel(constraint=["inner_path_y", "inner_path_z"]).values
+    units = ["N", "N m", "N m", "N m", "N m", "N", "N"]
+    assert list(ds["multiplier"]["multiplier_unit"].values) == units
+    assert geared.summary["constraint_inner_path_y"] == pytest.approx(-1000.0, abs=60.0)
+    assert next(r for r in geared.summary if r.key == "constraint_cage_speed").shown == "N mm"
     assert np.abs(held.mean(axis=0) - [-1000.0, 0.0]).max() < 60.0
 
 

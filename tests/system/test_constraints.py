@@ -259,6 +259,7 @@ def test_names_that_clash():
             {"level": "position", "spec": "Bar"},
             "must be a dataclass derived from Constraint",
         ),
+        ("bar", {"level": "position", "unit": "kN"}, "unit of constraint 'bar' is 'kN'"),
         ("bar", {"level": "position", "labels": ()}, r"labels of constraint 'bar' are \(\)"),
         ("bar", {"level": "position", "labels": "yz"}, "labels of constraint 'bar' are 'yz'"),
     ],
