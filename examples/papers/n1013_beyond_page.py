@@ -301,7 +301,7 @@ assumptions.
 
 Read from the tables below on 23 November 2026:
 
-- A rigid cage overstates the peaks of pocket forces at every speed and load computed, by 6 % to
+- A rigid cage overstates the peaks of pocket forces at every speed and load computed, by 8 % to
   more than double. With brass the excess is larger at high speeds, with PA66 it falls with load.
   The sum of pocket forces stays: the same push comes in harder blows.
 - Up to the clearance a growing deformation changes the stress of pocket corners by a few per cent.
@@ -315,7 +315,7 @@ Read from the tables below on 23 November 2026:
   and corner stress as they were; a tilt of 1 mrad lowers pocket forces by a tenth. Neither adds to
   what a shifted crossbeam does.
 - A sound or shifted cage's corners do not tire; those of a pinched one last for tens of thousands
-  of hours (dp -0.3 mm), thousands (dq 0.25 mm) or about one (dq 0.3 mm).
+  of hours (dp -0.3 mm), thousands (dq 0.25 mm) or about two (dq 0.3 mm).
 
 ## Does a rigid cage overstate pocket forces?
 
