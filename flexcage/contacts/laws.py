@@ -30,7 +30,7 @@ from flexcage.contacts import spec as specs
 from flexcage.contacts.spec import EhlTraction, FrictionLaw, NormalLaw
 from flexcage.core.elementary import exponentials, powers, product_of_powers
 from flexcage.core.errors import InputError
-from flexcage.core.jit import kernel
+from flexcage.core.jit import kernel, kernel_of
 from flexcage.core.registry import add, check_free
 
 _F8, _A, _I8 = types.float64, types.Array(types.float64, 1, "C"), types.int64
@@ -311,22 +311,13 @@ def _compiled(law: Any, signature: Any, what: str) -> Any:
             return law
         law = law.py_func
     try:
-        return _cached_kernel(law, signature)
+        return kernel_of(law, signature)
     except numba.errors.NumbaError as exc:
         reason = next((line for line in str(exc).splitlines()[1:] if line.strip()), str(exc))
         raise InputError(
             f"The {what} cannot be compiled for the arguments {signature.args}: {reason.strip()}.",
             where=what,
         ) from exc
-
-
-def _cached_kernel(law: Any, signature: Any) -> Any:
-    try:
-        return kernel(signature)(law)
-    except RuntimeError as exc:
-        if isinstance(exc, numba.errors.NumbaError) or "cannot cache" not in str(exc):
-            raise
-        return kernel(signature, cache=False)(law)  # typed at a prompt: there is no file
 
 
 def friction_parameters(law: FrictionLaw) -> np.ndarray:

@@ -50,9 +50,11 @@ class Binder:
         cls = chosen_spec(cls, table, base)
         known = {f.name: f for f in dataclasses.fields(cls) if f.init}
         values = {}
-        key = _chosen_by(cls)
-        if key and base is None and key not in table and default_of(known[key]) is MISSING:
-            raise missing_key(known[key], where)  # before its keys, which nothing explains yet
+        choosing = _choosing(cls)
+        if choosing is not None and base is None and choosing[0] not in table:
+            name = known[choosing[0]]
+            if default_of(name) is MISSING:  # before its keys, which nothing explains yet
+                raise missing_key(name, where)
         if base is not None and type(base) is not cls:
             values, base = common_values(base, cls), None
         for key, value in table.items():
@@ -265,12 +267,6 @@ def _choosing(cls: Any) -> tuple[str, Any, Mapping[str, Any]] | None:
         if isinstance(choices, Mapping):
             return field.name, home, choices
     return None
-
-
-def _chosen_by(cls: Any) -> str:
-    """The field whose name chooses the spec, "" where none does."""
-    found = _choosing(cls)
-    return found[0] if found else ""
 
 
 def chosen_names(spec: Any) -> Iterator[str]:

@@ -101,6 +101,16 @@ def kernel(*args: Any, **kwargs: Any) -> Any:
     return numba.njit(*args, **{**LEAN, **kwargs})
 
 
+def kernel_of(function: Any, signature: Any) -> Any:
+    """A kernel of a user's function for one signature, on disk if it has a file."""
+    try:
+        return kernel(signature)(function)
+    except RuntimeError as exc:
+        if isinstance(exc, numba.errors.NumbaError) or "cannot cache" not in str(exc):
+            raise
+        return kernel(signature, cache=False)(function)  # typed at a prompt: there is no file
+
+
 _PART_NAME = "flexcage_part."
 
 

@@ -73,7 +73,7 @@ def evaluate(t, y, yd, d, law, out, mode):
         _races(i, qi, ui, q, u, zq, d, law, mode)
         _pocket(i, qi, ui, Rc, Vc, qf, qfd, margin, d, law, mode)
         _ball_rows(i, qi, ui, qd[o : o + 6], ud[o : o + 6], d, r_q[o : o + 6], r_u[o : o + 6], mode)
-    law[11](t, y, yd, d, law[:11], out, mode)
+    law[12](t, y, yd, d, law[:12], out, mode)
 
 
 @part

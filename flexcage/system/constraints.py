@@ -27,7 +27,7 @@ import numpy as np
 from numba import types
 
 from flexcage.core.errors import InputError
-from flexcage.core.jit import LEAN, kernel
+from flexcage.core.jit import LEAN, kernel, kernel_of
 from flexcage.core.registry import add, check_free
 from flexcage.system import spec as specs
 from flexcage.system.layout import CONSTRAINTS as REACTIONS
@@ -42,6 +42,7 @@ Q_INNER, Q_INNER_TURN, Q_OUTER, Q_CAGE, Q_QUATERNION = 0, 3, 6, 8, 11
 
 N_PARAMETERS = 10
 OFF, VELOCITY, POSITION = 0, 1, 2  # levels; OFF while a start is brought to equilibrium
+ONTO, BEAR = -1, -2  # what ``holding.hold`` may be asked for beside its rows
 LEVELS = {"velocity": VELOCITY, "position": POSITION}
 UNITS = ("N", "N m")  # of multipliers
 _ALIKE = 1e-9  # of normalised constraints: below it they hold the same
@@ -165,7 +166,7 @@ def register_constraint(
             where=name, value=own,
         )  # fmt: skip
     try:
-        compiled = kernel(ROWS)(getattr(rows, "py_func", rows))
+        compiled = kernel_of(getattr(rows, "py_func", rows), ROWS)
     except (numba.errors.NumbaError, TypeError) as exc:
         raise InputError(
             f"The rows of constraint '{name}' cannot be compiled as a function "

@@ -35,6 +35,7 @@ from flexcage.system import newton, rates, sampling
 from flexcage.system.constraints import ALL_ROWS_TYPE, Constraints, constraints_of, units_of
 from flexcage.system.data import POWERS, Memory, Report, Work, new_memory
 from flexcage.system.families import family_of
+from flexcage.system.holding import hold, hold_nothing
 from flexcage.system.layout import Layout
 from flexcage.system.rates import RatesWork, modal_oscillators, new_rates_work
 from flexcage.system.scales import error_weights
@@ -127,7 +128,8 @@ def law_functions(contacts: Contacts) -> tuple:
 
 
 def _evaluation(bearing: Any, law: Any) -> Any:
-    """numba's signature of ``Family.evaluate`` and of ``Family.apart``."""
+    """numba's signature of ``Family.evaluate``, of ``Family.apart``, and of what puts constraints
+    into them."""
     return types.void(_REAL, _VECTOR, _VECTOR, bearing, law, _VECTOR, _COUNT)
 
 
@@ -155,9 +157,14 @@ class Bearing:
             new_rates_work(model.cage.mff),
             held,
         )  # fmt: skip
-        self.laws = (*law_functions(contacts), rows)
-        own_laws = (laws.NORMAL_TYPE,) * 5 + (laws.FRICTION_TYPE,) * 5 + (ALL_ROWS_TYPE,)
         bearing = numba.typeof(parts(self.data))
+        holding = _evaluation(bearing, ALL_ROWS_TYPE)
+        holds = compiled(hold if constraints else hold_nothing, holding)
+        self.laws = (*law_functions(contacts), rows, holds)
+        own_laws = (
+            *(laws.NORMAL_TYPE,) * 5, *(laws.FRICTION_TYPE,) * 5, ALL_ROWS_TYPE,
+            types.FunctionType(holding),
+        )  # fmt: skip
         self._apart = _evaluation(bearing, types.Tuple(own_laws))
         apart = (types.FunctionType(self._apart),) * len(self.family.apart)
         law_type = types.Tuple((*own_laws, *apart))

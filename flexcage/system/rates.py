@@ -16,16 +16,14 @@ from typing import NamedTuple
 import numpy as np
 
 from flexcage.bodies.floating_frame import BodyData, modal_product
-from flexcage.core.jit import VECTORISED, fields, kernel, outlined, part, zero
+from flexcage.core.jit import VECTORISED, fields, kernel, part, zero
 from flexcage.solve.bordered import lu_factor, lu_solve
 from flexcage.solve.oscillators import Oscillators, no_oscillators
-from flexcage.system.constraints import POSITION
+from flexcage.system.constraints import BEAR, ONTO
 from flexcage.system.layout import Layout
-from flexcage.system.rows import displaced, evaluate_constraints, shaft_pull, speed_at
+from flexcage.system.rows import shaft_pull, speed_at
 from flexcage.system.sampling import give_powers, is_main, keep_force, keep_report
 from flexcage.system.waves import wave_slope
-
-INSTANT = 1e-6  # [s] over which constraints are differentiated in time
 
 
 class RatesWork(NamedTuple):
@@ -88,9 +86,8 @@ def _rates(t, y, yd, data, mode):
     driven = bodies.drive[0] == 0.0
     _hold(t, y[6 * Z : 6 * Z + 6], y[ring : ring + 6], bodies, driven)
     zero(y[end:])
-    further = fields(d.constraints).level.shape[0] > 0
-    if further:
-        _project(t, y[6 * Z : 6 * Z + 15], y[ring : ring + 14], d, data[1])
+    law = data[1]
+    law[11](t, y, yd, d, law[10], out, ONTO)
     shaft_pull(bodies, y[6 * Z : 6 * Z + 6], y[ring : ring + 6], y[end : end + 3])
     zero(yd)
     data[2](t, y, yd, d, data[1], out, mode)
@@ -133,8 +130,7 @@ def _rates(t, y, yd, data, mode):
         frame.rigid, frame.coupled, fields(d.cage).plain, fields(d.scratch).A,
         yd[ring + 8 : end], fields(d.rates),
     )  # fmt: skip
-    if further:
-        _constrain(t, y, yd, 6 * Z, ring, end, d, data[1])
+    law[11](t, y, yd, d, law[10], out, BEAR)
 
 
 @part
@@ -150,82 +146,6 @@ def _hold(t, q, u, bodies, driven):
         u[0] = u[1] = u[2] = 0.0
     if driven:
         u[3] = speed_at(bodies, t)
-
-
-@outlined
-def _project(t, q, u, d, law):
-    """Move coordinates q and velocities u of rings and cage onto the further constraints, along
-    what these pull; one step of Newton's, as a step's error leaves them close."""
-    c, work = fields(d.constraints), fields(d.scratch)
-    m = c.level.shape[0]
-    for which in range(2):  # places first: velocities depend on them
-        evaluate_constraints(t, q, u, c, law)
-        for k in range(m):
-            kept = which == 1 or c.level[k] == POSITION
-            c.x[k] = -(c.g[k] if which == 0 else c.h[k]) if kept else 0.0
-            for l in range(m):
-                both = kept and (which == 1 or c.level[l] == POSITION)
-                c.S[k, l] = 0.0 if k != l or both else 1.0
-                for j in range(14 if both else 0):
-                    c.S[k, l] += c.G[k, j] * c.ease[j] * c.G[l, j]
-        lu_factor(c.S, c.pivot)
-        lu_solve(c.S, c.pivot, c.x)
-        for j in range(14):
-            work.shift[j] = 0.0
-            for k in range(m):
-                work.shift[j] += c.ease[j] * c.G[k, j] * c.x[k]
-        if which == 1:
-            for j in range(14):
-                u[j] += work.shift[j]
-        else:
-            displaced(q, work.shift, work.S[0], work.moved)
-            for j in range(15):
-                q[j] += work.moved[j]
-
-
-@outlined
-def _constrain(t, y, yd, zq, ring, end, d, law):
-    """Multipliers of the further constraints into y, and what they do to the accelerations in yd,
-    so that h stays zero: G (a + M^-1 G^T lambda) + dh/dt at constant velocities = 0."""
-    c, frame = fields(d.constraints), fields(d.frame)
-    q, u, a = y[zq : zq + 15], y[ring : ring + 14], yd[ring:end]
-    m, first = c.level.shape[0], end + 7
-    for side in range(2):
-        late = -INSTANT if side == 0 else INSTANT
-        for j in range(15):
-            c.place[side, j] = q[j] + late * yd[zq + j]
-        zero(c.spare)
-        zero(c.late[side])
-        zero(c.g)
-        law[10](t + late, c.place[side], u, c.p, c.spare, c.g, c.late[side])
-    evaluate_constraints(t, q, u, c, law)
-    for k in range(m):
-        pull = c.pull[k]
-        zero(pull)
-        for j in range(14):
-            pull[j] = c.G[k, j] if j >= 8 else c.G[k, j] * c.ease[j]
-        cage_accelerations(
-            frame.rigid, frame.coupled, fields(d.cage).plain, fields(d.scratch).A, pull[8:],
-            fields(d.rates),
-        )  # fmt: skip
-    for k in range(m):
-        c.x[k] = -0.5 * (c.late[1, k] - c.late[0, k]) / INSTANT
-        for j in range(14):
-            c.x[k] -= c.G[k, j] * a[j]
-        for l in range(m):
-            c.S[k, l] = 0.0
-            for j in range(14):
-                c.S[k, l] += c.G[k, j] * c.pull[l, j]
-    lu_factor(c.S, c.pivot)
-    lu_solve(c.S, c.pivot, c.x)
-    for k in range(m):
-        y[first + k] = c.x[k]
-        y[end] -= c.G[k, 0] * c.x[k] if c.ease[0] == 0.0 else 0.0  # what holds the ring bears it
-        y[end + 3] -= c.G[k, 3] * c.x[k] if c.ease[3] == 0.0 else 0.0
-        for j in range(4, 6):
-            y[end + j - 3] -= c.G[k, j] * c.x[k] if c.ease[j] == 0.0 else 0.0
-        for j in range(a.shape[0]):
-            a[j] += c.pull[k, j] * c.x[k]
 
 
 @part

@@ -63,7 +63,8 @@ def evaluate(t, y, yd, d, law, out, mode):
 
     ``d`` (``problem.Parts``) refers to the model, its memory and its workspaces; ``law`` holds
     the normal laws of race, pocket, side, rib and land, their friction laws, the rows of further
-    constraints, and what is compiled apart: ``roller_pockets`` and ``rows.shared_rows``.
+    constraints and what puts these in (``holding.hold``), and what is compiled apart:
+    ``roller_pockets`` and ``rows.shared_rows``.
     """
     work, Z = fields(d.scratch), fields(d.bodies).radius.shape[0]
     nm = fields(d.pocket).phi_max.shape[0]
@@ -93,7 +94,7 @@ def evaluate(t, y, yd, d, law, out, mode):
             fields(d.report).outer_races[c] = work.border[6 + c]
     if mode == 4:
         return
-    law[11](t, y, yd, d, law[:11], out, mode)
+    law[12](t, y, yd, d, law[:12], out, mode)
     for i in range(Z):
         o = 6 * i
         take_pose(poses[i], pose)
@@ -101,7 +102,7 @@ def evaluate(t, y, yd, d, law, out, mode):
             i, q[o : o + 6], u[o : o + 6], qd[o : o + 6], ud[o : o + 6], d, r_q[o : o + 6],
             r_u[o : o + 6], mode,
         )  # fmt: skip
-    law[12](t, y, yd, d, law[:11], out, mode)
+    law[13](t, y, yd, d, law[:12], out, mode)
 
 
 @part

@@ -10,7 +10,7 @@ from math import cos, sin, sqrt
 
 from flexcage.bodies.floating_frame import inertia_terms, modal_product
 from flexcage.contacts.land import land_contact
-from flexcage.core.jit import VECTORISED, copy_into, fields, outlined, part, zero
+from flexcage.core.jit import VECTORISED, copy_into, fields, part, zero
 from flexcage.core.rotation import quaternion_rate
 from flexcage.core.vectors import (
     combine,
@@ -22,7 +22,6 @@ from flexcage.core.vectors import (
     turned_back,
     xyz,
 )
-from flexcage.system.constraints import OFF, POSITION
 from flexcage.system.data import (
     DRAG,
     DRIVE,
@@ -57,8 +56,7 @@ def shared_rows(t, y, yd, d, law, out, mode):
     land_rows(q, u, zq, nm, d, law, mode)
     cage_rows(d, quat, Vc, wb, qf, qfd, qd, ud, zq, r_q, r_u, mode)
     ring_rows(t, d, q, u, qd, ud, lam, mu, zq, r_q, r_u, out, nq + nu, mode)
-    if fields(d.constraints).level.shape[0] > 0:
-        constraint_rows(t, y, d, law, out, zq, nq, nq + nu + 7, mode)
+    law[11](t, y, yd, d, law[10], out, mode)
 
 
 @part
@@ -392,74 +390,6 @@ def constraint_slopes(bodies, tan):
             tan.Cbb[rate, at] = tan.Kbb[place, at] = tan.Kbb[place, place] = 1.0
     drive = first + 3
     tan.Cbb[drive, 3 if bodies.drive[0] == 0.0 else drive] = 1.0
-
-
-@outlined
-def constraint_rows(t, y, d, law, out, zq, nq, at, mode):
-    """Rows of the constraints of ``constraints``, whose multipliers begin at ``at``, and what these
-    add to the rows of rings and cage."""
-    c, tan, work = fields(d.constraints), fields(d.tangent), fields(d.scratch)
-    fixed = fields(d.bodies).outer[3] > 0.0  # then nothing moves the outer ring
-    q, u, r_q, r_u = y[zq : zq + 15], y[nq + zq : nq + zq + 14], out[zq:nq], out[nq + zq :]
-    evaluate_constraints(t, q, u, c, law)
-    m = c.level.shape[0]
-    lam, mu = y[at : at + m], y[at + m : at + 2 * m]
-    shift = work.shift
-    zero(shift)
-    for k in range(m):
-        held = c.level[k] != OFF
-        out[at + k] = c.h[k] if held else lam[k]
-        out[at + m + k] = c.g[k] if c.level[k] == POSITION else mu[k]
-        for j in range(14):
-            acts = 0.0 if fixed and 6 <= j < 8 else c.G[k, j]
-            r_u[j] -= acts * lam[k] if held else 0.0
-            if c.level[k] == POSITION:
-                shift[j] += acts * mu[k]
-            if mode == 1:
-                tan.held[k, j] = acts if held else 0.0
-    rates = work.S[0]
-    displaced(q, shift, rates, work.moved)
-    for j in range(15):
-        r_q[j] -= work.moved[j]
-    if mode == 1:
-        first = tan.Kbb.shape[0] - 2 * m
-        for k in range(m):
-            rate, place = first + k, first + m + k
-            held, kept = c.level[k] != OFF, c.level[k] == POSITION
-            for j in range(14):
-                if held:
-                    tan.Cbb[rate, j] = c.G[k, j]
-                if kept:
-                    tan.Kbb[place, j] = c.G[k, j]
-            if not held:
-                tan.Cbb[rate, rate] = 1.0
-            if not kept:
-                tan.Cbb[place, place] = 1.0
-            for l in range(m if kept else 0):
-                if c.level[l] == POSITION:
-                    for j in range(14):
-                        tan.Kbb[place, first + m + l] += c.G[k, j] * tan.held[l, j]
-
-
-@part
-def evaluate_constraints(t, q, u, c, law):
-    """G, g and h of all constraints at coordinates and velocities of rings and cage."""
-    zero(c.G)
-    zero(c.g)
-    zero(c.h)
-    law[10](t, q, u, c.p, c.G, c.g, c.h)
-
-
-@part
-def displaced(q, shift, rates, out):
-    """Change (15,) of the coordinates q of rings and cage that a displacement (14,), in the order
-    of velocities, makes; ``rates``: room for six numbers."""
-    ring_rates(q, shift, rates)
-    for k in range(6):
-        out[k] = rates[k]
-    for k in range(6, 11):
-        out[k] = shift[k]
-    quaternion_rate(q[11:15], shift[11:14], out[11:15])
 
 
 @part

@@ -206,7 +206,7 @@ class _Frictionless:
         free = bearing.data.constraints
         free = free._replace(level=np.full(len(free.level), float(OFF)))
         self.data = bearing.data._replace(model=still, constraints=free)
-        own = (laws.elastic,) * 5 + (laws.no_friction,) * 5 + (no_rows,)
+        own = (laws.elastic,) * 5 + (laws.no_friction,) * 5 + (no_rows, bearing.laws[-1])
         self.args = bearing.arguments(self.data, own)
         self.out = np.zeros(bearing.layout.size)
 

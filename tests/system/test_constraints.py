@@ -98,7 +98,7 @@ def missed(bearing, t, y):
     held, z, layout = bearing.data.constraints, 6 * bearing.layout.rollers, bearing.layout
     G, g, h = np.zeros_like(held.G), np.zeros_like(held.g), np.zeros_like(held.h)
     q, u = y[z : z + 15], y[layout.n_q + z : layout.n_q + z + 14]
-    bearing.laws[-1](t, q, u, held.p, G, g, h)
+    bearing.laws[-2](t, q, u, held.p, G, g, h)
     return g, h
 
 

@@ -1,0 +1,187 @@
+"""How further constraints enter the equations: their rows, and what an explicit method does.
+
+A bearing without any calls ``hold_nothing`` in their place, and need not compile them.
+"""
+
+from __future__ import annotations
+
+from flexcage.core.jit import fields, part, zero
+from flexcage.core.rotation import quaternion_rate
+from flexcage.solve.bordered import lu_factor, lu_solve
+from flexcage.system.constraints import BEAR, OFF, ONTO, POSITION
+from flexcage.system.rates import cage_accelerations
+from flexcage.system.rows import ring_rates
+
+INSTANT = 1e-6  # [s] over which constraints are differentiated in time
+
+
+def hold_nothing(t, y, yd, d, rows, out, mode):
+    """Nothing is held beyond drive and load."""
+
+
+def hold(t, y, yd, d, rows, out, mode):
+    """The part of the constraints ``rows`` (``constraints.ALL_ROWS``) in an evaluation.
+
+    ``mode`` of ``residual.evaluate``: their rows, and what multipliers add to those of rings and
+    cage. ``ONTO``: coordinates and velocities in y are moved onto the constraints. ``BEAR``:
+    multipliers into y, and what they do to the accelerations in yd.
+    """
+    Z, nm = fields(d.bodies).radius.shape[0], fields(d.pocket).phi_max.shape[0]
+    zq, nq, end = 6 * Z, 6 * Z + 15 + nm, 12 * Z + 29 + 2 * nm
+    ring = nq + zq
+    q, u = y[zq : zq + 15], y[ring : ring + 14]
+    if mode == ONTO:
+        _project(t, q, u, d, rows)
+    elif mode == BEAR:
+        _bear(t, q, u, yd[zq : zq + 15], yd[ring:end], y[end:], d, rows)
+    else:
+        _rows(t, q, u, y[end + 7 :], d, rows, out[zq:nq], out[ring:end], out[end + 7 :], mode)
+
+
+@part
+def _evaluate(t, q, u, c, rows):
+    """G, g and h of all constraints at coordinates and velocities of rings and cage."""
+    zero(c.G)
+    zero(c.g)
+    zero(c.h)
+    rows(t, q, u, c.p, c.G, c.g, c.h)
+
+
+@part
+def _displaced(q, shift, rates, out):
+    """Change (15,) of the coordinates q of rings and cage that a displacement (14,), in the order
+    of velocities, makes; ``rates``: room for six numbers."""
+    ring_rates(q, shift, rates)
+    for k in range(6):
+        out[k] = rates[k]
+    for k in range(6, 11):
+        out[k] = shift[k]
+    quaternion_rate(q[11:15], shift[11:14], out[11:15])
+
+
+@part
+def _rows(t, q, u, multipliers, d, rows, r_q, r_u, out, mode):
+    """Rows of the constraints into ``out``, and what their ``multipliers``, lambda then mu, add to
+    the rows of rings and cage; slopes in mode 1."""
+    c, tan, work = fields(d.constraints), fields(d.tangent), fields(d.scratch)
+    fixed = fields(d.bodies).outer[3] > 0.0  # then nothing moves the outer ring
+    _evaluate(t, q, u, c, rows)
+    m, shift = c.level.shape[0], work.shift
+    lam, mu = multipliers[:m], multipliers[m : 2 * m]
+    zero(shift)
+    for k in range(m):
+        held = c.level[k] != OFF
+        out[k] = c.h[k] if held else lam[k]
+        out[m + k] = c.g[k] if c.level[k] == POSITION else mu[k]
+        for j in range(14):
+            acts = 0.0 if fixed and 6 <= j < 8 else c.G[k, j]
+            r_u[j] -= acts * lam[k] if held else 0.0
+            if c.level[k] == POSITION:
+                shift[j] += acts * mu[k]
+            if mode == 1:
+                tan.held[k, j] = acts if held else 0.0
+    _displaced(q, shift, work.S[0], work.moved)
+    for j in range(15):
+        r_q[j] -= work.moved[j]
+    if mode == 1:
+        _slopes(c, tan)
+
+
+@part
+def _slopes(c, tan):
+    """Slopes of the constraints' rows in velocities, displacements and multipliers."""
+    m = c.level.shape[0]
+    first = tan.Kbb.shape[0] - 2 * m
+    for k in range(m):
+        rate, place = first + k, first + m + k
+        held, kept = c.level[k] != OFF, c.level[k] == POSITION
+        for j in range(14):
+            if held:
+                tan.Cbb[rate, j] = c.G[k, j]
+            if kept:
+                tan.Kbb[place, j] = c.G[k, j]
+        if not held:
+            tan.Cbb[rate, rate] = 1.0
+        if not kept:
+            tan.Cbb[place, place] = 1.0
+        for l in range(m if kept else 0):
+            if c.level[l] == POSITION:
+                for j in range(14):
+                    tan.Kbb[place, first + m + l] += c.G[k, j] * tan.held[l, j]
+
+
+@part
+def _project(t, q, u, d, rows):
+    """Move coordinates q and velocities u of rings and cage onto the constraints, along what these
+    pull; one step of Newton's, as a step's error leaves them close."""
+    c, work = fields(d.constraints), fields(d.scratch)
+    m = c.level.shape[0]
+    for which in range(2):  # places first: velocities depend on them
+        _evaluate(t, q, u, c, rows)
+        for k in range(m):
+            kept = which == 1 or c.level[k] == POSITION
+            c.x[k] = -(c.g[k] if which == 0 else c.h[k]) if kept else 0.0
+            for l in range(m):
+                both = kept and (which == 1 or c.level[l] == POSITION)
+                c.S[k, l] = 0.0 if k != l or both else 1.0
+                for j in range(14 if both else 0):
+                    c.S[k, l] += c.G[k, j] * c.ease[j] * c.G[l, j]
+        lu_factor(c.S, c.pivot)
+        lu_solve(c.S, c.pivot, c.x)
+        for j in range(14):
+            work.shift[j] = 0.0
+            for k in range(m):
+                work.shift[j] += c.ease[j] * c.G[k, j] * c.x[k]
+        if which == 1:
+            for j in range(14):
+                u[j] += work.shift[j]
+        else:
+            _displaced(q, work.shift, work.S[0], work.moved)
+            for j in range(15):
+                q[j] += work.moved[j]
+
+
+@part
+def _bear(t, q, u, qd, a, multipliers, d, rows):
+    """Multipliers of the constraints, and what they do to the accelerations a of rings and cage,
+    so that h stays zero: G (a + M^-1 G^T lambda) + dh/dt at constant velocities = 0.
+
+    ``multipliers``: those of drive and load (4, and 3 of places), which bear what is held already,
+    then these.
+    """
+    c, frame = fields(d.constraints), fields(d.frame)
+    m = c.level.shape[0]
+    for side in range(2):
+        late = -INSTANT if side == 0 else INSTANT
+        for j in range(15):
+            c.place[side, j] = q[j] + late * qd[j]
+        zero(c.spare)
+        zero(c.late[side])
+        zero(c.g)
+        rows(t + late, c.place[side], u, c.p, c.spare, c.g, c.late[side])
+    _evaluate(t, q, u, c, rows)
+    for k in range(m):
+        pull = c.pull[k]
+        zero(pull)
+        for j in range(14):
+            pull[j] = c.G[k, j] if j >= 8 else c.G[k, j] * c.ease[j]
+        cage_accelerations(
+            frame.rigid, frame.coupled, fields(d.cage).plain, fields(d.scratch).A, pull[8:],
+            fields(d.rates),
+        )  # fmt: skip
+    for k in range(m):
+        c.x[k] = -0.5 * (c.late[1, k] - c.late[0, k]) / INSTANT
+        for j in range(14):
+            c.x[k] -= c.G[k, j] * a[j]
+        for l in range(m):
+            c.S[k, l] = 0.0
+            for j in range(14):
+                c.S[k, l] += c.G[k, j] * c.pull[l, j]
+    lu_factor(c.S, c.pivot)
+    lu_solve(c.S, c.pivot, c.x)
+    for k in range(m):
+        multipliers[7 + k] = c.x[k]
+        for row, j in ((0, 0), (3, 3), (1, 4), (2, 5)):  # what holds the ring bears it
+            multipliers[row] -= c.G[k, j] * c.x[k] if c.ease[j] == 0.0 else 0.0
+        for j in range(a.shape[0]):
+            a[j] += c.pull[k, j] * c.x[k]
