@@ -18,9 +18,12 @@ from flexcage.core.jit import VECTORISED, outlined, part, zero
 from flexcage.core.splines import smooth_weights
 from flexcage.core.vectors import add_to, column, combine, cross, dot, minus, plus, times, xyz
 
+NONE, DRY, FILM = 0, 1, 2  # kinds; a film has dry contact beneath it
+KINDS = {"none": NONE, "dry": DRY, "film": FILM}
+
 
 class LandData(NamedTuple):
-    """Land of the cage; kind 0 none, 1 dry, 2 film (with dry contact beneath it)."""
+    """Land of the cage."""
 
     kind: int
     inner: float  # +1: the cage rides on the inner ring, -1: inside the outer ring
@@ -65,13 +68,13 @@ def land_contact(
     """
     zero(sums)
     zero(lw.st)
-    if data.kind == 0:
+    if data.kind == NONE:
         return
     ey, ez = Rc[1] - Rr[1], Rc[2] - Rr[2]
     reach = sqrt(ey * ey + ez * ez) + (abs(A[1, 0]) + abs(A[2, 0])) * abs(data.x[1])
     for m in range(q.shape[0]):
         reach += data.phi_max[m] * abs(q[m])
-    if data.kind == 2:
+    if data.kind == FILM:
         _film(A, Rc, Vc, w, qd, Rr, Vr, spin, data, lw, Fc, Mc, Qm, Fr, Mr, sums)
     if reach < data.clearance:
         return

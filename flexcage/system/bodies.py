@@ -6,7 +6,7 @@ import numpy as np
 
 from flexcage.bodies.floating_frame import FlexibleBody, with_point_mass
 from flexcage.contacts import laws
-from flexcage.contacts.land import LandData
+from flexcage.contacts.land import KINDS, LandData
 from flexcage.contacts.spec import Contacts, Lubricant
 from flexcage.geometry.materials import Material
 from flexcage.system import waves
@@ -86,7 +86,7 @@ def land_data(
         depth=0.25 * (cage.outside_diameter - cage.bore),
     )
     return LandData(
-        kind={"none": 0, "dry": 1, "film": 2}[kind],
+        kind=KINDS[kind],
         inner=-1.0 if outer else 1.0,
         clearance=clearance,
         radius=radius,

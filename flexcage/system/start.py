@@ -19,6 +19,7 @@ from typing import Any
 import numpy as np
 
 from flexcage.contacts import laws
+from flexcage.contacts.land import DRY
 from flexcage.contacts.pocket_wall import with_offset
 from flexcage.core.errors import InputError, RunFailed
 from flexcage.geometry.kinematics import epicyclic
@@ -188,7 +189,8 @@ def _between_ribs(layout: Layout, y: np.ndarray) -> np.ndarray:
 
 
 class _Frictionless:
-    """The bearing without friction, damping, drag, rolling resistance and gravity."""
+    """The bearing without friction, damping, drag, rolling resistance, gravity and the land's film,
+    which pushes a ring that nothing loads round and round."""
 
     def __init__(self, bearing: Bearing, offset: np.ndarray) -> None:
         model = bearing.data.model
@@ -200,6 +202,7 @@ class _Frictionless:
             ),
             inner=model.inner._replace(rolling=np.zeros(2)),
             outer=model.outer._replace(rolling=np.zeros(2)),
+            land=model.land._replace(kind=min(model.land.kind, DRY)),
             pocket=with_offset(model.pocket, offset),
         )
         self.bearing = bearing

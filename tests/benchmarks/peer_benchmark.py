@@ -1,4 +1,4 @@
-"""Work and precision of flexcage's integrator and of others on one residual from one state."""
+"""Work and precision of flexcage's integrator and of others on one residual, from some states."""
 
 from __future__ import annotations
 
@@ -20,7 +20,8 @@ import flexcage
 
 log = logging.getLogger(__name__)
 
-WINDOW = 1e-3  # [s] from the stored state: later, no reference of the cage's forces stands
+STATES = 4  # the calmest: one window by itself makes a ratio half or twice as large
+WINDOW = 1e-3  # [s] from a stored state: later, no reference of the cage's forces stands
 EQUAL = 1e-2  # force error at which processor times are compared
 LEVELS = {"larger": (1e-1, 3e-2, 1e-2), "race": (1e-2, 3e-3, 1e-3, 3e-4, 1e-4)}
 REPEATS = 3
@@ -28,14 +29,16 @@ FLEXCAGE = "flexcage"
 PEERS = {  # key of the ratio: curves of which the cheapest counts
     "ida": ("IDA, order 2", "IDA, order 5"),
     "ida_dense": ("IDA, dense matrix",),
+    "ida_alone": ("IDA, differences",),
     "scipy_bdf": ("SciPy BDF",),
+    "scipy_bdf_alone": ("SciPy BDF, differences",),
     "scipy_radau": ("SciPy Radau",),
     "lsoda": ("LSODA",),
     "bdf": ("flexcage BDF, order 2", "flexcage BDF, order 5"),
 }
 SHARES = (10.0, 3.0, 1.0, 0.3, 0.1, 0.03, 0.01, 3e-3, 1e-3, 3e-4)  # of the default tolerance
 QUICK: dict[str, Any] = {  # whether it runs
-    "window": 0.15e-3, "calm": False, "shares": (1.0, 0.1), "repeats": 1,
+    "window": 0.15e-3, "calm": 0, "shares": (1.0, 0.1), "repeats": 1,
     "exudyn": exudyn_benchmark.QUICK,
 }  # fmt: skip
 GROUPS: dict[str, Callable[[tuple[float, float]], float]] = {
@@ -47,7 +50,8 @@ Method = tuple[Callable[[Peers, float], Integration], Sequence[float]]  # and it
 
 @dataclass(frozen=True)
 class Point:
-    """One integration: its tolerance's share or step, processor time [s per ms], errors, counts."""
+    """One integration, or the mean of those from all states (errors: root mean square): its
+    tolerance's share or step, processor time [s per ms], errors, counts."""
 
     level: float
     cpu: float
@@ -67,7 +71,7 @@ def measure(
     *,
     plot: Path | None = None,
     window: float = WINDOW,
-    calm: bool = True,
+    calm: int = STATES,
     shares: Sequence[float] | None = None,
     repeats: int = REPEATS,
     exudyn: Mapping[str, Any] | None = None,
@@ -77,15 +81,24 @@ def measure(
     if find_spec("sksundae") is None:
         raise SystemExit("peer needs SUNDIALS: install scikit-sundae, as the extra 'peer' does")
     settled = Settled(case, calm=calm)
-    peers = Peers(settled, window)
-    reference = settled.window(window, **REFERENCE)
-    looser = settled.window(window, **LOOSER)
-    aside = settled.window(window, **REFERENCE, aside=NUDGE)
-    second = second_method(settled, peers.times)
     methods = _methods()
     if shares is not None:
         methods = {name: (method, shares) for name, (method, _) in methods.items()}
-    curves = _curves(peers, reference, methods, repeats)
+    apart: dict[str, list] = {"tolerance_next": [], "second_method": [], "nudged": []}
+    found = []
+    for state in settled.states:
+        settled.stored = state
+        peers = Peers(settled, window)
+        reference = settled.window(window, **REFERENCE)
+        others = (
+            settled.window(window, **LOOSER),
+            second_method(settled, peers.times),
+            settled.window(window, **REFERENCE, aside=NUDGE),
+        )
+        for errors, other in zip(apart.values(), others):
+            errors.append(_short(other.error(reference)))
+        found.append(_curves(peers, reference, methods, repeats))
+    curves = _together(found)
     if plot is not None:
         draw(curves, plot)
     return {
@@ -100,11 +113,7 @@ def measure(
             for level in levels
         },
         "window_ms": window * 1e3,
-        "reference": {
-            "tolerance_next": _short(looser.error(reference)),
-            "second_method": _short(second.error(reference)),
-            "nudged": _short(aside.error(reference)),
-        },
+        "reference": apart,
         "columns": ["share or step", "cpu_s_per_ms", "error_race", "error_cage", "steps",
                     "residuals", "jacobians"],
         "curves": {name: [p.row() for p in points] for name, points in curves.items()},
@@ -115,8 +124,8 @@ def measure(
 def _methods() -> dict[str, Method]:
     """Each integrator and the tolerances, as shares of the default, or steps that it takes."""
 
-    def scipy(method: str) -> Callable[[Peers, float], Integration]:
-        return lambda peers, share: peers.scipy(share, method=method)
+    def scipy(method: str, own: bool = False) -> Callable[[Peers, float], Integration]:
+        return lambda peers, share: peers.scipy(share, method=method, own=own)
 
     return {
         "flexcage": (_flexcage, SHARES),
@@ -126,8 +135,14 @@ def _methods() -> dict[str, Method]:
         ),
         "IDA, order 2": (lambda p, share: p.ida(share, max_order=2), SHARES),
         "IDA, order 5": (lambda p, share: p.ida(share, max_order=5), SHARES),
-        "IDA, dense matrix": (lambda p, share: p.ida(share, max_order=5, dense=True), SHARES[1:-1]),
+        "IDA, dense matrix": (
+            lambda p, share: p.ida(share, max_order=5, matrix="dense"), SHARES[1:-1],
+        ),
+        "IDA, differences": (
+            lambda p, share: p.ida(share, max_order=5, matrix="own"), SHARES[2:-1],
+        ),
         "SciPy BDF": (scipy("BDF"), SHARES[2:]),
+        "SciPy BDF, differences": (scipy("BDF", own=True), SHARES[2:]),
         "SciPy Radau": (scipy("Radau"), SHARES[1:9:2]),
         "LSODA": (scipy("LSODA"), SHARES[1:]),
     }  # fmt: skip
@@ -175,6 +190,26 @@ def _curves(
     }
 
 
+def _together(states: Sequence[Mapping[str, list[Point]]]) -> dict[str, list[Point]]:
+    """Every method's mean points, of those levels at which it succeeded from all states."""
+
+    def mean(points: Sequence[Point]) -> Point:
+        errors = np.sqrt(np.mean(np.square([p.error for p in points]), axis=0)).tolist()
+        counts = np.mean([(p.steps, p.residuals, p.jacobians) for p in points], axis=0)
+        steps, residuals, jacobians = counts.round().astype(int).tolist()
+        return Point(
+            points[0].level, float(np.mean([p.cpu for p in points])), (errors[0], errors[1]),
+            steps, residuals, jacobians,
+        )  # fmt: skip
+
+    together: dict[str, list[Point]] = {}
+    for name, first in states[0].items():
+        own = [{p.level: p for p in curves[name]} for curves in states]
+        levels = [p.level for p in first if all(p.level in points for points in own)]
+        together[name] = [mean([points[level] for points in own]) for level in levels]
+    return together
+
+
 def cost(points: Sequence[Point], level: float, group: str) -> float:
     """Processor time at an error: log-log between the points that no cheaper one betters.
 
@@ -210,7 +245,7 @@ def draw(curves, path: Path) -> None:
 
     figure, axes = plt.subplots(1, 2, figsize=(11, 4.8), sharey=True, layout="constrained")
     for axis, group in zip(axes, ("race", "cage"), strict=True):
-        for (name, points), mark in zip(curves.items(), "osDdP^v<*", strict=True):
+        for (name, points), mark in zip(curves.items(), "osDdPXH^>v<", strict=True):
             errors = [GROUPS[group](p.error) for p in points]
             axis.loglog(errors, [p.cpu for p in points], marker=mark, ms=4, lw=1, label=name)
         axis.invert_xaxis()

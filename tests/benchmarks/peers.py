@@ -8,9 +8,12 @@ their own dense output.
   factorisation for its Newton iteration. scikit-sundae has no user's linear solver, so GMRES is
   given a preconditioner and a product that is that preconditioner's inverse by definition: it ends
   after one vector, at the cost of one back-substitution. IDA decides when to factor anew; as with
-  its direct solvers, the correction is scaled by 2/(1 + c_j/c_j of the factors). ``dense`` instead
-  gives it the same matrix whole, for its own LAPACK solver.
+  its direct solvers, the correction is scaled by 2/(1 + c_j/c_j of the factors). With the same
+  matrix whole it takes LAPACK's solver.
 * SciPy's BDF, Radau and LSODA take x' = f(t, x) with the tangent as their dense Jacobian.
+
+Or they find their Jacobian themselves, by differences of the residual, as for any function that
+they are given.
 """
 
 from __future__ import annotations
@@ -60,14 +63,17 @@ class Peers:
         weight = error_weights(b.data.model, b.layout, s.case.solver.tolerance * share)
         return np.where(weight > 0.0, 1.0 / np.where(weight > 0.0, weight, 1.0), UNTESTED)
 
-    def ida(self, share: float, *, max_order: int, dense: bool = False) -> Path:
-        """SUNDIALS IDA, with bordered or ``dense`` linear algebra."""
+    def ida(self, share: float, *, max_order: int, matrix: str = "bordered") -> Path:
+        """SUNDIALS IDA, with a ``matrix`` that is "bordered", "dense" or its "own", dense by
+        differences."""
         from sksundae.ida import IDA, IDAJacTimes, IDAPrecond
 
         y, yd = self.settled.restore()
         newton, n = _Newton(self.c), self.c.size
-        linear: dict[str, Any] = {"linsolver": "lapackdense", "jacfn": newton.matrix}
-        if not dense:
+        linear: dict[str, Any] = {"linsolver": "lapackdense"}
+        if matrix == "dense":
+            linear["jacfn"] = newton.matrix
+        elif matrix == "bordered":
             linear = {
                 "linsolver": "gmres",
                 "precond": IDAPrecond(newton.setup, newton.solve),
@@ -96,8 +102,8 @@ class Peers:
                 sample += 1
         return Path(process_time() - begin, now.nfev, newton.setups, steps, ys, yds)
 
-    def scipy(self, share: float, *, method: str) -> Path:
-        """One of SciPy's integrators."""
+    def scipy(self, share: float, *, method: str, own: bool = False) -> Path:
+        """One of SciPy's integrators, with the tangent or with a Jacobian of its ``own``."""
         y, yd = self.settled.restore()
         n = self.ode.size
         begin = process_time()
@@ -105,7 +111,7 @@ class Peers:
         solver: scipy.integrate.OdeSolver = getattr(scipy.integrate, method)(
             self.ode.rates, SETTLE, y[:n], self.times[-1], rtol=RELATIVE,
             atol=self.tolerances(share)[:n], first_step=FIRST_STEP,
-            max_step=self.settled.case.solver.max_step, jac=self.ode.jacobian,
+            max_step=self.settled.case.solver.max_step, jac=None if own else self.ode.jacobian,
         )  # fmt: skip
         xs = np.empty((len(self.times), n))
         sample, steps = 0, 0

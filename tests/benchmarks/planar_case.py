@@ -78,7 +78,7 @@ class Planar(Settled):
         code = source_hash(kernel_sources())
         key = content_hash("planar", self.case.hash, code, SETTLE)
         self.stored = cached_arrays("benchmark", key, self._settle)
-        self._calm(key)
+        self.stored = self._by_calm(key)[0]
 
     def _undeformed(self, state: np.ndarray) -> dict[str, np.ndarray]:
         """As ``Settled.stored``: coordinates and velocities of the rigid model's y."""

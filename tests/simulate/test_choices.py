@@ -85,6 +85,13 @@ def test_lands(guidance, kind):
     assert (touched > 0.0) == (kind == "film")  # the dry land is 0.25 mm or more away
 
 
+def test_a_film_starts_without_a_load():
+    """It has no equilibrium with a ring that nothing holds, which it drives round in its play."""
+    film = {"contacts.land.kind": "film", "lubricant.viscosity": "0.05 Pa*s", "load.radial": "0 N"}
+    ds = finite(simulate(n1013(RIGID, SHORT, film)))
+    assert np.abs(ds["land_force"].values).max() > 0.0 and energy_audit(ds).passed
+
+
 @pytest.mark.parametrize("kind", ["none", "goksem_hargreaves", "blended"])
 def test_rolling_resistances(kind):
     run = simulate(n1013(RIGID, SHORT, {"lubricant.rolling_resistance": kind}))

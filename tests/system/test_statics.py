@@ -8,7 +8,7 @@ import pytest
 from scipy.optimize import brentq
 
 from flexcage.contacts.spec import Contacts, PairSpec
-from flexcage.core.errors import InputError
+from flexcage.core.errors import InputError, RunFailed
 from flexcage.geometry.cylindrical_roller import RollerProfile
 from flexcage.geometry.hertz import series_stiffness
 from flexcage.geometry.presets import load_preset
@@ -304,6 +304,16 @@ def test_a_ring_that_falls_out_is_said_to():
     s = solve_bearing(BALLS, load=Load(axial=10.0, radial=100.0), options=held)
     assert 0.0 < np.nanmin(s.elements.angle) < 0.5 * BALLS.contact_angle
     assert np.nanmax(np.tan(s.elements.angle)) > 10.0 / 100.0 / 1.3
+
+
+def test_too_little_axial_load_is_blamed_at_speed(recwarn):
+    """Of 60 degree contacts a radial load wants more than its own size along the axis."""
+    with pytest.raises(RunFailed, match="the axial load too small for the radial one"):
+        solve_bearing(
+            STEEP, load=Load(axial=0.0, radial=3000.0), speed=4000.0 * RPM,
+            options=StaticOptions(tilt="held"),
+        )  # fmt: skip
+    assert not [w for w in recwarn if w.category is RuntimeWarning]  # of NumPy's, on the way
 
 
 def test_an_ellipse_over_the_grooves_edge_is_warned_of():

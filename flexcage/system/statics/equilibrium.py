@@ -99,14 +99,17 @@ def balance(problem: Problem) -> Posture:
         found = still
         for k in range(parts):
             share = (k + 1) / parts
-            found = _march(problem, _posture(problem, found.ring, found.own, share), share)
+            with np.errstate(invalid="ignore", divide="ignore"):  # where the search goes astray
+                found = _march(problem, _posture(problem, found.ring, found.own, share), share)
             if found.unbalanced > _CLOSE:
                 break
         else:
             return found
+    axial, *radial = problem.load[:3]
+    little = ", or the axial load too small for the radial one" if axial < np.hypot(*radial) else ""
     raise RunFailed(
         f"no equilibrium was found at this speed: {found.unbalanced:.1e} of the load stays "
-        "unbalanced; is the speed too high for the load?"
+        f"unbalanced; is the speed too high for the load{little}?"
     )
 
 
