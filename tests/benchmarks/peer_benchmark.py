@@ -41,6 +41,7 @@ QUICK: dict[str, Any] = {  # whether it runs
     "window": 0.15e-3, "calm": 0, "shares": (1.0, 0.1), "repeats": 1,
     "exudyn": exudyn_benchmark.QUICK,
 }  # fmt: skip
+MARKS, COLORS = "osDdPXH^>v<", (*(f"C{i}" for i in range(10)), "black")  # of the curves drawn
 GROUPS: dict[str, Callable[[tuple[float, float]], float]] = {
     "larger": max, "race": lambda error: error[0], "cage": lambda error: error[1],
 }  # fmt: skip
@@ -245,9 +246,9 @@ def draw(curves, path: Path) -> None:
 
     figure, axes = plt.subplots(1, 2, figsize=(11, 4.8), sharey=True, layout="constrained")
     for axis, group in zip(axes, ("race", "cage"), strict=True):
-        for (name, points), mark in zip(curves.items(), "osDdPXH^>v<", strict=True):
-            errors = [GROUPS[group](p.error) for p in points]
-            axis.loglog(errors, [p.cpu for p in points], marker=mark, ms=4, lw=1, label=name)
+        for (name, points), mark, color in zip(curves.items(), MARKS, COLORS, strict=True):
+            errors, cpu = [GROUPS[group](p.error) for p in points], [p.cpu for p in points]
+            axis.loglog(errors, cpu, marker=mark, color=color, ms=4, lw=1, label=name)
         axis.invert_xaxis()
         axis.set(xlabel=f"error of the {group} forces", title=f"{group} forces, first millisecond")
         axis.grid(alpha=0.3)
