@@ -17,9 +17,9 @@ from flexcage.mesh.options import FINENESS
 from flexcage.results.files import load, save
 from flexcage.results.statistics import spread
 from flexcage.results.summary import Row, Summary
-from flexcage.run import was_written, write_case
-from flexcage.simulate import simulate
+from flexcage.run import write_case
 from flexcage.study.convergence import Convergence, Finding
+from flexcage.study.work import run_in
 
 log = logging.getLogger(__name__)
 
@@ -159,7 +159,7 @@ def _figures_of(case: Case, folder: Path, progress: Any) -> Summary:
     if stored.exists():
         windows = load(kept) if kept.exists() else {}
         return Summary.read(stored, windows=windows)
-    summary = simulate(case, out=folder, resume=was_written(folder), progress=progress).summary
+    summary = run_in(folder, case, progress=progress).summary
     save(kept, {row.key: row.record.sums for row in summary if row.record is not None})
     return summary
 

@@ -6,9 +6,12 @@ is free. Whoever gets it goes on from the last block that the other had committe
 
 from __future__ import annotations
 
+import logging
+import shutil
 import time
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 from flexcage._version import __version__
 from flexcage.case import Case, load_case, load_extension
@@ -23,6 +26,8 @@ from flexcage.stages import cage_mesh, cage_reduction
 from flexcage.study.folder import CaseRow, Failure, Folder
 from flexcage.study.outputs import beyond_summary, figures_of
 from flexcage.study.plan import Plan, Planned
+
+log = logging.getLogger(__name__)
 
 
 @dataclass(frozen=True)
@@ -121,11 +126,24 @@ def _case_of(order: Order) -> Case:
 
 
 def _march(case: Case, part: Path, *, keep: str) -> Run:
-    """Run the case in its folder, from the last committed block if there is one."""
     if keep == "runs":
-        return simulate(case, out=part, resume=was_written(part))
+        return run_in(part, case)
     write_case(part, case)
     return simulate(case)
+
+
+def run_in(folder: Path, case: Case, *, progress: Any = None) -> Run:
+    """Run the case in its folder, from the last committed block if there is one.
+
+    A beginning that this flexcage cannot go on with, another one's or a damaged one, is made anew.
+    """
+    if was_written(folder):
+        try:
+            return simulate(case, out=folder, resume=True, progress=progress)
+        except InputError as error:
+            log.warning("the run begun in '%s' begins anew: %s", folder, error)
+            shutil.rmtree(folder)
+    return simulate(case, out=folder, progress=progress)
 
 
 def compile_kernels(case: Case) -> None:

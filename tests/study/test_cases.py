@@ -9,7 +9,10 @@ import xarray
 from study_cases import short_case, short_study
 
 from flexcage import cli
+from flexcage.case import load_case
 from flexcage.core.errors import InputError, RunFailed
+from flexcage.core.progress import Silent
+from flexcage.results.files import load, save
 from flexcage.simulate import simulate
 from flexcage.study import run, work
 from flexcage.study.axes import Grid, Points
@@ -58,6 +61,42 @@ def test_a_case_is_computed_once_and_outputs_are_added_from_its_run(folder, monk
     tree = xarray.open_datatree(folder.cases, engine="zarr", consolidated=False)
     stored = tree[f"{results.rows[1].planned.hash}/results.zarr/race_force"]
     assert float(stored[3:, 0, 1].max()) == pytest.approx(force[1], rel=1e-12)
+
+
+class OneBlock(Silent):
+    """Progress that presses Ctrl-C once a block of 1 ms is written."""
+
+    def to(self, done):
+        if self.label == "solving" and done > 1.5e-3:
+            raise KeyboardInterrupt
+
+
+def other_format(part):
+    commit = part / "results.zarr" / "_run" / "commit.json"
+    commit.write_text(commit.read_text().replace('"format": 2', '"format": 1'))
+
+
+def other_checkpoint(part):
+    (file,) = (part / "results.zarr" / "_run").glob("checkpoint-*.npz")
+    arrays = load(file)
+    save(file, {**arrays, "filter": arrays["filter"][:1]})
+
+
+def other_words(part):
+    text = (part / "case.toml").read_text()
+    (part / "case.toml").write_text(text.replace("gravity =", "gravitation ="))
+
+
+@pytest.mark.parametrize("change", [other_format, other_checkpoint, other_words])
+def test_a_case_that_another_flexcage_began_begins_anew(folder, change, caplog):
+    (order,) = orders(folder, short_study(duration="3 ms"))
+    part, case = folder.part(order.hash), load_case(order.text)
+    with pytest.raises(KeyboardInterrupt):
+        simulate(case, out=part, progress=lambda total, label: OneBlock(total, label))
+    change(part)
+    assert do_case(order) == "done" and "begins anew" in caplog.text
+    mean = simulate(case).summary["cage_speed"]
+    assert folder.row(order.hash).figures["cage_speed"].value == pytest.approx(mean, rel=1e-12)
 
 
 def test_figures_alone_are_small_and_computed_again_for_new_outputs(folder):

@@ -13,6 +13,7 @@ from flexcage.results.statistics import Record
 from flexcage.results.summary import Row, Section, Summary
 from flexcage.simulate import simulate
 from flexcage.study import converge as module
+from flexcage.study import work
 from flexcage.study.converge import converge, levels
 from flexcage.study.convergence import Finding
 
@@ -24,7 +25,7 @@ class FakeRun:
 
     calls: list[str] = []
 
-    def __init__(self, case, *, out, resume, progress):
+    def __init__(self, case, *, out, progress, resume=False):
         FakeRun.calls.append(case.hash)
         if case.modes.count == 96:
             raise RunFailed("the solver stopped at t = 1 ms: too stiff")
@@ -46,7 +47,7 @@ class FakeRun:
 
 @pytest.fixture(autouse=True)
 def fake(monkeypatch):
-    monkeypatch.setattr(module, "simulate", FakeRun)
+    monkeypatch.setattr(work, "simulate", FakeRun)
     FakeRun.calls = []
 
 
@@ -144,7 +145,7 @@ def test_the_command(tmp_path, monkeypatch, capsys):
 
 def test_a_real_study_keeps_its_windows(tmp_path, monkeypatch):
     """Three short runs; read back, they give the very same table."""
-    monkeypatch.setattr(module, "simulate", simulate)
+    monkeypatch.setattr(work, "simulate", simulate)
     changes = {"cage.model": "rigid", "mesh.fineness": "coarse", "output.block": 50}
     case = CASE.replace(**changes)
     first = converge(case, out=tmp_path, axes=["slices"], duration="34 ms")
@@ -152,6 +153,6 @@ def test_a_real_study_keeps_its_windows(tmp_path, monkeypatch):
     assert 0.0 < speed.spread < 0.01 and speed.verdict == "within 2 %"
     folders = list((tmp_path / "cases").iterdir())
     assert len(folders) == 3 and all((f / "windows.npz").exists() for f in folders)
-    monkeypatch.setattr(module, "simulate", FakeRun)
+    monkeypatch.setattr(work, "simulate", FakeRun)
     assert converge(case, out=tmp_path, axes=["slices"], duration="34 ms").table() == first.table()
     assert not FakeRun.calls
