@@ -168,7 +168,10 @@ class Balls:
         angle = np.where(force > 0.0, angle, np.nan)
         axes = [c.semi_axes(q) for c, q in zip(self.bearing.contacts, forces)]
         across = np.stack([a[0] for a in axes], axis=1)
-        moment = self.motion.moment(*cosines)
+        with np.errstate(invalid="ignore", divide="ignore"):  # balls that nothing presses
+            moment = self.motion.moment(*cosines)
+            centrifugal = self.motion.centrifugal(*cosines, ball[1])
+            orbital_speed = self.motion.orbital_speed(*cosines)
         traction = 2.0 * np.outer(moment, self.motion.gyroscopic) / self.motion.diameter
         loaded = np.where(force > 0.0, force, np.nan)
         return ElementLoads(
@@ -181,9 +184,9 @@ class Balls:
             across=across,
             along=np.stack([a[1] for a in axes], axis=1),
             edge=self._beyond_edge(angle, across),
-            centrifugal=self.motion.centrifugal(*cosines, ball[1]),
+            centrifugal=centrifugal,
             gyroscopic=moment,
-            orbital_speed=self.motion.orbital_speed(*cosines),
+            orbital_speed=orbital_speed,
             friction=np.abs(traction) / loaded,
         )
 
