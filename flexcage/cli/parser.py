@@ -7,6 +7,7 @@ import sys
 from typing import Any, NoReturn
 
 from flexcage._version import __version__
+from flexcage.core.binding import did_you_mean
 
 
 def say(text: object = "") -> None:
@@ -19,6 +20,24 @@ class _Parser(argparse.ArgumentParser):
 
     def error(self, message: str) -> NoReturn:
         self.exit(2, f"flexcage: {message}; '{self.prog} --help' lists the options.\n")
+
+    def parse_known_args(self, args: Any = None, namespace: Any = None) -> Any:
+        """As in argparse, but each command refuses by itself what it does not know."""
+        found, rest = super().parse_known_args(args, namespace)
+        unknown = next((text for text in rest if text.startswith("-")), None)
+        if unknown is not None:
+            name = unknown.partition("=")[0]
+            known = [option for action in self._actions for option in action.option_strings]
+            self.error(f"{self.prog} has no option {name}; {did_you_mean(name, known, 'it takes')}")
+        if rest:
+            self.error(f"{self.prog} takes no '{rest[0]}' here")
+        return found, rest
+
+    def _check_value(self, action: argparse.Action, value: Any) -> None:
+        if action.choices is not None and value not in action.choices:
+            what = action.metavar or "/".join(action.option_strings)
+            known = did_you_mean(str(value), action.choices, "choose from")
+            self.error(f"{what} '{value}' is not known; {known}")
 
 
 def new_parser() -> argparse.ArgumentParser:

@@ -81,12 +81,22 @@ def test_mistakes_in_the_input_exit_with_2(name, capsys, no_simulation):
     assert all(word in text for word in words), text
 
 
-def test_unknown_options_exit_with_2(capsys):
+MISTYPED = [
+    (["run", EXAMPLE, "--cage", "wooden"], ["--cage 'wooden'", "choose from", "flexcage run --h"]),
+    (["run", EXAMPLE, "--rsume"], ["run has no option --rsume", "'--resume'", "flexcage run --h"]),
+    (["rnu", EXAMPLE], ["COMMAND 'rnu'", "'run'", "'flexcage --help'"]),
+    (["study", "rum", EXAMPLE], ["ACTION 'rum'", "'run'", "'flexcage study --help'"]),
+    (["wear", "one", "two"], ["wear takes no 'two' here", "'flexcage wear --help'"]),
+]
+
+
+@pytest.mark.parametrize(("argv", "words"), MISTYPED)
+def test_mistyped_commands_and_options_exit_with_2(argv, words, capsys):
     with pytest.raises(SystemExit) as caught:
-        cli.main(["run", EXAMPLE, "--cage", "wooden"])
+        cli.main(argv)
     assert caught.value.code == 2
     text = sentence(capsys)
-    assert "choose from" in text and "'flexcage run --help'" in text
+    assert all(word in text for word in words), text
 
 
 def test_an_existing_folder_is_refused(elsewhere, capsys):
