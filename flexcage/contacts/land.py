@@ -43,13 +43,18 @@ class LandWork(NamedTuple):
 
     u: np.ndarray  # (nl,) radial displacement of the stations by the modes
     d: np.ndarray  # (nl,) penetration of one land's stations
+    rise: np.ndarray  # (nl,) its slope there, by station
+    span: np.ndarray  # (2 nl, 2) between which places there is an extreme of it
+    sign: np.ndarray  # (2 nl,) 1: a maximum, -1: a minimum
     film: np.ndarray  # (3,) the film's forces
     st: np.ndarray  # (nl, 2) force on the cage at the stations, outwards and forwards
 
 
 def land_work(n_stations: int) -> LandWork:
-    zeros = np.zeros
-    return LandWork(zeros(n_stations), zeros(n_stations), zeros(3), zeros((n_stations, 2)))
+    n, zeros = n_stations, np.zeros
+    return LandWork(
+        zeros(n), zeros(n), zeros(n), zeros((2 * n, 2)), zeros(2 * n), zeros(3), zeros((n, 2))
+    )
 
 
 @part
@@ -83,26 +88,24 @@ def land_contact(
     ring = data.radius - data.inner * data.clearance
     offset = minus(xyz(Rc), xyz(Rr))
     for side in range(2):
-        deepest = 0
-        for s in range(n_l):
-            e = combine(times(data.angle[s, 0], column(A, 1)), data.angle[s, 1], column(A, 2))
-            c = combine(times(data.x[side], column(A, 0)), data.radius + lw.u[s], e)
-            y, z = offset[1] + c[1], offset[2] + c[2]
-            lw.d[s] = data.inner * (ring - sqrt(y * y + z * z))
-            if lw.d[s] > lw.d[deepest]:
-                deepest = s
-        for s in range(n_l):
-            before, here, after = lw.d[s - 1], lw.d[s], lw.d[(s + 1) % n_l]
-            if here < before or here < after or (here == after and here > before):
+        deepest, lowest = _press(A, data, ring, offset, side, lw)
+        pressed, most = lw.d[lowest] > 0.0, -1.0
+        for i in range(_find_extremes(A, data, ring, offset, side, deepest, lw)):
+            sign = lw.sign[i]
+            if pressed and sign < 0.0 and (lowest - int(lw.span[i, 0])) % n_l < 2:
+                pressed = False  # pressed all round: the least of it counts, once
                 continue
-            bend = before - 2.0 * here + after
-            place = s + (0.5 * (before - after) / bend if bend < 0.0 else 0.0)
-            place, sl.d[0] = _deepest(A, data, ring, offset, side, place, bend, lw)
-            if sl.d[0] > 0.0 or s == deepest:
-                _touch(
-                    A, offset, minus(xyz(Vc), xyz(Vr)), xyz(w), qd, spin, data, side, place,
-                    onset[side], laws, sl, lw, Fc, Mc, Qm, Fr, Mr, sums,
-                )  # fmt: skip
+            place, depth = _extreme(A, data, ring, offset, side, lw.span[i, 0], lw.span[i, 1], lw)
+            nearest = sign > 0.0 and depth > most
+            if depth <= 0.0 and not nearest:
+                continue
+            sl.d[0] = depth
+            speed = _touch(
+                A, offset, minus(xyz(Vc), xyz(Vr)), xyz(w), qd, spin, data, side, place, sign,
+                onset[side], laws, sl, lw, Fc, Mc, Qm, Fr, Mr, sums,
+            )  # fmt: skip
+            if nearest:
+                most, sums[6 + side] = depth, speed
 
 
 @part(fastmath=VECTORISED)
@@ -141,6 +144,63 @@ def _surface(A, data, side, place, lw):
 
 
 @part
+def _press(A, data, ring, offset, side, lw):
+    """Penetration of a land's stations and its slope; the deepest station, and the least deep."""
+    deepest = lowest = 0
+    n_l = data.angle.shape[0]
+    y, z, middle = column(A, 1), column(A, 2), times(data.x[side], column(A, 0))
+    for s in range(n_l):
+        ca, sa = data.angle[s, 0], data.angle[s, 1]
+        e, along = combine(times(ca, y), sa, z), combine(times(ca, z), -sa, y)
+        radius = data.radius + lw.u[s]
+        at = plus(offset, combine(middle, radius, e))
+        bend = 0.5 * (lw.u[(s + 1) % n_l] - lw.u[s - 1])
+        rise = combine(times(bend, e), radius * 2.0 * pi / n_l, along)
+        far = sqrt(at[1] * at[1] + at[2] * at[2])
+        lw.d[s] = data.inner * (ring - far)
+        lw.rise[s] = -data.inner * (at[1] * rise[1] + at[2] * rise[2]) / far
+        if lw.d[s] > lw.d[deepest]:
+            deepest = s
+        if lw.d[s] < lw.d[lowest]:
+            lowest = s
+    return deepest, lowest
+
+
+@part
+def _find_extremes(A, data, ring, offset, side, deepest, lw):
+    """Where the penetration round a land has extremes, as far as it may be pressed there or is the
+    nearest to it: lw.span and lw.sign; their number.
+
+    Between two stations it is a cubic, or very nearly so: one extreme where its slope changes
+    sign, two where it does so on the way.
+    """
+    n_l, count = lw.d.shape[0], 0
+    for s in range(n_l):
+        following = (s + 1) % n_l
+        here, there = lw.rise[s], lw.rise[following]
+        room = 0.25 * (abs(here) + abs(there))
+        near = s == deepest or following == deepest
+        if not near and max(lw.d[s], lw.d[following]) + room <= 0.0:
+            continue
+        rises, turn = here > 0.0, 0.0
+        if rises == (there > 0.0):
+            cubic = 3.0 * (here + there - 2.0 * (lw.d[following] - lw.d[s]))
+            square = there - here - cubic
+            turn = -0.5 * square / cubic if cubic != 0.0 else 0.0
+            if not 0.0 < turn < 1.0 or (here + 0.5 * square * turn > 0.0) == rises:
+                continue
+            if (_depth(A, data, ring, offset, side, s + turn, lw)[1] > 0.0) == rises:
+                continue
+            lw.span[count, 0], lw.span[count, 1] = s, s + turn
+            lw.sign[count] = 1.0 if rises else -1.0
+            rises, count = not rises, count + 1
+        lw.span[count, 0], lw.span[count, 1] = s + turn, s + 1.0
+        lw.sign[count] = 1.0 if rises else -1.0
+        count += 1
+    return count
+
+
+@outlined
 def _depth(A, data, ring, offset, side, place, lw):
     """Penetration at ``place`` round the land, and its slope by station."""
     c, rise, _ = _surface(A, data, side, place, lw)
@@ -150,19 +210,28 @@ def _depth(A, data, ring, offset, side, place, lw):
 
 
 @part
-def _deepest(A, data, ring, offset, side, place, bend, lw):
-    """Place of the maximum of the penetration near ``place`` (secant steps), and its depth."""
-    depth, slope = _depth(A, data, ring, offset, side, place, lw)
-    curve = min(bend, -1e-12)
-    for _ in range(12):
-        step = min(max(-slope / curve, -0.25), 0.25)
-        if abs(step) < 1e-9:
+def _extreme(A, data, ring, offset, side, first, last, lw):
+    """Place of the extreme of the penetration between two places, and its depth: false position,
+    the end that stays counted by half each time (the Illinois method)."""
+    depth, rise = _depth(A, data, ring, offset, side, first, lw)
+    beyond, fall = _depth(A, data, ring, offset, side, last, lw)
+    place = first
+    if abs(fall) < abs(rise):
+        place, depth = last, beyond
+    if (rise > 0.0) == (fall > 0.0):  # one of them is it, to rounding
+        return place, depth
+    for _ in range(40):
+        new = last - fall * (last - first) / (fall - rise)
+        step = abs(new - place)
+        place = new
+        depth, slope = _depth(A, data, ring, offset, side, place, lw)
+        if step < 1e-9 or slope == 0.0:
             break
-        depth, new = _depth(A, data, ring, offset, side, place + step, lw)
-        if (new - slope) / step < 0.0:
-            curve = (new - slope) / step
-        place += step
-        slope = new
+        if (slope > 0.0) == (fall > 0.0):
+            rise *= 0.5
+        else:
+            first, rise = last, fall
+        last, fall = place, slope
     return place, depth
 
 
@@ -176,9 +245,29 @@ def _directions(A, angle):
 
 @part
 def _touch(
-    A, offset, rel, w, qd, spin, data, side, place, onset, laws, sl, lw, Fc, Mc, Qm, Fr, Mr, sums
+    A,
+    offset,
+    rel,
+    w,
+    qd,
+    spin,
+    data,
+    side,
+    place,
+    sign,
+    onset,
+    laws,
+    sl,
+    lw,
+    Fc,
+    Mc,
+    Qm,
+    Fr,
+    Mr,
+    sums,
 ):
-    """One touch of a land at ``place``, with the penetration in sl.d[0]; four stations' modes."""
+    """One touch of a land at ``place``, with the penetration in sl.d[0], added by ``sign``; the
+    speed of approach there. Four stations' modes."""
     law, friction = laws
     n_l = data.angle.shape[0]
     j, t = _around(place, n_l)
@@ -197,13 +286,10 @@ def _touch(
     v = plus(rel, cross(w, c))
     v = (0.0, v[1] + spin * at[2], v[2] - spin * at[1])
     sl.v[0] = -(dot(n, v) + dot(n, e) * outwards)
-    sums[6 + side] = sl.v[0]
     if sl.d[0] <= 0.0:
-        return
+        return sl.v[0]
     normal_forces(law, (0, 1), sl, data.normal, onset)
-    N = sl.N[0]
-    if N <= 0.0:
-        return
+    N = sign * sl.N[0]
     ahead = (0.0, -n[2], n[1])
     slide = dot(ahead, combine(plus(v, times(outwards, e)), forwards, along))
     sl.u[0] = abs(slide)
@@ -222,9 +308,10 @@ def _touch(
         lw.st[s, 1] += weights[k] * dot(f, along)
     energy, damped = stored_and_damped((0, 1), sl, data.normal[1])
     sums[4 + side] += N
-    sums[0] += energy
-    sums[1] += damped
-    sums[2] += friction_power((0, 1), sl)
+    sums[0] += sign * energy
+    sums[1] += sign * damped
+    sums[2] += sign * friction_power((0, 1), sl)
+    return sl.v[0]
 
 
 @part(fastmath=VECTORISED)

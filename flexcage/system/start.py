@@ -4,8 +4,9 @@ Rings, rollers and a pinched cage are brought to equilibrium without friction: N
 on the momentum rows with the velocities of pure rolling, in the metric of the mass matrix (an
 implicit Euler step from rest, whose length grows as it succeeds). Rollers stay where they are along
 their orbit, where friction would hold them, and between the ribs of a ring that is free along the
-axis or in tilt; a pinched cage finds its place. Where a defect leaves less than no clearance its
-size grows in steps from the first touch, so that the run begins assembled.
+axis or in tilt; a pinched cage finds its place, and a free one is moved off a land that the ring
+would press. Where a defect leaves less than no clearance its size grows in steps from the first
+touch, so that the run begins assembled.
 """
 
 from __future__ import annotations
@@ -19,7 +20,7 @@ from typing import Any
 import numpy as np
 
 from flexcage.contacts import laws
-from flexcage.contacts.land import DRY
+from flexcage.contacts.land import DRY, NONE
 from flexcage.contacts.pocket_wall import with_offset
 from flexcage.core.errors import InputError, RunFailed
 from flexcage.geometry.kinematics import epicyclic
@@ -39,6 +40,7 @@ Told = Callable[[float], None]
 RESIDUAL = 1e-7  # of the load: where an equilibrium is accepted
 _BALANCED = 1e-6  # of the load: what may stay unbalanced at last
 TOUCH = 1e-9  # [m] interference that is only a touch
+_CLEAR = 0.9  # of a land's clearance, by which a free cage may lean at the start
 STAGES = 8  # steps of a pinching defect's growth
 _CAGE_ROW = 8  # of the border: where the cage's rigid motion begins
 _HOLD = 1e12  # stiffness that holds a coordinate, far above that of any contact
@@ -189,11 +191,12 @@ def _between_ribs(layout: Layout, y: np.ndarray) -> np.ndarray:
 
 
 class _Frictionless:
-    """The bearing without friction, damping, drag, rolling resistance, gravity and the land's film,
-    which pushes a ring that nothing loads round and round."""
+    """The bearing without friction, damping, drag, rolling resistance and gravity, and without
+    films; ``lands``: with the cage's dry lands, which a free cage is to keep off by itself."""
 
-    def __init__(self, bearing: Bearing, offset: np.ndarray) -> None:
+    def __init__(self, bearing: Bearing, offset: np.ndarray, *, lands: bool = False) -> None:
         model = bearing.data.model
+        land = min(model.land.kind, DRY) if lands else NONE
         still = model._replace(
             bodies=model.bodies._replace(
                 gravity=np.zeros(3),
@@ -202,7 +205,7 @@ class _Frictionless:
             ),
             inner=model.inner._replace(rolling=np.zeros(2)),
             outer=model.outer._replace(rolling=np.zeros(2)),
-            land=model.land._replace(kind=min(model.land.kind, DRY)),
+            land=model.land._replace(kind=land),
             pocket=with_offset(model.pocket, offset),
         )
         self.bearing = bearing
@@ -284,8 +287,9 @@ def _sound_one_assembles(bearing: Bearing, limit: float) -> bool:
     none = 0.0 * model.pocket.offset
     y = geometric_guess(model, layout)
     yd = standing_cage(model, layout, y)
-    system, tight = _Frictionless(bearing, none), pocket_clearance(model, none) < -TOUCH
-    residual = _equilibrate(system, y, yd, _load(model), tight)
+    tight = pocket_clearance(model, none) < -TOUCH
+    system = _Frictionless(bearing, none)
+    residual = _assemble(system, y, yd, tight)
     return residual <= _BALANCED and system.report(y, yd).pocket_normal.max() <= limit
 
 
@@ -366,6 +370,27 @@ def _equilibrate(
     return size
 
 
+def _assemble(system: _Frictionless, y: np.ndarray, yd: np.ndarray, tight: np.ndarray) -> float:
+    """Bring y to equilibrium, with a free cage out of the way of its land's ring; the residual."""
+    model, layout = system.bearing.data.model, system.bearing.layout
+    residual = _equilibrate(system, y, yd, _load(model), tight)
+    if not tight.any() and _made_room(model, layout, y):
+        residual = _equilibrate(system, y, yd, _load(model), tight)
+    return residual
+
+
+def _made_room(model: Model, layout: Layout, y: np.ndarray) -> bool:
+    """Whether a free cage's land was in the way of the ring that it rides on, and moved off it."""
+    q, land = layout.q(y), model.land
+    ring = q["inner"][1:3] if land.inner > 0.0 else q["outer"]
+    apart = q["cage"][1:3] - ring
+    share = _CLEAR * land.clearance / max(float(np.linalg.norm(apart)), 1e-12)
+    if land.kind == NONE or share >= 1.0:
+        return False
+    q["cage"][1:3] = ring + share * apart
+    return True
+
+
 def _stages(model: Model, offset: np.ndarray) -> np.ndarray:
     """Shares of the defects' size to go through: from the first touch to all of it."""
     free = pocket_clearance(model, 0.0 * offset)
@@ -416,14 +441,13 @@ def _(
     layout = bearing.layout
     offset = model.pocket.offset
     y = geometric_guess(model, layout)
-    load = _load(model)
     residual = 0.0
     placed = np.zeros((layout.rollers, 2))
     shares = _stages(model, offset)
     for stage, share in enumerate(shares, start=1):
-        system = _Frictionless(bearing, offset * share)
         tight = pocket_clearance(model, offset * share) < -TOUCH
         pinched = np.flatnonzero(np.any(tight, axis=1))
+        system = _Frictionless(bearing, offset * share)
         middle = np.stack(
             [offset[:, 0].min(axis=1) - offset[:, 1].min(axis=1),
              offset[:, 2].min(axis=1) - offset[:, 3].min(axis=1)], axis=1,
@@ -432,11 +456,14 @@ def _(
         q[:, 2] += (middle - placed)[:, 0] / q[:, 1]
         placed = middle
         yd = standing_cage(model, layout, y)
-        residual = _equilibrate(system, y, yd, load, tight)
+        residual = _assemble(system, y, yd, tight)
         force = float(system.report(y, yd).pocket_normal.max())
         if force > limit_force:
             raise _not_assembled(bearing, force, limit_force, share, pinched)
         told(stage / len(shares))
+    if len(pinched):  # and held, whether its land is in the way or not
+        system = _Frictionless(bearing, offset, lands=True)
+        residual = _equilibrate(system, y, yd, _load(model), tight)
     if residual > _BALANCED:
         by_defects = len(pinched) and _sound_one_assembles(bearing, limit_force)
         blamed = "a defect" if by_defects else _others(model)

@@ -204,6 +204,38 @@ def test_land_energy_power_and_third_law(dry_land):
     assert power == pytest.approx(sums[1] + sums[2] - stored, abs=1e-4 * scale)
 
 
+def parting(share):
+    """Centre's offset and modes, over the clearance: bent to cos(2a), a land parts from its touch
+    at a = 0 when it bends by a quarter of its offset, and stays pressed between both touches."""
+    bend = 0.2 + 0.22 * share
+    return [1.016 + bend, 0.02], [0.0, -bend, 0.0]
+
+
+def growing(share):
+    """A land that grows until it is pressed all round, twice as much at two sides."""
+    return [0.01 * share, 0.003], [0.97 + 0.06 * share, 0.01, 0.0]
+
+
+@pytest.mark.parametrize(("path", "everywhere"), [(parting, False), (growing, True)])
+def test_a_dry_land_is_elastic_while_touches_part_and_merge(dry_land, path, everywhere):
+    """Work on the way is the energy."""
+    data, lean = dry_land, -dry_land.inner
+    places, forces, energy, touched = [], [], [], []
+    for share in np.linspace(0.0, 1.0, 2001):
+        offset, q = (lean * data.clearance * np.array(x) for x in path(share))
+        work = land_work(24)
+        Fc, _, Qm, _, _, sums = land(data, np.array([0.0, *offset]), q=q, qd=0 * q, work=work)
+        places.append([*offset, *q])
+        forces.append([*Fc[1:], *Qm])
+        energy.append(sums[0])
+        touched.append((np.abs(work.st).max(axis=1) > 0.0).sum())
+    mean = 0.5 * (np.array(forces[1:]) + np.array(forces[:-1]))
+    done = -np.cumsum((mean * np.diff(places, axis=0)).sum(axis=1))
+    assert touched[0] <= 4 < touched[-1] and energy[-1] > 1e-3
+    assert (work.d.min() > 0.0) == everywhere
+    np.testing.assert_allclose(np.array(energy[1:]) - energy[0], done, atol=1e-3 * np.ptp(energy))
+
+
 def test_forces_at_stations_of_a_dry_land_are_its_forces(dry_land):
     """On the four stations about the touch: the resultant to the bend of an arc of 15 degrees."""
     data, work = dry_land, land_work(24)

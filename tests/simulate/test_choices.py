@@ -85,6 +85,26 @@ def test_lands(guidance, kind):
     assert (touched > 0.0) == (kind == "film")  # the dry land is 0.25 mm or more away
 
 
+TIGHT = {
+    "bearing.radial_clearance": "80 um", "cage.guidance": "inner", "cage.material": "PEEK",
+    "cage.bore": "78.44 mm", "contacts.land.clearance": "20 um", "solver.tolerance": "1 nm",
+}  # fmt: skip
+
+
+def test_a_cage_makes_room_for_a_ring_with_more_play_than_its_land_has():
+    """The ring hangs by 40 um and more; its land would press a cage in the middle by half of it.
+
+    Then it rides on its land, touching once or twice, and energy is conserved.
+    """
+    run = simulate(n1013(TIGHT, {"solver.duration": "3 ms"}))
+    ds = finite(run)
+    apart = (ds["cage_position"] - ds["inner_position"]).values[:, 1:]
+    sag = np.abs(ds["inner_position"].values[0]).max()
+    assert sag > 40e-6 and np.linalg.norm(apart[0]) < 20e-6
+    assert np.abs(ds["land_force"].values).max() > 1.0
+    assert energy_audit(ds).passed and energy_audit(ds).of_drive < 0.01  # per cent
+
+
 def test_a_film_starts_without_a_load():
     """It has no equilibrium with a ring that nothing holds, which it drives round in its play."""
     film = {"contacts.land.kind": "film", "lubricant.viscosity": "0.05 Pa*s", "load.radial": "0 N"}
