@@ -44,8 +44,11 @@ class LandWork(NamedTuple):
     u: np.ndarray  # (nl,) radial displacement of the stations by the modes
     d: np.ndarray  # (nl,) penetration of one land's stations
     rise: np.ndarray  # (nl,) its slope there, by station
-    span: np.ndarray  # (2 nl, 2) between which places there is an extreme of it
+    span: np.ndarray  # (2 nl, 2) between which places, in stations, there is an extreme of it
     sign: np.ndarray  # (2 nl,) 1: a maximum, -1: a minimum
+    place: np.ndarray  # (2 nl,) of the extreme
+    depth: np.ndarray  # (2 nl,)
+    share: np.ndarray  # (2 nl,) of damping and friction there
     film: np.ndarray  # (3,) the film's forces
     st: np.ndarray  # (nl, 2) force on the cage at the stations, outwards and forwards
 
@@ -53,7 +56,16 @@ class LandWork(NamedTuple):
 def land_work(n_stations: int) -> LandWork:
     n, zeros = n_stations, np.zeros
     return LandWork(
-        zeros(n), zeros(n), zeros(n), zeros((2 * n, 2)), zeros(2 * n), zeros(3), zeros((n, 2))
+        zeros(n),
+        zeros(n),
+        zeros(n),
+        zeros((2 * n, 2)),
+        zeros(2 * n),
+        zeros(2 * n),
+        zeros(2 * n),
+        zeros(2 * n),
+        zeros(3),
+        zeros((n, 2)),
     )
 
 
@@ -65,11 +77,13 @@ def land_contact(
     those at the cage's stations in ``lw.st``.
 
     Rc, Vc, w: cage origin, velocity, angular velocity in space; Rr, Vr, spin: ring centre,
-    velocity, spin about x; onset speeds (2,) of the lands at -x and +x. Dry contact acts where the
-    penetration round the land has a maximum, with the modes interpolated smoothly between their
-    stations: a cage that rolls on its land does not feel the stations pass. ``sums``: elastic
-    energy, damping power, friction power, film power; then of each land its normal force, and the
-    approach speed where it is nearest to the ring.
+    velocity, spin about x; onset speeds (2,) of the lands at -x and +x. Dry contact is elastic
+    where the penetration round the land has a maximum, less what it would be at minima between
+    pressed ones: touches that merge or part do so without a jump, and energy is conserved. It damps
+    and rubs at maxima. Modes are interpolated smoothly between their stations: a cage that rolls on
+    its land does not feel the stations pass. ``sums``: elastic energy, damping power, friction
+    power, film power; then of each land its normal force, and the approach speed where it is
+    nearest to the ring.
     """
     zero(sums)
     zero(lw.st)
@@ -83,29 +97,29 @@ def land_contact(
         _film(A, Rc, Vc, w, qd, Rr, Vr, spin, data, lw, Fc, Mc, Qm, Fr, Mr, sums)
     if reach < data.clearance:
         return
-    n_l = data.angle.shape[0]
     _displaced(data, q, lw.u)
     ring = data.radius - data.inner * data.clearance
     offset = minus(xyz(Rc), xyz(Rr))
     for side in range(2):
-        deepest, lowest = _press(A, data, ring, offset, side, lw)
-        pressed, most = lw.d[lowest] > 0.0, -1.0
-        for i in range(_find_extremes(A, data, ring, offset, side, deepest, lw)):
-            sign = lw.sign[i]
-            if pressed and sign < 0.0 and (lowest - int(lw.span[i, 0])) % n_l < 2:
-                pressed = False  # pressed all round: the least of it counts, once
+        deepest, pressed = _press(A, data, ring, offset, side, lw)
+        count = _find_extremes(A, data, ring, offset, side, deepest, lw)
+        for i in range(count):
+            _extreme(A, data, ring, offset, side, i, lw)
+        if count == 0:  # pressed evenly
+            lw.place[0], lw.depth[0], lw.sign[0], count = deepest, lw.d[deepest], 1.0, 1
+        _share(count, pressed, lw)
+        most = -1.0
+        for i in range(count):
+            nearest = lw.sign[i] > 0.0 and lw.depth[i] > most
+            if lw.sign[i] == 0.0 or (lw.depth[i] <= 0.0 and not nearest):
                 continue
-            place, depth = _extreme(A, data, ring, offset, side, lw.span[i, 0], lw.span[i, 1], lw)
-            nearest = sign > 0.0 and depth > most
-            if depth <= 0.0 and not nearest:
-                continue
-            sl.d[0] = depth
+            sl.d[0] = lw.depth[i]
             speed = _touch(
-                A, offset, minus(xyz(Vc), xyz(Vr)), xyz(w), qd, spin, data, side, place, sign,
-                onset[side], laws, sl, lw, Fc, Mc, Qm, Fr, Mr, sums,
+                A, offset, minus(xyz(Vc), xyz(Vr)), xyz(w), qd, spin, data, side, i, onset[side],
+                laws, sl, lw, Fc, Mc, Qm, Fr, Mr, sums,
             )  # fmt: skip
             if nearest:
-                most, sums[6 + side] = depth, speed
+                most, sums[6 + side] = lw.depth[i], speed
 
 
 @part(fastmath=VECTORISED)
@@ -145,8 +159,9 @@ def _surface(A, data, side, place, lw):
 
 @part
 def _press(A, data, ring, offset, side, lw):
-    """Penetration of a land's stations and its slope; the deepest station, and the least deep."""
-    deepest = lowest = 0
+    """Penetration of a land's stations and its slope; the deepest station, and whether all are
+    pressed."""
+    deepest, pressed = 0, True
     n_l = data.angle.shape[0]
     y, z, middle = column(A, 1), column(A, 2), times(data.x[side], column(A, 0))
     for s in range(n_l):
@@ -161,9 +176,8 @@ def _press(A, data, ring, offset, side, lw):
         lw.rise[s] = -data.inner * (at[1] * rise[1] + at[2] * rise[2]) / far
         if lw.d[s] > lw.d[deepest]:
             deepest = s
-        if lw.d[s] < lw.d[lowest]:
-            lowest = s
-    return deepest, lowest
+        pressed = pressed and lw.d[s] > 0.0
+    return deepest, pressed
 
 
 @part
@@ -210,29 +224,42 @@ def _depth(A, data, ring, offset, side, place, lw):
 
 
 @part
-def _extreme(A, data, ring, offset, side, first, last, lw):
-    """Place of the extreme of the penetration between two places, and its depth: false position,
-    the end that stays counted by half each time (the Illinois method)."""
+def _extreme(A, data, ring, offset, side, i, lw):
+    """Place and depth of extreme i of the penetration: false position, the end that stays counted
+    by half each time (the Illinois method), and never quite at an end."""
+    first, last, up = lw.span[i, 0], lw.span[i, 1], lw.sign[i] > 0.0
     depth, rise = _depth(A, data, ring, offset, side, first, lw)
-    beyond, fall = _depth(A, data, ring, offset, side, last, lw)
-    place = first
-    if abs(fall) < abs(rise):
-        place, depth = last, beyond
-    if (rise > 0.0) == (fall > 0.0):  # one of them is it, to rounding
-        return place, depth
-    for _ in range(40):
-        new = last - fall * (last - first) / (fall - rise)
-        step = abs(new - place)
-        place = new
-        depth, slope = _depth(A, data, ring, offset, side, place, lw)
-        if step < 1e-9 or slope == 0.0:
+    _, fall = _depth(A, data, ring, offset, side, last, lw)
+    for _ in range(60):
+        if last - first < 1e-9:
             break
-        if (slope > 0.0) == (fall > 0.0):
-            rise *= 0.5
+        share = rise / (rise - fall) if rise != fall else 0.5
+        place = first + min(max(share, 0.02), 0.98) * (last - first)
+        here, slope = _depth(A, data, ring, offset, side, place, lw)
+        if (slope > 0.0) == up:
+            first, depth, rise, fall = place, here, slope, 0.5 * fall
         else:
-            first, rise = last, fall
-        last, fall = place, slope
-    return place, depth
+            last, rise, fall = place, 0.5 * rise, slope
+    lw.place[i], lw.depth[i] = first, depth
+
+
+@part
+def _share(count, pressed, lw):
+    """How much of damping and friction each of a land's maxima has: the less the deeper it is still
+    pressed towards a deeper one, so that nothing jumps when they merge. The least of a land that is
+    pressed all round is no minimum between others: its sign becomes zero."""
+    least = -1
+    for i in range(count):
+        lw.share[i] = max(lw.sign[i], 0.0)
+        if lw.sign[i] < 0.0 and (least < 0 or lw.depth[i] < lw.depth[least]):
+            least = i
+    if pressed and least >= 0:
+        lw.sign[least] = 0.0
+    for i in range(count):
+        if lw.sign[i] < 0.0 and lw.depth[i] > 0.0:
+            before, after = (i - 1) % count, (i + 1) % count
+            lower = before if lw.depth[before] < lw.depth[after] else after
+            lw.share[lower] = max(lw.share[lower] - lw.depth[i] / lw.depth[lower], 0.0)
 
 
 @part
@@ -245,30 +272,12 @@ def _directions(A, angle):
 
 @part
 def _touch(
-    A,
-    offset,
-    rel,
-    w,
-    qd,
-    spin,
-    data,
-    side,
-    place,
-    sign,
-    onset,
-    laws,
-    sl,
-    lw,
-    Fc,
-    Mc,
-    Qm,
-    Fr,
-    Mr,
-    sums,
+    A, offset, rel, w, qd, spin, data, side, i, onset, laws, sl, lw, Fc, Mc, Qm, Fr, Mr, sums
 ):
-    """One touch of a land at ``place``, with the penetration in sl.d[0], added by ``sign``; the
-    speed of approach there. Four stations' modes."""
+    """One touch of a land, at extreme i of its penetration, which is in sl.d[0]; the speed of
+    approach there. Four stations' modes."""
     law, friction = laws
+    place, sign, share = lw.place[i], lw.sign[i], lw.share[i]
     n_l = data.angle.shape[0]
     j, t = _around(place, n_l)
     weights, _ = smooth_weights(t)
@@ -289,18 +298,18 @@ def _touch(
     if sl.d[0] <= 0.0:
         return sl.v[0]
     normal_forces(law, (0, 1), sl, data.normal, onset)
-    N = sign * sl.N[0]
+    N, rubs = sign * sl.Ne[0] + share * (sl.N[0] - sl.Ne[0]), share * sl.N[0]
     ahead = (0.0, -n[2], n[1])
     slide = dot(ahead, combine(plus(v, times(outwards, e)), forwards, along))
     sl.u[0] = abs(slide)
     friction_factors(friction, (0, 1), sl, data.friction)
     g = sl.g[0] * slide
-    f = combine(times(N, n), -N * g, ahead)
+    f = combine(times(N, n), -rubs * g, ahead)
     add_to(Fc, f)
     add_to(Fr, times(-1.0, f))
     add_to(Mc, cross(c, f))
     add_to(Mr, cross(f, at))
-    radial, rubbed = dot(f, e), -N * g * dot(ahead, along)  # the depth knows radial modes alone
+    radial, rubbed = dot(f, e), -rubs * g * dot(ahead, along)  # the depth knows radial modes alone
     for k in range(4):
         s = (j + k - 1) % n_l
         _push_modes(weights[k] * radial, weights[k] * rubbed, data.phi[s], Qm)
@@ -309,8 +318,8 @@ def _touch(
     energy, damped = stored_and_damped((0, 1), sl, data.normal[1])
     sums[4 + side] += N
     sums[0] += sign * energy
-    sums[1] += sign * damped
-    sums[2] += sign * friction_power((0, 1), sl)
+    sums[1] += share * damped
+    sums[2] += share * friction_power((0, 1), sl)
     return sl.v[0]
 
 

@@ -20,7 +20,7 @@ from typing import Any
 import numpy as np
 
 from flexcage.contacts import laws
-from flexcage.contacts.land import DRY, NONE
+from flexcage.contacts.land import DRY, FILM, NONE
 from flexcage.contacts.pocket_wall import with_offset
 from flexcage.core.errors import InputError, RunFailed
 from flexcage.geometry.kinematics import epicyclic
@@ -40,7 +40,8 @@ Told = Callable[[float], None]
 RESIDUAL = 1e-7  # of the load: where an equilibrium is accepted
 _BALANCED = 1e-6  # of the load: what may stay unbalanced at last
 TOUCH = 1e-9  # [m] interference that is only a touch
-_CLEAR = 0.9  # of a land's clearance, by which a free cage may lean at the start
+# of a land's clearance, by which a free cage may lean at the start; a film grows stiff beyond
+_CLEAR = {DRY: 0.9, FILM: 0.5}
 STAGES = 8  # steps of a pinching defect's growth
 _CAGE_ROW = 8  # of the border: where the cage's rigid motion begins
 _HOLD = 1e12  # stiffness that holds a coordinate, far above that of any contact
@@ -376,18 +377,26 @@ def _assemble(system: _Frictionless, y: np.ndarray, yd: np.ndarray, tight: np.nd
     residual = _equilibrate(system, y, yd, _load(model), tight)
     if not tight.any() and _made_room(model, layout, y):
         residual = _equilibrate(system, y, yd, _load(model), tight)
+        squeezed = np.abs(layout.u(system.residual(y, yd))["cage"]).max()  # by its pockets
+        residual = max(residual, float(squeezed) / _load(model))
     return residual
 
 
 def _made_room(model: Model, layout: Layout, y: np.ndarray) -> bool:
-    """Whether a free cage's land was in the way of the ring that it rides on, and moved off it."""
+    """Whether a free cage's land was in the way of the ring that it rides on; it is moved off it,
+    and rollers stay in the middle of their pockets."""
     q, land = layout.q(y), model.land
+    if land.kind == NONE:
+        return False
     ring = q["inner"][1:3] if land.inner > 0.0 else q["outer"]
     apart = q["cage"][1:3] - ring
-    share = _CLEAR * land.clearance / max(float(np.linalg.norm(apart)), 1e-12)
-    if land.kind == NONE or share >= 1.0:
+    share = _CLEAR[land.kind] * land.clearance / max(float(np.linalg.norm(apart)), 1e-12)
+    if share >= 1.0:
         return False
-    q["cage"][1:3] = ring + share * apart
+    moved = (share - 1.0) * apart
+    q["cage"][1:3] += moved
+    radius, psi = q["rollers"][:, 1], q["rollers"][:, 2].copy()
+    q["rollers"][:, 2] += (moved[1] * np.cos(psi) - moved[0] * np.sin(psi)) / radius
     return True
 
 
@@ -464,6 +473,9 @@ def _(
     if len(pinched):  # and held, whether its land is in the way or not
         system = _Frictionless(bearing, offset, lands=True)
         residual = _equilibrate(system, y, yd, _load(model), tight)
+        force = float(system.report(y, yd).pocket_normal.max())
+        if force > limit_force:
+            raise _not_assembled(bearing, force, limit_force, 1.0, pinched)
     if residual > _BALANCED:
         by_defects = len(pinched) and _sound_one_assembles(bearing, limit_force)
         blamed = "a defect" if by_defects else _others(model)

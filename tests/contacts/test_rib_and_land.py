@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from contact_kernels import land, rib, turned
+from scipy.interpolate import CubicHermiteSpline
 from scipy.spatial.transform import Rotation
 
 from flexcage.contacts import laws
@@ -234,6 +235,62 @@ def test_a_dry_land_is_elastic_while_touches_part_and_merge(dry_land, path, ever
     assert touched[0] <= 4 < touched[-1] and energy[-1] > 1e-3
     assert (work.d.min() > 0.0) == everywhere
     np.testing.assert_allclose(np.array(energy[1:]) - energy[0], done, atol=1e-3 * np.ptp(energy))
+
+
+def wavy(data):
+    """The land with seven shapes of up to four waves, each at both phases."""
+    a = 2 * np.pi * np.arange(24) / 24
+    waves = [np.ones(24)] + [f(k * a) for k in (2, 3, 4) for f in (np.cos, np.sin)]
+    phi = np.zeros((24, 3, 7))
+    phi[:, 1] = np.transpose(waves)
+    return data._replace(phi=phi, phi_max=np.ones(7))
+
+
+def energy_of_profile(data, offset, q):
+    """Elastic energy of both lands from their radius at 4,800 places between the stations: that of
+    maxima less that of minima, but for the lowest if it is pressed."""
+    fine = 2 * np.pi * np.arange(4800) / 4800
+    closed = np.append(np.arange(24), 24)
+    slope = 0.5 * (np.roll(data.phi[:, 1] @ q, -1) - np.roll(data.phi[:, 1] @ q, 1))
+    ends = [np.append(x, x[0]) for x in (data.phi[:, 1] @ q, slope)]
+    u = CubicHermiteSpline(closed, *ends)(fine * 24 / (2 * np.pi))
+    y, z = (
+        offset[1] + (data.radius + u) * np.cos(fine),
+        offset[2] + (data.radius + u) * np.sin(fine),
+    )
+    d = data.inner * (data.radius - data.inner * data.clearance - np.hypot(y, z))
+    before, after = np.roll(d, 1), np.roll(d, -1)
+    most, least = d[(d > before) & (d >= after)], d[(d < before) & (d <= after)]
+    stiffness, exponent = data.normal[:2]
+    parts = [
+        stiffness * np.maximum(x, 0.0) ** (exponent + 1) / (exponent + 1)
+        for x in (most, least, np.array([d.min()]))
+    ]
+    return 2.0 * (parts[0].sum() - parts[1].sum() + parts[2].sum())
+
+
+def test_a_wavy_dry_land_stores_what_its_profile_does_and_never_drives(dry_land):
+    """Pressed at any number of places, or all round: neither damping nor friction does work on the
+    bearing, and no land pulls."""
+    data, rng, pressed = wavy(dry_land), np.random.default_rng(1), []
+    call = {"law": laws.restitution, "friction": laws.step_coulomb, "spin": 628.0}
+    for _ in range(600):
+        q = rng.normal(size=7) * np.array([0.3, 0.3, 0.3, 0.1, 0.1, 0.05, 0.05]) * data.clearance
+        offset = np.append(0.0, rng.normal(size=2)) * 0.9 * data.clearance
+        qd, Vc = 0.02 * rng.normal(size=7), np.append(0.0, 0.02 * rng.normal(size=2))
+        sums = land(data, offset, q=q, qd=qd, Vc=Vc, w=np.array([283.0, 0, 0]), **call)[5]
+        assert sums[1] <= 0.0 and sums[2] <= 0.0 and min(sums[4], sums[5]) >= 0.0
+        assert sums[0] == pytest.approx(energy_of_profile(data, offset, q), rel=1e-3, abs=1e-7)
+        pressed.append(sums[0] > 0.0)
+    assert sum(pressed) > 300
+
+
+def test_a_dry_land_pressed_evenly_all_round_counts_once(dry_land):
+    data = wavy(dry_land)
+    even = np.append(-data.inner * (data.clearance + 10e-6), np.zeros(6))
+    once = land(data, np.zeros(3), q=even, qd=0 * even)[5]
+    aside = land(data, 1e-9 * Y, q=even, qd=0 * even)[5]
+    assert once[0] == pytest.approx(aside[0], rel=1e-3) and once[4] > 1e3
 
 
 def test_forces_at_stations_of_a_dry_land_are_its_forces(dry_land):

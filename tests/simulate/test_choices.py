@@ -8,6 +8,7 @@ from flexcage.contacts.spec import FRICTION_LAWS, NORMAL_LAWS
 from flexcage.results.audit import energy_audit
 from flexcage.results.metrics import settled
 from flexcage.simulate import build_bearing, cage_mesh, simulate
+from flexcage.stages import assembled_start
 from flexcage.static import solve_static
 
 RIGID = {"cage.model": "rigid"}
@@ -103,6 +104,19 @@ def test_a_cage_makes_room_for_a_ring_with_more_play_than_its_land_has():
     assert sag > 40e-6 and np.linalg.norm(apart[0]) < 20e-6
     assert np.abs(ds["land_force"].values).max() > 1.0
     assert energy_audit(ds).passed and energy_audit(ds).of_drive < 0.01  # per cent
+
+
+@pytest.mark.parametrize("kind", ["dry", "film"])
+def test_room_that_a_cage_makes_presses_nothing(kind):
+    """Neither pockets of less play than it moves, as rollers go with it, nor a film at its end."""
+    close = {"cage.pocket_width": "8.02 mm", "contacts.land.kind": kind, "cage.model": "rigid"}
+    case = n1013(TIGHT, close)
+    bearing = build_bearing(case, cage_mesh(case), None)
+    start = assembled_start(case, bearing)
+    bearing.residual(0.0, start.y, start.yd, mode=2)
+    report = bearing.data.work.report
+    assert start.residual < 1e-6 and report.pocket_normal.max() == 0.0
+    assert np.abs(report.land).max() < (100.0 if kind == "film" else 1e-9)
 
 
 def test_a_film_starts_without_a_load():
