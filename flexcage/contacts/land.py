@@ -56,17 +56,9 @@ class LandWork(NamedTuple):
 def land_work(n_stations: int) -> LandWork:
     n, zeros = n_stations, np.zeros
     return LandWork(
-        zeros(n),
-        zeros(n),
-        zeros(n),
-        zeros((2 * n, 2)),
-        zeros(2 * n),
-        zeros(2 * n),
-        zeros(2 * n),
-        zeros(2 * n),
-        zeros(3),
-        zeros((n, 2)),
-    )
+        zeros(n), zeros(n), zeros(n), zeros((2 * n, 2)), zeros(2 * n), zeros(2 * n), zeros(2 * n),
+        zeros(2 * n), zeros(3), zeros((n, 2)),
+    )  # fmt: skip
 
 
 @part
@@ -113,7 +105,6 @@ def land_contact(
             nearest = lw.sign[i] > 0.0 and lw.depth[i] > most
             if lw.sign[i] == 0.0 or (lw.depth[i] <= 0.0 and not nearest):
                 continue
-            sl.d[0] = lw.depth[i]
             speed = _touch(
                 A, offset, minus(xyz(Vc), xyz(Vr)), xyz(w), qd, spin, data, side, i, onset[side],
                 laws, sl, lw, Fc, Mc, Qm, Fr, Mr, sums,
@@ -163,17 +154,13 @@ def _press(A, data, ring, offset, side, lw):
     pressed."""
     deepest, pressed = 0, True
     n_l = data.angle.shape[0]
-    y, z, middle = column(A, 1), column(A, 2), times(data.x[side], column(A, 0))
+    middle = times(data.x[side], column(A, 0))
     for s in range(n_l):
-        ca, sa = data.angle[s, 0], data.angle[s, 1]
-        e, along = combine(times(ca, y), sa, z), combine(times(ca, z), -sa, y)
+        e, along = _turned(A, data.angle[s, 0], data.angle[s, 1])
         radius = data.radius + lw.u[s]
-        at = plus(offset, combine(middle, radius, e))
         bend = 0.5 * (lw.u[(s + 1) % n_l] - lw.u[s - 1])
         rise = combine(times(bend, e), radius * 2.0 * pi / n_l, along)
-        far = sqrt(at[1] * at[1] + at[2] * at[2])
-        lw.d[s] = data.inner * (ring - far)
-        lw.rise[s] = -data.inner * (at[1] * rise[1] + at[2] * rise[2]) / far
+        lw.d[s], lw.rise[s] = _within(data, ring, offset, combine(middle, radius, e), rise)
         if lw.d[s] > lw.d[deepest]:
             deepest = s
         pressed = pressed and lw.d[s] > 0.0
@@ -218,6 +205,12 @@ def _find_extremes(A, data, ring, offset, side, deepest, lw):
 def _depth(A, data, ring, offset, side, place, lw):
     """Penetration at ``place`` round the land, and its slope by station."""
     c, rise, _ = _surface(A, data, side, place, lw)
+    return _within(data, ring, offset, c, rise)
+
+
+@part
+def _within(data, ring, offset, c, rise):
+    """Penetration of a point c of the land into the ring, and its slope where c's is ``rise``."""
     y, z = offset[1] + c[1], offset[2] + c[2]
     d = sqrt(y * y + z * z)
     return data.inner * (ring - d), -data.inner * (y * rise[1] + z * rise[2]) / d
@@ -265,7 +258,12 @@ def _share(count, pressed, lw):
 @part
 def _directions(A, angle):
     """Outward and forward directions at an angle round the cage, in space."""
-    ca, sa = cos(angle), sin(angle)
+    return _turned(A, cos(angle), sin(angle))
+
+
+@part
+def _turned(A, ca, sa):
+    """The same for the angle's cosine and sine."""
     y, z = column(A, 1), column(A, 2)
     return combine(times(ca, y), sa, z), combine(times(ca, z), -sa, y)
 
@@ -274,10 +272,10 @@ def _directions(A, angle):
 def _touch(
     A, offset, rel, w, qd, spin, data, side, i, onset, laws, sl, lw, Fc, Mc, Qm, Fr, Mr, sums
 ):
-    """One touch of a land, at extreme i of its penetration, which is in sl.d[0]; the speed of
-    approach there. Four stations' modes."""
+    """One touch of a land, at extreme i of its penetration; the speed of approach there. Four
+    stations' modes."""
     law, friction = laws
-    place, sign, share = lw.place[i], lw.sign[i], lw.share[i]
+    place, sign, share, sl.d[0] = lw.place[i], lw.sign[i], lw.share[i], lw.depth[i]
     n_l = data.angle.shape[0]
     j, t = _around(place, n_l)
     weights, _ = smooth_weights(t)

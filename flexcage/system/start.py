@@ -243,6 +243,16 @@ class _Frictionless:
         return r
 
 
+def _check_force(
+    system: _Frictionless, y: np.ndarray, yd: np.ndarray, limit: float, share: float,
+    pinched: np.ndarray,
+) -> None:  # fmt: skip
+    """InputError for a pocket that pushes with more than ``limit`` [N]."""
+    force = float(system.report(y, yd).pocket_normal.max())
+    if force > limit:
+        raise _not_assembled(system.bearing, force, limit, share, pinched)
+
+
 def _not_assembled(
     bearing: Bearing, force: float, limit: float, share: float, pinched: np.ndarray
 ) -> InputError:
@@ -331,14 +341,12 @@ def _measure(layout: Layout, r: np.ndarray, lever: float, held: Held, free: np.n
     return max(float(np.abs(u[k]).max()) for k in names if u[k].size)
 
 
-def _equilibrate(
-    system: _Frictionless, y: np.ndarray, yd: np.ndarray, load: float, tight: np.ndarray
-) -> float:
+def _equilibrate(system: _Frictionless, y: np.ndarray, yd: np.ndarray, tight: np.ndarray) -> float:
     """Bring y to equilibrium in place; the residual reached, as a share of the load.
 
     ``tight`` (Z, 2) marks the pockets that are too small for their roller at this stage.
     """
-    held = _held(tight)
+    held, load = _held(tight), _load(system.data.model)
     layout = system.bearing.layout
     nq, n_qu = layout.n_q, layout.n_q + layout.n_u
     bodies = system.data.model.bodies
@@ -374,9 +382,9 @@ def _equilibrate(
 def _assemble(system: _Frictionless, y: np.ndarray, yd: np.ndarray, tight: np.ndarray) -> float:
     """Bring y to equilibrium, with a free cage out of the way of its land's ring; the residual."""
     model, layout = system.bearing.data.model, system.bearing.layout
-    residual = _equilibrate(system, y, yd, _load(model), tight)
+    residual = _equilibrate(system, y, yd, tight)
     if not tight.any() and _made_room(model, layout, y):
-        residual = _equilibrate(system, y, yd, _load(model), tight)
+        residual = _equilibrate(system, y, yd, tight)
         squeezed = np.abs(layout.u(system.residual(y, yd))["cage"]).max()  # by its pockets
         residual = max(residual, float(squeezed) / _load(model))
     return residual
@@ -466,16 +474,12 @@ def _(
         placed = middle
         yd = standing_cage(model, layout, y)
         residual = _assemble(system, y, yd, tight)
-        force = float(system.report(y, yd).pocket_normal.max())
-        if force > limit_force:
-            raise _not_assembled(bearing, force, limit_force, share, pinched)
+        _check_force(system, y, yd, limit_force, share, pinched)
         told(stage / len(shares))
     if len(pinched):  # and held, whether its land is in the way or not
         system = _Frictionless(bearing, offset, lands=True)
-        residual = _equilibrate(system, y, yd, _load(model), tight)
-        force = float(system.report(y, yd).pocket_normal.max())
-        if force > limit_force:
-            raise _not_assembled(bearing, force, limit_force, 1.0, pinched)
+        residual = _equilibrate(system, y, yd, tight)
+        _check_force(system, y, yd, limit_force, 1.0, pinched)
     if residual > _BALANCED:
         by_defects = len(pinched) and _sound_one_assembles(bearing, limit_force)
         blamed = "a defect" if by_defects else _others(model)
