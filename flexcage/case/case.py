@@ -106,14 +106,21 @@ class Case:
             return binder.bind(cls, _with_cage(merged, binder), "")
 
     def replace(
-        self, path: str | None = None, value: Any = None, /, *, si: bool = True, **changes: Any
+        self,
+        path: str | Mapping[str, Any] | None = None,
+        value: Any = None,
+        /,
+        *,
+        si: bool = True,
+        **changes: Any,
     ) -> Case:
-        """Varied copy: ``replace("cage.pocket_width", "8.25 mm")`` or ``replace(**{path: value})``.
+        """Varied copy: ``replace("cage.pocket_width", "8.25 mm")``, or ``replace({path: value})``
+        and ``replace(**{path: value})`` for several at once.
 
         A path is dotted ("defects.0.displacement"); a value is text with its unit, an SI number
         (unless ``si`` is False), a spec, or a table. All changes are made before the check.
         """
-        pairs = {**({path: value} if path is not None else {}), **changes}
+        pairs = {**_as_pairs(path, value), **changes}
         binder = Binder(named=NAMED, si=si)
         bare = _Unchecked(**{f.name: getattr(self, f.name) for f in dataclasses.fields(self)})
         for where, new in with_their_choice(bare, pairs).items():
@@ -218,6 +225,22 @@ def _with_cage(table: dict[str, Any], binder: Binder) -> dict[str, Any]:
     bearing = binder.bind(Bearing, table["bearing"], "bearing")
     cage = binder.bind(bearing.cage_spec, table["cage"], "cage")
     return {**table, "bearing": bearing, "cage": cage}
+
+
+def _as_pairs(path: Any, value: Any) -> dict[str, Any]:
+    """Values by dotted path, from one path and its value or a mapping of them."""
+    table = {} if path is None else path if isinstance(path, Mapping) else {path: value}
+    for key in table:
+        if not isinstance(key, str):
+            raise InputError(
+                f"replace wants dotted paths, such as 'drive.speed', not {key!r}.", value=key
+            )
+    if table is path and value is not None:
+        raise InputError(
+            f"replace wants a path and its value, or a table of them alone, not also {value!r}.",
+            value=value,
+        )
+    return dict(table)
 
 
 class _Unchecked(Case):

@@ -2,7 +2,8 @@
 
 The quasi-static solution places ring and balls, centrifugal forces included. Every ball orbits as
 that has it and turns so that it rolls on both races, as far as contact angles allow; what spin
-and gyroscopic moment do to it is left to the run. The cage is centred on the balls.
+and gyroscopic moment do to it is left to the run. The cage is centred on the balls, or as far off
+as its land's ring leaves it room, and the balls go with it.
 """
 
 from __future__ import annotations
@@ -16,7 +17,7 @@ from flexcage.system.ball_model import BallModel
 from flexcage.system.layout import Layout
 from flexcage.system.problem import Bearing
 from flexcage.system.scales import ERROR_RATE, error_weights, shared_weights
-from flexcage.system.start import Start, StaticStart, Told, start_of
+from flexcage.system.start import Start, StaticStart, Told, made_room, start_of
 from flexcage.system.statics.solution import StaticSolution
 
 log = logging.getLogger(__name__)
@@ -32,6 +33,7 @@ def _(
     for text in solution.warnings:
         log.warning("at the start %s", text)
     y = ball_places(bearing, solution)
+    made_room(model.land, bearing.layout, y)
     yd = rolling_balls(model, bearing.layout, solution, y)
     station = np.zeros_like(bearing.data.work.report.station)
     return Start(y, yd, (), 0.0, solution.unbalanced, station)

@@ -20,7 +20,7 @@ from typing import Any
 import numpy as np
 
 from flexcage.contacts import laws
-from flexcage.contacts.land import DRY, FILM, NONE
+from flexcage.contacts.land import DRY, FILM, NONE, LandData
 from flexcage.contacts.pocket_wall import with_offset
 from flexcage.core.errors import InputError, RunFailed
 from flexcage.geometry.kinematics import epicyclic
@@ -40,7 +40,7 @@ Told = Callable[[float], None]
 RESIDUAL = 1e-7  # of the load: where an equilibrium is accepted
 _BALANCED = 1e-6  # of the load: what may stay unbalanced at last
 TOUCH = 1e-9  # [m] interference that is only a touch
-# of a land's clearance, by which a free cage may lean at the start; a film grows stiff beyond
+# of a land's clearance, by which the cage may lean at the start; a film grows stiff beyond
 _CLEAR = {DRY: 0.9, FILM: 0.5}
 STAGES = 8  # steps of a pinching defect's growth
 _CAGE_ROW = 8  # of the border: where the cage's rigid motion begins
@@ -380,20 +380,21 @@ def _equilibrate(system: _Frictionless, y: np.ndarray, yd: np.ndarray, tight: np
 
 
 def _assemble(system: _Frictionless, y: np.ndarray, yd: np.ndarray, tight: np.ndarray) -> float:
-    """Bring y to equilibrium, with a free cage out of the way of its land's ring; the residual."""
+    """Bring y to equilibrium, with the cage out of the way of its land's ring; the residual."""
     model, layout = system.bearing.data.model, system.bearing.layout
     residual = _equilibrate(system, y, yd, tight)
-    if not tight.any() and _made_room(model, layout, y):
+    if made_room(model.land, layout, y):
         residual = _equilibrate(system, y, yd, tight)
-        squeezed = np.abs(layout.u(system.residual(y, yd))["cage"]).max()  # by its pockets
-        residual = max(residual, float(squeezed) / _load(model))
+        if not tight.any():
+            squeezed = np.abs(layout.u(system.residual(y, yd))["cage"]).max()  # by its pockets
+            residual = max(residual, float(squeezed) / _load(model))
     return residual
 
 
-def _made_room(model: Model, layout: Layout, y: np.ndarray) -> bool:
-    """Whether a free cage's land was in the way of the ring that it rides on; it is moved off it,
-    and rollers stay in the middle of their pockets."""
-    q, land = layout.q(y), model.land
+def made_room(land: LandData, layout: Layout, y: np.ndarray) -> bool:
+    """Whether the cage's land was in the way of the ring that it rides on; it is moved off it,
+    and rolling elements stay in the middle of their pockets."""
+    q = layout.q(y)
     if land.kind == NONE:
         return False
     ring = q["inner"][1:3] if land.inner > 0.0 else q["outer"]

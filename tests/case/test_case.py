@@ -146,9 +146,19 @@ def test_numbers_of_numpy_of_another_kind_are_refused(case):
 
 def test_changes_that_only_fit_together_are_made_together(case):
     both = {"cage.bore": "79 mm", "contacts.land.clearance": "0.3 mm"}
-    assert case.replace(**both).cage.bore == 79e-3
+    assert case.replace(both) == case.replace(**both) != case
+    assert case.replace(both).cage.bore == 79e-3
     with pytest.raises(InputError, match="0.25 mm, but cage.bore and .* leave 0.3 mm"):
         case.replace("cage.bore", "79 mm")
+
+
+@pytest.mark.parametrize(
+    ("given", "words"),
+    [((5, 3), "dotted paths, .* not 5"), (({"load.radial": "1 N"}, 3), "a table .*, not also 3")],
+)
+def test_replace_says_what_it_takes(case, given, words):
+    with pytest.raises(InputError, match=words):
+        case.replace(*given)
 
 
 def test_partial_override_keeps_the_places_own_default():

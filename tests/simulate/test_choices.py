@@ -4,10 +4,11 @@ import numpy as np
 import pytest
 from simulate_cases import PLACES, bent, n1013
 
+from flexcage.case import load_case
 from flexcage.contacts.spec import FRICTION_LAWS, NORMAL_LAWS
 from flexcage.results.audit import energy_audit
 from flexcage.results.metrics import settled
-from flexcage.simulate import build_bearing, cage_mesh, simulate
+from flexcage.simulate import build_bearing, cage_mesh, cage_reduction, simulate
 from flexcage.stages import assembled_start
 from flexcage.static import solve_static
 
@@ -106,17 +107,47 @@ def test_a_cage_makes_room_for_a_ring_with_more_play_than_its_land_has():
     assert energy_audit(ds).passed and energy_audit(ds).of_drive < 0.01  # per cent
 
 
+def at_start(case):
+    """Where it begins, and all contacts' report there."""
+    mesh = cage_mesh(case)
+    bearing = build_bearing(case, mesh, cage_reduction(case, mesh))
+    start = assembled_start(case, bearing)
+    bearing.residual(0.0, start.y, start.yd, mode=2)
+    return start, bearing.data.work.report
+
+
 @pytest.mark.parametrize("kind", ["dry", "film"])
 def test_room_that_a_cage_makes_presses_nothing(kind):
     """Neither pockets of less play than it moves, as rollers go with it, nor a film at its end."""
     close = {"cage.pocket_width": "8.02 mm", "contacts.land.kind": kind, "cage.model": "rigid"}
-    case = n1013(TIGHT, close)
-    bearing = build_bearing(case, cage_mesh(case), None)
-    start = assembled_start(case, bearing)
-    bearing.residual(0.0, start.y, start.yd, mode=2)
-    report = bearing.data.work.report
+    start, report = at_start(n1013(TIGHT, close))
     assert start.residual < 1e-6 and report.pocket_normal.max() == 0.0
     assert np.abs(report.land).max() < (100.0 if kind == "film" else 1e-9)
+
+
+def test_a_pinched_cage_makes_room_too():
+    """Its ring would press the land by half of its sag with 430 times the load."""
+    case = n1013(
+        {"cage.bore": "78.41 mm", "contacts.land.clearance": "5 um"},
+        defects=[{"type": "side_beam", "pocket": 9, "side": "+x", "displacement": "-0.3 mm"}],
+    )
+    start, report = at_start(case)
+    assert start.pinched == (9,) and start.residual < 1e-6
+    assert start.pinch_force > 100.0 and np.abs(report.land).max() == 0.0
+
+
+def test_balls_and_their_cage_make_room():
+    """The ring gives way to its load by more than the land's 2 um, and balls go with the cage."""
+    case = load_case({
+        "bearing": {"preset": "7010C-PI"},
+        "cage": {"model": "rigid", "guidance": "inner"},
+        "contacts": {"land": {"clearance": "2 um"}},
+        "drive": {"speed": "4000 rpm"},
+        "load": {"axial": "100 N", "radial": "200 N"},
+    })  # fmt: skip
+    start, report = at_start(case)
+    assert start.y[6 * 18 + 1] > 2e-6  # the ring, in y
+    assert np.abs(report.land).max() == np.abs(report.pocket_normal).max() == 0.0
 
 
 def test_a_film_starts_without_a_load():
