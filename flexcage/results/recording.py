@@ -15,7 +15,7 @@ from flexcage.results.options import OutputOptions
 from flexcage.results.recorded import own_coords, recorded
 from flexcage.results.registry import COMPUTED, VARIABLES, variables_of
 from flexcage.results.store import MemoryRunStore, RunStore
-from flexcage.solve.contract import COUNTS, DONE, LOG_COLUMNS, LOG_FULL, NOT_FINITE, OUTCOMES, T
+from flexcage.solve.contract import COUNTS, DONE, LOG_COLUMNS, LOG_FULL, NOT_FINITE, OUTCOMES, H, T
 from flexcage.solve.integrators import INTEGRATORS
 from flexcage.solve.options import SolverOptions
 from flexcage.system.data import POWERS
@@ -31,6 +31,9 @@ log = logging.getLogger(__name__)
 ENERGIES = ("kinetic", "strain", "contact", "mount")
 FILTER_HZ = 10e3  # low-pass of outer_acceleration_filtered
 FIRST_STEP = 1e-7
+# behind a corner of the drive or a load: how far a run goes on, more than rounding puts a time
+# beside it; and the first step of an integrator of several steps, which has one slope to begin with
+BEHIND, CAREFUL = 1e-13, 1e-11
 
 
 def new_store(
@@ -110,13 +113,15 @@ class Recorder:
         if saved is not None:
             self._restore(saved)
 
-    def _take(self, method: str, time: float, y: np.ndarray, yd: np.ndarray) -> None:
+    def _take(
+        self, method: str, time: float, y: np.ndarray, yd: np.ndarray, step: float = FIRST_STEP
+    ) -> None:
         """Go on with this integrator from (time, y, y'); integrals and counters are kept."""
         before = getattr(self, "state", None)
         self.integrator = INTEGRATORS[method]
         self.options = self.integrator.options(self.solver)
         self.state = self.integrator.new_state(
-            time, y, yd, weight=self.weight, h0=FIRST_STEP, quad_weight=self.work_weight,
+            time, y, yd, weight=self.weight, h0=step, quad_weight=self.work_weight,
             modes=self.bearing.modes,
         )  # fmt: skip
         if before is not None:
@@ -139,6 +144,16 @@ class Recorder:
                       self.time * 1e3, step * 1e6)  # fmt: skip
             self._take(method, self.time, y, yd)
         self.options = self.integrator.within(self.integrator.options(self.solver), step)
+
+    def _turn(self) -> None:
+        """Go on beyond a corner of the drive or a load, where y' jumps: forget what was before."""
+        y, yd = self.integrator.last(self.state)
+        time, options = self.time * (1.0 + 0.1 * BEHIND) + BEHIND, self.options
+        step = max(CAREFUL, self.solver.min_step)
+        if self.integrator.bounded:  # of single steps: as long as the last
+            step = float(self.state.real[H])
+        self._take(self.integrator.name, time, y, yd, step)
+        self.options = options
 
     @property
     def time(self) -> float:
@@ -164,22 +179,20 @@ class Recorder:
         self.integrator.refresh(self.state)  # a resumed run repeats an unbroken one bit by bit
         self._choose()
         self.bearing.data.events.fill[0] = 0
-        logs, sample, outcome = [], 0, LOG_FULL
-        while outcome == LOG_FULL:
-            log = np.zeros((20_000, len(LOG_COLUMNS)))
-            outcome, sample, rows = self.bearing.advance(
-                self.integrator,
-                self.state,
-                self.options,
-                times[-1],
-                times,
-                ys,
-                yds,
-                sample,
-                log,
-                quads,
-            )
-            logs.append(log[:rows])
+        logs, sample, outcome = [], 0, DONE
+        for stop in [*self.bearing.corners(self.time, times[-1]), times[-1]]:
+            outcome = LOG_FULL
+            while outcome == LOG_FULL:
+                log = np.zeros((20_000, len(LOG_COLUMNS)))
+                outcome, sample, rows = self.bearing.advance(
+                    self.integrator, self.state, self.options, stop, times, ys, yds, sample, log,
+                    quads,
+                )  # fmt: skip
+                logs.append(log[:rows])
+            if outcome != DONE:
+                break
+            if stop < times[-1]:
+                self._turn()
         done, deep = sample // ratio, runaway(self.bearing, ys[ratio - 1 : sample : ratio])
         if deep:
             done = deep[0]

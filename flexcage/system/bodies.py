@@ -9,7 +9,7 @@ from flexcage.contacts import laws
 from flexcage.contacts.land import KINDS, LandData
 from flexcage.contacts.spec import Contacts, Lubricant
 from flexcage.geometry.materials import Material
-from flexcage.system import waves
+from flexcage.system import courses
 from flexcage.system.data import Bodies
 from flexcage.system.spec import WAVES, Drive, Load, Mount, Wave
 
@@ -53,8 +53,8 @@ def _load_table(load: Load, along: str) -> np.ndarray:
 def _wave(spec: Wave, amplitude: float) -> tuple[float, float, float, float]:
     """Shape, share of a rise, amplitude and period as the kernels take them."""
     if spec.wave == "none" or amplitude == 0.0:
-        return waves.NONE, 0.0, 0.0, 1.0
-    shape = waves.SINE if spec.wave == "sine" else waves.TRAPEZOID
+        return courses.NONE, 0.0, 0.0, 1.0
+    shape = courses.SINE if spec.wave == "sine" else courses.TRAPEZOID
     return shape, WAVES[spec.wave], amplitude, spec.wave_period
 
 

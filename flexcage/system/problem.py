@@ -33,6 +33,7 @@ from flexcage.solve.contract import Integrator
 from flexcage.solve.oscillators import Oscillators
 from flexcage.system import newton, rates, sampling
 from flexcage.system.constraints import ALL_ROWS_TYPE, Constraints, constraints_of, units_of
+from flexcage.system.courses import corners
 from flexcage.system.data import POWERS, Memory, Report, Work, new_memory
 from flexcage.system.families import family_of
 from flexcage.system.holding import hold, hold_nothing
@@ -271,6 +272,11 @@ class Bearing:
             )  # fmt: skip
             self._advance[integrator.name] = self._compiled(integrator, "advance", signature)
         return self._advance[integrator.name]
+
+    def corners(self, begin: float, end: float) -> np.ndarray:
+        """Times in [begin, end) at which the drive's or a load's slope jumps, and y' with it."""
+        b = self.data.model.bodies
+        return corners((b.speed, b.load, b.axial), b.waves, begin, end)
 
     def stable_step(self, t: float, y: np.ndarray, yd: np.ndarray) -> float:
         """Largest step [s] that the explicit method bears at (t, y)."""

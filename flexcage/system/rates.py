@@ -20,10 +20,10 @@ from flexcage.core.jit import VECTORISED, fields, kernel, part, zero
 from flexcage.solve.bordered import lu_factor, lu_solve
 from flexcage.solve.oscillators import Oscillators, no_oscillators
 from flexcage.system.constraints import BEAR, ONTO
+from flexcage.system.courses import table_slope, wave_slope
 from flexcage.system.layout import Layout
 from flexcage.system.rows import shaft_pull, speed_at
 from flexcage.system.sampling import give_powers, is_main, keep_force, keep_report
-from flexcage.system.waves import wave_slope
 
 
 class RatesWork(NamedTuple):
@@ -119,7 +119,7 @@ def _rates(t, y, yd, data, mode):
             lam[0] += row[0]
         a[0] = a[1] = a[2] = 0.0
     if driven:
-        a[3] = slope_of(bodies.speed, t) + wave_slope(bodies.waves[0], t)
+        a[3] = table_slope(bodies.speed, t) + wave_slope(bodies.waves[0], t)
         lam[3] = row[3] + bodies.ring[1] * a[3]
     else:
         a[3] /= bodies.ring[1]
@@ -146,15 +146,6 @@ def _hold(t, q, u, bodies, driven):
         u[0] = u[1] = u[2] = 0.0
     if driven:
         u[3] = speed_at(bodies, t)
-
-
-@part
-def slope_of(table, t):
-    """Slope at t of ``rows.interpolate``; at a corner that of the piece before it."""
-    for i in range(1, table.shape[1]):
-        if table[0, i - 1] < t <= table[0, i]:
-            return (table[1, i] - table[1, i - 1]) / (table[0, i] - table[0, i - 1])
-    return 0.0
 
 
 @kernel(fastmath=VECTORISED)

@@ -22,6 +22,7 @@ from flexcage.core.vectors import (
     turned_back,
     xyz,
 )
+from flexcage.system.courses import table_integral, table_value, wave_integral, wave_value
 from flexcage.system.data import (
     DRAG,
     DRIVE,
@@ -33,7 +34,6 @@ from flexcage.system.data import (
     MODAL_DAMPING,
     MOUNT,
 )
-from flexcage.system.waves import wave_integral, wave_value
 
 # rows of ``Work.vec``: of the bodies, in space; of the pair under work, in the roller's frame F
 CAGE_SPIN, RING_AXIS, RING_SPIN, LEVER, AXIS, PARTNER_V, PARTNER_W, GUIDE, GUIDE_V = range(9)
@@ -60,45 +60,15 @@ def shared_rows(t, y, yd, d, law, out, mode):
 
 
 @part
-def interpolate(table, t):
-    """Linear interpolation in a (2, n) table, constant outside."""
-    n = table.shape[1]
-    if t <= table[0, 0]:
-        return table[1, 0]
-    for i in range(1, n):
-        if t <= table[0, i]:
-            f = (t - table[0, i - 1]) / (table[0, i] - table[0, i - 1])
-            return table[1, i - 1] + f * (table[1, i] - table[1, i - 1])
-    return table[1, n - 1]
-
-
-@part
 def speed_at(bodies, t):
     """Prescribed speed of the inner ring."""
-    return interpolate(bodies.speed, t) + wave_value(bodies.waves[0], t)
+    return table_value(bodies.speed, t) + wave_value(bodies.waves[0], t)
 
 
 @part
 def drive_angle(bodies, t):
     """Angle that the prescribed speed has turned by time t since t = 0."""
-    return _table_angle(bodies, t) + wave_integral(bodies.waves[0], t)
-
-
-@part
-def _table_angle(bodies, t):
-    """The same without the wave."""
-    table = bodies.speed
-    n = table.shape[1]
-    if t <= table[0, 0]:
-        return table[1, 0] * t
-    base = table[1, 0] * table[0, 0]
-    for i in range(1, n):
-        if t <= table[0, i]:
-            h = t - table[0, i - 1]
-            f = h / (table[0, i] - table[0, i - 1])
-            slope = 0.5 * f * (table[1, i] - table[1, i - 1])
-            return base + bodies.angle[i - 1] + h * (table[1, i - 1] + slope)
-    return base + bodies.angle[n - 1] + table[1, n - 1] * (t - table[0, n - 1])
+    return table_integral(bodies.speed, bodies.angle, t) + wave_integral(bodies.waves[0], t)
 
 
 @part
@@ -406,8 +376,8 @@ def ring_rows(t, d, q, u, qd, ud, lam, mu_, zq, r_q, r_u, out, end, mode):
     r_q[zq + 3] -= mu_[1]
     r_q[zq + 4] -= mu_[2]
     mass, Ia, It = bodies.ring[0], bodies.ring[1], bodies.ring[2]
-    load = interpolate(bodies.load, t) + wave_value(bodies.waves[1], t)
-    axial = interpolate(bodies.axial, t) + wave_value(bodies.waves[2], t)
+    load = table_value(bodies.load, t) + wave_value(bodies.waves[1], t)
+    axial = table_value(bodies.axial, t) + wave_value(bodies.waves[2], t)
     # moments about the ring's own (non-spinning) axes
     cx, sx, ce, se = cos(rq[3]), sin(rq[3]), cos(rq[4]), sin(rq[4])
     Mx, My, Mz = border[3], border[4] + bodies.moments[0], border[5] + bodies.moments[1]
