@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from flexcage.case import Case, load_case, words
-from flexcage.core.binding import Binder
+from flexcage.core.binding import Binder, check_spec, expect, flat
 from flexcage.core.cache import cached_arrays
 from flexcage.core.errors import EnvironmentLacks, InputError
 from flexcage.core.progress import Silent
@@ -48,6 +48,7 @@ from flexcage.stress.series import frames, samples_near
 from flexcage.stress.sn_curves import SNCurve, sn_curve
 from flexcage.stress.wear import Wear, wear
 from flexcage.stress.wear_laws import WearLaw, wear_law
+from flexcage.system.bodies import loads_over
 from flexcage.system.start import Start
 
 if TYPE_CHECKING:
@@ -196,9 +197,13 @@ class Run:
         Raises InputError for a rigid cage, a place that is not there, or a material without a
         published curve, and EnvironmentLacks without pyLife (the extra ``fatigue``).
         """
-        require_pylife()
-        used = curve or sn_curve(self.case.cage.material.name)
+        if isinstance(place, SNCurve):
+            raise InputError("fatigue takes a curve by its name, run.fatigue(curve=...).")
         fields = TensorFields(self.recovery)
+        require_pylife()
+        used = sn_curve(self.case.cage.material.name) if curve is None else curve
+        expect(used, SNCurve, "curve")
+        check_spec(used, "curve")
         ds = settled(self.dataset, self.case.output.settle)
         places = chosen_places(place, tuple(fields.places))
         histories = tensor_histories(fields, *self._moved_and_pushed(ds), places=places)
@@ -216,20 +221,25 @@ class Run:
         """Rates of wear of pockets and land over the settled part by Archard's law; by default
         with the dry coefficient of the cage's material. InputError for a material without one."""
         case = self.case
-        used = law or wear_law(case.cage.material.name)
+        used = wear_law(case.cage.material.name) if law is None else law
+        expect(used, WearLaw, "law")
+        check_spec(used, "law")
         ds = settled(self.dataset, case.output.settle)
         windows = roller_passes(ds, self.numbers)
         return wear(ds, case.bearing, case.cage, case.contacts.land, used, windows)
 
     @one_blas_thread
-    def stress(self, *, time: float | None = None) -> StressField:
-        """Stress of the whole cage at ``time`` [s] by mode acceleration.
+    def stress(self, *, time: float | str | None = None) -> StressField:
+        """Stress of the whole cage at ``time``, in seconds or a text with its unit, by mode
+        acceleration.
 
-        Default: the largest peak of the settled part.
+        Default: the largest peak of the settled part. Raises InputError for a rigid cage or a time
+        outside the run.
         """
+        self.recovery  # noqa: B018  (refuses a rigid cage)
         ds = self.dataset
         t = ds["time"].values
-        index = self.stress_history.peak_sample if time is None else int(np.abs(t - time).argmin())
+        index = self.stress_history.peak_sample if time is None else samples_near(t, [time])[0]
         loads = cage_loads(ds, index, inner=self.case.cage.guidance != "outer")
         u = self.recovery.displacement(loads)
         return StressField(float(t[index]), u, self.recovery.stress(u, loads))
@@ -238,11 +248,12 @@ class Run:
         self,
         folder: str | Path,
         *,
-        times: Sequence[float] | None = None,
+        times: Sequence[float | str] | None = None,
     ) -> Path:
         """Write the cage's motion and stress as a .vtu series for ParaView; the path of its .pvd.
 
-        At the samples nearest to ``times`` [s], or all within 0.4 ms of the largest peak of stress:
+        At the samples nearest to ``times``, in seconds or texts with their unit, or all within
+        0.4 ms of the largest peak of stress:
         ``displacement`` [m], ``von_mises`` [Pa] and ``stress`` [Pa] (xx, yy, zz, xy, yz, xz) at
         the vertices of the cage as it is without stress, cage frame. Raises InputError for a rigid
         cage, a time outside the run, or a folder that holds files.
@@ -252,7 +263,7 @@ class Run:
         if times is None:
             chosen = t[np.abs(t - t[self.stress_history.peak_sample]) < _ABOUT_PEAK]
         else:
-            chosen = samples_near(t, times)
+            chosen = t[samples_near(t, times)]
 
         def field_at(time: float) -> tuple[np.ndarray, np.ndarray]:
             field = self.stress(time=time)
@@ -365,7 +376,7 @@ class Run:
         from flexcage.render.album import Scene
 
         case, load = self.case, self.case.load
-        radial, axial = load.at_start
+        radial, axial = loads_over(load, self.dataset["time"].values).T
         left = case.bearing.land_clearance(case.cage)
         guided = case.cage.guidance in ("inner", "outer")
         stated = case.contacts.land.clearance if guided else None
@@ -375,9 +386,11 @@ class Run:
             bearing=case.bearing,
             mesh=self.mesh,
             defects=case.defects,
-            load=(radial * np.cos(load.direction), radial * np.sin(load.direction)),
-            axial=axial,
+            loads=np.stack(
+                [axial, radial * np.cos(load.direction), radial * np.sin(load.direction)], axis=1
+            ),
             clearance=left[0] if left else stated,
+            guide="outer" if case.cage.guidance == "outer" else "inner",
             settle=case.output.settle,
             stress=self._stress_pictures(animate) if self.cage is not None else None,
         )
@@ -558,8 +571,8 @@ def has_begun(folder: Path, case: Case) -> bool:
     stored = load_case(folder / "case.toml")
     if stored.hash != case.hash:
         raise InputError(
-            f"The case differs from the one of the run in '{folder}' (hash {case.hash}, not "
-            f"{stored.hash}); resume the same case, or name another folder.",
+            f"The case differs from the one of the run in '{folder}'{_difference(case, stored)}; "
+            "resume the same case, or name another folder.",
             where="case",
             value=case.hash,
         )
@@ -567,6 +580,15 @@ def has_begun(folder: Path, case: Case) -> bool:
         RunStore.clear_unbegun(folder / "results.zarr")
         log.warning("the run in '%s' was stopped before its first block; it begins anew", folder)
     return begun
+
+
+def _difference(case: Case, stored: Case) -> str:
+    """The first values in which two cases differ, in brackets."""
+    new, old = dict(flat(case.to_table())), dict(flat(stored.to_table()))
+    differ = [key for key in {**old, **new} if old.get(key) != new.get(key)]
+    told = [f"{k} is {new.get(k, 'left out')}, was {old.get(k, 'left out')}" for k in differ[:3]]
+    more = f", and {len(differ) - 3} more" if len(differ) > 3 else ""
+    return f" ({'; '.join(told)}{more})" if told else " (a file or function behind it has changed)"
 
 
 def kept_stress(cage: CageReduction) -> Keep:

@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from flexcage.case import Case
+from flexcage.core.binding import expect
 from flexcage.core.timing import Stages
 from flexcage.results.recording import Recorder
 from flexcage.run import Run, check_assembly, has_begun, open_folder
@@ -31,6 +32,7 @@ def simulate(
     context like ``core.progress.Progress``. Raises InputError for an impossible case and
     RunFailed for a run that cannot go on, with what was computed kept.
     """
+    expect(case, Case, "case", "flexcage.load_case reads one from a file")
     folder = Path(out) if out is not None else None
     stages = Stages(progress)
     if folder is not None and resume:

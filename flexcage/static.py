@@ -9,6 +9,7 @@ import numpy as np
 
 from flexcage.case import Case, StaticCase
 from flexcage.contacts.spec import EhlTraction
+from flexcage.core.binding import expect
 from flexcage.core.errors import EnvironmentLacks, InputError
 from flexcage.geometry.film import creep_speed, patch, rolling_entrainment
 from flexcage.system.statics.options import StaticOptions
@@ -25,6 +26,7 @@ def solve_static(case: StaticCase | Case) -> StaticSolution:
     balls.
     Raises InputError for a load that the bearing cannot bear, RunFailed if none is found.
     """
+    expect(case, (StaticCase, Case), "case", "flexcage.load_static reads one from a file")
     if isinstance(case, Case):
         case = _static_case(case)
     return solve_bearing(

@@ -43,7 +43,14 @@ def read_case(source: str | Path | Mapping[str, Any]) -> tuple[dict[str, Any], P
     if isinstance(source, str) and ("\n" in source or "=" in source):
         return _parse(source, "The text"), None
     path = Path(source).expanduser()
-    return _parse(_text(path), str(path)), path.resolve().parent
+    table = _parse(_text(path), str(path))
+    if "case" in table and "bearing" not in table:
+        raise InputError(
+            f"'{path}' is a study, not a case; take 'flexcage study run {path}'.",
+            where="case",
+            value=str(path),
+        )
+    return table, path.resolve().parent
 
 
 def _text(path: Path) -> str:

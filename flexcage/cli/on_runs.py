@@ -186,8 +186,12 @@ def compare_command(args: argparse.Namespace) -> int:
         prepare_out(out, resume=False, force=args.force, resumable=False)
         say(compare(first, second, out=out))
         return 0
-    if len(args.what) != 1:
-        raise InputError("compare wants one case, or two run folders.", where="compare")
+    if len(args.what) != 1 or Path(args.what[0]).is_dir():
+        raise InputError(
+            "compare wants one case (a .toml file), or two run folders; it was given "
+            f"{' '.join(args.what)}.",
+            where="compare",
+        )
     args.case = args.what[0]
     case = case_from(args)
     out = Path(args.out) if args.out else Path("runs") / f"{case.name}-compare"

@@ -40,6 +40,7 @@ def _add_small(commands: Any) -> None:
 
 def presets_command(args: argparse.Namespace) -> int:
     """flexcage presets [NAME]: the list, or one preset with its assumptions."""
+    from flexcage.core.binding import flat
     from flexcage.geometry.presets import load_preset, preset_names
 
     if args.name is None:
@@ -116,12 +117,3 @@ def cache_command(args: argparse.Namespace) -> int:
     else:
         say(cache_info())
     return 0
-
-
-def flat(table: Any, where: str = "") -> list[tuple[str, Any]]:
-    """Dotted path and value of every entry of nested tables."""
-    rows: list[tuple[str, Any]] = []
-    for key, value in table.items():
-        path = f"{where}.{key}" if where else key
-        rows += flat(value, path) if hasattr(value, "items") else [(path, value)]
-    return rows

@@ -30,7 +30,7 @@ from flexcage.contacts import spec as specs
 from flexcage.contacts.spec import EhlTraction, FrictionLaw, NormalLaw
 from flexcage.core.elementary import exponentials, powers, product_of_powers
 from flexcage.core.errors import InputError
-from flexcage.core.jit import kernel, kernel_of
+from flexcage.core.jit import kernel, kernel_of, why_not_compiled
 from flexcage.core.registry import add, check_free
 
 _F8, _A, _I8 = types.float64, types.Array(types.float64, 1, "C"), types.int64
@@ -313,9 +313,9 @@ def _compiled(law: Any, signature: Any, what: str) -> Any:
     try:
         return kernel_of(law, signature)
     except numba.errors.NumbaError as exc:
-        reason = next((line for line in str(exc).splitlines()[1:] if line.strip()), str(exc))
+        reason = why_not_compiled(exc)
         raise InputError(
-            f"The {what} cannot be compiled for the arguments {signature.args}: {reason.strip()}.",
+            f"The {what} cannot be compiled for the arguments {signature.args}: {reason}.",
             where=what,
         ) from exc
 

@@ -326,6 +326,18 @@ def check_spec(spec: Any, where: str = "") -> None:
                 check_spec(item, join(here, i) if isinstance(value, tuple) else here)
 
 
+def expect(value: Any, kinds: type | tuple[type, ...], where: str, remedy: str = "") -> None:
+    """Raise InputError unless an argument ``where`` is of a kind; ``remedy`` makes one of it."""
+    if not isinstance(value, kinds):
+        names = " or ".join(k.__name__ for k in (kinds if isinstance(kinds, tuple) else (kinds,)))
+        given = repr(value) if isinstance(value, (str, int, float)) else f"a {type(value).__name__}"
+        raise InputError(
+            f"{where} is {given}, but should be a {names}{'; ' if remedy else ''}{remedy}.",
+            where=where,
+            value=value,
+        )
+
+
 def _check_kind(value: Any, hint: Any, meta: Mapping, where: str) -> None:
     """Raise InputError if a value of a spec is not of the kind that its field declares."""
     options = union_members(hint)
@@ -476,6 +488,15 @@ def default_of(field: dataclasses.Field) -> Any:
 def join(where: str, key: object) -> str:
     """Dotted path."""
     return f"{where}.{key}" if where else str(key)
+
+
+def flat(table: Any, where: str = "") -> list[tuple[str, Any]]:
+    """Dotted path and value of every entry of nested tables."""
+    rows: list[tuple[str, Any]] = []
+    for key, value in table.items():
+        path = join(where, key)
+        rows += flat(value, path) if hasattr(value, "items") else [(path, value)]
+    return rows
 
 
 def unknown_key(key: str, known: Iterable[str], where: str) -> InputError:

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 from errno import EDQUOT, ENOSPC
+from traceback import extract_tb
+from typing import Any
 
 
 class FlexcageError(Exception):
@@ -32,6 +34,14 @@ class RunFailed(FlexcageError, RuntimeError):
     """A computation that could not go on; what was computed before is kept."""
 
     exit_code = 1
+
+
+def mistake_in(function: Any, error: Exception) -> str:
+    """An error that a user's function raised, and the line of its file."""
+    file = getattr(getattr(function, "__code__", None), "co_filename", "")
+    lines = [frame.lineno for frame in extract_tb(error.__traceback__) if frame.filename == file]
+    where = f" ({file}, line {lines[-1]})" if lines else ""
+    return f"{type(error).__name__}: {error}{where}"
 
 
 def is_full(error: OSError) -> bool:

@@ -111,6 +111,12 @@ def kernel_of(function: Any, signature: Any) -> Any:
         return kernel(signature, cache=False)(function)  # typed at a prompt: there is no file
 
 
+def why_not_compiled(error: Exception) -> str:
+    """What of numba's many lines says why a user's function cannot be compiled."""
+    lines = [line.strip() for line in str(error).splitlines() if line.strip()]
+    return lines[min(1, len(lines) - 1)] if lines else type(error).__name__
+
+
 _PART_NAME = "flexcage_part."
 
 

@@ -26,6 +26,7 @@ from flexcage.geometry.checks import (
 from flexcage.geometry.deep_groove_ball import DeepGrooveBallBearing
 
 _AGREE = 1e-6  # m, to which contact angle and clearance must agree: a tenth of a clearance class
+_WIDEST = 2.0  # of the bearing's width: one that reaches out of it on both sides
 _MOST_PRELOAD = 0.01  # of the ball's diameter: a Hertz pressure far beyond any steel's
 
 
@@ -151,6 +152,19 @@ def _find_in_clearance(b: BallBearing, clearance: float) -> Iterator[Finding]:
         )
 
 
+def _rings(b: BallBearing) -> tuple[tuple[float, str], tuple[float, str]]:
+    """Diameters between which a cage has its place, and what they are: of shoulders that are given
+    on both sides, else of bore and outside, because an angular contact bearing is open on one."""
+    inner, outer = (b.bore, "bearing.bore"), (b.outside_diameter, "bearing.outside_diameter")
+    if isinstance(b, DeepGrooveBallBearing):
+        over, under = b.shoulder_diameters
+        if b.inner_shoulder is not None:
+            inner = over, "the inner ring's shoulder"
+        if b.outer_shoulder is not None:
+            outer = under, "the outer ring's shoulder"
+    return inner, outer
+
+
 def find_in_cage(b: BallBearing, c: BallCage) -> Iterator[Finding]:
     """What is impossible for the cage in its bearing."""
     yield from find_in_unbalance(c)
@@ -166,6 +180,25 @@ def find_in_cage(b: BallBearing, c: BallCage) -> Iterator[Finding]:
             "cage.pocket_diameter",
             f"cage.pocket_diameter is {_mm(c.pocket_diameter)}, so the {b.ball_count} pockets run "
             f"into each other; it must be less than {_mm(chord)}.",
+        )
+    inner, outer = _rings(b)
+    if not inner[0] < c.bore:
+        yield (
+            "cage.bore",
+            f"cage.bore is {_mm(c.bore)}, so the cage runs into the inner ring; it must be greater "
+            f"than {inner[1]}, {_mm(inner[0])}.",
+        )
+    if not c.outside_diameter < outer[0]:
+        yield (
+            "cage.outside_diameter",
+            f"cage.outside_diameter is {_mm(c.outside_diameter)}, so the cage runs into the outer "
+            f"ring; it must be less than {outer[1]}, {_mm(outer[0])}.",
+        )
+    if c.width > _WIDEST * b.width:
+        yield (
+            "cage.width",
+            f"cage.width is {_mm(c.width)}, but the bearing's is {_mm(b.width)}; a cage is at most "
+            f"{_WIDEST:g} times as wide.",
         )
     if not c.bore < b.pitch_diameter < c.outside_diameter:
         yield (

@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from flexcage.core.errors import FlexcageError, RunFailed, mistake_in
 from flexcage.core.progress import Silent
 from flexcage.core.registry import add, check_free
 from flexcage.mesh.cage_mesh import CageMesh
@@ -63,11 +64,11 @@ class Scene:
     bearing: Any  # its spec
     mesh: CageMesh
     defects: Sequence[Any]
-    load: tuple[float, float]  # (F_y, F_z) [N] on the inner ring
+    loads: np.ndarray  # (time, 3) F_x, F_y, F_z [N] on the inner ring
     clearance: float | None  # radial land clearance [m], where there is a land
+    guide: str  # the land's ring, "inner" or "outer"
     settle: float
     stress: StressPictures | None = None
-    axial: float = 0.0  # F_x [N] on the inner ring
 
 
 #: Pictures registered from outside by name, with whether they need a flexible cage's stress.
@@ -105,15 +106,28 @@ def draw_album(
         drawings += _stress(scene, scene.stress, folder, look)
     for name, (draw, needs_stress) in PICTURES.items():
         if scene.stress is not None or not needs_stress:
-            drawings.append(partial(draw, scene, folder / f"{name}.png"))
+            drawings.append(partial(_draw_own, name, draw, scene, folder / f"{name}.png"))
     if animate:
         drawings += _animations(scene, folder, look)
-    paths = []
+    paths: list[Path] = []
     with progress(len(drawings), "pictures") as bar:
         for drawing in drawings:
             paths.append(drawing())
             bar.advance()
     return paths
+
+
+def _draw_own(name: str, draw: Callable[[Scene, Path], Path], scene: Scene, path: Path) -> Path:
+    """A picture registered from outside; a mistake in its function is told as the user's."""
+    try:
+        return Path(draw(scene, path))
+    except FlexcageError:
+        raise
+    except Exception as exc:
+        raise RunFailed(
+            f"the registered picture '{name}' could not be drawn: {mistake_in(draw, exc)}; "
+            "what was computed and drawn before is kept"
+        ) from exc
 
 
 def _followed(scene: Scene) -> int:
@@ -168,17 +182,21 @@ def _motion(scene: Scene, folder: Path) -> list[Drawing]:
             coords={"time": ds["time"], "place": list(scene.stress.root_names)},
             attrs={"units": "Pa", "long_name": "equivalent stress"},
         )
-    busiest = int(np.argmax(ds["pocket_force"].sum(["pocket", "face"]).values))
+    first = ds.sizes["time"] - settled(ds, scene.settle).sizes["time"]
+    pushed = ds["pocket_force"].sum(["pocket", "face"]).values
+    busiest = first + int(np.argmax(pushed[first:]))
     index = busiest if scene.stress is None else int(
         np.abs(ds["time"].values - scene.stress.time).argmin()
     )  # fmt: skip
     drawings = [
         partial(
             bearing_picture, ds, b, index, folder / "bearing.png", cage_points=scene.mesh.points,
-            cage_tets=scene.mesh.tets, load=scene.load, axial=scene.axial,
+            cage_tets=scene.mesh.tets, load=tuple(scene.loads[index, 1:]),
+            axial=float(scene.loads[index, 0]),
         ),
         partial(
-            orbit, ds, folder / "orbit.png", clearance=scene.clearance, settle=scene.settle,
+            orbit, ds, folder / "orbit.png", clearance=scene.clearance, guide=scene.guide,
+            settle=scene.settle,
         ),
         partial(
             histories, ds, folder / "histories.png", bearing=numbers, root_stress=root,
@@ -226,8 +244,7 @@ def _animations(scene: Scene, folder: Path, look: Look) -> list[Drawing]:
     drawings = [
         partial(
             animate_bearing, scene.dataset, scene.bearing, folder / "bearing.gif", frames=40,
-            cage_points=scene.mesh.points, cage_tets=scene.mesh.tets, load=scene.load,
-            axial=scene.axial,
+            cage_points=scene.mesh.points, cage_tets=scene.mesh.tets, loads=scene.loads,
         )
     ]  # fmt: skip
     if scene.stress is not None and scene.stress.frames:

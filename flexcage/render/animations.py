@@ -125,26 +125,25 @@ def animate_bearing(
     span: tuple[float, float] | None = None,
     cage_points: np.ndarray | None = None,
     cage_tets: np.ndarray | None = None,
-    load: tuple[float, float] | None = None,
-    axial: float = 0.0,
+    loads: np.ndarray | None = None,
     limit: float | None = None,
     fps: float = 20.0,
     title: str = "",
 ) -> Path:
     """The bearing's motion over ``span`` [s] (the whole run if not given) in so many frames.
 
-    ``load`` (F_y, F_z) and ``axial`` [N] act on the inner ring.
+    ``loads`` (time, 3) [N] act on the inner ring.
     """
     t = ds["time"].values
     first, last = span if span is not None else (t[0], t[-1])
     at = np.unique(np.searchsorted(t, np.linspace(first, last, frames)).clip(0, len(t) - 1))
     top = limit if limit is not None else load_limit(ds)
     cage, title = (cage_points, cage_tets), title or bearing_title(ds)
-    pictures = _bearing_frames(ds, bearing, at, cage, (load, axial), top, title)
+    pictures = _bearing_frames(ds, bearing, at, cage, loads, top, title)
     return write_animation(pictures, path, fps=fps)
 
 
-def _bearing_frames(ds, bearing, indices, cage, load, top, title) -> Iterator[np.ndarray]:
+def _bearing_frames(ds, bearing, indices, cage, loads, top, title) -> Iterator[np.ndarray]:
     cut = cut_cage(*cage)
     view = bearing_view(bearing)
     with sheet.style(), Stage(*BEARING_FRAME) as stage:
@@ -154,6 +153,7 @@ def _bearing_frames(ds, bearing, indices, cage, load, top, title) -> Iterator[np
             figure = sheet.new_figure(BEARING_FRAME[0] + 2 * EDGE, TOP + BEARING_FRAME[1] + BELOW)
             sheet.heading(figure, title, f"t = {now.time * 1e3:7.3f} ms", left=EDGE)
             ax = sheet.image_at(figure, (EDGE, TOP, *BEARING_FRAME), picture.pixels)
+            load = (None, 0.0) if loads is None else (tuple(loads[index, 1:]), loads[index, 0])
             label_bearing(ax, picture, now, bearing, top, load)
             sheet.colour_bar(
                 figure,

@@ -30,21 +30,27 @@ def orbit(
     path: str | Path,
     *,
     clearance: float | None = None,
+    guide: str = "outer",
     settle: float = 0.0,
     title: str = "Orbit of the cage centre",
     note: str = "",
 ) -> Path:
     """Cage centre relative to the outer ring's in µm, coloured by time.
 
-    ``clearance`` [m] draws the circle in which the guidance lets the centre move; if the orbit is
+    ``clearance`` [m] draws the circle in which a land of an undeformed cage lets the centre move,
+    about the mean place of the ring that guides it, ``guide`` "inner" or "outer"; if the orbit is
     small in it, a second panel shows the orbit alone. ``settle`` leaves the start out.
     """
     part = metrics.settled(ds, settle) if settle else ds
     yz = metrics.orbit(part) * 1e6
     t = part["time"].values * 1e3
     reach = float(np.abs(yz).max()) or 1.0
-    radius = clearance * 1e6 if clearance else None
-    zoomed = radius is not None and reach < 0.5 * radius
+    land = None
+    if clearance:
+        ring = metrics.centre_of(part, guide) if guide == "inner" else np.zeros((1, 2))
+        land = (*ring.mean(axis=0) * 1e6, clearance * 1e6)
+    radius = land[2] if land else 0.0
+    zoomed = land is not None and reach < 0.5 * radius
     side, panels, top = 760, 2 if zoomed else 1, TOP + 30
     with sheet.style():
         width = EDGE + panels * (side + 120) + 130
@@ -56,13 +62,13 @@ def orbit(
             note,
         ]
         sheet.heading(figure, title, sheet.join(facts), left=36)
-        limits = [1.12 * max(reach, radius or 0.0)]
+        limits = [1.12 * max(reach, radius)]
         if zoomed:
             limits.append(1.12 * reach)
         for i, limit in enumerate(limits):
             left = EDGE + i * (side + 120)
             ax = sheet.axes_at(figure, (left, top, side, side))
-            _orbit_panel(ax, yz, t, limit, radius)
+            _orbit_panel(ax, yz, t, limit, land)
             if zoomed and i == 0:
                 x, y = limits[1] * np.array([[-1, 1, 1, -1, -1], [-1, -1, 1, 1, -1]])
                 ax.plot(x, y, color=sheet.INK, lw=0.9, ls=":")
@@ -75,8 +81,9 @@ def orbit(
 
 
 def _orbit_panel(
-    ax: Any, yz: np.ndarray, t: np.ndarray, limit: float, radius: float | None
+    ax: Any, yz: np.ndarray, t: np.ndarray, limit: float, land: tuple[float, ...] | None
 ) -> None:
+    """``land``: centre (y, z) and radius of the clearance's circle."""
     from matplotlib.collections import LineCollection
 
     # z to the left, as seen when looking along -x with y upwards
@@ -86,15 +93,16 @@ def _orbit_panel(
     )
     lines.set_array(0.5 * (t[:-1] + t[1:]))
     ax.add_collection(lines)
-    if radius is not None:
+    if land is not None:
+        y, z, radius = land
         angle = np.linspace(0.0, 2.0 * np.pi, 361)
         ax.plot(
-            radius * np.cos(angle),
-            radius * np.sin(angle),
+            z + radius * np.cos(angle),
+            y + radius * np.sin(angle),
             color=sheet.VERMILION,
             lw=1.3,
             ls="--",
-            label=f"clearance {radius:g} µm",
+            label=f"land's clearance, stiff cage: {radius:g} µm",
         )
     ax.plot(*xy[0], "o", ms=6, mfc="white", mec=sheet.INK, mew=1.2, label="start", ls="none")
     ax.plot(*xy[-1], "s", ms=6, mfc=sheet.INK, mec=sheet.INK, label="end", ls="none")

@@ -27,6 +27,7 @@ if TYPE_CHECKING:
 CAGE_LOSSES = ("pocket_damping", "pocket_friction", "modal_damping")
 OF_DRIVE, OF_CAGE = 1e-3, 0.05  # largest imbalance over the drive's work and over the cage's losses
 OF_ELASTIC = 1e-3  # of the elastic energy held: what a share must rise above to be one
+_ROUNDING = 1e-12  # of the energy moved: less is no work
 PASSED, UNJUDGED, EXCEEDED = "passed", "not judged", "EXCEEDED"
 
 
@@ -88,6 +89,7 @@ def energy_audit(ds: xarray.Dataset) -> EnergyAudit:
     channels = _change(work.transpose("time", "channel"), "channel")
     drive = abs(channels.get("drive", 0.0)) + abs(channels.get("constraints", 0.0))
     lost = -sum(channels.get(name, 0.0) for name in CAGE_LOSSES)
+    drive, lost = (work if abs(work) > _ROUNDING * moved else 0.0 for work in (drive, lost))
     held = stored.sel(energy_kind=stored["energy_kind"] != "kinetic").sum("energy_kind")
     elastic = float(held.max())
     floor = OF_ELASTIC * elastic

@@ -42,7 +42,8 @@ class Edge:
 
     @property
     def row(self) -> Row:
-        where = (
+        where = "over the edge: " if self.beyond > 0.0 else "within the groove by that much: "
+        where += (
             f"ball {self.element}, {self.force:.4g} N at {degrees(self.angle):.4g} deg, "
             f"t = {self.time * 1e3:.3f} ms"
         )

@@ -49,6 +49,7 @@ def common(bearing: Bearing, y: np.ndarray, yd: np.ndarray) -> Arrays:
         "cage_acceleration": to_body(quaternion, a["cage"]),
         "cage_angular_acceleration": a["omega"],
         "pocket_force": s.pocket_normal[:n],
+        "pocket_peak": s.pocket_peak[:n],
         "pocket_friction": s.pocket_friction[:n],
         "station_force": s.station[:n],
         "land_force": s.land[:n],

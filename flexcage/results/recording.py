@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from flexcage.core.errors import InputError, RunFailed
+from flexcage.core.errors import InputError, RunFailed, mistake_in
 from flexcage.core.progress import Silent
 from flexcage.results.faults import first_undefined, hardest, runaway
 from flexcage.results.options import OutputOptions
@@ -179,6 +179,7 @@ class Recorder:
         self.integrator.refresh(self.state)  # a resumed run repeats an unbroken one bit by bit
         self._choose()
         self.bearing.data.events.fill[0] = 0
+        self.bearing.data.events.pushed[...] = 0.0
         logs, sample, outcome = [], 0, DONE
         for stop in [*self.bearing.corners(self.time, times[-1]), times[-1]]:
             outcome = LOG_FULL
@@ -235,7 +236,13 @@ class Recorder:
         for name, compute in self._computed.items():
             variable = next(v for v in self.store.layout.variables if v.name == name)
             wanted = (samples, *self.store.layout.shape(variable)[1:])
-            value = np.asarray(compute(dict(arrays), self.bearing))
+            try:
+                value = np.asarray(compute(dict(arrays), self.bearing))
+            except Exception as exc:
+                raise RunFailed(
+                    f"the registered variable '{name}' could not be computed: "
+                    f"{mistake_in(compute, exc)}"
+                ) from exc
             if value.shape != wanted:
                 raise InputError(
                     f"Result variable '{name}' was computed with shape {value.shape}, but has "

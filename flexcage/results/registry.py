@@ -177,6 +177,12 @@ def _variables() -> list[Variable]:
             "where a ball stands in its pocket, from +psi towards +x",
         ),
         row("pocket_force", on(pocket, "face"), "N", "normal force on a pocket face"),
+        row(
+            "pocket_peak",
+            on(pocket, "face"),
+            "N",
+            "largest normal force on a pocket face since the sample before, at the solver's steps",
+        ),
         row("pocket_friction", on(pocket, "face"), "N", "friction force on a pocket face"),
         row(
             "pocket_slice_force",

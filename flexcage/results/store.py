@@ -326,6 +326,7 @@ def read_commit(path: Path) -> dict[str, Any]:
 def _create_arrays(path: Path, layout: Layout) -> Any:
     import zarr
     from zarr.codecs import BloscCodec, Crc32cCodec
+    from zarr.errors import ContainsGroupError
 
     stored: dict[str, Any] = {
         "flexcage_format": FORMAT,
@@ -342,7 +343,13 @@ def _create_arrays(path: Path, layout: Layout) -> Any:
         },
         "run": dict(layout.attrs),
     }
-    group = zarr.create_group(store=str(path), attributes=stored)
+    try:
+        group = zarr.create_group(store=str(path), attributes=stored)
+    except ContainsGroupError as exc:  # it was empty a moment ago
+        raise InputError(
+            f"Another run has just begun in '{path}'; name another folder, or wait for it.",
+            where="out", value=str(path),
+        ) from exc  # fmt: skip
     codecs = [BloscCodec(cname="zstd", clevel=1, shuffle="shuffle"), Crc32cCodec()]
     for v in layout.variables:
         group.create_array(

@@ -112,6 +112,8 @@ class Fatigue:
 
     def table(self, rows: int | None = None) -> str:
         """An aligned table of the places (the worst ``rows`` of them), and what stands behind."""
+        if rows is not None and rows < 1:
+            raise InputError(f"rows is {rows}, but must be at least 1.", where="rows", value=rows)
         order = sorted(self.places, key=lambda p: (-p.damage_rate, -p.largest_range))[:rows]
         width = max(len(p.place) for p in order)
         head = "damage/h       +-     life, h  cycles/s   from MPa     to MPa  once a turn, MPa"

@@ -7,25 +7,42 @@ from collections.abc import Callable, Iterator, Sequence
 import numpy as np
 
 from flexcage.core.errors import InputError
+from flexcage.core.units import parse
 from flexcage.mesh.series import Frame
 from flexcage.stress.operators import von_mises
 
 
-def samples_near(t: np.ndarray, times: Sequence[float]) -> np.ndarray:
-    """Samples (n,) of the rising ``t`` [s] that lie nearest to ``times`` [s], each once.
+def samples_near(t: np.ndarray, times: Sequence[float | str]) -> np.ndarray:
+    """Numbers (n,) of the samples of the rising ``t`` [s] nearest to ``times``, in seconds or texts
+    with their unit, each once.
 
-    Raises InputError for a time that is more than a step outside.
+    Raises InputError for what is no list of times, and for a time more than a step outside.
     """
+    if isinstance(times, (str, bytes)) or np.ndim(times) != 1 or len(times) == 0:
+        raise InputError(
+            f"times is {times!r}, but should be a list of times, such as [0.01, 0.02].",
+            where="times", value=times,
+        )  # fmt: skip
     step = float(np.diff(t).max(initial=0.0)) * (1.0 + 1e-9)
-    for time in times:
-        if not t[0] - step <= time <= t[-1] + step:
-            raise InputError(
-                f"There is no sample at {time * 1e3:g} ms; the run has {t[0] * 1e3:g} to "
-                f"{t[-1] * 1e3:g} ms.",
-                where="times",
-                value=time,
-            )
-    return t[np.unique([int(np.abs(t - time).argmin()) for time in times])]
+    return np.unique([_sample_near(t, step, as_time(time)) for time in times])
+
+
+def as_time(time: object) -> float:
+    """A time [s] from a number, or from a text with its unit."""
+    if isinstance(time, (int, float, np.integer, np.floating)) and not isinstance(time, bool):
+        return float(time)
+    return parse(time, "ms", where="time")
+
+
+def _sample_near(t: np.ndarray, step: float, time: float) -> int:
+    if not t[0] - step <= time <= t[-1] + step:
+        raise InputError(
+            f"There is no sample at {time * 1e3:g} ms; the run has {t[0] * 1e3:g} to "
+            f"{t[-1] * 1e3:g} ms.",
+            where="time",
+            value=time,
+        )
+    return int(np.abs(t - time).argmin())
 
 
 def frames(

@@ -14,12 +14,13 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from math import pi, sqrt
+from math import inf, pi, sqrt
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from flexcage.contacts.spec import LandSpec
+from flexcage.core.binding import expect
 from flexcage.core.errors import InputError
 from flexcage.geometry.bearing import Bearing
 from flexcage.geometry.cage import Cage
@@ -95,6 +96,12 @@ class Wear:
         A groove of radius R and depth d that is ``h`` high at first has the cross-section
         h d + (4/3) sqrt(2 R) d^(3/2): a circular segment, as long as d is small beside R.
         """
+        expect(hours, (int, float), "hours", "such as 1000.0")
+        if not 0.0 <= hours < inf:
+            raise InputError(
+                f"hours is {hours:g}, but must be at least 0, and finite.",
+                where="hours", value=hours,
+            )  # fmt: skip
         ds = self.dataset
         section = ds["cell_volume_rate"] / ds["cell_length"] * (hours * _HOUR)
         bend = 4.0 / 3.0 * np.sqrt(2.0 * ds["groove_radius"])

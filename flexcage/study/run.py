@@ -8,6 +8,7 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
 
+from flexcage.core.binding import expect
 from flexcage.core.errors import RunFailed
 from flexcage.core.hashing import content_hash
 from flexcage.core.progress import Silent
@@ -45,6 +46,7 @@ def run_study(
     folder in which another process runs a study, before anything is computed, and RunFailed if the
     scheduler is lost; what is finished stays, and the tables show it.
     """
+    expect(study, Study, "study", "flexcage.load_study reads one from a file")
     require_packages()
     plan = make_plan(study)
     folder = Folder(Path(out).resolve())

@@ -78,6 +78,12 @@ def load_study(path: str | Path, *, overrides: Mapping[str, Any] | None = None) 
     for source in _listed(table.pop("use", []), "use"):
         load_extension(path.parent / source if source.endswith((".py", ".toml")) else source)
     case = table.get("case")
+    if case is None and "bearing" in table:
+        raise InputError(
+            f"'{path}' is a case, not a study; take 'flexcage run {path}', or name it in a study "
+            'as case = "my_case.toml".',
+            where="case",
+        )
     if not isinstance(case, (str, dict)):
         raise InputError(
             f"'{path}' names no case; give case = \"my_case.toml\", or a [case] table.",

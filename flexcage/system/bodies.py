@@ -50,6 +50,15 @@ def _load_table(load: Load, along: str) -> np.ndarray:
     return _table(value, load, load.ramp_time, load.values)
 
 
+def loads_over(load: Load, times: np.ndarray) -> np.ndarray:
+    """Radial and axial load [N] at times [s], (n, 2), as in a run."""
+    ways = ("radial", "axial")
+    waves = (np.array(_wave(load, load.wave_amplitude * (load.wave_of == way))) for way in ways)
+    return np.stack(
+        [courses.course(_load_table(load, k), w, times) for k, w in zip(ways, waves)], axis=1
+    )
+
+
 def _wave(spec: Wave, amplitude: float) -> tuple[float, float, float, float]:
     """Shape, share of a rise, amplitude and period as the kernels take them."""
     if spec.wave == "none" or amplitude == 0.0:

@@ -27,7 +27,7 @@ import numpy as np
 from numba import types
 
 from flexcage.core.errors import InputError
-from flexcage.core.jit import LEAN, kernel, kernel_of
+from flexcage.core.jit import LEAN, kernel, kernel_of, why_not_compiled
 from flexcage.core.registry import add, check_free
 from flexcage.system import spec as specs
 from flexcage.system.layout import CONSTRAINTS as REACTIONS
@@ -170,7 +170,7 @@ def register_constraint(
     except (numba.errors.NumbaError, TypeError) as exc:
         raise InputError(
             f"The rows of constraint '{name}' cannot be compiled as a function "
-            f"({_ARGUMENTS}): {str(exc).strip().splitlines()[-1]}",
+            f"({_ARGUMENTS}): {why_not_compiled(exc)}.",
             where=name,
         ) from exc
     kind = ConstraintKind(compiled, level, tuple(labels), unit, parameters or _values)

@@ -117,6 +117,20 @@ def _half(x):
     return y - 0.5, -1.0
 
 
+def course(table: np.ndarray, wave: np.ndarray, times: np.ndarray) -> np.ndarray:
+    """Values (n,) at ``times`` [s] of a table with a wave on top, beside the kernels."""
+    shape, rise, amplitude, period = wave
+    values = np.interp(times, *table)
+    if shape == SINE:
+        return values + amplitude * np.sin(2.0 * pi * times / period)
+    if shape == TRAPEZOID:
+        y = np.mod(times / period, 1.0)
+        half = np.mod(y, 0.5)
+        risen = np.minimum(np.minimum(half, 0.5 - half) / rise, 1.0)
+        return values + np.where(y < 0.5, amplitude, -amplitude) * risen
+    return values
+
+
 def corners(
     tables: Sequence[np.ndarray], waves: Sequence[np.ndarray], begin: float, end: float
 ) -> np.ndarray:

@@ -72,6 +72,9 @@ class Events(NamedTuple):
     closed: np.ndarray  # (Z, places) contact flags at the last accepted step
     land: np.ndarray  # (2,) the same for the cage's lands
     force: np.ndarray  # (2, 3) of the last two accepted steps: time, force on the outer ring
+    # (2, Z, faces) normal forces in pockets at the last accepted step, and the largest at any since
+    # the last sample
+    pushed: np.ndarray
 
 
 class Samples(NamedTuple):
@@ -91,6 +94,7 @@ class Samples(NamedTuple):
     land: np.ndarray
     land_station: np.ndarray
     energy: np.ndarray
+    pocket_peak: np.ndarray  # (n, Z, faces) largest since the sample before, at any step
     force: np.ndarray  # (n * stride, 2) on the outer ring, fine grid
 
 
@@ -116,8 +120,9 @@ def parts(data: BearingData) -> Any:
 
 def new_samples(n: int, stride: int, report: Report) -> Samples:
     """Room for n reports."""
-    kept = {k: np.zeros((n, *getattr(report, k).shape)) for k in Samples._fields[1:-1]}
-    return Samples(stride=stride, **kept, force=np.zeros((n * stride, 2)))
+    kept = {k: np.zeros((n, *getattr(report, k).shape)) for k in Samples._fields[1:-2]}
+    peak = np.zeros((n, *report.pocket_normal.shape))
+    return Samples(stride=stride, **kept, pocket_peak=peak, force=np.zeros((n * stride, 2)))
 
 
 def law_functions(contacts: Contacts) -> tuple:
@@ -153,6 +158,7 @@ class Bearing:
             Events(
                 np.zeros((200_000, 4)), np.zeros(1, np.int64),
                 np.zeros_like(work.report.contact), np.zeros(2, np.int64), np.zeros((2, 3)),
+                np.zeros((2, *work.report.pocket_normal.shape)),
             ),
             new_samples(block, stride, work.report),
             new_rates_work(model.cage.mff),

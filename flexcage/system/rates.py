@@ -72,7 +72,7 @@ def sample(sample, t, y, yd, data):
     s = fields(data[0].samples)
     if is_main(sample, s.stride):
         _rates(t, y, yd, data, 2)
-        keep_report(s, sample // s.stride, fields(data[0].report))
+        keep_report(s, sample // s.stride, fields(data[0].report), fields(data[0].events))
     keep_force(sample, t, s, fields(data[0].events))
 
 

@@ -57,6 +57,11 @@ def keep_point(t, d):
     remember(t, fields(d.memory), report, events)
     for c in range(3):
         events.force[0, c] = events.force[1, c]
+    last, most, pushed = events.pushed[0], events.pushed[1], report.pocket_normal
+    for i in range(pushed.shape[0]):
+        for f in range(pushed.shape[1]):
+            last[i, f] = pushed[i, f]
+            most[i, f] = max(most[i, f], pushed[i, f])
     events.force[1, 0] = t
     events.force[1, 1], events.force[1, 2] = report.body_force[0], report.body_force[1]
 
@@ -116,13 +121,21 @@ def observe(sample, t, y, yd, data):
     s = fields(data[0].samples)
     if is_main(sample, s.stride):
         data[2](t, y, yd, data[0], data[1], fields(data[0].scratch).out, 2)
-        keep_report(s, sample // s.stride, fields(data[0].report))
+        keep_report(s, sample // s.stride, fields(data[0].report), fields(data[0].events))
     keep_force(sample, t, s, fields(data[0].events))
 
 
 @part
-def keep_report(s, k, rep):
-    """Copy a whole report into row k of the samples."""
+def keep_report(s, k, rep, events):
+    """Copy a whole report into row k of the samples.
+
+    The step that went past the sample is among those before it, and first of those after it.
+    """
+    last, most, pushed = events.pushed[0], events.pushed[1], rep.pocket_normal
+    for i in range(pushed.shape[0]):
+        for f in range(pushed.shape[1]):
+            s.pocket_peak[k, i, f] = max(most[i, f], pushed[i, f])
+            most[i, f] = last[i, f]
     copy_into(s.race[k], rep.race)
     copy_into(s.pocket_normal[k], rep.pocket_normal)
     copy_into(s.pocket_friction[k], rep.pocket_friction)

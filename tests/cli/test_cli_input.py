@@ -66,7 +66,11 @@ MISTAKES = {
     "clearance": (["run", EXAMPLE, "--set", "bearing.radial_clearance=5 mm"], ["0.4 mm"]),
     "overload": (["run", EXAMPLE, "--set", "load.radial=500 kN"], ["4 times", "51 kN"]),
     "no run": (["render", "nothing"], ["not the folder of a run"]),
-    "three to compare": (["compare", "a", "b", "c"], ["one case, or two"]),
+    "three to compare": (
+        ["compare", "a", "b", "c"],
+        ["one case", "or two run folders", "given a b c"],
+    ),
+    "one run to compare": (["compare", "."], ["one case", "two run folders", "given ."]),
     "compare no run": (["compare", "a", "b"], ["'a' is not the folder of a run"]),
     "nothing to resume": (["run", EXAMPLE, "-o", "nothing", "--resume"], ["not the folder of a"]),
 }

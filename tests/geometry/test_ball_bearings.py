@@ -32,6 +32,9 @@ CAGES = [
     ({"pocket_diameter": 8.7e-3}, ["pocket_diameter is 8.7 mm", "8.73 mm"]),
     ({"pocket_diameter": 11.5e-3}, ["18 pockets run into each other", "11.27"]),
     ({"bore": 65e-3}, ["65 mm", "cannot guide"]),
+    ({"bore": 50e-3}, ["bore is 50 mm", "runs into the inner ring", "bearing.bore, 50 mm"]),
+    ({"outside_diameter": 80e-3}, ["runs into the outer ring", "bearing.outside_diameter, 80 mm"]),
+    ({"width": 33e-3}, ["cage.width is 33 mm", "16 mm", "2 times as wide"]),
 ]
 
 
@@ -51,6 +54,17 @@ def test_impossible_bearing(change, words):
 @pytest.mark.parametrize(("change", "words"), CAGES)
 def test_impossible_cage(change, words):
     refused(BEARING, replace(CAGE, **change), words)
+
+
+def test_a_deep_groove_cage_keeps_off_shoulders():
+    """They stand on both sides of the balls, where an angular contact bearing is open on one."""
+    shoulders = replace(DEEP, inner_shoulder=1e-3, outer_shoulder=1e-3)
+    over, under = shoulders.shoulder_diameters
+    cage = replace(CAGE, bore=over + 1e-4, outside_diameter=under - 1e-4, pocket_diameter=6.8e-3)
+    refused(shoulders, replace(cage, width=5e-3, bore=over), ["inner ring's shoulder"])
+    refused(shoulders, replace(cage, width=5e-3, outside_diameter=under), ["outer ring's shoulder"])
+    plain = replace(DEEP, inner_shoulder=None, outer_shoulder=None)
+    refused(plain, replace(cage, width=5e-3, bore=plain.bore), ["bearing.bore"])
 
 
 def test_a_preload_beyond_all_steel_is_refused():

@@ -59,8 +59,9 @@ def scene(run, ring, peak: int) -> Scene:
         roots=roots, root_names=["a", "b", "c"], frames=[(0.001, np.zeros_like(points), stress)],
     )  # fmt: skip
     return Scene(
-        name="n", dataset=run, bearing=N1013, mesh=ring, load=(1e3, 0.0), clearance=None,
-        settle=0.3, defects=[CrossbeamDefect(crossbeam=5, displacement=1e-4)], stress=pictures,
+        name="n", dataset=run, bearing=N1013, mesh=ring, clearance=None, guide="inner",
+        loads=np.tile([0.0, 1e3, 0.0], (n, 1)), settle=0.3, stress=pictures,
+        defects=[CrossbeamDefect(crossbeam=5, displacement=1e-4)],
     )  # fmt: skip
 
 

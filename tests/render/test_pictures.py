@@ -170,7 +170,7 @@ def test_curves_need_no_window(run, tmp_path):
         dims=("time", "place"),
         coords={"time": run["time"], "place": [f"pocket {k}" for k in range(Z)]},
     )
-    check(render.orbit(run, tmp_path / "o.png", clearance=250e-6))
+    check(render.orbit(run, tmp_path / "o.png", clearance=250e-6, guide="inner"))
     check(render.orbit(run, tmp_path / "o1.png", clearance=60e-6, settle=0.2))
     check(
         render.histories(run, tmp_path / "h.png", bearing=NUMBERS, root_stress=stress, settle=0.3)

@@ -89,8 +89,9 @@ def scene(ds, name: str = "small") -> Scene:
     )  # fmt: skip
     return Scene(
         name=name, dataset=ds, bearing=BEARING, mesh=ring_mesh(),
-        defects=[CrossbeamDefect(crossbeam=2, displacement=1e-4)], load=(1e3, 0.0),
-        clearance=2.5e-4, settle=0.3, stress=stress,
+        defects=[CrossbeamDefect(crossbeam=2, displacement=1e-4)],
+        loads=np.tile([0.0, 1e3, 0.0], (n, 1)),
+        clearance=2.5e-4, guide="inner", settle=0.3, stress=stress,
     )  # fmt: skip
 
 

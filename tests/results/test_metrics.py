@@ -175,6 +175,7 @@ def test_energy_audit_of_the_cage(known_run, bearing, leak, of_drive, of_cage, v
     [
         (0.0, 0.0, 0.0, "not judged"),
         (0.0, 0.0, 1e-3, "EXCEEDED"),  # energy from nowhere
+        (1e-40, 0.0, 4e-8, "not judged"),  # the drive's rounding is no work
         (0.5, -1e-3, 4e-4, "EXCEEDED"),  # pockets that give energy do not hide a leak
         (2e-10, 2e-10, 5e-8, "not judged"),  # a bearing that stands, pinched
         (6e-5, 1e-4, 8e-8, "passed"),  # by the cage's losses; the drive does too little

@@ -219,6 +219,12 @@ def test_a_study_without_a_case(tmp_path):
     (tmp_path / "study.toml").write_text('outputs = ["cage_speed"]')
     with pytest.raises(InputError, match="names no case"):
         load_study(tmp_path / "study.toml")
+    (tmp_path / "case.toml").write_text('[bearing]\npreset = "N1013"\n')
+    with pytest.raises(InputError, match="is a case, not a study; take 'flexcage run"):
+        load_study(tmp_path / "case.toml")
+    (tmp_path / "study.toml").write_text('case = "case.toml"\noutputs = ["cage_speed"]')
+    with pytest.raises(InputError, match="is a study, not a case; take 'flexcage study run"):
+        load_case(tmp_path / "study.toml")
 
 
 def test_lists_without_labels_share_no_column():

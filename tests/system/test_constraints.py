@@ -273,6 +273,12 @@ def test_rows_that_cannot_be_compiled():
     with pytest.raises(InputError, match=r"constraint 'short' cannot be compiled .* \(t, q, u, p"):
         register_constraint("short", lambda t, q: None, level="position")
     assert "short" not in constraints.KINDS
+    with pytest.raises(InputError, match="'lost' cannot be compiled .* name 'no_such_name'"):
+        register_constraint("lost", unnamed, level="position")
+
+
+def unnamed(t, q, u, p, G, g, h):
+    g[0] = no_such_name  # noqa: F821
 
 
 def two(t, q, u, p, G, g, h):

@@ -14,6 +14,7 @@ from flexcage.simulate import build_bearing, simulate
 from flexcage.system.bodies import _wave
 from flexcage.system.courses import (
     corners,
+    course,
     table_integral,
     table_slope,
     table_value,
@@ -57,6 +58,8 @@ def test_shape_slope_and_integral(shape):
     there = flat if shape == "rectangle" else np.ones_like(flat)
     np.testing.assert_allclose(value[there], AMPLITUDE * SHAPES[shape](x)[there], atol=1e-9)
     assert value[0] == 0.0 and np.abs(value).max() == pytest.approx(AMPLITUDE)
+    flat = np.array([[0.0, 1.0], [2.0, 2.0]])
+    np.testing.assert_allclose(course(flat, of(shape), times), 2.0 + value, rtol=1e-9)
     step = times[1]
     trapezoid = np.concatenate([[0.0], np.cumsum(0.5 * (value[1:] + value[:-1]) * step)])
     np.testing.assert_allclose(integral, trapezoid, atol=2e-6 * AMPLITUDE * PERIOD)
