@@ -48,7 +48,7 @@ from flexcage.stress.series import frames, samples_near
 from flexcage.stress.sn_curves import SNCurve, sn_curve
 from flexcage.stress.wear import Wear, wear
 from flexcage.stress.wear_laws import WearLaw, wear_law
-from flexcage.system.bodies import loads_over
+from flexcage.system.bodies import loads_over, unbalance_of
 from flexcage.system.start import Start
 
 if TYPE_CHECKING:
@@ -478,10 +478,18 @@ class Run:
         return [*rows, Row("wall_total", "In all", self.stages.total, "s")]
 
     def _cage_rows(self) -> list[Row]:
-        report = report_mesh(self.mesh, density=self.case.cage.material.density)
+        case = self.case
+        report = report_mesh(self.mesh, density=case.cage.material.density)
+        mass, centre, note = report.volume * case.cage.material.density, report.mass_centre, ""
+        if case.cage.unbalance:
+            added, place = unbalance_of(case.cage)
+            centre = (mass * centre + added * place) / (mass + added)
+            mass += added
+            note = f"{added * 1e3:.4g} g of them make the unbalance, at the cage's mean radius"
+        shift = float(np.linalg.norm(centre))
         rows = [
-            Row("cage_mass", "Mass", report.volume * self.case.cage.material.density, "g"),
-            Row("cage_centre_shift", "Shift of the mass centre", report.mass_centre_shift, "um"),
+            Row("cage_mass", "Mass", mass, "g", note),
+            Row("cage_centre_shift", "Shift of the mass centre", shift, "um"),
         ]
         if self.cage is not None:
             basis = self.cage.basis

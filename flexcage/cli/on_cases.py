@@ -58,7 +58,10 @@ def _add_converge(commands: Any) -> None:
     study = command(commands, "converge", converge_command, text)
     case_options(study)
     study.add_argument(
-        "--axes", default="", metavar="A,B", help="of tolerance,slices,modes,mesh (default: all)"
+        "--axes",
+        default="",
+        metavar="A,B",
+        help="of tolerance,slices,samples,modes,mesh (default: all)",
     )
     study.add_argument("--duration", metavar="TIME", help="bearing time of each run, as '40 ms'")
     study.add_argument("-o", "--out", metavar="DIR", help="folder (default: runs/NAME-converge)")

@@ -46,6 +46,9 @@ SHOWN: dict[str, tuple[str, float]] = {
 }
 
 
+_ROUNDING = 1e-12  # of the unit shown: what rounding leaves of nothing; rates of wear are as small
+
+
 @dataclass(frozen=True)
 class Row:
     """One figure: ``value`` in SI (or a text, a count); ``shown`` is the unit it is printed in.
@@ -89,7 +92,9 @@ class Row:
             return v
         if isinstance(v, int) and not self.shown:
             return f"{v:,}"
-        return _figures(float(v) * SHOWN[self.shown][1])
+        shown = float(v) * SHOWN[self.shown][1]
+        nothing = abs(shown) < _ROUNDING and not self.shown.endswith("/h")
+        return "0" if nothing else _figures(shown)
 
     @property
     def margin_text(self) -> str:
@@ -226,16 +231,27 @@ class Summary:
 
 
 def side_by_side(summaries: dict[str, Summary]) -> str:
-    """An aligned table of the rows that any of the summaries holds, one column a summary."""
+    """An aligned table of the rows that any of the summaries holds, section by section, one column
+    a summary: figures with their margins."""
     first = {r.key: r for s in reversed(summaries.values()) for r in s}
-    order = list(dict.fromkeys(r.key for s in summaries.values() for r in s))
+    sections: dict[str, dict[str, None]] = {}
+    for section in (section for s in summaries.values() for section in s.sections):
+        sections.setdefault(section.title, {}).update((r.key, None) for r in section.rows)
     texts = {n: {r.key: r.text for r in s} for n, s in summaries.items()}
+    margins = {n: {r.key: r.margin_text for r in s} for n, s in summaries.items()}
     label = max(len(r.label) for r in first.values())
     width = {n: max([len(n), *map(len, t.values())]) for n, t in texts.items()}
-    lines = [" " * label + "".join(f"  {n:>{w}}" for n, w in width.items())]
-    for key in order:
-        cells = "".join(f"  {texts[n].get(key, '-'):>{w}}" for n, w in width.items())
-        lines.append(f"{first[key].label:<{label}}{cells}  {first[key].shown}".rstrip())
+    beside = {n: max(map(len, m.values())) for n, m in margins.items()}
+    head = "".join(f"  {n:>{width[n]}} {'':{beside[n]}}" for n in summaries)
+    lines = [f"{'':<{label + 2}}{head}".rstrip()]
+    for title, keys in sections.items():
+        lines += ["", title]
+        for key in keys:
+            cells = "".join(
+                f"  {texts[n].get(key, '-'):>{width[n]}} {margins[n].get(key, ''):<{beside[n]}}"
+                for n in summaries
+            )
+            lines.append(f"  {first[key].label:<{label}}{cells}  {first[key].shown}".rstrip())
     return "\n".join(lines)
 
 

@@ -41,6 +41,7 @@ if TYPE_CHECKING:
 
 SECTORS = 24  # round a round pocket, whose depths are told apart
 SAMPLES_READ = 2000  # samples whose slices are held at a time
+_SHALLOW = 0.1  # of a groove's radius: beyond it a groove is no shallow segment, nor the cage whole
 _HOUR = 3600.0
 _ITERATIONS = 40  # of Newton's method for a depth; each near its end doubles the digits
 
@@ -135,6 +136,12 @@ class Wear:
             f"{'land':>6}  {'':<6}  {volume * 1e9:8.2e} {'':8}  {depth * 1e6:11.4g}  "
             f"{depth * hours * 1e6:12.4g}"
         )
+        reach = _SHALLOW * float(ds["groove_radius"].min())
+        if float(after.max()) > reach:
+            lines.append(
+                f"depths beyond {reach * 1e6:.3g} um, a tenth of the radius, no cage has: "
+                "take fewer hours, or a coefficient of the lubricated cage"
+            )
         return "\n".join([*lines, self.grounds()])
 
     def grounds(self) -> str:

@@ -1,4 +1,4 @@
-"""One case over solver tolerance, slices, modes and mesh: which of its outputs have converged."""
+"""One case over tolerance, slices, samples, modes and mesh: which of its outputs have converged."""
 
 from __future__ import annotations
 
@@ -45,6 +45,18 @@ def _tolerances(case: Case) -> dict[str, dict[str, Any]]:
     return {f"x{f:g}": {"solver.tolerance": f * case.solver.tolerance} for f in (1.0, 0.3, 0.1)}
 
 
+def _samples(case: Case) -> dict[str, dict[str, Any]]:
+    """How often it is looked at: as it is, twice and four times as often."""
+    found, own = {}, case.output
+    for factor in (1, 2, 4):
+        rate = factor * own.rate
+        fine = rate * max(round(own.vibration_rate / rate), 1)
+        found[f"{rate / 1e3:g} kHz"] = {
+            "output.rate": rate, "output.vibration_rate": fine, "output.block": factor * own.block,
+        }  # fmt: skip
+    return found
+
+
 def _slices(case: Case) -> dict[str, dict[str, Any]]:
     own = {place: getattr(case.contacts, place).slices for place in ("race", "pocket")}
     found = {}
@@ -70,6 +82,7 @@ def _meshes(case: Case) -> dict[str, dict[str, Any]]:
 AXES: dict[str, Callable[[Case], dict[str, dict[str, Any]]]] = {
     "tolerance": _tolerances,
     "slices": _slices,
+    "samples": _samples,
     "modes": _modes,
     "mesh": _meshes,
 }

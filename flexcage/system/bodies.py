@@ -18,11 +18,14 @@ CAGE_SKIN_FRICTION = 0.01  # assumption: turbulent skin friction of the cage's o
 
 def unbalanced(body: FlexibleBody, cage) -> FlexibleBody:
     """The cage's body with the point mass of its unbalance, at its mean radius."""
-    if cage.unbalance == 0.0:
-        return body
+    return with_point_mass(body, *unbalance_of(cage)) if cage.unbalance else body
+
+
+def unbalance_of(cage) -> tuple[float, np.ndarray]:
+    """The point mass [kg] that makes the cage's unbalance, and its place (3,) in the cage [m]."""
     r = cage.mean_radius
     where = r * np.array([0.0, np.cos(cage.unbalance_phase), np.sin(cage.unbalance_phase)])
-    return with_point_mass(body, cage.unbalance / r, where)
+    return cage.unbalance / r, where
 
 
 def _constant(value: float) -> np.ndarray:

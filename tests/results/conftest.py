@@ -72,7 +72,9 @@ def known_run():
     a["race_force"][:, :, 1] = 10.5
     a["race_slip"][:, 3:6] = 0.02
     a["pocket_force"][: n // 2, 7, 1] = 3.0
-    a["pocket_force"][4000, 7, 1] = 11.0
+    a["pocket_force"][4000, 7, 1] = 8.0
+    a["pocket_peak"][:] = a["pocket_force"]
+    a["pocket_peak"][4000, 7, 1] = 11.0  # between two samples
     a["energy"][:, 0] = 1.0 - 2.0 * t
     a["work"][:, 0], a["work"][:, 1] = 5.0 * t, -7.0 * t
     main = {k: v for k, v in a.items() if "acceleration" not in k or not k.startswith("outer")}

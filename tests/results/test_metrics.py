@@ -136,7 +136,7 @@ def test_pocket_forces(known_run):
     forces = metrics.pocket_forces(known_run)
     assert (forces.peak, forces.peak_pocket, forces.peak_face) == (11.0, 7, "rear")
     assert forces.peak_time == pytest.approx(4000 / 50e3)
-    assert forces.mean == pytest.approx((2500 * 3 + 11) / 2501)
+    assert forces.mean == pytest.approx((2500 * 3 + 8) / 2501)
     total, faces, largest = metrics.pocket_force_series(known_run)
     assert total.sum() / faces.sum() == pytest.approx(forces.mean) and largest.max() == 11.0
     assert forces.contact_share == pytest.approx(2501 / (5001 * 22 * 4))
@@ -223,6 +223,12 @@ def test_velocity_deviation_of_a_pulsing_circle(known_run):
     assert metrics.velocity_deviation(ds, low_pass=2e3) == pytest.approx(0.3 / np.sqrt(2), rel=0.01)
 
 
+def test_rounding_is_shown_as_nothing():
+    texts = [Row("a", "A", v, "mrad").text for v in (7e-25, -7e-25, 2e-9)]
+    assert texts == ["0", "0", "2.000e-06"]
+    assert Row("b", "B", 1e-20, "1/h").text == "3.600e-17"  # a small damage is one
+
+
 def test_summary_prints_and_comes_back(known_run, bearing, tmp_path):
     summary = summarise(known_run, bearing, slip_range=metrics.SlipRange(creep=0.05)).with_section(
         "Solver", [Row("steps", "Steps", 12345), Row("wall", "Wall time", 1.5, "s")]
@@ -244,6 +250,10 @@ def test_summary_prints_and_comes_back(known_run, bearing, tmp_path):
     assert [p.name for p in summary.write(tmp_path)] == ["summary.txt", "summary.json"]
     both = side_by_side({"rigid": summary, "flexible": back})
     assert both.splitlines()[0].split() == ["rigid", "flexible"]
+    assert [line for line in both.splitlines()[1:] if line and not line.startswith(" ")] == [
+        section.title for section in summary.sections
+    ]
+    assert re.search(r"Pocket force, mean +(\S+ ± \S+) +\1 +N$", both, re.MULTILINE)
     names = [row.label for row in summary]
     assert len(set(names)) == len(names), "tables without notes tell all rows apart"
 

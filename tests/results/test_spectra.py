@@ -163,7 +163,7 @@ def test_features_of_a_known_motion(known_run):
     features = cage_motion_features(ds)
     assert features.velocity_deviation == pytest.approx(0.3 / np.sqrt(2), rel=1e-3)
     assert features.whirl_speed_ratio == pytest.approx(1.0, abs=1e-6)
-    assert features.pocket_force_ratio == pytest.approx(11.0 * 2501 / (2500 * 3 + 11))
+    assert features.pocket_force_ratio == pytest.approx(11.0 * 2501 / (2500 * 3 + 8))
     assert features.vector.tolist() == [
         features.velocity_deviation, features.whirl_speed_ratio, features.pocket_force_ratio,
     ]  # fmt: skip

@@ -146,6 +146,7 @@ def test_wear_scales_with_the_coefficient(rolling, n1013):
     assert other.volume_rate == near(2.0 * one.volume_rate)
     assert other.depth_rate == near(2.0 * one.depth_rate)
     assert "k = 2e-06 mm^3/(N m)" in one.table() and one.table().count("front") == 1
+    assert "no cage has" in one.table(1e9) and "no cage has" not in one.table(1e-9)
 
 
 def test_a_land_that_slides(rolling, n1013):

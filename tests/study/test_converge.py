@@ -75,7 +75,7 @@ def test_what_it_says_of_each_output(tmp_path):
     assert list(found.failures) == ["modes 96"] and "too stiff" in str(found)
     assert found.compared["mesh"] == ("medium", "fine")
     table = pd.read_csv(tmp_path / "converge.csv")
-    assert len(table) == len(found.findings) == 5 * 6
+    assert len(table) == len(found.findings) == 5 * 8
     stored = json.loads((tmp_path / "converge.json").read_text())
     assert stored["findings"][0]["verdict"] == found.findings[0].verdict
     assert (tmp_path / "converge.png").stat().st_size > 20_000
@@ -98,9 +98,14 @@ def test_levels_keep_what_the_case_says():
     names = {axis: [s.name for s in levels(own) if s.axis == axis] for axis in module.AXES}
     cut = ["race 40, pocket 32", "race 80, pocket 64", "race 128, pocket 128"]
     assert names["slices"] == cut and names["mesh"] == ["coarse", "medium", "fine"]
+    assert names["samples"] == ["50 kHz", "100 kHz", "200 kHz"]
+    often = next(s for s in levels(own) if s.name == "200 kHz").case.output
+    assert often.vibration_rate == 200e3 and often.block == 4 * own.output.block
     twice = next(s for s in levels(own) if s.name == cut[-1]).case
     assert (twice.contacts.race.slices, twice.contacts.pocket.slices) == (128, 128)
-    assert {s.axis for s in levels(CASE.replace("cage.model", "rigid"))} == {"tolerance", "slices"}
+    assert {s.axis for s in levels(CASE.replace("cage.model", "rigid"))} == {
+        "tolerance", "slices", "samples",
+    }  # fmt: skip
     most = levels(CASE.replace("contacts.race.slices", 128), ["slices"])
     assert [s.name for s in most] == [
         "race 64, pocket 32", "race 128, pocket 64", "race 128, pocket 128",
