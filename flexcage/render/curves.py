@@ -200,13 +200,13 @@ def _speed_panel(ax: Any, t: np.ndarray, ds: xarray.Dataset, *, bearing, **_: An
 
 
 def _pocket_panel(ax: Any, t: np.ndarray, ds: xarray.Dataset, **_: Any) -> None:
-    force = ds["pocket_force"].max("pocket")
+    force = metrics.pocket_peaks(ds).max("pocket")
     colours = (sheet.VERMILION, sheet.BLUE, sheet.GREEN)
     for (name, faces), colour in zip(elements_in(ds).faces, colours):
         ax.plot(t, force.sel(face=list(faces)).max("face"), color=colour, lw=0.8, label=name)
     ax.set_ylim(bottom=0.0)
     ax.set_ylabel("force [N]")
-    _legend(ax, "Largest pocket force at each instant")
+    _legend(ax, "Largest pocket force")
 
 
 #: Heading of the stress panel, and how it shows the name of a place.
@@ -349,7 +349,7 @@ def compare_forces(
         top.set(xlabel="time [ms]", ylabel="force [N]", ylim=(0.0, None))
         spans = [ds["time"].values[[0, -1]] * 1e3 for ds in parts.values()]
         top.set_xlim(min(s[0] for s in spans), max(s[1] for s in spans))
-        _legend(top, "Largest pocket force at each instant", len(parts))
+        _legend(top, "Largest pocket force", len(parts))
         return sheet.save(figure, path)
 
 
@@ -359,7 +359,7 @@ def _force_text(name: str, ds: xarray.Dataset) -> str:
 
 
 def _history(ax: Any, ds: xarray.Dataset, colour: str, name: str) -> None:
-    largest = ds["pocket_force"].max(("pocket", "face"))
+    largest = metrics.pocket_peaks(ds).max(("pocket", "face"))
     ax.plot(ds["time"] * 1e3, largest, color=colour, lw=0.8, alpha=0.85, label=name)
 
 
@@ -377,7 +377,7 @@ def _exceedance(ax: Any, ds: xarray.Dataset, colour: str) -> None:
 def _pocket_bars(ax: Any, parts: Mapping[str, xarray.Dataset], colours: dict[str, str]) -> None:
     width = 0.8 / len(parts)
     for i, (name, ds) in enumerate(parts.items()):
-        peak = ds["pocket_force"].max(("time", "face")).values
+        peak = metrics.pocket_peaks(ds).max(("time", "face")).values
         at = np.arange(len(peak)) + (i - 0.5 * (len(parts) - 1)) * width
         ax.bar(at, peak, width * 0.94, color=colours[name])
     count = max(ds.sizes["pocket"] for ds in parts.values())

@@ -59,7 +59,7 @@ def _cage_speed(ds: xarray.Dataset, numbers: BearingNumbers) -> Chart:
 
 
 def _pocket_force(ds: xarray.Dataset) -> Chart:
-    force = ds["pocket_force"].max("pocket")
+    force = metrics.pocket_peaks(ds).max("pocket")
     figure = new_figure(TIME, "force [N]")
     for (name, faces), colour in zip(elements_in(ds).faces, (VERMILION, BLUE, GREEN)):
         values = force.sel(face=list(faces)).max("face").values

@@ -380,7 +380,7 @@ def tilt(ds: xarray.Dataset, *, body: str = "cage") -> xarray.DataArray:
 def pocket_forces(ds: xarray.Dataset, *, threshold: float = TOUCHING) -> PocketForces:
     """Mean (while above ``threshold`` [N]) and peak of the normal forces on pocket faces."""
     force = ds["pocket_force"].transpose("time", "pocket", "face")
-    values, peaks = force.values, pocket_peaks(ds)
+    values, peaks = force.values, pocket_peaks(ds).values
     touching = values > threshold
     at = np.unravel_index(int(np.argmax(peaks)), peaks.shape)
     return PocketForces(
@@ -393,14 +393,14 @@ def pocket_forces(ds: xarray.Dataset, *, threshold: float = TOUCHING) -> PocketF
     )
 
 
-def pocket_peaks(ds: xarray.Dataset) -> np.ndarray:
+def pocket_peaks(ds: xarray.Dataset) -> xarray.DataArray:
     """Largest normal force on every pocket face since the sample before, (time, pocket, face) [N].
 
     A contact lasts a few samples, whose largest is some 15 % less than that of the solver's steps.
     Of runs that lack it, the samples themselves.
     """
     peaks = ds["pocket_peak"] if "pocket_peak" in ds else ds["pocket_force"]
-    return peaks.transpose("time", "pocket", "face").values.astype(float)
+    return peaks.transpose("time", "pocket", "face")
 
 
 def pocket_force_series(
@@ -411,7 +411,7 @@ def pocket_force_series(
     force = ds["pocket_force"].transpose("time", "pocket", "face").values.astype(float)
     touching = force > threshold
     total = np.where(touching, force, 0.0).sum(axis=(1, 2))
-    return total, touching.sum(axis=(1, 2)), pocket_peaks(ds).max(axis=(1, 2))
+    return total, touching.sum(axis=(1, 2)), pocket_peaks(ds).max(("pocket", "face")).values
 
 
 def _about(ds: xarray.Dataset, about: str) -> np.ndarray:

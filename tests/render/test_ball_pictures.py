@@ -168,7 +168,7 @@ def test_angles_count_only_where_balls_touch(run, monkeypatch, tmp_path):
 def test_orbit_and_comparison(run, texts, tmp_path):
     check(render.orbit(run, tmp_path / "o.png", clearance=None, settle=0.2))
     check(render.compare_forces({"rigid": run, "flexible": run}, tmp_path / "c.png"))
-    about_balls(texts, "y [µm]", "Largest pocket force at each instant")
+    about_balls(texts, "y [µm]", "Largest pocket force")
 
 
 def test_the_bearing_moves(run, canvas, tmp_path):
