@@ -34,6 +34,7 @@ FIRST_STEP = 1e-7
 # behind a corner of the drive or a load: how far a run goes on, more than rounding puts a time
 # beside it; and the first step of an integrator of several steps, which has one slope to begin with
 BEHIND, CAREFUL = 1e-13, 1e-11
+LOG_ROWS = 20_000  # steps that are logged at a time
 
 
 def new_store(
@@ -145,10 +146,16 @@ class Recorder:
             self._take(method, self.time, y, yd)
         self.options = self.integrator.within(self.integrator.options(self.solver), step)
 
+    def _corners(self, end: float) -> np.ndarray:
+        """Corners of the drive and the loads from now on to before ``end``; one that rounding puts
+        just before the end, where a sample waits, is left to what follows."""
+        early = 2.0 * _behind(end)
+        return self.bearing.corners(self.time - early, end - early)
+
     def _turn(self) -> None:
         """Go on beyond a corner of the drive or a load, where y' jumps: forget what was before."""
         y, yd = self.integrator.last(self.state)
-        time, options = self.time * (1.0 + 0.1 * BEHIND) + BEHIND, self.options
+        time, options = self.time + _behind(self.time), self.options
         step = max(CAREFUL, self.solver.min_step)
         if self.integrator.bounded:  # of single steps: as long as the last
             step = float(self.state.real[H])
@@ -181,19 +188,23 @@ class Recorder:
         self.bearing.data.events.fill[0] = 0
         self.bearing.data.events.pushed[...] = 0.0
         logs, sample, outcome = [], 0, DONE
-        for stop in [*self.bearing.corners(self.time, times[-1]), times[-1]]:
+        log, used = np.zeros((LOG_ROWS, len(LOG_COLUMNS))), 0
+        for stop in [*self._corners(times[-1]), times[-1]]:
             outcome = LOG_FULL
             while outcome == LOG_FULL:
-                log = np.zeros((20_000, len(LOG_COLUMNS)))
                 outcome, sample, rows = self.bearing.advance(
-                    self.integrator, self.state, self.options, stop, times, ys, yds, sample, log,
-                    quads,
+                    self.integrator, self.state, self.options, stop, times, ys, yds, sample,
+                    log[used:], quads,
                 )  # fmt: skip
-                logs.append(log[:rows])
+                used += rows
+                if outcome == LOG_FULL:
+                    logs.append(log)
+                    log, used = np.zeros((LOG_ROWS, len(LOG_COLUMNS))), 0
             if outcome != DONE:
                 break
             if stop < times[-1]:
                 self._turn()
+        logs.append(log[:used])
         done, deep = sample // ratio, runaway(self.bearing, ys[ratio - 1 : sample : ratio])
         if deep:
             done = deep[0]
@@ -300,6 +311,10 @@ class Recorder:
                     value=found,
                 )
             array[...] = saved[name]
+
+
+def _behind(time: float) -> float:
+    return BEHIND * (1.0 + 0.1 * time)
 
 
 def _computed(store: MemoryRunStore) -> dict[str, Callable[..., np.ndarray]]:

@@ -10,7 +10,7 @@ from scipy import signal
 from flexcage.case import load_case
 from flexcage.core.errors import InputError
 from flexcage.results.audit import energy_audit
-from flexcage.simulate import build_bearing, simulate
+from flexcage.simulate import build_bearing, cage_mesh, simulate
 from flexcage.system.bodies import _wave
 from flexcage.system.courses import (
     corners,
@@ -143,6 +143,31 @@ def test_energy_closes_over_corners_of_the_speed(shape, method):
     times = ds["time"].values
     driven = along_table(bodies.speed, bodies.angle, times)[0] + along(bodies.waves[0], times)[0]
     exact = 1e-9 if method == "explicit" else 1e-5
+    np.testing.assert_allclose(ds["inner_speed"].values, driven, rtol=exact)
+
+
+@pytest.mark.parametrize("method", ["explicit", "bdf"])
+def test_corners_that_rounding_puts_beside_samples(method):
+    """One lies on a sample that ends a block, but for the last bit of either."""
+    case = load_case(
+        {
+            "bearing": {"preset": "N1013"},
+            "cage": {"model": "rigid"},
+            "mesh": {"fineness": "coarse"},
+            "drive": {"speed": "5 krpm", "wave": "triangle", "wave_amplitude": "50 rpm",
+                      "wave_period": "36 ms"},
+            "load": {"radial": "1000 N"},
+            "solver": {"duration": "82 ms", "method": method},
+            "output": {"rate": "2 kHz", "vibration_rate": "2 kHz", "block": 2},
+        }
+    )  # fmt: skip
+    bearing = build_bearing(case, cage_mesh(case), None)
+    samples = np.arange(1, 165) / 2e3
+    late = bearing.corners(0.0, 82e-3)[-1] - samples[161]  # where a block ends
+    assert -1e-16 < late < -1e-17
+    ds = simulate(case).dataset
+    driven = along(bearing.data.model.bodies.waves[0], samples)[0] + 5000 * np.pi / 30
+    exact = 1e-12 if method == "explicit" else 1e-5
     np.testing.assert_allclose(ds["inner_speed"].values, driven, rtol=exact)
 
 
