@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from flexcage.case import Case, load_case, words
-from flexcage.core.binding import Binder, check_spec, expect, flat
+from flexcage.core.binding import Binder, check_spec, expect
 from flexcage.core.cache import cached_arrays
 from flexcage.core.errors import EnvironmentLacks, InputError
 from flexcage.core.progress import Silent
@@ -592,9 +592,8 @@ def has_begun(folder: Path, case: Case) -> bool:
 
 def _difference(case: Case, stored: Case) -> str:
     """The first values in which two cases differ, in brackets."""
-    new, old = dict(flat(case.to_table())), dict(flat(stored.to_table()))
-    differ = [key for key in {**old, **new} if old.get(key) != new.get(key)]
-    told = [f"{k} is {new.get(k, 'left out')}, was {old.get(k, 'left out')}" for k in differ[:3]]
+    differ = case.difference(stored)
+    told = [f"{key} is {new}, was {old}" for key, (new, old) in list(differ.items())[:3]]
     more = f", and {len(differ) - 3} more" if len(differ) > 3 else ""
     return f" ({'; '.join(told)}{more})" if told else " (a file or function behind it has changed)"
 

@@ -21,6 +21,7 @@ from flexcage.core.binding import (
     check_spec,
     chosen_names,
     default_of,
+    flat,
     set_path,
     to_table,
     with_their_choice,
@@ -176,6 +177,14 @@ class Case:
         outside = sorted(filter(None, {source_of(name) for name in chosen_names(self)}))
         return content_hash(physics, content, *outside)
 
+    def difference(self, other: Case) -> dict[str, tuple[Any, Any]]:
+        """Values of this case and of another that differ and count, by dotted path; None where
+        a case has none."""
+        mine, its = (dict(flat(case.to_table())) for case in (self, other))
+        left_out = (*_NOT_PHYSICS, "bearing.preset")
+        keys = (key for key in {**its, **mine} if key not in left_out)
+        return {k: (mine.get(k), its.get(k)) for k in keys if mine.get(k) != its.get(k)}
+
     @property
     def cage_shape(self) -> dict[str, Any]:
         """What ``mesh.build.build_cage_mesh`` asks for, by name."""
@@ -229,7 +238,9 @@ def _with_cage(table: dict[str, Any], binder: Binder) -> dict[str, Any]:
 
 def _as_pairs(path: Any, value: Any) -> dict[str, Any]:
     """Values by dotted path, from one path and its value or a mapping of them."""
-    table = {} if path is None else path if isinstance(path, Mapping) else {path: value}
+    table = path if isinstance(path, Mapping) else {path: value}
+    if path is None and value is None:
+        return {}
     for key in table:
         if not isinstance(key, str):
             raise InputError(

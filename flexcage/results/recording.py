@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from flexcage.core.errors import InputError, RunFailed, mistake_in
+from flexcage.core.errors import FlexcageError, InputError, RunFailed, mistake_in
 from flexcage.core.progress import Silent
 from flexcage.results.faults import first_undefined, hardest, runaway
 from flexcage.results.options import OutputOptions
@@ -62,18 +62,22 @@ def new_store(
         "land_station": np.arange(len(bearing.data.model.land.angle)),
         **own_coords(bearing.data.model),
     }
-    every = variables_of(element)
-    names = [name for name in every if layout.modes or "mode" not in VARIABLES[name].dims]
     return RunStore.create(
         path,
         coords=coords,
-        variables=names,
+        variables=recorded_names(bearing),
         n_time=n,
         n_time_hf=n * ratio,
         block=output.block,
         block_hf=output.block_hf,
         attrs={**attrs, "element": element, "places": list(bearing.family.places)},
     )
+
+
+def recorded_names(bearing: Bearing) -> list[str]:
+    """Names of all that is recorded of this bearing."""
+    every = variables_of(bearing.family.element)
+    return [name for name in every if bearing.layout.modes or "mode" not in VARIABLES[name].dims]
 
 
 def contact_events(table: dict[str, np.ndarray], attrs: Mapping[str, Any]) -> xarray.Dataset:
@@ -112,6 +116,11 @@ class Recorder:
         self._filter = np.zeros((2, 2, 2))
         saved = store.checkpoint()
         if saved is not None:
+            held = {v.name for v in store.layout.variables}
+            own = (name for name in recorded_names(bearing) if name not in COMPUTED)
+            lacking = [name for name in own if name not in held]
+            if lacking:
+                raise _of_another(f"it holds no '{lacking[0]}'", lacking[0])
             self._restore(saved)
 
     def _take(
@@ -173,7 +182,9 @@ class Recorder:
         with (progress or Silent)(duration, "solving") as bar:
             bar.begin_at(self.time)
             while not self.store.complete:
+                before = self.store.n_time
                 self._block(self.store.blocks)
+                assert self.store.n_time > before, "a block that ends where it began"
                 bar.to(self.time)
 
     def _block(self, index: int) -> None:
@@ -186,7 +197,7 @@ class Recorder:
         self.integrator.refresh(self.state)  # a resumed run repeats an unbroken one bit by bit
         self._choose()
         self.bearing.data.events.fill[0] = 0
-        self.bearing.data.events.pushed[...] = 0.0
+        self.bearing.data.events.pushed_most[...] = 0.0  # as in a run that is resumed here
         logs, sample, outcome = [], 0, DONE
         log, used = np.zeros((LOG_ROWS, len(LOG_COLUMNS))), 0
         for stop in [*self._corners(times[-1]), times[-1]]:
@@ -249,6 +260,8 @@ class Recorder:
             wanted = (samples, *self.store.layout.shape(variable)[1:])
             try:
                 value = np.asarray(compute(dict(arrays), self.bearing))
+            except FlexcageError:
+                raise
             except Exception as exc:
                 raise RunFailed(
                     f"the registered variable '{name}' could not be computed: "
@@ -303,14 +316,19 @@ class Recorder:
         for name, array in self._parts().items():
             found = saved[name].shape if name in saved else "nothing"
             if found != array.shape:
-                raise InputError(
-                    f"The run was begun by another flexcage: its checkpoint holds {found} of "
-                    f"'{name}', and this one wants {array.shape}; finish it with the flexcage that "
-                    "began it, or begin it again.",
-                    where=name,
-                    value=found,
+                raise _of_another(
+                    f"its checkpoint holds {found} of '{name}', and this one wants {array.shape}",
+                    name,
                 )
             array[...] = saved[name]
+
+
+def _of_another(how: str, name: str) -> InputError:
+    return InputError(
+        f"The run was begun by another flexcage: {how}; finish it with the flexcage that began "
+        "it, or begin it again.",
+        where=name,
+    )
 
 
 def _behind(time: float) -> float:

@@ -28,9 +28,10 @@ def samples_near(t: np.ndarray, times: Sequence[float | str]) -> np.ndarray:
 
 
 def as_time(time: object) -> float:
-    """A time [s] from a number, or from a text with its unit."""
-    if isinstance(time, (int, float, np.integer, np.floating)) and not isinstance(time, bool):
-        return float(time)
+    """A time [s] from a number (of an array too), or from a text with its unit."""
+    number = np.asarray(time)
+    if number.ndim == 0 and number.dtype.kind in "iuf":
+        return float(number)
     return parse(time, "ms", where="time")
 
 

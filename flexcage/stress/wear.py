@@ -20,7 +20,6 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from flexcage.contacts.spec import LandSpec
-from flexcage.core.binding import expect
 from flexcage.core.errors import InputError
 from flexcage.geometry.bearing import Bearing
 from flexcage.geometry.cage import Cage
@@ -97,10 +96,10 @@ class Wear:
         A groove of radius R and depth d that is ``h`` high at first has the cross-section
         h d + (4/3) sqrt(2 R) d^(3/2): a circular segment, as long as d is small beside R.
         """
-        expect(hours, (int, float), "hours", "such as 1000.0")
-        if not 0.0 <= hours < inf:
+        number = np.asarray(hours)
+        if number.ndim or number.dtype.kind not in "iuf" or not 0.0 <= number < inf:
             raise InputError(
-                f"hours is {hours:g}, but must be at least 0, and finite.",
+                f"hours is {hours!r}, but must be a number that is at least 0, and finite.",
                 where="hours", value=hours,
             )  # fmt: skip
         ds = self.dataset
@@ -136,11 +135,12 @@ class Wear:
             f"{'land':>6}  {'':<6}  {volume * 1e9:8.2e} {'':8}  {depth * 1e6:11.4g}  "
             f"{depth * hours * 1e6:12.4g}"
         )
-        reach = _SHALLOW * float(ds["groove_radius"].min())
-        if float(after.max()) > reach:
+        radius = ds["groove_radius"]  # none on flat ends
+        if bool(((after > _SHALLOW * radius) & (radius > 0.0)).any()):
             lines.append(
-                f"depths beyond {reach * 1e6:.3g} um, a tenth of the radius, no cage has: "
-                "take fewer hours, or a coefficient of the lubricated cage"
+                f"depths beyond {_SHALLOW * float(radius.max()) * 1e6:.3g} um, a tenth of the "
+                "element's radius, no cage has: take fewer hours, or a coefficient of the "
+                "lubricated cage"
             )
         return "\n".join([*lines, self.grounds()])
 

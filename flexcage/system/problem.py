@@ -72,9 +72,8 @@ class Events(NamedTuple):
     closed: np.ndarray  # (Z, places) contact flags at the last accepted step
     land: np.ndarray  # (2,) the same for the cage's lands
     force: np.ndarray  # (2, 3) of the last two accepted steps: time, force on the outer ring
-    # (2, Z, faces) normal forces in pockets at the last accepted step, and the largest at any since
-    # the last sample
-    pushed: np.ndarray
+    pushed: np.ndarray  # (Z, faces) normal forces in pockets at the last accepted step
+    pushed_most: np.ndarray  # (Z, faces) the largest at any step since the last sample
 
 
 class Samples(NamedTuple):
@@ -158,7 +157,8 @@ class Bearing:
             Events(
                 np.zeros((200_000, 4)), np.zeros(1, np.int64),
                 np.zeros_like(work.report.contact), np.zeros(2, np.int64), np.zeros((2, 3)),
-                np.zeros((2, *work.report.pocket_normal.shape)),
+                np.zeros_like(work.report.pocket_normal),
+                np.zeros_like(work.report.pocket_normal),
             ),
             new_samples(block, stride, work.report),
             new_rates_work(model.cage.mff),

@@ -57,7 +57,7 @@ def keep_point(t, d):
     remember(t, fields(d.memory), report, events)
     for c in range(3):
         events.force[0, c] = events.force[1, c]
-    last, most, pushed = events.pushed[0], events.pushed[1], report.pocket_normal
+    last, most, pushed = events.pushed, events.pushed_most, report.pocket_normal
     for i in range(pushed.shape[0]):
         for f in range(pushed.shape[1]):
             last[i, f] = pushed[i, f]
@@ -131,7 +131,7 @@ def keep_report(s, k, rep, events):
 
     The step that went past the sample is among those before it, and first of those after it.
     """
-    last, most, pushed = events.pushed[0], events.pushed[1], rep.pocket_normal
+    last, most, pushed = events.pushed, events.pushed_most, rep.pocket_normal
     for i in range(pushed.shape[0]):
         for f in range(pushed.shape[1]):
             s.pocket_peak[k, i, f] = max(most[i, f], pushed[i, f])

@@ -6,6 +6,7 @@ from simulate_cases import Interrupted, bent, n1013
 
 from flexcage.cli import main
 from flexcage.core.errors import InputError, RunFailed
+from flexcage.results import recording
 from flexcage.results.store import RunStore
 from flexcage.run import write_case
 from flexcage.simulate import load_run, simulate
@@ -97,6 +98,23 @@ def test_a_smallest_step_that_is_too_large_ends_with_a_sentence(tmp_path):
     with pytest.raises(RunFailed, match="solver.min_step"):
         simulate(case, out=tmp_path)
     assert RunStore.open(tmp_path / "results.zarr").n_time < 250
+
+
+def test_a_run_that_lacks_what_is_recorded_now_is_not_resumed(tmp_path, monkeypatch):
+    variables_of = recording.variables_of
+    older = [name for name in variables_of("roller") if name != "pocket_peak"]
+    monkeypatch.setattr(recording, "variables_of", lambda element: older)
+    recorded = recording.recorded
+    monkeypatch.setattr(
+        recording, "recorded",
+        lambda *a: {k: v for k, v in recorded(*a).items() if k != "pocket_peak"},
+    )  # fmt: skip
+    with pytest.raises(KeyboardInterrupt):
+        simulate(case_of("rigid"), out=tmp_path, progress=Interrupted(1, BLOCK))
+    monkeypatch.undo()
+    with pytest.raises(InputError, match="another flexcage: it holds no 'pocket_peak'"):
+        simulate(case_of("rigid"), out=tmp_path, resume=True)
+    assert load_run(tmp_path).summary["pocket_force_peak"] > 0.0  # of its samples
 
 
 def test_a_checkpoint_of_another_flexcage_is_refused(tmp_path, monkeypatch):

@@ -37,6 +37,8 @@ def test_a_time_carries_its_unit_or_is_in_seconds(flexible):
     by_text, by_number = flexible.stress(time="0.5 ms"), flexible.stress(time=5e-4)
     assert by_text.time == by_number.time == pytest.approx(5e-4, abs=1e-5)
     np.testing.assert_array_equal(by_text.stress, by_number.stress)
+    for time in (np.float64(5e-4), np.array(5e-4), flexible.dataset["time"][24]):
+        assert flexible.stress(time=time).time == by_number.time
 
 
 @pytest.mark.parametrize("time", [0.5, -1.0, float("nan"), "500 ms"])
@@ -84,6 +86,7 @@ def test_wear_that_cannot_be(rigid):
     for hours, words in ((-2.0, "hours is -2"), (float("nan"), "hours is nan"), ("2 h", "'2 h'")):
         refused(lambda h=hours: worn.depth(h), words)
     assert float(worn.depth(0).max()) == 0.0
+    assert float(worn.depth(np.int64(2)).max()) == float(worn.depth(2.0).max())
 
 
 def test_a_file_is_no_case(tmp_path):
@@ -95,7 +98,8 @@ def test_a_file_is_no_case(tmp_path):
 def test_another_case_is_not_resumed_and_what_differs_is_named(tmp_path):
     case = n1013(SHORT, {"cage.model": "rigid"})
     simulate(case, out=tmp_path)
-    other = case.replace({"load.radial": "900 N", "solver.duration": "2 ms"})
+    other = case.replace({"load.radial": "900 N", "solver.duration": "2 ms", "name": "other"})
+    assert list(other.difference(case)) == ["load.radial", "solver.duration"]
     refused(
         lambda: simulate(other, out=tmp_path, resume=True),
         "load.radial is 900 N, was 1000 N", "solver.duration is 0.002 s, was 0.001 s",
