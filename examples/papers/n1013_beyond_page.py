@@ -299,11 +299,11 @@ assumptions.
 
 ## In short
 
-Read from the tables below on 23 November 2026:
+Read from the tables below on 24 November 2026:
 
-- A rigid cage overstates the peaks of pocket forces at every speed and load computed, by 8 % to
-  more than double. With brass the excess is larger at high speeds, with PA66 it falls with load.
-  The sum of pocket forces stays: the same push comes in harder blows.
+- A rigid cage overstates the peaks of pocket forces at every speed and load computed, by 7 %
+  (within its interval) to more than double. With brass the excess is larger at high speeds, with
+  PA66 it falls with load. The sum of pocket forces stays: the same push comes in harder blows.
 - Up to the clearance a growing deformation changes the stress of pocket corners by a few per cent.
   Beyond it a roller is pinched and stress rises twentyfold at once. A crossbeam shifted by 0.25 mm
   or more takes the corners past brass's tensile strength, 370 MPa: such a cage would have given
@@ -312,8 +312,8 @@ Read from the tables below on 23 November 2026:
   they pinch a roller, slip is larger than in a sound cage and the speed least steady.
 - Rollers are pushed by the middle of a crossbeam; a bent one pushes with its crest alone.
 - A spall of the outer race multiplies the ring's vibration a hundredfold and leaves pocket forces
-  and corner stress as they were; a tilt of 1 mrad lowers pocket forces by a tenth. Neither adds to
-  what a shifted crossbeam does.
+  and corner stress as they were; a tilt of 1 mrad lowers pocket forces by up to a tenth. Neither
+  adds to what a shifted crossbeam does.
 - A sound or shifted cage's corners do not tire; those of a pinched one last for tens of thousands
   of hours (dp -0.3 mm), thousands (dq 0.25 mm) or about two (dq 0.3 mm).
 
