@@ -199,11 +199,12 @@ class Run:
         """
         if isinstance(place, SNCurve):
             raise InputError("fatigue takes a curve by its name, run.fatigue(curve=...).")
-        fields = TensorFields(self.recovery)
+        recovery = self.recovery  # refuses a rigid cage
         require_pylife()
         used = sn_curve(self.case.cage.material.name) if curve is None else curve
         expect(used, SNCurve, "curve")
         check_spec(used, "curve")
+        fields = TensorFields(recovery)
         ds = settled(self.dataset, self.case.output.settle)
         places = chosen_places(place, tuple(fields.places))
         histories = tensor_histories(fields, *self._moved_and_pushed(ds), places=places)

@@ -31,9 +31,8 @@ log = logging.getLogger(__name__)
 ENERGIES = ("kinetic", "strain", "contact", "mount")
 FILTER_HZ = 10e3  # low-pass of outer_acceleration_filtered
 FIRST_STEP = 1e-7
-# behind a corner of the drive or a load: how far a run goes on, more than rounding puts a time
-# beside it; and the first step of an integrator of several steps, which has one slope to begin with
-BEHIND, CAREFUL = 1e-13, 1e-11
+BEHIND = 1e-13  # [s] that a run begins behind a corner: more than rounding puts a time beside it
+CAREFUL = 1e-11  # [s] first step there of an integrator of several steps, which knows one slope
 LOG_ROWS = 20_000  # steps that are logged at a time
 
 
@@ -162,7 +161,8 @@ class Recorder:
         return self.bearing.corners(self.time - early, end - early)
 
     def _turn(self) -> None:
-        """Go on beyond a corner of the drive or a load, where y' jumps: forget what was before."""
+        """Begin anew behind a corner of the drive or a load, where y' jumps: from y, integrals and
+        counters; an integrator of several steps has no history there."""
         y, yd = self.integrator.last(self.state)
         time, options = self.time + _behind(self.time), self.options
         step = max(CAREFUL, self.solver.min_step)

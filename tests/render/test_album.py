@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import inspect
+from dataclasses import replace
 from importlib import import_module
 from math import pi
 from types import SimpleNamespace
@@ -72,6 +73,15 @@ def test_cameras_do_not_follow_the_peak(run, ring, drawn, tmp_path):
         assert [drawn[name]["azimuth"] for name in OF_CAGE] == [0.0] * 4
         assert drawn["stress_picture"]["peak_node"] == peak  # where the close-up looks
         assert drawn["mesh_picture"]["azimuth"] is None  # turns to the defect
+
+
+def test_the_load_is_that_of_the_instant(run, ring, drawn, tmp_path):
+    ramp = np.outer(run["time"].values, [3.0, 4.0, 5.0]) * 1e3
+    draw_album(replace(scene(run, ring, 0), loads=ramp), tmp_path)
+    given = drawn["bearing_picture"]
+    at = float(run["time"][given["index"]]) * 1e3
+    assert at == pytest.approx(1.0, abs=0.1)  # where the stress has its peak
+    assert (given["axial"], *given["load"]) == pytest.approx((3.0 * at, 4.0 * at, 5.0 * at))
 
 
 def test_a_look_holds_for_all_pictures_of_the_cage(run, ring, drawn, tmp_path):
