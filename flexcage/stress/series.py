@@ -6,6 +6,7 @@ from collections.abc import Callable, Iterator, Sequence
 
 import numpy as np
 
+from flexcage.core.binding import wrong_type
 from flexcage.core.errors import InputError
 from flexcage.core.units import parse
 from flexcage.mesh.series import Frame
@@ -19,10 +20,7 @@ def samples_near(t: np.ndarray, times: Sequence[float | str]) -> np.ndarray:
     Raises InputError for what is no list of times, and for a time more than a step outside.
     """
     if isinstance(times, (str, bytes)) or np.ndim(times) != 1 or len(times) == 0:
-        raise InputError(
-            f"times is {times!r}, but should be a list of times, such as [0.01, 0.02].",
-            where="times", value=times,
-        )  # fmt: skip
+        raise wrong_type(times, "a list of times, such as [0.01, 0.02]", "times")
     step = float(np.diff(t).max(initial=0.0)) * (1.0 + 1e-9)
     return np.unique([_sample_near(t, step, as_time(time)) for time in times])
 

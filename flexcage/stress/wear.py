@@ -20,6 +20,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from flexcage.contacts.spec import LandSpec
+from flexcage.core.binding import wrong_type
 from flexcage.core.errors import InputError
 from flexcage.geometry.bearing import Bearing
 from flexcage.geometry.cage import Cage
@@ -98,10 +99,7 @@ class Wear:
         """
         number = np.asarray(hours)
         if number.ndim or number.dtype.kind not in "iuf" or not 0.0 <= number < inf:
-            raise InputError(
-                f"hours is {hours!r}, but must be a number that is at least 0, and finite.",
-                where="hours", value=hours,
-            )  # fmt: skip
+            raise wrong_type(hours, "a number that is at least 0, and finite", "hours")
         ds = self.dataset
         section = ds["cell_volume_rate"] / ds["cell_length"] * (hours * _HOUR)
         bend = 4.0 / 3.0 * np.sqrt(2.0 * ds["groove_radius"])

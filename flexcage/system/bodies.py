@@ -55,11 +55,11 @@ def _load_table(load: Load, along: str) -> np.ndarray:
 
 def loads_over(load: Load, times: np.ndarray) -> np.ndarray:
     """Radial and axial load [N] at times [s], (n, 2), as in a run."""
-    ways = ("radial", "axial")
-    waves = (np.array(_wave(load, load.wave_amplitude * (load.wave_of == way))) for way in ways)
-    return np.stack(
-        [courses.course(_load_table(load, k), w, times) for k, w in zip(ways, waves)], axis=1
-    )
+    loads = np.zeros((2, len(times)))
+    for out, way in zip(loads, ("radial", "axial")):
+        wave = np.array(_wave(load, load.wave_amplitude * (load.wave_of == way)))
+        courses.course(_load_table(load, way), wave, times, out)
+    return loads.T
 
 
 def _wave(spec: Wave, amplitude: float) -> tuple[float, float, float, float]:

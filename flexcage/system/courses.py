@@ -8,7 +8,7 @@ from math import cos, floor, pi, sin
 
 import numpy as np
 
-from flexcage.core.jit import part
+from flexcage.core.jit import kernel, part
 
 NONE, SINE, TRAPEZOID = 0.0, 1.0, 2.0  # shapes in ``wave[0]``
 
@@ -117,18 +117,11 @@ def _half(x):
     return y - 0.5, -1.0
 
 
-def course(table: np.ndarray, wave: np.ndarray, times: np.ndarray) -> np.ndarray:
-    """Values (n,) at ``times`` [s] of a table with a wave on top, beside the kernels."""
-    shape, rise, amplitude, period = wave
-    values = np.interp(times, *table)
-    if shape == SINE:
-        return values + amplitude * np.sin(2.0 * pi * times / period)
-    if shape == TRAPEZOID:
-        y = np.mod(times / period, 1.0)
-        half = np.mod(y, 0.5)
-        risen = np.minimum(np.minimum(half, 0.5 - half) / rise, 1.0)
-        return values + np.where(y < 0.5, amplitude, -amplitude) * risen
-    return values
+@kernel
+def course(table, wave, times, out):
+    """Values (n,) at ``times`` [s] of a table with a wave on top."""
+    for k in range(times.shape[0]):
+        out[k] = table_value(table, times[k]) + wave_value(wave, times[k])
 
 
 def corners(

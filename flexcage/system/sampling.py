@@ -57,13 +57,18 @@ def keep_point(t, d):
     remember(t, fields(d.memory), report, events)
     for c in range(3):
         events.force[0, c] = events.force[1, c]
-    last, most, pushed = events.pushed, events.pushed_most, report.pocket_normal
-    for i in range(pushed.shape[0]):
-        for f in range(pushed.shape[1]):
-            last[i, f] = pushed[i, f]
-            most[i, f] = max(most[i, f], pushed[i, f])
+    _keep_larger(events.pushed_most, report.pocket_normal)
+    copy_into(events.pushed, report.pocket_normal)
     events.force[1, 0] = t
     events.force[1, 1], events.force[1, 2] = report.body_force[0], report.body_force[1]
+
+
+@part
+def _keep_larger(most, values):
+    """most = max(most, values), entry by entry (n, m)."""
+    for i in range(values.shape[0]):
+        for f in range(values.shape[1]):
+            most[i, f] = max(most[i, f], values[i, f])
 
 
 @part
@@ -131,11 +136,9 @@ def keep_report(s, k, rep, events):
 
     The step that went past the sample is among those before it, and first of those after it.
     """
-    last, most, pushed = events.pushed, events.pushed_most, rep.pocket_normal
-    for i in range(pushed.shape[0]):
-        for f in range(pushed.shape[1]):
-            s.pocket_peak[k, i, f] = max(most[i, f], pushed[i, f])
-            most[i, f] = last[i, f]
+    _keep_larger(events.pushed_most, rep.pocket_normal)
+    copy_into(s.pocket_peak[k], events.pushed_most)
+    copy_into(events.pushed_most, events.pushed)
     copy_into(s.race[k], rep.race)
     copy_into(s.pocket_normal[k], rep.pocket_normal)
     copy_into(s.pocket_friction[k], rep.pocket_friction)

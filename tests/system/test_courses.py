@@ -59,7 +59,9 @@ def test_shape_slope_and_integral(shape):
     np.testing.assert_allclose(value[there], AMPLITUDE * SHAPES[shape](x)[there], atol=1e-9)
     assert value[0] == 0.0 and np.abs(value).max() == pytest.approx(AMPLITUDE)
     flat = np.array([[0.0, 1.0], [2.0, 2.0]])
-    np.testing.assert_allclose(course(flat, of(shape), times), 2.0 + value, rtol=1e-9)
+    shifted = np.empty_like(times)
+    course(flat, of(shape), times, shifted)
+    np.testing.assert_allclose(shifted, 2.0 + value, rtol=1e-9)
     step = times[1]
     trapezoid = np.concatenate([[0.0], np.cumsum(0.5 * (value[1:] + value[:-1]) * step)])
     np.testing.assert_allclose(integral, trapezoid, atol=2e-6 * AMPLITUDE * PERIOD)
@@ -113,6 +115,21 @@ def test_corners_are_where_slopes_jump(shape):
         assert np.count_nonzero(np.diff(slopes)) == len(at)
 
 
+def n1013(*, drive, duration, method, output):
+    """With a rigid cage and 1000 N."""
+    return load_case(
+        {
+            "bearing": {"preset": "N1013"},
+            "cage": {"model": "rigid"},
+            "mesh": {"fineness": "coarse"},
+            "drive": drive,
+            "load": {"radial": "1000 N"},
+            "solver": {"duration": duration, "method": method},
+            "output": output,
+        }
+    )
+
+
 @pytest.mark.parametrize("method", ["explicit", "bdf"])
 @pytest.mark.parametrize("shape", ["rectangle", "triangle", "ramp", "table"])
 def test_energy_closes_over_corners_of_the_speed(shape, method):
@@ -125,17 +142,8 @@ def test_energy_closes_over_corners_of_the_speed(shape, method):
         "table": {"times": ["0 s", "1 ms", "1.25 ms"],
                   "speeds": ["5 krpm", "5.1 krpm", "4.8 krpm"]},
     }.get(shape, wave)  # fmt: skip
-    case = load_case(
-        {
-            "bearing": {"preset": "N1013"},
-            "cage": {"model": "rigid"},
-            "mesh": {"fineness": "coarse"},
-            "drive": course,
-            "load": {"radial": "1000 N"},
-            "solver": {"duration": "3 ms", "method": method},
-            "output": {"block": 50},  # a block ends on the table's corner at 1 ms
-        }
-    )
+    ends = {"block": 50}  # a block ends on the corner of the table at 1 ms
+    case = n1013(drive=course, duration="3 ms", method=method, output=ends)
     run = simulate(case)
     audit = energy_audit(run.dataset)
     assert audit.passed and audit.of_drive < (2e-4 if method == "explicit" else 1e-3)
@@ -149,17 +157,11 @@ def test_energy_closes_over_corners_of_the_speed(shape, method):
 @pytest.mark.parametrize("method", ["explicit", "bdf"])
 def test_corners_that_rounding_puts_beside_samples(method):
     """One lies on a sample that ends a block, but for the last bit of either."""
-    case = load_case(
-        {
-            "bearing": {"preset": "N1013"},
-            "cage": {"model": "rigid"},
-            "mesh": {"fineness": "coarse"},
-            "drive": {"speed": "5 krpm", "wave": "triangle", "wave_amplitude": "50 rpm",
-                      "wave_period": "36 ms"},
-            "load": {"radial": "1000 N"},
-            "solver": {"duration": "82 ms", "method": method},
-            "output": {"rate": "2 kHz", "vibration_rate": "2 kHz", "block": 2},
-        }
+    case = n1013(
+        drive={"speed": "5 krpm", "wave": "triangle", "wave_amplitude": "50 rpm",
+               "wave_period": "36 ms"},
+        duration="82 ms", method=method,
+        output={"rate": "2 kHz", "vibration_rate": "2 kHz", "block": 2},
     )  # fmt: skip
     bearing = build_bearing(case, cage_mesh(case), None)
     samples = np.arange(1, 165) / 2e3
