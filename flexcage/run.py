@@ -35,6 +35,7 @@ from flexcage.results.statistics import roller_passes
 from flexcage.results.store import MemoryRunStore, RunStore, read_commit
 from flexcage.results.summary import Row, Summary
 from flexcage.solve.contract import COUNTS
+from flexcage.stress.between import Between
 from flexcage.stress.counting import require_pylife
 from flexcage.stress.fatigue import Fatigue, chosen_places, counted_stress, place_fatigue
 from flexcage.stress.fields import StressFields, TensorFields
@@ -44,7 +45,7 @@ from flexcage.stress.operators import von_mises
 from flexcage.stress.places import contact_zone, place_kind, root_places
 from flexcage.stress.places import in_words as place_in_words
 from flexcage.stress.recovery import STRESS_VERSION, CageLoads, Keep, StressRecovery
-from flexcage.stress.series import frames, samples_near
+from flexcage.stress.series import as_time, frames, samples_near
 from flexcage.stress.sn_curves import SNCurve, sn_curve
 from flexcage.stress.wear import Wear, wear
 from flexcage.stress.wear_laws import WearLaw, wear_law
@@ -178,15 +179,25 @@ class Run:
             StressFields(self.recovery),
             *self._moved_and_pushed(ds),
             settled=int(self.case.output.settle * ds.sizes["time"]),
+            between=self._between,
             progress=self.stages.progress,
         )
+
+    @cached_property
+    def _between(self) -> Between:
+        return Between(self.store, self.dataset["time"].values, inner=self._inner_land)
+
+    @property
+    def _inner_land(self) -> bool:
+        """Whether what land forces there are act on the cage's inner land."""
+        return self.case.cage.guidance != "outer"
 
     def _moved_and_pushed(self, ds: xarray.Dataset) -> tuple[Any, Any, LandForces | None]:
         """Modal coordinates, station forces and land forces of samples: what histories want.
 
         Read from disk slice by slice: a second of a roller bearing has 0.4 GB of station forces.
         """
-        land = LandForces(ds, inner=self.case.cage.guidance != "outer")
+        land = LandForces(ds, inner=self._inner_land)
         return ds["modal_coordinates"], ds["station_force"], land or None
 
     @one_blas_thread
@@ -207,7 +218,11 @@ class Run:
         fields = TensorFields(recovery)
         ds = settled(self.dataset, self.case.output.settle)
         places = chosen_places(place, tuple(fields.places))
-        histories = tensor_histories(fields, *self._moved_and_pushed(ds), places=places)
+        first = self.dataset.sizes["time"] - ds.sizes["time"]
+        samples, histories = tensor_histories(
+            fields, *self._moved_and_pushed(ds), places=places,
+            between=self._between.since(first),
+        )  # fmt: skip
         stresses = {}
         for name, tensors in histories:
             counted = counted_stress(tensors, used.mean_stress_sensitivity)
@@ -216,7 +231,8 @@ class Run:
         turns = abs(float(np.ptp(cage_angle(ds)))) / (2.0 * np.pi)
         time = float(t[-1] - t[0])
         turn = time / turns if turns else float("nan")
-        return place_fatigue(stresses, used, windows, step=time / (len(t) - 1), turn=turn)
+        step = time / (len(t) - 1)
+        return place_fatigue(stresses, used, windows, samples=samples, step=step, turn=turn)
 
     def wear(self, law: WearLaw | None = None) -> Wear:
         """Rates of wear of pockets and land over the settled part by Archard's law; by default
@@ -234,16 +250,31 @@ class Run:
         """Stress of the whole cage at ``time``, in seconds or a text with its unit, by mode
         acceleration.
 
-        Default: the largest peak of the settled part. Raises InputError for a rigid cage or a time
-        outside the run.
+        At the nearest sample, or step of the solver that is kept between samples. Default: the
+        largest peak of the settled part. Raises InputError for a rigid cage or a time outside the
+        run.
         """
         self.recovery  # noqa: B018  (refuses a rigid cage)
-        ds = self.dataset
-        t = ds["time"].values
-        index = self.stress_history.peak_sample if time is None else samples_near(t, [time])[0]
-        loads = cage_loads(ds, index, inner=self.case.cage.guidance != "outer")
+        t = self.dataset["time"].values
+        wanted = self.peak_time if time is None else as_time(time)
+        index = int(samples_near(t, [wanted])[0])
+        instant, loads = float(t[index]), self._loads_at(index)
+        step = self._between.nearest(wanted, index)
+        if step is not None and abs(step.time[0] - wanted) < abs(instant - wanted):
+            instant, loads = float(step.time[0]), step.cage_loads(loads.angular_velocity)
         u = self.recovery.displacement(loads)
-        return StressField(float(t[index]), u, self.recovery.stress(u, loads))
+        return StressField(instant, u, self.recovery.stress(u, loads))
+
+    def _loads_at(self, index: int) -> CageLoads:
+        return cage_loads(self.dataset, index, inner=self._inner_land)
+
+    @property
+    def peak_time(self) -> float:
+        """Time [s] of the largest equivalent stress of the settled part."""
+        h = self.stress_history
+        between = float(h.peak_time[h.peak_sample])
+        at_sample = float(self.dataset["time"].values[h.peak_sample])
+        return at_sample if np.isnan(between) else between
 
     def write_vtu(
         self,
@@ -254,7 +285,7 @@ class Run:
         """Write the cage's motion and stress as a .vtu series for ParaView; the path of its .pvd.
 
         At the samples nearest to ``times``, in seconds or texts with their unit, or all within
-        0.4 ms of the largest peak of stress:
+        0.4 ms of the largest peak of stress, and that itself:
         ``displacement`` [m], ``von_mises`` [Pa] and ``stress`` [Pa] (xx, yy, zz, xy, yz, xz) at
         the vertices of the cage as it is without stress, cage frame. Raises InputError for a rigid
         cage, a time outside the run, or a folder that holds files.
@@ -262,7 +293,8 @@ class Run:
         self.recovery  # noqa: B018  (refuses a rigid cage)
         t = self.dataset["time"].values
         if times is None:
-            chosen = t[np.abs(t - t[self.stress_history.peak_sample]) < _ABOUT_PEAK]
+            near = t[np.abs(t - self.peak_time) < _ABOUT_PEAK]
+            chosen = np.union1d(near, self.peak_time)
         else:
             chosen = t[samples_near(t, times)]
 
@@ -517,11 +549,11 @@ class Run:
         k = h.peak_sample
         roots = h.places[h.settled :].max(axis=0)
         root = int(np.argmax(roots))
-        when = float(self.dataset["time"][k]) * 1e3
+        when = self.peak_time * 1e3
         at = self.mesh.points[h.peak_vertex[k]] * 1e3
         place = f"t = {when:.3f} ms at ({at[0]:.1f}, {at[1]:.1f}, {at[2]:.1f}) mm, cage frame"
         part = self.dataset.isel(time=slice(h.settled, None))
-        windows, peak = roller_passes(part, self.numbers), h.peak[h.settled :]
+        windows, peak = roller_passes(part, self.numbers), h.at_sample[h.settled :]
         kind = place_kind(self.mesh.groups)
         corner = windows.peak(h.places[h.settled :].max(axis=1))
         return [

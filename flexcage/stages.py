@@ -186,4 +186,5 @@ def _bearing_of(case: Case, mesh: CageMesh, cage: CageReduction | None) -> Beari
     return Bearing(
         model, case.contacts, Layout(Z, body.modes, names_of(case.constraints)),
         constraints=case.constraints, block=case.output.block, stride=case.output.vibration_ratio,
+        interval=1.0 / case.output.rate,
     )  # fmt: skip

@@ -14,7 +14,7 @@ from flexcage.results.faults import first_undefined, hardest, runaway
 from flexcage.results.options import OutputOptions
 from flexcage.results.recorded import own_coords, recorded
 from flexcage.results.registry import COMPUTED, VARIABLES, variables_of
-from flexcage.results.store import MemoryRunStore, RunStore
+from flexcage.results.store import LOADS, MemoryRunStore, RunStore
 from flexcage.solve.contract import COUNTS, DONE, LOG_COLUMNS, LOG_FULL, NOT_FINITE, OUTCOMES, H, T
 from flexcage.solve.integrators import INTEGRATORS
 from flexcage.solve.options import SolverOptions
@@ -113,6 +113,8 @@ class Recorder:
         self.bound = np.inf  # [s] least stability bound of explicit steps so far
         self._take("bdf" if solver.method == "auto" else solver.method, 0.0, start.y, start.yd)
         self._filter = np.zeros((2, 2, 2))
+        begun = store.blocks > 0  # by an earlier flexcage, if it has no loads
+        self._keeps_loads = bearing.layout.modes > 0 and not (begun and not store.loads(0))
         saved = store.checkpoint()
         if saved is not None:
             held = {v.name for v in store.layout.variables}
@@ -198,6 +200,8 @@ class Recorder:
         self._choose()
         self.bearing.data.events.fill[0] = 0
         self.bearing.data.events.pushed_most[...] = 0.0  # as in a run that is resumed here
+        self.bearing.data.between.fill[:] = 0
+        self.bearing.data.between.clock[:] = -np.inf
         logs, sample, outcome = [], 0, DONE
         log, used = np.zeros((LOG_ROWS, len(LOG_COLUMNS))), 0
         for stop in [*self._corners(times[-1]), times[-1]]:
@@ -228,7 +232,10 @@ class Recorder:
             fine = self._fine(yds[: done * ratio], done * ratio)
             steps = dict(zip(LOG_COLUMNS, np.concatenate(logs).T, strict=True))
             checkpoint = self._checkpoint() if whole else None
-            self.store.write_block(index, arrays, fine, checkpoint, steps, self._events())
+            self.store.write_block(
+                index, arrays, fine, checkpoint,
+                {"steps": steps, "events": self._events(), **self._loads()},
+            )  # fmt: skip
         if deep:
             if done:
                 last = ratio * done - 1
@@ -296,6 +303,24 @@ class Recorder:
             "element": rows[:, 1].astype(np.int16),
             "place": rows[:, 2].astype(np.int8),
             "closed": rows[:, 3].astype(np.int8),
+        }
+
+    def _loads(self) -> dict[str, dict[str, np.ndarray]]:
+        """The table of loads at steps; none of a cage that has no stress."""
+        b = self.bearing.data.between
+        if not self._keeps_loads:
+            return {}
+        n, rows = b.fill
+        small = np.float32  # as forces at samples
+        return {
+            LOADS: {
+                "time": b.time[:n].copy(),
+                "modes": b.modes[:n].copy(),
+                "land": b.land[:n].astype(small),
+                "touched": b.touched[:n].astype(np.int16),
+                "face": b.face[:rows].astype(np.int16),
+                "force": b.force[:rows].astype(small),
+            }
         }
 
     def _parts(self) -> dict[str, np.ndarray]:

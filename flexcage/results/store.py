@@ -40,7 +40,10 @@ if TYPE_CHECKING:
 FORMAT = 2  # of variables, labels, checkpoints and modal coordinates; old ones are not read
 SIDE = "_run"  # folder beside the arrays: commit, checkpoint, steps, events
 LAST = "last_state.npz"  # in SIDE, of a run whose solver stopped
+LOADS = "loads"  # table of what moves and pushes a flexible cage at steps between samples
+_EVERY = ("steps", "events")  # tables that every run has
 _NOTHING: Mapping[str, np.ndarray] = {}
+_NO_TABLES: Mapping[str, Arrays] = {}
 
 
 class MemoryRunStore:
@@ -53,7 +56,7 @@ class MemoryRunStore:
         self._commit: dict[str, Any] = {"blocks": 0, "n_time": 0, "n_time_hf": 0}
         self._checkpoint: dict[str, np.ndarray] | None = None
         self._last: dict[str, np.ndarray] | None = None
-        self._tables: dict[str, dict[int, dict[str, np.ndarray]]] = {"steps": {}, "events": {}}
+        self._tables: dict[str, dict[int, dict[str, np.ndarray]]] = {}
         self._data: dict[str, np.ndarray] = {}
         self._allocate()
 
@@ -88,15 +91,14 @@ class MemoryRunStore:
         arrays: Arrays,
         hf_arrays: Arrays | None = None,
         checkpoint: Mapping[str, Any] | None = None,
-        steps: Arrays | None = None,
-        events: Arrays | None = None,
+        tables: Mapping[str, Arrays] = _NO_TABLES,
     ) -> None:
         """Store and commit block ``index``: arrays (samples of the block, ...) by variable name.
 
         A block shorter than the grid's span (a run that stopped in its middle) is kept, but
         counts as open: pass no checkpoint with it, for a resumed run writes it again in full
-        from the checkpoint of the block before. ``steps`` and ``events`` are tables of any
-        length, one array a column.
+        from the checkpoint of the block before. ``tables`` of any length, one array a column:
+        "steps", "events", and ``LOADS`` of a flexible cage.
         """
         if index != self.blocks or index >= self.layout.n_blocks:
             raise ValueError(f"block {index} out of order: next is {self.blocks}")
@@ -109,14 +111,16 @@ class MemoryRunStore:
             commit[key] = done
             if grid == TIME and done == stop:
                 commit["blocks"] = index + 1
-        self._store(index, {**main, **fine}, commit, checkpoint, steps or {}, events or {})
+        given = {**dict.fromkeys(_EVERY, _NOTHING), **tables}
+        self._store(index, {**main, **fine}, commit, checkpoint, given)
 
-    def _store(self, index, data, commit, checkpoint, steps, events) -> None:
+    def _store(self, index, data, commit, checkpoint, tables) -> None:
         for name, values in data.items():
             start = self._start(index, name)
             self._data[name][start : start + len(values)] = values
-        self._tables["steps"][index] = {k: np.array(v) for k, v in steps.items()}
-        self._tables["events"][index] = {k: np.array(v) for k, v in events.items()}
+        for kind, table in tables.items():
+            kept = self._tables.setdefault(kind, {})
+            kept[index] = {k: np.array(v) for k, v in table.items()}
         if checkpoint is not None:
             self._checkpoint = {k: np.array(v) for k, v in checkpoint.items()}
         self._commit = commit
@@ -158,9 +162,20 @@ class MemoryRunStore:
         """Events of all committed blocks, one array a column."""
         return self._table("events")
 
+    def loads(self, block: int) -> dict[str, np.ndarray]:
+        """What moves and pushes a flexible cage at steps of a block, a table: ``time`` [s],
+        ``modes``, ``land`` [N], the rows ``touched`` of each step, and of these ``face`` (its
+        pocket and number) and ``force`` [N]. Empty for a rigid cage, and for a run that an earlier
+        flexcage made."""
+        return self._block_table(LOADS, block)
+
     def _table(self, kind: str) -> dict[str, np.ndarray]:
-        parts = [self._tables[kind][i] for i in sorted(self._tables[kind])]
-        return joined(parts)
+        partial = self.n_time > self.layout.span(self.blocks, TIME)[0]
+        count = self.blocks + int(partial)
+        return joined(self._block_table(kind, i) for i in range(count))
+
+    def _block_table(self, kind: str, block: int) -> dict[str, np.ndarray]:
+        return self._tables.get(kind, {}).get(block, {})
 
 
 class RunStore(MemoryRunStore):
@@ -213,8 +228,8 @@ class RunStore(MemoryRunStore):
         with disk(path, 0):
             group = _create_arrays(path, layout)
             commit = {"format": FORMAT, "blocks": 0, "n_time": 0, "n_time_hf": 0, "checkpoint": ""}
-            (path / SIDE / "steps").mkdir(parents=True)
-            (path / SIDE / "events").mkdir()
+            for kind in _EVERY:
+                (path / SIDE / kind).mkdir(parents=True)
             replace(path / SIDE / "commit.json", json.dumps(commit).encode())
         return cls(path, layout, commit, group)
 
@@ -249,14 +264,15 @@ class RunStore(MemoryRunStore):
         _check_whole(path, layout, commit)
         return cls(path, layout, commit, group)
 
-    def _store(self, index, data, commit, checkpoint, steps, events) -> None:
+    def _store(self, index, data, commit, checkpoint, tables) -> None:
         side = self.path / SIDE
         with disk(self.path, self.n_time):
             for name, values in data.items():
                 start = self._start(index, name)
                 self._group[name][start : start + len(values)] = values
-            save(side / "steps" / f"{index:06d}.npz", steps)
-            save(side / "events" / f"{index:06d}.npz", events)
+            for kind, table in tables.items():
+                (side / kind).mkdir(exist_ok=True)
+                save(_table_file(side, kind, index), table)
             if checkpoint is not None:
                 commit["checkpoint"] = f"checkpoint-{index + 1:06d}.npz"
                 save(side / commit["checkpoint"], checkpoint)
@@ -286,12 +302,12 @@ class RunStore(MemoryRunStore):
     def last(self) -> dict[str, np.ndarray] | None:
         return self._load(LAST) if (self.path / SIDE / LAST).exists() else None
 
-    def _table(self, kind: str) -> dict[str, np.ndarray]:
-        partial = self.n_time > self.layout.span(self.blocks, TIME)[0]
-        count = self.blocks + int(partial)
-        return joined(self._load(f"{kind}/{i:06d}.npz") for i in range(count))
+    def _block_table(self, kind: str, block: int) -> dict[str, np.ndarray]:
+        if not (self.path / SIDE / kind).is_dir():
+            return {}
+        return self._load(_table_file(Path(), kind, block))
 
-    def _load(self, name: str) -> dict[str, np.ndarray]:
+    def _load(self, name: str | Path) -> dict[str, np.ndarray]:
         """Arrays of a file of ``SIDE``."""
         try:
             return load(self.path / SIDE / name)
@@ -412,10 +428,15 @@ def _check_whole(path: Path, layout: Layout, commit: Mapping[str, Any]) -> None:
         for k in range(count):
             if not path.joinpath(v.name, "c", str(k), *rest).exists():
                 raise _damaged(path, f"lacks samples of the array '{v.name}'")
-    for kind in ("steps", "events"):
+    side = path / SIDE
+    for kind in (*_EVERY, *([LOADS] if (side / LOADS).is_dir() else [])):
         for k in range(commit["blocks"]):
-            if not (path / SIDE / kind / f"{k:06d}.npz").exists():
+            if not _table_file(side, kind, k).exists():
                 raise _damaged(path, f"lacks the {kind} of block {k}")
+
+
+def _table_file(side: Path, kind: str, block: int) -> Path:
+    return side / kind / f"{block:06d}.npz"
 
 
 def _damaged(path: Path, what: str) -> InputError:

@@ -18,7 +18,7 @@ data,
 
     rates(t, y, yd, data, power)         y' -> yd, what follows from y -> the rest of y, quadrature
                                          integrands -> power
-    note(t, data)                        the point evaluated last was accepted
+    note(t, y, data)                     the point evaluated last, of this y, was accepted
     sample(sample, t, y, yd, data)       y at sampling time t, by dense output; may complete both
     wanted(sample, data)                 whether the oscillators are of interest at a sampling time
 
@@ -157,7 +157,7 @@ def advance(fns, data, st, opt, t_end, times, ys, yds, first, log, quads):
     if real[ERROR] == 0.0:  # the start counts as accepted
         real[ERROR] = 1.0
         rates(real[T], y, K[0], data, power[0])
-        note(real[T], data)
+        note(real[T], y, data)
     while real[T] < t_end:
         if row >= log.shape[0]:
             return LOG_FULL, sample, row
@@ -210,7 +210,7 @@ def advance(fns, data, st, opt, t_end, times, ys, yds, first, log, quads):
         real[T] = t_new
         count[STEPS] += 1
         count[EXPLICIT] += 1
-        note(t_new, data)
+        note(t_new, stage, data)
         while sample < times.shape[0] and times[sample] <= t_new + 1e-12 * h:
             x = 1.0 - (t_new - times[sample]) / h
             hermite(x, h, y, K[0], stage, K[4], ys[sample], yds[sample])

@@ -195,12 +195,14 @@ def place_fatigue(
     curve: SNCurve,
     windows: Windows,
     *,
+    samples: np.ndarray,
     step: float,
     turn: float,
 ) -> Fatigue:
     """Fatigue by the counted stresses of places, each with its mesh vertex.
 
-    ``windows`` cut the samples, ``step`` [s] apart; ``turn`` [s] is the time of a turn of the cage.
+    ``windows`` cut the samples, ``step`` [s] apart; ``samples`` (nt,) are those at or after each
+    instant of the stresses; ``turn`` [s] is the time of a turn of the cage.
     """
     require_pylife()
     loops = [count(counted.stress) for _, counted in stresses.values()]
@@ -210,7 +212,7 @@ def place_fatigue(
     totals = np.array([each.sum() for each in damages])
     even = equivalent_amplitude(totals / time * turn, curve)
     places = [
-        _place(name, at, cycles, each, amplitude, windows, time)
+        _place(name, at, cycles, each, amplitude, windows, samples[cycles.sample], time)
         for (name, at), cycles, each, amplitude in zip(stresses.items(), loops, damages, even)
     ]
     return Fatigue(curve, time, tuple(places))
@@ -218,10 +220,10 @@ def place_fatigue(
 
 def _place(
     name: str, at: tuple[int, CountedStress], loops: Loops, each: np.ndarray, amplitude: float,
-    windows: Windows, time: float,
+    windows: Windows, begun: np.ndarray, time: float,
 ) -> PlaceFatigue:  # fmt: skip
     vertex, counted = at
-    rate = np.bincount(loops.sample, each, windows.samples) * (windows.samples / time)
+    rate = np.bincount(begun, each, windows.samples) * (windows.samples / time)
     largest = int(np.argmax(loops.high - loops.low)) if len(loops) else -1
     ends = (loops.low[largest], loops.high[largest]) if len(loops) else (counted.stress[0],) * 2
     total = float(each.sum())

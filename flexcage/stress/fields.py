@@ -11,8 +11,9 @@ all six stresses at chosen vertices.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from functools import cached_property
+from typing import Protocol
 
 import numpy as np
 
@@ -24,6 +25,55 @@ from flexcage.stress.places import contact_zone, root_places
 from flexcage.stress.recovery import StressRecovery
 
 _TOGETHER = 33  # right-hand sides of land forces that are solved at once
+
+
+class Tables(Protocol):
+    """Fields of unit coordinates and forces at points: columns of ``parts`` numbers for each."""
+
+    parts: int
+
+    @property
+    def modes(self) -> np.ndarray: ...
+    @property
+    def forces(self) -> np.ndarray: ...
+    @property
+    def land_forces(self) -> np.ndarray: ...
+
+
+class SomePoints:
+    """The tables of some points of others, taken when first asked for."""
+
+    def __init__(self, whole: Tables, points: np.ndarray) -> None:
+        self._whole, self._points, self.parts = whole, points, whole.parts
+
+    def _at(self, table: np.ndarray) -> np.ndarray:
+        columns = table.shape[1]
+        return table.reshape(self.parts, -1, columns)[:, self._points].reshape(-1, columns)
+
+    @cached_property
+    def modes(self) -> np.ndarray:
+        return self._at(self._whole.modes)
+
+    @cached_property
+    def forces(self) -> np.ndarray:
+        return self._at(self._whole.forces)
+
+    @cached_property
+    def land_forces(self) -> np.ndarray:
+        return self._at(self._whole.land_forces)
+
+
+class Gauges(SomePoints):
+    """The tables of some points of every place, one place after the other."""
+
+    def __init__(self, whole: Tables, points: Sequence[np.ndarray]) -> None:
+        super().__init__(whole, np.concatenate(points))
+        self._first = np.cumsum([0, *(len(own) for own in points)])[:-1]
+
+    def largest(self, parts: np.ndarray) -> np.ndarray:
+        """Largest equivalent stress (nt, n_places) of deviators (5, n_points, nt), whose place it
+        takes."""
+        return np.maximum.reduceat(_equivalent(parts), self._first, axis=0).T
 
 
 class UnitFields:
@@ -41,6 +91,10 @@ class UnitFields:
     def _parts(self, stress: np.ndarray) -> np.ndarray:
         """What is kept (..., parts) of stresses (..., 6)."""
         return stress
+
+    def at(self, points: np.ndarray) -> SomePoints:
+        """The fields at some of the points, by their numbers."""
+        return SomePoints(self, points)
 
     @cached_property
     def modes(self) -> np.ndarray:
@@ -181,8 +235,19 @@ class StressFields(UnitFields):
     def equivalent(self, parts: np.ndarray) -> np.ndarray:
         """Equivalent stress (n_surface, nt) of deviators (5, n_points, nt), whose place it takes:
         the largest of a vertex's points."""
-        np.square(parts, out=parts)
-        return self._stress.largest(np.sqrt(parts.sum(axis=0)))
+        return self._stress.largest(_equivalent(parts))
+
+    def gauges(self, vertices: Sequence[np.ndarray]) -> Gauges:
+        """The fields at some vertices of every place, rows of ``surface``."""
+        first = np.searchsorted(self.vertices, self.surface)
+        end = np.append(first[1:], len(self.vertices))
+        points = [np.concatenate([np.arange(first[v], end[v]) for v in own]) for own in vertices]
+        return Gauges(self, points)
+
+
+def _equivalent(parts: np.ndarray) -> np.ndarray:
+    np.square(parts, out=parts)
+    return np.sqrt(parts.sum(axis=0))
 
 
 class TensorFields(UnitFields):

@@ -1,4 +1,8 @@
-"""Equivalent stress over a history: followed places, the peak of every sample, the envelope."""
+"""Equivalent stress over a history: followed places, peaks between samples, the envelope.
+
+Stress is computed at samples, and at steps of the solver between them: there at the named places
+alone, and over the whole surface at the step at which the places' largest is greatest.
+"""
 
 from __future__ import annotations
 
@@ -7,10 +11,12 @@ from dataclasses import dataclass
 from typing import Any, Protocol
 
 import numpy as np
+import scipy.sparse as sp
 
 from flexcage.core.progress import Silent
 from flexcage.core.threads import on_all_cores
-from flexcage.stress.fields import StressFields, TensorFields, UnitFields
+from flexcage.stress.between import Loads, Steps, no_steps, together
+from flexcage.stress.fields import StressFields, Tables, TensorFields
 
 _BLOCK = 256  # samples at a time: their stresses stay near the processor
 _READ = 4096  # samples at a time of what is read and reduced only
@@ -25,15 +31,19 @@ class Sliced(Protocol):
 
 @dataclass(frozen=True)
 class StressHistory:
-    """Equivalent stresses [Pa] over samples; ``surface`` numbers the mesh vertices looked at."""
+    """Equivalent stresses [Pa] over samples; ``surface`` numbers the mesh vertices looked at.
+
+    With steps between samples, ``places`` and ``peak`` are the largest since the sample before.
+    """
 
     surface: np.ndarray  # (n_surface,) vertex numbers
     place_names: tuple[str, ...]
     places: np.ndarray  # (nt, n_places) largest at each place
     peak: np.ndarray  # (nt,) largest outside the contact zone of ``places.contact_zone``
     peak_vertex: np.ndarray  # (nt,) mesh vertex of it
-    envelope: np.ndarray  # (n_surface,) largest over the settled samples
-    envelope_sample: np.ndarray  # (n_surface,) sample of it
+    peak_time: np.ndarray  # (nt,) [s] of a step between samples at which it is; else NaN
+    at_sample: np.ndarray  # (nt,) largest at the sample itself
+    envelope: np.ndarray  # (n_surface,) largest over settled samples and steps with a peak
     settled: int = 0  # first sample of the settled part
 
     @property
@@ -60,8 +70,9 @@ class _Block:
     places: np.ndarray  # (block, n_places)
     peak: np.ndarray  # (block,)
     where: np.ndarray  # (block,) mesh vertex of the peak
-    envelope: np.ndarray  # (n_surface,) largest over the settled samples; 0 if there is none
-    when: np.ndarray  # (n_surface,) sample of it
+    when: np.ndarray  # (block,) [s] of a step between samples, or NaN
+    sampled: np.ndarray  # (block,)
+    envelope: np.ndarray  # (n_surface,) as of the whole; 0 if nothing is settled
 
 
 def equivalent_stress(
@@ -75,10 +86,8 @@ def equivalent_stress(
     Over nt samples: modal coordinates (nt, n), station forces (nt, Z, F, n_st, 3) and land forces
     (nt, 2, n_land, 3) [N], components (x, r, psi) of the pockets' and land stations' frames.
     """
-    parts = _superposed(
-        fields, slice(None), q, fields.reduced_forces(station_forces), _land(land_forces, len(q))
-    )
-    return fields.equivalent(parts)
+    loads = fields.reduced_forces(station_forces)
+    return fields.equivalent(_superposed(fields, q, loads, _land(land_forces, len(q))))
 
 
 def tensor_histories(
@@ -88,16 +97,42 @@ def tensor_histories(
     land_forces: Sliced | None = None,
     *,
     places: Iterable[str],
-) -> Iterator[tuple[str, np.ndarray]]:
-    """Name and stresses (6, n, nt) [Pa] of every place, at its n points: xx, yy, zz, xy, yz, xz
-    in the cage's frame. Other arguments as in ``equivalent_stress``."""
-    parts = [slice(first, first + _READ) for first in range(0, len(q), _READ)]
-    loads = np.concatenate([fields.reduced_forces(np.asarray(station_forces[p])) for p in parts])
-    moved, land = np.asarray(q[:]), None
-    if land_forces is not None:
-        land = _land(np.asarray(land_forces[:]), len(q))
-    for name in places:
-        yield name, _superposed(fields, fields.places[name], moved, loads, land)
+    between: Steps = no_steps,
+) -> tuple[np.ndarray, Iterator[tuple[str, np.ndarray]]]:
+    """Samples (n,) that end the intervals of n instants, and by name the stresses (6, m, n) [Pa] of
+    every place at its m points: xx, yy, zz, xy, yz, xz in the cage's frame.
+
+    Instants are samples and the steps between them; arguments as in ``stress_history``.
+    """
+    samples, moved, pushed, lands = [], [], [], []
+    for first in range(0, len(q), _READ):
+        part = slice(first, min(first + _READ, len(q)))
+        number = np.arange(part.start, part.stop)
+        land = np.zeros((len(number), 0)) if land_forces is None else np.asarray(land_forces[part])
+        every = Loads(
+            number, np.full(len(number), np.inf), np.asarray(q[part]),
+            np.asarray(station_forces[part]), land,
+        )  # fmt: skip
+        if (steps := between(part.start, part.stop)) is not None:
+            every = together([every, steps if land_forces is not None else steps.off_lands()])
+        every = every.only(np.lexsort((every.time, every.sample)))  # steps, then their sample
+        samples.append(every.sample)
+        moved.append(every.modes)
+        loads = fields.reduced_forces(every.stations)
+        pushed.append(sp.csr_array(loads.astype(np.float32)))  # few pockets are touched at a time
+        lands.append(every.lands)
+    modes, loads, land = (
+        np.concatenate(moved),
+        sp.vstack(pushed, format="csr"),
+        np.concatenate(lands),
+    )
+    of_lands = _land(land, len(land))
+
+    def histories() -> Iterator[tuple[str, np.ndarray]]:
+        for name in places:
+            yield name, _superposed(fields.at(fields.places[name]), modes, loads, of_lands)
+
+    return np.concatenate(samples), histories()
 
 
 def _land(forces: np.ndarray | None, samples: int) -> np.ndarray | None:
@@ -106,31 +141,98 @@ def _land(forces: np.ndarray | None, samples: int) -> np.ndarray | None:
 
 
 def _superposed(
-    fields: UnitFields,
-    points: slice | np.ndarray,
-    q: np.ndarray,
-    loads: np.ndarray,
-    land: np.ndarray | None,
+    fields: Tables, q: np.ndarray, loads: np.ndarray | sp.csr_array, land: np.ndarray | None
 ) -> np.ndarray:
-    """Parts (parts, n, nt) of the stress at some of the fields' points."""
-
-    def at(table: np.ndarray) -> np.ndarray:
-        columns = table.shape[1]
-        return table.reshape(fields.parts, -1, columns)[:, points].reshape(-1, columns)
-
-    sums = at(fields.modes) @ q.T.astype(np.float32)
-    sums += _loaded(at(fields.forces), loads)
+    """Parts (parts, n_points, nt) of the stress."""
+    sums = fields.modes @ q.T.astype(np.float32)
+    sums += _loaded(fields.forces, loads)
     if land is not None:
-        sums += _loaded(at(fields.land_forces), land)
+        sums += _loaded(fields.land_forces, land)
     return sums.reshape(fields.parts, -1, sums.shape[1])
 
 
-def _loaded(fields: np.ndarray, loads: np.ndarray) -> np.ndarray:
+def _stress_of(
+    fields: Tables, reduced: Callable[[np.ndarray], np.ndarray], steps: Loads
+) -> np.ndarray:
+    """Parts (parts, n_points, nt) of the stress at steps."""
+    return _superposed(fields, steps.modes, reduced(steps.stations), _land(steps.lands, len(steps)))
+
+
+def _loaded(fields: np.ndarray, loads: np.ndarray | sp.csr_array) -> np.ndarray:
     """Fields (rows, m) times loads (nt, m), over those columns alone that carry a load."""
+    if isinstance(loads, sp.csr_array):
+        return (loads @ np.ascontiguousarray(fields.T)).T
     used = np.flatnonzero(np.any(loads, axis=0))
     if len(used) < 0.7 * fields.shape[1]:
         fields, loads = fields[:, used], loads[:, used]
     return fields @ loads.T.astype(np.float32)
+
+
+class _Search:
+    """Looks for the largest stresses in blocks of samples, and at the steps between them."""
+
+    def __init__(self, fields: StressFields, settled: int) -> None:
+        self.fields, self.settled = fields, settled
+        self._slots = [np.searchsorted(fields.surface, v) for v in fields.places.values()]
+
+    def at_samples(self, values: np.ndarray, first: int) -> _Block:
+        """The block of samples from ``first`` on that have these stresses (n_surface, nt)."""
+        count = values.shape[1]
+        peak, where = self._peaks(values)
+        none = np.full(count, np.nan)
+        block = _Block(self._places(values), peak, where, none, peak.copy(), np.zeros(len(values)))
+        self._keep_envelope(block, values, first + np.arange(count))
+        return block
+
+    def between(self, block: _Block, values: np.ndarray, steps: Loads, first: int) -> None:
+        """Add steps to a block, of whose samples these were the stresses.
+
+        Places are looked at first, and of these the vertices that are largest at any sample. Where
+        they show more at a step than at the samples beside it, the whole surface is looked at.
+        """
+        at = steps.sample - first
+        watched = [slot[np.unique(np.argmax(values[slot], axis=0))] for slot in self._slots]
+        if not watched:
+            return
+        gauges = self.fields.gauges(watched)
+        found = gauges.largest(_stress_of(gauges, self.fields.reduced_forces, steps))
+        beside = block.places.max(axis=1)
+        beside[1:] = np.maximum(beside[1:], beside[:-1])
+        np.maximum.at(block.places, at, found)
+        largest = found.max(axis=1)
+        order = np.lexsort((largest, at))
+        chosen = order[np.append(np.diff(at[order]) > 0, True)]  # before each sample, the largest
+        chosen = chosen[largest[chosen] > beside[at[chosen]]]
+        if not len(chosen):
+            return
+        steps, at = steps.only(chosen), at[chosen]
+        fields = self.fields
+        values = fields.equivalent(_stress_of(fields, fields.reduced_forces, steps))
+        np.maximum.at(block.places, at, self._places(values))
+        self._keep_envelope(block, values, steps.sample)
+        peak, where = self._peaks(values)
+        higher = peak > block.peak[at]
+        at = at[higher]
+        block.peak[at], block.where[at] = peak[higher], where[higher]
+        block.when[at] = steps.time[higher]
+
+    def _places(self, values: np.ndarray) -> np.ndarray:
+        """Largest of stresses (n_surface, nt) at every place (nt, n_places)."""
+        places = np.zeros((values.shape[1], len(self._slots)), np.float32)
+        for i, slot in enumerate(self._slots):
+            places[:, i] = values[slot].max(axis=0)
+        return places
+
+    def _peaks(self, values: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Largest of the searched vertices' stresses, and the vertices, all (nt,)."""
+        fields = self.fields
+        searched = values[fields.searched]
+        vertex = fields.surface[fields.searched[np.argmax(searched, axis=0)]]
+        return searched.max(axis=0), vertex
+
+    def _keep_envelope(self, block: _Block, values: np.ndarray, sample: np.ndarray) -> None:
+        if (late := sample >= self.settled).any():
+            np.maximum(block.envelope, values[:, late].max(axis=1), out=block.envelope)
 
 
 def stress_history(
@@ -140,15 +242,16 @@ def stress_history(
     land_forces: Sliced | None = None,
     *,
     settled: int = 0,
+    between: Steps = no_steps,
     progress: Callable[..., Any] = Silent,
 ) -> StressHistory:
     """Places and peaks over samples, the envelope from sample ``settled`` on.
 
     Other arguments as in ``equivalent_stress``, but read block by block, so that a long run may
-    stay on disk. Blocks of samples are spread over the cores; ``progress`` is a context like
-    ``core.progress.Progress``.
+    stay on disk. ``between`` gives the steps between samples (``between.Between``). Blocks of
+    samples are spread over the cores; ``progress`` is a context like ``core.progress.Progress``.
     """
-    slots = [np.searchsorted(fields.surface, v) for v in fields.places.values()]
+    search = _Search(fields, settled)
 
     def work(first: int) -> _Block:
         part = slice(first, min(first + _BLOCK, len(q)))
@@ -156,19 +259,13 @@ def stress_history(
         values = equivalent_stress(
             fields, np.asarray(q[part]), np.asarray(station_forces[part]), land
         )
-        places = np.zeros((values.shape[1], len(slots)), np.float32)
-        for i, slot in enumerate(slots):
-            places[:, i] = values[slot].max(axis=0)
-        searched = values[fields.searched]
-        where = fields.surface[fields.searched[np.argmax(searched, axis=0)]]
-        skip = max(settled - first, 0)
+        block = search.at_samples(values, first)
+        steps = between(part.start, part.stop)
+        if steps is not None:
+            steps = steps if land_forces is not None else steps.off_lands()
+            search.between(block, values, steps, first)
         bar.advance()
-        if skip >= values.shape[1]:
-            none = np.zeros(len(values))
-            return _Block(places, searched.max(axis=0), where, none, none.astype(int))
-        best = skip + np.argmax(values[:, skip:], axis=1)
-        envelope = values[np.arange(len(values)), best]
-        return _Block(places, searched.max(axis=0), where, envelope, first + best)
+        return block
 
     starts = range(0, len(q), _BLOCK)
     with progress(len(starts), "stress") as bar:
@@ -176,15 +273,14 @@ def stress_history(
         if land_forces is not None:
             _ = fields.land_forces
         blocks = on_all_cores(work, starts)
-    envelopes = np.stack([block.envelope for block in blocks])
-    largest = (np.argmax(envelopes, axis=0), np.arange(len(fields.surface)))
     return StressHistory(
         surface=fields.surface,
         place_names=tuple(fields.places),
         places=np.concatenate([block.places for block in blocks]),
         peak=np.concatenate([block.peak for block in blocks]),
         peak_vertex=np.concatenate([block.where for block in blocks]),
-        envelope=envelopes[largest],
-        envelope_sample=np.stack([block.when for block in blocks])[largest],
+        peak_time=np.concatenate([block.when for block in blocks]),
+        at_sample=np.concatenate([block.sampled for block in blocks]),
+        envelope=np.max([block.envelope for block in blocks], axis=0),
         settled=settled,
     )

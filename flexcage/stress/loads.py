@@ -29,7 +29,12 @@ def _with_lands(ds: xarray.Dataset) -> xarray.Dataset:
 def land_station_forces(ds: xarray.Dataset, *, inner: bool) -> np.ndarray:
     """Land forces of every sample (nt, 2, n_land, 3) on the stations of the inner and the outer
     land, components (x, r, psi), those on the land that guides the cage."""
-    force = _with_lands(ds)[LANDS].values
+    return on_lands(_with_lands(ds)[LANDS].values, inner=inner)
+
+
+def on_lands(force: np.ndarray, *, inner: bool) -> np.ndarray:
+    """Forces (nt, n_land, 2) of the guiding land, components (r, psi), as
+    ``land_station_forces``."""
     out = np.zeros((len(force), 2, force.shape[1], 3))
     out[:, 0 if inner else 1, :, 1:] = force
     return out

@@ -2,8 +2,8 @@
 
 A ball's coordinates are (x, r, psi) of its centre and the angles that it has turned about the axes
 of its orbiting frame F = (e_x, e_r, e_psi); its velocities are those of its centre and its angular
-velocity, both in F. ``mode``: 0 residual, 2 also the whole report, 3 without its stations; there
-is no tangent.
+velocity, both in F. ``mode``: 0 residual, 2 also the whole report, 3 without what only samples
+want; there is no tangent.
 """
 
 from __future__ import annotations
@@ -173,7 +173,7 @@ def _report_pocket(i, hit, sums, pw, rep, mode):
     rep.approach[i, 2] = sums[4]
     rep.pocket_normal[i, 0] = pw.normal[0]
     rep.pocket_friction[i, 0] = pw.tangential[0]
-    if mode == 2 and pw.normal[0] > 0.0:
+    if pw.normal[0] > 0.0:
         copy_into(rep.station[i], pw.st)
     elif mode == 2:
         zero(rep.station[i])

@@ -25,8 +25,8 @@ def parts_type(name: str, model: type) -> Any:
     """
     own: Any = model
     groups = (
-        *own._fields, "memory", *Work._fields, "matrix", "events", "samples", "rates",
-        "constraints",
+        *own._fields, "memory", *Work._fields, "matrix", "events", "samples", "between",
+        "rates", "constraints",
     )  # fmt: skip
     return namedtuple(name, groups, module=__name__)
 

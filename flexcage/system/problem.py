@@ -44,6 +44,7 @@ from flexcage.system.spec import Constraint
 
 ITERATIONS = 40  # of the spectral radius
 NUDGE = 5e-12  # [m] over which it takes differences
+STEPS_BETWEEN = 10  # at the most, of those kept for the cage's stress between two samples
 _REAL, _COUNT = types.float64, types.int64
 _VECTOR, _MATRIX = types.Array(types.float64, 1, "C"), types.Array(types.float64, 2, "C")
 _NONE, _FLAG = types.void, types.boolean
@@ -57,7 +58,7 @@ PROBLEM: dict[str, tuple[Callable[..., Any], tuple[Any, ...]]] = {
     "rates": (rates.rates, (_NONE, _REAL, _VECTOR, _VECTOR, None, _VECTOR)),
     "powers": (sampling.powers, (_NONE, _VECTOR, None, _VECTOR)),
     "settle": (sampling.settle, (_NONE, _REAL, _VECTOR, None)),
-    "note": (sampling.note, (_NONE, _REAL, None)),
+    "note": (sampling.note, (_NONE, _REAL, _VECTOR, None)),
     "wanted": (sampling.wanted, (_FLAG, _COUNT, None)),
     "sample": (rates.sample, (_NONE, _COUNT, _REAL, _VECTOR, _VECTOR, None)),
 }
@@ -97,6 +98,21 @@ class Samples(NamedTuple):
     force: np.ndarray  # (n * stride, 2) on the outer ring, fine grid
 
 
+class Between(NamedTuple):
+    """What moves and pushes a flexible cage at accepted steps, one block of them; forces on the
+    faces of pockets that are touched, one row a face."""
+
+    time: np.ndarray  # (n,)
+    modes: np.ndarray  # (n, nm)
+    land: np.ndarray  # (n, nl, 2)
+    touched: np.ndarray  # (n,) rows of each step
+    face: np.ndarray  # (n Z faces, 2) its pocket and its number there
+    force: np.ndarray  # (n Z faces, nst, 3)
+    fill: np.ndarray  # (2,) steps and rows so far
+    clock: np.ndarray  # (2,) [s] steps before the first are too close, after the second too late
+    spacing: np.ndarray  # (2,) [s] least time between steps, and how long after a touch
+
+
 class BearingData(NamedTuple):
     model: Any
     memory: Memory
@@ -104,6 +120,7 @@ class BearingData(NamedTuple):
     matrix: Bordered
     events: Events
     samples: Samples
+    between: Between
     rates: RatesWork
     constraints: Constraints
 
@@ -111,8 +128,8 @@ class BearingData(NamedTuple):
 def parts(data: BearingData) -> Any:
     """References to the groups of arrays of a bearing, as the compiled functions receive them."""
     groups = (
-        *data.model, data.memory, *data.work, data.matrix, data.events, data.samples, data.rates,
-        data.constraints,
+        *data.model, data.memory, *data.work, data.matrix, data.events, data.samples,
+        data.between, data.rates, data.constraints,
     )  # fmt: skip
     return family_of(data.model).parts(*(boxed(group) for group in groups))
 
@@ -122,6 +139,17 @@ def new_samples(n: int, stride: int, report: Report) -> Samples:
     kept = {k: np.zeros((n, *getattr(report, k).shape)) for k in Samples._fields[1:-2]}
     peak = np.zeros((n, *report.pocket_normal.shape))
     return Samples(stride=stride, **kept, pocket_peak=peak, force=np.zeros((n * stride, 2)))
+
+
+def new_between(n: int, interval: float, modes: int, report: Report) -> Between:
+    """Room for the steps of a block of n samples, ``interval`` [s] apart; none without modes."""
+    steps, z = (n * STEPS_BETWEEN if modes else 0), np.zeros
+    rows = steps * report.pocket_normal.size
+    return Between(
+        z(steps), z((steps, modes)), z((steps, *report.land_station.shape)), z(steps, np.int64),
+        z((rows, 2), np.int64), z((rows, *report.station.shape[2:])), z(2, np.int64),
+        np.full(2, -np.inf), np.array([interval / STEPS_BETWEEN, interval]),
+    )  # fmt: skip
 
 
 def law_functions(contacts: Contacts) -> tuple:
@@ -144,6 +172,7 @@ class Bearing:
     def __init__(
         self, model: Any, contacts: Contacts, layout: Layout, *,
         constraints: Sequence[Constraint] = (), block: int = 250, stride: int = 4,
+        interval: float = 20e-6,
     ) -> None:  # fmt: skip
         """``layout.held`` holds the ``constraints.names_of`` the constraints."""
         model = model._replace(cage=marked(model.cage))
@@ -161,6 +190,7 @@ class Bearing:
                 np.zeros_like(work.report.pocket_normal),
             ),
             new_samples(block, stride, work.report),
+            new_between(block, interval, layout.modes, work.report),
             new_rates_work(model.cage.mff),
             held,
         )  # fmt: skip

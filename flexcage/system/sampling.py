@@ -42,18 +42,20 @@ def settle(t, y, data):
     data[2](t, y, y, d, data[1], fields(d.scratch).out, 4)
     for c in range(2):
         force[c] += races[c] - before[c]
-    keep_point(t, d)
+    keep_point(t, y, d)
 
 
-def note(t, data):
-    """The point evaluated last was accepted."""
-    keep_point(t, data[0])
+def note(t, y, data):
+    """The point evaluated last, of this y, was accepted."""
+    keep_point(t, y, data[0])
 
 
 @part
-def keep_point(t, d):
-    """Memory of contacts, events and force on the outer ring from the last report."""
+def keep_point(t, y, d):
+    """Memory of contacts, events, force on the outer ring and loads of the cage from the last
+    report."""
     report, events = fields(d.report), fields(d.events)
+    keep_loads(t, y, d)
     remember(t, fields(d.memory), report, events)
     for c in range(3):
         events.force[0, c] = events.force[1, c]
@@ -61,6 +63,34 @@ def keep_point(t, d):
     copy_into(events.pushed, report.pocket_normal)
     events.force[1, 0] = t
     events.force[1, 1], events.force[1, 2] = report.body_force[0], report.body_force[1]
+
+
+@part
+def keep_loads(t, y, d):
+    """Modes of y and forces on the cage while something touches it, and a while after."""
+    between, rep = fields(d.between), fields(d.report)
+    clock, spacing, n = between.clock, between.spacing, between.fill[0]
+    if n == between.time.shape[0] or t < clock[0]:
+        return
+    row = between.fill[1]
+    for i in range(rep.pocket_normal.shape[0]):
+        for f in range(rep.pocket_normal.shape[1]):
+            if rep.pocket_normal[i, f] > 0.0:
+                between.face[row, 0], between.face[row, 1] = i, f
+                copy_into(between.force[row], rep.station[i, f])
+                row += 1
+    touched = row - between.fill[1]
+    if touched > 0 or rep.land_touch[0, 0] > 0.0 or rep.land_touch[1, 0] > 0.0:
+        clock[1] = t + spacing[1]
+    if t > clock[1]:
+        return
+    first = 6 * rep.station.shape[0] + 15
+    for m in range(between.modes.shape[1]):
+        between.modes[n, m] = y[first + m]
+    copy_into(between.land[n], rep.land_station)
+    between.time[n], between.touched[n] = t, touched
+    between.fill[0], between.fill[1] = n + 1, row
+    clock[0] = t + spacing[0]
 
 
 @part

@@ -82,7 +82,9 @@ def test_round_trip(where, tmp_path):
     for i in range(store.layout.n_blocks):
         steps = {"t": np.full(3, i), "order": np.arange(3)}
         state = {"y": np.arange(4.0) + i, "order": 2, "law": "bdf"}
-        store.write_block(i, *block(store, i), state, steps, {"t": np.arange(i)})
+        store.write_block(
+            i, *block(store, i), state, {"steps": steps, "events": {"t": np.arange(i)}}
+        )
     if where == "disk":
         store = RunStore.open(tmp_path / "r.zarr")
     ds = store.dataset()
@@ -194,7 +196,9 @@ def test_a_damaged_file_of_a_run_gets_a_sentence_when_it_is_read(tmp_path, file,
     path = tmp_path / "r.zarr"
     store = make(path)
     for k in range(2):
-        store.write_block(k, *block(store, k), {"i": np.arange(9)}, {"t": np.arange(9.0)})
+        store.write_block(
+            k, *block(store, k), {"i": np.arange(9)}, {"steps": {"t": np.arange(9.0)}}
+        )
     content = bytearray((path / file).read_bytes())
     middle = len(content) // 2
     if how == "changed":
@@ -251,7 +255,7 @@ t.BLOCK, t.N = 5, 2001
 store = t.make({path!r})
 print("ready", flush=True)
 for i in range(store.layout.n_blocks):
-    store.write_block(i, *t.block(store, i), {{"i": i}}, {{"t": [float(i)]}}, {{}})
+    store.write_block(i, *t.block(store, i), {{"i": i}}, {{"steps": {{"t": [float(i)]}}}})
 """
 
 

@@ -35,6 +35,11 @@ def assert_same(ours, theirs):
         ones, others = (getattr(run.store, table)() for run in (ours, theirs))
         for column in ones:
             np.testing.assert_array_equal(ones[column], others[column], err_msg=column)
+    for block in range(ours.store.blocks):
+        ones, others = (run.store.loads(block) for run in (ours, theirs))
+        assert set(ones) == set(others)
+        for column in ones:
+            np.testing.assert_array_equal(ones[column], others[column], err_msg=column)
 
 
 @pytest.mark.parametrize(("model", "blocks"), [("rigid", 2), ("flexible", 1), ("flexible", 4)])

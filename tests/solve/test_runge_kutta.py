@@ -30,7 +30,7 @@ class Pendulum:
             yd[:] = y[1], -np.sin(y[0]) + 0.3 * np.cos(2.0 * t), 0.0
             power[:] = (0.3 * np.cos(2.0 * t) * y[1])[..., None][: len(power)]
 
-        def note(t, data):
+        def note(t, y, data):
             self.accepted.append(t)
 
         def sample(sample, t, y, yd, data):

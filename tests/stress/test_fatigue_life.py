@@ -25,7 +25,8 @@ STEP, TURN = 1e-4, 0.02
 def life_of(stress, curve=CURVE):
     windows = Windows(len(stress), np.arange(0, len(stress), 100))
     counted = {"here": (7, CountedStress(0, np.array([1.0, 0.0, 0.0]), stress))}
-    return place_fatigue(counted, curve, windows, step=STEP, turn=TURN)["here"]
+    samples = np.arange(len(stress))
+    return place_fatigue(counted, curve, windows, samples=samples, step=STEP, turn=TURN)["here"]
 
 
 def sine(amplitude, mean=0.0, cycles=50, samples=100):
@@ -134,7 +135,9 @@ def test_tensors_of_a_history_are_those_of_the_full_mesh(which, request):
     q = np.stack([quasi_static(recovery, one) for one in forces])
     fields = TensorFields(recovery)
     names = tuple(fields.places)[:5]
-    for name, tensors in tensor_histories(fields, q, forces, places=names):
+    samples, histories = tensor_histories(fields, q, forces, places=names)
+    assert list(samples) == list(range(len(q)))
+    for name, tensors in histories:
         of_place = np.isin(recovery.vertex_stress.owner, fields.vertices[fields.places[name]])
         for k, one in enumerate(forces):
             moved = recovery.displacement(CageLoads(station_forces=one))
