@@ -85,5 +85,5 @@ def _second_method(settled: Settled, times: np.ndarray) -> Forces:
         between = method.dense_output()
         ys += [full(between(t)) for t in times[len(ys) :] if t <= method.t]
         slope(method.t, method.y)
-        note(method.t, b.args)
+        note(method.t, full(method.y), b.args)
     return settled.forces(np.array(ys), np.zeros((len(ys), len(y))), times)

@@ -181,6 +181,8 @@ class Settled:
         quads = np.zeros((len(times), len(POWERS)))
         log, sample, cpu = np.zeros((50_000, 5)), 0, 0.0
         for end in [*times[BLOCK - 1 : -1 : BLOCK], times[-1]]:
+            b.data.between.fill[:] = 0  # the room that a run has for a block
+            b.data.between.clock[:] = -np.inf
             begin, options, outcome = process_time(), method.options(solver), LOG_FULL
             if method.bounded:
                 bound = b.stable_step(state.real[T], *method.last(state))

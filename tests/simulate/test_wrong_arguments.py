@@ -47,7 +47,7 @@ def test_stress_beyond_the_run(flexible, time):
 
 
 def test_times_that_are_none(flexible, tmp_path):
-    refused(lambda: flexible.stress(time=[1e-4]), "times is [[0.0001]]", "a list of times")
+    refused(lambda: flexible.stress(time=[1e-4]), "time is [0.0001], but should be a number")
     refused(lambda: flexible.stress(time="0.5"), "time is 0.5 without a unit")
     for times in (5e-4, [], "0.5 ms"):
         refused(lambda t=times: flexible.write_vtu(tmp_path / "v", times=t), "a list of times")

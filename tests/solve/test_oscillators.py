@@ -47,7 +47,7 @@ class Problem:
             yd[:] = self.f(t, y)
             power[:] = 0.0
 
-        return rates, lambda t, data: None, lambda *_: None, lambda sample, data: True
+        return rates, lambda t, y, data: None, lambda *_: None, lambda sample, data: True
 
     def run(self, method, *, end, h, tolerance=1e300, times=(), known=True):
         """The state, and y and y' at the times; ``known``: what swings is known to the method."""

@@ -149,7 +149,7 @@ class Linear:
             yd[:] = self.A @ y
             power[:] = 0.0
 
-        return rates, lambda t, data: None, lambda *_: None, lambda sample, data: True
+        return rates, lambda t, y, data: None, lambda *_: None, lambda sample, data: True
 
 
 def rotation(radius, angle):
@@ -200,7 +200,7 @@ class Wall:
             yd[:] = y[1], -self.stiffness * max(y[0], 0.0)
             power[:] = 0.0
 
-        return rates, lambda t, data: None, lambda *_: None, lambda sample, data: True
+        return rates, lambda t, y, data: None, lambda *_: None, lambda sample, data: True
 
 
 def test_a_contact_that_closes_within_a_step_is_seen(method):

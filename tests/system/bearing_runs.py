@@ -123,5 +123,5 @@ def disturbed(bearing, *, press=0.0, skew=1e-5, axial=8e-6, modal=1e-6, ring=0.0
         u["modes"][:] = 1e-3 * rng.standard_normal(bearing.layout.modes)
     power = np.zeros(len(POWERS))
     bearing.function("residual")(0.0, y, yd, bearing.args, np.zeros(len(y)), power)
-    bearing.function("note")(0.0, bearing.args)  # onset speeds
+    bearing.function("note")(0.0, y, bearing.args)  # onset speeds
     return y, yd, rng
