@@ -37,6 +37,9 @@ TOP, GAP, EDGE = 96, 84, 36
 IDLE = "#c4c8ce"  # an element that the inner race does not load
 RING, BRASS = "#8fa3b8", "#c9a253"
 LOADED_SHARE = 0.01
+_USUAL = 0.95  # share of the time in which loads lie within the colours
+_LEAST_ARC = 0.02  # rad, half of what a spall is drawn with: a small one is seen
+_SPALL_NAME = 0.42  # of an element's diameter, from a race to the word
 _FACE_COLOURS = (sheet.VERMILION, sheet.GREEN, sheet.PURPLE)
 
 
@@ -57,6 +60,7 @@ class Instant:
     cage_position: np.ndarray
     cage_quaternion: np.ndarray
     inner_position: np.ndarray
+    inner_angle: float
     inner_speed: float
     cage_speed: float
 
@@ -100,8 +104,11 @@ def bearing_title(ds: xarray.Dataset) -> str:
 
 
 def load_limit(ds: xarray.Dataset) -> float:
-    """Upper end of the colours of a run's loads [N]."""
-    return sheet.rounded_up(float(elements_in(ds).loads(ds).max()))
+    """Upper end of the colours of a run's loads [N]: what blows do not exceed for more than a
+    twentieth of the time, such as those of a spall."""
+    loads = elements_in(ds).loads(ds)
+    largest = loads.reshape(len(loads), -1).max(axis=1)
+    return sheet.rounded_up(float(np.quantile(largest, _USUAL)))
 
 
 def instant(ds: xarray.Dataset, index: int) -> Instant:
@@ -126,6 +133,7 @@ def instant(ds: xarray.Dataset, index: int) -> Instant:
         at["cage_position"].values,
         at["cage_quaternion"].values,
         at["inner_position"].values,
+        float(at["inner_angle"]),
         float(at["inner_speed"]),
         float(at["cage_omega"].sel(axis="x")),
     )
@@ -238,10 +246,35 @@ def label_bearing(
     top: float,
     load: Loads,
 ) -> None:
-    """Axes, numbers, loads and speeds on a picture of the bearing."""
+    """Axes, numbers, spalls, loads and speeds on a picture of the bearing."""
     marks.triad(ax, picture)
+    _spalls(ax, picture, now, bearing)
     _load_labels(ax, picture, now, bearing, top)
     _middle(ax, picture, now, bearing, load)
+
+
+def _spalls(ax: Any, picture: Picture, now: Instant, b: Bearing) -> None:
+    """An arc along the race, at the near end of an element, where a race has a spall."""
+    for name, turned, sign in (("inner", now.inner_angle, -1.0), ("outer", 0.0, 1.0)):
+        spall = getattr(b, f"{name}_spall", None)
+        if spall is None or not spall.length:
+            continue
+        radius = 0.5 * (b.pitch_diameter + sign * b.element_diameter)
+        half = max(0.5 * spall.length / radius, _LEAST_ARC)
+        psi = spall.azimuth + turned + np.linspace(-half, half, 25)
+        around = np.column_stack([np.zeros_like(psi), np.cos(psi), np.sin(psi)])
+        middle = (
+            np.array([element_end(b), *now.inner_position[1:]])
+            if sign < 0.0
+            else np.array([element_end(b), 0.0, 0.0])
+        )
+        x, y = picture.place(radius * around + middle).T
+        ax.plot(x, y, color=sheet.VERMILION, lw=5.0, solid_capstyle="butt",
+                path_effects=marks.halo(7.5))  # fmt: skip
+        tx, ty = picture.place((radius + sign * _SPALL_NAME * b.element_diameter) * around[12]
+                               + middle)[0]  # fmt: skip
+        ax.text(tx, ty, "spall", color=sheet.VERMILION, weight="bold", fontsize=9.5,
+                ha="center", va="center", path_effects=marks.halo(3.0))  # fmt: skip
 
 
 def _load_labels(ax: Any, picture: Picture, now: Instant, b: Bearing, top: float) -> None:
@@ -318,7 +351,9 @@ def _bars(figure: Any, left: float, now: Instant, top: float) -> None:
     k = np.arange(n)
     ax.bar(k - 0.21, now.inner_load, 0.4, color=sheet.BLUE, label="inner race")
     ax.bar(k + 0.21, now.outer_load, 0.4, color=sheet.SKY, label="outer race")
-    ax.set(ylabel="race force [N]", xlabel=now.element, ylim=(0.0, 1.05 * top))
+    ax.set(
+        ylabel="race force [N]", xlabel=now.element, ylim=(0.0, 1.05 * max(top, *now.inner_load))
+    )
     _bar_axis(ax, n)
     below = sheet.axes_at(figure, (left, TOP + 30 + height + 110, SIDE_WIDTH, height - 60))
     count = len(now.pocket)

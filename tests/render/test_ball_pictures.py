@@ -43,6 +43,7 @@ def run():
     n = 200
     t = np.arange(n) / 50e3
     names = ["inner_speed", "inner_position", "ball_position", "ball_omega", "contact_force"]
+    names += ["inner_angle"]
     names += ["contact_angle", "contact_slip", "cage_position", "cage_quaternion", "cage_omega"]
     names += ["pocket_force"]
     store = RunStore.create(

@@ -1,7 +1,9 @@
 """Every picture is written, has its size, is not blank, and shows what it should."""
 
 import sys
+from dataclasses import replace
 from pathlib import Path
+from types import SimpleNamespace
 
 import imageio.v3 as iio
 import numpy as np
@@ -12,8 +14,8 @@ from ring_with_pockets import Z, quadratic
 from flexcage import render
 from flexcage.core.errors import EnvironmentLacks, InputError, RunFailed
 from flexcage.geometry.cages import CrossbeamDefect, SideBeamDefect
-from flexcage.geometry.cylindrical_roller import RollerBearing
-from flexcage.render import sheet
+from flexcage.geometry.cylindrical_roller import RollerBearing, Spall
+from flexcage.render import bearing_pictures, sheet
 from flexcage.results.metrics import BearingNumbers
 from flexcage.results.registry import VARIABLES
 from flexcage.results.store import RunStore
@@ -38,8 +40,9 @@ NUMBERS = BearingNumbers(pitch_diameter=82.5e-3, roller_diameter=8e-3, roller_co
 def run():
     n = 400
     t = np.arange(n) / 50e3
-    names = ["inner_speed", "inner_position", "roller_position", "roller_tilt", "roller_omega"]
+    names = ["inner_speed", "inner_angle", "inner_position", "roller_position", "roller_tilt"]
     names += ["cage_position", "cage_quaternion", "cage_omega", "race_force", "pocket_force"]
+    names += ["roller_omega"]
     store = RunStore.create(
         None,
         coords={"time": t, "roller": np.arange(Z), "pocket": np.arange(Z)},
@@ -162,6 +165,29 @@ def test_bearing(run, ring, canvas, tmp_path):
     check(path)
     with pytest.raises(InputError, match="no sample 400"):
         render.bearing_picture(run, N1013, 400, tmp_path / "x.png")
+
+
+def test_spalls_are_where_their_races_are(run):
+    """Seen along the axis, an arc lies on its race's radius; that of the inner race has turned
+    with its ring."""
+    import matplotlib.pyplot as plt
+
+    spalls = {"inner_spall": Spall(length=3e-3, azimuth=0.2), "outer_spall": Spall(length=2e-3)}
+    spalled, figure = replace(N1013, **spalls), plt.figure()
+    seen = SimpleNamespace(place=lambda points: np.atleast_2d(points)[:, 1:])
+    now = replace(bearing_pictures.instant(run, 0), inner_angle=1.1)
+    bearing_pictures._spalls(axes := figure.gca(), seen, now, spalled)
+    inner, outer = (line.get_xydata() for line in axes.lines)
+    for arc, middle, radius, half in (
+        (inner, 1.3, 37.25e-3, 1.5e-3 / 37.25e-3), (outer, 0.0, 45.25e-3, 1e-3 / 45.25e-3),
+    ):  # fmt: skip
+        np.testing.assert_allclose(np.hypot(*arc.T), radius, rtol=1e-9)
+        angle = np.arctan2(arc[:, 1], arc[:, 0])
+        np.testing.assert_allclose([angle.min(), angle.max()], [middle - half, middle + half])
+    assert [text.get_text() for text in axes.texts] == ["spall", "spall"]
+    bearing_pictures._spalls(bare := plt.figure().gca(), seen, now, N1013)
+    assert not bare.lines and not bare.texts
+    plt.close("all")
 
 
 def test_curves_need_no_window(run, tmp_path):

@@ -16,6 +16,7 @@ from flexcage.results.metrics import BearingNumbers
 from flexcage.results.spectra import (
     SIGNALS,
     bearing_frequencies,
+    envelope,
     resolves,
     run_frequencies,
     run_resolution,
@@ -108,6 +109,29 @@ def test_a_sine_has_its_power_at_its_frequency(frequency, resolution):
     assert np.sqrt(2.0 * float(line.sum()) * step) == pytest.approx(3.0, rel=2e-3)
 
 
+def test_the_envelope_of_a_swelling_tone():
+    """3 (1 + cos/2) times a tone in the band, beside a loud one below it and one above."""
+    t = np.arange(20_000) / RATE
+    swell = 3.0 * (1.0 + 0.5 * np.cos(2 * np.pi * 90 * t))
+    others = 40.0 * np.sin(2 * np.pi * 50 * t) + 9.0 * np.sin(2 * np.pi * 9e3 * t)
+    x = signal(swell * np.sin(2 * np.pi * 4e3 * t) + others, "m/s^2")
+    found = envelope(x, (2e3, 6e3))
+    assert found.attrs["units"] == "m/s^2"
+    inside = slice(2000, -2000)  # a filter does not know what was before
+    np.testing.assert_allclose(found.values[inside], swell[inside], rtol=0.02)
+    assert float(spectral_density(found).idxmax("frequency")) == pytest.approx(90.0, abs=0.5)
+    pair = xr.concat([x, 2.0 * x], "axis2").transpose("time", "axis2")
+    both = envelope(pair, (2e3, 6e3))
+    assert both.dims == ("time", "axis2")
+    np.testing.assert_allclose(both.isel(axis2=1), 2.0 * found, rtol=1e-9)
+
+
+@pytest.mark.parametrize("band", [(0.0, 5e3), (2e3, 20e3), (5e3, 2e3), (float("nan"), 5e3)])
+def test_a_band_out_of_reach_is_one_sentence(band):
+    with pytest.raises(InputError, match=r"within 0 and 10000 Hz, half the sampling rate"):
+        envelope(signal(np.zeros(1000)), band)
+
+
 def test_components_keep_their_names():
     t = np.arange(2000) / RATE
     pair = xr.DataArray(
@@ -145,7 +169,8 @@ def test_signals_of_a_run_with_a_known_orbit(known_run, bearing):
         assert np.sqrt(2.0 * power) == pytest.approx(40e-6, rel=0.02)
     assert float(shown["pocket_forces"].idxmax("frequency")) <= 2 * step
     assert shown["outer_acceleration"].attrs["resolution"] == pytest.approx(step, rel=1e-3)
-    assert SIGNALS["outer_acceleration"].of(known_run.drop_dims("time_hf")) is None
+    for name in ("outer_acceleration", "outer_envelope"):
+        assert SIGNALS[name].of(known_run.drop_dims("time_hf")) is None
 
 
 def test_a_run_too_short_for_any_line(known_run, bearing):

@@ -9,6 +9,7 @@ from simulate_cases import n1013
 import flexcage
 from flexcage.core.errors import InputError
 from flexcage.results.metrics import settled
+from flexcage.results.spectra import SIGNALS, spectral_density
 
 RIGID = {"cage.model": "rigid"}
 SPALL = {
@@ -39,6 +40,24 @@ def test_rollers_strike_a_spall_of_the_outer_race_at_its_frequency(spalled):
     found = frequency[near][np.argmax(lines[near])]
     cage = float(ds["cage_omega"].sel(axis="x").mean()) / (2.0 * np.pi)
     assert found == pytest.approx(22 * cage, abs=0.25 / span)
+
+
+def test_the_envelope_has_the_line_of_a_spall(spalled):
+    """At BPFO it stands an order of magnitude above what is around it; without a spall it is not
+    there."""
+    sound = flexcage.simulate(n1013(RIGID, {k: v for k, v in SPALL.items() if "spall" not in k}))
+
+    def line(run):
+        ds = settled(run.dataset, 0.33)
+        cage = float(ds["cage_omega"].sel(axis="x").mean()) / (2.0 * np.pi)
+        density = spectral_density(SIGNALS["outer_envelope"].of(ds).sel(axis2="y"))
+        near = density.sel(frequency=slice(700.0, 1300.0))
+        at = float(near.idxmax("frequency"))
+        return at / (22 * cage), float(near.max() / near.median())
+
+    at, above = line(spalled)
+    assert at == pytest.approx(1.0, abs=0.03) and above > 30.0
+    assert line(sound)[1] < 0.3 * above
 
 
 def test_roller_over_a_spall_bears_nothing_and_its_neighbours_take_over(spalled):
