@@ -181,6 +181,10 @@ def compare_command(args: argparse.Namespace) -> int:
     from flexcage.study.compare import compare, compare_case
 
     if len(args.what) == 2:
+        if len({Path(path).resolve() for path in args.what}) == 1:
+            raise InputError(
+                f"compare was given '{args.what[0]}' twice; name two runs.", where="compare"
+            )
         first, second = (existing_run(path) for path in args.what)
         out = Path(args.out) if args.out else Path("compare")
         prepare_out(out, resume=False, force=args.force, resumable=False)

@@ -24,6 +24,7 @@ from flexcage.core.units import describe, format_si, parse
 
 MISSING = dataclasses.MISSING
 _NUMBERS = {float: numbers.Real, int: numbers.Integral}  # numpy's as well
+_LONG = 80  # characters of a value that a sentence still tells whole
 _IN_WORDS = {
     float: "a number", int: "a whole number", bool: "true or false", str: "text", Path: "a path",
     tuple: "a tuple",
@@ -330,12 +331,7 @@ def expect(value: Any, kinds: type | tuple[type, ...], where: str, remedy: str =
     """Raise InputError unless an argument ``where`` is of a kind; ``remedy`` makes one of it."""
     if not isinstance(value, kinds):
         names = " or ".join(k.__name__ for k in (kinds if isinstance(kinds, tuple) else (kinds,)))
-        given = repr(value) if isinstance(value, (str, int, float)) else f"a {type(value).__name__}"
-        raise InputError(
-            f"{where} is {given}, but should be a {names}{'; ' if remedy else ''}{remedy}.",
-            where=where,
-            value=value,
-        )
+        raise wrong_type(value, f"a {names}{'; ' if remedy else ''}{remedy}", where)
 
 
 def _check_kind(value: Any, hint: Any, meta: Mapping, where: str) -> None:
@@ -520,8 +516,11 @@ def missing_key(field: dataclasses.Field, where: str) -> InputError:
 
 
 def wrong_type(value: Any, wanted: str, where: str) -> InputError:
-    """Error for a value of another kind than its field."""
-    return InputError(f"{where} is {value!r}, but should be {wanted}.", where=where, value=value)
+    """Error for a value of another kind than its field or argument."""
+    given = repr(value)
+    if len(given) > _LONG or "\n" in given:
+        given = f"a {type(value).__name__}"
+    return InputError(f"{where} is {given}, but should be {wanted}.", where=where, value=value)
 
 
 def did_you_mean(text: str, known: Iterable[str], otherwise: str) -> str:

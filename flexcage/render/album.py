@@ -200,7 +200,7 @@ def _motion(scene: Scene, folder: Path) -> list[Drawing]:
         ),
         partial(
             histories, ds, folder / "histories.png", bearing=numbers, root_stress=root,
-            element=_followed(scene), settle=scene.settle,
+            loads=scene.loads, element=_followed(scene), settle=scene.settle,
         ),
     ]  # fmt: skip
     if spectra.resolves(settled(ds, scene.settle), numbers):

@@ -139,6 +139,7 @@ def histories(
     *,
     bearing: BearingNumbers | None = None,
     root_stress: xarray.DataArray | None = None,
+    loads: np.ndarray | None = None,
     element: int = 0,
     settle: float = 0.0,
     title: str = "Histories",
@@ -148,10 +149,14 @@ def histories(
     bearings sliding speeds and contact angles as well.
 
     ``bearing`` adds the speeds without slip. ``root_stress`` (time, place) or (time,) is in Pa.
+    ``loads`` (time, 3) are F_x, F_y, F_z [N] on the inner ring; where they or its speed change with
+    time, a panel shows them.
     ``element`` is shown by itself over the band of all. The share ``settle`` that statistics
     leave out is shaded.
     """
     panels: list[Callable[..., None]] = [_speed_panel, _pocket_panel]
+    if metrics.varies(ds["inner_speed"].values) or (loads is not None and _vary(loads)):
+        panels.insert(0, _drive_panel)
     if root_stress is not None:
         panels.append(_stress_panel)
     panels += _OWN_PANELS[elements_in(ds).one]
@@ -169,8 +174,9 @@ def histories(
             rect = (left, TOP + 22 + i * (_HEIGHT + _BETWEEN), _WIDTH, _HEIGHT)
             ax = sheet.axes_at(figure, rect)
             panel(
-                ax, t, ds, bearing=bearing, root_stress=root_stress, element=element, settle=settle
-            )
+                ax, t, ds, bearing=bearing, root_stress=root_stress, loads=loads, element=element,
+                settle=settle,
+            )  # fmt: skip
             ax.set_xlim(t[0], t[-1])
             if settle:
                 end = t[0] + settle * (t[-1] - t[0])
@@ -188,6 +194,35 @@ def _legend(ax: Any, name: str, columns: int = 4) -> None:
     ax.set_title(name, loc="left", weight="bold")
     if ax.get_legend_handles_labels()[1]:
         ax.legend(loc="lower right", bbox_to_anchor=(1.0, 1.0), ncols=columns, borderaxespad=0.2)
+
+
+def _vary(loads: np.ndarray) -> bool:
+    """Whether the radial or the axial load (time, 3) changes."""
+    return any(map(metrics.varies, _radial_and_axial(loads)))
+
+
+def _radial_and_axial(loads: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    return np.hypot(loads[:, 1], loads[:, 2]), loads[:, 0]
+
+
+def _drive_panel(ax: Any, t: np.ndarray, ds: xarray.Dataset, *, loads, **_: Any) -> None:
+    """Speed of the inner ring on the left, loads on the right."""
+    ax.plot(t, ds["inner_speed"] * RPM, color=sheet.BLUE, label="speed")
+    ax.set_ylabel("speed [rpm]")
+    ax.margins(y=0.15)
+    if loads is not None and np.any(loads):
+        right = ax.twinx()
+        pairs = zip(("radial load", "axial load"), _radial_and_axial(loads))
+        for (name, values), colour in zip(pairs, (sheet.VERMILION, sheet.ORANGE)):
+            if np.any(values):
+                right.plot(t, values, color=colour, ls="--", lw=1.3, label=f"{name} [N], right")
+        right.margins(y=0.15)
+        right.grid(visible=False)
+        right.spines["right"].set_visible(True)
+        handles, names = right.get_legend_handles_labels()
+        for handle, name in zip(handles, names):
+            ax.plot([], [], color=handle.get_color(), ls="--", lw=1.3, label=name)
+    _legend(ax, "Inner ring")
 
 
 def _speed_panel(ax: Any, t: np.ndarray, ds: xarray.Dataset, *, bearing, **_: Any) -> None:

@@ -152,6 +152,11 @@ def whole_revolutions(ds: xarray.Dataset) -> xarray.Dataset:
     return ds.isel(time=slice(stop + 1))
 
 
+def varies(values: np.ndarray, share: float = 0.01) -> bool:
+    """Whether ``values`` (n,) range over more than a share of the largest of them."""
+    return bool(np.ptp(values) > share * np.abs(values).max())
+
+
 def cage_speed(ds: xarray.Dataset, bearing: BearingNumbers) -> CageSpeed:
     """Mean cage speed against the epicyclic speed of the mean inner speed."""
     part = whole_revolutions(ds)

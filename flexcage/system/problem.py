@@ -136,7 +136,8 @@ def parts(data: BearingData) -> Any:
 
 def new_samples(n: int, stride: int, report: Report) -> Samples:
     """Room for n reports."""
-    kept = {k: np.zeros((n, *getattr(report, k).shape)) for k in Samples._fields[1:-2]}
+    reported = [name for name in Samples._fields if name in Report._fields]
+    kept = {name: np.zeros((n, *getattr(report, name).shape)) for name in reported}
     peak = np.zeros((n, *report.pocket_normal.shape))
     return Samples(stride=stride, **kept, pocket_peak=peak, force=np.zeros((n * stride, 2)))
 

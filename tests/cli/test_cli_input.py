@@ -123,6 +123,11 @@ def test_compare_offers_only_what_it_can(elsewhere, capsys):
     assert "--force" in text and "--resume" not in text
 
 
+def test_a_run_is_not_compared_with_itself(elsewhere, capsys):
+    assert cli.main(["compare", "runs/a", "./runs/a"]) == 2
+    assert "was given 'runs/a' twice; name two runs" in sentence(capsys)
+
+
 def test_force_replaces_a_former_run(elsewhere):
     out = elsewhere / "run"
     (out / "results.zarr").mkdir(parents=True)

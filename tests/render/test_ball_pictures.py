@@ -7,6 +7,7 @@ from math import hypot
 import imageio.v3 as iio
 import numpy as np
 import pytest
+import xarray as xr
 from matplotlib.text import Text
 from test_pictures import check, has_colour
 
@@ -164,6 +165,24 @@ def test_angles_count_only_where_balls_touch(run, monkeypatch, tmp_path):
     )
     render.histories(run, tmp_path / "h.png")
     assert limits[0][1] < 20.0, "degrees; 9 rad of a ball in the air is not shown"
+
+
+def test_histories_show_a_speed_and_a_load_that_change(run, texts, tmp_path):
+    def shown(ds, loads):
+        texts.clear()
+        render.histories(ds, tmp_path / "h.png", loads=loads)
+        return [t for t in texts if t in ("Inner ring", "radial load [N], right",
+                                          "axial load [N], right")]  # fmt: skip
+
+    n = run.sizes["time"]
+    steady, growing = np.tile([100.0, 30.0, 40.0], (n, 1)), np.zeros((n, 3))
+    growing[:, 0] = np.linspace(100.0, 200.0, n)
+    assert not shown(run, steady) and not shown(run, None)
+    assert shown(run, growing) == ["Inner ring", "axial load [N], right"]
+    faster = run.assign(inner_speed=run["inner_speed"] * xr.DataArray(
+        np.linspace(1.0, 1.5, n), dims="time"))  # fmt: skip
+    both = ["Inner ring", "radial load [N], right", "axial load [N], right"]
+    assert shown(faster, steady) == both and shown(faster, None) == ["Inner ring"]
 
 
 def test_orbit_and_comparison(run, texts, tmp_path):
