@@ -183,8 +183,9 @@ class Run:
             progress=self.stages.progress,
         )
 
-    @cached_property
+    @property
     def _between(self) -> Between:
+        """Steps between samples, anew: what is read of them is not kept for the run's life."""
         return Between(self.store, self.dataset["time"].values, inner=self._inner_land)
 
     @property

@@ -201,7 +201,7 @@ class Recorder:
         self.bearing.data.events.fill[0] = 0
         self.bearing.data.events.pushed_most[...] = 0.0  # as in a run that is resumed here
         self.bearing.data.between.fill[:] = 0
-        self.bearing.data.between.clock[:] = -np.inf
+        self.bearing.data.between.clock[:] = -np.inf, self.time + 1.0 / self.output.rate
         logs, sample, outcome = [], 0, DONE
         log, used = np.zeros((LOG_ROWS, len(LOG_COLUMNS))), 0
         for stop in [*self._corners(times[-1]), times[-1]]:
@@ -311,15 +311,14 @@ class Recorder:
         if not self._keeps_loads:
             return {}
         n, rows = b.fill
-        small = np.float32  # as forces at samples
         return {
             LOADS: {
                 "time": b.time[:n].copy(),
                 "modes": b.modes[:n].copy(),
-                "land": b.land[:n].astype(small),
+                "land": b.land[:n].copy(),
                 "touched": b.touched[:n].astype(np.int16),
                 "face": b.face[:rows].astype(np.int16),
-                "force": b.force[:rows].astype(small),
+                "force": b.force[:rows].copy(),
             }
         }
 

@@ -49,7 +49,7 @@ class Loads:
         """Loads at the first step, of a cage that turns with ``spin`` (3,) [rad/s], its frame."""
         return CageLoads(
             station_forces=self.stations[0].astype(float),
-            land_forces=self.lands[0],
+            land_forces=self.lands[0].astype(float),
             angular_velocity=spin,
             modal_coordinates=self.modes[0],
         )

@@ -19,7 +19,7 @@ from flexcage.stress.between import Loads, Steps, no_steps, together
 from flexcage.stress.fields import StressFields, Tables, TensorFields
 
 _BLOCK = 256  # samples at a time: their stresses stay near the processor
-_READ = 4096  # samples at a time of what is read and reduced only
+_READ = 512  # samples at a time of what is read and reduced only
 
 
 class Sliced(Protocol):
@@ -33,7 +33,9 @@ class Sliced(Protocol):
 class StressHistory:
     """Equivalent stresses [Pa] over samples; ``surface`` numbers the mesh vertices looked at.
 
-    With steps between samples, ``places`` and ``peak`` are the largest since the sample before.
+    With steps between samples, ``places`` and ``peak`` are the largest since the sample before, and
+    so is the envelope. Off the places, these two are of samples, of the steps at which the places
+    show most, and of those at which any of them does.
     """
 
     surface: np.ndarray  # (n_surface,) vertex numbers
@@ -43,7 +45,7 @@ class StressHistory:
     peak_vertex: np.ndarray  # (nt,) mesh vertex of it
     peak_time: np.ndarray  # (nt,) [s] of a step between samples at which it is; else NaN
     at_sample: np.ndarray  # (nt,) largest at the sample itself
-    envelope: np.ndarray  # (n_surface,) largest over settled samples and steps with a peak
+    envelope: np.ndarray  # (n_surface,) largest over the settled part
     settled: int = 0  # first sample of the settled part
 
     @property
@@ -120,7 +122,7 @@ def tensor_histories(
         moved.append(every.modes)
         loads = fields.reduced_forces(every.stations)
         pushed.append(sp.csr_array(loads.astype(np.float32)))  # few pockets are touched at a time
-        lands.append(every.lands)
+        lands.append(every.lands.astype(np.float32))
     modes, loads, land = (
         np.concatenate(moved),
         sp.vstack(pushed, format="csr"),
@@ -187,8 +189,9 @@ class _Search:
     def between(self, block: _Block, values: np.ndarray, steps: Loads, first: int) -> None:
         """Add steps to a block, of whose samples these were the stresses.
 
-        Places are looked at first, and of these the vertices that are largest at any sample. Where
-        they show more at a step than at the samples beside it, the whole surface is looked at.
+        Places are looked at first, and of these the vertices that are largest at any sample. The
+        whole surface is looked at where they show most before a sample, if more than at it, and
+        where any of them shows most of the block.
         """
         at = steps.sample - first
         watched = [slot[np.unique(np.argmax(values[slot], axis=0))] for slot in self._slots]
@@ -196,25 +199,34 @@ class _Search:
             return
         gauges = self.fields.gauges(watched)
         found = gauges.largest(_stress_of(gauges, self.fields.reduced_forces, steps))
-        beside = block.places.max(axis=1)
-        beside[1:] = np.maximum(beside[1:], beside[:-1])
+        chosen = self._chosen(found, at, block.places, first)
         np.maximum.at(block.places, at, found)
-        largest = found.max(axis=1)
-        order = np.lexsort((largest, at))
-        chosen = order[np.append(np.diff(at[order]) > 0, True)]  # before each sample, the largest
-        chosen = chosen[largest[chosen] > beside[at[chosen]]]
         if not len(chosen):
             return
-        steps, at = steps.only(chosen), at[chosen]
-        fields = self.fields
+        steps, at, fields = steps.only(chosen), at[chosen], self.fields
         values = fields.equivalent(_stress_of(fields, fields.reduced_forces, steps))
         np.maximum.at(block.places, at, self._places(values))
         self._keep_envelope(block, values, steps.sample)
         peak, where = self._peaks(values)
-        higher = peak > block.peak[at]
-        at = at[higher]
-        block.peak[at], block.where[at] = peak[higher], where[higher]
-        block.when[at] = steps.time[higher]
+        rising = np.argsort(peak)  # where a sample has two, the larger comes last and stays
+        higher = rising[peak[rising] > block.peak[at[rising]]]
+        block.peak[at[higher]], block.where[at[higher]] = peak[higher], where[higher]
+        block.when[at[higher]] = steps.time[higher]
+
+    def _chosen(
+        self, found: np.ndarray, at: np.ndarray, sampled: np.ndarray, first: int
+    ) -> np.ndarray:
+        """Numbers of the steps before the samples ``at`` (n,) at which the whole surface is looked
+        at, by the places' stresses there, ``found`` (n, n_places), and at samples."""
+        largest = found.max(axis=1)
+        order = np.lexsort((largest, at))
+        most = order[np.append(np.diff(at[order]) > 0, True)]  # before each sample
+        most = most[largest[most] > sampled.max(axis=1)[at[most]]]
+        settled = max(self.settled - first, 0)
+        late = np.where((at >= settled)[:, None], found, 0.0)
+        own = np.argmax(late, axis=0)  # of each place
+        own = own[late.max(axis=0) > sampled[settled:].max(axis=0, initial=0.0)]
+        return np.union1d(most, own)
 
     def _places(self, values: np.ndarray) -> np.ndarray:
         """Largest of stresses (n_surface, nt) at every place (nt, n_places)."""

@@ -35,7 +35,7 @@ def land_station_forces(ds: xarray.Dataset, *, inner: bool) -> np.ndarray:
 def on_lands(force: np.ndarray, *, inner: bool) -> np.ndarray:
     """Forces (nt, n_land, 2) of the guiding land, components (r, psi), as
     ``land_station_forces``."""
-    out = np.zeros((len(force), 2, force.shape[1], 3))
+    out = np.zeros((len(force), 2, force.shape[1], 3), force.dtype)
     out[:, 0 if inner else 1, :, 1:] = force
     return out
 

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from functools import cached_property, partial
+from math import ceil
 from typing import Any, NamedTuple
 
 import numba
@@ -44,7 +45,7 @@ from flexcage.system.spec import Constraint
 
 ITERATIONS = 40  # of the spectral radius
 NUDGE = 5e-12  # [m] over which it takes differences
-STEPS_BETWEEN = 10  # at the most, of those kept for the cage's stress between two samples
+APART = 2e-6  # [s] at the least, between steps that are kept for the cage's stress
 _REAL, _COUNT = types.float64, types.int64
 _VECTOR, _MATRIX = types.Array(types.float64, 1, "C"), types.Array(types.float64, 2, "C")
 _NONE, _FLAG = types.void, types.boolean
@@ -100,14 +101,14 @@ class Samples(NamedTuple):
 
 class Between(NamedTuple):
     """What moves and pushes a flexible cage at accepted steps, one block of them; forces on the
-    faces of pockets that are touched, one row a face."""
+    faces of pockets that are touched, one row a face. Full, it keeps the first ones."""
 
     time: np.ndarray  # (n,)
     modes: np.ndarray  # (n, nm)
     land: np.ndarray  # (n, nl, 2)
     touched: np.ndarray  # (n,) rows of each step
-    face: np.ndarray  # (n Z faces, 2) its pocket and its number there
-    force: np.ndarray  # (n Z faces, nst, 3)
+    face: np.ndarray  # (n Z, 2) its pocket and its number there
+    force: np.ndarray  # (n Z, nst, 3)
     fill: np.ndarray  # (2,) steps and rows so far
     clock: np.ndarray  # (2,) [s] steps before the first are too close, after the second too late
     spacing: np.ndarray  # (2,) [s] least time between steps, and how long after a touch
@@ -143,13 +144,15 @@ def new_samples(n: int, stride: int, report: Report) -> Samples:
 
 
 def new_between(n: int, interval: float, modes: int, report: Report) -> Between:
-    """Room for the steps of a block of n samples, ``interval`` [s] apart; none without modes."""
-    steps, z = (n * STEPS_BETWEEN if modes else 0), np.zeros
-    rows = steps * report.pocket_normal.size
+    """Room for the steps of a block of n samples, ``interval`` [s] apart, in which an element
+    touches one face on average; none without modes."""
+    apart = min(APART, 0.1 * interval)
+    steps = n * ceil(interval / apart) if modes else 0
+    rows, z, small = steps * len(report.station), np.zeros, np.float32
     return Between(
-        z(steps), z((steps, modes)), z((steps, *report.land_station.shape)), z(steps, np.int64),
-        z((rows, 2), np.int64), z((rows, *report.station.shape[2:])), z(2, np.int64),
-        np.full(2, -np.inf), np.array([interval / STEPS_BETWEEN, interval]),
+        z(steps), z((steps, modes)), z((steps, *report.land_station.shape), small),
+        z(steps, np.int64), z((rows, 2), np.int64), z((rows, *report.station.shape[2:]), small),
+        z(2, np.int64), np.full(2, -np.inf), np.array([apart, interval]),
     )  # fmt: skip
 
 

@@ -99,7 +99,6 @@ def _report_pocket(i, hit, sums, pw, rep, mode):
         rep.energy[2] += sums[0]
         rep.power[POCKET_DAMPING] += sums[1]
         rep.power[POCKET_FRICTION] += sums[2]
-    if hit:
         copy_into(rep.station[i], pw.st)
     if hit and mode == 2:
         copy_into(rep.slice_normal[i], pw.slice_N)

@@ -67,12 +67,14 @@ def keep_point(t, y, d):
 
 @part
 def keep_loads(t, y, d):
-    """Modes of y and forces on the cage while something touches it, and a while after."""
+    """Modes of y and forces on the cage while something touches it (a film does not), and as long
+    after as samples are apart."""
     between, rep = fields(d.between), fields(d.report)
     clock, spacing, n = between.clock, between.spacing, between.fill[0]
-    if n == between.time.shape[0] or t < clock[0]:
-        return
     row = between.fill[1]
+    full = row + rep.pocket_normal.size > between.force.shape[0]
+    if n == between.time.shape[0] or full or t < clock[0]:
+        return
     for i in range(rep.pocket_normal.shape[0]):
         for f in range(rep.pocket_normal.shape[1]):
             if rep.pocket_normal[i, f] > 0.0:

@@ -1,5 +1,7 @@
 """A run that stopped goes on as if it had not, bit by bit; what was computed is kept."""
 
+import shutil
+
 import numpy as np
 import pytest
 from simulate_cases import Interrupted, bent, n1013
@@ -164,11 +166,12 @@ def test_a_run_of_another_format_is_refused_wherever_it_is_read(tmp_path, capsys
     commit = folder / "results.zarr" / "_run" / "commit.json"
     commit.write_text(commit.read_text("utf-8").replace('"format": 2', '"format": 1'), "utf-8")
     (folder / "case.toml").write_text("[bearing]\nformer_word = 1\n", encoding="utf-8")
+    other = shutil.copytree(folder, tmp_path / "other")
     for command in (
         ["run", str(case), "-o", str(folder), "--resume"],
         ["render", str(folder)],
         ["report", str(folder)],
-        ["compare", str(folder), str(folder), "-o", str(tmp_path / "both")],
+        ["compare", str(folder), str(other), "-o", str(tmp_path / "both")],
     ):
         assert main(command) == 2
         assert "is stored in format 1, and this flexcage" in capsys.readouterr().err

@@ -52,6 +52,16 @@ def test_steps_between_samples_see_the_peaks(run, dense):
     np.testing.assert_allclose(with_steps, wanted, rtol=0.04)
     samples_alone = pass_peaks(_without_steps(run), RATE)
     assert samples_alone.mean() < 0.97 * wanted.mean()
+    h = run.stress_history
+    assert (h.places.max(axis=1) <= h.peak * 1.00001).all()  # places are searched for the peak
+
+
+def test_few_samples_see_the_same_peaks(dense):
+    """At 10 kHz as well: steps are kept by their own distance, not by that of samples."""
+    wanted = pass_peaks(dense.stress_history, 8 * RATE)
+    found = pass_peaks(simulate(case_at(RATE / 5)).stress_history, RATE / 5)
+    np.testing.assert_allclose(found.mean(), wanted.mean(), rtol=0.015)
+    np.testing.assert_allclose(found, wanted, rtol=0.05)
 
 
 def _without_steps(run):

@@ -75,10 +75,14 @@ def test_a_history_with_steps_is_the_largest_of_both(recovery, at_samples, at_st
             assert ours.peak_time[k] == every.time[best]
         np.testing.assert_allclose(ours.places[k], full.places[own].max(axis=0), rtol=0.01)
     assert np.isfinite(ours.peak_time).sum() == 2
-    looked_at = np.isin(every.time, ours.peak_time) | (np.arange(len(every)) < SAMPLES)
-    late = every.only(looked_at & (every.sample > 0))  # settled from sample 1 on
+    late = every.only(every.sample > 0)  # settled from sample 1 on
     wanted = stress_history(fields, late.modes, late.stations)
-    np.testing.assert_allclose(ours.envelope, wanted.envelope, rtol=1e-5)
+    assert (ours.envelope <= wanted.envelope * 1.00001).all()
+    assert (ours.envelope >= stress_history(fields, a.modes[1:], a.stations[1:]).envelope).all()
+    for i, vertices in enumerate(fields.places.values()):
+        largest = ours.envelope[np.isin(fields.surface, vertices)].max()
+        assert largest == pytest.approx(wanted.places[:, i].max(), rel=0.01)
+        assert largest == pytest.approx(ours.places[1:, i].max(), rel=1e-5)
 
 
 def test_tensors_follow_steps_and_samples_in_time(recovery, at_samples, at_steps):
