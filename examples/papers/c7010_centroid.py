@@ -15,10 +15,10 @@ from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
 
+from ball_claim import finished
 from c7010_centroid_claims import verdicts
 from c7010_centroid_figures import Found, evaluate
 from c7010_centroid_page import draw, page, table
-from c7010_claim import finished
 
 import flexcage
 from flexcage.core.progress import Progress

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from math import pi
 
+from ball_claim import Claim, Shown, View, rising
 from c7010_centroid_figures import Found
-from c7010_claim import Claim, Shown, View, rising
 
 from flexcage.study.verdicts import (
     Estimate,

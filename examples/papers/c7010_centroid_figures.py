@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 import numpy as np
-from c7010_claim import by_parts, estimate
+from ball_claim import by_parts, estimate
 
 import flexcage
 from flexcage.results import instrument, metrics

@@ -8,9 +8,9 @@ from math import degrees, pi
 from pathlib import Path
 
 import numpy as np
+from ball_claim import percent, short
 from c7010_centroid_claims import BASE, PAPER, SPEEDS, Table
 from c7010_centroid_figures import PLANE, PLANES, RADII, Found
-from c7010_claim import percent, short
 from scipy.stats import spearmanr
 
 import flexcage

@@ -11,7 +11,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from math import degrees
 
-from c7010_claim import Claim, Found, Shown, View, rising
+from ball_claim import Claim, Found, Shown, View, rising
 from c7010_vibro_figures import LINE
 
 from flexcage.study.verdicts import (

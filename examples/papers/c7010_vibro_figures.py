@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from math import nan
 
 import numpy as np
-from c7010_claim import by_parts, estimate
+from ball_claim import by_parts, estimate
 
 import flexcage
 from flexcage.results import metrics

@@ -15,7 +15,7 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from c7010_claim import finished
+from ball_claim import finished
 from c7010_vibro_claims import Found, verdicts
 from c7010_vibro_figures import evaluate
 from c7010_vibro_page import draw, page, table

@@ -8,7 +8,7 @@ from math import degrees
 from pathlib import Path
 
 import numpy as np
-from c7010_claim import Found, View, percent, short
+from ball_claim import Found, View, percent, short
 from c7010_vibro_claims import PAPER, SPEEDS
 from c7010_vibro_figures import by_azimuth
 from c7010_vibro_reasons import reasons

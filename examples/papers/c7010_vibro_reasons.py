@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from math import degrees
 
-from c7010_claim import Found, View, percent, short
+from ball_claim import Found, View, percent, short
 from c7010_vibro_claims import SPEEDS
 
 

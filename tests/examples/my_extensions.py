@@ -151,7 +151,7 @@ def heun(fns, data, st, opt, t_end, times, ys, yds, first, log, quads):
     done, row = first, 0
     rates(real[T], y, K[0], data, power[0])
     if count[STEPS] == 0:
-        note(real[T], data)
+        note(real[T], y, data)
     while real[T] < t_end:
         if row == len(log):
             return LOG_FULL, done, row
@@ -163,7 +163,7 @@ def heun(fns, data, st, opt, t_end, times, ys, yds, first, log, quads):
             end[k] = y[k] + 0.5 * h * (K[0, k] + K[1, k])
         rates(real[T] + h, end, K[1], data, power[1])
         real[T] += h
-        note(real[T], data)
+        note(real[T], end, data)
         while done < len(times) and times[done] <= real[T] + 1e-12 * h:
             x = 1.0 - (real[T] - times[done]) / h
             for k in range(len(y)):

@@ -5,6 +5,7 @@ from dataclasses import fields, replace
 from pathlib import Path
 from types import SimpleNamespace
 
+import numpy as np
 import pytest
 
 from flexcage.study.plan import make_plan
@@ -20,10 +21,14 @@ def papers():
     import c7010_vibro_claims
     import c7010_vibro_figures
     import c7010_vibro_impact
+    import speed_fluctuation
+    import speed_fluctuation_claims
+    import speed_fluctuation_figures
 
     yield SimpleNamespace(
         centroid=c7010_centroid, vibro=c7010_vibro_impact, claims=c7010_vibro_claims,
-        figures=c7010_vibro_figures,
+        figures=c7010_vibro_figures, fluctuation=speed_fluctuation,
+        waves=speed_fluctuation_claims, wave_figures=speed_fluctuation_figures,
     )  # fmt: skip
     sys.path.remove(str(PAPERS))
 
@@ -112,3 +117,55 @@ def test_vibro_impacts_from_end_to_end(papers, tmp_path):
     # centrifugal force parts the angles
     assert at["12000 rpm: inner contact angle"] > at["4000 rpm: inner contact angle"] + 2.0
     assert at["12000 rpm: outer contact angle"] < at["4000 rpm: outer contact angle"] - 2.0
+
+
+def test_the_speeds_of_the_third_paper_fluctuate_as_it_says(papers):
+    for reading in papers.fluctuation.READINGS:
+        plan = make_plan(papers.fluctuation.study(reading))
+        assert len(plan.cases) == (18 if reading == "step" else 6)
+    waves = {p["label"]: p for p in papers.fluctuation.points("step")}
+    assert list(waves) == [papers.waves.CONSTANT, *papers.waves.AMPLITUDES, "A 6 %, N 2",
+                           "A 6 %, N 3"]  # fmt: skip
+    assert "drive.wave" not in waves["constant"]
+    assert waves["A 9 %"]["drive.wave_amplitude"] == "180 rpm"
+    assert waves["A 6 %, N 3"]["drive.wave_period"] == "10 ms"
+
+
+def test_figures_of_a_speed_that_fluctuates(papers):
+    """A sine of 6 % with a quarter of its variance in another; balls whose force follows place."""
+    f = papers.wave_figures
+    t = np.arange(7200) / 20e3
+    sine, other = np.sin(2 * np.pi * t / 30e-3), np.sin(2 * np.pi * t / 9e-3)
+    amplitude, share = f.wave_in(100.0 + 6.0 * sine + 3.0 * other, t, 30e-3)
+    assert amplitude == pytest.approx(6.0, rel=1e-3) and share == pytest.approx(0.8, abs=1e-3)
+    assert f.half_range(100.0 + 6.0 * sine) == pytest.approx(0.06, rel=1e-4)
+    even = 2 * np.pi * np.arange(17) / 17
+    psi = even + 98.0 * t[:, None]
+    force = 200.0 + 150.0 * np.cos(psi) + 20.0 * np.cos(2 * psi)
+    assert f.place_in(force, psi) == pytest.approx(1.0, abs=1e-9)
+    noise = np.random.default_rng(1).normal(0.0, force.std(), force.shape)
+    assert f.place_in(force + noise, psi) == pytest.approx(0.5, abs=0.02)
+    assert f.excursion(psi + 0.01 * np.cos(even)) == pytest.approx(0.01, rel=0.02)
+
+
+def test_claims_on_a_speed_that_fluctuates(papers):
+    """A cage that follows its ring in all holds 002-1 and 002-7; one that overshoots does not."""
+    waves = papers.waves
+
+    def outcome(key, swings, speed=98.0):
+        shares = {"constant": 0.0, **papers.waves.AMPLITUDES, "A 6 %, N 2": 0.06,
+                  "A 6 %, N 3": 0.06}  # fmt: skip
+        found = {}
+        for label, share in shares.items():
+            plain = {f.name: Estimate(1.0, 0.001) for f in fields(papers.wave_figures.Figures)}
+            plain |= {"swing": Estimate(share * swings.get(label, 1.0), 1e-4),
+                      "speed": Estimate(speed, 0.01), "follows": Estimate(0.97, 0.01)}  # fmt: skip
+            found[label] = [papers.wave_figures.Figures(**plain)]
+        claim = next(c for c in waves.CLAIMS if c.key == key)
+        views = {"step": waves.View(found)}
+        return claim.verdict(views, "step", shown=waves.SHOWN, source="").outcome
+
+    assert outcome("002-1", {}) == outcome("002-7", {}) == HOLDS
+    assert outcome("002-2", {}) == FAILS  # 97 % of the variance at 3 %
+    assert outcome("002-1", {"A 9 %": 1.3}) == FAILS
+    assert outcome("002-7", {"A 6 %, N 3": 1.5}) == FAILS

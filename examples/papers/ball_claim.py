@@ -1,4 +1,4 @@
-"""A claim of a paper on the 7010C: parts that are tested on figures of runs, and its verdict."""
+"""A claim of a paper on ball bearings: parts tested on figures of runs, and its verdict."""
 
 from __future__ import annotations
 
