@@ -74,10 +74,10 @@ def _when_squeezed(view: View, text: Reason) -> str:
 
 def _stress_rise(v: View) -> str:
     return (
-        "At the base clearances a crossbeam moved by 0.2 mm leaves its roller just free, and the "
-        f"hardest blow in any pocket stays what it was ({row(v, 'pocket_force_peak', SOUND, BENT2)}"
-        f"). The cage's stress comes from pushes and the land all around it: against the sound "
-        f"cage its mean changes by {change(v, STRESS, BENT1)} at 0.1 mm and "
+        "At the base clearances a crossbeam moved by 0.2 mm leaves its roller just free. The "
+        f"hardest blow in any pocket is {row(v, 'pocket_force_peak', SOUND, BENT2)} (sound, "
+        "0.2 mm), but the cage's stress comes from pushes and the land all around it: against the "
+        f"sound cage its mean changes by {change(v, STRESS, BENT1)} at 0.1 mm and "
         f"{change(v, STRESS, BENT2)} at 0.2 mm."
     ) + _when_squeezed(
         v,
@@ -123,7 +123,8 @@ def _if_rigid(v: View) -> str:
 def _spikes(v: View) -> str:
     return (
         "Blows in pockets reach the outer ring only through a roller that the cage strikes, and "
-        "at the base clearances they are no harder, beyond the intervals, than in a sound cage: "
+        "at the base clearances it feels no more of them, beyond the intervals, than in a sound "
+        "cage: "
         "the kurtosis of the ring's acceleration is "
         f"{row(v, SPIKES, SOUND, BENT1, BENT2, LONGER)}. The roller that cannot turn in its "
         f"pocket does make spikes: {figure(v, SPIKES, SHORTER)}."
