@@ -33,6 +33,7 @@ FILTER_HZ = 10e3  # low-pass of outer_acceleration_filtered
 FIRST_STEP = 1e-7
 BEHIND = 1e-13  # [s] that a run begins behind a corner: more than rounding puts a time beside it
 CAREFUL = 1e-11  # [s] first step there of an integrator of several steps, which knows one slope
+_REMEMBERED = ("closed", "land", "force", "pushed", "pushed_before")  # of Events by checkpoints
 LOG_ROWS = 20_000  # steps that are logged at a time
 
 
@@ -326,7 +327,7 @@ class Recorder:
         state = self.integrator.checkpoint(self.state)
         memory = {f"memory_{k}": v for k, v in self.bearing.data.memory._asdict().items()}
         events = self.bearing.data.events
-        kept = {f"events_{k}": getattr(events, k) for k in ("closed", "land", "force")}
+        kept = {f"events_{k}": getattr(events, k) for k in _REMEMBERED}
         return {**state, **memory, **kept, "filter": self._filter}
 
     def _checkpoint(self) -> dict[str, np.ndarray]:

@@ -75,7 +75,8 @@ class Events(NamedTuple):
     land: np.ndarray  # (2,) the same for the cage's lands
     force: np.ndarray  # (2, 3) of the last two accepted steps: time, force on the outer ring
     pushed: np.ndarray  # (Z, faces) normal forces in pockets at the last accepted step
-    pushed_most: np.ndarray  # (Z, faces) the largest at any step since the last sample
+    pushed_before: np.ndarray  # (Z, faces) at the step before that
+    pushed_most: np.ndarray  # (Z, faces) the largest since the last sample, at and between steps
 
 
 class Samples(NamedTuple):
@@ -95,7 +96,7 @@ class Samples(NamedTuple):
     land: np.ndarray
     land_station: np.ndarray
     energy: np.ndarray
-    pocket_peak: np.ndarray  # (n, Z, faces) largest since the sample before, at any step
+    pocket_peak: np.ndarray  # (n, Z, faces) largest since the sample before, at and between steps
     force: np.ndarray  # (n * stride, 2) on the outer ring, fine grid
 
 
@@ -190,8 +191,7 @@ class Bearing:
             Events(
                 np.zeros((200_000, 4)), np.zeros(1, np.int64),
                 np.zeros_like(work.report.contact), np.zeros(2, np.int64), np.zeros((2, 3)),
-                np.zeros_like(work.report.pocket_normal),
-                np.zeros_like(work.report.pocket_normal),
+                *(np.zeros_like(work.report.pocket_normal) for _ in range(3)),
             ),
             new_samples(block, stride, work.report),
             new_between(block, interval, layout.modes, work.report),

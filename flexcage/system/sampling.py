@@ -57,9 +57,10 @@ def keep_point(t, y, d):
     report, events = fields(d.report), fields(d.events)
     keep_loads(t, y, d)
     remember(t, fields(d.memory), report, events)
+    _keep_summits(t, events, report.pocket_normal)
     for c in range(3):
         events.force[0, c] = events.force[1, c]
-    _keep_larger(events.pushed_most, report.pocket_normal)
+    copy_into(events.pushed_before, events.pushed)
     copy_into(events.pushed, report.pocket_normal)
     events.force[1, 0] = t
     events.force[1, 1], events.force[1, 2] = report.body_force[0], report.body_force[1]
@@ -93,6 +94,25 @@ def keep_loads(t, y, d):
     between.time[n], between.touched[n] = t, touched
     between.fill[0], between.fill[1] = n + 1, row
     clock[0] = t + spacing[0]
+
+
+@part
+def _keep_summits(t, events, values):
+    """Largest forces up to a step at t, and between the two before it: a contact lasts a few steps,
+    so the highest of its parabola through three of them is nearer to its largest force."""
+    before, last = events.force[0, 0], events.force[1, 0]
+    known = before < last < t
+    for i in range(values.shape[0]):
+        for f in range(values.shape[1]):
+            most, at = max(events.pushed_most[i, f], values[i, f]), events.pushed[i, f]
+            if known and at > 0.0 and at >= max(events.pushed_before[i, f], values[i, f]):
+                rise = (at - events.pushed_before[i, f]) / (last - before)
+                fall = (values[i, f] - at) / (t - last)
+                bend = (fall - rise) / (t - before)
+                slope = rise + bend * (last - before)
+                if bend < 0.0:
+                    most = max(most, at - 0.25 * slope * slope / bend)
+            events.pushed_most[i, f] = most
 
 
 @part
