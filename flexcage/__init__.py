@@ -32,6 +32,8 @@ _LAZY: dict[str, str] = {
     "ElongatedPocket": "flexcage.geometry.ball_cage_defects",
     "EnlargedPocket": "flexcage.geometry.ball_cage_defects",
     "WebCrack": "flexcage.geometry.ball_cage_defects",
+    "MissingRivet": "flexcage.geometry.ball_cage_defects",
+    "RibbonCage": "flexcage.geometry.ribbon_cage",
     "RollerBearing": "flexcage.geometry.cylindrical_roller",
     "RollerProfile": "flexcage.geometry.cylindrical_roller",
     "Spall": "flexcage.geometry.cylindrical_roller",

@@ -22,6 +22,7 @@ from flexcage.geometry.angular_contact_ball import (
 from flexcage.geometry.ball_cage_defects import DisplacedPocket as DisplacedPocket
 from flexcage.geometry.ball_cage_defects import ElongatedPocket as ElongatedPocket
 from flexcage.geometry.ball_cage_defects import EnlargedPocket as EnlargedPocket
+from flexcage.geometry.ball_cage_defects import MissingRivet as MissingRivet
 from flexcage.geometry.ball_cage_defects import WebCrack as WebCrack
 from flexcage.geometry.ball_cages import BallCage as BallCage
 from flexcage.geometry.cages import CrossbeamDefect as CrossbeamDefect
@@ -36,6 +37,7 @@ from flexcage.geometry.materials import MATERIALS as MATERIALS
 from flexcage.geometry.materials import Material as Material
 from flexcage.geometry.presets import load_preset as load_preset
 from flexcage.geometry.presets import preset_names as preset_names
+from flexcage.geometry.ribbon_cage import RibbonCage as RibbonCage
 from flexcage.mesh.options import MeshOptions as MeshOptions
 from flexcage.modes.spec import DampingBand as DampingBand
 from flexcage.modes.spec import ModesSpec as ModesSpec

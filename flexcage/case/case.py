@@ -20,6 +20,7 @@ from flexcage.core.binding import (
     Binder,
     check_spec,
     chosen_names,
+    chosen_spec,
     default_of,
     flat,
     set_path,
@@ -35,7 +36,7 @@ from flexcage.geometry.ball_cages import BallCage
 from flexcage.geometry.bearings import Bearing
 from flexcage.geometry.cage import Cage
 from flexcage.geometry.cages import Defect
-from flexcage.geometry.presets import NAMED, load_preset
+from flexcage.geometry.presets import NAMED, Preset, load_preset
 from flexcage.mesh.options import MeshOptions
 from flexcage.modes.spec import ModesSpec
 from flexcage.results.options import OutputOptions
@@ -301,7 +302,16 @@ def with_preset(table: dict[str, Any]) -> dict[str, Any]:
         return dict(table)
     if not isinstance(name, str):
         raise InputError(f"bearing.preset is {name!r}, but should be text.", where="bearing.preset")
-    return _merge(load_preset(name).tables, table)
+    return _merge(_without_other_cage(load_preset(name), table), table)
+
+
+def _without_other_cage(preset: Preset, table: Mapping[str, Any]) -> Mapping[str, Any]:
+    """A preset's tables without values of its cage that the kind a case asks for has not."""
+    own, cage = table.get("cage"), preset.tables.get("cage")
+    if not isinstance(own, Mapping) or "type" not in own or not isinstance(cage, Mapping):
+        return preset.tables
+    known = chosen_spec(preset.bearing.cage_spec, own).__dataclass_fields__
+    return {**preset.tables, "cage": {k: v for k, v in cage.items() if k in known}}
 
 
 def _with_mesh_file(table: dict[str, Any], folder: Path) -> dict[str, Any]:

@@ -14,6 +14,7 @@ from flexcage.geometry.ball_cage_defects import (
     DisplacedPocket,
     ElongatedPocket,
     EnlargedPocket,
+    MissingRivet,
     WebCrack,
 )
 from flexcage.geometry.ball_cages import BallCage
@@ -22,6 +23,7 @@ from flexcage.geometry.cage import Cage
 from flexcage.geometry.cages import CrossbeamDefect, SideBeamDefect, WindowCage
 from flexcage.geometry.cylindrical_roller import RollerBearing, Spall
 from flexcage.geometry.presets import load_preset
+from flexcage.geometry.ribbon_cage import RibbonCage
 from flexcage.system.spec import Load, Wave
 
 _GUIDED = {
@@ -123,6 +125,16 @@ def _(cage: WindowCage) -> str:
 
 
 @_pockets.register
+def _(cage: RibbonCage) -> str:
+    opening = describe(2.0 * cage.opening, "mm")
+    return (
+        f"it is two halves of sheet, {describe(cage.thickness, 'mm')} thick and riveted between "
+        f"pockets, which are spheres of {describe(cage.pocket_diameter, 'mm')}, "
+        + (f"open at the sides by {opening}" if cage.opening else "closed at the sides")
+    )
+
+
+@_pockets.register
 def _(cage: BallCage) -> str:
     shape = f"its pockets are {cage.pocket_shape}, {describe(cage.pocket_diameter, 'mm')} across"
     if cage.pocket_scatter:
@@ -192,6 +204,14 @@ def _(defect: WebCrack, pockets: int) -> str:
     return (
         f"web {defect.web}, between pockets {(defect.web - 1) % pockets} and {defect.web}, is "
         f"cracked from the end {defect.side} over {100.0 * defect.share:g} % of the cage's width"
+    )
+
+
+@_defect.register
+def _(defect: MissingRivet, pockets: int) -> str:
+    return (
+        f"the rivet of web {defect.web}, between pockets {(defect.web - 1) % pockets} and "
+        f"{defect.web}, is missing"
     )
 
 

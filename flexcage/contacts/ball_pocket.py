@@ -1,11 +1,13 @@
 """Ball in its pocket: a cylinder about a radial axis, or a sphere, in a cage that deforms.
 
-The pocket may be a slot (its axis drawn out to a line), larger or displaced. A sphere is whole: it
-holds the ball along the radius as well. The wall's motion by the cage's modes is known at stations
-round the pocket and interpolated smoothly between them; towards a sphere's poles it fades into the
-mean of all stations. What modes do not carry of a wall's yielding is a compliance of each station,
-in series with the contact's own. Forces are slopes of one energy: where the wall's displacement or
-compliance changes round the pocket, the force leans.
+The pocket may be a slot (its axis drawn out to a line), larger or displaced. A sphere ends at rims,
+at bore and outside and, in a ribbon cage, at its open sides; there the ball touches the rim's
+nearest point. A ball that sinks straight into a round rim touches all of it: over a distance of
+``SEAT`` across, the sideways push turns from one side to the other. The wall's motion by the cage's
+modes is known at stations round the pocket and interpolated smoothly between them; towards a
+sphere's poles it fades into the mean of all stations. What modes do not carry of a wall's yielding
+is a compliance of each station, in series with the contact's own. Forces are slopes of one energy:
+where the wall's displacement or compliance changes round the pocket, the force leans.
 """
 
 from __future__ import annotations
@@ -26,6 +28,7 @@ from flexcage.core.vectors import combine, cross, dot, minus, plus, row, times
 
 ITERATIONS = 8  # of Newton's method for a contact and a compliance in series
 POLAR = 0.3  # cosine of the latitude from which on a sphere's wall moves as its stations do
+SEAT = 1e-3  # of the ball's radius, see above: with less the push would be stiffer than a contact
 
 
 class BallPockets(NamedTuple):
@@ -38,6 +41,7 @@ class BallPockets(NamedTuple):
     height: float  # radius of the spheres' middles
     wall: np.ndarray  # (2,) inner and outer radius of the cage's wall
     sphere: float  # 1.0: spheres, 0.0: cylinders
+    rims: np.ndarray  # (Z, 3) sines of latitude at which spheres end: outwards, inwards, along x
     phi: np.ndarray  # (Z, 1, nst, 3, nm) modes at the stations (x, r, psi), from +psi towards +x
     phi_max: np.ndarray  # (nm,) largest displacement of a wall along its normal
     local: np.ndarray  # (Z, nst) compliance beyond the modes
@@ -79,19 +83,18 @@ def pocket_wall_contact(
     h = data.sphere * (dot(D, row(pw.G, 1)) - data.height)
     x -= min(max(x, -data.slot[i, 0]), data.slot[i, 0])
     t -= min(max(t, -data.slot[i, 1]), data.slot[i, 1])
-    flat = sqrt(x * x + t * t)
-    reach = sqrt(flat * flat + h * h)
-    play = data.radius[i] - rb
-    if reach == 0.0:
+    n, apart, touch = _nearest(
+        (x, h, t), data.radius[i], row(data.rims, i), data.sphere * SEAT * rb
+    )
+    if apart == 0.0:
         return False
-    n = (x / reach, h / reach, t / reach)
     if mode >= 2:
-        sums[3] = atan2(x, t)
+        sums[3] = atan2(n[0], n[2])
         sums[4] = _along(n, v, pw)
-    if reach - play + margin <= 0.0:
+    if rb - apart + margin <= 0.0:
         return False
     nst = data.phi.shape[2]
-    place = atan2(x, t) * nst / (2.0 * pi)
+    place = atan2(n[0], n[2]) * nst / (2.0 * pi)
     first = floor(place)
     weight, slope = smooth_weights(place - first)
     u = du = ud = (0.0, 0.0, 0.0)
@@ -104,7 +107,7 @@ def pocket_wall_contact(
         soft += weight[k] * data.local[i, s]
         softer += slope[k] * nst / (2.0 * pi) * data.local[i, s]
     # fading towards a pole: what changes with azimuth, and with the cosine of the latitude
-    cosine = flat / reach
+    cosine = sqrt(n[0] * n[0] + n[2] * n[2])
     share, fade = _fading(cosine)
     faded, fading = (0.0, 0.0, 0.0), 0.0
     if share < 1.0:
@@ -114,17 +117,16 @@ def pocket_wall_contact(
         ud = combine(times(share, ud), 1.0 - share, rate)
         soft = share * soft + (1.0 - share) * yielding
         du, softer = times(share, du), share * softer
-    depth = reach - play - dot(u, n)
+    depth = rb - apart - dot(u, n)
     if depth <= 0.0:
         return False
     # slope of the depth: along n, and as the wall's displacement changes there
     across = (u[0], data.sphere * u[1], u[2])
-    push = combine(n, -1.0 / reach, combine(across, -dot(across, n), n))
+    push = minus(n, _turning(across, n, apart, touch))
     round_it = polewards = (0.0, 0.0, 0.0)  # slopes of the azimuth and of that cosine
-    if flat > 0.0:
-        round_it = times(1.0 / (flat * flat), (t, 0.0, -x))
-        tall = h / (flat * reach**3)
-        polewards = (tall * h * x, -tall * flat * flat, tall * h * t)
+    if cosine > 0.0:
+        round_it = times(1.0 / (cosine * cosine), _turning((n[2], 0.0, -n[0]), n, apart, touch))
+        polewards = times(1.0 / cosine, _turning((n[0], 0.0, n[2]), n, apart, touch))
         push = combine(push, -dot(du, n), round_it)
         push = combine(push, -dot(faded, n), polewards)
     yields = combine(times(softer, round_it), fading, polewards)  # slope of the compliance
@@ -175,6 +177,77 @@ def pocket_wall_contact(
     if mode >= 2:
         sums[2] = friction_power((0, 1), sl)
     return True
+
+
+@part
+def _nearest(d, radius, rims, seat):
+    """Where a ball at ``d`` from its pocket's middle is nearest to the wall, (x, r, psi).
+
+    Returns the direction from the ball's centre to the wall (shorter than 1 within a seat), the
+    distance, and the wall's place there for ``_turning``: which coordinates a rim holds (0 or 1),
+    the direction of the others and their distance from the pocket's middle, and how much farther
+    off the wall is. The middle of the pocket itself has distance 0 and means nothing.
+    """
+    high = rims[0] if d[1] >= 0.0 else rims[1]
+    held_x, held_r = _held(d, high, rims[2], seat)
+    ex, er = held_x * (rims[2] * radius - abs(d[0])), held_r * (high * radius - abs(d[1]))
+    level = 1.0 - held_x * rims[2] * rims[2] - held_r * high * high  # of a circle on the sphere
+    a = ((1.0 - held_x) * d[0], (1.0 - held_r) * d[1], d[2])
+    reach = sqrt(dot(a, a) + seat * seat)
+    off = sqrt(max(level, 0.0)) * radius - reach
+    apart = sqrt(ex * ex + er * er + off * off)
+    if reach == 0.0 or apart == 0.0:
+        return (0.0, 0.0, 0.0), 0.0, (held_x, held_r, a, 1.0, off)
+    f = times(1.0 / reach, a)
+    n = times(off / apart, f)
+    n = (
+        n[0] + (ex if d[0] >= 0.0 else -ex) / apart,
+        n[1] + (er if d[1] >= 0.0 else -er) / apart,
+        n[2],
+    )
+    return n, apart, (held_x, held_r, f, reach, off)
+
+
+@part
+def _held(d, high, wide, seat):
+    """Whether the nearest point of a sphere's wall lies on a rim along x, and on one along r.
+
+    ``high`` and ``wide``: sines of the latitudes at which the wall ends that way; over 1 nowhere.
+    """
+    x, r, tt = abs(d[0]), abs(d[1]), d[2] * d[2] + seat * seat
+    reach = sqrt(x * x + r * r + tt)
+    tall, broad = r > high * reach, x > wide * reach
+    if not (tall or broad):
+        return 0.0, 0.0
+    # along the one rim alone: is the other passed then?
+    at_r = at_x = -1.0
+    if tall:
+        level = sqrt(1.0 - high * high)
+        round_it = sqrt(x * x + tt)
+        if level * x <= wide * round_it:
+            at_r = high * r + level * round_it
+    if broad:
+        level = sqrt(1.0 - wide * wide)
+        round_it = sqrt(r * r + tt)
+        if level * r <= high * round_it:
+            at_x = wide * x + level * round_it
+    if at_r < 0.0 and at_x < 0.0:
+        return 1.0, 1.0
+    if at_r >= at_x:
+        return 0.0, 1.0
+    return 1.0, 0.0
+
+
+@part
+def _turning(a, n, apart, touch):
+    """Slope of ``n . a`` over the ball's place, for a constant vector: the distance's second
+    derivatives, less those of a wall that goes with the ball."""
+    held_x, held_r, f, reach, off = touch
+    free = ((1.0 - held_x) * a[0], (1.0 - held_r) * a[1], a[2])
+    along = dot(f, free)
+    bent = combine(times(along + off / reach * along, f), -off / reach, free)
+    bent = (bent[0] + held_x * a[0], bent[1] + held_r * a[1], bent[2])
+    return times(-1.0 / apart, combine(bent, -dot(n, a), n))
 
 
 @part

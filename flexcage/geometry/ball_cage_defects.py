@@ -11,7 +11,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import singledispatch
-from math import pi, sin
+from math import pi
 from typing import ClassVar
 
 import numpy as np
@@ -20,6 +20,7 @@ from flexcage.core.errors import InputError
 from flexcage.core.spec import option, quantity
 from flexcage.core.units import describe
 from flexcage.geometry.ball_cages import BallCage
+from flexcage.geometry.ribbon_cage import RibbonCage
 
 _DIRECTIONS = ("axial", "circumferential")
 _SPACING = 1  # what tells the seed of pockets' places from that of ball diameters
@@ -76,7 +77,16 @@ class WebCrack:
     share: float = option(doc="its length over the cage's width, between 0 and 1")
 
 
-BallCageDefect = EnlargedPocket | ElongatedPocket | DisplacedPocket | WebCrack
+@dataclass(frozen=True, kw_only=True)
+class MissingRivet:
+    """A rivet of a ribbon cage that broke or came off: its halves are free of each other there."""
+
+    tag: ClassVar[str] = "missing_rivet"
+
+    web: int = option(doc="web number, 0 .. Z-1; web k is between pockets k-1 and k", minimum=0)
+
+
+BallCageDefect = EnlargedPocket | ElongatedPocket | DisplacedPocket | WebCrack | MissingRivet
 
 
 def uneven_pockets(cage: object, pocket_count: int, seed: int) -> tuple[DisplacedPocket, ...]:
@@ -142,9 +152,10 @@ def _(defect: DisplacedPocket, shapes: PocketShapes) -> None:
     shapes.centre[defect.pocket] += (defect.axial, defect.circumferential)
 
 
-@_add.register
-def _(defect: WebCrack, shapes: PocketShapes) -> None:
-    """A crack leaves the pockets as they are."""
+@_add.register(WebCrack)
+@_add.register(MissingRivet)
+def _(defect: object, shapes: PocketShapes) -> None:
+    """Neither moves a pocket's wall."""
 
 
 def wall_reach(direction: np.ndarray, radius: float | np.ndarray, slot: np.ndarray) -> np.ndarray:
@@ -196,22 +207,10 @@ def web_thickness(cage: BallCage, shapes: PocketShapes, *, pitch_diameter: float
 
 
 def check_ball_cage(cage: BallCage, *, pocket_count: int) -> None:
-    """Refuse a ball cage whose dimensions leave no body: thickness, rims beside pockets, webs."""
-    chord = cage.bore * sin(pi / pocket_count)  # between the web's middles, at the bore
-    if cage.outside_diameter <= cage.bore:
-        where, what = "outside_diameter", f"must exceed its bore, {_mm(cage.bore)}"
-    elif cage.pocket_diameter >= cage.width:
-        where, what = "pocket_diameter", f"leaves no rims in a cage {_mm(cage.width)} wide"
-    elif cage.pocket_diameter >= chord and not is_sphere(cage):
-        where = "pocket_diameter"
-        what = (
-            f"makes the {pocket_count} webs thinner than zero at the bore; it must be less than "
-            f"{_mm(chord)}"
-        )
-    else:
-        return
-    value = getattr(cage, where)
-    raise InputError(f"cage.{where}, {_mm(value)}, {what}.", where=f"cage.{where}", value=value)
+    """Refuse a ball cage whose dimensions leave no body."""
+    for name, what in cage.impossible(pocket_count):
+        value, where = getattr(cage, name), f"cage.{name}"
+        raise InputError(f"{where}, {_mm(value)}, {what}.", where=where, value=value)
 
 
 def check_ball_defects(
@@ -224,8 +223,11 @@ def check_ball_defects(
 ) -> None:
     """Refuse a defect of a pocket or web that is not there, or that leaves no web, rim or room."""
     for i, defect in enumerate(defects):
+        _raise_first(_find_foreign(cage, defect, f"defects.{i}"))
         _raise_first(_find(defect, f"defects.{i}", pocket_count))
-    _raise_first(_find_in_cracks(defects))
+    _raise_first(_find_in_webs(defects))
+    if isinstance(cage, RibbonCage):
+        return
     shapes = pocket_shapes(cage, defects, pocket_count=pocket_count)
     _raise_first(_find_in_pockets(cage, shapes, ball_diameter))
     _raise_first(_find_in_openings(cage, shapes, 0.5 * pitch_diameter))
@@ -307,11 +309,29 @@ def _(defect: WebCrack, where: str, count: int) -> Iterator[Finding]:
         )
 
 
-def _find_in_cracks(defects: Sequence[BallCageDefect]) -> Iterator[Finding]:
-    webs = [crack.web for crack in cracks_of(defects)]
-    for web in webs:
-        if webs.count(web) > 1:
-            yield "defects", f"Web {web} has {webs.count(web)} cracks; give each web one.", web
+@_find.register
+def _(defect: MissingRivet, where: str, count: int) -> Iterator[Finding]:
+    return _find_number(where, "web", defect.web, count)
+
+
+def _find_foreign(cage: BallCage, defect: object, where: str) -> Iterator[Finding]:
+    """A defect of the other kind of ball cage."""
+    if isinstance(cage, RibbonCage) != isinstance(defect, MissingRivet):
+        tag = getattr(type(defect), "tag", type(defect).__name__)
+        yield (
+            where,
+            f"{where} is '{tag}', but the cage is of the kind '{cage.type}': ribbon cages may have "
+            "'missing_rivet' alone, and machined ones all other defects.",
+            tag,
+        )
+
+
+def _find_in_webs(defects: Sequence[BallCageDefect]) -> Iterator[Finding]:
+    for kind, what in ((WebCrack, "cracks"), (MissingRivet, "missing rivets")):
+        webs = [d.web for d in defects if isinstance(d, kind)]
+        for web in webs:
+            if webs.count(web) > 1:
+                yield "defects", f"Web {web} has {webs.count(web)} {what}; give each web one.", web
 
 
 def _find_in_pockets(

@@ -2,15 +2,20 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from math import pi, sin
 
 from flexcage.core.spec import option, quantity
+from flexcage.core.units import describe
 from flexcage.geometry.cage import Cage
 from flexcage.geometry.materials import MATERIALS, Material
 
 POCKET_SHAPES = ("cylindrical", "spherical")
 GUIDANCE = ("ball", "inner", "outer")
+BALL_CAGES: dict[str, type | None] = {"machined": None}  # name in a case: spec of its own
+
+Objection = tuple[str, str]  # name of a value, and what is wrong with it
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -18,9 +23,10 @@ class BallCage(Cage):
     """A cage with one round pocket per ball: a hollow cylinder with radial holes, or spheres.
 
     ``pocket_diameter`` is that of cylinder or sphere. A cage that a ring guides has its land there,
-    with the clearance of [contacts.land].
+    with the clearance of [contacts.land]. ``type`` may name another kind with a spec of its own.
     """
 
+    type: str = option("machined", doc="kind of cage", choices=BALL_CAGES, former="machined")
     material: Material = option(MATERIALS["PA66"], doc="cage material (a name or its values)")
     pocket_diameter: float = quantity("mm", doc="diameter of a pocket", above=0.0)
     pocket_shape: str = option("cylindrical", doc="shape of pockets", choices=POCKET_SHAPES)
@@ -33,3 +39,44 @@ class BallCage(Cage):
         web = pitch_diameter * sin(pi / pocket_count) - self.pocket_diameter
         wall, rim = self.outside_diameter - self.bore, self.width - self.pocket_diameter
         return min(0.5 * wall, 0.5 * rim, web)
+
+    @property
+    def wall_end(self) -> float:
+        """Sine of the latitude towards the cage's ends at which a spherical pocket's wall ends;
+        over 1: it does not."""
+        return 2.0
+
+    def wall_ends(self, pitch_radius: float, radius: float) -> tuple[float, float, float]:
+        """Sines of the latitudes at which the wall of a sphere of ``radius`` [m] ends: outwards,
+        inwards, and towards the cage's ends; over 1 where it does not. The rims at bore and outside
+        are as high as they stand in front of the ball and behind it."""
+        radii = (0.5 * self.outside_diameter, 0.5 * self.bore)
+        reach = [
+            (r**2 - pitch_radius**2 - radius**2) / (2.0 * pitch_radius * radius) for r in radii
+        ]
+        outward, inward = (s if abs(s) < 1.0 else 2.0 for s in (reach[0], -reach[1]))
+        return outward, inward, self.wall_end
+
+    def impossible(self, pocket_count: int) -> Iterator[Objection]:
+        """Dimensions that leave no body: thickness, rims beside pockets, webs at the bore."""
+        chord = self.bore * sin(pi / pocket_count)  # between the web's middles
+        if self.outside_diameter <= self.bore:
+            yield "outside_diameter", f"must exceed its bore, {describe(self.bore, 'mm')}"
+        if self.pocket_diameter >= self.width:
+            yield "pocket_diameter", f"leaves no rims in a cage {describe(self.width, 'mm')} wide"
+        if self.pocket_diameter >= chord and self.pocket_shape != "spherical":
+            yield (
+                "pocket_diameter",
+                f"makes the {pocket_count} webs thinner than zero at the bore; it must be less "
+                f"than {describe(chord, 'mm')}",
+            )
+
+    def no_room(self, pitch_diameter: float, pocket_count: int) -> Iterator[Objection]:
+        """What leaves no room for it between neighbouring pockets."""
+        chord = pitch_diameter * sin(pi / pocket_count)
+        if self.pocket_diameter >= chord:
+            yield (
+                "pocket_diameter",
+                f"so the {pocket_count} pockets run into each other; it must be less than "
+                f"{describe(chord, 'mm')}",
+            )

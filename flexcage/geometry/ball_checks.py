@@ -63,8 +63,8 @@ def _check(
     if cage is None:
         return
     raise_first(find_in_cage(bearing, cage))
+    check_ball_cage(cage, pocket_count=bearing.ball_count)
     if defects:
-        check_ball_cage(cage, pocket_count=bearing.ball_count)
         check_ball_defects(
             defects, cage, pocket_count=bearing.ball_count, pitch_diameter=bearing.pitch_diameter,
             ball_diameter=bearing.ball_diameter,
@@ -167,20 +167,14 @@ def _rings(b: BallBearing) -> tuple[tuple[float, str], tuple[float, str]]:
 
 def find_in_cage(b: BallBearing, c: BallCage) -> Iterator[Finding]:
     """What is impossible for the cage in its bearing."""
-    yield from find_in_unbalance(c)
     if c.pocket_diameter <= b.ball_diameter:
         yield (
             "cage.pocket_diameter",
             f"cage.pocket_diameter is {_mm(c.pocket_diameter)}, but must be greater than the "
             f"ball's, {_mm(b.ball_diameter)}.",
         )
-    chord = b.pitch_diameter * sin(pi / b.ball_count)
-    if c.pocket_diameter >= chord:
-        yield (
-            "cage.pocket_diameter",
-            f"cage.pocket_diameter is {_mm(c.pocket_diameter)}, so the {b.ball_count} pockets run "
-            f"into each other; it must be less than {_mm(chord)}.",
-        )
+    for name, what in c.no_room(b.pitch_diameter, b.ball_count):
+        yield f"cage.{name}", f"cage.{name} is {_mm(getattr(c, name))}, {what}."
     inner, outer = _rings(b)
     if not inner[0] < c.bore:
         yield (
@@ -206,3 +200,4 @@ def find_in_cage(b: BallBearing, c: BallCage) -> Iterator[Finding]:
             f"The cage from {_mm(c.bore)} to {_mm(c.outside_diameter)} in diameter does not hold "
             f"the balls' pitch circle of {_mm(b.pitch_diameter)}; its pockets cannot guide them.",
         )
+    yield from find_in_unbalance(c)

@@ -1,6 +1,6 @@
 """All bearing types that flexcage ships: importing this module registers them and their parts."""
 
-from flexcage.geometry import ball_catalogue, ball_checks
+from flexcage.geometry import ball_catalogue, ball_checks, ribbon_cage
 from flexcage.geometry.angular_contact_ball import AngularContactBallBearing
 from flexcage.geometry.ball_bearing import BallBearing
 from flexcage.geometry.bearing import BEARING_TYPES, Bearing
@@ -16,4 +16,5 @@ __all__ = [
     "RollerBearing",
     "ball_catalogue",
     "ball_checks",
+    "ribbon_cage",
 ]

@@ -17,6 +17,7 @@ from flexcage.geometry.ball_cage_defects import (
     DisplacedPocket,
     ElongatedPocket,
     EnlargedPocket,
+    MissingRivet,
     PocketShapes,
     WebCrack,
     is_sphere,
@@ -144,6 +145,23 @@ def _(defect: WebCrack, mesh: CageMesh, cage: BallCage, *, pitch_radius: float) 
     return [
         Reading(defect.tag, defect.share * cage.width, crack_length(mesh, defect.web, defect.side))
     ]
+
+
+@readings.register
+def _(defect: MissingRivet, mesh: CageMesh, cage: Any, *, pitch_radius: float) -> list[Reading]:
+    """Diameter of the circle in which the halves no more hold together."""
+    at = in_pocket_frame(
+        mesh.points[joined_vertices(mesh, defect.web)], defect.web - 0.5, mesh.pocket_count
+    )
+    held = 2.0 * np.hypot(at[:, 1] - pitch_radius, at[:, 2]).max(initial=0.0)
+    return [Reading(defect.tag, 2.0 * cage.head_radius, 2.0 * cage.head_radius - float(held))]
+
+
+def joined_vertices(mesh: CageMesh, web: int) -> np.ndarray:
+    """Vertices (n,) of the middle plane at one web, where a rivet holds a ribbon cage's halves."""
+    x, y, t = in_pocket_frame(mesh.points, web - 0.5, mesh.pocket_count).T
+    near = np.abs(np.arctan2(t, y)) < pi / mesh.pocket_count
+    return np.flatnonzero(near & (np.abs(x) < 1e-9))
 
 
 def measure_ball_file(

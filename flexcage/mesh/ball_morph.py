@@ -6,7 +6,7 @@ displacement are harmonic functions (the finite-element solution of Laplace's eq
 sound mesh) between the walls, the ends and the next sectors but one; lands stay cylinders.
 
 A crack's faces are those of the elements on the two sides of the web's middle: their common
-vertices beyond its tip are doubled.
+vertices beyond its tip are doubled. Where a ribbon cage lacks a rivet, those of its two halves are.
 """
 
 from __future__ import annotations
@@ -23,6 +23,7 @@ import scipy.sparse as sp
 from flexcage.core.errors import InputError
 from flexcage.geometry.ball_cage_defects import (
     BallCageDefect,
+    MissingRivet,
     PocketShapes,
     WebCrack,
     cracks_of,
@@ -32,9 +33,11 @@ from flexcage.geometry.ball_cage_defects import (
     wall_reach,
 )
 from flexcage.geometry.ball_cages import BallCage
-from flexcage.mesh.ball_measure import readings
+from flexcage.geometry.ribbon_cage import RibbonCage
+from flexcage.mesh.ball_measure import joined_vertices, readings
 from flexcage.mesh.cage_mesh import CageMesh, signed_volumes
 from flexcage.mesh.measure import in_pocket_frame
+from flexcage.mesh.ribbon_sector import stand_off
 from flexcage.mesh.sector import Quarter
 
 _LEVELS = 60  # steps to where a sphere is at a vertex' distance from the axis; each gains a digit
@@ -86,6 +89,9 @@ def _with_defects(
     mesh = replace(sound, points=points)
     for crack in cracks_of(defects):
         mesh = open_crack(sound, mesh, cage, crack)
+    for defect in defects:
+        if isinstance(defect, MissingRivet) and isinstance(cage, RibbonCage):
+            mesh = without_rivet(mesh, defect.web, stand_off(cage))
     return mesh
 
 
@@ -202,6 +208,19 @@ def open_crack(sound: CageMesh, mesh: CageMesh, cage: BallCage, crack: WebCrack)
     }
     points = np.vstack([mesh.points, mesh.points[old]])
     return replace(mesh, points=points, tets=tets, groups=MappingProxyType(groups))
+
+
+def without_rivet(mesh: CageMesh, web: int, gap: float) -> CageMesh:
+    """``mesh`` of a ribbon cage whose halves are free of each other at one web, ``gap`` [m] off the
+    middle plane each."""
+    old = joined_vertices(mesh, web)
+    copy = np.arange(len(mesh.points))
+    copy[old] = len(copy) + np.arange(len(old))
+    under = mesh.points[mesh.tets].mean(axis=1)[:, 0] < 0.0
+    tets = np.where(under[:, None], copy[mesh.tets], mesh.tets)
+    points = np.vstack([mesh.points, mesh.points[old]])
+    points[old, 0], points[len(copy) :, 0] = gap, -gap
+    return replace(mesh, points=points, tets=tets)  # no group has a face on that plane
 
 
 def _behind(sound: CageMesh, cells: np.ndarray, web: int) -> np.ndarray:

@@ -157,7 +157,7 @@ def _fillet_surface(gmsh: Any, cage: WindowCage) -> int:
 def set_sizes(gmsh: Any, plan: SizePlan, curved: int) -> None:
     """A regular grid on the curved surface, a fillet or a pocket's wall, long along the radius
     where stress varies slowly; away from it the size grows to the far one."""
-    mesh, option = gmsh.model.mesh, gmsh.option
+    mesh = gmsh.model.mesh
     for dim, tag in gmsh.model.getBoundary([(2, curved)], combined=False, oriented=False):
         arc = _x_extent(gmsh, dim, tag) > _STRAIGHT
         mesh.setTransfiniteCurve(tag, 1 + (plan.arc_edges if arc else plan.radial_edges))
@@ -165,18 +165,29 @@ def set_sizes(gmsh: Any, plan: SizePlan, curved: int) -> None:
     distance = mesh.field.add("Distance")
     mesh.field.setNumbers(distance, "SurfacesList", [curved])
     mesh.field.setNumber(distance, "Sampling", 40)
-    size = mesh.field.add("MathEval")
+    grow_from(gmsh, distance, plan)
+
+
+def grow_from(gmsh: Any, distance: int, plan: SizePlan) -> None:
+    """Size everywhere by a field of distance: the near one, growing to the far one."""
+    field, option = gmsh.model.mesh.field, gmsh.option
+    size = field.add("MathEval")
     near, far = plan.near_fillet / MM, plan.size / MM
-    mesh.field.setString(size, "F", f"Min({far}, {near} + {plan.growth}*F{distance})")
-    mesh.field.setAsBackgroundMesh(size)
+    field.setString(size, "F", f"Min({far}, {near} + {plan.growth}*F{distance})")
+    field.setAsBackgroundMesh(size)
     for name in ("ExtendFromBoundary", "FromPoints", "FromCurvature"):
         option.setNumber(f"Mesh.MeshSize{name}", 0)
     option.setNumber("Mesh.Optimize", 1)
     option.setNumber("Mesh.OptimizeNetgen", 1)
 
 
-def mesh_arrays(gmsh: Any, stretch: float) -> tuple[np.ndarray, np.ndarray, list[np.ndarray]]:
-    """Points [m], positive tets, and the outward triangles of each surface, compactly numbered."""
+def mesh_arrays(
+    gmsh: Any, stretch: float | None = None
+) -> tuple[np.ndarray, np.ndarray, list[np.ndarray]]:
+    """Points [m], positive tets, and the outward triangles of each surface, compactly numbered.
+
+    ``stretch``: that of the coordinates (x, radius/stretch, t); without it they are (x, y, z).
+    """
     mesh = gmsh.model.mesh
     tags, coordinates, _ = mesh.getNodes()
     cells = mesh.getElementsByType(4)[1].reshape(-1, 4)
@@ -186,7 +197,8 @@ def mesh_arrays(gmsh: Any, stretch: float) -> tuple[np.ndarray, np.ndarray, list
     position = np.empty((len(number), 3))
     position[tags] = coordinates.reshape(-1, 3) * MM
     points, tets = position[used], number[cells]
-    points[:, 1] = np.sqrt((stretch * points[:, 1]) ** 2 - points[:, 2] ** 2)  # radius to height
+    if stretch is not None:  # radius to height
+        points[:, 1] = np.sqrt((stretch * points[:, 1]) ** 2 - points[:, 2] ** 2)
     faces = [
         orient_outward(points, tets, number[mesh.getElementsByType(2, tag)[1].reshape(-1, 3)])
         for _, tag in gmsh.model.getEntities(2)

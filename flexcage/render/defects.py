@@ -14,6 +14,7 @@ from flexcage.geometry.ball_cage_defects import (
     DisplacedPocket,
     ElongatedPocket,
     EnlargedPocket,
+    MissingRivet,
     WebCrack,
 )
 from flexcage.geometry.cages import CrossbeamDefect, SideBeamDefect
@@ -241,13 +242,15 @@ def _(defect: DisplacedPocket, count: int) -> tuple[float, np.ndarray] | None:
     return (-0.3, way / size) if size else None  # below the pocket's name
 
 
-@pitches.register
-def _(defect: WebCrack) -> float:
+@pitches.register(WebCrack)
+@pitches.register(MissingRivet)
+def _(defect: Any) -> float:
     return defect.web - 0.5
 
 
-@pockets_of.register
-def _(defect: WebCrack, count: int) -> list[int]:
+@pockets_of.register(WebCrack)
+@pockets_of.register(MissingRivet)
+def _(defect: Any, count: int) -> list[int]:
     return [(defect.web - 1) % count, defect.web]
 
 
@@ -257,11 +260,22 @@ def _(defect: WebCrack) -> str:
     return f"web {defect.web} cracked from the end {side}, {100.0 * defect.share:g} % of the width"
 
 
-@changes_of.register
-def _(defect: WebCrack, count: int) -> dict[tuple[int, str], float]:
+@changes_of.register(WebCrack)
+@changes_of.register(MissingRivet)
+def _(defect: Any, count: int) -> dict[tuple[int, str], float]:
     return {}
 
 
 @keys_of.register
 def _(defect: WebCrack) -> list[Key]:
     return [("line", CRACK, "crack through the whole wall")]
+
+
+@label_of.register
+def _(defect: MissingRivet) -> str:
+    return f"web {defect.web} without its rivet"
+
+
+@keys_of.register
+def _(defect: MissingRivet) -> list[Key]:
+    return [("line", CRACK, "place of the missing rivet")]

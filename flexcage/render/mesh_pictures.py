@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from functools import singledispatch
 from math import pi
 from pathlib import Path
 
 import numpy as np
 
-from flexcage.geometry.ball_cage_defects import BallCageDefect, WebCrack, cracks_of
+from flexcage.geometry.ball_cage_defects import BallCageDefect, MissingRivet, WebCrack
 from flexcage.geometry.cages import Defect
 from flexcage.mesh.cage_mesh import POCKET_GROUPS, WALL_GROUPS, CageMesh, pocket_groups
 from flexcage.render import marks, sheet
@@ -85,8 +86,8 @@ def mesh_picture(
         )
         for pocket, colour in colours.items():
             _fill_pocket(ax, main, mesh, pocket, colour)
-        for crack in cracks_of(defects):
-            _crack_line(ax, main, mesh, crack)
+        for each in defects:
+            _mark_web(each, ax, main, mesh)
         for i, (defect, close) in enumerate(zip(shown, closes)):
             rect = (left, TOP + i * (SIDE[1] + 44), *SIDE)
             _close_panel(figure, rect, close, mesh, defect, defects)
@@ -118,8 +119,14 @@ def _fill_pocket(ax, picture: Picture, mesh: CageMesh, pocket: int, colour: str)
     ax.plot(xy[:, 0], xy[:, 1], color=colour, lw=1.4)
 
 
-def _crack_line(ax, picture: Picture, mesh: CageMesh, crack: WebCrack) -> None:
-    """What is seen of a crack: on the outside, across the end, and on the inside of the cage."""
+@singledispatch
+def _mark_web(defect: CageDefect, ax, picture: Picture, mesh: CageMesh) -> None:
+    """Draw what is seen of a defect between pockets; others have no mark of their own."""
+
+
+@_mark_web.register
+def _(crack: WebCrack, ax, picture: Picture, mesh: CageMesh) -> None:
+    """On the outside, across the end, and on the inside of the cage."""
     psi = azimuth_of(crack, mesh.pocket_count)
     radial, axis = np.array([0.0, np.cos(psi), np.sin(psi)]), np.array([1.0, 0.0, 0.0])
     r, half = np.hypot(mesh.points[:, 1], mesh.points[:, 2]), float(mesh.points[:, 0].max())
@@ -132,6 +139,25 @@ def _crack_line(ax, picture: Picture, mesh: CageMesh, crack: WebCrack) -> None:
     for width, colour in ((4.0, "white"), (2.2, CRACK)):  # the rim of all parts below all lines
         for k in np.flatnonzero(seen):
             ax.plot(*xy[k : k + 2].T, color=colour, lw=width, solid_capstyle="round")
+
+
+@_mark_web.register
+def _(rivet: MissingRivet, ax, picture: Picture, mesh: CageMesh) -> None:
+    """A ring round each of its heads."""
+    psi = azimuth_of(rivet, mesh.pocket_count)
+    radial, around = (np.array([0.0, np.cos(a), np.sin(a)]) for a in (psi, psi + 0.5 * pi))
+    r = np.hypot(mesh.points[:, 1], mesh.points[:, 2])
+    middle, size = 0.5 * (r.max() + r.min()), 0.45 * (r.max() - r.min())
+    near = np.linalg.norm(mesh.points[:, 1:] - middle * radial[1:], axis=1) < 0.5 * size
+    high = float(np.abs(mesh.points[near, 0]).max())
+    angle = np.linspace(0.0, 2.0 * pi, 73)[:, None]
+    for x in (high, -high):
+        centre = np.array([x, 0.0, 0.0]) + middle * radial
+        if not picture.sees(centre):
+            continue
+        xy = picture.place(centre + size * (np.cos(angle) * radial + np.sin(angle) * around))
+        for width, colour in ((4.0, "white"), (2.2, CRACK)):
+            ax.plot(*xy.T, color=colour, lw=width)
 
 
 def _close_view(shown: CageDefect | str, mesh: CageMesh, radius: float) -> View:
@@ -171,8 +197,8 @@ def _close_panel(
                 _fill_pocket(ax, picture, mesh, pocket, colours[pocket])
                 _sound_outline(ax, picture, mesh, pocket, defects)
             _pocket_name(ax, picture, mesh, pocket)
-        for crack in cracks_of(defects):
-            _crack_line(ax, picture, mesh, crack)
+        for defect in defects:
+            _mark_web(defect, ax, picture, mesh)
         _arrow(ax, picture, mesh, shown)
     caption = sheet.text_at(
         figure, rect[0], rect[1] + rect[3] + 8, text, fontsize=9.5, weight="bold"

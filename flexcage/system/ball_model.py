@@ -117,15 +117,16 @@ def _pockets(
     normal = normal + np.cos(theta)[None, :, None] * interface.modes[:, :, 2]
     if cage.pocket_shape == "spherical":
         normal = np.linalg.norm(interface.modes, axis=2)
-    n = interface.modes.shape[-1]
+    n, height = interface.modes.shape[-1], 0.5 * bearing.pitch_diameter
     return BallPockets(
         azimuth=st(np.stack([np.cos(angle), np.sin(angle)], axis=1)),
         shift=st(interface.centre),
         slot=st(interface.slot),
         radius=st(interface.radius),
-        height=0.5 * bearing.pitch_diameter,
+        height=height,
         wall=0.5 * np.array([cage.bore, cage.outside_diameter]),
         sphere=float(cage.pocket_shape == "spherical"),
+        rims=np.array([cage.wall_ends(height, float(r)) for r in interface.radius]),
         phi=st(interface.modes[:, None]),
         phi_max=np.abs(normal).max(axis=(0, 1)) if n else np.zeros(0),
         local=st(interface.local),

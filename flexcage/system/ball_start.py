@@ -3,7 +3,8 @@
 The quasi-static solution places ring and balls, centrifugal forces included. Every ball orbits as
 that has it and turns so that it rolls on both races, as far as contact angles allow; what spin
 and gyroscopic moment do to it is left to the run. The cage is centred on the balls, or as far off
-as its land's ring leaves it room, and the balls go with it.
+as its land's ring leaves it room, and the balls go with it; its modes are where rotation holds
+them.
 """
 
 from __future__ import annotations
@@ -22,6 +23,7 @@ from flexcage.system.statics.solution import StaticSolution
 
 log = logging.getLogger(__name__)
 
+_SPIN_UPS = 3  # each adds two digits: spin is a tenth of the lowest frequency at most
 _ALIKE = 1e-3  # rad: contact angles closer than this leave a ball's axis to their mean
 
 
@@ -35,6 +37,7 @@ def _(
     y = ball_places(bearing, solution)
     made_room(model.land, bearing.layout, y)
     yd = rolling_balls(model, bearing.layout, solution, y)
+    _spin_cage_up(bearing, y, yd)
     station = np.zeros_like(bearing.data.work.report.station)
     return Start(y, yd, (), 0.0, solution.unbalanced, station)
 
@@ -83,6 +86,16 @@ def rolling_balls(
     u["omega"][0] = cage
     qd["quaternion"][1] = 0.5 * cage
     return yd
+
+
+def _spin_cage_up(bearing: Bearing, y: np.ndarray, yd: np.ndarray) -> None:
+    """Set the cage's modes in y as its rotation strains it; from none it would ring."""
+    layout, stiffness = bearing.layout, bearing.data.model.cage.kff
+    if not layout.modes:
+        return
+    for _ in range(_SPIN_UPS):
+        rest = layout.u(bearing.residual(0.0, y, yd))["modes"]
+        layout.q(y)["modes"][:] -= np.linalg.solve(stiffness, rest)
 
 
 def _rolling(

@@ -257,6 +257,6 @@ def test_what_balls_have_not_is_one_sentence():
         c7010(RIGID, {"solver.method": "bdf"})
     with pytest.raises(InputError, match="balls have no tangent yet.*solver.method"):
         bearing_of(c7010(RIGID)).function("linearise")  # what an integrator from outside asks for
-    narrow = load_case('[bearing]\npreset = "15x37x10"\n[load]\nradial = "100 N"\n')
+    narrow = {"bearing": {"preset": "15x37x10"}, "cage": {"type": "machined"}}
     with pytest.raises(InputError, match="leaves no rims in a cage 6.5 mm wide"):
-        simulate(narrow)
+        load_case(narrow)

@@ -152,7 +152,7 @@ def test_balls_and_their_cage_make_room():
 
 @pytest.mark.parametrize("method", ["explicit", "bdf"])
 def test_peaks_between_samples_are_kept(method):
-    """Of contacts that last 30 us, samples every 50 us miss most; the parabolas through the solver's
+    """Of contacts that last 30 us, samples every 50 us miss most; parabolas through the solver's
     steps do not.
 
     The same motion sampled at 800 kHz has the same largest force in every contact. Steps are the

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from ball_parts import ball_bearing, contacts_of, pressed
+from ball_parts import PITCH, ball_bearing, contacts_of, pressed
 from scipy.spatial.transform import Rotation
 
 from flexcage.contacts.spec import Lubricant
@@ -122,11 +122,52 @@ def at_poles(bearing):
     return y
 
 
-def test_forces_near_the_poles_of_spheres_are_slopes_of_the_energy_too():
-    """Of balls, cage and modes, where the stations' motion fades into their mean; and finite at the
-    pole itself."""
+def at_rims(bearing):
+    """Balls on rims at outside and bore, at open sides, where both meet, and straight into one."""
+    y = pressed(bearing)
+    q, model = bearing.layout.q(y), bearing.data.model
+    wall, ball = model.pocket.radius[0], model.bodies.radius[0]
+    high, low, side = model.pocket.rims[0]
+    q["cage"][:], q["quaternion"][:] = 0.0, (1.0, 0.0, 0.0, 0.0)
+    touched = [  # sines of latitude along x and r of the wall that the ball is pressed on
+        (0.3, high), (-0.5, -low), (0.0, high), (side, 0.1), (-side, -0.3), (side, high),
+        (-side, -low), (side, -low), (0.2, 0.1), (0.05, high), (0.0, -low),
+    ]  # fmt: skip
+    seats = {5: 1e-6, 9: 0.0, 10: 2e-6}  # nearly straight, across by so much
+    for i in range(bearing.layout.rollers):
+        x, r = touched[i % len(touched)]
+        t = np.sqrt(max(1.0 - x**2 - r**2, 0.0)) * (-1.0) ** i
+        on_wall = wall * np.array([x, r, t])
+        inside = on_wall - ball * beyond_rim(on_wall, i) / 1.0002
+        if i in seats:  # into a round rim from straight above or below
+            sine = high if i % 2 else -low
+            way = np.sqrt(ball**2 * 0.9996 - wall**2 * (1.0 - sine**2))
+            inside = np.array([seats[i], wall * sine - np.sign(sine) * way, 0.0])
+        ball_at = inside + (model.pocket.shift[i, 0], model.pocket.height, 0.0)
+        y_, z_ = ball_at[1], ball_at[2] + model.pocket.shift[i, 1]
+        q["rollers"][i, :2] = ball_at[0], np.hypot(y_, z_)
+        q["rollers"][i, 2] = 2.0 * np.pi * i / bearing.layout.rollers + np.arctan2(z_, y_)
+    return y
+
+
+def beyond_rim(on_wall, i):
+    """Unit direction a little off the sphere's normal, towards the pocket's middle."""
+    n = on_wall / np.linalg.norm(on_wall)
+    away = n + 0.02 * np.array([n[0], n[1], 0.0])
+    return away / np.linalg.norm(away)
+
+
+@pytest.mark.parametrize(
+    ("rims", "place"),
+    [((2.0, 2.0, 2.0), at_poles), ((0.42, 0.55, 0.7), at_rims)],
+    ids=["poles", "rims"],
+)
+def test_forces_on_spheres_are_slopes_of_the_energy_too(rims, place):
+    """Of balls, cage and modes: near the poles of whole spheres, where the stations' motion fades
+    into their mean, and finite at the pole itself; on rims at which a wall ends."""
     bearing = ball_bearing(shape="spherical")
-    layout, y = bearing.layout, at_poles(bearing)
+    bearing.data.model.pocket.rims[:] = rims
+    layout, y = bearing.layout, place(bearing)
     rows = layout.u(-bearing.residual(0.0, y, np.zeros_like(y)))
 
     def slope(name, *index, h=1e-9):
@@ -135,11 +176,16 @@ def test_forces_near_the_poles_of_spheres_are_slopes_of_the_energy_too():
         layout.q(low)[name][index] -= h
         return -(energy(bearing, high) - energy(bearing, low)) / (2.0 * h)
 
-    balls = [slope("rollers", i, c) for i in range(layout.rollers) for c in range(2)]
+    balls = [
+        slope("rollers", i, c, h=1e-9 / (1.0, 1.0, PITCH)[c]) for i in range(layout.rollers)
+        for c in range(3)
+    ]  # fmt: skip
     others = [slope("cage", c) for c in range(3)] + [slope("modes", m) for m in range(layout.modes)]
-    found = [*rows["rollers"][:, :2].ravel(), *rows["cage"], *rows["modes"]]
+    lever = (1.0, 1.0, PITCH)
+    found = [*(rows["rollers"][:, :3] * lever).ravel(), *rows["cage"], *rows["modes"]]
+    found[2 : 3 * layout.rollers : 3] *= layout.q(y)["rollers"][:, 1] / PITCH
     scale = np.abs([*balls, *others]).max()
-    np.testing.assert_allclose(found, [*balls, *others], atol=2e-6 * scale)
+    np.testing.assert_allclose(found, [*balls, *others], atol=3e-6 * scale)
     energy(bearing, y)
     touching = bearing.data.work.report.pocket_normal[:, 0] > 1.0
     assert touching[0] and touching.sum() > 8

@@ -1,0 +1,119 @@
+"""Riveted ribbon cages of deep groove ball bearings: two pressed halves of sheet.
+
+Each half is a strip as broad as the cage's wall and as thick as its sheet: flat between the
+pockets, where both halves lie on each other in the plane of ball centres and a rivet joins them,
+and pressed to half a hollow sphere round every ball. About an axis through a ball's centre, along
+the bearing's, a pocket and the sheet around it are a body of revolution; ``profile`` gives it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from math import pi, sin, sqrt
+
+from flexcage.core.spec import option, quantity
+from flexcage.core.units import describe
+from flexcage.geometry.ball_cages import BALL_CAGES, BallCage, Objection
+from flexcage.geometry.materials import MATERIALS, Material
+
+HEAD = 1.75  # a round head's diameter over its rivet's, and
+HEAD_HEIGHT = 0.6  # its height, likewise (ISO 1051)
+_LEAST_OPENING = 0.1  # of the sheet's thickness; smaller holes want elements as small
+
+
+@dataclass(frozen=True, kw_only=True)
+class RibbonCage(BallCage):
+    """Two halves of sheet, riveted between the pockets; pockets are spheres about ball centres.
+
+    Pockets end at ``width``/2 to both sides, so that a cage narrower than its pockets leaves the
+    balls' sides open; one as wide or wider is closed over them. The halves hold together within the
+    circles of the rivets' heads, and are free of each other elsewhere.
+    """
+
+    type: str = option("ribbon", doc="kind of cage", choices=BALL_CAGES)
+    material: Material = option(MATERIALS["steel"], doc="cage material (a name or its values)")
+    pocket_shape: str = option("spherical", doc="shape of pockets", choices=("spherical",))
+    guidance: str = option("ball", doc="what guides the cage radially", choices=("ball",))
+    thickness: float = quantity("mm", doc="thickness of the sheet", above=0.0)
+    rivet_diameter: float = quantity("mm", doc="diameter of a rivet's shank", above=0.0)
+    bend_radius: float | None = quantity(
+        "mm", None, doc="radius between flats and pockets; half the thickness if not given",
+        above=0.0,
+    )  # fmt: skip
+
+    @property
+    def opening(self) -> float:
+        """Radius [m] of the hole at a pocket's sides; 0 where it is closed."""
+        return sqrt(max(0.25 * (self.pocket_diameter**2 - self.width**2), 0.0))
+
+    @property
+    def reach(self) -> float:
+        """Half of the cage's axial width [m] over its pockets."""
+        outside = 0.5 * self.pocket_diameter + self.thickness
+        return 0.5 * self.width if self.opening else outside
+
+    @property
+    def bend(self) -> float:
+        """Radius [m] between flats and pockets."""
+        return 0.5 * self.thickness if self.bend_radius is None else self.bend_radius
+
+    @property
+    def head_radius(self) -> float:
+        """Radius [m] of a rivet's head, within which the halves hold together."""
+        return 0.5 * HEAD * self.rivet_diameter
+
+    @property
+    def bend_centre(self) -> tuple[float, float]:
+        """(x, rho) [m] of the middle of the bend's arc, rho from the axis through a ball."""
+        x = self.thickness + self.bend
+        return x, sqrt((0.5 * self.pocket_diameter + x) ** 2 - x**2)
+
+    @property
+    def wall_end(self) -> float:
+        return self.width / self.pocket_diameter if self.opening else 2.0
+
+    def thinnest(self, pitch_diameter: float, pocket_count: int) -> float:
+        return min(self.thickness, 0.5 * (self.outside_diameter - self.bore))
+
+    def impossible(self, pocket_count: int) -> Iterator[Objection]:
+        if self.outside_diameter <= self.bore:
+            yield "outside_diameter", f"must exceed its bore, {describe(self.bore, 'mm')}"
+        if 0.0 < self.opening < _LEAST_OPENING * self.thickness:
+            yield (
+                "width",
+                f"leaves holes of {describe(2.0 * self.opening, 'mm')} at the sides of pockets of "
+                f"{describe(self.pocket_diameter, 'mm')}; make it as wide as they are, or narrower",
+            )
+        x = self.bend_centre[0]
+        bent = x * (1.0 - self.bend / (0.5 * self.pocket_diameter + x))  # where the bend ends
+        if not bent < self.reach:
+            yield (
+                "width",
+                f"ends the pockets below their bends, {describe(bent, 'mm')} from the cage's "
+                f"middle; it must be greater than {describe(2.0 * bent, 'mm')}",
+            )
+        if self.pocket_scatter > 0.0:
+            yield "pocket_scatter", "is of machined cages; a ribbon cage has its pockets evenly"
+
+    def no_room(self, pitch_diameter: float, pocket_count: int) -> Iterator[Objection]:
+        inner, outer = 0.5 * self.bore, 0.5 * self.outside_diameter
+        left = max(outer - 0.5 * pitch_diameter, 0.5 * pitch_diameter - inner)
+        if not self.opening < left:
+            least = 2.0 * sqrt(max(0.25 * self.pocket_diameter**2 - left**2, 0.0))
+            yield (
+                "width",
+                f"so the holes of {describe(2.0 * self.opening, 'mm')} at the sides of its pockets "
+                f"cut the sheet through; it must be greater than {describe(least, 'mm')}",
+            )
+        flat = pitch_diameter * sin(pi / pocket_count) - 2.0 * self.bend_centre[1]
+        if not flat > self.rivet_diameter:
+            spared = f"flats of {describe(flat, 'mm')} alone" if flat > 0.0 else "no flats"
+            yield (
+                "rivet_diameter",
+                f"but pockets, sheet and bends leave {spared} between them; make pockets, sheet, "
+                "bends or rivets smaller",
+            )
+
+
+BALL_CAGES["ribbon"] = RibbonCage

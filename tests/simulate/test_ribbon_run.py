@@ -1,0 +1,84 @@
+"""Runs of a deep groove bearing with a riveted ribbon cage."""
+
+import numpy as np
+import pytest
+
+from flexcage.case import load_case
+from flexcage.results.audit import energy_audit
+from flexcage.simulate import load_run, simulate
+
+BASE = {
+    "bearing": {"preset": "15x37x10"},
+    "mesh": {"fineness": "coarse"},
+    "drive": {"speed": "9000 rpm"},
+    "load": {"axial": "20 N", "moment_z": "8.25 N*m", "tilt": "free"},
+    "solver": {"duration": "8 ms"},
+}
+RIGID = {"cage.model": "rigid"}
+RIVET = [{"type": "missing_rivet", "web": 2}]
+
+
+def ribbon(*tables, **more):
+    return load_case(BASE | more, overrides={k: v for t in tables for k, v in t.items()})
+
+
+@pytest.fixture(scope="module")
+def flexible(tmp_path_factory):
+    return simulate(ribbon(defects=RIVET), out=tmp_path_factory.mktemp("ribbon"))
+
+
+def test_the_moment_tilts_the_ring_and_balls_meet_their_pockets(flexible):
+    """As far as its static solution, and a little more: rings turn by finite angles."""
+    s = flexible.summary
+    assert s["inner_tilt"] == pytest.approx(8.65e-3, rel=0.03)
+    assert s["energy_audit"] == "passed" and s["pocket_force_peak"] > 1.0
+    ds = flexible.dataset
+    for name, values in ds.data_vars.items():
+        assert np.isfinite(values.values).all(), name
+
+
+def test_balls_stay_within_their_pockets(flexible):
+    """No ball goes deeper into its wall than contacts do: 5 um."""
+    ds, cage = flexible.dataset, flexible.case.cage
+    balls = ds["ball_position"].values
+    touched = ds["pocket_force"].sel(face="pocket").values > 0.0
+    assert touched.any()
+    away = np.hypot(balls[..., 0] - ds["cage_position"].values[:, None, 0], balls[..., 1] - 13e-3)
+    assert away.max() < 0.5 * (cage.pocket_diameter - 6.47e-3) + 0.3e-3
+
+
+def test_a_cage_begins_as_its_rotation_strains_it(flexible):
+    """Before the first ball touches it, its modes hardly move: from rest they would ring by as much
+    as the rotation displaces them."""
+    ds = flexible.dataset
+    first = int(np.argmax(ds["pocket_force"].values.max(axis=(1, 2)) > 0.0))
+    modes = ds["modal_coordinates"].values[:first]
+    strained = np.abs(modes).max(axis=0)
+    largest = strained.argmax()
+    assert first > 20 and np.ptp(modes[:, largest]) < 0.02 * strained[largest]
+
+
+def test_a_stored_run_is_drawn_and_recovered(flexible, tmp_path):
+    run = load_run(flexible.folder)
+    field = run.stress()
+    peak = run.summary["stress_peak"]
+    assert field.von_mises.max() >= 0.999 * peak > 50e6
+    assert run.stress_history.places.shape[1] == 7 * 4
+
+
+def test_a_missing_rivet_softens_the_cage_that_rotation_spreads(flexible):
+    """At the first sample, before any ball touches the cage."""
+    sound = simulate(ribbon({"solver.duration": "0.5 ms"}))
+    assert flexible.summary["first_frequency"] < 0.5 * sound.summary["first_frequency"]
+    spread = [run.stress(time=run.dataset["time"].values[0]) for run in (sound, flexible)]
+    assert spread[1].von_mises.max() > 2.0 * spread[0].von_mises.max()
+
+
+def test_rims_hold_an_unbalanced_cage():
+    """Spherical pockets end at rims, which keep the cage in the bearing: the balls' play in the
+    pocket in front and behind is 0.215 mm, and they pass the rims inwards by 0.41 mm."""
+    run = simulate(ribbon(RIGID, {"cage.unbalance": "1 g*mm", "solver.duration": "40 ms"}))
+    off = np.hypot(*run.dataset["cage_position"].values[:, 1:].T)
+    assert 0.1e-3 < off.max() < 0.45e-3
+    audit = energy_audit(run.dataset)
+    assert audit.passed and audit.of_drive < 1e-4
