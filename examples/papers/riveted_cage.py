@@ -47,6 +47,8 @@ READINGS: Mapping[str, Mapping[str, Any]] = {
     "balls of 6.747 mm": {"cage.model": "rigid", "bearing.ball_diameter": "6.747 mm"},
 }
 
+STARTS = {FLEXIBLE: 3, "rigid": 3, "balls of 6.747 mm": 6}
+
 
 def points(reading: str) -> list[dict[str, Any]]:
     """Every case of a reading: its label, and the values that it changes."""
@@ -98,7 +100,7 @@ def study(reading: str, *, quick: bool = False) -> flexcage.Study:
         ),
         axes=[flexcage.Points(tuple(cases), name="case")],
         outputs=["cage_slip_ratio", "pocket_force_pass_peak", "tilt_mean"],
-        repeat=Repeat(count=1 if quick else 3, push=20e-3),
+        repeat=Repeat(count=1 if quick else STARTS[reading], push=20e-3),
     )
 
 

@@ -2,8 +2,11 @@
 
 import numpy as np
 import pytest
+from PIL import Image
 
 from flexcage.case import load_case
+from flexcage.core.environment import offscreen_backend
+from flexcage.render.mesh_pictures import mesh_picture
 from flexcage.results.audit import energy_audit
 from flexcage.simulate import load_run, simulate
 
@@ -64,6 +67,17 @@ def test_a_stored_run_is_drawn_and_recovered(flexible, tmp_path):
     peak = run.summary["stress_peak"]
     assert field.von_mises.max() >= 0.999 * peak > 50e6
     assert run.stress_history.places.shape[1] == 7 * 4
+
+
+def test_the_picture_of_its_mesh_rings_the_missing_rivet(flexible, tmp_path):
+    """In vermilion, on the whole cage and in the close-up."""
+    if offscreen_backend() is None:
+        pytest.skip("nothing to draw with on this machine")
+    path = mesh_picture(flexible.mesh, tmp_path / "mesh.png", defects=flexible.case.defects)
+    pixels = np.asarray(Image.open(path).convert("RGB")).astype(int)
+    marked = np.abs(pixels - (213, 94, 0)).sum(axis=2) < 12
+    half = pixels.shape[1] * 2 // 3
+    assert marked[:, :half].sum() > 200 and marked[:, half:].sum() > 200
 
 
 def test_a_missing_rivet_softens_the_cage_that_rotation_spreads(flexible):
