@@ -212,7 +212,7 @@ class Case:
             for path, reason in preset.assumptions.items():
                 room, _, rest = path.partition(".")
                 origin = getattr(preset, room)
-                if _at(self, path) == _at(origin, rest):
+                if (value := _at(self, path)) is not None and value == _at(origin, rest):
                     found[path] = reason
         return found
 
@@ -341,8 +341,9 @@ def _merge(low: Mapping[str, Any], high: Mapping[str, Any]) -> dict[str, Any]:
 
 
 def _at(spec: Any, path: str) -> Any:
+    """The value at a dotted path, None where there is none."""
     for key in path.split("."):
-        spec = getattr(spec, key)
+        spec = getattr(spec, key, None)
     return spec
 
 

@@ -29,6 +29,7 @@ from flexcage.core.vectors import combine, cross, dot, minus, plus, row, times
 ITERATIONS = 8  # of Newton's method for a contact and a compliance in series
 POLAR = 0.3  # cosine of the latitude from which on a sphere's wall moves as its stations do
 SEAT = 1e-3  # of the ball's radius, see above: with less the push would be stiffer than a contact
+NARROW = 0.1  # of the pocket's play, the most that a seat may be
 
 
 class BallPockets(NamedTuple):
@@ -83,9 +84,8 @@ def pocket_wall_contact(
     h = data.sphere * (dot(D, row(pw.G, 1)) - data.height)
     x -= min(max(x, -data.slot[i, 0]), data.slot[i, 0])
     t -= min(max(t, -data.slot[i, 1]), data.slot[i, 1])
-    n, apart, touch = _nearest(
-        (x, h, t), data.radius[i], row(data.rims, i), data.sphere * SEAT * rb
-    )
+    seat = data.sphere * min(SEAT * rb, NARROW * (data.radius[i] - rb))
+    n, apart, touch = _nearest((x, h, t), data.radius[i], row(data.rims, i), seat)
     if apart == 0.0:
         return False
     if mode >= 2:

@@ -131,7 +131,7 @@ def pocket_shapes(
 def _add(defect: object, shapes: PocketShapes) -> None:
     raise InputError(
         f"a {type(defect).__name__} is no defect of a ball cage; those are enlarged, elongated "
-        "and displaced pockets and cracks.",
+        "and displaced pockets, cracks and missing rivets.",
         where="defects",
     )
 
@@ -254,7 +254,7 @@ def _find(defect: object, where: str, count: int) -> Iterator[Finding]:
     yield (
         where,
         f"{where} is a {type(defect).__name__}, but a ball cage's defects are enlarged, elongated "
-        "and displaced pockets and cracks.",
+        "and displaced pockets, cracks and missing rivets.",
         type(defect).__name__,
     )
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from math import pi, sin
+from math import hypot, pi, sin
 
 from flexcage.core.spec import option, quantity
 from flexcage.core.units import describe
@@ -48,8 +48,10 @@ class BallCage(Cage):
 
     def wall_ends(self, pitch_radius: float, radius: float) -> tuple[float, float, float]:
         """Sines of the latitudes at which the wall of a sphere of ``radius`` [m] ends: outwards,
-        inwards, and towards the cage's ends; over 1 where it does not. The rims at bore and outside
-        are as high as they stand in front of the ball and behind it."""
+        inwards, and towards the cage's ends; over 1 where it does not, and for cylinders. The rims
+        at bore and outside are as high as they stand in front of the ball and behind it."""
+        if self.pocket_shape != "spherical":
+            return 2.0, 2.0, 2.0
         radii = (0.5 * self.outside_diameter, 0.5 * self.bore)
         reach = [
             (r**2 - pitch_radius**2 - radius**2) / (2.0 * pitch_radius * radius) for r in radii
@@ -74,9 +76,20 @@ class BallCage(Cage):
     def no_room(self, pitch_diameter: float, pocket_count: int) -> Iterator[Objection]:
         """What leaves no room for it between neighbouring pockets."""
         chord = pitch_diameter * sin(pi / pocket_count)
+        yield from self._low_rim(pitch_diameter)
         if self.pocket_diameter >= chord:
             yield (
                 "pocket_diameter",
                 f"so the {pocket_count} pockets run into each other; it must be less than "
                 f"{describe(chord, 'mm')}",
+            )
+
+    def _low_rim(self, pitch_diameter: float) -> Iterator[Objection]:
+        """Spheres that end below a ball's middle in front of it and behind."""
+        least = hypot(pitch_diameter, self.pocket_diameter)
+        if self.pocket_shape == "spherical" and self.outside_diameter <= least:
+            yield (
+                "outside_diameter",
+                "so in front of a ball its pocket ends below the ball's middle; it must be greater "
+                f"than {describe(least, 'mm')}",
             )

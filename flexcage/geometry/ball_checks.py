@@ -173,8 +173,6 @@ def find_in_cage(b: BallBearing, c: BallCage) -> Iterator[Finding]:
             f"cage.pocket_diameter is {_mm(c.pocket_diameter)}, but must be greater than the "
             f"ball's, {_mm(b.ball_diameter)}.",
         )
-    for name, what in c.no_room(b.pitch_diameter, b.ball_count):
-        yield f"cage.{name}", f"cage.{name} is {_mm(getattr(c, name))}, {what}."
     inner, outer = _rings(b)
     if not inner[0] < c.bore:
         yield (
@@ -188,7 +186,7 @@ def find_in_cage(b: BallBearing, c: BallCage) -> Iterator[Finding]:
             f"cage.outside_diameter is {_mm(c.outside_diameter)}, so the cage runs into the outer "
             f"ring; it must be less than {outer[1]}, {_mm(outer[0])}.",
         )
-    if c.width > _WIDEST * b.width:
+    if c.axial_width > _WIDEST * b.width:
         yield (
             "cage.width",
             f"cage.width is {_mm(c.width)}, but the bearing's is {_mm(b.width)}; a cage is at most "
@@ -200,4 +198,6 @@ def find_in_cage(b: BallBearing, c: BallCage) -> Iterator[Finding]:
             f"The cage from {_mm(c.bore)} to {_mm(c.outside_diameter)} in diameter does not hold "
             f"the balls' pitch circle of {_mm(b.pitch_diameter)}; its pockets cannot guide them.",
         )
+    for name, what in c.no_room(b.pitch_diameter, b.ball_count):
+        yield f"cage.{name}", f"cage.{name} is {_mm(getattr(c, name))}, {what}."
     yield from find_in_unbalance(c)

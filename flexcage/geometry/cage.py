@@ -33,10 +33,15 @@ class Cage:
         return 0.0
 
     @property
+    def axial_width(self) -> float:
+        """What it takes up along the axis [m]."""
+        return self.width
+
+    @property
     def most_unbalance(self) -> float:
         """Unbalance [kg m] of half of its body of revolution, taken as solid: more cannot be."""
         wall = pi / 4.0 * (self.outside_diameter**2 - self.bore**2)
-        return 0.5 * self.material.density * wall * self.width * self.mean_radius
+        return 0.5 * self.material.density * wall * self.axial_width * self.mean_radius
 
     if TYPE_CHECKING:
 

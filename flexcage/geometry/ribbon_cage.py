@@ -3,7 +3,7 @@
 Each half is a strip as broad as the cage's wall and as thick as its sheet: flat between the
 pockets, where both halves lie on each other in the plane of ball centres and a rivet joins them,
 and pressed to half a hollow sphere round every ball. About an axis through a ball's centre, along
-the bearing's, a pocket and the sheet around it are a body of revolution; ``profile`` gives it.
+the bearing's, a pocket and the sheet around it are a body of revolution.
 """
 
 from __future__ import annotations
@@ -19,6 +19,7 @@ from flexcage.geometry.materials import MATERIALS, Material
 
 HEAD = 1.75  # a round head's diameter over its rivet's, and
 HEAD_HEIGHT = 0.6  # its height, likewise (ISO 1051)
+_THINNEST = 0.02  # sheet over the pockets' diameter; elements are as small as it is thin
 _LEAST_OPENING = 0.1  # of the sheet's thickness; smaller holes want elements as small
 
 
@@ -54,6 +55,16 @@ class RibbonCage(BallCage):
         return 0.5 * self.width if self.opening else outside
 
     @property
+    def axial_width(self) -> float:
+        return 2.0 * self.reach
+
+    @property
+    def most_unbalance(self) -> float:
+        """Unbalance [kg m] of half of its two flat strips."""
+        wall = pi / 4.0 * (self.outside_diameter**2 - self.bore**2)
+        return self.material.density * wall * self.thickness * self.mean_radius
+
+    @property
     def bend(self) -> float:
         """Radius [m] between flats and pockets."""
         return 0.5 * self.thickness if self.bend_radius is None else self.bend_radius
@@ -79,6 +90,9 @@ class RibbonCage(BallCage):
     def impossible(self, pocket_count: int) -> Iterator[Objection]:
         if self.outside_diameter <= self.bore:
             yield "outside_diameter", f"must exceed its bore, {describe(self.bore, 'mm')}"
+        thin = _THINNEST * self.pocket_diameter
+        if self.thickness < thin:
+            yield "thickness", f"makes no sheet; it must be at least {describe(thin, 'mm')}"
         if 0.0 < self.opening < _LEAST_OPENING * self.thickness:
             yield (
                 "width",
@@ -97,6 +111,7 @@ class RibbonCage(BallCage):
             yield "pocket_scatter", "is of machined cages; a ribbon cage has its pockets evenly"
 
     def no_room(self, pitch_diameter: float, pocket_count: int) -> Iterator[Objection]:
+        yield from self._low_rim(pitch_diameter)
         inner, outer = 0.5 * self.bore, 0.5 * self.outside_diameter
         left = max(outer - 0.5 * pitch_diameter, 0.5 * pitch_diameter - inner)
         if not self.opening < left:
@@ -113,6 +128,14 @@ class RibbonCage(BallCage):
                 "rivet_diameter",
                 f"but pockets, sheet and bends leave {spared} between them; make pockets, sheet, "
                 "bends or rivets smaller",
+            )
+        broad, head = outer - inner, 2.0 * self.head_radius
+        room = min(broad, pitch_diameter * sin(pi / pocket_count) - self.pocket_diameter)
+        if not head < room:
+            yield (
+                "rivet_diameter",
+                f"so its head is {describe(head, 'mm')} across, but the sheet between pockets has "
+                f"{describe(room, 'mm')} for it",
             )
 
 

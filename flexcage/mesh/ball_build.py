@@ -37,14 +37,14 @@ def build_ball_cage_mesh(
     """Mesh of a ball cage with its defects, or the user's own file checked against both."""
     check_ball_cage(cage, pocket_count=pocket_count)
     check_ball_defects(defects, cage, pocket_count=pocket_count, pitch_diameter=pitch_diameter)
+    if options.file:
+        return _from_file(cage, pocket_count, pitch_diameter, defects, options)
     if options.fillet_size is not None:
         raise InputError(
             "mesh.fillet_size is of window cages; round pockets have no fillets: give mesh.size.",
             where="mesh.fillet_size",
             value=options.fillet_size,
         )
-    if options.file:
-        return _from_file(cage, pocket_count, pitch_diameter, defects, options)
     quarter = quarter_of(cage, pocket_count, pitch_diameter, defects, options)
     mesh = ring_of(quarter, pocket_count)
     log.debug("%r from %d tetrahedra in a quarter sector", mesh, len(quarter.tets))

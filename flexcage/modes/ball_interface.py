@@ -27,7 +27,6 @@ from flexcage.modes.interface import land_modes, land_station_weights, normalise
 from flexcage.modes.pockets import pocket_frame, pocket_frames
 
 N_STATIONS = 16
-_SLIVER = 1e-3  # of the largest station's wall, which is none
 
 
 @dataclass(frozen=True)
@@ -151,19 +150,8 @@ def wall_weights(
             from_axis = (x - np.clip(x, -slot[0], slot[0]), t - np.clip(t, -slot[1], slot[1]))
             return _hats(np.arctan2(*from_axis), len(stations))
 
-        weights = model.face_weights(model.group(f"pocket{pocket}_wall"), hats)
-        rows.append(_all_filled(weights, len(stations)))
+        rows.append(model.face_weights(model.group(f"pocket{pocket}_wall"), hats))
     return normalised(sp.vstack(rows))
-
-
-def _all_filled(weights: sp.csr_matrix, n_stations: int) -> sp.csr_matrix:
-    """Weights (n_st, N) of one pocket, where a station without wall, at a ribbon cage's open side,
-    takes those of the nearest that has some; no ball touches there."""
-    area = np.asarray(weights.sum(axis=1)).ravel()
-    there = np.flatnonzero(area > _SLIVER * area.max())
-    number = np.arange(n_stations)
-    apart = np.abs((number[:, None] - there + n_stations // 2) % n_stations - n_stations // 2)
-    return weights[there[apart.argmin(axis=1)]]
 
 
 def _hats(angles: np.ndarray, count: int) -> np.ndarray:

@@ -97,6 +97,8 @@ def runaway(bearing: Bearing, y: np.ndarray) -> tuple[int, str, str] | None:
     element = f"{bearing.family.element} {number}"
     if place >= 2 + len(bearing.family.faces) + len(bearing.family.ribs):
         what = f"the cage came off, {element} is {depth:.2g} mm outside its pocket"
+        if model.pocket.sphere:
+            return first, what, "it passed the rim of its pocket; a broader cage would hold it"
         return first, what, "a land (cage.guidance) or spherical pockets would hold it"
     what = f"{element} lies {depth:.2g} mm deep in its {_place(bearing, int(place))}"
     return first, f"a contact ran away: {what}", "look at loads and contact stiffness"

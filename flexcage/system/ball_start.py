@@ -14,6 +14,7 @@ from math import pi
 
 import numpy as np
 
+from flexcage.bodies.floating_frame import BodyData
 from flexcage.system.ball_model import BallModel
 from flexcage.system.layout import Layout
 from flexcage.system.problem import Bearing
@@ -23,7 +24,6 @@ from flexcage.system.statics.solution import StaticSolution
 
 log = logging.getLogger(__name__)
 
-_SPIN_UPS = 3  # each adds two digits: spin is a tenth of the lowest frequency at most
 _ALIKE = 1e-3  # rad: contact angles closer than this leave a ball's axis to their mean
 
 
@@ -37,7 +37,9 @@ def _(
     y = ball_places(bearing, solution)
     made_room(model.land, bearing.layout, y)
     yd = rolling_balls(model, bearing.layout, solution, y)
-    _spin_cage_up(bearing, y, yd)
+    if bearing.layout.modes:
+        spin = float(bearing.layout.u(y)["omega"][0])
+        bearing.layout.q(y)["modes"][:] = _strained_by_rotation(model.cage, spin)
     station = np.zeros_like(bearing.data.work.report.station)
     return Start(y, yd, (), 0.0, solution.unbalanced, station)
 
@@ -88,14 +90,17 @@ def rolling_balls(
     return yd
 
 
-def _spin_cage_up(bearing: Bearing, y: np.ndarray, yd: np.ndarray) -> None:
-    """Set the cage's modes in y as its rotation strains it; from none it would ring."""
-    layout, stiffness = bearing.layout, bearing.data.model.cage.kff
-    if not layout.modes:
-        return
-    for _ in range(_SPIN_UPS):
-        rest = layout.u(bearing.residual(0.0, y, yd))["modes"]
-        layout.q(y)["modes"][:] -= np.linalg.solve(stiffness, rest)
+def _strained_by_rotation(body: BodyData, speed: float) -> np.ndarray:
+    """Modal coordinates (n,) at which a cage that only rotates about its axis at ``speed`` [rad/s]
+    rests; from none it would ring.
+
+    Its modes feel w^2 int phi.p dm across the axis, with p the deformed place.
+    """
+    load = (body.S[1] + body.S[2]) * speed**2
+    stiffness = body.kff - (body.SS[:, 1] + body.SS[:, 2]) * speed**2
+    if body.gff.size:
+        stiffness = stiffness + body.gff * speed**2
+    return np.linalg.solve(stiffness, load)
 
 
 def _rolling(

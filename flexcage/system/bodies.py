@@ -146,7 +146,7 @@ def bodies_of(
         drag=np.array(
             [
                 0.5 * rho * lubricant.drag_coefficient * area,
-                0.5 * rho * CAGE_SKIN_FRICTION * 2.0 * np.pi * ro**4 * cage.width,
+                0.5 * rho * CAGE_SKIN_FRICTION * 2.0 * np.pi * ro**4 * cage.axial_width,
             ]
         ),
         drive=np.array([float(drive.kind == "shaft"), drive.shaft_stiffness, drive.shaft_damping]),

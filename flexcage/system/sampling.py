@@ -101,7 +101,7 @@ def _keep_summits(t, events, values):
     """Largest forces up to a step at t, and between the two before it: a contact lasts a few steps,
     so the highest of its parabola through three of them is nearer to its largest force."""
     before, last = events.force[0, 0], events.force[1, 0]
-    known = before < last < t
+    known = before < last < t and 0.5 < (last - before) / (t - last) < 2.0
     for i in range(values.shape[0]):
         for f in range(values.shape[1]):
             most, at = max(events.pushed_most[i, f], values[i, f]), events.pushed[i, f]

@@ -57,6 +57,13 @@ def test_a_case_may_ask_for_the_other_kind():
         load_case('[bearing]\npreset = "7010C-PI"\n[cage]\ntype = "ribbon"\n[load]\naxial = "9 N"')
 
 
+def test_assumptions_of_a_preset_whose_cage_is_another():
+    """Those of values that the other kind has not are left out."""
+    other = case('type = "machined"', 'width = "9 mm"')
+    assert "cage.bore" in other.assumptions and "cage.thickness" not in other.assumptions
+    assert "cage.thickness" in case().assumptions
+
+
 def test_round_trip_and_hash():
     first = case('thickness = "0.7 mm"')
     assert load_case(first.to_toml()) == first

@@ -129,5 +129,9 @@ def test_a_mesh_file_of_ones_own(tmp_path):
     shape = {"pocket_count": Z, "pitch_diameter": PITCH, "options": options}
     again = build_cage_mesh(CAGE, defects=defects, **shape)
     assert again.info["defects"][0]["delivered"] == pytest.approx(2.1 * MM, rel=1e-3)
+    with pytest.raises(InputError, match="web 3 is held together over 0.000 mm.*says 2.100 mm"):
+        build_cage_mesh(CAGE, defects=(), **shape)
+    with pytest.raises(InputError, match="The cage is wide 6.500 mm, but the case says 6.700 mm"):
+        build_cage_mesh(replace(CAGE, width=6.7 * MM), defects=defects, **shape)
     with pytest.raises(InputError, match="pocket . is long 6.900 mm, but the case says 7.000 mm"):
         build_cage_mesh(replace(CAGE, pocket_diameter=7.0 * MM), defects=defects, **shape)

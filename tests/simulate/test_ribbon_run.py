@@ -61,6 +61,18 @@ def test_a_cage_begins_as_its_rotation_strains_it(flexible):
     assert first > 20 and np.ptp(modes[:, largest]) < 0.02 * strained[largest]
 
 
+def test_a_tight_pocket_does_not_burst_at_the_start():
+    """Balls that the moment displaced overlap their pockets; rotation alone strains the cage."""
+    tight = {"cage.pocket_diameter": "6.6 mm", "solver.duration": "0.2 ms"}
+    assert simulate(ribbon(tight)).dataset["pocket_peak"].values[0].max() < 60.0
+
+
+def test_a_centred_ball_does_not_touch_a_narrow_pocket():
+    narrow = {"cage.pocket_diameter": "6.474 mm", "load.moment_z": "0 N*m", "cage.model": "rigid",
+              "solver.duration": "0.1 ms", "load.axial": "20 N"}  # fmt: skip
+    assert simulate(ribbon(narrow)).dataset["pocket_force"].values[0].max() < 1.0
+
+
 def test_a_stored_run_is_drawn_and_recovered(flexible, tmp_path):
     run = load_run(flexible.folder)
     field = run.stress()
