@@ -17,7 +17,7 @@ def cases():
     """Blocks of "What a case may say", each with a preset where it has none."""
     text = (ROOT / "README.md").read_text("utf-8").split("## What a case may say")[1]
     text = text.split("## Static solution")[0]
-    presets = ("N1013", "", "N1013", "N1013", "N1013", "7010C-PI", "")
+    presets = ("N1013", "", "15x37x10", "N1013", "N1013", "N1013", "7010C-PI", "")
     blocks = re.findall(r"```toml\n(.*?)```", text, flags=re.S)
     for block, preset in zip(blocks, presets, strict=True):
         yield f'bearing.preset = "{preset}"\n{block}' if preset else block
