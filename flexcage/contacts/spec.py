@@ -194,7 +194,7 @@ class Lubricant:
     )
     viscosity: float = quantity(
         "Pa*s", 0.01, doc="dynamic viscosity", above=0.0,
-        assumption="ISO 3448 and ASTM D341: an ISO VG 32 at 67 C; 0.0093 Pa*s at 70 C, grade +-10 %",
+        assumption="ISO 3448, ASTM D341: an ISO VG 32 at 67 C; 0.0093 Pa*s at 70 C, grade +-10 %",
     )  # fmt: skip
     pressure_coefficient: float = quantity(
         "1/GPa", 2e-8, doc="pressure-viscosity", above=0.0,

@@ -75,7 +75,10 @@ def check_place(run, worst):
         at_points = stress_at(moved, loads.station_forces[..., None])[:, 0]
         found.append(at_points[stress_at.owner == worst.vertex] @ weights)
     ends = np.stack([np.min(found, axis=0), np.max(found, axis=0)])
-    assert (np.abs(ends.T - worst.largest) < 2e-3 * np.abs(worst.largest) + 1e4).all(axis=1).any()
+    low, high = worst.largest  # steps between samples count too: samples reach one end, or nearly
+    slack = 2e-3 * np.abs(worst.largest) + 1e4
+    within = (ends[0] > low - slack[0]) & (ends[1] < high + slack[1])
+    assert (within & (np.ptp(ends, axis=0) > 0.95 * (high - low))).any()
     assert run.fatigue(worst.place).worst.largest == worst.largest
     with pytest.raises(InputError, match=re.escape(f"nearest known one is '{worst.place}'")):
         run.fatigue(worst.place + "x")
