@@ -6,12 +6,14 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
 from math import isfinite, isnan
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 from scipy.special import stdtrit
 
-from flexcage import Run, StudyResults
+from flexcage import Run, Study, StudyResults, run_study
+from flexcage.core.progress import Progress
 from flexcage.results.statistics import Record
 from flexcage.study.verdicts import (
     UNDECIDED,
@@ -70,6 +72,26 @@ def finished(results: StudyResults) -> Iterator[tuple[Mapping[str, str], Run]]:
             print(f"{results.study.name}: {row.planned.point} failed: {row.reason}")
 
 
+def gathered(
+    study: Study, out: Path, *, workers: int, evaluate: Callable[[str, Run], Any]
+) -> Found:
+    """A study computed as far as its folder lacks it, and the figures of every finished run, by its
+    case's label; one entry a start."""
+    run_study(study, out=out, workers=workers, progress=Progress)
+    found: dict[str, list[Any]] = {}
+    for labels, run in finished(StudyResults(out)):
+        found.setdefault(labels["case"], []).append(evaluate(labels["case"], run))
+    return found
+
+
+def run_of(results: StudyResults, label: str) -> Run | None:
+    """The first start of a case, None if it is not done."""
+    for row in results.rows:
+        if row.state == "done" and row.planned.point.labels["case"] == label:
+            return results.run(row.planned.number, row.planned.repetition)
+    return None
+
+
 class View:
     """Figures of one reading, pooled over starts."""
 
@@ -92,6 +114,19 @@ class View:
 def rising(key: str, labels: Sequence[str], *, up: bool = True) -> Callable[[View], str]:
     """Does a figure rise (or fall) along these cases?"""
     return lambda view: monotone(view.all(key, labels), rising=up)
+
+
+def tables(
+    found: Mapping[str, Found], head: Sequence[str], cells: Callable[[View, str], Sequence[str]]
+) -> str:
+    """All figures of all readings as tables of Markdown: ``cells`` of a case, after its label."""
+    texts = []
+    for name, figures in found.items():
+        view = View(figures)
+        rows = [f"| {' | '.join((label, *cells(view, label)))} |" for label in figures]
+        lines = [f"| {' | '.join(head)} |", "|" + " --- |" * len(head), *rows]
+        texts.append("\n".join([f"### {name}", "", *lines]))
+    return "\n\n".join(texts)
 
 
 @dataclass(frozen=True)

@@ -15,13 +15,12 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from ball_claim import finished
+from ball_claim import gathered
 from c7010_vibro_claims import Found, verdicts
 from c7010_vibro_figures import evaluate
 from c7010_vibro_page import draw, page, table
 
 import flexcage
-from flexcage.core.progress import Progress
 from flexcage.study.spec import Repeat
 from flexcage.study.verdicts import Verdict, write_verdicts
 
@@ -139,16 +138,7 @@ def study(reading: str, *, quick: bool = False) -> flexcage.Study:
 def compute(reading: str, out: Path, *, workers: int, quick: bool = False) -> Found:
     """Figures of every finished case of a reading, by label; one entry a start."""
     planned = study(reading, quick=quick)
-    flexcage.run_study(planned, out=out, workers=workers, progress=Progress)
-    return collect(out)
-
-
-def collect(out: Path) -> Found:
-    """The same of what a folder holds."""
-    found: dict[str, list[Any]] = {}
-    for labels, run in finished(flexcage.StudyResults(out)):
-        found.setdefault(labels["case"], []).append(evaluate(run))
-    return found
+    return gathered(planned, out, workers=workers, evaluate=lambda _, run: evaluate(run))
 
 
 def main(arguments: Sequence[str] | None = None) -> list[Verdict]:

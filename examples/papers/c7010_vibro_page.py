@@ -8,7 +8,7 @@ from math import degrees
 from pathlib import Path
 
 import numpy as np
-from ball_claim import Found, View, percent, short
+from ball_claim import Found, View, percent, run_of, short, tables
 from c7010_vibro_claims import PAPER, SPEEDS
 from c7010_vibro_figures import by_azimuth
 from c7010_vibro_reasons import reasons
@@ -27,27 +27,23 @@ HEAD = (
 
 def table(found: Mapping[str, Found]) -> str:
     """All figures of all readings as tables of Markdown."""
-    return "\n\n".join(f"### {name}\n\n{_reading(View(f))}" for name, f in found.items())
+    return tables(found, HEAD, _cells)
 
 
-def _reading(view: View) -> str:
-    lines = [f"| {' | '.join(HEAD)} |", "|" + " --- |" * len(HEAD)]
-    for label in view.found:
-        cells = (
-            short(view("peak", label)),
-            " / ".join(percent(view(k, label)) for k in ("empty_loaded", "empty_opposite")),
-            " / ".join(percent(view(k, label)) for k in ("deviation_raw", "deviation")),
-            short(view("radius", label), 1e6),
-            percent(view("line", label)),
-            " / ".join(short(view(k, label), degrees(1.0)) for k in ("inner_angle", "outer_angle")),
-            f"{short(view('axial', label), 1e6)} / {short(view('axial_range', label), 1e6)}",
-            percent(view("cage_slip", label)),
-            percent(view("ball_ripple", label)),
-            short(view("pocket_peak", label)),
-            short(view("stress", label), 1e-6),
-        )
-        lines.append(f"| {label} | {' | '.join(cells)} |")
-    return "\n".join(lines)
+def _cells(view: View, label: str) -> tuple[str, ...]:
+    return (
+        short(view("peak", label)),
+        " / ".join(percent(view(k, label)) for k in ("empty_loaded", "empty_opposite")),
+        " / ".join(percent(view(k, label)) for k in ("deviation_raw", "deviation")),
+        short(view("radius", label), 1e6),
+        percent(view("line", label)),
+        " / ".join(short(view(k, label), degrees(1.0)) for k in ("inner_angle", "outer_angle")),
+        f"{short(view('axial', label), 1e6)} / {short(view('axial_range', label), 1e6)}",
+        percent(view("cage_slip", label)),
+        percent(view("ball_ripple", label)),
+        short(view("pocket_peak", label)),
+        short(view("stress", label), 1e-6),
+    )
 
 
 def statics_beside(results: flexcage.StudyResults) -> str:
@@ -77,14 +73,6 @@ def _bearing_half(run: flexcage.Run) -> int:
     at = np.round((psi - run.case.load.direction) * 18 / (2.0 * np.pi)).astype(int) % 18
     touching = ds["contact_force"].sel(race="inner").transpose("time", "ball").values > 0.0
     return sum(bool(touching[at == k].mean() >= 0.5) for k in range(18))
-
-
-def run_of(results: flexcage.StudyResults, label: str) -> flexcage.Run | None:
-    """The first start of a case, None if it is not done."""
-    for row in results.rows:
-        if row.state == "done" and row.planned.point.labels["case"] == label:
-            return results.run(row.planned.number, row.planned.repetition)
-    return None
 
 
 def draw(results: flexcage.StudyResults, folder: Path) -> list[Path]:

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import shutil
 from collections.abc import Mapping, Sequence
 from datetime import date
 from pathlib import Path
+from tempfile import TemporaryDirectory
 
-from ball_claim import Found, View, percent, short
+from ball_claim import Found, View, percent, run_of, short, tables
 from riveted_cage_claims import BASE, PAPER, RADII, WIDTHS
 
 import flexcage
@@ -27,35 +29,26 @@ PRINTED_WIDTHS = {"w 6.8": 25.49, "w 7.4": 27.61, "w 8.0": 31.162}
 
 def table(found: Mapping[str, Found]) -> str:
     """All figures of all readings as tables of Markdown."""
-    return "\n\n".join(f"### {name}\n\n{_reading(View(f))}" for name, f in found.items())
+    return tables(found, HEAD, _cells)
 
 
-def _reading(view: View) -> str:
-    lines = [f"| {' | '.join(HEAD)} |", "|" + " --- |" * len(HEAD)]
-    for label in view.found:
-        cells = (
-            short(view("force", label)), short(view("contact", label)),
-            percent(view("slip", label)), short(view("tilt", label), 57.29578),
-            short(view("off_plane", label), 1e6), short(view("stress", label), 1e-6),
-        )  # fmt: skip
-        lines.append(f"| {label} | {' | '.join(cells)} |")
-    return "\n".join(lines)
+def _cells(view: View, label: str) -> tuple[str, ...]:
+    return (
+        short(view("force", label)), short(view("contact", label)),
+        percent(view("slip", label)), short(view("tilt", label), 57.29578),
+        short(view("off_plane", label), 1e6), short(view("stress", label), 1e-6),
+    )  # fmt: skip
 
 
 def draw(found: Mapping[str, Found], results: flexcage.StudyResults, folder: Path) -> list[Path]:
     """Forces over pocket radius and width, and the cage's stress in the base case, as PNG."""
     paths = [_sweeps(found, folder / "sweeps.png")]
-    for row in results.rows:
-        if row.state == "done" and row.planned.point.labels["case"] == BASE:
-            run = results.run(row.planned.number, row.planned.repetition)
-            pictures = folder / "pictures"
-            run.draw(pictures)
-            for name in ("stress_peak", "bearing"):
-                paths.append((pictures / f"{name}.png").replace(folder / f"{name}.png"))
-            for left in pictures.iterdir():
-                left.unlink()
-            pictures.rmdir()
-            break
+    run = run_of(results, BASE)
+    if run is not None:
+        with TemporaryDirectory() as drawn:
+            run.draw(drawn)
+            for name in ("stress_peak.png", "bearing.png"):
+                paths.append(Path(shutil.copy(Path(drawn) / name, folder / name)))
     return paths
 
 

@@ -15,13 +15,12 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from ball_claim import Found, finished
+from ball_claim import Found, gathered
 from speed_fluctuation_claims import AMPLITUDES, CASES, CONSTANT, FREQUENCIES, verdicts
 from speed_fluctuation_figures import evaluate
 from speed_fluctuation_page import draw, page, table
 
 import flexcage
-from flexcage.core.progress import Progress
 from flexcage.study.spec import Repeat
 from flexcage.study.verdicts import Verdict, write_verdicts
 
@@ -88,11 +87,12 @@ def study(reading: str, *, quick: bool = False) -> flexcage.Study:
 def compute(reading: str, out: Path, *, workers: int, quick: bool = False) -> Found:
     """Figures of every finished case of a reading, by label; one entry a start."""
     planned = study(reading, quick=quick)
-    flexcage.run_study(planned, out=out, workers=workers, progress=Progress)
-    found: dict[str, list[Any]] = {}
-    for labels, run in finished(flexcage.StudyResults(out)):
-        found.setdefault(labels["case"], []).append(evaluate(run, TURN / CASES[labels["case"]]))
-    return found
+    return gathered(
+        planned,
+        out,
+        workers=workers,
+        evaluate=lambda label, run: evaluate(run, TURN / CASES[label]),
+    )
 
 
 def main(arguments: Sequence[str] | None = None) -> list[Verdict]:

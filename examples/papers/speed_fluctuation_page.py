@@ -8,7 +8,7 @@ from math import pi
 from pathlib import Path
 
 import numpy as np
-from ball_claim import Found, View, percent, short
+from ball_claim import Found, View, percent, run_of, short, tables
 from speed_fluctuation_claims import CASES, CONSTANT, PAPER
 from speed_fluctuation_reasons import reasons
 
@@ -32,34 +32,29 @@ HEAD = (
 
 def table(found: Mapping[str, Found]) -> str:
     """All figures of all readings as tables of Markdown."""
-    return "\n\n".join(f"### {name}\n\n{_reading(View(f))}" for name, f in found.items())
+    return tables(found, HEAD, _cells)
 
 
-def _reading(view: View) -> str:
-    lines = [f"| {' | '.join(HEAD)} |", "|" + " --- |" * len(HEAD)]
-    for label in view.found:
+def _cells(view: View, label: str) -> tuple[str, ...]:
+    def pair(one: str, other: str, shown=percent) -> str:
+        return " / ".join(shown(view(k, label)) for k in (one, other))
 
-        def pair(one: str, other: str, shown=percent, *, label: str = label) -> str:
-            return " / ".join(shown(view(k, label)) for k in (one, other))
-
-        cells = (
-            short(view("speed", label), RPM),
-            pair("swing", "swing_raw"),
-            pair("follows", "gain"),
-            percent(view("ball_gain", label)),
-            short(view("excursion", label), 1e6),
-            short(view("distance", label), 1e6),
-            percent(view("orbit_line", label)),
-            pair("pocket_peak", "pocket_most", short),
-            short(view("ring_range", label), 1e6),
-            percent(view("ripple", label)),
-            percent(view("by_place", label)),
-            pair("force_least", "force_most", short),
-            percent(view("cage_slip", label)),
-            short(view("stress", label), 1e-6),
-        )
-        lines.append(f"| {label} | {' | '.join(cells)} |")
-    return "\n".join(lines)
+    return (
+        short(view("speed", label), RPM),
+        pair("swing", "swing_raw"),
+        pair("follows", "gain"),
+        percent(view("ball_gain", label)),
+        short(view("excursion", label), 1e6),
+        short(view("distance", label), 1e6),
+        percent(view("orbit_line", label)),
+        pair("pocket_peak", "pocket_most", short),
+        short(view("ring_range", label), 1e6),
+        percent(view("ripple", label)),
+        percent(view("by_place", label)),
+        pair("force_least", "force_most", short),
+        percent(view("cage_slip", label)),
+        short(view("stress", label), 1e-6),
+    )
 
 
 def beside_the_paper(found: Mapping[str, Found]) -> str:
@@ -77,16 +72,8 @@ def beside_the_paper(found: Mapping[str, Found]) -> str:
 
 def draw(results: flexcage.StudyResults, folder: Path) -> list[Path]:
     """The cage's speed beside the ring's, and orbits of its centre, as PNG."""
-    runs = {label: run for label in CASES if (run := _run_of(results, label)) is not None}
+    runs = {label: run for label in CASES if (run := run_of(results, label)) is not None}
     return [_speeds(runs, folder / "cage_speed.png"), _orbits(runs, folder / "orbits.png")]
-
-
-def _run_of(results: flexcage.StudyResults, label: str) -> flexcage.Run | None:
-    """The first start of a case, None if it is not done."""
-    for row in results.rows:
-        if row.state == "done" and row.planned.point.labels["case"] == label:
-            return results.run(row.planned.number, row.planned.repetition)
-    return None
 
 
 def _speeds(runs: Mapping[str, flexcage.Run], path: Path) -> Path:

@@ -21,6 +21,7 @@ from flexcage.mesh.sector import (
     Quarter,
     SizePlan,
     mesh_arrays,
+    named_surfaces,
     section_prism,
     set_sizes,
 )
@@ -62,13 +63,9 @@ def mesh_ball_quarter(
         set_sizes(gmsh, plan, _wall(gmsh, cage))
         gmsh.model.mesh.generate(3)
         points, tets, faces = mesh_arrays(gmsh, plan.stretch)
-    found: dict[str, list[np.ndarray]] = {}
-    for triangles in faces:
-        name = _surface_name(points[np.unique(triangles)], cage, pocket_count)
-        found.setdefault(name, []).append(triangles)
-    if set(found) != set(SURFACES):
-        raise RunFailed(f"the quarter sector has unexpected surfaces: {sorted(found)}")
-    surfaces = {name: np.vstack(parts) for name, parts in found.items()}
+    surfaces = named_surfaces(
+        faces, points, lambda on: _surface_name(on, cage, pocket_count), SURFACES
+    )
     points[np.unique(surfaces["cut_x"]), 0] = 0.0  # exact, so that mirror images coincide
     points[np.unique(surfaces["cut_z"]), 2] = 0.0
     return Quarter(points, tets, surfaces, plan)

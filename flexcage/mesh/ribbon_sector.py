@@ -17,7 +17,7 @@ from flexcage.core.errors import RunFailed
 from flexcage.geometry.ribbon_cage import HEAD_HEIGHT, RibbonCage
 from flexcage.mesh.gmsh_session import gmsh_model
 from flexcage.mesh.options import MeshOptions
-from flexcage.mesh.sector import MM, Quarter, SizePlan, grow_from, mesh_arrays
+from flexcage.mesh.sector import MM, Quarter, SizePlan, grow_from, mesh_arrays, named_surfaces
 
 # size over the sheet's thickness; size at the necks beside a pocket's side openings over their
 # breadth, which the lowest frequencies hang on (README); growth of the size away from them
@@ -58,14 +58,10 @@ def mesh_ribbon_quarter(
         _set_sizes(gmsh, plan, cage)
         gmsh.model.mesh.generate(3)
         points, tets, faces = mesh_arrays(gmsh)
-    found: dict[str, list[np.ndarray]] = {}
-    for triangles in faces:
-        on = points[np.unique(triangles)]
-        name = _surface_name(on, cage, pocket_count, 0.5 * pitch_diameter)
-        found.setdefault(name, []).append(triangles)
-    if set(found) != {*SURFACES, "cut_x", "end"}:
-        raise RunFailed(f"the quarter sector has unexpected surfaces: {sorted(found)}")
-    surfaces = {name: np.vstack(parts) for name, parts in found.items()}
+    surfaces = named_surfaces(
+        faces, points, lambda on: _surface_name(on, cage, pocket_count, 0.5 * pitch_diameter),
+        (*SURFACES, "cut_x", "end"),
+    )  # fmt: skip
     held, loose = (np.unique(surfaces[name]) for name in ("cut_x", "joint"))
     points[loose, 0] = stand_off(cage)
     points[held, 0] = 0.0  # exact, so that mirror images coincide

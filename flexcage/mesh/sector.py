@@ -15,6 +15,7 @@ senses of rotation see the same mesh.
 
 from __future__ import annotations
 
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from math import ceil, pi, sin
 from typing import Any
@@ -204,6 +205,21 @@ def mesh_arrays(
         for _, tag in gmsh.model.getEntities(2)
     ]
     return points, tets, faces
+
+
+def named_surfaces(
+    faces: Iterable[np.ndarray],
+    points: np.ndarray,
+    name_of: Callable[[np.ndarray], str],
+    expected: Iterable[str],
+) -> dict[str, np.ndarray]:
+    """Triangles of all faces by the names that their points have; RunFailed for other names."""
+    found: dict[str, list[np.ndarray]] = {}
+    for triangles in faces:
+        found.setdefault(name_of(points[np.unique(triangles)]), []).append(triangles)
+    if set(found) != set(expected):
+        raise RunFailed(f"the quarter sector has unexpected surfaces: {sorted(found)}")
+    return {name: np.vstack(parts) for name, parts in found.items()}
 
 
 def _surface_name(points: np.ndarray, cage: WindowCage, pocket_count: int) -> str:
