@@ -7,9 +7,9 @@ crossbeam each. With the interiors of all parts eliminated, the stiffness of the
 
 is small and couples neighbouring cuts only. In the frames of their sectors, parts that differ by a
 turn have the same matrices, so that a damaged cage costs an elimination for every kind of part and
-one of S, and a load is condensed only in those parts where it acts. It is exact (static
-condensation, R. J. Guyan, AIAA Journal 3 (1965) 380; as substructuring, J. S. Przemieniecki, ibid.
-1 (1963) 138).
+one of S, and a load is condensed only in those parts where it acts. A crack's second face adds
+nodes to the part that it lies in. It is exact (static condensation, R. J. Guyan, AIAA Journal 3
+(1965) 380; as substructuring, J. S. Przemieniecki, ibid. 1 (1963) 138).
 """
 
 from __future__ import annotations
@@ -37,8 +37,8 @@ class RingParts:
     """Nodes of a ring cut into parts: cut k lies between parts k - 1 and k."""
 
     sectors: Sectors
-    inside: np.ndarray  # (count, n_inside) in order of elimination
-    blocks: tuple[int, ...]  # nodes inside that are eliminated together
+    inside: tuple[np.ndarray, ...]  # of every part, in order of elimination
+    blocks: tuple[tuple[int, ...], ...]  # how many of them are eliminated together
     cuts: np.ndarray  # (count, n_cut)
 
 
@@ -51,20 +51,41 @@ def find_parts(model: FEModel) -> RingParts | None:
     middle = model.points[model.tets[: 2 * n]].mean(axis=1)
     upper = np.arctan2(middle[:n, 2], middle[:n, 1]) > 0.0  # of sector 0, around psi = 0
     following = model.cells[n : 2 * n]
-    own = np.unique(np.concatenate([model.cells[:n][upper].ravel(), following[~upper].ravel()]))
-    places = sectors.followed(own)
-    shared = np.isin(own, places[-1]), np.isin(places[0], places[1])
-    cuts = sectors.followed(own[shared[0]])
+    cells = np.concatenate([model.cells[:n][upper].ravel(), following[~upper].ravel()])
+    places = sectors.followed(np.unique(sectors.place[cells]))
+    shared = np.isin(places[0], places[-1]), np.isin(places[0], places[1])
+    cuts = places[:, shared[0]]
     inside = places[:, ~(shared[0] | shared[1])]
     numbers = np.concatenate([inside.ravel(), cuts.ravel()])
-    if (shared[0] & shared[1]).any() or len(np.unique(numbers)) != len(model.nodes):
+    counted = len(model.nodes) - len(sectors.doubled)
+    if (shared[0] & shared[1]).any() or len(np.unique(numbers)) != counted:
         return None
-    if len(numbers) != len(model.nodes) or not len(inside[0]) or not len(cuts[0]):
+    if len(numbers) != counted or not len(inside[0]) or not len(cuts[0]):
+        return None
+    if np.isin(sectors.place[sectors.doubled], cuts).any():
         return None
     first = inside[0]
     blocks = dissect(model.nodes[first], sp.csr_matrix(model.mass_scalar[first][:, first]))
     order = np.concatenate(blocks)
-    return RingParts(sectors, inside[:, order], tuple(map(len, blocks)), cuts)
+    sizes = np.array([len(block) for block in blocks])
+    parts = [_with_doubles(own[order], sizes, sectors) for own in inside]
+    return RingParts(sectors, tuple(p[0] for p in parts), tuple(p[1] for p in parts), cuts)
+
+
+def _with_doubles(
+    nodes: np.ndarray, sizes: np.ndarray, sectors: Sectors
+) -> tuple[np.ndarray, tuple[int, ...]]:
+    """Nodes of a part in blocks of these sizes, with doubles behind those at whose places they
+    are."""
+    more = sectors.doubled[np.isin(sectors.place[sectors.doubled], nodes)]
+    if not len(more):
+        return nodes, tuple(sizes)
+    rising = np.argsort(nodes)
+    at = rising[np.searchsorted(nodes[rising], sectors.place[more])]
+    order = np.argsort(np.append(np.arange(len(nodes)), at), kind="stable")
+    block = np.repeat(np.arange(len(sizes)), sizes)
+    sizes = sizes + np.bincount(block[at], minlength=len(sizes))
+    return np.append(nodes, more)[order], tuple(sizes)
 
 
 @dataclass(frozen=True)
@@ -73,6 +94,7 @@ class Kind:
     each in its sector's frame."""
 
     members: np.ndarray
+    inside: np.ndarray  # (members, n_inside) their nodes
     elimination: Elimination  # of what is inside
 
 
@@ -104,38 +126,38 @@ class CondensedRing:
         everywhere = np.arange(self._count)
         cuts = self._local(columns, self.parts.cuts, everywhere)  # (3 n_cut, count, m)
         touched = np.any(columns.reshape(len(loads) // 3, -1), axis=1)
-        acting = np.any(touched[self.parts.inside], axis=1)
+        acting = np.array([touched[own].any() for own in self.parts.inside])
         condensed = [self._condensed(kind, acting, columns, cuts) for kind in self.kinds]
         moved = self._solve_cuts(cuts)
         answer = np.empty_like(columns)
-        for kind, (loaded, inside) in zip(self.kinds, condensed):
-            members = np.concatenate([loaded, np.setdiff1d(kind.members, loaded)])
+        for kind, inside in zip(self.kinds, condensed):
+            order = np.argsort(~acting[kind.members], kind="stable")  # the loaded ones first
+            members = kind.members[order]
             fields = np.empty((kind.elimination.size, len(members) * columns.shape[1]))
             fields[: len(inside), : inside.shape[1]] = inside
             fields[: len(inside), inside.shape[1] :] = 0.0
             ends = np.stack([moved[:, members], moved[:, (members + 1) % self._count]])
             fields[len(inside) :] = ends.reshape(-1, fields.shape[1])
             kind.elimination.expand(fields, inside.shape[1])
-            self._store(answer, self.parts.inside[members], members, fields[: len(inside)])
+            self._store(answer, kind.inside[order], members, fields[: len(inside)])
         self._store(answer, self.parts.cuts, everywhere, moved)
         return answer.reshape(loads.shape)
 
     def _condensed(
         self, kind: Kind, acting: np.ndarray, loads: np.ndarray, cuts: np.ndarray
-    ) -> tuple[np.ndarray, np.ndarray]:
-        """The loaded parts of a kind, of all ``acting`` (count,), and the condensed loads inside
-        them (3 n_inside, parts m); what these do to the ``cuts`` (3 n_cut, count, m) is added
-        there."""
+    ) -> np.ndarray:
+        """The condensed loads inside the loaded parts of a kind, of all ``acting`` (count,):
+        (3 n_inside, parts m); what these do to the ``cuts`` (3 n_cut, count, m) is added there."""
         loaded = kind.members[acting[kind.members]]
         n = kind.elimination.eliminated
         fields = np.zeros((kind.elimination.size, len(loaded) * loads.shape[1]))
-        own = self._local(loads, self.parts.inside[loaded], loaded)
+        own = self._local(loads, kind.inside[acting[kind.members]], loaded)
         fields[:n] = own.reshape(n, fields.shape[1])
         kind.elimination.condense(fields)
         first, second = fields[n:].reshape(2, *cuts[:, loaded].shape)
         cuts[:, loaded] += first
         cuts[:, (loaded + 1) % self._count] += second
-        return loaded, fields[:n]
+        return fields[:n]
 
     def _solve_cuts(self, cuts: np.ndarray) -> np.ndarray:
         """Displacements of the cuts (3 n_cut, count, m) under loads there."""
@@ -226,20 +248,22 @@ def _condense(model: FEModel, parts: RingParts, members: list[int]) -> Kind:
     sectors = np.repeat([first, following], [len(nodes) - parts.cuts.shape[1], parts.cuts.shape[1]])
     turns = parts.sectors.turns[sectors]
     stiffness = local_stiffness(model, (inside, turns[: len(inside)]), (nodes, turns))
-    return Kind(np.array(members), Elimination(stiffness, 3 * np.array(parts.blocks)))
+    eliminated = Elimination(stiffness, 3 * np.array(parts.blocks[first]))
+    return Kind(np.array(members), np.stack([parts.inside[k] for k in members]), eliminated)
 
 
-def _actions(model: FEModel, parts: RingParts) -> list[np.ndarray]:
+def _actions(model: FEModel, parts: RingParts) -> list[list[np.ndarray]]:
     """What stiffness and mass make of a random field that repeats, on the inside of every part
-    (count, 2 n, 3) and on every cut: turned back, and relative to the largest."""
-    turns = parts.sectors.turns
-    rng = np.random.default_rng(0)
+    (2 n, 3) and on every cut: turned back, and relative to the largest."""
+    sectors, first = parts.sectors, parts.inside[0]
+    nodes = sectors.followed(np.append(first[sectors.place[first] == first], parts.cuts[0]))
+    values = np.random.default_rng(0).standard_normal((nodes.shape[1], 3))
     field = np.empty((len(model.nodes), 3))
-    for nodes in (parts.inside, parts.cuts):
-        field[nodes] = rng.standard_normal((nodes.shape[1], 3)) @ turns.transpose(0, 2, 1)
+    field[nodes] = values @ sectors.turns.transpose(0, 2, 1)
+    field = field[sectors.place]
     forces = [model.K @ field.ravel(), model.mass_times(field.ravel())]
     nodal = [force.reshape(-1, 3) / np.abs(force).max() for force in forces]
     return [
-        np.concatenate([force[nodes] @ turns for force in nodal], axis=1)
-        for nodes in (parts.inside, parts.cuts)
+        [np.concatenate([f[own] @ turn for f in nodal]) for own, turn in zip(part, sectors.turns)]
+        for part in (parts.inside, parts.cuts)
     ]

@@ -243,7 +243,7 @@ def assemble(mesh, material: Material, *, order: int = 2) -> FEModel:
     edges = np.sort(fe_mesh.edges.T, axis=1) if order == 2 else np.empty((0, 2), np.int64)
     info: Mapping[str, object] = getattr(mesh, "info", MappingProxyType({}))
     sectors = find_sectors(info, tets, len(mesh.points), edges)
-    if sectors is None:
+    if sectors is None or len(sectors.doubled):
         stiffness, mass = assemble_whole(form, mesh.points, tets, cells, basis.N)
     else:
         stiffness, mass = assemble_ring(form, mesh.points, tets, cells, sectors)

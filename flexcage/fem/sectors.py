@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -19,7 +19,8 @@ def rotation_x(angle: float) -> np.ndarray:
 
 @dataclass(frozen=True)
 class Sectors:
-    """Numbering of a ring of ``count`` sectors about x that all have the same connections.
+    """Numbering of a ring of ``count`` sectors about x that all have the same connections, but for
+    cracks, whose faces have nodes each.
 
     ``image[i]`` is the node that has the place of node i in the next sector; turned by 2 pi/count
     it is node i, unless a defect moved either. Cell c of sector k is ``c + k cells``.
@@ -28,6 +29,12 @@ class Sectors:
     count: int
     cells: int  # in a sector
     image: np.ndarray  # (N,)
+    place: np.ndarray  # (N,) the node that counts as the one at a node's place: itself, or a double
+
+    @cached_property
+    def doubled(self) -> np.ndarray:
+        """Nodes (n,) that do not count, as another one does for their place."""
+        return np.flatnonzero(self.place != np.arange(len(self.place)))
 
     def followed(self, nodes: np.ndarray) -> np.ndarray:
         """The nodes (n,) of sector 0 in all sectors: (count, n)."""
@@ -47,16 +54,18 @@ class Sectors:
 
     def alike(self, points: np.ndarray, vertices: np.ndarray) -> list[list[int]]:
         """Sectors whose ``vertices`` (count, n) of ``points`` differ by a turn only, together."""
-        placed = np.stack([points[own] @ self.turn(k) for k, own in enumerate(vertices)])
+        placed = [points[own] @ self.turn(k) for k, own in enumerate(vertices)]
         return group_alike(placed, _ALIKE * np.abs(points).max())
 
 
-def group_alike(values: np.ndarray, tolerance: float) -> list[list[int]]:
-    """Rows of ``values`` (n, ...) that equal the first of their group to ``tolerance``."""
+def group_alike(values: Sequence[np.ndarray], tolerance: float) -> list[list[int]]:
+    """Arrays of ``values`` that equal the first of their group to ``tolerance``; those of other
+    shapes do not."""
     groups: list[list[int]] = []
-    for k, row in enumerate(values):
+    for k, own in enumerate(values):
         for group in groups:
-            if np.abs(row - values[group[0]]).max() <= tolerance:
+            first = values[group[0]]
+            if own.shape == first.shape and np.abs(own - first).max() <= tolerance:
                 group.append(k)
                 break
         else:
@@ -73,17 +82,29 @@ def find_sectors(
     (n_edges, 2) are sorted vertex pairs, whose midpoints are the nodes after the vertices.
     """
     own, cells = info.get("sector_points"), info.get("sector_cells")
-    if not isinstance(own, int) or not isinstance(cells, int) or n_points % own:
+    doubled = np.asarray(info.get("doubled", ()), np.int64)
+    n = n_points - len(doubled)
+    if not isinstance(own, int) or not isinstance(cells, int) or n % own:
         return None
-    count = n_points // own
-    if count < 3 or len(tets) != count * cells or not _repeats(tets, own, count, n_points):
+    count, place = n // own, np.append(np.arange(n), doubled)  # of vertices
+    if count < 3 or len(tets) != count * cells or not _repeats(place[tets], own, count, n):
         return None
-    vertices = (np.arange(n_points) + own) % n_points
-    midpoints = np.sort(vertices[edges], axis=1).reshape(-1, 2)
-    keys, wanted = (pairs[:, 0] * np.int64(n_points) + pairs[:, 1] for pairs in (edges, midpoints))
-    order = np.argsort(keys)
-    image = np.concatenate([vertices, n_points + order[np.searchsorted(keys[order], wanted)]])
-    return Sectors(count, cells, image.astype(np.int64))
+    following = (np.arange(n) + own) % n
+    pairs = place[edges]
+    keys, first, number = np.unique(_keys(pairs, n), return_index=True, return_inverse=True)
+    after = first[np.searchsorted(keys, _keys(following[pairs[first]], n))]
+    return Sectors(
+        count,
+        cells,
+        image=np.concatenate([following[place], n_points + after[number]]),
+        place=np.concatenate([place, n_points + first[number]]),
+    )
+
+
+def _keys(pairs: np.ndarray, n_points: int) -> np.ndarray:
+    """A number for each pair of vertices (n, 2), in whatever order."""
+    rising = np.sort(pairs, axis=1).astype(np.int64)
+    return rising[:, 0] * n_points + rising[:, 1]
 
 
 def _repeats(tets: np.ndarray, own: int, count: int, n_points: int) -> bool:

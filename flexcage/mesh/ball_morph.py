@@ -11,7 +11,7 @@ vertices beyond its tip are doubled. Where a ribbon cage lacks a rivet, those of
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from math import pi
 from types import MappingProxyType
@@ -207,7 +207,8 @@ def open_crack(sound: CageMesh, mesh: CageMesh, cage: BallCage, crack: WebCrack)
         for name, part in mesh.groups.items()
     }
     points = np.vstack([mesh.points, mesh.points[old]])
-    return replace(mesh, points=points, tets=tets, groups=MappingProxyType(groups))
+    info = _with_doubled(mesh, old)
+    return replace(mesh, points=points, tets=tets, groups=MappingProxyType(groups), info=info)
 
 
 def without_rivet(mesh: CageMesh, web: int, gap: float) -> CageMesh:
@@ -220,7 +221,16 @@ def without_rivet(mesh: CageMesh, web: int, gap: float) -> CageMesh:
     tets = np.where(under[:, None], copy[mesh.tets], mesh.tets)
     points = np.vstack([mesh.points, mesh.points[old]])
     points[old, 0], points[len(copy) :, 0] = gap, -gap
-    return replace(mesh, points=points, tets=tets)  # no group has a face on that plane
+    info = _with_doubled(mesh, old)
+    return replace(mesh, points=points, tets=tets, info=info)  # no group has a face on that plane
+
+
+def _with_doubled(mesh: CageMesh, old: np.ndarray) -> Mapping[str, object]:
+    """The mesh's info with the vertices ``old`` doubled, of which further ones are copies."""
+    before: tuple[int, ...] = mesh.info.get("doubled", ())  # type: ignore[assignment]
+    n = len(mesh.points) - len(before)
+    place = np.append(np.arange(n), np.asarray(before, np.int64))
+    return MappingProxyType({**mesh.info, "doubled": (*before, *place[old].tolist())})
 
 
 def _behind(sound: CageMesh, cells: np.ndarray, web: int) -> np.ndarray:

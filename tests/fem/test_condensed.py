@@ -10,8 +10,11 @@ from flexcage.fem.condensed import CondensedRing
 from flexcage.fem.free import FreeBodySolver, HeldBody
 from flexcage.fem.modal import free_modes
 from flexcage.fem.model import assemble
+from flexcage.geometry.ball_cage_defects import EnlargedPocket, MissingRivet, WebCrack
+from flexcage.geometry.ball_cages import BallCage
 from flexcage.geometry.cages import CrossbeamDefect, SideBeamDefect, WindowCage
 from flexcage.geometry.materials import MATERIALS
+from flexcage.geometry.presets import load_preset
 from flexcage.mesh.build import build_cage_mesh
 from flexcage.mesh.options import MeshOptions
 from flexcage.modes.pockets import pocket_loads
@@ -32,6 +35,20 @@ DEFECTS = {
     "both": (BENT, SIDE),
 }
 KINDS = {"sound": 1, "bent crossbeam": 2, "bent crossbeam 0": 2, "side beam": 3, "both": 4}
+BALL_CAGE = BallCage(bore=20e-3, outside_diameter=26e-3, width=12e-3, pocket_diameter=6e-3)
+BALL_POCKETS, BALL_PITCH = 8, 23e-3
+CRACKED = {  # (defects, kinds of parts)
+    "a crack": ((WebCrack(web=2, share=0.3),), 2),
+    "cracks around the first pocket": (
+        (WebCrack(web=0, share=0.2), WebCrack(web=1, share=0.4, side="-x")),
+        3,
+    ),
+    "two alike": ((WebCrack(web=2, share=0.25), WebCrack(web=5, share=0.25)), 2),
+    "beside an enlarged pocket": (
+        (EnlargedPocket(pocket=4, increase=0.2e-3), WebCrack(web=4, share=0.3)),
+        5,  # the wall draws along what is within one and a half sectors
+    ),
+}
 
 
 def cage_mesh(defects=()):
@@ -44,19 +61,53 @@ def cage_mesh(defects=()):
     )
 
 
+def cracked_mesh(defects):
+    return build_cage_mesh(
+        BALL_CAGE,
+        pocket_count=BALL_POCKETS,
+        pitch_diameter=BALL_PITCH,
+        defects=defects,
+        options=MeshOptions(fineness="coarse"),
+    )
+
+
 def without_sectors(thing):
     """A mesh or model that does not tell how it was made, as one from a user's file."""
     return dataclasses.replace(thing, info=MappingProxyType({}))
 
 
-@pytest.fixture(scope="module", params=DEFECTS)
-def pair(request):
-    """A cage's solver by parts and as a whole."""
-    model = assemble(cage_mesh(DEFECTS[request.param]), BRASS)
+def solvers_of(mesh, kinds):
+    """A cage's solver by parts, of which there are so many kinds, and as a whole."""
+    model = assemble(mesh, BRASS)
     by_parts, whole = FreeBodySolver(model), FreeBodySolver(without_sectors(model))
     assert isinstance(by_parts.solver, CondensedRing) and isinstance(whole.solver, HeldBody)
-    assert len(by_parts.solver.kinds) == KINDS[request.param]
+    assert len(by_parts.solver.kinds) == kinds
     return by_parts, whole
+
+
+@pytest.fixture(scope="module", params=[*DEFECTS, *CRACKED])
+def pair(request):
+    name = request.param
+    if name in DEFECTS:
+        return solvers_of(cage_mesh(DEFECTS[name]), KINDS[name])
+    defects, kinds = CRACKED[name]
+    return solvers_of(cracked_mesh(defects), kinds)
+
+
+def test_a_cage_without_a_rivet_is_solved_by_parts():
+    ribbon, defects = load_preset("15x37x10").cage, (MissingRivet(web=0),)
+    mesh = build_cage_mesh(
+        ribbon,
+        pocket_count=7,
+        pitch_diameter=26e-3,
+        defects=defects,
+        options=MeshOptions(fineness="coarse"),
+    )
+    model = assemble(mesh, BRASS, order=1)
+    by_parts, whole = FreeBodySolver(model), FreeBodySolver(without_sectors(model))
+    assert isinstance(by_parts.solver, CondensedRing) and len(by_parts.solver.kinds) == 2
+    ours, theirs = free_modes(by_parts, 8)[0], free_modes(whole, 8)[0]
+    np.testing.assert_allclose(np.sqrt(ours), np.sqrt(theirs), rtol=1e-8)
 
 
 @pytest.mark.parametrize("order", [1, 2])
@@ -73,7 +124,10 @@ def test_a_ring_from_sectors_has_the_matrices_of_all_elements(which, order):
 def test_static_answers_equal_those_of_the_whole_ring(pair):
     by_parts, whole = pair
     anywhere = np.random.default_rng(0).normal(size=(whole.model.n_dof, 3))
-    for loads in (*(pocket_loads(whole.model, k, POCKETS) for k in (0, 2, 5, 8)), anywhere):
+    one_node = np.zeros((whole.model.n_dof, 3))
+    one_node[-3:] = np.eye(3)
+    pockets = [] if "pocket0_wall" in whole.model.groups else [0, 2, 5, 8]
+    for loads in (*(pocket_loads(whole.model, k, POCKETS) for k in pockets), one_node, anywhere):
         expected = whole.solve(loads)
         assert np.abs(by_parts.solve(loads) - expected).max() < 1e-8 * np.abs(expected).max()
 
