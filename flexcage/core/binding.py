@@ -200,13 +200,29 @@ def with_their_choice(spec: Any, changes: Mapping[str, Any]) -> dict[str, Any]:
     joined: dict[str, Any] = {}
     for path, value in changes.items():
         parent, _, key = path.rpartition(".")
-        found = _choosing(type(_spec_at(spec, parent)))
-        chosen = parent and found and join(parent, found[0]) in changes
-        if chosen and parent not in changes:  # else in the order given
+        own = _spec_at(spec, parent) if parent else None
+        name = _choice_of(own, parent)
+        chosen = changes.get(join(parent, name)) if name else None
+        if chosen is None or parent in changes:  # else in the order given
+            joined[path] = value
+        elif (
+            name != "type"
+            or "type" in hints(typing.cast(Any, type(own)))
+            or chosen != tag_of(type(own))
+        ):
             joined.setdefault(parent, {})[key] = value
-        else:
+        elif key != name:  # of an entry that is of this kind already
             joined[path] = value
     return joined
+
+
+def _choice_of(spec: Any, path: str) -> str:
+    """Key of the name that chooses the spec at a path, such as the ``type`` of an entry of a list;
+    empty if none does."""
+    found = _choosing(type(spec))
+    if found:
+        return found[0]
+    return "type" if spec is not None and path.rpartition(".")[2].isdigit() else ""
 
 
 def _spec_at(spec: Any, path: str) -> Any:

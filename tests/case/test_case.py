@@ -90,6 +90,16 @@ def test_variation_leaves_the_original_alone(case):
     assert varied.hash != case.hash
 
 
+def test_an_entry_of_a_list_becomes_another_kind(case):
+    side = {"defects.0.type": "side_beam", "defects.0.pocket": 2, "defects.0.side": "-x"}
+    (bent,) = case.replace({**side, "defects.0.displacement": "0.1 mm"}).defects
+    assert bent == SideBeamDefect(pocket=2, side="-x", displacement=0.1e-3)
+    (same,) = case.replace({"defects.0.type": "crossbeam", "defects.0.crossbeam": 7}).defects
+    assert same == dataclasses.replace(case.defects[0], crossbeam=7)
+    with pytest.raises(InputError, match="lacks 'displacement'"):
+        case.replace(side)
+
+
 @pytest.mark.parametrize(
     ("path", "value", "expected"),
     [
