@@ -205,13 +205,9 @@ def with_their_choice(spec: Any, changes: Mapping[str, Any]) -> dict[str, Any]:
         chosen = changes.get(join(parent, name)) if name else None
         if chosen is None or parent in changes:  # else in the order given
             joined[path] = value
-        elif (
-            name != "type"
-            or "type" in hints(typing.cast(Any, type(own)))
-            or chosen != tag_of(type(own))
-        ):
+        elif not _is_of_kind(own, name, chosen):
             joined.setdefault(parent, {})[key] = value
-        elif key != name:  # of an entry that is of this kind already
+        elif key != name:
             joined[path] = value
     return joined
 
@@ -223,6 +219,11 @@ def _choice_of(spec: Any, path: str) -> str:
     if found:
         return found[0]
     return "type" if spec is not None and path.rpartition(".")[2].isdigit() else ""
+
+
+def _is_of_kind(spec: Any, name: str, chosen: Any) -> bool:
+    """Whether an entry, told apart by a name that is no field of it, is of this kind already."""
+    return name not in spec.__dataclass_fields__ and chosen == tag_of(type(spec))
 
 
 def _spec_at(spec: Any, path: str) -> Any:
