@@ -20,6 +20,7 @@ from flexcage.core.errors import EnvironmentLacks, InputError
 from flexcage.core.progress import Silent
 from flexcage.core.threads import one_blas_thread
 from flexcage.core.timing import Stages
+from flexcage.geometry.ribbon_cage import RibbonCage
 from flexcage.mesh.cage_mesh import CageMesh
 from flexcage.mesh.quality import report_mesh
 from flexcage.mesh.series import write_series
@@ -45,6 +46,7 @@ from flexcage.stress.operators import von_mises
 from flexcage.stress.places import contact_zone, place_kind, root_places
 from flexcage.stress.places import in_words as place_in_words
 from flexcage.stress.recovery import STRESS_VERSION, CageLoads, Keep, StressRecovery
+from flexcage.stress.rivets import NOMINAL, Joints, RivetFields, Rivets, rivet_loads
 from flexcage.stress.series import as_time, frames, samples_near
 from flexcage.stress.sn_curves import SNCurve, sn_curve
 from flexcage.stress.wear import Wear, wear
@@ -245,6 +247,30 @@ class Run:
         ds = settled(self.dataset, case.output.settle)
         windows = roller_passes(ds, self.numbers)
         return wear(ds, case.bearing, case.cage, case.contacts.land, used, windows)
+
+    @cached_property
+    @one_blas_thread
+    def rivets(self) -> Rivets:
+        """What the rivets of a ribbon cage bear (``stress.rivets.Rivets``): ``dataset``, ``table``;
+        InputError for any other cage, and for a rigid one."""
+        recovery, cage = self.recovery, self.case.cage  # refuses a rigid cage
+        if not isinstance(cage, RibbonCage):
+            raise InputError(
+                "The run's cage has no rivets; ribbon cages have (cage.type = 'ribbon').",
+                where="cage.type",
+            )
+        ds = self.dataset
+        joints = Joints(
+            recovery.model, self.mesh.pocket_count, 0.5 * self.case.bearing.pitch_diameter
+        )
+        return rivet_loads(
+            RivetFields(recovery, joints),
+            *self._moved_and_pushed(ds),
+            time=ds["time"].values,
+            diameter=cage.rivet_diameter,
+            settled=int(self.case.output.settle * ds.sizes["time"]),
+            between=self._between,
+        )
 
     @one_blas_thread
     def stress(self, *, time: float | str | None = None) -> StressField:
@@ -503,6 +529,8 @@ class Run:
         summary = summary.with_section("Cage", self._cage_rows())
         if self.cage is not None:
             summary = summary.with_section("Equivalent stress", self._stress_rows())
+            if isinstance(case.cage, RibbonCage):
+                summary = summary.with_section("Rivets", self._rivet_rows())
         if hasattr(self, "solver"):
             summary = summary.with_section("Solver", self._solver_rows())
         return summary.with_section("Wall time", self._time_rows())
@@ -568,6 +596,16 @@ class Run:
             Row("stress_start", "Before settling", float(h.peak[: h.settled].max(initial=0.0)),
                 "MPa"),
         ]  # fmt: skip
+
+    def _rivet_rows(self) -> list[Row]:
+        kinds = (("tension", "N", ""), ("shear", "N", ""), ("stress", "MPa", NOMINAL))
+        rows = []
+        for name, unit, note in kinds:
+            value, rivet = self.rivets.largest(name)
+            label = f"Largest {'nominal ' if note else ''}{name}"
+            where = f"rivet {rivet}{'; ' if note else ''}{note}"
+            rows.append(Row(f"rivet_{name}", label, value, unit, where))
+        return rows
 
     def _solver_rows(self) -> list[Row]:
         count, bound = self.solver.state.count, self.solver.bound

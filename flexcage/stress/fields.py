@@ -250,11 +250,14 @@ def _equivalent(parts: np.ndarray) -> np.ndarray:
     return np.sqrt(parts.sum(axis=0))
 
 
-class TensorFields(UnitFields):
-    """Precomputed stresses xx, yy, zz, xy, yz, xz at the points of the named places.
+class NamedFields(UnitFields):
+    """Fields of which ``places`` holds, by name, the rows of its points."""
 
-    ``places`` holds, by name, the rows of its points.
-    """
+    places: dict[str, np.ndarray]
+
+
+class TensorFields(NamedFields):
+    """Precomputed stresses xx, yy, zz, xy, yz, xz at the points of the named places."""
 
     def __init__(self, recovery: StressRecovery) -> None:
         named = root_places(recovery.model, recovery.pocket_count)

@@ -16,7 +16,7 @@ import scipy.sparse as sp
 from flexcage.core.progress import Silent
 from flexcage.core.threads import on_all_cores
 from flexcage.stress.between import Loads, Steps, no_steps, together
-from flexcage.stress.fields import StressFields, Tables, TensorFields
+from flexcage.stress.fields import NamedFields, StressFields, Tables
 
 _BLOCK = 256  # samples at a time: their stresses stay near the processor
 _READ = 512  # samples at a time of what is read and reduced only
@@ -93,7 +93,7 @@ def equivalent_stress(
 
 
 def tensor_histories(
-    fields: TensorFields,
+    fields: NamedFields,
     q: Sliced,
     station_forces: Sliced,
     land_forces: Sliced | None = None,
@@ -101,8 +101,8 @@ def tensor_histories(
     places: Iterable[str],
     between: Steps = no_steps,
 ) -> tuple[np.ndarray, Iterator[tuple[str, np.ndarray]]]:
-    """Samples (n,) that end the intervals of n instants, and by name the stresses (6, m, n) [Pa] of
-    every place at its m points: xx, yy, zz, xy, yz, xz in the cage's frame.
+    """Samples (n,) that end the intervals of n instants, and by name what the fields are of at a
+    place's m points (6, m, n): stresses xx, yy, zz, xy, yz, xz [Pa] in the cage's frame.
 
     Instants are samples and the steps between them; arguments as in ``stress_history``.
     """

@@ -61,6 +61,8 @@ FLEXIBLE_FIGURES = (
     "mode_count", "first_frequency", "far_coupling", "stress_peak", "stress_mean_peak",
     "stress_root", "stress_root_pass_peak", "stress_start", "wall_stress",
 )  # fmt: skip
+#: Those of flexible ribbon cages alone.
+RIVET_FIGURES = ("rivet_tension", "rivet_shear", "rivet_stress")
 
 _REDUCTION = re.compile(r"(\w+)(?:\[([^\]]*)\])?\.(\w+)")
 _COUNTED = re.compile(r"(\d+)(?::(\d+))?")  # one place, or those from one to before another
@@ -213,15 +215,17 @@ def _check_known(name: str, dim: str, label: str, labels: Collection[str]) -> No
 
 
 def check_outputs(
-    names: tuple[str, ...], *, sizes: Mapping[str, int], flexible: bool, element: str = "roller",
-    materials: Collection[str] = (), reactions: Collection[str] = CONSTRAINTS,
+    names: tuple[str, ...], *, sizes: Mapping[str, int], flexible: bool, riveted: bool = False,
+    element: str = "roller", materials: Collection[str] = (),
+    reactions: Collection[str] = CONSTRAINTS,
 ) -> None:  # fmt: skip
     """Raise InputError for the first output that no run of the study can give.
 
     ``sizes`` holds the least length in any case of dimensions that are counted (rolling elements,
     pockets, slices), ``element`` is the kind of rolling elements, ``flexible`` says whether any
-    cage is, ``materials`` names those of all cages, and ``reactions`` the constraints that every
-    case has. Raises EnvironmentLacks for fatigue without pyLife.
+    cage is, ``riveted`` whether one of these is a ribbon cage, ``materials`` names those of all
+    cages, and ``reactions`` the constraints that every case has. Raises EnvironmentLacks for
+    fatigue without pyLife.
     """
     if not names:
         raise InputError("The study has no outputs; name some, such as 'cage_speed'.")
@@ -242,7 +246,8 @@ def check_outputs(
                         "range ends before its last number."
                     )
         else:
-            needs = name in FLEXIBLE_FIGURES or LATE_FIGURES.get(name) is _fatigue
+            of_cage = name in (*FLEXIBLE_FIGURES, *RIVET_FIGURES)
+            needs = of_cage or LATE_FIGURES.get(name) is _fatigue
             _check_figure(name)
             _check_late(name, materials)
             for kind, figures in ELEMENT_FIGURES.items():
@@ -251,6 +256,13 @@ def check_outputs(
             raise InputError(
                 f"Output '{name}' wants a flexible cage, and every cage of the study is rigid; "
                 "set cage.model = 'flexible' or leave it out.",
+                where="outputs",
+                value=name,
+            )
+        if name in RIVET_FIGURES and not riveted:
+            raise InputError(
+                f"Output '{name}' is of ribbon cages, and no flexible cage of the study is one; "
+                "set cage.type = 'ribbon' or leave it out.",
                 where="outputs",
                 value=name,
             )
@@ -280,7 +292,7 @@ def _check_late(name: str, materials: Collection[str]) -> None:
 
 def _check_figure(name: str) -> None:
     own = [figure for figures in ELEMENT_FIGURES.values() for figure in figures]
-    known = (*RIGID_FIGURES, *own, *FLEXIBLE_FIGURES, *LATE_FIGURES)
+    known = (*RIGID_FIGURES, *own, *FLEXIBLE_FIGURES, *RIVET_FIGURES, *LATE_FIGURES)
     if name in known:
         return
     if name in VARIABLES or name in DERIVED:

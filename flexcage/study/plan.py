@@ -14,6 +14,7 @@ from flexcage.case.case import ALIASES
 from flexcage.core.errors import InputError
 from flexcage.core.hashing import content_hash
 from flexcage.core.units import format_si
+from flexcage.geometry.ribbon_cage import RibbonCage
 from flexcage.modes.registry import basis_version
 from flexcage.study.axes import Point, Points
 from flexcage.study.outputs import check_outputs
@@ -57,7 +58,7 @@ def make_plan(study: Study) -> Plan:
     _check_columns(study)
     points = _points(study)
     cases, seen = [], dict[str, int]()
-    kind, flexible = study.case.bearing.element, False
+    kind, flexible, riveted = study.case.bearing.element, False, False
     sizes = _counts(study.case)
     materials, held = dict[str, None](), set(names_of(study.case.constraints))
     for number, point in enumerate(points):
@@ -78,12 +79,13 @@ def make_plan(study: Study) -> Plan:
             seen[case.hash] = number
             sizes = {dim: min(size, sizes[dim]) for dim, size in _counts(case).items()}
             flexible |= case.cage_model == "flexible"
+            riveted |= case.cage_model == "flexible" and isinstance(case.cage, RibbonCage)
             materials[case.cage.material.name] = None
             held = held.intersection(names_of(case.constraints))
             cases.append(Planned(number, point, repetition, case.hash, _modes_key(case)))
     check_outputs(
-        study.outputs, sizes=sizes, flexible=flexible, element=kind, materials=materials,
-        reactions=(*CONSTRAINTS, *sorted(held)),
+        study.outputs, sizes=sizes, flexible=flexible, riveted=riveted, element=kind,
+        materials=materials, reactions=(*CONSTRAINTS, *sorted(held)),
     )  # fmt: skip
     return Plan(study, tuple(cases))
 

@@ -6,9 +6,11 @@ from PIL import Image
 
 from flexcage.case import load_case
 from flexcage.core.environment import offscreen_backend
+from flexcage.core.errors import InputError
 from flexcage.render.mesh_pictures import mesh_picture
 from flexcage.results.audit import energy_audit
 from flexcage.simulate import load_run, simulate
+from flexcage.stress.rivets import Joints
 
 BASE = {
     "bearing": {"preset": "15x37x10"},
@@ -79,6 +81,30 @@ def test_a_stored_run_is_drawn_and_recovered(flexible, tmp_path):
     peak = run.summary["stress_peak"]
     assert field.von_mises.max() >= 0.999 * peak > 50e6
     assert run.stress_history.places.shape[1] == 7 * 4
+
+
+def test_rivets_bear_what_the_full_mesh_gives(flexible):
+    """Superposed, at an instant with contact, against the displacement of the whole mesh there; and
+    a summary whose largest values come from between samples, too."""
+    ds, s = flexible.rivets.dataset, flexible.summary
+    assert list(ds["rivet"].values) == [0, 1, 3, 4, 5, 6]
+    busy = int(flexible.dataset["pocket_force"].sum(("pocket", "face")).values.argmax())
+    field = flexible.stress(time=float(ds["time"][busy]))
+    joints = Joints(flexible.recovery.model, 7, 13e-3)(field.displacement[:, :, None])[:, 0]
+    for name, found in (("force", joints[:, :3]), ("moment", joints[:, 3:])):
+        expected = ds[name].values[busy]
+        assert np.abs(found - expected).max() < 2e-3 * np.abs(expected).max()
+    settled = ds.isel(time=slice(flexible.rivets.settled, None))
+    assert s["rivet_shear"] == pytest.approx(float(settled["shear"].max()))
+    assert s["rivet_shear"] >= np.hypot(*np.moveaxis(settled["force"].values[..., 1:], -1, 0)).max()
+    assert str(flexible.rivets).count("\n") == 6
+
+
+def test_other_cages_have_no_rivets():
+    machined = {"bearing": {"preset": "7010C-PI"}, "load": {"axial": "100 N"}}
+    run = simulate(ribbon({"solver.duration": "0.1 ms"}, **machined))
+    with pytest.raises(InputError, match="has no rivets"):
+        _ = run.rivets
 
 
 def test_the_picture_of_its_mesh_rings_the_missing_rivet(flexible, tmp_path):

@@ -42,6 +42,13 @@ def test_the_cages_motion_and_contacts_are_outputs_of_every_family(element):
     check_outputs(names, sizes={element: 12, "pocket": 12}, flexible=False, element=element)
 
 
+def test_loads_of_rivets_are_outputs_of_ribbon_cages():
+    figures = {"sizes": {}, "flexible": True, "element": "ball"}
+    check_outputs(("rivet_stress",), **figures, riveted=True)
+    with pytest.raises(InputError, match="set cage.type = 'ribbon'"):
+        check_outputs(("rivet_stress",), **figures)
+
+
 def test_repetitions_differ_in_their_start_alone():
     plan = make_plan(short_study(repeat=Repeat(count=2, push=2e-3, seed=7)))
     first, second = map(plan.case, plan.cases)

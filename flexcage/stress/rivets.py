@@ -1,0 +1,220 @@
+"""What the rivets of a ribbon cage bear: force and moment through the joint at every web.
+
+The halves hold together in circles of the middle plane alone, at nodes that elements of both halves
+share. With K+ and K- the stiffness of the elements at x > 0 and x < 0, the half at x < 0 pushes the
+other one there by (K+ u - K- u)/2, node by node: nothing else acts on these nodes but their
+inertia, and by symmetry each half has one half of it. Sums over a joint's nodes are its force and
+moment, linear in the displacement, so that they are superposed as stresses are (``fields``).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from math import pi
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import scipy.sparse as sp
+
+from flexcage.core.errors import InputError
+from flexcage.fem.model import FEModel, assemble
+from flexcage.mesh.cage_mesh import CageMesh
+from flexcage.modes.pockets import pocket_frame
+from flexcage.stress.between import Steps, no_steps
+from flexcage.stress.fields import NamedFields
+from flexcage.stress.history import Sliced, tensor_histories
+from flexcage.stress.recovery import StressRecovery
+
+if TYPE_CHECKING:
+    import xarray
+
+NOMINAL = "of a shank that bears all that goes from half to half, without its head's clamping"
+AXES = ("x", "r", "psi")  # at the rivet's azimuth
+_FIGURES = {  # of the dataset beside force and moment: units, names
+    "tension": ("N", "tension of the rivet; negative where the halves are pressed together"),
+    "shear": ("N", "shear force on the rivet"),
+    "bending": ("N m", "bending moment about the rivet's middle"),
+    "torsion": ("N m", "moment about the rivet's axis"),
+    "stress": ("Pa", "nominal equivalent stress of the shank"),
+}
+
+
+class Joints:
+    """Forces and moments through the joints of a ribbon cage whose ball centres lie at
+    ``pitch_radius`` [m]; ``webs`` (n,) numbers those that there are."""
+
+    def __init__(self, model: FEModel, pocket_count: int, pitch_radius: float) -> None:
+        ahead = model.points[model.tets].mean(axis=1)[:, 0] > 0.0
+        shared = np.intersect1d(model.cells[ahead], model.cells[~ahead])
+        azimuth = np.arctan2(model.nodes[shared, 2], model.nodes[shared, 1])
+        web = np.round(azimuth * pocket_count / (2.0 * pi) + 0.5).astype(int) % pocket_count
+        self.webs = np.unique(web)
+        jump = _nodal_forces(model, ahead, shared) - _nodal_forces(model, ~ahead, shared)
+        rows = [
+            _resultant(model.nodes[shared], web == k, pocket_frame(k - 0.5, pocket_count),
+                       pitch_radius)
+            for k in self.webs
+        ]  # fmt: skip
+        self._rows = sp.csr_matrix(0.5 * sp.vstack(rows) @ jump) if rows else None
+
+    def __call__(self, fields: np.ndarray, _forces: np.ndarray | None = None) -> np.ndarray:
+        """Force [N] and moment [N m] (n, m, 6) of displacements (N, 3, m) [m]: those of the half at
+        x < 0 on the other, about the rivet's middle; components (x, r, psi) at its azimuth."""
+        if self._rows is None:
+            return np.zeros((0, fields.shape[2], 6))
+        found = self._rows @ fields.reshape(-1, fields.shape[2])
+        return np.ascontiguousarray(found.reshape(len(self.webs), 6, -1).swapaxes(1, 2))
+
+
+def _nodal_forces(model: FEModel, half: np.ndarray, nodes: np.ndarray) -> sp.csr_matrix:
+    """Rows (3 n, 3 N) of the stiffness of one half's elements at some of its nodes."""
+    touching = half & np.isin(model.cells, nodes).any(axis=1)
+    vertices, tets = np.unique(model.tets[touching], return_inverse=True)
+    part = assemble(
+        CageMesh(model.points[vertices], tets.reshape(-1, 4)), model.material, order=model.order
+    )
+    own = vertices
+    if model.order == 2:
+        own = np.concatenate([vertices, model.edge_nodes(vertices[part.edges])])
+    place = np.full(len(model.nodes), -1)
+    place[own] = np.arange(len(own))
+    found = part.K[_dofs(place[nodes])].tocoo()
+    columns = _dofs(own)[found.col]
+    return sp.csr_matrix((found.data, (found.row, columns)), shape=(found.shape[0], model.n_dof))
+
+
+def _dofs(nodes: np.ndarray) -> np.ndarray:
+    return (3 * nodes[:, None] + np.arange(3)).ravel()
+
+
+def _resultant(
+    nodes: np.ndarray, own: np.ndarray, frame: np.ndarray, pitch_radius: float
+) -> sp.csr_matrix:
+    """Force and moment (6, 3 n), in a frame's axes, of forces on those nodes (n, 3) that are a
+    joint's ``own``."""
+    arm = nodes - pitch_radius * frame[1]
+    rows = np.zeros((6, len(nodes), 3))
+    rows[:3] = frame[:, None]
+    rows[3:] = np.cross(frame[:, None], arm)  # a . (arm x f) = (a x arm) . f
+    rows[:, ~own] = 0.0
+    return sp.csr_matrix(rows.reshape(6, -1))
+
+
+class RivetFields(NamedFields):
+    """Force and moment of every rivet per unit modal coordinate and unit force: six parts of one
+    point each."""
+
+    parts = 6
+    prefix = "rivets_"
+
+    def __init__(self, recovery: StressRecovery, joints: Joints) -> None:
+        self._recovery, self._stress = recovery, joints  # type: ignore[assignment]
+        self.vertices = np.arange(len(joints.webs))
+        self.places = {str(web): np.array([i]) for i, web in enumerate(joints.webs)}
+
+
+@dataclass(frozen=True, eq=False)
+class Rivets:
+    """Loads of the rivets over a run, ``dataset`` (an xarray.Dataset) by time and rivet.
+
+    ``force`` [N] and ``moment`` [N m] at samples are those of the half at x < 0 on the other, about
+    the rivet's middle, components (x, r, psi) at its azimuth. ``tension``, ``shear``, ``bending``,
+    ``torsion`` and ``stress``, the nominal equivalent stress of a shank that bears them alone
+    (tension and bending, and shear with torsion at its rim), are the largest since the sample
+    before, steps of the solver included. Heads that clamp, and sheets that rub and press on each
+    other beside the rivet, take part of these loads from a real shank.
+    """
+
+    dataset: xarray.Dataset
+    diameter: float  # [m] of the shanks
+    settled: int = 0  # first sample of the settled part
+
+    def largest(self, figure: str = "stress") -> tuple[float, int]:
+        """The largest value of a figure over the settled part, and its rivet."""
+        values = self._most(figure)
+        where = int(np.argmax(values))
+        return float(values[where]), int(self.dataset["rivet"].values[where])
+
+    def _most(self, figure: str) -> np.ndarray:
+        if figure not in _FIGURES:
+            raise InputError(
+                f"Rivets have no figure {figure!r}; choose from {', '.join(_FIGURES)}.",
+                where="figure",
+                value=figure,
+            )
+        return self.dataset[figure].values[self.settled :].max(axis=0)
+
+    def table(self) -> str:
+        """The largest loads of every rivet over the settled part."""
+        lines = ["rivet  tension, N  shear, N  bending, N mm  torsion, N mm  nominal stress, MPa"]
+        columns = zip(self.dataset["rivet"].values, *(self._most(name) for name in _FIGURES))
+        for rivet, tension, shear, bending, torsion, stress in columns:
+            lines.append(
+                f"{rivet:5d}  {tension:10.3g}  {shear:8.3g}  {bending * 1e3:13.3g}  "
+                f"{torsion * 1e3:13.3g}  {stress / 1e6:19.3g}"
+            )
+        return "\n".join(lines)
+
+    __str__ = table
+
+
+def rivet_loads(
+    fields: RivetFields,
+    q: Sliced,
+    station_forces: Sliced,
+    land_forces: Sliced | None = None,
+    *,
+    time: np.ndarray,
+    diameter: float,
+    settled: int = 0,
+    between: Steps = no_steps,
+) -> Rivets:
+    """What rivets of this ``diameter`` [m] bear at samples of these times [s] and at the steps
+    between; other arguments as in ``history.stress_history``."""
+    sample, histories = tensor_histories(
+        fields, q, station_forces, land_forces, places=fields.places, between=between
+    )
+    first = np.flatnonzero(np.append(True, np.diff(sample) > 0))
+    last = np.append(first[1:], len(sample)) - 1  # the sample itself
+    own = [_of_one(parts[:, 0].astype(float), first, last, diameter) for _, parts in histories]
+    return Rivets(_labelled(own, time, np.array([int(name) for name in fields.places])),
+                  diameter, settled)  # fmt: skip
+
+
+def _of_one(
+    parts: np.ndarray, first: np.ndarray, last: np.ndarray, diameter: float
+) -> dict[str, np.ndarray]:
+    """Figures of a rivet whose force and moment at all instants are ``parts`` (6, n)."""
+    found = dict(_figures(parts, diameter))
+    largest = {name: np.maximum.reduceat(values, first) for name, values in found.items()}
+    return {"force": parts[:3, last].T, "moment": parts[3:, last].T, **largest}
+
+
+def _figures(parts: np.ndarray, diameter: float) -> Iterator[tuple[str, np.ndarray]]:
+    (along, *across), (twist, *bend) = parts[:3], parts[3:]
+    tension, shear = -along, np.hypot(*across)
+    bending, torsion = np.hypot(*bend), np.abs(twist)
+    area, modulus = 0.25 * pi * diameter**2, pi * diameter**3 / 32.0
+    normal = np.maximum(tension, 0.0) / area + bending / modulus
+    sliding = shear / area + 0.5 * torsion / modulus
+    values = (tension, shear, bending, torsion, np.sqrt(normal**2 + 3.0 * sliding**2))
+    yield from zip(_FIGURES, values)
+
+
+def _labelled(own: list[dict[str, np.ndarray]], time: np.ndarray, webs: np.ndarray) -> Any:
+    import xarray
+
+    names = {
+        "force": ("N", "force of the half at x < 0 on the other"),
+        "moment": ("N m", "moment of the half at x < 0 on the other, about the rivet's middle"),
+        **_FIGURES,
+    }
+    axis = ("axis",)
+    variables = {}
+    for name, (unit, words) in names.items():
+        dims = ("time", "rivet", *(axis if name in ("force", "moment") else ()))
+        empty = np.zeros((len(time), 0, 3)[: len(dims)])
+        values = np.stack([each[name] for each in own], axis=1) if own else empty
+        variables[name] = (dims, values, {"units": unit, "long_name": words})
+    return xarray.Dataset(variables, {"time": time, "rivet": webs, "axis": list(AXES)})
