@@ -114,7 +114,7 @@ class CFunctions:
         def accepted(t, y, yd, out, power):
             fns, data = read(address)
             fns[0](t, vector(y, n), vector(yd, n), data, vector(out, n), vector(power, powers))
-            fns[4](t, data)
+            fns[4](t, vector(y, n), data)
 
         def rates(t, y, yd):
             fns, data = read(address)
