@@ -13,6 +13,7 @@ from typing import Any
 
 from flexcage.bodies.cage import flexible_from_reduction, rigid_from_tets
 from flexcage.case import Case
+from flexcage.case.checks import not_reached
 from flexcage.core import jit
 from flexcage.core.progress import Silent
 from flexcage.mesh.build import build_cage_mesh
@@ -157,10 +158,12 @@ def build_bearing(
 
 def assembled_start(case: Case, bearing: Bearing, progress: Callable[..., Any] = Silent) -> Start:
     """Where a run begins: the bearing assembled and in equilibrium at the drive's first speed, its
-    cage pushed off if the case says so, and all on the constraints.
+    cage pushed off if the case says so, and all on the constraints. Warns of what will not begin.
 
     ``progress`` is a context like ``core.progress.Progress``.
     """
+    for sentence in not_reached(case):
+        log.warning(sentence)
     limit = case.limits.assembly_force
     with progress(1.0, "start") as bar:
         start = find_start(

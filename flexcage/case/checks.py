@@ -343,6 +343,22 @@ def _find_in_ramps(case: Case) -> Iterator[Finding]:
             yield f"{room}.times", f"[{room}] has both a ramp and a table; keep one of them."
 
 
+def not_reached(case: Case) -> Iterator[str]:
+    """Sentences on ramps and tables that begin when the run is over: no mistake in a short look at
+    a case, but one to be told of."""
+    end = case.solver.duration
+    for room in ("drive", "load"):
+        spec = getattr(case, room)
+        ramp = spec.ramp_to is not None
+        begin = spec.ramp_start if ramp else spec.times[0] if spec.times else 0.0
+        if begin >= end:
+            key, what = ("ramp_start", "ramp") if ramp else ("times", "table")
+            yield (
+                f"{room}.{key} is {describe(begin, 'ms')}, but the run ends at "
+                f"{describe(end, 'ms')}, so that the {what} changes nothing"
+            )
+
+
 def _find_in_acceleration(case: Case) -> Iterator[Finding]:
     """A ramp of speed takes its time or its acceleration, not both."""
     drive = case.drive

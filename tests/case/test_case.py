@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 from flexcage.case import Case, load_case
+from flexcage.case.checks import not_reached
 from flexcage.contacts.spec import FrictionLaw
 from flexcage.core.errors import InputError
 from flexcage.geometry.cages import CrossbeamDefect, SideBeamDefect
@@ -274,3 +275,18 @@ def test_values_that_only_fit_together_may_be_replaced_in_any_order():
     for names in (("rate", "vibration_rate"), ("vibration_rate", "rate")):
         new = case.replace(**{f"output.{n}": "300 kHz" for n in names})
         assert new.output.vibration_ratio == 1
+
+
+@pytest.mark.parametrize(
+    ("changes", "told"),
+    [
+        ({"load.ramp_start": "99 ms"}, []),
+        ({"load.ramp_start": "200 ms"}, ["load.ramp_start is 200 ms, but the run ends at 100 ms"]),
+        ({"solver.duration": "5 ms"}, ["load.ramp_start is 10 ms", "drive.times is 20 ms"]),
+    ],
+)
+def test_what_a_run_does_not_reach_is_told(case, changes, told):
+    ramp = {"load.ramp_to": "2 kN", "load.ramp_start": "10 ms", "load.ramp_time": "5 ms"}
+    table = {"drive.times": ["20 ms", "30 ms"], "drive.speeds": ["6000 rpm", "7000 rpm"]}
+    found = list(not_reached(case.replace({**ramp, **table, **changes})))
+    assert len(found) == len(told) and all(b in a for a in found for b in told if b[:5] in a)
