@@ -40,13 +40,13 @@ from flexcage.stress.between import Between
 from flexcage.stress.counting import require_pylife
 from flexcage.stress.fatigue import Fatigue, chosen_places, counted_stress, place_fatigue
 from flexcage.stress.fields import StressFields, TensorFields
-from flexcage.stress.history import StressHistory, stress_history, tensor_histories
+from flexcage.stress.history import StressHistory, histories_at, stress_history
 from flexcage.stress.loads import LandForces, cage_loads
 from flexcage.stress.operators import von_mises
 from flexcage.stress.places import contact_zone, place_kind, root_places
 from flexcage.stress.places import in_words as place_in_words
 from flexcage.stress.recovery import STRESS_VERSION, CageLoads, Keep, StressRecovery
-from flexcage.stress.rivets import NOMINAL, Joints, RivetFields, Rivets, rivet_loads
+from flexcage.stress.rivets import Joints, RivetFields, Rivets, rivet_loads
 from flexcage.stress.series import as_time, frames, samples_near
 from flexcage.stress.sn_curves import SNCurve, sn_curve
 from flexcage.stress.wear import Wear, wear
@@ -222,7 +222,7 @@ class Run:
         ds = settled(self.dataset, self.case.output.settle)
         places = chosen_places(place, tuple(fields.places))
         first = self.dataset.sizes["time"] - ds.sizes["time"]
-        samples, histories = tensor_histories(
+        samples, histories = histories_at(
             fields, *self._moved_and_pushed(ds), places=places,
             between=self._between.since(first),
         )  # fmt: skip
@@ -249,10 +249,13 @@ class Run:
         return wear(ds, case.bearing, case.cage, case.contacts.land, used, windows)
 
     @cached_property
-    @one_blas_thread
     def rivets(self) -> Rivets:
         """What the rivets of a ribbon cage bear (``stress.rivets.Rivets``): ``dataset``, ``table``;
         InputError for any other cage, and for a rigid one."""
+        return self.stages("rivets", self._rivets)
+
+    @one_blas_thread
+    def _rivets(self) -> Rivets:
         recovery, cage = self.recovery, self.case.cage  # refuses a rigid cage
         if not isinstance(cage, RibbonCage):
             raise InputError(
@@ -530,7 +533,7 @@ class Run:
         if self.cage is not None:
             summary = summary.with_section("Equivalent stress", self._stress_rows())
             if isinstance(case.cage, RibbonCage):
-                summary = summary.with_section("Rivets", self._rivet_rows())
+                summary = summary.with_section("Rivets", self.rivets.rows())
         if hasattr(self, "solver"):
             summary = summary.with_section("Solver", self._solver_rows())
         return summary.with_section("Wall time", self._time_rows())
@@ -596,16 +599,6 @@ class Run:
             Row("stress_start", "Before settling", float(h.peak[: h.settled].max(initial=0.0)),
                 "MPa"),
         ]  # fmt: skip
-
-    def _rivet_rows(self) -> list[Row]:
-        kinds = (("tension", "N", ""), ("shear", "N", ""), ("stress", "MPa", NOMINAL))
-        rows = []
-        for name, unit, note in kinds:
-            value, rivet = self.rivets.largest(name)
-            label = f"Largest {'nominal ' if note else ''}{name}"
-            where = f"rivet {rivet}{'; ' if note else ''}{note}"
-            rows.append(Row(f"rivet_{name}", label, value, unit, where))
-        return rows
 
     def _solver_rows(self) -> list[Row]:
         count, bound = self.solver.state.count, self.solver.bound

@@ -349,13 +349,21 @@ def not_reached(case: Case) -> Iterator[str]:
     end = case.solver.duration
     for room in ("drive", "load"):
         spec = getattr(case, room)
-        ramp = spec.ramp_to is not None
-        begin = spec.ramp_start if ramp else spec.times[0] if spec.times else 0.0
+        if spec.ramp_to is not None:
+            key, begin, stays = "ramp_start", spec.ramp_start, "nothing ramps"
+        elif spec.times:
+            key, begin, stays = (
+                "times",
+                spec.times[0],
+                "the table's first value stands all the time",
+            )
+        else:
+            continue
         if begin >= end:
-            key, what = ("ramp_start", "ramp") if ramp else ("times", "table")
+            told = "begins at" if key == "times" else "is"
             yield (
-                f"{room}.{key} is {describe(begin, 'ms')}, but the run ends at "
-                f"{describe(end, 'ms')}, so that the {what} changes nothing"
+                f"{room}.{key} {told} {describe(begin, 'ms')}, but the run ends at "
+                f"{describe(end, 'ms')}, so that {stays}"
             )
 
 

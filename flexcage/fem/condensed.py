@@ -7,8 +7,8 @@ crossbeam each. With the interiors of all parts eliminated, the stiffness of the
 
 is small and couples neighbouring cuts only. In the frames of their sectors, parts that differ by a
 turn have the same matrices, so that a damaged cage costs an elimination for every kind of part and
-one of S, and a load is condensed only in those parts where it acts. A crack's second face adds
-nodes to the part that it lies in. It is exact (static condensation, R. J. Guyan, AIAA Journal 3
+one of S, and a load is condensed only in those parts where it acts. Where a crack doubled nodes,
+the copies are added to their part. It is exact (static condensation, R. J. Guyan, AIAA Journal 3
 (1965) 380; as substructuring, J. S. Przemieniecki, ibid. 1 (1963) 138).
 """
 

@@ -19,8 +19,8 @@ def rotation_x(angle: float) -> np.ndarray:
 
 @dataclass(frozen=True)
 class Sectors:
-    """Numbering of a ring of ``count`` sectors about x that all have the same connections, but for
-    cracks, whose faces have nodes each.
+    """Numbering of a ring of ``count`` sectors about x that all have the same connections, but
+    where it was cut open (cracks, missing rivets) and nodes have copies.
 
     ``image[i]`` is the node that has the place of node i in the next sector; turned by 2 pi/count
     it is node i, unless a defect moved either. Cell c of sector k is ``c + k cells``.
@@ -29,11 +29,11 @@ class Sectors:
     count: int
     cells: int  # in a sector
     image: np.ndarray  # (N,)
-    place: np.ndarray  # (N,) the node that counts as the one at a node's place: itself, or a double
+    place: np.ndarray  # (N,) the node itself, or for a copy the one that it was made of
 
     @cached_property
     def doubled(self) -> np.ndarray:
-        """Nodes (n,) that do not count, as another one does for their place."""
+        """The copies (n,) among the nodes."""
         return np.flatnonzero(self.place != np.arange(len(self.place)))
 
     def followed(self, nodes: np.ndarray) -> np.ndarray:

@@ -225,7 +225,7 @@ def check_ball_defects(
     for i, defect in enumerate(defects):
         _raise_first(_find_foreign(cage, defect, f"defects.{i}"))
         _raise_first(_find(defect, f"defects.{i}", pocket_count))
-    _raise_first(_find_in_webs(defects))
+    _raise_first(_find_in_webs(defects, pocket_count))
     if isinstance(cage, RibbonCage):
         return
     shapes = pocket_shapes(cage, defects, pocket_count=pocket_count)
@@ -326,12 +326,15 @@ def _find_foreign(cage: BallCage, defect: object, where: str) -> Iterator[Findin
         )
 
 
-def _find_in_webs(defects: Sequence[BallCageDefect]) -> Iterator[Finding]:
+def _find_in_webs(defects: Sequence[BallCageDefect], count: int) -> Iterator[Finding]:
     for kind, what in ((WebCrack, "cracks"), (MissingRivet, "missing rivets")):
         webs = [d.web for d in defects if isinstance(d, kind)]
         for web in webs:
             if webs.count(web) > 1:
                 yield "defects", f"Web {web} has {webs.count(web)} {what}; give each web one.", web
+    missing = sum(isinstance(d, MissingRivet) for d in defects)
+    if missing == count:
+        yield "defects", f"All {count} rivets are missing; leave the halves one at least.", missing
 
 
 def _find_in_pockets(

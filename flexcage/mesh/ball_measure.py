@@ -29,7 +29,7 @@ from flexcage.mesh.cage_mesh import CageMesh
 from flexcage.mesh.measure import in_pocket_frame
 
 _OPPOSITE = np.array([[1, 2, 3], [0, 2, 3], [0, 1, 3], [0, 1, 2]])
-_MIDDLE = 1e-7  # m off the middle plane, where a ribbon cage's loose flats are further off
+_MIDDLE = 1e-10  # m off the middle plane, where a ribbon cage's loose flats are further off
 _ENOUGH = 20e-6  # m, to which a user's mesh must agree with the case
 
 

@@ -226,11 +226,9 @@ def without_rivet(mesh: CageMesh, web: int, gap: float) -> CageMesh:
 
 
 def _with_doubled(mesh: CageMesh, old: np.ndarray) -> Mapping[str, object]:
-    """The mesh's info with the vertices ``old`` doubled, of which further ones are copies."""
+    """The mesh's info when copies of the vertices ``old``, no copies themselves, were added."""
     before: tuple[int, ...] = mesh.info.get("doubled", ())  # type: ignore[assignment]
-    n = len(mesh.points) - len(before)
-    place = np.append(np.arange(n), np.asarray(before, np.int64))
-    return MappingProxyType({**mesh.info, "doubled": (*before, *place[old].tolist())})
+    return MappingProxyType({**mesh.info, "doubled": (*before, *old.tolist())})
 
 
 def _behind(sound: CageMesh, cells: np.ndarray, web: int) -> np.ndarray:

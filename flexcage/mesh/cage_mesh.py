@@ -49,8 +49,8 @@ class CageMesh:
     ``info`` of a built mesh holds ``sector_points`` and ``sector_cells``: vertex i of sector k is
     ``i + k sector_points`` (modulo the whole), cell c of it ``c + k sector_cells``, and every
     sector is the first one turned by 2 pi k/Z, except those in ``altered_sectors``, whose
-    vertices a defect moved. Where cracks doubled vertices, the copies come last, and ``doubled``
-    says of which. ``defects`` lists what each defect delivered.
+    vertices a defect moved. Where cracks and missing rivets doubled vertices, the copies come last,
+    and ``doubled`` says of which. ``defects`` lists what each defect delivered.
     """
 
     points: np.ndarray  # (n_points, 3) float64

@@ -76,21 +76,25 @@ class Gauges(SomePoints):
         return np.maximum.reduceat(_equivalent(parts), self._first, axis=0).T
 
 
+class Operator(Protocol):
+    """What displacements (N, 3, m) and the forces (Z, F, n_st, 3, m) that made them, if these
+    matter, give at n points: (n, m, 6)."""
+
+    def __call__(self, fields: np.ndarray, forces: np.ndarray | None = None, /) -> np.ndarray: ...
+
+
 class UnitFields:
-    """Precomputed fields at the points of mesh vertices (``surface.SurfaceStress``): ``parts``
-    numbers each. ``vertices`` (n,), rising: the vertex of every point."""
+    """Precomputed fields: ``parts`` numbers at each point of what an operator gives."""
 
     parts = 6
-    prefix = "tensor_"
+    prefix = "tensor_"  # of the names under which they are kept
 
-    def __init__(self, recovery: StressRecovery, vertices: np.ndarray) -> None:
-        self._recovery = recovery
-        self._stress = recovery.stress_at(vertices)
-        self.vertices = self._stress.owner
+    def __init__(self, recovery: StressRecovery, operator: Operator) -> None:
+        self._recovery, self._operator = recovery, operator
 
-    def _parts(self, stress: np.ndarray) -> np.ndarray:
-        """What is kept (..., parts) of stresses (..., 6)."""
-        return stress
+    def _parts(self, values: np.ndarray) -> np.ndarray:
+        """What is kept (..., parts) of the operator's values (..., 6)."""
+        return values
 
     def at(self, points: np.ndarray) -> SomePoints:
         """The fields at some of the points, by their numbers."""
@@ -207,16 +211,17 @@ class UnitFields:
         """What is kept of shapes (N, 3, m), those of a pocket's forces if it is given."""
         forces = None if pocket is None else self._forces(pocket)
         columns = []
-        for first in range(0, shapes.shape[2], 32):  # bounds the memory of full stresses
+        for first in range(0, shapes.shape[2], 32):  # bounds the memory of all six parts
             some = slice(first, first + 32)
             push = None if forces is None else forces[..., some]
-            parts = self._parts(self._stress(shapes[:, :, some], push))
+            parts = self._parts(self._operator(shapes[:, :, some], push))
             columns.append(parts.transpose(2, 0, 1).reshape(-1, parts.shape[1]))
         return np.concatenate(columns, axis=1, dtype=np.float32)
 
 
 class StressFields(UnitFields):
-    """Precomputed deviators at the points of the surface vertices ``surface`` (vertex numbers)."""
+    """Precomputed deviators at the points of the surface vertices ``surface`` (vertex numbers);
+    ``vertices`` (n,), rising: the vertex of every point."""
 
     parts = 5
     prefix = ""
@@ -227,7 +232,9 @@ class StressFields(UnitFields):
         self.places = root_places(model, recovery.pocket_count)
         zone = contact_zone(model, recovery.pocket_count)
         self.searched = np.flatnonzero(~np.isin(self.surface, zone))
-        super().__init__(recovery, self.surface)
+        self._stress = recovery.stress_at(self.surface)
+        self.vertices = self._stress.owner
+        super().__init__(recovery, self._stress)
 
     def _parts(self, stress: np.ndarray) -> np.ndarray:
         return deviator(stress)
@@ -257,10 +264,13 @@ class NamedFields(UnitFields):
 
 
 class TensorFields(NamedFields):
-    """Precomputed stresses xx, yy, zz, xy, yz, xz at the points of the named places."""
+    """Precomputed stresses xx, yy, zz, xy, yz, xz at the points of the named places; ``vertices``
+    (n,), rising: the vertex of every point."""
 
     def __init__(self, recovery: StressRecovery) -> None:
         named = root_places(recovery.model, recovery.pocket_count)
         vertices = np.unique(np.concatenate(list(named.values()))) if named else np.zeros(0, int)
-        super().__init__(recovery, vertices)
+        stress = recovery.stress_at(vertices)
+        super().__init__(recovery, stress)
+        self.vertices = stress.owner
         self.places = {n: np.flatnonzero(np.isin(self.vertices, v)) for n, v in named.items()}

@@ -92,7 +92,7 @@ def equivalent_stress(
     return fields.equivalent(_superposed(fields, q, loads, _land(land_forces, len(q))))
 
 
-def tensor_histories(
+def histories_at(
     fields: NamedFields,
     q: Sliced,
     station_forces: Sliced,

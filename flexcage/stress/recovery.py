@@ -22,7 +22,7 @@ from flexcage.modes.pockets import pocket_frames
 from flexcage.stress.fillets import Arrays, Fillet, find_fillets
 from flexcage.stress.surface import SurfaceStress
 
-STRESS_VERSION = 1  # of what is kept: raise it when the same cage gives other fields
+STRESS_VERSION = 1  # of what is kept: raise it when the same cage gives other fields or joints
 Keep = Callable[[str, Callable[[], Arrays]], Arrays]
 
 

@@ -18,18 +18,19 @@ import numpy as np
 import scipy.sparse as sp
 
 from flexcage.core.errors import InputError
+from flexcage.fem.condensed import dofs_of
 from flexcage.fem.model import FEModel, assemble
 from flexcage.mesh.cage_mesh import CageMesh
 from flexcage.modes.pockets import pocket_frame
+from flexcage.results.summary import Row
 from flexcage.stress.between import Steps, no_steps
 from flexcage.stress.fields import NamedFields
-from flexcage.stress.history import Sliced, tensor_histories
+from flexcage.stress.history import Sliced, histories_at
 from flexcage.stress.recovery import StressRecovery
 
 if TYPE_CHECKING:
     import xarray
 
-NOMINAL = "of a shank that bears all that goes from half to half, without its head's clamping"
 AXES = ("x", "r", "psi")  # at the rivet's azimuth
 _FIGURES = {  # of the dataset beside force and moment: units, names
     "tension": ("N", "tension of the rivet; negative where the halves are pressed together"),
@@ -56,13 +57,11 @@ class Joints:
                        pitch_radius)
             for k in self.webs
         ]  # fmt: skip
-        self._rows = sp.csr_matrix(0.5 * sp.vstack(rows) @ jump) if rows else None
+        self._rows = sp.csr_matrix(0.5 * sp.vstack(rows) @ jump)
 
     def __call__(self, fields: np.ndarray, _forces: np.ndarray | None = None) -> np.ndarray:
         """Force [N] and moment [N m] (n, m, 6) of displacements (N, 3, m) [m]: those of the half at
         x < 0 on the other, about the rivet's middle; components (x, r, psi) at its azimuth."""
-        if self._rows is None:
-            return np.zeros((0, fields.shape[2], 6))
         found = self._rows @ fields.reshape(-1, fields.shape[2])
         return np.ascontiguousarray(found.reshape(len(self.webs), 6, -1).swapaxes(1, 2))
 
@@ -79,13 +78,9 @@ def _nodal_forces(model: FEModel, half: np.ndarray, nodes: np.ndarray) -> sp.csr
         own = np.concatenate([vertices, model.edge_nodes(vertices[part.edges])])
     place = np.full(len(model.nodes), -1)
     place[own] = np.arange(len(own))
-    found = part.K[_dofs(place[nodes])].tocoo()
-    columns = _dofs(own)[found.col]
+    found = part.K[dofs_of(place[nodes])].tocoo()
+    columns = dofs_of(own)[found.col]
     return sp.csr_matrix((found.data, (found.row, columns)), shape=(found.shape[0], model.n_dof))
-
-
-def _dofs(nodes: np.ndarray) -> np.ndarray:
-    return (3 * nodes[:, None] + np.arange(3)).ravel()
 
 
 def _resultant(
@@ -109,8 +104,7 @@ class RivetFields(NamedFields):
     prefix = "rivets_"
 
     def __init__(self, recovery: StressRecovery, joints: Joints) -> None:
-        self._recovery, self._stress = recovery, joints  # type: ignore[assignment]
-        self.vertices = np.arange(len(joints.webs))
+        super().__init__(recovery, joints)
         self.places = {str(web): np.array([i]) for i, web in enumerate(joints.webs)}
 
 
@@ -145,6 +139,21 @@ class Rivets:
             )
         return self.dataset[figure].values[self.settled :].max(axis=0)
 
+    def rows(self) -> list[Row]:
+        """The largest tension, shear and nominal stress, as rows of a summary."""
+        rows = []
+        for name, what, unit, note in (
+            ("tension", "tension", "N", ""),
+            ("shear", "shear", "N", ""),
+            ("stress", "nominal stress", "MPa", "; of a shank that bears all that goes from half "
+             "to half, without its head's clamping"),
+        ):  # fmt: skip
+            value, rivet = self.largest(name)
+            rows.append(
+                Row(f"rivet_{name}", f"Largest {what}", value, unit, f"rivet {rivet}{note}")
+            )
+        return rows
+
     def table(self) -> str:
         """The largest loads of every rivet over the settled part."""
         lines = ["rivet  tension, N  shear, N  bending, N mm  torsion, N mm  nominal stress, MPa"]
@@ -172,7 +181,7 @@ def rivet_loads(
 ) -> Rivets:
     """What rivets of this ``diameter`` [m] bear at samples of these times [s] and at the steps
     between; other arguments as in ``history.stress_history``."""
-    sample, histories = tensor_histories(
+    sample, histories = histories_at(
         fields, q, station_forces, land_forces, places=fields.places, between=between
     )
     first = np.flatnonzero(np.append(True, np.diff(sample) > 0))
@@ -214,7 +223,6 @@ def _labelled(own: list[dict[str, np.ndarray]], time: np.ndarray, webs: np.ndarr
     variables = {}
     for name, (unit, words) in names.items():
         dims = ("time", "rivet", *(axis if name in ("force", "moment") else ()))
-        empty = np.zeros((len(time), 0, 3)[: len(dims)])
-        values = np.stack([each[name] for each in own], axis=1) if own else empty
+        values = np.stack([each[name] for each in own], axis=1)
         variables[name] = (dims, values, {"units": unit, "long_name": words})
     return xarray.Dataset(variables, {"time": time, "rivet": webs, "axis": list(AXES)})

@@ -13,6 +13,7 @@ import numpy as np
 
 from flexcage.core.binding import did_you_mean
 from flexcage.core.errors import InputError
+from flexcage.geometry.ribbon_cage import RibbonCage
 from flexcage.results.metrics import cage_angle, settled, whole_revolutions
 from flexcage.results.recording import ENERGIES
 from flexcage.results.reductions import DERIVED, REDUCTIONS
@@ -61,8 +62,6 @@ FLEXIBLE_FIGURES = (
     "mode_count", "first_frequency", "far_coupling", "stress_peak", "stress_mean_peak",
     "stress_root", "stress_root_pass_peak", "stress_start", "wall_stress",
 )  # fmt: skip
-#: Those of flexible ribbon cages alone.
-RIVET_FIGURES = ("rivet_tension", "rivet_shear", "rivet_stress")
 
 _REDUCTION = re.compile(r"(\w+)(?:\[([^\]]*)\])?\.(\w+)")
 _COUNTED = re.compile(r"(\d+)(?::(\d+))?")  # one place, or those from one to before another
@@ -142,12 +141,20 @@ def _wear(run: Run) -> dict[str, Figure]:
     }
 
 
-#: Figures that no summary holds: what computes them together.
+def _rivets(run: Run) -> dict[str, Figure]:
+    """The largest loads of rivets; none of a cage that has no stress or no rivets."""
+    if run.cage is None or not isinstance(run.case.cage, RibbonCage):
+        return {}
+    return {row.key: Figure(row.value, row.unit, row.shown) for row in run.rivets.rows()}
+
+
+#: Figures that no summary holds, or none of an earlier flexcage: what computes them together.
 LATE_FIGURES: Mapping[str, Callable[[Run], dict[str, Figure]]] = {
     "fatigue_damage_rate": _fatigue,
     "fatigue_life": _fatigue,
     "wear_volume_rate": _wear,
     "wear_depth_rate": _wear,
+    **dict.fromkeys(("rivet_tension", "rivet_shear", "rivet_stress"), _rivets),
 }
 
 
@@ -166,7 +173,7 @@ def is_reduction(name: str) -> bool:
 
 
 def beyond_summary(names: tuple[str, ...]) -> tuple[str, ...]:
-    """Those among the outputs that a summary does not hold: reductions, fatigue and wear."""
+    """Those among the outputs that a summary may not hold: reductions, and ``LATE_FIGURES``."""
     return tuple(name for name in names if is_reduction(name) or name in LATE_FIGURES)
 
 
@@ -246,8 +253,8 @@ def check_outputs(
                         "range ends before its last number."
                     )
         else:
-            of_cage = name in (*FLEXIBLE_FIGURES, *RIVET_FIGURES)
-            needs = of_cage or LATE_FIGURES.get(name) is _fatigue
+            late = LATE_FIGURES.get(name)
+            needs = name in FLEXIBLE_FIGURES or late in (_fatigue, _rivets)
             _check_figure(name)
             _check_late(name, materials)
             for kind, figures in ELEMENT_FIGURES.items():
@@ -259,7 +266,7 @@ def check_outputs(
                 where="outputs",
                 value=name,
             )
-        if name in RIVET_FIGURES and not riveted:
+        if LATE_FIGURES.get(name) is _rivets and not riveted:
             raise InputError(
                 f"Output '{name}' is of ribbon cages, and no flexible cage of the study is one; "
                 "set cage.type = 'ribbon' or leave it out.",
@@ -292,7 +299,7 @@ def _check_late(name: str, materials: Collection[str]) -> None:
 
 def _check_figure(name: str) -> None:
     own = [figure for figures in ELEMENT_FIGURES.values() for figure in figures]
-    known = (*RIGID_FIGURES, *own, *FLEXIBLE_FIGURES, *RIVET_FIGURES, *LATE_FIGURES)
+    known = (*RIGID_FIGURES, *own, *FLEXIBLE_FIGURES, *LATE_FIGURES)
     if name in known:
         return
     if name in VARIABLES or name in DERIVED:

@@ -282,7 +282,7 @@ def test_values_that_only_fit_together_may_be_replaced_in_any_order():
     [
         ({"load.ramp_start": "99 ms"}, []),
         ({"load.ramp_start": "200 ms"}, ["load.ramp_start is 200 ms, but the run ends at 100 ms"]),
-        ({"solver.duration": "5 ms"}, ["load.ramp_start is 10 ms", "drive.times is 20 ms"]),
+        ({"solver.duration": "5 ms"}, ["load.ramp_start is 10 ms", "drive.times begins at 20 ms"]),
     ],
 )
 def test_what_a_run_does_not_reach_is_told(case, changes, told):

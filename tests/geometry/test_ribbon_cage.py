@@ -116,5 +116,8 @@ def test_two_defects_of_one_web_and_machined_cages_without_rivets():
     twice = '[[defects]]\ntype = "missing_rivet"\nweb = 1\n' * 2
     with pytest.raises(InputError, match="Web 1 has 2 missing rivets"):
         case(defects=twice)
+    webs = "".join(f'[[defects]]\ntype = "missing_rivet"\nweb = {k}\n' for k in range(7))
+    with pytest.raises(InputError, match="All 7 rivets are missing"):
+        case(defects=webs)
     with pytest.raises(InputError, match="'missing_rivet', but the cage is of the kind 'machined'"):
         case('type = "machined"', 'width = "9 mm"', defects=twice[: len(twice) // 2])

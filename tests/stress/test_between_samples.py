@@ -8,7 +8,7 @@ from flexcage.results.layout import make_layout
 from flexcage.results.store import LOADS, MemoryRunStore
 from flexcage.stress.between import Between, Loads, no_steps, together
 from flexcage.stress.fields import StressFields, TensorFields
-from flexcage.stress.history import stress_history, tensor_histories
+from flexcage.stress.history import histories_at, stress_history
 
 SAMPLES, DT = 6, 1e-3
 T = DT * np.arange(1, SAMPLES + 1)
@@ -88,14 +88,14 @@ def test_a_history_with_steps_is_the_largest_of_both(recovery, at_samples, at_st
 def test_tensors_follow_steps_and_samples_in_time(recovery, at_samples, at_steps):
     fields = TensorFields(recovery)
     name, a = next(iter(fields.places)), at_samples
-    samples, histories = tensor_histories(
+    samples, histories = histories_at(
         fields, a.modes, a.stations, places=[name], between=steps_of(at_steps)
     )
     tensors = dict(histories)[name]
     every = together([at_samples, at_steps])
     order = np.argsort(every.time)
     np.testing.assert_array_equal(samples, every.sample[order])
-    _, plain = tensor_histories(fields, every.modes, every.stations, places=[name])
+    _, plain = histories_at(fields, every.modes, every.stations, places=[name])
     expected = dict(plain)[name][..., order]
     np.testing.assert_allclose(tensors, expected, rtol=1e-5, atol=1e-6 * np.abs(expected).max())
 

@@ -12,7 +12,7 @@ from flexcage.results.statistics import Windows
 from flexcage.stress.counting import corrected_amplitude, count, damage
 from flexcage.stress.fatigue import CountedStress, counted_stress, place_fatigue
 from flexcage.stress.fields import TensorFields
-from flexcage.stress.history import tensor_histories
+from flexcage.stress.history import histories_at
 from flexcage.stress.recovery import CageLoads
 from flexcage.stress.sn_curves import SN_CURVES, SNCurve, register_sn_curve, sn_curve
 
@@ -135,7 +135,7 @@ def test_tensors_of_a_history_are_those_of_the_full_mesh(which, request):
     q = np.stack([quasi_static(recovery, one) for one in forces])
     fields = TensorFields(recovery)
     names = tuple(fields.places)[:5]
-    samples, histories = tensor_histories(fields, q, forces, places=names)
+    samples, histories = histories_at(fields, q, forces, places=names)
     assert list(samples) == list(range(len(q)))
     for name, tensors in histories:
         of_place = np.isin(recovery.vertex_stress.owner, fields.vertices[fields.places[name]])

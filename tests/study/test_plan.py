@@ -14,7 +14,7 @@ from flexcage.geometry.materials import MATERIALS
 from flexcage.study import run
 from flexcage.study.axes import Grid, LatinHypercube, Points, Zip
 from flexcage.study.folder import Folder
-from flexcage.study.outputs import check_outputs
+from flexcage.study.outputs import beyond_summary, check_outputs
 from flexcage.study.plan import make_plan
 from flexcage.study.spec import Repeat, Study, load_study
 
@@ -47,6 +47,7 @@ def test_loads_of_rivets_are_outputs_of_ribbon_cages():
     check_outputs(("rivet_stress",), **figures, riveted=True)
     with pytest.raises(InputError, match="set cage.type = 'ribbon'"):
         check_outputs(("rivet_stress",), **figures)
+    assert beyond_summary(("rivet_stress", "stress_peak")) == ("rivet_stress",)
 
 
 def test_repetitions_differ_in_their_start_alone():
