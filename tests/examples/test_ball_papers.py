@@ -172,7 +172,7 @@ def test_claims_on_a_speed_that_fluctuates(papers):
 
 
 def test_the_riveted_cage_is_a_plan_and_its_claims_judge(papers):
-    """A force that has its least at 3.46 mm holds, one that falls fails."""
+    """A force and a stress that have their least at 3.46 mm hold, those that fall fail."""
     import riveted_cage
     import riveted_cage_claims as riveted
 
@@ -193,8 +193,8 @@ def test_the_riveted_cage_is_a_plan_and_its_claims_judge(papers):
     def outcome(forces):
         plain = {f.name: Estimate(1.0, 0.01) for f in fields(riveted.Figures)}
         found = {
-            label: [riveted.Figures(**plain | {"force": Estimate(force, 0.1)})] * 3
-            for label, force in zip(riveted.RADII, forces)
+            label: [riveted.Figures(**plain | dict.fromkeys(("force", "rivet"), of))] * 3
+            for label, of in zip(riveted.RADII, (Estimate(force, 0.1) for force in forces))
         }
         (claim,) = (c for c in riveted.CLAIMS if c.key == "001-1")
         views = {"flexible": riveted.View(found)}
