@@ -180,10 +180,15 @@ class Run:
         return stress_history(
             StressFields(self.recovery),
             *self._moved_and_pushed(ds),
-            settled=int(self.case.output.settle * ds.sizes["time"]),
+            settled=self._first_settled,
             between=self._between,
             progress=self.stages.progress,
         )
+
+    @property
+    def _first_settled(self) -> int:
+        """First sample of the settled part."""
+        return int(self.case.output.settle * self.dataset.sizes["time"])
 
     @property
     def _between(self) -> Between:
@@ -271,7 +276,7 @@ class Run:
             *self._moved_and_pushed(ds),
             time=ds["time"].values,
             diameter=cage.rivet_diameter,
-            settled=int(self.case.output.settle * ds.sizes["time"]),
+            settled=self._first_settled,
             between=self._between,
         )
 
@@ -532,7 +537,7 @@ class Run:
         summary = summary.with_section("Cage", self._cage_rows())
         if self.cage is not None:
             summary = summary.with_section("Equivalent stress", self._stress_rows())
-            if isinstance(case.cage, RibbonCage):
+            if case.riveted:
                 summary = summary.with_section("Rivets", self.rivets.rows())
         if hasattr(self, "solver"):
             summary = summary.with_section("Solver", self._solver_rows())

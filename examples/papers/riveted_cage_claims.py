@@ -83,9 +83,9 @@ def _rivet_stress(run: flexcage.Run) -> Estimate | None:
     """Of the most stressed rivet the largest of a ball pass, mean over passes."""
     if run.cage is None:
         return None
-    part = settled(run.dataset, run.case.output.settle)
-    worst = run.rivets.dataset["stress"].max("rivet").values[-part.sizes["time"] :]
-    record = roller_passes(part, run.numbers).peak(worst)
+    share = run.case.output.settle
+    worst = settled(run.rivets.dataset, share)["stress"].max("rivet").values
+    record = roller_passes(settled(run.dataset, share), run.numbers).peak(worst)
     return Estimate(record.value, record.margin)
 
 

@@ -37,6 +37,7 @@ from flexcage.geometry.bearings import Bearing
 from flexcage.geometry.cage import Cage
 from flexcage.geometry.cages import Defect
 from flexcage.geometry.presets import NAMED, Preset, load_preset
+from flexcage.geometry.ribbon_cage import RibbonCage
 from flexcage.mesh.options import MeshOptions
 from flexcage.modes.spec import ModesSpec
 from flexcage.results.options import OutputOptions
@@ -202,6 +203,11 @@ class Case:
         """Defects that the case names, and those that make its pockets' spacing uneven."""
         uneven = uneven_pockets(self.cage, self.bearing.element_count, self.seed)
         return (*self.defects, *uneven)
+
+    @property
+    def riveted(self) -> bool:
+        """Whether its cage is flexible and held together by rivets, whose loads are then known."""
+        return self.cage_model == "flexible" and isinstance(self.cage, RibbonCage)
 
     @property
     def assumptions(self) -> dict[str, str]:

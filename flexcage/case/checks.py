@@ -347,24 +347,14 @@ def not_reached(case: Case) -> Iterator[str]:
     """Sentences on ramps and tables that begin when the run is over: no mistake in a short look at
     a case, but one to be told of."""
     end = case.solver.duration
+    over = f"but the run ends at {describe(end, 'ms')}, so that"
     for room in ("drive", "load"):
         spec = getattr(case, room)
-        if spec.ramp_to is not None:
-            key, begin, stays = "ramp_start", spec.ramp_start, "nothing ramps"
-        elif spec.times:
-            key, begin, stays = (
-                "times",
-                spec.times[0],
-                "the table's first value stands all the time",
-            )
-        else:
-            continue
-        if begin >= end:
-            told = "begins at" if key == "times" else "is"
-            yield (
-                f"{room}.{key} {told} {describe(begin, 'ms')}, but the run ends at "
-                f"{describe(end, 'ms')}, so that {stays}"
-            )
+        if spec.ramp_to is not None and spec.ramp_start >= end:
+            yield f"{room}.ramp_start is {describe(spec.ramp_start, 'ms')}, {over} nothing ramps"
+        elif spec.times and spec.times[0] >= end:
+            begin = describe(spec.times[0], "ms")
+            yield f"{room}.times begins at {begin}, {over} the table's first value stands all along"
 
 
 def _find_in_acceleration(case: Case) -> Iterator[Finding]:

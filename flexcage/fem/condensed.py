@@ -68,15 +68,14 @@ def find_parts(model: FEModel) -> RingParts | None:
     blocks = dissect(model.nodes[first], sp.csr_matrix(model.mass_scalar[first][:, first]))
     order = np.concatenate(blocks)
     sizes = np.array([len(block) for block in blocks])
-    parts = [_with_doubles(own[order], sizes, sectors) for own in inside]
-    return RingParts(sectors, tuple(p[0] for p in parts), tuple(p[1] for p in parts), cuts)
+    parts, sizes_of = zip(*(_with_doubles(own[order], sizes, sectors) for own in inside))
+    return RingParts(sectors, parts, sizes_of, cuts)
 
 
 def _with_doubles(
     nodes: np.ndarray, sizes: np.ndarray, sectors: Sectors
 ) -> tuple[np.ndarray, tuple[int, ...]]:
-    """Nodes of a part in blocks of these sizes, with doubles behind those at whose places they
-    are."""
+    """Nodes of a part in blocks of these sizes, each with its copies behind it."""
     more = sectors.doubled[np.isin(sectors.place[sectors.doubled], nodes)]
     if not len(more):
         return nodes, tuple(sizes)

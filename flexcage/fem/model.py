@@ -14,7 +14,7 @@ import scipy.sparse as sp
 from flexcage.core.errors import InputError
 from flexcage.fem import elements
 from flexcage.fem.assembly import Elements, assemble_ring, assemble_whole
-from flexcage.fem.sectors import Sectors, find_sectors
+from flexcage.fem.sectors import Sectors, edge_keys, find_sectors
 from flexcage.fem.tall import inner_products, subtract_product
 from flexcage.geometry.materials import Material
 from flexcage.mesh.cage_mesh import signed_volumes
@@ -145,17 +145,16 @@ class FEModel:
 
     def edge_nodes(self, pairs: np.ndarray) -> np.ndarray:
         """Nodes (...,) in the middle of edges (..., 2), pairs of vertices; order 2."""
-        keys = _edge_keys(np.sort(pairs, axis=-1), len(self.points))
-        slot = np.searchsorted(self._sorted_keys, keys)
+        slot = np.searchsorted(self._sorted_keys, edge_keys(pairs, len(self.points)))
         return len(self.points) + self._key_order[slot]
 
     @cached_property
     def _key_order(self) -> np.ndarray:
-        return np.argsort(_edge_keys(self.edges, len(self.points)))
+        return np.argsort(edge_keys(self.edges, len(self.points)))
 
     @cached_property
     def _sorted_keys(self) -> np.ndarray:
-        return _edge_keys(self.edges, len(self.points))[self._key_order]
+        return edge_keys(self.edges, len(self.points))[self._key_order]
 
     def face_weights(
         self, triangles: np.ndarray, functions: Callable[[np.ndarray], np.ndarray]
@@ -198,10 +197,6 @@ def boundary_of(tets: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     _, first, count = np.unique(faces, axis=0, return_index=True, return_counts=True)
     cell, face = np.divmod(first[count == 1], 4)
     return cell, corners[face]
-
-
-def _edge_keys(pairs: np.ndarray, n_points: int) -> np.ndarray:
-    return pairs[..., 0].astype(np.int64) * n_points + pairs[..., 1]
 
 
 @cache

@@ -91,8 +91,8 @@ def find_sectors(
         return None
     following = (np.arange(n) + own) % n
     pairs = place[edges]
-    keys, first, number = np.unique(_keys(pairs, n), return_index=True, return_inverse=True)
-    after = first[np.searchsorted(keys, _keys(following[pairs[first]], n))]
+    keys, first, number = np.unique(edge_keys(pairs, n), return_index=True, return_inverse=True)
+    after = first[np.searchsorted(keys, edge_keys(following[pairs[first]], n))]
     return Sectors(
         count,
         cells,
@@ -101,10 +101,10 @@ def find_sectors(
     )
 
 
-def _keys(pairs: np.ndarray, n_points: int) -> np.ndarray:
-    """A number for each pair of vertices (n, 2), in whatever order."""
-    rising = np.sort(pairs, axis=1).astype(np.int64)
-    return rising[:, 0] * n_points + rising[:, 1]
+def edge_keys(pairs: np.ndarray, n_points: int) -> np.ndarray:
+    """A number (...) for each pair of vertices (..., 2), in whatever order."""
+    rising = np.sort(pairs, axis=-1).astype(np.int64)
+    return rising[..., 0] * n_points + rising[..., 1]
 
 
 def _repeats(tets: np.ndarray, own: int, count: int, n_points: int) -> bool:

@@ -29,7 +29,6 @@ from flexcage.mesh.cage_mesh import CageMesh
 from flexcage.mesh.measure import in_pocket_frame
 
 _OPPOSITE = np.array([[1, 2, 3], [0, 2, 3], [0, 1, 3], [0, 1, 2]])
-_MIDDLE = 1e-10  # m off the middle plane, where a ribbon cage's loose flats are further off
 _ENOUGH = 20e-6  # m, to which a user's mesh must agree with the case
 
 
@@ -185,11 +184,20 @@ def _check_sheet(
             )
 
 
+def shared_by_halves(
+    points: np.ndarray, tets: np.ndarray, cells: np.ndarray
+) -> tuple[np.ndarray, np.ndarray]:
+    """Which elements of a ribbon cage lie at x > 0, by tetrahedra (n, 4); and of the nodes in
+    ``cells`` (n, 4 or 10) those of elements on both sides, where the halves hold together."""
+    ahead = points[tets].mean(axis=1)[:, 0] > 0.0
+    return ahead, np.intersect1d(cells[ahead], cells[~ahead])
+
+
 def joined_vertices(mesh: CageMesh, web: int) -> np.ndarray:
-    """Vertices (n,) of the middle plane at one web, where a rivet holds a ribbon cage's halves."""
-    x, y, t = in_pocket_frame(mesh.points, web - 0.5, mesh.pocket_count).T
-    near = np.abs(np.arctan2(t, y)) < pi / mesh.pocket_count
-    return np.flatnonzero(near & (np.abs(x) < _MIDDLE))
+    """Vertices (n,) at one web by which a rivet holds a ribbon cage's halves together."""
+    _, shared = shared_by_halves(mesh.points, mesh.tets, mesh.tets)
+    _, y, t = in_pocket_frame(mesh.points[shared], web - 0.5, mesh.pocket_count).T
+    return shared[np.abs(np.arctan2(t, y)) < pi / mesh.pocket_count]
 
 
 def measure_ball_file(

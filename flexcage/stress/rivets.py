@@ -2,14 +2,14 @@
 
 The halves hold together in circles of the middle plane alone, at nodes that elements of both halves
 share. With K+ and K- the stiffness of the elements at x > 0 and x < 0, the half at x < 0 pushes the
-other one there by (K+ u - K- u)/2, node by node: nothing else acts on these nodes but their
-inertia, and by symmetry each half has one half of it. Sums over a joint's nodes are its force and
-moment, linear in the displacement, so that they are superposed as stresses are (``fields``).
+other one there by (K+ u - K- u)/2 = K+ u - K u/2, node by node: nothing else acts on these nodes
+but their inertia, and by symmetry each half has one half of it. Sums over a joint's nodes are its
+force and moment, linear in the displacement, so that they are superposed as stresses are
+(``fields``).
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import dataclass
 from math import pi
 from typing import TYPE_CHECKING, Any
@@ -20,6 +20,7 @@ import scipy.sparse as sp
 from flexcage.core.errors import InputError
 from flexcage.fem.condensed import dofs_of
 from flexcage.fem.model import FEModel, assemble
+from flexcage.mesh.ball_measure import shared_by_halves
 from flexcage.mesh.cage_mesh import CageMesh
 from flexcage.modes.pockets import pocket_frame
 from flexcage.results.summary import Row
@@ -32,7 +33,11 @@ if TYPE_CHECKING:
     import xarray
 
 AXES = ("x", "r", "psi")  # at the rivet's azimuth
-_FIGURES = {  # of the dataset beside force and moment: units, names
+_VECTORS = {  # of the dataset: units, names
+    "force": ("N", "force of the half at x < 0 on the other"),
+    "moment": ("N m", "moment of the half at x < 0 on the other, about the rivet's middle"),
+}
+_FIGURES = {  # likewise, one number each
     "tension": ("N", "tension of the rivet; negative where the halves are pressed together"),
     "shear": ("N", "shear force on the rivet"),
     "bending": ("N m", "bending moment about the rivet's middle"),
@@ -46,18 +51,17 @@ class Joints:
     ``pitch_radius`` [m]; ``webs`` (n,) numbers those that there are."""
 
     def __init__(self, model: FEModel, pocket_count: int, pitch_radius: float) -> None:
-        ahead = model.points[model.tets].mean(axis=1)[:, 0] > 0.0
-        shared = np.intersect1d(model.cells[ahead], model.cells[~ahead])
+        ahead, shared = shared_by_halves(model.points, model.tets, model.cells)
         azimuth = np.arctan2(model.nodes[shared, 2], model.nodes[shared, 1])
         web = np.round(azimuth * pocket_count / (2.0 * pi) + 0.5).astype(int) % pocket_count
         self.webs = np.unique(web)
-        jump = _nodal_forces(model, ahead, shared) - _nodal_forces(model, ~ahead, shared)
+        push = _nodal_forces(model, ahead, shared) - 0.5 * model.K[dofs_of(shared)]
         rows = [
             _resultant(model.nodes[shared], web == k, pocket_frame(k - 0.5, pocket_count),
                        pitch_radius)
             for k in self.webs
         ]  # fmt: skip
-        self._rows = sp.csr_matrix(0.5 * sp.vstack(rows) @ jump)
+        self._rows = sp.csr_matrix(sp.vstack(rows) @ push)
 
     def __call__(self, fields: np.ndarray, _forces: np.ndarray | None = None) -> np.ndarray:
         """Force [N] and moment [N m] (n, m, 6) of displacements (N, 3, m) [m]: those of the half at
@@ -100,7 +104,6 @@ class RivetFields(NamedFields):
     """Force and moment of every rivet per unit modal coordinate and unit force: six parts of one
     point each."""
 
-    parts = 6
     prefix = "rivets_"
 
     def __init__(self, recovery: StressRecovery, joints: Joints) -> None:
@@ -195,12 +198,13 @@ def _of_one(
     parts: np.ndarray, first: np.ndarray, last: np.ndarray, diameter: float
 ) -> dict[str, np.ndarray]:
     """Figures of a rivet whose force and moment at all instants are ``parts`` (6, n)."""
-    found = dict(_figures(parts, diameter))
+    found = _figures(parts, diameter)
     largest = {name: np.maximum.reduceat(values, first) for name, values in found.items()}
     return {"force": parts[:3, last].T, "moment": parts[3:, last].T, **largest}
 
 
-def _figures(parts: np.ndarray, diameter: float) -> Iterator[tuple[str, np.ndarray]]:
+def _figures(parts: np.ndarray, diameter: float) -> dict[str, np.ndarray]:
+    """Tension, shear, bending, torsion and nominal stress of force and moment (6, n)."""
     (along, *across), (twist, *bend) = parts[:3], parts[3:]
     tension, shear = -along, np.hypot(*across)
     bending, torsion = np.hypot(*bend), np.abs(twist)
@@ -208,21 +212,15 @@ def _figures(parts: np.ndarray, diameter: float) -> Iterator[tuple[str, np.ndarr
     normal = np.maximum(tension, 0.0) / area + bending / modulus
     sliding = shear / area + 0.5 * torsion / modulus
     values = (tension, shear, bending, torsion, np.sqrt(normal**2 + 3.0 * sliding**2))
-    yield from zip(_FIGURES, values)
+    return dict(zip(_FIGURES, values))
 
 
 def _labelled(own: list[dict[str, np.ndarray]], time: np.ndarray, webs: np.ndarray) -> Any:
     import xarray
 
-    names = {
-        "force": ("N", "force of the half at x < 0 on the other"),
-        "moment": ("N m", "moment of the half at x < 0 on the other, about the rivet's middle"),
-        **_FIGURES,
-    }
-    axis = ("axis",)
     variables = {}
-    for name, (unit, words) in names.items():
-        dims = ("time", "rivet", *(axis if name in ("force", "moment") else ()))
+    for name, (unit, words) in {**_VECTORS, **_FIGURES}.items():
         values = np.stack([each[name] for each in own], axis=1)
+        dims = ("time", "rivet", "axis")[: values.ndim]
         variables[name] = (dims, values, {"units": unit, "long_name": words})
     return xarray.Dataset(variables, {"time": time, "rivet": webs, "axis": list(AXES)})

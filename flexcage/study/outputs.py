@@ -4,7 +4,7 @@ figures of fatigue and wear, which are computed only where they are asked for.""
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Collection, Mapping
+from collections.abc import Callable, Collection, Iterable, Mapping
 from dataclasses import dataclass
 from math import isfinite, nan, pi
 from typing import TYPE_CHECKING
@@ -13,13 +13,12 @@ import numpy as np
 
 from flexcage.core.binding import did_you_mean
 from flexcage.core.errors import InputError
-from flexcage.geometry.ribbon_cage import RibbonCage
 from flexcage.results.metrics import cage_angle, settled, whole_revolutions
 from flexcage.results.recording import ENERGIES
 from flexcage.results.reductions import DERIVED, REDUCTIONS
 from flexcage.results.registry import LABELS, TIME, VARIABLES, Variable, variable
 from flexcage.results.statistics import roller_passes
-from flexcage.results.summary import Value
+from flexcage.results.summary import Row, Value
 from flexcage.stress.counting import require_pylife
 from flexcage.stress.sn_curves import sn_curve
 from flexcage.stress.wear_laws import wear_law
@@ -143,9 +142,11 @@ def _wear(run: Run) -> dict[str, Figure]:
 
 def _rivets(run: Run) -> dict[str, Figure]:
     """The largest loads of rivets; none of a cage that has no stress or no rivets."""
-    if run.cage is None or not isinstance(run.case.cage, RibbonCage):
-        return {}
-    return {row.key: Figure(row.value, row.unit, row.shown) for row in run.rivets.rows()}
+    return _figures_in(run.rivets.rows()) if run.case.riveted else {}
+
+
+def _figures_in(rows: Iterable[Row]) -> dict[str, Figure]:
+    return {r.key: Figure(r.value, r.unit, r.shown, r.margin) for r in rows}
 
 
 #: Figures that no summary holds, or none of an earlier flexcage: what computes them together.
@@ -317,7 +318,7 @@ def _check_figure(name: str) -> None:
 
 def figures_of(run: Run, beyond: tuple[str, ...]) -> dict[str, Figure]:
     """All figures of the run's summary, and those asked for beyond it; by name."""
-    found = {r.key: Figure(r.value, r.unit, r.shown, r.margin) for r in run.summary}
+    found = _figures_in(run.summary)
     for compute in dict.fromkeys(LATE_FIGURES[name] for name in beyond if name in LATE_FIGURES):
         found |= compute(run)
     return found | {name: parse_reduction(name).of(run) for name in beyond if is_reduction(name)}

@@ -14,7 +14,6 @@ from flexcage.case.case import ALIASES
 from flexcage.core.errors import InputError
 from flexcage.core.hashing import content_hash
 from flexcage.core.units import format_si
-from flexcage.geometry.ribbon_cage import RibbonCage
 from flexcage.modes.registry import basis_version
 from flexcage.study.axes import Point, Points
 from flexcage.study.outputs import check_outputs
@@ -79,7 +78,7 @@ def make_plan(study: Study) -> Plan:
             seen[case.hash] = number
             sizes = {dim: min(size, sizes[dim]) for dim, size in _counts(case).items()}
             flexible |= case.cage_model == "flexible"
-            riveted |= case.cage_model == "flexible" and isinstance(case.cage, RibbonCage)
+            riveted |= case.riveted
             materials[case.cage.material.name] = None
             held = held.intersection(names_of(case.constraints))
             cases.append(Planned(number, point, repetition, case.hash, _modes_key(case)))

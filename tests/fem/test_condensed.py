@@ -51,24 +51,18 @@ CRACKED = {  # (defects, kinds of parts)
 }
 
 
+def built(cage, pockets, pitch, defects):
+    return build_cage_mesh(
+        cage,
+        pocket_count=pockets,
+        pitch_diameter=pitch,
+        defects=defects,
+        options=MeshOptions(fineness="coarse"),
+    )
+
+
 def cage_mesh(defects=()):
-    return build_cage_mesh(
-        CAGE,
-        pocket_count=POCKETS,
-        pitch_diameter=43.5e-3,
-        defects=defects,
-        options=MeshOptions(fineness="coarse"),
-    )
-
-
-def cracked_mesh(defects):
-    return build_cage_mesh(
-        BALL_CAGE,
-        pocket_count=BALL_POCKETS,
-        pitch_diameter=BALL_PITCH,
-        defects=defects,
-        options=MeshOptions(fineness="coarse"),
-    )
+    return built(CAGE, POCKETS, 43.5e-3, defects)
 
 
 def without_sectors(thing):
@@ -91,18 +85,12 @@ def pair(request):
     if name in DEFECTS:
         return solvers_of(cage_mesh(DEFECTS[name]), KINDS[name])
     defects, kinds = CRACKED[name]
-    return solvers_of(cracked_mesh(defects), kinds)
+    return solvers_of(built(BALL_CAGE, BALL_POCKETS, BALL_PITCH, defects), kinds)
 
 
 def test_a_cage_without_a_rivet_is_solved_by_parts():
-    ribbon, defects = load_preset("15x37x10").cage, (MissingRivet(web=0),)
-    mesh = build_cage_mesh(
-        ribbon,
-        pocket_count=7,
-        pitch_diameter=26e-3,
-        defects=defects,
-        options=MeshOptions(fineness="coarse"),
-    )
+    ribbon = load_preset("15x37x10").cage
+    mesh = built(ribbon, 7, 26e-3, (MissingRivet(web=0),))
     model = assemble(mesh, BRASS, order=1)
     by_parts, whole = FreeBodySolver(model), FreeBodySolver(without_sectors(model))
     assert isinstance(by_parts.solver, CondensedRing) and len(by_parts.solver.kinds) == 2
