@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from flexcage.case import Case, load_case, words
+from flexcage.case import Case, words
 from flexcage.core.binding import Binder, check_spec, expect
 from flexcage.core.cache import cached_arrays
 from flexcage.core.errors import EnvironmentLacks, InputError
@@ -25,15 +25,14 @@ from flexcage.mesh.cage_mesh import CageMesh
 from flexcage.mesh.quality import report_mesh
 from flexcage.mesh.series import write_series
 from flexcage.modes.reduction import CageReduction
-from flexcage.modes.table import ModeTable, mode_table
+from flexcage.modes.table import ModeTable
 from flexcage.results import mode_file
 from flexcage.results.edges import Edge, groove_edges
 from flexcage.results.figures import pass_peak, summarise
-from flexcage.results.files import replace
 from flexcage.results.film import film_rows, film_thickness
 from flexcage.results.metrics import BearingNumbers, SlipRange, cage_angle, settled
 from flexcage.results.statistics import roller_passes
-from flexcage.results.store import MemoryRunStore, RunStore, read_commit
+from flexcage.results.store import MemoryRunStore
 from flexcage.results.summary import Row, Summary
 from flexcage.solve.contract import COUNTS
 from flexcage.stress.between import Between
@@ -45,7 +44,7 @@ from flexcage.stress.loads import LandForces, cage_loads
 from flexcage.stress.operators import von_mises
 from flexcage.stress.places import contact_zone, place_kind, root_places
 from flexcage.stress.places import in_words as place_in_words
-from flexcage.stress.recovery import STRESS_VERSION, CageLoads, Keep, StressRecovery
+from flexcage.stress.recovery import STRESS_VERSION, CageLoads, StressRecovery
 from flexcage.stress.rivets import Joints, RivetFields, Rivets, rivet_loads
 from flexcage.stress.series import as_time, frames, samples_near
 from flexcage.stress.sn_curves import SNCurve, sn_curve
@@ -153,21 +152,14 @@ class Run:
         """Stress recovery of the flexible cage; InputError for a rigid one."""
         if self.cage is None:
             raise InputError("a rigid cage has no stress; run the case with cage.model = flexible")
-        c, recorded = self.cage, self.dataset.sizes["mode"]
-        if c.basis.size != recorded:
-            raise InputError(
-                f"the run has {recorded} modal coordinates, but its case gives {c.basis.size} "
-                "modes: its case.toml was changed; run the case again",
-                where="modes",
-                value=recorded,
-            )
-        return StressRecovery(c.model, c.basis, c.interface, solver=c.solver, keep=kept_stress(c))
+        return _recovery_of(self.cage)
 
     @cached_property
     def mode_table(self) -> ModeTable:
         """Number, kind, frequency and effective masses of the flexible cage's dynamic modes."""
-        recovery = self.recovery  # refuses a rigid cage
-        return mode_table(recovery.model, recovery.basis, pocket_count=self.mesh.pocket_count)
+        if self.cage is None:
+            raise InputError("a rigid cage has no modes; run the case with cage.model = flexible")
+        return self.cage.table
 
     @cached_property
     def stress_history(self) -> StressHistory:
@@ -480,7 +472,7 @@ class Run:
         return StressPictures(
             nodes=self.cage.model.nodes,
             cells=self.cage.model.cells,
-            basis=self.cage.basis,
+            basis=self.cage.shown,
             time=peak.time,
             displacement=peak.displacement,
             von_mises=peak.von_mises,
@@ -562,7 +554,7 @@ class Run:
             Row("cage_centre_shift", "Shift of the mass centre", shift, "um"),
         ]
         if self.cage is not None:
-            basis = self.cage.basis
+            basis = self.cage.shown
             where = mode_file.FILE if self.folder else "run.mode_table"
             rows.append(Row("mode_count", "Dynamic modes", basis.size, "", f"table: {where}"))
             rows.append(Row("first_frequency", "First frequency", basis.frequencies[0], "Hz"))
@@ -614,67 +606,13 @@ class Run:
         return rows
 
 
-def write_case(folder: Path, case: Case) -> None:
-    """Write the case as run into the folder."""
-    folder.mkdir(parents=True, exist_ok=True)
-    replace(folder / "case.toml", case.to_toml().encode())
-
-
-def was_written(folder: Path) -> bool:
-    """Whether a run was to be written to ``folder``, though it may not have begun yet."""
-    return (folder / "case.toml").is_file()
-
-
-def check_written(folder: Path) -> None:
-    """InputError if there is nothing to resume in ``folder``."""
-    if not was_written(folder):
-        raise InputError(
-            f"'{folder}' is not the folder of a run (it has no case.toml), so there is nothing to "
-            "resume there.",
-            where="out",
-            value=str(folder),
-        )
-
-
-def has_begun(folder: Path, case: Case) -> bool:
-    """Whether the case's run in ``folder`` has come so far that it can be gone on with.
-
-    What one left that was killed before is removed, to be begun anew. InputError if the folder
-    holds no run, or that of another case, or one in another format.
-    """
-    check_written(folder)
-    begun = RunStore.begun(folder / "results.zarr")
-    if begun:
-        read_commit(folder / "results.zarr")
-    stored = load_case(folder / "case.toml")
-    if stored.hash != case.hash:
-        raise InputError(
-            f"The case differs from the one of the run in '{folder}'{_difference(case, stored)}; "
-            "resume the same case, or name another folder.",
-            where="case",
-            value=case.hash,
-        )
-    if not begun:
-        RunStore.clear_unbegun(folder / "results.zarr")
-        log.warning("the run in '%s' was stopped before its first block; it begins anew", folder)
-    return begun
-
-
-def _difference(case: Case, stored: Case) -> str:
-    """The first values in which two cases differ, in brackets."""
-    differ = case.difference(stored)
-    told = [f"{key} is {new}, was {old}" for key, (new, old) in list(differ.items())[:3]]
-    more = f", and {len(differ) - 3} more" if len(differ) > 3 else ""
-    return f" ({'; '.join(told)}{more})" if told else " (a file or function behind it has changed)"
-
-
-def kept_stress(cage: CageReduction) -> Keep:
-    """How what the stress of this cage rests on is kept in the cache."""
+def _recovery_of(cage: CageReduction) -> StressRecovery:
+    """Stress recovery of a flexible cage; what it costs to prepare is kept in the cache."""
 
     def keep(name: str, make: Callable[[], dict[str, np.ndarray]]) -> dict[str, np.ndarray]:
-        return cached_arrays("stress", f"{cage.key}-{STRESS_VERSION}-{name}", make)
+        return cached_arrays("stress", f"{cage.version}-{STRESS_VERSION}-{name}", make)
 
-    return keep
+    return StressRecovery(cage.model, cage.shown, cage.interface, solver=cage.solver, keep=keep)
 
 
 @one_blas_thread
@@ -682,9 +620,7 @@ def check_assembly(case: Case, mesh: CageMesh, cage: CageReduction | None, start
     """Warn of, or refuse, a cage that its assembly alone stresses too much."""
     if cage is None or not start.pinched:
         return
-    recovery = StressRecovery(
-        cage.model, cage.basis, cage.interface, solver=cage.solver, keep=kept_stress(cage)
-    )
+    recovery = _recovery_of(cage)
     loads = CageLoads(station_forces=start.station)
     stress = von_mises(recovery.stress(recovery.displacement(loads), loads))
     stress[contact_zone(cage.model, mesh.pocket_count)] = 0.0
@@ -708,19 +644,8 @@ def check_assembly(case: Case, mesh: CageMesh, cage: CageReduction | None, start
         )
 
 
-def open_folder(folder: Path) -> tuple[Case, MemoryRunStore]:
-    """The case and the store of a run folder."""
-    store = RunStore.open(folder / "results.zarr")  # first: another format has another case.toml
-    return load_case(folder / "case.toml"), store
-
-
 __all__ = [
     "Run",
     "StressField",
     "check_assembly",
-    "check_written",
-    "has_begun",
-    "open_folder",
-    "was_written",
-    "write_case",
 ]

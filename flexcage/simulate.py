@@ -12,38 +12,49 @@ from flexcage.case import Case
 from flexcage.core.binding import expect
 from flexcage.core.timing import Stages
 from flexcage.results.recording import Recorder
-from flexcage.run import Run, check_assembly, has_begun, open_folder
+from flexcage.run import Run, check_assembly
+from flexcage.run_folder import has_begun, open_folder
 from flexcage.stages import (
     assembled_start,
     begin_compiling,
+    begun_store,
     build_bearing,
-    cage_mesh,
-    cage_reduction,
+    made_cage,
     run_store,
+    stored_cage,
 )
 
 
 def simulate(
-    case: Case, *, out: str | Path | None = None, resume: bool = False, progress: Any = None
+    case: Case,
+    *,
+    out: str | Path | None = None,
+    resume: bool = False,
+    study: str | Path | None = None,
+    progress: Any = None,
 ) -> Run:
     """Simulate a case; results are kept in memory, or in the folder ``out`` as the run goes.
 
-    ``resume`` goes on with a run that stopped, from its last committed block. ``progress`` is a
-    context like ``core.progress.Progress``. Raises InputError for an impossible case and
-    RunFailed for a run that cannot go on, with what was computed kept.
+    ``resume`` goes on with a run that stopped, from its last committed block. ``study`` is the
+    folder of a study whose runs share the files of their cages. ``progress`` is a context like
+    ``core.progress.Progress``. Raises InputError for an impossible case and RunFailed for a run
+    that cannot go on, with what was computed kept.
     """
     expect(case, Case, "case", "flexcage.load_case reads one from a file")
     folder = Path(out) if out is not None else None
     stages = Stages(progress)
-    if folder is not None and resume:
-        resume = has_begun(folder, case)
+    begun = begun_store(folder) if folder and resume and has_begun(folder, case) else None
     compiling = begin_compiling(case.bearing.element)
-    mesh = stages.named("mesh", cage_mesh, case)
-    cage = stages.named("modes", cage_reduction, case, mesh)
+    if folder and begun:
+        mesh, cage = stored_cage(case, begun, folder, stages)
+    else:
+        mesh, cage = made_cage(case, stages)
     bearing = stages.named("kernels", build_bearing, case, mesh, cage, compiling)
     start = stages("start", assembled_start, case, bearing, stages.progress)
     check_assembly(case, mesh, cage, start)
-    store = run_store(case, bearing, folder, resume=resume)
+    store = begun or run_store(
+        case, bearing, (mesh, cage), folder, study=Path(study) if study else None
+    )
     run = Run(case, store, folder, mesh, cage, start, stages)
     recorder = Recorder(bearing, start, store, solver=case.solver, output=case.output)
     stages("solve", recorder.march, progress)
@@ -51,9 +62,12 @@ def simulate(
 
 
 def load_run(folder: str | Path, *, progress: Any = None) -> Run:
-    """A stored run, finished or not, for looking at and drawing; ``progress`` as above."""
+    """A stored run, finished or not, for looking at and drawing; ``progress`` as above.
+
+    Needs nothing but the folder: the cage is the one that the run had. An edit of its case.toml is
+    ignored with a warning.
+    """
     case, store = open_folder(Path(folder))
     stages = Stages(progress)
-    mesh = stages.named("mesh", cage_mesh, case)
-    cage = stages.named("modes", cage_reduction, case, mesh)
+    mesh, cage = stored_cage(case, store, Path(folder), stages)
     return Run(case, store, Path(folder), mesh, cage, stages=stages)

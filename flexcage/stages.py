@@ -7,24 +7,28 @@ import os
 import subprocess
 import sys
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
+
+import numpy as np
 
 from flexcage.bodies.cage import flexible_from_reduction, rigid_from_tets
 from flexcage.case import Case
 from flexcage.case.checks import not_reached
 from flexcage.core import jit
 from flexcage.core.progress import Silent
+from flexcage.core.timing import Stages
 from flexcage.mesh.build import build_cage_mesh
 from flexcage.mesh.cage_mesh import CageMesh
 from flexcage.mesh.options import MeshOptions
 from flexcage.mesh.quality import check_mesh
 from flexcage.modes.reduction import CageReduction, reduce_cage, rigid_interface_of
-from flexcage.modes.table import ModeTable, mode_table
+from flexcage.modes.table import ModeTable
+from flexcage.results.cage_file import CageRecord, cage_record, check_same
 from flexcage.results.recording import new_store
 from flexcage.results.store import MemoryRunStore, RunStore
-from flexcage.run import write_case
+from flexcage.run_folder import keep_cage, kept_cage, write_case
 from flexcage.static import solve_static
 from flexcage.system import ball_start  # noqa: F401  (registers the start of ball bearings)
 from flexcage.system.constraints import names_of
@@ -35,22 +39,73 @@ from flexcage.system.start import Start, constrained, find_start, pushed
 
 log = logging.getLogger(__name__)
 
+Cage = tuple[CageMesh, CageReduction | None]  # the second: None for a rigid cage
+
 
 def run_store(
-    case: Case, bearing: Bearing, folder: Path | None, *, resume: bool = False
+    case: Case,
+    bearing: Bearing,
+    cage: Cage,
+    folder: Path | None,
+    *,
+    study: Path | None = None,
 ) -> MemoryRunStore:
-    """The store to write to: one to go on with, or a new one, in ``folder`` or in memory."""
+    """A new store to write to, in ``folder`` or in memory; the folder receives case and cage, or
+    its ``study`` the cage."""
+    attrs = {"case": case.to_toml(), "hash": case.hash}
     if folder is not None:
-        if resume:
-            return RunStore.open(folder / "results.zarr")
         write_case(folder, case)
+        record = _record(case, cage)
+        keep_cage(folder, record, study=study)
+        attrs["cage"] = record.digest
     return new_store(
         folder and folder / "results.zarr",
         bearing,
         duration=case.solver.duration,
         output=case.output,
-        attrs={"case": case.to_toml(), "hash": case.hash},
+        attrs=attrs,
     )
+
+
+def begun_store(folder: Path) -> RunStore:
+    """The store of a run to go on with."""
+    return RunStore.open(folder / "results.zarr")
+
+
+def made_cage(case: Case, stages: Stages) -> Cage:
+    """The cage of a case: its mesh and, if it is flexible, its reduction."""
+    mesh = stages.named("mesh", cage_mesh, case)
+    return mesh, stages.named("modes", cage_reduction, case, mesh)
+
+
+def stored_cage(case: Case, store: MemoryRunStore, folder: Path, stages: Stages) -> Cage:
+    """The cage that a stored run's results refer to.
+
+    A run that did not keep it (``output.keep_cage``) gets it made anew; InputError if that is
+    another one.
+    """
+    record = stages.named("cage", kept_cage, folder, store)
+    if record.mesh is None:
+        mesh, made = made_cage(case, stages)
+        assert made is not None, "a rigid cage keeps its mesh"
+        check_same(record, made.record())
+        return mesh, replace(made, stored=record.reduced)
+    if case.cage_model == "rigid":
+        return record.mesh, None
+    cage = CageReduction(
+        record.mesh, case.cage, case.all_defects, case.modes, case.mesh.order, record.reduced
+    )
+    return record.mesh, cage
+
+
+def _record(case: Case, cage: Cage) -> CageRecord:
+    """What a run's folder keeps of its cage."""
+    mesh, reduction = cage
+    if reduction is None:
+        return cage_record(mesh, {})
+    body = flexible_from_reduction(reduction, case.modes).data._asdict()
+    reduced = {**reduction.record(), "body": {k: np.asarray(v) for k, v in body.items()}}
+    return cage_record(mesh, reduced, large=case.output.keep_cage)
 
 
 def cage_mesh(case: Case) -> CageMesh:
@@ -74,7 +129,7 @@ def cage_modes(case: Case) -> ModeTable:
     mesh = cage_mesh(case)
     reduction = cage_reduction(case.replace("cage.model", "flexible"), mesh)
     assert reduction is not None
-    return mode_table(reduction.model, reduction.basis, pocket_count=mesh.pocket_count)
+    return reduction.table
 
 
 @dataclass(frozen=True)

@@ -5,7 +5,6 @@ from __future__ import annotations
 import numpy as np
 
 from flexcage.bodies.floating_frame import BodyData, FlexibleBody, flexible_body, rigid_body
-from flexcage.core.cache import cached_arrays
 from flexcage.core.hashing import content_hash
 from flexcage.core.threads import one_blas_thread
 from flexcage.modes.basis import ModeBasis
@@ -44,7 +43,8 @@ def flexible_from_basis(
 
 
 def flexible_from_reduction(cage: CageReduction, spec: ModesSpec) -> FlexibleBody:
-    """Flexible cage with the damping of ``spec``; its invariants are kept on disk."""
+    """Flexible cage with the damping of ``spec``; its invariants are kept on disk, in the cache or
+    in the folder of a run."""
 
     @one_blas_thread
     def make() -> dict[str, np.ndarray]:
@@ -53,6 +53,6 @@ def flexible_from_reduction(cage: CageReduction, spec: ModesSpec) -> FlexibleBod
         return body.data._asdict()
 
     key = content_hash(BODY_VERSION, cage.version, spec)
-    stored = cached_arrays("body", key, make)
+    stored = cage.arrays("body", key, make)
     numbers = {"mass": float(stored["mass"]), "plain": int(stored["plain"])}
     return FlexibleBody(BodyData(**{**stored, **numbers}))  # type: ignore[arg-type]

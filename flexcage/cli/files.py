@@ -27,7 +27,7 @@ def prepare_out(
     if out.exists() and not out.is_dir():
         raise InputError(f"'{out}' is a file; name a folder for the output.", where="out")
     if resume:
-        from flexcage.run import check_written
+        from flexcage.run_folder import check_written
 
         check_written(out)
     elif out.is_dir() and any(out.iterdir()):

@@ -49,19 +49,25 @@ def cache_limit() -> int:
 
 
 def cached_arrays(
-    kind: str, key: str, make: Callable[[], Arrays], *, only: Sequence[str] = ()
+    kind: str,
+    key: str,
+    make: Callable[[], Arrays],
+    *,
+    only: Sequence[str] = (),
+    without: Sequence[str] = (),
 ) -> Arrays:
     """Arrays named ``kind``/``key`` from disk, or made by ``make()`` and stored there.
 
     ``key`` must name everything that the arrays depend on (see ``hashing.content_hash``). ``only``
-    names those that are read, where not all are; all come back where they had to be made.
+    names those that are read, where not all are, and ``without`` those that are not; all come back
+    where they had to be made.
     """
     path = cache_root() / "arrays" / kind / f"{key}.npz"
-    found = _read(path, only)
+    found = _read(path, only, without)
     if found is not None:
         return found
     with _lock(path):
-        found = _read(path, only)  # another process may have made it while this one waited
+        found = _read(path, only, without)  # another process may have made it while this one waited
         if found is not None:
             return found
         arrays = {name: np.asarray(value) for name, value in make().items()}
@@ -70,12 +76,13 @@ def cached_arrays(
     return arrays
 
 
-def _read(path: Path, only: Sequence[str]) -> Arrays | None:
+def _read(path: Path, only: Sequence[str], without: Sequence[str]) -> Arrays | None:
     if not path.is_file():
         return None
     try:
         with np.load(path, allow_pickle=False) as stored:
-            arrays = {name: stored[name] for name in only or stored.files}
+            names = only or [name for name in stored.files if name not in without]
+            arrays = {name: stored[name] for name in names}
     except _BROKEN as exc:
         logger.warning("cache entry %s cannot be read (%s); it is made anew", path.name, exc)
         return None

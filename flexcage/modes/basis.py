@@ -24,7 +24,9 @@ class ResidualFlexibility:
     that a load makes in another pocket (cut) to the whole one, modes and all, in its own.
     """
 
-    shapes: np.ndarray  # (n_nodes, 3, n_residual) displacement [m] per unit coordinate
+    # (n_nodes, 3, n_residual) displacement [m] per unit coordinate; None where only a run's folder
+    # was read, which does not keep them
+    shapes: np.ndarray | None
     stiffness: np.ndarray  # (n_residual, n_residual)
     compliance: np.ndarray  # (Z, per_pocket, per_pocket)
     far_coupling: float

@@ -223,6 +223,7 @@ def _residual_at_stations(
     if basis.residual is None:
         return at_stations, compliance
     shapes = basis.residual.shapes
+    assert shapes is not None, "an interface is made with the basis"
     per = shapes.shape[2] // pocket_count
     compliance[:, :per, :per] = basis.residual.compliance
     rows = len(FACES) * n_stations

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
 from functools import cached_property, singledispatch
 from typing import Any
 
@@ -34,10 +34,16 @@ from flexcage.modes.storage import (
     basis_from,
     interface_arrays,
     interface_from,
+    rounded,
+    table_arrays,
+    table_from,
 )
+from flexcage.modes.table import ModeTable, mode_table
 
-MODEL_VERSION = 8  # of the reduction: raise it when the same input gives another basis
+MODEL_VERSION = 9  # of the reduction: raise it when the same input gives another basis
 INTERFACE_VERSION = 1  # of both kinds of interfaces, likewise
+_NOT_SHOWN = ("r_shapes",)  # of a basis: residual shapes, the largest part, which no result reads
+TABLE_VERSION = 1  # of the mode table, likewise
 
 
 @dataclass(frozen=True)
@@ -46,6 +52,10 @@ class CageReduction:
 
     Each is made, or read from disk, when first asked for. With basis and interface on disk a run
     begins without matrices and nodal shapes, the large parts, which wait for stresses.
+
+    ``stored`` holds the arrays of a reduction that a run's folder keeps, by kind: "basis" (its
+    shapes are those of ``shown``), "interface", "body" and "table". Nothing is then made anew, and
+    neither is the cache asked.
     """
 
     mesh: CageMesh
@@ -53,6 +63,21 @@ class CageReduction:
     defects: tuple[Any, ...]
     spec: ModesSpec
     order: int
+    stored: Mapping[str, Mapping[str, np.ndarray]] = field(default_factory=dict)
+
+    def arrays(
+        self,
+        kind: str,
+        key: str,
+        make: Callable[[], Mapping[str, Any]],
+        *,
+        only: Sequence[str] = (),
+        without: Sequence[str] = (),
+    ) -> Mapping[str, np.ndarray]:
+        """The stored arrays of a ``kind``, else those of the cache (``core.cache``)."""
+        if kind in self.stored:
+            return self.stored[kind]
+        return cached_arrays(kind, key, lambda: dict(make()), only=only, without=without)
 
     @cached_property
     def key(self) -> str:
@@ -84,9 +109,41 @@ class CageReduction:
     def basis(self) -> ModeBasis:
         """The modal basis with its nodal shapes."""
         arrays = self._known
-        if "shapes" not in arrays:
-            arrays = cached_arrays("basis", self.key, self._make_basis)
+        if "shapes" not in arrays and "steps" not in arrays:
+            arrays = self.arrays("basis", self.key, self._make_basis)
         return basis_from(arrays)
+
+    @cached_property
+    def shown(self) -> ModeBasis:
+        """The basis that results refer to: shapes as a run's folder keeps them (``rounded``), no
+        residual shapes. The same numbers come from a run and from its folder."""
+        return basis_from(self._rounded)
+
+    @cached_property
+    def _rounded(self) -> Mapping[str, np.ndarray]:
+        arrays = self._known
+        if "shapes" not in arrays and "steps" not in arrays:
+            arrays = self.arrays("basis", self.key, self._make_basis, without=_NOT_SHOWN)
+        return arrays if "steps" in arrays else rounded(arrays)
+
+    def record(self) -> dict[str, Mapping[str, np.ndarray]]:
+        """What ``stored`` takes of this reduction, but for the body."""
+        return {
+            "basis": self._rounded,
+            "interface": interface_arrays(self.interface),
+            "table": table_arrays(self.table),
+        }
+
+    @cached_property
+    @one_blas_thread
+    def table(self) -> ModeTable:
+        """Number, kind, frequency and effective masses of the dynamic modes."""
+
+        def make() -> dict[str, np.ndarray]:
+            count = self.mesh.pocket_count
+            return table_arrays(mode_table(self.model, self.basis, pocket_count=count))
+
+        return table_from(self.arrays("table", f"{self.version}-{TABLE_VERSION}", make))
 
     @property
     def version(self) -> str:
@@ -101,9 +158,9 @@ class CageReduction:
 
     @cached_property
     @one_blas_thread
-    def _known(self) -> dict[str, np.ndarray]:
+    def _known(self) -> Mapping[str, np.ndarray]:
         """The digest of the basis on disk, or all of a basis just made."""
-        return cached_arrays("basis", self.key, self._make_basis, only=("digest",))
+        return self.arrays("basis", self.key, self._make_basis, only=("digest",))
 
     @one_blas_thread
     def _make_basis(self) -> dict[str, np.ndarray]:
@@ -156,7 +213,7 @@ def _(cage: WindowCage, defects: Sequence[Defect], reduced: CageReduction) -> Ca
     count = reduced.mesh.pocket_count
     pocket = (cage.pocket_length, cage.pocket_width, cage.fillet_radius)
     content = (reduced.version, pocket, cage.bore, cage.outside_diameter, defects)
-    return _kept(CageInterface, content, make)
+    return _kept(reduced, CageInterface, content, make)
 
 
 @interface_of.register
@@ -172,10 +229,15 @@ def _(
     count = reduced.mesh.pocket_count
     pockets = pocket_shapes(cage, defects, pocket_count=count)
     content = (reduced.version, pockets, cage.bore, cage.outside_diameter)
-    return _kept(BallCageInterface, content, make)
+    return _kept(reduced, BallCageInterface, content, make)
 
 
-def _kept(kind: type[Interface], content: tuple, make: Callable[[], Interface]) -> Interface:
+def _kept(
+    reduced: CageReduction,
+    kind: type[Interface],
+    content: tuple,
+    make: Callable[[], Interface],
+) -> Interface:
     """The interface from disk, or made and kept there; ``content``: all that it depends on."""
     key = content_hash(INTERFACE_VERSION, content)
-    return interface_from(kind, cached_arrays("interface", key, lambda: interface_arrays(make())))
+    return interface_from(kind, reduced.arrays("interface", key, lambda: interface_arrays(make())))

@@ -16,6 +16,7 @@ from flexcage.fem.model import FEModel
 from flexcage.mesh.cage_mesh import WALL_GROUPS, pocket_groups
 from flexcage.modes import craig_bampton, free_free, ritz
 from flexcage.modes.basis import ModeBasis
+from flexcage.modes.orientation import oriented
 from flexcage.modes.spec import KINDS, ModesSpec
 from flexcage.modes.stiffening import spin_stiffness
 
@@ -79,7 +80,8 @@ def build_basis(
     """Modal basis of a free cage as ``spec`` asks.
 
     ``solver``: the model's factored free body, if there is one already; otherwise it is made
-    with ``solver_kind``. A builder is ``(solver, *, pocket_count, spec) -> ModeBasis``.
+    with ``solver_kind``. A builder is ``(solver, *, pocket_count, spec) -> ModeBasis``. Signs of
+    modes, and directions among those of equal frequency, are fixed by rule (``orientation``).
     """
     spec = spec or ModesSpec()
     if spec.kind not in BUILDERS:
@@ -93,9 +95,10 @@ def build_basis(
     if solver is None:
         solver = FreeBodySolver(model, kind=solver_kind)
     basis = builder(solver, pocket_count=pocket_count, spec=spec)
+    check_basis(basis, len(model.nodes))
+    basis = oriented(basis, model, pocket_count)
     if spec.geometric_stiffening and basis.geometric is None:
         basis = replace(basis, geometric=spin_stiffness(solver, basis.shapes))
-    check_basis(basis, len(model.nodes))
     first = ", ".join(f"{f:.1f}" for f in basis.frequencies[:6])
     log.info("basis %s: %d dynamic modes, first %s Hz", basis.name, basis.size, first)
     return basis

@@ -1,4 +1,9 @@
-"""Bases and interfaces as named arrays and back: what the disk cache keeps of a reduced cage."""
+"""Bases, interfaces and mode tables as named arrays and back: what the disk cache and a run's
+folder keep of a reduced cage.
+
+A folder keeps a shape in 24 bits: whole steps of 2^-23 of its largest displacement, so that the
+error anywhere is what single precision has there. ``tests/results`` shows what this does to stress.
+"""
 
 from __future__ import annotations
 
@@ -11,8 +16,10 @@ import scipy.sparse as sp
 
 from flexcage.core.hashing import content_hash
 from flexcage.modes.basis import ModeBasis, ResidualFlexibility
+from flexcage.modes.table import ModeTable
 
 Interface = TypeVar("Interface")
+_STEPS = 2**23 - 1  # to the largest displacement of a shape
 _SPARSE = ("data", "indices", "indptr", "shape")  # what a sparse matrix is stored as
 
 
@@ -32,6 +39,7 @@ def basis_arrays(basis: ModeBasis) -> dict[str, np.ndarray]:
         arrays["geometric"] = basis.geometric
     if basis.residual is not None:
         r = basis.residual
+        assert r.shapes is not None, "a basis is stored as it was made"
         arrays |= {
             "r_shapes": r.shapes,
             "r_stiffness": r.stiffness,
@@ -41,19 +49,29 @@ def basis_arrays(basis: ModeBasis) -> dict[str, np.ndarray]:
     return arrays
 
 
+def rounded(a: Mapping[str, np.ndarray]) -> dict[str, np.ndarray]:
+    """Arrays of a basis as a run's folder keeps them: each shape in whole ``steps`` (int32) of its
+    ``step`` [shape's unit], and no residual shapes."""
+    shapes = a["shapes"]
+    step = np.abs(shapes).max(axis=(0, 1), initial=0.0) / _STEPS
+    step = np.where(step > 0.0, step, 1.0)
+    kept = {name: value for name, value in a.items() if name not in ("shapes", "r_shapes")}
+    return {**kept, "steps": np.rint(shapes / step).astype(np.int32), "step": step}
+
+
 def basis_from(a: Mapping[str, np.ndarray]) -> ModeBasis:
-    """The basis of which these are the arrays."""
+    """The basis of which these are the arrays, as made or ``rounded``."""
     residual = None
-    if "r_shapes" in a:
+    if "r_far" in a:
         residual = ResidualFlexibility(
-            shapes=a["r_shapes"],
+            shapes=a.get("r_shapes"),
             stiffness=a["r_stiffness"],
             compliance=a["r_compliance"],
             far_coupling=float(a["r_far"]),
         )
     return ModeBasis(
         name=str(a["name"]),
-        shapes=a["shapes"],
+        shapes=a["shapes"] if "shapes" in a else a["steps"] * a["step"],
         stiffness=a["stiffness"],
         mass=a["mass"],
         frequencies=a["frequencies"],
@@ -61,6 +79,17 @@ def basis_from(a: Mapping[str, np.ndarray]) -> ModeBasis:
         residual=residual,
         geometric=a.get("geometric"),
     )
+
+
+def table_arrays(table: ModeTable) -> dict[str, np.ndarray]:
+    """Fields of a mode table."""
+    return {field.name: np.asarray(getattr(table, field.name)) for field in fields(table)}
+
+
+def table_from(a: Mapping[str, np.ndarray]) -> ModeTable:
+    """The mode table of which these are the fields."""
+    texts: dict[str, Any] = {n: tuple(str(x) for x in a[n]) for n in ("kind", "loaded")}
+    return ModeTable(**{**a, **texts})
 
 
 def interface_arrays(interface: Any) -> dict[str, np.ndarray]:

@@ -75,6 +75,7 @@ def mode_table(model: FEModel, basis: ModeBasis, *, pocket_count: int) -> ModeTa
     carried = work * np.linalg.solve(basis.stiffness, work)
     residual = np.zeros(2)
     if basis.residual is not None:
+        assert basis.residual.shapes is not None, "a table is made with the basis"
         flat = basis.residual.shapes.reshape(model.n_dof, -1)
         pull = flat.T @ loads
         residual = np.sum(pull * np.linalg.solve(basis.residual.stiffness, pull), axis=0)

@@ -75,6 +75,20 @@ def replace(path: Path, content: bytes) -> None:
         file.write(content)
         file.flush()
         os.fsync(file.fileno())
+    _rename(temporary, path)
+
+
+def move_into_place(temporary: Path, path: Path) -> None:
+    """Give a file that was written beside ``path`` its name, once all in it is on disk."""
+    handle = os.open(temporary, os.O_RDONLY)
+    try:
+        os.fsync(handle)
+    finally:
+        os.close(handle)
+    _rename(temporary, path)
+
+
+def _rename(temporary: Path, path: Path) -> None:
     os.replace(temporary, path)
     if os.name == "posix":
         folder = os.open(path.parent, os.O_RDONLY)

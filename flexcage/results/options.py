@@ -25,6 +25,12 @@ class OutputOptions:
     settle: float = option(
         0.3, doc="share of the run left out of statistics", minimum=0.0, maximum=0.95
     )
+    keep_cage: bool = option(
+        True,
+        doc="keep the mesh and the mode shapes of a flexible cage with the results (10 to 40 MB); "
+        "without them the cage is made anew on loading",
+        former=True,
+    )
 
     @property
     def vibration_ratio(self) -> int:

@@ -37,7 +37,7 @@ from flexcage.results.registry import COMPUTED, TIME, TIME_HF, VARIABLES, Variab
 if TYPE_CHECKING:
     import xarray
 
-FORMAT = 2  # of variables, labels, checkpoints and modal coordinates; old ones are not read
+FORMAT = 3  # see above; others are not read
 SIDE = "_run"  # folder beside the arrays: commit, checkpoint, steps, events
 LAST = "last_state.npz"  # in SIDE, of a run whose solver stopped
 LOADS = "loads"  # table of what moves and pushes a flexible cage at steps between samples

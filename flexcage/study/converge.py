@@ -17,7 +17,7 @@ from flexcage.mesh.options import FINENESS
 from flexcage.results.files import load, save
 from flexcage.results.statistics import spread
 from flexcage.results.summary import Row, Summary
-from flexcage.run import write_case
+from flexcage.run_folder import write_case
 from flexcage.study.convergence import Convergence, Finding
 from flexcage.study.work import run_in
 

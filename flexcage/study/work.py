@@ -20,7 +20,8 @@ from flexcage.core import jit
 from flexcage.core.errors import EnvironmentLacks, FlexcageError, InputError
 from flexcage.core.threads import on_one_core
 from flexcage.mesh.options import MeshOptions
-from flexcage.run import Run, was_written, write_case
+from flexcage.run import Run
+from flexcage.run_folder import was_written, write_case
 from flexcage.simulate import load_run, simulate
 from flexcage.stages import cage_mesh, cage_reduction
 from flexcage.study.folder import CaseRow, Failure, Folder
@@ -127,23 +128,24 @@ def _case_of(order: Order) -> Case:
 
 def _march(case: Case, part: Path, *, keep: str) -> Run:
     if keep == "runs":
-        return run_in(part, case)
+        return run_in(part, case, study=part.parent.parent)
     write_case(part, case)
     return simulate(case)
 
 
-def run_in(folder: Path, case: Case, *, progress: Any = None) -> Run:
-    """Run the case in its folder, from the last committed block if there is one.
+def run_in(folder: Path, case: Case, *, study: Path | None = None, progress: Any = None) -> Run:
+    """Run the case in its folder, from the last committed block if there is one; ``study`` is the
+    folder of a study whose runs share the files of their cages.
 
     A beginning that this flexcage cannot go on with, another one's or a damaged one, is made anew.
     """
     if was_written(folder):
         try:
-            return simulate(case, out=folder, resume=True, progress=progress)
+            return simulate(case, out=folder, resume=True, study=study, progress=progress)
         except InputError as error:
             log.warning("the run begun in '%s' begins anew: %s", folder, error)
             shutil.rmtree(folder)
-    return simulate(case, out=folder, progress=progress)
+    return simulate(case, out=folder, study=study, progress=progress)
 
 
 def compile_kernels(case: Case) -> None:

@@ -10,7 +10,7 @@ from flexcage.cli import main
 from flexcage.core.errors import InputError, RunFailed
 from flexcage.results import recording
 from flexcage.results.store import RunStore
-from flexcage.run import write_case
+from flexcage.run_folder import write_case
 from flexcage.simulate import load_run, simulate
 
 BLOCK = 50 / 50e3  # [s]

@@ -1,0 +1,223 @@
+"""The cage that a run's results refer to, in one file: mesh, mode shapes, interface, body.
+
+Modal coordinates mean something only beside the shapes that they multiply, and a basis made again,
+on another processor or by other releases of libraries, may be another one. So every run keeps its
+cage: a Zarr group (version 3) in one zip file, with a group each for
+
+    mesh        points [m], tets, triangles of the named groups, what is known of the mesh's sectors
+    basis       shapes rounded to 24 bits (``modes.storage``), stiffness, mass, frequencies, kinds
+    interface   contact stations on the pockets' faces: modes there, compliances, weights
+    body        inertia and damping of the floating frame
+    table       the mode table
+
+Texts are attributes. A rigid cage has a mesh alone. With ``output.keep_cage = false`` the large
+parts, mesh and basis, are left out: they are made anew on loading, and compared.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from types import MappingProxyType
+from typing import Any
+from zipfile import BadZipFile
+
+import numpy as np
+
+from flexcage.core.errors import InputError
+from flexcage.core.hashing import content_hash
+from flexcage.mesh.cage_mesh import CageMesh
+from flexcage.results.files import move_into_place
+
+FORMAT = 1
+NAME = "cage.zip"  # in a run's folder
+SHARED = "cages"  # folder of a study, with one file for each distinct cage
+LARGE = ("mesh", "basis")  # groups left out where a run keeps no cage
+SAME = 1e-6  # of the largest displacement of a mode: what another processor's rounding may change
+_TEXT = "texts"
+
+Groups = Mapping[str, Mapping[str, np.ndarray]]
+
+
+@dataclass(frozen=True)
+class CageRecord:
+    """All arrays of one cage by group and name, and ``digest``, 16 digits that name them."""
+
+    groups: Groups
+    digest: str
+
+    @property
+    def mesh(self) -> CageMesh | None:
+        """The mesh; None if the run did not keep it."""
+        return _mesh_from(self.groups["mesh"]) if "mesh" in self.groups else None
+
+    @property
+    def reduced(self) -> dict[str, Mapping[str, np.ndarray]]:
+        """The groups of a flexible cage's reduction; none of a rigid cage's."""
+        return {kind: arrays for kind, arrays in self.groups.items() if kind != "mesh"}
+
+
+def cage_record(mesh: CageMesh, reduced: Groups, *, large: bool = True) -> CageRecord:
+    """The record of a cage: its mesh and the arrays of its reduction by kind. The rounded shapes
+    enter the digest by that of the basis that they were rounded from.
+
+    ``large`` False leaves the mesh and the shapes of a flexible cage out.
+    """
+    groups = {"mesh": _mesh_arrays(mesh), **reduced}
+    named = {
+        kind: {name: value for name, value in arrays.items() if name != "steps"}
+        for kind, arrays in groups.items()
+    }
+    digest = content_hash(named)
+    if reduced and not large:
+        groups = {kind: arrays for kind, arrays in groups.items() if kind not in LARGE}
+    return CageRecord(groups, digest)
+
+
+def write_cage(path: Path, record: CageRecord) -> Path:
+    """Write a record in one move; a file that is there is replaced. OSError from the disk."""
+    import zarr
+    from zarr.codecs import BloscCodec, Crc32cCodec
+    from zarr.storage import ZipStore
+
+    codecs = [BloscCodec(cname="zstd", clevel=1, shuffle="shuffle"), Crc32cCodec()]
+    path.parent.mkdir(parents=True, exist_ok=True)
+    temporary = path.with_name(f"{path.name}.{os.getpid()}.new")  # workers may write the same
+    try:
+        with ZipStore(temporary, mode="w") as store:
+            about = {"flexcage_cage": FORMAT, "digest": record.digest}
+            root = zarr.create_group(store, zarr_format=3, attributes=about)
+            for kind, arrays in record.groups.items():
+                values = {name: np.asarray(value) for name, value in arrays.items()}
+                texts = {n: v.tolist() for n, v in values.items() if v.dtype.kind in "US"}
+                group = root.create_group(kind, attributes={_TEXT: texts})
+                for name, value in values.items():
+                    if name not in texts:
+                        group.create_array(name, data=value, compressors=codecs)
+        move_into_place(temporary, path)
+    except BaseException:
+        temporary.unlink(missing_ok=True)
+        raise
+    return path
+
+
+def read_cage(path: Path) -> CageRecord:
+    """The record in a file; InputError if it is none, of another format, or damaged."""
+    import zarr
+    from zarr.storage import ZipStore
+
+    try:
+        with ZipStore(path, mode="r") as store:
+            root = zarr.open_group(store, mode="r", zarr_format=3)
+            found = root.attrs.get("flexcage_cage")
+            if found != FORMAT:
+                raise InputError(
+                    f"'{path}' holds a cage in format {found}, and this flexcage reads format "
+                    f"{FORMAT}; run the case again.",
+                    where="cage",
+                    value=str(path),
+                )
+            groups = {name: _arrays_of(group) for name, group in root.groups()}
+            return CageRecord(groups, str(root.attrs["digest"]))
+    except InputError:
+        raise
+    except (OSError, BadZipFile, KeyError, ValueError, RuntimeError, EOFError) as error:
+        raise InputError(
+            f"The cage of the run, '{path}', cannot be read ({error}); bring it back from a copy, "
+            "or run the case again.",
+            where="cage",
+            value=str(path),
+        ) from error
+
+
+def _arrays_of(group: Any) -> dict[str, np.ndarray]:
+    arrays = {name: np.asarray(array[...]) for name, array in group.arrays()}
+    return {**arrays, **{name: np.array(text) for name, text in group.attrs[_TEXT].items()}}
+
+
+def find_cage(folder: Path, digest: str) -> Path:
+    """The file of the cage of the run in ``folder``: its own, or its study's; InputError if there
+    is none."""
+    own, shared = folder / NAME, shared_cage(folder.resolve().parent.parent, digest)
+    for path in (own, shared):
+        if path.is_file():
+            return path
+    raise InputError(
+        f"The run in '{folder}' lacks its cage: neither '{own}' nor '{shared}' is there. Bring the "
+        f"file back (a study keeps the cages of its runs in its folder '{SHARED}'), or run the "
+        "case again.",
+        where="cage",
+        value=digest,
+    )
+
+
+def check_same(record: CageRecord, made: Groups) -> None:
+    """Refuse a cage that was made anew for a record without mesh and shapes, if its modes differ
+    at the contact stations from those of the record by more than ``SAME`` of the largest."""
+    was, now = record.groups["interface"]["modes"], made["interface"]["modes"]
+    far = np.abs(now - was).max() / np.abs(was).max() if now.shape == was.shape else np.inf
+    if far > SAME:
+        how = (
+            f"its modes differ by {far:.1e} of the largest"
+            if np.isfinite(far)
+            else (f"it has modes of shape {now.shape}, where the run has {was.shape}")
+        )
+        raise InputError(
+            "The run did not keep its cage (output.keep_cage is false), and the one made anew is "
+            f"another: {how}. Read the run where it was made, or run the case again with "
+            "output.keep_cage = true.",
+            where="output.keep_cage",
+            value=far,
+        )
+
+
+def shared_cage(study: Path, digest: str) -> Path:
+    """Where a study's folder keeps a cage that its runs share."""
+    return study / SHARED / f"{digest}.zip"
+
+
+def _mesh_arrays(mesh: CageMesh) -> dict[str, np.ndarray]:
+    """A mesh as arrays: the triangles of all groups in a row, with names and counts."""
+    names = list(mesh.groups)
+    triangles = [np.asarray(mesh.groups[name]).reshape(-1, 3) for name in names]
+    return {
+        "points": np.asarray(mesh.points),
+        "tets": _small(mesh.tets),
+        "triangles": _small(np.vstack([np.empty((0, 3), np.int64), *triangles])),
+        "group_names": np.array(names, dtype=str),
+        "group_sizes": np.array([len(t) for t in triangles], np.int64),
+        "pocket_count": np.array(mesh.pocket_count),
+        "info": np.array(json.dumps(_plain(mesh.info))),
+    }
+
+
+def _small(indices: np.ndarray) -> np.ndarray:
+    return np.asarray(indices).astype(np.int32)
+
+
+def _plain(value: Any) -> Any:
+    """JSON values of what a mesh's ``info`` holds; the specs of defects, which the case has, are
+    left out."""
+    if isinstance(value, Mapping):
+        return {k: _plain(v) for k, v in value.items() if k != "defect"}
+    if isinstance(value, (list, tuple)):
+        return [_plain(v) for v in value]
+    return value.item() if isinstance(value, np.generic) else value
+
+
+def _mesh_from(a: Mapping[str, np.ndarray]) -> CageMesh:
+    info = {
+        k: tuple(v) if isinstance(v, list) else v for k, v in json.loads(str(a["info"])).items()
+    }
+    triangles = np.split(a["triangles"].astype(np.int64), np.cumsum(a["group_sizes"])[:-1])
+    groups = dict(zip((str(name) for name in a["group_names"]), triangles))
+    return CageMesh(
+        points=a["points"],
+        tets=a["tets"].astype(np.int64),
+        groups=MappingProxyType(groups),
+        pocket_count=int(a["pocket_count"]),
+        info=MappingProxyType(info),
+    )

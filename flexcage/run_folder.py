@@ -1,0 +1,164 @@
+"""The folder of a run: its case, its results, and the cage that these refer to.
+
+case.toml       the case as it was run (the results hold its text as well, and that one counts)
+results.zarr/   samples, steps, checkpoints (``results.store``)
+cage.zip        mesh, mode shapes and interface (``results.cage_file``); the runs of a study
+                share those in its folder ``cages``
+summary.txt, summary.json, modes.csv, images/   what was made of them
+"""
+
+from __future__ import annotations
+
+import logging
+from pathlib import Path
+from typing import Any
+
+from flexcage.case import Case, load_case
+from flexcage.core.binding import flat
+from flexcage.core.errors import FlexcageError, InputError, refuse_full
+from flexcage.results.cage_file import (
+    NAME,
+    CageRecord,
+    find_cage,
+    read_cage,
+    shared_cage,
+    write_cage,
+)
+from flexcage.results.files import replace
+from flexcage.results.store import MemoryRunStore, RunStore, read_commit
+
+log = logging.getLogger(__name__)
+
+
+def write_case(folder: Path, case: Case) -> None:
+    """Write the case as run into the folder."""
+    folder.mkdir(parents=True, exist_ok=True)
+    replace(folder / "case.toml", case.to_toml().encode())
+
+
+def was_written(folder: Path) -> bool:
+    """Whether a run was to be written to ``folder``, though it may not have begun yet."""
+    return (folder / "case.toml").is_file()
+
+
+def check_written(folder: Path) -> None:
+    """InputError if there is nothing to resume in ``folder``."""
+    if not was_written(folder):
+        raise InputError(
+            f"'{folder}' is not the folder of a run (it has no case.toml), so there is nothing to "
+            "resume there.",
+            where="out",
+            value=str(folder),
+        )
+
+
+def has_begun(folder: Path, case: Case) -> bool:
+    """Whether the case's run in ``folder`` has come so far that it can be gone on with.
+
+    What one left that was killed before is removed, to be begun anew. InputError if the folder
+    holds no run, or that of another case, or one in another format.
+    """
+    check_written(folder)
+    begun = RunStore.begun(folder / "results.zarr")
+    if begun:
+        read_commit(folder / "results.zarr")
+    stored, named = _stored(folder, begun)
+    if case.hash != named and not _without_its_mesh_file(case, stored):
+        raise InputError(
+            f"The case differs from the one of the run in '{folder}'{_difference(case, stored)}; "
+            "resume the same case, or name another folder.",
+            where="case",
+            value=case.hash,
+        )
+    if not begun:
+        RunStore.clear_unbegun(folder / "results.zarr")
+        log.warning("the run in '%s' was stopped before its first block; it begins anew", folder)
+    return begun
+
+
+def _difference(case: Case, stored: Case) -> str:
+    """The first values in which two cases differ, in brackets."""
+    differ = case.difference(stored)
+    if not differ:
+        return " (a file or function behind it has changed)"
+    return _named(list(differ), *({k: v[i] for k, v in differ.items()} for i in (0, 1)))
+
+
+def _stored(folder: Path, begun: bool) -> tuple[Case, str]:
+    """The case of the run in a folder and its hash, as they were when it began."""
+    if not begun:
+        stored = load_case(folder / "case.toml")
+        return stored, stored.hash
+    attrs = RunStore.open(folder / "results.zarr").layout.attrs
+    return load_case(attrs["case"]), attrs["hash"]
+
+
+def _without_its_mesh_file(case: Case, stored: Case) -> bool:
+    """Whether two cases differ in nothing but that the mesh file of both is no longer there: the
+    run's folder keeps the mesh."""
+    gone = case.mesh.file and not Path(case.mesh.file).is_file()
+    return bool(gone) and not case.difference(stored)
+
+
+def keep_cage(folder: Path, record: CageRecord, *, study: Path | None = None) -> None:
+    """Write the cage of a run that begins in ``folder``: there, or once for all runs of a study."""
+    path = folder / NAME if study is None else shared_cage(study, record.digest)
+    if study is not None and path.is_file():
+        return  # named by its content
+    try:
+        write_cage(path, record)
+    except OSError as exc:
+        refuse_full(f"The cage's file '{path}'", exc)
+        raise InputError(
+            f"The cage's file '{path}' cannot be written: {exc.strerror or exc}.",
+            where="out",
+            value=str(path),
+        ) from exc
+
+
+def kept_cage(folder: Path, store: MemoryRunStore) -> CageRecord:
+    """The cage of a stored run; InputError if it is missing or another one."""
+    digest = store.layout.attrs["cage"]
+    path = find_cage(folder, digest)
+    record = read_cage(path)
+    if record.digest != digest:
+        raise InputError(
+            f"'{path}' is the cage of another run ({record.digest}); this one has the cage "
+            f"{digest}. Bring its own file back, or run the case again.",
+            where="cage",
+            value=record.digest,
+        )
+    return record
+
+
+def open_folder(folder: Path) -> tuple[Case, MemoryRunStore]:
+    """The case and the store of a run folder. The case is that of the results: an edit of
+    case.toml is ignored, and a warning names it."""
+    store = RunStore.open(folder / "results.zarr")
+    text = store.layout.attrs["case"]
+    case = load_case(text)
+    if edit := _edit(folder / "case.toml", text, case):
+        log.warning("%s; this is ignored: the results are those of the case as it was run", edit)
+    return case, store
+
+
+def _edit(path: Path, text: str, case: Case) -> str:
+    """What was changed in a run's case.toml after the run, or nothing."""
+    try:
+        if path.read_text("utf-8") == text:
+            return ""
+        edited = load_case(path)
+    except FileNotFoundError:
+        return ""
+    except (FlexcageError, OSError, ValueError) as exc:
+        return f"'{path}' was changed after the run and is no case any more ({exc})"
+    was, now = dict(flat(case.to_table())), dict(flat(edited.to_table()))
+    keys = [key for key in {**was, **now} if was.get(key) != now.get(key)]
+    return f"'{path}' was edited after the run{_named(keys, now, was)}" if keys else ""
+
+
+def _named(keys: list[str], new: dict[str, Any], old: dict[str, Any]) -> str:
+    """The first of the values that differ, in brackets."""
+    told = [f"{key} is {new.get(key)}, was {old.get(key)}" for key in keys[:3]]
+    more = f", and {len(keys) - 3} more" if len(keys) > 3 else ""
+    return f" ({'; '.join(told)}{more})" if told else ""
