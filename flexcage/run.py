@@ -79,6 +79,8 @@ _FAR = (
     "of a push's deflection of its own pocket, what others would feel of it beyond the modes; "
     "changes an N1013's pinch forces by under 0.5 %"
 )
+_NO_TIME = 1e-3  # s: a stage that is shorter had nothing to do
+_RARE = ("explicit_steps", "jacobians", "factorisations", "failed_newton")  # by method
 _ABOUT_PEAK = 4e-4  # s before and after the largest stress: what animations and VTU series show
 
 
@@ -561,8 +563,11 @@ class Run:
         return dataclasses.replace(summary, warnings=(*known, *warnings_of(AT_END, outcome)))
 
     def _time_rows(self) -> list[Row]:
-        rows = [Row(f"wall_{k}", k.capitalize(), v, "s") for k, v in self.stages.items()]
-        return [*rows, Row("wall_total", "In all", self.stages.total, "s")]
+        rows = [
+            Row(f"wall_{k}", k.capitalize(), v, "s", idle=v < _NO_TIME)
+            for k, v in self.stages.items()
+        ]
+        return [*rows, Row("wall_total", "Wall time in all", self.stages.total, "s")]
 
     def _cage_rows(self) -> list[Row]:
         case = self.case
@@ -624,7 +629,12 @@ class Run:
 
     def _solver_rows(self) -> list[Row]:
         count, bound = self.solver.state.count, self.solver.bound
-        rows = [Row(k, k.replace("_", " ").capitalize(), int(count[i])) for k, i in COUNTS.items()]
+        rows = [
+            Row(
+                k, k.replace("_", " ").capitalize(), int(count[i]), idle=not count[i] and k in _RARE
+            )
+            for k, i in COUNTS.items()
+        ]
         if np.isfinite(bound):
             note = "least over the run, by the spectral radius"
             rows.append(Row("stable_step", "Stability bound of explicit steps", bound, "us", note))

@@ -79,8 +79,8 @@ def run_command(args: argparse.Namespace) -> int:
     run = simulate(case, out=out, resume=args.resume, progress=Progress)
     run.stages.begun = args.begun
     run.tell_times()
-    say(run.summary)
-    say(f"\nThe run is in {out}")
+    say(run.summary.brief())
+    say(f"\nThe run is in {out}; its summary.txt has all figures")
     if not args.no_images:
         draw(run, out / "images", animate=args.animate, **look)
         drawing = run.stages.get("pictures", 0.0)

@@ -25,7 +25,8 @@ class _BetweenProgress(logging.StreamHandler):
 
 
 def setup(*, verbose: int = 0) -> None:
-    """Send flexcage's records to standard error; -1 warnings, 0 information, 1 debugging."""
+    """Send flexcage's records to standard error; -1 warnings, 0 information, 1 debugging: what
+    solvers and reductions say of their work."""
     level = {-1: logging.WARNING, 0: logging.INFO}.get(verbose, logging.DEBUG)
     logger = logging.getLogger("flexcage")
     for old in [h for h in logger.handlers if getattr(h, "flexcage_cli", False)]:

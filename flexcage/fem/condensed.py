@@ -117,7 +117,7 @@ class CondensedRing:
         self.name = f"dense fronts, {self._count} parts of {different}"
         check_factor(self.solve, model.K, dofs_of(parts.cuts[tuple(places.T)]))
         seconds = time.perf_counter() - started
-        log.info("factored %d unknowns with %s in %.1f s", model.n_dof, self.name, seconds)
+        log.debug("factored %d unknowns with %s in %.1f s", model.n_dof, self.name, seconds)
 
     def solve(self, loads: np.ndarray) -> np.ndarray:
         """Displacements (3N, m) of nodal loads (3N, m); reactions at the held dofs are free."""

@@ -40,7 +40,7 @@ def cyclic_modes(model: FEModel, ring: CondensedRing, count: int) -> tuple[np.nd
         for i in short:
             wanted[i] += max(_MORE, wanted[i] // 2)
             found[i] = _modes(harmonics[i], wanted[i])
-    log.info("%d modes among %d of %d harmonics", count, sum(wanted), len(harmonics))
+    log.debug("%d modes among %d of %d harmonics", count, sum(wanted), len(harmonics))
     shapes = [h.shapes(x[:, v <= last]) for h, (v, x) in zip(harmonics, found)]
     low = np.concatenate([np.tile(v[v <= last], h.copies) for h, (v, _) in zip(harmonics, found)])
     order = np.argsort(low, kind="stable")

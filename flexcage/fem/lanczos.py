@@ -68,7 +68,7 @@ def lowest_modes(
             break
         if size >= limit:
             raise RunFailed(f"the {count} lowest modes did not converge in {size} vectors")
-    log.info("%d modes found in a space of %d vectors", count, size)
+    log.debug("%d modes found in a space of %d vectors", count, size)
     return 1.0 / theta, space.combined(vectors)
 
 

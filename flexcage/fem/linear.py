@@ -174,7 +174,7 @@ def linear_solver(matrix: sp.csr_matrix, *, kind: str = "auto") -> LinearSolver:
     solver = _SOLVERS[kind](matrix)
     check_factor(solver.solve, matrix)
     seconds = time.perf_counter() - started
-    log.info("factored %d unknowns with %s in %.1f s", matrix.shape[0], solver.name, seconds)
+    log.debug("factored %d unknowns with %s in %.1f s", matrix.shape[0], solver.name, seconds)
     return solver
 
 

@@ -69,5 +69,5 @@ def land_vectors(
         if np.any(carried < CARRIED * np.einsum("ij,ij->j", loads, static)):
             added.append(static)
             orders.append(n)
-    log.info("land vectors for the harmonics %s", ", ".join(map(str, orders)) or "none")
+    log.debug("land vectors for the harmonics %s", ", ".join(map(str, orders)) or "none")
     return np.column_stack(added) if added else np.zeros((len(kept), 0))

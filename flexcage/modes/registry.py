@@ -100,7 +100,7 @@ def build_basis(
     if spec.geometric_stiffening and basis.geometric is None:
         basis = replace(basis, geometric=spin_stiffness(solver, basis.shapes))
     first = ", ".join(f"{f:.1f}" for f in basis.frequencies[:6])
-    log.info("basis %s: %d dynamic modes, first %s Hz", basis.name, basis.size, first)
+    log.debug("basis %s: %d dynamic modes, first %s Hz", basis.name, basis.size, first)
     return basis
 
 

@@ -170,7 +170,7 @@ def pocket_statics(
     On a cyclic model pocket 0 is solved and turned, otherwise all are solved.
     """
     symmetry = find_symmetry(solver.model, pocket_count)
-    log.info("static answers of %d pockets, cyclic symmetry: %s", pocket_count, bool(symmetry))
+    log.debug("static answers of %d pockets, cyclic symmetry: %s", pocket_count, bool(symmetry))
     pockets = range(pocket_count)
     loads = [sparse_pocket_loads(solver.model, k, pocket_count, count=count) for k in pockets]
     answers = np.empty((solver.model.n_dof, pocket_count, count))
@@ -197,7 +197,7 @@ def residual_flexibility(
     blocks = stiffness.reshape(pocket_count, per, pocket_count, per)
     own = np.stack([np.linalg.inv(blocks[k, :, k]) for k in range(pocket_count)])
     pushes, others = coupling(stiffness, share, pocket_count)
-    log.info("coupling cut: %.3f of a push's deflection, %.3f of another load's", pushes, others)
+    log.debug("coupling cut: %.3f of a push's deflection, %.3f of another load's", pushes, others)
     return ResidualFlexibility(
         shapes=vectors.reshape(-1, 3, vectors.shape[1]),
         stiffness=stiffness,

@@ -183,7 +183,7 @@ def _extras(account: RunAccount) -> list[Section]:
 
 
 def _energy(account: RunAccount) -> Section:
-    rows = [row for section in _sections(account, "Energy") for row in section.rows]
+    rows = [row for section in _sections(account, "Energy") for row in section.shown]
     blocks: list[Block] = [rows_table(rows)]
     if {"energy", "work"} <= set(account.scene.dataset.data_vars):
         blocks.append(Charts([imbalance_chart(account.scene.dataset)]))
@@ -196,7 +196,7 @@ def _sections(account: RunAccount, *titles: str) -> list:
 
 def _solver(account: RunAccount) -> Section:
     blocks: list[Block] = [
-        rows_table(section.rows, section.title)
+        rows_table(section.shown, section.title)
         for section in _sections(account, "Solver", "Wall time")
     ]
     if len(account.steps.get("time", ())):

@@ -43,7 +43,7 @@ def summary_table(sections: Iterable[Section], caption: str = "") -> Table:
     rows: list[list[Cell | str]] = [
         [row.label, figure_cell(row), _margin(row), typeset(row.shown), section.title, row.note]
         for section in sections
-        for row in section.rows
+        for row in section.shown
     ]
     return filled(Table(("figure", "value", "± 95 %", "unit", "part", "remark"), rows, caption))
 

@@ -54,7 +54,8 @@ def slip_section(ds: xarray.Dataset, bearing: BearingNumbers, slip_range: SlipRa
         rows.append(Row(f"sliding_{race}_loaded", f"Sliding, {race} race, loaded", fast[k], "m/s",
                         "along the rolling direction, in the middle"))  # fmt: skip
         there = angle[..., k][touching & zone]
-        low, high = np.degrees([there.min(), there.max()]) if there.size else (np.nan, np.nan)
+        extremes = np.degrees([there.min(), there.max()]) if there.size else (np.nan, np.nan)
+        low, high = (round(float(x), 2) + 0.0 for x in extremes)  # no "-0.00"
         rows.append(Row(f"contact_angle_{race}", f"Contact angle, {race} race",
                         float(there.mean()) if there.size else None, "deg",
                         f"loaded balls; {low:.2f} to {high:.2f} deg"))  # fmt: skip

@@ -18,6 +18,9 @@ RESAMPLES = 500
 FEWEST = 20  # entries, below which no margin is given
 CONFIDENCE = 0.95
 
+#: Why a table has no interval.
+NO_INTERVAL = f"No interval (-): it needs {FEWEST} passes in the settled part; run longer."
+
 Statistic = Callable[[np.ndarray], np.ndarray]
 
 

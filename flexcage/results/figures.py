@@ -71,11 +71,13 @@ def _statistics_rows(
 ) -> tuple[Row, ...]:
     begin, end = (float(ds["time"][k]) for k in (0, -1))
     count = len(windows.first)
-    few = "" if count >= FEWEST else f"; intervals want {FEWEST}"
+    few = "" if count >= FEWEST else f"; intervals need {FEWEST}"
     drifts = {name: records[key].drift for key, name in WATCHED.items()}
     known = any(isfinite(d) for d in drifts.values())
     drifting = ", ".join(name for name, d in drifts.items() if d > 1.0)
-    remedy = "beyond the intervals: not settled, raise output.settle" if drifting else ""
+    remedy = "" if known else f"too few passes to tell: {2 * FEWEST} are needed"
+    if drifting:
+        remedy = "beyond the intervals: not settled, raise output.settle"
     return (
         Row("settled_at", "Settled from", begin, "ms", f"{100.0 * settle:g} % of the run left out"),
         Row("settled_time", "Time in statistics", end - begin, "ms"),
@@ -286,7 +288,8 @@ def _energy_rows(ds: xarray.Dataset) -> tuple[Row, ...]:
     return (
         Row("energy_audit", "Energy audit", check.verdict, "", note),
         *(
-            Row(f"stored_{k}", f"Gained: {k}", v, "mJ", "whole run")
+            Row(f"stored_{k}", f"Gained: {_plain(k)}", v, "mJ", "whole run",
+                idle=not ds["energy"].sel(energy_kind=k).values.any())
             for k, v in check.stored.items()
         ),
         Row("energy_moved", "Energy moved", check.moved, "mJ", "whole run"),
@@ -301,8 +304,16 @@ def _energy_rows(ds: xarray.Dataset) -> tuple[Row, ...]:
             "%",
             "what pockets and modes dissipate",
         ),
-        *(Row(f"work_{k}", f"Work: {k}", v, "mJ") for k, v in check.channels.items()),
-    )
+        *(
+            Row(f"work_{k}", f"Work: {_plain(k)}", v, "mJ",
+                idle=not ds["work"].sel(channel=k).values.any())
+            for k, v in check.channels.items()
+        ),
+    )  # fmt: skip
+
+
+def _plain(name: str) -> str:
+    return name.replace("_", " ")
 
 
 @dataclass(frozen=True)

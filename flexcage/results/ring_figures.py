@@ -53,8 +53,9 @@ def _place_rows(ds: xarray.Dataset, windows: Windows) -> tuple[Row, ...]:
     return (
         Row("inner_displacement", "Displacement across the axis", float(across), "um",
             f"of the mean place, towards {azimuth:.1f} deg from y to z"),
-        Row.of("inner_axial", "Displacement along the axis", windows.mean(x), "um"),
-        Row.of("inner_tilt", "Tilt", windows.mean(total), "mrad", leaning),
+        Row.of("inner_axial", "Displacement along the axis", windows.mean(x), "um",
+               idle=not x.any()),
+        Row.of("inner_tilt", "Tilt", windows.mean(total), "mrad", leaning, idle=not total.any()),
     )  # fmt: skip
 
 
@@ -65,7 +66,9 @@ def _reaction_rows(ds: xarray.Dataset, windows: Windows) -> tuple[Row, ...]:
         if np.abs(force).max() <= LEAST:
             force = 0.0 * force
         note = "what holds the ring" if force.any() else ""
-        rows.append(Row.of(f"reaction_{key}", label, windows.mean(force), unit, note))
+        rows.append(
+            Row.of(f"reaction_{key}", label, windows.mean(force), unit, note, idle=not force.any())
+        )
     return tuple(rows)
 
 

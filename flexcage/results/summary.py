@@ -101,13 +101,13 @@ class Row:
     @classmethod
     def of(
         cls, key: str, label: str, record: Record, shown: str, note: str = "",
-        *, value: float | None = None,
+        *, value: float | None = None, idle: bool = False,
     ) -> Row:  # fmt: skip
         """Row of a statistic: its value (unless given), its margin and its windows."""
         figure = record.value if value is None else value
         known = isfinite(figure) and isfinite(record.margin)
         margin = record.margin if known else None
-        return cls(key, label, figure, shown, note, margin, record)
+        return cls(key, label, figure, shown, note, margin, record, idle)
 
     @property
     def unit(self) -> str:
@@ -201,7 +201,7 @@ class Summary:
         lines = self._warning_lines()
         keys = {row.key: row for row in self}
         rows = [keys[key] for key in BRIEF if key in keys and keys[key].text != "-"]
-        return "\n".join([*lines, *([""] if lines else []), *self._table(rows)])
+        return "\n".join([*lines, *([""] if lines else []), *self._table(rows, brief=True)])
 
     def _warning_lines(self) -> list[str]:
         if self.warnings is None:
@@ -210,8 +210,8 @@ class Summary:
             return ["Warnings: none"]
         return ["Warnings", *(f"  - {warning.text}" for warning in self.warnings)]
 
-    def _table(self, rows: Sequence[Row]) -> list[str]:
-        """Lines of some rows, in columns as wide as all rows need."""
+    def _table(self, rows: Sequence[Row], *, brief: bool = False) -> list[str]:
+        """Lines of some rows, in columns as wide as all rows need; ``brief`` notes are short."""
         every = [row for section in self.sections for row in section.shown]
         label = max(len(r.label) for r in every)
         value = max(len(r.text) for r in every)
@@ -220,7 +220,8 @@ class Summary:
         lines = []
         for r in rows:
             line = f"  {r.label:<{label}}  {r.text:>{value}} {r.margin_text:<{margin}} "
-            lines.append(f"{line}{r.shown:<{unit}}  {r.note}".rstrip())
+            note = r.note.partition(";")[0] if brief else r.note
+            lines.append(f"{line}{r.shown:<{unit}}  {note}".rstrip())
         return lines
 
     def to_dict(self) -> dict[str, Any]:

@@ -17,11 +17,14 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 from functools import cached_property
+from math import isfinite
 
 import numpy as np
 
 from flexcage.core.binding import did_you_mean
+from flexcage.core.digits import texts_with_margin
 from flexcage.core.errors import InputError
+from flexcage.results.bootstrap import NO_INTERVAL
 from flexcage.results.statistics import Record, Windows
 from flexcage.stress.counting import (
     Loops,
@@ -116,14 +119,20 @@ class Fatigue:
             raise InputError(f"rows is {rows}, but must be at least 1.", where="rows", value=rows)
         order = sorted(self.places, key=lambda p: (-p.damage_rate, -p.largest_range))[:rows]
         width = max(len(p.place) for p in order)
-        head = "damage/h       +-     life, h  cycles/s   from MPa     to MPa  once a turn, MPa"
+        head = " damage/h        ±     life, h  cycles/s   from MPa     to MPa  once a turn, MPa"
         lines = [f"{'place':<{width}}  {head}"]
-        lines += [
-            f"{p.place:<{width}}  {p.damage_rate * _HOUR:8.2e} {p.margin * _HOUR:8.1e}  "
-            f"{_hours(p.life_hours):>9}  {p.cycles:8.0f}  {p.largest[0] / 1e6:9.2f}  "
-            f"{p.largest[1] / 1e6:9.2f}  {p.amplitude / 1e6:16.2f}"
-            for p in order
-        ]
+        for p in order:
+            rate, half = texts_with_margin(p.damage_rate * _HOUR, p.margin * _HOUR)
+            turn = f"{p.amplitude / 1e6:.2f}" if isfinite(p.amplitude) else "-"
+            lines.append(
+                f"{p.place:<{width}}  {rate:>9} {half or '-':>9}  "
+                f"{_hours(p.life_hours):>9}  {p.cycles:8.0f}  {p.largest[0] / 1e6:9.2f}  "
+                f"{p.largest[1] / 1e6:9.2f}  {turn:>16}"
+            )
+        if not all(isfinite(p.margin) for p in order):
+            lines.append(NO_INTERVAL)
+        if not all(isfinite(p.amplitude) for p in order):
+            lines.append("No stress once a turn (-): the cage does not turn.")
         return "\n".join([*lines, self.grounds()])
 
     def grounds(self) -> str:

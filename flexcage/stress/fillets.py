@@ -165,7 +165,7 @@ def find_fillets(
             kinds.append(corner)
             matched.append((len(kinds) - 1, np.arange(len(corner.vertices))))
             if len(kinds) > _MOST_KINDS:
-                log.info("the mesh's pocket corners differ: stress in fillets is the mesh's own")
+                log.debug("the mesh's pocket corners differ: stress in fillets is the mesh's own")
                 return []
     arrays = keep(lambda: _operators(model, kinds, stations, pocket_count)) if kinds else {}
     fillets = []

@@ -14,18 +14,20 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from math import inf, pi, sqrt
+from math import inf, isfinite, isnan, pi, sqrt
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from flexcage.contacts.spec import LandSpec
 from flexcage.core.binding import wrong_type
+from flexcage.core.digits import number_text, texts_with_margin
 from flexcage.core.errors import InputError
 from flexcage.geometry.bearing import Bearing
 from flexcage.geometry.cage import Cage
 from flexcage.geometry.hertz import PointContact
 from flexcage.results import metrics
+from flexcage.results.bootstrap import NO_INTERVAL
 from flexcage.results.statistics import Windows
 from flexcage.stress.sliding import (
     ball_touch,
@@ -116,7 +118,8 @@ class Wear:
         after ``hours``, and what stands behind."""
         ds, after = self.dataset, self.depth(hours)
         after_text = f"um in {hours:g} h"
-        lines = [f"{'pocket':>6}  {'face':<6}  mm^3/h       +-    um/h, first  {after_text:>12}"]
+        lines = [f"{'pocket':>6}  {'face':<6}     mm^3/h         ±  um/h, first  {after_text:>12}"]
+        known = True
         for k, face in ((k, f) for k in ds["pocket"].values for f in ds["face"].values):
             at = {"pocket": k, "face": face}
             if float(ds["volume_rate"].sel(at)) > 0.0:
@@ -124,15 +127,21 @@ class Wear:
                     float(ds[name].sel(at)) * _HOUR
                     for name in ("volume_rate", "margin", "depth_rate")
                 )
+                rate, half = texts_with_margin(volume * 1e9, margin * 1e9)
+                known = known and isfinite(margin)
                 lines.append(
-                    f"{k:>6}  {face:<6}  {volume * 1e9:8.2e} {margin * 1e9:8.1e}  "
+                    f"{k:>6}  {face:<6}  {rate:>9} {half or '-':>9}  "
                     f"{depth * 1e6:11.4g}  {float(after.sel(at)) * 1e6:12.4g}"
                 )
+        lines += [] if known else [NO_INTERVAL]
         volume, depth = (float(ds[f"land_{what}_rate"]) * _HOUR for what in ("volume", "depth"))
-        lines.append(
-            f"{'land':>6}  {'':<6}  {volume * 1e9:8.2e} {'':8}  {depth * 1e6:11.4g}  "
-            f"{depth * hours * 1e6:12.4g}"
-        )
+        if isnan(volume):
+            lines.append("land: a film carries it, and Archard's law says nothing of its wear.")
+        elif volume > 0.0:
+            lines.append(
+                f"{'land':>6}  {'':<6}  {number_text(volume * 1e9):>9} {'':9}  "
+                f"{depth * 1e6:11.4g}  {depth * hours * 1e6:12.4g}"
+            )
         radius = ds["groove_radius"]  # none on flat ends
         if bool(((after > _SHALLOW * radius) & (radius > 0.0)).any()):
             lines.append(

@@ -51,7 +51,7 @@ def test_loose_parts_are_refused_with_a_sentence(model, kind):
 
 
 def test_choice_is_logged_and_checked(model, caplog):
-    with caplog.at_level(logging.INFO, logger="flexcage.fem.linear"):
+    with caplog.at_level(logging.DEBUG, logger="flexcage.fem.linear"):
         linear_solver(sp.eye(4, format="csr"), kind="superlu")
     assert "SuperLU" in caplog.text
     with pytest.raises(InputError, match="not one of auto"):
