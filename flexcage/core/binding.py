@@ -504,10 +504,13 @@ def join(where: str, key: object) -> str:
 
 
 def flat(table: Any, where: str = "") -> list[tuple[str, Any]]:
-    """Dotted path and value of every entry of nested tables."""
+    """Dotted path and value of every entry of nested tables; entries of lists of tables are
+    numbered, as "defects.0.displacement"."""
     rows: list[tuple[str, Any]] = []
     for key, value in table.items():
-        path = join(where, key)
+        path = join(where, str(key))
+        if isinstance(value, list) and value and all(hasattr(entry, "items") for entry in value):
+            value = dict(enumerate(value))
         rows += flat(value, path) if hasattr(value, "items") else [(path, value)]
     return rows
 
