@@ -3,6 +3,7 @@
     study.toml            the study, complete
     plan.json             hashes of its cases, in order
     cases/<hash>/         a finished case: its run, and row.json with its figures
+    cages/<digest>.zip    a cage that runs share (``results.cage_file``), one file each
     cases/<hash>.part/    a case that is running, or was when its process ended
     failed/<hash>.json    why a case has no figures
     running.lock          held by the process that runs it
