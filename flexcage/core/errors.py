@@ -7,6 +7,7 @@ from errno import EDQUOT, ENOSPC
 from traceback import extract_tb
 from typing import Any
 
+_WHOLE = 80  # characters of a value of another kind that are told
 _LONG, _LONGEST = 240, 1200  # characters of a value, and of a sentence, that are told whole
 _VALUE = re.compile(rf"'[^']{{{_LONG},}}'|\S{{{_LONG},}}")
 _CONTROL = re.compile(r"[\x00-\x1f\x7f-\x9f\u2028\u2029\ud800-\udfff]")
@@ -22,6 +23,12 @@ def in_one_line(text: str) -> str:
     text = _CONTROL.sub(lambda match: repr(match[0])[1:-1], text)
     text = _VALUE.sub(lambda match: shortened(match[0], _LONG // 3), text)
     return text if len(text) <= _LONGEST else shortened(text, _LONGEST)
+
+
+def shown(value: Any) -> str:
+    """A value as a sentence tells it: as Python writes it, or what it is if that is long."""
+    text = repr(value)
+    return f"a {type(value).__name__}" if len(text) > _WHOLE or "\n" in text else text
 
 
 class FlexcageError(Exception):

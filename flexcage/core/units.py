@@ -15,7 +15,7 @@ from functools import cache
 from importlib import resources
 from typing import Any
 
-from flexcage.core.errors import InputError
+from flexcage.core.errors import InputError, shown
 
 # unit: (kind, power of ten, factor) to SI; the power shifts the decimal text, so that 78.4 mm
 # becomes exactly the number 0.0784 and not its neighbour
@@ -64,6 +64,30 @@ _COMMON: dict[str, tuple[str, int, float]] = {
     "N*m/rad": ("torsional stiffness", 0, 1.0),
     "N*m*s/rad": ("torsional damping", 0, 1.0),
     "g*mm": ("unbalance", -6, 1.0),
+}
+# kind: least (of what must be greater than 0) and greatest magnitude in SI. Far beyond any bearing,
+# where a number is a slip of the pen, and short of where its squares or inverses leave the floats
+_LIMITS: dict[str, tuple[float, float]] = {
+    "length": (1e-16, 1e3),
+    "time": (1e-15, 1e6),
+    "force": (1e-9, 1e9),
+    "pressure": (1e-3, 1e14),
+    "angle": (1e-12, 20.0 * math.pi),
+    "angular speed": (1e-9, 1e6),
+    "angular acceleration": (1e-6, 1e9),
+    "frequency": (1e-6, 1e10),
+    "mass": (1e-12, 1e6),
+    "density": (1e-9, 1e5),
+    "speed": (1e-9, 1e4),
+    "acceleration": (1e-9, 1e6),
+    "moment": (1e-9, 1e9),
+    "stiffness": (1e-6, 1e15),
+    "damping": (1e-9, 1e12),
+    "viscosity": (1e-9, 1e4),
+    "pressure coefficient": (1e-15, 1e-5),
+    "torsional stiffness": (1e-6, 1e15),
+    "torsional damping": (1e-9, 1e12),
+    "unbalance": (1e-15, 1e3),
 }
 _DECIMAL_COMMA = re.compile(r"\s*[+-]?\d+,\d+\s*\D")
 _NUMBER = re.compile(
@@ -137,8 +161,9 @@ def parse(value: object, unit: str, *, where: str = "value") -> float:
         )
     parts = split(value) if isinstance(value, str) else None
     if parts is None:
+        given = repr(value) if isinstance(value, str) else shown(value)
         raise InputError(
-            f"{where} is {value!r}, but should be a number with a unit, such as '1 {unit}'.",
+            f"{where} is {given}, but should be a number with a unit, such as '1 {unit}'.",
             where=where,
             value=value,
         )
@@ -272,6 +297,12 @@ def _plain(number: Decimal) -> str:
         return str(float(number))
     short = number.normalize()
     return f"{short:f}" if short == 0 or -5 <= short.adjusted() <= 9 else str(short)
+
+
+def limits_of(unit: str) -> tuple[float, float]:
+    """Least magnitude, of what must be greater than 0, and greatest that a value of this unit may
+    have, in SI; 0 and infinity for units that cases do not use."""
+    return _LIMITS.get(_COMMON.get(unit, ("",))[0], (0.0, math.inf))
 
 
 def describe(value: float, unit: str) -> str:
