@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import tomllib
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import partial
@@ -16,9 +15,11 @@ from flexcage.case.toml import write_toml
 from flexcage.core.binding import Binder, check_spec, to_table, unit_at, wrong_type
 from flexcage.core.errors import InputError
 from flexcage.core.spec import option, quantity
+from flexcage.core.toml import read_toml
 from flexcage.core.units import format_si, parse
 from flexcage.geometry.presets import NAMED
 from flexcage.study.axes import Axis
+from flexcage.system.spec import MOST_PUSH
 
 FORMAT = 1  # of a study's file and folder
 KEEP = ("runs", "figures")
@@ -33,7 +34,9 @@ class Repeat:
     """
 
     count: int = option(1, doc="runs of every point", minimum=1)
-    push: float = quantity("mm/s", 1e-3, doc="speed of the cage centre at the start", above=0.0)
+    push: float = quantity(
+        "mm/s", 1e-3, doc="speed of the cage centre at the start", above=0.0, maximum=MOST_PUSH
+    )
     seed: int = option(1, doc="seed of the first repetition's push; each takes the next", minimum=0)
 
 
@@ -159,11 +162,10 @@ def _check_format(found: Any, path: Path) -> None:
 
 def _read(path: Path) -> dict[str, Any]:
     try:
-        return tomllib.loads(path.read_text("utf-8-sig"))
-    except tomllib.TOMLDecodeError as exc:
-        raise InputError(f"{path} is not valid TOML: {str(exc).rstrip('.')}.") from exc
+        text = path.read_text("utf-8-sig")
     except UnicodeDecodeError as exc:
         raise InputError(f"'{path}' is not a text file; a study is TOML text in UTF-8.") from exc
     except OSError as exc:
         reason = (exc.strerror or str(exc)).lower()
         raise InputError(f"The study file '{path}' cannot be read ({reason}).") from exc
+    return read_toml(text, str(path))
