@@ -12,13 +12,12 @@ import os
 import platform
 import subprocess
 import sys
-import tempfile
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cache
 
-from flexcage.core.cache import cache_root
-from flexcage.core.errors import EnvironmentLacks
+from flexcage.core.cache import cache_root, check_writable
+from flexcage.core.errors import EnvironmentLacks, is_full
 
 APT_RENDER = "sudo apt-get install -y libegl1 libgl1 libosmesa6 libxrender1"
 APT_GMSH = (
@@ -133,6 +132,7 @@ def probe() -> list[Finding]:
         _rendering,
         _solver,
         _cache_folder,
+        _kernel_cache,
         _cores,
         _memory,
     )
@@ -180,14 +180,30 @@ def _solver() -> Finding:
 def _cache_folder() -> Finding:
     folder = cache_root()
     try:
-        folder.mkdir(parents=True, exist_ok=True)
-        with tempfile.TemporaryFile(dir=folder) as file:
-            file.write(b"0")
+        check_writable(folder)
     except OSError as exc:
-        reason = f"{folder} cannot be written: {exc.strerror or exc}"
-        remedy = "set FLEXCAGE_CACHE_DIR to a folder that can be written"
+        reason = f"{folder} cannot be written: {(exc.strerror or str(exc)).lower()}"
+        remedy = f"set FLEXCAGE_CACHE_DIR to a folder that can be written{_room_for(exc)}"
         return Finding("cache folder", False, reason, remedy, needed=False)
     return Finding("cache folder", True, str(folder), needed=False)
+
+
+def _room_for(error: OSError) -> str:
+    return ", or make room there" if is_full(error) else ""
+
+
+def _kernel_cache() -> Finding:
+    """Compiled kernels that cannot be read; importing numba takes its second here."""
+    from flexcage.core.kernel_cache import damaged
+
+    folder = cache_root() / "kernels"
+    bad = damaged(folder)
+    if not bad:
+        return Finding("kernel cache", True, str(folder), needed=False)
+    more = f" and {len(bad) - 1} more" if len(bad) > 1 else ""
+    detail = f"{bad[0]}{more} cannot be read; a run compiles such a kernel anew"
+    remedy = "flexcage cache --clear, which removes all that the cache holds"
+    return Finding("kernel cache", False, detail, remedy, needed=False)
 
 
 def _cores() -> Finding:

@@ -9,6 +9,7 @@ from __future__ import annotations
 import logging
 import shutil
 import time
+from contextlib import nullcontext
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -152,9 +153,8 @@ def compile_kernels(case: Case) -> None:
 
     if jit.kernels_cached(case.bearing.element):
         return
-    mark = jit.compiled_mark(case.bearing.element)
-    mark.parent.mkdir(parents=True, exist_ok=True)
-    with filelock.FileLock(mark.with_suffix(".lock")):
+    lock = jit.compiling_lock(case.bearing.element)
+    with nullcontext() if lock is None else filelock.FileLock(lock):
         if not jit.kernels_cached(case.bearing.element):
             rigid = case.replace("cage.model", "rigid").replace("defects", ())
             coarse = rigid.replace("mesh", MeshOptions(fineness="coarse"))
