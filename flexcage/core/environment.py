@@ -10,6 +10,7 @@ import importlib.metadata
 import importlib.util
 import os
 import platform
+import shutil
 import subprocess
 import sys
 from collections.abc import Callable
@@ -28,6 +29,7 @@ _WINDOW_VARIABLE = "VTK_DEFAULT_OPENGL_WINDOW"
 _WINDOWS = ("default", "vtkEGLRenderWindow", "vtkOSOpenGLRenderWindow")
 _PROBE_SECONDS = 60
 _MINIMUM_MEMORY = 4e9
+_CACHE_ROOM = 400e6  # bytes: kernels of both kinds of bearings (measured: 165 MB), some cages
 
 # Draws one triangle and looks at the picture: a window that opens and draws nothing is no use.
 _RENDER_PROBE = """
@@ -185,6 +187,11 @@ def _cache_folder() -> Finding:
         reason = f"{folder} cannot be written: {(exc.strerror or str(exc)).lower()}"
         remedy = f"set FLEXCAGE_CACHE_DIR to a folder that can be written{_room_for(exc)}"
         return Finding("cache folder", False, reason, remedy, needed=False)
+    free = shutil.disk_usage(folder).free
+    if free < _CACHE_ROOM:
+        detail = f"{folder} has {free / 1e6:.0f} MB left; kernels and modes want more"
+        remedy = f"make room there for {_CACHE_ROOM / 1e6:.0f} MB, or set FLEXCAGE_CACHE_DIR"
+        return Finding("cache folder", False, detail, remedy, needed=False)
     return Finding("cache folder", True, str(folder), needed=False)
 
 

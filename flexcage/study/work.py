@@ -93,6 +93,7 @@ def _complete(order: Order, folder: Folder) -> None:
     if row is not None and set(order.beyond) <= set(row.figures):
         return
     begin = time.perf_counter()
+    _load(order)
     if row is not None and folder.has_run(order.hash):  # only outputs were added
         run = load_run(folder.case(order.hash))
         figures = {**row.figures, **figures_of(run, order.beyond)}
@@ -108,6 +109,12 @@ def _complete(order: Order, folder: Folder) -> None:
     folder.finish(order.hash)
 
 
+def _load(order: Order) -> None:
+    """Load the extensions that the study was run with."""
+    for source in order.use:
+        load_extension(source)
+
+
 def _case_of(order: Order) -> Case:
     """The case, which must be the same here as where it was planned."""
     if order.version != __version__:
@@ -115,8 +122,7 @@ def _case_of(order: Order) -> Case:
             f"The study was planned by flexcage {order.version}, and the worker has "
             f"{__version__}; install the same on both."
         )
-    for source in order.use:
-        load_extension(source)
+    _load(order)
     case = load_case(order.text)
     if case.hash != order.hash:
         raise InputError(

@@ -1,6 +1,7 @@
 """Compiled kernels on disk: damaged, full and read-only caches cost time and never a result."""
 
 import os
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -161,3 +162,11 @@ def test_the_doctor_names_a_folder_that_cannot_be_written(tmp_path, monkeypatch,
     assert not finding.ok and str(tmp_path / "cache") in finding.detail
     assert os.strerror(number).lower() in finding.detail.lower()
     assert "FLEXCAGE_CACHE_DIR" in finding.remedy
+
+
+def test_the_doctor_names_a_folder_with_little_room(tmp_path, monkeypatch):
+    monkeypatch.setenv("FLEXCAGE_CACHE_DIR", str(tmp_path))
+    usage = shutil.disk_usage(tmp_path)._replace(free=3_000_000)
+    monkeypatch.setattr(shutil, "disk_usage", lambda path: usage)
+    finding = environment._cache_folder()
+    assert not finding.ok and f"{tmp_path} has 3 MB left" in finding.detail and finding.remedy
