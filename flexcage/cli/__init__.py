@@ -79,8 +79,11 @@ def _sentence(exc: Exception) -> tuple[str, int]:
 def _stopped_sentence(args: argparse.Namespace) -> str:
     out = getattr(args, "out", None)
     if out is not None and (Path(out) / "study.toml").exists():
+        from flexcage.case.extensions import sources
+
+        use = "".join(f" --use {source}" for source in sources())
         return (
-            f"Stopped; what is finished is kept in '{out}', and 'flexcage study resume {out}' "
+            f"Stopped; what is finished is kept in '{out}', and 'flexcage study resume {out}{use}' "
             "goes on from there."
         )
     if out is None or not (Path(out) / "results.zarr").exists():

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
@@ -10,7 +10,7 @@ from typing import Any
 
 from flexcage._version import __version__
 from flexcage.case import Case, load_case, load_extension
-from flexcage.case.extensions import sources
+from flexcage.case.extensions import not_loaded, sources
 from flexcage.case.toml import write_toml
 from flexcage.core.binding import Binder, check_spec, to_table, unit_at, wrong_type
 from flexcage.core.errors import InputError
@@ -80,6 +80,52 @@ def load_study(path: str | Path, *, overrides: Mapping[str, Any] | None = None) 
     _check_format(table.pop("format", FORMAT), path)
     for source in _listed(table.pop("use", []), "use"):
         load_extension(path.parent / source if source.endswith((".py", ".toml")) else source)
+    return _bound(table, path, overrides)
+
+
+def stored_study(path: Path) -> Study:
+    """The study of a folder, which runs no code: InputError if files of the user's own are wanted
+    that this process has not loaded."""
+    table = stored_table(path)
+    lacking = not_loaded(table.pop("use"))
+    if lacking:
+        raise InputError(
+            f"The study in '{path.parent}' was planned with {_named(lacking)}, which a study's "
+            f"folder never loads by itself; name what you trust: {uses(lacking)} (in Python, "
+            "flexcage.load_extension).",
+            where="use",
+            value=lacking[0],
+        )
+    return _bound(table, path, None)
+
+
+def stored_table(path: Path) -> dict[str, Any]:
+    """The tables of a folder's study.toml, with its list ``use`` of extensions."""
+    table = _read(path)
+    _check_format(table.pop("format", FORMAT), path)
+    return {**table, "use": list(map(str, _listed(table.get("use", []), "use")))}
+
+
+def stored_axes(table: Mapping[str, Any]) -> tuple[Axis, ...]:
+    """The axes of a folder's study, whose values are text: no case is needed to read them."""
+    return Binder(named=NAMED).bind(_Axes, {"axes": table.get("axes", [])}, "").axes
+
+
+def stored_repeat(table: Mapping[str, Any]) -> Repeat:
+    """The repetitions of a folder's study."""
+    return Binder(named=NAMED).bind(Repeat, table.get("repeat", {}), "repeat")
+
+
+def uses(files: Iterable[str]) -> str:
+    """Options of the command line that load extensions."""
+    return " ".join(f"--use {file}" for file in files)
+
+
+def _named(files: list[str]) -> str:
+    return ", ".join(f"'{Path(file).name}'" for file in files)
+
+
+def _bound(table: dict[str, Any], path: Path, overrides: Mapping[str, Any] | None) -> Study:
     case = table.get("case")
     if case is None and "bearing" in table:
         raise InputError(
