@@ -132,6 +132,7 @@ class Run:
             roller_diameter=b.element_diameter,
             roller_count=b.element_count,
             contact_angle=b.nominal_contact_angle,
+            rolling_heights=b.rolling_heights,
         )
 
     @cached_property

@@ -148,12 +148,14 @@ def histories(
     """Cage speed, pocket forces, root stress (if given) and speeds of elements over time; for ball
     bearings sliding speeds and contact angles as well.
 
-    ``bearing`` adds the speeds without slip. ``root_stress`` (time, place) or (time,) is in Pa.
-    ``loads`` (time, 3) are F_x, F_y, F_z [N] on the inner ring; where they or its speed change with
-    time, a panel shows them.
+    ``bearing`` adds the speeds without slip, of balls at their mean contact angles once settled.
+    ``root_stress`` (time, place) or (time,) is in Pa. ``loads`` (time, 3) are F_x, F_y, F_z [N] on
+    the inner ring; where they or its speed change with time, a panel shows them.
     ``element`` is shown by itself over the band of all. The share ``settle`` that statistics
     leave out is shaded.
     """
+    if bearing is not None:
+        bearing = metrics.at_own_angles(metrics.settled(ds, settle), bearing)
     panels: list[Callable[..., None]] = [_speed_panel, _pocket_panel]
     if metrics.varies(ds["inner_speed"].values) or (loads is not None and _vary(loads)):
         panels.insert(0, _drive_panel)
