@@ -41,13 +41,13 @@ class StressPictures:
     """What the stress pictures of a flexible cage show."""
 
     nodes: np.ndarray  # (N, 3) FE nodes [m]
-    cells: np.ndarray  # (n, 4 or 10) their tetrahedra
+    cells: np.ndarray  # (n, 4 or 10) their tetrahedra; with 10 nodes, edges' middles are drawn
     basis: ModeBasis
     time: float  # of the peak [s]
     displacement: np.ndarray  # (N, 3) [m] at that time
-    von_mises: np.ndarray  # (n_points,) [Pa] at that time, mesh vertices
-    envelope: np.ndarray  # (n_points,) [Pa] largest over the run
-    peak_vertex: int
+    von_mises: np.ndarray  # (N,) [Pa] at that time
+    envelope: np.ndarray  # (N,) [Pa] largest over the run
+    peak_vertex: int  # a node
     peak_place: str  # its name
     settled: int  # first sample of the envelope
     roots: np.ndarray  # (nt, places) [Pa]
@@ -218,21 +218,19 @@ def _stress(scene: Scene, s: StressPictures, folder: Path, look: Look) -> list[D
 
     ds, count = scene.dataset, scene.mesh.pocket_count
     t = ds["time"].values
-    points, tets = scene.mesh.points, scene.mesh.tets
-    at_vertices = s.displacement[: len(points)]
     return [
         partial(
-            stress_picture, points, tets, at_vertices, s.von_mises, folder / "stress_peak.png",
+            stress_picture, s.nodes, s.cells, s.displacement, s.von_mises, folder / "stress_peak.png",
             time=s.time, peak_label=s.peak_place, peak_node=s.peak_vertex, scale=look.scale,
             limit=look.stress_limit, pocket_count=count, azimuth=look.azimuth, note=scene.name,
         ),
         partial(
-            envelope_picture, points, tets, s.envelope, folder / "stress_envelope.png",
+            envelope_picture, s.nodes, s.cells, s.envelope, folder / "stress_envelope.png",
             span=(t[s.settled], t[-1]), peak_label=s.peak_place, peak_node=s.peak_vertex,
             limit=look.stress_limit, pocket_count=count, azimuth=look.azimuth, note=scene.name,
         ),
         partial(
-            deformation_picture, points, tets, at_vertices, folder / "deformation.png", time=s.time,
+            deformation_picture, s.nodes, s.cells, s.displacement, folder / "deformation.png", time=s.time,
             scale=look.scale, pocket_count=count, azimuth=look.azimuth, note=scene.name,
         ),
     ]  # fmt: skip
@@ -249,13 +247,12 @@ def _animations(scene: Scene, folder: Path, look: Look) -> list[Drawing]:
     ]  # fmt: skip
     if scene.stress is not None and scene.stress.frames:
         times, shifts, stresses = zip(*scene.stress.frames, strict=True)
-        n = len(scene.mesh.points)
         drawings.append(
             partial(
                 animate_stress,
-                scene.mesh.points,
-                scene.mesh.tets,
-                [u[:n] for u in shifts],
+                scene.stress.nodes,
+                scene.stress.cells,
+                shifts,
                 stresses,
                 times,
                 folder / "stress.gif",

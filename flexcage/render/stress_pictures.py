@@ -21,6 +21,7 @@ from flexcage.render.scene import (
     ring_size,
     ring_view,
     surface_of,
+    surface_vertices,
 )
 
 MAIN = (1180, 880)  # pixels of the whole cage
@@ -160,7 +161,8 @@ def _field_sheet(
     surface = surface_of(field.tets)
     on_surface = field.values[surface.used]
     peak = int(surface.used[np.argmax(on_surface)]) if place.node is None else int(place.node)
-    top, over = sheet.robust_limit(on_surface) if limit is None else (limit, False)
+    at_vertices = field.values[surface_vertices(field.tets)]
+    top, over = sheet.robust_limit(at_vertices) if limit is None else (limit, False)
     over = over or bool(on_surface.max() > top * (1.0 + 1e-9))
     cmap = sheet.colour_map(field.cmap)
     layers = field_layers(field, surface, scale, cmap, top)
