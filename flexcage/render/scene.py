@@ -68,8 +68,9 @@ def surface_of(
 ) -> Surface:
     """Boundary of tetrahedra with 4 nodes, or 10 (vertices, then edges 01 12 02 03 13 23).
 
-    A quadratic face becomes four linear triangles through its mid nodes. With nodal ``values`` it is
-    divided only at those edges in whose middle the mean of the ends is off by more than ``within``.
+    A quadratic face becomes four linear triangles through its mid nodes. With nodal ``values`` it
+    is divided only at the edges in whose middle the mean of the ends is off by more than
+    ``within``.
     """
     tets = np.asarray(tets)
     corners = np.concatenate([tets[:, f] for f in _FACES])

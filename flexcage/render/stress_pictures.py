@@ -88,7 +88,7 @@ def stress_picture(
     """
     field = Field(points, tets, displacement, von_mises * 1e-6, "equivalent stress", "MPa")
     scale = nice_scale(points, displacement) if scale is None else scale
-    parts = [_time(time), f"deformation × {scale:g}", note]
+    parts = [note, _time(time), f"deformation × {scale:g}"]
     place = Place(peak_label, peak_node, pocket_count, azimuth)
     return _field_sheet(field, path, scale, title, parts, place, _mega(limit))
 
@@ -113,7 +113,7 @@ def envelope_picture(
         points, tets, np.zeros_like(points), envelope * 1e-6, "largest equivalent stress", "MPa"
     )
     when = f"t = {span[0] * 1e3:.2f} … {span[1] * 1e3:.2f} ms" if span else ""
-    parts = [when, "shape undeformed", note]
+    parts = [note, when, "shape undeformed"]
     place = Place(peak_label, peak_node, pocket_count, azimuth)
     return _field_sheet(field, path, 0.0, title, parts, place, _mega(limit))
 
@@ -137,7 +137,7 @@ def deformation_picture(
     size = np.linalg.norm(displacement, axis=1) * 1e6
     field = Field(points, tets, displacement, size, "displacement magnitude", "µm", "cividis")
     scale = nice_scale(points, displacement) if scale is None else scale
-    parts = [_time(time), f"deformation × {scale:g}", note]
+    parts = [note, _time(time), f"deformation × {scale:g}"]
     top = None if limit is None else limit * 1e6
     place = Place(peak_label, None, pocket_count, azimuth)
     return _field_sheet(field, path, scale, title, parts, place, top)

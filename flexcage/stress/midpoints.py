@@ -1,8 +1,8 @@
 """Equivalent stress in the middles of edges, with which a surface is drawn as it is.
 
-Between two vertices the stress is linear in a quadratic element, the equivalent stress is not: where
-a face bends, both rims bear as much and the middle nothing. On a face one element wide no vertex
-lies there, so the middles of its edges tell.
+Between two vertices of a quadratic element the stress is linear, but the equivalent stress is not:
+where a face bends, its rims bear most and its middle next to nothing. A face one element wide has
+no vertex there, only the middles of its edges.
 """
 
 from __future__ import annotations
@@ -37,7 +37,7 @@ def largest_at_nodes(
 
 
 def edges_across(model: FEModel) -> np.ndarray:
-    """Edges (n, 2) that cross a face of the body from rim to rim, so that no vertex lies between."""
+    """Edges (n, 2) that cross a face of the body from rim to rim: no vertex lies between."""
     if model.order == 1:
         return np.empty((0, 2), int)
     triangles = model.surface
