@@ -84,11 +84,11 @@ def _facts(ds: xarray.Dataset, density: xarray.DataArray, note: str) -> str:
     steady = np.ptp(speed) < 0.01 * speed.mean()
     span = "" if steady else f", which runs from {speed.min():,.0f} to {speed.max():,.0f}"
     return sheet.join([
+        note,
         f"t = {t[0]:.1f} … {t[-1]:.1f} ms",
         f"{segments} segment{'s' if segments > 1 else ''}, Hann window, mean taken off",
         f"bins {density.attrs['resolution']:.3g} Hz apart",
         f"lines without slip at {speed.mean():,.0f} rpm{span}",
-        note,
     ])  # fmt: skip
 
 

@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 
+from flexcage.core.digits import texts_with_margin
 from flexcage.render.sheet import CYCLE
 from flexcage.report.blocks import Chart
 from flexcage.report.plots import new_figure, plain
@@ -128,7 +129,6 @@ def _bars(half: np.ndarray, colour: str) -> dict[str, Any] | None:
 
 
 def _hover(name: str, output: Output, point: int) -> str:
-    half = output.half[point]
-    margin = f" ± {half:.2g}" if np.isfinite(half) else ""
-    value = f"{output.mean[point]:.5g}{margin} {plain(output.unit)}"
-    return f"{plain(name)}<br>{plain(output.title)}: {value}"
+    texts = texts_with_margin(output.mean[point], output.half[point])
+    value = " ± ".join(filter(None, texts))
+    return f"{plain(name)}<br>{plain(output.title)}: {value} {plain(output.unit)}"

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import json
 from collections.abc import Mapping
-from math import floor, isfinite, log10
+from math import isfinite
 from pathlib import Path
 from typing import Any
 
+from flexcage.core.digits import texts_with_margin
 from flexcage.core.errors import InputError
 from flexcage.report.blocks import Cell, Table
 
@@ -85,11 +86,10 @@ def _figure(figure: Mapping[str, Any]) -> str:
 
 
 def _text(value: Any, margin: Any = None) -> str:
-    """A value to the second digit of its margin, or to its fourth."""
+    """A value with the digits that its margin leaves, or four."""
     if margin is None or not all(isinstance(x, (int, float)) for x in (value, margin)):
         text = f"{value:.4g}" if isinstance(value, (int, float)) else str(value)
         return text if margin is None else f"{text} ± {margin}"
-    if not (isfinite(margin) and margin > 0.0):
-        return f"{value:.4g} ± {margin:.2g}"
-    places = max(1 - floor(log10(margin)), 0)
-    return f"{value:,.{places}f} ± {margin:,.{places}f}"
+    if not isfinite(margin):
+        return f"{value:.4g}"
+    return " ± ".join(texts_with_margin(value, margin))

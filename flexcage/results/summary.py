@@ -11,6 +11,7 @@ from typing import Any
 
 import numpy as np
 
+from flexcage.core.digits import texts_with_margin
 from flexcage.core.errors import InputError
 from flexcage.results.files import replace as replace_file
 from flexcage.results.statistics import Record
@@ -46,7 +47,26 @@ SHOWN: dict[str, tuple[str, float]] = {
 }
 
 
-_ROUNDING = 1e-12  # of the unit shown: what rounding leaves of nothing; rates of wear are as small
+#: What counts as nothing, by the SI unit: what rounding and the solver's tolerance leave of a zero.
+#: Rates by the hour have none: those of wear are small and real.
+RESOLUTION = {
+    "m": 1e-10, "rad": 1e-9, "rad/s": 1e-9, "m/s": 1e-9, "N": 1e-6, "N m": 1e-9, "Pa": 1.0,
+    "J": 1e-12, "W": 1e-9, "Hz": 1e-6, "1": 1e-12,
+}  # fmt: skip
+
+
+def format_value(value: float, shown: str = "", margin: float | None = None) -> tuple[str, str]:
+    """Texts of a value and of its margin, both in SI, in the unit ``shown``: "100", "± 150".
+
+    The second is empty where no margin is known. A value below what its unit resolves is "0".
+    """
+    si, factor = SHOWN[shown]
+    nothing = 0.0 if shown.endswith("/h") else RESOLUTION.get(si, 0.0)
+    value = 0.0 if abs(value) < nothing else value * factor
+    if margin is not None:
+        margin = 0.0 if margin < nothing else margin * factor
+    number, half = texts_with_margin(value, margin)
+    return number, f"± {half}" if half else ""
 
 
 @dataclass(frozen=True)
@@ -82,7 +102,7 @@ class Row:
 
     @property
     def text(self) -> str:
-        """The value as printed, without its unit."""
+        """The value as printed, without its unit, with the digits that its margin leaves."""
         v = self.value
         if v is None or (isinstance(v, float) and not isfinite(v)):
             return "-"
@@ -92,16 +112,19 @@ class Row:
             return v
         if isinstance(v, int) and not self.shown:
             return f"{v:,}"
-        shown = float(v) * SHOWN[self.shown][1]
-        nothing = abs(shown) < _ROUNDING and not self.shown.endswith("/h")
-        return "0" if nothing else _figures(shown)
+        return format_value(float(v), self.shown, self.margin)[0]
 
     @property
     def margin_text(self) -> str:
         """The margin as printed; nothing where there is none."""
-        if self.margin is None:
+        if self.margin is None or not isinstance(self.value, (int, float)):
             return ""
-        return f"± {self.margin * SHOWN[self.shown][1]:.2g}"
+        return format_value(float(self.value), self.shown, self.margin)[1]
+
+    @property
+    def full_text(self) -> str:
+        """Value, margin and unit, as a sentence or a key figure shows them: "100 ± 150 um"."""
+        return " ".join(filter(None, (self.text, self.margin_text, self.shown)))
 
 
 @dataclass(frozen=True)
@@ -253,19 +276,6 @@ def side_by_side(summaries: dict[str, Summary]) -> str:
             )
             lines.append(f"  {first[key].label:<{label}}{cells}  {first[key].shown}".rstrip())
     return "\n".join(lines)
-
-
-def _figures(v: float) -> str:
-    """About five significant digits, no exponent in the range of ordinary figures."""
-    a = abs(v)
-    if a == 0.0:
-        return "0"
-    if a >= 1e6 or a < 1e-4:
-        return f"{v:.3e}"
-    if a >= 1e3:
-        return f"{v:,.1f}"
-    digits = 5 - len(str(int(a))) if a >= 1 else 4
-    return f"{v:.{max(digits, 1)}f}"
 
 
 def _json_value(v: Value) -> Value:

@@ -11,7 +11,7 @@ import numpy as np
 from flexcage.report.blocks import Cell, Table
 from flexcage.report.comparison import Abscissa, Output
 from flexcage.report.tables import figure_cell, filled, number, typeset
-from flexcage.results.summary import SHOWN, Row
+from flexcage.results.summary import SHOWN, Row, format_value
 from flexcage.study.axes import LatinHypercube, Points, Sobol, Zip
 from flexcage.study.outputs import Figure, is_reduction
 
@@ -94,8 +94,7 @@ def _mean_cell(results: StudyResults, name: str, mean: Any, half: float) -> Cell
     if not isinstance(mean, (int, float)) or not isfinite(mean):
         return Cell("–")
     shown = results.known[name].shown if name in results.known else ""
-    row = Row(name, name, float(mean), shown, margin=half if isfinite(half) else None)
-    return number(float(mean), f"{row.text} {row.margin_text}".rstrip())
+    return number(float(mean), " ".join(format_value(float(mean), shown, half)).rstrip())
 
 
 def cases_table(results: StudyResults) -> Table:
@@ -125,7 +124,7 @@ def _share(results: StudyResults) -> str:
 def _cell(figure: Figure | None, key: str = "") -> Cell:
     if figure is None:
         return Cell("–")
-    return figure_cell(Row(key, "", figure.value, figure.shown))
+    return figure_cell(Row(key, "", figure.value, figure.shown, margin=figure.margin))
 
 
 def stored_figure(results: StudyResults, row: ResultRow, key: str) -> Any:

@@ -7,7 +7,7 @@ from collections import Counter
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from math import isfinite, nan, sqrt
+from math import nan, sqrt
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -16,7 +16,7 @@ import numpy as np
 from flexcage.core.errors import InputError
 from flexcage.core.units import format_si, parse
 from flexcage.results.export import frame_to_csv, frame_to_parquet
-from flexcage.results.summary import Row
+from flexcage.results.summary import format_value
 from flexcage.run import Run
 from flexcage.simulate import load_run
 from flexcage.study.folder import CaseRow, Folder
@@ -220,8 +220,7 @@ class StudyResults:
     def _text(self, name: str, mean: float, half: float) -> str:
         figure = self.known.get(name)
         shown = figure.shown if figure else ""
-        text = Row(name, name, mean, shown).text
-        return f"{text} +- {Row(name, name, half, shown).text}" if isfinite(half) else text
+        return " ".join(format_value(mean, shown, half)).rstrip()
 
 
 def mean_and_half_width(values: Any) -> tuple[float, float]:

@@ -163,7 +163,7 @@ def test_points_of_a_group_are_joined_in_order_and_carry_intervals():
     assert list(first.x) == [1.0, 2.0, 3.0] and list(first.y) == [10.0, 20.0, 30.0]
     assert list(first.error_y.array) == [1.0, 2.0, 3.0] and first.mode == "lines+markers"
     assert list(second.x) == [1.0, 3.0], "what failed is left out"
-    assert "case 1" in first.text[0] and "10 ± 1 N" in first.text[0]
+    assert "case 1" in first.text[0] and "10.0 ± 1.0 N" in first.text[0]
     assert "±" not in second.text[0]
 
 

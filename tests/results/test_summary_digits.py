@@ -1,0 +1,29 @@
+"""Digits of the figures that summaries, pages and studies print."""
+
+import pytest
+
+from flexcage.results.summary import Row, Section, Summary, format_value, side_by_side
+
+
+@pytest.mark.parametrize(
+    "value, shown, margin, texts",
+    [
+        (95.703e-6, "um", 150e-6, ("100", "± 150")),
+        (86.09, "N", 221.0, ("90", "± 220")),
+        (7.495e-18, "um", None, ("0", "")),  # below what lengths resolve
+        (7.495e-18, "um", 1e-18, ("0", "± 0")),
+        (2.1e-15 / 3.6e9, "um/h", None, ("2.100e-15", "")),  # a rate of wear is as small
+        (0.0215, "%", 0.0004, ("2.150", "± 0.040")),
+    ],
+)
+def test_a_value_in_its_unit(value, shown, margin, texts):
+    assert format_value(value, shown, margin) == texts
+
+
+def test_a_row_and_tables_agree():
+    row = Row("pocket_force_mean", "Pocket force", 86.09, "N", margin=221.0)
+    assert (row.text, row.margin_text, row.full_text) == ("90", "± 220", "90 ± 220 N")
+    summary = Summary((Section("Forces", (row,)),))
+    assert "90 ± 220 N" in summary.text()
+    assert "90 ± 220" in side_by_side({"a": summary})
+    assert Row("a", "a", "nothing").full_text == "nothing"
