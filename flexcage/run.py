@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 import logging
 import os
 from collections.abc import Callable, Sequence
@@ -14,12 +15,14 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from flexcage.case import Case, words
+from flexcage.case.checks import not_reached
 from flexcage.core.binding import Binder, check_spec, expect
 from flexcage.core.cache import cached_arrays
 from flexcage.core.errors import EnvironmentLacks, InputError
 from flexcage.core.progress import Silent
 from flexcage.core.threads import one_blas_thread
 from flexcage.core.timing import Stages
+from flexcage.core.warning import RunWarning
 from flexcage.geometry.ribbon_cage import RibbonCage
 from flexcage.mesh.cage_mesh import CageMesh
 from flexcage.mesh.quality import report_mesh
@@ -34,6 +37,14 @@ from flexcage.results.metrics import BearingNumbers, SlipRange, cage_angle, sett
 from flexcage.results.statistics import roller_passes
 from flexcage.results.store import MemoryRunStore
 from flexcage.results.summary import Row, Summary
+from flexcage.results.warnings import (
+    AT_END,
+    AT_START,
+    Outcome,
+    Setup,
+    from_attrs,
+    warnings_of,
+)
 from flexcage.solve.contract import COUNTS
 from flexcage.stress.between import Between
 from flexcage.stress.counting import require_pylife
@@ -146,8 +157,14 @@ class Run:
     def summary(self) -> Summary:
         """Figures of the run: speeds, slip, motion, forces, stress, energy, solver, times."""
         if self.folder and (self.folder / "summary.json").exists():
-            return Summary.read(self.folder / "summary.json")
+            stored = Summary.read(self.folder / "summary.json")
+            return stored if stored.warnings is not None else self._warned(stored)
         return self._summarise()
+
+    @property
+    def warnings(self) -> tuple[RunWarning, ...]:
+        """What the reader of the run's figures must know, from its start and from its results."""
+        return self.summary.warnings or ()
 
     @cached_property
     def recovery(self) -> StressRecovery:
@@ -406,21 +423,16 @@ class Run:
         return [path for path in drawn if path.suffix == ".png"], ""
 
     def _account(self, images: list[Path], no_images: str) -> RunAccount:
-        from flexcage.report.cautions import cautions
         from flexcage.report.run_page import RunAccount
 
-        case, material = self.case, self.case.cage.material
+        case = self.case
         command = words.run_command("case.toml")
         return RunAccount(
             scene=self.scene(),
             summary=self.summary,
             numbers=self.numbers,
             statement=words.in_words(case),
-            warnings=cautions(
-                self.summary, reached=float(self.dataset["time"][-1]),
-                duration=case.solver.duration, proof_stress=material.proof_stress,
-                material=material.name, element=case.bearing.element,
-            ),
+            warnings=[warning.text for warning in self.warnings],
             steps=self.steps,
             settings=words.settings(case),
             assumptions=words.assumed(case),
@@ -501,9 +513,6 @@ class Run:
         """Complete a run that has come to its end: summary, stored beside the results."""
         self.solver = recorder
         self.summary = self._summarise()
-        for edge in self._groove_edges:
-            if edge.warning:
-                log.warning(edge.warning)
         if self.folder:
             self.summary.write(self.folder)
             if self.cage is not None:
@@ -536,7 +545,23 @@ class Run:
                 summary = summary.with_section("Rivets", self.rivets.rows())
         if hasattr(self, "solver"):
             summary = summary.with_section("Solver", self._solver_rows())
-        return summary.with_section("Wall time", self._time_rows())
+        return self._warned(summary.with_section("Wall time", self._time_rows()))
+
+    def _warned(self, summary: Summary) -> Summary:
+        """The summary with its warnings."""
+        case = self.case
+        outcome = Outcome(
+            summary=summary,
+            dataset=self.dataset,
+            bearing=case.bearing,
+            cage=case.cage,
+            land=case.contacts.land,
+            duration=case.solver.duration,
+            settle=case.output.settle,
+            edges=tuple(self._groove_edges),
+        )
+        known = from_attrs(self.dataset.attrs)
+        return dataclasses.replace(summary, warnings=(*known, *warnings_of(AT_END, outcome)))
 
     def _time_rows(self) -> list[Row]:
         rows = [Row(f"wall_{k}", k.capitalize(), v, "s") for k, v in self.stages.items()]
@@ -618,17 +643,42 @@ def _recovery_of(cage: CageReduction) -> StressRecovery:
     return StressRecovery(cage.model, cage.shown, cage.interface, solver=cage.solver, keep=keep)
 
 
+def warnings_at_start(
+    case: Case, mesh: CageMesh, cage: CageReduction | None, start: Start
+) -> tuple[RunWarning, ...]:
+    """What must be known of a run before it begins, logged too; InputError for a cage that its
+    assembly alone stresses more than the case allows."""
+    setup = Setup(
+        bearing=case.bearing,
+        cage=case.cage,
+        land=case.contacts.land,
+        mesh=mesh,
+        flexible=cage is not None,
+        basis=case.modes.kind,
+        attached=cage is None or bool(np.any(getattr(cage.interface, "compliance", True))),
+        pinched=start.pinched,
+        pinch_force=start.pinch_force,
+        statics=start.warnings,
+    )
+    late = (RunWarning("not_reached", sentence) for sentence in not_reached(case))
+    found = (*late, *warnings_of(AT_START, setup), *_assembly_stress(case, mesh, cage, start))
+    for warning in found:
+        log.warning(warning.text)
+    return found
+
+
 @one_blas_thread
-def check_assembly(case: Case, mesh: CageMesh, cage: CageReduction | None, start: Start) -> None:
-    """Warn of, or refuse, a cage that its assembly alone stresses too much."""
+def _assembly_stress(
+    case: Case, mesh: CageMesh, cage: CageReduction | None, start: Start
+) -> list[RunWarning]:
     if cage is None or not start.pinched:
-        return
+        return []
     recovery = _recovery_of(cage)
     loads = CageLoads(station_forces=start.station)
     stress = von_mises(recovery.stress(recovery.displacement(loads), loads))
     stress[contact_zone(cage.model, mesh.pocket_count)] = 0.0
     peak, material = float(stress.max()), case.cage.material
-    text = f"assembling the bearing stresses the cage to {peak / 1e6:.0f} MPa"
+    text = f"Assembling the bearing stresses the cage to {peak / 1e6:.0f} MPa"
     limit = case.limits.stress
     if limit is not None and peak > limit:
         raise InputError(
@@ -637,18 +687,14 @@ def check_assembly(case: Case, mesh: CageMesh, cage: CageReduction | None, start
             where="defects",
             value=peak,
         )
-    if peak > material.proof_stress:
-        proof = material.proof_stress / 1e6
-        log.warning(
-            "%s, more than the proof stress of %s (%.0f MPa): it would yield",
-            text,
-            material.name,
-            proof,
-        )
+    if peak <= material.proof_stress:
+        return []
+    proof = f"the proof stress of {material.name} ({material.proof_stress / 1e6:.0f} MPa)"
+    return [RunWarning("assembly_stress", f"{text}, more than {proof}: it would yield.")]
 
 
 __all__ = [
     "Run",
     "StressField",
-    "check_assembly",
+    "warnings_at_start",
 ]

@@ -12,7 +12,7 @@ from flexcage.case import Case
 from flexcage.core.binding import expect
 from flexcage.core.timing import Stages
 from flexcage.results.recording import Recorder
-from flexcage.run import Run, check_assembly
+from flexcage.run import Run, warnings_at_start
 from flexcage.run_folder import has_begun, open_folder
 from flexcage.stages import (
     assembled_start,
@@ -51,9 +51,9 @@ def simulate(
         mesh, cage = made_cage(case, stages)
     bearing = stages.named("kernels", build_bearing, case, mesh, cage, compiling)
     start = stages("start", assembled_start, case, bearing, stages.progress)
-    check_assembly(case, mesh, cage, start)
+    warned = warnings_at_start(case, mesh, cage, start)
     store = begun or run_store(
-        case, bearing, (mesh, cage), folder, study=Path(study) if study else None
+        case, bearing, (mesh, cage), folder, study=Path(study) if study else None, warned=warned
     )
     run = Run(case, store, folder, mesh, cage, start, stages)
     recorder = Recorder(bearing, start, store, solver=case.solver, output=case.output)

@@ -6,7 +6,7 @@ import logging
 import os
 import subprocess
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
@@ -15,10 +15,10 @@ import numpy as np
 
 from flexcage.bodies.cage import flexible_from_reduction, rigid_from_tets
 from flexcage.case import Case
-from flexcage.case.checks import not_reached
 from flexcage.core import jit
 from flexcage.core.progress import Silent
 from flexcage.core.timing import Stages
+from flexcage.core.warning import RunWarning
 from flexcage.mesh.build import build_cage_mesh
 from flexcage.mesh.cage_mesh import CageMesh
 from flexcage.mesh.options import MeshOptions
@@ -28,6 +28,7 @@ from flexcage.modes.table import ModeTable
 from flexcage.results.cage_file import CageRecord, cage_record, check_same
 from flexcage.results.recording import new_store
 from flexcage.results.store import MemoryRunStore, RunStore
+from flexcage.results.warnings import to_text
 from flexcage.run_folder import keep_cage, kept_cage, write_case
 from flexcage.static import solve_static
 from flexcage.system import ball_start  # noqa: F401  (registers the start of ball bearings)
@@ -49,10 +50,11 @@ def run_store(
     folder: Path | None,
     *,
     study: Path | None = None,
+    warned: Sequence[RunWarning] = (),
 ) -> MemoryRunStore:
     """A new store to write to, in ``folder`` or in memory; the folder receives case and cage, or
     its ``study`` the cage."""
-    attrs = {"case": case.to_toml(), "hash": case.hash}
+    attrs = {"case": case.to_toml(), "hash": case.hash, "warnings": to_text(warned)}
     if folder is not None:
         write_case(folder, case)
         record = _record(case, cage)
@@ -213,12 +215,10 @@ def build_bearing(
 
 def assembled_start(case: Case, bearing: Bearing, progress: Callable[..., Any] = Silent) -> Start:
     """Where a run begins: the bearing assembled and in equilibrium at the drive's first speed, its
-    cage pushed off if the case says so, and all on the constraints. Warns of what will not begin.
+    cage pushed off if the case says so, and all on the constraints.
 
     ``progress`` is a context like ``core.progress.Progress``.
     """
-    for sentence in not_reached(case):
-        log.warning(sentence)
     limit = case.limits.assembly_force
     with progress(1.0, "start") as bar:
         start = find_start(

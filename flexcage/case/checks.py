@@ -372,10 +372,10 @@ def not_reached(case: Case) -> Iterator[str]:
     for room in ("drive", "load"):
         spec = getattr(case, room)
         if spec.ramp_to is not None and spec.ramp_start >= end:
-            yield f"{room}.ramp_start is {describe(spec.ramp_start, 'ms')}, {over} nothing ramps"
+            yield f"{room}.ramp_start is {describe(spec.ramp_start, 'ms')}, {over} nothing ramps."
         elif spec.times and spec.times[0] >= end:
             begin = describe(spec.times[0], "ms")
-            yield f"{room}.times begins at {begin}, {over} the table's first value stands all along"
+            yield f"{room}.times begins at {begin}, {over} its first value holds all along."
 
 
 def _find_in_acceleration(case: Case) -> Iterator[Finding]:

@@ -9,14 +9,16 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
-from math import acos, cos, degrees, inf, pi, sin
-from typing import ClassVar
+from math import acos, cos, degrees, inf, pi, sin, sqrt
+from typing import Any, ClassVar
 
 from flexcage.core.spec import option, quantity
 from flexcage.geometry.ball_cages import BallCage
-from flexcage.geometry.bearing import Bearing, Spec, hollow_cylinder_inertia
+from flexcage.geometry.bearing import Bearing, RingLimit, Spec, hollow_cylinder_inertia
 from flexcage.geometry.hertz import PointContact
 from flexcage.geometry.materials import MATERIALS, Material
+
+_SHOULDER = 0.2  # of the ball's diameter: a shoulder's height where none is given
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -119,12 +121,30 @@ class BallBearing(Bearing):
     def shoulder_diameters(self) -> tuple[float, float]:
         """Diameters [m] of inner and outer ring at their shoulders; a fifth of the ball's diameter
         above the grooves' bottoms where heights are not given."""
-        share = 0.2 * self.ball_diameter
+        share = _SHOULDER * self.ball_diameter
         inner, outer = (h or share for h in (self.inner_shoulder, self.outer_shoulder))
         return (
             self.pitch_diameter - self.ball_diameter + 2.0 * inner,
             self.pitch_diameter + self.ball_diameter - 2.0 * outer,
         )
+
+    def cage_space(self, cage: Any) -> tuple[RingLimit | None, RingLimit | None]:
+        """Shoulders, or grooves where the cage is narrower than these; none of a bearing that is
+        open on one side, if no height is given."""
+        found: list[RingLimit | None] = []
+        for side, sign in (("inner", 1.0), ("outer", -1.0)):
+            height, r = getattr(self, f"{side}_shoulder"), getattr(self, f"{side}_groove_radius")
+            if height is None and self.one_sided:
+                found.append(None)
+                continue
+            what = "shoulder" if height else "shoulder (a fifth of the ball's diameter is assumed)"
+            high = height or _SHOULDER * self.ball_diameter
+            half = 0.5 * cage.axial_width
+            if half < r and (rise := r - sqrt(r**2 - half**2)) < high:
+                high, what = rise, "groove"
+            bottom = self.pitch_diameter - sign * self.ball_diameter
+            found.append(RingLimit(bottom + 2.0 * sign * high, f"the {side} ring's {what}"))
+        return found[0], found[1]
 
     @cached_property
     def groove_edges(self) -> tuple[float, float]:

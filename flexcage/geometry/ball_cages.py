@@ -35,10 +35,22 @@ class BallCage(Cage):
     )
     guidance: str = option("ball", doc="what guides the cage radially", choices=GUIDANCE)
 
+    @property
+    def pocket_size(self) -> float:
+        return self.pocket_diameter
+
     def thinnest(self, pitch_diameter: float, pocket_count: int) -> float:
         web = pitch_diameter * sin(pi / pocket_count) - self.pocket_diameter
         wall, rim = self.outside_diameter - self.bore, self.width - self.pocket_diameter
         return min(0.5 * wall, 0.5 * rim, web)
+
+    def parts(self, pitch_diameter: float, pocket_count: int) -> dict[str, float]:
+        where = pitch_diameter if self.pocket_shape == "spherical" else self.bore
+        return {
+            "webs between pockets": where * sin(pi / pocket_count) - self.pocket_diameter,
+            "rims beside the pockets": 0.5 * (self.width - self.pocket_diameter),
+            "wall": 0.5 * (self.outside_diameter - self.bore),
+        }
 
     @property
     def wall_end(self) -> float:

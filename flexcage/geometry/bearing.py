@@ -20,6 +20,14 @@ Spec = type  # by another name, for inside the spec ``type`` is a field
 BEARING_TYPES: dict[str, type | None] = {}  # name in a case: spec
 
 
+@dataclass(frozen=True)
+class RingLimit:
+    """A part of a ring beside the cage: its diameter [m], and what it is."""
+
+    diameter: float
+    name: str
+
+
 @dataclass(frozen=True, kw_only=True)
 class Bearing:
     """A rolling bearing; ``type`` names the spec that describes it."""
@@ -70,6 +78,11 @@ class Bearing:
         """Radial clearance [m] of the cage's land and the dimensions that leave it; None where the
         spec says nothing of the ring's land, and the case gives the clearance."""
         return None
+
+    def cage_space(self, cage: Cage) -> tuple[RingLimit | None, RingLimit | None]:
+        """What of the inner and of the outer ring the cage meets first if it moves across the axis;
+        None where the spec does not say."""
+        return None, None
 
     @property
     def is_thrust(self) -> bool:

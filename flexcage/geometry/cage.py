@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from math import pi
+from math import nan, pi
 from typing import TYPE_CHECKING, Any
 
 from flexcage.core.spec import option, quantity
@@ -33,6 +33,11 @@ class Cage:
         return 0.0
 
     @property
+    def pocket_size(self) -> float:
+        """Width [m] of a pocket around the cage; NaN where its type does not say."""
+        return nan
+
+    @property
     def axial_width(self) -> float:
         """What it takes up along the axis [m]."""
         return self.width
@@ -51,3 +56,7 @@ class Cage:
     def thinnest(self, pitch_diameter: float, pocket_count: int) -> float:
         """Least thickness [m] of wall and webs, for which elements must not be too large."""
         raise NotImplementedError
+
+    def parts(self, pitch_diameter: float, pocket_count: int) -> dict[str, float]:
+        """Least thickness [m] of its parts, by name; none where its type does not say."""
+        return {}

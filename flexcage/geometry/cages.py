@@ -37,9 +37,20 @@ class WindowCage(Cage):
     def fillet(self) -> float:
         return self.fillet_radius
 
+    @property
+    def pocket_size(self) -> float:
+        return self.pocket_width
+
     def thinnest(self, pitch_diameter: float, pocket_count: int) -> float:
         beam = pi * pitch_diameter / pocket_count - self.pocket_width
         return min(0.5 * (self.outside_diameter - self.bore), beam)
+
+    def parts(self, pitch_diameter: float, pocket_count: int) -> dict[str, float]:
+        return {
+            "crossbeams": self.bore * sin(pi / pocket_count) - self.pocket_width,
+            "side beams": self.side_beam_width,
+            "wall": 0.5 * (self.outside_diameter - self.bore),
+        }
 
     @property
     def side_beam_width(self) -> float:

@@ -13,6 +13,7 @@ from flexcage.core.spec import option, quantity
 from flexcage.geometry.bearing import (
     BEARING_TYPES,
     Bearing,
+    RingLimit,
     Spec,
     bearing_type,
     hollow_cylinder_inertia,
@@ -160,6 +161,12 @@ class RollerBearing(Bearing):
             there = self.outer_race_radius - 0.5 * cage.outside_diameter
             return there, "cage.outside_diameter and the outer race"
         return 0.5 * (cage.bore - self.rib_diameter), "cage.bore and bearing.rib_diameter"
+
+    def cage_space(self, cage: Cage) -> tuple[RingLimit, RingLimit]:
+        return (
+            RingLimit(self.rib_diameter, "the inner ring's ribs"),
+            RingLimit(2.0 * self.outer_race_radius, "the outer race"),
+        )
 
     @cached_property
     def inner_ring_mass(self) -> float:

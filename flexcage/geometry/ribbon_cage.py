@@ -87,6 +87,17 @@ class RibbonCage(BallCage):
     def thinnest(self, pitch_diameter: float, pocket_count: int) -> float:
         return min(self.thickness, 0.5 * (self.outside_diameter - self.bore))
 
+    def parts(self, pitch_diameter: float, pocket_count: int) -> dict[str, float]:
+        found = {"sheet": self.thickness, "wall": 0.5 * (self.outside_diameter - self.bore)}
+        if self.opening:
+            found["necks beside the pockets"] = self._beside(pitch_diameter) - self.opening
+        return found
+
+    def _beside(self, pitch_diameter: float) -> float:
+        """From the circle of the balls' centres to the strip's further edge [m]."""
+        inner, outer, pitch = self.bore, self.outside_diameter, pitch_diameter
+        return 0.5 * max(outer - pitch, pitch - inner)
+
     def impossible(self, pocket_count: int) -> Iterator[Objection]:
         if self.outside_diameter <= self.bore:
             yield "outside_diameter", f"must exceed its bore, {describe(self.bore, 'mm')}"
@@ -113,7 +124,7 @@ class RibbonCage(BallCage):
     def no_room(self, pitch_diameter: float, pocket_count: int) -> Iterator[Objection]:
         yield from self._low_rim(pitch_diameter)
         inner, outer = 0.5 * self.bore, 0.5 * self.outside_diameter
-        left = max(outer - 0.5 * pitch_diameter, 0.5 * pitch_diameter - inner)
+        left = self._beside(pitch_diameter)
         if not self.opening < left:
             least = 2.0 * sqrt(max(0.25 * self.pocket_diameter**2 - left**2, 0.0))
             yield (

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import logging
 from collections.abc import Sequence
 
 import numpy as np
@@ -26,8 +25,6 @@ from flexcage.modes.pockets import (
     pocket_frame,
     pocket_frames,
 )
-
-log = logging.getLogger(__name__)
 
 OFFSET_POINTS = 65  # along a face: a bent beam's curve to a quarter of a micrometre for 0.2 mm
 
@@ -166,7 +163,6 @@ def land_station_weights(model: FEModel, n_land: int) -> sp.csr_matrix:
             rows.append(sp.csr_matrix((0, len(model.nodes))))
             continue
         if name not in model.groups or not len(model.groups[name]):
-            log.warning("the mesh has no group %s: that land stays rigid", name)
             rows.append(sp.csr_matrix((n_land, len(model.nodes))))
             continue
         rows.append(normalised(model.face_weights(model.group(name), _azimuth_hats(n_land))))

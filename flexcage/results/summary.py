@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import asdict, dataclass, field, replace
 from math import isfinite, pi
 from pathlib import Path
 from typing import Any
@@ -13,6 +13,7 @@ import numpy as np
 
 from flexcage.core.digits import texts_with_margin
 from flexcage.core.errors import InputError
+from flexcage.core.warning import RunWarning
 from flexcage.results.files import replace as replace_file
 from flexcage.results.statistics import Record
 
@@ -69,12 +70,23 @@ def format_value(value: float, shown: str = "", margin: float | None = None) -> 
     return number, f"± {half}" if half else ""
 
 
+_WARNINGS = "warnings"  # their key in a summary's JSON
+#: The figures that matter most, in order: what the terminal shows of a run.
+BRIEF = (
+    "roller_passes", "cage_speed", "cage_slip_ratio", "slip_loaded", "contact_angle_inner",
+    "whirl_radius_axis", "pocket_force_mean", "pocket_force_pass_peak", "pocket_force_peak",
+    "race_force_inner", "race_force_outer", "stress_mean_peak", "stress_peak", "energy_audit",
+    "wall_total",
+)  # fmt: skip
+
+
 @dataclass(frozen=True)
 class Row:
     """One figure: ``value`` in SI (or a text, a count); ``shown`` is the unit it is printed in.
 
     ``margin`` is half the width of the value's 95 % interval, in SI; None where there is none.
-    ``record`` holds a statistic's windows, while the run is in memory.
+    ``record`` holds a statistic's windows, while the run is in memory. ``idle``: zero because the
+    bearing has nothing that makes it; kept for programs, and not printed.
     """
 
     key: str
@@ -84,6 +96,7 @@ class Row:
     note: str = ""
     margin: float | None = None
     record: Record | None = field(default=None, repr=False, compare=False)
+    idle: bool = False
 
     @classmethod
     def of(
@@ -132,12 +145,21 @@ class Section:
     title: str
     rows: tuple[Row, ...]
 
+    @property
+    def shown(self) -> tuple[Row, ...]:
+        """The rows that are printed."""
+        return tuple(row for row in self.rows if not row.idle)
+
 
 @dataclass(frozen=True)
 class Summary:
-    """Figures of a run in sections, in order. ``summary["cage_speed"]`` is a value in SI."""
+    """Figures of a run in sections, in order. ``summary["cage_speed"]`` is a value in SI.
+
+    ``warnings`` is what the run's reader must know; None where nobody looked for any.
+    """
 
     sections: tuple[Section, ...] = ()
+    warnings: tuple[RunWarning, ...] | None = None
 
     def __iter__(self) -> Iterator[Row]:
         return (row for section in self.sections for row in section.rows)
@@ -164,26 +186,47 @@ class Summary:
         return replace(self, sections=(*self.sections, new))
 
     def text(self) -> str:
-        """An aligned table: label, value (right-aligned), margin, unit, note."""
-        rows = list(self)
-        if not rows:
-            return "(no figures)"
-        label = max(len(r.label) for r in rows)
-        value = max(len(r.text) for r in rows)
-        margin = max(len(r.margin_text) for r in rows)
-        unit = max(len(r.shown) for r in rows)
-        lines: list[str] = []
+        """The warnings, then an aligned table: label, value (right-aligned), margin, unit, note."""
+        lines = self._warning_lines()
         for section in self.sections:
-            lines += ["", section.title] if lines else [section.title]
-            for r in section.rows:
-                line = f"  {r.label:<{label}}  {r.text:>{value}} {r.margin_text:<{margin}} "
-                lines.append(f"{line}{r.shown:<{unit}}  {r.note}".rstrip())
-        return "\n".join(lines)
+            if section.shown:
+                lines += ["", section.title] if lines else [section.title]
+                lines += self._table(section.shown)
+        return "\n".join(lines) or "(no figures)"
 
     __str__ = text
 
+    def brief(self) -> str:
+        """The warnings and the dozen figures that matter, as ``text`` prints them."""
+        lines = self._warning_lines()
+        keys = {row.key: row for row in self}
+        rows = [keys[key] for key in BRIEF if key in keys and keys[key].text != "-"]
+        return "\n".join([*lines, *([""] if lines else []), *self._table(rows)])
+
+    def _warning_lines(self) -> list[str]:
+        if self.warnings is None:
+            return []
+        if not self.warnings:
+            return ["Warnings: none"]
+        return ["Warnings", *(f"  - {warning.text}" for warning in self.warnings)]
+
+    def _table(self, rows: Sequence[Row]) -> list[str]:
+        """Lines of some rows, in columns as wide as all rows need."""
+        every = [row for section in self.sections for row in section.shown]
+        label = max(len(r.label) for r in every)
+        value = max(len(r.text) for r in every)
+        margin = max(len(r.margin_text) for r in every)
+        unit = max(len(r.shown) for r in every)
+        lines = []
+        for r in rows:
+            line = f"  {r.label:<{label}}  {r.text:>{value}} {r.margin_text:<{margin}} "
+            lines.append(f"{line}{r.shown:<{unit}}  {r.note}".rstrip())
+        return lines
+
     def to_dict(self) -> dict[str, Any]:
-        return {
+        """Warnings, if they were looked for, and every section's figures by their keys."""
+        warned = {} if self.warnings is None else {_WARNINGS: [asdict(w) for w in self.warnings]}
+        return warned | {
             s.title: {
                 r.key: {
                     "label": r.label,
@@ -192,6 +235,7 @@ class Summary:
                     "unit": r.unit,
                     "shown": r.shown,
                     "note": r.note,
+                    **({"idle": True} if r.idle else {}),
                 }
                 for r in s.rows
             }
@@ -205,18 +249,21 @@ class Summary:
     def from_json(cls, text: str, *, windows: Mapping[str, np.ndarray] | None = None) -> Summary:
         """The summary that ``to_json`` wrote; ``windows`` are its records' sums by key."""
         records = {key: Record(sums) for key, sums in (windows or {}).items()}
+        stored = json.loads(text)
+        warned = stored.pop(_WARNINGS, None)
         return cls(
             tuple(
                 Section(
                     title,
                     tuple(
                         Row(key, r["label"], r["value"], r["shown"], r["note"], r.get("margin"),
-                            records.get(key))
+                            records.get(key), r.get("idle", False))
                         for key, r in rows.items()
                     ),
                 )
-                for title, rows in json.loads(text).items()
-            )
+                for title, rows in stored.items()
+            ),
+            None if warned is None else tuple(RunWarning(**values) for values in warned),
         )  # fmt: skip
 
     @classmethod
@@ -259,14 +306,16 @@ def side_by_side(summaries: dict[str, Summary]) -> str:
     first = {r.key: r for s in reversed(summaries.values()) for r in s}
     sections: dict[str, dict[str, None]] = {}
     for section in (section for s in summaries.values() for section in s.sections):
-        sections.setdefault(section.title, {}).update((r.key, None) for r in section.rows)
+        if section.shown:
+            sections.setdefault(section.title, {}).update((r.key, None) for r in section.shown)
     texts = {n: {r.key: r.text for r in s} for n, s in summaries.items()}
     margins = {n: {r.key: r.margin_text for r in s} for n, s in summaries.items()}
     label = max(len(r.label) for r in first.values())
     width = {n: max([len(n), *map(len, t.values())]) for n, t in texts.items()}
     beside = {n: max(map(len, m.values())) for n, m in margins.items()}
     head = "".join(f"  {n:>{width[n]}} {'':{beside[n]}}" for n in summaries)
-    lines = [f"{'':<{label + 2}}{head}".rstrip()]
+    lines = [f"Warning, {n}: {w.text}" for n, s in summaries.items() for w in s.warnings or ()]
+    lines += [*([""] if lines else []), f"{'':<{label + 2}}{head}".rstrip()]
     for title, keys in sections.items():
         lines += ["", title]
         for key in keys:

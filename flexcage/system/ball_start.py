@@ -9,7 +9,6 @@ them.
 
 from __future__ import annotations
 
-import logging
 from math import pi
 
 import numpy as np
@@ -22,8 +21,6 @@ from flexcage.system.scales import ERROR_RATE, error_weights, shared_weights
 from flexcage.system.start import Start, StaticStart, Told, made_room, start_of
 from flexcage.system.statics.solution import StaticSolution
 
-log = logging.getLogger(__name__)
-
 _ALIKE = 1e-3  # rad: contact angles closer than this leave a ball's axis to their mean
 
 
@@ -32,8 +29,6 @@ def _(
     model: BallModel, bearing: Bearing, *, limit_force: float, statics: StaticStart, told: Told
 ) -> Start:
     solution = statics()
-    for text in solution.warnings:
-        log.warning("at the start %s", text)
     y = ball_places(bearing, solution)
     made_room(model.land, bearing.layout, y)
     yd = rolling_balls(model, bearing.layout, solution, y)
@@ -41,7 +36,7 @@ def _(
         spin = float(bearing.layout.u(y)["omega"][0])
         bearing.layout.q(y)["modes"][:] = _strained_by_rotation(model.cage, spin)
     station = np.zeros_like(bearing.data.work.report.station)
-    return Start(y, yd, (), 0.0, solution.unbalanced, station)
+    return Start(y, yd, (), 0.0, solution.unbalanced, station, solution.warnings)
 
 
 def ball_places(bearing: Bearing, solution: StaticSolution) -> np.ndarray:

@@ -11,7 +11,6 @@ touch, so that the run begins assembled.
 
 from __future__ import annotations
 
-import logging
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from functools import singledispatch
@@ -32,8 +31,6 @@ from flexcage.system.problem import Bearing
 from flexcage.system.scales import ERROR_RATE
 from flexcage.system.spec import Constraint, StartOptions
 from flexcage.system.statics.solution import StaticSolution
-
-log = logging.getLogger(__name__)
 
 StaticStart = Callable[[], StaticSolution]
 Told = Callable[[float], None]
@@ -61,6 +58,7 @@ class Start:
     pinch_force: float  # largest [N]
     residual: float  # of the equilibrium, as a share of the load
     station: np.ndarray  # (Z, 4, nst, 3) station forces on the cage
+    warnings: tuple[str, ...] = ()  # of the static solution, sentences
 
 
 def rolling_velocities(model: Model, layout: Layout, y: np.ndarray) -> np.ndarray:
@@ -492,7 +490,4 @@ def _(
     yd = rolling_velocities(model, layout, y)
     held = tuple(int(i) for i in pinched if report.pocket_normal[i].max() > 0.0)
     force = float(report.pocket_normal[list(held)].max()) if held else 0.0
-    if held:
-        names = ", ".join(map(str, held))
-        log.warning("at the start the roller of pocket %s is pinched with %.0f N", names, force)
     return Start(y, yd, held, force, residual, report.station.copy())

@@ -7,12 +7,13 @@ import json
 import numpy as np
 from ring_with_pockets import Z, ring_mesh
 
+from flexcage.contacts.spec import LandSpec
 from flexcage.geometry.cages import CrossbeamDefect
 from flexcage.geometry.cylindrical_roller import RollerBearing
+from flexcage.geometry.presets import load_preset
 from flexcage.render.album import Scene, StressPictures
 from flexcage.report.blocks import Table
 from flexcage.report.cage_view import CageStress
-from flexcage.report.cautions import cautions
 from flexcage.report.comparison import Abscissa, Output
 from flexcage.report.run_page import RunAccount
 from flexcage.report.study_page import StudyAccount
@@ -22,6 +23,7 @@ from flexcage.results.metrics import BearingNumbers
 from flexcage.results.registry import VARIABLES
 from flexcage.results.store import RunStore
 from flexcage.results.summary import Row
+from flexcage.results.warnings import AT_END, Outcome, warnings_of
 
 NUMBERS = BearingNumbers(pitch_diameter=82.5e-3, roller_diameter=8e-3, roller_count=Z)
 PEAK = 40e6  # Pa, at one vertex of the cage
@@ -102,9 +104,11 @@ def account(name: str = "small", **changes) -> RunAccount:
     summary = summary.with_section("Solver", [Row("steps", "Steps", 1234)])
     summary = summary.with_section("Equivalent stress", [Row("stress_peak", "Peak", PEAK, "MPa")])
     duration = float(ds["time"][-1])
-    warned = cautions(
-        summary, reached=duration, duration=duration, proof_stress=3e7, material="brass"
-    )
+    outcome = Outcome(
+        summary=summary, dataset=ds, bearing=BEARING, cage=load_preset("N1013").cage,
+        land=LandSpec(), duration=duration, settle=0.3,
+    )  # fmt: skip
+    warned = [warning.text for warning in warnings_of(AT_END, outcome)]
     values = {
         "scene": scene(ds, name), "summary": summary, "numbers": NUMBERS,
         "statement": ["A bearing made for tests."], "warnings": warned,

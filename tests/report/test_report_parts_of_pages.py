@@ -1,4 +1,4 @@
-"""What pages are made of: thinned curves, split surfaces, verdicts, cautions, escaped texts."""
+"""What pages are made of: thinned curves, split surfaces, verdicts, escaped texts."""
 
 from __future__ import annotations
 
@@ -26,7 +26,6 @@ from flexcage.render.scene import surface_of
 from flexcage.report import page as page_module
 from flexcage.report.blocks import Cell, Page, Section, Table, Text
 from flexcage.report.cage_view import cage_figure, common_limit, split_at_edges
-from flexcage.report.cautions import cautions
 from flexcage.report.comparison import (
     MOST_NAMED,
     Abscissa,
@@ -42,8 +41,6 @@ from flexcage.report.study_page import study_page
 from flexcage.report.tables import filled
 from flexcage.report.thinning import thinned
 from flexcage.report.verdicts import read_verdicts
-from flexcage.results.summary import Row, Summary
-from flexcage.results.summary import Section as Part
 
 
 class _Texts(HTMLParser):
@@ -272,33 +269,6 @@ def test_figures_of_a_folder(tmp_path):
     (place / "captions.json").write_text('["a"]')
     with pytest.raises(InputError, match="should map file names to captions"):
         extra_figures(tmp_path)
-
-
-def _summary(**values) -> Summary:
-    rows = [Row(key, key, value, "", "a note") for key, value in values.items()]
-    return Summary((Part("All", tuple(rows)),))
-
-
-GOOD = {"roller_passes": 60, "drift": "nothing", "energy_audit": "passed", "stress_peak": 1e6}
-END = {"reached": 0.1, "duration": 0.1, "proof_stress": 160e6, "material": "brass"}
-
-
-@pytest.mark.parametrize(
-    ("values", "end", "words"),
-    [
-        ({}, {"reached": 0.05}, "stopped at 50 ms of 100 ms"),
-        ({"roller_passes": 7}, {}, "7 roller passes"),
-        ({"drift": "cage speed"}, {}, "differ beyond the intervals in: cage speed"),
-        ({"energy_audit": "EXCEEDED", "energy_of_drive": 2e-3, "energy_of_cage": 0.07}, {},
-         "0.2 % of the drive's work (at most 0.1 %) and 7 %"),
-        ({"stress_start": 200e6}, {}, "200 MPa, more than the proof stress of brass (160 MPa)"),
-        ({"pinch_force": 12.0}, {}, "pinched by up to 12"),
-    ],
-)  # fmt: skip
-def test_cautions(values, end, words):
-    assert cautions(_summary(**GOOD), **END) == []
-    (found,) = cautions(_summary(**GOOD | values), **END | end)
-    assert words in found
 
 
 def test_columns_without_content_are_left_out():

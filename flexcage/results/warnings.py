@@ -1,0 +1,324 @@
+"""Warnings of a run: what a reader of its figures must know. One list, made once, here.
+
+``AT_START`` looks at what is to be computed, ``AT_END`` at what was found; each entry is a function
+of values that yields warnings, and one line adds one. Terminal, ``summary.txt``, ``summary.json``,
+pages and studies show the list as it is.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from dataclasses import asdict, dataclass
+from math import isfinite
+from typing import TYPE_CHECKING, Any, TypeVar
+
+import numpy as np
+
+from flexcage.contacts.spec import LandSpec
+from flexcage.core.units import describe
+from flexcage.core.warning import RunWarning
+from flexcage.geometry.bearing import Bearing
+from flexcage.geometry.cage import Cage
+from flexcage.geometry.odd import odd_geometry
+from flexcage.mesh.cage_mesh import POCKET_GROUPS, CageMesh, pocket_groups
+from flexcage.modes.lands import LANDS
+from flexcage.results import metrics
+from flexcage.results.audit import EXCEEDED, OF_CAGE, OF_DRIVE
+from flexcage.results.bootstrap import FEWEST
+from flexcage.results.edges import Edge
+from flexcage.results.summary import Summary
+
+if TYPE_CHECKING:
+    import xarray
+
+_LEAST_TURNS = 1.0  # of the cage in the statistics: one brings every element through the load
+# a cage that is thrown off: the mean distance of its centre rises through so many equal parts of
+# the settled time, by so much in all, beyond so much of what pockets and land leave it
+_PARTS, _GROWN, _BEYOND_POCKETS, _BEYOND_LAND = 5, 1.3, 2.0, 1.5
+_PASSED = 1e-6  # m by which a cage must pass a ring, more than rounding
+
+Facts = TypeVar("Facts")
+
+
+@dataclass(frozen=True, kw_only=True)
+class Setup:
+    """What is known when a run begins."""
+
+    bearing: Bearing
+    cage: Cage
+    land: LandSpec
+    mesh: CageMesh
+    flexible: bool = True
+    basis: str = "ritz"  # kind of modal basis
+    attached: bool = True  # does a pocket yield by more than the modes?
+    pinched: tuple[int, ...] = ()  # pockets that hold their element with force
+    pinch_force: float = 0.0  # N, the largest
+    statics: tuple[str, ...] = ()  # warnings of the static solution that the run begins with
+
+
+@dataclass(frozen=True, kw_only=True)
+class Outcome:
+    """What is known of a run at its end, or as far as it came."""
+
+    summary: Summary
+    dataset: xarray.Dataset
+    bearing: Bearing
+    cage: Cage
+    land: LandSpec
+    duration: float  # s that it should last
+    settle: float  # share of the run that statistics leave out
+    edges: tuple[Edge, ...] = ()  # contact ellipses at grooves' edges
+
+    @property
+    def element(self) -> str:
+        return self.bearing.element
+
+    def number(self, key: str) -> float:
+        """A figure of the summary, or NaN where it has none."""
+        value = self.summary[key] if key in self.summary else None
+        return float(value) if isinstance(value, (int, float)) else float("nan")
+
+
+def warnings_of(
+    checks: Iterable[Callable[[Facts], Iterator[RunWarning]]], facts: Facts
+) -> tuple[RunWarning, ...]:
+    """What the checks have to say, in their order."""
+    return tuple(warning for check in checks for warning in check(facts))
+
+
+def to_text(warnings: Iterable[RunWarning]) -> str:
+    """Warnings as JSON, for attributes of a store."""
+    return json.dumps([asdict(warning) for warning in warnings])
+
+
+def from_attrs(attrs: Mapping[str, Any]) -> tuple[RunWarning, ...]:
+    """Those that a run's store holds from its start; none in one of an earlier flexcage."""
+    return tuple(RunWarning(**values) for values in json.loads(attrs.get("warnings", "[]")))
+
+
+# --- at the start --------------------------------------------------------------------------------
+
+
+def _odd_geometry(setup: Setup) -> Iterator[RunWarning]:
+    width = setup.land.width if has_land(setup.cage, setup.land) else None
+    yield from odd_geometry(setup.bearing, setup.cage, width)
+
+
+def _pinched(setup: Setup) -> Iterator[RunWarning]:
+    if setup.pinched:
+        pockets = "pocket" if len(setup.pinched) == 1 else "pockets"
+        yield RunWarning(
+            "pinched",
+            f"At the start the {setup.bearing.element} of {pockets} "
+            f"{', '.join(map(str, setup.pinched))} is pinched with up to "
+            f"{setup.pinch_force:.3g} N: the cage is pre-stressed.",
+        )
+
+
+def _statics(setup: Setup) -> Iterator[RunWarning]:
+    for text in setup.statics:
+        yield RunWarning("static", f"At the start {text}")
+
+
+def _sharp_corners(setup: Setup) -> Iterator[RunWarning]:
+    groups = setup.mesh.groups
+    if not setup.flexible or pocket_groups(groups) != POCKET_GROUPS:
+        return
+    count = setup.mesh.pocket_count
+    sharp = [k for k in range(count) if not len(groups.get(f"pocket{k}_fillet", ()))]
+    if not sharp:
+        return
+    where = "all pockets" if len(sharp) == count else f"pockets {', '.join(map(str, sharp))}"
+    yield RunWarning(
+        "sharp_corners",
+        f"The mesh has no fillets in the corners of {where} (groups such as "
+        f"pocket{sharp[0]}_fillet), so cage.fillet_radius = {describe(setup.cage.fillet, 'mm')} is "
+        "not in it: stress at a sharp corner has no limit, and rises with every finer mesh.",
+    )
+
+
+def _no_residual_flexibility(setup: Setup) -> Iterator[RunWarning]:
+    if not setup.flexible or setup.attached or setup.basis == "craig_bampton":
+        return
+    yield RunWarning(
+        "no_residual_flexibility",
+        f"The modal basis '{setup.basis}' has no residual flexibility: unless its modes contain "
+        "the static deflection under loads on every pocket, pockets are too stiff under contact "
+        "forces, and stress peaks too low.",
+    )
+
+
+def _rigid_land(setup: Setup) -> Iterator[RunWarning]:
+    if not setup.flexible or not has_land(setup.cage, setup.land):
+        return
+    name = LANDS[1 if setup.cage.guidance == "outer" else 0]
+    if not len(setup.mesh.groups.get(name, ())):
+        yield RunWarning(
+            "rigid_land",
+            f"The mesh has no group '{name}', so the cage's land there stays rigid.",
+        )
+
+
+def has_land(cage: Cage, land: LandSpec) -> bool:
+    """Can the cage touch a ring's land?"""
+    return land.kind != "none" and cage.guidance != "ball"
+
+
+#: What is looked at when a run begins.
+AT_START: tuple[Callable[[Setup], Iterator[RunWarning]], ...] = (
+    _odd_geometry,
+    _pinched,
+    _statics,
+    _sharp_corners,
+    _no_residual_flexibility,
+    _rigid_land,
+)
+
+
+# --- at the end ----------------------------------------------------------------------------------
+
+
+def _unfinished(o: Outcome) -> Iterator[RunWarning]:
+    reached = float(o.dataset["time"][-1])
+    if reached < o.duration * (1.0 - 1e-3):
+        yield RunWarning(
+            "unfinished",
+            f"The run stopped at {reached * 1e3:.4g} ms of {o.duration * 1e3:.4g} ms; 'flexcage "
+            "run --resume' continues it.",
+        )
+
+
+def _yield(o: Outcome) -> Iterator[RunWarning]:
+    known = [v for v in (o.number("stress_peak"), o.number("stress_start")) if isfinite(v)]
+    peak, material = max(known, default=0.0), o.cage.material
+    if peak > material.proof_stress:
+        yield RunWarning(
+            "stress_above_proof",
+            f"The stress reaches {peak / 1e6:.0f} MPa, more than the proof stress of "
+            f"{material.name} ({material.proof_stress / 1e6:.0f} MPa): a real cage would yield "
+            "there, and this one is linear elastic.",
+        )
+
+
+def _thrown_off(o: Outcome) -> Iterator[RunWarning]:
+    part = metrics.settled(o.dataset, o.settle)
+    radius = metrics.whirl_radius(part, about="axis")
+    if len(radius) < 2 * _PARTS:
+        return
+    means = np.array([values.mean() for values in np.array_split(radius, _PARTS)])
+    play = 0.5 * (o.cage.pocket_size - o.bearing.element_diameter)
+    allowed = _BEYOND_POCKETS * play
+    if has_land(o.cage, o.land):
+        allowed = max(allowed, _BEYOND_LAND * o.land.clearance)
+    if (np.diff(means) > 0.0).all() and means[-1] > max(_GROWN * means[0], allowed):
+        begin, end = (float(part["time"][k]) * 1e3 for k in (0, -1))
+        yield RunWarning(
+            "thrown_off",
+            f"The cage is being thrown off: the distance of its centre from the axis grows "
+            f"steadily, from {_um(radius[0])} at {begin:.4g} ms to {_um(radius[-1])} at "
+            f"{end:.4g} ms, and its pockets have a clearance of {_um(play)} to each side. A longer "
+            "run would fail; a land (cage.guidance) or spherical pockets would hold the cage.",
+        )
+
+
+def _passes_ring(o: Outcome) -> Iterator[RunWarning]:
+    ds, cage = o.dataset, o.cage
+    tilt = metrics.tilt(ds).sel(component="total").values
+    guided = has_land(cage, o.land) and ("outer" if cage.guidance == "outer" else "inner")
+    for side, limit in zip(("inner", "outer"), o.bearing.cage_space(cage)):
+        if limit is None or side == guided:
+            continue
+        gap = 0.5 * (
+            cage.bore - limit.diameter
+            if side == "inner"
+            else limit.diameter - cage.outside_diameter
+        )
+        centre = metrics.centre_of(ds, "cage")
+        if side == "inner":
+            centre = centre - metrics.centre_of(ds, "inner")
+        swing = np.hypot(*centre.T) + 0.5 * cage.axial_width * np.sin(tilt)
+        at = int(swing.argmax())
+        if gap > 0.0 and swing[at] > gap + _PASSED:
+            yield RunWarning(
+                "passes_ring",
+                f"The cage passes through {limit.name}: it swings by {_um(swing[at])} (t = "
+                f"{float(ds['time'][at]) * 1e3:.4g} ms), but the gap there is {_um(gap)}, and no "
+                "contact between them is computed.",
+            )
+
+
+def _short(o: Outcome) -> Iterator[RunWarning]:
+    part = metrics.settled(o.dataset, o.settle)
+    turns = abs(float(np.ptp(metrics.cage_angle(part)))) / (2.0 * np.pi)
+    passes = o.number("roller_passes")
+    stands = not np.any(part["inner_speed"].values)
+    few = [f"intervals need {FEWEST} passes"] if passes < FEWEST else []
+    if turns < _LEAST_TURNS and not stands:
+        few.append("means need at least one turn of the cage")
+    if few:
+        yield RunWarning(
+            "short_run",
+            f"Statistics rest on {passes:.0f} {o.element} passes and {turns:.2g} turns of the "
+            f"cage, but {' and '.join(few)}; give a longer solver.duration.",
+        )
+
+
+def _drift(o: Outcome) -> Iterator[RunWarning]:
+    drift = o.summary["drift"] if "drift" in o.summary else None
+    if drift not in (None, "nothing"):
+        yield RunWarning(
+            "not_settled",
+            f"The two halves of the settled part differ beyond the intervals in: {drift}; raise "
+            "output.settle or solver.duration.",
+        )
+
+
+def _audit(o: Outcome) -> Iterator[RunWarning]:
+    if "energy_audit" not in o.summary or o.summary["energy_audit"] != EXCEEDED:
+        return
+    shares = (
+        (o.number("energy_of_drive"), "the drive's work", OF_DRIVE),
+        (o.number("energy_of_cage"), "the cage's losses", OF_CAGE),
+    )
+    known = " and ".join(
+        f"{100.0 * share:.2g} % of {what} (at most {100.0 * most:g} %)"
+        for share, what, most in shares
+        if isfinite(share)
+    )
+    yield RunWarning(
+        "energy_audit",
+        f"The energy audit is exceeded: the imbalance is {known}; tighten solver.tolerance.",
+    )
+
+
+def _slip(o: Outcome) -> Iterator[RunWarning]:
+    note = o.summary.row("slip_loaded").note if "slip_loaded" in o.summary else ""
+    if note.startswith("unresolved"):
+        yield RunWarning(
+            "slip_unresolved", f"{o.element.capitalize()} slip in the loaded zone is {note}."
+        )
+
+
+def _over_edge(o: Outcome) -> Iterator[RunWarning]:
+    for edge in o.edges:
+        if edge.warning:
+            yield RunWarning("over_edge", edge.warning[0].upper() + edge.warning[1:])
+
+
+def _um(length: float) -> str:
+    return f"{length * 1e6:.3g} um" if abs(length) < 1e-3 else f"{length * 1e3:.3g} mm"
+
+
+#: What is looked at when a run has come to its end.
+AT_END: tuple[Callable[[Outcome], Iterator[RunWarning]], ...] = (
+    _unfinished,
+    _yield,
+    _thrown_off,
+    _passes_ring,
+    _short,
+    _drift,
+    _audit,
+    _slip,
+    _over_edge,
+)
