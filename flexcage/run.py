@@ -52,6 +52,7 @@ from flexcage.stress.fatigue import Fatigue, chosen_places, counted_stress, plac
 from flexcage.stress.fields import StressFields, TensorFields
 from flexcage.stress.history import StressHistory, histories_at, stress_history
 from flexcage.stress.loads import LandForces, cage_loads
+from flexcage.stress.midpoints import at_nodes, largest_at_nodes
 from flexcage.stress.operators import von_mises
 from flexcage.stress.places import contact_zone, place_kind, root_places
 from flexcage.stress.places import in_words as place_in_words
@@ -145,6 +146,7 @@ class Run:
             roller_diameter=b.element_diameter,
             roller_count=b.element_count,
             contact_angle=b.nominal_contact_angle,
+            rolling_heights=b.rolling_heights,
         )
 
     @cached_property
@@ -476,21 +478,22 @@ class Run:
         envelope = np.zeros(len(self.mesh.points))
         envelope[history.surface] = history.envelope
         assert self.cage is not None
+        model = self.cage.model
         frames = []
         if animate:
             t = self.dataset["time"].values
             near = np.abs(t - peak.time) < _ABOUT_PEAK
             for instant in t[near]:
                 field = self.stress(time=instant)
-                frames.append((field.time, field.displacement, field.von_mises))
+                frames.append((field.time, field.displacement, at_nodes(model, field.stress)))
         return StressPictures(
-            nodes=self.cage.model.nodes,
-            cells=self.cage.model.cells,
+            nodes=model.nodes,
+            cells=model.cells,
             basis=self.cage.shown,
             time=peak.time,
             displacement=peak.displacement,
-            von_mises=peak.von_mises,
-            envelope=envelope,
+            von_mises=at_nodes(model, peak.stress),
+            envelope=largest_at_nodes(model, envelope, history.edges, history.middles),
             peak_vertex=int(history.peak_vertex[history.peak_sample]),
             peak_place=self._peak_place(),
             settled=history.settled,

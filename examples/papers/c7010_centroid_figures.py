@@ -58,7 +58,7 @@ def evaluate(run: flexcage.Run) -> Found:
     mean = windows.mean(omega)
     return Found(
         speed=estimate(mean),
-        beyond_theory=Estimate(mean.value / speed.epicyclic - 1.0, mean.margin / speed.epicyclic),
+        beyond_theory=Estimate(mean.value / speed.nominal - 1.0, mean.margin / speed.nominal),
         mean=estimate(windows.mean(radius)),
         difference=by_parts(lambda k: float(np.ptp(radius[k])), n),
         ratio=by_parts(lambda k: float(np.ptp(radius[k]) / radius[k].mean()), n),

@@ -56,7 +56,7 @@ def evaluate(run: flexcage.Run) -> Figures:
     orbit = metrics.orbit(ds)
     radius = metrics.whirl_radius(ds)
     axial = ds["inner_position"].sel(axis="x").values
-    slip = metrics.ball_slip_ratio(ds, numbers).values
+    slip = metrics.ball_slip_ratio(ds, numbers, nominal=True).values
     angle = ds["contact_angle"].transpose("time", "ball", "race").values
     loaded = metrics.loaded_zone(ds).transpose("time", "ball").values
     pockets = ds["pocket_force"].transpose("time", "pocket", "face").values.astype(float)
@@ -80,7 +80,7 @@ def evaluate(run: flexcage.Run) -> Figures:
         axial_range=by_parts(lambda k: float(np.ptp(axial[k])), len(time)),
         axial_rate=by_parts(lambda k: float(np.ptp(axial[k]) / np.ptp(time[k])), len(time)),
         ball_ripple=_spread(windows, slip, loaded),
-        cage_slip=Estimate(speed.slip_ratio, windows.mean(omega).margin / speed.epicyclic),
+        cage_slip=Estimate(speed.nominal_slip, windows.mean(omega).margin / speed.nominal),
         frequency=by_parts(
             lambda k: float(np.mean([mean_frequency(inner[k, b], step) for b in (0, 6, 12)])),
             len(time),

@@ -73,7 +73,7 @@ def evaluate(run: flexcage.Run) -> Figures:
 
     return Figures(
         force=of("pocket_force_pass_peak"), contact=of("pocket_force_mean"),
-        slip=of("cage_slip_ratio"), tilt=of("tilt_mean"), off_plane=of("whirl_radius_max"),
+        slip=of("cage_slip_ratio_nominal"), tilt=of("tilt_mean"), off_plane=of("whirl_radius_max"),
         stress=of("stress_root_pass_peak") if "stress_root_pass_peak" in s else None,
         ring_tilt=of("inner_tilt"), rivet=_rivet_stress(run),
     )  # fmt: skip

@@ -84,7 +84,7 @@ def evaluate(run: flexcage.Run, period: float) -> Figures:
         by_place=of_parts(lambda k: place_in(force[k], psi[k])),
         force_least=of_parts(lambda k: float(force[k].min())),
         force_most=of_parts(lambda k: float(force[k].max())),
-        cage_slip=Estimate(slip.slip_ratio, speed.margin / slip.epicyclic),
+        cage_slip=Estimate(slip.nominal_slip, speed.margin / slip.nominal),
         stress=Estimate(float(stressed.value), stressed.margin or nan) if stressed else None,
     )  # fmt: skip
 

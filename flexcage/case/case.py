@@ -331,7 +331,19 @@ def _with_mesh_file(table: dict[str, Any], folder: Path) -> dict[str, Any]:
 
 def _absolute(file: str | Path, folder: Path) -> str:
     """Absolute path of a file, so that a run's own case.toml finds it from its folder."""
-    return str(folder / Path(file).expanduser()) if str(file) else ""
+    return str(folder / expanded(file, where="mesh.file")) if str(file) else ""
+
+
+def expanded(file: str | Path, *, where: str) -> Path:
+    """Path of a file with the home folder in the place of ``~``."""
+    try:
+        return Path(file).expanduser()
+    except RuntimeError as exc:
+        raise InputError(
+            f"{where} is '{file}', but there is no user whose home folder that begins with.",
+            where=where,
+            value=str(file),
+        ) from exc
 
 
 def _merge(low: Mapping[str, Any], high: Mapping[str, Any]) -> dict[str, Any]:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import dataclasses
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from math import inf, pi
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from flexcage.core.binding import check_value, chosen_spec, default_of, join
@@ -33,6 +34,8 @@ _LAND_TOLERANCE = 5e-6  # m between a stated land clearance and the one that the
 _TOLERANCES = (1e-13, 1e-6)
 # kg/m^3; cages as good as weightless have 1e-3, and steel's is 7.85e-6 in kg/mm^3
 _LEAST_DENSITY = 1e-4
+_LONGEST_NAME = 200  # bytes; folders may have 255, and commands add words to it
+_MOST_SAMPLES = 1e8  # of either grid: a run's file has some TB then
 _MOST_ELEMENTS = 1e7  # assumption: more than a machine of 64 GB factors
 
 
@@ -107,11 +110,17 @@ def _find_infinite(spec: Any, where: str = "") -> Iterator[Finding]:
 
 def _find_in_name(case: Case) -> Iterator[Finding]:
     name = case.name
-    if not name.strip() or name.strip(".") == "" or any(c in name for c in "/\\:\n"):
+    if not name.strip() or name.strip(".") == "" or not name.isprintable() or set(name) & {*"/\\:"}:
         yield (
             "name",
             f"name is {name!r}, but must be usable as the name of a folder: one line, not empty, "
             "without '/', '\\' or ':'.",
+        )
+    size = len(name.encode("utf-8", "replace"))
+    if size > _LONGEST_NAME:
+        yield (
+            "name",
+            f"name has {size} bytes, but names a folder; give it {_LONGEST_NAME} or fewer.",
         )
 
 
@@ -281,6 +290,7 @@ def _find_in_held_centre(case: Case) -> Iterator[Finding]:
 def _find_in_mesh(case: Case) -> Iterator[Finding]:
     mesh, cage = case.mesh, case.cage
     if mesh.file:
+        yield from _find_in_path(mesh.file)
         return
     volume = 0.25 * pi * (cage.outside_diameter**2 - cage.bore**2) * cage.width
     arc = 2.0 * pi * case.bearing.element_count * cage.fillet  # four quarters a pocket
@@ -303,6 +313,17 @@ def _find_in_mesh(case: Case) -> Iterator[Finding]:
             f"mesh.size is {describe(mesh.size, 'mm')}, but the cage's thinnest part is only "
             f"{describe(least, 'mm')}; give a size up to twice that.",
         )
+
+
+def _find_in_path(file: str) -> Iterator[Finding]:
+    """A mesh file whose name none can have; one that is not there is told of when it is read."""
+    try:
+        Path(file).stat()
+    except (FileNotFoundError, NotADirectoryError):
+        return
+    except OSError as exc:
+        reason = (exc.strerror or str(exc)).lower()
+        yield "mesh.file", f"mesh.file is '{file}', which cannot be looked up ({reason})."
 
 
 def _find_in_tables(case: Case) -> Iterator[Finding]:
@@ -428,6 +449,14 @@ def _find_in_solver(case: Case) -> Iterator[Finding]:
             f"solver.duration is {describe(solver.duration, 'us')}, but must hold two samples of "
             f"output.rate or more, {describe(2.0 / case.output.rate, 'us')}.",
         )
+    for key, rate in (("rate", case.output.rate), ("vibration_rate", case.output.vibration_rate)):
+        if solver.duration * rate > _MOST_SAMPLES:
+            yield (
+                "solver.duration",
+                f"solver.duration is {describe(solver.duration, 's')}, which makes "
+                f"{solver.duration * rate:.0e} samples of output.{key}; give "
+                f"{describe(_MOST_SAMPLES / rate, 's')} or less, or a lower rate.",
+            )
 
 
 def _find_in_output(case: Case) -> Iterator[Finding]:

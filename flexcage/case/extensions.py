@@ -8,6 +8,7 @@ from __future__ import annotations
 import importlib
 import importlib.util
 import sys
+from collections.abc import Iterable
 from pathlib import Path
 
 from flexcage.core.errors import FlexcageError, InputError
@@ -19,6 +20,13 @@ _loaded: list[str] = []
 def sources() -> tuple[str, ...]:
     """What ``load_extension`` loaded in this process, in order: absolute paths and module names."""
     return tuple(_loaded)
+
+
+def not_loaded(wanted: Iterable[str]) -> list[str]:
+    """Those among the names of files and modules that this process has not loaded, nor another
+    file of that name."""
+    names = {Path(source).name for source in _loaded}
+    return [s for s in wanted if Path(s).name not in names and s not in sys.modules]
 
 
 def load_extension(source: str | Path) -> None:

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-import tomllib
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-from flexcage.case.case import Case
+from flexcage.case.case import Case, expanded
 from flexcage.core.errors import InputError
+from flexcage.core.toml import read_toml
 
 
 def load_case(
@@ -41,9 +41,9 @@ def read_case(source: str | Path | Mapping[str, Any]) -> tuple[dict[str, Any], P
     if isinstance(source, Mapping):
         return dict(source), None
     if isinstance(source, str) and ("\n" in source or "=" in source):
-        return _parse(source, "The text"), None
-    path = Path(source).expanduser()
-    table = _parse(_text(path), str(path))
+        return read_toml(source, "The text", where="case"), None
+    path = expanded(source, where="case")
+    table = read_toml(_text(path), str(path), where="case")
     if "case" in table and "bearing" not in table:
         raise InputError(
             f"'{path}' is a study, not a case; take 'flexcage study run {path}'.",
@@ -64,14 +64,7 @@ def _text(path: Path) -> str:
         sentence = f"The case file '{path}' may not be read; check its permissions."
     except UnicodeDecodeError:
         sentence = f"'{path}' is not a text file; a case is TOML text in UTF-8."
-    except OSError as exc:
-        sentence = f"The case file '{path}' cannot be read: {exc.strerror or exc}."
+    except (OSError, ValueError) as exc:  # a name that no file can have
+        reason = getattr(exc, "strerror", None) or exc
+        sentence = f"The case file '{path}' cannot be read: {reason}."
     raise InputError(sentence, where="case", value=str(path))
-
-
-def _parse(text: str, name: str) -> dict[str, Any]:
-    try:
-        return tomllib.loads(text)
-    except tomllib.TOMLDecodeError as exc:
-        reason = str(exc).rstrip(".")
-        raise InputError(f"{name} is not valid TOML: {reason}.", where="case") from exc

@@ -64,7 +64,11 @@ def _sentence(exc: Exception) -> tuple[str, int]:
             return f"The disk is full{place}; what was written before is kept.", 1
         return f"A file could not be read or written{place}: {exc.strerror or exc}.", 1
     if isinstance(exc, MemoryError):
-        return "This machine has too little memory; take a coarser mesh or fewer modes.", 1
+        return (
+            "This machine has too little memory; take a coarser mesh, fewer modes or a "
+            "shorter run.",
+            1,
+        )
     return (
         f"flexcage stopped on an error of its own, {type(exc).__name__}: {exc}; "
         "FLEXCAGE_DEBUG=1 shows where.",
@@ -75,8 +79,11 @@ def _sentence(exc: Exception) -> tuple[str, int]:
 def _stopped_sentence(args: argparse.Namespace) -> str:
     out = getattr(args, "out", None)
     if out is not None and (Path(out) / "study.toml").exists():
+        from flexcage.case.extensions import sources
+
+        use = "".join(f" --use {source}" for source in sources())
         return (
-            f"Stopped; what is finished is kept in '{out}', and 'flexcage study resume {out}' "
+            f"Stopped; what is finished is kept in '{out}', and 'flexcage study resume {out}{use}' "
             "goes on from there."
         )
     if out is None or not (Path(out) / "results.zarr").exists():

@@ -8,6 +8,7 @@ from typing import Any, NoReturn
 
 from flexcage._version import __version__
 from flexcage.core.binding import did_you_mean
+from flexcage.core.errors import in_one_line
 
 
 def say(text: object = "") -> None:
@@ -19,7 +20,8 @@ class _Parser(argparse.ArgumentParser):
     """Options that are wrong get one sentence, as any other mistake."""
 
     def error(self, message: str) -> NoReturn:
-        self.exit(2, f"flexcage: {message}; '{self.prog} --help' lists the options.\n")
+        sentence = in_one_line(f"{message}; '{self.prog} --help' lists the options.")
+        self.exit(2, f"flexcage: {sentence}\n")
 
     def parse_known_args(self, args: Any = None, namespace: Any = None) -> Any:
         """As in argparse, but each command refuses by itself what it does not know."""

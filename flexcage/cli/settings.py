@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from flexcage.core.errors import InputError
+from flexcage.core.toml import read_toml
 
 
 def case_from(args: argparse.Namespace) -> Any:
@@ -56,9 +57,7 @@ def parse_setting(text: str) -> tuple[str, Any]:
     path, value = path.strip(), value.strip()
     if not sign or not path:
         raise InputError(f"--set {text!r} should read path=value, such as 'load.radial=500 N'.")
-    import tomllib
-
     try:
-        return path, tomllib.loads(f"value = {value}")["value"]
-    except tomllib.TOMLDecodeError:
+        return path, read_toml(f"value = {value}", text)["value"]
+    except InputError:
         return path, value

@@ -13,6 +13,7 @@ NORMAL_LAWS: dict[str, type | None] = dict.fromkeys(("restitution", "impact_step
 FRICTION_LAWS: dict[str, type | None] = dict.fromkeys(
     ("traction", "step_coulomb", "ramp_coulomb", "none")
 )
+MOST_FRICTION = 2.0  # coefficient: clean metals in air have about 1
 _COULOMB = ("step_coulomb", "ramp_coulomb")
 _CREEP_END = {"step_coulomb": "v_static", "ramp_coulomb": "v_dynamic"}  # by law, the speed's field
 
@@ -44,7 +45,7 @@ class NormalLaw:
         assumption="0.01 mm, as in the published ADAMS model of examples/papers/c7010_centroid",
     )  # fmt: skip
     stiffness_factor: float = option(
-        1.0, doc="multiplies the computed stiffness (studies)", minimum=1e-6
+        1.0, doc="multiplies the computed stiffness (studies)", minimum=1e-6, maximum=1e6
     )
 
 
@@ -60,11 +61,11 @@ class FrictionLaw:
 
     law: str = option("step_coulomb", doc="name of the law", choices=FRICTION_LAWS)
     static: float = option(
-        0.1, doc="static coefficient", minimum=0.0, of=_COULOMB,
+        0.1, doc="static coefficient", minimum=0.0, maximum=MOST_FRICTION, of=_COULOMB,
         assumption="published bearing models take 0.1 to 0.15 (Symmetry 2025, 17(10), 1761)",
     )  # fmt: skip
     dynamic: float = option(
-        0.05, doc="dynamic coefficient", minimum=0.0, of=_COULOMB,
+        0.05, doc="dynamic coefficient", minimum=0.0, maximum=MOST_FRICTION, of=_COULOMB,
         assumption="of greased steel in ADAMS's table of contacts; 0.02 at the cage in Symmetry "
         "2025, 17(10), 1761, 0.1 in thin films",
     )  # fmt: skip
@@ -77,7 +78,7 @@ class FrictionLaw:
         assumption="ADAMS's default; published models give none",
     )  # fmt: skip
     peak: float = option(
-        0.05, doc="traction maximum", minimum=0.0, of=("traction",),
+        0.05, doc="traction maximum", minimum=0.0, maximum=MOST_FRICTION, of=("traction",),
         assumption="mineral oils have 0.04 to 0.08, and no oil is given; the curve is Gupta's",
     )  # fmt: skip
     peak_speed: float = quantity(
@@ -85,7 +86,8 @@ class FrictionLaw:
         assumption="2.3 % of an N1013's rolling speed at 6000 rpm; loaded slip follows from it",
     )  # fmt: skip
     high_speed: float = option(
-        0.03, doc="traction at large sliding speed", minimum=0.0, of=("traction",),
+        0.03, doc="traction at large sliding speed", minimum=0.0, maximum=MOST_FRICTION,
+        of=("traction",),
         assumption="less than the peak, as heat thins the film; no source says how much",
     )  # fmt: skip
 
@@ -118,7 +120,7 @@ class EhlTraction(FrictionLaw):
 
     law: str = option("ehl", doc="name of the law", choices=FRICTION_LAWS)
     limit: float = option(
-        0.06, doc="limiting shear stress over pressure", minimum=1e-6,
+        0.06, doc="limiting shear stress over pressure", minimum=1e-6, maximum=MOST_FRICTION,
         assumption="0.04 to 0.08 for mineral oils",
     )  # fmt: skip
     creep_speed: float = quantity(
@@ -206,7 +208,7 @@ class Lubricant:
         assumption="mineral oils have 865 to 880 kg/m^3 at 15 C: this is one near 30 C",
     )  # fmt: skip
     oil_fraction: float = option(
-        0.01, doc="oil volume fraction in the space", minimum=0.0,
+        0.01, doc="oil volume fraction in the space", minimum=0.0, maximum=1.0,
         assumption="drip or oil-air: in an N1013 at 6000 rpm 1.25 cm^3/min leave as much by "
         "Parker's formula (NASA TP-2275, 1984) as a fraction; a jet's 0.1 to 1 l/min 5 to 12 %",
     )  # fmt: skip
@@ -216,7 +218,7 @@ class Lubricant:
         "flooded: heat and starvation would lower it",
     )  # fmt: skip
     drag_coefficient: float = option(
-        0.4, doc="C_D of a shadowed rolling element", minimum=0.0,
+        0.4, doc="C_D of a shadowed rolling element", minimum=0.0, maximum=100.0,
         assumption="a free ball has 0.42 (Schiller, Naumann 1933), a free cylinder about 1; "
         "neighbours shadow both",
     )  # fmt: skip

@@ -14,17 +14,18 @@ import types
 import typing
 from collections.abc import Iterable, Iterator, Mapping
 from functools import cache
+from math import inf, log10
 from pathlib import Path
 from typing import Any, Union
 
 import numpy as np
 
-from flexcage.core.errors import InputError
-from flexcage.core.units import describe, format_si, parse
+from flexcage.core.errors import InputError, shown
+from flexcage.core.units import describe, format_si, limits_of, parse
 
 MISSING = dataclasses.MISSING
 _NUMBERS = {float: numbers.Real, int: numbers.Integral}  # numpy's as well
-_LONG = 80  # characters of a value that a sentence still tells whole
+_LARGEST = 2**63 - 1  # whole number
 _IN_WORDS = {
     float: "a number", int: "a whole number", bool: "true or false", str: "text", Path: "a path",
     tuple: "a tuple",
@@ -152,6 +153,7 @@ class Binder:
     def _scalar(self, kind: Any, meta: Mapping, value: Any, where: str) -> Any:
         if isinstance(value, np.generic):
             value = value.item()
+        _check_size(value, where)
         unit = meta.get("unit")
         if unit and kind in (float, int):
             number = isinstance(value, (int, float)) and not isinstance(value, bool)
@@ -411,9 +413,15 @@ def check_value(value: Any, meta: Mapping, where: str) -> None:
         if isinstance(choices, Mapping) and hint.startswith("choose"):
             hint += ", or load the file that registers it (--use FILE)"
         raise InputError(f"{where} '{value}' is not known; {hint}.", where=where, value=value)
+    if isinstance(value, str) and "\0" in value:
+        raise InputError(
+            f"{where} is {value!r}, but text has no NUL characters.", where=where, value=value
+        )
     if isinstance(value, bool) or not isinstance(value, (int, float)):
         return
+    _check_size(value, where)
     unit = meta.get("unit", "")
+    least, most = limits_of(unit) if value not in (inf, -inf) else (0.0, inf)
     text = (lambda v: describe(v, unit)) if unit else (lambda v: f"{v:g}")
     above, low, high = meta.get("above"), meta.get("minimum"), meta.get("maximum")
     wrong = ""
@@ -425,8 +433,22 @@ def check_value(value: Any, meta: Mapping, where: str) -> None:
         wrong = f"be {text(low)} or more"
     elif high is not None and value > high:
         wrong = f"be {text(high)} or less"
+    elif above == 0.0 and value < least:
+        wrong = f"be {text(least)} or more"
+    elif abs(value) > most:
+        wrong = f"be {text(most)} or less" if value > 0.0 else f"be {text(-most)} or more"
     if wrong:
         raise InputError(f"{where} is {text(value)}, but must {wrong}.", where=where, value=value)
+
+
+def _check_size(value: Any, where: str) -> None:
+    """Raise InputError for a whole number that no computer word holds."""
+    if isinstance(value, int) and abs(value) > _LARGEST:
+        raise InputError(
+            f"{where} is a whole number of about {round(value.bit_length() * log10(2.0))} digits, "
+            f"but must be {_LARGEST} or less.",
+            where=where,
+        )
 
 
 def to_table(spec: Any, *, named: Mapping[type, Mapping[str, Any]] | None = None) -> dict[str, Any]:
@@ -504,10 +526,13 @@ def join(where: str, key: object) -> str:
 
 
 def flat(table: Any, where: str = "") -> list[tuple[str, Any]]:
-    """Dotted path and value of every entry of nested tables."""
+    """Dotted path and value of every entry of nested tables; entries of lists of tables are
+    numbered, as "defects.0.displacement"."""
     rows: list[tuple[str, Any]] = []
     for key, value in table.items():
-        path = join(where, key)
+        path = join(where, str(key))
+        if isinstance(value, list) and value and all(hasattr(entry, "items") for entry in value):
+            value = dict(enumerate(value))
         rows += flat(value, path) if hasattr(value, "items") else [(path, value)]
     return rows
 
@@ -534,10 +559,9 @@ def missing_key(field: dataclasses.Field, where: str) -> InputError:
 
 def wrong_type(value: Any, wanted: str, where: str) -> InputError:
     """Error for a value of another kind than its field or argument."""
-    given = repr(value)
-    if len(given) > _LONG or "\n" in given:
-        given = f"a {type(value).__name__}"
-    return InputError(f"{where} is {given}, but should be {wanted}.", where=where, value=value)
+    return InputError(
+        f"{where} is {shown(value)}, but should be {wanted}.", where=where, value=value
+    )
 
 
 def did_you_mean(text: str, known: Iterable[str], otherwise: str) -> str:

@@ -25,6 +25,7 @@ logger = logging.getLogger(__name__)
 
 _BROKEN = (zipfile.BadZipFile, zlib.error, ValueError, OSError, EOFError, KeyError)
 _DEFAULT_LIMIT_GB = 4.0
+_ROOM = 1_000_000  # bytes that a folder must have room for, or it counts as full
 
 Arrays = dict[str, np.ndarray]
 
@@ -37,6 +38,29 @@ def cache_root() -> Path:
     import platformdirs
 
     return Path(platformdirs.user_cache_dir("flexcage"))
+
+
+def check_writable(folder: Path) -> None:
+    """Raise OSError if a folder cannot be made, or has no room for a file of some size."""
+    folder.mkdir(parents=True, exist_ok=True)
+    with tempfile.TemporaryFile(dir=folder) as file:
+        file.write(b"0" * _ROOM)
+
+
+_told: set[Path] = set()
+
+
+def tell_unwritable(path: Path, error: OSError) -> None:
+    """Say once that the cache folder in which ``path`` lies cannot be written."""
+    folder = cache_root() if path.is_relative_to(cache_root()) else path
+    if folder in _told:
+        return
+    _told.add(folder)
+    logger.warning(
+        "the cache folder '%s' cannot be written (%s): kernels and modes are made anew in every "
+        "run; make room there, or set FLEXCAGE_CACHE_DIR to a folder that can be written",
+        folder, (error.strerror or str(error)).lower(),
+    )  # fmt: skip
 
 
 def cache_limit() -> int:
@@ -102,7 +126,7 @@ def _lock(path: Path) -> Iterator[None]:
         lock = filelock.FileLock(str(path) + ".lock")
         lock.acquire()
     except OSError as exc:
-        logger.warning("cache folder %s cannot be used (%s)", path.parent, exc)
+        tell_unwritable(path.parent, exc)
         yield
         return
     try:
@@ -121,7 +145,7 @@ def _write(path: Path, arrays: Arrays) -> None:
             os.fsync(file.fileno())
         os.replace(temporary, path)
     except OSError as exc:
-        logger.warning("cache entry %s could not be written (%s)", path.name, exc)
+        tell_unwritable(path.parent, exc)
         if temporary:
             Path(temporary).unlink(missing_ok=True)
 

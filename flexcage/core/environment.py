@@ -10,15 +10,15 @@ import importlib.metadata
 import importlib.util
 import os
 import platform
+import shutil
 import subprocess
 import sys
-import tempfile
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cache
 
-from flexcage.core.cache import cache_root
-from flexcage.core.errors import EnvironmentLacks
+from flexcage.core.cache import cache_root, check_writable
+from flexcage.core.errors import EnvironmentLacks, is_full
 
 APT_RENDER = "sudo apt-get install -y libegl1 libgl1 libosmesa6 libxrender1"
 APT_GMSH = (
@@ -29,6 +29,7 @@ _WINDOW_VARIABLE = "VTK_DEFAULT_OPENGL_WINDOW"
 _WINDOWS = ("default", "vtkEGLRenderWindow", "vtkOSOpenGLRenderWindow")
 _PROBE_SECONDS = 60
 _MINIMUM_MEMORY = 4e9
+_CACHE_ROOM = 400e6  # bytes: kernels of both kinds of bearings (measured: 165 MB), some cages
 
 # Draws one triangle and looks at the picture: a window that opens and draws nothing is no use.
 _RENDER_PROBE = """
@@ -133,6 +134,7 @@ def probe() -> list[Finding]:
         _rendering,
         _solver,
         _cache_folder,
+        _kernel_cache,
         _cores,
         _memory,
     )
@@ -180,14 +182,35 @@ def _solver() -> Finding:
 def _cache_folder() -> Finding:
     folder = cache_root()
     try:
-        folder.mkdir(parents=True, exist_ok=True)
-        with tempfile.TemporaryFile(dir=folder) as file:
-            file.write(b"0")
+        check_writable(folder)
     except OSError as exc:
-        reason = f"{folder} cannot be written: {exc.strerror or exc}"
-        remedy = "set FLEXCAGE_CACHE_DIR to a folder that can be written"
+        reason = f"{folder} cannot be written: {(exc.strerror or str(exc)).lower()}"
+        remedy = f"set FLEXCAGE_CACHE_DIR to a folder that can be written{_room_for(exc)}"
         return Finding("cache folder", False, reason, remedy, needed=False)
+    free = shutil.disk_usage(folder).free
+    if free < _CACHE_ROOM:
+        detail = f"{folder} has {free / 1e6:.0f} MB left; kernels and modes want more"
+        remedy = f"make room there for {_CACHE_ROOM / 1e6:.0f} MB, or set FLEXCAGE_CACHE_DIR"
+        return Finding("cache folder", False, detail, remedy, needed=False)
     return Finding("cache folder", True, str(folder), needed=False)
+
+
+def _room_for(error: OSError) -> str:
+    return ", or make room there" if is_full(error) else ""
+
+
+def _kernel_cache() -> Finding:
+    """Compiled kernels that cannot be read; importing numba takes its second here."""
+    from flexcage.core.kernel_cache import damaged
+
+    folder = cache_root() / "kernels"
+    bad = damaged(folder)
+    if not bad:
+        return Finding("kernel cache", True, str(folder), needed=False)
+    more = f" and {len(bad) - 1} more" if len(bad) > 1 else ""
+    detail = f"{bad[0]}{more} cannot be read; a run compiles such a kernel anew"
+    remedy = "flexcage cache --clear, which removes all that the cache holds"
+    return Finding("kernel cache", False, detail, remedy, needed=False)
 
 
 def _cores() -> Finding:

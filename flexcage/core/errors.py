@@ -2,9 +2,33 @@
 
 from __future__ import annotations
 
+import re
 from errno import EDQUOT, ENOSPC
 from traceback import extract_tb
 from typing import Any
+
+_WHOLE = 80  # characters of a value of another kind that are told
+_LONG, _LONGEST = 240, 1200  # characters of a value, and of a sentence, that are told whole
+_VALUE = re.compile(rf"'[^']{{{_LONG},}}'|\S{{{_LONG},}}")
+_CONTROL = re.compile(r"[\x00-\x1f\x7f-\x9f\u2028\u2029\ud800-\udfff]")
+
+
+def in_one_line(text: str) -> str:
+    """A sentence that can be read, whatever values it tells: long ones lose their middle, and
+    control characters are written as escapes."""
+
+    def shortened(long: str, most: int) -> str:
+        return f"{long[: most // 2]}... ({len(long)} characters) ...{long[-(most // 4) :]}"
+
+    text = _CONTROL.sub(lambda match: repr(match[0])[1:-1], text)
+    text = _VALUE.sub(lambda match: shortened(match[0], _LONG // 3), text)
+    return text if len(text) <= _LONGEST else shortened(text, _LONGEST)
+
+
+def shown(value: Any) -> str:
+    """A value as a sentence tells it: as Python writes it, or what it is if that is long."""
+    text = repr(value)
+    return f"a {type(value).__name__}" if len(text) > _WHOLE or "\n" in text else text
 
 
 class FlexcageError(Exception):
@@ -19,7 +43,7 @@ class InputError(FlexcageError, ValueError):
     exit_code = 2
 
     def __init__(self, message: str, *, where: str = "", value: object = None) -> None:
-        super().__init__(message)
+        super().__init__(in_one_line(message))
         self.where = where
         self.value = value
 

@@ -18,7 +18,8 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-import platformdirs
+
+from flexcage.core.cache import cache_root
 
 _PACKAGE = Path(__file__).resolve().parents[1]
 
@@ -47,8 +48,7 @@ def source_hash(files: list[Path]) -> str:
 
 def kernel_cache_dir() -> Path:
     """Folder in which numba keeps compiled kernels of exactly these sources."""
-    root = Path(os.environ.get("FLEXCAGE_CACHE_DIR") or platformdirs.user_cache_dir("flexcage"))
-    return root / "kernels" / source_hash(kernel_sources())
+    return cache_root() / "kernels" / source_hash(kernel_sources())
 
 
 if "NUMBA_CACHE_DIR" not in os.environ:
@@ -71,7 +71,10 @@ from numba.extending import (  # noqa: E402
     unbox,
 )
 
+from flexcage.core.kernel_cache import KernelCache, KernelFolder  # noqa: E402
+
 numba.config.CACHE_DIR = os.environ["NUMBA_CACHE_DIR"]  # type: ignore[attr-defined]
+_folder = KernelFolder(Path(os.environ["NUMBA_CACHE_DIR"]))
 # laws are passed to kernels as first-class functions, which numba calls experimental
 warnings.simplefilter("ignore", numba.errors.NumbaExperimentalFeatureWarning)
 
@@ -97,8 +100,22 @@ def kernel(*args: Any, **kwargs: Any) -> Any:
     The plain function is ``.py_func``.
     """
     if args and callable(args[0]):
-        return numba.njit(**LEAN)(args[0])
-    return numba.njit(*args, **{**LEAN, **kwargs})
+        return _jitted(args[0], None, LEAN)
+    signature = args[0] if args else None
+    return lambda function: _jitted(function, signature, {**LEAN, **kwargs})
+
+
+def _jitted(function: Any, signature: Any, options: dict[str, Any]) -> Any:
+    """``numba.njit``, for one signature or for any, with kernels kept on disk by our own cache."""
+    made = numba.njit(**{**options, "cache": False})(function)
+    if numba.config.DISABLE_JIT:  # type: ignore[attr-defined]
+        return made
+    if options["cache"]:
+        made._cache = KernelCache(made.py_func, _folder)
+    if signature is not None:
+        made.compile(signature)
+        made.disable_compile()
+    return made
 
 
 def kernel_of(function: Any, signature: Any) -> Any:
@@ -187,7 +204,7 @@ if hasattr(TargetConfig, "_values"):
 
 def allocating_kernel(function: Any) -> Any:
     """``kernel`` for the few that make arrays or boxes, away from the contact loops."""
-    return numba.njit(**OPTIONS)(function)
+    return _jitted(function, None, OPTIONS)
 
 
 @contextmanager
@@ -213,31 +230,47 @@ def compiled(function: Any, signature: Any, options: dict[str, Any] = LEAN) -> A
     key = function, signature, tuple(options.items())
     if key not in _compiled:
         with uncollected():
-            _compiled[key] = numba.njit(signature, **options)(function)
+            _compiled[key] = _jitted(function, signature, options)
     return _compiled[key]
 
 
-def compiled_mark(what: str) -> Path:
-    """The file that says: on disk are all kernels that a run of ``what`` ("roller", "ball") needs,
-    of exactly these sources."""
-    return Path(numba.config.CACHE_DIR) / f"compiled-{what}"  # type: ignore[attr-defined]
+def _mark(folder: Path, what: str) -> Path:
+    """The file that says: in this folder are all kernels that a run of ``what`` needs ("roller",
+    "ball"), of exactly these sources."""
+    return folder / f"compiled-{what}"
 
 
 def kernels_cached(what: str) -> bool:
     """True if nothing is left to be compiled, or nothing ever is."""
-    return bool(numba.config.DISABLE_JIT) or compiled_mark(what).exists()  # type: ignore[attr-defined]
+    if numba.config.DISABLE_JIT:  # type: ignore[attr-defined]
+        return True
+    return any(_mark(place, what).exists() for place in _folder.places)
+
+
+def compiling_lock(what: str) -> Path | None:
+    """A file by which processes agree who compiles; None where none can be written."""
+    _folder.ensure_writable()
+    place = _folder.place
+    return None if place is None else _mark(place, what).with_suffix(".lock")
 
 
 def cache_environment() -> dict[str, str]:
-    """Environment variables by which another process finds the same cache."""
-    return {"NUMBA_CACHE_DIR": str(numba.config.CACHE_DIR)}  # type: ignore[attr-defined]
+    """Environment variables by which another process finds the same cache, which can be written
+    if there is any way."""
+    _folder.ensure_writable()
+    return {"NUMBA_CACHE_DIR": str(_folder.place or _folder.path)}
 
 
 def mark_compiled(what: str) -> None:
-    """Say that all kernels are on disk."""
-    if not kernels_cached(what):
-        compiled_mark(what).parent.mkdir(parents=True, exist_ok=True)
-        compiled_mark(what).touch()
+    """Say that all kernels are on disk, if they are."""
+    place = _folder.place
+    if kernels_cached(what) or place is None:
+        return
+    try:
+        place.mkdir(parents=True, exist_ok=True)
+        _mark(place, what).touch()
+    except OSError as error:
+        _folder.refuse(error)
 
 
 class Box:

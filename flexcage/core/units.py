@@ -1,18 +1,21 @@
 """Units at the border: text such as "0.2 mm" becomes SI, and SI becomes such text again.
 
-pint is the authority. Its registry takes 0.3 s to build, so the units that cases use every day
-are answered from a small table that a test compares with pint.
+pint is the authority, except that here an angle is a dimension of its own: a speed in rad/s is
+no frequency, and 1/s may be either. Its registry takes 0.3 s to build, so the units that cases
+use every day are answered from a small table that a test compares with pint.
 """
 
 from __future__ import annotations
 
 import math
 import re
-from decimal import Decimal
+from collections.abc import Callable
+from decimal import Decimal, InvalidOperation
 from functools import cache
+from importlib import resources
 from typing import Any
 
-from flexcage.core.errors import InputError
+from flexcage.core.errors import InputError, shown
 
 # unit: (kind, power of ten, factor) to SI; the power shifts the decimal text, so that 78.4 mm
 # becomes exactly the number 0.0784 and not its neighbour
@@ -62,12 +65,56 @@ _COMMON: dict[str, tuple[str, int, float]] = {
     "N*m*s/rad": ("torsional damping", 0, 1.0),
     "g*mm": ("unbalance", -6, 1.0),
 }
-# for pint an angle has no dimension, so that "100 Hz" would pass as 100 rad/s
-_CYCLES = re.compile(r"\b[kMG]?(Hz|hertz)\b")
-_TURNS = re.compile(r"\b(rpm|rad|radian|radians|mrad|deg|degree|degrees|turn|revolution)\b")
+# kind: least (of what must be greater than 0) and greatest magnitude in SI. Far beyond any bearing,
+# where a number is a slip of the pen, and short of where its squares or inverses leave the floats
+_LIMITS: dict[str, tuple[float, float]] = {
+    "length": (1e-16, 1e3),
+    "time": (1e-15, 1e6),
+    "force": (1e-9, 1e9),
+    "pressure": (1e-3, 1e14),
+    "angle": (1e-12, 20.0 * math.pi),
+    "angular speed": (1e-9, 1e6),
+    "angular acceleration": (1e-6, 1e9),
+    "frequency": (1e-6, 1e10),
+    "mass": (1e-12, 1e6),
+    "density": (1e-9, 1e5),
+    "speed": (1e-9, 1e4),
+    "acceleration": (1e-9, 1e6),
+    "moment": (1e-9, 1e9),
+    "stiffness": (1e-6, 1e15),
+    "damping": (1e-9, 1e12),
+    "viscosity": (1e-9, 1e4),
+    "pressure coefficient": (1e-15, 1e-5),
+    "torsional stiffness": (1e-6, 1e15),
+    "torsional damping": (1e-9, 1e12),
+    "unbalance": (1e-15, 1e3),
+}
 _DECIMAL_COMMA = re.compile(r"\s*[+-]?\d+,\d+\s*\D")
 _NUMBER = re.compile(
     r"\s*([+-]?(?:\d+\.?\d*(?:[eE][+-]?\d+)?|\.\d+(?:[eE][+-]?\d+)?|inf))\s*(.*?)\s*$"
+)
+_LONGEST = 60  # characters of a unit
+_RAISED = "⁰¹²³⁴⁵⁶⁷⁸⁹⁻"
+_LOWERED = str.maketrans(_RAISED, "0123456789-")
+# usual spellings that pint does not read, and how it writes them
+_SPELLINGS: tuple[tuple[re.Pattern, Any], ...] = (
+    (re.compile(f"[{_RAISED}]+"), lambda m: "^" + m[0].translate(_LOWERED)),  # m³
+    (re.compile(r"\*\*"), "^"),
+    (re.compile("[·⋅∙×]"), "*"),
+    (re.compile(r"\b([A-Za-zµ]+)(-?\d+)(?![\w.])"), r"\1^\2"),  # kg/m3, min-1
+    (re.compile(r"\b[rR]\.?[pP]\.?[mM]\b\.?"), "rpm"),
+    (re.compile(r"\b(m?)Pas\b"), r"\1Pa*s"),  # pint takes it for the plural of Pa
+    (re.compile(r"^/"), "1/"),
+)
+_TON = re.compile(r"\b[kM]?tons?\b")  # 907 kg for pint, and 1000 kg for most engineers
+_ODD = re.compile(r"\d{3}|\d\s*\^|%\s*\w")  # powers that take pint for ever, parts of a unit
+_ANGLE = "[plane_angle]"
+# pint's angles have no dimension, so that 100 Hz would pass for 100 rad/s and N*m for N*m/rad
+_DEFINITIONS = (
+    f"radian = {_ANGLE} = rad",
+    "@alias turn = rev = revs = rotation = rot = r = tr = U",
+    "newton_metre = newton * metre = Nm",
+    "newton_millimetre = newton * millimetre = Nmm",
 )
 
 
@@ -75,13 +122,27 @@ _NUMBER = re.compile(
 def _registry() -> Any:
     import pint
 
-    return pint.UnitRegistry()
+    registry: Any = pint.UnitRegistry(None, on_redefinition="ignore")
+    registry.load_definitions(str(resources.files("pint") / "default_en.txt"))
+    for line in _DEFINITIONS:
+        registry.define(line)
+    registry.default_system = "mks"
+    return registry
 
 
 def split(text: str) -> tuple[Decimal, str] | None:
     """Number and unit text of "0.2 mm", or None if it does not begin with a number."""
     match = _NUMBER.match(text)
-    return (Decimal(match[1]), match[2].replace("µ", "µ").replace("μ", "µ")) if match else None
+    return (_decimal(match[1]), match[2].replace("μ", "µ")) if match else None
+
+
+def _decimal(text: str) -> Decimal:
+    """Number of a text; one whose exponent no decimal holds becomes one that no float holds."""
+    try:
+        return Decimal(text)
+    except InvalidOperation:
+        sign = "-" if text.startswith("-") else ""
+        return Decimal(f"{sign}1e{'-' if 'e-' in text.lower() else ''}9999")
 
 
 def parse(value: object, unit: str, *, where: str = "value") -> float:
@@ -93,14 +154,16 @@ def parse(value: object, unit: str, *, where: str = "value") -> float:
         raise _no_unit(value, unit, where)
     if isinstance(value, str) and _DECIMAL_COMMA.match(value):
         raise InputError(
-            f"{where} is '{value}'; write decimals with a point, '{value.replace(',', '.', 1)}'.",
+            f"{where} is '{value}'; write decimals with a point, '{value.replace(',', '.', 1)}', "
+            f"and thousands without a comma, '{value.replace(',', '')}'.",
             where=where,
             value=value,
         )
     parts = split(value) if isinstance(value, str) else None
     if parts is None:
+        given = repr(value) if isinstance(value, str) else shown(value)
         raise InputError(
-            f"{where} is {value!r}, but should be a number with a unit, such as '1 {unit}'.",
+            f"{where} is {given}, but should be a number with a unit, such as '1 {unit}'.",
             where=where,
             value=value,
         )
@@ -109,8 +172,23 @@ def parse(value: object, unit: str, *, where: str = "value") -> float:
         raise _no_unit(value, unit, where)
     wanted, have = _COMMON.get(unit), _COMMON.get(given)
     if wanted and have and wanted[0] == have[0]:
-        return float(number.scaleb(have[1])) * have[2]
-    return _parse_by_pint(float(number), given, unit, where, value)
+        found = float(_shifted(number, have[1])) * have[2]
+    else:
+        found = _parse_by_pint(float(number), given, unit, where, value)
+    if (math.isinf(found) and number.is_finite()) or (found == 0.0 and number != 0):
+        size = "large" if found else "small"
+        raise InputError(
+            f"{where} is '{value}', which is too {size} a number to compute with.",
+            where=where,
+            value=value,
+        )
+    return found
+
+
+def _shifted(number: Decimal, power: int) -> Decimal:
+    """The number times a power of ten, exactly; numbers beyond all floats as they are."""
+    far = not number.is_finite() or abs(number.adjusted()) > 400
+    return number if far else number.scaleb(power)
 
 
 def _no_unit(value: object, unit: str, where: str) -> InputError:
@@ -122,44 +200,82 @@ def _no_unit(value: object, unit: str, where: str) -> InputError:
 
 
 def _parse_by_pint(number: float, given: str, unit: str, where: str, value: object) -> float:
-    registry = _registry()
-    import pint
+    def refused(sentence: str) -> InputError:
+        return InputError(f"{where} is '{value}', {sentence}.", where=where, value=value)
 
     try:
-        quantity = registry.Quantity(number, given)
-    except (pint.errors.PintError, AttributeError, TypeError, ValueError, SyntaxError) as exc:
-        raise InputError(
-            f"{where} is '{value}', but '{given}' is not a known unit; write it in {unit}.",
-            where=where,
-            value=value,
-        ) from exc
-    except Exception as exc:  # pint's tokenizer raises assorted errors on malformed text
-        raise InputError(
-            f"{where} is '{value}', which cannot be read as a quantity in {unit}.",
-            where=where,
-            value=value,
-        ) from exc
-    angular = bool(_TURNS.search(unit))
-    mixed = (
-        bool(_CYCLES.search(given))
-        if angular
-        else (bool(_CYCLES.search(unit)) and bool(_TURNS.search(given)))
-    )
-    wanted = registry.Quantity(1.0, unit).units
-    if mixed or quantity.dimensionality != wanted.dimensionality:
-        raise InputError(
-            f"{where} is '{value}', but '{given}' is of another kind than {unit}, which it wants.",
-            where=where,
-            value=value,
+        quantity = _quantity(number, given)
+    except Exception as exc:  # pint's parser raises assorted errors on malformed text
+        raise refused(f"but '{given}' is not a known unit; write it in {unit}") from exc
+    if _TON.search(given):
+        raise refused("but a ton has 1000 kg or 2000 lb; write it in 't' (1000 kg), kg or lb")
+    wanted = _quantity(1.0, unit).units
+    if quantity.dimensionality == wanted.dimensionality:
+        return float(quantity.to(wanted).to_base_units().magnitude)
+    found = _without_angle(quantity, wanted.dimensionality, refused)
+    if found is None:
+        raise refused(
+            f"but '{given}' is of another kind than {unit}, which it wants"
+            + _remedy(quantity.dimensionality, wanted.dimensionality, unit)
         )
-    return float(quantity.to(wanted).to_base_units().magnitude)
+    return found
+
+
+def _quantity(number: float, given: str) -> Any:
+    """pint's quantity of a unit in any of its usual spellings."""
+    for pattern, instead in _SPELLINGS:
+        given = pattern.sub(instead, given)
+    if len(given) > _LONGEST or _ODD.search(given):
+        raise ValueError(given)
+    return _registry().Quantity(number, given)
+
+
+def _without_angle(
+    quantity: Any, wanted: Any, refused: Callable[[str], InputError]
+) -> float | None:
+    """SI value of a quantity whose unit leaves out the angle that is wanted, where it has one
+    meaning: 1/min for revolutions a minute, and a slope for an angle. None if it cannot be meant.
+
+    Raises the error that ``refused`` makes of a sentence for one that has two meanings.
+    """
+    have, registry = quantity.dimensionality, _registry()
+    time = registry.Quantity(1.0, "s").dimensionality
+    for power in (1, 2):
+        if have == time**-power and wanted == registry.Quantity(1.0, "rad").dimensionality * have:
+            if dict(quantity.unit_items()) == {"minute": -1}:
+                return 2.0 * math.pi * float(quantity.to("1/s").magnitude)
+            each = "s" if power == 1 else "s^2"
+            size = f"{quantity.to(f'1/{each}').magnitude:g}"
+            raise refused(
+                "which may count revolutions or radians; write "
+                f"'{size} rev/{each}' or '{size} rad/{each}'"
+            )
+    lengths = {str(registry.get_dimensionality(name)) for name, _ in quantity.unit_items()}
+    if wanted == registry.Quantity(1.0, "rad").dimensionality and lengths == {"[length]"}:
+        slope = quantity.to("m/m") if not have else None  # 1 mm/m
+        return None if slope is None else math.atan(float(slope.magnitude))
+    return None
+
+
+def _remedy(have: Any, wanted: Any, unit: str) -> str:
+    """What to do about a unit of another kind, where that is plain; empty if it is not."""
+    if have and wanted.get(_ANGLE, 0) != have.get(_ANGLE, 0):
+        plain = [{k: v for k, v in d.items() if k != _ANGLE} for d in (have, wanted)]
+        if plain[0] == plain[1]:
+            if unit.endswith("Hz"):
+                return "; Hz counts cycles a second"
+            left = "leave the angle out" if have.get(_ANGLE) else "name the angle"
+            return f"; {left}, as in '{unit}'"
+    if _COMMON.get(unit, ("",))[0] == "viscosity" and dict(have) == {"[length]": 2, "[time]": -1}:
+        return "; multiply a kinematic viscosity by the oil's density"
+    return ""
 
 
 def _factor(unit: str) -> float:
     """What one ``unit`` is in SI."""
     if unit in _COMMON:
         return 10.0 ** _COMMON[unit][1] * _COMMON[unit][2]
-    return float(_registry().Quantity(1.0, unit).to_base_units().magnitude)
+    return float(_quantity(1.0, unit).to_base_units().magnitude)
 
 
 def format_si(value: float, unit: str) -> str:
@@ -181,6 +297,12 @@ def _plain(number: Decimal) -> str:
         return str(float(number))
     short = number.normalize()
     return f"{short:f}" if short == 0 or -5 <= short.adjusted() <= 9 else str(short)
+
+
+def limits_of(unit: str) -> tuple[float, float]:
+    """Least magnitude, of what must be greater than 0, and greatest that a value of this unit may
+    have, in SI; 0 and infinity for units that cases do not use."""
+    return _LIMITS.get(_COMMON.get(unit, ("",))[0], (0.0, math.inf))
 
 
 def describe(value: float, unit: str) -> str:

@@ -9,6 +9,7 @@ import scipy.sparse as sp
 
 from flexcage.core.errors import InputError
 from flexcage.fem.condensed import CondensedRing, find_parts
+from flexcage.fem.dissected import DissectedBody
 from flexcage.fem.linear import linear_solver
 from flexcage.fem.model import FEModel
 from flexcage.fem.tall import inner_products, subtract_product
@@ -21,17 +22,20 @@ class FreeBodySolver:
     The stiffness is factored with six dofs held at three distant vertices. A balanced load has
     no reaction there, so the supports leave no trace once the rigid part of the answer is
     removed. The operator is symmetric, and the pseudo-inverse of K in the metric of the mass.
-    A ring built of sectors is cut into parts that are factored once for every kind
-    (``condensed``), any other body as a whole, by the linear solver that ``kind`` names.
+    A ring of sectors is cut into parts that are factored once for every kind (``condensed``), any
+    other body as a whole: by dense fronts (``dissected``), or by the linear solver that ``kind``
+    names.
     """
 
     def __init__(self, model: FEModel, *, kind: str = "auto") -> None:
         self.model, self._kind = model, kind
 
     @cached_property
-    def solver(self) -> HeldBody | CondensedRing:
+    def solver(self) -> HeldBody | DissectedBody | CondensedRing:
         """The factored body, held."""
         model, parts = self.model, find_parts(self.model)
+        if parts is None and self._kind == "auto":
+            return DissectedBody(model, _supports(model.points))
         if parts is None:
             return HeldBody(model.K, _supports(model.points), kind=self._kind)
         vertices = np.argwhere(parts.cuts < len(model.points))

@@ -73,7 +73,9 @@ class Elimination:
     def condense(self, loads: np.ndarray) -> None:
         """Loads (n, m) in place: those on unknowns eliminated move on to later ones."""
         for front in self.fronts:
-            loads[front.border] -= front.coupling @ loads[front.own]
+            own = loads[front.own]
+            if own.any():
+                loads[front.border] -= front.coupling @ own
 
     def expand(self, fields: np.ndarray, loaded: int | None = None) -> None:
         """Condensed loads over answers of the unknowns left (n, m), in place: to answers of all.
@@ -83,7 +85,8 @@ class Elimination:
         for front in reversed(self.fronts):
             own = fields[front.own]
             moved = front.coupling.T @ fields[front.border]
-            own[:, :loaded] = front.inverse @ own[:, :loaded]
+            if own[:, :loaded].any():
+                own[:, :loaded] = front.inverse @ own[:, :loaded]
             own -= moved
 
 

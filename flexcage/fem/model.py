@@ -234,8 +234,11 @@ def assemble(mesh, material: Material, *, order: int = 2) -> FEModel:
     mass_rule = skfem.quadrature.get_quadrature(fe_mesh.refdom, 2 * order)
     cells = np.ascontiguousarray(basis.element_dofs.T)
     tets = np.ascontiguousarray(fe_mesh.t.T)
+    nodes = np.ascontiguousarray(basis.doflocs.T)
     form = Elements(element, (basis.X, basis.W), mass_rule, lame(material), material.density)
-    edges = np.sort(fe_mesh.edges.T, axis=1) if order == 2 else np.empty((0, 2), np.int64)
+    edges = np.empty((0, 2), np.int64)
+    if order == 2:
+        edges, cells, nodes = _by_vertices(np.sort(fe_mesh.edges.T, axis=1), cells, nodes)
     info: Mapping[str, object] = getattr(mesh, "info", MappingProxyType({}))
     sectors = find_sectors(info, tets, len(mesh.points), edges)
     if sectors is None or len(sectors.doubled):
@@ -246,7 +249,7 @@ def assemble(mesh, material: Material, *, order: int = 2) -> FEModel:
         points=np.asarray(mesh.points),
         tets=tets,
         cells=cells,
-        nodes=np.ascontiguousarray(basis.doflocs.T),
+        nodes=nodes,
         edges=edges,
         K=stiffness,
         mass_scalar=mass,
@@ -255,6 +258,19 @@ def assemble(mesh, material: Material, *, order: int = 2) -> FEModel:
         groups=mesh.groups,
         info=info,
     )
+
+
+def _by_vertices(
+    edges: np.ndarray, cells: np.ndarray, nodes: np.ndarray
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Edges (n, 2), cells and nodes with edges in rising order of their vertices, so that stored
+    shapes fit whatever numbering a release of scikit-fem has."""
+    order = np.lexsort((edges[:, 1], edges[:, 0]))
+    vertices = len(nodes) - len(edges)
+    number = np.arange(len(nodes))
+    number[vertices + order] = vertices + np.arange(len(edges))
+    old = np.concatenate([np.arange(vertices), vertices + order])
+    return edges[order], np.ascontiguousarray(number[cells]), np.ascontiguousarray(nodes[old])
 
 
 def _refuse_flat(mesh) -> None:

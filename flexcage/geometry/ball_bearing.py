@@ -198,6 +198,25 @@ class BallBearing(Bearing):
             race_contact(self, self.outer_conformity, 1.0),
         )
 
+    @cached_property
+    def contact_curvatures(self) -> tuple[float, float]:
+        """Curvature [1/m] of the surface of contact across the rolling direction, inner and outer
+        race: the mean of the ball's and the groove's (Harris)."""
+        inner, outer = (
+            0.5 * (2.0 / self.ball_diameter + 1.0 / radius)
+            for radius in (self.inner_groove_radius, self.outer_groove_radius)
+        )
+        return inner, outer
+
+    @cached_property
+    def rolling_heights(self) -> tuple[float, float]:
+        bends, contacts = self.contact_curvatures, self.contacts
+        inner, outer = (
+            0.1 * bend * float(c.semi_axes(1.0)[0]) ** 2 / (0.5 * self.ball_diameter)
+            for bend, c in zip(bends, contacts)
+        )
+        return inner, outer
+
 
 def race_contact(bearing: BallBearing, conformity: float, side: float) -> PointContact:
     """Contact of a ball with a race: the inner at ``side`` -1, the outer at +1."""

@@ -26,6 +26,7 @@ from flexcage.geometry.checks import (
 from flexcage.geometry.deep_groove_ball import DeepGrooveBallBearing
 
 _AGREE = 1e-6  # m, to which contact angle and clearance must agree: a tenth of a clearance class
+_WIDEST_GROOVE = 1.0  # radius, of the ball's diameter
 _WIDEST = 2.0  # of the bearing's width: one that reaches out of it on both sides
 _MOST_PRELOAD = 0.01  # of the ball's diameter: a Hertz pressure far beyond any steel's
 
@@ -79,6 +80,13 @@ def _find_in_grooves(b: BallBearing) -> Iterator[Finding]:
                 f"bearing.{key}",
                 f"bearing.{key} is {_mm(radius)}, but must be greater than the ball's radius, "
                 f"{_mm(0.5 * b.ball_diameter)}; 0.515 to 0.54 times its diameter is usual.",
+            )
+        if radius > _WIDEST_GROOVE * b.ball_diameter:
+            yield (
+                f"bearing.{key}",
+                f"bearing.{key} is {_mm(radius)}, so wide that it is no groove; give "
+                f"{_mm(_WIDEST_GROOVE * b.ball_diameter)} or less, the ball's diameter; 0.515 to "
+                "0.54 times it is usual.",
             )
 
 

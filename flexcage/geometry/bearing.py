@@ -68,6 +68,12 @@ class Bearing:
         """Contact angle [rad] to which kinematics refer."""
         return 0.0
 
+    @property
+    def rolling_heights(self) -> tuple[float, float]:
+        """h/N^(2/3) [N^(-2/3)] of inner and outer race: under a force N, an element rolls at h
+        times its radius above the middle of its contact; zero where contacts are not curved."""
+        return 0.0, 0.0
+
     def land_clearance(self, cage: Cage) -> tuple[float, str] | None:
         """Radial clearance [m] of the cage's land and the dimensions that leave it; None where the
         spec says nothing of the ring's land, and the case gives the clearance."""

@@ -14,6 +14,7 @@ from flexcage.core.spec import option, quantity
 from flexcage.core.units import describe
 from flexcage.geometry.cage import Cage
 
+_SHARPEST = 1e-4  # fillet, of the pocket's smaller side; smaller ones are lost in its mesh
 GUIDANCE = ("roller", "inner", "outer")
 
 
@@ -135,6 +136,9 @@ def check_cage(cage: WindowCage, *, pocket_count: int) -> None:
         where = "pocket_width"
     elif cage.fillet_radius >= half_window:
         what = f"is too big; it must be less than half of the pocket's side, {_mm(half_window)}"
+        where = "fillet_radius"
+    elif cage.fillet_radius < 2.0 * _SHARPEST * half_window:
+        what = f"is a sharp corner; it must be at least {_mm(2.0 * _SHARPEST * half_window)}"
         where = "fillet_radius"
     else:
         return

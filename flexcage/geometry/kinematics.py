@@ -1,7 +1,10 @@
 """Epicyclic kinematics: what cage and rolling elements do when nothing slips.
 
 Positive is the positive sense about the bearing axis. Source: pure rolling on both races with a
-massless cage (T. A. Harris, Rolling Bearing Analysis, chapter on bearing speeds).
+massless cage (T. A. Harris, Rolling Bearing Analysis, chapter on bearing speeds). At contact angles
+that differ between the races, the orbit depends on the pitch angle of the ball's own axis (Harris,
+chapter on motions in high-speed ball bearings). Here this axis halves the angle between both
+contacts, so that the ball spins alike on both races, neither of which controls it.
 """
 
 from __future__ import annotations
@@ -28,6 +31,34 @@ class Kinematics:
     roller_frequency: float
 
 
+@dataclass(frozen=True)
+class RollingShares:
+    """Pure rolling per unit of speed: the orbit is ``orbit`` w_i + (1 - ``orbit``) w_o, and the
+    element turns at ``spin`` (w_o - w_i) about its own axis, relative to the cage."""
+
+    orbit: float
+    spin: float
+
+
+def rolling_shares(
+    ratio: float,
+    angles: tuple[float, float],
+    heights: tuple[float, float] = (0.0, 0.0),
+) -> RollingShares:
+    """Pure rolling at contact angles [rad] of inner and outer race; ``ratio`` is D/Dpw.
+
+    With r = 1 -+ ratio cos(angle), the radius of a race over that of the pitch circle, the orbit is
+    (w_i r_i + w_o r_o)/(r_i + r_o). ``heights``, over the ball's radius, say how far above the
+    middle of its contact with each race a ball rolls: the grooves are curved, so that the middle
+    slides where the ellipse's strips nearer to its ends roll.
+    """
+    inner, outer = (ratio * (1.0 - h) for h in heights)
+    r_inner, r_outer = 1.0 - inner * cos(angles[0]), 1.0 + outer * cos(angles[1])
+    towards = cos(0.5 * (angles[0] - angles[1]))  # the ball's axis and each contact's
+    whole = r_inner * outer + r_outer * inner
+    return RollingShares(r_inner * outer / whole, r_inner * r_outer / (whole * towards))
+
+
 def epicyclic(
     *,
     roller_diameter: float,
@@ -35,18 +66,20 @@ def epicyclic(
     roller_count: int,
     inner_speed: float,
     outer_speed: float = 0.0,
-    contact_angle: float = 0.0,
+    contact_angle: float | tuple[float, float] = 0.0,
 ) -> Kinematics:
     """Speeds and frequencies of a bearing whose rings turn at the given speeds [rad/s].
+
+    ``contact_angle`` [rad] is that of both races, or those of inner and outer race.
 
     ``outer_race_passing`` and ``inner_race_passing`` are BPFO and BPFI, ``cage_frequency`` FTF,
     ``roller_frequency`` BSF (one turn of the element relative to the cage; a defect on it strikes
     at twice that).
     """
-    gamma = roller_diameter * cos(contact_angle) / pitch_diameter
-    cage = 0.5 * (inner_speed * (1.0 - gamma) + outer_speed * (1.0 + gamma))
-    ratio = pitch_diameter / roller_diameter
-    in_cage = -0.5 * (inner_speed - outer_speed) * ratio * (1.0 - gamma**2)
+    angles = contact_angle if isinstance(contact_angle, tuple) else (contact_angle,) * 2
+    shares = rolling_shares(roller_diameter / pitch_diameter, angles)
+    cage = shares.orbit * inner_speed + (1.0 - shares.orbit) * outer_speed
+    in_cage = -shares.spin * (inner_speed - outer_speed)
     turns = 1.0 / (2.0 * pi)
     return Kinematics(
         cage_speed=cage,

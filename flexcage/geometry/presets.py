@@ -7,7 +7,6 @@ data folder is one more preset, and ``register_preset`` adds a user's own file.
 from __future__ import annotations
 
 import difflib
-import tomllib
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cache
@@ -19,6 +18,7 @@ from typing import Any
 from flexcage.core.binding import Binder
 from flexcage.core.errors import InputError
 from flexcage.core.registry import add, check_free
+from flexcage.core.toml import read_toml
 from flexcage.core.units import parse
 from flexcage.geometry import bearings
 from flexcage.geometry.catalogue import dynamic_rating, rating_names, static_rating
@@ -101,7 +101,9 @@ def load_preset(name: str) -> Preset:
 
 @cache
 def _load_shipped(name: str) -> Preset:
-    return _preset(tomllib.loads((_folder() / f"{name}.toml").read_text("utf-8")))
+    return _preset(
+        read_toml((_folder() / f"{name}.toml").read_text("utf-8"), f"The preset '{name}'")
+    )
 
 
 def register_preset(path: str | Path) -> Preset:
@@ -115,15 +117,16 @@ def register_preset(path: str | Path) -> Preset:
     """
     path = Path(path).expanduser()
     try:
-        preset = _preset(tomllib.loads(path.read_text("utf-8")))
-        check_free(dict.fromkeys(_shipped()), preset.name, what="preset")
-        check_geometry(preset.bearing, preset.cage)
-        _check_assumptions(preset)
+        text = path.read_text("utf-8")
     except (OSError, UnicodeDecodeError) as exc:
         reason = getattr(exc, "strerror", None) or "not a text file"
         raise InputError(f"The preset '{path}' cannot be read: {reason}.", where="preset") from exc
-    except tomllib.TOMLDecodeError as exc:
-        raise InputError(f"The preset '{path}' is not valid TOML: {exc}.", where="preset") from exc
+    table = read_toml(text, f"The preset '{path}'", where="preset")
+    try:
+        preset = _preset(table)
+        check_free(dict.fromkeys(_shipped()), preset.name, what="preset")
+        check_geometry(preset.bearing, preset.cage)
+        _check_assumptions(preset)
     except InputError as exc:
         raise InputError(f"In preset '{path}': {exc}", where=exc.where, value=exc.value) from exc
     return add(_ADDED, preset.name, preset, what="preset")

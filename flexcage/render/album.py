@@ -20,6 +20,7 @@ from flexcage.core.progress import Silent
 from flexcage.core.registry import add, check_free
 from flexcage.mesh.cage_mesh import CageMesh
 from flexcage.modes.basis import ModeBasis
+from flexcage.render import sheet
 from flexcage.render.defects import pockets_of
 from flexcage.render.look import Look
 from flexcage.results import spectra
@@ -41,13 +42,13 @@ class StressPictures:
     """What the stress pictures of a flexible cage show."""
 
     nodes: np.ndarray  # (N, 3) FE nodes [m]
-    cells: np.ndarray  # (n, 4 or 10) their tetrahedra
+    cells: np.ndarray  # (n, 4 or 10) their tetrahedra; with 10 nodes, edges' middles are drawn
     basis: ModeBasis
     time: float  # of the peak [s]
     displacement: np.ndarray  # (N, 3) [m] at that time
-    von_mises: np.ndarray  # (n_points,) [Pa] at that time, mesh vertices
-    envelope: np.ndarray  # (n_points,) [Pa] largest over the run
-    peak_vertex: int
+    von_mises: np.ndarray  # (N,) [Pa] at that time
+    envelope: np.ndarray  # (N,) [Pa] largest over the run
+    peak_vertex: int  # a node
     peak_place: str  # its name
     settled: int  # first sample of the envelope
     roots: np.ndarray  # (nt, places) [Pa]
@@ -69,6 +70,11 @@ class Scene:
     guide: str  # the land's ring, "inner" or "outer"
     settle: float
     stress: StressPictures | None = None
+
+    @property
+    def label(self) -> str:
+        """Its name as headings show it."""
+        return sheet.label(self.name)
 
 
 #: Pictures registered from outside by name, with whether they need a flexible cage's stress.
@@ -141,7 +147,12 @@ def _geometry(scene: Scene, folder: Path, look: Look) -> list[Drawing]:
 
     drawings = [
         partial(
-            mesh_picture, scene.mesh, folder / "mesh.png", defects=scene.defects, azimuth=look.view
+            mesh_picture,
+            scene.mesh,
+            folder / "mesh.png",
+            defects=scene.defects,
+            azimuth=look.view,
+            note=scene.label,
         )
     ]
     if scene.stress is not None:
@@ -155,6 +166,7 @@ def _geometry(scene: Scene, folder: Path, look: Look) -> list[Drawing]:
                 b.frequencies,
                 b.kind,
                 folder / "modes.png",
+                note=scene.label,
             )
         )
     return drawings
@@ -192,20 +204,24 @@ def _motion(scene: Scene, folder: Path) -> list[Drawing]:
         partial(
             bearing_picture, ds, b, index, folder / "bearing.png", cage_points=scene.mesh.points,
             cage_tets=scene.mesh.tets, load=tuple(scene.loads[index, 1:]),
-            axial=float(scene.loads[index, 0]),
+            axial=float(scene.loads[index, 0]), note=scene.label,
         ),
         partial(
             orbit, ds, folder / "orbit.png", clearance=scene.clearance, guide=scene.guide,
-            settle=scene.settle,
+            settle=scene.settle, note=scene.label,
         ),
         partial(
             histories, ds, folder / "histories.png", bearing=numbers, root_stress=root,
-            loads=scene.loads, element=_followed(scene), settle=scene.settle,
+            loads=scene.loads, element=_followed(scene), settle=scene.settle, note=scene.label,
         ),
     ]  # fmt: skip
     if spectra.resolves(settled(ds, scene.settle), numbers):
-        path = folder / "spectra.png"
-        drawings.append(partial(spectra_picture, ds, path, bearing=numbers, settle=scene.settle))
+        drawings.append(
+            partial(
+                spectra_picture, ds, folder / "spectra.png", bearing=numbers, settle=scene.settle,
+                note=scene.label,
+            )
+        )  # fmt: skip
     return drawings
 
 
@@ -218,22 +234,22 @@ def _stress(scene: Scene, s: StressPictures, folder: Path, look: Look) -> list[D
 
     ds, count = scene.dataset, scene.mesh.pocket_count
     t = ds["time"].values
-    points, tets = scene.mesh.points, scene.mesh.tets
-    at_vertices = s.displacement[: len(points)]
     return [
         partial(
-            stress_picture, points, tets, at_vertices, s.von_mises, folder / "stress_peak.png",
-            time=s.time, peak_label=s.peak_place, peak_node=s.peak_vertex, scale=look.scale,
-            limit=look.stress_limit, pocket_count=count, azimuth=look.azimuth, note=scene.name,
+            stress_picture, s.nodes, s.cells, s.displacement, s.von_mises,
+            folder / "stress_peak.png", time=s.time, peak_label=s.peak_place,
+            peak_node=s.peak_vertex, scale=look.scale, limit=look.stress_limit,
+            pocket_count=count, azimuth=look.azimuth, note=scene.label,
         ),
         partial(
-            envelope_picture, points, tets, s.envelope, folder / "stress_envelope.png",
+            envelope_picture, s.nodes, s.cells, s.envelope, folder / "stress_envelope.png",
             span=(t[s.settled], t[-1]), peak_label=s.peak_place, peak_node=s.peak_vertex,
-            limit=look.stress_limit, pocket_count=count, azimuth=look.azimuth, note=scene.name,
+            limit=look.stress_limit, pocket_count=count, azimuth=look.azimuth, note=scene.label,
         ),
         partial(
-            deformation_picture, points, tets, at_vertices, folder / "deformation.png", time=s.time,
-            scale=look.scale, pocket_count=count, azimuth=look.azimuth, note=scene.name,
+            deformation_picture, s.nodes, s.cells, s.displacement, folder / "deformation.png",
+            time=s.time, scale=look.scale, pocket_count=count, azimuth=look.azimuth,
+            note=scene.label,
         ),
     ]  # fmt: skip
 
@@ -245,17 +261,17 @@ def _animations(scene: Scene, folder: Path, look: Look) -> list[Drawing]:
         partial(
             animate_bearing, scene.dataset, scene.bearing, folder / "bearing.gif", frames=40,
             cage_points=scene.mesh.points, cage_tets=scene.mesh.tets, loads=scene.loads,
+            note=scene.label,
         )
     ]  # fmt: skip
     if scene.stress is not None and scene.stress.frames:
         times, shifts, stresses = zip(*scene.stress.frames, strict=True)
-        n = len(scene.mesh.points)
         drawings.append(
             partial(
                 animate_stress,
-                scene.mesh.points,
-                scene.mesh.tets,
-                [u[:n] for u in shifts],
+                scene.stress.nodes,
+                scene.stress.cells,
+                shifts,
                 stresses,
                 times,
                 folder / "stress.gif",
@@ -263,6 +279,7 @@ def _animations(scene: Scene, folder: Path, look: Look) -> list[Drawing]:
                 azimuth=look.azimuth,
                 limit=look.stress_limit,
                 scale=look.scale,
+                note=scene.label,
             )
         )
     return drawings

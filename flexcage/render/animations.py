@@ -75,6 +75,7 @@ def animate_stress(
     azimuth: float = 0.0,
     fps: float = 20.0,
     title: str = "Equivalent stress on the deformed cage",
+    note: str = "",
 ) -> Path:
     """Stress [Pa] on the deformed cage, one frame an entry; one scale and range for all frames."""
     if not len(displacements) == len(von_mises) == len(times) > 0:
@@ -85,13 +86,14 @@ def animate_stress(
     if limit is None:
         limit = sheet.rounded_up(max(float(s.max()) for s in von_mises) * 1e-6) * 1e6
     frames = _stress_frames(
-        points, tets, displacements, von_mises, times, scale, limit, pocket_count, azimuth, title
-    )
+        points, tets, displacements, von_mises, times, scale, limit, pocket_count, azimuth,
+        title, note,
+    )  # fmt: skip
     return write_animation(frames, path, fps=fps)
 
 
 def _stress_frames(
-    points, tets, displacements, von_mises, times, scale, limit, pocket_count, azimuth, title
+    points, tets, displacements, von_mises, times, scale, limit, pocket_count, azimuth, title, note
 ) -> Iterator[np.ndarray]:
     surface, cmap = surface_of(tets), sheet.colour_map("viridis")
     radius, width = ring_size(points)
@@ -103,7 +105,7 @@ def _stress_frames(
             figure = sheet.new_figure(FRAME[0] + 2 * EDGE, TOP + FRAME[1] + BELOW)
             facts = [f"t = {time * 1e3:7.3f} ms", f"deformation × {scale:g}"]
             peak = f"peak {field.values[surface.used].max():5.2f} MPa"
-            sheet.heading(figure, title, sheet.join([*facts, peak]), left=EDGE)
+            sheet.heading(figure, title, sheet.join([note, *facts, peak]), left=EDGE)
             ax = sheet.image_at(figure, (EDGE, TOP, *FRAME), picture.pixels)
             marks.pocket_numbers(ax, picture, count=pocket_count, radius=radius, width=width)
             sheet.colour_bar(
@@ -129,6 +131,7 @@ def animate_bearing(
     limit: float | None = None,
     fps: float = 20.0,
     title: str = "",
+    note: str = "",
 ) -> Path:
     """The bearing's motion over ``span`` [s] (the whole run if not given) in so many frames.
 
@@ -139,11 +142,11 @@ def animate_bearing(
     at = np.unique(np.searchsorted(t, np.linspace(first, last, frames)).clip(0, len(t) - 1))
     top = limit if limit is not None else load_limit(ds)
     cage, title = (cage_points, cage_tets), title or bearing_title(ds)
-    pictures = _bearing_frames(ds, bearing, at, cage, loads, top, title)
+    pictures = _bearing_frames(ds, bearing, at, cage, loads, top, title, note)
     return write_animation(pictures, path, fps=fps)
 
 
-def _bearing_frames(ds, bearing, indices, cage, loads, top, title) -> Iterator[np.ndarray]:
+def _bearing_frames(ds, bearing, indices, cage, loads, top, title, note) -> Iterator[np.ndarray]:
     cut = cut_cage(*cage)
     view = bearing_view(bearing)
     with sheet.style(), Stage(*BEARING_FRAME) as stage:
@@ -151,7 +154,8 @@ def _bearing_frames(ds, bearing, indices, cage, loads, top, title) -> Iterator[n
             now = instant(ds, int(index))
             picture = stage.shoot(bearing_layers(now, bearing, cut, top), view, peel=True)
             figure = sheet.new_figure(BEARING_FRAME[0] + 2 * EDGE, TOP + BEARING_FRAME[1] + BELOW)
-            sheet.heading(figure, title, f"t = {now.time * 1e3:7.3f} ms", left=EDGE)
+            when = f"t = {now.time * 1e3:7.3f} ms"
+            sheet.heading(figure, title, sheet.join([note, when]), left=EDGE)
             ax = sheet.image_at(figure, (EDGE, TOP, *BEARING_FRAME), picture.pixels)
             load = (None, 0.0) if loads is None else (tuple(loads[index, 1:]), loads[index, 0])
             label_bearing(ax, picture, now, bearing, top, load)

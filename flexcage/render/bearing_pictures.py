@@ -223,7 +223,7 @@ def compose(
     most = int(np.argmax(now.inner_load))
     head = f"t = {now.time * 1e3:.3f} ms"
     peak = f"most loaded: {now.element} {most}, {now.inner_load[most]:.0f} N"
-    sheet.heading(figure, title, sheet.join([head, peak, "cut at mid-width", note]))
+    sheet.heading(figure, title, sheet.join([note, head, peak, "cut at mid-width"]))
     ax = sheet.image_at(figure, (EDGE, TOP, *MAIN), picture.pixels)
     label_bearing(ax, picture, now, bearing, top, load)
     left = EDGE + MAIN[0] + GAP

@@ -29,7 +29,8 @@ def convergence_picture(
     with sheet.style():
         width = _LEFT + max(len(axes), 1) * (_PANEL + _GAP) + 20
         figure = sheet.new_figure(width, _TOP + height + 90)
-        sheet.heading(figure, sheet.join(["Convergence", name]), "against the finest level")
+        title = sheet.join(["Convergence", sheet.label(name)])
+        sheet.heading(figure, title, "against the finest level")
         for i, axis in enumerate(axes):
             rect = (_LEFT + i * (_PANEL + _GAP), _TOP, _PANEL, height)
             panel = sheet.axes_at(figure, rect)

@@ -57,9 +57,9 @@ def orbit(
         figure = sheet.new_figure(width, top + side + 96)
         whirl = metrics.whirl(metrics.whole_revolutions(part))
         facts = [
+            note,
             f"t = {t[0]:.1f} … {t[-1]:.1f} ms",
             f"mean whirl radius {whirl.mean * 1e6:.1f} µm about the mean",
-            note,
         ]
         sheet.heading(figure, title, sheet.join(facts), left=36)
         limits = [1.12 * max(reach, radius)]
@@ -148,12 +148,14 @@ def histories(
     """Cage speed, pocket forces, root stress (if given) and speeds of elements over time; for ball
     bearings sliding speeds and contact angles as well.
 
-    ``bearing`` adds the speeds without slip. ``root_stress`` (time, place) or (time,) is in Pa.
-    ``loads`` (time, 3) are F_x, F_y, F_z [N] on the inner ring; where they or its speed change with
-    time, a panel shows them.
+    ``bearing`` adds the speeds without slip, of balls at their mean contact angles once settled.
+    ``root_stress`` (time, place) or (time,) is in Pa. ``loads`` (time, 3) are F_x, F_y, F_z [N] on
+    the inner ring; where they or its speed change with time, a panel shows them.
     ``element`` is shown by itself over the band of all. The share ``settle`` that statistics
     leave out is shaded.
     """
+    if bearing is not None:
+        bearing = metrics.at_own_angles(metrics.settled(ds, settle), bearing)
     panels: list[Callable[..., None]] = [_speed_panel, _pocket_panel]
     if metrics.varies(ds["inner_speed"].values) or (loads is not None and _vary(loads)):
         panels.insert(0, _drive_panel)
@@ -169,7 +171,7 @@ def histories(
         height = TOP + len(panels) * (_HEIGHT + _BETWEEN) + 40
         figure = sheet.new_figure(left + _WIDTH + 60, height)
         span = f"t = {t[0]:.1f} … {t[-1]:.1f} ms"
-        sheet.heading(figure, title, sheet.join([span, note]))
+        sheet.heading(figure, title, sheet.join([note, span]))
         for i, panel in enumerate(panels):
             rect = (left, TOP + 22 + i * (_HEIGHT + _BETWEEN), _WIDTH, _HEIGHT)
             ax = sheet.axes_at(figure, rect)
@@ -373,7 +375,7 @@ def compare_forces(
     with sheet.style():
         figure = sheet.new_figure(EDGE + _WIDTH + 60, second + 360 + 90)
         facts = [_force_text(name, ds) for name, ds in parts.items()]
-        sheet.heading(figure, title, sheet.join([*facts, note]))
+        sheet.heading(figure, title, sheet.join([note, *facts]))
         top = sheet.axes_at(figure, (EDGE, TOP + 24, _WIDTH, 320))
         share = sheet.axes_at(figure, (EDGE, second, half, 360))
         bars = sheet.axes_at(figure, (EDGE + half + 150, second, half, 360))
@@ -390,12 +392,12 @@ def compare_forces(
 
 def _force_text(name: str, ds: xarray.Dataset) -> str:
     forces = metrics.pocket_forces(ds)
-    return f"{name}: mean {forces.mean:.3g} N in contact, peak {forces.peak:.3g} N"
+    return f"{sheet.label(name)}: mean {forces.mean:.3g} N in contact, peak {forces.peak:.3g} N"
 
 
 def _history(ax: Any, ds: xarray.Dataset, colour: str, name: str) -> None:
     largest = metrics.pocket_peaks(ds).max(("pocket", "face"))
-    ax.plot(ds["time"] * 1e3, largest, color=colour, lw=0.8, alpha=0.85, label=name)
+    ax.plot(ds["time"] * 1e3, largest, color=colour, lw=0.8, alpha=0.85, label=sheet.label(name))
 
 
 def _exceedance(ax: Any, ds: xarray.Dataset, colour: str) -> None:

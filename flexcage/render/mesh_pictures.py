@@ -77,7 +77,7 @@ def mesh_picture(
     with sheet.style():
         figure = sheet.new_figure(left + SIDE[0] + EDGE, TOP + MAIN[1] + EDGE)
         cells = f"{len(mesh.points):,} vertices, {len(mesh.tets):,} tetrahedra"
-        sheet.heading(figure, title, sheet.join([cells, *map(label_of, defects), note]))
+        sheet.heading(figure, title, sheet.join([note, cells, *map(label_of, defects)]))
         ax = sheet.image_at(figure, (EDGE, TOP, *MAIN), main.pixels)
         marks.triad(ax, main)
         colours = pocket_colours(defects, mesh.pocket_count)

@@ -59,7 +59,7 @@ def mode_sheet(
         w, h = columns * _CELL[0] + 2 * EDGE, TOP + rows * (_CELL[1] + _CAPTION) + 104
         figure = sheet.new_figure(w, h)
         more = f"first {count} of {shapes.shape[2]}" if shapes.shape[2] > count else f"{count}"
-        sheet.heading(figure, title, sheet.join([f"{more} modes", "shapes to no scale", note]))
+        sheet.heading(figure, title, sheet.join([note, f"{more} modes", "shapes to no scale"]))
         for i, pixels in enumerate(pictures):
             x = EDGE + (i % columns) * _CELL[0]
             y = TOP + (i // columns) * (_CELL[1] + _CAPTION)

@@ -58,10 +58,19 @@ class Surface:
         return mesh
 
 
-def surface_of(tets: np.ndarray) -> Surface:
+def surface_vertices(tets: np.ndarray) -> np.ndarray:
+    """Node numbers of the vertices on the boundary, without the middles of edges."""
+    return surface_of(tets[:, :4]).used
+
+
+def surface_of(
+    tets: np.ndarray, values: np.ndarray | None = None, *, within: float = 0.0
+) -> Surface:
     """Boundary of tetrahedra with 4 nodes, or 10 (vertices, then edges 01 12 02 03 13 23).
 
-    A quadratic face becomes four linear triangles through its mid nodes.
+    A quadratic face becomes four linear triangles through its mid nodes. With nodal ``values`` it
+    is divided only at the edges in whose middle the mean of the ends is off by more than
+    ``within``.
     """
     tets = np.asarray(tets)
     corners = np.concatenate([tets[:, f] for f in _FACES])
@@ -72,11 +81,31 @@ def surface_of(tets: np.ndarray) -> Surface:
     outer = first[count == 1]
     if tets.shape[1] == 4:
         return Surface(corners[outer])
+    corners = corners[outer]
     mids = np.concatenate([tets[:, _mid_nodes(f)] for f in _FACES])[outer]
-    a, b, c = corners[outer].T
-    ab, bc, ca = mids.T
-    quads = [(a, ab, ca), (ab, b, bc), (ca, bc, c), (ab, bc, ca)]
-    return Surface(np.concatenate([np.column_stack(t) for t in quads]))
+    divided = np.ones(mids.shape, bool)
+    if values is not None:
+        ends = 0.5 * (values[corners] + values[np.roll(corners, -1, axis=1)])
+        divided = np.abs(values[mids] - ends) > within
+    return Surface(_divided(corners, mids, divided))
+
+
+def _divided(corners: np.ndarray, mids: np.ndarray, at: np.ndarray) -> np.ndarray:
+    """Triangles (m, 3) of triangles (n, 3) divided ``at`` (n, 3) some of their edges, of which
+    ``mids`` (n, 3) are the middles: those of 01, 12, 20."""
+    number = at.sum(axis=1)
+    parts = [corners[number == 0]]
+    (a, b, c), (ab, bc, ca) = corners[number == 3].T, mids[number == 3].T
+    parts += [np.stack(t, axis=1) for t in ((a, ab, ca), (ab, b, bc), (ca, bc, c), (ab, bc, ca))]
+    for turn in range(3):  # every edge once as the first
+        own, middle, divided = (np.roll(x, -turn, axis=1) for x in (corners, mids, at))
+        here = (number == 1) & divided[:, 0]
+        (a, b, c), ab = own[here].T, middle[here, 0]
+        parts += [np.stack(t, axis=1) for t in ((a, ab, c), (ab, b, c))]
+        here = (number == 2) & ~divided[:, 2]
+        (a, b, c), (ab, bc, _) = own[here].T, middle[here].T
+        parts += [np.stack(t, axis=1) for t in ((ab, b, bc), (a, ab, bc), (a, bc, c))]
+    return np.concatenate(parts)
 
 
 def _mid_nodes(face: tuple[int, int, int]) -> list[int]:

@@ -20,6 +20,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 DPI = 150
+_LONGEST = 60  # characters of a name in a heading
 
 #: Okabe and Ito's colours, told apart with any kind of colour vision.
 BLACK, ORANGE, SKY, GREEN = "#000000", "#E69F00", "#56B4E9", "#009E73"
@@ -210,6 +211,13 @@ def pixels_of(figure: Figure) -> np.ndarray:
     canvas: Any = figure.canvas
     canvas.draw()
     return np.asarray(canvas.buffer_rgba())[..., :3].copy()
+
+
+def label(name: str) -> str:
+    """A name that a user gave, as a heading shows it: one line, not too long, no formula."""
+    line = " ".join(name.split())
+    shown = line if len(line) <= _LONGEST else f"{line[: _LONGEST - 1]}…"
+    return shown.replace("$", r"\$")
 
 
 def join(parts: Sequence[str]) -> str:

@@ -42,11 +42,13 @@ def spectra_picture(
 ) -> Path:
     """Amplitude spectral densities of a run's signals over frequency, one panel a signal.
 
-    The bearing's frequencies without slip stand at the run's mean inner speed, those that its
+    The bearing's frequencies without slip stand at the run's mean inner speed and, of balls, mean
+    contact angles (``metrics.at_own_angles``), those that its
     length sets apart from the mean. ``settle`` leaves the start out. Raises InputError for a run
     too short for any of them.
     """
     part = metrics.settled(ds, settle)
+    bearing = metrics.at_own_angles(part, bearing)
     resolution = run_resolution(part, bearing)
     lines = run_frequencies(part, bearing)
     marked = {name: f for name, f in lines.items() if f >= APART * resolution}
@@ -59,7 +61,8 @@ def spectra_picture(
     with sheet.style():
         height = _TOP + len(shown) * (_HEIGHT + _BETWEEN) + 60
         figure = sheet.new_figure(_LEFT + _WIDTH + 60, height)
-        sheet.heading(figure, title, _facts(part, next(iter(shown.values())), note))
+        facts = _facts(part, next(iter(shown.values())), sheet.join([_angles(part, bearing), note]))
+        sheet.heading(figure, title, facts)
         for i, (name, density) in enumerate(shown.items()):
             rect = (_LEFT, _TOP + i * (_HEIGHT + _BETWEEN), _WIDTH, _HEIGHT)
             ax = sheet.axes_at(figure, rect)
@@ -81,12 +84,25 @@ def _facts(ds: xarray.Dataset, density: xarray.DataArray, note: str) -> str:
     steady = np.ptp(speed) < 0.01 * speed.mean()
     span = "" if steady else f", which runs from {speed.min():,.0f} to {speed.max():,.0f}"
     return sheet.join([
+        note,
         f"t = {t[0]:.1f} … {t[-1]:.1f} ms",
         f"{segments} segment{'s' if segments > 1 else ''}, Hann window, mean taken off",
         f"bins {density.attrs['resolution']:.3g} Hz apart",
         f"lines without slip at {speed.mean():,.0f} rpm{span}",
-        note,
     ])  # fmt: skip
+
+
+def _angles(ds: xarray.Dataset, bearing: BearingNumbers) -> str:
+    """At which contact angles lines stand, and where the nominal one would have two of them."""
+    if bearing.own_angles is None:
+        return ""
+    nominal = run_frequencies(ds, bearing, own=False)
+    inner, outer = (angle * 180.0 / pi for angle in bearing.own_angles)
+    return (
+        f"at mean contact angles of {inner:.1f}° and {outer:.1f}°; at the nominal "
+        f"{bearing.contact_angle * 180.0 / pi:.4g}°: FTF {nominal['FTF']:,.1f}, "
+        f"BPFO {nominal['BPFO']:,.1f} Hz"
+    )
 
 
 def _panel(ax: Any, density: xarray.DataArray, name: str, reach: float) -> None:

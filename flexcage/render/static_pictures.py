@@ -37,7 +37,7 @@ def static_picture(
         radial = float(np.hypot(load[1], load[2]))
         facts.append(f"radial load {radial:.5g} N" if radial else "")
         facts.append(f"inner ring at {speed * 30.0 / pi:.5g} rpm")
-        sheet.heading(figure, f"Static solution: {title}", sheet.join(facts))
+        sheet.heading(figure, f"Static solution: {sheet.label(title)}", sheet.join(facts))
         left = _panel(figure, 0, "Load of a rolling element [N]")
         _curves(left, azimuth, force)
         if radial:

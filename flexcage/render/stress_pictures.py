@@ -21,6 +21,7 @@ from flexcage.render.scene import (
     ring_size,
     ring_view,
     surface_of,
+    surface_vertices,
 )
 
 MAIN = (1180, 880)  # pixels of the whole cage
@@ -87,7 +88,7 @@ def stress_picture(
     """
     field = Field(points, tets, displacement, von_mises * 1e-6, "equivalent stress", "MPa")
     scale = nice_scale(points, displacement) if scale is None else scale
-    parts = [_time(time), f"deformation × {scale:g}", note]
+    parts = [note, _time(time), f"deformation × {scale:g}"]
     place = Place(peak_label, peak_node, pocket_count, azimuth)
     return _field_sheet(field, path, scale, title, parts, place, _mega(limit))
 
@@ -112,7 +113,7 @@ def envelope_picture(
         points, tets, np.zeros_like(points), envelope * 1e-6, "largest equivalent stress", "MPa"
     )
     when = f"t = {span[0] * 1e3:.2f} … {span[1] * 1e3:.2f} ms" if span else ""
-    parts = [when, "shape undeformed", note]
+    parts = [note, when, "shape undeformed"]
     place = Place(peak_label, peak_node, pocket_count, azimuth)
     return _field_sheet(field, path, 0.0, title, parts, place, _mega(limit))
 
@@ -136,7 +137,7 @@ def deformation_picture(
     size = np.linalg.norm(displacement, axis=1) * 1e6
     field = Field(points, tets, displacement, size, "displacement magnitude", "µm", "cividis")
     scale = nice_scale(points, displacement) if scale is None else scale
-    parts = [_time(time), f"deformation × {scale:g}", note]
+    parts = [note, _time(time), f"deformation × {scale:g}"]
     top = None if limit is None else limit * 1e6
     place = Place(peak_label, None, pocket_count, azimuth)
     return _field_sheet(field, path, scale, title, parts, place, top)
@@ -160,7 +161,8 @@ def _field_sheet(
     surface = surface_of(field.tets)
     on_surface = field.values[surface.used]
     peak = int(surface.used[np.argmax(on_surface)]) if place.node is None else int(place.node)
-    top, over = sheet.robust_limit(on_surface) if limit is None else (limit, False)
+    at_vertices = field.values[surface_vertices(field.tets)]
+    top, over = sheet.robust_limit(at_vertices) if limit is None else (limit, False)
     over = over or bool(on_surface.max() > top * (1.0 + 1e-9))
     cmap = sheet.colour_map(field.cmap)
     layers = field_layers(field, surface, scale, cmap, top)

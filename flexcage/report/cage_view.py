@@ -12,23 +12,24 @@ from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
 
 from flexcage.render import sheet
-from flexcage.render.scene import surface_of
+from flexcage.render.scene import surface_of, surface_vertices
 from flexcage.report.blocks import Chart
 from flexcage.report.plots import FONT
+from flexcage.stress.midpoints import SHARP
 
-SHARP = radians(35.0)  # faces that meet at more than this have an edge between them
 ELEVATION = radians(34.0)  # of the first view above the ring's plane, as in the pictures
+_CLOSE = 0.02  # of the colours' range: how far stress on an undivided edge may be from its own
 _BAR = 70  # pixels of height that the colour bar takes
 _OVER = 0.03  # share of the colour bar that stands for values beyond its range
 
 
 @dataclass(frozen=True)
 class CageStress:
-    """The stress of one cage at one instant, at the vertices of its mesh."""
+    """The stress of one cage at one instant, at its nodes."""
 
     name: str
     points: np.ndarray  # (n, 3) [m], not deformed by load
-    tets: np.ndarray  # (m, 4)
+    tets: np.ndarray  # (m, 4 or 10)
     displacement: np.ndarray  # (n, 3) [m]
     von_mises: np.ndarray  # (n,) [Pa]
     time: float  # [s]
@@ -57,20 +58,20 @@ def _named(cage: CageStress) -> str:
 
 def common_limit(cages: Sequence[CageStress]) -> tuple[float, bool]:
     """Upper end [Pa] of a colour range that suits all cages, and whether values lie beyond it."""
-    ends = [sheet.robust_limit(_on_surface(cage) * 1e-6) for cage in cages]
+    ends = [sheet.robust_limit(_at_vertices(cage) * 1e-6) for cage in cages]
     top = max(end for end, _ in ends)
-    return top * 1e6, any(float(_on_surface(cage).max()) > top * 1e6 for cage in cages)
+    return top * 1e6, any(float(_at_vertices(cage).max()) > top * 1e6 for cage in cages)
 
 
-def _on_surface(cage: CageStress) -> np.ndarray:
-    return cage.von_mises[surface_of(cage.tets).used]
+def _at_vertices(cage: CageStress) -> np.ndarray:
+    return cage.von_mises[surface_vertices(cage.tets)]
 
 
 def cage_figure(cage: CageStress, scale: float, limit: float, over: bool) -> Any:
     """Surface of the cage deformed ``scale`` times, coloured over 0 ... ``limit`` [Pa]."""
     import plotly.graph_objects as go
 
-    triangles = surface_of(cage.tets).triangles
+    triangles = surface_of(cage.tets, cage.von_mises, within=_CLOSE * limit).triangles
     moved = cage.points + scale * cage.displacement
     corner, sharp = split_at_edges(cage.points, triangles)
     vertex = np.empty(int(corner.max()) + 1, int)

@@ -32,6 +32,7 @@ _LEFT_OUT = "#eeeeee"  # the time that statistics leave out
 def history_charts(scene: Scene, numbers: BearingNumbers) -> list[Chart]:
     """Charts over time of a run, and the orbit of its cage's centre."""
     ds = scene.dataset
+    numbers = metrics.at_own_angles(metrics.settled(ds, scene.settle), numbers)
     charts = [_cage_speed(ds, numbers), _pocket_force(ds)]
     if scene.stress is not None:
         charts.append(_root_stress(scene))

@@ -135,10 +135,9 @@ def _tile(row: Row, label: str) -> Tile:
 
 def cage_stress(scene: Scene, stress: StressPictures, name: str = "") -> CageStress:
     """What the 3D view needs of a run."""
-    n = len(scene.mesh.points)
     return CageStress(
-        name, scene.mesh.points, scene.mesh.tets, stress.displacement[:n], stress.von_mises,
-        stress.time, stress.peak_vertex, scene.mesh.pocket_count,
+        name, stress.nodes, stress.cells, stress.displacement, stress.von_mises, stress.time,
+        stress.peak_vertex, scene.mesh.pocket_count,
     )  # fmt: skip
 
 

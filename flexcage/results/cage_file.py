@@ -18,12 +18,12 @@ from __future__ import annotations
 
 import json
 import os
+import zipfile
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from types import MappingProxyType
 from typing import Any
-from zipfile import BadZipFile
 
 import numpy as np
 
@@ -109,28 +109,32 @@ def read_cage(path: Path) -> CageRecord:
     import zarr
     from zarr.storage import ZipStore
 
+    if not zipfile.is_zipfile(path):
+        raise _unreadable(path, "it was cut short or changed")
     try:
         with ZipStore(path, mode="r") as store:
             root = zarr.open_group(store, mode="r", zarr_format=3)
             found = root.attrs.get("flexcage_cage")
-            if found != FORMAT:
-                raise InputError(
-                    f"'{path}' holds a cage in format {found}, and this flexcage reads format "
-                    f"{FORMAT}; run the case again.",
-                    where="cage",
-                    value=str(path),
-                )
-            groups = {name: _arrays_of(group) for name, group in root.groups()}
-            return CageRecord(groups, str(root.attrs["digest"]))
-    except InputError:
-        raise
-    except (OSError, BadZipFile, KeyError, ValueError, RuntimeError, EOFError) as error:
-        raise InputError(
-            f"The cage of the run, '{path}', cannot be read ({error}); bring it back from a copy, "
-            "or run the case again.",
-            where="cage",
-            value=str(path),
-        ) from error
+            if found == FORMAT:
+                groups = {name: _arrays_of(group) for name, group in root.groups()}
+                return CageRecord(groups, str(root.attrs["digest"]))
+    except Exception as error:  # of the disk, the zip file, its checksums, or Zarr
+        raise _unreadable(path, str(error) or type(error).__name__) from error
+    raise InputError(
+        f"'{path}' holds a cage in format {found}, and this flexcage reads format {FORMAT}; run "
+        "the case again.",
+        where="cage",
+        value=str(path),
+    )
+
+
+def _unreadable(path: Path, reason: str) -> InputError:
+    return InputError(
+        f"The cage of the run, '{path}', cannot be read ({reason}); bring it back from a copy, or "
+        "run the case again.",
+        where="cage",
+        value=str(path),
+    )
 
 
 def _arrays_of(group: Any) -> dict[str, np.ndarray]:

@@ -11,6 +11,7 @@ import numpy as np
 
 from flexcage.core.errors import InputError
 from flexcage.results import audit, ball_figures, metrics
+from flexcage.results.ball_figures import at_angles, at_nominal, of_curvature
 from flexcage.results.bootstrap import FEWEST
 from flexcage.results.contact_activity import EVENTS, contact_series
 from flexcage.results.metrics import BearingNumbers, SlipRange
@@ -93,20 +94,23 @@ def _speed_rows(ds: xarray.Dataset, bearing: BearingNumbers) -> tuple[Row, ...]:
     part = metrics.whole_revolutions(ds)
     windows = roller_passes(part, bearing)
     omega = part["cage_omega"].sel(axis="x").values
-    ideal = part["inner_speed"].values * bearing.kinematics(1.0).cage_speed
+    own = metrics.at_own_angles(part, bearing)
+    ideal = part["inner_speed"].values * own.kinematics(1.0).cage_speed
     inner = float(ds["inner_speed"].mean())
     whole = f"mean of {speed.revolutions:.2f} cage revolutions"
     return (
         Row("inner_speed", "Inner ring speed", inner, "rpm"),
         Row.of("cage_speed", "Cage speed", windows.mean(omega), "rpm", whole, value=speed.mean),
-        Row("epicyclic_speed", "Epicyclic cage speed", speed.epicyclic, "rpm"),
+        Row("epicyclic_speed", "Epicyclic cage speed", speed.epicyclic, "rpm", at_angles(own)),
         Row.of(
             "cage_slip_ratio",
             "Cage slip ratio",
             windows.ratio(ideal - omega, ideal),
             "%",
+            of_curvature(part, bearing),
             value=speed.slip_ratio,
         ),
+        *_nominal_rows(part, bearing, speed, windows),
         Row.of(
             "cage_speed_ripple",
             "Cage speed ripple",
@@ -115,6 +119,23 @@ def _speed_rows(ds: xarray.Dataset, bearing: BearingNumbers) -> tuple[Row, ...]:
             "standard deviation over mean",
         ),
     )
+
+
+def _nominal_rows(
+    ds: xarray.Dataset, bearing: BearingNumbers, speed: metrics.CageSpeed, windows: Windows
+) -> tuple[Row, ...]:
+    """What the speed of pure rolling would be at the nominal contact angle, of a bearing that
+    leaves it under load."""
+    if not metrics.RACE_NAMES[metrics.element(ds)].angle:
+        return ()
+    note = at_nominal(bearing)
+    ideal = ds["inner_speed"].values * bearing.nominal.kinematics(1.0).cage_speed
+    slip = windows.ratio(ideal - ds["cage_omega"].sel(axis="x").values, ideal)
+    return (
+        Row("epicyclic_speed_nominal", "Epicyclic cage speed, nominal", speed.nominal, "rpm", note),
+        Row.of("cage_slip_ratio_nominal", "Cage slip ratio, nominal", slip, "%", note,
+               value=speed.nominal_slip),
+    )  # fmt: skip
 
 
 def _spin_rows(ds: xarray.Dataset, bearing: BearingNumbers) -> tuple[Row, ...]:

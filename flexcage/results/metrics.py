@@ -9,14 +9,14 @@ taken over whole cage revolutions after the start was left out. Whirl is positiv
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from math import isfinite
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from flexcage.core.errors import InputError
-from flexcage.geometry.kinematics import Kinematics, epicyclic
+from flexcage.geometry.kinematics import Kinematics, epicyclic, rolling_shares
 
 if TYPE_CHECKING:
     import xarray
@@ -24,17 +24,36 @@ if TYPE_CHECKING:
 TOUCHING = 1e-3  # N, above which a pocket face counts as in contact
 LOADED_SHARE = 0.01  # a roller is in the loaded zone above this share of the largest inner force
 STANDING = 1e-9  # rad/s, what a constrained speed of zero may be by rounding, and more
+# times the sliding that the curvature of contacts makes: below it, mean sliding is its doing
+_BY_CURVATURE = 2.0
 FEWEST_FILTERED = 16  # samples, below which a low pass has nothing to begin from
 
 
 @dataclass(frozen=True, kw_only=True)
 class BearingNumbers:
-    """The few numbers of a bearing that metrics need [m]."""
+    """The few numbers of a bearing that metrics need [m].
+
+    ``contact_angle`` [rad] is the nominal one. ``own_angles``, inner and outer race's, are mean
+    values of a run (``at_own_angles``), to which kinematics then refer. ``rolling_heights`` are the
+    bearing's.
+    """
 
     pitch_diameter: float
     roller_diameter: float
     roller_count: int
     contact_angle: float = 0.0
+    own_angles: tuple[float, float] | None = None
+    rolling_heights: tuple[float, float] = (0.0, 0.0)
+
+    @property
+    def nominal(self) -> BearingNumbers:
+        """The same, whose kinematics refer to the nominal contact angle."""
+        return replace(self, own_angles=None)
+
+    @property
+    def angles(self) -> tuple[float, float]:
+        """Contact angles [rad] of inner and outer race to which kinematics refer."""
+        return self.own_angles or (self.contact_angle, self.contact_angle)
 
     def kinematics(self, inner_speed: float, outer_speed: float = 0.0) -> Kinematics:
         """Speeds without slip at the given speeds of the rings [rad/s]."""
@@ -42,7 +61,7 @@ class BearingNumbers:
             roller_diameter=self.roller_diameter,
             pitch_diameter=self.pitch_diameter,
             roller_count=self.roller_count,
-            contact_angle=self.contact_angle,
+            contact_angle=self.angles,
             inner_speed=inner_speed,
             outer_speed=outer_speed,
         )
@@ -50,12 +69,29 @@ class BearingNumbers:
 
 @dataclass(frozen=True)
 class CageSpeed:
-    """Mean cage speed over whole revolutions [rad/s]; ``slip_ratio`` (w_m - w_c)/w_m."""
+    """Mean cage speed over whole revolutions [rad/s]; ``slip_ratio`` (w_m - w_c)/w_m.
+
+    ``epicyclic`` is the speed w_m of pure rolling at the run's own mean contact angles,
+    ``nominal`` that at the nominal contact angle, and ``nominal_slip`` the slip ratio by it. Both
+    are the same for rollers.
+    """
 
     mean: float
     epicyclic: float
     slip_ratio: float
     revolutions: float
+    nominal: float
+    nominal_slip: float
+
+
+@dataclass(frozen=True)
+class BallRolling:
+    """Slip ratios of cage and balls, and sliding speeds [m/s] in the middle of inner and outer
+    contact, that the curvature of the grooves makes where balls roll."""
+
+    cage_slip: float
+    ball_slip: float
+    sliding: tuple[float, float]
 
 
 @dataclass(frozen=True)
@@ -158,13 +194,59 @@ def varies(values: np.ndarray, share: float = 0.01) -> bool:
 
 
 def cage_speed(ds: xarray.Dataset, bearing: BearingNumbers) -> CageSpeed:
-    """Mean cage speed against the epicyclic speed of the mean inner speed."""
+    """Mean cage speed against the epicyclic speeds of the mean inner speed."""
     part = whole_revolutions(ds)
     t, angle = part["time"].values, cage_angle(part)
     mean = (angle[-1] - angle[0]) / (t[-1] - t[0])
-    ideal = bearing.kinematics(_mean(t, part["inner_speed"].values)).cage_speed
-    slip = (ideal - mean) / ideal if abs(ideal) > STANDING else float("nan")
-    return CageSpeed(mean, ideal, slip, abs(angle[-1] - angle[0]) / (2.0 * np.pi))
+    inner = _mean(t, part["inner_speed"].values)
+    own, nominal = (
+        b.kinematics(inner).cage_speed for b in (at_own_angles(part, bearing), bearing.nominal)
+    )
+    slips = [(w - mean) / w if abs(w) > STANDING else float("nan") for w in (own, nominal)]
+    turns = abs(angle[-1] - angle[0]) / (2.0 * np.pi)
+    return CageSpeed(mean, own, slips[0], turns, nominal, slips[1])
+
+
+def at_own_angles(ds: xarray.Dataset, bearing: BearingNumbers) -> BearingNumbers:
+    """The bearing with the mean contact angles of a run's loaded balls, inner and outer race.
+
+    Magnitudes are averaged: a tilted ring turns signs from one side of the bearing to the other.
+    Rollers keep the nominal angle, as do balls where none is loaded, and a bearing that has them.
+    """
+    name = RACE_NAMES[element(ds)].angle
+    if not name or bearing.own_angles is not None:
+        return bearing
+    own = _loaded_means(ds, abs(ds[name]))
+    return bearing if own is None else replace(bearing, own_angles=own)
+
+
+def _loaded_means(ds: xarray.Dataset, values: xarray.DataArray) -> tuple[float, float] | None:
+    """Means (inner, outer race) of values (time, ball, race) over loaded balls, None if none is."""
+    zone = loaded_zone(ds).transpose("time", "ball").values
+    inner, outer = values.transpose("race", "time", "ball").values.astype(float)
+    return (float(inner[zone].mean()), float(outer[zone].mean())) if zone.any() else None
+
+
+def rolling_by_curvature(ds: xarray.Dataset, bearing: BearingNumbers) -> BallRolling | None:
+    """What loaded balls do if each race's traction along the rolling direction is nothing: they
+    roll above the middle of curved contacts. None where no ball is loaded, or for rollers.
+
+    A strip at x of the ellipse's half-length a lies x^2 a^2/(2 R) above the middle, for R the
+    radius of curvature of the surface of contact (Harris), and bears a share of 1 - x^2 of the
+    load; under a traction in proportion to sliding, the mean height is a fifth of that at x = 1.
+    """
+    own = at_own_angles(ds, bearing)
+    size = None if own.own_angles is None else _loaded_means(ds, ds["contact_force"] ** (2.0 / 3.0))
+    if size is None:
+        return None
+    heights = own.rolling_heights[0] * size[0], own.rolling_heights[1] * size[1]
+    ratio = bearing.roller_diameter / bearing.pitch_diameter
+    middle, above = (rolling_shares(ratio, own.angles, h) for h in ((0.0, 0.0), heights))
+    rolling = above.spin * abs(float(ds["inner_speed"].mean())) * 0.5 * bearing.roller_diameter
+    return BallRolling(
+        1.0 - above.orbit / middle.orbit, 1.0 - above.spin / middle.spin,
+        (rolling * heights[0], rolling * heights[1]),
+    )  # fmt: skip
 
 
 def roller_slip_ratio(
@@ -219,13 +301,16 @@ def ball_spin(ds: xarray.Dataset) -> xarray.DataArray:
     return out.transpose("time", "ball").rename("ball_spin")
 
 
-def ball_slip_ratio(ds: xarray.Dataset, bearing: BearingNumbers) -> xarray.DataArray:
+def ball_slip_ratio(
+    ds: xarray.Dataset, bearing: BearingNumbers, *, nominal: bool = False
+) -> xarray.DataArray:
     """(n_th - n)/n_th of every ball over time, (time, ball), both relative to the cage.
 
-    n_th follows from the instantaneous inner speed by pure rolling at the nominal contact angle
-    with an ideal cage.
+    n_th follows from the instantaneous inner speed by pure rolling with an ideal cage: at the mean
+    contact angles of the loaded balls of ``ds``, or at the ``nominal`` contact angle.
     """
-    unit = bearing.kinematics(1.0).roller_spin_in_cage
+    used = bearing.nominal if nominal else at_own_angles(ds, bearing)
+    unit = used.kinematics(1.0).roller_spin_in_cage
     out = _slip(rolling_sense(ds) * unit * ds["inner_speed"], ball_spin(ds))
     out.attrs = {"units": "1", "long_name": "ball slip ratio, cage frame"}
     return out.transpose("time", "ball").rename("ball_slip_ratio")
@@ -253,14 +338,21 @@ class SlipRange:
     creep: float | None = None
     rise: float | None = None
 
-    def note(self, slip: float, sliding: Sequence[float]) -> str:
+    def note(self, slip: float, sliding: Sequence[float], rolling: Sequence[float] = ()) -> str:
         """What a slip ratio rests on where both races slide at mean speeds [m/s]; "" where the law
-        sets no more than its own value, or where there is no ratio."""
+        sets no more than its own value, or where there is no ratio. ``rolling``: sliding speeds
+        that the curvature of contacts makes of pure rolling (``rolling_by_curvature``)."""
         if not isfinite(slip):
             return ""
         fastest = max(sliding)
         if self.creep is not None and fastest < self.creep:
             return f"unresolved: sliding is under the law's creep speed {self.creep:.3g} m/s"
+        curved = max(rolling, default=0.0)
+        if fastest < _BY_CURVATURE * curved:
+            return (
+                "balls roll: the grooves' curvature alone lets the middle of a contact slide at "
+                f"{curved:.2g} m/s"
+            )
         if self.rise is not None and fastest < self.rise:
             return (
                 "set by the traction curve's slope: sliding is on its rise, which ends at "

@@ -15,9 +15,15 @@ class OutputOptions:
     whole multiple of it, so that a block of samples ends at one instant on both grids.
     """
 
-    rate: float = quantity("kHz", 50e3, doc="samples a second of states and forces", above=0.0)
+    rate: float = quantity(
+        "kHz", 50e3, doc="samples a second of states and forces", above=0.0, maximum=1e7
+    )
     vibration_rate: float = quantity(
-        "kHz", 200e3, doc="samples a second of the outer ring's acceleration", above=0.0
+        "kHz",
+        200e3,
+        doc="samples a second of the outer ring's acceleration",
+        above=0.0,
+        maximum=1e8,
     )
     block: int = option(
         250, doc="samples a block: what one commit makes safe", minimum=2, maximum=10_000

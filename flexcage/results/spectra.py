@@ -101,9 +101,13 @@ SIGNALS: Mapping[str, Signal] = MappingProxyType(
 )
 
 
-def run_frequencies(ds: xarray.Dataset, bearing: BearingNumbers) -> dict[str, float]:
-    """The bearing's frequencies [Hz] by name at the run's mean inner speed."""
-    return bearing_frequencies(bearing, float(ds["inner_speed"].mean()))
+def run_frequencies(
+    ds: xarray.Dataset, bearing: BearingNumbers, *, own: bool = True
+) -> dict[str, float]:
+    """The bearing's frequencies [Hz] by name at the run's mean inner speed: of a ball bearing, at
+    its ``own`` mean contact angles (``metrics.at_own_angles``), or at the nominal one."""
+    own_or_nominal = metrics.at_own_angles(ds, bearing) if own else bearing.nominal
+    return bearing_frequencies(own_or_nominal, float(ds["inner_speed"].mean()))
 
 
 def run_resolution(ds: xarray.Dataset, bearing: BearingNumbers) -> float:

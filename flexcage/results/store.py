@@ -5,6 +5,11 @@ with one chunk a block along time. A block exists only once ``_run/commit.json``
 file is written aside, fsynced and atomically moved into place after the block's chunks, its
 steps and events, and its checkpoint are on disk. Readers trim every array to the commit, so what
 a kill left half written is never seen. (Appending to arrays instead leaves unreadable stores.)
+
+Format 3: the attributes ``run`` hold the case as it was run, its hash, and the digest of the cage
+that modal coordinates refer to (``cage_file``). Types, chunks and shards are read from the arrays'
+own metadata, so that single precision or fewer files need no new number; a new number is due when
+variables or checkpoints change their meaning.
 """
 
 from __future__ import annotations

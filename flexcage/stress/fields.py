@@ -20,6 +20,7 @@ import numpy as np
 from flexcage.core.threads import on_all_cores
 from flexcage.fem.symmetry import CyclicSymmetry, find_symmetry
 from flexcage.modes.pockets import pocket_frames
+from flexcage.stress.midpoints import edges_across
 from flexcage.stress.operators import deviator
 from flexcage.stress.places import contact_zone, root_places
 from flexcage.stress.recovery import StressRecovery
@@ -221,7 +222,8 @@ class UnitFields:
 
 class StressFields(UnitFields):
     """Precomputed deviators at the points of the surface vertices ``surface`` (vertex numbers);
-    ``vertices`` (n,), rising: the vertex of every point."""
+    ``vertices`` (n,), rising: the vertex of every point. ``edges`` (n, 2) are those that cross a
+    face of the body."""
 
     parts = 5
     prefix = ""
@@ -234,6 +236,8 @@ class StressFields(UnitFields):
         self.searched = np.flatnonzero(~np.isin(self.surface, zone))
         self._stress = recovery.stress_at(self.surface)
         self.vertices = self._stress.owner
+        self.edges = edges_across(model)
+        self._ends = np.searchsorted(self.vertices, self.edges.T)
         super().__init__(recovery, self._stress)
 
     def _parts(self, stress: np.ndarray) -> np.ndarray:
@@ -243,6 +247,11 @@ class StressFields(UnitFields):
         """Equivalent stress (n_surface, nt) of deviators (5, n_points, nt), whose place it takes:
         the largest of a vertex's points."""
         return self._stress.largest(_equivalent(parts))
+
+    def middles(self, parts: np.ndarray) -> np.ndarray:
+        """Equivalent stress (n_edges, nt) in the middles of the edges, of deviators as above."""
+        one, two = self._ends
+        return _equivalent(0.5 * (parts[:, one] + parts[:, two]))
 
     def gauges(self, vertices: Sequence[np.ndarray]) -> Gauges:
         """The fields at some vertices of every place, rows of ``surface``."""

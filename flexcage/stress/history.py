@@ -46,6 +46,8 @@ class StressHistory:
     peak_time: np.ndarray  # (nt,) [s] of a step between samples at which it is; else NaN
     at_sample: np.ndarray  # (nt,) largest at the sample itself
     envelope: np.ndarray  # (n_surface,) largest over the settled part
+    edges: np.ndarray  # (n_edges, 2) vertices of the edges that cross a face of the body
+    middles: np.ndarray  # (n_edges,) the envelope in their middles
     settled: int = 0  # first sample of the settled part
 
     @property
@@ -75,6 +77,7 @@ class _Block:
     when: np.ndarray  # (block,) [s] of a step between samples, or NaN
     sampled: np.ndarray  # (block,)
     envelope: np.ndarray  # (n_surface,) as of the whole; 0 if nothing is settled
+    middles: np.ndarray  # (n_edges,) likewise
 
 
 def equivalent_stress(
@@ -88,8 +91,15 @@ def equivalent_stress(
     Over nt samples: modal coordinates (nt, n), station forces (nt, Z, F, n_st, 3) and land forces
     (nt, 2, n_land, 3) [N], components (x, r, psi) of the pockets' and land stations' frames.
     """
+    return fields.equivalent(_parts(fields, q, station_forces, land_forces))
+
+
+def _parts(
+    fields: StressFields, q: np.ndarray, station_forces: np.ndarray, land_forces: np.ndarray | None
+) -> np.ndarray:
+    """Deviators (5, n_points, nt) of the same."""
     loads = fields.reduced_forces(station_forces)
-    return fields.equivalent(_superposed(fields, q, loads, _land(land_forces, len(q))))
+    return _superposed(fields, q, loads, _land(land_forces, len(q)))
 
 
 def histories_at(
@@ -177,13 +187,17 @@ class _Search:
         self.fields, self.settled = fields, settled
         self._slots = [np.searchsorted(fields.surface, v) for v in fields.places.values()]
 
-    def at_samples(self, values: np.ndarray, first: int) -> _Block:
-        """The block of samples from ``first`` on that have these stresses (n_surface, nt)."""
+    def at_samples(self, values: np.ndarray, middles: np.ndarray, first: int) -> _Block:
+        """The block of samples from ``first`` on that have these stresses (n_surface, nt), and
+        these in the middles of edges (n_edges, nt)."""
         count = values.shape[1]
         peak, where = self._peaks(values)
         none = np.full(count, np.nan)
-        block = _Block(self._places(values), peak, where, none, peak.copy(), np.zeros(len(values)))
-        self._keep_envelope(block, values, first + np.arange(count))
+        block = _Block(
+            self._places(values), peak, where, none, peak.copy(), np.zeros(len(values)),
+            np.zeros(len(middles)),
+        )  # fmt: skip
+        self._keep_envelope(block, values, middles, first + np.arange(count))
         return block
 
     def between(self, block: _Block, values: np.ndarray, steps: Loads, first: int) -> None:
@@ -204,9 +218,10 @@ class _Search:
         if not len(chosen):
             return
         steps, at, fields = steps.only(chosen), at[chosen], self.fields
-        values = fields.equivalent(_stress_of(fields, fields.reduced_forces, steps))
+        parts = _stress_of(fields, fields.reduced_forces, steps)
+        middles, values = fields.middles(parts), fields.equivalent(parts)
         np.maximum.at(block.places, at, self._places(values))
-        self._keep_envelope(block, values, steps.sample)
+        self._keep_envelope(block, values, middles, steps.sample)
         peak, where = self._peaks(values)
         rising = np.argsort(peak)  # where a sample has two, the larger comes last and stays
         higher = rising[peak[rising] > block.peak[at[rising]]]
@@ -242,9 +257,12 @@ class _Search:
         vertex = fields.surface[fields.searched[np.argmax(searched, axis=0)]]
         return searched.max(axis=0), vertex
 
-    def _keep_envelope(self, block: _Block, values: np.ndarray, sample: np.ndarray) -> None:
+    def _keep_envelope(
+        self, block: _Block, values: np.ndarray, middles: np.ndarray, sample: np.ndarray
+    ) -> None:
         if (late := sample >= self.settled).any():
             np.maximum(block.envelope, values[:, late].max(axis=1), out=block.envelope)
+            np.maximum(block.middles, middles[:, late].max(axis=1), out=block.middles)
 
 
 def stress_history(
@@ -268,10 +286,9 @@ def stress_history(
     def work(first: int) -> _Block:
         part = slice(first, min(first + _BLOCK, len(q)))
         land = None if land_forces is None else np.asarray(land_forces[part])
-        values = equivalent_stress(
-            fields, np.asarray(q[part]), np.asarray(station_forces[part]), land
-        )
-        block = search.at_samples(values, first)
+        parts = _parts(fields, np.asarray(q[part]), np.asarray(station_forces[part]), land)
+        middles, values = fields.middles(parts), fields.equivalent(parts)
+        block = search.at_samples(values, middles, first)
         steps = between(part.start, part.stop)
         if steps is not None:
             steps = steps if land_forces is not None else steps.off_lands()
@@ -294,5 +311,7 @@ def stress_history(
         peak_time=np.concatenate([block.when for block in blocks]),
         at_sample=np.concatenate([block.sampled for block in blocks]),
         envelope=np.max([block.envelope for block in blocks], axis=0),
+        edges=fields.edges,
+        middles=np.max([block.middles for block in blocks], axis=0),
         settled=settled,
     )

@@ -1,8 +1,9 @@
 """A study on disk: its text, one folder a case, one file a case that failed.
 
     study.toml            the study, complete
-    plan.json             hashes of its cases, in order
+    plan.json             hashes of its cases, in order, and what tables say of the base case
     cases/<hash>/         a finished case: its run, and row.json with its figures
+    cages/<digest>.zip    a cage that runs share (``results.cage_file``), one file each
     cases/<hash>.part/    a case that is running, or was when its process ended
     failed/<hash>.json    why a case has no figures
     running.lock          held by the process that runs it
@@ -24,9 +25,10 @@ from typing import Any
 
 from flexcage.core.errors import InputError, refuse_full
 from flexcage.results.files import replace
+from flexcage.study.about import About, from_store, to_store
 from flexcage.study.outputs import Figure
-from flexcage.study.plan import Plan, stored_plan
-from flexcage.study.spec import FORMAT, Study, load_study
+from flexcage.study.plan import Plan, Planned
+from flexcage.study.spec import FORMAT, Study, stored_study, stored_table
 
 _ROW, _PART = "row.json", ".part"
 _NOT_THERE = (KeyError, TypeError, AttributeError)  # a text that is not what was written
@@ -72,24 +74,41 @@ class Folder:
         return self.cases / f"{name}.lock"
 
     def study(self) -> Study:
-        """The study that the folder holds; InputError if it holds none, or of another format."""
+        """The study that the folder holds, which runs no code: InputError if it holds none, or of
+        another format, or one that wants files of the user's own that are not loaded."""
+        return stored_study(self._text_file())
+
+    def _text_file(self) -> Path:
         if not (self.path / "study.toml").is_file():
             raise InputError(
                 f"'{self.path}' is not the folder of a study: it has no study.toml.", where="study"
             )
-        return load_study(self.path / "study.toml")
+        return self.path / "study.toml"
 
-    def plan(self) -> Plan:
-        """The study's cases, as they were planned last; InputError if they are not there."""
-        study = self.study()
+    def about(self) -> tuple[About, tuple[Planned, ...]]:
+        """What the folder says of its study, and the cases as they were planned last; InputError
+        if they are not there. Nothing of the user's own is needed to read it."""
+        file = self._text_file()
+        stored_table(file)  # refuses another format
         try:
-            return stored_plan(study, json.loads((self.path / "plan.json").read_text("utf-8")))
-        except (OSError, TypeError, ValueError) as exc:
+            plan = json.loads((self.path / "plan.json").read_text("utf-8"))
+            if isinstance(plan, list):  # of an earlier flexcage: hashes alone
+                plan = {"hashes": plan, **to_store(self.study())}
+            about = from_store(file, plan)
+            return about, about.planned(plan["hashes"])
+        except InputError:
+            raise
+        except (OSError, TypeError, ValueError, KeyError, AttributeError) as exc:
             raise InputError(
                 f"'{self.path}' does not hold the plan of its study.toml; go on with 'flexcage "
                 f"study resume {self.path}', which plans it anew.",
                 where="study",
             ) from exc
+
+    def plan(self) -> Plan:
+        """The study's cases as they were planned last, to be built."""
+        _, cases = self.about()
+        return Plan(self.study(), cases)
 
     def prepare(self, plan: Plan) -> None:
         """Make the folder, or take over one that holds a study: its cases are found by content."""
@@ -97,7 +116,7 @@ class Folder:
             raise InputError(f"'{self.path}' is a file; name a folder for the study.", where="out")
         if (self.path / "plan.json").is_file():  # a study.toml alone is the user's own
             if (self.path / "study.toml").is_file():
-                self.study()  # refuses another format
+                stored_table(self.path / "study.toml")  # refuses another format
         elif self.path.is_dir() and any(self.path.iterdir()):
             raise InputError(
                 f"'{self.path}' holds files and no study; name an empty or a new folder with -o.",
@@ -109,7 +128,9 @@ class Folder:
                 folder.mkdir(parents=True, exist_ok=True)
             with self.held():
                 _write_json(self.cases / "zarr.json", _ZARR_GROUP)
-                _write_json(self.path / "plan.json", [planned.hash for planned in plan.cases])
+                hashes = [planned.hash for planned in plan.cases]
+                kept = {"format": FORMAT, "hashes": hashes, **to_store(plan.study)}
+                _write_json(self.path / "plan.json", kept)
                 replace(self.path / "study.toml", plan.study.to_toml().encode())
         except OSError as exc:
             refuse_full(f"The study's folder '{self.path}'", exc)

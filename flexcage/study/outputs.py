@@ -54,7 +54,8 @@ ELEMENT_FIGURES = {
     ),
     "ball": (
         "ball_spin", "ball_spin_ideal", "contact_angle_inner", "contact_angle_outer",
-        "whirl_difference", "edge_inner", "edge_outer",
+        "whirl_difference", "edge_inner", "edge_outer", "epicyclic_speed_nominal",
+        "cage_slip_ratio_nominal", "slip_loaded_nominal", "slip_curvature",
     ),
 }  # fmt: skip
 FLEXIBLE_FIGURES = (

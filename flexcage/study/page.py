@@ -40,7 +40,8 @@ def write_study_page(
 ) -> Path:
     """Write the report of a study; ``points`` are those whose stress is shown (default: six)."""
     shown, chosen = to_show(results, points)
-    cages = stress_of(results, shown, progress)
+    cages, lacking = stress_of(results, shown, progress)
+    chosen = lacking or chosen
     with TemporaryDirectory() as folder:
         images, why = stress_images(cages, Path(folder))
         notes = [chosen, why]
@@ -59,14 +60,14 @@ def write_study_page(
 def _account(
     results: StudyResults, cages: list[Shown], images: list[Image], chosen: str
 ) -> StudyAccount:
-    study, folder = results.study, results.folder.path
+    study, folder = results.about, results.folder.path
     return StudyAccount(
         name=study.name,
         folder=folder,
         status=results.status(),
         varied=_varied(results),
         named=[_named(axis) for axis in study.axes if _has_names(axis)],
-        base=words.in_words(study.case),
+        base=list(study.in_words),
         statistics=statistics_table(results),
         cases=cases_table(results),
         audits=audit_table(results),
@@ -78,14 +79,14 @@ def _account(
         scale=common_scale(cages),
         images=images,
         chosen=chosen,
-        assumptions=words.assumed(study.case),
-        study_text=study.to_toml(),
+        assumptions=study.assumptions,
+        study_text=study.text,
         commands="flexcage study run study.toml -o runs/again\nflexcage report runs/again",
     )
 
 
 def _varied(results: StudyResults) -> list[str]:
-    study, count = results.study, len(first_rows(results))
+    study, count = results.about, len(first_rows(results))
     lines = [_axis_in_words(axis) for axis in study.axes]
     times = study.repeat.count
     many = f"{count} points" if count != 1 else "One point"

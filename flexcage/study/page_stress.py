@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from flexcage.case.extensions import not_loaded
 from flexcage.core.errors import EnvironmentLacks, InputError
 from flexcage.core.progress import Silent
 from flexcage.report.blocks import Image
@@ -16,6 +17,7 @@ from flexcage.report.cage_view import CageStress, common_limit
 from flexcage.report.run_page import cage_stress
 from flexcage.simulate import load_run
 from flexcage.study.page_tables import point_names, stored_figure
+from flexcage.study.spec import uses
 
 if TYPE_CHECKING:
     from flexcage.study.results import ResultRow, StudyResults
@@ -68,18 +70,26 @@ def to_show(results: StudyResults, points: Sequence[int] | None) -> tuple[list[R
 
 def stress_of(
     results: StudyResults, rows: list[ResultRow], progress: Callable[..., Any] | None
-) -> list[Shown]:
+) -> tuple[list[Shown], str]:
+    """Stress of these cases; a sentence on why there is none, if they want files of the user's own
+    that are not loaded."""
     names, found = point_names(results), []
     shown = progress if progress and rows else Silent
     with shown(len(rows), "stress") as bar:
         for row in rows:
-            scene = load_run(results.folder.case(row.planned.hash)).scene()
+            try:
+                scene = load_run(results.folder.case(row.planned.hash)).scene()
+            except InputError:
+                lacking = not_loaded(results.about.use)
+                if not lacking:
+                    raise
+                return [], f"No stress is shown: the cases want {uses(lacking)}."
             assert scene.stress is not None
             name = f"Point {row.planned.number}: {names[row.planned.number]}"
             cage = cage_stress(scene, scene.stress, name)
             found.append(Shown(cage, name, scene.stress.peak_place))
             bar.advance()
-    return found
+    return found, ""
 
 
 def common_scale(cages: Sequence[Shown]) -> float:

@@ -55,7 +55,7 @@ def _words(output: str) -> str:
 
 def _titles(results: StudyResults) -> dict[str, str]:
     """Title of every output, with the unit that it is shown in."""
-    units = {name: _unit(results.known.get(name)) for name in results.study.outputs}
+    units = {name: _unit(results.known.get(name)) for name in results.about.outputs}
     return {n: f"{_words(n)} [{u}]" if u != "1" else _words(n) for n, u in units.items()}
 
 
@@ -154,7 +154,7 @@ def outputs(results: StudyResults) -> list[Output]:
     """Means and intervals of every output at every point, in the units that they are shown in."""
     frame = results.statistics
     found = []
-    for name in results.study.outputs:
+    for name in results.about.outputs:
         unit = _unit(results.known.get(name))
         factor, si = _factor(results.known.get(name)), results.titles[name]
         mean = np.array([_float(v) for v in frame[si]]) * factor
@@ -168,7 +168,7 @@ def _float(value: Any) -> float:
 
 def abscissas(results: StudyResults) -> list[Abscissa]:
     """One for every axis, or for every range of a sampled axis; other axes make groups."""
-    rows, axes = first_rows(results), results.study.axes
+    rows, axes = first_rows(results), results.about.axes
     values = [results.axes_of(row.planned) for row in rows]
     sizes = [len(axis.expand()) for axis in axes]
     place = np.array(np.unravel_index(range(len(rows)), sizes)).T if sizes else np.zeros((1, 0))

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable
 from dataclasses import dataclass, field
 from functools import reduce
 from itertools import product
@@ -15,7 +15,7 @@ from flexcage.core.errors import InputError
 from flexcage.core.hashing import content_hash
 from flexcage.core.units import format_si
 from flexcage.modes.registry import basis_version
-from flexcage.study.axes import Point, Points
+from flexcage.study.axes import Axis, Point, Points
 from flexcage.study.outputs import check_outputs
 from flexcage.study.spec import Study
 from flexcage.system.constraints import names_of
@@ -55,7 +55,7 @@ def make_plan(study: Study) -> Plan:
     """Build and check every case; the first mistake raises InputError with its point."""
     _check_paths(study)
     _check_columns(study)
-    points = _points(study)
+    points = points_of(study.axes)
     cases, seen = [], dict[str, int]()
     kind, flexible, riveted = study.case.bearing.element, False, False
     sizes = _counts(study.case)
@@ -98,13 +98,6 @@ def _counts(case: Case) -> dict[str, int]:
     }  # fmt: skip
 
 
-def stored_plan(study: Study, hashes: Sequence[str]) -> Plan:
-    """The plan of a study whose cases' hashes are known: nothing is built, nothing checked."""
-    places = product(enumerate(_points(study)), range(study.repeat.count))
-    cases = [Planned(n, point, k, h) for ((n, point), k), h in zip(places, hashes, strict=True)]
-    return Plan(study, tuple(cases))
-
-
 def _modes_key(case: Case) -> str:
     if case.cage_model == "rigid":
         return ""
@@ -114,8 +107,9 @@ def _modes_key(case: Case) -> str:
     )  # fmt: skip
 
 
-def _points(study: Study) -> list[Point]:
-    combinations = product(*(axis.expand() for axis in study.axes))
+def points_of(axes: Iterable[Axis]) -> list[Point]:
+    """Every combination of the axes' points."""
+    combinations = product(*(axis.expand() for axis in axes))
     return [reduce(or_, parts, Point({})) for parts in combinations]
 
 

@@ -13,7 +13,6 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from flexcage.core.binding import unit_at
 from flexcage.core.errors import InputError
 from flexcage.core.units import format_si, parse
 from flexcage.results.export import frame_to_csv, frame_to_parquet
@@ -22,8 +21,8 @@ from flexcage.run import Run
 from flexcage.simulate import load_run
 from flexcage.study.folder import CaseRow, Folder
 from flexcage.study.outputs import Figure
-from flexcage.study.plan import Planned
-from flexcage.study.spec import value_at
+from flexcage.study.plan import Plan, Planned
+from flexcage.study.spec import Study, value_at
 
 if TYPE_CHECKING:
     import pandas
@@ -45,26 +44,36 @@ class ResultRow:
 class StudyResults:
     """A study's folder: ``table``, ``statistics``, ``report()``, and ``run(point)`` of a case.
 
-    Everything is read from the folders of the cases, also while others are still running.
+    Everything is read from the folders of the cases, also while others are still running. No code
+    is run: ``plan`` and ``study`` alone, with which cases are built, want the user's own files.
     """
 
     def __init__(self, path: str | Path) -> None:
         self.folder = Folder(path)
-        self.plan = self.folder.plan()
-        self.study = self.plan.study
+        self.about, self.planned = self.folder.about()
+
+    @cached_property
+    def study(self) -> Study:
+        """The study, with its base case built."""
+        return self.folder.study()
+
+    @property
+    def plan(self) -> Plan:
+        """The cases, to be built."""
+        return Plan(self.study, self.planned)
 
     def __repr__(self) -> str:
-        return f"StudyResults({self.study.name!r} in {self.folder.path}: {self.status()})"
+        return f"StudyResults({self.about.name!r} in {self.folder.path}: {self.status()})"
 
     @cached_property
     def rows(self) -> list[ResultRow]:
         """One row a case, in the order of the plan."""
-        return [self._row(planned) for planned in self.plan.cases]
+        return [self._row(planned) for planned in self.planned]
 
     def _row(self, planned: Planned) -> ResultRow:
         row, failure = self.stored.get(planned.hash), self.folder.failure(planned.hash)
         if row is not None:
-            wanted = {k: row.figures[k] for k in self.study.outputs if k in row.figures}
+            wanted = {k: row.figures[k] for k in self.about.outputs if k in row.figures}
             return ResultRow(planned, "done", "", row.seconds, wanted)
         if failure is not None:
             return ResultRow(planned, "failed", failure.reason, nan, {})
@@ -73,7 +82,7 @@ class StudyResults:
     @cached_property
     def stored(self) -> dict[str, CaseRow]:
         """All figures of every finished case, by its hash."""
-        found = {planned.hash: self.folder.row(planned.hash) for planned in self.plan.cases}
+        found = {planned.hash: self.folder.row(planned.hash) for planned in self.planned}
         return {name: row for name, row in found.items() if row is not None}
 
     def count(self, state: str) -> int:
@@ -181,18 +190,18 @@ class StudyResults:
     def titles(self) -> dict[str, str]:
         """Header of every output in tables, by its name."""
         units = {name: f" [{figure.unit}]" for name, figure in self.known.items()}
-        return {name: f"{name}{units.get(name, '')}" for name in self.study.outputs}
+        return {name: f"{name}{units.get(name, '')}" for name in self.about.outputs}
 
     @cached_property
     def _paths(self) -> dict[str, str]:
         """Unit of every path that varies, in the order of the axes; "" for one without."""
-        case = self.study.case
-        return {path: unit_at(case, path) for axis in self.study.axes for path in axis.paths}
+        paths = (path for axis in self.about.axes for path in axis.paths)
+        return {path: self.about.units.get(path, "") for path in paths}
 
     def axes_of(self, planned: Planned) -> dict[str, Any]:
         """Labels and axis values of a case, as tables show them."""
         values = {
-            f"{path} [{unit}]" if unit else path: _cell(planned, path, unit, self._base)
+            f"{path} [{unit}]" if unit else path: _cell(planned, path, unit, self.about.base)
             for path, unit in self._paths.items()
         }
         labels = {name: planned.point.labels.get(name, "") for name in self._labels}
@@ -201,11 +210,7 @@ class StudyResults:
     @cached_property
     def _labels(self) -> list[str]:
         """Columns that show the labels of points."""
-        return list(dict.fromkeys(name for p in self.plan.cases for name in p.point.labels))
-
-    @cached_property
-    def _base(self) -> dict[str, Any]:
-        return self.study.case.to_table()
+        return list(dict.fromkeys(name for p in self.planned for name in p.point.labels))
 
     def _shown(self, name: str) -> str:
         figure = self.known.get(name)
@@ -235,7 +240,7 @@ def _value(figure: Figure | None) -> Any:
     return None if figure is None else figure.value
 
 
-def _cell(planned: Planned, path: str, unit: str, base: dict[str, Any]) -> Any:
+def _cell(planned: Planned, path: str, unit: str, base: Mapping[str, Any]) -> Any:
     """Value of a path in a case: a number in ``unit``, or what the case file says."""
     value = planned.point.values[path] if path in planned.point.values else value_at(base, path)
     if unit and isinstance(value, str) and value != "none":

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-import tomllib
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
@@ -11,14 +10,16 @@ from typing import Any
 
 from flexcage._version import __version__
 from flexcage.case import Case, load_case, load_extension
-from flexcage.case.extensions import sources
+from flexcage.case.extensions import not_loaded, sources
 from flexcage.case.toml import write_toml
 from flexcage.core.binding import Binder, check_spec, to_table, unit_at, wrong_type
 from flexcage.core.errors import InputError
 from flexcage.core.spec import option, quantity
+from flexcage.core.toml import read_toml
 from flexcage.core.units import format_si, parse
 from flexcage.geometry.presets import NAMED
 from flexcage.study.axes import Axis
+from flexcage.system.spec import MOST_PUSH
 
 FORMAT = 1  # of a study's file and folder
 KEEP = ("runs", "figures")
@@ -33,7 +34,9 @@ class Repeat:
     """
 
     count: int = option(1, doc="runs of every point", minimum=1)
-    push: float = quantity("mm/s", 1e-3, doc="speed of the cage centre at the start", above=0.0)
+    push: float = quantity(
+        "mm/s", 1e-3, doc="speed of the cage centre at the start", above=0.0, maximum=MOST_PUSH
+    )
     seed: int = option(1, doc="seed of the first repetition's push; each takes the next", minimum=0)
 
 
@@ -77,6 +80,52 @@ def load_study(path: str | Path, *, overrides: Mapping[str, Any] | None = None) 
     _check_format(table.pop("format", FORMAT), path)
     for source in _listed(table.pop("use", []), "use"):
         load_extension(path.parent / source if source.endswith((".py", ".toml")) else source)
+    return _bound(table, path, overrides)
+
+
+def stored_study(path: Path) -> Study:
+    """The study of a folder, which runs no code: InputError if files of the user's own are wanted
+    that this process has not loaded."""
+    table = stored_table(path)
+    lacking = not_loaded(table.pop("use"))
+    if lacking:
+        raise InputError(
+            f"The study in '{path.parent}' was planned with {_named(lacking)}, which a study's "
+            f"folder never loads by itself; name what you trust: {uses(lacking)} (in Python, "
+            "flexcage.load_extension).",
+            where="use",
+            value=lacking[0],
+        )
+    return _bound(table, path, None)
+
+
+def stored_table(path: Path) -> dict[str, Any]:
+    """The tables of a folder's study.toml, with its list ``use`` of extensions."""
+    table = _read(path)
+    _check_format(table.pop("format", FORMAT), path)
+    return {**table, "use": list(map(str, _listed(table.get("use", []), "use")))}
+
+
+def stored_axes(table: Mapping[str, Any]) -> tuple[Axis, ...]:
+    """The axes of a folder's study, whose values are text: no case is needed to read them."""
+    return Binder(named=NAMED).bind(_Axes, {"axes": table.get("axes", [])}, "").axes
+
+
+def stored_repeat(table: Mapping[str, Any]) -> Repeat:
+    """The repetitions of a folder's study."""
+    return Binder(named=NAMED).bind(Repeat, table.get("repeat", {}), "repeat")
+
+
+def uses(files: Iterable[str]) -> str:
+    """Options of the command line that load extensions."""
+    return " ".join(f"--use {file}" for file in files)
+
+
+def _named(files: list[str]) -> str:
+    return ", ".join(f"'{Path(file).name}'" for file in files)
+
+
+def _bound(table: dict[str, Any], path: Path, overrides: Mapping[str, Any] | None) -> Study:
     case = table.get("case")
     if case is None and "bearing" in table:
         raise InputError(
@@ -159,11 +208,10 @@ def _check_format(found: Any, path: Path) -> None:
 
 def _read(path: Path) -> dict[str, Any]:
     try:
-        return tomllib.loads(path.read_text("utf-8-sig"))
-    except tomllib.TOMLDecodeError as exc:
-        raise InputError(f"{path} is not valid TOML: {str(exc).rstrip('.')}.") from exc
+        text = path.read_text("utf-8-sig")
     except UnicodeDecodeError as exc:
         raise InputError(f"'{path}' is not a text file; a study is TOML text in UTF-8.") from exc
     except OSError as exc:
         reason = (exc.strerror or str(exc)).lower()
         raise InputError(f"The study file '{path}' cannot be read ({reason}).") from exc
+    return read_toml(text, str(path))

@@ -9,6 +9,7 @@ from __future__ import annotations
 import logging
 import shutil
 import time
+from contextlib import nullcontext
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -93,6 +94,7 @@ def _complete(order: Order, folder: Folder) -> None:
     if row is not None and set(order.beyond) <= set(row.figures):
         return
     begin = time.perf_counter()
+    _load(order)
     if row is not None and folder.has_run(order.hash):  # only outputs were added
         run = load_run(folder.case(order.hash))
         figures = {**row.figures, **figures_of(run, order.beyond)}
@@ -108,6 +110,12 @@ def _complete(order: Order, folder: Folder) -> None:
     folder.finish(order.hash)
 
 
+def _load(order: Order) -> None:
+    """Load the extensions that the study was run with."""
+    for source in order.use:
+        load_extension(source)
+
+
 def _case_of(order: Order) -> Case:
     """The case, which must be the same here as where it was planned."""
     if order.version != __version__:
@@ -115,8 +123,7 @@ def _case_of(order: Order) -> Case:
             f"The study was planned by flexcage {order.version}, and the worker has "
             f"{__version__}; install the same on both."
         )
-    for source in order.use:
-        load_extension(source)
+    _load(order)
     case = load_case(order.text)
     if case.hash != order.hash:
         raise InputError(
@@ -154,9 +161,8 @@ def compile_kernels(case: Case) -> None:
 
     if jit.kernels_cached(case.bearing.element):
         return
-    mark = jit.compiled_mark(case.bearing.element)
-    mark.parent.mkdir(parents=True, exist_ok=True)
-    with filelock.FileLock(mark.with_suffix(".lock")):
+    lock = jit.compiling_lock(case.bearing.element)
+    with nullcontext() if lock is None else filelock.FileLock(lock):
         if not jit.kernels_cached(case.bearing.element):
             rigid = case.replace("cage.model", "rigid").replace("defects", ())
             coarse = rigid.replace("mesh", MeshOptions(fineness="coarse"))

@@ -76,7 +76,7 @@ def _groove(bearing: BallBearing, contacts: Contacts, lubricant: Lubricant, *, i
         centre=centre,
         radius=radius,
         long=float(contact.semi_axes(1.0)[0]),
-        bend=0.5 * (2.0 / bearing.ball_diameter + 1.0 / radius),
+        bend=bearing.contact_curvatures[0 if inner else 1],
         strip=strip,
         share=share,
         normal=laws.normal_parameters(contacts.race.normal, contact.stiffness, POINT),

@@ -163,7 +163,9 @@ class CageSpeed(Constraint):
 
     type: str = option("cage_speed", doc="kind of constraint", choices=CONSTRAINTS)
     speed: float = quantity("rpm", 0.0, doc="speed of the cage that is given")
-    ratio: float = option(0.0, doc="share of the inner ring's speed that is added")
+    ratio: float = option(
+        0.0, doc="share of the inner ring's speed that is added", minimum=-100.0, maximum=100.0
+    )
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -191,6 +193,9 @@ class InnerPath(Constraint):
 CONSTRAINTS.update(cage_speed=CageSpeed, cage_centre=CageCentre, inner_path=InnerPath)
 
 
+MOST_PUSH = 10.0  # m/s, a hundred times the speeds of cages within their clearances
+
+
 @dataclass(frozen=True, kw_only=True)
 class StartOptions:
     """How the start departs from equilibrium: the cage moves off in a random direction.
@@ -199,7 +204,9 @@ class StartOptions:
     a pinched cage as well. ``seed`` picks the azimuth; rolling elements and rings stay the same.
     """
 
-    push: float = quantity("mm/s", 0.0, doc="speed of the cage centre at the start", minimum=0.0)
+    push: float = quantity(
+        "mm/s", 0.0, doc="speed of the cage centre at the start", minimum=0.0, maximum=MOST_PUSH
+    )
     seed: int = option(0, doc="seed of the push's azimuth, uniform over the circle", minimum=0)
 
 
@@ -208,6 +215,9 @@ class Limits:
     """Limits beyond which a start is refused rather than warned about."""
 
     stress: float | None = quantity(
-        "MPa", None, doc="greatest stress of a cage by rollers that it pinches when assembled"
+        "MPa",
+        None,
+        doc="greatest stress of a cage by rollers that it pinches when assembled",
+        above=0.0,
     )
     assembly_force: float = quantity("N", 2e4, doc="greatest pinch force", above=0.0)

@@ -11,7 +11,11 @@ BAD = {
     "wrong unit": ('[cage]\nbore = "79 kg"', "cage.bore", ["'79 kg'", "mm"]),
     "no unit": ("[load]\nradial = 1000", "load.radial", ["without a unit", "'1000 N'"]),
     "unit unknown": ('[load]\nradial = "1 kNn"', "load.radial", ["'kNn'"]),
-    "hertz for a speed": ('[drive]\nspeed = "100 Hz"', "drive.speed", ["another kind", "rpm"]),
+    "hertz for a speed": (
+        '[drive]\nspeed = "100 Hz"',
+        "drive.speed",
+        ["'100 rev/s'", "'100 rad/s'"],
+    ),
     "unknown key": ('[cage]\npocket_widht = "8 mm"', "cage.pocket_widht", ["'pocket_width'"]),
     "unknown section": ("[lubrication]\n", "lubrication", ["'lubricant'"]),
     "deep unknown key": (

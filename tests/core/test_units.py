@@ -13,7 +13,7 @@ from flexcage.core.units import format_si, parse
 def registry():
     import pint
 
-    return pint.UnitRegistry()
+    return pint.UnitRegistry()  # as it comes, where angles have no dimension
 
 
 @pytest.mark.parametrize("unit", sorted(units._COMMON))
@@ -71,8 +71,23 @@ def test_decimal_text_is_read_exactly():
         ("", "mm", ["'1 mm'"]),
         (None, "mm", ["'1 mm'"]),
         (True, "mm", ["True"]),
-        ("100 Hz", "rpm", ["another kind"]),
-        ("60 rpm", "Hz", ["another kind"]),
+        ("100 Hz", "rpm", ["revolutions or radians", "'100 rev/s'", "'100 rad/s'"]),
+        ("2 kHz", "rpm", ["'2000 rev/s'", "'2000 rad/s'"]),
+        ("3 1/s^2", "rad/s^2", ["'3 rev/s^2'", "'3 rad/s^2'"]),
+        ("60 rpm", "Hz", ["another kind", "cycles a second"]),
+        ("5 N*m", "N*m/rad", ["another kind", "name the angle"]),
+        ("5 N*m/rad", "N*m", ["another kind", "leave the angle out"]),
+        ("32 cSt", "Pa*s", ["kinematic", "density"]),
+        ("1 ton", "kg", ["1000 kg", "2000 lb"]),
+        ("1,000 N", "N", ["'1.000 N'", "'1000 N'"]),
+        ("1 000 N", "N", ["'000 N'"]),
+        ("1e999999999999999999999 mm", "mm", ["too large"]),
+        ("-1e999999999999999999999 mm", "mm", ["too large"]),
+        ("1e-999999999999999999999 mm", "mm", ["too small"]),
+        ("1e400 inch", "mm", ["too large"]),
+        ("1 2^9^9^9^9", "mm", ["not a known unit"]),
+        ("1 m^999999999", "mm", ["not a known unit"]),
+        ("1 " + "m*" * 50_000 + "m", "mm", ["not a known unit"]),
         ("5 mm +", "mm", ["mm"]),
         ("1 (", "mm", ["mm"]),
         ("nan mm", "mm", ["'1 mm'"]),

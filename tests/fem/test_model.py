@@ -115,3 +115,42 @@ def test_a_model_survives_pickling():
     model = assemble(box((1e-3, 1e-3, 1e-3), (1, 1, 1)), BRASS)
     again = pickle.loads(pickle.dumps(model))
     assert abs(again.K - model.K).max() == 0.0 and set(again.groups) == set(model.groups)
+
+
+def test_nodes_have_the_same_numbers_whatever_scikit_fem_numbers_edges(monkeypatch):
+    """Vertices first, then edges by their vertices: a stored shape refers to these numbers."""
+    mesh = distorted_box()
+    usual = assemble(mesh, BRASS)
+    assert (np.diff(usual.edges[:, 0]) >= 0).all()
+    made = skfem.Basis
+
+    class Other(made):
+        """A scikit-fem that numbers edges backwards."""
+
+        def __init__(self, fe_mesh, *args, **kwargs):
+            super().__init__(fe_mesh, *args, **kwargs)
+            last, vertices = self.N - 1, fe_mesh.nvertices
+            dofs = self.element_dofs.copy()
+            self.other_dofs = np.where(dofs >= vertices, last + vertices - dofs, dofs)
+
+        def __getattribute__(self, name):
+            if name == "element_dofs" and "other_dofs" in self.__dict__:
+                return self.other_dofs
+            if name == "doflocs" and "other_dofs" in self.__dict__:
+                return super().__getattribute__(name)[:, self.turned]
+            return super().__getattribute__(name)
+
+        @property
+        def turned(self):
+            vertices = self.mesh.nvertices
+            return np.append(np.arange(vertices), np.arange(self.N - 1, vertices - 1, -1))
+
+    backwards = skfem.MeshTet.edges.fget
+    monkeypatch.setattr(skfem, "Basis", Other)
+    monkeypatch.setattr(
+        skfem.MeshTet, "edges", property(lambda self: backwards(self)[:, ::-1]), raising=True
+    )
+    other = assemble(mesh, BRASS)
+    np.testing.assert_array_equal(other.edges, usual.edges)
+    np.testing.assert_array_equal(other.cells, usual.cells)
+    np.testing.assert_array_equal(other.nodes, usual.nodes)

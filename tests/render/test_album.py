@@ -24,6 +24,7 @@ PICTURES = {
     "bearing_pictures": ["bearing_picture"],
     "curves": ["orbit", "histories"],
     "stress_pictures": ["stress_picture", "envelope_picture", "deformation_picture"],
+    "spectra": ["spectra_picture"],
     "animations": ["animate_bearing", "animate_stress"],
 }
 OF_CAGE = ("stress_picture", "envelope_picture", "deformation_picture", "animate_stress")
@@ -73,6 +74,25 @@ def test_cameras_do_not_follow_the_peak(run, ring, drawn, tmp_path):
         assert [drawn[name]["azimuth"] for name in OF_CAGE] == [0.0] * 4
         assert drawn["stress_picture"]["peak_node"] == peak  # where the close-up looks
         assert drawn["mesh_picture"]["azimuth"] is None  # turns to the defect
+
+
+def test_every_picture_names_its_case(run, ring, drawn, tmp_path, monkeypatch):
+    monkeypatch.setattr("flexcage.results.spectra.resolves", lambda *_: True)
+    names = [name for room in PICTURES.values() for name in room]
+    for name, shown in (
+        ("my case", "my case"), ("a $x_1\n$ case", r"a \$x_1 \$ case"), ("x" * 99, "x" * 59 + "…"),
+    ):  # fmt: skip
+        draw_album(replace(scene(run, ring, 0), name=name), tmp_path, animate=True)
+        assert {name: given["note"] for name, given in drawn.items()} == dict.fromkeys(names, shown)
+
+
+def test_what_is_drawn_has_the_middles_of_edges(run, ring, drawn, tmp_path):
+    """Stress and displacement go to the pictures at all nodes, with the quadratic cells."""
+    shown = scene(run, ring, 0)
+    draw_album(shown, tmp_path, animate=True)
+    for name in OF_CAGE:
+        assert drawn[name]["points"] is shown.stress.nodes
+        assert drawn[name]["tets"] is shown.stress.cells
 
 
 def test_the_load_is_that_of_the_instant(run, ring, drawn, tmp_path):

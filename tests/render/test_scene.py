@@ -38,6 +38,28 @@ def test_quadratic_surface_follows_a_curved_field(ring):
     assert enclosed_volume(bulged, full.triangles) > 1.0005 * ring.volume
 
 
+def test_a_surface_is_divided_only_where_its_values_are_curved(ring):
+    """It stays closed and passes through the mid nodes of curved edges; others stay whole."""
+    nodes, cells = quadratic(ring.points, ring.tets)
+    values = np.abs(nodes[:, 1] - 1e-3) + nodes[:, 0]  # curved across a plane alone
+    full, part = surface_of(cells), surface_of(cells, values, within=1e-6)
+    linear = surface_of(ring.tets)
+    assert (
+        len(linear.triangles)
+        < len(part.triangles)
+        < 0.2 * len(full.triangles) + len(linear.triangles)
+    )
+    assert enclosed_volume(nodes, part.triangles) == pytest.approx(ring.volume, rel=1e-12)
+    ends = np.sort(np.concatenate([part.triangles[:, e] for e in ([0, 1], [1, 2], [2, 0])]), 1)
+    _, count = np.unique(ends, axis=0, return_counts=True)
+    assert (count % 2 == 0).all(), "no gap between a divided triangle and its neighbour"
+    mids = np.setdiff1d(part.used, linear.used)
+    assert len(mids) and (np.abs(nodes[mids, 1] - 1e-3) < 4e-3).all()
+    again = surface_of(cells, values, within=-1.0)
+    assert np.array_equal(np.sort(again.triangles, 0), np.sort(full.triangles, 0))
+    assert len(surface_of(cells, values, within=1.0).triangles) == len(linear.triangles)
+
+
 def test_view_is_fixed_by_the_ring_and_keeps_it_in_the_picture(ring, canvas):
     radius, width = ring_size(ring.points)
     assert (radius, width) == pytest.approx((43e-3, 16e-3))

@@ -13,7 +13,7 @@ from flexcage.case import load_case
 from flexcage.core.errors import InputError, RunFailed
 from flexcage.core.progress import Silent
 from flexcage.results.files import load, save
-from flexcage.simulate import simulate
+from flexcage.simulate import load_run, simulate
 from flexcage.study import run, work
 from flexcage.study.axes import Grid, Points
 from flexcage.study.folder import Folder
@@ -71,9 +71,28 @@ class OneBlock(Silent):
             raise KeyboardInterrupt
 
 
+def test_cases_share_the_file_of_their_cage(folder):
+    """One file a distinct cage; a case is read where it lies in the study, or with its own copy."""
+    axes = (Grid("load.radial", ["500 N", "1 kN"]), Grid("cage.width", ["16.5 mm", "16 mm"]))
+    every = orders(folder, short_study(*axes))
+    for order in every:
+        assert do_case(order) == "done"
+    files = sorted((folder.path / "cages").iterdir())
+    assert len(every) == 4 and len(files) == 2 and not list(folder.cases.rglob("cage.zip"))
+    widths = []
+    for order in every:
+        mesh = load_run(folder.case(order.hash)).mesh
+        widths.append(round(1e3 * float(np.ptp(mesh.points[:, 0])), 6))
+    assert sorted(widths) == [16.0, 16.0, 16.5, 16.5]
+    alone = folder.path.parent / "alone"
+    folder.case(every[0].hash).rename(alone)
+    with pytest.raises(InputError, match="a study keeps the cages of its runs"):
+        load_run(alone)
+
+
 def other_format(part):
     commit = part / "results.zarr" / "_run" / "commit.json"
-    commit.write_text(commit.read_text().replace('"format": 2', '"format": 1'))
+    commit.write_text(commit.read_text().replace('"format": 3', '"format": 2'))
 
 
 def other_checkpoint(part):
@@ -83,8 +102,8 @@ def other_checkpoint(part):
 
 
 def other_words(part):
-    text = (part / "case.toml").read_text()
-    (part / "case.toml").write_text(text.replace("gravity =", "gravitation ="))
+    for path in (part / "case.toml", part / "results.zarr" / "zarr.json"):
+        path.write_text(path.read_text().replace("gravity =", "gravitation ="))
 
 
 @pytest.mark.parametrize("change", [other_format, other_checkpoint, other_words])

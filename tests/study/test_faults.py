@@ -113,14 +113,15 @@ def test_ctrl_c_stops_at_once_and_resume_goes_on(tmp_path):
     os.killpg(client.pid, signal.SIGINT)
     said, complained = client.communicate(timeout=PATIENCE)
     assert (client.returncode, said) == (130, ""), complained
-    assert f"'flexcage study resume {out}' goes on" in complained
+    mine = str(tmp_path / "mine.py")
+    assert f"'flexcage study resume {out} --use {mine}' goes on" in complained
     assert complained.count("\n") == 1, complained
     assert not psutil.wait_procs(children, timeout=20)[1]
 
     finished = when_written(out)
     stopped = pd.read_parquet(out / "table.parquet")
     assert set(stopped.loc[stopped["state"] == "done", "hash"]) == set(finished)
-    resumed = start(*command, "resume", out, "--workers", 1, **PIPES)
+    resumed = start(*command, "resume", out, "--use", mine, "--workers", 1, **PIPES)
     said, complained = resumed.communicate(timeout=PATIENCE)
     assert resumed.returncode == 0, complained
     assert "3 cases: 3 done, 0 failed, 0 open" in said

@@ -1,0 +1,198 @@
+"""Compiled kernels on disk, in a cache that never ends a run.
+
+numba's own cache raises whatever the disk or a damaged file gives it, and where it cannot write it
+keeps kernels beside the sources, where a change in a callee goes unseen. Here every entry carries
+a checksum: one that cannot be read is removed, and its kernel compiled anew. A folder that cannot
+be written is read as far as it goes; what is compiled is then kept in a temporary folder, as long
+as the process lives.
+"""
+
+from __future__ import annotations
+
+import atexit
+import hashlib
+import logging
+import os
+import pickle
+import shutil
+import tempfile
+from pathlib import Path
+from typing import Any
+
+from numba.core.caching import (
+    CompileResultCacheImpl,
+    FunctionCache,
+    IndexDataCacheFile,
+    UserProvidedCacheLocator,
+)
+from numba.core.serialize import dumps
+
+from flexcage.core.cache import check_writable, tell_unwritable
+
+log = logging.getLogger(__name__)
+
+_OURS = "-checked"  # in the names of files, which numba's own cache may keep in the same folder
+
+
+class KernelFolder:
+    """Where kernels are read and written: the cache's folder, then a temporary one, then none."""
+
+    def __init__(self, path: Path) -> None:
+        self.path = path
+        self._spare: Path | None = None
+        self._given_up = False
+        self._told_damage = False
+
+    @property
+    def places(self) -> tuple[Path, ...]:
+        """Folders in which a kernel may lie."""
+        return (self.path,) if self._spare is None else (self._spare, self.path)
+
+    @property
+    def place(self) -> Path | None:
+        """Folder to write to; None if there is none."""
+        return None if self._given_up else self.places[0]
+
+    def ensure_writable(self) -> None:
+        """Take a temporary folder if the cache's cannot be written."""
+        if self._spare is not None or self._given_up:
+            return
+        try:
+            check_writable(self.path)
+        except OSError as error:
+            self.refuse(error)
+
+    def refuse(self, error: OSError) -> bool:
+        """Write elsewhere from now on; False if there is no other place."""
+        if self._spare is not None or self._given_up:
+            self._given_up = True
+            return False
+        tell_unwritable(self.path, error)
+        try:
+            self._spare = Path(tempfile.mkdtemp(prefix="flexcage-kernels-"))
+        except OSError:
+            self._given_up = True
+            return False
+        atexit.register(shutil.rmtree, self._spare, ignore_errors=True)
+        return True
+
+    def tell_damage(self, name: str, error: Exception) -> None:
+        """Say once that kernels could not be read."""
+        reason = str(error) or type(error).__name__
+        level = logging.DEBUG if self._told_damage else logging.WARNING
+        log.log(
+            level, "the compiled kernel '%s' in %s cannot be read (%s); it is removed and compiled "
+            "anew, as is any other that is damaged", name, self.path, reason,
+        )  # fmt: skip
+        self._told_damage = True
+
+
+class _Checked(IndexDataCacheFile):
+    """Files of one function, each entry with its checksum."""
+
+    def save(self, key: Any, data: Any) -> None:
+        content = dumps(data)
+        super().save(key, _sealed(content))
+
+    def load(self, key: Any) -> Any:
+        entry = super().load(key)
+        return None if entry is None else pickle.loads(_opened(entry))
+
+    def remove(self) -> None:
+        """Remove the function's files, as far as they can be."""
+        folder, name = Path(self._index_path).parent, Path(self._index_path).stem
+        for path in (Path(self._index_path), *folder.glob(f"{name}.*.nbc")):
+            try:
+                path.unlink(missing_ok=True)
+            except OSError:
+                continue
+
+
+def _sealed(content: bytes) -> tuple[bytes, bytes]:
+    return hashlib.blake2b(content).digest(), content
+
+
+def _opened(entry: Any) -> bytes:
+    digest, content = entry
+    if hashlib.blake2b(content).digest() != digest:
+        raise ValueError("its checksum differs")
+    return content
+
+
+class _Locator(UserProvidedCacheLocator):
+    """Names the files of a function; ``KernelCache`` chooses their folder."""
+
+    @classmethod
+    def from_function(cls, py_func: Any, py_file: str) -> _Locator | None:
+        return cls(py_func, py_file) if os.path.exists(py_file) else None
+
+    def ensure_cache_path(self) -> None:
+        """Left to ``KernelCache``."""
+
+
+class _Impl(CompileResultCacheImpl):
+    _locator_classes = [_Locator]
+
+
+class KernelCache(FunctionCache):
+    """numba's cache of one function, in a ``KernelFolder``."""
+
+    _impl_class = _Impl
+
+    def __init__(self, function: Any, folder: KernelFolder) -> None:
+        super().__init__(function)
+        self._folder = folder
+        self._sub = self._impl.locator.get_suitable_cache_subpath(function.__code__.co_filename)
+        self._stamp = self._impl.locator.get_source_stamp()
+
+    def _files(self, place: Path) -> _Checked:
+        return _Checked(str(place / self._sub), self._impl.filename_base + _OURS, self._stamp)
+
+    def load_overload(self, sig: Any, target_context: Any) -> Any:
+        """The kernel compiled for a signature, or None if it is not there or damaged."""
+        for place in self._folder.places:
+            self._cache_file = self._files(place)
+            try:
+                found = super().load_overload(sig, target_context)
+            except NotADirectoryError:
+                continue  # no cache at all: what writes to it says so
+            except Exception as error:  # a damaged file may hold anything
+                self._cache_file.remove()
+                self._folder.tell_damage(self._impl.filename_base, error)
+                continue
+            if found is not None:
+                return found
+        return None
+
+    def save_overload(self, sig: Any, data: Any) -> None:
+        """Keep a kernel where that is possible."""
+        while (place := self._folder.place) is not None:
+            self._cache_file = self._files(place)
+            try:
+                (place / self._sub).mkdir(parents=True, exist_ok=True)
+                return super().save_overload(sig, data)
+            except OSError as error:
+                self._folder.refuse(error)
+            except Exception as error:  # an index that is damaged
+                self._cache_file.remove()
+                self._folder.tell_damage(self._impl.filename_base, error)
+                return None
+        return None
+
+
+def damaged(folder: Path) -> list[Path]:
+    """Files of compiled kernels in a folder that cannot be read."""
+    found = []
+    for path in sorted(folder.rglob(f"*{_OURS}.*")):
+        try:
+            if path.suffix == ".nbi":
+                with open(path, "rb") as file:
+                    pickle.load(file)
+                    pickle.load(file)
+            elif path.suffix == ".nbc":
+                _opened(pickle.loads(path.read_bytes()))
+        except FileNotFoundError:
+            continue  # another process removed it
+        except Exception:
+            found.append(path)
+    return found

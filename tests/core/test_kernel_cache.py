@@ -1,0 +1,172 @@
+"""Compiled kernels on disk: damaged, full and read-only caches cost time and never a result."""
+
+import os
+import shutil
+import subprocess
+import sys
+import tempfile
+from errno import EACCES, ENOSPC
+from pathlib import Path
+
+import numba
+import pytest
+
+from flexcage.core import environment
+from flexcage.core.kernel_cache import damaged
+
+pytestmark = pytest.mark.skipif(
+    bool(numba.config.DISABLE_JIT), reason="plain Python compiles nothing"
+)
+
+SCRIPT = """
+import logging
+logging.basicConfig(format="%(message)s")
+import numpy as np
+from flexcage.core.jit import kernel
+
+@kernel
+def inner(x, out):
+    out[0] = 3.0 * x
+
+@kernel
+def whole(x, out):
+    inner(x + 1.0, out)
+
+out = np.zeros(1)
+whole(2.0, out)
+assert out[0] == 9.0, out
+print(sum(whole.stats.cache_hits.values()))
+"""
+
+REFUSES = """
+import builtins, errno
+own = builtins.open
+def refusing(file, mode="r", *args, **kwargs):
+    if "w" in mode and {folder!r} in str(file):
+        raise OSError(errno.{name}, os.strerror(errno.{name}), str(file))
+    return own(file, mode, *args, **kwargs)
+import os, tempfile
+builtins.open = refusing
+def no_file(*args, dir=None, **kwargs):
+    if dir is not None and {folder!r} in str(dir):
+        raise OSError(errno.{name}, os.strerror(errno.{name}), str(dir))
+    return own_temporary(*args, dir=dir, **kwargs)
+own_temporary = tempfile.TemporaryFile
+tempfile.TemporaryFile = no_file
+"""
+
+
+@pytest.fixture
+def run(tmp_path):
+    """run(before) -> (kernels read from disk, what was warned of) of a process with a kernel."""
+
+    def go(before: str = "", **env: str) -> tuple[int, str]:
+        (tmp_path / "own_kernel.py").write_text(SCRIPT, encoding="utf-8")
+        program = f"{before}\nimport own_kernel"
+        kept = {k: v for k, v in os.environ.items() if k != "NUMBA_CACHE_DIR"}
+        done = subprocess.run(
+            [sys.executable, "-c", program], cwd=tmp_path, capture_output=True, text=True,
+            env={**kept, "FLEXCAGE_CACHE_DIR": str(tmp_path / "cache"), **env},
+        )  # fmt: skip
+        assert done.returncode == 0, done.stderr
+        return int(done.stdout), done.stderr
+
+    return go
+
+
+def entries(tmp_path: Path) -> list[Path]:
+    return [p for p in (tmp_path / "cache").rglob("own_kernel.whole*") if p.is_file()]
+
+
+DAMAGES = {
+    "empty": lambda data: b"",
+    "half": lambda data: data[: len(data) // 2],
+    "text": lambda data: b"hello",
+    "zeros": lambda data: bytes(len(data)),
+    "flipped": lambda data: data[: len(data) // 2] + bytes([data[len(data) // 2] ^ 1])
+    + data[len(data) // 2 + 1 :],
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("damage", DAMAGES)
+@pytest.mark.parametrize("suffix", [".nbi", ".nbc"])
+def test_a_damaged_kernel_is_compiled_anew(tmp_path, run, damage, suffix):
+    assert run() == (0, "")
+    assert run() == (1, "")
+    (file,) = [p for p in entries(tmp_path) if p.suffix == suffix]
+    file.write_bytes(DAMAGES[damage](file.read_bytes()))
+    hits, told = run()
+    if told:  # one bit of an index may name another kernel, which is not found: no damage
+        assert (
+            len(told.splitlines()) == 1 and "own_kernel.whole" in told and "cannot be read" in told
+        )
+        assert hits == 0
+    assert told or (damage, suffix) == ("flipped", ".nbi")
+    assert run() == (1, "")
+
+
+def test_the_doctor_names_a_damaged_kernel(tmp_path, run, monkeypatch):
+    run()
+    folder = tmp_path / "cache" / "kernels"
+    assert damaged(folder) == []
+    (file,) = [p for p in entries(tmp_path) if p.suffix == ".nbc"]
+    data = bytearray(file.read_bytes())
+    data[len(data) // 2] ^= 1  # what unpickles as before and would run as another program
+    file.write_bytes(data)
+    assert damaged(folder) == [file]
+    monkeypatch.setenv("FLEXCAGE_CACHE_DIR", str(tmp_path / "cache"))
+    finding = environment._kernel_cache()
+    assert not finding.ok and file.name in finding.detail
+    assert "flexcage cache --clear" in finding.remedy
+
+
+@pytest.mark.parametrize("name", ["ENOSPC", "EACCES", "EROFS", "EDQUOT"])
+def test_a_cache_that_cannot_be_written_is_told_once(tmp_path, run, name):
+    folder = str(tmp_path / "cache")
+    hits, told = run(REFUSES.format(folder=folder, name=name))
+    assert hits == 0 and len(told.splitlines()) == 1
+    assert f"'{folder}'" in told and "FLEXCAGE_CACHE_DIR" in told
+    assert not entries(tmp_path)
+    assert run() == (0, "")  # once it can be written, kernels are kept as ever
+    assert run() == (1, "")
+
+
+def test_kernels_of_a_read_only_cache_are_read(tmp_path, run):
+    run()
+    assert run(REFUSES.format(folder=str(tmp_path / "cache"), name="EROFS")) == (1, "")
+
+
+def test_without_any_folder_every_process_compiles(tmp_path, run):
+    (tmp_path / "cache").write_text("in the way")
+    assert run()[0] == 0
+    nowhere = "import tempfile\ndef no(**_):\n    raise OSError(28, 'full')\ntempfile.mkdtemp = no"
+    hits, told = run(nowhere)
+    assert hits == 0 and len(told.splitlines()) == 1
+
+
+def test_never_beside_the_sources(tmp_path, run):
+    """There a change in a callee of another file would go unseen."""
+    (tmp_path / "cache").write_text("in the way")
+    run()
+    assert not list(tmp_path.rglob("*.nbi")) and not list(tmp_path.rglob("*.nbc"))
+
+
+@pytest.mark.parametrize("number", [ENOSPC, EACCES])
+def test_the_doctor_names_a_folder_that_cannot_be_written(tmp_path, monkeypatch, number):
+    def refuse(*args, **kwargs):
+        raise OSError(number, os.strerror(number))
+
+    monkeypatch.setenv("FLEXCAGE_CACHE_DIR", str(tmp_path / "cache"))
+    monkeypatch.setattr(tempfile, "TemporaryFile", refuse)
+    finding = environment._cache_folder()
+    assert not finding.ok and str(tmp_path / "cache") in finding.detail
+    assert os.strerror(number).lower() in finding.detail.lower()
+    assert "FLEXCAGE_CACHE_DIR" in finding.remedy
+
+
+def test_the_doctor_names_a_folder_with_little_room(tmp_path, monkeypatch):
+    monkeypatch.setenv("FLEXCAGE_CACHE_DIR", str(tmp_path))
+    usage = shutil.disk_usage(tmp_path)._replace(free=3_000_000)
+    monkeypatch.setattr(shutil, "disk_usage", lambda path: usage)
+    finding = environment._cache_folder()
+    assert not finding.ok and f"{tmp_path} has 3 MB left" in finding.detail and finding.remedy

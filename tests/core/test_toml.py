@@ -1,0 +1,49 @@
+"""Reading TOML: what is no TOML, or none that anybody writes, is one sentence, whoever reads it."""
+
+import pytest
+
+from flexcage.cli.settings import parse_setting
+from flexcage.core.errors import InputError, in_one_line
+from flexcage.core.toml import read_toml
+from flexcage.geometry.presets import register_preset
+from flexcage.study.spec import load_study
+
+BAD = {
+    "no value": ("a = \n", "not valid TOML"),
+    "digits without end": (f"a = {'1' * 4400}", "thousands of digits"),
+    "lists in lists": (f"a = {'[' * 1500}{']' * 1500}", "20 deep"),
+    "lists in tables": (f"a{'.a' * 30} = [1]", "20 deep"),
+}
+
+
+@pytest.mark.parametrize("name", BAD)
+def test_every_reader_says_it_in_one_sentence(name, tmp_path):
+    text, words = BAD[name]
+    path = tmp_path / "file.toml"
+    path.write_text(text)
+    for read in (
+        lambda: read_toml(text, "It"),
+        lambda: register_preset(path),
+        lambda: load_study(path),
+    ):
+        with pytest.raises(InputError, match=words) as caught:
+            read()
+        assert str(caught.value).count("file.toml") <= 1 and "\n" not in str(caught.value)
+
+
+def test_what_is_as_deep_as_cases_are_is_read():
+    assert read_toml("a.b.c.d = [{e = [1]}]", "It")["a"]["b"]["c"]["d"] == [{"e": [1]}]
+
+
+@pytest.mark.parametrize("value", ["1" * 4400, "[" * 1500 + "]" * 1500])
+def test_a_setting_that_is_no_toml_is_text(value):
+    assert parse_setting(f"seed={value}") == ("seed", value)
+
+
+def test_sentences_lose_the_middle_of_long_values_and_control_characters():
+    path = "/a" * 100 + "/case.toml"  # as long as paths may be
+    assert in_one_line(f"There is no '{path}'.") == f"There is no '{path}'."
+    told = in_one_line(f"x is '{'y' * 5000}\nand \0', but should be z.")
+    assert len(told) < 300 and told.endswith("but should be z.") and "characters)" in told
+    assert in_one_line("a\0b\nc") == r"a\x00b\nc"
+    assert len(in_one_line("word " * 9999)) < 1300
