@@ -61,7 +61,7 @@ def study_page(account: StudyAccount) -> Page:
     sections = [
         Section("What was varied", [Prose(account.varied), *account.named]),
         *([Section("Verdicts", [verdicts])] if verdicts else []),
-        Section("Warnings", [Notices(account.failures, none="No case failed.")]),
+        Section("Warnings", [Notices(account.failures, none="None.")]),
         Section("Results", [account.statistics, account.cases]),
         _comparison(account),
         *_stress(account),

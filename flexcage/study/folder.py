@@ -24,6 +24,7 @@ from pathlib import Path
 from typing import Any
 
 from flexcage.core.errors import InputError, refuse_full
+from flexcage.core.warning import RunWarning
 from flexcage.results.files import replace
 from flexcage.study.about import About, from_store, to_store
 from flexcage.study.outputs import Figure
@@ -46,11 +47,12 @@ class Failure:
 
 @dataclass(frozen=True)
 class CaseRow:
-    """What is known of one finished case."""
+    """What is known of one finished case; ``warnings`` is None where nobody looked for any."""
 
     hash: str
     seconds: float
     figures: Mapping[str, Figure]
+    warnings: tuple[RunWarning, ...] | None = None
 
 
 class Folder:
@@ -185,7 +187,9 @@ class Folder:
             )
         try:
             figures = {key: Figure(*values) for key, values in stored["figures"].items()}
-            return CaseRow(name, stored["seconds"], figures)
+            warned = stored.get("warnings")
+            warnings = None if warned is None else tuple(RunWarning(*values) for values in warned)
+            return CaseRow(name, stored["seconds"], figures, warnings)
         except _NOT_THERE as exc:
             raise _lacks(path, "the figures of a case") from exc
 
@@ -202,6 +206,8 @@ class Folder:
         """Write a case's row into the folder ``where`` of its run."""
         figures = {k: [f.value, f.unit, f.shown, f.margin] for k, f in row.figures.items()}
         stored = {"format": FORMAT, "hash": row.hash, "seconds": row.seconds, "figures": figures}
+        if row.warnings is not None:
+            stored["warnings"] = [[w.key, w.text] for w in row.warnings]
         _write_json(where / _ROW, stored)
 
     def finish(self, name: str) -> None:

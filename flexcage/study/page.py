@@ -11,7 +11,6 @@ from flexcage.case import words
 from flexcage.report.blocks import Image, Table
 from flexcage.report.page import PageTooLarge, write_page
 from flexcage.report.study_page import StudyAccount, study_page
-from flexcage.results.audit import EXCEEDED
 from flexcage.study.axes import Grid, Points, Zip
 from flexcage.study.page_stress import Shown, common_scale, stress_images, stress_of, to_show
 from flexcage.study.page_tables import (
@@ -22,7 +21,6 @@ from flexcage.study.page_tables import (
     outputs,
     point_names,
     statistics_table,
-    stored_figure,
 )
 
 if TYPE_CHECKING:
@@ -154,12 +152,4 @@ def _warnings(results: StudyResults) -> list[str]:
             f"{results.count('open')} of {len(results.rows)} cases are not computed yet; 'flexcage "
             "study resume' computes them."
         )
-    for key, bad, text in (
-        ("energy_audit", EXCEEDED, "exceed the energy audit; tighten solver.tolerance"),
-        ("drift", None, "had not settled: the halves of the run differ beyond the intervals"),
-    ):
-        found = [stored_figure(results, r, key) for r in results.rows if r.state == "done"]
-        wrong = [v for v in found if (v == bad if bad else v not in (None, "nothing"))]
-        if wrong:
-            lines.append(f"{len(wrong)} of {len(found)} cases {text}.")
-    return lines
+    return [*lines, *results.warning_lines()]

@@ -107,10 +107,20 @@ def cases_table(results: StudyResults) -> Table:
         rows.append([
             number(r.planned.number), number(r.planned.repetition), *values, *figures,
             Cell(r.state), number(r.seconds, f"{r.seconds:.1f}") if r.seconds == r.seconds
-            else Cell(""), Cell(r.reason), Cell(r.planned.hash),
+            else Cell(""), Cell(r.reason), Cell(r.warned), Cell(r.planned.hash),
         ])  # fmt: skip
     axes = results.axes_of(results.rows[0].planned)
-    head = ("point", "repetition", *axes, *titles.values(), "state", "time [s]", "reason", "folder")
+    head = (
+        "point",
+        "repetition",
+        *axes,
+        *titles.values(),
+        "state",
+        "time [s]",
+        "reason",
+        "warnings",
+        "folder",
+    )
     return filled(Table(head, rows, f"{_share(results)} Runs lie in the folder cases."))
 
 

@@ -23,7 +23,7 @@ from flexcage.system.layout import CONSTRAINTS
 from flexcage.system.model import END_POINTS
 
 #: What tables hold of every case or point beside labels, values that vary, and outputs.
-COLUMNS = ("point", "repetition", "state", "reason", "seconds", "hash", "done")
+COLUMNS = ("point", "repetition", "state", "reason", "warnings", "seconds", "hash", "done")
 
 
 @dataclass(frozen=True)

@@ -15,6 +15,7 @@ import numpy as np
 
 from flexcage.core.errors import InputError
 from flexcage.core.units import format_si, parse
+from flexcage.core.warning import RunWarning
 from flexcage.results.export import frame_to_csv, frame_to_parquet
 from flexcage.results.summary import format_value
 from flexcage.run import Run
@@ -28,17 +29,27 @@ if TYPE_CHECKING:
     import pandas
 
 CONFIDENCE = 0.95  # of the intervals
+_TOO_FEW = 2  # repetitions, of which Student's t makes an interval that says little
 
 
 @dataclass(frozen=True)
 class ResultRow:
-    """One planned case and what became of it: ``state`` is "done", "failed" or "open"."""
+    """One planned case and what became of it: ``state`` is "done", "failed" or "open".
+
+    ``warnings`` are those of its run; None where none were looked for.
+    """
 
     planned: Planned
     state: str
     reason: str
     seconds: float
     figures: Mapping[str, Figure]
+    warnings: tuple[RunWarning, ...] | None = None
+
+    @property
+    def warned(self) -> str:
+        """Kinds of warnings that its run has, as a table shows them."""
+        return ", ".join(dict.fromkeys(warning.key for warning in self.warnings or ()))
 
 
 class StudyResults:
@@ -74,7 +85,7 @@ class StudyResults:
         row, failure = self.stored.get(planned.hash), self.folder.failure(planned.hash)
         if row is not None:
             wanted = {k: row.figures[k] for k in self.about.outputs if k in row.figures}
-            return ResultRow(planned, "done", "", row.seconds, wanted)
+            return ResultRow(planned, "done", "", row.seconds, wanted, row.warnings)
         if failure is not None:
             return ResultRow(planned, "failed", failure.reason, nan, {})
         return ResultRow(planned, "open", "", nan, {})
@@ -98,7 +109,8 @@ class StudyResults:
             {"point": row.planned.number, "repetition": row.planned.repetition}
             | self.axes_of(row.planned)
             | {self.titles[name]: _value(row.figures.get(name)) for name in self.titles}
-            | {"state": row.state, "reason": row.reason, "seconds": row.seconds}
+            | {"state": row.state, "reason": row.reason, "warnings": row.warned}
+            | {"seconds": row.seconds}
             | {"hash": row.planned.hash}
             for row in self.rows
         ])  # fmt: skip
@@ -123,7 +135,8 @@ class StudyResults:
         return pd.DataFrame(points)
 
     def report(self) -> str:
-        """The table over the points: mean +- half width of every output, then what failed."""
+        """The table over the points: mean ± half width of every output, then warnings and what
+        failed."""
         first = ["point", *self.axes_of(self.rows[0].planned)]
         lines = [[*first, *(self._shown(name) for name in self.titles)]]
         for cells in self.statistics.to_dict("records"):
@@ -134,7 +147,33 @@ class StudyResults:
         reasons = Counter(row.reason for row in self.rows if row.state == "failed")
         for reason, times in reasons.items():
             text += f"\n{times} failed: {reason}"
-        return f"{text}\n{self.status()}"
+        return "\n".join([*self.warning_lines(), text, self.status()])
+
+    def warning_lines(self) -> list[str]:
+        """One line for every kind of warning: how many cases have it, and what the first says."""
+        done = [row for row in self.rows if row.state == "done"]
+        found: dict[str, list[tuple[ResultRow, RunWarning]]] = {}
+        for row in done:
+            for warning in {w.key: w for w in reversed(row.warnings or ())}.values():
+                found.setdefault(warning.key, []).append((row, warning))
+        lines = []
+        for key, cases in found.items():
+            first = cases[0][0].planned
+            place = f"point {first.number}, repetition {first.repetition}"
+            where = place if len(cases) == 1 else f"the first is {place}"
+            lines.append(f"{len(cases)} of {len(done)} cases ({key}; {where}): {cases[0][1].text}")
+        unknown = sum(row.warnings is None for row in done)
+        if unknown:
+            lines.append(
+                f"Warnings of {unknown} of {len(done)} cases are not known: an earlier flexcage "
+                "computed them."
+            )
+        if self.study.repeat.count == _TOO_FEW:
+            lines.append(
+                f"Every point has {_TOO_FEW} repetitions, so that an interval is 12.7 times the "
+                "standard error of its mean; 3 or more make it much narrower."
+            )
+        return lines
 
     def status(self) -> str:
         """How many cases are done, failed and open, in one line."""

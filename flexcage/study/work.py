@@ -10,7 +10,7 @@ import logging
 import shutil
 import time
 from contextlib import nullcontext
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -98,7 +98,7 @@ def _complete(order: Order, folder: Folder) -> None:
     if row is not None and folder.has_run(order.hash):  # only outputs were added
         run = load_run(folder.case(order.hash))
         figures = {**row.figures, **figures_of(run, order.beyond)}
-        folder.write_row(folder.case(order.hash), CaseRow(order.hash, row.seconds, figures))
+        folder.write_row(folder.case(order.hash), replace(row, figures=figures))
         return
     case = _case_of(order)
     compile_kernels(case)
@@ -106,7 +106,7 @@ def _complete(order: Order, folder: Folder) -> None:
     run = _march(case, part, keep=order.keep)
     figures = figures_of(run, order.beyond)
     seconds = time.perf_counter() - begin
-    folder.write_row(part, CaseRow(order.hash, seconds, figures))
+    folder.write_row(part, CaseRow(order.hash, seconds, figures, run.warnings))
     folder.finish(order.hash)
 
 

@@ -9,6 +9,7 @@ import pytest
 from flexcage import cli
 from flexcage.case import load_case
 from flexcage.core.errors import InputError
+from flexcage.core.warning import RunWarning
 from flexcage.report.comparison import Output
 from flexcage.study.axes import Grid, LatinHypercube, Points, Zip
 from flexcage.study.folder import CaseRow, Failure, Folder
@@ -22,7 +23,9 @@ from flexcage.study.spec import Repeat, Study
 CASE = {"bearing": {"preset": "N1013"}, "cage": {"model": "rigid"}, "load": {"radial": "1 kN"}}
 
 
-def study_folder(path, *axes, fails=(), open_=(), outputs=("cage_slip_ratio",), **rest):
+def study_folder(
+    path, *axes, fails=(), open_=(), outputs=("cage_slip_ratio",), warned=lambda k: (), **rest
+):
     """A study as it would lie on disk, with figures that follow from each case's place."""
     rest = {"keep": "figures", **rest}
     plan = make_plan(Study(case=load_case(CASE), axes=axes, outputs=outputs, **rest))
@@ -36,10 +39,12 @@ def study_folder(path, *axes, fails=(), open_=(), outputs=("cage_slip_ratio",), 
             figures |= {"energy_audit": Figure("EXCEEDED" if k == 0 else "passed", "1"),
                         "steps": Figure(100 + k, "1")}  # fmt: skip
             folder.case(planned.hash).mkdir(parents=True)
-            folder.write_row(folder.case(planned.hash), CaseRow(planned.hash, 1.5, figures))
+            row = CaseRow(planned.hash, 1.5, figures, warned(k))
+            folder.write_row(folder.case(planned.hash), row)
     return StudyResults(path)
 
 
+EXCEEDED = RunWarning("energy_audit", "The energy audit is exceeded.")
 LOADS = Grid("load.radial", ["500 N", "1 kN"])
 SPEEDS = Grid("drive.speed", ["3000 rpm", "6000 rpm", "9000 rpm"])
 
@@ -47,7 +52,7 @@ SPEEDS = Grid("drive.speed", ["3000 rpm", "6000 rpm", "9000 rpm"])
 def test_the_page_of_a_study(tmp_path):
     results = study_folder(
         tmp_path / "s", LOADS, SPEEDS, repeat=Repeat(count=2), name="<i>mine</i>", fails=(3,),
-        open_=(11,),
+        open_=(11,), warned=lambda k: (EXCEEDED,) * (k < 2),
     )  # fmt: skip
     path = results.page(tmp_path / "page.html")
     text = path.read_text("utf-8")
@@ -56,10 +61,39 @@ def test_the_page_of_a_study(tmp_path):
     assert "12 cases: 10 done, 1 failed, 1 open" in text
     assert "Point 1, repetition 1 (load.radial = 500 N, drive.speed = 6000 rpm) failed" in text
     assert "1 of 12 cases are not computed yet" in text
-    assert "1 of 10 cases exceed the energy audit" in text
+    assert (
+        "2 of 10 cases (energy_audit; the first is point 0, repetition 0): The energy audit is "
+        "exceeded." in text
+    )
+    assert "Every point has 2 repetitions" in text
     assert "kept figures only" in text
     order = [text.index(f"<h2>{t}</h2>") for t in ("What was varied", "Results", "Comparison")]
     assert order == sorted(order)
+
+
+def test_warnings_of_runs_reach_the_table_and_the_report(tmp_path):
+    """A kind of warning once in words, by its key in every row that has it."""
+    short = [RunWarning("short_run", f"Statistics rest on {k} passes.") for k in range(6)]
+    results = study_folder(
+        tmp_path / "s", LOADS, SPEEDS, fails=(5,),
+        warned=lambda k: (short[k], EXCEEDED) if k == 2 else (short[k],) if k else (),
+    )  # fmt: skip
+    assert list(results.table["warnings"]) == [
+        "", "short_run", "short_run, energy_audit", "short_run", "short_run", "",
+    ]  # fmt: skip
+    told = results.report().splitlines()
+    assert told[0] == (
+        "4 of 5 cases (short_run; the first is point 1, repetition 0): Statistics rest on 1 passes."
+    )
+    assert told[1].startswith("1 of 5 cases (energy_audit; point 2, repetition 0): The energy")
+    written = dict(zip(("table",), results.write()))["table"].read_text("utf-8")
+    assert "warnings" in written and '"short_run, energy_audit"' in written
+    sound = study_folder(tmp_path / "sound", LOADS)
+    assert sound.warning_lines() == []
+    unknown = study_folder(tmp_path / "old", LOADS, warned=lambda k: None)
+    assert unknown.warning_lines() == [
+        "Warnings of 2 of 2 cases are not known: an earlier flexcage computed them."
+    ]
 
 
 def test_means_and_intervals_are_those_of_the_statistics(tmp_path):

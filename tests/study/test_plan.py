@@ -153,6 +153,7 @@ MISTAKES = {
             "repetition",
             "state",
             "reason",
+            "warnings",
             "seconds",
             "hash",
             "done",
