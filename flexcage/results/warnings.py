@@ -34,8 +34,8 @@ if TYPE_CHECKING:
 
 _LEAST_TURNS = 1.0  # of the cage in the statistics: one brings every element through the load
 # a cage that is thrown off: the mean distance of its centre rises through so many equal parts of
-# the settled time, by so much in all, beyond so much of what pockets and land leave it
-_PARTS, _GROWN, _BEYOND_POCKETS, _BEYOND_LAND = 5, 1.3, 2.0, 1.5
+# the settled time, by so much in all, beyond so much of what its pockets leave it
+_PARTS, _GROWN, _BEYOND_POCKETS = 5, 1.3, 2.0
 _PASSED = 1e-6  # m by which a cage must pass a ring, more than rounding
 
 Facts = TypeVar("Facts")
@@ -202,6 +202,8 @@ def _yield(o: Outcome) -> Iterator[RunWarning]:
 
 
 def _thrown_off(o: Outcome) -> Iterator[RunWarning]:
+    if has_land(o.cage, o.land):  # which holds it, also one that rotation has made larger
+        return
     part = metrics.settled(o.dataset, o.settle)
     radius = metrics.whirl_radius(part, about="axis")
     if len(radius) < 2 * _PARTS:
@@ -209,8 +211,6 @@ def _thrown_off(o: Outcome) -> Iterator[RunWarning]:
     means = np.array([values.mean() for values in np.array_split(radius, _PARTS)])
     play = 0.5 * (o.cage.pocket_size - o.bearing.element_diameter)
     allowed = _BEYOND_POCKETS * play
-    if has_land(o.cage, o.land):
-        allowed = max(allowed, _BEYOND_LAND * o.land.clearance)
     if (np.diff(means) > 0.0).all() and means[-1] > max(_GROWN * means[0], allowed):
         begin, end = (float(part["time"][k]) * 1e3 for k in (0, -1))
         yield RunWarning(

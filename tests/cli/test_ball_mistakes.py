@@ -93,12 +93,17 @@ def test_an_ellipse_over_the_edge_is_warned_of_in_a_run(case, capsys):
     """At its start, at its end, and in its summary: where, by how much, under which load."""
     assert cli.main(["run", case(), *SHALLOW, "-o", "out", "--no-images"]) == 0
     out, err = capsys.readouterr()
-    at_start, at_end = (line for line in err.splitlines() if "runs over" in line)
-    assert at_start.startswith("warning: at the start the contact ellipse of element")
-    assert at_end.startswith("warning: the contact ellipse of ball") and "at t = " in at_end
+    (before,) = (line for line in err.splitlines() if "runs over" in line)
+    assert before.startswith("warning: At the start the contact ellipse of element")
+    head = out.partition("passes in it")[0].splitlines()  # before the figures
+    at_start, at_end = (line for line in head if "runs over" in line)
+    assert at_start.startswith("  - At the start the contact ellipse of element")
+    assert at_end.startswith("  - The contact ellipse of ball") and "at t = " in at_end
     for line in (at_start, at_end):
         assert "inner groove's edge by" in line and " N at a contact angle of " in line
-    (row,) = (line for line in out.splitlines() if "beyond the inner groove" in line)
+    told = Path("out/summary.txt").read_text("utf-8").splitlines()
+    assert at_end in told
+    (row,) = (line for line in told if "beyond the inner groove" in line)
     assert float(row.split("edge")[1].split()[0]) > 0.0 and " N at " in row
 
 
@@ -112,6 +117,7 @@ def test_an_ellipse_over_the_edge_is_warned_of_in_a_static_solution(case, capsys
 def test_no_edge_is_warned_of_where_there_is_none(case, capsys):
     assert cli.main(["run", case(), "-o", "out", "--no-images"]) == 0
     out, err = capsys.readouterr()
-    assert "runs over" not in err
-    (row,) = (line for line in out.splitlines() if "beyond the inner groove" in line)
+    assert "runs over" not in out + err
+    told = Path("out/summary.txt").read_text("utf-8").splitlines()
+    (row,) = (line for line in told if "beyond the inner groove" in line)
     assert float(row.split("edge")[1].split()[0]) < 0.0

@@ -13,12 +13,13 @@ from flexcage import cli
 from flexcage.cli.settings import parse_setting
 from flexcage.core.errors import EnvironmentLacks, RunFailed
 from flexcage.core.timing import Stages
+from flexcage.results.summary import Row, Section, Summary
 
 EXAMPLE = str(Path(__file__).parents[2] / "examples" / "n1013.toml")
 
 
 class FakeRun:
-    summary = "cage speed 2709 rpm"
+    summary = Summary((Section("Speeds", (Row("cage_speed", "Cage speed", 283.7, "rpm"),)),), ())
 
     def __init__(self):
         self.drawn, self.stages, self.told, self.look = [], Stages(), [], {}
@@ -66,7 +67,9 @@ def test_run(corridor, capsys):
     assert out == Path("out") and out.is_dir()
     assert corridor.run.drawn == [(Path("out/images"), True)]
     shown = capsys.readouterr().out
-    assert "2709 rpm" in shown and re.search(r"Pictures took 1\.2 s, all of it \d+\.\d s", shown)
+    assert "2,709.1  rpm" in shown and re.search(
+        r"Pictures took 1\.2 s, all of it \d+\.\d s", shown
+    )
     assert 0.0 < corridor.run.told[0] <= corridor.run.stages.total  # from the command's beginning
 
 
