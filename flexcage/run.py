@@ -111,10 +111,12 @@ class Run:
         cage: CageReduction | None,
         start: Start | None = None,
         stages: Stages | None = None,
+        edited: tuple[RunWarning, ...] = (),
     ) -> None:
         self.case, self.store, self.folder = case, store, folder
         self.mesh, self.cage, self.start = mesh, cage, start
         self.stages = stages if stages is not None else Stages()
+        self.edited = edited  # a warning, if the folder's case.toml was changed after the run
 
     def __repr__(self) -> str:
         where = f" in {self.folder}" if self.folder else ""
@@ -166,7 +168,7 @@ class Run:
     @property
     def warnings(self) -> tuple[RunWarning, ...]:
         """What the reader of the run's figures must know, from its start and from its results."""
-        return self.summary.warnings or ()
+        return (*self.edited, *(self.summary.warnings or ()))
 
     @cached_property
     def recovery(self) -> StressRecovery:

@@ -16,6 +16,7 @@ from typing import Any
 from flexcage.case import Case, load_case
 from flexcage.core.binding import flat
 from flexcage.core.errors import FlexcageError, InputError, refuse_full
+from flexcage.core.warning import RunWarning
 from flexcage.results.cage_file import (
     NAME,
     CageRecord,
@@ -131,15 +132,20 @@ def kept_cage(folder: Path, store: MemoryRunStore) -> CageRecord:
     return record
 
 
-def open_folder(folder: Path) -> tuple[Case, MemoryRunStore]:
+def open_folder(folder: Path) -> tuple[Case, MemoryRunStore, tuple[RunWarning, ...]]:
     """The case and the store of a run folder. The case is that of the results: an edit of
-    case.toml is ignored, and a warning names it."""
+    case.toml is ignored, and the warning names it."""
     store = RunStore.open(folder / "results.zarr")
     text = store.layout.attrs["case"]
     case = load_case(text)
-    if edit := _edit(folder / "case.toml", text, case):
-        log.warning("%s; this is ignored: the results are those of the case as it was run", edit)
-    return case, store
+    edit = _edit(folder / "case.toml", text, case)
+    if not edit:
+        return case, store, ()
+    warning = RunWarning(
+        "edited", f"{edit}; this is ignored: the results are those of the case as it was run."
+    )
+    log.warning(warning.text)
+    return case, store, (warning,)
 
 
 def _edit(path: Path, text: str, case: Case) -> str:

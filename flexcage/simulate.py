@@ -67,7 +67,7 @@ def load_run(folder: str | Path, *, progress: Any = None) -> Run:
     Needs nothing but the folder: the cage is the one that the run had. An edit of its case.toml is
     ignored with a warning.
     """
-    case, store = open_folder(Path(folder))
+    case, store, edited = open_folder(Path(folder))
     stages = Stages(progress)
     mesh, cage = stored_cage(case, store, Path(folder), stages)
-    return Run(case, store, Path(folder), mesh, cage, stages=stages)
+    return Run(case, store, Path(folder), mesh, cage, stages=stages, edited=edited)

@@ -125,6 +125,7 @@ def test_an_edited_case_is_named_and_ignored(run, tmp_path, caplog, edit):
     assert other.case == run.case
     (record,) = [r for r in caplog.records if "after the run" in r.message]
     assert told in record.message and "ignored" in record.message
+    assert [w.key for w in other.warnings][0] == "edited" and told in other.warnings[0].text
     np.testing.assert_array_equal(
         other.stress(time=0.0021).von_mises, run.stress(time=0.0021).von_mises
     )
