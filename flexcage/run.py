@@ -446,9 +446,6 @@ class Run:
 
         case, load = self.case, self.case.load
         radial, axial = loads_over(load, self.dataset["time"].values).T
-        left = case.bearing.land_clearance(case.cage)
-        guided = case.cage.guidance in ("inner", "outer")
-        stated = case.contacts.land.clearance if guided else None
         return Scene(
             name=case.name,
             dataset=self.dataset,
@@ -458,7 +455,7 @@ class Run:
             loads=np.stack(
                 [axial, radial * np.cos(load.direction), radial * np.sin(load.direction)], axis=1
             ),
-            clearance=left[0] if left else stated,
+            clearance=case.land.clearance if case.bearing.land(case.cage) else None,
             guide="outer" if case.cage.guidance == "outer" else "inner",
             settle=case.output.settle,
             stress=self._stress_pictures(animate) if self.cage is not None else None,

@@ -13,7 +13,7 @@ from typing import Any
 
 from flexcage.bodies.cage import flexible_from_reduction, rigid_from_tets
 from flexcage.case import Case
-from flexcage.case.checks import not_reached
+from flexcage.case.checks import land_beside_shoulder, not_reached
 from flexcage.core import jit
 from flexcage.core.progress import Silent
 from flexcage.mesh.build import build_cage_mesh
@@ -162,7 +162,7 @@ def assembled_start(case: Case, bearing: Bearing, progress: Callable[..., Any] =
 
     ``progress`` is a context like ``core.progress.Progress``.
     """
-    for sentence in not_reached(case):
+    for sentence in (*not_reached(case), *land_beside_shoulder(case)):
         log.warning(sentence)
     limit = case.limits.assembly_force
     with progress(1.0, "start") as bar:
