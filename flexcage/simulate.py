@@ -10,9 +10,10 @@ from typing import Any
 
 from flexcage.case import Case
 from flexcage.core.binding import expect
+from flexcage.core.locks import held
 from flexcage.core.timing import Stages
 from flexcage.results.recording import Recorder
-from flexcage.run import Run, check_assembly, has_begun, open_folder
+from flexcage.run import Run, check_assembly, check_written, has_begun, open_folder
 from flexcage.stages import (
     assembled_start,
     begin_compiling,
@@ -33,7 +34,15 @@ def simulate(
     RunFailed for a run that cannot go on, with what was computed kept.
     """
     expect(case, Case, "case", "flexcage.load_case reads one from a file")
-    folder = Path(out) if out is not None else None
+    if out is None:
+        return _simulated(case, None, resume, progress)
+    if resume:
+        check_written(Path(out))
+    with held(Path(out)):
+        return _simulated(case, Path(out), resume, progress)
+
+
+def _simulated(case: Case, folder: Path | None, resume: bool, progress: Any) -> Run:
     stages = Stages(progress)
     if folder is not None and resume:
         resume = has_begun(folder, case)

@@ -22,6 +22,7 @@ from flexcage.mesh.options import MeshOptions
 from flexcage.mesh.quality import check_mesh
 from flexcage.modes.reduction import CageReduction, reduce_cage, rigid_interface_of
 from flexcage.modes.table import ModeTable, mode_table
+from flexcage.results import room
 from flexcage.results.recording import new_store
 from flexcage.results.store import MemoryRunStore, RunStore
 from flexcage.run import write_case
@@ -43,6 +44,7 @@ def run_store(
     if folder is not None:
         if resume:
             return RunStore.open(folder / "results.zarr")
+        announce_room(case, bearing, folder)
         write_case(folder, case)
     return new_store(
         folder and folder / "results.zarr",
@@ -51,6 +53,14 @@ def run_store(
         output=case.output,
         attrs={"case": case.to_toml(), "hash": case.hash},
     )
+
+
+def announce_room(case: Case, bearing: Bearing, folder: Path) -> None:
+    """Say how much room the results will take; EnvironmentLacks if there cannot be enough."""
+    output = case.output
+    short = new_store(None, bearing, duration=0.0, output=output, attrs={})
+    rate = room.expected_rate(short.layout, output.rate, output.vibration_rate)
+    room.announce(folder, rate, case.solver.duration)
 
 
 def cage_mesh(case: Case) -> CageMesh:
@@ -106,7 +116,8 @@ def begin_compiling(element: str) -> Compiling | None:
     pieces, end = os.pipe()
     os.write(end, bytes(range(MOST_PIECES)))
     os.close(end)
-    command = f"{SAME_PACKAGE}; from flexcage.stages import compile_pieces; "
+    command = f"{SAME_PACKAGE}; from flexcage.core.orphan import end_with; "
+    command += f"end_with({os.getpid()}); from flexcage.stages import compile_pieces; "
     command += f"compile_pieces({element!r})"
     try:
         helper = subprocess.Popen(
