@@ -3,7 +3,7 @@ folder keep of a reduced cage.
 
 A folder keeps a shape in 24 bits: whole steps of 2^-23 of its largest displacement, so that the
 error anywhere is what single precision has there. Stress differs by some 100 Pa
-from that of shapes in full precision (``tests/simulate/test_run_folder.py``).
+from that of shapes in full precision (``tests/simulate/test_folder_alone.py``).
 """
 
 from __future__ import annotations
