@@ -65,7 +65,13 @@ class Case:
     cage: Cage = option(doc="the cage")
     cage_model: str = option("flexible", doc="how the cage is modelled", choices=CAGE_MODELS)
     defects: tuple[Defect | BallCageDefect, ...] = option(
-        (), doc="deformations of the cage, any number"
+        (),
+        doc="deformations of the cage, any number",
+        elsewhere={
+            ".*spall.*": "[[defects]] are of the cage; a spall of a race is "
+            "[bearing.outer_spall] or [bearing.inner_spall] of a cylindrical roller bearing, and "
+            "ball bearings have none"
+        },
     )
     mesh: MeshOptions = option(MeshOptions(), doc="the cage's mesh")
     modes: ModesSpec = option(ModesSpec(), doc="the cage's modes")
@@ -123,26 +129,7 @@ class Case:
         A path is dotted ("defects.0.displacement"); a value is text with its unit, an SI number
         (unless ``si`` is False), a spec, or a table. All changes are made before the check.
         """
-        pairs = {**_as_pairs(path, value), **changes}
-        binder = Binder(named=NAMED, si=si)
-        bare = _Unchecked(**{f.name: getattr(self, f.name) for f in dataclasses.fields(self)})
-        for where, new in with_their_choice(bare, pairs).items():
-            if where == "bearing.preset":
-                raise InputError(
-                    "bearing.preset cannot be replaced in a finished case; load it with the "
-                    "other preset instead.",
-                    where=where,
-                )
-            if where == "bearing":
-                refuse_without_motion(new)
-            if where == "cage" and isinstance(new, Mapping):
-                with words_of_text():
-                    new = binder.bind(type(bare.cage), new, "cage", base=bare.cage)
-            if where == "mesh.file" and isinstance(new, (str, Path)):
-                new = _absolute(new, Path.cwd())
-            with words_of_text():
-                bare = set_path(bare, ALIASES.get(where, where), new, binder)
-        return Case(**{f.name: getattr(bare, f.name) for f in dataclasses.fields(bare)})
+        return varied(self, _Unchecked, {**as_pairs(path, value), **changes}, si=si)
 
     def to_table(self) -> dict[str, Any]:
         """Nested tables of texts with units, complete: nothing is left to defaults."""
@@ -250,7 +237,7 @@ def _with_cage(table: dict[str, Any], binder: Binder) -> dict[str, Any]:
     return {**table, "bearing": bearing, "cage": cage}
 
 
-def _as_pairs(path: Any, value: Any) -> dict[str, Any]:
+def as_pairs(path: Any, value: Any) -> dict[str, Any]:
     """Values by dotted path, from one path and its value or a mapping of them."""
     table = path if isinstance(path, Mapping) else {path: value}
     if path is None and value is None:
@@ -266,6 +253,30 @@ def _as_pairs(path: Any, value: Any) -> dict[str, Any]:
             value=value,
         )
     return dict(table)
+
+
+def varied(case: Any, unchecked: Any, pairs: Mapping[str, Any], *, si: bool) -> Any:
+    """Copy of a case with values by dotted path replaced, checked when all of them are;
+    ``unchecked`` is its class without the check."""
+    binder = Binder(named=NAMED, si=si)
+    bare = unchecked(**{f.name: getattr(case, f.name) for f in dataclasses.fields(case)})
+    for where, new in with_their_choice(bare, pairs).items():
+        if where == "bearing.preset":
+            raise InputError(
+                "bearing.preset cannot be replaced in a finished case; load it with the "
+                "other preset instead.",
+                where=where,
+            )
+        if where == "bearing" and isinstance(case, Case):
+            refuse_without_motion(new)
+        if where == "cage" and isinstance(new, Mapping) and isinstance(case, Case):
+            with words_of_text():
+                new = binder.bind(type(bare.cage), new, "cage", base=bare.cage)
+        if where == "mesh.file" and isinstance(new, (str, Path)):
+            new = _absolute(new, Path.cwd())
+        with words_of_text():
+            bare = set_path(bare, ALIASES.get(where, where), new, binder)
+    return type(case)(**{f.name: getattr(bare, f.name) for f in dataclasses.fields(bare)})
 
 
 class _Unchecked(Case):

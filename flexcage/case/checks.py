@@ -8,10 +8,10 @@ from math import inf, pi
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from flexcage.core.binding import check_value, chosen_spec, default_of, join
+from flexcage.core.binding import chosen_spec, default_of, join
 from flexcage.core.errors import InputError
 from flexcage.core.units import describe
-from flexcage.geometry.bearing import BEARING_TYPES, Bearing
+from flexcage.geometry.bearing import Bearing, check_type
 from flexcage.geometry.cage import Cage
 from flexcage.geometry.catalogue import static_rating
 from flexcage.geometry.checks import (
@@ -85,7 +85,7 @@ def refuse_without_motion(bearing: Any) -> None:
     """Raise InputError if a bearing, or a table of one, is of a type that cannot be simulated."""
     kind = type(bearing)
     if isinstance(bearing, Mapping):
-        check_value(bearing.get("type"), {"choices": BEARING_TYPES}, "bearing.type")
+        check_type(bearing.get("type"))
         kind = chosen_spec(Bearing, bearing)
     if issubclass(kind, Bearing) and not kind.in_motion:
         name = kind.__dataclass_fields__["type"].default

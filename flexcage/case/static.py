@@ -12,14 +12,21 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from flexcage.case.case import Case, with_preset, without_aliases, words_of_text
+from flexcage.case.case import (
+    Case,
+    as_pairs,
+    varied,
+    with_preset,
+    without_aliases,
+    words_of_text,
+)
 from flexcage.case.checks import check_static_case
 from flexcage.case.load import read_case
 from flexcage.contacts.spec import Contacts, Lubricant
-from flexcage.core.binding import Binder, check_spec, check_value, to_table, unknown_key
+from flexcage.core.binding import Binder, check_spec, to_table, unknown_key
 from flexcage.core.errors import InputError
 from flexcage.core.spec import option
-from flexcage.geometry.bearing import BEARING_TYPES
+from flexcage.geometry.bearing import check_type
 from flexcage.geometry.bearings import Bearing
 from flexcage.geometry.checks import check_geometry
 from flexcage.geometry.presets import NAMED
@@ -65,7 +72,7 @@ class StaticCase:
         binder = Binder(named=NAMED, si=si)
         bearing = merged.get("bearing")
         if isinstance(bearing, Mapping):
-            check_value(bearing.get("type"), {"choices": BEARING_TYPES}, "bearing.type")
+            check_type(bearing.get("type"))
         with words_of_text():
             case = binder.bind(cls, {k: v for k, v in merged.items() if k in own}, "")
             if "cage" in merged:
@@ -73,6 +80,19 @@ class StaticCase:
                 check_spec(cage, "cage")
                 check_geometry(case.bearing, cage)
         return case
+
+    def replace(
+        self,
+        path: str | Mapping[str, Any] | None = None,
+        value: Any = None,
+        /,
+        *,
+        si: bool = True,
+        **changes: Any,
+    ) -> StaticCase:
+        """Varied copy, as by ``Case.replace``: ``replace("load.radial", "2 kN")``, or
+        ``replace({path: value})`` and ``replace(**{path: value})`` for several at once."""
+        return varied(self, _Unchecked, {**as_pairs(path, value), **changes}, si=si)
 
     def to_table(self) -> dict[str, Any]:
         """Nested tables of texts with units, complete."""
@@ -87,6 +107,13 @@ class StaticCase:
         from flexcage.case.toml import write_toml
 
         return write_toml(self.to_table())
+
+
+class _Unchecked(StaticCase):
+    """A case between two changes: possible only when all of them are made."""
+
+    def __post_init__(self) -> None:
+        pass
 
 
 _CASE_ONLY = {f.name for f in dataclasses.fields(Case)} - {

@@ -46,7 +46,9 @@ def _add_mesh_and_modes(commands: Any) -> None:
     mesh = command(commands, "mesh", mesh_command, "build and check the cage's mesh")
     case_options(mesh)
     mesh.add_argument("-o", "--out", metavar="FILE", help="mesh file (default: NAME.msh)")
-    mesh.add_argument("--force", action="store_true", help="write over an existing file")
+    mesh.add_argument(
+        "--force", action="store_true", help="write over a file that flexcage did not write"
+    )
     modes = command(commands, "modes", modes_command, "compute the cage's modes: their table")
     case_options(modes)
     modes.add_argument("-o", "--out", metavar="FILE", help="table (default: NAME_modes.csv)")
@@ -108,16 +110,18 @@ def mesh_command(args: argparse.Namespace) -> int:
     """flexcage mesh CASE: build, check and write the cage's mesh."""
     case = case_from(args)
     out = Path(args.out) if args.out else Path(f"{case.name}.msh")
-    prepare_file(out, (".msh", ".vtu"), force=args.force)
     from flexcage.core.progress import Progress
     from flexcage.core.timing import Stages
     from flexcage.mesh.build import build_cage_mesh
-    from flexcage.mesh.io import write_mesh
+    from flexcage.mesh.io import is_written_by_us, write_mesh
     from flexcage.mesh.quality import report_mesh
 
+    paths = dict.fromkeys((out, out.with_suffix(".vtu")))
+    for path in paths:  # a mesh of ours is written anew: it costs seconds
+        prepare_file(path, (".msh", ".vtu"), force=args.force or is_written_by_us(path))
     mesh = Stages(Progress).named("mesh", build_cage_mesh, **case.cage_shape)
     say(report_mesh(mesh, density=case.cage.material.density))
-    for path in dict.fromkeys((out, out.with_suffix(".vtu"))):
+    for path in paths:
         say(f"written: {write_mesh(mesh, path)}")
     return 0
 

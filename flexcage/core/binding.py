@@ -12,10 +12,11 @@ import numbers
 import re
 import types
 import typing
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from functools import cache
 from math import inf, log10
 from pathlib import Path
+from types import MappingProxyType
 from typing import Any, Union
 
 import numpy as np
@@ -56,20 +57,20 @@ class Binder:
         if choosing is not None and base is None and choosing[0] not in table:
             name = known[choosing[0]]
             if default_of(name) is MISSING:  # before its keys, which nothing explains yet
-                raise missing_key(name, where)
+                raise missing_keys([name], where)
         if base is not None and type(base) is not cls:
             values, base = common_values(base, cls), None
         for key, value in table.items():
             if key not in known:
-                raise unknown_key(key, known, where)
+                raise unknown_key(key, known, where, getattr(cls, "elsewhere", {}))
             default = getattr(base, key) if base is not None else default_of(known[key])
             path = join(where, key)
             values[key] = self.field_value(known[key], hints(cls)[key], value, path, base=default)
         if base is not None:
             return dataclasses.replace(base, **values)
-        lacking = [n for n, f in known.items() if n not in values and default_of(f) is MISSING]
+        lacking = [f for n, f in known.items() if n not in values and default_of(f) is MISSING]
         if lacking:
-            raise missing_key(known[lacking[0]], where)
+            raise missing_keys(lacking, where)
         return cls(**values)
 
     def field_value(
@@ -87,7 +88,7 @@ class Binder:
                 return None
             options = tuple(o for o in options if o is not type(None))
         if len(options) > 1:
-            return self._tagged(options, value, where)
+            return self._tagged(options, meta, value, where)
         only = options[0]
         origin = typing.get_origin(only)
         if origin is tuple:
@@ -118,7 +119,7 @@ class Binder:
             base = None if isinstance(value, Mapping) and "name" in value else base
         return self.bind(cls, value, where, base=base if isinstance(base, cls) else None)
 
-    def _tagged(self, options: tuple[type, ...], value: Any, where: str) -> Any:
+    def _tagged(self, options: tuple[type, ...], meta: Mapping, value: Any, where: str) -> Any:
         """One of several specs, told apart by the table's ``type``."""
         if isinstance(value, options):
             return value
@@ -128,7 +129,8 @@ class Binder:
         tag = value.get("type")
         if tag not in tags:
             given = f"type '{tag}' is not known" if tag is not None else "'type' is missing"
-            hint = did_you_mean(str(tag), tags, "choose from")
+            hint = told_elsewhere(str(tag), meta.get("elsewhere", {}))
+            hint = hint or did_you_mean(str(tag), tags, "choose from")
             raise InputError(f"{where}: {given}; {hint}.", where=join(where, "type"), value=tag)
         rest = {k: v for k, v in value.items() if k != "type"}
         return self.bind(tags[tag], rest, where)
@@ -184,7 +186,7 @@ def set_path(spec: Any, path: str, value: Any, binder: Binder, *, where: str = "
         raise InputError(f"{where} is a single value; '{path}' leads nowhere.", where=where)
     known = {f.name: f for f in dataclasses.fields(spec) if f.init}
     if head not in known:
-        raise unknown_key(head, known, where)
+        raise unknown_key(head, known, where, getattr(spec, "elsewhere", {}))
     here, old = join(where, head), getattr(spec, head)
     field, hint = known[head], hints(type(spec))[head]
     if not rest:
@@ -256,9 +258,10 @@ def _replaced(spec: Any, name: str, value: Any, where: str) -> Any:
     if cls is type(spec):
         return dataclasses.replace(spec, **{name: value})
     values = {**common_values(spec, cls), name: value}
-    for field in dataclasses.fields(cls):
-        if field.init and field.name not in values and default_of(field) is MISSING:
-            raise missing_key(field, where)
+    lacking = [f for f in dataclasses.fields(cls) if f.init and f.name not in values]
+    lacking = [f for f in lacking if default_of(f) is MISSING]
+    if lacking:
+        raise missing_keys(lacking, where)
     return cls(**values)
 
 
@@ -409,7 +412,8 @@ def check_value(value: Any, meta: Mapping, where: str) -> None:
         return
     choices = meta.get("choices")
     if choices and isinstance(value, str) and value not in choices:
-        hint = did_you_mean(value, choices, "choose from")
+        hint = told_elsewhere(value, meta.get("elsewhere", {}))
+        hint = hint or did_you_mean(value, choices, "choose from")
         if isinstance(choices, Mapping) and hint.startswith("choose"):
             hint += ", or load the file that registers it (--use FILE)"
         raise InputError(f"{where} '{value}' is not known; {hint}.", where=where, value=value)
@@ -537,24 +541,36 @@ def flat(table: Any, where: str = "") -> list[tuple[str, Any]]:
     return rows
 
 
-def unknown_key(key: str, known: Iterable[str], where: str) -> InputError:
-    """Error for a key that a table does not have, with the nearest that it has."""
+def unknown_key(
+    key: str, known: Iterable[str], where: str, elsewhere: Mapping[str, str] = MappingProxyType({})
+) -> InputError:
+    """Error for a key that a table does not have, with the nearest that it has, or with what there
+    is ``elsewhere``, by pattern of the key."""
     place = f" in [{where}]" if where else ""
+    hint = told_elsewhere(key, elsewhere) or did_you_mean(key, known, "known keys are")
     return InputError(
-        f"Unknown key '{key}'{place}; {did_you_mean(key, known, 'known keys are')}.",
+        f"Unknown key '{key}'{place}; {hint}.",
         where=join(where, key),
         value=key,
     )
 
 
-def missing_key(field: dataclasses.Field, where: str) -> InputError:
-    """Error for a value that must be given."""
-    doc = f" ({field.metadata['doc']})" if field.metadata.get("doc") else ""
-    unit = f", with a unit such as {field.metadata['unit']}" if field.metadata.get("unit") else ""
-    choices = field.metadata.get("choices")
-    names = f"; choose from {', '.join(sorted(choices))}" if choices else f"; give it{unit}"
+def missing_keys(fields: Sequence[dataclasses.Field], where: str) -> InputError:
+    """Error for all values of one table that must be given and are not."""
     place = f"[{where}]" if where else "The case"
-    return InputError(f"{place} lacks '{field.name}'{doc}{names}.", where=join(where, field.name))
+    first, names = fields[0], [_in_words(field) for field in fields]
+    text = f"{', '.join(names[:-1])} and {names[-1]}" if names[1:] else names[0]
+    choices = first.metadata.get("choices") if not names[1:] else None
+    remedy = f"choose from {', '.join(sorted(choices))}" if choices else "give "
+    remedy += "" if choices else "them" if names[1:] else "it"
+    return InputError(f"{place} lacks {text}; {remedy}.", where=join(where, first.name))
+
+
+def _in_words(field: dataclasses.Field) -> str:
+    """Name of a field, what it is and a unit that it may have."""
+    doc, unit = field.metadata.get("doc"), field.metadata.get("unit")
+    told = ", ".join(filter(None, (doc, unit and f"in {unit}")))
+    return f"'{field.name}' ({told})" if told else f"'{field.name}'"
 
 
 def wrong_type(value: Any, wanted: str, where: str) -> InputError:
@@ -562,6 +578,12 @@ def wrong_type(value: Any, wanted: str, where: str) -> InputError:
     return InputError(
         f"{where} is {shown(value)}, but should be {wanted}.", where=where, value=value
     )
+
+
+def told_elsewhere(name: str, elsewhere: Mapping[str, str]) -> str:
+    """What flexcage has in the place of a name; empty if no pattern matches it."""
+    found = (told for pattern, told in elsewhere.items() if re.fullmatch(pattern, name, re.I))
+    return next(found, "")
 
 
 def did_you_mean(text: str, known: Iterable[str], otherwise: str) -> str:

@@ -9,7 +9,7 @@ from typing import Any
 
 _WHOLE = 80  # characters of a value of another kind that are told
 _LONG, _LONGEST = 240, 1200  # characters of a value, and of a sentence, that are told whole
-_VALUE = re.compile(rf"'[^']{{{_LONG},}}'|\S{{{_LONG},}}")
+_VALUE = re.compile(rf"(?<!\w)'[^']*'|\S{{{_LONG},}}")  # in quotes, or without a space
 _CONTROL = re.compile(r"[\x00-\x1f\x7f-\x9f\u2028\u2029\ud800-\udfff]")
 
 
@@ -17,12 +17,14 @@ def in_one_line(text: str) -> str:
     """A sentence that can be read, whatever values it tells: long ones lose their middle, and
     control characters are written as escapes."""
 
-    def shortened(long: str, most: int) -> str:
+    def shortened(long: str, whole: int, most: int) -> str:
+        if len(long) <= whole:
+            return long
         return f"{long[: most // 2]}... ({len(long)} characters) ...{long[-(most // 4) :]}"
 
     text = _CONTROL.sub(lambda match: repr(match[0])[1:-1], text)
-    text = _VALUE.sub(lambda match: shortened(match[0], _LONG // 3), text)
-    return text if len(text) <= _LONGEST else shortened(text, _LONGEST)
+    text = _VALUE.sub(lambda match: shortened(match[0], _LONG, _LONG // 3), text)
+    return shortened(text, _LONGEST, _LONGEST)
 
 
 def shown(value: Any) -> str:

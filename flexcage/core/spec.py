@@ -7,7 +7,8 @@ so that a unit, a bound and a sentence of documentation are written once, beside
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Collection
+from collections.abc import Collection, Mapping
+from types import MappingProxyType
 from typing import Any
 
 MISSING = dataclasses.MISSING
@@ -54,6 +55,7 @@ def option(
     assumption: str = "",
     of: Collection[str] = (),
     former: Any = MISSING,
+    elsewhere: Mapping[str, str] = MappingProxyType({}),
 ) -> Any:
     """A dimensionless value, count, flag or name; ``choices`` holds the names accepted.
 
@@ -61,7 +63,8 @@ def option(
     spec that a name brings along with values of its own, a subclass of the one at hand, or None.
     ``assumption`` and ``of`` as for ``quantity``. ``former`` is for an option that is added
     later: what was done before, which leaves the hashes of specs as they were
-    (``core.hashing``).
+    (``core.hashing``). ``elsewhere`` maps patterns of names that are asked for here, and are not
+    known, to what flexcage has instead.
     """
     meta = {
         "doc": doc,
@@ -71,5 +74,6 @@ def option(
         "assumption": assumption,
         "of": of,
         "former": former,
+        "elsewhere": elsewhere,
     }
     return dataclasses.field(default=default, metadata=meta)

@@ -6,9 +6,9 @@ from dataclasses import dataclass
 from math import asin, cos, pi, sin, sqrt
 from typing import ClassVar
 
-from flexcage.core.spec import option, quantity
+from flexcage.core.spec import quantity
 from flexcage.geometry.ball_bearing import BallBearing, clearance_at
-from flexcage.geometry.bearing import BEARING_TYPES, bearing_type
+from flexcage.geometry.bearing import bearing_type, type_name
 
 
 @bearing_type
@@ -23,7 +23,7 @@ class AngularContactBallBearing(BallBearing):
     kind: ClassVar[str] = "angular contact ball bearing"
     one_sided: ClassVar[bool] = True
 
-    type: str = option("angular_contact_ball", doc="type of bearing", choices=BEARING_TYPES)
+    type: str = type_name("angular_contact_ball")
     contact_angle: float | None = quantity(
         "deg", None, doc="free contact angle", above=0.0, maximum=0.499 * pi
     )

@@ -7,6 +7,7 @@ Bearing Analysis, 2 and 6; ISO/TS 16281:2008, 4.
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from math import acos, cos, degrees, inf, pi, sin, sqrt
@@ -40,15 +41,22 @@ class BallBearing(Bearing):
     element: ClassVar[str] = "ball"
     in_motion: ClassVar[bool] = True
     explicit_only: ClassVar[bool] = True
+    elsewhere: ClassVar[Mapping[str, str]] = {
+        "(inner_|outer_)?spalls?|(inner|outer)_waviness.*": "races of ball bearings are without "
+        "defects: spalls and waviness are computed for type 'cylindrical_roller'; defects of a "
+        "ball bearing's cage are given as [[defects]]",
+    }
     carries_axial_load: ClassVar[bool] = True
     one_sided: ClassVar[bool] = False  # are there shoulders for one direction of load alone?
 
     bore: float = quantity("mm", doc="bearing bore d", above=0.0)
     outside_diameter: float = quantity("mm", doc="bearing outside diameter D", above=0.0)
     width: float = quantity("mm", doc="bearing width B", above=0.0)
-    pitch_diameter: float = quantity("mm", doc="Dpw, of the circle of ball centres", above=0.0)
-    ball_diameter: float = quantity("mm", doc="Dw", above=0.0)
-    ball_count: int = option(doc="Z", minimum=3)
+    pitch_diameter: float = quantity(
+        "mm", doc="diameter Dpw of the circle of ball centres", above=0.0
+    )
+    ball_diameter: float = quantity("mm", doc="diameter Dw of a ball", above=0.0)
+    ball_count: int = option(doc="number Z of balls", minimum=3)
     inner_groove_radius: float = quantity("mm", doc="radius r_i of the inner groove", above=0.0)
     outer_groove_radius: float = quantity("mm", doc="radius r_e of the outer groove", above=0.0)
     inner_shoulder: float | None = quantity("mm", None, doc="inner shoulder's height", above=0.0)

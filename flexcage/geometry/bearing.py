@@ -8,15 +8,24 @@ parts by being registered with the functions that want them: ``checks.check_geom
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, ClassVar, TypeVar
 
+from flexcage.core.binding import check_value
 from flexcage.core.registry import add
 from flexcage.core.spec import option
 from flexcage.geometry.cage import Cage
 
 Spec = type  # by another name, for inside the spec ``type`` is a field
 
+#: Designs of cylindrical roller bearings other than N, and what there is instead.
+OTHER_DESIGNS = {
+    r"(cylindrical_roller_)?(rnu|nup?|nj|nf|nnu?|n?ncf)([-_ ]?\d.*)?": (
+        "of cylindrical roller bearings flexcage has the design N alone, with two ribs on the "
+        "inner ring and a plain outer ring (type 'cylindrical_roller')"
+    )
+}
 BEARING_TYPES: dict[str, type | None] = {}  # name in a case: spec
 
 
@@ -44,6 +53,16 @@ class RingLand:
     end: float
 
 
+def type_name(default: str) -> Any:
+    """The field ``type`` of a bearing."""
+    return option(default, doc="type of bearing", choices=BEARING_TYPES, elsewhere=OTHER_DESIGNS)
+
+
+def check_type(name: Any) -> None:
+    """Raise InputError for a type of bearing that there is not."""
+    check_value(name, Bearing.__dataclass_fields__["type"].metadata, "bearing.type")
+
+
 @dataclass(frozen=True, kw_only=True)
 class Bearing:
     """A rolling bearing; ``type`` names the spec that describes it."""
@@ -54,9 +73,10 @@ class Bearing:
     cage_spec: ClassVar[Spec]
     carries_axial_load: ClassVar[bool] = False  # in a run, with the ring free axially and in tilt
     in_motion: ClassVar[bool] = False  # are there equations of motion for this type?
+    elsewhere: ClassVar[Mapping[str, str]] = {}  # patterns of keys that it has not: what there is
     explicit_only: ClassVar[bool] = False  # do they lack the tangent that implicit methods want?
 
-    type: str = option("cylindrical_roller", doc="type of bearing", choices=BEARING_TYPES)
+    type: str = type_name("cylindrical_roller")
     designation: str = option("", doc="name in a catalogue")
 
     if TYPE_CHECKING:

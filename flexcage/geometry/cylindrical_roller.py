@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from math import pi
@@ -11,13 +12,14 @@ import numpy as np
 
 from flexcage.core.spec import option, quantity
 from flexcage.geometry.bearing import (
-    BEARING_TYPES,
+    OTHER_DESIGNS,
     Bearing,
     RingLand,
     RingLimit,
     Spec,
     bearing_type,
     hollow_cylinder_inertia,
+    type_name,
 )
 from flexcage.geometry.cage import Cage
 from flexcage.geometry.cages import WindowCage
@@ -87,17 +89,23 @@ class RollerBearing(Bearing):
     cage_spec: ClassVar[Spec] = WindowCage
     element: ClassVar[str] = "roller"
     in_motion: ClassVar[bool] = True
+    elsewhere: ClassVar[Mapping[str, str]] = {
+        "design|outer_ribs?(_.*)?|ribs?|flanges?": next(iter(OTHER_DESIGNS.values())),
+        "spalls?|defects?": "give a spall as [bearing.outer_spall] or [bearing.inner_spall]",
+    }
 
-    type: str = option("cylindrical_roller", doc="type of bearing", choices=BEARING_TYPES)
+    type: str = type_name("cylindrical_roller")
     bore: float = quantity("mm", doc="bearing bore d", above=0.0)
     outside_diameter: float = quantity("mm", doc="bearing outside diameter D", above=0.0)
     width: float = quantity("mm", doc="bearing width B", above=0.0)
-    inner_race_diameter: float = quantity("mm", doc="F", above=0.0)
-    outer_race_diameter: float = quantity("mm", doc="E", above=0.0)
-    roller_diameter: float = quantity("mm", doc="Dw", above=0.0)
-    roller_length: float = quantity("mm", doc="Lw, overall", above=0.0)
-    effective_length: float = quantity("mm", doc="Lwe, without end chamfers", above=0.0)
-    roller_count: int = option(doc="Z", minimum=3)
+    inner_race_diameter: float = quantity("mm", doc="race diameter F of the inner ring", above=0.0)
+    outer_race_diameter: float = quantity("mm", doc="race diameter E of the outer ring", above=0.0)
+    roller_diameter: float = quantity("mm", doc="diameter Dw of a roller", above=0.0)
+    roller_length: float = quantity("mm", doc="length Lw of a roller, overall", above=0.0)
+    effective_length: float = quantity(
+        "mm", doc="length Lwe of a roller without end chamfers", above=0.0
+    )
+    roller_count: int = option(doc="number Z of rollers", minimum=3)
     radial_clearance: float = quantity("um", 0.0, doc="operating radial internal clearance Pd")
     rib_diameter: float = quantity("mm", doc="outside diameter of the inner ring's ribs", above=0.0)
     rib_gap: float = quantity("mm", doc="axial distance between the two ribs", above=0.0)

@@ -6,9 +6,9 @@ from dataclasses import dataclass
 from math import asin, sqrt
 from typing import ClassVar
 
-from flexcage.core.spec import option, quantity
+from flexcage.core.spec import quantity
 from flexcage.geometry.ball_bearing import BallBearing
-from flexcage.geometry.bearing import BEARING_TYPES, bearing_type
+from flexcage.geometry.bearing import bearing_type, type_name
 
 
 @bearing_type
@@ -21,7 +21,7 @@ class DeepGrooveBallBearing(BallBearing):
 
     kind: ClassVar[str] = "deep groove ball bearing"
 
-    type: str = option("deep_groove_ball", doc="type of bearing", choices=BEARING_TYPES)
+    type: str = type_name("deep_groove_ball")
     radial_clearance: float = quantity("um", 0.0, doc="operating radial internal clearance Pd")
 
     @property

@@ -6,7 +6,6 @@ data folder is one more preset, and ``register_preset`` adds a user's own file.
 
 from __future__ import annotations
 
-import difflib
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cache
@@ -15,7 +14,7 @@ from pathlib import Path
 from types import MappingProxyType
 from typing import Any
 
-from flexcage.core.binding import Binder
+from flexcage.core.binding import Binder, told_elsewhere
 from flexcage.core.errors import InputError
 from flexcage.core.registry import add, check_free
 from flexcage.core.toml import read_toml
@@ -91,10 +90,13 @@ def load_preset(name: str) -> Preset:
         return _ADDED[name]
     names = preset_names()
     if name not in names:
-        near = difflib.get_close_matches(name.upper(), names, n=1, cutoff=0.5)
-        hint = f"the nearest known one is '{near[0]}'" if near else f"known are {', '.join(names)}"
+        design = told_elsewhere(name, bearings.OTHER_DESIGNS)
         raise InputError(
-            f"bearing.preset '{name}' is not known; {hint}.", where="bearing.preset", value=name
+            f"bearing.preset '{name}' is not known; presets are {', '.join(names)}, and any other "
+            "bearing is described by its dimensions in [bearing] and [cage]"
+            f"{f'; {design}' if design else ''}.",
+            where="bearing.preset",
+            value=name,
         )
     return _load_shipped(name)
 

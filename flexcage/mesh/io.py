@@ -19,6 +19,7 @@ from __future__ import annotations
 import logging
 import re
 from collections.abc import Mapping
+from os import SEEK_END
 from pathlib import Path
 from types import MappingProxyType
 from typing import Any
@@ -42,6 +43,10 @@ from flexcage.mesh.sector import orient_outward
 log = logging.getLogger(__name__)
 
 _ARRAYS = {POCKET_GROUPS: "group", WALL_GROUPS: "round_group"}  # of a .vtu
+_MARKS = {
+    ".msh": b"$Comments\nwritten by flexcage\n$EndComments\n",
+    ".vtu": b"<!-- written by flexcage -->\n",
+}
 _READABLE = (".msh", ".inp", ".vtu")
 _OTHER_SOLIDS = ("hexahedron", "wedge", "pyramid")
 # ends of the edges on whose middles a ten-node tetrahedron has nodes, in meshio's order
@@ -78,10 +83,25 @@ def write_mesh(mesh: CageMesh, path: str | Path) -> Path:
             both = {"gmsh:physical": data, "gmsh:geometrical": data}
             out = meshio.Mesh(mesh.points, cells, cell_data=both, field_data=fields)
             meshio.write(path, out, file_format="gmsh22", binary=True)
+        with path.open("ab") as file:
+            file.write(_MARKS[path.suffix])
     except OSError as error:
         refuse_full(f"The mesh '{path}'", error)
         raise InputError(f"{path} cannot be written: {error.strerror or error}") from error
     return path
+
+
+def is_written_by_us(path: Path) -> bool:
+    """Whether a file is a mesh that ``write_mesh`` wrote and no other program changed since: it
+    ends in a comment that others do not write."""
+    mark = _MARKS.get(path.suffix, b"")
+    try:
+        with path.open("rb") as file:
+            size = file.seek(0, SEEK_END)
+            file.seek(max(size - len(mark), 0))
+            return bool(mark) and file.read() == mark
+    except OSError:
+        return False
 
 
 def read_mesh(path: str | Path, *, pocket_count: int | None = None, unit: str = "m") -> CageMesh:

@@ -13,7 +13,7 @@ from flexcage.fem.free import FreeBodySolver
 from flexcage.fem.model import assemble
 from flexcage.modes.interface import cage_interface
 from flexcage.modes.registry import build_basis
-from flexcage.simulate import cage_mesh
+from flexcage.stages import cage_mesh
 
 QUICK: dict[str, Any] = {}  # whether it runs: what takes long is the case's
 

@@ -113,7 +113,7 @@ ABSURD = {
     ),
     "endless unit": (ROLLERS + f'[cage]\nbore = "1 {"m*" * 9999}m"', "cage.bore", ["known unit"]),
     "endless number": (ROLLERS + f'[cage]\nbore = "{"1" * 9999} m"', "cage.bore", ["too large"]),
-    "endless preset": (f'[bearing]\npreset = "{"N" * 100_000}"', "bearing.preset", ["known are"]),
+    "endless preset": (f'[bearing]\npreset = "{"N" * 100_000}"', "bearing.preset", ["presets are"]),
 }
 
 

@@ -277,9 +277,36 @@ def test_axial_loads_that_change_have_a_limit_too(name):
     ("text", "words"),
     [
         ("name = \n", ["not valid TOML", "line 1"]),
-        ('[bearing]\npreset = "N1014"', ["'N1014' is not known", "'N1013'"]),
-        ('[bearing]\nbore = "65 mm"', ["[bearing] lacks 'outside_diameter'"]),
-        ("name = 'x'\n", ["lacks 'bearing'"]),
+        (
+            '[bearing]\npreset = "N1014"',
+            ["'N1014' is not known", "presets are", "N1013", "dimensions"],
+        ),
+        (
+            '[bearing]\nbore = "65 mm"',
+            ["[bearing] lacks 'outside_diameter'", "'width'", "'roller_count'", "and 'rib_gap'"],
+        ),
+        (
+            '[bearing]\ntype = "deep_groove_ball"\nball_count = 8',
+            ["'bore' (bearing bore d, in mm)", "'ball_diameter'", "'outer_groove_radius'"],
+        ),
+        ("name = 'x'\n", ["lacks 'bearing' (the bearing) and 'cage' (the cage); give them"]),
+        (
+            '[bearing]\npreset = "NU1013"',
+            ["presets are", "the design N alone", "ribs on the inner"],
+        ),
+        ('[bearing]\npreset = "nj 205 ECP"', ["presets are", "the design N alone"]),
+        ('[bearing]\ntype = "NU"', ["the design N alone", "'cylindrical_roller'"]),
+        (
+            '[bearing]\ntype = "tapered_roller"',
+            ["cylindrical_roller, angular_contact_ball, deep_groove_ball"],
+        ),
+        (PRESET + 'design = "NUP"', ["'design'", "the design N alone"]),
+        (PRESET + 'outer_rib_diameter = "90 mm"', ["the design N alone"]),
+        (PRESET + '[[defects]]\ntype = "spall"', ["[bearing.outer_spall]"]),
+        (
+            '[bearing]\npreset = "7603025"\n[bearing.outer_spall]\nlength = "1 mm"',
+            ["'outer_spall'", "without defects", "'cylindrical_roller'", "[[defects]]"],
+        ),
         ("name = ''\n[bearing]\npreset = 'N1013'", ["name is ''", "folder"]),
         ("name = '../up'\n[bearing]\npreset = 'N1013'", ["'../up'", "without '/'"]),
         ("bearing = 3\n", ["bearing is 3", "a table"]),

@@ -34,6 +34,23 @@ def test_without_a_drive_the_bearing_stands():
     assert load_static(BALLS + '[drive]\nspeed = "60 rpm"\n').speed == pytest.approx(2.0 * np.pi)
 
 
+def test_a_varied_copy():
+    case = load_static(BALLS)
+    more = case.replace({"load.axial": "1 kN", "drive.speed": "60 1/min", "static.tilt": "free"})
+    assert (case.load.axial, more.load.axial, more.static.tilt) == (100.0, 1000.0, "free")
+    assert more.speed == pytest.approx(2.0 * np.pi) and isinstance(more, StaticCase)
+    assert case.replace("load.axial", 50.0).load.axial == 50.0
+    assert case.replace(**{"bearing.ball_count": 17}).bearing.ball_count == 17
+    for path, value, words in (
+        ("load.axial", "1 mm", "another kind"),
+        ("load.axial", "900 kN", "static rating"),
+        ("solver.duration", "1 s", "Unknown key 'solver'"),
+        ("bearing.preset", "N1013", "cannot be replaced"),
+    ):
+        with pytest.raises(InputError, match=words):
+            case.replace(path, value)
+
+
 def test_a_simulations_case_is_read_as_well():
     """Its mesh, defects and solver are passed over; bearing, load and race contacts are not."""
     case = load_static(EXAMPLES / "n1013.toml", overrides={"contacts.race.slices": 30})

@@ -178,3 +178,22 @@ def test_the_package_runs_as_a_module():
     assert done.returncode == 0 and "Cylindrical roller bearing N1013" in done.stdout
     done = subprocess.run([*argv, "N1014"], capture_output=True, text=True, check=False)
     assert done.returncode == 2 and done.stderr.startswith("flexcage: ")
+
+
+def test_mesh_may_be_called_again_and_again(elsewhere, capsys):
+    """Its own files are written anew; those of others, or that another program changed, are not."""
+    argv = ["mesh", EXAMPLE, "--set", "mesh.fineness=coarse", "-o", "cage.msh"]
+    assert cli.main(argv) == 0
+    first = (elsewhere / "cage.msh").read_bytes()
+    assert cli.main([*argv, "--set", "defects=[]"]) == 0
+    assert (elsewhere / "cage.msh").read_bytes() != first
+    capsys.readouterr()
+    for name in ("cage.msh", "cage.vtu"):
+        own = (elsewhere / name).read_bytes()
+        (elsewhere / name).write_bytes(own + b"\n")
+        assert cli.main(argv) == 2
+        assert f"'{name}' exists already; --force" in sentence(capsys)
+        assert (elsewhere / name).read_bytes() == own + b"\n"
+        (elsewhere / name).write_bytes(own)
+    (elsewhere / "cage.vtu").write_text("another's")
+    assert cli.main([*argv, "--force"]) == 0

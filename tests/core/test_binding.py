@@ -118,7 +118,7 @@ def test_mistakes_are_one_sentence(change, where, words):
 
 
 def test_a_missing_value_is_named_with_its_unit():
-    with pytest.raises(InputError, match=r"lacks 'length' \(the length\).*mm"):
+    with pytest.raises(InputError, match=r"lacks 'length' \(the length, in mm\); give it"):
         BINDER.bind(Thing, {}, "thing")
 
 

@@ -45,5 +45,7 @@ def test_sentences_lose_the_middle_of_long_values_and_control_characters():
     assert in_one_line(f"There is no '{path}'.") == f"There is no '{path}'."
     told = in_one_line(f"x is '{'y' * 5000}\nand \0', but should be z.")
     assert len(told) < 300 and told.endswith("but should be z.") and "characters)" in told
+    words = f"the ball's 'a' {'is here ' * 40}'b' of the ball's."  # long between two values
+    assert in_one_line(words) == words
     assert in_one_line("a\0b\nc") == r"a\x00b\nc"
     assert len(in_one_line("word " * 9999)) < 1300

@@ -176,7 +176,7 @@ def test_a_run_with_all_of_it(mine, tmp_path):
 
 def test_a_basis_bounds_the_frequencies_from_above(mine):
     """Rayleigh: a basis' frequencies lie above the free modes', and close to the lowest."""
-    from flexcage.simulate import cage_mesh, cage_reduction
+    from flexcage.stages import cage_mesh, cage_reduction
 
     case = load_case(CASE)
     mesh = cage_mesh(case)
@@ -280,7 +280,7 @@ def unbound_law(n, d, v, onset, p, F, Fe, Fd, Fv):
 def test_a_rigid_motion_in_a_basis_is_refused(mine):
     from dataclasses import replace
 
-    from flexcage.simulate import cage_mesh, cage_reduction
+    from flexcage.stages import cage_mesh, cage_reduction
 
     def careless(solver, *, pocket_count, spec):
         basis = mine.pocket_shapes(solver, pocket_count=pocket_count, spec=mine.PocketShapes())
