@@ -1,7 +1,5 @@
 """``python -m flexcage`` is the console script."""
 
-import sys
+from flexcage.cli import entry
 
-from flexcage.cli import main
-
-sys.exit(main())
+entry()

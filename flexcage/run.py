@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from flexcage.case import Case, words
-from flexcage.case.checks import not_reached
+from flexcage.case.checks import land_beside_shoulder, not_reached
 from flexcage.core.binding import Binder, check_spec, expect
 from flexcage.core.cache import cached_arrays
 from flexcage.core.errors import EnvironmentLacks, InputError
@@ -266,7 +266,7 @@ class Run:
         check_spec(used, "law")
         ds = settled(self.dataset, case.output.settle)
         windows = roller_passes(ds, self.numbers)
-        return wear(ds, case.bearing, case.cage, case.contacts.land, used, windows)
+        return wear(ds, case.bearing, case.cage, case.land, used, windows)
 
     @cached_property
     def rivets(self) -> Rivets:
@@ -455,9 +455,6 @@ class Run:
 
         case, load = self.case, self.case.load
         radial, axial = loads_over(load, self.dataset["time"].values).T
-        left = case.bearing.land_clearance(case.cage)
-        guided = case.cage.guidance in ("inner", "outer")
-        stated = case.contacts.land.clearance if guided else None
         return Scene(
             name=case.name,
             dataset=self.dataset,
@@ -467,7 +464,7 @@ class Run:
             loads=np.stack(
                 [axial, radial * np.cos(load.direction), radial * np.sin(load.direction)], axis=1
             ),
-            clearance=left[0] if left else stated,
+            clearance=case.land.clearance if case.bearing.land(case.cage) else None,
             guide="outer" if case.cage.guidance == "outer" else "inner",
             settle=case.output.settle,
             stress=self._stress_pictures(animate) if self.cage is not None else None,
@@ -559,7 +556,7 @@ class Run:
             dataset=self.dataset,
             bearing=case.bearing,
             cage=case.cage,
-            land=case.contacts.land,
+            land=case.land,
             duration=case.solver.duration,
             settle=case.output.settle,
             edges=tuple(self._groove_edges),
@@ -663,7 +660,7 @@ def warnings_at_start(
     setup = Setup(
         bearing=case.bearing,
         cage=case.cage,
-        land=case.contacts.land,
+        land=case.land,
         mesh=mesh,
         flexible=cage is not None,
         basis=case.modes.kind,
@@ -672,8 +669,13 @@ def warnings_at_start(
         pinch_force=start.pinch_force,
         statics=start.warnings,
     )
-    late = (RunWarning("not_reached", sentence) for sentence in not_reached(case))
-    found = (*late, *warnings_of(AT_START, setup), *_assembly_stress(case, mesh, cage, start))
+    said = [("not_reached", s) for s in not_reached(case)]
+    said += [("land_clearance", s) for s in land_beside_shoulder(case)]
+    found = (
+        *(RunWarning(*each) for each in said),
+        *warnings_of(AT_START, setup),
+        *_assembly_stress(case, mesh, cage, start),
+    )
     for warning in found:
         log.warning(warning.text)
     return found

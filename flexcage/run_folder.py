@@ -16,6 +16,7 @@ from typing import Any
 from flexcage.case import Case, load_case
 from flexcage.core.binding import flat
 from flexcage.core.errors import FlexcageError, InputError, refuse_full
+from flexcage.core.locks import LOCK
 from flexcage.core.warning import RunWarning
 from flexcage.results.cage_file import (
     NAME,
@@ -42,9 +43,19 @@ def was_written(folder: Path) -> bool:
     return (folder / "case.toml").is_file()
 
 
+#: What a run leaves that is killed before its case is on disk.
+LEFT_OVER = (LOCK, "case.toml.new")
+
+
+def holds_nothing(folder: Path) -> bool:
+    """Whether a folder is empty, but for what a run left that was killed as it began."""
+    return all(path.name in LEFT_OVER for path in folder.iterdir())
+
+
 def check_written(folder: Path) -> None:
     """InputError if there is nothing to resume in ``folder``."""
-    if not was_written(folder):
+    left = folder.is_dir() and any(folder.iterdir()) and holds_nothing(folder)
+    if not was_written(folder) and not left:
         raise InputError(
             f"'{folder}' is not the folder of a run (it has no case.toml), so there is nothing to "
             "resume there.",
@@ -57,9 +68,11 @@ def has_begun(folder: Path, case: Case) -> bool:
     """Whether the case's run in ``folder`` has come so far that it can be gone on with.
 
     What one left that was killed before is removed, to be begun anew. InputError if the folder
-    holds no run, or that of another case, or one in another format.
+    holds the run of another case, or one in another format.
     """
-    check_written(folder)
+    if not was_written(folder):
+        log.warning("the run in '%s' was stopped before it had begun; it begins now", folder)
+        return False
     begun = RunStore.begun(folder / "results.zarr")
     if begun:
         read_commit(folder / "results.zarr")

@@ -10,10 +10,11 @@ from typing import Any
 
 from flexcage.case import Case
 from flexcage.core.binding import expect
+from flexcage.core.locks import held
 from flexcage.core.timing import Stages
 from flexcage.results.recording import Recorder
 from flexcage.run import Run, warnings_at_start
-from flexcage.run_folder import has_begun, open_folder
+from flexcage.run_folder import check_written, has_begun, open_folder
 from flexcage.stages import (
     assembled_start,
     begin_compiling,
@@ -41,7 +42,17 @@ def simulate(
     that cannot go on, with what was computed kept.
     """
     expect(case, Case, "case", "flexcage.load_case reads one from a file")
-    folder = Path(out) if out is not None else None
+    if out is None:
+        return _simulated(case, None, False, None, progress)
+    if resume:
+        check_written(Path(out))
+    with held(Path(out)):
+        return _simulated(case, Path(out), resume, study, progress)
+
+
+def _simulated(
+    case: Case, folder: Path | None, resume: bool, study: str | Path | None, progress: Any
+) -> Run:
     stages = Stages(progress)
     begun = begun_store(folder) if folder and resume and has_begun(folder, case) else None
     compiling = begin_compiling(case.bearing.element)

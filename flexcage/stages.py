@@ -25,6 +25,7 @@ from flexcage.mesh.options import MeshOptions
 from flexcage.mesh.quality import check_mesh
 from flexcage.modes.reduction import CageReduction, reduce_cage, rigid_interface_of
 from flexcage.modes.table import ModeTable
+from flexcage.results import room
 from flexcage.results.cage_file import CageRecord, cage_record, check_same
 from flexcage.results.recording import new_store
 from flexcage.results.store import MemoryRunStore, RunStore
@@ -56,6 +57,7 @@ def run_store(
     its ``study`` the cage."""
     attrs = {"case": case.to_toml(), "hash": case.hash, "warnings": to_text(warned)}
     if folder is not None:
+        announce_room(case, bearing, folder)
         write_case(folder, case)
         record = _record(case, cage)
         keep_cage(folder, record, study=study)
@@ -108,6 +110,14 @@ def _record(case: Case, cage: Cage) -> CageRecord:
     body = flexible_from_reduction(reduction, case.modes).data._asdict()
     reduced = {**reduction.record(), "body": {k: np.asarray(v) for k, v in body.items()}}
     return cage_record(mesh, reduced, large=case.output.keep_cage)
+
+
+def announce_room(case: Case, bearing: Bearing, folder: Path) -> None:
+    """Say how much room the results will take; EnvironmentLacks if there cannot be enough."""
+    output = case.output
+    short = new_store(None, bearing, duration=0.0, output=output, attrs={})
+    rate = room.expected_rate(short.layout, output.rate, output.vibration_rate)
+    room.announce(folder, rate, case.solver.duration)
 
 
 def cage_mesh(case: Case) -> CageMesh:
@@ -163,7 +173,8 @@ def begin_compiling(element: str) -> Compiling | None:
     pieces, end = os.pipe()
     os.write(end, bytes(range(MOST_PIECES)))
     os.close(end)
-    command = f"{SAME_PACKAGE}; from flexcage.stages import compile_pieces; "
+    command = f"{SAME_PACKAGE}; from flexcage.core.orphan import end_with; "
+    command += f"end_with({os.getpid()}); from flexcage.stages import compile_pieces; "
     command += f"compile_pieces({element!r})"
     try:
         helper = subprocess.Popen(

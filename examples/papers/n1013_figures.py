@@ -232,7 +232,7 @@ def orbits(runs: Mapping[str, Run], path: Path) -> Path:
 def _land(ax: Any, run: Run) -> None:
     """The circle in which the land lets the cage centre move."""
     angle = np.linspace(0.0, 2.0 * pi, 200)
-    clearance = run.case.contacts.land.clearance * 1e6
+    clearance = run.case.land.clearance * 1e6
     ax.plot(clearance * np.cos(angle), clearance * np.sin(angle), color=sheet.FAINT, lw=0.8)
 
 

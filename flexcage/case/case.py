@@ -15,7 +15,7 @@ from pathlib import Path
 from typing import Any
 
 from flexcage.case.checks import check_case, refuse_without_motion
-from flexcage.contacts.spec import Contacts, Lubricant
+from flexcage.contacts.spec import Contacts, LandSpec, Lubricant
 from flexcage.core.binding import (
     Binder,
     check_spec,
@@ -169,6 +169,7 @@ class Case:
         """
         fields = [f for f in dataclasses.fields(self) if counts(self, f)]
         physics = {f.name: getattr(self, f.name) for f in fields if f.name not in _NOT_PHYSICS}
+        physics["contacts"] = dataclasses.replace(self.contacts, land=self.land)
         if self.cage_model == "rigid" or isinstance(self.cage, BallCage):
             physics["modes"] = dataclasses.replace(self.modes, attachments="linear")
         file = Path(self.mesh.file)
@@ -203,6 +204,12 @@ class Case:
         """Defects that the case names, and those that make its pockets' spacing uneven."""
         uneven = uneven_pockets(self.cage, self.bearing.element_count, self.seed)
         return (*self.defects, *uneven)
+
+    @property
+    def land(self) -> LandSpec:
+        """The cage's land, with the clearance and width that the dimensions leave where the case
+        gives none."""
+        return self.contacts.land.on(self.bearing.land(self.cage))
 
     @property
     def riveted(self) -> bool:

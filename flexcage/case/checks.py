@@ -504,15 +504,75 @@ def _find_in_land(case: Case) -> Iterator[Finding]:
             f"cage.guidance is '{case.cage.guidance}', but contacts.land.kind is 'none'; take "
             "'dry' or 'film'.",
         )
-    left = case.bearing.land_clearance(case.cage)
-    if land.kind == "none" or left is None:
-        return
-    there, what = left
-    if abs(land.clearance - there) > _LAND_TOLERANCE:
+    if land.kind != "none":
+        yield from _find_in_clearance(case)
+        yield from _find_in_width(case)
+
+
+def _find_in_clearance(case: Case) -> Iterator[Finding]:
+    """Clearances of the land that no dimensions give, or that they contradict."""
+    where, given = "contacts.land.clearance", case.contacts.land.clearance
+    guidance, ring = case.cage.guidance, case.bearing.land(case.cage)
+    there = None if ring is None else ring.clearance
+    if ring is None or there is None:
+        if guidance in ("inner", "outer") and given is None:
+            shoulder = f" or bearing.{guidance}_shoulder" if ring is not None else ""
+            yield (
+                where,
+                f"cage.guidance is '{guidance}', but the case does not say how far the cage is "
+                f"from the ring; give {where}{shoulder}.",
+            )
+    elif given is None and there <= 0.0:
         yield (
-            "contacts.land.clearance",
-            f"contacts.land.clearance is {describe(land.clearance, 'mm')}, but {what} leave "
-            f"{describe(there, 'mm')}; give that, or change the dimensions.",
+            where,
+            f"{ring.of} leave no clearance for the cage's land, {describe(there, 'mm')}; change "
+            "them" + ("." if ring.strict else f", or give {where}."),
+        )
+    elif given is not None and ring.strict and abs(given - there) > _LAND_TOLERANCE:
+        yield (
+            where,
+            f"{where} is {describe(given, 'mm')}, but {ring.of} leave {describe(there, 'mm')}; "
+            "leave it out, or change the dimensions.",
+        )
+
+
+def _find_in_width(case: Case) -> Iterator[Finding]:
+    """Lands wider than where cage and ring face each other, or a guided cage that faces none."""
+    where, given = "contacts.land.width", case.contacts.land.width
+    ring = case.bearing.land(case.cage)
+    if ring is None:
+        guided = case.cage.guidance in ("inner", "outer")
+        if guided and given is not None and given > 0.5 * case.cage.axial_width:
+            yield (
+                where,
+                f"{where} is {describe(given, 'mm')}, but a cage {describe(case.cage.width, 'mm')} "
+                f"wide has two lands; give {describe(0.5 * case.cage.axial_width, 'mm')} or less.",
+            )
+    elif ring.facing <= 0.0 and case.cage.guidance in ("inner", "outer"):
+        yield (
+            "cage.guidance",
+            f"cage.guidance is '{case.cage.guidance}', but beside its pockets the cage does not "
+            "face that ring; make it wider, or choose another guidance.",
+        )
+    elif given is not None and given > max(ring.facing, 0.0) * (1.0 + 1e-9):
+        yield (
+            where,
+            f"{where} is {describe(given, 'mm')}, but beside the pockets an end of the cage faces "
+            f"the ring over {describe(max(ring.facing, 0.0), 'mm')} only; give that or less, or "
+            "leave it out.",
+        )
+
+
+def land_beside_shoulder(case: Case) -> Iterator[str]:
+    """A sentence on a clearance that is not what the shoulder of the guiding ring leaves: no
+    mistake, as the ring may have a land of its own, but one to know of."""
+    given, ring = case.contacts.land.clearance, case.bearing.land(case.cage)
+    if given is None or ring is None or ring.clearance is None or ring.strict:
+        return
+    if abs(given - ring.clearance) > _LAND_TOLERANCE:
+        yield (
+            f"contacts.land.clearance is {describe(given, 'mm')}, where {ring.of} leave "
+            f"{describe(ring.clearance, 'mm')}: the cage's land is on another part of the ring"
         )
 
 

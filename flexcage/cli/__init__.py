@@ -6,33 +6,44 @@ input, 130 stopped by Ctrl-C. FLEXCAGE_DEBUG=1 shows tracebacks.
 
 from __future__ import annotations
 
-import argparse
 import os
 import sys
 import time
-from collections.abc import Sequence
-from pathlib import Path
+from typing import TYPE_CHECKING, NoReturn
 
-from flexcage.cli import on_cases, on_runs, on_studies, small
-from flexcage.cli.parser import new_parser
-from flexcage.core.errors import FlexcageError, is_full
+from flexcage.core import stopping
 
-_STOPPED = 130
+if TYPE_CHECKING:
+    import argparse
+    from collections.abc import Sequence
+
+_running: argparse.Namespace | None = None  # the command that Ctrl-C would stop
+
+
+def entry() -> NoReturn:
+    """The console script: ``main``, which Ctrl-C ends at any moment in one line."""
+    stopping.on_interrupt(lambda: _line(_stopped_sentence(_running)))
+    code = main()
+    if code == stopping.STOPPED:
+        stopping.leave("")
+    sys.exit(code)
 
 
 def main(argv: Sequence[str] | None = None) -> int:
     """Run one command; the exit code."""
-    parser = build_parser()
+    global _running
     begun = time.perf_counter()
+    parser = build_parser()
     args = parser.parse_args(argv)
     args.begun = begun
     if not hasattr(args, "command"):
         parser.print_help()
         return 2
+    _running = args
     try:
         return _call(args)
     except KeyboardInterrupt:
-        return _fail(_stopped_sentence(args), _STOPPED)
+        return _fail(_stopped_sentence(args), stopping.STOPPED)
     except BrokenPipeError:  # the reader of our output has left, as in `flexcage presets | head`
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         return 1
@@ -56,6 +67,8 @@ def _call(args: argparse.Namespace) -> int:
 
 def _sentence(exc: Exception) -> tuple[str, int]:
     """One sentence and the exit code for an error."""
+    from flexcage.core.errors import FlexcageError, is_full
+
     if isinstance(exc, FlexcageError):
         return str(exc), exc.exit_code
     if isinstance(exc, OSError):
@@ -76,29 +89,38 @@ def _sentence(exc: Exception) -> tuple[str, int]:
     )
 
 
-def _stopped_sentence(args: argparse.Namespace) -> str:
+def _stopped_sentence(args: argparse.Namespace | None) -> str:
+    """What Ctrl-C leaves of a command. It may come at any moment: nothing is imported here."""
     out = getattr(args, "out", None)
-    if out is not None and (Path(out) / "study.toml").exists():
-        from flexcage.case.extensions import sources
-
-        use = "".join(f" --use {source}" for source in sources())
+    if out is not None and os.path.exists(os.path.join(out, "study.toml")):
+        loaded: tuple[str, ...] = getattr(
+            sys.modules.get("flexcage.case.extensions"), "sources", tuple
+        )()
+        use = "".join(f" --use {source}" for source in loaded)
         return (
             f"Stopped; what is finished is kept in '{out}', and 'flexcage study resume {out}{use}' "
             "goes on from there."
         )
-    if out is None or not (Path(out) / "results.zarr").exists():
+    if out is None or not os.path.exists(os.path.join(out, "results.zarr")):
         return "Stopped."
     return f"Stopped; what was computed is kept in '{out}', and --resume goes on from there."
 
 
+def _line(sentence: str) -> str:
+    text = sentence.strip()
+    return f"flexcage: {text if text.endswith(('.', '!', '?')) else text + '.'}"
+
+
 def _fail(sentence: str, code: int) -> int:
-    first = sentence.strip()
-    sys.stderr.write(f"flexcage: {first if first.endswith(('.', '!', '?')) else first + '.'}\n")
+    sys.stderr.write(f"{_line(sentence)}\n")
     return code
 
 
 def build_parser() -> argparse.ArgumentParser:
     """All commands and their options."""
+    from flexcage.cli import on_cases, on_runs, on_studies, small
+    from flexcage.cli.parser import new_parser
+
     parser = new_parser()
     commands = parser.add_subparsers(title="commands", metavar="COMMAND")
     for group in (on_cases, on_runs, on_studies, small):

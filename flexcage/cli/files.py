@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import os
 import tempfile
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
+from contextlib import ExitStack, contextmanager
 from pathlib import Path
 
 from flexcage.core.errors import InputError, refuse_full
+from flexcage.core.locks import LOCK, check_free, held
 
 _OURS = ("case.toml", "results.zarr", "compare.json")  # one of them is in every folder of ours
 
@@ -24,13 +26,12 @@ def prepare_out(
 
     ``force`` empties one that holds a file named in ``ours``.
     """
-    if out.exists() and not out.is_dir():
-        raise InputError(f"'{out}' is a file; name a folder for the output.", where="out")
+    _check_folder(out)
     if resume:
         from flexcage.run_folder import check_written
 
         check_written(out)
-    elif out.is_dir() and any(out.iterdir()):
+    elif out.is_dir() and not _holds_nothing(out):
         if not force:
             raise InputError(
                 f"The output folder '{out}' exists already; "
@@ -45,19 +46,55 @@ def prepare_out(
         with tempfile.TemporaryFile(dir=out):
             pass
     except OSError as exc:
-        refuse_full(f"The output folder '{out}'", exc)
-        reason = (exc.strerror or str(exc)).lower()
-        raise InputError(
-            f"The output folder '{out}' cannot be written ({reason}); name another with -o.",
-            where="out",
-            value=str(out),
-        ) from exc
+        raise _unwritable(out, exc) from exc
+
+
+@contextmanager
+def run_folder(out: Path, *, resume: bool, force: bool) -> Iterator[None]:
+    """The folder of a run, prepared for its output and held, so that no other process writes there
+    or empties it meanwhile."""
+    _check_folder(out)
+    if resume:
+        prepare_out(out, resume=True, force=False)  # before our own lock lies there
+    with ExitStack() as stack:
+        try:
+            stack.enter_context(held(out))
+        except OSError as exc:
+            raise _unwritable(out, exc) from exc
+        if not resume:
+            prepare_out(out, resume=False, force=force)
+        yield
+
+
+def _check_folder(out: Path) -> None:
+    if out.exists() and not out.is_dir():
+        raise InputError(f"'{out}' is a file; name a folder for the output.", where="out")
+
+
+def _holds_nothing(out: Path) -> bool:
+    if not any(out.iterdir()):
+        return True
+    from flexcage.run_folder import holds_nothing
+
+    return holds_nothing(out)
+
+
+def _unwritable(out: Path, error: OSError) -> InputError:
+    refuse_full(f"The output folder '{out}'", error)
+    reason = (error.strerror or str(error)).lower()
+    return InputError(
+        f"The output folder '{out}' cannot be written ({reason}); name another with -o.",
+        where="out",
+        value=str(out),
+    )
 
 
 def empty_run(out: Path, ours: Iterable[str] = _OURS) -> None:
-    """Remove a former output of flexcage; anything else in that folder is not ours to remove."""
+    """Remove a former output of flexcage; anything else in that folder is not ours to remove, nor
+    what another process is writing."""
     import shutil
 
+    check_free(out)
     if not any((out / name).exists() for name in ours):
         raise InputError(
             f"'{out}' holds files that this command did not write, so --force leaves it alone; "
@@ -65,7 +102,11 @@ def empty_run(out: Path, ours: Iterable[str] = _OURS) -> None:
             where="out",
             value=str(out),
         )
-    shutil.rmtree(out)
+    for path in out.iterdir():
+        if path.is_dir() and not path.is_symlink():
+            shutil.rmtree(path)
+        elif path.name != LOCK:  # it may be ours
+            path.unlink()
 
 
 def prepare_file(path: Path, endings: Iterable[str], *, force: bool) -> None:

@@ -7,7 +7,7 @@ import logging
 from pathlib import Path
 from typing import Any
 
-from flexcage.cli.files import prepare_file, prepare_out
+from flexcage.cli.files import prepare_file, prepare_out, run_folder
 from flexcage.cli.parser import case_options, command, picture_options, say
 from flexcage.cli.settings import case_from, look_of, settings_of
 
@@ -72,19 +72,19 @@ def run_command(args: argparse.Namespace) -> int:
     """flexcage run CASE: simulate, summarise, draw."""
     case, look = case_from(args), look_of(args)
     args.out = out = Path(args.out) if args.out else Path("runs") / case.name
-    prepare_out(out, resume=args.resume, force=args.force)
-    from flexcage.core.progress import Progress
-    from flexcage.simulate import simulate
+    with run_folder(out, resume=args.resume, force=args.force):
+        from flexcage.core.progress import Progress
+        from flexcage.simulate import simulate
 
-    run = simulate(case, out=out, resume=args.resume, progress=Progress)
-    run.stages.begun = args.begun
-    run.tell_times()
-    say(run.summary.brief())
-    say(f"\nThe run is in {out}; its summary.txt has all figures")
-    if not args.no_images:
-        draw(run, out / "images", animate=args.animate, **look)
-        drawing = run.stages.get("pictures", 0.0)
-        say(f"Pictures took {drawing:.1f} s, all of it {run.stages.total:.1f} s")
+        run = simulate(case, out=out, resume=args.resume, progress=Progress)
+        run.stages.begun = args.begun
+        run.tell_times()
+        say(run.summary.brief())
+        say(f"\nThe run is in {out}; its summary.txt has all figures")
+        if not args.no_images:
+            draw(run, out / "images", animate=args.animate, **look)
+            drawing = run.stages.get("pictures", 0.0)
+            say(f"Pictures took {drawing:.1f} s, all of it {run.stages.total:.1f} s")
     return 0
 
 

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from flexcage.core.spec import option, quantity
+from flexcage.geometry.bearing import RingLand
 from flexcage.geometry.film import Oil
 
 # Names of laws, and the spec that a name brings along, None for the one below; ``contacts.laws``
@@ -154,18 +155,45 @@ class PairSpec:
     )
 
 
+_NO_LAND = (0.25e-3, 3.5e-3)  # m, clearance and width of a land that meets nothing
+_OF_FACING = 0.9  # width of a land over the length on which cage and ring face each other
+
+
 @dataclass(frozen=True, kw_only=True)
 class LandSpec:
-    """Cage land against the ring land it is guided by, or may touch."""
+    """Cage land against the ring land it is guided by, or may touch.
+
+    What is not given follows from the dimensions of cage and ring (``on``).
+    """
 
     kind: str = option("dry", doc="land contact", choices=("none", "dry", "film"))
-    clearance: float = quantity("mm", 0.25e-3, doc="radial land clearance", above=0.0)
-    width: float = quantity(
-        "mm", 3.5e-3, doc="width of one land", above=0.0,
-        assumption="a side beam of the N1013's cage, 3.9 mm, less its edges",
+    clearance: float | None = quantity(
+        "mm", None, doc="radial land clearance; by default what cage and ring leave", above=0.0
+    )
+    width: float | None = quantity(
+        "mm", None, doc="width of one land; by default nine tenths of what faces the ring",
+        above=0.0,
+        assumption="nine tenths of where an end of the cage faces the ring, to two digits; the "
+        "rest are rounded edges",
     )  # fmt: skip
     normal: NormalLaw = option(NormalLaw(restitution=0.7), doc="normal law")
     friction: FrictionLaw = option(FrictionLaw(static=0.1, dynamic=0.05), doc="friction law")
+
+    def on(self, ring: RingLand | None) -> LandSpec:
+        """The same with clearance and width as numbers, from where cage and ring face each other.
+
+        Where they meet nowhere, the numbers are ones that no contact reads.
+        """
+        clearance, width = _NO_LAND
+        if ring is not None:
+            clearance = clearance if ring.clearance is None else ring.clearance
+            width = float(f"{_OF_FACING * ring.facing:.2g}") if ring.facing > 0.0 else width
+        return replace(
+            self,
+            kind="none" if ring is not None and ring.facing <= 0.0 else self.kind,
+            clearance=clearance if self.clearance is None else self.clearance,
+            width=width if self.width is None else self.width,
+        )
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -34,6 +34,16 @@ log = logging.getLogger(__name__)
 _OURS = "-checked"  # in the names of files, which numba's own cache may keep in the same folder
 
 
+_spares: list[Path] = []  # temporary folders of this process
+
+
+@atexit.register
+def remove_spares() -> None:
+    """Remove the temporary folders, as the process ends."""
+    for folder in _spares:
+        shutil.rmtree(folder, ignore_errors=True)
+
+
 class KernelFolder:
     """Where kernels are read and written: the cache's folder, then a temporary one, then none."""
 
@@ -73,7 +83,7 @@ class KernelFolder:
         except OSError:
             self._given_up = True
             return False
-        atexit.register(shutil.rmtree, self._spare, ignore_errors=True)
+        _spares.append(self._spare)
         return True
 
     def tell_damage(self, name: str, error: Exception) -> None:

@@ -10,11 +10,18 @@ from __future__ import annotations
 from dataclasses import dataclass
 from functools import cached_property
 from math import acos, cos, degrees, inf, pi, sin, sqrt
-from typing import Any, ClassVar
+from typing import ClassVar
 
 from flexcage.core.spec import option, quantity
 from flexcage.geometry.ball_cages import BallCage
-from flexcage.geometry.bearing import Bearing, RingLimit, Spec, hollow_cylinder_inertia
+from flexcage.geometry.bearing import (
+    Bearing,
+    RingLand,
+    RingLimit,
+    Spec,
+    hollow_cylinder_inertia,
+)
+from flexcage.geometry.cage import Cage
 from flexcage.geometry.hertz import PointContact
 from flexcage.geometry.materials import MATERIALS, Material
 
@@ -128,7 +135,7 @@ class BallBearing(Bearing):
             self.pitch_diameter + self.ball_diameter - 2.0 * outer,
         )
 
-    def cage_space(self, cage: Any) -> tuple[RingLimit | None, RingLimit | None]:
+    def cage_space(self, cage: Cage) -> tuple[RingLimit | None, RingLimit | None]:
         """Shoulders, or grooves where the cage is narrower than these; none of a bearing that is
         open on one side, if no height is given."""
         found: list[RingLimit | None] = []
@@ -154,6 +161,25 @@ class BallBearing(Bearing):
         radii = (self.inner_groove_radius, self.outer_groove_radius)
         inner, outer = (inf if h is None else acos(1.0 - h / r) for h, r in zip(heights, radii))
         return inner, outer
+
+    def land(self, cage: Cage) -> RingLand | None:
+        if cage.guidance not in ("inner", "outer"):
+            return None
+        outer = cage.guidance == "outer"
+        name, what = f"bearing.{cage.guidance}_shoulder", "outside_diameter" if outer else "bore"
+        given = self.outer_shoulder if outer else self.inner_shoulder
+        radius = self.outer_groove_radius if outer else self.inner_groove_radius
+        shoulder, own = self.shoulder_diameters[int(outer)], getattr(cage, what)
+        height = 0.2 * self.ball_diameter if given is None else given
+        groove = sqrt(max(height * (2.0 * radius - height), 0.0))  # half of its width
+        end = 0.5 * min(cage.width, self.width)
+        return RingLand(
+            clearance=None if given is None else 0.5 * (shoulder - own) * (1.0 if outer else -1.0),
+            of=f"cage.{what} and {name}",
+            strict=False,
+            facing=end - max(0.5 * cage.pocket_diameter, groove),
+            end=end,
+        )
 
     @cached_property
     def inner_ring_mass(self) -> float:

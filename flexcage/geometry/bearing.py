@@ -29,6 +29,22 @@ class RingLimit:
 
 
 @dataclass(frozen=True, kw_only=True)
+class RingLand:
+    """What the dimensions of cage and ring say of the cage's two lands, one at each end.
+
+    ``clearance``: radial [m], None where the spec does not tell, and ``of`` the dimensions that
+    leave it; ``strict``: no other clearance can be. ``facing``: axial length [m] over which an end
+    of the cage and the ring face each other, and ``end`` where it ends, from the middle.
+    """
+
+    clearance: float | None
+    of: str
+    strict: bool
+    facing: float
+    end: float
+
+
+@dataclass(frozen=True, kw_only=True)
 class Bearing:
     """A rolling bearing; ``type`` names the spec that describes it."""
 
@@ -74,9 +90,9 @@ class Bearing:
         times its radius above the middle of its contact; zero where contacts are not curved."""
         return 0.0, 0.0
 
-    def land_clearance(self, cage: Cage) -> tuple[float, str] | None:
-        """Radial clearance [m] of the cage's land and the dimensions that leave it; None where the
-        spec says nothing of the ring's land, and the case gives the clearance."""
+    def land(self, cage: Cage) -> RingLand | None:
+        """Where the cage faces the ring that guides it, or that it may touch; None where it meets
+        none, or where the spec says nothing of the ring's land."""
         return None
 
     def cage_space(self, cage: Cage) -> tuple[RingLimit | None, RingLimit | None]:

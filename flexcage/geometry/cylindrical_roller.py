@@ -13,6 +13,7 @@ from flexcage.core.spec import option, quantity
 from flexcage.geometry.bearing import (
     BEARING_TYPES,
     Bearing,
+    RingLand,
     RingLimit,
     Spec,
     bearing_type,
@@ -156,11 +157,16 @@ class RollerBearing(Bearing):
     def element_mass(self) -> float:
         return self.roller_mass
 
-    def land_clearance(self, cage: Cage) -> tuple[float, str]:
+    def land(self, cage: Cage) -> RingLand:
+        begin, end = 0.5 * cage.pocket_length, 0.5 * min(cage.width, self.width)
         if cage.guidance == "outer":
             there = self.outer_race_radius - 0.5 * cage.outside_diameter
-            return there, "cage.outside_diameter and the outer race"
-        return 0.5 * (cage.bore - self.rib_diameter), "cage.bore and bearing.rib_diameter"
+            of = "cage.outside_diameter and the outer race"
+        else:
+            there = 0.5 * (cage.bore - self.rib_diameter)
+            of = "cage.bore and bearing.rib_diameter"
+            begin = max(begin, 0.5 * self.rib_gap)
+        return RingLand(clearance=there, of=of, strict=True, facing=end - begin, end=end)
 
     def cage_space(self, cage: Cage) -> tuple[RingLimit, RingLimit]:
         return (

@@ -7,13 +7,16 @@
   5 + 5 k + (0 front, 1 rear, 2 side+x, 3 side-x, 4 fillet) for pocket k. With round pockets the
   array is ``round_group``, and 5 + k is the wall of pocket k. A cell array that has itself the
   name of a group, non-zero on its triangles, is read as well.
-* .inp (read only): element sets of surface triangles, named as the groups.
+* .inp (read only): surfaces (``*SURFACE, TYPE=ELEMENT``) or element sets of triangles, named as
+  the groups, in capitals or not.
 
-Ten-node tetrahedra and six-node triangles are read by their corners.
+Ten-node tetrahedra and six-node triangles are read by their corners. Where their edges are curved,
+faces become flat, and a warning says how far the nodes at the middle of edges lie off.
 """
 
 from __future__ import annotations
 
+import logging
 import re
 from collections.abc import Mapping
 from pathlib import Path
@@ -23,6 +26,7 @@ from typing import Any
 import numpy as np
 
 from flexcage.core.errors import InputError, refuse_full
+from flexcage.mesh.abaqus import read_inp
 from flexcage.mesh.cage_mesh import (
     POCKET_GROUPS,
     RING_GROUPS,
@@ -35,9 +39,16 @@ from flexcage.mesh.cage_mesh import (
 from flexcage.mesh.quality import check_mesh, nearest_hint
 from flexcage.mesh.sector import orient_outward
 
+log = logging.getLogger(__name__)
+
 _ARRAYS = {POCKET_GROUPS: "group", WALL_GROUPS: "round_group"}  # of a .vtu
 _READABLE = (".msh", ".inp", ".vtu")
+_OTHER_SOLIDS = ("hexahedron", "wedge", "pyramid")
+# ends of the edges on whose middles a ten-node tetrahedron has nodes, in meshio's order
+_EDGES = np.array([(0, 1), (1, 2), (0, 2), (0, 3), (1, 3), (2, 3)])
+_STRAIGHT = 1e-3  # of an edge's length, that a node may lie off its middle by rounding
 _POCKET = re.compile(r"pocket(\d+)_")
+_PARTS = {*POCKET_GROUPS, *WALL_GROUPS}
 _TETS, _TRIANGLES = ("tetra", "tetra10"), ("triangle", "triangle6")
 
 
@@ -116,9 +127,9 @@ def _read_raw(path: Path) -> Any:
         )
     if not path.is_file():
         raise InputError(f"there is no mesh file {path}", where="mesh.file", value=str(path))
-    readers = {".inp": meshio.abaqus, ".msh": meshio.gmsh, ".vtu": meshio.vtu}
+    readers = {".inp": read_inp, ".msh": meshio.gmsh.read, ".vtu": meshio.vtu.read}
     try:
-        return readers[path.suffix.lower()].read(path)
+        return readers[path.suffix.lower()](path)
     except (Exception, SystemExit) as error:  # readers raise all kinds of errors on broken files
         reason = str(error).strip().splitlines()[0] if str(error).strip() else type(error).__name__
         raise InputError(
@@ -131,9 +142,33 @@ def _read_raw(path: Path) -> Any:
 
 def _tetrahedra(raw: Any, path: Path) -> tuple[np.ndarray, np.ndarray]:
     blocks = [np.asarray(b.data)[:, :4] for b in raw.cells if b.type in _TETS]
-    if not blocks:
-        raise InputError(f"{path} has no tetrahedra", where="mesh.file", value=str(path))
-    return np.asarray(raw.points, float), np.vstack(blocks).astype(np.int64)
+    others = sorted({b.type for b in raw.cells if b.type.startswith(_OTHER_SOLIDS)})
+    if others or not blocks:
+        more = f"elements of another shape ({', '.join(others)})" if others else "no tetrahedra"
+        raise InputError(
+            f"{path} has {more}; a cage's mesh has tetrahedra alone",
+            where="mesh.file",
+            value=str(path),
+        )
+    points = np.asarray(raw.points, float)
+    _warn_of_curves(points, [np.asarray(b.data) for b in raw.cells if b.type == "tetra10"], path)
+    return points, np.vstack(blocks).astype(np.int64)
+
+
+def _warn_of_curves(points: np.ndarray, quadratic: list[np.ndarray], path: Path) -> None:
+    """Say how far nodes lie off the middle of their edges, if that is more than rounding."""
+    for tets in quadratic:
+        ends = points[tets[:, _EDGES]]  # (n, 6, 2, 3)
+        length = np.linalg.norm(ends[:, :, 1] - ends[:, :, 0], axis=-1)
+        off = np.linalg.norm(points[tets[:, 4:]] - ends.mean(axis=2), axis=-1)
+        curved = off > _STRAIGHT * length
+        if curved.any():
+            log.warning(
+                "%s: edges of elements are curved, with nodes up to %.2g %% of an edge off its "
+                "middle; elements are read by their corners, so that curved faces become flat",
+                path, 100.0 * float((off / length).max()),
+            )  # fmt: skip
+            return
 
 
 def _positive(points: np.ndarray, tets: np.ndarray, path: Path) -> np.ndarray:
@@ -158,6 +193,8 @@ def _named_triangles(raw: Any, path: Path) -> Mapping[str, np.ndarray]:
     collected: dict[str, list[np.ndarray]] = {}
 
     def add(name: str, block: int, chosen: np.ndarray) -> None:
+        low = name.lower()
+        name = low if low in RING_GROUPS or _POCKET.sub("", low) in _PARTS else name
         if len(triangles := blocks[block][chosen][:, :3]):
             collected.setdefault(name, []).append(triangles.astype(np.int64))
 

@@ -177,7 +177,8 @@ def wear(
     rubbing = RUBBING[element](ds, bearing, cage)
     t, recorded = ds["time"].values, ds["work"].sel(channel="pocket_friction").values
     lost, found = float(recorded[0] - recorded[-1]), float(np.trapezoid(rubbing.friction, t))
-    table = _tabled(rubbing, ds, law.coefficient, windows, land_rubbing(ds, cage, land))
+    slid = land_rubbing(ds, cage, land.on(bearing.land(cage)))
+    table = _tabled(rubbing, ds, law.coefficient, windows, slid)
     return Wear(law, float(t[-1] - t[0]), table, found / lost if lost else float("nan"))
 
 
@@ -290,10 +291,11 @@ RUBBING: dict[str, Callable[[xarray.Dataset, Bearing, Cage], Rubbing]] = {
 
 def land_rubbing(ds: xarray.Dataset, cage: Cage, land: LandSpec) -> tuple[float, float]:
     """Mean of normal force times sliding speed on the land [W], NaN under a film, and its area
-    [m^2], two lands of the stated width all round. The force's part along the line of centres is
+    [m^2], two lands of ``land``'s width all round. The force's part along the line of centres is
     taken as normal."""
     outer = cage.guidance == "outer"
     radius = 0.5 * (cage.outside_diameter if outer else cage.bore)
+    assert land.width is not None
     area = 4.0 * pi * radius * land.width
     force = ds["land_force"].values[:, 1:]
     if not np.any(force):

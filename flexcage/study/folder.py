@@ -17,13 +17,14 @@ from __future__ import annotations
 import json
 import os
 import shutil
-from collections.abc import Iterator, Mapping
-from contextlib import contextmanager
+from collections.abc import Mapping
+from contextlib import AbstractContextManager
 from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any
 
 from flexcage.core.errors import InputError, refuse_full
+from flexcage.core.locks import LOCK, held
 from flexcage.core.warning import RunWarning
 from flexcage.results.files import replace
 from flexcage.study.about import About, from_store, to_store
@@ -32,6 +33,7 @@ from flexcage.study.plan import Plan, Planned
 from flexcage.study.spec import FORMAT, Study, stored_study, stored_table
 
 _ROW, _PART = "row.json", ".part"
+_LEFT_OVER = (LOCK, "cases", "failed", "plan.json.new")  # of one killed before it had a plan
 _NOT_THERE = (KeyError, TypeError, AttributeError)  # a text that is not what was written
 _ZARR_GROUP = {"zarr_format": 3, "node_type": "group", "attributes": {}}
 
@@ -119,7 +121,7 @@ class Folder:
         if (self.path / "plan.json").is_file():  # a study.toml alone is the user's own
             if (self.path / "study.toml").is_file():
                 stored_table(self.path / "study.toml")  # refuses another format
-        elif self.path.is_dir() and any(self.path.iterdir()):
+        elif self.path.is_dir() and any(p.name not in _LEFT_OVER for p in self.path.iterdir()):
             raise InputError(
                 f"'{self.path}' holds files and no study; name an empty or a new folder with -o.",
                 where="out",
@@ -144,31 +146,13 @@ class Folder:
                 value=str(self.path),
             ) from exc
 
-    @contextmanager
-    def held(self) -> Iterator[None]:
+    def held(self) -> AbstractContextManager[None]:
         """Let no other process run a study here meanwhile; InputError if one does.
 
         The tables of the first would be made by the plan of the second. A killed process holds
         nothing.
         """
-        import filelock
-
-        path = self.path / "running.lock"
-        lock = filelock.FileLock(path)
-        try:
-            lock.acquire(timeout=0)
-        except filelock.Timeout:
-            raise InputError(
-                f"Another process is running a study in '{self.path}'; wait until it has finished, "
-                "or name another folder with -o.",
-                where="out",
-                value=str(self.path),
-            ) from None
-        try:
-            yield
-        finally:
-            path.unlink(missing_ok=True)
-            lock.release()
+        return held(self.path, "a study")
 
     def row(self, name: str) -> CaseRow | None:
         """The finished case of this hash, or None."""

@@ -12,6 +12,7 @@ from flexcage.core.binding import expect
 from flexcage.core.errors import RunFailed
 from flexcage.core.hashing import content_hash
 from flexcage.core.progress import Silent
+from flexcage.core.stopping import unwinding
 from flexcage.study.cluster import connect, require_packages
 from flexcage.study.folder import Failure, Folder
 from flexcage.study.outputs import beyond_summary
@@ -55,7 +56,8 @@ def run_study(
         todo = _lacking(plan, folder, retry=retry)
         try:
             if todo:
-                _compute(plan, folder, todo, (scheduler, workers), progress)
+                with unwinding():  # Ctrl-C ends the workers
+                    _compute(plan, folder, todo, (scheduler, workers), progress)
         except BaseException:  # Ctrl-C as well: the tables show what is finished
             _try_to_write(folder)
             raise

@@ -150,6 +150,7 @@ def _(
     rng = np.random.default_rng(seed)
     scatter = bearing.ball_scatter * rng.standard_normal(bearing.ball_count)
     outer, radius = _land_radius(cage)
+    land = contacts.land.on(bearing.land(cage))
     tilts = load.tilt == "free"
     return BallModel(
         bodies=bodies_of(
@@ -164,9 +165,9 @@ def _(
         outer=_groove(bearing, contacts, lubricant, inner=False),
         pocket=_pockets(bearing, cage, contacts, interface),
         land=land_data(
-            cage, contacts, lubricant, interface.land,
-            kind="none" if cage.guidance == "ball" else contacts.land.kind, outer=outer,
-            radius=radius, clearance=contacts.land.clearance, ring=bearing.material,
+            cage, land, lubricant, interface.land,
+            kind="none" if cage.guidance == "ball" else land.kind, outer=outer, radius=radius,
+            bearing=bearing,
         ),
     )  # fmt: skip
 

@@ -7,7 +7,8 @@ import numpy as np
 from flexcage.bodies.floating_frame import FlexibleBody, with_point_mass
 from flexcage.contacts import laws
 from flexcage.contacts.land import KINDS, LandData
-from flexcage.contacts.spec import Contacts, Lubricant
+from flexcage.contacts.spec import LandSpec, Lubricant
+from flexcage.geometry.bearing import Bearing
 from flexcage.geometry.materials import Material
 from flexcage.system import courses
 from flexcage.system.data import Bodies
@@ -76,15 +77,17 @@ def elastic_constants(material: Material) -> tuple[float, float]:
 
 
 def land_data(
-    cage, contacts: Contacts, lubricant: Lubricant, modes: np.ndarray, *, kind: str, outer: bool,
-    radius: float, clearance: float, ring: Material,
+    cage, spec: LandSpec, lubricant: Lubricant, modes: np.ndarray, *, kind: str, outer: bool,
+    radius: float, bearing: Bearing,
 ) -> LandData:  # fmt: skip
-    """Land of a cage: is it its outside, its radius [m], its clearance on the ring [m], and what
-    that is made of.
+    """Land of a cage, ``spec`` with clearance and width: is it its outside, its radius [m], and the
+    bearing whose ring it meets.
 
     ``modes`` (2, nl, 3, n) at the stations of the inner and the outer land.
     """
-    spec = contacts.land
+    end, ring = min(cage.width, bearing.width), bearing.material
+    clearance, width = spec.clearance, spec.width
+    assert clearance is not None and width is not None
     modes = modes[1 if outer else 0]  # (nl, 3, n)
     n_l = modes.shape[0]
     angle = 2.0 * np.pi * np.arange(n_l) / n_l
@@ -92,7 +95,7 @@ def land_data(
     k, e = laws.land_line_law(
         radius=radius,
         clearance=clearance,
-        length=spec.width,
+        length=width,
         cage=elastic_constants(cage.material),
         ring=elastic_constants(ring),
         depth=0.25 * (cage.outside_diameter - cage.bore),
@@ -102,13 +105,13 @@ def land_data(
         inner=-1.0 if outer else 1.0,
         clearance=clearance,
         radius=radius,
-        x=np.array([-0.5, 0.5]) * (cage.width - spec.width),
+        x=np.array([-0.5, 0.5]) * (end - width),
         angle=np.ascontiguousarray(np.stack([np.cos(angle), np.sin(angle)], axis=1)),
         phi=np.ascontiguousarray(modes),
         phi_max=np.abs(modes[:, 1]).max(axis=0) if n else np.zeros(0),
         normal=laws.normal_parameters(spec.normal, k, e),
         friction=laws.friction_parameters(spec.friction),
-        film=np.array([lubricant.viscosity, spec.width, radius, clearance]),
+        film=np.array([lubricant.viscosity, width, radius, clearance]),
     )
 
 

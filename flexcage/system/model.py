@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from functools import singledispatch
 from typing import Any, NamedTuple
 
@@ -253,6 +254,7 @@ def _(
         bearing.roller_count
     )
     outer, radius, clearance = _guiding_land(bearing, cage)
+    land = replace(contacts.land.on(bearing.land(cage)), clearance=clearance)
     tilts = load.tilt == "free"
     return Model(
         bodies=bodies_of(
@@ -268,8 +270,8 @@ def _(
         rib=_rib_data(bearing, contacts),
         pocket=_pocket_data(bearing, cage, contacts, interface),
         land=land_data(
-            cage, contacts, lubricant, interface.land, kind=contacts.land.kind, outer=outer,
-            radius=radius, clearance=clearance, ring=bearing.material,
+            cage, land, lubricant, interface.land, kind=land.kind, outer=outer, radius=radius,
+            bearing=bearing,
         ),
     )  # fmt: skip
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import replace
 from functools import cache
 from typing import Any
 
@@ -55,11 +54,9 @@ def bearing_of(case: Case) -> Bearing:
 
 def _plain(case: Case, modes: ModesSpec | None = None) -> Case:
     """A case with the same cage, and nothing else that differs from the preset."""
-    contacts = n1013().contacts
-    land = replace(contacts.land, clearance=case.contacts.land.clearance)  # follows from the cage
     return Case(
         bearing=case.bearing, cage=case.cage, defects=case.all_defects, mesh=case.mesh,
-        modes=modes or ModesSpec(), contacts=replace(contacts, land=land),
+        modes=modes or ModesSpec(), contacts=n1013().contacts,
     )  # fmt: skip
 
 

@@ -217,7 +217,16 @@ BAD = {
         "contacts.rib.friction.v_dynamic",
         ["1 m/s", "2 m/s"],
     ),
-    "land moved": ('[cage]\nbore = "79 mm"', "contacts.land.clearance", ["0.25 mm", "0.3 mm"]),
+    "land moved": (
+        '[contacts.land]\nclearance = "0.25 mm"\n[cage]\nbore = "79 mm"',
+        "contacts.land.clearance",
+        ["0.25 mm", "leave 0.3 mm; leave it out"],
+    ),
+    "land wider than a side beam": (
+        '[contacts.land]\nwidth = "30 mm"',
+        "contacts.land.width",
+        ["is 30 mm", "over 3.875 mm only"],
+    ),
     "guided by no land": (
         '[cage]\nguidance = "inner"\n[contacts.land]\nkind = "none"',
         "contacts.land.kind",

@@ -109,6 +109,139 @@ def test_abaqus_deck_in_millimetres(n1013, tmp_path, inline):
         read_mesh(path)
 
 
+FACES = ((0, 1, 2), (0, 3, 1), (1, 3, 2), (2, 3, 0))  # S1 to S4 of a tetrahedron in Abaqus
+MIDDLES = ((0, 1), (1, 2), (0, 2), (0, 3), (1, 3), (2, 3))
+
+
+def write_deck_of_surfaces(mesh, path, *, quadratic=False, bulge=0.0, part=True, name=str):
+    """A deck in mm as Abaqus/CAE writes it: solids in a part, surfaces of their faces in the
+    assembly. ``bulge`` moves the nodes in the middle of edges away from the axis."""
+    points, tets, written = mesh.points * 1e3, mesh.tets, mesh.tets
+    if quadratic:
+        pairs = np.sort(tets[:, MIDDLES].reshape(-1, 2), axis=1)
+        edges, which = np.unique(pairs, axis=0, return_inverse=True)
+        middle = points[edges].mean(axis=1) * [1.0, 1.0 + bulge, 1.0 + bulge]
+        written = np.hstack([tets, len(points) + which.reshape(-1, 6)])
+        points = np.vstack([points, middle])
+    lines = ["*Heading", "** a comment", *(["*Part, name=CAGE"] if part else []), "*Node"]
+    lines += [f"{i + 1:7d}, " + ", ".join(f"{c:.12g}" for c in p) for i, p in enumerate(points)]
+    lines.append(f"*Element, type={'C3D10' if quadratic else 'C3D4'}")
+    for i, nodes in enumerate(written + 1):
+        row = [i + 1, *nodes]
+        lines += [", ".join(map(str, row[:8])) + ("," if row[8:] else "")]
+        lines += [", ".join(map(str, row[8:]))] if row[8:] else []
+    lines.append("*Solid Section, elset=all, material=brass\n1.,")
+    if part:
+        lines += ["*End Part", "*Assembly, name=Assembly", "*Instance, name=CAGE-1, part=CAGE"]
+        lines += ["*End Instance", "*Node", "1, 0., 0., 0."]
+    owner = {frozenset(t[list(f)]): (i, s) for i, t in enumerate(tets) for s, f in enumerate(FACES)}
+    for group, triangles in mesh.groups.items():
+        sides = {}
+        for triangle in triangles:
+            element, side = owner[frozenset(triangle)]
+            sides.setdefault(side, []).append(element + 1)
+        for side, elements in sides.items():
+            more = ", internal, instance=CAGE-1" if part else ""
+            lines.append(f'*Elset, elset="_{name(group)}_S{side + 1}"{more}')
+            lines += [", ".join(map(str, elements[i : i + 8])) for i in range(0, len(elements), 8)]
+        lines.append(f'*Surface, type=ELEMENT,\nname="{name(group)}"')
+        lines += [f'"_{name(group)}_S{side + 1}", S{side + 1}' for side in sides]
+    path.write_text("\n".join([*lines, *(["*End Assembly"] if part else []), "*Step"]) + "\n")
+    return path
+
+
+@pytest.mark.parametrize("quadratic", [False, True])
+@pytest.mark.parametrize(("part", "name"), [(True, str), (False, str.upper)])
+def test_surfaces_of_element_faces(n1013, tmp_path, caplog, quadratic, part, name):
+    mesh = n1013(fineness="coarse")
+    path = tmp_path / "cage.inp"
+    write_deck_of_surfaces(mesh, path, quadratic=quadratic, part=part, name=name)
+    read = read_mesh(path, unit="mm", pocket_count=22)
+    assert len(read.points) == len(mesh.points)
+    assert read.volume == pytest.approx(mesh.volume, rel=1e-9)
+    assert set(read.groups) == set(mesh.groups)
+    for group in mesh.groups:
+        assert triangle_set(read, group) == triangle_set(mesh, group), group
+    assert not caplog.records
+
+
+def test_curved_edges_are_told_of(n1013, tmp_path, caplog):
+    mesh = n1013(fineness="coarse")
+    path = write_deck_of_surfaces(mesh, tmp_path / "c.inp", quadratic=True, bulge=1e-3)
+    read = read_mesh(path, unit="mm")
+    assert read.volume == pytest.approx(mesh.volume, rel=1e-9)
+    assert "curved faces become flat" in caplog.text and "% of an edge" in caplog.text
+
+
+@pytest.mark.parametrize("order", [1, 2])
+def test_deck_that_gmsh_writes(n1013, tmp_path, order):
+    gmsh = pytest.importorskip("gmsh")
+    mesh = n1013(fineness="coarse")
+    write_mesh(mesh, tmp_path / "cage.msh")
+    gmsh.initialize(interruptible=False)
+    try:
+        gmsh.option.setNumber("General.Verbosity", 0)
+        gmsh.open(str(tmp_path / "cage.msh"))
+        gmsh.model.mesh.setOrder(order)
+        gmsh.write(str(tmp_path / "theirs.inp"))
+    finally:
+        gmsh.finalize()
+    theirs = read_mesh(tmp_path / "theirs.inp")
+    assert theirs.volume == pytest.approx(mesh.volume, rel=1e-9)
+    assert {name: len(t) for name, t in theirs.groups.items()} == {
+        name: len(t) for name, t in mesh.groups.items()
+    }
+
+
+NODES = "*NODE\n" + "".join(f"{i}, {x}, {y}, {z}\n" for i, (x, y, z) in enumerate(
+    [(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)], 1
+))  # fmt: skip
+DECKS = {
+    "bricks": ("*ELEMENT, TYPE=C3D8R\n1, 1, 2, 3, 4, 1, 2, 3, 4", "type C3D8R; only tetrahedra"),
+    "too few nodes": ("*ELEMENT, TYPE=C3D10\n1, 1, 2, 3, 4", "other than 10 nodes"),
+    "a node too many": ("*ELEMENT, TYPE=C3D4\n1, 1, 2, 3, 9", "node 9, which is not in it"),
+    "two parts": ("*ELEMENT, TYPE=C3D4\n1, 1, 2, 3, 4\n" + NODES, "numbers nodes twice"),
+    "moved": ("*INSTANCE, NAME=A, PART=B\n1., 0., 0.", "moves an instance"),
+    "unknown set": ("*SURFACE, NAME=end+x\nnone, S1", "set 'none' is not in it"),
+    "unknown face": (
+        "*ELEMENT, TYPE=C3D4, ELSET=all\n1, 1, 2, 3, 4\n*SURFACE, NAME=end+x\nall, S9",
+        "face 'S9'",
+    ),
+    "no surfaces": ("*ELEMENT, TYPE=C3D4\n1, 1, 2, 3, 4", "no named surfaces"),
+    "no solids": ("*ELEMENT, TYPE=S3\n1, 1, 2, 3", "no tetrahedra"),
+}
+
+
+@pytest.mark.parametrize("name", DECKS)
+def test_deck_that_cannot_be_used_is_one_sentence(name, tmp_path):
+    text, words = DECKS[name]
+    (tmp_path / "cage.inp").write_text(NODES + text + "\n")
+    with pytest.raises(InputError, match=words) as caught:
+        read_mesh(tmp_path / "cage.inp")
+    assert "\n" not in str(caught.value)
+
+
+def test_surface_without_faces_is_where_solids_end(tmp_path):
+    from flexcage.mesh.abaqus import read_inp
+
+    (tmp_path / "two.inp").write_text(
+        NODES + "5, 1, 1, 1\n*ELEMENT, TYPE=C3D4, ELSET=all\n1, 1, 2, 3, 4\n2, 2, 3, 4, 5\n"
+        "*SURFACE, TYPE=ELEMENT, NAME=skin\nall\n*SURFACE, NAME=one\n2, S4\n"
+    )
+    mesh = read_inp(tmp_path / "two.inp")
+    corners = [frozenset(t) for t in mesh.cells[1].data.tolist()]
+    assert len(set(corners)) == 6 and frozenset([1, 2, 3]) not in corners
+    assert mesh.cells[2].data.tolist() == [[3, 4, 1]]
+
+
+def test_bricks_among_tetrahedra_are_refused(n1013, tmp_path):
+    mesh = n1013(fineness="coarse")
+    cells = [("tetra", mesh.tets), ("hexahedron", mesh.tets[:1, [0, 1, 2, 3, 0, 1, 2, 3]])]
+    meshio.Mesh(mesh.points, cells).write(tmp_path / "cage.vtu")
+    with pytest.raises(InputError, match="another shape \\(hexahedron\\)"):
+        read_mesh(tmp_path / "cage.vtu")
+
+
 def test_vtu_with_an_array_a_group(n1013, tmp_path):
     mesh = n1013(fineness="coarse")
     triangles = np.vstack(list(mesh.groups.values()))
