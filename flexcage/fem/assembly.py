@@ -60,7 +60,9 @@ def assemble_ring(
 ) -> Matrices:
     """The same of a ring, from the elements of one sector of every kind."""
     n_nodes = len(sectors.image)
-    places = sectors.followed(np.unique(cells[sectors.cells[0]]))  # (count, n_local) nodes of every sector
+    places = sectors.followed(
+        np.unique(cells[sectors.cells[0]])
+    )  # (count, n_local) nodes of every sector
     vertices = places[:, places[0] < len(points)]
     local = np.empty(n_nodes, np.int64)
     kinds = []

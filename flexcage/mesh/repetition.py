@@ -19,7 +19,7 @@ from flexcage.mesh.ring import turn_about_x
 log = logging.getLogger(__name__)
 
 _SEED = 1e-5  # misfit of a turned point and the one that follows, relative to the ring's size
-_ROUNDING = 3e-7  # misfit that seven digits in a file leave: such points are set right
+_ROUNDING = 1e-6  # misfit, likewise, that seven digits in a file leave: such points are set right
 _FACES = np.array([[1, 2, 3], [0, 2, 3], [0, 1, 3], [0, 1, 2]])  # opposite to each vertex
 
 
@@ -150,14 +150,16 @@ def _set_right(points: np.ndarray, vertices: np.ndarray) -> np.ndarray:
     back = np.einsum("knb,kba->kna", points[vertices], turns)
     place = np.median(back, axis=0)
     alike = np.linalg.norm(back - place, axis=2) < limit
-    place = np.where(alike[..., None], back, 0.0).sum(axis=0) / np.maximum(alike.sum(axis=0), 1)[
-        :, None
-    ]
+    place = (
+        np.where(alike[..., None], back, 0.0).sum(axis=0)
+        / np.maximum(alike.sum(axis=0), 1)[:, None]
+    )
     right = np.array(points)
     right[vertices[alike]] = np.einsum("kab,nb->kna", turns, place)[alike]
     moved = np.linalg.norm(right - points, axis=1).max()
     if moved > 1e-12 * np.abs(points).max():
         log.info(
-            "the mesh repeats but for its file's rounding: points moved by up to %.2g nm", moved * 1e9
+            "the mesh repeats but for its file's rounding: points moved by up to %.2g nm",
+            moved * 1e9,
         )
     return right
