@@ -59,15 +59,17 @@ def assemble_ring(
     form: Elements, points: np.ndarray, tets: np.ndarray, cells: np.ndarray, sectors: Sectors
 ) -> Matrices:
     """The same of a ring, from the elements of one sector of every kind."""
-    n, n_nodes = sectors.cells, len(sectors.image)
-    places = sectors.followed(np.unique(cells[:n]))  # (count, n_local) nodes of every sector
+    n_nodes = len(sectors.image)
+    places = sectors.followed(
+        np.unique(cells[sectors.cells[0]])
+    )  # (count, n_local) nodes of every sector
     vertices = places[:, places[0] < len(points)]
     local = np.empty(n_nodes, np.int64)
     kinds = []
     for alike in sectors.alike(points, vertices):
         first = alike[0]
         local[places[first]] = np.arange(places.shape[1])
-        part = slice(first * n, (first + 1) * n)
+        part = sectors.cells[first]
         pattern = BlockPattern(local[cells[part]], places.shape[1])
         kinds.append((alike, pattern, *form.sum(pattern, points, tets[part])))
     pairs = [(places[k], pattern) for alike, pattern, *_ in kinds for k in alike]

@@ -47,11 +47,10 @@ def find_parts(model: FEModel) -> RingParts | None:
     sectors = model.sectors
     if sectors is None:
         return None
-    n = sectors.cells
-    middle = model.points[model.tets[: 2 * n]].mean(axis=1)
-    upper = np.arctan2(middle[:n, 2], middle[:n, 1]) > 0.0  # of sector 0, around psi = 0
-    following = model.cells[n : 2 * n]
-    cells = np.concatenate([model.cells[:n][upper].ravel(), following[~upper].ravel()])
+    own, following = sectors.cells[:2]
+    middle = model.points[model.tets[own]].mean(axis=1)
+    upper = np.arctan2(middle[:, 2], middle[:, 1]) > 0.0  # of sector 0, around psi = 0
+    cells = model.cells[np.concatenate([own[upper], following[~upper]])]
     places = sectors.followed(np.unique(sectors.place[cells]))
     shared = np.isin(places[0], places[-1]), np.isin(places[0], places[1])
     cuts = places[:, shared[0]]

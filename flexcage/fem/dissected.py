@@ -24,6 +24,7 @@ from flexcage.fem.model import FEModel
 log = logging.getLogger(__name__)
 
 _TOGETHER = 64  # right-hand sides that are solved at once: bounds the memory
+_HOLLOW = 0.5  # least radius over the largest, above which a body is cut as a ring
 
 
 class DissectedBody:
@@ -31,12 +32,13 @@ class DissectedBody:
 
     def __init__(self, model: FEModel, held: np.ndarray) -> None:
         started = time.perf_counter()
-        blocks = dissect(model.nodes, sp.csr_matrix(model.mass_scalar))
+        blocks = dissect(_places(model.nodes), sp.csr_matrix(model.mass_scalar))
         order = dofs_of(np.concatenate(blocks))
         free = ~np.isin(order, held)
         of_block = np.repeat(np.arange(len(blocks)), [3 * len(block) for block in blocks])
         sizes = np.bincount(of_block[free], minlength=len(blocks))
         self._order = np.append(order[free], held)
+        self._back = np.argsort(self._order)
         matrix = model.K[self._order][:, self._order]
         self._elimination = Elimination(matrix, sizes[sizes > 0])
         self.name = f"dense fronts, {len(blocks)} blocks"
@@ -50,9 +52,17 @@ class DissectedBody:
         answer = np.empty_like(columns)
         for first in range(0, columns.shape[1], _TOGETHER):
             some = slice(first, first + _TOGETHER)
-            fields = columns[self._order, some]
+            fields = columns[:, some].take(self._order, axis=0)
             self._elimination.condense(fields)
             fields[self._elimination.eliminated :] = 0.0
             self._elimination.expand(fields)
-            answer[self._order, some] = fields
+            answer[:, some] = fields.take(self._back, axis=0)
         return answer.reshape(loads.shape)
+
+
+def _places(nodes: np.ndarray) -> np.ndarray:
+    """Coordinates (N, 3) across which a body is cut: x, r, psi of a ring about x, else x, y, z."""
+    radius = np.hypot(nodes[:, 1], nodes[:, 2])
+    if radius.min() < _HOLLOW * radius.max():
+        return nodes
+    return np.stack([nodes[:, 0], radius, np.arctan2(nodes[:, 2], nodes[:, 1])], axis=1)

@@ -103,8 +103,7 @@ def _eliminate(
     total = np.zeros((size + len(border),) * 2)  # transposed: the upper triangle by rows
     total[rows[later], _place(columns[later], own, border)] = matrix.data[first:end][later]
     for unknowns, values in added:
-        at = _place(unknowns, own, border)
-        total[np.ix_(at, at)] += values.T
+        _add_upper(total, _place(unknowns, own, border), values.T)
     whole = total.T
     lower, info = lapack.dpotrf(whole[:size, :size], lower=1)
     if info:
@@ -118,6 +117,17 @@ def _eliminate(
     rest = blas.dsyrk(-1.0, half, beta=1.0, c=rest, lower=1)
     coupling = blas.dtrsm(1.0, lower, half, side=1, lower=1, overwrite_b=1)
     return Front(own, border, inverse, coupling), rest
+
+
+def _add_upper(total: np.ndarray, at: np.ndarray, values: np.ndarray) -> None:
+    """Add the upper triangle of ``values`` (n, n) at rows and columns ``at``, rising: columns that
+    stay together go together, which is twice as fast as one by one."""
+    ends = np.append(np.flatnonzero(np.diff(at) != 1) + 1, len(at))
+    first = 0
+    for end in ends.tolist():
+        place = int(at[first])
+        total[at[:end], place : place + end - first] += values[:end, first:end]
+        first = end
 
 
 def _place(unknowns: np.ndarray, own: slice, border: np.ndarray) -> np.ndarray:

@@ -23,13 +23,17 @@ class Sectors:
     where it was cut open (cracks, missing rivets) and nodes have copies.
 
     ``image[i]`` is the node that has the place of node i in the next sector; turned by 2 pi/count
-    it is node i, unless a defect moved either. Cell c of sector k is ``c + k cells``.
+    it is node i, unless a defect moved either. Cell ``cells[k, c]`` follows ``cells[k - 1, c]``;
+    those of sector 0 are around psi = 0.
     """
 
-    count: int
-    cells: int  # in a sector
+    cells: np.ndarray  # (count, n) of every sector
     image: np.ndarray  # (N,)
     place: np.ndarray  # (N,) the node itself, or for a copy the one that it was made of
+
+    @property
+    def count(self) -> int:
+        return len(self.cells)
 
     @cached_property
     def doubled(self) -> np.ndarray:
@@ -76,29 +80,39 @@ def group_alike(values: Sequence[np.ndarray], tolerance: float) -> list[list[int
 def find_sectors(
     info: Mapping[str, object], tets: np.ndarray, n_points: int, edges: np.ndarray
 ) -> Sectors | None:
-    """The sectors that ``info`` of a built mesh tells of, or None where there are none.
+    """The sectors that ``info`` of a mesh tells of, or None where there are none.
 
     ``tets`` (n_tets, 4) must follow the numbering that ``CageMesh`` describes; ``edges``
     (n_edges, 2) are sorted vertex pairs, whose midpoints are the nodes after the vertices.
     """
-    own, cells = info.get("sector_points"), info.get("sector_cells")
     doubled = np.asarray(info.get("doubled", ()), np.int64)
     n = n_points - len(doubled)
-    if not isinstance(own, int) or not isinstance(cells, int) or n % own:
+    told = _told(info, n)
+    if told is None:
         return None
-    count, place = n // own, np.append(np.arange(n), doubled)  # of vertices
-    if count < 3 or len(tets) != count * cells or not _repeats(place[tets], own, count, n):
+    following, cells = told
+    place = np.append(np.arange(n), doubled)  # of vertices
+    if len(cells) < 3 or cells.size != len(tets) or not _repeats(place[tets], following, cells):
         return None
-    following = (np.arange(n) + own) % n
     pairs = place[edges]
     keys, first, number = np.unique(edge_keys(pairs, n), return_index=True, return_inverse=True)
     after = first[np.searchsorted(keys, edge_keys(following[pairs[first]], n))]
     return Sectors(
-        count,
         cells,
         image=np.concatenate([following[place], n_points + after[number]]),
         place=np.concatenate([place, n_points + first[number]]),
     )
+
+
+def _told(info: Mapping[str, object], n: int) -> tuple[np.ndarray, np.ndarray] | None:
+    """Which of n vertices follows each (n,), and the cells of all sectors (count, .)."""
+    following, cells = info.get("following"), info.get("sector_tets")
+    if isinstance(following, np.ndarray) and isinstance(cells, np.ndarray):
+        return (following, cells) if len(following) == n else None
+    own, per_sector = info.get("sector_points"), info.get("sector_cells")
+    if not isinstance(own, int) or not isinstance(per_sector, int) or n % own:
+        return None
+    return (np.arange(n) + own) % n, np.arange(n // own * per_sector).reshape(n // own, -1)
 
 
 def edge_keys(pairs: np.ndarray, n_points: int) -> np.ndarray:
@@ -107,8 +121,8 @@ def edge_keys(pairs: np.ndarray, n_points: int) -> np.ndarray:
     return rising[..., 0] * n_points + rising[..., 1]
 
 
-def _repeats(tets: np.ndarray, own: int, count: int, n_points: int) -> bool:
-    shift = own * np.arange(count)[:, None, None]
-    first = tets[: len(tets) // count]
-    wanted = np.sort((first[None] + shift) % n_points, axis=2)
-    return bool(np.array_equal(wanted, np.sort(tets, axis=1).reshape(wanted.shape)))
+def _repeats(tets: np.ndarray, following: np.ndarray, cells: np.ndarray) -> bool:
+    """Whether the cells of every sector follow those of the one before."""
+    rows = np.sort(tets, axis=1)[cells]
+    wanted = np.sort(following[tets], axis=1)[cells]
+    return bool(np.array_equal(wanted, np.roll(rows, -1, axis=0)))

@@ -50,7 +50,9 @@ class CageMesh:
     ``i + k sector_points`` (modulo the whole), cell c of it ``c + k sector_cells``, and every
     sector is the first one turned by 2 pi k/Z, except those in ``altered_sectors``, whose
     vertices a defect moved. Where cracks and missing rivets doubled vertices, the copies come last,
-    and ``doubled`` says of which. ``defects`` lists what each defect delivered.
+    and ``doubled`` says of which. Of a mesh from a file that repeats, ``following`` (n_points,) is
+    the vertex that has a vertex's place in the next sector, and ``sector_tets`` (Z, n) the cells of
+    all sectors. ``defects`` lists what each defect delivered.
     """
 
     points: np.ndarray  # (n_points, 3) float64

@@ -19,6 +19,7 @@ from __future__ import annotations
 import logging
 import re
 from collections.abc import Mapping
+from dataclasses import replace
 from os import SEEK_END
 from pathlib import Path
 from types import MappingProxyType
@@ -38,6 +39,7 @@ from flexcage.mesh.cage_mesh import (
     signed_volumes,
 )
 from flexcage.mesh.quality import check_mesh, nearest_hint
+from flexcage.mesh.repetition import find_repetition
 from flexcage.mesh.sector import orient_outward
 
 log = logging.getLogger(__name__)
@@ -133,7 +135,16 @@ def read_mesh(path: str | Path, *, pocket_count: int | None = None, unit: str = 
     _refuse_missing(mesh, unknown, path)
     check_mesh(mesh, where=str(path))
     _check_size(mesh, path, unit)
-    return mesh
+    return _with_sectors(mesh)
+
+
+def _with_sectors(mesh: CageMesh) -> CageMesh:
+    """The mesh with what repeats in it, if all does."""
+    found = find_repetition(mesh.points, mesh.tets, mesh.pocket_count)
+    if found is None:
+        return mesh
+    info = {**mesh.info, "following": found.following, "sector_tets": found.cells}
+    return replace(mesh, points=found.points, info=MappingProxyType(info))
 
 
 def _read_raw(path: Path) -> Any:

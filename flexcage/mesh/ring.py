@@ -20,7 +20,7 @@ def ring_of(quarter: Quarter, pocket_count: int) -> CageMesh:
     """
     number, base = _sector_numbers(quarter)
     n_sector = len(base)
-    turns = [_turn(2.0 * pi * k / pocket_count) for k in range(pocket_count)]
+    turns = [turn_about_x(2.0 * pi * k / pocket_count) for k in range(pocket_count)]
     points = np.vstack([base @ turn.T for turn in turns])
     cells, groups = _sector_cells(quarter, number)
     total = n_sector * pocket_count
@@ -100,7 +100,7 @@ def _sector_cells(quarter: Quarter, number: np.ndarray) -> tuple[np.ndarray, dic
     return np.vstack(cells), {name: np.vstack(list_) for name, list_ in parts.items()}
 
 
-def _turn(angle: float) -> np.ndarray:
+def turn_about_x(angle: float) -> np.ndarray:
     """Rotation matrix about x by an angle from y towards z."""
     c, s = np.cos(angle), np.sin(angle)
     return np.array([[1.0, 0.0, 0.0], [0.0, c, -s], [0.0, s, c]])

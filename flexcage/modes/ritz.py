@@ -28,6 +28,7 @@ from flexcage.modes.spec import ModesSpec
 
 log = logging.getLogger(__name__)
 
+_TOGETHER = 64  # loads of pockets that are solved at once
 _STIFF = 1.5  # times the middle frequency of crossbeams: no bending of their own
 
 
@@ -173,13 +174,18 @@ def pocket_statics(
     log.debug("static answers of %d pockets, cyclic symmetry: %s", pocket_count, bool(symmetry))
     pockets = range(pocket_count)
     loads = [sparse_pocket_loads(solver.model, k, pocket_count, count=count) for k in pockets]
+    every = sp.hstack(loads, format="csc")
     answers = np.empty((solver.model.n_dof, pocket_count, count))
-    first = solver.solve(loads[0].toarray())
-    answers[:, 0] = first
-    for k in pockets[1:]:
-        turned = symmetry.rotate(first, k) if symmetry else solver.solve(loads[k].toarray())
-        answers[:, k] = turned
-    return sp.hstack(loads, format="csc"), answers
+    if symmetry:
+        first = solver.solve(loads[0].toarray())
+        for k in pockets:
+            answers[:, k] = symmetry.rotate(first, k)
+        return every, answers
+    flat = answers.reshape(every.shape)
+    for k in range(0, every.shape[1], _TOGETHER):
+        some = slice(k, k + _TOGETHER)
+        flat[:, some] = solver.solve(every[:, some].toarray())
+    return every, answers
 
 
 def residual_flexibility(

@@ -25,6 +25,7 @@ from flexcage.stress.operators import deviator
 from flexcage.stress.places import contact_zone, root_places
 from flexcage.stress.recovery import StressRecovery
 
+_KEPT = 48  # fields that are evaluated at once: bounds the memory of all six parts
 _TOGETHER = 33  # right-hand sides of land forces that are solved at once
 
 
@@ -104,7 +105,12 @@ class UnitFields:
     @cached_property
     def modes(self) -> np.ndarray:
         """(parts n_points, n) per unit modal coordinate."""
-        return self._kept(self._recovery.basis.shapes)
+        return self._mode_values.astype(np.float32)
+
+    @cached_property
+    def _mode_values(self) -> np.ndarray:
+        """The same before rounding."""
+        return self._values(self._recovery.basis.shapes)
 
     @cached_property
     def forces(self) -> np.ndarray:
@@ -115,16 +121,13 @@ class UnitFields:
         recovery = self._recovery
         pockets = range(recovery.pocket_count)
         symmetry = find_symmetry(recovery.model, recovery.pocket_count)
+        self._mode_values  # noqa: B018  (before threads share it)
         if symmetry is None:
             recovery.solver.factor()
-            fields = on_all_cores(
-                lambda k: self._kept(self._beyond_modes(self._loads(k)), pocket=k), pockets
-            )
+            fields = on_all_cores(lambda k: self._beyond_modes(self._loads(k), pocket=k), pockets)
         else:
             first = recovery.solver.solve(self._loads(0))
-            fields = on_all_cores(
-                lambda k: self._kept(self._turned(symmetry, first, k), pocket=k), pockets
-            )
+            fields = on_all_cores(lambda k: self._turned(symmetry, first, k), pockets)
         return np.concatenate(fields, axis=1)
 
     @cached_property
@@ -147,10 +150,11 @@ class UnitFields:
             for axis in frame
         ]
         columns = np.stack(loads, axis=1)
+        self._mode_values  # noqa: B018  (before threads share it)
         recovery.solver.factor()
         fields = on_all_cores(
-            lambda first: self._kept(
-                self._beyond_modes(columns[:, first : first + _TOGETHER], recovery.felt_by_lands)
+            lambda first: self._beyond_modes(
+                columns[:, first : first + _TOGETHER], recovery.felt_by_lands
             ),
             range(0, columns.shape[1], _TOGETHER),
         )
@@ -193,31 +197,44 @@ class UnitFields:
 
     def _turned(self, symmetry: CyclicSymmetry, first: np.ndarray, pocket: int) -> np.ndarray:
         static = symmetry.rotate(first, pocket)
-        return self._less_modes(static, self._loads(pocket))
+        return self._less_modes(static, self._loads(pocket), pocket=pocket)
 
-    def _beyond_modes(self, loads: np.ndarray, pushed: np.ndarray | float = 1.0) -> np.ndarray:
-        return self._less_modes(self._recovery.solver.solve(loads), loads, pushed)
+    def _beyond_modes(
+        self,
+        loads: np.ndarray,
+        pushed: np.ndarray | float = 1.0,
+        *,
+        pocket: int | None = None,
+    ) -> np.ndarray:
+        static = self._recovery.solver.solve(loads)
+        return self._less_modes(static, loads, pushed, pocket=pocket)
 
     def _less_modes(
-        self, static: np.ndarray, loads: np.ndarray, pushed: np.ndarray | float = 1.0
+        self,
+        static: np.ndarray,
+        loads: np.ndarray,
+        pushed: np.ndarray | float = 1.0,
+        *,
+        pocket: int | None = None,
     ) -> np.ndarray:
-        """Less what the modes carry, those that the loads push (n,) as 1."""
+        """What is kept of the answers (3N, m) to loads, those of a pocket's forces if it is given,
+        less what the modes carry, those that the loads push (n,) as 1."""
         basis = self._recovery.basis
-        shapes = basis.shapes.reshape(len(loads), -1)
-        work = (shapes.T @ loads) * np.reshape(pushed, (-1, 1))
-        beyond = static - shapes @ np.linalg.solve(basis.stiffness, work)
-        return beyond.reshape(-1, 3, loads.shape[1])
+        work = (basis.shapes.reshape(len(loads), -1).T @ loads) * np.reshape(pushed, (-1, 1))
+        values = self._values(static.reshape(-1, 3, loads.shape[1]), pocket=pocket)
+        values -= self._mode_values @ np.linalg.solve(basis.stiffness, work)
+        return values.astype(np.float32)
 
-    def _kept(self, shapes: np.ndarray, *, pocket: int | None = None) -> np.ndarray:
+    def _values(self, shapes: np.ndarray, *, pocket: int | None = None) -> np.ndarray:
         """What is kept of shapes (N, 3, m), those of a pocket's forces if it is given."""
         forces = None if pocket is None else self._forces(pocket)
         columns = []
-        for first in range(0, shapes.shape[2], 32):  # bounds the memory of all six parts
-            some = slice(first, first + 32)
+        for first in range(0, shapes.shape[2], _KEPT):
+            some = slice(first, first + _KEPT)
             push = None if forces is None else forces[..., some]
             parts = self._parts(self._operator(shapes[:, :, some], push))
             columns.append(parts.transpose(2, 0, 1).reshape(-1, parts.shape[1]))
-        return np.concatenate(columns, axis=1, dtype=np.float32)
+        return np.concatenate(columns, axis=1)
 
 
 class StressFields(UnitFields):

@@ -39,6 +39,9 @@ _ALIKE = 1e-9  # misfit of vertices of corners that share an operator, relative 
 _MOST_KINDS = 16  # of corners; a mesh of more repeats nothing, and its own stresses are taken
 _TOGETHER = 128  # columns that are solved at once
 _VOIGT = ((0, 0), (1, 1), (2, 2), (0, 1), (1, 2), (0, 2))
+_UNIT_TENSORS = np.array(
+    [[[{i, j} == {a, b} for b in range(3)] for a in range(3)] for i, j in _VOIGT], float
+)
 
 
 @dataclass(frozen=True)
@@ -103,11 +106,14 @@ class Fillet:
 
 def _turned(values: np.ndarray, frame: np.ndarray) -> np.ndarray:
     """Stresses (n, m, 6) in the cage's frame of those (n, 6, m) in a corner's."""
+    return (_voigt_turn(frame) @ values).transpose(0, 2, 1)
+
+
+def _voigt_turn(frame: np.ndarray) -> np.ndarray:
+    """Matrix (6, 6) from stresses along a frame's rows (3, 3) to those along the axes."""
     first, second = np.array(_VOIGT).T
-    tensor = np.empty((len(values), 3, 3, values.shape[2]))
-    tensor[:, first, second] = tensor[:, second, first] = values
-    turned = np.einsum("ai,nabm,bj->nijm", frame, tensor, frame, optimize=True)
-    return turned[:, first, second].transpose(0, 2, 1)
+    turned = np.einsum("ai,kab,bj->kij", frame, _UNIT_TENSORS, frame)
+    return turned[:, first, second].T
 
 
 def find_corners(model: FEModel, pocket_count: int) -> list[Corner]:
