@@ -44,7 +44,7 @@ class DissectedBody:
         self.name = f"dense fronts, {len(blocks)} blocks"
         check_factor(self.solve, model.K, held)
         seconds = time.perf_counter() - started
-        log.info("factored %d unknowns with %s in %.1f s", model.n_dof, self.name, seconds)
+        log.debug("factored %d unknowns with %s in %.1f s", model.n_dof, self.name, seconds)
 
     def solve(self, loads: np.ndarray) -> np.ndarray:
         """Displacements (3N, m) of nodal loads (3N, m); reactions at the held dofs are free."""

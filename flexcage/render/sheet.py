@@ -161,6 +161,12 @@ def colour_map(name: str, over: str = VERMILION) -> Any:
     return mpl.colormaps[name].with_extremes(over=over, under=mpl.colormaps[name](0.0))
 
 
+def nothing(ax: Axes, words: str) -> None:
+    """Say in the middle of a plot why it is empty; its values have no scale then."""
+    ax.text(0.5, 0.5, words, transform=ax.transAxes, ha="center", va="center", color=FAINT)
+    ax.set(ylim=(0.0, 1.0), yticks=[0.0])
+
+
 def rounded_up(value: float) -> float:
     """The next round figure: two digits at most, steps of a fifth at most."""
     if not value > 0.0:

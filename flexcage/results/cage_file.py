@@ -38,6 +38,7 @@ SHARED = "cages"  # folder of a study, with one file for each distinct cage
 LARGE = ("mesh", "basis")  # groups left out where a run keeps no cage
 SAME = 1e-6  # of the largest displacement of a mode: what another processor's rounding may change
 _TEXT = "texts"
+_TABLE = "info_"  # before the names of a mesh's arrays beside points and tetrahedra
 
 Groups = Mapping[str, Mapping[str, np.ndarray]]
 
@@ -184,7 +185,10 @@ def shared_cage(study: Path, digest: str) -> Path:
 
 
 def _mesh_arrays(mesh: CageMesh) -> dict[str, np.ndarray]:
-    """A mesh as arrays: the triangles of all groups in a row, with names and counts."""
+    """A mesh as arrays: the triangles of all groups in a row, with names and counts; arrays of its
+    ``info`` by their names."""
+    tables = {k: _small(v) for k, v in mesh.info.items() if isinstance(v, np.ndarray)}
+    values = {k: v for k, v in mesh.info.items() if k not in tables}
     names = list(mesh.groups)
     triangles = [np.asarray(mesh.groups[name]).reshape(-1, 3) for name in names]
     return {
@@ -194,7 +198,8 @@ def _mesh_arrays(mesh: CageMesh) -> dict[str, np.ndarray]:
         "group_names": np.array(names, dtype=str),
         "group_sizes": np.array([len(t) for t in triangles], np.int64),
         "pocket_count": np.array(mesh.pocket_count),
-        "info": np.array(json.dumps(_plain(mesh.info))),
+        "info": np.array(json.dumps(_plain(values))),
+        **{f"{_TABLE}{name}": table for name, table in tables.items()},
     }
 
 
@@ -216,6 +221,8 @@ def _mesh_from(a: Mapping[str, np.ndarray]) -> CageMesh:
     info = {
         k: tuple(v) if isinstance(v, list) else v for k, v in json.loads(str(a["info"])).items()
     }
+    tables = [name for name in a if name.startswith(_TABLE)]
+    info |= {name.removeprefix(_TABLE): a[name].astype(np.int64) for name in tables}
     triangles = np.split(a["triangles"].astype(np.int64), np.cumsum(a["group_sizes"])[:-1])
     groups = dict(zip((str(name) for name in a["group_names"]), triangles))
     return CageMesh(

@@ -34,6 +34,8 @@ def record():
             {
                 "source": "built",
                 "sector_points": 5,
+                "following": np.array([1, 2, 3, 4, 0]),
+                "sector_tets": np.array([[1], [0]]),
                 "altered_sectors": (0, np.int64(3)),
                 "volume_change": np.float64(1e-4),
                 "defects": [{"kind": "x", "defect": object(), "asked": 1e-4}],
@@ -54,6 +56,8 @@ def record():
 
 def test_all_comes_back(tmp_path, record):
     found = read_cage(write_cage(tmp_path / "deeper" / "cage.zip", record))
+    np.testing.assert_array_equal(found.mesh.info["following"], [1, 2, 3, 4, 0])
+    np.testing.assert_array_equal(found.mesh.info["sector_tets"], [[1], [0]])
     assert found.digest == record.digest and len(record.digest) == 16
     for kind, arrays in record.reduced.items():
         for name, array in arrays.items():
