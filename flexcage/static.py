@@ -97,7 +97,8 @@ def write_static(case: StaticCase, solution: StaticSolution, folder: Path) -> li
         written.append(
             static_picture(
                 e.azimuth, e.force, e.angle, e.pressure, folder / "static.png",
-                load=solution.load, title=solution.title, speed=solution.speed,
+                load=solution.load, title=solution.title, note=case.name,
+                speed=solution.speed,
             )
         )  # fmt: skip
     except EnvironmentLacks as exc:

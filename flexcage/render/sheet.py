@@ -220,9 +220,10 @@ def pixels_of(figure: Figure) -> np.ndarray:
 
 
 def label(name: str) -> str:
-    """A name that a user gave, as a heading shows it: one line, not too long, no formula."""
-    line = " ".join(name.split())
-    shown = line if len(line) <= _LONGEST else f"{line[: _LONGEST - 1]}…"
+    """A name that a user gave, as a heading shows it: one line, not too long, no formula. Of a long
+    one both ends are kept, so that folders of one place can be told apart."""
+    line, half = " ".join(name.split()), _LONGEST // 2
+    shown = line if len(line) <= _LONGEST else f"{line[: half - 1]}…{line[-half:]}"
     return shown.replace("$", r"\$")
 
 
