@@ -58,7 +58,7 @@ class Progress:
             return
         if kind is None and self.total is not None:
             self.done = self.total
-        elapsed = _clock(time.monotonic() - self._start)
+        elapsed = clock(time.monotonic() - self._start)
         word = "done" if kind is None else "stopped"
         share = "" if self.total is None else f" at {self._percent():.0f} %"
         self._put(f"{self.label}: {word}{share} after {elapsed}")
@@ -115,7 +115,7 @@ class Progress:
             self._put(f"{self.label} ...")
             return
         left = self.remaining()
-        estimate = f", about {_clock(left)} left" if left is not None else ""
+        estimate = f", about {clock(left)} left" if left is not None else ""
         self._put(f"{self.label}: {self._percent():3.0f} %{estimate}")
 
     def _put(self, text: str) -> None:
@@ -137,7 +137,8 @@ class Silent(Progress):
         super().__init__(total, label, enabled=False)
 
 
-def _clock(seconds: float) -> str:
+def clock(seconds: float) -> str:
+    """A duration as people say it: 12 s, 3 min 05 s, 2 h 10 min."""
     if seconds < 60:
         return f"{seconds:.0f} s"
     minutes, rest = divmod(int(seconds + 0.5), 60)

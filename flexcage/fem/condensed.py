@@ -50,8 +50,9 @@ def find_parts(model: FEModel) -> RingParts | None:
     own, following = sectors.cells[:2]
     middle = model.points[model.tets[own]].mean(axis=1)
     upper = np.arctan2(middle[:, 2], middle[:, 1]) > 0.0  # of sector 0, around psi = 0
-    cells = model.cells[np.concatenate([own[upper], following[~upper]])]
-    places = sectors.followed(np.unique(sectors.place[cells]))
+    part = np.concatenate([own[upper], following[~upper]])
+    cells = sectors.place[model.cells[part]]
+    places = sectors.followed(np.unique(cells))
     shared = np.isin(places[0], places[-1]), np.isin(places[0], places[1])
     cuts = places[:, shared[0]]
     inside = places[:, ~(shared[0] | shared[1])]
@@ -63,8 +64,7 @@ def find_parts(model: FEModel) -> RingParts | None:
         return None
     if np.isin(sectors.place[sectors.doubled], cuts).any():
         return None
-    first = inside[0]
-    blocks = dissect(model.nodes[first], sp.csr_matrix(model.mass_scalar[first][:, first]))
+    blocks = dissect(model.points[model.tets[part]].mean(axis=1), cells, inside[0])
     order = np.concatenate(blocks)
     sizes = np.array([len(block) for block in blocks])
     parts, sizes_of = zip(*(_with_doubles(own[order], sizes, sectors) for own in inside))

@@ -13,7 +13,6 @@ import logging
 import time
 
 import numpy as np
-import scipy.sparse as sp
 
 from flexcage.fem.condensed import dofs_of
 from flexcage.fem.dissection import dissect
@@ -32,7 +31,8 @@ class DissectedBody:
 
     def __init__(self, model: FEModel, held: np.ndarray) -> None:
         started = time.perf_counter()
-        blocks = dissect(_places(model.nodes), sp.csr_matrix(model.mass_scalar))
+        middles = _places(model.points[model.tets].mean(axis=1))
+        blocks = dissect(middles, model.cells, np.arange(len(model.nodes)))
         order = dofs_of(np.concatenate(blocks))
         free = ~np.isin(order, held)
         of_block = np.repeat(np.arange(len(blocks)), [3 * len(block) for block in blocks])
@@ -60,9 +60,9 @@ class DissectedBody:
         return answer.reshape(loads.shape)
 
 
-def _places(nodes: np.ndarray) -> np.ndarray:
-    """Coordinates (N, 3) across which a body is cut: x, r, psi of a ring about x, else x, y, z."""
-    radius = np.hypot(nodes[:, 1], nodes[:, 2])
+def _places(points: np.ndarray) -> np.ndarray:
+    """Coordinates (n, 3) across which a body is cut: x, r, psi of a ring about x, else x, y, z."""
+    radius = np.hypot(points[:, 1], points[:, 2])
     if radius.min() < _HOLLOW * radius.max():
-        return nodes
-    return np.stack([nodes[:, 0], radius, np.arctan2(nodes[:, 2], nodes[:, 1])], axis=1)
+        return points
+    return np.stack([points[:, 0], radius, np.arctan2(points[:, 2], points[:, 1])], axis=1)

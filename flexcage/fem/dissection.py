@@ -1,8 +1,9 @@
 """Order of elimination by nested dissection: separators halve a mesh again and again.
 
-Nodes are split by a plane across a coordinate axis, and those on one side of it that touch the
-other are eliminated after both halves, which then do not couple (A. George, SIAM J. Numer. Anal.
-10 (1973) 345).
+Elements are split by their centres across a coordinate axis. Nodes that both halves share are
+eliminated after all others, which then do not couple (A. George, SIAM J. Numer. Anal. 10 (1973)
+345). Such a separator is a surface of element faces, and has half the nodes of the layer that a
+plane between nodes leaves.
 """
 
 from __future__ import annotations
@@ -11,63 +12,61 @@ import numpy as np
 import scipy.sparse as sp
 
 _LEAF = 45  # nodes that are not split further
-_SMALLEST = 0.3  # share of the nodes on either side of a plane, at least
+_SMALLEST = 0.3  # share of the elements on either side of a plane, at least
 
 
-def dissect(points: np.ndarray, adjacency: sp.csr_matrix) -> list[np.ndarray]:
-    """Blocks of nodes (N,) in order of elimination, from their places (N, 3) and connections."""
-    graph = _Graph(points, adjacency)
+def dissect(middles: np.ndarray, cells: np.ndarray, nodes: np.ndarray) -> list[np.ndarray]:
+    """Blocks of the ``nodes`` (n,) in order of elimination, as places in ``nodes``, from the
+    elements that have any of them: their centres (m, d) and nodes (m, k)."""
+    mesh = _Mesh(middles, cells, nodes)
     blocks: list[np.ndarray] = []
-    graph.cut(np.arange(len(points)), blocks)
+    mesh.cut(np.arange(len(nodes)), np.arange(len(cells)), blocks)
     return [block for block in blocks if len(block)]
 
 
-class _Graph:
-    def __init__(self, points: np.ndarray, adjacency: sp.csr_matrix) -> None:
-        self._points, self._starts, self._neighbours = points, adjacency.indptr, adjacency.indices
-        self._rank = np.full(len(points), -1)  # along an axis among the nodes that are split
+class _Mesh:
+    def __init__(self, middles: np.ndarray, cells: np.ndarray, nodes: np.ndarray) -> None:
+        self._middles = middles
+        number = np.full(max(int(cells.max(initial=0)), int(nodes.max(initial=0))) + 1, -1)
+        number[nodes] = np.arange(len(nodes))
+        own = number[cells]
+        element = np.broadcast_to(np.arange(len(cells))[:, None], cells.shape)[own >= 0]
+        incident = sp.csr_matrix(
+            (np.ones(len(element), np.int8), (own[own >= 0], element)), (len(nodes), len(cells))
+        )
+        self._starts, self._elements = incident.indptr, incident.indices
+        self._rank = np.empty(len(cells), np.int64)  # along an axis among elements that are split
 
-    def cut(self, nodes: np.ndarray, blocks: list[np.ndarray]) -> None:
-        """Append the blocks of a set of nodes."""
-        if len(nodes) <= _LEAF:
+    def cut(self, nodes: np.ndarray, elements: np.ndarray, blocks: list[np.ndarray]) -> None:
+        """Append the blocks of nodes that only these elements have."""
+        if len(nodes) <= _LEAF or len(elements) < 2:
             blocks.append(nodes)
             return
-        lower, upper, separator = min(
-            (self._split(nodes, axis) for axis in range(3)), key=lambda parts: len(parts[2])
-        )
-        self.cut(lower, blocks)
-        self.cut(upper, blocks)
-        blocks.append(separator)
-
-    def _split(self, nodes: np.ndarray, axis: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """Both sides and the smallest separator of the planes across one axis."""
-        n = len(nodes)
-        nodes = nodes[np.argsort(self._points[nodes, axis], kind="stable")]
-        own = np.arange(n)
-        first, last = self._reach(nodes, own)
-        low = _spans(own, last, n)  # nodes below a plane that touch one above, for every plane
-        high = _spans(first, own, n)
-        margin = int(_SMALLEST * n)
-        planes = slice(margin, n - margin)
-        below = low[planes].min() <= high[planes].min()
-        at = margin + int(np.argmin((low if below else high)[planes])) + 1  # nodes below the plane
-        if below:
-            between = (own < at) & (last >= at)
-        else:
-            between = (own >= at) & (first < at)
-        return nodes[(own < at) & ~between], nodes[(own >= at) & ~between], nodes[between]
-
-    def _reach(self, nodes: np.ndarray, own: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Lowest and highest rank among every node's neighbours and itself."""
-        self._rank[nodes] = own
         starts, counts = self._starts[nodes], np.diff(self._starts)[nodes]
         offsets = np.concatenate([[0], np.cumsum(counts)[:-1]])
         entries = np.repeat(starts - offsets, counts) + np.arange(counts.sum())
-        ranks = self._rank[self._neighbours[entries]]
-        self._rank[nodes] = -1
-        last = np.maximum.reduceat(ranks, offsets)
-        first = np.minimum.reduceat(np.where(ranks < 0, len(nodes), ranks), offsets)
-        return np.minimum(first, own), np.maximum(last, own)
+        around = self._elements[entries], offsets
+        splits = [self._split(elements, axis, around) for axis in range(self._middles.shape[1])]
+        _, order, at, first, last = min(splits, key=lambda split: split[0])
+        below, above = last <= at, first > at
+        self.cut(nodes[below], elements[order[: at + 1]], blocks)
+        self.cut(nodes[above], elements[order[at + 1 :]], blocks)
+        blocks.append(nodes[~(below | above)])
+
+    def _split(
+        self, elements: np.ndarray, axis: int, around: tuple[np.ndarray, np.ndarray]
+    ) -> tuple[int, np.ndarray, int, np.ndarray, np.ndarray]:
+        """The smallest separator of the planes across one axis: how many nodes, the order of
+        elements, the last below the plane, and the lowest and highest rank around every node."""
+        n = len(elements)
+        order = np.argsort(self._middles[elements, axis], kind="stable")
+        self._rank[elements[order]] = np.arange(n)
+        ranks, offsets = self._rank[around[0]], around[1]
+        first, last = np.minimum.reduceat(ranks, offsets), np.maximum.reduceat(ranks, offsets)
+        shared = _spans(first, last, n)
+        margin = int(_SMALLEST * n)
+        at = margin + int(np.argmin(shared[margin : n - margin - 1]))
+        return int(shared[at]), order, at, first, last
 
 
 def _spans(first: np.ndarray, last: np.ndarray, n: int) -> np.ndarray:

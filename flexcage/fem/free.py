@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from functools import cached_property
 
 import numpy as np
@@ -29,6 +30,8 @@ class FreeBodySolver:
 
     def __init__(self, model: FEModel, *, kind: str = "auto") -> None:
         self.model, self._kind = model, kind
+        #: called with the number of loads after every solution, to tell how far a long step is
+        self.solved: Callable[[int], None] | None = None
 
     @cached_property
     def solver(self) -> HeldBody | DissectedBody | CondensedRing:
@@ -57,6 +60,8 @@ class FreeBodySolver:
         answer = self.solver.solve(loads)
         rigid = self.model.rigid_part(answer)
         subtract_product(answer, self._rigid_and_inertia, np.concatenate([rigid, work]))
+        if self.solved is not None:
+            self.solved(loads.shape[1])
         return answer
 
     def solve_balanced(self, loads: np.ndarray) -> np.ndarray:

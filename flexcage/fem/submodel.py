@@ -63,7 +63,7 @@ class Submodel:
     def _inside(self) -> tuple[np.ndarray, sp.csr_matrix, Elimination]:
         """Dofs off the cut in order of elimination, what couples them with the cut, factors."""
         free, model = np.setdiff1d(np.arange(len(self.model.nodes)), self.cut), self.model
-        blocks = dissect(model.nodes[free], sp.csr_matrix(model.mass_scalar[free][:, free]))
+        blocks = dissect(model.points[model.tets].mean(axis=1), model.cells, free)
         dofs = dofs_of(free[np.concatenate(blocks)])
         rows = model.K[dofs]
         factors = Elimination(rows[:, dofs], [3 * len(block) for block in blocks])

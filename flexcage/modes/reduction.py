@@ -13,6 +13,7 @@ from flexcage.core.cache import cached_arrays
 from flexcage.core.errors import InputError
 from flexcage.core.hashing import content_hash
 from flexcage.core.threads import one_blas_thread
+from flexcage.fem.effort import told_modes
 from flexcage.fem.free import FreeBodySolver
 from flexcage.fem.model import FEModel, assemble
 from flexcage.geometry.ball_cage_defects import BallCageDefect, pocket_shapes
@@ -164,10 +165,10 @@ class CageReduction:
 
     @one_blas_thread
     def _make_basis(self) -> dict[str, np.ndarray]:
-        count = self.mesh.pocket_count
-        return basis_arrays(
-            build_basis(self.model, pocket_count=count, spec=self.spec, solver=self.solver)
-        )
+        count, solver = self.mesh.pocket_count, self.solver
+        with told_modes(solver):
+            basis = build_basis(self.model, pocket_count=count, spec=self.spec, solver=solver)
+        return basis_arrays(basis)
 
 
 def reduce_cage(

@@ -17,6 +17,7 @@ import scipy.sparse as sp
 from scipy.linalg import eigh
 
 from flexcage.core.errors import InputError
+from flexcage.core.threads import on_all_cores
 from flexcage.fem.free import FreeBodySolver
 from flexcage.fem.modal import free_modes
 from flexcage.fem.symmetry import find_symmetry
@@ -182,9 +183,13 @@ def pocket_statics(
             answers[:, k] = symmetry.rotate(first, k)
         return every, answers
     flat = answers.reshape(every.shape)
-    for k in range(0, every.shape[1], _TOGETHER):
-        some = slice(k, k + _TOGETHER)
+    solver.factor()
+
+    def solve(first: int) -> None:
+        some = slice(first, first + _TOGETHER)
         flat[:, some] = solver.solve(every[:, some].toarray())
+
+    on_all_cores(solve, range(0, every.shape[1], _TOGETHER))
     return every, answers
 
 

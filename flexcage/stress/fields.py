@@ -18,6 +18,7 @@ from typing import Protocol
 import numpy as np
 
 from flexcage.core.threads import on_all_cores
+from flexcage.fem.effort import told_stress
 from flexcage.fem.symmetry import CyclicSymmetry, find_symmetry
 from flexcage.modes.pockets import pocket_frames
 from flexcage.stress.midpoints import edges_across
@@ -119,16 +120,25 @@ class UnitFields:
 
     def _force_fields(self) -> np.ndarray:
         recovery = self._recovery
-        pockets = range(recovery.pocket_count)
         symmetry = find_symmetry(recovery.model, recovery.pocket_count)
-        self._mode_values  # noqa: B018  (before threads share it)
-        if symmetry is None:
-            recovery.solver.factor()
-            fields = on_all_cores(lambda k: self._beyond_modes(self._loads(k), pocket=k), pockets)
-        else:
-            first = recovery.solver.solve(self._loads(0))
-            fields = on_all_cores(lambda k: self._turned(symmetry, first, k), pockets)
-        return np.concatenate(fields, axis=1)
+        first = self._loads(0)
+        every = recovery.pocket_count * first.shape[1]
+        with told_stress(recovery.model, f"{every} forces in pockets", every) as done:
+            self._mode_values  # noqa: B018  (before threads share it)
+            if symmetry is None:
+                recovery.solver.factor()
+            else:
+                answer = recovery.solver.solve(first)
+
+            def fields(pocket: int) -> np.ndarray:
+                if symmetry is None:
+                    found = self._beyond_modes(self._loads(pocket), pocket=pocket)
+                else:
+                    found = self._turned(symmetry, answer, pocket)
+                done(first.shape[1])
+                return found
+
+            return np.concatenate(on_all_cores(fields, range(recovery.pocket_count)), axis=1)
 
     @cached_property
     def land_forces(self) -> np.ndarray:
@@ -150,15 +160,18 @@ class UnitFields:
             for axis in frame
         ]
         columns = np.stack(loads, axis=1)
-        self._mode_values  # noqa: B018  (before threads share it)
-        recovery.solver.factor()
-        fields = on_all_cores(
-            lambda first: self._beyond_modes(
-                columns[:, first : first + _TOGETHER], recovery.felt_by_lands
-            ),
-            range(0, columns.shape[1], _TOGETHER),
-        )
-        return np.concatenate(fields, axis=1)
+        every = columns.shape[1]
+        with told_stress(recovery.model, f"{every} forces on lands", every) as done:
+            self._mode_values  # noqa: B018  (before threads share it)
+            recovery.solver.factor()
+
+            def fields(first: int) -> np.ndarray:
+                some = columns[:, first : first + _TOGETHER]
+                found = self._beyond_modes(some, recovery.felt_by_lands)
+                done(some.shape[1])
+                return found
+
+            return np.concatenate(on_all_cores(fields, range(0, every, _TOGETHER)), axis=1)
 
     def reduced_forces(self, station_forces: np.ndarray) -> np.ndarray:
         """Forces (nt, Z per_pocket) of ``forces``' columns from (nt, Z, F, n_st, 3)."""

@@ -19,8 +19,8 @@ def ordered():
     """A stiff sparse matrix in an order of elimination, and its blocks but for what is left."""
     model = assemble(box((8e-3, 3e-3, 2e-3), (8, 3, 2)), MATERIALS["brass"])
     matrix = (model.K + 1e10 * sp.kron(model.mass_scalar, sp.eye(3))).tocsr()
-    adjacency = model.mass_scalar[LEFT // 3 :][:, LEFT // 3 :]
-    blocks = dissect(model.nodes[LEFT // 3 :], sp.csr_matrix(adjacency))
+    middles = model.points[model.tets].mean(axis=1)
+    blocks = dissect(middles, model.cells, np.arange(LEFT // 3, len(model.nodes)))
     nodes = np.concatenate([LEFT // 3 + np.concatenate(blocks), np.arange(LEFT // 3)])
     order = (3 * nodes[:, None] + np.arange(3)).ravel()
     return sp.csr_matrix(matrix[order][:, order]), [3 * len(block) for block in blocks]
@@ -28,7 +28,8 @@ def ordered():
 
 def test_separators_part_what_they_should():
     model = assemble(box((8e-3, 3e-3, 2e-3), (8, 3, 2)), MATERIALS["brass"])
-    blocks = dissect(model.nodes, model.mass_scalar)
+    every = np.arange(len(model.nodes))
+    blocks = dissect(model.points[model.tets].mean(axis=1), model.cells, every)
     np.testing.assert_array_equal(np.sort(np.concatenate(blocks)), np.arange(len(model.nodes)))
     last = blocks[-1]  # without it the body falls apart
     rest = np.setdiff1d(np.arange(len(model.nodes)), last)
