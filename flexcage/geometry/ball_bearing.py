@@ -30,6 +30,7 @@ class BallBearing(Bearing):
 
     cage_spec: ClassVar[Spec] = BallCage
     element: ClassVar[str] = "ball"
+    places: ClassVar[tuple[str, ...]] = ("race", "pocket")
     in_motion: ClassVar[bool] = True
     explicit_only: ClassVar[bool] = True
     carries_axial_load: ClassVar[bool] = True
