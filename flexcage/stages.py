@@ -245,7 +245,7 @@ def _bearing_of(case: Case, mesh: CageMesh, cage: CageReduction | None) -> Beari
         body = rigid_from_tets(mesh.points, mesh.tets, case.cage.material.density)
         interface = rigid_interface_of(case.cage, pocket_count=Z, defects=case.all_defects)
     else:
-        body = flexible_from_reduction(cage, case.modes)
+        body = flexible_from_reduction(cage, case.modes.damped_as(case.cage.material))
         interface = cage.interface
     model = build_model(
         case.bearing, case.cage, body, interface, contacts=case.contacts,

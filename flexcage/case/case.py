@@ -45,7 +45,7 @@ from flexcage.solve.options import SolverOptions
 from flexcage.system.spec import Constraint, Drive, Limits, Load, Mount, StartOptions
 
 CAGE_MODELS = ("flexible", "rigid")
-_NOT_PHYSICS = ("name", "description", "preset")
+_NOT_PHYSICS = ("name", "description", "preset", "given")
 # In text the cage's model stands with the cage; the preset, with the bearing.
 ALIASES = {"cage.model": "cage_model", "bearing.preset": "preset"}
 
@@ -88,6 +88,10 @@ class Case:
     output: OutputOptions = option(OutputOptions(), doc="what is kept of a run")
     limits: Limits = option(Limits(), doc="limits beyond which a start is refused")
     seed: int = option(0, doc="seed of everything random in a bearing: sizes, places", minimum=0)
+    given: tuple[str, ...] | None = dataclasses.field(
+        default=None, compare=False,
+        metadata={"doc": "paths of values that the user gave; a preset's and defaults are not"},
+    )  # fmt: skip
 
     def __post_init__(self) -> None:
         check_spec(self)
@@ -107,6 +111,7 @@ class Case:
     ) -> Case:
         """Case from nested tables as TOML gives them; ``folder`` is where relative paths start."""
         merged = with_preset(without_aliases(table))
+        merged.setdefault("given", sorted(path for path, _ in flat(without_aliases(table))))
         refuse_without_motion(merged.get("bearing"))
         merged.pop("static", None)  # read by the static solution alone
         merged = _with_mesh_file(merged, folder or Path.cwd())
@@ -129,7 +134,10 @@ class Case:
         A path is dotted ("defects.0.displacement"); a value is text with its unit, an SI number
         (unless ``si`` is False), a spec, or a table. All changes are made before the check.
         """
-        return varied(self, _Unchecked, {**as_pairs(path, value), **changes}, si=si)
+        pairs = {**as_pairs(path, value), **changes}
+        if self.given is not None and "given" not in pairs:
+            pairs["given"] = tuple(sorted({*self.given, *_given_by(pairs)}))
+        return varied(self, _Unchecked, pairs, si=si)
 
     def to_table(self) -> dict[str, Any]:
         """Nested tables of texts with units, complete: nothing is left to defaults."""
@@ -157,8 +165,9 @@ class Case:
         fields = [f for f in dataclasses.fields(self) if counts(self, f)]
         physics = {f.name: getattr(self, f.name) for f in fields if f.name not in _NOT_PHYSICS}
         physics["contacts"] = dataclasses.replace(self.contacts, land=self.land)
+        physics["modes"] = modes = self.modes.damped_as(self.cage.material)
         if self.cage_model == "rigid" or isinstance(self.cage, BallCage):
-            physics["modes"] = dataclasses.replace(self.modes, attachments="linear")
+            physics["modes"] = dataclasses.replace(modes, attachments="linear")
         file = Path(self.mesh.file)
         content = b""
         if self.mesh.file and file.is_file():
@@ -211,7 +220,9 @@ class Case:
 
     @property
     def assumptions(self) -> dict[str, str]:
-        """Values that no source gives and that this case left as they were: path to reason."""
+        """Values that count in this case, that no source gives and that nobody gave: path to
+        reason. Of a case that was made of objects, a value as by default is one that nobody gave.
+        """
         found = dict(_standing_assumptions(self, ""))
         if self.preset:
             preset = load_preset(self.preset)
@@ -220,7 +231,17 @@ class Case:
                 origin = getattr(preset, room)
                 if (value := _at(self, path)) is not None and value == _at(origin, rest):
                     found[path] = reason
-        return found
+        given = set() if self.given is None else set(self.given)
+        return {k: v for k, v in found.items() if k not in given and self._reads(k)}
+
+    def _reads(self, path: str) -> bool:
+        """Does anything read the value at a dotted path, in a bearing and cage such as these?"""
+        room, _, rest = path.partition(".")
+        if room == "contacts":
+            places = self.bearing.places
+            met = self.bearing.land(self.cage) is not None and self.land.kind != "none"
+            return rest.partition(".")[0] in (*places, *(("land",) if met else ()))
+        return room != "modes" or self.cage_model == "flexible"
 
     def __repr__(self) -> str:
         defects = f", {len(self.defects)} defect(s)" if self.defects else ""
@@ -241,6 +262,16 @@ def _with_cage(table: dict[str, Any], binder: Binder) -> dict[str, Any]:
     bearing = binder.bind(Bearing, table["bearing"], "bearing")
     cage = binder.bind(bearing.cage_spec, table["cage"], "cage")
     return {**table, "bearing": bearing, "cage": cage}
+
+
+def _given_by(pairs: Mapping[str, Any]) -> Iterator[str]:
+    """Paths of the values that changes give, those of a table or a spec one by one."""
+    for path, value in pairs.items():
+        if isinstance(value, Mapping):
+            yield from (inner for inner, _ in flat(value, path))
+        elif dataclasses.is_dataclass(value):
+            yield from (inner for inner, _ in flat(_as_table(value), path))
+        yield path
 
 
 def as_pairs(path: Any, value: Any) -> dict[str, Any]:

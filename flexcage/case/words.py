@@ -9,6 +9,7 @@ from typing import Any
 from flexcage.case.case import Case
 from flexcage.case.extensions import sources
 from flexcage.core import units
+from flexcage.core.binding import to_table
 from flexcage.geometry.ball_bearing import BallBearing
 from flexcage.geometry.ball_cage_defects import (
     DisplacedPocket,
@@ -322,6 +323,8 @@ def _text(value: Any) -> str:
 def assumed(case: Case) -> dict[str, tuple[str, str]]:
     """Values that no source gives: by path, the value as a case file writes it and the reason."""
     table = case.to_table()
+    table["contacts"]["land"] = to_table(case.land)
+    table["modes"] = to_table(case.modes.damped_as(case.cage.material))
     return {path: (_value(table, path), why) for path, why in case.assumptions.items()}
 
 

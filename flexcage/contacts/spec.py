@@ -32,7 +32,7 @@ class NormalLaw:
     law: str = option("restitution", doc="name of the law", choices=NORMAL_LAWS)
     restitution: float = option(
         0.9, doc="coefficient of restitution e", minimum=0.01, maximum=1.0, of=("restitution",),
-        assumption="no source gives one: 0.9 for oiled steel on steel, 0.7 at cage and ribs",
+        assumption="no source gives one: 0.9 for oiled steel on steel, 0.7 elsewhere",
     )  # fmt: skip
     speed_floor: float = quantity(
         "m/s", 0.05, doc="least onset speed v0", above=0.0, of=("restitution",),
@@ -84,7 +84,7 @@ class FrictionLaw:
     )  # fmt: skip
     peak_speed: float = quantity(
         "m/s", 0.3, doc="sliding speed of the maximum", above=0.0, of=("traction",),
-        assumption="2.3 % of an N1013's rolling speed at 6000 rpm; loaded slip follows from it",
+        assumption="about 2 % of a rolling speed of 13 m/s; loaded slip follows from it",
     )  # fmt: skip
     high_speed: float = option(
         0.03, doc="traction at large sliding speed", minimum=0.0, maximum=MOST_FRICTION,
@@ -220,7 +220,7 @@ class Lubricant:
     """Lubricant and what it does apart from traction: rolling resistance and drag."""
 
     name: str = option(
-        "ISO VG 32 at 70 C", doc="name", assumption="the papers give neither oil nor temperature"
+        "ISO VG 32 at 70 C", doc="name", assumption="neither oil nor temperature is given"
     )
     viscosity: float = quantity(
         "Pa*s", 0.01, doc="dynamic viscosity", above=0.0,
@@ -237,8 +237,8 @@ class Lubricant:
     )  # fmt: skip
     oil_fraction: float = option(
         0.01, doc="oil volume fraction in the space", minimum=0.0, maximum=1.0,
-        assumption="drip or oil-air: in an N1013 at 6000 rpm 1.25 cm^3/min leave as much by "
-        "Parker's formula (NASA TP-2275, 1984) as a fraction; a jet's 0.1 to 1 l/min 5 to 12 %",
+        assumption="drip or oil-air: 1.25 cm^3/min leave as much in a bore of 65 mm at 6000 rpm by "
+        "Parker's formula (NASA TP-2275, 1984); a jet's 0.1 to 1 l/min 5 to 12 %",
     )  # fmt: skip
     rolling_resistance: str = option(
         "blended", doc="rolling resistance", choices=("none", "goksem_hargreaves", "blended"),

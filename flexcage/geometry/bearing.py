@@ -71,6 +71,8 @@ class Bearing:
     kind: ClassVar[str] = "bearing"
     element: ClassVar[str] = "element"
     cage_spec: ClassVar[Spec]
+    # contacts of which [contacts] speaks, beside the cage's land
+    places: ClassVar[tuple[str, ...]] = ("race", "pocket", "side", "rib")
     carries_axial_load: ClassVar[bool] = False  # in a run, with the ring free axially and in tilt
     in_motion: ClassVar[bool] = False  # are there equations of motion for this type?
     elsewhere: ClassVar[Mapping[str, str]] = {}  # patterns of keys that it has not: what there is

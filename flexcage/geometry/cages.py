@@ -29,7 +29,11 @@ class WindowCage(Cage):
     pocket_width: float = quantity("mm", doc="circumferential pocket width Cq", above=0.0)
     pocket_length: float = quantity("mm", doc="axial pocket length Cp", above=0.0)
     fillet_radius: float = quantity(
-        "mm", 0.5e-3, doc="pocket corner fillet radius", above=0.0, assumption="not in the paper"
+        "mm",
+        0.5e-3,
+        doc="pocket corner fillet radius",
+        above=0.0,
+        assumption="not given; a corner as cutters leave it: without one, root stress is singular",
     )
     guidance: str = option("roller", doc="what guides the cage radially", choices=GUIDANCE)
 

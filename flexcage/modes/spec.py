@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from flexcage.core.spec import option, quantity
+from flexcage.geometry.materials import OILED_ASSEMBLY, Material
 
 KINDS: dict[str, type | None] = dict.fromkeys(("ritz", "craig_bampton", "free_free"))
 
@@ -44,12 +45,14 @@ class ModesSpec:
         choices=("linear", "quadratic"),
         former="linear",
     )
-    damping: float = option(
-        0.01,
-        doc="modal damping ratio where neither ratios nor a band say otherwise",
+    damping: float | None = option(
+        None,
+        doc="modal damping ratio where neither ratios nor a band say otherwise; by default that of "
+        "the cage's material",
         minimum=0.0,
         maximum=1.0,
-        assumption="order of a machined metal part in an oiled assembly; no source gives one",
+        assumption="0.01 for joints and oil, and half of the material's loss factor, which metals "
+        "hardly have; no source gives a cage's own",
     )
     ratios: tuple[float, ...] = option(
         (),
@@ -71,12 +74,17 @@ class ModesSpec:
         "of an N1013's cage at 2709 rpm rises by 0.25 %, others by less",
     )
 
+    def damped_as(self, material: Material) -> ModesSpec:
+        """The same with a damping ratio as a number: the material's where none is given."""
+        return replace(self, damping=material.modal_damping) if self.damping is None else self
+
     def damping_ratios(self, frequencies: np.ndarray) -> np.ndarray:
         """Damping ratio of every mode (n,) from its number and its frequency [Hz].
 
         A band wins over the mode's own ratio, and the first band over the others.
         """
-        ratios = np.full(len(frequencies), self.ratios[-1] if self.ratios else self.damping)
+        common = OILED_ASSEMBLY if self.damping is None else self.damping
+        ratios = np.full(len(frequencies), self.ratios[-1] if self.ratios else common)
         given = self.ratios[: len(ratios)]
         ratios[: len(given)] = given
         for band in reversed(self.bands):
