@@ -255,8 +255,9 @@ class RunStore(MemoryRunStore):
         path = Path(path)
         commit = read_commit(path)
         try:
-            mode = "r+" if os.access(path, os.W_OK) else "r"
-            group = zarr.open_group(str(path), mode=mode, zarr_format=3)
+            group = zarr.open_group(
+                str(path), mode="r+" if os.access(path, os.W_OK) else "r", zarr_format=3
+            )
             layout = _layout_from(group)
             for v in layout.variables:
                 _array(group, v.name)
