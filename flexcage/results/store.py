@@ -260,8 +260,12 @@ class RunStore(MemoryRunStore):
         path = Path(path)
         commit = read_commit(path)
         try:
-            group = zarr.open_group(str(path), mode="r+" if os.access(path, os.W_OK) else "r")
+            group = zarr.open_group(
+                str(path), mode="r+" if os.access(path, os.W_OK) else "r", zarr_format=3
+            )
             layout = _layout_from(group)
+            for v in layout.variables:
+                _array(group, v.name)
         except InputError:
             raise
         except Exception as error:
@@ -365,7 +369,7 @@ def _create_arrays(path: Path, layout: Layout) -> Any:
         "run": dict(layout.attrs),
     }
     try:
-        group = zarr.create_group(store=str(path), attributes=stored)
+        group = zarr.create_group(store=str(path), attributes=stored, zarr_format=3)
     except ContainsGroupError as exc:  # it was empty a moment ago
         raise InputError(
             f"Another run has just begun in '{path}'; name another folder, or wait for it.",
@@ -392,8 +396,16 @@ def _create_arrays(path: Path, layout: Layout) -> Any:
             times[:] = values
     with warnings.catch_warnings():  # readers then need not list the folder
         warnings.filterwarnings("ignore", message=".*[Cc]onsolidated.*")
-        zarr.consolidate_metadata(str(path))
-    return zarr.open_group(str(path), mode="r+")
+        zarr.consolidate_metadata(str(path), zarr_format=3)
+    return zarr.open_group(str(path), mode="r+", zarr_format=3)
+
+
+def _array(group: Any, name: str) -> Any:
+    """An array of a group, refused in Zarr's format 2: that may hold pickles, which run code."""
+    array = group[name]
+    if array.metadata.zarr_format != 3:
+        raise ValueError(f"'{name}' is of Zarr format {array.metadata.zarr_format}, not 3")
+    return array
 
 
 def _layout_from(group: Any) -> Layout:
@@ -401,7 +413,7 @@ def _layout_from(group: Any) -> Layout:
     coords = coords_from_json(stored["coords"])
     for grid in (TIME, TIME_HF):
         if grid in group:
-            array = group[grid]
+            array = _array(group, grid)
             coords[grid] = ((grid,), np.asarray(array[:]), dict(array.attrs))
     return Layout(
         tuple(Variable(n, tuple(d), u, t, k) for n, d, u, t, k in stored["variables"]),

@@ -30,6 +30,7 @@ def told(sentence):
 stopping.on_interrupt = told
 cli.entry()
 """
+pytestmark = pytest.mark.skipif(os.name != "posix", reason="signals of a group of processes")
 MOMENTS = np.random.default_rng(5).uniform(0.0, 6.0, 8)
 
 
@@ -53,38 +54,35 @@ def stopped_in_one_line(code: int, lines: list[str]) -> None:
     assert len(said) == 1 and said[0].startswith("flexcage: Stopped"), lines
 
 
-@pytest.mark.skipif(os.name != "posix", reason="signals of a group of processes")
-class TestCtrlC:
-    @pytest.mark.parametrize("moment", MOMENTS)
-    def test_of_a_very_long_run(self, tmp_path, moment):
-        (tmp_path / "case.toml").write_text(CASE)
-        long = ("--set", "solver.duration=100 s")
-        stopped_in_one_line(*interrupted(tmp_path, moment, "run", "case.toml", *long, "-o", "out"))
+@pytest.mark.parametrize("moment", MOMENTS)
+def test_of_a_very_long_run(tmp_path, moment):
+    (tmp_path / "case.toml").write_text(CASE)
+    long = ("--set", "solver.duration=100 s")
+    stopped_in_one_line(*interrupted(tmp_path, moment, "run", "case.toml", *long, "-o", "out"))
 
-    def test_while_kernels_are_compiled(self, tmp_path):
-        (tmp_path / "case.toml").write_text(CASE)
-        env = {"NUMBA_CACHE_DIR": str(tmp_path / "cache")}
-        stopped_in_one_line(
-            *interrupted(tmp_path, 6.0, "run", "case.toml", "-o", "out", "-q", **env)
-        )
 
-    def test_what_it_leaves_can_be_run_again(self, tmp_path):
-        (tmp_path / "case.toml").write_text(CASE)
-        short = ("--set", "solver.duration=0.2 ms", "--no-images")
-        interrupted(tmp_path, 2.0, "run", "case.toml", "-o", "out", *short)
-        done = subprocess.run(
-            [sys.executable, "-m", "flexcage.cli", "run", "case.toml", "-o", "out", *short,
-             *(["--resume"] if (tmp_path / "out" / "case.toml").exists() else [])],
-            cwd=tmp_path, capture_output=True, text=True,
-        )  # fmt: skip
-        assert done.returncode == 0, done.stderr
+def test_while_kernels_are_compiled(tmp_path):
+    (tmp_path / "case.toml").write_text(CASE)
+    env = {"NUMBA_CACHE_DIR": str(tmp_path / "cache")}
+    stopped_in_one_line(*interrupted(tmp_path, 6.0, "run", "case.toml", "-o", "out", **env))
 
-    @pytest.mark.parametrize("moment", [0.5, 3.0, 7.0])
-    def test_of_a_study(self, tmp_path, moment):
-        (tmp_path / "case.toml").write_text(CASE)
-        axis = '[[axes]]\npath = "load.radial"\nvalues = ["500 N", "1 kN"]\n'
-        (tmp_path / "study.toml").write_text(
-            f'case = "case.toml"\noutputs = ["cage_speed"]\n{axis}'
-        )
-        words = ("study", "run", "study.toml", "-o", "out", "--workers", "1")
-        stopped_in_one_line(*interrupted(tmp_path, moment, *words))
+
+def test_what_it_leaves_can_be_run_again(tmp_path):
+    (tmp_path / "case.toml").write_text(CASE)
+    short = ("--set", "solver.duration=0.2 ms", "--no-images")
+    interrupted(tmp_path, 2.0, "run", "case.toml", "-o", "out", *short)
+    done = subprocess.run(
+        [sys.executable, "-m", "flexcage.cli", "run", "case.toml", "-o", "out", *short,
+         *(["--resume"] if (tmp_path / "out" / "case.toml").exists() else [])],
+        cwd=tmp_path, capture_output=True, text=True,
+    )  # fmt: skip
+    assert done.returncode == 0, done.stderr
+
+
+@pytest.mark.parametrize("moment", [0.5, 3.0, 7.0])
+def test_of_a_study(tmp_path, moment):
+    (tmp_path / "case.toml").write_text(CASE)
+    axis = '[[axes]]\npath = "load.radial"\nvalues = ["500 N", "1 kN"]\n'
+    (tmp_path / "study.toml").write_text(f'case = "case.toml"\noutputs = ["cage_speed"]\n{axis}')
+    words = ("study", "run", "study.toml", "-o", "out", "--workers", "1")
+    stopped_in_one_line(*interrupted(tmp_path, moment, *words))

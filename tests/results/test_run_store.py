@@ -329,3 +329,42 @@ def test_a_variable_from_elsewhere(monkeypatch):
     ):
         with pytest.raises(InputError, match=words):
             registry.register(wrong, compute, labels=labels)
+
+
+class Harmful:
+    """What writes a file when it is unpickled."""
+
+    def __init__(self, mark):
+        self.mark = mark
+
+    def __reduce__(self):
+        return open, (str(self.mark), "w")
+
+
+@pytest.mark.parametrize("inlined", [False, True], ids=["format 2", "format 2 within 3"])
+def test_a_store_with_pickles_runs_no_code(tmp_path, monkeypatch, inlined):
+    """An array of Zarr's format 2 may be coded by pickle, also one that the metadata of a group of
+    format 3 brings along; numcodecs decoded it until lately."""
+    import pickle
+
+    monkeypatch.setattr("numcodecs.pickles.ALLOW_UNSAFE_PICKLE_DECODE", True, raising=False)
+    run, mark = tmp_path / "run", tmp_path / "mark"
+    make(run).write_block(0, *block(make(None), 0))
+    filters = [{"id": "vlen-utf8"}, {"id": "pickle", "protocol": 5}]
+    old = {
+        "zarr_format": 2, "shape": [N], "chunks": [N], "dtype": "|O", "fill_value": None,
+        "order": "C", "compressor": None, "filters": filters,
+    }  # fmt: skip
+    root = json.loads((run / "zarr.json").read_text())
+    if inlined:
+        root["consolidated_metadata"]["metadata"]["time"] = {**old, "attributes": {}}
+        (run / "zarr.json").write_text(json.dumps(root))
+    else:
+        (run / "zarr.json").unlink()
+        (run / ".zgroup").write_text(json.dumps({"zarr_format": 2}))
+        (run / ".zattrs").write_text(json.dumps(root["attributes"]))
+        (run / "time" / ".zarray").write_text(json.dumps(old))
+    (run / "time" / "0").write_bytes(pickle.dumps(Harmful(mark)))
+    with pytest.raises(InputError):
+        RunStore.open(run)
+    assert not mark.exists()
