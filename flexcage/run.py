@@ -539,6 +539,9 @@ class Run:
         if self._groove_edges:
             rows = [edge.row for edge in self._groove_edges]
             summary = summary.with_section("Grooves", rows)
+        summary = summary.with_section(
+            "Support", [Row("inner_held", "Inner ring", case.held_in_words)]
+        )
         summary = summary.with_section("Cage", self._cage_rows())
         if self.cage is not None:
             summary = summary.with_section("Equivalent stress", self._stress_rows())

@@ -22,8 +22,8 @@ log = logging.getLogger(__name__)
 def solve_static(case: StaticCase | Case) -> StaticSolution:
     """Equilibrium of the inner ring of a case, at the start of its drive and load.
 
-    Of a simulation's case tilts are held or free as they are in the run, and no race controls
-    balls.
+    Tilts are held or free as in a run (load.tilt), unless the case's [static] says otherwise. Of a
+    simulation's case no race controls balls.
     Raises InputError for a load that the bearing cannot bear, RunFailed if none is found.
     """
     expect(case, (StaticCase, Case), "case", "flexcage.load_static reads one from a file")
@@ -40,7 +40,7 @@ def _static_case(case: Case) -> StaticCase:
     return StaticCase(
         name=case.name, preset=case.preset, bearing=case.bearing, contacts=case.contacts,
         lubricant=case.lubricant, drive=case.drive, load=case.load,
-        static=StaticOptions(tilt=case.load.tilt, gyroscopic="none"),
+        static=StaticOptions(gyroscopic="none"),
     )  # fmt: skip
 
 
@@ -97,7 +97,8 @@ def write_static(case: StaticCase, solution: StaticSolution, folder: Path) -> li
         written.append(
             static_picture(
                 e.azimuth, e.force, e.angle, e.pressure, folder / "static.png",
-                load=solution.load, title=solution.title, speed=solution.speed,
+                load=solution.load, title=solution.title, note=case.name,
+                speed=solution.speed,
             )
         )  # fmt: skip
     except EnvironmentLacks as exc:

@@ -199,6 +199,12 @@ class Case:
         return self.contacts.land.on(self.bearing.land(self.cage))
 
     @property
+    def held_in_words(self) -> str:
+        """How the inner ring is held in a run, in words."""
+        axially = self.bearing.carries_axial_load or self.load.axial_stiffness > 0.0
+        return self.load.held_in_words(axially=axially)
+
+    @property
     def riveted(self) -> bool:
         """Whether its cage is flexible and held together by rivets, whose loads are then known."""
         return self.cage_model == "flexible" and isinstance(self.cage, RibbonCage)

@@ -178,7 +178,7 @@ class BallBearing(Bearing):
         given = self.outer_shoulder if outer else self.inner_shoulder
         radius = self.outer_groove_radius if outer else self.inner_groove_radius
         shoulder, own = self.shoulder_diameters[int(outer)], getattr(cage, what)
-        height = 0.2 * self.ball_diameter if given is None else given
+        height = _SHOULDER * self.ball_diameter if given is None else given
         groove = sqrt(max(height * (2.0 * radius - height), 0.0))  # half of its width
         end = 0.5 * min(cage.width, self.width)
         return RingLand(

@@ -14,11 +14,8 @@ _THIN, _LOOSE = 0.03, 0.3
 KEY = "odd_geometry"
 
 
-def odd_geometry(
-    bearing: Bearing, cage: Cage, land_width: float | None = None
-) -> Iterator[RunWarning]:
-    """Warnings of thin parts, wide lands and loose pockets; ``land_width`` [m] is that of each of
-    the cage's two lands, None for a cage without."""
+def odd_geometry(bearing: Bearing, cage: Cage) -> Iterator[RunWarning]:
+    """Warnings of thin parts and of loose pockets."""
     diameter, element = bearing.element_diameter, bearing.element
     parts = cage.parts(bearing.pitch_diameter, bearing.element_count)
     for name, thickness in parts.items():
@@ -28,12 +25,6 @@ def odd_geometry(
                 f"The thickness of the cage's {name} is only {_mm(thickness)}, for {element}s of "
                 f"{_mm(diameter)}: check the dimensions.",
             )
-    if land_width is not None and 2.0 * land_width > cage.axial_width:
-        yield RunWarning(
-            KEY,
-            f"contacts.land.width is {_mm(land_width)} for each of two lands, but the cage is only "
-            f"{_mm(cage.axial_width)} wide.",
-        )
     clearance = cage.pocket_size - diameter
     if clearance > _LOOSE * diameter:
         yield RunWarning(

@@ -118,8 +118,11 @@ def _profile(occ: Any, cage: RibbonCage, middle: float, far: float) -> list[int]
 
     ball, bend = at(0.0, 0.0), at(x, rho)
     mouth, corner, low = at(0.0, radius), at(0.0, flat), at(thick, flat)
-    inside = at(min(end, radius), cage.opening / MM)
-    top = at(end, sqrt(max(outside**2 - end**2, 0.0)))
+    # a closed pocket's sheet ends on the axis itself: a point off it by rounding's square root, as
+    # sqrt(outside**2 - end**2) is, is near OpenCASCADE's tolerance, and no solid is revolved
+    side = sqrt(outside**2 - end**2) if cage.opening else 0.0
+    inside = at(end if cage.opening else radius, cage.opening / MM)
+    top = at(end if cage.opening else outside, side)
     met, foot = at(touch * x, touch * rho), at(thick, rho)
     return [
         arc(mouth, inside, ball), occ.addLine(inside, top), arc(top, met, ball),

@@ -76,6 +76,11 @@ class Scene:
         """Its name as headings show it."""
         return sheet.label(self.name)
 
+    @property
+    def followed(self) -> int:
+        """Number of the element whose history is shown: that of the first damaged pocket, or 0."""
+        return pockets_of(self.defects[0], self.mesh.pocket_count)[0] if self.defects else 0
+
 
 #: Pictures registered from outside by name, with whether they need a flexible cage's stress.
 PICTURES: dict[str, tuple[Callable[[Scene, Path], Path], bool]] = {}
@@ -134,11 +139,6 @@ def _draw_own(name: str, draw: Callable[[Scene, Path], Path], scene: Scene, path
             f"the registered picture '{name}' could not be drawn: {mistake_in(draw, exc)}; "
             "what was computed and drawn before is kept"
         ) from exc
-
-
-def _followed(scene: Scene) -> int:
-    """Number of the element whose history is shown: that of the first damaged pocket, or 0."""
-    return pockets_of(scene.defects[0], scene.mesh.pocket_count)[0] if scene.defects else 0
 
 
 def _geometry(scene: Scene, folder: Path, look: Look) -> list[Drawing]:
@@ -212,7 +212,7 @@ def _motion(scene: Scene, folder: Path) -> list[Drawing]:
         ),
         partial(
             histories, ds, folder / "histories.png", bearing=numbers, root_stress=root,
-            loads=scene.loads, element=_followed(scene), settle=scene.settle, note=scene.label,
+            loads=scene.loads, element=scene.followed, settle=scene.settle, note=scene.label,
         ),
     ]  # fmt: skip
     if spectra.resolves(settled(ds, scene.settle), numbers):

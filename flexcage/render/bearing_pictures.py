@@ -365,8 +365,10 @@ def _bars(figure: Any, left: float, now: Instant, top: float) -> None:
     below.set(
         ylabel="pocket force [N]",
         xlabel="pocket",
-        ylim=(0.0, sheet.rounded_up(1.02 * most) if most > 0.0 else 1.0),
+        ylim=(0.0, sheet.rounded_up(1.02 * most)),
     )
+    if not most:
+        sheet.nothing(below, "no pocket is touched")
     _bar_axis(below, n)
 
 

@@ -45,10 +45,7 @@ def orbit(
     yz = metrics.orbit(part) * 1e6
     t = part["time"].values * 1e3
     reach = float(np.abs(yz).max()) or 1.0
-    land = None
-    if clearance:
-        ring = metrics.centre_of(part, guide) if guide == "inner" else np.zeros((1, 2))
-        land = (*ring.mean(axis=0) * 1e6, clearance * 1e6)
+    land = land_circle(part, clearance, guide)
     radius = land[2] if land else 0.0
     zoomed = land is not None and reach < 0.5 * radius
     side, panels, top = 760, 2 if zoomed else 1, TOP + 30
@@ -80,6 +77,18 @@ def orbit(
         return sheet.save(figure, path)
 
 
+def land_circle(
+    ds: xarray.Dataset, clearance: float | None, guide: str
+) -> tuple[float, float, float] | None:
+    """Centre (y, z) and radius [µm] of the circle in which a land of an undeformed cage lets the
+    cage's centre move, about the mean place of its ring; None without a land."""
+    if not clearance:
+        return None
+    ring = metrics.centre_of(ds, guide) if guide == "inner" else np.zeros((1, 2))
+    y, z = (ring.mean(axis=0) * 1e6).tolist()
+    return y, z, clearance * 1e6
+
+
 def _orbit_panel(
     ax: Any, yz: np.ndarray, t: np.ndarray, limit: float, land: tuple[float, ...] | None
 ) -> None:
@@ -102,7 +111,7 @@ def _orbit_panel(
             color=sheet.VERMILION,
             lw=1.3,
             ls="--",
-            label=f"land's clearance, stiff cage: {radius:g} µm",
+            label=f"land clearance, rigid cage: {radius:g} µm",
         )
     ax.plot(*xy[0], "o", ms=6, mfc="white", mec=sheet.INK, mew=1.2, label="start", ls="none")
     ax.plot(*xy[-1], "s", ms=6, mfc=sheet.INK, mec=sheet.INK, label="end", ls="none")
@@ -157,7 +166,7 @@ def histories(
     if bearing is not None:
         bearing = metrics.at_own_angles(metrics.settled(ds, settle), bearing)
     panels: list[Callable[..., None]] = [_speed_panel, _pocket_panel]
-    if metrics.varies(ds["inner_speed"].values) or (loads is not None and _vary(loads)):
+    if drive_varies(ds, loads):
         panels.insert(0, _drive_panel)
     if root_stress is not None:
         panels.append(_stress_panel)
@@ -198,12 +207,15 @@ def _legend(ax: Any, name: str, columns: int = 4) -> None:
         ax.legend(loc="lower right", bbox_to_anchor=(1.0, 1.0), ncols=columns, borderaxespad=0.2)
 
 
-def _vary(loads: np.ndarray) -> bool:
-    """Whether the radial or the axial load (time, 3) changes."""
-    return any(map(metrics.varies, _radial_and_axial(loads)))
+def drive_varies(ds: xarray.Dataset, loads: np.ndarray | None) -> bool:
+    """Whether the inner ring's speed, or the radial or axial one of its ``loads`` (time, 3),
+    changes with time."""
+    shown = () if loads is None else radial_and_axial(loads)
+    return any(map(metrics.varies, (ds["inner_speed"].values, *shown)))
 
 
-def _radial_and_axial(loads: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+def radial_and_axial(loads: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Size of the radial load, and the axial load (time,) [N], of loads (time, 3)."""
     return np.hypot(loads[:, 1], loads[:, 2]), loads[:, 0]
 
 
@@ -214,7 +226,7 @@ def _drive_panel(ax: Any, t: np.ndarray, ds: xarray.Dataset, *, loads, **_: Any)
     ax.margins(y=0.15)
     if loads is not None and np.any(loads):
         right = ax.twinx()
-        pairs = zip(("radial load", "axial load"), _radial_and_axial(loads))
+        pairs = zip(("radial load", "axial load"), radial_and_axial(loads))
         for (name, values), colour in zip(pairs, (sheet.VERMILION, sheet.ORANGE)):
             if np.any(values):
                 right.plot(t, values, color=colour, ls="--", lw=1.3, label=f"{name} [N], right")
@@ -242,21 +254,22 @@ def _pocket_panel(ax: Any, t: np.ndarray, ds: xarray.Dataset, **_: Any) -> None:
     for (name, faces), colour in zip(elements_in(ds).faces, colours):
         ax.plot(t, force.sel(face=list(faces)).max("face"), color=colour, lw=0.8, label=name)
     ax.set_ylim(bottom=0.0)
+    if not force.values.any():
+        sheet.nothing(ax, "no pocket is touched")
     ax.set_ylabel("force [N]")
     _legend(ax, "Largest pocket force")
 
 
-#: Heading of the stress panel, and how it shows the name of a place.
-_STRESSED: dict[str, tuple[str, Callable[[str], str]]] = {
-    "roller": ("Equivalent stress at crossbeam roots", str),
-    "ball": ("Equivalent stress at waists and rims of pockets", in_words),
+#: Heading of the stress panel.
+_STRESSED = {
+    "roller": "Equivalent stress at pocket corners",
+    "ball": "Equivalent stress at waists and rims of pockets",
 }
 
 
 def _stress_panel(
     ax: Any, t: np.ndarray, ds: xarray.Dataset, *, root_stress, settle: float, **_: Any
 ) -> None:
-    heading, words = _STRESSED[elements_in(ds).one]
     places = [d for d in root_stress.dims if d != "time"]
     if not places:
         ax.plot(root_stress["time"] * 1e3, root_stress * 1e-6, color=sheet.BLUE)
@@ -277,10 +290,10 @@ def _stress_panel(
         most = int(np.asarray(part.max("time")).argmax())
         name = str(root_stress[place].values[most]) if place in root_stress.coords else str(most)
         highest = "highest once settled" if settle else "highest"
-        ax.plot(when, values[:, most], color=sheet.BLUE, label=f"{highest}: {words(name)}")
+        ax.plot(when, values[:, most], color=sheet.BLUE, label=f"{highest}: {in_words(name)}")
     ax.set_ylim(bottom=0.0)
     ax.set_ylabel("stress [MPa]")
-    _legend(ax, heading)
+    _legend(ax, _STRESSED[elements_in(ds).one])
 
 
 def _roller_panel(
@@ -317,13 +330,14 @@ def _element_speed(
     ax.fill_between(t, speed.min(axis=1), speed.max(axis=1), color="#cfd4da", lw=0, label="all")
     ax.plot(t, speed[:, element], color=sheet.BLUE, label=f"{one} {element}")
     loaded = metrics.loaded_zone(ds).transpose("time", one).values[:, element]
-    ax.plot(
-        t,
-        np.where(loaded, speed[:, element], np.nan),
-        color=sheet.ORANGE,
-        lw=2.2,
-        label=f"{one} {element} in the loaded zone",
-    )
+    if loaded.any():
+        ax.plot(
+            t,
+            np.where(loaded, speed[:, element], np.nan),
+            color=sheet.ORANGE,
+            lw=2.2,
+            label=f"{one} {element} in the loaded zone",
+        )
     ax.set_ylabel("speed [rpm]")
 
 

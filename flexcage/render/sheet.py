@@ -161,6 +161,12 @@ def colour_map(name: str, over: str = VERMILION) -> Any:
     return mpl.colormaps[name].with_extremes(over=over, under=mpl.colormaps[name](0.0))
 
 
+def nothing(ax: Axes, words: str) -> None:
+    """Say in the middle of a plot why it is empty; its values have no scale then."""
+    ax.text(0.5, 0.5, words, transform=ax.transAxes, ha="center", va="center", color=FAINT)
+    ax.set(ylim=(0.0, 1.0), yticks=[0.0])
+
+
 def rounded_up(value: float) -> float:
     """The next round figure: two digits at most, steps of a fifth at most."""
     if not value > 0.0:
@@ -214,9 +220,10 @@ def pixels_of(figure: Figure) -> np.ndarray:
 
 
 def label(name: str) -> str:
-    """A name that a user gave, as a heading shows it: one line, not too long, no formula."""
-    line = " ".join(name.split())
-    shown = line if len(line) <= _LONGEST else f"{line[: _LONGEST - 1]}…"
+    """A name that a user gave, as a heading shows it: one line, not too long, no formula. Of a long
+    one both ends are kept, so that folders of one place can be told apart."""
+    line, half = " ".join(name.split()), _LONGEST // 2
+    shown = line if len(line) <= _LONGEST else f"{line[: half - 1]}…{line[-half:]}"
     return shown.replace("$", r"\$")
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from math import pi
 from pathlib import Path
+from textwrap import fill
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -23,7 +24,8 @@ from flexcage.results.spectra import (
 if TYPE_CHECKING:
     import xarray
 
-_LEFT, _WIDTH, _HEIGHT, _BETWEEN, _TOP = 140, 1450, 240, 34, 190
+_LEFT, _WIDTH, _HEIGHT, _BETWEEN, _TOP = 140, 1240, 240, 34, 190
+_BESIDE, _COLUMN = 300, 26  # pixels beside the panels for what they show, and its characters
 _NAMES = 118  # pixels from one name of a line to the next
 _REACH = 3.0  # frequencies shown, over the fastest line
 _DECADES = 6.0  # shown at most
@@ -59,10 +61,9 @@ def spectra_picture(
     }  # fmt: skip
     reach = min(_REACH * max(lines.values()), *(float(d["frequency"][-1]) for d in shown.values()))
     with sheet.style():
-        height = _TOP + len(shown) * (_HEIGHT + _BETWEEN) + 60
-        figure = sheet.new_figure(_LEFT + _WIDTH + 60, height)
-        facts = _facts(part, next(iter(shown.values())), sheet.join([_angles(part, bearing), note]))
-        sheet.heading(figure, title, facts)
+        height = _TOP + len(shown) * (_HEIGHT + _BETWEEN) + 84
+        figure = sheet.new_figure(_LEFT + _WIDTH + _BESIDE, height)
+        sheet.heading(figure, title, _facts(part, next(iter(shown.values())), note))
         for i, (name, density) in enumerate(shown.items()):
             rect = (_LEFT, _TOP + i * (_HEIGHT + _BETWEEN), _WIDTH, _HEIGHT)
             ax = sheet.axes_at(figure, rect)
@@ -74,7 +75,8 @@ def spectra_picture(
                 _name_lines(ax, marked, reach)
             if i < len(shown) - 1:
                 ax.tick_params(labelbottom=False)
-        ax.set_xlabel(sheet.join(["frequency [Hz]", _unmarked(lines, marked, resolution)]))
+        below = sheet.join(["frequency [Hz]", _unmarked(lines, marked, resolution)])
+        ax.set_xlabel("\n".join(filter(None, (below, _angles(part, bearing)))))
         return sheet.save(figure, path)
 
 
@@ -99,7 +101,7 @@ def _angles(ds: xarray.Dataset, bearing: BearingNumbers) -> str:
     nominal = run_frequencies(ds, bearing, own=False)
     inner, outer = (angle * 180.0 / pi for angle in bearing.own_angles)
     return (
-        f"at mean contact angles of {inner:.1f}° and {outer:.1f}°; at the nominal "
+        f"lines are at mean contact angles of {inner:.1f}° and {outer:.1f}°; at the nominal "
         f"{bearing.contact_angle * 180.0 / pi:.4g}°: FTF {nominal['FTF']:,.1f}, "
         f"BPFO {nominal['BPFO']:,.1f} Hz"
     )
@@ -113,16 +115,15 @@ def _panel(ax: Any, density: xarray.DataArray, name: str, reach: float) -> None:
     values = np.sqrt(part.values).reshape(part.sizes["frequency"], -1) * factor
     labels = part["axis2"].values if "axis2" in part.dims else [""]
     for column, label, colour in zip(values.T, labels, (sheet.BLUE, sheet.ORANGE)):
-        text = f"{name}, {label}" if label else name
-        ax.plot(part["frequency"], column, color=colour, lw=1.1, label=text)
+        ax.plot(part["frequency"], column, color=colour, lw=1.1, label=label or "amplitude")
     top = float(values.max())
     if top > 0.0:
         ax.set_yscale("log")
-        ax.set_ylim(max(0.5 * values.min(), top * 10.0**-_DECADES), 8.0 * top)
+        ax.set_ylim(max(0.5 * values.min(), top * 10.0**-_DECADES), 2.0 * top)
     ax.set(xlim=(0.0, reach), ylabel=f"{unit}/√Hz")
     ax.legend(
-        loc="upper right", ncols=2, frameon=True, facecolor="white", edgecolor="none",
-        framealpha=0.9, borderaxespad=0.3,
+        loc="upper left", bbox_to_anchor=(1.01, 1.0), borderaxespad=0.0, alignment="left",
+        title=fill(name, _COLUMN), title_fontproperties={"weight": "bold", "size": 8.5},
     )  # fmt: skip
 
 

@@ -23,6 +23,7 @@ def static_picture(
     *,
     load: np.ndarray,
     title: str = "",
+    note: str = "",
     speed: float = 0.0,
 ) -> Path:
     """Forces (Z, 2) [N] and contact angles (Z, 2) [rad] at azimuths (Z,), inner race first.
@@ -33,7 +34,7 @@ def static_picture(
     angles = bool(np.nanmax(np.abs(angle), initial=0.0) > 0.0)
     with sheet.style():
         figure = sheet.new_figure(2 * _LEFT + 2 * _SIDE + _GAP, _TOP + _SIDE + 140)
-        facts = [f"axial load {load[0]:.5g} N" if load[0] else ""]
+        facts = [sheet.label(note), f"axial load {load[0]:.5g} N" if load[0] else ""]
         radial = float(np.hypot(load[1], load[2]))
         facts.append(f"radial load {radial:.5g} N" if radial else "")
         facts.append(f"inner ring at {speed * 30.0 / pi:.5g} rpm")

@@ -72,12 +72,13 @@ class Tiles:
 
 @dataclass(frozen=True)
 class Table:
-    """A table that its reader can sort by any column."""
+    """A table that its reader can sort by any column; folded away under a title, ``fold``."""
 
     kind: ClassVar[str] = "table"
     head: Sequence[str]
     rows: Sequence[Sequence[Cell | str]]
     caption: str = ""
+    fold: str = ""
 
     @property
     def cells(self) -> list[list[Cell]]:

@@ -18,7 +18,6 @@ _BESIDE = 0.1  # of the distance between two words: how far groups stand apart, 
 _SPREAD = 0.8  # of that distance: how far all groups may reach
 _SYMBOLS = ("circle", "square", "diamond", "triangle-up", "x", "star")
 MOST_NAMED = 2 * len(_SYMBOLS) * len(CYCLE)  # kinds of marks; with more groups, pointing names one
-_HEIGHT, _HIGHEST, _LINE = 300, 900, 20  # pixels, of a chart and of a line of its legend
 
 
 @dataclass(frozen=True)
@@ -43,33 +42,31 @@ class Abscissa:
 class Output:
     """Means of an output over the repetitions of every point, and half widths of their intervals.
 
-    Both (n_points,); NaN where there is none.
+    Both (n_points,); NaN where there is none. A ``positive`` output is never below zero, and
+    neither are its intervals.
     """
 
     title: str
     unit: str
     mean: np.ndarray
     half: np.ndarray
+    positive: bool = False
 
 
 def comparison_charts(
     outputs: Sequence[Output], abscissas: Sequence[Abscissa], names: Sequence[str]
-) -> dict[str, list[Chart]]:
-    """By title, every output against every abscissa; pointing at a mark shows one of ``names``
-    (n_points,)."""
-    return {
-        output.title: [_chart(output, abscissa, names) for abscissa in abscissas]
+) -> list[Chart]:
+    """A chart for every output, with a choice of what it is drawn against; pointing at a mark
+    shows one of ``names`` (n_points,)."""
+    return [
+        Chart(
+            output.title,
+            [(a.name, _figure(output, a, names)) for a in abscissas],
+            choose="Against",
+        )
         for output in outputs
         if abscissas and np.isfinite(output.mean).any()
-    }
-
-
-def _chart(output: Output, abscissa: Abscissa, names: Sequence[str]) -> Chart:
-    many = len(set(abscissa.group))
-    legend = _LINE * many if MOST_LINES < many <= MOST_NAMED else 0
-    height = min(max(_HEIGHT + legend, 2 * legend), _HIGHEST)  # a legend takes half at most
-    title = f"{output.title}, against {abscissa.name}"
-    return Chart(title, [("", _figure(output, abscissa, names))], height=height)
+    ]
 
 
 def mark(group: int) -> dict[str, Any]:
@@ -105,7 +102,7 @@ def _figure(output: Output, abscissa: Abscissa, names: Sequence[str]) -> Any:
         figure.add_scatter(
             x=[words.index(str(values[i])) + beside if words else float(values[i]) for i in points],
             y=output.mean[points].tolist(),
-            error_y=_bars(output.half[points], mark(k)["color"]),
+            error_y=_bars(output, points, mark(k)["color"]),
             mode="lines+markers" if lines else "markers",
             line={"color": mark(k)["color"], "width": 1.3},
             marker={**mark(k), "size": 8},
@@ -121,11 +118,17 @@ def _is_number(value: Any) -> bool:
     return isinstance(value, (int, float, np.number)) and not isinstance(value, bool)
 
 
-def _bars(half: np.ndarray, colour: str) -> dict[str, Any] | None:
+def _bars(output: Output, points: Sequence[int], colour: str) -> dict[str, Any] | None:
+    """Bars of the intervals; those of a positive output end at zero."""
+    half = output.half[points]
     if not np.isfinite(half).any():
         return None
-    known = np.where(np.isfinite(half), half, 0.0).tolist()
-    return {"type": "data", "array": known, "color": colour, "thickness": 1.2, "width": 5}
+    above = np.where(np.isfinite(half), half, 0.0)
+    below = np.minimum(above, output.mean[points]) if output.positive else above
+    return {
+        "type": "data", "array": above.tolist(), "arrayminus": below.tolist(),
+        "symmetric": False, "color": colour, "thickness": 1.2, "width": 5,
+    }  # fmt: skip
 
 
 def _hover(name: str, output: Output, point: int) -> str:

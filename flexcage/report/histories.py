@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from flexcage.render.curves import drive_varies, land_circle, radial_and_axial
 from flexcage.render.elements import elements_in
 from flexcage.render.sheet import BLUE, GREEN, INK, ORANGE, VERMILION
 from flexcage.report.blocks import Chart
@@ -30,13 +31,16 @@ _LEFT_OUT = "#eeeeee"  # the time that statistics leave out
 
 
 def history_charts(scene: Scene, numbers: BearingNumbers) -> list[Chart]:
-    """Charts over time of a run, and the orbit of its cage's centre."""
+    """Charts over time of a run, and the orbit of its cage's centre: what the pictures of the
+    histories and of the orbit show."""
     ds = scene.dataset
     numbers = metrics.at_own_angles(metrics.settled(ds, scene.settle), numbers)
     charts = [_cage_speed(ds, numbers), _pocket_force(ds)]
+    if drive_varies(ds, scene.loads):
+        charts = [*_drive(ds, scene.loads), *charts]
     if scene.stress is not None:
         charts.append(_root_stress(scene))
-    charts += [chart(ds, numbers) for chart in _OWN_CHARTS[elements_in(ds).one]]
+    charts += [chart(scene, numbers) for chart in _OWN_CHARTS[elements_in(ds).one]]
     t = _ms(ds)
     for chart in charts:
         if scene.settle:
@@ -44,11 +48,23 @@ def history_charts(scene: Scene, numbers: BearingNumbers) -> list[Chart]:
             chart.figures[0][1].add_vrect(
                 t[0], end, fillcolor=_LEFT_OUT, layer="below", line_width=0
             )
-    return [*charts, _orbit(ds, scene.clearance, scene.settle)]
+    return [*charts, _orbit(scene)]
 
 
 def _ms(ds: xarray.Dataset) -> np.ndarray:
     return ds["time"].values * 1e3
+
+
+def _drive(ds: xarray.Dataset, loads: np.ndarray) -> list[Chart]:
+    """Speed of the inner ring, and the loads on it."""
+    speed, load = new_figure(TIME, "speed [rpm]", showlegend=False), new_figure(TIME, "load [N]")
+    add_curve(speed, _ms(ds), ds["inner_speed"].values * RPM, "inner ring", color=BLUE)
+    pairs = zip(("radial load", "axial load"), radial_and_axial(loads), (VERMILION, ORANGE))
+    for name, values, colour in pairs:
+        if np.any(values):
+            add_curve(load, _ms(ds), values, name, color=colour)
+    charts = [Chart("Speed of the inner ring", [("", speed)])]
+    return [*charts, *([Chart("Load on the inner ring", [("", load)])] if load.data else [])]
 
 
 def _cage_speed(ds: xarray.Dataset, numbers: BearingNumbers) -> Chart:
@@ -80,15 +96,17 @@ def _root_stress(scene: Scene) -> Chart:
     return Chart(f"Stress at {kind.many}", [("", figure)])
 
 
-def _roller_spin(ds: xarray.Dataset, numbers: BearingNumbers) -> Chart:
+def _roller_spin(scene: Scene, numbers: BearingNumbers) -> Chart:
+    ds = scene.dataset
     ideal = _rolling(ds, numbers.kinematics(1.0).roller_spin)
-    figure = _speeds("spin [rpm]", ds, metrics.roller_spin(ds).values, ideal)
+    figure = _speeds("spin [rpm]", scene, metrics.roller_spin(ds).values, ideal)
     return Chart("Roller spin, inertial frame", [("", figure)])
 
 
-def _ball_speed(ds: xarray.Dataset, numbers: BearingNumbers) -> Chart:
+def _ball_speed(scene: Scene, numbers: BearingNumbers) -> Chart:
+    ds = scene.dataset
     ideal = _rolling(ds, numbers.kinematics(1.0).roller_spin_in_cage)
-    figure = _speeds("speed [rpm]", ds, metrics.ball_spin(ds).values, ideal)
+    figure = _speeds("speed [rpm]", scene, metrics.ball_spin(ds).values, ideal)
     return Chart("Ball speed about its own axis, cage frame", [("", figure)])
 
 
@@ -98,56 +116,83 @@ def _rolling(ds: xarray.Dataset, unit: float) -> np.ndarray:
     return np.asarray(metrics.rolling_sense(ds) * unit * ds["inner_speed"].values)
 
 
-def _speeds(title: str, ds: xarray.Dataset, speed: np.ndarray, ideal: np.ndarray) -> Any:
-    """Speeds (time, element) [rad/s]: the band of all, the first, and the one without slip."""
+def _speeds(title: str, scene: Scene, speed: np.ndarray, ideal: np.ndarray) -> Any:
+    """Speeds (time, element) [rad/s]: the band of all, one by itself with the loaded zone marked,
+    and the one without slip."""
+    ds, own = scene.dataset, scene.followed
     speed, names = speed * RPM, elements_in(ds)
     figure = new_figure(TIME, title)
     add_band(figure, _ms(ds), speed.min(axis=1), speed.max(axis=1), f"all {names.many}", _WASH)
-    add_curve(figure, _ms(ds), speed[:, 0], f"{names.one} 0", color=BLUE)
+    add_curve(figure, _ms(ds), speed[:, own], f"{names.one} {own}", color=BLUE)
+    loaded = metrics.loaded_zone(ds).transpose("time", names.one).values[:, own]
+    if loaded.any():
+        inside = np.where(loaded, speed[:, own], np.nan)
+        add_curve(figure, _ms(ds), inside, "in the loaded zone", color=ORANGE, width=2.4)
     add_curve(figure, _ms(ds), ideal * RPM, "pure rolling", color=VERMILION, dash="dash")
     return figure
 
 
-def _contact_angles(ds: xarray.Dataset, numbers: BearingNumbers) -> Chart:
-    angle = metrics.touching(ds, ds["contact_angle"]) * (180.0 / pi)
-    figure = new_figure(TIME, "angle [°]")
-    for race, colour, wash in (("inner", BLUE, _WASH), ("outer", ORANGE, _SAND)):
-        values = angle.sel(race=race).transpose("time", "ball")
-        low, high = values.min("ball").values, values.max("ball").values
-        add_band(figure, _ms(ds), low, high, f"{race} race, all balls", wash)
-        own = values.isel(ball=0).values
-        add_curve(figure, _ms(ds), own, f"{race} race, ball 0", color=colour)
+def _sliding(scene: Scene, numbers: BearingNumbers) -> Chart:
+    figure = _by_race(scene, scene.dataset["contact_slip"], "speed [m/s]")
+    return Chart("Sliding speed at the races", [("", figure)])
+
+
+def _contact_angles(scene: Scene, numbers: BearingNumbers) -> Chart:
+    figure = _by_race(scene, scene.dataset["contact_angle"] * (180.0 / pi), "angle [°]")
     return Chart("Contact angles", [("", figure)])
 
 
-_OWN_CHARTS: dict[str, tuple[Callable[[xarray.Dataset, BearingNumbers], Chart], ...]] = {
+def _by_race(scene: Scene, of: xarray.DataArray, title: str) -> Any:
+    """Values ``of`` (time, ball, race) of balls that touch: bands of all, lines of one."""
+    ds, own = scene.dataset, scene.followed
+    touching = metrics.touching(ds, of)
+    figure = new_figure(TIME, title)
+    for race, colour, wash in (("inner", BLUE, _WASH), ("outer", ORANGE, _SAND)):
+        values = touching.sel(race=race).transpose("time", "ball")
+        low, high = values.min("ball").values, values.max("ball").values
+        add_band(figure, _ms(ds), low, high, f"{race} race, all balls", wash)
+        line = values.isel(ball=own).values
+        add_curve(figure, _ms(ds), line, f"{race} race, ball {own}", color=colour)
+    return figure
+
+
+_OWN_CHARTS: dict[str, tuple[Callable[[Scene, BearingNumbers], Chart], ...]] = {
     "roller": (_roller_spin,),
-    "ball": (_ball_speed, _contact_angles),
+    "ball": (_ball_speed, _sliding, _contact_angles),
 }
 
 
-def _orbit(ds: xarray.Dataset, clearance: float | None, settle: float) -> Chart:
-    part = metrics.settled(ds, settle)
+def _orbit(scene: Scene) -> Chart:
+    part = metrics.settled(scene.dataset, scene.settle)
     y, z = (metrics.orbit(part) * 1e6).T
     kept = np.union1d(thinned(y), thinned(z))
-    reach = 1.08 * max(float(np.abs([y, z]).max()), (clearance or 0.0) * 1e6)
+    land = land_circle(part, scene.clearance, scene.guide)
+    reach = 1.08 * max(
+        float(np.abs([y, z]).max()), max(map(abs, land[:2])) + land[2] if land else 0
+    )
     span = {"range": [-reach, reach]}
     figure = new_figure("z [µm]", "y [µm]")
     # z to the left, as seen when looking along -x with y upwards, as in the pictures
     figure.update_xaxes(range=[reach, -reach], constrain="domain")
     figure.update_yaxes(**span, scaleanchor="x", constrain="domain")
-    if clearance is not None:
+    if land is not None:
         angle = np.linspace(0.0, 2.0 * pi, 181)
-        ring = clearance * 1e6 * np.stack([np.cos(angle), np.sin(angle)])
-        add_curve(figure, ring[0], ring[1], "land clearance", color=VERMILION, dash="dash")
+        ring = [land[1] + land[2] * np.cos(angle), land[0] + land[2] * np.sin(angle)]
+        name = f"land clearance {land[2]:g} µm"
+        add_curve(figure, ring[0], ring[1], name, color=VERMILION, dash="dash")
     figure.add_scatter(
         x=z[kept].astype(np.float32), y=y[kept].astype(np.float32), mode="lines",
         line={"width": 1.1, "color": BLUE}, name="cage centre",
     )  # fmt: skip
-    figure.add_scatter(
-        x=[float(z.mean())], y=[float(y.mean())], mode="markers", name="mean",
-        marker={"symbol": "cross-thin", "size": 13, "line": {"width": 2, "color": INK}},
-    )  # fmt: skip
+    for name, at, symbol in (
+        ("start", (z[0], y[0]), "circle-open"), ("end", (z[-1], y[-1]), "square"),
+        ("mean", (z.mean(), y.mean()), "cross-thin"),
+    ):  # fmt: skip
+        figure.add_scatter(
+            x=[float(at[0])], y=[float(at[1])], mode="markers", name=name,
+            marker={"symbol": symbol, "size": 13 if name == "mean" else 8, "color": INK,
+                    "line": {"width": 2, "color": INK}},
+        )  # fmt: skip
     return Chart("Orbit of the cage's centre, settled part", [("", figure)], height=420)
 
 

@@ -24,22 +24,25 @@ def plain(text: str) -> str:
 
 
 def new_figure(x: str, y: str, **layout: Any) -> Any:
-    """An empty plotly figure with titled axes, its legend above."""
+    """An empty plotly figure with titled axes, its legend above; the page's script makes a chart
+    higher by what its legend takes beyond one line, up to ``maxheight`` pixels."""
     import plotly.graph_objects as go
 
     figure = go.Figure()
     figure.update_layout(
         template="none",
         font=FONT,
-        margin={"l": 58, "r": 14, "t": 30, "b": 46},
-        legend={"orientation": "h", "x": 0.0, "y": 1.02, "yanchor": "bottom"},
+        margin={"l": 58, "r": 40, "t": 30, "b": 46},  # right: the buttons stand beside the plot
+        legend={
+            "orientation": "h", "x": 0.0, "y": 1.02, "yanchor": "bottom", "maxheight": 320,
+        },
         hovermode="closest",
         hoverlabel={"bgcolor": "white", "font": FONT},
         modebar={"orientation": "v", "color": FAINT},
         xaxis={**_AXIS, "title": {"text": x, "standoff": 8}},
         yaxis={**_AXIS, "title": {"text": y, "standoff": 8}},
         colorway=list(CYCLE),
-    )
+    )  # fmt: skip
     return figure.update_layout(**layout)
 
 

@@ -35,7 +35,7 @@ from flexcage.report.tables import (
     typeset,
 )
 from flexcage.results.metrics import BearingNumbers
-from flexcage.results.summary import Row, Summary
+from flexcage.results.summary import SHOWN, Row, Summary
 from flexcage.stress.places import place_kind
 
 if TYPE_CHECKING:
@@ -54,6 +54,9 @@ _FIRST = {
     "stress_root_pass_peak": "{place} stress, peak of a pass",
     "energy_audit": "Energy audit",
 }
+_OF_ONE_INSTANT = ("pocket_force_peak", "stress_peak")  # figures that have no interval
+#: Pictures that the page shows as charts.
+_CHARTS = ("stress_peak", "histories", "orbit")
 #: Pictures of a run by file name: their captions ({elements}: rollers or balls), in the order in
 #: which they stand.
 CAPTIONS = {
@@ -125,12 +128,32 @@ def _figures(account: RunAccount) -> Section:
         _tile(rows[key], label.format(place=place)) for key, label in _FIRST.items() if key in rows
     ]
     kept = [s for s in account.summary.sections if s.title not in _APART]
-    note = "± is half of a 95 % interval. A click on a heading sorts."
-    return Section("Key figures", [Tiles(tiles), summary_table(kept, note)])
+    note = (
+        "± is half of a 95 % interval. Figures without ± are counts, values of one instant, or "
+        "means of too few passes; – is not known. A click on a heading sorts."
+    )
+    return Section("Key figures", [Tiles(tiles), summary_table(kept, note, fold="All figures")])
 
 
 def _tile(row: Row, label: str) -> Tile:
-    return Tile(label, f"{row.text} {typeset(row.shown)}".strip(), row.margin_text)
+    margin = row.margin_text
+    if isinstance(row.value, str) or row.text == "-":
+        return Tile(label, row.text.replace("-", "–"), row.note)
+    value = row.text if margin else _rounded(row)
+    return Tile(label, f"{value} {typeset(row.shown)}".strip(), margin or _without_margin(row))
+
+
+def _rounded(row: Row) -> str:
+    """A figure whose margin is not known: three digits, and all before the point."""
+    value = float(row.value or 0.0) * SHOWN[row.shown][1]
+    return f"{value:,.0f}" if abs(value) >= 100.0 else f"{value:#.3g}".removesuffix(".")
+
+
+def _without_margin(row: Row) -> str:
+    """Why a figure has no ±."""
+    if row.key in _OF_ONE_INSTANT:
+        return "one instant"
+    return "± not known: the run is too short"
 
 
 def cage_stress(scene: Scene, stress: StressPictures, name: str = "") -> CageStress:
@@ -152,7 +175,7 @@ def _stress(account: RunAccount) -> list[Section]:
     scale = nice_scale(cage.points, cage.displacement)
     title = f"Equivalent stress at its peak, t = {stress.time * 1e3:.3f} ms"
     blocks: list[Block] = [cage_chart([cage], scale=scale, title=title)]
-    pictures = _named(account, "stress_peak", "stress_envelope")
+    pictures = _named(account, "stress_envelope")
     return [Section("Stress in the cage", [*blocks, *([Gallery(pictures)] if pictures else [])])]
 
 
@@ -167,8 +190,7 @@ def _caption(account: RunAccount, name: str) -> str:
 
 
 def _pictures(account: RunAccount) -> Section:
-    shown = {"stress_peak", "stress_envelope"} if account.scene.stress is not None else set()
-    known = [name for name in CAPTIONS if name not in shown]
+    known = [name for name in CAPTIONS if name not in (*_CHARTS, "stress_envelope")]
     own = sorted({path.stem for path in account.images} - set(CAPTIONS))
     images = _named(account, *known, *own)
     if not images:
@@ -200,12 +222,12 @@ def _solver(account: RunAccount) -> Section:
     ]
     if len(account.steps.get("time", ())):
         blocks.append(Charts([step_chart(account.steps["time"], account.steps["step"])]))
-    blocks.append(mapping_table(("path in the case", "value"), account.settings, "Settings"))
+    blocks.append(mapping_table(("path in the case", "value"), account.settings, fold="Settings"))
     return Section("Solver and model", blocks)
 
 
 def _grounds(account: RunAccount) -> Section:
     return Section("Assumptions and sources", [
-        assumption_table(account.assumptions, "Values that no source gives"),
+        assumption_table(account.assumptions, fold="Values that no source gives"),
         mapping_table(("source", "what it gave"), account.sources, "Sources"),
     ])  # fmt: skip

@@ -8,7 +8,6 @@ from pathlib import Path
 
 from flexcage.report.blocks import (
     Block,
-    Chart,
     Charts,
     Gallery,
     Image,
@@ -69,7 +68,7 @@ def study_page(account: StudyAccount) -> Page:
         Section("Energy audit and solver", [account.audits]),
         Section("Base case", [
             Prose(account.base),
-            assumption_table(account.assumptions, "Its values that no source gives"),
+            assumption_table(account.assumptions, fold="Its values that no source gives"),
         ]),
         Section("How to reproduce", [
             Text("Commands", account.commands, open=True), Text("study.toml", account.study_text),
@@ -79,33 +78,20 @@ def study_page(account: StudyAccount) -> Page:
 
 
 def _comparison(account: StudyAccount) -> Section:
-    groups = comparison_charts(account.outputs, account.abscissas, account.points)
-    charts = [chart for group in groups.values() for chart in group]
+    charts = comparison_charts(account.outputs, account.abscissas, account.points)
     if not charts:
         return Section("Comparison", [Prose(["There is nothing to compare yet."])])
     notes = ["Bars are 95 % intervals over the repetitions. Point at a mark for its case."]
-    most = max(_FEWEST_CHARTS, _MOST_MARKS // len(account.points))
-    if len(charts) > most:
-        notes.append(f"The first {most} of {len(charts)} charts; statistics.csv has all figures.")
-    shown, folded = _folded(groups, most)
-    if folded:
-        more = sum(len(block.charts) for block in folded)
-        notes.append(f"The first {len(shown)} charts are open, {more} more are folded by output.")
-    return Section("Comparison", [Prose(notes), Charts(shown), *folded])
-
-
-def _folded(groups: Mapping[str, Sequence[Chart]], most: int) -> tuple[list[Chart], list[Charts]]:
-    """The first charts, which all see, and the others folded by output; ``most`` in all."""
-    shown: list[Chart] = []
-    folded: list[Charts] = []
-    for title, group in groups.items():
-        kept = group[: max(most, 0)]
-        most -= len(kept)
-        if not folded and (not shown or len(shown) + len(kept) <= _MOST_OPEN):
-            shown += kept
-        elif kept:
-            folded.append(Charts(kept, title))
-    return shown, folded
+    marks = len(account.points) * len(account.abscissas)  # of a chart
+    kept = charts[: max(_FEWEST_CHARTS, _MOST_MARKS // marks)]
+    if len(kept) < len(charts):
+        notes.append(
+            f"The first {len(kept)} of {len(charts)} outputs; statistics.csv has all figures."
+        )
+    blocks: list[Block] = [Prose(notes), Charts(kept[:_MOST_OPEN])]
+    if folded := kept[_MOST_OPEN:]:
+        blocks.append(Charts(folded, f"{len(folded)} more outputs"))
+    return Section("Comparison", blocks)
 
 
 def _stress(account: StudyAccount) -> list[Section]:
@@ -114,5 +100,9 @@ def _stress(account: StudyAccount) -> list[Section]:
         blocks.append(Gallery(account.images))
     if account.stress:
         title = "Equivalent stress at each case's peak"
-        blocks.append(cage_chart(account.stress, scale=account.scale, title=title))
+        view = cage_chart(account.stress, scale=account.scale, title=title)
+        # beside pictures of the same, the view is for those who want to turn it
+        blocks.append(
+            Charts([view], "The same cages in 3D, to be turned") if account.images else view
+        )
     return [Section("Stress in the cage", blocks)] if blocks else []

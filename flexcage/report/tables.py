@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import replace
 from math import isfinite
 from typing import TYPE_CHECKING, Any
 
@@ -38,14 +39,16 @@ def figure_cell(row: Row) -> Cell:
     return number(value if not isinstance(value, str) else str(value), row.text)
 
 
-def summary_table(sections: Iterable[Section], caption: str = "") -> Table:
+def summary_table(sections: Iterable[Section], caption: str = "", *, fold: str = "") -> Table:
     """Figures of a summary's sections, with their intervals."""
     rows: list[list[Cell | str]] = [
         [row.label, figure_cell(row), _margin(row), typeset(row.shown), section.title, row.note]
         for section in sections
         for row in section.shown
     ]
-    return filled(Table(("figure", "value", "± 95 %", "unit", "part", "remark"), rows, caption))
+    return filled(
+        Table(("figure", "value", "± 95 %", "unit", "part", "remark"), rows, caption, fold)
+    )
 
 
 def filled(table: Table) -> Table:
@@ -54,7 +57,7 @@ def filled(table: Table) -> Table:
         return table
     kept = [k for k in range(len(table.head)) if any(row[k].text for row in table.cells)]
     rows = [[row[k] for k in kept] for row in table.cells]
-    return Table([table.head[k] for k in kept], rows, table.caption)
+    return replace(table, head=[table.head[k] for k in kept], rows=rows)
 
 
 def typeset(unit: str) -> str:
@@ -74,15 +77,17 @@ def rows_table(rows: Sequence[Row], caption: str = "") -> Table:
     return filled(Table(("figure", "value", "unit", "remark"), cells, caption))
 
 
-def mapping_table(head: tuple[str, str], values: Mapping[str, Any], caption: str = "") -> Table:
+def mapping_table(
+    head: tuple[str, str], values: Mapping[str, Any], caption: str = "", *, fold: str = ""
+) -> Table:
     """Names and texts."""
-    return Table(head, [[str(k), str(v)] for k, v in values.items()], caption)
+    return Table(head, [[str(k), str(v)] for k, v in values.items()], caption, fold)
 
 
-def assumption_table(assumptions: Mapping[str, tuple[str, str]], caption: str) -> Table:
-    """Paths of a case, their values, and the reasons for them."""
+def assumption_table(assumptions: Mapping[str, tuple[str, str]], *, fold: str) -> Table:
+    """Paths of a case, their values, and the reasons for them; folded away."""
     rows = [[path, value, reason] for path, (value, reason) in assumptions.items()]
-    return Table(("path in the case", "value", "why it was chosen"), rows, caption)
+    return Table(("path in the case", "value", "why it was chosen"), rows, fold=fold)
 
 
 def frame_table(frame: pandas.DataFrame, caption: str = "") -> Table:

@@ -26,6 +26,7 @@ if TYPE_CHECKING:
 WATCHED = {
     "cage_speed": "cage speed", "whirl_radius": "whirl radius", "pocket_force_mean": "pocket force"
 }  # fmt: skip
+JOINT = 1.25  # times its margin a drift must be, for that three figures err together in 5 % of runs
 LOW_PASS = 2e3  # Hz, of the second deviation of the cage centre's speed
 
 
@@ -75,7 +76,7 @@ def _statistics_rows(
     few = "" if count >= FEWEST else f"; intervals need {FEWEST}"
     drifts = {name: records[key].drift for key, name in WATCHED.items()}
     known = any(isfinite(d) for d in drifts.values())
-    drifting = ", ".join(name for name, d in drifts.items() if d > 1.0)
+    drifting = ", ".join(name for name, d in drifts.items() if d > JOINT)
     remedy = "" if known else f"too few passes to tell: {2 * FEWEST} are needed"
     if drifting:
         remedy = "beyond the intervals: not settled, raise output.settle"

@@ -46,13 +46,22 @@ class Record:
     @cached_property
     def drift(self) -> float:
         """Distance of the first half from the second, over the margin of that distance: above 1
-        the halves differ; NaN if they are too short to tell."""
-        if len(self.sums) < 2 * FEWEST:
+        the halves differ; NaN if they are too short to tell.
+
+        Halves of whole turns of the cage where there is room for them, so that what repeats with
+        the turn is in both alike.
+        """
+        count = len(self.sums) // 2
+        if count < FEWEST:
             return float("nan")
-        values, free = influences(self.sums, _statistic, self.turn)
-        one, other = np.array_split(values, 2)
-        both = float(np.hypot(margin(one, free), margin(other, free)))
-        apart = abs(float(one.mean() - other.mean()))
+        whole = count - count % self.turn if self.turn else count
+        count = whole if whole >= FEWEST else count
+        halves = self.sums[-2 * count : -count], self.sums[-count:]
+        one, other = (Record(sums, self.turn) for sums in halves)
+        if np.isnan(one.value) != np.isnan(other.value):
+            return float("inf")  # such as a force while in contact, without any in one half
+        both = float(np.hypot(one.margin, other.margin))
+        apart = abs(one.value - other.value)
         rounding = np.isfinite(both) and apart <= 1e-12 * abs(self.value)
         return 0.0 if rounding else apart / both
 

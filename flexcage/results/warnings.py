@@ -101,8 +101,7 @@ def from_attrs(attrs: Mapping[str, Any]) -> tuple[RunWarning, ...]:
 
 
 def _odd_geometry(setup: Setup) -> Iterator[RunWarning]:
-    width = setup.land.width if has_land(setup.cage, setup.land) else None
-    yield from odd_geometry(setup.bearing, setup.cage, width)
+    yield from odd_geometry(setup.bearing, setup.cage)
 
 
 def _pinched(setup: Setup) -> Iterator[RunWarning]:

@@ -63,6 +63,24 @@ FLEXIBLE_FIGURES = (
     "stress_root", "stress_root_pass_peak", "stress_start", "wall_stress",
 )  # fmt: skip
 
+#: Figures that may be below zero; all others are sizes, shares and counts.
+SIGNED_FIGURES = frozenset(
+    """inner_speed cage_speed epicyclic_speed cage_slip_ratio roller_spin roller_spin_ideal
+    ball_spin ball_spin_ideal slip_loaded slip_unloaded whirl_speed_ratio whirl_difference
+    contact_angle_inner contact_angle_outer sliding_inner_loaded sliding_outer_loaded
+    sliding_inner_unloaded sliding_outer_unloaded stored_kinetic stored_strain stored_contact
+    stored_mount drive_power drive_torque inner_axial inner_tilt reaction_axial_force
+    reaction_moment_y reaction_moment_z""".split()
+) | {f"work_{name}" for name in POWERS}
+#: Variables that are never below zero, and reductions that are not, whatever they reduce.
+_SIZES = frozenset(
+    """race_force contact_force pocket_force pocket_peak pocket_slice_force pocket_point_force
+    rib_force cage_whirl_radius cage_radial_displacement""".split()
+)
+_SIZED_REDUCTIONS = frozenset(
+    "range std rms ripple crest frequency line_share mean_frequency".split()
+)
+
 _REDUCTION = re.compile(r"(\w+)(?:\[([^\]]*)\])?\.(\w+)")
 _COUNTED = re.compile(r"(\d+)(?::(\d+))?")  # one place, or those from one to before another
 _LABELS_OF_A_RUN = {"energy_kind": ENERGIES, "channel": tuple(POWERS)}
@@ -172,6 +190,14 @@ def counted(label: str) -> tuple[int, int] | None:
 def is_reduction(name: str) -> bool:
     """True for "pocket_force.max", False for the name of a figure."""
     return _REDUCTION.fullmatch(name) is not None
+
+
+def never_negative(name: str) -> bool:
+    """Whether an output is a size, such as a force or a stress: an interval of it ends at zero."""
+    match = _REDUCTION.fullmatch(name)
+    if match is None:
+        return name not in SIGNED_FIGURES
+    return match[1] in _SIZES or match[3] in _SIZED_REDUCTIONS
 
 
 def beyond_summary(names: tuple[str, ...]) -> tuple[str, ...]:

@@ -13,7 +13,7 @@ from flexcage.report.comparison import Abscissa, Output
 from flexcage.report.tables import figure_cell, filled, number, typeset
 from flexcage.results.summary import SHOWN, Row, format_value
 from flexcage.study.axes import LatinHypercube, Points, Sobol, Zip
-from flexcage.study.outputs import Figure, is_reduction
+from flexcage.study.outputs import Figure, is_reduction, never_negative
 
 if TYPE_CHECKING:
     from flexcage.study.results import ResultRow, StudyResults
@@ -25,6 +25,12 @@ _AUDIT = {  # figures of every case, and what the table calls them
     "failed_error_tests": "failed error tests", "failed_newton": "failed Newton",
     "wall_solve": "solving", "wall_stress": "stress",
 }  # fmt: skip
+
+
+_NONE = "–"
+_NO_FIGURE = (
+    f"{_NONE}: these cases have no such figure (a rigid cage has no stress), failed or are open."
+)
 
 
 def first_rows(results: StudyResults) -> list[ResultRow]:
@@ -81,6 +87,10 @@ def statistics_table(results: StudyResults) -> Table:
             row.append(_mean_cell(results, name, cells[si[name]], cells[f"+- {si[name]}"]))
         rows.append(row)
     caption = "Means over the repetitions, ± half of the 95 % interval. A click on a heading sorts."
+    if any(cell.text == _NONE for row in rows for cell in row):
+        caption += f" {_NO_FIGURE}"
+    if any(cells["done"] == 1 for cells in frame[:MOST_ROWS].to_dict("records")):
+        caption += " One run alone gives no ±."
     if len(frame) > MOST_ROWS:
         caption += f" The first {MOST_ROWS:,} of {len(frame):,} points; statistics.csv has all."
     return Table(("point", *axes, "runs", *titles.values()), rows, caption)
@@ -92,7 +102,7 @@ def _value_cell(value: Any) -> Cell:
 
 def _mean_cell(results: StudyResults, name: str, mean: Any, half: float) -> Cell:
     if not isinstance(mean, (int, float)) or not isfinite(mean):
-        return Cell("–")
+        return Cell(_NONE)
     shown = results.known[name].shown if name in results.known else ""
     return number(float(mean), " ".join(format_value(float(mean), shown, half)).rstrip())
 
@@ -133,7 +143,7 @@ def _share(results: StudyResults) -> str:
 
 def _cell(figure: Figure | None, key: str = "") -> Cell:
     if figure is None:
-        return Cell("–")
+        return Cell(_NONE)
     return figure_cell(Row(key, "", figure.value, figure.shown, margin=figure.margin))
 
 
@@ -168,7 +178,8 @@ def outputs(results: StudyResults) -> list[Output]:
         unit = _unit(results.known.get(name))
         factor, si = _factor(results.known.get(name)), results.titles[name]
         mean = np.array([_float(v) for v in frame[si]]) * factor
-        found.append(Output(_words(name), unit, mean, np.array(frame[f"+- {si}"], float) * factor))
+        half = np.array(frame[f"+- {si}"], float) * factor
+        found.append(Output(_words(name), unit, mean, half, positive=never_negative(name)))
     return found
 
 

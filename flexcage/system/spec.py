@@ -8,6 +8,7 @@ from math import pi
 import numpy as np
 
 from flexcage.core.spec import option, quantity
+from flexcage.core.units import describe
 
 #: Shapes, and the share of the period that each takes from zero to its amplitude.
 WAVES = {"none": 0.0, "sine": 0.0, "triangle": 0.25, "rectangle": 0.01}
@@ -87,7 +88,7 @@ class Load(Wave):
     wave_amplitude: float = quantity("N", 0.0, doc="amplitude of the wave")
     wave_of: str = option("radial", doc="load that has a wave", choices=("radial", "axial"))
     tilt: str = option(
-        "held", doc="is the inner ring held in tilt, or free in a run?", choices=("held", "free")
+        "held", doc="is the inner ring held in tilt, or free?", choices=("held", "free")
     )
     axial_stiffness: float = quantity(
         "N/m", 0.0, doc="axial stiffness of the shaft; 0: none", minimum=0.0, former=0.0
@@ -118,6 +119,33 @@ class Load(Wave):
     def damping(self) -> tuple[float, float, float]:
         """Of the shaft: axial [N s/m], in tilt about y and z [N m s/rad]."""
         return self.axial_damping, self.tilt_damping, self.tilt_damping
+
+    def held_in_words(self, *, axially: bool, tilt: str | None = None) -> str:
+        """How the inner ring is held: is it free ``axially``, and is its ``tilt`` "free" or "held"
+        (by default, as this load says)?"""
+        tilt = tilt or self.tilt
+        across = "across the axis" if self.centre == "free" else ""
+        free = [across, "along it" if axially and across else "along the axis" if axially else ""]
+        free += ["in tilt"] if tilt == "free" else []
+        held = [] if across else ["at its centre"]
+        held += [] if axially else ["along the axis"]
+        if tilt == "held":
+            aligned = describe(self.misalignment, "mrad") if self.misalignment else "without tilt"
+            held.append(f"in tilt, {aligned} (load.tilt)")
+        shaft = [
+            f"{describe(value, unit)} {way}"
+            for value, unit, way in (
+                (self.axial_stiffness, "N/um", "along the axis"),
+                (self.tilt_stiffness if tilt == "free" else 0.0, "N*m/rad", "in tilt"),
+            )
+            if value
+        ]
+        parts = [
+            f"{word} {' and '.join(filter(None, ways))}"
+            for word, ways in (("free", free), ("held", held), ("on a shaft of", shaft))
+            if any(ways)
+        ]
+        return "; ".join(parts)
 
     @property
     def at_start(self) -> tuple[float, float]:

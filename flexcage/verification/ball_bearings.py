@@ -62,7 +62,7 @@ def solved(
     moment_z: float = 0.0,
 ) -> StaticSolution:
     """Static solution of a bearing under a load of these components."""
-    load = Load(axial=axial, radial=radial, moment_y=moment_y, moment_z=moment_z)
+    load = Load(axial=axial, radial=radial, moment_y=moment_y, moment_z=moment_z, tilt="free")
     return solve_bearing(bearing, load=load, speed=rpm * RPM, options=options)
 
 

@@ -12,6 +12,7 @@ from flexcage.core.errors import InputError
 from flexcage.geometry.presets import load_preset
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
+BEARING = '[bearing]\npreset = "7010C-PI"\n'
 BALLS = '[bearing]\npreset = "7010C-PI"\n[load]\naxial = "100 N"\n'
 
 
@@ -169,3 +170,32 @@ def test_built_from_objects():
     case = StaticCase(bearing=bearing, load=flexcage.Load(radial=200.0))
     solution = flexcage.solve_static(case)
     assert solution.largest_force > 200.0 / 7 and solution.load[1] == 200.0
+
+
+def test_a_tilt_is_held_or_free_as_in_a_run():
+    """One file, two commands: load.tilt says it for both, and both say what is held."""
+    for tilt, words in (("held", "held in tilt, without tilt"), ("free", "and in tilt")):
+        text = f'{BEARING}[load]\naxial = "100 N"\nradial = "40 N"\ntilt = "{tilt}"\n'
+        static, run = load_static(text), load_case(text)
+        own, of_run = flexcage.solve_static(static), flexcage.solve_static(run)
+        for solution in (own, of_run):
+            assert (solution.displacement[3:] == 0.0).all() == (tilt == "held")
+            assert words in solution.table().splitlines()[1]
+        assert words in run.held_in_words
+    default = load_static(f'{BEARING}[load]\naxial = "100 N"\nradial = "40 N"\n')
+    assert not flexcage.solve_static(default).displacement[3:].any()
+    free = load_static(default.to_toml(), overrides={"static.tilt": "free"})
+    assert flexcage.solve_static(free).displacement[3:].any()
+
+
+def test_what_is_held_is_told_in_words():
+    n1013 = load_case('[bearing]\npreset = "N1013"\n[load]\nmisalignment = "0.5 mrad"\n')
+    assert n1013.held_in_words == (
+        "free across the axis; held along the axis and in tilt, 0.5 mrad (load.tilt)"
+    )
+    shaft = {"load.axial_stiffness": "10 N/um", "load.tilt": "free"}
+    sprung = n1013.replace({**shaft, "load.tilt_stiffness": "2000 N*m/rad"}).held_in_words
+    assert sprung == (
+        "free across the axis and along it and in tilt; on a shaft of 10 N/um along the axis and "
+        "2000 N*m/rad in tilt"
+    )

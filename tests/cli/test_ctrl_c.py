@@ -17,7 +17,8 @@ load = { radial = "1000 N" }
 """
 # the console script, which says when it listens; its disk has room for any run
 SCRIPT = """
-import shutil, sys
+import shutil, signal, sys
+signal.signal(signal.SIGINT, signal.default_int_handler)  # tests in the background ignore it
 own_usage = shutil.disk_usage
 shutil.disk_usage = lambda path: own_usage(path)._replace(free=10**15)
 from flexcage import cli

@@ -135,3 +135,48 @@ def test_a_mesh_file_of_ones_own(tmp_path):
         build_cage_mesh(replace(CAGE, width=6.7 * MM), defects=defects, **shape)
     with pytest.raises(InputError, match="pocket . is long 6.900 mm, but the case says 7.000 mm"):
         build_cage_mesh(replace(CAGE, pocket_diameter=7.0 * MM), defects=defects, **shape)
+
+
+def closed_cage(thickness, *, ball, bore, outside, rivet, bend=None):
+    """A cage closed over its balls, from dimensions in mm."""
+    pocket = 1.0523 * ball * MM
+    return replace(
+        CAGE, bore=bore * MM, outside_diameter=outside * MM, width=pocket, pocket_diameter=pocket,
+        thickness=thickness * MM, rivet_diameter=rivet * MM, bend_radius=bend and bend * MM,
+    )  # fmt: skip
+
+
+@pytest.mark.parametrize("factor", np.linspace(0.8, 1.6, 17).round(2))
+def test_closed_cages_of_any_thickness_mesh(factor):
+    """The sheet ends on the axis through the ball, whatever rounding makes of its radius."""
+    cage = closed_cage(1.716 * factor, ball=14.434, bore=83.7329, outside=98.1669, rivet=2.836)
+    mesh = build_cage_mesh(
+        cage, pocket_count=10, pitch_diameter=90.9499 * MM, defects=(),
+        options=MeshOptions(fineness="coarse"),
+    )  # fmt: skip
+    check_mesh(mesh)
+    assert len(mesh.groups["pocket9_wall"]) > 50
+    assert np.abs(mesh.points[:, 0]).max() == pytest.approx(cage.reach, rel=1e-6)
+
+
+def test_closed_cages_of_any_dimensions_mesh():
+    """Random ones that geometry allows, each with its mesh checked."""
+    meshed = 0
+    for share in qmc.LatinHypercube(6, seed=5).random(36):
+        ball, count = 4.0 + 36.0 * share[0], int(6 + 7 * share[1])
+        pitch = ball * count / np.pi * (1.3 + 0.5 * share[2])
+        half = ball * (0.3 + 0.35 * share[3])
+        sheet = ball * (0.05 + 0.09 * share[4])
+        cage = closed_cage(
+            sheet, ball=ball, bore=pitch - half, outside=pitch + half,
+            rivet=ball * (0.1 + 0.1 * share[5]), bend=sheet * (0.3 + share[0]),
+        )  # fmt: skip
+        if any(cage.impossible(count)) or any(cage.no_room(pitch * MM, count)):
+            continue
+        mesh = build_cage_mesh(
+            cage, pocket_count=count, pitch_diameter=pitch * MM, defects=(),
+            options=MeshOptions(fineness="coarse"),
+        )  # fmt: skip
+        check_mesh(mesh)
+        meshed += 1
+    assert meshed > 10

@@ -80,7 +80,8 @@ def test_every_picture_names_its_case(run, ring, drawn, tmp_path, monkeypatch):
     monkeypatch.setattr("flexcage.results.spectra.resolves", lambda *_: True)
     names = [name for room in PICTURES.values() for name in room]
     for name, shown in (
-        ("my case", "my case"), ("a $x_1\n$ case", r"a \$x_1 \$ case"), ("x" * 99, "x" * 59 + "…"),
+        ("my case", "my case"), ("a $x_1\n$ case", r"a \$x_1 \$ case"),
+        ("x" * 50 + "y" * 49, "x" * 29 + "…" + "y" * 30),
     ):  # fmt: skip
         draw_album(replace(scene(run, ring, 0), name=name), tmp_path, animate=True)
         assert {name: given["note"] for name, given in drawn.items()} == dict.fromkeys(names, shown)

@@ -111,6 +111,24 @@ def test_stress(field, canvas, tmp_path):
     assert reddish.any(), "values over the range have their own colour on the cage"
 
 
+def test_the_middles_of_edges_are_drawn_and_do_not_set_the_colours(field, canvas, tmp_path):
+    """A stress that is nothing in the middles of edges: the picture of quadratic cells shows it,
+    with the same colours as one that has vertices alone."""
+    nodes, cells, u, stress, peak = field
+    n = int(cells[:, :4].max()) + 1
+    bent = np.concatenate([stress[:n], np.zeros(len(stress) - n)])
+    bent[peak] = 40e6 if peak < n else 0.0
+    shown = {}
+    for name, (points, tets) in (("full", (nodes, cells)), ("plain", (nodes[:n], cells[:, :4]))):
+        size = len(points)
+        path = render.stress_picture(
+            points, tets, 0 * u[:size], bent[:size], tmp_path / f"{name}.png"
+        )
+        shown[name] = iio.imread(path)[100:980, 40:1200, :3].astype(int)
+    dark = {k: (np.abs(v - [68, 1, 84]).max(axis=2) < 60).mean() for k, v in shown.items()}
+    assert dark["full"] > 2.0 * dark["plain"]
+
+
 def test_a_fixed_range_and_an_undeformed_envelope(field, canvas, tmp_path):
     nodes, cells, _, stress, peak = field
     path = render.envelope_picture(
@@ -216,6 +234,40 @@ def test_the_highest_place_is_that_of_the_settled_part(run, tmp_path, monkeypatc
     for settle, label in ((0.3, "highest once settled: b"), (0.0, "highest: c")):
         render.histories(run, tmp_path / "h.png", root_stress=stress, settle=settle)
         assert [line.get_label() for line in shown[-1].axes[2].lines] == [label]
+
+
+def test_an_empty_plot_says_why_and_has_no_line_in_its_legend(run, tmp_path, monkeypatch):
+    """No pocket is touched: no scale of hundredths of a newton; no roller is loaded: no such line.
+    Places are named in words."""
+    shown = []
+    monkeypatch.setattr(sheet, "save", lambda figure, path: shown.append(figure))
+    free = run.copy(deep=True)
+    free["pocket_force"] = 0.0 * run["pocket_force"]
+    free["race_force"] = 0.0 * run["race_force"]
+    stress = xr.DataArray(
+        np.ones((run.sizes["time"], 1)), dims=("time", "place"),
+        coords={"time": run["time"], "place": ["pocket3_root_rear-x"]},
+    )  # fmt: skip
+    render.histories(free, tmp_path / "h.png", bearing=NUMBERS, root_stress=stress)
+    _, pockets, corners, spin = shown[-1].axes
+    assert [text.get_text() for text in pockets.texts] == ["no pocket is touched"]
+    assert pockets.get_yticks().tolist() == [0.0]
+    names = [text.get_text() for text in spin.get_legend().get_texts()]
+    assert names == ["all", "roller 0", "pure rolling"]
+    names = [text.get_text() for text in corners.get_legend().get_texts()]
+    assert names == ["all places", "highest: pocket 3, corner rear -x"]
+    render.histories(run, tmp_path / "h.png", bearing=NUMBERS)
+    assert not shown[-1].axes[1].texts
+
+
+def test_the_circle_of_a_land_is_about_its_ring(run):
+    from flexcage.render.curves import land_circle
+
+    moved = run.copy(deep=True)
+    moved["inner_position"][:, 1:] = [20e-6, -5e-6]
+    assert land_circle(moved, 0.1e-3, "inner") == pytest.approx((20.0, -5.0, 100.0))
+    assert land_circle(moved, 0.1e-3, "outer") == pytest.approx((0.0, 0.0, 100.0))
+    assert land_circle(moved, None, "inner") is None
 
 
 def test_a_roller_locked_in_its_pocket_is_drawn_below_zero(run, tmp_path, monkeypatch):

@@ -42,6 +42,16 @@ def test_the_picture_of_spectra(run, figures, tmp_path):
     assert sorted(drawn) == pytest.approx([510.7765, 541.8182, 658.1818, 1021.5530], abs=1e-3)
 
 
+def test_legends_stand_beside_their_panels(run, figures, tmp_path):
+    render.spectra_picture(run, tmp_path / "s.png", bearing=NUMBERS)
+    (figure,) = figures
+    renderer = figure.canvas.get_renderer()
+    for ax in figure.axes:
+        legend = ax.get_legend().get_window_extent(renderer)
+        assert legend.x0 > ax.get_window_extent(renderer).x1
+        assert legend.x1 < figure.bbox.x1
+
+
 def test_names_of_lines_do_not_meet(run, figures, tmp_path):
     render.spectra_picture(run, tmp_path / "s.png", bearing=NUMBERS)
     (figure,) = figures

@@ -120,12 +120,12 @@ def test_it_loads_offline_without_errors_and_is_legible(browser, request, page, 
 
 
 def test_charts_that_are_folded_away_are_drawn_when_unfolded(browser, tmp_path):
-    axes = [Abscissa(f"axis {k}", [1.0, 2.0, 3.0], [""] * 3) for k in range(5)]
-    outputs = [Output(f"output {k}", "N", np.ones(3), np.full(3, np.nan)) for k in range(4)]
+    axes = [Abscissa(f"axis {k}", [1.0, 2.0, 3.0], [""] * 3) for k in range(2)]
+    outputs = [Output(f"output {k}", "N", np.ones(3), np.full(3, np.nan)) for k in range(15)]
     page = study_page(study_account(tmp_path, outputs=outputs, abscissas=axes, stress=()))
     looking.load(browser, write_page(page, tmp_path / "page.html"), width=1280)
     drawn = "return document.querySelectorAll('.plot.drawn').length"
-    assert browser.execute_script(drawn) == 10
+    assert browser.execute_script(drawn) == 12
     fold = "return document.querySelectorAll('details:has(.chart)')[0]"
     summary = browser.execute_script(f"{fold}.querySelector('summary')")
     for _ in range(3):  # opened, closed, opened again: drawn once
@@ -137,7 +137,47 @@ def test_charts_that_are_folded_away_are_drawn_when_unfolded(browser, tmp_path):
         "return [...fold.querySelectorAll('.plot')].map(e => [e.clientWidth,"
         " e.querySelector('.main-svg').clientWidth])"
     )
-    assert len(widths) == 5 and all(plot == svg > 200 for plot, svg in widths)
+    assert len(widths) == 3 and all(plot == svg > 200 for plot, svg in widths)
+    assert looking.complaints(browser) == []
+
+
+@pytest.mark.parametrize("width", [1280, 400])
+def test_a_long_legend_leaves_the_plot_its_height(browser, tmp_path, width):
+    """Twelve groups with long names, and a choice of what is drawn against."""
+    groups = [f"contacts.pocket.friction.dynamic = 0.{k:02d}, cage = flexible" for k in range(12)]
+    n = 2 * len(groups)
+    long = Abscissa("load [N]", [1.0, 2.0] * len(groups), [g for g in groups for _ in range(2)])
+    short = Abscissa("speed [rpm]", list(range(n)), [""] * n)
+    output = Output("force", "N", np.arange(float(n)), np.full(n, 3.0), positive=True)
+    page = study_page(
+        study_account(
+            tmp_path,
+            outputs=[output],
+            abscissas=[short, long],
+            points=[str(k) for k in range(n)],
+            stress=(),
+            images=(),
+        )  # fmt: skip
+    )
+    looking.load(browser, write_page(page, tmp_path / "page.html"), width=width)
+    heights = """const plot = document.querySelector('.plot');
+        const rect = (what) => plot.querySelector(what)?.getBoundingClientRect();
+        const legend = rect('.legend'), area = rect('.nsewdrag');
+        return [plot.clientHeight, area.height, legend ? area.top - legend.bottom : null]"""
+    alone = browser.execute_script(heights)
+    assert alone[2] is None and alone[1] > 180.0
+    choice = browser.find_element("css selector", "figure select")
+    for value, several in (("1", True), ("0", False), ("1", True)):
+        browser.execute_script(
+            "arguments[0].value = arguments[1]; arguments[0].dispatchEvent(new Event('change'))",
+            choice, value,
+        )  # fmt: skip
+        time.sleep(1.0)
+        high, area, apart = browser.execute_script(heights)
+        if several:
+            assert high > alone[0] + 100 and area > 0.9 * alone[1] and apart >= 0.0
+        else:
+            assert [high, area] == pytest.approx(alone[:2], abs=2.0) and apart is None
     assert looking.complaints(browser) == []
 
 
@@ -227,7 +267,7 @@ def _between(one, other) -> float:
 def test_a_picture_opens_large_and_closes(browser, tmp_path):
     import PIL.Image
 
-    images = [tmp_path / "stress_peak.png", tmp_path / "stress_envelope.png"]
+    images = [tmp_path / "mesh.png", tmp_path / "modes.png"]
     for path in images:
         PIL.Image.effect_noise((1802, 1012), 60.0).save(path)
     told = account(images=images)

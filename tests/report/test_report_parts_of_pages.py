@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import re
 from html.parser import HTMLParser
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -36,11 +37,14 @@ from flexcage.report.comparison import (
 from flexcage.report.extras import extra_figures
 from flexcage.report.histories import history_charts
 from flexcage.report.page import html, write_page
+from flexcage.report.plots import new_figure
 from flexcage.report.run_page import run_page
 from flexcage.report.study_page import study_page
 from flexcage.report.tables import filled
 from flexcage.report.thinning import thinned
 from flexcage.report.verdicts import read_verdicts
+from flexcage.results.summary import Row, Summary
+from flexcage.results.summary import Section as Part
 
 
 class _Texts(HTMLParser):
@@ -139,9 +143,9 @@ def test_texts_are_escaped_everywhere():
 
 def test_names_of_cases_are_words_for_plotly_too():
     axis = Abscissa("label", ["<b>one</b>", "two"], [NASTY, "b"])
-    ((chart,),) = comparison_charts(
+    (chart,) = comparison_charts(
         [Output("slip", "%", np.array([1.0, 2.0]), np.full(2, np.nan))], [axis], [NASTY, "second"]
-    ).values()
+    )
     figure = chart.figures[0][1]
     texts = [*figure.layout.xaxis.ticktext, figure.data[0].name, figure.data[0].text[0]]
     assert all("<b>" not in text and "<script" not in text for text in texts)
@@ -153,9 +157,9 @@ def test_points_of_a_group_are_joined_in_order_and_carry_intervals():
     mean = np.array([30.0, 10.0, 20.0, 1.0, np.nan, 3.0])
     half = np.array([3.0, 1.0, 2.0, np.nan, np.nan, 0.3])
     names = [f"case {k}" for k in range(6)]
-    ((chart,),) = comparison_charts(
+    (chart,) = comparison_charts(
         [Output("force", "N", mean, half)], [Abscissa("load [N]", values, group)], names
-    ).values()
+    )
     first, second = chart.figures[0][1].data
     assert list(first.x) == [1.0, 2.0, 3.0] and list(first.y) == [10.0, 20.0, 30.0]
     assert list(first.error_y.array) == [1.0, 2.0, 3.0] and first.mode == "lines+markers"
@@ -170,31 +174,110 @@ def test_every_case_is_named_where_there_are_more_groups_than_colours(values):
     group = [f"cage {k}" for k in range(many) for _ in values]
     axis, n = Abscissa("load", values * many, group), len(group)
     output = Output("force", "N", np.arange(float(n)), np.full(n, np.nan))
-    ((chart,),) = comparison_charts([output], [axis], group).values()
+    (chart,) = comparison_charts([output], [axis], group)
     data = chart.figures[0][1].data
     assert [s.name for s in data] == [f"cage {k}" for k in range(many)]
     assert all(s.showlegend and s.mode == "markers" for s in data)
     assert len({(s.marker.color, s.marker.symbol) for s in data}) == many
     if "one" in values:
         assert all(abs(x - i) < 0.5 for s in data for i, x in enumerate(s.x))
-    assert chart.height > 300
     assert len({tuple(mark(k).items()) for k in range(MOST_NAMED)}) == MOST_NAMED
 
 
-def test_charts_after_the_first_are_folded_away_by_output(tmp_path):
+def test_intervals_of_sizes_end_at_zero():
+    """Two scattered runs: half of the interval is more than the mean. A force ends at zero, a slip
+    ratio does not; both reach as far up."""
+    mean, half = np.array([2.0, 5.0]), np.array([7.0, 1.0])
+    axis = Abscissa("load [N]", [1.0, 2.0], ["", ""])
+    for positive, least in ((True, 0.0), (False, -5.0)):
+        (chart,) = comparison_charts([Output("x", "N", mean, half, positive)], [axis], ["a", "b"])
+        (series,) = chart.figures[0][1].data
+        below = np.array(series.y) - np.array(series.error_y.arrayminus)
+        assert below.tolist() == [least, 4.0] and list(series.error_y.array) == [7.0, 1.0]
+        assert "2.0 ± 7.0 N" in series.text[0], "the text keeps the whole margin"
+
+
+def test_every_output_has_one_chart_with_a_choice_of_its_axis(tmp_path):
     n, loads = 3, [1.0, 2.0, 3.0]
-    axes = [Abscissa(f"axis {k}", loads, [""] * n) for k in range(5)]
-    outputs = [Output(f"output {k}", "N", np.ones(n), np.full(n, np.nan)) for k in range(8)]
+    axes = [Abscissa(f"axis {k} [N]", loads, [""] * n) for k in range(5)]
+    outputs = [Output(f"output {k}", "N", np.ones(n), np.full(n, np.nan)) for k in range(15)]
     page = study_page(study_account(tmp_path, outputs=outputs, abscissas=axes))
     blocks = next(s for s in page.sections if s.title == "Comparison").blocks
-    note, shown, *folded = blocks
-    assert "The first 10 charts are open, 30 more are folded by output." in note.paragraphs
-    assert [len(b.charts) for b in (shown, *folded)] == [10] + [5] * 6
-    assert [b.title for b in folded] == [f"output {k}" for k in range(2, 8)]
+    _, shown, folded = blocks
+    charts = [*shown.charts, *folded.charts]
+    assert [c.title for c in charts] == [f"output {k}" for k in range(15)]
+    assert all([name for name, _ in c.figures] == [f"axis {k}" for k in range(5)] for c in charts)
+    assert len(shown.charts) == 12 and folded.title == "3 more outputs"
     text = html(page)
-    assert text.count("<details><summary>output ") == 6
-    closed = re.findall(r"<details><summary>output .*?</details>", text, flags=re.S)
-    assert sum(block.count('class="chart"') for block in closed) == 30
+    (closed,) = re.findall(r"<details><summary>3 more outputs.*?</details>", text, flags=re.S)
+    assert closed.count('class="chart"') == 3
+
+
+def test_a_page_of_one_run_shows_no_chart_twice():
+    """What the page draws as charts that can be zoomed or turned, it does not show as pictures."""
+    names = ["mesh", "histories", "orbit", "spectra", "stress_peak", "stress_envelope", "my_own"]
+    page = run_page(account(images=[Path(f"{name}.png") for name in names]))
+    shown = [
+        image.path.stem
+        for section in page.sections
+        for block in section.blocks
+        if block.kind == "gallery"
+        for image in block.images
+    ]
+    assert sorted(shown) == ["mesh", "my_own", "spectra", "stress_envelope"]
+
+
+def test_what_histories_and_orbit_show_as_pictures_the_page_shows_as_charts():
+    ds = dataset()
+    ds["inner_speed"] = ds["inner_speed"] * np.linspace(0.5, 1.0, ds.sizes["time"])
+    run = scene(ds)
+    charts = {chart.title: chart.figures[0][1] for chart in history_charts(run, NUMBERS)}
+    assert list(charts)[:2] == ["Speed of the inner ring", "Load on the inner ring"]
+    assert [t.name for t in charts["Load on the inner ring"].data] == ["radial load"]
+    spin = next(f for title, f in charts.items() if title.startswith("Roller spin"))
+    assert f"roller {run.followed}" in [t.name for t in spin.data], "that of the damaged pocket"
+    orbit = charts["Orbit of the cage's centre, settled part"]
+    circle = next(t for t in orbit.data if t.name == "land clearance 250 µm")
+    assert np.mean([min(circle.y), max(circle.y)]) == pytest.approx(15.0, abs=1e-3), (
+        "about the place of the inner ring, which guides the cage"
+    )
+    assert {"start", "end", "mean"} <= {t.name for t in orbit.data}
+
+
+def test_key_figures_carry_their_margins_or_say_why_not():
+    rows = (
+        Row("cage_speed", "Cage speed", 281.6, "rpm", margin=1.26),
+        Row("cage_slip_ratio", "Slip", 0.0074286, "%"),
+        Row("whirl_radius", "Whirl radius", 245.07e-6, "um"),
+        Row("pocket_force_peak", "Peak", 89.001, "N", "pocket 19"),
+        Row("energy_audit", "Audit", "passed", "", "at most 0.1 %"),
+    )
+    page = run_page(account(summary=Summary((Part("All", rows),))))
+    tiles = next(s for s in page.sections if s.title == "Key figures").blocks[0].tiles
+    assert [(t.value, t.note) for t in tiles] == [
+        ("2,689 rpm", "± 12"),
+        ("0.743 %", "± not known: the run is too short"),
+        ("245 µm", "± not known: the run is too short"),
+        ("89.0 N", "one instant"),
+        ("passed", "at most 0.1 %"),
+    ]
+
+
+def test_long_tables_are_folded_away():
+    page = run_page(account())
+    folds = [b.fold for s in page.sections for b in s.blocks if b.kind == "table" and b.fold]
+    assert folds == ["All figures", "Settings", "Values that no source gives"]
+    text = html(page)
+    assert re.search(r"<details><summary>All figures \(\d+\)</summary>", text)
+    assert text.count("<details") == text.count("</details>")
+
+
+def test_legends_stand_above_the_plot_and_buttons_beside_it():
+    """No legend or button lies over a curve: the script of a page adds the height of the legend."""
+    figure = new_figure("x", "y")
+    legend = figure.layout.legend
+    assert legend.y > 1.0 and legend.yanchor == "bottom" and legend.maxheight > 100
+    assert figure.layout.margin.r >= 40
 
 
 def test_a_page_asks_for_nothing_outside():

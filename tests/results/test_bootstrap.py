@@ -96,6 +96,19 @@ def test_drift_tells_a_settling_record_from_a_settled_one():
     assert np.isnan(Windows(30, np.arange(30)).mean(records(1, 30, 0.3)[0]).drift)
 
 
+def test_what_repeats_with_the_turn_is_no_drift():
+    """Halves of 4.5 turns are two whole turns each: a wave of a turn is then in both alike. Of
+    settled records about one of twenty is taken for one that drifts; a ramp of seven turns is."""
+    wave = 3.0 * np.sin(2.0 * np.pi * np.arange(154) / 22.0)
+    windows, more = (Windows(n, np.arange(n), 22) for n in (100, 154))
+    still = [9.0 + wave[:100] + noise for noise in records(100, 100, 0.8)]
+    assert np.mean([windows.mean(x).drift > 1.0 for x in still]) < 0.15
+    ramp = 9.0 + wave + 0.05 * np.arange(154)
+    assert all(more.mean(ramp + noise).drift > 1.0 for noise in records(5, 154, 0.3))
+    gone = windows.ratio(np.repeat([1.0, 0.0], 50), np.repeat([1.0, 0.0], 50))
+    assert gone.drift == np.inf, "what there is in one half alone"
+
+
 def test_spread_of_a_ratio_leaves_out_what_both_runs_do():
     """A common part thirty times as large as what differs: the ratio is known thirty times as
     well as from the runs' own margins, and the interval holds the truth, 1, as it should."""

@@ -25,7 +25,7 @@ class FakeRun:
 
     calls: list[str] = []
 
-    def __init__(self, case, *, out, progress, resume=False):
+    def __init__(self, case, *, out, progress, resume=False, study=None):
         FakeRun.calls.append(case.hash)
         if case.modes.count == 96:
             raise RunFailed("the solver stopped at t = 1 ms: too stiff")

@@ -43,12 +43,23 @@ function fillView(layout, plot) {
   const size = Math.min(0.94 * width, layout.meta.widest * height) / (0.44 * height);
   for (const axis of ["x", "y", "z"]) layout.scene.aspectratio[axis] *= size;
 }
+// A legend of several lines makes its chart higher: the plot keeps its height.
+const LINE = 28; // pixels of a legend that the figure's own margin holds
+function makeRoom(plot) {
+  const legend = plot.querySelector(".legend .bg");
+  const more = legend ? Math.max(Math.ceil(legend.getBoundingClientRect().height) - LINE, 0) : 0;
+  if (more === Number(plot.dataset.more || 0)) return null;
+  plot.dataset.more = more;
+  plot.style.height = `calc(var(--height) + ${more}px)`;
+  return Plotly.Plots.resize(plot);
+}
 function drawChart(chart) {
   const figures = JSON.parse(chart.querySelector("script").textContent);
   const plot = chart.querySelector(".plot");
   const choice = chart.querySelector("select");
   for (const figure of figures) fillView(figure.layout, plot);
-  const show = (k) => Plotly.react(plot, figures[k].data, figures[k].layout, CONFIG(figures[k].layout));
+  const show = (k) => Plotly.react(plot, figures[k].data, figures[k].layout, CONFIG(figures[k].layout))
+    .then(() => makeRoom(plot));
   if (choice) choice.addEventListener("change", () => show(Number(choice.value)));
   return show(0).then(() => plot.classList.add("drawn"));
 }

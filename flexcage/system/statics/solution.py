@@ -54,6 +54,7 @@ class StaticSolution:
     ratings: Ratings
     warnings: tuple[str, ...]
     unbalanced: float  # largest force left over, as a share of the load
+    held: str = ""  # how the inner ring is held, in words
 
     @property
     def largest_force(self) -> float:

@@ -65,6 +65,7 @@ def solve_bearing(
         ratings=_ratings(bearing, borne, options, elements.reference_life(v, posture.own)),
         warnings=tuple(_warnings(elements, loads)),
         unbalanced=posture.unbalanced,
+        held=load.held_in_words(axially=bool(problem.free[0]), tilt=_tilt(load, options)[0]),
     )
 
 
@@ -83,6 +84,11 @@ def load_vector(load: Load) -> np.ndarray:
     ])  # fmt: skip
 
 
+def _tilt(load: Load, options: StaticOptions) -> tuple[str, str]:
+    """Is the inner ring free in tilt or held, and which key says so?"""
+    return (load.tilt, "load.tilt") if options.tilt is None else (options.tilt, "static.tilt")
+
+
 def posed(bearing: Bearing, elements: Elements, load: Load, options: StaticOptions) -> Problem:
     """What is free and what is held; InputError where the load does not fit that."""
     force = load_vector(load)
@@ -98,25 +104,26 @@ def posed(bearing: Bearing, elements: Elements, load: Load, options: StaticOptio
                 "shaft's load.axial_stiffness.",
                 where=_PLACES[k],
             )
-    if options.tilt == "held":
+    tilt, key = _tilt(load, options)
+    if tilt == "held":
         if load.tilt_stiffness > 0.0:
             raise InputError(
                 f"load.tilt_stiffness is {describe(load.tilt_stiffness, 'N*m/rad')}, but "
-                "static.tilt is 'held'; leave it out, or take static.tilt = \"free\".",
+                f"{key} is 'held'; leave it out, or take {key} = \"free\".",
                 where="load.tilt_stiffness",
             )
         free[3:] = False
         for k in (3, 4):
             if force[k] != 0.0:
                 raise InputError(
-                    f"{_PLACES[k]} is {describe(force[k], 'N*m')}, but static.tilt is 'held', so "
-                    'moments are reactions; leave it out, or take static.tilt = "free".',
+                    f"{_PLACES[k]} is {describe(force[k], 'N*m')}, but {key} is 'held', so "
+                    f'moments are reactions; leave it out, or take {key} = "free".',
                     where=_PLACES[k],
                 )
     elif load.misalignment != 0.0 and load.tilt_stiffness == 0.0:
         raise InputError(
-            f"load.misalignment is {describe(load.misalignment, 'mrad')}, but static.tilt is "
-            "'free'; take static.tilt = \"held\" for a tilt that is given, or give "
+            f"load.misalignment is {describe(load.misalignment, 'mrad')}, but {key} is "
+            f"'free'; take {key} = \"held\" for a tilt that is given, or give "
             "load.tilt_stiffness of a shaft that is so tilted.",
             where="load.misalignment",
         )
