@@ -2,8 +2,8 @@
 
 A mesh that does not repeat cannot share factors between its sectors. Its unknowns are eliminated
 block by block in the order of a nested dissection of its nodes (``dissection``, ``fronts``). On a
-freely meshed N1013 cage of 297,000 unknowns this factors as fast as CHOLMOD, and solves 32
-right-hand sides together in a sixth of its time. A load on few nodes costs half of that: blocks
+freely meshed N1013 cage of 297,000 unknowns this factors as fast as CHOLMOD, and solves 64
+right-hand sides together in an eighth of its time. A load on few nodes costs half of that: blocks
 that no load reaches are passed over.
 """
 

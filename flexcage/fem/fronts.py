@@ -74,7 +74,7 @@ class Elimination:
         """Loads (n, m) in place: those on unknowns eliminated move on to later ones."""
         for front in self.fronts:
             own = loads[front.own]
-            if own.any():
+            if _acts(own):
                 loads[front.border] -= front.coupling @ own
 
     def expand(self, fields: np.ndarray, loaded: int | None = None) -> None:
@@ -85,9 +85,14 @@ class Elimination:
         for front in reversed(self.fronts):
             own = fields[front.own]
             moved = front.coupling.T @ fields[front.border]
-            if own[:, :loaded].any():
+            if _acts(own[:, :loaded]):
                 own[:, :loaded] = front.inverse @ own[:, :loaded]
             own -= moved
+
+
+def _acts(loads: np.ndarray) -> bool:
+    """Whether any of loads (n, m) is not zero; of most that act the first is not."""
+    return loads.size > 0 and bool(loads[0, 0] != 0.0 or loads.any())
 
 
 def _eliminate(

@@ -3,8 +3,8 @@
 ``linear_solver(A)`` factors A once with CHOLMOD (cvxopt), PARDISO (pypardiso), or SciPy's SuperLU,
 which is always there. On an N1013 cage of 98,000 unknowns (one thread) they factor in 1.2, 1.9
 and 2.0 s and solve one of many right-hand sides in 33, 34 and 18 ms; on one of 263,000
-in 8, 6 and 30 s, and 118, 105 and 105 ms. Cages that flexcage meshes itself need none of them:
-they are solved part by part (``condensed``).
+in 8, 6 and 30 s, and 118, 105 and 105 ms. Free bodies need none of them:
+they are solved part by part (``condensed``) or by dense fronts (``dissected``).
 """
 
 from __future__ import annotations

@@ -17,7 +17,7 @@ from typing import Any
 
 EXAMPLES = Path(__file__).resolve().parents[2] / "examples"
 sys.path[:0] = [str(Path(__file__).parent)]
-WHAT = ("solver", "fe", "peer", "exudyn", "scale", "study", "ball", "start")
+WHAT = ("solver", "fe", "peer", "exudyn", "scale", "study", "ball", "start", "own")
 QUICK = {"mesh.fineness": "coarse", "cage.model": "rigid"}  # of the case, with --quick
 
 
@@ -51,9 +51,10 @@ def main(argv: list[str] | None = None) -> int:
         options["plot"] = args.plot
     elif args.what == "study":
         options.setdefault("trivial_cases", args.cases)
-    elif args.what == "fe":
+    elif args.what in ("fe", "own"):
         case = case if args.quick else case.replace("mesh.fineness", args.fineness)
-        options["solver_kind"] = args.solver
+        if args.what == "fe":
+            options["solver_kind"] = args.solver
     cases = () if args.what == "exudyn" else (case,)  # it has planar ones of its own
     figures = benchmark.measure(*cases, **options)
     if args.json:

@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 
 README = Path(__file__).with_name("README.md")
-FAST = ("solver", "fe", "scale", "ball", "start")
+FAST = ("solver", "fe", "scale", "ball", "start", "own")
 SLOW = {"peer": "sksundae", "exudyn": "exudyn", "study": "distributed"}  # and what they need
 POSITIVE = re.compile(
     r"cpu_s_per|force_error|first_step_s|import_s|total_s|_us$|tetrahedra|plain_s|window_ms"
