@@ -38,7 +38,7 @@ def simulate(
         return _simulated(case, None, resume, progress)
     if resume:
         check_written(Path(out))
-    with held(Path(out)):
+    with held(Path(out), inside=True):
         return _simulated(case, Path(out), resume, progress)
 
 
