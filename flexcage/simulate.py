@@ -46,7 +46,7 @@ def simulate(
         return _simulated(case, None, False, None, progress)
     if resume:
         check_written(Path(out))
-    with held(Path(out)):
+    with held(Path(out), inside=True):
         return _simulated(case, Path(out), resume, study, progress)
 
 

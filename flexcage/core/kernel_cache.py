@@ -201,8 +201,8 @@ def damaged(folder: Path) -> list[Path]:
                     pickle.load(file)
             elif path.suffix == ".nbc":
                 _opened(pickle.loads(path.read_bytes()))
-        except FileNotFoundError:
-            continue  # another process removed it
+        except (FileNotFoundError, ImportError, AttributeError):
+            continue  # another process removed it; or it names types of a user's own file
         except Exception:
             found.append(path)
     return found

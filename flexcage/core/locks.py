@@ -17,16 +17,16 @@ _mine: ContextVar[frozenset[Path]] = ContextVar("_mine", default=frozenset())
 
 
 @contextmanager
-def held(folder: Path, what: str = "a run") -> Iterator[None]:
+def held(folder: Path, what: str = "a run", *, inside: bool = False) -> Iterator[None]:
     """Let no other process, and no other thread, write to ``folder`` meanwhile: InputError, which
-    names the process, if one does. Inside of itself it does nothing.
+    names the process, if one does. ``inside``: nothing is done if the caller holds it already.
 
     The folder is made if it is not there, and removed if nothing was put into it.
     """
     import filelock
 
     folder = folder.resolve()
-    if folder in _mine.get():
+    if inside and folder in _mine.get():
         yield
         return
     new = not folder.exists()

@@ -120,6 +120,19 @@ def test_the_doctor_names_a_damaged_kernel(tmp_path, run, monkeypatch):
     assert "flexcage cache --clear" in finding.remedy
 
 
+def test_the_doctor_knows_no_types_of_a_users_file(tmp_path, run):
+    """The index of a kernel that takes them names the file, which the doctor does not load."""
+    (tmp_path / "own_pair.py").write_text(
+        "from typing import NamedTuple\nfrom flexcage.core.jit import kernel\n"
+        "class Pair(NamedTuple):\n    a: float\n    b: float\n"
+        "@kernel\ndef add(pair):\n    return pair.a + pair.b\n"
+        "assert add(Pair(1.0, 2.0)) == 3.0\n"
+    )
+    run("import own_pair")
+    folder = tmp_path / "cache" / "kernels"
+    assert list(folder.rglob("own_pair.add*.nbi")) and damaged(folder) == []
+
+
 @pytest.mark.parametrize("name", ["ENOSPC", "EACCES", "EROFS", "EDQUOT"])
 def test_a_cache_that_cannot_be_written_is_told_once(tmp_path, run, name):
     folder = str(tmp_path / "cache")
