@@ -158,7 +158,7 @@ def test_stiff_modes_are_a_rigid_cage(bearing_of):
     specs = {"load": Load(radial=1000.0)}
     stiff = bearing_of(flexible={"modes": 6, "stiffer": 1e6}, **specs)
     rigid = bearing_of(flexible={"modes": 0}, **specs)
-    runs = [march(b, *rolling_start(b), duration=2e-3) for b in (stiff, rigid)]
+    runs = [march(b, *rolling_start(b), duration=2e-3, tolerance=1e-9) for b in (stiff, rigid)]
     q = [b.layout.q(h.y) for b, h in zip((stiff, rigid), runs)]
     assert runs[1].samples.pocket_normal.max() > 1.0
     assert np.abs(q[0]["modes"]).max() < 1e-7

@@ -8,7 +8,7 @@ struck from the same speed, has the ratio of peaks that law, compliance and mass
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import astuple, dataclass
 
 import numpy as np
 import pytest
@@ -20,6 +20,7 @@ from flexcage.results import metrics
 from flexcage.simulate import simulate
 
 RPM = np.pi / 30.0
+STARTS = 5  # one run of 30 ms has a hard blow or two: chance
 
 
 @dataclass(frozen=True)
@@ -47,12 +48,14 @@ class Forces:
 
 @pytest.fixture(scope="module", params=["sound", "bent 0.2 mm"])
 def both(request):
-    """Rigid and flexible, 30 ms."""
+    """Rigid and flexible, means of 30 ms from each of five starts."""
     defects = bent("0.2 mm") if request.param != "sound" else []
     pair = []
     for model in ("rigid", "flexible"):
         case = n1013({"cage.model": model, "solver.duration": "30 ms"}, defects=defects)
-        pair.append(Forces.of(simulate(case)))
+        starts = ({"start.push": "1 mm/s", "start.seed": k} for k in range(STARTS))
+        found = [astuple(Forces.of(simulate(case.replace(start)))) for start in starts]
+        pair.append(Forces(*np.mean(found, axis=0)))
         log.info("%s, %s: %s", request.param, model, pair[-1])
     return pair
 
@@ -72,8 +75,8 @@ def test_cage_speeds_agree(both):
 
 
 def test_a_flexible_cage_softens_blows(both):
-    """Newtons to tens of newtons; hard blows half of a rigid cage's (51 and 102 N, 54 and 92 N),
-    and so the hardest (61 and 130 N), for which chaos takes its share: a run has one of them.
+    """Newtons to tens of newtons; hard blows 0.6 and 0.7 of a rigid cage's (51 and 85 N, bent 51
+    and 75 N), and the hardest half of them (60 and 126 N, bent 63 and 103 N).
     """
     rigid, flexible = both
     assert 0.3 < flexible.mean_pocket < 10.0 and 0.3 < rigid.mean_pocket < 10.0

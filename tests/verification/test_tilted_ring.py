@@ -81,7 +81,7 @@ def equilibrium(clearance, force, moment, *, finite):
     guess[5::2] = 0.5 * (guess[0] - 22.0 * guess[4] * np.cos(PSI))
     guess[6::2] = 0.5 * guess[1] * np.cos(PSI)
     found = root(slopes, guess, method="lm", options={"xtol": 1e-14, "ftol": 1e-14})
-    assert np.abs(slopes(found.x)).max() < 1e-6  # of 1 N over 1 um, 1e-3
+    assert np.abs(slopes(found.x)).max() < 1e-5  # of 1 N over 1 um, 1e-3; rounding leaves 1e-6
     return found.x[1], found.x[0], found.x[4]
 
 
