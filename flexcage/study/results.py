@@ -168,7 +168,7 @@ class StudyResults:
                 f"Warnings of {unknown} of {len(done)} cases are not known: an earlier flexcage "
                 "computed them."
             )
-        if self.study.repeat.count == _TOO_FEW:
+        if self.about.repeat.count == _TOO_FEW:
             lines.append(
                 f"Every point has {_TOO_FEW} repetitions, so that an interval is 12.7 times the "
                 "standard error of its mean; 3 or more make it much narrower."
