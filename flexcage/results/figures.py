@@ -83,7 +83,7 @@ def _statistics_rows(
     return (
         Row("settled_at", "Settled from", begin, "ms", f"{100.0 * settle:g} % of the run left out"),
         Row("settled_time", "Time in statistics", end - begin, "ms"),
-        Row("roller_passes", f"{metrics.element(ds).capitalize()} passes in it", count, "",
+        Row("roller_passes", f"{metrics.element(ds).capitalize()} passes counted", count, "",
             f"± is a 95 % interval{few}"),
         Row("drift", "Differs between its halves", (drifting or "nothing") if known else None, "",
             remedy),

@@ -70,6 +70,7 @@ def format_value(value: float, shown: str = "", margin: float | None = None) -> 
     return number, f"± {half}" if half else ""
 
 
+_WORD = 16  # characters: a longer text is no figure, and stands in no column
 _WARNINGS = "warnings"  # their key in a summary's JSON
 #: The figures that matter most, in order: what the terminal shows of a run.
 BRIEF = (
@@ -211,15 +212,21 @@ class Summary:
         return ["Warnings", *(f"  - {warning.text}" for warning in self.warnings)]
 
     def _table(self, rows: Sequence[Row], *, brief: bool = False) -> list[str]:
-        """Lines of some rows, in columns as wide as all rows need; ``brief`` notes are short."""
-        every = [row for section in self.sections for row in section.shown]
+        """Lines of some rows, in columns as wide as all rows need, or the ``brief`` ones alone,
+        whose notes are short. Words stand in place of value, margin and unit."""
+        every = rows if brief else [row for section in self.sections for row in section.shown]
+        numbers = [r for r in every if len(r.text) <= _WORD]
         label = max(len(r.label) for r in every)
-        value = max(len(r.text) for r in every)
-        margin = max(len(r.margin_text) for r in every)
-        unit = max(len(r.shown) for r in every)
+        value = max((len(r.text) for r in numbers), default=0)
+        margin = max((len(r.margin_text) for r in numbers), default=0)
+        unit = max((len(r.shown) for r in numbers), default=0)
         lines = []
         for r in rows:
-            line = f"  {r.label:<{label}}  {r.text:>{value}} {r.margin_text:<{margin}} "
+            line = f"  {r.label:<{label}}  "
+            if len(r.text) > _WORD:
+                lines.append(line + r.text)
+                continue
+            line += f"{r.text:>{value}} {r.margin_text:<{margin}} "
             note = r.note.partition(";")[0] if brief else r.note
             lines.append(f"{line}{r.shown:<{unit}}  {note}".rstrip())
         return lines

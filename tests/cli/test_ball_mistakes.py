@@ -95,7 +95,7 @@ def test_an_ellipse_over_the_edge_is_warned_of_in_a_run(case, capsys):
     out, err = capsys.readouterr()
     (before,) = (line for line in err.splitlines() if "runs over" in line)
     assert before.startswith("warning: At the start the contact ellipse of element")
-    head = out.partition("passes in it")[0].splitlines()  # before the figures
+    head = out.partition("passes counted")[0].splitlines()  # before the figures
     at_start, at_end = (line for line in head if "runs over" in line)
     assert at_start.startswith("  - At the start the contact ellipse of element")
     assert at_end.startswith("  - The contact ellipse of ball") and "at t = " in at_end

@@ -32,7 +32,7 @@ def folder(tmp_path_factory):
 
 def test_its_summary_speaks_of_balls(folder):
     summary = load_run(folder).summary
-    assert summary.row("roller_passes").label == "Ball passes in it"
+    assert summary.row("roller_passes").label == "Ball passes counted"
     assert summary.row("pocket_force_pass_peak").note == "mean of the largest in each ball pass"
     assert summary.row("pocket_contact").label == "Pockets in contact"
     assert summary.row("stress_root").label == "Largest at a waist or rim"

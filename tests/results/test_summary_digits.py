@@ -27,3 +27,12 @@ def test_a_row_and_tables_agree():
     assert "90 ± 220 N" in summary.text()
     assert "90 ± 220" in side_by_side({"a": summary})
     assert Row("a", "a", "nothing").full_text == "nothing"
+
+
+def test_words_stand_in_no_column():
+    """A sentence as a value does not push the figures to the right."""
+    words = "free across the axis; held along the axis and in tilt"
+    rows = [Row("speed", "Speed", 100.0, "m/s"), Row("held", "Ring", words)]
+    lines = Summary((Section("Both", tuple(rows)),)).text().splitlines()
+    assert lines[2].index("Ring") == 2 and lines[2].endswith(f"  {words}")
+    assert len(lines[1]) < 30
