@@ -78,7 +78,7 @@ def run_command(args: argparse.Namespace) -> int:
         from flexcage.core.progress import Progress
         from flexcage.simulate import simulate
 
-        say(f"Inner ring {case.held_in_words}")
+        say(f"Inner ring: {case.held_in_words}")
         run = simulate(case, out=out, resume=args.resume, progress=Progress)
         run.stages.begun = args.begun
         run.tell_times()

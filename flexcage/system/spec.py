@@ -124,26 +124,30 @@ class Load(Wave):
         """How the inner ring is held: is it free ``axially``, and is its ``tilt`` "free" or "held"
         (by default, as this load says)?"""
         tilt = tilt or self.tilt
-        across = "across the axis" if self.centre == "free" else ""
-        free = [across, "along it" if axially and across else "along the axis" if axially else ""]
-        free += ["in tilt"] if tilt == "free" else []
-        held = [] if across else ["at its centre"]
-        held += [] if axially else ["along the axis"]
+        ways = {
+            "radial motion": self.centre == "free",
+            "axial motion": axially,
+            "tilt": tilt == "free",
+        }
+        angle = describe(self.misalignment, "mrad") if self.misalignment else "0"
+        held = [way for way, free in ways.items() if not free]
         if tilt == "held":
-            aligned = describe(self.misalignment, "mrad") if self.misalignment else "without tilt"
-            held.append(f"in tilt, {aligned} (load.tilt)")
-        shaft = [
-            f"{describe(value, unit)} {way}"
-            for value, unit, way in (
-                (self.axial_stiffness, "N/um", "along the axis"),
-                (self.tilt_stiffness if tilt == "free" else 0.0, "N*m/rad", "in tilt"),
-            )
-            if value
-        ]
+            held[-1] = f"tilt {angle} (load.tilt)"
+        springs = {
+            "axial": describe(self.axial_stiffness, "N/um") if self.axial_stiffness else "",
+            "tilt": describe(self.tilt_stiffness, "N*m/rad")
+            if self.tilt_stiffness and tilt == "free"
+            else "",
+        }
+        shaft = [f"{way} {stiffness}" for way, stiffness in springs.items() if stiffness]
         parts = [
-            f"{word} {' and '.join(filter(None, ways))}"
-            for word, ways in (("free", free), ("held", held), ("on a shaft of", shaft))
-            if any(ways)
+            f"{word}: {', '.join(named)}"
+            for word, named in (
+                ("free", [way for way, free in ways.items() if free]),
+                ("held", held),
+                ("shaft stiffness", shaft),
+            )
+            if named
         ]
         return "; ".join(parts)
 

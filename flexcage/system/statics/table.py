@@ -22,7 +22,7 @@ def table_of(s: StaticSolution) -> str:
 
 
 def _head(s: StaticSolution) -> str:
-    held = f"\ninner ring {s.held}" if s.held else ""
+    held = f"\ninner ring: {s.held}" if s.held else ""
     return f"{s.title}, inner ring at {s.speed * 30.0 / pi:.6g} rpm{held}"
 
 
