@@ -71,7 +71,7 @@ _LIMITS: dict[str, tuple[float, float]] = {
     "length": (1e-16, 1e3),
     "time": (1e-15, 1e6),
     "force": (1e-9, 1e9),
-    "pressure": (1e-3, 1e14),
+    "pressure": (1e-3, 1e18),
     "angle": (1e-12, 20.0 * math.pi),
     "angular speed": (1e-9, 1e6),
     "angular acceleration": (1e-6, 1e9),
