@@ -17,6 +17,7 @@ from flexcage.geometry.ball_cage_defects import (
 )
 from flexcage.geometry.ball_cages import BallCage
 from flexcage.geometry.checks import (
+    MOST_SCATTER,
     Finding,
     check_geometry,
     find_in_unbalance,
@@ -91,6 +92,14 @@ def _find_in_grooves(b: BallBearing) -> Iterator[Finding]:
 
 
 def _find_in_balls(b: BallBearing) -> Iterator[Finding]:
+    widest = MOST_SCATTER * b.ball_diameter
+    if b.ball_scatter > widest:
+        yield (
+            "bearing.ball_scatter",
+            f"bearing.ball_scatter is {_mm(b.ball_scatter)}, but balls of one bearing differ by "
+            f"micrometres; give {_mm(widest)} or less, {100.0 * MOST_SCATTER:g} % of their "
+            "diameter.",
+        )
     chord = b.pitch_diameter * sin(pi / b.ball_count)
     if chord <= b.ball_diameter:
         most = int(pi / asin(min(b.ball_diameter / b.pitch_diameter, 1.0)))

@@ -32,7 +32,7 @@ Finding = tuple[str, str]  # where, sentence
 
 # of the roller's diameter: a clearance that leaves one roller to bear a moderate load, and rollers
 # that differ by a hundred times what those of one bearing do
-_MOST_CLEARANCE, _MOST_SCATTER = 0.05, 0.01
+_MOST_CLEARANCE, MOST_SCATTER = 0.05, 0.01
 _MOST_PRESSED = 0.01  # of a roller's diameter, a hundred times what C0 leaves for good (ISO 76)
 OVERLOAD = 4.0  # static ratings C0: line contacts then bear 8 GPa, the hardness of bearing steel
 _PINCH_LIMIT = 0.1  # of the roller's diameter: far beyond what any cage material survives
@@ -161,12 +161,12 @@ def find_in_bearing(b: RollerBearing) -> Iterator[Finding]:
             f"would bear; give {_mm(widest)} or less, {100.0 * _MOST_CLEARANCE:g} % of a roller's "
             "diameter.",
         )
-    widest = _MOST_SCATTER * b.roller_diameter
+    widest = MOST_SCATTER * b.roller_diameter
     if b.roller_scatter > widest:
         yield (
             "bearing.roller_scatter",
             f"bearing.roller_scatter is {_mm(b.roller_scatter)}, but rollers of one bearing differ "
-            f"by micrometres; give {_mm(widest)} or less, {100.0 * _MOST_SCATTER:g} % of their "
+            f"by micrometres; give {_mm(widest)} or less, {100.0 * MOST_SCATTER:g} % of their "
             "diameter.",
         )
     yield from _find_in_lengths(b)

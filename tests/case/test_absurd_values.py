@@ -64,6 +64,11 @@ ABSURD = {
         "bearing.inner_groove_radius",
         ["3332 mm", "no groove", "9.525 mm or less"],
     ),
+    "balls of any size": (
+        BALLS + 'ball_scatter = "1 m"',
+        "bearing.ball_scatter",
+        ["1000 mm", "0.09525 mm or less"],
+    ),
     "fillet of an atom": (
         ROLLERS + '[cage]\nfillet_radius = "5e-7 mm"',
         "cage.fillet_radius",

@@ -60,8 +60,11 @@ MISTAKES = {
     "big defect": (["run", EXAMPLE, "--set", "defects.0.displacement=2 mm"], ["assembly"]),
     "mesh format": (["mesh", EXAMPLE, "-o", "cage.stl"], ["'cage.stl' should end in .msh"]),
     "mesh folder": (["mesh", EXAMPLE, "-o", "none/cage.msh"], ["not a folder"]),
-    "other preset": (["run", EXAMPLE, "--set", "bearing.preset=N1014"], ["'N1014'", "N1013"]),
-    "preset": (["presets", "N1014"], ["'N1014' is not known", "N1013"]),
+    "other preset": (
+        ["run", EXAMPLE, "--set", "bearing.preset=N1014"],
+        ["'N1014'", "presets are", "N1013"],
+    ),
+    "preset": (["presets", "N1014"], ["'N1014' is not known", "presets are", "N1013"]),
     "drill": (["run", EXAMPLE, "--set", "drive.speed=6000000 rpm"], ["centrifugal"]),
     "clearance": (["run", EXAMPLE, "--set", "bearing.radial_clearance=5 mm"], ["0.4 mm"]),
     "overload": (["run", EXAMPLE, "--set", "load.radial=500 kN"], ["4 times", "51 kN"]),
