@@ -117,7 +117,7 @@ def functions(problem):
     def backsolve(alpha, y, r, data):
         r[:] = -keep["inverse"] @ r
 
-    def powers(y, data, power):
+    def powers(t, y, data, power):
         pass
 
     def settle(t, y, data):
