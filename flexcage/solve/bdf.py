@@ -19,6 +19,10 @@ Obligations of a problem: ``residual`` depends on nothing but its arguments and 
 ``settle`` changes; it allocates nothing; functions share ``data`` and nothing else.
 Integrands, and what ``settle`` keeps, may be those of the corrector's last residual, one Newton
 step before the accepted point, but for what would miss that step.
+Integrals are unknowns with y' = integrand: the formula that moves y integrates them, so that the
+work of a constant force is that force times the displacement, whatever the steps. (By the
+trapezoidal rule it missed a share of every fast motion that long steps damp: where a load of kN
+moves by nanometres, more than the drive did in 2 ms.)
 Policies follow IDA's experience: few Jacobians, Newton fails early and cuts the step.
 Stability guard: orders above 2 are left for ``GUARD_STEPS`` steps once the error test fails twice
 within ten steps, the mark of lightly damped fast oscillation.
