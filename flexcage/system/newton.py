@@ -22,7 +22,7 @@ _solve_bordered = bordered.solve
 def residual(t, y, yd, data, out, power):
     """F(t, y, y') into ``out``, powers into ``power`` if it has room."""
     data[2](t, y, yd, data[0], data[1], out, 3 if power.shape[0] > 0 else 0)
-    give_powers(data[0], y, power)
+    give_powers(t, y, data[0], power)
 
 
 def linearise(t, y, yd, data):

@@ -64,7 +64,7 @@ def modal_oscillators(body: BodyData, layout: Layout) -> Oscillators:
 def rates(t, y, yd, data, power):
     """y' into yd, held coordinates and multipliers into y, powers into ``power`` if it has room."""
     _rates(t, y, yd, data, 3 if power.shape[0] > 0 else 0)
-    give_powers(data[0], y, power)
+    give_powers(t, y, data[0], power)
 
 
 def sample(sample, t, y, yd, data):

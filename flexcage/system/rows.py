@@ -30,7 +30,6 @@ from flexcage.system.data import (
     GRAVITY,
     LAND_DAMPING,
     LAND_FRICTION,
-    LOAD,
     MODAL_DAMPING,
     MOUNT,
 )
@@ -63,6 +62,28 @@ def shared_rows(t, y, yd, d, law, out, mode):
 def speed_at(bodies, t):
     """Prescribed speed of the inner ring."""
     return table_value(bodies.speed, t) + wave_value(bodies.waves[0], t)
+
+
+@part
+def radial_load(bodies, t):
+    """Radial load on the inner ring [N]."""
+    return table_value(bodies.load, t) + wave_value(bodies.waves[1], t)
+
+
+@part
+def axial_load(bodies, t):
+    """Axial load on the inner ring [N]."""
+    return table_value(bodies.axial, t) + wave_value(bodies.waves[2], t)
+
+
+@part
+def load_power(t, bodies, q, u, vec):
+    """Power [W] of the loads on the inner ring, whose coordinates and velocities are q and u."""
+    inner_ring(q, u, vec)
+    spin = vec[RING_SPIN]
+    radial = bodies.load_direction[0] * u[1] + bodies.load_direction[1] * u[2]
+    power = radial_load(bodies, t) * radial + axial_load(bodies, t) * u[0]
+    return power + bodies.moments[0] * spin[1] + bodies.moments[1] * spin[2]
 
 
 @part
@@ -376,8 +397,7 @@ def ring_rows(t, d, q, u, qd, ud, lam, mu_, zq, r_q, r_u, out, end, mode):
     r_q[zq + 3] -= mu_[1]
     r_q[zq + 4] -= mu_[2]
     mass, Ia, It = bodies.ring[0], bodies.ring[1], bodies.ring[2]
-    load = table_value(bodies.load, t) + wave_value(bodies.waves[1], t)
-    axial = table_value(bodies.axial, t) + wave_value(bodies.waves[2], t)
+    load, axial = radial_load(bodies, t), axial_load(bodies, t)
     # moments about the ring's own (non-spinning) axes
     cx, sx, ce, se = cos(rq[3]), sin(rq[3]), cos(rq[4]), sin(rq[4])
     Mx, My, Mz = border[3], border[4] + bodies.moments[0], border[5] + bodies.moments[1]
@@ -443,13 +463,8 @@ def ring_rows(t, d, q, u, qd, ud, lam, mu_, zq, r_q, r_u, out, end, mode):
         w2 = ru[4] * ru[4] + ru[5] * ru[5]
         v2 = ru[0] * ru[0] + ru[1] * ru[1] + ru[2] * ru[2]
         rep.energy[0] += 0.5 * (mass * v2 + Ia * ru[3] * ru[3] + It * w2)
-        rep.power[DRIVE] += shaft * ru[3]  # a constraint's work is added where its torque is known
-        rep.power[LOAD] += load * (
-            bodies.load_direction[0] * ru[1] + bodies.load_direction[1] * ru[2]
-        )
-        spin = work.vec[RING_SPIN]
-        rep.power[LOAD] += axial * ru[0]
-        rep.power[LOAD] += bodies.moments[0] * spin[1] + bodies.moments[1] * spin[2]
+        # what loads and constraints do follows from y alone: ``sampling.give_powers`` adds it
+        rep.power[DRIVE] += shaft * ru[3]
         for c in range(3):
             rep.power[GRAVITY] += mass * bodies.gravity[c] * ru[c]
         rep.energy[3] += bent

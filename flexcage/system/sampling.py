@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 from flexcage.core.jit import copy_into, fields, part
-from flexcage.system.data import CONSTRAINTS, DRIVE
+from flexcage.system.data import CONSTRAINTS, DRIVE, LOAD
+from flexcage.system.rows import load_power
 
 
 @part
-def give_powers(d, y, power):
-    """Powers of the last report into ``power``, if it has room, with those of constraints by y."""
+def give_powers(t, y, d, power):
+    """Powers of the last report into ``power``, if it has room, and by (t, y) those of loads and
+    constraints."""
     if power.shape[0] == 0:
         return
     report = fields(d.report)
@@ -17,6 +19,9 @@ def give_powers(d, y, power):
     Z, nm = fields(d.bodies).radius.shape[0], fields(d.pocket).phi_max.shape[0]
     speed, torque = 12 * Z + 15 + nm + 3, 12 * Z + 29 + 2 * nm + 3
     power[DRIVE] += y[torque] * y[speed]
+    zq = 6 * Z
+    ring, moving = y[zq : zq + 6], y[2 * zq + 15 + nm : 2 * zq + 21 + nm]
+    power[LOAD] += load_power(t, fields(d.bodies), ring, moving, fields(d.scratch).vec)
     c = fields(d.constraints)
     first, u = 12 * Z + 36 + 2 * nm, 12 * Z + 15 + nm
     for k in range(c.level.shape[0]):  # those that move bodies
@@ -24,10 +29,11 @@ def give_powers(d, y, power):
             power[CONSTRAINTS] += y[first + k] * c.G[k, j] * y[u + j]
 
 
-def powers(y, data, power):
-    """Powers at y, a Newton step beyond the point evaluated last: those of that point, and the
-    drive's by y, because multipliers are what such a step changes most."""
-    give_powers(data[0], y, power)
+def powers(t, y, data, power):
+    """Powers at y, a Newton step beyond the point evaluated last: those of that point, but by y
+    those of loads and constraints, which are large and alternate: what they do is a small
+    difference, and multipliers are what such a step changes most."""
+    give_powers(t, y, data[0], power)
 
 
 def settle(t, y, data):

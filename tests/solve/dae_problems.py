@@ -92,8 +92,10 @@ class Pendulum:
 
 
 def functions(problem):
-    """The six functions of a problem, with a dense Newton matrix by differences."""
+    """The functions of a problem, with a dense Newton matrix by differences; integrands are those
+    of the last residual, unless the problem has ``powers``."""
     keep, n = {}, problem.n
+    powers = getattr(problem, "powers", lambda t, y, data, power: None)
     settled = problem.__dict__.setdefault("settled", [])
 
     def residual(t, y, yd, data, out, power):
@@ -116,9 +118,6 @@ def functions(problem):
 
     def backsolve(alpha, y, r, data):
         r[:] = -keep["inverse"] @ r
-
-    def powers(y, data, power):
-        pass
 
     def settle(t, y, data):
         settled.append((t, y.copy()))
