@@ -165,9 +165,30 @@ def test_energy_audit_of_the_cage(known_run, bearing, leak, of_drive, of_cage, v
     ds["energy"][:, 1] = 10.0 * leak * ds["time"].values
     check = audit.energy_audit(ds)
     assert check.of_drive == pytest.approx(of_drive, abs=1e-12)
-    assert check.of_cage == pytest.approx(of_cage, abs=1e-12)
+    assert check.of_cage == pytest.approx((1.0 - audit.BEGUN) * of_cage, abs=1e-12)
     assert check.passed == (verdict == "passed")
     assert summarise(ds, bearing)["energy_audit"] == verdict
+
+
+@pytest.mark.parametrize(
+    ("leaks", "of_cage", "verdict"),
+    [((0.1, 0.3), 0.0, "passed"), ((0.6, 0.9), 0.4, "EXCEEDED"), ((0.1, 0.9), 0.1, "EXCEEDED")],
+)
+def test_what_is_missed_before_the_cage_is_touched_is_not_the_cages(
+    known_run, leaks, of_cage, verdict
+):
+    """0.4 mJ leak in a part of the run; the cage loses 1 mJ near its end."""
+    ds = known_run.assign_coords(channel=["drive", "pocket_friction"])
+    share = ds["time"].values / ds["time"].values[-1]
+    touched = 0.5 if leaks[1] - leaks[0] < 0.5 else 0.7
+    ds["work"][:, 1] = -1e-3 * np.clip((share - touched) / (1.0 - touched), 0.0, 1.0)
+    leak = 4e-4 * np.clip((share - leaks[0]) / (leaks[1] - leaks[0]), 0.0, 1.0)
+    ds["energy"][:, 0] = ds["work"].sum("channel").values + leak
+    ds["energy"][:, 1] = 0.0
+    check = audit.energy_audit(ds)
+    assert check.of_drive == pytest.approx(8e-4, rel=1e-6)
+    assert check.of_cage == pytest.approx(of_cage, abs=0.01)
+    assert check.verdict == verdict
 
 
 @pytest.mark.parametrize(
