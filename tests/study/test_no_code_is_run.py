@@ -7,6 +7,7 @@ import sys
 import pytest
 from study_cases import short_study
 
+from flexcage.case import extensions
 from flexcage.core.errors import InputError
 from flexcage.study.axes import Grid
 from flexcage.study.folder import CaseRow, Folder
@@ -16,8 +17,9 @@ from flexcage.study.results import StudyResults
 
 
 @pytest.fixture
-def folder(tmp_path):
+def folder(tmp_path, monkeypatch):
     """A finished study whose study.toml names a file that leaves a mark when it is run."""
+    monkeypatch.setattr(extensions, "_loaded", type(extensions._loaded)())  # by other tests
     mark = tmp_path / "mark"
     out = Folder(tmp_path / "study")
     (tmp_path / "mine.py").write_text(f"from pathlib import Path\nPath({str(mark)!r}).touch()\n")
