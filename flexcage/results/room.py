@@ -13,7 +13,7 @@ from flexcage.results.layout import Layout
 
 log = logging.getLogger(__name__)
 
-_WORTH_SAYING = 20e6  # bytes
+_WORTH_SAYING = 100e6  # bytes; a run of 0.1 s of motion has half of it
 # share of their size in memory that results take on disk, measured on an N1013 at 6000 rpm, and
 # for its modes and the loads at steps between samples what a flexible cage adds
 _RIGID, _FLEXIBLE = 0.12, 0.21
