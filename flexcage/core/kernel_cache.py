@@ -10,12 +10,12 @@ as the process lives.
 from __future__ import annotations
 
 import atexit
-import hashlib
 import logging
 import os
 import pickle
 import shutil
 import tempfile
+import zlib
 from pathlib import Path
 from typing import Any
 
@@ -118,13 +118,13 @@ class _Checked(IndexDataCacheFile):
                 continue
 
 
-def _sealed(content: bytes) -> tuple[bytes, bytes]:
-    return hashlib.blake2b(content).digest(), content
+def _sealed(content: bytes) -> tuple[int, bytes]:
+    return zlib.crc32(content), content
 
 
 def _opened(entry: Any) -> bytes:
-    digest, content = entry
-    if hashlib.blake2b(content).digest() != digest:
+    checksum, content = entry
+    if zlib.crc32(content) != checksum:
         raise ValueError("its checksum differs")
     return content
 
