@@ -11,7 +11,8 @@ receives the problem as six functions and their data,
     linearise(t, y, yd, data)                keep dF/dy, dF/dy' at this point
     factor(alpha, data) -> bool              factor dF/dy + alpha dF/dy'
     backsolve(alpha, y, r, data)             r <- -(that)^-1 r, the Newton step
-    powers(t, y, data, power)                integrands at y, a Newton step beyond that -> power
+    powers(t, y, data, power) -> int         integrands at y, a Newton step beyond that -> power;
+                                             how many of them, the first ones, may change sign
     settle(t, y, data)                       that y was accepted
     observe(sample, t, y, yd, data)          y and y' at sampling time t, by dense output
 
@@ -19,10 +20,12 @@ Obligations of a problem: ``residual`` depends on nothing but its arguments and 
 ``settle`` changes; it allocates nothing; functions share ``data`` and nothing else.
 Integrands, and what ``settle`` keeps, may be those of the corrector's last residual, one Newton
 step before the accepted point, but for what would miss that step.
-Integrals are unknowns with y' = integrand: the formula that moves y integrates them, so that the
-work of a constant force is that force times the displacement, whatever the steps. (By the
-trapezoidal rule it missed a share of every fast motion that long steps damp: where a load of kN
-moves by nanometres, more than the drive did in 2 ms.)
+Integrals of integrands that change sign are unknowns like others: the formula that moves y
+integrates them, so that the work of a constant force is that force times the displacement, whatever
+the steps. (By the trapezoidal rule it missed a share of every fast motion that long steps damp:
+where a load of kN moves by nanometres, more than the drive did in 2 ms.) The others, losses, which
+begin and end with contacts, take the trapezoidal rule: they must grow, and the formula swings on
+after what stops at once.
 Policies follow IDA's experience: few Jacobians, Newton fails early and cuts the step.
 Stability guard: orders above 2 are left for ``GUARD_STEPS`` steps once the error test fails twice
 within ten steps, the mark of lightly damped fast oscillation.
@@ -57,7 +60,7 @@ NEWTON_MAX = 4
 GUARD_STEPS = 200
 JACOBIAN_AGE = 60
 # entries of BDFState.real and .count beyond those of ``contract``
-ALPHA, RATE = range(2, 4)
+ALPHA, RATE, H_LAST = range(2, 5)
 ORDER, EQUAL, AGE, HAVE_J, GUARD, RECENT, ITERATIONS, FAILS, BEGUN = range(7, 16)
 
 
@@ -65,14 +68,15 @@ class BDFState(NamedTuple):
     """The integrator between steps: all of it is in a checkpoint."""
 
     D: np.ndarray  # (MAX_ORDER + 3, n) backward differences
-    Q: np.ndarray  # (MAX_ORDER + 3, n_quad) those of the integrals
-    real: np.ndarray  # (4,) t, h, alpha of the factors, convergence rate
+    Q: np.ndarray  # (MAX_ORDER + 3, n_quad) those of the integrals; losses have the first row only
+    real: np.ndarray  # (5,) t, h, alpha of the factors, convergence rate, last accepted h
     count: np.ndarray  # type: ignore[assignment]  # (16,) counters of ``contract``, order and more
     weight: np.ndarray  # (n,) 1/allowed local error; 0: not in the error test
     quad: np.ndarray  # (n_quad,) integrals: the first row of ``Q``
     quad_weight: np.ndarray  # (n_quad,) 1/allowed local error of each; 0: not in the error test
     vec: np.ndarray  # (6, n) work
-    power: np.ndarray  # (3, n_quad) work: integrands, psi and d of the integrals
+    power: np.ndarray  # (3, n_quad) integrands at the last, the present and the point before
+    step: np.ndarray  # (2, n_quad) work: psi and d of the integrals
     coef: np.ndarray  # (3, MAX_ORDER + 1) gamma, (1 - kappa) gamma, error constants
 
 
@@ -98,8 +102,9 @@ def new_state(
     count, Q = np.zeros(16, np.int64), np.zeros((MAX_ORDER + 3, n_quad))
     count[ORDER] = 1
     return BDFState(
-        D, Q, np.array([t0, h0, 0.0, 1.0]), count, np.array(weight, float), Q[0],
+        D, Q, np.array([t0, h0, 0.0, 1.0, h0]), count, np.array(weight, float), Q[0],
         np.array(quad_weight, float), np.zeros((6, n)), np.zeros((3, n_quad)),
+        np.zeros((2, n_quad)),
         np.stack([gamma, (1.0 - kappa) * gamma, error]),
     )  # fmt: skip
 
@@ -172,9 +177,22 @@ def worst(a, weight, factor):
     return s * factor if total <= 1e300 else np.inf
 
 
-def allowed(error, order):
-    """How many times as long a step of this order could be for this error."""
-    return max(error, 1e-10) ** (-1.0 / (order + 1))
+def missed(h, h_last, power, weight):
+    """Largest weighted error of the trapezoidal rule over a step h after one of ``h_last``; that of
+    the formula is of the same size."""
+    most = total = 0.0
+    for k in range(weight.shape[0]):
+        bend = (power[1, k] - power[0, k]) / h - (power[0, k] - power[2, k]) / h_last
+        x = abs(bend) * weight[k]
+        total += x  # carries whatever is not a number
+        most = max(most, x)
+    return most * h**3 / (6.0 * (h + h_last)) if total <= 1e300 else np.inf
+
+
+def allowed(error, order, work):
+    """How many times as long a step could be for these errors of y and of integrals."""
+    of_work = max(work, 1e-10) ** (-1.0 / 3.0)
+    return min(max(error, 1e-10) ** (-1.0 / (order + 1)), of_work)
 
 
 def correct(fns, data, st, opt, t_new, c):
@@ -213,7 +231,7 @@ def correct(fns, data, st, opt, t_new, c):
         converged = False
         scale = 2.0 / (1.0 + 1.0 / ratio)
         for it in range(NEWTON_MAX):
-            residual(t_new, y, yd, data, r, st.power[0])
+            residual(t_new, y, yd, data, r, st.power[1])
             st.count[RESIDUALS] += 1
             backsolve(st.real[ALPHA], y, r, data)
             for k in range(n):
@@ -247,7 +265,7 @@ def advance(fns, data, st, opt, t_end, times, ys, yds, first, log, quads):
     y_p, psi, d = st.vec[0], st.vec[1], st.vec[2]
     y, yd, r = st.vec[3], st.vec[4], st.vec[5]
     D, Q, count, real = st.D, st.Q, st.count, st.real
-    power, psi_q, d_q = st.power[0], st.power[1], st.power[2]
+    before, power, psi_q, d_q = st.power[0], st.power[1], st.step[0], st.step[1]
     n, n_quad = D.shape[1], Q.shape[1]
     sample, row = first, 0
     if count[BEGUN] == 0:  # the start counts as accepted
@@ -255,11 +273,12 @@ def advance(fns, data, st, opt, t_end, times, ys, yds, first, log, quads):
         for k in range(n):
             y[k] = D[0, k]
             yd[k] = D[1, k] / real[H]
-        residual(real[T], y, yd, data, r, power)
-        powers(real[T], y, data, power)
+        residual(real[T], y, yd, data, r, before)
+        exchanged = powers(real[T], y, data, before)
         settle(real[T], y, data)
-        for k in range(st.quad.shape[0]):
-            st.Q[1, k] = real[H] * power[k]
+        for k in range(n_quad):
+            st.power[2, k] = before[k]
+            Q[1, k] = real[H] * before[k] if k < exchanged else 0.0
     while real[T] < t_end:
         if row >= log.shape[0]:
             return LOG_FULL, sample, row
@@ -302,16 +321,16 @@ def advance(fns, data, st, opt, t_end, times, ys, yds, first, log, quads):
             count[EQUAL] = 0
             continue
         error = worst(d, st.weight, st.coef[2, order])
-        powers(t_new, y, data, power)
+        exchanged = powers(t_new, y, data, power)
         for k in range(n_quad):
-            psi_q[k] = 0.0
+            psi_q[k] = d_q[k] = 0.0
         for j in range(1, order + 1):
             share = st.coef[0, j] / alpha
-            for k in range(n_quad):
+            for k in range(exchanged):
                 psi_q[k] += share * Q[j, k]
-        for k in range(n_quad):
+        for k in range(exchanged):
             d_q[k] = c * power[k] - psi_q[k]
-        work = worst(d_q, st.quad_weight, st.coef[2, order])
+        work = missed(h, real[H_LAST], st.power, st.quad_weight)
         if not max(error, work) < 1e300:
             return NOT_FINITE, sample, row
         if max(error, work) > 1.0:
@@ -328,7 +347,7 @@ def advance(fns, data, st, opt, t_end, times, ys, yds, first, log, quads):
                 if count[RECENT] > 15 and order > 2:
                     count[ORDER] = 2
                     count[GUARD] = GUARD_STEPS
-            ratio = max(0.25, 0.85 * allowed(max(error, work), order))
+            ratio = max(0.25, 0.85 * allowed(error, order, work))
             change_step(D, Q, count[ORDER], ratio)
             real[H] = ratio * h
             count[EQUAL] = 0
@@ -337,6 +356,7 @@ def advance(fns, data, st, opt, t_end, times, ys, yds, first, log, quads):
         add_step(D, d, order)
         add_step(Q, d_q, order)
         real[T] = t_new
+        real[H_LAST] = h
         count[STEPS] += 1
         count[FAILS] = 0
         count[EQUAL] += 1
@@ -350,7 +370,15 @@ def advance(fns, data, st, opt, t_end, times, ys, yds, first, log, quads):
             interpolate(D, order, t_new, h, times[sample], ys[sample], yds[sample])
             interpolate(Q, order, t_new, h, times[sample], quads[sample], d_q)
             observe(sample, times[sample], ys[sample], yds[sample], data)
+            x = 1.0 - (t_new - times[sample]) / h
+            for k in range(exchanged, n_quad):
+                slope = power[k] - before[k]
+                quads[sample, k] = st.quad[k] + h * x * (before[k] + 0.5 * x * slope)
             sample += 1
+        for k in range(exchanged, n_quad):
+            st.quad[k] += 0.5 * h * (before[k] + power[k])
+        for k in range(n_quad):
+            st.power[2, k], before[k] = before[k], power[k]
         log[row, 0], log[row, 1], log[row, 2] = t_new, h, order
         log[row, 3], log[row, 4] = count[ITERATIONS] - iterations, max(error, work)
         row += 1
@@ -368,11 +396,10 @@ def _choose(st, opt, error, work):
     best, new = 0.0, order
     for q in range(max(order - 1, 1), min(order + 1, highest) + 1):
         e = error if q == order else worst(D[q + 1], st.weight, st.coef[2, q])
-        f = allowed(e, q)
+        f = allowed(e, q, 0.0)
         if f > best:
             best, new = f, q
-    e = work if new == order else worst(st.Q[new + 1], st.quad_weight, st.coef[2, new])
-    factor = min(8.0, 0.85 * min(best, allowed(e, new)))
+    factor = min(8.0, 0.85 * min(best, allowed(0.0, new, work)))
     if new == order and 0.9 < factor < 1.2:
         return
     count[ORDER] = new
@@ -398,10 +425,19 @@ BDF = Integrator(
     name="bdf",
     advance=advance,
     functions=("residual", "linearise", "factor", "backsolve", "powers", "settle", "observe"),
-    helpers=("change_step", "add_step", "interpolate", "worst", "allowed", "correct", "_choose"),
+    helpers=(
+        "change_step",
+        "add_step",
+        "interpolate",
+        "worst",
+        "missed",
+        "allowed",
+        "correct",
+        "_choose",
+    ),
     options=_options,
     new_state=new_state,
-    kept=("D", "Q", "real", "count"),
+    kept=("D", "Q", "real", "count", "power"),
     refresh=_refresh,
     last=lambda state: (state.D[0].copy(), state.D[1] / state.real[H]),
 )

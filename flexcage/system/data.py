@@ -38,6 +38,7 @@ POWERS = (
     POCKET_FRICTION, RIB_DAMPING, RIB_FRICTION, LAND_DAMPING, LAND_FRICTION, FILM, DRAG,
     MODAL_DAMPING, MOUNT, CONSTRAINTS,
 ) = range(len(POWERS))  # fmt: skip
+EXCHANGED = RACE_DAMPING  # so many, the first ones, the bearing exchanges with the outside
 
 
 class Bodies(NamedTuple):

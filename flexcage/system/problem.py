@@ -57,7 +57,7 @@ PROBLEM: dict[str, tuple[Callable[..., Any], tuple[Any, ...]]] = {
     "backsolve": (newton.backsolve, (_NONE, _REAL, _VECTOR, _VECTOR, None)),
     "observe": (sampling.observe, (_NONE, _COUNT, _REAL, _VECTOR, _VECTOR, None)),
     "rates": (rates.rates, (_NONE, _REAL, _VECTOR, _VECTOR, None, _VECTOR)),
-    "powers": (sampling.powers, (_NONE, _REAL, _VECTOR, None, _VECTOR)),
+    "powers": (sampling.powers, (_COUNT, _REAL, _VECTOR, None, _VECTOR)),
     "settle": (sampling.settle, (_NONE, _REAL, _VECTOR, None)),
     "note": (sampling.note, (_NONE, _REAL, _VECTOR, None)),
     "wanted": (sampling.wanted, (_FLAG, _COUNT, None)),

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from flexcage.core.jit import copy_into, fields, part
-from flexcage.system.data import CONSTRAINTS, DRIVE, LOAD
+from flexcage.system.data import CONSTRAINTS, DRIVE, EXCHANGED, LOAD
 from flexcage.system.rows import load_power
 
 
@@ -32,8 +32,10 @@ def give_powers(t, y, d, power):
 def powers(t, y, data, power):
     """Powers at y, a Newton step beyond the point evaluated last: those of that point, but by y
     those of loads and constraints, which are large and alternate: what they do is a small
-    difference, and multipliers are what such a step changes most."""
+    difference, and multipliers are what such a step changes most. Returns how many are exchanged
+    with the outside; those behind are losses, and what constraints do."""
     give_powers(t, y, data[0], power)
+    return EXCHANGED
 
 
 def settle(t, y, data):

@@ -93,9 +93,9 @@ class Pendulum:
 
 def functions(problem):
     """The functions of a problem, with a dense Newton matrix by differences; integrands are those
-    of the last residual, unless the problem has ``powers``."""
+    of the last residual, unless the problem has ``powers``, and ``losses`` if it says so."""
     keep, n = {}, problem.n
-    powers = getattr(problem, "powers", lambda t, y, data, power: None)
+    compute, losses = getattr(problem, "powers", None), getattr(problem, "losses", False)
     settled = problem.__dict__.setdefault("settled", [])
 
     def residual(t, y, yd, data, out, power):
@@ -118,6 +118,11 @@ def functions(problem):
 
     def backsolve(alpha, y, r, data):
         r[:] = -keep["inverse"] @ r
+
+    def powers(t, y, data, power):
+        if compute is not None:
+            compute(t, y, power)
+        return 0 if losses else len(power)
 
     def settle(t, y, data):
         settled.append((t, y.copy()))

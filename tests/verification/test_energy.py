@@ -59,10 +59,12 @@ def test_audit_of_random_bearings_in_their_first_instants(seed):
     assert audit.passed and audit.of_drive < 0.5 * OF_DRIVE
 
 
-@pytest.mark.parametrize("seed", [34, 71])
+@pytest.mark.parametrize("seed", [39, 71])
 def test_audit_of_a_cage_that_has_hardly_been_touched(seed):
-    """Its few touches dissipate less than the balance missed before them."""
-    case = load_case(random_bearing(seed), overrides={"solver.duration": "2 ms", **BDF})
+    """Its few touches, the first after nine tenths of the run, dissipate less than twenty times
+    what the balance missed before them."""
+    short = {"solver.duration": "2 ms", "solver.tolerance": "0.001 um"}
+    case = load_case(random_bearing(seed), overrides={**short, **BDF})
     audit = energy_audit(simulate(case).dataset)
     assert 0.0 < audit.of_cage < OF_CAGE < audit.worst / lost_by_cage(audit)
     assert audit.passed
