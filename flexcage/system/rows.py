@@ -77,13 +77,16 @@ def axial_load(bodies, t):
 
 
 @part
-def load_power(t, bodies, q, u, vec):
-    """Power [W] of the loads on the inner ring, whose coordinates and velocities are q and u."""
-    inner_ring(q, u, vec)
-    spin = vec[RING_SPIN]
-    radial = bodies.load_direction[0] * u[1] + bodies.load_direction[1] * u[2]
-    power = radial_load(bodies, t) * radial + axial_load(bodies, t) * u[0]
-    return power + bodies.moments[0] * spin[1] + bodies.moments[1] * spin[2]
+def load_power(t, bodies, y, q, u, vec):
+    """Power [W] of the loads on the inner ring; its coordinates in y begin at q, its velocities at
+    u."""
+    radial = bodies.load_direction[0] * y[u + 1] + bodies.load_direction[1] * y[u + 2]
+    power = radial_load(bodies, t) * radial + axial_load(bodies, t) * y[u]
+    if bodies.moments[0] != 0.0 or bodies.moments[1] != 0.0:
+        inner_ring(y[q : q + 6], y[u : u + 6], vec)
+        spin = vec[RING_SPIN]
+        power += bodies.moments[0] * spin[1] + bodies.moments[1] * spin[2]
+    return power
 
 
 @part

@@ -19,11 +19,9 @@ def give_powers(t, y, d, power):
     Z, nm = fields(d.bodies).radius.shape[0], fields(d.pocket).phi_max.shape[0]
     speed, torque = 12 * Z + 15 + nm + 3, 12 * Z + 29 + 2 * nm + 3
     power[DRIVE] += y[torque] * y[speed]
-    zq = 6 * Z
-    ring, moving = y[zq : zq + 6], y[2 * zq + 15 + nm : 2 * zq + 21 + nm]
-    power[LOAD] += load_power(t, fields(d.bodies), ring, moving, fields(d.scratch).vec)
-    c = fields(d.constraints)
     first, u = 12 * Z + 36 + 2 * nm, 12 * Z + 15 + nm
+    power[LOAD] += load_power(t, fields(d.bodies), y, 6 * Z, u, fields(d.scratch).vec)
+    c = fields(d.constraints)
     for k in range(c.level.shape[0]):  # those that move bodies
         for j in range(14):
             power[CONSTRAINTS] += y[first + k] * c.G[k, j] * y[u + j]
