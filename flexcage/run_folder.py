@@ -27,7 +27,7 @@ from flexcage.results.cage_file import (
     write_cage,
 )
 from flexcage.results.files import replace
-from flexcage.results.store import MemoryRunStore, RunStore, read_commit
+from flexcage.results.store import MemoryRunStore, RunStore
 
 log = logging.getLogger(__name__)
 
@@ -64,19 +64,19 @@ def check_written(folder: Path) -> None:
         )
 
 
-def has_begun(folder: Path, case: Case) -> bool:
-    """Whether the case's run in ``folder`` has come so far that it can be gone on with.
+def begun_store(folder: Path, case: Case) -> RunStore | None:
+    """The store of the case's run in ``folder``; None if it has not come so far that it can be
+    gone on with.
 
     What one left that was killed before is removed, to be begun anew. InputError if the folder
     holds the run of another case, or one in another format.
     """
     if not was_written(folder):
         log.warning("the run in '%s' was stopped before it had begun; it begins now", folder)
-        return False
-    begun = RunStore.begun(folder / "results.zarr")
-    if begun:
-        read_commit(folder / "results.zarr")
-    stored, named = _stored(folder, begun)
+        return None
+    path = folder / "results.zarr"
+    store = RunStore.open(path) if RunStore.begun(path) else None
+    stored, named = _stored(folder, store)
     if case.hash != named and not _without_its_mesh_file(case, stored):
         raise InputError(
             f"The case differs from the one of the run in '{folder}'{_difference(case, stored)}; "
@@ -84,10 +84,10 @@ def has_begun(folder: Path, case: Case) -> bool:
             where="case",
             value=case.hash,
         )
-    if not begun:
-        RunStore.clear_unbegun(folder / "results.zarr")
+    if store is None:
+        RunStore.clear_unbegun(path)
         log.warning("the run in '%s' was stopped before its first block; it begins anew", folder)
-    return begun
+    return store
 
 
 def _difference(case: Case, stored: Case) -> str:
@@ -98,12 +98,12 @@ def _difference(case: Case, stored: Case) -> str:
     return _named(list(differ), *({k: v[i] for k, v in differ.items()} for i in (0, 1)))
 
 
-def _stored(folder: Path, begun: bool) -> tuple[Case, str]:
+def _stored(folder: Path, store: RunStore | None) -> tuple[Case, str]:
     """The case of the run in a folder and its hash, as they were when it began."""
-    if not begun:
+    if store is None:
         stored = load_case(folder / "case.toml")
         return stored, stored.hash
-    attrs = RunStore.open(folder / "results.zarr").layout.attrs
+    attrs = store.layout.attrs
     return load_case(attrs["case"]), attrs["hash"]
 
 

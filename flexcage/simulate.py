@@ -14,11 +14,10 @@ from flexcage.core.locks import held
 from flexcage.core.timing import Stages
 from flexcage.results.recording import Recorder
 from flexcage.run import Run, warnings_at_start
-from flexcage.run_folder import check_written, has_begun, open_folder
+from flexcage.run_folder import begun_store, check_written, open_folder
 from flexcage.stages import (
     assembled_start,
     begin_compiling,
-    begun_store,
     build_bearing,
     made_cage,
     run_store,
@@ -54,7 +53,7 @@ def _simulated(
     case: Case, folder: Path | None, resume: bool, study: str | Path | None, progress: Any
 ) -> Run:
     stages = Stages(progress)
-    begun = begun_store(folder) if folder and resume and has_begun(folder, case) else None
+    begun = begun_store(folder, case) if folder and resume else None
     compiling = begin_compiling(case.bearing.element)
     if folder and begun:
         mesh, cage = stored_cage(case, begun, folder, stages)

@@ -28,7 +28,7 @@ from flexcage.modes.table import ModeTable
 from flexcage.results import room
 from flexcage.results.cage_file import CageRecord, cage_record, check_same
 from flexcage.results.recording import new_store
-from flexcage.results.store import MemoryRunStore, RunStore
+from flexcage.results.store import MemoryRunStore
 from flexcage.results.warnings import to_text
 from flexcage.run_folder import keep_cage, kept_cage, write_case
 from flexcage.static import solve_static
@@ -69,11 +69,6 @@ def run_store(
         output=case.output,
         attrs=attrs,
     )
-
-
-def begun_store(folder: Path) -> RunStore:
-    """The store of a run to go on with."""
-    return RunStore.open(folder / "results.zarr")
 
 
 def made_cage(case: Case, stages: Stages) -> Cage:
