@@ -5,6 +5,9 @@ drive's work is a thousand times what the cage handles and would hide what goes 
 the balance missed before the cage dissipated anything is not the cage's: in a short run whose cage
 is first touched near the end, that is more than the few touches dissipate. So the cage's share
 counts the imbalance that arises once the cage has dissipated ``BEGUN`` of what it does in the run.
+A cage that dissipates less than ``OF_DRIVE`` of the drive's work has hardly been touched: the
+little that its modes lose as they swing freely is no measure of an imbalance within the drive's
+bound.
 
 Where little work is done, as in a bearing that stands or within the first instants of one whose
 rollers are pinched, neither is a measure: contacts hold more elastic energy than was ever put in,
@@ -45,7 +48,8 @@ class EnergyAudit:
     ``elastic`` is the largest energy held other than kinetic. ``of_drive`` and ``of_cage`` are the
     worst imbalance over the drive's work and over what pockets and modes dissipate; NaN where there
     was none, or so little that the share exceeds its bound with an imbalance under ``OF_ELASTIC``
-    of the elastic energy. ``of_cage`` counts the imbalance since the cage's losses have begun.
+    of the elastic energy or, of a cage that has hardly been touched, within the drive's bound.
+    ``of_cage`` counts the imbalance since the cage's losses have begun.
     """
 
     worst: float
@@ -98,6 +102,7 @@ def energy_audit(ds: xarray.Dataset) -> EnergyAudit:
     held = stored.sel(energy_kind=stored["energy_kind"] != "kinetic").sum("energy_kind")
     elastic = float(held.max())
     floor = OF_ELASTIC * elastic
+    untouched = OF_DRIVE * drive if 0.0 < lost < OF_DRIVE * drive else 0.0
     return EnergyAudit(
         worst,
         float(gap[-1]),
@@ -107,7 +112,7 @@ def energy_audit(ds: xarray.Dataset) -> EnergyAudit:
         channels,
         elastic,
         _share(worst, drive, OF_DRIVE, floor) if drive or lost or worst <= floor else inf,
-        _share(from_cage, lost, OF_CAGE, floor),
+        _share(from_cage, lost, OF_CAGE, max(floor, untouched)),
     )
 
 

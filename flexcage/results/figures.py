@@ -324,7 +324,7 @@ def _energy_rows(ds: xarray.Dataset) -> tuple[Row, ...]:
             "Imbalance / loss in the cage",
             check.of_cage,
             "%",
-            "what pockets and modes dissipate",
+            f"what pockets and modes dissipate{'' if isfinite(check.of_cage) else ': too little'}",
         ),
         *(
             Row(f"work_{k}", f"Work: {_plain(k)}", v, "mJ",

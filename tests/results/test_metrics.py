@@ -192,6 +192,30 @@ def test_what_is_missed_before_the_cage_is_touched_is_not_the_cages(
 
 
 @pytest.mark.parametrize(
+    ("lost", "leak", "judged", "verdict"),
+    [
+        (4e-4, 1e-4, False, "passed"),
+        (4e-4, 1e-5, True, "passed"),
+        (6e-4, 1e-4, True, "EXCEEDED"),  # a cage that works
+        (4e-4, 6e-4, True, "EXCEEDED"),  # more than the drive may miss
+        (-4e-4, 1e-4, True, "EXCEEDED"),  # losses that give energy
+    ],
+)
+def test_a_cage_that_hardly_loses_anything_is_no_measure(
+    known_run, bearing, lost, leak, judged, verdict
+):
+    """The drive does 0.5 J, of which its share may miss 0.5 mJ; the cage's modes lose less."""
+    ds = known_run.assign_coords(channel=["drive", "modal_damping"])
+    share = ds["time"].values / ds["time"].values[-1]
+    ds["work"][:, 0], ds["work"][:, 1] = 0.5 * share, -lost * share
+    ds["energy"][:, 0] = ds["work"].sum("channel").values + leak * share
+    ds["energy"][:, 1] = 0.0
+    check, row = audit.energy_audit(ds), summarise(ds, bearing).row("energy_of_cage")
+    assert check.verdict == verdict and np.isfinite(check.of_cage) == judged
+    assert ("too little" in row.note) == (not judged)
+
+
+@pytest.mark.parametrize(
     ("work", "lost", "leak", "verdict"),
     [
         (0.0, 0.0, 0.0, "not judged"),
