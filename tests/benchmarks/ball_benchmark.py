@@ -29,8 +29,8 @@ def measure(
     looser = balls.window(window, share=10 * SHARE)
     error = balls.window(window).error(reference)
     touching = np.abs(reference.cage).max(axis=(1, 2)) > 1e-3
-    cost, counts = _revolution(balls)
-    other, _ = _revolution(Settled(rollers))
+    cost, counts = revolution(balls)
+    other, _ = revolution(Settled(rollers))
     elements = (case.bearing.element_count, rollers.bearing.element_count)
     return {
         "cpu_s_per_revolution": round(cost, 4),
@@ -52,7 +52,7 @@ def measure(
     }
 
 
-def _revolution(settled: Settled) -> tuple[float, dict[str, int]]:
+def revolution(settled: Settled) -> tuple[float, dict[str, int]]:
     """CPU time [s] of a revolution of the inner ring, the median of three, and counts of one."""
     revolution = 2.0 * np.pi / abs(settled.case.drive.speed)
     stride = settled.case.output.vibration_ratio

@@ -17,7 +17,7 @@ from typing import Any
 
 EXAMPLES = Path(__file__).resolve().parents[2] / "examples"
 sys.path[:0] = [str(Path(__file__).parent)]
-WHAT = ("solver", "fe", "peer", "exudyn", "scale", "study", "ball", "start", "own")
+WHAT = ("solver", "fe", "peer", "exudyn", "scale", "study", "ball", "start", "own", "whole")
 QUICK = {"mesh.fineness": "coarse", "cage.model": "rigid"}  # of the case, with --quick
 
 
@@ -47,6 +47,8 @@ def main(argv: list[str] | None = None) -> int:
     options: dict[str, Any] = dict(benchmark.QUICK) if args.quick else {}
     if args.what == "ball":
         options["rollers"] = flexcage.load_case(EXAMPLES / "n1013.toml", overrides=small)
+    elif args.what == "whole":
+        options["balls"] = flexcage.load_case(EXAMPLES / "c7010.toml", overrides=small)
     elif args.what in ("peer", "scale"):
         options["plot"] = args.plot
     elif args.what == "study":

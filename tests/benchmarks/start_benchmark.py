@@ -27,9 +27,12 @@ def measure(case: Any, *, cold: bool = True, repeats: int = REPEATS) -> dict[str
         file = Path(folder) / "case.toml"
         file.write_text(case.to_toml(), encoding="utf-8")
         ball, roller, both = (Path(folder) / k if cold else None for k in ("ball", "roller", "all"))
-        of_balls, of_rollers = _run("kernels", ball, "7010C-PI"), _run("kernels", roller, "N1013")
-        first = _run("first_step", both, str(file))
-        warm = [_run("first_step", both, str(file)) for _ in range(repeats)]
+        of_balls, of_rollers = (
+            measured("kernels", ball, "7010C-PI"),
+            measured("kernels", roller, "N1013"),
+        )
+        first = measured("first_step", both, str(file))
+        warm = [measured("first_step", both, str(file)) for _ in range(repeats)]
     typical = sorted(warm, key=lambda w: w["first_step_s"])[repeats // 2]
     return {
         "cold_kernels_s": of_rollers["kernels_s"],
@@ -43,7 +46,7 @@ def measure(case: Any, *, cold: bool = True, repeats: int = REPEATS) -> dict[str
     }
 
 
-def _run(what: str, cache: Path | None, argument: str) -> dict[str, Any]:
+def measured(what: str, cache: Path | None, argument: str) -> dict[str, Any]:
     """What a new process measures, with its files in ``cache``, or where they always are."""
     env = {k: v for k, v in os.environ.items() if k != "NUMBA_CACHE_DIR"}
     if cache is not None:
