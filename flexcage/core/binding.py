@@ -53,7 +53,7 @@ class Binder:
         cls = chosen_spec(cls, table, base)
         known = {f.name: f for f in dataclasses.fields(cls) if f.init}
         values = {}
-        choosing = _choosing(cls)
+        choosing = choices_of(cls)
         if choosing is not None and base is None and choosing[0] not in table:
             name = known[choosing[0]]
             if default_of(name) is MISSING:  # before its keys, which nothing explains yet
@@ -219,7 +219,7 @@ def with_their_choice(spec: Any, changes: Mapping[str, Any]) -> dict[str, Any]:
 def _choice_of(spec: Any, path: str) -> str:
     """Key of the name that chooses the spec at a path, such as the ``type`` of an entry of a list;
     empty if none does."""
-    found = _choosing(type(spec))
+    found = choices_of(type(spec))
     if found:
         return found[0]
     return "type" if spec is not None and path.rpartition(".")[2].isdigit() else ""
@@ -271,7 +271,7 @@ def chosen_spec(cls: Any, table: Mapping[str, Any], base: Any = None) -> Any:
     Such a name is a choice from a mapping (``spec.option``); a table without it takes the name
     from ``base``, or the default.
     """
-    found = _choosing(cls)
+    found = choices_of(cls)
     if found is None:
         return cls
     key, home, choices = found
@@ -281,7 +281,7 @@ def chosen_spec(cls: Any, table: Mapping[str, Any], base: Any = None) -> Any:
     return own or home
 
 
-def _choosing(cls: Any) -> tuple[str, Any, Mapping[str, Any]] | None:
+def choices_of(cls: Any) -> tuple[str, Any, Mapping[str, Any]] | None:
     """Field whose name chooses the spec, the class that declared it first, and its choices."""
     for field in dataclasses.fields(cls) if dataclasses.is_dataclass(cls) else ():
         holders = [c for c in cls.__mro__ if field.name in c.__dict__.get("__annotations__", {})]
@@ -294,7 +294,7 @@ def _choosing(cls: Any) -> tuple[str, Any, Mapping[str, Any]] | None:
 
 def chosen_names(spec: Any) -> Iterator[str]:
     """The names in a spec, and in all specs inside it, that choose from growing tables."""
-    found = _choosing(type(spec))
+    found = choices_of(type(spec))
     if found is not None:
         yield getattr(spec, found[0])
     for field in dataclasses.fields(spec):
@@ -390,7 +390,7 @@ def _is_of(value: Any, kind: Any) -> bool:
 
 def _check_class(spec: Any, where: str) -> None:
     """Raise InputError if a name in a spec wants values that this class of spec does not hold."""
-    found = _choosing(type(spec))
+    found = choices_of(type(spec))
     wanted = chosen_spec(type(spec), {}, spec)
     if found is None or type(spec) is wanted:
         return

@@ -18,6 +18,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from flexcage.core.errors import InputError
+from flexcage.core.listing import Listing
 from flexcage.core.registry import add, check_free
 from flexcage.modes.basis import FACES
 
@@ -264,6 +265,28 @@ def variable(name: str) -> Variable:
     near = difflib.get_close_matches(name, VARIABLES, n=1)
     hint = f"; the nearest known name is {near[0]!r}" if near else ""
     raise InputError(f"There is no result variable {name!r}{hint}.", where="variable", value=name)
+
+
+PAGE = """# Result variables
+
+What a run records: `run.dataset["NAME"]`, an xarray array with labels and units. Printed by
+`flexcage variables`; forces act *on* the named body.
+"""
+_ON_GRID = {TIME: "", TIME_HF: "at the vibration rate"}
+
+
+def listing(text: str = "") -> Listing:
+    """Variables whose name or meaning holds the text, with dimensions, units and whose bearings
+    have them. InputError if there are none."""
+    wanted = text.lower()
+    found = [v for v in VARIABLES.values() if wanted in v.name or wanted in v.long_name.lower()]
+    if not found:
+        variable(text)  # refuses it with the nearest name
+    rows = []
+    for v in found:
+        notes = (v.long_name, v.of and f"{v.of} bearings", _ON_GRID.get(v.dims[0], ""))
+        rows.append((v.name, ", ".join(v.dims), v.unit, "; ".join(filter(None, notes))))
+    return Listing("Result variables", ("variable", "dimensions", "unit", "meaning"), rows)
 
 
 #: How variables that were registered from outside are computed, by name.
