@@ -200,10 +200,11 @@ axial, the inner ring held in tilt, friction as in the paper's model.
 
 Two things the paper does not say decide the orbit: what keeps the cage centred, and its unbalance.
 With the cylindrical pockets that one would expect nothing but the balls' traction holds a cage
-across the axis, and it is thrown off (README, What the model contains); so pockets are whole
-spheres here, an assumption, and in two variations cylinders in a cage that the outer ring guides
-with 0.2 mm of radial clearance. The sensors' plane is taken {PLANE * MM:g} mm from the cage's
-middle.
+across the axis, and it is thrown off
+([why](../../../flexcage/system/README.md#balls-and-the-limits-of-their-model)); so pockets are
+whole spheres here, an assumption, and in two variations cylinders in a cage that the outer ring
+guides with 0.2 mm of radial clearance. The sensors' plane is taken {PLANE * MM:g} mm from the
+cage's middle.
 
 ## Verdicts
 

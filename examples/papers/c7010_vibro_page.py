@@ -187,9 +187,9 @@ of the base reading, one of the others.
   kg/m^3 in the section assumed; the base keeps PA66's 1150, and one case takes 27 g.
 - "Clearance" was read as the pockets' and as the radial internal clearance, which goes with the
   contact angle: 11.7, 23.6 and 31.3 degrees for 0.02, 0.08 and 0.14 mm.
-- Cylindrical pockets do not hold a cage across the axis (README, What the model contains): pockets
-  are whole spheres, an assumption, but cylinders where a land guides the cage (0.2 mm of radial
-  clearance).
+- Cylindrical pockets do not hold a cage across the axis
+  ([why](../../../flexcage/system/README.md#balls-and-the-limits-of-their-model)): pockets are whole
+  spheres, an assumption, but cylinders where a land guides the cage (0.2 mm of radial clearance).
 - Waves: a fifth of the load at 100 Hz, or a tenth of the speed at 50 Hz. Accelerations: 4000 to
   12,000 rpm in 0.4, 0.2 and 0.1 s. Friction 0.05 on races, 0.1 in pockets, full from 50 mm/s on
   (10 mm/s in "steeper friction"); unbalance none, or 1 g mm at every speed. All assumptions: the

@@ -20,7 +20,7 @@ from flexcage.mesh.options import MeshOptions
 from flexcage.mesh.sector import MM, Quarter, SizePlan, grow_from, mesh_arrays, named_surfaces
 
 # size over the sheet's thickness; size at the necks beside a pocket's side openings over their
-# breadth, which the lowest frequencies hang on (README); growth of the size away from them
+# breadth, which the lowest frequencies hang on (tests/README.md); growth of the size away from them
 _NAMED = {
     "coarse": (1.4, 1.0, 1.2),
     "medium": (1.1, 0.5, 0.9),

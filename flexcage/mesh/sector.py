@@ -30,7 +30,7 @@ from flexcage.mesh.options import MeshOptions
 MM = 1e-3
 # of the sector's length scale (cube root of its volume): size, size at the fillet; growth of the
 # size with distance; edges along a fillet's quarter arc; stretch along the radius. Chosen for
-# the N1013's node counts, and medium for the root stress of three cages (README, Verification).
+# the N1013's node counts, and medium for the root stress of three cages (tests/README.md).
 _NAMED = {
     "coarse": (1.031, 1.031, 1.0, 1, 1.0),
     "medium": (0.55, 0.11, 4.0, 4, 1.35),

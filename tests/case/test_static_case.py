@@ -22,9 +22,9 @@ def test_the_example():
     assert case.speed == pytest.approx(1e4 * np.pi / 30.0) and case.load.axial == 100.0
 
 
-def test_the_example_in_the_readme():
-    readme = (EXAMPLES.parent / "README.md").read_text("utf-8")
-    section = readme.split("## Static solution")[1].split("\n## ")[0]
+def test_the_example_of_the_page_on_cases():
+    page = (EXAMPLES / "cases.md").read_text("utf-8")
+    section = page.split("## Static solution")[1].split("\n## ")[0]
     case = load_static(section.split("```toml\n")[1].split("```")[0])
     assert case.preset == "7010C-PI" and case.static.tilt == "free"
     assert case.bearing == load_static(EXAMPLES / "c7010_static.toml").bearing

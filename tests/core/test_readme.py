@@ -1,7 +1,12 @@
-"""README's examples of cases load, and its walk through a bearing type names what is there."""
+"""The pages hold what they promise: links and anchors lead somewhere, cases load, commands and
+names exist, and no page is long."""
 
+import argparse
 import ast
 import re
+import shlex
+from collections import Counter
+from functools import cache
 from pathlib import Path
 
 import pytest
@@ -11,28 +16,162 @@ from flexcage import cli
 from flexcage.case import load_case
 
 ROOT = Path(__file__).parents[2]
+FOLDERS = ("examples", "flexcage", "meshes", "tests")
+PAGES = sorted([ROOT / "README.md", *(p for f in FOLDERS for p in (ROOT / f).rglob("*.md"))])
+MOST_LINES = 300
+LONG = ("examples/papers/", "tests/benchmarks/README.md")  # pages that may be longer
+#: Presets for the cases of a page, block by block, where they name none.
+CASES = {
+    "README.md": ("",),
+    "examples/cases.md": ("N1013", "", "15x37x10", "N1013", "N1013", "N1013", "7010C-PI"),
+    "meshes/README.md": ("N1013",),
+}
+NOT_CASES = {"examples/cases.md": 1, "examples/studies.md": 1}  # a static case, a study
+
+
+def name_of(page):
+    return page.relative_to(ROOT).as_posix()
+
+
+def text_of(name):
+    return (ROOT / name).read_text("utf-8")
+
+
+def blocks(text, *kinds):
+    return re.findall(rf"^```(?:{'|'.join(kinds)})\n(.*?)^```", text, flags=re.S | re.M)
+
+
+def prose(text):
+    """The text without fenced blocks."""
+    return re.sub(r"^```.*?^```", "", text, flags=re.S | re.M)
+
+
+@cache
+def anchors(page):
+    """Anchors of a page's headings, as GitHub makes them."""
+    found, seen = set(), Counter()
+    for heading in re.findall(r"^#+ (.+)$", prose(page.read_text("utf-8")), flags=re.M):
+        plain = re.sub(r"\[([^\]]*)\]\([^)]*\)", r"\1", heading).strip().lower()
+        slug = re.sub(r"[^\w\- ]", "", plain).replace(" ", "-")
+        found.add(f"{slug}-{seen[slug]}" if seen[slug] else slug)
+        seen[slug] += 1
+    return found
+
+
+def links(page):
+    """Targets of a page's links and pictures that stay in the tree."""
+    text = re.sub(r"`[^`]*`", "", prose(page.read_text("utf-8")))
+    found = re.findall(r"\]\(\s*([^()\s]+)\s*\)", text)
+    return [target for target in found if not re.match(r"[a-z]+:", target)]
+
+
+def broken(page):
+    """Links of a page that lead nowhere."""
+    for target in links(page):
+        path, _, anchor = target.partition("#")
+        place = (page.parent / path).resolve() if path else page
+        if not place.exists() or (anchor and anchor not in anchors(place)):
+            yield target
+
+
+def test_anchors_are_those_of_github(tmp_path):
+    page = tmp_path / "page.md"
+    page.write_text(
+        "# A plan for 100,000 cases\n```\n# no\n```\n## [One](x.md): `run`, two\n## A b\n## A b\n"
+    )
+    assert anchors(page) == {"a-plan-for-100000-cases", "one-run-two", "a-b", "a-b-1"}
+    page.write_text("# One\n[a](#one) [b](#two) [c](page.md#one) ![d](none.png) `[e](no)`\n")
+    anchors.cache_clear()
+    assert list(broken(page)) == ["#two", "none.png"]
+
+
+@pytest.mark.parametrize("page", PAGES, ids=name_of)
+def test_links_and_anchors_lead_somewhere(page):
+    assert list(broken(page)) == []
+
+
+@pytest.mark.parametrize("page", PAGES, ids=name_of)
+def test_no_page_is_long(page):
+    lines = len(page.read_text("utf-8").splitlines())
+    most = 200 if page == ROOT / "README.md" else MOST_LINES
+    assert lines <= most or name_of(page).startswith(LONG)
+
+
+def test_every_page_is_reached_from_the_main_page():
+    """In two links, but for pages of the papers and of tests' data."""
+    reached = {ROOT / "README.md"}
+    for _ in range(2):
+        reached |= {
+            (page.parent / target.partition("#")[0]).resolve()
+            for page in reached if page.suffix == ".md"
+            for target in links(page) if target.partition("#")[0]
+        }  # fmt: skip
+    left = {name_of(page) for page in PAGES if page not in reached}
+    assert not {name for name in left if not name.startswith("flexcage/verification/data/")}
+
+
+def test_the_gallery_names_every_example():
+    text = text_of("examples/README.md")
+    files = [p for p in (ROOT / "examples").iterdir() if p.suffix in (".py", ".toml")]
+    assert len(files) > 8 and not [p.name for p in files if f"]({p.name})" not in text]
 
 
 def cases():
-    """Blocks of "What a case may say", each with a preset where it has none."""
-    text = (ROOT / "README.md").read_text("utf-8").split("## What a case may say")[1]
-    text = text.split("## Static solution")[0]
-    presets = ("N1013", "", "15x37x10", "N1013", "N1013", "N1013", "7010C-PI", "")
-    blocks = re.findall(r"```toml\n(.*?)```", text, flags=re.S)
-    for block, preset in zip(blocks, presets, strict=True):
-        yield f'bearing.preset = "{preset}"\n{block}' if preset else block
+    """Blocks of TOML that are cases, each with a preset where it has none."""
+    for name, presets in CASES.items():
+        found = blocks(text_of(name), "toml")
+        found = found[: len(found) - NOT_CASES.get(name, 0)]
+        for block, preset in zip(found, presets, strict=True):
+            block = block.replace("cage.msh", str(ROOT / "meshes" / "n1013_normal.msh"))
+            yield f'bearing.preset = "{preset}"\n{block}' if preset else block
 
 
 @pytest.mark.parametrize("text", cases())
-def test_what_a_case_may_say(text):
+def test_cases_of_the_pages_load(text):
     assert load_case(text).bearing.in_motion
 
 
+def test_every_block_of_toml_is_looked_at():
+    with_toml = {name_of(p) for p in PAGES if blocks(p.read_text("utf-8"), "toml")}
+    assert with_toml == {*CASES, *NOT_CASES}
+
+
+def test_the_study_of_the_page_loads(tmp_path):
+    pytest.importorskip("dask")
+    (block,) = blocks(text_of("examples/studies.md"), "toml")
+    (tmp_path / "n1013.toml").write_text(text_of("examples/n1013.toml"))
+    (tmp_path / "study.toml").write_text(block)
+    study = flexcage.load_study(tmp_path / "study.toml")
+    assert study.repeat.count == 3 and [len(axis.expand()) for axis in study.axes] == [3, 2]
+
+
+def commands():
+    """Lines of the pages' blocks that call flexcage."""
+    for page in PAGES:
+        for block in blocks(page.read_text("utf-8"), "sh", "text"):
+            for line in block.splitlines():
+                if line.startswith("flexcage "):
+                    yield line
+
+
+@pytest.mark.parametrize("line", sorted(set(commands())))
+def test_commands_of_the_pages_are_understood(line):
+    arguments = shlex.split(line, comments=True)[1:]
+    assert isinstance(cli.build_parser().parse_args(arguments), argparse.Namespace)
+
+
+@pytest.mark.parametrize("page", PAGES, ids=name_of)
+def test_python_of_the_pages_names_what_is_there(page):
+    for block in blocks(page.read_text("utf-8"), "python"):
+        ast.parse(block)
+        for name in re.findall(r"flexcage\.(\w+)\(", block):
+            assert callable(getattr(flexcage, name))
+
+
 def test_snippets_of_clusters_name_only_what_they_import():
-    section = (ROOT / "README.md").read_text("utf-8").split("## Studies")[1].split("\n## ")[0]
-    blocks = re.findall(r"```python\n(.*?)```", section, flags=re.S)
-    assert len(blocks) == 2
-    for block in blocks:
+    found = blocks(text_of("examples/studies.md"), "python")
+    assert len(found) == 2
+    for block in found:
         tree = list(ast.walk(ast.parse(block)))
         given = {a.asname or a.name for n in tree if isinstance(n, ast.ImportFrom | ast.Import)
                  for a in n.names}  # fmt: skip
@@ -45,8 +184,7 @@ def test_snippets_of_clusters_name_only_what_they_import():
 
 
 def test_the_cluster_on_loopback_is_one_that_dask_and_flexcage_know():
-    section = (ROOT / "README.md").read_text("utf-8").split("## Studies")[1].split("\n## ")[0]
-    block = next(b for b in re.findall(r"```sh\n(.*?)```", section, flags=re.S) if "dask" in b)
+    (block,) = (b for b in blocks(text_of("examples/studies.md"), "sh") if "dask" in b)
     scheduler, worker, study = (line.split() for line in block.strip().splitlines())
     pytest.importorskip("distributed")
     from distributed.cli import dask_scheduler, dask_worker
@@ -58,8 +196,8 @@ def test_the_cluster_on_loopback_is_one_that_dask_and_flexcage_know():
 
 
 def test_what_extending_names_is_there():
-    section = (ROOT / "README.md").read_text("utf-8").split("**A bearing type in motion.**")[1]
-    section = section.split("The kind below")[0]
+    section = text_of("flexcage/README.md").split("### A bearing type in motion")[1]
+    section = section.split("### What needs lines inside flexcage")[0]
     spans = re.findall(r"`([^`]+)`", section)
     files = [s for s in spans if s.endswith(".py")]
     assert len(files) > 25
@@ -69,3 +207,12 @@ def test_what_extending_names_is_there():
     words = set(re.findall(r"\w+", code))
     names = {n for s in spans if s not in files and "/" not in s for n in re.findall(r"\w+", s)}
     assert len(names) > 50 and not names - words
+
+
+@pytest.mark.parametrize("page", PAGES, ids=name_of)
+def test_files_that_pages_name_are_there(page):
+    """A path with a folder in it, from the tree's or the package's root or from the page."""
+    text = prose(page.read_text("utf-8"))
+    found = re.findall(r"`((?:[\w.\-]+/)+[\w.\-]+\.(?:py|toml|msh|md))`", text)
+    places = (ROOT, ROOT / "flexcage", page.parent, ROOT / "examples" / "papers")
+    assert not [f for f in found if not any((place / f).is_file() for place in places)]

@@ -1,4 +1,4 @@
-"""A user's own bearing type, as README's "Extending" promises: linear springs between two rings."""
+"""A user's own bearing type, as flexcage/README.md promises: linear springs between two rings."""
 
 from __future__ import annotations
 

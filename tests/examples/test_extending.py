@@ -1,4 +1,5 @@
-"""What README's "Extending" promises: a module from outside adds to flexcage, which stays as is."""
+"""What "Extending" in flexcage/README.md promises: a module from outside adds to flexcage, which
+stays as is."""
 
 from __future__ import annotations
 
@@ -319,15 +320,20 @@ def test_files_that_cannot_be_loaded(tmp_path):
             load_extension(source)
 
 
-def test_the_example_in_the_readme(tmp_path):
-    """The README's own example works as printed, and is a law like the others."""
-    section = (ROOT / "README.md").read_text("utf-8").split("## Extending")[1].split("\n## ")[0]
-    code = re.findall(r"```python\n(.*?)```", section, flags=re.S)[0]
+def blocks_of_the_page():
+    page = (ROOT / "flexcage" / "README.md").read_text("utf-8")
+    section = page.split("## Extending")[1].split("\n## ")[0]
+    return re.findall(r"```python\n(.*?)```", section, flags=re.S)
+
+
+def test_the_law_of_the_page(tmp_path):
+    """The page's own example works as printed, and is a law like the others."""
+    code = blocks_of_the_page()[0]
     assert sum(1 for line in code.splitlines() if line) <= 15
     file = tmp_path / "my_laws.py"
     file.write_text(code)
     load_extension(file)
-    case = load_case(CASE_OF_README)
+    case = load_case(CASE_OF_PAGE)
     law = case.contacts.pocket.normal
     p = laws.normal_parameters(law, 1e8, 1.0)
     assert p[0] == pytest.approx(2e6)
@@ -337,12 +343,11 @@ def test_the_example_in_the_readme(tmp_path):
     law_checks().check_normal_law(laws.NORMAL_LAWS[law.law], p)
 
 
-def test_the_constraint_in_the_readme(tmp_path):
+def test_the_constraint_of_the_page(tmp_path):
     from flexcage.simulate import simulate
 
-    section = (ROOT / "README.md").read_text("utf-8").split("## Extending")[1].split("\n## ")[0]
     file = tmp_path / "my_constraint.py"
-    file.write_text(re.findall(r"```python\n(.*?)```", section, flags=re.S)[1])
+    file.write_text(blocks_of_the_page()[1])
     load_extension(file)
     case = load_case(PLAIN + '[[constraints]]\ntype = "in_plane"\n')
     varied = {"cage.model": "rigid", "mesh.fineness": "coarse", "solver.duration": "0.5 ms"}
@@ -352,7 +357,7 @@ def test_the_constraint_in_the_readme(tmp_path):
 
 
 PLAIN = '[bearing]\npreset = "N1013"\n'
-CASE_OF_README = """
+CASE_OF_PAGE = """
 bearing.preset = "N1013"
 [contacts.pocket.normal]
 law = "soft_wall"

@@ -133,10 +133,10 @@ def test_a_run_at_the_lasers_rate():
         of_run(ds, rate=5.0)
 
 
-def test_the_example_in_the_readme(tmp_path, monkeypatch):
+def test_the_example_of_the_page_on_results(tmp_path, monkeypatch):
     """As printed, on a file of a cage with a known centre."""
-    readme = Path(__file__).parents[2] / "README.md"
-    section = readme.read_text("utf-8").split("### Measured by lasers")[1].split("\n## ")[0]
+    page = Path(__file__).parents[2] / "examples" / "results.md"
+    section = page.read_text("utf-8").split("## Measured by lasers")[1].split("\n## ")[0]
     code = re.findall(r"```python\n(.*?)```", section, flags=re.S)[0]
     shown = readings(np.array([[0.0, 0.1e-3, 0.0]] * 3), np.repeat(tilted(0.003), 3, axis=0), SETUP)
     lines = [",".join(f"{1e3 * v:.12g}" for v in row) for row in shown]
