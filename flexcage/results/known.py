@@ -13,6 +13,8 @@ from types import MappingProxyType
 from flexcage.core.binding import did_you_mean
 from flexcage.core.errors import InputError
 from flexcage.core.listing import Listing
+from flexcage.results.statistics import Record
+from flexcage.results.summary import Row, Value
 from flexcage.system.data import POWERS
 
 FLEXIBLE, RIVETED, FATIGUE, WEAR = "flexible cage", "riveted cage", "fatigue", "wear"
@@ -296,6 +298,22 @@ _FLOORS = (_statistics, _speeds, _slip, _motion, _forces, _ring, _energy, _film,
 KNOWN: Mapping[str, KnownFigure] = MappingProxyType(
     {figure.key: figure for part in _FLOORS for figure in part()}
 )
+
+
+def figure(key: str, value: Value, note: str = "", *, label: str = "", idle: bool = False) -> Row:
+    """The row of a known figure; ``label`` takes the place of its title."""
+    known = KNOWN[key]
+    return Row(key, label or known.title, value, known.shown, note, idle=idle)
+
+
+def statistic(
+    key: str, record: Record, note: str = "",
+    *, label: str = "", value: float | None = None, idle: bool = False,
+) -> Row:  # fmt: skip
+    """The row of a known figure that is a statistic: its value (unless given) and its margin."""
+    known = KNOWN[key]
+    return Row.of(key, label or known.title, record, known.shown, note, value=value, idle=idle)
+
 
 PAGE = """# Figures of a run
 
