@@ -33,6 +33,7 @@ from flexcage.results import mode_file
 from flexcage.results.edges import Edge, groove_edges
 from flexcage.results.figures import pass_peak, summarise
 from flexcage.results.film import film_rows, film_thickness
+from flexcage.results.known import figure, statistic
 from flexcage.results.metrics import BearingNumbers, SlipRange, cage_angle, settled
 from flexcage.results.statistics import roller_passes
 from flexcage.results.store import MemoryRunStore
@@ -572,7 +573,7 @@ class Run:
             Row(f"wall_{k}", k.capitalize(), v, "s", idle=v < _NO_TIME)
             for k, v in self.stages.items()
         ]
-        return [*rows, Row("wall_total", "Wall time in all", self.stages.total, "s")]
+        return [*rows, figure("wall_total", self.stages.total)]
 
     def _cage_rows(self) -> list[Row]:
         case = self.case
@@ -585,27 +586,24 @@ class Run:
             note = f"{added * 1e3:.4g} g of them make the unbalance, at the cage's mean radius"
         shift = float(np.linalg.norm(centre))
         rows = [
-            Row("cage_mass", "Mass", mass, "g", note),
-            Row("cage_centre_shift", "Shift of the mass centre", shift, "um"),
+            figure("cage_mass", mass, note),
+            figure("cage_centre_shift", shift),
         ]
         if self.cage is not None:
             basis = self.cage.shown
             where = mode_file.FILE if self.folder else "run.mode_table"
-            rows.append(Row("mode_count", "Dynamic modes", basis.size, "", f"table: {where}"))
-            rows.append(Row("first_frequency", "First frequency", basis.frequencies[0], "Hz"))
+            rows.append(figure("mode_count", basis.size, f"table: {where}"))
+            rows.append(figure("first_frequency", basis.frequencies[0]))
             if basis.residual is not None:
-                rows.append(
-                    Row(
-                        "far_coupling",
-                        "Pockets' local coupling cut",
-                        basis.residual.far_coupling,
-                        "%",
-                        _FAR,
-                    )
-                )
+                rows.append(figure("far_coupling", basis.residual.far_coupling, _FAR))
         if self.start is not None and self.start.pinched:
-            rows.append(Row("pinch_force", "Pinch force at the start", self.start.pinch_force, "N",
-                            f"pockets {', '.join(map(str, self.start.pinched))}"))  # fmt: skip
+            rows.append(
+                figure(
+                    "pinch_force",
+                    self.start.pinch_force,
+                    f"pockets {', '.join(map(str, self.start.pinched))}",
+                )
+            )
         return rows
 
     def _stress_rows(self) -> list[Row]:
@@ -621,28 +619,36 @@ class Run:
         kind = place_kind(self.mesh.groups)
         corner = windows.peak(h.places[h.settled :].max(axis=1))
         return [
-            Row("stress_peak", f"Peak, without {kind.walls}", float(h.peak[k]), "MPa",
-                f"{place}; {kind.left_out} are never searched"),
-            Row.of("stress_mean_peak", "Mean of the cage's peak", windows.mean(peak), "MPa"),
-            Row.of("stress_root_pass_peak", f"At a {kind.one}, peak of a pass", corner, "MPa",
-                   pass_peak(self.case.bearing.element)),
-            Row("stress_root", f"Largest at a {kind.one}", float(roots[root]), "MPa",
-                place_in_words(h.place_names[root])),
-            Row("stress_start", "Before settling", float(h.peak[: h.settled].max(initial=0.0)),
-                "MPa"),
-        ]  # fmt: skip
+            figure(
+                "stress_peak",
+                float(h.peak[k]),
+                f"{place}; {kind.left_out} are never searched",
+                label=f"Peak, without {kind.walls}",
+            ),
+            statistic("stress_mean_peak", windows.mean(peak)),
+            statistic(
+                "stress_root_pass_peak",
+                corner,
+                pass_peak(self.case.bearing.element),
+                label=f"At a {kind.one}, peak of a pass",
+            ),
+            figure(
+                "stress_root",
+                float(roots[root]),
+                place_in_words(h.place_names[root]),
+                label=f"Largest at a {kind.one}",
+            ),
+            figure("stress_start", float(h.peak[: h.settled].max(initial=0.0))),
+        ]
 
     def _solver_rows(self) -> list[Row]:
         count, bound = self.solver.state.count, self.solver.bound
         rows = [
-            Row(
-                k, k.replace("_", " ").capitalize(), int(count[i]), idle=not count[i] and k in _RARE
-            )
-            for k, i in COUNTS.items()
+            figure(k, int(count[i]), idle=not count[i] and k in _RARE) for k, i in COUNTS.items()
         ]
         if np.isfinite(bound):
             note = "least over the run, by the spectral radius"
-            rows.append(Row("stable_step", "Stability bound of explicit steps", bound, "us", note))
+            rows.append(figure("stable_step", bound, note))
         return rows
 
 

@@ -26,8 +26,8 @@ from n1013_view import BASE, CAGES, CROSSBEAM, LONGER, RIGID, SHORTER, SOUND, Vi
 import flexcage
 from flexcage.core.errors import FlexcageError, InputError
 from flexcage.core.progress import Progress
+from flexcage.results.known import FLEXIBLE, KNOWN
 from flexcage.study.folder import Folder
-from flexcage.study.outputs import FLEXIBLE_FIGURES
 from flexcage.study.plan import make_plan
 from flexcage.study.spec import Repeat, Study
 from flexcage.study.verdicts import Verdict, write_verdicts
@@ -80,7 +80,9 @@ def part(study: Study, stage: Stage) -> Study:
     )
     starts = Repeat(count=stage.starts, push=study.repeat.push, seed=study.repeat.seed)
     rigid = set(stage.variations) == {RIGID}
-    outputs = tuple(o for o in study.outputs if not (rigid and o in FLEXIBLE_FIGURES))
+    outputs = tuple(
+        o for o in study.outputs if not (rigid and o in KNOWN and KNOWN[o].needs == FLEXIBLE)
+    )
     return replace(study, axes=axes, repeat=starts, keep=stage.keep, outputs=outputs)
 
 

@@ -1,4 +1,4 @@
-"""Commands that list what flexcage knows: keys of a case, result variables."""
+"""Commands that list what flexcage knows: keys of a case, result variables, figures."""
 
 from __future__ import annotations
 
@@ -21,8 +21,11 @@ def add_commands(commands: Any) -> None:
     keys.add_argument("wanted", nargs="*", metavar="TEXT", help=what)
     text = "every result variable: dimensions, unit, meaning"
     variables = command(commands, "variables", variables_command, text)
-    variables.add_argument("wanted", nargs="?", default="", metavar="TEXT", help="text to look for")
-    for listed in (keys, variables):
+    text = "every figure of a summary: unit, meaning"
+    figures = command(commands, "figures", figures_command, text)
+    for listed in (variables, figures):
+        listed.add_argument("wanted", nargs="?", default="", metavar="TEXT", help="text to find")
+    for listed in (keys, variables, figures):
         listed.add_argument("-o", "--out", metavar="FILE", help="write a page (.md)")
         listed.add_argument("--force", action="store_true", help="write over an existing file")
 
@@ -45,6 +48,13 @@ def variables_command(args: argparse.Namespace) -> int:
     from flexcage.results import registry
 
     return _show([registry.listing(args.wanted)], args, registry.PAGE)
+
+
+def figures_command(args: argparse.Namespace) -> int:
+    """flexcage figures [TEXT]: what a summary holds, and a study may ask for."""
+    from flexcage.results import known
+
+    return _show([known.listing(args.wanted)], args, known.PAGE)
 
 
 def _show(listings: Iterable[Listing], args: argparse.Namespace, page: str) -> int:

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from flexcage.results import metrics
+from flexcage.results.known import figure, statistic
 from flexcage.results.metrics import BearingNumbers, SlipRange
 from flexcage.results.statistics import Record, roller_passes
 from flexcage.results.summary import Row, Section
@@ -43,10 +44,9 @@ def speed_rows(ds: xarray.Dataset, bearing: BearingNumbers) -> tuple[Row, ...]:
     note = "about its own axis, cage frame, positive as rolling has it"
     own = metrics.at_own_angles(metrics.whole_revolutions(ds), bearing)
     return (
-        Row("ball_spin", "Ball speed, mean of all", spin, "rpm", note),
-        Row("ball_spin_ideal", "Ball speed, pure rolling",
-            abs(own.kinematics(inner).roller_spin_in_cage), "rpm", at_angles(own)),
-    )  # fmt: skip
+        figure("ball_spin", spin, note),
+        figure("ball_spin_ideal", abs(own.kinematics(inner).roller_spin_in_cage), at_angles(own)),
+    )
 
 
 def slip_section(ds: xarray.Dataset, bearing: BearingNumbers, slip_range: SlipRange) -> Section:
@@ -61,15 +61,18 @@ def slip_section(ds: xarray.Dataset, bearing: BearingNumbers, slip_range: SlipRa
     rows = [
         *_slip_rows(part, bearing, zone, slip_range, (fast, free)),
         *_race_figures(part, zone, fast),
-        Row("loaded_share", "Balls that are loaded", float(zone.mean()), "%"),
+        figure("loaded_share", float(zone.mean())),
     ]
     return Section("Balls", tuple(rows))
 
 
 def _slip_rows(
-    ds: xarray.Dataset, bearing: BearingNumbers, zone: np.ndarray, slip_range: SlipRange,
+    ds: xarray.Dataset,
+    bearing: BearingNumbers,
+    zone: np.ndarray,
+    slip_range: SlipRange,
     sliding: tuple[list[float], list[float]],
-) -> tuple[Row, ...]:  # fmt: skip
+) -> tuple[Row, ...]:
     """Slip ratios in the loaded ``zone`` (time, ball) and outside it, where inner and outer race
     slide at mean speeds [m/s]; by the nominal angle; and what the grooves' curvature makes."""
     windows = roller_passes(ds, bearing)
@@ -85,15 +88,15 @@ def _slip_rows(
     curved = rolling.sliding if rolling else ()
     of_curvature = rolling.ball_slip if rolling else None
     return (
-        Row.of("slip_loaded", "Loaded balls, slip ratio", loaded, "%",
-               slip_range.note(loaded.value, sliding[0], curved)),
-        Row.of("slip_loaded_nominal", "Loaded balls, slip ratio, nominal", nominal, "%",
-               at_nominal(bearing)),
-        Row("slip_curvature", "Slip ratio by the grooves' curvature", of_curvature, "%",
-            "balls roll on lines beside the middle of curved contacts"),
-        Row.of("slip_unloaded", "Unloaded balls, slip ratio", unloaded, "%",
-               slip_range.note(unloaded.value, sliding[1])),
-    )  # fmt: skip
+        statistic("slip_loaded", loaded, slip_range.note(loaded.value, sliding[0], curved)),
+        statistic("slip_loaded_nominal", nominal, at_nominal(bearing)),
+        figure(
+            "slip_curvature",
+            of_curvature,
+            "balls roll on lines beside the middle of curved contacts",
+        ),
+        statistic("slip_unloaded", unloaded, slip_range.note(unloaded.value, sliding[1])),
+    )
 
 
 def _race_figures(ds: xarray.Dataset, zone: np.ndarray, sliding: list[float]) -> list[Row]:
@@ -103,24 +106,28 @@ def _race_figures(ds: xarray.Dataset, zone: np.ndarray, sliding: list[float]) ->
     rows = []
     for k, race in enumerate(("inner", "outer")):
         touching = force[..., k] > 0.0
-        rows.append(Row(f"sliding_{race}_loaded", f"Sliding, {race} race, loaded", sliding[k],
-                        "m/s", "along the rolling direction, in the middle"))  # fmt: skip
+        rows.append(
+            figure(
+                f"sliding_{race}_loaded", sliding[k], "along the rolling direction, in the middle"
+            )
+        )
         there = angle[..., k][touching & zone]
         extremes = np.degrees([there.min(), there.max()]) if there.size else (np.nan, np.nan)
         low, high = (round(float(x), 2) + 0.0 for x in extremes)  # no "-0.00"
-        rows.append(Row(f"contact_angle_{race}", f"Contact angle, {race} race",
-                        float(there.mean()) if there.size else None, "deg",
-                        f"loaded balls; {low:.2f} to {high:.2f} deg"))  # fmt: skip
+        rows.append(
+            figure(
+                f"contact_angle_{race}",
+                float(there.mean()) if there.size else None,
+                f"loaded balls; {low:.2f} to {high:.2f} deg",
+            )
+        )
     return rows
 
 
 def motion_rows(ds: xarray.Dataset) -> tuple[Row, ...]:
     """How far the cage's centre comes and goes."""
     axis = metrics.whirl(metrics.whole_revolutions(ds), about="axis")
-    return (
-        Row("whirl_difference", "Whirl radius, max - min", axis.largest - axis.smallest, "um",
-            "about the ring's axis"),
-    )  # fmt: skip
+    return (figure("whirl_difference", axis.largest - axis.smallest, "about the ring's axis"),)
 
 
 def race_rows(ds: xarray.Dataset) -> tuple[Row, ...]:
@@ -128,6 +135,6 @@ def race_rows(ds: xarray.Dataset) -> tuple[Row, ...]:
     force = ds["contact_force"].max("time")
     inner, outer = (float(force.sel(race=r).max()) for r in ("inner", "outer"))
     return (
-        Row("race_force_inner", "Inner race on a ball, peak", inner, "N"),
-        Row("race_force_outer", "Outer race on a ball, peak", outer, "N"),
+        figure("race_force_inner", inner),
+        figure("race_force_outer", outer),
     )

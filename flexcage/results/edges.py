@@ -11,6 +11,7 @@ import numpy as np
 
 from flexcage.geometry.ball_bearing import BallBearing, over_edge
 from flexcage.geometry.bearing import Bearing
+from flexcage.results.known import figure
 from flexcage.results.summary import Row
 
 if TYPE_CHECKING:
@@ -47,8 +48,7 @@ class Edge:
             f"ball {self.element}, {self.force:.4g} N at {degrees(self.angle):.4g} deg, "
             f"t = {self.time * 1e3:.3f} ms"
         )
-        label = f"Ellipse beyond the {self.race} groove's edge"
-        return Row(f"edge_{self.race}", label, self.beyond, "deg", where)
+        return figure(f"edge_{self.race}", self.beyond, where)
 
 
 @singledispatch

@@ -14,6 +14,7 @@ from flexcage.results import audit, ball_figures, metrics
 from flexcage.results.ball_figures import at_angles, at_nominal, of_curvature
 from flexcage.results.bootstrap import FEWEST
 from flexcage.results.contact_activity import EVENTS, contact_series
+from flexcage.results.known import figure, statistic
 from flexcage.results.metrics import BearingNumbers, SlipRange
 from flexcage.results.ring_figures import constraint_sections, ring_section
 from flexcage.results.statistics import Record, Windows, roller_passes
@@ -24,8 +25,10 @@ if TYPE_CHECKING:
 
 #: Figures whose halves are compared, to see if a run has settled, and how they are called then.
 WATCHED = {
-    "cage_speed": "cage speed", "whirl_radius": "whirl radius", "pocket_force_mean": "pocket force"
-}  # fmt: skip
+    "cage_speed": "cage speed",
+    "whirl_radius": "whirl radius",
+    "pocket_force_mean": "pocket force",
+}
 JOINT = 1.25  # times its margin a drift must be, for that three figures err together in 5 % of runs
 LOW_PASS = 2e3  # Hz, of the second deviation of the cage centre's speed
 
@@ -81,13 +84,22 @@ def _statistics_rows(
     if drifting:
         remedy = "beyond the intervals: not settled, raise output.settle"
     return (
-        Row("settled_at", "Settled from", begin, "ms", f"{100.0 * settle:g} % of the run left out"),
-        Row("settled_time", "Time in statistics", end - begin, "ms"),
-        Row("roller_passes", f"{metrics.element(ds).capitalize()} passes counted", count, "",
-            f"± is a 95 % interval{few}"),
-        Row("drift", "Differs between its halves", (drifting or "nothing") if known else None, "",
-            remedy),
-    )  # fmt: skip
+        figure("settled_at", begin, f"{100.0 * settle:g} % of the run left out"),
+        figure("settled_time", end - begin),
+        figure(
+            "roller_passes",
+            count,
+            f"± is a 95 % interval{few}",
+            label=f"{metrics.element(ds).capitalize()} passes counted",
+        ),
+        Row(
+            "drift",
+            "Differs between its halves",
+            (drifting or "nothing") if known else None,
+            "",
+            remedy,
+        ),
+    )
 
 
 def _speed_rows(ds: xarray.Dataset, bearing: BearingNumbers) -> tuple[Row, ...]:
@@ -100,25 +112,17 @@ def _speed_rows(ds: xarray.Dataset, bearing: BearingNumbers) -> tuple[Row, ...]:
     inner = float(ds["inner_speed"].mean())
     whole = f"mean of {speed.revolutions:.2f} cage revolutions"
     return (
-        Row("inner_speed", "Inner ring speed", inner, "rpm"),
-        Row.of("cage_speed", "Cage speed", windows.mean(omega), "rpm", whole, value=speed.mean),
-        Row("epicyclic_speed", "Epicyclic cage speed", speed.epicyclic, "rpm", at_angles(own)),
-        Row.of(
+        figure("inner_speed", inner),
+        statistic("cage_speed", windows.mean(omega), whole, value=speed.mean),
+        figure("epicyclic_speed", speed.epicyclic, at_angles(own)),
+        statistic(
             "cage_slip_ratio",
-            "Cage slip ratio",
             windows.ratio(ideal - omega, ideal),
-            "%",
             of_curvature(part, bearing),
             value=speed.slip_ratio,
         ),
         *_nominal_rows(part, bearing, speed, windows),
-        Row.of(
-            "cage_speed_ripple",
-            "Cage speed ripple",
-            windows.deviation(omega),
-            "%",
-            "standard deviation over mean",
-        ),
+        statistic("cage_speed_ripple", windows.deviation(omega), "standard deviation over mean"),
     )
 
 
@@ -133,10 +137,9 @@ def _nominal_rows(
     ideal = ds["inner_speed"].values * bearing.nominal.kinematics(1.0).cage_speed
     slip = windows.ratio(ideal - ds["cage_omega"].sel(axis="x").values, ideal)
     return (
-        Row("epicyclic_speed_nominal", "Epicyclic cage speed, nominal", speed.nominal, "rpm", note),
-        Row.of("cage_slip_ratio_nominal", "Cage slip ratio, nominal", slip, "%", note,
-               value=speed.nominal_slip),
-    )  # fmt: skip
+        figure("epicyclic_speed_nominal", speed.nominal, note),
+        statistic("cage_slip_ratio_nominal", slip, note, value=speed.nominal_slip),
+    )
 
 
 def _spin_rows(ds: xarray.Dataset, bearing: BearingNumbers) -> tuple[Row, ...]:
@@ -144,13 +147,8 @@ def _spin_rows(ds: xarray.Dataset, bearing: BearingNumbers) -> tuple[Row, ...]:
     spin = float(metrics.roller_spin(ds).mean())
     note = "inertial frame, positive as rolling has it"
     return (
-        Row("roller_spin", "Roller spin, mean of all", spin, "rpm", note),
-        Row(
-            "roller_spin_ideal",
-            "Roller spin, pure rolling",
-            abs(bearing.kinematics(inner).roller_spin),
-            "rpm",
-        ),
+        figure("roller_spin", spin, note),
+        figure("roller_spin_ideal", abs(bearing.kinematics(inner).roller_spin)),
     )
 
 
@@ -165,47 +163,15 @@ def _slip_section(ds: xarray.Dataset, bearing: BearingNumbers, slip_range: SlipR
     )
     mean = "mean over the zone"
     rows = (
-        Row.of(
-            "slip_loaded",
-            "Loaded zone, slip ratio",
-            loaded,
-            "%",
-            slip_range.note(loaded.value, slip.sliding_loaded),
+        statistic("slip_loaded", loaded, slip_range.note(loaded.value, slip.sliding_loaded)),
+        statistic(
+            "slip_unloaded", unloaded, slip_range.note(unloaded.value, slip.sliding_unloaded)
         ),
-        Row.of(
-            "slip_unloaded",
-            "Unloaded zone, slip ratio",
-            unloaded,
-            "%",
-            slip_range.note(unloaded.value, slip.sliding_unloaded),
-        ),
-        Row(
-            "sliding_inner_loaded",
-            "Sliding, inner race, loaded",
-            slip.sliding_loaded[0],
-            "m/s",
-            mean,
-        ),
-        Row(
-            "sliding_outer_loaded",
-            "Sliding, outer race, loaded",
-            slip.sliding_loaded[1],
-            "m/s",
-            mean,
-        ),
-        Row(
-            "sliding_inner_unloaded",
-            "Sliding, inner race, unloaded",
-            slip.sliding_unloaded[0],
-            "m/s",
-        ),
-        Row(
-            "sliding_outer_unloaded",
-            "Sliding, outer race, unloaded",
-            slip.sliding_unloaded[1],
-            "m/s",
-        ),
-        Row("loaded_share", "Rollers in the loaded zone", slip.loaded_share, "%"),
+        figure("sliding_inner_loaded", slip.sliding_loaded[0], mean),
+        figure("sliding_outer_loaded", slip.sliding_loaded[1], mean),
+        figure("sliding_inner_unloaded", slip.sliding_unloaded[0]),
+        figure("sliding_outer_unloaded", slip.sliding_unloaded[1]),
+        figure("loaded_share", slip.loaded_share),
     )
     return Section("Roller slip (inertial frame)", rows)
 
@@ -221,23 +187,29 @@ def _motion_rows(ds: xarray.Dataset, bearing: BearingNumbers) -> tuple[Row, ...]
     leaning = roller_passes(ds, bearing).mean(lean.values)
     rate = f"{metrics.sampling_rate(ds) / 1e3:g} kHz"
     return (
-        Row.of("whirl_radius", "Whirl radius, mean", about_mean, "um", "about the orbit's mean"),
-        Row("whirl_radius_max", "Whirl radius, largest", mean.largest, "um"),
-        Row("whirl_ratio", "Whirl (max - min)/mean", mean.ratio, ""),
-        Row.of(
-            "whirl_radius_axis", "Whirl about axis, mean", about_axis, "um", "the ring's axis"
+        statistic("whirl_radius", about_mean, "about the orbit's mean"),
+        figure("whirl_radius_max", mean.largest),
+        figure("whirl_ratio", mean.ratio),
+        statistic("whirl_radius_axis", about_axis, "the ring's axis"),
+        figure("whirl_ratio_axis", axis.ratio),
+        figure(
+            "whirl_speed_ratio",
+            axis.speed_ratio,
+            f"net turns about the ring's axis over the cage's, at {rate}",
         ),
-        Row("whirl_ratio_axis", "Whirl about axis (max - min)/mean", axis.ratio, ""),
-        Row("whirl_speed_ratio", "Whirl speed / cage speed", axis.speed_ratio, "",
-            f"net turns about the ring's axis over the cage's, at {rate}"),
-        Row("velocity_deviation", "Centre's speed, ripple", metrics.velocity_deviation(ds), "%",
-            f"standard deviation over mean, at {rate}, no filter"),
-        Row("velocity_deviation_2khz", "Centre's speed, slow ripple",
-            metrics.velocity_deviation(ds, low_pass=LOW_PASS), "%",
-            f"the same, low-passed at {LOW_PASS / 1e3:g} kHz"),
-        Row.of("tilt_mean", "Cage tilt, mean", leaning, "deg"),
-        Row("tilt_max", "Cage tilt, largest", float(lean.max()), "deg"),
-    )  # fmt: skip
+        figure(
+            "velocity_deviation",
+            metrics.velocity_deviation(ds),
+            f"standard deviation over mean, at {rate}, no filter",
+        ),
+        figure(
+            "velocity_deviation_2khz",
+            metrics.velocity_deviation(ds, low_pass=LOW_PASS),
+            f"the same, low-passed at {LOW_PASS / 1000.0:g} kHz",
+        ),
+        statistic("tilt_mean", leaning),
+        figure("tilt_max", float(lean.max())),
+    )
 
 
 def _force_rows(ds: xarray.Dataset, windows: Windows) -> tuple[Row, ...]:
@@ -249,24 +221,12 @@ def _force_rows(ds: xarray.Dataset, windows: Windows) -> tuple[Row, ...]:
     where = f"{place}, t = {pocket.peak_time * 1e3:.3f} ms"
     walls = "Pocket faces" if ds.sizes["face"] > 1 else "Pockets"
     return (
-        Row.of(
-            "pocket_force_mean",
-            "Pocket force, mean",
-            windows.ratio(total, faces),
-            "N",
-            "while in contact",
-        ),
-        Row.of("pocket_force_sum", "Pocket forces, mean of sum", windows.mean(total), "N"),
-        Row.of(
-            "pocket_force_pass_peak",
-            "Pocket force, peak of a pass",
-            windows.peak(largest),
-            "N",
-            pass_peak(metrics.element(ds)),
-        ),
-        Row("pocket_force_peak", "Pocket force, largest", pocket.peak, "N", where),
-        Row("pocket_force_ratio", "Pocket force, largest / mean", pocket.ratio, ""),
-        Row("pocket_contact", f"{walls} in contact", pocket.contact_share, "%", "of the time"),
+        statistic("pocket_force_mean", windows.ratio(total, faces), "while in contact"),
+        statistic("pocket_force_sum", windows.mean(total)),
+        statistic("pocket_force_pass_peak", windows.peak(largest), pass_peak(metrics.element(ds))),
+        figure("pocket_force_peak", pocket.peak, where),
+        figure("pocket_force_ratio", pocket.ratio),
+        figure("pocket_contact", pocket.contact_share, "of the time", label=f"{walls} in contact"),
     )
 
 
@@ -279,25 +239,30 @@ def _contact_rows(
     if series.source != EVENTS:
         source = f"at samples, {metrics.sampling_rate(ds) / 1e3:g} kHz, that miss shorter ones"
     return (
-        Row.of("contact_frequency", "Contacts begun, mean of a pocket",
-               windows.mean(begun / ds.sizes["pocket"]), "Hz", f"counted {source}"),
-        Row.of("contact_frequency_total", "Contacts begun, all pockets", windows.mean(begun), "Hz"),
-        Row.of("free_flight_share", "Free flight", windows.mean(series.free), "%",
-               "of the time: no pocket and no land touches the cage"),
-    )  # fmt: skip
+        statistic(
+            "contact_frequency", windows.mean(begun / ds.sizes["pocket"]), f"counted {source}"
+        ),
+        statistic("contact_frequency_total", windows.mean(begun)),
+        statistic(
+            "free_flight_share",
+            windows.mean(series.free),
+            "of the time: no pocket and no land touches the cage",
+        ),
+    )
 
 
 def _race_rows(ds: xarray.Dataset) -> tuple[Row, ...]:
     race = ds["race_force"].max("time")
     inner, outer = (float(race.sel(race=r).max()) for r in ("inner", "outer"))
     return (
-        Row("race_force_inner", "Inner race on a roller, peak", inner, "N"),
-        Row("race_force_outer", "Outer race on a roller, peak", outer, "N"),
+        figure("race_force_inner", inner),
+        figure("race_force_outer", outer),
     )
 
 
 def _energy_rows(ds: xarray.Dataset) -> tuple[Row, ...]:
     check = audit.energy_audit(ds)
+    lacking = "" if isfinite(check.of_cage) else ": too little"
     bounds = (
         f"at most {100.0 * audit.OF_DRIVE:g} % of the drive's work, "
         f"{100.0 * audit.OF_CAGE:g} % of the cage's losses"
@@ -310,32 +275,26 @@ def _energy_rows(ds: xarray.Dataset) -> tuple[Row, ...]:
     return (
         Row("energy_audit", "Energy audit", check.verdict, "", note),
         *(
-            Row(f"stored_{k}", f"Gained: {_plain(k)}", v, "mJ", "whole run",
-                idle=not ds["energy"].sel(energy_kind=k).values.any())
+            figure(
+                f"stored_{k}", v, "whole run", idle=not ds["energy"].sel(energy_kind=k).values.any()
+            )
             for k, v in check.stored.items()
         ),
-        Row("energy_moved", "Energy moved", check.moved, "mJ", "whole run"),
-        Row("energy_elastic", "Elastic energy held", check.elastic, "mJ", "largest"),
-        Row("energy_imbalance", "Largest imbalance", check.worst, "mJ"),
-        Row("energy_relative", "Imbalance / energy moved", check.relative, "%"),
-        Row("energy_of_drive", "Imbalance / drive's work", check.of_drive, "%"),
-        Row(
+        figure("energy_moved", check.moved, "whole run"),
+        figure("energy_elastic", check.elastic, "largest"),
+        figure("energy_imbalance", check.worst),
+        figure("energy_relative", check.relative),
+        figure("energy_of_drive", check.of_drive),
+        figure(
             "energy_of_cage",
-            "Imbalance / loss in the cage",
             check.of_cage,
-            "%",
-            f"what pockets and modes dissipate{'' if isfinite(check.of_cage) else ': too little'}",
+            f"what pockets and modes dissipate{lacking}",
         ),
         *(
-            Row(f"work_{k}", f"Work: {_plain(k)}", v, "mJ",
-                idle=not ds["work"].sel(channel=k).values.any())
+            figure(f"work_{k}", v, idle=not ds["work"].sel(channel=k).values.any())
             for k, v in check.channels.items()
         ),
-    )  # fmt: skip
-
-
-def _plain(name: str) -> str:
-    return name.replace("_", " ")
+    )
 
 
 @dataclass(frozen=True)

@@ -10,6 +10,7 @@ import numpy as np
 from flexcage.geometry.bearing import Bearing
 from flexcage.geometry.film import Oil, race_film
 from flexcage.results import metrics
+from flexcage.results.known import figure
 from flexcage.results.summary import Row
 
 if TYPE_CHECKING:
@@ -96,8 +97,8 @@ def film_rows(ds: xarray.Dataset, bearing: Bearing, oil: Oil) -> list[Row]:
         if not np.isfinite(least).any():
             continue
         rows += [
-            Row(f"film_{race}", f"Film, {race} race, mean", float(np.nanmean(central)), "um",
+            figure(f"film_{race}", float(np.nanmean(central)),
                 f"middle of loaded {metrics.element(ds)}s' contacts"),
-            Row(f"film_least_{race}", f"Film, {race} race, least", float(np.nanmin(least)), "um"),
+            figure(f"film_least_{race}", float(np.nanmin(least))),
         ]  # fmt: skip
     return rows

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from flexcage.results import metrics
+from flexcage.results.known import figure, statistic
 from flexcage.results.statistics import Windows
 from flexcage.results.summary import Row, Section
 from flexcage.system.layout import CONSTRAINTS
@@ -15,11 +16,7 @@ from flexcage.system.layout import CONSTRAINTS
 if TYPE_CHECKING:
     import xarray
 
-REACTIONS = {
-    "axial_force": ("Axial reaction", "N"),
-    "moment_y": ("Moment about y", "N mm"),
-    "moment_z": ("Moment about z", "N mm"),
-}
+REACTIONS = ("axial_force", "moment_y", "moment_z")
 LEAST = 1e-3  # [N, N m] reactions that never pass it are rounding
 
 
@@ -36,11 +33,11 @@ def _drive_rows(ds: xarray.Dataset, windows: Windows) -> tuple[Row, ...]:
         return ()
     power = np.gradient(ds["work"].sel(channel="drive").values, ds["time"].values)
     speed = ds["inner_speed"].values
-    torque = Row("drive_torque", "Drive torque", None, "N mm", "the ring stands")
+    torque = figure("drive_torque", None, "the ring stands")
     if speed.any():
         mean = windows.ratio(power, speed)
-        torque = Row.of("drive_torque", "Drive torque", mean, "N mm", "power over speed")
-    return Row.of("drive_power", "Power of the drive", windows.mean(power), "W"), torque
+        torque = statistic("drive_torque", mean, "power over speed")
+    return statistic("drive_power", windows.mean(power)), torque
 
 
 def _place_rows(ds: xarray.Dataset, windows: Windows) -> tuple[Row, ...]:
@@ -51,24 +48,24 @@ def _place_rows(ds: xarray.Dataset, windows: Windows) -> tuple[Row, ...]:
     up, aside = (f"{1e3 * float(part.mean()):.4g}" for part in parts)
     leaning = f"of the axis, {up} mrad towards y and {aside} towards z" if total.any() else ""
     return (
-        Row("inner_displacement", "Displacement across the axis", float(across), "um",
-            f"of the mean place, towards {azimuth:.1f} deg from y to z"),
-        Row.of("inner_axial", "Displacement along the axis", windows.mean(x), "um",
-               idle=not x.any()),
-        Row.of("inner_tilt", "Tilt", windows.mean(total), "mrad", leaning, idle=not total.any()),
-    )  # fmt: skip
+        figure(
+            "inner_displacement",
+            float(across),
+            f"of the mean place, towards {azimuth:.1f} deg from y to z",
+        ),
+        statistic("inner_axial", windows.mean(x), idle=not x.any()),
+        statistic("inner_tilt", windows.mean(total), leaning, idle=not total.any()),
+    )
 
 
 def _reaction_rows(ds: xarray.Dataset, windows: Windows) -> tuple[Row, ...]:
     rows = []
-    for key, (label, unit) in REACTIONS.items():
+    for key in REACTIONS:
         force = ds["multiplier"].sel(constraint=key).values
         if np.abs(force).max() <= LEAST:
             force = 0.0 * force
         note = "what holds the ring" if force.any() else ""
-        rows.append(
-            Row.of(f"reaction_{key}", label, windows.mean(force), unit, note, idle=not force.any())
-        )
+        rows.append(statistic(f"reaction_{key}", windows.mean(force), note, idle=not force.any()))
     return tuple(rows)
 
 

@@ -23,6 +23,7 @@ from flexcage.fem.model import FEModel, assemble
 from flexcage.mesh.ball_measure import shared_by_halves
 from flexcage.mesh.cage_mesh import CageMesh
 from flexcage.modes.pockets import pocket_frame
+from flexcage.results import known
 from flexcage.results.summary import Row
 from flexcage.stress.between import Steps, no_steps
 from flexcage.stress.fields import NamedFields
@@ -144,17 +145,13 @@ class Rivets:
 
     def rows(self) -> list[Row]:
         """The largest tension, shear and nominal stress, as rows of a summary."""
+        alone = (
+            "; of a shank that bears all that goes from half to half, without its head's clamping"
+        )
         rows = []
-        for name, what, unit, note in (
-            ("tension", "tension", "N", ""),
-            ("shear", "shear", "N", ""),
-            ("stress", "nominal stress", "MPa", "; of a shank that bears all that goes from half "
-             "to half, without its head's clamping"),
-        ):  # fmt: skip
+        for name, note in (("tension", ""), ("shear", ""), ("stress", alone)):
             value, rivet = self.largest(name)
-            rows.append(
-                Row(f"rivet_{name}", f"Largest {what}", value, unit, f"rivet {rivet}{note}")
-            )
+            rows.append(known.figure(f"rivet_{name}", value, f"rivet {rivet}{note}"))
         return rows
 
     def table(self) -> str:

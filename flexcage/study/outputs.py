@@ -13,6 +13,7 @@ import numpy as np
 
 from flexcage.core.binding import did_you_mean
 from flexcage.core.errors import InputError
+from flexcage.results.known import FATIGUE, FLEXIBLE, KNOWN, RIVETED, WEAR
 from flexcage.results.metrics import cage_angle, settled, whole_revolutions
 from flexcage.results.recording import ENERGIES
 from flexcage.results.reductions import DERIVED, REDUCTIONS
@@ -28,50 +29,6 @@ from flexcage.system.layout import CONSTRAINTS
 if TYPE_CHECKING:
     from flexcage.run import Run
 
-#: Figures of a summary that every run of a roller bearing has, and those that only a flexible cage
-#: gives. Rows that hold a verdict in words are no figures.
-RIGID_FIGURES = tuple(
-    """settled_at settled_time roller_passes inner_speed cage_speed cage_speed_ripple
-    epicyclic_speed cage_slip_ratio roller_spin roller_spin_ideal
-    slip_loaded slip_unloaded sliding_inner_loaded sliding_outer_loaded sliding_inner_unloaded
-    sliding_outer_unloaded loaded_share whirl_radius whirl_radius_max whirl_ratio
-    whirl_radius_axis whirl_ratio_axis whirl_speed_ratio velocity_deviation velocity_deviation_2khz
-    tilt_mean tilt_max pocket_force_mean pocket_force_sum pocket_force_pass_peak pocket_force_peak
-    pocket_force_ratio pocket_contact race_force_inner race_force_outer contact_frequency
-    contact_frequency_total free_flight_share film_inner film_least_inner film_outer
-    film_least_outer stored_kinetic stored_strain stored_contact stored_mount energy_moved
-    drive_power drive_torque inner_displacement inner_axial inner_tilt reaction_axial_force
-    reaction_moment_y reaction_moment_z energy_elastic energy_imbalance energy_relative
-    energy_of_drive energy_of_cage cage_mass
-    cage_centre_shift pinch_force steps explicit_steps stable_step residuals jacobians
-    factorisations failed_error_tests failed_newton wall_mesh wall_modes wall_kernels wall_start
-    wall_solve wall_total""".split()
-) + tuple(f"work_{name}" for name in POWERS)
-#: Figures that are of one kind of rolling elements alone.
-ELEMENT_FIGURES = {
-    "roller": (
-        "roller_spin", "roller_spin_ideal", "sliding_inner_unloaded", "sliding_outer_unloaded",
-    ),
-    "ball": (
-        "ball_spin", "ball_spin_ideal", "contact_angle_inner", "contact_angle_outer",
-        "whirl_difference", "edge_inner", "edge_outer", "epicyclic_speed_nominal",
-        "cage_slip_ratio_nominal", "slip_loaded_nominal", "slip_curvature",
-    ),
-}  # fmt: skip
-FLEXIBLE_FIGURES = (
-    "mode_count", "first_frequency", "far_coupling", "stress_peak", "stress_mean_peak",
-    "stress_root", "stress_root_pass_peak", "stress_start", "wall_stress",
-)  # fmt: skip
-
-#: Figures that may be below zero; all others are sizes, shares and counts.
-SIGNED_FIGURES = frozenset(
-    """inner_speed cage_speed epicyclic_speed cage_slip_ratio roller_spin roller_spin_ideal
-    ball_spin ball_spin_ideal slip_loaded slip_unloaded whirl_speed_ratio whirl_difference
-    contact_angle_inner contact_angle_outer sliding_inner_loaded sliding_outer_loaded
-    sliding_inner_unloaded sliding_outer_unloaded stored_kinetic stored_strain stored_contact
-    stored_mount drive_power drive_torque inner_axial inner_tilt reaction_axial_force
-    reaction_moment_y reaction_moment_z""".split()
-) | {f"work_{name}" for name in POWERS}
 #: Variables that are never below zero, and reductions that are not, whatever they reduce.
 _SIZES = frozenset(
     """race_force contact_force pocket_force pocket_peak pocket_slice_force pocket_point_force
@@ -168,13 +125,10 @@ def _figures_in(rows: Iterable[Row]) -> dict[str, Figure]:
     return {r.key: Figure(r.value, r.unit, r.shown, r.margin) for r in rows}
 
 
+_COMPUTED = {FATIGUE: _fatigue, WEAR: _wear, RIVETED: _rivets}
 #: Figures that no summary holds, or none of an earlier flexcage: what computes them together.
 LATE_FIGURES: Mapping[str, Callable[[Run], dict[str, Figure]]] = {
-    "fatigue_damage_rate": _fatigue,
-    "fatigue_life": _fatigue,
-    "wear_volume_rate": _wear,
-    "wear_depth_rate": _wear,
-    **dict.fromkeys(("rivet_tension", "rivet_shear", "rivet_stress"), _rivets),
+    name: _COMPUTED[known.needs] for name, known in KNOWN.items() if known.needs in _COMPUTED
 }
 
 
@@ -196,7 +150,7 @@ def never_negative(name: str) -> bool:
     """Whether an output is a size, such as a force or a stress: an interval of it ends at zero."""
     match = _REDUCTION.fullmatch(name)
     if match is None:
-        return name not in SIGNED_FIGURES
+        return name not in KNOWN or not KNOWN[name].signed
     return match[1] in _SIZES or match[3] in _SIZED_REDUCTIONS
 
 
@@ -281,12 +235,10 @@ def check_outputs(
                         "range ends before its last number."
                     )
         else:
-            late = LATE_FIGURES.get(name)
-            needs = name in FLEXIBLE_FIGURES or late in (_fatigue, _rivets)
             _check_figure(name)
             _check_late(name, materials)
-            for kind, figures in ELEMENT_FIGURES.items():
-                _check_element(name, kind if name in figures else "", element)
+            needs = KNOWN[name].needs in (FLEXIBLE, RIVETED, FATIGUE)
+            _check_element(name, KNOWN[name].of, element)
         if needs and not flexible:
             raise InputError(
                 f"Output '{name}' wants a flexible cage, and every cage of the study is rigid; "
@@ -294,7 +246,7 @@ def check_outputs(
                 where="outputs",
                 value=name,
             )
-        if LATE_FIGURES.get(name) is _rivets and not riveted:
+        if name in KNOWN and KNOWN[name].needs == RIVETED and not riveted:
             raise InputError(
                 f"Output '{name}' is of ribbon cages, and no flexible cage of the study is one; "
                 "set cage.type = 'ribbon' or leave it out.",
@@ -315,20 +267,18 @@ def _check_element(name: str, of: str, element: str) -> None:
 
 def _check_late(name: str, materials: Collection[str]) -> None:
     """Refuse fatigue and wear for which something is lacking."""
-    late = LATE_FIGURES.get(name)
-    if late is _fatigue:
+    needs = KNOWN[name].needs
+    if needs == FATIGUE:
         require_pylife()
     for material in materials:
-        if late is _fatigue:
+        if needs == FATIGUE:
             sn_curve(material)
-        elif late is _wear:
+        elif needs == WEAR:
             wear_law(material)
 
 
 def _check_figure(name: str) -> None:
-    own = [figure for figures in ELEMENT_FIGURES.values() for figure in figures]
-    known = (*RIGID_FIGURES, *own, *FLEXIBLE_FIGURES, *LATE_FIGURES)
-    if name in known:
+    if name in KNOWN:
         return
     if name in VARIABLES or name in DERIVED:
         raise InputError(
@@ -337,9 +287,9 @@ def _check_figure(name: str) -> None:
             where="outputs",
             value=name,
         )
-    hint = did_you_mean(name, (*known, *VARIABLES, *DERIVED), "")
+    hint = did_you_mean(name, (*KNOWN, *VARIABLES, *DERIVED), "")
     if not hint.startswith("the nearest"):
-        hint = "look at a run's summary.json for figures, such as 'cage_speed'"
+        hint = "'flexcage figures' lists figures, such as 'cage_speed'"
     raise InputError(f"There is no output '{name}'; {hint}.", where="outputs", value=name)
 
 

@@ -90,9 +90,13 @@ def test_a_text_that_no_key_has_is_one_sentence(capsys):
     assert "the nearest known one is 'solver'" in capsys.readouterr().err
     assert main(["variables", "pocket_forc_"]) == 2
     assert "pocket_force" in capsys.readouterr().err
+    assert main(["figures", "cage_sped"]) == 2
+    assert "the nearest known one is 'cage_speed'" in capsys.readouterr().err
 
 
-@pytest.mark.parametrize("page", ["keys_bearing.md", "keys_motion.md", "variables.md"])
+@pytest.mark.parametrize(
+    "page", ["keys_bearing.md", "keys_motion.md", "variables.md", "figures.md"]
+)
 def test_a_page_is_what_its_command_prints(page, tmp_path):
     text = (EXAMPLES / page).read_text("utf-8")
     command = re.search(r"`flexcage ([^`]*)`", text)[1].split()

@@ -150,7 +150,7 @@ def test_energy_audit_balances_and_sees_a_leak(known_run):
     assert check.final == pytest.approx(0.012)
     assert check.moved == pytest.approx(1.2)
     assert check.relative == pytest.approx(0.01)
-    assert check.channels == pytest.approx({"drive": 0.5, "friction": -0.7})
+    assert check.channels == pytest.approx({"drive": 0.5, "race_friction": -0.7})
 
 
 @pytest.mark.parametrize(

@@ -13,11 +13,12 @@ from flexcage.case import load_case
 from flexcage.core.errors import InputError, RunFailed
 from flexcage.core.progress import Silent
 from flexcage.results.files import load, save
+from flexcage.results.known import FLEXIBLE, KNOWN
 from flexcage.simulate import load_run, simulate
 from flexcage.study import run, work
 from flexcage.study.axes import Grid, Points
 from flexcage.study.folder import Folder
-from flexcage.study.outputs import FLEXIBLE_FIGURES, RIGID_FIGURES, parse_reduction
+from flexcage.study.outputs import parse_reduction
 from flexcage.study.plan import make_plan
 from flexcage.study.results import StudyResults, mean_and_half_width
 from flexcage.study.spec import Study
@@ -251,7 +252,9 @@ def test_figures_that_a_study_may_name_are_those_of_a_run():
     case = short_case(**{"cage.model": "flexible"}).replace("defects", [pinch])
     run = simulate(case)
     keys = {row.key for row in run.summary} - {"drift", "energy_audit", "inner_held"}  # words
-    assert keys | {"wall_stress"} == {*RIGID_FIGURES, *FLEXIBLE_FIGURES}
+    of_rollers = {k for k, f in KNOWN.items() if f.of != "ball" and f.needs in ("", FLEXIBLE)}
+    assert keys | {"wall_stress"} == of_rollers
+    assert all(row.shown == KNOWN[row.key].shown for row in run.summary if row.key in keys)
 
 
 def test_parts_of_a_counted_dimension_make_up_the_whole():
