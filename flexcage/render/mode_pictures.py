@@ -60,7 +60,7 @@ def mode_sheet(
         for i, pixels in enumerate(pictures):
             x = EDGE + (i % columns) * _CELL[0]
             y = TOP + (i // columns) * (_CELL[1] + _CAPTION)
-            sheet.image_at(figure, (x, y, *_CELL), pixels)
+            sheet.put_pixels(figure, x, y, pixels)
             sheet.text_at(
                 figure,
                 x + 0.5 * _CELL[0],

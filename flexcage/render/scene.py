@@ -42,12 +42,16 @@ class Surface:
         """Node numbers that lie on the surface, ascending."""
         return np.unique(self.triangles)
 
+    @cached_property
+    def _faces(self) -> np.ndarray:
+        """Triangles as pyvista takes them, numbered among the nodes on the surface."""
+        local = np.searchsorted(self.used, self.triangles)
+        return np.column_stack([np.full(len(local), 3), local]).ravel()
+
     def polydata(self, points: np.ndarray, values: np.ndarray | None = None) -> pyvista.PolyData:
         """Surface at ``points`` (n_nodes, 3) with nodal ``values`` (n_nodes,) as "values"."""
         pv = load_pyvista()
-        local = np.searchsorted(self.used, self.triangles)
-        faces = np.column_stack([np.full(len(local), 3), local])
-        mesh = pv.PolyData(np.asarray(points, float)[self.used], faces.ravel())
+        mesh = pv.PolyData(np.asarray(points, float)[self.used], self._faces)
         if values is not None:
             mesh.point_data["values"] = np.asarray(values, float)[self.used]
         return mesh
