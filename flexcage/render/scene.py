@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from flexcage.core.environment import prepare_offscreen
+from flexcage.core.errors import EnvironmentLacks
 
 if TYPE_CHECKING:
     import pyvista
@@ -22,12 +22,11 @@ _EDGES = {(0, 1): 4, (1, 2): 5, (0, 2): 6, (0, 3): 7, (1, 3): 8, (2, 3): 9}
 
 
 def load_pyvista() -> Any:
-    """pyvista, after making sure that this machine can draw: VTK would kill the process else."""
-    prepare_offscreen()
-    import pyvista
-    from vtkmodules.vtkCommonCore import vtkLogger
-
-    vtkLogger.SetStderrVerbosity(vtkLogger.VERBOSITY_ERROR)  # no word on a missing X server
+    """pyvista; EnvironmentLacks where it cannot be loaded."""
+    try:
+        import pyvista
+    except ImportError as exc:
+        raise EnvironmentLacks(f"Pictures want pyvista, which cannot be loaded: {exc}.") from exc
     return pyvista
 
 

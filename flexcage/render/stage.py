@@ -14,7 +14,8 @@ from typing import Any
 
 import numpy as np
 
-from flexcage.render.scene import Layer, View, load_pyvista
+from flexcage.core.offscreen import opening_window
+from flexcage.render.scene import Layer, View
 
 SAMPLES = 2  # a side of a pixel: a picture is drawn so many times as large, and smoothed
 
@@ -24,7 +25,8 @@ class Picture:
     """Pixels of a scene, and where its points are in it."""
 
     pixels: np.ndarray  # (height, width, 3) uint8
-    depth: np.ndarray  # (height, width) distance along the view [m], NaN: background
+    buffer: np.ndarray  # (height, width) VTK's depth, 0 to 1 over ``clipping``; 1: background
+    clipping: tuple[float, float]  # distances from the camera's plane [m]
     matrix: np.ndarray  # (4, 4) world -> clip coordinates
     view: View
     distance: float
@@ -41,7 +43,9 @@ class Picture:
         """Depth of the picture less that of a point, at the pixels round it; NaN: background."""
         x, y = np.round(self.place(point)[0]).astype(int)
         eye = np.asarray(self.view.focus) + self.distance * np.asarray(self.view.direction)
-        patch = self.depth[max(y - 2, 0) : max(y + 3, 0), max(x - 2, 0) : max(x + 3, 0)]
+        near, far = self.clipping
+        z = self.buffer[max(y - 2, 0) : max(y + 3, 0), max(x - 2, 0) : max(x + 3, 0)].astype(float)
+        patch = np.where(z < 1.0, near * far / (far - z * (far - near)), np.nan)
         return patch - (eye - point) @ np.asarray(self.view.direction)
 
     def sees(self, point: np.ndarray, *, slack: float = 0.4e-3) -> bool:
@@ -85,8 +89,9 @@ class Stage:
         matrix = camera.GetCompositeProjectionTransformMatrix(w / h, -1.0, 1.0)
         clip = np.array([[matrix.GetElement(i, j) for j in range(4)] for i in range(4)])
         unit = View(tuple(direction), view.focus, view.height, view.up, view.angle)
-        depth = _depth(self._window, *camera.GetClippingRange())
-        return Picture(_pixels(self._window, size), depth, clip, unit, float(distance))
+        pixels, buffer = _pixels(self._window, size), _buffer(self._window)
+        clipping = camera.GetClippingRange()
+        return Picture(pixels, buffer, clipping, clip, unit, float(distance))
 
 
 def shoot(layers: Sequence[Layer], view: View, size: tuple[int, int]) -> Picture:
@@ -101,19 +106,27 @@ _OF_THREAD = threading.local()  # what draws belongs to its thread
 def _window() -> tuple[Any, Any]:
     """The window of this thread, and its renderer."""
     if not hasattr(_OF_THREAD, "window"):
-        load_pyvista()
-        import vtkmodules.vtkRenderingOpenGL2  # noqa: F401  (what VTK draws with)
-        from vtkmodules.vtkRenderingCore import vtkLightKit, vtkRenderer, vtkRenderWindow
-
-        window, renderer = vtkRenderWindow(), vtkRenderer()
-        window.SetOffScreenRendering(True)
-        window.SetMultiSamples(0)
-        window.AddRenderer(renderer)
-        renderer.SetBackground(1.0, 1.0, 1.0)
-        renderer.SetUseOIT(False)  # what is translucent is drawn from back to front
-        vtkLightKit().AddLightsToRenderer(renderer)
-        _OF_THREAD.window = window, renderer
+        with opening_window():
+            _OF_THREAD.window = _new_window()
     return _OF_THREAD.window
+
+
+def _new_window() -> tuple[Any, Any]:
+    import vtkmodules.vtkRenderingOpenGL2  # noqa: F401  (what VTK draws with)
+    from vtkmodules.vtkCommonCore import vtkLogger
+    from vtkmodules.vtkRenderingCore import vtkLightKit, vtkRenderer, vtkRenderWindow
+
+    vtkLogger.SetStderrVerbosity(vtkLogger.VERBOSITY_ERROR)  # no word on a missing X server
+    window, renderer = vtkRenderWindow(), vtkRenderer()
+    window.SetOffScreenRendering(True)
+    window.SetMultiSamples(0)
+    window.AddRenderer(renderer)
+    renderer.SetBackground(1.0, 1.0, 1.0)
+    renderer.SetUseOIT(False)  # what is translucent is drawn from back to front
+    vtkLightKit().AddLightsToRenderer(renderer)
+    window.SetSize(32, 32)
+    window.Render()
+    return window, renderer
 
 
 def _actor(layer: Layer, camera: Any) -> Any:
@@ -140,7 +153,7 @@ def _actor(layer: Layer, camera: Any) -> Any:
         mapper.SetInterpolateScalarsBeforeMapping(True)
     actor.SetMapper(mapper)
     drawn = actor.GetProperty()
-    drawn.SetColor(to_rgb(layer.colour))
+    drawn.SetColor(*to_rgb(layer.colour))
     drawn.SetOpacity(layer.opacity)
     drawn.SetInterpolationToPhong()
     drawn.SetAmbient(layer.ambient)
@@ -150,7 +163,7 @@ def _actor(layer: Layer, camera: Any) -> Any:
     drawn.SetBackfaceCulling(layer.closed and layer.opacity == 1.0)
     if layer.edges:
         drawn.SetEdgeVisibility(True)
-        drawn.SetEdgeColor(to_rgb(layer.edges))
+        drawn.SetEdgeColor(*to_rgb(layer.edges))
     return actor
 
 
@@ -179,13 +192,11 @@ def _pixels(window: Any, size: tuple[int, int]) -> np.ndarray:
     return np.asarray(drawn.resize(size, Image.Resampling.BILINEAR))
 
 
-def _depth(window: Any, near: float, far: float) -> np.ndarray:
-    """Distance from the camera's plane [m] of what every pixel shows, NaN for the background."""
+def _buffer(window: Any) -> np.ndarray:
+    """The window's depth, one value a pixel of the picture, row 0 at the top."""
     from vtkmodules.util.numpy_support import vtk_to_numpy
     from vtkmodules.vtkCommonCore import vtkFloatArray
 
     data, (w, h) = vtkFloatArray(), window.GetSize()
     window.GetZbufferData(0, 0, w - 1, h - 1, data)
-    z = vtk_to_numpy(data).reshape(h, w)[::-SAMPLES, ::SAMPLES].astype(float)
-    depth = near * far / (far - z * (far - near))
-    return np.where(z < 1.0, depth, np.nan)
+    return vtk_to_numpy(data).reshape(h, w)[::-SAMPLES, ::SAMPLES].copy()
