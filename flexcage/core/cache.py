@@ -210,6 +210,6 @@ def cache_info() -> CacheInfo:
 def clear_cache() -> int:
     """Remove all entries and compiled kernels; the bytes that this freed."""
     info = cache_info()
-    for name in ("arrays", "kernels"):
+    for name in ("arrays", "kernels", "drawing"):
         shutil.rmtree(cache_root() / name, ignore_errors=True)
     return info.size + info.kernel_size

@@ -18,15 +18,15 @@ from dataclasses import dataclass
 from functools import cache
 
 from flexcage.core.cache import cache_root, check_writable
-from flexcage.core.errors import EnvironmentLacks, is_full
+from flexcage.core.errors import is_full
 
 APT_RENDER = "sudo apt-get install -y libegl1 libgl1 libosmesa6 libxrender1"
 APT_GMSH = (
     "sudo apt-get install -y libglu1-mesa libgl1 libxrender1 libxcursor1 libxfixes3 libxext6 "
     "libxft2 libfontconfig1 libxinerama1 libx11-6 libgomp1"
 )
-_WINDOW_VARIABLE = "VTK_DEFAULT_OPENGL_WINDOW"
-_WINDOWS = ("default", "vtkEGLRenderWindow", "vtkOSOpenGLRenderWindow")
+WINDOW_VARIABLE = "VTK_DEFAULT_OPENGL_WINDOW"
+WINDOWS = ("default", "vtkEGLRenderWindow", "vtkOSOpenGLRenderWindow")
 _PROBE_SECONDS = 60
 _MINIMUM_MEMORY = 4e9
 _CACHE_ROOM = 400e6  # bytes: kernels of both kinds of bearings (measured: 165 MB), some cages
@@ -103,27 +103,12 @@ def offscreen_backend() -> str | None:
     """
     if importlib.util.find_spec("vtkmodules") is None:
         return None
-    already = os.environ.get(_WINDOW_VARIABLE)
-    for window in (already,) if already else _WINDOWS:
-        env = {} if window == "default" else {_WINDOW_VARIABLE: window}
+    already = os.environ.get(WINDOW_VARIABLE)
+    for window in (already,) if already else WINDOWS:
+        env = {} if window == "default" else {WINDOW_VARIABLE: window}
         if run_python(_RENDER_PROBE, env=env).out.startswith("drawn"):
             return window
     return None
-
-
-def prepare_offscreen() -> None:
-    """Make VTK in this process use a window that works here; raise EnvironmentLacks if none does.
-
-    Must be called before the first picture.
-    """
-    window = offscreen_backend()
-    if window is None:
-        raise EnvironmentLacks(
-            "This machine cannot draw pictures off screen (no EGL, X or OSMesa library was found); "
-            f"install one with: {APT_RENDER}"
-        )
-    if window != "default":
-        os.environ[_WINDOW_VARIABLE] = window
 
 
 def probe() -> list[Finding]:

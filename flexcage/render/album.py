@@ -7,7 +7,9 @@ the cage, and fixes the range of stress and the factor of deformation, which els
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+import gc
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
@@ -121,11 +123,22 @@ def draw_album(
     if animate:
         drawings += _animations(scene, folder, look)
     paths: list[Path] = []
-    with progress(len(drawings), "pictures") as bar:
+    with progress(len(drawings), "pictures") as bar, _few_collections():
         for drawing in drawings:
             paths.append(drawing())
             bar.advance()
     return paths
+
+
+@contextmanager
+def _few_collections() -> Iterator[None]:
+    """Python's garbage collector looks at what is new alone: figures are many small objects, and
+    it would look again and again through all that a run holds."""
+    gc.freeze()
+    try:
+        yield
+    finally:
+        gc.unfreeze()
 
 
 def _draw_own(name: str, draw: Callable[[Scene, Path], Path], scene: Scene, path: Path) -> Path:

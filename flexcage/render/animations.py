@@ -21,7 +21,8 @@ from flexcage.render.bearing_pictures import (
     label_bearing,
     load_limit,
 )
-from flexcage.render.scene import Stage, ring_size, ring_view, surface_of
+from flexcage.render.scene import ring_size, ring_view, surface_of
+from flexcage.render.stage import shoot
 from flexcage.render.stress_pictures import Field, field_layers, nice_scale
 
 if TYPE_CHECKING:
@@ -98,10 +99,11 @@ def _stress_frames(
     surface, cmap = surface_of(tets), sheet.colour_map("viridis")
     radius, width = ring_size(points)
     view = ring_view(radius, width, aspect=FRAME[0] / FRAME[1], azimuth=azimuth)
-    with sheet.style(), Stage(*FRAME) as stage:
+    with sheet.style():
         for u, stress, time in zip(displacements, von_mises, times):
             field = Field(points, tets, u, stress * 1e-6, "equivalent stress", "MPa")
-            picture = stage.shoot(field_layers(field, surface, scale, cmap, limit * 1e-6), view)
+            layers = field_layers(field, surface, scale, cmap, limit * 1e-6)
+            picture = shoot(layers, view, FRAME)
             figure = sheet.new_figure(FRAME[0] + 2 * EDGE, TOP + FRAME[1] + BELOW)
             facts = [f"t = {time * 1e3:7.3f} ms", f"deformation × {scale:g}"]
             peak = f"peak {field.values[surface.used].max():5.2f} MPa"
@@ -149,10 +151,11 @@ def animate_bearing(
 def _bearing_frames(ds, bearing, indices, cage, loads, top, title, note) -> Iterator[np.ndarray]:
     cut = cut_cage(*cage)
     view = bearing_view(bearing)
-    with sheet.style(), Stage(*BEARING_FRAME) as stage:
+    with sheet.style():
         for index in indices:
             now = instant(ds, int(index))
-            picture = stage.shoot(bearing_layers(now, bearing, cut, top), view, peel=True)
+            layers = bearing_layers(now, bearing, cut, top)
+            picture = shoot(layers, view, BEARING_FRAME)
             figure = sheet.new_figure(BEARING_FRAME[0] + 2 * EDGE, TOP + BEARING_FRAME[1] + BELOW)
             when = f"t = {now.time * 1e3:7.3f} ms"
             sheet.heading(figure, title, sheet.join([note, when]), left=EDGE)

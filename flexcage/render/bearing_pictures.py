@@ -17,8 +17,6 @@ from flexcage.render.element_shapes import element_end, element_shape, ring_prof
 from flexcage.render.elements import elements_in
 from flexcage.render.scene import (
     Layer,
-    Picture,
-    Stage,
     View,
     body_layer,
     load_pyvista,
@@ -26,6 +24,7 @@ from flexcage.render.scene import (
     surface_of,
 )
 from flexcage.render.solids import revolved, rotation
+from flexcage.render.stage import Picture, shoot
 
 if TYPE_CHECKING:
     import pyvista
@@ -89,10 +88,8 @@ def bearing_picture(
     top = limit if limit is not None else load_limit(ds)
     title = title or bearing_title(ds)
     cage = cut_cage(cage_points, cage_tets)
-    with Stage(*MAIN) as stage:
-        picture = stage.shoot(
-            bearing_layers(now, bearing, cage, top), bearing_view(bearing), peel=True
-        )
+    layers = bearing_layers(now, bearing, cage, top)
+    picture = shoot(layers, bearing_view(bearing), MAIN)
     with sheet.style():
         figure = sheet.new_figure(EDGE + MAIN[0] + GAP + SIDE_WIDTH + EDGE, TOP + MAIN[1] + EDGE)
         compose(figure, picture, now, bearing, top, load=(load, axial), title=title, note=note)
@@ -159,27 +156,26 @@ def bearing_layers(
     """
     inner, outer = (revolved(profile) for profile in ring_profiles(bearing))
     inner.points = inner.points + now.inner_position
+    rings = load_pyvista().merge([inner, outer])
     loaded = now.inner_load > LOADED_SHARE * top
     cmap = sheet.colour_map("viridis")
     layers = [
-        body_layer(outer, color=RING, opacity=0.34),
-        outline_layer(outer, colour="#4a545f", width=1.1),
-        body_layer(inner, color=RING, opacity=0.34),
-        outline_layer(inner, colour="#4a545f", width=1.1),
+        body_layer(rings, colour=RING, opacity=0.34),
+        outline_layer(rings, colour="#4a545f", width=0.275),
     ]
     for chosen, style in (
-        (loaded, {"scalars": "load", "cmap": cmap, "clim": (0.0, top), "ambient": 0.62}),
-        (~loaded, {"color": IDLE}),
+        (loaded, {"values": "load", "cmap": cmap, "limits": (0.0, top), "ambient": 0.62}),
+        (~loaded, {"colour": IDLE}),
     ):
         if chosen.any():
             elements = _elements(now, bearing, chosen)
             layers.append(body_layer(elements, **style))
-            layers.append(outline_layer(elements, colour="#30363c", width=0.9))
+            layers.append(outline_layer(elements, colour="#30363c", width=0.225))
     if cage is not None:
         moved = cage.copy()
         moved.points = cage.points @ rotation(now.cage_quaternion).T + now.cage_position
-        layers.append(body_layer(moved, color=BRASS))
-        layers.append(outline_layer(moved, colour="#6b5320", width=0.9, opacity=0.8))
+        layers.append(body_layer(moved, colour=BRASS))
+        layers.append(outline_layer(moved, colour="#6b5320", width=0.225, opacity=0.8))
     return layers
 
 

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from flexcage.render import sheet
-from flexcage.render.scene import Picture
+from flexcage.render.stage import Picture
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

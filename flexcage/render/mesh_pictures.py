@@ -25,8 +25,6 @@ from flexcage.render.defects import (
 )
 from flexcage.render.scene import (
     Layer,
-    Picture,
-    Stage,
     Surface,
     View,
     body_layer,
@@ -35,6 +33,7 @@ from flexcage.render.scene import (
     ring_view,
     surface_of,
 )
+from flexcage.render.stage import Picture, Stage
 
 MAIN = (1180, 880)
 SIDE = (520, 355)
@@ -64,15 +63,12 @@ def mesh_picture(
     radius, width = ring_size(mesh.points)
     if azimuth is None:
         azimuth = azimuth_of(defects[0], mesh.pocket_count) if defects else 0.0
-    layers = _mesh_layers(mesh)
-    with Stage(*MAIN) as stage:
-        main = stage.shoot(
-            layers, ring_view(radius, width, aspect=MAIN[0] / MAIN[1], azimuth=azimuth)
-        )
+    view = ring_view(radius, width, aspect=MAIN[0] / MAIN[1], azimuth=azimuth)
     shown: list[CageDefect | str] = [*defects[:2], "pocket", "corner"]
     shown = shown[:2] if len(defects) != 1 else [defects[0], "corner"]
-    with Stage(*SIDE) as stage:
-        closes = [stage.shoot(layers, _close_view(d, mesh, radius)) for d in shown]
+    with Stage(_mesh_layers(mesh)) as stage:
+        main = stage.shoot(view, MAIN)
+        closes = [stage.shoot(_close_view(d, mesh, radius), SIDE) for d in shown]
     left = EDGE + MAIN[0] + GAP
     with sheet.style():
         figure = sheet.new_figure(left + SIDE[0] + EDGE, TOP + MAIN[1] + EDGE)
@@ -100,8 +96,8 @@ def mesh_picture(
 def _mesh_layers(mesh: CageMesh) -> list[Layer]:
     whole = Surface(surface_of(mesh.tets).triangles).polydata(mesh.points)
     return [
-        body_layer(whole, color=BODY, show_edges=True, edge_color="#70777f", line_width=0.7),
-        outline_layer(whole, width=1.4),
+        body_layer(whole, colour=BODY, edges="#70777f", width=0.175),
+        outline_layer(whole, width=0.35),
     ]
 
 

@@ -10,13 +10,13 @@ import numpy as np
 
 from flexcage.render import marks, sheet
 from flexcage.render.scene import (
-    Stage,
     coloured_layer,
     outline_layer,
     ring_size,
     ring_view,
     surface_of,
 )
+from flexcage.render.stage import shoot
 
 TOP, EDGE = 96, 36
 _CELL = (420, 318)
@@ -45,16 +45,13 @@ def mode_sheet(
     view = ring_view(radius, width, aspect=_CELL[0] / _CELL[1], elevation=38.0, margin=1.32)
     cmap = sheet.colour_map("viridis")
     pictures = []
-    with Stage(*_CELL) as stage:
-        ghost = outline_layer(surface.polydata(points), colour="#9a9a9a", width=1.0)
-        for i in range(count):
-            size = np.linalg.norm(shapes[:, :, i], axis=1)
-            relative = size / size.max()
-            moved = surface.polydata(
-                points + 0.13 * radius / size.max() * shapes[:, :, i], relative
-            )
-            body = coloured_layer(moved, cmap=cmap, limits=(0.0, 1.0))
-            pictures.append(stage.shoot([body, ghost], view).pixels)
+    ghost = outline_layer(surface.polydata(points), colour="#9a9a9a", width=0.25)
+    for i in range(count):
+        size = np.linalg.norm(shapes[:, :, i], axis=1)
+        relative = size / size.max()
+        moved = surface.polydata(points + 0.13 * radius / size.max() * shapes[:, :, i], relative)
+        body = coloured_layer(moved, cmap=cmap, limits=(0.0, 1.0))
+        pictures.append(shoot([body, ghost], view, _CELL).pixels)
     with sheet.style():
         w, h = columns * _CELL[0] + 2 * EDGE, TOP + rows * (_CELL[1] + _CAPTION) + 104
         figure = sheet.new_figure(w, h)
@@ -63,7 +60,7 @@ def mode_sheet(
         for i, pixels in enumerate(pictures):
             x = EDGE + (i % columns) * _CELL[0]
             y = TOP + (i // columns) * (_CELL[1] + _CAPTION)
-            sheet.image_at(figure, (x, y, *_CELL), pixels)
+            sheet.put_pixels(figure, x, y, pixels)
             sheet.text_at(
                 figure,
                 x + 0.5 * _CELL[0],

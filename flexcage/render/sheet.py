@@ -20,6 +20,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 DPI = 150
+_PACKED = 2  # of 9, of a picture's file: half the time of the usual 6, and a tenth more bytes
 _LONGEST = 60  # characters of a name in a heading
 
 #: Okabe and Ito's colours, told apart with any kind of colour vision.
@@ -82,11 +83,31 @@ def axes_at(figure: Figure, rect: Rect, **kwargs: Any) -> Axes:
     return figure.add_axes((left / w, 1.0 - (top + height) / h, width / w, height / h), **kwargs)
 
 
+def put_pixels(figure: Figure, left: float, top: float, pixels: np.ndarray) -> None:
+    """Pixels (height, width, 3) as they are, below all else; matplotlib would resample them."""
+    from matplotlib.artist import Artist
+
+    w, h = (np.asarray(figure.get_size_inches()) * DPI).tolist()
+    corner = left / w, 1.0 - (top + len(pixels)) / h
+    opaque = np.full((*pixels.shape[:2], 4), 255, np.uint8)
+    opaque[..., :3] = pixels[::-1]
+
+    class Pixels(Artist):
+        zorder = -1.0
+
+        def draw(self, renderer: Any) -> None:
+            x, y = figure.transFigure.transform(corner)
+            renderer.draw_image(renderer.new_gc(), round(x), round(y), opaque)
+
+    figure.add_artist(Pixels())
+
+
 def image_at(figure: Figure, rect: Rect, pixels: np.ndarray, *, frame: str | None = None) -> Axes:
     """An image in a rectangle; the axes' coordinates are the image's own pixels, y downwards."""
+    put_pixels(figure, *rect[:2], pixels)
     ax = axes_at(figure, rect)
     h, w = pixels.shape[:2]
-    ax.imshow(pixels, extent=(0, w, h, 0), aspect="auto", interpolation="antialiased")
+    ax.patch.set_visible(False)
     ax.set(xlim=(0, w), ylim=(h, 0), xticks=[], yticks=[])
     ax.grid(False)
     for spine in ax.spines.values():
@@ -202,7 +223,7 @@ def save(figure: Figure, path: str | Path) -> Path:
     path = Path(path)
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
-        figure.savefig(path, dpi=DPI)
+        _write(figure, path)
     except (OSError, ValueError) as error:
         if isinstance(error, OSError):
             refuse_full(f"The picture {path}", error)
@@ -210,6 +231,17 @@ def save(figure: Figure, path: str | Path) -> Path:
             f"The picture {path} cannot be written: {error}.", where="path", value=str(path)
         ) from error
     return path
+
+
+def _write(figure: Figure, path: Path) -> None:
+    """A .png without transparency, packed fast; what else matplotlib can write by its suffix."""
+    if path.suffix.lower() != ".png":
+        figure.savefig(path, dpi=DPI)
+        return
+    from PIL import Image
+
+    picture = Image.fromarray(pixels_of(figure))
+    picture.save(path, dpi=(DPI, DPI), compress_level=_PACKED)
 
 
 def pixels_of(figure: Figure) -> np.ndarray:

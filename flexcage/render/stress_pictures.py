@@ -12,8 +12,6 @@ from flexcage.core.errors import InputError
 from flexcage.render import marks, sheet
 from flexcage.render.scene import (
     Layer,
-    Picture,
-    Stage,
     Surface,
     View,
     coloured_layer,
@@ -23,6 +21,7 @@ from flexcage.render.scene import (
     surface_of,
     surface_vertices,
 )
+from flexcage.render.stage import Picture, Stage
 
 MAIN = (1180, 880)  # pixels of the whole cage
 SIDE = (520, 520)  # pixels of the close-up
@@ -169,10 +168,9 @@ def _field_sheet(
     deformed = field.points + scale * field.displacement
     radius, width = ring_size(field.points)
     whole = ring_view(radius, width, aspect=MAIN[0] / MAIN[1], azimuth=place.azimuth)
-    with Stage(*MAIN) as stage:
-        main = stage.shoot(layers, whole)
-    with Stage(*SIDE) as stage:
-        close = _close_up(stage, layers, surface, deformed, peak, radius)
+    with Stage(layers) as stage:
+        main = stage.shoot(whole, MAIN)
+        close = _close_up(stage, surface, deformed, peak, radius)
     at, left = deformed[peak], EDGE + MAIN[0] + GAP
     with sheet.style():
         figure = sheet.new_figure(left + SIDE[0] + EDGE, TOP + MAIN[1] + EDGE)
@@ -204,16 +202,15 @@ def field_layers(
     moved = surface.polydata(field.points + scale * field.displacement, field.values)
     layers = [
         coloured_layer(moved, cmap=cmap, limits=(0.0, top)),
-        outline_layer(moved, colour="#101010", width=1.0, opacity=0.35),
+        outline_layer(moved, colour="#101010", width=0.25, opacity=0.35),
     ]
     if scale and np.any(field.displacement):
-        layers.append(outline_layer(surface.polydata(field.points), colour="#8a8a8a", width=1.0))
+        layers.append(outline_layer(surface.polydata(field.points), colour="#8a8a8a", width=0.25))
     return layers
 
 
 def _close_up(
     stage: Stage,
-    layers: list[Layer],
     surface: Surface,
     points: np.ndarray,
     node: int,
@@ -234,7 +231,7 @@ def _close_up(
     ways = sorted((w / np.linalg.norm(w) for w in ways), key=lambda w: -float(w @ normal))
     for way in ways:
         view = View(tuple(way), tuple(at), 2.0 * ZOOM * radius)
-        picture = stage.shoot(layers, view)
+        picture = stage.shoot(view, SIDE)
         if picture.shows(at):
             return picture
     return picture

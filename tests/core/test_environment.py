@@ -6,8 +6,9 @@ import os
 import pytest
 
 from flexcage.core import environment
-from flexcage.core.environment import Outcome, offscreen_backend, prepare_offscreen, probe
+from flexcage.core.environment import Outcome, offscreen_backend, probe
 from flexcage.core.errors import EnvironmentLacks
+from flexcage.core.offscreen import opening_window
 
 
 @pytest.fixture(autouse=True)
@@ -34,7 +35,8 @@ def pretend(monkeypatch, works):
 def test_takes_the_first_window_that_draws(monkeypatch, window):
     pretend(monkeypatch, {window})
     assert offscreen_backend() == window
-    prepare_offscreen()
+    with opening_window():
+        pass
     forced = os.environ.pop("VTK_DEFAULT_OPENGL_WINDOW", "default")
     assert forced == window
 
@@ -42,9 +44,46 @@ def test_takes_the_first_window_that_draws(monkeypatch, window):
 def test_without_any_the_remedy_is_one_command(monkeypatch):
     pretend(monkeypatch, set())
     with pytest.raises(EnvironmentLacks, match="apt-get install -y libegl1"):
-        prepare_offscreen()
+        with opening_window():
+            pass
     finding = next(f for f in probe() if f.name == "rendering")
     assert not finding.ok and not finding.needed and "apt-get" in finding.remedy
+
+
+def test_what_drew_once_is_not_looked_for_again(monkeypatch):
+    pretend(monkeypatch, {"vtkEGLRenderWindow"})
+    with opening_window():
+        pass
+    monkeypatch.delenv("VTK_DEFAULT_OPENGL_WINDOW")
+    offscreen_backend.cache_clear()
+    pretend(monkeypatch, set())
+    with opening_window():
+        assert os.environ["VTK_DEFAULT_OPENGL_WINDOW"] == "vtkEGLRenderWindow"
+
+
+def test_after_a_crash_of_the_window_it_is_looked_for_again(monkeypatch):
+    """A window that kills its process leaves the block early, as an error does here."""
+    pretend(monkeypatch, {"default"})
+    with opening_window():
+        pass
+    with pytest.raises(KeyboardInterrupt), opening_window():
+        raise KeyboardInterrupt
+    offscreen_backend.cache_clear()
+    pretend(monkeypatch, set())
+    with pytest.raises(EnvironmentLacks), opening_window():
+        pass
+
+
+@pytest.mark.parametrize("name", ["DISPLAY", "LIBGL_ALWAYS_SOFTWARE"])
+def test_in_another_environment_it_is_looked_for(monkeypatch, name):
+    pretend(monkeypatch, {"default"})
+    with opening_window():
+        pass
+    monkeypatch.setenv(name, "1")
+    offscreen_backend.cache_clear()
+    pretend(monkeypatch, set())
+    with pytest.raises(EnvironmentLacks), opening_window():
+        pass
 
 
 def test_a_probe_that_is_killed_is_survived():

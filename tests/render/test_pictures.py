@@ -1,6 +1,7 @@
 """Every picture is written, has its size, is not blank, and shows what it should."""
 
 import sys
+import threading
 from dataclasses import replace
 from pathlib import Path
 from types import SimpleNamespace
@@ -327,8 +328,11 @@ def test_animation_formats(tmp_path, monkeypatch):
 
 def test_no_backend_is_a_sentence(field, tmp_path, monkeypatch):
     from flexcage.core import environment
+    from flexcage.render import stage
 
+    monkeypatch.setenv("FLEXCAGE_CACHE_DIR", str(tmp_path))
     monkeypatch.setattr(environment, "offscreen_backend", lambda: None)
+    monkeypatch.setattr(stage, "_OF_THREAD", threading.local())
     nodes, cells, u, stress, _ = field
     with pytest.raises(EnvironmentLacks, match="apt-get install"):
         render.stress_picture(nodes, cells, u, stress, tmp_path / "x.png")

@@ -4,7 +4,8 @@ import numpy as np
 import pytest
 from ring_with_pockets import quadratic
 
-from flexcage.render.scene import Layer, ring_size, ring_view, shoot, surface_of
+from flexcage.render.scene import Layer, ring_size, ring_view, surface_of
+from flexcage.render.stage import shoot
 
 
 def enclosed_volume(points, triangles):
@@ -67,7 +68,7 @@ def test_view_is_fixed_by_the_ring_and_keeps_it_in_the_picture(ring, canvas):
     assert ring_size(moved)[0] - radius <= 0.5e-3 + 1e-12
     view = ring_view(radius, width, aspect=4 / 3, azimuth=0.7)
     body = surface_of(ring.tets).polydata(ring.points)
-    picture = shoot([Layer(body, {"color": "black", "lighting": False})], view, (400, 300))
+    picture = shoot([Layer(body, colour="black", lit=False)], view, (400, 300))
     assert picture.pixels.shape == (300, 400, 3)
     dark = np.argwhere(picture.pixels.max(axis=2) < 60)[:, ::-1]
     assert len(dark) > 5000, "the ring is drawn"
@@ -81,7 +82,7 @@ def test_hidden_places_are_known(ring, canvas):
     radius, width = ring_size(ring.points)
     view = ring_view(radius, width, aspect=4 / 3, elevation=20.0)
     body = surface_of(ring.tets).polydata(ring.points)
-    picture = shoot([Layer(body, {"color": "grey"})], view, (800, 600))
+    picture = shoot([Layer(body, colour="grey")], view, (800, 600))
     beam = np.pi / 12  # the crossbeam after pocket 0
     outside = np.array([0.0, 43e-3 * np.cos(beam), 43e-3 * np.sin(beam)])
     inside = outside * 39 / 43
