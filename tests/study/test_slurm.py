@@ -39,11 +39,11 @@ def slurm():
         pytest.skip(str(exc))
 
 
-def script_of_readme(shared: Path) -> str:
-    """The script with ``shared`` in place of /shared."""
+def script_of_readme(shared: Path, jobs: int = 100) -> str:
+    """The script with ``shared`` in place of /shared, and with so many jobs."""
     blocks = README.read_text("utf-8").split("```python\n")[1:]
     (block,) = (b.split("```")[0] for b in blocks if "SLURMCluster(" in b)
-    return block.replace("/shared", str(shared))
+    return block.replace("/shared", str(shared)).replace("100", str(jobs))
 
 
 def job_of(lock: Path) -> str:
@@ -90,18 +90,19 @@ def test_a_cancelled_job_and_a_killed_script_lose_nothing(slurm, tmp_path):
     axis = f'[[axes]]\npath = "load.radial"\nvalues = {LOADS}'
     study = study_file(tmp_path, axis, duration="4 ms", outputs=OUTPUTS)
     script, out = tmp_path / "script.py", tmp_path / "study"
-    script.write_text(script_of_readme(tmp_path))
+    script.write_text(script_of_readme(tmp_path, jobs=1))
     with running(script, slurm):
         part = wait_for(lambda: begun(out))[0]
         victim, born = part.stem, created(part)
         cancel(slurm, job_of(part.with_suffix(".lock")))
-        wait_for(lambda: victim in when_written(out))
-        assert created(out / "cases" / victim) == born  # another job went on with its blocks
+        wait_for(lambda: victim in when_written(out))  # by another job, that takes its place
+        assert created(out / "cases" / victim) == born  # and went on with its blocks
         wait_for(lambda: begun(out))
-    cancel(slurm, "--name", "dask-worker")  # as README says: what waits in the queue stays there
+    cancel(slurm, "--name", "dask-worker")  # as README says
     before = when_written(out)
     assert 1 <= len(before) < len(LOADS)
 
+    script.write_text(script_of_readme(tmp_path))
     with running(script, slurm) as process:
         assert process.wait(PATIENCE) == 0, script.with_suffix(".said").read_text()
     assert before.items() <= when_written(out).items()
