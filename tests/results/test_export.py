@@ -14,7 +14,7 @@ from flexcage.results.options import OutputOptions
 
 def test_csv_is_tidy(known_run, tmp_path):
     path = export.to_csv(known_run.isel(time=slice(0, 50)), tmp_path / "new" / "t.csv")
-    table = pd.read_csv(path)
+    table = pd.read_csv(path, float_precision="round_trip")
     assert len(table) == 50 and table.columns[0] == "time_s"
     assert np.array_equal(table["cage_position.y [m]"], known_run["cage_position"][:50, 1])
     assert not any(c.startswith("race_force") for c in table)

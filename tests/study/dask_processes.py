@@ -95,3 +95,9 @@ def begun(folder: Path) -> list[Path]:
         for commit in folder.glob("cases/*.part/results.zarr/_run/commit.json")
         if '"blocks": 0' not in commit.read_text()
     ]
+
+
+def when_written(folder: Path) -> dict[str, int]:
+    """When the row of every finished case was written, by hash."""
+    rows = (p for p in folder.glob("cases/*/row.json") if p.parent.suffix != ".part")
+    return {p.parent.name: p.stat().st_mtime_ns for p in rows}

@@ -11,7 +11,16 @@ from concurrent.futures import ThreadPoolExecutor
 
 import pandas as pd
 import pytest
-from dask_processes import PATIENCE, begun, dask_cluster, kill_family, start, wait_for, worker_of
+from dask_processes import (
+    PATIENCE,
+    begun,
+    dask_cluster,
+    kill_family,
+    start,
+    wait_for,
+    when_written,
+    worker_of,
+)
 from study_cases import short_study, study_file
 
 from flexcage.core.errors import RunFailed
@@ -41,12 +50,6 @@ def cluster(tmp_path_factory):
 def study_of(speed):
     case = short_study(duration="4 ms").case.replace("drive.speed", speed)
     return type(short_study())(case=case, axes=[Grid("load.radial", LOADS)], outputs=OUTPUTS)
-
-
-def when_written(folder):
-    """When the row of every finished case was written, by hash."""
-    rows = (p for p in folder.glob("cases/*/row.json") if p.parent.suffix != ".part")
-    return {p.parent.name: p.stat().st_mtime_ns for p in rows}
 
 
 def test_a_worker_killed_in_the_middle_of_a_case(cluster, tmp_path):
