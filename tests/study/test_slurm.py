@@ -1,4 +1,4 @@
-"""README's script for SLURM, as printed, on a SLURM of one node with two cores."""
+"""The script for SLURM of examples/studies.md, as printed, on a SLURM of one node with two cores."""
 
 import subprocess
 import sys
@@ -17,7 +17,7 @@ from flexcage.study.run import run_study
 from flexcage.study.spec import load_study
 
 pytestmark = pytest.mark.slow
-README = Path(__file__).parents[2] / "README.md"
+PAGE = Path(__file__).parents[2] / "examples" / "studies.md"
 LOADS = [f"{load} N" for load in range(500, 4500, 500)]
 OUTPUTS = ("race_force_inner", "pocket_force.max")
 
@@ -39,9 +39,9 @@ def slurm():
         pytest.skip(str(exc))
 
 
-def script_of_readme(shared: Path, jobs: int = 100) -> str:
+def script_of_the_page(shared: Path, jobs: int = 100) -> str:
     """The script with ``shared`` in place of /shared, and with so many jobs."""
-    blocks = README.read_text("utf-8").split("```python\n")[1:]
+    blocks = PAGE.read_text("utf-8").split("```python\n")[1:]
     (block,) = (b.split("```")[0] for b in blocks if "SLURMCluster(" in b)
     return block.replace("/shared", str(shared)).replace("100", str(jobs))
 
@@ -90,7 +90,7 @@ def test_a_cancelled_job_and_a_killed_script_lose_nothing(slurm, tmp_path):
     axis = f'[[axes]]\npath = "load.radial"\nvalues = {LOADS}'
     study = study_file(tmp_path, axis, duration="4 ms", outputs=OUTPUTS)
     script, out = tmp_path / "script.py", tmp_path / "study"
-    script.write_text(script_of_readme(tmp_path, jobs=1))
+    script.write_text(script_of_the_page(tmp_path, jobs=1))
     with running(script, slurm):
         part = wait_for(lambda: begun(out))[0]
         victim, born = part.stem, created(part)
@@ -102,7 +102,7 @@ def test_a_cancelled_job_and_a_killed_script_lose_nothing(slurm, tmp_path):
     before = when_written(out)
     assert 1 <= len(before) < len(LOADS)
 
-    script.write_text(script_of_readme(tmp_path))
+    script.write_text(script_of_the_page(tmp_path))
     with running(script, slurm) as process:
         assert process.wait(PATIENCE) == 0, script.with_suffix(".said").read_text()
     assert before.items() <= when_written(out).items()
