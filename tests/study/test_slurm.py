@@ -1,4 +1,4 @@
-"""The script for SLURM of examples/studies.md, as printed, on a SLURM of one node with two cores."""
+"""The SLURM script of examples/studies.md, as printed, on a SLURM of one node with two cores."""
 
 import subprocess
 import sys
@@ -98,7 +98,7 @@ def test_a_cancelled_job_and_a_killed_script_lose_nothing(slurm, tmp_path):
         wait_for(lambda: victim in when_written(out))  # by another job, that takes its place
         assert created(out / "cases" / victim) == born  # and went on with its blocks
         wait_for(lambda: begun(out))
-    cancel(slurm, "--name", "dask-worker")  # as README says
+    cancel(slurm, "--name", "dask-worker")  # as the page says
     before = when_written(out)
     assert 1 <= len(before) < len(LOADS)
 
