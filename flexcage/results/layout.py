@@ -55,13 +55,18 @@ class Layout:
         shape = self.shape(var)
         return (max(min(first, shape[0]), 1), *(max(n, 1) for n in shape[1:]))
 
+    def order(self, var: Variable) -> tuple[int, ...]:
+        """Dimensions in the order of storage: time last, but of sparse variables first."""
+        rest = tuple(range(1, len(var.dims)))
+        return (0, *rest) if var.sparse else (*rest, 0)
+
     def span(self, index: int, grid: str) -> tuple[int, int]:
         """First sample of block ``index`` on a grid and the one after its last."""
         block, n = (self.block, self.n_time) if grid == TIME else (self.block_hf, self.n_time_hf)
         return min(index * block, n), min((index + 1) * block, n)
 
     def checked(self, index: int, arrays: Arrays, grid: str) -> dict[str, np.ndarray]:
-        """The block's arrays in stored type, after checking names, lengths and shapes."""
+        """The block's arrays as they are stored, after checking names, lengths and shapes."""
         wanted = {v.name: v for v in self.variables if v.dims[0] == grid}
         if set(wanted) != set(arrays):
             missing, extra = sorted(set(wanted) - set(arrays)), sorted(set(arrays) - set(wanted))
@@ -70,7 +75,7 @@ class Layout:
         out: dict[str, np.ndarray] = {}
         lengths = set()
         for name, var in wanted.items():
-            a = np.asarray(arrays[name], dtype=var.dtype)
+            a = np.asarray(arrays[name])
             tail = self.shape(var)[1:]
             if a.ndim != len(var.dims) or a.shape[1:] != tail or a.shape[0] > stop - start:
                 raise ValueError(
@@ -78,7 +83,7 @@ class Layout:
                     f"{', '.join(map(str, tail))})"
                 )
             lengths.add(a.shape[0])
-            out[name] = a
+            out[name] = var.rounded(a)
         if len(lengths) > 1:
             raise ValueError(f"block {index}: arrays on {grid!r} differ in length: {lengths}")
         return out

@@ -6,7 +6,6 @@ from functools import singledispatch
 from typing import Any
 
 import numpy as np
-from scipy.spatial.transform import Rotation
 
 from flexcage.contacts.pocket_wall import N_LOCAL
 from flexcage.system.ball_model import BallModel
@@ -140,10 +139,11 @@ def in_plane(yz: np.ndarray) -> np.ndarray:
 def orientation(azimuth: np.ndarray, angles: np.ndarray) -> np.ndarray:
     """Unit quaternions (..., 4), scalar first, of bodies at ``azimuth`` (...,) about x, turned by
     ``angles`` (..., 3): skew about the radial, tilt about the tangential axis, and spin [rad]."""
-    turned = np.concatenate([azimuth[..., None], angles[..., :2]], axis=-1).reshape(-1, 3)
-    frame = Rotation.from_euler("XYZ", turned)
-    spin = Rotation.from_euler("X", angles[..., 2].reshape(-1, 1))
-    return (frame * spin).as_quat(scalar_first=True).reshape(*azimuth.shape, 4)
+    half = 0.5 * np.stack([azimuth, *np.moveaxis(angles, -1, 0)])
+    (c1, c2, c3, c4), (s1, s2, s3, s4) = np.cos(half), np.sin(half)
+    w, x, y, z = c1 * c2, s1 * c2, c1 * s2, s1 * s2
+    w, x, y, z = w * c3 - z * s3, x * c3 + y * s3, y * c3 - x * s3, z * c3 + w * s3
+    return np.stack([w * c4 - x * s4, x * c4 + w * s4, y * c4 + z * s4, z * c4 - y * s4], axis=-1)
 
 
 def to_body(quaternion: np.ndarray, vectors: np.ndarray) -> np.ndarray:

@@ -1,15 +1,23 @@
-"""The one table of result variables: dimensions, unit, long name and stored type.
+"""The one table of result variables: dimensions, unit, long name, type and precision.
 
 The store allocates from it, the dataset is labelled from it, and documentation prints it.
 A new output is one more line here and one more array handed to ``write_block``; from outside, a
 call of ``register`` with the function that computes it.
 Forces act *on* the named body. Frames: "ring" is the fixed frame (x: bearing axis, y towards
 roller 0 at the start); "cyl" is (x, r, psi) at the element's own azimuth.
+
+Precision. Energies, work, and orientation and speed of inner ring and cage are kept as computed,
+positions of elements to 38 bits (an angle grows without bound), all else in single precision, 24
+bits. Values that mean something only together are rounded together, to a share of the largest of
+them at that instant: quaternions to 6e-8, modal values and the two moments of a race to 1e-6;
+forces of slices, points and stations of a face, and residual coordinates of a pocket, to 3e-5.
+Stores in memory round as those on disk do. What a run is resumed from is not rounded.
 """
 
 from __future__ import annotations
 
 import difflib
+import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from types import MappingProxyType
@@ -58,13 +66,33 @@ RUN_DIMS = (
 
 @dataclass(frozen=True)
 class Variable:
-    """One result: its dimensions (time first), unit, what it is, and how it is stored."""
+    """One result: its dimensions (time first), unit, what it is, and how it is stored.
+
+    ``dtype`` is its type in datasets. On disk it has ``bits`` significant bits of the largest of
+    each group of values: those along its last ``together`` dimensions, or each alone.
+    """
 
     name: str
     dims: tuple[str, ...]
     unit: str
     long_name: str
     dtype: str = "float64"
+    bits: int = 53
+    together: int = 0
+
+    @property
+    def stored(self) -> str:
+        """Its type on disk."""
+        return "float32" if self.bits <= 24 else "float64"
+
+    @property
+    def sparse(self) -> bool:
+        """Whether most values are zero: then zeros stand together, else the values of one place."""
+        return bool(_FINE & set(self.dims))
+
+    def rounded(self, values: np.ndarray) -> np.ndarray:
+        """Values as they are stored, in the type that they have on disk."""
+        return rounded(values, self.stored, self.bits, self.together)
 
     @property
     def attrs(self) -> dict[str, str]:
@@ -84,13 +112,60 @@ _OWN_DIMS = {
 }
 
 
+_FINE = {"slice", "end_point", "station", "residual"}  # dimensions within a pocket
+_WHOLE = ("inner_angle", "inner_speed", "cage_quaternion", "cage_omega", "energy", "work")
+_LONG = ("roller_position", "ball_position")  # psi grows
+_FORCES, _MODAL = 15, 20  # bits of values that are rounded together
+
+
+def rounded(values: np.ndarray, stored: str, bits: int, together: int = 0) -> np.ndarray:
+    """Floats (n, ...) in type ``stored`` with so many bits of the largest along the last
+    ``together`` dimensions, or of each alone."""
+    if values.size == 0 or (bits > np.finfo(stored).nmant and not together):
+        return values.astype(stored, copy=False)
+    groups = values.reshape(math.prod(values.shape[: values.ndim - together]), -1)
+    some = np.flatnonzero(np.einsum("ij,ij->i", groups, groups))  # in pockets, most are zero
+    part = groups[some].astype(stored, copy=False)
+    largest = np.abs(part).max(axis=1, keepdims=True)
+    unit = np.ldexp(part.dtype.type(1.0), np.frexp(largest)[1] - bits)
+    found = np.zeros(groups.shape, stored)
+    found[some] = np.rint(part / unit) * unit
+    return found.reshape(values.shape)
+
+
+def rounded_loads(table: Mapping[str, np.ndarray]) -> dict[str, np.ndarray]:
+    """The table of loads at steps as it is stored, with the precision of the same at samples."""
+    return {
+        **table,
+        "modes": rounded(table["modes"], "float32", _MODAL, 1),
+        "land": rounded(table["land"], "float32", _FORCES, 2),
+        "force": rounded(table["force"], "float32", _FORCES, 2),
+    }
+
+
+def _precision(name: str, dims: tuple[str, ...]) -> tuple[int, int]:
+    """Bits, and how many of the last dimensions are rounded together."""
+    if name in _WHOLE:
+        return 53, 0
+    if name in _LONG:
+        return 38, 0
+    if "quaternion" in dims:
+        return 24, 1
+    if {"slice", "end_point", "residual"} & set(dims):
+        return _FORCES, 1
+    if {"station", "land_station"} & set(dims):
+        return _FORCES, 2
+    return (_MODAL, 1) if {"mode", "moment"} & set(dims) else (24, 0)
+
+
 def _variables() -> list[Variable]:
     def on(*dims: str) -> tuple[str, ...]:
         return (TIME, *dims)
 
     def row(name: str, dims: tuple[str, ...], unit: str, long_name: str) -> Variable:
         small = bool({"station", "face", "crossbeam_face", "side_face"} & set(dims))
-        return Variable(name, dims, unit, long_name, "float32" if small else "float64")
+        kind = "float32" if small else "float64"
+        return Variable(name, dims, unit, long_name, kind, *_precision(name, dims))
 
     body, roller, ball, pocket = "axis", "roller", "ball", "pocket"
     return [

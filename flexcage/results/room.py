@@ -16,7 +16,7 @@ log = logging.getLogger(__name__)
 _WORTH_SAYING = 100e6  # bytes; a run of 0.1 s of motion has half of it
 # share of their size in memory that results take on disk, measured on an N1013 at 6000 rpm, and
 # for its modes and the loads at steps between samples what a flexible cage adds
-_RIGID, _FLEXIBLE = 0.12, 0.21
+_RIGID, _FLEXIBLE = 0.06, 0.095
 _SURELY = 0.5  # of an estimate, for runs differ
 
 

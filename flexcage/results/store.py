@@ -1,26 +1,24 @@
 """Run stores: a run written block by block, safe against being killed at any moment.
 
 On disk a run is a Zarr (version 3) group whose arrays are allocated in full on the sampling grid,
-with one chunk a block along time. A block exists only once ``_run/commit.json`` counts it; that
-file is written aside, fsynced and atomically moved into place after the block's chunks, its
-steps and events, and its checkpoint are on disk. Readers trim every array to the commit, so what
+with one chunk a block along time, and up to ``shards.SLOTS`` of them in a file. Tables of blocks
+(steps, events, loads) stand in such files as well. A block exists only once ``_run/commit.json``
+counts it; that file is written aside, fsynced and atomically moved into place after the block's
+chunks, its tables and its checkpoint are written. Readers trim every array to the commit, so what
 a kill left half written is never seen. (Appending to arrays instead leaves unreadable stores.)
 
-Format 3: the attributes ``run`` hold the case as it was run, its hash, and the digest of the cage
-that modal coordinates refer to (``cage_file``). Types, chunks and shards are read from the arrays'
-own metadata, so that single precision or fewer files need no new number; a new number is due when
-variables or checkpoints change their meaning.
+Format 4: the attributes ``run`` hold the case as it was run, its hash, and the digest of the cage
+that modal coordinates refer to (``cage_file``).
 """
 
 from __future__ import annotations
 
 import json
-import os
 import shutil
 import warnings
 from collections.abc import Mapping, Sequence
+from dataclasses import asdict
 from functools import partial
-from math import ceil
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -37,12 +35,13 @@ from flexcage.results.layout import (
     label_dataset,
     make_layout,
 )
-from flexcage.results.registry import COMPUTED, TIME, TIME_HF, VARIABLES, Variable
+from flexcage.results.registry import TIME, TIME_HF, Variable, rounded_loads
+from flexcage.results.shards import BLOSC, SLOTS, Chunks, encoded, packed, unpacked
 
 if TYPE_CHECKING:
     import xarray
 
-FORMAT = 3  # see above; others are not read
+FORMAT = 4  # see above; others are not read
 SIDE = "_run"  # folder beside the arrays: commit, checkpoint, steps, events
 LAST = "last_state.npz"  # in SIDE, of a run whose solver stopped
 LOADS = "loads"  # table of what moves and pushes a flexible cage at steps between samples
@@ -87,6 +86,11 @@ class MemoryRunStore:
         return int(self._commit["blocks"])
 
     @property
+    def shown(self) -> int:
+        """Blocks that have samples, one that is not full included."""
+        return self.blocks + int(self.n_time > self.layout.span(self.blocks, TIME)[0])
+
+    @property
     def complete(self) -> bool:
         return self.blocks == self.layout.n_blocks
 
@@ -117,6 +121,8 @@ class MemoryRunStore:
             if grid == TIME and done == stop:
                 commit["blocks"] = index + 1
         given = {**dict.fromkeys(_EVERY, _NOTHING), **tables}
+        if LOADS in given:
+            given[LOADS] = rounded_loads(given[LOADS])
         self._store(index, {**main, **fine}, commit, checkpoint, given)
 
     def _store(self, index, data, commit, checkpoint, tables) -> None:
@@ -172,12 +178,11 @@ class MemoryRunStore:
         ``modes``, ``land`` [N], the rows ``touched`` of each step, and of these ``face`` (its
         pocket and number) and ``force`` [N]. Empty for a rigid cage, and for a run that an earlier
         flexcage made."""
-        return self._block_table(LOADS, block)
+        table = self._block_table(LOADS, block)
+        return {**table, "modes": table["modes"].astype(float)} if table else {}
 
     def _table(self, kind: str) -> dict[str, np.ndarray]:
-        partial = self.n_time > self.layout.span(self.blocks, TIME)[0]
-        count = self.blocks + int(partial)
-        return joined(self._block_table(kind, i) for i in range(count))
+        return joined(self._block_table(kind, i) for i in range(self.shown))
 
     def _block_table(self, kind: str, block: int) -> dict[str, np.ndarray]:
         return self._tables.get(kind, {}).get(block, {})
@@ -188,9 +193,8 @@ class RunStore(MemoryRunStore):
 
     path: Path
 
-    def __init__(self, path: Path, layout: Layout, commit: dict[str, Any], group: Any) -> None:
+    def __init__(self, path: Path, layout: Layout, commit: dict[str, Any]) -> None:
         self.path = path
-        self._group = group
         super().__init__(layout)
         self._commit = commit
 
@@ -231,12 +235,12 @@ class RunStore(MemoryRunStore):
         path = Path(path)
         make_room(path, overwrite)
         with disk(path, 0):
-            group = _create_arrays(path, layout)
+            _create_arrays(path, layout)
             commit = {"format": FORMAT, "blocks": 0, "n_time": 0, "n_time_hf": 0, "checkpoint": ""}
             for kind in _EVERY:
                 (path / SIDE / kind).mkdir(parents=True)
             replace(path / SIDE / "commit.json", json.dumps(commit).encode())
-        return cls(path, layout, commit, group)
+        return cls(path, layout, commit)
 
     @staticmethod
     def begun(path: Path) -> bool:
@@ -248,7 +252,7 @@ class RunStore(MemoryRunStore):
         """Remove what a run left that was stopped before its first block; InputError if there are
         blocks, which then only lack the file that counts them."""
         side = path / SIDE
-        if any(side.glob("checkpoint*")) or any(side.glob("*/*.npz")):
+        if any(side.glob("checkpoint*")) or any(side.glob("*/*")):
             raise _damaged(path, f"holds blocks, but lacks {SIDE}/commit.json")
         shutil.rmtree(path, ignore_errors=True)
 
@@ -260,9 +264,7 @@ class RunStore(MemoryRunStore):
         path = Path(path)
         commit = read_commit(path)
         try:
-            group = zarr.open_group(
-                str(path), mode="r+" if os.access(path, os.W_OK) else "r", zarr_format=3
-            )
+            group = zarr.open_group(str(path), mode="r", zarr_format=3)
             layout = _layout_from(group)
             for v in layout.variables:
                 _array(group, v.name)
@@ -270,18 +272,18 @@ class RunStore(MemoryRunStore):
             raise
         except Exception as error:
             raise InputError(f"The arrays of {path} cannot be opened: {error}.") from error
-        _check_whole(path, layout, commit)
-        return cls(path, layout, commit, group)
+        store = cls(path, layout, commit)
+        _check_whole(store)
+        return store
 
     def _store(self, index, data, commit, checkpoint, tables) -> None:
         side = self.path / SIDE
         with disk(self.path, self.n_time):
-            for name, values in data.items():
-                start = self._start(index, name)
-                self._group[name][start : start + len(values)] = values
+            for v in self.layout.variables:
+                if v.name in data and 0 not in self.layout.shape(v):
+                    self._chunks(v).write(index, self._chunk(v, data[v.name]))
             for kind, table in tables.items():
-                (side / kind).mkdir(exist_ok=True)
-                save(_table_file(side, kind, index), table)
+                self._tables_of(kind).write(index, packed(table))
             if checkpoint is not None:
                 commit["checkpoint"] = f"checkpoint-{index + 1:06d}.npz"
                 save(side / commit["checkpoint"], checkpoint)
@@ -292,13 +294,30 @@ class RunStore(MemoryRunStore):
             (side / before).unlink(missing_ok=True)
 
     def _arrays(self) -> Mapping[str, Any]:
-        from flexcage.results.lazy import lazy_variable
+        from flexcage.results.lazy import Blocks, lazy_variable
 
         found = {}
-        for name in (v.name for v in self.layout.variables):
-            what = f"holds samples of the array '{name}' that cannot be read"
-            found[name] = lazy_variable(self._group[name], partial(_damaged, self.path, what))
+        for v in self.layout.variables:
+            what = f"holds samples of the array '{v.name}' that cannot be read"
+            refuse = partial(_damaged, self.path, what)
+            found[v.name] = lazy_variable(Blocks(self.layout, v, self._chunks(v).read, refuse))
         return found
+
+    def _chunk(self, var: Variable, values: np.ndarray) -> bytes:
+        """A block of a variable as it is stored; of one that is not full, the rest is NaN."""
+        shape = self.layout.chunk(var)
+        if len(values) < shape[0]:
+            rest = np.full((shape[0] - len(values), *shape[1:]), np.nan, values.dtype)
+            values = np.concatenate([values, rest])
+        return encoded(values, self.layout.order(var))
+
+    def _chunks(self, var: Variable) -> Chunks:
+        """The blocks of a variable."""
+        rest = ["0"] * (len(var.dims) - 1)
+        return Chunks(self.path / var.name / "c", _slots(self.layout), rest)
+
+    def _tables_of(self, kind: str) -> Chunks:
+        return Chunks(self.path / SIDE / kind, _slots(self.layout))
 
     def checkpoint(self) -> dict[str, np.ndarray] | None:
         name = self._commit["checkpoint"]
@@ -312,11 +331,15 @@ class RunStore(MemoryRunStore):
         return self._load(LAST) if (self.path / SIDE / LAST).exists() else None
 
     def _block_table(self, kind: str, block: int) -> dict[str, np.ndarray]:
-        if not (self.path / SIDE / kind).is_dir():
-            return {}
-        return self._load(_table_file(Path(), kind, block))
+        try:
+            (chunk,) = self._tables_of(kind).read([block])
+            return {} if chunk is None else unpacked(chunk)
+        except UNREADABLE as error:
+            raise _damaged(
+                self.path, f"holds {kind} of block {block} that cannot be read"
+            ) from error
 
-    def _load(self, name: str | Path) -> dict[str, np.ndarray]:
+    def _load(self, name: str) -> dict[str, np.ndarray]:
         """Arrays of a file of ``SIDE``."""
         try:
             return load(self.path / SIDE / name)
@@ -348,18 +371,16 @@ def read_commit(path: Path) -> dict[str, Any]:
     return commit
 
 
-def _create_arrays(path: Path, layout: Layout) -> Any:
+def _create_arrays(path: Path, layout: Layout) -> None:
     import zarr
-    from zarr.codecs import BloscCodec, Crc32cCodec
+    from zarr.codecs import BloscCodec, Crc32cCodec, TransposeCodec
     from zarr.errors import ContainsGroupError
 
     stored: dict[str, Any] = {
         "flexcage_format": FORMAT,
         "flexcage_version": _version.__version__,
         "layout": {
-            "variables": [
-                [v.name, list(v.dims), v.unit, v.long_name, v.dtype] for v in layout.variables
-            ],
+            "variables": [asdict(v) for v in layout.variables],
             "coords": coords_to_json(layout.coords),
             "n_time": layout.n_time,
             "n_time_hf": layout.n_time_hf,
@@ -375,15 +396,19 @@ def _create_arrays(path: Path, layout: Layout) -> Any:
             f"Another run has just begun in '{path}'; name another folder, or wait for it.",
             where="out", value=str(path),
         ) from exc  # fmt: skip
-    codecs = [BloscCodec(cname="zstd", clevel=1, shuffle="shuffle"), Crc32cCodec()]
+    compressors = [BloscCodec(**BLOSC), Crc32cCodec()]
     for v in layout.variables:
+        first, *rest = chunk = layout.chunk(v)
+        shards: Any = {"shape": (first * _slots(layout), *rest), "index_location": "start"}
         group.create_array(
             v.name,
             shape=layout.shape(v),
-            chunks=layout.chunk(v),
-            dtype=v.dtype,
+            chunks=chunk,
+            shards=shards,
+            dtype=v.stored,
             fill_value=np.nan,
-            compressors=codecs,
+            filters=TransposeCodec(order=layout.order(v)),
+            compressors=compressors,
             dimension_names=v.dims,
             attributes=dict[str, Any](v.attrs),
         )
@@ -391,13 +416,13 @@ def _create_arrays(path: Path, layout: Layout) -> Any:
         if grid in layout.coords:
             _, values, attrs = layout.coords[grid]
             times = group.create_array(
-                grid, shape=values.shape, dtype="float64", dimension_names=(grid,), attributes=attrs
-            )
+                grid, shape=values.shape, dtype="float64", dimension_names=(grid,),
+                attributes=attrs, compressors=compressors,
+            )  # fmt: skip
             times[:] = values
     with warnings.catch_warnings():  # readers then need not list the folder
         warnings.filterwarnings("ignore", message=".*[Cc]onsolidated.*")
         zarr.consolidate_metadata(str(path), zarr_format=3)
-    return zarr.open_group(str(path), mode="r+", zarr_format=3)
 
 
 def _array(group: Any, name: str) -> Any:
@@ -416,7 +441,7 @@ def _layout_from(group: Any) -> Layout:
             array = _array(group, grid)
             coords[grid] = ((grid,), np.asarray(array[:]), dict(array.attrs))
     return Layout(
-        tuple(Variable(n, tuple(d), u, t, k) for n, d, u, t, k in stored["variables"]),
+        tuple(Variable(**{**v, "dims": tuple(v["dims"])}) for v in stored["variables"]),
         coords,
         stored["n_time"],
         stored["n_time_hf"],
@@ -426,34 +451,34 @@ def _layout_from(group: Any) -> Layout:
     )
 
 
-def _check_whole(path: Path, layout: Layout, commit: Mapping[str, Any]) -> None:
+def _check_whole(store: RunStore) -> None:
     """Refuse a run that lacks an array, or samples that were committed: they would read as NaN;
-    or one of the tables of its blocks.
-
-    Variables from elsewhere may be NaN throughout a block, which then has no file of its own.
-    """
+    or one of the tables of its blocks."""
+    path, layout = store.path, store.layout
     for grid, n in ((TIME, layout.n_time), (TIME_HF, layout.n_time_hf)):
         if n and not (path / grid / "zarr.json").exists():
             raise _damaged(path, f"lacks the instants '{grid}'")
     for v in layout.variables:
         if not (path / v.name / "zarr.json").exists():
             raise _damaged(path, f"lacks the array '{v.name}'")
-        if v.name not in VARIABLES or v.name in COMPUTED or 0 in layout.shape(v):
-            continue
-        count = ceil(commit["n_time" if v.dims[0] == TIME else "n_time_hf"] / layout.chunk(v)[0])
-        rest = ["0"] * (len(v.dims) - 1)
-        for k in range(count):
-            if not path.joinpath(v.name, "c", str(k), *rest).exists():
-                raise _damaged(path, f"lacks samples of the array '{v.name}'")
-    side = path / SIDE
-    for kind in (*_EVERY, *([LOADS] if (side / LOADS).is_dir() else [])):
-        for k in range(commit["blocks"]):
-            if not _table_file(side, kind, k).exists():
-                raise _damaged(path, f"lacks the {kind} of block {k}")
+        if 0 not in layout.shape(v):
+            _check_there(store, store._chunks(v), f"samples of the array '{v.name}'")
+    for kind in (*_EVERY, *([LOADS] if (path / SIDE / LOADS).is_dir() else [])):
+        _check_there(store, store._tables_of(kind), f"{kind} of its blocks")
 
 
-def _table_file(side: Path, kind: str, block: int) -> Path:
-    return side / kind / f"{block:06d}.npz"
+def _check_there(store: RunStore, chunks: Chunks, what: str) -> None:
+    try:
+        there = chunks.holds(store.shown)
+    except ValueError as error:
+        raise _damaged(store.path, f"holds {what} that cannot be read") from error
+    if not there:
+        raise _damaged(store.path, f"lacks {what}")
+
+
+def _slots(layout: Layout) -> int:
+    """Blocks that a file has room for."""
+    return min(SLOTS, max(layout.n_blocks, 1))
 
 
 def _damaged(path: Path, what: str) -> InputError:

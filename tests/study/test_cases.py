@@ -93,7 +93,7 @@ def test_cases_share_the_file_of_their_cage(folder):
 
 def other_format(part):
     commit = part / "results.zarr" / "_run" / "commit.json"
-    commit.write_text(commit.read_text().replace('"format": 3', '"format": 2'))
+    commit.write_text(commit.read_text().replace('"format": 4', '"format": 3'))
 
 
 def other_checkpoint(part):
