@@ -7,19 +7,17 @@ every source file of the package that defines kernels.
 
 from __future__ import annotations
 
-import gc
 import hashlib
 import os
 import struct
 import warnings
-from collections.abc import Iterator
-from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from flexcage.core.cache import cache_root
+from flexcage.core.garbage import uncollected
 
 _PACKAGE = Path(__file__).resolve().parents[1]
 
@@ -205,21 +203,6 @@ if hasattr(TargetConfig, "_values"):
 def allocating_kernel(function: Any) -> Any:
     """``kernel`` for the few that make arrays or boxes, away from the contact loops."""
     return _jitted(function, None, OPTIONS)
-
-
-@contextmanager
-def uncollected() -> Iterator[None]:
-    """Python's search for unused objects pauses while something is compiled.
-
-    A compiler makes many objects that live until it is done: a sixth of its time (measured).
-    """
-    was_on = gc.isenabled()
-    gc.disable()
-    try:
-        yield
-    finally:
-        if was_on:
-            gc.enable()
 
 
 _compiled: dict[tuple[Any, ...], Any] = {}

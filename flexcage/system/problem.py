@@ -20,13 +20,13 @@ from flexcage.bodies.floating_frame import marked
 from flexcage.contacts import laws
 from flexcage.contacts.spec import Contacts
 from flexcage.core.errors import InputError
+from flexcage.core.garbage import uncollected
 from flexcage.core.jit import (
     OPTIONS,
     FieldsType,
     allocating_kernel,
     boxed,
     compiled,
-    uncollected,
 )
 from flexcage.solve import runge_kutta
 from flexcage.solve.bordered import Bordered, new_bordered
