@@ -31,7 +31,7 @@ def kernel_sources() -> list[Path]:
         p
         for p in _PACKAGE.rglob("*.py")
         if (p.parent.name == "solve" and p.name != "options.py")
-        or "core.jit import" in p.read_text("utf-8")
+        or any(mark in p.read_text("utf-8") for mark in ("core.jit import", "from numba"))
     )
 
 
@@ -70,6 +70,7 @@ from numba.extending import (  # noqa: E402
 )
 
 from flexcage.core.kernel_cache import KernelCache, KernelFolder  # noqa: E402
+from flexcage.core.kernel_values import short_name  # noqa: E402
 
 numba.config.CACHE_DIR = os.environ["NUMBA_CACHE_DIR"]  # type: ignore[attr-defined]
 _folder = KernelFolder(Path(os.environ["NUMBA_CACHE_DIR"]))
@@ -283,7 +284,7 @@ class BoxType(types.Type):
 
     def __init__(self, held: Any) -> None:
         self.held = held
-        super().__init__(f"Box({held})")
+        super().__init__(short_name("Box", held))
 
 
 register_model(BoxType)(models.OpaqueModel)
@@ -312,7 +313,7 @@ class FieldsType(types.Type):
 
     def __init__(self, held: Any) -> None:
         self.held = held
-        super().__init__(f"Fields({held})")
+        super().__init__(short_name("Fields", held))
 
 
 register_model(FieldsType)(models.OpaqueModel)
