@@ -1,4 +1,4 @@
-"""Kernels as values: they are called at their address, and code holds nothing of their signature."""
+"""Kernels as values are called at their address, and code holds nothing of their signature."""
 
 from collections import namedtuple
 
