@@ -658,7 +658,10 @@ def _recovery_of(cage: CageReduction) -> StressRecovery:
     def keep(name: str, make: Callable[[], dict[str, np.ndarray]]) -> dict[str, np.ndarray]:
         return cached_arrays("stress", f"{cage.version}-{STRESS_VERSION}-{name}", make)
 
-    return StressRecovery(cage.model, cage.shown, cage.interface, solver=cage.solver, keep=keep)
+    def make() -> StressRecovery:
+        return StressRecovery(cage.model, cage.shown, cage.interface, solver=cage.solver, keep=keep)
+
+    return cage.once("recovery", make)
 
 
 def warnings_at_start(

@@ -102,9 +102,13 @@ def _record(case: Case, cage: Cage) -> CageRecord:
     mesh, reduction = cage
     if reduction is None:
         return cage_record(mesh, {})
-    body = flexible_from_reduction(reduction, case.modes).data._asdict()
-    reduced = {**reduction.record(), "body": {k: np.asarray(v) for k, v in body.items()}}
-    return cage_record(mesh, reduced, large=case.output.keep_cage)
+
+    def make() -> CageRecord:
+        body = flexible_from_reduction(reduction, case.modes).data._asdict()
+        reduced = {**reduction.record(), "body": {k: np.asarray(v) for k, v in body.items()}}
+        return cage_record(mesh, reduced, large=case.output.keep_cage)
+
+    return reduction.once(f"record, large {case.output.keep_cage}", make)
 
 
 def announce_room(case: Case, bearing: Bearing, folder: Path) -> None:
@@ -126,9 +130,19 @@ def cage_reduction(case: Case, mesh: CageMesh) -> CageReduction | None:
     """Finite elements, modes and interface of a flexible cage; None for a rigid one."""
     if case.cage_model == "rigid":
         return None
-    return reduce_cage(
+    made = reduce_cage(
         mesh, cage=case.cage, defects=case.all_defects, spec=case.modes, order=case.mesh.order
     )
+    return next((cage for cage in _at_hand if cage.same_as(made)), made)
+
+
+_at_hand: list[CageReduction] = []  # one at most
+
+
+def keep_at_hand(cage: CageReduction | None) -> None:
+    """Have the next case take this cage, with all that was derived from it, if it has the same:
+    the cases that a study's worker computes one after the other often do."""
+    _at_hand[:] = [] if cage is None else [cage]
 
 
 def cage_modes(case: Case) -> ModeTable:

@@ -10,6 +10,7 @@ from typing import Any
 from flexcage.cli.files import prepare_file, prepare_out, run_folder
 from flexcage.cli.parser import case_options, command, picture_options, say
 from flexcage.cli.settings import case_from, look_of, settings_of
+from flexcage.core.garbage import while_loading
 
 
 def add_commands(commands: Any) -> None:
@@ -75,8 +76,9 @@ def run_command(args: argparse.Namespace) -> int:
     case, look = case_from(args), look_of(args)
     args.out = out = Path(args.out) if args.out else Path("runs") / case.name
     with run_folder(out, resume=args.resume, force=args.force):
-        from flexcage.core.progress import Progress
-        from flexcage.simulate import simulate
+        with while_loading():
+            from flexcage.core.progress import Progress
+            from flexcage.simulate import simulate
 
         say(f"Inner ring: {case.held_in_words}")
         run = simulate(case, out=out, resume=args.resume, progress=Progress)

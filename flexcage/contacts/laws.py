@@ -31,6 +31,7 @@ from flexcage.contacts.spec import EhlTraction, FrictionLaw, NormalLaw
 from flexcage.core.elementary import exponentials, powers, product_of_powers
 from flexcage.core.errors import InputError
 from flexcage.core.jit import kernel, kernel_of, why_not_compiled
+from flexcage.core.kernel_values import KernelType
 from flexcage.core.registry import add, check_free
 
 _F8, _A, _I8 = types.float64, types.Array(types.float64, 1, "C"), types.int64
@@ -40,8 +41,8 @@ _ARGUMENTS = {
     NORMAL_SIGNATURE: "n, d, v, onset, p, F, Fe, Fd, Fv",
     FRICTION_SIGNATURE: "n, u, p, g, dg",
 }
-NORMAL_TYPE = types.FunctionType(NORMAL_SIGNATURE)
-FRICTION_TYPE = types.FunctionType(FRICTION_SIGNATURE)
+NORMAL_TYPE = KernelType(NORMAL_SIGNATURE)
+FRICTION_TYPE = KernelType(FRICTION_SIGNATURE)
 
 N_NORMAL = 10  # stiffness and exponent of the elastic force, and what else a law wants
 N_FRICTION = 10

@@ -7,19 +7,17 @@ every source file of the package that defines kernels.
 
 from __future__ import annotations
 
-import gc
 import hashlib
 import os
 import struct
 import warnings
-from collections.abc import Iterator
-from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from flexcage.core.cache import cache_root
+from flexcage.core.garbage import uncollected
 
 _PACKAGE = Path(__file__).resolve().parents[1]
 
@@ -33,7 +31,7 @@ def kernel_sources() -> list[Path]:
         p
         for p in _PACKAGE.rglob("*.py")
         if (p.parent.name == "solve" and p.name != "options.py")
-        or "core.jit import" in p.read_text("utf-8")
+        or any(mark in p.read_text("utf-8") for mark in ("core.jit import", "from numba"))
     )
 
 
@@ -72,6 +70,7 @@ from numba.extending import (  # noqa: E402
 )
 
 from flexcage.core.kernel_cache import KernelCache, KernelFolder  # noqa: E402
+from flexcage.core.kernel_values import short_name  # noqa: E402
 
 numba.config.CACHE_DIR = os.environ["NUMBA_CACHE_DIR"]  # type: ignore[attr-defined]
 _folder = KernelFolder(Path(os.environ["NUMBA_CACHE_DIR"]))
@@ -207,21 +206,6 @@ def allocating_kernel(function: Any) -> Any:
     return _jitted(function, None, OPTIONS)
 
 
-@contextmanager
-def uncollected() -> Iterator[None]:
-    """Python's search for unused objects pauses while something is compiled.
-
-    A compiler makes many objects that live until it is done: a sixth of its time (measured).
-    """
-    was_on = gc.isenabled()
-    gc.disable()
-    try:
-        yield
-    finally:
-        if was_on:
-            gc.enable()
-
-
 _compiled: dict[tuple[Any, ...], Any] = {}
 
 
@@ -300,7 +284,7 @@ class BoxType(types.Type):
 
     def __init__(self, held: Any) -> None:
         self.held = held
-        super().__init__(f"Box({held})")
+        super().__init__(short_name("Box", held))
 
 
 register_model(BoxType)(models.OpaqueModel)
@@ -329,7 +313,7 @@ class FieldsType(types.Type):
 
     def __init__(self, held: Any) -> None:
         self.held = held
-        super().__init__(f"Fields({held})")
+        super().__init__(short_name("Fields", held))
 
 
 register_model(FieldsType)(models.OpaqueModel)

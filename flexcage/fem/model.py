@@ -13,7 +13,7 @@ import scipy.sparse as sp
 
 from flexcage.core.errors import InputError
 from flexcage.fem import elements
-from flexcage.fem.assembly import Elements, assemble_ring, assemble_whole
+from flexcage.fem.assembly import Elements, Matrices, assemble_ring, assemble_whole
 from flexcage.fem.sectors import Sectors, edge_keys, find_sectors
 from flexcage.fem.tall import inner_products, subtract_product
 from flexcage.geometry.materials import Material
@@ -27,7 +27,8 @@ class FEModel:
     """Straight tetrahedra with linear or quadratic displacement, in the mesh's frame, SI.
 
     ``nodes``: vertices first (order 1), then edge midpoints (order 2). ``K`` acts on dof
-    3 node + component; the consistent mass is ``mass_scalar`` (kron) identity(3).
+    3 node + component; the consistent mass is ``mass_scalar`` (kron) identity(3). Both are
+    assembled when first asked for: a run with all on disk needs neither.
     """
 
     points: np.ndarray  # (n_points, 3)
@@ -35,8 +36,7 @@ class FEModel:
     cells: np.ndarray  # (n_tets, 4 or 10) nodes of every element, scikit-fem's order
     nodes: np.ndarray  # (N, 3)
     edges: np.ndarray  # (n_edges, 2) sorted vertex pairs; empty for order 1
-    K: sp.csr_matrix
-    mass_scalar: sp.csr_matrix
+    form: Elements
     material: Material
     order: int
     groups: Mapping[str, np.ndarray] = field(default_factory=lambda: MappingProxyType({}))
@@ -54,6 +54,23 @@ class FEModel:
 
     def __setstate__(self, state: dict) -> None:
         self.__dict__.update(state)
+
+    @cached_property
+    def _matrices(self) -> Matrices:
+        sectors = self.sectors
+        if sectors is None or len(sectors.doubled):
+            return assemble_whole(self.form, self.points, self.tets, self.cells, len(self.nodes))
+        return assemble_ring(self.form, self.points, self.tets, self.cells, sectors)
+
+    @property
+    def K(self) -> sp.csr_matrix:
+        """Stiffness (3N, 3N)."""
+        return self._matrices[0]
+
+    @property
+    def mass_scalar(self) -> sp.csr_matrix:
+        """Consistent mass (N, N) of one component."""
+        return self._matrices[1]
 
     @property
     def n_dof(self) -> int:
@@ -219,7 +236,7 @@ def triangle_shapes(points: np.ndarray, order: int) -> np.ndarray:
 
 
 def assemble(mesh, material: Material, *, order: int = 2) -> FEModel:
-    """Stiffness and consistent mass of ``mesh`` (points, tets, groups) with scikit-fem's elements.
+    """The model of ``mesh`` (points, tets, groups) with scikit-fem's elements.
 
     Quadrature is exact for affine elements: degree 2 for K and 4 for M when quadratic.
     """
@@ -239,24 +256,17 @@ def assemble(mesh, material: Material, *, order: int = 2) -> FEModel:
     edges = np.empty((0, 2), np.int64)
     if order == 2:
         edges, cells, nodes = _by_vertices(np.sort(fe_mesh.edges.T, axis=1), cells, nodes)
-    info: Mapping[str, object] = getattr(mesh, "info", MappingProxyType({}))
-    sectors = find_sectors(info, tets, len(mesh.points), edges)
-    if sectors is None or len(sectors.doubled):
-        stiffness, mass = assemble_whole(form, mesh.points, tets, cells, basis.N)
-    else:
-        stiffness, mass = assemble_ring(form, mesh.points, tets, cells, sectors)
     return FEModel(
         points=np.asarray(mesh.points),
         tets=tets,
         cells=cells,
         nodes=nodes,
         edges=edges,
-        K=stiffness,
-        mass_scalar=mass,
+        form=form,
         material=material,
         order=order,
         groups=mesh.groups,
-        info=info,
+        info=getattr(mesh, "info", MappingProxyType({})),
     )
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property, singledispatch
-from typing import Any
+from typing import Any, TypeVar
 
 import numpy as np
 
@@ -41,6 +41,7 @@ from flexcage.modes.storage import (
 )
 from flexcage.modes.table import ModeTable, mode_table
 
+Derived = TypeVar("Derived")
 MODEL_VERSION = 9  # of the reduction: raise it when the same input gives another basis
 INTERFACE_VERSION = 1  # of both kinds of interfaces, likewise
 _NOT_SHOWN = ("r_shapes",)  # of a basis: residual shapes, the largest part, which no result reads
@@ -65,6 +66,17 @@ class CageReduction:
     spec: ModesSpec
     order: int
     stored: Mapping[str, Mapping[str, np.ndarray]] = field(default_factory=dict)
+    _derived: dict[str, Any] = field(default_factory=dict, init=False, repr=False, compare=False)
+
+    def once(self, name: str, make: Callable[[], Derived]) -> Derived:
+        """What others derive from this cage alone, made once and kept as long as the cage."""
+        if name not in self._derived:
+            self._derived[name] = make()
+        return self._derived[name]
+
+    def same_as(self, other: CageReduction) -> bool:
+        """Whether two cages are the same by content: mesh, shape, defects and modes."""
+        return (self.cage, self.defects, self.key) == (other.cage, other.defects, other.key)
 
     def arrays(
         self,

@@ -429,12 +429,12 @@ def centre_speed(ds: xarray.Dataset, *, low_pass: float | None = None) -> np.nda
     """
     v = ds["cage_velocity"].values
     if low_pass is not None:
-        from scipy.signal import butter, sosfiltfilt
+        from flexcage.results.lowpass import butterworth, low_passed_both_ways
 
         rate = sampling_rate(ds)
         if rate <= 2.2 * low_pass or len(v) < FEWEST_FILTERED:
             return np.full(len(v), np.nan)
-        v = sosfiltfilt(butter(4, low_pass, fs=rate, output="sos"), v, axis=0)
+        v = low_passed_both_ways(butterworth(2.0 * low_pass / rate), v)
     return np.linalg.norm(v, axis=1)
 
 

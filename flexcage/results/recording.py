@@ -11,6 +11,7 @@ import numpy as np
 from flexcage.core.errors import FlexcageError, InputError, RunFailed, mistake_in
 from flexcage.core.progress import Silent
 from flexcage.results.faults import first_undefined, hardest, runaway
+from flexcage.results.lowpass import butterworth, low_passed
 from flexcage.results.options import OutputOptions
 from flexcage.results.recorded import own_coords, recorded
 from flexcage.results.registry import COMPUTED, VARIABLES, variables_of
@@ -290,11 +291,8 @@ class Recorder:
         raw = self.bearing.data.samples.force[:n] / mass
         if not fixed:
             raw = self.bearing.layout.u(yd)["outer"]
-        from scipy.signal import butter, sosfilt  # a third of a second that no step waits for
-
         cut = min(FILTER_HZ / (0.5 * self.output.vibration_rate), 0.95)
-        sections = butter(4, cut, output="sos")
-        filtered, self._filter = sosfilt(sections, raw, axis=0, zi=self._filter)
+        filtered = low_passed(butterworth(cut), raw, self._filter)
         return {"outer_acceleration": raw, "outer_acceleration_filtered": filtered}
 
     def _events(self) -> dict[str, np.ndarray]:

@@ -24,7 +24,7 @@ from flexcage.mesh.options import MeshOptions
 from flexcage.run import Run
 from flexcage.run_folder import was_written, write_case
 from flexcage.simulate import load_run, simulate
-from flexcage.stages import cage_mesh, cage_reduction
+from flexcage.stages import cage_mesh, cage_reduction, keep_at_hand
 from flexcage.study.folder import CaseRow, Failure, Folder
 from flexcage.study.outputs import beyond_summary, figures_of
 from flexcage.study.plan import Plan, Planned
@@ -84,7 +84,7 @@ def prepare(order: Order) -> None:
     """
     try:
         case = _case_of(order)
-        cage_reduction(case, cage_mesh(case))
+        keep_at_hand(cage_reduction(case, cage_mesh(case)))
     except Exception:
         return
 
@@ -104,6 +104,7 @@ def _complete(order: Order, folder: Folder) -> None:
     compile_kernels(case)
     part = folder.part(order.hash)
     run = _march(case, part, keep=order.keep)
+    keep_at_hand(run.cage)
     figures = figures_of(run, order.beyond)
     seconds = time.perf_counter() - begin
     folder.write_row(part, CaseRow(order.hash, seconds, figures, run.warnings))

@@ -28,6 +28,7 @@ from numba import types
 
 from flexcage.core.errors import InputError
 from flexcage.core.jit import LEAN, kernel, kernel_of, why_not_compiled
+from flexcage.core.kernel_values import KernelType
 from flexcage.core.registry import add, check_free
 from flexcage.system import spec as specs
 from flexcage.system.layout import CONSTRAINTS as REACTIONS
@@ -53,7 +54,7 @@ _F8, _VECTOR = types.float64, types.Array(types.float64, 1, "C")
 _MATRIX = types.Array(types.float64, 2, "C")
 ROWS = types.void(_F8, _VECTOR, _VECTOR, _VECTOR, _MATRIX, _VECTOR, _VECTOR)
 ALL_ROWS = types.void(_F8, _VECTOR, _VECTOR, _MATRIX, _MATRIX, _VECTOR, _VECTOR)
-ALL_ROWS_TYPE = types.FunctionType(ALL_ROWS)
+ALL_ROWS_TYPE = KernelType(ALL_ROWS)
 _ARGUMENTS = "t, q, u, p, G, g, h"
 
 

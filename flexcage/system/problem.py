@@ -20,14 +20,15 @@ from flexcage.bodies.floating_frame import marked
 from flexcage.contacts import laws
 from flexcage.contacts.spec import Contacts
 from flexcage.core.errors import InputError
+from flexcage.core.garbage import uncollected
 from flexcage.core.jit import (
     OPTIONS,
     FieldsType,
     allocating_kernel,
     boxed,
     compiled,
-    uncollected,
 )
+from flexcage.core.kernel_values import KernelType
 from flexcage.solve import runge_kutta
 from flexcage.solve.bordered import Bordered, new_bordered
 from flexcage.solve.contract import Integrator
@@ -204,13 +205,13 @@ class Bearing:
         self.laws = (*law_functions(contacts), rows, holds)
         own_laws = (
             *(laws.NORMAL_TYPE,) * 5, *(laws.FRICTION_TYPE,) * 5, ALL_ROWS_TYPE,
-            types.FunctionType(holding),
+            KernelType(holding),
         )  # fmt: skip
         self._apart = _evaluation(bearing, types.Tuple(own_laws))
-        apart = (types.FunctionType(self._apart),) * len(self.family.apart)
+        apart = (KernelType(self._apart),) * len(self.family.apart)
         law_type = types.Tuple((*own_laws, *apart))
         self._evaluation = _evaluation(bearing, law_type)
-        self.data_type = types.Tuple((bearing, law_type, types.FunctionType(self._evaluation)))
+        self.data_type = types.Tuple((bearing, law_type, KernelType(self._evaluation)))
         self._functions: dict[str, Any] = {}
         self._advance: dict[str, Any] = {}
         self._radius: Any = None
@@ -281,9 +282,7 @@ class Bearing:
 
     def function_types(self, integrator: Integrator) -> Any:
         """numba's type of that tuple."""
-        return types.Tuple(
-            tuple(types.FunctionType(self.signature(name)) for name in integrator.functions)
-        )
+        return types.Tuple(tuple(KernelType(self.signature(name)) for name in integrator.functions))
 
     def arguments(self, data: BearingData, law: tuple) -> tuple:
         """What the compiled functions take as their data."""

@@ -194,7 +194,8 @@ def test_centrifugal_growth_needs_its_mode(solver, basis):
 
 def test_modulus_times_ten_thousand_makes_a_rigid_cage(solver, basis):
     model = solver.model
-    stiff = dataclasses.replace(model, K=1e4 * model.K)
+    lame = tuple(1e4 * x for x in model.form.lame)
+    stiff = dataclasses.replace(model, form=dataclasses.replace(model.form, lame=lame))
     scaled = build_basis(
         stiff, pocket_count=POCKETS, spec=ModesSpec(), solver=FreeBodySolver(stiff)
     )

@@ -113,3 +113,24 @@ def test_defects_and_sizes_name_the_interface():
     other = reduction.reduce_cage(mesh, cage=longer, defects=(), spec=spec).interface
     assert not sound.offset.any() and bent.offset.any()
     assert other.stations[0, 0] == pytest.approx(sound.stations[0, 0] - 1e-5 * 3.0 / 7.0)
+
+
+def test_a_cage_on_disk_is_read_without_matrices(monkeypatch):
+    mesh, spec = cage_mesh(), ModesSpec(count=4)
+    built = reduction.reduce_cage(mesh, cage=CAGE, defects=(), spec=spec)
+    stored = reduction.reduce_cage(mesh, cage=CAGE, defects=(), spec=spec)
+    for name in ("assemble_ring", "assemble_whole"):
+        monkeypatch.setattr(f"flexcage.fem.model.{name}", never)
+    np.testing.assert_array_equal(stored.model.nodes, built.model.nodes)
+    np.testing.assert_array_equal(stored.shown.shapes, built.shown.shapes)
+
+
+def test_the_same_cage_is_known_by_content():
+    mesh, spec = cage_mesh(), ModesSpec(count=4)
+    one = reduction.reduce_cage(mesh, cage=CAGE, defects=(), spec=spec)
+    again = reduction.reduce_cage(cage_mesh(), cage=replace(CAGE), defects=(), spec=spec)
+    bent = reduction.reduce_cage(mesh, cage=CAGE, defects=DEFECTS, spec=spec)
+    fewer = reduction.reduce_cage(mesh, cage=CAGE, defects=(), spec=ModesSpec(count=3))
+    assert one.same_as(again)
+    assert not one.same_as(bent) and not one.same_as(fewer)
+    assert one.once("a", lambda: [1]) is one.once("a", never)

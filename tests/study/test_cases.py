@@ -1,5 +1,6 @@
 """One case on a worker: what it leaves in the folder, whatever happens."""
 
+import shutil
 from dataclasses import replace
 
 import numpy as np
@@ -15,6 +16,7 @@ from flexcage.core.progress import Silent
 from flexcage.results.files import load, save
 from flexcage.results.known import FLEXIBLE, KNOWN
 from flexcage.simulate import load_run, simulate
+from flexcage.stages import keep_at_hand
 from flexcage.study import run, work
 from flexcage.study.axes import Grid, Points
 from flexcage.study.folder import Folder
@@ -89,6 +91,29 @@ def test_cases_share_the_file_of_their_cage(folder):
     folder.case(every[0].hash).rename(alone)
     with pytest.raises(InputError, match="a study keeps the cages of its runs"):
         load_run(alone)
+
+
+def test_cases_with_the_same_cage_derive_from_it_once(folder, monkeypatch):
+    """The second case of a worker takes the first one's cage, and gives what it gives alone."""
+    case = short_case(**{"cage.model": "flexible", "modes.count": 4})
+    axes = (Grid("load.radial", ["500 N", "1 kN"]),)
+    study = Study(case=case, axes=axes, outputs=("cage_speed", "stress_peak"))
+    first, second = orders(folder, study)
+    keep_at_hand(None)
+    assert do_case(second) == "done"
+    alone = load_run(folder.case(second.hash)).dataset["cage_position"].values
+    shutil.rmtree(folder.case(second.hash))
+    assert do_case(first) == "done"
+
+    def never(*args, **kwargs):
+        raise AssertionError("derived again")
+
+    monkeypatch.setattr("flexcage.stages.cage_record", never)
+    monkeypatch.setattr("flexcage.run.StressRecovery", never)
+    assert do_case(second) == "done"
+    beside = load_run(folder.case(second.hash)).dataset["cage_position"].values
+    np.testing.assert_array_equal(beside, alone)
+    keep_at_hand(None)
 
 
 def other_format(part):
