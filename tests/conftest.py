@@ -1,8 +1,12 @@
-"""What tests of several rooms share: the N1013 with a rigid cage, and its kernels' arrays."""
+"""What tests of several rooms share: the N1013 with a rigid cage, and its kernels' arrays; and
+kernels that are compiled once for all processes of ``pytest -n``."""
 
 from __future__ import annotations
 
+import os
+from collections import Counter
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -67,3 +71,29 @@ def build_parts(n1013):
 def pytest_configure(config):
     # numba calls functions passed as values experimental
     config.addinivalue_line("filterwarnings", "ignore:First-class function type feature")
+
+
+def pytest_sessionstart(session):
+    """Compile the kernels before processes start that would each do so, with BLAS on one thread."""
+    option, worker = session.config.option, hasattr(session.config, "workerinput")
+    if worker or option.collectonly or not getattr(option, "numprocesses", None):
+        return
+    os.environ.setdefault("OMP_NUM_THREADS", "1")
+    from flexcage.case import load_case
+    from flexcage.study.work import compile_kernels
+
+    for name in ("n1013", "c7010"):
+        compile_kernels(load_case(session.config.rootpath / "examples" / f"{name}.toml"))
+
+
+def pytest_terminal_summary(terminalreporter):
+    """Seconds that each room's tests took, the longest first; of several processes, the sum."""
+    seconds: Counter[str] = Counter()
+    for reports in terminalreporter.stats.values():
+        for report in reports:
+            if isinstance(report, pytest.TestReport):
+                seconds[Path(report.nodeid).parent.name] += report.duration
+    if len(seconds) > 1:
+        terminalreporter.section("seconds by room")
+        for room, taken in seconds.most_common():
+            terminalreporter.write_line(f"{taken:7.1f}  {room}")

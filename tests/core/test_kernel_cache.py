@@ -6,6 +6,7 @@ import subprocess
 import sys
 import tempfile
 from errno import EACCES, ENOSPC
+from functools import partial
 from pathlib import Path
 
 import numba
@@ -56,22 +57,45 @@ tempfile.TemporaryFile = no_file
 """
 
 
+@pytest.fixture(scope="module")
+def script(tmp_path_factory):
+    """Folder of the script: numba knows kernels by where their source is."""
+    folder = tmp_path_factory.mktemp("script")
+    (folder / "own_kernel.py").write_text(SCRIPT, encoding="utf-8")
+    return folder
+
+
+@pytest.fixture(scope="module")
+def built(script, tmp_path_factory):
+    """A cache into which one process has written the kernel."""
+    folder = tmp_path_factory.mktemp("built")
+    assert ran(script, folder) == (0, "")
+    return folder / "cache"
+
+
 @pytest.fixture
-def run(tmp_path):
+def run(script, tmp_path):
     """run(before) -> (kernels read from disk, what was warned of) of a process with a kernel."""
+    return partial(ran, script, tmp_path)
 
-    def go(before: str = "", **env: str) -> tuple[int, str]:
-        (tmp_path / "own_kernel.py").write_text(SCRIPT, encoding="utf-8")
-        program = f"{before}\nimport own_kernel"
-        kept = {k: v for k, v in os.environ.items() if k != "NUMBA_CACHE_DIR"}
-        done = subprocess.run(
-            [sys.executable, "-c", program], cwd=tmp_path, capture_output=True, text=True,
-            env={**kept, "FLEXCAGE_CACHE_DIR": str(tmp_path / "cache"), **env},
-        )  # fmt: skip
-        assert done.returncode == 0, done.stderr
-        return int(done.stdout), done.stderr
 
-    return go
+def ran(script: Path, folder: Path, before: str = "", **env: str) -> tuple[int, str]:
+    """What a process of the script with a cache in this folder read from disk and warned of."""
+    kept = {k: v for k, v in os.environ.items() if k != "NUMBA_CACHE_DIR"}
+    path = os.pathsep.join([str(script), *filter(None, [kept.get("PYTHONPATH")])])
+    ours = {"PYTHONPATH": path, "FLEXCAGE_CACHE_DIR": str(folder / "cache")}
+    done = subprocess.run(
+        [sys.executable, "-c", f"{before}\nimport own_kernel"], cwd=folder, capture_output=True,
+        text=True, env={**kept, **ours, **env},
+    )  # fmt: skip
+    assert done.returncode == 0, done.stderr
+    return int(done.stdout), done.stderr
+
+
+@pytest.fixture
+def cached(tmp_path, built):
+    """The folder of ``run``, with a copy of the cache that has been built."""
+    shutil.copytree(built, tmp_path / "cache")
 
 
 def entries(tmp_path: Path) -> list[Path]:
@@ -90,9 +114,7 @@ DAMAGES = {
 
 @pytest.mark.parametrize("damage", DAMAGES)
 @pytest.mark.parametrize("suffix", [".nbi", ".nbc"])
-def test_a_damaged_kernel_is_compiled_anew(tmp_path, run, damage, suffix):
-    assert run() == (0, "")
-    assert run() == (1, "")
+def test_a_damaged_kernel_is_compiled_anew(tmp_path, run, cached, damage, suffix):
     (file,) = [p for p in entries(tmp_path) if p.suffix == suffix]
     file.write_bytes(DAMAGES[damage](file.read_bytes()))
     hits, told = run()
@@ -105,8 +127,7 @@ def test_a_damaged_kernel_is_compiled_anew(tmp_path, run, damage, suffix):
     assert run() == (1, "")
 
 
-def test_the_doctor_names_a_damaged_kernel(tmp_path, run, monkeypatch):
-    run()
+def test_the_doctor_names_a_damaged_kernel(tmp_path, cached, monkeypatch):
     folder = tmp_path / "cache" / "kernels"
     assert damaged(folder) == []
     (file,) = [p for p in entries(tmp_path) if p.suffix == ".nbc"]
@@ -144,8 +165,7 @@ def test_a_cache_that_cannot_be_written_is_told_once(tmp_path, run, name):
     assert run() == (1, "")
 
 
-def test_kernels_of_a_read_only_cache_are_read(tmp_path, run):
-    run()
+def test_kernels_of_a_read_only_cache_are_read(tmp_path, run, cached):
     assert run(REFUSES.format(folder=str(tmp_path / "cache"), name="EROFS")) == (1, "")
 
 
@@ -157,11 +177,11 @@ def test_without_any_folder_every_process_compiles(tmp_path, run):
     assert hits == 0 and len(told.splitlines()) == 1
 
 
-def test_never_beside_the_sources(tmp_path, run):
+def test_never_beside_the_sources(tmp_path, script, run):
     """There a change in a callee of another file would go unseen."""
     (tmp_path / "cache").write_text("in the way")
     run()
-    assert not list(tmp_path.rglob("*.nbi")) and not list(tmp_path.rglob("*.nbc"))
+    assert not [p for folder in (tmp_path, script) for p in folder.rglob("*.nb[ic]")]
 
 
 @pytest.mark.parametrize("number", [ENOSPC, EACCES])
