@@ -11,6 +11,7 @@ enough for their products and sums to be exact in floating point, in whatever or
 from __future__ import annotations
 
 from collections.abc import Mapping
+from typing import Any
 
 import numpy as np
 
@@ -114,6 +115,6 @@ def _sectors(mesh: CageMesh, count: int) -> np.ndarray | None:
     own = sectors.place[np.concatenate([tets.ravel(), vertices + middles])]
     nodes = sectors.followed(own[np.unique(lowest[own], return_index=True)[1]])
     alike = sectors.alike(mesh.points, nodes[:, nodes[0] < vertices])
-    cut = np.isin(nodes, sectors.place[sectors.doubled]).any(axis=1)
-    typical = min(max(alike, key=len), key=lambda k: cut[k])
-    return np.roll(nodes, -typical, axis=0)
+    cut: Any = np.isin(nodes, sectors.place[sectors.doubled]).any(axis=1)
+    most = np.array(max(alike, key=len))
+    return np.roll(nodes, -most[np.argmin(cut[most])], axis=0)
