@@ -15,7 +15,7 @@ from typing import Any
 
 from flexcage.case import Case, load_case
 from flexcage.core.binding import flat
-from flexcage.core.errors import FlexcageError, InputError, refuse_full
+from flexcage.core.errors import FlexcageError, InputError, unwritable
 from flexcage.core.locks import LOCK
 from flexcage.core.warning import RunWarning
 from flexcage.results.cage_file import (
@@ -122,12 +122,7 @@ def keep_cage(folder: Path, record: CageRecord, *, study: Path | None = None) ->
     try:
         write_cage(path, record)
     except OSError as exc:
-        refuse_full(f"The cage's file '{path}'", exc)
-        raise InputError(
-            f"The cage's file '{path}' cannot be written: {exc.strerror or exc}.",
-            where="out",
-            value=str(path),
-        ) from exc
+        raise unwritable(f"The cage's file '{path}'", exc, path=path) from exc
 
 
 def kept_cage(folder: Path, store: MemoryRunStore) -> CageRecord:

@@ -9,6 +9,7 @@ from __future__ import annotations
 import os
 import sys
 import time
+from errno import ENAMETOOLONG
 from typing import TYPE_CHECKING, NoReturn
 
 from flexcage.core import stopping
@@ -67,11 +68,13 @@ def _call(args: argparse.Namespace) -> int:
 
 def _sentence(exc: Exception) -> tuple[str, int]:
     """One sentence and the exit code for an error."""
-    from flexcage.core.errors import FlexcageError, is_full
+    from flexcage.core.errors import FlexcageError, in_one_line, is_full
 
     if isinstance(exc, FlexcageError):
         return str(exc), exc.exit_code
     if isinstance(exc, OSError):
+        if exc.errno == ENAMETOOLONG:
+            return in_one_line(f"The path '{exc.filename}' is too long for this machine."), 2
         place = f" at '{exc.filename}'" if exc.filename else ""
         if is_full(exc):
             return f"The disk is full{place}; what was written before is kept.", 1

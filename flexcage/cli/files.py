@@ -8,7 +8,7 @@ from collections.abc import Iterable, Iterator
 from contextlib import ExitStack, contextmanager
 from pathlib import Path
 
-from flexcage.core.errors import InputError, refuse_full
+from flexcage.core.errors import FlexcageError, InputError, unwritable
 from flexcage.core.locks import LOCK, check_free, held
 
 _OURS = ("case.toml", "results.zarr", "compare.json")  # one of them is in every folder of ours
@@ -79,14 +79,9 @@ def _holds_nothing(out: Path) -> bool:
     return holds_nothing(out)
 
 
-def _unwritable(out: Path, error: OSError) -> InputError:
-    refuse_full(f"The output folder '{out}'", error)
-    reason = (error.strerror or str(error)).lower()
-    return InputError(
-        f"The output folder '{out}' cannot be written ({reason}); name another with -o.",
-        where="out",
-        value=str(out),
-    )
+def _unwritable(out: Path, error: OSError) -> FlexcageError:
+    remedy = "name another with -o"
+    return unwritable(f"The output folder '{out}'", error, remedy=remedy, path=out)
 
 
 def empty_run(out: Path, ours: Iterable[str] = _OURS) -> None:

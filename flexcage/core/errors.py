@@ -75,10 +75,13 @@ def is_full(error: OSError) -> bool:
     return error.errno in (ENOSPC, EDQUOT)
 
 
-def refuse_full(what: str, error: OSError) -> None:
-    """Raise RunFailed if ``what`` could not be written because the disk is full: no mistake in the
-    input, as other errors of writing are."""
+def unwritable(
+    what: str, error: OSError, *, remedy: str = "", path: object = None
+) -> FlexcageError:
+    """The error to raise where ``what`` could not be written: RunFailed for a full disk, which is
+    no mistake in the input, else InputError with the ``remedy``, about the output ``path``."""
     if is_full(error):
-        raise RunFailed(
-            f"{what} cannot be written: the disk is full; make room and try again."
-        ) from error
+        return RunFailed(f"{what} cannot be written: the disk is full; make room and try again.")
+    reason = (error.strerror or str(error)).lower()
+    text = f"{what} cannot be written ({reason}){f'; {remedy}' if remedy else ''}."
+    return InputError(text, where="out", value=None if path is None else str(path))

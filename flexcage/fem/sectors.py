@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
+from itertools import combinations
 
 import numpy as np
 
@@ -119,6 +120,14 @@ def edge_keys(pairs: np.ndarray, n_points: int) -> np.ndarray:
     """A number (...) for each pair of vertices (..., 2), in whatever order."""
     rising = np.sort(pairs, axis=-1).astype(np.int64)
     return rising[..., 0] * n_points + rising[..., 1]
+
+
+def edges_of(cells: np.ndarray) -> np.ndarray:
+    """Sorted vertex pairs (n, 2) of the edges of triangles (m, 3) or tetrahedra (m, 4), each once,
+    in rising order."""
+    base = int(cells.max(initial=0)) + 1
+    pairs = cells[:, list(combinations(range(cells.shape[1]), 2))]
+    return np.stack(np.divmod(np.unique(edge_keys(pairs, base)), base), axis=1)
 
 
 def _repeats(tets: np.ndarray, following: np.ndarray, cells: np.ndarray) -> bool:

@@ -20,6 +20,7 @@ from flexcage.fem.condensed import dofs_of
 from flexcage.fem.dissection import dissect
 from flexcage.fem.fronts import Elimination
 from flexcage.fem.model import FEModel, assemble, boundary_of, triangle_shapes
+from flexcage.fem.sectors import edges_of
 from flexcage.mesh.cage_mesh import CageMesh
 
 _PAIRS = ((0, 1), (0, 2), (0, 3), (1, 2), (1, 3), (2, 3))
@@ -157,12 +158,6 @@ def _driven(
 def _edges(tets: np.ndarray) -> np.ndarray:
     """Sorted vertex pairs (6n, 2) of the edges of tetrahedra (n, 4)."""
     return np.sort(tets[:, np.array(_PAIRS)], axis=2).reshape(-1, 2)
-
-
-def edges_of(triangles: np.ndarray) -> np.ndarray:
-    """Sorted vertex pairs (n, 2) of the edges of triangles (m, 3), each once."""
-    pairs = np.sort(triangles[:, [[0, 1], [1, 2], [0, 2]]], axis=2)
-    return np.unique(pairs.reshape(-1, 2), axis=0)
 
 
 def row_of(table: np.ndarray, rows: np.ndarray) -> np.ndarray:

@@ -27,7 +27,7 @@ from typing import Any
 
 import numpy as np
 
-from flexcage.core.errors import InputError, refuse_full
+from flexcage.core.errors import InputError, unwritable
 from flexcage.mesh.abaqus import read_inp
 from flexcage.mesh.cage_mesh import (
     POCKET_GROUPS,
@@ -88,8 +88,7 @@ def write_mesh(mesh: CageMesh, path: str | Path) -> Path:
         with path.open("ab") as file:
             file.write(_MARKS[path.suffix])
     except OSError as error:
-        refuse_full(f"The mesh '{path}'", error)
-        raise InputError(f"{path} cannot be written: {error.strerror or error}") from error
+        raise unwritable(f"The mesh '{path}'", error, path=path) from error
     return path
 
 

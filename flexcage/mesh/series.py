@@ -10,7 +10,7 @@ from pathlib import Path
 
 import numpy as np
 
-from flexcage.core.errors import InputError, refuse_full
+from flexcage.core.errors import InputError, unwritable
 
 Frame = tuple[float, Mapping[str, np.ndarray]]  # time [s]; name to values (n_points, ...)
 
@@ -49,9 +49,7 @@ def new_folder(folder: str | Path) -> Path:
         folder.mkdir(parents=True, exist_ok=True)
         full = any(folder.iterdir())
     except OSError as exc:
-        refuse_full(f"The folder '{folder}'", exc)
-        reason = (exc.strerror or str(exc)).lower()
-        raise InputError(f"The folder '{folder}' cannot be written ({reason}).") from exc
+        raise unwritable(f"The folder '{folder}'", exc, path=folder) from exc
     if full:
         raise InputError(
             f"The output folder '{folder}' exists already; name another.",

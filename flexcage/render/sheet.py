@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from flexcage.core.errors import InputError, refuse_full
+from flexcage.core.errors import InputError, unwritable
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -224,9 +224,9 @@ def save(figure: Figure, path: str | Path) -> Path:
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
         _write(figure, path)
-    except (OSError, ValueError) as error:
-        if isinstance(error, OSError):
-            refuse_full(f"The picture {path}", error)
+    except OSError as error:
+        raise unwritable(f"The picture '{path}'", error, path=path) from error
+    except ValueError as error:
         raise InputError(
             f"The picture {path} cannot be written: {error}.", where="path", value=str(path)
         ) from error

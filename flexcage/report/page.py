@@ -15,7 +15,7 @@ from pathlib import Path
 from typing import Any
 
 from flexcage._version import __version__
-from flexcage.core.errors import InputError, refuse_full
+from flexcage.core.errors import InputError, unwritable
 from flexcage.report.blocks import Image, Page
 from flexcage.results.files import replace
 
@@ -44,13 +44,8 @@ def write_page(page: Page, path: str | Path) -> Path:
         path.parent.mkdir(parents=True, exist_ok=True)
         replace(path, text)
     except OSError as exc:
-        refuse_full(f"The report '{path}'", exc)
-        reason = (exc.strerror or str(exc)).lower()
-        raise InputError(
-            f"The report '{path}' cannot be written ({reason}); name another file with -o.",
-            where="out",
-            value=str(path),
-        ) from exc
+        remedy = "name another file with -o"
+        raise unwritable(f"The report '{path}'", exc, remedy=remedy, path=path) from exc
     return path
 
 

@@ -5,7 +5,9 @@ on another processor or by other releases of libraries, may be another one. So e
 cage: a Zarr group (version 3) in one zip file, with a group each for
 
     mesh        points [m], tets, triangles of the named groups, what is known of the mesh's sectors
-    basis       shapes rounded to 24 bits (``modes.storage``), stiffness, mass, frequencies, kinds
+    basis       shapes rounded to 24 bits (``modes.storage``; where the mesh repeats, one sector's
+                and what those of others are beyond it, ``repeating``), stiffness, mass,
+                frequencies, kinds
     interface   contact stations on the pockets' faces: modes there, compliances, weights
     body        inertia and damping of the floating frame
     table       the mode table
@@ -31,8 +33,10 @@ from flexcage.core.errors import InputError
 from flexcage.core.hashing import content_hash
 from flexcage.mesh.cage_mesh import CageMesh
 from flexcage.results.files import move_into_place
+from flexcage.results.repeating import pack, unpack
 
-FORMAT = 1
+FORMAT = 2
+READ = (1, 2)  # 1: shapes as they are, which a mesh that does not repeat has in 2 as well
 NAME = "cage.zip"  # in a run's folder
 SHARED = "cages"  # folder of a study, with one file for each distinct cage
 LARGE = ("mesh", "basis")  # groups left out where a run keeps no cage
@@ -84,14 +88,15 @@ def write_cage(path: Path, record: CageRecord) -> Path:
     from zarr.codecs import BloscCodec, Crc32cCodec
     from zarr.storage import ZipStore
 
-    codecs = [BloscCodec(cname="zstd", clevel=1, shuffle="shuffle"), Crc32cCodec()]
+    blocks = BloscCodec(cname="zstd", clevel=3, shuffle="shuffle", blocksize=2**20)
+    codecs = [blocks, Crc32cCodec()]
     path.parent.mkdir(parents=True, exist_ok=True)
     temporary = path.with_name(f"{path.name}.{os.getpid()}.new")  # workers may write the same
     try:
         with ZipStore(temporary, mode="w") as store:
             about = {"flexcage_cage": FORMAT, "digest": record.digest}
             root = zarr.create_group(store, zarr_format=3, attributes=about)
-            for kind, arrays in record.groups.items():
+            for kind, arrays in _packed(record).items():
                 values = {name: np.asarray(value) for name, value in arrays.items()}
                 texts = {n: v.tolist() for n, v in values.items() if v.dtype.kind in "US"}
                 group = root.create_group(kind, attributes={_TEXT: texts})
@@ -116,8 +121,8 @@ def read_cage(path: Path) -> CageRecord:
         with ZipStore(path, mode="r") as store:
             root = zarr.open_group(store, mode="r", zarr_format=3)
             found = root.attrs.get("flexcage_cage")
-            if found == FORMAT:
-                groups = {name: _arrays_of(group) for name, group in root.groups()}
+            if found in READ:
+                groups = {name: unpack(_arrays_of(group)) for name, group in root.groups()}
                 return CageRecord(groups, str(root.attrs["digest"]))
     except Exception as error:  # of the disk, the zip file, its checksums, or Zarr
         raise _unreadable(path, str(error) or type(error).__name__) from error
@@ -127,6 +132,14 @@ def read_cage(path: Path) -> CageRecord:
         where="cage",
         value=str(path),
     )
+
+
+def _packed(record: CageRecord) -> Groups:
+    """The groups as the file holds them: shapes by what repeats in them."""
+    mesh, basis = record.mesh, record.groups.get("basis")
+    if mesh is None or basis is None or "steps" not in basis:
+        return record.groups
+    return {**record.groups, "basis": pack(basis, mesh)}
 
 
 def _unreadable(path: Path, reason: str) -> InputError:

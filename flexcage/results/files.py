@@ -14,7 +14,7 @@ from zlib import error as BadStream
 
 import numpy as np
 
-from flexcage.core.errors import InputError, RunFailed, is_full, refuse_full
+from flexcage.core.errors import InputError, RunFailed, is_full, unwritable
 
 #: What ``load`` raises for a file that was cut short or changed.
 UNREADABLE = (BadZipFile, BadStream, EOFError, KeyError, ValueError)
@@ -34,10 +34,7 @@ def make_room(path: Path, overwrite: bool) -> None:
             shutil.rmtree(path)
         path.mkdir(parents=True, exist_ok=True)
     except OSError as error:
-        refuse_full(f"The folder {path}", error)
-        raise InputError(
-            f"The folder {path} cannot be written: {error.strerror}.", where="path", value=str(path)
-        ) from error
+        raise unwritable(f"The folder '{path}'", error, path=path) from error
 
 
 @contextmanager

@@ -33,7 +33,7 @@ class OutputOptions:
     )
     keep_cage: bool = option(
         True,
-        doc="keep the mesh and the mode shapes of a flexible cage with the results (10 to 40 MB); "
+        doc="keep the mesh and the mode shapes of a flexible cage with the results (2 to 40 MB); "
         "without them the cage is made anew on loading",
         former=True,
     )

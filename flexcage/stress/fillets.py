@@ -19,7 +19,8 @@ from scipy.spatial import cKDTree
 
 from flexcage.core.threads import on_all_cores
 from flexcage.fem.model import FEModel
-from flexcage.fem.submodel import Submodel, edges_of, row_of, submodel
+from flexcage.fem.sectors import edges_of
+from flexcage.fem.submodel import Submodel, row_of, submodel
 from flexcage.modes.basis import FACES
 from flexcage.modes.interface import hat_weights
 from flexcage.modes.lands import LANDS

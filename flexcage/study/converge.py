@@ -187,6 +187,9 @@ def _compare(case: Case, steps: Sequence[Level], figures: dict[str, Summary | st
         for level in coarser:
             findings += _findings(level, finest, figures)
     own = figures[case.hash]
+    names = {case.hash: "as is"}
+    for step in steps:
+        names.setdefault(step.case.hash, f"{step.axis} {step.name}")
     return Convergence(
         name=case.name,
         own=tuple(own.row(k) for k in OUTPUTS if k in own) if isinstance(own, Summary) else (),
@@ -196,6 +199,11 @@ def _compare(case: Case, steps: Sequence[Level], figures: dict[str, Summary | st
             f"{s.axis} {s.name}": sentence
             for s in steps
             if isinstance(sentence := figures[s.case.hash], str)
+        },
+        warnings={
+            name: run.warnings or ()
+            for key, name in names.items()
+            if isinstance(run := figures[key], Summary)
         },
     )
 

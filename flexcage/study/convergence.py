@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import json
-from dataclasses import asdict, dataclass
+from collections.abc import Mapping, Sequence
+from dataclasses import asdict, dataclass, field
 from math import floor, isfinite, log10, nan
 from pathlib import Path
 from typing import Any
 
+from flexcage.core.warning import RunWarning
 from flexcage.results.summary import Row
 
 GOAL = 0.02  # relative difference within which a statistic counts as converged
@@ -76,7 +78,8 @@ class Finding:
 
 @dataclass(frozen=True, kw_only=True)
 class Convergence:
-    """A study of one case: ``own`` figures, ``findings`` by output, and ``failures`` by level.
+    """A study of one case: ``own`` figures, ``findings`` by output, ``failures`` by level, and what
+    ``warnings`` each of the distinct runs has.
 
     ``compared`` names for each axis the level that the table holds against the finest: the
     case's own, or the one before the finest if the case itself is the finest.
@@ -87,12 +90,14 @@ class Convergence:
     findings: tuple[Finding, ...]
     compared: dict[str, tuple[str, str]]
     failures: dict[str, str]
+    warnings: Mapping[str, Sequence[RunWarning]] = field(default_factory=dict)
 
     def __str__(self) -> str:
         return self.table()
 
     def table(self) -> str:
-        """Outputs of the case, and how far each is from the finest level of every axis."""
+        """Warnings, then the outputs of the case, and how far each is from the finest level of
+        every axis."""
         cells = [
             [
                 "",
@@ -106,9 +111,22 @@ class Convergence:
             figure = f"{row.text} {row.margin_text}".rstrip()
             cells.append([row.label, figure, row.shown, *(f.text if f else "-" for f in found)])
         widths = [max(map(len, column)) for column in zip(*cells)]
-        lines = ["  ".join(c.ljust(w) for c, w in zip(line, widths)).rstrip() for line in cells]
+        lines = self._warning_lines()
+        lines += ["  ".join(c.ljust(w) for c, w in zip(line, widths)).rstrip() for line in cells]
         lines += [f"failed, {where}: {reason}" for where, reason in self.failures.items()]
         return "\n".join(lines)
+
+    def _warning_lines(self) -> list[str]:
+        """One line for every kind of warning: the runs that have it, and what the first says."""
+        found: dict[str, dict[str, str]] = {}
+        for run, warnings in self.warnings.items():
+            for warning in warnings:
+                found.setdefault(warning.key, {}).setdefault(run, warning.text)
+        return [
+            f"Warning, {len(texts)} of {len(self.warnings)} runs ({'; '.join(texts)}): "
+            f"{next(iter(texts.values()))}"
+            for texts in found.values()
+        ]
 
     def _at(self, axis: str, output: str) -> Finding | None:
         level = self.compared[axis][0]
@@ -126,5 +144,10 @@ class Convergence:
         (folder / "converge.txt").write_text(self.table() + "\n", encoding="utf-8")
         pd.DataFrame(records).to_csv(folder / "converge.csv", index=False)
         plain = [{k: None if v != v else v for k, v in r.items()} for r in records]
-        content = {"case": self.name, "findings": plain, "failures": self.failures}
+        content = {
+            "case": self.name,
+            "findings": plain,
+            "failures": self.failures,
+            "warnings": {run: [asdict(w) for w in told] for run, told in self.warnings.items()},
+        }
         (folder / "converge.json").write_text(json.dumps(content, indent=2), encoding="utf-8")

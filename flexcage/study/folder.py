@@ -23,7 +23,7 @@ from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any
 
-from flexcage.core.errors import InputError, refuse_full
+from flexcage.core.errors import InputError, unwritable
 from flexcage.core.locks import LOCK, held
 from flexcage.core.warning import RunWarning
 from flexcage.results.files import replace
@@ -137,14 +137,8 @@ class Folder:
                 _write_json(self.path / "plan.json", kept)
                 replace(self.path / "study.toml", plan.study.to_toml().encode())
         except OSError as exc:
-            refuse_full(f"The study's folder '{self.path}'", exc)
-            reason = (exc.strerror or str(exc)).lower()
-            raise InputError(
-                f"The study's folder '{self.path}' cannot be written ({reason}); name another "
-                "with -o.",
-                where="out",
-                value=str(self.path),
-            ) from exc
+            what, remedy = f"The study's folder '{self.path}'", "name another with -o"
+            raise unwritable(what, exc, remedy=remedy, path=self.path) from exc
 
     def held(self) -> AbstractContextManager[None]:
         """Let no other process run a study here meanwhile; InputError if one does.

@@ -145,6 +145,14 @@ def test_a_file_in_the_way(elsewhere, capsys):
     assert "is a file" in sentence(capsys)
 
 
+@pytest.mark.parametrize("command", ["run", "converge", "mesh"])
+def test_a_path_that_is_too_long(elsewhere, capsys, command):
+    ending = ".vtu" if command == "mesh" else ""
+    assert cli.main([command, EXAMPLE, "-o", 5000 * "a" + ending]) == 2
+    said = sentence(capsys)
+    assert "is too long for this machine" in said and len(said) < 300
+
+
 def test_a_folder_that_cannot_be_written(elsewhere, capsys, monkeypatch):
     def refuse(*args, **kwargs):
         raise PermissionError(13, "Permission denied")

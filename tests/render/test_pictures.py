@@ -341,7 +341,7 @@ def test_no_backend_is_a_sentence(field, tmp_path, monkeypatch):
 def test_a_full_disk_is_no_mistake_in_the_input(run, tmp_path):
     picture = tmp_path / "h.png"
     picture.symlink_to("/dev/full")
-    with pytest.raises(RunFailed, match=r"picture .*h.png cannot be written: the disk is full"):
+    with pytest.raises(RunFailed, match=r"picture .*h.png' cannot be written: the disk is full"):
         render.histories(run, picture)
     (tmp_path / "file").write_text("")
     with pytest.raises(InputError, match="cannot be written"):

@@ -106,9 +106,9 @@ def test_another_format_is_refused(tmp_path, record):
     path = write_cage(tmp_path / "cage.zip", record)
     with zipfile.ZipFile(path) as old, zipfile.ZipFile(tmp_path / "new.zip", "w") as new:
         for name in old.namelist():
-            text = old.read(name).replace(b'"flexcage_cage": 1', b'"flexcage_cage": 9')
+            text = old.read(name).replace(b'"flexcage_cage": 2', b'"flexcage_cage": 9')
             new.writestr(name, text)
-    with pytest.raises(InputError, match="in format 9, and this flexcage reads format 1"):
+    with pytest.raises(InputError, match="in format 9, and this flexcage reads format 2"):
         read_cage(tmp_path / "new.zip")
 
 

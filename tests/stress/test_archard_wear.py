@@ -91,8 +91,8 @@ def power_by_hand():
     return FORCE * (sum(speeds_by_hand()) + end_speed(preset.bearing, preset.cage))
 
 
-def worn(ds, parts, law=LAW, land=None):
-    windows = Windows(NT, np.arange(0, NT, 10))
+def worn(ds, parts, law=LAW, land=None, passes=40):
+    windows = Windows(NT, np.arange(0, NT, NT // passes))
     return wear(ds, *parts, land or LandSpec(), law, windows)
 
 
@@ -109,6 +109,12 @@ def test_constant_force_and_sliding(rolling, n1013):
     assert int((rate > 0.0).sum()) == 3
     assert found.friction_check == near(1.0)
     assert float(found.dataset["margin"].sel(pocket=3, face="front")) < 1e-9 * float(rate.max())
+
+
+def test_a_table_explains_that_it_has_no_intervals(rolling, n1013):
+    table = worn(rolling, n1013, passes=2).table()
+    assert "No interval (-)" in table and " - " in table and "nan" not in table
+    assert "No interval" not in worn(rolling, n1013).table()
 
 
 def test_depth_is_volume_over_the_track(rolling, n1013):

@@ -29,6 +29,22 @@ def life_of(stress, curve=CURVE):
     return place_fatigue(counted, curve, windows, samples=samples, step=STEP, turn=TURN)["here"]
 
 
+def table_of(stress, *, passes, turn=TURN):
+    windows = Windows(len(stress), np.linspace(0, len(stress), passes, endpoint=False, dtype=int))
+    counted = {"here": (7, CountedStress(0, np.array([1.0, 0.0, 0.0]), stress))}
+    samples = np.arange(len(stress))
+    return place_fatigue(counted, CURVE, windows, samples=samples, step=STEP, turn=turn).table()
+
+
+def test_a_table_explains_its_dashes():
+    said = {"No interval (-)": {"passes": 2}, "No stress once a turn (-)": {"turn": np.nan}}
+    for sentence, change in said.items():
+        table = table_of(sine(80e6), **{"passes": 50, **change})
+        assert "-" in table.splitlines()[1].split() and sentence in table and "nan" not in table
+    table = table_of(sine(80e6), passes=50)
+    assert "(-)" not in table and "-" not in table.splitlines()[1].split()
+
+
 def sine(amplitude, mean=0.0, cycles=50, samples=100):
     """Whole cycles, each with samples at its two ends."""
     return mean + amplitude * np.sin(2.0 * np.pi * np.arange(cycles * samples) / samples)

@@ -1,6 +1,7 @@
 """What a convergence study says, from runs whose figures are chosen; and one real study."""
 
 import json
+import re
 
 import numpy as np
 import pandas as pd
@@ -9,6 +10,7 @@ import pytest
 from flexcage import cli
 from flexcage.case import load_case
 from flexcage.core.errors import InputError, RunFailed
+from flexcage.core.warning import RunWarning
 from flexcage.results.statistics import Record
 from flexcage.results.summary import Row, Section, Summary
 from flexcage.simulate import simulate
@@ -40,7 +42,9 @@ class FakeRun:
             Row("slip_loaded", "Loaded zone, slip ratio", 0.01, "%"),
             Row("first_frequency", "First frequency", frequency, "Hz"),
         )
-        self.summary = Summary((Section("all", rows),))
+        high = case.mesh.fineness == "fine" or case.modes.count == 48
+        warned = (RunWarning("stress_above_proof", f"{case.modes.count} modes"),) if high else ()
+        self.summary = Summary((Section("all", rows),), warned)
         out.mkdir(parents=True)
         self.summary.write(out)
 
@@ -54,6 +58,16 @@ def fake(monkeypatch):
 def at(found, axis, level, output):
     (one,) = (f for f in found.findings if (f.axis, f.level, f.output) == (axis, level, output))
     return one
+
+
+def test_warnings_of_its_runs_come_first(tmp_path):
+    for found in (converge(CASE, out=tmp_path), converge(CASE, out=tmp_path)):  # made, and read
+        first = str(found).splitlines()[0]
+        assert re.fullmatch(r"Warning, 2 of \d+ runs \(modes 48; mesh fine\): 48 modes", first)
+        assert found.warnings["as is"] == ()
+    assert first in (tmp_path / "converge.txt").read_text()
+    stored = json.loads((tmp_path / "converge.json").read_text())["warnings"]
+    assert stored["mesh fine"] == [{"key": "stress_above_proof", "text": "24 modes"}]
 
 
 def test_what_it_says_of_each_output(tmp_path):
