@@ -66,7 +66,7 @@ class Layout:
         return min(index * block, n), min((index + 1) * block, n)
 
     def checked(self, index: int, arrays: Arrays, grid: str) -> dict[str, np.ndarray]:
-        """The block's arrays as they are stored, after checking names, lengths and shapes."""
+        """The block's arrays in the types of datasets, after checking names, lengths and shapes."""
         wanted = {v.name: v for v in self.variables if v.dims[0] == grid}
         if set(wanted) != set(arrays):
             missing, extra = sorted(set(wanted) - set(arrays)), sorted(set(arrays) - set(wanted))
@@ -75,7 +75,7 @@ class Layout:
         out: dict[str, np.ndarray] = {}
         lengths = set()
         for name, var in wanted.items():
-            a = np.asarray(arrays[name])
+            a = np.asarray(arrays[name], dtype=var.dtype)
             tail = self.shape(var)[1:]
             if a.ndim != len(var.dims) or a.shape[1:] != tail or a.shape[0] > stop - start:
                 raise ValueError(
@@ -83,7 +83,7 @@ class Layout:
                     f"{', '.join(map(str, tail))})"
                 )
             lengths.add(a.shape[0])
-            out[name] = var.rounded(a)
+            out[name] = a
         if len(lengths) > 1:
             raise ValueError(f"block {index}: arrays on {grid!r} differ in length: {lengths}")
         return out

@@ -11,7 +11,7 @@ positions of elements to 38 bits (an angle grows without bound), all else in sin
 bits. Values that mean something only together are rounded together, to a share of the largest of
 them at that instant: quaternions to 6e-8, modal values and the two moments of a race to 1e-6;
 forces of slices, points and stations of a face, and residual coordinates of a pocket, to 3e-5.
-Stores in memory round as those on disk do. What a run is resumed from is not rounded.
+Runs in memory are not rounded, and nothing that a run is resumed from is.
 """
 
 from __future__ import annotations

@@ -121,8 +121,6 @@ class MemoryRunStore:
             if grid == TIME and done == stop:
                 commit["blocks"] = index + 1
         given = {**dict.fromkeys(_EVERY, _NOTHING), **tables}
-        if LOADS in given:
-            given[LOADS] = rounded_loads(given[LOADS])
         self._store(index, {**main, **fine}, commit, checkpoint, given)
 
     def _store(self, index, data, commit, checkpoint, tables) -> None:
@@ -283,7 +281,8 @@ class RunStore(MemoryRunStore):
                 if v.name in data and 0 not in self.layout.shape(v):
                     self._chunks(v).write(index, self._chunk(v, data[v.name]))
             for kind, table in tables.items():
-                self._tables_of(kind).write(index, packed(table))
+                kept = rounded_loads(table) if kind == LOADS else table
+                self._tables_of(kind).write(index, packed(kept))
             if checkpoint is not None:
                 commit["checkpoint"] = f"checkpoint-{index + 1:06d}.npz"
                 save(side / commit["checkpoint"], checkpoint)
@@ -309,7 +308,7 @@ class RunStore(MemoryRunStore):
         if len(values) < shape[0]:
             rest = np.full((shape[0] - len(values), *shape[1:]), np.nan, values.dtype)
             values = np.concatenate([values, rest])
-        return encoded(values, self.layout.order(var))
+        return encoded(var.rounded(values), self.layout.order(var))
 
     def _chunks(self, var: Variable) -> Chunks:
         """The blocks of a variable."""

@@ -68,15 +68,15 @@ def run():
 
 def test_slip_counts_from_rolling_at_the_angles_of_loaded_balls(run):
     own = metrics.at_own_angles(run, NUMBERS)
-    assert own.angles == pytest.approx((INNER, OUTER), rel=1e-7)  # stored in single precision
+    assert own.angles == pytest.approx((INNER, OUTER), rel=1e-12)
     speed = metrics.cage_speed(run, NUMBERS)
     orbit, _ = by_hand()
-    assert speed.epicyclic == pytest.approx(orbit, rel=1e-7)
+    assert speed.epicyclic == pytest.approx(orbit, rel=1e-12)
     assert speed.slip_ratio == pytest.approx(SLIP, rel=1e-6)
     nominal = 0.5 * SPEED * (1.0 - NUMBERS.roller_diameter * np.cos(NUMBERS.contact_angle) / PITCH)
     assert speed.nominal == pytest.approx(nominal, rel=1e-12)
     assert speed.nominal_slip == pytest.approx(1.0 - speed.mean / nominal, rel=1e-9)
-    assert np.abs(metrics.ball_slip_ratio(run, NUMBERS)).max() < 1e-7
+    assert np.abs(metrics.ball_slip_ratio(run, NUMBERS)).max() < 1e-12
     assert np.abs(metrics.ball_slip_ratio(run, NUMBERS, nominal=True)).min() > 1e-3
 
 
@@ -85,7 +85,7 @@ def test_the_summary_names_both_references(run):
     note = s.row("epicyclic_speed").note
     assert note == "pure rolling at the mean contact angles, 24.1 deg inner, 12.6 deg outer"
     assert s["cage_slip_ratio"] == pytest.approx(SLIP, rel=1e-5)
-    assert s["slip_loaded"] == pytest.approx(0.0, abs=1e-7)
+    assert s["slip_loaded"] == pytest.approx(0.0, abs=1e-12)
     for key in ("epicyclic_speed_nominal", "cage_slip_ratio_nominal", "slip_loaded_nominal"):
         assert s.row(key).note == "by the nominal contact angle, 15 deg"
     assert s["epicyclic_speed_nominal"] != pytest.approx(s["epicyclic_speed"], rel=1e-3)
