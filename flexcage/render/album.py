@@ -31,6 +31,7 @@ from flexcage.results.metrics import BearingNumbers, settled
 if TYPE_CHECKING:
     import xarray
 
+_NEW_OBJECTS = 50_000  # after which they are looked at for garbage
 Drawing = partial[Path]  # draws one picture, and gives its path
 
 _FILES = (
@@ -132,12 +133,15 @@ def draw_album(
 
 @contextmanager
 def _few_collections() -> Iterator[None]:
-    """Python's garbage collector looks at what is new alone: figures are many small objects, and
-    it would look again and again through all that a run holds."""
+    """Python's garbage collector looks less often, and at what is new alone: figures are many small
+    objects, and it would look again and again through all that a run holds."""
+    usual = gc.get_threshold()
     gc.freeze()
+    gc.set_threshold(_NEW_OBJECTS, *usual[1:])
     try:
         yield
     finally:
+        gc.set_threshold(*usual)
         gc.unfreeze()
 
 

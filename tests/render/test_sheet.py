@@ -35,8 +35,9 @@ def test_other_formats_are_written_by_their_suffix(tmp_path):
 
 
 def test_what_is_old_is_not_collected_while_pictures_are_drawn():
-    before = gc.get_freeze_count()
+    before, usual = gc.get_freeze_count(), gc.get_threshold()
     with pytest.raises(KeyError), album._few_collections():
         assert gc.get_freeze_count() > before
         raise KeyError
     assert gc.get_freeze_count() <= before
+    assert gc.get_threshold() == usual
