@@ -60,8 +60,9 @@ tempfile.TemporaryFile = no_file
 def run(tmp_path):
     """run(before) -> (kernels read from disk, what was warned of) of a process with a kernel."""
 
+    (tmp_path / "own_kernel.py").write_text(SCRIPT, encoding="utf-8")
+
     def go(before: str = "", **env: str) -> tuple[int, str]:
-        (tmp_path / "own_kernel.py").write_text(SCRIPT, encoding="utf-8")
         program = f"{before}\nimport own_kernel"
         kept = {k: v for k, v in os.environ.items() if k != "NUMBA_CACHE_DIR"}
         done = subprocess.run(
