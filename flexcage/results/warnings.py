@@ -201,7 +201,9 @@ def _yield(o: Outcome) -> Iterator[RunWarning]:
 
 
 def _thrown_off(o: Outcome) -> Iterator[RunWarning]:
-    if has_land(o.cage, o.land):  # which holds it, also one that rotation has made larger
+    # A land ends the growth of a whirl, also of one that rotation has made larger: no later failure
+    # is to be told. How far the cage swings and how hard it strikes are figures of the summary.
+    if has_land(o.cage, o.land):
         return
     part = metrics.settled(o.dataset, o.settle)
     radius = metrics.whirl_radius(part, about="axis")
