@@ -1,4 +1,4 @@
-"""Python's search for unused objects pauses while a program loads, and leaves out what that made."""
+"""Python's search for unused objects pauses while a program loads, and leaves that out."""
 
 import subprocess
 import sys
