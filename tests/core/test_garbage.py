@@ -1,8 +1,4 @@
-<<<<<<< HEAD
-"""Python's search for unused objects pauses while a program loads, and skips what that made."""
-=======
 """Python's search for unused objects pauses while a program loads, and leaves that out."""
->>>>>>> w-start
 
 import subprocess
 import sys
