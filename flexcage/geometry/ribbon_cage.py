@@ -21,6 +21,7 @@ HEAD = 1.75  # a round head's diameter over its rivet's, and
 HEAD_HEIGHT = 0.6  # its height, likewise (ISO 1051)
 _THINNEST = 0.02  # sheet over the pockets' diameter; elements are as small as it is thin
 _LEAST_OPENING = 0.1  # of the sheet's thickness; smaller holes want elements as small
+_LEAST_NECK = 0.02  # likewise: the least sheet beside the holes
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -124,13 +125,13 @@ class RibbonCage(BallCage):
     def no_room(self, pitch_diameter: float, pocket_count: int) -> Iterator[Objection]:
         yield from self._low_rim(pitch_diameter)
         inner, outer = 0.5 * self.bore, 0.5 * self.outside_diameter
-        left = self._beside(pitch_diameter)
+        left = self._beside(pitch_diameter) - _LEAST_NECK * self.thickness
         if not self.opening < left:
             least = 2.0 * sqrt(max(0.25 * self.pocket_diameter**2 - left**2, 0.0))
             yield (
                 "width",
                 f"so the holes of {describe(2.0 * self.opening, 'mm')} at the sides of its pockets "
-                f"cut the sheet through; it must be greater than {describe(least, 'mm')}",
+                f"cut the sheet through, or nearly; it must exceed {describe(least, 'mm')}",
             )
         flat = pitch_diameter * sin(pi / pocket_count) - 2.0 * self.bend_centre[1]
         if not flat > self.rivet_diameter:
