@@ -15,8 +15,8 @@ flexcage's BDF at 1e-4 of a tolerance of 10 nm, largest of all unknowns so far:
 So both approach one solution, and from 2 ms on no tolerance helps. Statistics over 20 ms are chance
 as well: eight runs that differ by their tolerance alone scatter, as standard deviations, by 0.004 %
 (load of the most loaded roller), 0.4 % (sum of crossbeam forces; IDA's by 2.2 %) and 0.0006 % (cage
-speed). So means over eight runs of each are compared; they differ by 0.001 %, 1.5 % and 0.0001 %.
-The bound of crossbeam forces is seven standard errors of that difference, those of the others more.
+speed). So means over eight runs of each are compared; they differ by 0.004 %, 1.5 % and 0.0003 %.
+Bounds are seven standard errors of these differences, and more of the cage speed's.
 """
 
 from __future__ import annotations
