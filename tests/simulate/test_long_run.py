@@ -1,6 +1,6 @@
 """A thousand revolutions: memory does not grow, and twenty kills lose nothing and change nothing.
 
-An hour of two cores: ``pytest -m slow tests/simulate/test_long_run.py``.
+A quarter of an hour: ``pytest -m slow tests/simulate/test_long_run.py``.
 """
 
 import subprocess

@@ -12,9 +12,11 @@ flexcage's BDF at 1e-4 of a tolerance of 10 nm, largest of all unknowns so far:
     1e-3                                      0.03      0.13     0.52      4.5       33
     1e-4                                      0.01      0.06     0.21      1.4       34
 
-So both approach one solution, and from 2 ms on no tolerance helps. Statistics over 20 ms: five runs
-of flexcage, told apart by their tolerance, scatter by 0.002 % (load of the most loaded roller),
-0.8 % (sum of crossbeam forces) and 0.0006 % (cage speed); bounds are seven of these.
+So both approach one solution, and from 2 ms on no tolerance helps. Statistics over 20 ms are chance
+as well: eight runs that differ by their tolerance alone scatter, as standard deviations, by 0.004 %
+(load of the most loaded roller), 0.4 % (sum of crossbeam forces; IDA's by 2.2 %) and 0.0006 % (cage
+speed). So means over eight runs of each are compared; they differ by 0.004 %, 1.5 % and 0.0003 %.
+Bounds are seven standard errors of these differences, and more of the cage speed's.
 """
 
 from __future__ import annotations
@@ -26,6 +28,7 @@ import numpy as np
 import pytest
 from peers import Peers
 from settled import SETTLE, Settled
+from verification_bearing import log
 
 import flexcage
 from flexcage.system.scales import error_weights
@@ -37,6 +40,7 @@ pytestmark = pytest.mark.slow
 CASE = Path(__file__).resolve().parents[2] / "examples" / "n1013.toml"
 UNIT = 1e-8  # [m] of the differences
 EVERY = 4  # of the samples at 200 kHz: what statistics are made of
+SHARES = np.linspace(0.86, 1.0, 8)  # of the tolerance: each gives another chaotic motion
 
 
 @pytest.fixture(scope="module")
@@ -97,12 +101,17 @@ def test_same_trajectory(settled, start):
 def test_same_statistics(settled):
     """Over 20 ms, long after both have parted."""
     peers = Peers(settled, 20e-3)
-    path = peers.ida(1.0, max_order=5)
-    ours = settled.integrate(20e-3, stride=EVERY)
-    both = [statistics(settled, peers.times, run) for run in (path, ours)]
-    np.testing.assert_allclose(both[0][0], both[1][0], rtol=1.4e-4)
-    np.testing.assert_allclose(both[0][1], both[1][1], rtol=0.056)
-    np.testing.assert_allclose(both[0][2], both[1][2], rtol=4e-5)
+
+    def mean(integrate):
+        runs = [statistics(settled, peers.times, integrate(share)) for share in SHARES]
+        log.info("load, crossbeam forces, cage speed: %s", np.round(runs, 3).tolist())
+        return np.mean(runs, axis=0)
+
+    theirs = mean(lambda share: peers.ida(share, max_order=5))
+    ours = mean(lambda share: settled.integrate(20e-3, stride=EVERY, share=share))
+    np.testing.assert_allclose(theirs[0], ours[0], rtol=1.4e-4)
+    np.testing.assert_allclose(theirs[1], ours[1], rtol=0.056)
+    np.testing.assert_allclose(theirs[2], ours[2], rtol=4e-5)
 
 
 def statistics(settled, times, run) -> tuple[float, float, float]:
