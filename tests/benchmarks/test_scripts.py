@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 
-README = Path(__file__).with_name("README.md")
+PAGES = [Path(__file__).with_name(name) for name in ("README.md", "peers.md")]
 FAST = ("solver", "fe", "scale", "ball", "start", "own")
 SLOW = {
     "peer": "sksundae",
@@ -25,7 +25,8 @@ POSITIVE = re.compile(
 def promised(what):
     """Keys in the tables of a benchmark's section."""
     section, level = "", 0
-    for line in README.read_text("utf-8").splitlines(keepends=True):
+    text = "".join(page.read_text("utf-8") for page in PAGES)
+    for line in text.splitlines(keepends=True):
         heading = re.match(r"(#+) (.*)", line)
         if heading and (not level or len(heading[1]) <= level):
             level = len(heading[1]) if heading[2].lower() == what else 0

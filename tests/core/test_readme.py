@@ -19,7 +19,7 @@ ROOT = Path(__file__).parents[2]
 FOLDERS = ("examples", "flexcage", "meshes", "tests")
 PAGES = sorted([ROOT / "README.md", *(p for f in FOLDERS for p in (ROOT / f).rglob("*.md"))])
 MOST_LINES = 300
-LONG = ("examples/papers/", "tests/benchmarks/README.md")  # pages that may be longer
+LONG = ("examples/papers/",)  # pages that may be longer
 #: Presets for the cases of a page, block by block, where they name none.
 CASES = {
     "README.md": ("",),
