@@ -11,7 +11,7 @@ all six stresses at chosen vertices.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from functools import cached_property
 from typing import Protocol
 
@@ -25,6 +25,7 @@ from flexcage.stress.midpoints import edges_across
 from flexcage.stress.operators import deviator
 from flexcage.stress.places import contact_zone, root_places
 from flexcage.stress.recovery import StressRecovery
+from flexcage.stress.screening import Screen
 
 _KEPT = 48  # fields that are evaluated at once: bounds the memory of all six parts
 _TOGETHER = 33  # right-hand sides of land forces that are solved at once
@@ -64,19 +65,6 @@ class SomePoints:
     @cached_property
     def land_forces(self) -> np.ndarray:
         return self._at(self._whole.land_forces)
-
-
-class Gauges(SomePoints):
-    """The tables of some points of every place, one place after the other."""
-
-    def __init__(self, whole: Tables, points: Sequence[np.ndarray]) -> None:
-        super().__init__(whole, np.concatenate(points))
-        self._first = np.cumsum([0, *(len(own) for own in points)])[:-1]
-
-    def largest(self, parts: np.ndarray) -> np.ndarray:
-        """Largest equivalent stress (nt, n_places) of deviators (5, n_points, nt), whose place it
-        takes."""
-        return np.maximum.reduceat(_equivalent(parts), self._first, axis=0).T
 
 
 class Operator(Protocol):
@@ -273,27 +261,64 @@ class StressFields(UnitFields):
     def _parts(self, stress: np.ndarray) -> np.ndarray:
         return deviator(stress)
 
-    def equivalent(self, parts: np.ndarray) -> np.ndarray:
-        """Equivalent stress (n_surface, nt) of deviators (5, n_points, nt), whose place it takes:
-        the largest of a vertex's points."""
-        return self._stress.largest(_equivalent(parts))
+    def loads(
+        self, q: np.ndarray, station_forces: np.ndarray, land_forces: np.ndarray | None
+    ) -> np.ndarray:
+        """Loads (nt, columns) of the columns of ``screen``'s table."""
+        pushes = [q, self.reduced_forces(station_forces)]
+        if land_forces is not None:
+            pushes.append(land_forces.reshape(len(q), -1))
+        return np.concatenate([each.astype(np.float32) for each in pushes], axis=1)
 
-    def middles(self, parts: np.ndarray) -> np.ndarray:
-        """Equivalent stress (n_edges, nt) in the middles of the edges, of deviators as above."""
-        one, two = self._ends
-        return _equivalent(0.5 * (parts[:, one] + parts[:, two]))
+    def screen(self, typical: np.ndarray, *, lands: bool) -> tuple[Screen, np.ndarray]:
+        """Bounds on the stress of the points and, numbered after these, of the edges' middles; and
+        the row (n_points + n_edges,) of each in them. ``typical``: some of the ``loads``.
 
-    def gauges(self, vertices: Sequence[np.ndarray]) -> Gauges:
-        """The fields at some vertices of every place, rows of ``surface``."""
-        first = np.searchsorted(self.vertices, self.surface)
-        end = np.append(first[1:], len(self.vertices))
-        points = [np.concatenate([np.arange(first[v], end[v]) for v in own]) for own in vertices]
-        return Gauges(self, points)
+        Rows of searched vertices come first, and those of a place lie side by side.
+        """
+        tables = [self.modes, self.forces, *([self.land_forces] if lands else [])]
+        count = len(self.vertices)
+        label = self._labels()
+        order = np.argsort(label, kind="stable")
+        ends = np.concatenate([np.stack([np.arange(count)] * 2), self._ends], axis=1)[:, order]
+        first = np.cumsum([0, *(table.shape[1] for table in tables)])
 
+        def rows(points: np.ndarray, columns: np.ndarray | None) -> np.ndarray:
+            one, two = (count * np.arange(self.parts) + ends[:, points, None]).reshape(2, -1)
+            middle = np.flatnonzero(one != two)
+            found = []
+            for table, begin, end in zip(tables, first, first[1:]):
+                if columns is None:
+                    own, others = table[one], table[two[middle]]
+                else:
+                    some = columns[slice(*np.searchsorted(columns, [begin, end]))] - begin
+                    own, others = table[one[:, None], some], table[two[middle, None], some]
+                own[middle] = 0.5 * (own[middle] + others)
+                found.append(own)
+            return np.concatenate(found, axis=1)
 
-def _equivalent(parts: np.ndarray) -> np.ndarray:
-    np.square(parts, out=parts)
-    return np.sqrt(parts.sum(axis=0))
+        row = np.empty(len(order), int)
+        row[order] = np.arange(len(order))
+        return Screen(rows, np.unique(label, return_counts=True)[1].tolist(), typical), row
+
+    def _labels(self) -> np.ndarray:
+        """Group (n_points + n_edges,) of every point and every middle: its place, or the part of
+        the cage that it lies in; those of searched vertices first."""
+        points, count = self._recovery.model.points, 2 * self._recovery.pocket_count
+        at = np.concatenate([points[self.vertices], points[self.edges].mean(axis=1)])
+        turn = np.arctan2(at[:, 2], at[:, 1]) / (2.0 * np.pi) % 1.0
+        part = (turn * count).astype(int) * 2 + (at[:, 0] > points[:, 0].mean())
+        label = len(self.places) + part
+        for place, vertices in enumerate(self.places.values()):
+            label[: len(self.vertices)][np.isin(self.vertices, vertices)] = place
+        searched = np.isin(self.vertices, self.surface[self.searched])
+        label[: len(self.vertices)][~searched] += 2 * count + len(self.places)
+        label[len(self.vertices) :] += 2 * (2 * count + len(self.places))
+        return label
+
+    def largest(self, values: np.ndarray) -> np.ndarray:
+        """Largest of the points' values (n_points, ...) at every vertex (n_surface, ...)."""
+        return self._stress.largest(values)
 
 
 class NamedFields(UnitFields):

@@ -6,7 +6,7 @@ alone, and over the whole surface at the step at which the places' largest is gr
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from typing import Any, Protocol
 
@@ -20,6 +20,7 @@ from flexcage.stress.fields import NamedFields, StressFields, Tables
 
 _BLOCK = 256  # samples at a time: their stresses stay near the processor
 _READ = 512  # samples at a time of what is read and reduced only
+_TYPICAL = 512  # samples by whose loads bounds are made narrow
 
 
 class Sliced(Protocol):
@@ -67,39 +68,26 @@ class StressHistory:
         )
 
 
-@dataclass(frozen=True)
-class _Block:
-    """What is kept of one block of samples."""
+@dataclass(frozen=True, eq=False)
+class _Look:
+    """What is seen at some instants: the largest at places (nt, n_places), the peak (nt,) and its
+    mesh vertex, and by place the rows (n,) that are largest in it at any instant."""
 
-    places: np.ndarray  # (block, n_places)
-    peak: np.ndarray  # (block,)
-    where: np.ndarray  # (block,) mesh vertex of the peak
-    when: np.ndarray  # (block,) [s] of a step between samples, or NaN
-    sampled: np.ndarray  # (block,)
-    envelope: np.ndarray  # (n_surface,) as of the whole; 0 if nothing is settled
-    middles: np.ndarray  # (n_edges,) likewise
+    places: np.ndarray
+    peak: np.ndarray
+    where: np.ndarray
+    watched: list[np.ndarray]
 
 
-def equivalent_stress(
-    fields: StressFields,
-    q: np.ndarray,
-    station_forces: np.ndarray,
-    land_forces: np.ndarray | None = None,
-) -> np.ndarray:
-    """Equivalent stress (n_surface, nt) [Pa].
+@dataclass(frozen=True, eq=False)
+class _Late:
+    """Loads (nt, n) of some columns at settled instants, and bounds (n_rows,) on the largest stress
+    that they make."""
 
-    Over nt samples: modal coordinates (nt, n), station forces (nt, Z, F, n_st, 3) and land forces
-    (nt, 2, n_land, 3) [N], components (x, r, psi) of the pockets' and land stations' frames.
-    """
-    return fields.equivalent(_parts(fields, q, station_forces, land_forces))
-
-
-def _parts(
-    fields: StressFields, q: np.ndarray, station_forces: np.ndarray, land_forces: np.ndarray | None
-) -> np.ndarray:
-    """Deviators (5, n_points, nt) of the same."""
-    loads = fields.reduced_forces(station_forces)
-    return _superposed(fields, q, loads, _land(land_forces, len(q)))
+    columns: np.ndarray
+    loads: np.ndarray
+    low: np.ndarray
+    high: np.ndarray
 
 
 def histories_at(
@@ -163,13 +151,6 @@ def _superposed(
     return sums.reshape(fields.parts, -1, sums.shape[1])
 
 
-def _stress_of(
-    fields: Tables, reduced: Callable[[np.ndarray], np.ndarray], steps: Loads
-) -> np.ndarray:
-    """Parts (parts, n_points, nt) of the stress at steps."""
-    return _superposed(fields, steps.modes, reduced(steps.stations), _land(steps.lands, len(steps)))
-
-
 def _loaded(fields: np.ndarray, loads: np.ndarray | sp.csr_array) -> np.ndarray:
     """Fields (rows, m) times loads (nt, m), over those columns alone that carry a load."""
     if isinstance(loads, sp.csr_array):
@@ -181,52 +162,69 @@ def _loaded(fields: np.ndarray, loads: np.ndarray | sp.csr_array) -> np.ndarray:
 
 
 class _Search:
-    """Looks for the largest stresses in blocks of samples, and at the steps between them."""
+    """Looks for the largest stresses in blocks of samples, and at the steps between them.
 
-    def __init__(self, fields: StressFields, settled: int) -> None:
+    At most points bounds say that they are not largest; the others are evaluated.
+    """
+
+    def __init__(self, fields: StressFields, settled: int, typical: np.ndarray, lands: bool):
         self.fields, self.settled = fields, settled
-        self._slots = [np.searchsorted(fields.surface, v) for v in fields.places.values()]
+        self._screen, self._row = fields.screen(typical, lands=lands)
+        count = len(fields.vertices)
+        self._vertex = np.full(len(self._row), -1)
+        self._vertex[self._row[:count]] = fields.vertices
+        searched = np.isin(fields.vertices, fields.surface[fields.searched])
+        self._searched = slice(0, int(searched.sum()))
+        self._places = [_side_by_side(self._rows_of(v)) for v in fields.places.values()]
 
-    def at_samples(self, values: np.ndarray, middles: np.ndarray, first: int) -> _Block:
-        """The block of samples from ``first`` on that have these stresses (n_surface, nt), and
-        these in the middles of edges (n_edges, nt)."""
-        count = values.shape[1]
-        peak, where = self._peaks(values)
-        none = np.full(count, np.nan)
-        block = _Block(
-            self._places(values), peak, where, none, peak.copy(), np.zeros(len(values)),
-            np.zeros(len(middles)),
-        )  # fmt: skip
-        self._keep_envelope(block, values, middles, first + np.arange(count))
-        return block
+    def _rows_of(self, vertices: np.ndarray) -> np.ndarray:
+        """Rows (n,), rising, of the points of mesh vertices."""
+        own = np.isin(self.fields.vertices, vertices)
+        return np.sort(self._row[: len(own)][own])
 
-    def between(self, block: _Block, values: np.ndarray, steps: Loads, first: int) -> None:
-        """Add steps to a block, of whose samples these were the stresses.
+    def look(self, loads: np.ndarray, late: np.ndarray) -> tuple[_Look, list[_Late]]:
+        """What is seen under loads (nt, columns), and what to keep for the envelope of those that
+        are ``late`` (nt,)."""
+        low, high = self._screen.bounds(loads)
+        wanted = np.zeros(len(low), bool)
+        for rows in (self._searched, *self._places):
+            wanted[rows] |= _may_be_largest(low[rows], high[rows])
+        rows = np.flatnonzero(wanted)
+        values = self._screen.stress(rows, loads)
+        places, watched = _at_places(values, rows, [_among(rows, place) for place in self._places])
+        peaks = values[: np.searchsorted(rows, self._searched.stop)]
+        top = np.argmax(peaks, axis=0)
+        look = _Look(places, peaks.max(axis=0), self._vertex[rows[top]], watched)
+        if not late.all():
+            loads, low, high = loads[late], low[:, late], high[:, late]
+        return look, [_kept(loads, low, high)] if len(loads) else []
 
-        Places are looked at first, and of these the vertices that are largest at any sample. The
-        whole surface is looked at where they show most before a sample, if more than at it, and
-        where any of them shows most of the block.
+    def between(self, look: _Look, steps: Loads, loads: np.ndarray, first: int) -> np.ndarray:
+        """Numbers of the steps under ``loads`` at which the whole surface is to be looked at.
+
+        Places are looked at, of these the vertices that are largest at any sample, and the looks
+        there are added to ``look``, that at the samples from ``first`` on. The whole surface is
+        looked at where they show most before a sample, if more than at it, and where any of them
+        shows most of the block.
         """
+        if not look.watched:
+            return np.zeros(0, int)
         at = steps.sample - first
-        watched = [slot[np.unique(np.argmax(values[slot], axis=0))] for slot in self._slots]
-        if not watched:
-            return
-        gauges = self.fields.gauges(watched)
-        found = gauges.largest(_stress_of(gauges, self.fields.reduced_forces, steps))
-        chosen = self._chosen(found, at, block.places, first)
-        np.maximum.at(block.places, at, found)
-        if not len(chosen):
-            return
-        steps, at, fields = steps.only(chosen), at[chosen], self.fields
-        parts = _stress_of(fields, fields.reduced_forces, steps)
-        middles, values = fields.middles(parts), fields.equivalent(parts)
-        np.maximum.at(block.places, at, self._places(values))
-        self._keep_envelope(block, values, middles, steps.sample)
-        peak, where = self._peaks(values)
-        rising = np.argsort(peak)  # where a sample has two, the larger comes last and stays
-        higher = rising[peak[rising] > block.peak[at[rising]]]
-        block.peak[at[higher]], block.where[at[higher]] = peak[higher], where[higher]
-        block.when[at[higher]] = steps.time[higher]
+        rows = self._rows_of(self._vertex[np.concatenate(look.watched)])
+        low, high = self._screen.bounds(loads, rows)
+        wanted, gauges = np.zeros(len(rows), bool), []
+        for i, (place, watched) in enumerate(zip(self._places, look.watched)):
+            own = np.arange(len(rows))[_among(rows, place)]
+            own = own[np.isin(self._vertex[rows[own]], self._vertex[watched])]
+            may = own[_may_be_largest(low[own], high[own], look.places[at, i])]
+            wanted[may] = True
+            gauges.append(may)
+        kept = np.cumsum(wanted) - 1
+        values = self._screen.stress(rows[wanted], loads)
+        found, _ = _at_places(values, rows[wanted], [kept[may] for may in gauges])
+        chosen = self._chosen(found, at, look.places, first)
+        np.maximum.at(look.places, at, found)
+        return chosen
 
     def _chosen(
         self, found: np.ndarray, at: np.ndarray, sampled: np.ndarray, first: int
@@ -243,26 +241,61 @@ class _Search:
         own = own[late.max(axis=0) > sampled[settled:].max(axis=0, initial=0.0)]
         return np.union1d(most, own)
 
-    def _places(self, values: np.ndarray) -> np.ndarray:
-        """Largest of stresses (n_surface, nt) at every place (nt, n_places)."""
-        places = np.zeros((values.shape[1], len(self._slots)), np.float32)
-        for i, slot in enumerate(self._slots):
-            places[:, i] = values[slot].max(axis=0)
-        return places
+    def envelope(self, kept: Sequence[_Late]) -> tuple[np.ndarray, np.ndarray]:
+        """Largest stresses (n_surface,) at the vertices, and (n_edges,) in the middles of edges."""
+        largest = np.zeros(len(self._row))
+        if kept:
+            floor = np.max([each.low for each in kept], axis=0)
+        for each in kept:
+            rows = np.flatnonzero(each.high >= floor)
+            values = self._screen.stress(rows, each.loads, each.columns)
+            largest[rows] = np.maximum(largest[rows], values.max(axis=1))
+        points, middles = np.split(largest[self._row], [len(self.fields.vertices)])
+        return self.fields.largest(points), middles
 
-    def _peaks(self, values: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Largest of the searched vertices' stresses, and the vertices, all (nt,)."""
-        fields = self.fields
-        searched = values[fields.searched]
-        vertex = fields.surface[fields.searched[np.argmax(searched, axis=0)]]
-        return searched.max(axis=0), vertex
 
-    def _keep_envelope(
-        self, block: _Block, values: np.ndarray, middles: np.ndarray, sample: np.ndarray
-    ) -> None:
-        if (late := sample >= self.settled).any():
-            np.maximum(block.envelope, values[:, late].max(axis=1), out=block.envelope)
-            np.maximum(block.middles, middles[:, late].max(axis=1), out=block.middles)
+def _at_places(
+    values: np.ndarray, rows: np.ndarray, places: Sequence[np.ndarray | slice]
+) -> tuple[np.ndarray, list[np.ndarray]]:
+    """Largest (nt, n_places) of values (n, nt) in rows (n,) at places, which say where among these
+    their own are; and by place the rows that are largest at any instant."""
+    largest, watched = np.zeros((values.shape[1], len(places)), np.float32), []
+    for i, own in enumerate(places):
+        top = np.zeros(0, int)
+        if len(rows[own]):
+            top = np.argmax(values[own], axis=0)
+            largest[:, i] = values[own][top, np.arange(len(top))]
+        watched.append(np.unique(rows[own][top]))
+    return largest, watched
+
+
+def _may_be_largest(low: np.ndarray, high: np.ndarray, floor: np.ndarray | float = 0.0):
+    """Which of points (n,) with these bounds (n, nt) may be the largest at any instant, and reach
+    ``floor`` (nt,)."""
+    if not len(low):
+        return np.zeros(0, bool)
+    return (high >= np.maximum(low.max(axis=0), floor)).any(axis=1)
+
+
+def _side_by_side(rows: np.ndarray) -> np.ndarray | slice:
+    """Rows (n,), rising, as a slice if none is left out between: their values need no copy."""
+    one_by_one = len(rows) and rows[-1] - rows[0] == len(rows) - 1
+    return slice(int(rows[0]), int(rows[-1]) + 1) if one_by_one else rows
+
+
+def _among(rows: np.ndarray, place: np.ndarray | slice) -> np.ndarray | slice:
+    """Where among rows (n,), rising, those of a place are."""
+    if isinstance(place, slice):
+        return slice(*np.searchsorted(rows, [place.start, place.stop]))
+    return np.flatnonzero(np.isin(rows, place, assume_unique=True))
+
+
+def _kept(loads: np.ndarray, low: np.ndarray, high: np.ndarray) -> _Late:
+    """What the envelope wants of instants: those that may make any point's largest stress."""
+    floor = low.max(axis=1)
+    may = (high >= floor[:, None]).any(axis=0)
+    columns = np.flatnonzero(loads[may].any(axis=0))
+    return _Late(columns, loads[np.ix_(may, columns)], floor, high.max(axis=1))
 
 
 def stress_history(
@@ -281,37 +314,57 @@ def stress_history(
     stay on disk. ``between`` gives the steps between samples (``between.Between``). Blocks of
     samples are spread over the cores; ``progress`` is a context like ``core.progress.Progress``.
     """
-    search = _Search(fields, settled)
 
-    def work(first: int) -> _Block:
-        part = slice(first, min(first + _BLOCK, len(q)))
+    def loads_of(part: slice) -> np.ndarray:
         land = None if land_forces is None else np.asarray(land_forces[part])
-        parts = _parts(fields, np.asarray(q[part]), np.asarray(station_forces[part]), land)
-        middles, values = fields.middles(parts), fields.equivalent(parts)
-        block = search.at_samples(values, middles, first)
+        return fields.loads(np.asarray(q[part]), np.asarray(station_forces[part]), land)
+
+    def work(first: int) -> tuple[_Look, np.ndarray, np.ndarray, list[_Late]]:
+        part = slice(first, min(first + _BLOCK, len(q)))
+        loads = loads_of(part)
+        look, kept = search.look(loads, np.arange(part.start, part.stop) >= settled)
+        sampled, when = look.peak.copy(), np.full(len(loads), np.nan)
         steps = between(part.start, part.stop)
         if steps is not None:
-            steps = steps if land_forces is not None else steps.off_lands()
-            search.between(block, values, steps, first)
+            land = None if land_forces is None else steps.lands
+            pushes = fields.loads(steps.modes, steps.stations, land)
+            chosen = search.between(look, steps, pushes, first)
+            if len(chosen):
+                kept += _add(search, look, when, steps.only(chosen), pushes[chosen], first)
         bar.advance()
-        return block
+        return look, sampled, when, kept
 
     starts = range(0, len(q), _BLOCK)
     with progress(len(starts), "stress") as bar:
-        _ = fields.modes, fields.forces  # once, not in every thread
-        if land_forces is not None:
-            _ = fields.land_forces
-        blocks = on_all_cores(work, starts)
+        some = slice(0, len(q), max(1, len(q) // _TYPICAL))
+        search = _Search(fields, settled, loads_of(some), land_forces is not None)
+        looks, sampled, when, kept = zip(*on_all_cores(work, starts))
+        envelope, middles = search.envelope([each for own in kept for each in own])
     return StressHistory(
         surface=fields.surface,
         place_names=tuple(fields.places),
-        places=np.concatenate([block.places for block in blocks]),
-        peak=np.concatenate([block.peak for block in blocks]),
-        peak_vertex=np.concatenate([block.where for block in blocks]),
-        peak_time=np.concatenate([block.when for block in blocks]),
-        at_sample=np.concatenate([block.sampled for block in blocks]),
-        envelope=np.max([block.envelope for block in blocks], axis=0),
+        places=np.concatenate([look.places for look in looks]),
+        peak=np.concatenate([look.peak for look in looks]),
+        peak_vertex=np.concatenate([look.where for look in looks]),
+        peak_time=np.concatenate(when),
+        at_sample=np.concatenate(sampled),
+        envelope=envelope,
         edges=fields.edges,
-        middles=np.max([block.middles for block in blocks], axis=0),
+        middles=middles,
         settled=settled,
     )
+
+
+def _add(
+    search: _Search, look: _Look, when: np.ndarray, steps: Loads, loads: np.ndarray, first: int
+) -> list[_Late]:
+    """Add to a look at samples, of which ``first`` is the first, what is seen at steps; what to
+    keep of these for the envelope."""
+    at = steps.sample - first
+    seen, kept = search.look(loads, steps.sample >= search.settled)
+    np.maximum.at(look.places, at, seen.places)
+    rising = np.argsort(seen.peak)  # where a sample has two, the larger comes last and stays
+    higher = rising[seen.peak[rising] > look.peak[at[rising]]]
+    look.peak[at[higher]], look.where[at[higher]] = seen.peak[higher], seen.where[higher]
+    when[at[higher]] = steps.time[higher]
+    return kept
