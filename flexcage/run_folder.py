@@ -20,6 +20,7 @@ from flexcage.core.locks import LOCK
 from flexcage.core.warning import RunWarning
 from flexcage.results.cage_file import (
     NAME,
+    CageFile,
     CageRecord,
     find_cage,
     read_cage,
@@ -114,13 +115,13 @@ def _without_its_mesh_file(case: Case, stored: Case) -> bool:
     return bool(gone) and not case.difference(stored)
 
 
-def keep_cage(folder: Path, record: CageRecord, *, study: Path | None = None) -> None:
+def keep_cage(folder: Path, file: CageFile, *, study: Path | None = None) -> None:
     """Write the cage of a run that begins in ``folder``: there, or once for all runs of a study."""
-    path = folder / NAME if study is None else shared_cage(study, record.digest)
+    path = folder / NAME if study is None else shared_cage(study, file.digest)
     if study is not None and path.is_file():
         return  # named by its content
     try:
-        write_cage(path, record)
+        write_cage(path, file)
     except OSError as exc:
         raise unwritable(f"The cage's file '{path}'", exc, path=path) from exc
 

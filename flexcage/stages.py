@@ -13,9 +13,11 @@ from typing import Any
 
 import numpy as np
 
-from flexcage.bodies.cage import flexible_from_reduction, rigid_from_tets
+from flexcage.bodies.cage import BODY_VERSION, flexible_from_reduction, rigid_from_tets
 from flexcage.case import Case
 from flexcage.core import jit
+from flexcage.core.cache import cached_arrays
+from flexcage.core.hashing import content_hash
 from flexcage.core.progress import Silent
 from flexcage.core.timing import Stages
 from flexcage.core.warning import RunWarning
@@ -26,7 +28,8 @@ from flexcage.mesh.quality import check_mesh
 from flexcage.modes.reduction import CageReduction, reduce_cage, rigid_interface_of
 from flexcage.modes.table import ModeTable
 from flexcage.results import room
-from flexcage.results.cage_file import CageRecord, cage_record, check_same
+from flexcage.results.cage_file import FORMAT as CAGE_FORMAT
+from flexcage.results.cage_file import CageFile, cage_file, cage_record, check_same
 from flexcage.results.recording import new_store
 from flexcage.results.store import MemoryRunStore
 from flexcage.results.warnings import to_text
@@ -59,9 +62,9 @@ def run_store(
     if folder is not None:
         announce_room(case, bearing, folder)
         write_case(folder, case)
-        record = _record(case, cage)
-        keep_cage(folder, record, study=study)
-        attrs["cage"] = record.digest
+        file = _cage_file(case, cage)
+        keep_cage(folder, file, study=study)
+        attrs["cage"] = file.digest
     return new_store(
         folder and folder / "results.zarr",
         bearing,
@@ -97,18 +100,21 @@ def stored_cage(case: Case, store: MemoryRunStore, folder: Path, stages: Stages)
     return record.mesh, cage
 
 
-def _record(case: Case, cage: Cage) -> CageRecord:
-    """What a run's folder keeps of its cage."""
+def _cage_file(case: Case, cage: Cage) -> CageFile:
+    """What a run's folder keeps of its cage. That of a flexible cage is packed once."""
     mesh, reduction = cage
     if reduction is None:
-        return cage_record(mesh, {})
+        return cage_file(cage_record(mesh, {}))
+    large = case.output.keep_cage
 
-    def make() -> CageRecord:
+    def make() -> dict[str, np.ndarray]:
         body = flexible_from_reduction(reduction, case.modes).data._asdict()
         reduced = {**reduction.record(), "body": {k: np.asarray(v) for k, v in body.items()}}
-        return cage_record(mesh, reduced, large=case.output.keep_cage)
+        return vars(cage_file(cage_record(mesh, reduced, large=large)))
 
-    return reduction.once(f"record, large {case.output.keep_cage}", make)
+    key = content_hash(CAGE_FORMAT, reduction.content, BODY_VERSION, case.modes, large)
+    kept = reduction.once(f"file {key}", lambda: cached_arrays("cage", key, make))
+    return CageFile(str(kept["digest"]), kept["content"])
 
 
 def announce_room(case: Case, bearing: Bearing, folder: Path) -> None:

@@ -92,7 +92,7 @@ def pytest_terminal_summary(terminalreporter):
     for reports in terminalreporter.stats.values():
         for report in reports:
             if isinstance(report, pytest.TestReport):
-                seconds[Path(report.nodeid).parent.name] += report.duration
+                seconds[Path(report.nodeid.partition("::")[0]).parent.name] += report.duration
     if len(seconds) > 1:
         terminalreporter.section("seconds by room")
         for room, taken in seconds.most_common():

@@ -46,6 +46,7 @@ MODEL_VERSION = 9  # of the reduction: raise it when the same input gives anothe
 INTERFACE_VERSION = 1  # of both kinds of interfaces, likewise
 _NOT_SHOWN = ("r_shapes",)  # of a basis: residual shapes, the largest part, which no result reads
 TABLE_VERSION = 1  # of the mode table, likewise
+SHOWN_VERSION = 1  # of shapes as results refer to them, likewise
 
 
 @dataclass(frozen=True)
@@ -134,10 +135,16 @@ class CageReduction:
 
     @cached_property
     def _rounded(self) -> Mapping[str, np.ndarray]:
-        arrays = self._known
-        if "shapes" not in arrays and "steps" not in arrays:
-            arrays = self.arrays("basis", self.key, self._make_basis, without=_NOT_SHOWN)
-        return arrays if "steps" in arrays else rounded(arrays)
+        if "steps" in self._known:
+            return self._known
+
+        def make() -> dict[str, np.ndarray]:
+            made = self._known
+            if "shapes" not in made:
+                made = self.arrays("basis", self.key, self._make_basis, without=_NOT_SHOWN)
+            return rounded(made)
+
+        return self.arrays("shown", f"{self.version}-{SHOWN_VERSION}", make)
 
     def record(self) -> dict[str, Mapping[str, np.ndarray]]:
         """What ``stored`` takes of this reduction, but for the body."""
@@ -157,6 +164,12 @@ class CageReduction:
             return table_arrays(mode_table(self.model, self.basis, pocket_count=count))
 
         return table_from(self.arrays("table", f"{self.version}-{TABLE_VERSION}", make))
+
+    @property
+    def content(self) -> tuple[Any, ...]:
+        """All that the arrays of ``record`` depend on, versions included."""
+        versions = INTERFACE_VERSION, TABLE_VERSION, SHOWN_VERSION
+        return (self.version, self.cage, self.defects, *versions)
 
     @property
     def version(self) -> str:

@@ -24,6 +24,7 @@ import zipfile
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
+from tempfile import TemporaryDirectory
 from types import MappingProxyType
 from typing import Any
 
@@ -82,18 +83,25 @@ def cage_record(mesh: CageMesh, reduced: Groups, *, large: bool = True) -> CageR
     return CageRecord(groups, digest)
 
 
-def write_cage(path: Path, record: CageRecord) -> Path:
-    """Write a record in one move; a file that is there is replaced. OSError from the disk."""
+@dataclass(frozen=True)
+class CageFile:
+    """What a record's file holds, and the record's digest."""
+
+    digest: str
+    content: np.ndarray  # (n,) bytes
+
+
+def cage_file(record: CageRecord) -> CageFile:
+    """The file of a record."""
     import zarr
     from zarr.codecs import BloscCodec, Crc32cCodec
     from zarr.storage import ZipStore
 
     blocks = BloscCodec(cname="zstd", clevel=3, shuffle="shuffle", blocksize=2**20)
     codecs = [blocks, Crc32cCodec()]
-    path.parent.mkdir(parents=True, exist_ok=True)
-    temporary = path.with_name(f"{path.name}.{os.getpid()}.new")  # workers may write the same
-    try:
-        with ZipStore(temporary, mode="w") as store:
+    with TemporaryDirectory() as folder:
+        path = Path(folder) / NAME
+        with ZipStore(path, mode="w") as store:
             about = {"flexcage_cage": FORMAT, "digest": record.digest}
             root = zarr.create_group(store, zarr_format=3, attributes=about)
             for kind, arrays in _packed(record).items():
@@ -103,6 +111,15 @@ def write_cage(path: Path, record: CageRecord) -> Path:
                 for name, value in values.items():
                     if name not in texts:
                         group.create_array(name, data=value, compressors=codecs)
+        return CageFile(record.digest, np.fromfile(path, np.uint8))
+
+
+def write_cage(path: Path, file: CageFile) -> Path:
+    """Write a cage's file in one move; one that is there is replaced. OSError from the disk."""
+    path.parent.mkdir(parents=True, exist_ok=True)
+    temporary = path.with_name(f"{path.name}.{os.getpid()}.new")  # workers may write the same
+    try:
+        file.content.tofile(temporary)
         move_into_place(temporary, path)
     except BaseException:
         temporary.unlink(missing_ok=True)

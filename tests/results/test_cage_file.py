@@ -11,6 +11,7 @@ from flexcage.core.errors import InputError
 from flexcage.mesh.cage_mesh import CageMesh
 from flexcage.results.cage_file import (
     CageRecord,
+    cage_file,
     cage_record,
     check_same,
     find_cage,
@@ -55,7 +56,7 @@ def record():
 
 
 def test_all_comes_back(tmp_path, record):
-    found = read_cage(write_cage(tmp_path / "deeper" / "cage.zip", record))
+    found = read_cage(write_cage(tmp_path / "deeper" / "cage.zip", cage_file(record)))
     np.testing.assert_array_equal(found.mesh.info["following"], [1, 2, 3, 4, 0])
     np.testing.assert_array_equal(found.mesh.info["sector_tets"], [[1], [0]])
     assert found.digest == record.digest and len(record.digest) == 16
@@ -90,7 +91,7 @@ def test_another_cage_has_another_digest(record):
 
 
 def test_a_damaged_file_is_refused_in_a_sentence(tmp_path, record):
-    path = write_cage(tmp_path / "cage.zip", record)
+    path = write_cage(tmp_path / "cage.zip", cage_file(record))
     content = path.read_bytes()
     for spoiled in (b"", content[: len(content) // 2], b"no zip" * 100):
         path.write_bytes(spoiled)
@@ -103,7 +104,7 @@ def test_a_damaged_file_is_refused_in_a_sentence(tmp_path, record):
 
 
 def test_another_format_is_refused(tmp_path, record):
-    path = write_cage(tmp_path / "cage.zip", record)
+    path = write_cage(tmp_path / "cage.zip", cage_file(record))
     with zipfile.ZipFile(path) as old, zipfile.ZipFile(tmp_path / "new.zip", "w") as new:
         for name in old.namelist():
             text = old.read(name).replace(b'"flexcage_cage": 2', b'"flexcage_cage": 9')
@@ -117,9 +118,9 @@ def test_a_missing_cage_is_named_with_both_places(tmp_path, record):
     run.mkdir(parents=True)
     with pytest.raises(InputError, match=r"lacks its cage: neither .*abc/cage.zip' nor .*cages/0f"):
         find_cage(run, "0f")
-    shared = write_cage(shared_cage(tmp_path / "study", "0f"), record)
+    shared = write_cage(shared_cage(tmp_path / "study", "0f"), cage_file(record))
     assert find_cage(run, "0f") == shared
-    own = write_cage(run / "cage.zip", record)
+    own = write_cage(run / "cage.zip", cage_file(record))
     assert find_cage(run, "0f") == own
 
 
@@ -138,5 +139,5 @@ def test_a_cage_without_its_large_parts_is_compared(record):
 
 def test_a_rigid_cage_keeps_its_mesh(tmp_path, record):
     rigid = cage_record(record.mesh, {}, large=False)
-    found = read_cage(write_cage(tmp_path / "cage.zip", rigid))
+    found = read_cage(write_cage(tmp_path / "cage.zip", cage_file(rigid)))
     assert isinstance(found, CageRecord) and found.reduced == {} and found.mesh is not None

@@ -159,7 +159,7 @@ def test_a_run_comes_back_from_its_folder(flexible):
 
 def test_a_resumed_run_is_the_unbroken_one(tmp_path):
     case = c7010(RIGID, {"solver.duration": "4 ms"})
-    whole = simulate(case)
+    whole = simulate(case, out=tmp_path / "whole")
     with pytest.raises(KeyboardInterrupt):
         simulate(case, out=tmp_path / "run", progress=Interrupted(2, 1e-3))
     resumed = simulate(case, out=tmp_path / "run", resume=True)

@@ -66,7 +66,7 @@ def test_a_case_of_objects_is_that_of_text(geared):
 @pytest.mark.parametrize("method", ["bdf", "explicit"])
 def test_a_resumed_run_is_the_unbroken_one(tmp_path, method):
     case = n1013(RIGID, {"solver.method": method, "output.block": 25}, constraints=GEARED)
-    whole = simulate(case).dataset
+    whole = simulate(case, out=tmp_path / "whole").dataset
     with pytest.raises(KeyboardInterrupt):
         simulate(case, out=tmp_path / "run", progress=Interrupted(2, 0.5e-3))
     again = simulate(case, out=tmp_path / "run", resume=True).dataset

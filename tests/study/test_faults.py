@@ -72,7 +72,7 @@ def test_a_worker_killed_in_the_middle_of_a_case(cluster, tmp_path):
     # the other worker went on with what was safe, and came to what an unbroken run gives
     assert (out / "cases" / victim / "results.zarr" / "zarr.json").stat().st_mtime_ns == born
     row = next(row for row in results.rows if row.planned.hash == victim)
-    unbroken = simulate(results.plan.case(row.planned)).summary
+    unbroken = simulate(results.plan.case(row.planned), out=tmp_path / "unbroken").summary
     assert row.figures["race_force_inner"].value == unbroken["race_force_inner"]
 
 
@@ -93,7 +93,8 @@ def test_a_lost_scheduler_ends_the_study_with_a_sentence_and_resume_goes_on(clus
     assert list(results.table["state"]) == ["done"] * len(LOADS)
     assert finished and finished.items() <= when_written(out).items()
     for row in results.rows:
-        unbroken = simulate(results.plan.case(row.planned)).summary
+        case = results.plan.case(row.planned)
+        unbroken = simulate(case, out=tmp_path / row.planned.hash).summary
         assert row.figures["race_force_inner"].value == unbroken["race_force_inner"]
 
 

@@ -58,7 +58,9 @@ def by_four_points(cage):
         ElementTetP2(), rule, model.element_geometry[1], model.material.density
     )
     pattern = elements.BlockPattern(model.cells, len(model.nodes))
-    return _frequencies(replace(model, mass_scalar=pattern.scalar(pattern.sum(blocks))))
+    other = replace(model)
+    vars(other)["_matrices"] = model.K, pattern.scalar(pattern.sum(blocks))
+    return _frequencies(other)
 
 
 def _frequencies(model):
