@@ -79,6 +79,12 @@ def test_a_study_without_such_an_output_computes_no_stress(tmp_path, monkeypatch
     assert len(to_show(results, None)[0]) == 1
 
 
+def test_the_page_of_a_study_says_that_stress_was_left_out(tmp_path):
+    results = compute(tmp_path / "study", study_of(MODELS, keep="figures"))
+    text = results.page(tmp_path / "page.html").read_text("utf-8")
+    assert "Stress was not computed in 1 of 2 cases: no output needs it" in text
+
+
 def test_a_study_with_one_computes_it(tmp_path):
     results = compute(tmp_path / "study", study_of(outputs=("stress_root",)))
     assert set(OF_STRESS) <= set(results.folder.row(results.rows[0].planned.hash).figures)
