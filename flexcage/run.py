@@ -51,7 +51,7 @@ from flexcage.stress.between import Between
 from flexcage.stress.counting import require_pylife
 from flexcage.stress.fatigue import Fatigue, chosen_places, counted_stress, place_fatigue
 from flexcage.stress.fields import StressFields, TensorFields
-from flexcage.stress.history import StressHistory, histories_at, stress_history
+from flexcage.stress.history import StressHistory, histories_at, stress_bound, stress_history
 from flexcage.stress.loads import LandForces, cage_loads
 from flexcage.stress.midpoints import at_nodes, largest_at_nodes
 from flexcage.stress.operators import von_mises
@@ -161,6 +161,13 @@ class Run:
     @cached_property
     def summary(self) -> Summary:
         """Figures of the run: speeds, slip, motion, forces, stress, energy, solver, times."""
+        if self.cage is None or "stress_peak" in self.summary_at_end:
+            return self.summary_at_end
+        return self._with_stress(self.summary_at_end)
+
+    @cached_property
+    def summary_at_end(self) -> Summary:
+        """The summary as the run's end made it: one in a study may have left its stress out."""
         if self.folder and (self.folder / "summary.json").exists():
             stored = Summary.read(self.folder / "summary.json")
             return stored if stored.warnings is not None else self._warned(stored)
@@ -169,7 +176,7 @@ class Run:
     @property
     def warnings(self) -> tuple[RunWarning, ...]:
         """What the reader of the run's figures must know, from its start and from its results."""
-        return (*self.edited, *(self.summary.warnings or ()))
+        return (*self.edited, *(self.summary_at_end.warnings or ()))
 
     @cached_property
     def recovery(self) -> StressRecovery:
@@ -511,12 +518,13 @@ class Run:
                 return place_in_words(name)
         return ""
 
-    def finish(self, recorder: Recorder) -> Run:
-        """Complete a run that has come to its end: summary, stored beside the results."""
+    def finish(self, recorder: Recorder, *, stress: bool = True) -> Run:
+        """Complete a run that has come to its end: summary, stored beside the results; without
+        ``stress``, this is left out where it surely stays below the proof stress."""
         self.solver = recorder
-        self.summary = self._summarise()
+        self.summary_at_end = self._summarise(stress=stress)
         if self.folder:
-            self.summary.write(self.folder)
+            self.summary_at_end.write(self.folder)
             if self.cage is not None:
                 mode_file.write_modes(self.mode_table, self.folder / mode_file.FILE)
         return self
@@ -525,7 +533,7 @@ class Run:
     def _groove_edges(self) -> list[Edge]:
         return groove_edges(self.case.bearing, self.dataset)
 
-    def _summarise(self) -> Summary:
+    def _summarise(self, *, stress: bool = True) -> Summary:
         case, friction = self.case, self.case.contacts.race.friction
         summary = summarise(
             self.dataset,
@@ -544,13 +552,29 @@ class Run:
             "Support", [Row("inner_held", "Inner ring", case.held_in_words)]
         )
         summary = summary.with_section("Cage", self._cage_rows())
-        if self.cage is not None:
-            summary = summary.with_section("Equivalent stress", self._stress_rows())
-            if case.riveted:
-                summary = summary.with_section("Rivets", self.rivets.rows())
+        if self.cage is not None and (stress or self._may_yield):
+            summary = self._with_stress(summary)
         if hasattr(self, "solver"):
             summary = summary.with_section("Solver", self._solver_rows())
         return self._warned(summary.with_section("Wall time", self._time_rows()))
+
+    def _with_stress(self, summary: Summary) -> Summary:
+        """The summary with stress behind the cage's figures."""
+        summary = summary.with_section("Equivalent stress", self.stress_rows(), after="Cage")
+        if not self.case.riveted:
+            return summary
+        return summary.with_section("Rivets", self.rivets.rows(), after="Equivalent stress")
+
+    @property
+    @one_blas_thread
+    def _may_yield(self) -> bool:
+        """Whether the cage's stress may exceed the proof stress, by a bound on it."""
+        bound = stress_bound(
+            StressFields(self.recovery),
+            *self._moved_and_pushed(self.dataset),
+            between=self._between,
+        )
+        return not bound <= self.case.cage.material.proof_stress
 
     def _warned(self, summary: Summary) -> Summary:
         """The summary with its warnings."""
@@ -606,7 +630,8 @@ class Run:
             )
         return rows
 
-    def _stress_rows(self) -> list[Row]:
+    def stress_rows(self) -> list[Row]:
+        """Figures of the summary's section "Equivalent stress"; InputError for a rigid cage."""
         h = self.stress_history
         k = h.peak_sample
         roots = h.places[h.settled :].max(axis=0)

@@ -31,26 +31,33 @@ def simulate(
     out: str | Path | None = None,
     resume: bool = False,
     study: str | Path | None = None,
+    stress: bool = True,
     progress: Any = None,
 ) -> Run:
     """Simulate a case; results are kept in memory, or in the folder ``out`` as the run goes.
 
     ``resume`` goes on with a run that stopped, from its last committed block. ``study`` is the
-    folder of a study whose runs share the files of their cages. ``progress`` is a context like
-    ``core.progress.Progress``. Raises InputError for an impossible case and RunFailed for a run
-    that cannot go on, with what was computed kept.
+    folder of a study whose runs share the files of their cages. Without ``stress``, the
+    cage's is computed only when asked for, unless it may exceed the proof stress. ``progress`` is a
+    context like ``core.progress.Progress``. Raises InputError for an impossible case and RunFailed
+    for a run that cannot go on, with what was computed kept.
     """
     expect(case, Case, "case", "flexcage.load_case reads one from a file")
     if out is None:
-        return _simulated(case, None, False, None, progress)
+        return _simulated(case, None, False, None, stress, progress)
     if resume:
         check_written(Path(out))
     with held(Path(out), inside=True):
-        return _simulated(case, Path(out), resume, study, progress)
+        return _simulated(case, Path(out), resume, study, stress, progress)
 
 
 def _simulated(
-    case: Case, folder: Path | None, resume: bool, study: str | Path | None, progress: Any
+    case: Case,
+    folder: Path | None,
+    resume: bool,
+    study: str | Path | None,
+    stress: bool,
+    progress: Any,
 ) -> Run:
     stages = Stages(progress)
     begun = begun_store(folder, case) if folder and resume else None
@@ -68,7 +75,7 @@ def _simulated(
     run = Run(case, store, folder, mesh, cage, start, stages)
     recorder = Recorder(bearing, start, store, solver=case.solver, output=case.output)
     stages("solve", recorder.march, progress)
-    return run.finish(recorder)
+    return run.finish(recorder, stress=stress)
 
 
 def load_run(folder: str | Path, *, progress: Any = None) -> Run:

@@ -178,13 +178,16 @@ class Summary:
     def __contains__(self, key: str) -> bool:
         return any(row.key == key for row in self)
 
-    def with_section(self, title: str, rows: Sequence[Row]) -> Summary:
-        """A copy with one more section at the end, or with that section replaced."""
+    def with_section(self, title: str, rows: Sequence[Row], *, after: str = "") -> Summary:
+        """A copy with one more section, ``after`` one of that title or at the end, or with that
+        section replaced."""
         new = Section(title, tuple(rows))
         if any(s.title == title for s in self.sections):
             kept = tuple(new if s.title == title else s for s in self.sections)
             return replace(self, sections=kept)
-        return replace(self, sections=(*self.sections, new))
+        titles = [s.title for s in self.sections]
+        place = titles.index(after) + 1 if after in titles else len(titles)
+        return replace(self, sections=(*self.sections[:place], new, *self.sections[place:]))
 
     def text(self) -> str:
         """The warnings, then an aligned table: label, value (right-aligned), margin, unit, note."""

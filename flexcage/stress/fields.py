@@ -12,7 +12,7 @@ all six stresses at chosen vertices.
 from __future__ import annotations
 
 from collections.abc import Callable
-from functools import cached_property
+from functools import cached_property, partial
 from typing import Protocol
 
 import numpy as np
@@ -25,7 +25,7 @@ from flexcage.stress.midpoints import edges_across
 from flexcage.stress.operators import deviator
 from flexcage.stress.places import contact_zone, root_places
 from flexcage.stress.recovery import StressRecovery
-from flexcage.stress.screening import Screen
+from flexcage.stress.screening import ROUNDING, Screen
 
 _KEPT = 48  # fields that are evaluated at once: bounds the memory of all six parts
 _TOGETHER = 33  # right-hand sides of land forces that are solved at once
@@ -269,6 +269,19 @@ class StressFields(UnitFields):
         if land_forces is not None:
             pushes.append(land_forces.reshape(len(q), -1))
         return np.concatenate([each.astype(np.float32) for each in pushes], axis=1)
+
+    def largest_each(self, *, lands: bool) -> np.ndarray:
+        """Bounds (columns,) on the stress [Pa] at searched points per unit of each of ``loads``,
+        those of sums in single precision included."""
+        names = ("modes", "forces", *(["land_forces"] if lands else []))
+        kept = [self._recovery.keep(f"largest_{n}", partial(self._largest, n)) for n in names]
+        return (1.0 + 2.0 * ROUNDING) * np.concatenate([each["largest"] for each in kept])
+
+    def _largest(self, name: str) -> dict[str, np.ndarray]:
+        """Largest norms (columns,) of a table among the searched points."""
+        searched = np.isin(self.vertices, self.surface[self.searched])
+        parts = getattr(self, name).reshape(self.parts, len(searched), -1)[:, searched]
+        return {"largest": np.sqrt(np.square(parts).sum(axis=0).max(axis=0)).astype(float)}
 
     def screen(self, typical: np.ndarray, *, lands: bool) -> tuple[Screen, np.ndarray]:
         """Bounds on the stress of the points and, numbered after these, of the edges' middles; and

@@ -298,6 +298,52 @@ def _kept(loads: np.ndarray, low: np.ndarray, high: np.ndarray) -> _Late:
     return _Late(columns, loads[np.ix_(may, columns)], floor, high.max(axis=1))
 
 
+@dataclass(frozen=True, eq=False)
+class _Instants:
+    """What loads the fields at samples and at the steps between them."""
+
+    fields: StressFields
+    q: Sliced
+    station_forces: Sliced
+    land_forces: Sliced | None
+    between: Steps
+
+    def samples(self, part: slice) -> np.ndarray:
+        """Loads (nt, columns) at samples."""
+        land = None if self.land_forces is None else np.asarray(self.land_forces[part])
+        q, stations = np.asarray(self.q[part]), np.asarray(self.station_forces[part])
+        return self.fields.loads(q, stations, land)
+
+    def steps(self, part: slice) -> tuple[Loads, np.ndarray] | None:
+        """The steps of samples, and loads (n, columns) at these; None without any."""
+        steps = self.between(part.start, part.stop)
+        if steps is None:
+            return None
+        land = None if self.land_forces is None else steps.lands
+        return steps, self.fields.loads(steps.modes, steps.stations, land)
+
+
+def stress_bound(
+    fields: StressFields,
+    q: Sliced,
+    station_forces: Sliced,
+    land_forces: Sliced | None = None,
+    *,
+    between: Steps = no_steps,
+) -> float:
+    """What no peak [Pa] of ``stress_history`` passes, at a hundredth of its cost: the largest
+    stress of every load alone, added up, the most at any instant. Arguments as there."""
+    instants = _Instants(fields, q, station_forces, land_forces, between)
+    each = fields.largest_each(lands=land_forces is not None)
+    bound = np.float64(0.0)
+    for first in range(0, len(q), _BLOCK):
+        part = slice(first, min(first + _BLOCK, len(q)))
+        steps = instants.steps(part)
+        for loads in (instants.samples(part), *([steps[1]] if steps is not None else [])):
+            bound = np.maximum(bound, (np.abs(loads) @ each).max(initial=0.0))
+    return float(bound)
+
+
 def stress_history(
     fields: StressFields,
     q: Sliced,
@@ -315,19 +361,15 @@ def stress_history(
     samples are spread over the cores; ``progress`` is a context like ``core.progress.Progress``.
     """
 
-    def loads_of(part: slice) -> np.ndarray:
-        land = None if land_forces is None else np.asarray(land_forces[part])
-        return fields.loads(np.asarray(q[part]), np.asarray(station_forces[part]), land)
+    instants = _Instants(fields, q, station_forces, land_forces, between)
 
     def work(first: int) -> tuple[_Look, np.ndarray, np.ndarray, list[_Late]]:
         part = slice(first, min(first + _BLOCK, len(q)))
-        loads = loads_of(part)
+        loads = instants.samples(part)
         look, kept = search.look(loads, np.arange(part.start, part.stop) >= settled)
         sampled, when = look.peak.copy(), np.full(len(loads), np.nan)
-        steps = between(part.start, part.stop)
-        if steps is not None:
-            land = None if land_forces is None else steps.lands
-            pushes = fields.loads(steps.modes, steps.stations, land)
+        if (found := instants.steps(part)) is not None:
+            steps, pushes = found
             chosen = search.between(look, steps, pushes, first)
             if len(chosen):
                 kept += _add(search, look, when, steps.only(chosen), pushes[chosen], first)
@@ -337,7 +379,7 @@ def stress_history(
     starts = range(0, len(q), _BLOCK)
     with progress(len(starts), "stress") as bar:
         some = slice(0, len(q), max(1, len(q) // _TYPICAL))
-        search = _Search(fields, settled, loads_of(some), land_forces is not None)
+        search = _Search(fields, settled, instants.samples(some), land_forces is not None)
         looks, sampled, when, kept = zip(*on_all_cores(work, starts))
         envelope, middles = search.envelope([each for own in kept for each in own])
     return StressHistory(

@@ -15,7 +15,7 @@ from dataclasses import dataclass
 import numpy as np
 
 _SHAPES = 15  # of a group
-_ROUNDING = 4e-6  # of sum_j |T_j| |x_j|: what sums in single precision may be off by, and more
+ROUNDING = 4e-6  # of sum_j |T_j| |x_j|: what sums in single precision may be off by, and more
 
 
 #: Deviators (n parts, m) per unit load, ``parts`` rows of every one of points (n,), the columns
@@ -53,7 +53,7 @@ class Screen:
             own = rows(np.arange(first, end), None)
             shapes = np.linalg.qr(own @ mixed)[0]
             share = shapes.T @ own
-            rounding = np.float32(_ROUNDING) * _largest(own, size)
+            rounding = np.float32(ROUNDING) * _largest(own, size)
             own -= shapes @ share
             margins.append(_largest(own, size) + rounding)
             by_point = shapes.reshape(size, -1, shapes.shape[1])

@@ -13,7 +13,7 @@ import numpy as np
 
 from flexcage.core.binding import did_you_mean
 from flexcage.core.errors import InputError
-from flexcage.results.known import FATIGUE, FLEXIBLE, KNOWN, RIVETED, WEAR
+from flexcage.results.known import FATIGUE, FLEXIBLE, KNOWN, RIVETED, WEAR, figure
 from flexcage.results.metrics import cage_angle, settled, whole_revolutions
 from flexcage.results.recording import ENERGIES
 from flexcage.results.reductions import DERIVED, REDUCTIONS
@@ -121,14 +121,23 @@ def _rivets(run: Run) -> dict[str, Figure]:
     return _figures_in(run.rivets.rows()) if run.case.riveted else {}
 
 
+def _stress(run: Run) -> dict[str, Figure]:
+    """Equivalent stress, which a case leaves out while no output of its study wants it."""
+    rows = run.stress_rows()
+    return _figures_in([*rows, figure("wall_stress", run.stages["stress"])])
+
+
 def _figures_in(rows: Iterable[Row]) -> dict[str, Figure]:
     return {r.key: Figure(r.value, r.unit, r.shown, r.margin) for r in rows}
 
 
 _COMPUTED = {FATIGUE: _fatigue, WEAR: _wear, RIVETED: _rivets}
-#: Figures that no summary holds, or none of an earlier flexcage: what computes them together.
+_STRESS = "Equivalent stress"  # their section
+#: Figures that a summary may not hold: what computes them together.
 LATE_FIGURES: Mapping[str, Callable[[Run], dict[str, Figure]]] = {
-    name: _COMPUTED[known.needs] for name, known in KNOWN.items() if known.needs in _COMPUTED
+    name: _stress if known.section == _STRESS else _COMPUTED[known.needs]
+    for name, known in KNOWN.items()
+    if known.section == _STRESS or known.needs in _COMPUTED
 }
 
 
@@ -157,6 +166,23 @@ def never_negative(name: str) -> bool:
 def beyond_summary(names: tuple[str, ...]) -> tuple[str, ...]:
     """Those among the outputs that a summary may not hold: reductions, and ``LATE_FIGURES``."""
     return tuple(name for name in names if is_reduction(name) or name in LATE_FIGURES)
+
+
+def needs_stress(names: tuple[str, ...]) -> bool:
+    """Whether any of the outputs is of the cage's stress, its rivets or its fatigue."""
+    late = {LATE_FIGURES[name] for name in names if name in LATE_FIGURES}
+    return not late.isdisjoint({_stress, _fatigue, _rivets})
+
+
+def lacking(beyond: tuple[str, ...], figures: Collection[str]) -> tuple[str, ...]:
+    """Outputs beyond a summary that a case's figures do not hold and its cage can give: a rigid
+    one, which has no modes, gives none that wants a flexible one."""
+    rigid = "mode_count" not in figures
+    return tuple(n for n in beyond if n not in figures and not (rigid and _wants_flexible(n)))
+
+
+def _wants_flexible(name: str) -> bool:
+    return name in KNOWN and KNOWN[name].needs in (FLEXIBLE, RIVETED, FATIGUE)
 
 
 def parse_reduction(name: str) -> Reduction:
@@ -237,7 +263,7 @@ def check_outputs(
         else:
             _check_figure(name)
             _check_late(name, materials)
-            needs = KNOWN[name].needs in (FLEXIBLE, RIVETED, FATIGUE)
+            needs = _wants_flexible(name)
             _check_element(name, KNOWN[name].of, element)
         if needs and not flexible:
             raise InputError(
@@ -294,8 +320,14 @@ def _check_figure(name: str) -> None:
 
 
 def figures_of(run: Run, beyond: tuple[str, ...]) -> dict[str, Figure]:
-    """All figures of the run's summary, and those asked for beyond it; by name."""
-    found = _figures_in(run.summary)
-    for compute in dict.fromkeys(LATE_FIGURES[name] for name in beyond if name in LATE_FIGURES):
+    """All figures of the summary at the run's end, and those asked for beyond it; by name."""
+    found = _figures_in(run.summary_at_end)
+    return found | late_figures(run, lacking(beyond, found))
+
+
+def late_figures(run: Run, names: tuple[str, ...]) -> dict[str, Figure]:
+    """Figures beyond the summary, by name, those computed together with them included."""
+    found: dict[str, Figure] = {}
+    for compute in dict.fromkeys(LATE_FIGURES[name] for name in names if name in LATE_FIGURES):
         found |= compute(run)
-    return found | {name: parse_reduction(name).of(run) for name in beyond if is_reduction(name)}
+    return found | {name: parse_reduction(name).of(run) for name in names if is_reduction(name)}

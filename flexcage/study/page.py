@@ -39,7 +39,7 @@ def write_study_page(
     """Write the report of a study; ``points`` are those whose stress is shown (default: six)."""
     shown, chosen = to_show(results, points)
     cages, lacking = stress_of(results, shown, progress)
-    chosen = lacking or chosen
+    chosen = " ".join(filter(None, [results.without_stress(), lacking or chosen]))
     with TemporaryDirectory() as folder:
         images, why = stress_images(cages, Path(folder))
         notes = [chosen, why]

@@ -44,7 +44,7 @@ def to_show(results: StudyResults, points: Sequence[int] | None) -> tuple[list[R
         return [], "The study kept figures only, so no stress can be shown."
     able: dict[int, ResultRow] = {}
     for row in kept_runs:
-        if stored_figure(results, row, "stress_peak") is not None:
+        if stored_figure(results, row, "mode_count") is not None:  # a flexible cage
             able.setdefault(row.planned.number, row)
     if points is not None:
         missing = [p for p in points if p not in able]

@@ -147,7 +147,19 @@ class StudyResults:
         reasons = Counter(row.reason for row in self.rows if row.state == "failed")
         for reason, times in reasons.items():
             text += f"\n{times} failed: {reason}"
-        return "\n".join([*self.warning_lines(), text, self.status()])
+        told = filter(None, [text, self.without_stress(), self.status()])
+        return "\n".join([*self.warning_lines(), *told])
+
+    def without_stress(self) -> str:
+        """A sentence where cases with a flexible cage left their stress out, else nothing."""
+        flexible = [row.figures for row in self.stored.values() if "mode_count" in row.figures]
+        count = sum("stress_peak" not in figures for figures in flexible)
+        if not count:
+            return ""
+        return (
+            f"Stress was not computed in {count} of {len(self.rows)} cases: no output needs it, "
+            "and it surely stays below the proof stress; name one (stress_peak) to have it."
+        )
 
     def warning_lines(self) -> list[str]:
         """One line for every kind of warning: how many cases have it, and what the first says."""

@@ -15,7 +15,7 @@ from flexcage.core.progress import Silent
 from flexcage.core.stopping import unwinding
 from flexcage.study.cluster import connect, require_packages
 from flexcage.study.folder import Failure, Folder
-from flexcage.study.outputs import beyond_summary
+from flexcage.study.outputs import beyond_summary, lacking
 from flexcage.study.plan import Plan, Planned, make_plan
 from flexcage.study.results import StudyResults
 from flexcage.study.spec import Study
@@ -91,7 +91,7 @@ def _try_to_write(folder: Folder) -> None:
 
 def _lacking(plan: Plan, folder: Folder, *, retry: bool) -> set[str]:
     """Hashes of the cases to compute."""
-    todo, wanted = set(), set(beyond_summary(plan.study.outputs))
+    todo, beyond = set(), beyond_summary(plan.study.outputs)
     for planned in plan.cases:
         failure = folder.failure(planned.hash)
         if failure is not None and retry:
@@ -99,7 +99,7 @@ def _lacking(plan: Plan, folder: Folder, *, retry: bool) -> set[str]:
         if failure is not None and failure.final and not retry:
             continue
         row = folder.row(planned.hash)
-        if row is None or not wanted <= set(row.figures):
+        if row is None or lacking(beyond, row.figures):
             todo.add(planned.hash)
     return todo
 

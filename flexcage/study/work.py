@@ -26,7 +26,7 @@ from flexcage.run_folder import was_written, write_case
 from flexcage.simulate import load_run, simulate
 from flexcage.stages import cage_mesh, cage_reduction, keep_at_hand
 from flexcage.study.folder import CaseRow, Failure, Folder
-from flexcage.study.outputs import beyond_summary, figures_of
+from flexcage.study.outputs import beyond_summary, figures_of, lacking, late_figures, needs_stress
 from flexcage.study.plan import Plan, Planned
 
 log = logging.getLogger(__name__)
@@ -40,6 +40,7 @@ class Order:
     text: str  # the case, canonical TOML
     folder: str  # of the study, absolute
     beyond: tuple[str, ...]  # outputs that no summary holds
+    stress: bool  # whether any output wants the cage's
     use: tuple[str, ...]  # extensions to load
     keep: str
     version: str = __version__
@@ -52,6 +53,7 @@ def order_of(plan: Plan, planned: Planned, folder: Path) -> Order:
         text=plan.case(planned).to_toml(),
         folder=str(folder),
         beyond=beyond_summary(plan.study.outputs),
+        stress=needs_stress(plan.study.outputs),
         use=sources(),
         keep=plan.study.keep,
     )
@@ -91,19 +93,20 @@ def prepare(order: Order) -> None:
 
 def _complete(order: Order, folder: Folder) -> None:
     row = folder.row(order.hash)
-    if row is not None and set(order.beyond) <= set(row.figures):
+    missing = order.beyond if row is None else lacking(order.beyond, row.figures)
+    if row is not None and not missing:
         return
     begin = time.perf_counter()
     _load(order)
     if row is not None and folder.has_run(order.hash):  # only outputs were added
         run = load_run(folder.case(order.hash))
-        figures = {**row.figures, **figures_of(run, order.beyond)}
+        figures = {**row.figures, **late_figures(run, missing)}
         folder.write_row(folder.case(order.hash), replace(row, figures=figures))
         return
     case = _case_of(order)
     compile_kernels(case)
     part = folder.part(order.hash)
-    run = _march(case, part, keep=order.keep)
+    run = _march(case, part, order)
     keep_at_hand(run.cage)
     figures = figures_of(run, order.beyond)
     seconds = time.perf_counter() - begin
@@ -134,26 +137,26 @@ def _case_of(order: Order) -> Case:
     return case
 
 
-def _march(case: Case, part: Path, *, keep: str) -> Run:
-    if keep == "runs":
-        return run_in(part, case, study=part.parent.parent)
+def _march(case: Case, part: Path, order: Order) -> Run:
+    if order.keep == "runs":
+        return run_in(part, case, study=part.parent.parent, stress=order.stress)
     write_case(part, case)
-    return simulate(case)
+    return simulate(case, stress=order.stress)
 
 
-def run_in(folder: Path, case: Case, *, study: Path | None = None, progress: Any = None) -> Run:
-    """Run the case in its folder, from the last committed block if there is one; ``study`` is the
-    folder of a study whose runs share the files of their cages.
+def run_in(folder: Path, case: Case, *, progress: Any = None, **how: Any) -> Run:
+    """Run the case in its folder, from the last committed block if there is one; ``how`` as
+    ``simulate`` takes it.
 
     A beginning that this flexcage cannot go on with, another one's or a damaged one, is made anew.
     """
     if was_written(folder):
         try:
-            return simulate(case, out=folder, resume=True, study=study, progress=progress)
+            return simulate(case, out=folder, resume=True, progress=progress, **how)
         except InputError as error:
             log.warning("the run begun in '%s' begins anew: %s", folder, error)
             shutil.rmtree(folder)
-    return simulate(case, out=folder, study=study, progress=progress)
+    return simulate(case, out=folder, progress=progress, **how)
 
 
 def compile_kernels(case: Case) -> None:

@@ -197,7 +197,7 @@ def with_runs(results, *points):
 @pytest.mark.parametrize("keep", ["runs", "figures"])
 def test_stress_is_shown_of_the_cases_that_kept_their_run(keep, tmp_path):
     """Whatever the study says that it keeps: that may have changed since."""
-    outputs = ("stress_peak", "cage_speed")
+    outputs = ("mode_count", "stress_peak", "cage_speed")
     repeat, flexible = Repeat(count=2), Grid("cage.model", ["flexible"])
     results = study_folder(
         tmp_path / "s", SPEEDS, flexible, keep=keep, outputs=outputs, repeat=repeat

@@ -4,8 +4,9 @@ import numpy as np
 import pytest
 from stress_cage import POCKETS
 
+from flexcage.stress.between import Loads
 from flexcage.stress.fields import StressFields
-from flexcage.stress.history import stress_history
+from flexcage.stress.history import stress_bound, stress_history
 from flexcage.stress.screening import Screen
 
 SIZES, PARTS, COLUMNS, INSTANTS = (7, 40, 1, 25), 5, 60, 30
@@ -105,3 +106,45 @@ def test_a_search_finds_what_evaluating_everything_finds(damaged):
     for i, vertices in enumerate(fields.places.values()):
         own = values[np.searchsorted(fields.surface, vertices)]
         np.testing.assert_allclose(ours.places[:, i], own.max(axis=0), rtol=5e-6)
+
+
+@pytest.mark.parametrize("lands", [True, False])
+def test_no_peak_passes_the_bound_of_a_run(damaged, lands):
+    """Random loads at samples and at steps between them, each of which alone may make the peak."""
+    rng, count = np.random.default_rng(5), 270
+    fields = StressFields(damaged)
+
+    def loads(n, scale):
+        q = scale * rng.standard_normal((n, damaged.basis.size))
+        q /= np.sqrt(np.diag(damaged.basis.stiffness))
+        forces = rng.standard_normal((n, POCKETS, 4, 7, 3)) * (rng.random((n, 1, 1, 1, 1)) < 0.5)
+        land = rng.standard_normal((n, 2, 24, 3)) * (rng.random((n, 1, 1, 1)) < 0.1)
+        return q, forces, land
+
+    q, forces, land = loads(count, 1.0)
+    for scale in (0.1, 10.0):  # the peak is at a sample, and at a step
+        after = np.arange(5, count, 9)
+        steps = Loads(after, np.full(len(after), 0.5), *loads(len(after), scale))
+
+        def between(first, end, steps=steps):
+            return steps.only((steps.sample >= first) & (steps.sample < end))
+
+        arguments = fields, q, forces, land if lands else None
+        history = stress_history(*arguments, between=between)
+        bound = stress_bound(*arguments, between=between)
+        assert history.peak.max() <= bound < 30.0 * history.peak.max()
+        at_samples = stress_bound(*arguments)
+        assert history.at_sample.max() <= at_samples
+        assert (at_samples < bound) == (scale > 1.0)
+
+
+def test_the_bound_of_one_load_is_its_stress(damaged):
+    """A mode, a force in a pocket and one on a land, each alone."""
+    fields = StressFields(damaged)
+    for k in range(3):
+        q, forces = np.zeros((2, damaged.basis.size)), np.zeros((2, POCKETS, 4, 7, 3))
+        land = np.zeros((2, 2, 24, 3))
+        (q[1], forces[1, 2, 0, 3], land[1, 1, 5])[k][-1] = 7.0
+        peak = stress_history(fields, q, forces, land).peak.max()
+        assert peak > 0.0
+        assert stress_bound(fields, q, forces, land) == pytest.approx(peak, rel=2e-5)
