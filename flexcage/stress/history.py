@@ -331,7 +331,7 @@ def stress_bound(
     *,
     between: Steps = no_steps,
 ) -> float:
-    """What no peak [Pa] of ``stress_history`` passes, at a hundredth of its cost: the largest
+    """What no peak [Pa] of ``stress_history`` passes, at a tenth of its cost: the largest
     stress of every load alone, added up, the most at any instant. Arguments as there."""
     instants = _Instants(fields, q, station_forces, land_forces, between)
     each = fields.largest_each(lands=land_forces is not None)

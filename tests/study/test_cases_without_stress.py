@@ -11,7 +11,7 @@ from flexcage.simulate import load_run, simulate
 from flexcage.study import work
 from flexcage.study.axes import Grid
 from flexcage.study.folder import Folder
-from flexcage.study.outputs import needs_stress
+from flexcage.study.outputs import lacking, needs_stress
 from flexcage.study.page_stress import to_show
 from flexcage.study.plan import make_plan
 from flexcage.study.results import StudyResults
@@ -55,6 +55,12 @@ def test_outputs_of_stress_rivets_and_fatigue_want_stress(name):
     wanted = KNOWN[name].section in (SECTION, "Rivets", "Fatigue")
     assert needs_stress(("cage_speed", name, "pocket_force.max")) == wanted
     assert not needs_stress(("cage_speed", "pocket_force.max"))
+
+
+def test_a_rigid_cage_lacks_nothing_that_a_flexible_one_has():
+    wanted = ("stress_peak", "fatigue_life", "rivet_stress", "wear_depth_rate", "pocket_force.max")
+    assert lacking(wanted, {"cage_speed"}) == wanted[3:]
+    assert lacking(wanted, {"mode_count", "stress_peak"}) == wanted[1:]
 
 
 def test_a_study_without_such_an_output_computes_no_stress(tmp_path, monkeypatch, plain):
