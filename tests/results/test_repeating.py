@@ -8,7 +8,7 @@ import pytest
 from flexcage.case import load_case
 from flexcage.core.timing import Stages
 from flexcage.results import repeating
-from flexcage.results.cage_file import cage_record, read_cage, write_cage
+from flexcage.results.cage_file import cage_file, cage_record, read_cage, write_cage
 from flexcage.stages import made_cage
 
 COARSE = {"mesh.fineness": "coarse", "cage.model": "flexible"}
@@ -29,7 +29,7 @@ def record(request):
 
 
 def test_shapes_come_back_bit_by_bit(record, tmp_path):
-    found = read_cage(write_cage(tmp_path / "cage.zip", record)).groups["basis"]
+    found = read_cage(write_cage(tmp_path / "cage.zip", cage_file(record))).groups["basis"]
     assert set(found) == set(record.groups["basis"])
     np.testing.assert_array_equal(found["steps"], record.groups["basis"]["steps"])
     assert found["steps"].dtype == np.int32 and found["steps"].flags.c_contiguous
