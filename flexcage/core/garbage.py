@@ -6,6 +6,8 @@ import gc
 from collections.abc import Iterator
 from contextlib import contextmanager
 
+_NEW_OBJECTS = 50_000  # after which they are looked at
+
 
 @contextmanager
 def uncollected() -> Iterator[None]:
@@ -35,3 +37,17 @@ def while_loading() -> Iterator[None]:
     with uncollected():
         yield
     gc.freeze()
+
+
+@contextmanager
+def few_collections() -> Iterator[None]:
+    """The search runs less often, and looks at what is new alone: figures are many small objects,
+    and it would look again and again through all that a run holds."""
+    usual = gc.get_threshold()
+    gc.freeze()
+    gc.set_threshold(_NEW_OBJECTS, *usual[1:])
+    try:
+        yield
+    finally:
+        gc.set_threshold(*usual)
+        gc.unfreeze()

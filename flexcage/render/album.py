@@ -7,9 +7,7 @@ the cage, and fixes the range of stress and the factor of deformation, which els
 
 from __future__ import annotations
 
-import gc
-from collections.abc import Callable, Iterator, Sequence
-from contextlib import contextmanager
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
@@ -18,6 +16,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from flexcage.core.errors import FlexcageError, RunFailed, mistake_in
+from flexcage.core.garbage import few_collections
 from flexcage.core.progress import Silent
 from flexcage.core.registry import add, check_free
 from flexcage.mesh.cage_mesh import CageMesh
@@ -31,7 +30,6 @@ from flexcage.results.metrics import BearingNumbers, settled
 if TYPE_CHECKING:
     import xarray
 
-_NEW_OBJECTS = 50_000  # after which they are looked at for garbage
 Drawing = partial[Path]  # draws one picture, and gives its path
 
 _FILES = (
@@ -124,25 +122,11 @@ def draw_album(
     if animate:
         drawings += _animations(scene, folder, look)
     paths: list[Path] = []
-    with progress(len(drawings), "pictures") as bar, _few_collections():
+    with progress(len(drawings), "pictures") as bar, few_collections():
         for drawing in drawings:
             paths.append(drawing())
             bar.advance()
     return paths
-
-
-@contextmanager
-def _few_collections() -> Iterator[None]:
-    """Python's garbage collector looks less often, and at what is new alone: figures are many small
-    objects, and it would look again and again through all that a run holds."""
-    usual = gc.get_threshold()
-    gc.freeze()
-    gc.set_threshold(_NEW_OBJECTS, *usual[1:])
-    try:
-        yield
-    finally:
-        gc.set_threshold(*usual)
-        gc.unfreeze()
 
 
 def _draw_own(name: str, draw: Callable[[Scene, Path], Path], scene: Scene, path: Path) -> Path:

@@ -1,7 +1,12 @@
 """Python's search for unused objects pauses while a program loads, and leaves that out."""
 
+import gc
 import subprocess
 import sys
+
+import pytest
+
+from flexcage.core.garbage import few_collections
 
 _CODE = """
 import gc
@@ -32,3 +37,12 @@ def test_a_run_loads_without_it(tmp_path):
     )
     arguments = [str(case), "-o", str(tmp_path / "run")]
     subprocess.run([sys.executable, "-c", _RUN, *arguments], check=True)
+
+
+def test_what_is_old_is_not_collected_while_pictures_are_drawn():
+    before, usual = gc.get_freeze_count(), gc.get_threshold()
+    with pytest.raises(KeyError), few_collections():
+        assert gc.get_freeze_count() > before
+        raise KeyError
+    assert gc.get_freeze_count() <= before
+    assert gc.get_threshold() == usual

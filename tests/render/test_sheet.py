@@ -1,12 +1,10 @@
 """Figures as files: pixels as they are, no transparency."""
 
-import gc
-
 import numpy as np
 import PIL.Image
 import pytest
 
-from flexcage.render import album, sheet
+from flexcage.render import sheet
 
 
 def test_pixels_are_put_and_saved_as_they_are(tmp_path):
@@ -32,12 +30,3 @@ def test_other_formats_are_written_by_their_suffix(tmp_path):
         figure = sheet.new_figure(200, 150)
         sheet.image_at(figure, (20, 30, 70, 40), np.zeros((40, 70, 3), np.uint8))
         assert sheet.save(figure, tmp_path / "a.pdf").read_bytes().startswith(b"%PDF")
-
-
-def test_what_is_old_is_not_collected_while_pictures_are_drawn():
-    before, usual = gc.get_freeze_count(), gc.get_threshold()
-    with pytest.raises(KeyError), album._few_collections():
-        assert gc.get_freeze_count() > before
-        raise KeyError
-    assert gc.get_freeze_count() <= before
-    assert gc.get_threshold() == usual
