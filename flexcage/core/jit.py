@@ -56,9 +56,7 @@ import numba  # noqa: E402  (its cache folder must be known first)
 from llvmlite import ir  # noqa: E402
 from numba import types  # noqa: E402
 from numba.core import cgutils  # noqa: E402
-from numba.core.codegen import CPUCodeLibrary, JITCPUCodegen  # noqa: E402
 from numba.core.imputils import impl_ret_borrowed, lower_getattr_generic  # noqa: E402
-from numba.core.targetconfig import TargetConfig  # noqa: E402
 from numba.core.typing.templates import AttributeTemplate, infer_getattr  # noqa: E402
 from numba.extending import (  # noqa: E402
     NativeValue,
@@ -71,6 +69,7 @@ from numba.extending import (  # noqa: E402
 
 from flexcage.core.kernel_cache import KernelCache, KernelFolder  # noqa: E402
 from flexcage.core.kernel_values import short_name  # noqa: E402
+from flexcage.core.numba_changes import PART_NAME, own_compilation  # noqa: E402
 
 numba.config.CACHE_DIR = os.environ["NUMBA_CACHE_DIR"]  # type: ignore[attr-defined]
 _folder = KernelFolder(Path(os.environ["NUMBA_CACHE_DIR"]))
@@ -109,12 +108,23 @@ def _jitted(function: Any, signature: Any, options: dict[str, Any]) -> Any:
     made = numba.njit(**{**options, "cache": False})(function)
     if numba.config.DISABLE_JIT:  # type: ignore[attr-defined]
         return made
+    made.compile = _as_our_own(made.compile)
     if options["cache"]:
         made._cache = KernelCache(made.py_func, _folder)
     if signature is not None:
         made.compile(signature)
         made.disable_compile()
     return made
+
+
+def _as_our_own(compile_for: Any) -> Any:
+    """A kernel's method that compiles it, or reads it from disk, with our changes to numba."""
+
+    def compile_as_our_own(signature: Any) -> Any:
+        with own_compilation():
+            return compile_for(signature)
+
+    return compile_as_our_own
 
 
 def kernel_of(function: Any, signature: Any) -> Any:
@@ -133,72 +143,15 @@ def why_not_compiled(error: Exception) -> str:
     return lines[min(1, len(lines) - 1)] if lines else type(error).__name__
 
 
-_PART_NAME = "flexcage_part."
-
-
 def part(*args: Any, **kwargs: Any) -> Any:
     """A kernel that only other kernels call: inlined there, not callable from Python."""
     if not (args and callable(args[0])):
         return lambda function: part(function, **kwargs)
-    args[0].__qualname__ = _PART_NAME + args[0].__qualname__  # known below by it
+    args[0].__qualname__ = PART_NAME + args[0].__qualname__  # known below by it
     return numba.njit(**{**PART, **kwargs})(args[0])
 
 
 outlined = part(forceinline=False)  # a part that stays a function: large, or rarely called
-
-
-def _leave_parts_to_their_callers() -> None:
-    """Have numba neither optimise a part nor make machine code of it, but where it is inlined.
-
-    It does both for every function when that is compiled, and optimises it again inside each of
-    its callers: half of all compile time (measured). The methods are numba's own affair, and
-    another release may lack one; then nothing is changed.
-    """
-    whole = getattr(CPUCodeLibrary, "_optimize_final_module", None)
-    ready = getattr(CPUCodeLibrary, "_finalize_final_module", None)
-    address = getattr(JITCPUCodegen, "set_env", None)
-    if whole is None or ready is None or address is None:
-        return
-
-    def optimise(library: CPUCodeLibrary) -> None:
-        if not library.name.startswith(_PART_NAME):
-            whole(library)
-
-    def finalise(library: CPUCodeLibrary) -> None:
-        if library.name.startswith(_PART_NAME):
-            library._finalized = True
-        else:
-            ready(library)
-
-    def set_environment(codegen: JITCPUCodegen, name: str, environment: Any) -> None:
-        if codegen._engine.is_symbol_defined(name):
-            address(codegen, name, environment)
-
-    CPUCodeLibrary._optimize_final_module = optimise
-    CPUCodeLibrary._finalize_final_module = finalise
-    JITCPUCodegen.set_env = set_environment
-
-
-_leave_parts_to_their_callers()
-
-
-def _compare_flags_quickly() -> None:
-    """Have numba compare its compiler flags by what was set: a sixth of its Python (measured).
-
-    It does so 400,000 times, option by option, and hashes their names.
-    """
-    same = TargetConfig.__eq__
-
-    def equal(flags: Any, other: Any) -> Any:
-        quickly = type(flags) is type(other) and flags._values == other._values
-        return quickly or same(flags, other)
-
-    TargetConfig.__eq__ = equal
-    TargetConfig.__hash__ = lambda flags: hash(type(flags))
-
-
-if hasattr(TargetConfig, "_values"):
-    _compare_flags_quickly()
 
 
 def allocating_kernel(function: Any) -> Any:

@@ -12,7 +12,6 @@ from typing import Any
 
 from numba import types
 from numba.core import cgutils
-from numba.core.lowering import Lower
 from numba.experimental.function_type import FunctionModel
 from numba.extending import NativeValue, register_model, unbox
 
@@ -59,36 +58,3 @@ def _unbox(kind, kernel, c):
     c.pyapi.decref(found)
     value.py_addr = c.builder.ptrtoint(kernel, c.context.get_value_type(types.voidptr))
     return NativeValue(value._getvalue())
-
-
-def _call_directly() -> None:
-    """Have numba call a kernel at its address, where it looks first whether there is one.
-
-    The method is numba's own affair, and another release may lack it; then nothing is changed.
-    """
-    call = getattr(Lower, "_lower_call_FunctionType", None)
-    if call is None:
-        return
-
-    def lower(self: Any, kind: Any, expression: Any, signature: Any) -> Any:
-        if not isinstance(kind, KernelType):
-            return call(self, kind, expression, signature)
-        result, arguments = signature.return_type, signature.args
-        values = self.fold_call_args(
-            kind, signature, expression.args, expression.vararg, expression.kws
-        )
-        proxy = cgutils.create_struct_proxy(kind)
-        value = proxy(self.context, self.builder, value=self.loadvar(expression.func.name))
-        convention = self.context.call_conv
-        pointer = convention.get_function_type(result, arguments).as_pointer()
-        status, returned = convention.call_function(
-            self.builder, self.builder.bitcast(value.jit_addr, pointer), result, arguments, values
-        )
-        with cgutils.if_unlikely(self.builder, status.is_error):
-            convention.return_status_propagate(self.builder, status)
-        return returned
-
-    Lower._lower_call_FunctionType = lower
-
-
-_call_directly()
