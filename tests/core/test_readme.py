@@ -112,8 +112,8 @@ def test_every_page_is_reached_from_the_main_page():
 
 def test_the_gallery_names_every_example():
     text = text_of("examples/README.md")
-    files = [p for p in (ROOT / "examples").iterdir() if p.suffix in (".py", ".toml")]
-    assert len(files) > 8 and not [p.name for p in files if f"]({p.name})" not in text]
+    files = [p for p in (ROOT / "examples").iterdir() if p.suffix in (".py", ".toml", ".ipynb")]
+    assert len(files) > 9 and not [p.name for p in files if f"]({p.name})" not in text]
 
 
 def cases():
