@@ -46,7 +46,7 @@ from flexcage.results.warnings import (
     from_attrs,
     warnings_of,
 )
-from flexcage.solve.contract import COUNTS
+from flexcage.solve.contract import Effort
 from flexcage.stress.between import Between
 from flexcage.stress.counting import require_pylife
 from flexcage.stress.fatigue import Fatigue, chosen_places, counted_stress, place_fatigue
@@ -72,7 +72,6 @@ if TYPE_CHECKING:
     from flexcage.render.album import Scene, StressPictures
     from flexcage.render.look import Look
     from flexcage.report.run_page import RunAccount
-    from flexcage.results.recording import Recorder
 
 log = logging.getLogger(__name__)
 
@@ -132,7 +131,7 @@ class Run:
     def events(self) -> xarray.Dataset:
         """Contacts that closed or opened: time [s], roller or ball, place, closed (an
         xarray.Dataset)."""
-        from flexcage.results.recording import contact_events
+        from flexcage.results.events import contact_events
 
         return contact_events(self.store.events(), self.store.layout.attrs)
 
@@ -518,10 +517,11 @@ class Run:
                 return place_in_words(name)
         return ""
 
-    def finish(self, recorder: Recorder, *, stress: bool = True) -> Run:
-        """Complete a run that has come to its end: summary, stored beside the results; without
-        ``stress``, this is left out where it surely stays below the proof stress."""
-        self.solver = recorder
+    def finish(self, effort: Effort, *, stress: bool = True) -> Run:
+        """Complete a run that has come to its end: summary, stored beside the results, with what
+        the integration took; without ``stress``, this is left out where it surely stays below
+        the proof stress."""
+        self.effort = effort
         self.summary_at_end = self._summarise(stress=stress)
         if self.folder:
             self.summary_at_end.write(self.folder)
@@ -667,13 +667,11 @@ class Run:
         ]
 
     def _solver_rows(self) -> list[Row]:
-        count, bound = self.solver.state.count, self.solver.bound
-        rows = [
-            figure(k, int(count[i]), idle=not count[i] and k in _RARE) for k, i in COUNTS.items()
-        ]
-        if np.isfinite(bound):
+        counts, stable_step = self.effort
+        rows = [figure(k, n, idle=not n and k in _RARE) for k, n in counts.items()]
+        if np.isfinite(stable_step):
             note = "least over the run, by the spectral radius"
-            rows.append(figure("stable_step", bound, note))
+            rows.append(figure("stable_step", stable_step, note))
         return rows
 
 

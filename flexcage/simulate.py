@@ -12,7 +12,7 @@ from flexcage.case import Case
 from flexcage.core.binding import expect
 from flexcage.core.locks import held
 from flexcage.core.timing import Stages
-from flexcage.results.recording import Recorder
+from flexcage.integrate.integration import Integration
 from flexcage.run import Run, warnings_at_start
 from flexcage.run_folder import begun_store, check_written, open_folder
 from flexcage.stages import (
@@ -73,9 +73,9 @@ def _simulated(
         case, bearing, (mesh, cage), folder, study=Path(study) if study else None, warned=warned
     )
     run = Run(case, store, folder, mesh, cage, start, stages)
-    recorder = Recorder(bearing, start, store, solver=case.solver, output=case.output)
-    stages("solve", recorder.march, progress)
-    return run.finish(recorder, stress=stress)
+    integration = Integration(bearing, start, store, solver=case.solver, output=case.output)
+    stages("solve", integration.march, progress)
+    return run.finish(integration.effort, stress=stress)
 
 
 def load_run(folder: str | Path, *, progress: Any = None) -> Run:

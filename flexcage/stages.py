@@ -21,6 +21,7 @@ from flexcage.core.hashing import content_hash
 from flexcage.core.progress import Silent
 from flexcage.core.timing import Stages
 from flexcage.core.warning import RunWarning
+from flexcage.integrate.recorded import new_store
 from flexcage.mesh.build import build_cage_mesh
 from flexcage.mesh.cage_mesh import CageMesh
 from flexcage.mesh.options import MeshOptions
@@ -30,7 +31,6 @@ from flexcage.modes.table import ModeTable
 from flexcage.results import room
 from flexcage.results.cage_file import FORMAT as CAGE_FORMAT
 from flexcage.results.cage_file import CageFile, cage_file, cage_record, check_same
-from flexcage.results.recording import new_store
 from flexcage.results.store import MemoryRunStore
 from flexcage.results.warnings import to_text
 from flexcage.run_folder import keep_cage, kept_cage, write_case

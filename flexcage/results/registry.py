@@ -62,6 +62,7 @@ RUN_DIMS = (
     "roller", "ball", "pocket", "mode", "slice", "end_point", "station", "residual", "constraint",
     "energy_kind", "channel", "land_station",
 )  # fmt: skip
+ENERGIES = ("kinetic", "strain", "contact", "mount")  # labels of energy_kind
 
 
 @dataclass(frozen=True)

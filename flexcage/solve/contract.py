@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -35,6 +35,14 @@ COUNTS = {
     "failed_error_tests": ERROR_FAILS,
     "failed_newton": NEWTON_FAILS,
 }
+
+
+class Effort(NamedTuple):
+    """What an integration took: numbers of steps and more by the names in ``COUNTS``, and the least
+    stability bound of explicit steps that was found [s], infinite where none was sought."""
+
+    counts: Mapping[str, int]
+    stable_step: float
 
 
 @dataclass(frozen=True)

@@ -15,9 +15,8 @@ from flexcage.core.binding import did_you_mean
 from flexcage.core.errors import InputError
 from flexcage.results.known import FATIGUE, FLEXIBLE, KNOWN, RIVETED, WEAR, figure
 from flexcage.results.metrics import cage_angle, settled, whole_revolutions
-from flexcage.results.recording import ENERGIES
 from flexcage.results.reductions import DERIVED, REDUCTIONS
-from flexcage.results.registry import LABELS, TIME, VARIABLES, Variable, variable
+from flexcage.results.registry import ENERGIES, LABELS, TIME, VARIABLES, Variable, variable
 from flexcage.results.statistics import roller_passes
 from flexcage.results.summary import Row, Value
 from flexcage.stress.counting import require_pylife

@@ -10,8 +10,9 @@ from typing import Any
 import numpy as np
 
 from flexcage.case import Case, load_case
+from flexcage.integrate.integration import Integration
+from flexcage.integrate.recorded import new_store
 from flexcage.mesh.cage_mesh import CageMesh
-from flexcage.results.recording import Recorder, new_store
 from flexcage.stages import build_bearing, cage_mesh
 from flexcage.system.problem import Bearing
 from flexcage.system.start import Start
@@ -62,5 +63,5 @@ def march(case: Case, bearing: Bearing, y: np.ndarray, yd: np.ndarray) -> Any:
     """Integrate a bearing from a chosen state for the case's duration; its dataset (xarray)."""
     start = Start(y, yd, (), 0.0, 0.0, np.zeros_like(bearing.data.work.report.station))
     store = new_store(None, bearing, duration=case.solver.duration, output=case.output, attrs={})
-    Recorder(bearing, start, store, solver=case.solver, output=case.output).march()
+    Integration(bearing, start, store, solver=case.solver, output=case.output).march()
     return store.dataset()

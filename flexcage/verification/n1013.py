@@ -9,10 +9,11 @@ from typing import Any
 import numpy as np
 
 from flexcage.case import Case, load_case
+from flexcage.integrate.integration import Integration
+from flexcage.integrate.recorded import new_store
 from flexcage.mesh.cage_mesh import CageMesh
 from flexcage.modes.reduction import CageReduction
 from flexcage.modes.spec import ModesSpec
-from flexcage.results.recording import Recorder, new_store
 from flexcage.stages import build_bearing, cage_mesh, cage_reduction
 from flexcage.system.problem import Bearing
 from flexcage.system.start import Start, geometric_guess
@@ -96,17 +97,17 @@ def march(
     y: np.ndarray,
     yd: np.ndarray,
     *,
-    also: Callable[[Recorder], Any] | None = None,
+    also: Callable[[Integration], Any] | None = None,
 ) -> Any:
     """Integrate a bearing from a chosen state for the case's duration; its dataset (xarray).
 
-    ``also(recorder)`` is called before the first step.
+    ``also(integration)`` is called before the first step.
     """
     Z, stations = bearing.layout.rollers, bearing.data.model.pocket.phi.shape[2]
     start = Start(y, yd, (), 0.0, 0.0, np.zeros((Z, 4, stations, 3)))
     store = new_store(None, bearing, duration=case.solver.duration, output=case.output, attrs={})
-    recorder = Recorder(bearing, start, store, solver=case.solver, output=case.output)
+    integration = Integration(bearing, start, store, solver=case.solver, output=case.output)
     if also is not None:
-        also(recorder)
-    recorder.march()
+        also(integration)
+    integration.march()
     return store.dataset()

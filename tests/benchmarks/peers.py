@@ -29,7 +29,7 @@ from dense_tangent import newton_matrix
 from ode_form import OdeForm
 from settled import SETTLE, Settled, sample_times
 
-from flexcage.results.recording import FIRST_STEP
+from flexcage.integrate.integration import FIRST_STEP
 from flexcage.system.scales import error_weights
 
 UNTESTED = 1e6  # tolerance of unknowns that are not in the error test (spin angles, multipliers)

@@ -191,7 +191,7 @@ def _timed(owner: Any, name: str, clock: Clock, spent: dict[str, float], key: st
 
 def _clocks() -> dict[str, float]:
     """Seconds by part, counted from now on in this process."""
-    from flexcage.results.recording import Recorder
+    from flexcage.integrate.integration import Integration
     from flexcage.run import Run
     from flexcage.system.problem import Bearing
 
@@ -204,10 +204,10 @@ def _clocks() -> dict[str, float]:
         return timed(self, integrator, state, options, *rest)
 
     Bearing.advance = advance  # type: ignore[method-assign]
-    _timed(Recorder, "march", time.process_time, spent, "march")
+    _timed(Integration, "march", time.process_time, spent, "march")
     _timed(Run, "_stress_history", time.process_time, spent, "stress")
     _timed(Run, "_draw", _with_children, spent, "pictures")
-    march, draw = Recorder.march, Run._draw
+    march, draw = Integration.march, Run._draw
 
     def begun(*args: Any, **kwargs: Any) -> Any:
         spent["import"] = time.process_time()
@@ -220,7 +220,7 @@ def _clocks() -> dict[str, float]:
         spent["pictures_import"] = time.process_time() - begin
         return draw(*args, **kwargs)
 
-    Recorder.march, Run._draw = begun, imported  # type: ignore[method-assign]
+    Integration.march, Run._draw = begun, imported  # type: ignore[method-assign]
     return spent
 
 

@@ -7,8 +7,9 @@ import pytest
 from simulate_cases import Interrupted
 
 from flexcage.core.errors import InputError, RunFailed
-from flexcage.results.faults import overlaps
-from flexcage.results.recording import Recorder, new_store
+from flexcage.integrate.divergence import overlaps
+from flexcage.integrate.integration import Integration
+from flexcage.integrate.recorded import new_store
 from flexcage.system.start import find_start
 from flexcage.verification.n1013 import bearing_of, n1013
 
@@ -29,55 +30,55 @@ class Broken(Interrupted):
 
 
 @pytest.fixture
-def recorder(tmp_path):
+def integration(tmp_path):
     case = n1013({"cage.model": "rigid", "solver.duration": "4 ms", "output.block": 50})
     bearing = bearing_of(case)
     start = find_start(bearing, limit_force=2e4)
     store = new_store(tmp_path / "r.zarr", bearing, duration=4e-3, output=case.output, attrs={})
-    return Recorder(bearing, start, store, solver=case.solver, output=case.output)
+    return Integration(bearing, start, store, solver=case.solver, output=case.output)
 
 
-def kept(recorder, until):
+def kept(integration, until):
     """Samples are there and finite up to ``until`` [s], and so is the last good state."""
-    ds, last = recorder.store.dataset(), recorder.store.last()
+    ds, last = integration.store.dataset(), integration.store.last()
     assert BLOCK <= ds["time"].values[-1] <= float(last["time"]) <= until
     assert all(np.isfinite(ds[name].values).all() for name in ("cage_position", "race_force"))
-    assert np.isfinite(last["y"]).all() and recorder.store.blocks >= 1
+    assert np.isfinite(last["y"]).all() and integration.store.blocks >= 1
     return last
 
 
-def test_a_value_that_is_no_number(recorder):
-    normal = recorder.bearing.data.model.outer.normal
+def test_a_value_that_is_no_number(integration):
+    normal = integration.bearing.data.model.outer.normal
 
     def harm():
         normal[0] = np.nan
 
     with pytest.raises(RunFailed, match=r"t = 1\.00.* ms: .*roller \d+ on its outer race with nan"):
-        recorder.march(Broken(harm))
-    kept(recorder, 1.01e-3)
+        integration.march(Broken(harm))
+    kept(integration, 1.01e-3)
 
 
-def test_a_pocket_that_has_no_force_is_named_before_it_is_touched(recorder):
+def test_a_pocket_that_has_no_force_is_named_before_it_is_touched(integration):
     """The last good state has all forces: that of no pocket that touches is asked for in it."""
-    normal = recorder.bearing.data.model.pocket.normal
+    normal = integration.bearing.data.model.pocket.normal
 
     def harm():
         normal[0, 0] = np.nan
 
     with pytest.raises(RunFailed, match=r"then was roller \d+ on its pocket's face \w+ with nan"):
-        recorder.march(Broken(harm))
+        integration.march(Broken(harm))
 
 
-def test_a_race_that_gives_way(recorder):
+def test_a_race_that_gives_way(integration):
     """Its contacts lose their stiffness: the load drives the inner ring through its rollers."""
-    bearing = recorder.bearing
+    bearing = integration.bearing
 
     def harm():
         bearing.data.model.inner.normal[0] = 1.0
 
     with pytest.raises(RunFailed, match=r"roller \d+ lies 1 mm deep in its inner race at") as said:
-        recorder.march(Broken(harm))
-    last = kept(recorder, 4e-3)
+        integration.march(Broken(harm))
+    last = kept(integration, 4e-3)
     roller = int(re.search(r"roller (\d+)", str(said.value))[1])
     assert np.cos(bearing.layout.q(last["y"])["rollers"][roller, 2]) > 0.95  # where the load points
     depth = overlaps(bearing.data.model, bearing.layout, last["y"][None])[0]
@@ -109,14 +110,14 @@ def test_rollers_larger_than_their_pockets_are_not_called_a_defect():
     assert said.value.where == "bearing.roller_scatter"
 
 
-def test_overlaps_of_a_start(recorder):
+def test_overlaps_of_a_start(integration):
     """Loaded rollers touch both races by micrometres, and lie in the middle of their pockets."""
-    bearing = recorder.bearing
-    depth = overlaps(bearing.data.model, bearing.layout, recorder.state.D[:1])[0]
+    bearing = integration.bearing
+    depth = overlaps(bearing.data.model, bearing.layout, integration.state.D[:1])[0]
     play = bearing.data.model.pocket.half[0] - bearing.data.model.bodies.radius[0]
     assert 1e-6 < depth[0, 0] < 20e-6 and 1e-6 < depth[0, 1] < 20e-6
     np.testing.assert_allclose(depth[:, 2] + depth[:, 3], -2.0 * play, rtol=0.02)
-    case = recorder.bearing.data.model
+    case = integration.bearing.data.model
     for at, room in ((4, case.pocket.half[1]), (6, case.rib.half_gap)):
         both = depth[:, at] + depth[:, at + 1]
         np.testing.assert_allclose(both, -2.0 * (room - case.pocket.half_roller), rtol=1e-3)

@@ -8,7 +8,7 @@ from simulate_cases import Interrupted, bent, n1013
 
 from flexcage.cli import main
 from flexcage.core.errors import InputError, RunFailed
-from flexcage.results import recording
+from flexcage.integrate import integration, recorded
 from flexcage.results.registry import VARIABLES
 from flexcage.results.store import RunStore
 from flexcage.run_folder import write_case
@@ -120,13 +120,13 @@ def test_a_smallest_step_that_is_too_large_ends_with_a_sentence(tmp_path):
 
 
 def test_a_run_that_lacks_what_is_recorded_now_is_not_resumed(tmp_path, monkeypatch):
-    variables_of = recording.variables_of
+    variables_of = recorded.variables_of
     older = [name for name in variables_of("roller") if name != "pocket_peak"]
-    monkeypatch.setattr(recording, "variables_of", lambda element: older)
-    recorded = recording.recorded
+    monkeypatch.setattr(recorded, "variables_of", lambda element: older)
+    arrays = integration.recorded
     monkeypatch.setattr(
-        recording, "recorded",
-        lambda *a: {k: v for k, v in recorded(*a).items() if k != "pocket_peak"},
+        integration, "recorded",
+        lambda *a: {k: v for k, v in arrays(*a).items() if k != "pocket_peak"},
     )  # fmt: skip
     with pytest.raises(KeyboardInterrupt):
         simulate(case_of("rigid"), out=tmp_path, progress=Interrupted(1, BLOCK))

@@ -74,9 +74,9 @@ def statistics(case, fields: StressFields) -> dict[str, float]:
     """One run, its settled part: what the cage does and bears, and what the run cost."""
     bearing = bearing_of(case)
     start = find_start(bearing, limit_force=case.limits.assembly_force)
-    recorders: list = []
+    integrations: list = []
     before = time.process_time()
-    ds = march(case, bearing, start.y, start.yd, also=recorders.append)
+    ds = march(case, bearing, start.y, start.yd, also=integrations.append)
     cost = time.process_time() - before
     ds = settled(ds, case.output.settle)
     force = ds["pocket_force"].transpose("time", "pocket", "face").values.astype(float)
@@ -103,7 +103,7 @@ def statistics(case, fields: StressFields) -> dict[str, float]:
         "root stress: mean, MPa": 1e-6 * root.mean(),
         "root stress: 99 %, MPa": 1e-6 * np.quantile(root, 0.99),
         "root stress: largest, MPa": 1e-6 * root.max(),
-        "steps": int(recorders[0].state.count[bdf.STEPS]),
+        "steps": int(integrations[0].state.count[bdf.STEPS]),
         "CPU, s": cost,
     }
 

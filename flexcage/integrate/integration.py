@@ -3,20 +3,30 @@
 from __future__ import annotations
 
 import logging
-from collections.abc import Callable, Mapping
-from typing import TYPE_CHECKING, Any
+from collections.abc import Callable
+from typing import Any
 
 import numpy as np
 
 from flexcage.core.errors import FlexcageError, InputError, RunFailed, mistake_in
 from flexcage.core.progress import Silent
-from flexcage.results.faults import first_undefined, hardest, runaway
+from flexcage.integrate.divergence import first_undefined, hardest, runaway
+from flexcage.integrate.recorded import recorded, recorded_names
 from flexcage.results.lowpass import butterworth, low_passed
 from flexcage.results.options import OutputOptions
-from flexcage.results.recorded import own_coords, recorded
-from flexcage.results.registry import COMPUTED, VARIABLES, variables_of
-from flexcage.results.store import LOADS, MemoryRunStore, RunStore
-from flexcage.solve.contract import COUNTS, DONE, LOG_COLUMNS, LOG_FULL, NOT_FINITE, OUTCOMES, H, T
+from flexcage.results.registry import COMPUTED, VARIABLES
+from flexcage.results.store import LOADS, MemoryRunStore
+from flexcage.solve.contract import (
+    COUNTS,
+    DONE,
+    LOG_COLUMNS,
+    LOG_FULL,
+    NOT_FINITE,
+    OUTCOMES,
+    Effort,
+    H,
+    T,
+)
 from flexcage.solve.integrators import INTEGRATORS
 from flexcage.solve.options import SolverOptions
 from flexcage.system.data import POWERS
@@ -24,12 +34,8 @@ from flexcage.system.problem import Bearing
 from flexcage.system.scales import error_weights, work_weights
 from flexcage.system.start import Start
 
-if TYPE_CHECKING:
-    import xarray
-
 log = logging.getLogger(__name__)
 
-ENERGIES = ("kinetic", "strain", "contact", "mount")
 FILTER_HZ = 10e3  # low-pass of outer_acceleration_filtered
 FIRST_STEP = 1e-7
 BEHIND = 1e-13  # [s] that a run begins behind a corner: more than rounding puts a time beside it
@@ -38,65 +44,7 @@ _REMEMBERED = ("closed", "land", "force", "pushed", "pushed_before")  # of Event
 LOG_ROWS = 20_000  # steps that are logged at a time
 
 
-def new_store(
-    path: Any, bearing: Bearing, *, duration: float, output: OutputOptions, attrs: dict[str, Any]
-) -> MemoryRunStore:
-    """Allocate a run for this bearing on its sampling grids, at ``path`` or in memory."""
-    n, ratio = max(round(duration * output.rate), 2), output.vibration_ratio
-    layout, element = bearing.layout, bearing.family.element
-    numbers = np.arange(layout.rollers)
-    coords = {
-        "time": np.arange(1, n + 1) / output.rate,
-        "time_hf": np.arange(1, n * ratio + 1) / output.vibration_rate,
-        element: numbers,
-        "pocket": numbers,
-        "face": np.array(bearing.family.faces),
-        "mode": np.arange(layout.modes),
-        "constraint": np.array(layout.reactions),
-        "multiplier_unit": (
-            ("constraint",),
-            np.array(bearing.reaction_units),
-            {"long_name": "unit of multipliers"},
-        ),
-        "energy_kind": np.array(ENERGIES),
-        "channel": np.array(POWERS),
-        "land_station": np.arange(len(bearing.data.model.land.angle)),
-        **own_coords(bearing.data.model),
-    }
-    return RunStore.create(
-        path,
-        coords=coords,
-        variables=recorded_names(bearing),
-        n_time=n,
-        n_time_hf=n * ratio,
-        block=output.block,
-        block_hf=output.block_hf,
-        attrs={**attrs, "element": element, "places": list(bearing.family.places)},
-    )
-
-
-def recorded_names(bearing: Bearing) -> list[str]:
-    """Names of all that is recorded of this bearing."""
-    every = variables_of(bearing.family.element)
-    return [name for name in every if bearing.layout.modes or "mode" not in VARIABLES[name].dims]
-
-
-def contact_events(table: dict[str, np.ndarray], attrs: Mapping[str, Any]) -> xarray.Dataset:
-    """Contacts that closed or opened, from a store's table and attributes, one entry an event."""
-    import xarray
-
-    names, element = np.array(attrs["places"]), str(attrs["element"])
-    return xarray.Dataset(
-        {
-            "time": ("event", table["time"], {"units": "s", "long_name": "step that found it"}),
-            element: ("event", table["element"], {"long_name": f"{element}; -1: the cage's land"}),
-            "place": ("event", names[table["place"]], {"long_name": "contact place"}),
-            "closed": ("event", table["closed"].astype(bool), {"long_name": "closed, not opened"}),
-        }
-    )
-
-
-class Recorder:
+class Integration:
     """The integration of one run: goes on from a checkpoint if the store has one."""
 
     def __init__(
@@ -174,6 +122,11 @@ class Recorder:
             step = float(self.state.real[H])
         self._take(self.integrator.name, time, y, yd, step)
         self.options = options
+
+    @property
+    def effort(self) -> Effort:
+        """What the integration took so far."""
+        return Effort({k: int(self.state.count[i]) for k, i in COUNTS.items()}, self.bound)
 
     @property
     def time(self) -> float:

@@ -8,7 +8,11 @@ from typing import Any
 import numpy as np
 
 from flexcage.contacts.pocket_wall import N_LOCAL
+from flexcage.results.options import OutputOptions
+from flexcage.results.registry import ENERGIES, VARIABLES, variables_of
+from flexcage.results.store import MemoryRunStore, RunStore
 from flexcage.system.ball_model import BallModel
+from flexcage.system.data import POWERS
 from flexcage.system.model import Model
 from flexcage.system.problem import Bearing
 
@@ -26,6 +30,49 @@ def own_coords(model: Any) -> dict[str, Any]:
 def recorded(model: Any, bearing: Bearing, y: np.ndarray, yd: np.ndarray) -> Arrays:
     """Main-grid variables of one block by name, from states (n, size) and the samples kept."""
     raise NotImplementedError(f"{type(model).__name__} records nothing")
+
+
+def new_store(
+    path: Any, bearing: Bearing, *, duration: float, output: OutputOptions, attrs: dict[str, Any]
+) -> MemoryRunStore:
+    """Allocate a run for this bearing on its sampling grids, at ``path`` or in memory."""
+    n, ratio = max(round(duration * output.rate), 2), output.vibration_ratio
+    layout, element = bearing.layout, bearing.family.element
+    numbers = np.arange(layout.rollers)
+    coords = {
+        "time": np.arange(1, n + 1) / output.rate,
+        "time_hf": np.arange(1, n * ratio + 1) / output.vibration_rate,
+        element: numbers,
+        "pocket": numbers,
+        "face": np.array(bearing.family.faces),
+        "mode": np.arange(layout.modes),
+        "constraint": np.array(layout.reactions),
+        "multiplier_unit": (
+            ("constraint",),
+            np.array(bearing.reaction_units),
+            {"long_name": "unit of multipliers"},
+        ),
+        "energy_kind": np.array(ENERGIES),
+        "channel": np.array(POWERS),
+        "land_station": np.arange(len(bearing.data.model.land.angle)),
+        **own_coords(bearing.data.model),
+    }
+    return RunStore.create(
+        path,
+        coords=coords,
+        variables=recorded_names(bearing),
+        n_time=n,
+        n_time_hf=n * ratio,
+        block=output.block,
+        block_hf=output.block_hf,
+        attrs={**attrs, "element": element, "places": list(bearing.family.places)},
+    )
+
+
+def recorded_names(bearing: Bearing) -> list[str]:
+    """Names of all that is recorded of this bearing."""
+    every = variables_of(bearing.family.element)
+    return [name for name in every if bearing.layout.modes or "mode" not in VARIABLES[name].dims]
 
 
 def common(bearing: Bearing, y: np.ndarray, yd: np.ndarray) -> Arrays:

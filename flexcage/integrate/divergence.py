@@ -8,8 +8,8 @@ from typing import Any
 import numpy as np
 from scipy.spatial.transform import Rotation
 
+from flexcage.integrate.recorded import in_plane
 from flexcage.modes.basis import FACES
-from flexcage.results.recorded import in_plane
 from flexcage.system.ball_model import BallModel
 from flexcage.system.layout import Layout
 from flexcage.system.model import Model
