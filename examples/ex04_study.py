@@ -11,8 +11,8 @@ def main(out: Path, **changes: object) -> flexcage.StudyResults:
         name="load and speed",
         case=flexcage.load_case(Path(__file__).with_name("n1013.toml")).replace(**changes),
         axes=[
-            flexcage.Grid("load.radial", ["500 N", "1 kN"]),
-            flexcage.Grid("drive.speed", ["3000 rpm", "6000 rpm"]),
+            flexcage.study.Grid("load.radial", ["500 N", "1 kN"]),
+            flexcage.study.Grid("drive.speed", ["3000 rpm", "6000 rpm"]),
         ],
         outputs=["cage_speed", "epicyclic_speed", "race_force[race=outer].max"],
     )

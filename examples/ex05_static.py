@@ -11,7 +11,7 @@ def main(*speeds: float) -> list[float]:
     case = flexcage.load_static(Path(__file__).with_name("c7010_static.toml"))
     parted = []
     for rpm in speeds:
-        drive = flexcage.Drive(speed=rpm * pi / 30)
+        drive = flexcage.spec.Drive(speed=rpm * pi / 30)
         solution = flexcage.solve_static(
             flexcage.StaticCase(bearing=case.bearing, load=case.load, drive=drive)
         )

@@ -16,6 +16,7 @@ import numpy as np
 
 from flexcage.case import Case, words
 from flexcage.case.checks import land_beside_shoulder, not_reached
+from flexcage.core import html
 from flexcage.core.binding import Binder, check_spec, expect
 from flexcage.core.cache import cached_arrays
 from flexcage.core.errors import EnvironmentLacks, InputError
@@ -121,6 +122,13 @@ class Run:
     def __repr__(self) -> str:
         where = f" in {self.folder}" if self.folder else ""
         return f"Run({self.case.name!r}: {self.store.n_time:,} samples{where})"
+
+    def _repr_html_(self) -> str:
+        """For notebooks: warnings and the figures that matter most."""
+        where = f" in {self.folder}" if self.folder else ""
+        title = f"Run {self.case.name}: {self.store.n_time:,} samples{where}"
+        edited = html.bullets(f"Warning: {warning.text}" for warning in self.edited)
+        return html.block(title, edited, self.summary_at_end.brief_html())
 
     @cached_property
     def dataset(self) -> xarray.Dataset:

@@ -129,7 +129,7 @@ def study(reading: str, *, quick: bool = False) -> flexcage.Study:
     return flexcage.Study(
         name=f"c7010-vibro-impact, {reading}",
         case=case,
-        axes=[flexcage.Points(tuple(points(reading, quick=quick)), name="case")],
+        axes=[flexcage.study.Points(tuple(points(reading, quick=quick)), name="case")],
         outputs=["cage_speed", "cage_slip_ratio_nominal", "velocity_deviation", "whirl_radius"],
         repeat=Repeat(count=2 if reading == BASE and not quick else 1, push=20e-3),
     )

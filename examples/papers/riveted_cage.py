@@ -97,7 +97,7 @@ def study(reading: str, *, quick: bool = False) -> flexcage.Study:
         case=flexcage.load_case(
             FOLDER / "case.toml", overrides={"solver.duration": "20 ms"} if quick else None
         ),
-        axes=[flexcage.Points(tuple(cases), name="case")],
+        axes=[flexcage.study.Points(tuple(cases), name="case")],
         outputs=["cage_slip_ratio_nominal", "pocket_force_pass_peak", "tilt_mean"],
         repeat=Repeat(count=1 if quick else STARTS[reading], push=20e-3),
     )

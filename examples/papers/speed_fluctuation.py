@@ -78,7 +78,7 @@ def study(reading: str, *, quick: bool = False) -> flexcage.Study:
     return flexcage.Study(
         name=f"speed-fluctuation, {reading}",
         case=case,
-        axes=[flexcage.Points(tuple(points(reading)), name="case")],
+        axes=[flexcage.study.Points(tuple(points(reading)), name="case")],
         outputs=["cage_speed", "cage_slip_ratio_nominal", "whirl_radius", "pocket_force_peak"],
         repeat=Repeat(count=3 if reading == BASE and not quick else 1, push=20e-3),
     )

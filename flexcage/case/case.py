@@ -16,6 +16,7 @@ from typing import Any
 
 from flexcage.case.checks import check_case, refuse_without_motion
 from flexcage.contacts.spec import Contacts, LandSpec, Lubricant
+from flexcage.core import html
 from flexcage.core.binding import (
     Binder,
     check_spec,
@@ -45,6 +46,7 @@ from flexcage.solve.options import SolverOptions
 from flexcage.system.spec import Constraint, Drive, Limits, Load, Mount, StartOptions
 
 CAGE_MODELS = ("flexible", "rigid")
+_FEW = 8  # values of a list that a notebook shows
 _NOT_PHYSICS = ("name", "description", "preset", "given")
 # In text the cage's model stands with the cage; the preset, with the bearing.
 ALIASES = {"cage.model": "cage_model", "bearing.preset": "preset"}
@@ -253,6 +255,28 @@ class Case:
             f"{self.cage_model} {self.cage.material.name} cage{defects}, {speed:g} rpm, "
             f"{self.load.radial:g} N, {self.solver.duration:g} s; {self.hash})"
         )
+
+    def _repr_html_(self) -> str:
+        """For notebooks: the case in words, and the values that its user gave."""
+        from flexcage.case.words import in_words
+
+        files = {name: path for path, name in ALIASES.items()}
+        texts = {files.get(p, p): _in_short(v) for p, v in flat(to_table(self, named=NAMED))}
+        given = {files.get(path, path) for path in self.given or () if path not in _NOT_PHYSICS}
+        rows = [(path, texts[path]) for path in texts if path in given]
+        values = html.table(rows, heads=("key", "value"))
+        return html.block(
+            f"Case {self.name} ({self.hash})",
+            html.paragraphs(in_words(self)),
+            html.folded("Values given", values) if rows else "",
+        )
+
+
+def _in_short(value: Any) -> str:
+    """Text of a value in a file; of a long list, how long it is."""
+    if isinstance(value, (list, tuple)) and len(value) > _FEW:
+        return f"{len(value)} values"
+    return ", ".join(map(str, value)) if isinstance(value, (list, tuple)) else str(value)
 
 
 def _with_cage(table: dict[str, Any], binder: Binder) -> dict[str, Any]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import asdict, dataclass, field, replace
 from math import isfinite, pi
 from pathlib import Path
@@ -11,6 +11,7 @@ from typing import Any
 
 import numpy as np
 
+from flexcage.core import html
 from flexcage.core.digits import texts_with_margin
 from flexcage.core.errors import InputError
 from flexcage.core.warning import RunWarning
@@ -152,7 +153,16 @@ class Section:
         return tuple(row for row in self.rows if not row.idle)
 
 
-@dataclass(frozen=True)
+def _rows_html(rows: Iterable[Row], *, brief: bool = False) -> str:
+    """Label, value, margin, unit and note of figures; ``brief`` notes are short."""
+    cells = [
+        (r.label, r.text, r.margin_text, r.shown, r.note.partition(";")[0] if brief else r.note)
+        for r in rows
+    ]
+    return html.table(cells, sides="lrl")
+
+
+@dataclass(frozen=True, repr=False)
 class Summary:
     """Figures of a run in sections, in order. ``summary["cage_speed"]`` is a value in SI.
 
@@ -203,9 +213,29 @@ class Summary:
     def brief(self) -> str:
         """The warnings and the dozen figures that matter, as ``text`` prints them."""
         lines = self._warning_lines()
-        keys = {row.key: row for row in self}
-        rows = [keys[key] for key in BRIEF if key in keys and keys[key].text != "-"]
+        rows = self._brief_rows()
         return "\n".join([*lines, *([""] if lines else []), *self._table(rows, brief=True)])
+
+    def _brief_rows(self) -> list[Row]:
+        keys = {row.key: row for row in self}
+        return [keys[key] for key in BRIEF if key in keys and keys[key].text != "-"]
+
+    def __repr__(self) -> str:
+        return f"Summary({self._size()})"
+
+    def _size(self) -> str:
+        figures = f"{sum(1 for _ in self)} figures in {len(self.sections)} sections"
+        return figures if self.warnings is None else f"{figures}, warnings: {len(self.warnings)}"
+
+    def _repr_html_(self) -> str:
+        """For notebooks: ``brief_html``, and every section, which a click unfolds."""
+        parts = [html.folded(s.title, _rows_html(s.shown)) for s in self.sections if s.shown]
+        return html.block(f"Summary: {self._size()}", self.brief_html(), *parts)
+
+    def brief_html(self) -> str:
+        """The warnings and the dozen figures that matter, as HTML."""
+        warned = html.bullets(f"Warning: {warning.text}" for warning in self.warnings or ())
+        return warned + _rows_html(self._brief_rows(), brief=True)
 
     def _warning_lines(self) -> list[str]:
         if self.warnings is None:

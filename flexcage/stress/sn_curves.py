@@ -102,8 +102,8 @@ def sn_curve(material: str) -> SNCurve:
         return SN_CURVES[material]
     raise InputError(
         f"No published S-N curve of {material} is known here (there are {', '.join(SN_CURVES)}); "
-        "give your own, run.fatigue(curve=flexcage.SNCurve(...)), or register it with "
-        "flexcage.stress.sn_curves.register_sn_curve.",
+        "give your own, run.fatigue(curve=flexcage.spec.SNCurve(...)), or register it with "
+        "flexcage.register.sn_curve.",
         where="curve",
         value=material,
     )

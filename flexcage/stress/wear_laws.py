@@ -63,8 +63,8 @@ def wear_law(material: str) -> WearLaw:
         return WEAR_LAWS[material]
     raise InputError(
         f"No published wear coefficient of {material} on steel is known here (there are "
-        f"{', '.join(WEAR_LAWS)}); give your own, run.wear(flexcage.WearLaw(...)), or register it "
-        "with flexcage.stress.wear_laws.register_wear_law.",
+        f"{', '.join(WEAR_LAWS)}); give your own, run.wear(flexcage.spec.WearLaw(...)), or "
+        "register it with flexcage.register.wear_law.",
         where="law",
         value=material,
     )

@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from flexcage.core import html
 from flexcage.core.errors import InputError
 from flexcage.core.units import format_si, parse
 from flexcage.core.warning import RunWarning
@@ -30,6 +31,7 @@ if TYPE_CHECKING:
 
 CONFIDENCE = 0.95  # of the intervals
 _TOO_FEW = 2  # repetitions, of which Student's t makes an interval that says little
+_SHOWN = 60  # points that a notebook shows
 
 
 @dataclass(frozen=True)
@@ -137,18 +139,34 @@ class StudyResults:
     def report(self) -> str:
         """The table over the points: mean ± half width of every output, then warnings and what
         failed."""
+        told = [_aligned(self._lines()), *self._failures(), self.without_stress(), self.status()]
+        return "\n".join([*self.warning_lines(), *filter(None, told)])
+
+    def _repr_html_(self) -> str:
+        """For notebooks: what ``report`` says."""
+        heads, *rows = self._lines()
+        more = f"{len(rows) - _SHOWN} more points: statistics" if len(rows) > _SHOWN else ""
+        return html.block(
+            f"Study {self.about.name}: {self.status()}",
+            html.bullets(self.warning_lines()),
+            html.table(rows[:_SHOWN], heads=heads, sides="r"),
+            html.paragraphs([more, *self._failures(), self.without_stress()]),
+        )
+
+    def _lines(self) -> list[list[str]]:
+        """Heads, then a line for every point: its axes, and mean ± half width of every output."""
         first = ["point", *self.axes_of(self.rows[0].planned)]
         lines = [[*first, *(self._shown(name) for name in self.titles)]]
         for cells in self.statistics.to_dict("records"):
             lines.append([str(cells[head]) for head in first])
             for name, title in self.titles.items():
                 lines[-1].append(self._text(name, cells[title], cells[f"+- {title}"]))
-        text = _aligned(lines)
+        return lines
+
+    def _failures(self) -> list[str]:
+        """Reasons of cases that failed, and how many failed so."""
         reasons = Counter(row.reason for row in self.rows if row.state == "failed")
-        for reason, times in reasons.items():
-            text += f"\n{times} failed: {reason}"
-        told = filter(None, [text, self.without_stress(), self.status()])
-        return "\n".join([*self.warning_lines(), *told])
+        return [f"{times} failed: {reason}" for reason, times in reasons.items()]
 
     def without_stress(self) -> str:
         """A sentence where cases with a flexible cage left their stress out, else nothing."""

@@ -167,7 +167,7 @@ def test_a_run_passes_over_the_static_section():
 
 def test_built_from_objects():
     bearing = load_preset("15x37x10").bearing
-    case = StaticCase(bearing=bearing, load=flexcage.Load(radial=200.0))
+    case = StaticCase(bearing=bearing, load=flexcage.spec.Load(radial=200.0))
     solution = flexcage.solve_static(case)
     assert solution.largest_force > 200.0 / 7 and solution.load[1] == 200.0
 

@@ -1,13 +1,20 @@
-"""``import flexcage`` is light, and its table of names is true."""
+"""``import flexcage`` is light, shows few names, and every name is where it says."""
 
 import ast
+import dataclasses
+import importlib
+import re
 import subprocess
 import sys
+import typing
 from pathlib import Path
 
-import flexcage
+import pytest
 
-_ALLOWED = {"flexcage", "flexcage._version"}
+import flexcage
+from flexcage import Case, StaticCase, register, spec
+
+_ALLOWED = {"flexcage", "flexcage._names", "flexcage._version"}
 
 
 def test_import_loads_nothing_but_itself():
@@ -45,22 +52,104 @@ def test_a_case_needs_no_heavy_module():
     assert not heavy & set(done.stdout.split())
 
 
-def test_stubs_and_table_name_the_same():
-    stub = Path(flexcage.__file__).with_suffix(".pyi")
-    tree = ast.parse(stub.read_text("utf-8"))
-    named = {a.name: n.module for n in tree.body for a in n.names}  # type: ignore[attr-defined]
-    rooms = {name: "flexcage" for name in flexcage._ROOMS}
-    assert named == {**flexcage._LAZY, **rooms, "__version__": "flexcage._version"}
+DOORS = ["flexcage", "flexcage.spec", "flexcage.study", "flexcage.register", "flexcage.render"]
 
 
-def test_every_name_is_there():
-    missing = []
-    for name in flexcage.__all__:
-        try:
-            getattr(flexcage, name)
-        except (ImportError, AttributeError):
-            missing.append(name)
-    assert not missing
+@pytest.mark.parametrize("door", DOORS)
+def test_every_name_is_there(door):
+    module = importlib.import_module(door)
+    assert module.__all__ == dir(module)
+    for name in module.__all__:
+        assert getattr(module, name) is not None
+    with pytest.raises(AttributeError, match=f"module '{door}' has no attribute 'nothing'"):
+        _ = module.nothing
+
+
+@pytest.mark.parametrize("door", DOORS)
+def test_a_stub_gives_type_checkers_what_a_door_gives_python(door):
+    """A stub exports names that it imports "as" themselves, or those of its ``__all__``."""
+    stub = Path(importlib.import_module(door).__file__).with_suffix(".pyi")
+    body = ast.parse(stub.read_text("utf-8")).body
+    names = [alias for node in body if isinstance(node, ast.ImportFrom) for alias in node.names]
+    exported = [a.asname for a in names if a.asname == a.name]
+    for node in body:
+        if isinstance(node, ast.Assign):
+            exported += ast.literal_eval(node.value)
+    assert sorted(exported) == importlib.import_module(door).__all__
+
+
+def test_the_door_shows_few_names():
+    assert len(dir(flexcage)) <= 35
+    assert {"simulate", "Case", "Run", "InputError", "spec", "register"} <= set(dir(flexcage))
+
+
+def parts(cls):
+    """Specs that stand in a spec, at any depth, and those derived from them."""
+    for field in dataclasses.fields(cls):
+        for part in classes_in(typing.get_type_hints(cls)[field.name]):
+            for kind in derived(part):
+                yield kind
+                yield from parts(kind)
+
+
+def derived(cls):
+    """A class of flexcage, and those derived from it."""
+    found = [part for inner in cls.__subclasses__() for part in derived(inner)]
+    return [cls, *found] if cls.__module__.startswith("flexcage.") else found
+
+
+def classes_in(hint):
+    """Dataclasses that an annotation names."""
+    if dataclasses.is_dataclass(hint):
+        return [hint]
+    return [cls for argument in typing.get_args(hint) for cls in classes_in(argument)]
+
+
+def test_every_part_of_a_case_is_in_spec():
+    found = {cls for case in (Case, StaticCase) for cls in parts(case)}
+    assert len(found) > 35
+    there = [getattr(spec, name) for name in spec.__all__]
+    assert not [cls for cls in found if cls not in there]
+
+
+def test_all_that_registers_is_in_register():
+    """Functions of modules that are called register or register_..."""
+    there = {getattr(register, name) for name in register.__all__}
+    folder = Path(flexcage.__file__).parent
+    for file in folder.rglob("*.py"):
+        for node in ast.parse(file.read_text("utf-8")).body:
+            if isinstance(node, ast.FunctionDef) and re.match(r"register(_|$)", node.name):
+                name = ".".join(file.relative_to(folder.parent).with_suffix("").parts)
+                there.remove(getattr(importlib.import_module(name), node.name))
+    assert not there
+
+
+def test_an_old_name_works_and_names_its_new_place():
+    with pytest.warns(FutureWarning, match=r"^flexcage\.Drive is now flexcage\.spec\.Drive; "):
+        assert flexcage.Drive is spec.Drive
+    with pytest.warns(FutureWarning, match=r"^flexcage\.Grid is now flexcage\.study\.Grid; "):
+        from flexcage import Grid  # noqa: F401
+    assert "Drive" not in vars(flexcage)  # the next use warns as well
+
+
+ROOT, MINE = Path(__file__).parents[2], Path(__file__).name
+USERS = [
+    file
+    for place in ("README.md", "examples", "flexcage", "tests")
+    for file in sorted((ROOT / place).rglob("*") if "." not in place else [ROOT / place])
+    if file.suffix in (".py", ".md", ".ipynb") and file.name not in (MINE, "CHANGELOG.md")
+]
+
+
+def test_nothing_of_flexcage_uses_an_old_name():
+    old = []
+    for file in USERS:
+        text = file.read_text("utf-8")
+        names = re.findall(r"\bflexcage\.([A-Z]\w*)", text)
+        for line in re.findall(r"from flexcage import (\([^)]*\)|[^\n\\]*)", text):
+            names += re.findall(r"\b[A-Z]\w*", line.partition("#")[0])
+        old += [(file.name, name) for name in names if name not in flexcage.__all__]
+    assert len(USERS) > 300 and not old
 
 
 def test_simulate_is_the_function_even_when_its_module_is_imported():

@@ -7,6 +7,7 @@ import re
 import shlex
 from collections import Counter
 from functools import cache
+from operator import attrgetter
 from pathlib import Path
 
 import pytest
@@ -164,8 +165,8 @@ def test_commands_of_the_pages_are_understood(line):
 def test_python_of_the_pages_names_what_is_there(page):
     for block in blocks(page.read_text("utf-8"), "python"):
         ast.parse(block)
-        for name in re.findall(r"flexcage\.(\w+)\(", block):
-            assert callable(getattr(flexcage, name))
+        for name in re.findall(r"flexcage\.([\w.]+)\(", block):
+            assert callable(attrgetter(name)(flexcage))
 
 
 def test_snippets_of_clusters_name_only_what_they_import():
@@ -178,8 +179,8 @@ def test_snippets_of_clusters_name_only_what_they_import():
         names = [n for n in tree if isinstance(n, ast.Name)]
         given |= {n.id for n in names if isinstance(n.ctx, ast.Store)}
         assert {n.id for n in names} <= given
-        for name in re.findall(r"flexcage\.(\w+)\(", block):
-            assert callable(getattr(flexcage, name))
+        for name in re.findall(r"flexcage\.([\w.]+)\(", block):
+            assert callable(attrgetter(name)(flexcage))
         assert re.search(r"nthreads 1|cores=1,\s+processes=1", block)
 
 

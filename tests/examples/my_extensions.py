@@ -11,22 +11,15 @@ from pathlib import Path
 import numpy as np
 from scipy.linalg import eigh
 
-from flexcage.contacts.laws import register_friction, register_normal
-from flexcage.contacts.spec import FrictionLaw, NormalLaw
+from flexcage import register
 from flexcage.core.spec import option, quantity
-from flexcage.geometry.materials import Material, register_material
-from flexcage.geometry.presets import register_preset
 from flexcage.modes.basis import ModeBasis
 from flexcage.modes.pockets import pocket_loads
-from flexcage.modes.registry import register_basis
-from flexcage.modes.spec import ModesSpec
-from flexcage.render import register_picture
-from flexcage.results.registry import Variable, register
+from flexcage.results.registry import Variable
 from flexcage.solve.contract import DONE, LOG_FULL, RESIDUALS, STEPS, T
-from flexcage.solve.integrators import register_integrator
 from flexcage.solve.runge_kutta import EXPLICIT_METHOD
-from flexcage.system.constraints import CAGE, Q_CAGE, register_constraint
-from flexcage.system.spec import Constraint
+from flexcage.spec import Constraint, FrictionLaw, Material, ModesSpec, NormalLaw
+from flexcage.system.constraints import CAGE, Q_CAGE
 
 # ------------------------------------------------------------------- a normal law with own values
 
@@ -54,7 +47,7 @@ def spring(n, d, v, onset, p, F, Fe, Fd, Fv):
                 Fv[i] = p[0] * p[2] * share
 
 
-register_normal(
+register.normal_law(
     "spring", spring, spec=Spring, parameters=lambda s, k, n: (s.stiffness, 1.0, s.loss, 1e-7)
 )
 
@@ -76,7 +69,7 @@ def rail(t, q, u, p, G, g, h):
     h[0] = G[0, CAGE + 1] * u[CAGE + 1] + G[0, CAGE + 2] * u[CAGE + 2]
 
 
-register_constraint(
+register.constraint(
     "rail", rail, level="position", spec=Rail,
     parameters=lambda s: (np.sin(s.azimuth), np.cos(s.azimuth)),
 )  # fmt: skip
@@ -106,7 +99,7 @@ def limited_shear(n, u, p, g, dg):
             dg[i] = (p[0] / p[1] * (1.0 - t * t) - g[i]) / u[i]
 
 
-register_friction(
+register.friction_law(
     "limited_shear", limited_shear, spec=LimitedShear, parameters=lambda s: (s.limit, s.scale)
 )
 
@@ -139,7 +132,7 @@ def pocket_shapes(solver, *, pocket_count, spec):
     )
 
 
-register_basis("pocket_shapes", pocket_shapes, spec=PocketShapes)
+register.mode_basis("pocket_shapes", pocket_shapes, spec=PocketShapes)
 
 # ------------------------------------------------------------------------------- an integrator
 
@@ -185,7 +178,7 @@ def heun(fns, data, st, opt, t_end, times, ys, yds, first, log, quads):
     return DONE, done, row
 
 
-register_integrator(
+register.integrator(
     replace(
         EXPLICIT_METHOD, name="heun", advance=heun, functions=("rates", "note", "sample"),
         helpers=(), bounded=False,
@@ -204,7 +197,7 @@ def ring_force(arrays, bearing):
     )
 
 
-register(
+register.variable(
     Variable("ring_force", ("time", "axis2"), "N", "force of all rollers on the inner ring"),
     ring_force,
 )
@@ -226,14 +219,14 @@ def ring_force_picture(scene, path: Path) -> Path:
     return path
 
 
-register_picture("ring_force", ring_force_picture)
+register.picture("ring_force", ring_force_picture)
 
 # --------------------------------------------------------------------- a material and a preset
 
-register_material(
+register.material(
     Material(
         name="my_bronze", youngs_modulus=110e9, poisson_ratio=0.34, density=8800.0,
         source="invented for the test",
     )
 )  # fmt: skip
-register_preset(Path(__file__).with_name("my_bearing.toml"))
+register.preset(Path(__file__).with_name("my_bearing.toml"))

@@ -4,12 +4,13 @@ import numpy as np
 import pytest
 from simulate_cases import n1013
 
-from flexcage import SNCurve, WearLaw, run_study, solve_static
+from flexcage import run_study, solve_static
 from flexcage.core.errors import InputError, RunFailed
 from flexcage.render import album
 from flexcage.results import registry
 from flexcage.results.registry import Variable, register
 from flexcage.simulate import simulate
+from flexcage.spec import SNCurve, WearLaw
 
 SHORT = {"solver.duration": "1 ms"}
 BRASS = {"material": "brass", "source": "ours"}

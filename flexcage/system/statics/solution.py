@@ -14,7 +14,7 @@ import numpy as np
 from flexcage._version import __version__
 from flexcage.geometry.film import Film
 from flexcage.system.statics.elements import ElementLoads
-from flexcage.system.statics.table import table_of
+from flexcage.system.statics.table import html_of, table_of
 
 FORMAT = 1
 
@@ -89,6 +89,10 @@ class StaticSolution:
             f"StaticSolution({self.title}: {x:.4g}, {y:.4g}, {z:.4g} um; {self.loaded} elements "
             f"loaded, up to {self.largest_force:.5g} N and {self.largest_pressure / 1e6:.5g} MPa)"
         )
+
+    def _repr_html_(self) -> str:
+        """For notebooks."""
+        return html_of(self)
 
     def to_dict(self) -> dict[str, Any]:
         """Plain values; what is not a number or infinite is None."""

@@ -1,4 +1,4 @@
-"""The static solution as text."""
+"""The static solution as text, and as HTML for notebooks."""
 
 from __future__ import annotations
 
@@ -6,6 +6,8 @@ from math import degrees, isfinite, pi
 from typing import TYPE_CHECKING
 
 import numpy as np
+
+from flexcage.core import html
 
 if TYPE_CHECKING:
     from flexcage.system.statics.solution import StaticSolution
@@ -21,6 +23,33 @@ def table_of(s: StaticSolution) -> str:
     return "\n\n".join(parts)
 
 
+def html_of(s: StaticSolution) -> str:
+    """Warnings, displacements and life; stiffness and elements unfold."""
+    title, *held = _head(s).split("\n")
+    elements = html.paragraphs([_element_note(s)]) + _html_grid(_element_lines(s), sides="r")
+    return html.block(
+        title,
+        html.bullets(f"Warning: {text}" for text in s.warnings),
+        html.paragraphs(held),
+        _html_grid(_ring_lines(s)),
+        html.table([*_peaks(s), *_life_lines(s)]),
+        html.folded("Stiffness", _html_grid(_stiffness_lines(s))),
+        html.folded("Elements", elements),
+    )
+
+
+def _html_grid(lines: list[list[str]], *, sides: str = "lr") -> str:
+    return html.table(lines[1:], heads=lines[0], sides=sides)
+
+
+def _peaks(s: StaticSolution) -> list[list[str]]:
+    return [
+        ["loaded elements", f"{s.loaded} of {len(s.elements.azimuth)}"],
+        ["largest force on a race", f"{s.largest_force:.5g} N"],
+        ["largest pressure", f"{s.largest_pressure / 1e6:.5g} MPa"],
+    ]
+
+
 def _head(s: StaticSolution) -> str:
     held = f"\ninner ring: {s.held}" if s.held else ""
     return f"{s.title}, inner ring at {s.speed * 30.0 / pi:.6g} rpm{held}"
@@ -33,6 +62,10 @@ def _clean(values: np.ndarray) -> np.ndarray:
 
 
 def _ring(s: StaticSolution) -> str:
+    return _grid(_ring_lines(s))
+
+
+def _ring_lines(s: StaticSolution) -> list[list[str]]:
     force, moved = _clean(s.load), _clean(s.displacement)
     reaction = np.where(np.abs(s.reaction) > _SMALL * np.abs(s.load).max(), s.reaction, 0.0)
     lines = [["", *_AXES], ["load, N and N m", *map(_short, force)]]
@@ -40,10 +73,14 @@ def _ring(s: StaticSolution) -> str:
         lines.append(["reaction, N and N m", *map(_short, reaction)])
     unit = np.where(np.arange(5) < 3, 1e6, 1e3)
     lines.append(["displacement, um and mrad", *map(_short, unit * moved)])
-    return _grid(lines)
+    return lines
 
 
 def _stiffness(s: StaticSolution) -> str:
+    return _grid(_stiffness_lines(s))
+
+
+def _stiffness_lines(s: StaticSolution) -> list[list[str]]:
     unit = np.where(np.arange(5) < 3, 1e6, 1e3)  # per um, per mrad
     matrix = s.stiffness / unit
     diagonal = np.sqrt(np.abs(np.outer(np.diag(matrix), np.diag(matrix))))
@@ -52,10 +89,16 @@ def _stiffness(s: StaticSolution) -> str:
     for k, row in enumerate(matrix):
         name = f"force {_AXES[k]}, N" if k < 3 else f"moment {_AXES[k][-1]}, N m"
         lines.append([name, *map(_short, row)])
-    return _grid(lines)
+    return lines
 
 
 def _life(s: StaticSolution) -> str:
+    lines = _life_lines(s)
+    width = max(len(line[0]) for line in lines)
+    return "\n".join(f"{name.ljust(width)}  {text}" for name, text in lines)
+
+
+def _life_lines(s: StaticSolution) -> list[list[str]]:
     r = s.ratings
     static, dynamic = r.names
     lines = [
@@ -70,20 +113,23 @@ def _life(s: StaticSolution) -> str:
     ]
     if isfinite(s.life_hours()):
         lines.append(["", f"{s.life_hours():.6g} h at this speed"])
-    width = max(len(line[0]) for line in lines)
-    return "\n".join(f"{name.ljust(width)}  {text}" for name, text in lines)
+    return lines
 
 
 def _elements(s: StaticSolution) -> str:
+    return f"{_element_note(s)}\n{_grid(_element_lines(s), left=0)}"
+
+
+def _element_note(s: StaticSolution) -> str:
     note = (
         "Q force, p largest pressure, a and b half of the contact across and in rolling direction"
     )
     if s.speed != 0.0:
         note += ", h least film (isothermal, fully flooded), Fc centrifugal force"
-    return f"{note}\n{_element_table(s)}"
+    return note
 
 
-def _element_table(s: StaticSolution) -> str:
+def _element_lines(s: StaticSolution) -> list[list[str]]:
     e = s.elements
     balls = bool(np.isfinite(e.edge).any() or np.nanmax(np.abs(e.angle), initial=0.0) > 0.0)
     names = ["element", "azimuth, deg", "Q inner, N", "Q outer, N"]
@@ -108,7 +154,7 @@ def _element_table(s: StaticSolution) -> str:
                 asked = np.nanmax(e.friction[k], initial=0.0)
                 cells += [f"{1e3 * e.gyroscopic[k]:.4g}", f"{asked:.4f}"]
         lines.append(cells)
-    return _grid(lines, left=0)
+    return lines
 
 
 def _or_none(value: float, unit: str, otherwise: str) -> str:

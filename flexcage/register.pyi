@@ -1,0 +1,27 @@
+from flexcage.contacts.laws import register_friction as friction_law
+from flexcage.contacts.laws import register_normal as normal_law
+from flexcage.geometry.materials import register_material as material
+from flexcage.geometry.presets import register_preset as preset
+from flexcage.modes.registry import register_basis as mode_basis
+from flexcage.render.album import register_picture as picture
+from flexcage.results.registry import register as variable
+from flexcage.solve.integrators import register_integrator as integrator
+from flexcage.stress.sn_curves import register_sn_curve as sn_curve
+from flexcage.stress.wear_laws import register_wear_law as wear_law
+from flexcage.system.constraints import register_constraint as constraint
+from flexcage.verification.chapter import register_case as known_answer
+
+__all__ = [
+    "constraint",
+    "friction_law",
+    "integrator",
+    "known_answer",
+    "material",
+    "mode_basis",
+    "normal_law",
+    "picture",
+    "preset",
+    "sn_curve",
+    "variable",
+    "wear_law",
+]

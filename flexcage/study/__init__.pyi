@@ -1,0 +1,10 @@
+from flexcage.study.axes import Grid as Grid
+from flexcage.study.axes import LatinHypercube as LatinHypercube
+from flexcage.study.axes import Points as Points
+from flexcage.study.axes import Sobol as Sobol
+from flexcage.study.axes import Zip as Zip
+from flexcage.study.results import StudyResults as StudyResults
+from flexcage.study.run import run_study as run_study
+from flexcage.study.spec import Repeat as Repeat
+from flexcage.study.spec import Study as Study
+from flexcage.study.spec import load_study as load_study
