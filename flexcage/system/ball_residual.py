@@ -2,13 +2,13 @@
 
 A ball's coordinates are (x, r, psi) of its centre and the angles that it has turned about the axes
 of its orbiting frame F = (e_x, e_r, e_psi); its velocities are those of its centre and its angular
-velocity, both in F. ``mode``: 0 residual, 2 also the whole report, 3 without what only samples
-want; there is no tangent.
+velocity, both in F. ``mode`` is one of ``contacts.evaluation``, but for the tangent.
 """
 
 from __future__ import annotations
 
 from flexcage.contacts.ball_pocket import pocket_wall_contact
+from flexcage.contacts.evaluation import POCKET_LAW, POCKET_RUBS, RACE_LAW, RACE_RUBS, REPORT
 from flexcage.contacts.groove import groove_contact
 from flexcage.contacts.state import set_frame
 from flexcage.core.jit import copy_into, fields, outlined, part, zero
@@ -25,6 +25,7 @@ from flexcage.core.vectors import (
     xyz,
 )
 from flexcage.system.data import (
+    APART,
     DRAG,
     GRAVITY,
     POCKET_DAMPING,
@@ -42,6 +43,8 @@ from flexcage.system.rows import (
     push_modes,
     react,
 )
+
+SHARED = APART  # place in ``law``: the family's only function ``apart``
 
 
 def evaluate(t, y, yd, d, law, out, mode):
@@ -73,7 +76,7 @@ def evaluate(t, y, yd, d, law, out, mode):
         _races(i, qi, ui, q, u, zq, d, law, mode)
         _pocket(i, qi, ui, Rc, Vc, qf, qfd, margin, d, law, mode)
         _ball_rows(i, qi, ui, qd[o : o + 6], ud[o : o + 6], d, r_q[o : o + 6], r_u[o : o + 6], mode)
-    law[12](t, y, yd, d, law[:12], out, mode)
+    law[SHARED](t, y, yd, d, law[:APART], out, mode)
 
 
 @part
@@ -87,27 +90,27 @@ def _races(i, qi, ui, q, u, zq, d, law, mode):
     hit = groove_contact(
         fields(d.bodies).radius[i], fields(d.inner), P, turned(F, xyz(vec[RING_AXIS])), V, w,
         turned(F, xyz(u[zq : zq + 3])), turned(F, xyz(vec[RING_SPIN])),
-        fields(d.memory).race[i, 0], law[0], law[5], fields(d.slices).row[0], pair.wrench, mode,
-        work.sums,
+        fields(d.memory).race[i, 0], law[RACE_LAW], law[RACE_RUBS], fields(d.slices).row[0],
+        pair.wrench, mode, work.sums,
     )  # fmt: skip
     if hit:
         react(F, work.unit, pair.wrench, P, border, 0)
         _add(work.wrenches[i], pair.wrench)
-    if mode >= 2:
+    if mode >= REPORT:
         _report_race(i, 0, work.sums, fields(d.report))
     P = minus((qi[0], qi[1], 0.0), turned(F, (0.0, q[zq + 6], q[zq + 7])))
     zero(pair.wrench)
     hit = groove_contact(
         fields(d.bodies).radius[i], fields(d.outer), P, (1.0, 0.0, 0.0), V, w,
         turned(F, (0.0, u[zq + 6], u[zq + 7])), (0.0, 0.0, 0.0),
-        fields(d.memory).race[i, 1], law[0], law[5], fields(d.slices).row[0], pair.wrench, mode,
-        work.sums,
+        fields(d.memory).race[i, 1], law[RACE_LAW], law[RACE_RUBS], fields(d.slices).row[0],
+        pair.wrench, mode, work.sums,
     )  # fmt: skip
     if hit:
         _add(work.wrenches[i], pair.wrench)
         for c in range(2):
             border[6 + c] -= F[1, 1 + c] * pair.wrench[1] + F[2, 1 + c] * pair.wrench[2]
-    if mode >= 2:
+    if mode >= REPORT:
         _report_race(i, 1, work.sums, fields(d.report))
 
 
@@ -152,14 +155,14 @@ def _pocket(i, qi, ui, Rc, Vc, qf, qfd, margin, d, law, mode):
     zero(pair.wrench)
     hit = pocket_wall_contact(
         fields(d.bodies).radius[i], data, i, D, v, spin, qf, qfd, margin,
-        fields(d.memory).pocket[i, 0], law[1], law[6], fields(d.slices).row[0], pw, pair.wrench,
-        mode, sums,
+        fields(d.memory).pocket[i, 0], law[POCKET_LAW], law[POCKET_RUBS], fields(d.slices).row[0],
+        pw, pair.wrench, mode, sums,
     )  # fmt: skip
     if hit:
         _add(work.wrenches[i], pair.wrench)
         react(F, A, pair.wrench, D, work.border, 8)
         push_modes(data, i, pw, work.border)
-    if mode >= 2:
+    if mode >= REPORT:
         _report_pocket(i, hit, sums, pw, fields(d.report), mode)
 
 
@@ -175,7 +178,7 @@ def _report_pocket(i, hit, sums, pw, rep, mode):
     rep.pocket_friction[i, 0] = pw.tangential[0]
     if pw.normal[0] > 0.0:
         copy_into(rep.station[i], pw.st)
-    elif mode == 2:
+    elif mode == REPORT:
         zero(rep.station[i])
 
 
@@ -198,7 +201,7 @@ def _ball_rows(i, qi, ui, qdi, udi, d, r_q, r_u, mode):
     r_u[3] = inertia * udi[3] - FR[3]
     r_u[4] = inertia * (udi[4] - orbit * ui[5]) - FR[4]
     r_u[5] = inertia * (udi[5] + orbit * ui[4]) - FR[5]
-    if mode >= 2:
+    if mode >= REPORT:
         rep.power[GRAVITY] += mass * (gr * ui[1] + gp * ui[2])
         rep.power[DRAG] += drag * ui[2]
         v2 = ui[0] * ui[0] + ui[1] * ui[1] + ui[2] * ui[2]

@@ -40,6 +40,10 @@ POWERS = (
 ) = range(len(POWERS))  # fmt: skip
 EXCHANGED = RACE_DAMPING  # so many, the first ones, the bearing exchanges with the outside
 
+# places in ``law`` behind those of ``contacts.evaluation``: the rows of further constraints, what
+# puts these in (``holding``), and the family's functions ``apart``
+CONSTRAINT_ROWS, HOLD, APART = 10, 11, 12
+
 
 class Bodies(NamedTuple):
     """Masses and what acts on bodies apart from contacts."""
@@ -92,7 +96,7 @@ class Tangent(NamedTuple):
 
 
 class Report(NamedTuple):
-    """What one evaluation reports beyond the residual (mode 2)."""
+    """What one evaluation reports beyond the residual (mode REPORT)."""
 
     race: np.ndarray  # (Z, 2, 9) sums of a race's contact kernel
     pocket_normal: np.ndarray  # (Z, faces)
