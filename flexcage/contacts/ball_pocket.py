@@ -17,7 +17,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from flexcage.contacts.evaluation import REPORT
+from flexcage.contacts.evaluation import ANGLE, APPROACH, DAMPED, REPORT, RUBBED, STORED
 from flexcage.contacts.slices import (
     friction_factors,
     friction_power,
@@ -90,8 +90,8 @@ def pocket_wall_contact(
     if apart == 0.0:
         return False
     if mode >= REPORT:
-        sums[3] = atan2(n[0], n[2])
-        sums[4] = _along(n, v, pw)
+        sums[ANGLE] = atan2(n[0], n[2])
+        sums[APPROACH] = _along(n, v, pw)
     if rb - apart + margin <= 0.0:
         return False
     nst = data.phi.shape[2]
@@ -141,8 +141,8 @@ def pocket_wall_contact(
     N, pressed = _press(depth, rate, soft, softening, p, onset, law, sl)
     if mode >= REPORT:
         Ne = sl.Ne[0]
-        sums[0] = Ne * pressed / (p[1] + 1.0) + 0.5 * soft * Ne * Ne
-        sums[1] = -(N - Ne) * (rate - 0.5 * (N + Ne) * softening)
+        sums[STORED] = Ne * pressed / (p[1] + 1.0) + 0.5 * soft * Ne * Ne
+        sums[DAMPED] = -(N - Ne) * (rate - 0.5 * (N + Ne) * softening)
     if N <= 0.0:
         return True
     # friction, where the ball touches the wall
@@ -176,7 +176,7 @@ def pocket_wall_contact(
                 pw.st[0, s, c] += (1.0 - share) / nst * on_wall[c]
     pw.normal[0], pw.tangential[0] = N, N * sl.g[0] * sl.u[0]
     if mode >= REPORT:
-        sums[2] = friction_power((0, 1), sl)
+        sums[RUBBED] = friction_power((0, 1), sl)
     return True
 
 

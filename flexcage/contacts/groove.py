@@ -14,7 +14,19 @@ from typing import NamedTuple
 
 import numpy as np
 
-from flexcage.contacts.evaluation import REPORT
+from flexcage.contacts.evaluation import (
+    ACROSS,
+    ALONG,
+    ANGLE,
+    APPROACH,
+    DAMPED,
+    NORMAL,
+    REPORT,
+    ROLLED,
+    RUBBED,
+    SLIDING,
+    STORED,
+)
 from flexcage.contacts.slices import (
     friction_factors,
     normal_forces,
@@ -65,14 +77,14 @@ def groove_contact(rb, race, P, b, V, w, Vr, wr, onset, law, friction, sl, wrenc
     v = minus(minus(V, Vr), cross(wr, P))
     sl.d[0], sl.v[0] = reach - race.radius + rb, dot(n, v)
     if mode >= REPORT:
-        sums[1] = atan2(race.side * dot(n, b), race.side * dot(n, e))
-        sums[9] = sl.v[0]
+        sums[ANGLE] = atan2(race.side * dot(n, b), race.side * dot(n, e))
+        sums[APPROACH] = sl.v[0]
     if sl.d[0] <= 0.0:
         return False
     normal_forces(law, (0, 1), sl, race.normal, onset)
     N = sl.N[0]
     if mode >= REPORT:
-        sums[5], sums[6] = stored_and_damped((0, 1), sl, race.normal[1])
+        sums[STORED], sums[DAMPED] = stored_and_damped((0, 1), sl, race.normal[1])
     g = cross(b, e)  # rolling direction, along the race
     t = cross(n, g)
     size = N ** (1.0 / 3.0)
@@ -92,10 +104,10 @@ def groove_contact(rb, race, P, b, V, w, Vr, wr, onset, law, friction, sl, wrenc
         wrench[c] += total[c]
         wrench[3 + c] += moment[c]
     if mode >= REPORT:
-        sums[0], sums[2], sums[3] = N, dot(force, g), dot(force, t)
-        sums[4] = dot(plus(v, cross(spin, times(middle, n))), g)
-        sums[7] = dot(force, v) + dot(moment, spin) + resisting * speed * speed
-        sums[8] = -resisting * speed * speed
+        sums[NORMAL], sums[ALONG], sums[ACROSS] = N, dot(force, g), dot(force, t)
+        sums[SLIDING] = dot(plus(v, cross(spin, times(middle, n))), g)
+        sums[RUBBED] = dot(force, v) + dot(moment, spin) + resisting * speed * speed
+        sums[ROLLED] = -resisting * speed * speed
     return True
 
 

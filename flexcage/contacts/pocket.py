@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from flexcage.contacts.condensation import condense, lean_of_residual, left_out, yielded
-from flexcage.contacts.evaluation import REPORT, TANGENT
+from flexcage.contacts.evaluation import DAMPED, REPORT, RUBBED, STORED, TANGENT
 from flexcage.contacts.pocket_forces import (
     crossbeam_rates,
     push_by_crossbeam,
@@ -84,7 +84,7 @@ def pocket_contact(
         give_pair(pw, pair)
     elif mode >= REPORT and data.soft != 0:
         for l in range(pw.b.shape[0]):
-            sums[0] += 0.5 * pw.b[l] * pw.b[l]
+            sums[STORED] += 0.5 * pw.b[l] * pw.b[l]
     return any_contact
 
 
@@ -140,7 +140,7 @@ def _face(pose, data, i, f, Rw, distance, rel, spin, qd, onset, laws, sl, pw, pa
             for k in range(span[0], span[1]):
                 N[k] = sl.N[k]
                 T[k] = sl.N[k] * sl.g[k] * sl.u[k]
-        sums[2] += friction_power(span, sl)
+        sums[RUBBED] += friction_power(span, sl)
         energy, damped = stored_and_damped(span, sl, p[1])
-        sums[0] += energy
-        sums[1] += damped
+        sums[STORED] += energy
+        sums[DAMPED] += damped

@@ -7,7 +7,19 @@ from typing import NamedTuple
 
 import numpy as np
 
-from flexcage.contacts.evaluation import REPORT, TANGENT
+from flexcage.contacts.evaluation import (
+    DAMPED,
+    MOMENT_PSI,
+    MOMENT_R,
+    NORMAL,
+    REPORT,
+    ROLLED,
+    RUBBED,
+    SLIDING,
+    STORED,
+    TANGENT,
+    TRACTION,
+)
 from flexcage.contacts.laws import rolling_forces
 from flexcage.contacts.slices import (
     ROOM,
@@ -139,8 +151,8 @@ def push_by_race(m, pose, side, Rw, theta, rw, pair, mode, sums):
     _push(first, side, Rw, a, ring_axis, sl, pair.wrench)
     if mode >= REPORT:
         zero(sums)
-        sums[0], sums[7] = rw.load[m], friction_power(span, sl)
-        sums[5], sums[6] = stored_and_damped(span, sl, side.normal[1])
+        sums[NORMAL], sums[RUBBED] = rw.load[m], friction_power(span, sl)
+        sums[STORED], sums[DAMPED] = stored_and_damped(span, sl, side.normal[1])
         if mode == REPORT:
             _report(first, side, Rw, a, sl, sums)
     if side.uneven:
@@ -154,7 +166,7 @@ def push_by_race(m, pose, side, Rw, theta, rw, pair, mode, sums):
         pair.wrench[2] += (side.hydro - 1.0) * rw.rolling[m]
         pair.wrench[3] += side.sign * Rw * rw.rolling[m]
         if mode >= REPORT:
-            sums[8] -= rw.rolling[m] * (rw.speed[m] + rw.ring_speed[m])
+            sums[ROLLED] -= rw.rolling[m] * (rw.speed[m] + rw.ring_speed[m])
 
 
 @part(fastmath=VECTORISED)
@@ -208,10 +220,10 @@ def _report(first, side, Rw, a, sl, sums):
         across -= N * sl.g[at] * sl.t2[at]
         about_r += N * m[1]
         about_psi += N * m[2]
-    sums[1] = across
-    sums[2] += about_r
-    sums[3] += about_psi
-    sums[4] = sl.t2[first + np.uint64(side.s.shape[0] // 2)]
+    sums[TRACTION] = across
+    sums[MOMENT_R] += about_r
+    sums[MOMENT_PSI] += about_psi
+    sums[SLIDING] = sl.t2[first + np.uint64(side.s.shape[0] // 2)]
 
 
 @part
@@ -278,8 +290,8 @@ def _lean(first, pose, side, P, b, theta, sl, pair, mode, sums):
         add_wrench(pair.wrench, f, on_axis)
         if mode == REPORT:
             moment = cross(on_axis, f)
-            sums[2] += moment[1]
-            sums[3] += moment[2]
+            sums[MOMENT_R] += moment[1]
+            sums[MOMENT_PSI] += moment[2]
 
 
 @outlined

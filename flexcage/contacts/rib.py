@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from flexcage.contacts.evaluation import REPORT, TANGENT
+from flexcage.contacts.evaluation import DAMPED, NORMAL, REPORT, RUBBED, STORED, TANGENT
 from flexcage.contacts.slices import (
     friction_factors,
     friction_power,
@@ -99,10 +99,10 @@ def rib_contact(pose, data, P, b, Vr, wr, onset, laws, sl, pair, mode, sums):
                 add_outer(pair.C, sl.Nv[k], V, Wn)
                 friction_tangent(pair.C, N, sl.g[k], sl.dg[k], sl.u[k], sl.t1[k], sl.t2[k], W1, W2)
             elif mode >= REPORT:
-                sums[f] += N
+                sums[NORMAL + f] += N
         if mode >= REPORT:
             energy, damped = stored_and_damped((0, count), sl, data.normal[1])
-            sums[2] += energy
-            sums[3] += damped
-            sums[4] += friction_power((0, count), sl)
+            sums[STORED] += energy
+            sums[DAMPED] += damped
+            sums[RUBBED] += friction_power((0, count), sl)
     return active

@@ -8,7 +8,20 @@ velocity, both in F. ``mode`` is one of ``contacts.evaluation``, but for the tan
 from __future__ import annotations
 
 from flexcage.contacts.ball_pocket import pocket_wall_contact
-from flexcage.contacts.evaluation import POCKET_LAW, POCKET_RUBS, RACE_LAW, RACE_RUBS, REPORT
+from flexcage.contacts.evaluation import (
+    ANGLE,
+    APPROACH,
+    DAMPED,
+    NORMAL,
+    POCKET_LAW,
+    POCKET_RUBS,
+    RACE_LAW,
+    RACE_RUBS,
+    REPORT,
+    ROLLED,
+    RUBBED,
+    STORED,
+)
 from flexcage.contacts.groove import groove_contact
 from flexcage.contacts.state import set_frame
 from flexcage.core.jit import copy_into, fields, outlined, part, zero
@@ -28,6 +41,8 @@ from flexcage.system.data import (
     APART,
     DRAG,
     GRAVITY,
+    IN_CONTACTS,
+    KINETIC,
     POCKET_DAMPING,
     POCKET_FRICTION,
     RACE_DAMPING,
@@ -122,15 +137,15 @@ def _add(total, wrench):
 
 @part
 def _report_race(i, side, sums, rep):
-    closed = 1 if sums[0] > 0.0 else 0
+    closed = 1 if sums[NORMAL] > 0.0 else 0
     rep.contact[i, side] = closed
-    rep.approach[i, side] = sums[9]
+    rep.approach[i, side] = sums[APPROACH]
     for c in range(5):
         rep.race[i, side, c] = sums[c]
-    rep.energy[2] += sums[5]
-    rep.power[RACE_DAMPING] += sums[6]
-    rep.power[RACE_FRICTION] += sums[7]
-    rep.power[ROLLING_RESISTANCE] += sums[8]
+    rep.energy[IN_CONTACTS] += sums[STORED]
+    rep.power[RACE_DAMPING] += sums[DAMPED]
+    rep.power[RACE_FRICTION] += sums[RUBBED]
+    rep.power[ROLLING_RESISTANCE] += sums[ROLLED]
 
 
 @part
@@ -168,12 +183,12 @@ def _pocket(i, qi, ui, Rc, Vc, qf, qfd, margin, d, law, mode):
 
 @outlined
 def _report_pocket(i, hit, sums, pw, rep, mode):
-    rep.energy[2] += sums[0]
-    rep.power[POCKET_DAMPING] += sums[1]
-    rep.power[POCKET_FRICTION] += sums[2]
-    rep.residual[i, 0] = sums[3]
+    rep.energy[IN_CONTACTS] += sums[STORED]
+    rep.power[POCKET_DAMPING] += sums[DAMPED]
+    rep.power[POCKET_FRICTION] += sums[RUBBED]
+    rep.residual[i, 0] = sums[ANGLE]
     rep.contact[i, 2] = 1 if pw.normal[0] > 0.0 else 0
-    rep.approach[i, 2] = sums[4]
+    rep.approach[i, 2] = sums[APPROACH]
     rep.pocket_normal[i, 0] = pw.normal[0]
     rep.pocket_friction[i, 0] = pw.tangential[0]
     if pw.normal[0] > 0.0:
@@ -206,4 +221,4 @@ def _ball_rows(i, qi, ui, qdi, udi, d, r_q, r_u, mode):
         rep.power[DRAG] += drag * ui[2]
         v2 = ui[0] * ui[0] + ui[1] * ui[1] + ui[2] * ui[2]
         w2 = ui[3] * ui[3] + ui[4] * ui[4] + ui[5] * ui[5]
-        rep.energy[0] += 0.5 * (mass * v2 + inertia * w2)
+        rep.energy[KINETIC] += 0.5 * (mass * v2 + inertia * w2)

@@ -10,6 +10,8 @@ all of them passes through the processor's cache 22 times: a sixth more time.)
 from __future__ import annotations
 
 from flexcage.contacts.evaluation import (
+    DAMPED,
+    NORMAL,
     OUTER_RING,
     RACE_LAW,
     RACE_RUBS,
@@ -17,6 +19,9 @@ from flexcage.contacts.evaluation import (
     RESIDUAL,
     RIB_LAW,
     RIB_RUBS,
+    ROLLED,
+    RUBBED,
+    STORED,
     TANGENT,
 )
 from flexcage.contacts.race import meet_race, press_race, push_by_race
@@ -35,6 +40,8 @@ from flexcage.system.data import (
     APART,
     DRAG,
     GRAVITY,
+    IN_CONTACTS,
+    KINETIC,
     RACE_DAMPING,
     RACE_FRICTION,
     RIB_DAMPING,
@@ -201,23 +208,23 @@ def _outer_contacts(first, end, q, out_q, out_u, d, law, mode):
 
 @part
 def _report_ribs(i, sums, rep):
-    rep.rib[i, 0], rep.rib[i, 1] = sums[0], sums[1]
-    rep.contact[i, 6] = 1 if sums[0] > 0.0 else 0
-    rep.contact[i, 7] = 1 if sums[1] > 0.0 else 0
-    rep.energy[2] += sums[2]
-    rep.power[RIB_DAMPING] += sums[3]
-    rep.power[RIB_FRICTION] += sums[4]
+    rep.rib[i, 0], rep.rib[i, 1] = sums[NORMAL], sums[NORMAL + 1]
+    rep.contact[i, 6] = 1 if sums[NORMAL] > 0.0 else 0
+    rep.contact[i, 7] = 1 if sums[NORMAL + 1] > 0.0 else 0
+    rep.energy[IN_CONTACTS] += sums[STORED]
+    rep.power[RIB_DAMPING] += sums[DAMPED]
+    rep.power[RIB_FRICTION] += sums[RUBBED]
 
 
 @part
 def _report_race(i, side, sums, rep):
     for c in range(9):
         rep.race[i, side, c] = sums[c]
-    rep.contact[i, side] = 1 if sums[0] > 0.0 else 0
-    rep.energy[2] += sums[5]
-    rep.power[RACE_DAMPING] += sums[6]
-    rep.power[RACE_FRICTION] += sums[7]
-    rep.power[ROLLING_RESISTANCE] += sums[8]
+    rep.contact[i, side] = 1 if sums[NORMAL] > 0.0 else 0
+    rep.energy[IN_CONTACTS] += sums[STORED]
+    rep.power[RACE_DAMPING] += sums[DAMPED]
+    rep.power[RACE_FRICTION] += sums[RUBBED]
+    rep.power[ROLLING_RESISTANCE] += sums[ROLLED]
 
 
 @part
@@ -252,4 +259,4 @@ def _roller_rows(i, qi, ui, qdi, udi, d, r_q, r_u, mode):
         rep.power[DRAG] += drag * ui[2]
         v2 = ui[0] * ui[0] + ui[1] * ui[1] + ui[2] * ui[2]
         w2 = ui[4] * ui[4] + ui[5] * ui[5]
-        rep.energy[0] += 0.5 * (mass * v2 + Ia * ui[3] * ui[3] + It * w2)
+        rep.energy[KINETIC] += 0.5 * (mass * v2 + Ia * ui[3] * ui[3] + It * w2)

@@ -6,11 +6,14 @@
 from __future__ import annotations
 
 from flexcage.contacts.evaluation import (
+    DAMPED,
     POCKET_LAW,
     POCKET_RUBS,
     REPORT,
+    RUBBED,
     SIDE_LAW,
     SIDE_RUBS,
+    STORED,
     TANGENT,
 )
 from flexcage.contacts.pocket import pocket_contact
@@ -31,7 +34,7 @@ from flexcage.core.vectors import (
     xyz,
 )
 from flexcage.system.blocks import scatter, scatter_modes
-from flexcage.system.data import POCKET_DAMPING, POCKET_FRICTION
+from flexcage.system.data import IN_CONTACTS, POCKET_DAMPING, POCKET_FRICTION
 from flexcage.system.rows import (
     CAGE_SPIN,
     LEVER,
@@ -104,9 +107,9 @@ def _pocket(i, qi, Rc, Vc, qf, qfd, margin, d, law, mode):
 @outlined
 def _report_pocket(i, hit, sums, pw, rep, mode):
     if hit:
-        rep.energy[2] += sums[0]
-        rep.power[POCKET_DAMPING] += sums[1]
-        rep.power[POCKET_FRICTION] += sums[2]
+        rep.energy[IN_CONTACTS] += sums[STORED]
+        rep.power[POCKET_DAMPING] += sums[DAMPED]
+        rep.power[POCKET_FRICTION] += sums[RUBBED]
         copy_into(rep.station[i], pw.st)
     if hit and mode == REPORT:
         copy_into(rep.slice_normal[i], pw.slice_N)

@@ -9,7 +9,18 @@ from __future__ import annotations
 from math import cos, sin, sqrt
 
 from flexcage.bodies.floating_frame import inertia_terms, modal_product
-from flexcage.contacts.evaluation import LAND_LAW, LAND_RUBS, REPORT, TANGENT
+from flexcage.contacts.evaluation import (
+    APPROACH,
+    DAMPED,
+    LAND_LAW,
+    LAND_RUBS,
+    NORMAL,
+    REPORT,
+    RUBBED,
+    SHEARED,
+    STORED,
+    TANGENT,
+)
 from flexcage.contacts.land import land_contact
 from flexcage.core.jit import VECTORISED, copy_into, fields, part, zero
 from flexcage.core.rotation import quaternion_rate
@@ -31,10 +42,14 @@ from flexcage.system.data import (
     FILM,
     GRAVITY,
     HOLD,
+    IN_CONTACTS,
+    IN_MOUNT,
+    KINETIC,
     LAND_DAMPING,
     LAND_FRICTION,
     MODAL_DAMPING,
     MOUNT,
+    STRAIN,
 )
 
 # rows of ``Work.vec``: of the bodies, in space; of the pair under work, in the roller's frame F
@@ -218,11 +233,11 @@ def land_rows(q, u, zq, nm, d, law, mode):
         copy_into(rep.land, Fc)
         copy_into(rep.land_station, fields(d.land_work).st)
         for c in range(2):
-            rep.land_touch[c, 0], rep.land_touch[c, 1] = sums[4 + c], sums[6 + c]
-        rep.energy[2] += sums[0]
-        rep.power[LAND_DAMPING] += sums[1]
-        rep.power[LAND_FRICTION] += sums[2]
-        rep.power[FILM] += sums[3]
+            rep.land_touch[c, 0], rep.land_touch[c, 1] = sums[NORMAL + c], sums[APPROACH + c]
+        rep.energy[IN_CONTACTS] += sums[STORED]
+        rep.power[LAND_DAMPING] += sums[DAMPED]
+        rep.power[LAND_FRICTION] += sums[RUBBED]
+        rep.power[FILM] += sums[SHEARED]
         rep.power[DRAG] -= drag * wg[0]
 
 
@@ -308,17 +323,17 @@ def cage_rows(d, quat, Vc, wb, qf, qfd, qd, ud, zq, r_q, r_u, mode):
                 momentum += H[k, m] * qfd[m]
             if k < 3:  # what gravity does on the body's first moment of mass
                 rep.power[GRAVITY] += gb[k] * momentum
-            rep.energy[0] += v[k] * momentum
+            rep.energy[KINETIC] += v[k] * momentum
             for c in range(6):
-                rep.energy[0] += 0.5 * v[k] * M[k, c] * v[c]
+                rep.energy[KINETIC] += 0.5 * v[k] * M[k, c] * v[c]
                 if c < 3:
                     rep.power[GRAVITY] += v[k] * M[k, c] * gb[c]
         modal_product(data.mff, data.plain, qfd, product)
         for m in range(nm):
-            rep.energy[0] += 0.5 * qfd[m] * product[m]
+            rep.energy[KINETIC] += 0.5 * qfd[m] * product[m]
         modal_product(data.kff, data.plain, qf, product)
         for m in range(nm):
-            rep.energy[1] += 0.5 * qf[m] * product[m]
+            rep.energy[STRAIN] += 0.5 * qf[m] * product[m]
 
 
 @part
@@ -468,18 +483,18 @@ def ring_rows(t, d, q, u, qd, ud, lam, mu_, zq, r_q, r_u, out, end, mode):
     elif mode >= REPORT:
         w2 = ru[4] * ru[4] + ru[5] * ru[5]
         v2 = ru[0] * ru[0] + ru[1] * ru[1] + ru[2] * ru[2]
-        rep.energy[0] += 0.5 * (mass * v2 + Ia * ru[3] * ru[3] + It * w2)
+        rep.energy[KINETIC] += 0.5 * (mass * v2 + Ia * ru[3] * ru[3] + It * w2)
         # what loads and constraints do follows from y alone: ``sampling.give_powers`` adds it
         rep.power[DRIVE] += shaft * ru[3]
         for c in range(3):
             rep.power[GRAVITY] += mass * bodies.gravity[c] * ru[c]
-        rep.energy[3] += bent
+        rep.energy[IN_MOUNT] += bent
         rep.power[MOUNT] -= damped
         if fixed == 0.0:
-            rep.energy[3] += stored
+            rep.energy[IN_MOUNT] += stored
             rep.power[MOUNT] -= lost
             for c in range(2):
-                rep.energy[0] += 0.5 * mo * ou[c] * ou[c]
+                rep.energy[KINETIC] += 0.5 * mo * ou[c] * ou[c]
                 rep.power[GRAVITY] += mo * bodies.gravity[1 + c] * ou[c]
         for c in range(2):
             rep.body_force[c] = border[6 + c]
