@@ -17,6 +17,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from flexcage.contacts.evaluation import ANGLE, APPROACH, DAMPED, REPORT, RUBBED, STORED
 from flexcage.contacts.slices import (
     friction_factors,
     friction_power,
@@ -72,12 +73,12 @@ def pocket_wall_contact(
     D: ball centre from the cage's origin; v: its velocity less that of the cage's body there; spin:
     the difference of angular velocities; all in the ball's frame, as are the rows of ``pw.G``.
     q, qd: modal coordinates and rates, ``margin``: a bound of the wall's motion, ``onset``: the
-    speed at which the contact closed. From mode 2 on ``sums``: elastic energy, power of damping and
+    speed at which the contact closed. From REPORT on ``sums``: elastic energy, power of damping and
     friction, direction of the contact from +psi towards +x, and the speed at which ball and wall
     approach.
     """
     pw.normal[0] = pw.tangential[0] = 0.0
-    if mode >= 2:
+    if mode >= REPORT:
         zero(sums)
     p, x = data.normal[i], dot(D, row(pw.G, 0)) - data.shift[i, 0]
     t = dot(D, row(pw.G, 2)) - data.shift[i, 1]
@@ -88,9 +89,9 @@ def pocket_wall_contact(
     n, apart, touch = _nearest((x, h, t), data.radius[i], row(data.rims, i), seat)
     if apart == 0.0:
         return False
-    if mode >= 2:
-        sums[3] = atan2(n[0], n[2])
-        sums[4] = _along(n, v, pw)
+    if mode >= REPORT:
+        sums[ANGLE] = atan2(n[0], n[2])
+        sums[APPROACH] = _along(n, v, pw)
     if rb - apart + margin <= 0.0:
         return False
     nst = data.phi.shape[2]
@@ -138,10 +139,10 @@ def pocket_wall_contact(
     rate = _along(push, v, pw) - dot(ud, n)
     softening = _along(yields, v, pw)
     N, pressed = _press(depth, rate, soft, softening, p, onset, law, sl)
-    if mode >= 2:
+    if mode >= REPORT:
         Ne = sl.Ne[0]
-        sums[0] = Ne * pressed / (p[1] + 1.0) + 0.5 * soft * Ne * Ne
-        sums[1] = -(N - Ne) * (rate - 0.5 * (N + Ne) * softening)
+        sums[STORED] = Ne * pressed / (p[1] + 1.0) + 0.5 * soft * Ne * Ne
+        sums[DAMPED] = -(N - Ne) * (rate - 0.5 * (N + Ne) * softening)
     if N <= 0.0:
         return True
     # friction, where the ball touches the wall
@@ -174,8 +175,8 @@ def pocket_wall_contact(
             for c in range(3):
                 pw.st[0, s, c] += (1.0 - share) / nst * on_wall[c]
     pw.normal[0], pw.tangential[0] = N, N * sl.g[0] * sl.u[0]
-    if mode >= 2:
-        sums[2] = friction_power((0, 1), sl)
+    if mode >= REPORT:
+        sums[RUBBED] = friction_power((0, 1), sl)
     return True
 
 

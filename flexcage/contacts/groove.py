@@ -14,6 +14,19 @@ from typing import NamedTuple
 
 import numpy as np
 
+from flexcage.contacts.evaluation import (
+    ACROSS,
+    ALONG,
+    ANGLE,
+    APPROACH,
+    DAMPED,
+    NORMAL,
+    REPORT,
+    ROLLED,
+    RUBBED,
+    SLIDING,
+    STORED,
+)
 from flexcage.contacts.slices import (
     friction_factors,
     normal_forces,
@@ -47,11 +60,11 @@ def groove_contact(rb, race, P, b, V, w, Vr, wr, onset, law, friction, sl, wrenc
 
     P: ball centre from the ring's centre; b: ring axis; V, w and Vr, wr: velocities and angular
     velocities of ball and ring; all in one frame; ``onset``: speed at which the contact closed.
-    From mode 2 on ``sums``: normal force, contact angle, traction along the rolling direction and
+    From REPORT on ``sums``: normal force, contact angle, traction along the rolling direction and
     across it, sliding speed in the middle, elastic energy, power of damping, friction and rolling
     resistance, and speed of approach; angle and approach also of a ball that does not touch.
     """
-    if mode >= 2:
+    if mode >= REPORT:
         zero(sums)
     along = dot(P, b)
     radial = combine(P, -along, b)
@@ -63,15 +76,15 @@ def groove_contact(rb, race, P, b, V, w, Vr, wr, onset, law, friction, sl, wrenc
     spin = minus(w, wr)
     v = minus(minus(V, Vr), cross(wr, P))
     sl.d[0], sl.v[0] = reach - race.radius + rb, dot(n, v)
-    if mode >= 2:
-        sums[1] = atan2(race.side * dot(n, b), race.side * dot(n, e))
-        sums[9] = sl.v[0]
+    if mode >= REPORT:
+        sums[ANGLE] = atan2(race.side * dot(n, b), race.side * dot(n, e))
+        sums[APPROACH] = sl.v[0]
     if sl.d[0] <= 0.0:
         return False
     normal_forces(law, (0, 1), sl, race.normal, onset)
     N = sl.N[0]
-    if mode >= 2:
-        sums[5], sums[6] = stored_and_damped((0, 1), sl, race.normal[1])
+    if mode >= REPORT:
+        sums[STORED], sums[DAMPED] = stored_and_damped((0, 1), sl, race.normal[1])
     g = cross(b, e)  # rolling direction, along the race
     t = cross(n, g)
     size = N ** (1.0 / 3.0)
@@ -90,11 +103,11 @@ def groove_contact(rb, race, P, b, V, w, Vr, wr, onset, law, friction, sl, wrenc
     for c in range(3):
         wrench[c] += total[c]
         wrench[3 + c] += moment[c]
-    if mode >= 2:
-        sums[0], sums[2], sums[3] = N, dot(force, g), dot(force, t)
-        sums[4] = dot(plus(v, cross(spin, times(middle, n))), g)
-        sums[7] = dot(force, v) + dot(moment, spin) + resisting * speed * speed
-        sums[8] = -resisting * speed * speed
+    if mode >= REPORT:
+        sums[NORMAL], sums[ALONG], sums[ACROSS] = N, dot(force, g), dot(force, t)
+        sums[SLIDING] = dot(plus(v, cross(spin, times(middle, n))), g)
+        sums[RUBBED] = dot(force, v) + dot(moment, spin) + resisting * speed * speed
+        sums[ROLLED] = -resisting * speed * speed
     return True
 
 

@@ -7,6 +7,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from flexcage.contacts.evaluation import APPROACH, DAMPED, NORMAL, RUBBED, SHEARED, STORED
 from flexcage.contacts.laws import short_bearing
 from flexcage.contacts.slices import (
     friction_factors,
@@ -110,7 +111,7 @@ def land_contact(
                 laws, sl, lw, Fc, Mc, Qm, Fr, Mr, sums,
             )  # fmt: skip
             if nearest:
-                most, sums[6 + side] = lw.depth[i], speed
+                most, sums[APPROACH + side] = lw.depth[i], speed
 
 
 @part(fastmath=VECTORISED)
@@ -314,10 +315,10 @@ def _touch(
         lw.st[s, 0] += weights[k] * radial
         lw.st[s, 1] += weights[k] * dot(f, along)
     energy, damped = stored_and_damped((0, 1), sl, data.normal[1])
-    sums[4 + side] += N
-    sums[0] += sign * energy
-    sums[1] += share * damped
-    sums[2] += share * friction_power((0, 1), sl)
+    sums[NORMAL + side] += N
+    sums[STORED] += sign * energy
+    sums[DAMPED] += share * damped
+    sums[RUBBED] += share * friction_power((0, 1), sl)
     return sl.v[0]
 
 
@@ -346,7 +347,7 @@ def _spread_film(A, data, fy, fz, torque, qd, lw, Qm, sums):
         lw.st[s, 0] += radial
         lw.st[s, 1] += tangential
         for m in range(qd.shape[0]):
-            sums[3] += (radial * shape[1, m] + tangential * shape[2, m]) * qd[m]
+            sums[SHEARED] += (radial * shape[1, m] + tangential * shape[2, m]) * qd[m]
 
 
 @outlined
@@ -374,5 +375,5 @@ def _film(A, Rc, Vc, w, qd, Rr, Vr, spin, data, lw, Fc, Mc, Qm, Fr, Mr, sums):
         Mr[0] -= torque + ey * out[1] - ez * out[0]
         Mr[1] += lever * out[1]
         Mr[2] -= lever * out[0]
-        sums[3] += out[0] * vy + out[1] * vz + torque * (w[0] - spin)
-        sums[3] -= spin * (ey * out[1] - ez * out[0])
+        sums[SHEARED] += out[0] * vy + out[1] * vz + torque * (w[0] - spin)
+        sums[SHEARED] -= spin * (ey * out[1] - ez * out[0])

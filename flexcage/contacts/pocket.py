@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from flexcage.contacts.condensation import condense, lean_of_residual, left_out, yielded
+from flexcage.contacts.evaluation import DAMPED, REPORT, RUBBED, STORED, TANGENT
 from flexcage.contacts.pocket_forces import (
     crossbeam_rates,
     push_by_crossbeam,
@@ -41,16 +42,16 @@ def pocket_contact(
     D: roller centre from the cage's origin; Vc, wc: cage velocity and angular velocity, in F;
     q, qd: modal coordinates and rates; ``margin``: bound of the walls' motion; onset speeds (4,).
     ``laws``: normal (crossbeam, side), friction (crossbeam, side); ``guess``: residual coordinates
-    to begin with. Tangent (mode 1) in ``pair`` and ``pw.K, pw.C``; report (from mode 2) in
+    to begin with. With TANGENT slopes in ``pair`` and ``pw.K, pw.C``; from REPORT on
     ``sums``: elastic energy (with the residual's), damping power, friction power.
     """
-    clear(pair, mode == 1)
+    clear(pair, mode == TANGENT)
     zero(pw.normal)
     zero(pw.tangential)
-    if mode >= 2:
+    if mode >= REPORT:
         zero(sums)
         zero(pw.b)
-    if mode == 2:
+    if mode == REPORT:
         zero(pw.slice_N)
         zero(pw.slice_T)
         zero(pw.point_N)
@@ -66,7 +67,7 @@ def pocket_contact(
             condense(data, i, laws, guess, sl, pw)
             looking = left_out(pw)
     zero(pw.st)
-    if mode == 1:
+    if mode == TANGENT:
         clear_tangent(pw)
     rel, spin = relative_motion(pose, xyz(Vc), xyz(wc), centre)
     any_contact = False
@@ -77,13 +78,13 @@ def pocket_contact(
                 pose, data, i, f, Rw, centre[1], rel, spin, qd, onset[f], laws, sl, pw, pair, mode,
                 sums,
             )  # fmt: skip
-    if mode == 1 and any_contact:
+    if mode == TANGENT and any_contact:
         if data.soft != 0:
             soften(6 + data.phi.shape[4], pw)
         give_pair(pw, pair)
-    elif mode >= 2 and data.soft != 0:
+    elif mode >= REPORT and data.soft != 0:
         for l in range(pw.b.shape[0]):
-            sums[0] += 0.5 * pw.b[l] * pw.b[l]
+            sums[STORED] += 0.5 * pw.b[l] * pw.b[l]
     return any_contact
 
 
@@ -117,7 +118,7 @@ def _face(pose, data, i, f, Rw, distance, rel, spin, qd, onset, laws, sl, pw, pa
         crossbeam_rates(data, f, span, Rw, a, rel, spin, face, sl, pw)
     else:
         side_beam_rates(pose, data, f, distance, rel, spin, sl, pw, pair)
-    if mode == 1 and data.soft != 0:
+    if mode == TANGENT and data.soft != 0:
         elastic_forces(normal, span, sl, p)
         for k in range(span[0], span[1]):
             pw.h[k] = sl.Nd[k]
@@ -129,17 +130,17 @@ def _face(pose, data, i, f, Rw, distance, rel, spin, qd, onset, laws, sl, pw, pa
         push_by_side_beam(pose, data, f, distance, sl, pw, pair)
     spread_over_stations(span, f, face, sl, pw)
     give_stations(f, pw)
-    if mode == 1:
+    if mode == TANGENT:
         add_tangent(pose, data, i, f, Rw, distance, sl, pw)
-    elif mode >= 2:
-        if mode == 2:
+    elif mode >= REPORT:
+        if mode == REPORT:
             N, T = (
                 (pw.slice_N[f], pw.slice_T[f]) if f < 2 else (pw.point_N[f - 2], pw.point_T[f - 2])
             )
             for k in range(span[0], span[1]):
                 N[k] = sl.N[k]
                 T[k] = sl.N[k] * sl.g[k] * sl.u[k]
-        sums[2] += friction_power(span, sl)
+        sums[RUBBED] += friction_power(span, sl)
         energy, damped = stored_and_damped(span, sl, p[1])
-        sums[0] += energy
-        sums[1] += damped
+        sums[STORED] += energy
+        sums[DAMPED] += damped

@@ -7,6 +7,19 @@ from typing import NamedTuple
 
 import numpy as np
 
+from flexcage.contacts.evaluation import (
+    DAMPED,
+    MOMENT_PSI,
+    MOMENT_R,
+    NORMAL,
+    REPORT,
+    ROLLED,
+    RUBBED,
+    SLIDING,
+    STORED,
+    TANGENT,
+    TRACTION,
+)
 from flexcage.contacts.laws import rolling_forces
 from flexcage.contacts.slices import (
     ROOM,
@@ -125,26 +138,26 @@ def press_race(count, side, law, friction, rw):
 def push_by_race(m, pose, side, Rw, theta, rw, pair, mode, sums):
     """Wrench on the roller of contact m.
 
-    ``mode``: 0 wrench, 1 with tangent, from 2 with ``sums``: normal, traction, moments about e_r
-    and e_psi, sliding speed at the middle (these four at 2 alone), elastic energy, power of
+    ``mode`` (``evaluation``): from REPORT on with ``sums``: normal, traction, moments about e_r
+    and e_psi, sliding speed at the middle (these four at REPORT alone), elastic energy, power of
     damping, friction and rolling resistance.
     """
-    clear(pair, mode == 1)
+    clear(pair, mode == TANGENT)
     sl, partner = rw.lot[0], rw.partner[m]
     centre, ring_axis = row(partner, 0), row(partner, 1)
     a, n = row(pose.axis, 0), side.s.shape[0]
     first = np.uint64(m * n)
     span = (first, first + np.uint64(n))
     _push(first, side, Rw, a, ring_axis, sl, pair.wrench)
-    if mode >= 2:
+    if mode >= REPORT:
         zero(sums)
-        sums[0], sums[7] = rw.load[m], friction_power(span, sl)
-        sums[5], sums[6] = stored_and_damped(span, sl, side.normal[1])
-        if mode == 2:
+        sums[NORMAL], sums[RUBBED] = rw.load[m], friction_power(span, sl)
+        sums[STORED], sums[DAMPED] = stored_and_damped(span, sl, side.normal[1])
+        if mode == REPORT:
             _report(first, side, Rw, a, sl, sums)
     if side.uneven:
         _lean(first, pose, side, centre, ring_axis, theta, sl, pair, mode, sums)
-    if mode == 1:
+    if mode == TANGENT:
         _tangent(first, pose, side, Rw, centre, ring_axis, theta, sl, pair)
     if side.rolling[0] > 0.0:
         # shear on both surfaces, and the pressure that balances it: on the roller -F t at the
@@ -152,8 +165,8 @@ def push_by_race(m, pose, side, Rw, theta, rw, pair, mode, sums):
         # of the same wrench at the contact point
         pair.wrench[2] += (side.hydro - 1.0) * rw.rolling[m]
         pair.wrench[3] += side.sign * Rw * rw.rolling[m]
-        if mode >= 2:
-            sums[8] -= rw.rolling[m] * (rw.speed[m] + rw.ring_speed[m])
+        if mode >= REPORT:
+            sums[ROLLED] -= rw.rolling[m] * (rw.speed[m] + rw.ring_speed[m])
 
 
 @part(fastmath=VECTORISED)
@@ -207,10 +220,10 @@ def _report(first, side, Rw, a, sl, sums):
         across -= N * sl.g[at] * sl.t2[at]
         about_r += N * m[1]
         about_psi += N * m[2]
-    sums[1] = across
-    sums[2] += about_r
-    sums[3] += about_psi
-    sums[4] = sl.t2[first + np.uint64(side.s.shape[0] // 2)]
+    sums[TRACTION] = across
+    sums[MOMENT_R] += about_r
+    sums[MOMENT_PSI] += about_psi
+    sums[SLIDING] = sl.t2[first + np.uint64(side.s.shape[0] // 2)]
 
 
 @part
@@ -275,10 +288,10 @@ def _lean(first, pose, side, P, b, theta, sl, pair, mode, sums):
         f = times(-sl.N[at] * _incline(pose, side, P, n, theta, k) * side.sign, cross(b, n))
         on_axis = times(side.s[k], a)
         add_wrench(pair.wrench, f, on_axis)
-        if mode == 2:
+        if mode == REPORT:
             moment = cross(on_axis, f)
-            sums[2] += moment[1]
-            sums[3] += moment[2]
+            sums[MOMENT_R] += moment[1]
+            sums[MOMENT_PSI] += moment[2]
 
 
 @outlined

@@ -7,6 +7,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from flexcage.contacts.evaluation import DAMPED, NORMAL, REPORT, RUBBED, STORED, TANGENT
 from flexcage.contacts.slices import (
     friction_factors,
     friction_power,
@@ -41,9 +42,9 @@ def rib_contact(pose, data, P, b, Vr, wr, onset, laws, sl, pair, mode, sums):
 
     ``sums``: normal at +x and -x, elastic energy, damping power, friction power.
     """
-    clear(pair, mode == 1)
+    clear(pair, mode == TANGENT)
     law, friction = laws
-    if mode >= 2:
+    if mode >= REPORT:
         zero(sums)
     centre, ring_axis, ring_spin = xyz(P), xyz(b), xyz(wr)
     a0, a1, a2 = row(pose.axis, 0), row(pose.axis, 1), row(pose.axis, 2)
@@ -93,15 +94,15 @@ def rib_contact(pose, data, P, b, Vr, wr, onset, laws, sl, pair, mode, sums):
             for c in range(6):
                 V[c] = Wn[c] - sl.g[k] * (sl.t1[k] * W1[c] + sl.t2[k] * W2[c])
                 pair.wrench[c] += N * V[c]
-            if mode == 1:
+            if mode == TANGENT:
                 add_outer(pair.K, sl.Nd[k], V, Wn)
                 add_outer(pair.C, sl.Nv[k], V, Wn)
                 friction_tangent(pair.C, N, sl.g[k], sl.dg[k], sl.u[k], sl.t1[k], sl.t2[k], W1, W2)
-            elif mode >= 2:
-                sums[f] += N
-        if mode >= 2:
+            elif mode >= REPORT:
+                sums[NORMAL + f] += N
+        if mode >= REPORT:
             energy, damped = stored_and_damped((0, count), sl, data.normal[1])
-            sums[2] += energy
-            sums[3] += damped
-            sums[4] += friction_power((0, count), sl)
+            sums[STORED] += energy
+            sums[DAMPED] += damped
+            sums[RUBBED] += friction_power((0, count), sl)
     return active

@@ -20,17 +20,19 @@ from flexcage.core.cache import cache_root
 from flexcage.core.garbage import uncollected
 
 _PACKAGE = Path(__file__).resolve().parents[1]
+_FEEDING = ("contacts", "solve", "system")  # rooms
 
 
 def kernel_sources() -> list[Path]:
     """Source files that define or feed kernels, in a fixed order.
 
-    ``solve`` is plain Python that ``system`` compiles: it has no import to be known by.
+    In some rooms kernels take in plain functions and constants of files that have no import to be
+    known by; what a specification says reaches kernels as arguments.
     """
     return sorted(
         p
         for p in _PACKAGE.rglob("*.py")
-        if (p.parent.name == "solve" and p.name != "options.py")
+        if (p.parent.name in _FEEDING and p.name not in ("options.py", "spec.py"))
         or any(mark in p.read_text("utf-8") for mark in ("core.jit import", "from numba"))
     )
 

@@ -2,13 +2,26 @@
 
 A ball's coordinates are (x, r, psi) of its centre and the angles that it has turned about the axes
 of its orbiting frame F = (e_x, e_r, e_psi); its velocities are those of its centre and its angular
-velocity, both in F. ``mode``: 0 residual, 2 also the whole report, 3 without what only samples
-want; there is no tangent.
+velocity, both in F. ``mode`` is one of ``contacts.evaluation``, but for the tangent.
 """
 
 from __future__ import annotations
 
 from flexcage.contacts.ball_pocket import pocket_wall_contact
+from flexcage.contacts.evaluation import (
+    ANGLE,
+    APPROACH,
+    DAMPED,
+    NORMAL,
+    POCKET_LAW,
+    POCKET_RUBS,
+    RACE_LAW,
+    RACE_RUBS,
+    REPORT,
+    ROLLED,
+    RUBBED,
+    STORED,
+)
 from flexcage.contacts.groove import groove_contact
 from flexcage.contacts.state import set_frame
 from flexcage.core.jit import copy_into, fields, outlined, part, zero
@@ -25,8 +38,11 @@ from flexcage.core.vectors import (
     xyz,
 )
 from flexcage.system.data import (
+    APART,
     DRAG,
     GRAVITY,
+    IN_CONTACTS,
+    KINETIC,
     POCKET_DAMPING,
     POCKET_FRICTION,
     RACE_DAMPING,
@@ -42,6 +58,8 @@ from flexcage.system.rows import (
     push_modes,
     react,
 )
+
+SHARED = APART  # place in ``law``: the family's only function ``apart``
 
 
 def evaluate(t, y, yd, d, law, out, mode):
@@ -73,7 +91,7 @@ def evaluate(t, y, yd, d, law, out, mode):
         _races(i, qi, ui, q, u, zq, d, law, mode)
         _pocket(i, qi, ui, Rc, Vc, qf, qfd, margin, d, law, mode)
         _ball_rows(i, qi, ui, qd[o : o + 6], ud[o : o + 6], d, r_q[o : o + 6], r_u[o : o + 6], mode)
-    law[12](t, y, yd, d, law[:12], out, mode)
+    law[SHARED](t, y, yd, d, law[:APART], out, mode)
 
 
 @part
@@ -87,27 +105,27 @@ def _races(i, qi, ui, q, u, zq, d, law, mode):
     hit = groove_contact(
         fields(d.bodies).radius[i], fields(d.inner), P, turned(F, xyz(vec[RING_AXIS])), V, w,
         turned(F, xyz(u[zq : zq + 3])), turned(F, xyz(vec[RING_SPIN])),
-        fields(d.memory).race[i, 0], law[0], law[5], fields(d.slices).row[0], pair.wrench, mode,
-        work.sums,
+        fields(d.memory).race[i, 0], law[RACE_LAW], law[RACE_RUBS], fields(d.slices).row[0],
+        pair.wrench, mode, work.sums,
     )  # fmt: skip
     if hit:
         react(F, work.unit, pair.wrench, P, border, 0)
         _add(work.wrenches[i], pair.wrench)
-    if mode >= 2:
+    if mode >= REPORT:
         _report_race(i, 0, work.sums, fields(d.report))
     P = minus((qi[0], qi[1], 0.0), turned(F, (0.0, q[zq + 6], q[zq + 7])))
     zero(pair.wrench)
     hit = groove_contact(
         fields(d.bodies).radius[i], fields(d.outer), P, (1.0, 0.0, 0.0), V, w,
         turned(F, (0.0, u[zq + 6], u[zq + 7])), (0.0, 0.0, 0.0),
-        fields(d.memory).race[i, 1], law[0], law[5], fields(d.slices).row[0], pair.wrench, mode,
-        work.sums,
+        fields(d.memory).race[i, 1], law[RACE_LAW], law[RACE_RUBS], fields(d.slices).row[0],
+        pair.wrench, mode, work.sums,
     )  # fmt: skip
     if hit:
         _add(work.wrenches[i], pair.wrench)
         for c in range(2):
             border[6 + c] -= F[1, 1 + c] * pair.wrench[1] + F[2, 1 + c] * pair.wrench[2]
-    if mode >= 2:
+    if mode >= REPORT:
         _report_race(i, 1, work.sums, fields(d.report))
 
 
@@ -119,15 +137,15 @@ def _add(total, wrench):
 
 @part
 def _report_race(i, side, sums, rep):
-    closed = 1 if sums[0] > 0.0 else 0
+    closed = 1 if sums[NORMAL] > 0.0 else 0
     rep.contact[i, side] = closed
-    rep.approach[i, side] = sums[9]
+    rep.approach[i, side] = sums[APPROACH]
     for c in range(5):
         rep.race[i, side, c] = sums[c]
-    rep.energy[2] += sums[5]
-    rep.power[RACE_DAMPING] += sums[6]
-    rep.power[RACE_FRICTION] += sums[7]
-    rep.power[ROLLING_RESISTANCE] += sums[8]
+    rep.energy[IN_CONTACTS] += sums[STORED]
+    rep.power[RACE_DAMPING] += sums[DAMPED]
+    rep.power[RACE_FRICTION] += sums[RUBBED]
+    rep.power[ROLLING_RESISTANCE] += sums[ROLLED]
 
 
 @part
@@ -152,30 +170,30 @@ def _pocket(i, qi, ui, Rc, Vc, qf, qfd, margin, d, law, mode):
     zero(pair.wrench)
     hit = pocket_wall_contact(
         fields(d.bodies).radius[i], data, i, D, v, spin, qf, qfd, margin,
-        fields(d.memory).pocket[i, 0], law[1], law[6], fields(d.slices).row[0], pw, pair.wrench,
-        mode, sums,
+        fields(d.memory).pocket[i, 0], law[POCKET_LAW], law[POCKET_RUBS], fields(d.slices).row[0],
+        pw, pair.wrench, mode, sums,
     )  # fmt: skip
     if hit:
         _add(work.wrenches[i], pair.wrench)
         react(F, A, pair.wrench, D, work.border, 8)
         push_modes(data, i, pw, work.border)
-    if mode >= 2:
+    if mode >= REPORT:
         _report_pocket(i, hit, sums, pw, fields(d.report), mode)
 
 
 @outlined
 def _report_pocket(i, hit, sums, pw, rep, mode):
-    rep.energy[2] += sums[0]
-    rep.power[POCKET_DAMPING] += sums[1]
-    rep.power[POCKET_FRICTION] += sums[2]
-    rep.residual[i, 0] = sums[3]
+    rep.energy[IN_CONTACTS] += sums[STORED]
+    rep.power[POCKET_DAMPING] += sums[DAMPED]
+    rep.power[POCKET_FRICTION] += sums[RUBBED]
+    rep.residual[i, 0] = sums[ANGLE]
     rep.contact[i, 2] = 1 if pw.normal[0] > 0.0 else 0
-    rep.approach[i, 2] = sums[4]
+    rep.approach[i, 2] = sums[APPROACH]
     rep.pocket_normal[i, 0] = pw.normal[0]
     rep.pocket_friction[i, 0] = pw.tangential[0]
     if pw.normal[0] > 0.0:
         copy_into(rep.station[i], pw.st)
-    elif mode == 2:
+    elif mode == REPORT:
         zero(rep.station[i])
 
 
@@ -198,9 +216,9 @@ def _ball_rows(i, qi, ui, qdi, udi, d, r_q, r_u, mode):
     r_u[3] = inertia * udi[3] - FR[3]
     r_u[4] = inertia * (udi[4] - orbit * ui[5]) - FR[4]
     r_u[5] = inertia * (udi[5] + orbit * ui[4]) - FR[5]
-    if mode >= 2:
+    if mode >= REPORT:
         rep.power[GRAVITY] += mass * (gr * ui[1] + gp * ui[2])
         rep.power[DRAG] += drag * ui[2]
         v2 = ui[0] * ui[0] + ui[1] * ui[1] + ui[2] * ui[2]
         w2 = ui[3] * ui[3] + ui[4] * ui[4] + ui[5] * ui[5]
-        rep.energy[0] += 0.5 * (mass * v2 + inertia * w2)
+        rep.energy[KINETIC] += 0.5 * (mass * v2 + inertia * w2)

@@ -7,6 +7,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from flexcage.bodies.floating_frame import FrameWork, frame_work
+from flexcage.contacts.evaluation import N_SUMS
 from flexcage.contacts.land import LandWork, land_work
 from flexcage.contacts.pocket_wall import N_LOCAL, filled
 from flexcage.contacts.race import RaceWork
@@ -39,6 +40,10 @@ POWERS = (
     MODAL_DAMPING, MOUNT, CONSTRAINTS,
 ) = range(len(POWERS))  # fmt: skip
 EXCHANGED = RACE_DAMPING  # so many, the first ones, the bearing exchanges with the outside
+KINETIC, STRAIN, IN_CONTACTS, IN_MOUNT = range(4)  # places in ``Report.energy``
+# places in ``law`` behind those of ``contacts.evaluation``: the rows of further constraints, what
+# puts these in (``holding``), and the family's functions ``apart``
+CONSTRAINT_ROWS, HOLD, APART = 10, 11, 12
 
 
 class Bodies(NamedTuple):
@@ -92,9 +97,9 @@ class Tangent(NamedTuple):
 
 
 class Report(NamedTuple):
-    """What one evaluation reports beyond the residual (mode 2)."""
+    """What one evaluation reports beyond the residual (mode REPORT)."""
 
-    race: np.ndarray  # (Z, 2, 9) sums of a race's contact kernel
+    race: np.ndarray  # (Z, 2, 9) ``sums`` of a race up to ROLLED
     pocket_normal: np.ndarray  # (Z, faces)
     pocket_friction: np.ndarray  # (Z, faces)
     slice_normal: np.ndarray  # (Z, 2, ns)
@@ -108,7 +113,7 @@ class Report(NamedTuple):
     land_station: np.ndarray  # (nl, 2) on the cage, outwards and forwards
     land_touch: np.ndarray  # (2, 2) of the lands at -x, +x: normal force, approach speed
     power: np.ndarray  # (len(POWERS),)
-    energy: np.ndarray  # (4,) kinetic, strain, contact, mount with the shaft's springs
+    energy: np.ndarray  # (4,) places as above; that of the mount holds the shaft's springs too
     contact: np.ndarray  # (Z, places) booleans: races 2, faces of the pocket, ribs
     approach: np.ndarray  # (Z, places) approach speed of each
     body_force: np.ndarray  # (3,) contact force on the outer ring
@@ -134,7 +139,7 @@ class Scratch(NamedTuple):
     unit: np.ndarray  # (3, 3) unit matrix
     poses: np.ndarray  # (Z, 24) of the rollers, see ``keep_pose``
     wrenches: np.ndarray  # (Z, 6) of all contacts on each element
-    sums: np.ndarray  # (10,)
+    sums: np.ndarray  # (N_SUMS,) see ``contacts.evaluation``
     vec: np.ndarray  # (9, 3), see residual.py
     border: np.ndarray  # (nb,) generalised forces on the border
     shift: np.ndarray  # (14,) displacement of rings and cage
@@ -179,7 +184,7 @@ def new_work(
     )  # fmt: skip
     scratch = Scratch(
         z((6, 6)), z((2, 6, 6)), z((2, 3, 3)), z((3, 3)), np.eye(3), z((Z, 24)), z((Z, 6)),
-        z(10), z((9, 3)), z(14 + n), z(14), z(15), z((2, filled(n, 8))), z(layout.size),
+        z(N_SUMS), z((9, 3)), z(14 + n), z(14), z(15), z((2, filled(n, 8))), z(layout.size),
     )  # fmt: skip
     return Work(
         new_pose(), new_slices(), new_pair(), race_work, pocket_work, land_work(land_stations),

@@ -44,7 +44,7 @@ class Family:
     the functions ``apart``, of the same arguments, as values: they are compiled on their own, by
     another process at the same time, and follow the laws in ``law``; the longest first. ``faces``
     names the faces of a pocket, ``ribs`` what else an element touches besides its races.
-    ``implicit``: does mode 1 fill the tangent, so that implicit integrators may be used?
+    ``implicit``: does mode TANGENT fill it, so that implicit integrators may be used?
     """
 
     element: str  # in words

@@ -5,6 +5,7 @@ A bearing without any calls ``hold_nothing`` in their place, and need not compil
 
 from __future__ import annotations
 
+from flexcage.contacts.evaluation import TANGENT
 from flexcage.core.jit import fields, part, zero
 from flexcage.core.rotation import quaternion_rate
 from flexcage.solve.bordered import lu_factor, lu_solve
@@ -62,7 +63,7 @@ def _displaced(q, shift, rates, out):
 @part
 def _rows(t, q, u, multipliers, d, rows, r_q, r_u, out, mode):
     """Rows of the constraints into ``out``, and what their ``multipliers``, lambda then mu, add to
-    the rows of rings and cage; slopes in mode 1."""
+    the rows of rings and cage; slopes if asked for."""
     c, tan, work = fields(d.constraints), fields(d.tangent), fields(d.scratch)
     fixed = fields(d.bodies).outer[3] > 0.0  # then nothing moves the outer ring
     _evaluate(t, q, u, c, rows)
@@ -78,12 +79,12 @@ def _rows(t, q, u, multipliers, d, rows, r_q, r_u, out, mode):
             r_u[j] -= acts * lam[k] if held else 0.0
             if c.level[k] == POSITION:
                 shift[j] += acts * mu[k]
-            if mode == 1:
+            if mode == TANGENT:
                 tan.held[k, j] = acts if held else 0.0
     _displaced(q, shift, work.S[0], work.moved)
     for j in range(15):
         r_q[j] -= work.moved[j]
-    if mode == 1:
+    if mode == TANGENT:
         _slopes(c, tan)
 
 

@@ -7,6 +7,7 @@ the momentum rows become (alpha M + C + K/alpha) du = -r_u + K r_s/alpha, so tha
 
 from __future__ import annotations
 
+from flexcage.contacts.evaluation import ACCEPT, RESIDUAL, TANGENT
 from flexcage.core.jit import VECTORISED, fields, kernel, zero
 from flexcage.core.rotation import quaternion_rate, rotation_of_quaternion_change
 from flexcage.solve import bordered
@@ -21,12 +22,12 @@ _solve_bordered = bordered.solve
 
 def residual(t, y, yd, data, out, power):
     """F(t, y, y') into ``out``, powers into ``power`` if it has room."""
-    data[2](t, y, yd, data[0], data[1], out, 3 if power.shape[0] > 0 else 0)
+    data[2](t, y, yd, data[0], data[1], out, ACCEPT if power.shape[0] > 0 else RESIDUAL)
     give_powers(t, y, data[0], power)
 
 
 def linearise(t, y, yd, data):
-    data[2](t, y, yd, data[0], data[1], fields(data[0].scratch).out, 1)
+    data[2](t, y, yd, data[0], data[1], fields(data[0].scratch).out, TANGENT)
 
 
 def factor(alpha, data):

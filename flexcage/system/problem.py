@@ -18,6 +18,7 @@ from numba import types
 
 from flexcage.bodies.floating_frame import marked
 from flexcage.contacts import laws
+from flexcage.contacts.evaluation import RESIDUAL
 from flexcage.contacts.spec import Contacts
 from flexcage.core.errors import InputError
 from flexcage.core.garbage import uncollected
@@ -288,8 +289,8 @@ class Bearing:
         """What the compiled functions take as their data."""
         return parts(data), (*law, *self.apart), self.evaluate
 
-    def residual(self, t: float, y: np.ndarray, yd: np.ndarray, mode: int = 0) -> np.ndarray:
-        """F(t, y, y'), a new array; mode 1 also fills the tangent, mode 2 the report."""
+    def residual(self, t: float, y: np.ndarray, yd: np.ndarray, mode: int = RESIDUAL) -> np.ndarray:
+        """F(t, y, y'), a new array; TANGENT also fills the tangent, REPORT the report."""
         out = np.zeros(self.layout.size)
         self.evaluate(t, y, yd, self.args[0], self.args[1], out, mode)
         return out

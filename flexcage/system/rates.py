@@ -16,11 +16,13 @@ from typing import NamedTuple
 import numpy as np
 
 from flexcage.bodies.floating_frame import BodyData, modal_product
+from flexcage.contacts.evaluation import ACCEPT, REPORT, RESIDUAL
 from flexcage.core.jit import VECTORISED, fields, kernel, part, zero
 from flexcage.solve.bordered import lu_factor, lu_solve
 from flexcage.solve.oscillators import Oscillators, no_oscillators
 from flexcage.system.constraints import BEAR, ONTO
 from flexcage.system.courses import table_slope, wave_slope
+from flexcage.system.data import CONSTRAINT_ROWS, HOLD
 from flexcage.system.layout import Layout
 from flexcage.system.rows import shaft_pull, speed_at
 from flexcage.system.sampling import give_powers, is_main, keep_force, keep_report
@@ -63,7 +65,7 @@ def modal_oscillators(body: BodyData, layout: Layout) -> Oscillators:
 
 def rates(t, y, yd, data, power):
     """y' into yd, held coordinates and multipliers into y, powers into ``power`` if it has room."""
-    _rates(t, y, yd, data, 3 if power.shape[0] > 0 else 0)
+    _rates(t, y, yd, data, ACCEPT if power.shape[0] > 0 else RESIDUAL)
     give_powers(t, y, data[0], power)
 
 
@@ -71,7 +73,7 @@ def sample(sample, t, y, yd, data):
     """Keep the report at sampling time t; at whole samples y' and multipliers are those of y."""
     s = fields(data[0].samples)
     if is_main(sample, s.stride):
-        _rates(t, y, yd, data, 2)
+        _rates(t, y, yd, data, REPORT)
         keep_report(s, sample // s.stride, fields(data[0].report), fields(data[0].events))
     keep_force(sample, t, s, fields(data[0].events))
 
@@ -87,7 +89,7 @@ def _rates(t, y, yd, data, mode):
     _hold(t, y[6 * Z : 6 * Z + 6], y[ring : ring + 6], bodies, driven)
     zero(y[end:])
     law = data[1]
-    law[11](t, y, yd, d, law[10], out, ONTO)
+    law[HOLD](t, y, yd, d, law[CONSTRAINT_ROWS], out, ONTO)
     shaft_pull(bodies, y[6 * Z : 6 * Z + 6], y[ring : ring + 6], y[end : end + 3])
     zero(yd)
     data[2](t, y, yd, d, data[1], out, mode)
@@ -130,7 +132,7 @@ def _rates(t, y, yd, data, mode):
         frame.rigid, frame.coupled, fields(d.cage).plain, fields(d.scratch).A,
         yd[ring + 8 : end], fields(d.rates),
     )  # fmt: skip
-    law[11](t, y, yd, d, law[10], out, BEAR)
+    law[HOLD](t, y, yd, d, law[CONSTRAINT_ROWS], out, BEAR)
 
 
 @part

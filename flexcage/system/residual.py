@@ -4,13 +4,26 @@ One kind of contact after another is evaluated for all rollers, races in lots of
 wrenches added to the bodies; then the rows are formed: kinematics q' - T(q) u - G^T mu, momentum
 M u' + h - Q - G^T lambda, g and its rate. (With one roller's contacts after the other the code of
 all of them passes through the processor's cache 22 times: a sixth more time.)
-``mode``: 0 residual, 1 also the tangent blocks, 2 also the whole report, 3 what of it a point that
-may be accepted needs: powers, what touches, how fast it nears, forces on bodies; 4 the races' force
-on the outer ring alone.
+``mode`` is one of ``contacts.evaluation``.
 """
 
 from __future__ import annotations
 
+from flexcage.contacts.evaluation import (
+    DAMPED,
+    NORMAL,
+    OUTER_RING,
+    RACE_LAW,
+    RACE_RUBS,
+    REPORT,
+    RESIDUAL,
+    RIB_LAW,
+    RIB_RUBS,
+    ROLLED,
+    RUBBED,
+    STORED,
+    TANGENT,
+)
 from flexcage.contacts.race import meet_race, press_race, push_by_race
 from flexcage.contacts.rib import rib_contact
 from flexcage.contacts.state import keep_pose, set_pose, shift_matrix, take_pose
@@ -24,8 +37,11 @@ from flexcage.core.vectors import (
 )
 from flexcage.system.blocks import scatter, scatter_outer
 from flexcage.system.data import (
+    APART,
     DRAG,
     GRAVITY,
+    IN_CONTACTS,
+    KINETIC,
     RACE_DAMPING,
     RACE_FRICTION,
     RIB_DAMPING,
@@ -41,6 +57,8 @@ from flexcage.system.rows import (
     inner_ring,
     react,
 )
+
+POCKETS, SHARED = APART, APART + 1  # places in ``law``: the family's functions ``apart``
 
 
 @part
@@ -72,7 +90,8 @@ def evaluate(t, y, yd, d, law, out, mode):
     q, u, qd, ud = y[:nq], y[nq : nq + nu], yd[:nq], yd[nq : nq + nu]
     r_q, r_u = out[:nq], out[nq : nq + nu]
     zq = 6 * Z
-    clear_sums(work.border, d, mode % 4)
+    asked = RESIDUAL if mode == OUTER_RING else mode
+    clear_sums(work.border, d, asked)
     ring_q, ring_u = q[zq : zq + 6], u[zq : zq + 6]
     matrix_from_quaternion(q[zq + 11 : zq + 15], work.A)
     put(work.vec[CAGE_SPIN], turned(work.A, xyz(u[zq + 11 : zq + 14])))
@@ -84,17 +103,17 @@ def evaluate(t, y, yd, d, law, out, mode):
         set_pose(q[o : o + 6], u[o : o + 6], pose)
         keep_pose(pose, poses[i])
     lot = fields(d.race_work).who.shape[0]
-    for first in range(0, Z if mode != 4 else 0, lot):
+    for first in range(0, Z if mode != OUTER_RING else 0, lot):
         _inner_contacts(first, min(first + lot, Z), q, ring_q, ring_u, d, law, mode)
     out_q, out_u = q[zq + 6 : zq + 8], u[zq + 6 : zq + 8]
     for first in range(0, Z, lot):
-        _outer_contacts(first, min(first + lot, Z), q, out_q, out_u, d, law, mode % 4)
-    if mode >= 2:
+        _outer_contacts(first, min(first + lot, Z), q, out_q, out_u, d, law, asked)
+    if mode >= REPORT:
         for c in range(2):
             fields(d.report).outer_races[c] = work.border[6 + c]
-    if mode == 4:
+    if mode == OUTER_RING:
         return
-    law[12](t, y, yd, d, law[:12], out, mode)
+    law[POCKETS](t, y, yd, d, law[:APART], out, mode)
     for i in range(Z):
         o = 6 * i
         take_pose(poses[i], pose)
@@ -102,7 +121,7 @@ def evaluate(t, y, yd, d, law, out, mode):
             i, q[o : o + 6], u[o : o + 6], qd[o : o + 6], ud[o : o + 6], d, r_q[o : o + 6],
             r_u[o : o + 6], mode,
         )  # fmt: skip
-    law[13](t, y, yd, d, law[:12], out, mode)
+    law[SHARED](t, y, yd, d, law[:APART], out, mode)
 
 
 @part
@@ -121,23 +140,23 @@ def _inner_contacts(first, end, q, ring_q, ring_u, d, law, mode):
         put(Vr, turned(F, xyz(ring_u)))
         put(wr, turned(F, xyz(vec[RING_SPIN])))
         if rib_contact(
-            pose, fields(d.rib), P, b, Vr, wr, memory.rib[i], (law[3], law[8]),
+            pose, fields(d.rib), P, b, Vr, wr, memory.rib[i], (law[RIB_LAW], law[RIB_RUBS]),
             fields(d.slices).row[0], pair, mode, sums,
         ):  # fmt: skip
             _add_inner(i, P, d, mode)
-            if mode >= 2:
+            if mode >= REPORT:
                 _report_ribs(i, sums, rep)
         onset = memory.race[i, 0]
         if meet_race(count, pose, side, radius[i], ring_q[5], onset, rw):
             rw.who[count] = i
             count += 1
-    press_race(count, side, law[0], law[5], rw)
+    press_race(count, side, law[RACE_LAW], law[RACE_RUBS], rw)
     for m in range(count):
         i = rw.who[m]
         take_pose(work.poses[i], pose)
         push_by_race(m, pose, side, radius[i], ring_q[5], rw, pair, mode, sums)
         _add_inner(i, rw.partner[m, 0], d, mode)
-        if mode >= 2:
+        if mode >= REPORT:
             _report_race(i, 0, sums, rep)
 
 
@@ -147,7 +166,7 @@ def _add_inner(i, P, d, mode):
     pair, work, F = fields(d.pair), fields(d.scratch), fields(d.pose).F
     add_to_element(work.wrenches[i], pair)
     react(F, work.unit, pair.wrench, xyz(P), work.border, 0)
-    if mode == 1:
+    if mode == TANGENT:
         copy_into(work.R[0], F)
         copy_into(work.R[1], F)
         shift_matrix(work.R, P, work.S)
@@ -173,7 +192,7 @@ def _outer_contacts(first, end, q, out_q, out_u, d, law, mode):
         if meet_race(count, pose, side, radius[i], 0.0, onset, rw):
             rw.who[count] = i
             count += 1
-    press_race(count, side, law[0], law[5], rw)
+    press_race(count, side, law[RACE_LAW], law[RACE_RUBS], rw)
     for m in range(count):
         i = rw.who[m]
         take_pose(work.poses[i], pose)
@@ -181,31 +200,31 @@ def _outer_contacts(first, end, q, out_q, out_u, d, law, mode):
         add_to_element(work.wrenches[i], pair)
         for c in range(2):
             border[6 + c] -= F[1, 1 + c] * pair.wrench[1] + F[2, 1 + c] * pair.wrench[2]
-        if mode == 1:
+        if mode == TANGENT:
             scatter_outer(pair, F, i, fields(d.tangent))
-        elif mode >= 2:
+        elif mode >= REPORT:
             _report_race(i, 1, work.sums, fields(d.report))
 
 
 @part
 def _report_ribs(i, sums, rep):
-    rep.rib[i, 0], rep.rib[i, 1] = sums[0], sums[1]
-    rep.contact[i, 6] = 1 if sums[0] > 0.0 else 0
-    rep.contact[i, 7] = 1 if sums[1] > 0.0 else 0
-    rep.energy[2] += sums[2]
-    rep.power[RIB_DAMPING] += sums[3]
-    rep.power[RIB_FRICTION] += sums[4]
+    rep.rib[i, 0], rep.rib[i, 1] = sums[NORMAL], sums[NORMAL + 1]
+    rep.contact[i, 6] = 1 if sums[NORMAL] > 0.0 else 0
+    rep.contact[i, 7] = 1 if sums[NORMAL + 1] > 0.0 else 0
+    rep.energy[IN_CONTACTS] += sums[STORED]
+    rep.power[RIB_DAMPING] += sums[DAMPED]
+    rep.power[RIB_FRICTION] += sums[RUBBED]
 
 
 @part
 def _report_race(i, side, sums, rep):
     for c in range(9):
         rep.race[i, side, c] = sums[c]
-    rep.contact[i, side] = 1 if sums[0] > 0.0 else 0
-    rep.energy[2] += sums[5]
-    rep.power[RACE_DAMPING] += sums[6]
-    rep.power[RACE_FRICTION] += sums[7]
-    rep.power[ROLLING_RESISTANCE] += sums[8]
+    rep.contact[i, side] = 1 if sums[NORMAL] > 0.0 else 0
+    rep.energy[IN_CONTACTS] += sums[STORED]
+    rep.power[RACE_DAMPING] += sums[DAMPED]
+    rep.power[RACE_FRICTION] += sums[RUBBED]
+    rep.power[ROLLING_RESISTANCE] += sums[ROLLED]
 
 
 @part
@@ -229,15 +248,15 @@ def _roller_rows(i, qi, ui, qdi, udi, d, r_q, r_u, mode):
     r_u[3] = Ia * udi[3] - M1
     r_u[4] = It * (udi[4] - frame * ui[5]) + Ia * ui[3] * ui[5] - M2
     r_u[5] = It * (udi[5] + frame * ui[4]) - Ia * ui[3] * ui[4] - M3
-    if mode == 1:
+    if mode == TANGENT:
         tan.Crr[i, 1, 2] -= 2.0 * mass * ui[2] / r
         tan.Crr[i, 2, 1] += mass * ui[2] / r
         tan.Crr[i, 2, 2] += mass * ui[1] / r + 2.0 * bodies.drag[0] * abs(ui[2])
         tan.Crr[i, 4, 5] += Ia * ui[3] - It * frame
         tan.Crr[i, 5, 4] -= Ia * ui[3] - It * frame
-    elif mode >= 2:
+    elif mode >= REPORT:
         rep.power[GRAVITY] += mass * (gr * ui[1] + gp * ui[2])
         rep.power[DRAG] += drag * ui[2]
         v2 = ui[0] * ui[0] + ui[1] * ui[1] + ui[2] * ui[2]
         w2 = ui[4] * ui[4] + ui[5] * ui[5]
-        rep.energy[0] += 0.5 * (mass * v2 + Ia * ui[3] * ui[3] + It * w2)
+        rep.energy[KINETIC] += 0.5 * (mass * v2 + Ia * ui[3] * ui[3] + It * w2)

@@ -5,6 +5,17 @@
 
 from __future__ import annotations
 
+from flexcage.contacts.evaluation import (
+    DAMPED,
+    POCKET_LAW,
+    POCKET_RUBS,
+    REPORT,
+    RUBBED,
+    SIDE_LAW,
+    SIDE_RUBS,
+    STORED,
+    TANGENT,
+)
 from flexcage.contacts.pocket import pocket_contact
 from flexcage.contacts.state import shift_matrix, take_pose
 from flexcage.core.jit import copy_into, fields, outlined, part, zero
@@ -23,7 +34,7 @@ from flexcage.core.vectors import (
     xyz,
 )
 from flexcage.system.blocks import scatter, scatter_modes
-from flexcage.system.data import POCKET_DAMPING, POCKET_FRICTION
+from flexcage.system.data import IN_CONTACTS, POCKET_DAMPING, POCKET_FRICTION
 from flexcage.system.rows import (
     CAGE_SPIN,
     LEVER,
@@ -51,7 +62,7 @@ def roller_pockets(t, y, yd, d, law, out, mode):
     for i in range(Z):
         take_pose(work.poses[i], fields(d.pose))
         _pocket(i, q[6 * i : 6 * i + 6], Rc, Vc, modal[0], modal[1], margin, d, law, mode)
-        if mode >= 2:
+        if mode >= REPORT:
             _approach(i, u[zq : zq + 6], u[zq + 6 : zq + 8], d)
 
 
@@ -72,14 +83,14 @@ def _pocket(i, qi, Rc, Vc, qf, qfd, margin, d, law, mode):
     put(wr, turned(F, xyz(vec[CAGE_SPIN])))
     hit = pocket_contact(
         pose, data, i, fields(d.bodies).radius[i], D, Vr, wr, qf, qfd, margin, memory.pocket[i],
-        (law[1], law[2], law[6], law[7]), memory.deflection[i], fields(d.slices).row[0], pw, pair,
-        mode, sums,
+        (law[POCKET_LAW], law[SIDE_LAW], law[POCKET_RUBS], law[SIDE_RUBS]), memory.deflection[i],
+        fields(d.slices).row[0], pw, pair, mode, sums,
     )  # fmt: skip
     if hit:
         add_to_element(work.wrenches[i], pair)
         react(F, A, pair.wrench, xyz(D), border, 8)
         push_modes(data, i, pw, border)
-    if mode == 1:
+    if mode == TANGENT:
         tan.active[i] = 1 if hit else 0
         if hit:
             copy_into(work.R[0], F)
@@ -89,23 +100,23 @@ def _pocket(i, qi, Rc, Vc, qf, qfd, margin, d, law, mode):
             scatter(pair, work.S, i, 8, tan, work.T6)
             if qf.shape[0] > 0:
                 scatter_modes(i, pw, work.S, tan, data.phi.shape[4])
-    elif mode >= 2:
+    elif mode >= REPORT:
         _report_pocket(i, hit, sums, pw, fields(d.report), mode)
 
 
 @outlined
 def _report_pocket(i, hit, sums, pw, rep, mode):
     if hit:
-        rep.energy[2] += sums[0]
-        rep.power[POCKET_DAMPING] += sums[1]
-        rep.power[POCKET_FRICTION] += sums[2]
+        rep.energy[IN_CONTACTS] += sums[STORED]
+        rep.power[POCKET_DAMPING] += sums[DAMPED]
+        rep.power[POCKET_FRICTION] += sums[RUBBED]
         copy_into(rep.station[i], pw.st)
-    if hit and mode == 2:
+    if hit and mode == REPORT:
         copy_into(rep.slice_normal[i], pw.slice_N)
         copy_into(rep.slice_friction[i], pw.slice_T)
         copy_into(rep.point_normal[i], pw.point_N)
         copy_into(rep.point_friction[i], pw.point_T)
-    elif mode == 2:
+    elif mode == REPORT:
         zero(rep.station[i])
         zero(rep.slice_normal[i])
         zero(rep.slice_friction[i])

@@ -9,6 +9,18 @@ from __future__ import annotations
 from math import cos, sin, sqrt
 
 from flexcage.bodies.floating_frame import inertia_terms, modal_product
+from flexcage.contacts.evaluation import (
+    APPROACH,
+    DAMPED,
+    LAND_LAW,
+    LAND_RUBS,
+    NORMAL,
+    REPORT,
+    RUBBED,
+    SHEARED,
+    STORED,
+    TANGENT,
+)
 from flexcage.contacts.land import land_contact
 from flexcage.core.jit import VECTORISED, copy_into, fields, part, zero
 from flexcage.core.rotation import quaternion_rate
@@ -24,14 +36,20 @@ from flexcage.core.vectors import (
 )
 from flexcage.system.courses import table_integral, table_value, wave_integral, wave_value
 from flexcage.system.data import (
+    CONSTRAINT_ROWS,
     DRAG,
     DRIVE,
     FILM,
     GRAVITY,
+    HOLD,
+    IN_CONTACTS,
+    IN_MOUNT,
+    KINETIC,
     LAND_DAMPING,
     LAND_FRICTION,
     MODAL_DAMPING,
     MOUNT,
+    STRAIN,
 )
 
 # rows of ``Work.vec``: of the bodies, in space; of the pair under work, in the roller's frame F
@@ -55,7 +73,7 @@ def shared_rows(t, y, yd, d, law, out, mode):
     land_rows(q, u, zq, nm, d, law, mode)
     cage_rows(d, quat, Vc, wb, qf, qfd, qd, ud, zq, r_q, r_u, mode)
     ring_rows(t, d, q, u, qd, ud, lam, mu, zq, r_q, r_u, out, nq + nu, mode)
-    law[11](t, y, yd, d, law[10], out, mode)
+    law[HOLD](t, y, yd, d, law[CONSTRAINT_ROWS], out, mode)
 
 
 @part
@@ -122,7 +140,7 @@ def clear_sums(border, d, mode):
     """Set to zero what the contacts add to."""
     tan, rep = fields(d.tangent), fields(d.report)
     zero(border)
-    if mode == 1:
+    if mode == TANGENT:
         zero(tan.Krr)
         zero(tan.Crr)
         zero(tan.Krb)
@@ -132,7 +150,7 @@ def clear_sums(border, d, mode):
         zero(tan.Kbb)
         zero(tan.Cbb)
         zero(tan.Mbb)
-    elif mode >= 2:
+    elif mode >= REPORT:
         zero(rep.power)
         zero(rep.energy)
         zero(rep.race)
@@ -195,7 +213,7 @@ def land_rows(q, u, zq, nm, d, law, mode):
         put(speed, (0.0, u[zq + 6], u[zq + 7]))
     land_contact(
         A, q[zq + 8 : zq + 11], u[zq + 8 : zq + 11], wg, q[zq + 15 :], u[zq + 14 :], where, speed,
-        spin, data, fields(d.memory).land, (law[4], law[9]), fields(d.slices).row[0],
+        spin, data, fields(d.memory).land, (law[LAND_LAW], law[LAND_RUBS]), fields(d.slices).row[0],
         fields(d.land_work), Fc, Mc, border[14 : 14 + nm], Fr, Mr, work.sums,
     )  # fmt: skip
     drag = fields(d.bodies).drag[1] * abs(wg[0]) * wg[0]
@@ -210,16 +228,16 @@ def land_rows(q, u, zq, nm, d, law, mode):
     if not rides_inner:
         border[6] += Fr[1]
         border[7] += Fr[2]
-    if mode >= 2:
+    if mode >= REPORT:
         sums = work.sums
         copy_into(rep.land, Fc)
         copy_into(rep.land_station, fields(d.land_work).st)
         for c in range(2):
-            rep.land_touch[c, 0], rep.land_touch[c, 1] = sums[4 + c], sums[6 + c]
-        rep.energy[2] += sums[0]
-        rep.power[LAND_DAMPING] += sums[1]
-        rep.power[LAND_FRICTION] += sums[2]
-        rep.power[FILM] += sums[3]
+            rep.land_touch[c, 0], rep.land_touch[c, 1] = sums[NORMAL + c], sums[APPROACH + c]
+        rep.energy[IN_CONTACTS] += sums[STORED]
+        rep.power[LAND_DAMPING] += sums[DAMPED]
+        rep.power[LAND_FRICTION] += sums[RUBBED]
+        rep.power[FILM] += sums[SHEARED]
         rep.power[DRAG] -= drag * wg[0]
 
 
@@ -271,7 +289,7 @@ def cage_rows(d, quat, Vc, wb, qf, qfd, qd, ud, zq, r_q, r_u, mode):
     modal_product(data.dff, data.plain, qfd, product)
     for m in range(nm):
         row_of[m] += product[m]
-    if mode == 1:
+    if mode == TANGENT:
         for a in range(3):  # translations to space
             for b in range(3):
                 x = y = 0.0
@@ -293,7 +311,7 @@ def cage_rows(d, quat, Vc, wb, qf, qfd, qd, ud, zq, r_q, r_u, mode):
             for l in range(nm):
                 tan.Kbb[14 + m, 14 + l] += data.kff[m, l]
                 tan.Cbb[14 + m, 14 + l] += data.dff[m, l]
-    elif mode >= 2:
+    elif mode >= REPORT:
         for m in range(nm):  # the product is that of the damping
             rep.power[MODAL_DAMPING] -= qfd[m] * product[m]
         put(v, turned_back(A, xyz(Vc)))
@@ -305,17 +323,17 @@ def cage_rows(d, quat, Vc, wb, qf, qfd, qd, ud, zq, r_q, r_u, mode):
                 momentum += H[k, m] * qfd[m]
             if k < 3:  # what gravity does on the body's first moment of mass
                 rep.power[GRAVITY] += gb[k] * momentum
-            rep.energy[0] += v[k] * momentum
+            rep.energy[KINETIC] += v[k] * momentum
             for c in range(6):
-                rep.energy[0] += 0.5 * v[k] * M[k, c] * v[c]
+                rep.energy[KINETIC] += 0.5 * v[k] * M[k, c] * v[c]
                 if c < 3:
                     rep.power[GRAVITY] += v[k] * M[k, c] * gb[c]
         modal_product(data.mff, data.plain, qfd, product)
         for m in range(nm):
-            rep.energy[0] += 0.5 * qfd[m] * product[m]
+            rep.energy[KINETIC] += 0.5 * qfd[m] * product[m]
         modal_product(data.kff, data.plain, qf, product)
         for m in range(nm):
-            rep.energy[1] += 0.5 * qf[m] * product[m]
+            rep.energy[STRAIN] += 0.5 * qf[m] * product[m]
 
 
 @part
@@ -328,7 +346,7 @@ def _housing(outer, q, u, held, tan, mode):
     if clearance < 0.0:  # a bushing
         for i in range(2):
             held[i] = k * q[i] + c * u[i]
-            if mode == 1:
+            if mode == TANGENT:
                 tan.Kbb[6 + i, 6 + i] += k
                 tan.Cbb[6 + i, 6 + i] += c
         return 0.5 * k * distance * distance, c * (u[0] * u[0] + u[1] * u[1])
@@ -341,7 +359,7 @@ def _housing(outer, q, u, held, tan, mode):
         return 0.5 * k * depth * depth, -k * depth * rate
     for i in range(2):
         held[i] = force * n[i]
-        if mode == 1:
+        if mode == TANGENT:
             for j in range(2):
                 across = (1.0 if i == j else 0.0) - n[i] * n[j]
                 tan.Kbb[6 + i, 6 + j] += k * n[i] * n[j] + force / distance * across
@@ -443,7 +461,7 @@ def ring_rows(t, d, q, u, qd, ud, lam, mu_, zq, r_q, r_u, out, end, mode):
     g[4] = mu_[0] if free[0] > 0.0 else rq[0]
     g[5] = mu_[1] if free[1] > 0.0 else rq[3]
     g[6] = mu_[2] if free[2] > 0.0 else rq[4] - bodies.misalignment
-    if mode == 1:
+    if mode == TANGENT:
         constraint_slopes(bodies, tan)
         for c in range(3):
             tan.Mbb[c, c] = mass
@@ -462,21 +480,21 @@ def ring_rows(t, d, q, u, qd, ud, lam, mu_, zq, r_q, r_u, out, end, mode):
                 for i in range(tan.Kbr.shape[0]):
                     zero(tan.Kbr[i, 6 + c])
                     zero(tan.Cbr[i, 6 + c])
-    elif mode >= 2:
+    elif mode >= REPORT:
         w2 = ru[4] * ru[4] + ru[5] * ru[5]
         v2 = ru[0] * ru[0] + ru[1] * ru[1] + ru[2] * ru[2]
-        rep.energy[0] += 0.5 * (mass * v2 + Ia * ru[3] * ru[3] + It * w2)
+        rep.energy[KINETIC] += 0.5 * (mass * v2 + Ia * ru[3] * ru[3] + It * w2)
         # what loads and constraints do follows from y alone: ``sampling.give_powers`` adds it
         rep.power[DRIVE] += shaft * ru[3]
         for c in range(3):
             rep.power[GRAVITY] += mass * bodies.gravity[c] * ru[c]
-        rep.energy[3] += bent
+        rep.energy[IN_MOUNT] += bent
         rep.power[MOUNT] -= damped
         if fixed == 0.0:
-            rep.energy[3] += stored
+            rep.energy[IN_MOUNT] += stored
             rep.power[MOUNT] -= lost
             for c in range(2):
-                rep.energy[0] += 0.5 * mo * ou[c] * ou[c]
+                rep.energy[KINETIC] += 0.5 * mo * ou[c] * ou[c]
                 rep.power[GRAVITY] += mo * bodies.gravity[1 + c] * ou[c]
         for c in range(2):
             rep.body_force[c] = border[6 + c]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from flexcage.contacts.evaluation import OUTER_RING, REPORT
 from flexcage.core.jit import copy_into, fields, part
 from flexcage.system.data import CONSTRAINTS, DRIVE, EXCHANGED, LOAD
 from flexcage.system.rows import load_power
@@ -45,7 +46,7 @@ def settle(t, y, data):
     d = data[0]
     force, races = fields(d.report).body_force, fields(d.report).outer_races
     before = races[0], races[1]
-    data[2](t, y, y, d, data[1], fields(d.scratch).out, 4)
+    data[2](t, y, y, d, data[1], fields(d.scratch).out, OUTER_RING)
     for c in range(2):
         force[c] += races[c] - before[c]
     keep_point(t, y, d)
@@ -183,7 +184,7 @@ def observe(sample, t, y, yd, data):
     """Keep the report at sampling time t, for y and y' of dense output."""
     s = fields(data[0].samples)
     if is_main(sample, s.stride):
-        data[2](t, y, yd, data[0], data[1], fields(data[0].scratch).out, 2)
+        data[2](t, y, yd, data[0], data[1], fields(data[0].scratch).out, REPORT)
         keep_report(s, sample // s.stride, fields(data[0].report), fields(data[0].events))
     keep_force(sample, t, s, fields(data[0].events))
 

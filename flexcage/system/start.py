@@ -19,6 +19,7 @@ from typing import Any
 import numpy as np
 
 from flexcage.contacts import laws
+from flexcage.contacts.evaluation import REPORT, RESIDUAL, TANGENT
 from flexcage.contacts.land import DRY, FILM, NONE, LandData
 from flexcage.contacts.pocket_wall import with_offset
 from flexcage.core.errors import InputError, RunFailed
@@ -34,7 +35,7 @@ from flexcage.system.statics.solution import StaticSolution
 
 StaticStart = Callable[[], StaticSolution]
 Told = Callable[[float], None]
-RESIDUAL = 1e-7  # of the load: where an equilibrium is accepted
+_SMALL = 1e-7  # of the load: where an equilibrium is accepted
 _BALANCED = 1e-6  # of the load: what may stay unbalanced at last
 TOUCH = 1e-9  # [m] interference that is only a touch
 # of a land's clearance, by which the cage may lean at the start; a film grows stiff beyond
@@ -131,7 +132,7 @@ def constrained(
     else:
         name = layout.held[int(missed.argmax())]
         raise RunFailed(f"the start cannot be moved onto the constraint '{name}'; can it be met?")
-    bearing.residual(0.0, y, yd, mode=2)
+    bearing.residual(0.0, y, yd, REPORT)
     report = bearing.data.work.report
     for force, where in ((report.pocket_normal, "its pocket"), (report.race[:, :, 0], "a race")):
         if force.max() > limit_force:
@@ -216,20 +217,20 @@ class _Frictionless:
         self.out = np.zeros(bearing.layout.size)
 
     def residual(self, y: np.ndarray, yd: np.ndarray) -> np.ndarray:
-        self._evaluate(y, yd, 0)
+        self._evaluate(y, yd, RESIDUAL)
         return self.out.copy()
 
     def _evaluate(self, y: np.ndarray, yd: np.ndarray, mode: int) -> None:
         self.bearing.evaluate(0.0, y, yd, self.args[0], self.args[1], self.out, mode)
 
     def report(self, y: np.ndarray, yd: np.ndarray):
-        self._evaluate(y, yd, 2)
+        self._evaluate(y, yd, REPORT)
         return self.data.work.report
 
     def step(self, y, yd, r, alpha: float, held: Held) -> np.ndarray:
         """Displacement step dq of the implicit Euler step 1/alpha from rest."""
         tangent = self.data.work.tangent
-        self._evaluate(y, yd, 1)
+        self._evaluate(y, yd, TANGENT)
         roller, row = np.nonzero(held.rollers)
         tangent.Krr[roller, row, row] += _HOLD
         row = _CAGE_ROW + np.flatnonzero(held.cage)
@@ -357,7 +358,7 @@ def _equilibrate(system: _Frictionless, y: np.ndarray, yd: np.ndarray, tight: np
         rows["cage"][held.cage[:3]] = 0.0
         rows["omega"][held.cage[3:]] = 0.0
         size = _measure(layout, r, lever, held, bodies.free) / load
-        if size < RESIDUAL:
+        if size < _SMALL:
             break
         alpha = max(alpha * 0.5, 500.0) if size <= 3.0 * last else min(alpha * 10.0, 1e6)
         last = size

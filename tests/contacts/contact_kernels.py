@@ -10,6 +10,7 @@ from numba import types
 from scipy.spatial.transform import Rotation
 
 from flexcage.contacts import laws
+from flexcage.contacts.evaluation import N_SUMS
 from flexcage.contacts.land import land_contact, land_work
 from flexcage.contacts.pocket import pocket_contact
 from flexcage.contacts.pocket_wall import N_LOCAL, pocket_work
@@ -113,7 +114,7 @@ def race(
 ):  # fmt: skip
     """(wrench, sums, pair) of one raceway on a roller at P from the ring's centre."""
     pose = pose_of(np.eye(3) if axis is None else axis, V, w, azimuth)
-    pair, sums = new_pair(), np.zeros(9)
+    pair, sums = new_pair(), np.zeros(N_SUMS)
     rw = race_work(len(side.s))  # contact 0 of the lot is one that does not touch
     rw.partner[1] = P, b, Vr, wr
     _race_kernel(numba.typeof(side))(
@@ -128,7 +129,7 @@ def rib(
 ):  # fmt: skip
     """(wrench, sums, pair) of both ribs on a roller at P from the ring's centre."""
     pose = pose_of(np.eye(3) if axis is None else axis, V, w)
-    pair, sums = new_pair(), np.zeros(9)
+    pair, sums = new_pair(), np.zeros(N_SUMS)
     arrays = [np.array(x, float) for x in (P, b, Vr, wr)]
     _rib_kernel(numba.typeof(data))(
         pose, data, *arrays, np.full(2, onset), (law, friction), new_slices(), pair, mode, sums
@@ -144,7 +145,7 @@ def pocket(
     pose = pose_of(np.eye(3) if axis is None else axis, V, w)
     work = pocket_work(len(data.s), len(data.points), data.phi.shape[2], data.phi.shape[4])
     work.G[:] = np.eye(3) if G is None else G
-    pair, sums = new_pair(), np.zeros(9)
+    pair, sums = new_pair(), np.zeros(N_SUMS)
     arrays = [np.array(x, float) for x in (D, Vc, wc, q, qd)]
     margin = float(data.phi_max @ np.abs(arrays[3])) if len(q) else 0.0
     _pocket_kernel(numba.typeof(data))(
@@ -161,7 +162,7 @@ def land(
 ):  # fmt: skip
     """(Fc, Mc, Qm, Fr, Mr, sums) between cage and ring; forces at stations in ``work.st``."""
     A = np.eye(3) if A is None else np.ascontiguousarray(A)
-    out = [np.zeros(3), np.zeros(3), np.zeros(len(q)), np.zeros(3), np.zeros(3), np.zeros(9)]
+    out = [np.zeros(3), np.zeros(3), np.zeros(len(q)), np.zeros(3), np.zeros(3), np.zeros(N_SUMS)]
     a = [np.array(x, float) for x in (Rc, Vc, w, q, qd, Rr, Vr)]
     _land_kernel(numba.typeof(data))(
         A, *a, spin, data, np.full(2, onset), (law, friction), new_slices(),

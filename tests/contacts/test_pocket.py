@@ -10,6 +10,7 @@ from contact_kernels import pocket, turned
 from scipy.optimize import brentq, minimize
 
 from flexcage.contacts import laws
+from flexcage.contacts.evaluation import DAMPED, RUBBED, STORED
 from flexcage.contacts.pocket_wall import N_FACE, N_LOCAL, most_of_curve, with_end_stations
 from flexcage.contacts.spec import Contacts, FrictionLaw, NormalLaw, PairSpec
 from flexcage.core.splines import smooth_weights
@@ -185,9 +186,9 @@ def test_condensed_walls_against_minimisation(walls):
         return e
 
     best = minimize(total, np.zeros(12), method="BFGS", options={"gtol": 1e-12})
-    assert sums[0] == pytest.approx(total(work.b), rel=1e-10)
-    assert sums[0] <= best.fun * (1 + 1e-9)
-    assert sums[0] == pytest.approx(best.fun, rel=1e-5)
+    assert sums[STORED] == pytest.approx(total(work.b), rel=1e-10)
+    assert sums[STORED] <= best.fun * (1 + 1e-9)
+    assert sums[STORED] == pytest.approx(best.fun, rel=1e-5)
     outward = work.st[[0, 2], :, [2, 0]]  # station forces on the two faces that are touched
     given = interface(soft=True)
     loads = np.einsum("fs,fsl->l", outward, given.residual[0][[0, 2]])
@@ -322,9 +323,9 @@ def test_power_is_what_the_channels_say(walls, name, law):
 
     h = 1e-8
     stored = (energy(h) - energy(-h)) / (2 * h)
-    assert sums[1] < 0.0 and sums[2] < -1.0
-    scale = abs(stored) + abs(sums[1]) + abs(sums[2])
-    assert power == pytest.approx(sums[1] + sums[2] - stored, abs=1e-3 * scale)
+    assert sums[DAMPED] < 0.0 and sums[RUBBED] < -1.0
+    scale = abs(stored) + abs(sums[DAMPED]) + abs(sums[RUBBED])
+    assert power == pytest.approx(sums[DAMPED] + sums[RUBBED] - stored, abs=1e-3 * scale)
 
 
 @pytest.mark.parametrize("turn", [[0, 0, 0], [0, 3e-3, -2e-3]])
@@ -337,8 +338,8 @@ def test_a_spinning_end_wastes_friction_only(walls, turn):
     # nothing orbits; the moment about the spin axis is that of friction
     call = {"normal": laws.restitution, "friction": laws.step_coulomb, "onset": 0.05}
     wrench, sums, work, _ = pocket(data, D, axis=axis, w=w, **call)
-    assert work.normal[2] > 1.0 and abs(sums[1]) < 1e-25 and sums[2] < -0.1
-    assert wrench[3:] @ w == pytest.approx(sums[2], rel=2e-4)
+    assert work.normal[2] > 1.0 and abs(sums[DAMPED]) < 1e-25 and sums[RUBBED] < -0.1
+    assert wrench[3:] @ w == pytest.approx(sums[RUBBED], rel=2e-4)
 
 
 @pytest.mark.parametrize("turn", [[0, 0, 0], [0, 3e-4, -8e-4]])

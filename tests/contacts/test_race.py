@@ -9,6 +9,7 @@ import pytest
 from contact_kernels import race, turned
 
 from flexcage.contacts import laws
+from flexcage.contacts.evaluation import DAMPED, NORMAL, ROLLED, RUBBED, SLIDING, TRACTION
 from flexcage.contacts.spec import Contacts, FrictionLaw, NormalLaw, PairSpec
 from flexcage.geometry.cylindrical_roller import RollerProfile, Spall
 from flexcage.verification.law_values import rolling
@@ -54,7 +55,7 @@ def test_force_is_the_slope_of_the_energy(sides, name, which):
     side = sides()[which]
     P, axis, b = state(side, name)
     wrench, sums, _ = race(side, P, axis=axis, b=b)
-    assert wrench[1] * side.sign > 10.0 and sums[0] > 10.0
+    assert wrench[1] * side.sign > 10.0 and sums[NORMAL] > 10.0
     slope = np.empty(6)
     for j, h in enumerate([2e-9] * 3 + [1e-7] * 3):
         e = h * np.eye(3)[j % 3]
@@ -184,10 +185,12 @@ def test_power_of_the_wrench_is_what_the_channels_say(sides, name, which):
 
     h = 1e-10
     stored = (energy(h) - energy(-h)) / (2 * h)
-    assert np.all(sums[6:9] <= 0.0) and sums[7] < -1e-3 and sums[6] < -1e-6
-    channels = sums[6] + sums[7] + sums[8]
+    assert (
+        np.all(sums[DAMPED : ROLLED + 1] <= 0.0) and sums[RUBBED] < -1e-3 and sums[DAMPED] < -1e-6
+    )
+    channels = sums[DAMPED] + sums[RUBBED] + sums[ROLLED]
     assert power == pytest.approx(
-        channels - stored, abs=3e-4 * (np.abs(sums[6:9]).sum() + abs(stored))
+        channels - stored, abs=3e-4 * (np.abs(sums[DAMPED : ROLLED + 1]).sum() + abs(stored))
     )
 
 
@@ -205,13 +208,13 @@ def test_rolling_resistance_is_one_force_on_each_surface(sides):
         without = race(side._replace(rolling=np.zeros(2)), P, **move)[0]
         extra = with_it - without
         entrainment = abs(ring - orbit) * side.radius
-        (force,) = rolling(side.rolling, entrainment, sums[0])
+        (force,) = rolling(side.rolling, entrainment, sums[NORMAL])
         assert force > 0.1
         sense = np.sign(ring - orbit)  # of the surfaces' motion through the contact
         assert extra[3] == pytest.approx(-lever * force * sense, rel=1e-6)
         on_ring = -(extra[3] + P[1] * extra[2])
         assert on_ring == pytest.approx(-side.radius * force * sense, rel=1e-3)
-        assert sums[8] == pytest.approx(-2 * force * entrainment, rel=1e-3)
+        assert sums[ROLLED] == pytest.approx(-2 * force * entrainment, rel=1e-3)
 
 
 @pytest.mark.parametrize("name", STATES)
@@ -256,11 +259,13 @@ def test_traction_drives_the_roller_and_brakes_the_ring(sides):
     slow = {"V": [0, 0, 280.0 * P[1]], "w": [-2500.0, 0, 0], "wr": [628.3, 0, 0]}
     wrench, sums, _ = race(inner, P, friction=laws.traction, **slow)
     slide = 628.3 * inner.radius - 280.0 * P[1] - 2500.0 * 4e-3
-    assert sums[4] == pytest.approx(-slide, rel=2e-3)  # the roller lags behind the race
+    assert sums[SLIDING] == pytest.approx(-slide, rel=2e-3)  # the roller lags behind the race
     mu = laws.friction_parameters(FrictionLaw(law="traction"))
     a, b, c, d = mu[:4]
-    expected = ((a + b * slide) * np.exp(-c * slide) + d) * sums[0]
-    assert wrench[2] == pytest.approx(expected, rel=1e-3) and sums[1] == pytest.approx(wrench[2])
+    expected = ((a + b * slide) * np.exp(-c * slide) + d) * sums[NORMAL]
+    assert wrench[2] == pytest.approx(expected, rel=1e-3) and sums[TRACTION] == pytest.approx(
+        wrench[2]
+    )
     assert wrench[3] == pytest.approx(-4e-3 * wrench[2], rel=1e-3)
 
 

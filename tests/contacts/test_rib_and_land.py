@@ -9,18 +9,19 @@ from scipy.interpolate import CubicHermiteSpline
 from scipy.spatial.transform import Rotation
 
 from flexcage.contacts import laws
+from flexcage.contacts.evaluation import DAMPED, NORMAL, RUBBED, SHEARED, STORED
 from flexcage.contacts.land import land_work
 from flexcage.contacts.spec import Contacts, FrictionLaw, LandSpec, NormalLaw, PairSpec
 from flexcage.modes.basis import CageInterface
 
 PITCH, PLAY = 41.25e-3, 15e-6
-NORMAL = NormalLaw(law="restitution", restitution=0.6)
-FRICTION = FrictionLaw(static=0.1, dynamic=0.06)
+PRESSES = NormalLaw(law="restitution", restitution=0.6)
+RUBS = FrictionLaw(static=0.1, dynamic=0.06)
 
 
 @pytest.fixture(scope="module")
 def ribs(build_parts):
-    model = build_parts(contacts=Contacts(rib=PairSpec(normal=NORMAL, friction=FRICTION)))
+    model = build_parts(contacts=Contacts(rib=PairSpec(normal=PRESSES, friction=RUBS)))
     return model.rib
 
 
@@ -29,8 +30,10 @@ def test_ribs_touch_after_half_of_the_play(ribs):
     for sense, face in ((1, 0), (-1, 1)):
         assert not rib(data, [sense * (PLAY - 1e-9), PITCH, 0])[0].any()
         wrench, sums, _ = rib(data, [sense * (PLAY + 1e-6), PITCH, 0])
-        assert sums[face] > 1.0 and wrench[0] == pytest.approx(-sense * sums[face])
-        assert sums[1 - face] == 0.0
+        assert sums[NORMAL + face] > 1.0 and wrench[0] == pytest.approx(
+            -sense * sums[NORMAL + face]
+        )
+        assert sums[NORMAL + 1 - face] == 0.0
 
 
 def test_a_skewed_roller_is_turned_back(ribs):
@@ -38,7 +41,7 @@ def test_a_skewed_roller_is_turned_back(ribs):
     for sense in (1, -1):  # about e_r: the ends' edges meet opposite ribs
         skew = turned(np.eye(3), [0, sense * 1.3e-2, 0])
         wrench, sums, _ = rib(data, [0.0, PITCH, 0.0], axis=skew)
-        assert sums[0] > 1.0 and sums[0] == pytest.approx(sums[1], rel=1e-6)
+        assert sums[NORMAL] > 1.0 and sums[NORMAL] == pytest.approx(sums[NORMAL + 1], rel=1e-6)
         assert np.sign(wrench[4]) == -sense
 
 
@@ -83,9 +86,9 @@ def test_rib_energy_and_power(ribs, shift, turn, ring):
 
     h = 1e-10
     stored = (energy(h) - energy(-h)) / (2 * h)
-    scale = abs(stored) + abs(sums[3]) + abs(sums[4])
-    assert sums[3] <= 0.0 and sums[4] < -0.1
-    assert power == pytest.approx(sums[3] + sums[4] - stored, abs=2e-4 * scale)
+    scale = abs(stored) + abs(sums[DAMPED]) + abs(sums[RUBBED])
+    assert sums[DAMPED] <= 0.0 and sums[RUBBED] < -0.1
+    assert power == pytest.approx(sums[DAMPED] + sums[RUBBED] - stored, abs=2e-4 * scale)
 
 
 Y = np.array([0.0, 1.0, 0.0])
@@ -113,7 +116,7 @@ def flexible_land(build_parts, guidance, spec):
 
 @pytest.fixture(scope="module", params=["inner", "outer"])
 def dry_land(request, build_parts):
-    spec = LandSpec(kind="dry", normal=NORMAL, friction=FRICTION)
+    spec = LandSpec(kind="dry", normal=PRESSES, friction=RUBS)
     return flexible_land(build_parts, request.param, spec)
 
 
@@ -200,9 +203,9 @@ def test_land_energy_power_and_third_law(dry_land):
     h = 1e-9
     at = [energy(Rc + s * h * Vc, s * h * w, q + s * h * qd, Rr + s * h * Vr) for s in (1, -1)]
     stored = (at[0] - at[1]) / (2 * h)
-    assert sums[1] <= 0.0 and sums[2] < -1.0
-    scale = abs(stored) + abs(sums[1]) + abs(sums[2])
-    assert power == pytest.approx(sums[1] + sums[2] - stored, abs=1e-4 * scale)
+    assert sums[DAMPED] <= 0.0 and sums[RUBBED] < -1.0
+    scale = abs(stored) + abs(sums[DAMPED]) + abs(sums[RUBBED])
+    assert power == pytest.approx(sums[DAMPED] + sums[RUBBED] - stored, abs=1e-4 * scale)
 
 
 def parting(share):
@@ -228,7 +231,7 @@ def test_a_dry_land_is_elastic_while_touches_part_and_merge(dry_land, path, ever
         Fc, _, Qm, _, _, sums = land(data, np.array([0.0, *offset]), q=q, qd=0 * q, work=work)
         places.append([*offset, *q])
         forces.append([*Fc[1:], *Qm])
-        energy.append(sums[0])
+        energy.append(sums[STORED])
         touched.append((np.abs(work.st).max(axis=1) > 0.0).sum())
     mean = 0.5 * (np.array(forces[1:]) + np.array(forces[:-1]))
     done = -np.cumsum((mean * np.diff(places, axis=0)).sum(axis=1))
@@ -279,9 +282,13 @@ def test_a_wavy_dry_land_stores_what_its_profile_does_and_never_drives(dry_land)
         offset = np.append(0.0, rng.normal(size=2)) * 0.9 * data.clearance
         qd, Vc = 0.02 * rng.normal(size=7), np.append(0.0, 0.02 * rng.normal(size=2))
         sums = land(data, offset, q=q, qd=qd, Vc=Vc, w=np.array([283.0, 0, 0]), **call)[5]
-        assert sums[1] <= 0.0 and sums[2] <= 0.0 and min(sums[4], sums[5]) >= 0.0
-        assert sums[0] == pytest.approx(energy_of_profile(data, offset, q), rel=1e-3, abs=1e-7)
-        pressed.append(sums[0] > 0.0)
+        assert (
+            sums[DAMPED] <= 0.0
+            and sums[RUBBED] <= 0.0
+            and min(sums[NORMAL], sums[NORMAL + 1]) >= 0.0
+        )
+        assert sums[STORED] == pytest.approx(energy_of_profile(data, offset, q), rel=1e-3, abs=1e-7)
+        pressed.append(sums[STORED] > 0.0)
     assert sum(pressed) > 300
 
 
@@ -330,7 +337,9 @@ def test_film_third_law_and_power(build_parts, guidance):
     moment = Mc + np.cross(Rc, Fc) + Mr + np.cross(Rr, Fr)
     np.testing.assert_allclose(moment, 0.0, atol=1e-9 * np.abs(Mc).max())
     power = Fc @ Vc + Mc @ w + Fr @ Vr + Mr[0] * spin
-    assert power == pytest.approx(sums[3], rel=1e-4) and np.sign(Mc[0]) == np.sign(spin - 283.0)
+    assert power == pytest.approx(sums[SHEARED], rel=1e-4) and np.sign(Mc[0]) == np.sign(
+        spin - 283.0
+    )
 
 
 @pytest.mark.parametrize("guidance", ["inner", "outer"])
@@ -353,4 +362,4 @@ def test_a_film_pushes_half_of_a_flexible_land(build_parts, guidance):
     pushed = data.inner * work.st[:, 0]
     assert (pushed >= 0.0).all() and 11 <= (pushed > 0.0).sum() <= 13
     still = land(data, Rc, qd=0 * qd, **call)[5]
-    assert sums[3] == pytest.approx(still[3] + Qm @ qd, rel=1e-12)
+    assert sums[SHEARED] == pytest.approx(still[SHEARED] + Qm @ qd, rel=1e-12)
