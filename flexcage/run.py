@@ -34,11 +34,10 @@ from flexcage.results import mode_file
 from flexcage.results.edges import Edge, groove_edges
 from flexcage.results.figures import pass_peak, summarise
 from flexcage.results.film import film_rows, film_thickness
-from flexcage.results.known import figure, statistic
 from flexcage.results.metrics import BearingNumbers, SlipRange, cage_angle, settled
 from flexcage.results.statistics import roller_passes
 from flexcage.results.store import MemoryRunStore
-from flexcage.results.summary import Row, Summary
+from flexcage.results.summary import Row, Summary, figure, statistic
 from flexcage.results.warnings import (
     AT_END,
     AT_START,
@@ -556,9 +555,7 @@ class Run:
         if self._groove_edges:
             rows = [edge.row for edge in self._groove_edges]
             summary = summary.with_section("Grooves", rows)
-        summary = summary.with_section(
-            "Support", [Row("inner_held", "Inner ring", case.held_in_words)]
-        )
+        summary = summary.with_section("Support", [figure("inner_held", case.held_in_words)])
         summary = summary.with_section("Cage", self._cage_rows())
         if self.cage is not None and (stress or self._may_yield):
             summary = self._with_stress(summary)
@@ -601,10 +598,7 @@ class Run:
         return dataclasses.replace(summary, warnings=(*known, *warnings_of(AT_END, outcome)))
 
     def _time_rows(self) -> list[Row]:
-        rows = [
-            Row(f"wall_{k}", k.capitalize(), v, "s", idle=v < _NO_TIME)
-            for k, v in self.stages.items()
-        ]
+        rows = [figure(f"wall_{k}", v, idle=v < _NO_TIME) for k, v in self.stages.items()]
         return [*rows, figure("wall_total", self.stages.total)]
 
     def _cage_rows(self) -> list[Row]:
@@ -656,20 +650,19 @@ class Run:
                 "stress_peak",
                 float(h.peak[k]),
                 f"{place}; {kind.left_out} are never searched",
-                label=f"Peak, without {kind.walls}",
             ),
             statistic("stress_mean_peak", windows.mean(peak)),
             statistic(
                 "stress_root_pass_peak",
                 corner,
                 pass_peak(self.case.bearing.element),
-                label=f"At a {kind.one}, peak of a pass",
+                place=f"a {kind.one}",
             ),
             figure(
                 "stress_root",
                 float(roots[root]),
                 place_in_words(h.place_names[root]),
-                label=f"Largest at a {kind.one}",
+                place=f"a {kind.one}",
             ),
             figure("stress_start", float(h.peak[: h.settled].max(initial=0.0))),
         ]

@@ -13,6 +13,7 @@ from flexcage.core.errors import InputError
 from flexcage.render import sheet
 from flexcage.render.elements import elements_in
 from flexcage.results import metrics
+from flexcage.results.known import KNOWN
 from flexcage.results.metrics import BearingNumbers
 from flexcage.stress.places import in_words
 
@@ -245,7 +246,7 @@ def _speed_panel(ax: Any, t: np.ndarray, ds: xarray.Dataset, *, bearing, **_: An
         ideal = ds["inner_speed"] * bearing.kinematics(1.0).cage_speed * RPM
         ax.plot(t, ideal, color=sheet.VERMILION, ls="--", lw=1.3, label="epicyclic (no slip)")
     ax.set_ylabel("speed [rpm]")
-    _legend(ax, "Cage speed")
+    _legend(ax, KNOWN["cage_speed"].title)
 
 
 def _pocket_panel(ax: Any, t: np.ndarray, ds: xarray.Dataset, **_: Any) -> None:

@@ -16,6 +16,7 @@ from flexcage.report.plots import add_band, add_curve, new_figure
 from flexcage.report.thinning import thinned
 from flexcage.results import metrics
 from flexcage.results.audit import imbalance
+from flexcage.results.known import KNOWN
 from flexcage.stress.places import in_words, place_kind
 
 if TYPE_CHECKING:
@@ -72,7 +73,7 @@ def _cage_speed(ds: xarray.Dataset, numbers: BearingNumbers) -> Chart:
     ideal = ds["inner_speed"].values * numbers.kinematics(1.0).cage_speed * RPM
     add_curve(figure, _ms(ds), ds["cage_omega"].sel(axis="x").values * RPM, "cage", color=BLUE)
     add_curve(figure, _ms(ds), ideal, "without slip", color=VERMILION, dash="dash")
-    return Chart("Cage speed", [("", figure)])
+    return Chart(KNOWN["cage_speed"].title, [("", figure)])
 
 
 def _pocket_force(ds: xarray.Dataset) -> Chart:

@@ -34,27 +34,14 @@ from flexcage.report.tables import (
     summary_table,
     typeset,
 )
+from flexcage.results.known import KNOWN, LARGE, STATISTIC, marked
 from flexcage.results.metrics import BearingNumbers
 from flexcage.results.summary import SHOWN, Row, Summary
-from flexcage.stress.places import place_kind
 
 if TYPE_CHECKING:
     from flexcage.render.album import StressPictures
 
 _APART = ("Energy", "Solver", "Wall time")  # sections of a summary that have their own place
-#: Figures that are shown large, and what they are called where no heading stands above them;
-#: {place} is where stress is followed.
-_FIRST = {
-    "cage_speed": "Cage speed",
-    "cage_slip_ratio": "Cage slip ratio",
-    "whirl_radius": "Whirl radius, mean",
-    "pocket_force_mean": "Pocket force, mean in contact",
-    "pocket_force_peak": "Pocket force, largest",
-    "stress_peak": "Stress, largest",
-    "stress_root_pass_peak": "{place} stress, peak of a pass",
-    "energy_audit": "Energy audit",
-}
-_OF_ONE_INSTANT = ("pocket_force_peak", "stress_peak")  # figures that have no interval
 #: Pictures that the page shows as charts.
 _CHARTS = ("stress_peak", "histories", "orbit")
 #: Pictures of a run by file name: their captions ({elements}: rollers or balls), in the order in
@@ -122,11 +109,8 @@ _THINNED = Prose(
 
 
 def _figures(account: RunAccount) -> Section:
-    rows = {row.key: row for row in account.summary}
-    place = place_kind(account.scene.mesh.groups).one.removeprefix("pocket ").capitalize()
-    tiles = [
-        _tile(rows[key], label.format(place=place)) for key, label in _FIRST.items() if key in rows
-    ]
+    large = marked(LARGE)
+    tiles = [_tile(row) for row in account.summary if row.key in large]
     kept = [s for s in account.summary.sections if s.title not in _APART]
     note = (
         "± is half of a 95 % interval. Figures without ± are counts, values of one instant, or "
@@ -135,12 +119,12 @@ def _figures(account: RunAccount) -> Section:
     return Section("Key figures", [Tiles(tiles), summary_table(kept, note, fold="All figures")])
 
 
-def _tile(row: Row, label: str) -> Tile:
+def _tile(row: Row) -> Tile:
     margin = row.margin_text
     if isinstance(row.value, str) or row.text == "-":
-        return Tile(label, row.text.replace("-", "–"), row.note)
+        return Tile(row.label, row.text.replace("-", "–"), row.note)
     value = row.text if margin else _rounded(row)
-    return Tile(label, f"{value} {typeset(row.shown)}".strip(), margin or _without_margin(row))
+    return Tile(row.label, f"{value} {typeset(row.shown)}".strip(), margin or _without_margin(row))
 
 
 def _rounded(row: Row) -> str:
@@ -151,9 +135,9 @@ def _rounded(row: Row) -> str:
 
 def _without_margin(row: Row) -> str:
     """Why a figure has no ±."""
-    if row.key in _OF_ONE_INSTANT:
-        return "one instant"
-    return "± not known: the run is too short"
+    if STATISTIC in KNOWN[row.key].marks:
+        return "± not known: the run is too short"
+    return "one instant"
 
 
 def cage_stress(scene: Scene, stress: StressPictures, name: str = "") -> CageStress:
@@ -208,7 +192,7 @@ def _energy(account: RunAccount) -> Section:
     blocks: list[Block] = [rows_table(rows)]
     if {"energy", "work"} <= set(account.scene.dataset.data_vars):
         blocks.append(Charts([imbalance_chart(account.scene.dataset)]))
-    return Section("Energy audit", blocks)
+    return Section(KNOWN["energy_audit"].title, blocks)
 
 
 def _sections(account: RunAccount, *titles: str) -> list:

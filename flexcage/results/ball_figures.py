@@ -7,10 +7,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from flexcage.results import metrics
-from flexcage.results.known import figure, statistic
 from flexcage.results.metrics import BearingNumbers, SlipRange
 from flexcage.results.statistics import Record, roller_passes
-from flexcage.results.summary import Row, Section
+from flexcage.results.summary import Row, Section, figure, statistic
 
 if TYPE_CHECKING:
     import xarray

@@ -11,8 +11,7 @@ import numpy as np
 
 from flexcage.geometry.ball_bearing import BallBearing, over_edge
 from flexcage.geometry.bearing import Bearing
-from flexcage.results.known import figure
-from flexcage.results.summary import Row
+from flexcage.results.summary import Row, figure
 
 if TYPE_CHECKING:
     import xarray

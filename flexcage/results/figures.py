@@ -14,21 +14,15 @@ from flexcage.results import audit, ball_figures, metrics
 from flexcage.results.ball_figures import at_angles, at_nominal, of_curvature
 from flexcage.results.bootstrap import FEWEST
 from flexcage.results.contact_activity import EVENTS, contact_series
-from flexcage.results.known import figure, statistic
+from flexcage.results.known import KNOWN, SETTLING, marked
 from flexcage.results.metrics import BearingNumbers, SlipRange
 from flexcage.results.ring_figures import constraint_sections, ring_section
 from flexcage.results.statistics import Record, Windows, roller_passes
-from flexcage.results.summary import Row, Section, Summary
+from flexcage.results.summary import Row, Section, Summary, figure, statistic
 
 if TYPE_CHECKING:
     import xarray
 
-#: Figures whose halves are compared, to see if a run has settled, and how they are called then.
-WATCHED = {
-    "cage_speed": "cage speed",
-    "whirl_radius": "whirl radius",
-    "pocket_force_mean": "pocket force",
-}
 JOINT = 1.25  # times its margin a drift must be, for that three figures err together in 5 % of runs
 LOW_PASS = 2e3  # Hz, of the second deviation of the cage centre's speed
 
@@ -77,7 +71,7 @@ def _statistics_rows(
     begin, end = (float(ds["time"][k]) for k in (0, -1))
     count = len(windows.first)
     few = "" if count >= FEWEST else f"; intervals need {FEWEST}"
-    drifts = {name: records[key].drift for key, name in WATCHED.items()}
+    drifts = {KNOWN[key].quantity: records[key].drift for key in marked(SETTLING)}
     known = any(isfinite(d) for d in drifts.values())
     drifting = ", ".join(name for name, d in drifts.items() if d > JOINT)
     remedy = "" if known else f"too few passes to tell: {2 * FEWEST} are needed"
@@ -90,15 +84,9 @@ def _statistics_rows(
             "roller_passes",
             count,
             f"± is a 95 % interval{few}",
-            label=f"{metrics.element(ds).capitalize()} passes counted",
+            Element=metrics.element(ds).capitalize(),
         ),
-        Row(
-            "drift",
-            "Differs between its halves",
-            (drifting or "nothing") if known else None,
-            "",
-            remedy,
-        ),
+        figure("drift", (drifting or "nothing") if known else None, remedy),
     )
 
 
@@ -226,7 +214,7 @@ def _force_rows(ds: xarray.Dataset, windows: Windows) -> tuple[Row, ...]:
         statistic("pocket_force_pass_peak", windows.peak(largest), pass_peak(metrics.element(ds))),
         figure("pocket_force_peak", pocket.peak, where),
         figure("pocket_force_ratio", pocket.ratio),
-        figure("pocket_contact", pocket.contact_share, "of the time", label=f"{walls} in contact"),
+        figure("pocket_contact", pocket.contact_share, "of the time", Faces=walls),
     )
 
 
@@ -273,7 +261,7 @@ def _energy_rows(ds: xarray.Dataset) -> tuple[Row, ...]:
         audit.EXCEEDED: f"{bounds}: tighten solver.tolerance",
     }[check.verdict]
     return (
-        Row("energy_audit", "Energy audit", check.verdict, "", note),
+        figure("energy_audit", check.verdict, note),
         *(
             figure(
                 f"stored_{k}", v, "whole run", idle=not ds["energy"].sel(energy_kind=k).values.any()

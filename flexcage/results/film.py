@@ -10,8 +10,7 @@ import numpy as np
 from flexcage.geometry.bearing import Bearing
 from flexcage.geometry.film import Oil, race_film
 from flexcage.results import metrics
-from flexcage.results.known import figure
-from flexcage.results.summary import Row
+from flexcage.results.summary import Row, figure
 
 if TYPE_CHECKING:
     import xarray

@@ -13,199 +13,250 @@ from types import MappingProxyType
 from flexcage.core.binding import did_you_mean
 from flexcage.core.errors import InputError
 from flexcage.core.listing import Listing
-from flexcage.results.statistics import Record
-from flexcage.results.summary import Row, Value
 from flexcage.system.data import POWERS
 
 FLEXIBLE, RIVETED, FATIGUE, WEAR = "flexible cage", "riveted cage", "fatigue", "wear"
 
+#: What a figure is: may it be below zero, is it a mean or a peak over windows of the run (and so
+#: has an interval), is it a text instead of a number, does only a run read or drawn later have it.
+SIGNED, STATISTIC, TEXT, LATER = "signed", "statistic", "text", "later"
+#: Where a figure is shown among few: in the terminal after a run, large on a run's page, in a
+#: study's table of energy and solver. What else is done with it: halves of a run are compared to
+#: see whether it has settled, levels of a study of convergence are compared.
+BRIEF, LARGE, EFFORT = "brief", "large", "effort"
+SETTLING, CONVERGENCE = "settling", "convergence"
+
+#: Words of titles that depend on the bearing or its cage, and what stands for them in a list.
+WORDS = {"Element": "Element", "Faces": "Pocket faces", "place": "a corner or edge"}
+
 
 @dataclass(frozen=True)
 class KnownFigure:
-    """One figure of a run. ``of`` names rolling elements ("roller", "ball") whose bearings have it,
-    "" all; ``needs`` what a run must have or compute for it; ``signed``: may it be below zero?"""
+    """One figure of a run. ``pattern`` is its title, with the ``WORDS`` in braces; ``of`` names
+    rolling elements ("roller", "ball") whose bearings have it, "" all; ``needs`` what a run must
+    have or compute for it; ``marks`` what it is and where it is shown (``SIGNED`` ...)."""
 
     key: str
-    title: str
+    pattern: str
     shown: str  # unit that it is printed in, "" for none
     meaning: str
     section: str
     of: str = ""
     needs: str = ""
-    signed: bool = False
+    marks: frozenset[str] = frozenset()
+
+    def titled(self, **words: str) -> str:
+        """Its title, with these words in place of the general ones."""
+        return self.pattern.format(**WORDS | words)
+
+    @property
+    def title(self) -> str:
+        """Its title for any bearing and cage."""
+        return self.titled()
+
+    @property
+    def quantity(self) -> str:
+        """What it is a mean or a peak of: its title up to a comma, as part of a sentence."""
+        return self.title.partition(",")[0].lower()
 
 
 def _section(section: str, *rows: tuple, of: str = "", needs: str = "") -> Iterator[KnownFigure]:
-    """Figures from rows of key, title, unit, meaning, and "+-" if they may be below zero."""
-    for key, title, shown, meaning, *more in rows:
-        yield KnownFigure(key, title, shown, meaning, section, of, needs, "+-" in more)
+    """Figures from rows of key, title, unit, meaning, and marks."""
+    for key, pattern, shown, meaning, *marks in rows:
+        yield KnownFigure(key, pattern, shown, meaning, section, of, needs, frozenset(marks))
 
 
+# fmt: off
 def _statistics() -> Iterator[KnownFigure]:
     yield from _section(
         "Statistics",
         ("settled_at", "Settled from", "ms", "end of the share that output.settle leaves out"),
         ("settled_time", "Time in statistics", "ms", "length of the settled part"),
-        ("roller_passes", "Passes counted", "", "windows of one element pass in the settled part"),
+        ("roller_passes", "{Element} passes counted", "",
+         "windows of one element pass in the settled part", BRIEF),
+        ("drift", "Differs between its halves", "",
+         "figures that differ beyond the intervals: the run has not settled", TEXT),
     )
 
 
 def _speeds() -> Iterator[KnownFigure]:
     yield from _section(
         "Speeds",
-        ("inner_speed", "Inner ring speed", "rpm", "mean", "+-"),
-        ("cage_speed", "Cage speed", "rpm", "mean over whole turns of the cage", "+-"),
+        ("inner_speed", "Inner ring speed", "rpm", "mean", SIGNED),
+        ("cage_speed", "Cage speed", "rpm", "mean over whole turns of the cage", SIGNED, STATISTIC,
+         BRIEF, LARGE, SETTLING, CONVERGENCE),
         ("epicyclic_speed", "Epicyclic cage speed", "rpm",
-         "cage speed of pure rolling, of balls at the run's mean contact angles", "+-"),
+         "cage speed of pure rolling, of balls at the run's mean contact angles", SIGNED),
         ("cage_slip_ratio", "Cage slip ratio", "%",
-         "(epicyclic speed - cage speed) / epicyclic speed", "+-"),
+         "(epicyclic speed - cage speed) / epicyclic speed", SIGNED, STATISTIC, BRIEF, LARGE,
+         CONVERGENCE),
         ("cage_speed_ripple", "Cage speed ripple", "%",
-         "standard deviation over mean of the cage's speed"),
-    )  # fmt: skip
+         "standard deviation over mean of the cage's speed", STATISTIC, CONVERGENCE),
+    )
     yield from _section(
         "Speeds",
         ("roller_spin", "Roller spin, mean of all", "rpm",
-         "about the roller's axis, inertial frame, positive as in rolling", "+-"),
-        ("roller_spin_ideal", "Roller spin, pure rolling", "rpm", "the same in pure rolling", "+-"),
+         "about the roller's axis, inertial frame, positive as in rolling", SIGNED),
+        ("roller_spin_ideal", "Roller spin, pure rolling", "rpm", "the same in pure rolling",
+         SIGNED),
         of="roller",
-    )  # fmt: skip
+    )
     yield from _section(
         "Speeds",
         ("epicyclic_speed_nominal", "Epicyclic cage speed, nominal", "rpm",
-         "cage speed of pure rolling at the nominal contact angle", "+-"),
-        ("cage_slip_ratio_nominal", "Cage slip ratio, nominal", "%",
-         "cage slip against that speed", "+-"),
+         "cage speed of pure rolling at the nominal contact angle", SIGNED),
+        ("cage_slip_ratio_nominal", "Cage slip ratio, nominal", "%", "cage slip against that speed",
+         SIGNED, STATISTIC),
         ("ball_spin", "Ball speed, mean of all", "rpm",
-         "about the ball's axis, cage frame, positive as in rolling", "+-"),
+         "about the ball's axis, cage frame, positive as in rolling", SIGNED),
         ("ball_spin_ideal", "Ball speed, pure rolling", "rpm",
-         "the same in pure rolling at the run's mean contact angles", "+-"),
+         "the same in pure rolling at the run's mean contact angles", SIGNED),
         of="ball",
-    )  # fmt: skip
+    )
 
 
 def _slip() -> Iterator[KnownFigure]:
     yield from _section(
         "Slip",
         ("slip_loaded", "Slip ratio, loaded elements", "%",
-         "mean over elements that bear more than 1 % of the largest inner race force", "+-"),
-        ("slip_unloaded", "Slip ratio, unloaded elements", "%", "mean over the others", "+-"),
+         "mean over elements that bear more than 1 % of the largest inner race force", SIGNED,
+         STATISTIC, BRIEF, CONVERGENCE),
+        ("slip_unloaded", "Slip ratio, unloaded elements", "%", "mean over the others", SIGNED,
+         STATISTIC, CONVERGENCE),
         ("sliding_inner_loaded", "Sliding, inner race, loaded", "m/s",
-         "mean sliding speed of loaded elements", "+-"),
+         "mean sliding speed of loaded elements", SIGNED),
         ("sliding_outer_loaded", "Sliding, outer race, loaded", "m/s",
-         "mean sliding speed of loaded elements", "+-"),
+         "mean sliding speed of loaded elements", SIGNED),
         ("loaded_share", "Loaded elements", "%", "share of all elements"),
-    )  # fmt: skip
+    )
     yield from _section(
         "Slip",
         ("sliding_inner_unloaded", "Sliding, inner race, unloaded", "m/s",
-         "mean sliding speed of unloaded rollers", "+-"),
+         "mean sliding speed of unloaded rollers", SIGNED),
         ("sliding_outer_unloaded", "Sliding, outer race, unloaded", "m/s",
-         "mean sliding speed of unloaded rollers", "+-"),
+         "mean sliding speed of unloaded rollers", SIGNED),
         of="roller",
-    )  # fmt: skip
+    )
     yield from _section(
         "Slip",
         ("slip_loaded_nominal", "Slip ratio, loaded balls, nominal", "%",
-         "loaded balls' slip against pure rolling at the nominal contact angle", "+-"),
+         "loaded balls' slip against pure rolling at the nominal contact angle", SIGNED, STATISTIC),
         ("slip_curvature", "Slip ratio by the grooves' curvature", "%",
          "what curvature alone makes: balls roll on lines beside the middle of a contact"),
-        ("contact_angle_inner", "Contact angle, inner race", "deg", "mean of loaded balls", "+-"),
-        ("contact_angle_outer", "Contact angle, outer race", "deg", "mean of loaded balls", "+-"),
+        ("contact_angle_inner", "Contact angle, inner race", "deg", "mean of loaded balls", SIGNED,
+         BRIEF),
+        ("contact_angle_outer", "Contact angle, outer race", "deg", "mean of loaded balls", SIGNED),
         ("edge_inner", "Ellipse beyond the inner groove's edge", "deg",
          "largest angle by which a contact ellipse passes the edge; below zero: it stays within",
-         "+-"),
-        ("edge_outer", "Ellipse beyond the outer groove's edge", "deg", "likewise", "+-"),
+         SIGNED),
+        ("edge_outer", "Ellipse beyond the outer groove's edge", "deg", "likewise", SIGNED),
         of="ball",
-    )  # fmt: skip
+    )
 
 
 def _motion() -> Iterator[KnownFigure]:
     yield from _section(
         "Cage motion",
-        ("whirl_radius", "Whirl radius, mean", "um", "distance of the centre from its mean place"),
+        ("whirl_radius", "Whirl radius, mean", "um", "distance of the centre from its mean place",
+         STATISTIC, LARGE, SETTLING, CONVERGENCE),
         ("whirl_radius_max", "Whirl radius, largest", "um", "largest such distance"),
         ("whirl_ratio", "Whirl (max - min)/mean", "", "spread of that distance over its mean"),
         ("whirl_radius_axis", "Whirl about axis, mean", "um",
-         "distance of the centre from the ring's axis"),
+         "distance of the centre from the ring's axis", STATISTIC, BRIEF),
         ("whirl_ratio_axis", "Whirl about axis (max - min)/mean", "",
          "spread of that distance over its mean"),
         ("whirl_speed_ratio", "Whirl speed / cage speed", "",
-         "net turns of the centre about the ring's axis over the cage's, over whole turns", "+-"),
+         "net turns of the centre about the ring's axis over the cage's, over whole turns", SIGNED),
         ("velocity_deviation", "Centre's speed, ripple", "%",
          "standard deviation over mean of the centre's speed, at the samples"),
         ("velocity_deviation_2khz", "Centre's speed, slow ripple", "%",
          "the same, low-passed at 2 kHz"),
-        ("tilt_mean", "Cage tilt, mean", "deg", "angle between the cage's axis and the bearing's"),
+        ("tilt_mean", "Cage tilt, mean", "deg", "angle between the cage's axis and the bearing's",
+         STATISTIC),
         ("tilt_max", "Cage tilt, largest", "deg", "largest such angle"),
-    )  # fmt: skip
+    )
     yield from _section(
         "Cage motion",
         ("whirl_difference", "Whirl radius, max - min", "um",
-         "of the centre's distance from the ring's axis", "+-"),
+         "of the centre's distance from the ring's axis", SIGNED),
         of="ball",
-    )  # fmt: skip
+    )
 
 
 def _forces() -> Iterator[KnownFigure]:
     yield from _section(
         "Forces",
-        ("pocket_force_mean", "Pocket force, mean", "N", "of a pocket's face while in contact"),
-        ("pocket_force_sum", "Pocket forces, mean of sum", "N", "of all faces together"),
+        ("pocket_force_mean", "Pocket force, mean", "N", "of a pocket's face while in contact",
+         STATISTIC, BRIEF, LARGE, SETTLING, CONVERGENCE),
+        ("pocket_force_sum", "Pocket forces, mean of sum", "N", "of all faces together", STATISTIC,
+         CONVERGENCE),
         ("pocket_force_pass_peak", "Pocket force, peak of a pass", "N",
-         "mean of the largest in each element pass"),
-        ("pocket_force_peak", "Pocket force, largest", "N", "largest of the settled part"),
+         "mean of the largest in each element pass", STATISTIC, BRIEF, CONVERGENCE),
+        ("pocket_force_peak", "Pocket force, largest", "N", "largest of the settled part", BRIEF,
+         LARGE),
         ("pocket_force_ratio", "Pocket force, largest / mean", "",
          "largest over mean while in contact"),
-        ("pocket_contact", "Pocket faces in contact", "%", "share of faces and time"),
-        ("race_force_inner", "Inner race on an element, peak", "N", "largest normal force"),
-        ("race_force_outer", "Outer race on an element, peak", "N", "largest normal force"),
+        ("pocket_contact", "{Faces} in contact", "%", "share of faces and time"),
+        ("race_force_inner", "Inner race on an element, peak", "N", "largest normal force", BRIEF),
+        ("race_force_outer", "Outer race on an element, peak", "N", "largest normal force", BRIEF),
         ("pinch_force", "Pinch force at the start", "N",
-         "of elements that a deformed pocket squeezes when assembled"),
-    )  # fmt: skip
+         "of elements that a deformed pocket squeezes when assembled", CONVERGENCE),
+    )
     yield from _section(
         "Contacts of the cage",
         ("contact_frequency", "Contacts begun, mean of a pocket", "Hz",
-         "contacts with elements begun in a second; every face counts"),
-        ("contact_frequency_total", "Contacts begun, all pockets", "Hz", "of all pockets together"),
+         "contacts with elements begun in a second; every face counts", STATISTIC),
+        ("contact_frequency_total", "Contacts begun, all pockets", "Hz", "of all pockets together",
+         STATISTIC),
         ("free_flight_share", "Free flight", "%",
-         "share of the time in which no pocket and no land touches the cage"),
-    )  # fmt: skip
+         "share of the time in which no pocket and no land touches the cage", STATISTIC),
+    )
 
 
 def _ring() -> Iterator[KnownFigure]:
     yield from _section(
         "Inner ring",
-        ("drive_power", "Power of the drive", "W", "mean", "+-"),
-        ("drive_torque", "Drive torque", "N mm", "mean power over mean speed", "+-"),
-        ("inner_displacement", "Displacement across the axis", "um", "of the mean place"),
-        ("inner_axial", "Displacement along the axis", "um", "mean", "+-"),
-        ("inner_tilt", "Tilt", "mrad", "mean angle of the ring's axis", "+-"),
-        ("reaction_axial_force", "Axial reaction", "N", "what holds the ring, mean", "+-"),
-        ("reaction_moment_y", "Moment about y", "N mm", "what holds the ring, mean", "+-"),
-        ("reaction_moment_z", "Moment about z", "N mm", "what holds the ring, mean", "+-"),
+        ("drive_power", "Drive power", "W", "mean", SIGNED, STATISTIC),
+        ("drive_torque", "Drive torque", "N mm", "mean power over mean speed", SIGNED, STATISTIC),
+        ("inner_displacement", "Inner ring, displacement across the axis", "um",
+         "of the mean place"),
+        ("inner_axial", "Inner ring, displacement along the axis", "um", "mean", SIGNED, STATISTIC),
+        ("inner_tilt", "Inner ring, tilt", "mrad", "mean angle of the ring's axis", SIGNED,
+         STATISTIC),
+        ("reaction_axial_force", "Inner ring, axial reaction", "N", "what holds the ring, mean",
+         SIGNED, STATISTIC),
+        ("reaction_moment_y", "Inner ring, moment about y", "N mm", "what holds the ring, mean",
+         SIGNED, STATISTIC),
+        ("reaction_moment_z", "Inner ring, moment about z", "N mm", "what holds the ring, mean",
+         SIGNED, STATISTIC),
     )
 
 
 def _energy() -> Iterator[KnownFigure]:
     kinds = {"kinetic": "motion", "strain": "the cage's modes", "contact": "contacts",
-             "mount": "shaft and housing springs"}  # fmt: skip
+             "mount": "shaft and housing springs"}
     gained = (
-        (f"stored_{k}", f"Gained: {k}", "mJ", f"energy of {what}, end less beginning", "+-")
+        (f"stored_{k}", f"Gained: {k}", "mJ", f"energy of {what}, end less beginning", SIGNED)
         for k, what in kinds.items()
     )
     works = (
-        (f"work_{k}", f"Work: {k.replace('_', ' ')}", "mJ", "on the bearing; losses are < 0", "+-")
+        (f"work_{k}", f"Work: {k.replace('_', ' ')}", "mJ", "on the bearing; losses are < 0",
+         SIGNED)
         for k in POWERS
     )
     yield from _section(
         "Energy",
+        ("energy_audit", "Energy audit", "", "passed, exceeded or not judged", TEXT, BRIEF, LARGE,
+         EFFORT),
         *gained,
         ("energy_moved", "Energy moved", "mJ", "sum of all energies and works, each positive"),
-        ("energy_elastic", "Elastic energy held", "mJ", "largest"),
-        ("energy_imbalance", "Largest imbalance", "mJ", "energy gained less all work"),
-        ("energy_relative", "Imbalance / energy moved", "%", ""),
-        ("energy_of_drive", "Imbalance / drive's work", "%", "the audit's first bound"),
-        ("energy_of_cage", "Imbalance / loss in the cage", "%", "the audit's second bound"),
+        ("energy_elastic", "Elastic energy, largest", "mJ", "in contacts, modes and springs"),
+        ("energy_imbalance", "Energy imbalance, largest", "mJ", "energy gained less all work"),
+        ("energy_relative", "Energy imbalance / energy moved", "%", "of the whole run"),
+        ("energy_of_drive", "Energy imbalance / drive's work", "%", "the audit's first bound",
+         EFFORT),
+        ("energy_of_cage", "Energy imbalance / loss in the cage", "%", "the audit's second bound",
+         EFFORT),
         *works,
     )
 
@@ -217,41 +268,48 @@ def _film() -> Iterator[KnownFigure]:
             (f"film_{race}", f"Film, {race} race, mean", "um",
              "middle of loaded elements' contacts; isothermal, fully flooded"),
             (f"film_least_{race}", f"Film, {race} race, least", "um", "of loaded elements"),
-        )  # fmt: skip
+        )
 
 
 def _cage() -> Iterator[KnownFigure]:
     yield from _section(
-        "Cage",
-        ("cage_mass", "Mass", "g", "with the mass that unbalances it"),
-        ("cage_centre_shift", "Shift of the mass centre", "um", "from the axis of the sound cage"),
+        "Support",
+        ("inner_held", "Support of the inner ring", "", "what holds the ring", TEXT),
     )
     yield from _section(
         "Cage",
-        ("mode_count", "Dynamic modes", "", "number of modal coordinates"),
-        ("first_frequency", "First frequency", "Hz", "of the free cage"),
+        ("cage_mass", "Cage mass", "g", "with the mass that unbalances it", CONVERGENCE),
+        ("cage_centre_shift", "Cage mass centre, shift", "um", "from the axis of the sound cage"),
+    )
+    yield from _section(
+        "Cage",
+        ("mode_count", "Cage modes", "", "number of modal coordinates"),
+        ("first_frequency", "Cage modes, first frequency", "Hz", "of the free cage", CONVERGENCE),
         ("far_coupling", "Pockets' local coupling cut", "%",
          "of a push's deflection of its own pocket, what others would feel of it beyond the modes"),
         needs=FLEXIBLE,
-    )  # fmt: skip
+    )
     yield from _section(
         "Equivalent stress",
-        ("stress_peak", "Largest of the cage", "MPa",
-         "of the settled part, without the flat walls of pockets that contacts press on"),
-        ("stress_mean_peak", "Mean of the cage's peak", "MPa",
-         "mean over time of the largest at each instant"),
-        ("stress_root_pass_peak", "At a named place, peak of a pass", "MPa",
-         "at pocket corners or edges: mean of the largest in each element pass"),
-        ("stress_root", "Largest at a named place", "MPa", "at pocket corners or edges"),
-        ("stress_start", "Before settling", "MPa", "largest of the part left out"),
-        ("wall_stress", "Wall time of stress", "s", ""),
+        ("stress_peak", "Stress, largest", "MPa",
+         "of the settled part, without the flat walls of pockets that contacts press on", BRIEF,
+         LARGE),
+        ("stress_mean_peak", "Stress, mean of the cage's peak", "MPa",
+         "mean over time of the largest at each instant", STATISTIC, BRIEF, CONVERGENCE),
+        ("stress_root_pass_peak", "Stress at {place}, peak of a pass", "MPa",
+         "at pocket corners or edges: mean of the largest in each element pass", STATISTIC, LARGE,
+         CONVERGENCE),
+        ("stress_root", "Stress at {place}, largest", "MPa", "at pocket corners or edges"),
+        ("stress_start", "Stress before settling, largest", "MPa", "largest of the part left out"),
+        _wall("stress", EFFORT),
         needs=FLEXIBLE,
-    )  # fmt: skip
+    )
     yield from _section(
         "Rivets",
-        ("rivet_tension", "Largest tension", "N", "of a rivet"),
-        ("rivet_shear", "Largest shear", "N", "of a rivet"),
-        ("rivet_stress", "Largest nominal stress", "MPa", "of a shank that bears all alone"),
+        ("rivet_tension", "Rivet tension, largest", "N", "of a rivet"),
+        ("rivet_shear", "Rivet shear, largest", "N", "of a rivet"),
+        ("rivet_stress", "Rivet stress, largest nominal", "MPa", "of a shank that bears all alone"),
+        _wall("rivets"),
         needs=RIVETED,
     )
 
@@ -259,8 +317,9 @@ def _cage() -> Iterator[KnownFigure]:
 def _late() -> Iterator[KnownFigure]:
     yield from _section(
         "Fatigue",
-        ("fatigue_damage_rate", "Damage rate", "1/h", "at the worst named place"),
-        ("fatigue_life", "Life", "h", "its inverse"),
+        ("fatigue_damage_rate", "Fatigue damage rate", "1/h", "at the worst named place",
+         STATISTIC),
+        ("fatigue_life", "Fatigue life", "h", "its inverse", STATISTIC),
         needs=FATIGUE,
     )
     yield from _section(
@@ -271,25 +330,32 @@ def _late() -> Iterator[KnownFigure]:
     )
 
 
+def _wall(stage: str, *marks: str) -> tuple:
+    return f"wall_{stage}", f"Wall time, {stage}", "s", "of this stage", *marks
+
+
 def _solver() -> Iterator[KnownFigure]:
     yield from _section(
         "Solver",
-        ("steps", "Steps", "", "accepted"),
+        ("steps", "Steps", "", "accepted", EFFORT),
         ("explicit_steps", "Explicit steps", "", "of them, by the explicit method"),
         ("residuals", "Residuals", "", "evaluations of the equations"),
         ("jacobians", "Jacobians", "", ""),
         ("factorisations", "Factorisations", "", "of Newton's matrix"),
-        ("failed_error_tests", "Failed error tests", "", "steps repeated for their error"),
-        ("failed_newton", "Failed Newton iterations", "", ""),
+        ("failed_error_tests", "Failed error tests", "", "steps repeated for their error", EFFORT),
+        ("failed_newton", "Failed Newton iterations", "", "", EFFORT),
         ("stable_step", "Stability bound of explicit steps", "us",
          "least over the run, by the spectral radius"),
-    )  # fmt: skip
-    stages = ("mesh", "modes", "kernels", "start", "solve")
+    )
     yield from _section(
         "Wall time",
-        *((f"wall_{k}", k.capitalize(), "s", "wall time of this stage") for k in stages),
-        ("wall_total", "Wall time in all", "s", "of the whole command"),
+        *(_wall(stage) for stage in ("mesh", "modes", "kernels", "start")),
+        _wall("solve", EFFORT),
+        _wall("cage", LATER),
+        _wall("pictures", LATER),
+        ("wall_total", "Wall time, total", "s", "of the whole command", BRIEF),
     )
+# fmt: on
 
 
 _FLOORS = (_statistics, _speeds, _slip, _motion, _forces, _ring, _energy, _film, _cage, _late,
@@ -300,28 +366,21 @@ KNOWN: Mapping[str, KnownFigure] = MappingProxyType(
 )
 
 
-def figure(key: str, value: Value, note: str = "", *, label: str = "", idle: bool = False) -> Row:
-    """The row of a known figure; ``label`` takes the place of its title."""
-    known = KNOWN[key]
-    return Row(key, label or known.title, value, known.shown, note, idle=idle)
+def marked(mark: str) -> tuple[str, ...]:
+    """Names of the figures that have a mark, in the order of a summary."""
+    return tuple(key for key, figure in KNOWN.items() if mark in figure.marks)
 
 
-def statistic(
-    key: str, record: Record, note: str = "",
-    *, label: str = "", value: float | None = None, idle: bool = False,
-) -> Row:  # fmt: skip
-    """The row of a known figure that is a statistic: its value (unless given) and its margin."""
-    known = KNOWN[key]
-    return Row.of(key, label or known.title, record, known.shown, note, value=value, idle=idle)
-
-
+#: What the list says of marks.
+_KINDS = {TEXT: "a text", STATISTIC: "with an interval"}
 PAGE = """# Figures of a run
 
 Printed by `flexcage figures`.
 
-A summary holds them (`run.summary["NAME"]`, in SI units), and studies take them as outputs. Where
-the run is long enough they come with half of a 95 % interval (`run.summary.row("NAME").margin`).
-All but the energies are of the settled part.
+A summary holds them (`run.summary["NAME"]`, in SI units), and studies take those that are
+numbers as outputs. A figure "with an interval" comes with half of its 95 % interval
+(`run.summary.row("NAME").margin`) where the run is long enough. All but the energies are of the
+settled part.
 """
 
 
@@ -338,6 +397,7 @@ def listing(text: str = "") -> Listing:
     for f in found:
         whose = f"{f.of} bearings" if f.of else ""
         needs = f"needs {f.needs}" if f.needs else ""
-        told = "; ".join(filter(None, (f.meaning, whose, needs)))
+        kind = [word for mark, word in _KINDS.items() if mark in f.marks]
+        told = "; ".join(filter(None, (f.meaning, *kind, whose, needs)))
         rows.append((f.key, f.shown, f"{f.title}: {told}" if told else f.title))
     return Listing("Figures of a run", ("figure", "unit", "meaning"), rows)

@@ -8,9 +8,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from flexcage.results import metrics
-from flexcage.results.known import figure, statistic
 from flexcage.results.statistics import Windows
-from flexcage.results.summary import Row, Section
+from flexcage.results.summary import Row, Section, figure, statistic
 from flexcage.system.layout import CONSTRAINTS
 
 if TYPE_CHECKING:

@@ -16,6 +16,7 @@ import numpy as np
 
 from flexcage.core.errors import InputError
 from flexcage.results import metrics
+from flexcage.results.known import KNOWN
 from flexcage.results.metrics import BearingNumbers
 
 if TYPE_CHECKING:
@@ -91,7 +92,7 @@ def _outer_envelope(ds: xarray.Dataset) -> xarray.DataArray | None:
 SIGNALS: Mapping[str, Signal] = MappingProxyType(
     {
         "cage_centre": Signal("Cage centre, from the outer ring's", _cage_centre),
-        "cage_speed": Signal("Cage speed", _cage_speed),
+        "cage_speed": Signal(KNOWN["cage_speed"].title, _cage_speed),
         "pocket_forces": Signal("Sum of the pocket forces", _pocket_forces),
         "outer_acceleration": Signal("Acceleration of the outer ring", _outer_ring),
         "outer_envelope": Signal(

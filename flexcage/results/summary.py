@@ -16,6 +16,7 @@ from flexcage.core.digits import texts_with_margin
 from flexcage.core.errors import InputError
 from flexcage.core.warning import RunWarning
 from flexcage.results.files import replace as replace_file
+from flexcage.results.known import BRIEF, KNOWN, marked
 from flexcage.results.statistics import Record
 
 Value = float | int | str | bool | None
@@ -73,13 +74,6 @@ def format_value(value: float, shown: str = "", margin: float | None = None) -> 
 
 _WORD = 16  # characters: a longer text is no figure, and stands in no column
 _WARNINGS = "warnings"  # their key in a summary's JSON
-#: The figures that matter most, in order: what the terminal shows of a run.
-BRIEF = (
-    "roller_passes", "cage_speed", "cage_slip_ratio", "slip_loaded", "contact_angle_inner",
-    "whirl_radius_axis", "pocket_force_mean", "pocket_force_pass_peak", "pocket_force_peak",
-    "race_force_inner", "race_force_outer", "stress_mean_peak", "stress_peak", "energy_audit",
-    "wall_total",
-)  # fmt: skip
 
 
 @dataclass(frozen=True)
@@ -140,6 +134,21 @@ class Row:
     def full_text(self) -> str:
         """Value, margin and unit, as a sentence or a key figure shows them: "100 ± 150 um"."""
         return " ".join(filter(None, (self.text, self.margin_text, self.shown)))
+
+
+def figure(key: str, value: Value, note: str = "", *, idle: bool = False, **words: str) -> Row:
+    """The row of a known figure; ``words`` are those of its title."""
+    known = KNOWN[key]
+    return Row(key, known.titled(**words), value, known.shown, note, idle=idle)
+
+
+def statistic(
+    key: str, record: Record, note: str = "",
+    *, value: float | None = None, idle: bool = False, **words: str,
+) -> Row:  # fmt: skip
+    """The row of a known figure that is a statistic: its value (unless given) and its margin."""
+    known = KNOWN[key]
+    return Row.of(key, known.titled(**words), record, known.shown, note, value=value, idle=idle)
 
 
 @dataclass(frozen=True)
@@ -217,8 +226,8 @@ class Summary:
         return "\n".join([*lines, *([""] if lines else []), *self._table(rows, brief=True)])
 
     def _brief_rows(self) -> list[Row]:
-        keys = {row.key: row for row in self}
-        return [keys[key] for key in BRIEF if key in keys and keys[key].text != "-"]
+        wanted = marked(BRIEF)
+        return [row for row in self if row.key in wanted and row.text != "-"]
 
     def __repr__(self) -> str:
         return f"Summary({self._size()})"

@@ -23,8 +23,7 @@ from flexcage.fem.model import FEModel, assemble
 from flexcage.mesh.ball_measure import shared_by_halves
 from flexcage.mesh.cage_mesh import CageMesh
 from flexcage.modes.pockets import pocket_frame
-from flexcage.results import known
-from flexcage.results.summary import Row
+from flexcage.results.summary import Row, figure
 from flexcage.stress.between import Steps, no_steps
 from flexcage.stress.fields import NamedFields
 from flexcage.stress.history import Sliced, histories_at
@@ -151,7 +150,7 @@ class Rivets:
         rows = []
         for name, note in (("tension", ""), ("shear", ""), ("stress", alone)):
             value, rivet = self.largest(name)
-            rows.append(known.figure(f"rivet_{name}", value, f"rivet {rivet}{note}"))
+            rows.append(figure(f"rivet_{name}", value, f"rivet {rivet}{note}"))
         return rows
 
     def table(self) -> str:

@@ -15,6 +15,7 @@ from flexcage.contacts.spec import FEWEST_SLICES, MOST_SLICES
 from flexcage.core.errors import FlexcageError, InputError
 from flexcage.mesh.options import FINENESS
 from flexcage.results.files import load, save
+from flexcage.results.known import CONVERGENCE, KNOWN, STATISTIC, marked
 from flexcage.results.statistics import spread
 from flexcage.results.summary import Row, Summary
 from flexcage.run_folder import write_case
@@ -23,13 +24,8 @@ from flexcage.study.work import run_in
 
 log = logging.getLogger(__name__)
 
-#: Outputs looked at, by their keys in the summary: statistics of the motion, and plain values.
-STATISTICS = (
-    "cage_speed", "cage_slip_ratio", "cage_speed_ripple", "slip_loaded", "slip_unloaded",
-    "whirl_radius", "pocket_force_sum", "pocket_force_mean", "pocket_force_pass_peak",
-    "stress_mean_peak", "stress_root_pass_peak",
-)  # fmt: skip
-OUTPUTS = (*STATISTICS, "first_frequency", "pinch_force", "cage_mass")
+#: Outputs compared, by their keys in the summary: statistics of the motion, and plain values.
+OUTPUTS = marked(CONVERGENCE)
 
 
 @dataclass(frozen=True)
@@ -216,7 +212,7 @@ def _findings(level: Level, finest: Level, figures: dict[str, Summary | str]) ->
     return [
         Finding(
             axis=level.axis, level=level.name, finest=finest.name, output=a.key, label=a.label,
-            unit=a.unit, statistic=a.key in STATISTICS, spread=_spread(a, b),
+            unit=a.unit, statistic=STATISTIC in KNOWN[a.key].marks, spread=_spread(a, b),
             value=_number(a.value), margin=a.margin,
             finest_value=_number(b.value), finest_margin=b.margin,
         )
@@ -226,7 +222,7 @@ def _findings(level: Level, finest: Level, figures: dict[str, Summary | str]) ->
 
 def _spread(one: Row, other: Row) -> float:
     """Relative margin of a difference: from windows in pairs, or of runs taken as independent."""
-    if one.key not in STATISTICS:
+    if STATISTIC not in KNOWN[one.key].marks:
         return 0.0
     if one.record is not None and other.record is not None:
         return spread(one.record, other.record)

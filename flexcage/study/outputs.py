@@ -13,12 +13,12 @@ import numpy as np
 
 from flexcage.core.binding import did_you_mean
 from flexcage.core.errors import InputError
-from flexcage.results.known import FATIGUE, FLEXIBLE, KNOWN, RIVETED, WEAR, figure
+from flexcage.results.known import FATIGUE, FLEXIBLE, KNOWN, LATER, RIVETED, SIGNED, TEXT, WEAR
 from flexcage.results.metrics import cage_angle, settled, whole_revolutions
 from flexcage.results.reductions import DERIVED, REDUCTIONS
 from flexcage.results.registry import ENERGIES, LABELS, TIME, VARIABLES, Variable, variable
 from flexcage.results.statistics import roller_passes
-from flexcage.results.summary import Row, Value
+from flexcage.results.summary import SHOWN, Row, Value, figure
 from flexcage.stress.counting import require_pylife
 from flexcage.stress.sn_curves import sn_curve
 from flexcage.stress.wear_laws import wear_law
@@ -94,6 +94,12 @@ class Reduction:
         return Figure(reducer.value(values, step), unit, "", half if isfinite(half) else None)
 
 
+def _figure(key: str, value: float, margin: float | None = None) -> Figure:
+    """A known figure, in its units."""
+    shown = KNOWN[key].shown
+    return Figure(value, SHOWN[shown][0], shown, margin)
+
+
 def _fatigue(run: Run) -> dict[str, Figure]:
     """Damage and life at the worst place."""
     worst = run.fatigue().worst
@@ -101,8 +107,8 @@ def _fatigue(run: Run) -> dict[str, Figure]:
     life = 1.0 / rate if rate > 0.0 else float("inf")
     spread = None if half is None or not isfinite(life) else life * half / rate
     return {
-        "fatigue_damage_rate": Figure(rate, "1/s", "1/h", half),
-        "fatigue_life": Figure(life, "s", "h", spread),
+        "fatigue_damage_rate": _figure("fatigue_damage_rate", rate, half),
+        "fatigue_life": _figure("fatigue_life", life, spread),
     }
 
 
@@ -110,14 +116,17 @@ def _wear(run: Run) -> dict[str, Figure]:
     """Volume from all pockets, and the depth of the deepest track at first."""
     worn = run.wear()
     return {
-        "wear_volume_rate": Figure(worn.volume_rate, "m^3/s", "mm^3/h"),
-        "wear_depth_rate": Figure(worn.depth_rate, "m/s", "um/h"),
+        "wear_volume_rate": _figure("wear_volume_rate", worn.volume_rate),
+        "wear_depth_rate": _figure("wear_depth_rate", worn.depth_rate),
     }
 
 
 def _rivets(run: Run) -> dict[str, Figure]:
     """The largest loads of rivets; none of a cage that has no stress or no rivets."""
-    return _figures_in(run.rivets.rows()) if run.case.riveted else {}
+    if not run.case.riveted:
+        return {}
+    rows = run.rivets.rows()
+    return _figures_in([*rows, figure("wall_rivets", run.stages["rivets"])])
 
 
 def _stress(run: Run) -> dict[str, Figure]:
@@ -158,7 +167,7 @@ def never_negative(name: str) -> bool:
     """Whether an output is a size, such as a force or a stress: an interval of it ends at zero."""
     match = _REDUCTION.fullmatch(name)
     if match is None:
-        return name not in KNOWN or not KNOWN[name].signed
+        return name not in KNOWN or SIGNED not in KNOWN[name].marks
     return match[1] in _SIZES or match[3] in _SIZED_REDUCTIONS
 
 
@@ -303,8 +312,16 @@ def _check_late(name: str, materials: Collection[str]) -> None:
 
 
 def _check_figure(name: str) -> None:
-    if name in KNOWN:
+    if name in KNOWN and not {TEXT, LATER} & KNOWN[name].marks:
         return
+    if name in KNOWN:
+        what = "a text" if TEXT in KNOWN[name].marks else "known only later"
+        raise InputError(
+            f"Output '{name}' is {what}, but a study takes numbers of finished runs; "
+            "'flexcage figures' lists them.",
+            where="outputs",
+            value=name,
+        )
     if name in VARIABLES or name in DERIVED:
         raise InputError(
             f"Output '{name}' is a variable over time; say how it becomes a number, such as "

@@ -11,22 +11,15 @@ import numpy as np
 from flexcage.report.blocks import Cell, Table
 from flexcage.report.comparison import Abscissa, Output
 from flexcage.report.tables import figure_cell, filled, number, typeset
+from flexcage.results.known import EFFORT, KNOWN, marked
 from flexcage.results.summary import SHOWN, Row, format_value
 from flexcage.study.axes import LatinHypercube, Points, Sobol, Zip
-from flexcage.study.outputs import Figure, is_reduction, never_negative
+from flexcage.study.outputs import Figure, never_negative
 
 if TYPE_CHECKING:
     from flexcage.study.results import ResultRow, StudyResults
 
 MOST_ROWS = 1000  # of a table of cases
-_AUDIT = {  # figures of every case, and what the table calls them
-    "energy_audit": "audit", "energy_of_drive": "imbalance / drive's work",
-    "energy_of_cage": "imbalance / loss in the cage", "steps": "steps",
-    "failed_error_tests": "failed error tests", "failed_newton": "failed Newton",
-    "wall_solve": "solving", "wall_stress": "stress",
-}  # fmt: skip
-
-
 _NONE = "–"
 _NO_FIGURE = (
     f"{_NONE}: these cases have no such figure (a rigid cage has no stress), failed or are open."
@@ -55,14 +48,19 @@ def _short(value: Any) -> str:
 
 
 def _words(output: str) -> str:
-    """Name of an output as a reader wants it; a reduction stays as the study writes it."""
-    return output if is_reduction(output) else output.replace("_", " ")
+    """Title of an output; a reduction stays as the study writes it."""
+    return KNOWN[output].title if output in KNOWN else output
 
 
 def _titles(results: StudyResults) -> dict[str, str]:
     """Title of every output, with the unit that it is shown in."""
     units = {name: _unit(results.known.get(name)) for name in results.about.outputs}
-    return {n: f"{_words(n)} [{u}]" if u != "1" else _words(n) for n, u in units.items()}
+    return {name: _headed(_words(name), unit) for name, unit in units.items()}
+
+
+def _headed(title: str, unit: str) -> str:
+    """Head of a column: a title, with the unit if there is one."""
+    return f"{title} [{unit}]" if unit != "1" else title
 
 
 def _unit(figure: Figure | None) -> str:
@@ -156,16 +154,15 @@ def stored_figure(results: StudyResults, row: ResultRow, key: str) -> Any:
 
 def audit_table(results: StudyResults) -> Table:
     """Energy audit and the solver's work, a row a finished case."""
-    rows, units = [], dict[str, str]()
+    rows, keys = [], marked(EFFORT)
     for r in results.rows[:MOST_ROWS]:
         stored = results.stored.get(r.planned.hash)
         if stored is None:
             continue
-        found = [stored.figures.get(key) for key in _AUDIT]
-        units |= {key: f.shown for key, f in zip(_AUDIT, found) if f is not None and f.shown}
+        found = [stored.figures.get(key) for key in keys]
         place = [number(r.planned.number), number(r.planned.repetition)]
-        rows.append([*place, *map(_cell, found, _AUDIT)])
-    heads = [f"{text} [{units[key]}]" if key in units else text for key, text in _AUDIT.items()]
+        rows.append([*place, *map(_cell, found, keys)])
+    heads = [_headed(KNOWN[key].title, KNOWN[key].shown or "1") for key in keys]
     caption = f"Energy audit and the solver's work. {_share(results)}"
     return filled(Table(("point", "repetition", *heads), rows, caption))
 

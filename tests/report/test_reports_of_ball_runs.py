@@ -35,7 +35,7 @@ def test_its_summary_speaks_of_balls(folder):
     assert summary.row("roller_passes").label == "Ball passes counted"
     assert summary.row("pocket_force_pass_peak").note == "mean of the largest in each ball pass"
     assert summary.row("pocket_contact").label == "Pockets in contact"
-    assert summary.row("stress_root").label == "Largest at a waist or rim"
+    assert summary.row("stress_root").label == "Stress at a waist or rim, largest"
     assert "roller" not in str(summary).lower()
 
 
@@ -57,7 +57,7 @@ def test_its_page(folder, capsys):
     for said in (
         "7010C, an angular contact ball bearing",
         "pocket 5 is displaced by 0.3 mm towards pocket 6",
-        "ball passes and", "Waist or rim stress, peak of a pass",
+        "ball passes and", "Stress at a waist or rim, peak of a pass",
         "Stress at waists and rims of pockets", "Ball speed about its own axis, cage frame",
         "Contact angles", "Orbit of the cage", "Contact angle, inner race",
     ):  # fmt: skip

@@ -14,13 +14,13 @@ from flexcage.case import load_case
 from flexcage.core.errors import InputError, RunFailed
 from flexcage.core.progress import Silent
 from flexcage.results.files import load, save
-from flexcage.results.known import FLEXIBLE, KNOWN
+from flexcage.results.known import FLEXIBLE, KNOWN, LATER, STATISTIC, marked
 from flexcage.simulate import load_run, simulate
 from flexcage.stages import keep_at_hand
 from flexcage.study import run, work
 from flexcage.study.axes import Grid, Points
 from flexcage.study.folder import Folder
-from flexcage.study.outputs import parse_reduction
+from flexcage.study.outputs import check_outputs, parse_reduction
 from flexcage.study.plan import make_plan
 from flexcage.study.results import StudyResults, mean_and_half_width
 from flexcage.study.spec import Study
@@ -276,10 +276,18 @@ def test_figures_that_a_study_may_name_are_those_of_a_run():
     pinch = {"type": "side_beam", "pocket": 5, "displacement": "-0.26 mm"}
     case = short_case(**{"cage.model": "flexible"}).replace("defects", [pinch])
     run = simulate(case)
-    keys = {row.key for row in run.summary} - {"drift", "energy_audit", "inner_held"}  # words
+    keys = {row.key for row in run.summary}
     of_rollers = {k for k, f in KNOWN.items() if f.of != "ball" and f.needs in ("", FLEXIBLE)}
-    assert keys | {"wall_stress"} == of_rollers
-    assert all(row.shown == KNOWN[row.key].shown for row in run.summary if row.key in keys)
+    assert keys | {"wall_stress"} == of_rollers - set(marked(LATER))
+    assert all(row.shown == KNOWN[row.key].shown for row in run.summary)
+    statistics = {row.key for row in run.summary if row.record is not None}
+    assert statistics == keys & set(marked(STATISTIC))
+
+
+@pytest.mark.parametrize(("name", "what"), [("energy_audit", "a text"), ("wall_pictures", "later")])
+def test_a_text_is_no_output_of_a_study(name, what):
+    with pytest.raises(InputError, match=f"'{name}' is .*{what}.*takes numbers"):
+        check_outputs((name,), sizes={}, flexible=True)
 
 
 def test_parts_of_a_counted_dimension_make_up_the_whole():

@@ -1,0 +1,74 @@
+"""The one list of figures: every figure's title, unit and place come from it, and nowhere else."""
+
+import ast
+import re
+from pathlib import Path
+
+import flexcage
+from flexcage.results import known
+from flexcage.results.known import KNOWN, STATISTIC, TEXT, marked
+from flexcage.results.summary import SHOWN, figure
+
+SOURCES = [
+    path
+    for path in Path(flexcage.__file__).parent.rglob("*.py")
+    if path != Path(known.__file__) and "verification" not in path.parts  # has rows of its own
+]
+#: Calls that take the name of a figure first.
+BY_NAME = {"figure", "statistic", "stored_figure", "_figure"}
+
+
+def nodes(kind):
+    for path in SOURCES:
+        for node in ast.walk(ast.parse(path.read_text("utf-8"))):
+            if isinstance(node, kind):
+                yield f"{path.name}:{node.lineno}", node
+
+
+def test_no_title_of_a_figure_is_typed_again():
+    titles = {f.title for f in KNOWN.values()} | {f.pattern for f in KNOWN.values()}
+    again = [f"{place} {node.value}" for place, node in nodes(ast.Constant) if node.value in titles]
+    assert not again, f"take it from KNOWN: {again}"
+
+
+def test_no_row_of_a_summary_has_a_name_of_its_own():
+    own = [
+        place
+        for place, node in nodes(ast.Call)
+        if ast.unparse(node.func) in ("Row", "Row.of")
+        if node.args and isinstance(node.args[0], ast.Constant)
+    ]
+    assert not own, f"make it by figure() or statistic(): {own}"
+
+
+def test_every_name_that_the_package_asks_for_is_a_figure():
+    asked = [
+        (place, argument.value)
+        for place, node in nodes(ast.Call)
+        if getattr(node.func, "id", "") in BY_NAME
+        for argument in node.args[:3]
+        if isinstance(argument, ast.Constant) and isinstance(argument.value, str)
+    ]
+    assert len(asked) > 50
+    unknown = [f"{place} {name}" for place, name in asked if re.fullmatch(r"[a-z]+(_\w+)+", name)
+               and name not in KNOWN]  # fmt: skip
+    assert not unknown
+
+
+def test_titles_are_unlike_and_units_are_those_of_summaries():
+    titles = [f.title for f in KNOWN.values()]
+    assert len(set(titles)) == len(titles)
+    assert all(f.shown in SHOWN for f in KNOWN.values())
+
+
+def test_a_mark_puts_a_figure_on_its_page():
+    for mark in (known.BRIEF, known.LARGE, known.EFFORT, known.SETTLING, known.CONVERGENCE):
+        assert marked(mark)
+    assert all(STATISTIC in KNOWN[key].marks for key in marked(known.SETTLING))
+    assert not set(marked(TEXT)) & set(marked(known.CONVERGENCE))
+
+
+def test_a_title_takes_the_bearings_words():
+    assert figure("roller_passes", 3).label == "Element passes counted"
+    assert figure("roller_passes", 3, Element="Ball").label == "Ball passes counted"
+    assert KNOWN["pocket_force_mean"].quantity == "pocket force"
