@@ -642,6 +642,7 @@ class Run:
                 "stress_peak",
                 float(h.peak[k]),
                 f"{place}; {kind.left_out} are never searched",
+                walls=kind.walls,
             ),
             statistic("stress_mean_peak", windows.mean(peak)),
             statistic(

@@ -56,7 +56,7 @@ class StudyResults:
     """A study's folder: ``table``, ``statistics``, ``report()``, and ``run(point)`` of a case.
 
     Everything is read from the folders of the cases, also while others are still running. No code
-    is run: ``plan`` and ``study`` alone, with which cases are built, want the user's own files.
+    is run: ``plan`` and ``study`` alone, with which cases are built, need the user's own files.
     """
 
     def __init__(self, path: str | Path) -> None:
@@ -147,8 +147,8 @@ class StudyResults:
         reasons = Counter(row.reason for row in self.rows if row.state == "failed")
         for reason, times in reasons.items():
             text += f"\n{times} failed: {reason}"
-        told = filter(None, [text, self.without_stress(), self.status()])
-        return "\n".join([*self.warning_lines(), *told])
+        last = filter(None, [text, self.without_stress(), self.status()])
+        return "\n".join([*self.warning_lines(), *last])
 
     def without_stress(self) -> str:
         """A sentence where cases with a flexible cage left their stress out, else nothing."""
