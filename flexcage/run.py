@@ -650,6 +650,7 @@ class Run:
                 "stress_peak",
                 float(h.peak[k]),
                 f"{place}; {kind.left_out} are never searched",
+                walls=kind.walls,
             ),
             statistic("stress_mean_peak", windows.mean(peak)),
             statistic(

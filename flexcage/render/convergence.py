@@ -11,7 +11,7 @@ import numpy as np
 
 from flexcage.render import sheet
 
-_LEFT, _PANEL, _GAP, _ROW, _TOP = 330, 330, 40, 44, 220
+_LEFT, _PANEL, _GAP, _ROW, _TOP = 410, 330, 40, 44, 220
 _WIDEST = 100.0  # % shown at most
 
 

@@ -31,8 +31,8 @@ class Cell:
         return len(lines) > 1 and max(map(len, lines)) < 45
 
     @property
-    def told(self) -> bool:
-        """Whether it holds sentences, which want a broad column."""
+    def has_sentences(self) -> bool:
+        """Whether it holds sentences, which need a broad column."""
         return len(self.text) > 90 and not self.listed
 
 

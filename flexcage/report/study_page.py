@@ -101,7 +101,7 @@ def _stress(account: StudyAccount) -> list[Section]:
     if account.stress:
         title = "Equivalent stress at each case's peak"
         view = cage_chart(account.stress, scale=account.scale, title=title)
-        # beside pictures of the same, the view is for those who want to turn it
+        # beside pictures of the same, the view is folded away
         blocks.append(
             Charts([view], "The same cages in 3D, to be turned") if account.images else view
         )

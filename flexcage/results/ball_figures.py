@@ -40,7 +40,7 @@ def speed_rows(ds: xarray.Dataset, bearing: BearingNumbers) -> tuple[Row, ...]:
     """Speed of balls about their own axes, against pure rolling."""
     inner = float(ds["inner_speed"].mean())
     spin = float(metrics.ball_spin(ds).mean())
-    note = "about its own axis, cage frame, positive as rolling has it"
+    note = "about its own axis, cage frame, positive as in rolling"
     own = metrics.at_own_angles(metrics.whole_revolutions(ds), bearing)
     return (
         figure("ball_spin", spin, note),

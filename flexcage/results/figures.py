@@ -133,7 +133,7 @@ def _nominal_rows(
 def _spin_rows(ds: xarray.Dataset, bearing: BearingNumbers) -> tuple[Row, ...]:
     inner = float(ds["inner_speed"].mean())
     spin = float(metrics.roller_spin(ds).mean())
-    note = "inertial frame, positive as rolling has it"
+    note = "inertial frame, positive as in rolling"
     return (
         figure("roller_spin", spin, note),
         figure("roller_spin_ideal", abs(bearing.kinematics(inner).roller_spin)),
@@ -269,7 +269,7 @@ def _energy_rows(ds: xarray.Dataset) -> tuple[Row, ...]:
             for k, v in check.stored.items()
         ),
         figure("energy_moved", check.moved, "whole run"),
-        figure("energy_elastic", check.elastic, "largest"),
+        figure("energy_elastic", check.elastic),
         figure("energy_imbalance", check.worst),
         figure("energy_relative", check.relative),
         figure("energy_of_drive", check.of_drive),

@@ -27,7 +27,8 @@ BRIEF, LARGE, EFFORT = "brief", "large", "effort"
 SETTLING, CONVERGENCE = "settling", "convergence"
 
 #: Words of titles that depend on the bearing or its cage, and what stands for them in a list.
-WORDS = {"Element": "Element", "Faces": "Pocket faces", "place": "a corner or edge"}
+WORDS = {"Element": "Element", "Faces": "Pocket faces", "place": "a corner or edge",
+         "walls": "pocket walls"}  # fmt: skip
 
 
 @dataclass(frozen=True)
@@ -291,8 +292,8 @@ def _cage() -> Iterator[KnownFigure]:
     )
     yield from _section(
         "Equivalent stress",
-        ("stress_peak", "Stress, largest", "MPa",
-         "of the settled part, without the flat walls of pockets that contacts press on", BRIEF,
+        ("stress_peak", "Stress, largest off {walls}", "MPa",
+         "of the settled part, without the walls of pockets that contacts press on", BRIEF,
          LARGE),
         ("stress_mean_peak", "Stress, mean of the cage's peak", "MPa",
          "mean over time of the largest at each instant", STATISTIC, BRIEF, CONVERGENCE),

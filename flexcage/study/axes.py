@@ -195,7 +195,7 @@ Axis = Grid | Zip | Points | LatinHypercube | Sobol
 def _some(values: Any, what: str) -> Any:
     """The values as a tuple (a table as it is), which must hold something."""
     if isinstance(values, str) or not hasattr(values, "__len__"):
-        raise InputError(f"The axis {what} is {shown(values)}, but wants a list.", where="axes")
+        raise InputError(f"The axis {what} is {shown(values)}, but should be a list.", where="axes")
     if not len(values):
         raise InputError(f"The axis {what} is empty; give it values.", where="axes")
     return values if isinstance(values, Mapping) else tuple(values)
@@ -205,14 +205,16 @@ def _range(path: str, ends: Any) -> tuple[float, float, str]:
     """Lowest and highest value in SI, and the unit of the lowest ("" for plain numbers)."""
     what = f"the range of '{path}'"
     if len(_some(ends, f"'{path}'")) != 2:
-        raise InputError(f"{what} is {shown(ends)}, but wants two values, lowest and highest.")
+        raise InputError(f"{what} is {shown(ends)}, but should be two values, lowest and highest.")
     low, high = ends
     parts = split(low) if isinstance(low, str) else None
     unit = parts[1] if parts else ""
     if unit:
         low, high = (parse(value, unit, where=what) for value in ends)
     elif not all(isinstance(v, (int, float)) and not isinstance(v, bool) for v in ends):
-        raise InputError(f"{what} is {shown(ends)}, but wants two numbers with units.", where=path)
+        raise InputError(
+            f"{what} is {shown(ends)}, but should be two numbers with units.", where=path
+        )
     if not low < high:
         raise InputError(f"{what} goes from {ends[0]} to {ends[1]}; give the lower first.")
     return low, high, unit

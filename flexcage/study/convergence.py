@@ -148,6 +148,6 @@ class Convergence:
             "case": self.name,
             "findings": plain,
             "failures": self.failures,
-            "warnings": {run: [asdict(w) for w in told] for run, told in self.warnings.items()},
+            "warnings": {run: [asdict(w) for w in warned] for run, warned in self.warnings.items()},
         }
         (folder / "converge.json").write_text(json.dumps(content, indent=2), encoding="utf-8")

@@ -130,7 +130,7 @@ def _rivets(run: Run) -> dict[str, Figure]:
 
 
 def _stress(run: Run) -> dict[str, Figure]:
-    """Equivalent stress, which a case leaves out while no output of its study wants it."""
+    """Equivalent stress, which a case leaves out while no output of its study needs it."""
     rows = run.stress_rows()
     return _figures_in([*rows, figure("wall_stress", run.stages["stress"])])
 
@@ -184,12 +184,12 @@ def needs_stress(names: tuple[str, ...]) -> bool:
 
 def lacking(beyond: tuple[str, ...], figures: Collection[str]) -> tuple[str, ...]:
     """Outputs beyond a summary that a case's figures do not hold and its cage can give: a rigid
-    one, which has no modes, gives none that wants a flexible one."""
+    one, which has no modes, gives none that needs a flexible one."""
     rigid = "mode_count" not in figures
-    return tuple(n for n in beyond if n not in figures and not (rigid and _wants_flexible(n)))
+    return tuple(n for n in beyond if n not in figures and not (rigid and _needs_flexible(n)))
 
 
-def _wants_flexible(name: str) -> bool:
+def _needs_flexible(name: str) -> bool:
     return name in KNOWN and KNOWN[name].needs in (FLEXIBLE, RIVETED, FATIGUE)
 
 
@@ -271,18 +271,18 @@ def check_outputs(
         else:
             _check_figure(name)
             _check_late(name, materials)
-            needs = _wants_flexible(name)
+            needs = _needs_flexible(name)
             _check_element(name, KNOWN[name].of, element)
         if needs and not flexible:
             raise InputError(
-                f"Output '{name}' wants a flexible cage, and every cage of the study is rigid; "
+                f"Output '{name}' needs a flexible cage, but every cage of the study is rigid; "
                 "set cage.model = 'flexible' or leave it out.",
                 where="outputs",
                 value=name,
             )
         if name in KNOWN and KNOWN[name].needs == RIVETED and not riveted:
             raise InputError(
-                f"Output '{name}' is of ribbon cages, and no flexible cage of the study is one; "
+                f"Output '{name}' is of ribbon cages, but no flexible cage of the study is one; "
                 "set cage.type = 'ribbon' or leave it out.",
                 where="outputs",
                 value=name,
@@ -315,10 +315,10 @@ def _check_figure(name: str) -> None:
     if name in KNOWN and not {TEXT, LATER} & KNOWN[name].marks:
         return
     if name in KNOWN:
-        what = "a text" if TEXT in KNOWN[name].marks else "known only later"
+        what = "a text" if TEXT in KNOWN[name].marks else "a time of work after a run"
         raise InputError(
-            f"Output '{name}' is {what}, but a study takes numbers of finished runs; "
-            "'flexcage figures' lists them.",
+            f"Output '{name}' is {what}, but a study takes numbers that its runs give; 'flexcage "
+            "figures' lists them.",
             where="outputs",
             value=name,
         )

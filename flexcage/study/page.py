@@ -1,4 +1,4 @@
-"""A study's folder as its report wants it: what was varied, what went wrong, and all the rest."""
+"""What the report of a study shows, read from its folder."""
 
 from __future__ import annotations
 
@@ -91,7 +91,7 @@ def _varied(results: StudyResults) -> list[str]:
     total = f"{many}, every combination of these." if len(study.axes) > 1 else f"{many}."
     if times > 1:
         total += (
-            f" Each was computed {times} times, the cage pushed off at "
+            f" Each was computed {times} times, the cage started at "
             f"{words.describe(study.repeat.push, 'mm/s')} in another random direction: means and "
             "intervals are over these repetitions."
         )

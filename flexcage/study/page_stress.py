@@ -71,7 +71,7 @@ def to_show(results: StudyResults, points: Sequence[int] | None) -> tuple[list[R
 def stress_of(
     results: StudyResults, rows: list[ResultRow], progress: Callable[..., Any] | None
 ) -> tuple[list[Shown], str]:
-    """Stress of these cases; a sentence on why there is none, if they want files of the user's own
+    """Stress of these cases; a sentence on why there is none, if they need files of the user's own
     that are not loaded."""
     names, found = point_names(results), []
     shown = progress if progress and rows else Silent
@@ -83,7 +83,7 @@ def stress_of(
                 lacking = not_loaded(results.about.use)
                 if not lacking:
                     raise
-                return [], f"No stress is shown: the cases want {uses(lacking)}."
+                return [], f"No stress is shown: the cases need {uses(lacking)}."
             assert scene.stress is not None
             name = f"Point {row.planned.number}: {names[row.planned.number]}"
             cage = cage_stress(scene, scene.stress, name)

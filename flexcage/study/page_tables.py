@@ -47,7 +47,7 @@ def _short(value: Any) -> str:
     return f"{value:g}" if isinstance(value, float) else str(value)
 
 
-def _words(output: str) -> str:
+def _title(output: str) -> str:
     """Title of an output; a reduction stays as the study writes it."""
     return KNOWN[output].title if output in KNOWN else output
 
@@ -55,7 +55,7 @@ def _words(output: str) -> str:
 def _titles(results: StudyResults) -> dict[str, str]:
     """Title of every output, with the unit that it is shown in."""
     units = {name: _unit(results.known.get(name)) for name in results.about.outputs}
-    return {name: _headed(_words(name), unit) for name, unit in units.items()}
+    return {name: _headed(_title(name), unit) for name, unit in units.items()}
 
 
 def _headed(title: str, unit: str) -> str:
@@ -176,7 +176,7 @@ def outputs(results: StudyResults) -> list[Output]:
         factor, si = _factor(results.known.get(name)), results.titles[name]
         mean = np.array([_float(v) for v in frame[si]]) * factor
         half = np.array(frame[f"+- {si}"], float) * factor
-        found.append(Output(_words(name), unit, mean, half, positive=never_negative(name)))
+        found.append(Output(_title(name), unit, mean, half, positive=never_negative(name)))
     return found
 
 

@@ -58,7 +58,7 @@ class StudyResults:
     """A study's folder: ``table``, ``statistics``, ``report()``, and ``run(point)`` of a case.
 
     Everything is read from the folders of the cases, also while others are still running. No code
-    is run: ``plan`` and ``study`` alone, with which cases are built, want the user's own files.
+    is run: ``plan`` and ``study`` alone, with which cases are built, need the user's own files.
     """
 
     def __init__(self, path: str | Path) -> None:
@@ -139,8 +139,8 @@ class StudyResults:
     def report(self) -> str:
         """The table over the points: mean ± half width of every output, then warnings and what
         failed."""
-        told = [_aligned(self._lines()), *self._failures(), self.without_stress(), self.status()]
-        return "\n".join([*self.warning_lines(), *filter(None, told)])
+        last = [_aligned(self._lines()), *self._failures(), self.without_stress(), self.status()]
+        return "\n".join([*self.warning_lines(), *filter(None, last)])
 
     def _repr_html_(self) -> str:
         """For notebooks: what ``report`` says."""

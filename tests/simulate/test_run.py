@@ -60,7 +60,7 @@ def test_pictures_are_among_the_stored_wall_times(flexible, tmp_path, monkeypatc
     seconds = {key: row["value"] for key, row in stored.items()}
     total = seconds.pop("wall_total")
     assert 0.05 <= seconds["wall_pictures"] and sum(seconds.values()) <= total
-    assert "Pictures" in (flexible.folder / "summary.txt").read_text("utf-8")
+    assert "Wall time, pictures" in (flexible.folder / "summary.txt").read_text("utf-8")
     assert flexible.summary["wall_total"] == total
 
 

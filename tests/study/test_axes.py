@@ -53,14 +53,14 @@ def test_samples_follow_the_seed():
     ("make", "words"),
     [
         (lambda: Grid("load.radial", []), "'load.radial' is empty"),
-        (lambda: Grid("load.radial", "1 kN"), "wants a list"),
+        (lambda: Grid("load.radial", "1 kN"), "should be a list"),
         (lambda: Zip({}), "is empty"),
         (lambda: Zip({"a": [1, 2], "b": [1]}), "2 for 'a', 1 for 'b'"),
         (lambda: Points([]), "is empty"),
         (lambda: Sobol(BOX, 12).expand(), "take 8 or 16"),
         (lambda: LatinHypercube({"a": ["2 mm", "1 mm"]}, 4), "from 2 mm to 1 mm"),
         (lambda: LatinHypercube({"a": ["1 mm", "1 N"]}, 4), "another kind"),
-        (lambda: LatinHypercube({"a": ["1 mm"]}, 4), "wants two values"),
+        (lambda: LatinHypercube({"a": ["1 mm"]}, 4), "should be two values"),
         (lambda: LatinHypercube({"a": ["PEEK", "PA66"]}, 4), "two numbers"),
     ],
 )

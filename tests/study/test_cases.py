@@ -284,7 +284,9 @@ def test_figures_that_a_study_may_name_are_those_of_a_run():
     assert statistics == keys & set(marked(STATISTIC))
 
 
-@pytest.mark.parametrize(("name", "what"), [("energy_audit", "a text"), ("wall_pictures", "later")])
+@pytest.mark.parametrize(
+    ("name", "what"), [("energy_audit", "a text"), ("wall_pictures", "after a run")]
+)
 def test_a_text_is_no_output_of_a_study(name, what):
     with pytest.raises(InputError, match=f"'{name}' is .*{what}.*takes numbers"):
         check_outputs((name,), sizes={}, flexible=True)

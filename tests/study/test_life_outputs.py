@@ -26,8 +26,8 @@ def test_no_summary_holds_them_and_a_plan_takes_them():
     assert beyond_summary(outputs) == outputs[1:]
 
 
-def test_fatigue_wants_a_flexible_cage():
-    with pytest.raises(InputError, match="'fatigue_life' wants a flexible cage"):
+def test_fatigue_needs_a_flexible_cage():
+    with pytest.raises(InputError, match="'fatigue_life' needs a flexible cage"):
         make_plan(short_study(outputs=("fatigue_life",)))
 
 

@@ -201,8 +201,8 @@ def test_mistakes_in_the_file(name, tmp_path, capsys):
         (("roller_omega[roller=first].mean",), "counted from 0"),
         (("contact_angle.mean",), "is of balls, but the study's bearings have rollers"),
         (("contact_angle_inner",), "is of balls"),
-        (("stress_peak",), "wants a flexible cage"),
-        (("modal_velocity.rms",), "wants a flexible cage"),
+        (("stress_peak",), "needs a flexible cage"),
+        (("modal_velocity.rms",), "needs a flexible cage"),
         (("cage_speed", "cage_speed"), "twice"),
     ],
 )
