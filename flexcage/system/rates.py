@@ -23,7 +23,7 @@ from flexcage.solve.oscillators import Oscillators, no_oscillators
 from flexcage.system.constraints import BEAR, ONTO
 from flexcage.system.courses import table_slope, wave_slope
 from flexcage.system.data import CONSTRAINT_ROWS, HOLD
-from flexcage.system.layout import Layout
+from flexcage.system.layout import CAGE, N_LAMBDA, OUTER, Q_OUTER, Layout, of_element, places
 from flexcage.system.rows import shaft_pull, speed_at
 from flexcage.system.sampling import give_powers, is_main, keep_force, keep_report
 
@@ -83,14 +83,14 @@ def _rates(t, y, yd, data, mode):
     d = data[0]
     bodies, out, frame = fields(d.bodies), fields(d.scratch).out, fields(d.frame)
     Z, nm = bodies.radius.shape[0], fields(d.rates).given.shape[0]
-    n_q, n_u = 6 * Z + 15 + nm, 6 * Z + 14 + nm
-    end, ring = n_q + n_u, n_q + 6 * Z
+    at = places(Z, nm)
+    end, ring, q = at.lam, at.rest_u, y[at.rest_q :]
     driven = bodies.drive[0] == 0.0
-    _hold(t, y[6 * Z : 6 * Z + 6], y[ring : ring + 6], bodies, driven)
+    _hold(t, q[:Q_OUTER], y[ring : ring + OUTER], bodies, driven)
     zero(y[end:])
     law = data[1]
     law[HOLD](t, y, yd, d, law[CONSTRAINT_ROWS], out, ONTO)
-    shaft_pull(bodies, y[6 * Z : 6 * Z + 6], y[ring : ring + 6], y[end : end + 3])
+    shaft_pull(bodies, q[:Q_OUTER], y[ring : ring + OUTER], y[end : end + 3])
     zero(yd)
     data[2](t, y, yd, d, data[1], out, mode)
     for k in range(end):
@@ -101,13 +101,13 @@ def _rates(t, y, yd, data, mode):
         1.0 / bodies.element[2],
     )
     for i in range(Z):
-        a = yd[n_q + 6 * i : n_q + 6 * i + 6]
+        a = yd[at.u :][of_element(i)]
         for c in range(3):
             a[c] *= linear
         a[3] *= axial
         a[4] *= transverse
         a[5] *= transverse
-    a, row, lam = yd[ring : ring + 8], out[ring : ring + 6], y[end : end + 4]
+    a, row, lam = yd[ring : ring + CAGE], out[ring : ring + OUTER], y[end : end + N_LAMBDA]
     for k in range(3):
         a[k] /= bodies.ring[0]
     a[4] /= bodies.ring[2]
@@ -130,7 +130,7 @@ def _rates(t, y, yd, data, mode):
         a[7] /= bodies.outer[0]
     cage_accelerations(
         frame.rigid, frame.coupled, fields(d.cage).plain, fields(d.scratch).A,
-        yd[ring + 8 : end], fields(d.rates),
+        yd[ring + CAGE : end], fields(d.rates),
     )  # fmt: skip
     law[HOLD](t, y, yd, d, law[CONSTRAINT_ROWS], out, BEAR)
 

@@ -35,6 +35,17 @@ from flexcage.core.vectors import (
 )
 from flexcage.system.blocks import scatter, scatter_modes
 from flexcage.system.data import IN_CONTACTS, POCKET_DAMPING, POCKET_FRICTION
+from flexcage.system.layout import (
+    CAGE,
+    CAGE_TURN,
+    MODES,
+    OUTER,
+    Q_CAGE,
+    Q_MODES,
+    Q_QUATERNION,
+    of_element,
+    places,
+)
 from flexcage.system.rows import (
     CAGE_SPIN,
     LEVER,
@@ -51,19 +62,19 @@ def roller_pockets(t, y, yd, d, law, out, mode):
     ``residual.evaluate``. Poses of rollers and cage are in ``Scratch`` already."""
     work, phi_max = fields(d.scratch), fields(d.pocket).phi_max
     Z, nm = fields(d.bodies).radius.shape[0], phi_max.shape[0]
-    zq, nq, nu = 6 * Z, 6 * Z + 15 + nm, 6 * Z + 14 + nm
-    q, u = y[:nq], y[nq : nq + nu]
-    qf, qfd, modal = q[zq + 15 :], u[zq + 14 :], work.modal
+    at = places(Z, nm)
+    q, rest_q, rest_u = y[: at.rest_q], y[at.rest_q : at.u], y[at.rest_u : at.lam]
+    qf, qfd, modal = rest_q[Q_MODES:], rest_u[MODES:], work.modal
     margin = 0.0
     for m in range(nm):
         margin += phi_max[m] * abs(qf[m])
         modal[0, m], modal[1, m] = qf[m], qfd[m]
-    Rc, Vc = q[zq + 8 : zq + 11], u[zq + 8 : zq + 11]
+    Rc, Vc = rest_q[Q_CAGE:Q_QUATERNION], rest_u[CAGE:CAGE_TURN]
     for i in range(Z):
         take_pose(work.poses[i], fields(d.pose))
-        _pocket(i, q[6 * i : 6 * i + 6], Rc, Vc, modal[0], modal[1], margin, d, law, mode)
+        _pocket(i, q[of_element(i)], Rc, Vc, modal[0], modal[1], margin, d, law, mode)
         if mode >= REPORT:
-            _approach(i, u[zq : zq + 6], u[zq + 6 : zq + 8], d)
+            _approach(i, rest_u[:OUTER], rest_u[OUTER:CAGE], d)
 
 
 @part
@@ -88,7 +99,7 @@ def _pocket(i, qi, Rc, Vc, qf, qfd, margin, d, law, mode):
     )  # fmt: skip
     if hit:
         add_to_element(work.wrenches[i], pair)
-        react(F, A, pair.wrench, xyz(D), border, 8)
+        react(F, A, pair.wrench, xyz(D), border, CAGE)
         push_modes(data, i, pw, border)
     if mode == TANGENT:
         tan.active[i] = 1 if hit else 0
@@ -97,7 +108,7 @@ def _pocket(i, qi, Rc, Vc, qf, qfd, margin, d, law, mode):
             for c in range(3):
                 put(work.R[1, c], turned_back(A, row(F, c)))
             shift_matrix(work.R, D, work.S)
-            scatter(pair, work.S, i, 8, tan, work.T6)
+            scatter(pair, work.S, i, CAGE, tan, work.T6)
             if qf.shape[0] > 0:
                 scatter_modes(i, pw, work.S, tan, data.phi.shape[4])
     elif mode >= REPORT:

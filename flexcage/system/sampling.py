@@ -5,6 +5,7 @@ from __future__ import annotations
 from flexcage.contacts.evaluation import OUTER_RING, REPORT
 from flexcage.core.jit import copy_into, fields, part
 from flexcage.system.data import CONSTRAINTS, DRIVE, EXCHANGED, LOAD
+from flexcage.system.layout import DRIVE_TORQUE, INNER_TURN, MODES, PER_ELEMENT, Q_MODES, places
 from flexcage.system.rows import load_power
 
 
@@ -18,14 +19,14 @@ def give_powers(t, y, d, power):
     for k in range(power.shape[0]):
         power[k] = report.power[k]
     Z, nm = fields(d.bodies).radius.shape[0], fields(d.pocket).phi_max.shape[0]
-    speed, torque = 12 * Z + 15 + nm + 3, 12 * Z + 29 + 2 * nm + 3
-    power[DRIVE] += y[torque] * y[speed]
-    first, u = 12 * Z + 36 + 2 * nm, 12 * Z + 15 + nm
-    power[LOAD] += load_power(t, fields(d.bodies), y, 6 * Z, u, fields(d.scratch).vec)
+    at = places(Z, nm)
+    u = at.rest_u
+    power[DRIVE] += y[at.lam + DRIVE_TORQUE] * y[u + INNER_TURN]
+    power[LOAD] += load_power(t, fields(d.bodies), y, at.rest_q, u, fields(d.scratch).vec)
     c = fields(d.constraints)
     for k in range(c.level.shape[0]):  # those that move bodies
-        for j in range(14):
-            power[CONSTRAINTS] += y[first + k] * c.G[k, j] * y[u + j]
+        for j in range(MODES):
+            power[CONSTRAINTS] += y[at.held + k] * c.G[k, j] * y[u + j]
 
 
 def powers(t, y, data, power):
@@ -94,7 +95,7 @@ def keep_loads(t, y, d):
         clock[1] = t + spacing[1]
     if t > clock[1]:
         return
-    first = 6 * rep.station.shape[0] + 15
+    first = PER_ELEMENT * rep.station.shape[0] + Q_MODES
     for m in range(between.modes.shape[1]):
         between.modes[n, m] = y[first + m]
     copy_into(between.land[n], rep.land_station)
