@@ -39,10 +39,15 @@ from flexcage.core.vectors import (
 )
 from flexcage.system.data import (
     APART,
+    AXIAL,
     DRAG,
     GRAVITY,
     IN_CONTACTS,
+    INNER_RACE,
     KINETIC,
+    MASS,
+    OUTER_RACE,
+    POCKET,
     POCKET_DAMPING,
     POCKET_FRICTION,
     RACE_DAMPING,
@@ -120,28 +125,28 @@ def _races(i, qi, ui, rest_q, rest_u, d, law, mode):
     hit = groove_contact(
         fields(d.bodies).radius[i], fields(d.inner), P, turned(F, xyz(vec[RING_AXIS])), V, w,
         turned(F, xyz(rest_u[:INNER_TURN])), turned(F, xyz(vec[RING_SPIN])),
-        fields(d.memory).race[i, 0], law[RACE_LAW], law[RACE_RUBS], fields(d.slices).row[0],
-        pair.wrench, mode, work.sums,
+        fields(d.memory).race[i, INNER_RACE], law[RACE_LAW], law[RACE_RUBS],
+        fields(d.slices).row[0], pair.wrench, mode, work.sums,
     )  # fmt: skip
     if hit:
         react(F, work.unit, pair.wrench, P, border, INNER)
         _add(work.wrenches[i], pair.wrench)
     if mode >= REPORT:
-        _report_race(i, 0, work.sums, fields(d.report))
+        _report_race(i, INNER_RACE, work.sums, fields(d.report))
     P = minus((qi[0], qi[1], 0.0), turned(F, (0.0, rest_q[Q_OUTER], rest_q[Q_OUTER + 1])))
     zero(pair.wrench)
     hit = groove_contact(
         fields(d.bodies).radius[i], fields(d.outer), P, (1.0, 0.0, 0.0), V, w,
         turned(F, (0.0, rest_u[OUTER], rest_u[OUTER + 1])), (0.0, 0.0, 0.0),
-        fields(d.memory).race[i, 1], law[RACE_LAW], law[RACE_RUBS], fields(d.slices).row[0],
-        pair.wrench, mode, work.sums,
+        fields(d.memory).race[i, OUTER_RACE], law[RACE_LAW], law[RACE_RUBS],
+        fields(d.slices).row[0], pair.wrench, mode, work.sums,
     )  # fmt: skip
     if hit:
         _add(work.wrenches[i], pair.wrench)
         for c in range(2):
             border[OUTER + c] -= F[1, 1 + c] * pair.wrench[1] + F[2, 1 + c] * pair.wrench[2]
     if mode >= REPORT:
-        _report_race(i, 1, work.sums, fields(d.report))
+        _report_race(i, OUTER_RACE, work.sums, fields(d.report))
 
 
 @part
@@ -202,8 +207,8 @@ def _report_pocket(i, hit, sums, pw, rep, mode):
     rep.power[POCKET_DAMPING] += sums[DAMPED]
     rep.power[POCKET_FRICTION] += sums[RUBBED]
     rep.residual[i, 0] = sums[ANGLE]
-    rep.contact[i, 2] = 1 if pw.normal[0] > 0.0 else 0
-    rep.approach[i, 2] = sums[APPROACH]
+    rep.contact[i, POCKET] = 1 if pw.normal[0] > 0.0 else 0
+    rep.approach[i, POCKET] = sums[APPROACH]
     rep.pocket_normal[i, 0] = pw.normal[0]
     rep.pocket_friction[i, 0] = pw.tangential[0]
     if pw.normal[0] > 0.0:
@@ -217,7 +222,7 @@ def _ball_rows(i, qi, ui, qdi, udi, d, r_q, r_u, mode):
     """Kinematics and momentum of ball i, with drag and gravity."""
     bodies, rep, FR = fields(d.bodies), fields(d.report), fields(d.scratch).wrenches[i]
     F = fields(d.pose).F
-    mass, inertia, r = bodies.element[0], bodies.element[1], qi[1]
+    mass, inertia, r = bodies.element[MASS], bodies.element[AXIAL], qi[1]
     orbit = ui[2] / r
     drag = -bodies.drag[0] * abs(ui[2]) * ui[2]
     gr = F[1, 1] * bodies.gravity[1] + F[1, 2] * bodies.gravity[2]

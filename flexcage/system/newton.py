@@ -11,6 +11,7 @@ from flexcage.contacts.evaluation import ACCEPT, RESIDUAL, TANGENT
 from flexcage.core.jit import VECTORISED, fields, kernel, zero
 from flexcage.core.rotation import quaternion_rate, rotation_of_quaternion_change
 from flexcage.solve import bordered
+from flexcage.system.data import AXIAL, MASS, TRANSVERSE
 from flexcage.system.layout import (
     CAGE_TURN,
     MODES,
@@ -50,7 +51,7 @@ def factor(alpha, data):
 @kernel(fastmath=VECTORISED)
 def assemble(alpha, bodies, tan, m):
     """Newton's matrix alpha M + C + K/alpha in blocks, and its factors."""
-    mass, Ia, It = bodies.element[0], bodies.element[1], bodies.element[2]
+    mass, Ia, It = bodies.element[MASS], bodies.element[AXIAL], bodies.element[TRANSVERSE]
     b = 1.0 / alpha
     nb, further = m.S.shape[0], tan.held.shape[0]
     n6 = nb - N_OWN - 2 * further

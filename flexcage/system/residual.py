@@ -38,15 +38,21 @@ from flexcage.core.vectors import (
 from flexcage.system.blocks import scatter, scatter_outer
 from flexcage.system.data import (
     APART,
+    AXIAL,
     DRAG,
     GRAVITY,
     IN_CONTACTS,
+    INNER_RACE,
     KINETIC,
+    MASS,
+    OUTER_RACE,
+    POCKET,
     RACE_DAMPING,
     RACE_FRICTION,
     RIB_DAMPING,
     RIB_FRICTION,
     ROLLING_RESISTANCE,
+    TRANSVERSE,
 )
 from flexcage.system.layout import (
     CAGE,
@@ -157,7 +163,7 @@ def _inner_contacts(first, end, q, ring_q, ring_u, d, law, mode):
             _add_inner(i, P, d, mode)
             if mode >= REPORT:
                 _report_ribs(i, sums, rep)
-        onset = memory.race[i, 0]
+        onset = memory.race[i, INNER_RACE]
         if meet_race(count, pose, side, radius[i], ring_q[5], onset, rw):
             rw.who[count] = i
             count += 1
@@ -168,7 +174,7 @@ def _inner_contacts(first, end, q, ring_q, ring_u, d, law, mode):
         push_by_race(m, pose, side, radius[i], ring_q[5], rw, pair, mode, sums)
         _add_inner(i, rw.partner[m, 0], d, mode)
         if mode >= REPORT:
-            _report_race(i, 0, sums, rep)
+            _report_race(i, INNER_RACE, sums, rep)
 
 
 @part
@@ -200,7 +206,7 @@ def _outer_contacts(first, end, q, out_q, out_u, d, law, mode):
         put(b, (1.0, 0.0, 0.0))
         put(Vr, turned(F, (0.0, out_u[0], out_u[1])))
         put(wr, (0.0, 0.0, 0.0))
-        onset = memory.race[i, 1]
+        onset = memory.race[i, OUTER_RACE]
         if meet_race(count, pose, side, radius[i], 0.0, onset, rw):
             rw.who[count] = i
             count += 1
@@ -215,14 +221,15 @@ def _outer_contacts(first, end, q, out_q, out_u, d, law, mode):
         if mode == TANGENT:
             scatter_outer(pair, F, i, fields(d.tangent))
         elif mode >= REPORT:
-            _report_race(i, 1, work.sums, fields(d.report))
+            _report_race(i, OUTER_RACE, work.sums, fields(d.report))
 
 
 @part
 def _report_ribs(i, sums, rep):
     rep.rib[i, 0], rep.rib[i, 1] = sums[NORMAL], sums[NORMAL + 1]
-    rep.contact[i, 6] = 1 if sums[NORMAL] > 0.0 else 0
-    rep.contact[i, 7] = 1 if sums[NORMAL + 1] > 0.0 else 0
+    ribs = POCKET + rep.pocket_normal.shape[1]
+    rep.contact[i, ribs] = 1 if sums[NORMAL] > 0.0 else 0
+    rep.contact[i, ribs + 1] = 1 if sums[NORMAL + 1] > 0.0 else 0
     rep.energy[IN_CONTACTS] += sums[STORED]
     rep.power[RIB_DAMPING] += sums[DAMPED]
     rep.power[RIB_FRICTION] += sums[RUBBED]
@@ -245,7 +252,7 @@ def _roller_rows(i, qi, ui, qdi, udi, d, r_q, r_u, mode):
     pose, work, bodies = fields(d.pose), fields(d.scratch), fields(d.bodies)
     tan, rep = fields(d.tangent), fields(d.report)
     F, FR, rates = pose.F, work.wrenches[i], work.S[0]
-    mass, Ia, It = bodies.element[0], bodies.element[1], bodies.element[2]
+    mass, Ia, It = bodies.element[MASS], bodies.element[AXIAL], bodies.element[TRANSVERSE]
     drag = -bodies.drag[0] * abs(ui[2]) * ui[2]
     gr = F[1, 1] * bodies.gravity[1] + F[1, 2] * bodies.gravity[2]
     gp = F[2, 1] * bodies.gravity[1] + F[2, 2] * bodies.gravity[2]

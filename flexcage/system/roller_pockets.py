@@ -34,7 +34,14 @@ from flexcage.core.vectors import (
     xyz,
 )
 from flexcage.system.blocks import scatter, scatter_modes
-from flexcage.system.data import IN_CONTACTS, POCKET_DAMPING, POCKET_FRICTION
+from flexcage.system.data import (
+    IN_CONTACTS,
+    INNER_RACE,
+    OUTER_RACE,
+    POCKET,
+    POCKET_DAMPING,
+    POCKET_FRICTION,
+)
 from flexcage.system.layout import (
     CAGE,
     CAGE_TURN,
@@ -137,7 +144,7 @@ def _report_pocket(i, hit, sums, pw, rep, mode):
     for f in range(4):
         rep.pocket_normal[i, f] = pw.normal[f]
         rep.pocket_friction[i, f] = pw.tangential[f]
-        rep.contact[i, 2 + f] = 1 if pw.normal[f] > 0.0 else 0
+        rep.contact[i, POCKET + f] = 1 if pw.normal[f] > 0.0 else 0
 
 
 @part
@@ -146,12 +153,13 @@ def _approach(i, ring_u, out_u, d):
     pose, vec, G = fields(d.pose), fields(d.scratch).vec, fields(d.pocket_work).G
     rep = fields(d.report)
     F, V = pose.F, xyz(pose.V)
-    rep.approach[i, 0] = F[1, 1] * ring_u[1] + F[1, 2] * ring_u[2] - V[1]
-    rep.approach[i, 1] = V[1] - F[1, 1] * out_u[0] - F[1, 2] * out_u[1]
+    rep.approach[i, INNER_RACE] = F[1, 1] * ring_u[1] + F[1, 2] * ring_u[2] - V[1]
+    rep.approach[i, OUTER_RACE] = V[1] - F[1, 1] * out_u[0] - F[1, 2] * out_u[1]
     cage = plus(xyz(vec[PARTNER_V]), cross(xyz(vec[PARTNER_W]), xyz(vec[LEVER])))
     v = minus(V, cage)
     t, x = dot(row(G, 2), v), dot(row(G, 0), v)
-    rep.approach[i, 2], rep.approach[i, 3] = t, -t
-    rep.approach[i, 4], rep.approach[i, 5] = x, -x
-    rep.approach[i, 6] = V[0] - ring_u[0]
-    rep.approach[i, 7] = -rep.approach[i, 6]
+    rep.approach[i, POCKET], rep.approach[i, POCKET + 1] = t, -t
+    rep.approach[i, POCKET + 2], rep.approach[i, POCKET + 3] = x, -x
+    ribs = POCKET + rep.pocket_normal.shape[1]
+    rep.approach[i, ribs] = V[0] - ring_u[0]
+    rep.approach[i, ribs + 1] = -rep.approach[i, ribs]

@@ -36,6 +36,7 @@ from flexcage.core.vectors import (
 )
 from flexcage.system.courses import table_integral, table_value, wave_integral, wave_value
 from flexcage.system.data import (
+    AXIAL,
     CONSTRAINT_ROWS,
     DRAG,
     DRIVE,
@@ -47,15 +48,28 @@ from flexcage.system.data import (
     KINETIC,
     LAND_DAMPING,
     LAND_FRICTION,
+    MASS,
     MODAL_DAMPING,
     MOUNT,
+    OUTER_CLEARANCE,
+    OUTER_DAMPING,
+    OUTER_FIXED,
+    OUTER_STIFFNESS,
+    SHAFT,
+    SHAFT_DAMPING,
+    SHAFT_STIFFNESS,
     STRAIN,
+    TRANSVERSE,
 )
 from flexcage.system.layout import (
+    AXIAL_FORCE,
     CAGE,
     CAGE_TURN,
+    DRIVE_TORQUE,
     INNER_TURN,
     MODES,
+    MOMENT_Y,
+    MOMENT_Z,
     N_LAMBDA,
     N_OWN,
     OUTER,
@@ -69,6 +83,10 @@ from flexcage.system.layout import (
 
 # rows of ``Work.vec``: of the bodies, in space; of the pair under work, in the roller's frame F
 CAGE_SPIN, RING_AXIS, RING_SPIN, LEVER, AXIS, PARTNER_V, PARTNER_W, GUIDE, GUIDE_V = range(9)
+# the same rows when lands and rings have their turn: forces and moments on cage and guiding ring,
+# forces of the outer ring on its housing and of the shaft on the inner ring
+CAGE_FORCE, CAGE_MOMENT, RING_FORCE, RING_MOMENT = LEVER, AXIS, PARTNER_V, PARTNER_W
+HOUSING_FORCE, SHAFT_PULL = LEVER, AXIS
 
 
 def shared_rows(t, y, yd, d, law, out, mode):
@@ -212,7 +230,7 @@ def land_rows(q, u, nm, d, law, mode):
     """Cage's lands on the ring that guides it, and the drag on the cage."""
     work, data, rep = fields(d.scratch), fields(d.land), fields(d.report)
     vec, border, A = work.vec, work.border, work.A
-    Fc, Mc, Fr, Mr = vec[LEVER], vec[AXIS], vec[PARTNER_V], vec[PARTNER_W]
+    Fc, Mc, Fr, Mr = vec[CAGE_FORCE], vec[CAGE_MOMENT], vec[RING_FORCE], vec[RING_MOMENT]
     zero(Fc)
     zero(Mc)
     zero(Fr)
@@ -354,7 +372,7 @@ def cage_rows(d, quat, Vc, wb, qf, qfd, qd, ud, r_q, r_u, mode):
 @part
 def _housing(outer, q, u, held, tan, mode):
     """Force ``held`` of the outer ring on its housing; returns energy stored and power lost."""
-    k, c, clearance = outer[1], outer[2], outer[4]
+    k, c, clearance = outer[OUTER_STIFFNESS], outer[OUTER_DAMPING], outer[OUTER_CLEARANCE]
     held[0] = held[1] = 0.0
     distance = sqrt(q[0] * q[0] + q[1] * q[1])
     n = (1.0, 0.0) if distance == 0.0 else (q[0] / distance, q[1] / distance)
@@ -416,7 +434,7 @@ def constraint_slopes(bodies, tan):
         else:
             tan.Cbb[rate, at] = tan.Kbb[place, at] = tan.Kbb[place, place] = 1.0
     drive = first + 3
-    tan.Cbb[drive, 3 if bodies.drive[0] == 0.0 else drive] = 1.0
+    tan.Cbb[drive, 3 if bodies.drive[SHAFT] == 0.0 else drive] = 1.0
 
 
 @part
@@ -432,7 +450,7 @@ def ring_rows(t, d, q, u, qd, ud, lam, mu_, r_q, r_u, out, end, mode):
     r_q[0] -= mu_[0]
     r_q[Q_INNER_TURN] -= mu_[1]
     r_q[Q_INNER_TURN + 1] -= mu_[2]
-    mass, Ia, It = bodies.ring[0], bodies.ring[1], bodies.ring[2]
+    mass, Ia, It = bodies.ring[MASS], bodies.ring[AXIAL], bodies.ring[TRANSVERSE]
     load, axial = radial_load(bodies, t), axial_load(bodies, t)
     # moments about the ring's own (non-spinning) axes
     cx, sx, ce, se = cos(rq[3]), sin(rq[3]), cos(rq[4]), sin(rq[4])
@@ -446,21 +464,21 @@ def ring_rows(t, d, q, u, qd, ud, lam, mu_, r_q, r_u, out, end, mode):
     M3 = sx * Mx + cx * Mz
     target = speed_at(bodies, t)
     shaft = 0.0
-    if bodies.drive[0] > 0.0:
-        shaft = bodies.drive[1] * (drive_angle(bodies, t) - rq[5])
-        shaft += bodies.drive[2] * (target - ru[3])
+    if bodies.drive[SHAFT] > 0.0:
+        shaft = bodies.drive[SHAFT_STIFFNESS] * (drive_angle(bodies, t) - rq[5])
+        shaft += bodies.drive[SHAFT_DAMPING] * (target - ru[3])
     for c in range(3):
         r_u[c] = mass * (rud[c] - bodies.gravity[c]) - border[c]
-    r_u[0] -= lam[0] + axial
+    r_u[0] -= lam[AXIAL_FORCE] + axial
     r_u[1] -= load * bodies.load_direction[0]
     r_u[2] -= load * bodies.load_direction[1]
-    r_u[INNER_TURN] = Ia * rud[3] - M1 - lam[3] - shaft
-    r_u[INNER_TURN + 1] = It * (rud[4] - frame * ru[5]) + Ia * ru[3] * ru[5] - M2 - lam[1]
-    r_u[INNER_TURN + 2] = It * (rud[5] + frame * ru[4]) - Ia * ru[3] * ru[4] - M3 - lam[2]
+    r_u[INNER_TURN] = Ia * rud[3] - M1 - lam[DRIVE_TORQUE] - shaft
+    r_u[INNER_TURN + 1] = It * (rud[4] - frame * ru[5]) + Ia * ru[3] * ru[5] - M2 - lam[MOMENT_Y]
+    r_u[INNER_TURN + 2] = It * (rud[5] + frame * ru[4]) - Ia * ru[3] * ru[4] - M3 - lam[MOMENT_Z]
     # outer ring
     oq, ou, oud = q[Q_OUTER:Q_CAGE], u[OUTER:CAGE], ud[OUTER:CAGE]
-    mo, fixed = bodies.outer[0], bodies.outer[3]
-    held = work.vec[LEVER]
+    mo, fixed = bodies.outer[MASS], bodies.outer[OUTER_FIXED]
+    held = work.vec[HOUSING_FORCE]
     stored, lost = _housing(bodies.outer, oq, ou, held, tan, mode)
     for c in range(2):
         r_q[Q_OUTER + c] = qd[Q_OUTER + c] - ou[c]
@@ -471,15 +489,15 @@ def ring_rows(t, d, q, u, qd, ud, lam, mu_, r_q, r_u, out, end, mode):
             r_u[OUTER + c] = mo * oud[c] - force
     # constraints: lambda rows hold rates, mu rows positions; what is free has the shaft's lambda
     g = out[end:]
-    free, pull = bodies.free, work.vec[AXIS]
+    free, pull = bodies.free, work.vec[SHAFT_PULL]
     bent, damped = shaft_pull(bodies, rq, ru, pull)
-    g[0] = lam[0] - pull[0] if free[0] > 0.0 else ru[0]
-    g[1] = lam[1] - pull[1] if free[1] > 0.0 else ru[4]
-    g[2] = lam[2] - pull[2] if free[2] > 0.0 else ru[5]
-    g[3] = ru[3] - target if bodies.drive[0] == 0.0 else lam[3]
-    g[4] = mu_[0] if free[0] > 0.0 else rq[0]
-    g[5] = mu_[1] if free[1] > 0.0 else rq[3]
-    g[6] = mu_[2] if free[2] > 0.0 else rq[4] - bodies.misalignment
+    g[AXIAL_FORCE] = lam[AXIAL_FORCE] - pull[0] if free[0] > 0.0 else ru[0]
+    g[MOMENT_Y] = lam[MOMENT_Y] - pull[1] if free[1] > 0.0 else ru[4]
+    g[MOMENT_Z] = lam[MOMENT_Z] - pull[2] if free[2] > 0.0 else ru[5]
+    g[DRIVE_TORQUE] = ru[3] - target if bodies.drive[SHAFT] == 0.0 else lam[DRIVE_TORQUE]
+    g[N_LAMBDA] = mu_[0] if free[0] > 0.0 else rq[0]
+    g[N_LAMBDA + 1] = mu_[1] if free[1] > 0.0 else rq[3]
+    g[N_LAMBDA + 2] = mu_[2] if free[2] > 0.0 else rq[4] - bodies.misalignment
     if mode == TANGENT:
         constraint_slopes(bodies, tan)
         for c in range(3):
@@ -488,9 +506,9 @@ def ring_rows(t, d, q, u, qd, ud, lam, mu_, r_q, r_u, out, end, mode):
         tan.Mbb[4, 4] = tan.Mbb[5, 5] = It
         tan.Cbb[4, 5] += Ia * ru[3]
         tan.Cbb[5, 4] -= Ia * ru[3]
-        if bodies.drive[0] > 0.0:
-            tan.Kbb[3, 3] += bodies.drive[1]
-            tan.Cbb[3, 3] += bodies.drive[2]
+        if bodies.drive[SHAFT] > 0.0:
+            tan.Kbb[3, 3] += bodies.drive[SHAFT_STIFFNESS]
+            tan.Cbb[3, 3] += bodies.drive[SHAFT_DAMPING]
         for c in range(2):
             tan.Mbb[OUTER + c, OUTER + c] = 1.0 if fixed > 0.0 else mo
             if fixed > 0.0:  # its row is u' = 0, whatever pushes it

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from flexcage.contacts.evaluation import OUTER_RING, REPORT
 from flexcage.core.jit import copy_into, fields, part
-from flexcage.system.data import CONSTRAINTS, DRIVE, EXCHANGED, LOAD
+from flexcage.system.data import CONSTRAINTS, DRIVE, EXCHANGED, LOAD, POCKET
 from flexcage.system.layout import DRIVE_TORQUE, INNER_TURN, MODES, PER_ELEMENT, Q_MODES, places
 from flexcage.system.rows import load_power
 
@@ -135,16 +135,16 @@ def _keep_larger(most, values):
 def remember(t, memory, rep, events):
     """Keep the onset speed of every contact, and contact changes; races come before the faces of
     pockets, those before ribs."""
-    ribs = 2 + memory.pocket.shape[1]
+    ribs = POCKET + memory.pocket.shape[1]
     for i in range(rep.contact.shape[0]):
         for k in range(rep.contact.shape[1]):
             closed = rep.contact[i, k]
             if closed == 0 or events.closed[i, k] == 0:
                 speed = max(rep.approach[i, k], 0.0)
-                if k < 2:
+                if k < POCKET:
                     memory.race[i, k] = speed
                 elif k < ribs:
-                    memory.pocket[i, k - 2] = speed
+                    memory.pocket[i, k - POCKET] = speed
                 else:
                     memory.rib[i, k - ribs] = speed
             if closed != events.closed[i, k]:
