@@ -18,6 +18,7 @@ from typing import NamedTuple
 import numpy as np
 
 from flexcage.contacts.evaluation import ANGLE, APPROACH, DAMPED, REPORT, RUBBED, STORED
+from flexcage.contacts.laws import EXPONENT, STIFFNESS
 from flexcage.contacts.slices import (
     friction_factors,
     friction_power,
@@ -141,7 +142,7 @@ def pocket_wall_contact(
     N, pressed = _press(depth, rate, soft, softening, p, onset, law, sl)
     if mode >= REPORT:
         Ne = sl.Ne[0]
-        sums[STORED] = Ne * pressed / (p[1] + 1.0) + 0.5 * soft * Ne * Ne
+        sums[STORED] = Ne * pressed / (p[EXPONENT] + 1.0) + 0.5 * soft * Ne * Ne
         sums[DAMPED] = -(N - Ne) * (rate - 0.5 * (N + Ne) * softening)
     if N <= 0.0:
         return True
@@ -306,15 +307,15 @@ def _press(depth, rate, soft, softening, p, onset, law, sl):
     d, stiff = depth, 0.0
     if soft > 0.0:
         for _ in range(ITERATIONS):
-            power = p[0] * d ** (p[1] - 1.0)
-            stiff = soft * p[1] * power
+            power = p[STIFFNESS] * d ** (p[EXPONENT] - 1.0)
+            stiff = soft * p[EXPONENT] * power
             step = (d + soft * power * d - depth) / (1.0 + stiff)
             d -= step
             if abs(step) < 1e-15:
                 break
         d = max(d, 0.0)
-        stiff = soft * p[1] * p[0] * d ** (p[1] - 1.0)
-    force = p[0] * d ** p[1]
+        stiff = soft * p[EXPONENT] * p[STIFFNESS] * d ** (p[EXPONENT] - 1.0)
+    force = p[STIFFNESS] * d ** p[EXPONENT]
     sl.d[0], sl.v[0] = d, (rate - force * softening) / (1.0 + stiff)
     normal_forces(law, (0, 1), sl, p, onset)
     return sl.N[0], d

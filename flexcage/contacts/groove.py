@@ -27,6 +27,7 @@ from flexcage.contacts.evaluation import (
     SLIDING,
     STORED,
 )
+from flexcage.contacts.laws import EXPONENT
 from flexcage.contacts.slices import (
     friction_factors,
     normal_forces,
@@ -84,7 +85,7 @@ def groove_contact(rb, race, P, b, V, w, Vr, wr, onset, law, friction, sl, wrenc
     normal_forces(law, (0, 1), sl, race.normal, onset)
     N = sl.N[0]
     if mode >= REPORT:
-        sums[STORED], sums[DAMPED] = stored_and_damped((0, 1), sl, race.normal[1])
+        sums[STORED], sums[DAMPED] = stored_and_damped((0, 1), sl, race.normal[EXPONENT])
     g = cross(b, e)  # rolling direction, along the race
     t = cross(n, g)
     size = N ** (1.0 / 3.0)

@@ -8,7 +8,7 @@ from typing import NamedTuple
 import numpy as np
 
 from flexcage.contacts.evaluation import APPROACH, DAMPED, NORMAL, RUBBED, SHEARED, STORED
-from flexcage.contacts.laws import short_bearing
+from flexcage.contacts.laws import EXPONENT, short_bearing
 from flexcage.contacts.slices import (
     friction_factors,
     friction_power,
@@ -314,7 +314,7 @@ def _touch(
         _push_modes(weights[k] * radial, weights[k] * rubbed, data.phi[s], Qm)
         lw.st[s, 0] += weights[k] * radial
         lw.st[s, 1] += weights[k] * dot(f, along)
-    energy, damped = stored_and_damped((0, 1), sl, data.normal[1])
+    energy, damped = stored_and_damped((0, 1), sl, data.normal[EXPONENT])
     sums[NORMAL + side] += N
     sums[STORED] += sign * energy
     sums[DAMPED] += share * damped

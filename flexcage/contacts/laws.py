@@ -46,44 +46,51 @@ FRICTION_TYPE = KernelType(FRICTION_SIGNATURE)
 
 N_NORMAL = 10  # stiffness and exponent of the elastic force, and what else a law wants
 N_FRICTION = 10
+# places in p, of a normal law
+STIFFNESS, EXPONENT = 0, 1  # of all laws: elastic force
+DISSIPATION, FLOOR = 2, 3  # of ``restitution``: lambda, and the least speed of onset
+DAMPING, FULL_DEPTH = 2, 3  # of ``impact_step``
+# of a friction law
+T_A, T_B, T_C, T_D, T_SLOPE = range(5)  # of ``traction``: Gupta's letters, and mu/u at u = 0
+STATIC, DYNAMIC, V_STATIC, V_DYNAMIC = range(4)  # of Coulomb's: coefficients, then their speeds
 
 
 @kernel(NORMAL_SIGNATURE)
 def elastic(n, d, v, onset, p, F, Fe, Fd, Fv):
     """F = K d^n, nothing dissipated."""
-    powers(n, d, p[1] - 1.0, Fd)
+    powers(n, d, p[EXPONENT] - 1.0, Fd)
     for k in range(n):
-        slope = p[0] * Fd[k]
+        slope = p[STIFFNESS] * Fd[k]
         F[k] = Fe[k] = slope * d[k]
-        Fd[k], Fv[k] = p[1] * slope, 0.0
+        Fd[k], Fv[k] = p[EXPONENT] * slope, 0.0
 
 
 @kernel(NORMAL_SIGNATURE)
 def restitution(n, d, v, onset, p, F, Fe, Fd, Fv):
     """F = K d^n (1 + (lambda/v0) v), Hunt-Crossley family, clipped at zero."""
-    powers(n, d, p[1] - 1.0, Fd)
+    powers(n, d, p[EXPONENT] - 1.0, Fd)
     for k in range(n):
-        chi = p[2] / max(onset[k], p[3])
+        chi = p[DISSIPATION] / max(onset[k], p[FLOOR])
         factor = 1.0 + chi * v[k]
-        slope = p[0] * Fd[k]
+        slope = p[STIFFNESS] * Fd[k]
         Fe[k] = slope * d[k]
         slope = slope if factor > 0.0 else 0.0
-        F[k], Fd[k], Fv[k] = slope * d[k] * factor, p[1] * slope * factor, slope * d[k] * chi
+        F[k], Fd[k], Fv[k] = slope * d[k] * factor, p[EXPONENT] * slope * factor, slope * d[k] * chi
 
 
 @kernel(NORMAL_SIGNATURE)
 def impact_step(n, d, v, onset, p, F, Fe, Fd, Fv):
     """F = K d^n + c_max STEP(d, 0, 0, d_max, 1) v, clipped at zero (ADAMS IMPACT)."""
-    powers(n, d, p[1] - 1.0, Fd)
+    powers(n, d, p[EXPONENT] - 1.0, Fd)
     for k in range(n):
-        slope = p[0] * Fd[k]
-        x = min(max(d[k] / p[3], 0.0), 1.0)
-        c = p[2] * x * x * (3.0 - 2.0 * x)
+        slope = p[STIFFNESS] * Fd[k]
+        x = min(max(d[k] / p[FULL_DEPTH], 0.0), 1.0)
+        c = p[DAMPING] * x * x * (3.0 - 2.0 * x)
         Fe[k] = slope * d[k]
         force = Fe[k] + c * v[k]
         if force > 0.0:
             F[k], Fv[k] = force, c
-            Fd[k] = p[1] * slope + p[2] * 6.0 * x * (1.0 - x) / p[3] * v[k]
+            Fd[k] = p[EXPONENT] * slope + p[DAMPING] * 6.0 * x * (1.0 - x) / p[FULL_DEPTH] * v[k]
         else:
             F[k] = Fd[k] = Fv[k] = 0.0
 
@@ -97,52 +104,52 @@ def no_friction(n, u, p, g, dg):
 
 @kernel(FRICTION_SIGNATURE)
 def traction(n, u, p, g, dg):
-    """Gupta: mu = (A + B u) exp(-C u) + D with A = -D, so mu(0) = 0; p = (A, B, C, D, slope0)."""
-    exponentials(n, u, -p[2], dg)
+    """Gupta: mu = (A + B u) exp(-C u) + D with A = -D, so mu(0) = 0."""
+    exponentials(n, u, -p[T_C], dg)
     for k in range(n):
         x, e = u[k], dg[k]
         if x < 1e-7:
-            g[k], dg[k] = p[4], 0.0
+            g[k], dg[k] = p[T_SLOPE], 0.0
         else:
-            mu = (p[0] + p[1] * x) * e + p[3]
-            dmu = (p[1] - p[2] * (p[0] + p[1] * x)) * e
+            mu = (p[T_A] + p[T_B] * x) * e + p[T_D]
+            dmu = (p[T_B] - p[T_C] * (p[T_A] + p[T_B] * x)) * e
             g[k] = mu / x
             dg[k] = (dmu - g[k]) / x
 
 
 @kernel(FRICTION_SIGNATURE)
 def step_coulomb(n, u, p, g, dg):
-    """ADAMS static/dynamic friction (paper 003); p = (mu_s, mu_d, v_s, v_d)."""
+    """ADAMS static/dynamic friction (paper 003)."""
     for k in range(n):
         x = u[k]
-        if x < p[2]:
-            s = x / p[2]
-            g[k] = p[0] * (3.0 - s * s) / (2.0 * p[2])
-            dg[k] = -p[0] * s / (p[2] * p[2])
+        if x < p[V_STATIC]:
+            s = x / p[V_STATIC]
+            g[k] = p[STATIC] * (3.0 - s * s) / (2.0 * p[V_STATIC])
+            dg[k] = -p[STATIC] * s / (p[V_STATIC] * p[V_STATIC])
         else:
-            if x < p[3]:
-                s = (x - p[2]) / (p[3] - p[2])
-                mu = p[0] + (p[1] - p[0]) * s * s * (3.0 - 2.0 * s)
-                dmu = (p[1] - p[0]) * 6.0 * s * (1.0 - s) / (p[3] - p[2])
+            if x < p[V_DYNAMIC]:
+                s = (x - p[V_STATIC]) / (p[V_DYNAMIC] - p[V_STATIC])
+                mu = p[STATIC] + (p[DYNAMIC] - p[STATIC]) * s * s * (3.0 - 2.0 * s)
+                dmu = (p[DYNAMIC] - p[STATIC]) * 6.0 * s * (1.0 - s) / (p[V_DYNAMIC] - p[V_STATIC])
             else:
-                mu, dmu = p[1], 0.0
+                mu, dmu = p[DYNAMIC], 0.0
             g[k] = mu / x
             dg[k] = (dmu - g[k]) / x
 
 
 @kernel(FRICTION_SIGNATURE)
 def ramp_coulomb(n, u, p, g, dg):
-    """Ambrosio's ramp (paper 004): none below v_static, full above; p = (mu_s, mu_d, v0, v1)."""
+    """Ambrosio's ramp (paper 004): none below v_static, full above."""
     for k in range(n):
         x = u[k]
-        if x <= p[2]:
+        if x <= p[V_STATIC]:
             g[k] = dg[k] = 0.0
         else:
-            if x < p[3]:
-                mu = p[1] * (x - p[2]) / (p[3] - p[2])
-                dmu = p[1] / (p[3] - p[2])
+            if x < p[V_DYNAMIC]:
+                mu = p[DYNAMIC] * (x - p[V_STATIC]) / (p[V_DYNAMIC] - p[V_STATIC])
+                dmu = p[DYNAMIC] / (p[V_DYNAMIC] - p[V_STATIC])
             else:
-                mu, dmu = p[1], 0.0
+                mu, dmu = p[DYNAMIC], 0.0
             g[k] = mu / x
             dg[k] = (dmu - g[k]) / x
 
@@ -335,7 +342,7 @@ def normal_parameters(law: NormalLaw, stiffness: float, exponent: float) -> np.n
         N_NORMAL,
         f"normal law '{law.law}'",
     )
-    if p[0] < 0.0 or p[1] < 1.0:
+    if p[STIFFNESS] < 0.0 or p[EXPONENT] < 1.0:
         raise InputError(
             f"The parameters of normal law '{law.law}' begin with {p[:2]}, but must be a stiffness "
             "of 0 or more and an exponent of 1 or more.",

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from flexcage.contacts.condensation import condense, lean_of_residual, left_out, yielded
 from flexcage.contacts.evaluation import DAMPED, REPORT, RUBBED, STORED, TANGENT
+from flexcage.contacts.laws import EXPONENT
 from flexcage.contacts.pocket_forces import (
     crossbeam_rates,
     push_by_crossbeam,
@@ -141,6 +142,6 @@ def _face(pose, data, i, f, Rw, distance, rel, spin, qd, onset, laws, sl, pw, pa
                 N[k] = sl.N[k]
                 T[k] = sl.N[k] * sl.g[k] * sl.u[k]
         sums[RUBBED] += friction_power(span, sl)
-        energy, damped = stored_and_damped(span, sl, p[1])
+        energy, damped = stored_and_damped(span, sl, p[EXPONENT])
         sums[STORED] += energy
         sums[DAMPED] += damped

@@ -20,7 +20,7 @@ from flexcage.contacts.evaluation import (
     TANGENT,
     TRACTION,
 )
-from flexcage.contacts.laws import rolling_forces
+from flexcage.contacts.laws import EXPONENT, rolling_forces
 from flexcage.contacts.slices import (
     ROOM,
     friction_factors,
@@ -152,7 +152,7 @@ def push_by_race(m, pose, side, Rw, theta, rw, pair, mode, sums):
     if mode >= REPORT:
         zero(sums)
         sums[NORMAL], sums[RUBBED] = rw.load[m], friction_power(span, sl)
-        sums[STORED], sums[DAMPED] = stored_and_damped(span, sl, side.normal[1])
+        sums[STORED], sums[DAMPED] = stored_and_damped(span, sl, side.normal[EXPONENT])
         if mode == REPORT:
             _report(first, side, Rw, a, sl, sums)
     if side.uneven:

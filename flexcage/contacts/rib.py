@@ -8,6 +8,7 @@ from typing import NamedTuple
 import numpy as np
 
 from flexcage.contacts.evaluation import DAMPED, NORMAL, REPORT, RUBBED, STORED, TANGENT
+from flexcage.contacts.laws import EXPONENT
 from flexcage.contacts.slices import (
     friction_factors,
     friction_power,
@@ -101,7 +102,7 @@ def rib_contact(pose, data, P, b, Vr, wr, onset, laws, sl, pair, mode, sums):
             elif mode >= REPORT:
                 sums[NORMAL + f] += N
         if mode >= REPORT:
-            energy, damped = stored_and_damped((0, count), sl, data.normal[1])
+            energy, damped = stored_and_damped((0, count), sl, data.normal[EXPONENT])
             sums[STORED] += energy
             sums[DAMPED] += damped
             sums[RUBBED] += friction_power((0, count), sl)

@@ -39,15 +39,35 @@ from flexcage.core.vectors import (
 )
 from flexcage.system.data import (
     APART,
+    AXIAL,
     DRAG,
     GRAVITY,
     IN_CONTACTS,
+    INNER_RACE,
     KINETIC,
+    MASS,
+    OUTER_RACE,
+    POCKET,
     POCKET_DAMPING,
     POCKET_FRICTION,
     RACE_DAMPING,
     RACE_FRICTION,
     ROLLING_RESISTANCE,
+)
+from flexcage.system.layout import (
+    CAGE,
+    CAGE_TURN,
+    INNER,
+    INNER_TURN,
+    MODES,
+    OUTER,
+    Q_CAGE,
+    Q_INNER_TURN,
+    Q_MODES,
+    Q_OUTER,
+    Q_QUATERNION,
+    of_element,
+    places,
 )
 from flexcage.system.rows import (
     CAGE_SPIN,
@@ -70,63 +90,63 @@ def evaluate(t, y, yd, d, law, out, mode):
     """
     work, phi_max = fields(d.scratch), fields(d.pocket).phi_max
     Z, nm = fields(d.bodies).radius.shape[0], phi_max.shape[0]
-    nq, nu = 6 * Z + 15 + nm, 6 * Z + 14 + nm
-    q, u, qd, ud = y[:nq], y[nq : nq + nu], yd[:nq], yd[nq : nq + nu]
-    r_q, r_u = out[:nq], out[nq : nq + nu]
-    zq, border = 6 * Z, work.border
+    at = places(Z, nm)
+    q, u, qd, ud = y[: at.rest_q], y[at.u : at.rest_u], yd[: at.rest_q], yd[at.u : at.rest_u]
+    r_q, r_u, border = out[: at.rest_q], out[at.u : at.rest_u], work.border
+    rest_q, rest_u = y[at.rest_q : at.u], y[at.rest_u : at.lam]
     clear_sums(border, d, mode)
-    Rc, quat, qf = q[zq + 8 : zq + 11], q[zq + 11 : zq + 15], q[zq + 15 :]
-    Vc, wb, qfd = u[zq + 8 : zq + 11], u[zq + 11 : zq + 14], u[zq + 14 :]
+    Rc, quat, qf = rest_q[Q_CAGE:Q_QUATERNION], rest_q[Q_QUATERNION:Q_MODES], rest_q[Q_MODES:]
+    Vc, wb, qfd = rest_u[CAGE:CAGE_TURN], rest_u[CAGE_TURN:MODES], rest_u[MODES:]
     matrix_from_quaternion(quat, work.A)
     put(work.vec[CAGE_SPIN], turned(work.A, xyz(wb)))
-    inner_ring(q[zq : zq + 6], u[zq : zq + 6], work.vec)
+    inner_ring(rest_q[:Q_OUTER], rest_u[:OUTER], work.vec)
     margin = 0.0
     for m in range(nm):
         margin += phi_max[m] * abs(qf[m])
     zero(work.wrenches)
     for i in range(Z):
-        o = 6 * i
-        qi, ui = q[o : o + 6], u[o : o + 6]
+        own = of_element(i)
+        qi, ui = q[own], u[own]
         set_frame(qi[2], fields(d.pose).F)
-        _races(i, qi, ui, q, u, zq, d, law, mode)
+        _races(i, qi, ui, rest_q, rest_u, d, law, mode)
         _pocket(i, qi, ui, Rc, Vc, qf, qfd, margin, d, law, mode)
-        _ball_rows(i, qi, ui, qd[o : o + 6], ud[o : o + 6], d, r_q[o : o + 6], r_u[o : o + 6], mode)
+        _ball_rows(i, qi, ui, qd[own], ud[own], d, r_q[own], r_u[own], mode)
     law[SHARED](t, y, yd, d, law[:APART], out, mode)
 
 
 @part
-def _races(i, qi, ui, q, u, zq, d, law, mode):
+def _races(i, qi, ui, rest_q, rest_u, d, law, mode):
     """Ball i on both races, in its frame F."""
     F, work, pair = fields(d.pose).F, fields(d.scratch), fields(d.pair)
     vec, border = work.vec, work.border
     V, w = xyz(ui), (ui[3], ui[4], ui[5])
-    P = minus((qi[0], qi[1], 0.0), turned(F, xyz(q[zq : zq + 3])))
+    P = minus((qi[0], qi[1], 0.0), turned(F, xyz(rest_q[:Q_INNER_TURN])))
     zero(pair.wrench)
     hit = groove_contact(
         fields(d.bodies).radius[i], fields(d.inner), P, turned(F, xyz(vec[RING_AXIS])), V, w,
-        turned(F, xyz(u[zq : zq + 3])), turned(F, xyz(vec[RING_SPIN])),
-        fields(d.memory).race[i, 0], law[RACE_LAW], law[RACE_RUBS], fields(d.slices).row[0],
-        pair.wrench, mode, work.sums,
+        turned(F, xyz(rest_u[:INNER_TURN])), turned(F, xyz(vec[RING_SPIN])),
+        fields(d.memory).race[i, INNER_RACE], law[RACE_LAW], law[RACE_RUBS],
+        fields(d.slices).row[0], pair.wrench, mode, work.sums,
     )  # fmt: skip
     if hit:
-        react(F, work.unit, pair.wrench, P, border, 0)
+        react(F, work.unit, pair.wrench, P, border, INNER)
         _add(work.wrenches[i], pair.wrench)
     if mode >= REPORT:
-        _report_race(i, 0, work.sums, fields(d.report))
-    P = minus((qi[0], qi[1], 0.0), turned(F, (0.0, q[zq + 6], q[zq + 7])))
+        _report_race(i, INNER_RACE, work.sums, fields(d.report))
+    P = minus((qi[0], qi[1], 0.0), turned(F, (0.0, rest_q[Q_OUTER], rest_q[Q_OUTER + 1])))
     zero(pair.wrench)
     hit = groove_contact(
         fields(d.bodies).radius[i], fields(d.outer), P, (1.0, 0.0, 0.0), V, w,
-        turned(F, (0.0, u[zq + 6], u[zq + 7])), (0.0, 0.0, 0.0),
-        fields(d.memory).race[i, 1], law[RACE_LAW], law[RACE_RUBS], fields(d.slices).row[0],
-        pair.wrench, mode, work.sums,
+        turned(F, (0.0, rest_u[OUTER], rest_u[OUTER + 1])), (0.0, 0.0, 0.0),
+        fields(d.memory).race[i, OUTER_RACE], law[RACE_LAW], law[RACE_RUBS],
+        fields(d.slices).row[0], pair.wrench, mode, work.sums,
     )  # fmt: skip
     if hit:
         _add(work.wrenches[i], pair.wrench)
         for c in range(2):
-            border[6 + c] -= F[1, 1 + c] * pair.wrench[1] + F[2, 1 + c] * pair.wrench[2]
+            border[OUTER + c] -= F[1, 1 + c] * pair.wrench[1] + F[2, 1 + c] * pair.wrench[2]
     if mode >= REPORT:
-        _report_race(i, 1, work.sums, fields(d.report))
+        _report_race(i, OUTER_RACE, work.sums, fields(d.report))
 
 
 @part
@@ -175,7 +195,7 @@ def _pocket(i, qi, ui, Rc, Vc, qf, qfd, margin, d, law, mode):
     )  # fmt: skip
     if hit:
         _add(work.wrenches[i], pair.wrench)
-        react(F, A, pair.wrench, D, work.border, 8)
+        react(F, A, pair.wrench, D, work.border, CAGE)
         push_modes(data, i, pw, work.border)
     if mode >= REPORT:
         _report_pocket(i, hit, sums, pw, fields(d.report), mode)
@@ -187,8 +207,8 @@ def _report_pocket(i, hit, sums, pw, rep, mode):
     rep.power[POCKET_DAMPING] += sums[DAMPED]
     rep.power[POCKET_FRICTION] += sums[RUBBED]
     rep.residual[i, 0] = sums[ANGLE]
-    rep.contact[i, 2] = 1 if pw.normal[0] > 0.0 else 0
-    rep.approach[i, 2] = sums[APPROACH]
+    rep.contact[i, POCKET] = 1 if pw.normal[0] > 0.0 else 0
+    rep.approach[i, POCKET] = sums[APPROACH]
     rep.pocket_normal[i, 0] = pw.normal[0]
     rep.pocket_friction[i, 0] = pw.tangential[0]
     if pw.normal[0] > 0.0:
@@ -202,7 +222,7 @@ def _ball_rows(i, qi, ui, qdi, udi, d, r_q, r_u, mode):
     """Kinematics and momentum of ball i, with drag and gravity."""
     bodies, rep, FR = fields(d.bodies), fields(d.report), fields(d.scratch).wrenches[i]
     F = fields(d.pose).F
-    mass, inertia, r = bodies.element[0], bodies.element[1], qi[1]
+    mass, inertia, r = bodies.element[MASS], bodies.element[AXIAL], qi[1]
     orbit = ui[2] / r
     drag = -bodies.drag[0] * abs(ui[2]) * ui[2]
     gr = F[1, 1] * bodies.gravity[1] + F[1, 2] * bodies.gravity[2]

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from flexcage.core.jit import outlined, part
+from flexcage.system.layout import CAGE, MODES, OUTER
 
 
 @part
@@ -39,7 +40,7 @@ def scatter(pair, S, i, start, tan, T6):
 
 @outlined
 def scatter_outer(pair, F, i, tan):
-    """The same for the outer ring, which only moves in y and z (columns 6 and 7)."""
+    """The same for the outer ring, which only moves in y and z (columns ``OUTER``)."""
     for m in range(2):
         M, (rr, rb, br, bb) = pair.K if m == 0 else pair.C, _of(tan, m)
         for a in range(6):
@@ -50,13 +51,13 @@ def scatter_outer(pair, F, i, tan):
                 for c in range(1, 3):
                     x += M[a, c] * F[c, 1 + b]
                     y += F[c, 1 + b] * M[c, a]
-                rb[i, a, 6 + b] -= x
-                br[i, 6 + b, a] -= y
+                rb[i, a, OUTER + b] -= x
+                br[i, OUTER + b, a] -= y
         for a in range(2):
             for b in range(2):
                 for c in range(1, 3):
                     for e in range(1, 3):
-                        bb[6 + a, 6 + b] += F[c, 1 + a] * M[c, e] * F[e, 1 + b]
+                        bb[OUTER + a, OUTER + b] += F[c, 1 + a] * M[c, e] * F[e, 1 + b]
 
 
 @outlined
@@ -66,12 +67,12 @@ def scatter_modes(i, pw, S, tan, n_m):
         M, (_rr, rb, br, bb) = pw.K if m == 0 else pw.C, _of(tan, m)
         for c in range(6):
             for o in range(n_m):
-                rb[i, c, 14 + o] += M[c, 6 + o]
-                br[i, 14 + o, c] += M[6 + o, c]
+                rb[i, c, MODES + o] += M[c, 6 + o]
+                br[i, MODES + o, c] += M[6 + o, c]
             for e in range(6):
                 for o in range(n_m):
-                    bb[8 + e, 14 + o] -= S[c, e] * M[c, 6 + o]
-                    bb[14 + o, 8 + e] -= M[6 + o, c] * S[c, e]
+                    bb[CAGE + e, MODES + o] -= S[c, e] * M[c, 6 + o]
+                    bb[MODES + o, CAGE + e] -= M[6 + o, c] * S[c, e]
         for o in range(n_m):
             for l in range(n_m):
-                bb[14 + o, 14 + l] += M[6 + o, 6 + l]
+                bb[MODES + o, MODES + l] += M[6 + o, 6 + l]

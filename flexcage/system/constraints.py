@@ -6,11 +6,11 @@ A kind of constraint is a function of the signature
 
 that says of m scalar constraints at time t [s] what they miss: in place, g (m,), and in velocity, h
 (m,), with G (m, 14) = dh/du. q (15,) and u (14,) are the coordinates and velocities of the rings
-and the cage, at the places that the constants below name; p is the kind's vector of parameters.
-Arrays to fill hold zeros; t may be a microsecond before the start. Of level "position", a holonomic
-g(q, t), h is dg/dt; a kind of level "velocity" is a h(q, u, t) and leaves g alone. Both enter the
-equations as index 2, stabilised where there is a place to keep: G^T lambda acts on the bodies, and
-lambda is the result ``multiplier``.
+and the cage, at the places that the constants of ``layout`` name; p is the kind's vector of
+parameters. Arrays to fill hold zeros; t may be a microsecond before the start. Of level "position",
+a holonomic g(q, t), h is dg/dt; a kind of level "velocity" is a h(q, u, t) and leaves g alone. Both
+enter the equations as index 2, stabilised where there is a place to keep: G^T lambda acts on the
+bodies, and lambda is the result ``multiplier``.
 ``register_constraint`` adds a kind from any module.
 """
 
@@ -31,15 +31,24 @@ from flexcage.core.jit import LEAN, kernel, kernel_of, why_not_compiled
 from flexcage.core.kernel_values import KernelType
 from flexcage.core.registry import add, check_free
 from flexcage.system import spec as specs
+from flexcage.system.layout import (  # noqa: F401  # kinds in other modules take them from here
+    CAGE,
+    CAGE_TURN,
+    INNER,
+    INNER_TURN,
+    MODES,
+    OUTER,
+    Q_CAGE,
+    Q_INNER,
+    Q_INNER_TURN,
+    Q_MODES,
+    Q_OUTER,
+    Q_QUATERNION,
+    REACTION_UNITS,
+    Layout,
+)  # fmt: skip
 from flexcage.system.layout import CONSTRAINTS as REACTIONS
-from flexcage.system.layout import REACTION_UNITS, Layout
 from flexcage.system.spec import Constraint
-
-# places in u: velocity of the centre (x, y, z) in space; angular velocity of the inner ring in its
-# non-spinning frame (spin first), of the cage in its own
-INNER, INNER_TURN, OUTER, CAGE, CAGE_TURN = 0, 3, 6, 8, 11
-# places in q: centre; skew, tilt and spin of the inner ring; the outer's centre (y, z); quaternion
-Q_INNER, Q_INNER_TURN, Q_OUTER, Q_CAGE, Q_QUATERNION = 0, 3, 6, 8, 11
 
 N_PARAMETERS = 10
 OFF, VELOCITY, POSITION = 0, 1, 2  # levels; OFF while a start is brought to equilibrium
@@ -254,8 +263,9 @@ def constraints_of(
         p[i, : len(values)] = values
     level = [LEVELS[kind.level] for kind in kinds for _ in kind.labels]
     data = Constraints(
-        np.array(level, float), p, _ease(model), z((m, 14)), z(m), z(m), z((m, 14 + layout.modes)),
-        z((m, m)), z(m, np.int64), z(m), z((2, 15)), z((2, m)), z((m, 14)),
+        np.array(level, float), p, _ease(model), z((m, MODES)), z(m), z(m),
+        z((m, MODES + layout.modes)), z((m, m)), z(m, np.int64), z(m),
+        z((2, Q_MODES)), z((2, m)), z((m, MODES)),
     )  # fmt: skip
     return data, _joined(tuple((kind.rows, len(kind.labels)) for kind in kinds))
 
@@ -281,7 +291,7 @@ def check_independent(
     A place at which a constraint has no slope, as the middle of a circle has none towards it, is
     left by a nudge of the centres in q.
     """
-    basis = np.zeros((0, 14))
+    basis = np.zeros((0, MODES))
     for i, spec in enumerate(constraints):
         G = _slopes(spec, data.p[i], q, u)
         if not _has_slope(G):
@@ -310,7 +320,7 @@ def _slopes(spec: Constraint, p: np.ndarray, q: np.ndarray, u: np.ndarray) -> np
     """G (m, 14) of one constraint; InputError if it fills more rows than it has labels."""
     kind = KINDS[spec.type]
     m = len(kind.labels)
-    G, g, h = np.zeros((m + _BEYOND, 14)), np.zeros(m + _BEYOND), np.zeros(m + _BEYOND)
+    G, g, h = np.zeros((m + _BEYOND, MODES)), np.zeros(m + _BEYOND), np.zeros(m + _BEYOND)
     kind.rows(0.0, q, u, p, G, g, h)
     if G[m:].any() or g[m:].any() or h[m:].any():
         raise InputError(

@@ -40,6 +40,12 @@ POWERS = (
     MODAL_DAMPING, MOUNT, CONSTRAINTS,
 ) = range(len(POWERS))  # fmt: skip
 EXCHANGED = RACE_DAMPING  # so many, the first ones, the bearing exchanges with the outside
+# contact places of an element; from POCKET on the faces of its pocket, then ribs
+INNER_RACE, OUTER_RACE, POCKET = range(3)
+MASS, AXIAL, TRANSVERSE = range(3)  # places in ``Bodies.element`` and ``ring``: mass, inertias
+# places in ``Bodies.outer`` behind MASS
+OUTER_STIFFNESS, OUTER_DAMPING, OUTER_FIXED, OUTER_CLEARANCE = 1, 2, 3, 4
+SHAFT, SHAFT_STIFFNESS, SHAFT_DAMPING = range(3)  # places in ``Bodies.drive``
 KINETIC, STRAIN, IN_CONTACTS, IN_MOUNT = range(4)  # places in ``Report.energy``
 # places in ``law`` behind those of ``contacts.evaluation``: the rows of further constraints, what
 # puts these in (``holding``), and the family's functions ``apart``

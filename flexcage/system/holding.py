@@ -10,6 +10,17 @@ from flexcage.core.jit import fields, part, zero
 from flexcage.core.rotation import quaternion_rate
 from flexcage.solve.bordered import lu_factor, lu_solve
 from flexcage.system.constraints import BEAR, OFF, ONTO, POSITION
+from flexcage.system.data import OUTER_FIXED
+from flexcage.system.layout import (
+    CAGE,
+    CAGE_TURN,
+    MODES,
+    N_OWN,
+    OUTER,
+    Q_MODES,
+    Q_QUATERNION,
+    places,
+)
 from flexcage.system.rates import cage_accelerations
 from flexcage.system.rows import ring_rates
 
@@ -28,15 +39,15 @@ def hold(t, y, yd, d, rows, out, mode):
     multipliers into y, and what they do to the accelerations in yd.
     """
     Z, nm = fields(d.bodies).radius.shape[0], fields(d.pocket).phi_max.shape[0]
-    zq, nq, end = 6 * Z, 6 * Z + 15 + nm, 12 * Z + 29 + 2 * nm
-    ring = nq + zq
-    q, u = y[zq : zq + 15], y[ring : ring + 14]
+    at = places(Z, nm)
+    q, u = y[at.rest_q :][:Q_MODES], y[at.rest_u :][:MODES]
     if mode == ONTO:
         _project(t, q, u, d, rows)
     elif mode == BEAR:
-        _bear(t, q, u, yd[zq : zq + 15], yd[ring:end], y[end:], d, rows)
+        _bear(t, q, u, yd[at.rest_q :][:Q_MODES], yd[at.rest_u : at.lam], y[at.lam :], d, rows)
     else:
-        _rows(t, q, u, y[end + 7 :], d, rows, out[zq:nq], out[ring:end], out[end + 7 :], mode)
+        r_q, r_u = out[at.rest_q : at.u], out[at.rest_u : at.lam]
+        _rows(t, q, u, y[at.held :], d, rows, r_q, r_u, out[at.held :], mode)
 
 
 @part
@@ -53,11 +64,12 @@ def _displaced(q, shift, rates, out):
     """Change (15,) of the coordinates q of rings and cage that a displacement (14,), in the order
     of velocities, makes; ``rates``: room for six numbers."""
     ring_rates(q, shift, rates)
-    for k in range(6):
+    for k in range(OUTER):
         out[k] = rates[k]
-    for k in range(6, 11):
+    for k in range(OUTER, CAGE_TURN):
         out[k] = shift[k]
-    quaternion_rate(q[11:15], shift[11:14], out[11:15])
+    turn = out[Q_QUATERNION:Q_MODES]
+    quaternion_rate(q[Q_QUATERNION:Q_MODES], shift[CAGE_TURN:MODES], turn)
 
 
 @part
@@ -65,7 +77,7 @@ def _rows(t, q, u, multipliers, d, rows, r_q, r_u, out, mode):
     """Rows of the constraints into ``out``, and what their ``multipliers``, lambda then mu, add to
     the rows of rings and cage; slopes if asked for."""
     c, tan, work = fields(d.constraints), fields(d.tangent), fields(d.scratch)
-    fixed = fields(d.bodies).outer[3] > 0.0  # then nothing moves the outer ring
+    fixed = fields(d.bodies).outer[OUTER_FIXED] > 0.0  # then nothing moves the outer ring
     _evaluate(t, q, u, c, rows)
     m, shift = c.level.shape[0], work.shift
     lam, mu = multipliers[:m], multipliers[m : 2 * m]
@@ -74,15 +86,15 @@ def _rows(t, q, u, multipliers, d, rows, r_q, r_u, out, mode):
         held = c.level[k] != OFF
         out[k] = c.h[k] if held else lam[k]
         out[m + k] = c.g[k] if c.level[k] == POSITION else mu[k]
-        for j in range(14):
-            acts = 0.0 if fixed and 6 <= j < 8 else c.G[k, j]
+        for j in range(MODES):
+            acts = 0.0 if fixed and OUTER <= j < CAGE else c.G[k, j]
             r_u[j] -= acts * lam[k] if held else 0.0
             if c.level[k] == POSITION:
                 shift[j] += acts * mu[k]
             if mode == TANGENT:
                 tan.held[k, j] = acts if held else 0.0
     _displaced(q, shift, work.S[0], work.moved)
-    for j in range(15):
+    for j in range(Q_MODES):
         r_q[j] -= work.moved[j]
     if mode == TANGENT:
         _slopes(c, tan)
@@ -96,7 +108,7 @@ def _slopes(c, tan):
     for k in range(m):
         rate, place = first + k, first + m + k
         held, kept = c.level[k] != OFF, c.level[k] == POSITION
-        for j in range(14):
+        for j in range(MODES):
             if held:
                 tan.Cbb[rate, j] = c.G[k, j]
             if kept:
@@ -107,7 +119,7 @@ def _slopes(c, tan):
             tan.Cbb[place, place] = 1.0
         for l in range(m if kept else 0):
             if c.level[l] == POSITION:
-                for j in range(14):
+                for j in range(MODES):
                     tan.Kbb[place, first + m + l] += c.G[k, j] * tan.held[l, j]
 
 
@@ -125,20 +137,20 @@ def _project(t, q, u, d, rows):
             for l in range(m):
                 both = kept and (which == 1 or c.level[l] == POSITION)
                 c.S[k, l] = 0.0 if k != l or both else 1.0
-                for j in range(14 if both else 0):
+                for j in range(MODES if both else 0):
                     c.S[k, l] += c.G[k, j] * c.ease[j] * c.G[l, j]
         lu_factor(c.S, c.pivot)
         lu_solve(c.S, c.pivot, c.x)
-        for j in range(14):
+        for j in range(MODES):
             work.shift[j] = 0.0
             for k in range(m):
                 work.shift[j] += c.ease[j] * c.G[k, j] * c.x[k]
         if which == 1:
-            for j in range(14):
+            for j in range(MODES):
                 u[j] += work.shift[j]
         else:
             _displaced(q, work.shift, work.S[0], work.moved)
-            for j in range(15):
+            for j in range(Q_MODES):
                 q[j] += work.moved[j]
 
 
@@ -154,7 +166,7 @@ def _bear(t, q, u, qd, a, multipliers, d, rows):
     m = c.level.shape[0]
     for side in range(2):
         late = -INSTANT if side == 0 else INSTANT
-        for j in range(15):
+        for j in range(Q_MODES):
             c.place[side, j] = q[j] + late * qd[j]
         zero(c.spare)
         zero(c.late[side])
@@ -164,24 +176,24 @@ def _bear(t, q, u, qd, a, multipliers, d, rows):
     for k in range(m):
         pull = c.pull[k]
         zero(pull)
-        for j in range(14):
-            pull[j] = c.G[k, j] if j >= 8 else c.G[k, j] * c.ease[j]
+        for j in range(MODES):
+            pull[j] = c.G[k, j] if j >= CAGE else c.G[k, j] * c.ease[j]
         cage_accelerations(
-            frame.rigid, frame.coupled, fields(d.cage).plain, fields(d.scratch).A, pull[8:],
+            frame.rigid, frame.coupled, fields(d.cage).plain, fields(d.scratch).A, pull[CAGE:],
             fields(d.rates),
         )  # fmt: skip
     for k in range(m):
         c.x[k] = -0.5 * (c.late[1, k] - c.late[0, k]) / INSTANT
-        for j in range(14):
+        for j in range(MODES):
             c.x[k] -= c.G[k, j] * a[j]
         for l in range(m):
             c.S[k, l] = 0.0
-            for j in range(14):
+            for j in range(MODES):
                 c.S[k, l] += c.G[k, j] * c.pull[l, j]
     lu_factor(c.S, c.pivot)
     lu_solve(c.S, c.pivot, c.x)
     for k in range(m):
-        multipliers[7 + k] = c.x[k]
+        multipliers[N_OWN + k] = c.x[k]
         for row, j in ((0, 0), (3, 3), (1, 4), (2, 5)):  # what holds the ring bears it
             multipliers[row] -= c.G[k, j] * c.x[k] if c.ease[j] == 0.0 else 0.0
         for j in range(a.shape[0]):

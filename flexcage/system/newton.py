@@ -11,6 +11,19 @@ from flexcage.contacts.evaluation import ACCEPT, RESIDUAL, TANGENT
 from flexcage.core.jit import VECTORISED, fields, kernel, zero
 from flexcage.core.rotation import quaternion_rate, rotation_of_quaternion_change
 from flexcage.solve import bordered
+from flexcage.system.data import AXIAL, MASS, TRANSVERSE
+from flexcage.system.layout import (
+    CAGE_TURN,
+    MODES,
+    N_LAMBDA,
+    N_OWN,
+    OUTER,
+    PER_ELEMENT,
+    Q_MODES,
+    Q_OUTER,
+    Q_QUATERNION,
+    places,
+)
 from flexcage.system.sampling import give_powers
 
 _factor_bordered = bordered.factor
@@ -38,10 +51,10 @@ def factor(alpha, data):
 @kernel(fastmath=VECTORISED)
 def assemble(alpha, bodies, tan, m):
     """Newton's matrix alpha M + C + K/alpha in blocks, and its factors."""
-    mass, Ia, It = bodies.element[0], bodies.element[1], bodies.element[2]
+    mass, Ia, It = bodies.element[MASS], bodies.element[AXIAL], bodies.element[TRANSVERSE]
     b = 1.0 / alpha
     nb, further = m.S.shape[0], tan.held.shape[0]
-    n6 = nb - 7 - 2 * further
+    n6 = nb - N_OWN - 2 * further
     for i in range(m.A.shape[0]):
         high = nb if m.active[i] else m.low
         for r in range(6):
@@ -64,8 +77,8 @@ def assemble(alpha, bodies, tan, m):
     for k in range(4):
         m.S[coordinate[k], n6 + k] -= 1.0
     for k in range(further):
-        for c in range(14):
-            m.S[c, n6 + 7 + k] -= tan.held[k, c]
+        for c in range(MODES):
+            m.S[c, n6 + N_OWN + k] -= tan.held[k, c]
     return _factor_bordered(m)
 
 
@@ -78,31 +91,32 @@ def newton_step(alpha, y, r, tan, m):
     """r <- Newton step for the residual r, all unknowns; alpha is that of the factors."""
     Z = m.A.shape[0]
     nb, further = m.S.shape[0], tan.held.shape[0]
-    nm = nb - 21 - 2 * further
-    nq, nu = 6 * Z + 15 + nm, 6 * Z + 14 + nm
+    nm = nb - MODES - N_OWN - 2 * further
+    at = places(Z, nm)
+    z, nq = at.rest_q, at.u
     b = 1.0 / alpha
     s, sb = m.blocks[0], m.border[0]  # kinematic residuals as displacements
     x, xb = m.blocks[1], m.border[1]  # right-hand side, then velocities
     zero(sb)
     for i in range(Z):
-        o = 6 * i
+        o = PER_ELEMENT * i
         s[i, 0], s[i, 1], s[i, 2] = r[o], r[o + 1], r[o + 2] * y[o + 1]
         s[i, 3], s[i, 4], s[i, 5] = r[o + 5], r[o + 3], r[o + 4]
-    z = 6 * Z
     sb[0], sb[1], sb[2] = r[z], r[z + 1], r[z + 2]
     sb[3], sb[4], sb[5] = r[z + 5], r[z + 3], r[z + 4]
     for c in range(5):
-        sb[6 + c] = r[z + 6 + c]
-    rotation_of_quaternion_change(y[z + 11 : z + 15], r[z + 11 : z + 15], sb[11:14])
+        sb[OUTER + c] = r[z + Q_OUTER + c]
+    quat, r_quat = y[z + Q_QUATERNION : z + Q_MODES], r[z + Q_QUATERNION : z + Q_MODES]
+    rotation_of_quaternion_change(quat, r_quat, sb[CAGE_TURN:MODES])
     stretch, norm = 0.0, 0.0  # of the quaternion: no rotation, but it must not run away
-    for c in range(11, 15):
+    for c in range(Q_QUATERNION, Q_MODES):
         stretch += y[z + c] * r[z + c]
         norm += y[z + c] * y[z + c]
     for k in range(nm):
-        sb[14 + k] = r[z + 15 + k]
+        sb[MODES + k] = r[z + Q_MODES + k]
     for k in range(nb):
         f = 0.0
-        for c in range(14 + nm):
+        for c in range(MODES + nm):
             f += tan.Kbb[k, c] * sb[c]
         xb[k] = -r[nq + z + k] + b * f
     for i in range(Z):
@@ -113,7 +127,7 @@ def newton_step(alpha, y, r, tan, m):
                 f += tan.Krr[i, k, c] * s[i, c]
             for c in range(high):
                 f += tan.Krb[i, k, c] * sb[c]
-            x[i, k] = -r[nq + 6 * i + k] + b * f
+            x[i, k] = -r[nq + PER_ELEMENT * i + k] + b * f
         for k in range(high):
             f = 0.0
             for c in range(6):
@@ -121,29 +135,30 @@ def newton_step(alpha, y, r, tan, m):
             xb[k] += b * f
     _solve_bordered(m, x, xb)
     for i in range(Z):
-        o = 6 * i
+        o = PER_ELEMENT * i
         for k in range(6):
             r[nq + o + k] = x[i, k]
             s[i, k] = b * (x[i, k] - s[i, k])
         r[o], r[o + 1], r[o + 2] = s[i, 0], s[i, 1], s[i, 2] / y[o + 1]
         r[o + 3], r[o + 4], r[o + 5] = s[i, 4], s[i, 5], s[i, 3]
-    for k in range(14 + nm):
+    for k in range(MODES + nm):
         r[nq + z + k] = xb[k]
         sb[k] = b * (xb[k] - sb[k])
-    for k in range(7 + 2 * further):
-        r[nq + nu + k] = xb[14 + nm + k]
-    sb[0] += b * xb[14 + nm + 4]
-    sb[4] += b * xb[14 + nm + 5]
-    sb[5] += b * xb[14 + nm + 6]
+    for k in range(N_OWN + 2 * further):
+        r[at.lam + k] = xb[MODES + nm + k]
+    place = MODES + nm + N_LAMBDA  # of the multipliers that hold places
+    sb[0] += b * xb[place]
+    sb[4] += b * xb[place + 1]
+    sb[5] += b * xb[place + 2]
     for k in range(further):
-        for c in range(14):
-            sb[c] += b * tan.held[k, c] * xb[21 + nm + further + k]
+        for c in range(MODES):
+            sb[c] += b * tan.held[k, c] * xb[MODES + N_OWN + nm + further + k]
     r[z], r[z + 1], r[z + 2] = sb[0], sb[1], sb[2]
     r[z + 3], r[z + 4], r[z + 5] = sb[4], sb[5], sb[3]
     for c in range(5):
-        r[z + 6 + c] = sb[6 + c]
-    quaternion_rate(y[z + 11 : z + 15], sb[11:14], r[z + 11 : z + 15])
-    for c in range(11, 15):
+        r[z + Q_OUTER + c] = sb[OUTER + c]
+    quaternion_rate(quat, sb[CAGE_TURN:MODES], r_quat)
+    for c in range(Q_QUATERNION, Q_MODES):
         r[z + c] -= b * stretch / norm * y[z + c]
     for k in range(nm):
-        r[z + 15 + k] = sb[14 + k]
+        r[z + Q_MODES + k] = sb[MODES + k]

@@ -22,8 +22,18 @@ from flexcage.solve.bordered import lu_factor, lu_solve
 from flexcage.solve.oscillators import Oscillators, no_oscillators
 from flexcage.system.constraints import BEAR, ONTO
 from flexcage.system.courses import table_slope, wave_slope
-from flexcage.system.data import CONSTRAINT_ROWS, HOLD
-from flexcage.system.layout import Layout
+from flexcage.system.data import AXIAL, CONSTRAINT_ROWS, HOLD, MASS, OUTER_FIXED, SHAFT, TRANSVERSE
+from flexcage.system.layout import (
+    AXIAL_FORCE,
+    CAGE,
+    DRIVE_TORQUE,
+    N_LAMBDA,
+    OUTER,
+    Q_OUTER,
+    Layout,
+    of_element,
+    places,
+)
 from flexcage.system.rows import shaft_pull, speed_at
 from flexcage.system.sampling import give_powers, is_main, keep_force, keep_report
 
@@ -83,54 +93,54 @@ def _rates(t, y, yd, data, mode):
     d = data[0]
     bodies, out, frame = fields(d.bodies), fields(d.scratch).out, fields(d.frame)
     Z, nm = bodies.radius.shape[0], fields(d.rates).given.shape[0]
-    n_q, n_u = 6 * Z + 15 + nm, 6 * Z + 14 + nm
-    end, ring = n_q + n_u, n_q + 6 * Z
-    driven = bodies.drive[0] == 0.0
-    _hold(t, y[6 * Z : 6 * Z + 6], y[ring : ring + 6], bodies, driven)
+    at = places(Z, nm)
+    end, ring, q = at.lam, at.rest_u, y[at.rest_q :]
+    driven = bodies.drive[SHAFT] == 0.0
+    _hold(t, q[:Q_OUTER], y[ring : ring + OUTER], bodies, driven)
     zero(y[end:])
     law = data[1]
     law[HOLD](t, y, yd, d, law[CONSTRAINT_ROWS], out, ONTO)
-    shaft_pull(bodies, y[6 * Z : 6 * Z + 6], y[ring : ring + 6], y[end : end + 3])
+    shaft_pull(bodies, q[:Q_OUTER], y[ring : ring + OUTER], y[end : end + 3])
     zero(yd)
     data[2](t, y, yd, d, data[1], out, mode)
     for k in range(end):
         yd[k] = -out[k]
     linear, axial, transverse = (
-        1.0 / bodies.element[0],
-        1.0 / bodies.element[1],
-        1.0 / bodies.element[2],
+        1.0 / bodies.element[MASS],
+        1.0 / bodies.element[AXIAL],
+        1.0 / bodies.element[TRANSVERSE],
     )
     for i in range(Z):
-        a = yd[n_q + 6 * i : n_q + 6 * i + 6]
+        a = yd[at.u :][of_element(i)]
         for c in range(3):
             a[c] *= linear
         a[3] *= axial
         a[4] *= transverse
         a[5] *= transverse
-    a, row, lam = yd[ring : ring + 8], out[ring : ring + 6], y[end : end + 4]
+    a, row, lam = yd[ring : ring + CAGE], out[ring : ring + OUTER], y[end : end + N_LAMBDA]
     for k in range(3):
-        a[k] /= bodies.ring[0]
-    a[4] /= bodies.ring[2]
-    a[5] /= bodies.ring[2]
+        a[k] /= bodies.ring[MASS]
+    a[4] /= bodies.ring[TRANSVERSE]
+    a[5] /= bodies.ring[TRANSVERSE]
     for k in range(3):
         if bodies.free[k] == 0.0:
             c = 0 if k == 0 else 3 + k
             a[c], lam[k] = 0.0, row[c]
     if bodies.free[3] == 0.0:
         if bodies.free[0] > 0.0:
-            lam[0] += row[0]
+            lam[AXIAL_FORCE] += row[0]
         a[0] = a[1] = a[2] = 0.0
     if driven:
         a[3] = table_slope(bodies.speed, t) + wave_slope(bodies.waves[0], t)
-        lam[3] = row[3] + bodies.ring[1] * a[3]
+        lam[DRIVE_TORQUE] = row[3] + bodies.ring[AXIAL] * a[3]
     else:
-        a[3] /= bodies.ring[1]
-    if bodies.outer[3] == 0.0:  # a fixed ring has no acceleration
-        a[6] /= bodies.outer[0]
-        a[7] /= bodies.outer[0]
+        a[3] /= bodies.ring[AXIAL]
+    if bodies.outer[OUTER_FIXED] == 0.0:  # a fixed ring has no acceleration
+        a[6] /= bodies.outer[MASS]
+        a[7] /= bodies.outer[MASS]
     cage_accelerations(
         frame.rigid, frame.coupled, fields(d.cage).plain, fields(d.scratch).A,
-        yd[ring + 8 : end], fields(d.rates),
+        yd[ring + CAGE : end], fields(d.rates),
     )  # fmt: skip
     law[HOLD](t, y, yd, d, law[CONSTRAINT_ROWS], out, BEAR)
 

@@ -38,15 +38,34 @@ from flexcage.core.vectors import (
 from flexcage.system.blocks import scatter, scatter_outer
 from flexcage.system.data import (
     APART,
+    AXIAL,
     DRAG,
     GRAVITY,
     IN_CONTACTS,
+    INNER_RACE,
     KINETIC,
+    MASS,
+    OUTER_RACE,
+    POCKET,
     RACE_DAMPING,
     RACE_FRICTION,
     RIB_DAMPING,
     RIB_FRICTION,
     ROLLING_RESISTANCE,
+    TRANSVERSE,
+)
+from flexcage.system.layout import (
+    CAGE,
+    CAGE_TURN,
+    INNER,
+    MODES,
+    OUTER,
+    Q_CAGE,
+    Q_MODES,
+    Q_OUTER,
+    Q_QUATERNION,
+    of_element,
+    places,
 )
 from flexcage.system.rows import (
     CAGE_SPIN,
@@ -86,41 +105,38 @@ def evaluate(t, y, yd, d, law, out, mode):
     """
     work, Z = fields(d.scratch), fields(d.bodies).radius.shape[0]
     nm = fields(d.pocket).phi_max.shape[0]
-    nq, nu = 6 * Z + 15 + nm, 6 * Z + 14 + nm
-    q, u, qd, ud = y[:nq], y[nq : nq + nu], yd[:nq], yd[nq : nq + nu]
-    r_q, r_u = out[:nq], out[nq : nq + nu]
-    zq = 6 * Z
+    at = places(Z, nm)
+    q, u, qd, ud = y[: at.rest_q], y[at.u : at.rest_u], yd[: at.rest_q], yd[at.u : at.rest_u]
+    r_q, r_u = out[: at.rest_q], out[at.u : at.rest_u]
+    rest_q, rest_u = y[at.rest_q : at.u], y[at.rest_u : at.lam]
     asked = RESIDUAL if mode == OUTER_RING else mode
     clear_sums(work.border, d, asked)
-    ring_q, ring_u = q[zq : zq + 6], u[zq : zq + 6]
-    matrix_from_quaternion(q[zq + 11 : zq + 15], work.A)
-    put(work.vec[CAGE_SPIN], turned(work.A, xyz(u[zq + 11 : zq + 14])))
+    ring_q, ring_u = rest_q[:Q_OUTER], rest_u[:OUTER]
+    matrix_from_quaternion(rest_q[Q_QUATERNION:Q_MODES], work.A)
+    put(work.vec[CAGE_SPIN], turned(work.A, xyz(rest_u[CAGE_TURN:MODES])))
     inner_ring(ring_q, ring_u, work.vec)
     pose, poses = fields(d.pose), work.poses
     zero(work.wrenches)
     for i in range(Z):
-        o = 6 * i
-        set_pose(q[o : o + 6], u[o : o + 6], pose)
+        own = of_element(i)
+        set_pose(q[own], u[own], pose)
         keep_pose(pose, poses[i])
     lot = fields(d.race_work).who.shape[0]
     for first in range(0, Z if mode != OUTER_RING else 0, lot):
         _inner_contacts(first, min(first + lot, Z), q, ring_q, ring_u, d, law, mode)
-    out_q, out_u = q[zq + 6 : zq + 8], u[zq + 6 : zq + 8]
+    out_q, out_u = rest_q[Q_OUTER:Q_CAGE], rest_u[OUTER:CAGE]
     for first in range(0, Z, lot):
         _outer_contacts(first, min(first + lot, Z), q, out_q, out_u, d, law, asked)
     if mode >= REPORT:
         for c in range(2):
-            fields(d.report).outer_races[c] = work.border[6 + c]
+            fields(d.report).outer_races[c] = work.border[OUTER + c]
     if mode == OUTER_RING:
         return
     law[POCKETS](t, y, yd, d, law[:APART], out, mode)
     for i in range(Z):
-        o = 6 * i
+        own = of_element(i)
         take_pose(poses[i], pose)
-        _roller_rows(
-            i, q[o : o + 6], u[o : o + 6], qd[o : o + 6], ud[o : o + 6], d, r_q[o : o + 6],
-            r_u[o : o + 6], mode,
-        )  # fmt: skip
+        _roller_rows(i, q[own], u[own], qd[own], ud[own], d, r_q[own], r_u[own], mode)
     law[SHARED](t, y, yd, d, law[:APART], out, mode)
 
 
@@ -135,18 +151,19 @@ def _inner_contacts(first, end, q, ring_q, ring_u, d, law, mode):
         take_pose(work.poses[i], pose)
         at = rw.partner[count]
         P, b, Vr, wr = at[0], at[1], at[2], at[3]
-        put(P, minus((q[6 * i], q[6 * i + 1], 0.0), turned(F, xyz(ring_q))))
+        qi = q[of_element(i)]
+        put(P, minus((qi[0], qi[1], 0.0), turned(F, xyz(ring_q))))
         put(b, turned(F, xyz(vec[RING_AXIS])))
         put(Vr, turned(F, xyz(ring_u)))
         put(wr, turned(F, xyz(vec[RING_SPIN])))
         if rib_contact(
-            pose, fields(d.rib), P, b, Vr, wr, memory.rib[i], (law[RIB_LAW], law[RIB_RUBS]),
-            fields(d.slices).row[0], pair, mode, sums,
+            pose, fields(d.rib), P, b, Vr, wr, memory.rib[i],
+            (law[RIB_LAW], law[RIB_RUBS]), fields(d.slices).row[0], pair, mode, sums,
         ):  # fmt: skip
             _add_inner(i, P, d, mode)
             if mode >= REPORT:
                 _report_ribs(i, sums, rep)
-        onset = memory.race[i, 0]
+        onset = memory.race[i, INNER_RACE]
         if meet_race(count, pose, side, radius[i], ring_q[5], onset, rw):
             rw.who[count] = i
             count += 1
@@ -157,7 +174,7 @@ def _inner_contacts(first, end, q, ring_q, ring_u, d, law, mode):
         push_by_race(m, pose, side, radius[i], ring_q[5], rw, pair, mode, sums)
         _add_inner(i, rw.partner[m, 0], d, mode)
         if mode >= REPORT:
-            _report_race(i, 0, sums, rep)
+            _report_race(i, INNER_RACE, sums, rep)
 
 
 @part
@@ -165,12 +182,12 @@ def _add_inner(i, P, d, mode):
     """Add the pair's wrench to roller i and to the inner ring, from which P leads to the roller."""
     pair, work, F = fields(d.pair), fields(d.scratch), fields(d.pose).F
     add_to_element(work.wrenches[i], pair)
-    react(F, work.unit, pair.wrench, xyz(P), work.border, 0)
+    react(F, work.unit, pair.wrench, xyz(P), work.border, INNER)
     if mode == TANGENT:
         copy_into(work.R[0], F)
         copy_into(work.R[1], F)
         shift_matrix(work.R, P, work.S)
-        scatter(pair, work.S, i, 0, fields(d.tangent), work.T6)
+        scatter(pair, work.S, i, INNER, fields(d.tangent), work.T6)
 
 
 @part
@@ -184,11 +201,12 @@ def _outer_contacts(first, end, q, out_q, out_u, d, law, mode):
         take_pose(work.poses[i], pose)
         at = rw.partner[count]
         P, b, Vr, wr = at[0], at[1], at[2], at[3]
-        put(P, minus((q[6 * i], q[6 * i + 1], 0.0), turned(F, (0.0, out_q[0], out_q[1]))))
+        qi = q[of_element(i)]
+        put(P, minus((qi[0], qi[1], 0.0), turned(F, (0.0, out_q[0], out_q[1]))))
         put(b, (1.0, 0.0, 0.0))
         put(Vr, turned(F, (0.0, out_u[0], out_u[1])))
         put(wr, (0.0, 0.0, 0.0))
-        onset = memory.race[i, 1]
+        onset = memory.race[i, OUTER_RACE]
         if meet_race(count, pose, side, radius[i], 0.0, onset, rw):
             rw.who[count] = i
             count += 1
@@ -199,18 +217,19 @@ def _outer_contacts(first, end, q, out_q, out_u, d, law, mode):
         push_by_race(m, pose, side, radius[i], 0.0, rw, pair, mode, work.sums)
         add_to_element(work.wrenches[i], pair)
         for c in range(2):
-            border[6 + c] -= F[1, 1 + c] * pair.wrench[1] + F[2, 1 + c] * pair.wrench[2]
+            border[OUTER + c] -= F[1, 1 + c] * pair.wrench[1] + F[2, 1 + c] * pair.wrench[2]
         if mode == TANGENT:
             scatter_outer(pair, F, i, fields(d.tangent))
         elif mode >= REPORT:
-            _report_race(i, 1, work.sums, fields(d.report))
+            _report_race(i, OUTER_RACE, work.sums, fields(d.report))
 
 
 @part
 def _report_ribs(i, sums, rep):
     rep.rib[i, 0], rep.rib[i, 1] = sums[NORMAL], sums[NORMAL + 1]
-    rep.contact[i, 6] = 1 if sums[NORMAL] > 0.0 else 0
-    rep.contact[i, 7] = 1 if sums[NORMAL + 1] > 0.0 else 0
+    ribs = POCKET + rep.pocket_normal.shape[1]
+    rep.contact[i, ribs] = 1 if sums[NORMAL] > 0.0 else 0
+    rep.contact[i, ribs + 1] = 1 if sums[NORMAL + 1] > 0.0 else 0
     rep.energy[IN_CONTACTS] += sums[STORED]
     rep.power[RIB_DAMPING] += sums[DAMPED]
     rep.power[RIB_FRICTION] += sums[RUBBED]
@@ -233,7 +252,7 @@ def _roller_rows(i, qi, ui, qdi, udi, d, r_q, r_u, mode):
     pose, work, bodies = fields(d.pose), fields(d.scratch), fields(d.bodies)
     tan, rep = fields(d.tangent), fields(d.report)
     F, FR, rates = pose.F, work.wrenches[i], work.S[0]
-    mass, Ia, It = bodies.element[0], bodies.element[1], bodies.element[2]
+    mass, Ia, It = bodies.element[MASS], bodies.element[AXIAL], bodies.element[TRANSVERSE]
     drag = -bodies.drag[0] * abs(ui[2]) * ui[2]
     gr = F[1, 1] * bodies.gravity[1] + F[1, 2] * bodies.gravity[2]
     gp = F[2, 1] * bodies.gravity[1] + F[2, 2] * bodies.gravity[2]

@@ -34,7 +34,25 @@ from flexcage.core.vectors import (
     xyz,
 )
 from flexcage.system.blocks import scatter, scatter_modes
-from flexcage.system.data import IN_CONTACTS, POCKET_DAMPING, POCKET_FRICTION
+from flexcage.system.data import (
+    IN_CONTACTS,
+    INNER_RACE,
+    OUTER_RACE,
+    POCKET,
+    POCKET_DAMPING,
+    POCKET_FRICTION,
+)
+from flexcage.system.layout import (
+    CAGE,
+    CAGE_TURN,
+    MODES,
+    OUTER,
+    Q_CAGE,
+    Q_MODES,
+    Q_QUATERNION,
+    of_element,
+    places,
+)
 from flexcage.system.rows import (
     CAGE_SPIN,
     LEVER,
@@ -51,19 +69,19 @@ def roller_pockets(t, y, yd, d, law, out, mode):
     ``residual.evaluate``. Poses of rollers and cage are in ``Scratch`` already."""
     work, phi_max = fields(d.scratch), fields(d.pocket).phi_max
     Z, nm = fields(d.bodies).radius.shape[0], phi_max.shape[0]
-    zq, nq, nu = 6 * Z, 6 * Z + 15 + nm, 6 * Z + 14 + nm
-    q, u = y[:nq], y[nq : nq + nu]
-    qf, qfd, modal = q[zq + 15 :], u[zq + 14 :], work.modal
+    at = places(Z, nm)
+    q, rest_q, rest_u = y[: at.rest_q], y[at.rest_q : at.u], y[at.rest_u : at.lam]
+    qf, qfd, modal = rest_q[Q_MODES:], rest_u[MODES:], work.modal
     margin = 0.0
     for m in range(nm):
         margin += phi_max[m] * abs(qf[m])
         modal[0, m], modal[1, m] = qf[m], qfd[m]
-    Rc, Vc = q[zq + 8 : zq + 11], u[zq + 8 : zq + 11]
+    Rc, Vc = rest_q[Q_CAGE:Q_QUATERNION], rest_u[CAGE:CAGE_TURN]
     for i in range(Z):
         take_pose(work.poses[i], fields(d.pose))
-        _pocket(i, q[6 * i : 6 * i + 6], Rc, Vc, modal[0], modal[1], margin, d, law, mode)
+        _pocket(i, q[of_element(i)], Rc, Vc, modal[0], modal[1], margin, d, law, mode)
         if mode >= REPORT:
-            _approach(i, u[zq : zq + 6], u[zq + 6 : zq + 8], d)
+            _approach(i, rest_u[:OUTER], rest_u[OUTER:CAGE], d)
 
 
 @part
@@ -88,7 +106,7 @@ def _pocket(i, qi, Rc, Vc, qf, qfd, margin, d, law, mode):
     )  # fmt: skip
     if hit:
         add_to_element(work.wrenches[i], pair)
-        react(F, A, pair.wrench, xyz(D), border, 8)
+        react(F, A, pair.wrench, xyz(D), border, CAGE)
         push_modes(data, i, pw, border)
     if mode == TANGENT:
         tan.active[i] = 1 if hit else 0
@@ -97,7 +115,7 @@ def _pocket(i, qi, Rc, Vc, qf, qfd, margin, d, law, mode):
             for c in range(3):
                 put(work.R[1, c], turned_back(A, row(F, c)))
             shift_matrix(work.R, D, work.S)
-            scatter(pair, work.S, i, 8, tan, work.T6)
+            scatter(pair, work.S, i, CAGE, tan, work.T6)
             if qf.shape[0] > 0:
                 scatter_modes(i, pw, work.S, tan, data.phi.shape[4])
     elif mode >= REPORT:
@@ -126,7 +144,7 @@ def _report_pocket(i, hit, sums, pw, rep, mode):
     for f in range(4):
         rep.pocket_normal[i, f] = pw.normal[f]
         rep.pocket_friction[i, f] = pw.tangential[f]
-        rep.contact[i, 2 + f] = 1 if pw.normal[f] > 0.0 else 0
+        rep.contact[i, POCKET + f] = 1 if pw.normal[f] > 0.0 else 0
 
 
 @part
@@ -135,12 +153,13 @@ def _approach(i, ring_u, out_u, d):
     pose, vec, G = fields(d.pose), fields(d.scratch).vec, fields(d.pocket_work).G
     rep = fields(d.report)
     F, V = pose.F, xyz(pose.V)
-    rep.approach[i, 0] = F[1, 1] * ring_u[1] + F[1, 2] * ring_u[2] - V[1]
-    rep.approach[i, 1] = V[1] - F[1, 1] * out_u[0] - F[1, 2] * out_u[1]
+    rep.approach[i, INNER_RACE] = F[1, 1] * ring_u[1] + F[1, 2] * ring_u[2] - V[1]
+    rep.approach[i, OUTER_RACE] = V[1] - F[1, 1] * out_u[0] - F[1, 2] * out_u[1]
     cage = plus(xyz(vec[PARTNER_V]), cross(xyz(vec[PARTNER_W]), xyz(vec[LEVER])))
     v = minus(V, cage)
     t, x = dot(row(G, 2), v), dot(row(G, 0), v)
-    rep.approach[i, 2], rep.approach[i, 3] = t, -t
-    rep.approach[i, 4], rep.approach[i, 5] = x, -x
-    rep.approach[i, 6] = V[0] - ring_u[0]
-    rep.approach[i, 7] = -rep.approach[i, 6]
+    rep.approach[i, POCKET], rep.approach[i, POCKET + 1] = t, -t
+    rep.approach[i, POCKET + 2], rep.approach[i, POCKET + 3] = x, -x
+    ribs = POCKET + rep.pocket_normal.shape[1]
+    rep.approach[i, ribs] = V[0] - ring_u[0]
+    rep.approach[i, ribs + 1] = -rep.approach[i, ribs]

@@ -36,6 +36,7 @@ from flexcage.core.vectors import (
 )
 from flexcage.system.courses import table_integral, table_value, wave_integral, wave_value
 from flexcage.system.data import (
+    AXIAL,
     CONSTRAINT_ROWS,
     DRAG,
     DRIVE,
@@ -47,13 +48,45 @@ from flexcage.system.data import (
     KINETIC,
     LAND_DAMPING,
     LAND_FRICTION,
+    MASS,
     MODAL_DAMPING,
     MOUNT,
+    OUTER_CLEARANCE,
+    OUTER_DAMPING,
+    OUTER_FIXED,
+    OUTER_STIFFNESS,
+    SHAFT,
+    SHAFT_DAMPING,
+    SHAFT_STIFFNESS,
     STRAIN,
+    TRANSVERSE,
+)
+from flexcage.system.layout import (
+    AXIAL_FORCE,
+    CAGE,
+    CAGE_TURN,
+    DRIVE_TORQUE,
+    INNER_TURN,
+    MODES,
+    MOMENT_Y,
+    MOMENT_Z,
+    N_LAMBDA,
+    N_OWN,
+    OUTER,
+    Q_CAGE,
+    Q_INNER_TURN,
+    Q_MODES,
+    Q_OUTER,
+    Q_QUATERNION,
+    places,
 )
 
 # rows of ``Work.vec``: of the bodies, in space; of the pair under work, in the roller's frame F
 CAGE_SPIN, RING_AXIS, RING_SPIN, LEVER, AXIS, PARTNER_V, PARTNER_W, GUIDE, GUIDE_V = range(9)
+# the same rows when lands and rings have their turn: forces and moments on cage and guiding ring,
+# forces of the outer ring on its housing and of the shaft on the inner ring
+CAGE_FORCE, CAGE_MOMENT, RING_FORCE, RING_MOMENT = LEVER, AXIS, PARTNER_V, PARTNER_W
+HOUSING_FORCE, SHAFT_PULL = LEVER, AXIS
 
 
 def shared_rows(t, y, yd, d, law, out, mode):
@@ -63,16 +96,16 @@ def shared_rows(t, y, yd, d, law, out, mode):
     another process at the same time (a third of the work, measured).
     """
     nm = fields(d.pocket).phi_max.shape[0]
-    zq = 6 * fields(d.bodies).radius.shape[0]
-    nq, nu = zq + 15 + nm, zq + 14 + nm
-    q, u, qd, ud = y[:nq], y[nq : nq + nu], yd[:nq], yd[nq : nq + nu]
-    lam, mu = y[nq + nu : nq + nu + 4], y[nq + nu + 4 :]
-    r_q, r_u = out[:nq], out[nq : nq + nu]
-    quat, qf = q[zq + 11 : zq + 15], q[zq + 15 :]
-    Vc, wb, qfd = u[zq + 8 : zq + 11], u[zq + 11 : zq + 14], u[zq + 14 :]
-    land_rows(q, u, zq, nm, d, law, mode)
-    cage_rows(d, quat, Vc, wb, qf, qfd, qd, ud, zq, r_q, r_u, mode)
-    ring_rows(t, d, q, u, qd, ud, lam, mu, zq, r_q, r_u, out, nq + nu, mode)
+    at = places(fields(d.bodies).radius.shape[0], nm)
+    q, u = y[at.rest_q : at.u], y[at.rest_u : at.lam]
+    qd, ud = yd[at.rest_q : at.u], yd[at.rest_u : at.lam]
+    r_q, r_u = out[at.rest_q : at.u], out[at.rest_u : at.lam]
+    lam, mu = y[at.lam : at.lam + N_LAMBDA], y[at.lam + N_LAMBDA :]
+    quat, qf = q[Q_QUATERNION:Q_MODES], q[Q_MODES:]
+    Vc, wb, qfd = u[CAGE:CAGE_TURN], u[CAGE_TURN:MODES], u[MODES:]
+    land_rows(q, u, nm, d, law, mode)
+    cage_rows(d, quat, Vc, wb, qf, qfd, qd, ud, r_q, r_u, mode)
+    ring_rows(t, d, q, u, qd, ud, lam, mu, r_q, r_u, out, at.lam, mode)
     law[HOLD](t, y, yd, d, law[CONSTRAINT_ROWS], out, mode)
 
 
@@ -179,7 +212,7 @@ def add_to_element(total, pair):
 @part(fastmath=VECTORISED)
 def push_modes(data, i, pw, border):
     """Generalised forces of pocket i's station forces on the cage's modes."""
-    modes = border[14:]
+    modes = border[MODES:]
     for f in range(pw.st.shape[0]):
         if pw.normal[f] <= 0.0:
             continue
@@ -193,11 +226,11 @@ def push_modes(data, i, pw, border):
 
 
 @part
-def land_rows(q, u, zq, nm, d, law, mode):
+def land_rows(q, u, nm, d, law, mode):
     """Cage's lands on the ring that guides it, and the drag on the cage."""
     work, data, rep = fields(d.scratch), fields(d.land), fields(d.report)
     vec, border, A = work.vec, work.border, work.A
-    Fc, Mc, Fr, Mr = vec[LEVER], vec[AXIS], vec[PARTNER_V], vec[PARTNER_W]
+    Fc, Mc, Fr, Mr = vec[CAGE_FORCE], vec[CAGE_MOMENT], vec[RING_FORCE], vec[RING_MOMENT]
     zero(Fc)
     zero(Mc)
     zero(Fr)
@@ -205,29 +238,29 @@ def land_rows(q, u, zq, nm, d, law, mode):
     wg, where, speed, spin = vec[CAGE_SPIN], vec[GUIDE], vec[GUIDE_V], 0.0
     rides_inner = data.inner > 0.0
     if rides_inner:
-        put(where, xyz(q[zq : zq + 3]))
-        put(speed, xyz(u[zq : zq + 3]))
-        spin = u[zq + 3]
+        put(where, xyz(q[:Q_INNER_TURN]))
+        put(speed, xyz(u[:INNER_TURN]))
+        spin = u[INNER_TURN]
     else:
-        put(where, (0.0, q[zq + 6], q[zq + 7]))
-        put(speed, (0.0, u[zq + 6], u[zq + 7]))
+        put(where, (0.0, q[Q_OUTER], q[Q_OUTER + 1]))
+        put(speed, (0.0, u[OUTER], u[OUTER + 1]))
     land_contact(
-        A, q[zq + 8 : zq + 11], u[zq + 8 : zq + 11], wg, q[zq + 15 :], u[zq + 14 :], where, speed,
+        A, q[Q_CAGE:Q_QUATERNION], u[CAGE:CAGE_TURN], wg, q[Q_MODES:], u[MODES:], where, speed,
         spin, data, fields(d.memory).land, (law[LAND_LAW], law[LAND_RUBS]), fields(d.slices).row[0],
-        fields(d.land_work), Fc, Mc, border[14 : 14 + nm], Fr, Mr, work.sums,
+        fields(d.land_work), Fc, Mc, border[MODES : MODES + nm], Fr, Mr, work.sums,
     )  # fmt: skip
     drag = fields(d.bodies).drag[1] * abs(wg[0]) * wg[0]
     Mc[0] -= drag
     moment = turned_back(A, xyz(Mc))
     for c in range(3):
-        border[8 + c] += Fc[c]
-        border[11 + c] += moment[c]
+        border[CAGE + c] += Fc[c]
+        border[CAGE_TURN + c] += moment[c]
         if rides_inner:
             border[c] += Fr[c]
-            border[3 + c] += Mr[c]
+            border[INNER_TURN + c] += Mr[c]
     if not rides_inner:
-        border[6] += Fr[1]
-        border[7] += Fr[2]
+        border[OUTER] += Fr[1]
+        border[OUTER + 1] += Fr[2]
     if mode >= REPORT:
         sums = work.sums
         copy_into(rep.land, Fc)
@@ -242,7 +275,7 @@ def land_rows(q, u, zq, nm, d, law, mode):
 
 
 @part(fastmath=VECTORISED)
-def cage_rows(d, quat, Vc, wb, qf, qfd, qd, ud, zq, r_q, r_u, mode):
+def cage_rows(d, quat, Vc, wb, qf, qfd, qd, ud, r_q, r_u, mode):
     """Rows of the cage: floating frame, translations in space, rotations in the body."""
     data, tan, rep, work = fields(d.cage), fields(d.tangent), fields(d.report), fields(d.scratch)
     frame, A, border = fields(d.frame), work.A, work.border
@@ -253,17 +286,17 @@ def cage_rows(d, quat, Vc, wb, qf, qfd, qd, ud, zq, r_q, r_u, mode):
     rate = work.S[0]
     quaternion_rate(quat, wb, rate)
     for c in range(3):
-        r_q[zq + 8 + c] = qd[zq + 8 + c] - Vc[c]
+        r_q[Q_CAGE + c] = qd[Q_CAGE + c] - Vc[c]
     for c in range(4):
-        r_q[zq + 11 + c] = qd[zq + 11 + c] - rate[c]
+        r_q[Q_QUATERNION + c] = qd[Q_QUATERNION + c] - rate[c]
     for m in range(nm):
-        r_q[zq + 15 + m] = qd[zq + 15 + m] - qfd[m]
+        r_q[Q_MODES + m] = qd[Q_MODES + m] - qfd[m]
     gb = turned_back(A, xyz(fields(d.bodies).gravity))
     # gravity is an acceleration of the whole body
-    put(acc, minus(turned_back(A, xyz(ud[zq + 8 : zq + 11])), gb))
+    put(acc, minus(turned_back(A, xyz(ud[CAGE:CAGE_TURN])), gb))
     for c in range(3):
-        acc[3 + c] = ud[zq + 11 + c]
-    modes = ud[zq + 14 : zq + 14 + nm]
+        acc[3 + c] = ud[CAGE_TURN + c]
+    modes = ud[MODES : MODES + nm]
     for k in range(6):
         x = h[k]
         for c in range(6):
@@ -273,11 +306,11 @@ def cage_rows(d, quat, Vc, wb, qf, qfd, qd, ud, zq, r_q, r_u, mode):
         v[k] = x
     for c in range(3):
         x = A[c, 0] * v[0] + A[c, 1] * v[1] + A[c, 2] * v[2]
-        r_u[zq + 8 + c] = x - border[8 + c]
-        r_u[zq + 11 + c] = v[3 + c] - border[11 + c]
-    row_of = r_u[zq + 14 : zq + 14 + nm]
+        r_u[CAGE + c] = x - border[CAGE + c]
+        r_u[CAGE_TURN + c] = v[3 + c] - border[CAGE_TURN + c]
+    row_of = r_u[MODES : MODES + nm]
     for m in range(nm):
-        row_of[m] = h[6 + m] - border[14 + m]
+        row_of[m] = h[6 + m] - border[MODES + m]
         for c in range(6):
             row_of[m] += H[c, m] * acc[c]
     modal_product(data.mff, data.plain, modes, product)
@@ -296,21 +329,21 @@ def cage_rows(d, quat, Vc, wb, qf, qfd, qd, ud, zq, r_q, r_u, mode):
                 for c in range(3):
                     x += A[a, c] * M[c, 3 + b]
                     y += M[3 + b, c] * A[a, c]
-                tan.Mbb[8 + a, 8 + b] = data.mass if a == b else 0.0
-                tan.Mbb[8 + a, 11 + b] = x
-                tan.Mbb[11 + b, 8 + a] = y
-                tan.Mbb[11 + a, 11 + b] = M[3 + a, 3 + b]
+                tan.Mbb[CAGE + a, CAGE + b] = data.mass if a == b else 0.0
+                tan.Mbb[CAGE + a, CAGE_TURN + b] = x
+                tan.Mbb[CAGE_TURN + b, CAGE + a] = y
+                tan.Mbb[CAGE_TURN + a, CAGE_TURN + b] = M[3 + a, 3 + b]
         for m in range(nm):
             for a in range(3):
                 x = A[a, 0] * H[0, m] + A[a, 1] * H[1, m] + A[a, 2] * H[2, m]
-                tan.Mbb[8 + a, 14 + m] = tan.Mbb[14 + m, 8 + a] = x
-                tan.Mbb[11 + a, 14 + m] = tan.Mbb[14 + m, 11 + a] = H[3 + a, m]
+                tan.Mbb[CAGE + a, MODES + m] = tan.Mbb[MODES + m, CAGE + a] = x
+                tan.Mbb[CAGE_TURN + a, MODES + m] = tan.Mbb[MODES + m, CAGE_TURN + a] = H[3 + a, m]
             for l in range(nm):
-                tan.Mbb[14 + m, 14 + l] = data.mff[m, l]
+                tan.Mbb[MODES + m, MODES + l] = data.mff[m, l]
         for m in range(nm):
             for l in range(nm):
-                tan.Kbb[14 + m, 14 + l] += data.kff[m, l]
-                tan.Cbb[14 + m, 14 + l] += data.dff[m, l]
+                tan.Kbb[MODES + m, MODES + l] += data.kff[m, l]
+                tan.Cbb[MODES + m, MODES + l] += data.dff[m, l]
     elif mode >= REPORT:
         for m in range(nm):  # the product is that of the damping
             rep.power[MODAL_DAMPING] -= qfd[m] * product[m]
@@ -339,7 +372,7 @@ def cage_rows(d, quat, Vc, wb, qf, qfd, qd, ud, zq, r_q, r_u, mode):
 @part
 def _housing(outer, q, u, held, tan, mode):
     """Force ``held`` of the outer ring on its housing; returns energy stored and power lost."""
-    k, c, clearance = outer[1], outer[2], outer[4]
+    k, c, clearance = outer[OUTER_STIFFNESS], outer[OUTER_DAMPING], outer[OUTER_CLEARANCE]
     held[0] = held[1] = 0.0
     distance = sqrt(q[0] * q[0] + q[1] * q[1])
     n = (1.0, 0.0) if distance == 0.0 else (q[0] / distance, q[1] / distance)
@@ -347,8 +380,8 @@ def _housing(outer, q, u, held, tan, mode):
         for i in range(2):
             held[i] = k * q[i] + c * u[i]
             if mode == TANGENT:
-                tan.Kbb[6 + i, 6 + i] += k
-                tan.Cbb[6 + i, 6 + i] += c
+                tan.Kbb[OUTER + i, OUTER + i] += k
+                tan.Cbb[OUTER + i, OUTER + i] += c
         return 0.5 * k * distance * distance, c * (u[0] * u[0] + u[1] * u[1])
     depth = distance - clearance
     rate = n[0] * u[0] + n[1] * u[1]
@@ -362,8 +395,8 @@ def _housing(outer, q, u, held, tan, mode):
         if mode == TANGENT:
             for j in range(2):
                 across = (1.0 if i == j else 0.0) - n[i] * n[j]
-                tan.Kbb[6 + i, 6 + j] += k * n[i] * n[j] + force / distance * across
-                tan.Cbb[6 + i, 6 + j] += c * n[i] * n[j]
+                tan.Kbb[OUTER + i, OUTER + j] += k * n[i] * n[j] + force / distance * across
+                tan.Cbb[OUTER + i, OUTER + j] += c * n[i] * n[j]
     return 0.5 * k * depth * depth, c * rate * rate
 
 
@@ -392,75 +425,79 @@ def shaft_pull(bodies, q, u, pull):
 def constraint_slopes(bodies, tan):
     """Slopes of the constraints' rows of ``ring_rows`` in coordinates, velocities and multipliers
     (the position rows' own multipliers are displacements)."""
-    first = tan.Kbb.shape[0] - 7 - 2 * tan.held.shape[0]
+    first = tan.Kbb.shape[0] - N_OWN - 2 * tan.held.shape[0]
     for k in range(3):
-        rate, place, at = first + k, first + 4 + k, 0 if k == 0 else 3 + k
+        rate, place, at = first + k, first + N_LAMBDA + k, 0 if k == 0 else INNER_TURN + k
         if bodies.free[k] > 0.0:
             tan.Kbb[rate, at], tan.Cbb[rate, at] = bodies.spring[k, 0], bodies.spring[k, 1]
             tan.Cbb[rate, rate] = tan.Cbb[place, place] = 1.0
         else:
             tan.Cbb[rate, at] = tan.Kbb[place, at] = tan.Kbb[place, place] = 1.0
     drive = first + 3
-    tan.Cbb[drive, 3 if bodies.drive[0] == 0.0 else drive] = 1.0
+    tan.Cbb[drive, 3 if bodies.drive[SHAFT] == 0.0 else drive] = 1.0
 
 
 @part
-def ring_rows(t, d, q, u, qd, ud, lam, mu_, zq, r_q, r_u, out, end, mode):
+def ring_rows(t, d, q, u, qd, ud, lam, mu_, r_q, r_u, out, end, mode):
     """Rows of the inner and outer rings and of the constraints."""
     bodies, tan, rep = fields(d.bodies), fields(d.tangent), fields(d.report)
     work, border = fields(d.scratch), fields(d.scratch).border
-    rq, ru, rud = q[zq : zq + 6], u[zq : zq + 6], ud[zq : zq + 6]
+    rq, ru, rud = q[:Q_OUTER], u[:OUTER], ud[:OUTER]
     rates = work.S[0]
     frame = ring_rates(rq, ru, rates)
     for c in range(6):
-        r_q[zq + c] = qd[zq + c] - rates[c]
-    r_q[zq] -= mu_[0]
-    r_q[zq + 3] -= mu_[1]
-    r_q[zq + 4] -= mu_[2]
-    mass, Ia, It = bodies.ring[0], bodies.ring[1], bodies.ring[2]
+        r_q[c] = qd[c] - rates[c]
+    r_q[0] -= mu_[0]
+    r_q[Q_INNER_TURN] -= mu_[1]
+    r_q[Q_INNER_TURN + 1] -= mu_[2]
+    mass, Ia, It = bodies.ring[MASS], bodies.ring[AXIAL], bodies.ring[TRANSVERSE]
     load, axial = radial_load(bodies, t), axial_load(bodies, t)
     # moments about the ring's own (non-spinning) axes
     cx, sx, ce, se = cos(rq[3]), sin(rq[3]), cos(rq[4]), sin(rq[4])
-    Mx, My, Mz = border[3], border[4] + bodies.moments[0], border[5] + bodies.moments[1]
+    Mx, My, Mz = (
+        border[INNER_TURN],
+        border[INNER_TURN + 1] + bodies.moments[0],
+        border[INNER_TURN + 2] + bodies.moments[1],
+    )
     M1 = cx * ce * Mx + se * My - sx * ce * Mz
     M2 = -cx * se * Mx + ce * My + sx * se * Mz
     M3 = sx * Mx + cx * Mz
     target = speed_at(bodies, t)
     shaft = 0.0
-    if bodies.drive[0] > 0.0:
-        shaft = bodies.drive[1] * (drive_angle(bodies, t) - rq[5])
-        shaft += bodies.drive[2] * (target - ru[3])
+    if bodies.drive[SHAFT] > 0.0:
+        shaft = bodies.drive[SHAFT_STIFFNESS] * (drive_angle(bodies, t) - rq[5])
+        shaft += bodies.drive[SHAFT_DAMPING] * (target - ru[3])
     for c in range(3):
-        r_u[zq + c] = mass * (rud[c] - bodies.gravity[c]) - border[c]
-    r_u[zq] -= lam[0] + axial
-    r_u[zq + 1] -= load * bodies.load_direction[0]
-    r_u[zq + 2] -= load * bodies.load_direction[1]
-    r_u[zq + 3] = Ia * rud[3] - M1 - lam[3] - shaft
-    r_u[zq + 4] = It * (rud[4] - frame * ru[5]) + Ia * ru[3] * ru[5] - M2 - lam[1]
-    r_u[zq + 5] = It * (rud[5] + frame * ru[4]) - Ia * ru[3] * ru[4] - M3 - lam[2]
+        r_u[c] = mass * (rud[c] - bodies.gravity[c]) - border[c]
+    r_u[0] -= lam[AXIAL_FORCE] + axial
+    r_u[1] -= load * bodies.load_direction[0]
+    r_u[2] -= load * bodies.load_direction[1]
+    r_u[INNER_TURN] = Ia * rud[3] - M1 - lam[DRIVE_TORQUE] - shaft
+    r_u[INNER_TURN + 1] = It * (rud[4] - frame * ru[5]) + Ia * ru[3] * ru[5] - M2 - lam[MOMENT_Y]
+    r_u[INNER_TURN + 2] = It * (rud[5] + frame * ru[4]) - Ia * ru[3] * ru[4] - M3 - lam[MOMENT_Z]
     # outer ring
-    oq, ou, oud = q[zq + 6 : zq + 8], u[zq + 6 : zq + 8], ud[zq + 6 : zq + 8]
-    mo, fixed = bodies.outer[0], bodies.outer[3]
-    held = work.vec[LEVER]
+    oq, ou, oud = q[Q_OUTER:Q_CAGE], u[OUTER:CAGE], ud[OUTER:CAGE]
+    mo, fixed = bodies.outer[MASS], bodies.outer[OUTER_FIXED]
+    held = work.vec[HOUSING_FORCE]
     stored, lost = _housing(bodies.outer, oq, ou, held, tan, mode)
     for c in range(2):
-        r_q[zq + 6 + c] = qd[zq + 6 + c] - ou[c]
+        r_q[Q_OUTER + c] = qd[Q_OUTER + c] - ou[c]
         if fixed > 0.0:
-            r_u[zq + 6 + c] = oud[c]
+            r_u[OUTER + c] = oud[c]
         else:
-            force = border[6 + c] - held[c] + mo * bodies.gravity[1 + c]
-            r_u[zq + 6 + c] = mo * oud[c] - force
+            force = border[OUTER + c] - held[c] + mo * bodies.gravity[1 + c]
+            r_u[OUTER + c] = mo * oud[c] - force
     # constraints: lambda rows hold rates, mu rows positions; what is free has the shaft's lambda
     g = out[end:]
-    free, pull = bodies.free, work.vec[AXIS]
+    free, pull = bodies.free, work.vec[SHAFT_PULL]
     bent, damped = shaft_pull(bodies, rq, ru, pull)
-    g[0] = lam[0] - pull[0] if free[0] > 0.0 else ru[0]
-    g[1] = lam[1] - pull[1] if free[1] > 0.0 else ru[4]
-    g[2] = lam[2] - pull[2] if free[2] > 0.0 else ru[5]
-    g[3] = ru[3] - target if bodies.drive[0] == 0.0 else lam[3]
-    g[4] = mu_[0] if free[0] > 0.0 else rq[0]
-    g[5] = mu_[1] if free[1] > 0.0 else rq[3]
-    g[6] = mu_[2] if free[2] > 0.0 else rq[4] - bodies.misalignment
+    g[AXIAL_FORCE] = lam[AXIAL_FORCE] - pull[0] if free[0] > 0.0 else ru[0]
+    g[MOMENT_Y] = lam[MOMENT_Y] - pull[1] if free[1] > 0.0 else ru[4]
+    g[MOMENT_Z] = lam[MOMENT_Z] - pull[2] if free[2] > 0.0 else ru[5]
+    g[DRIVE_TORQUE] = ru[3] - target if bodies.drive[SHAFT] == 0.0 else lam[DRIVE_TORQUE]
+    g[N_LAMBDA] = mu_[0] if free[0] > 0.0 else rq[0]
+    g[N_LAMBDA + 1] = mu_[1] if free[1] > 0.0 else rq[3]
+    g[N_LAMBDA + 2] = mu_[2] if free[2] > 0.0 else rq[4] - bodies.misalignment
     if mode == TANGENT:
         constraint_slopes(bodies, tan)
         for c in range(3):
@@ -469,17 +506,17 @@ def ring_rows(t, d, q, u, qd, ud, lam, mu_, zq, r_q, r_u, out, end, mode):
         tan.Mbb[4, 4] = tan.Mbb[5, 5] = It
         tan.Cbb[4, 5] += Ia * ru[3]
         tan.Cbb[5, 4] -= Ia * ru[3]
-        if bodies.drive[0] > 0.0:
-            tan.Kbb[3, 3] += bodies.drive[1]
-            tan.Cbb[3, 3] += bodies.drive[2]
+        if bodies.drive[SHAFT] > 0.0:
+            tan.Kbb[3, 3] += bodies.drive[SHAFT_STIFFNESS]
+            tan.Cbb[3, 3] += bodies.drive[SHAFT_DAMPING]
         for c in range(2):
-            tan.Mbb[6 + c, 6 + c] = 1.0 if fixed > 0.0 else mo
+            tan.Mbb[OUTER + c, OUTER + c] = 1.0 if fixed > 0.0 else mo
             if fixed > 0.0:  # its row is u' = 0, whatever pushes it
-                zero(tan.Kbb[6 + c])
-                zero(tan.Cbb[6 + c])
+                zero(tan.Kbb[OUTER + c])
+                zero(tan.Cbb[OUTER + c])
                 for i in range(tan.Kbr.shape[0]):
-                    zero(tan.Kbr[i, 6 + c])
-                    zero(tan.Cbr[i, 6 + c])
+                    zero(tan.Kbr[i, OUTER + c])
+                    zero(tan.Cbr[i, OUTER + c])
     elif mode >= REPORT:
         w2 = ru[4] * ru[4] + ru[5] * ru[5]
         v2 = ru[0] * ru[0] + ru[1] * ru[1] + ru[2] * ru[2]
@@ -497,4 +534,4 @@ def ring_rows(t, d, q, u, qd, ud, lam, mu_, zq, r_q, r_u, out, end, mode):
                 rep.energy[KINETIC] += 0.5 * mo * ou[c] * ou[c]
                 rep.power[GRAVITY] += mo * bodies.gravity[1 + c] * ou[c]
         for c in range(2):
-            rep.body_force[c] = border[6 + c]
+            rep.body_force[c] = border[OUTER + c]

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from flexcage.contacts.evaluation import OUTER_RING, REPORT
 from flexcage.core.jit import copy_into, fields, part
-from flexcage.system.data import CONSTRAINTS, DRIVE, EXCHANGED, LOAD
+from flexcage.system.data import CONSTRAINTS, DRIVE, EXCHANGED, LOAD, POCKET
+from flexcage.system.layout import DRIVE_TORQUE, INNER_TURN, MODES, PER_ELEMENT, Q_MODES, places
 from flexcage.system.rows import load_power
 
 
@@ -18,14 +19,14 @@ def give_powers(t, y, d, power):
     for k in range(power.shape[0]):
         power[k] = report.power[k]
     Z, nm = fields(d.bodies).radius.shape[0], fields(d.pocket).phi_max.shape[0]
-    speed, torque = 12 * Z + 15 + nm + 3, 12 * Z + 29 + 2 * nm + 3
-    power[DRIVE] += y[torque] * y[speed]
-    first, u = 12 * Z + 36 + 2 * nm, 12 * Z + 15 + nm
-    power[LOAD] += load_power(t, fields(d.bodies), y, 6 * Z, u, fields(d.scratch).vec)
+    at = places(Z, nm)
+    u = at.rest_u
+    power[DRIVE] += y[at.lam + DRIVE_TORQUE] * y[u + INNER_TURN]
+    power[LOAD] += load_power(t, fields(d.bodies), y, at.rest_q, u, fields(d.scratch).vec)
     c = fields(d.constraints)
     for k in range(c.level.shape[0]):  # those that move bodies
-        for j in range(14):
-            power[CONSTRAINTS] += y[first + k] * c.G[k, j] * y[u + j]
+        for j in range(MODES):
+            power[CONSTRAINTS] += y[at.held + k] * c.G[k, j] * y[u + j]
 
 
 def powers(t, y, data, power):
@@ -94,7 +95,7 @@ def keep_loads(t, y, d):
         clock[1] = t + spacing[1]
     if t > clock[1]:
         return
-    first = 6 * rep.station.shape[0] + 15
+    first = PER_ELEMENT * rep.station.shape[0] + Q_MODES
     for m in range(between.modes.shape[1]):
         between.modes[n, m] = y[first + m]
     copy_into(between.land[n], rep.land_station)
@@ -134,16 +135,16 @@ def _keep_larger(most, values):
 def remember(t, memory, rep, events):
     """Keep the onset speed of every contact, and contact changes; races come before the faces of
     pockets, those before ribs."""
-    ribs = 2 + memory.pocket.shape[1]
+    ribs = POCKET + memory.pocket.shape[1]
     for i in range(rep.contact.shape[0]):
         for k in range(rep.contact.shape[1]):
             closed = rep.contact[i, k]
             if closed == 0 or events.closed[i, k] == 0:
                 speed = max(rep.approach[i, k], 0.0)
-                if k < 2:
+                if k < POCKET:
                     memory.race[i, k] = speed
                 elif k < ribs:
-                    memory.pocket[i, k - 2] = speed
+                    memory.pocket[i, k - POCKET] = speed
                 else:
                     memory.rib[i, k - ribs] = speed
             if closed != events.closed[i, k]:

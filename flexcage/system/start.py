@@ -25,7 +25,7 @@ from flexcage.contacts.pocket_wall import with_offset
 from flexcage.core.errors import InputError, RunFailed
 from flexcage.geometry.kinematics import epicyclic
 from flexcage.system.constraints import OFF, POSITION, check_independent, no_rows
-from flexcage.system.layout import Layout
+from flexcage.system.layout import MODES, PER_ELEMENT, Q_MODES, Layout
 from flexcage.system.model import Model
 from flexcage.system.newton import assemble, newton_step
 from flexcage.system.problem import Bearing
@@ -120,8 +120,8 @@ def constrained(
     if not constraints:
         return start
     layout, data = bearing.layout, bearing.data.constraints
-    z, y, yd = 6 * layout.rollers, start.y.copy(), np.zeros_like(start.yd)
-    check_independent(constraints, data, y[z : z + 15], y[layout.n_q + z : layout.n_q + z + 14])
+    z, y, yd = PER_ELEMENT * layout.rollers, start.y.copy(), np.zeros_like(start.yd)
+    check_independent(constraints, data, y[z : z + Q_MODES], y[layout.n_q + z :][:MODES])
     rates = bearing.function("rates")
     for _ in range(_ONTO):  # each moves y one step of Newton's nearer
         rates(0.0, y, yd, bearing.args, np.zeros(0))

@@ -151,7 +151,7 @@ def test_forces_are_slopes_of_the_energy(walls, name, place):
 
     def energy(d=0.0, turn=None, dq=0.0):
         a = axis if turn is None else turned(axis, turn)
-        return pocket(data, D + d, axis=a, q=q + dq, qd=0 * q)[1][0]
+        return pocket(data, D + d, axis=a, q=q + dq, qd=0 * q)[1][STORED]
 
     scale = np.abs(wrench).max()
     for j in range(3):
@@ -319,7 +319,7 @@ def test_power_is_what_the_channels_say(walls, name, law):
         return pocket(
             data, D + t * (V - Vc), axis=axis, G=turned(np.eye(3), t * wc), q=t * qd, qd=qd,
             **call,
-        )[1][0]  # fmt: skip
+        )[1][STORED]  # fmt: skip
 
     h = 1e-8
     stored = (energy(h) - energy(-h)) / (2 * h)

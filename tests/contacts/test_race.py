@@ -9,7 +9,16 @@ import pytest
 from contact_kernels import race, turned
 
 from flexcage.contacts import laws
-from flexcage.contacts.evaluation import DAMPED, NORMAL, ROLLED, RUBBED, SLIDING, TRACTION
+from flexcage.contacts.evaluation import (
+    DAMPED,
+    MOMENT_PSI,
+    NORMAL,
+    ROLLED,
+    RUBBED,
+    SLIDING,
+    STORED,
+    TRACTION,
+)
 from flexcage.contacts.spec import Contacts, FrictionLaw, NormalLaw, PairSpec
 from flexcage.geometry.cylindrical_roller import RollerProfile, Spall
 from flexcage.verification.law_values import rolling
@@ -61,7 +70,7 @@ def test_force_is_the_slope_of_the_energy(sides, name, which):
         e = h * np.eye(3)[j % 3]
         energy = [
             race(side, P + (s * e if j < 3 else 0), axis=axis if j < 3 else turned(axis, s * e),
-                 b=b)[1][5]
+                 b=b)[1][STORED]
             for s in (1, -1)
         ]  # fmt: skip
         slope[j] = -(energy[0] - energy[1]) / (2 * h)
@@ -76,7 +85,7 @@ def test_force_is_the_slope_of_the_energy_on_a_wavy_race(sides):
 
     def energy(psi, theta):
         at = [0.0, P[1] * np.cos(psi), P[1] * np.sin(psi)]
-        return race(inner, at, theta=theta, azimuth=0.3)[1][5]
+        return race(inner, at, theta=theta, azimuth=0.3)[1][STORED]
 
     wrench = race(inner, P, theta=0.2, azimuth=0.3)[0]
     h = 1e-6
@@ -86,9 +95,9 @@ def test_force_is_the_slope_of_the_energy_on_a_wavy_race(sides):
     assert P[1] * wrench[2] == pytest.approx(along, rel=1e-4)
     assert -P[1] * wrench[2] == pytest.approx(torque, rel=1e-4)  # the ring's reaction
     assert wrench[3] == pytest.approx(0.0, abs=1e-9)  # and nothing turns the roller
-    bump = race(inner, P, theta=0.3, azimuth=0.3)[1][0]  # a crest under the roller
-    flat = race(inner._replace(wave=np.zeros(2)), P)[1][0]
-    deeper = race(inner._replace(wave=np.zeros(2)), P - [0, 1e-6, 0])[1][0]
+    bump = race(inner, P, theta=0.3, azimuth=0.3)[1][NORMAL]  # a crest under the roller
+    flat = race(inner._replace(wave=np.zeros(2)), P)[1][NORMAL]
+    deeper = race(inner._replace(wave=np.zeros(2)), P - [0, 1e-6, 0])[1][NORMAL]
     assert bump == pytest.approx(deeper, rel=1e-9) and bump > flat
 
 
@@ -121,11 +130,11 @@ def test_roller_axis_follows_a_circle_about_the_edge_of_a_spall(spalled, which):
         lift = [0.0, sign * 0.3e-6, 0.0]
         for shift, expected in ((lift, False), (np.negative(lift), True)):
             at = np.array([0.0, touching, 0.0]) + shift
-            pressed = race(flat, at, azimuth=0.3 + off)[1][0] > 0.0
+            pressed = race(flat, at, azimuth=0.3 + off)[1][NORMAL] > 0.0
             assert pressed == expected, (off, shift)
     pit = spalled(depth=5e-6)[which]._replace(drop=np.zeros_like(side.drop))
-    inside = race(pit, [0.0, R + sign * 4e-3 - sign * 6e-6, 0.0], azimuth=0.3)[1][0]
-    outside = race(pit, [0.0, R + sign * 4e-3 - sign * 1e-6, 0.0], azimuth=0.5)[1][0]
+    inside = race(pit, [0.0, R + sign * 4e-3 - sign * 6e-6, 0.0], azimuth=0.3)[1][NORMAL]
+    outside = race(pit, [0.0, R + sign * 4e-3 - sign * 1e-6, 0.0], azimuth=0.5)[1][NORMAL]
     assert inside == pytest.approx(outside, rel=1e-9)  # the bottom bears like the race
 
 
@@ -137,7 +146,7 @@ def test_force_is_the_slope_of_the_energy_on_the_way_into_a_spall(spalled, off):
 
     def energy(psi, theta):
         at = [0.0, P[1] * np.cos(psi), P[1] * np.sin(psi)]
-        return race(inner, at, theta=theta, azimuth=0.3 + off)[1][5]
+        return race(inner, at, theta=theta, azimuth=0.3 + off)[1][STORED]
 
     wrench, h = race(inner, P, azimuth=0.3 + off)[0], 1e-6
     along = -(energy(h, 0.0) - energy(-h, 0.0)) / (2 * h)
@@ -181,7 +190,7 @@ def test_power_of_the_wrench_is_what_the_channels_say(sides, name, which):
             axis=turned(axis, t * w),
             b=turned(b[None], t * wr)[0],
             **call,
-        )[1][5]
+        )[1][STORED]
 
     h = 1e-10
     stored = (energy(h) - energy(-h)) / (2 * h)
@@ -280,9 +289,9 @@ def test_a_tilted_roller_carries_more_on_one_side(sides):
     depth = 3e-6 - s * 5e-4
     load = np.sum(k * np.clip(depth, 0, None) ** n)
     got = race(inner, P, axis=turned(np.eye(3), [0, 0, 5e-4]))[1]
-    assert got[0] == pytest.approx(load, rel=3e-4)
+    assert got[NORMAL] == pytest.approx(load, rel=3e-4)
     moment = np.sum(k * np.clip(depth, 0, None) ** n * s)
-    assert got[3] == pytest.approx(moment, rel=2e-3)
+    assert got[MOMENT_PSI] == pytest.approx(moment, rel=2e-3)
 
 
 def test_not_touching_is_nothing(sides):

@@ -56,7 +56,7 @@ def test_rib_energy_and_power(ribs, shift, turn, ring):
     P = np.array([np.copysign(PLAY, shift) + shift, PITCH, 2e-5])
     still = rib(data, P, axis=axis, b=b)
     scale = np.abs(still[0]).max()
-    assert still[1][:2].sum() > 1.0
+    assert still[1][NORMAL : NORMAL + 2].sum() > 1.0
     for j in range(6):
         h = 1e-10 if j < 3 else 1e-8
         e = h * np.eye(3)[j % 3]
@@ -66,7 +66,7 @@ def test_rib_energy_and_power(ribs, shift, turn, ring):
             continue  # the frame turns with the orbit: in the power, below
         at = [
             rib(data, P + (s * e if j < 3 else 0), b=b,
-                axis=axis if j < 3 else turned(axis, s * e))[1][2]
+                axis=axis if j < 3 else turned(axis, s * e))[1][STORED]
             for s in (1, -1)
         ]  # fmt: skip
         lever = 1.0 if j < 3 else 4e-3
@@ -82,7 +82,7 @@ def test_rib_energy_and_power(ribs, shift, turn, ring):
 
     def energy(t):
         return rib(data, P + t * (V - Vr), axis=turned(axis, t * frame),
-                   b=turned(b[None], t * tip)[0], **call)[1][2]  # fmt: skip
+                   b=turned(b[None], t * tip)[0], **call)[1][STORED]  # fmt: skip
 
     h = 1e-10
     stored = (energy(h) - energy(-h)) / (2 * h)
@@ -185,7 +185,7 @@ def test_land_energy_power_and_third_law(dry_land):
     # a turn about the axis of a ring of discrete stations is left out: only the rate, in power
     def energy(R=Rc, rotation=(0, 0, 0), modes=q, ring=Rr):
         turn = Rotation.from_rotvec(rotation).as_matrix()
-        return land(data, R, A=turn @ A, q=modes, qd=0 * qd, Rr=ring)[5][0]
+        return land(data, R, A=turn @ A, q=modes, qd=0 * qd, Rr=ring)[5][STORED]
 
     still = land(data, Rc, A=A, q=q, qd=0 * qd, Rr=Rr)
     for j in range(1, 3):
@@ -297,7 +297,7 @@ def test_a_dry_land_pressed_evenly_all_round_counts_once(dry_land):
     even = np.append(-data.inner * (data.clearance + 10e-6), np.zeros(6))
     once = land(data, np.zeros(3), q=even, qd=0 * even)[5]
     aside = land(data, 1e-9 * Y, q=even, qd=0 * even)[5]
-    assert once[0] == pytest.approx(aside[0], rel=1e-3) and once[4] > 1e3
+    assert once[STORED] == pytest.approx(aside[STORED], rel=1e-3) and once[NORMAL] > 1e3
 
 
 def test_forces_at_stations_of_a_dry_land_are_its_forces(dry_land):
