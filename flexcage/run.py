@@ -116,6 +116,7 @@ class Run:
         self.case, self.store, self.folder = case, store, folder
         self.mesh, self.cage, self.start = mesh, cage, start
         self.stages = stages if stages is not None else Stages()
+        self.effort: Effort | None = None  # of the integration, if this process did it
         self.edited = edited  # a warning, if the folder's case.toml was changed after the run
 
     def __repr__(self) -> str:
@@ -392,7 +393,7 @@ class Run:
         given = {"view": view, "stress_limit": stress_limit, "scale": scale}
         look = Binder(si=True).bind(Look, given, "")
         paths = self.stages("pictures", self._draw, Path(folder), animate, look)
-        if hasattr(self, "solver"):
+        if self.effort is not None:
             self.tell_times()
         return paths
 
@@ -559,8 +560,8 @@ class Run:
         summary = summary.with_section("Cage", self._cage_rows())
         if self.cage is not None and (stress or self._may_yield):
             summary = self._with_stress(summary)
-        if hasattr(self, "solver"):
-            summary = summary.with_section("Solver", self._solver_rows())
+        if self.effort is not None:
+            summary = summary.with_section("Solver", self._solver_rows(self.effort))
         return self._warned(summary.with_section("Wall time", self._time_rows()))
 
     def _with_stress(self, summary: Summary) -> Summary:
@@ -668,8 +669,8 @@ class Run:
             figure("stress_start", float(h.peak[: h.settled].max(initial=0.0))),
         ]
 
-    def _solver_rows(self) -> list[Row]:
-        counts, stable_step = self.effort
+    def _solver_rows(self, effort: Effort) -> list[Row]:
+        counts, stable_step = effort
         rows = [figure(k, n, idle=not n and k in _RARE) for k, n in counts.items()]
         if np.isfinite(stable_step):
             note = "least over the run, by the spectral radius"

@@ -25,7 +25,7 @@ def test_the_picture_names_the_cases_and_tells_folders_apart(names, shown, tmp_p
     def draw(datasets, path, *, settle, note):
         told.update(names=list(datasets), note=note)
 
-    monkeypatch.setattr("flexcage.render.curves.compare_forces", draw)
+    monkeypatch.setattr("flexcage.render.compare_forces", draw)
     case = SimpleNamespace(name="my $case", output=SimpleNamespace(settle=0.3))
     summary = Summary((Section("All", (Row("steps", "Steps", 3),)),))
     run = SimpleNamespace(summary=summary, case=case, dataset=None)
