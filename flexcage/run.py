@@ -120,13 +120,15 @@ class Run:
         self.edited = edited  # a warning, if the folder's case.toml was changed after the run
 
     def __repr__(self) -> str:
+        return f"Run({self.case.name!r}: {self._size()})"
+
+    def _size(self) -> str:
         where = f" in {self.folder}" if self.folder else ""
-        return f"Run({self.case.name!r}: {self.store.n_time:,} samples{where})"
+        return f"{self.store.n_time:,} samples{where}"
 
     def _repr_html_(self) -> str:
         """For notebooks: warnings and the figures that matter most."""
-        where = f" in {self.folder}" if self.folder else ""
-        title = f"Run {self.case.name}: {self.store.n_time:,} samples{where}"
+        title = f"Run {self.case.name}: {self._size()}"
         edited = html.bullets(f"Warning: {warning.text}" for warning in self.edited)
         return html.block(title, edited, self.summary_at_end.brief_html())
 

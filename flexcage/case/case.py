@@ -260,10 +260,9 @@ class Case:
         """For notebooks: the case in words, and the values that its user gave."""
         from flexcage.case.words import in_words
 
-        files = {name: path for path, name in ALIASES.items()}
-        texts = {files.get(p, p): _in_short(v) for p, v in flat(to_table(self, named=NAMED))}
-        given = {files.get(path, path) for path in self.given or () if path not in _NOT_PHYSICS}
-        rows = [(path, texts[path]) for path in texts if path in given]
+        in_text = {field: path for path, field in ALIASES.items()}
+        given = {in_text.get(path, path) for path in self.given or () if path not in _NOT_PHYSICS}
+        rows = [(path, _in_short(v)) for path, v in flat(self.to_table()) if path in given]
         values = html.table(rows, heads=("key", "value"))
         return html.block(
             f"Case {self.name} ({self.hash})",

@@ -96,24 +96,27 @@ METHODS: tuple[tuple[type, str, Callable[..., Any]], ...] = (
     (Lower, "_lower_call_FunctionType", _call_at_address),
 )
 _complete = all(name in vars(owner) for owner, name, _ in METHODS)
-_depth = 0  # of compilations that one thread has under way, one inside the other
+_under_way = False  # a compilation, inside which others may begin
 
 
 @contextmanager
 def own_compilation() -> Iterator[None]:
     """Within it numba compiles as flexcage wants; other threads wait to compile, as always."""
-    global _depth
+    global _under_way
     if not (_complete and is_tested(numba.__version__)):
         yield
         return
     with global_compiler_lock:
-        originals = [vars(owner)[name] for owner, name, _ in METHODS] if _depth == 0 else []
-        _depth += 1
+        if _under_way:
+            yield
+            return
+        originals = [(owner, name, vars(owner)[name]) for owner, name, _ in METHODS]
+        _under_way = True
         try:
-            for (owner, name, make), original in zip(METHODS, originals, strict=False):
-                setattr(owner, name, make(original))
+            for owner, name, make in METHODS:
+                setattr(owner, name, make(vars(owner)[name]))
             yield
         finally:
-            _depth -= 1
-            for (owner, name, _), original in zip(METHODS, originals, strict=False):
+            _under_way = False
+            for owner, name, original in originals:
                 setattr(owner, name, original)

@@ -124,7 +124,8 @@ def _tile(row: Row) -> Tile:
     if isinstance(row.value, str) or row.text == "-":
         return Tile(row.label, row.text.replace("-", "–"), row.note)
     value = row.text if margin else _rounded(row)
-    return Tile(row.label, f"{value} {typeset(row.shown)}".strip(), margin or _without_margin(row))
+    note = ", ".join(filter(None, (margin, row.brief_note))) if margin else _without_margin(row)
+    return Tile(row.label, f"{value} {typeset(row.shown)}".strip(), note)
 
 
 def _rounded(row: Row) -> str:

@@ -399,6 +399,6 @@ def listing(text: str = "") -> Listing:
         whose = f"{f.of} bearings" if f.of else ""
         needs = f"needs {f.needs}" if f.needs else ""
         kind = [word for mark, word in _KINDS.items() if mark in f.marks]
-        told = "; ".join(filter(None, (f.meaning, *kind, whose, needs)))
-        rows.append((f.key, f.shown, f"{f.title}: {told}" if told else f.title))
+        said = "; ".join(filter(None, (f.meaning, *kind, whose, needs)))
+        rows.append((f.key, f.shown, f"{f.title}: {said}" if said else f.title))
     return Listing("Figures of a run", ("figure", "unit", "meaning"), rows)

@@ -131,6 +131,11 @@ class Row:
         return format_value(float(self.value), self.shown, self.margin)[1]
 
     @property
+    def brief_note(self) -> str:
+        """The note's first part, for where there is little room."""
+        return self.note.partition(";")[0]
+
+    @property
     def full_text(self) -> str:
         """Value, margin and unit, as a sentence or a key figure shows them: "100 ± 150 um"."""
         return " ".join(filter(None, (self.text, self.margin_text, self.shown)))
@@ -165,8 +170,7 @@ class Section:
 def _rows_html(rows: Iterable[Row], *, brief: bool = False) -> str:
     """Label, value, margin, unit and note of figures; ``brief`` notes are short."""
     cells = [
-        (r.label, r.text, r.margin_text, r.shown, r.note.partition(";")[0] if brief else r.note)
-        for r in rows
+        (r.label, r.text, r.margin_text, r.shown, r.brief_note if brief else r.note) for r in rows
     ]
     return html.table(cells, sides="lrl")
 
@@ -269,7 +273,7 @@ class Summary:
                 lines.append(line + r.text)
                 continue
             line += f"{r.text:>{value}} {r.margin_text:<{margin}} "
-            note = r.note.partition(";")[0] if brief else r.note
+            note = r.brief_note if brief else r.note
             lines.append(f"{line}{r.shown:<{unit}}  {note}".rstrip())
         return lines
 

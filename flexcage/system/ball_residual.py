@@ -38,9 +38,9 @@ from flexcage.core.vectors import (
     xyz,
 )
 from flexcage.system.data import (
-    APART,
     AXIAL,
     DRAG,
+    FAMILY_PARTS,
     GRAVITY,
     IN_CONTACTS,
     INNER_RACE,
@@ -79,7 +79,7 @@ from flexcage.system.rows import (
     react,
 )
 
-SHARED = APART  # place in ``law``: the family's only function ``apart``
+SHARED = FAMILY_PARTS  # place in ``law``: the family's only function ``apart``
 
 
 def evaluate(t, y, yd, d, law, out, mode):
@@ -111,7 +111,7 @@ def evaluate(t, y, yd, d, law, out, mode):
         _races(i, qi, ui, rest_q, rest_u, d, law, mode)
         _pocket(i, qi, ui, Rc, Vc, qf, qfd, margin, d, law, mode)
         _ball_rows(i, qi, ui, qd[own], ud[own], d, r_q[own], r_u[own], mode)
-    law[SHARED](t, y, yd, d, law[:APART], out, mode)
+    law[SHARED](t, y, yd, d, law[:FAMILY_PARTS], out, mode)
 
 
 @part

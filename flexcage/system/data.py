@@ -49,7 +49,7 @@ SHAFT, SHAFT_STIFFNESS, SHAFT_DAMPING = range(3)  # places in ``Bodies.drive``
 KINETIC, STRAIN, IN_CONTACTS, IN_MOUNT = range(4)  # places in ``Report.energy``
 # places in ``law`` behind those of ``contacts.evaluation``: the rows of further constraints, what
 # puts these in (``holding``), and the family's functions ``apart``
-CONSTRAINT_ROWS, HOLD, APART = 10, 11, 12
+CONSTRAINT_ROWS, HOLD, FAMILY_PARTS = 10, 11, 12
 
 
 class Bodies(NamedTuple):

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import NamedTuple
 
@@ -34,8 +35,7 @@ class Places(NamedTuple):
     held: int  # those of further constraints
 
 
-@part
-def places(elements, modes):
+def _places(elements: int, modes: int) -> Places:
     """The places in y of a bearing with so many elements and modes."""
     own = PER_ELEMENT * elements
     u = own + Q_MODES + modes
@@ -43,10 +43,28 @@ def places(elements, modes):
     return Places(own, u, u + own, lam, lam + N_OWN)
 
 
+places = part(_places)  # in kernels
+
+
 @part
 def of_element(i):
     """Where those of element i are among the coordinates or velocities of the elements."""
     return slice(PER_ELEMENT * i, PER_ELEMENT * (i + 1))
+
+
+# where behind the elements q and u have what; modes follow
+_IN_Q = {
+    "inner": slice(Q_INNER, Q_OUTER),
+    "outer": slice(Q_OUTER, Q_CAGE),
+    "cage": slice(Q_CAGE, Q_QUATERNION),
+    "quaternion": slice(Q_QUATERNION, Q_MODES),
+}
+_IN_U = {
+    "inner": slice(INNER, OUTER),
+    "outer": slice(OUTER, CAGE),
+    "cage": slice(CAGE, CAGE_TURN),
+    "omega": slice(CAGE_TURN, MODES),
+}
 
 
 @dataclass(frozen=True)
@@ -66,11 +84,15 @@ class Layout:
 
     @property
     def n_q(self) -> int:
-        return PER_ELEMENT * self.rollers + Q_MODES + self.modes
+        return self._places.u
 
     @property
     def n_u(self) -> int:
-        return PER_ELEMENT * self.rollers + MODES + self.modes
+        return self._places.lam - self._places.u
+
+    @property
+    def _places(self) -> Places:
+        return _places(self.rollers, self.modes)
 
     @property
     def n_border(self) -> int:
@@ -78,7 +100,7 @@ class Layout:
 
     @property
     def size(self) -> int:
-        return self.n_q + self.n_u + N_OWN + 2 * len(self.held)
+        return self._places.held + 2 * len(self.held)
 
     @property
     def reactions(self) -> tuple[str, ...]:
@@ -87,32 +109,26 @@ class Layout:
 
     def q(self, y: np.ndarray) -> dict[str, np.ndarray]:
         """Named views of the coordinates in y (or of their rates in y')."""
-        z = PER_ELEMENT * self.rollers
-        return {
-            "rollers": y[..., :z].reshape(*y.shape[:-1], self.rollers, PER_ELEMENT),
-            "inner": y[..., z : z + Q_OUTER],
-            "outer": y[..., z + Q_OUTER : z + Q_CAGE],
-            "cage": y[..., z + Q_CAGE : z + Q_QUATERNION],
-            "quaternion": y[..., z + Q_QUATERNION : z + Q_MODES],
-            "modes": y[..., z + Q_MODES : z + Q_MODES + self.modes],
-        }
+        return self._views(y, _IN_Q, Q_MODES)
 
     def u(self, y: np.ndarray) -> dict[str, np.ndarray]:
         """Named views of the velocities in y (or of accelerations in y')."""
-        v = y[..., self.n_q : self.n_q + self.n_u]
-        z = PER_ELEMENT * self.rollers
+        return self._views(y[..., self._places.u :], _IN_U, MODES)
+
+    def _views(
+        self, v: np.ndarray, bodies: Mapping[str, slice], modes: int
+    ) -> dict[str, np.ndarray]:
+        """Views of the elements, then of rings and cage, then of the modes from ``modes`` on."""
+        own = self._places.rest_q
+        elements, rest = v[..., :own], v[..., own:]
         return {
-            "rollers": v[..., :z].reshape(*y.shape[:-1], self.rollers, PER_ELEMENT),
-            "inner": v[..., z : z + OUTER],
-            "outer": v[..., z + OUTER : z + CAGE],
-            "cage": v[..., z + CAGE : z + CAGE_TURN],
-            "omega": v[..., z + CAGE_TURN : z + MODES],
-            "modes": v[..., z + MODES : z + MODES + self.modes],
+            "rollers": elements.reshape(*v.shape[:-1], self.rollers, PER_ELEMENT),
+            **{name: rest[..., where] for name, where in bodies.items()},
+            "modes": rest[..., modes : modes + self.modes],
         }
 
     def multipliers(self, y: np.ndarray) -> np.ndarray:
         """Forces and torques of the constraints ``reactions``, a copy."""
-        start = self.n_q + self.n_u
-        further = start + N_OWN
+        start, further = self._places.lam, self._places.held
         own, more = y[..., start : start + N_LAMBDA], y[..., further : further + len(self.held)]
         return np.concatenate([own, more], axis=-1)

@@ -37,9 +37,9 @@ from flexcage.core.vectors import (
 )
 from flexcage.system.blocks import scatter, scatter_outer
 from flexcage.system.data import (
-    APART,
     AXIAL,
     DRAG,
+    FAMILY_PARTS,
     GRAVITY,
     IN_CONTACTS,
     INNER_RACE,
@@ -77,7 +77,8 @@ from flexcage.system.rows import (
     react,
 )
 
-POCKETS, SHARED = APART, APART + 1  # places in ``law``: the family's functions ``apart``
+# places in ``law``: the family's functions ``apart``
+POCKETS, SHARED = FAMILY_PARTS, FAMILY_PARTS + 1
 
 
 @part
@@ -132,12 +133,12 @@ def evaluate(t, y, yd, d, law, out, mode):
             fields(d.report).outer_races[c] = work.border[OUTER + c]
     if mode == OUTER_RING:
         return
-    law[POCKETS](t, y, yd, d, law[:APART], out, mode)
+    law[POCKETS](t, y, yd, d, law[:FAMILY_PARTS], out, mode)
     for i in range(Z):
         own = of_element(i)
         take_pose(poses[i], pose)
         _roller_rows(i, q[own], u[own], qd[own], ud[own], d, r_q[own], r_u[own], mode)
-    law[SHARED](t, y, yd, d, law[:APART], out, mode)
+    law[SHARED](t, y, yd, d, law[:FAMILY_PARTS], out, mode)
 
 
 @part

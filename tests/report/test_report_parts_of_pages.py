@@ -263,6 +263,15 @@ def test_key_figures_carry_their_margins_or_say_why_not():
     ]
 
 
+def test_a_key_figure_says_of_what_it_is_beside_its_margin():
+    row = Row(
+        "pocket_force_mean", "Pocket force, mean", 2.198, "N", "while in contact; more", 0.054
+    )
+    page = run_page(account(summary=Summary((Part("All", (row,)),))))
+    tiles = next(s for s in page.sections if s.title == "Key figures").blocks[0].tiles
+    assert [(t.value, t.note) for t in tiles] == [("2.198 N", "± 0.054, while in contact")]
+
+
 def test_long_tables_are_folded_away():
     page = run_page(account())
     folds = [b.fold for s in page.sections for b in s.blocks if b.kind == "table" and b.fold]
