@@ -39,6 +39,7 @@ class BallBearing(Bearing):
 
     cage_spec: ClassVar[Spec] = BallCage
     element: ClassVar[str] = "ball"
+    family: ClassVar[str] = "ball"
     places: ClassVar[tuple[str, ...]] = ("race", "pocket")
     in_motion: ClassVar[bool] = True
     explicit_only: ClassVar[bool] = True

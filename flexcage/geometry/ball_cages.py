@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 from math import hypot, pi, sin
+from typing import ClassVar
 
 from flexcage.core.spec import option, quantity
 from flexcage.core.units import describe
@@ -25,6 +26,8 @@ class BallCage(Cage):
     ``pocket_diameter`` is that of cylinder or sphere. A cage that a ring guides has its land there,
     with the clearance of [contacts.land]. ``type`` may name another kind with a spec of its own.
     """
+
+    cage_type: ClassVar[str] = "machined"
 
     type: str = option("machined", doc="kind of cage", choices=BALL_CAGES, former="machined")
     material: Material = option(MATERIALS["PA66"], doc="cage material (a name or its values)")

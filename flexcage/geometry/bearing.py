@@ -13,8 +13,8 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, ClassVar, TypeVar
 
 from flexcage.core.binding import check_value
-from flexcage.core.registry import add
 from flexcage.core.spec import option
+from flexcage.core.wings import FAMILIES, Parts
 from flexcage.geometry.cage import Cage
 
 Spec = type  # by another name, for inside the spec ``type`` is a field
@@ -26,7 +26,10 @@ OTHER_DESIGNS = {
         "inner ring and a plain outer ring (type 'cylindrical_roller')"
     )
 }
-BEARING_TYPES: dict[str, type | None] = {}  # name in a case: spec
+#: Specs of bearings by the name that a case gives: those of all families, and users' own.
+BEARING_TYPES: Parts[Spec] = Parts(
+    FAMILIES, lambda family: {name_of(spec): spec for spec in family.types}, what="bearing type"
+)
 
 
 @dataclass(frozen=True)
@@ -70,6 +73,7 @@ class Bearing:
     # in words for sentences and titles, and the spec of the cage that goes with it
     kind: ClassVar[str] = "bearing"
     element: ClassVar[str] = "element"
+    family: ClassVar[str] = ""  # name of the family whose equations move it
     cage_spec: ClassVar[Spec]
     # contacts of which [contacts] speaks, beside the cage's land
     places: ClassVar[tuple[str, ...]] = ("race", "pocket", "side", "rib")
@@ -132,9 +136,14 @@ AnyBearing = TypeVar("AnyBearing", bound=type[Bearing])
 
 
 def bearing_type(cls: AnyBearing) -> AnyBearing:
-    """Register a spec, as a decorator, under the default of its own ``type``."""
-    add(BEARING_TYPES, str(cls.__dataclass_fields__["type"].default), cls, what="bearing type")
+    """Register a user's own spec, as a decorator, under the default of its own ``type``."""
+    BEARING_TYPES.add(name_of(cls), cls)
     return cls
+
+
+def name_of(spec: type[Bearing]) -> str:
+    """The name by which a case asks for a type of bearing: the default of its ``type``."""
+    return str(spec.__dataclass_fields__["type"].default)
 
 
 def hollow_cylinder_inertia(

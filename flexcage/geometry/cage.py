@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from math import nan, pi
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, ClassVar
 
 from flexcage.core.spec import option, quantity
 from flexcage.geometry.materials import MATERIALS, Material
@@ -13,6 +13,8 @@ from flexcage.geometry.materials import MATERIALS, Material
 @dataclass(frozen=True, kw_only=True)
 class Cage:
     """A cage of some type; ``cage_spec`` of a bearing's type says which."""
+
+    cage_type: ClassVar[str] = ""  # name of its ``cages.cage_type.CageType``
 
     material: Material = option(MATERIALS["brass"], doc="cage material (a name or its values)")
     bore: float = quantity("mm", doc="inside diameter", above=0.0)

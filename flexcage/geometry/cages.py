@@ -26,6 +26,8 @@ class WindowCage(Cage):
     +-pocket_width/2, the side-beam faces normal to the bearing axis at +-pocket_length/2.
     """
 
+    cage_type: ClassVar[str] = "window"
+
     pocket_width: float = quantity("mm", doc="circumferential pocket width Cq", above=0.0)
     pocket_length: float = quantity("mm", doc="axial pocket length Cp", above=0.0)
     fillet_radius: float = quantity(

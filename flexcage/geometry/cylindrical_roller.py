@@ -17,7 +17,6 @@ from flexcage.geometry.bearing import (
     RingLand,
     RingLimit,
     Spec,
-    bearing_type,
     hollow_cylinder_inertia,
     type_name,
 )
@@ -76,7 +75,6 @@ class Spall:
         return np.clip(over / slice_width, 0.0, 1.0)
 
 
-@bearing_type
 @dataclass(frozen=True, kw_only=True)
 class RollerBearing(Bearing):
     """A single-row cylindrical roller bearing, N design: ribs on the inner ring, outer ring plain.
@@ -88,6 +86,7 @@ class RollerBearing(Bearing):
     kind: ClassVar[str] = "cylindrical roller bearing"
     cage_spec: ClassVar[Spec] = WindowCage
     element: ClassVar[str] = "roller"
+    family: ClassVar[str] = "cylindrical_roller"
     in_motion: ClassVar[bool] = True
     elsewhere: ClassVar[Mapping[str, str]] = {
         "design|outer_ribs?(_.*)?|ribs?|flanges?": next(iter(OTHER_DESIGNS.values())),

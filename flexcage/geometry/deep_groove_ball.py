@@ -8,10 +8,9 @@ from typing import ClassVar
 
 from flexcage.core.spec import quantity
 from flexcage.geometry.ball_bearing import BallBearing
-from flexcage.geometry.bearing import bearing_type, type_name
+from flexcage.geometry.bearing import type_name
 
 
-@bearing_type
 @dataclass(frozen=True, kw_only=True)
 class DeepGrooveBallBearing(BallBearing):
     """A ball bearing that bears axial load both ways; displacements count from its middle.

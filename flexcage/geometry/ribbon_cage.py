@@ -11,6 +11,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 from math import pi, sin, sqrt
+from typing import ClassVar
 
 from flexcage.core.spec import option, quantity
 from flexcage.core.units import describe
@@ -32,6 +33,8 @@ class RibbonCage(BallCage):
     balls' sides open; one as wide or wider is closed over them. The halves hold together within the
     circles of the rivets' heads, and are free of each other elsewhere.
     """
+
+    cage_type: ClassVar[str] = "ribbon"
 
     type: str = option("ribbon", doc="kind of cage", choices=BALL_CAGES)
     material: Material = option(MATERIALS["steel"], doc="cage material (a name or its values)")

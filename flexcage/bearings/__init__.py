@@ -1,0 +1,11 @@
+"""One folder a bearing family; a new one is its folder and its line here."""
+
+from flexcage.bearings import ball, cylindrical_roller
+from flexcage.bearings.family import Family, family_of
+
+MEMBERS = (
+    cylindrical_roller.FAMILY,
+    ball.FAMILY,
+)
+
+__all__ = ["MEMBERS", "Family", "family_of"]

@@ -1,0 +1,26 @@
+"""What a bearing family is: one value, composed of what each floor asks for."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import cast
+
+from flexcage.core.wings import FAMILIES
+from flexcage.geometry.bearing import Bearing
+
+
+@dataclass(frozen=True, kw_only=True)
+class Family:
+    """Bearings whose rolling elements move by the same equations.
+
+    ``types``: the specs of its types of bearing, which bring dimensions, checks, ratings and films
+    with them. All else is heavy: functions without arguments that import what they return.
+    """
+
+    name: str
+    types: tuple[type[Bearing], ...]
+
+
+def family_of(bearing: Bearing) -> Family:
+    """The family of a bearing."""
+    return cast(Family, FAMILIES[bearing.family])

@@ -1,0 +1,6 @@
+"""Machined cages of ball bearings: a hollow cylinder with round pockets."""
+
+from flexcage.cages.cage_type import CageType
+from flexcage.geometry.ball_cages import BallCage
+
+MACHINED = CageType(name="machined", spec=BallCage)
