@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, field
 from typing import cast
 
 from flexcage.core.wings import FAMILIES
@@ -14,11 +15,13 @@ class Family:
     """Bearings whose rolling elements move by the same equations.
 
     ``types``: the specs of its types of bearing, which bring dimensions, checks, ratings and films
-    with them. All else is heavy: functions without arguments that import what they return.
+    with them; ``other_designs`` maps patterns of names that are no types here to what there is
+    instead. All else is heavy: functions without arguments that import what they return.
     """
 
     name: str
     types: tuple[type[Bearing], ...]
+    other_designs: Mapping[str, str] = field(default_factory=dict)
 
 
 def family_of(bearing: Bearing) -> Family:

@@ -15,6 +15,7 @@ from pathlib import Path
 from typing import Any
 
 from flexcage.case.checks import check_case, refuse_without_motion
+from flexcage.case.presets import NAMED, Preset, load_preset
 from flexcage.contacts.spec import Contacts, LandSpec, Lubricant
 from flexcage.core import html
 from flexcage.core.binding import (
@@ -34,10 +35,9 @@ from flexcage.core.registry import source_of
 from flexcage.core.spec import option
 from flexcage.geometry.ball_cage_defects import BallCageDefect, uneven_pockets
 from flexcage.geometry.ball_cages import BallCage
-from flexcage.geometry.bearings import Bearing
+from flexcage.geometry.bearing import Bearing
 from flexcage.geometry.cage import Cage
 from flexcage.geometry.cages import Defect
-from flexcage.geometry.presets import NAMED, Preset, load_preset
 from flexcage.geometry.ribbon_cage import RibbonCage
 from flexcage.mesh.options import MeshOptions
 from flexcage.modes.spec import ModesSpec

@@ -22,14 +22,12 @@ from flexcage.case.case import (
 )
 from flexcage.case.checks import check_static_case
 from flexcage.case.load import read_case
+from flexcage.case.presets import NAMED
 from flexcage.contacts.spec import Contacts, Lubricant
 from flexcage.core.binding import Binder, check_spec, to_table, unknown_key
 from flexcage.core.errors import InputError
 from flexcage.core.spec import option
-from flexcage.geometry.bearing import check_type
-from flexcage.geometry.bearings import Bearing
-from flexcage.geometry.checks import check_geometry
-from flexcage.geometry.presets import NAMED
+from flexcage.geometry.bearing import Bearing, check_type
 from flexcage.system.spec import Drive, Load
 from flexcage.system.statics.options import StaticOptions
 
@@ -78,7 +76,7 @@ class StaticCase:
             if "cage" in merged:
                 cage = binder.bind(case.bearing.cage_spec, merged["cage"], "cage")
                 check_spec(cage, "cage")
-                check_geometry(case.bearing, cage)
+                case.bearing.check(cage)
         return case
 
     def replace(

@@ -15,6 +15,7 @@ class Cage:
     """A cage of some type; ``cage_spec`` of a bearing's type says which."""
 
     cage_type: ClassVar[str] = ""  # name of its ``cages.cage_type.CageType``
+    altered: ClassVar[str] = "Defects"  # heads the list of its defects
 
     material: Material = option(MATERIALS["brass"], doc="cage material (a name or its values)")
     bore: float = quantity("mm", doc="inside diameter", above=0.0)

@@ -27,6 +27,7 @@ class WindowCage(Cage):
     """
 
     cage_type: ClassVar[str] = "window"
+    altered: ClassVar[str] = "Deformed"
 
     pocket_width: float = quantity("mm", doc="circumferential pocket width Cq", above=0.0)
     pocket_length: float = quantity("mm", doc="axial pocket length Cp", above=0.0)

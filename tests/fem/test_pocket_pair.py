@@ -15,9 +15,9 @@ import numpy as np
 import pytest
 from hex_cage import HexCage
 
+from flexcage.case.presets import load_preset
 from flexcage.fem.free import FreeBodySolver
 from flexcage.fem.model import assemble
-from flexcage.geometry.presets import load_preset
 from flexcage.mesh.build import build_cage_mesh
 
 POCKETS = 22

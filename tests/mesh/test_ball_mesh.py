@@ -8,6 +8,7 @@ from functools import cache
 import numpy as np
 import pytest
 
+from flexcage.case.presets import load_preset
 from flexcage.core.errors import InputError
 from flexcage.geometry.ball_cage_defects import (
     DisplacedPocket,
@@ -16,7 +17,6 @@ from flexcage.geometry.ball_cage_defects import (
     WebCrack,
 )
 from flexcage.geometry.ball_cages import BallCage
-from flexcage.geometry.presets import load_preset
 from flexcage.mesh.ball_measure import crack_length, measure_pockets
 from flexcage.mesh.build import build_cage_mesh
 from flexcage.mesh.cage_mesh import CageMesh, group_names

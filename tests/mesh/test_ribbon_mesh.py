@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 from scipy.stats import qmc
 
+from flexcage.case.presets import load_preset
 from flexcage.geometry.ball_cage_defects import MissingRivet
-from flexcage.geometry.presets import load_preset
 from flexcage.geometry.ribbon_cage import HEAD_HEIGHT
 from flexcage.mesh.build import build_cage_mesh
 from flexcage.mesh.measure import in_pocket_frame
