@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
-from typing import cast
+from typing import TYPE_CHECKING, cast
 
 from flexcage.core.wings import FAMILIES
 from flexcage.geometry.bearing import Bearing
+
+if TYPE_CHECKING:
+    from flexcage.render.element_shapes import ShapesOf
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -21,6 +24,7 @@ class Family:
 
     name: str
     types: tuple[type[Bearing], ...]
+    shapes: Callable[[], ShapesOf]  # profiles of rings and elements, for pictures
     other_designs: Mapping[str, str] = field(default_factory=dict)
 
 
