@@ -9,13 +9,7 @@ import numpy as np
 
 from flexcage.core.spec import option, quantity
 from flexcage.geometry.ball_cages import BallCage
-from flexcage.geometry.bearing import (
-    BEARING_TYPES,
-    Bearing,
-    EquivalentLoad,
-    Spec,
-    bearing_type,
-)
+from flexcage.geometry.bearing import Bearing, EquivalentLoad, Spec, bearing_type, type_name
 from flexcage.system.statics.elements import ElementLoads, Response, elements_of
 
 
@@ -26,7 +20,7 @@ class SpringBearing(Bearing):
 
     kind: ClassVar[str] = "spring bearing"
     cage_spec: ClassVar[Spec] = BallCage
-    type: str = option("springs", doc="type of bearing", choices=BEARING_TYPES)
+    type: str = type_name("springs")
     count: int = option(doc="number of springs", minimum=3)
     stiffness: float = quantity("N/um", doc="stiffness of one", above=0.0)
     static_rating: ClassVar[float] = 1e6
