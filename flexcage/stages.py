@@ -33,7 +33,7 @@ from flexcage.results.cage_file import FORMAT as CAGE_FORMAT
 from flexcage.results.cage_file import CageFile, cage_file, cage_record, check_same
 from flexcage.results.store import MemoryRunStore
 from flexcage.results.warnings import to_text
-from flexcage.run_folder import keep_cage, kept_cage, write_case
+from flexcage.run.folder import keep_cage, kept_cage, write_case
 from flexcage.static import solve_static
 from flexcage.system import ball_start  # noqa: F401  (registers the start of ball bearings)
 from flexcage.system.constraints import names_of
