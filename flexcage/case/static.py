@@ -151,7 +151,7 @@ class StaticCase:
 
     def _repr_html_(self) -> str:
         """For notebooks: what differs from a case of the bearing alone."""
-        bare = {**flat(dataclasses.replace(self, **_asked_nothing()).to_table())}
+        bare = dict(flat(dataclasses.replace(self, **_asked_nothing()).to_table()))
         rows = [(k, v) for k, v in flat(self.to_table()) if bare.get(k) != v]
         title = f"Static case {self.name}: {self.bearing.designation or self.bearing.kind}"
         return html.block(title, html.table(rows, heads=("key", "value")))
