@@ -10,7 +10,7 @@ from flexcage.core.wings import FAMILIES
 from flexcage.geometry.bearing import Bearing
 
 if TYPE_CHECKING:
-    from flexcage.render.element_shapes import ShapesOf
+    from flexcage.render.shapes import ShapesOf
 
 
 @dataclass(frozen=True, kw_only=True)

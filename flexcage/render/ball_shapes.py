@@ -7,7 +7,7 @@ from math import cos, pi, sin, sqrt
 import numpy as np
 
 from flexcage.geometry.ball_bearing import BallBearing
-from flexcage.render.element_shapes import Profile, Shapes
+from flexcage.render.shapes import Profile, Shapes
 
 _ARC = 14  # points of a groove's arc
 

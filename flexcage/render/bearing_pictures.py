@@ -13,7 +13,6 @@ import numpy as np
 from flexcage.core.errors import InputError
 from flexcage.geometry.bearing import Bearing
 from flexcage.render import marks, sheet
-from flexcage.render.element_shapes import Shapes, shapes_of
 from flexcage.render.elements import elements_in
 from flexcage.render.scene import (
     Layer,
@@ -23,6 +22,7 @@ from flexcage.render.scene import (
     outline_layer,
     surface_of,
 )
+from flexcage.render.shapes import Shapes, shapes_of
 from flexcage.render.solids import revolved, rotation
 from flexcage.render.stage import Picture, shoot
 

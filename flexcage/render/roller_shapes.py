@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from flexcage.geometry.cylindrical_roller import RollerBearing
-from flexcage.render.element_shapes import Shapes
+from flexcage.render.shapes import Shapes
 
 
 def roller_shapes(b: RollerBearing) -> Shapes:

@@ -24,7 +24,7 @@ from flexcage.geometry.bearing import Bearing
 from flexcage.mesh.build import build_cage_mesh
 from flexcage.mesh.options import MeshOptions
 from flexcage.render import sheet
-from flexcage.render.element_shapes import shapes_of
+from flexcage.render.shapes import shapes_of
 from flexcage.render.solids import revolved
 from flexcage.results import metrics
 from flexcage.results.metrics import BearingNumbers

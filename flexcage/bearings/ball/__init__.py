@@ -9,7 +9,7 @@ from flexcage.geometry.angular_contact_ball import AngularContactBallBearing
 from flexcage.geometry.deep_groove_ball import DeepGrooveBallBearing
 
 if TYPE_CHECKING:
-    from flexcage.render.element_shapes import ShapesOf
+    from flexcage.render.shapes import ShapesOf
 
 
 def _shapes() -> ShapesOf:

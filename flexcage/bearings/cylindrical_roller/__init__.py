@@ -8,7 +8,7 @@ from flexcage.bearings.family import Family
 from flexcage.geometry.cylindrical_roller import OTHER_DESIGNS, RollerBearing
 
 if TYPE_CHECKING:
-    from flexcage.render.element_shapes import ShapesOf
+    from flexcage.render.shapes import ShapesOf
 
 
 def _shapes() -> ShapesOf:
