@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from flexcage.cages import cage_type_of
 from flexcage.case import Case, words
 from flexcage.case.checks import land_beside_shoulder, not_reached
 from flexcage.core import html
@@ -55,7 +56,6 @@ from flexcage.stress.history import StressHistory, histories_at, stress_bound, s
 from flexcage.stress.loads import LandForces, cage_loads
 from flexcage.stress.midpoints import at_nodes, largest_at_nodes
 from flexcage.stress.operators import von_mises
-from flexcage.stress.places import contact_zone, place_kind, root_places
 from flexcage.stress.places import in_words as place_in_words
 from flexcage.stress.recovery import STRESS_VERSION, CageLoads, StressRecovery
 from flexcage.stress.rivets import Joints, RivetFields, Rivets, rivet_loads
@@ -515,6 +515,7 @@ class Run:
             settled=history.settled,
             roots=history.places,
             root_names=history.place_names,
+            root_kind=self.recovery.places.kind,
             frames=frames,
         )
 
@@ -522,7 +523,7 @@ class Run:
         """Name of the followed place in which the peak is, or nothing."""
         h = self.stress_history
         vertex = h.peak_vertex[h.peak_sample]
-        for name, vertices in root_places(self.recovery.model, self.mesh.pocket_count).items():
+        for name, vertices in self.recovery.roots.items():
             if vertex in vertices:
                 return place_in_words(name)
         return ""
@@ -646,7 +647,7 @@ class Run:
         place = f"t = {when:.3f} ms at ({at[0]:.1f}, {at[1]:.1f}, {at[2]:.1f}) mm, cage frame"
         part = self.dataset.isel(time=slice(h.settled, None))
         windows, peak = roller_passes(part, self.numbers), h.at_sample[h.settled :]
-        kind = place_kind(self.mesh.groups)
+        kind = self.recovery.places.kind
         corner = windows.peak(h.places[h.settled :].max(axis=1))
         return [
             figure(
@@ -687,7 +688,14 @@ def _recovery_of(cage: CageReduction) -> StressRecovery:
         return cached_arrays("stress", f"{cage.version}-{STRESS_VERSION}-{name}", make)
 
     def make() -> StressRecovery:
-        return StressRecovery(cage.model, cage.shown, cage.interface, solver=cage.solver, keep=keep)
+        return StressRecovery(
+            cage.model,
+            cage.shown,
+            cage.interface,
+            places=cage_type_of(cage.cage).places(),
+            solver=cage.solver,
+            keep=keep,
+        )
 
     return cage.once("recovery", make)
 
@@ -730,7 +738,7 @@ def _assembly_stress(
     recovery = _recovery_of(cage)
     loads = CageLoads(station_forces=start.station)
     stress = von_mises(recovery.stress(recovery.displacement(loads), loads))
-    stress[contact_zone(cage.model, mesh.pocket_count)] = 0.0
+    stress[recovery.contact_zone] = 0.0
     peak, material = float(stress.max()), case.cage.material
     text = f"Assembling the bearing stresses the cage to {peak / 1e6:.0f} MPa"
     limit = case.limits.stress

@@ -188,7 +188,7 @@ class Case:
 
     @property
     def cage_shape(self) -> dict[str, Any]:
-        """What ``mesh.build.build_cage_mesh`` asks for, by name."""
+        """What ``cages.build.build_cage_mesh`` asks for, by name."""
         return {
             "cage": self.cage,
             "pocket_count": self.bearing.element_count,

@@ -7,12 +7,23 @@ from math import nan, pi
 from typing import TYPE_CHECKING, Any, ClassVar
 
 from flexcage.core.spec import option, quantity
+from flexcage.core.wings import CAGE_TYPES, Parts
 from flexcage.geometry.materials import MATERIALS, Material
+
+
+def cages_of(element: str) -> Parts[type]:
+    """Specs of the cages that hold such elements ("ball"), by the name that a case gives."""
+    return Parts(
+        CAGE_TYPES,
+        lambda made: {made.name: made.spec} if element in made.holds else {},
+        what="cage type",
+    )
 
 
 @dataclass(frozen=True, kw_only=True)
 class Cage:
-    """A cage of some type; ``cage_spec`` of a bearing's type says which."""
+    """A cage of some type: ``type`` of those whose elements several cages hold says which, and
+    ``cage_spec`` of a bearing's type what it is where nobody says."""
 
     cage_type: ClassVar[str] = ""  # name of its ``cages.cage_type.CageType``
 

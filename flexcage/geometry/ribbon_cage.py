@@ -152,6 +152,3 @@ class RibbonCage(BallCage):
                 f"so its head is {describe(head, 'mm')} across, but the sheet between pockets has "
                 f"{describe(room, 'mm')} for it",
             )
-
-
-BALL_CAGES["ribbon"] = RibbonCage
