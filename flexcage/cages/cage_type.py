@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Generic, TypeVar
 
 from flexcage.core.errors import InputError
+from flexcage.core.registry import note_source
 from flexcage.core.wings import CAGE_TYPES
 from flexcage.geometry.cage import Cage
 
@@ -56,5 +57,11 @@ def cage_type_of(cage: Cage) -> CageType[Any]:
 
 
 def register_cage_type(made: CageType[Any]) -> CageType[Any]:
-    """Add a cage type of your own, and return it; InputError if its name is taken."""
-    return CAGE_TYPES.add(made)
+    """Add a cage type of your own, and return it; InputError if its name is taken.
+
+    ``type`` of its spec chooses it in a case (``geometry.cage.cages_of``). Hashes of cases with
+    such a cage change with the file that defines the spec.
+    """
+    CAGE_TYPES.add(made)
+    note_source(made.name, made.spec)
+    return made

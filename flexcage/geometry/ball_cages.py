@@ -42,6 +42,14 @@ class BallCage(Cage):
     def pocket_size(self) -> float:
         return self.pocket_diameter
 
+    @property
+    def has_faces(self) -> bool:
+        return False
+
+    @property
+    def has_land(self) -> bool:
+        return self.guidance != "ball"
+
     def thinnest(self, pitch_diameter: float, pocket_count: int) -> float:
         web = pitch_diameter * sin(pi / pocket_count) - self.pocket_diameter
         wall, rim = self.outside_diameter - self.bore, self.width - self.pocket_diameter

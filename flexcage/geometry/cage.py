@@ -51,6 +51,31 @@ class Cage:
         return nan
 
     @property
+    def has_faces(self) -> bool:
+        """Have its pockets plane faces, which a basis may have attachment vectors for?"""
+        return True
+
+    @property
+    def riveted(self) -> bool:
+        """Do rivets of ``rivet_diameter`` between its pockets hold two halves together?"""
+        return False
+
+    @property
+    def has_land(self) -> bool:
+        """May a ring's land touch it?"""
+        return True
+
+    @property
+    def land_ring(self) -> str:
+        """The ring that its land faces, "inner" or "outer": the one that guides it, if any does."""
+        return "outer" if self.guidance == "outer" else "inner"
+
+    @property
+    def land_radius(self) -> float:
+        """Radius [m] of its land."""
+        return 0.5 * (self.outside_diameter if self.land_ring == "outer" else self.bore)
+
+    @property
     def axial_width(self) -> float:
         """What it takes up along the axis [m]."""
         return self.width
