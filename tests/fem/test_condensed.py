@@ -6,6 +6,7 @@ from types import MappingProxyType
 import numpy as np
 import pytest
 
+from flexcage.cages.build import build_cage_mesh
 from flexcage.case.presets import load_preset
 from flexcage.fem.condensed import CondensedRing
 from flexcage.fem.dissected import DissectedBody
@@ -16,7 +17,6 @@ from flexcage.geometry.ball_cage_defects import EnlargedPocket, MissingRivet, We
 from flexcage.geometry.ball_cages import BallCage
 from flexcage.geometry.cages import CrossbeamDefect, SideBeamDefect, WindowCage
 from flexcage.geometry.materials import MATERIALS
-from flexcage.mesh.build import build_cage_mesh
 from flexcage.mesh.options import MeshOptions
 from flexcage.modes.pockets import pocket_loads
 from flexcage.verification.solids import ring

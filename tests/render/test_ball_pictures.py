@@ -12,6 +12,7 @@ from matplotlib.text import Text
 from test_pictures import check, has_colour
 
 from flexcage import render
+from flexcage.cages.build import build_cage_mesh
 from flexcage.case.presets import load_preset
 from flexcage.core.errors import InputError
 from flexcage.geometry.ball_cage_defects import (
@@ -21,7 +22,6 @@ from flexcage.geometry.ball_cage_defects import (
     WebCrack,
 )
 from flexcage.geometry.bearing import Bearing
-from flexcage.mesh.build import build_cage_mesh
 from flexcage.mesh.options import MeshOptions
 from flexcage.render import sheet
 from flexcage.render.shapes import shapes_of
