@@ -1,5 +1,7 @@
 from flexcage.contacts.laws import register_friction as friction_law
 from flexcage.contacts.laws import register_normal as normal_law
+from flexcage.geometry.defect import cage_defect as cage_defect
+from flexcage.geometry.defect import defect_type as defect_type
 from flexcage.geometry.materials import register_material as material
 from flexcage.geometry.presets import register_preset as preset
 from flexcage.modes.registry import register_basis as mode_basis
@@ -12,7 +14,9 @@ from flexcage.system.constraints import register_constraint as constraint
 from flexcage.verification.chapter import register_case as known_answer
 
 __all__ = [
+    "cage_defect",
     "constraint",
+    "defect_type",
     "friction_law",
     "integrator",
     "known_answer",

@@ -7,6 +7,7 @@ from typing import cast
 
 from flexcage.core.wings import CAGE_TYPES
 from flexcage.geometry.cage import Cage
+from flexcage.geometry.defect import CageDefect
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -18,6 +19,8 @@ class CageType:
 
     name: str
     spec: type[Cage]
+    defects: tuple[type[CageDefect], ...] = ()
+    defect_spec: type[CageDefect] = CageDefect  # what its mesh wants of each
 
 
 def cage_type_of(cage: Cage) -> CageType:

@@ -32,11 +32,10 @@ from flexcage.core.errors import InputError
 from flexcage.core.hashing import content_hash, counts
 from flexcage.core.registry import source_of
 from flexcage.core.spec import option
-from flexcage.geometry.ball_cage_defects import BallCageDefect, uneven_pockets
 from flexcage.geometry.ball_cages import BallCage
 from flexcage.geometry.bearings import Bearing
 from flexcage.geometry.cage import Cage
-from flexcage.geometry.cages import Defect
+from flexcage.geometry.defect import CageDefect
 from flexcage.geometry.presets import NAMED, Preset, load_preset
 from flexcage.geometry.ribbon_cage import RibbonCage
 from flexcage.mesh.options import MeshOptions
@@ -66,15 +65,7 @@ class Case:
     bearing: Bearing = option(doc="the bearing")
     cage: Cage = option(doc="the cage")
     cage_model: str = option("flexible", doc="how the cage is modelled", choices=CAGE_MODELS)
-    defects: tuple[Defect | BallCageDefect, ...] = option(
-        (),
-        doc="deformations of the cage, any number",
-        elsewhere={
-            ".*spall.*": "[[defects]] are of the cage; a spall of a race is "
-            "[bearing.outer_spall] or [bearing.inner_spall] of a cylindrical roller bearing, and "
-            "ball bearings have none"
-        },
-    )
+    defects: tuple[CageDefect, ...] = option((), doc="deformations of the cage, any number")
     mesh: MeshOptions = option(MeshOptions(), doc="the cage's mesh")
     modes: ModesSpec = option(ModesSpec(), doc="the cage's modes")
     lubricant: Lubricant = option(Lubricant(), doc="the lubricant")
@@ -198,9 +189,9 @@ class Case:
         }
 
     @property
-    def all_defects(self) -> tuple[Defect | BallCageDefect, ...]:
+    def all_defects(self) -> tuple[CageDefect, ...]:
         """Defects that the case names, and those that make its pockets' spacing uneven."""
-        uneven = uneven_pockets(self.cage, self.bearing.element_count, self.seed)
+        uneven = self.cage.uneven_pockets(self.bearing.element_count, self.seed)
         return (*self.defects, *uneven)
 
     @property

@@ -10,8 +10,6 @@ from flexcage.core.errors import InputError
 from flexcage.geometry.ball_cage_defects import (
     BallCageDefect,
     check_ball_cage,
-    check_ball_defects,
-    cracks_of,
     is_sphere,
 )
 from flexcage.geometry.ball_cages import BallCage
@@ -36,7 +34,7 @@ def build_ball_cage_mesh(
 ) -> CageMesh:
     """Mesh of a ball cage with its defects, or the user's own file checked against both."""
     check_ball_cage(cage, pocket_count=pocket_count)
-    check_ball_defects(defects, cage, pocket_count=pocket_count, pitch_diameter=pitch_diameter)
+    cage.check_defects(defects, pocket_count=pocket_count, pitch_diameter=pitch_diameter)
     if options.file:
         return _from_file(cage, pocket_count, pitch_diameter, defects, options)
     if options.fillet_size is not None:
@@ -83,8 +81,8 @@ def _(
 
 def _tips(cage: BallCage, defects: Sequence[BallCageDefect]) -> tuple[float, ...]:
     """Distances [m] of cracks' tips from the cage's middle, where edges must be; each once."""
-    shares = {abs(0.5 - crack.share) for crack in cracks_of(defects)}
-    return tuple(share * cage.width for share in sorted(shares) if share > 1e-6)
+    tips = {tip for defect in defects for tip in defect.tips(cage)}
+    return tuple(tip for tip in sorted(tips) if tip > 1e-6 * cage.width)
 
 
 def _from_file(

@@ -9,7 +9,8 @@ from typing import Any
 
 from flexcage.core.errors import InputError
 from flexcage.geometry.ball_cages import BallCage
-from flexcage.geometry.cages import Defect, WindowCage, check_cage, check_defects
+from flexcage.geometry.cages import WindowCage, check_cage
+from flexcage.geometry.window_defects import WindowDefect
 from flexcage.mesh.ball_build import build_ball_cage_mesh
 from flexcage.mesh.cage_mesh import CageMesh
 from flexcage.mesh.morph import apply_defects
@@ -56,11 +57,11 @@ def _(
     cage: WindowCage,
     pocket_count: int,
     pitch_diameter: float,
-    defects: Sequence[Defect],
+    defects: Sequence[WindowDefect],
     options: MeshOptions,
 ) -> CageMesh:
     check_cage(cage, pocket_count=pocket_count)
-    check_defects(defects, cage, pocket_count=pocket_count)
+    cage.check_defects(defects, pocket_count=pocket_count, pitch_diameter=pitch_diameter)
     if options.file:
         return _from_file(cage, pocket_count, pitch_diameter, defects, options)
     quarter = mesh_quarter(cage, pocket_count=pocket_count, options=options)
@@ -76,7 +77,7 @@ def _from_file(
     cage: WindowCage,
     pocket_count: int,
     pitch_diameter: float,
-    defects: Sequence[Defect],
+    defects: Sequence[WindowDefect],
     options: MeshOptions,
 ) -> CageMesh:
     from flexcage.mesh.io import read_mesh

@@ -18,7 +18,8 @@ from flexcage.fem.free import FreeBodySolver
 from flexcage.fem.model import FEModel, assemble
 from flexcage.geometry.ball_cage_defects import BallCageDefect, pocket_shapes
 from flexcage.geometry.ball_cages import BallCage
-from flexcage.geometry.cages import Defect, WindowCage
+from flexcage.geometry.cages import WindowCage
+from flexcage.geometry.window_defects import WindowDefect
 from flexcage.mesh.cage_mesh import CageMesh
 from flexcage.modes.ball_interface import (
     BallCageInterface,
@@ -230,7 +231,7 @@ rigid_interface_of.register(BallCage, rigid_ball_interface)
 
 
 @interface_of.register
-def _(cage: WindowCage, defects: Sequence[Defect], reduced: CageReduction) -> CageInterface:
+def _(cage: WindowCage, defects: Sequence[WindowDefect], reduced: CageReduction) -> CageInterface:
     def make() -> CageInterface:
         return cage_interface(
             reduced.model, reduced.basis, pocket_count=count, cage=cage, defects=defects

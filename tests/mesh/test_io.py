@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 from flexcage.core.errors import InputError
-from flexcage.geometry.cages import CrossbeamDefect
+from flexcage.geometry.window_defects import CrossbeamDefect
 from flexcage.mesh.build import build_cage_mesh
 from flexcage.mesh.cage_mesh import group_names
 from flexcage.mesh.io import read_mesh, write_mesh

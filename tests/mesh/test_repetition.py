@@ -10,7 +10,8 @@ from own_mesh import renumbered
 from flexcage.fem.sectors import rotation_x
 from flexcage.geometry.ball_cage_defects import WebCrack
 from flexcage.geometry.ball_cages import BallCage
-from flexcage.geometry.cages import CrossbeamDefect, SideBeamDefect, WindowCage
+from flexcage.geometry.cages import WindowCage
+from flexcage.geometry.window_defects import CrossbeamDefect, SideBeamDefect
 from flexcage.mesh.build import build_cage_mesh
 from flexcage.mesh.io import read_mesh, write_mesh
 from flexcage.mesh.options import MeshOptions

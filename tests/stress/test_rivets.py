@@ -5,8 +5,8 @@ import pytest
 
 from flexcage.fem.free import FreeBodySolver
 from flexcage.fem.model import assemble
-from flexcage.geometry.ball_cage_defects import MissingRivet
 from flexcage.geometry.presets import load_preset
+from flexcage.geometry.ribbon_defects import MissingRivet
 from flexcage.mesh.build import build_cage_mesh
 from flexcage.mesh.options import MeshOptions
 from flexcage.modes.pockets import pocket_frame
