@@ -1,7 +1,6 @@
 from flexcage.contacts.laws import register_friction as friction_law
 from flexcage.contacts.laws import register_normal as normal_law
 from flexcage.geometry.defect import cage_defect as cage_defect
-from flexcage.geometry.defect import defect_type as defect_type
 from flexcage.geometry.materials import register_material as material
 from flexcage.geometry.presets import register_preset as preset
 from flexcage.modes.registry import register_basis as mode_basis
@@ -16,7 +15,6 @@ from flexcage.verification.chapter import register_case as known_answer
 __all__ = [
     "cage_defect",
     "constraint",
-    "defect_type",
     "friction_law",
     "integrator",
     "known_answer",
