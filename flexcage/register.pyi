@@ -1,3 +1,4 @@
+from flexcage.cages.cage_type import register_cage_type as cage_type
 from flexcage.contacts.laws import register_friction as friction_law
 from flexcage.contacts.laws import register_normal as normal_law
 from flexcage.geometry.defect import cage_defect as cage_defect
@@ -14,6 +15,7 @@ from flexcage.verification.chapter import register_case as known_answer
 
 __all__ = [
     "cage_defect",
+    "cage_type",
     "constraint",
     "friction_law",
     "integrator",

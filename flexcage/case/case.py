@@ -36,12 +36,10 @@ from flexcage.core.binding import (
 from flexcage.core.hashing import content_hash, counts
 from flexcage.core.registry import source_of
 from flexcage.core.spec import option
-from flexcage.geometry.ball_cages import BallCage
 from flexcage.geometry.bearings import Bearing
 from flexcage.geometry.cage import Cage
 from flexcage.geometry.defect import CageDefect
 from flexcage.geometry.presets import NAMED, load_preset
-from flexcage.geometry.ribbon_cage import RibbonCage
 from flexcage.mesh.options import MeshOptions
 from flexcage.modes.spec import ModesSpec
 from flexcage.results.options import OutputOptions
@@ -151,7 +149,7 @@ class Case(StaticCase):
         physics = {f.name: getattr(self, f.name) for f in fields if f.name not in _NOT_PHYSICS}
         physics["contacts"] = dataclasses.replace(self.contacts, land=self.land)
         physics["modes"] = modes = self.modes.damped_as(self.cage.material)
-        if self.cage_model == "rigid" or isinstance(self.cage, BallCage):
+        if self.cage_model == "rigid" or not self.cage.has_faces:
             physics["modes"] = dataclasses.replace(modes, attachments="linear")
         file = Path(self.mesh.file)
         content = b""
@@ -171,7 +169,7 @@ class Case(StaticCase):
 
     @property
     def cage_shape(self) -> dict[str, Any]:
-        """What ``mesh.build.build_cage_mesh`` asks for, by name."""
+        """What ``cages.build.build_cage_mesh`` asks for, by name."""
         return {
             "cage": self.cage,
             "pocket_count": self.bearing.element_count,
@@ -201,7 +199,7 @@ class Case(StaticCase):
     @property
     def riveted(self) -> bool:
         """Whether its cage is flexible and held together by rivets, whose loads are then known."""
-        return self.cage_model == "flexible" and isinstance(self.cage, RibbonCage)
+        return self.cage_model == "flexible" and self.cage.riveted
 
     @property
     def assumptions(self) -> dict[str, str]:

@@ -8,6 +8,7 @@ from math import inf, pi
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from flexcage.cages import cage_type_of
 from flexcage.core.binding import chosen_spec, default_of, join
 from flexcage.core.errors import InputError
 from flexcage.core.units import describe
@@ -60,8 +61,9 @@ def check_case(case: Case) -> None:
 
 
 def _check_cage_type(bearing: Bearing, cage: Cage) -> None:
-    wanted = bearing.cage_spec
-    if not isinstance(cage, wanted):
+    wanted: type[Cage] = bearing.cage_spec
+    own = getattr(cage, "cage_type", "") == wanted.cage_type
+    if not own and bearing.element not in cage_type_of(cage).holds:
         raise InputError(
             f"bearing.type is '{bearing.type}', whose cage is a {wanted.__name__}, but the case's "
             f"cage is a {type(cage).__name__}; give bearing and cage together, or take a preset.",

@@ -34,7 +34,7 @@ class MissingRivet(BallCageDefect):
 
     def readings(self, mesh: Any, cage: Any, *, pitch_radius: float) -> list[Reading]:
         """Diameter of the circle in which the halves no more hold together."""
-        from flexcage.mesh.ball_measure import joined_vertices
+        from flexcage.mesh.halves import joined_vertices
         from flexcage.mesh.measure import in_pocket_frame
 
         joined = mesh.points[joined_vertices(mesh, self.web)]

@@ -84,7 +84,7 @@ class WindowDefect(CageDefect):
     def readings(self, mesh: Any, cage: Any, *, pitch_radius: float) -> Sequence[Reading]:
         """How far the faces that it moves are from their nominal places; those that move as much,
         together and in the sense of the last of them."""
-        from flexcage.mesh.measure import face_position
+        from flexcage.mesh.window_measure import face_position
 
         changes = self.changes(mesh.pocket_count)
         alike: dict[float, list[tuple[float, float]]] = {}

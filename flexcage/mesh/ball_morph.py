@@ -30,8 +30,8 @@ from flexcage.geometry.ball_cage_defects import (
     wall_reach,
 )
 from flexcage.geometry.ball_cages import BallCage
-from flexcage.mesh.ball_measure import joined_vertices
 from flexcage.mesh.cage_mesh import CageMesh, signed_volumes
+from flexcage.mesh.halves import joined_vertices
 from flexcage.mesh.measure import in_pocket_frame
 from flexcage.mesh.sector import Quarter
 from flexcage.mesh.with_defects import add_defects

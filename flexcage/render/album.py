@@ -29,6 +29,8 @@ from flexcage.results.metrics import BearingNumbers, settled
 if TYPE_CHECKING:
     import xarray
 
+    from flexcage.stress.places import PlaceKind
+
 Drawing = partial[Path]  # draws one picture, and gives its path
 
 _FILES = (
@@ -53,6 +55,7 @@ class StressPictures:
     settled: int  # first sample of the envelope
     roots: np.ndarray  # (nt, places) [Pa]
     root_names: Sequence[str]
+    root_kind: PlaceKind
     frames: Sequence[tuple[float, np.ndarray, np.ndarray]] = ()  # time, displacement, stress
 
 

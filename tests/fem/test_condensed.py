@@ -6,6 +6,7 @@ from types import MappingProxyType
 import numpy as np
 import pytest
 
+from flexcage.cages.build import build_cage_mesh
 from flexcage.fem.condensed import CondensedRing
 from flexcage.fem.dissected import DissectedBody
 from flexcage.fem.free import FreeBodySolver, HeldBody
@@ -18,7 +19,6 @@ from flexcage.geometry.materials import MATERIALS
 from flexcage.geometry.presets import load_preset
 from flexcage.geometry.ribbon_defects import MissingRivet
 from flexcage.geometry.window_defects import CrossbeamDefect, SideBeamDefect
-from flexcage.mesh.build import build_cage_mesh
 from flexcage.mesh.options import MeshOptions
 from flexcage.modes.pockets import pocket_loads
 from flexcage.verification.solids import ring

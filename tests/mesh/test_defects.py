@@ -12,8 +12,9 @@ from flexcage.geometry.window_defects import (
     clamped_beam,
     pocket_changes,
 )
-from flexcage.mesh.measure import in_pocket_frame, pocket_size
+from flexcage.mesh.measure import in_pocket_frame
 from flexcage.mesh.quality import check_mesh, report_mesh
+from flexcage.mesh.window_measure import pocket_size
 
 MM = 1e-3
 SHAPES = ("bent", "shifted")

@@ -12,6 +12,7 @@ from matplotlib.text import Text
 from test_pictures import check, has_colour
 
 from flexcage import render
+from flexcage.cages.build import build_cage_mesh
 from flexcage.core.errors import InputError
 from flexcage.geometry.ball_cage_defects import (
     DisplacedPocket,
@@ -20,7 +21,6 @@ from flexcage.geometry.ball_cage_defects import (
     WebCrack,
 )
 from flexcage.geometry.presets import load_preset
-from flexcage.mesh.build import build_cage_mesh
 from flexcage.mesh.options import MeshOptions
 from flexcage.render import sheet
 from flexcage.render.element_shapes import element_shape, ring_profiles
