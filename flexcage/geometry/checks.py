@@ -16,17 +16,10 @@ from flexcage.core.errors import InputError
 from flexcage.core.units import describe
 from flexcage.geometry.bearing import Bearing
 from flexcage.geometry.cage import Cage
-from flexcage.geometry.cages import (
-    CrossbeamDefect,
-    Defect,
-    SideBeamDefect,
-    WindowCage,
-    check_cage,
-    check_defects,
-    pocket_changes,
-)
+from flexcage.geometry.cages import WindowCage, check_cage
 from flexcage.geometry.catalogue import static_rating
 from flexcage.geometry.cylindrical_roller import RollerBearing
+from flexcage.geometry.window_defects import WindowDefect, pocket_changes
 
 Finding = tuple[str, str]  # where, sentence
 
@@ -88,27 +81,15 @@ def greatest_speed(bearing: Bearing) -> float:
 
 @check_geometry.register
 def _(bearing: RollerBearing, cage: WindowCage | None = None, defects: Sequence[Any] = ()) -> None:
-    refuse_foreign(defects, (CrossbeamDefect, SideBeamDefect), "window cages")
     raise_first(find_in_bearing(bearing))
     if cage is None:
         return
     check_cage(cage, pocket_count=bearing.roller_count)
     raise_first(find_in_cage(bearing, cage))
-    check_defects(defects, cage, pocket_count=bearing.roller_count)
+    cage.check_defects(
+        defects, pocket_count=bearing.roller_count, pitch_diameter=bearing.pitch_diameter
+    )
     raise_first(find_in_defects(bearing, cage, defects))
-
-
-def refuse_foreign(defects: Sequence[Any], kinds: tuple[type, ...], cages: str) -> None:
-    """Raise InputError for a defect of another type of cage than the bearing's."""
-    for i, defect in enumerate(defects):
-        if not isinstance(defect, kinds):
-            known = ", ".join(f"'{kind.tag}'" for kind in kinds)  # type: ignore[attr-defined]
-            raise InputError(
-                f"defects.{i}.type is '{defect.tag}', but this bearing's cage is one of the "
-                f"{cages}, whose defects are {known}.",
-                where=f"defects.{i}.type",
-                value=defect.tag,
-            )
 
 
 def raise_first(findings: Iterator[Finding]) -> None:
@@ -301,7 +282,7 @@ def _find_in_space(b: RollerBearing, c: WindowCage) -> Iterator[Finding]:
 
 
 def pocket_clearances(
-    bearing: RollerBearing, cage: WindowCage, defects: Sequence[Defect] = ()
+    bearing: RollerBearing, cage: WindowCage, defects: Sequence[WindowDefect] = ()
 ) -> tuple[np.ndarray, np.ndarray]:
     """Circumferential and axial clearance (Z,), (Z,) [m] of every pocket, at its middle.
 
@@ -315,7 +296,7 @@ def pocket_clearances(
 
 
 def find_in_defects(
-    b: RollerBearing, c: WindowCage, defects: Sequence[Defect]
+    b: RollerBearing, c: WindowCage, defects: Sequence[WindowDefect]
 ) -> Iterator[Finding]:
     """Interference that no assembly can take, all defects together."""
     widths, lengths = pocket_clearances(b, c, defects)

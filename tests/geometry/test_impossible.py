@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 
 from flexcage.core.errors import InputError
-from flexcage.geometry.cages import CrossbeamDefect, SideBeamDefect
 from flexcage.geometry.checks import check_geometry, pocket_clearances
 from flexcage.geometry.cylindrical_roller import RollerProfile
 from flexcage.geometry.presets import load_preset
+from flexcage.geometry.window_defects import CrossbeamDefect, SideBeamDefect
 
 PRESET = load_preset("N1013")
 BEARING, CAGE = PRESET.bearing, PRESET.cage
