@@ -1,7 +1,7 @@
 """What all defects of cages share: each is one class that knows what it moves, its place, its
 label, its words, its check and its marks in pictures.
 
-A cage type lists the defects that it may have (``CageType.defects``). ``cage_defect`` adds a
+A cage type lists the defects that it may have (``CageType.defects``). ``register_defect`` adds a
 user's own.
 """
 
@@ -166,7 +166,7 @@ def kinds_of(cage_type: str) -> tuple[type[CageDefect], ...]:
     return (*CAGE_TYPES[cage_type].defects, *_ADDED.get(cage_type, ()))
 
 
-def cage_defect(kind: Kind, *, cages: Iterable[str]) -> Kind:
+def register_defect(kind: Kind, *, cages: Iterable[str]) -> Kind:
     """Add a kind of defect for cages of some types ("window", "machined", "ribbon"):
     ``[[defects]]`` with its ``type`` then asks for it.
 
