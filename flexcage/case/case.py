@@ -14,6 +14,7 @@ from pathlib import Path
 from typing import Any
 
 from flexcage.case.checks import check_case, refuse_without_motion
+from flexcage.case.presets import NAMED, load_preset
 from flexcage.case.read import read_case
 from flexcage.case.static import StaticCase
 from flexcage.case.tables import (
@@ -36,10 +37,9 @@ from flexcage.core.binding import (
 from flexcage.core.hashing import content_hash, counts
 from flexcage.core.registry import source_of
 from flexcage.core.spec import option
-from flexcage.geometry.bearings import Bearing
+from flexcage.geometry.bearing import Bearing
 from flexcage.geometry.cage import Cage
 from flexcage.geometry.defect import CageDefect
-from flexcage.geometry.presets import NAMED, load_preset
 from flexcage.mesh.options import MeshOptions
 from flexcage.modes.spec import ModesSpec
 from flexcage.results.options import OutputOptions

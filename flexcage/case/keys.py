@@ -12,6 +12,7 @@ from pathlib import Path
 from typing import Any
 
 from flexcage.case.case import Case, sections
+from flexcage.case.presets import NAMED
 from flexcage.case.tables import ALIASES
 from flexcage.contacts.spec import FrictionLaw, NormalLaw
 from flexcage.core.binding import (
@@ -27,9 +28,8 @@ from flexcage.core.binding import (
 from flexcage.core.errors import InputError
 from flexcage.core.listing import Listing
 from flexcage.core.units import describe, format_si
-from flexcage.geometry.bearings import BEARING_TYPES
+from flexcage.geometry.bearing import BEARING_TYPES
 from flexcage.geometry.materials import Material
-from flexcage.geometry.presets import NAMED
 
 HEADS = ("key", "unit or kind", "default", "meaning")
 REQUIRED = "required"

@@ -27,6 +27,7 @@ class Cage:
     ``cage_spec`` of a bearing's type what it is where nobody says."""
 
     cage_type: ClassVar[str] = ""  # name of its ``cages.cage_type.CageType``
+    altered: ClassVar[str] = "Defects"  # heads the list of its defects
 
     material: Material = option(MATERIALS["brass"], doc="cage material (a name or its values)")
     bore: float = quantity("mm", doc="inside diameter", above=0.0)

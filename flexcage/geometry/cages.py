@@ -26,6 +26,7 @@ class WindowCage(Cage):
     """
 
     cage_type: ClassVar[str] = "window"
+    altered: ClassVar[str] = "Deformed"
 
     type: str = option("window", doc="kind of cage", choices=ROLLER_CAGES, former="window")
     pocket_width: float = quantity("mm", doc="circumferential pocket width Cq", above=0.0)

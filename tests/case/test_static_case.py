@@ -8,8 +8,8 @@ import pytest
 
 import flexcage
 from flexcage.case import Case, StaticCase, load_case, load_static
+from flexcage.case.presets import load_preset
 from flexcage.core.errors import InputError
-from flexcage.geometry.presets import load_preset
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 BEARING = '[bearing]\npreset = "7010C-PI"\n'

@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 from flexcage.cages.build import build_cage_mesh
+from flexcage.case.presets import load_preset
 from flexcage.core.errors import InputError
 from flexcage.geometry.ball_cage_defects import (
     DisplacedPocket,
@@ -17,7 +18,6 @@ from flexcage.geometry.ball_cage_defects import (
     WebCrack,
 )
 from flexcage.geometry.ball_cages import BallCage
-from flexcage.geometry.presets import load_preset
 from flexcage.mesh.ball_measure import crack_length, measure_pockets
 from flexcage.mesh.cage_mesh import CageMesh, group_names
 from flexcage.mesh.io import read_mesh, write_mesh

@@ -8,7 +8,7 @@ import pytest
 from scipy.stats import qmc
 
 from flexcage.cages.build import build_cage_mesh
-from flexcage.geometry.presets import load_preset
+from flexcage.case.presets import load_preset
 from flexcage.geometry.ribbon_cage import HEAD_HEIGHT
 from flexcage.geometry.ribbon_defects import MissingRivet
 from flexcage.mesh.measure import in_pocket_frame

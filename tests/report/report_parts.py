@@ -7,9 +7,9 @@ import json
 import numpy as np
 from ring_with_pockets import Z, ring_mesh
 
+from flexcage.case.presets import load_preset
 from flexcage.contacts.spec import LandSpec
 from flexcage.geometry.cylindrical_roller import RollerBearing
-from flexcage.geometry.presets import load_preset
 from flexcage.geometry.window_defects import CrossbeamDefect
 from flexcage.render.album import Scene, StressPictures
 from flexcage.report.blocks import Table
