@@ -1,3 +1,4 @@
+from flexcage.bearings.family import register_family as bearing_family
 from flexcage.contacts.laws import register_friction as friction_law
 from flexcage.contacts.laws import register_normal as normal_law
 from flexcage.geometry.materials import register_material as material
@@ -12,6 +13,7 @@ from flexcage.system.constraints import register_constraint as constraint
 from flexcage.verification.chapter import register_case as known_answer
 
 __all__ = [
+    "bearing_family",
     "constraint",
     "friction_law",
     "integrator",

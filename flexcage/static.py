@@ -7,6 +7,7 @@ from pathlib import Path
 
 import numpy as np
 
+from flexcage.bearings import statics_of
 from flexcage.case import Case, StaticCase
 from flexcage.contacts.spec import EhlTraction
 from flexcage.core.binding import expect
@@ -30,8 +31,8 @@ def solve_static(case: StaticCase | Case) -> StaticSolution:
     if isinstance(case, Case):
         case = _static_case(case)
     return solve_bearing(
-        case.bearing, load=case.load, speed=case.speed, contacts=case.contacts,
-        lubricant=case.lubricant, options=case.static,
+        case.bearing, statics_of(case.bearing), load=case.load, speed=case.speed,
+        contacts=case.contacts, lubricant=case.lubricant, options=case.static,
     )  # fmt: skip
 
 

@@ -2,8 +2,7 @@
 
 A type is a spec of its own, one file each in this room. It names itself here, and supplies its
 parts by being registered with the functions that want them: ``checks.check_geometry``,
-``catalogue.static_rating``, ``catalogue.dynamic_rating``, ``catalogue.equivalent_load`` and
-``system.statics.elements.elements_of``.
+``catalogue.static_rating``, ``catalogue.dynamic_rating`` and ``catalogue.equivalent_load``.
 """
 
 from __future__ import annotations

@@ -7,9 +7,10 @@ from typing import ClassVar
 
 import numpy as np
 
+from flexcage.bearings import Family
 from flexcage.core.spec import option, quantity
 from flexcage.geometry.ball_cages import BallCage
-from flexcage.geometry.bearing import BEARING_TYPES, Bearing, Spec, bearing_type
+from flexcage.geometry.bearing import BEARING_TYPES, Bearing, Spec
 from flexcage.geometry.catalogue import (
     EquivalentLoad,
     dynamic_rating,
@@ -17,15 +18,16 @@ from flexcage.geometry.catalogue import (
     static_rating,
 )
 from flexcage.geometry.checks import check_geometry
-from flexcage.system.statics.elements import ElementLoads, Response, elements_of
+from flexcage.register import bearing_family
+from flexcage.system.statics.elements import ElementLoads, Response
 
 
-@bearing_type
 @dataclass(frozen=True, kw_only=True)
 class SpringBearing(Bearing):
     """Radial springs that push and pull, all around."""
 
     kind: ClassVar[str] = "spring bearing"
+    family: ClassVar[str] = "spring"
     cage_spec: ClassVar[Spec] = BallCage
     type: str = option("springs", doc="type of bearing", choices=BEARING_TYPES)
     count: int = option(doc="number of springs", minimum=3)
@@ -40,7 +42,6 @@ equivalent_load.register(
 )
 
 
-@elements_of.register(SpringBearing)
 @dataclass(frozen=True)
 class Springs:
     """Half of each spring to either side of a massless element."""
@@ -88,3 +89,14 @@ class Springs:
 
     def reference_life(self, v, w):
         return np.inf
+
+
+bearing_family(
+    Family(
+        name="spring",
+        types=(SpringBearing,),
+        statics=lambda: Springs,
+        motion=None,
+        recording=None,
+    )
+)
