@@ -35,8 +35,8 @@ from flexcage.results.cage_file import FORMAT as CAGE_FORMAT
 from flexcage.results.cage_file import CageFile, cage_file, cage_record, check_same
 from flexcage.results.store import MemoryRunStore
 from flexcage.results.warnings import to_text
-from flexcage.run_folder import keep_cage, kept_cage, write_case
-from flexcage.static import solve_static
+from flexcage.run.folder import keep_cage, kept_cage, write_case
+from flexcage.static import AT_START, solve_static
 from flexcage.system.constraints import names_of
 from flexcage.system.layout import Layout
 from flexcage.system.problem import Bearing
@@ -254,7 +254,10 @@ def assembled_start(case: Case, bearing: Bearing, progress: Callable[..., Any] =
     limit = case.limits.assembly_force
     with progress(1.0, "start") as bar:
         start = find_start(
-            bearing, limit_force=limit, statics=lambda: solve_static(case), told=bar.to
+            bearing,
+            limit_force=limit,
+            statics=lambda: solve_static(case, options=AT_START),
+            told=bar.to,
         )
     start = pushed(start, bearing.layout, case.start)
     return constrained(start, bearing, case.constraints, limit_force=limit)
