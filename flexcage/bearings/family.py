@@ -2,11 +2,19 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
-from typing import cast
+from typing import TYPE_CHECKING, cast
 
 from flexcage.core.wings import FAMILIES
 from flexcage.geometry.bearing import Bearing
+
+if TYPE_CHECKING:
+    from flexcage.render.shapes import Shapes
+    from flexcage.results.figures import OwnFigures
+    from flexcage.results.metrics import ElementSpeed
+    from flexcage.results.registry import OwnVariables
+    from flexcage.stress.rubbing import Rub
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -19,6 +27,16 @@ class Family:
 
     name: str
     types: tuple[type[Bearing], ...]
+    variables: Callable[[], OwnVariables]
+    speed: Callable[[], ElementSpeed]
+    figures: Callable[[], OwnFigures]
+    shapes: Callable[[], Shapes]
+    rubbing: Callable[[], Rub]
+
+    @property
+    def element(self) -> str:
+        """Its rolling elements, in words."""
+        return self.types[0].element
 
 
 def family_of(bearing: Bearing) -> Family:

@@ -65,13 +65,13 @@ class Integration:
         self._filter = np.zeros((2, 2, 2))
         begun = store.blocks > 0  # by an earlier flexcage, if it has no loads
         self._keeps_loads = bearing.layout.modes > 0 and not (begun and not store.loads(0))
+        held = {v.name for v in store.layout.variables}
+        own = (name for name in recorded_names(bearing) if name not in COMPUTED)
+        lacking = [name for name in own if name not in held]
+        if lacking:
+            raise _of_another(f"it holds no '{lacking[0]}'", lacking[0])
         saved = store.checkpoint()
         if saved is not None:
-            held = {v.name for v in store.layout.variables}
-            own = (name for name in recorded_names(bearing) if name not in COMPUTED)
-            lacking = [name for name in own if name not in held]
-            if lacking:
-                raise _of_another(f"it holds no '{lacking[0]}'", lacking[0])
             self._restore(saved)
 
     def _take(

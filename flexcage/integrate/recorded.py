@@ -37,14 +37,14 @@ def new_store(
 ) -> MemoryRunStore:
     """Allocate a run for this bearing on its sampling grids, at ``path`` or in memory."""
     n, ratio = max(round(duration * output.rate), 2), output.vibration_ratio
-    layout, element = bearing.layout, bearing.family.element
+    layout, family = bearing.layout, bearing.family
     numbers = np.arange(layout.rollers)
     coords = {
         "time": np.arange(1, n + 1) / output.rate,
         "time_hf": np.arange(1, n * ratio + 1) / output.vibration_rate,
-        element: numbers,
+        "element": numbers,
         "pocket": numbers,
-        "face": np.array(bearing.family.faces),
+        "face": np.array(family.faces),
         "mode": np.arange(layout.modes),
         "constraint": np.array(layout.reactions),
         "multiplier_unit": (
@@ -65,13 +65,16 @@ def new_store(
         n_time_hf=n * ratio,
         block=output.block,
         block_hf=output.block_hf,
-        attrs={**attrs, "element": element, "places": list(bearing.family.places)},
-    )
+        attrs={
+            **attrs, "family": family.name, "element": family.element,
+            "places": list(family.places),
+        },
+    )  # fmt: skip
 
 
 def recorded_names(bearing: Bearing) -> list[str]:
     """Names of all that is recorded of this bearing."""
-    every = variables_of(bearing.family.element)
+    every = variables_of(bearing.family.name)
     return [name for name in every if bearing.layout.modes or "mode" not in VARIABLES[name].dims]
 
 
@@ -138,11 +141,11 @@ def _(model: Model, bearing: Bearing, y: np.ndarray, yd: np.ndarray) -> Arrays:
     q, u = bearing.layout.q(y)["rollers"], bearing.layout.u(y)["rollers"]
     return {
         **common(bearing, y, yd),
-        "roller_position": q[:, :, :3],
-        "roller_velocity": u[:, :, :3],
-        "roller_quaternion": orientation(q[:, :, 2], q[:, :, 3:]),
-        "roller_tilt": q[:, :, 3:5],
-        "roller_omega": u[:, :, 3:],
+        "element_position": q[:, :, :3],
+        "element_velocity": u[:, :, :3],
+        "element_quaternion": orientation(q[:, :, 2], q[:, :, 3:]),
+        "element_tilt": q[:, :, 3:5],
+        "element_omega": u[:, :, 3:],
         "race_force": s.race[:n, :, :, 0],
         "race_traction": s.race[:n, :, :, 1],
         "race_moment": s.race[:n, :, :, [3, 2]],
@@ -167,13 +170,14 @@ def _(model: BallModel, bearing: Bearing, y: np.ndarray, yd: np.ndarray) -> Arra
     q, u = bearing.layout.q(y)["rollers"], bearing.layout.u(y)["rollers"]
     return {
         **common(bearing, y, yd),
-        "ball_position": q[:, :, :3],
-        "ball_velocity": u[:, :, :3],
-        "ball_omega": u[:, :, 3:],
-        "contact_force": s.race[:n, :, :, 0],
+        "element_position": q[:, :, :3],
+        "element_velocity": u[:, :, :3],
+        "element_omega": u[:, :, 3:],
+        "race_force": s.race[:n, :, :, 0],
         "contact_angle": s.race[:n, :, :, 1],
-        "contact_traction": s.race[:n, :, :, 2:4],
-        "contact_slip": s.race[:n, :, :, 4],
+        "race_traction": s.race[:n, :, :, 2],
+        "race_traction_across": s.race[:n, :, :, 3],
+        "race_slip": s.race[:n, :, :, 4],
         "pocket_direction": s.residual[:n, :, 0],
     }
 

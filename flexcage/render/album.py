@@ -26,6 +26,7 @@ from flexcage.render.defects import pockets_of
 from flexcage.render.look import Look
 from flexcage.results import spectra
 from flexcage.results.metrics import BearingNumbers, settled
+from flexcage.stress.places import place_kind
 
 if TYPE_CHECKING:
     import xarray
@@ -193,7 +194,10 @@ def _motion(scene: Scene, folder: Path) -> list[Drawing]:
             scene.stress.roots,
             dims=("time", "place"),
             coords={"time": ds["time"], "place": list(scene.stress.root_names)},
-            attrs={"units": "Pa", "long_name": "equivalent stress"},
+            attrs={
+                "units": "Pa",
+                "long_name": f"equivalent stress at {place_kind(scene.mesh.groups).many}",
+            },
         )
     first = ds.sizes["time"] - settled(ds, scene.settle).sizes["time"]
     pushed = ds["pocket_force"].sum(["pocket", "face"]).values

@@ -13,8 +13,7 @@ import numpy as np
 from flexcage.core.errors import InputError
 from flexcage.geometry.bearing import Bearing
 from flexcage.render import marks, sheet
-from flexcage.render.element_shapes import element_end, element_shape, ring_profiles
-from flexcage.render.elements import elements_in
+from flexcage.render.elements import race_loads, shown_faces
 from flexcage.render.scene import (
     Layer,
     View,
@@ -23,8 +22,10 @@ from flexcage.render.scene import (
     outline_layer,
     surface_of,
 )
+from flexcage.render.shapes import shapes_of
 from flexcage.render.solids import revolved, rotation
 from flexcage.render.stage import Picture, shoot
+from flexcage.results import metrics
 
 if TYPE_CHECKING:
     import pyvista
@@ -50,9 +51,9 @@ class Instant:
     """What is drawn of one instant."""
 
     time: float
-    element: str  # "roller" or "ball"
+    element: str  # in words
     position: np.ndarray  # (n, 3) x, r, psi
-    tilt: np.ndarray  # (n, 2) skew, tilt; zero for balls
+    tilt: np.ndarray  # (n, 2) skew, tilt; zero without an axis
     inner_load: np.ndarray  # (n,) N
     outer_load: np.ndarray
     pocket: Mapping[str, np.ndarray]  # by name of faces: (n,) N
@@ -97,13 +98,13 @@ def bearing_picture(
 
 
 def bearing_title(ds: xarray.Dataset) -> str:
-    return f"The bearing, {elements_in(ds).many} coloured by load"
+    return f"The bearing, {metrics.element(ds)}s coloured by load"
 
 
 def load_limit(ds: xarray.Dataset) -> float:
     """Upper end of the colours of a run's loads [N]: what blows do not exceed for more than a
     twentieth of the time, such as those of a spall."""
-    loads = elements_in(ds).loads(ds)
+    loads = race_loads(ds)
     largest = loads.reshape(len(loads), -1).max(axis=1)
     return sheet.rounded_up(float(np.quantile(largest, _USUAL)))
 
@@ -113,20 +114,23 @@ def instant(ds: xarray.Dataset, index: int) -> Instant:
     n = ds.sizes["time"]
     if not -n <= index < n:
         raise InputError(f"The run has {n} samples; there is no sample {index}.", value=index)
-    at, names = ds.isel(time=index), elements_in(ds)
-    position = at[names.position].transpose(names.one, "cyl").values
+    at = ds.isel(time=index)
+    position = at["element_position"].transpose("element", "cyl").values
     tilt = np.zeros((len(position), 2))
-    if names.tilt:
-        tilt = at[names.tilt].transpose(names.one, "tilt").values
-    force, pocket = names.loads(at), at["pocket_force"].transpose("pocket", "face")
+    if "element_tilt" in ds:
+        tilt = at["element_tilt"].transpose("element", "tilt").values
+    force, pocket = race_loads(at), at["pocket_force"].transpose("pocket", "face")
     return Instant(
         float(at["time"]),
-        names.one,
+        metrics.element(ds),
         position,
         tilt,
         force[:, 0],
         force[:, 1],
-        {name: pocket.sel(face=list(faces)).sum("face").values for name, faces in names.faces},
+        {
+            name: pocket.sel(face=faces).sum("face").values
+            for name, faces in shown_faces(ds).items()
+        },
         at["cage_position"].values,
         at["cage_quaternion"].values,
         at["inner_position"].values,
@@ -154,7 +158,7 @@ def bearing_layers(
 
     ``cage`` is the cut cage at rest, in its own frame.
     """
-    inner, outer = (revolved(profile) for profile in ring_profiles(bearing))
+    inner, outer = (revolved(profile) for profile in shapes_of(bearing).rings(bearing))
     inner.points = inner.points + now.inner_position
     rings = load_pyvista().merge([inner, outer])
     loaded = now.inner_load > LOADED_SHARE * top
@@ -181,7 +185,7 @@ def bearing_layers(
 
 def _elements(now: Instant, bearing: Bearing, chosen: np.ndarray) -> pyvista.PolyData:
     pv = load_pyvista()
-    one, parts = element_shape(bearing), []
+    one, parts = shapes_of(bearing).element(bearing), []
     for k in np.flatnonzero(chosen):
         x, radius, psi = now.position[k]
         skew, tilt = now.tilt[k]
@@ -260,9 +264,9 @@ def _spalls(ax: Any, picture: Picture, now: Instant, b: Bearing) -> None:
         psi = spall.azimuth + turned + np.linspace(-half, half, 25)
         around = np.column_stack([np.zeros_like(psi), np.cos(psi), np.sin(psi)])
         middle = (
-            np.array([element_end(b), *now.inner_position[1:]])
+            np.array([shapes_of(b).end(b), *now.inner_position[1:]])
             if sign < 0.0
-            else np.array([element_end(b), 0.0, 0.0])
+            else np.array([shapes_of(b).end(b), 0.0, 0.0])
         )
         x, y = picture.place(radius * around + middle).T
         ax.plot(x, y, color=sheet.VERMILION, lw=5.0, solid_capstyle="butt",
@@ -275,7 +279,7 @@ def _spalls(ax: Any, picture: Picture, now: Instant, b: Bearing) -> None:
 
 def _load_labels(ax: Any, picture: Picture, now: Instant, b: Bearing, top: float) -> None:
     """Number of every element on its end, and the load of the loaded ones outside the ring."""
-    end = np.array([element_end(b), 0.0, 0.0])
+    end = np.array([shapes_of(b).end(b), 0.0, 0.0])
     for k, (_, r, psi) in enumerate(now.position):
         radial = np.array([0.0, np.cos(psi), np.sin(psi)])
         x, y = picture.place(r * radial + end)[0]

@@ -63,15 +63,15 @@ def _(bearing: BallBearing, ds: xarray.Dataset) -> list[Edge]:
     for k, race in enumerate(_RACES):
         edge = bearing.groove_edges[k]
         force, angle = (
-            ds[name].isel(race=k).transpose("time", "ball").values
-            for name in ("contact_force", "contact_angle")
+            ds[name].isel(race=k).transpose("time", "element").values
+            for name in ("race_force", "contact_angle")
         )
         if not (isfinite(edge) and force.max() > 0.0):
             continue
         half = bearing.contacts[k].semi_axes(force)[0] / radii[k]
         beyond = np.where(force > 0.0, np.abs(angle) + half - edge, -np.inf)
         at = np.unravel_index(int(beyond.argmax()), beyond.shape)
-        time, element = float(ds["time"][at[0]]), int(ds["ball"][at[1]])
+        time, element = float(ds["time"][at[0]]), int(ds["element"][at[1]])
         found.append(
             Edge(race, float(beyond[at]), element, time, float(force[at]), float(angle[at]))
         )

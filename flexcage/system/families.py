@@ -47,6 +47,7 @@ class Family:
     ``implicit``: does mode TANGENT fill it, so that implicit integrators may be used?
     """
 
+    name: str
     element: str  # in words
     evaluate: Callable[..., None]
     apart: tuple[Callable[..., None], ...]
@@ -64,6 +65,7 @@ class Family:
 
 FAMILIES: dict[type, Family] = {
     Model: Family(
+        name="cylindrical_roller",
         element="roller",
         evaluate=evaluate_rollers,
         apart=(roller_pockets, shared_rows),
@@ -74,6 +76,7 @@ FAMILIES: dict[type, Family] = {
         implicit=True,
     ),
     BallModel: Family(
+        name="ball",
         element="ball",
         evaluate=evaluate_balls,
         apart=(shared_rows,),

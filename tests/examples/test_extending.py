@@ -143,10 +143,10 @@ def test_a_run_with_all_of_it(mine, tmp_path):
     run = simulate(case, out=tmp_path / "run")
     ds, bearing = run.dataset, case.bearing
 
-    psi = ds["roller_position"].sel(cyl="psi").values
+    psi = ds["element_position"].sel(cyl="psi").values
     force = ds["race_force"].sel(race="inner").values
-    speed = ds["roller_velocity"].sel(cyl="psi").values
-    centrifugal = bearing.roller_mass * speed**2 / ds["roller_position"].sel(cyl="r").values
+    speed = ds["element_velocity"].sel(cyl="psi").values
+    centrifugal = bearing.roller_mass * speed**2 / ds["element_position"].sel(cyl="r").values
     expected = np.empty_like(force)
     for t, angles in enumerate(psi):
         args = angles, bearing.radial_clearance, centrifugal[t]

@@ -1,7 +1,57 @@
 """Single-row ball bearings: angular contact and deep groove."""
 
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
 from flexcage.bearings.family import Family
 from flexcage.geometry.angular_contact_ball import AngularContactBallBearing
 from flexcage.geometry.deep_groove_ball import DeepGrooveBallBearing
 
-FAMILY = Family(name="ball", types=(AngularContactBallBearing, DeepGrooveBallBearing))
+if TYPE_CHECKING:
+    from flexcage.render.shapes import Shapes
+    from flexcage.results.figures import OwnFigures
+    from flexcage.results.metrics import ElementSpeed
+    from flexcage.results.registry import OwnVariables
+    from flexcage.stress.rubbing import Rub
+
+
+def _variables() -> OwnVariables:
+    from flexcage.results.ball_variables import VARIABLES
+
+    return VARIABLES
+
+
+def _speed() -> ElementSpeed:
+    from flexcage.results.ball_slip import SPEED
+
+    return SPEED
+
+
+def _figures() -> OwnFigures:
+    from flexcage.results.ball_figures import FIGURES
+
+    return FIGURES
+
+
+def _shapes() -> Shapes:
+    from flexcage.render.ball_shapes import SHAPES
+
+    return SHAPES
+
+
+def _rubbing() -> Rub:
+    from flexcage.stress.ball_rubbing import rubbing
+
+    return rubbing
+
+
+FAMILY = Family(
+    name="ball",
+    types=(AngularContactBallBearing, DeepGrooveBallBearing),
+    variables=_variables,
+    speed=_speed,
+    figures=_figures,
+    shapes=_shapes,
+    rubbing=_rubbing,
+)

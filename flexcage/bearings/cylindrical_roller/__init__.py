@@ -1,6 +1,56 @@
 """Single-row cylindrical roller bearings."""
 
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
 from flexcage.bearings.family import Family
 from flexcage.geometry.cylindrical_roller import RollerBearing
 
-FAMILY = Family(name="cylindrical_roller", types=(RollerBearing,))
+if TYPE_CHECKING:
+    from flexcage.render.shapes import Shapes
+    from flexcage.results.figures import OwnFigures
+    from flexcage.results.metrics import ElementSpeed
+    from flexcage.results.registry import OwnVariables
+    from flexcage.stress.rubbing import Rub
+
+
+def _variables() -> OwnVariables:
+    from flexcage.results.roller_variables import VARIABLES
+
+    return VARIABLES
+
+
+def _speed() -> ElementSpeed:
+    from flexcage.results.roller_slip import SPEED
+
+    return SPEED
+
+
+def _figures() -> OwnFigures:
+    from flexcage.results.roller_figures import FIGURES
+
+    return FIGURES
+
+
+def _shapes() -> Shapes:
+    from flexcage.render.roller_shapes import SHAPES
+
+    return SHAPES
+
+
+def _rubbing() -> Rub:
+    from flexcage.stress.roller_rubbing import rubbing
+
+    return rubbing
+
+
+FAMILY = Family(
+    name="cylindrical_roller",
+    types=(RollerBearing,),
+    variables=_variables,
+    speed=_speed,
+    figures=_figures,
+    shapes=_shapes,
+    rubbing=_rubbing,
+)
