@@ -39,8 +39,10 @@ def old_run(path, element, blocks):
     table = [v if "slice" not in v.dims else Variable(**vars(v) | {"sparse": True}) for v in table]
     coords = {
         "time": np.arange(N) * 1e-3, element: np.arange(Z), "pocket": np.arange(Z),
-        "slice": np.arange(4), **({"direction": ["rolling", "across"]} if element == "ball" else {}),
+        "slice": np.arange(4),
     }  # fmt: skip
+    if element == "ball":
+        coords["direction"] = ["rolling", "across"]
     attrs = {"element": element, "places": ["inner race"]}
     store = RunStore.create(path, coords=coords, variables=table, n_time=N, block=6, attrs=attrs)
     random = np.random.default_rng(1)
