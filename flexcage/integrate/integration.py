@@ -57,6 +57,11 @@ class Integration:
         output: OutputOptions,
     ) -> None:
         self.bearing, self.store, self.solver, self.output = bearing, store, solver, output
+        held = {v.name for v in store.layout.variables}
+        own = (name for name in recorded_names(bearing) if name not in COMPUTED)
+        lacking = [name for name in own if name not in held]
+        if lacking:
+            raise _of_another(f"it holds no '{lacking[0]}'", lacking[0])
         self._computed = _computed(store)
         self.weight = error_weights(bearing.data.model, bearing.layout, solver.tolerance)
         self.work_weight = work_weights(bearing.data.model, solver.tolerance)
@@ -65,11 +70,6 @@ class Integration:
         self._filter = np.zeros((2, 2, 2))
         begun = store.blocks > 0  # by an earlier flexcage, if it has no loads
         self._keeps_loads = bearing.layout.modes > 0 and not (begun and not store.loads(0))
-        held = {v.name for v in store.layout.variables}
-        own = (name for name in recorded_names(bearing) if name not in COMPUTED)
-        lacking = [name for name in own if name not in held]
-        if lacking:
-            raise _of_another(f"it holds no '{lacking[0]}'", lacking[0])
         saved = store.checkpoint()
         if saved is not None:
             self._restore(saved)

@@ -5,14 +5,12 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
-from flexcage.results.registry import LABELS
-
 if TYPE_CHECKING:
     import xarray
 
 OLD_FORMAT = 4
 FAMILIES = {"roller": "cylindrical_roller", "ball": "ball"}  # by rolling elements
-#: Variables and dimensions, old to new.
+#: Variables, recorded and derived, and dimensions, old to new.
 NAMES: Mapping[str, str] = {
     "roller": "element",
     "roller_position": "element_position",
@@ -20,10 +18,12 @@ NAMES: Mapping[str, str] = {
     "roller_quaternion": "element_quaternion",
     "roller_tilt": "element_tilt",
     "roller_omega": "element_omega",
+    "roller_slip_ratio": "element_slip_ratio",
     "ball": "element",
     "ball_position": "element_position",
     "ball_velocity": "element_velocity",
     "ball_omega": "element_omega",
+    "ball_slip_ratio": "element_slip_ratio",
     "contact_force": "race_force",
     "contact_slip": "race_slip",
 }
@@ -31,6 +31,7 @@ NAMES: Mapping[str, str] = {
 SPLIT = ("contact_traction", "direction", {
     "rolling": "race_traction", "across": "race_traction_across",
 })  # fmt: skip
+_SPIN_AXES = ("axial", "radial", "tangential")
 _SPARSE = {"slice", "end_point", "station", "residual"}  # dimensions of variables mostly zero
 
 
@@ -44,7 +45,7 @@ def renamed(ds: xarray.Dataset) -> xarray.Dataset:
     if "ball_omega" in ds:  # had the labels of positions, (x, r, psi)
         omega = ds["ball_omega"].drop_vars("cyl").rename(cyl="spin_axis")
         ds = ds.drop_vars("ball_omega").assign(ball_omega=omega)
-        ds = ds.assign_coords(spin_axis=list(LABELS["spin_axis"]))
+        ds = ds.assign_coords(spin_axis=list(_SPIN_AXES))
     old, dim, parts = SPLIT
     if old in ds:
         whole = ds[old]

@@ -72,8 +72,8 @@ ALL_TABLES = (
     laws.NORMAL_LAWS, laws.FRICTION_LAWS, laws.NORMAL_PARAMETERS, laws.FRICTION_PARAMETERS,
     contact_spec.NORMAL_LAWS, contact_spec.FRICTION_LAWS, modes_registry.BUILDERS,
     modes_spec.KINDS, registry.VARIABLES._added, registry.LABELS._added, registry.COMPUTED,
-    album.PICTURES, materials.MATERIALS, presets._ADDED, core_registry._sources, integrators.INTEGRATORS,
-    solver_options.METHODS, constraints.KINDS, system_spec.CONSTRAINTS,
+    album.PICTURES, materials.MATERIALS, presets._ADDED, core_registry._sources,
+    integrators.INTEGRATORS, solver_options.METHODS, constraints.KINDS, system_spec.CONSTRAINTS,
 )  # fmt: skip
 
 

@@ -424,6 +424,8 @@ def test_registry_is_complete():
         assert papers_plot in text
     with pytest.raises(InputError, match="'cage_position'"):
         variable("cage_positon")
+    with pytest.raises(InputError, match="'ball_omega'; it is called 'element_omega' now"):
+        variable("ball_omega")
 
 
 def test_a_variable_from_elsewhere(monkeypatch):

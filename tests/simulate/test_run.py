@@ -265,7 +265,7 @@ def test_orientations_turn_with_the_angular_velocities(flexible):
     """Two samples' quaternions differ by the angular velocity between them, in the body's frame."""
     ds = flexible.dataset
     dt = float(ds["time"][1] - ds["time"][0])
-    for name, speed in (("inner", ds["inner_speed"].values), ("roller", None)):
+    for name, speed in (("inner", ds["inner_speed"].values), ("element", None)):
         q = ds[f"{name}_quaternion"].values
         first, second = q[100:200:7], q[101:201:7]
         turn = Rotation.from_quat(first.reshape(-1, 4), scalar_first=True).inv()

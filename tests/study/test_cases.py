@@ -118,7 +118,7 @@ def test_cases_with_the_same_cage_derive_from_it_once(folder, monkeypatch):
 
 def other_format(part):
     commit = part / "results.zarr" / "_run" / "commit.json"
-    commit.write_text(commit.read_text().replace('"format": 4', '"format": 3'))
+    commit.write_text(commit.read_text().replace('"format": 5', '"format": 3'))
 
 
 def other_checkpoint(part):
@@ -303,7 +303,7 @@ def test_parts_of_a_counted_dimension_make_up_the_whole():
     )
     assert (one + 8 * two + 13 * rest) / 22 == pytest.approx(whole, rel=1e-12)
     assert whole != pytest.approx(two, rel=1e-2)
-    with pytest.raises(InputError, match="has 22 places along 'roller'"):
+    with pytest.raises(InputError, match="has 22 places along 'element'"):
         parse_reduction("race_force[race=outer,element=20:23].mean").of(run)
 
 
