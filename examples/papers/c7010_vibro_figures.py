@@ -10,6 +10,7 @@ from ball_claim import by_parts, estimate
 
 import flexcage
 from flexcage.results import metrics
+from flexcage.results.ball_slip import slip_ratio
 from flexcage.results.reductions import main_line, mean_frequency
 from flexcage.results.statistics import Windows, roller_passes
 from flexcage.study.verdicts import Estimate
@@ -50,15 +51,15 @@ def evaluate(run: flexcage.Run) -> Figures:
     windows = roller_passes(ds, numbers)
     time = ds["time"].values
     step = float(np.median(np.diff(time)))
-    force = ds["contact_force"].transpose("time", "ball", "race").values.astype(float)
+    force = ds["race_force"].transpose("time", "element", "race").values.astype(float)
     inner = force[..., 0]
     towards = _towards_load(run, ds)
     orbit = metrics.orbit(ds)
     radius = metrics.whirl_radius(ds)
     axial = ds["inner_position"].sel(axis="x").values
-    slip = metrics.ball_slip_ratio(ds, numbers, nominal=True).values
-    angle = ds["contact_angle"].transpose("time", "ball", "race").values
-    loaded = metrics.loaded_zone(ds).transpose("time", "ball").values
+    slip = slip_ratio(ds, numbers, nominal=True).values
+    angle = ds["contact_angle"].transpose("time", "element", "race").values
+    loaded = metrics.loaded_zone(ds).transpose("time", "element").values
     pockets = ds["pocket_force"].transpose("time", "pocket", "face").values.astype(float)
     omega = ds["cage_omega"].sel(axis="x").values
     speed = metrics.cage_speed(ds, numbers)
@@ -94,10 +95,10 @@ def by_azimuth(run: flexcage.Run, count: int = 18) -> tuple[np.ndarray, np.ndarr
     """Middles of ``count`` sectors from the load's line [rad], mean inner force [N] and mean inner
     contact angle [rad] (NaN: never touched) of balls that pass them."""
     ds = metrics.whole_revolutions(metrics.settled(run.dataset, run.case.output.settle))
-    psi = ds["ball_position"].transpose("time", "ball", "cyl").sel(cyl="psi").values
+    psi = ds["element_position"].transpose("time", "element", "cyl").sel(cyl="psi").values
     at = np.round((psi - run.case.load.direction) * count / (2.0 * np.pi)).astype(int) % count
-    force = ds["contact_force"].sel(race="inner").transpose("time", "ball").values.astype(float)
-    angle = ds["contact_angle"].sel(race="inner").transpose("time", "ball").values
+    force = ds["race_force"].sel(race="inner").transpose("time", "element").values.astype(float)
+    angle = ds["contact_angle"].sel(race="inner").transpose("time", "element").values
     mean = np.array([force[at == k].mean() for k in range(count)])
     touching = [(at == k) & (force > 0.0) for k in range(count)]
     angles = np.array([angle[m].mean() if m.any() else nan for m in touching])
@@ -106,7 +107,7 @@ def by_azimuth(run: flexcage.Run, count: int = 18) -> tuple[np.ndarray, np.ndarr
 
 def _towards_load(run: flexcage.Run, ds) -> np.ndarray:
     """(time, ball): is the ball on the half that a radial load presses on?"""
-    psi = ds["ball_position"].transpose("time", "ball", "cyl").sel(cyl="psi").values
+    psi = ds["element_position"].transpose("time", "element", "cyl").sel(cyl="psi").values
     return np.cos(psi - run.case.load.direction) > 0.0
 
 

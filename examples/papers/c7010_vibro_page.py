@@ -69,9 +69,9 @@ def statics_beside(results: flexcage.StudyResults) -> str:
 def _bearing_half(run: flexcage.Run) -> int:
     """Sectors in which a ball touches the inner race half of the time or more."""
     ds = metrics.settled(run.dataset, run.case.output.settle)
-    psi = ds["ball_position"].transpose("time", "ball", "cyl").sel(cyl="psi").values
+    psi = ds["element_position"].transpose("time", "element", "cyl").sel(cyl="psi").values
     at = np.round((psi - run.case.load.direction) * 18 / (2.0 * np.pi)).astype(int) % 18
-    touching = ds["contact_force"].sel(race="inner").transpose("time", "ball").values > 0.0
+    touching = ds["race_force"].sel(race="inner").transpose("time", "element").values > 0.0
     return sum(bool(touching[at == k].mean() >= 0.5) for k in range(18))
 
 
@@ -127,7 +127,7 @@ def _ball(runs: Mapping[str, flexcage.Run], path: Path) -> Path:
         for row, (label, run) in enumerate(ends):
             ds = metrics.settled(run.dataset, run.case.output.settle)
             turns = (metrics.cage_angle(ds) - metrics.cage_angle(ds)[0]) / (2.0 * np.pi)
-            force = ds["contact_force"].sel(race="inner").isel(ball=0).values
+            force = ds["race_force"].sel(race="inner").isel(element=0).values
             part = turns <= 2.0
             ax = sheet.axes_at(figure, (100, top + row * (high + gap), wide, high))
             ax.plot(turns[part], force[part], color=sheet.BLUE, lw=0.8)

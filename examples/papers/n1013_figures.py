@@ -148,7 +148,9 @@ def _cage_speed(ax: Any, run: Run) -> None:
 
 
 def _roller_speeds(ax: Any, run: Run) -> None:
-    spin = np.abs(run.dataset["roller_omega"].isel(spin_axis=0)).transpose("time", "roller").values
+    spin = (
+        np.abs(run.dataset["element_omega"].isel(spin_axis=0)).transpose("time", "element").values
+    )
     colours = {AFTER: (sheet.GREEN, "j+1"), BEFORE: (sheet.BLUE, "j-1"), AT: (sheet.VERMILION, "j")}
     for roller, (colour, name) in colours.items():
         values = spin[:, roller] * RPM / 1e3

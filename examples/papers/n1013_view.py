@@ -26,15 +26,15 @@ LINE_AT, LINE_SHARE = (f"cage_position[axis=y].{k}" for k in ("frequency", "line
 
 
 def spin(roller: int) -> str:
-    return f"roller_omega[roller={roller},spin_axis=axial].mean"
+    return f"element_omega[element={roller},spin_axis=axial].mean"
 
 
 def spin_ripple(roller: int) -> str:
-    return f"roller_omega[roller={roller},spin_axis=axial].ripple"
+    return f"element_omega[element={roller},spin_axis=axial].ripple"
 
 
 def slip(roller: int) -> str:
-    return f"roller_slip_ratio[roller={roller}].mean"
+    return f"element_slip_ratio[element={roller}].mean"
 
 
 #: How figures are shown: name, unit, factor from SI.
@@ -147,7 +147,7 @@ def _digits(value: float, count: int) -> str:
 
 
 def _of_roller(output: str) -> tuple[str, str, float]:
-    roller = next(r for r in _ROLLERS if f"[roller={r}" in output)
+    roller = next(r for r in _ROLLERS if f"[element={r}" in output)
     name = _ROLLERS[roller]
     if output == slip(roller):
         return f"slip of roller {name}", "%", 100.0

@@ -50,9 +50,9 @@ def evaluate(run: flexcage.Run, period: float) -> Figures:
     step = float(np.median(np.diff(time)))
     every = round(KEPT / step)
     omega = ds["cage_omega"].sel(axis="x").values
-    force = ds["contact_force"].sel(race="inner").transpose("time", "ball").values.astype(float)
-    psi = ds["ball_position"].transpose("time", "ball", "cyl").sel(cyl="psi").values
-    balls = ds["ball_velocity"].transpose("time", "ball", "cyl").sel(cyl="psi").values
+    force = ds["race_force"].sel(race="inner").transpose("time", "element").values.astype(float)
+    psi = ds["element_position"].transpose("time", "element", "cyl").sel(cyl="psi").values
+    balls = ds["element_velocity"].transpose("time", "element", "cyl").sel(cyl="psi").values
     radius = 0.5 * run.case.bearing.pitch_diameter
     balls = (balls / radius).mean(axis=1)
     orbit = metrics.orbit(ds)

@@ -17,6 +17,12 @@ if TYPE_CHECKING:
     from flexcage.system.motion import Motion
     from flexcage.system.statics.elements import ElementsOf
 
+if TYPE_CHECKING:
+    from flexcage.results.figures import OwnFigures
+    from flexcage.results.metrics import ElementSpeed
+    from flexcage.results.registry import OwnVariables
+    from flexcage.stress.rubbing import Rub
+
 
 @dataclass(frozen=True, kw_only=True)
 class Family:
@@ -34,8 +40,17 @@ class Family:
     statics: Callable[[], ElementsOf] | None
     motion: Callable[[], Motion[Any]] | None
     recording: Callable[[], Recording[Any]] | None
+    variables: Callable[[], OwnVariables] | None
+    speed: Callable[[], ElementSpeed] | None
+    figures: Callable[[], OwnFigures] | None
+    rubbing: Callable[[], Rub] | None
     shapes: Callable[[], ShapesOf] | None  # profiles of rings and elements, for pictures
     other_designs: Mapping[str, str] = field(default_factory=dict)
+
+    @property
+    def element(self) -> str:
+        """Its rolling elements, in words."""
+        return self.types[0].element
 
 
 def register_family(family: Family) -> Family:

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import importlib
 from collections.abc import Callable, Iterator, Mapping
+from types import MappingProxyType
 from typing import Any, Generic, Protocol, TypeVar
 
 from flexcage.core.registry import add, check_free
@@ -60,21 +61,27 @@ class Wing(Mapping[str, M], Generic[M]):
 class Parts(Mapping[str, P], Generic[P]):
     """What the members of a wing list, by name, all together: types of bearings, defects.
 
-    ``listed(member)`` gives a member's own by name. ``add`` is for a user's own.
+    ``listed(member)`` gives a member's own by name. ``common`` are those that a floor has for all,
+    which come first. ``add`` is for a user's own.
     """
 
     def __init__(
-        self, wing: Wing[Any], listed: Callable[[Any], Mapping[str, P]], *, what: str
-    ) -> None:
-        self.wing, self.listed, self.what = wing, listed, what
+        self, wing: Wing[Any], listed: Callable[[Any], Mapping[str, P]], *, what: str,
+        common: Mapping[str, P] = MappingProxyType({}),
+    ) -> None:  # fmt: skip
+        self.wing, self.listed, self.what, self.common = wing, listed, what, common
         self._added: dict[str, P] = {}
 
     def _all(self) -> dict[str, P]:
         found = {k: v for member in self.wing.values() for k, v in self.listed(member).items()}
-        return {**found, **self._added}
+        return {**self.common, **found, **self._added}
+
+    def owners(self, name: str) -> tuple[str, ...]:
+        """Names of the members that list a part; none if it is common or a user's own."""
+        return tuple(m.name for m in self.wing.values() if name in self.listed(m))
 
     def __getitem__(self, name: str) -> P:
-        return self._all()[name]
+        return self.common[name] if name in self.common else self._all()[name]
 
     def __iter__(self) -> Iterator[str]:
         return iter(self._all())

@@ -22,13 +22,14 @@ def _variables(bearing: Bearing, y: np.ndarray) -> dict[str, np.ndarray]:
     s, n = bearing.data.samples, len(y)
     q, u = bearing.layout.q(y)["elements"], bearing.layout.u(y)["elements"]
     return {
-        "ball_position": q[:, :, :3],
-        "ball_velocity": u[:, :, :3],
-        "ball_omega": u[:, :, 3:],
-        "contact_force": s.race[:n, :, :, 0],
+        "element_position": q[:, :, :3],
+        "element_velocity": u[:, :, :3],
+        "element_omega": u[:, :, 3:],
+        "race_force": s.race[:n, :, :, 0],
         "contact_angle": s.race[:n, :, :, 1],
-        "contact_traction": s.race[:n, :, :, 2:4],
-        "contact_slip": s.race[:n, :, :, 4],
+        "race_traction": s.race[:n, :, :, 2],
+        "race_traction_across": s.race[:n, :, :, 3],
+        "race_slip": s.race[:n, :, :, 4],
         "pocket_direction": s.residual[:n, :, 0],
     }
 

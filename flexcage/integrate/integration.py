@@ -60,6 +60,11 @@ class Integration:
     ) -> None:
         self.bearing, self.recording, self.store = bearing, recording, store
         self.solver, self.output = solver, output
+        held = {v.name for v in store.layout.variables}
+        own = (name for name in recorded_names(bearing) if name not in COMPUTED)
+        lacking = [name for name in own if name not in held]
+        if lacking:
+            raise _of_another(f"it holds no '{lacking[0]}'", lacking[0])
         self._computed = _computed(store)
         self.weight = bearing.error_weights(solver.tolerance)
         self.work_weight = work_weights(bearing.data.model, solver.tolerance)
@@ -70,11 +75,6 @@ class Integration:
         self._keeps_loads = bearing.layout.modes > 0 and not (begun and not store.loads(0))
         saved = store.checkpoint()
         if saved is not None:
-            held = {v.name for v in store.layout.variables}
-            own = (name for name in recorded_names(bearing) if name not in COMPUTED)
-            lacking = [name for name in own if name not in held]
-            if lacking:
-                raise _of_another(f"it holds no '{lacking[0]}'", lacking[0])
             self._restore(saved)
 
     def _take(

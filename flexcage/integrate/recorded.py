@@ -26,14 +26,14 @@ def new_store(
 ) -> MemoryRunStore:
     """Allocate a run for this bearing on its sampling grids, at ``path`` or in memory."""
     n, ratio = max(round(duration * output.rate), 2), output.vibration_ratio
-    layout, element = bearing.layout, bearing.motion.element
+    layout, motion = bearing.layout, bearing.motion
     numbers = np.arange(layout.elements)
     coords = {
         "time": np.arange(1, n + 1) / output.rate,
         "time_hf": np.arange(1, n * ratio + 1) / output.vibration_rate,
-        element: numbers,
+        "element": numbers,
         "pocket": numbers,
-        "face": np.array(bearing.motion.faces),
+        "face": np.array(motion.faces),
         "mode": np.arange(layout.modes),
         "constraint": np.array(layout.reactions),
         "multiplier_unit": (
@@ -54,13 +54,16 @@ def new_store(
         n_time_hf=n * ratio,
         block=output.block,
         block_hf=output.block_hf,
-        attrs={**attrs, "element": element, "places": list(bearing.motion.places)},
-    )
+        attrs={
+            **attrs, "family": motion.family, "element": motion.element,
+            "places": list(motion.places),
+        },
+    )  # fmt: skip
 
 
 def recorded_names(bearing: Bearing) -> list[str]:
     """Names of all that is recorded of this bearing."""
-    every = variables_of(bearing.motion.element)
+    every = variables_of(bearing.motion.family)
     return [name for name in every if bearing.layout.modes or "mode" not in VARIABLES[name].dims]
 
 

@@ -41,11 +41,11 @@ def _variables(bearing: Bearing, y: np.ndarray) -> dict[str, np.ndarray]:
     q, u = bearing.layout.q(y)["elements"], bearing.layout.u(y)["elements"]
     root = bearing.data.model.pocket.root
     return {
-        "roller_position": q[:, :, :3],
-        "roller_velocity": u[:, :, :3],
-        "roller_quaternion": orientation(q[:, :, 2], q[:, :, 3:]),
-        "roller_tilt": q[:, :, 3:5],
-        "roller_omega": u[:, :, 3:],
+        "element_position": q[:, :, :3],
+        "element_velocity": u[:, :, :3],
+        "element_quaternion": orientation(q[:, :, 2], q[:, :, 3:]),
+        "element_tilt": q[:, :, 3:5],
+        "element_omega": u[:, :, 3:],
         "race_force": s.race[:n, :, :, 0],
         "race_traction": s.race[:n, :, :, 1],
         "race_moment": s.race[:n, :, :, [3, 2]],

@@ -195,7 +195,10 @@ def _motion(scene: Scene, folder: Path) -> list[Drawing]:
             scene.stress.roots,
             dims=("time", "place"),
             coords={"time": ds["time"], "place": list(scene.stress.root_names)},
-            attrs={"units": "Pa", "long_name": "equivalent stress"},
+            attrs={
+                "units": "Pa",
+                "long_name": f"equivalent stress at {scene.stress.root_kind.many}",
+            },
         )
     first = ds.sizes["time"] - settled(ds, scene.settle).sizes["time"]
     pushed = ds["pocket_force"].sum(["pocket", "face"]).values

@@ -13,7 +13,7 @@ import numpy as np
 from flexcage.core.errors import InputError
 from flexcage.geometry.bearing import Bearing
 from flexcage.render import marks, sheet
-from flexcage.render.elements import elements_in
+from flexcage.render.elements import race_loads, shown_faces
 from flexcage.render.scene import (
     Layer,
     View,
@@ -25,6 +25,7 @@ from flexcage.render.scene import (
 from flexcage.render.shapes import Shapes, shapes_of
 from flexcage.render.solids import revolved, rotation
 from flexcage.render.stage import Picture, shoot
+from flexcage.results import metrics
 
 if TYPE_CHECKING:
     import pyvista
@@ -50,9 +51,9 @@ class Instant:
     """What is drawn of one instant."""
 
     time: float
-    element: str  # "roller" or "ball"
+    element: str  # in words
     position: np.ndarray  # (n, 3) x, r, psi
-    tilt: np.ndarray  # (n, 2) skew, tilt; zero for balls
+    tilt: np.ndarray  # (n, 2) skew, tilt; zero without an axis
     inner_load: np.ndarray  # (n,) N
     outer_load: np.ndarray
     pocket: Mapping[str, np.ndarray]  # by name of faces: (n,) N
@@ -97,13 +98,13 @@ def bearing_picture(
 
 
 def bearing_title(ds: xarray.Dataset) -> str:
-    return f"The bearing, {elements_in(ds).many} coloured by load"
+    return f"The bearing, {metrics.element(ds)}s coloured by load"
 
 
 def load_limit(ds: xarray.Dataset) -> float:
     """Upper end of the colours of a run's loads [N]: what blows do not exceed for more than a
     twentieth of the time, such as those of a spall."""
-    loads = elements_in(ds).loads(ds)
+    loads = race_loads(ds)
     largest = loads.reshape(len(loads), -1).max(axis=1)
     return sheet.rounded_up(float(np.quantile(largest, _USUAL)))
 
@@ -113,20 +114,23 @@ def instant(ds: xarray.Dataset, index: int) -> Instant:
     n = ds.sizes["time"]
     if not -n <= index < n:
         raise InputError(f"The run has {n} samples; there is no sample {index}.", value=index)
-    at, names = ds.isel(time=index), elements_in(ds)
-    position = at[names.position].transpose(names.one, "cyl").values
+    at = ds.isel(time=index)
+    position = at["element_position"].transpose("element", "cyl").values
     tilt = np.zeros((len(position), 2))
-    if names.tilt:
-        tilt = at[names.tilt].transpose(names.one, "tilt").values
-    force, pocket = names.loads(at), at["pocket_force"].transpose("pocket", "face")
+    if "element_tilt" in ds:
+        tilt = at["element_tilt"].transpose("element", "tilt").values
+    force, pocket = race_loads(at), at["pocket_force"].transpose("pocket", "face")
     return Instant(
         float(at["time"]),
-        names.one,
+        metrics.element(ds),
         position,
         tilt,
         force[:, 0],
         force[:, 1],
-        {name: pocket.sel(face=list(faces)).sum("face").values for name, faces in names.faces},
+        {
+            name: pocket.sel(face=faces).sum("face").values
+            for name, faces in shown_faces(ds).items()
+        },
         at["cage_position"].values,
         at["cage_quaternion"].values,
         at["inner_position"].values,

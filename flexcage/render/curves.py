@@ -11,7 +11,7 @@ import numpy as np
 
 from flexcage.core.errors import InputError
 from flexcage.render import sheet
-from flexcage.render.elements import elements_in
+from flexcage.render.elements import shown_faces
 from flexcage.results import metrics
 from flexcage.results.known import KNOWN
 from flexcage.results.metrics import BearingNumbers
@@ -155,8 +155,8 @@ def histories(
     title: str = "Histories",
     note: str = "",
 ) -> Path:
-    """Cage speed, pocket forces, root stress (if given) and speeds of elements over time; for ball
-    bearings sliding speeds and contact angles as well.
+    """Cage speed, pocket forces, root stress (if given) and speeds of elements over time;
+    sliding speeds and contact angles as well where contact angles move.
 
     ``bearing`` adds the speeds without slip, of balls at their mean contact angles once settled.
     ``root_stress`` (time, place) or (time,) is in Pa. ``loads`` (time, 3) are F_x, F_y, F_z [N] on
@@ -171,11 +171,12 @@ def histories(
         panels.insert(0, _drive_panel)
     if root_stress is not None:
         panels.append(_stress_panel)
-    panels += _OWN_PANELS[elements_in(ds).one]
-    count = ds.sizes[elements_in(ds).one]
+    panels.append(_spin_panel)
+    if "contact_angle" in ds:
+        panels += [_sliding_panel, _angle_panel]
+    count = ds.sizes["element"]
     if not 0 <= element < count:
-        name = elements_in(ds).one
-        raise InputError(f"There is no {name} {element}; the bearing has {count}.")
+        raise InputError(f"There is no {metrics.element(ds)} {element}; the bearing has {count}.")
     t, left = ds["time"].values * 1e3, _MARGIN
     with sheet.style():
         height = TOP + len(panels) * (_HEIGHT + _BETWEEN) + 40
@@ -252,20 +253,13 @@ def _speed_panel(ax: Any, t: np.ndarray, ds: xarray.Dataset, *, bearing, **_: An
 def _pocket_panel(ax: Any, t: np.ndarray, ds: xarray.Dataset, **_: Any) -> None:
     force = metrics.pocket_peaks(ds).max("pocket")
     colours = (sheet.VERMILION, sheet.BLUE, sheet.GREEN)
-    for (name, faces), colour in zip(elements_in(ds).faces, colours):
-        ax.plot(t, force.sel(face=list(faces)).max("face"), color=colour, lw=0.8, label=name)
+    for (name, faces), colour in zip(shown_faces(ds).items(), colours):
+        ax.plot(t, force.sel(face=faces).max("face"), color=colour, lw=0.8, label=name)
     ax.set_ylim(bottom=0.0)
     if not force.values.any():
         sheet.nothing(ax, "no pocket is touched")
     ax.set_ylabel("force [N]")
     _legend(ax, "Largest pocket force")
-
-
-#: Heading of the stress panel.
-_STRESSED = {
-    "roller": "Equivalent stress at pocket corners",
-    "ball": "Equivalent stress at waists and rims of pockets",
-}
 
 
 def _stress_panel(
@@ -294,27 +288,19 @@ def _stress_panel(
         ax.plot(when, values[:, most], color=sheet.BLUE, label=f"{highest}: {in_words(name)}")
     ax.set_ylim(bottom=0.0)
     ax.set_ylabel("stress [MPa]")
-    _legend(ax, _STRESSED[elements_in(ds).one])
+    name = str(root_stress.attrs.get("long_name", "equivalent stress"))
+    _legend(ax, name[:1].upper() + name[1:])
 
 
-def _roller_panel(
+def _spin_panel(
     ax: Any, t: np.ndarray, ds: xarray.Dataset, *, bearing, element: int, **_: Any
 ) -> None:
-    _element_speed(ax, t, ds, metrics.roller_spin(ds).values * RPM, element)
+    own = metrics.speed_of(ds)
+    _element_speed(ax, t, ds, own.spin(ds).values * RPM, element)
     if bearing is not None:
-        ideal = _rolling(ds, bearing.kinematics(1.0).roller_spin)
+        ideal = _rolling(ds, own.rolling(bearing.kinematics(1.0)))
         ax.plot(t, ideal, color=sheet.VERMILION, ls="--", lw=1.3, label="pure rolling")
-    _legend(ax, "Roller spin, inertial frame")
-
-
-def _ball_panel(
-    ax: Any, t: np.ndarray, ds: xarray.Dataset, *, bearing, element: int, **_: Any
-) -> None:
-    _element_speed(ax, t, ds, metrics.ball_spin(ds).values * RPM, element)
-    if bearing is not None:
-        ideal = _rolling(ds, bearing.kinematics(1.0).roller_spin_in_cage)
-        ax.plot(t, ideal, color=sheet.VERMILION, ls="--", lw=1.3, label="pure rolling")
-    _legend(ax, "Ball speed about its own axis, cage frame")
+    _legend(ax, own.title)
 
 
 def _rolling(ds: xarray.Dataset, unit: float) -> xarray.DataArray:
@@ -327,10 +313,10 @@ def _element_speed(
     ax: Any, t: np.ndarray, ds: xarray.Dataset, speed: np.ndarray, element: int
 ) -> None:
     """Speeds (time, element) [rpm]: the band of all, one by itself, and where it is loaded."""
-    one = elements_in(ds).one
+    one = metrics.element(ds)
     ax.fill_between(t, speed.min(axis=1), speed.max(axis=1), color="#cfd4da", lw=0, label="all")
     ax.plot(t, speed[:, element], color=sheet.BLUE, label=f"{one} {element}")
-    loaded = metrics.loaded_zone(ds).transpose("time", one).values[:, element]
+    loaded = metrics.loaded_zone(ds).transpose("time", "element").values[:, element]
     if loaded.any():
         ax.plot(
             t,
@@ -343,7 +329,7 @@ def _element_speed(
 
 
 def _sliding_panel(ax: Any, t: np.ndarray, ds: xarray.Dataset, *, element: int, **_: Any) -> None:
-    _race_bands(ax, t, ds, ds["contact_slip"], element)
+    _race_bands(ax, t, ds, ds["race_slip"], element)
     ax.set_ylabel("speed [m/s]")
     _legend(ax, "Sliding speed at the races")
 
@@ -357,20 +343,14 @@ def _angle_panel(ax: Any, t: np.ndarray, ds: xarray.Dataset, *, element: int, **
 def _race_bands(
     ax: Any, t: np.ndarray, ds: xarray.Dataset, of: xarray.DataArray, element: int
 ) -> None:
-    """Values ``of`` (time, ball, race) of balls that touch: bands of all, lines of one."""
-    touching = metrics.touching(ds, of)
+    """Values ``of`` (time, element, race) of elements that touch: bands of all, lines of one."""
+    one, touching = metrics.element(ds), metrics.touching(ds, of)
     for race, colour in (("inner", sheet.BLUE), ("outer", sheet.ORANGE)):
-        values = touching.sel(race=race).transpose("time", "ball")
-        low, high = values.min("ball"), values.max("ball")
+        values = touching.sel(race=race).transpose("time", "element")
+        low, high = values.min("element"), values.max("element")
         ax.fill_between(t, low, high, color=colour, alpha=0.25, lw=0, label=f"{race} race, all")
-        own = values.isel(ball=element)
-        ax.plot(t, own, color=colour, lw=0.9, label=f"{race} race, ball {element}")
-
-
-_OWN_PANELS: dict[str, tuple[Callable[..., None], ...]] = {
-    "roller": (_roller_panel,),
-    "ball": (_ball_panel, _sliding_panel, _angle_panel),
-}
+        own = values.isel(element=element)
+        ax.plot(t, own, color=colour, lw=0.9, label=f"{race} race, {one} {element}")
 
 
 def compare_forces(

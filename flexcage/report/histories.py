@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from math import pi
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from flexcage.render.curves import drive_varies, land_circle, radial_and_axial
-from flexcage.render.elements import elements_in
+from flexcage.render.elements import shown_faces
 from flexcage.render.sheet import BLUE, GREEN, INK, ORANGE, VERMILION
 from flexcage.report.blocks import Chart
 from flexcage.report.plots import add_band, add_curve, new_figure
@@ -41,7 +40,9 @@ def history_charts(scene: Scene, numbers: BearingNumbers) -> list[Chart]:
         charts = [*_drive(ds, scene.loads), *charts]
     if scene.stress is not None:
         charts.append(_root_stress(scene))
-    charts += [chart(scene, numbers) for chart in _OWN_CHARTS[elements_in(ds).one]]
+    charts.append(_element_speed(scene, numbers))
+    if "contact_angle" in ds:
+        charts += [_sliding(scene), _contact_angles(scene)]
     t = _ms(ds)
     for chart in charts:
         if scene.settle:
@@ -79,8 +80,8 @@ def _cage_speed(ds: xarray.Dataset, numbers: BearingNumbers) -> Chart:
 def _pocket_force(ds: xarray.Dataset) -> Chart:
     force = metrics.pocket_peaks(ds).max("pocket")
     figure = new_figure(TIME, "force [N]")
-    for (name, faces), colour in zip(elements_in(ds).faces, (VERMILION, BLUE, GREEN)):
-        values = force.sel(face=list(faces)).max("face").values
+    for (name, faces), colour in zip(shown_faces(ds).items(), (VERMILION, BLUE, GREEN)):
+        values = force.sel(face=faces).max("face").values
         add_curve(figure, _ms(ds), values, name.replace("face", "faces"), color=colour)
     return Chart("Pocket force, largest of all pockets", [("", figure)])
 
@@ -97,18 +98,12 @@ def _root_stress(scene: Scene) -> Chart:
     return Chart(f"Stress at {kind.many}", [("", figure)])
 
 
-def _roller_spin(scene: Scene, numbers: BearingNumbers) -> Chart:
+def _element_speed(scene: Scene, numbers: BearingNumbers) -> Chart:
     ds = scene.dataset
-    ideal = _rolling(ds, numbers.kinematics(1.0).roller_spin)
-    figure = _speeds("spin [rpm]", scene, metrics.roller_spin(ds).values, ideal)
-    return Chart("Roller spin, inertial frame", [("", figure)])
-
-
-def _ball_speed(scene: Scene, numbers: BearingNumbers) -> Chart:
-    ds = scene.dataset
-    ideal = _rolling(ds, numbers.kinematics(1.0).roller_spin_in_cage)
-    figure = _speeds("speed [rpm]", scene, metrics.ball_spin(ds).values, ideal)
-    return Chart("Ball speed about its own axis, cage frame", [("", figure)])
+    own = metrics.speed_of(ds)
+    ideal = _rolling(ds, own.rolling(numbers.kinematics(1.0)))
+    figure = _speeds(f"{own.axis} [rpm]", scene, own.spin(ds).values, ideal)
+    return Chart(own.title, [("", figure)])
 
 
 def _rolling(ds: xarray.Dataset, unit: float) -> np.ndarray:
@@ -121,11 +116,11 @@ def _speeds(title: str, scene: Scene, speed: np.ndarray, ideal: np.ndarray) -> A
     """Speeds (time, element) [rad/s]: the band of all, one by itself with the loaded zone marked,
     and the one without slip."""
     ds, own = scene.dataset, scene.followed
-    speed, names = speed * RPM, elements_in(ds)
+    speed, one = speed * RPM, metrics.element(ds)
     figure = new_figure(TIME, title)
-    add_band(figure, _ms(ds), speed.min(axis=1), speed.max(axis=1), f"all {names.many}", _WASH)
-    add_curve(figure, _ms(ds), speed[:, own], f"{names.one} {own}", color=BLUE)
-    loaded = metrics.loaded_zone(ds).transpose("time", names.one).values[:, own]
+    add_band(figure, _ms(ds), speed.min(axis=1), speed.max(axis=1), f"all {one}s", _WASH)
+    add_curve(figure, _ms(ds), speed[:, own], f"{one} {own}", color=BLUE)
+    loaded = metrics.loaded_zone(ds).transpose("time", "element").values[:, own]
     if loaded.any():
         inside = np.where(loaded, speed[:, own], np.nan)
         add_curve(figure, _ms(ds), inside, "in the loaded zone", color=ORANGE, width=2.4)
@@ -133,34 +128,28 @@ def _speeds(title: str, scene: Scene, speed: np.ndarray, ideal: np.ndarray) -> A
     return figure
 
 
-def _sliding(scene: Scene, numbers: BearingNumbers) -> Chart:
-    figure = _by_race(scene, scene.dataset["contact_slip"], "speed [m/s]")
+def _sliding(scene: Scene) -> Chart:
+    figure = _by_race(scene, scene.dataset["race_slip"], "speed [m/s]")
     return Chart("Sliding speed at the races", [("", figure)])
 
 
-def _contact_angles(scene: Scene, numbers: BearingNumbers) -> Chart:
+def _contact_angles(scene: Scene) -> Chart:
     figure = _by_race(scene, scene.dataset["contact_angle"] * (180.0 / pi), "angle [°]")
     return Chart("Contact angles", [("", figure)])
 
 
 def _by_race(scene: Scene, of: xarray.DataArray, title: str) -> Any:
-    """Values ``of`` (time, ball, race) of balls that touch: bands of all, lines of one."""
+    """Values ``of`` (time, element, race) of elements that touch: bands of all, lines of one."""
     ds, own = scene.dataset, scene.followed
-    touching = metrics.touching(ds, of)
+    one, touching = metrics.element(ds), metrics.touching(ds, of)
     figure = new_figure(TIME, title)
     for race, colour, wash in (("inner", BLUE, _WASH), ("outer", ORANGE, _SAND)):
-        values = touching.sel(race=race).transpose("time", "ball")
-        low, high = values.min("ball").values, values.max("ball").values
-        add_band(figure, _ms(ds), low, high, f"{race} race, all balls", wash)
-        line = values.isel(ball=own).values
-        add_curve(figure, _ms(ds), line, f"{race} race, ball {own}", color=colour)
+        values = touching.sel(race=race).transpose("time", "element")
+        low, high = values.min("element").values, values.max("element").values
+        add_band(figure, _ms(ds), low, high, f"{race} race, all {one}s", wash)
+        line = values.isel(element=own).values
+        add_curve(figure, _ms(ds), line, f"{race} race, {one} {own}", color=colour)
     return figure
-
-
-_OWN_CHARTS: dict[str, tuple[Callable[[Scene, BearingNumbers], Chart], ...]] = {
-    "roller": (_roller_spin,),
-    "ball": (_ball_speed, _sliding, _contact_angles),
-}
 
 
 def _orbit(scene: Scene) -> Chart:

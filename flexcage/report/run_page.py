@@ -10,7 +10,6 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from flexcage.render.album import Scene
-from flexcage.render.elements import elements_in
 from flexcage.report.blocks import (
     Block,
     Charts,
@@ -34,6 +33,7 @@ from flexcage.report.tables import (
     summary_table,
     typeset,
 )
+from flexcage.results import metrics
 from flexcage.results.known import KNOWN, LARGE, STATISTIC, marked
 from flexcage.results.metrics import BearingNumbers
 from flexcage.results.summary import SHOWN, Row, Summary
@@ -170,7 +170,7 @@ def _named(account: RunAccount, *names: str) -> list[Image]:
 
 
 def _caption(account: RunAccount, name: str) -> str:
-    elements = elements_in(account.scene.dataset).many
+    elements = f"{metrics.element(account.scene.dataset)}s"
     return CAPTIONS[name].format(elements=elements) if name in CAPTIONS else name
 
 

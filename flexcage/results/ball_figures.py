@@ -7,6 +7,10 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from flexcage.results import metrics
+from flexcage.results.angles import at_angles, at_nominal
+from flexcage.results.ball_slip import slip_ratio
+from flexcage.results.figures import OwnFigures
+from flexcage.results.known import BRIEF, SIGNED, STATISTIC, figures_in
 from flexcage.results.metrics import BearingNumbers, SlipRange
 from flexcage.results.statistics import Record, roller_passes
 from flexcage.results.summary import Row, Section, figure, statistic
@@ -15,31 +19,44 @@ if TYPE_CHECKING:
     import xarray
 
 
-def at_angles(bearing: BearingNumbers) -> str:
-    """At which contact angles a bearing's kinematics are taken, in words; "" for rollers' angle."""
-    if bearing.own_angles is None:
-        return ""
-    inner, outer = np.degrees(bearing.own_angles)
-    return f"pure rolling at the mean contact angles, {inner:.1f} deg inner, {outer:.1f} deg outer"
-
-
-def at_nominal(bearing: BearingNumbers) -> str:
-    """Likewise at the nominal contact angle."""
-    return f"by the nominal contact angle, {np.degrees(bearing.contact_angle):.4g} deg"
-
-
-def of_curvature(ds: xarray.Dataset, bearing: BearingNumbers) -> str:
-    """What the grooves' curvature makes of the cage's slip ratio, in words; "" for rollers."""
-    rolling = metrics.rolling_by_curvature(ds, bearing)
-    if rolling is None:
-        return ""
-    return f"the grooves' curvature alone makes {100.0 * rolling.cage_slip:.2g} %"
+KNOWN = (
+    *figures_in(
+        "Speeds",
+        ("epicyclic_speed_nominal", "Epicyclic cage speed, nominal", "rpm",
+         "cage speed of pure rolling at the nominal contact angle", SIGNED),
+        ("cage_slip_ratio_nominal", "Cage slip ratio, nominal", "%", "cage slip against that speed",
+         SIGNED, STATISTIC),
+        ("ball_spin", "Ball speed, mean of all", "rpm",
+         "about the ball's axis, cage frame, positive as in rolling", SIGNED),
+        ("ball_spin_ideal", "Ball speed, pure rolling", "rpm",
+         "the same in pure rolling at the run's mean contact angles", SIGNED),
+    ),
+    *figures_in(
+        "Slip",
+        ("slip_loaded_nominal", "Slip ratio, loaded balls, nominal", "%",
+         "loaded balls' slip against pure rolling at the nominal contact angle", SIGNED, STATISTIC),
+        ("slip_curvature", "Slip ratio by the grooves' curvature", "%",
+         "what curvature alone makes: balls roll on lines beside the middle of a contact"),
+        ("contact_angle_inner", "Contact angle, inner race", "deg", "mean of loaded balls", SIGNED,
+         BRIEF),
+        ("contact_angle_outer", "Contact angle, outer race", "deg", "mean of loaded balls", SIGNED),
+        ("edge_inner", "Ellipse beyond the inner groove's edge", "deg",
+         "largest angle by which a contact ellipse passes the edge; below zero: it stays within",
+         SIGNED),
+        ("edge_outer", "Ellipse beyond the outer groove's edge", "deg", "likewise", SIGNED),
+    ),
+    *figures_in(
+        "Cage motion",
+        ("whirl_difference", "Whirl radius, max - min", "um",
+         "of the centre's distance from the ring's axis", SIGNED),
+    ),
+)  # fmt: skip
 
 
 def speed_rows(ds: xarray.Dataset, bearing: BearingNumbers) -> tuple[Row, ...]:
     """Speed of balls about their own axes, against pure rolling."""
     inner = float(ds["inner_speed"].mean())
-    spin = float(metrics.ball_spin(ds).mean())
+    spin = float(metrics.element_spin(ds).mean())
     note = "about its own axis, cage frame, positive as in rolling"
     own = metrics.at_own_angles(metrics.whole_revolutions(ds), bearing)
     return (
@@ -51,8 +68,8 @@ def speed_rows(ds: xarray.Dataset, bearing: BearingNumbers) -> tuple[Row, ...]:
 def slip_section(ds: xarray.Dataset, bearing: BearingNumbers, slip_range: SlipRange) -> Section:
     """Slip ratios of loaded and unloaded balls, sliding and contact angles of loaded ones."""
     part = metrics.whole_revolutions(ds)
-    zone = metrics.loaded_zone(part).transpose("time", "ball").values
-    sliding = np.abs(part["contact_slip"].transpose("time", "ball", "race").values)
+    zone = metrics.loaded_zone(part).transpose("time", "element").values
+    sliding = np.abs(part["race_slip"].transpose("time", "element", "race").values)
     fast, free = (
         [float(sliding[..., k][z].mean()) if z.any() else np.nan for k in range(2)]
         for z in (zone, ~zone)
@@ -72,17 +89,17 @@ def _slip_rows(
     slip_range: SlipRange,
     sliding: tuple[list[float], list[float]],
 ) -> tuple[Row, ...]:
-    """Slip ratios in the loaded ``zone`` (time, ball) and outside it, where inner and outer race
+    """Slip ratios in the loaded ``zone`` (time, element) and outside it, where inner and outer race
     slide at mean speeds [m/s]; by the nominal angle; and what the grooves' curvature makes."""
     windows = roller_passes(ds, bearing)
 
     def mean(ratio: xarray.DataArray, where: np.ndarray) -> Record:
-        values = ratio.transpose("time", "ball").values
+        values = ratio.transpose("time", "element").values
         return windows.ratio(np.where(where, values, 0.0).sum(axis=1), where.sum(axis=1))
 
-    own = metrics.ball_slip_ratio(ds, bearing)
+    own = slip_ratio(ds, bearing)
     loaded, unloaded = mean(own, zone), mean(own, ~zone)
-    nominal = mean(metrics.ball_slip_ratio(ds, bearing, nominal=True), zone)
+    nominal = mean(slip_ratio(ds, bearing, nominal=True), zone)
     rolling = metrics.rolling_by_curvature(ds, bearing)
     curved = rolling.sliding if rolling else ()
     of_curvature = rolling.ball_slip if rolling else None
@@ -100,8 +117,8 @@ def _slip_rows(
 
 def _race_figures(ds: xarray.Dataset, zone: np.ndarray, sliding: list[float]) -> list[Row]:
     """Mean ``sliding`` speeds [m/s] and contact angles of loaded balls at both races."""
-    force = ds["contact_force"].transpose("time", "ball", "race").values
-    angle = ds["contact_angle"].transpose("time", "ball", "race").values
+    force = ds["race_force"].transpose("time", "element", "race").values
+    angle = ds["contact_angle"].transpose("time", "element", "race").values
     rows = []
     for k, race in enumerate(("inner", "outer")):
         touching = force[..., k] > 0.0
@@ -129,11 +146,4 @@ def motion_rows(ds: xarray.Dataset) -> tuple[Row, ...]:
     return (figure("whirl_difference", axis.largest - axis.smallest, "about the ring's axis"),)
 
 
-def race_rows(ds: xarray.Dataset) -> tuple[Row, ...]:
-    """Largest normal forces of both races on a ball."""
-    force = ds["contact_force"].max("time")
-    inner, outer = (float(force.sel(race=r).max()) for r in ("inner", "outer"))
-    return (
-        figure("race_force_inner", inner),
-        figure("race_force_outer", outer),
-    )
+FIGURES = OwnFigures(known=KNOWN, speeds=speed_rows, slip=slip_section, motion=motion_rows)

@@ -18,7 +18,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from flexcage.core.errors import InputError
-from flexcage.results.metrics import TOUCHING, element
+from flexcage.results.metrics import TOUCHING
 
 if TYPE_CHECKING:
     import xarray
@@ -76,17 +76,17 @@ def contact_series(ds: xarray.Dataset, events: xarray.Dataset | None = None) -> 
     if len(t) < 2:
         raise InputError(f"Contacts are counted between samples; there are {len(t)}, not two.")
     step = float(t[-1] - t[0]) / (len(t) - 1)
-    if events is not None and complete(events, element(ds)):
+    if events is not None and complete(events):
         return _from_events(ds, events, np.concatenate([[t[0] - step], t]))
     return _from_samples(ds, step)
 
 
-def complete(events: xarray.Dataset, element: str) -> bool:
-    """Whether every contact of an ``element`` ("roller", "ball") or land closes and opens by turns.
+def complete(events: xarray.Dataset) -> bool:
+    """Whether every contact of an element or land closes and opens by turns.
 
     They do not where a block of the run had more events than its buffer holds.
     """
-    place, of = events["place"].values.astype(str), events[element].values.astype(str)
+    place, of = events["place"].values.astype(str), events["element"].values.astype(str)
     _, contact = np.unique(np.char.add(place, of), return_inverse=True)
     order = np.argsort(contact, kind="stable")
     contact, closed = contact[order], events["closed"].values[order]
@@ -97,7 +97,7 @@ def complete(events: xarray.Dataset, element: str) -> bool:
 def _from_events(ds: xarray.Dataset, events: xarray.Dataset, edges: np.ndarray) -> ContactSeries:
     """Contacts in the intervals between ``edges`` (n + 1,) [s], from all events of the run."""
     time, place = events["time"].values, events["place"].values.astype(str)
-    closed, pocket = events["closed"].values, events[element(ds)].values
+    closed, pocket = events["closed"].values, events["element"].values
     at_pocket = np.isin(place, ds["face"].values.astype(str))
     at_cage = at_pocket | np.char.startswith(place, "land")
     onsets = np.zeros((len(edges) - 1, ds.sizes["pocket"]), np.int64)

@@ -60,8 +60,8 @@ def groove_edges(bearing: Bearing, ds: xarray.Dataset) -> list[Edge]:
     if not known.any():
         return []
     force, angle = (
-        ds[name].transpose("time", bearing.element, "race").values
-        for name in ("contact_force", "contact_angle")
+        ds[name].transpose("time", "element", "race").values
+        for name in ("race_force", "contact_angle")
     )
     beyond = np.where(force > 0.0, bearing.beyond_edges(force, angle), -np.inf)
     found = []
@@ -74,7 +74,7 @@ def groove_edges(bearing: Bearing, ds: xarray.Dataset) -> list[Edge]:
                 race=race,
                 beyond=float(beyond[time, one, k]),
                 kind=bearing.element,
-                element=int(ds[bearing.element][one]),
+                element=int(ds["element"][one]),
                 time=float(ds["time"][time]),
                 force=float(force[time, one, k]),
                 angle=float(angle[time, one, k]),

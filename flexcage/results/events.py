@@ -19,8 +19,10 @@ def contact_events(table: dict[str, np.ndarray], attrs: Mapping[str, Any]) -> xa
     return xarray.Dataset(
         {
             "time": ("event", table["time"], {"units": "s", "long_name": "step that found it"}),
-            element: ("event", table["element"], {"long_name": f"{element}; -1: the cage's land"}),
+            "element": (
+                "event", table["element"], {"long_name": f"{element}; -1: the cage's land"},
+            ),
             "place": ("event", names[table["place"]], {"long_name": "contact place"}),
             "closed": ("event", table["closed"].astype(bool), {"long_name": "closed, not opened"}),
         }
-    )
+    )  # fmt: skip

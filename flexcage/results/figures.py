@@ -7,14 +7,12 @@ from dataclasses import dataclass
 from math import isfinite
 from typing import TYPE_CHECKING
 
-import numpy as np
-
 from flexcage.core.errors import InputError
-from flexcage.results import audit, ball_figures, metrics
-from flexcage.results.ball_figures import at_angles, at_nominal, of_curvature
+from flexcage.results import audit, metrics
+from flexcage.results.angles import at_angles, at_nominal, of_curvature
 from flexcage.results.bootstrap import FEWEST
 from flexcage.results.contact_activity import EVENTS, contact_series
-from flexcage.results.known import KNOWN, SETTLING, marked
+from flexcage.results.known import KNOWN, SETTLING, KnownFigure, marked
 from flexcage.results.metrics import BearingNumbers, SlipRange
 from flexcage.results.ring_figures import constraint_sections, ring_section
 from flexcage.results.statistics import Record, Windows, roller_passes
@@ -30,6 +28,18 @@ LOW_PASS = 2e3  # Hz, of the second deviation of the cage centre's speed
 def pass_peak(element: str) -> str:
     """What the peak of a pass is, in words."""
     return f"mean of the largest in each {element} pass"
+
+
+@dataclass(frozen=True)
+class OwnFigures:
+    """What the summary of one family's bearings says beside what all do: the figures ``known``;
+    rows on its elements' ``speeds``, the section of their ``slip``, and rows on the cage's
+    ``motion``."""
+
+    known: tuple[KnownFigure, ...]
+    speeds: Callable[[xarray.Dataset, BearingNumbers], tuple[Row, ...]]
+    slip: Callable[[xarray.Dataset, BearingNumbers, SlipRange], Section]
+    motion: Callable[[xarray.Dataset], tuple[Row, ...]] = lambda ds: ()
 
 
 def summarise(
@@ -48,12 +58,12 @@ def summarise(
         raise InputError(f"settle must lie in 0 ... 1, not {settle}.", where="output.settle")
     part = metrics.settled(ds, settle)
     windows = roller_passes(part, bearing)
-    own = FIGURES[metrics.element(ds)]
+    own: OwnFigures = metrics.family(ds).figures()
     sections = [
         Section("Speeds", (*_speed_rows(part, bearing), *own.speeds(part, bearing))),
         own.slip(part, bearing, slip_range or SlipRange()),
         Section("Cage motion", (*_motion_rows(part, bearing), *own.motion(part))),
-        Section("Forces", (*_force_rows(part, windows), *own.races(part))),
+        Section("Forces", (*_force_rows(part, windows), *_race_rows(part))),
         Section("Contacts of the cage", _contact_rows(part, windows, events)),
         ring_section(part, windows),
         *constraint_sections(part, windows),
@@ -119,7 +129,7 @@ def _nominal_rows(
 ) -> tuple[Row, ...]:
     """What the speed of pure rolling would be at the nominal contact angle, of a bearing that
     leaves it under load."""
-    if not metrics.RACE_NAMES[metrics.element(ds)].angle:
+    if "contact_angle" not in ds:
         return ()
     note = at_nominal(bearing)
     ideal = ds["inner_speed"].values * bearing.nominal.kinematics(1.0).cage_speed
@@ -128,40 +138,6 @@ def _nominal_rows(
         figure("epicyclic_speed_nominal", speed.nominal, note),
         statistic("cage_slip_ratio_nominal", slip, note, value=speed.nominal_slip),
     )
-
-
-def _spin_rows(ds: xarray.Dataset, bearing: BearingNumbers) -> tuple[Row, ...]:
-    inner = float(ds["inner_speed"].mean())
-    spin = float(metrics.roller_spin(ds).mean())
-    note = "inertial frame, positive as in rolling"
-    return (
-        figure("roller_spin", spin, note),
-        figure("roller_spin_ideal", abs(bearing.kinematics(inner).roller_spin)),
-    )
-
-
-def _slip_section(ds: xarray.Dataset, bearing: BearingNumbers, slip_range: SlipRange) -> Section:
-    slip = metrics.roller_slip(ds, bearing)
-    part = metrics.whole_revolutions(ds)
-    ratio = metrics.roller_slip_ratio(part, bearing).values
-    zone = metrics.loaded_zone(part).transpose("time", "roller").values
-    windows = roller_passes(part, bearing)
-    loaded, unloaded = (
-        windows.ratio(np.where(z, ratio, 0.0).sum(axis=1), z.sum(axis=1)) for z in (zone, ~zone)
-    )
-    mean = "mean over the zone"
-    rows = (
-        statistic("slip_loaded", loaded, slip_range.note(loaded.value, slip.sliding_loaded)),
-        statistic(
-            "slip_unloaded", unloaded, slip_range.note(unloaded.value, slip.sliding_unloaded)
-        ),
-        figure("sliding_inner_loaded", slip.sliding_loaded[0], mean),
-        figure("sliding_outer_loaded", slip.sliding_loaded[1], mean),
-        figure("sliding_inner_unloaded", slip.sliding_unloaded[0]),
-        figure("sliding_outer_unloaded", slip.sliding_unloaded[1]),
-        figure("loaded_share", slip.loaded_share),
-    )
-    return Section("Roller slip (inertial frame)", rows)
 
 
 def _motion_rows(ds: xarray.Dataset, bearing: BearingNumbers) -> tuple[Row, ...]:
@@ -283,24 +259,3 @@ def _energy_rows(ds: xarray.Dataset) -> tuple[Row, ...]:
             for k, v in check.channels.items()
         ),
     )
-
-
-@dataclass(frozen=True)
-class ElementFigures:
-    """What a summary says of one kind of rolling elements."""
-
-    speeds: Callable[[xarray.Dataset, BearingNumbers], tuple[Row, ...]]
-    slip: Callable[[xarray.Dataset, BearingNumbers, SlipRange], Section]
-    races: Callable[[xarray.Dataset], tuple[Row, ...]]
-    motion: Callable[[xarray.Dataset], tuple[Row, ...]]
-
-
-FIGURES = {
-    "roller": ElementFigures(_spin_rows, _slip_section, _race_rows, lambda ds: ()),
-    "ball": ElementFigures(
-        ball_figures.speed_rows,
-        ball_figures.slip_section,
-        ball_figures.race_rows,
-        ball_figures.motion_rows,
-    ),
-}

@@ -29,19 +29,18 @@ class _Motion:
     spin: np.ndarray  # (time, element, 2) about x and e_r in space, rad/s
 
 
-def _motion(ds: xarray.Dataset, element: str) -> _Motion:
+def _motion(ds: xarray.Dataset) -> _Motion:
     def of(name: str) -> np.ndarray:
-        return np.asarray(ds[name].transpose("time", element, ...).values)
+        return np.asarray(ds[name].transpose("time", "element", ...).values)
 
-    names = metrics.RACE_NAMES[element]
-    radius = of(f"{element}_position")[..., 1]
-    force = of(names.force)
+    radius = of("element_position")[..., 1]
+    force = of("race_force")
     return _Motion(
         force=force,
-        angle=of(names.angle) if names.angle else np.zeros_like(force),
+        angle=of("contact_angle") if "contact_angle" in ds else np.zeros_like(force),
         radius=radius,
-        orbit=of(f"{element}_velocity")[..., 2] / radius,
-        spin=of(f"{element}_omega")[..., :2],
+        orbit=of("element_velocity")[..., 2] / radius,
+        spin=of("element_omega")[..., :2],
     )
 
 
@@ -50,7 +49,7 @@ def entrainment_speed(ds: xarray.Dataset, bearing: Bearing) -> np.ndarray:
 
     It goes round with the element: the rings' surfaces pass with their speed less its orbit's.
     """
-    return _entrained(_motion(ds, metrics.element(ds)), ds, bearing)
+    return _entrained(_motion(ds), ds, bearing)
 
 
 def _entrained(m: _Motion, ds: xarray.Dataset, bearing: Bearing) -> np.ndarray:
@@ -71,14 +70,13 @@ def film_thickness(ds: xarray.Dataset, bearing: Bearing, oil: Oil) -> xarray.Dat
     """
     import xarray as xr
 
-    element = metrics.element(ds)
-    motion = _motion(ds, element)
+    motion = _motion(ds)
     film = bearing.race_film(motion.force, _entrained(motion, ds, bearing), oil)
     return xr.DataArray(
         np.stack([film.central, film.least], axis=-1),
-        dims=("time", element, "race", "film"),
+        dims=("time", "element", "race", "film"),
         coords={
-            "time": ds["time"], element: ds[element], "race": list(_RACES),
+            "time": ds["time"], "element": ds["element"], "race": list(_RACES),
             "film": ["central", "least"],
         },
         attrs={"units": "m", "long_name": "thickness of the lubricant's film"},

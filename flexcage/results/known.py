@@ -6,13 +6,15 @@ show, and documentation prints it (``flexcage figures``).
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from dataclasses import dataclass
-from types import MappingProxyType
+from typing import Any
 
 from flexcage.core.binding import did_you_mean
 from flexcage.core.errors import InputError
 from flexcage.core.listing import Listing
+from flexcage.core.wings import FAMILIES, Parts
+from flexcage.results.registry import whose
 from flexcage.system.data import POWERS
 
 FLEXIBLE, RIVETED, FATIGUE, WEAR = "flexible cage", "riveted cage", "fatigue", "wear"
@@ -33,16 +35,15 @@ WORDS = {"Element": "Element", "Faces": "Pocket faces", "place": "a corner or ed
 
 @dataclass(frozen=True)
 class KnownFigure:
-    """One figure of a run. ``pattern`` is its title, with the ``WORDS`` in braces; ``of`` names
-    rolling elements ("roller", "ball") whose bearings have it, "" all; ``needs`` what a run must
-    have or compute for it; ``marks`` what it is and where it is shown (``SIGNED`` ...)."""
+    """One figure of a run. ``pattern`` is its title, with the ``WORDS`` in braces; ``needs`` is
+    what a run must have or compute for it; ``marks`` say what it is and where it is shown
+    (``SIGNED`` ...)."""
 
     key: str
     pattern: str
     shown: str  # unit that it is printed in, "" for none
     meaning: str
     section: str
-    of: str = ""
     needs: str = ""
     marks: frozenset[str] = frozenset()
 
@@ -61,15 +62,15 @@ class KnownFigure:
         return self.title.partition(",")[0].lower()
 
 
-def _section(section: str, *rows: tuple, of: str = "", needs: str = "") -> Iterator[KnownFigure]:
+def figures_in(section: str, *rows: tuple, needs: str = "") -> Iterator[KnownFigure]:
     """Figures from rows of key, title, unit, meaning, and marks."""
     for key, pattern, shown, meaning, *marks in rows:
-        yield KnownFigure(key, pattern, shown, meaning, section, of, needs, frozenset(marks))
+        yield KnownFigure(key, pattern, shown, meaning, section, needs, frozenset(marks))
 
 
 # fmt: off
 def _statistics() -> Iterator[KnownFigure]:
-    yield from _section(
+    yield from figures_in(
         "Statistics",
         ("settled_at", "Settled from", "ms", "end of the share that output.settle leaves out"),
         ("settled_time", "Time in statistics", "ms", "length of the settled part"),
@@ -81,7 +82,7 @@ def _statistics() -> Iterator[KnownFigure]:
 
 
 def _speeds() -> Iterator[KnownFigure]:
-    yield from _section(
+    yield from figures_in(
         "Speeds",
         ("inner_speed", "Inner ring speed", "rpm", "mean", SIGNED),
         ("cage_speed", "Cage speed", "rpm", "mean over whole turns of the cage", SIGNED, STATISTIC,
@@ -94,30 +95,10 @@ def _speeds() -> Iterator[KnownFigure]:
         ("cage_speed_ripple", "Cage speed ripple", "%",
          "standard deviation over mean of the cage's speed", STATISTIC, CONVERGENCE),
     )
-    yield from _section(
-        "Speeds",
-        ("roller_spin", "Roller spin, mean of all", "rpm",
-         "about the roller's axis, inertial frame, positive as in rolling", SIGNED),
-        ("roller_spin_ideal", "Roller spin, pure rolling", "rpm", "the same in pure rolling",
-         SIGNED),
-        of="roller",
-    )
-    yield from _section(
-        "Speeds",
-        ("epicyclic_speed_nominal", "Epicyclic cage speed, nominal", "rpm",
-         "cage speed of pure rolling at the nominal contact angle", SIGNED),
-        ("cage_slip_ratio_nominal", "Cage slip ratio, nominal", "%", "cage slip against that speed",
-         SIGNED, STATISTIC),
-        ("ball_spin", "Ball speed, mean of all", "rpm",
-         "about the ball's axis, cage frame, positive as in rolling", SIGNED),
-        ("ball_spin_ideal", "Ball speed, pure rolling", "rpm",
-         "the same in pure rolling at the run's mean contact angles", SIGNED),
-        of="ball",
-    )
 
 
 def _slip() -> Iterator[KnownFigure]:
-    yield from _section(
+    yield from figures_in(
         "Slip",
         ("slip_loaded", "Slip ratio, loaded elements", "%",
          "mean over elements that bear more than 1 % of the largest inner race force", SIGNED,
@@ -130,33 +111,10 @@ def _slip() -> Iterator[KnownFigure]:
          "mean sliding speed of loaded elements", SIGNED),
         ("loaded_share", "Loaded elements", "%", "share of all elements"),
     )
-    yield from _section(
-        "Slip",
-        ("sliding_inner_unloaded", "Sliding, inner race, unloaded", "m/s",
-         "mean sliding speed of unloaded rollers", SIGNED),
-        ("sliding_outer_unloaded", "Sliding, outer race, unloaded", "m/s",
-         "mean sliding speed of unloaded rollers", SIGNED),
-        of="roller",
-    )
-    yield from _section(
-        "Slip",
-        ("slip_loaded_nominal", "Slip ratio, loaded balls, nominal", "%",
-         "loaded balls' slip against pure rolling at the nominal contact angle", SIGNED, STATISTIC),
-        ("slip_curvature", "Slip ratio by the grooves' curvature", "%",
-         "what curvature alone makes: balls roll on lines beside the middle of a contact"),
-        ("contact_angle_inner", "Contact angle, inner race", "deg", "mean of loaded balls", SIGNED,
-         BRIEF),
-        ("contact_angle_outer", "Contact angle, outer race", "deg", "mean of loaded balls", SIGNED),
-        ("edge_inner", "Ellipse beyond the inner groove's edge", "deg",
-         "largest angle by which a contact ellipse passes the edge; below zero: it stays within",
-         SIGNED),
-        ("edge_outer", "Ellipse beyond the outer groove's edge", "deg", "likewise", SIGNED),
-        of="ball",
-    )
 
 
 def _motion() -> Iterator[KnownFigure]:
-    yield from _section(
+    yield from figures_in(
         "Cage motion",
         ("whirl_radius", "Whirl radius, mean", "um", "distance of the centre from its mean place",
          STATISTIC, LARGE, SETTLING, CONVERGENCE),
@@ -176,16 +134,10 @@ def _motion() -> Iterator[KnownFigure]:
          STATISTIC),
         ("tilt_max", "Cage tilt, largest", "deg", "largest such angle"),
     )
-    yield from _section(
-        "Cage motion",
-        ("whirl_difference", "Whirl radius, max - min", "um",
-         "of the centre's distance from the ring's axis", SIGNED),
-        of="ball",
-    )
 
 
 def _forces() -> Iterator[KnownFigure]:
-    yield from _section(
+    yield from figures_in(
         "Forces",
         ("pocket_force_mean", "Pocket force, mean", "N", "of a pocket's face while in contact",
          STATISTIC, BRIEF, LARGE, SETTLING, CONVERGENCE),
@@ -203,7 +155,7 @@ def _forces() -> Iterator[KnownFigure]:
         ("pinch_force", "Pinch force at the start", "N",
          "of elements that a deformed pocket squeezes when assembled", CONVERGENCE),
     )
-    yield from _section(
+    yield from figures_in(
         "Contacts of the cage",
         ("contact_frequency", "Contacts begun, mean of a pocket", "Hz",
          "contacts with elements begun in a second; every face counts", STATISTIC),
@@ -215,7 +167,7 @@ def _forces() -> Iterator[KnownFigure]:
 
 
 def _ring() -> Iterator[KnownFigure]:
-    yield from _section(
+    yield from figures_in(
         "Inner ring",
         ("drive_power", "Drive power", "W", "mean", SIGNED, STATISTIC),
         ("drive_torque", "Drive torque", "N mm", "mean power over mean speed", SIGNED, STATISTIC),
@@ -245,7 +197,7 @@ def _energy() -> Iterator[KnownFigure]:
          SIGNED)
         for k in POWERS
     )
-    yield from _section(
+    yield from figures_in(
         "Energy",
         ("energy_audit", "Energy audit", "", "passed, exceeded or not judged", TEXT, BRIEF, LARGE,
          EFFORT),
@@ -264,7 +216,7 @@ def _energy() -> Iterator[KnownFigure]:
 
 def _film() -> Iterator[KnownFigure]:
     for race in ("inner", "outer"):
-        yield from _section(
+        yield from figures_in(
             "Lubricant's film",
             (f"film_{race}", f"Film, {race} race, mean", "um",
              "middle of loaded elements' contacts; isothermal, fully flooded"),
@@ -273,16 +225,16 @@ def _film() -> Iterator[KnownFigure]:
 
 
 def _cage() -> Iterator[KnownFigure]:
-    yield from _section(
+    yield from figures_in(
         "Support",
         ("inner_held", "Support of the inner ring", "", "what holds the ring", TEXT),
     )
-    yield from _section(
+    yield from figures_in(
         "Cage",
         ("cage_mass", "Cage mass", "g", "with the mass that unbalances it", CONVERGENCE),
         ("cage_centre_shift", "Cage mass centre, shift", "um", "from the axis of the sound cage"),
     )
-    yield from _section(
+    yield from figures_in(
         "Cage",
         ("mode_count", "Cage modes", "", "number of modal coordinates"),
         ("first_frequency", "Cage modes, first frequency", "Hz", "of the free cage", CONVERGENCE),
@@ -290,7 +242,7 @@ def _cage() -> Iterator[KnownFigure]:
          "of a push's deflection of its own pocket, what others would feel of it beyond the modes"),
         needs=FLEXIBLE,
     )
-    yield from _section(
+    yield from figures_in(
         "Equivalent stress",
         ("stress_peak", "Stress, largest off {walls}", "MPa",
          "of the settled part, without the walls of pockets that contacts press on", BRIEF,
@@ -305,7 +257,7 @@ def _cage() -> Iterator[KnownFigure]:
         _wall("stress", EFFORT),
         needs=FLEXIBLE,
     )
-    yield from _section(
+    yield from figures_in(
         "Rivets",
         ("rivet_tension", "Rivet tension, largest", "N", "of a rivet"),
         ("rivet_shear", "Rivet shear, largest", "N", "of a rivet"),
@@ -316,14 +268,14 @@ def _cage() -> Iterator[KnownFigure]:
 
 
 def _late() -> Iterator[KnownFigure]:
-    yield from _section(
+    yield from figures_in(
         "Fatigue",
         ("fatigue_damage_rate", "Fatigue damage rate", "1/h", "at the worst named place",
          STATISTIC),
         ("fatigue_life", "Fatigue life", "h", "its inverse", STATISTIC),
         needs=FATIGUE,
     )
-    yield from _section(
+    yield from figures_in(
         "Wear",
         ("wear_volume_rate", "Wear, volume", "mm^3/h", "of all pockets"),
         ("wear_depth_rate", "Wear, depth", "um/h", "of the deepest track, at first"),
@@ -336,7 +288,7 @@ def _wall(stage: str, *marks: str) -> tuple:
 
 
 def _solver() -> Iterator[KnownFigure]:
-    yield from _section(
+    yield from figures_in(
         "Solver",
         ("steps", "Steps", "", "accepted", EFFORT),
         ("explicit_steps", "Explicit steps", "", "of them, by the explicit method"),
@@ -348,7 +300,7 @@ def _solver() -> Iterator[KnownFigure]:
         ("stable_step", "Stability bound of explicit steps", "us",
          "least over the run, by the spectral radius"),
     )
-    yield from _section(
+    yield from figures_in(
         "Wall time",
         *(_wall(stage) for stage in ("mesh", "modes", "kernels", "start")),
         _wall("solve", EFFORT),
@@ -361,10 +313,27 @@ def _solver() -> Iterator[KnownFigure]:
 
 _FLOORS = (_statistics, _speeds, _slip, _motion, _forces, _ring, _energy, _film, _cage, _late,
            _solver)  # fmt: skip
+
+
+class _BySection(Parts[KnownFigure]):
+    """Figures in the order of a summary: those of a family close their section."""
+
+    def _all(self) -> dict[str, KnownFigure]:
+        found = super()._all()
+        place = {s: k for k, s in enumerate(dict.fromkeys(f.section for f in found.values()))}
+        return dict(sorted(found.items(), key=lambda item: place[item[1].section]))
+
+
+def _own(family: Any) -> dict[str, KnownFigure]:
+    """Figures that only runs of a family have."""
+    return {f.key: f for f in family.figures().known} if family.figures else {}
+
+
 #: Every figure by name, in the order of a summary.
-KNOWN: Mapping[str, KnownFigure] = MappingProxyType(
-    {figure.key: figure for part in _FLOORS for figure in part()}
-)
+KNOWN: Parts[KnownFigure] = _BySection(
+    FAMILIES, _own, what="figure",
+    common={figure.key: figure for part in _FLOORS for figure in part()},
+)  # fmt: skip
 
 
 def marked(mark: str) -> tuple[str, ...]:
@@ -396,9 +365,8 @@ def listing(text: str = "") -> Listing:
         raise InputError(f"No figure has the text '{text}'; {hint}.", where="figures", value=text)
     rows = []
     for f in found:
-        whose = f"{f.of} bearings" if f.of else ""
         needs = f"needs {f.needs}" if f.needs else ""
         kind = [word for mark, word in _KINDS.items() if mark in f.marks]
-        said = "; ".join(filter(None, (f.meaning, *kind, whose, needs)))
+        said = "; ".join(filter(None, (f.meaning, *kind, whose(KNOWN.owners(f.key)), needs)))
         rows.append((f.key, f.shown, f"{f.title}: {said}" if said else f.title))
     return Listing("Figures of a run", ("figure", "unit", "meaning"), rows)

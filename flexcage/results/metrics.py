@@ -8,21 +8,22 @@ taken over whole cage revolutions after the start was left out. Whirl is positiv
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from math import isfinite
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from flexcage.core.errors import InputError
+from flexcage.core.wings import FAMILIES
 from flexcage.geometry.kinematics import Kinematics, epicyclic, rolling_shares
 
 if TYPE_CHECKING:
     import xarray
 
 TOUCHING = 1e-3  # N, above which a pocket face counts as in contact
-LOADED_SHARE = 0.01  # a roller is in the loaded zone above this share of the largest inner force
+LOADED_SHARE = 0.01  # an element is in the loaded zone above this share of the largest inner force
 STANDING = 1e-9  # rad/s, what a constrained speed of zero may be by rounding, and more
 # times the sliding that the curvature of contacts makes: below it, mean sliding is its doing
 _BY_CURVATURE = 2.0
@@ -95,20 +96,6 @@ class BallRolling:
 
 
 @dataclass(frozen=True)
-class RollerSlip:
-    """Slip ratios (n_th - n)/n_th, means over time and over the rollers of a zone, and beside
-    them the mean sliding speeds [m/s] at the inner and the outer race. NaN: no roller was there.
-    """
-
-    loaded: float
-    unloaded: float
-    overall: float
-    sliding_loaded: tuple[float, float]
-    sliding_unloaded: tuple[float, float]
-    loaded_share: float
-
-
-@dataclass(frozen=True)
 class Whirl:
     """Orbit of the cage centre [m]: radius about the centre named, ratio (max - min)/mean, and
     whirl speed over cage speed (+1 synchronous, negative: backward).
@@ -140,23 +127,53 @@ class PocketForces:
 
 
 @dataclass(frozen=True)
-class RaceNames:
-    """Names of what a run records of the races, each (time, element, race)."""
+class ElementSpeed:
+    """How fast the elements of a family turn about their own axes, and what pure rolling makes.
 
-    force: str  # N
-    angle: str  # contact angle, rad; "" where it is zero
+    ``title`` heads a picture of it, ``axis`` names it at an axis. ``spin`` takes it from a run,
+    (time, element) [rad/s], positive as in rolling, ``rolling`` from kinematics, and ``slip_ratio``
+    is (n_th - n)/n_th, (time, element).
+    """
 
-
-#: By the kind of rolling elements.
-RACE_NAMES = {
-    "roller": RaceNames("race_force", ""),
-    "ball": RaceNames("contact_force", "contact_angle"),
-}
+    title: str
+    axis: str
+    spin: Callable[[xarray.Dataset], xarray.DataArray]
+    rolling: Callable[[Kinematics], float]
+    slip_ratio: Callable[[xarray.Dataset, BearingNumbers], xarray.DataArray]
 
 
 def element(ds: xarray.Dataset) -> str:
-    """Rolling elements of a run's bearing: "roller" or "ball"."""
-    return str(ds.attrs.get("element", "roller"))
+    """Rolling elements of a run's bearing, in words: "roller", "ball"."""
+    return str(ds.attrs["element"])
+
+
+def family(ds: xarray.Dataset) -> Any:
+    """Family of a run's bearing (``flexcage.bearings``); InputError if no module has added it."""
+    name = str(ds.attrs["family"])
+    if name not in FAMILIES:
+        raise InputError(
+            f"The run is of bearing family '{name}', which is not known; load the module that adds "
+            "it first.",
+            where="family", value=name,
+        )  # fmt: skip
+    return FAMILIES[name]
+
+
+def element_spin(ds: xarray.Dataset) -> xarray.DataArray:
+    """Speed of every element about its own axis, (time, element) [rad/s], as its family takes it:
+    of rollers in the inertial frame, of balls relative to the cage."""
+    return speed_of(ds).spin(ds)
+
+
+def element_slip_ratio(ds: xarray.Dataset, bearing: BearingNumbers) -> xarray.DataArray:
+    """(n_th - n)/n_th of every element over time, (time, element), by the same speed."""
+    return speed_of(ds).slip_ratio(ds, bearing)
+
+
+def speed_of(ds: xarray.Dataset) -> ElementSpeed:
+    """How the elements of a run's bearing turn."""
+    found: ElementSpeed = family(ds).speed()
+    return found
 
 
 def settled(ds: xarray.Dataset, settle: float = 0.3) -> xarray.Dataset:
@@ -213,17 +230,17 @@ def at_own_angles(ds: xarray.Dataset, bearing: BearingNumbers) -> BearingNumbers
     Magnitudes are averaged: a tilted ring turns signs from one side of the bearing to the other.
     Rollers keep the nominal angle, as do balls where none is loaded, and a bearing that has them.
     """
-    name = RACE_NAMES[element(ds)].angle
-    if not name or bearing.own_angles is not None:
+    if "contact_angle" not in ds or bearing.own_angles is not None:
         return bearing
-    own = _loaded_means(ds, abs(ds[name]))
+    own = _loaded_means(ds, abs(ds["contact_angle"]))
     return bearing if own is None else replace(bearing, own_angles=own)
 
 
 def _loaded_means(ds: xarray.Dataset, values: xarray.DataArray) -> tuple[float, float] | None:
-    """Means (inner, outer race) of values (time, ball, race) over loaded balls, None if none is."""
-    zone = loaded_zone(ds).transpose("time", "ball").values
-    inner, outer = values.transpose("race", "time", "ball").values.astype(float)
+    """Means (inner, outer race) of values (time, element, race) over loaded elements, None
+    if none is loaded."""
+    zone = loaded_zone(ds).transpose("time", "element").values
+    inner, outer = values.transpose("race", "time", "element").values.astype(float)
     return (float(inner[zone].mean()), float(outer[zone].mean())) if zone.any() else None
 
 
@@ -236,7 +253,7 @@ def rolling_by_curvature(ds: xarray.Dataset, bearing: BearingNumbers) -> BallRol
     load; under a traction in proportion to sliding, the mean height is a fifth of that at x = 1.
     """
     own = at_own_angles(ds, bearing)
-    size = None if own.own_angles is None else _loaded_means(ds, ds["contact_force"] ** (2.0 / 3.0))
+    size = None if own.own_angles is None else _loaded_means(ds, ds["race_force"] ** (2.0 / 3.0))
     if size is None:
         return None
     heights = own.rolling_heights[0] * size[0], own.rolling_heights[1] * size[1]
@@ -249,29 +266,7 @@ def rolling_by_curvature(ds: xarray.Dataset, bearing: BearingNumbers) -> BallRol
     )  # fmt: skip
 
 
-def roller_slip_ratio(
-    ds: xarray.Dataset, bearing: BearingNumbers, *, frame: str = "inertial"
-) -> xarray.DataArray:
-    """(n_th - n)/n_th of every roller over time, both in the ``inertial`` frame or in the ``cage``.
-
-    n is the spin about the roller's own axis; n_th follows from the instantaneous inner speed by
-    pure rolling on a fixed outer ring with an ideal cage.
-    """
-    unit = bearing.kinematics(1.0)
-    spin = ds["roller_omega"].isel(spin_axis=0, drop=True)
-    if frame == "inertial":
-        ideal = ds["inner_speed"] * unit.roller_spin
-    elif frame == "cage":
-        ideal = ds["inner_speed"] * unit.roller_spin_in_cage
-        spin = spin - ds["cage_omega"].sel(axis="x", drop=True)
-    else:
-        raise InputError(f"Slip is taken in the frame 'inertial' or 'cage', not {frame!r}.")
-    out = _slip(ideal, spin)
-    out.attrs = {"units": "1", "long_name": f"roller slip ratio, {frame} frame"}
-    return out.transpose("time", "roller").rename("roller_slip_ratio")
-
-
-def _slip(ideal: xarray.DataArray, spin: xarray.DataArray) -> xarray.DataArray:
+def slip_of(ideal: xarray.DataArray, spin: xarray.DataArray) -> xarray.DataArray:
     """(ideal - spin)/ideal, NaN where nothing should turn."""
     return (ideal - spin) / ideal.where(abs(ideal) > STANDING)
 
@@ -281,49 +276,14 @@ def rolling_sense(ds: xarray.Dataset) -> float:
     return 1.0 if float(ds["inner_speed"].mean()) < 0.0 else -1.0
 
 
-def roller_spin(ds: xarray.Dataset) -> xarray.DataArray:
-    """Spin of every roller about its own axis, inertial frame, (time, roller) [rad/s]; positive in
-    the sense of rolling."""
-    out: xarray.DataArray = rolling_sense(ds) * ds["roller_omega"].isel(spin_axis=0, drop=True)
-    out.attrs = {"units": "rad/s", "long_name": "roller spin in the sense of rolling"}
-    return out.transpose("time", "roller").rename("roller_spin")
-
-
-def ball_spin(ds: xarray.Dataset) -> xarray.DataArray:
-    """Speed of every ball about its own axis, relative to the cage, (time, ball) [rad/s]; negative
-    where it turns about the bearing axis against the sense of rolling."""
-    omega = ds["ball_omega"].transpose("time", "ball", "cyl")
-    axial = omega.sel(cyl="x", drop=True) - ds["cage_omega"].sel(axis="x", drop=True)
-    across = (omega.sel(cyl=["r", "psi"]) ** 2).sum("cyl")
-    speed = (axial**2 + across) ** 0.5
-    out: xarray.DataArray = speed.where(rolling_sense(ds) * axial >= 0.0, -speed)
-    out.attrs = {"units": "rad/s", "long_name": "speed of the ball about its own axis, cage frame"}
-    return out.transpose("time", "ball").rename("ball_spin")
-
-
-def ball_slip_ratio(
-    ds: xarray.Dataset, bearing: BearingNumbers, *, nominal: bool = False
-) -> xarray.DataArray:
-    """(n_th - n)/n_th of every ball over time, (time, ball), both relative to the cage.
-
-    n_th follows from the instantaneous inner speed by pure rolling with an ideal cage: at the mean
-    contact angles of the loaded balls of ``ds``, or at the ``nominal`` contact angle.
-    """
-    used = bearing.nominal if nominal else at_own_angles(ds, bearing)
-    unit = used.kinematics(1.0).roller_spin_in_cage
-    out = _slip(rolling_sense(ds) * unit * ds["inner_speed"], ball_spin(ds))
-    out.attrs = {"units": "1", "long_name": "ball slip ratio, cage frame"}
-    return out.transpose("time", "ball").rename("ball_slip_ratio")
-
-
 def touching(ds: xarray.Dataset, of: xarray.DataArray) -> xarray.DataArray:
-    """Values ``of`` (time, ball, race), NaN where a ball does not touch the race."""
-    return of.where(ds["contact_force"] > 0.0)
+    """Values ``of`` (time, element, race), NaN where an element does not touch the race."""
+    return of.where(ds["race_force"] > 0.0)
 
 
 def loaded_zone(ds: xarray.Dataset, share: float = LOADED_SHARE) -> xarray.DataArray:
-    """True where the inner race carries a roller, (time, roller), or a ball, (time, ball)."""
-    force = ds[RACE_NAMES[element(ds)].force].sel(race="inner", drop=True)
+    """True where the inner race carries an element, (time, element)."""
+    force = ds["race_force"].sel(race="inner", drop=True)
     return force > share * float(force.max())
 
 
@@ -359,29 +319,6 @@ class SlipRange:
                 f"{self.rise:.3g} m/s"
             )
         return ""
-
-
-def roller_slip(
-    ds: xarray.Dataset,
-    bearing: BearingNumbers,
-    *,
-    frame: str = "inertial",
-) -> RollerSlip:
-    """Roller slip, loaded and unloaded zone apart, over whole cage revolutions."""
-    part = whole_revolutions(ds)
-    slip = roller_slip_ratio(part, bearing, frame=frame).values
-    zone = loaded_zone(part).transpose("time", "roller").values
-    sliding = np.abs(part["race_slip"].transpose("time", "roller", "race").values)
-
-    def inside(mask: np.ndarray) -> tuple[float, tuple[float, float]]:
-        if not mask.any():
-            return float("nan"), (float("nan"), float("nan"))
-        inner, outer = sliding[mask].mean(axis=0)
-        return float(slip[mask].mean()), (float(inner), float(outer))
-
-    loaded, speed_in = inside(zone)
-    unloaded, speed_out = inside(~zone)
-    return RollerSlip(loaded, unloaded, float(slip.mean()), speed_in, speed_out, float(zone.mean()))
 
 
 def whirl_radius(ds: xarray.Dataset, *, about: str = "mean") -> np.ndarray:

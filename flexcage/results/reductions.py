@@ -129,23 +129,14 @@ def _over_time(values: np.ndarray, ds: xarray.Dataset) -> xarray.DataArray:
 #: Variables that a study may reduce beside the recorded ones, by name.
 DERIVED: Mapping[str, Derived] = MappingProxyType(
     {
-        "roller_slip_ratio": Derived(
+        "element_slip_ratio": Derived(
             Variable(
-                "roller_slip_ratio",
-                (TIME, "roller"),
+                "element_slip_ratio",
+                (TIME, "element"),
                 "1",
-                "slip ratio (n_th - n)/n_th of a roller, inertial frame",
+                "slip ratio (n_th - n)/n_th of an element, as the summary takes it",
             ),
-            metrics.roller_slip_ratio,
-        ),
-        "ball_slip_ratio": Derived(
-            Variable(
-                "ball_slip_ratio",
-                (TIME, "ball"),
-                "1",
-                "slip ratio (n_th - n)/n_th of a ball, cage frame",
-            ),
-            metrics.ball_slip_ratio,
+            metrics.element_slip_ratio,
         ),
         "cage_whirl_radius": Derived(
             Variable(

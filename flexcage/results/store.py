@@ -7,8 +7,9 @@ counts it; that file is written aside, fsynced and atomically moved into place a
 chunks, its tables and its checkpoint are written. Readers trim every array to the commit, so what
 a kill left half written is never seen. (Appending to arrays instead leaves unreadable stores.)
 
-Format 4: the attributes ``run`` hold the case as it was run, its hash, and the digest of the cage
-that modal coordinates refer to (``cage_file``).
+Format 5: the attributes ``run`` hold the case as it was run, its hash, and the digest of the cage
+that modal coordinates refer to (``cage_file``). Format 4 is the same with other names
+(``renamed``); it is read, not gone on with.
 """
 
 from __future__ import annotations
@@ -36,12 +37,13 @@ from flexcage.results.layout import (
     make_layout,
 )
 from flexcage.results.registry import TIME, TIME_HF, Variable, rounded_loads
+from flexcage.results.renamed import OLD_FORMAT, renamed, stored_then
 from flexcage.results.shards import BLOSC, SLOTS, Chunks, encoded, packed, unpacked
 
 if TYPE_CHECKING:
     import xarray
 
-FORMAT = 4  # see above; others are not read
+FORMAT = 5  # see above
 SIDE = "_run"  # folder beside the arrays: commit, checkpoint, steps, events
 LAST = "last_state.npz"  # in SIDE, of a run whose solver stopped
 LOADS = "loads"  # table of what moves and pushes a flexible cage at steps between samples
@@ -263,7 +265,7 @@ class RunStore(MemoryRunStore):
         commit = read_commit(path)
         try:
             group = zarr.open_group(str(path), mode="r", zarr_format=3)
-            layout = _layout_from(group)
+            layout = _layout_from(group, commit["format"])
             for v in layout.variables:
                 _array(group, v.name)
         except InputError:
@@ -273,6 +275,10 @@ class RunStore(MemoryRunStore):
         store = cls(path, layout, commit)
         _check_whole(store)
         return store
+
+    def dataset(self) -> xarray.Dataset:
+        found = super().dataset()
+        return renamed(found) if self._commit["format"] == OLD_FORMAT else found
 
     def _store(self, index, data, commit, checkpoint, tables) -> None:
         side = self.path / SIDE
@@ -359,11 +365,11 @@ def read_commit(path: Path) -> dict[str, Any]:
     except (OSError, ValueError) as error:
         raise InputError(f"The commit file of {path} cannot be read: {error}.") from error
     found = commit.get("format") if isinstance(commit, dict) else None
-    if found != FORMAT:
+    if found not in (OLD_FORMAT, FORMAT):
         raise InputError(
             f"The run in {path} is stored in format {found}, and this flexcage "
-            f"({_version.__version__}) reads format {FORMAT}: open it with the flexcage that wrote "
-            "it, or run the case again.",
+            f"({_version.__version__}) reads formats {OLD_FORMAT} and {FORMAT}: "
+            "open it with the flexcage that wrote it, or run the case again.",
             where="path",
             value=str(path),
         )
@@ -432,8 +438,10 @@ def _array(group: Any, name: str) -> Any:
     return array
 
 
-def _layout_from(group: Any) -> Layout:
+def _layout_from(group: Any, of_format: int) -> Layout:
     stored = group.attrs["layout"]
+    if of_format == OLD_FORMAT:
+        stored = {**stored, "variables": [stored_then(v) for v in stored["variables"]]}
     coords = coords_from_json(stored["coords"])
     for grid in (TIME, TIME_HF):
         if grid in group:

@@ -12,9 +12,8 @@ speeds are those of the unworn cage.
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass
-from math import inf, isfinite, isnan, pi, sqrt
+from math import inf, isfinite, isnan, pi
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -22,47 +21,20 @@ import numpy as np
 from flexcage.contacts.spec import LandSpec
 from flexcage.core.binding import wrong_type
 from flexcage.core.digits import number_text, texts_with_margin
-from flexcage.core.errors import InputError
+from flexcage.core.wings import FAMILIES
 from flexcage.geometry.bearing import Bearing
 from flexcage.geometry.cage import Cage
-from flexcage.geometry.hertz import PointContact
-from flexcage.results import metrics
 from flexcage.results.bootstrap import NO_INTERVAL
 from flexcage.results.statistics import Windows
-from flexcage.stress.sliding import (
-    ball_touch,
-    end_speeds,
-    pocket_motion,
-    slice_speeds,
-)
+from flexcage.stress.rubbing import Rub, Rubbing
 from flexcage.stress.wear_laws import WearLaw
-from flexcage.system.roller_model import end_points
 
 if TYPE_CHECKING:
     import xarray
 
-SECTORS = 24  # round a round pocket, whose depths are told apart
-SAMPLES_READ = 2000  # samples whose slices are held at a time
 _SHALLOW = 0.1  # of a groove's radius: beyond it a groove is no shallow segment, nor the cage whole
 _HOUR = 3600.0
 _ITERATIONS = 40  # of Newton's method for a depth; each near its end doubles the digits
-
-
-@dataclass(frozen=True, eq=False)
-class Rubbing:
-    """Normal force times sliding speed on pocket faces: ``power`` (nt, z, face) [W].
-
-    Of every cell of a track (z, face, cell): its mean ``cells`` [W], ``length`` and ``height`` [m].
-    ``groove`` (face,) [m] is the radius that a groove takes, zero where its height stays, and
-    ``friction`` (nt,) [W] what friction takes at those speeds.
-    """
-
-    power: np.ndarray
-    cells: np.ndarray
-    length: np.ndarray
-    height: np.ndarray
-    groove: np.ndarray
-    friction: np.ndarray
 
 
 @dataclass(frozen=True, eq=False)
@@ -167,14 +139,8 @@ def wear(
     ds: xarray.Dataset, bearing: Bearing, cage: Cage, land: LandSpec, law: WearLaw, windows: Windows
 ) -> Wear:
     """Wear by the (settled) dataset of a run, which ``windows`` cut."""
-    element = metrics.element(ds)
-    if element not in RUBBING:
-        raise InputError(
-            f"Wear of pockets is known for {' and '.join(RUBBING)} bearings alone; elements of "
-            f"the kind '{element}' want a function of their own in stress.wear.RUBBING.",
-            where="bearing.type",
-        )
-    rubbing = RUBBING[element](ds, bearing, cage)
+    rub: Rub = FAMILIES[bearing.family].rubbing()
+    rubbing = rub(ds, bearing, cage)
     t, recorded = ds["time"].values, ds["work"].sel(channel="pocket_friction").values
     lost, found = float(recorded[0] - recorded[-1]), float(np.trapezoid(rubbing.friction, t))
     slid = land_rubbing(ds, cage, land.on(bearing.land(cage)))
@@ -212,83 +178,6 @@ def _tabled(
     )
 
 
-def roller_rubbing(ds: xarray.Dataset, bearing: Bearing, cage: Cage) -> Rubbing:
-    """Rollers on crossbeams by slices, and on side beams with the mean speed of their ends."""
-    points = end_points(bearing, cage)  # type: ignore[arg-type]
-    parts = [
-        _rub(ds.isel(time=slice(first, first + SAMPLES_READ)), bearing, points)
-        for first in range(0, ds.sizes["time"], SAMPLES_READ)
-    ]
-    *series, sums = zip(*parts)
-    power, force, place, drag = (np.concatenate(s) for s in series)
-    x, radius = ds["slice"].values, 0.5 * bearing.element_diameter
-    cells = np.zeros((*power.shape[1:], len(x)))
-    cells[:, :2] = sum(sums) / len(power)
-    cells[:, 2:] = power[..., 2:].mean(axis=0)[..., None] / len(x)
-    length = len(x) * (x[1] - x[0])
-    width = contact_width(force, length, bearing, cage)
-    height = _spread(place[..., None], power[..., :2]) + width
-    lengths, heights = np.full_like(cells, length / len(x)), np.empty_like(cells)
-    heights[:, :2], heights[:, 2:] = height[..., None], end_band(points) / length
-    return Rubbing(power, cells, lengths, heights, np.array([radius, radius, 0.0, 0.0]), drag)
-
-
-def _rub(ds: xarray.Dataset, bearing: Bearing, points: np.ndarray) -> tuple[np.ndarray, ...]:
-    """Over some samples: normal force times sliding speed on every face (t, z, 4) [W], normal force
-    on crossbeams (t, z, 2) [N], rollers' radial place in their pockets (t, z) [m], friction of all
-    (t,) [W], and the sum of the first over time by slices of crossbeams (z, 2, s) [W]."""
-    motion = pocket_motion(ds)
-    beams = slice_speeds(motion, ds["slice"].values, 0.5 * bearing.element_diameter)
-    ends = end_speeds(motion, points, 0.5 * bearing.roller_length)
-    order = ("time", "pocket", "face")
-    force, friction = (
-        ds[f"pocket_{what}"].transpose(*order).values[..., 2:] for what in ("force", "friction")
-    )
-    pressed, dragged = (
-        ds[f"pocket_slice_{what}"].transpose("time", "pocket", "crossbeam_face", "slice").values
-        for what in ("force", "friction")
-    )
-    by_slice = pressed * beams
-    power = np.concatenate([by_slice.sum(axis=-1), force * ends], axis=2)
-    drag = (dragged * beams).sum(axis=(1, 2, 3)) + (friction * ends).sum(axis=(1, 2))
-    place = motion.along(motion.place)[..., 1]
-    return power, pressed.sum(axis=-1), place, drag, by_slice.sum(axis=0)
-
-
-def ball_rubbing(ds: xarray.Dataset, bearing: Bearing, cage: Cage) -> Rubbing:
-    """Balls on the walls of round pockets, by sectors round the pocket."""
-    motion, radius = pocket_motion(ds), 0.5 * bearing.element_diameter
-    station = ds["station_force"].transpose("time", "pocket", "face", "station", "cyl").values
-    force, friction = (
-        ds[f"pocket_{what}"].transpose("time", "pocket", "face").values[..., 0].astype(float)
-        for what in ("force", "friction")
-    )
-    touch = ball_touch(motion, station.sum(axis=(2, 3)), force, friction, radius)
-    power = (force * touch.speed)[..., None]
-    place = motion.along(motion.place)[..., 1] + radius * touch.normal[..., 1]
-    wall = 0.5 * cage.pocket_diameter
-    across = 1.0 / (1.0 / radius - 1.0 / wall)
-    along = across if cage.pocket_shape == "spherical" else radius
-    hertz = PointContact(across, along, _modulus(bearing, cage))
-    height = _spread(place[..., None], power) + 2.0 * hertz.semi_axes(_weighted(force))[0][:, None]
-    turn = np.arctan2(touch.normal[..., 0], touch.normal[..., 2]) / (2.0 * pi) % 1.0
-    sector = np.minimum((SECTORS * turn).astype(int), SECTORS - 1)
-    cells = np.stack([np.bincount(s, p, SECTORS) for s, p in zip(sector.T, power[..., 0].T)])[
-        :, None
-    ] / len(power)
-    lengths = np.full_like(cells, 2.0 * pi * wall / SECTORS)
-    heights = np.broadcast_to(height[..., None], cells.shape)
-    drag = (friction * touch.speed).sum(axis=1)
-    return Rubbing(power, cells, lengths, heights, np.array([radius]), drag)
-
-
-#: By the kind of rolling elements.
-RUBBING: dict[str, Callable[[xarray.Dataset, Bearing, Cage], Rubbing]] = {
-    "roller": roller_rubbing,
-    "ball": ball_rubbing,
-}
-
-
 def land_rubbing(ds: xarray.Dataset, cage: Cage, land: LandSpec) -> tuple[float, float]:
     """Mean of normal force times sliding speed on the land [W], NaN under a film, and its area
     [m^2], two lands of ``land``'s width all round. The force's part along the line of centres is
@@ -311,40 +200,3 @@ def land_rubbing(ds: xarray.Dataset, cage: Cage, land: LandSpec) -> tuple[float,
     side = 1.0 if outer else -1.0  # the land touches ahead of the centre, or behind it
     across = drift[:, 1] * line[:, 0] - drift[:, 0] * line[:, 1]
     return float((normal * np.abs(side * radius * turning + across)).mean()), area
-
-
-def contact_width(force: np.ndarray, length: float, bearing: Bearing, cage: Cage) -> np.ndarray:
-    """Width 2b [m] (...) of the line contact of rollers with a plane under their mean forces while
-    touching, of ``force`` (nt, ...) [N] over a length [m] (Hertz; K. L. Johnson, Contact
-    Mechanics, 4.3)."""
-    modulus = 0.5 * _modulus(bearing, cage)
-    radius = 0.5 * bearing.element_diameter
-    return 2.0 * np.sqrt(4.0 * _weighted(force) / length * radius / (pi * modulus))
-
-
-def end_band(points: np.ndarray) -> float:
-    """Area [m^2] of the band whose Gauss points (``system.roller_model.end_points``) these are."""
-    height = sqrt(3.0) * float(np.ptp(points[:, 0]))
-    return height * float(np.ptp(points[:, 1])) / float(np.polynomial.legendre.leggauss(7)[0][-1])
-
-
-def _modulus(bearing: Bearing, cage: Cage) -> float:
-    """2/((1 - nu_1^2)/E_1 + (1 - nu_2^2)/E_2) of element and cage [Pa]."""
-    one, other = bearing.material.plane_strain_modulus, cage.material.plane_strain_modulus
-    return float(2.0 / (1.0 / one + 1.0 / other))
-
-
-def _weighted(force: np.ndarray) -> np.ndarray:
-    """Mean force (...) over time (nt, ...), weighted by itself: that of the samples that touch."""
-    total = force.sum(axis=0, dtype=float)
-    return np.divide(
-        (force.astype(float) ** 2).sum(axis=0), total, out=np.zeros_like(total), where=total > 0.0
-    )
-
-
-def _spread(place: np.ndarray, weight: np.ndarray) -> np.ndarray:
-    """Width (...) of a uniform spread with the standard deviation of ``place`` (nt, ...) under
-    ``weight`` (nt, ...)."""
-    total = np.maximum(weight.sum(axis=0), 1e-300)
-    mean = (weight * place).sum(axis=0) / total
-    return np.sqrt(12.0 * (weight * (place - mean) ** 2).sum(axis=0) / total)

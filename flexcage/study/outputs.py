@@ -13,10 +13,19 @@ import numpy as np
 
 from flexcage.core.binding import did_you_mean
 from flexcage.core.errors import InputError
+from flexcage.core.wings import FAMILIES
 from flexcage.results.known import FATIGUE, FLEXIBLE, KNOWN, LATER, RIVETED, SIGNED, TEXT, WEAR
 from flexcage.results.metrics import cage_angle, settled, whole_revolutions
 from flexcage.results.reductions import DERIVED, REDUCTIONS
-from flexcage.results.registry import ENERGIES, LABELS, TIME, VARIABLES, Variable, variable
+from flexcage.results.registry import (
+    ENERGIES,
+    LABELS,
+    TIME,
+    VARIABLES,
+    Variable,
+    families_with,
+    variable,
+)
 from flexcage.results.statistics import roller_passes
 from flexcage.results.summary import SHOWN, Row, Value, figure
 from flexcage.stress.counting import require_pylife
@@ -30,7 +39,7 @@ if TYPE_CHECKING:
 
 #: Variables that are never below zero, and reductions that are not, whatever they reduce.
 _SIZES = frozenset(
-    """race_force contact_force pocket_force pocket_peak pocket_slice_force pocket_point_force
+    """race_force pocket_force pocket_peak pocket_slice_force pocket_point_force
     rib_force cage_whirl_radius cage_radial_displacement""".split()
 )
 _SIZED_REDUCTIONS = frozenset(
@@ -239,13 +248,13 @@ def _check_known(name: str, dim: str, label: str, labels: Collection[str]) -> No
 
 def check_outputs(
     names: tuple[str, ...], *, sizes: Mapping[str, int], flexible: bool, riveted: bool = False,
-    element: str = "roller", materials: Collection[str] = (),
+    family: str = "cylindrical_roller", materials: Collection[str] = (),
     reactions: Collection[str] = CONSTRAINTS,
 ) -> None:  # fmt: skip
     """Raise InputError for the first output that no run of the study can give.
 
     ``sizes`` holds the least length in any case of dimensions that are counted (rolling elements,
-    pockets, slices), ``element`` is the kind of rolling elements, ``flexible`` says whether any
+    pockets, slices), ``family`` is that of the bearings, ``flexible`` says whether any
     cage is, ``riveted`` whether one of these is a ribbon cage, ``materials`` names those of all
     cages, and ``reactions`` the constraints that every case has. Raises EnvironmentLacks for
     fatigue without pyLife.
@@ -258,21 +267,22 @@ def check_outputs(
         if is_reduction(name):
             reduction = parse_reduction(name)
             needs = reduction.variable.name.startswith(("modal_", "residual_"))
-            _check_element(name, reduction.variable.of, element)
+            _check_family(name, _families(reduction.variable.name), family)
             for dim, label in reduction.selection.items():
                 if dim == "constraint":
                     _check_known(name, dim, label, reactions)
                 places = counted(label)
                 if places is not None and places[1] > sizes.get(dim, places[1]):
+                    what = FAMILIES[family].element if dim == "element" else dim
                     raise InputError(
-                        f"Output '{name}': the {dim}s count from 0 to {sizes[dim] - 1}, and a "
+                        f"Output '{name}': the {what}s count from 0 to {sizes[dim] - 1}, and a "
                         "range ends before its last number."
                     )
         else:
             _check_figure(name)
             _check_late(name, materials)
             needs = _needs_flexible(name)
-            _check_element(name, KNOWN[name].of, element)
+            _check_family(name, KNOWN.owners(name), family)
         if needs and not flexible:
             raise InputError(
                 f"Output '{name}' needs a flexible cage, but every cage of the study is rigid; "
@@ -289,11 +299,18 @@ def check_outputs(
             )
 
 
-def _check_element(name: str, of: str, element: str) -> None:
-    """Refuse an output of elements that the bearings of the study do not have."""
-    if of not in ("", element):
+def _families(variable: str) -> tuple[str, ...]:
+    """Families whose runs have a variable; none: all."""
+    return () if variable in DERIVED else families_with(variable)
+
+
+def _check_family(name: str, families: tuple[str, ...], family: str) -> None:
+    """Refuse an output that only bearings of other ``families`` have, if any are named."""
+    if families and family not in families:
+        others = " and ".join(dict.fromkeys(f"{FAMILIES[of].element}s" for of in families))
         raise InputError(
-            f"Output '{name}' is of {of}s, but the study's bearings have {element}s.",
+            f"Output '{name}' is of {others}, but the study's bearings have "
+            f"{FAMILIES[family].element}s.",
             where="outputs",
             value=name,
         )

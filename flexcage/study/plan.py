@@ -57,7 +57,7 @@ def make_plan(study: Study) -> Plan:
     _check_columns(study)
     points = points_of(study.axes)
     cases, seen = [], dict[str, int]()
-    kind, flexible, riveted = study.case.bearing.element, False, False
+    family, flexible, riveted = study.case.bearing.family, False, False
     sizes = _counts(study.case)
     materials, held = dict[str, None](), set(names_of(study.case.constraints))
     for number, point in enumerate(points):
@@ -83,7 +83,7 @@ def make_plan(study: Study) -> Plan:
             held = held.intersection(names_of(case.constraints))
             cases.append(Planned(number, point, repetition, case.hash, _modes_key(case)))
     check_outputs(
-        study.outputs, sizes=sizes, flexible=flexible, riveted=riveted, element=kind,
+        study.outputs, sizes=sizes, flexible=flexible, riveted=riveted, family=family,
         materials=materials, reactions=(*CONSTRAINTS, *sorted(held)),
     )  # fmt: skip
     return Plan(study, tuple(cases))
@@ -94,7 +94,7 @@ def _counts(case: Case) -> dict[str, int]:
     count = case.bearing.element_count
     slices = case.contacts.pocket.slices
     return {
-        case.bearing.element: count, "pocket": count, "slice": slices, "end_point": prod(END_POINTS)
+        "element": count, "pocket": count, "slice": slices, "end_point": prod(END_POINTS)
     }  # fmt: skip
 
 

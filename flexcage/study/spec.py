@@ -45,7 +45,7 @@ class Study:
     """A family of cases: every combination of the axes' points, each ``repeat.count`` times.
 
     ``outputs`` are figures of a run's summary ("cage_speed") or reductions of result variables
-    over the settled part ("pocket_force.max", "roller_omega[roller=3,spin_axis=axial].mean",
+    over the settled part ("pocket_force.max", "element_omega[element=3,spin_axis=axial].mean",
     "pocket_slice_force[slice=16:48].mean" from 16 to before 48), or
     ``outputs.LATE_FIGURES`` ("fatigue_life", "wear_depth_rate").
     ``keep`` is what stays of a case: its whole run, or its figures only.

@@ -12,6 +12,7 @@ from flexcage.system.rows import shared_rows
 BallParts = parts_type("BallParts", BallModel, __name__)
 
 MOTION = Motion(
+    family="ball",
     element="ball",
     build_model=build_ball_model,
     parts=BallParts,

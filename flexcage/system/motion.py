@@ -85,6 +85,7 @@ class Motion(Generic[M]):
     ``implicit``: does mode TANGENT fill it, so that implicit integrators may be used?
     """
 
+    family: str  # its name
     element: str  # in words
     build_model: BuildModel[M]
     parts: Any  # made by ``parts_type``

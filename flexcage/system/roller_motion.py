@@ -14,6 +14,7 @@ from flexcage.system.rows import shared_rows
 RollerParts = parts_type("RollerParts", RollerModel, __name__)
 
 MOTION = Motion(
+    family="cylindrical_roller",
     element="roller",
     build_model=build_roller_model,
     parts=RollerParts,

@@ -96,6 +96,10 @@ bearing_family(
         statics=lambda: Springs,
         motion=None,
         recording=None,
+        variables=None,
+        speed=None,
+        figures=None,
+        rubbing=None,
         shapes=None,
     )
 )

@@ -190,7 +190,7 @@ register.integrator(
 
 def ring_force(arrays, bearing):
     """Normal force and traction of all rollers on the inner ring, y and z (n, 2) [N]."""
-    c, s = np.cos(arrays["roller_position"][:, :, 2]), np.sin(arrays["roller_position"][:, :, 2])
+    c, s = np.cos(arrays["element_position"][:, :, 2]), np.sin(arrays["element_position"][:, :, 2])
     normal, traction = arrays["race_force"][:, :, 0], arrays["race_traction"][:, :, 0]
     return -np.stack(
         [(normal * c - traction * s).sum(axis=1), (normal * s + traction * c).sum(axis=1)], axis=1

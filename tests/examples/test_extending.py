@@ -71,9 +71,9 @@ block = 10
 ALL_TABLES = (
     laws.NORMAL_LAWS, laws.FRICTION_LAWS, laws.NORMAL_PARAMETERS, laws.FRICTION_PARAMETERS,
     contact_spec.NORMAL_LAWS, contact_spec.FRICTION_LAWS, modes_registry.BUILDERS,
-    modes_spec.KINDS, registry._table, registry._labels, registry.COMPUTED, album.PICTURES,
-    materials.MATERIALS, presets._ADDED, core_registry._sources, integrators.INTEGRATORS,
-    solver_options.METHODS, constraints.KINDS, system_spec.CONSTRAINTS,
+    modes_spec.KINDS, registry.VARIABLES._added, registry.LABELS._added, registry.COMPUTED,
+    album.PICTURES, materials.MATERIALS, presets._ADDED, core_registry._sources,
+    integrators.INTEGRATORS, solver_options.METHODS, constraints.KINDS, system_spec.CONSTRAINTS,
 )  # fmt: skip
 
 
@@ -143,10 +143,10 @@ def test_a_run_with_all_of_it(mine, tmp_path):
     run = simulate(case, out=tmp_path / "run")
     ds, bearing = run.dataset, case.bearing
 
-    psi = ds["roller_position"].sel(cyl="psi").values
+    psi = ds["element_position"].sel(cyl="psi").values
     force = ds["race_force"].sel(race="inner").values
-    speed = ds["roller_velocity"].sel(cyl="psi").values
-    centrifugal = bearing.roller_mass * speed**2 / ds["roller_position"].sel(cyl="r").values
+    speed = ds["element_velocity"].sel(cyl="psi").values
+    centrifugal = bearing.roller_mass * speed**2 / ds["element_position"].sel(cyl="r").values
     expected = np.empty_like(force)
     for t, angles in enumerate(psi):
         args = angles, bearing.radial_clearance, centrifugal[t]

@@ -26,7 +26,7 @@ from flexcage.mesh.options import MeshOptions
 from flexcage.render import sheet
 from flexcage.render.shapes import shapes_of
 from flexcage.render.solids import revolved
-from flexcage.results import metrics
+from flexcage.results import ball_slip, metrics
 from flexcage.results.metrics import BearingNumbers
 from flexcage.results.registry import VARIABLES
 from flexcage.results.store import RunStore
@@ -45,14 +45,14 @@ def run():
     """4 ms at 4000 rpm; ball 3 bears most, and ball 9 leaves the inner race for a while."""
     n = 200
     t = np.arange(n) / 50e3
-    names = ["inner_speed", "inner_position", "ball_position", "ball_omega", "contact_force"]
+    names = ["inner_speed", "inner_position", "element_position", "element_omega", "race_force"]
     names += ["inner_angle"]
-    names += ["contact_angle", "contact_slip", "cage_position", "cage_quaternion", "cage_omega"]
+    names += ["contact_angle", "race_slip", "cage_position", "cage_quaternion", "cage_omega"]
     names += ["pocket_force"]
     store = RunStore.create(
         None,
-        coords={"time": t, "ball": np.arange(Z), "pocket": np.arange(Z), "face": ["pocket"]},
-        variables=names, n_time=n, block=n, attrs={"element": "ball"},
+        coords={"time": t, "element": np.arange(Z), "pocket": np.arange(Z), "face": ["pocket"]},
+        variables=names, n_time=n, block=n, attrs={"family": "ball", "element": "ball"},
     )  # fmt: skip
     a = {v: np.zeros(store.layout.shape(VARIABLES[v])) for v in names}
     inner = 4000 * np.pi / 30
@@ -62,15 +62,15 @@ def run():
     a["cage_quaternion"][:, 1] = np.sin(ideal.cage_speed * t / 2)
     a["cage_omega"][:, 0] = ideal.cage_speed
     a["cage_position"][:, 1] = 50e-6 * np.cos(ideal.cage_speed * t)
-    a["ball_position"][:, :, 1] = 0.5 * PITCH
-    a["ball_position"][:, :, 2] = 2 * np.pi * np.arange(Z) / Z + (ideal.cage_speed * t)[:, None]
-    a["ball_omega"][:, :, 0] = ideal.cage_speed + ideal.roller_spin_in_cage
-    a["contact_force"][:] = 12.0
-    a["contact_force"][:, 3] = 25.0
-    a["contact_force"][80:120, 9, 0] = 0.0
+    a["element_position"][:, :, 1] = 0.5 * PITCH
+    a["element_position"][:, :, 2] = 2 * np.pi * np.arange(Z) / Z + (ideal.cage_speed * t)[:, None]
+    a["element_omega"][:, :, 0] = ideal.cage_speed + ideal.roller_spin_in_cage
+    a["race_force"][:] = 12.0
+    a["race_force"][:, 3] = 25.0
+    a["race_force"][80:120, 9, 0] = 0.0
     a["contact_angle"][:, :, 0], a["contact_angle"][:, :, 1] = 0.30, 0.25
     a["contact_angle"][80:120, 9, 0] = 9.0  # means nothing without contact
-    a["contact_slip"][:] = 0.01 * np.sin(2e3 * t)[:, None, None]
+    a["race_slip"][:] = 0.01 * np.sin(2e3 * t)[:, None, None]
     a["pocket_force"][:, 5, 0] = 3.0 * np.clip(np.sin(2e3 * t), 0.0, None)
     store.write_block(0, a)
     return store.dataset()
@@ -155,12 +155,12 @@ def test_histories_show_balls_slip_and_contact_angles(run, texts, tmp_path):
 def test_a_ball_that_turns_backwards_has_a_negative_speed(run, sense):
     rolling = abs(NUMBERS.kinematics(4000 * np.pi / 30).roller_spin_in_cage)
     ds = run.copy(deep=True)
-    ds["ball_omega"][:, 5, 0] = 2.0 * ds["cage_omega"][:, 0] - ds["ball_omega"][:, 5, 0]
-    for name in ("inner_speed", "ball_omega", "cage_omega"):
+    ds["element_omega"][:, 5, 0] = 2.0 * ds["cage_omega"][:, 0] - ds["element_omega"][:, 5, 0]
+    for name in ("inner_speed", "element_omega", "cage_omega"):
         ds[name] = sense * ds[name]
-    spin = metrics.ball_spin(ds)
+    spin = metrics.element_spin(ds)
     assert np.allclose(spin[:, 5], -rolling) and np.allclose(spin[:, 4], rolling)
-    assert np.allclose(metrics.ball_slip_ratio(ds, NUMBERS, nominal=True)[:, 5], 2.0)
+    assert np.allclose(ball_slip.slip_ratio(ds, NUMBERS, nominal=True)[:, 5], 2.0)
 
 
 def test_angles_count_only_where_balls_touch(run, monkeypatch, tmp_path):

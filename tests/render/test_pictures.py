@@ -41,16 +41,16 @@ NUMBERS = BearingNumbers(pitch_diameter=82.5e-3, roller_diameter=8e-3, roller_co
 def run():
     n = 400
     t = np.arange(n) / 50e3
-    names = ["inner_speed", "inner_angle", "inner_position", "roller_position", "roller_tilt"]
+    names = ["inner_speed", "inner_angle", "inner_position", "element_position", "element_tilt"]
     names += ["cage_position", "cage_quaternion", "cage_omega", "race_force", "pocket_force"]
-    names += ["roller_omega"]
+    names += ["element_omega"]
     store = RunStore.create(
         None,
-        coords={"time": t, "roller": np.arange(Z), "pocket": np.arange(Z)},
+        coords={"time": t, "element": np.arange(Z), "pocket": np.arange(Z)},
         variables=names,
         n_time=n,
         block=n,
-        attrs={},
+        attrs={"family": "cylindrical_roller", "element": "roller"},
     )
     a = {v: np.zeros(store.layout.shape(VARIABLES[v])) for v in names}
     cage = 2700 * np.pi / 30
@@ -60,11 +60,11 @@ def run():
     a["cage_omega"][:, 0] = cage
     a["cage_position"][:, 1] = 50e-6 * np.cos(3 * cage * t)
     a["cage_position"][:, 2] = 50e-6 * np.sin(3 * cage * t)
-    a["roller_position"][:, :, 1] = 41.25e-3
-    a["roller_position"][:, :, 2] = 2 * np.pi * np.arange(Z) / Z + (cage * t)[:, None]
-    a["race_force"][:, :, 0] = 500 * np.clip(-np.cos(a["roller_position"][:, :, 2]) - 0.6, 0, None)
+    a["element_position"][:, :, 1] = 41.25e-3
+    a["element_position"][:, :, 2] = 2 * np.pi * np.arange(Z) / Z + (cage * t)[:, None]
+    a["race_force"][:, :, 0] = 500 * np.clip(-np.cos(a["element_position"][:, :, 2]) - 0.6, 0, None)
     a["race_force"][:, :, 1] = a["race_force"][:, :, 0] + 10
-    a["roller_omega"][:, :, 0] = -27900 * np.pi / 30
+    a["element_omega"][:, :, 0] = -27900 * np.pi / 30
     a["pocket_force"][:, :, 0] = 20 * np.clip(np.sin(900 * t)[:, None] - np.arange(Z) / Z, 0, None)
     store.write_block(0, a)
     return store.dataset()
@@ -275,10 +275,10 @@ def test_a_roller_locked_in_its_pocket_is_drawn_below_zero(run, tmp_path, monkey
     shown = []
     monkeypatch.setattr(sheet, "save", lambda figure, path: shown.append(figure))
     locked = run.copy(deep=True)
-    locked["roller_omega"][:, 2, 0] = locked["cage_omega"].sel(axis="x").values
+    locked["element_omega"][:, 2, 0] = locked["cage_omega"].sel(axis="x").values
     for sense in (1.0, -1.0):
         turned = locked.copy(deep=True)
-        for name in ("inner_speed", "roller_omega", "cage_omega"):
+        for name in ("inner_speed", "element_omega", "cage_omega"):
             turned[name] = sense * locked[name]
         render.histories(turned, tmp_path / "h.png", bearing=NUMBERS, element=2)
         lines = {line.get_label(): line.get_ydata() for line in shown[-1].axes[-1].lines}

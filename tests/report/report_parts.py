@@ -39,15 +39,22 @@ BEARING = RollerBearing(
 def dataset(n: int = 5000):
     """A run at 6000 rpm, 1 % of cage slip, one pocket force of SPIKE newtons, energy in balance."""
     t = np.arange(n) / 50e3
-    names = ["inner_speed", "roller_omega", "cage_position", "cage_quaternion", "cage_omega"]
+    names = ["inner_speed", "element_omega", "cage_position", "cage_quaternion", "cage_omega"]
     names += ["cage_velocity", "race_force", "race_slip", "pocket_force", "energy", "work"]
     names += ["inner_position", "inner_quaternion", "multiplier"]
     coords = {
-        "time": t, "roller": np.arange(Z), "pocket": np.arange(Z),
+        "time": t, "element": np.arange(Z), "pocket": np.arange(Z),
         "constraint": ["axial_force", "moment_y", "moment_z", "drive_torque"],
         "energy_kind": ["kinetic", "strain"], "channel": ["drive", "pocket_friction"],
     }  # fmt: skip
-    store = RunStore.create(None, coords=coords, variables=names, n_time=n, block=n, attrs={})
+    store = RunStore.create(
+        None,
+        coords=coords,
+        variables=names,
+        n_time=n,
+        block=n,
+        attrs={"family": "cylindrical_roller", "element": "roller"},
+    )
     a = {v: np.zeros(store.layout.shape(VARIABLES[v])) for v in names}
     inner = 6000 * np.pi / 30
     cage = 0.99 * NUMBERS.kinematics(inner).cage_speed
@@ -59,7 +66,7 @@ def dataset(n: int = 5000):
     )
     a["cage_omega"][:, 0] = cage * (1.0 + 1e-3 * np.sin(900 * t))
     a["cage_position"][:, 1:] = 5e-5 * np.stack([np.cos(cage * t), np.sin(cage * t)], axis=1)
-    a["roller_omega"][:, :, 0] = NUMBERS.kinematics(inner).roller_spin
+    a["element_omega"][:, :, 0] = NUMBERS.kinematics(inner).roller_spin
     a["race_force"][:, :4, 0], a["race_force"][:, :, 1] = 300.0, 10.0
     a["pocket_force"][:, 2, 0] = 5.0 * np.clip(np.sin(900 * t), 0.0, None)
     a["pocket_force"][SPIKE_AT, 7, 1] = SPIKE

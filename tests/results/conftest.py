@@ -17,7 +17,7 @@ def run_coords(n: int, rate: float = 50e3, ratio: int = 4) -> dict:
     return {
         "time": np.arange(n) / rate,
         "time_hf": np.arange((n - 1) * ratio + 1) / (ratio * rate),
-        "roller": np.arange(Z),
+        "element": np.arange(Z),
         "pocket": np.arange(Z),
         "mode": np.arange(3),
         "slice": np.linspace(-3e-3, 3e-3, 5),
@@ -44,12 +44,12 @@ def known_run():
     store = RunStore.create(
         None,
         coords=run_coords(n),
-        variables=variables_of("roller"),
+        variables=variables_of("cylindrical_roller"),
         n_time=n,
         n_time_hf=4 * (n - 1) + 1,
         block=n,
         block_hf=4 * (n - 1) + 1,
-        attrs={},
+        attrs={"family": "cylindrical_roller", "element": "roller"},
     )
     layout = store.layout
     a = {v.name: np.zeros(layout.shape(v)) for v in layout.variables}
@@ -66,8 +66,8 @@ def known_run():
     a["cage_position"][:, 1] = 10e-6 + 40e-6 * np.cos(cage * t)
     a["cage_position"][:, 2] = -20e-6 + 40e-6 * np.sin(cage * t)
     spin = -27937.5 * np.pi / 30
-    a["roller_omega"][:, :, 0] = 0.95 * spin
-    a["roller_omega"][:, 3:6, 0] = 0.99 * spin
+    a["element_omega"][:, :, 0] = 0.95 * spin
+    a["element_omega"][:, 3:6, 0] = 0.99 * spin
     a["race_force"][:, 3:6, 0] = 300.0
     a["race_force"][:, :, 1] = 10.5
     a["race_slip"][:, 3:6] = 0.02

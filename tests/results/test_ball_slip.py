@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from flexcage.case.presets import load_preset
-from flexcage.results import metrics
+from flexcage.results import ball_slip, metrics
 from flexcage.results.figures import summarise
 from flexcage.results.metrics import BearingNumbers, SlipRange
 from flexcage.results.registry import VARIABLES
@@ -40,16 +40,16 @@ def run():
     orbit, spin = by_hand()
     n = 3001
     t = np.linspace(0.0, 2.0 * 2.0 * np.pi / orbit, n)
-    names = """inner_speed inner_angle inner_position inner_quaternion ball_position ball_velocity
-        ball_omega contact_force contact_angle contact_slip cage_position cage_quaternion cage_omega
-        cage_velocity pocket_force land_force multiplier""".split()
+    names = """inner_speed inner_angle inner_position inner_quaternion element_position
+        element_velocity element_omega race_force contact_angle race_slip cage_position
+        cage_quaternion cage_omega cage_velocity pocket_force land_force multiplier""".split()
     coords = {
-        "time": t, "ball": np.arange(Z), "pocket": np.arange(Z), "face": ["pocket"],
+        "time": t, "element": np.arange(Z), "pocket": np.arange(Z), "face": ["pocket"],
         "constraint": ["axial_force", "moment_y", "moment_z", "drive_torque"],
     }  # fmt: skip
     store = RunStore.create(
         None, coords=coords,
-        variables=names, n_time=n, block=n, attrs={"element": "ball"},
+        variables=names, n_time=n, block=n, attrs={"family": "ball", "element": "ball"},
     )  # fmt: skip
     a = {v: np.zeros(store.layout.shape(VARIABLES[v])) for v in names}
     cage = (1.0 - SLIP) * orbit
@@ -57,8 +57,8 @@ def run():
     a["cage_quaternion"][:, 0] = np.cos(0.5 * cage * t)
     a["cage_quaternion"][:, 1] = np.sin(0.5 * cage * t)
     a["cage_omega"][:, 0] = cage
-    a["ball_omega"][:, :, 0] = cage - spin
-    a["contact_force"][:, ::2], a["contact_force"][:, 1::2, 1] = 20.0, 3.0
+    a["element_omega"][:, :, 0] = cage - spin
+    a["race_force"][:, ::2], a["race_force"][:, 1::2, 1] = 20.0, 3.0
     a["contact_angle"][:, :, 0], a["contact_angle"][:, :, 1] = INNER, OUTER
     a["contact_angle"][:, : Z // 2] *= -1.0
     a["contact_angle"][:, 1::2] = 9.0  # of balls that bear nothing
@@ -76,8 +76,8 @@ def test_slip_counts_from_rolling_at_the_angles_of_loaded_balls(run):
     nominal = 0.5 * SPEED * (1.0 - NUMBERS.roller_diameter * np.cos(NUMBERS.contact_angle) / PITCH)
     assert speed.nominal == pytest.approx(nominal, rel=1e-12)
     assert speed.nominal_slip == pytest.approx(1.0 - speed.mean / nominal, rel=1e-9)
-    assert np.abs(metrics.ball_slip_ratio(run, NUMBERS)).max() < 1e-12
-    assert np.abs(metrics.ball_slip_ratio(run, NUMBERS, nominal=True)).min() > 1e-3
+    assert np.abs(metrics.element_slip_ratio(run, NUMBERS)).max() < 1e-12
+    assert np.abs(ball_slip.slip_ratio(run, NUMBERS, nominal=True)).min() > 1e-3
 
 
 def test_the_summary_names_both_references(run):
@@ -93,7 +93,7 @@ def test_the_summary_names_both_references(run):
 
 def test_balls_without_load_and_without_angles_have_the_nominal_one(run):
     free = run.copy(deep=True)
-    free["contact_force"][:] = 0.0
+    free["race_force"][:] = 0.0
     assert metrics.at_own_angles(free, NUMBERS) == NUMBERS
     assert metrics.rolling_by_curvature(free, NUMBERS) is None
     s = summarise(free, NUMBERS, settle=0.0)

@@ -55,7 +55,7 @@ class OnOff:
     @property
     def events(self) -> xr.Dataset:
         time, of, place, closed = zip(*sorted(self.rows), strict=True)
-        columns = {"time": time, self.element: of, "place": place, "closed": closed}
+        columns = {"time": time, "element": of, "place": place, "closed": closed}
         return xr.Dataset({name: ("event", np.array(c)) for name, c in columns.items()})
 
 
@@ -122,7 +122,7 @@ def test_a_part_of_a_run_knows_what_was_closed_before():
 def test_events_with_gaps_are_not_believed():
     run = periodic("roller")
     whole, gap = run.events, run.events.isel(event=[k for k in range(100) if k != 17])
-    assert complete(whole, "roller") and not complete(gap, "roller")
+    assert complete(whole) and not complete(gap)
     assert contact_activity(run.dataset, gap) == contact_activity(run.dataset)
 
 

@@ -64,12 +64,14 @@ def test_film_of_a_run_of_balls_is_that_of_rolling_balls():
     friction = {"contacts.race.friction.law": "traction", "drive.speed": "4000 rpm"}
     run = simulate(c7010(NO_OIL, friction, {"solver.duration": "3 ms"}))
     ds, film = run.dataset.isel(time=-1), run.film_thickness.isel(time=-1)
-    assert film.dims == ("ball", "race", "film") and film.attrs["units"] == "m"
-    orbit = float((ds["ball_velocity"].sel(cyl="psi") / ds["ball_position"].sel(cyl="r")).mean())
-    radius, case = float(ds["ball_position"].sel(cyl="r").mean()), run.case
+    assert film.dims == ("element", "race", "film") and film.attrs["units"] == "m"
+    orbit = float(
+        (ds["element_velocity"].sel(cyl="psi") / ds["element_position"].sel(cyl="r")).mean()
+    )
+    radius, case = float(ds["element_position"].sel(cyl="r").mean()), run.case
     for k, (race, side) in enumerate((("inner", -1.0), ("outer", 1.0))):
         angle, force = (float(ds[n].sel(race=race).mean()) for n in
-                        ("contact_angle", "contact_force"))  # fmt: skip
+                        ("contact_angle", "race_force"))  # fmt: skip
         surface = radius + side * 0.5 * 9.525e-3 * np.cos(angle)
         speed = abs((case.drive.speed if k == 0 else 0.0) - orbit) * surface
         expected = by_hand(case.bearing.contacts[k], force, speed,

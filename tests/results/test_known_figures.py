@@ -18,16 +18,25 @@ SOURCES = [
 BY_NAME = {"figure", "statistic", "stored_figure", "_figure"}
 
 
+TREES = {path: ast.parse(path.read_text("utf-8")) for path in SOURCES}
+
+
 def nodes(kind):
-    for path in SOURCES:
-        for node in ast.walk(ast.parse(path.read_text("utf-8"))):
+    for path, tree in TREES.items():
+        for node in ast.walk(tree):
             if isinstance(node, kind):
                 yield f"{path.name}:{node.lineno}", node
 
 
 def test_no_title_of_a_figure_is_typed_again():
     titles = {f.title for f in KNOWN.values()} | {f.pattern for f in KNOWN.values()}
-    again = [f"{place} {node.value}" for place, node in nodes(ast.Constant) if node.value in titles]
+    calls = [node for _, node in nodes(ast.Call) if ast.unparse(node.func) == "figures_in"]
+    listed = {part for call in calls for part in ast.walk(call)}  # by families, as by ``known``
+    again = [
+        f"{place} {node.value}"
+        for place, node in nodes(ast.Constant)
+        if node.value in titles and node not in listed
+    ]
     assert not again, f"take it from KNOWN: {again}"
 
 

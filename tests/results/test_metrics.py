@@ -8,7 +8,7 @@ import xarray as xr
 
 from flexcage.contacts.spec import EhlTraction, FrictionLaw
 from flexcage.core.errors import InputError
-from flexcage.results import audit, metrics
+from flexcage.results import audit, metrics, roller_slip
 from flexcage.results.figures import summarise
 from flexcage.results.spectra import amplitude_spectrum
 from flexcage.results.summary import Row, Summary, side_by_side
@@ -24,7 +24,7 @@ def test_cage_speed_and_slip(known_run, bearing):
 
 
 def test_roller_slip_zones_apart(known_run, bearing):
-    slip = metrics.roller_slip(known_run, bearing)
+    slip = roller_slip.slip(known_run, bearing)
     assert slip.loaded == pytest.approx(0.01, abs=1e-6)
     assert slip.unloaded == pytest.approx(0.05, abs=1e-6)
     assert slip.overall == pytest.approx((3 * 0.01 + 19 * 0.05) / 22, abs=1e-6)
@@ -78,30 +78,30 @@ def test_a_bearing_that_stands_has_no_slip_ratio_and_no_note(known_run, bearing,
 @pytest.mark.parametrize("sense", [1.0, -1.0])
 def test_a_roller_that_turns_backwards_spins_against_rolling(known_run, bearing, sense):
     ds = known_run.copy(deep=True)
-    for name in ("inner_speed", "roller_omega", "cage_omega"):
+    for name in ("inner_speed", "element_omega", "cage_omega"):
         ds[name][:] *= sense
     rolling = summarise(ds, bearing)
     assert rolling["roller_spin"] == pytest.approx((19 * 0.95 + 3 * 0.99) / 22 * 27937.5 * RPM)
     assert rolling["roller_spin_ideal"] == pytest.approx(27937.5 * RPM)
-    ds["roller_omega"][:, 8, 0] *= -1.0
-    spin = metrics.roller_spin(ds)
+    ds["element_omega"][:, 8, 0] *= -1.0
+    spin = metrics.element_spin(ds)
     assert float(spin.max("time")[8]) == pytest.approx(-0.95 * 27937.5 * RPM)
-    assert float(spin.isel(roller=7).min()) > 0.0
+    assert float(spin.isel(element=7).min()) > 0.0
     assert summarise(ds, bearing)["roller_spin"] < rolling["roller_spin"]
 
 
-def test_elements_without_names_are_not_taken_for_rollers(known_run):
-    with pytest.raises(KeyError, match="needle"):
-        metrics.loaded_zone(known_run.assign_attrs(element="needle"))
+def test_a_family_that_is_not_known_is_not_taken_for_rollers(known_run):
+    with pytest.raises(InputError, match="family 'needle', which is not known"):
+        metrics.element_spin(known_run.assign_attrs(family="needle"))
 
 
 def test_mixing_frames_would_fake_slip(known_run, bearing):
     """A roller in pure rolling slips by nothing in either frame; mixed, by 8.8 %."""
     ideal = known_run.copy(deep=True)
-    ideal["roller_omega"][:, :, 0] = -27937.5 * np.pi / 30
+    ideal["element_omega"][:, :, 0] = -27937.5 * np.pi / 30
     ideal["cage_omega"][:, 0] = 2709.0909090909 * np.pi / 30
     for frame in ("inertial", "cage"):
-        slip = metrics.roller_slip_ratio(ideal, bearing, frame=frame)
+        slip = roller_slip.slip_ratio(ideal, bearing, frame=frame)
         assert float(np.abs(slip).max()) < 1e-9
     mixed = 1 - 27937.5 / (bearing.kinematics(-6000).roller_spin_in_cage)
     assert mixed == pytest.approx(0.088, abs=5e-4)

@@ -44,8 +44,8 @@ def test_a_ratio_of_ripple_to_mean_ignores_the_sign():
 
 def test_derived_variables_are_the_metrics_series(known_run, bearing):
     part = metrics.whole_revolutions(known_run)
-    slip = DERIVED["roller_slip_ratio"].compute(part, bearing)
-    assert slip.dims == DERIVED["roller_slip_ratio"].variable.dims
+    slip = DERIVED["element_slip_ratio"].compute(part, bearing)
+    assert slip.dims == DERIVED["element_slip_ratio"].variable.dims
     radius = DERIVED["cage_whirl_radius"].compute(part, bearing)
     assert float(radius.mean()) == pytest.approx(40e-6, rel=1e-3)
     away = DERIVED["cage_radial_displacement"].compute(part, bearing)

@@ -18,11 +18,11 @@ import xarray as xr
 from flexcage.core.errors import InputError, RunFailed
 from flexcage.results.registry import (
     LABELS,
-    RUN_DIMS,
     TIME,
     TIME_HF,
     VARIABLES,
     Variable,
+    run_dims,
     variable,
 )
 from flexcage.results.store import RunStore
@@ -153,7 +153,9 @@ def test_sentences_for_paths_and_versions(tmp_path):
     stored = json.loads(commit.read_text())
     for other, said in (({**stored, "format": 1}, "1"), ({}, "None"), ([1], "None")):
         commit.write_text(json.dumps(other))
-        with pytest.raises(InputError, match=f"format {said}, .*reads format 4: open it with"):
+        with pytest.raises(
+            InputError, match=f"format {said}, .*reads formats 4 and 5: open it with"
+        ):
             RunStore.open(path)
     (tmp_path / "file").write_text("")
     with pytest.raises(InputError, match="cannot be written"):
@@ -411,7 +413,7 @@ def _next(store):
 
 def test_registry_is_complete():
     """Every variable has a unit, a name, time first, and labels or a run-dependent dimension."""
-    free = set(RUN_DIMS)
+    free = run_dims()
     for name, v in VARIABLES.items():
         assert v.name == name and v.unit and len(v.long_name) > 8
         assert v.dims[0] in (TIME, TIME_HF)
@@ -422,14 +424,16 @@ def test_registry_is_complete():
         assert papers_plot in text
     with pytest.raises(InputError, match="'cage_position'"):
         variable("cage_positon")
+    with pytest.raises(InputError, match="'ball_omega'; it is called 'element_omega' now"):
+        variable("ball_omega")
 
 
 def test_a_variable_from_elsewhere(monkeypatch):
     from flexcage.results import registry
 
-    for table in ("_table", "_labels", "COMPUTED"):
-        monkeypatch.setattr(registry, table, dict(getattr(registry, table)))
-    monkeypatch.setattr(registry, "VARIABLES", registry._table)
+    monkeypatch.setattr(registry, "COMPUTED", dict(registry.COMPUTED))
+    for table in (registry.VARIABLES, registry.LABELS):
+        monkeypatch.setattr(table, "_added", {})
 
     def compute(arrays, bearing):
         return np.full(len(arrays["inner_angle"]), 300.0)
@@ -441,7 +445,7 @@ def test_a_variable_from_elsewhere(monkeypatch):
     registry.register(zones, compute, labels={"zone": ("load", "rest")})
     for wrong, labels, words in (
         (oil, {}, "'oil_temperature' exists already"),
-        (Variable("frozen", ("roller",), "K", "no time"), {}, "must be 'time'"),
+        (Variable("frozen", ("element",), "K", "no time"), {}, "must be 'time'"),
         (Variable("fine", ("time_hf",), "K", "another grid"), {}, "must be 'time'"),
         (Variable("two words", ("time",), "K", "no name"), {}, "one word"),
         (Variable("spots", ("time", "spot"), "K", "no labels"), {}, "needs labels"),

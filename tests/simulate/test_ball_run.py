@@ -43,7 +43,7 @@ def test_every_variable_of_balls_is_there_and_finite(flexible):
     for name, values in ds.data_vars.items():
         assert np.isfinite(values.values).all(), name
         assert values.attrs["units"] == VARIABLES[name].unit
-    assert ds["contact_force"].dims == ("time", "ball", "race") and ds.sizes["ball"] == 18
+    assert ds["race_force"].dims == ("time", "element", "race") and ds.sizes["element"] == 18
     assert list(ds["face"].values) == ["pocket"]
     assert set(flexible.events["place"].values) <= {"inner race", "outer race", "pocket"}
 
@@ -64,9 +64,9 @@ def test_the_ring_bears_its_loads(flexible):
     """What the inner ring pushes balls with is, on average, its load and weight: their tractions
     across the groove, which hold the gyroscopic moment, bear three hundredths of the axial load."""
     ds = flexible.dataset.isel(time=slice(100, None)).sel(race="inner")
-    N, angle = ds["contact_force"].values, ds["contact_angle"].values
-    along, across = (ds["contact_traction"].sel(direction=d).values for d in ("rolling", "across"))
-    psi = ds["ball_position"].sel(cyl="psi").values
+    N, angle = ds["race_force"].values, ds["contact_angle"].values
+    along, across = ds["race_traction"].values, ds["race_traction_across"].values
+    psi = ds["element_position"].sel(cyl="psi").values
     outwards = N * np.cos(angle) + across * np.sin(angle)
     axial = (N * np.sin(angle) - across * np.cos(angle)).sum(axis=1).mean()
     radial = (outwards * np.cos(psi) - along * np.sin(psi)).sum(axis=1).mean()
@@ -89,8 +89,8 @@ def test_the_ring_bears_an_axial_load_that_rises(kind):
     along = {"load.varies": "axial", "load.radial": "0 N", "solver.duration": "8 ms"}
     run = simulate(c7010(RIGID, along, changes[kind]))
     ds = run.dataset.sel(race="inner")
-    angle, across = ds["contact_angle"], ds["contact_traction"].sel(direction="across")
-    borne = (ds["contact_force"] * np.sin(angle) - across * np.cos(angle)).sum("ball").values
+    angle, across = ds["contact_angle"], ds["race_traction_across"]
+    borne = (ds["race_force"] * np.sin(angle) - across * np.cos(angle)).sum("element").values
     ring = run.case.bearing.inner_ring_mass * np.gradient(
         ds["inner_velocity"].sel(axis="x").values, ds["time"].values
     )
@@ -116,10 +116,12 @@ def test_races_bear_the_gyroscopic_moment(flexible):
     """A ball that orbits with its axis tilted wants I psi' w_r about the direction of its orbit;
     tractions across both grooves give it, towards the shoulder that is not loaded."""
     ds = flexible.dataset.isel(time=slice(200, None))
-    across = ds["contact_traction"].sel(direction="across").mean(("time", "ball"))
-    orbit = (ds["ball_velocity"].sel(cyl="psi") / ds["ball_position"].sel(cyl="r")).values
+    across = ds["race_traction_across"].mean(("time", "element"))
+    orbit = (ds["element_velocity"].sel(cyl="psi") / ds["element_position"].sel(cyl="r")).values
     bearing = flexible.case.bearing
-    wanted = bearing.ball_inertia * (orbit * ds["ball_omega"].sel(cyl="r").values).mean()
+    wanted = (
+        bearing.ball_inertia * (orbit * ds["element_omega"].sel(spin_axis="radial").values).mean()
+    )
     given = -0.5 * bearing.ball_diameter * float(across.sum())
     assert wanted > 0.0 and given == pytest.approx(wanted, rel=0.03)
     assert float(across.sel(race="outer")) < 0.0
@@ -163,7 +165,7 @@ def test_a_resumed_run_is_the_unbroken_one(tmp_path):
     with pytest.raises(KeyboardInterrupt):
         simulate(case, out=tmp_path / "run", progress=Interrupted(2, 1e-3))
     resumed = simulate(case, out=tmp_path / "run", resume=True)
-    for name in ("ball_position", "ball_omega", "cage_position", "contact_force", "work"):
+    for name in ("element_position", "element_omega", "cage_position", "race_force", "work"):
         assert np.array_equal(resumed.dataset[name].values, whole.dataset[name].values), name
 
 
@@ -175,7 +177,7 @@ def test_a_held_centre_stays_and_bears_what_a_free_one_does():
     assert np.abs(ds["inner_velocity"].values).max() == 0.0
     free = simulate(c7010(RIGID, {**held, "load.centre": "free"})).dataset
     assert np.ptp(free["inner_position"].sel(axis="x").values) > 1e-9
-    loads = [d["contact_force"].sel(race="inner").values for d in (ds, free)]
+    loads = [d["race_force"].sel(race="inner").values for d in (ds, free)]
     assert loads[0].mean() == pytest.approx(loads[1].mean(), rel=0.05)
 
 
@@ -187,7 +189,7 @@ def test_unequal_balls_bear_unequal_loads_and_uneven_pockets_meet_them_elsewhere
     ds = simulate(c7010(RIGID, plain, uneven)).dataset
     half = slice(ds.sizes["time"] // 2, None)
     force, equal = (
-        d["contact_force"].sel(race="inner").isel(time=half).mean("time").values for d in (ds, even)
+        d["race_force"].sel(race="inner").isel(time=half).mean("time").values for d in (ds, even)
     )
     assert np.ptp(equal) < 0.02 * equal.mean() and np.ptp(force) > 0.1 * equal.mean()
     case = c7010(RIGID, plain, uneven)
@@ -208,7 +210,7 @@ def test_contact_loads_of_a_thrust_bearing_are_those_published():
         "load": {"axial": "3500 N", "radial": "1200 N", "gravity": "0 m/s^2"},
     }  # fmt: skip
     case = load_case(table, overrides={**RIGID, "solver.duration": "1 ms"})
-    force = simulate(case).dataset["contact_force"].sel(race="inner").mean("time").values
+    force = simulate(case).dataset["race_force"].sel(race="inner").mean("time").values
     published = (542.523, 514.965, 439.615, 335.616, 226.814, 133.675, 67.710, 30.199, 15.004)
     pairs = [0.5 * (force[k] + force[-k]) for k in range(9)]  # the bearing turns a little
     np.testing.assert_allclose(pairs, published, rtol=0.02, atol=1.5)

@@ -63,7 +63,7 @@ def test_the_outer_rings_acceleration_is_its_races_force_over_its_mass(method):
     """Between steps it is interpolated, which leaves a few per cent of its swing."""
     case = n1013(RIGID, {"solver.method": method, "solver.duration": "3 ms"})
     ds = simulate(case).dataset
-    psi = ds["roller_position"].sel(cyl="psi").values
+    psi = ds["element_position"].sel(cyl="psi").values
     races = ds.sel(race="outer")
     push, drag = races["race_force"].values, -races["race_traction"].values
     y = (push * np.cos(psi) - drag * np.sin(psi)).sum(axis=1)
@@ -216,14 +216,14 @@ def test_bases(spec):
 
 def mirrored(ds):
     """Arrays of a run seen in the mirror z -> -z: roller i is roller -i, front is rear."""
-    order = -np.arange(ds.sizes["roller"]) % ds.sizes["roller"]
+    order = -np.arange(ds.sizes["element"]) % ds.sizes["element"]
     faces = ds["pocket_force"].values[:, order][:, :, [1, 0, 2, 3]]
     return {
         "pocket_force": faces,
         "race_force": ds["race_force"].values[:, order],
         "cage_position": ds["cage_position"].values * [1.0, 1.0, -1.0],
         "inner_position": ds["inner_position"].values * [1.0, 1.0, -1.0],
-        "roller_spin": -ds["roller_omega"].values[:, order, 0],
+        "roller_spin": -ds["element_omega"].values[:, order, 0],
         "cage_speed": -ds["cage_omega"].values[:, 0],
     }
 
@@ -232,7 +232,7 @@ def plain(ds):
     names = ("pocket_force", "race_force", "cage_position", "inner_position")
     return {
         **{name: ds[name].values for name in names},
-        "roller_spin": ds["roller_omega"].values[:, :, 0],
+        "roller_spin": ds["element_omega"].values[:, :, 0],
         "cage_speed": ds["cage_omega"].values[:, 0],
     }
 
@@ -403,7 +403,7 @@ def test_speed_and_load_follow_their_tables():
     speed = np.interp(fine, [0.4e-3, 1.4e-3], [6000 * rpm, 6600 * rpm])
     angle = np.concatenate([[0.0], np.cumsum(0.5e-8 * (speed[1:] + speed[:-1]))])
     np.testing.assert_allclose(ds["inner_angle"], np.interp(t, fine, angle), atol=1e-5)
-    held = ds["race_force"].sel(race="inner").sum("roller")
+    held = ds["race_force"].sel(race="inner").sum("element")
     assert float(held[-1]) < 0.75 * float(held[:40].mean())
 
 

@@ -54,7 +54,7 @@ def test_a_resumed_run_is_the_unbroken_one(tmp_path, unbroken, model, blocks):
     kept = RunStore.open(tmp_path / "results.zarr")
     assert kept.blocks == blocks and not kept.complete
     half = load_run(tmp_path).dataset
-    assert half.sizes["time"] == 50 * blocks and np.isfinite(half["roller_position"].values).all()
+    assert half.sizes["time"] == 50 * blocks and np.isfinite(half["element_position"].values).all()
     watch = Interrupted(10**6, BLOCK)
     resumed = simulate(case, out=tmp_path, resume=True, progress=watch)
     assert watch.begun == pytest.approx(blocks * BLOCK)
@@ -121,8 +121,8 @@ def test_a_smallest_step_that_is_too_large_ends_with_a_sentence(tmp_path):
 
 def test_a_run_that_lacks_what_is_recorded_now_is_not_resumed(tmp_path, monkeypatch):
     variables_of = recorded.variables_of
-    older = [name for name in variables_of("roller") if name != "pocket_peak"]
-    monkeypatch.setattr(recorded, "variables_of", lambda element: older)
+    older = [name for name in variables_of("cylindrical_roller") if name != "pocket_peak"]
+    monkeypatch.setattr(recorded, "variables_of", lambda family: older)
     arrays = integration.recorded
     monkeypatch.setattr(
         integration, "recorded",
@@ -176,7 +176,7 @@ def test_a_run_of_another_format_is_refused_wherever_it_is_read(tmp_path, capsys
     case.write_text(case_of("rigid").to_toml(), encoding="utf-8")
     simulate(case_of("rigid"), out=folder)
     commit = folder / "results.zarr" / "_run" / "commit.json"
-    commit.write_text(commit.read_text("utf-8").replace('"format": 4', '"format": 3'), "utf-8")
+    commit.write_text(commit.read_text("utf-8").replace('"format": 5', '"format": 3'), "utf-8")
     (folder / "case.toml").write_text("[bearing]\nformer_word = 1\n", encoding="utf-8")
     other = shutil.copytree(folder, tmp_path / "other")
     for command in (

@@ -45,7 +45,7 @@ def test_the_moment_tilts_the_ring_and_balls_meet_their_pockets(flexible):
 def test_balls_stay_within_their_pockets(flexible):
     """No ball goes deeper into its wall than contacts do: 5 um."""
     ds, cage = flexible.dataset, flexible.case.cage
-    balls = ds["ball_position"].values
+    balls = ds["element_position"].values
     touched = ds["pocket_force"].sel(face="pocket").values > 0.0
     assert touched.any()
     away = np.hypot(balls[..., 0] - ds["cage_position"].values[:, None, 0], balls[..., 1] - 13e-3)

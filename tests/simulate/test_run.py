@@ -138,7 +138,9 @@ def test_a_run_in_memory(rigid, tmp_path, monkeypatch):
 def test_every_variable_is_there_complete_and_finite(request, which):
     ds = request.getfixturevalue(which).dataset
     expected = {
-        v for v in variables_of("roller") if which == "flexible" or not v.startswith("modal_")
+        v
+        for v in variables_of("cylindrical_roller")
+        if which == "flexible" or not v.startswith("modal_")
     }
     assert set(ds.data_vars) == expected
     for name, values in ds.data_vars.items():
@@ -235,20 +237,20 @@ def test_the_summary_says_what_its_peaks_and_cuts_leave_out(flexible):
 def test_inner_ring_carries_the_load(rigid):
     """Race forces on the rollers, summed as vectors, hold 1000 N and the rings' weight."""
     ds = rigid.dataset.isel(time=slice(100, None))
-    psi = ds["roller_position"].sel(cyl="psi")
+    psi = ds["element_position"].sel(cyl="psi")
     force = ds["race_force"].sel(race="inner")
     weight = rigid.case.bearing.inner_ring_mass * 9.80665
-    assert float((force * np.cos(psi)).sum("roller").mean()) == pytest.approx(
+    assert float((force * np.cos(psi)).sum("element").mean()) == pytest.approx(
         1000 + weight, rel=2e-3
     )
-    assert abs(float((force * np.sin(psi)).sum("roller").mean())) < 10.0
+    assert abs(float((force * np.sin(psi)).sum("element").mean())) < 10.0
 
 
 def test_events_are_the_contacts_that_close_and_open(flexible):
     """Each place closes and opens by turns, and while its force is above zero it is closed."""
     events, ds = flexible.events, flexible.dataset
     assert set(events["place"].values) >= {"outer race", "front", "rear", "land +x"}
-    roller, place = events["roller"].values, events["place"].values
+    roller, place = events["element"].values, events["place"].values
     for k in range(22):
         closed = events["closed"].values[(roller == k) & (place == "front")]
         assert np.all(closed[1:] != closed[:-1])
@@ -262,14 +264,14 @@ def test_orientations_turn_with_the_angular_velocities(flexible):
     """Two samples' quaternions differ by the angular velocity between them, in the body's frame."""
     ds = flexible.dataset
     dt = float(ds["time"][1] - ds["time"][0])
-    for name, speed in (("inner", ds["inner_speed"].values), ("roller", None)):
+    for name, speed in (("inner", ds["inner_speed"].values), ("element", None)):
         q = ds[f"{name}_quaternion"].values
         first, second = q[100:200:7], q[101:201:7]
         turn = Rotation.from_quat(first.reshape(-1, 4), scalar_first=True).inv()
         turn = turn * Rotation.from_quat(second.reshape(-1, 4), scalar_first=True)
         about_axis = turn.as_rotvec()[:, 0] / dt
         if speed is None:
-            omega = ds["roller_omega"].values[..., 0]
+            omega = ds["element_omega"].values[..., 0]
             speed = 0.5 * (omega[100:200:7] + omega[101:201:7])
         else:
             speed = speed[100:200:7]

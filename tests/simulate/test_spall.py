@@ -63,7 +63,7 @@ def test_the_envelope_has_the_line_of_a_spall(spalled):
 def test_roller_over_a_spall_bears_nothing_and_its_neighbours_take_over(spalled):
     """1.5 mm let a roller of 8 mm down by 32 um, more than the most loaded one is pressed in."""
     ds = spalled.dataset
-    azimuth = np.angle(np.exp(1j * ds["roller_position"].sel(cyl="psi").values))
+    azimuth = np.angle(np.exp(1j * ds["element_position"].sel(cyl="psi").values))
     outer = ds["race_force"].sel(race="outer").values
     over = np.abs(azimuth) * 45.26e-3 < 0.2e-3
     beside = (np.abs(azimuth) * 45.26e-3 > 2e-3) & (np.abs(azimuth) < 0.14)

@@ -117,7 +117,7 @@ def test_a_users_picture_or_variable_that_fails_is_told_as_the_users(rigid, tmp_
         rigid.draw(tmp_path)
     assert (tmp_path / "bearing.png").exists()
     register(Variable("mine", ("time",), "N", "mine"), broken)
-    for table in (registry._table, registry.COMPUTED):
+    for table in (registry.VARIABLES._added, registry.COMPUTED):
         monkeypatch.setitem(table, "mine", table.pop("mine"))  # and gone after this test
     with pytest.raises(RunFailed, match=r"variable 'mine' .*boom .*test_wrong_arguments.py, line"):
         simulate(rigid.case)

@@ -45,13 +45,13 @@ def rolling(n1013):
     still, turning = np.zeros((NT, 3)), np.outer(np.ones(NT), [CAGE_SPEED, 0.0, 0.0])
     length = bearing.effective_length
     x = (np.arange(SLICES) + 0.5) * length / SLICES - 0.5 * length
-    body, roller = ("time", "axis"), ("time", "roller", "cyl")
+    body, element = ("time", "axis"), ("time", "element", "cyl")
     return xr.Dataset(
         {
-            "roller_position": (roller, position),
-            "roller_velocity": (roller, velocity),
-            "roller_omega": (("time", "roller", "spin_axis"), omega),
-            "roller_tilt": (("time", "roller", "tilt"), np.zeros((NT, Z, 2))),
+            "element_position": (element, position),
+            "element_velocity": (element, velocity),
+            "element_omega": (("time", "element", "spin_axis"), omega),
+            "element_tilt": (("time", "element", "tilt"), np.zeros((NT, Z, 2))),
             "cage_quaternion": (("time", "quaternion"), attitude),
             "cage_omega": (body, turning),
             "pocket_force": (("time", "pocket", "face"), force),
@@ -63,10 +63,10 @@ def rolling(n1013):
             **{name: (body, still.copy()) for name in STILL},
         },
         coords={
-            "time": t, "pocket": k, "roller": k, "face": ["front", "rear", "side+x", "side-x"],
+            "time": t, "pocket": k, "element": k, "face": ["front", "rear", "side+x", "side-x"],
             "slice": x, "axis": ["x", "y", "z"], "channel": ["pocket_friction"],
         },
-        attrs={"element": "roller"},
+        attrs={"family": "cylindrical_roller", "element": "roller"},
     )  # fmt: skip
 
 
@@ -139,8 +139,8 @@ def test_depth_is_volume_over_the_track(rolling, n1013):
 
 def test_a_track_is_as_high_as_the_roller_wanders(rolling, n1013):
     swing = 1e-4 * np.sin(2.0 * np.pi * np.arange(NT) / 100)
-    rolling["roller_position"][:, :, 1] += swing[:, None]
-    rolling["roller_velocity"][:, :, 2] += CAGE_SPEED * swing[:, None]
+    rolling["element_position"][:, :, 1] += swing[:, None]
+    rolling["element_velocity"][:, :, 2] += CAGE_SPEED * swing[:, None]
     area = worn(rolling, n1013).dataset["track_area"].sel(pocket=3, face="rear")
     steady = np.sqrt(12.0) * 1e-4 / np.sqrt(2.0)
     assert float(area) / 7.3e-3 == near(steady, rel=0.15)

@@ -9,6 +9,7 @@ from study_cases import short_study, study_file
 from flexcage import cli
 from flexcage.case import load_case
 from flexcage.core.errors import InputError
+from flexcage.core.wings import FAMILIES
 from flexcage.geometry.materials import MATERIALS
 from flexcage.geometry.window_defects import CrossbeamDefect
 from flexcage.study import run
@@ -35,15 +36,15 @@ def test_every_combination_is_a_case():
     }
 
 
-@pytest.mark.parametrize("element", ["roller", "ball"])
-def test_the_cages_motion_and_contacts_are_outputs_of_every_family(element):
+@pytest.mark.parametrize("family", FAMILIES)
+def test_the_cages_motion_and_contacts_are_outputs_of_every_family(family):
     names = ("contact_frequency", "contact_frequency_total", "free_flight_share")
     names += ("whirl_speed_ratio", "velocity_deviation", "velocity_deviation_2khz")
-    check_outputs(names, sizes={element: 12, "pocket": 12}, flexible=False, element=element)
+    check_outputs(names, sizes={"element": 12, "pocket": 12}, flexible=False, family=family)
 
 
 def test_loads_of_rivets_are_outputs_of_ribbon_cages():
-    figures = {"sizes": {}, "flexible": True, "element": "ball"}
+    figures = {"sizes": {}, "flexible": True, "family": "ball"}
     check_outputs(("rivet_stress",), **figures, riveted=True)
     with pytest.raises(InputError, match="set cage.type = 'ribbon'"):
         check_outputs(("rivet_stress",), **figures)
@@ -197,8 +198,11 @@ def test_mistakes_in_the_file(name, tmp_path, capsys):
         (("pocket_force[pocket=3:3].max",), "pocket=3:6"),
         (("pocket_force[pocket=20:23].max",), "pockets count from 0 to 21"),
         (("pocket_slice_force[slice=64].max",), "slices count from 0 to 63"),
-        (("roller_omega[roller=3:5,spin_axis=axial].frequency",), "one series; say which roller"),
-        (("roller_omega[roller=first].mean",), "counted from 0"),
+        (
+            ("element_omega[element=3:5,spin_axis=axial].frequency",),
+            "say which element",
+        ),
+        (("element_omega[element=first].mean",), "counted from 0"),
         (("contact_angle.mean",), "is of balls, but the study's bearings have rollers"),
         (("contact_angle_inner",), "is of balls"),
         (("stress_peak",), "needs a flexible cage"),
@@ -213,12 +217,16 @@ def test_outputs_that_no_run_gives(outputs, words):
 
 def test_outputs_of_a_study_of_ball_bearings():
     case = load_case({"bearing": {"preset": "7010C-PI"}, "load": {"axial": "100 N"}})
-    fine = ("contact_angle_inner", "ball_slip_ratio[ball=17].mean", "contact_force[ball=0].max")
+    fine = (
+        "contact_angle_inner",
+        "element_slip_ratio[element=17].mean",
+        "race_force[element=0].max",
+    )
     make_plan(Study(case=case, outputs=fine))
     for wrong, words in (
         ("roller_spin", "is of rollers, but the study's bearings have balls"),
-        ("roller_slip_ratio.mean", "is of rollers"),
-        ("contact_force[ball=18].max", "the balls count from 0 to 17"),
+        ("rib_force.max", "is of rollers"),
+        ("race_force[element=18].max", "the balls count from 0 to 17"),
     ):
         with pytest.raises(InputError, match=words):
             make_plan(Study(case=case, outputs=(wrong,)))

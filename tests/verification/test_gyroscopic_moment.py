@@ -53,9 +53,9 @@ def test_friction_takes_from_the_outer_contacts_axial_force():
     angles part further than without friction (outer race control has it the other way)."""
     friction = {"contacts.race.friction.law": "traction", "solver.duration": "20 ms"}
     run = simulate(c7010(NO_OIL, friction, {"drive.speed": "7000 rpm"}))
-    ds = run.dataset.isel(time=slice(-200, None)).mean(("time", "ball"))
+    ds = run.dataset.isel(time=slice(-200, None)).mean(("time", "element"))
     angles = ds["contact_angle"].values
-    orbit = float(ds["ball_velocity"].sel(cyl="psi") / ds["ball_position"].sel(cyl="r"))
+    orbit = float(ds["element_velocity"].sel(cyl="psi") / ds["element_position"].sel(cyl="r"))
     bearing = run.case.bearing
     rb = 0.5 * bearing.ball_diameter
     forces, omega = in_space(bearing, angles, orbit, run.case.drive.speed, 10.0)
@@ -63,6 +63,6 @@ def test_friction_takes_from_the_outer_contacts_axial_force():
     n = np.array([np.sin(angles[1]), np.cos(angles[1]), 0.0])
     moment = rb * (np.cross(n, forces[0])[2] - np.cross(n, forces[1])[2])
     assert moment == pytest.approx(wanted, rel=0.05) and omega[1] > 0.0
-    across = ds["contact_traction"].sel(direction="across")
+    across = ds["race_traction_across"]
     assert forces[0, 0] < 0.0 and float(across.sel(race="outer")) < 0.0
     assert angles[0] > np.radians(19.18) and angles[1] < np.radians(11.42)

@@ -37,7 +37,7 @@ class Forces:
     @classmethod
     def of(cls, run) -> Forces:
         ds = metrics.settled(run.dataset, 0.3)
-        largest = ds["race_force"].sel(race="inner").max("roller")
+        largest = ds["race_force"].sel(race="inner").max("element")
         pocket = ds["pocket_force"].values[:, :, :2]
         return cls(
             float(largest.mean()), float(largest.max()), float(pocket[pocket > 0.0].mean()),

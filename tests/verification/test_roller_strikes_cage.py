@@ -82,7 +82,7 @@ def strike(case) -> Blow:
     assert float(ds["race_force"].max()) == 0.0  # nothing else was touched
     assert float(ds["pocket_force"].values[:, 1:].max()) == 0.0
     force = ds["pocket_force"].values[:, 0, 0].astype(float)
-    change = float(ds["roller_velocity"][-1, 0, 2]) - SPEED
+    change = float(ds["element_velocity"][-1, 0, 2]) - SPEED
     blow = Blow(ds["time"].values, force)
     assert blow.impulse == pytest.approx(-case.bearing.roller_mass * change, rel=0.01)
     return blow

@@ -11,6 +11,10 @@ from flexcage.geometry.deep_groove_ball import DeepGrooveBallBearing
 if TYPE_CHECKING:
     from flexcage.integrate.recording import Recording
     from flexcage.render.shapes import ShapesOf
+    from flexcage.results.figures import OwnFigures
+    from flexcage.results.metrics import ElementSpeed
+    from flexcage.results.registry import OwnVariables
+    from flexcage.stress.rubbing import Rub
     from flexcage.system.motion import Motion
     from flexcage.system.statics.elements import ElementsOf
 
@@ -33,10 +37,34 @@ def _recording() -> Recording[Any]:
     return RECORDING
 
 
+def _variables() -> OwnVariables:
+    from flexcage.results.ball_variables import VARIABLES
+
+    return VARIABLES
+
+
+def _speed() -> ElementSpeed:
+    from flexcage.results.ball_slip import SPEED
+
+    return SPEED
+
+
+def _figures() -> OwnFigures:
+    from flexcage.results.ball_figures import FIGURES
+
+    return FIGURES
+
+
 def _shapes() -> ShapesOf:
     from flexcage.render.ball_shapes import ball_shapes
 
     return ball_shapes
+
+
+def _rubbing() -> Rub:
+    from flexcage.stress.ball_rubbing import rubbing
+
+    return rubbing
 
 
 FAMILY = Family(
@@ -45,5 +73,9 @@ FAMILY = Family(
     statics=_statics,
     motion=_motion,
     recording=_recording,
+    variables=_variables,
+    speed=_speed,
+    figures=_figures,
+    rubbing=_rubbing,
     shapes=_shapes,
 )

@@ -10,6 +10,10 @@ from flexcage.geometry.cylindrical_roller import OTHER_DESIGNS, RollerBearing
 if TYPE_CHECKING:
     from flexcage.integrate.recording import Recording
     from flexcage.render.shapes import ShapesOf
+    from flexcage.results.figures import OwnFigures
+    from flexcage.results.metrics import ElementSpeed
+    from flexcage.results.registry import OwnVariables
+    from flexcage.stress.rubbing import Rub
     from flexcage.system.motion import Motion
     from flexcage.system.statics.elements import ElementsOf
 
@@ -32,10 +36,34 @@ def _recording() -> Recording[Any]:
     return RECORDING
 
 
+def _variables() -> OwnVariables:
+    from flexcage.results.roller_variables import VARIABLES
+
+    return VARIABLES
+
+
+def _speed() -> ElementSpeed:
+    from flexcage.results.roller_slip import SPEED
+
+    return SPEED
+
+
+def _figures() -> OwnFigures:
+    from flexcage.results.roller_figures import FIGURES
+
+    return FIGURES
+
+
 def _shapes() -> ShapesOf:
     from flexcage.render.roller_shapes import roller_shapes
 
     return roller_shapes
+
+
+def _rubbing() -> Rub:
+    from flexcage.stress.roller_rubbing import rubbing
+
+    return rubbing
 
 
 FAMILY = Family(
@@ -44,6 +72,10 @@ FAMILY = Family(
     statics=_statics,
     motion=_motion,
     recording=_recording,
+    variables=_variables,
+    speed=_speed,
+    figures=_figures,
+    rubbing=_rubbing,
     shapes=_shapes,
     other_designs=OTHER_DESIGNS,
 )

@@ -69,14 +69,14 @@ def impact_rows() -> Iterator[Row]:
         bearing.layout.q(y)["elements"][:, 1] -= GAP
         for part in (bearing.layout.u(y), bearing.layout.q(yd)):
             part["elements"][:, 1] = SPEED
-        ds = march(case, bearing, y, yd).isel(ball=0)
-        back = -float(ds["ball_velocity"].sel(cyl="r").min())  # before it meets the inner race
+        ds = march(case, bearing, y, yd).isel(element=0)
+        back = -float(ds["element_velocity"].sel(cyl="r").min())  # before it meets the inner race
         yield Row(f"restitution {e:g}: speed back", "m/s", e * SPEED, back, STEPS)
         if e == 1.0:
             model = bearing.data.model
             K, mass = model.outer.normal[0], model.bodies.element[0]
             depth = (1.25 * mass * SPEED**2 / K) ** 0.4
-            force = ds["contact_force"].sel(race="outer").values
+            force = ds["race_force"].sel(race="outer").values
             yield Row("elastic: largest force", "N", K * depth**1.5, float(force.max()), STEPS)
 
 
@@ -90,10 +90,10 @@ def sliding_rows() -> Iterator[Row]:
     u["elements"][:, 2], rate["elements"][:, 2] = first, ORBIT
     u["omega"][0], rate["quaternion"][1] = ORBIT, 0.5 * ORBIT
     ds = march(case, bearing, y, yd)
-    if float(ds["contact_force"].sel(race="inner").max()) > 0.0:
+    if float(ds["race_force"].sel(race="inner").max()) > 0.0:
         raise RunFailed("a ball touched the inner race: the closed form is not tried")
-    speed = ds["ball_velocity"].sel(cyl="psi").mean("ball").values
-    spin = -ds["ball_omega"].sel(cyl="x").mean("ball").values
+    speed = ds["element_velocity"].sel(cyl="psi").mean("element").values
+    spin = -ds["element_omega"].sel(spin_axis="axial").mean("element").values
     time, size = ds["time"].values, 0.5 * case.bearing.ball_diameter
     rolling = 0.4 * radius / (MU * first)  # when first/(1 + mu first t/r) is 5/7 of the first
     for share in (0.25, 0.5, 0.75):

@@ -36,7 +36,7 @@ def rows() -> Iterator[Row]:
         rate["elements"][:, 2] = orbit
         u["omega"][0], rate["quaternion"][1] = cage * RPM, 0.5 * cage * RPM
         ds = march(case, bearing, y, yd).isel(time=slice(-400, None))
-        angle, force = (ds[v].mean(("time", "ball")) for v in ("contact_angle", "contact_force"))
+        angle, force = (ds[v].mean(("time", "element")) for v in ("contact_angle", "race_force"))
         found = [*(DEGREES * angle.values), *force.values]
         names = ("inner angle", "outer angle", "inner force", "outer force")
         for name, unit, value, reference in zip(

@@ -34,7 +34,7 @@ def speed_rows(name: str, model: str, sense: float) -> Iterator[Row]:
     run = simulate(n1013(ROLLING, drive, {"cage.model": model}))
     ds = metrics.settled(run.dataset, 0.3)
     cage = sense * metrics.cage_speed(ds, run.numbers).mean
-    spin = -sense * ds["roller_omega"].values[:, :, 0]
+    spin = -sense * ds["element_omega"].values[:, :, 0]
     loaded = ds["race_force"].values[:, :, 0] > 1.0
     yield Row(f"{name}: cage", "rpm", CAGE / RPM, cage / RPM, ROLLS)
     yield Row(f"{name}: spin, loaded", "rpm", SPIN / RPM, spin[loaded].mean() / RPM, ROLLS)
@@ -55,9 +55,9 @@ def caught_rows() -> Iterator[Row]:
     u[0, 2], u[0, 3] = orbit * layout.q(y)["elements"][0, 1], spin
     rate[0, 2], rate[0, 5] = orbit, spin - orbit
     end: Any = march(case, bearing, y, yd).isel(time=slice(-400, None), roller=0)
-    found = (end["roller_velocity"].sel(cyl="psi") / end["roller_position"].sel(cyl="r")).mean()
+    found = (end["element_velocity"].sel(cyl="psi") / end["element_position"].sel(cyl="r")).mean()
     yield Row("started slow: orbit", "rpm", CAGE / RPM, float(found) / RPM, ROLLS)
-    turning = -float(end["roller_omega"].sel(spin_axis="axial").mean())
+    turning = -float(end["element_omega"].sel(spin_axis="axial").mean())
     yield Row("started slow: spin", "rpm", SPIN / RPM, turning / RPM, ROLLS)
 
 

@@ -47,12 +47,12 @@ def of_balls_and_rings(bearing: Bearing, ds: Any) -> tuple[np.ndarray, np.ndarra
     """Momentum across the axis (time, 2) [kg m/s] and angular momentum about it (time,)."""
     model = bearing.data.model
     mass, inertia, _ = model.bodies.element
-    r, psi = (ds["ball_position"].sel(cyl=c).values for c in ("r", "psi"))
-    radial, around = (ds["ball_velocity"].sel(cyl=c).values for c in ("r", "psi"))
+    r, psi = (ds["element_position"].sel(cyl=c).values for c in ("r", "psi"))
+    radial, around = (ds["element_velocity"].sel(cyl=c).values for c in ("r", "psi"))
     cos, sin = np.cos(psi), np.sin(psi)
     across = np.stack([radial * cos - around * sin, radial * sin + around * cos])
     linear = mass * across.sum(axis=2).T
-    spin = ds["ball_omega"].sel(cyl="x").values
+    spin = ds["element_omega"].sel(spin_axis="axial").values
     angular = (mass * r * around + inertia * spin).sum(axis=1)
     for name, m in (("inner", model.bodies.ring[0]), ("outer", model.bodies.outer[0])):
         at, v = (ds[f"{name}_{what}"].values[:, 1:] for what in ("position", "velocity"))
@@ -82,7 +82,7 @@ def rows() -> Iterator[Row]:
         thrown = SPEED * np.array([np.cos(DIRECTION), np.sin(DIRECTION)])
         layout.u(y)["cage"][1:] = layout.q(yd)["cage"][1:] = thrown
         ds = march(case, bearing, y, yd)
-        if min(float(ds[f].max()) for f in ("pocket_force", "contact_force")) < 1.0:
+        if min(float(ds[f].max()) for f in ("pocket_force", "race_force")) < 1.0:
             raise RunFailed("the cage struck no ball, or no ball a race: nothing was tried")
         cage = of_flexible_cage(reduction, ds) if reduction else of_rigid_cage(bearing, ds)
         linear, angular = (a + b for a, b in zip(of_balls_and_rings(bearing, ds), cage))

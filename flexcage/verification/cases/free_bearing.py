@@ -50,14 +50,15 @@ def of_rollers_and_rings(bearing: Bearing, ds: Any) -> tuple[np.ndarray, np.ndar
     """Momentum across the axis (time, 2) [kg m/s] and angular momentum about it (time,)."""
     model = bearing.data.model
     mass, axial, transverse = model.bodies.element
-    psi, r = (ds["roller_position"].sel(cyl=c).values for c in ("psi", "r"))
-    radial, around = (ds["roller_velocity"].sel(cyl=c).values for c in ("r", "psi"))
+    psi, r = (ds["element_position"].sel(cyl=c).values for c in ("psi", "r"))
+    radial, around = (ds["element_velocity"].sel(cyl=c).values for c in ("r", "psi"))
     cos, sin = np.cos(psi), np.sin(psi)
     linear = (
         mass * np.stack([radial * cos - around * sin, radial * sin + around * cos]).sum(axis=2).T
     )
-    spin = ds["roller_omega"].values * [axial, transverse, transverse]
-    skew, tilt = np.moveaxis(ds["roller_tilt"].values, -1, 0)  # own axes' share along the bearing's
+    spin = ds["element_omega"].values * [axial, transverse, transverse]
+    # own axes' share along the bearing's
+    skew, tilt = np.moveaxis(ds["element_tilt"].values, -1, 0)
     shares = (np.cos(skew) * np.cos(tilt), -np.cos(skew) * np.sin(tilt), np.sin(skew))
     angular = (mass * r * around + (spin * np.stack(shares, axis=-1)).sum(axis=-1)).sum(axis=1)
     for name, m in (("inner", model.bodies.ring[0]), ("outer", model.bodies.outer[0])):

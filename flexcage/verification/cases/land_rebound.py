@@ -42,7 +42,7 @@ REBOUND = Tolerance(
 def rebounds(ds: Any, along: np.ndarray) -> list[float]:
     """Speed after over before of every blow on the lands in which nothing else is touched."""
     force = np.linalg.norm(ds["land_force"].values, axis=1)
-    others = ds["race_force"].max(("roller", "race")) + ds["pocket_force"].max(("pocket", "face"))
+    others = ds["race_force"].max(("element", "race")) + ds["pocket_force"].max(("pocket", "face"))
     apart = (ds["cage_velocity"] - ds["inner_velocity"]).values[:, 1:] @ along
     touching = np.flatnonzero(force > 0.0)
     found = []

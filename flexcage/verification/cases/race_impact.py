@@ -33,12 +33,12 @@ def flight(*tables: Mapping[str, object]) -> tuple[np.ndarray, np.ndarray, np.nd
     bearing = bearing_of(case)
     y, yd = state_at_rest(bearing)
     bearing.layout.u(y)["elements"][:, 1] = bearing.layout.q(yd)["elements"][:, 1] = SPEED
-    ds = march(case, bearing, y, yd).isel(roller=0)
+    ds = march(case, bearing, y, yd).isel(element=0)
     return (
         ds["race_force"].sel(race="outer").values,
-        ds["roller_position"].sel(cyl="r").values
+        ds["element_position"].sel(cyl="r").values
         - (case.bearing.outer_race_radius - 0.5 * case.bearing.roller_diameter),
-        ds["roller_velocity"].sel(cyl="r").values,
+        ds["element_velocity"].sel(cyl="r").values,
         1.0 / case.output.rate,
     )
 

@@ -82,9 +82,9 @@ def race_rows() -> Iterator[Row]:
     u[:, 3] = 0.0  # no spin in space
     rate[:, 5] = -rate[:, 2]
     ds = march(case, bearing, y, yd)
-    speed = ds["roller_velocity"].sel(cyl="psi").values
-    spin = -ds["roller_omega"].sel(spin_axis="axial").values
-    radius, time = float(ds["roller_position"].sel(cyl="r")[0, 0]), ds["time"].values
+    speed = ds["element_velocity"].sel(cyl="psi").values
+    spin = -ds["element_omega"].sel(spin_axis="axial").values
+    radius, time = float(ds["element_position"].sel(cyl="r")[0, 0]), ds["time"].values
     first, size = float(u[0, 2]), 0.5 * case.bearing.roller_diameter
     rolling = radius / (2.0 * MU * first)  # when first/(1 + mu first t/r) is 2/3 of the first
     for share in (0.25, 0.5, 0.75):

@@ -1,0 +1,35 @@
+"""What a family brings along is there, and its variables fit those that all bearings have."""
+
+from dataclasses import fields
+
+import pytest
+
+from flexcage.bearings import MEMBERS
+from flexcage.results.figures import OwnFigures
+from flexcage.results.known import KNOWN
+from flexcage.results.metrics import ElementSpeed
+from flexcage.results.registry import LABELS, RUN_DIMS, TIME, VARIABLES, families_with, variables_of
+
+
+@pytest.mark.parametrize("family", MEMBERS, ids=lambda family: family.name)
+def test_every_slot_gives_something(family):
+    for slot in fields(family):
+        value = getattr(family, slot.name)
+        assert (value() if callable(value) else value) is not None, slot.name
+    assert isinstance(family.speed(), ElementSpeed) and isinstance(family.figures(), OwnFigures)
+
+
+@pytest.mark.parametrize("family", MEMBERS, ids=lambda family: family.name)
+def test_own_variables_and_figures_are_registered_and_labelled(family):
+    own = family.variables()
+    for v in own.variables:
+        assert VARIABLES[v.name] == v and family.name in families_with(v.name)
+        assert set(v.dims) <= {TIME, *LABELS, *RUN_DIMS, *own.dims}, v.name
+    for figure in family.figures().known:
+        assert KNOWN[figure.key] == figure and family.name in KNOWN.owners(figure.key)
+    assert {"element_position", "race_force", "race_slip"} <= set(variables_of(family.name))
+
+
+def test_figures_stand_in_one_run_a_section():
+    sections = [figure.section for figure in KNOWN.values()]
+    assert len(set(sections)) == 1 + sum(a != b for a, b in zip(sections, sections[1:]))
