@@ -176,13 +176,13 @@ def register_defect(kind: Kind, *, cages: Iterable[str]) -> Kind:
     is taken, a class that is no such defect or a cage type that there is not.
     """
     if not (isinstance(kind, type) and issubclass(kind, CageDefect)):
-        raise InputError(f"{kind!r} is no class derived from CageDefect.", where="cage_defect")
+        raise InputError(f"{kind!r} is no class derived from CageDefect.", where="defect")
     for cage_type in (wanted := tuple(cages)):
         if cage_type not in CAGE_TYPES:
             raise InputError(
                 f"There is no cage type '{cage_type}'; "
                 f"{did_you_mean(cage_type, CAGE_TYPES, 'choose from')}.",
-                where="cage_defect",
+                where="defect",
                 value=cage_type,
             )
         base = CAGE_TYPES[cage_type].defect_spec
@@ -190,7 +190,7 @@ def register_defect(kind: Kind, *, cages: Iterable[str]) -> Kind:
             raise InputError(
                 f"{kind.__name__} is no {base.__name__}, as the mesh of a cage of the type "
                 f"'{cage_type}' wants it; derive it from {base.__module__}.{base.__name__}.",
-                where="cage_defect",
+                where="defect",
                 value=cage_type,
             )
     DEFECTS.add(name_of(kind), kind)
