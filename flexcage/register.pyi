@@ -1,3 +1,4 @@
+from flexcage.bearings.family import register_family as bearing_family
 from flexcage.cages.cage_type import register_cage_type as cage_type
 from flexcage.case.presets import register_preset as preset
 from flexcage.contacts.laws import register_friction as friction_law
@@ -16,6 +17,7 @@ from flexcage.verification.chapter import register_case as known_answer
 __all__ = [
     "cage_defect",
     "cage_type",
+    "bearing_family",
     "constraint",
     "friction_law",
     "integrator",

@@ -9,7 +9,7 @@ from __future__ import annotations
 import hashlib
 import inspect
 import re
-from collections.abc import Callable, MutableMapping
+from collections.abc import Callable, Mapping, MutableMapping
 from pathlib import Path
 from typing import Any, TypeVar
 
@@ -69,7 +69,7 @@ def source_of(name: str) -> str:
     return _sources.get(name, "")
 
 
-def check_free(table: MutableMapping[str, Any], name: str, *, what: str) -> None:
+def check_free(table: Mapping[str, Any], name: str, *, what: str) -> None:
     """Raise InputError unless ``name`` is a word that the table does not hold yet."""
     if not isinstance(name, str) or not _NAME.fullmatch(name):
         raise InputError(

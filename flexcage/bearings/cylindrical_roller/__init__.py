@@ -2,13 +2,34 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from flexcage.bearings.family import Family
 from flexcage.geometry.cylindrical_roller import OTHER_DESIGNS, RollerBearing
 
 if TYPE_CHECKING:
+    from flexcage.integrate.recording import Recording
     from flexcage.render.shapes import ShapesOf
+    from flexcage.system.motion import Motion
+    from flexcage.system.statics.elements import ElementsOf
+
+
+def _statics() -> ElementsOf:
+    from flexcage.system.statics.rollers import rollers_of
+
+    return rollers_of
+
+
+def _motion() -> Motion[Any]:
+    from flexcage.system.roller_motion import MOTION
+
+    return MOTION
+
+
+def _recording() -> Recording[Any]:
+    from flexcage.integrate.roller_recording import RECORDING
+
+    return RECORDING
 
 
 def _shapes() -> ShapesOf:
@@ -20,6 +41,9 @@ def _shapes() -> ShapesOf:
 FAMILY = Family(
     name="cylindrical_roller",
     types=(RollerBearing,),
-    other_designs=OTHER_DESIGNS,
+    statics=_statics,
+    motion=_motion,
+    recording=_recording,
     shapes=_shapes,
+    other_designs=OTHER_DESIGNS,
 )
