@@ -10,7 +10,7 @@ from flexcage.core.errors import InputError
 from flexcage.core.registry import note_source
 from flexcage.core.wings import CAGE_TYPES
 from flexcage.geometry.cage import Cage
-from flexcage.geometry.defect import CageDefect
+from flexcage.geometry.defect import CageDefect, note_listed
 
 if TYPE_CHECKING:
     from flexcage.mesh.build import MeshBuilder
@@ -63,8 +63,9 @@ def register_cage_type(made: CageType[Any]) -> CageType[Any]:
     """Add a cage type of your own, and return it; InputError if its name is taken.
 
     ``type`` of its spec chooses it in a case (``geometry.cage.cages_of``). Hashes of cases with
-    such a cage change with the file that defines the spec.
+    such a cage change with the file that defines the spec, and with those of its own defects.
     """
+    note_listed(made.defects)
     CAGE_TYPES.add(made)
     note_source(made.name, made.spec)
     return made

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import dataclasses
-from functools import singledispatch
 from typing import Any
 
 from flexcage.case.case import Case
@@ -11,10 +10,6 @@ from flexcage.case.extensions import sources
 from flexcage.case.presets import load_preset
 from flexcage.core.binding import to_table
 from flexcage.core.units import typeset
-from flexcage.geometry.ball_cages import BallCage
-from flexcage.geometry.cage import Cage
-from flexcage.geometry.cages import WindowCage
-from flexcage.geometry.ribbon_cage import RibbonCage
 from flexcage.system.spec import Load, Wave
 
 
@@ -30,40 +25,8 @@ def _cage(case: Case) -> str:
     guide = bearing.guides.get(cage.guidance, f"its {bearing.element}s")
     return (
         f"Its cage is {case.cage_model}, of {cage.material.name}, guided by {guide}; "
-        f"{_pockets(cage)}."
+        f"{cage.in_words()}."
     )
-
-
-@singledispatch
-def _pockets(cage: Cage) -> str:
-    """The pockets of a sound cage."""
-    return f"it is {typeset(cage.width, 'mm')} wide"
-
-
-@_pockets.register
-def _(cage: WindowCage) -> str:
-    return (
-        f"pockets are {typeset(cage.pocket_width, 'mm')} wide and "
-        f"{typeset(cage.pocket_length, 'mm')} long"
-    )
-
-
-@_pockets.register
-def _(cage: RibbonCage) -> str:
-    opening = typeset(2.0 * cage.opening, "mm")
-    return (
-        f"it is two halves of sheet, {typeset(cage.thickness, 'mm')} thick and riveted between "
-        f"pockets, which are spheres of {typeset(cage.pocket_diameter, 'mm')}, "
-        + (f"open at the sides by {opening}" if cage.opening else "closed at the sides")
-    )
-
-
-@_pockets.register
-def _(cage: BallCage) -> str:
-    shape = f"its pockets are {cage.pocket_shape}, {typeset(cage.pocket_diameter, 'mm')} across"
-    if cage.pocket_scatter:
-        shape += f", unevenly spaced by {typeset(cage.pocket_scatter, 'um')} (standard deviation)"
-    return shape
 
 
 def _defects(case: Case) -> str:

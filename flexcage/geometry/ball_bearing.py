@@ -263,6 +263,9 @@ class BallBearing(Bearing):
     def check(self, cage: Any = None, defects: Sequence[Any] = ()) -> None:
         ball_checks.check(self, cage, defects)
 
+    def find_around_cage(self, cage: Cage) -> Iterator[Finding]:
+        return ball_checks.find_around_cage(self, cage)
+
     def find_in_clearance(self) -> Iterator[Finding]:
         """What is impossible in the clearance, or in what says the same."""
         return ball_checks.find_in_clearance(self, self.clearance)

@@ -371,13 +371,6 @@ def web_thickness(cage: BallCage, shapes: PocketShapes, *, pitch_diameter: float
     return (radii * gap).min(axis=(1, 2))
 
 
-def check_ball_cage(cage: BallCage, *, pocket_count: int) -> None:
-    """Refuse a ball cage whose dimensions leave no body."""
-    for name, what in cage.impossible(pocket_count):
-        value, where = getattr(cage, name), f"cage.{name}"
-        raise InputError(f"{where}, {mm(value)}, {what}.", where=where, value=value)
-
-
 def check_pockets(
     defects: Sequence[BallCageDefect],
     cage: BallCage,

@@ -5,18 +5,19 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from math import hypot, pi, sin
-from typing import Any, ClassVar
+from typing import TYPE_CHECKING, Any, ClassVar
 
 from flexcage.core.spec import option, quantity
-from flexcage.core.units import describe
-from flexcage.geometry.cage import Cage, cages_of
+from flexcage.core.units import describe, typeset
+from flexcage.geometry.cage import Cage, Objection, cages_of
 from flexcage.geometry.materials import MATERIALS, Material
+
+if TYPE_CHECKING:
+    from flexcage.geometry.bearing import Bearing
 
 POCKET_SHAPES = ("cylindrical", "spherical")
 GUIDANCE = ("ball", "inner", "outer")
 BALL_CAGES = cages_of("ball")
-
-Objection = tuple[str, str]  # name of a value, and what is wrong with it
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -63,6 +64,14 @@ class BallCage(Cage):
 
         return displaced_at_random(self, pocket_count, seed)
 
+    def in_words(self) -> str:
+        across = typeset(self.pocket_diameter, "mm")
+        shape = f"its pockets are {self.pocket_shape}, {across} across"
+        if self.pocket_scatter:
+            scatter = typeset(self.pocket_scatter, "um")
+            shape += f", unevenly spaced by {scatter} (standard deviation)"
+        return shape
+
     @property
     def has_faces(self) -> bool:
         return False
@@ -105,9 +114,8 @@ class BallCage(Cage):
 
     def impossible(self, pocket_count: int) -> Iterator[Objection]:
         """Dimensions that leave no body: thickness, rims beside pockets, webs at the bore."""
+        yield from super().impossible(pocket_count)
         chord = self.bore * sin(pi / pocket_count)  # between the web's middles
-        if self.outside_diameter <= self.bore:
-            yield "outside_diameter", f"must exceed its bore, {describe(self.bore, 'mm')}"
         if self.pocket_diameter >= self.width:
             yield "pocket_diameter", f"leaves no rims in a cage {describe(self.width, 'mm')} wide"
         if self.pocket_diameter >= chord and self.pocket_shape != "spherical":
@@ -117,16 +125,22 @@ class BallCage(Cage):
                 f"than {describe(chord, 'mm')}",
             )
 
-    def no_room(self, pitch_diameter: float, pocket_count: int) -> Iterator[Objection]:
-        """What leaves no room for it between neighbouring pockets."""
-        chord = pitch_diameter * sin(pi / pocket_count)
-        yield from self._low_rim(pitch_diameter)
+    def no_room(self, bearing: Bearing) -> Iterator[Objection]:
+        yield from self._tight(bearing)
+        yield from self._low_rim(bearing.pitch_diameter)
+        chord = bearing.pitch_diameter * sin(pi / bearing.element_count)
         if self.pocket_diameter >= chord:
             yield (
                 "pocket_diameter",
-                f"so the {pocket_count} pockets run into each other; it must be less than "
+                f"so the {bearing.element_count} pockets run into each other; it must be less than "
                 f"{describe(chord, 'mm')}",
             )
+
+    def _tight(self, bearing: Bearing) -> Iterator[Objection]:
+        """Pockets that no ball goes into."""
+        if self.pocket_diameter <= bearing.element_diameter:
+            size = describe(bearing.element_diameter, "mm")
+            yield "pocket_diameter", f"but must be greater than the {bearing.element}'s, {size}"
 
     def _low_rim(self, pitch_diameter: float) -> Iterator[Objection]:
         """Spheres that end below a ball's middle in front of it and behind."""

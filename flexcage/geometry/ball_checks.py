@@ -7,12 +7,12 @@ from math import asin, cos, degrees, pi, sin
 from typing import TYPE_CHECKING, Any
 
 from flexcage.core.units import describe
-from flexcage.geometry.ball_cage_defects import check_ball_cage
-from flexcage.geometry.ball_cages import BallCage
+from flexcage.geometry.cage import Cage
 from flexcage.geometry.checks import (
     MOST_SCATTER,
     Finding,
-    find_in_unbalance,
+    check_cage_defects,
+    check_room,
     raise_first,
 )
 
@@ -30,7 +30,7 @@ def _mm(value: float) -> str:
     return describe(value, "mm")
 
 
-def check(bearing: BallBearing, cage: BallCage | None, defects: Sequence[Any]) -> None:
+def check(bearing: BallBearing, cage: Cage | None, defects: Sequence[Any]) -> None:
     """Raise InputError for the first impossibility in the bearing, its cage or the defects."""
     raise_first(_find_in_grooves(bearing))
     raise_first(_find_in_balls(bearing))
@@ -38,13 +38,9 @@ def check(bearing: BallBearing, cage: BallCage | None, defects: Sequence[Any]) -
     raise_first(bearing.find_in_clearance())
     if cage is None:
         return
-    raise_first(find_in_cage(bearing, cage))
-    check_ball_cage(cage, pocket_count=bearing.ball_count)
-    if defects:
-        cage.check_defects(
-            defects, pocket_count=bearing.ball_count, pitch_diameter=bearing.pitch_diameter,
-            element_diameter=bearing.ball_diameter,
-        )  # fmt: skip
+    check_room(bearing, cage)
+    cage.check(bearing.ball_count)
+    check_cage_defects(bearing, cage, defects)
 
 
 def _find_in_grooves(b: BallBearing) -> Iterator[Finding]:
@@ -158,14 +154,8 @@ def _rings(b: BallBearing) -> tuple[tuple[float, str], tuple[float, str]]:
     return inner, outer
 
 
-def find_in_cage(b: BallBearing, c: BallCage) -> Iterator[Finding]:
-    """What is impossible for the cage in its bearing."""
-    if c.pocket_diameter <= b.ball_diameter:
-        yield (
-            "cage.pocket_diameter",
-            f"cage.pocket_diameter is {_mm(c.pocket_diameter)}, but must be greater than the "
-            f"ball's, {_mm(b.ball_diameter)}.",
-        )
+def find_around_cage(b: BallBearing, c: Cage) -> Iterator[Finding]:
+    """What leaves a cage no place between the rings and around the pitch circle."""
     inner, outer = _rings(b)
     if not inner[0] < c.bore:
         yield (
@@ -191,6 +181,3 @@ def find_in_cage(b: BallBearing, c: BallCage) -> Iterator[Finding]:
             f"The cage from {_mm(c.bore)} to {_mm(c.outside_diameter)} in diameter does not hold "
             f"the balls' pitch circle of {_mm(b.pitch_diameter)}; its pockets cannot guide them.",
         )
-    for name, what in c.no_room(b.pitch_diameter, b.ball_count):
-        yield f"cage.{name}", f"cage.{name} is {_mm(getattr(c, name))}, {what}."
-    yield from find_in_unbalance(c)

@@ -7,7 +7,7 @@ others keep their plain default, or name themselves in a NotImplementedError.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from math import inf
 from typing import TYPE_CHECKING, Any, ClassVar, TypeVar
@@ -117,6 +117,16 @@ class Bearing:
         raise self._lacks("element_diameter")
 
     @property
+    def element_length(self) -> float:
+        """Length of an element along the bearing's axis [m]."""
+        return self.element_diameter
+
+    @property
+    def element_edge(self) -> float:
+        """Radius [m] of the edges at an element's ends; 0 for types that do not say."""
+        return 0.0
+
+    @property
     def element_mass(self) -> float:
         """Mass of a rolling element [kg]; 0 for types that do not say."""
         return 0.0
@@ -149,6 +159,11 @@ class Bearing:
         """Raise InputError for the first impossibility found in bearing, cage or defects; without a
         cage the bearing alone is checked."""
         raise self._lacks("check")
+
+    def find_around_cage(self, cage: Cage) -> Iterator[tuple[str, str]]:
+        """Where, and in a sentence, rings and elements leave a cage of these dimensions no
+        place."""
+        return iter(())
 
     @property
     def greatest_tilt(self) -> float:

@@ -2,14 +2,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from math import nan, pi
 from typing import TYPE_CHECKING, Any, ClassVar
 
+from flexcage.core.errors import InputError
 from flexcage.core.spec import option, quantity
+from flexcage.core.units import describe, typeset
 from flexcage.core.wings import CAGE_TYPES, Parts
 from flexcage.geometry.materials import MATERIALS, Material
+
+if TYPE_CHECKING:
+    from flexcage.geometry.bearing import Bearing
+
+Objection = tuple[str, str]  # name of a value, and what is wrong with it
 
 
 def cages_of(element: str) -> Parts[type]:
@@ -100,6 +107,30 @@ class Cage:
     def parts(self, pitch_diameter: float, pocket_count: int) -> dict[str, float]:
         """Least thickness [m] of its parts, by name; none where its type does not say."""
         return {}
+
+    def in_words(self) -> str:
+        """Half a sentence on a sound cage's shape and pockets, after "Its cage is ...;"."""
+        return f"it is {typeset(self.width, 'mm')} wide"
+
+    def impossible(self, pocket_count: int) -> Iterator[Objection]:
+        """Dimensions that leave no body."""
+        if self.outside_diameter <= self.bore:
+            yield "outside_diameter", f"must exceed its bore, {describe(self.bore, 'mm')}"
+
+    def check(self, pocket_count: int) -> None:
+        """Raise InputError for the first of its dimensions that leaves no body."""
+        for name, what in self.impossible(pocket_count):
+            value, where = getattr(self, name), f"cage.{name}"
+            raise InputError(f"{where}, {describe(value, 'mm')}, {what}.", where=where, value=value)
+
+    def no_room(self, bearing: Bearing) -> Iterator[Objection]:
+        """What leaves no room in it for a bearing's elements, or for itself between them."""
+        return iter(())
+
+    def interference(self, bearing: Bearing, defects: Sequence[Any]) -> Iterator[tuple[str, str]]:
+        """Where, and in a sentence, its defects leave an element less room than any assembly can
+        take."""
+        return iter(())
 
     def check_defects(
         self,

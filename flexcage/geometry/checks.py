@@ -6,8 +6,9 @@ in one sentence what is wrong and what is right.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from math import inf, sqrt
+from typing import Any
 
 from flexcage.core.errors import InputError
 from flexcage.core.units import describe
@@ -38,7 +39,28 @@ def raise_first(findings: Iterator[Finding]) -> None:
         raise InputError(sentence, where=where)
 
 
-def find_in_unbalance(c: Cage) -> Iterator[Finding]:
+def check_room(bearing: Bearing, cage: Cage) -> None:
+    """Raise InputError for the first impossibility in a cage between elements and rings."""
+    raise_first(bearing.find_around_cage(cage))
+    raise_first(
+        (f"cage.{name}", f"cage.{name} is {describe(getattr(cage, name), 'mm')}, {what}.")
+        for name, what in cage.no_room(bearing)
+    )
+    raise_first(_find_in_unbalance(cage))
+
+
+def check_cage_defects(bearing: Bearing, cage: Cage, defects: Sequence[Any]) -> None:
+    """Raise InputError for the first defect that the cage cannot have in this bearing."""
+    if not defects:
+        return
+    cage.check_defects(
+        defects, pocket_count=bearing.element_count, pitch_diameter=bearing.pitch_diameter,
+        element_diameter=bearing.element_diameter,
+    )  # fmt: skip
+    raise_first(cage.interference(bearing, defects))
+
+
+def _find_in_unbalance(c: Cage) -> Iterator[Finding]:
     """An unbalance that no cage of this size can have."""
     if c.unbalance > c.most_unbalance:
         yield (

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from math import pi
@@ -24,6 +24,7 @@ from flexcage.geometry.bearing import (
 )
 from flexcage.geometry.cage import Cage
 from flexcage.geometry.cages import WindowCage
+from flexcage.geometry.checks import Finding
 from flexcage.geometry.film import Film, Oil, both_races, line_film, rolling_entrainment
 from flexcage.geometry.materials import MATERIALS, Material
 
@@ -182,6 +183,14 @@ class RollerBearing(Bearing):
         return self.roller_diameter
 
     @property
+    def element_length(self) -> float:
+        return self.roller_length
+
+    @property
+    def element_edge(self) -> float:
+        return 0.5 * (self.roller_length - self.effective_length)
+
+    @property
     def element_mass(self) -> float:
         return self.roller_mass
 
@@ -222,6 +231,9 @@ class RollerBearing(Bearing):
 
     def check(self, cage: Any = None, defects: Sequence[Any] = ()) -> None:
         roller_checks.check(self, cage, defects)
+
+    def find_around_cage(self, cage: Cage) -> Iterator[Finding]:
+        return roller_checks.find_around_cage(self, cage)
 
     @property
     def greatest_tilt(self) -> float:

@@ -15,7 +15,7 @@ import numpy as np
 
 from flexcage.core.binding import did_you_mean
 from flexcage.core.errors import InputError
-from flexcage.core.registry import note_source
+from flexcage.core.registry import check_free, note_source
 from flexcage.core.spec import option
 from flexcage.core.units import describe
 from flexcage.core.wings import CAGE_TYPES, Parts
@@ -200,15 +200,25 @@ def register_defect(kind: Kind, *, cages: Iterable[str]) -> Kind:
     return kind
 
 
+def note_listed(kinds: Iterable[type[CageDefect]]) -> None:
+    """Remember the files of those kinds, listed by a user's cage type, that are the user's own;
+    InputError for one whose name is another's."""
+    for kind in kinds:
+        if DEFECTS.get(name := name_of(kind)) is not kind:
+            check_free(DEFECTS, name, what=DEFECTS.what)
+            note_source(name, kind)
+
+
 def refuse_foreign(defects: Sequence[CageDefect], cage_type: str) -> None:
     """Raise InputError for a defect that cages of this type do not have."""
     kinds = kinds_of(cage_type) if defects else ()
     for i, defect in enumerate(defects):
-        if not isinstance(defect, kinds):
+        if type(defect) not in kinds:
             known = ", ".join(f"'{name_of(kind)}'" for kind in kinds)
+            have = f"whose defects are {known}" if known else "which have no defects"
             raise InputError(
                 f"defects.{i}.type is '{defect.type}', but this bearing's cage is one of the "
-                f"{cage_type} cages, whose defects are {known}.",
+                f"{cage_type} cages, {have}.",
                 where=f"defects.{i}.type",
                 value=defect.type,
             )

@@ -11,13 +11,16 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from math import pi, sin, sqrt
-from typing import Any, ClassVar
+from typing import TYPE_CHECKING, Any, ClassVar
 
 from flexcage.core.spec import option, quantity
-from flexcage.core.units import describe
-from flexcage.geometry.ball_cages import BALL_CAGES, BallCage, Objection
-from flexcage.geometry.cage import Cage
+from flexcage.core.units import describe, typeset
+from flexcage.geometry.ball_cages import BALL_CAGES, BallCage
+from flexcage.geometry.cage import Cage, Objection
 from flexcage.geometry.materials import MATERIALS, Material
+
+if TYPE_CHECKING:
+    from flexcage.geometry.bearing import Bearing
 
 HEAD = 1.75  # a round head's diameter over its rivet's, and
 HEAD_HEIGHT = 0.6  # its height, likewise (ISO 1051)
@@ -47,6 +50,14 @@ class RibbonCage(BallCage):
         "mm", None, doc="radius between flats and pockets; half the thickness if not given",
         above=0.0,
     )  # fmt: skip
+
+    def in_words(self) -> str:
+        opening = typeset(2.0 * self.opening, "mm")
+        return (
+            f"it is two halves of sheet, {typeset(self.thickness, 'mm')} thick and riveted between "
+            f"pockets, which are spheres of {typeset(self.pocket_diameter, 'mm')}, "
+            + (f"open at the sides by {opening}" if self.opening else "closed at the sides")
+        )
 
     @property
     def riveted(self) -> bool:
@@ -118,8 +129,7 @@ class RibbonCage(BallCage):
         return 0.5 * max(outer - pitch, pitch - inner)
 
     def impossible(self, pocket_count: int) -> Iterator[Objection]:
-        if self.outside_diameter <= self.bore:
-            yield "outside_diameter", f"must exceed its bore, {describe(self.bore, 'mm')}"
+        yield from Cage.impossible(self, pocket_count)
         thin = _THINNEST * self.pocket_diameter
         if self.thickness < thin:
             yield "thickness", f"makes no sheet; it must be at least {describe(thin, 'mm')}"
@@ -140,7 +150,9 @@ class RibbonCage(BallCage):
         if self.pocket_scatter > 0.0:
             yield "pocket_scatter", "is of machined cages; a ribbon cage has its pockets evenly"
 
-    def no_room(self, pitch_diameter: float, pocket_count: int) -> Iterator[Objection]:
+    def no_room(self, bearing: Bearing) -> Iterator[Objection]:
+        pitch_diameter, pocket_count = bearing.pitch_diameter, bearing.element_count
+        yield from self._tight(bearing)
         yield from self._low_rim(pitch_diameter)
         inner, outer = 0.5 * self.bore, 0.5 * self.outside_diameter
         left = self._beside(pitch_diameter) - _LEAST_NECK * self.thickness

@@ -27,7 +27,7 @@ class MissingRivet(BallCageDefect):
     web: int = option(doc="web number, 0 .. Z-1; web k is between pockets k-1 and k", minimum=0)
 
     def opened(self, sound: CageMesh, mesh: CageMesh, cage: Any) -> CageMesh:
-        from flexcage.mesh.ball_morph import without_rivet
+        from flexcage.mesh.ribbon_build import without_rivet
         from flexcage.mesh.ribbon_sector import stand_off
 
         return without_rivet(mesh, self.web, stand_off(cage))

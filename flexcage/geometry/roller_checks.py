@@ -4,43 +4,37 @@ be right."""
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from math import asin, hypot, pi, sin
+from math import asin, pi, sin
 from typing import TYPE_CHECKING, Any
 
-import numpy as np
-
 from flexcage.core.units import describe
-from flexcage.geometry.cages import WindowCage, check_cage
+from flexcage.geometry.cage import Cage
 from flexcage.geometry.checks import (
     MOST_SCATTER,
     Finding,
-    find_in_unbalance,
+    check_cage_defects,
+    check_room,
     raise_first,
 )
-from flexcage.geometry.window_defects import WindowDefect, pocket_changes
 
 if TYPE_CHECKING:
     from flexcage.geometry.cylindrical_roller import RollerBearing
 
 _MOST_CLEARANCE = 0.05  # of the roller's diameter: leaves one roller to bear a moderate load
-_PINCH_LIMIT = 0.1  # of the roller's diameter: far beyond what any cage material survives
 
 
 def _mm(value: float) -> str:
     return describe(value, "mm")
 
 
-def check(bearing: RollerBearing, cage: WindowCage | None, defects: Sequence[Any]) -> None:
+def check(bearing: RollerBearing, cage: Cage | None, defects: Sequence[Any]) -> None:
     """Raise InputError for the first impossibility in the bearing, its cage or the defects."""
     raise_first(find_in_bearing(bearing))
     if cage is None:
         return
-    check_cage(cage, pocket_count=bearing.roller_count)
-    raise_first(find_in_cage(bearing, cage))
-    cage.check_defects(
-        defects, pocket_count=bearing.roller_count, pitch_diameter=bearing.pitch_diameter
-    )
-    raise_first(find_in_defects(bearing, cage, defects))
+    cage.check(bearing.roller_count)
+    check_room(bearing, cage)
+    check_cage_defects(bearing, cage, defects)
 
 
 def find_in_bearing(b: RollerBearing) -> Iterator[Finding]:
@@ -154,42 +148,8 @@ def _find_in_lengths(b: RollerBearing) -> Iterator[Finding]:
         )
 
 
-def find_in_cage(b: RollerBearing, c: WindowCage) -> Iterator[Finding]:
-    """What is impossible for the cage in its bearing."""
-    yield from _find_in_pockets(b, c)
-    yield from _find_in_corners(b, c)
-    yield from _find_in_space(b, c)
-    yield from find_in_unbalance(c)
-
-
-def _find_in_pockets(b: RollerBearing, c: WindowCage) -> Iterator[Finding]:
-    for key, size, roller, name in (
-        ("pocket_width", c.pocket_width, b.roller_diameter, "diameter"),
-        ("pocket_length", c.pocket_length, b.roller_length, "length"),
-    ):
-        if size <= roller:
-            yield (
-                f"cage.{key}",
-                f"cage.{key} is {_mm(size)}, a clearance of {_mm(size - roller)}; it must be "
-                f"greater than the roller's {name}, {_mm(roller)}.",
-            )
-
-
-def _find_in_corners(b: RollerBearing, c: WindowCage) -> Iterator[Finding]:
-    edge = 0.5 * (b.roller_length - b.effective_length)  # taken as the radius of a roller's edge
-    aside = c.fillet_radius - edge - 0.5 * (c.pocket_width - b.roller_diameter)
-    along = c.fillet_radius - edge - 0.5 * (c.pocket_length - b.roller_length)
-    depth = hypot(max(aside, 0.0), max(along, 0.0)) + edge - c.fillet_radius
-    if depth > 0.0 and min(aside, along) > 0.0:
-        yield (
-            "cage.fillet_radius",
-            f"cage.fillet_radius is {_mm(c.fillet_radius)}, so that the edges of a roller in the "
-            f"middle of its pocket, with a radius of {_mm(edge)}, lie {_mm(depth)} inside the "
-            "fillets; make it smaller, or the pockets larger.",
-        )
-
-
-def _find_in_space(b: RollerBearing, c: WindowCage) -> Iterator[Finding]:
+def find_around_cage(b: RollerBearing, c: Cage) -> Iterator[Finding]:
+    """What leaves a cage no place between ribs and outer race, and around the pitch circle."""
     if c.width > b.width:
         yield (
             "cage.width",
@@ -214,36 +174,3 @@ def _find_in_space(b: RollerBearing, c: WindowCage) -> Iterator[Finding]:
             f"The cage from {_mm(c.bore)} to {_mm(c.outside_diameter)} in diameter does not hold "
             f"the rollers' pitch circle of {_mm(b.pitch_diameter)}; its pockets cannot guide them.",
         )
-
-
-def pocket_clearances(
-    bearing: RollerBearing, cage: WindowCage, defects: Sequence[WindowDefect] = ()
-) -> tuple[np.ndarray, np.ndarray]:
-    """Circumferential and axial clearance (Z,), (Z,) [m] of every pocket, at its middle.
-
-    Negative where a roller is pinched.
-    """
-    width, length = pocket_changes(defects, pocket_count=bearing.roller_count)
-    return (
-        cage.pocket_width - bearing.roller_diameter + width,
-        cage.pocket_length - bearing.roller_length + length,
-    )
-
-
-def find_in_defects(
-    b: RollerBearing, c: WindowCage, defects: Sequence[WindowDefect]
-) -> Iterator[Finding]:
-    """Interference that no assembly can take, all defects together."""
-    widths, lengths = pocket_clearances(b, c, defects)
-    for what, clearance, size in (
-        ("width", widths, b.roller_diameter),
-        ("length", lengths, b.roller_length),
-    ):
-        pocket = int(np.argmin(clearance))
-        if defects and clearance[pocket] < -_PINCH_LIMIT * size:
-            yield (
-                "defects",
-                f"The defects leave pocket {pocket} a {what} of {_mm(clearance[pocket] + size)} "
-                f"for a roller of {_mm(size)}; no assembly can take more than "
-                f"{_PINCH_LIMIT * 100:.0f} % of interference.",
-            )

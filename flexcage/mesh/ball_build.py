@@ -9,7 +9,6 @@ from typing import Any
 from flexcage.core.errors import InputError
 from flexcage.geometry.ball_cage_defects import (
     BallCageDefect,
-    check_ball_cage,
     is_sphere,
 )
 from flexcage.geometry.ball_cages import BallCage
@@ -55,7 +54,7 @@ def build_round_pockets(
 ) -> CageMesh:
     """Mesh of a cage with round pockets: ``quarter_of`` makes the quarter sector of a sound one,
     and ``measure`` checks the user's own mesh against cage and defects."""
-    check_ball_cage(cage, pocket_count=pocket_count)
+    cage.check(pocket_count)
     cage.check_defects(defects, pocket_count=pocket_count, pitch_diameter=pitch_diameter)
     pitch_radius = 0.5 * pitch_diameter
     if options.file:

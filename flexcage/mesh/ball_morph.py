@@ -6,7 +6,7 @@ displacement are harmonic functions (the finite-element solution of Laplace's eq
 sound mesh) between the walls, the ends and the next sectors but one; lands stay cylinders.
 
 A crack's faces are those of the elements on the two sides of the web's middle: their common
-vertices beyond its tip are doubled. Where a ribbon cage lacks a rivet, those of its two halves are.
+vertices beyond its tip are doubled.
 """
 
 from __future__ import annotations
@@ -31,7 +31,6 @@ from flexcage.geometry.ball_cage_defects import (
 )
 from flexcage.geometry.ball_cages import BallCage
 from flexcage.mesh.cage_mesh import CageMesh, signed_volumes
-from flexcage.mesh.halves import joined_vertices
 from flexcage.mesh.measure import in_pocket_frame
 from flexcage.mesh.sector import Quarter
 from flexcage.mesh.with_defects import add_defects
@@ -181,25 +180,11 @@ def open_crack(sound: CageMesh, mesh: CageMesh, cage: BallCage, crack: WebCrack)
         for name, part in mesh.groups.items()
     }
     points = np.vstack([mesh.points, mesh.points[old]])
-    info = _with_doubled(mesh, old)
+    info = with_doubled(mesh, old)
     return replace(mesh, points=points, tets=tets, groups=MappingProxyType(groups), info=info)
 
 
-def without_rivet(mesh: CageMesh, web: int, gap: float) -> CageMesh:
-    """``mesh`` of a ribbon cage whose halves are free of each other at one web, ``gap`` [m] off the
-    middle plane each."""
-    old = joined_vertices(mesh, web)
-    copy = np.arange(len(mesh.points))
-    copy[old] = len(copy) + np.arange(len(old))
-    under = mesh.points[mesh.tets].mean(axis=1)[:, 0] < 0.0
-    tets = np.where(under[:, None], copy[mesh.tets], mesh.tets)
-    points = np.vstack([mesh.points, mesh.points[old]])
-    points[old, 0], points[len(copy) :, 0] = gap, -gap
-    info = _with_doubled(mesh, old)
-    return replace(mesh, points=points, tets=tets, info=info)  # no group has a face on that plane
-
-
-def _with_doubled(mesh: CageMesh, old: np.ndarray) -> Mapping[str, object]:
+def with_doubled(mesh: CageMesh, old: np.ndarray) -> Mapping[str, object]:
     """The mesh's info when copies of the vertices ``old``, no copies themselves, were added."""
     before: tuple[int, ...] = mesh.info.get("doubled", ())  # type: ignore[assignment]
     return MappingProxyType({**mesh.info, "doubled": (*before, *old.tolist())})

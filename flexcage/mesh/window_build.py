@@ -5,7 +5,7 @@ from __future__ import annotations
 import logging
 from collections.abc import Sequence
 
-from flexcage.geometry.cages import WindowCage, check_cage
+from flexcage.geometry.cages import WindowCage
 from flexcage.geometry.window_defects import WindowDefect
 from flexcage.mesh.cage_mesh import CageMesh
 from flexcage.mesh.morph import apply_defects
@@ -24,7 +24,7 @@ def build_window_mesh(
     options: MeshOptions,
 ) -> CageMesh:
     """Mesh of a window cage with its defects, or the user's own file checked against both."""
-    check_cage(cage, pocket_count=pocket_count)
+    cage.check(pocket_count)
     cage.check_defects(defects, pocket_count=pocket_count, pitch_diameter=pitch_diameter)
     if options.file:
         return _from_file(cage, pocket_count, pitch_diameter, defects, options)

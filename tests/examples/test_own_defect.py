@@ -7,18 +7,24 @@ import importlib
 import shutil
 import subprocess
 import sys
+from dataclasses import dataclass
 from pathlib import Path
+from typing import ClassVar
 
 import numpy as np
 import pytest
 
 from flexcage import register
 from flexcage.cages.build import build_cage_mesh, rigid_interface_of
+from flexcage.cages.window import WINDOW
 from flexcage.case import Case
 from flexcage.case.words import in_words
 from flexcage.core import registry
 from flexcage.core.errors import InputError
+from flexcage.core.spec import option
+from flexcage.core.wings import CAGE_TYPES
 from flexcage.geometry import defect as defects
+from flexcage.geometry.cages import ROLLER_CAGES, WindowCage
 from flexcage.geometry.window_defects import SideBeamDefect
 from flexcage.mesh.window_measure import pocket_size
 from flexcage.render.mesh_pictures import mesh_picture
@@ -120,6 +126,36 @@ def test_another_cage_has_none_and_says_which_it_has(mine):
     crack = {"type": "crack", "web": 1, "share": 0.2}
     with pytest.raises(InputError, match="whose defects are 'crossbeam', 'side_beam', 'dent'"):
         dented(crack)
+
+
+def test_a_cage_type_of_ones_own_lists_its_own(mine, monkeypatch):
+    """Also one that it shares with others; a name that another defect has is refused."""
+    monkeypatch.setattr(CAGE_TYPES, "_members", dict(CAGE_TYPES))
+
+    @dataclass(frozen=True, kw_only=True)
+    class Slim(WindowCage):
+        cage_type: ClassVar[str] = "slim"
+        type: str = option("slim", choices=ROLLER_CAGES)
+
+    @dataclass(frozen=True, kw_only=True)
+    class Notch(mine.Dent):
+        type: str = defects.defect_type("notch")
+
+    taken = dataclasses.make_dataclass(
+        "Taken", [("type", str, defects.defect_type("dent"))], bases=(Notch,), frozen=True
+    )
+    slim = dataclasses.replace(WINDOW, name="slim", spec=Slim, defects=(Notch, SideBeamDefect))
+    with pytest.raises(InputError, match="kind of defect 'dent' exists already"):
+        register.cage_type(dataclasses.replace(slim, defects=(taken,)))
+    register.cage_type(slim)
+    assert registry.source_of("notch") and not registry.source_of("side_beam")
+    table = {"bearing": {"preset": "N1013"}, "cage": {"type": "slim"}}
+    case = Case.from_table({**table, "defects": [{**DENT, "type": "notch"}]})
+    assert case.defects == (Notch(pocket=3, depth=0.2e-3),)
+    with pytest.raises(InputError, match="one of the slim cages, .* 'notch', 'side_beam'"):
+        Case.from_table({**table, "defects": [DENT]})
+    with pytest.raises(InputError, match="whose defects are 'crossbeam', 'side_beam', 'dent'"):
+        dented({**DENT, "type": "notch"})
 
 
 def test_what_is_no_defect_of_such_a_cage_is_not_added(mine):

@@ -14,7 +14,6 @@ from flexcage.geometry.ball_cage_defects import (
     ElongatedPocket,
     EnlargedPocket,
     WebCrack,
-    check_ball_cage,
     pocket_shapes,
     wall_reach,
     web_thickness,
@@ -105,7 +104,7 @@ def test_webs_are_as_thick_as_two_walls_are_apart_at_the_bore():
 )
 def test_impossible_cages(change, sentence):
     with pytest.raises(InputError, match=sentence) as caught:
-        check_ball_cage(replace(CAGE, **change), pocket_count=Z)
+        replace(CAGE, **change).check(Z)
     assert caught.value.where.startswith("cage.")
 
 

@@ -8,7 +8,6 @@ import pytest
 from flexcage.case.presets import load_preset
 from flexcage.core.errors import InputError
 from flexcage.geometry.cylindrical_roller import RollerProfile
-from flexcage.geometry.roller_checks import pocket_clearances
 from flexcage.geometry.window_defects import CrossbeamDefect, SideBeamDefect
 
 PRESET = load_preset("N1013")
@@ -108,7 +107,7 @@ def test_clearances_of_every_pocket():
         CrossbeamDefect(crossbeam=5, displacement=0.1e-3),
         SideBeamDefect(pocket=7, displacement=-0.3e-3),
     ]
-    width, length = pocket_clearances(BEARING, CAGE, defects)
+    width, length = CAGE.pocket_clearances(BEARING, defects)
     expected = np.full(22, 0.2e-3)
     expected[[21, 0, 4, 5]] += [-0.2e-3, 0.2e-3, -0.1e-3, 0.1e-3]
     assert width == pytest.approx(expected, abs=1e-15)

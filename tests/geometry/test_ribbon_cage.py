@@ -2,6 +2,7 @@
 
 from dataclasses import replace
 from math import acos, asin, degrees, hypot, sqrt
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -107,9 +108,12 @@ def test_a_neck_of_a_hair_is_refused():
         pocket_diameter=13.892404711693042e-3, thickness=1.5342491779592143e-3,
         width=10.786923275237075e-3, rivet_diameter=2.1829632201513143e-3,
     )  # fmt: skip
-    (key, sentence), = cage.no_room(85.33960331304474e-3, 12)  # fmt: skip
+    around = SimpleNamespace(
+        pitch_diameter=85.33960331304474e-3, element_count=12, element_diameter=0.0, element="ball"
+    )
+    (key, sentence), = cage.no_room(around)  # fmt: skip
     assert key == "width" and "cut the sheet through, or nearly" in sentence
-    assert not list(replace(cage, width=10.9e-3).no_room(85.33960331304474e-3, 12))
+    assert not list(replace(cage, width=10.9e-3).no_room(around))
 
 
 @pytest.mark.parametrize(

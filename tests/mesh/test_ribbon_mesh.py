@@ -2,6 +2,7 @@
 
 from dataclasses import replace
 from functools import cache
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -171,7 +172,10 @@ def test_closed_cages_of_any_dimensions_mesh():
             sheet, ball=ball, bore=pitch - half, outside=pitch + half,
             rivet=ball * (0.1 + 0.1 * share[5]), bend=sheet * (0.3 + share[0]),
         )  # fmt: skip
-        if any(cage.impossible(count)) or any(cage.no_room(pitch * MM, count)):
+        around = SimpleNamespace(
+            pitch_diameter=pitch * MM, element_count=count, element_diameter=0.0, element="ball"
+        )
+        if any(cage.impossible(count)) or any(cage.no_room(around)):
             continue
         mesh = build_cage_mesh(
             cage, pocket_count=count, pitch_diameter=pitch * MM, defects=(),

@@ -166,6 +166,11 @@ MISTAKES = {
         ["'drive.speed', but an axis sets that path"],
     ),
     "unknown type": (['[[axes]]\ntype = "grdi"'], ["'grdi'", "'grid'"]),
+    "no such type": (
+        ['[[axes]]\ntype = "qq"'],
+        ["'qq'", "choose from grid, zip, list, lhs, sobol."],
+    ),
+    "no type": (['[[axes]]\nvalues = ["1 N"]'], ["lacks 'type'", "choose from grid, lhs, list"]),
     "unknown key": (["repeats = 3"], ["'repeats'", "'repeat'"]),
     "no points": (["[repeat]\ncount = 0"], ["repeat.count is 0"]),
     "another version": (["format = 9"], ["format 9", "format 1"]),
