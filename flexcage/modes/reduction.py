@@ -11,6 +11,7 @@ import numpy as np
 
 from flexcage.core.cache import cached_arrays
 from flexcage.core.hashing import content_hash
+from flexcage.core.registry import source_of
 from flexcage.core.threads import one_blas_thread
 from flexcage.fem.effort import told_modes
 from flexcage.fem.free import FreeBodySolver
@@ -185,7 +186,13 @@ class CageReduction:
     def content(self) -> tuple[Any, ...]:
         """All that the arrays of ``record`` depend on, versions included."""
         versions = INTERFACE_VERSION, TABLE_VERSION, SHOWN_VERSION
-        return (self.version, self.cage, self.defects, *versions)
+        return (self.version, self.cage, self.defects, *versions, *self._outside)
+
+    @property
+    def _outside(self) -> tuple[str, ...]:
+        """Fingerprint of the file of a cage type from outside, which may be edited."""
+        source = source_of(self.cage.cage_type)
+        return (source,) if source else ()
 
     @property
     def version(self) -> str:
@@ -198,7 +205,7 @@ class CageReduction:
         """The contact interface, of the cage type's own kind, from disk if it is there."""
         made = self.interfaces
         content = made.depends_on(self.cage, self.defects, self.mesh.pocket_count)
-        key = content_hash(INTERFACE_VERSION, (self.version, *content))
+        key = content_hash(INTERFACE_VERSION, (self.version, *content), *self._outside)
         arrays = self.arrays("interface", key, lambda: interface_arrays(made.reduced(self)))
         return interface_from(made.kind, arrays)
 

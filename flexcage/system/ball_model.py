@@ -100,12 +100,6 @@ def pocket_contact(bearing: BallBearing, cage: BallCage, radius: float) -> Point
     return PointContact(rolling=along, transverse=fit, modulus=2.0 / sum(sides))
 
 
-def _land_radius(cage: BallCage) -> tuple[bool, float]:
-    """Is the cage's outside its land, and that land's radius [m]?"""
-    outer = cage.guidance == "outer"
-    return outer, 0.5 * (cage.outside_diameter if outer else cage.bore)
-
-
 def _pockets(
     bearing: BallBearing, cage: BallCage, contacts: Contacts, interface: BallCageInterface
 ) -> BallPockets:
@@ -148,7 +142,7 @@ def build_ball_model(
     """Arrays of a ball bearing for the kernels."""
     rng = np.random.default_rng(seed)
     scatter = bearing.ball_scatter * rng.standard_normal(bearing.ball_count)
-    outer, radius = _land_radius(cage)
+    outer, radius = cage.land_ring == "outer", cage.land_radius
     land = contacts.land.on(bearing.land(cage))
     tilts = load.tilt == "free"
     return BallModel(

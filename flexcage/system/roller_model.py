@@ -113,10 +113,9 @@ def crossbeam_width(bearing: RollerBearing, cage: WindowCage) -> float:
 
 def _guiding_land(bearing: RollerBearing, cage: WindowCage) -> tuple[bool, float, float]:
     """Is the cage's outside its land, that land's radius, and its clearance on the ring [m]?"""
-    if cage.guidance == "outer":
-        radius = 0.5 * cage.outside_diameter
+    radius = cage.land_radius
+    if cage.land_ring == "outer":
         return True, radius, bearing.outer_race_radius - radius
-    radius = 0.5 * cage.bore
     return False, radius, radius - 0.5 * bearing.rib_diameter
 
 

@@ -8,6 +8,7 @@ from flexcage.bodies.cage import flexible_from_reduction
 from flexcage.cages.build import reduce_cage
 from flexcage.modes import reduction
 from flexcage.modes.spec import ModesSpec
+from flexcage.modes.window_interface import WINDOW_INTERFACES
 
 
 @pytest.fixture(autouse=True)
@@ -135,3 +136,18 @@ def test_the_same_cage_is_known_by_content():
     assert one.same_as(again)
     assert not one.same_as(bent) and not one.same_as(fewer)
     assert one.once("a", lambda: [1]) is one.once("a", never)
+
+
+def test_an_edited_cage_type_from_outside_has_its_interface_made_anew(monkeypatch):
+    """The interface is kept on disk by all that it depends on, the type's own file included."""
+    made = []
+
+    def reduced(cage):
+        made.append(cage)
+        return WINDOW_INTERFACES.reduced(cage)
+
+    interfaces = replace(WINDOW_INTERFACES, reduced=reduced)
+    for edit, times in (("", 1), ("", 1), ("edited", 2), ("edited", 2)):
+        monkeypatch.setattr(reduction, "source_of", lambda name, edit=edit: edit)
+        cage = reduction.CageReduction(cage_mesh(), CAGE, (), ModesSpec(count=4), 2, interfaces)
+        assert cage.interface.stations.shape == (4, 7) and len(made) == times
