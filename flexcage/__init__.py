@@ -13,7 +13,7 @@ import sys
 from types import ModuleType
 from typing import Any
 
-from flexcage._names import lazy
+from flexcage._names import lazy, unknown
 from flexcage._version import __version__ as __version__
 
 _find, __dir__ = lazy(__name__, __file__)
@@ -23,9 +23,11 @@ def __getattr__(name: str) -> Any:
     try:
         return _find(name)
     except AttributeError:
+        if name.startswith("_"):
+            raise
         room = _room_of_old(name)
         if not room:
-            raise
+            raise unknown(__name__, name, _all_names()) from None
     import warnings
 
     now = f"{room.__name__}.{name}"
@@ -37,10 +39,18 @@ def __getattr__(name: str) -> Any:
 def _room_of_old(name: str) -> ModuleType | None:
     """The namespace of a name that stood in flexcage itself before version 0.1."""
     if name[:1].isupper():
-        for room in map(importlib.import_module, ("flexcage.spec", "flexcage.study")):
-            if name in room.__all__:
-                return room
+        return next((room for room in _rooms() if name in room.__all__), None)
     return None
+
+
+def _rooms() -> list[ModuleType]:
+    return [importlib.import_module(name) for name in ("flexcage.spec", "flexcage.study")]
+
+
+def _all_names() -> dict[str, str]:
+    """Names of flexcage and of its namespaces, and where they stand."""
+    rooms = {name: room.__name__ for room in _rooms() for name in room.__all__}
+    return {**rooms, **dict.fromkeys(__dir__(), __name__)}
 
 
 class _Package(ModuleType):

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import importlib
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from functools import cache
 from typing import Any
 
@@ -32,7 +32,7 @@ def lazy(package: str, file: str) -> tuple[Callable[[str], Any], Callable[[], li
         if name == "__all__":
             return listed()
         if name.startswith("__") or name not in homes():
-            raise AttributeError(f"module '{package}' has no attribute '{name}'")
+            raise unknown(package, name, {each: package for each in listed()})
         module, original = homes()[name]
         if module == package:  # a room of this package
             return importlib.import_module(f"{package}.{original}")
@@ -41,3 +41,13 @@ def lazy(package: str, file: str) -> tuple[Callable[[str], Any], Callable[[], li
         return value
 
     return find, listed
+
+
+def unknown(package: str, name: str, homes: Mapping[str, str]) -> AttributeError:
+    """The error for a name that a package has not; ``homes`` maps the names that there are to
+    where they stand."""
+    import difflib
+
+    close = [] if name.startswith("_") else difflib.get_close_matches(name, homes, n=1, cutoff=0.7)
+    hint = f"; did you mean {homes[close[0]]}.{close[0]}?" if close else ""
+    return AttributeError(f"module '{package}' has no attribute '{name}'{hint}")

@@ -14,7 +14,7 @@ from flexcage.core.locks import held
 from flexcage.core.timing import Stages
 from flexcage.integrate.integration import Integration
 from flexcage.run import Run, warnings_at_start
-from flexcage.run_folder import begun_store, check_written, open_folder
+from flexcage.run.folder import begun_store, check_written, open_folder
 from flexcage.stages import (
     assembled_start,
     begin_compiling,

@@ -14,6 +14,7 @@ from typing import Any
 import numpy as np
 
 from flexcage.bodies.cage import BODY_VERSION, flexible_from_reduction, rigid_from_tets
+from flexcage.cages.build import build_cage_mesh, reduce_cage, reduction_of, rigid_interface_of
 from flexcage.case import Case
 from flexcage.core import jit
 from flexcage.core.cache import cached_arrays
@@ -22,19 +23,18 @@ from flexcage.core.progress import Silent
 from flexcage.core.timing import Stages
 from flexcage.core.warning import RunWarning
 from flexcage.integrate.recorded import new_store
-from flexcage.mesh.build import build_cage_mesh
 from flexcage.mesh.cage_mesh import CageMesh
 from flexcage.mesh.options import MeshOptions
 from flexcage.mesh.quality import check_mesh
-from flexcage.modes.reduction import CageReduction, reduce_cage, rigid_interface_of
+from flexcage.modes.reduction import CageReduction
 from flexcage.modes.table import ModeTable
 from flexcage.results import room
 from flexcage.results.cage_file import FORMAT as CAGE_FORMAT
 from flexcage.results.cage_file import CageFile, cage_file, cage_record, check_same
 from flexcage.results.store import MemoryRunStore
 from flexcage.results.warnings import to_text
-from flexcage.run_folder import keep_cage, kept_cage, write_case
-from flexcage.static import solve_static
+from flexcage.run.folder import keep_cage, kept_cage, write_case
+from flexcage.static import AT_START, solve_static
 from flexcage.system import ball_start  # noqa: F401  (registers the start of ball bearings)
 from flexcage.system.constraints import names_of
 from flexcage.system.layout import Layout
@@ -94,8 +94,13 @@ def stored_cage(case: Case, store: MemoryRunStore, folder: Path, stages: Stages)
         return mesh, replace(made, stored=record.reduced)
     if case.cage_model == "rigid":
         return record.mesh, None
-    cage = CageReduction(
-        record.mesh, case.cage, case.all_defects, case.modes, case.mesh.order, record.reduced
+    cage = reduction_of(
+        record.mesh,
+        cage=case.cage,
+        defects=case.all_defects,
+        spec=case.modes,
+        order=case.mesh.order,
+        stored=record.reduced,
     )
     return record.mesh, cage
 
@@ -248,7 +253,10 @@ def assembled_start(case: Case, bearing: Bearing, progress: Callable[..., Any] =
     limit = case.limits.assembly_force
     with progress(1.0, "start") as bar:
         start = find_start(
-            bearing, limit_force=limit, statics=lambda: solve_static(case), told=bar.to
+            bearing,
+            limit_force=limit,
+            statics=lambda: solve_static(case, options=AT_START),
+            told=bar.to,
         )
     start = pushed(start, bearing.layout, case.start)
     return constrained(start, bearing, case.constraints, limit_force=limit)

@@ -11,7 +11,7 @@ from flexcage.case import Case, StaticCase
 from flexcage.contacts.spec import EhlTraction
 from flexcage.core.binding import expect
 from flexcage.core.errors import EnvironmentLacks, InputError
-from flexcage.geometry.film import creep_speed, patch, rolling_entrainment
+from flexcage.geometry.film import creep_speed
 from flexcage.system.statics.options import StaticOptions
 from flexcage.system.statics.solution import StaticSolution
 from flexcage.system.statics.solve import solve_bearing
@@ -19,57 +19,50 @@ from flexcage.system.statics.solve import solve_bearing
 log = logging.getLogger(__name__)
 
 
-def solve_static(case: StaticCase | Case) -> StaticSolution:
+def solve_static(case: StaticCase, *, options: StaticOptions | None = None) -> StaticSolution:
     """Equilibrium of the inner ring of a case, at the start of its drive and load.
 
-    Tilts are held or free as in a run (load.tilt), unless the case's [static] says otherwise. Of a
-    simulation's case no race controls balls.
+    Tilts are held or free as in a run (load.tilt), unless the case's [static] says otherwise;
+    ``options`` take the place of that section.
     Raises InputError for a load that the bearing cannot bear, RunFailed if none is found.
     """
     expect(case, (StaticCase, Case), "case", "flexcage.load_static reads one from a file")
-    if isinstance(case, Case):
-        case = _static_case(case)
     return solve_bearing(
         case.bearing, load=case.load, speed=case.speed, contacts=case.contacts,
-        lubricant=case.lubricant, options=case.static,
+        lubricant=case.lubricant, options=options or case.static,
     )  # fmt: skip
 
 
-def _static_case(case: Case) -> StaticCase:
-    """The start of a run as a case of its own."""
-    return StaticCase(
-        name=case.name, preset=case.preset, bearing=case.bearing, contacts=case.contacts,
-        lubricant=case.lubricant, drive=case.drive, load=case.load,
-        static=StaticOptions(gyroscopic="none"),
-    )  # fmt: skip
+#: As a run begins: no race controls balls.
+AT_START = StaticOptions(gyroscopic="none")
 
 
 def ehl_traction(
-    case: StaticCase | Case, *, limit: float = 0.06, shear_modulus: float = 50e6
+    case: StaticCase, *, limit: float = 0.06, shear_modulus: float = 50e6
 ) -> EhlTraction:
     """Traction law of the lubricant's film at the heaviest contacts of a case, for
     ``case.replace("contacts.race.friction", ehl_traction(case))``.
 
-    Film thickness, pressure and speed are the static solution's; the law's creep speed is the mean
+    Film thickness, pressure and speed are the static solution's, for a simulation's case as its run
+    begins; the law's creep speed is the mean
     of those of the heaviest contact on either race. ``limit`` is the limiting shear stress over the
     pressure; ``shear_modulus`` [Pa] is that of the film with what the surfaces yield, an assumption
     of the order that disc machines show. Raises InputError for a bearing that stands still.
     """
-    if isinstance(case, Case):
-        case = _static_case(case)
     if case.speed == 0.0:
         raise InputError(
             "The bearing stands still at the start (drive.speed): without motion there is no film "
             "whose traction could be given.",
             where="drive.speed",
         )
-    bearing, solution = case.bearing, solve_static(case)
+    options = AT_START if isinstance(case, Case) else case.static
+    bearing, solution = case.bearing, solve_static(case, options=options)
     balls = solution.elements
-    entrained = rolling_entrainment(bearing, balls.angle, balls.orbital_speed, case.speed)
+    entrained = bearing.rolling_entrainment(balls.angle, balls.orbital_speed, case.speed)
     found = []
     for race in range(2):
         k = int(np.argmax(balls.force[:, race]))
-        pressure, half = patch(bearing, balls.force[k, race], balls.pressure[k, race], race)
+        pressure, half = bearing.contact_patch(balls.force[k, race], balls.pressure[k, race], race)
         found.append(
             creep_speed(
                 limit=limit, pressure=pressure, film=float(solution.film.central[k, race]),

@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import dataclass
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, cast
 
 from flexcage.core.wings import FAMILIES
 from flexcage.geometry.bearing import Bearing
 
 if TYPE_CHECKING:
-    from flexcage.render.shapes import Shapes
+    from flexcage.render.shapes import ShapesOf
     from flexcage.results.figures import OwnFigures
     from flexcage.results.metrics import ElementSpeed
     from flexcage.results.registry import OwnVariables
@@ -22,16 +22,18 @@ class Family:
     """Bearings whose rolling elements move by the same equations.
 
     ``types``: the specs of its types of bearing, which bring dimensions, checks, ratings and films
-    with them. All else is heavy: functions without arguments that import what they return.
+    with them; ``other_designs`` maps patterns of names that are no types here to what there is
+    instead. All else is heavy: functions without arguments that import what they return.
     """
 
     name: str
     types: tuple[type[Bearing], ...]
-    variables: Callable[[], OwnVariables]
-    speed: Callable[[], ElementSpeed]
-    figures: Callable[[], OwnFigures]
-    shapes: Callable[[], Shapes]
-    rubbing: Callable[[], Rub]
+    variables: Callable[[], OwnVariables]  # that its runs record beside the common ones
+    speed: Callable[[], ElementSpeed]  # how its elements turn about their own axes, and slip
+    figures: Callable[[], OwnFigures]  # of its runs' summaries beside the common ones
+    rubbing: Callable[[], Rub]  # of its elements in their pockets, for wear
+    shapes: Callable[[], ShapesOf]  # profiles of rings and elements, for pictures
+    other_designs: Mapping[str, str] = field(default_factory=dict)
 
     @property
     def element(self) -> str:

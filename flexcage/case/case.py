@@ -7,7 +7,6 @@ from __future__ import annotations
 
 import dataclasses
 from collections.abc import Iterator, Mapping
-from contextlib import contextmanager
 from dataclasses import dataclass
 from functools import cached_property
 from math import pi
@@ -15,55 +14,59 @@ from pathlib import Path
 from typing import Any
 
 from flexcage.case.checks import check_case, refuse_without_motion
-from flexcage.contacts.spec import Contacts, LandSpec, Lubricant
+from flexcage.case.presets import NAMED, load_preset
+from flexcage.case.read import read_case
+from flexcage.case.static import StaticCase
+from flexcage.case.tables import (
+    ALIASES,
+    as_table,
+    expanded,
+    with_preset,
+    without_aliases,
+    words_of_text,
+)
+from flexcage.contacts.spec import LandSpec
 from flexcage.core import html
 from flexcage.core.binding import (
     Binder,
     check_spec,
     chosen_names,
-    chosen_spec,
     default_of,
     flat,
-    set_path,
-    to_table,
-    with_their_choice,
 )
-from flexcage.core.errors import InputError
 from flexcage.core.hashing import content_hash, counts
 from flexcage.core.registry import source_of
 from flexcage.core.spec import option
 from flexcage.geometry.ball_cage_defects import BallCageDefect, uneven_pockets
-from flexcage.geometry.ball_cages import BallCage
-from flexcage.geometry.bearings import Bearing
+from flexcage.geometry.bearing import Bearing
 from flexcage.geometry.cage import Cage
 from flexcage.geometry.cages import Defect
-from flexcage.geometry.presets import NAMED, Preset, load_preset
-from flexcage.geometry.ribbon_cage import RibbonCage
 from flexcage.mesh.options import MeshOptions
 from flexcage.modes.spec import ModesSpec
 from flexcage.results.options import OutputOptions
 from flexcage.solve.options import SolverOptions
-from flexcage.system.spec import Constraint, Drive, Limits, Load, Mount, StartOptions
+from flexcage.system.spec import Constraint, Drive, Limits, Mount, StartOptions
+from flexcage.system.statics.options import StaticOptions
 
 CAGE_MODELS = ("flexible", "rigid")
 _FEW = 8  # values of a list that a notebook shows
-_NOT_PHYSICS = ("name", "description", "preset", "given")
-# In text the cage's model stands with the cage; the preset, with the bearing.
-ALIASES = {"cage.model": "cage_model", "bearing.preset": "preset"}
+_NOT_PHYSICS = ("name", "description", "preset", "static", "given")
+#: Sections in the order of texts and pages.
+_ORDER = (
+    "name", "description", "preset", "bearing", "cage", "cage_model", "defects", "mesh", "modes",
+    "lubricant", "contacts", "drive", "load", "mount", "constraints", "start", "solver", "output",
+    "limits", "seed", "given", "static",
+)  # fmt: skip
 
 
-@dataclass(frozen=True, kw_only=True)
-class Case:
+@dataclass(frozen=True, kw_only=True, repr=False)
+class Case(StaticCase):
     """One simulation: bearing, cage and defects, and how they are meshed, driven and solved.
 
     Frozen: ``case.replace("cage.pocket_width", "8.25 mm")`` gives a varied copy. Every case is
     checked when it is made; an impossible one raises InputError with one sentence.
     """
 
-    name: str = option("case", doc="name, for titles and folders")
-    description: str = option("", doc="what this case is for")
-    preset: str = option("", doc="preset that the case started from")
-    bearing: Bearing = option(doc="the bearing")
     cage: Cage = option(doc="the cage")
     cage_model: str = option("flexible", doc="how the cage is modelled", choices=CAGE_MODELS)
     defects: tuple[Defect | BallCageDefect, ...] = option(
@@ -77,10 +80,7 @@ class Case:
     )
     mesh: MeshOptions = option(MeshOptions(), doc="the cage's mesh")
     modes: ModesSpec = option(ModesSpec(), doc="the cage's modes")
-    lubricant: Lubricant = option(Lubricant(), doc="the lubricant")
-    contacts: Contacts = option(Contacts(), doc="contact laws, place by place")
     drive: Drive = option(Drive(), doc="what turns the inner ring")
-    load: Load = option(Load(), doc="what loads the inner ring")
     mount: Mount = option(Mount(), doc="what holds the outer ring")
     constraints: tuple[Constraint, ...] = option(
         (), doc="what holds or moves rings and cage besides, any number", former=()
@@ -95,7 +95,8 @@ class Case:
         metadata={"doc": "paths of values that the user gave; a preset's and defaults are not"},
     )  # fmt: skip
 
-    def __post_init__(self) -> None:
+    def check(self) -> None:
+        """Raise InputError for the first thing in the case that cannot be."""
         check_spec(self)
         check_case(self)
 
@@ -103,7 +104,7 @@ class Case:
     def from_preset(cls, preset: str, **sections: Any) -> Case:
         """Case from a preset's bearing, cage and contacts; ``sections`` are specs or tables."""
         return cls.from_table(
-            {**sections, "bearing": {"preset": preset, **_as_table(sections.get("bearing", {}))}},
+            {**sections, "bearing": {"preset": preset, **as_table(sections.get("bearing", {}))}},
             si=True,
         )
 
@@ -115,46 +116,35 @@ class Case:
         merged = with_preset(without_aliases(table))
         merged.setdefault("given", sorted(path for path, _ in flat(without_aliases(table))))
         refuse_without_motion(merged.get("bearing"))
-        merged.pop("static", None)  # read by the static solution alone
         merged = _with_mesh_file(merged, folder or Path.cwd())
         binder = Binder(named=NAMED, si=si)
         with words_of_text():
             return binder.bind(cls, _with_cage(merged, binder), "")
 
-    def replace(
-        self,
-        path: str | Mapping[str, Any] | None = None,
-        value: Any = None,
-        /,
-        *,
-        si: bool = True,
-        **changes: Any,
-    ) -> Case:
-        """Varied copy: ``replace("cage.pocket_width", "8.25 mm")``, or ``replace({path: value})``
-        and ``replace(**{path: value})`` for several at once.
+    def _given(self, pairs: dict[str, Any]) -> dict[str, Any]:
+        if self.given is None or "given" in pairs:
+            return pairs
+        return {**pairs, "given": tuple(sorted({*self.given, *_given_by(pairs)}))}
 
-        A path is dotted ("defects.0.displacement"); a value is text with its unit, an SI number
-        (unless ``si`` is False), a spec, or a table. All changes are made before the check.
-        """
-        pairs = {**as_pairs(path, value), **changes}
-        if self.given is not None and "given" not in pairs:
-            pairs["given"] = tuple(sorted({*self.given, *_given_by(pairs)}))
-        return varied(self, _Unchecked, pairs, si=si)
+    def _prepared(self, where: str, value: Any, binder: Binder) -> Any:
+        if where == "bearing":
+            refuse_without_motion(value)
+        if where == "cage" and isinstance(value, Mapping):
+            with words_of_text():
+                return binder.bind(type(self.cage), value, "cage", base=self.cage)
+        if where == "mesh.file" and isinstance(value, (str, Path)):
+            return _absolute(value, Path.cwd())
+        return value
 
     def to_table(self) -> dict[str, Any]:
-        """Nested tables of texts with units, complete: nothing is left to defaults."""
-        table = to_table(self, named=NAMED)
-        model, preset = table.pop("cage_model"), table.pop("preset")
+        """Nested tables of texts with units, complete: nothing is left to defaults, but [static],
+        which no run reads."""
+        table = super().to_table()
+        model = table.pop("cage_model")
         table["cage"] = {"model": model, **table["cage"]}
-        if preset:
-            table["bearing"] = {"preset": preset, **table["bearing"]}
-        return table
-
-    def to_toml(self) -> str:
-        """The case as TOML text that ``load_case`` reads back to an equal case."""
-        from flexcage.case.toml import write_toml
-
-        return write_toml(self.to_table())
+        if self.static == StaticOptions():
+            del table["static"]
+        return {key: table[key] for key in _ORDER if key in table}
 
     @cached_property
     def hash(self) -> str:
@@ -168,7 +158,7 @@ class Case:
         physics = {f.name: getattr(self, f.name) for f in fields if f.name not in _NOT_PHYSICS}
         physics["contacts"] = dataclasses.replace(self.contacts, land=self.land)
         physics["modes"] = modes = self.modes.damped_as(self.cage.material)
-        if self.cage_model == "rigid" or isinstance(self.cage, BallCage):
+        if self.cage_model == "rigid" or not self.cage.has_faces:
             physics["modes"] = dataclasses.replace(modes, attachments="linear")
         file = Path(self.mesh.file)
         content = b""
@@ -183,12 +173,12 @@ class Case:
         a case has none."""
         mine, its = (dict(flat(case.to_table())) for case in (self, other))
         left_out = (*_NOT_PHYSICS, "bearing.preset")
-        keys = (key for key in {**its, **mine} if key not in left_out)
+        keys = (k for k in {**its, **mine} if not {k, k.partition(".")[0]} & {*left_out})
         return {k: (mine.get(k), its.get(k)) for k in keys if mine.get(k) != its.get(k)}
 
     @property
     def cage_shape(self) -> dict[str, Any]:
-        """What ``mesh.build.build_cage_mesh`` asks for, by name."""
+        """What ``cages.build.build_cage_mesh`` asks for, by name."""
         return {
             "cage": self.cage,
             "pocket_count": self.bearing.element_count,
@@ -218,7 +208,7 @@ class Case:
     @property
     def riveted(self) -> bool:
         """Whether its cage is flexible and held together by rivets, whose loads are then known."""
-        return self.cage_model == "flexible" and isinstance(self.cage, RibbonCage)
+        return self.cage_model == "flexible" and self.cage.riveted
 
     @property
     def assumptions(self) -> dict[str, str]:
@@ -293,109 +283,8 @@ def _given_by(pairs: Mapping[str, Any]) -> Iterator[str]:
         if isinstance(value, Mapping):
             yield from (inner for inner, _ in flat(value, path))
         elif dataclasses.is_dataclass(value):
-            yield from (inner for inner, _ in flat(_as_table(value), path))
+            yield from (inner for inner, _ in flat(as_table(value), path))
         yield path
-
-
-def as_pairs(path: Any, value: Any) -> dict[str, Any]:
-    """Values by dotted path, from one path and its value or a mapping of them."""
-    table = path if isinstance(path, Mapping) else {path: value}
-    if path is None and value is None:
-        return {}
-    for key in table:
-        if not isinstance(key, str):
-            raise InputError(
-                f"replace wants dotted paths, such as 'drive.speed', not {key!r}.", value=key
-            )
-    if table is path and value is not None:
-        raise InputError(
-            f"replace wants a path and its value, or a table of them alone, not also {value!r}.",
-            value=value,
-        )
-    return dict(table)
-
-
-def varied(case: Any, unchecked: Any, pairs: Mapping[str, Any], *, si: bool) -> Any:
-    """Copy of a case with values by dotted path replaced, checked when all of them are;
-    ``unchecked`` is its class without the check."""
-    binder = Binder(named=NAMED, si=si)
-    bare = unchecked(**{f.name: getattr(case, f.name) for f in dataclasses.fields(case)})
-    for where, new in with_their_choice(bare, pairs).items():
-        if where == "bearing.preset":
-            raise InputError(
-                "bearing.preset cannot be replaced in a finished case; load it with the "
-                "other preset instead.",
-                where=where,
-            )
-        if where == "bearing" and isinstance(case, Case):
-            refuse_without_motion(new)
-        if where == "cage" and isinstance(new, Mapping) and isinstance(case, Case):
-            with words_of_text():
-                new = binder.bind(type(bare.cage), new, "cage", base=bare.cage)
-        if where == "mesh.file" and isinstance(new, (str, Path)):
-            new = _absolute(new, Path.cwd())
-        with words_of_text():
-            bare = set_path(bare, ALIASES.get(where, where), new, binder)
-    return type(case)(**{f.name: getattr(bare, f.name) for f in dataclasses.fields(bare)})
-
-
-class _Unchecked(Case):
-    """A case between two changes: possible only when all of them are made."""
-
-    def __post_init__(self) -> None:
-        pass
-
-
-@contextmanager
-def words_of_text() -> Iterator[None]:
-    """Name values in errors as the text does: cage.model, not cage_model."""
-    try:
-        yield
-    except InputError as exc:
-        for alias, field in ALIASES.items():
-            if exc.where == field:
-                raise InputError(
-                    str(exc).replace(field, alias, 1), where=alias, value=exc.value
-                ) from exc
-        raise
-
-
-def _as_table(section: Any) -> Mapping[str, Any]:
-    return section if isinstance(section, Mapping) else to_table(section, named=NAMED)
-
-
-def without_aliases(table: Mapping[str, Any]) -> dict[str, Any]:
-    """Tables of a text with its aliases replaced by the fields that they stand for."""
-    plain = dict(table)
-    for alias, field in ALIASES.items():
-        room, key = alias.split(".")
-        section = plain.get(room)
-        if isinstance(section, Mapping) and key in section:
-            plain[room] = {k: v for k, v in section.items() if k != key}
-            plain[field] = section[key]
-    return plain
-
-
-def with_preset(table: dict[str, Any]) -> dict[str, Any]:
-    """Tables of the preset that a case names, overridden by its own."""
-    name = table.get("preset")
-    if isinstance(name, int) and not isinstance(name, bool):
-        name = str(name)  # many designations are
-        table = {**table, "preset": name}
-    if not name:
-        return dict(table)
-    if not isinstance(name, str):
-        raise InputError(f"bearing.preset is {name!r}, but should be text.", where="bearing.preset")
-    return _merge(_without_other_cage(load_preset(name), table), table)
-
-
-def _without_other_cage(preset: Preset, table: Mapping[str, Any]) -> Mapping[str, Any]:
-    """A preset's tables without values of its cage that the kind a case asks for has not."""
-    own, cage = table.get("cage"), preset.tables.get("cage")
-    if not isinstance(own, Mapping) or "type" not in own or not isinstance(cage, Mapping):
-        return preset.tables
-    known = chosen_spec(preset.bearing.cage_spec, own).__dataclass_fields__
-    return {**preset.tables, "cage": {k: v for k, v in cage.items() if k in known}}
 
 
 def _with_mesh_file(table: dict[str, Any], folder: Path) -> dict[str, Any]:
@@ -410,30 +299,6 @@ def _with_mesh_file(table: dict[str, Any], folder: Path) -> dict[str, Any]:
 def _absolute(file: str | Path, folder: Path) -> str:
     """Absolute path of a file, so that a run's own case.toml finds it from its folder."""
     return str(folder / expanded(file, where="mesh.file")) if str(file) else ""
-
-
-def expanded(file: str | Path, *, where: str) -> Path:
-    """Path of a file with the home folder in the place of ``~``."""
-    try:
-        return Path(file).expanduser()
-    except RuntimeError as exc:
-        raise InputError(
-            f"{where} is '{file}', but there is no user whose home folder that begins with.",
-            where=where,
-            value=str(file),
-        ) from exc
-
-
-def _merge(low: Mapping[str, Any], high: Mapping[str, Any]) -> dict[str, Any]:
-    """Tables of ``low`` overridden by ``high``, table by table; a name in ``low`` is one too."""
-    merged = dict(low)
-    for key, value in high.items():
-        below = merged.get(key)
-        if isinstance(value, Mapping) and isinstance(below, str):
-            below = {"name": below}  # a material by name, of which some values are overridden
-        both = isinstance(value, Mapping) and isinstance(below, Mapping)
-        merged[key] = _merge(below, value) if both else value  # type: ignore[arg-type]
-    return merged
 
 
 def _at(spec: Any, path: str) -> Any:
@@ -457,3 +322,34 @@ def _standing_assumptions(spec: Any, where: str, default: Any = None) -> list[tu
         if dataclasses.is_dataclass(value):
             found.extend(_standing_assumptions(value, path, usual))
     return found
+
+
+def load_case(
+    source: str | Path | Mapping[str, Any] | Case,
+    *,
+    overrides: Mapping[str, Any] | None = None,
+    preset: str | None = None,
+) -> Case:
+    """Case from a .toml file, TOML text, or nested tables.
+
+    ``overrides`` maps dotted paths to text with units ({"cage.pocket_width": "8.25 mm"});
+    ``preset`` takes the place of ``bearing.preset``, as an override of that path does. A mistake
+    raises InputError.
+    """
+    overrides = dict(overrides or {})
+    if not isinstance(source, Case):
+        preset = overrides.pop("bearing.preset", preset)
+    if isinstance(source, Case):
+        case = source
+    else:
+        table, folder = read_case(source)
+        if preset is not None:
+            table = {**table, "bearing": {**table.get("bearing", {}), "preset": preset}}
+        case = Case.from_table(table, folder=folder)
+    return case.replace(si=False, **overrides) if overrides else case
+
+
+def sections() -> list[dataclasses.Field]:
+    """Fields of a case in the order of texts and pages."""
+    fields = Case.__dataclass_fields__
+    return [fields[name] for name in _ORDER]

@@ -11,8 +11,9 @@ from math import inf
 from pathlib import Path
 from typing import Any
 
-from flexcage.case.case import ALIASES, Case
-from flexcage.case.static import StaticCase
+from flexcage.case.case import Case, sections
+from flexcage.case.presets import NAMED
+from flexcage.case.tables import ALIASES
 from flexcage.contacts.spec import FrictionLaw, NormalLaw
 from flexcage.core.binding import (
     MISSING,
@@ -28,9 +29,8 @@ from flexcage.core.binding import (
 from flexcage.core.errors import InputError
 from flexcage.core.listing import Listing
 from flexcage.core.units import describe, format_si
-from flexcage.geometry.bearings import BEARING_TYPES
+from flexcage.geometry.bearing import BEARING_TYPES
 from flexcage.geometry.materials import Material
-from flexcage.geometry.presets import NAMED
 
 HEADS = ("key", "unit or kind", "default", "meaning")
 REQUIRED = "required"
@@ -77,16 +77,13 @@ class Group:
 
 def groups() -> list[Group]:
     """All keys of a case, in the order of its sections; laws and materials come last."""
-    fields = [f for f in dataclasses.fields(Case) if f.name not in _HIDDEN]
+    fields = [f for f in sections() if f.name not in _HIDDEN]
     moved = {name: path for path, name in ALIASES.items()}
     plain = [f for f in fields if f.name not in moved and not _specs(Case, f)]
     found = [Group("case", "At the top of the file", tuple(_keys_of(Case, plain, "", None)))]
     for field in fields:
         if _specs(Case, field):
             found += _section(field)
-    static = StaticCase.__dataclass_fields__["static"]
-    found += _of_spec("static", "static", "[static], read by `flexcage static` alone",
-                      _specs(StaticCase, static)[0], default_of(static))  # fmt: skip
     for cls, (name, section) in SHARED.items():
         found += _of_spec(section, "", f"A {name}", cls, None)
     return found
@@ -116,9 +113,9 @@ def chosen(wanted: str) -> list[Group]:
 
 def contents() -> Listing:
     """The sections, and how many keys each has."""
-    docs = {f.name: str(f.metadata.get("doc", "")) for f in dataclasses.fields(Case)}
+    docs = {f.name: str(f.metadata.get("doc", "")) for f in sections()}
     docs |= {section: f"a {name}, wherever one stands" for name, section in SHARED.values()}
-    docs |= {"case": "name and seed", "static": "how a static solution is meant"}
+    docs |= {"case": "name and seed"}
     count: dict[str, int] = {}
     for group in groups():
         count[group.section] = count.get(group.section, 0) + len(group.keys)
@@ -135,7 +132,8 @@ def _section(field: dataclasses.Field) -> Iterator[Group]:
             tag = f', type = "{tag_of(cls)}"' if len(specs) > 1 else ""
             yield from _of_spec(name, "", f"[[{name}]]{tag}", cls, None)
     else:
-        yield from _of_spec(name, name, f"[{name}]", specs[0], default)
+        readers = ", read by `flexcage static` alone" if name == "static" else ""
+        yield from _of_spec(name, name, f"[{name}]{readers}", specs[0], default)
 
 
 def _cages() -> Iterator[Group]:

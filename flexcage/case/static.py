@@ -1,7 +1,7 @@
 """The case of a static solution: a bearing of any type, its load and its speed.
 
-It reads the same files as a simulation's case; sections that only a simulation wants are passed
-over, and the cage is checked against the bearing but takes no part.
+A simulation's case (``case.Case``) is one of these with a cage and what moves it; both read the
+same files.
 """
 
 from __future__ import annotations
@@ -9,29 +9,37 @@ from __future__ import annotations
 import dataclasses
 from collections.abc import Mapping
 from dataclasses import dataclass
+from functools import cache
 from pathlib import Path
-from typing import Any
+from typing import Any, Self
 
-from flexcage.case.case import (
-    Case,
-    as_pairs,
-    varied,
-    with_preset,
-    without_aliases,
-    words_of_text,
-)
 from flexcage.case.checks import check_static_case
-from flexcage.case.load import read_case
+from flexcage.case.presets import NAMED
+from flexcage.case.read import read_case
+from flexcage.case.tables import ALIASES, as_pairs, with_preset, without_aliases, words_of_text
 from flexcage.contacts.spec import Contacts, Lubricant
-from flexcage.core.binding import Binder, check_spec, to_table, unknown_key
+from flexcage.core import html
+from flexcage.core.binding import (
+    Binder,
+    check_spec,
+    default_of,
+    flat,
+    set_path,
+    to_table,
+    unknown_key,
+    with_their_choice,
+)
 from flexcage.core.errors import InputError
 from flexcage.core.spec import option
-from flexcage.geometry.bearing import check_type
-from flexcage.geometry.bearings import Bearing
-from flexcage.geometry.checks import check_geometry
-from flexcage.geometry.presets import NAMED
+from flexcage.geometry.bearing import Bearing, check_type
 from flexcage.system.spec import Drive, Load
 from flexcage.system.statics.options import StaticOptions
+
+#: Sections that only a simulation reads: a static solution ignores them, the cage is checked.
+OF_A_SIMULATION = (
+    "cage", "cage_model", "defects", "mesh", "modes", "mount", "constraints", "start", "solver",
+    "output", "limits", "seed", "given",
+)  # fmt: skip
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -45,13 +53,17 @@ class StaticCase:
     description: str = option("", doc="what this case is for")
     preset: str = option("", doc="preset that the case started from")
     bearing: Bearing = option(doc="the bearing")
-    contacts: Contacts = option(Contacts(), doc="rollers' slices and stiffness factor at races")
-    lubricant: Lubricant = option(Lubricant(), doc="what makes a film where the bearing turns")
-    drive: Drive = option(Drive(speed=0.0), doc="speed of the inner ring")
+    contacts: Contacts = option(Contacts(), doc="contact laws, place by place")
+    lubricant: Lubricant = option(Lubricant(), doc="the lubricant")
+    drive: Drive = option(Drive(speed=0.0), doc="what turns the inner ring")
     load: Load = option(Load(), doc="what loads the inner ring")
-    static: StaticOptions = option(StaticOptions(), doc="how equilibrium is meant")
+    static: StaticOptions = option(StaticOptions(), doc="how a static solution is meant")
 
     def __post_init__(self) -> None:
+        self.check()
+
+    def check(self) -> None:
+        """Raise InputError for the first thing in the case that cannot be."""
         check_spec(self)
         check_static_case(self)
 
@@ -64,21 +76,22 @@ class StaticCase:
     def from_table(cls, table: Mapping[str, Any], *, si: bool = False) -> StaticCase:
         """Case from nested tables as TOML gives them."""
         merged = with_preset(without_aliases(table))
-        own = {f.name for f in dataclasses.fields(cls)}
-        known = own | {f.name for f in dataclasses.fields(Case)}
+        own = {f.name for f in dataclasses.fields(StaticCase)}
+        known = own | {*OF_A_SIMULATION}
         for key in merged:
             if key not in known:
-                raise unknown_key(key, [*known - {"cage_model", "preset"}], "")
+                raise unknown_key(key, [*known - {*ALIASES.values(), "given"}], "")
         binder = Binder(named=NAMED, si=si)
         bearing = merged.get("bearing")
         if isinstance(bearing, Mapping):
             check_type(bearing.get("type"))
         with words_of_text():
-            case = binder.bind(cls, {k: v for k, v in merged.items() if k in own}, "")
+            asked = {k: v for k, v in merged.items() if k in own}
+            case: StaticCase = binder.bind(StaticCase, asked, "")
             if "cage" in merged:
                 cage = binder.bind(case.bearing.cage_spec, merged["cage"], "cage")
                 check_spec(cage, "cage")
-                check_geometry(case.bearing, cage)
+                case.bearing.check(cage)
         return case
 
     def replace(
@@ -89,10 +102,36 @@ class StaticCase:
         *,
         si: bool = True,
         **changes: Any,
-    ) -> StaticCase:
-        """Varied copy, as by ``Case.replace``: ``replace("load.radial", "2 kN")``, or
-        ``replace({path: value})`` and ``replace(**{path: value})`` for several at once."""
-        return varied(self, _Unchecked, {**as_pairs(path, value), **changes}, si=si)
+    ) -> Self:
+        """Varied copy: ``replace("load.radial", "2 kN")``, or ``replace({path: value})`` and
+        ``replace(**{path: value})`` for several at once.
+
+        A path is dotted ("defects.0.displacement"); a value is text with its unit, an SI number
+        (unless ``si`` is False), a spec, or a table. All changes are made before the check.
+        """
+        pairs = self._given({**as_pairs(path, value), **changes})
+        binder = Binder(named=NAMED, si=si)
+        kind: Any = type(self)
+        bare = _unchecked(kind)(**_values(self))
+        for where, new in with_their_choice(bare, pairs).items():
+            if where == "bearing.preset":
+                raise InputError(
+                    "bearing.preset cannot be replaced in a finished case; load it with the "
+                    "other preset instead.",
+                    where=where,
+                )
+            new = bare._prepared(where, new, binder)
+            with words_of_text():
+                bare = set_path(bare, ALIASES.get(where, where), new, binder)
+        return kind(**_values(bare))
+
+    def _given(self, pairs: dict[str, Any]) -> dict[str, Any]:
+        """Values to replace, with what follows from their being given."""
+        return pairs
+
+    def _prepared(self, where: str, value: Any, binder: Binder) -> Any:
+        """A value to replace, as it is set."""
+        return value
 
     def to_table(self) -> dict[str, Any]:
         """Nested tables of texts with units, complete."""
@@ -103,22 +142,33 @@ class StaticCase:
         return table
 
     def to_toml(self) -> str:
-        """The case as TOML text that ``load_static`` reads back to an equal case."""
+        """The case as TOML text that reads back to an equal case."""
         from flexcage.case.toml import write_toml
 
         return write_toml(self.to_table())
 
+    def _repr_html_(self) -> str:
+        """For notebooks: what differs from a case of the bearing alone."""
+        bare = dict(flat(dataclasses.replace(self, **_asked_nothing()).to_table()))
+        rows = [(k, v) for k, v in flat(self.to_table()) if bare.get(k) != v]
+        title = f"Static case {self.name}: {self.bearing.designation or self.bearing.kind}"
+        return html.block(title, html.table(rows, heads=("key", "value")))
 
-class _Unchecked(StaticCase):
-    """A case between two changes: possible only when all of them are made."""
 
-    def __post_init__(self) -> None:
-        pass
+def _asked_nothing() -> dict[str, Any]:
+    """Sections as by default."""
+    names = ("contacts", "lubricant", "drive", "load", "static")
+    return {name: default_of(StaticCase.__dataclass_fields__[name]) for name in names}
 
 
-_CASE_ONLY = {f.name for f in dataclasses.fields(Case)} - {
-    f.name for f in dataclasses.fields(StaticCase)
-}
+def _values(case: StaticCase) -> dict[str, Any]:
+    return {f.name: getattr(case, f.name) for f in dataclasses.fields(case)}
+
+
+@cache
+def _unchecked(cls: Any) -> Any:
+    """A class for cases between two changes, which are possible only when all changes are made."""
+    return type(f"Unchecked{cls.__name__}", (cls,), {"check": lambda self: None})
 
 
 def load_static(
@@ -131,7 +181,7 @@ def load_static(
     table, _ = read_case(source)
     for path, value in (overrides or {}).items():
         head = path.partition(".")[0]
-        if head in _CASE_ONLY and head != "cage":
+        if head in OF_A_SIMULATION and head != "cage":
             raise InputError(
                 f"'{path}' takes no part in a static solution; leave it out.", where=path
             )

@@ -28,7 +28,7 @@ def prepare_out(
     """
     _check_folder(out)
     if resume:
-        from flexcage.run_folder import check_written
+        from flexcage.run.folder import check_written
 
         check_written(out)
     elif out.is_dir() and not _holds_nothing(out):
@@ -74,7 +74,7 @@ def _check_folder(out: Path) -> None:
 def _holds_nothing(out: Path) -> bool:
     if not any(out.iterdir()):
         return True
-    from flexcage.run_folder import holds_nothing
+    from flexcage.run.folder import holds_nothing
 
     return holds_nothing(out)
 

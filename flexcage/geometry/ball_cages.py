@@ -9,12 +9,12 @@ from typing import ClassVar
 
 from flexcage.core.spec import option, quantity
 from flexcage.core.units import describe
-from flexcage.geometry.cage import Cage
+from flexcage.geometry.cage import Cage, cages_of
 from flexcage.geometry.materials import MATERIALS, Material
 
 POCKET_SHAPES = ("cylindrical", "spherical")
 GUIDANCE = ("ball", "inner", "outer")
-BALL_CAGES: dict[str, type | None] = {"machined": None}  # name in a case: spec of its own
+BALL_CAGES = cages_of("ball")
 
 Objection = tuple[str, str]  # name of a value, and what is wrong with it
 
@@ -24,7 +24,7 @@ class BallCage(Cage):
     """A cage with one round pocket per ball: a hollow cylinder with radial holes, or spheres.
 
     ``pocket_diameter`` is that of cylinder or sphere. A cage that a ring guides has its land there,
-    with the clearance of [contacts.land]. ``type`` may name another kind with a spec of its own.
+    with the clearance of [contacts.land]. ``type`` may name another type with a spec of its own.
     """
 
     cage_type: ClassVar[str] = "machined"
@@ -41,6 +41,14 @@ class BallCage(Cage):
     @property
     def pocket_size(self) -> float:
         return self.pocket_diameter
+
+    @property
+    def has_faces(self) -> bool:
+        return False
+
+    @property
+    def has_land(self) -> bool:
+        return self.guidance != "ball"
 
     def thinnest(self, pitch_diameter: float, pocket_count: int) -> float:
         web = pitch_diameter * sin(pi / pocket_count) - self.pocket_diameter

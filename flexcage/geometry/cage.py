@@ -7,14 +7,26 @@ from math import nan, pi
 from typing import TYPE_CHECKING, Any, ClassVar
 
 from flexcage.core.spec import option, quantity
+from flexcage.core.wings import CAGE_TYPES, Parts
 from flexcage.geometry.materials import MATERIALS, Material
+
+
+def cages_of(element: str) -> Parts[type]:
+    """Specs of the cages that hold such elements ("ball"), by the name that a case gives."""
+    return Parts(
+        CAGE_TYPES,
+        lambda made: {made.name: made.spec} if element in made.holds else {},
+        what="cage type",
+    )
 
 
 @dataclass(frozen=True, kw_only=True)
 class Cage:
-    """A cage of some type; ``cage_spec`` of a bearing's type says which."""
+    """A cage of some type: ``type`` of those whose elements several cages hold says which, and
+    ``cage_spec`` of a bearing's type what it is where nobody says."""
 
     cage_type: ClassVar[str] = ""  # name of its ``cages.cage_type.CageType``
+    altered: ClassVar[str] = "Defects"  # heads the list of its defects
 
     material: Material = option(MATERIALS["brass"], doc="cage material (a name or its values)")
     bore: float = quantity("mm", doc="inside diameter", above=0.0)
@@ -38,6 +50,31 @@ class Cage:
     def pocket_size(self) -> float:
         """Width [m] of a pocket around the cage; NaN where its type does not say."""
         return nan
+
+    @property
+    def has_faces(self) -> bool:
+        """Have its pockets plane faces, which a basis may have attachment vectors for?"""
+        return True
+
+    @property
+    def riveted(self) -> bool:
+        """Do rivets of ``rivet_diameter`` between its pockets hold two halves together?"""
+        return False
+
+    @property
+    def has_land(self) -> bool:
+        """May a ring's land touch it?"""
+        return True
+
+    @property
+    def land_ring(self) -> str:
+        """The ring that its land faces, "inner" or "outer": the one that guides it, if any does."""
+        return "outer" if self.guidance == "outer" else "inner"
+
+    @property
+    def land_radius(self) -> float:
+        """Radius [m] of its land."""
+        return 0.5 * (self.outside_diameter if self.land_ring == "outer" else self.bore)
 
     @property
     def axial_width(self) -> float:

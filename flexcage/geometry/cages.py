@@ -12,10 +12,11 @@ import numpy as np
 from flexcage.core.errors import InputError
 from flexcage.core.spec import option, quantity
 from flexcage.core.units import describe
-from flexcage.geometry.cage import Cage
+from flexcage.geometry.cage import Cage, cages_of
 
 _SHARPEST = 1e-4  # fillet, of the pocket's smaller side; smaller ones are lost in its mesh
 GUIDANCE = ("roller", "inner", "outer")
+ROLLER_CAGES = cages_of("roller")
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -27,7 +28,9 @@ class WindowCage(Cage):
     """
 
     cage_type: ClassVar[str] = "window"
+    altered: ClassVar[str] = "Deformed"
 
+    type: str = option("window", doc="kind of cage", choices=ROLLER_CAGES, former="window")
     pocket_width: float = quantity("mm", doc="circumferential pocket width Cq", above=0.0)
     pocket_length: float = quantity("mm", doc="axial pocket length Cp", above=0.0)
     fillet_radius: float = quantity(

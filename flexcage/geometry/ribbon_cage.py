@@ -48,6 +48,10 @@ class RibbonCage(BallCage):
     )  # fmt: skip
 
     @property
+    def riveted(self) -> bool:
+        return True
+
+    @property
     def opening(self) -> float:
         """Radius [m] of the hole at a pocket's sides; 0 where it is closed."""
         return sqrt(max(0.25 * (self.pocket_diameter**2 - self.width**2), 0.0))
@@ -152,6 +156,3 @@ class RibbonCage(BallCage):
                 f"so its head is {describe(head, 'mm')} across, but the sheet between pockets has "
                 f"{describe(room, 'mm')} for it",
             )
-
-
-BALL_CAGES["ribbon"] = RibbonCage

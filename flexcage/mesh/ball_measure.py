@@ -24,12 +24,12 @@ from flexcage.geometry.ball_cage_defects import (
     pocket_shapes,
 )
 from flexcage.geometry.ball_cages import BallCage
-from flexcage.geometry.ribbon_cage import RibbonCage
 from flexcage.mesh.cage_mesh import CageMesh
+from flexcage.mesh.halves import joined_vertices
 from flexcage.mesh.measure import in_pocket_frame
 
 _OPPOSITE = np.array([[1, 2, 3], [0, 2, 3], [0, 1, 3], [0, 1, 2]])
-_ENOUGH = 20e-6  # m, to which a user's mesh must agree with the case
+ENOUGH = 20e-6  # m, to which a user's mesh must agree with the case
 
 
 def measure_pockets(
@@ -158,48 +158,6 @@ def _(defect: MissingRivet, mesh: CageMesh, cage: Any, *, pitch_radius: float) -
     return [Reading(defect.tag, 2.0 * cage.head_radius, 2.0 * cage.head_radius - float(held))]
 
 
-def _check_sheet(
-    mesh: CageMesh,
-    cage: RibbonCage,
-    defects: Sequence[BallCageDefect],
-    *,
-    pitch_radius: float,
-    source: str,
-) -> None:
-    """Refuse a ribbon cage's mesh with another width, or other rivets, than the case says."""
-    missing = {d.web for d in defects if isinstance(d, MissingRivet)}
-    high = 2.0 * float(np.abs(mesh.points[:, 0]).max())
-    sizes = [("The cage", "wide", high, cage.axial_width)]
-    for web in range(mesh.pocket_count):
-        (free,) = readings(MissingRivet(web=web), mesh, cage, pitch_radius=pitch_radius)
-        held = 0.0 if web in missing else free.asked
-        sizes.append((f"web {web}", "held together over", free.asked - free.measured, held))
-    for what, how, found, said in sizes:
-        if abs(found - said) > _ENOUGH:
-            raise InputError(
-                f"{source}: {what} is {how} {found * 1e3:.3f} mm, but the case says "
-                f"{said * 1e3:.3f} mm; give the cage and the defects that the file contains",
-                where="mesh.file",
-                value=found,
-            )
-
-
-def shared_by_halves(
-    points: np.ndarray, tets: np.ndarray, cells: np.ndarray
-) -> tuple[np.ndarray, np.ndarray]:
-    """Which elements of a ribbon cage lie at x > 0, by tetrahedra (n, 4); and of the nodes in
-    ``cells`` (n, 4 or 10) those of elements on both sides, where the halves hold together."""
-    ahead = points[tets].mean(axis=1)[:, 0] > 0.0
-    return ahead, np.intersect1d(cells[ahead], cells[~ahead])
-
-
-def joined_vertices(mesh: CageMesh, web: int) -> np.ndarray:
-    """Vertices (n,) at one web by which a rivet holds a ribbon cage's halves together."""
-    _, shared = shared_by_halves(mesh.points, mesh.tets, mesh.tets)
-    _, y, t = in_pocket_frame(mesh.points[shared], web - 0.5, mesh.pocket_count).T
-    return shared[np.abs(np.arctan2(t, y)) < pi / mesh.pocket_count]
-
-
 def measure_ball_file(
     mesh: CageMesh,
     cage: BallCage,
@@ -222,7 +180,7 @@ def measure_ball_file(
     }
     for name, (should, is_) in sizes.items():
         worst = int(np.argmax(np.abs(is_ - should)))
-        if abs(is_[worst] - should[worst]) > _ENOUGH:
+        if abs(is_[worst] - should[worst]) > ENOUGH:
             raise InputError(
                 f"{source}: pocket {worst} is {name} {is_[worst] * 1e3:.3f} mm, but the case says "
                 f"{should[worst] * 1e3:.3f} mm; give the cage and the defects that the file "
@@ -230,8 +188,6 @@ def measure_ball_file(
                 where=f"mesh.file pocket{worst}",
                 value=float(is_[worst]),
             )
-    if isinstance(cage, RibbonCage):
-        _check_sheet(mesh, cage, defects, pitch_radius=pitch_radius, source=source)
     rows = [r for d in defects for r in readings(d, mesh, cage, pitch_radius=pitch_radius)]
     delivered = [
         {

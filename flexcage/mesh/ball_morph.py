@@ -34,8 +34,9 @@ from flexcage.geometry.ball_cage_defects import (
 )
 from flexcage.geometry.ball_cages import BallCage
 from flexcage.geometry.ribbon_cage import RibbonCage
-from flexcage.mesh.ball_measure import joined_vertices, readings
+from flexcage.mesh.ball_measure import readings
 from flexcage.mesh.cage_mesh import CageMesh, signed_volumes
+from flexcage.mesh.halves import joined_vertices
 from flexcage.mesh.measure import in_pocket_frame
 from flexcage.mesh.ribbon_sector import stand_off
 from flexcage.mesh.sector import Quarter

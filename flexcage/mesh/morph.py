@@ -30,7 +30,8 @@ from flexcage.geometry.cages import (
     side_beam_shape,
 )
 from flexcage.mesh.cage_mesh import CageMesh, signed_volumes
-from flexcage.mesh.measure import face_shifts, in_pocket_frame
+from flexcage.mesh.measure import in_pocket_frame
+from flexcage.mesh.window_measure import face_shifts
 
 MOST_CHANGE = 1e-3  # of the volume, by one defect
 

@@ -26,10 +26,11 @@ from flexcage.render.defects import pockets_of
 from flexcage.render.look import Look
 from flexcage.results import spectra
 from flexcage.results.metrics import BearingNumbers, settled
-from flexcage.stress.places import place_kind
 
 if TYPE_CHECKING:
     import xarray
+
+    from flexcage.stress.places import PlaceKind
 
 Drawing = partial[Path]  # draws one picture, and gives its path
 
@@ -55,6 +56,7 @@ class StressPictures:
     settled: int  # first sample of the envelope
     roots: np.ndarray  # (nt, places) [Pa]
     root_names: Sequence[str]
+    root_kind: PlaceKind
     frames: Sequence[tuple[float, np.ndarray, np.ndarray]] = ()  # time, displacement, stress
 
 
@@ -196,7 +198,7 @@ def _motion(scene: Scene, folder: Path) -> list[Drawing]:
             coords={"time": ds["time"], "place": list(scene.stress.root_names)},
             attrs={
                 "units": "Pa",
-                "long_name": f"equivalent stress at {place_kind(scene.mesh.groups).many}",
+                "long_name": f"equivalent stress at {scene.stress.root_kind.many}",
             },
         )
     first = ds.sizes["time"] - settled(ds, scene.settle).sizes["time"]

@@ -1,36 +1,42 @@
-"""Rings and rolling elements as solids: what pictures ask of a bearing family."""
+"""Rings and rolling elements as bodies of revolution: what pictures ask of a bearing's family."""
 
 from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
+from flexcage.core.errors import InputError
 from flexcage.core.wings import FAMILIES
 from flexcage.geometry.bearing import Bearing
 
-if TYPE_CHECKING:
-    import pyvista
-
-Profile = list[tuple[float, float]]
+Profile = list[tuple[float, float]]  # (x, r) [m], counter-clockwise
 
 
 @dataclass(frozen=True)
 class Shapes:
-    """Solids of a family, each by the spec of a bearing.
+    """Profiles of a bearing's parts, each revolved about x.
 
-    ``rings``: profiles (x, r) [m] of inner and outer ring, of the half with x < 0,
-    counter-clockwise: rings are cut at mid-width. ``element``: a rolling element about its centre,
-    its axis along x. ``end``: distance [m] along x from its centre to the side that faces the
-    viewer.
+    Rings are cut at mid-width: their profiles are of the half with x < 0. An element's is about its
+    centre, its axis along x.
     """
 
-    rings: Callable[[Any], tuple[Profile, Profile]]
-    element: Callable[[Any], pyvista.PolyData]
-    end: Callable[[Any], float]
+    inner: Profile
+    outer: Profile
+    element: Profile
+
+    @property
+    def end(self) -> float:
+        """Distance [m] along x from an element's centre to the side that faces the viewer."""
+        return max(x for x, _ in self.element)
+
+
+ShapesOf = Callable[[Any], Shapes]  # of a bearing of the family
 
 
 def shapes_of(bearing: Bearing) -> Shapes:
-    """Solids of a bearing's family."""
-    found: Shapes = FAMILIES[bearing.family].shapes()
+    """Profiles of a bearing, by its family; InputError for a bearing of none."""
+    if bearing.family not in FAMILIES:
+        raise InputError(f"There is no picture of a {type(bearing).__name__}.", where="bearing")
+    found: Shapes = FAMILIES[bearing.family].shapes()(bearing)
     return found

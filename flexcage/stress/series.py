@@ -12,6 +12,8 @@ from flexcage.core.units import parse
 from flexcage.mesh.series import Frame
 from flexcage.stress.operators import von_mises
 
+ABOUT_PEAK = 4e-4  # s before and after the largest stress: what animations and VTU series show
+
 
 def samples_near(t: np.ndarray, times: Sequence[float | str]) -> np.ndarray:
     """Numbers (n,) of the samples of the rising ``t`` [s] nearest to ``times``, in seconds or texts

@@ -18,7 +18,7 @@ from flexcage.results.files import load, save
 from flexcage.results.known import CONVERGENCE, KNOWN, STATISTIC, marked
 from flexcage.results.statistics import spread
 from flexcage.results.summary import Row, Summary
-from flexcage.run_folder import write_case
+from flexcage.run.folder import write_case
 from flexcage.study.convergence import Convergence, Finding
 from flexcage.study.work import run_in
 

@@ -10,7 +10,7 @@ from math import prod
 from operator import or_
 
 from flexcage.case import Case
-from flexcage.case.case import ALIASES
+from flexcage.case.tables import ALIASES
 from flexcage.core.errors import InputError
 from flexcage.core.hashing import content_hash
 from flexcage.core.units import format_si

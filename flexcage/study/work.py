@@ -22,7 +22,7 @@ from flexcage.core.errors import EnvironmentLacks, FlexcageError, InputError
 from flexcage.core.threads import on_one_core
 from flexcage.mesh.options import MeshOptions
 from flexcage.run import Run
-from flexcage.run_folder import was_written, write_case
+from flexcage.run.folder import was_written, write_case
 from flexcage.simulate import load_run, simulate
 from flexcage.stages import cage_mesh, cage_reduction, keep_at_hand
 from flexcage.study.folder import CaseRow, Failure, Folder

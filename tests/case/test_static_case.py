@@ -8,8 +8,8 @@ import pytest
 
 import flexcage
 from flexcage.case import Case, StaticCase, load_case, load_static
+from flexcage.case.presets import load_preset
 from flexcage.core.errors import InputError
-from flexcage.geometry.presets import load_preset
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 BEARING = '[bearing]\npreset = "7010C-PI"\n'
@@ -160,9 +160,21 @@ def test_the_start_of_a_table_counts():
     assert load_static(BALLS, overrides=drive).speed == pytest.approx(np.pi)
 
 
-def test_a_run_passes_over_the_static_section():
+def test_a_run_keeps_the_static_section_and_does_not_read_it():
     text = '[bearing]\npreset = "N1013"\n'
-    assert load_case(text + '[static]\ntilt = "held"\n') == load_case(text)
+    plain, with_options = load_case(text), load_case(text + '[static]\ntilt = "free"\n')
+    assert with_options.hash == plain.hash and not with_options.difference(plain)
+    assert "[static]" not in plain.to_toml() and load_case(with_options.to_toml()) == with_options
+    assert with_options.static.tilt == "free"
+
+
+def test_one_file_has_one_static_solution():
+    """Whether it is read as a simulation's case or as that of a static solution."""
+    text = BALLS + '[drive]\nspeed = "20000 rpm"\n[static]\ngyroscopic = "shared"\n'
+    own, of_run = (flexcage.solve_static(load(text)) for load in (load_static, load_case))
+    np.testing.assert_array_equal(own.elements.angle, of_run.elements.angle)
+    free = flexcage.solve_static(load_case(text, overrides={"static.gyroscopic": "none"}))
+    assert np.abs(free.elements.angle - own.elements.angle).max() > 1e-4
 
 
 def test_built_from_objects():

@@ -78,6 +78,16 @@ def test_a_stub_gives_type_checkers_what_a_door_gives_python(door):
     assert sorted(exported) == importlib.import_module(door).__all__
 
 
+def test_a_misspelt_name_is_answered_with_the_nearest():
+    for door, name, where in (
+        (flexcage, "simulat", "flexcage.simulate"),
+        (flexcage, "Drvie", "flexcage.spec.Drive"),
+        (spec, "Drvie", "flexcage.spec.Drive"),
+    ):
+        with pytest.raises(AttributeError, match=rf"'{name}'; did you mean {where}\?"):
+            getattr(door, name)
+
+
 def test_the_door_shows_few_names():
     assert len(dir(flexcage)) <= 35
     assert {"simulate", "Case", "Run", "InputError", "spec", "register"} <= set(dir(flexcage))

@@ -7,6 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from flexcage.case.presets import load_preset
 from flexcage.core.errors import InputError
 from flexcage.geometry.ball_cage_defects import (
     DisplacedPocket,
@@ -21,8 +22,6 @@ from flexcage.geometry.ball_cage_defects import (
     web_thickness,
 )
 from flexcage.geometry.cages import SideBeamDefect
-from flexcage.geometry.checks import check_geometry
-from flexcage.geometry.presets import load_preset
 
 MM = 1e-3
 PRESET = load_preset("7603025")
@@ -188,9 +187,9 @@ def test_uneven_pockets_are_random_by_their_seed_and_centred():
 
 
 def test_a_bearing_checks_its_cages_defects():
-    check_geometry(BEARING, CAGE, (EnlargedPocket(pocket=1, increase=0.2 * MM),))
+    BEARING.check(CAGE, (EnlargedPocket(pocket=1, increase=0.2 * MM),))
     with pytest.raises(InputError, match="greater than the ball's"):
-        check_geometry(BEARING, CAGE, (EnlargedPocket(pocket=1, increase=-0.4 * MM),))
+        BEARING.check(CAGE, (EnlargedPocket(pocket=1, increase=-0.4 * MM),))
     with pytest.raises(InputError, match="webs thinner than zero"):
         sound = EnlargedPocket(pocket=1, increase=0.1 * MM)
-        check_geometry(BEARING, replace(CAGE, bore=30.0 * MM), (sound,))
+        BEARING.check(replace(CAGE, bore=30.0 * MM), (sound,))

@@ -7,9 +7,9 @@ import numpy as np
 import pytest
 
 from flexcage.case import load_case
+from flexcage.case.presets import load_preset
 from flexcage.core.errors import InputError
 from flexcage.geometry.ball_cages import BallCage
-from flexcage.geometry.presets import load_preset
 from flexcage.geometry.ribbon_cage import RibbonCage
 
 PRESET = load_preset("15x37x10")

@@ -13,8 +13,9 @@ from flexcage.geometry.cages import (
     pocket_changes,
     side_beam_shape,
 )
-from flexcage.mesh.measure import in_pocket_frame, pocket_size
+from flexcage.mesh.measure import in_pocket_frame
 from flexcage.mesh.quality import check_mesh, report_mesh
+from flexcage.mesh.window_measure import pocket_size
 
 MM = 1e-3
 SHAPES = ("bent", "shifted")

@@ -7,8 +7,8 @@ from dataclasses import fields
 import numpy as np
 import scipy.sparse as sp
 
+from flexcage.cages.build import build_cage_mesh
 from flexcage.geometry.cages import CrossbeamDefect, SideBeamDefect, WindowCage
-from flexcage.mesh.build import build_cage_mesh
 from flexcage.mesh.options import MeshOptions
 
 POCKETS = 12

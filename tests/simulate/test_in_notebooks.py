@@ -71,6 +71,13 @@ def test_a_summary_is_short_in_a_terminal_and_whole_in_a_notebook():
     assert cells(tree) == [[*value, "mean"], [*value, "mean; of all"]]
 
 
+def test_a_static_case_shows_what_it_asks():
+    bearing = flexcage.load_preset("7010C-PI").bearing
+    case = flexcage.StaticCase(bearing=bearing, load=flexcage.spec.Load(axial=500.0))
+    tree = ElementTree.fromstring(case._repr_html_())
+    assert "7010C" in tree[0].text and cells(tree)[1:] == [["load.axial", "500 N"]]
+
+
 @pytest.mark.parametrize(("preset", "load"), [("N1013", "radial"), ("7010C-PI", "axial")])
 def test_a_static_solution_shows_what_its_text_says(preset, load):
     bearing = flexcage.load_preset(preset).bearing

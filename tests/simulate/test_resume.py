@@ -11,7 +11,7 @@ from flexcage.core.errors import InputError, RunFailed
 from flexcage.integrate import integration, recorded
 from flexcage.results.registry import VARIABLES
 from flexcage.results.store import RunStore
-from flexcage.run_folder import write_case
+from flexcage.run.folder import write_case
 from flexcage.simulate import load_run, simulate
 
 BLOCK = 50 / 50e3  # [s]

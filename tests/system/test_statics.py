@@ -7,11 +7,11 @@ import numpy as np
 import pytest
 from scipy.optimize import brentq
 
+from flexcage.case.presets import load_preset
 from flexcage.contacts.spec import Contacts, PairSpec
 from flexcage.core.errors import InputError, RunFailed
 from flexcage.geometry.cylindrical_roller import RollerProfile
 from flexcage.geometry.hertz import series_stiffness
-from flexcage.geometry.presets import load_preset
 from flexcage.system.spec import Load
 from flexcage.system.statics import balls, rollers
 from flexcage.system.statics.elements import elements_of

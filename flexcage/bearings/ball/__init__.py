@@ -9,7 +9,7 @@ from flexcage.geometry.angular_contact_ball import AngularContactBallBearing
 from flexcage.geometry.deep_groove_ball import DeepGrooveBallBearing
 
 if TYPE_CHECKING:
-    from flexcage.render.shapes import Shapes
+    from flexcage.render.shapes import ShapesOf
     from flexcage.results.figures import OwnFigures
     from flexcage.results.metrics import ElementSpeed
     from flexcage.results.registry import OwnVariables
@@ -34,16 +34,16 @@ def _figures() -> OwnFigures:
     return FIGURES
 
 
-def _shapes() -> Shapes:
-    from flexcage.render.ball_shapes import SHAPES
-
-    return SHAPES
-
-
 def _rubbing() -> Rub:
     from flexcage.stress.ball_rubbing import rubbing
 
     return rubbing
+
+
+def _shapes() -> ShapesOf:
+    from flexcage.render.ball_shapes import ball_shapes
+
+    return ball_shapes
 
 
 FAMILY = Family(
@@ -52,6 +52,6 @@ FAMILY = Family(
     variables=_variables,
     speed=_speed,
     figures=_figures,
-    shapes=_shapes,
     rubbing=_rubbing,
+    shapes=_shapes,
 )

@@ -5,10 +5,10 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from flexcage.bearings.family import Family
-from flexcage.geometry.cylindrical_roller import RollerBearing
+from flexcage.geometry.cylindrical_roller import OTHER_DESIGNS, RollerBearing
 
 if TYPE_CHECKING:
-    from flexcage.render.shapes import Shapes
+    from flexcage.render.shapes import ShapesOf
     from flexcage.results.figures import OwnFigures
     from flexcage.results.metrics import ElementSpeed
     from flexcage.results.registry import OwnVariables
@@ -33,24 +33,25 @@ def _figures() -> OwnFigures:
     return FIGURES
 
 
-def _shapes() -> Shapes:
-    from flexcage.render.roller_shapes import SHAPES
-
-    return SHAPES
-
-
 def _rubbing() -> Rub:
     from flexcage.stress.roller_rubbing import rubbing
 
     return rubbing
 
 
+def _shapes() -> ShapesOf:
+    from flexcage.render.roller_shapes import roller_shapes
+
+    return roller_shapes
+
+
 FAMILY = Family(
     name="cylindrical_roller",
     types=(RollerBearing,),
+    other_designs=OTHER_DESIGNS,
     variables=_variables,
     speed=_speed,
     figures=_figures,
-    shapes=_shapes,
     rubbing=_rubbing,
+    shapes=_shapes,
 )

@@ -1,4 +1,4 @@
-"""Reading a case: from a file, from TOML text, or from nested tables."""
+"""Nested tables of a case: from a file, from TOML text, or from tables."""
 
 from __future__ import annotations
 
@@ -6,34 +6,9 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-from flexcage.case.case import Case, expanded
+from flexcage.case.tables import expanded
 from flexcage.core.errors import InputError
 from flexcage.core.toml import read_toml
-
-
-def load_case(
-    source: str | Path | Mapping[str, Any] | Case,
-    *,
-    overrides: Mapping[str, Any] | None = None,
-    preset: str | None = None,
-) -> Case:
-    """Case from a .toml file, TOML text, or nested tables.
-
-    ``overrides`` maps dotted paths to text with units ({"cage.pocket_width": "8.25 mm"});
-    ``preset`` takes the place of ``bearing.preset``, as an override of that path does. A mistake
-    raises InputError.
-    """
-    overrides = dict(overrides or {})
-    if not isinstance(source, Case):
-        preset = overrides.pop("bearing.preset", preset)
-    if isinstance(source, Case):
-        case = source
-    else:
-        table, folder = read_case(source)
-        if preset is not None:
-            table = {**table, "bearing": {**table.get("bearing", {}), "preset": preset}}
-        case = Case.from_table(table, folder=folder)
-    return case.replace(si=False, **overrides) if overrides else case
 
 
 def read_case(source: str | Path | Mapping[str, Any]) -> tuple[dict[str, Any], Path | None]:

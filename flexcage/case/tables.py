@@ -1,0 +1,109 @@
+"""Nested tables of a case's text: presets, aliases, paths and values."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any
+
+from flexcage.case.presets import NAMED, Preset, load_preset
+from flexcage.core.binding import chosen_spec, to_table
+from flexcage.core.errors import InputError
+
+# In text the cage's model stands with the cage; the preset, with the bearing.
+ALIASES = {"cage.model": "cage_model", "bearing.preset": "preset"}
+
+
+def without_aliases(table: Mapping[str, Any]) -> dict[str, Any]:
+    """Tables of a text with its aliases replaced by the fields that they stand for."""
+    plain = dict(table)
+    for alias, field in ALIASES.items():
+        room, key = alias.split(".")
+        section = plain.get(room)
+        if isinstance(section, Mapping) and key in section:
+            plain[room] = {k: v for k, v in section.items() if k != key}
+            plain[field] = section[key]
+    return plain
+
+
+def with_preset(table: dict[str, Any]) -> dict[str, Any]:
+    """Tables of the preset that a case names, overridden by its own."""
+    name = table.get("preset")
+    if isinstance(name, int) and not isinstance(name, bool):
+        name = str(name)  # many designations are
+        table = {**table, "preset": name}
+    if not name:
+        return dict(table)
+    if not isinstance(name, str):
+        raise InputError(f"bearing.preset is {name!r}, but should be text.", where="bearing.preset")
+    return _merge(_without_other_cage(load_preset(name), table), table)
+
+
+def _without_other_cage(preset: Preset, table: Mapping[str, Any]) -> Mapping[str, Any]:
+    """A preset's tables without values of its cage that the kind a case asks for has not."""
+    own, cage = table.get("cage"), preset.tables.get("cage")
+    if not isinstance(own, Mapping) or "type" not in own or not isinstance(cage, Mapping):
+        return preset.tables
+    known = chosen_spec(preset.bearing.cage_spec, own).__dataclass_fields__
+    return {**preset.tables, "cage": {k: v for k, v in cage.items() if k in known}}
+
+
+def _merge(low: Mapping[str, Any], high: Mapping[str, Any]) -> dict[str, Any]:
+    """Tables of ``low`` overridden by ``high``, table by table; a name in ``low`` is one too."""
+    merged = dict(low)
+    for key, value in high.items():
+        below = merged.get(key)
+        if isinstance(value, Mapping) and isinstance(below, str):
+            below = {"name": below}  # a material by name, of which some values are overridden
+        both = isinstance(value, Mapping) and isinstance(below, Mapping)
+        merged[key] = _merge(below, value) if both else value  # type: ignore[arg-type]
+    return merged
+
+
+def as_pairs(path: Any, value: Any) -> dict[str, Any]:
+    """Values by dotted path, from one path and its value or a mapping of them."""
+    table = path if isinstance(path, Mapping) else {path: value}
+    if path is None and value is None:
+        return {}
+    for key in table:
+        if not isinstance(key, str):
+            raise InputError(
+                f"replace wants dotted paths, such as 'drive.speed', not {key!r}.", value=key
+            )
+    if table is path and value is not None:
+        raise InputError(
+            f"replace wants a path and its value, or a table of them alone, not also {value!r}.",
+            value=value,
+        )
+    return dict(table)
+
+
+@contextmanager
+def words_of_text() -> Iterator[None]:
+    """Name values in errors as the text does: cage.model, not cage_model."""
+    try:
+        yield
+    except InputError as exc:
+        for alias, field in ALIASES.items():
+            if exc.where == field:
+                raise InputError(
+                    str(exc).replace(field, alias, 1), where=alias, value=exc.value
+                ) from exc
+        raise
+
+
+def as_table(section: Any) -> Mapping[str, Any]:
+    return section if isinstance(section, Mapping) else to_table(section, named=NAMED)
+
+
+def expanded(file: str | Path, *, where: str) -> Path:
+    """Path of a file with the home folder in the place of ``~``."""
+    try:
+        return Path(file).expanduser()
+    except RuntimeError as exc:
+        raise InputError(
+            f"{where} is '{file}', but there is no user whose home folder that begins with.",
+            where=where,
+            value=str(file),
+        ) from exc

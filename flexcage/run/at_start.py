@@ -1,0 +1,76 @@
+"""What must be known of a run before it begins."""
+
+from __future__ import annotations
+
+import logging
+
+import numpy as np
+
+from flexcage.cages import cage_type_of
+from flexcage.case import Case
+from flexcage.case.checks import land_beside_shoulder, not_reached
+from flexcage.core.errors import InputError
+from flexcage.core.threads import one_blas_thread
+from flexcage.core.warning import RunWarning
+from flexcage.mesh.cage_mesh import CageMesh
+from flexcage.modes.reduction import CageReduction
+from flexcage.results.warnings import AT_START, Setup, warnings_of
+from flexcage.stress.operators import von_mises
+from flexcage.stress.recovery import CageLoads
+from flexcage.stress.run_stress import recovery_of
+from flexcage.system.start import Start
+
+log = logging.getLogger(__name__)
+
+
+def warnings_at_start(
+    case: Case, mesh: CageMesh, cage: CageReduction | None, start: Start
+) -> tuple[RunWarning, ...]:
+    """What must be known of a run before it begins, logged too; InputError for a cage that its
+    assembly alone stresses more than the case allows."""
+    setup = Setup(
+        bearing=case.bearing,
+        cage=case.cage,
+        land=case.land,
+        mesh=mesh,
+        flexible=cage is not None,
+        basis=case.modes.kind,
+        attached=cage is None or bool(np.any(getattr(cage.interface, "compliance", True))),
+        pinched=start.pinched,
+        pinch_force=start.pinch_force,
+        statics=start.warnings,
+    )
+    said = [("not_reached", s) for s in not_reached(case)]
+    said += [("land_clearance", s) for s in land_beside_shoulder(case)]
+    found = (
+        *(RunWarning(*each) for each in said),
+        *warnings_of(AT_START, setup),
+        *_assembly_stress(case, cage, start),
+    )
+    for warning in found:
+        log.warning(warning.text)
+    return found
+
+
+@one_blas_thread
+def _assembly_stress(case: Case, cage: CageReduction | None, start: Start) -> list[RunWarning]:
+    if cage is None or not start.pinched:
+        return []
+    recovery = recovery_of(cage, cage_type_of(case.cage).places())
+    loads = CageLoads(station_forces=start.station)
+    stress = von_mises(recovery.stress(recovery.displacement(loads), loads))
+    stress[recovery.contact_zone] = 0.0
+    peak, material = float(stress.max()), case.cage.material
+    text = f"Assembling the bearing stresses the cage to {peak / 1e6:.0f} MPa"
+    limit = case.limits.stress
+    if limit is not None and peak > limit:
+        raise InputError(
+            f"{text}, more than limits.stress ({limit / 1e6:.0f} MPa); make the defect "
+            "smaller, the pocket larger, or raise the limit",
+            where="defects",
+            value=peak,
+        )
+    if peak <= material.proof_stress:
+        return []
+    proof = f"the proof stress of {material.name} ({material.proof_stress / 1e6:.0f} MPa)"
+    return [RunWarning("assembly_stress", f"{text}, more than {proof}: it would yield.")]

@@ -1,0 +1,95 @@
+"""What pictures and the page show of a run, as values."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from flexcage.case import words
+from flexcage.render.album import Scene, StressPictures
+from flexcage.stress.midpoints import at_nodes, largest_at_nodes
+from flexcage.stress.series import ABOUT_PEAK
+from flexcage.system.bodies import loads_over
+
+if TYPE_CHECKING:
+    from flexcage.report.run_page import RunAccount
+    from flexcage.run.run import Run
+
+
+def scene_of(run: Run, *, animate: bool = False) -> Scene:
+    """What pictures and reports show of the run; ``animate`` adds an animation's frames."""
+    case, load = run.case, run.case.load
+    radial, axial = loads_over(load, run.dataset["time"].values).T
+    return Scene(
+        name=case.name,
+        dataset=run.dataset,
+        bearing=case.bearing,
+        mesh=run.mesh,
+        defects=case.defects,
+        loads=np.stack(
+            [axial, radial * np.cos(load.direction), radial * np.sin(load.direction)], axis=1
+        ),
+        clearance=case.land.clearance if case.bearing.land(case.cage) else None,
+        guide=case.cage.land_ring,
+        settle=case.output.settle,
+        stress=_stress_pictures(run, animate) if run.cage is not None else None,
+    )
+
+
+def _stress_pictures(run: Run, animate: bool) -> StressPictures:
+    history, peak = run.stress_history, run.stress()
+    envelope = np.zeros(len(run.mesh.points))
+    envelope[history.surface] = history.envelope
+    assert run.cage is not None
+    model = run.cage.model
+    frames = []
+    if animate:
+        t = run.dataset["time"].values
+        near = np.abs(t - peak.time) < ABOUT_PEAK
+        for instant in t[near]:
+            field = run.stress(time=instant)
+            frames.append((field.time, field.displacement, at_nodes(model, field.stress)))
+    return StressPictures(
+        nodes=model.nodes,
+        cells=model.cells,
+        basis=run.cage.shown,
+        time=peak.time,
+        displacement=peak.displacement,
+        von_mises=at_nodes(model, peak.stress),
+        envelope=largest_at_nodes(model, envelope, history.edges, history.middles),
+        peak_vertex=int(history.peak_vertex[history.peak_sample]),
+        peak_place=run.cage_stress.peak_place,
+        settled=history.settled,
+        roots=history.places,
+        root_names=history.place_names,
+        root_kind=run.cage_stress.places.kind,
+        frames=frames,
+    )
+
+
+def account_of(run: Run, images: Sequence[Path], no_images: str) -> RunAccount:
+    """What the run's page tells; ``no_images`` says why there are none."""
+    from flexcage.report.run_page import RunAccount
+
+    case = run.case
+    command = words.run_command("case.toml")
+    return RunAccount(
+        scene=scene_of(run),
+        summary=run.summary,
+        numbers=run.numbers,
+        statement=words.in_words(case),
+        warnings=[warning.text for warning in run.warnings],
+        steps=run.steps,
+        settings=words.settings(case),
+        assumptions=words.assumed(case),
+        sources=words.grounds(case),
+        case_text=case.to_toml(),
+        commands=f"{command} -o runs/again\nflexcage report runs/again",
+        images=images,
+        no_images=no_images,
+        folder=run.folder,
+        hash=case.hash,
+    )

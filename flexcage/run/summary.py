@@ -1,0 +1,122 @@
+"""The summary of a run: what its rooms say of it, section by section."""
+
+from __future__ import annotations
+
+import dataclasses
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from flexcage.mesh.quality import report_mesh
+from flexcage.results import mode_file
+from flexcage.results.edges import groove_edges
+from flexcage.results.figures import summarise
+from flexcage.results.film import film_rows
+from flexcage.results.metrics import SlipRange, settled
+from flexcage.results.summary import Row, Summary, figure
+from flexcage.results.warnings import AT_END, Outcome, from_attrs, warnings_of
+from flexcage.solve.contract import Effort
+from flexcage.system.bodies import unbalance_of
+
+if TYPE_CHECKING:
+    from flexcage.run.run import Run
+
+# measured on pinched pockets of an N1013, in tests/verification/test_pinch.py
+_FAR = (
+    "of a push's deflection of its own pocket, what others would feel of it beyond the modes; "
+    "changes an N1013's pinch forces by under 0.5 %"
+)
+_NO_TIME = 1e-3  # s: a stage that is shorter had nothing to do
+_RARE = ("explicit_steps", "jacobians", "factorisations", "failed_newton")  # by method
+
+
+def summary_of(run: Run, *, stress: bool = True) -> Summary:
+    """Figures of a run; without ``stress`` the cage's is left out where it surely stays below the
+    proof stress."""
+    case, friction = run.case, run.case.contacts.race.friction
+    summary = summarise(
+        run.dataset,
+        run.numbers,
+        settle=case.output.settle,
+        slip_range=SlipRange(friction.creeps_below, friction.rises_below),
+        events=run.events,
+    )
+    part = settled(run.dataset, case.output.settle)
+    if film := film_rows(part, case.bearing, case.lubricant.oil):
+        summary = summary.with_section("Lubricant's film", film)
+    if edges := groove_edges(case.bearing, run.dataset):
+        summary = summary.with_section("Grooves", [edge.row for edge in edges])
+    summary = summary.with_section("Support", [figure("inner_held", case.held_in_words)])
+    summary = summary.with_section("Cage", _cage_rows(run))
+    proof = case.cage.material.proof_stress
+    if run.cage is not None and (stress or run.cage_stress.may_exceed(proof)):
+        summary = with_stress(summary, run)
+    if run.effort is not None:
+        summary = summary.with_section("Solver", _solver_rows(run.effort))
+    return warned(summary.with_section("Wall time", time_rows(run)), run)
+
+
+def with_stress(summary: Summary, run: Run) -> Summary:
+    """The summary with stress behind the cage's figures."""
+    summary = summary.with_section("Equivalent stress", run.stress_rows(), after="Cage")
+    if not run.case.riveted:
+        return summary
+    return summary.with_section("Rivets", run.rivets.rows(), after="Equivalent stress")
+
+
+def warned(summary: Summary, run: Run) -> Summary:
+    """The summary with its warnings."""
+    case = run.case
+    outcome = Outcome(
+        summary=summary,
+        dataset=run.dataset,
+        bearing=case.bearing,
+        cage=case.cage,
+        land=case.land,
+        duration=case.solver.duration,
+        settle=case.output.settle,
+        edges=tuple(groove_edges(case.bearing, run.dataset)),
+    )
+    known = from_attrs(run.dataset.attrs)
+    return dataclasses.replace(summary, warnings=(*known, *warnings_of(AT_END, outcome)))
+
+
+def time_rows(run: Run) -> list[Row]:
+    """Wall times of the stages."""
+    rows = [figure(f"wall_{k}", v, idle=v < _NO_TIME) for k, v in run.stages.items()]
+    return [*rows, figure("wall_total", run.stages.total)]
+
+
+def _cage_rows(run: Run) -> list[Row]:
+    cage, start = run.case.cage, run.start
+    report = report_mesh(run.mesh, density=cage.material.density)
+    mass, centre, note = report.volume * cage.material.density, report.mass_centre, ""
+    if cage.unbalance:
+        added, place = unbalance_of(cage)
+        centre = (mass * centre + added * place) / (mass + added)
+        mass += added
+        note = f"{added * 1e3:.4g} g of them make the unbalance, at the cage's mean radius"
+    rows = [
+        figure("cage_mass", mass, note),
+        figure("cage_centre_shift", float(np.linalg.norm(centre))),
+    ]
+    if run.cage is not None:
+        basis = run.cage.shown
+        where = mode_file.FILE if run.folder else "run.mode_table"
+        rows.append(figure("mode_count", basis.size, f"table: {where}"))
+        rows.append(figure("first_frequency", basis.frequencies[0]))
+        if basis.residual is not None:
+            rows.append(figure("far_coupling", basis.residual.far_coupling, _FAR))
+    if start is not None and start.pinched:
+        pockets = f"pockets {', '.join(map(str, start.pinched))}"
+        rows.append(figure("pinch_force", start.pinch_force, pockets))
+    return rows
+
+
+def _solver_rows(effort: Effort) -> list[Row]:
+    counts, stable_step = effort
+    rows = [figure(k, n, idle=not n and k in _RARE) for k, n in counts.items()]
+    if np.isfinite(stable_step):
+        note = "least over the run, by the spectral radius"
+        rows.append(figure("stable_step", stable_step, note))
+    return rows

@@ -1,0 +1,243 @@
+"""Stress of a flexible cage over one run: histories, whole fields, life, loads of rivets."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from functools import cached_property
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from flexcage.core.binding import check_spec, expect
+from flexcage.core.cache import cached_arrays
+from flexcage.core.errors import InputError
+from flexcage.core.progress import Silent
+from flexcage.core.threads import one_blas_thread
+from flexcage.mesh.cage_mesh import CageMesh
+from flexcage.modes.reduction import CageReduction
+from flexcage.results.figures import pass_peak
+from flexcage.results.metrics import BearingNumbers, cage_angle, settled
+from flexcage.results.statistics import roller_passes
+from flexcage.results.store import MemoryRunStore
+from flexcage.results.summary import Row, figure, statistic
+from flexcage.stress.between import Between
+from flexcage.stress.counting import require_pylife
+from flexcage.stress.fatigue import Fatigue, chosen_places, counted_stress, place_fatigue
+from flexcage.stress.fields import StressFields, TensorFields
+from flexcage.stress.history import StressHistory, histories_at, stress_bound, stress_history
+from flexcage.stress.loads import LandForces, cage_loads
+from flexcage.stress.operators import von_mises
+from flexcage.stress.places import Places, in_words
+from flexcage.stress.recovery import STRESS_VERSION, StressRecovery
+from flexcage.stress.rivets import Joints, RivetFields, Rivets, rivet_loads
+from flexcage.stress.series import as_time, samples_near
+from flexcage.stress.sn_curves import SNCurve, sn_curve
+
+if TYPE_CHECKING:
+    import xarray
+
+
+@dataclass(frozen=True)
+class StressField:
+    """Displacement and stress of the whole cage at one instant, cage frame."""
+
+    time: float  # [s]
+    displacement: np.ndarray  # (n_nodes, 3) [m], at the FE model's nodes
+    stress: np.ndarray  # (n_points, 6) [Pa] at mesh vertices: xx, yy, zz, xy, yz, xz
+
+    @property
+    def von_mises(self) -> np.ndarray:
+        """Equivalent stress (n_points,) [Pa]."""
+        return von_mises(self.stress)
+
+
+def recovery_of(cage: CageReduction, places: Places) -> StressRecovery:
+    """Stress recovery of a flexible cage, whose type has these ``places``; what it costs to prepare
+    is kept in the cache."""
+
+    def keep(name: str, make: Callable[[], dict[str, np.ndarray]]) -> dict[str, np.ndarray]:
+        return cached_arrays("stress", f"{cage.version}-{STRESS_VERSION}-{name}", make)
+
+    def make() -> StressRecovery:
+        return StressRecovery(
+            cage.model,
+            cage.shown,
+            cage.interface,
+            places=places,
+            solver=cage.solver,
+            keep=keep,
+        )
+
+    return cage.once("recovery", make)
+
+
+@dataclass(eq=False)
+class RunStress:
+    """Stress of a run's flexible cage, by mode acceleration.
+
+    ``settle`` is the share of the run that is left out of figures; ``inner_land`` says whether land
+    forces act on the cage's inner land. ``places`` are those of the cage's type.
+    """
+
+    cage: CageReduction
+    places: Places
+    mesh: CageMesh
+    dataset: xarray.Dataset
+    store: MemoryRunStore
+    numbers: BearingNumbers
+    settle: float
+    inner_land: bool
+    progress: Callable[..., Any] = field(default=Silent)
+
+    @cached_property
+    def recovery(self) -> StressRecovery:
+        return recovery_of(self.cage, self.places)
+
+    @cached_property
+    @one_blas_thread
+    def history(self) -> StressHistory:
+        """Equivalent stress at named places, peaks, and the envelope over all samples."""
+        return stress_history(
+            StressFields(self.recovery),
+            *self._moved_and_pushed(self.dataset),
+            settled=self._first_settled,
+            between=self._between,
+            progress=self.progress,
+        )
+
+    @property
+    def peak_time(self) -> float:
+        """Time [s] of the largest equivalent stress of the settled part."""
+        h = self.history
+        between = float(h.peak_time[h.peak_sample])
+        at_sample = float(self.dataset["time"].values[h.peak_sample])
+        return at_sample if np.isnan(between) else between
+
+    @property
+    def peak_place(self) -> str:
+        """Name of the followed place in which the peak is, or nothing."""
+        h = self.history
+        vertex = h.peak_vertex[h.peak_sample]
+        for name, vertices in self.recovery.roots.items():
+            if vertex in vertices:
+                return in_words(name)
+        return ""
+
+    @one_blas_thread
+    def at(self, time: float | str | None = None) -> StressField:
+        """Stress of the whole cage at the sample, or the step kept between samples, nearest to
+        ``time``; by default at the largest peak. InputError for a time outside the run."""
+        t = self.dataset["time"].values
+        wanted = self.peak_time if time is None else as_time(time)
+        index = int(samples_near(t, [wanted])[0])
+        instant = float(t[index])
+        loads = cage_loads(self.dataset, index, inner=self.inner_land)
+        step = self._between.nearest(wanted, index)
+        if step is not None and abs(step.time[0] - wanted) < abs(instant - wanted):
+            instant, loads = float(step.time[0]), step.cage_loads(loads.angular_velocity)
+        u = self.recovery.displacement(loads)
+        return StressField(instant, u, self.recovery.stress(u, loads))
+
+    @one_blas_thread
+    def may_exceed(self, stress: float) -> bool:
+        """Whether the equivalent stress may exceed ``stress`` [Pa], by a bound on it."""
+        bound = stress_bound(
+            StressFields(self.recovery),
+            *self._moved_and_pushed(self.dataset),
+            between=self._between,
+        )
+        return not bound <= stress
+
+    @one_blas_thread
+    def fatigue(self, place: str | None, curve: SNCurve | None, *, material: str) -> Fatigue:
+        """Damage and life at named places, or at one, over the settled part; by default with the
+        S-N curve of the ``material``."""
+        if isinstance(place, SNCurve):
+            raise InputError("fatigue takes a curve by its name, run.fatigue(curve=...).")
+        require_pylife()
+        used = sn_curve(material) if curve is None else curve
+        expect(used, SNCurve, "curve")
+        check_spec(used, "curve")
+        fields = TensorFields(self.recovery)
+        ds = settled(self.dataset, self.settle)
+        places = chosen_places(place, tuple(fields.places))
+        first = self.dataset.sizes["time"] - ds.sizes["time"]
+        samples, histories = histories_at(
+            fields, *self._moved_and_pushed(ds), places=places, between=self._between.since(first)
+        )
+        stresses = {}
+        for name, tensors in histories:
+            counted = counted_stress(tensors, used.mean_stress_sensitivity)
+            stresses[name] = (int(fields.vertices[fields.places[name][counted.point]]), counted)
+        windows, t = roller_passes(ds, self.numbers), ds["time"].values
+        turns = abs(float(np.ptp(cage_angle(ds)))) / (2.0 * np.pi)
+        time = float(t[-1] - t[0])
+        turn = time / turns if turns else float("nan")
+        step = time / (len(t) - 1)
+        return place_fatigue(stresses, used, windows, samples=samples, step=step, turn=turn)
+
+    @one_blas_thread
+    def rivets(self, *, diameter: float) -> Rivets:
+        """What rivets of a ``diameter`` [m] bear."""
+        joints = Joints(
+            self.recovery.model, self.mesh.pocket_count, 0.5 * self.numbers.pitch_diameter
+        )
+        return rivet_loads(
+            RivetFields(self.recovery, joints),
+            *self._moved_and_pushed(self.dataset),
+            time=self.dataset["time"].values,
+            diameter=diameter,
+            settled=self._first_settled,
+            between=self._between,
+        )
+
+    def rows(self, *, element: str) -> list[Row]:
+        """Figures of the summary's section "Equivalent stress"; ``element``: the bearing's word for
+        a rolling element."""
+        h = self.history
+        k = h.peak_sample
+        roots = h.places[h.settled :].max(axis=0)
+        root = int(np.argmax(roots))
+        at = self.mesh.points[h.peak_vertex[k]] * 1e3
+        place = f"t = {self.peak_time * 1e3:.3f} ms at "
+        place += f"({at[0]:.1f}, {at[1]:.1f}, {at[2]:.1f}) mm, cage frame"
+        part = self.dataset.isel(time=slice(h.settled, None))
+        windows, peak = roller_passes(part, self.numbers), h.at_sample[h.settled :]
+        kind = self.places.kind
+        corner = windows.peak(h.places[h.settled :].max(axis=1))
+        return [
+            figure(
+                "stress_peak",
+                float(h.peak[k]),
+                f"{place}; {kind.left_out} are never searched",
+                walls=kind.walls,
+            ),
+            statistic("stress_mean_peak", windows.mean(peak)),
+            statistic("stress_root_pass_peak", corner, pass_peak(element), place=f"a {kind.one}"),
+            figure(
+                "stress_root",
+                float(roots[root]),
+                in_words(h.place_names[root]),
+                place=f"a {kind.one}",
+            ),
+            figure("stress_start", float(h.peak[: h.settled].max(initial=0.0))),
+        ]
+
+    @property
+    def _first_settled(self) -> int:
+        """First sample of the settled part."""
+        return int(self.settle * self.dataset.sizes["time"])
+
+    @property
+    def _between(self) -> Between:
+        """Steps between samples, anew: what is read of them is not kept for the run's life."""
+        return Between(self.store, self.dataset["time"].values, inner=self.inner_land)
+
+    def _moved_and_pushed(self, ds: xarray.Dataset) -> tuple[Any, Any, LandForces | None]:
+        """Modal coordinates, station forces and land forces of samples: what histories want.
+
+        Read from disk slice by slice: a second of a roller bearing has 0.4 GB of station forces.
+        """
+        land = LandForces(ds, inner=self.inner_land)
+        return ds["modal_coordinates"], ds["station_force"], land or None
