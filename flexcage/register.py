@@ -1,4 +1,4 @@
-"""Add what is yours: laws, constraints, mode bases, integrators, variables, pictures, materials."""
+"""Add what is yours: bearing families, laws, constraints, mode bases, variables, pictures, ..."""
 
 from flexcage._names import lazy
 

@@ -8,6 +8,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Any
 
+from flexcage.bearings import recording_of
 from flexcage.case import Case
 from flexcage.core.binding import expect
 from flexcage.core.locks import held
@@ -61,7 +62,7 @@ def _simulated(
 ) -> Run:
     stages = Stages(progress)
     begun = begun_store(folder, case) if folder and resume else None
-    compiling = begin_compiling(case.bearing.element)
+    compiling = begin_compiling(case)
     if folder and begun:
         mesh, cage = stored_cage(case, begun, folder, stages)
     else:
@@ -73,7 +74,9 @@ def _simulated(
         case, bearing, (mesh, cage), folder, study=Path(study) if study else None, warned=warned
     )
     run = Run(case, store, folder, mesh, cage, start, stages)
-    integration = Integration(bearing, start, store, solver=case.solver, output=case.output)
+    integration = Integration(
+        bearing, recording_of(case.bearing), start, store, solver=case.solver, output=case.output
+    )
     stages("solve", integration.march, progress)
     return run.finish(integration.effort, stress=stress)
 

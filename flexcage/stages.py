@@ -13,9 +13,12 @@ from typing import Any
 
 import numpy as np
 
+from flexcage.bearings import motion_of, recording_of
 from flexcage.bodies.cage import BODY_VERSION, flexible_from_reduction, rigid_from_tets
+from flexcage.bodies.floating_frame import FlexibleBody
 from flexcage.cages.build import build_cage_mesh, reduce_cage, reduction_of, rigid_interface_of
-from flexcage.case import Case
+from flexcage.case import Case, load_case, load_extension
+from flexcage.case.extensions import sources
 from flexcage.core import jit
 from flexcage.core.cache import cached_arrays
 from flexcage.core.hashing import content_hash
@@ -24,7 +27,6 @@ from flexcage.core.timing import Stages
 from flexcage.core.warning import RunWarning
 from flexcage.integrate.recorded import new_store
 from flexcage.mesh.cage_mesh import CageMesh
-from flexcage.mesh.options import MeshOptions
 from flexcage.mesh.quality import check_mesh
 from flexcage.modes.reduction import CageReduction
 from flexcage.modes.table import ModeTable
@@ -35,10 +37,8 @@ from flexcage.results.store import MemoryRunStore
 from flexcage.results.warnings import to_text
 from flexcage.run.folder import keep_cage, kept_cage, write_case
 from flexcage.static import AT_START, solve_static
-from flexcage.system import ball_start  # noqa: F401  (registers the start of ball bearings)
 from flexcage.system.constraints import names_of
 from flexcage.system.layout import Layout
-from flexcage.system.model import build_model
 from flexcage.system.problem import Bearing
 from flexcage.system.start import Start, constrained, find_start, pushed
 
@@ -68,6 +68,7 @@ def run_store(
     return new_store(
         folder and folder / "results.zarr",
         bearing,
+        recording_of(case.bearing),
         duration=case.solver.duration,
         output=case.output,
         attrs=attrs,
@@ -125,7 +126,8 @@ def _cage_file(case: Case, cage: Cage) -> CageFile:
 def announce_room(case: Case, bearing: Bearing, folder: Path) -> None:
     """Say how much room the results will take; EnvironmentLacks if there cannot be enough."""
     output = case.output
-    short = new_store(None, bearing, duration=0.0, output=output, attrs={})
+    recording = recording_of(case.bearing)
+    short = new_store(None, bearing, recording, duration=0.0, output=output, attrs={})
     rate = room.expected_rate(short.layout, output.rate, output.vibration_rate)
     room.announce(folder, rate, case.solver.duration)
 
@@ -181,13 +183,13 @@ SAME_PACKAGE = (
 )
 
 
-def begin_compiling(element: str) -> Compiling | None:
-    """Begin to compile the kernels in a process of its own, if they are not on disk yet: those of
-    bearings with these elements ("roller", "ball").
+def begin_compiling(case: Case) -> Compiling | None:
+    """Begin to compile the kernels of the case's family in a process of its own, if they are not on
+    disk yet.
 
     Meanwhile the cage is meshed and reduced. ``build_bearing`` helps, and waits for it.
     """
-    if jit.kernels_cached(element):
+    if jit.kernels_cached(case.bearing.family):
         return None
     log.info("compiling the kernels for the first time: 20 to 30 seconds, once")
     pieces, end = os.pipe()
@@ -195,27 +197,31 @@ def begin_compiling(element: str) -> Compiling | None:
     os.close(end)
     command = f"{SAME_PACKAGE}; from flexcage.core.orphan import end_with; "
     command += f"end_with({os.getpid()}); from flexcage.stages import compile_pieces; "
-    command += f"compile_pieces({element!r})"
+    command += "compile_pieces(*sys.argv[1:])"
     try:
         helper = subprocess.Popen(
-            [sys.executable, "-P", "-c", command], stdin=pieces, stdout=subprocess.DEVNULL,
-            stderr=subprocess.DEVNULL, env={**os.environ, **jit.cache_environment()},
+            [sys.executable, "-P", "-c", command, case.to_toml(), *sources()],
+            stdin=pieces, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
+            env={**os.environ, **jit.cache_environment()},
         )  # fmt: skip
     except OSError:
-        helper = None  # then this process does it alone
+        helper = None  # then, or if the case is too long for a command, this one does it alone
     return Compiling(pieces, helper)
 
 
-#: A preset with each kind of elements: equations of motion are the same for all of a kind.
-EXAMPLES = {"roller": "N1013", "ball": "7010C-PI"}
 MOST_PIECES = 32  # there are fewer
 
 
-def compile_pieces(element: str) -> None:
-    """Compile pieces of the kernels of bearings with these elements: those that standard input
-    numbers."""
-    case = Case.from_preset(EXAMPLES[element], mesh=MeshOptions(fineness="coarse"))
-    _compile_from(sys.stdin.fileno(), _bearing_of(case, cage_mesh(case), None))
+def compile_pieces(text: str, *use: str) -> None:
+    """Compile pieces of the kernels of a case, canonical TOML: those that standard input numbers.
+
+    ``use``: the user's files to load first. Kernels are the same for every cage: any body serves.
+    """
+    for source in use:
+        load_extension(source)
+    case = load_case(text)
+    body = rigid_from_tets(np.eye(4, 3, -1), np.array([[0, 1, 2, 3]]), 1.0)
+    _compile_from(sys.stdin.fileno(), _bearing_of(case, body, _rigid_interface(case)))
 
 
 def _compile_from(pieces: int, bearing: Bearing) -> None:
@@ -230,8 +236,8 @@ def build_bearing(
     case: Case, mesh: CageMesh, cage: CageReduction | None, compiling: Compiling | None = None
 ) -> Bearing:
     """Bodies, contacts and compiled equations of motion."""
-    bearing, element = _bearing_of(case, mesh, cage), case.bearing.element
-    compiling = compiling or begin_compiling(element)
+    bearing = _bearing_of(case, *_cage_in_motion(case, mesh, cage))
+    compiling = compiling or begin_compiling(case)
     if compiling is not None:
         _compile_from(compiling.pieces, bearing)
         os.close(compiling.pieces)
@@ -240,7 +246,7 @@ def build_bearing(
         for piece in bearing.pieces():  # what the helper took: read from disk, or compiled here
             piece()
     bearing.evaluate  # noqa: B018
-    jit.mark_compiled(element)
+    jit.mark_compiled(case.bearing.family)
     return bearing
 
 
@@ -262,21 +268,31 @@ def assembled_start(case: Case, bearing: Bearing, progress: Callable[..., Any] =
     return constrained(start, bearing, case.constraints, limit_force=limit)
 
 
-def _bearing_of(case: Case, mesh: CageMesh, cage: CageReduction | None) -> Bearing:
-    Z = case.bearing.element_count
-    if cage is None:
-        body = rigid_from_tets(mesh.points, mesh.tets, case.cage.material.density)
-        interface = rigid_interface_of(case.cage, pocket_count=Z, defects=case.all_defects)
-    else:
+def _cage_in_motion(
+    case: Case, mesh: CageMesh, cage: CageReduction | None
+) -> tuple[FlexibleBody, Any]:
+    """The cage's body, and what moves in its pockets."""
+    if cage is not None:
         body = flexible_from_reduction(cage, case.modes.damped_as(case.cage.material))
-        interface = cage.interface
-    model = build_model(
+        return body, cage.interface
+    body = rigid_from_tets(mesh.points, mesh.tets, case.cage.material.density)
+    return body, _rigid_interface(case)
+
+
+def _rigid_interface(case: Case) -> Any:
+    count = case.bearing.element_count
+    return rigid_interface_of(case.cage, pocket_count=count, defects=case.all_defects)
+
+
+def _bearing_of(case: Case, body: FlexibleBody, interface: Any) -> Bearing:
+    motion, Z = motion_of(case.bearing), case.bearing.element_count
+    model = motion.build_model(
         case.bearing, case.cage, body, interface, contacts=case.contacts,
         lubricant=case.lubricant, drive=case.drive, load=case.load, mount=case.mount,
         seed=case.seed,
     )  # fmt: skip
     return Bearing(
-        model, case.contacts, Layout(Z, body.modes, names_of(case.constraints)),
+        motion, model, case.contacts, Layout(Z, body.modes, names_of(case.constraints)),
         constraints=case.constraints, block=case.output.block, stride=case.output.vibration_ratio,
         interval=1.0 / case.output.rate,
     )  # fmt: skip

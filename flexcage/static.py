@@ -7,6 +7,7 @@ from pathlib import Path
 
 import numpy as np
 
+from flexcage.bearings import statics_of
 from flexcage.case import Case, StaticCase
 from flexcage.contacts.spec import EhlTraction
 from flexcage.core.binding import expect
@@ -28,8 +29,8 @@ def solve_static(case: StaticCase, *, options: StaticOptions | None = None) -> S
     """
     expect(case, (StaticCase, Case), "case", "flexcage.load_static reads one from a file")
     return solve_bearing(
-        case.bearing, load=case.load, speed=case.speed, contacts=case.contacts,
-        lubricant=case.lubricant, options=options or case.static,
+        case.bearing, statics_of(case.bearing), load=case.load, speed=case.speed,
+        contacts=case.contacts, lubricant=case.lubricant, options=options or case.static,
     )  # fmt: skip
 
 

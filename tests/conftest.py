@@ -51,7 +51,7 @@ def n1013():
 def build_parts(n1013):
     """build_parts(...) -> model of the N1013; keywords replace specs or their values."""
     from flexcage.contacts.spec import Contacts, Lubricant
-    from flexcage.system.model import build_model
+    from flexcage.system.roller_model import build_roller_model
     from flexcage.system.spec import Drive, Load, Mount
 
     def build(
@@ -59,7 +59,7 @@ def build_parts(n1013):
         drive=None, load=None, mount=None,
     ):  # fmt: skip
         b, c = replace(n1013[0], **(bearing or {})), replace(n1013[1], **(cage or {}))
-        return build_model(
+        return build_roller_model(
             b, c, body or hollow_cylinder(c), interface or rigid_interface(b.roller_count),
             contacts=contacts or Contacts(), lubricant=lubricant or Lubricant(),
             drive=drive or Drive(), load=load or Load(), mount=mount or Mount(),

@@ -1,11 +1,17 @@
 """One folder a bearing family; a new one is its folder and its line here."""
 
 from flexcage.bearings import ball, cylindrical_roller
-from flexcage.bearings.family import Family, family_of
+from flexcage.bearings.family import (
+    Family,
+    family_of,
+    motion_of,
+    recording_of,
+    statics_of,
+)
 
 MEMBERS = (
     cylindrical_roller.FAMILY,
     ball.FAMILY,
 )
 
-__all__ = ["MEMBERS", "Family", "family_of"]
+__all__ = ["MEMBERS", "Family", "family_of", "motion_of", "recording_of", "statics_of"]

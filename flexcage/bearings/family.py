@@ -4,17 +4,22 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, cast
+from typing import TYPE_CHECKING, Any, cast
 
+from flexcage.core.errors import InputError
+from flexcage.core.registry import check_free
 from flexcage.core.wings import FAMILIES
-from flexcage.geometry.bearing import Bearing
+from flexcage.geometry.bearing import BEARING_TYPES, Bearing, name_of
 
 if TYPE_CHECKING:
+    from flexcage.integrate.recording import Recording
     from flexcage.render.shapes import ShapesOf
     from flexcage.results.figures import OwnFigures
     from flexcage.results.metrics import ElementSpeed
     from flexcage.results.registry import OwnVariables
     from flexcage.stress.rubbing import Rub
+    from flexcage.system.motion import Motion
+    from flexcage.system.statics.elements import ElementsOf
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -23,16 +28,21 @@ class Family:
 
     ``types``: the specs of its types of bearing, which bring dimensions, checks, ratings and films
     with them; ``other_designs`` maps patterns of names that are no types here to what there is
-    instead. All else is heavy: functions without arguments that import what they return.
+    instead. All else is heavy: functions without arguments that import what they return. None
+    where a family has nothing of the kind: no static solution (``statics``), or neither equations
+    of motion (``motion``) nor a record of them (``recording``), no pictures (``shapes``).
     """
 
     name: str
     types: tuple[type[Bearing], ...]
-    variables: Callable[[], OwnVariables]  # that its runs record beside the common ones
-    speed: Callable[[], ElementSpeed]  # how its elements turn about their own axes, and slip
-    figures: Callable[[], OwnFigures]  # of its runs' summaries beside the common ones
-    rubbing: Callable[[], Rub]  # of its elements in their pockets, for wear
-    shapes: Callable[[], ShapesOf]  # profiles of rings and elements, for pictures
+    statics: Callable[[], ElementsOf] | None
+    motion: Callable[[], Motion[Any]] | None
+    recording: Callable[[], Recording[Any]] | None
+    variables: Callable[[], OwnVariables] | None  # that its runs record beside the common ones
+    speed: Callable[[], ElementSpeed] | None  # how its elements turn about their axes, and slip
+    figures: Callable[[], OwnFigures] | None  # of its runs' summaries beside the common ones
+    rubbing: Callable[[], Rub] | None  # of its elements in their pockets, for wear
+    shapes: Callable[[], ShapesOf] | None  # profiles of rings and elements, for pictures
     other_designs: Mapping[str, str] = field(default_factory=dict)
 
     @property
@@ -41,6 +51,45 @@ class Family:
         return self.types[0].element
 
 
+def register_family(family: Family) -> Family:
+    """Add a user's own family; InputError if its name, or that of one of its types, is taken."""
+    for spec in family.types:
+        check_free(BEARING_TYPES, name_of(spec), what="bearing type")
+    return FAMILIES.add(family)
+
+
 def family_of(bearing: Bearing) -> Family:
     """The family of a bearing."""
     return cast(Family, FAMILIES[bearing.family])
+
+
+def statics_of(bearing: Bearing) -> ElementsOf:
+    """What makes a bearing's elements for its static solution; InputError without one."""
+    statics = family_of(bearing).statics
+    if statics is None:
+        raise _lacking(bearing, "static solution")
+    return statics()
+
+
+def motion_of(bearing: Bearing) -> Motion[Any]:
+    """What moves a bearing's elements; InputError without equations of motion."""
+    motion = family_of(bearing).motion
+    if motion is None:
+        raise _lacking(bearing, "equations of motion")
+    return motion()
+
+
+def recording_of(bearing: Bearing) -> Recording[Any]:
+    """What runs of a bearing record; InputError without equations of motion."""
+    recording = family_of(bearing).recording
+    if recording is None:
+        raise _lacking(bearing, "record of a run")
+    return recording()
+
+
+def _lacking(bearing: Bearing, what: str) -> InputError:
+    return InputError(
+        f"The family '{bearing.family}' of bearing.type '{bearing.type}' has no {what}.",
+        where="bearing.type",
+        value=bearing.type,
+    )

@@ -10,6 +10,7 @@ from flexcage.core.errors import InputError
 from flexcage.core.registry import note_source
 from flexcage.core.wings import CAGE_TYPES
 from flexcage.geometry.cage import Cage
+from flexcage.geometry.defect import CageDefect
 
 if TYPE_CHECKING:
     from flexcage.mesh.build import MeshBuilder
@@ -33,6 +34,8 @@ class CageType(Generic[C]):
     mesh: Callable[[], MeshBuilder[C]]
     interfaces: Callable[[], Interfaces[C]]
     places: Callable[[], Places]  # at which stress is followed
+    defects: tuple[type[CageDefect], ...] = ()
+    defect_spec: type[CageDefect] = CageDefect  # what its mesh wants of each
 
     def __post_init__(self) -> None:
         if self.spec.cage_type != self.name:

@@ -37,10 +37,9 @@ from flexcage.core.binding import (
 from flexcage.core.hashing import content_hash, counts
 from flexcage.core.registry import source_of
 from flexcage.core.spec import option
-from flexcage.geometry.ball_cage_defects import BallCageDefect, uneven_pockets
 from flexcage.geometry.bearing import Bearing
 from flexcage.geometry.cage import Cage
-from flexcage.geometry.cages import Defect
+from flexcage.geometry.defect import CageDefect
 from flexcage.mesh.options import MeshOptions
 from flexcage.modes.spec import ModesSpec
 from flexcage.results.options import OutputOptions
@@ -69,15 +68,7 @@ class Case(StaticCase):
 
     cage: Cage = option(doc="the cage")
     cage_model: str = option("flexible", doc="how the cage is modelled", choices=CAGE_MODELS)
-    defects: tuple[Defect | BallCageDefect, ...] = option(
-        (),
-        doc="deformations of the cage, any number",
-        elsewhere={
-            ".*spall.*": "[[defects]] are of the cage; a spall of a race is "
-            "[bearing.outer_spall] or [bearing.inner_spall] of a cylindrical roller bearing, and "
-            "ball bearings have none"
-        },
-    )
+    defects: tuple[CageDefect, ...] = option((), doc="deformations of the cage, any number")
     mesh: MeshOptions = option(MeshOptions(), doc="the cage's mesh")
     modes: ModesSpec = option(ModesSpec(), doc="the cage's modes")
     drive: Drive = option(Drive(), doc="what turns the inner ring")
@@ -188,9 +179,9 @@ class Case(StaticCase):
         }
 
     @property
-    def all_defects(self) -> tuple[Defect | BallCageDefect, ...]:
+    def all_defects(self) -> tuple[CageDefect, ...]:
         """Defects that the case names, and those that make its pockets' spacing uneven."""
-        uneven = uneven_pockets(self.cage, self.bearing.element_count, self.seed)
+        uneven = self.cage.uneven_pockets(self.bearing.element_count, self.seed)
         return (*self.defects, *uneven)
 
     @property

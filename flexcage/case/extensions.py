@@ -12,6 +12,7 @@ from collections.abc import Iterable
 from pathlib import Path
 
 from flexcage.case.presets import register_preset
+from flexcage.core import users_files
 from flexcage.core.errors import FlexcageError, InputError
 
 _loaded: list[str] = []
@@ -43,6 +44,8 @@ def load_extension(source: str | Path) -> None:
             raise InputError(f"There is no file '{source}' to load.", where="use", value=text)
     if text in _loaded:
         return
+    code = [path] if is_file and text.endswith(".py") else [] if is_file else _code_of(text)
+    users_files.remember(code)
     try:
         if text.endswith(".toml"):
             register_preset(path)
@@ -50,13 +53,25 @@ def load_extension(source: str | Path) -> None:
             _run(path)
         else:
             importlib.import_module(text)
-    except FlexcageError:
-        raise
-    except Exception as exc:
+    except BaseException as exc:
+        users_files.forget(code)
+        if isinstance(exc, FlexcageError) or not isinstance(exc, Exception):
+            raise
         raise InputError(
             f"'{source}' cannot be loaded: {type(exc).__name__}: {exc}.", where="use", value=text
         ) from exc
     _loaded.append(text)
+
+
+def _code_of(module: str) -> list[Path]:
+    """Files of the module, or of the package that it is of; none if it cannot be found."""
+    spec = importlib.util.find_spec(module.partition(".")[0])
+    if spec is None or spec.origin is None:
+        return []
+    folders = spec.submodule_search_locations
+    if folders is None:
+        return [Path(spec.origin)]
+    return [file for folder in folders for file in sorted(Path(folder).rglob("*.py"))]
 
 
 def _run(path: Path) -> None:

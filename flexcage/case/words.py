@@ -11,16 +11,9 @@ from flexcage.case.extensions import sources
 from flexcage.case.presets import load_preset
 from flexcage.core.binding import to_table
 from flexcage.core.units import typeset
-from flexcage.geometry.ball_cage_defects import (
-    DisplacedPocket,
-    ElongatedPocket,
-    EnlargedPocket,
-    MissingRivet,
-    WebCrack,
-)
 from flexcage.geometry.ball_cages import BallCage
 from flexcage.geometry.cage import Cage
-from flexcage.geometry.cages import CrossbeamDefect, SideBeamDefect, WindowCage
+from flexcage.geometry.cages import WindowCage
 from flexcage.geometry.ribbon_cage import RibbonCage
 from flexcage.system.spec import Load, Wave
 
@@ -76,78 +69,8 @@ def _(cage: BallCage) -> str:
 def _defects(case: Case) -> str:
     if not case.defects:
         return "The cage has no defect."
-    texts = [_defect(d, case.bearing.element_count) for d in case.defects]
+    texts = [d.in_words(case.bearing.element_count) for d in case.defects]
     return f"{case.cage.altered}: {'; '.join(texts)}."
-
-
-@singledispatch
-def _defect(defect: Any, pockets: int) -> str:
-    """What a defect did to a cage with so many ``pockets``."""
-    return type(defect).__name__
-
-
-@_defect.register
-def _(defect: CrossbeamDefect, pockets: int) -> str:
-    before, after = (defect.crossbeam - 1) % pockets, defect.crossbeam
-    if defect.displacement < 0.0:
-        before, after = after, before
-    how = "bent" if defect.shape == "bent" else "shifted as a whole"
-    return (
-        f"crossbeam {defect.crossbeam} is {how} by {_size(defect.displacement)}, so that pocket "
-        f"{before} is narrower and pocket {after} wider by as much"
-    )
-
-
-@_defect.register
-def _(defect: SideBeamDefect, pockets: int) -> str:
-    change = "longer" if defect.displacement > 0.0 else "shorter"
-    return (
-        f"the side beam {defect.side} of pocket {defect.pocket} is displaced by "
-        f"{_size(defect.displacement)}, so that the pocket is {change} by as much"
-    )
-
-
-@_defect.register
-def _(defect: EnlargedPocket, pockets: int) -> str:
-    change = "larger" if defect.increase > 0.0 else "smaller"
-    return f"pocket {defect.pocket} is {change} in diameter by {_size(defect.increase)}"
-
-
-@_defect.register
-def _(defect: ElongatedPocket, pockets: int) -> str:
-    way = {"axial": "axially", "circumferential": "around the cage"}[defect.direction]
-    return f"pocket {defect.pocket} is a slot, longer {way} by {_size(defect.elongation)}"
-
-
-@_defect.register
-def _(defect: DisplacedPocket, pockets: int) -> str:
-    ahead = (defect.pocket + (1 if defect.circumferential > 0.0 else -1)) % pockets
-    ways = {
-        f"towards {'+x' if defect.axial > 0.0 else '-x'}": defect.axial,
-        f"towards pocket {ahead}": defect.circumferential,
-    }
-    moved = " and ".join(f"{_size(size)} {way}" for way, size in ways.items() if size)
-    return f"pocket {defect.pocket} is displaced by {moved or 'nothing'}"
-
-
-@_defect.register
-def _(defect: WebCrack, pockets: int) -> str:
-    return (
-        f"web {defect.web}, between pockets {(defect.web - 1) % pockets} and {defect.web}, is "
-        f"cracked from the end {defect.side} over {100.0 * defect.share:g} % of the cage's width"
-    )
-
-
-@_defect.register
-def _(defect: MissingRivet, pockets: int) -> str:
-    return (
-        f"the rivet of web {defect.web}, between pockets {(defect.web - 1) % pockets} and "
-        f"{defect.web}, is missing"
-    )
-
-
-def _size(value: float) -> str:
-    return typeset(abs(value), "mm")
 
 
 def _motion(case: Case) -> str:

@@ -20,7 +20,7 @@ from flexcage.core.cache import cache_root
 from flexcage.core.garbage import uncollected
 
 _PACKAGE = Path(__file__).resolve().parents[1]
-_FEEDING = ("contacts", "solve", "system")  # rooms
+_FEEDING = ("bearings", "cages", "contacts", "solve", "system")  # rooms
 
 
 def kernel_sources() -> list[Path]:
@@ -32,9 +32,13 @@ def kernel_sources() -> list[Path]:
     return sorted(
         p
         for p in _PACKAGE.rglob("*.py")
-        if (p.parent.name in _FEEDING and p.name not in ("options.py", "spec.py"))
+        if (_room(p) in _FEEDING and p.name not in ("options.py", "spec.py"))
         or any(mark in p.read_text("utf-8") for mark in ("core.jit import", "from numba"))
     )
+
+
+def _room(path: Path) -> str:
+    return path.relative_to(_PACKAGE).parts[0]
 
 
 def source_hash(files: list[Path]) -> str:
@@ -72,6 +76,7 @@ from numba.extending import (  # noqa: E402
 from flexcage.core.kernel_cache import KernelCache, KernelFolder  # noqa: E402
 from flexcage.core.kernel_values import short_name  # noqa: E402
 from flexcage.core.numba_changes import PART_NAME, own_compilation  # noqa: E402
+from flexcage.core.users_files import contents_key  # noqa: E402
 
 numba.config.CACHE_DIR = os.environ["NUMBA_CACHE_DIR"]  # type: ignore[attr-defined]
 _folder = KernelFolder(Path(os.environ["NUMBA_CACHE_DIR"]))
@@ -174,9 +179,10 @@ def compiled(function: Any, signature: Any, options: dict[str, Any] = LEAN) -> A
 
 
 def _mark(folder: Path, what: str) -> Path:
-    """The file that says: in this folder are all kernels that a run of ``what`` needs ("roller",
-    "ball"), of exactly these sources."""
-    return folder / f"compiled-{what}"
+    """The file that says: in this folder are all kernels that a run of the family ``what`` needs,
+    of exactly these sources and of the user's files that are loaded."""
+    key = contents_key()
+    return folder / (f"compiled-{what}-{key}" if key else f"compiled-{what}")
 
 
 def kernels_cached(what: str) -> bool:

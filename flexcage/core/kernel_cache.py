@@ -5,6 +5,10 @@ keeps kernels beside the sources, where a change in a callee goes unseen. Here e
 a checksum: one that cannot be read is removed, and its kernel compiled anew. A folder that cannot
 be written is read as far as it goes; what is compiled is then kept in a temporary folder, as long
 as the process lives.
+
+Kernels of the user's own lie in a folder for what his files hold (``users_files``). A kernel of
+flexcage's for types of the user's own is found by their names: numba would keep the types, and a
+process that has not loaded their module could read none of the function's kernels.
 """
 
 from __future__ import annotations
@@ -16,9 +20,11 @@ import pickle
 import shutil
 import tempfile
 import zlib
+from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
+from numba import types
 from numba.core.caching import (
     CompileResultCacheImpl,
     FunctionCache,
@@ -26,11 +32,14 @@ from numba.core.caching import (
     UserProvidedCacheLocator,
 )
 from numba.core.serialize import dumps
+from numba.core.typing import Signature
 
 from flexcage.core.cache import check_writable, tell_unwritable
+from flexcage.core.users_files import contents_key
 
 log = logging.getLogger(__name__)
 
+_PACKAGE = Path(__file__).resolve().parents[1]
 _OURS = "-checked"  # in the names of files, which numba's own cache may keep in the same folder
 
 
@@ -144,6 +153,21 @@ class _Impl(CompileResultCacheImpl):
     _locator_classes = [_Locator]
 
 
+def _outer_modules(kind: Any) -> Iterator[str]:
+    """Modules outside flexcage that define tuples in a numba type, or a signature, which a user's
+    family has among its own."""
+    if isinstance(kind, types.BaseNamedTuple):
+        module = kind.instance_class.__module__
+        if module.partition(".")[0] != __name__.partition(".")[0]:
+            yield module
+    if isinstance(kind, Signature):
+        kind = kind.args
+    for part in kind if isinstance(kind, tuple | types.BaseTuple) else ():
+        yield from _outer_modules(part)
+    if isinstance(held := getattr(kind, "held", None), types.Type):
+        yield from _outer_modules(held)
+
+
 class KernelCache(FunctionCache):
     """numba's cache of one function, in a ``KernelFolder``."""
 
@@ -152,11 +176,24 @@ class KernelCache(FunctionCache):
     def __init__(self, function: Any, folder: KernelFolder) -> None:
         super().__init__(function)
         self._folder = folder
-        self._sub = self._impl.locator.get_suitable_cache_subpath(function.__code__.co_filename)
+        file = function.__code__.co_filename
+        self._sub = self._impl.locator.get_suitable_cache_subpath(file)
+        self._users_own = not Path(file).resolve().is_relative_to(_PACKAGE)
         self._stamp = self._impl.locator.get_source_stamp()
 
+    def _folder_in(self, place: Path) -> Path:
+        key = contents_key() if self._users_own else ""
+        return place / f"{self._sub}-{key}" if key else place / self._sub
+
     def _files(self, place: Path) -> _Checked:
-        return _Checked(str(place / self._sub), self._impl.filename_base + _OURS, self._stamp)
+        folder = str(self._folder_in(place))
+        return _Checked(folder, self._impl.filename_base + _OURS, self._stamp)
+
+    def _index_key(self, sig: Any, codegen: Any) -> Any:
+        """numba's key, in which a signature with the user's own types is their names."""
+        key = super()._index_key(sig, codegen)
+        modules = sorted(set(_outer_modules(sig)))
+        return (f"{sig} of {modules}", *key[1:]) if modules else key
 
     def load_overload(self, sig: Any, target_context: Any) -> Any:
         """The kernel compiled for a signature, or None if it is not there or damaged."""
@@ -179,7 +216,7 @@ class KernelCache(FunctionCache):
         while (place := self._folder.place) is not None:
             self._cache_file = self._files(place)
             try:
-                (place / self._sub).mkdir(parents=True, exist_ok=True)
+                self._folder_in(place).mkdir(parents=True, exist_ok=True)
                 return super().save_overload(sig, data)
             except OSError as error:
                 self._folder.refuse(error)

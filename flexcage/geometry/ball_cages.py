@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from math import hypot, pi, sin
-from typing import ClassVar
+from typing import Any, ClassVar
 
 from flexcage.core.spec import option, quantity
 from flexcage.core.units import describe
@@ -41,6 +41,27 @@ class BallCage(Cage):
     @property
     def pocket_size(self) -> float:
         return self.pocket_diameter
+
+    def check_defects(
+        self,
+        defects: Sequence[Any],
+        *,
+        pocket_count: int,
+        pitch_diameter: float,
+        element_diameter: float = 0.0,
+    ) -> None:
+        from flexcage.geometry.ball_cage_defects import check_pockets
+
+        super().check_defects(defects, pocket_count=pocket_count, pitch_diameter=pitch_diameter)
+        check_pockets(
+            defects, self, pocket_count=pocket_count, pitch_diameter=pitch_diameter,
+            ball_diameter=element_diameter,
+        )  # fmt: skip
+
+    def uneven_pockets(self, pocket_count: int, seed: int) -> tuple[Any, ...]:
+        from flexcage.geometry.ball_cage_defects import displaced_at_random
+
+        return displaced_at_random(self, pocket_count, seed)
 
     @property
     def has_faces(self) -> bool:

@@ -2,24 +2,18 @@
 
 from __future__ import annotations
 
-import typing
 from collections.abc import Iterator, Sequence
 from math import asin, cos, degrees, pi, sin
 from typing import TYPE_CHECKING, Any
 
 from flexcage.core.units import describe
-from flexcage.geometry.ball_cage_defects import (
-    BallCageDefect,
-    check_ball_cage,
-    check_ball_defects,
-)
+from flexcage.geometry.ball_cage_defects import check_ball_cage
 from flexcage.geometry.ball_cages import BallCage
 from flexcage.geometry.checks import (
     MOST_SCATTER,
     Finding,
     find_in_unbalance,
     raise_first,
-    refuse_foreign,
 )
 
 if TYPE_CHECKING:
@@ -42,15 +36,14 @@ def check(bearing: BallBearing, cage: BallCage | None, defects: Sequence[Any]) -
     raise_first(_find_in_balls(bearing))
     raise_first(_find_in_shoulders(bearing))
     raise_first(bearing.find_in_clearance())
-    refuse_foreign(defects, typing.get_args(BallCageDefect), "ball cages")
     if cage is None:
         return
     raise_first(find_in_cage(bearing, cage))
     check_ball_cage(cage, pocket_count=bearing.ball_count)
     if defects:
-        check_ball_defects(
-            defects, cage, pocket_count=bearing.ball_count, pitch_diameter=bearing.pitch_diameter,
-            ball_diameter=bearing.ball_diameter,
+        cage.check_defects(
+            defects, pocket_count=bearing.ball_count, pitch_diameter=bearing.pitch_diameter,
+            element_diameter=bearing.ball_diameter,
         )  # fmt: skip
 
 

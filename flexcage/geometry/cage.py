@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from math import nan, pi
 from typing import TYPE_CHECKING, Any, ClassVar
@@ -99,3 +100,21 @@ class Cage:
     def parts(self, pitch_diameter: float, pocket_count: int) -> dict[str, float]:
         """Least thickness [m] of its parts, by name; none where its type does not say."""
         return {}
+
+    def check_defects(
+        self,
+        defects: Sequence[Any],
+        *,
+        pocket_count: int,
+        pitch_diameter: float,
+        element_diameter: float = 0.0,
+    ) -> None:
+        """Raise InputError for defects that a sound cage of these dimensions cannot have, in a
+        bearing whose elements have this pitch circle [m] and diameter [m] (0: any)."""
+        from flexcage.geometry.defect import check_each
+
+        check_each(defects, self, pocket_count)
+
+    def uneven_pockets(self, pocket_count: int, seed: int) -> tuple[Any, ...]:
+        """Defects that make its pockets' spacing uneven, drawn at random; none if it is even."""
+        return ()

@@ -6,9 +6,8 @@ in one sentence what is wrong and what is right.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from math import inf, sqrt
-from typing import Any
 
 from flexcage.core.errors import InputError
 from flexcage.core.units import describe
@@ -31,19 +30,6 @@ def greatest_speed(bearing: Bearing) -> float:
     pitch, diameter = bearing.pitch_diameter, bearing.element_diameter
     most = 5.0 * OVERLOAD * bearing.static_rating / bearing.element_count
     return 2.0 / (1.0 - diameter / pitch) * sqrt(most / (0.5 * mass * pitch))
-
-
-def refuse_foreign(defects: Sequence[Any], kinds: tuple[type, ...], cages: str) -> None:
-    """Raise InputError for a defect of another type of cage than the bearing's."""
-    for i, defect in enumerate(defects):
-        if not isinstance(defect, kinds):
-            known = ", ".join(f"'{kind.tag}'" for kind in kinds)  # type: ignore[attr-defined]
-            raise InputError(
-                f"defects.{i}.type is '{defect.tag}', but this bearing's cage is one of the "
-                f"{cages}, whose defects are {known}.",
-                where=f"defects.{i}.type",
-                value=defect.tag,
-            )
 
 
 def raise_first(findings: Iterator[Finding]) -> None:

@@ -10,22 +10,14 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from flexcage.core.units import describe
-from flexcage.geometry.cages import (
-    CrossbeamDefect,
-    Defect,
-    SideBeamDefect,
-    WindowCage,
-    check_cage,
-    check_defects,
-    pocket_changes,
-)
+from flexcage.geometry.cages import WindowCage, check_cage
 from flexcage.geometry.checks import (
     MOST_SCATTER,
     Finding,
     find_in_unbalance,
     raise_first,
-    refuse_foreign,
 )
+from flexcage.geometry.window_defects import WindowDefect, pocket_changes
 
 if TYPE_CHECKING:
     from flexcage.geometry.cylindrical_roller import RollerBearing
@@ -40,13 +32,14 @@ def _mm(value: float) -> str:
 
 def check(bearing: RollerBearing, cage: WindowCage | None, defects: Sequence[Any]) -> None:
     """Raise InputError for the first impossibility in the bearing, its cage or the defects."""
-    refuse_foreign(defects, (CrossbeamDefect, SideBeamDefect), "window cages")
     raise_first(find_in_bearing(bearing))
     if cage is None:
         return
     check_cage(cage, pocket_count=bearing.roller_count)
     raise_first(find_in_cage(bearing, cage))
-    check_defects(defects, cage, pocket_count=bearing.roller_count)
+    cage.check_defects(
+        defects, pocket_count=bearing.roller_count, pitch_diameter=bearing.pitch_diameter
+    )
     raise_first(find_in_defects(bearing, cage, defects))
 
 
@@ -224,7 +217,7 @@ def _find_in_space(b: RollerBearing, c: WindowCage) -> Iterator[Finding]:
 
 
 def pocket_clearances(
-    bearing: RollerBearing, cage: WindowCage, defects: Sequence[Defect] = ()
+    bearing: RollerBearing, cage: WindowCage, defects: Sequence[WindowDefect] = ()
 ) -> tuple[np.ndarray, np.ndarray]:
     """Circumferential and axial clearance (Z,), (Z,) [m] of every pocket, at its middle.
 
@@ -238,7 +231,7 @@ def pocket_clearances(
 
 
 def find_in_defects(
-    b: RollerBearing, c: WindowCage, defects: Sequence[Defect]
+    b: RollerBearing, c: WindowCage, defects: Sequence[WindowDefect]
 ) -> Iterator[Finding]:
     """Interference that no assembly can take, all defects together."""
     widths, lengths = pocket_clearances(b, c, defects)

@@ -12,6 +12,7 @@ from flexcage.core.errors import FlexcageError, InputError, RunFailed, mistake_i
 from flexcage.core.progress import Silent
 from flexcage.integrate.divergence import first_undefined, hardest, runaway
 from flexcage.integrate.recorded import recorded, recorded_names
+from flexcage.integrate.recording import Recording
 from flexcage.results.lowpass import butterworth, low_passed
 from flexcage.results.options import OutputOptions
 from flexcage.results.registry import COMPUTED, VARIABLES
@@ -31,7 +32,7 @@ from flexcage.solve.integrators import INTEGRATORS
 from flexcage.solve.options import SolverOptions
 from flexcage.system.data import POWERS
 from flexcage.system.problem import Bearing
-from flexcage.system.scales import error_weights, work_weights
+from flexcage.system.scales import work_weights
 from flexcage.system.start import Start
 
 log = logging.getLogger(__name__)
@@ -50,20 +51,22 @@ class Integration:
     def __init__(
         self,
         bearing: Bearing,
+        recording: Recording[Any],
         start: Start,
         store: MemoryRunStore,
         *,
         solver: SolverOptions,
         output: OutputOptions,
     ) -> None:
-        self.bearing, self.store, self.solver, self.output = bearing, store, solver, output
+        self.bearing, self.recording, self.store = bearing, recording, store
+        self.solver, self.output = solver, output
         held = {v.name for v in store.layout.variables}
         own = (name for name in recorded_names(bearing) if name not in COMPUTED)
         lacking = [name for name in own if name not in held]
         if lacking:
             raise _of_another(f"it holds no '{lacking[0]}'", lacking[0])
         self._computed = _computed(store)
-        self.weight = error_weights(bearing.data.model, bearing.layout, solver.tolerance)
+        self.weight = bearing.error_weights(solver.tolerance)
         self.work_weight = work_weights(bearing.data.model, solver.tolerance)
         self.bound = np.inf  # [s] least stability bound of explicit steps so far
         self._take("bdf" if solver.method == "auto" else solver.method, 0.0, start.y, start.yd)
@@ -98,7 +101,7 @@ class Integration:
         y, yd = self.integrator.last(self.state)
         step = self.bearing.stable_step(self.time, y, yd)
         self.bound = min(self.bound, step)
-        small = self.bearing.family.implicit and step < self.solver.stable_step
+        small = self.bearing.motion.implicit and step < self.solver.stable_step
         method = "bdf" if small else "explicit"
         if auto and method != self.integrator.name:
             log.debug("%s from t = %.4f ms on: explicit steps up to %.3g us are stable", method,
@@ -175,13 +178,14 @@ class Integration:
             if stop < times[-1]:
                 self._turn()
         logs.append(log[:used])
-        done, deep = sample // ratio, runaway(self.bearing, ys[ratio - 1 : sample : ratio])
+        done = sample // ratio
+        deep = runaway(self.bearing, self.recording, ys[ratio - 1 : sample : ratio])
         if deep:
             done = deep[0]
         whole = outcome == DONE and not deep
         if done:  # a solver that stops before the first sample leaves nothing to write
             main = slice(ratio - 1, done * ratio, ratio)
-            arrays = recorded(self.bearing.data.model, self.bearing, ys[main], yds[main])
+            arrays = recorded(self.bearing, self.recording, ys[main], yds[main])
             arrays["work"] = quads[main]
             arrays |= self._registered(arrays)
             fine = self._fine(yds[: done * ratio], done * ratio)

@@ -10,8 +10,6 @@ from flexcage.core.errors import InputError
 from flexcage.geometry.ball_cage_defects import (
     BallCageDefect,
     check_ball_cage,
-    check_ball_defects,
-    cracks_of,
     is_sphere,
 )
 from flexcage.geometry.ball_cages import BallCage
@@ -58,7 +56,7 @@ def build_round_pockets(
     """Mesh of a cage with round pockets: ``quarter_of`` makes the quarter sector of a sound one,
     and ``measure`` checks the user's own mesh against cage and defects."""
     check_ball_cage(cage, pocket_count=pocket_count)
-    check_ball_defects(defects, cage, pocket_count=pocket_count, pitch_diameter=pitch_diameter)
+    cage.check_defects(defects, pocket_count=pocket_count, pitch_diameter=pitch_diameter)
     pitch_radius = 0.5 * pitch_diameter
     if options.file:
         mesh = read_mesh(options.file, pocket_count=pocket_count, unit=options.file_unit)
@@ -93,5 +91,5 @@ def machined_quarter(
 
 def _tips(cage: BallCage, defects: Sequence[BallCageDefect]) -> tuple[float, ...]:
     """Distances [m] of cracks' tips from the cage's middle, where edges must be; each once."""
-    shares = {abs(0.5 - crack.share) for crack in cracks_of(defects)}
-    return tuple(share * cage.width for share in sorted(shares) if share > 1e-6)
+    tips = {tip for defect in defects for tip in defect.tips(cage)}
+    return tuple(tip for tip in sorted(tips) if tip > 1e-6 * cage.width)

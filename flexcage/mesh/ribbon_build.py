@@ -7,10 +7,11 @@ from collections.abc import Sequence
 import numpy as np
 
 from flexcage.core.errors import InputError
-from flexcage.geometry.ball_cage_defects import BallCageDefect, MissingRivet
+from flexcage.geometry.ball_cage_defects import BallCageDefect
 from flexcage.geometry.ribbon_cage import RibbonCage
+from flexcage.geometry.ribbon_defects import MissingRivet
 from flexcage.mesh.ball_build import build_round_pockets
-from flexcage.mesh.ball_measure import ENOUGH, measure_ball_file, readings
+from flexcage.mesh.ball_measure import ENOUGH, measure_ball_file
 from flexcage.mesh.cage_mesh import CageMesh
 from flexcage.mesh.options import MeshOptions
 from flexcage.mesh.ribbon_sector import mesh_ribbon_quarter
@@ -58,9 +59,9 @@ def measure_ribbon_file(
     high = 2.0 * float(np.abs(mesh.points[:, 0]).max())
     sizes = [("The cage", "wide", high, cage.axial_width)]
     for web in range(mesh.pocket_count):
-        (free,) = readings(MissingRivet(web=web), mesh, cage, pitch_radius=pitch_radius)
+        (free,) = MissingRivet(web=web).readings(mesh, cage, pitch_radius=pitch_radius)
         held = 0.0 if web in missing else free.asked
-        sizes.append((f"web {web}", "held together over", free.asked - free.measured, held))
+        sizes.append((f"web {web}", "held together over", free.asked - free.measured[0], held))
     for what, how, found, said in sizes:
         if abs(found - said) > ENOUGH:
             raise InputError(

@@ -5,7 +5,8 @@ from __future__ import annotations
 import logging
 from collections.abc import Sequence
 
-from flexcage.geometry.cages import Defect, WindowCage, check_cage, check_defects
+from flexcage.geometry.cages import WindowCage, check_cage
+from flexcage.geometry.window_defects import WindowDefect
 from flexcage.mesh.cage_mesh import CageMesh
 from flexcage.mesh.morph import apply_defects
 from flexcage.mesh.options import MeshOptions
@@ -19,12 +20,12 @@ def build_window_mesh(
     cage: WindowCage,
     pocket_count: int,
     pitch_diameter: float,
-    defects: Sequence[Defect],
+    defects: Sequence[WindowDefect],
     options: MeshOptions,
 ) -> CageMesh:
     """Mesh of a window cage with its defects, or the user's own file checked against both."""
     check_cage(cage, pocket_count=pocket_count)
-    check_defects(defects, cage, pocket_count=pocket_count)
+    cage.check_defects(defects, pocket_count=pocket_count, pitch_diameter=pitch_diameter)
     if options.file:
         return _from_file(cage, pocket_count, pitch_diameter, defects, options)
     quarter = mesh_quarter(cage, pocket_count=pocket_count, options=options)
@@ -37,7 +38,7 @@ def _from_file(
     cage: WindowCage,
     pocket_count: int,
     pitch_diameter: float,
-    defects: Sequence[Defect],
+    defects: Sequence[WindowDefect],
     options: MeshOptions,
 ) -> CageMesh:
     from flexcage.mesh.io import read_mesh

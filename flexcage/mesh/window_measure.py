@@ -3,17 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import replace
-from types import MappingProxyType
 
 import numpy as np
 
 from flexcage.core.errors import InputError
-from flexcage.geometry.cages import CrossbeamDefect, Defect, WindowCage, pocket_changes
+from flexcage.geometry.cages import WindowCage
+from flexcage.geometry.window_defects import FACE_SIGN, WindowDefect, pocket_changes
 from flexcage.mesh.cage_mesh import CageMesh
 from flexcage.mesh.measure import in_pocket_frame
-
-FACE_SIGN = {"front": 1.0, "rear": -1.0, "side+x": 1.0, "side-x": -1.0}
+from flexcage.mesh.with_defects import with_measured
 
 
 def face_position(mesh: CageMesh, pocket: int, face: str, *, pitch_radius: float) -> float:
@@ -48,31 +46,10 @@ def pocket_size(mesh: CageMesh, pocket: int, *, pitch_radius: float) -> tuple[fl
     return at["front"] + at["rear"], at["side+x"] + at["side-x"]
 
 
-def defect_faces(defect: Defect, pocket_count: int) -> list[tuple[int, str, float]]:
-    """Faces (pocket, face, sign) that a defect moves by sign times its displacement, outwards."""
-    if isinstance(defect, CrossbeamDefect):
-        k = defect.crossbeam
-        return [((k - 1) % pocket_count, "front", -1.0), (k, "rear", 1.0)]
-    return [(defect.pocket, f"side{defect.side}", 1.0)]
-
-
-def face_shifts(mesh: CageMesh, cage: WindowCage, defect: Defect, pitch_radius: float) -> list:
-    """How far [m] each of ``defect_faces`` is from its nominal place, in the defect's sense."""
-    nominal = {True: 0.5 * cage.pocket_length, False: 0.5 * cage.pocket_width}
-    return [
-        sign
-        * (
-            face_position(mesh, pocket, face, pitch_radius=pitch_radius)
-            - nominal[face.startswith("side")]
-        )
-        for pocket, face, sign in defect_faces(defect, mesh.pocket_count)
-    ]
-
-
 def measure_file_defects(
     mesh: CageMesh,
     cage: WindowCage,
-    defects: Sequence[Defect],
+    defects: Sequence[WindowDefect],
     *,
     pitch_radius: float,
     source: str,
@@ -97,13 +74,4 @@ def measure_file_defects(
                     where=f"mesh.file pocket{k}",
                     value=is_,
                 )
-    delivered = [
-        {
-            "kind": d.tag,
-            "asked": d.displacement,
-            "delivered": float(np.mean(face_shifts(mesh, cage, d, pitch_radius))),
-            "volume_change": float("nan"),  # there is no undamaged mesh to compare with
-        }
-        for d in defects
-    ]
-    return replace(mesh, info=MappingProxyType({**mesh.info, "defects": delivered}))
+    return with_measured(mesh, cage, defects, pitch_radius=pitch_radius)

@@ -9,13 +9,8 @@ import numpy as np
 import scipy.sparse as sp
 
 from flexcage.fem.model import FEModel
-from flexcage.geometry.cages import (
-    CrossbeamDefect,
-    Defect,
-    WindowCage,
-    crossbeam_shape,
-    side_beam_shape,
-)
+from flexcage.geometry.cages import WindowCage
+from flexcage.geometry.window_defects import WindowDefect
 from flexcage.modes.basis import FACES, CageInterface, ModeBasis
 from flexcage.modes.interface import averaged, land_modes, land_station_weights, normalised
 from flexcage.modes.pockets import (
@@ -49,20 +44,12 @@ def offset_points(cage: WindowCage) -> np.ndarray:
 
 
 def face_offsets(
-    cage: WindowCage, points: np.ndarray, *, pocket_count: int, defects: Sequence[Defect]
+    cage: WindowCage, points: np.ndarray, *, pocket_count: int, defects: Sequence[WindowDefect]
 ) -> np.ndarray:
     """Stress-free outward displacement (Z, 4, n) [m] of the faces at ``points`` (4, n) on them."""
     offset = np.zeros((pocket_count, *points.shape))
     for defect in defects:
-        if isinstance(defect, CrossbeamDefect):
-            # crossbeam k is the front beam of pocket k-1 and the rear beam of pocket k
-            shift = defect.displacement * crossbeam_shape(defect, points[0], cage.pocket_length)
-            offset[(defect.crossbeam - 1) % pocket_count, 0] -= shift
-            offset[defect.crossbeam % pocket_count, 1] += shift
-        else:
-            face = FACES.index(f"side{defect.side}")
-            shape = side_beam_shape(points[face], cage.pocket_width)
-            offset[defect.pocket % pocket_count, face] += defect.displacement * shape
+        offset += defect.offsets(points, cage, pocket_count=pocket_count)
     return offset
 
 
@@ -70,7 +57,7 @@ def rigid_interface(
     cage: WindowCage,
     *,
     pocket_count: int,
-    defects: Sequence[Defect] = (),
+    defects: Sequence[WindowDefect] = (),
     n_stations: int = 7,
     n_land: int = 24,
 ) -> CageInterface:
@@ -95,7 +82,7 @@ def cage_interface(
     *,
     pocket_count: int,
     cage: WindowCage,
-    defects: Sequence[Defect] = (),
+    defects: Sequence[WindowDefect] = (),
     n_stations: int = 7,
     n_land: int = 24,
 ) -> CageInterface:
@@ -178,9 +165,13 @@ def _reduced(cage: CageReduction) -> CageInterface:
     )
 
 
-def _depends_on(cage: WindowCage, defects: Sequence[Defect], pocket_count: int) -> tuple[Any, ...]:
+def _depends_on(
+    cage: WindowCage, defects: Sequence[WindowDefect], pocket_count: int
+) -> tuple[Any, ...]:
     pocket = (cage.pocket_length, cage.pocket_width, cage.fillet_radius)
-    return pocket, cage.bore, cage.outside_diameter, defects
+    points = offset_points(cage)
+    offsets = face_offsets(cage, points, pocket_count=pocket_count, defects=defects)
+    return pocket, cage.bore, cage.outside_diameter, offsets
 
 
 WINDOW_INTERFACES = Interfaces(

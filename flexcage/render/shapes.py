@@ -36,7 +36,8 @@ ShapesOf = Callable[[Any], Shapes]  # of a bearing of the family
 
 def shapes_of(bearing: Bearing) -> Shapes:
     """Profiles of a bearing, by its family; InputError for a bearing of none."""
-    if bearing.family not in FAMILIES:
+    family = FAMILIES.get(bearing.family)
+    if family is None or family.shapes is None:
         raise InputError(f"There is no picture of a {type(bearing).__name__}.", where="bearing")
-    found: Shapes = FAMILIES[bearing.family].shapes()(bearing)
+    found: Shapes = family.shapes()(bearing)
     return found

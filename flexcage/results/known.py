@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from typing import Any
 
 from flexcage.core.binding import did_you_mean
 from flexcage.core.errors import InputError
@@ -323,9 +324,15 @@ class _BySection(Parts[KnownFigure]):
         return dict(sorted(found.items(), key=lambda item: place[item[1].section]))
 
 
+def _own(family: Any) -> tuple[KnownFigure, ...]:
+    """Figures of one family; none if it has no motion."""
+    found: tuple[KnownFigure, ...] = family.figures().known if family.figures else ()
+    return found
+
+
 #: Every figure by name, in the order of a summary.
 KNOWN: Parts[KnownFigure] = _BySection(
-    FAMILIES, lambda family: {f.key: f for f in family.figures().known}, what="figure",
+    FAMILIES, lambda family: {f.key: f for f in _own(family)}, what="figure",
     common={figure.key: figure for part in _FLOORS for figure in part()},
 )  # fmt: skip
 

@@ -109,7 +109,7 @@ def _axis_in_words(axis: Any) -> str:
     if isinstance(axis, Points):
         return f"Cases: {'; '.join(str(point) for point in axis.expand())}."
     parts = (f"{path} from {low} to {high}" for path, (low, high) in axis.ranges.items())
-    kind = {"lhs": "a Latin hypercube", "sobol": "a Sobol sequence"}.get(axis.tag, axis.tag)
+    kind = {"lhs": "a Latin hypercube", "sobol": "a Sobol sequence"}.get(axis.type, axis.type)
     return f"{axis.count} points of {kind} in {'; '.join(parts)}."
 
 

@@ -20,7 +20,7 @@ from flexcage.study.outputs import check_outputs
 from flexcage.study.spec import Study
 from flexcage.system.constraints import names_of
 from flexcage.system.layout import CONSTRAINTS
-from flexcage.system.model import END_POINTS
+from flexcage.system.roller_model import END_POINTS
 
 #: What tables hold of every case or point beside labels, values that vary, and outputs.
 COLUMNS = ("point", "repetition", "state", "reason", "warnings", "seconds", "hash", "done")

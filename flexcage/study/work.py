@@ -163,11 +163,11 @@ def compile_kernels(case: Case) -> None:
     """Compile the kernels once a machine: workers that need them at the same time wait."""
     import filelock
 
-    if jit.kernels_cached(case.bearing.element):
+    if jit.kernels_cached(case.bearing.family):
         return
-    lock = jit.compiling_lock(case.bearing.element)
+    lock = jit.compiling_lock(case.bearing.family)
     with nullcontext() if lock is None else filelock.FileLock(lock):
-        if not jit.kernels_cached(case.bearing.element):
+        if not jit.kernels_cached(case.bearing.family):
             rigid = case.replace("cage.model", "rigid").replace("defects", ())
             coarse = rigid.replace("mesh", MeshOptions(fineness="coarse"))
             simulate(coarse.replace("solver.duration", 2.0 / case.output.rate))

@@ -21,7 +21,6 @@ from flexcage.modes.ball_interface import BallCageInterface
 from flexcage.system.bodies import bodies_of, land_data, unbalanced
 from flexcage.system.data import Bodies, Work, new_work
 from flexcage.system.layout import Layout
-from flexcage.system.model import build_model
 from flexcage.system.spec import Drive, Load, Mount
 
 POINT = 1.5  # exponent of a Hertz contact
@@ -142,11 +141,11 @@ def _pockets(
     )
 
 
-@build_model.register
-def _(
+def build_ball_model(
     bearing: BallBearing, cage: BallCage, body: FlexibleBody, interface: BallCageInterface, *,
     contacts: Contacts, lubricant: Lubricant, drive: Drive, load: Load, mount: Mount, seed: int = 0,
 ) -> BallModel:  # fmt: skip
+    """Arrays of a ball bearing for the kernels."""
     rng = np.random.default_rng(seed)
     scatter = bearing.ball_scatter * rng.standard_normal(bearing.ball_count)
     outer, radius = _land_radius(cage)

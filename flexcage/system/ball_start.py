@@ -17,18 +17,18 @@ from flexcage.bodies.floating_frame import BodyData
 from flexcage.system.ball_model import BallModel
 from flexcage.system.layout import Layout
 from flexcage.system.problem import Bearing
-from flexcage.system.scales import ERROR_RATE, error_weights, shared_weights
-from flexcage.system.start import Start, StaticStart, Told, made_room, start_of
+from flexcage.system.start import Start, StaticStart, Told, made_room
 from flexcage.system.statics.solution import StaticSolution
 
 _ALIKE = 1e-3  # rad: contact angles closer than this leave a ball's axis to their mean
 
 
-@start_of.register
-def _(
-    model: BallModel, bearing: Bearing, *, limit_force: float, statics: StaticStart, told: Told
+def ball_start(
+    bearing: Bearing, *, limit_force: float, statics: StaticStart | None, told: Told
 ) -> Start:
-    solution = statics()
+    """The static solution, which has to be given, with balls that roll; no force is limited."""
+    assert statics is not None, "balls start at their static solution"
+    model, solution = bearing.data.model, statics()
     y = ball_places(bearing, solution)
     made_room(model.land, bearing.layout, y)
     yd = rolling_balls(model, bearing.layout, solution, y)
@@ -50,11 +50,11 @@ def ball_places(bearing: Bearing, solution: StaticSolution) -> np.ndarray:
     angle = np.nan_to_num(balls.angle[:, 1])
     depth = (balls.force[:, 1] / model.outer.normal[0]) ** (2.0 / 3.0)
     reach = model.outer.radius - model.bodies.radius + depth
-    q["rollers"][:, 0] = model.outer.axial + reach * np.sin(angle)
-    q["rollers"][:, 1] = model.outer.centre + reach * np.cos(angle)
-    q["rollers"][:, 2] = 2.0 * pi * np.arange(layout.rollers) / layout.rollers
+    q["elements"][:, 0] = model.outer.axial + reach * np.sin(angle)
+    q["elements"][:, 1] = model.outer.centre + reach * np.cos(angle)
+    q["elements"][:, 2] = 2.0 * pi * np.arange(layout.elements) / layout.elements
     q["inner"][:5] = solution.displacement
-    q["cage"][0] = q["rollers"][:, 0].mean()
+    q["cage"][0] = q["elements"][:, 0].mean()
     q["quaternion"][0] = 1.0
     return y
 
@@ -70,15 +70,15 @@ def rolling_balls(
     bears = (solution.elements.force > 0.0).all(axis=1)
     cage = float(orbit[bears].mean()) if bears.any() else float(orbit.mean())
     orbit = np.where(bears, orbit, cage)
-    r, rb = q["rollers"][:, 1], model.bodies.radius
-    u["rollers"][:, 2] = r * orbit
+    r, rb = q["elements"][:, 1], model.bodies.radius
+    u["elements"][:, 2] = r * orbit
     inner, outer = np.nan_to_num(solution.elements.angle).T
-    for i in range(layout.rollers):
-        u["rollers"][i, 3:5] = _rolling(
+    for i in range(layout.elements):
+        u["elements"][i, 3:5] = _rolling(
             float(inner[i]), float(outer[i]), float(r[i]), float(rb[i]), float(orbit[i]), speed
         )
-    qd["rollers"][:, 2] = orbit
-    qd["rollers"][:, 3:] = u["rollers"][:, 3:]
+    qd["elements"][:, 2] = orbit
+    qd["elements"][:, 3:] = u["elements"][:, 3:]
     u["inner"][3] = qd["inner"][5] = speed
     u["omega"][0] = cage
     qd["quaternion"][1] = 0.5 * cage
@@ -112,14 +112,3 @@ def _rolling(
         axis = np.array([np.cos(0.5 * (inner + outer)), -np.sin(0.5 * (inner + outer))])
         return tuple(wanted.mean() * axis)  # type: ignore[return-value]
     return tuple(np.linalg.solve(rows, wanted))  # type: ignore[return-value]
-
-
-@error_weights.register
-def _(model: BallModel, layout: Layout, length: float) -> np.ndarray:
-    pitch, speed = model.bodies.pitch, length * ERROR_RATE
-    weight = shared_weights(model, layout, length)
-    q, u = layout.q(weight), layout.u(weight)
-    q["inner"][0], q["inner"][3:5] = 1.0 / length, pitch / length
-    u["rollers"][:, 3:] = float(model.bodies.radius.mean()) / (10.0 * speed)
-    u["inner"][0], u["inner"][3:] = 1.0 / speed, pitch / speed
-    return weight

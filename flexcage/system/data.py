@@ -174,7 +174,7 @@ def new_work(
     faces: int, stations: int, ribs: int, land_stations: int,
 ) -> Work:  # fmt: skip
     """Fresh workspaces for one thread, of elements with so many contact places."""
-    Z, n, nb = layout.rollers, layout.modes, layout.n_border
+    Z, n, nb = layout.elements, layout.modes, layout.n_border
     places = 2 + faces + ribs
     z = np.zeros
     tangent = Tangent(

@@ -69,16 +69,16 @@ _IN_U = {
 
 @dataclass(frozen=True)
 class Layout:
-    """Slices of y for Z rollers and n modes.
+    """Slices of y for Z rolling elements and n modes.
 
-    q: rollers (x, r, psi, skew, tilt, spin); inner ring (x, y, z, skew, tilt, spin); outer ring
-    (y, z); cage (x, y, z, quaternion, modes). u: rollers (v_x, v_r, v_psi, w_axis, w_2, w_3);
+    q: elements (x, r, psi, skew, tilt, spin); inner ring (x, y, z, skew, tilt, spin); outer ring
+    (y, z); cage (x, y, z, quaternion, modes). u: elements (v_x, v_r, v_psi, w_axis, w_2, w_3);
     ring (v, w in its non-spinning frame); outer (v_y, v_z); cage (v in space, w in the body,
     modal rates). The border of Newton's matrix is (ring 6, outer 2, cage 6 + n, lambda, mu), and
     the further constraints' lambda and mu, one of each for every name in ``held``.
     """
 
-    rollers: int
+    elements: int
     modes: int
     held: tuple[str, ...] = ()  # names of the scalar constraints beyond ``CONSTRAINTS``
 
@@ -92,7 +92,7 @@ class Layout:
 
     @property
     def _places(self) -> Places:
-        return _places(self.rollers, self.modes)
+        return _places(self.elements, self.modes)
 
     @property
     def n_border(self) -> int:
@@ -119,10 +119,10 @@ class Layout:
         self, v: np.ndarray, bodies: Mapping[str, slice], modes: int
     ) -> dict[str, np.ndarray]:
         """Views of the elements, then of rings and cage, then of the modes from ``modes`` on."""
-        own = self._places.rest_q
-        elements, rest = v[..., :own], v[..., own:]
+        end = self._places.rest_q
+        own, rest = v[..., :end], v[..., end:]
         return {
-            "rollers": elements.reshape(*v.shape[:-1], self.rollers, PER_ELEMENT),
+            "elements": own.reshape(*v.shape[:-1], self.elements, PER_ELEMENT),
             **{name: rest[..., where] for name, where in bodies.items()},
             "modes": rest[..., modes : modes + self.modes],
         }

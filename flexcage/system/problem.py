@@ -1,6 +1,6 @@
 """The bearing as a problem for integrators: compiled functions over one tuple of data.
 
-``data`` is (Parts, laws, evaluate), the last of the laws ``Family.apart``: evaluated through
+``data`` is (Parts, laws, evaluate), the last of the laws ``Motion.apart``: evaluated through
 function values, the residual is compiled once, not again inside each of the functions, and its
 pieces at the same time.
 """
@@ -38,11 +38,10 @@ from flexcage.system import newton, rates, sampling
 from flexcage.system.constraints import ALL_ROWS_TYPE, Constraints, constraints_of, units_of
 from flexcage.system.courses import corners
 from flexcage.system.data import POWERS, Memory, Report, Work, new_memory
-from flexcage.system.families import family_of
 from flexcage.system.holding import hold, hold_nothing
 from flexcage.system.layout import Layout
+from flexcage.system.motion import Motion
 from flexcage.system.rates import RatesWork, modal_oscillators, new_rates_work
-from flexcage.system.scales import error_weights
 from flexcage.system.spec import Constraint
 
 ITERATIONS = 40  # of the spectral radius
@@ -129,13 +128,14 @@ class BearingData(NamedTuple):
     constraints: Constraints
 
 
-def parts(data: BearingData) -> Any:
-    """References to the groups of arrays of a bearing, as the compiled functions receive them."""
+def parts(kind: Any, data: BearingData) -> Any:
+    """References to the groups of arrays of a bearing, as the compiled functions receive them:
+    of the type ``Motion.parts``."""
     groups = (
         *data.model, data.memory, *data.work, data.matrix, data.events, data.samples,
         data.between, data.rates, data.constraints,
     )  # fmt: skip
-    return family_of(data.model).parts(*(boxed(group) for group in groups))
+    return kind(*(boxed(group) for group in groups))
 
 
 def new_samples(n: int, stride: int, report: Report) -> Samples:
@@ -168,7 +168,7 @@ def law_functions(contacts: Contacts) -> tuple:
 
 
 def _evaluation(bearing: Any, law: Any) -> Any:
-    """numba's signature of ``Family.evaluate``, of ``Family.apart``, and of what puts constraints
+    """numba's signature of ``Motion.evaluate``, of ``Motion.apart``, and of what puts constraints
     into them."""
     return types.void(_REAL, _VECTOR, _VECTOR, bearing, law, _VECTOR, _COUNT)
 
@@ -177,19 +177,19 @@ class Bearing:
     """A bearing ready to be integrated: its data, and functions that are compiled when needed."""
 
     def __init__(
-        self, model: Any, contacts: Contacts, layout: Layout, *,
+        self, motion: Motion[Any], model: Any, contacts: Contacts, layout: Layout, *,
         constraints: Sequence[Constraint] = (), block: int = 250, stride: int = 4,
         interval: float = 20e-6,
     ) -> None:  # fmt: skip
         """``layout.held`` holds the ``constraints.names_of`` the constraints."""
         model = model._replace(cage=marked(model.cage))
-        self.layout, self.family = layout, family_of(model)
+        self.motion, self.layout = motion, layout
         self.reaction_units = units_of(constraints)
-        work = self.family.new_work(model, layout)
+        work = self.motion.new_work(model, layout)
         held, rows = constraints_of(constraints, model, layout)
         self.data = BearingData(
             model, new_memory(work.report), work,
-            new_bordered(layout.rollers, layout.n_border, 8, work.tangent.active),
+            new_bordered(layout.elements, layout.n_border, 8, work.tangent.active),
             Events(
                 np.zeros((200_000, 4)), np.zeros(1, np.int64),
                 np.zeros_like(work.report.contact), np.zeros(2, np.int64), np.zeros((2, 3)),
@@ -200,7 +200,7 @@ class Bearing:
             new_rates_work(model.cage.mff),
             held,
         )  # fmt: skip
-        bearing = numba.typeof(parts(self.data))
+        bearing = numba.typeof(parts(motion.parts, self.data))
         holding = _evaluation(bearing, ALL_ROWS_TYPE)
         holds = compiled(hold if constraints else hold_nothing, holding)
         self.laws = (*law_functions(contacts), rows, holds)
@@ -209,7 +209,7 @@ class Bearing:
             KernelType(holding),
         )  # fmt: skip
         self._apart = _evaluation(bearing, types.Tuple(own_laws))
-        apart = (KernelType(self._apart),) * len(self.family.apart)
+        apart = (KernelType(self._apart),) * len(self.motion.apart)
         law_type = types.Tuple((*own_laws, *apart))
         self._evaluation = _evaluation(bearing, law_type)
         self.data_type = types.Tuple((bearing, law_type, KernelType(self._evaluation)))
@@ -220,7 +220,7 @@ class Bearing:
     @cached_property
     def evaluate(self) -> Any:
         """The family's residual, compiled; most of what there is to compile."""
-        return compiled(self.family.evaluate, self._evaluation)
+        return compiled(self.motion.evaluate, self._evaluation)
 
     @cached_property
     def modes(self) -> Oscillators:
@@ -230,7 +230,7 @@ class Bearing:
     @property
     def apart(self) -> tuple[Any, ...]:
         """What the residual calls as values, compiled."""
-        return tuple(compiled(function, self._apart) for function in self.family.apart)
+        return tuple(compiled(function, self._apart) for function in self.motion.apart)
 
     @cached_property
     def args(self) -> tuple:
@@ -251,7 +251,7 @@ class Bearing:
                 kernel.compile(arguments)
 
         return [
-            *(partial(compiled, function, self._apart) for function in self.family.apart),
+            *(partial(compiled, function, self._apart) for function in self.motion.apart),
             lambda: self.evaluate,
             lambda: self._advance_of(method, state, runge_kutta.Options(1.0, 0.0, 1)),
             lambda: kernel_for(newton.newton_step, _REAL, _VECTOR, _VECTOR, tangent, matrix),
@@ -267,9 +267,9 @@ class Bearing:
 
     def function(self, name: str) -> Any:
         """A function that ``PROBLEM`` names, compiled for this bearing when first asked for."""
-        if name in _OF_TANGENT and not self.family.implicit:
+        if name in _OF_TANGENT and not self.motion.implicit:
             raise InputError(
-                f"A bearing's {self.family.element}s have no tangent yet, which implicit methods "
+                f"A bearing's {self.motion.element}s have no tangent yet, which implicit methods "
                 'want; take solver.method = "auto" or "explicit".',
                 where="solver.method",
             )
@@ -287,7 +287,7 @@ class Bearing:
 
     def arguments(self, data: BearingData, law: tuple) -> tuple:
         """What the compiled functions take as their data."""
-        return parts(data), (*law, *self.apart), self.evaluate
+        return parts(self.motion.parts, data), (*law, *self.apart), self.evaluate
 
     def residual(self, t: float, y: np.ndarray, yd: np.ndarray, mode: int = RESIDUAL) -> np.ndarray:
         """F(t, y, y'), a new array; TANGENT also fills the tangent, REPORT the report."""
@@ -313,6 +313,10 @@ class Bearing:
             self._advance[integrator.name] = self._compiled(integrator, "advance", signature)
         return self._advance[integrator.name]
 
+    def error_weights(self, length: float) -> np.ndarray:
+        """1/(allowed local error) of y for a position error of ``length`` [m]; 0: not tested."""
+        return self.motion.error_weights(self.data.model, self.layout, length)
+
     def corners(self, begin: float, end: float) -> np.ndarray:
         """Times in [begin, end) at which the drive's or a load's slope jumps, and y' with it."""
         b = self.data.model.bodies
@@ -321,7 +325,7 @@ class Bearing:
     def stable_step(self, t: float, y: np.ndarray, yd: np.ndarray) -> float:
         """Largest step [s] that the explicit method bears at (t, y)."""
         method = runge_kutta.EXPLICIT_METHOD
-        weight = error_weights(self.data.model, self.layout, NUDGE)
+        weight = self.error_weights(NUDGE)
         state = method.new_state(
             t, y, yd, weight=weight, h0=1.0, quad_weight=np.zeros(len(POWERS)), modes=self.modes
         )

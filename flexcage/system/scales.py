@@ -2,40 +2,33 @@
 
 from __future__ import annotations
 
-from functools import singledispatch
 from typing import Any
 
 import numpy as np
 
 from flexcage.system.data import POWERS
 from flexcage.system.layout import Layout
-from flexcage.system.model import Model
 
 # assumption: a position error moves at contact frequencies, about 5 kHz, when turned into a speed
 ERROR_RATE = 2.0 * np.pi * 5e3
 
 
-@singledispatch
-def error_weights(model: Any, layout: Layout, length: float) -> np.ndarray:
+def shared_weights(model: Any, layout: Layout, length: float) -> np.ndarray:
     """1/(allowed local error) of y for a position error of ``length`` [m]; 0: not tested.
 
-    Angles are scaled by the lever over which they move a contact, modal coordinates by the
-    largest displacement of a station, velocities by ``ERROR_RATE``; spin angles and multipliers
-    are left out (nothing depends on them, or they follow).
+    Of what all bearings have: places and speeds of elements and bodies, modes; a family's own
+    ``error_weights`` add the rest. Angles are scaled by the lever over which they move a contact,
+    modal coordinates by the largest displacement of a station, velocities by ``ERROR_RATE``; spin
+    angles and multipliers are left out (nothing depends on them, or they follow).
     """
-    raise NotImplementedError(f"{type(model).__name__} has no error weights")
-
-
-def shared_weights(model: Any, layout: Layout, length: float) -> np.ndarray:
-    """The same of what all bearings have: places and speeds of elements and bodies, modes."""
     pitch = model.bodies.pitch  # lever of the cage's turns and of elements along their orbit
     allowed = np.full(layout.size, np.inf)
     q, u, speed = layout.q(allowed), layout.u(allowed), length * ERROR_RATE
-    q["rollers"][:, :2] = length
-    q["rollers"][:, 2] = length / pitch
+    q["elements"][:, :2] = length
+    q["elements"][:, 2] = length / pitch
     q["inner"][1:3] = q["outer"][:] = q["cage"][:] = length
     q["quaternion"][:] = 0.5 * length / pitch
-    u["rollers"][:, :3] = speed
+    u["elements"][:, :3] = speed
     u["inner"][1:3] = u["outer"][:] = u["cage"][:] = speed
     u["omega"][:] = speed / pitch
     if layout.modes:
@@ -58,17 +51,3 @@ def work_weights(model: Any, length: float) -> np.ndarray:
     loads = np.abs(bodies.load[1]).max() + np.abs(bodies.axial[1]).max()
     force = loads + len(bodies.radius) * bodies.element[0] * pull
     return np.full(len(POWERS), 1.0 / (length * force))
-
-
-@error_weights.register
-def _(model: Model, layout: Layout, length: float) -> np.ndarray:
-    reach, speed = float(model.pocket.half_roller), length * ERROR_RATE
-    weight = shared_weights(model, layout, length)
-    q, u = layout.q(weight), layout.u(weight)
-    q["rollers"][:, 3:5] = reach / length
-    u["rollers"][:, 3] = float(model.bodies.radius.mean()) / (10.0 * speed)
-    u["rollers"][:, 4:] = reach / speed
-    u["inner"][3] = model.inner.radius / speed
-    arm = np.array([1.0, model.bodies.pitch, model.bodies.pitch]) * model.bodies.free[:3]
-    q["inner"][[0, 3, 4]], u["inner"][[0, 4, 5]] = arm / length, arm / speed
-    return weight

@@ -7,6 +7,7 @@ from math import pi, radians
 
 import numpy as np
 
+from flexcage.bearings import statics_of
 from flexcage.case.presets import load_preset
 from flexcage.geometry.angular_contact_ball import AngularContactBallBearing
 from flexcage.geometry.ball_bearing import BallBearing
@@ -62,7 +63,8 @@ def solved(
 ) -> StaticSolution:
     """Static solution of a bearing under a load of these components."""
     load = Load(axial=axial, radial=radial, moment_y=moment_y, moment_z=moment_z, tilt="free")
-    return solve_bearing(bearing, load=load, speed=rpm * RPM, options=options)
+    elements_of = statics_of(bearing)
+    return solve_bearing(bearing, elements_of, load=load, speed=rpm * RPM, options=options)
 
 
 def angles(solution: StaticSolution) -> np.ndarray:

@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 
+from flexcage.bearings import recording_of
 from flexcage.case import Case, load_case
 from flexcage.integrate.integration import Integration
 from flexcage.integrate.recorded import new_store
@@ -51,9 +52,9 @@ def balls_on_outer(bearing: Bearing) -> tuple[np.ndarray, np.ndarray]:
     model, layout = bearing.data.model, bearing.layout
     y = np.zeros(layout.size)
     q = layout.q(y)
-    q["rollers"][:, 0] = q["cage"][0] = model.outer.axial
-    q["rollers"][:, 1] = model.outer.centre + model.outer.radius - model.bodies.radius
-    q["rollers"][:, 2] = 2.0 * pi * np.arange(layout.rollers) / layout.rollers
+    q["elements"][:, 0] = q["cage"][0] = model.outer.axial
+    q["elements"][:, 1] = model.outer.centre + model.outer.radius - model.bodies.radius
+    q["elements"][:, 2] = 2.0 * pi * np.arange(layout.elements) / layout.elements
     q["inner"][0] = model.outer.axial - model.inner.axial
     q["quaternion"][0] = 1.0
     return y, np.zeros_like(y)
@@ -62,6 +63,9 @@ def balls_on_outer(bearing: Bearing) -> tuple[np.ndarray, np.ndarray]:
 def march(case: Case, bearing: Bearing, y: np.ndarray, yd: np.ndarray) -> Any:
     """Integrate a bearing from a chosen state for the case's duration; its dataset (xarray)."""
     start = Start(y, yd, (), 0.0, 0.0, np.zeros_like(bearing.data.work.report.station))
-    store = new_store(None, bearing, duration=case.solver.duration, output=case.output, attrs={})
-    Integration(bearing, start, store, solver=case.solver, output=case.output).march()
+    recording = recording_of(case.bearing)
+    store = new_store(
+        None, bearing, recording, duration=case.solver.duration, output=case.output, attrs={}
+    )
+    Integration(bearing, recording, start, store, solver=case.solver, output=case.output).march()
     return store.dataset()

@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 
+from flexcage.bearings import recording_of
 from flexcage.case import Case, load_case
 from flexcage.integrate.integration import Integration
 from flexcage.integrate.recorded import new_store
@@ -16,7 +17,8 @@ from flexcage.modes.reduction import CageReduction
 from flexcage.modes.spec import ModesSpec
 from flexcage.stages import build_bearing, cage_mesh, cage_reduction
 from flexcage.system.problem import Bearing
-from flexcage.system.start import Start, geometric_guess
+from flexcage.system.roller_start import geometric_guess
+from flexcage.system.start import Start
 
 BASE = {
     "bearing": {"preset": "N1013"},
@@ -78,7 +80,7 @@ def state_at_rest(bearing: Bearing) -> tuple[np.ndarray, np.ndarray]:
     model, layout = bearing.data.model, bearing.layout
     y = geometric_guess(model, layout)
     q = layout.q(y)
-    q["rollers"][:, 1] = 0.5 * (model.inner.radius + model.outer.radius)
+    q["elements"][:, 1] = 0.5 * (model.inner.radius + model.outer.radius)
     q["inner"][1:3] = 0.0
     return y, np.zeros_like(y)
 
@@ -103,10 +105,15 @@ def march(
 
     ``also(integration)`` is called before the first step.
     """
-    Z, stations = bearing.layout.rollers, bearing.data.model.pocket.phi.shape[2]
+    Z, stations = bearing.layout.elements, bearing.data.model.pocket.phi.shape[2]
     start = Start(y, yd, (), 0.0, 0.0, np.zeros((Z, 4, stations, 3)))
-    store = new_store(None, bearing, duration=case.solver.duration, output=case.output, attrs={})
-    integration = Integration(bearing, start, store, solver=case.solver, output=case.output)
+    recording = recording_of(case.bearing)
+    store = new_store(
+        None, bearing, recording, duration=case.solver.duration, output=case.output, attrs={}
+    )
+    integration = Integration(
+        bearing, recording, start, store, solver=case.solver, output=case.output
+    )
     if also is not None:
         also(integration)
     integration.march()

@@ -31,7 +31,7 @@ def newton_matrix(
     J[:n_q, n_q:n_m] = -to_rate
     J[n_q:n_m, :n_q] = K @ to_displacement
     J[n_q:n_m, n_q:n_m] = alpha * M + C
-    force, place = n_q + 6 * layout.rollers + _FORCED, 6 * layout.rollers + _PLACED
+    force, place = n_q + 6 * layout.elements + _FORCED, 6 * layout.elements + _PLACED
     lam, mu = n_m + np.arange(len(force)), n_m + len(force) + np.arange(len(place))
     J[force, lam], J[lam, force] = -1.0, 1.0
     J[place, mu], J[mu, place] = -1.0, 1.0
@@ -46,7 +46,7 @@ def momentum_matrices(
     layout, data = functions.bearing.layout, functions.bearing.data
     tangent, (mass, axial, transverse) = data.work.tangent, data.model.bodies.element[:3]
     M = np.zeros((layout.n_u, layout.n_u))
-    ring = 6 * layout.rollers
+    ring = 6 * layout.elements
     np.fill_diagonal(M[:ring, :ring], [*[mass] * 3, axial, transverse, transverse])
     M[ring:, ring:] = tangent.Mbb[: layout.n_u - ring, : layout.n_u - ring]
     C = _whole(tangent.Crr, tangent.Crb, tangent.Cbr, tangent.Cbb, layout)
@@ -55,10 +55,10 @@ def momentum_matrices(
 
 def _whole(rr: np.ndarray, rb: np.ndarray, br: np.ndarray, bb: np.ndarray, layout: Layout):
     """Blocks and border as one matrix (n_u, n_u)."""
-    ring = 6 * layout.rollers
+    ring = 6 * layout.elements
     border = layout.n_u - ring
     whole = np.zeros((layout.n_u, layout.n_u))
-    for i in range(layout.rollers):
+    for i in range(layout.elements):
         block = slice(6 * i, 6 * i + 6)
         whole[block, block] = rr[i]
         whole[block, ring:] = rb[i, :, :border]
@@ -69,7 +69,7 @@ def _whole(rr: np.ndarray, rb: np.ndarray, br: np.ndarray, bb: np.ndarray, layou
 
 def kinematics(layout: Layout, y: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """(n_q, n_u) rates of coordinates by velocities, and (n_u, n_q) displacements of changes."""
-    Z = layout.rollers
+    Z = layout.elements
     rate = np.zeros((layout.n_q, layout.n_u))
     back = np.zeros((layout.n_u, layout.n_q))
     for body in range(Z + 1):

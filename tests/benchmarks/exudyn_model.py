@@ -246,8 +246,8 @@ def coordinates(planar: Planar, y: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """
     layout = planar.bearing.layout
     q, u = layout.q(y), layout.u(y)
-    r, psi, spin = (q["rollers"][..., k] for k in (1, 2, 5))
-    vr, vp, w = (u["rollers"][..., k] for k in (1, 2, 3))
+    r, psi, spin = (q["elements"][..., k] for k in (1, 2, 5))
+    vr, vp, w = (u["elements"][..., k] for k in (1, 2, 3))
     c, s = np.cos(psi), np.sin(psi)
     turn = 2.0 * np.arctan2(q["quaternion"][..., 1], q["quaternion"][..., 0])
     rollers = np.stack([r * c, r * s, psi + spin], axis=-1)

@@ -39,7 +39,7 @@ class OdeForm:
         y = self.full(x)
         M, C, K = momentum_matrices(self.c, t, y, np.zeros_like(y))
         to_rate, to_displacement = kinematics(self.layout, y)
-        n_q, ring = self.layout.n_q, 6 * self.layout.rollers
+        n_q, ring = self.layout.n_q, 6 * self.layout.elements
         J = np.zeros((self.size, self.size))
         J[:n_q, n_q:] = to_rate
         J[n_q:, :n_q] = -K @ to_displacement

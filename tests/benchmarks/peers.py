@@ -30,7 +30,6 @@ from ode_form import OdeForm
 from settled import SETTLE, Settled, sample_times
 
 from flexcage.integrate.integration import FIRST_STEP
-from flexcage.system.scales import error_weights
 
 UNTESTED = 1e6  # tolerance of unknowns that are not in the error test (spin angles, multipliers)
 RELATIVE = 2.3e-14  # the smallest that SciPy accepts: all tolerances are absolute
@@ -60,7 +59,7 @@ class Peers:
     def tolerances(self, share: float) -> np.ndarray:
         """Absolute tolerance of every unknown, ``share`` of flexcage's default."""
         s, b = self.settled, self.settled.bearing
-        weight = error_weights(b.data.model, b.layout, s.case.solver.tolerance * share)
+        weight = b.error_weights(s.case.solver.tolerance * share)
         return np.where(weight > 0.0, 1.0 / np.where(weight > 0.0, weight, 1.0), UNTESTED)
 
     def ida(self, share: float, *, max_order: int, matrix: str = "bordered") -> Path:

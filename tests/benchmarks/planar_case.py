@@ -82,7 +82,7 @@ class Planar(Settled):
 
     def _undeformed(self, state: np.ndarray) -> dict[str, np.ndarray]:
         """As ``Settled.stored``: coordinates and velocities of the rigid model's y."""
-        own, rigid = self.bearing.layout, Layout(self.bearing.layout.rollers, 0)
+        own, rigid = self.bearing.layout, Layout(self.bearing.layout.elements, 0)
         y = np.zeros(own.size)
         for views, given in ((own.q(y), rigid.q(state)), (own.u(y), rigid.u(state))):
             for name in given:
@@ -96,11 +96,11 @@ class Planar(Settled):
         y, yd = super().restore()
         layout = self.bearing.layout
         for rows in (layout.q(y), layout.q(yd)):
-            rows["rollers"][:, [0, 3, 4]] = 0.0
+            rows["elements"][:, [0, 3, 4]] = 0.0
             rows["cage"][0] = 0.0
             rows["quaternion"][2:] = 0.0
         for rows in (layout.u(y), layout.u(yd)):
-            rows["rollers"][:, [0, 4, 5]] = 0.0
+            rows["elements"][:, [0, 4, 5]] = 0.0
             rows["cage"][0] = 0.0
             rows["omega"][1:] = 0.0
         return y, yd
@@ -108,7 +108,7 @@ class Planar(Settled):
     def out_of_plane(self, ys: np.ndarray) -> float:
         """Largest skew or tilt of a roller [rad], or x of a roller or of the cage [m]."""
         q = self.bearing.layout.q(ys)
-        rollers = np.abs(q["rollers"][..., [0, 3, 4]]).max()
+        rollers = np.abs(q["elements"][..., [0, 3, 4]]).max()
         return float(max(rollers, np.abs(q["cage"][..., 0]).max()))
 
     def forces_in_space(self, ys: np.ndarray, yds: np.ndarray, times: np.ndarray) -> Forces:
@@ -117,11 +117,11 @@ class Planar(Settled):
         cage, (n, 1, 2), as ``cage``.
         """
         found, layout = self.forces(ys, yds, times), self.bearing.layout
-        n, Z = len(ys), layout.rollers
+        n, Z = len(ys), layout.elements
         race = found.race.reshape(n, Z, 2, 2)
         q, pocket = layout.q(ys), self.bearing.data.model.pocket.azimuth
         turn = 2.0 * np.arctan2(q["quaternion"][:, 1], q["quaternion"][:, 0])
-        out, on = _axes(q["rollers"][..., 2])
+        out, on = _axes(q["elements"][..., 2])
         normals = np.stack([race[:, :, 0, :1] * out, -race[:, :, 1, :1] * out], axis=2)
         tractions = race[..., 1:] * on[:, :, None]
         out, on = _axes(turn[:, None] + np.arctan2(pocket[:, 1], pocket[:, 0]))

@@ -21,7 +21,7 @@ from flexcage.solve.options import SolverOptions
 from flexcage.stages import assembled_start, build_bearing, cage_mesh, cage_reduction
 from flexcage.system.data import POWERS
 from flexcage.system.problem import new_samples
-from flexcage.system.scales import error_weights, work_weights
+from flexcage.system.scales import work_weights
 
 SETTLE = 20e-3  # [s] of bearing time before the stored state
 RATE = 200e3  # [1/s] samples of the compared window
@@ -149,7 +149,7 @@ class Settled:
     def weights(self, share: float) -> np.ndarray:
         """1/(allowed local error) of y at this share of the case's tolerance; 0: not tested."""
         b = self.bearing
-        return error_weights(b.data.model, b.layout, self.case.solver.tolerance * share)
+        return b.error_weights(self.case.solver.tolerance * share)
 
     def _sample(self, rows: int, stride: int) -> None:
         b = self.bearing
@@ -204,7 +204,7 @@ class Settled:
         """
         self.restore()
         report, race, cage = self.bearing.data.work.report, [], []
-        kept = {"roller": (0, 1), "ball": (0, 2, 3)}[self.bearing.family.element]
+        kept = {"roller": (0, 1), "ball": (0, 2, 3)}[self.bearing.motion.element]
         for t, y, yd in zip(times, ys, yds, strict=True):
             self.bearing.residual(float(t), y, yd, mode=2)
             race.append(report.race[:, :, kept].reshape(-1, len(kept)).copy())

@@ -16,7 +16,6 @@ from settled import NUDGE, RATE, SETTLE, Forces, Settled, sample_times
 import flexcage
 from flexcage.solve.bdf import BDF
 from flexcage.solve.contract import COUNTS
-from flexcage.system.scales import error_weights
 
 WINDOW = 3e-3  # [s] compared with the reference
 SHARE, STEP_SHARE = 1e-5, 2e-2  # of tolerance and largest step: the reference
@@ -79,10 +78,9 @@ def _pair(error: tuple[float, float]) -> list[float]:
 def second_method(settled: Settled, times: np.ndarray) -> Forces:
     """Forces at the times by the second method."""
     y, yd = settled.restore()
-    layout, model = settled.bearing.layout, settled.bearing.data.model
     ys, yds = implicit_runge_kutta.integrate(
         settled.bearing, SETTLE, y, yd,
-        weight=error_weights(model, layout, settled.case.solver.tolerance),
+        weight=settled.bearing.error_weights(settled.case.solver.tolerance),
         step=SECOND_STEP, every=round(1.0 / (RATE * SECOND_STEP)), samples=len(times),
     )  # fmt: skip
     return settled.forces(ys, yds, times)

@@ -100,17 +100,16 @@ def first_step(file: str, begin: float) -> dict[str, Any]:
         cage_reduction,
     )
     from flexcage.system.data import POWERS
-    from flexcage.system.scales import error_weights
 
     done("import")
     case = done("case", flexcage.load_case(file))
-    compiling = begin_compiling(case.bearing.element)
+    compiling = begin_compiling(case)
     mesh = done("mesh", cage_mesh(case))
     cage = done("modes", cage_reduction(case, mesh))
     bearing = done("kernels", build_bearing(case, mesh, cage, compiling))
     start = done("start", assembled_start(case, bearing))
     method, until = INTEGRATORS["explicit"], 1e-7
-    weight = error_weights(bearing.data.model, bearing.layout, case.solver.tolerance)
+    weight = bearing.error_weights(case.solver.tolerance)
     state = method.new_state(
         0.0,
         start.y,

@@ -7,18 +7,25 @@ from typing import ClassVar
 
 import numpy as np
 
+from flexcage.bearings import Family
 from flexcage.core.spec import option, quantity
 from flexcage.geometry.ball_cages import BallCage
-from flexcage.geometry.bearing import Bearing, EquivalentLoad, Spec, bearing_type, type_name
-from flexcage.system.statics.elements import ElementLoads, Response, elements_of
+from flexcage.geometry.bearing import (
+    Bearing,
+    EquivalentLoad,
+    Spec,
+    type_name,
+)
+from flexcage.register import bearing_family
+from flexcage.system.statics.elements import ElementLoads, Response
 
 
-@bearing_type
 @dataclass(frozen=True, kw_only=True)
 class SpringBearing(Bearing):
     """Radial springs that push and pull, all around."""
 
     kind: ClassVar[str] = "spring bearing"
+    family: ClassVar[str] = "spring"
     cage_spec: ClassVar[Spec] = BallCage
     type: str = type_name("springs")
     count: int = option(doc="number of springs", minimum=3)
@@ -33,7 +40,6 @@ class SpringBearing(Bearing):
         return EquivalentLoad(radial, 1.0, 0.0, 3.0)
 
 
-@elements_of.register(SpringBearing)
 @dataclass(frozen=True)
 class Springs:
     """Half of each spring to either side of a massless element."""
@@ -81,3 +87,19 @@ class Springs:
 
     def reference_life(self, v, w):
         return np.inf
+
+
+bearing_family(
+    Family(
+        name="spring",
+        types=(SpringBearing,),
+        statics=lambda: Springs,
+        motion=None,
+        recording=None,
+        variables=None,
+        speed=None,
+        figures=None,
+        rubbing=None,
+        shapes=None,
+    )
+)

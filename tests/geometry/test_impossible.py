@@ -7,9 +7,9 @@ import pytest
 
 from flexcage.case.presets import load_preset
 from flexcage.core.errors import InputError
-from flexcage.geometry.cages import CrossbeamDefect, SideBeamDefect
 from flexcage.geometry.cylindrical_roller import RollerProfile
 from flexcage.geometry.roller_checks import pocket_clearances
+from flexcage.geometry.window_defects import CrossbeamDefect, SideBeamDefect
 
 PRESET = load_preset("N1013")
 BEARING, CAGE = PRESET.bearing, PRESET.cage

@@ -13,7 +13,7 @@ import pytest
 from test_pictures import N1013, run
 
 from flexcage.core.errors import InputError
-from flexcage.geometry.cages import CrossbeamDefect
+from flexcage.geometry.window_defects import CrossbeamDefect
 from flexcage.render.album import Scene, StressPictures, draw_album
 from flexcage.render.look import Look
 from flexcage.stress.window_places import WINDOW_PLACES

@@ -9,8 +9,8 @@ from ring_with_pockets import Z, ring_mesh
 
 from flexcage.case.presets import load_preset
 from flexcage.contacts.spec import LandSpec
-from flexcage.geometry.cages import CrossbeamDefect
 from flexcage.geometry.cylindrical_roller import RollerBearing
+from flexcage.geometry.window_defects import CrossbeamDefect
 from flexcage.render.album import Scene, StressPictures
 from flexcage.report.blocks import Table
 from flexcage.report.cage_view import CageStress

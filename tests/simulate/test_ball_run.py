@@ -227,8 +227,8 @@ def test_a_deformed_pocket_is_felt_where_it_is():
         layout, model = bearing.layout, bearing.data.model
         y = np.zeros(layout.size)
         q = layout.q(y)
-        q["rollers"][:, 1] = model.pocket.height
-        q["rollers"][:, 2] = 2 * np.pi * np.arange(18) / 18 + 0.2e-3 / model.pocket.height
+        q["elements"][:, 1] = model.pocket.height
+        q["elements"][:, 2] = 2 * np.pi * np.arange(18) / 18 + 0.2e-3 / model.pocket.height
         q["quaternion"][0] = 1.0
         bearing.residual(0.0, y, np.zeros_like(y), mode=2)
         return set(np.flatnonzero(bearing.data.work.report.pocket_normal[:, 0] > 0.0))

@@ -11,8 +11,9 @@ import pytest
 
 STARTS = """
 import time
+import flexcage
 from flexcage.stages import begin_compiling
-print(begin_compiling("roller").helper.pid, flush=True)
+print(begin_compiling(flexcage.Case.from_preset("N1013")).helper.pid, flush=True)
 time.sleep(600)
 """
 

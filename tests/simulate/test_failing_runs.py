@@ -7,9 +7,9 @@ import pytest
 from simulate_cases import Interrupted
 
 from flexcage.core.errors import InputError, RunFailed
-from flexcage.integrate.divergence import overlaps
 from flexcage.integrate.integration import Integration
 from flexcage.integrate.recorded import new_store
+from flexcage.integrate.roller_recording import RECORDING, overlaps
 from flexcage.system.start import find_start
 from flexcage.verification.n1013 import bearing_of, n1013
 
@@ -34,8 +34,10 @@ def integration(tmp_path):
     case = n1013({"cage.model": "rigid", "solver.duration": "4 ms", "output.block": 50})
     bearing = bearing_of(case)
     start = find_start(bearing, limit_force=2e4)
-    store = new_store(tmp_path / "r.zarr", bearing, duration=4e-3, output=case.output, attrs={})
-    return Integration(bearing, start, store, solver=case.solver, output=case.output)
+    store = new_store(
+        tmp_path / "r.zarr", bearing, RECORDING, duration=4e-3, output=case.output, attrs={}
+    )
+    return Integration(bearing, RECORDING, start, store, solver=case.solver, output=case.output)
 
 
 def kept(integration, until):
@@ -80,7 +82,8 @@ def test_a_race_that_gives_way(integration):
         integration.march(Broken(harm))
     last = kept(integration, 4e-3)
     roller = int(re.search(r"roller (\d+)", str(said.value))[1])
-    assert np.cos(bearing.layout.q(last["y"])["rollers"][roller, 2]) > 0.95  # where the load points
+    azimuth = bearing.layout.q(last["y"])["elements"][roller, 2]
+    assert np.cos(azimuth) > 0.95  # where the load points
     depth = overlaps(bearing.data.model, bearing.layout, last["y"][None])[0]
     assert 0.5e-3 < depth[:, 0].max() < 1e-3 and depth[:, 1:].max() < 0.2e-3
 

@@ -5,8 +5,9 @@ from __future__ import annotations
 from flexcage.cages.build import build_cage_mesh
 from flexcage.fem.free import FreeBodySolver
 from flexcage.fem.model import assemble
-from flexcage.geometry.cages import CrossbeamDefect, SideBeamDefect, WindowCage
+from flexcage.geometry.cages import WindowCage
 from flexcage.geometry.materials import MATERIALS
+from flexcage.geometry.window_defects import CrossbeamDefect, SideBeamDefect
 from flexcage.mesh.options import MeshOptions
 from flexcage.modes.registry import build_basis
 from flexcage.modes.window_interface import cage_interface

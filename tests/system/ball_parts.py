@@ -12,8 +12,8 @@ from flexcage.bodies.floating_frame import flexible_body
 from flexcage.case.presets import load_preset
 from flexcage.contacts.spec import Contacts, FrictionLaw, Lubricant, NormalLaw, PairSpec
 from flexcage.modes.ball_interface import BallCageInterface, wall_stations
+from flexcage.system.ball_motion import MOTION
 from flexcage.system.layout import Layout
-from flexcage.system.model import build_model
 from flexcage.system.problem import Bearing
 from flexcage.system.spec import Drive, Load, Mount
 
@@ -71,12 +71,12 @@ def ball_bearing(
     if change is not None:
         change(interface)
     contacts = contacts or contacts_of()
-    model = build_model(
+    model = MOTION.build_model(
         preset.bearing, cage, body, interface, contacts=contacts, lubricant=lubricant,
         drive=Drive(speed=speed), load=load or Load(gravity=0.0, tilt="free"),
         mount=mount or Mount(),
     )  # fmt: skip
-    return Bearing(model, contacts, Layout(preset.bearing.ball_count, body.modes))
+    return Bearing(MOTION, model, contacts, Layout(preset.bearing.ball_count, body.modes))
 
 
 def pressed(bearing, *, seed=0, push=0.28e-3):
@@ -85,14 +85,14 @@ def pressed(bearing, *, seed=0, push=0.28e-3):
     model, layout = bearing.data.model, bearing.layout
     y = np.zeros(layout.size)
     q = layout.q(y)
-    Z = layout.rollers
+    Z = layout.elements
     gap = (
         0.5 * (model.inner.axial + model.outer.axial),
         0.5 * (model.inner.centre + model.outer.centre),
     )
     q["inner"][:3] = np.array([8e-6, 3e-6, -2e-6])
     q["inner"][3:5] = 2e-5, -1e-5
-    balls = q["rollers"]
+    balls = q["elements"]
     balls[:, 0] = gap[0] + 4e-6 + 3e-6 * rng.standard_normal(Z)
     balls[:, 1] = gap[1] + 3e-6 * rng.standard_normal(Z)
     balls[:, 2] = 2 * np.pi * np.arange(Z) / Z + 1e-5 * rng.standard_normal(Z)

@@ -12,15 +12,16 @@ from flexcage.system.constraints import names_of
 from flexcage.system.data import POWERS
 from flexcage.system.layout import Layout
 from flexcage.system.problem import Bearing, new_samples
-from flexcage.system.scales import error_weights, work_weights
+from flexcage.system.roller_motion import MOTION
+from flexcage.system.roller_start import geometric_guess, rolling_velocities
+from flexcage.system.scales import work_weights
 from flexcage.system.spec import Drive, Load, Mount
-from flexcage.system.start import geometric_guess, rolling_velocities
 
 
 def assembled(model, contacts, constraints=()) -> Bearing:
     held = names_of(constraints)
     layout = Layout(len(model.bodies.radius), model.cage.mff.shape[0], held)
-    return Bearing(model, contacts, layout, constraints=constraints)
+    return Bearing(MOTION, model, contacts, layout, constraints=constraints)
 
 
 def rolling_start(bearing):
@@ -56,7 +57,7 @@ def march(bearing, y0, yd0, *, duration, rate=100e3, tolerance=1e-8, max_order=2
     bearing.data = bearing.data._replace(samples=samples)
     bearing.args = bearing.arguments(bearing.data, bearing.laws)
     integrator = INTEGRATORS[method]
-    weight = error_weights(bearing.data.model, layout, tolerance)
+    weight = bearing.error_weights(tolerance)
     state = integrator.new_state(
         0.0,
         y0,
@@ -110,12 +111,12 @@ def disturbed(bearing, *, press=0.0, skew=1e-5, axial=8e-6, modal=1e-6, ring=0.0
     q["inner"][1] = 13e-6
     q["inner"][[0, 3, 4]] += ring * np.array([1.0, -4.0, 3.0])
     u["inner"][[0, 4, 5]] += ring * np.array([5e2, 3e3, 4e3])
-    rollers = q["rollers"]
+    rollers = q["elements"]
     rollers[:, 1] += 1e-7 * rng.standard_normal(22)
     rollers[:, 2] += press * rng.choice([-1, 1], 22) / rollers[:, 1]
     rollers[:, 3:5] = skew * rng.standard_normal((22, 2))
     rollers[:, 0] = axial * rng.standard_normal(22)
-    u["rollers"][:] += np.array([0.01, 0.01, 0.05, 20, 1, 1]) * rng.standard_normal((22, 6))
+    u["elements"][:] += np.array([0.01, 0.01, 0.05, 20, 1, 1]) * rng.standard_normal((22, 6))
     u["cage"][:] += 0.02 * rng.standard_normal(3)
     u["omega"][:] += np.array([1.0, 0.3, 0.3]) * rng.standard_normal(3)
     if bearing.layout.modes:

@@ -73,17 +73,17 @@ def forces_on_bodies(bearing, y, yd):
     q, u = layout.q(y), layout.u(y)
     mass = bearing.data.model.bodies.element[0]
     out = []
-    for i in range(layout.rollers):
-        x, radius, psi = q["rollers"][i, :3]
-        v = u["rollers"][i]
+    for i in range(layout.elements):
+        x, radius, psi = q["elements"][i, :3]
+        v = u["elements"][i]
         assert v[4] == v[5] == 0.0  # nothing gyroscopic
         c, s = np.cos(psi), np.sin(psi)
         F = np.array([[1, 0, 0], [0, c, s], [0, -s, c]])
-        force = -r["rollers"][i, :3] + mass * np.array([0, -(v[2] ** 2), v[1] * v[2]]) / radius
-        skew, tilt = q["rollers"][i, 3:5]
+        force = -r["elements"][i, :3] + mass * np.array([0, -(v[2] ** 2), v[1] * v[2]]) / radius
+        skew, tilt = q["elements"][i, 3:5]
         axis = Rotation.from_euler("YZ", [skew, tilt]).as_matrix().T  # rows: the roller's axes
         at = np.array([x, radius, 0.0])
-        moment = axis.T @ -r["rollers"][i, 3:] + np.cross(at, force)
+        moment = axis.T @ -r["elements"][i, 3:] + np.cross(at, force)
         out.append((F.T @ force, F.T @ moment))
     ring = -r["inner"]
     load = bearing.data.model.bodies
@@ -101,7 +101,7 @@ def crowded(bearing, **state):
     """A state with every kind of contact and friction, but nothing gyroscopic."""
     y, yd, rng = disturbed(bearing, **state)
     u = bearing.layout.u(y)
-    u["rollers"][:, 4:] = 0.0
+    u["elements"][:, 4:] = 0.0
     u["omega"][1:] = 0.0
     q = bearing.layout.q(y)
     q["quaternion"][:] = Rotation.from_rotvec([1e-4, 2e-4, -1e-4]).as_quat(scalar_first=True)
@@ -132,7 +132,7 @@ def test_contact_moments_sum_to_nothing(bearing_of):
     moment is no unknown of the model."""
     bearing = bearing_of(**QUIET)
     y, yd = crowded(bearing, press=104e-6, skew=3e-4, axial=20e-6)
-    bearing.layout.q(y)["rollers"][:, 1] -= 12e-6
+    bearing.layout.q(y)["elements"][:, 1] -= 12e-6
     report = bearing.data.work.report
     bearing.residual(0.0, y, yd, mode=2)
     assert report.race[:, 1, 0].max() == 0.0 and report.race[:, 0, 0].max() > 10.0
@@ -153,7 +153,8 @@ def test_angular_momentum_of_a_run(bearing_of):
     layout, model = bearing.layout, bearing.data.model
     q, u = layout.q(h.y), layout.u(h.y)
     mass, axial, _ = model.bodies.element
-    rollers = q["rollers"][:, :, 1] * u["rollers"][:, :, 2] * mass + axial * u["rollers"][:, :, 3]
+    radius, orbital, turn = q["elements"][:, :, 1], u["elements"][:, :, 2], u["elements"][:, :, 3]
+    rollers = radius * orbital * mass + axial * turn
     d = model.cage
     spin = (np.trace(d.G0) - d.G0[0, 0]) * u["omega"][:, 0]
     orbit = d.mass * (q["cage"][:, 1] * u["cage"][:, 2] - q["cage"][:, 2] * u["cage"][:, 1])
@@ -163,7 +164,7 @@ def test_angular_momentum_of_a_run(bearing_of):
     momentum = rollers.sum(axis=1) + spin + orbit + ring
     drive = layout.multipliers(h.y)[:, 3]
     outer = (h.samples.race[:, :, 1, 1] * model.outer.radius).sum(axis=1)
-    drag = -(model.bodies.drag[0] * u["rollers"][:, :, 2] ** 2 * q["rollers"][:, :, 1]).sum(axis=1)
+    drag = -(model.bodies.drag[0] * orbital**2 * radius).sum(axis=1)
     drag -= model.bodies.drag[1] * u["omega"][:, 0] ** 2
     load = -h.y[:, 0] * 0.0 - 1000.0 * q["inner"][:, 2]
     torque = drive + outer + drag + load
@@ -189,7 +190,7 @@ def turned_state(bearing, y, yd, angle):
             part[:] = R @ part
         for part in (q["outer"], u["outer"]):
             part[:] = R[1:, 1:] @ part
-    layout.q(y2)["rollers"][:, 2] += angle
+    layout.q(y2)["elements"][:, 2] += angle
     for z in (y2, yd2):
         p = layout.q(z)["quaternion"]
         n = np.linalg.norm(p)
@@ -214,8 +215,8 @@ def test_turning_everything_turns_the_forces(bearing_of, flexible):
     y2, yd2 = turned_state(bearing, y, yd, angle)
     there = bearing.layout.u(turned.residual(0.0, y2, yd2))
     R = Rotation.from_rotvec([angle, 0, 0]).as_matrix()
-    size = np.abs(here["rollers"][:, :3]).max()
-    np.testing.assert_allclose(there["rollers"], here["rollers"], atol=1e-6 * size)
+    size = np.abs(here["elements"][:, :3]).max()
+    np.testing.assert_allclose(there["elements"], here["elements"], atol=1e-6 * size)
     for name in ("inner", "cage"):
         np.testing.assert_allclose(there[name][:3], R @ here[name][:3], atol=1e-6 * size)
     np.testing.assert_allclose(there["omega"], here["omega"], atol=1e-6 * size)
@@ -233,8 +234,8 @@ def test_reversed_rotation_is_the_mirror_image(bearing_of):
     np.testing.assert_allclose(qb["inner"][:, 1:3], qa["inner"][:, 1:3] * [1, -1], atol=2e-8)
     np.testing.assert_allclose(qb["cage"][:, 1:], qa["cage"][:, 1:] * [1, -1], atol=1e-6)
     np.testing.assert_allclose(ub["omega"][:, 0], -ua["omega"][:, 0], rtol=1e-3)
-    spin = ua["rollers"][:, :, 3]
-    np.testing.assert_allclose(ub["rollers"][:, swap, 3], -spin, atol=2e-3 * np.abs(spin).max())
+    spin = ua["elements"][:, :, 3]
+    np.testing.assert_allclose(ub["elements"][:, swap, 3], -spin, atol=2e-3 * np.abs(spin).max())
     na, nb = a.samples.race[:, :, 0, 0], b.samples.race[:, swap, 0, 0]
     assert np.abs(na - nb).max() < 0.01 * na.max()
     pa, pb = (h.samples.pocket_normal.max(axis=0) for h in (a, b))

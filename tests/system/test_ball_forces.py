@@ -56,10 +56,10 @@ def test_forces_are_the_slopes_of_the_energy(change, shape):
         return move
 
     found, expected = [], []
-    for i in range(layout.rollers):
-        r = layout.q(y)["rollers"][i, 1]
-        found += list(rows["rollers"][i, :3] * (1.0, 1.0, r))
-        expected += [slope(shift("rollers", i, c), (1e-9, 1e-9, 1e-9 / r)[c]) for c in range(3)]
+    for i in range(layout.elements):
+        r = layout.q(y)["elements"][i, 1]
+        found += list(rows["elements"][i, :3] * (1.0, 1.0, r))
+        expected += [slope(shift("elements", i, c), (1e-9, 1e-9, 1e-9 / r)[c]) for c in range(3)]
     found += [*rows["inner"][:3], *rows["cage"], *rows["modes"]]
     expected += [slope(shift("inner", c), 1e-9) for c in range(3)]
     expected += [slope(shift("cage", c), 1e-9) for c in range(3)]
@@ -86,21 +86,21 @@ def test_along_the_straight_part_of_a_slot_a_bent_wall_does_not_push(along, shap
     bearing = ball_bearing(change=slot, shape=shape)
     layout, model = bearing.layout, bearing.data.model
     y = pressed(bearing)
-    q, Z = layout.q(y), layout.rollers
+    q, Z = layout.q(y), layout.elements
     q["cage"][:], q["quaternion"][:] = 0.0, (1.0, 0.0, 0.0, 0.0)
     beyond = 1.03 * float(model.pocket.radius[0] - model.bodies.radius[0])
     x, t = ((40e-6, beyond), (beyond, 40e-6))[along]
-    balls, height = q["rollers"], model.pocket.height
+    balls, height = q["elements"], model.pocket.height
     balls[:, 0], balls[:, 1] = x, height
     balls[:, 2] = 2.0 * np.pi * np.arange(Z) / Z + t / height
-    rows = layout.u(-bearing.residual(0.0, y, np.zeros_like(y)))["rollers"]
+    rows = layout.u(-bearing.residual(0.0, y, np.zeros_like(y)))["elements"]
     energy(bearing, y)
     assert (bearing.data.work.report.pocket_normal > 1.0).sum() > 8
     component, lever = ((0, 1.0), (2, height))[along]
     for i in range(0, Z, 3):
         high, low = y.copy(), y.copy()
-        layout.q(high)["rollers"][i, component] += 1e-9 / lever
-        layout.q(low)["rollers"][i, component] -= 1e-9 / lever
+        layout.q(high)["elements"][i, component] += 1e-9 / lever
+        layout.q(low)["elements"][i, component] -= 1e-9 / lever
         slope = -(energy(bearing, high) - energy(bearing, low)) / 2e-9
         scale = np.abs(rows[i, :3]).max()
         assert rows[i, component] == pytest.approx(slope, abs=2e-6 * scale)
@@ -112,12 +112,12 @@ def at_poles(bearing):
     q = bearing.layout.q(y)
     model = bearing.data.model
     play = model.pocket.radius - model.bodies.radius
-    way = np.append(0.0, np.linspace(-0.45, 0.45, bearing.layout.rollers - 1))
+    way = np.append(0.0, np.linspace(-0.45, 0.45, bearing.layout.elements - 1))
     q["cage"][:], q["quaternion"][:] = 0.0, (1.0, 0.0, 0.0, 0.0)
-    balls = q["rollers"]
+    balls = q["elements"]
     balls[:, 0] = 1.03 * play * np.sin(way) * 0.6 + model.pocket.shift[:, 0]
     balls[:, 1] = model.pocket.height + 1.03 * play * np.cos(way)
-    balls[:, 2] = 2.0 * np.pi * np.arange(bearing.layout.rollers) / bearing.layout.rollers
+    balls[:, 2] = 2.0 * np.pi * np.arange(bearing.layout.elements) / bearing.layout.elements
     balls[:, 2] += 1.03 * play * np.sin(way) * 0.8 / balls[:, 1]
     return y
 
@@ -134,7 +134,7 @@ def at_rims(bearing):
         (-side, -low), (side, -low), (0.2, 0.1), (0.05, high), (0.0, -low),
     ]  # fmt: skip
     seats = {5: 1e-6, 9: 0.0, 10: 2e-6}  # nearly straight, across by so much
-    for i in range(bearing.layout.rollers):
+    for i in range(bearing.layout.elements):
         x, r = touched[i % len(touched)]
         t = np.sqrt(max(1.0 - x**2 - r**2, 0.0)) * (-1.0) ** i
         on_wall = wall * np.array([x, r, t])
@@ -145,8 +145,8 @@ def at_rims(bearing):
             inside = np.array([seats[i], wall * sine - np.sign(sine) * way, 0.0])
         ball_at = inside + (model.pocket.shift[i, 0], model.pocket.height, 0.0)
         y_, z_ = ball_at[1], ball_at[2] + model.pocket.shift[i, 1]
-        q["rollers"][i, :2] = ball_at[0], np.hypot(y_, z_)
-        q["rollers"][i, 2] = 2.0 * np.pi * i / bearing.layout.rollers + np.arctan2(z_, y_)
+        q["elements"][i, :2] = ball_at[0], np.hypot(y_, z_)
+        q["elements"][i, 2] = 2.0 * np.pi * i / bearing.layout.elements + np.arctan2(z_, y_)
     return y
 
 
@@ -177,13 +177,13 @@ def test_forces_on_spheres_are_slopes_of_the_energy_too(rims, place):
         return -(energy(bearing, high) - energy(bearing, low)) / (2.0 * h)
 
     balls = [
-        slope("rollers", i, c, h=1e-9 / (1.0, 1.0, PITCH)[c]) for i in range(layout.rollers)
+        slope("elements", i, c, h=1e-9 / (1.0, 1.0, PITCH)[c]) for i in range(layout.elements)
         for c in range(3)
     ]  # fmt: skip
     others = [slope("cage", c) for c in range(3)] + [slope("modes", m) for m in range(layout.modes)]
     lever = (1.0, 1.0, PITCH)
-    found = [*(rows["rollers"][:, :3] * lever).ravel(), *rows["cage"], *rows["modes"]]
-    found[2 : 3 * layout.rollers : 3] *= layout.q(y)["rollers"][:, 1] / PITCH
+    found = [*(rows["elements"][:, :3] * lever).ravel(), *rows["cage"], *rows["modes"]]
+    found[2 : 3 * layout.elements : 3] *= layout.q(y)["elements"][:, 1] / PITCH
     scale = np.abs([*balls, *others]).max()
     np.testing.assert_allclose(found, [*balls, *others], atol=3e-6 * scale)
     energy(bearing, y)
@@ -198,10 +198,10 @@ def test_all_forces_balance():
         contacts=contacts_of("restitution", "step_coulomb"), lubricant=Lubricant(oil_fraction=0.0)
     )
     layout, y = bearing.layout, pressed(bearing, seed=3)
-    layout.q(y)["rollers"][:, 1] -= 15e-6
+    layout.q(y)["elements"][:, 1] -= 15e-6
     rng = np.random.default_rng(1)
     u = layout.u(y)
-    u["rollers"][:] = rng.standard_normal((layout.rollers, 6)) * (0.1, 0.1, 0.1, 50, 50, 50)
+    u["elements"][:] = rng.standard_normal((layout.elements, 6)) * (0.1, 0.1, 0.1, 50, 50, 50)
     u["inner"][:] = rng.standard_normal(6) * (0.1, 0.1, 0.1, 30, 5, 5)
     u["cage"][:], u["omega"][:] = 0.1 * rng.standard_normal(3), 5.0 * rng.standard_normal(3)
     yd = np.zeros_like(y)
@@ -209,16 +209,16 @@ def test_all_forces_balance():
     work = bearing.data.work
     q = layout.q(y)
     border, report = work.scratch.border, work.report
-    psi, r = q["rollers"][:, 2], q["rollers"][:, 1]
+    psi, r = q["elements"][:, 2], q["elements"][:, 1]
     # what acts on each ball, from its rows without inertia
-    rows = layout.u(-bearing.residual(0.0, y, yd))["rollers"].copy()
+    rows = layout.u(-bearing.residual(0.0, y, yd))["elements"].copy()
     model = bearing.data.model
-    orbit = u["rollers"][:, 2] / r
+    orbit = u["elements"][:, 2] / r
     mass, inertia = model.bodies.element[:2]
-    rows[:, 1] -= mass * orbit * u["rollers"][:, 2]
-    rows[:, 2] += mass * orbit * u["rollers"][:, 1]
-    rows[:, 4] -= inertia * orbit * u["rollers"][:, 5]
-    rows[:, 5] += inertia * orbit * u["rollers"][:, 4]
+    rows[:, 1] -= mass * orbit * u["elements"][:, 2]
+    rows[:, 2] += mass * orbit * u["elements"][:, 1]
+    rows[:, 4] -= inertia * orbit * u["elements"][:, 5]
+    rows[:, 5] += inertia * orbit * u["elements"][:, 4]
     er = np.stack([0 * psi, np.cos(psi), np.sin(psi)], axis=1)
     et = np.stack([0 * psi, -np.sin(psi), np.cos(psi)], axis=1)
     ex = np.tile([1.0, 0.0, 0.0], (len(psi), 1))
@@ -227,7 +227,7 @@ def test_all_forces_balance():
         return a[:, :1] * ex + a[:, 1:2] * er + a[:, 2:] * et
 
     forces, couples = space(rows[:, :3]), space(rows[:, 3:])
-    at = q["rollers"][:, :1] * ex + r[:, None] * er
+    at = q["elements"][:, :1] * ex + r[:, None] * er
     total = forces.sum(axis=0) + border[:3] + border[8:11]
     assert np.abs(total).max() < 1e-10 * np.abs(forces).sum()
     A = work.scratch.A

@@ -7,12 +7,12 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from bearing_runs import SOFT, march, rolling_start
+from solved_bearings import solve_bearing
 
 from flexcage.case.presets import load_preset
 from flexcage.system.spec import Drive, Load
 from flexcage.system.start import find_start
 from flexcage.system.statics.options import StaticOptions
-from flexcage.system.statics.solve import solve_bearing
 
 ROLLERS, BALLS = load_preset("N1013").bearing, load_preset("7010C-PI").bearing
 HELD = StaticOptions(tilt="held")
@@ -64,7 +64,7 @@ def test_the_start_displaces_a_ring_by_force_over_stiffness(bearing_of):
         q = bearing.layout.q(start.y)
         assert q["inner"][0] == pytest.approx(axial / 1e6, rel=1e-9)
         assert bearing.layout.multipliers(start.y)[0] == pytest.approx(-axial, rel=1e-9)
-        np.testing.assert_allclose(q["rollers"][:, 0], axial / 1e6, rtol=1e-9)
+        np.testing.assert_allclose(q["elements"][:, 0], axial / 1e6, rtol=1e-9)
         assert q["cage"][0] == pytest.approx(axial / 1e6, rel=1e-9)
 
 

@@ -15,7 +15,6 @@ from flexcage.core.errors import InputError
 from flexcage.core.spec import quantity
 from flexcage.system import constraints
 from flexcage.system.constraints import names_of, register_constraint
-from flexcage.system.scales import error_weights
 from flexcage.system.spec import CageCentre, CageSpeed, Constraint, InnerPath, Load
 
 RPM = np.pi / 30
@@ -95,7 +94,7 @@ def brought(bearing, y):
 
 def missed(bearing, t, y):
     """g and h of all constraints."""
-    held, z, layout = bearing.data.constraints, 6 * bearing.layout.rollers, bearing.layout
+    held, z, layout = bearing.data.constraints, 6 * bearing.layout.elements, bearing.layout
     G, g, h = np.zeros_like(held.G), np.zeros_like(held.g), np.zeros_like(held.h)
     q, u = y[z : z + 15], y[layout.n_q + z : layout.n_q + z + 14]
     bearing.laws[-2](t, q, u, held.p, G, g, h)
@@ -116,7 +115,7 @@ def test_rates_leave_no_residual_and_stay_on_the_constraints(bearing_of, state, 
     y, yd = brought(bearing, y)
     layout = bearing.layout
     left = bearing.residual(0.0, y, yd)
-    force = 0.01 * np.abs(layout.u(bearing.residual(0.0, y, 0.0 * yd))["rollers"]).max()
+    force = 0.01 * np.abs(layout.u(bearing.residual(0.0, y, 0.0 * yd))["elements"]).max()
     left[layout.n_q : layout.n_q + layout.n_u] /= force
     assert np.abs(left).max() < 1e-9
     assert np.any(layout.multipliers(y)[4:])
@@ -154,7 +153,7 @@ def test_both_methods_go_the_same_way(bearing_of, name):
         gained = np.ptp(h.samples.energy[: len(h.y)].sum(axis=1) - h.work.sum(axis=1))
         assert gained < 1e-4 * np.ptp(h.work, axis=0).max()
     bdf, explicit = outs["bdf"], outs["explicit"]
-    weight = error_weights(bearing.data.model, bearing.layout, 1e-9)
+    weight = bearing.error_weights(1e-9)
     assert np.abs((bdf.y - explicit.y) * weight).max() < 3.0
     ours, theirs = (bearing.layout.multipliers(h.y)[:, 3:] for h in (bdf, explicit))
     np.testing.assert_allclose(ours, theirs, atol=2e-3 * np.abs(theirs).max())

@@ -80,12 +80,12 @@ def test_spin_of_one_roller(bearing_of, lubricant, slip, width, pocket, start, e
 
     y, yd = rolling_start(bearing)
     q, u, qd = layout.q(y), layout.u(y), layout.q(yd)
-    q["rollers"][:, 1], q["inner"][1:3] = radius, 0.0
-    u["rollers"][:, 2], u["rollers"][:, 3] = orbit * radius, start
-    qd["rollers"][:, 2], qd["rollers"][:, 5] = orbit, start - orbit
+    q["elements"][:, 1], q["inner"][1:3] = radius, 0.0
+    u["elements"][:, 2], u["elements"][:, 3] = orbit * radius, start
+    qd["elements"][:, 2], qd["elements"][:, 5] = orbit, start - orbit
     u["omega"][0], qd["quaternion"][1] = orbit, 0.5 * orbit
     h = march(bearing, y, yd, duration=4e-3, rate=50e3)
-    spin = layout.u(h.y)["rollers"][:, :, 3]
+    spin = layout.u(h.y)["elements"][:, :, 3]
     np.testing.assert_allclose(layout.u(h.y)["omega"][:, 0], orbit, rtol=1e-4)
 
     mu, grip = curve(pair.friction), curve(pocket) if pocket.law == "traction" else lambda v: 0.0
@@ -163,6 +163,6 @@ def test_stiff_modes_are_a_rigid_cage(bearing_of):
     assert runs[1].samples.pocket_normal.max() > 1.0
     assert np.abs(q[0]["modes"]).max() < 1e-7
     assert np.abs(q[0]["cage"] - q[1]["cage"]).max() < 5e-8
-    assert np.abs(q[0]["rollers"][:, :, :2] - q[1]["rollers"][:, :, :2]).max() < 5e-8
+    assert np.abs(q[0]["elements"][:, :, :2] - q[1]["elements"][:, :, :2]).max() < 5e-8
     loads = [h.samples.race[:, :, 0, 0] for h in runs]
     assert np.abs(loads[0] - loads[1]).max() < 0.01 * loads[1].max()

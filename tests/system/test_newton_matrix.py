@@ -7,7 +7,6 @@ import pytest
 from bearing_runs import STATES, disturbed
 
 from flexcage.contacts.spec import Contacts, FrictionLaw, Lubricant, NormalLaw, PairSpec
-from flexcage.system.scales import error_weights
 from flexcage.system.spec import Drive, Load
 
 PLAIN = PairSpec(normal=NormalLaw(law="elastic"), friction=FrictionLaw(law="none"))
@@ -20,7 +19,7 @@ FRICTIONLESS = {
 def miss(bearing, y, yd, rng, alpha):
     """Largest error of one Newton step back from a displacement of one allowed error everywhere."""
     layout = bearing.layout
-    weight = error_weights(bearing.data.model, layout, 1e-8)
+    weight = bearing.error_weights(1e-8)
     tested = weight > 0.0
     d = np.zeros(layout.size)
     d[tested] = rng.uniform(-1, 1, tested.sum()) / weight[tested]

@@ -19,7 +19,6 @@ from flexcage.core.rotation import matrix_from_quaternion
 from flexcage.solve.runge_kutta import EXPLICIT_METHOD
 from flexcage.system.data import DRIVE, POWERS
 from flexcage.system.rates import cage_accelerations, modal_oscillators, new_rates_work
-from flexcage.system.scales import error_weights
 from flexcage.system.spec import Drive, Load
 
 
@@ -42,7 +41,7 @@ def test_rates_leave_no_residual(bearing_of, name):
     yd, power = rates(bearing, 0.0, y)
     left = bearing.residual(0.0, y, yd, mode=2)
     scale = np.ones_like(left)
-    force = 0.01 * np.abs(layout.u(bearing.residual(0.0, y, 0.0 * yd))["rollers"]).max()
+    force = 0.01 * np.abs(layout.u(bearing.residual(0.0, y, 0.0 * yd))["elements"]).max()
     scale[layout.n_q : layout.n_q + layout.n_u] = force  # momentum rows are in newtons
     assert np.abs(left / scale).max() < 1e-9
     assert not np.any(layout.u(y)["inner"][held])
@@ -74,7 +73,7 @@ def test_spectral_radius_against_the_whole_jacobian(bearing_of, name):
     specs, _ = STATES[name]
     bearing = bearing_of(**{"load": Load(radial=1000.0), **specs})
     y, _, _ = disturbed(bearing)
-    weight = error_weights(bearing.data.model, bearing.layout, 5e-9)
+    weight = bearing.error_weights(5e-9)
     tested = np.flatnonzero(weight)
     base, _ = rates(bearing, 0.0, y)
     J = np.empty((len(tested), len(tested)))
@@ -128,7 +127,7 @@ def test_both_methods_go_the_same_way(bearing_of, specs):
             bearing, y, yd, duration=0.2e-3, tolerance=1e-13, h_max=h_max, method=method
         )
     bdf, explicit = outs["bdf"], outs["explicit"]
-    weight = error_weights(bearing.data.model, bearing.layout, 1e-9)
+    weight = bearing.error_weights(1e-9)
     assert (
         np.abs((bdf.y - explicit.y) * weight).max() < 3.0
     )  # nanometres, or as much in other units

@@ -6,27 +6,26 @@ from math import cos, pi, radians, sin
 import numpy as np
 import pytest
 from scipy.optimize import brentq
+from solved_bearings import solve_bearing
 
+from flexcage.bearings import statics_of
 from flexcage.case.presets import load_preset
 from flexcage.contacts.spec import Contacts, PairSpec
 from flexcage.core.errors import InputError, RunFailed
 from flexcage.geometry.cylindrical_roller import RollerProfile
 from flexcage.geometry.hertz import series_stiffness
 from flexcage.system.spec import Load
-from flexcage.system.statics import balls, rollers
-from flexcage.system.statics.elements import elements_of
 from flexcage.system.statics.options import StaticOptions
-from flexcage.system.statics.solve import solve_bearing
 
 RPM = pi / 30.0
 BALLS, STEEP = load_preset("7010C-PA66").bearing, load_preset("7603025").bearing
 DEEP, ROLLERS = load_preset("15x37x10").bearing, load_preset("N1013").bearing
 ALL = {"angular": BALLS, "steep": STEEP, "deep groove": DEEP, "rollers": ROLLERS}
-REGISTERED = (balls, rollers)
 
 
 def elements(bearing, speed=8000.0 * RPM, **options):
-    return elements_of(bearing, speed=speed, contacts=Contacts(), options=StaticOptions(**options))
+    how = StaticOptions(**options)
+    return statics_of(bearing)(bearing, speed=speed, contacts=Contacts(), options=how)
 
 
 def pressed(e, bearing):

@@ -10,8 +10,8 @@ from flexcage.bodies.cage import flexible_from_basis, rigid_from_tets
 from flexcage.cages.build import rigid_interface_of
 from flexcage.simulate import simulate
 from flexcage.stages import cage_mesh, cage_reduction
+from flexcage.system.ball_motion import MOTION
 from flexcage.system.layout import Layout
-from flexcage.system.model import build_model
 from flexcage.system.problem import Bearing
 from flexcage.verification.c7010 import c7010
 
@@ -75,8 +75,8 @@ def frozen_and_rigid():
     specs = {k: getattr(case, k) for k in ("contacts", "lubricant", "drive", "load", "mount")}
 
     def bearing(body, interface):
-        model = build_model(case.bearing, case.cage, body, interface, **specs)
-        bearing = Bearing(model, case.contacts, Layout(18, body.modes))
+        model = MOTION.build_model(case.bearing, case.cage, body, interface, **specs)
+        bearing = Bearing(MOTION, model, case.contacts, Layout(18, body.modes))
         for speeds in bearing.data.memory[:4]:
             speeds[...] = 0.3  # at which contacts closed
         return bearing
@@ -97,7 +97,7 @@ def test_frozen_modes_leave_the_rigid_equations(frozen_and_rigid):
     for _ in range(5):
         y, yd = np.zeros(small.size), 10.0 * rng.standard_normal(small.size)
         q = small.q(y)
-        balls = q["rollers"]
+        balls = q["elements"]
         balls[:, 0] = 1e-4 * rng.standard_normal(18)
         balls[:, 1] = 32.5e-3 + 4e-6 * rng.standard_normal(18)
         balls[:, 2] = 2.0 * np.pi * np.arange(18) / 18 + 8e-3 * rng.standard_normal(18)

@@ -17,7 +17,7 @@ def beam(x, length):
 def touch(bearing, *, pocket, face, coordinate, low, high, **pose):
     """Value of a roller's coordinate at which its pocket's face begins to press on it."""
     y, yd = state_at_rest(bearing)
-    roller = bearing.layout.q(y)["rollers"][pocket]
+    roller = bearing.layout.q(y)["elements"][pocket]
     names = ("x", "r", "psi", "skew", "tilt", "spin")
     roller[2] = pocket * PITCH
     for name, value in pose.items():

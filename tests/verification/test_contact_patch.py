@@ -29,7 +29,7 @@ from skfem.models.elasticity import lame_parameters, linear_elasticity
 from verification_bearing import bearing_of, log, n1013
 
 from flexcage.contacts import laws
-from flexcage.system.model import crossbeam_width
+from flexcage.system.roller_model import crossbeam_width
 
 CASE = n1013()
 LENGTH = CASE.bearing.effective_length

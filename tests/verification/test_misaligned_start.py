@@ -36,7 +36,7 @@ def test_a_tilted_bearing_starts_at_speed(tilt, model):
     report = bearing.data.work.report
     assert report.rib.max() == 0.0 and report.pocket_normal.max() == 0.0
     forces = report.race[:, 0, 0]
-    psi = bearing.layout.q(start.y)["rollers"][:, 2]
+    psi = bearing.layout.q(start.y)["elements"][:, 2]
     assert (forces * np.cos(psi)).sum() == pytest.approx(1000.0, rel=2e-3)
 
 
@@ -83,11 +83,11 @@ def test_forces_and_moments_of_the_start_balance(tilt):
     assert start.residual < 1e-6
     q = bearing.layout.q(start.y)
     sums = np.zeros((22, 2, 2))  # force, moment about the roller's middle
-    for i, roller in enumerate(q["rollers"]):
+    for i, roller in enumerate(q["elements"]):
         for k, outer in enumerate((False, True)):
             N, s = slices_of(case, roller, q["inner"], outer=outer)
             sums[i, k] = N.sum(), (N * s).sum()
-    cos, sin = np.cos(q["rollers"][:, 2]), np.sin(q["rollers"][:, 2])
+    cos, sin = np.cos(q["elements"][:, 2]), np.sin(q["elements"][:, 2])
     assert sums[:, 0, 0] @ cos == pytest.approx(1000.0, rel=5e-4)
     scaled = sums / np.abs(sums).max(axis=(0, 1))
     np.testing.assert_allclose(scaled[:, 0], scaled[:, 1], atol=2e-3)
@@ -108,7 +108,7 @@ def test_more_tilt_takes_more_moment_and_edge_load():
         bearing, start = misaligned(tilt, STILL)
         q = bearing.layout.q(start.y)
         rows = bearing.layout.u(bearing.residual(0.0, start.y, start.yd))["inner"]
-        N, _ = slices_of(case, q["rollers"][0], q["inner"], outer=False)
+        N, _ = slices_of(case, q["elements"][0], q["inner"], outer=False)
         moments.append(rows[5])
         edges.append(N.max() / N.mean())
     log.info("moments %s N m, largest slice over mean %s", np.round(moments, 4), np.round(edges, 3))

@@ -31,7 +31,6 @@ from settled import SETTLE, Settled
 from verification_bearing import log
 
 import flexcage
-from flexcage.system.scales import error_weights
 
 needs_ida = pytest.mark.skipif(
     find_spec("sksundae") is None, reason="scikit-sundae is not installed (the extra 'peer')"
@@ -63,7 +62,7 @@ def test_the_ode_form_is_the_same_problem(settled, start):
     x = y[: peers.ode.size]
     yd = peers.ode.full(peers.ode.rates(SETTLE, x.copy()))
     left = np.abs(settled.bearing.residual(SETTLE, peers.ode.full(x), yd))
-    ring = settled.bearing.layout.n_q + 6 * settled.bearing.layout.rollers
+    ring = settled.bearing.layout.n_q + 6 * settled.bearing.layout.elements
     held = ring + np.array([0, 3, 4, 5])
     forces = np.abs(settled.bearing.layout.multipliers(y))[[0, 3, 1, 2]]
     # those of y are as good as Newton's method left them
@@ -85,7 +84,7 @@ def test_both_methods_find_the_same_forces(settled, start):
 def test_same_trajectory(settled, start):
     """Over the first half millisecond, and the closer the tighter the tolerance."""
     peers, reference, forces = start
-    weight = error_weights(settled.bearing.data.model, settled.bearing.layout, UNIT)
+    weight = settled.bearing.error_weights(UNIT)
     misses = []
     for share in (1e-1, 1e-2, 1e-3):
         path = peers.ida(share, max_order=5)
@@ -116,7 +115,7 @@ def test_same_statistics(settled):
 
 def statistics(settled, times, run) -> tuple[float, float, float]:
     """Means of largest inner race force [N], summed crossbeam forces [N], cage speed [rad/s]."""
-    Z = settled.bearing.layout.rollers
+    Z = settled.bearing.layout.elements
     forces = settled.forces(run.ys[::EVERY], run.yds[::EVERY], times[::EVERY])
     inner = forces.race.reshape(len(forces.race), Z, 2, 2)[:, :, 0, 0]
     faces = forces.cage[:, :-1].reshape(len(forces.cage), Z, 4, 3)

@@ -21,8 +21,8 @@ from flexcage.modes.window_interface import rigid_interface
 from flexcage.simulate import simulate
 from flexcage.stages import build_bearing
 from flexcage.system.layout import Layout
-from flexcage.system.model import build_model
 from flexcage.system.problem import Bearing
+from flexcage.system.roller_motion import MOTION
 from flexcage.system.start import find_start
 
 WINDOW = {
@@ -117,11 +117,11 @@ def frozen_and_rigid():
     }
 
     def bearing(body, interface, pocket_law=None):
-        model = build_model(case.bearing, case.cage, body, interface, **parts)
+        model = MOTION.build_model(case.bearing, case.cage, body, interface, **parts)
         if pocket_law is not None:
             model.pocket.normal[:] = pocket_law
         layout = Layout(case.bearing.roller_count, body.modes)
-        return Bearing(model, case.contacts, layout)
+        return Bearing(MOTION, model, case.contacts, layout)
 
     interface = replace(cage.interface, compliance=np.zeros_like(cage.interface.compliance))
     frozen = bearing(flexible, interface)
@@ -142,10 +142,10 @@ def test_frozen_modes_leave_the_rigid_equations(frozen_and_rigid):
     for _ in range(5):
         y, yd = np.zeros(small.size), 10.0 * rng.standard_normal(small.size)
         q, u = small.q(y), small.u(y)
-        q["rollers"][:, 1] = 41.25e-3 + 4e-6 * rng.standard_normal(22)
-        q["rollers"][:, 2] = 2 * np.pi * np.arange(22) / 22 + 3e-3 * rng.standard_normal(22)
-        q["rollers"][:, 0] = 5e-6 * rng.standard_normal(22)
-        q["rollers"][:, 3:5] = 2e-3 * rng.standard_normal((22, 2))
+        q["elements"][:, 1] = 41.25e-3 + 4e-6 * rng.standard_normal(22)
+        q["elements"][:, 2] = 2 * np.pi * np.arange(22) / 22 + 3e-3 * rng.standard_normal(22)
+        q["elements"][:, 0] = 5e-6 * rng.standard_normal(22)
+        q["elements"][:, 3:5] = 2e-3 * rng.standard_normal((22, 2))
         q["cage"][:] = 2e-4 * rng.standard_normal(3)
         q["quaternion"][:] = [1.0, 1e-4, 2e-4, -1e-4]
         for values in u.values():
@@ -175,7 +175,7 @@ def test_modes_frozen_by_stiffness_run_as_the_rigid_cage(frozen_and_rigid):
         model = bearing.data.model._replace(
             cage=body._replace(kff=1e10 * body.kff, dff=1e5 * body.dff)
         )
-        one = Bearing(model, case.contacts, bearing.layout,
+        one = Bearing(MOTION, model, case.contacts, bearing.layout,
                       block=case.output.block, stride=case.output.vibration_ratio)  # fmt: skip
         start = _start(one)
         datasets.append(march(case, one, *start))

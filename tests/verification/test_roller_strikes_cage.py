@@ -76,8 +76,8 @@ def strike(case) -> Blow:
     y, yd = state_at_rest(bearing)
     layout, radius = bearing.layout, case.bearing.pitch_radius
     gap = 0.5 * (case.cage.pocket_width - case.bearing.roller_diameter)
-    layout.q(y)["rollers"][0, 1:3] = radius, np.arcsin((gap - 1e-9) / radius)
-    layout.u(y)["rollers"][0, 2], layout.q(yd)["rollers"][0, 2] = SPEED, SPEED / radius
+    layout.q(y)["elements"][0, 1:3] = radius, np.arcsin((gap - 1e-9) / radius)
+    layout.u(y)["elements"][0, 2], layout.q(yd)["elements"][0, 2] = SPEED, SPEED / radius
     ds = march(case, bearing, y, yd)
     assert float(ds["race_force"].max()) == 0.0  # nothing else was touched
     assert float(ds["pocket_force"].values[:, 1:].max()) == 0.0

@@ -5,6 +5,13 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from flexcage.cages.cage_type import CageType
+from flexcage.geometry.ball_cage_defects import (
+    BallCageDefect,
+    DisplacedPocket,
+    ElongatedPocket,
+    EnlargedPocket,
+    WebCrack,
+)
 from flexcage.geometry.ball_cages import BallCage
 
 if TYPE_CHECKING:
@@ -33,5 +40,6 @@ def _places() -> Places:
 
 MACHINED = CageType(
     name="machined", spec=BallCage, holds=("ball",), mesh=_mesh, interfaces=_interfaces,
-    places=_places,
+    places=_places, defects=(EnlargedPocket, ElongatedPocket, DisplacedPocket, WebCrack),
+    defect_spec=BallCageDefect,
 )  # fmt: skip

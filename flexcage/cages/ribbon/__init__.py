@@ -5,7 +5,9 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from flexcage.cages.cage_type import CageType
+from flexcage.geometry.ball_cage_defects import BallCageDefect
 from flexcage.geometry.ribbon_cage import RibbonCage
+from flexcage.geometry.ribbon_defects import MissingRivet
 
 if TYPE_CHECKING:
     from flexcage.mesh.build import MeshBuilder
@@ -33,5 +35,6 @@ def _places() -> Places:
 
 RIBBON = CageType(
     name="ribbon", spec=RibbonCage, holds=("ball",), mesh=_mesh, interfaces=_interfaces,
-    places=_places,
+    places=_places, defects=(MissingRivet,),
+    defect_spec=BallCageDefect,
 )  # fmt: skip

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 from flexcage.cages.cage_type import CageType
 from flexcage.geometry.cages import WindowCage
+from flexcage.geometry.window_defects import CrossbeamDefect, SideBeamDefect, WindowDefect
 
 if TYPE_CHECKING:
     from flexcage.mesh.build import MeshBuilder
@@ -33,5 +34,6 @@ def _places() -> Places:
 
 WINDOW = CageType(
     name="window", spec=WindowCage, holds=("roller",), mesh=_mesh, interfaces=_interfaces,
-    places=_places,
+    places=_places, defects=(CrossbeamDefect, SideBeamDefect),
+    defect_spec=WindowDefect,
 )  # fmt: skip

@@ -18,7 +18,7 @@ from flexcage.core.errors import InputError
 from flexcage.geometry.ball_bearing import BallBearing
 from flexcage.geometry.ball_ratings import STATIC_PRESSURE, ring_share
 from flexcage.geometry.hertz import PointContact
-from flexcage.system.statics.elements import ElementLoads, Response, azimuths, elements_of
+from flexcage.system.statics.elements import ElementLoads, Response, azimuths
 from flexcage.system.statics.options import StaticOptions
 from flexcage.system.statics.race_control import BallMotion, directions, with_derivatives
 
@@ -28,7 +28,6 @@ _INNER, _OUTER = 0.407, 0.389
 _GROOVE_BOTTOM = 1e-6  # rad: at a lower contact angle nothing holds the ring axially
 
 
-@elements_of.register(BallBearing)
 def balls_of(
     bearing: BallBearing, *, speed: float, contacts: Contacts, options: StaticOptions
 ) -> Balls:

@@ -1,4 +1,4 @@
-"""What a bearing type supplies to the static solution: its rolling elements between two rings.
+"""What a bearing family supplies to the static solution: its rolling elements between two rings.
 
 An element feels the displacement v of the inner ring at its azimuth and has two coordinates w of
 its own. It answers with the forces that the ring must exert on it, with the unbalance of its own
@@ -8,13 +8,11 @@ forces, and with their exact derivatives. Nothing else here knows balls from rol
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import singledispatch
-from typing import Protocol
+from typing import Any, Protocol
 
 import numpy as np
 
 from flexcage.contacts.spec import Contacts
-from flexcage.geometry.bearing import Bearing
 from flexcage.system.statics.options import StaticOptions
 
 
@@ -57,11 +55,27 @@ class ElementLoads:
 class Elements(Protocol):
     """The rolling elements of one bearing at one speed."""
 
-    azimuth: np.ndarray  # (Z,)
-    carries: tuple[bool, ...]  # which of x, y, z and tilts about y, z find resistance
-    scale: float  # m, a displacement that presses elements hard
-    conservative: bool  # have all forces the potential that they have while ``share`` is 0?
-    pressure_limit: float  # Pa, where ISO 76 sets the static rating
+    @property
+    def azimuth(self) -> np.ndarray: ...  # (Z,)
+    @property
+    def carries(self) -> tuple[bool, ...]:
+        """Which of x, y, z and tilts about y, z find resistance."""
+        ...
+
+    @property
+    def scale(self) -> float:
+        """A displacement that presses elements hard [m]."""
+        ...
+
+    @property
+    def conservative(self) -> bool:
+        """Have all forces the potential that they have while ``share`` is 0?"""
+        ...
+
+    @property
+    def pressure_limit(self) -> float:
+        """Where ISO 76 sets the static rating [Pa]."""
+        ...
 
     def guesses(self, v: np.ndarray) -> list[np.ndarray]:
         """Coordinates w (Z, 2) from which equilibrium at v (Z, 3) may be near, one or more."""
@@ -89,12 +103,13 @@ class Elements(Protocol):
         ...
 
 
-@singledispatch
-def elements_of(
-    bearing: Bearing, *, speed: float, contacts: Contacts, options: StaticOptions
-) -> Elements:
-    """Elements of a bearing whose inner ring turns at ``speed`` [rad/s]; types register here."""
-    raise NotImplementedError(f"no elements are registered for {type(bearing).__name__}")
+class ElementsOf(Protocol):
+    """What a bearing family supplies: the elements of a bearing whose inner ring turns at
+    ``speed`` [rad/s]."""
+
+    def __call__(
+        self, bearing: Any, *, speed: float, contacts: Contacts, options: StaticOptions
+    ) -> Elements: ...
 
 
 def azimuths(count: int) -> np.ndarray:

@@ -21,7 +21,7 @@ from flexcage.contacts.spec import Contacts
 from flexcage.core.errors import InputError
 from flexcage.geometry.cylindrical_roller import RollerBearing
 from flexcage.geometry.kinematics import epicyclic
-from flexcage.system.statics.elements import ElementLoads, Response, azimuths, elements_of
+from flexcage.system.statics.elements import ElementLoads, Response, azimuths
 from flexcage.system.statics.options import StaticOptions
 
 EXPONENT = 10.0 / 9.0
@@ -30,7 +30,6 @@ _AT_REST = ("restitution", "impact_step", "elastic")  # laws that are K d^n with
 _INNER, _OUTER, _LAMBDA_NU, _SPREAD = 0.378, 0.364, 0.83, 1.038
 
 
-@elements_of.register(RollerBearing)
 def rollers_of(
     bearing: RollerBearing, *, speed: float, contacts: Contacts, options: StaticOptions
 ) -> Rollers:
@@ -44,7 +43,7 @@ def rollers_of(
             value=law,
         )
     from flexcage.contacts.laws import iso_line_stiffness  # its kernels take seconds to load
-    from flexcage.system.model import slice_grid
+    from flexcage.system.roller_model import slice_grid
 
     places, drop = slice_grid(bearing, contacts.race.slices)
     stiffness = iso_line_stiffness(bearing.effective_length)

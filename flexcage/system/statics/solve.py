@@ -12,19 +12,18 @@ from flexcage.geometry.bearing import Bearing
 from flexcage.geometry.film import Film
 from flexcage.geometry.hertz import over_edge
 from flexcage.system.spec import Load
-from flexcage.system.statics import balls, rollers
-from flexcage.system.statics.elements import ElementLoads, Elements, elements_of
+from flexcage.system.statics.elements import ElementLoads, Elements, ElementsOf
 from flexcage.system.statics.equilibrium import Problem, balance, tangent
 from flexcage.system.statics.options import StaticOptions
 from flexcage.system.statics.solution import Ratings, StaticSolution
 
-SHIPPED = (balls, rollers)  # importing them registers their elements
 _PLACES = ("load.axial", "load.radial", "load.radial", "load.moment_y", "load.moment_z")
 
 
 @one_blas_thread
 def solve_bearing(
     bearing: Bearing,
+    elements_of: ElementsOf,
     *,
     load: Load,
     speed: float = 0.0,
@@ -33,7 +32,7 @@ def solve_bearing(
     options: StaticOptions | None = None,
 ) -> StaticSolution:
     """Equilibrium of the inner ring under the load at its start, turning at ``speed`` [rad/s], and
-    the film that the lubricant then makes.
+    the film that the lubricant then makes. ``elements_of``: of the bearing's family.
 
     Raises InputError for a load that the bearing cannot bear, RunFailed if no equilibrium is found.
     """

@@ -61,11 +61,11 @@ def started_late(case: Case) -> Any:
     start = assembled_start(case, bearing)
     layout, y, yd = bearing.layout, start.y.copy(), start.yd.copy()
     orbit, spin = LATE
-    for part, names in ((layout.u(y), ("rollers", "omega")),
-                        (layout.q(yd), ("rollers", "quaternion"))):  # fmt: skip
+    for part, names in ((layout.u(y), ("elements", "omega")),
+                        (layout.q(yd), ("elements", "quaternion"))):  # fmt: skip
         for name in names:
             part[name][..., :3] *= orbit
-        part["rollers"][:, 3:] *= spin
+        part["elements"][:, 3:] *= spin
     ds = march(case, bearing, y, yd)
     return ds.isel(time=slice(3 * ds.sizes["time"] // 4, None))
 

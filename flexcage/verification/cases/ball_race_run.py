@@ -66,9 +66,9 @@ def impact_rows() -> Iterator[Row]:
         case = c7010(SMOOTH, NO_OIL, FLIGHT, law)
         bearing = bearing_of(case)
         y, yd = balls_on_outer(bearing)
-        bearing.layout.q(y)["rollers"][:, 1] -= GAP
+        bearing.layout.q(y)["elements"][:, 1] -= GAP
         for part in (bearing.layout.u(y), bearing.layout.q(yd)):
-            part["rollers"][:, 1] = SPEED
+            part["elements"][:, 1] = SPEED
         ds = march(case, bearing, y, yd).isel(element=0)
         back = -float(ds["element_velocity"].sel(cyl="r").min())  # before it meets the inner race
         yield Row(f"restitution {e:g}: speed back", "m/s", e * SPEED, back, STEPS)
@@ -85,9 +85,9 @@ def sliding_rows() -> Iterator[Row]:
     bearing = bearing_of(case)
     y, yd = balls_on_outer(bearing)
     u, rate = bearing.layout.u(y), bearing.layout.q(yd)
-    radius = float(bearing.layout.q(y)["rollers"][0, 1])
+    radius = float(bearing.layout.q(y)["elements"][0, 1])
     first = radius * ORBIT
-    u["rollers"][:, 2], rate["rollers"][:, 2] = first, ORBIT
+    u["elements"][:, 2], rate["elements"][:, 2] = first, ORBIT
     u["omega"][0], rate["quaternion"][1] = ORBIT, 0.5 * ORBIT
     ds = march(case, bearing, y, yd)
     if float(ds["race_force"].sel(race="inner").max()) > 0.0:
@@ -114,10 +114,10 @@ def resistance_rows() -> Iterator[Row]:
     y, yd = balls_on_outer(bearing)
     depth = (PRESSED / model.inner.normal[0]) ** (2.0 / 3.0)
     bottom = model.inner.centre - model.inner.radius
-    layout.q(y)["rollers"][:, 1] = bottom + model.bodies.radius - depth
+    layout.q(y)["elements"][:, 1] = bottom + model.bodies.radius - depth
     for part in (layout.u(y), layout.q(yd)):
-        part["rollers"][:, 3] = ROLLING / RADIUS
-    moment = layout.u(bearing.residual(0.0, y, yd, 2))["rollers"][0, 3]
+        part["elements"][:, 3] = ROLLING / RADIUS
+    moment = layout.u(bearing.residual(0.0, y, yd, 2))["elements"][0, 3]
     yield Row("moment of rolling resistance on a ball", "N mm",
               2e3 * FORCE * RADIUS, 1e3 * float(moment), PRINTED)  # fmt: skip
     power = dict(zip(POWERS, bearing.data.work.report.power))["rolling_resistance"]

@@ -32,8 +32,8 @@ def rows() -> Iterator[Row]:
         yd = rolling_balls(bearing.data.model, bearing.layout, standing, y)
         orbit = _orbit(bearing, y, expected, cage * RPM)
         u, rate = bearing.layout.u(y), bearing.layout.q(yd)
-        u["rollers"][:, 2] = bearing.layout.q(y)["rollers"][:, 1] * orbit
-        rate["rollers"][:, 2] = orbit
+        u["elements"][:, 2] = bearing.layout.q(y)["elements"][:, 1] * orbit
+        rate["elements"][:, 2] = orbit
         u["omega"][0], rate["quaternion"][1] = cage * RPM, 0.5 * cage * RPM
         ds = march(case, bearing, y, yd).isel(time=slice(-400, None))
         angle, force = (ds[v].mean(("time", "element")) for v in ("contact_angle", "race_force"))
@@ -54,7 +54,7 @@ def _orbit(bearing, y: np.ndarray, expected: tuple[float, ...], wanted: float) -
     depth = (force / model.outer.normal[0]) ** (2.0 / 3.0)
     reach = model.outer.radius - model.bodies.radius[0] + depth
     there = model.outer.centre + reach * np.cos(angle)
-    return float(wanted * (there / bearing.layout.q(y)["rollers"][0, 1]) ** 2)
+    return float(wanted * (there / bearing.layout.q(y)["elements"][0, 1]) ** 2)
 
 
 CASE = KnownAnswer(

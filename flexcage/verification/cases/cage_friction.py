@@ -93,10 +93,10 @@ class PushingBalls:
         ahead = model.pocket.radius[0] - model.bodies.radius[0] + depth
         y, yd = np.zeros(layout.size), np.zeros(layout.size)
         q, u, rate = layout.q(y), layout.u(y), layout.q(yd)
-        q["rollers"][:, 1], q["quaternion"][0] = radius, 1.0
-        q["rollers"][:, 2] = 2.0 * pi * np.arange(BALLS) / BALLS + np.arcsin(ahead / radius)
-        u["rollers"][:, 2], rate["rollers"][:, 2] = radius * orbit, orbit
-        u["rollers"][:, 3] = rate["rollers"][:, 3] = spin
+        q["elements"][:, 1], q["quaternion"][0] = radius, 1.0
+        q["elements"][:, 2] = 2.0 * pi * np.arange(BALLS) / BALLS + np.arcsin(ahead / radius)
+        u["elements"][:, 2], rate["elements"][:, 2] = radius * orbit, orbit
+        u["elements"][:, 3] = rate["elements"][:, 3] = spin
         u["omega"][0], rate["quaternion"][1] = orbit, 0.5 * orbit
         u["inner"][3] = rate["inner"][5] = SPEED
         return y, yd
@@ -111,7 +111,7 @@ class PushingBalls:
 
         def unbalanced(scaled: np.ndarray) -> np.ndarray:
             rows = self.bearing.layout.u(self.bearing.residual(0.0, *self.state(scaled * guess)))
-            return rows["rollers"][0, 1:4] * (1.0, 1.0, 1.0 / ball)
+            return rows["elements"][0, 1:4] * (1.0, 1.0, 1.0 / ball)
 
         found = fsolve(unbalanced, np.ones(3), xtol=1e-13) * guess
         return *self.state(found), float(found[1])
@@ -123,9 +123,9 @@ class PushingBalls:
         layout = self.bearing.layout
         place, step = np.arange(layout.size), np.zeros(layout.size)
         (q, u), (dq, du) = ((layout.q(v), layout.u(v)) for v in (place, step))
-        dq["rollers"][:, 1], dq["rollers"][:, 2], dq["cage"][1:] = 1e-9, 3e-8, 1e-9
-        du["rollers"][:, 1:3], du["cage"][1:] = 1e-6, 1e-6
-        du["rollers"][:, 3] = du["omega"][0] = 1e-4
+        dq["elements"][:, 1], dq["elements"][:, 2], dq["cage"][1:] = 1e-9, 3e-8, 1e-9
+        du["elements"][:, 1:3], du["cage"][1:] = 1e-6, 1e-6
+        du["elements"][:, 3] = du["omega"][0] = 1e-4
         dq["quaternion"][:2] = 1e-8
         turned = np.zeros((layout.size, layout.size))
         for (a, b), factor in (

@@ -51,8 +51,8 @@ def caught_rows() -> Iterator[Row]:
     start = find_start(bearing, limit_force=2e4)
     layout, y, yd = bearing.layout, start.y.copy(), start.yd.copy()
     orbit, spin = 0.98 * CAGE, -0.97 * SPIN
-    u, rate = layout.u(y)["rollers"], layout.q(yd)["rollers"]
-    u[0, 2], u[0, 3] = orbit * layout.q(y)["rollers"][0, 1], spin
+    u, rate = layout.u(y)["elements"], layout.q(yd)["elements"]
+    u[0, 2], u[0, 3] = orbit * layout.q(y)["elements"][0, 1], spin
     rate[0, 2], rate[0, 5] = orbit, spin - orbit
     end: Any = march(case, bearing, y, yd).isel(time=slice(-400, None), roller=0)
     found = (end["element_velocity"].sel(cyl="psi") / end["element_position"].sel(cyl="r")).mean()

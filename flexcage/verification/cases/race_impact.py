@@ -32,7 +32,7 @@ def flight(*tables: Mapping[str, object]) -> tuple[np.ndarray, np.ndarray, np.nd
     case = n1013(LOSSLESS, FLIGHT, *tables)
     bearing = bearing_of(case)
     y, yd = state_at_rest(bearing)
-    bearing.layout.u(y)["rollers"][:, 1] = bearing.layout.q(yd)["rollers"][:, 1] = SPEED
+    bearing.layout.u(y)["elements"][:, 1] = bearing.layout.q(yd)["elements"][:, 1] = SPEED
     ds = march(case, bearing, y, yd).isel(element=0)
     return (
         ds["race_force"].sel(race="outer").values,

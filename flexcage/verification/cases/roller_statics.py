@@ -8,6 +8,7 @@ from math import radians
 
 import numpy as np
 
+from flexcage.bearings import statics_of
 from flexcage.case.presets import load_preset
 from flexcage.contacts.spec import Contacts, NormalLaw, PairSpec
 from flexcage.geometry.cylindrical_roller import RollerBearing, RollerProfile
@@ -54,7 +55,8 @@ def solution(
     """Under 1000 N."""
     race = PairSpec(normal=NormalLaw(stiffness_factor=factor), slices=slices)
     load = Load(radial=1000.0, direction=radians(azimuth))
-    return solve_bearing(of, load=load, speed=rpm * RPM, contacts=Contacts(race=race))
+    contacts = Contacts(race=race)
+    return solve_bearing(of, statics_of(of), load=load, speed=rpm * RPM, contacts=contacts)
 
 
 def displacement(of: StaticSolution) -> float:

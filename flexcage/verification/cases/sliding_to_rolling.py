@@ -78,7 +78,7 @@ def race_rows() -> Iterator[Row]:
     bearing = bearing_of(case)
     start = find_start(bearing, limit_force=1.0)
     layout, y, yd = bearing.layout, start.y.copy(), start.yd.copy()
-    u, rate = layout.u(y)["rollers"], layout.q(yd)["rollers"]
+    u, rate = layout.u(y)["elements"], layout.q(yd)["elements"]
     u[:, 3] = 0.0  # no spin in space
     rate[:, 5] = -rate[:, 2]
     ds = march(case, bearing, y, yd)

@@ -66,7 +66,7 @@ def sharing(clearance: float, *tables: Mapping[str, object]) -> Sharing:
     path = case.bearing.outer_race_radius - 0.5 * case.bearing.roller_diameter
     return Sharing(
         1e6 * float(np.hypot(*q["inner"][1:3])), race[:, 0].copy(), race[:, 1].copy(),
-        1e6 * (q["rollers"][:, 1] - path),
+        1e6 * (q["elements"][:, 1] - path),
     )  # fmt: skip
 
 

@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from functools import singledispatch
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
@@ -22,7 +21,6 @@ from flexcage.contacts.pocket_wall import (
 from flexcage.contacts.race import RaceSide, race_work
 from flexcage.contacts.rib import RibData
 from flexcage.contacts.spec import Contacts, Lubricant
-from flexcage.geometry.bearing import Bearing
 from flexcage.geometry.cages import WindowCage
 from flexcage.geometry.cylindrical_roller import RollerBearing
 from flexcage.modes.basis import CageInterface
@@ -32,7 +30,7 @@ from flexcage.system.layout import Layout
 from flexcage.system.spec import Drive, Load, Mount
 
 
-class Model(NamedTuple):
+class RollerModel(NamedTuple):
     """Everything constant that a roller bearing's residual reads."""
 
     bodies: Bodies
@@ -224,39 +222,18 @@ def _pocket_data(bearing, cage, contacts: Contacts, interface: CageInterface) ->
     )
 
 
-@singledispatch
-def build_model(
-    bearing: Bearing,
-    cage: Any,
-    body: FlexibleBody,
-    interface: Any,
-    *,
-    contacts: Contacts,
-    lubricant: Lubricant,
-    drive: Drive,
-    load: Load,
-    mount: Mount,
-    seed: int = 0,
-) -> Any:
-    """Arrays of one bearing for the kernels.
-
-    Bearing types register theirs; the model's type names their ``families.Family``.
-    """
-    raise NotImplementedError(f"{type(bearing).__name__} has no equations of motion")
-
-
-@build_model.register
-def _(
+def build_roller_model(
     bearing: RollerBearing, cage: WindowCage, body: FlexibleBody, interface: CageInterface, *,
     contacts: Contacts, lubricant: Lubricant, drive: Drive, load: Load, mount: Mount, seed: int = 0,
-) -> Model:  # fmt: skip
+) -> RollerModel:  # fmt: skip
+    """Arrays of a roller bearing for the kernels."""
     scatter = bearing.roller_scatter * np.random.default_rng(seed).standard_normal(
         bearing.roller_count
     )
     outer, radius, clearance = _guiding_land(bearing, cage)
     land = replace(contacts.land.on(bearing.land(cage)), clearance=clearance)
     tilts = load.tilt == "free"
-    return Model(
+    return RollerModel(
         bodies=bodies_of(
             bearing, cage, lubricant, drive, load, mount,
             element=np.array([bearing.roller_mass, *bearing.roller_inertia]),
@@ -276,7 +253,7 @@ def _(
     )  # fmt: skip
 
 
-def roller_work(model: Model, layout: Layout) -> Work:
+def roller_work(model: RollerModel, layout: Layout) -> Work:
     """Fresh workspaces of a roller bearing for one thread."""
     slices, points, stations = (
         len(model.pocket.s),

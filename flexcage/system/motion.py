@@ -1,0 +1,104 @@
+"""What a bearing family supplies to the equations of motion: one value, a ``Motion``."""
+
+from __future__ import annotations
+
+from collections import namedtuple
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, Generic, Protocol, TypeVar
+
+import numpy as np
+
+from flexcage.bodies.floating_frame import BodyData, FlexibleBody
+from flexcage.contacts.land import LandData
+from flexcage.contacts.spec import Contacts, Lubricant
+from flexcage.system.data import Bodies, Work
+from flexcage.system.layout import Layout
+from flexcage.system.spec import Drive, Load, Mount
+
+if TYPE_CHECKING:
+    from flexcage.system.problem import Bearing
+    from flexcage.system.start import Start, StaticStart, Told
+
+
+class Model(Protocol):
+    """Everything constant that the residual reads: a NamedTuple of a family's own type.
+
+    These are what all families have. Kernels get each field as a group of arrays of its own. Of
+    ``pocket`` others read ``phi`` and ``phi_max``, the modes at the pockets' stations, too.
+    """
+
+    @property
+    def bodies(self) -> Bodies: ...
+    @property
+    def cage(self) -> BodyData: ...
+    @property
+    def land(self) -> LandData: ...
+    @property
+    def pocket(self) -> Any: ...
+
+
+M = TypeVar("M", bound=Model)
+Built = TypeVar("Built", bound=Model, covariant=True)
+
+
+class BuildModel(Protocol[Built]):
+    """The model of a bearing from its specs, its cage's body and what moves in the pockets."""
+
+    def __call__(
+        self, bearing: Any, cage: Any, body: FlexibleBody, interface: Any, *, contacts: Contacts,
+        lubricant: Lubricant, drive: Drive, load: Load, mount: Mount, seed: int = 0,
+    ) -> Built: ...  # fmt: skip
+
+
+class FindStart(Protocol):
+    """Assembles a bearing and brings it to equilibrium at the drive's first speed."""
+
+    def __call__(
+        self, bearing: Bearing, *, limit_force: float, statics: StaticStart | None, told: Told
+    ) -> Start: ...
+
+
+def parts_type(name: str, model: type, module: str) -> Any:
+    """Type of the references to a bearing's groups of arrays, as the compiled functions get them.
+
+    ``name`` is that of the variable in the ``module`` (``__name__``) that it is assigned to: the
+    kernels' cache finds it there.
+    """
+    own: Any = model
+    groups = (
+        *own._fields, "memory", *Work._fields, "matrix", "events", "samples", "between",
+        "rates", "constraints",
+    )  # fmt: skip
+    return namedtuple(name, groups, module=module)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Motion(Generic[M]):
+    """Rolling elements of one family in motion.
+
+    ``evaluate(t, y, yd, d, law, out, mode)`` is the residual in plain Python, which ``problem``
+    compiles for a ``d`` of type ``parts``; ``new_work`` makes its workspaces. It calls the
+    functions ``apart``, of the same arguments, as values: they are compiled on their own, by
+    another process at the same time, and follow the laws in ``law``; the longest first. ``faces``
+    names the faces of a pocket, ``ribs`` what else an element touches besides its races.
+    ``implicit``: does mode TANGENT fill it, so that implicit integrators may be used?
+    """
+
+    family: str  # its name
+    element: str  # in words
+    build_model: BuildModel[M]
+    parts: Any  # made by ``parts_type``
+    new_work: Callable[[M, Layout], Work]
+    evaluate: Callable[..., None]
+    apart: tuple[Callable[..., None], ...]
+    implicit: bool
+    faces: tuple[str, ...]
+    ribs: tuple[str, ...]
+    start: FindStart
+    error_weights: Callable[[M, Layout, float], np.ndarray]  # see ``scales.shared_weights``
+
+    @property
+    def places(self) -> tuple[str, ...]:
+        """Names of all contact places of an element and of the lands, in the order of events."""
+        return ("inner race", "outer race", *self.faces, *self.ribs, "land -x", "land +x")
