@@ -15,7 +15,7 @@ from flexcage.results.registry import LABELS, RUN_DIMS, TIME, VARIABLES, familie
 def test_every_slot_gives_something(family):
     for slot in fields(family):
         value = getattr(family, slot.name)
-        assert value() is not None if callable(value) else value, slot.name
+        assert (value() if callable(value) else value) is not None, slot.name
     assert isinstance(family.speed(), ElementSpeed) and isinstance(family.figures(), OwnFigures)
 
 
