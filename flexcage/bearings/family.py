@@ -14,14 +14,12 @@ from flexcage.geometry.bearing import BEARING_TYPES, Bearing, name_of
 if TYPE_CHECKING:
     from flexcage.integrate.recording import Recording
     from flexcage.render.shapes import ShapesOf
-    from flexcage.system.motion import Motion
-    from flexcage.system.statics.elements import ElementsOf
-
-if TYPE_CHECKING:
     from flexcage.results.figures import OwnFigures
     from flexcage.results.metrics import ElementSpeed
     from flexcage.results.registry import OwnVariables
     from flexcage.stress.rubbing import Rub
+    from flexcage.system.motion import Motion
+    from flexcage.system.statics.elements import ElementsOf
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -40,10 +38,10 @@ class Family:
     statics: Callable[[], ElementsOf] | None
     motion: Callable[[], Motion[Any]] | None
     recording: Callable[[], Recording[Any]] | None
-    variables: Callable[[], OwnVariables] | None
-    speed: Callable[[], ElementSpeed] | None
-    figures: Callable[[], OwnFigures] | None
-    rubbing: Callable[[], Rub] | None
+    variables: Callable[[], OwnVariables] | None  # that its runs record beside the common ones
+    speed: Callable[[], ElementSpeed] | None  # how its elements turn about their axes, and slip
+    figures: Callable[[], OwnFigures] | None  # of its runs' summaries beside the common ones
+    rubbing: Callable[[], Rub] | None  # of its elements in their pockets, for wear
     shapes: Callable[[], ShapesOf] | None  # profiles of rings and elements, for pictures
     other_designs: Mapping[str, str] = field(default_factory=dict)
 

@@ -324,14 +324,15 @@ class _BySection(Parts[KnownFigure]):
         return dict(sorted(found.items(), key=lambda item: place[item[1].section]))
 
 
-def _own(family: Any) -> dict[str, KnownFigure]:
-    """Figures that only runs of a family have."""
-    return {f.key: f for f in family.figures().known} if family.figures else {}
+def _own(family: Any) -> tuple[KnownFigure, ...]:
+    """Figures of one family; none if it has no motion."""
+    found: tuple[KnownFigure, ...] = family.figures().known if family.figures else ()
+    return found
 
 
 #: Every figure by name, in the order of a summary.
 KNOWN: Parts[KnownFigure] = _BySection(
-    FAMILIES, _own, what="figure",
+    FAMILIES, lambda family: {f.key: f for f in _own(family)}, what="figure",
     common={figure.key: figure for part in _FLOORS for figure in part()},
 )  # fmt: skip
 

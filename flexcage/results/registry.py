@@ -236,27 +236,25 @@ def _common() -> Iterator[Variable]:
         yield Variable(name, (TIME_HF, "axis2"), "m/s^2", long_name, bits=24)
 
 
-def _own(family: Any) -> OwnVariables:
-    """What bearings of a family record of their own; nothing without motion."""
-    return family.variables() if family.variables else OwnVariables(())
-
-
-def _of_family(family: Any) -> dict[str, Variable]:
-    return {v.name: v for v in _own(family).variables}
+def own_variables(family: Any) -> OwnVariables:
+    """What a bearing family records beside what all do; nothing if it has no motion."""
+    found: OwnVariables = family.variables() if family.variables else OwnVariables(())
+    return found
 
 
 #: Every result variable by name, the common ones first; labels of dimensions that never change.
 VARIABLES: Parts[Variable] = Parts(
-    FAMILIES, _of_family, what="result variable", common={v.name: v for v in _common()}
-)
+    FAMILIES, lambda family: {v.name: v for v in own_variables(family).variables},
+    what="result variable", common={v.name: v for v in _common()},
+)  # fmt: skip
 LABELS: Parts[tuple[str, ...]] = Parts(
-    FAMILIES, lambda family: _own(family).labels, what="dimension", common=_LABELS
+    FAMILIES, lambda family: own_variables(family).labels, what="dimension", common=_LABELS
 )
 
 
 def run_dims() -> set[str]:
     """Dimensions whose labels a run gives, of whichever family."""
-    return {*RUN_DIMS, *(d for f in FAMILIES.values() for d in _own(f).counted)}
+    return {*RUN_DIMS, *(d for f in FAMILIES.values() for d in own_variables(f).counted)}
 
 
 def families_with(name: str) -> tuple[str, ...]:
@@ -265,7 +263,7 @@ def families_with(name: str) -> tuple[str, ...]:
     listed = VARIABLES.owners(name)
     if listed:
         return listed
-    owned = {member: _own(FAMILIES[member]).dims for member in FAMILIES}
+    owned = {member: own_variables(FAMILIES[member]).dims for member in FAMILIES}
     wanted = set(VARIABLES[name].dims) & set[str]().union(*owned.values())
     return tuple(member for member, dims in owned.items() if wanted <= dims)
 

@@ -14,7 +14,7 @@ from flexcage.geometry.bearing import Bearing
 from flexcage.geometry.cage import Cage
 from flexcage.stress.rubbing import Rubbing, modulus, spread, weighted
 from flexcage.stress.sliding import PocketMotion, pocket_motion
-from flexcage.system.model import end_points
+from flexcage.system.roller_model import end_points
 
 if TYPE_CHECKING:
     import xarray
@@ -102,6 +102,6 @@ def contact_width(force: np.ndarray, length: float, bearing: Bearing, cage: Cage
 
 
 def end_band(points: np.ndarray) -> float:
-    """Area [m^2] of the band whose Gauss points (``system.model.end_points``) these are."""
+    """Area [m^2] of the band whose Gauss points (``system.roller_model.end_points``) these are."""
     height = sqrt(3.0) * float(np.ptp(points[:, 0]))
     return height * float(np.ptp(points[:, 1])) / float(np.polynomial.legendre.leggauss(7)[0][-1])

@@ -12,6 +12,7 @@ speeds are those of the unworn cage.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from math import inf, isfinite, isnan, pi
 from typing import TYPE_CHECKING, Any
@@ -21,6 +22,7 @@ import numpy as np
 from flexcage.contacts.spec import LandSpec
 from flexcage.core.binding import wrong_type
 from flexcage.core.digits import number_text, texts_with_margin
+from flexcage.core.errors import InputError
 from flexcage.core.wings import FAMILIES
 from flexcage.geometry.bearing import Bearing
 from flexcage.geometry.cage import Cage
@@ -139,8 +141,14 @@ def wear(
     ds: xarray.Dataset, bearing: Bearing, cage: Cage, land: LandSpec, law: WearLaw, windows: Windows
 ) -> Wear:
     """Wear by the (settled) dataset of a run, which ``windows`` cut."""
-    rub: Rub = FAMILIES[bearing.family].rubbing()
-    rubbing = rub(ds, bearing, cage)
+    slot: Callable[[], Rub] | None = FAMILIES[bearing.family].rubbing
+    if slot is None:
+        raise InputError(
+            f"Wear of pockets is not known for bearings of the family '{bearing.family}'; it wants "
+            "a rubbing of its own.",
+            where="bearing.type",
+        )
+    rubbing = slot()(ds, bearing, cage)
     t, recorded = ds["time"].values, ds["work"].sel(channel="pocket_friction").values
     lost, found = float(recorded[0] - recorded[-1]), float(np.trapezoid(rubbing.friction, t))
     slid = land_rubbing(ds, cage, land.on(bearing.land(cage)))

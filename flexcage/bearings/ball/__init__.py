@@ -19,24 +19,6 @@ if TYPE_CHECKING:
     from flexcage.system.statics.elements import ElementsOf
 
 
-def _statics() -> ElementsOf:
-    from flexcage.system.statics.balls import balls_of
-
-    return balls_of
-
-
-def _motion() -> Motion[Any]:
-    from flexcage.system.ball_motion import MOTION
-
-    return MOTION
-
-
-def _recording() -> Recording[Any]:
-    from flexcage.integrate.ball_recording import RECORDING
-
-    return RECORDING
-
-
 def _variables() -> OwnVariables:
     from flexcage.results.ball_variables import VARIABLES
 
@@ -55,27 +37,45 @@ def _figures() -> OwnFigures:
     return FIGURES
 
 
-def _shapes() -> ShapesOf:
-    from flexcage.render.ball_shapes import ball_shapes
-
-    return ball_shapes
-
-
 def _rubbing() -> Rub:
     from flexcage.stress.ball_rubbing import rubbing
 
     return rubbing
 
 
+def _statics() -> ElementsOf:
+    from flexcage.system.statics.balls import balls_of
+
+    return balls_of
+
+
+def _motion() -> Motion[Any]:
+    from flexcage.system.ball_motion import MOTION
+
+    return MOTION
+
+
+def _recording() -> Recording[Any]:
+    from flexcage.integrate.ball_recording import RECORDING
+
+    return RECORDING
+
+
+def _shapes() -> ShapesOf:
+    from flexcage.render.ball_shapes import ball_shapes
+
+    return ball_shapes
+
+
 FAMILY = Family(
     name="ball",
     types=(AngularContactBallBearing, DeepGrooveBallBearing),
-    statics=_statics,
-    motion=_motion,
-    recording=_recording,
     variables=_variables,
     speed=_speed,
     figures=_figures,
     rubbing=_rubbing,
+    statics=_statics,
+    motion=_motion,
+    recording=_recording,
     shapes=_shapes,
 )

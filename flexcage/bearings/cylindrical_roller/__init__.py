@@ -18,24 +18,6 @@ if TYPE_CHECKING:
     from flexcage.system.statics.elements import ElementsOf
 
 
-def _statics() -> ElementsOf:
-    from flexcage.system.statics.rollers import rollers_of
-
-    return rollers_of
-
-
-def _motion() -> Motion[Any]:
-    from flexcage.system.roller_motion import MOTION
-
-    return MOTION
-
-
-def _recording() -> Recording[Any]:
-    from flexcage.integrate.roller_recording import RECORDING
-
-    return RECORDING
-
-
 def _variables() -> OwnVariables:
     from flexcage.results.roller_variables import VARIABLES
 
@@ -54,28 +36,46 @@ def _figures() -> OwnFigures:
     return FIGURES
 
 
-def _shapes() -> ShapesOf:
-    from flexcage.render.roller_shapes import roller_shapes
-
-    return roller_shapes
-
-
 def _rubbing() -> Rub:
     from flexcage.stress.roller_rubbing import rubbing
 
     return rubbing
 
 
+def _statics() -> ElementsOf:
+    from flexcage.system.statics.rollers import rollers_of
+
+    return rollers_of
+
+
+def _motion() -> Motion[Any]:
+    from flexcage.system.roller_motion import MOTION
+
+    return MOTION
+
+
+def _recording() -> Recording[Any]:
+    from flexcage.integrate.roller_recording import RECORDING
+
+    return RECORDING
+
+
+def _shapes() -> ShapesOf:
+    from flexcage.render.roller_shapes import roller_shapes
+
+    return roller_shapes
+
+
 FAMILY = Family(
     name="cylindrical_roller",
     types=(RollerBearing,),
-    statics=_statics,
-    motion=_motion,
-    recording=_recording,
     variables=_variables,
     speed=_speed,
     figures=_figures,
     rubbing=_rubbing,
+    statics=_statics,
+    motion=_motion,
+    recording=_recording,
     shapes=_shapes,
     other_designs=OTHER_DESIGNS,
 )
