@@ -8,13 +8,13 @@ from flexcage.case import StaticCase as StaticCase
 from flexcage.case import load_case as load_case
 from flexcage.case import load_extension as load_extension
 from flexcage.case import load_static as load_static
+from flexcage.case.presets import load_preset as load_preset
+from flexcage.case.presets import preset_names as preset_names
 from flexcage.core.errors import EnvironmentLacks as EnvironmentLacks
 from flexcage.core.errors import FlexcageError as FlexcageError
 from flexcage.core.errors import InputError as InputError
 from flexcage.core.errors import RunFailed as RunFailed
 from flexcage.geometry.kinematics import epicyclic as epicyclic
-from flexcage.geometry.presets import load_preset as load_preset
-from flexcage.geometry.presets import preset_names as preset_names
 from flexcage.results.instrument import load_readings as load_readings
 from flexcage.simulate import Run as Run
 from flexcage.simulate import load_run as load_run

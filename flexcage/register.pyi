@@ -1,8 +1,10 @@
 from flexcage.bearings.family import register_family as bearing_family
+from flexcage.cages.cage_type import register_cage_type as cage_type
+from flexcage.case.presets import register_preset as preset
 from flexcage.contacts.laws import register_friction as friction_law
 from flexcage.contacts.laws import register_normal as normal_law
+from flexcage.geometry.defect import register_defect as cage_defect
 from flexcage.geometry.materials import register_material as material
-from flexcage.geometry.presets import register_preset as preset
 from flexcage.modes.registry import register_basis as mode_basis
 from flexcage.render.album import register_picture as picture
 from flexcage.results.registry import register as variable
@@ -13,6 +15,8 @@ from flexcage.system.constraints import register_constraint as constraint
 from flexcage.verification.chapter import register_case as known_answer
 
 __all__ = [
+    "cage_defect",
+    "cage_type",
     "bearing_family",
     "constraint",
     "friction_law",

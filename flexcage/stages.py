@@ -16,6 +16,7 @@ import numpy as np
 from flexcage.bearings import motion_of, recording_of
 from flexcage.bodies.cage import BODY_VERSION, flexible_from_reduction, rigid_from_tets
 from flexcage.bodies.floating_frame import FlexibleBody
+from flexcage.cages.build import build_cage_mesh, reduce_cage, reduction_of, rigid_interface_of
 from flexcage.case import Case, load_case, load_extension
 from flexcage.case.extensions import sources
 from flexcage.core import jit
@@ -25,10 +26,9 @@ from flexcage.core.progress import Silent
 from flexcage.core.timing import Stages
 from flexcage.core.warning import RunWarning
 from flexcage.integrate.recorded import new_store
-from flexcage.mesh.build import build_cage_mesh
 from flexcage.mesh.cage_mesh import CageMesh
 from flexcage.mesh.quality import check_mesh
-from flexcage.modes.reduction import CageReduction, reduce_cage, rigid_interface_of
+from flexcage.modes.reduction import CageReduction
 from flexcage.modes.table import ModeTable
 from flexcage.results import room
 from flexcage.results.cage_file import FORMAT as CAGE_FORMAT
@@ -95,8 +95,13 @@ def stored_cage(case: Case, store: MemoryRunStore, folder: Path, stages: Stages)
         return mesh, replace(made, stored=record.reduced)
     if case.cage_model == "rigid":
         return record.mesh, None
-    cage = CageReduction(
-        record.mesh, case.cage, case.all_defects, case.modes, case.mesh.order, record.reduced
+    cage = reduction_of(
+        record.mesh,
+        cage=case.cage,
+        defects=case.all_defects,
+        spec=case.modes,
+        order=case.mesh.order,
+        stored=record.reduced,
     )
     return record.mesh, cage
 

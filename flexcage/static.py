@@ -12,7 +12,7 @@ from flexcage.case import Case, StaticCase
 from flexcage.contacts.spec import EhlTraction
 from flexcage.core.binding import expect
 from flexcage.core.errors import EnvironmentLacks, InputError
-from flexcage.geometry.film import creep_speed, patch, rolling_entrainment
+from flexcage.geometry.film import creep_speed
 from flexcage.system.statics.options import StaticOptions
 from flexcage.system.statics.solution import StaticSolution
 from flexcage.system.statics.solve import solve_bearing
@@ -59,11 +59,11 @@ def ehl_traction(
     options = AT_START if isinstance(case, Case) else case.static
     bearing, solution = case.bearing, solve_static(case, options=options)
     balls = solution.elements
-    entrained = rolling_entrainment(bearing, balls.angle, balls.orbital_speed, case.speed)
+    entrained = bearing.rolling_entrainment(balls.angle, balls.orbital_speed, case.speed)
     found = []
     for race in range(2):
         k = int(np.argmax(balls.force[:, race]))
-        pressure, half = patch(bearing, balls.force[k, race], balls.pressure[k, race], race)
+        pressure, half = bearing.contact_patch(balls.force[k, race], balls.pressure[k, race], race)
         found.append(
             creep_speed(
                 limit=limit, pressure=pressure, film=float(solution.film.central[k, race]),

@@ -10,8 +10,8 @@ import sys
 from collections.abc import Iterator
 from pathlib import Path
 
+from flexcage.cages.build import build_cage_mesh
 from flexcage.case import load_case
-from flexcage.mesh.build import build_cage_mesh
 from flexcage.mesh.io import write_mesh
 from flexcage.mesh.quality import MeshReport, report_mesh
 

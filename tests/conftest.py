@@ -41,7 +41,7 @@ def hollow_cylinder(cage):
 @pytest.fixture(scope="session")
 def n1013():
     """Bearing and cage of the preset."""
-    from flexcage.geometry.presets import load_preset
+    from flexcage.case.presets import load_preset
 
     preset = load_preset("N1013")
     return preset.bearing, preset.cage

@@ -17,8 +17,8 @@ from flexcage.fem.model import assemble
 from flexcage.mesh.cage_mesh import CageMesh
 from flexcage.stages import build_bearing, cage_mesh, cage_reduction
 from flexcage.stress.operators import VertexStress, von_mises
-from flexcage.stress.places import contact_zone, root_places
 from flexcage.stress.recovery import CageLoads, StressRecovery
+from flexcage.stress.window_places import WINDOW_PLACES
 from flexcage.study.verdicts import FAILS, HOLDS, Line, Verdict
 from flexcage.system.start import find_start
 
@@ -102,9 +102,9 @@ def _pair(case: Case) -> tuple[float, float, float]:
 
 def _stresses(stress: np.ndarray, model: object, mesh: CageMesh) -> tuple[float, float]:
     """Largest in the pinched pocket's corners, and anywhere outside of contact zones."""
-    places = root_places(model, mesh.pocket_count)  # type: ignore[arg-type]
+    places = WINDOW_PLACES.roots(model, mesh.pocket_count)  # type: ignore[arg-type]
     corners = [v for name, v in places.items() if name.startswith(f"pocket{POCKET}_")]
-    inside = contact_zone(model, mesh.pocket_count)  # type: ignore[arg-type]
+    inside = WINDOW_PLACES.contact_zone(model, mesh.pocket_count)  # type: ignore[arg-type]
     outside = np.setdiff1d(np.arange(len(mesh.points)), inside)
     return float(stress[np.concatenate(corners)].max()), float(stress[outside].max())
 
@@ -116,7 +116,9 @@ def _assemble(case: Case, clearance: float) -> Squeezed:
     cage = cage_reduction(case, mesh)
     assert cage is not None
     start = find_start(build_bearing(case, mesh, cage), limit_force=case.limits.assembly_force)
-    recovery = StressRecovery(cage.model, cage.basis, cage.interface, solver=cage.solver)
+    recovery = StressRecovery(
+        cage.model, cage.basis, cage.interface, places=WINDOW_PLACES, solver=cage.solver
+    )
     loads = CageLoads(station_forces=start.station)
     stress = von_mises(recovery.stress(recovery.displacement(loads), loads))
     return Squeezed(clearance, start.pinch_force, *_stresses(stress, cage.model, mesh))

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import dataclass
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, cast
 
 from flexcage.core.errors import InputError
@@ -13,6 +13,7 @@ from flexcage.geometry.bearing import BEARING_TYPES, Bearing, name_of
 
 if TYPE_CHECKING:
     from flexcage.integrate.recording import Recording
+    from flexcage.render.shapes import ShapesOf
     from flexcage.system.motion import Motion
     from flexcage.system.statics.elements import ElementsOf
 
@@ -22,9 +23,10 @@ class Family:
     """Bearings whose rolling elements move by the same equations.
 
     ``types``: the specs of its types of bearing, which bring dimensions, checks, ratings and films
-    with them. All else is heavy: functions without arguments that import what they return. None
+    with them; ``other_designs`` maps patterns of names that are no types here to what there is
+    instead. All else is heavy: functions without arguments that import what they return. None
     where a family has nothing of the kind: no static solution (``statics``), or neither equations
-    of motion (``motion``) nor a record of them (``recording``).
+    of motion (``motion``) nor a record of them (``recording``), no pictures (``shapes``).
     """
 
     name: str
@@ -32,6 +34,8 @@ class Family:
     statics: Callable[[], ElementsOf] | None
     motion: Callable[[], Motion[Any]] | None
     recording: Callable[[], Recording[Any]] | None
+    shapes: Callable[[], ShapesOf] | None  # profiles of rings and elements, for pictures
+    other_designs: Mapping[str, str] = field(default_factory=dict)
 
 
 def register_family(family: Family) -> Family:

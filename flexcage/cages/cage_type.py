@@ -2,24 +2,69 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
-from typing import cast
+from typing import TYPE_CHECKING, Any, Generic, TypeVar
 
+from flexcage.core.errors import InputError
+from flexcage.core.registry import note_source
 from flexcage.core.wings import CAGE_TYPES
 from flexcage.geometry.cage import Cage
+from flexcage.geometry.defect import CageDefect
+
+if TYPE_CHECKING:
+    from flexcage.mesh.build import MeshBuilder
+    from flexcage.modes.reduction import Interfaces
+    from flexcage.stress.places import Places
+
+C = TypeVar("C", bound=Cage)
 
 
 @dataclass(frozen=True, kw_only=True)
-class CageType:
-    """Cages of one make: ``spec`` has their dimensions and checks.
+class CageType(Generic[C]):
+    """Cages of one make: ``spec`` has their dimensions and checks, and ``holds`` names the elements
+    that they hold (``element`` of a bearing).
 
-    All else is heavy: functions that import what they call.
+    All else is heavy: functions without arguments that import what they return.
     """
 
     name: str
-    spec: type[Cage]
+    spec: type[C]
+    holds: tuple[str, ...]
+    mesh: Callable[[], MeshBuilder[C]]
+    interfaces: Callable[[], Interfaces[C]]
+    places: Callable[[], Places]  # at which stress is followed
+    defects: tuple[type[CageDefect], ...] = ()
+    defect_spec: type[CageDefect] = CageDefect  # what its mesh wants of each
+
+    def __post_init__(self) -> None:
+        if self.spec.cage_type != self.name:
+            raise InputError(
+                f"The spec of cage type '{self.name}', {self.spec.__name__}, has the cage_type "
+                f"'{self.spec.cage_type}'; give both the same name.",
+                where="cage_type",
+                value=self.spec.cage_type,
+            )
 
 
-def cage_type_of(cage: Cage) -> CageType:
-    """The type of a cage."""
-    return cast(CageType, CAGE_TYPES[cage.cage_type])
+def cage_type_of(cage: Cage) -> CageType[Any]:
+    """The type of a cage; InputError for what is no cage of a known type."""
+    name = getattr(cage, "cage_type", "")
+    if name not in CAGE_TYPES:
+        raise InputError(
+            f"A {type(cage).__name__} is no cage of a known type; cage types are "
+            f"{', '.join(CAGE_TYPES)}.",
+            where="cage",
+        )
+    return CAGE_TYPES[name]
+
+
+def register_cage_type(made: CageType[Any]) -> CageType[Any]:
+    """Add a cage type of your own, and return it; InputError if its name is taken.
+
+    ``type`` of its spec chooses it in a case (``geometry.cage.cages_of``). Hashes of cases with
+    such a cage change with the file that defines the spec.
+    """
+    CAGE_TYPES.add(made)
+    note_source(made.name, made.spec)
+    return made

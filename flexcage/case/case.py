@@ -14,6 +14,7 @@ from pathlib import Path
 from typing import Any
 
 from flexcage.case.checks import check_case, refuse_without_motion
+from flexcage.case.presets import NAMED, load_preset
 from flexcage.case.read import read_case
 from flexcage.case.static import StaticCase
 from flexcage.case.tables import (
@@ -36,13 +37,9 @@ from flexcage.core.binding import (
 from flexcage.core.hashing import content_hash, counts
 from flexcage.core.registry import source_of
 from flexcage.core.spec import option
-from flexcage.geometry.ball_cage_defects import BallCageDefect, uneven_pockets
-from flexcage.geometry.ball_cages import BallCage
-from flexcage.geometry.bearings import Bearing
+from flexcage.geometry.bearing import Bearing
 from flexcage.geometry.cage import Cage
-from flexcage.geometry.cages import Defect
-from flexcage.geometry.presets import NAMED, load_preset
-from flexcage.geometry.ribbon_cage import RibbonCage
+from flexcage.geometry.defect import CageDefect
 from flexcage.mesh.options import MeshOptions
 from flexcage.modes.spec import ModesSpec
 from flexcage.results.options import OutputOptions
@@ -71,15 +68,7 @@ class Case(StaticCase):
 
     cage: Cage = option(doc="the cage")
     cage_model: str = option("flexible", doc="how the cage is modelled", choices=CAGE_MODELS)
-    defects: tuple[Defect | BallCageDefect, ...] = option(
-        (),
-        doc="deformations of the cage, any number",
-        elsewhere={
-            ".*spall.*": "[[defects]] are of the cage; a spall of a race is "
-            "[bearing.outer_spall] or [bearing.inner_spall] of a cylindrical roller bearing, and "
-            "ball bearings have none"
-        },
-    )
+    defects: tuple[CageDefect, ...] = option((), doc="deformations of the cage, any number")
     mesh: MeshOptions = option(MeshOptions(), doc="the cage's mesh")
     modes: ModesSpec = option(ModesSpec(), doc="the cage's modes")
     drive: Drive = option(Drive(), doc="what turns the inner ring")
@@ -160,7 +149,7 @@ class Case(StaticCase):
         physics = {f.name: getattr(self, f.name) for f in fields if f.name not in _NOT_PHYSICS}
         physics["contacts"] = dataclasses.replace(self.contacts, land=self.land)
         physics["modes"] = modes = self.modes.damped_as(self.cage.material)
-        if self.cage_model == "rigid" or isinstance(self.cage, BallCage):
+        if self.cage_model == "rigid" or not self.cage.has_faces:
             physics["modes"] = dataclasses.replace(modes, attachments="linear")
         file = Path(self.mesh.file)
         content = b""
@@ -180,7 +169,7 @@ class Case(StaticCase):
 
     @property
     def cage_shape(self) -> dict[str, Any]:
-        """What ``mesh.build.build_cage_mesh`` asks for, by name."""
+        """What ``cages.build.build_cage_mesh`` asks for, by name."""
         return {
             "cage": self.cage,
             "pocket_count": self.bearing.element_count,
@@ -190,9 +179,9 @@ class Case(StaticCase):
         }
 
     @property
-    def all_defects(self) -> tuple[Defect | BallCageDefect, ...]:
+    def all_defects(self) -> tuple[CageDefect, ...]:
         """Defects that the case names, and those that make its pockets' spacing uneven."""
-        uneven = uneven_pockets(self.cage, self.bearing.element_count, self.seed)
+        uneven = self.cage.uneven_pockets(self.bearing.element_count, self.seed)
         return (*self.defects, *uneven)
 
     @property
@@ -210,7 +199,7 @@ class Case(StaticCase):
     @property
     def riveted(self) -> bool:
         """Whether its cage is flexible and held together by rivets, whose loads are then known."""
-        return self.cage_model == "flexible" and isinstance(self.cage, RibbonCage)
+        return self.cage_model == "flexible" and self.cage.riveted
 
     @property
     def assumptions(self) -> dict[str, str]:

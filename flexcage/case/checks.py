@@ -8,19 +8,13 @@ from math import inf, pi
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from flexcage.cages import cage_type_of
 from flexcage.core.binding import chosen_spec, default_of, join
 from flexcage.core.errors import InputError
 from flexcage.core.units import describe
 from flexcage.geometry.bearing import Bearing, check_type
 from flexcage.geometry.cage import Cage
-from flexcage.geometry.catalogue import static_rating
-from flexcage.geometry.checks import (
-    OVERLOAD,
-    check_geometry,
-    greatest_shift,
-    greatest_speed,
-    greatest_tilt,
-)
+from flexcage.geometry.checks import OVERLOAD, greatest_speed
 
 if TYPE_CHECKING:
     from flexcage.case.case import Case
@@ -43,7 +37,7 @@ def check_case(case: Case) -> None:
     """Raise InputError for the first thing in the case that cannot be."""
     refuse_without_motion(case.bearing)
     _check_cage_type(case.bearing, case.cage)
-    check_geometry(case.bearing, case.cage, case.all_defects)
+    case.bearing.check(case.cage, case.all_defects)
     _raise_first(
         case,
         (
@@ -60,8 +54,9 @@ def check_case(case: Case) -> None:
 
 
 def _check_cage_type(bearing: Bearing, cage: Cage) -> None:
-    wanted = bearing.cage_spec
-    if not isinstance(cage, wanted):
+    wanted: type[Cage] = bearing.cage_spec
+    own = getattr(cage, "cage_type", "") == wanted.cage_type
+    if not own and bearing.element not in cage_type_of(cage).holds:
         raise InputError(
             f"bearing.type is '{bearing.type}', whose cage is a {wanted.__name__}, but the case's "
             f"cage is a {type(cage).__name__}; give bearing and cage together, or take a preset.",
@@ -71,7 +66,7 @@ def _check_cage_type(bearing: Bearing, cage: Cage) -> None:
 
 def check_static_case(case: StaticCase) -> None:
     """Raise InputError for the first thing that cannot be in the case of a static solution."""
-    check_geometry(case.bearing)
+    case.bearing.check()
     _raise_first(case, _OF_EVERY_CASE)
 
 
@@ -137,7 +132,7 @@ def _find_in_materials(case: Any) -> Iterator[Finding]:
 
 
 def _find_in_load(case: Case) -> Iterator[Finding]:
-    rating = static_rating(case.bearing)
+    rating = case.bearing.static_rating
     load = case.load
     for where, value in (
         ("load.radial", load.radial),
@@ -156,7 +151,7 @@ def _find_in_load(case: Case) -> Iterator[Finding]:
 
 
 def _find_in_tilt(case: Case) -> Iterator[Finding]:
-    tilt, most = abs(case.load.misalignment), greatest_tilt(case.bearing)
+    tilt, most = abs(case.load.misalignment), case.bearing.greatest_tilt
     if tilt > most:
         yield (
             "load.misalignment",
@@ -230,7 +225,7 @@ def _find_in_shaft(case: Case) -> Iterator[Finding]:
     """Springs and dampers of the shaft that hold nothing, or too little."""
     load = case.load
     later = (load.ramp_to or 0.0, *load.values) if load.varies == "axial" else ()
-    largest, most = max(map(abs, (load.axial, *later))), greatest_shift(case.bearing)
+    largest, most = max(map(abs, (load.axial, *later))), case.bearing.greatest_shift
     if load.axial_stiffness > 0.0 and largest > load.axial_stiffness * most:
         yield (
             "load.axial_stiffness",

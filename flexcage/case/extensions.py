@@ -11,9 +11,9 @@ import sys
 from collections.abc import Iterable
 from pathlib import Path
 
+from flexcage.case.presets import register_preset
 from flexcage.core import users_files
 from flexcage.core.errors import FlexcageError, InputError
-from flexcage.geometry.presets import register_preset
 
 _loaded: list[str] = []
 

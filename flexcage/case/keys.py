@@ -12,6 +12,7 @@ from pathlib import Path
 from typing import Any
 
 from flexcage.case.case import Case, sections
+from flexcage.case.presets import NAMED
 from flexcage.case.tables import ALIASES
 from flexcage.contacts.spec import FrictionLaw, NormalLaw
 from flexcage.core.binding import (
@@ -21,16 +22,14 @@ from flexcage.core.binding import (
     did_you_mean,
     hints,
     join,
-    tag_of,
     to_table,
     union_members,
 )
 from flexcage.core.errors import InputError
 from flexcage.core.listing import Listing
 from flexcage.core.units import describe, format_si
-from flexcage.geometry.bearings import BEARING_TYPES
+from flexcage.geometry.bearing import BEARING_TYPES
 from flexcage.geometry.materials import Material
-from flexcage.geometry.presets import NAMED
 
 HEADS = ("key", "unit or kind", "default", "meaning")
 REQUIRED = "required"
@@ -128,12 +127,21 @@ def _section(field: dataclasses.Field) -> Iterator[Group]:
     if name == "cage":
         yield from _cages()
     elif _is_list(Case, field):
-        for cls in specs:
-            tag = f', type = "{tag_of(cls)}"' if len(specs) > 1 else ""
-            yield from _of_spec(name, "", f"[[{name}]]{tag}", cls, None)
+        yield from _listed(name, specs[0])
     else:
         readers = ", read by `flexcage static` alone" if name == "static" else ""
         yield from _of_spec(name, name, f"[{name}]{readers}", specs[0], default)
+
+
+def _listed(name: str, cls: type) -> Iterator[Group]:
+    """Keys of the entries of a list: the one that chooses their kind, then each kind's own."""
+    title, (choice, *_) = f"[[{name}]]", choices_of(cls) or ("",)
+    own = [f for f in dataclasses.fields(cls) if f.name == choice]
+    yield Group(name, title, tuple(_keys_of(cls, own, "", None)))
+    for label, kind in _variants(cls):
+        fields = [f for f in dataclasses.fields(kind) if f.init and f.name != choice]
+        if fields:
+            yield Group(name, f"{title}, {label}", tuple(_keys_of(kind, fields, "", None)))
 
 
 def _cages() -> Iterator[Group]:

@@ -14,6 +14,7 @@ from pathlib import Path
 from typing import Any, Self
 
 from flexcage.case.checks import check_static_case
+from flexcage.case.presets import NAMED
 from flexcage.case.read import read_case
 from flexcage.case.tables import ALIASES, as_pairs, with_preset, without_aliases, words_of_text
 from flexcage.contacts.spec import Contacts, Lubricant
@@ -30,10 +31,7 @@ from flexcage.core.binding import (
 )
 from flexcage.core.errors import InputError
 from flexcage.core.spec import option
-from flexcage.geometry.bearing import check_type
-from flexcage.geometry.bearings import Bearing
-from flexcage.geometry.checks import check_geometry
-from flexcage.geometry.presets import NAMED
+from flexcage.geometry.bearing import Bearing, check_type
 from flexcage.system.spec import Drive, Load
 from flexcage.system.statics.options import StaticOptions
 
@@ -93,7 +91,7 @@ class StaticCase:
             if "cage" in merged:
                 cage = binder.bind(case.bearing.cage_spec, merged["cage"], "cage")
                 check_spec(cage, "cage")
-                check_geometry(case.bearing, cage)
+                case.bearing.check(cage)
         return case
 
     def replace(

@@ -7,9 +7,9 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
+from flexcage.case.presets import NAMED, Preset, load_preset
 from flexcage.core.binding import chosen_spec, to_table
 from flexcage.core.errors import InputError
-from flexcage.geometry.presets import NAMED, Preset, load_preset
 
 # In text the cage's model stands with the cage; the preset, with the bearing.
 ALIASES = {"cage.model": "cage_model", "bearing.preset": "preset"}

@@ -8,230 +8,83 @@ from typing import Any
 
 from flexcage.case.case import Case
 from flexcage.case.extensions import sources
-from flexcage.core import units
+from flexcage.case.presets import load_preset
 from flexcage.core.binding import to_table
-from flexcage.geometry.ball_bearing import BallBearing
-from flexcage.geometry.ball_cage_defects import (
-    DisplacedPocket,
-    ElongatedPocket,
-    EnlargedPocket,
-    MissingRivet,
-    WebCrack,
-)
+from flexcage.core.units import typeset
 from flexcage.geometry.ball_cages import BallCage
-from flexcage.geometry.bearings import Bearing
 from flexcage.geometry.cage import Cage
-from flexcage.geometry.cages import CrossbeamDefect, SideBeamDefect, WindowCage
-from flexcage.geometry.cylindrical_roller import RollerBearing, Spall
-from flexcage.geometry.presets import load_preset
+from flexcage.geometry.cages import WindowCage
 from flexcage.geometry.ribbon_cage import RibbonCage
 from flexcage.system.spec import Load, Wave
-
-_GUIDED = {
-    "roller": {
-        "roller": "guided by its rollers",
-        "inner": "guided by the inner ring's ribs",
-        "outer": "guided by the outer ring",
-    },
-    "ball": {
-        "ball": "guided by its balls",
-        "inner": "guided by the inner ring",
-        "outer": "guided by the outer ring",
-    },
-}
-_CHANGED = {"roller": "Deformed", "ball": "Defects"}
-
-
-def describe(value: float, unit: str, *, digits: int = 6) -> str:
-    """Short text of an SI value, its unit as print writes it."""
-    number, _, name = units.describe(value, unit).partition(" ")
-    text = f"{float(number):.{digits}g} {name.replace('*', '·')}"
-    return (
-        text.replace(" um", " µm").replace("/um", "/µm").replace(" us", " µs").replace(" deg", "°")
-    )
 
 
 def in_words(case: Case) -> list[str]:
     """Paragraphs: bearing, cage and defects; drive and load; and how it was computed."""
     asked = f"The case calls itself “{case.description}”." if case.description else ""
-    what = f"{_bearing(case.bearing)} {_cage(case)} {_defects(case)}"
+    what = f"{case.bearing.in_words()} {_cage(case)} {_defects(case)}"
     return [text for text in (asked, what, f"{_motion(case)} {_method(case)}") if text]
 
 
-@singledispatch
-def _bearing(b: Bearing) -> str:
-    """The bearing and its main dimensions."""
-    return f"{_named(b)} of {_sizes(b)}."
-
-
-@_bearing.register
-def _(b: RollerBearing) -> str:
-    return (
-        f"{_named(b)} of {_sizes(b)} with {b.roller_count} "
-        f"rollers of {describe(b.roller_diameter, 'mm')}, radial clearance "
-        f"{describe(b.radial_clearance, 'um')}."
-        f"{_spall('inner', b.inner_spall)}{_spall('outer', b.outer_spall)}"
-    )
-
-
-def _spall(race: str, spall: Spall) -> str:
-    if not spall.length:
-        return ""
-    return (
-        f" The {race} race has a spall of {describe(spall.length, 'mm')}, "
-        f"{describe(spall.depth, 'um')} deep, at {describe(spall.azimuth, 'deg')}."
-    )
-
-
-@_bearing.register
-def _(b: BallBearing) -> str:
-    return (
-        f"{_named(b)} of {_sizes(b)} with {b.ball_count} balls of "
-        f"{describe(b.ball_diameter, 'mm')}, free contact angle "
-        f"{describe(b.free_contact_angle, 'deg', digits=4)}, radial clearance "
-        f"{describe(b.clearance, 'um', digits=4)}; "
-        f"the grooves' radii are {b.inner_conformity:.4g} (inner) and {b.outer_conformity:.4g} "
-        "(outer) times the ball's diameter."
-    )
-
-
-def _named(b: Bearing) -> str:
-    kind = f"{'an' if b.kind[0] in 'aeiou' else 'a'} {b.kind}"
-    return f"{b.designation}, {kind}" if b.designation else kind.capitalize()
-
-
-def _sizes(b: Bearing) -> str:
-    """Bore, outside diameter and width."""
-    sizes = " × ".join(describe(v, "mm").removesuffix(" mm") for v in (b.bore, b.outside_diameter))
-    return f"{sizes} × {describe(b.width, 'mm')}"
-
-
 def _cage(case: Case) -> str:
-    cage, guided = case.cage, _GUIDED[case.bearing.element][case.cage.guidance]
-    return f"Its cage is {case.cage_model}, of {cage.material.name}, {guided}; {_pockets(cage)}."
+    cage, bearing = case.cage, case.bearing
+    guide = bearing.guides.get(cage.guidance, f"its {bearing.element}s")
+    return (
+        f"Its cage is {case.cage_model}, of {cage.material.name}, guided by {guide}; "
+        f"{_pockets(cage)}."
+    )
 
 
 @singledispatch
 def _pockets(cage: Cage) -> str:
     """The pockets of a sound cage."""
-    return f"it is {describe(cage.width, 'mm')} wide"
+    return f"it is {typeset(cage.width, 'mm')} wide"
 
 
 @_pockets.register
 def _(cage: WindowCage) -> str:
     return (
-        f"pockets are {describe(cage.pocket_width, 'mm')} wide and "
-        f"{describe(cage.pocket_length, 'mm')} long"
+        f"pockets are {typeset(cage.pocket_width, 'mm')} wide and "
+        f"{typeset(cage.pocket_length, 'mm')} long"
     )
 
 
 @_pockets.register
 def _(cage: RibbonCage) -> str:
-    opening = describe(2.0 * cage.opening, "mm")
+    opening = typeset(2.0 * cage.opening, "mm")
     return (
-        f"it is two halves of sheet, {describe(cage.thickness, 'mm')} thick and riveted between "
-        f"pockets, which are spheres of {describe(cage.pocket_diameter, 'mm')}, "
+        f"it is two halves of sheet, {typeset(cage.thickness, 'mm')} thick and riveted between "
+        f"pockets, which are spheres of {typeset(cage.pocket_diameter, 'mm')}, "
         + (f"open at the sides by {opening}" if cage.opening else "closed at the sides")
     )
 
 
 @_pockets.register
 def _(cage: BallCage) -> str:
-    shape = f"its pockets are {cage.pocket_shape}, {describe(cage.pocket_diameter, 'mm')} across"
+    shape = f"its pockets are {cage.pocket_shape}, {typeset(cage.pocket_diameter, 'mm')} across"
     if cage.pocket_scatter:
-        shape += f", unevenly spaced by {describe(cage.pocket_scatter, 'um')} (standard deviation)"
+        shape += f", unevenly spaced by {typeset(cage.pocket_scatter, 'um')} (standard deviation)"
     return shape
 
 
 def _defects(case: Case) -> str:
     if not case.defects:
         return "The cage has no defect."
-    texts = [_defect(d, case.bearing.element_count) for d in case.defects]
-    return f"{_CHANGED[case.bearing.element]}: {'; '.join(texts)}."
-
-
-@singledispatch
-def _defect(defect: Any, pockets: int) -> str:
-    """What a defect did to a cage with so many ``pockets``."""
-    return type(defect).__name__
-
-
-@_defect.register
-def _(defect: CrossbeamDefect, pockets: int) -> str:
-    before, after = (defect.crossbeam - 1) % pockets, defect.crossbeam
-    if defect.displacement < 0.0:
-        before, after = after, before
-    how = "bent" if defect.shape == "bent" else "shifted as a whole"
-    return (
-        f"crossbeam {defect.crossbeam} is {how} by {_size(defect.displacement)}, so that pocket "
-        f"{before} is narrower and pocket {after} wider by as much"
-    )
-
-
-@_defect.register
-def _(defect: SideBeamDefect, pockets: int) -> str:
-    change = "longer" if defect.displacement > 0.0 else "shorter"
-    return (
-        f"the side beam {defect.side} of pocket {defect.pocket} is displaced by "
-        f"{_size(defect.displacement)}, so that the pocket is {change} by as much"
-    )
-
-
-@_defect.register
-def _(defect: EnlargedPocket, pockets: int) -> str:
-    change = "larger" if defect.increase > 0.0 else "smaller"
-    return f"pocket {defect.pocket} is {change} in diameter by {_size(defect.increase)}"
-
-
-@_defect.register
-def _(defect: ElongatedPocket, pockets: int) -> str:
-    way = {"axial": "axially", "circumferential": "around the cage"}[defect.direction]
-    return f"pocket {defect.pocket} is a slot, longer {way} by {_size(defect.elongation)}"
-
-
-@_defect.register
-def _(defect: DisplacedPocket, pockets: int) -> str:
-    ahead = (defect.pocket + (1 if defect.circumferential > 0.0 else -1)) % pockets
-    ways = {
-        f"towards {'+x' if defect.axial > 0.0 else '-x'}": defect.axial,
-        f"towards pocket {ahead}": defect.circumferential,
-    }
-    moved = " and ".join(f"{_size(size)} {way}" for way, size in ways.items() if size)
-    return f"pocket {defect.pocket} is displaced by {moved or 'nothing'}"
-
-
-@_defect.register
-def _(defect: WebCrack, pockets: int) -> str:
-    return (
-        f"web {defect.web}, between pockets {(defect.web - 1) % pockets} and {defect.web}, is "
-        f"cracked from the end {defect.side} over {100.0 * defect.share:g} % of the cage's width"
-    )
-
-
-@_defect.register
-def _(defect: MissingRivet, pockets: int) -> str:
-    return (
-        f"the rivet of web {defect.web}, between pockets {(defect.web - 1) % pockets} and "
-        f"{defect.web}, is missing"
-    )
-
-
-def _size(value: float) -> str:
-    return describe(abs(value), "mm")
+    texts = [d.in_words(case.bearing.element_count) for d in case.defects]
+    return f"{case.cage.altered}: {'; '.join(texts)}."
 
 
 def _motion(case: Case) -> str:
     drive, load = case.drive, case.load
-    speed = f"turns at {describe(drive.speed, 'rpm')}"
+    speed = f"turns at {typeset(drive.speed, 'rpm')}"
     if drive.times:
         speed = "turns at a speed that a table gives over time"
     elif drive.ramp_to is not None:
-        speed += f", then up to {describe(drive.ramp_to, 'rpm')}"
+        speed += f", then up to {typeset(drive.ramp_to, 'rpm')}"
     if drive.wave != "none":
-        speed += f" with {_wave(drive, describe(drive.wave_amplitude, 'rpm'))}"
+        speed += f" with {_wave(drive, typeset(drive.wave_amplitude, 'rpm'))}"
     tilted = ""
     if load.misalignment:
-        tilted = f", tilted by {describe(load.misalignment, 'mrad')}"
+        tilted = f", tilted by {typeset(load.misalignment, 'mrad')}"
     if load.centre == "held":
         tilted += ", held at its centre where that puts it"
     if case.bearing.carries_axial_load:
@@ -239,12 +92,12 @@ def _motion(case: Case) -> str:
     springs = (("axial", "N/um", "axially"), ("tilt", "N*m/rad", "in tilt"))
     stiff = [(getattr(load, f"{key}_stiffness"), unit, way) for key, unit, way in springs]
     if any(value for value, _, _ in stiff):
-        parts = [f"{describe(value, unit)} {way}" for value, unit, way in stiff if value]
+        parts = [f"{typeset(value, unit)} {way}" for value, unit, way in stiff if value]
         tilted += f", on a shaft of {' and '.join(parts)}"
     held = "" if case.mount.kind == "fixed" else ", the outer ring in an elastic mount"
     return (
         f"The inner ring {speed} under {_load(case)}{tilted}{held}. {_constraints(case)}Lubricant: "
-        f"{case.lubricant.name}, {describe(case.lubricant.viscosity, 'mPa*s')}."
+        f"{case.lubricant.name}, {typeset(case.lubricant.viscosity, 'mPa*s')}."
     )
 
 
@@ -259,7 +112,7 @@ def _constraints(case: Case) -> str:
 
 
 def _wave(spec: Wave, amplitude: str) -> str:
-    return f"a {spec.wave} wave of {amplitude} and {describe(spec.wave_period, 'ms')}"
+    return f"a {spec.wave} wave of {amplitude} and {typeset(spec.wave_period, 'ms')}"
 
 
 def _load(case: Case) -> str:
@@ -267,12 +120,10 @@ def _load(case: Case) -> str:
     load = case.load
     moments = {"about y": load.moment_y, "about z": load.moment_z}
     parts = [_load_along(load, along) for along in ("axial", "radial")]
-    parts = [text for text in parts if text] or [f"a radial load of {describe(0.0, 'N')}"]
+    parts = [text for text in parts if text] or [f"a radial load of {typeset(0.0, 'N')}"]
     if load.wave != "none":
-        parts.append(
-            f"{_wave(load, describe(load.wave_amplitude, 'N'))} of the {load.wave_of} load"
-        )
-    parts += [f"a moment of {describe(m, 'N*m')} {way}" for way, m in moments.items() if m]
+        parts.append(f"{_wave(load, typeset(load.wave_amplitude, 'N'))} of the {load.wave_of} load")
+    parts += [f"a moment of {typeset(m, 'N*m')} {way}" for way, m in moments.items() if m]
     return " and ".join(filter(None, [", ".join(parts[:-1]), parts[-1]]))
 
 
@@ -283,10 +134,8 @@ def _load_along(load: Load, along: str) -> str:
     if load.times and varies:
         return f"{article} {along} load that a table gives over time"
     if load.ramp_to is not None and varies:
-        return (
-            f"{article} {along} load of {describe(value, 'N')}, then {describe(load.ramp_to, 'N')}"
-        )
-    return f"{article} {along} load of {describe(value, 'N')}" if value else ""
+        return f"{article} {along} load of {typeset(value, 'N')}, then {typeset(load.ramp_to, 'N')}"
+    return f"{article} {along} load of {typeset(value, 'N')}" if value else ""
 
 
 def _method(case: Case) -> str:
@@ -298,8 +147,8 @@ def _method(case: Case) -> str:
             f"{case.modes.count} eigenmodes. "
         )
     return (
-        f"{modes}{describe(case.solver.duration, 'ms')} of motion were asked for, integrated to "
-        f"{describe(case.solver.tolerance, 'um')} of error in a position a step; the first "
+        f"{modes}{typeset(case.solver.duration, 'ms')} of motion were asked for, integrated to "
+        f"{typeset(case.solver.tolerance, 'um')} of error in a position a step; the first "
         f"{100.0 * case.output.settle:g} % are left out of statistics."
     )
 

@@ -113,9 +113,9 @@ def mesh_command(args: argparse.Namespace) -> int:
     """flexcage mesh CASE: build, check and write the cage's mesh."""
     case = case_from(args)
     out = Path(args.out) if args.out else Path(f"{case.name}.msh")
+    from flexcage.cages.build import build_cage_mesh
     from flexcage.core.progress import Progress
     from flexcage.core.timing import Stages
-    from flexcage.mesh.build import build_cage_mesh
     from flexcage.mesh.io import is_written_by_us, write_mesh
     from flexcage.mesh.quality import report_mesh
 

@@ -40,8 +40,8 @@ def _add_small(commands: Any) -> None:
 
 def presets_command(args: argparse.Namespace) -> int:
     """flexcage presets [NAME]: the list, or one preset with its assumptions."""
+    from flexcage.case.presets import load_preset, preset_names
     from flexcage.core.binding import flat
-    from flexcage.geometry.presets import load_preset, preset_names
 
     if args.name is None:
         for name in preset_names():

@@ -54,9 +54,11 @@ class Binder:
         known = {f.name: f for f in dataclasses.fields(cls) if f.init}
         values = {}
         choosing = choices_of(cls)
-        if choosing is not None and base is None and choosing[0] not in table:
+        if choosing is not None:  # before its keys, which nothing else explains
             name = known[choosing[0]]
-            if default_of(name) is MISSING:  # before its keys, which nothing explains yet
+            if name.name in table:
+                self.field_value(name, str, table[name.name], join(where, name.name))
+            elif base is None and default_of(name) is MISSING:
                 raise missing_keys([name], where)
         if base is not None and type(base) is not cls:
             values, base = common_values(base, cls), None
@@ -87,8 +89,6 @@ class Binder:
             if value is None or value == "none":
                 return None
             options = tuple(o for o in options if o is not type(None))
-        if len(options) > 1:
-            return self._tagged(options, meta, value, where)
         only = options[0]
         origin = typing.get_origin(only)
         if origin is tuple:
@@ -118,22 +118,6 @@ class Binder:
         if names:
             base = None if isinstance(value, Mapping) and "name" in value else base
         return self.bind(cls, value, where, base=base if isinstance(base, cls) else None)
-
-    def _tagged(self, options: tuple[type, ...], meta: Mapping, value: Any, where: str) -> Any:
-        """One of several specs, told apart by the table's ``type``."""
-        if isinstance(value, options):
-            return value
-        if not isinstance(value, Mapping):
-            raise wrong_type(value, "a table with a 'type'", where)
-        tags = {tag_of(o): o for o in options}
-        tag = value.get("type")
-        if tag not in tags:
-            given = f"type '{tag}' is not known" if tag is not None else "'type' is missing"
-            hint = told_elsewhere(str(tag), meta.get("elsewhere", {}))
-            hint = hint or did_you_mean(str(tag), tags, "choose from")
-            raise InputError(f"{where}: {given}; {hint}.", where=join(where, "type"), value=tag)
-        rest = {k: v for k, v in value.items() if k != "type"}
-        return self.bind(tags[tag], rest, where)
 
     def _sequence(self, kinds: tuple, meta: Mapping, value: Any, where: str) -> tuple:
         if isinstance(value, (str, Mapping)) or not isinstance(value, Iterable):
@@ -205,29 +189,14 @@ def with_their_choice(spec: Any, changes: Mapping[str, Any]) -> dict[str, Any]:
     for path, value in changes.items():
         parent, _, key = path.rpartition(".")
         own = _spec_at(spec, parent) if parent else None
-        name = _choice_of(own, parent)
-        chosen = changes.get(join(parent, name)) if name else None
-        if chosen is None or parent in changes:  # else in the order given
+        found = choices_of(type(own))
+        chosen = changes.get(join(parent, found[0])) if found else None
+        same = found is not None and chosen == getattr(own, found[0])
+        if chosen is None or same or parent in changes:  # else in the order given
             joined[path] = value
-        elif not _is_of_kind(own, name, chosen):
+        else:
             joined.setdefault(parent, {})[key] = value
-        elif key != name:
-            joined[path] = value
     return joined
-
-
-def _choice_of(spec: Any, path: str) -> str:
-    """Key of the name that chooses the spec at a path, such as the ``type`` of an entry of a list;
-    empty if none does."""
-    found = choices_of(type(spec))
-    if found:
-        return found[0]
-    return "type" if spec is not None and path.rpartition(".")[2].isdigit() else ""
-
-
-def _is_of_kind(spec: Any, name: str, chosen: Any) -> bool:
-    """Whether an entry, told apart by a name that is no field of it, is of this kind already."""
-    return name not in spec.__dataclass_fields__ and chosen == tag_of(type(spec))
 
 
 def _spec_at(spec: Any, path: str) -> Any:
@@ -414,7 +383,7 @@ def check_value(value: Any, meta: Mapping, where: str) -> None:
     if choices and isinstance(value, str) and value not in choices:
         hint = told_elsewhere(value, meta.get("elsewhere", {}))
         hint = hint or did_you_mean(value, choices, "choose from")
-        if isinstance(choices, Mapping) and hint.startswith("choose"):
+        if _grows(choices) and hint.startswith("choose"):
             hint += ", or load the file that registers it (--use FILE)"
         raise InputError(f"{where} '{value}' is not known; {hint}.", where=where, value=value)
     if isinstance(value, str) and "\0" in value:
@@ -445,6 +414,11 @@ def check_value(value: Any, meta: Mapping, where: str) -> None:
         raise InputError(f"{where} is {text(value)}, but must {wrong}.", where=where, value=value)
 
 
+def _grows(choices: Any) -> bool:
+    """Whether a user's file may add to these choices."""
+    return isinstance(choices, Mapping) and not isinstance(choices, MappingProxyType)
+
+
 def _check_size(value: Any, where: str) -> None:
     """Raise InputError for a whole number that no computer word holds."""
     if isinstance(value, int) and abs(value) > _LARGEST:
@@ -467,41 +441,27 @@ def to_table(spec: Any, *, named: Mapping[type, Mapping[str, Any]] | None = None
             if default_of(field) is not None:
                 table[field.name] = "none"
             continue
-        members = union_members(hints(typing.cast(Any, type(spec)))[field.name])
-        table[field.name] = _plain(value, field.metadata, named, tagged=_is_tagged(members))
+        table[field.name] = _plain(value, field.metadata, named)
     return table
 
 
-def _is_tagged(members: tuple) -> bool:
-    inner = members[0]
-    if typing.get_origin(inner) is tuple:
-        members = union_members(typing.get_args(inner)[0])
-    return sum(1 for m in members if dataclasses.is_dataclass(m)) > 1
-
-
-def _plain(value: Any, meta: Mapping, named: Mapping, *, tagged: bool) -> Any:
+def _plain(value: Any, meta: Mapping, named: Mapping) -> Any:
     if isinstance(value, tuple):
-        return [_plain(v, meta, named, tagged=tagged) for v in value]
+        return [_plain(v, meta, named) for v in value]
     if isinstance(value, Mapping):
-        return {k: _plain(v, meta, named, tagged=False) for k, v in value.items()}
+        return {k: _plain(v, meta, named) for k, v in value.items()}
     if dataclasses.is_dataclass(value) and not isinstance(value, type):
         registered = named.get(type(value), {})
         name = getattr(value, "name", None)
         if name in registered and registered[name] == value:
             return name
-        tag = {"type": tag_of(type(value))} if tagged else {}
-        return {**tag, **to_table(value, named=named)}
+        return to_table(value, named=named)
     if isinstance(value, np.generic):
         value = value.item()
     unit = meta.get("unit")
     if unit and isinstance(value, (int, float)) and not isinstance(value, bool):
         return format_si(value, unit)
     return str(value) if isinstance(value, Path) else value
-
-
-def tag_of(cls: type) -> str:
-    """Name by which a table's ``type`` asks for this spec, such as "side_beam"."""
-    return getattr(cls, "tag", None) or re.sub(r"(?<=[a-z])(?=[A-Z])", "_", cls.__name__).lower()
 
 
 @cache

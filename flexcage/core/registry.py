@@ -41,7 +41,7 @@ def add(
     check_free(table, name, what=what)
     table[name] = value
     if source is not None:
-        _sources[name] = _sources.get(name, "") + fingerprint(source)
+        note_source(name, source)
     return value
 
 
@@ -57,6 +57,11 @@ def add_sourced(
     if not spec.source:  # type: ignore[attr-defined]
         raise InputError(unsourced, where=f"{where}.source")
     return add(table, name, spec, what=what)
+
+
+def note_source(name: str, source: Callable[..., Any]) -> None:
+    """Remember what stands behind a name from outside: a function, or a class."""
+    _sources[name] = _sources.get(name, "") + fingerprint(source)
 
 
 def source_of(name: str) -> str:
@@ -79,15 +84,25 @@ def check_free(table: Mapping[str, Any], name: str, *, what: str) -> None:
 
 
 def fingerprint(function: Callable[..., Any]) -> str:
-    """16 digits that change when the file that defines a function does (or, without one, its code).
+    """16 digits that change when the file that defines a function or a class does (or, without
+    one, its code).
 
     For caches that must not outlive a user's edit.
     """
     function = getattr(function, "py_func", function)  # of a compiled one
-    source = inspect.getsourcefile(function)
+    source = _source_file(function)
     if source and Path(source).is_file():
         content = Path(source).read_bytes()
     else:
-        code = getattr(function, "__code__", None)
-        content = repr((code.co_code, code.co_consts) if code else function).encode()
+        inside = vars(function).values() if isinstance(function, type) else ()
+        found = [getattr(getattr(f, "fget", f), "__code__", None) for f in (function, *inside)]
+        codes = [(code.co_code, code.co_consts) for code in found if code]
+        content = repr((codes if inside else codes[0]) if codes else function).encode()
     return hashlib.sha256(content).hexdigest()[:16]
+
+
+def _source_file(function: Callable[..., Any]) -> str | None:
+    try:
+        return inspect.getsourcefile(function)
+    except (TypeError, OSError):  # a class that was typed in
+        return None

@@ -308,3 +308,12 @@ def limits_of(unit: str) -> tuple[float, float]:
 def describe(value: float, unit: str) -> str:
     """Short text of an SI value for sentences and tables: six digits."""
     return f"{value / _factor(unit):.6g} {unit}"
+
+
+def typeset(value: float, unit: str, *, digits: int = 6) -> str:
+    """Short text of an SI value, its unit as print writes it."""
+    number, _, name = describe(value, unit).partition(" ")
+    text = f"{float(number):.{digits}g} {name.replace('*', '·')}"
+    return (
+        text.replace(" um", " µm").replace("/um", "/µm").replace(" us", " µs").replace(" deg", "°")
+    )

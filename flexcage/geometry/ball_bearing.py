@@ -7,22 +7,29 @@ Bearing Analysis, 2 and 6; ISO/TS 16281:2008, 4.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from math import acos, cos, degrees, inf, pi, sin, sqrt
-from typing import ClassVar
+from math import acos, cos, inf, pi, sin, sqrt
+from typing import Any, ClassVar
+
+import numpy as np
 
 from flexcage.core.spec import option, quantity
+from flexcage.core.units import typeset
+from flexcage.geometry import ball_checks, ball_ratings
 from flexcage.geometry.ball_cages import BallCage
 from flexcage.geometry.bearing import (
     Bearing,
+    EquivalentLoad,
     RingLand,
     RingLimit,
     Spec,
     hollow_cylinder_inertia,
 )
 from flexcage.geometry.cage import Cage
+from flexcage.geometry.checks import Finding
+from flexcage.geometry.film import Film, Oil, both_races, point_film, rolling_entrainment
 from flexcage.geometry.hertz import PointContact
 from flexcage.geometry.materials import MATERIALS, Material
 
@@ -71,12 +78,12 @@ class BallBearing(Bearing):
     @property
     def free_contact_angle(self) -> float:
         """Contact angle [rad] when the rings are pushed together without load."""
-        raise NotImplementedError
+        raise self._lacks("free_contact_angle")
 
     @property
     def nominal_contact_angle(self) -> float:
         """Contact angle [rad] to which curvatures and ratings refer."""
-        raise NotImplementedError
+        raise self._lacks("nominal_contact_angle")
 
     @property
     def element_count(self) -> int:
@@ -93,12 +100,12 @@ class BallBearing(Bearing):
     @property
     def clearance(self) -> float:
         """Radial internal clearance Pd [m]."""
-        raise NotImplementedError
+        raise self._lacks("clearance")
 
     @property
     def groove_offset(self) -> tuple[float, float]:
         """Inner groove's centre from the outer one's, axially and radially [m], undisplaced."""
-        raise NotImplementedError
+        raise self._lacks("groove_offset")
 
     @property
     def is_thrust(self) -> bool:
@@ -253,6 +260,57 @@ class BallBearing(Bearing):
         )
         return inner, outer
 
+    def check(self, cage: Any = None, defects: Sequence[Any] = ()) -> None:
+        ball_checks.check(self, cage, defects)
+
+    def find_in_clearance(self) -> Iterator[Finding]:
+        """What is impossible in the clearance, or in what says the same."""
+        return ball_checks.find_in_clearance(self, self.clearance)
+
+    @property
+    def static_rating(self) -> float:
+        return ball_ratings.static_rating(self)
+
+    @property
+    def dynamic_rating(self) -> float:
+        return ball_ratings.dynamic_rating(self)
+
+    def equivalent_load(self, radial: float, axial: float) -> EquivalentLoad:
+        return ball_ratings.equivalent_load(self, radial, axial)
+
+    def race_film(self, force: np.ndarray, speed: np.ndarray, oil: Oil) -> Film:
+        return both_races([
+            point_film(contact, force[..., k], speed[..., k], oil)
+            for k, contact in enumerate(self.contacts)
+        ])  # fmt: skip
+
+    def rolling_entrainment(
+        self, angle: np.ndarray, orbit: np.ndarray, inner_speed: float
+    ) -> np.ndarray:
+        return rolling_entrainment(
+            angle, orbit, inner_speed, diameter=self.ball_diameter, pitch=self.pitch_diameter
+        )
+
+    def contact_patch(self, force: float, pressure: float, race: int) -> tuple[float, float]:
+        return 2.0 / 3.0 * pressure, float(self.contacts[race].semi_axes(force)[1])
+
+    def beyond_edges(self, force: np.ndarray, angle: np.ndarray) -> np.ndarray:
+        across = np.stack(
+            [c.semi_axes(force[..., k])[0] for k, c in enumerate(self.contacts)], axis=-1
+        )
+        radii = np.array([self.inner_groove_radius, self.outer_groove_radius])
+        return np.abs(angle) + across / radii - np.array(self.groove_edges)
+
+    def in_words(self) -> str:
+        return (
+            f"{self.name_and_size} with {self.ball_count} balls of "
+            f"{typeset(self.ball_diameter, 'mm')}, free contact angle "
+            f"{typeset(self.free_contact_angle, 'deg', digits=4)}, radial clearance "
+            f"{typeset(self.clearance, 'um', digits=4)}; "
+            f"the grooves' radii are {self.inner_conformity:.4g} (inner) and "
+            f"{self.outer_conformity:.4g} (outer) times the ball's diameter."
+        )
+
 
 def race_contact(bearing: BallBearing, conformity: float, side: float) -> PointContact:
     """Contact of a ball with a race: the inner at ``side`` -1, the outer at +1."""
@@ -267,15 +325,3 @@ def race_contact(bearing: BallBearing, conformity: float, side: float) -> PointC
 def clearance_at(angle: float, distance: float) -> float:
     """Radial clearance [m] that goes with a free contact angle [rad]: 2 A (1 - cos(alpha))."""
     return 4.0 * distance * sin(0.5 * angle) ** 2
-
-
-def over_edge(
-    element: str, race: str, beyond: float, *, force: float, angle: float, when: str = ""
-) -> str:
-    """What to say of an ellipse that runs ``beyond`` [rad] over a groove's edge, under ``force``
-    [N] at a contact ``angle`` [rad]."""
-    return (
-        f"the contact ellipse of {element} runs over the {race} groove's edge by "
-        f"{degrees(beyond):.2g} deg{when}, under {force:.4g} N at a contact angle of "
-        f"{degrees(angle):.4g} deg; its edge pressure is not computed."
-    )

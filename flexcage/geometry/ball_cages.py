@@ -2,19 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from math import hypot, pi, sin
-from typing import ClassVar
+from typing import Any, ClassVar
 
 from flexcage.core.spec import option, quantity
 from flexcage.core.units import describe
-from flexcage.geometry.cage import Cage
+from flexcage.geometry.cage import Cage, cages_of
 from flexcage.geometry.materials import MATERIALS, Material
 
 POCKET_SHAPES = ("cylindrical", "spherical")
 GUIDANCE = ("ball", "inner", "outer")
-BALL_CAGES: dict[str, type | None] = {"machined": None}  # name in a case: spec of its own
+BALL_CAGES = cages_of("ball")
 
 Objection = tuple[str, str]  # name of a value, and what is wrong with it
 
@@ -24,7 +24,7 @@ class BallCage(Cage):
     """A cage with one round pocket per ball: a hollow cylinder with radial holes, or spheres.
 
     ``pocket_diameter`` is that of cylinder or sphere. A cage that a ring guides has its land there,
-    with the clearance of [contacts.land]. ``type`` may name another kind with a spec of its own.
+    with the clearance of [contacts.land]. ``type`` may name another type with a spec of its own.
     """
 
     cage_type: ClassVar[str] = "machined"
@@ -41,6 +41,35 @@ class BallCage(Cage):
     @property
     def pocket_size(self) -> float:
         return self.pocket_diameter
+
+    def check_defects(
+        self,
+        defects: Sequence[Any],
+        *,
+        pocket_count: int,
+        pitch_diameter: float,
+        element_diameter: float = 0.0,
+    ) -> None:
+        from flexcage.geometry.ball_cage_defects import check_pockets
+
+        super().check_defects(defects, pocket_count=pocket_count, pitch_diameter=pitch_diameter)
+        check_pockets(
+            defects, self, pocket_count=pocket_count, pitch_diameter=pitch_diameter,
+            ball_diameter=element_diameter,
+        )  # fmt: skip
+
+    def uneven_pockets(self, pocket_count: int, seed: int) -> tuple[Any, ...]:
+        from flexcage.geometry.ball_cage_defects import displaced_at_random
+
+        return displaced_at_random(self, pocket_count, seed)
+
+    @property
+    def has_faces(self) -> bool:
+        return False
+
+    @property
+    def has_land(self) -> bool:
+        return self.guidance != "ball"
 
     def thinnest(self, pitch_diameter: float, pocket_count: int) -> float:
         web = pitch_diameter * sin(pi / pocket_count) - self.pocket_diameter

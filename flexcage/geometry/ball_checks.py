@@ -2,29 +2,23 @@
 
 from __future__ import annotations
 
-import typing
 from collections.abc import Iterator, Sequence
 from math import asin, cos, degrees, pi, sin
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from flexcage.core.units import describe
-from flexcage.geometry.angular_contact_ball import AngularContactBallBearing
-from flexcage.geometry.ball_bearing import BallBearing, clearance_at
-from flexcage.geometry.ball_cage_defects import (
-    BallCageDefect,
-    check_ball_cage,
-    check_ball_defects,
-)
+from flexcage.geometry.ball_cage_defects import check_ball_cage
 from flexcage.geometry.ball_cages import BallCage
 from flexcage.geometry.checks import (
     MOST_SCATTER,
     Finding,
-    check_geometry,
     find_in_unbalance,
     raise_first,
-    refuse_foreign,
 )
-from flexcage.geometry.deep_groove_ball import DeepGrooveBallBearing
+
+if TYPE_CHECKING:
+    from flexcage.geometry.angular_contact_ball import AngularContactBallBearing
+    from flexcage.geometry.ball_bearing import BallBearing
 
 _AGREE = 1e-6  # m, to which contact angle and clearance must agree: a tenth of a clearance class
 _WIDEST_GROOVE = 1.0  # radius, of the ball's diameter
@@ -36,40 +30,20 @@ def _mm(value: float) -> str:
     return describe(value, "mm")
 
 
-@check_geometry.register
-def _(
-    bearing: AngularContactBallBearing, cage: BallCage | None = None, defects: Sequence[Any] = ()
-) -> None:
-    _check(bearing, cage, defects, _find_in_angle(bearing))
-
-
-@check_geometry.register
-def _(
-    bearing: DeepGrooveBallBearing, cage: BallCage | None = None, defects: Sequence[Any] = ()
-) -> None:
-    _check(bearing, cage, defects, _find_in_clearance(bearing, bearing.radial_clearance))
-
-
-def _check(
-    bearing: BallBearing,
-    cage: BallCage | None,
-    defects: Sequence[Any],
-    of_its_type: Iterator[Finding],
-) -> None:
-    """Raise InputError for the first impossibility: of all ball bearings, of one type, of cages."""
+def check(bearing: BallBearing, cage: BallCage | None, defects: Sequence[Any]) -> None:
+    """Raise InputError for the first impossibility in the bearing, its cage or the defects."""
     raise_first(_find_in_grooves(bearing))
     raise_first(_find_in_balls(bearing))
     raise_first(_find_in_shoulders(bearing))
-    raise_first(of_its_type)
-    refuse_foreign(defects, typing.get_args(BallCageDefect), "ball cages")
+    raise_first(bearing.find_in_clearance())
     if cage is None:
         return
     raise_first(find_in_cage(bearing, cage))
     check_ball_cage(cage, pocket_count=bearing.ball_count)
     if defects:
-        check_ball_defects(
-            defects, cage, pocket_count=bearing.ball_count, pitch_diameter=bearing.pitch_diameter,
-            ball_diameter=bearing.ball_diameter,
+        cage.check_defects(
+            defects, pocket_count=bearing.ball_count, pitch_diameter=bearing.pitch_diameter,
+            element_diameter=bearing.ball_diameter,
         )  # fmt: skip
 
 
@@ -134,7 +108,8 @@ def _find_in_shoulders(b: BallBearing) -> Iterator[Finding]:
             )
 
 
-def _find_in_angle(b: AngularContactBallBearing) -> Iterator[Finding]:
+def find_in_angle(b: AngularContactBallBearing) -> Iterator[Finding]:
+    """What is impossible in contact angle and clearance, one of which says the other."""
     if b.contact_angle is None and b.radial_clearance is None:
         yield (
             "bearing.contact_angle",
@@ -147,9 +122,9 @@ def _find_in_angle(b: AngularContactBallBearing) -> Iterator[Finding]:
                 f"bearing.radial_clearance is {describe(b.radial_clearance, 'um')}, but an angular "
                 "contact bearing has its contact angle from a clearance greater than 0 um.",
             )
-        yield from _find_in_clearance(b, b.radial_clearance)
+        yield from find_in_clearance(b, b.radial_clearance)
     elif b.radial_clearance is not None and b.contact_angle is not None:
-        due = clearance_at(b.contact_angle, b.groove_distance)
+        due = b.clearance
         if abs(due - b.radial_clearance) > _AGREE:
             yield (
                 "bearing.radial_clearance",
@@ -159,7 +134,8 @@ def _find_in_angle(b: AngularContactBallBearing) -> Iterator[Finding]:
             )
 
 
-def _find_in_clearance(b: BallBearing, clearance: float) -> Iterator[Finding]:
+def find_in_clearance(b: BallBearing, clearance: float) -> Iterator[Finding]:
+    """A clearance [m] that its grooves do not allow."""
     most, least = 2.0 * b.groove_distance, -_MOST_PRELOAD * b.ball_diameter
     if not least <= clearance < most:
         yield (
@@ -171,9 +147,9 @@ def _find_in_clearance(b: BallBearing, clearance: float) -> Iterator[Finding]:
 
 def _rings(b: BallBearing) -> tuple[tuple[float, str], tuple[float, str]]:
     """Diameters between which a cage has its place, and what they are: of shoulders that are given
-    on both sides, else of bore and outside, because an angular contact bearing is open on one."""
+    on both sides, else of bore and outside."""
     inner, outer = (b.bore, "bearing.bore"), (b.outside_diameter, "bearing.outside_diameter")
-    if isinstance(b, DeepGrooveBallBearing):
+    if not b.one_sided:
         over, under = b.shoulder_diameters
         if b.inner_shoulder is not None:
             inner = over, "the inner ring's shoulder"

@@ -1,33 +1,35 @@
-"""What all bearing types share: the name by which a case asks for one.
+"""What all bearing types share: the name by which a case asks for one, and what each can say of
+itself: its dimensions, checks, ratings, films, and words.
 
-A type is a spec of its own, one file each in this room. It names itself here, and supplies its
-parts by being registered with the functions that want them: ``checks.check_geometry``,
-``catalogue.static_rating``, ``catalogue.dynamic_rating`` and ``catalogue.equivalent_load``.
+A type is a spec of its own, which defines the methods of ``Bearing`` that it has an answer to. The
+others keep their plain default, or name themselves in a NotImplementedError.
 """
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from math import inf
 from typing import TYPE_CHECKING, Any, ClassVar, TypeVar
+
+import numpy as np
 
 from flexcage.core.binding import check_value
 from flexcage.core.spec import option
+from flexcage.core.units import typeset
 from flexcage.core.wings import FAMILIES, Parts
 from flexcage.geometry.cage import Cage
+from flexcage.geometry.film import Film, Oil
 
 Spec = type  # by another name, for inside the spec ``type`` is a field
 
-#: Designs of cylindrical roller bearings other than N, and what there is instead.
-OTHER_DESIGNS = {
-    r"(cylindrical_roller_)?(rnu|nup?|nj|nf|nnu?|n?ncf)([-_ ]?\d.*)?": (
-        "of cylindrical roller bearings flexcage has the design N alone, with two ribs on the "
-        "inner ring and a plain outer ring (type 'cylindrical_roller')"
-    )
-}
 #: Specs of bearings by the name that a case gives: those of all families, and users' own.
 BEARING_TYPES: Parts[Spec] = Parts(
     FAMILIES, lambda family: {name_of(spec): spec for spec in family.types}, what="bearing type"
+)
+#: Patterns of the names of designs that families do not have: what they have instead.
+OTHER_DESIGNS: Parts[str] = Parts(
+    FAMILIES, lambda family: family.other_designs, what="bearing design"
 )
 
 
@@ -55,6 +57,19 @@ class RingLand:
     end: float
 
 
+@dataclass(frozen=True)
+class EquivalentLoad:
+    """Dynamic equivalent load P [N] of ISO 281, its factors, and the exponent of life.
+
+    The load is not a number where the standard gives no factors.
+    """
+
+    load: float
+    radial_factor: float  # X
+    axial_factor: float  # Y
+    exponent: float
+
+
 def type_name(default: str) -> Any:
     """The field ``type`` of a bearing."""
     return option(default, doc="type of bearing", choices=BEARING_TYPES, elsewhere=OTHER_DESIGNS)
@@ -80,6 +95,8 @@ class Bearing:
     in_motion: ClassVar[bool] = False  # are there equations of motion for this type?
     elsewhere: ClassVar[Mapping[str, str]] = {}  # patterns of keys that it has not: what there is
     explicit_only: ClassVar[bool] = False  # do they lack the tangent that implicit methods want?
+    # what of a ring guides a cage that is not guided by the elements
+    guides: ClassVar[Mapping[str, str]] = {"inner": "the inner ring", "outer": "the outer ring"}
 
     type: str = type_name("cylindrical_roller")
     designation: str = option("", doc="name in a catalogue")
@@ -92,12 +109,12 @@ class Bearing:
     @property
     def element_count(self) -> int:
         """Z."""
-        raise NotImplementedError
+        raise self._lacks("element_count")
 
     @property
     def element_diameter(self) -> float:
         """Dw [m]."""
-        raise NotImplementedError
+        raise self._lacks("element_diameter")
 
     @property
     def element_mass(self) -> float:
@@ -125,10 +142,92 @@ class Bearing:
         None where the spec does not say."""
         return None, None
 
+    def _lacks(self, name: str) -> NotImplementedError:
+        return NotImplementedError(f"{type(self).__name__} does not define {name}")
+
+    def check(self, cage: Any = None, defects: Sequence[Any] = ()) -> None:
+        """Raise InputError for the first impossibility found in bearing, cage or defects; without a
+        cage the bearing alone is checked."""
+        raise self._lacks("check")
+
+    @property
+    def greatest_tilt(self) -> float:
+        """Misalignment [rad] of the inner ring beyond which no contact law holds."""
+        return inf
+
+    @property
+    def greatest_shift(self) -> float:
+        """Axial displacement [m] of the inner ring beyond which elements leave the outer race."""
+        return inf
+
     @property
     def is_thrust(self) -> bool:
         """Do ISO 76 and ISO 281 rate it for axial load?"""
         return False
+
+    @property
+    def rating_names(self) -> tuple[str, str]:
+        """Symbols of the static and the dynamic rating."""
+        return ("C0a", "Ca") if self.is_thrust else ("C0r", "Cr")
+
+    @property
+    def static_rating(self) -> float:
+        """Basic static load rating C0 [N] of ISO 76: radial, or axial for thrust bearings."""
+        raise self._lacks("static_rating")
+
+    @property
+    def dynamic_rating(self) -> float:
+        """Basic dynamic load rating C [N] of ISO 281: radial, or axial for thrust bearings."""
+        raise self._lacks("dynamic_rating")
+
+    def equivalent_load(self, radial: float, axial: float) -> EquivalentLoad:
+        """Dynamic equivalent load of ISO 281 under a radial and an axial load [N], both >= 0."""
+        raise self._lacks("equivalent_load")
+
+    def race_film(self, force: np.ndarray, speed: np.ndarray, oil: Oil) -> Film:
+        """Film at inner and outer race under forces (..., 2) [N] of elements at entrainment speeds
+        (..., 2) [m/s]; NaN where the type does not say."""
+        unknown = np.full(np.shape(force), np.nan)
+        return Film(unknown, unknown)
+
+    def rolling_entrainment(
+        self, angle: np.ndarray, orbit: np.ndarray, inner_speed: float
+    ) -> np.ndarray:
+        """Entrainment speeds (Z, 2) [m/s] of elements that roll without slip at contact angles
+        (Z, 2) [rad] and orbit at speeds (Z,) [rad/s], where the inner ring turns at a speed [rad/s]
+        and the outer one stands; NaN where the type does not say."""
+        return np.full(np.shape(angle), np.nan)
+
+    def contact_patch(self, force: float, pressure: float, race: int) -> tuple[float, float]:
+        """Mean pressure [Pa] of a contact under a force [N] and a largest pressure [Pa], and the
+        half of its length [m] in the rolling direction; ``race`` 0 is the inner."""
+        raise self._lacks("contact_patch")
+
+    @property
+    def groove_edges(self) -> tuple[float, float]:
+        """Angles [rad] from the bottoms of inner and outer groove to their edges; infinite where
+        there are none, or none that the spec tells."""
+        return inf, inf
+
+    def beyond_edges(self, force: np.ndarray, angle: np.ndarray) -> np.ndarray:
+        """How far (..., 2) [rad] the contact ellipses of elements run over the edges of inner and
+        outer groove, under forces (..., 2) [N] at contact angles (..., 2) [rad]; < 0 within them.
+        """
+        return np.full(np.shape(force), -inf)
+
+    @property
+    def name_and_size(self) -> str:
+        """Designation, type, and bore × outside diameter × width."""
+        kind = f"{'an' if self.kind[0] in 'aeiou' else 'a'} {self.kind}"
+        name = f"{self.designation}, {kind}" if self.designation else kind.capitalize()
+        bore, outside = (
+            typeset(v, "mm").removesuffix(" mm") for v in (self.bore, self.outside_diameter)
+        )
+        return f"{name} of {bore} × {outside} × {typeset(self.width, 'mm')}"
+
+    def in_words(self) -> str:
+        """Sentences on its type and main dimensions, and on defects of its races."""
+        return f"{self.name_and_size}."
 
 
 AnyBearing = TypeVar("AnyBearing", bound=type[Bearing])

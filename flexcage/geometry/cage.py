@@ -2,19 +2,32 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from math import nan, pi
 from typing import TYPE_CHECKING, Any, ClassVar
 
 from flexcage.core.spec import option, quantity
+from flexcage.core.wings import CAGE_TYPES, Parts
 from flexcage.geometry.materials import MATERIALS, Material
+
+
+def cages_of(element: str) -> Parts[type]:
+    """Specs of the cages that hold such elements ("ball"), by the name that a case gives."""
+    return Parts(
+        CAGE_TYPES,
+        lambda made: {made.name: made.spec} if element in made.holds else {},
+        what="cage type",
+    )
 
 
 @dataclass(frozen=True, kw_only=True)
 class Cage:
-    """A cage of some type; ``cage_spec`` of a bearing's type says which."""
+    """A cage of some type: ``type`` of those whose elements several cages hold says which, and
+    ``cage_spec`` of a bearing's type what it is where nobody says."""
 
     cage_type: ClassVar[str] = ""  # name of its ``cages.cage_type.CageType``
+    altered: ClassVar[str] = "Defects"  # heads the list of its defects
 
     material: Material = option(MATERIALS["brass"], doc="cage material (a name or its values)")
     bore: float = quantity("mm", doc="inside diameter", above=0.0)
@@ -40,6 +53,31 @@ class Cage:
         return nan
 
     @property
+    def has_faces(self) -> bool:
+        """Have its pockets plane faces, which a basis may have attachment vectors for?"""
+        return True
+
+    @property
+    def riveted(self) -> bool:
+        """Do rivets of ``rivet_diameter`` between its pockets hold two halves together?"""
+        return False
+
+    @property
+    def has_land(self) -> bool:
+        """May a ring's land touch it?"""
+        return True
+
+    @property
+    def land_ring(self) -> str:
+        """The ring that its land faces, "inner" or "outer": the one that guides it, if any does."""
+        return "outer" if self.guidance == "outer" else "inner"
+
+    @property
+    def land_radius(self) -> float:
+        """Radius [m] of its land."""
+        return 0.5 * (self.outside_diameter if self.land_ring == "outer" else self.bore)
+
+    @property
     def axial_width(self) -> float:
         """What it takes up along the axis [m]."""
         return self.width
@@ -62,3 +100,21 @@ class Cage:
     def parts(self, pitch_diameter: float, pocket_count: int) -> dict[str, float]:
         """Least thickness [m] of its parts, by name; none where its type does not say."""
         return {}
+
+    def check_defects(
+        self,
+        defects: Sequence[Any],
+        *,
+        pocket_count: int,
+        pitch_diameter: float,
+        element_diameter: float = 0.0,
+    ) -> None:
+        """Raise InputError for defects that a sound cage of these dimensions cannot have, in a
+        bearing whose elements have this pitch circle [m] and diameter [m] (0: any)."""
+        from flexcage.geometry.defect import check_each
+
+        check_each(defects, self, pocket_count)
+
+    def uneven_pockets(self, pocket_count: int, seed: int) -> tuple[Any, ...]:
+        """Defects that make its pockets' spacing uneven, drawn at random; none if it is even."""
+        return ()

@@ -1,78 +1,24 @@
-"""Is this geometry possible? Every check says in one sentence what is wrong and what is right.
+"""What the checks of bearings share: is this geometry possible?
 
-Specs check each value alone (bounds); here values are checked against one another.
+Specs check each value alone (bounds); ``Bearing.check`` checks values against one another, and says
+in one sentence what is wrong and what is right.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
-from functools import singledispatch
-from math import asin, hypot, inf, pi, sin, sqrt
-from typing import Any
-
-import numpy as np
+from collections.abc import Iterator
+from math import inf, sqrt
 
 from flexcage.core.errors import InputError
 from flexcage.core.units import describe
 from flexcage.geometry.bearing import Bearing
 from flexcage.geometry.cage import Cage
-from flexcage.geometry.cages import (
-    CrossbeamDefect,
-    Defect,
-    SideBeamDefect,
-    WindowCage,
-    check_cage,
-    check_defects,
-    pocket_changes,
-)
-from flexcage.geometry.catalogue import static_rating
-from flexcage.geometry.cylindrical_roller import RollerBearing
 
 Finding = tuple[str, str]  # where, sentence
 
-# of the roller's diameter: a clearance that leaves one roller to bear a moderate load, and rollers
-# that differ by a hundred times what those of one bearing do
-_MOST_CLEARANCE, MOST_SCATTER = 0.05, 0.01
-_MOST_PRESSED = 0.01  # of a roller's diameter, a hundred times what C0 leaves for good (ISO 76)
+# of an element's diameter: elements differ by a hundred times what those of one bearing do
+MOST_SCATTER = 0.01
 OVERLOAD = 4.0  # static ratings C0: line contacts then bear 8 GPa, the hardness of bearing steel
-_PINCH_LIMIT = 0.1  # of the roller's diameter: far beyond what any cage material survives
-
-
-def _mm(value: float) -> str:
-    return describe(value, "mm")
-
-
-@singledispatch
-def check_geometry(bearing: Bearing, cage: Any = None, defects: Sequence[Any] = ()) -> None:
-    """Raise InputError for the first impossibility found in bearing, cage or defects.
-
-    Every bearing type registers its own checks; without a cage the bearing alone is checked.
-    """
-    raise NotImplementedError(f"no checks are registered for {type(bearing).__name__}")
-
-
-@singledispatch
-def greatest_tilt(bearing: Bearing) -> float:
-    """Misalignment [rad] of the inner ring beyond which no contact law holds; infinite for types
-    that register none."""
-    return inf
-
-
-@greatest_tilt.register
-def _(bearing: RollerBearing) -> float:
-    return 2.0 * _MOST_PRESSED * bearing.roller_diameter / bearing.effective_length
-
-
-@singledispatch
-def greatest_shift(bearing: Bearing) -> float:
-    """Axial displacement [m] of the inner ring beyond which its elements leave the outer race;
-    infinite for types that register none."""
-    return inf
-
-
-@greatest_shift.register
-def _(bearing: RollerBearing) -> float:
-    return 0.5 * (bearing.width - bearing.roller_length)
 
 
 def greatest_speed(bearing: Bearing) -> float:
@@ -82,185 +28,14 @@ def greatest_speed(bearing: Bearing) -> float:
     if mass == 0.0:
         return inf
     pitch, diameter = bearing.pitch_diameter, bearing.element_diameter
-    most = 5.0 * OVERLOAD * static_rating(bearing) / bearing.element_count
+    most = 5.0 * OVERLOAD * bearing.static_rating / bearing.element_count
     return 2.0 / (1.0 - diameter / pitch) * sqrt(most / (0.5 * mass * pitch))
-
-
-@check_geometry.register
-def _(bearing: RollerBearing, cage: WindowCage | None = None, defects: Sequence[Any] = ()) -> None:
-    refuse_foreign(defects, (CrossbeamDefect, SideBeamDefect), "window cages")
-    raise_first(find_in_bearing(bearing))
-    if cage is None:
-        return
-    check_cage(cage, pocket_count=bearing.roller_count)
-    raise_first(find_in_cage(bearing, cage))
-    check_defects(defects, cage, pocket_count=bearing.roller_count)
-    raise_first(find_in_defects(bearing, cage, defects))
-
-
-def refuse_foreign(defects: Sequence[Any], kinds: tuple[type, ...], cages: str) -> None:
-    """Raise InputError for a defect of another type of cage than the bearing's."""
-    for i, defect in enumerate(defects):
-        if not isinstance(defect, kinds):
-            known = ", ".join(f"'{kind.tag}'" for kind in kinds)  # type: ignore[attr-defined]
-            raise InputError(
-                f"defects.{i}.type is '{defect.tag}', but this bearing's cage is one of the "
-                f"{cages}, whose defects are {known}.",
-                where=f"defects.{i}.type",
-                value=defect.tag,
-            )
 
 
 def raise_first(findings: Iterator[Finding]) -> None:
     """Raise the first finding, if any, as an InputError."""
     for where, sentence in findings:
         raise InputError(sentence, where=where)
-
-
-def find_in_bearing(b: RollerBearing) -> Iterator[Finding]:
-    """What is impossible in the bearing alone."""
-    rising = (
-        ("bore", b.bore),
-        ("inner_race_diameter", b.inner_race_diameter),
-        ("rib_diameter", b.rib_diameter),
-        ("outer_race_diameter", b.outer_race_diameter),
-        ("outside_diameter", b.outside_diameter),
-    )
-    for (small, low), (large, high) in zip(rising, rising[1:]):
-        if not low < high:
-            yield (
-                f"bearing.{large}",
-                f"bearing.{large} is {_mm(high)}, but must be greater than {small}, {_mm(low)}.",
-            )
-    space = 0.5 * (b.outer_race_diameter - b.inner_race_diameter)
-    if abs(b.roller_diameter - space) > 1e-6:
-        yield (
-            "bearing.roller_diameter",
-            f"bearing.roller_diameter is {_mm(b.roller_diameter)}, but the races leave "
-            f"{_mm(space)}, (E - F)/2; race diameters are those at zero clearance.",
-        )
-    chord = b.pitch_diameter * sin(pi / b.roller_count)
-    if chord <= b.roller_diameter:
-        most = int(pi / asin(b.roller_diameter / b.pitch_diameter))
-        yield (
-            "bearing.roller_count",
-            f"{b.roller_count} rollers of {_mm(b.roller_diameter)} overlap on a pitch diameter of "
-            f"{_mm(b.pitch_diameter)}; at most {most} fit.",
-        )
-    if b.radial_clearance < 0.0:
-        yield (
-            "bearing.radial_clearance",
-            f"bearing.radial_clearance is {describe(b.radial_clearance, 'um')}, but a negative "
-            "clearance (preload) is not modelled; give 0 um or more.",
-        )
-    widest = _MOST_CLEARANCE * b.roller_diameter
-    if b.radial_clearance > widest:
-        yield (
-            "bearing.radial_clearance",
-            f"bearing.radial_clearance is {_mm(b.radial_clearance)}, so wide that one roller alone "
-            f"would bear; give {_mm(widest)} or less, {100.0 * _MOST_CLEARANCE:g} % of a roller's "
-            "diameter.",
-        )
-    widest = MOST_SCATTER * b.roller_diameter
-    if b.roller_scatter > widest:
-        yield (
-            "bearing.roller_scatter",
-            f"bearing.roller_scatter is {_mm(b.roller_scatter)}, but rollers of one bearing differ "
-            f"by micrometres; give {_mm(widest)} or less, {100.0 * MOST_SCATTER:g} % of their "
-            "diameter.",
-        )
-    yield from _find_in_lengths(b)
-    yield from _find_in_spalls(b)
-
-
-def _find_in_spalls(b: RollerBearing) -> Iterator[Finding]:
-    for name, radius in (("inner", b.inner_race_radius), ("outer", b.outer_race_radius)):
-        spall, where = getattr(b, f"{name}_spall"), f"bearing.{name}_spall"
-        pitch = 2.0 * pi * radius / b.roller_count
-        if spall.length >= pitch:
-            yield (
-                f"{where}.length",
-                f"{where}.length is {_mm(spall.length)}, but must be less than the distance of two "
-                f"rollers there, {_mm(pitch)}: a longer one is no spall but another race.",
-            )
-        if spall.length and spall.depth > 0.1 * b.roller_diameter:
-            yield (
-                f"{where}.depth",
-                f"{where}.depth is {_mm(spall.depth)}; give a tenth of the roller's diameter, "
-                f"{_mm(0.1 * b.roller_diameter)}, or less.",
-            )
-        reach = 0.5 * b.effective_length
-        if spall.length and spall.width is not None:
-            if abs(spall.offset) - 0.5 * spall.width >= reach:
-                yield (
-                    f"{where}.offset",
-                    f"{where}.offset is {_mm(spall.offset)}, where no roller runs: rollers touch "
-                    f"the race to {_mm(reach)} from its middle.",
-                )
-
-
-def _find_in_lengths(b: RollerBearing) -> Iterator[Finding]:
-    if b.effective_length > b.roller_length:
-        yield (
-            "bearing.effective_length",
-            f"bearing.effective_length is {_mm(b.effective_length)}, longer than the roller "
-            f"itself, {_mm(b.roller_length)}.",
-        )
-    if b.rib_gap <= b.roller_length:
-        yield (
-            "bearing.rib_gap",
-            f"bearing.rib_gap is {_mm(b.rib_gap)}, but must be greater than the roller's length, "
-            f"{_mm(b.roller_length)}.",
-        )
-    if b.rib_gap >= b.width:
-        yield (
-            "bearing.rib_gap",
-            f"bearing.rib_gap is {_mm(b.rib_gap)}, which leaves no ribs on a ring "
-            f"{_mm(b.width)} wide.",
-        )
-    if b.profile.kind == "crowned" and (0.5 * b.effective_length) ** 2 > (
-        b.profile.crown_radius * b.roller_diameter
-    ):
-        yield (
-            "bearing.profile.crown_radius",
-            f"bearing.profile.crown_radius is {describe(b.profile.crown_radius, 'm')}, so "
-            "small that the profile cuts through the roller's axis.",
-        )
-
-
-def find_in_cage(b: RollerBearing, c: WindowCage) -> Iterator[Finding]:
-    """What is impossible for the cage in its bearing."""
-    yield from _find_in_pockets(b, c)
-    yield from _find_in_corners(b, c)
-    yield from _find_in_space(b, c)
-    yield from find_in_unbalance(c)
-
-
-def _find_in_pockets(b: RollerBearing, c: WindowCage) -> Iterator[Finding]:
-    for key, size, roller, name in (
-        ("pocket_width", c.pocket_width, b.roller_diameter, "diameter"),
-        ("pocket_length", c.pocket_length, b.roller_length, "length"),
-    ):
-        if size <= roller:
-            yield (
-                f"cage.{key}",
-                f"cage.{key} is {_mm(size)}, a clearance of {_mm(size - roller)}; it must be "
-                f"greater than the roller's {name}, {_mm(roller)}.",
-            )
-
-
-def _find_in_corners(b: RollerBearing, c: WindowCage) -> Iterator[Finding]:
-    edge = 0.5 * (b.roller_length - b.effective_length)  # taken as the radius of a roller's edge
-    aside = c.fillet_radius - edge - 0.5 * (c.pocket_width - b.roller_diameter)
-    along = c.fillet_radius - edge - 0.5 * (c.pocket_length - b.roller_length)
-    depth = hypot(max(aside, 0.0), max(along, 0.0)) + edge - c.fillet_radius
-    if depth > 0.0 and min(aside, along) > 0.0:
-        yield (
-            "cage.fillet_radius",
-            f"cage.fillet_radius is {_mm(c.fillet_radius)}, so that the edges of a roller in the "
-            f"middle of its pocket, with a radius of {_mm(edge)}, lie {_mm(depth)} inside the "
-            "fillets; make it smaller, or the pockets larger.",
-        )
 
 
 def find_in_unbalance(c: Cage) -> Iterator[Finding]:
@@ -271,63 +46,3 @@ def find_in_unbalance(c: Cage) -> Iterator[Finding]:
             f"cage.unbalance is {describe(c.unbalance, 'g*mm')}, but half of the cage's body of "
             f"revolution makes no more than {describe(c.most_unbalance, 'g*mm')}.",
         )
-
-
-def _find_in_space(b: RollerBearing, c: WindowCage) -> Iterator[Finding]:
-    if c.width > b.width:
-        yield (
-            "cage.width",
-            f"cage.width is {_mm(c.width)}, wider than the bearing, {_mm(b.width)}.",
-        )
-    if c.bore <= b.rib_diameter:
-        yield (
-            "cage.bore",
-            f"cage.bore is {_mm(c.bore)}, so the cage cuts through the inner ring's ribs, "
-            f"{_mm(b.rib_diameter)} in diameter.",
-        )
-    outer = 2.0 * b.outer_race_radius
-    if c.outside_diameter >= outer:
-        yield (
-            "cage.outside_diameter",
-            f"cage.outside_diameter is {_mm(c.outside_diameter)}, so the cage cuts through the "
-            f"outer race, {_mm(outer)} in diameter.",
-        )
-    if not c.bore < b.pitch_diameter < c.outside_diameter:
-        yield (
-            "cage",
-            f"The cage from {_mm(c.bore)} to {_mm(c.outside_diameter)} in diameter does not hold "
-            f"the rollers' pitch circle of {_mm(b.pitch_diameter)}; its pockets cannot guide them.",
-        )
-
-
-def pocket_clearances(
-    bearing: RollerBearing, cage: WindowCage, defects: Sequence[Defect] = ()
-) -> tuple[np.ndarray, np.ndarray]:
-    """Circumferential and axial clearance (Z,), (Z,) [m] of every pocket, at its middle.
-
-    Negative where a roller is pinched.
-    """
-    width, length = pocket_changes(defects, pocket_count=bearing.roller_count)
-    return (
-        cage.pocket_width - bearing.roller_diameter + width,
-        cage.pocket_length - bearing.roller_length + length,
-    )
-
-
-def find_in_defects(
-    b: RollerBearing, c: WindowCage, defects: Sequence[Defect]
-) -> Iterator[Finding]:
-    """Interference that no assembly can take, all defects together."""
-    widths, lengths = pocket_clearances(b, c, defects)
-    for what, clearance, size in (
-        ("width", widths, b.roller_diameter),
-        ("length", lengths, b.roller_length),
-    ):
-        pocket = int(np.argmin(clearance))
-        if defects and clearance[pocket] < -_PINCH_LIMIT * size:
-            yield (
-                "defects",
-                f"The defects leave pocket {pocket} a {what} of {_mm(clearance[pocket] + size)} "
-                f"for a roller of {_mm(size)}; no assembly can take more than "
-                f"{_PINCH_LIMIT * 100:.0f} % of interference.",
-            )

@@ -2,18 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from math import pi
-from typing import ClassVar
+from typing import Any, ClassVar
 
 import numpy as np
 
 from flexcage.core.spec import option, quantity
+from flexcage.core.units import typeset
+from flexcage.geometry import roller_checks, roller_ratings
 from flexcage.geometry.bearing import (
-    OTHER_DESIGNS,
     Bearing,
+    EquivalentLoad,
     RingLand,
     RingLimit,
     Spec,
@@ -22,7 +24,16 @@ from flexcage.geometry.bearing import (
 )
 from flexcage.geometry.cage import Cage
 from flexcage.geometry.cages import WindowCage
+from flexcage.geometry.film import Film, Oil, both_races, line_film, rolling_entrainment
 from flexcage.geometry.materials import MATERIALS, Material
+
+ONLY_N = (
+    "of cylindrical roller bearings flexcage has the design N alone, with two ribs on the inner "
+    "ring and a plain outer ring (type 'cylindrical_roller')"
+)
+#: Designs of cylindrical roller bearings other than N, and what there is instead.
+OTHER_DESIGNS = {r"(cylindrical_roller_)?(rnu|nup?|nj|nf|nnu?|n?ncf)([-_ ]?\d.*)?": ONLY_N}
+_MOST_PRESSED = 0.01  # of a roller's diameter, a hundred times what C0 leaves for good (ISO 76)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -74,6 +85,15 @@ class Spall:
         over = np.minimum(centres + half, high) - np.maximum(centres - half, low)
         return np.clip(over / slice_width, 0.0, 1.0)
 
+    def in_words(self, race: str) -> str:
+        """A sentence on a spall of the "inner" or "outer" race; empty if there is none."""
+        if not self.length:
+            return ""
+        return (
+            f" The {race} race has a spall of {typeset(self.length, 'mm')}, "
+            f"{typeset(self.depth, 'um')} deep, at {typeset(self.azimuth, 'deg')}."
+        )
+
 
 @dataclass(frozen=True, kw_only=True)
 class RollerBearing(Bearing):
@@ -89,9 +109,10 @@ class RollerBearing(Bearing):
     family: ClassVar[str] = "cylindrical_roller"
     in_motion: ClassVar[bool] = True
     elsewhere: ClassVar[Mapping[str, str]] = {
-        "design|outer_ribs?(_.*)?|ribs?|flanges?": next(iter(OTHER_DESIGNS.values())),
+        "design|outer_ribs?(_.*)?|ribs?|flanges?": ONLY_N,
         "spalls?|defects?": "give a spall as [bearing.outer_spall] or [bearing.inner_spall]",
     }
+    guides: ClassVar[Mapping[str, str]] = {**Bearing.guides, "inner": "the inner ring's ribs"}
 
     type: str = type_name("cylindrical_roller")
     bore: float = quantity("mm", doc="bearing bore d", above=0.0)
@@ -198,3 +219,55 @@ class RollerBearing(Bearing):
     def outer_ring_mass(self) -> float:
         area = 0.25 * pi * (self.outside_diameter**2 - self.outer_race_diameter**2)
         return self.material.density * area * self.width
+
+    def check(self, cage: Any = None, defects: Sequence[Any] = ()) -> None:
+        roller_checks.check(self, cage, defects)
+
+    @property
+    def greatest_tilt(self) -> float:
+        return 2.0 * _MOST_PRESSED * self.roller_diameter / self.effective_length
+
+    @property
+    def greatest_shift(self) -> float:
+        return 0.5 * (self.width - self.roller_length)
+
+    @property
+    def static_rating(self) -> float:
+        return roller_ratings.static_rating(self)
+
+    @property
+    def dynamic_rating(self) -> float:
+        return roller_ratings.dynamic_rating(self)
+
+    def equivalent_load(self, radial: float, axial: float) -> EquivalentLoad:
+        return roller_ratings.equivalent_load(radial, axial)
+
+    def race_film(self, force: np.ndarray, speed: np.ndarray, oil: Oil) -> Film:
+        """The load spread evenly over the effective length: a profile's ends are not resolved."""
+        roller, modulus = 0.5 * self.roller_diameter, self.material.plane_strain_modulus
+        films = []
+        for k, (race, side) in enumerate(
+            ((self.inner_race_radius, 1.0), (self.outer_race_radius, -1.0))
+        ):
+            radius = roller * race / (race + side * roller)
+            load = force[..., k] / self.effective_length
+            films.append(line_film(radius, modulus, load, speed[..., k], oil))
+        return both_races(films)
+
+    def rolling_entrainment(
+        self, angle: np.ndarray, orbit: np.ndarray, inner_speed: float
+    ) -> np.ndarray:
+        return rolling_entrainment(
+            angle, orbit, inner_speed, diameter=self.roller_diameter, pitch=self.pitch_diameter
+        )
+
+    def contact_patch(self, force: float, pressure: float, race: int) -> tuple[float, float]:
+        return 0.25 * pi * pressure, 2.0 * force / (pi * pressure * self.effective_length)
+
+    def in_words(self) -> str:
+        return (
+            f"{self.name_and_size} with {self.roller_count} "
+            f"rollers of {typeset(self.roller_diameter, 'mm')}, radial clearance "
+            f"{typeset(self.radial_clearance, 'um')}."
+            f"{self.inner_spall.in_words('inner')}{self.outer_spall.in_words('outer')}"
+        )

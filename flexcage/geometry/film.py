@@ -17,15 +17,12 @@ Starvation, heat from shear in the inlet, and roughness, all of which thin a fil
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
-from functools import singledispatch
-from math import exp, pi
+from math import exp
 
 import numpy as np
 
-from flexcage.geometry.ball_bearing import BallBearing
-from flexcage.geometry.bearing import Bearing
-from flexcage.geometry.cylindrical_roller import RollerBearing
 from flexcage.geometry.hertz import PointContact
 
 
@@ -74,77 +71,24 @@ def _numbers(
     return U, oil.pressure_coefficient * modulus, W
 
 
-@singledispatch
-def race_film(bearing: Bearing, force: np.ndarray, speed: np.ndarray, oil: Oil) -> Film:
-    """Film at inner and outer race under forces (..., 2) [N] of elements at entrainment speeds
-    (..., 2) [m/s]; NaN for types not registered."""
-    unknown = np.full(np.shape(force), np.nan)
-    return Film(unknown, unknown)
-
-
-@race_film.register
-def _(bearing: BallBearing, force: np.ndarray, speed: np.ndarray, oil: Oil) -> Film:
-    films = [
-        point_film(contact, force[..., k], speed[..., k], oil)
-        for k, contact in enumerate(bearing.contacts)
-    ]
-    return _both(films)
-
-
-@race_film.register
-def _(bearing: RollerBearing, force: np.ndarray, speed: np.ndarray, oil: Oil) -> Film:
-    """The load spread evenly over the effective length: a profile's ends are not resolved."""
-    roller, modulus = 0.5 * bearing.roller_diameter, bearing.material.plane_strain_modulus
-    films = []
-    for k, (race, side) in enumerate(
-        ((bearing.inner_race_radius, 1.0), (bearing.outer_race_radius, -1.0))
-    ):
-        radius = roller * race / (race + side * roller)
-        load = force[..., k] / bearing.effective_length
-        films.append(line_film(radius, modulus, load, speed[..., k], oil))
-    return _both(films)
-
-
-def _both(films: list[Film]) -> Film:
+def both_races(films: Sequence[Film]) -> Film:
+    """Films (..., 2) of inner and outer race from those of either."""
     central, least = (
         np.stack([getattr(film, name) for film in films], axis=-1) for name in ("central", "least")
     )
     return Film(central, least)
 
 
-@singledispatch
 def rolling_entrainment(
-    bearing: Bearing, angle: np.ndarray, orbit: np.ndarray, inner_speed: float
+    angle: np.ndarray, orbit: np.ndarray, inner_speed: float, *, diameter: float, pitch: float
 ) -> np.ndarray:
-    """Entrainment speeds (Z, 2) [m/s] of elements that roll without slip at contact angles (Z, 2)
-    [rad] and orbit at speeds (Z,) [rad/s]; the outer ring stands. NaN for types not registered."""
-    return np.full(angle.shape, np.nan)
-
-
-@rolling_entrainment.register(BallBearing)
-@rolling_entrainment.register(RollerBearing)
-def _(bearing: Bearing, angle: np.ndarray, orbit: np.ndarray, inner_speed: float) -> np.ndarray:
-    reach = 0.5 * bearing.element_diameter * np.cos(angle)
-    middle = 0.5 * bearing.pitch_diameter
+    """Entrainment speeds (Z, 2) [m/s] of elements of a ``diameter`` [m] that roll without slip at
+    contact angles (Z, 2) [rad] and orbit at speeds (Z,) [rad/s] on a ``pitch`` diameter [m]; the
+    outer ring stands."""
+    reach = 0.5 * diameter * np.cos(angle)
+    middle = 0.5 * pitch
     inner = (inner_speed - orbit) * (middle - reach[:, 0])
     return np.abs(np.stack([inner, orbit * (middle + reach[:, 1])], axis=1))
-
-
-@singledispatch
-def patch(bearing: Bearing, force: float, pressure: float, race: int) -> tuple[float, float]:
-    """Mean pressure [Pa] of a contact under a force [N] and a largest pressure [Pa], and the half
-    of its length [m] in the rolling direction; ``race`` 0 is the inner."""
-    raise NotImplementedError(f"{type(bearing).__name__} has no contact patches")
-
-
-@patch.register
-def _(bearing: BallBearing, force: float, pressure: float, race: int) -> tuple[float, float]:
-    return 2.0 / 3.0 * pressure, float(bearing.contacts[race].semi_axes(force)[1])
-
-
-@patch.register
-def _(bearing: RollerBearing, force: float, pressure: float, race: int) -> tuple[float, float]:
-    return 0.25 * pi * pressure, 2.0 * force / (pi * pressure * bearing.effective_length)
 
 
 def creep_speed(

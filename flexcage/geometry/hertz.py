@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
-from math import exp, expm1, log, pi, sqrt
+from math import degrees, exp, expm1, log, pi, sqrt
 
 import numpy as np
 
@@ -97,3 +97,15 @@ def series_stiffness(one: float, other: float) -> float:
 def load_at_pressure(contact: PointContact, pressure: float) -> float:
     """Load [N] whose largest pressure [Pa] is the given one; the load grows with its cube."""
     return float((pressure / contact.pressure(1.0)) ** 3)
+
+
+def over_edge(
+    element: str, race: str, beyond: float, *, force: float, angle: float, when: str = ""
+) -> str:
+    """What to say of an ellipse that runs ``beyond`` [rad] over a groove's edge, under ``force``
+    [N] at a contact ``angle`` [rad]."""
+    return (
+        f"the contact ellipse of {element} runs over the {race} groove's edge by "
+        f"{degrees(beyond):.2g} deg{when}, under {force:.4g} N at a contact angle of "
+        f"{degrees(angle):.4g} deg; its edge pressure is not computed."
+    )

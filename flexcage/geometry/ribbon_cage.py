@@ -8,14 +8,15 @@ the bearing's, a pocket and the sheet around it are a body of revolution.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from math import pi, sin, sqrt
-from typing import ClassVar
+from typing import Any, ClassVar
 
 from flexcage.core.spec import option, quantity
 from flexcage.core.units import describe
 from flexcage.geometry.ball_cages import BALL_CAGES, BallCage, Objection
+from flexcage.geometry.cage import Cage
 from flexcage.geometry.materials import MATERIALS, Material
 
 HEAD = 1.75  # a round head's diameter over its rivet's, and
@@ -48,6 +49,10 @@ class RibbonCage(BallCage):
     )  # fmt: skip
 
     @property
+    def riveted(self) -> bool:
+        return True
+
+    @property
     def opening(self) -> float:
         """Radius [m] of the hole at a pocket's sides; 0 where it is closed."""
         return sqrt(max(0.25 * (self.pocket_diameter**2 - self.width**2), 0.0))
@@ -67,6 +72,16 @@ class RibbonCage(BallCage):
         """Unbalance [kg m] of half of its two flat strips."""
         wall = pi / 4.0 * (self.outside_diameter**2 - self.bore**2)
         return self.material.density * wall * self.thickness * self.mean_radius
+
+    def check_defects(
+        self,
+        defects: Sequence[Any],
+        *,
+        pocket_count: int,
+        pitch_diameter: float,
+        element_diameter: float = 0.0,
+    ) -> None:
+        Cage.check_defects(self, defects, pocket_count=pocket_count, pitch_diameter=pitch_diameter)
 
     @property
     def bend(self) -> float:
@@ -152,6 +167,3 @@ class RibbonCage(BallCage):
                 f"so its head is {describe(head, 'mm')} across, but the sheet between pockets has "
                 f"{describe(room, 'mm')} for it",
             )
-
-
-BALL_CAGES["ribbon"] = RibbonCage

@@ -3,33 +3,24 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
-from functools import singledispatch
 from math import pi
-from types import MappingProxyType
-from typing import Any
 
 import numpy as np
 
 from flexcage.core.errors import InputError
 from flexcage.geometry.ball_cage_defects import (
     BallCageDefect,
-    DisplacedPocket,
-    ElongatedPocket,
-    EnlargedPocket,
-    MissingRivet,
     PocketShapes,
-    WebCrack,
     is_sphere,
     pocket_shapes,
 )
 from flexcage.geometry.ball_cages import BallCage
-from flexcage.geometry.ribbon_cage import RibbonCage
 from flexcage.mesh.cage_mesh import CageMesh
 from flexcage.mesh.measure import in_pocket_frame
+from flexcage.mesh.with_defects import with_measured
 
 _OPPOSITE = np.array([[1, 2, 3], [0, 2, 3], [0, 1, 3], [0, 1, 2]])
-_ENOUGH = 20e-6  # m, to which a user's mesh must agree with the case
+ENOUGH = 20e-6  # m, to which a user's mesh must agree with the case
 
 
 def measure_pockets(
@@ -89,117 +80,6 @@ def _keys(faces: np.ndarray, n: int) -> np.ndarray:
     return (a * n + b) * n + c
 
 
-@dataclass(frozen=True)
-class Reading:
-    """One size of a defect: what it is called, what is asked of it and what the mesh has [m]."""
-
-    kind: str
-    asked: float
-    measured: float
-
-
-def _measured(mesh: CageMesh, cage: BallCage, pocket: int, pitch_radius: float) -> PocketShapes:
-    sphere = is_sphere(cage)
-    return measure_pockets(mesh, [pocket], pitch_radius=pitch_radius, spherical=sphere)
-
-
-@singledispatch
-def readings(defect: Any, mesh: CageMesh, cage: BallCage, *, pitch_radius: float) -> list[Reading]:
-    """What a mesh has of a defect, measured from the undamaged cage; one row a size."""
-    raise InputError(f"a {type(defect).__name__} is no defect of a ball cage", where="defects")
-
-
-@readings.register
-def _(
-    defect: EnlargedPocket, mesh: CageMesh, cage: BallCage, *, pitch_radius: float
-) -> list[Reading]:
-    found = _measured(mesh, cage, defect.pocket, pitch_radius)
-    change = 2.0 * float(found.radius[0]) - cage.pocket_diameter
-    return [Reading(defect.tag, defect.increase, change)]
-
-
-@readings.register
-def _(
-    defect: ElongatedPocket, mesh: CageMesh, cage: BallCage, *, pitch_radius: float
-) -> list[Reading]:
-    found = _measured(mesh, cage, defect.pocket, pitch_radius)
-    along = 0 if defect.direction == "axial" else 1
-    return [Reading(defect.tag, defect.elongation, 2.0 * float(found.slot[0, along]))]
-
-
-@readings.register
-def _(
-    defect: DisplacedPocket, mesh: CageMesh, cage: BallCage, *, pitch_radius: float
-) -> list[Reading]:
-    found = _measured(mesh, cage, defect.pocket, pitch_radius).centre[0]
-    return [
-        Reading(f"{defect.tag} {name}", asked, float(size))
-        for name, asked, size in zip(
-            ("axial", "circumferential"), (defect.axial, defect.circumferential), found
-        )
-        if asked
-    ]
-
-
-@readings.register
-def _(defect: WebCrack, mesh: CageMesh, cage: BallCage, *, pitch_radius: float) -> list[Reading]:
-    return [
-        Reading(defect.tag, defect.share * cage.width, crack_length(mesh, defect.web, defect.side))
-    ]
-
-
-@readings.register
-def _(defect: MissingRivet, mesh: CageMesh, cage: Any, *, pitch_radius: float) -> list[Reading]:
-    """Diameter of the circle in which the halves no more hold together."""
-    at = in_pocket_frame(
-        mesh.points[joined_vertices(mesh, defect.web)], defect.web - 0.5, mesh.pocket_count
-    )
-    held = 2.0 * np.hypot(at[:, 1] - pitch_radius, at[:, 2]).max(initial=0.0)
-    return [Reading(defect.tag, 2.0 * cage.head_radius, 2.0 * cage.head_radius - float(held))]
-
-
-def _check_sheet(
-    mesh: CageMesh,
-    cage: RibbonCage,
-    defects: Sequence[BallCageDefect],
-    *,
-    pitch_radius: float,
-    source: str,
-) -> None:
-    """Refuse a ribbon cage's mesh with another width, or other rivets, than the case says."""
-    missing = {d.web for d in defects if isinstance(d, MissingRivet)}
-    high = 2.0 * float(np.abs(mesh.points[:, 0]).max())
-    sizes = [("The cage", "wide", high, cage.axial_width)]
-    for web in range(mesh.pocket_count):
-        (free,) = readings(MissingRivet(web=web), mesh, cage, pitch_radius=pitch_radius)
-        held = 0.0 if web in missing else free.asked
-        sizes.append((f"web {web}", "held together over", free.asked - free.measured, held))
-    for what, how, found, said in sizes:
-        if abs(found - said) > _ENOUGH:
-            raise InputError(
-                f"{source}: {what} is {how} {found * 1e3:.3f} mm, but the case says "
-                f"{said * 1e3:.3f} mm; give the cage and the defects that the file contains",
-                where="mesh.file",
-                value=found,
-            )
-
-
-def shared_by_halves(
-    points: np.ndarray, tets: np.ndarray, cells: np.ndarray
-) -> tuple[np.ndarray, np.ndarray]:
-    """Which elements of a ribbon cage lie at x > 0, by tetrahedra (n, 4); and of the nodes in
-    ``cells`` (n, 4 or 10) those of elements on both sides, where the halves hold together."""
-    ahead = points[tets].mean(axis=1)[:, 0] > 0.0
-    return ahead, np.intersect1d(cells[ahead], cells[~ahead])
-
-
-def joined_vertices(mesh: CageMesh, web: int) -> np.ndarray:
-    """Vertices (n,) at one web by which a rivet holds a ribbon cage's halves together."""
-    _, shared = shared_by_halves(mesh.points, mesh.tets, mesh.tets)
-    _, y, t = in_pocket_frame(mesh.points[shared], web - 0.5, mesh.pocket_count).T
-    return shared[np.abs(np.arctan2(t, y)) < pi / mesh.pocket_count]
-
-
 def measure_ball_file(
     mesh: CageMesh,
     cage: BallCage,
@@ -222,7 +102,7 @@ def measure_ball_file(
     }
     for name, (should, is_) in sizes.items():
         worst = int(np.argmax(np.abs(is_ - should)))
-        if abs(is_[worst] - should[worst]) > _ENOUGH:
+        if abs(is_[worst] - should[worst]) > ENOUGH:
             raise InputError(
                 f"{source}: pocket {worst} is {name} {is_[worst] * 1e3:.3f} mm, but the case says "
                 f"{should[worst] * 1e3:.3f} mm; give the cage and the defects that the file "
@@ -230,16 +110,4 @@ def measure_ball_file(
                 where=f"mesh.file pocket{worst}",
                 value=float(is_[worst]),
             )
-    if isinstance(cage, RibbonCage):
-        _check_sheet(mesh, cage, defects, pitch_radius=pitch_radius, source=source)
-    rows = [r for d in defects for r in readings(d, mesh, cage, pitch_radius=pitch_radius)]
-    delivered = [
-        {
-            "kind": r.kind,
-            "asked": r.asked,
-            "delivered": r.measured,
-            "volume_change": float("nan"),  # there is no undamaged mesh to compare with
-        }
-        for r in rows
-    ]
-    return replace(mesh, info=MappingProxyType({**mesh.info, "defects": delivered}))
+    return with_measured(mesh, cage, defects, pitch_radius=pitch_radius)

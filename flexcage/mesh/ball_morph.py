@@ -15,7 +15,6 @@ from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from math import pi
 from types import MappingProxyType
-from typing import Any
 
 import numpy as np
 import scipy.sparse as sp
@@ -23,22 +22,19 @@ import scipy.sparse as sp
 from flexcage.core.errors import InputError
 from flexcage.geometry.ball_cage_defects import (
     BallCageDefect,
-    MissingRivet,
     PocketShapes,
     WebCrack,
-    cracks_of,
     is_sphere,
     level_radius,
     pocket_shapes,
     wall_reach,
 )
 from flexcage.geometry.ball_cages import BallCage
-from flexcage.geometry.ribbon_cage import RibbonCage
-from flexcage.mesh.ball_measure import joined_vertices, readings
 from flexcage.mesh.cage_mesh import CageMesh, signed_volumes
+from flexcage.mesh.halves import joined_vertices
 from flexcage.mesh.measure import in_pocket_frame
-from flexcage.mesh.ribbon_sector import stand_off
 from flexcage.mesh.sector import Quarter
+from flexcage.mesh.with_defects import add_defects
 
 _LEVELS = 60  # steps to where a sphere is at a vertex' distance from the axis; each gains a digit
 
@@ -47,30 +43,11 @@ def apply_ball_defects(
     mesh: CageMesh, cage: BallCage, defects: Sequence[BallCageDefect], *, pitch_radius: float
 ) -> CageMesh:
     """The undamaged mesh with all defects, each measured as it is added; InputError if inverted."""
-    sound, volume = mesh, mesh.volume
-    report: list[dict[str, Any]] = []
-    for i, defect in enumerate(defects):
-        done = readings(defect, mesh, cage, pitch_radius=pitch_radius)
-        before, volume_before = [r.measured for r in done], mesh.volume
-        mesh = _with_defects(sound, cage, defects[: i + 1], pitch_radius)
-        after = readings(defect, mesh, cage, pitch_radius=pitch_radius)
-        report += [
-            {
-                "kind": reading.kind,
-                "defect": defect,
-                "asked": reading.asked,
-                "delivered": reading.measured - was,
-                "volume_change": (mesh.volume - volume_before) / volume,
-            }
-            for reading, was in zip(after, before)
-        ]
-    info = {
-        **mesh.info,
-        "defects": report,
-        "volume_change": mesh.volume / volume - 1.0,
-        "altered_sectors": _altered(sound, mesh),
-    }
-    return replace(mesh, info=MappingProxyType(info))
+
+    def add(_: CageMesh, i: int) -> CageMesh:
+        return _with_defects(mesh, cage, defects[: i + 1], pitch_radius)
+
+    return add_defects(mesh, cage, defects, pitch_radius=pitch_radius, add=add)
 
 
 def _with_defects(
@@ -87,11 +64,8 @@ def _with_defects(
             value=inverted,
         )
     mesh = replace(sound, points=points)
-    for crack in cracks_of(defects):
-        mesh = open_crack(sound, mesh, cage, crack)
     for defect in defects:
-        if isinstance(defect, MissingRivet) and isinstance(cage, RibbonCage):
-            mesh = without_rivet(mesh, defect.web, stand_off(cage))
+        mesh = defect.opened(sound, mesh, cage)
     return mesh
 
 
@@ -235,12 +209,3 @@ def _behind(sound: CageMesh, cells: np.ndarray, web: int) -> np.ndarray:
     """Which cells (n, .) lie on the side of pocket k-1 of web k, within half a turn."""
     centres = sound.points[cells].mean(axis=1)
     return in_pocket_frame(centres, web - 0.5, sound.pocket_count)[:, 2] < 0.0
-
-
-def _altered(sound: CageMesh, mesh: CageMesh) -> tuple[int, ...]:
-    """Sectors that have a cell with a moved or doubled vertex."""
-    per_sector = sound.info["sector_cells"]
-    changed = (mesh.points[mesh.tets] != sound.points[sound.tets]).any(axis=(1, 2))
-    changed |= (mesh.tets != sound.tets).any(axis=1)
-    cells = np.flatnonzero(changed)
-    return tuple(int(k) for k in np.unique(cells // per_sector))  # type: ignore[operator]

@@ -1,44 +1,29 @@
-"""A quarter of one cage sector by gmsh's OpenCASCADE kernel: the only part that is meshed.
+"""A quarter of one cage sector, meshed by gmsh: what all cages' quarters share.
 
-It is meshed in the coordinates (x, radius/stretch, t), t the tangential distance from the pocket's
-radial mid-plane. There the lands, cuts and pocket walls are planes and the fillet is a cylinder,
-so that vertices lie exactly on every surface once turned back; and the isotropic elements that
-gmsh makes become longer along the radius by the stretch, along which the stress of a fillet
-varies slowly: the elements saved there refine its arc.
-
-A window cage's sector is symmetric about the pocket's radial mid-plane (z = 0) and about the
-cage's middle (x = 0), so a quarter of it, mirrored twice and turned Z times, is the whole ring.
+A sector is symmetric about the pocket's radial mid-plane (z = 0) and about the cage's middle
+(x = 0), so a quarter of it, mirrored twice and turned Z times, is the whole ring (``ring``).
 Mirrored meshes match node by node at every cut, which a periodic constraint would only ask for,
 and the ring has the full symmetry of the body: its mass centre is zero to rounding and both
 senses of rotation see the same mesh.
+
+Machined cages are meshed in the coordinates (x, radius/stretch, t), t the tangential distance from
+the pocket's radial mid-plane. There lands, cuts and plane pocket walls are planes, so that vertices
+lie exactly on every surface once turned back; and the isotropic elements that gmsh makes become
+longer along the radius by the stretch.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
-from math import ceil, pi, sin
 from typing import Any
 
 import numpy as np
 
 from flexcage.core.errors import RunFailed
-from flexcage.geometry.cages import WindowCage
-from flexcage.mesh.gmsh_session import gmsh_model
-from flexcage.mesh.options import MeshOptions
 
 MM = 1e-3
-# of the sector's length scale (cube root of its volume): size, size at the fillet; growth of the
-# size with distance; edges along a fillet's quarter arc; stretch along the radius. Chosen for
-# the N1013's node counts, and medium for the root stress of three cages (tests/README.md).
-_NAMED = {
-    "coarse": (1.031, 1.031, 1.0, 1, 1.0),
-    "medium": (0.55, 0.11, 4.0, 4, 1.35),
-    "fine": (0.24, 0.1, 2.0, 5, 1.35),
-    "paper": (0.0703, 0.0580, 0.4, 3, 1.0),
-}
 _STRAIGHT = 1e-3  # mm: a radial edge's extent along x, in which boxes are rounded
-SURFACES = ("cut_x", "cut_z", "cut_psi", "land_inner", "land_outer", "end", "beam", "side")
 
 
 @dataclass(frozen=True)
@@ -63,64 +48,6 @@ class Quarter:
     plan: SizePlan
 
 
-def size_plan(cage: WindowCage, pocket_count: int, options: MeshOptions) -> SizePlan:
-    """Sizes that a named fineness, or the user's own sizes, mean on this cage."""
-    outer, inner = 0.5 * cage.outside_diameter, 0.5 * cage.bore
-    ring = pi * (outer**2 - inner**2) * cage.width
-    window = cage.pocket_width * cage.pocket_length * (outer - inner)
-    scale = (ring / pocket_count - window) ** (1.0 / 3.0)
-    far, near, growth, arcs, stretch = _NAMED[options.fineness]
-    size, near_fillet = far * scale, near * scale
-    if options.size is not None:
-        size, near_fillet = options.size, near / far * options.size
-    if options.fillet_size is not None:
-        arcs = max(1, ceil(0.5 * pi * cage.fillet_radius / options.fillet_size - 1e-9))
-        near_fillet = min(near_fillet, 3.0 * options.fillet_size)  # keeps slivers off the arc
-        growth = min(growth, 1.0)  # steeper, a finer arc would not bring a better root stress
-    radial = max(1, round((outer - inner) / near_fillet))
-    return SizePlan(size, near_fillet, growth, arcs, radial, stretch)
-
-
-def mesh_quarter(cage: WindowCage, *, pocket_count: int, options: MeshOptions) -> Quarter:
-    """Mesh the quarter sector; lengths go to gmsh in mm, where OpenCASCADE's tolerances fit."""
-    plan = size_plan(cage, pocket_count, options)
-    with gmsh_model("flexcage quarter sector") as gmsh:
-        _shape(gmsh, cage, pocket_count, plan.stretch)
-        fillet = _fillet_surface(gmsh, cage)
-        set_sizes(gmsh, plan, fillet)
-        gmsh.model.mesh.generate(3)
-        points, tets, faces = mesh_arrays(gmsh, plan.stretch)
-    surfaces = {
-        _surface_name(points[np.unique(triangles)], cage, pocket_count): triangles
-        for triangles in faces
-    }
-    if set(surfaces) != {*SURFACES, "fillet"} or len(faces) != len(surfaces):
-        raise RunFailed(f"the quarter sector has unexpected surfaces: {sorted(surfaces)}")
-    points[np.unique(surfaces["cut_x"]), 0] = 0.0  # exact, so that mirror images coincide
-    points[np.unique(surfaces["cut_z"]), 2] = 0.0
-    return Quarter(points, tets, surfaces, plan)
-
-
-def _shape(gmsh: Any, cage: WindowCage, pocket_count: int, stretch: float) -> None:
-    """Quarter of the annular sector, less the filleted window, in (x, radius/stretch, t) [mm]."""
-    occ = gmsh.model.occ
-    inner, outer = 0.5 * cage.bore / MM, 0.5 * cage.outside_diameter / MM
-    width, length, tangential = cage.width / MM, cage.pocket_length / MM, cage.pocket_width / MM
-    slope = sin(pi / pocket_count)
-    body = section_prism(occ, (inner, outer), slope, 0.5 * width, stretch)
-    window = occ.addRectangle(
-        -0.5 * length, -0.5 * tangential, 0.0, length, tangential,
-        roundedRadius=cage.fillet_radius / MM,
-    )  # fmt: skip
-    occ.rotate([(2, window)], 0, 0, 0, 1, 0, 0, 0.5 * pi)
-    occ.translate([(2, window)], 0.0, 0.5 * inner / stretch, 0.0)
-    prism = occ.extrude([(2, window)], 0.0, outer / stretch, 0.0)
-    occ.cut(body, [e for e in prism if e[0] == 3])
-    occ.synchronize()
-    if len(gmsh.model.getEntities(3)) != 1:
-        raise RunFailed("the pocket cuts the cage's sector into several pieces")
-
-
 def section_prism(
     occ: Any, radii: tuple[float, float], slope: float, length: float, stretch: float
 ) -> list[tuple[int, int]]:
@@ -136,23 +63,9 @@ def section_prism(
     return [e for e in occ.extrude([(2, section)], length, 0.0, 0.0) if e[0] == 3]
 
 
-def _x_extent(gmsh: Any, dim: int, tag: int) -> float:
+def x_extent(gmsh: Any, dim: int, tag: int) -> float:
     box = gmsh.model.getBoundingBox(dim, tag)
     return box[3] - box[0]
-
-
-def _fillet_surface(gmsh: Any, cage: WindowCage) -> int:
-    """Tag of the fillet: the one cylinder, whose axial extent is its radius."""
-    radius = cage.fillet_radius / MM
-    tags = [
-        tag
-        for dim, tag in gmsh.model.getEntities(2)
-        if gmsh.model.getType(dim, tag) == "Cylinder"
-        and abs(_x_extent(gmsh, dim, tag) - radius) < 1e-3 * radius
-    ]
-    if len(tags) != 1:
-        raise RunFailed(f"one fillet surface was expected in the quarter sector, not {len(tags)}")
-    return tags[0]
 
 
 def set_sizes(gmsh: Any, plan: SizePlan, curved: int) -> None:
@@ -160,7 +73,7 @@ def set_sizes(gmsh: Any, plan: SizePlan, curved: int) -> None:
     where stress varies slowly; away from it the size grows to the far one."""
     mesh = gmsh.model.mesh
     for dim, tag in gmsh.model.getBoundary([(2, curved)], combined=False, oriented=False):
-        arc = _x_extent(gmsh, dim, tag) > _STRAIGHT
+        arc = x_extent(gmsh, dim, tag) > _STRAIGHT
         mesh.setTransfiniteCurve(tag, 1 + (plan.arc_edges if arc else plan.radial_edges))
     mesh.setTransfiniteSurface(curved)
     distance = mesh.field.add("Distance")
@@ -220,26 +133,6 @@ def named_surfaces(
     if set(found) != set(expected):
         raise RunFailed(f"the quarter sector has unexpected surfaces: {sorted(found)}")
     return {name: np.vstack(parts) for name, parts in found.items()}
-
-
-def _surface_name(points: np.ndarray, cage: WindowCage, pocket_count: int) -> str:
-    """Which surface of the quarter all these points lie on."""
-    x, y, z = points.T
-    radius = np.hypot(y, z)
-    tests = (
-        x,
-        z,
-        radius * (np.arctan2(z, y) - pi / pocket_count),
-        radius - 0.5 * cage.bore,
-        radius - 0.5 * cage.outside_diameter,
-        x - 0.5 * cage.width,
-        z - 0.5 * cage.pocket_width,
-        x - 0.5 * cage.pocket_length,
-    )
-    for name, distance in zip(SURFACES, tests):
-        if np.abs(distance).max() < 1e-6 * cage.width:
-            return name
-    return "fillet"
 
 
 def orient_outward(points: np.ndarray, tets: np.ndarray, triangles: np.ndarray) -> np.ndarray:

@@ -11,7 +11,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import ClassVar
+from typing import Any, ClassVar
 
 import numpy as np
 import scipy.sparse as sp
@@ -25,6 +25,7 @@ from flexcage.geometry.materials import Material
 from flexcage.modes.basis import ModeBasis
 from flexcage.modes.interface import land_modes, land_station_weights, normalised
 from flexcage.modes.pockets import pocket_frame, pocket_frames
+from flexcage.modes.reduction import CageReduction, Interfaces
 
 N_STATIONS = 16
 
@@ -228,3 +229,26 @@ def mean_indentation(material: Material, width: float, height: float) -> float:
     integral -= 2.0 / 3.0 * (diagonal**3 - w**3 - h**3)
     soft = (1.0 - material.poisson_ratio**2) / (np.pi * material.youngs_modulus)
     return float(soft * integral / (w * h) ** 2)
+
+
+def _reduced(cage: CageReduction) -> BallCageInterface:
+    return ball_cage_interface(
+        cage.model,
+        cage.basis,
+        pocket_count=cage.mesh.pocket_count,
+        cage=cage.cage,
+        defects=cage.defects,
+        solver=cage.solver,
+    )
+
+
+def _depends_on(
+    cage: BallCage, defects: Sequence[BallCageDefect], pocket_count: int
+) -> tuple[Any, ...]:
+    pockets = pocket_shapes(cage, defects, pocket_count=pocket_count)
+    return pockets, cage.bore, cage.outside_diameter
+
+
+ROUND_INTERFACES = Interfaces(
+    kind=BallCageInterface, rigid=rigid_ball_interface, reduced=_reduced, depends_on=_depends_on
+)

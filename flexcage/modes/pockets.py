@@ -40,6 +40,23 @@ def face_coordinate(points: np.ndarray, pocket: int, face: int, pocket_count: in
     return points @ pocket_frame(pocket, pocket_count)[axis]
 
 
+def hat_weights(
+    model: FEModel, pocket: int, face: int, stations: np.ndarray, pocket_count: int
+) -> sp.csr_matrix:
+    """Integrals (n_st, N) [m^2] over a face, as far as the model has it, of the stations' hats."""
+
+    def hats(points: np.ndarray) -> np.ndarray:
+        return _hats(face_coordinate(points, pocket, face, pocket_count), stations)
+
+    return model.face_weights(model.group(face_group(pocket, face)), hats)
+
+
+def _hats(s: np.ndarray, stations: np.ndarray) -> np.ndarray:
+    """Hat functions (n_st, n) of the stations, constant beyond the outer ones; they sum to one."""
+    unit = np.eye(len(stations))
+    return np.stack([np.interp(s, stations, row) for row in unit])
+
+
 def face_group(pocket: int, face: int) -> str:
     """Name of the mesh group of a pocket's face."""
     return f"pocket{pocket}_{FACES[face]}"

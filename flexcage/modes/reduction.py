@@ -4,33 +4,23 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
-from functools import cached_property, singledispatch
-from typing import Any, TypeVar
+from functools import cached_property
+from typing import Any, Generic, Protocol, TypeVar
 
 import numpy as np
 
 from flexcage.core.cache import cached_arrays
-from flexcage.core.errors import InputError
 from flexcage.core.hashing import content_hash
 from flexcage.core.threads import one_blas_thread
 from flexcage.fem.effort import told_modes
 from flexcage.fem.free import FreeBodySolver
 from flexcage.fem.model import FEModel, assemble
-from flexcage.geometry.ball_cage_defects import BallCageDefect, pocket_shapes
-from flexcage.geometry.ball_cages import BallCage
-from flexcage.geometry.cages import Defect, WindowCage
+from flexcage.geometry.cage import Cage
 from flexcage.mesh.cage_mesh import CageMesh
-from flexcage.modes.ball_interface import (
-    BallCageInterface,
-    ball_cage_interface,
-    rigid_ball_interface,
-)
-from flexcage.modes.basis import CageInterface, ModeBasis
-from flexcage.modes.interface import cage_interface, rigid_interface
+from flexcage.modes.basis import ContactInterface, ModeBasis
 from flexcage.modes.registry import basis_version, build_basis
 from flexcage.modes.spec import ModesSpec
 from flexcage.modes.storage import (
-    Interface,
     basis_arrays,
     basis_from,
     interface_arrays,
@@ -42,11 +32,36 @@ from flexcage.modes.storage import (
 from flexcage.modes.table import ModeTable, mode_table
 
 Derived = TypeVar("Derived")
+C = TypeVar("C", bound=Cage, contravariant=True)
 MODEL_VERSION = 9  # of the reduction: raise it when the same input gives another basis
-INTERFACE_VERSION = 1  # of both kinds of interfaces, likewise
+INTERFACE_VERSION = 1  # of interfaces, likewise
 _NOT_SHOWN = ("r_shapes",)  # of a basis: residual shapes, the largest part, which no result reads
 TABLE_VERSION = 1  # of the mode table, likewise
 SHOWN_VERSION = 1  # of shapes as results refer to them, likewise
+
+
+class RigidInterface(Protocol[C]):
+    """The interface of a rigid cage: no modes, no compliance, no mesh."""
+
+    def __call__(
+        self, cage: C, *, pocket_count: int, defects: Sequence[Any] = ()
+    ) -> ContactInterface: ...
+
+
+@dataclass(frozen=True, kw_only=True)
+class Interfaces(Generic[C]):
+    """How the cages of a type are touched.
+
+    ``kind`` is a dataclass of arrays, sparse matrices and numbers, and ``rigid`` makes that of a
+    rigid cage. ``reduced`` makes that of a reduced one, which is kept on disk: besides its basis it
+    may depend on what ``depends_on`` gives of cage, defects and number of pockets, and on nothing
+    else.
+    """
+
+    kind: type[ContactInterface]
+    rigid: RigidInterface[C]
+    reduced: Callable[[CageReduction], ContactInterface]
+    depends_on: Callable[[C, Sequence[Any], int], tuple[Any, ...]]
 
 
 @dataclass(frozen=True)
@@ -66,6 +81,7 @@ class CageReduction:
     defects: tuple[Any, ...]
     spec: ModesSpec
     order: int
+    interfaces: Interfaces[Any] = field(compare=False)
     stored: Mapping[str, Mapping[str, np.ndarray]] = field(default_factory=dict)
     _derived: dict[str, Any] = field(default_factory=dict, init=False, repr=False, compare=False)
 
@@ -179,8 +195,12 @@ class CageReduction:
     @cached_property
     @one_blas_thread
     def interface(self) -> Any:
-        """The contact interface: a CageInterface or BallCageInterface."""
-        return interface_of(self.cage, self.defects, self)
+        """The contact interface, of the cage type's own kind, from disk if it is there."""
+        made = self.interfaces
+        content = made.depends_on(self.cage, self.defects, self.mesh.pocket_count)
+        key = content_hash(INTERFACE_VERSION, (self.version, *content))
+        arrays = self.arrays("interface", key, lambda: interface_arrays(made.reduced(self)))
+        return interface_from(made.kind, arrays)
 
     @cached_property
     @one_blas_thread
@@ -194,76 +214,3 @@ class CageReduction:
         with told_modes(solver):
             basis = build_basis(self.model, pocket_count=count, spec=self.spec, solver=solver)
         return basis_arrays(basis)
-
-
-def reduce_cage(
-    mesh: CageMesh,
-    *,
-    cage: Any,
-    defects: Sequence[Any],
-    spec: ModesSpec,
-    order: int = 2,
-) -> CageReduction:
-    """Reduce a cage; basis and interface come from the disk cache if they are there."""
-    reduction = CageReduction(mesh, cage, tuple(defects), spec, order)
-    reduction.interface  # noqa: B018  (what a run needs is made now)
-    return reduction
-
-
-@singledispatch
-def interface_of(cage: object, defects: Sequence[Any], reduced: CageReduction) -> Any:
-    """The interface of a reduced cage; every type of cage registers here how it is touched."""
-    raise InputError(
-        f"no interface is known for a {type(cage).__name__}; a cage is a WindowCage or a BallCage",
-        where="cage",
-    )
-
-
-@singledispatch
-def rigid_interface_of(cage: object, *, pocket_count: int, defects: Sequence[Any] = ()) -> Any:
-    """The interface of a rigid cage; every type of cage registers here how it is touched."""
-    raise InputError(f"no interface is known for a {type(cage).__name__}", where="cage")
-
-
-rigid_interface_of.register(WindowCage, rigid_interface)
-rigid_interface_of.register(BallCage, rigid_ball_interface)
-
-
-@interface_of.register
-def _(cage: WindowCage, defects: Sequence[Defect], reduced: CageReduction) -> CageInterface:
-    def make() -> CageInterface:
-        return cage_interface(
-            reduced.model, reduced.basis, pocket_count=count, cage=cage, defects=defects
-        )
-
-    count = reduced.mesh.pocket_count
-    pocket = (cage.pocket_length, cage.pocket_width, cage.fillet_radius)
-    content = (reduced.version, pocket, cage.bore, cage.outside_diameter, defects)
-    return _kept(reduced, CageInterface, content, make)
-
-
-@interface_of.register
-def _(
-    cage: BallCage, defects: Sequence[BallCageDefect], reduced: CageReduction
-) -> BallCageInterface:
-    def make() -> BallCageInterface:
-        return ball_cage_interface(
-            reduced.model, reduced.basis, pocket_count=count, cage=cage, defects=defects,
-            solver=reduced.solver,
-        )  # fmt: skip
-
-    count = reduced.mesh.pocket_count
-    pockets = pocket_shapes(cage, defects, pocket_count=count)
-    content = (reduced.version, pockets, cage.bore, cage.outside_diameter)
-    return _kept(reduced, BallCageInterface, content, make)
-
-
-def _kept(
-    reduced: CageReduction,
-    kind: type[Interface],
-    content: tuple,
-    make: Callable[[], Interface],
-) -> Interface:
-    """The interface from disk, or made and kept there; ``content``: all that it depends on."""
-    key = content_hash(INTERFACE_VERSION, content)
-    return interface_from(kind, reduced.arrays("interface", key, lambda: interface_arrays(make())))

@@ -22,13 +22,14 @@ from flexcage.core.registry import add, check_free
 from flexcage.mesh.cage_mesh import CageMesh
 from flexcage.modes.basis import ModeBasis
 from flexcage.render import sheet
-from flexcage.render.defects import pockets_of
 from flexcage.render.look import Look
 from flexcage.results import spectra
 from flexcage.results.metrics import BearingNumbers, settled
 
 if TYPE_CHECKING:
     import xarray
+
+    from flexcage.stress.places import PlaceKind
 
 Drawing = partial[Path]  # draws one picture, and gives its path
 
@@ -54,6 +55,7 @@ class StressPictures:
     settled: int  # first sample of the envelope
     roots: np.ndarray  # (nt, places) [Pa]
     root_names: Sequence[str]
+    root_kind: PlaceKind
     frames: Sequence[tuple[float, np.ndarray, np.ndarray]] = ()  # time, displacement, stress
 
 
@@ -80,7 +82,7 @@ class Scene:
     @property
     def followed(self) -> int:
         """Number of the element whose history is shown: that of the first damaged pocket, or 0."""
-        return pockets_of(self.defects[0], self.mesh.pocket_count)[0] if self.defects else 0
+        return self.defects[0].pockets(self.mesh.pocket_count)[0] if self.defects else 0
 
 
 #: Pictures registered from outside by name, with whether they need a flexible cage's stress.

@@ -13,7 +13,6 @@ import numpy as np
 from flexcage.core.errors import InputError
 from flexcage.geometry.bearing import Bearing
 from flexcage.render import marks, sheet
-from flexcage.render.element_shapes import element_end, element_shape, ring_profiles
 from flexcage.render.elements import elements_in
 from flexcage.render.scene import (
     Layer,
@@ -23,6 +22,7 @@ from flexcage.render.scene import (
     outline_layer,
     surface_of,
 )
+from flexcage.render.shapes import Shapes, shapes_of
 from flexcage.render.solids import revolved, rotation
 from flexcage.render.stage import Picture, shoot
 
@@ -154,7 +154,8 @@ def bearing_layers(
 
     ``cage`` is the cut cage at rest, in its own frame.
     """
-    inner, outer = (revolved(profile) for profile in ring_profiles(bearing))
+    shapes = shapes_of(bearing)
+    inner, outer = revolved(shapes.inner), revolved(shapes.outer)
     inner.points = inner.points + now.inner_position
     rings = load_pyvista().merge([inner, outer])
     loaded = now.inner_load > LOADED_SHARE * top
@@ -168,7 +169,7 @@ def bearing_layers(
         (~loaded, {"colour": IDLE}),
     ):
         if chosen.any():
-            elements = _elements(now, bearing, chosen)
+            elements = _elements(now, shapes, chosen)
             layers.append(body_layer(elements, **style))
             layers.append(outline_layer(elements, colour="#30363c", width=0.225))
     if cage is not None:
@@ -179,9 +180,9 @@ def bearing_layers(
     return layers
 
 
-def _elements(now: Instant, bearing: Bearing, chosen: np.ndarray) -> pyvista.PolyData:
+def _elements(now: Instant, shapes: Shapes, chosen: np.ndarray) -> pyvista.PolyData:
     pv = load_pyvista()
-    one, parts = element_shape(bearing), []
+    one, parts = revolved(shapes.element, segments=48), []
     for k in np.flatnonzero(chosen):
         x, radius, psi = now.position[k]
         skew, tilt = now.tilt[k]
@@ -251,6 +252,7 @@ def label_bearing(
 
 def _spalls(ax: Any, picture: Picture, now: Instant, b: Bearing) -> None:
     """An arc along the race, at the near end of an element, where a race has a spall."""
+    end = shapes_of(b).end
     for name, turned, sign in (("inner", now.inner_angle, -1.0), ("outer", 0.0, 1.0)):
         spall = getattr(b, f"{name}_spall", None)
         if spall is None or not spall.length:
@@ -260,9 +262,7 @@ def _spalls(ax: Any, picture: Picture, now: Instant, b: Bearing) -> None:
         psi = spall.azimuth + turned + np.linspace(-half, half, 25)
         around = np.column_stack([np.zeros_like(psi), np.cos(psi), np.sin(psi)])
         middle = (
-            np.array([element_end(b), *now.inner_position[1:]])
-            if sign < 0.0
-            else np.array([element_end(b), 0.0, 0.0])
+            np.array([end, *now.inner_position[1:]]) if sign < 0.0 else np.array([end, 0.0, 0.0])
         )
         x, y = picture.place(radius * around + middle).T
         ax.plot(x, y, color=sheet.VERMILION, lw=5.0, solid_capstyle="butt",
@@ -275,7 +275,7 @@ def _spalls(ax: Any, picture: Picture, now: Instant, b: Bearing) -> None:
 
 def _load_labels(ax: Any, picture: Picture, now: Instant, b: Bearing, top: float) -> None:
     """Number of every element on its end, and the load of the loaded ones outside the ring."""
-    end = np.array([element_end(b), 0.0, 0.0])
+    end = np.array([shapes_of(b).end, 0.0, 0.0])
     for k, (_, r, psi) in enumerate(now.position):
         radial = np.array([0.0, np.cos(psi), np.sin(psi)])
         x, y = picture.place(r * radial + end)[0]

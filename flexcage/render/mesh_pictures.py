@@ -3,26 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from functools import singledispatch
 from math import pi
 from pathlib import Path
 
 import numpy as np
 
-from flexcage.geometry.ball_cage_defects import BallCageDefect, MissingRivet, WebCrack
-from flexcage.geometry.cages import Defect
+from flexcage.geometry.defect import CageDefect
 from flexcage.mesh.cage_mesh import POCKET_GROUPS, WALL_GROUPS, CageMesh, pocket_groups
 from flexcage.render import marks, sheet
-from flexcage.render.defects import (
-    CRACK,
-    azimuth_of,
-    changes_of,
-    label_of,
-    legend,
-    pocket_colours,
-    pockets_of,
-    way_of,
-)
+from flexcage.render.defects import COLOURS, azimuth_of, legend, pocket_colours
 from flexcage.render.scene import (
     Layer,
     Surface,
@@ -39,7 +28,6 @@ MAIN = (1180, 880)
 SIDE = (520, 355)
 TOP, GAP, EDGE = 96, 30, 36
 BODY = "#d9dde3"
-CageDefect = Defect | BallCageDefect
 _DETAIL = {POCKET_GROUPS: "corner of pocket 0", WALL_GROUPS: "edge of pocket 0"}
 
 
@@ -73,7 +61,7 @@ def mesh_picture(
     with sheet.style():
         figure = sheet.new_figure(left + SIDE[0] + EDGE, TOP + MAIN[1] + EDGE)
         cells = f"{len(mesh.points):,} vertices, {len(mesh.tets):,} tetrahedra"
-        sheet.heading(figure, title, sheet.join([note, cells, *map(label_of, defects)]))
+        sheet.heading(figure, title, sheet.join([note, cells, *(d.label for d in defects)]))
         ax = sheet.image_at(figure, (EDGE, TOP, *MAIN), main.pixels)
         marks.triad(ax, main)
         colours = pocket_colours(defects, mesh.pocket_count)
@@ -82,8 +70,7 @@ def mesh_picture(
         )
         for pocket, colour in colours.items():
             _fill_pocket(ax, main, mesh, pocket, colour)
-        for each in defects:
-            _mark_web(each, ax, main, mesh)
+        _mark_lines(defects, ax, main, mesh)
         for i, (defect, close) in enumerate(zip(shown, closes)):
             rect = (left, TOP + i * (SIDE[1] + 44), *SIDE)
             _close_panel(figure, rect, close, mesh, defect, defects)
@@ -115,45 +102,14 @@ def _fill_pocket(ax, picture: Picture, mesh: CageMesh, pocket: int, colour: str)
     ax.plot(xy[:, 0], xy[:, 1], color=colour, lw=1.4)
 
 
-@singledispatch
-def _mark_web(defect: CageDefect, ax, picture: Picture, mesh: CageMesh) -> None:
-    """Draw what is seen of a defect between pockets; others have no mark of their own."""
-
-
-@_mark_web.register
-def _(crack: WebCrack, ax, picture: Picture, mesh: CageMesh) -> None:
-    """On the outside, across the end, and on the inside of the cage."""
-    psi = azimuth_of(crack, mesh.pocket_count)
-    radial, axis = np.array([0.0, np.cos(psi), np.sin(psi)]), np.array([1.0, 0.0, 0.0])
-    r, half = np.hypot(mesh.points[:, 1], mesh.points[:, 2]), float(mesh.points[:, 0].max())
-    end = half if crack.side == "+x" else -half
-    tip = end * (1.0 - 2.0 * crack.share)
-    places = [(tip, r.max()), (end, r.max()), (end, r.min()), (tip, r.min())]
-    path = np.array([x * axis + radius * radial for x, radius in places])
-    seen = [picture.sees(0.5 * (a + b)) for a, b in zip(path, path[1:])]
-    xy = picture.place(path)
-    for width, colour in ((4.0, "white"), (2.2, CRACK)):  # the rim of all parts below all lines
-        for k in np.flatnonzero(seen):
-            ax.plot(*xy[k : k + 2].T, color=colour, lw=width, solid_capstyle="round")
-
-
-@_mark_web.register
-def _(rivet: MissingRivet, ax, picture: Picture, mesh: CageMesh) -> None:
-    """A ring round each of its heads."""
-    psi = azimuth_of(rivet, mesh.pocket_count)
-    radial, around = (np.array([0.0, np.cos(a), np.sin(a)]) for a in (psi, psi + 0.5 * pi))
-    r = np.hypot(mesh.points[:, 1], mesh.points[:, 2])
-    middle, size = 0.5 * (r.max() + r.min()), 0.45 * (r.max() - r.min())
-    near = np.linalg.norm(mesh.points[:, 1:] - middle * radial[1:], axis=1) < 0.5 * size
-    high = float(np.abs(mesh.points[near, 0]).max())
-    angle = np.linspace(0.0, 2.0 * pi, 73)[:, None]
-    for x in (high, -high):
-        centre = np.array([x, 0.0, 0.0]) + middle * radial
-        if not picture.sees(centre):
-            continue
-        xy = picture.place(centre + size * (np.cos(angle) * radial + np.sin(angle) * around))
-        for width, colour in ((4.0, "white"), (2.2, CRACK)):
-            ax.plot(*xy.T, color=colour, lw=width)
+def _mark_lines(defects: Sequence[CageDefect], ax, picture: Picture, mesh: CageMesh) -> None:
+    """Draw what is seen of the lines that mark defects, such as cracks."""
+    for defect in defects:
+        lines = defect.lines(mesh.points, mesh.pocket_count)
+        seen = [picture.place(line.points) for line in lines if picture.sees(line.seen_at)]
+        for width, colour in ((4.0, "white"), (2.2, COLOURS["crack"])):  # all rims below all lines
+            for xy in seen:
+                ax.plot(*xy.T, color=colour, lw=width, solid_capstyle="round")
 
 
 def _close_view(shown: CageDefect | str, mesh: CageMesh, radius: float) -> View:
@@ -168,7 +124,7 @@ def _close_view(shown: CageDefect | str, mesh: CageMesh, radius: float) -> View:
         rim = mesh.points[np.unique(_rim(mesh, 0))]
         focus, height = rim[np.argmax(rim[:, 0] + rim[:, 2])], 0.22 * width
         direction = radial - 0.45 * axis - np.array([0.0, 0.0, 0.45])
-    elif not isinstance(shown, str) and (way := way_of(shown, mesh.pocket_count)):
+    elif not isinstance(shown, str) and (way := shown.way(mesh.pocket_count)):
         focus = focus + 0.16 / 0.78 * way[0] * width * axis  # a fifth of the way to its place
     return View(tuple(direction / np.linalg.norm(direction)), tuple(focus), height)
 
@@ -186,15 +142,14 @@ def _close_panel(
     if isinstance(shown, str):
         text = {"corner": _DETAIL[pocket_groups(mesh.groups)]}.get(shown, "pocket 0")
     else:
-        text = label_of(shown)
+        text = shown.label
         colours = pocket_colours(defects, mesh.pocket_count)
-        for pocket in pockets_of(shown, mesh.pocket_count):
+        for pocket in shown.pockets(mesh.pocket_count):
             if pocket in colours:
                 _fill_pocket(ax, picture, mesh, pocket, colours[pocket])
                 _sound_outline(ax, picture, mesh, pocket, defects)
             _pocket_name(ax, picture, mesh, pocket)
-        for defect in defects:
-            _mark_web(defect, ax, picture, mesh)
+        _mark_lines(defects, ax, picture, mesh)
         _arrow(ax, picture, mesh, shown)
     caption = sheet.text_at(
         figure, rect[0], rect[1] + rect[3] + 8, text, fontsize=9.5, weight="bold"
@@ -206,7 +161,7 @@ def _sound_outline(
     ax, picture: Picture, mesh: CageMesh, pocket: int, defects: Sequence[CageDefect]
 ) -> None:
     """Outer rim of a sound pocket, turned to where this one would be, as dashed lines."""
-    touched = {p for d in defects for p, _ in changes_of(d, mesh.pocket_count)}
+    touched = {p for d in defects for p, _ in d.changes(mesh.pocket_count)}
     sound = next((k for k in range(mesh.pocket_count) if k not in touched), None)
     if sound is None:
         return
@@ -273,7 +228,7 @@ def _pocket_name(ax, picture: Picture, mesh: CageMesh, pocket: int) -> None:
 
 def _arrow(ax, picture: Picture, mesh: CageMesh, defect: CageDefect) -> None:
     """Where beam or pocket went, on the outside of the cage; its length is not to scale."""
-    way = way_of(defect, mesh.pocket_count)
+    way = defect.way(mesh.pocket_count)
     if way is None:
         return
     psi = azimuth_of(defect, mesh.pocket_count)

@@ -17,7 +17,7 @@ from flexcage.report.thinning import thinned
 from flexcage.results import metrics
 from flexcage.results.audit import imbalance
 from flexcage.results.known import KNOWN
-from flexcage.stress.places import in_words, place_kind
+from flexcage.stress.places import in_words
 
 if TYPE_CHECKING:
     import xarray
@@ -90,7 +90,7 @@ def _root_stress(scene: Scene) -> Chart:
     roots, t = scene.stress.roots * 1e-6, _ms(scene.dataset)
     worst = int(roots[scene.stress.settled :].max(axis=0).argmax())
     figure = new_figure(TIME, "equivalent stress [MPa]")
-    kind = place_kind(scene.mesh.groups)
+    kind = scene.stress.root_kind
     add_band(figure, t, roots.min(axis=1), roots.max(axis=1), f"all {kind.short}", _WASH)
     name = in_words(scene.stress.root_names[worst])
     add_curve(figure, t, roots[:, worst], f"highest once settled: {name}", color=BLUE)

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from flexcage.geometry.bearing import Bearing
-from flexcage.geometry.film import Oil, race_film
+from flexcage.geometry.film import Oil
 from flexcage.results import metrics
 from flexcage.results.summary import Row, figure
 
@@ -73,7 +73,7 @@ def film_thickness(ds: xarray.Dataset, bearing: Bearing, oil: Oil) -> xarray.Dat
 
     element = metrics.element(ds)
     motion = _motion(ds, element)
-    film = race_film(bearing, motion.force, _entrained(motion, ds, bearing), oil)
+    film = bearing.race_film(motion.force, _entrained(motion, ds, bearing), oil)
     return xr.DataArray(
         np.stack([film.central, film.least], axis=-1),
         dims=("time", element, "race", "film"),

@@ -21,8 +21,7 @@ from flexcage.core.warning import RunWarning
 from flexcage.geometry.bearing import Bearing
 from flexcage.geometry.cage import Cage
 from flexcage.geometry.odd import odd_geometry
-from flexcage.mesh.cage_mesh import POCKET_GROUPS, CageMesh, pocket_groups
-from flexcage.modes.lands import LANDS
+from flexcage.mesh.cage_mesh import CageMesh
 from flexcage.results import metrics
 from flexcage.results.audit import EXCEEDED, OF_CAGE, OF_DRIVE
 from flexcage.results.bootstrap import FEWEST
@@ -122,7 +121,7 @@ def _statics(setup: Setup) -> Iterator[RunWarning]:
 
 def _sharp_corners(setup: Setup) -> Iterator[RunWarning]:
     groups = setup.mesh.groups
-    if not setup.flexible or pocket_groups(groups) != POCKET_GROUPS:
+    if not setup.flexible or not setup.cage.fillet:
         return
     count = setup.mesh.pocket_count
     sharp = [k for k in range(count) if not len(groups.get(f"pocket{k}_fillet", ()))]
@@ -151,7 +150,7 @@ def _no_residual_flexibility(setup: Setup) -> Iterator[RunWarning]:
 def _rigid_land(setup: Setup) -> Iterator[RunWarning]:
     if not setup.flexible or not has_land(setup.cage, setup.land):
         return
-    name = LANDS[1 if setup.cage.guidance == "outer" else 0]
+    name = f"land_{setup.cage.land_ring}"
     if not len(setup.mesh.groups.get(name, ())):
         yield RunWarning(
             "rigid_land",
@@ -161,7 +160,7 @@ def _rigid_land(setup: Setup) -> Iterator[RunWarning]:
 
 def has_land(cage: Cage, land: LandSpec) -> bool:
     """Can the cage touch a ring's land?"""
-    return land.kind != "none" and cage.guidance != "ball"
+    return land.kind != "none" and cage.has_land
 
 
 #: What is looked at when a run begins.
@@ -226,7 +225,7 @@ def _thrown_off(o: Outcome) -> Iterator[RunWarning]:
 def _passes_ring(o: Outcome) -> Iterator[RunWarning]:
     ds, cage = o.dataset, o.cage
     tilt = metrics.tilt(ds).sel(component="total").values
-    guided = has_land(cage, o.land) and ("outer" if cage.guidance == "outer" else "inner")
+    guided = has_land(cage, o.land) and cage.land_ring
     for side, limit in zip(("inner", "outer"), o.bearing.cage_space(cage)):
         if limit is None or side == guided:
             continue

@@ -6,6 +6,7 @@ import logging
 
 import numpy as np
 
+from flexcage.cages import cage_type_of
 from flexcage.case import Case
 from flexcage.case.checks import land_beside_shoulder, not_reached
 from flexcage.core.errors import InputError
@@ -15,7 +16,6 @@ from flexcage.mesh.cage_mesh import CageMesh
 from flexcage.modes.reduction import CageReduction
 from flexcage.results.warnings import AT_START, Setup, warnings_of
 from flexcage.stress.operators import von_mises
-from flexcage.stress.places import contact_zone
 from flexcage.stress.recovery import CageLoads
 from flexcage.stress.run_stress import recovery_of
 from flexcage.system.start import Start
@@ -45,7 +45,7 @@ def warnings_at_start(
     found = (
         *(RunWarning(*each) for each in said),
         *warnings_of(AT_START, setup),
-        *_assembly_stress(case, mesh, cage, start),
+        *_assembly_stress(case, cage, start),
     )
     for warning in found:
         log.warning(warning.text)
@@ -53,15 +53,13 @@ def warnings_at_start(
 
 
 @one_blas_thread
-def _assembly_stress(
-    case: Case, mesh: CageMesh, cage: CageReduction | None, start: Start
-) -> list[RunWarning]:
+def _assembly_stress(case: Case, cage: CageReduction | None, start: Start) -> list[RunWarning]:
     if cage is None or not start.pinched:
         return []
-    recovery = recovery_of(cage)
+    recovery = recovery_of(cage, cage_type_of(case.cage).places())
     loads = CageLoads(station_forces=start.station)
     stress = von_mises(recovery.stress(recovery.displacement(loads), loads))
-    stress[contact_zone(cage.model, mesh.pocket_count)] = 0.0
+    stress[recovery.contact_zone] = 0.0
     peak, material = float(stress.max()), case.cage.material
     text = f"Assembling the bearing stresses the cage to {peak / 1e6:.0f} MPa"
     limit = case.limits.stress

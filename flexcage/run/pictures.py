@@ -33,7 +33,7 @@ def scene_of(run: Run, *, animate: bool = False) -> Scene:
             [axial, radial * np.cos(load.direction), radial * np.sin(load.direction)], axis=1
         ),
         clearance=case.land.clearance if case.bearing.land(case.cage) else None,
-        guide="outer" if case.cage.guidance == "outer" else "inner",
+        guide=case.cage.land_ring,
         settle=case.output.settle,
         stress=_stress_pictures(run, animate) if run.cage is not None else None,
     )
@@ -65,6 +65,7 @@ def _stress_pictures(run: Run, animate: bool) -> StressPictures:
         settled=history.settled,
         roots=history.places,
         root_names=history.place_names,
+        root_kind=run.cage_stress.places.kind,
         frames=frames,
     )
 

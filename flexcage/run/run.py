@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from flexcage.cages import cage_type_of
 from flexcage.case import Case
 from flexcage.core import html
 from flexcage.core.binding import Binder, check_spec, expect
@@ -19,7 +20,6 @@ from flexcage.core.errors import EnvironmentLacks, InputError
 from flexcage.core.progress import Silent
 from flexcage.core.timing import Stages
 from flexcage.core.warning import RunWarning
-from flexcage.geometry.ribbon_cage import RibbonCage
 from flexcage.mesh.cage_mesh import CageMesh
 from flexcage.mesh.series import write_series
 from flexcage.modes.reduction import CageReduction
@@ -147,12 +147,13 @@ class Run:
             raise InputError("a rigid cage has no stress; run the case with cage.model = flexible")
         return RunStress(
             cage=self.cage,
+            places=cage_type_of(self.case.cage).places(),
             mesh=self.mesh,
             dataset=self.dataset,
             store=self.store,
             numbers=self.numbers,
             settle=self.case.output.settle,
-            inner_land=self.case.cage.guidance != "outer",
+            inner_land=self.case.cage.land_ring == "inner",
             progress=self.stages.progress,
         )
 
@@ -196,10 +197,10 @@ class Run:
 
     @cached_property
     def rivets(self) -> Rivets:
-        """What the rivets of a ribbon cage bear (``stress.rivets.Rivets``): ``dataset``, ``table``;
-        InputError for any other cage, and for a rigid one."""
+        """What the rivets of a riveted cage bear (``stress.rivets.Rivets``): ``dataset`` and
+        ``table``; InputError for any other cage, and for a rigid one."""
         stress, cage = self.cage_stress, self.case.cage  # refuses a rigid cage
-        if not isinstance(cage, RibbonCage):
+        if not cage.riveted:
             raise InputError(
                 "The run's cage has no rivets; ribbon cages have (cage.type = 'ribbon').",
                 where="cage.type",

@@ -23,7 +23,6 @@ from flexcage.fem.symmetry import CyclicSymmetry, find_symmetry
 from flexcage.modes.pockets import pocket_frames
 from flexcage.stress.midpoints import edges_across
 from flexcage.stress.operators import deviator
-from flexcage.stress.places import contact_zone, root_places
 from flexcage.stress.recovery import StressRecovery
 from flexcage.stress.screening import ROUNDING, Screen
 
@@ -249,9 +248,8 @@ class StressFields(UnitFields):
     def __init__(self, recovery: StressRecovery) -> None:
         model = recovery.model
         self.surface = np.unique(model.surface)
-        self.places = root_places(model, recovery.pocket_count)
-        zone = contact_zone(model, recovery.pocket_count)
-        self.searched = np.flatnonzero(~np.isin(self.surface, zone))
+        self.places = recovery.roots
+        self.searched = np.flatnonzero(~np.isin(self.surface, recovery.contact_zone))
         self._stress = recovery.stress_at(self.surface)
         self.vertices = self._stress.owner
         self.edges = edges_across(model)
@@ -345,7 +343,7 @@ class TensorFields(NamedFields):
     (n,), rising: the vertex of every point."""
 
     def __init__(self, recovery: StressRecovery) -> None:
-        named = root_places(recovery.model, recovery.pocket_count)
+        named = recovery.roots
         vertices = np.unique(np.concatenate(list(named.values()))) if named else np.zeros(0, int)
         stress = recovery.stress_at(vertices)
         super().__init__(recovery, stress)

@@ -22,15 +22,15 @@ from flexcage.fem.model import FEModel
 from flexcage.fem.sectors import edges_of
 from flexcage.fem.submodel import Submodel, row_of, submodel
 from flexcage.modes.basis import FACES
-from flexcage.modes.interface import hat_weights
 from flexcage.modes.lands import LANDS
-from flexcage.modes.pockets import face_group, pocket_frame
+from flexcage.modes.pockets import face_group, hat_weights, pocket_frame
 from flexcage.stress.operators import VertexStress
-from flexcage.stress.places import corner_fillets
 
 log = logging.getLogger(__name__)
 
 Arrays = dict[str, np.ndarray]
+Keeping = Callable[[Callable[[], Arrays]], Arrays]  # gives what it keeps, or makes it
+_MIRRORS = ((1, 1), (-1, 1), (1, -1), (-1, -1))  # signs of x and psi of a pocket's corners
 _REACH = 1.2  # of the cage's thickness, from the fillet to the cut
 _REACH_MOST = 0.6  # of the pocket's length and width, that no other corner of it is reached
 _REACH_CLOSE = 0.4  # of the fillet's extent: what is divided twice
@@ -147,12 +147,35 @@ def find_corners(model: FEModel, pocket_count: int) -> list[Corner]:
     return corners
 
 
+def rounded(model: FEModel, pocket: int) -> bool:
+    """Has the mesh a group of the fillets at this pocket's corners?"""
+    return bool(len(model.groups.get(f"pocket{pocket}_fillet", ())))
+
+
+def corner_fillets(model: FEModel, pocket_count: int) -> dict[tuple[int, int, int], np.ndarray]:
+    """Triangles (n, 3) of the fillet at every pocket corner, by pocket and signs of x and psi; none
+    where a mesh has no fillet groups."""
+    found: dict[tuple[int, int, int], np.ndarray] = {}
+    for pocket in range(pocket_count):
+        if not rounded(model, pocket):
+            continue
+        fillet = model.groups[f"pocket{pocket}_fillet"]
+        along, _, across = (
+            model.points[fillet].mean(axis=1) @ pocket_frame(pocket, pocket_count).T
+        ).T
+        for right, ahead in _MIRRORS:
+            own = (along * right > 0.0) & (across * ahead > 0.0)
+            if own.any():
+                found[pocket, right, ahead] = fillet[own]
+    return found
+
+
 def find_fillets(
     model: FEModel,
     stations: np.ndarray,
     pocket_count: int,
     *,
-    keep: Callable[[Callable[[], Arrays]], Arrays] = lambda make: make(),
+    keep: Keeping = lambda make: make(),
 ) -> list[Fillet]:
     """The corners' fillets with their operators, which ``keep(make)`` gives from where it keeps
     them; none where the mesh has no fillets, or corners of too many kinds.

@@ -42,7 +42,7 @@ class StressHistory:
     surface: np.ndarray  # (n_surface,) vertex numbers
     place_names: tuple[str, ...]
     places: np.ndarray  # (nt, n_places) largest at each place
-    peak: np.ndarray  # (nt,) largest outside the contact zone of ``places.contact_zone``
+    peak: np.ndarray  # (nt,) largest outside the contact zone of ``recovery.contact_zone``
     peak_vertex: np.ndarray  # (nt,) mesh vertex of it
     peak_time: np.ndarray  # (nt,) [s] of a step between samples at which it is; else NaN
     at_sample: np.ndarray  # (nt,) largest at the sample itself

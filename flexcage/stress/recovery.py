@@ -17,9 +17,10 @@ import scipy.sparse as sp
 from flexcage.core.errors import InputError
 from flexcage.fem.free import FreeBodySolver
 from flexcage.fem.model import FEModel
-from flexcage.modes.basis import CageInterface, ContactInterface, ModeBasis
+from flexcage.modes.basis import ContactInterface, ModeBasis
 from flexcage.modes.pockets import pocket_frames
-from flexcage.stress.fillets import Arrays, Fillet, find_fillets
+from flexcage.stress.fillets import Arrays, Fillet
+from flexcage.stress.places import Places
 from flexcage.stress.surface import SurfaceStress
 
 STRESS_VERSION = 1  # of what is kept: raise it when the same cage gives other fields or joints
@@ -53,6 +54,7 @@ class CageLoads:
 class StressRecovery:
     """Displacements and stresses of one cage; costly parts are made when first needed.
 
+    ``places`` are those of the cage's type.
     ``keep(name, make)`` gives the arrays of that name, which cost the most, from where it keeps
     them, or makes them.
     """
@@ -63,6 +65,7 @@ class StressRecovery:
         basis: ModeBasis,
         interface: ContactInterface,
         *,
+        places: Places,
         solver: FreeBodySolver | None = None,
         solver_kind: str = "auto",
         keep: Keep = _compute,
@@ -70,6 +73,7 @@ class StressRecovery:
         if interface.weights is None or interface.land_weights is None:
             raise InputError("a rigid cage has no stress to recover", where="cage", value="rigid")
         self.model, self.basis, self.interface = model, basis, interface
+        self.places = places
         self.weights: sp.csr_matrix = interface.weights
         self.land_weights: sp.csr_matrix = interface.land_weights
         self.pocket_count, self.keep = interface.modes.shape[0], keep
@@ -82,15 +86,22 @@ class StressRecovery:
     @cached_property
     def fillets(self) -> list[Fillet]:
         """Submodels of the pockets' corners, where the mesh has fillets."""
-        interface = self.interface
-        if not isinstance(interface, CageInterface):
-            return []
-        return find_fillets(
+        return self.places.fillets(
             self.model,
-            interface.stations,
+            self.interface,
             self.pocket_count,
-            keep=lambda make: self.keep("fillets", make),
+            lambda make: self.keep("fillets", make),
         )
+
+    @cached_property
+    def roots(self) -> dict[str, np.ndarray]:
+        """Vertices of every named place."""
+        return self.places.roots(self.model, self.pocket_count)
+
+    @cached_property
+    def contact_zone(self) -> np.ndarray:
+        """Vertices that the search for a peak leaves out (``places.Places``)."""
+        return self.places.contact_zone(self.model, self.pocket_count)
 
     @cached_property
     def vertex_stress(self) -> SurfaceStress:

@@ -20,8 +20,8 @@ import scipy.sparse as sp
 from flexcage.core.errors import InputError
 from flexcage.fem.condensed import dofs_of
 from flexcage.fem.model import FEModel, assemble
-from flexcage.mesh.ball_measure import shared_by_halves
 from flexcage.mesh.cage_mesh import CageMesh
+from flexcage.mesh.halves import shared_by_halves
 from flexcage.modes.pockets import pocket_frame
 from flexcage.results.summary import Row, figure
 from flexcage.stress.between import Steps, no_steps

@@ -28,7 +28,7 @@ from flexcage.stress.fields import StressFields, TensorFields
 from flexcage.stress.history import StressHistory, histories_at, stress_bound, stress_history
 from flexcage.stress.loads import LandForces, cage_loads
 from flexcage.stress.operators import von_mises
-from flexcage.stress.places import in_words, place_kind, root_places
+from flexcage.stress.places import Places, in_words
 from flexcage.stress.recovery import STRESS_VERSION, StressRecovery
 from flexcage.stress.rivets import Joints, RivetFields, Rivets, rivet_loads
 from flexcage.stress.series import as_time, samples_near
@@ -52,14 +52,22 @@ class StressField:
         return von_mises(self.stress)
 
 
-def recovery_of(cage: CageReduction) -> StressRecovery:
-    """Stress recovery of a flexible cage; what it costs to prepare is kept in the cache."""
+def recovery_of(cage: CageReduction, places: Places) -> StressRecovery:
+    """Stress recovery of a flexible cage, whose type has these ``places``; what it costs to prepare
+    is kept in the cache."""
 
     def keep(name: str, make: Callable[[], dict[str, np.ndarray]]) -> dict[str, np.ndarray]:
         return cached_arrays("stress", f"{cage.version}-{STRESS_VERSION}-{name}", make)
 
     def make() -> StressRecovery:
-        return StressRecovery(cage.model, cage.shown, cage.interface, solver=cage.solver, keep=keep)
+        return StressRecovery(
+            cage.model,
+            cage.shown,
+            cage.interface,
+            places=places,
+            solver=cage.solver,
+            keep=keep,
+        )
 
     return cage.once("recovery", make)
 
@@ -69,10 +77,11 @@ class RunStress:
     """Stress of a run's flexible cage, by mode acceleration.
 
     ``settle`` is the share of the run that is left out of figures; ``inner_land`` says whether land
-    forces act on the cage's inner land.
+    forces act on the cage's inner land. ``places`` are those of the cage's type.
     """
 
     cage: CageReduction
+    places: Places
     mesh: CageMesh
     dataset: xarray.Dataset
     store: MemoryRunStore
@@ -83,7 +92,7 @@ class RunStress:
 
     @cached_property
     def recovery(self) -> StressRecovery:
-        return recovery_of(self.cage)
+        return recovery_of(self.cage, self.places)
 
     @cached_property
     @one_blas_thread
@@ -110,7 +119,7 @@ class RunStress:
         """Name of the followed place in which the peak is, or nothing."""
         h = self.history
         vertex = h.peak_vertex[h.peak_sample]
-        for name, vertices in root_places(self.recovery.model, self.mesh.pocket_count).items():
+        for name, vertices in self.recovery.roots.items():
             if vertex in vertices:
                 return in_words(name)
         return ""
@@ -195,7 +204,7 @@ class RunStress:
         place += f"({at[0]:.1f}, {at[1]:.1f}, {at[2]:.1f}) mm, cage frame"
         part = self.dataset.isel(time=slice(h.settled, None))
         windows, peak = roller_passes(part, self.numbers), h.at_sample[h.settled :]
-        kind = place_kind(self.mesh.groups)
+        kind = self.places.kind
         corner = windows.peak(h.places[h.settled :].max(axis=1))
         return [
             figure(

@@ -293,8 +293,7 @@ def land_rubbing(ds: xarray.Dataset, cage: Cage, land: LandSpec) -> tuple[float,
     """Mean of normal force times sliding speed on the land [W], NaN under a film, and its area
     [m^2], two lands of ``land``'s width all round. The force's part along the line of centres is
     taken as normal."""
-    outer = cage.guidance == "outer"
-    radius = 0.5 * (cage.outside_diameter if outer else cage.bore)
+    outer, radius = cage.land_ring == "outer", cage.land_radius
     assert land.width is not None
     area = 4.0 * pi * radius * land.width
     force = ds["land_force"].values[:, 1:]

@@ -6,8 +6,9 @@ A point maps paths of the case to their new values: texts with units, as in a ca
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field, replace
-from typing import Any, ClassVar
+from dataclasses import KW_ONLY, MISSING, dataclass, field, replace
+from types import MappingProxyType
+from typing import Any
 
 import numpy as np
 
@@ -35,13 +36,44 @@ class Point:
         return ", ".join(words) or "the base case"
 
 
+_KINDS: dict[str, type] = {}
+#: Specs of axes by the name that a study gives.
+AXES = MappingProxyType(_KINDS)
+
+
+def _axis_type(name: Any = MISSING) -> Any:
+    """The field ``type`` of an axis."""
+    return option(name, doc="kind of axis", choices=AXES)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Axis:
+    """An axis of a study; ``type`` picks one of the kinds below."""
+
+    type: str = _axis_type()
+
+    @property
+    def paths(self) -> tuple[str, ...]:
+        """Paths of the case that vary."""
+        raise NotImplementedError
+
+    def mapped(self, change: Change) -> Axis:
+        """The axis with its values changed."""
+        raise NotImplementedError
+
+    def expand(self) -> list[Point]:
+        """Its points."""
+        raise NotImplementedError
+
+
 @dataclass(frozen=True)
-class Grid:
+class Grid(Axis):
     """One path and its values."""
 
     path: str
     values: tuple[Any, ...]
-    tag: ClassVar[str] = "grid"
+    _: KW_ONLY
+    type: str = _axis_type("grid")
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "values", _some(self.values, f"'{self.path}'"))
@@ -58,11 +90,12 @@ class Grid:
 
 
 @dataclass(frozen=True)
-class Zip:
+class Zip(Axis):
     """Several paths whose values go together: the first of each, the second of each, ..."""
 
     values: Mapping[str, tuple[Any, ...]]
-    tag: ClassVar[str] = "zip"
+    _: KW_ONLY
+    type: str = _axis_type("zip")
 
     def __post_init__(self) -> None:
         _some(self.values, "of type 'zip'")
@@ -86,7 +119,7 @@ class Zip:
 
 
 @dataclass(frozen=True)
-class Points:
+class Points(Axis):
     """Points written out; what a point leaves out is as in the base case.
 
     A point's ``label`` is no path: tables show it in a column called ``name``.
@@ -94,7 +127,8 @@ class Points:
 
     points: tuple[Mapping[str, Any], ...]
     name: str = "label"
-    tag: ClassVar[str] = "list"
+    _: KW_ONLY
+    type: str = _axis_type("list")
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "points", _some(self.points, "of type 'list'"))
@@ -121,16 +155,15 @@ class Points:
 
 
 @dataclass(frozen=True)
-class _Sampled:
+class _Sampled(Axis):
     """``count`` points in the box of ``ranges`` (path to lowest and highest value)."""
 
     ranges: Mapping[str, tuple[Any, Any]]
     count: int = option(minimum=1)
     seed: int = option(0, minimum=0)
-    tag: ClassVar[str] = ""
 
     def __post_init__(self) -> None:
-        _some(self.ranges, f"of type '{self.tag}'")
+        _some(self.ranges, f"of type '{self.type}'")
         for path, ends in self.ranges.items():
             _range(path, ends)
 
@@ -159,7 +192,8 @@ class _Sampled:
 class LatinHypercube(_Sampled):
     """Latin hypercube: every range is cut into ``count`` parts, each hit once."""
 
-    tag: ClassVar[str] = "lhs"
+    _: KW_ONLY
+    type: str = _axis_type("lhs")
 
     def _unit_cube(self, dimensions: int) -> np.ndarray:
         from scipy.stats import qmc
@@ -172,7 +206,8 @@ class LatinHypercube(_Sampled):
 class Sobol(_Sampled):
     """Scrambled Sobol sequence; ``count`` is a power of two, for which it is balanced."""
 
-    tag: ClassVar[str] = "sobol"
+    _: KW_ONLY
+    type: str = _axis_type("sobol")
 
     def _unit_cube(self, dimensions: int) -> np.ndarray:
         from scipy.stats import qmc
@@ -189,7 +224,7 @@ class Sobol(_Sampled):
         return qmc.Sobol(dimensions, seed=rng).random_base2(power)
 
 
-Axis = Grid | Zip | Points | LatinHypercube | Sobol
+_KINDS.update(grid=Grid, zip=Zip, list=Points, lhs=LatinHypercube, sobol=Sobol)
 
 
 def _some(values: Any, what: str) -> Any:

@@ -7,7 +7,7 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING, Any
 
-from flexcage.case import words
+from flexcage.core.units import typeset
 from flexcage.report.blocks import Image, Table
 from flexcage.report.page import PageTooLarge, write_page
 from flexcage.report.study_page import StudyAccount, study_page
@@ -92,7 +92,7 @@ def _varied(results: StudyResults) -> list[str]:
     if times > 1:
         total += (
             f" Each was computed {times} times, the cage started at "
-            f"{words.describe(study.repeat.push, 'mm/s')} in another random direction: means and "
+            f"{typeset(study.repeat.push, 'mm/s')} in another random direction: means and "
             "intervals are over these repetitions."
         )
     return [*lines, total]
@@ -109,7 +109,7 @@ def _axis_in_words(axis: Any) -> str:
     if isinstance(axis, Points):
         return f"Cases: {'; '.join(str(point) for point in axis.expand())}."
     parts = (f"{path} from {low} to {high}" for path, (low, high) in axis.ranges.items())
-    kind = {"lhs": "a Latin hypercube", "sobol": "a Sobol sequence"}.get(axis.tag, axis.tag)
+    kind = {"lhs": "a Latin hypercube", "sobol": "a Sobol sequence"}.get(axis.type, axis.type)
     return f"{axis.count} points of {kind} in {'; '.join(parts)}."
 
 

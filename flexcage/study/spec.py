@@ -11,13 +11,13 @@ from typing import Any
 from flexcage._version import __version__
 from flexcage.case import Case, load_case, load_extension
 from flexcage.case.extensions import not_loaded, sources
+from flexcage.case.presets import NAMED
 from flexcage.case.toml import write_toml
 from flexcage.core.binding import Binder, check_spec, to_table, unit_at, wrong_type
 from flexcage.core.errors import InputError
 from flexcage.core.spec import option, quantity
 from flexcage.core.toml import read_toml
 from flexcage.core.units import format_si, parse
-from flexcage.geometry.presets import NAMED
 from flexcage.study.axes import Axis
 from flexcage.system.spec import MOST_PUSH
 

@@ -165,7 +165,7 @@ def build_ball_model(
         pocket=_pockets(bearing, cage, contacts, interface),
         land=land_data(
             cage, land, lubricant, interface.land,
-            kind="none" if cage.guidance == "ball" else land.kind, outer=outer, radius=radius,
+            kind=land.kind if cage.has_land else "none", outer=outer, radius=radius,
             bearing=bearing,
         ),
     )  # fmt: skip

@@ -8,11 +8,11 @@ from math import pi, radians
 import numpy as np
 
 from flexcage.bearings import statics_of
+from flexcage.case.presets import load_preset
 from flexcage.geometry.angular_contact_ball import AngularContactBallBearing
 from flexcage.geometry.ball_bearing import BallBearing
 from flexcage.geometry.deep_groove_ball import DeepGrooveBallBearing
 from flexcage.geometry.materials import Material
-from flexcage.geometry.presets import load_preset
 from flexcage.system.spec import Load
 from flexcage.system.statics.options import StaticOptions
 from flexcage.system.statics.solution import StaticSolution
@@ -24,8 +24,7 @@ DEGREES = 180.0 / pi
 
 def preset(name: str) -> AngularContactBallBearing:
     """Angular contact bearing of a preset."""
-    bearing = load_preset(name).bearing
-    assert isinstance(bearing, AngularContactBallBearing)
+    bearing: AngularContactBallBearing = load_preset(name).bearing
     return bearing
 
 

@@ -14,13 +14,14 @@ from typing import Any
 import numpy as np
 
 import flexcage
+from flexcage.cages import cage_type_of
+from flexcage.cages.build import reduction_of
 from flexcage.core.threads import on_one_core
 from flexcage.fem.free import FreeBodySolver
 from flexcage.fem.linear import available_kinds
 from flexcage.fem.model import assemble
 from flexcage.mesh.cage_mesh import CageMesh
 from flexcage.mesh.io import read_mesh, write_mesh
-from flexcage.modes.reduction import CageReduction
 from flexcage.stages import cage_mesh
 from flexcage.stress.fields import StressFields
 from flexcage.stress.recovery import StressRecovery
@@ -64,10 +65,15 @@ def _kind_of_the_whole(case: flexcage.Case, mesh: CageMesh) -> str:
 
 
 def _seconds(case: flexcage.Case, mesh: CageMesh, kind: str) -> dict[str, float]:
-    cage = CageReduction(mesh, case.cage, tuple(case.all_defects), case.modes, case.mesh.order)
+    cage = reduction_of(
+        mesh, cage=case.cage, defects=case.all_defects, spec=case.modes, order=case.mesh.order
+    )
     cage.__dict__["solver"] = FreeBodySolver(cage.model, kind=kind)
     modes = _timed(lambda: (cage._make_basis(), cage.solver.factor()))
-    recovery = StressRecovery(cage.model, cage.basis, cage.interface, solver=cage.solver)
+    places = cage_type_of(case.cage).places()
+    recovery = StressRecovery(
+        cage.model, cage.basis, cage.interface, places=places, solver=cage.solver
+    )
     fields = StressFields(recovery)
     return {"modes": modes, "stress": _timed(lambda: (fields.forces, fields.land_forces))}
 

@@ -6,9 +6,9 @@ from pathlib import Path
 import pytest
 
 from flexcage.case import Case, keys, load_case
+from flexcage.case.presets import load_preset, preset_names
 from flexcage.cli import main
 from flexcage.core.binding import flat
-from flexcage.geometry.presets import load_preset, preset_names
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 LAWS = ("normal", "friction", "material")  # have sections of their own

@@ -8,8 +8,8 @@ import pytest
 
 import flexcage
 from flexcage.case import Case, StaticCase, load_case, load_static
+from flexcage.case.presets import load_preset
 from flexcage.core.errors import InputError
-from flexcage.geometry.presets import load_preset
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 BEARING = '[bearing]\npreset = "7010C-PI"\n'
@@ -133,7 +133,7 @@ def test_what_is_not_free_in_a_run_takes_no_load():
     for path, value, words in (
         ("load.moment_y", "1 N*m", "tilts are held.*load.tilt = \"free\""),
         ("defects", [{"type": "crossbeam", "crossbeam": 1, "displacement": "0.1 mm"}],
-         "'crossbeam'.*ball cages.*'enlarged'"),
+         "'crossbeam'.*machined cages.*'enlarged'"),
     ):  # fmt: skip
         with pytest.raises(InputError, match=words):
             load_case(BALLS, overrides={path: value})

@@ -7,11 +7,11 @@ import pytest
 from law_checks import check_friction_law, check_normal_law
 from scipy.integrate import quad
 
+from flexcage.case.presets import load_preset
 from flexcage.contacts import laws
 from flexcage.contacts.spec import FRICTION_LAWS as FRICTION_SPECS
 from flexcage.contacts.spec import EhlTraction, FrictionLaw, Lubricant, NormalLaw
 from flexcage.core.jit import kernel
-from flexcage.geometry.presets import load_preset
 from flexcage.verification.cases.land_film import film
 from flexcage.verification.law_values import friction, normal, rolling
 

@@ -14,7 +14,7 @@ from flexcage.contacts.evaluation import DAMPED, RUBBED, STORED
 from flexcage.contacts.pocket_wall import N_FACE, N_LOCAL, most_of_curve, with_end_stations
 from flexcage.contacts.spec import Contacts, FrictionLaw, NormalLaw, PairSpec
 from flexcage.core.splines import smooth_weights
-from flexcage.geometry.cages import CrossbeamDefect, crossbeam_shape
+from flexcage.geometry.window_defects import CrossbeamDefect
 from flexcage.modes.basis import CageInterface
 
 PITCH = 41.25e-3
@@ -73,8 +73,8 @@ def test_a_bent_crossbeam_touches_where_geometry_says(walls, displacement, turn)
     stations = 161
     itf = interface(stations=stations)
     offset = itf.offset.copy()
-    offset[0, 0] = -displacement * crossbeam_shape(defect, itf.stations[0], 2 * HALF[1])
-    offset[1, 1] = displacement * crossbeam_shape(defect, itf.stations[0], 2 * HALF[1])
+    offset[0, 0] = -displacement * defect.profile(itf.stations[0], 2 * HALF[1])
+    offset[1, 1] = displacement * defect.profile(itf.stations[0], 2 * HALF[1])
     data = walls(interface(stations=stations, offset=offset))
     axis = turned(np.eye(3), turn)
 
@@ -90,7 +90,7 @@ def test_a_bent_crossbeam_touches_where_geometry_says(walls, displacement, turn)
 
     x = data.s * axis[0, 0]
     for i, sense in ((0, 1.0), (1, -1.0)):
-        wall = HALF[0] - sense * displacement * crossbeam_shape(defect, x, 2 * HALF[1])
+        wall = HALF[0] - sense * displacement * defect.profile(x, 2 * HALF[1])
         room = wall - (4e-3 - data.drop) - sense * data.s * axis[0, 2]
         touch, slices = first(i, sense)
         assert touch == pytest.approx(room.min(), abs=2e-8)

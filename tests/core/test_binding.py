@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import ClassVar
 
 import numpy as np
 import pytest
@@ -19,15 +18,27 @@ class Stuff:
     density: float = quantity("g/cm^3", above=0.0)
 
 
+PARTS: dict[str, type] = {}
+
+
 @dataclass(frozen=True, kw_only=True)
-class Ball:
-    tag: ClassVar[str] = "ball"
+class Part:
+    type: str = option(doc="kind of part", choices=PARTS)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Ball(Part):
+    type: str = option("ball", doc="kind of part", choices=PARTS)
     radius: float = quantity("mm", above=0.0)
 
 
 @dataclass(frozen=True, kw_only=True)
-class FlatBox:
+class FlatBox(Part):
+    type: str = option("flat_box", doc="kind of part", choices=PARTS)
     side: float = quantity("mm", above=0.0)
+
+
+PARTS.update(ball=Ball, flat_box=FlatBox)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -44,7 +55,7 @@ class Thing:
     limit: float | None = quantity("MPa", None)
     stuff: Stuff = option(Stuff(name="iron", density=7870.0))
     law: Law = option(Law(factor=1.5))
-    parts: tuple[Ball | FlatBox, ...] = option(())
+    parts: tuple[Part, ...] = option(())
     times: tuple[float, ...] = quantity("ms", ())
     pair: tuple[int, int] = option((1, 2))
 
@@ -100,8 +111,13 @@ def test_round_trip():
         ({"law": 5}, "law", ["a table"]),
         ({"stuff": "irno"}, "stuff", ["'irno' is not known", "'iron'"]),
         ({"stuff": {"name": "wood"}}, "stuff.density", ["lacks 'density'", "g/cm^3"]),
-        ({"parts": [{"radius": "1 mm"}]}, "parts.0.type", ["'type' is missing", "ball, flat_box"]),
+        ({"parts": [{"radius": "1 mm"}]}, "parts.0.type", ["lacks 'type'", "ball, flat_box"]),
         ({"parts": [{"type": "bal"}]}, "parts.0.type", ["'bal' is not known", "'ball'"]),
+        (
+            {"parts": [{"radius": "1 mm", "type": "bal"}]},  # its keys are not those to blame
+            "parts.0.type",
+            ["'bal' is not known"],
+        ),
         ({"parts": [{"type": "ball", "side": "1 mm"}]}, "parts.0.side", ["Unknown key 'side'"]),
         ({"parts": "x"}, "parts", ["a list"]),
         ({"times": [1]}, "times.0", ["'1 ms'"]),
@@ -165,7 +181,7 @@ def test_bounds_hold_for_specs_made_of_objects():
         ({"limit": [1.0]}, r"thing.limit is \[1.0\], but should be a number"),
         ({"law": Law(kind=-1)}, "thing.law.kind is -1, but should be one of soft, hard"),  # type: ignore[arg-type]
         ({"law": Ball(radius=1.0)}, "thing.law is Ball.*, but should be a Law"),
-        ({"parts": (Stuff(name="tin", density=1.0),)}, "should be a Ball or a FlatBox"),
+        ({"parts": (Stuff(name="tin", density=1.0),)}, "should be a Part"),
         ({"times": [0.0, 1.0]}, "thing.times is .*, but should be a tuple"),
         ({"times": (0.0, "1 ms")}, "thing.times.1 is '1 ms', but should be a number in SI"),
         ({"pair": (1, 2, 3)}, "thing.pair is .*, but should be 2 values"),

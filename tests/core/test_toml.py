@@ -2,10 +2,10 @@
 
 import pytest
 
+from flexcage.case.presets import register_preset
 from flexcage.cli.settings import parse_setting
 from flexcage.core.errors import InputError, in_one_line
 from flexcage.core.toml import read_toml
-from flexcage.geometry.presets import register_preset
 from flexcage.study.spec import load_study
 
 BAD = {

@@ -5,8 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import ClassVar
 
-from flexcage.core.spec import option
-from flexcage.geometry.bearing import BEARING_TYPES, bearing_type
+from flexcage.geometry.bearing import bearing_type, type_name
 from flexcage.geometry.deep_groove_ball import DeepGrooveBallBearing
 
 
@@ -17,4 +16,4 @@ class MagnetoBearing(DeepGrooveBallBearing):
 
     kind: ClassVar[str] = "magneto bearing"
     one_sided: ClassVar[bool] = True
-    type: str = option("magneto", doc="type of bearing", choices=BEARING_TYPES)
+    type: str = type_name("magneto")

@@ -10,14 +10,12 @@ import numpy as np
 from flexcage.bearings import Family
 from flexcage.core.spec import option, quantity
 from flexcage.geometry.ball_cages import BallCage
-from flexcage.geometry.bearing import BEARING_TYPES, Bearing, Spec
-from flexcage.geometry.catalogue import (
+from flexcage.geometry.bearing import (
+    Bearing,
     EquivalentLoad,
-    dynamic_rating,
-    equivalent_load,
-    static_rating,
+    Spec,
+    type_name,
 )
-from flexcage.geometry.checks import check_geometry
 from flexcage.register import bearing_family
 from flexcage.system.statics.elements import ElementLoads, Response
 
@@ -29,17 +27,17 @@ class SpringBearing(Bearing):
     kind: ClassVar[str] = "spring bearing"
     family: ClassVar[str] = "spring"
     cage_spec: ClassVar[Spec] = BallCage
-    type: str = option("springs", doc="type of bearing", choices=BEARING_TYPES)
+    type: str = type_name("springs")
     count: int = option(doc="number of springs", minimum=3)
     stiffness: float = quantity("N/um", doc="stiffness of one", above=0.0)
+    static_rating: ClassVar[float] = 1e6
+    dynamic_rating: ClassVar[float] = 1e6
 
+    def check(self, cage=None, defects=()):
+        """Any springs will do."""
 
-check_geometry.register(SpringBearing, lambda bearing, cage=None, defects=(): None)
-static_rating.register(SpringBearing, lambda bearing: 1e6)
-dynamic_rating.register(SpringBearing, lambda bearing: 1e6)
-equivalent_load.register(
-    SpringBearing, lambda bearing, radial, axial: EquivalentLoad(radial, 1.0, 0.0, 3.0)
-)
+    def equivalent_load(self, radial, axial):
+        return EquivalentLoad(radial, 1.0, 0.0, 3.0)
 
 
 @dataclass(frozen=True)
@@ -98,5 +96,6 @@ bearing_family(
         statics=lambda: Springs,
         motion=None,
         recording=None,
+        shapes=None,
     )
 )

@@ -16,13 +16,13 @@ import numpy as np
 import pytest
 from scipy.optimize import fsolve
 
-from flexcage.case import extensions, load_case, load_extension
+from flexcage.case import extensions, load_case, load_extension, presets
 from flexcage.contacts import laws
 from flexcage.contacts import spec as contact_spec
 from flexcage.core import registry as core_registry
 from flexcage.core.environment import offscreen_backend
 from flexcage.core.errors import InputError
-from flexcage.geometry import materials, presets
+from flexcage.geometry import materials
 from flexcage.modes import registry as modes_registry
 from flexcage.modes import spec as modes_spec
 from flexcage.render import album

@@ -15,10 +15,10 @@ import numpy as np
 import pytest
 from hex_cage import HexCage
 
+from flexcage.cages.build import build_cage_mesh
+from flexcage.case.presets import load_preset
 from flexcage.fem.free import FreeBodySolver
 from flexcage.fem.model import assemble
-from flexcage.geometry.presets import load_preset
-from flexcage.mesh.build import build_cage_mesh
 
 POCKETS = 22
 WIDTH = 1.5e-3  # of the bump of pressure [m]: smooth, and away from fillets, which hexahedra lack

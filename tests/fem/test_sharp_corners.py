@@ -5,7 +5,7 @@ import numpy as np
 from hex_cage import hex_mesh
 
 from flexcage.case import load_case
-from flexcage.geometry.presets import load_preset
+from flexcage.case.presets import load_preset
 from flexcage.mesh.cage_mesh import signed_volumes
 from flexcage.simulate import simulate
 

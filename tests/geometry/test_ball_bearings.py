@@ -6,11 +6,9 @@ from math import acos, cos, degrees, radians, sin
 import numpy as np
 import pytest
 
+from flexcage.case.presets import load_preset
 from flexcage.core.errors import InputError
-from flexcage.geometry.ball_catalogue import static_factor
-from flexcage.geometry.catalogue import dynamic_rating, equivalent_load, static_rating
-from flexcage.geometry.checks import check_geometry
-from flexcage.geometry.presets import load_preset
+from flexcage.geometry.ball_ratings import static_factor
 
 PRESET = load_preset("7010C-PA66")
 BEARING, CAGE = PRESET.bearing, PRESET.cage
@@ -40,7 +38,7 @@ CAGES = [
 
 def refused(bearing, cage, words):
     with pytest.raises(InputError) as caught:
-        check_geometry(bearing, cage)
+        bearing.check(cage)
     sentence = str(caught.value)
     assert caught.value.where and sentence.endswith(".") and "\n" not in sentence
     assert all(word in sentence for word in words), sentence
@@ -77,7 +75,7 @@ def test_clearance_and_contact_angle_say_the_same():
         loose = replace(BEARING, contact_angle=None, radial_clearance=clearance)
         assert degrees(loose.free_contact_angle) == pytest.approx(angle, abs=5e-3)
         both = replace(loose, contact_angle=loose.free_contact_angle)
-        check_geometry(both)
+        both.check()
         assert both.clearance == pytest.approx(clearance, rel=1e-12)
         share = 1.0 - clearance / (2.0 * loose.groove_distance)
         assert loose.free_contact_angle == pytest.approx(acos(share), rel=1e-9)
@@ -105,10 +103,9 @@ def test_balls_just_touch_both_grooves_at_the_free_contact_angle(bearing):
 def test_ratings_of_closer_and_wider_grooves():
     """The standards' grooves are the closest that count; wider ones bear less."""
     size = BEARING.ball_diameter
-    for rating in (static_rating, dynamic_rating):
-        found = [
-            rating(replace(BEARING, inner_groove_radius=f * size)) for f in (0.515, 0.52, 0.53)
-        ]
+    bearings = [replace(BEARING, inner_groove_radius=f * size) for f in (0.515, 0.52, 0.53)]
+    for rating in ("static_rating", "dynamic_rating"):
+        found = [getattr(bearing, rating) for bearing in bearings]
         assert found[0] == found[1] > found[2]
 
 
@@ -129,14 +126,14 @@ def test_axial_factors_are_the_tables(angle):
     per_ball = static_factor(bearing.gamma, 0.52, 0.53) / 5.0
     for relative, expected in zip(LOADS, Y_OF_TABLE[angle]):
         relative *= {0.0: 1.0, 10.0: 1.016, 15.0: 1.036}[angle]
-        axial = relative * static_rating(bearing) / per_ball
-        found = equivalent_load(bearing, 0.1 * axial, axial)
+        axial = relative * bearing.static_rating / per_ball
+        found = bearing.equivalent_load(0.1 * axial, axial)
         assert found.axial_factor == pytest.approx(expected, abs=0.03 * expected)
 
 
 @pytest.mark.parametrize("angle", STEEP_Y)
 def test_axial_factors_of_steep_angles_are_the_tables(angle):
-    found = equivalent_load(replace(BEARING, contact_angle=radians(angle)), 1e3, 2e3)
+    found = replace(BEARING, contact_angle=radians(angle)).equivalent_load(1e3, 2e3)
     assert found.axial_factor == pytest.approx(STEEP_Y[angle], rel=0.005)
 
 
@@ -148,7 +145,7 @@ def test_radial_factors_are_what_stands_behind_the_table(angle, k):
     """ISO/TR 1281-1: X = 1 - 0.4 xi/eta, eta = 1 - k sin(alpha), xi 1.25, up to 5 degrees 1.05."""
     xi = 1.05 if angle <= 5.0 else 1.25
     expected = 1.0 - 0.4 * xi / (1.0 - k * sin(radians(angle)))
-    found = equivalent_load(replace(BEARING, contact_angle=radians(angle)), 1.0, 1e4)
+    found = replace(BEARING, contact_angle=radians(angle)).equivalent_load(1.0, 1e4)
     assert found.radial_factor == pytest.approx(expected, abs=0.006 if angle > 5.0 else 0.06)
 
 
@@ -156,7 +153,7 @@ def test_radial_factors_are_what_stands_behind_the_table(angle, k):
 def test_equivalent_load_has_no_jump_and_never_falls(angle):
     bearing = replace(BEARING, contact_angle=radians(angle))
     axial = np.linspace(0.0, 5e3, 4001)
-    load = np.array([equivalent_load(bearing, 1e3, f).load for f in axial])
+    load = np.array([bearing.equivalent_load(1e3, f).load for f in axial])
     assert load[0] == 1e3 and np.diff(load).min() >= -1e-9
     assert np.diff(load).max() < 4.0 * (axial[1] - axial[0])
 
@@ -164,5 +161,5 @@ def test_equivalent_load_has_no_jump_and_never_falls(angle):
 def test_thrust_bearings_want_axial_load():
     bearing = load_preset("7603025").bearing
     assert bearing.is_thrust and not BEARING.is_thrust
-    assert equivalent_load(bearing, 1200.0, 3500.0).load == pytest.approx(0.92 * 1200.0 + 3500.0)
-    assert np.isnan(equivalent_load(bearing, 1200.0, 2000.0).load)
+    assert bearing.equivalent_load(1200.0, 3500.0).load == pytest.approx(0.92 * 1200.0 + 3500.0)
+    assert np.isnan(bearing.equivalent_load(1200.0, 2000.0).load)

@@ -7,6 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from flexcage.case.presets import load_preset
 from flexcage.core.errors import InputError
 from flexcage.geometry.ball_cage_defects import (
     DisplacedPocket,
@@ -14,15 +15,11 @@ from flexcage.geometry.ball_cage_defects import (
     EnlargedPocket,
     WebCrack,
     check_ball_cage,
-    check_ball_defects,
     pocket_shapes,
-    uneven_pockets,
     wall_reach,
     web_thickness,
 )
-from flexcage.geometry.cages import SideBeamDefect
-from flexcage.geometry.checks import check_geometry
-from flexcage.geometry.presets import load_preset
+from flexcage.geometry.window_defects import SideBeamDefect
 
 MM = 1e-3
 PRESET = load_preset("7603025")
@@ -31,12 +28,11 @@ Z = BEARING.ball_count
 
 
 def check(*defects):
-    check_ball_defects(
+    CAGE.check_defects(
         defects,
-        CAGE,
         pocket_count=Z,
         pitch_diameter=BEARING.pitch_diameter,
-        ball_diameter=BEARING.ball_diameter,
+        element_diameter=BEARING.ball_diameter,
     )
 
 
@@ -165,8 +161,8 @@ def test_impossible_cages(change, sentence):
         ),
         (
             [SideBeamDefect(pocket=1, displacement=0.1 * MM)],
-            "defects.0",
-            "is a SideBeamDefect, but a ball cage's defects are",
+            "defects.0.type",
+            "'side_beam', but this bearing's cage is one of the machined cages, whose defects are",
         ),
     ],
 )
@@ -179,18 +175,18 @@ def test_impossible_defects(defects, where, sentence):
 def test_uneven_pockets_are_random_by_their_seed_and_centred():
     cage = replace(CAGE, pocket_scatter=20e-6)
     shifts = np.array([
-        [d.circumferential for d in uneven_pockets(cage, Z, seed)] for seed in range(200)
+        [d.circumferential for d in cage.uneven_pockets(Z, seed)] for seed in range(200)
     ])  # fmt: skip
     np.testing.assert_allclose(shifts.mean(axis=1), 0.0, atol=1e-12)
     assert shifts.std() == pytest.approx(20e-6 * np.sqrt(1 - 1 / Z), rel=0.03)
-    assert uneven_pockets(cage, Z, 3) == uneven_pockets(cage, Z, 3)
-    assert uneven_pockets(CAGE, Z, 3) == ()
+    assert cage.uneven_pockets(Z, 3) == cage.uneven_pockets(Z, 3)
+    assert CAGE.uneven_pockets(Z, 3) == ()
 
 
 def test_a_bearing_checks_its_cages_defects():
-    check_geometry(BEARING, CAGE, (EnlargedPocket(pocket=1, increase=0.2 * MM),))
+    BEARING.check(CAGE, (EnlargedPocket(pocket=1, increase=0.2 * MM),))
     with pytest.raises(InputError, match="greater than the ball's"):
-        check_geometry(BEARING, CAGE, (EnlargedPocket(pocket=1, increase=-0.4 * MM),))
+        BEARING.check(CAGE, (EnlargedPocket(pocket=1, increase=-0.4 * MM),))
     with pytest.raises(InputError, match="webs thinner than zero"):
         sound = EnlargedPocket(pocket=1, increase=0.1 * MM)
-        check_geometry(BEARING, replace(CAGE, bore=30.0 * MM), (sound,))
+        BEARING.check(replace(CAGE, bore=30.0 * MM), (sound,))

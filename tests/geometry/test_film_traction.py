@@ -8,9 +8,9 @@ import pytest
 
 import flexcage
 from flexcage.case import load_case
+from flexcage.case.presets import load_preset
 from flexcage.core.errors import InputError
-from flexcage.geometry.film import Oil, creep_speed, patch
-from flexcage.geometry.presets import load_preset
+from flexcage.geometry.film import Oil, creep_speed
 
 OIL = Oil(0.01, 2e-8)
 CASE = {"bearing": {"preset": "7010C-PI"}, "drive": {"speed": "4000 rpm"},
@@ -22,13 +22,13 @@ def test_mean_pressure_over_the_patch_is_the_load(race):
     ball = load_preset("7010C-PI").bearing
     contact = ball.contacts[race]
     a, b = contact.semi_axes(20.0)
-    mean, half = patch(ball, 20.0, 1.5 * 20.0 / (pi * a * b), race)
+    mean, half = ball.contact_patch(20.0, 1.5 * 20.0 / (pi * a * b), race)
     assert half == pytest.approx(b) and mean * pi * a * b == pytest.approx(20.0)
     roller = load_preset("N1013").bearing
     load, E = 300.0 / roller.effective_length, roller.material.plane_strain_modulus
     R = 0.5 * roller.roller_diameter * roller.inner_race_radius
     R /= 0.5 * roller.roller_diameter + roller.inner_race_radius
-    mean, half = patch(roller, 300.0, sqrt(load * E / (2.0 * pi * R)), race)
+    mean, half = roller.contact_patch(300.0, sqrt(load * E / (2.0 * pi * R)), race)
     assert half == pytest.approx(sqrt(8.0 * load * R / (pi * E)))  # Johnson, Contact Mechanics 4.3
     assert mean * 2.0 * half == pytest.approx(load)
 

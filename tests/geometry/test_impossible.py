@@ -5,11 +5,11 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from flexcage.case.presets import load_preset
 from flexcage.core.errors import InputError
-from flexcage.geometry.cages import CrossbeamDefect, SideBeamDefect
-from flexcage.geometry.checks import check_geometry, pocket_clearances
 from flexcage.geometry.cylindrical_roller import RollerProfile
-from flexcage.geometry.presets import load_preset
+from flexcage.geometry.roller_checks import pocket_clearances
+from flexcage.geometry.window_defects import CrossbeamDefect, SideBeamDefect
 
 PRESET = load_preset("N1013")
 BEARING, CAGE = PRESET.bearing, PRESET.cage
@@ -59,7 +59,7 @@ DEFECTS = [
 
 def refused(bearing, cage, defects, words):
     with pytest.raises(InputError) as caught:
-        check_geometry(bearing, cage, defects)
+        bearing.check(cage, defects)
     sentence = str(caught.value)
     assert caught.value.where and sentence.endswith(".") and "\n" not in sentence
     assert all(word in sentence for word in words), sentence
@@ -83,22 +83,22 @@ def test_impossible_defect(defects, words):
 def test_most_rollers_that_fit_do_fit():
     """32 on a circle of 82.5 mm: the chord 82.5 sin(pi/32) = 8.087 mm is over 8 mm."""
     narrow = replace(CAGE, bore=82.4e-3, pocket_width=8.05e-3)
-    check_geometry(replace(BEARING, roller_count=32), narrow)
+    replace(BEARING, roller_count=32).check(narrow)
 
 
 def test_crossbeams_vanish_where_neighbouring_pockets_meet():
     """Planes +-w/2 beside radii pi/Z apart meet at radius w/(2 sin(pi/Z)): here at the bore."""
     meeting = CAGE.bore * np.sin(np.pi / 22)
     wide = replace(BEARING, roller_diameter=BEARING.roller_diameter)
-    check_geometry(wide, replace(CAGE, pocket_width=meeting * (1 - 1e-9)))
+    wide.check(replace(CAGE, pocket_width=meeting * (1 - 1e-9)))
     refused(wide, replace(CAGE, pocket_width=meeting * (1 + 1e-9)), (), ["thinner than zero"])
 
 
 def test_the_papers_defects_are_possible():
     for size in (0.1e-3, 0.2e-3, -0.2e-3, 0.5e-3):
-        check_geometry(BEARING, CAGE, [CrossbeamDefect(crossbeam=5, displacement=size)])
+        BEARING.check(CAGE, [CrossbeamDefect(crossbeam=5, displacement=size)])
     for size in (0.3e-3, -0.3e-3):
-        check_geometry(BEARING, CAGE, [SideBeamDefect(pocket=5, displacement=size, side="-x")])
+        BEARING.check(CAGE, [SideBeamDefect(pocket=5, displacement=size, side="-x")])
 
 
 def test_clearances_of_every_pocket():

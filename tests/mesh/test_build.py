@@ -10,8 +10,8 @@ import numpy as np
 import pytest
 from scipy.integrate import quad
 
+from flexcage.cages.build import build_cage_mesh
 from flexcage.core.errors import InputError
-from flexcage.mesh.build import build_cage_mesh
 from flexcage.mesh.cage_mesh import group_names
 from flexcage.mesh.options import MeshOptions
 from flexcage.mesh.quality import check_mesh, report_mesh

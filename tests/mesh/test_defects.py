@@ -6,15 +6,15 @@ import numpy as np
 import pytest
 
 from flexcage.core.errors import InputError
-from flexcage.geometry.cages import (
+from flexcage.geometry.window_defects import (
     CrossbeamDefect,
     SideBeamDefect,
-    crossbeam_shape,
+    clamped_beam,
     pocket_changes,
-    side_beam_shape,
 )
-from flexcage.mesh.measure import in_pocket_frame, pocket_size
+from flexcage.mesh.measure import in_pocket_frame
 from flexcage.mesh.quality import check_mesh, report_mesh
+from flexcage.mesh.window_measure import pocket_size
 
 MM = 1e-3
 SHAPES = ("bent", "shifted")
@@ -91,7 +91,7 @@ def test_both_faces_follow_the_shape_and_the_beam_keeps_its_width(n1013, shape):
     for pocket, face, sign in ((4, "front", -1.0), (5, "rear", -1.0)):
         vertices = np.unique(sound.groups[f"pocket{pocket}_{face}"])
         step = in_pocket_frame(bent.points[vertices] - sound.points[vertices], pocket, 22)
-        wanted = sign * delta * crossbeam_shape(defect, sound.points[vertices, 0], 8.25e-3)
+        wanted = sign * delta * defect.profile(sound.points[vertices, 0], 8.25e-3)
         assert step[:, 2] == pytest.approx(wanted, abs=1e-15)
         assert np.abs(step[:, 0]).max() < 1e-15
     beam = in_pocket_frame(sound.points, 4.5, 22)
@@ -110,7 +110,7 @@ def test_side_beam_follows_its_shape_and_keeps_its_width(n1013):
         vertices = np.unique(sound.groups[name])
         local = in_pocket_frame(sound.points[vertices], 5, 22)
         here = local[:, 1] > 0.0
-        wanted = np.where(here, delta * side_beam_shape(local[:, 2], 8.2e-3), 0.0)
+        wanted = np.where(here, delta * clamped_beam(local[:, 2], 8.2e-3), 0.0)
         assert bent.points[vertices, 0] - sound.points[vertices, 0] == pytest.approx(
             wanted, abs=1e-15
         )

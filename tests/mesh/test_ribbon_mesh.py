@@ -7,10 +7,10 @@ import numpy as np
 import pytest
 from scipy.stats import qmc
 
-from flexcage.geometry.ball_cage_defects import MissingRivet
-from flexcage.geometry.presets import load_preset
+from flexcage.cages.build import build_cage_mesh
+from flexcage.case.presets import load_preset
 from flexcage.geometry.ribbon_cage import HEAD_HEIGHT
-from flexcage.mesh.build import build_cage_mesh
+from flexcage.geometry.ribbon_defects import MissingRivet
 from flexcage.mesh.measure import in_pocket_frame
 from flexcage.mesh.options import MeshOptions
 from flexcage.mesh.quality import check_mesh, report_mesh

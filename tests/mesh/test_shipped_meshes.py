@@ -7,8 +7,8 @@ from pathlib import Path
 
 import pytest
 
+from flexcage.cages.build import build_cage_mesh
 from flexcage.case import load_case
-from flexcage.mesh.build import build_cage_mesh
 from flexcage.mesh.io import read_mesh
 from flexcage.mesh.options import MeshOptions
 

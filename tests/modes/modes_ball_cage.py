@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from flexcage.cages.build import build_cage_mesh
 from flexcage.geometry.ball_cage_defects import (
     DisplacedPocket,
     ElongatedPocket,
@@ -10,7 +11,6 @@ from flexcage.geometry.ball_cage_defects import (
 )
 from flexcage.geometry.ball_cages import BallCage
 from flexcage.geometry.materials import MATERIALS
-from flexcage.mesh.build import build_cage_mesh
 from flexcage.mesh.options import MeshOptions
 
 POCKETS = 8

@@ -7,8 +7,9 @@ from dataclasses import fields
 import numpy as np
 import scipy.sparse as sp
 
-from flexcage.geometry.cages import CrossbeamDefect, SideBeamDefect, WindowCage
-from flexcage.mesh.build import build_cage_mesh
+from flexcage.cages.build import build_cage_mesh
+from flexcage.geometry.cages import WindowCage
+from flexcage.geometry.window_defects import CrossbeamDefect, SideBeamDefect
 from flexcage.mesh.options import MeshOptions
 
 POCKETS = 12

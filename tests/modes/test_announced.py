@@ -8,6 +8,7 @@ import pytest
 from own_mesh import renumbered
 
 import flexcage
+from flexcage.cages.build import reduction_of
 from flexcage.core import pace
 from flexcage.mesh.io import write_mesh
 from flexcage.mesh.options import MeshOptions
@@ -15,6 +16,7 @@ from flexcage.modes.reduction import CageReduction
 from flexcage.stages import cage_mesh
 from flexcage.stress.fields import StressFields
 from flexcage.stress.recovery import StressRecovery
+from flexcage.stress.window_places import WINDOW_PLACES
 
 
 @pytest.fixture
@@ -32,7 +34,7 @@ def reduction(tmp_path, monkeypatch):
             mesh = dataclasses.replace(mesh, points=mesh.points + moves)
             file = str(write_mesh(mesh, tmp_path / "own.msh"))
             mesh = cage_mesh(case.replace("mesh.file", file))
-        return CageReduction(mesh, case.cage, (), case.modes, 1)
+        return reduction_of(mesh, cage=case.cage, defects=(), spec=case.modes, order=1)
 
     return make
 
@@ -50,7 +52,9 @@ def test_a_mesh_from_a_file_says_how_long_it_takes(reduction, caplog, monkeypatc
     monkeypatch.setattr(pace, "_EVERY", 0.0)
     made = reduction(own=True, apart=apart)
     with caplog.at_level(logging.INFO, "flexcage"):
-        recovery = StressRecovery(made.model, made.basis, made.interface, solver=made.solver)
+        recovery = StressRecovery(
+            made.model, made.basis, made.interface, places=WINDOW_PLACES, solver=made.solver
+        )
         assert StressFields(recovery).forces.any()
     size = f"{made.model.n_dof:,} unknowns, {words}"
     begins = [m for m in caplog.messages if m.endswith(", once")]

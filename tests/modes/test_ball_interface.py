@@ -7,6 +7,7 @@ import pytest
 from modes_ball_cage import BALL_CAGE, BALL_DEFECTS, POCKETS, ball_mesh
 from modes_cage import assert_same_fields
 
+from flexcage.cages.build import reduce_cage, rigid_interface_of
 from flexcage.core.errors import InputError
 from flexcage.fem.free import FreeBodySolver
 from flexcage.fem.modal import free_modes
@@ -286,14 +287,14 @@ def test_rigid_motion_and_inertia_of_the_model(sound):
 def test_reduction_keeps_its_interface_on_disk(monkeypatch, tmp_path):
     monkeypatch.setenv("FLEXCAGE_CACHE_DIR", str(tmp_path))
     mesh, spec = ball_mesh(BALL_DEFECTS), ModesSpec(count=4)
-    built = reduction.reduce_cage(mesh, cage=BALL_CAGE, defects=BALL_DEFECTS, spec=spec)
+    built = reduce_cage(mesh, cage=BALL_CAGE, defects=BALL_DEFECTS, spec=spec)
     assert built.basis.kind == ("free",) * 4 + ("centrifugal",) and built.basis.residual is None
 
     def never(*args, **kwargs):
         raise AssertionError("made again")
 
     monkeypatch.setattr(reduction, "assemble", never)
-    stored = reduction.reduce_cage(mesh, cage=BALL_CAGE, defects=BALL_DEFECTS, spec=spec)
+    stored = reduce_cage(mesh, cage=BALL_CAGE, defects=BALL_DEFECTS, spec=spec)
     assert_same_fields(stored.interface, built.interface)
     assert stored.interface.modes.shape == (POCKETS, 16, 3, 5)
 
@@ -318,5 +319,5 @@ def test_bases_of_a_ball_cage(sound):
         basis(kind="craig_bampton")
     with pytest.raises(InputError, match="attachment vectors of pocket faces"):
         basis(dynamic="all")
-    with pytest.raises(InputError, match="no interface is known for a str"):
-        reduction.interface_of("cage", (), None)
+    with pytest.raises(InputError, match="A str is no cage of a known type"):
+        rigid_interface_of("cage", pocket_count=8)

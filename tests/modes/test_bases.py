@@ -11,10 +11,10 @@ from flexcage.core.errors import InputError
 from flexcage.core.hashing import content_hash
 from flexcage.fem.free import FreeBodySolver
 from flexcage.modes import registry, ritz
-from flexcage.modes.interface import cage_interface
 from flexcage.modes.pockets import pocket_loads
 from flexcage.modes.registry import build_basis
 from flexcage.modes.spec import DampingBand, ModesSpec
+from flexcage.modes.window_interface import cage_interface
 
 
 def dynamic_answer(basis, loads):

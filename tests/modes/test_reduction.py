@@ -5,6 +5,7 @@ import pytest
 from modes_cage import CAGE, DEFECTS, assert_same_fields, cage_mesh
 
 from flexcage.bodies.cage import flexible_from_reduction
+from flexcage.cages.build import reduce_cage
 from flexcage.modes import reduction
 from flexcage.modes.spec import ModesSpec
 
@@ -21,9 +22,9 @@ def never(*args, **kwargs):
 
 def test_a_cached_basis_is_the_one_that_was_built(monkeypatch):
     mesh, spec = cage_mesh(), ModesSpec(count=4)
-    built = reduction.reduce_cage(mesh, cage=CAGE, defects=(), spec=spec)
+    built = reduce_cage(mesh, cage=CAGE, defects=(), spec=spec)
     monkeypatch.setattr(reduction, "build_basis", never)
-    stored = reduction.reduce_cage(mesh, cage=CAGE, defects=(), spec=spec)
+    stored = reduce_cage(mesh, cage=CAGE, defects=(), spec=spec)
     assert (stored.basis.name, stored.basis.kind) == (built.basis.name, built.basis.kind)
     assert built.basis.geometric is None and stored.basis.geometric is None
     for name in ("shapes", "stiffness", "mass", "frequencies"):
@@ -38,8 +39,8 @@ def test_geometric_stiffening_comes_with_the_basis_and_with_the_cached_one():
     """A ring of brass at 1 rad/s: the ovals gain (n^2-1)^2/(n^2+1) = 9/5 (rad/s)^2, a cage nearly
     so; no mode loses."""
     mesh, spec = cage_mesh(), ModesSpec(count=4, crossbeams=False, geometric_stiffening=True)
-    built = reduction.reduce_cage(mesh, cage=CAGE, defects=(), spec=spec).basis
-    stored = reduction.reduce_cage(mesh, cage=CAGE, defects=(), spec=spec).basis
+    built = reduce_cage(mesh, cage=CAGE, defects=(), spec=spec).basis
+    stored = reduce_cage(mesh, cage=CAGE, defects=(), spec=spec).basis
     assert built.geometric is not None and built.geometric.shape == (5, 5)
     np.testing.assert_array_equal(stored.geometric, built.geometric)
     gain = np.linalg.eigvalsh(built.geometric)
@@ -55,12 +56,12 @@ def test_geometric_stiffening_comes_with_the_basis_and_with_the_cached_one():
 def test_a_run_needs_neither_matrices_nor_shapes_of_a_stored_reduction(monkeypatch):
     """Body and interface come from disk as they were made; what is asked for later is made then."""
     mesh, spec = cage_mesh(DEFECTS), ModesSpec(count=4)
-    built = reduction.reduce_cage(mesh, cage=CAGE, defects=DEFECTS, spec=spec)
+    built = reduce_cage(mesh, cage=CAGE, defects=DEFECTS, spec=spec)
     body = flexible_from_reduction(built, spec)
     with monkeypatch.context() as patch:
         patch.setattr(reduction, "assemble", never)
         patch.setattr(reduction, "basis_from", never)
-        stored = reduction.reduce_cage(mesh, cage=CAGE, defects=DEFECTS, spec=spec)
+        stored = reduce_cage(mesh, cage=CAGE, defects=DEFECTS, spec=spec)
         again = flexible_from_reduction(stored, spec)
     assert_same_fields(stored.interface, built.interface)
     for name, value in body.data._asdict().items():
@@ -72,7 +73,7 @@ def test_a_run_needs_neither_matrices_nor_shapes_of_a_stored_reduction(monkeypat
 
 def test_another_damping_makes_another_body_of_the_same_reduction():
     spec = ModesSpec(count=4)
-    cage = reduction.reduce_cage(cage_mesh(), cage=CAGE, defects=(), spec=spec)
+    cage = reduce_cage(cage_mesh(), cage=CAGE, defects=(), spec=spec)
     some, twice = (
         flexible_from_reduction(cage, replace(spec, damping=d)).data for d in (0.01, 0.02)
     )
@@ -84,21 +85,21 @@ def test_another_damping_makes_another_body_of_the_same_reduction():
 def test_a_basis_made_anew_gets_an_interface_and_a_body_of_its_own(monkeypatch, folder):
     """Another build of the solver may find other modes of equal frequency, or the same reversed."""
     mesh, spec = cage_mesh(), ModesSpec(count=4)
-    built = reduction.reduce_cage(mesh, cage=CAGE, defects=(), spec=spec)
+    built = reduce_cage(mesh, cage=CAGE, defects=(), spec=spec)
     body = flexible_from_reduction(built, spec)
     (entry,) = (folder / "arrays" / "basis").glob("*.npz")
     entry.unlink()
     reversed_ = replace(built.basis, shapes=-built.basis.shapes)
     monkeypatch.setattr(reduction, "build_basis", lambda *args, **kwargs: reversed_)
-    other = reduction.reduce_cage(mesh, cage=CAGE, defects=(), spec=spec)
+    other = reduce_cage(mesh, cage=CAGE, defects=(), spec=spec)
     np.testing.assert_array_equal(other.interface.modes, -built.interface.modes)
     np.testing.assert_array_equal(flexible_from_reduction(other, spec).data.S, -body.data.S)
 
 
 def test_a_stored_basis_that_is_gone_when_asked_for_is_made_again(folder):
     mesh, spec = cage_mesh(), ModesSpec(count=4)
-    built = reduction.reduce_cage(mesh, cage=CAGE, defects=(), spec=spec)
-    stored = reduction.reduce_cage(mesh, cage=CAGE, defects=(), spec=spec)
+    built = reduce_cage(mesh, cage=CAGE, defects=(), spec=spec)
+    stored = reduce_cage(mesh, cage=CAGE, defects=(), spec=spec)
     (entry,) = (folder / "arrays" / "basis").glob("*.npz")
     entry.unlink()
     np.testing.assert_array_equal(stored.basis.shapes, built.basis.shapes)
@@ -107,18 +108,18 @@ def test_a_stored_basis_that_is_gone_when_asked_for_is_made_again(folder):
 def test_defects_and_sizes_name_the_interface():
     """On one mesh, as from a file, what the case says of pockets is the interface's own."""
     mesh, spec = cage_mesh(), ModesSpec(count=4)
-    sound = reduction.reduce_cage(mesh, cage=CAGE, defects=(), spec=spec).interface
-    bent = reduction.reduce_cage(mesh, cage=CAGE, defects=DEFECTS, spec=spec).interface
+    sound = reduce_cage(mesh, cage=CAGE, defects=(), spec=spec).interface
+    bent = reduce_cage(mesh, cage=CAGE, defects=DEFECTS, spec=spec).interface
     longer = replace(CAGE, pocket_length=CAGE.pocket_length + 1e-5)
-    other = reduction.reduce_cage(mesh, cage=longer, defects=(), spec=spec).interface
+    other = reduce_cage(mesh, cage=longer, defects=(), spec=spec).interface
     assert not sound.offset.any() and bent.offset.any()
     assert other.stations[0, 0] == pytest.approx(sound.stations[0, 0] - 1e-5 * 3.0 / 7.0)
 
 
 def test_a_cage_on_disk_is_read_without_matrices(monkeypatch):
     mesh, spec = cage_mesh(), ModesSpec(count=4)
-    built = reduction.reduce_cage(mesh, cage=CAGE, defects=(), spec=spec)
-    stored = reduction.reduce_cage(mesh, cage=CAGE, defects=(), spec=spec)
+    built = reduce_cage(mesh, cage=CAGE, defects=(), spec=spec)
+    stored = reduce_cage(mesh, cage=CAGE, defects=(), spec=spec)
     for name in ("assemble_ring", "assemble_whole"):
         monkeypatch.setattr(f"flexcage.fem.model.{name}", never)
     np.testing.assert_array_equal(stored.model.nodes, built.model.nodes)
@@ -127,10 +128,10 @@ def test_a_cage_on_disk_is_read_without_matrices(monkeypatch):
 
 def test_the_same_cage_is_known_by_content():
     mesh, spec = cage_mesh(), ModesSpec(count=4)
-    one = reduction.reduce_cage(mesh, cage=CAGE, defects=(), spec=spec)
-    again = reduction.reduce_cage(cage_mesh(), cage=replace(CAGE), defects=(), spec=spec)
-    bent = reduction.reduce_cage(mesh, cage=CAGE, defects=DEFECTS, spec=spec)
-    fewer = reduction.reduce_cage(mesh, cage=CAGE, defects=(), spec=ModesSpec(count=3))
+    one = reduce_cage(mesh, cage=CAGE, defects=(), spec=spec)
+    again = reduce_cage(cage_mesh(), cage=replace(CAGE), defects=(), spec=spec)
+    bent = reduce_cage(mesh, cage=CAGE, defects=DEFECTS, spec=spec)
+    fewer = reduce_cage(mesh, cage=CAGE, defects=(), spec=ModesSpec(count=3))
     assert one.same_as(again)
     assert not one.same_as(bent) and not one.same_as(fewer)
     assert one.once("a", lambda: [1]) is one.once("a", never)

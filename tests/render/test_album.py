@@ -13,9 +13,10 @@ import pytest
 from test_pictures import N1013, run
 
 from flexcage.core.errors import InputError
-from flexcage.geometry.cages import CrossbeamDefect
+from flexcage.geometry.window_defects import CrossbeamDefect
 from flexcage.render.album import Scene, StressPictures, draw_album
 from flexcage.render.look import Look
+from flexcage.stress.window_places import WINDOW_PLACES
 
 __all__ = ["run"]  # a fixture
 PICTURES = {
@@ -58,7 +59,8 @@ def scene(run, ring, peak: int) -> Scene:
         nodes=points, cells=ring.tets, time=0.001, displacement=np.zeros_like(points),
         basis=SimpleNamespace(shapes=None, frequencies=None, kind=None),
         von_mises=stress, envelope=stress, peak_vertex=peak, peak_place="", settled=n // 3,
-        roots=roots, root_names=["a", "b", "c"], frames=[(0.001, np.zeros_like(points), stress)],
+        roots=roots, root_names=["a", "b", "c"], root_kind=WINDOW_PLACES.kind,
+        frames=[(0.001, np.zeros_like(points), stress)],
     )  # fmt: skip
     return Scene(
         name="n", dataset=run, bearing=N1013, mesh=ring, clearance=None, guide="inner",

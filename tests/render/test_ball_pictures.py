@@ -12,6 +12,8 @@ from matplotlib.text import Text
 from test_pictures import check, has_colour
 
 from flexcage import render
+from flexcage.cages.build import build_cage_mesh
+from flexcage.case.presets import load_preset
 from flexcage.core.errors import InputError
 from flexcage.geometry.ball_cage_defects import (
     DisplacedPocket,
@@ -19,11 +21,11 @@ from flexcage.geometry.ball_cage_defects import (
     EnlargedPocket,
     WebCrack,
 )
-from flexcage.geometry.presets import load_preset
-from flexcage.mesh.build import build_cage_mesh
+from flexcage.geometry.bearing import Bearing
 from flexcage.mesh.options import MeshOptions
 from flexcage.render import sheet
-from flexcage.render.element_shapes import element_shape, ring_profiles
+from flexcage.render.shapes import shapes_of
+from flexcage.render.solids import revolved
 from flexcage.results import metrics
 from flexcage.results.metrics import BearingNumbers
 from flexcage.results.registry import VARIABLES
@@ -113,7 +115,8 @@ COARSE = MeshOptions(fineness="coarse")
 
 
 def test_grooves_are_arcs_between_their_shoulders():
-    inner, outer = ring_profiles(BEARING)
+    shapes = shapes_of(BEARING)
+    inner, outer = shapes.inner, shapes.outer
     radii = (BEARING.inner_groove_radius, BEARING.outer_groove_radius)
     centres = (BEARING.inner_groove_centre, BEARING.outer_groove_centre)
     arcs = (inner[2:-1], outer[1:-2])
@@ -125,10 +128,15 @@ def test_grooves_are_arcs_between_their_shoulders():
 
 
 def test_a_ball_is_a_sphere(canvas):
-    ball = element_shape(BEARING)
+    ball = revolved(shapes_of(BEARING).element, segments=48)
     assert np.linalg.norm(ball.points, axis=1) == pytest.approx(0.5 * BEARING.ball_diameter)
     exact = np.pi / 6 * BEARING.ball_diameter**3
     assert ball.triangulate().volume == pytest.approx(exact, rel=0.02)
+
+
+def test_a_bearing_of_no_family_has_no_picture():
+    with pytest.raises(InputError, match="There is no picture of a Bearing"):
+        shapes_of(Bearing())
 
 
 def test_histories_show_balls_slip_and_contact_angles(run, texts, tmp_path):

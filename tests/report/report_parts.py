@@ -7,10 +7,10 @@ import json
 import numpy as np
 from ring_with_pockets import Z, ring_mesh
 
+from flexcage.case.presets import load_preset
 from flexcage.contacts.spec import LandSpec
-from flexcage.geometry.cages import CrossbeamDefect
 from flexcage.geometry.cylindrical_roller import RollerBearing
-from flexcage.geometry.presets import load_preset
+from flexcage.geometry.window_defects import CrossbeamDefect
 from flexcage.render.album import Scene, StressPictures
 from flexcage.report.blocks import Table
 from flexcage.report.cage_view import CageStress
@@ -24,6 +24,7 @@ from flexcage.results.registry import VARIABLES
 from flexcage.results.store import RunStore
 from flexcage.results.summary import Row
 from flexcage.results.warnings import AT_END, Outcome, warnings_of
+from flexcage.stress.window_places import WINDOW_PLACES
 
 NUMBERS = BearingNumbers(pitch_diameter=82.5e-3, roller_diameter=8e-3, roller_count=Z)
 PEAK = 40e6  # Pa, at one vertex of the cage
@@ -87,7 +88,7 @@ def scene(ds, name: str = "small") -> Scene:
         nodes=cage.points, cells=cage.tets, basis=None, time=cage.time,
         displacement=cage.displacement, von_mises=cage.von_mises, envelope=cage.von_mises,
         peak_vertex=cage.peak_vertex, peak_place="", settled=int(0.3 * n), roots=roots,
-        root_names=["pocket1_root_front+x", "pocket2_root_rear-x"],
+        root_names=["pocket1_root_front+x", "pocket2_root_rear-x"], root_kind=WINDOW_PLACES.kind,
     )  # fmt: skip
     return Scene(
         name=name, dataset=ds, bearing=BEARING, mesh=ring_mesh(),

@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from flexcage.geometry.presets import load_preset
+from flexcage.case.presets import load_preset
 from flexcage.results import metrics
 from flexcage.results.figures import summarise
 from flexcage.results.metrics import BearingNumbers, SlipRange

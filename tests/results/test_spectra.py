@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 import xarray as xr
 
+from flexcage.case.presets import load_preset
 from flexcage.core.errors import InputError
-from flexcage.geometry.presets import load_preset
 from flexcage.results import metrics
 from flexcage.results.features import cage_motion_features
 from flexcage.results.metrics import BearingNumbers

@@ -7,10 +7,10 @@ import numpy as np
 import pytest
 import xarray as xr
 
+from flexcage.case.presets import load_preset
 from flexcage.contacts.spec import LandSpec
 from flexcage.core.warning import RunWarning
 from flexcage.geometry.odd import odd_geometry
-from flexcage.geometry.presets import load_preset
 from flexcage.mesh.cage_mesh import CageMesh
 from flexcage.results.edges import Edge
 from flexcage.results.summary import Row, Section, Summary, side_by_side
@@ -175,7 +175,10 @@ def test_a_cage_narrower_than_the_groove_meets_the_groove():
 
 
 def test_a_contact_over_the_edge_of_its_groove():
-    edge = Edge("inner", np.radians(2.0), 3, 0.05, 400.0, np.radians(31.0))
+    edge = Edge(
+        race="inner", beyond=np.radians(2.0), kind="ball", element=3, time=0.05, force=400.0,
+        angle=np.radians(31.0),
+    )  # fmt: skip
     (found,) = warnings_of(AT_END, replace(end(BALL), edges=(edge, replace(edge, beyond=-0.1))))
     assert found.key == "over_edge"
     assert found.text.startswith("The contact ellipse of ball 3 runs over the inner groove's edge")

@@ -16,7 +16,6 @@ from flexcage.render.look import Look
 from flexcage.results.registry import VARIABLES, variables_of
 from flexcage.results.store import RunStore
 from flexcage.simulate import load_run, simulate
-from flexcage.stress.places import contact_zone
 
 RPM = np.pi / 30.0
 LONG = {"solver.duration": "10 ms"}
@@ -224,7 +223,7 @@ def test_the_summary_says_what_its_peaks_and_cuts_leave_out(flexible):
     """The peak is the largest off the flat walls, which hold more at some instant of the run."""
     row, h = flexible.summary.row("stress_peak"), flexible.stress_history
     assert "flat pocket walls" in row.label and "off the fillets are never searched" in row.note
-    walls = contact_zone(flexible.cage.model, 22)
+    walls = flexible.recovery.contact_zone
     assert not np.isin(h.peak_vertex, walls).any()
     assert np.isin(h.surface, walls).sum() == len(walls)
     searched = h.envelope[~np.isin(h.surface, walls)]

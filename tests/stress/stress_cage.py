@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
+from flexcage.cages.build import build_cage_mesh
 from flexcage.fem.free import FreeBodySolver
 from flexcage.fem.model import assemble
-from flexcage.geometry.cages import CrossbeamDefect, SideBeamDefect, WindowCage
+from flexcage.geometry.cages import WindowCage
 from flexcage.geometry.materials import MATERIALS
-from flexcage.mesh.build import build_cage_mesh
+from flexcage.geometry.window_defects import CrossbeamDefect, SideBeamDefect
 from flexcage.mesh.options import MeshOptions
-from flexcage.modes.interface import cage_interface
 from flexcage.modes.registry import build_basis
+from flexcage.modes.window_interface import cage_interface
 from flexcage.stress.recovery import StressRecovery
+from flexcage.stress.window_places import WINDOW_PLACES
 
 POCKETS = 12
 CAGE = WindowCage(
@@ -35,4 +37,4 @@ def make_recovery(defects, spec):
     interface = cage_interface(
         solver.model, basis, pocket_count=POCKETS, cage=CAGE, defects=defects
     )
-    return StressRecovery(solver.model, basis, interface, solver=solver)
+    return StressRecovery(solver.model, basis, interface, places=WINDOW_PLACES, solver=solver)

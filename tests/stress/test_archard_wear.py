@@ -85,7 +85,7 @@ def end_speed(bearing, cage):
 
 
 def power_by_hand():
-    from flexcage.geometry.presets import load_preset
+    from flexcage.case.presets import load_preset
 
     preset = load_preset("N1013")
     return FORCE * (sum(speeds_by_hand()) + end_speed(preset.bearing, preset.cage))

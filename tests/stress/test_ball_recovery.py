@@ -9,7 +9,7 @@ from flexcage.modes.ball_interface import rigid_ball_interface
 from flexcage.stress.fields import StressFields
 from flexcage.stress.history import stress_history
 from flexcage.stress.operators import von_mises
-from flexcage.stress.places import contact_zone, in_words, root_places
+from flexcage.stress.places import in_words
 from flexcage.stress.recovery import CageLoads, StressRecovery
 
 
@@ -98,9 +98,9 @@ def test_lands_and_spin_stress_a_ball_cage(sound):
 
 
 def test_places_are_the_thinnest_sections(sound):
-    places = root_places(sound.model, BALL_POCKETS)
+    places = sound.roots
     assert len(places) == 4 * BALL_POCKETS
-    zone = contact_zone(sound.model, BALL_POCKETS)
+    zone = sound.contact_zone
     assert len(zone) and not np.intersect1d(zone, np.concatenate(list(places.values()))).size
     angle = 2.0 * np.pi * 3 / BALL_POCKETS
     for name, axis, sign in (
@@ -123,7 +123,7 @@ def test_a_pushed_web_is_the_most_stressed(sound):
     forces = np.zeros((BALL_POCKETS, 1, 16, 3))
     forces[3, 0, 0, 2] = 10.0
     stress = von_mises(sound.stress(sound.displacement(CageLoads(station_forces=forces))))
-    places = root_places(sound.model, BALL_POCKETS)
+    places = sound.roots
     waists = {name: stress[at].max() for name, at in places.items() if "waist" in name}
     ranking = sorted(waists, key=waists.get)
     assert set(ranking[-2:]) == {"pocket3_waist_front", "pocket4_waist_rear"}
@@ -133,4 +133,4 @@ def test_a_pushed_web_is_the_most_stressed(sound):
 def test_a_rigid_ball_cage_is_refused(sound):
     rigid = rigid_ball_interface(BALL_CAGE, pocket_count=BALL_POCKETS)
     with pytest.raises(InputError, match="no stress"):
-        StressRecovery(sound.model, sound.basis, rigid)
+        StressRecovery(sound.model, sound.basis, rigid, places=sound.places)

@@ -6,13 +6,12 @@ import xarray as xr
 from stress_cage import CAGE, POCKETS, make_recovery
 
 from flexcage.core.errors import InputError
-from flexcage.modes.interface import rigid_interface
 from flexcage.modes.spec import ModesSpec
+from flexcage.modes.window_interface import rigid_interface
 from flexcage.stress.fields import StressFields
 from flexcage.stress.history import stress_history
 from flexcage.stress.loads import LandForces
 from flexcage.stress.operators import von_mises
-from flexcage.stress.places import contact_zone, root_places
 from flexcage.stress.recovery import CageLoads, StressRecovery
 
 
@@ -157,20 +156,20 @@ def test_bases_agree_on_the_stress(recovery):
 
 
 def test_places_lie_at_the_pocket_corners(recovery):
-    places = root_places(recovery.model, POCKETS)
+    places = recovery.roots
     assert len(places) == 4 * POCKETS
     vertices = recovery.model.points[places["pocket3_root_front+x"]]
     angle = 2.0 * np.pi * 3 / POCKETS
     across = vertices @ [0.0, -np.sin(angle), np.cos(angle)]
     assert np.all(across > 3.0e-3 - 1e-9) and np.all(vertices[:, 0] > 3.6e-3)
-    zone = contact_zone(recovery.model, POCKETS)
+    zone = recovery.contact_zone
     assert len(zone) and not np.intersect1d(zone, np.concatenate(list(places.values()))).size
 
 
 def test_a_rigid_cage_is_refused(recovery):
     rigid = rigid_interface(CAGE, pocket_count=POCKETS)
     with pytest.raises(InputError, match="no stress"):
-        StressRecovery(recovery.model, recovery.basis, rigid)
+        StressRecovery(recovery.model, recovery.basis, rigid, places=recovery.places)
 
 
 def test_a_run_without_land_forces_round_the_cage_is_refused():

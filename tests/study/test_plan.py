@@ -9,8 +9,8 @@ from study_cases import short_study, study_file
 from flexcage import cli
 from flexcage.case import load_case
 from flexcage.core.errors import InputError
-from flexcage.geometry.cages import CrossbeamDefect
 from flexcage.geometry.materials import MATERIALS
+from flexcage.geometry.window_defects import CrossbeamDefect
 from flexcage.study import run
 from flexcage.study.axes import Grid, LatinHypercube, Points, Zip
 from flexcage.study.folder import Folder

@@ -9,8 +9,8 @@ from flexible_parts import shapes_at
 from scipy import sparse
 
 from flexcage.bodies.floating_frame import flexible_body
+from flexcage.case.presets import load_preset
 from flexcage.contacts.spec import Contacts, FrictionLaw, Lubricant, NormalLaw, PairSpec
-from flexcage.geometry.presets import load_preset
 from flexcage.modes.ball_interface import BallCageInterface, wall_stations
 from flexcage.system.ball_motion import MOTION
 from flexcage.system.layout import Layout

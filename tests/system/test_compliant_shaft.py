@@ -9,7 +9,7 @@ import pytest
 from bearing_runs import SOFT, march, rolling_start
 from solved_bearings import solve_bearing
 
-from flexcage.geometry.presets import load_preset
+from flexcage.case.presets import load_preset
 from flexcage.system.spec import Drive, Load
 from flexcage.system.start import find_start
 from flexcage.system.statics.options import StaticOptions

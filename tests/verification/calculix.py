@@ -20,8 +20,8 @@ from pathlib import Path
 
 import numpy as np
 
+from flexcage.case.presets import load_preset
 from flexcage.fem.model import FEModel, assemble
-from flexcage.geometry.presets import load_preset
 from flexcage.mesh.io import read_mesh
 
 ROOT = Path(__file__).resolve().parents[2]

@@ -20,12 +20,12 @@ from skfem import ElementTetP2
 from skfem.quadrature import get_quadrature
 from skfem.refdom import RefTet
 
+from flexcage.cages.build import build_cage_mesh
+from flexcage.case.presets import load_preset
 from flexcage.fem import elements
 from flexcage.fem.free import FreeBodySolver
 from flexcage.fem.modal import free_modes
 from flexcage.fem.model import FEModel, assemble
-from flexcage.geometry.presets import load_preset
-from flexcage.mesh.build import build_cage_mesh
 from flexcage.mesh.options import MeshOptions
 
 STORED = Path(__file__).parent / "data" / "calculix_7010c.json"

@@ -7,7 +7,7 @@ import pytest
 from verification_bearing import log, relative_error, with_modes
 
 from flexcage.bodies.cage import flexible_from_basis, rigid_from_tets
-from flexcage.modes.reduction import rigid_interface_of
+from flexcage.cages.build import rigid_interface_of
 from flexcage.simulate import simulate
 from flexcage.stages import cage_mesh, cage_reduction
 from flexcage.system.ball_motion import MOTION

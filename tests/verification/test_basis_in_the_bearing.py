@@ -51,6 +51,7 @@ from flexcage.stress.fields import StressFields
 from flexcage.stress.history import stress_history
 from flexcage.stress.loads import land_station_forces
 from flexcage.stress.recovery import StressRecovery
+from flexcage.stress.window_places import WINDOW_PLACES
 from flexcage.system.start import find_start
 
 TOUCH = 1e-3  # N: what counts as contact
@@ -122,7 +123,9 @@ def sample(defect: str, dynamic: str, crossbeams: bool) -> dict[str, np.ndarray]
     case = n1013(options, defects=DEFECTS[defect])
     _, cage = cage_of(case)
     fields = StressFields(
-        StressRecovery(cage.model, cage.basis, cage.interface, solver=cage.solver)
+        StressRecovery(
+            cage.model, cage.basis, cage.interface, places=WINDOW_PLACES, solver=cage.solver
+        )
     )
     runs = [statistics(case.replace("solver.tolerance", t), fields) for t in TOLERANCES]
     return {name: np.array([run[name] for run in runs]) for name in runs[0]}

@@ -17,7 +17,7 @@ from verification_bearing import (
 )  # fmt: skip
 
 from flexcage.bodies.cage import flexible_from_basis, rigid_from_tets
-from flexcage.modes.interface import rigid_interface
+from flexcage.modes.window_interface import rigid_interface
 from flexcage.simulate import simulate
 from flexcage.stages import build_bearing
 from flexcage.system.layout import Layout

@@ -10,6 +10,7 @@ from flexcage.geometry.deep_groove_ball import DeepGrooveBallBearing
 
 if TYPE_CHECKING:
     from flexcage.integrate.recording import Recording
+    from flexcage.render.shapes import ShapesOf
     from flexcage.system.motion import Motion
     from flexcage.system.statics.elements import ElementsOf
 
@@ -32,10 +33,17 @@ def _recording() -> Recording[Any]:
     return RECORDING
 
 
+def _shapes() -> ShapesOf:
+    from flexcage.render.ball_shapes import ball_shapes
+
+    return ball_shapes
+
+
 FAMILY = Family(
     name="ball",
     types=(AngularContactBallBearing, DeepGrooveBallBearing),
     statics=_statics,
     motion=_motion,
     recording=_recording,
+    shapes=_shapes,
 )

@@ -5,10 +5,11 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from flexcage.bearings.family import Family
-from flexcage.geometry.cylindrical_roller import RollerBearing
+from flexcage.geometry.cylindrical_roller import OTHER_DESIGNS, RollerBearing
 
 if TYPE_CHECKING:
     from flexcage.integrate.recording import Recording
+    from flexcage.render.shapes import ShapesOf
     from flexcage.system.motion import Motion
     from flexcage.system.statics.elements import ElementsOf
 
@@ -31,10 +32,18 @@ def _recording() -> Recording[Any]:
     return RECORDING
 
 
+def _shapes() -> ShapesOf:
+    from flexcage.render.roller_shapes import roller_shapes
+
+    return roller_shapes
+
+
 FAMILY = Family(
     name="cylindrical_roller",
     types=(RollerBearing,),
     statics=_statics,
     motion=_motion,
     recording=_recording,
+    shapes=_shapes,
+    other_designs=OTHER_DESIGNS,
 )

@@ -1,6 +1,40 @@
 """Riveted ribbon cages of deep groove ball bearings."""
 
-from flexcage.cages.cage_type import CageType
-from flexcage.geometry.ribbon_cage import RibbonCage
+from __future__ import annotations
 
-RIBBON = CageType(name="ribbon", spec=RibbonCage)
+from typing import TYPE_CHECKING
+
+from flexcage.cages.cage_type import CageType
+from flexcage.geometry.ball_cage_defects import BallCageDefect
+from flexcage.geometry.ribbon_cage import RibbonCage
+from flexcage.geometry.ribbon_defects import MissingRivet
+
+if TYPE_CHECKING:
+    from flexcage.mesh.build import MeshBuilder
+    from flexcage.modes.reduction import Interfaces
+    from flexcage.stress.places import Places
+
+
+def _mesh() -> MeshBuilder[RibbonCage]:
+    from flexcage.mesh.ribbon_build import build_ribbon_mesh
+
+    return build_ribbon_mesh
+
+
+def _interfaces() -> Interfaces[RibbonCage]:
+    from flexcage.modes.ball_interface import ROUND_INTERFACES
+
+    return ROUND_INTERFACES
+
+
+def _places() -> Places:
+    from flexcage.stress.round_places import ROUND_PLACES
+
+    return ROUND_PLACES
+
+
+RIBBON = CageType(
+    name="ribbon", spec=RibbonCage, holds=("ball",), mesh=_mesh, interfaces=_interfaces,
+    places=_places, defects=(MissingRivet,),
+    defect_spec=BallCageDefect,
+)  # fmt: skip

@@ -1,6 +1,39 @@
 """Machined window cages of cylindrical roller bearings."""
 
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
 from flexcage.cages.cage_type import CageType
 from flexcage.geometry.cages import WindowCage
+from flexcage.geometry.window_defects import CrossbeamDefect, SideBeamDefect, WindowDefect
 
-WINDOW = CageType(name="window", spec=WindowCage)
+if TYPE_CHECKING:
+    from flexcage.mesh.build import MeshBuilder
+    from flexcage.modes.reduction import Interfaces
+    from flexcage.stress.places import Places
+
+
+def _mesh() -> MeshBuilder[WindowCage]:
+    from flexcage.mesh.window_build import build_window_mesh
+
+    return build_window_mesh
+
+
+def _interfaces() -> Interfaces[WindowCage]:
+    from flexcage.modes.window_interface import WINDOW_INTERFACES
+
+    return WINDOW_INTERFACES
+
+
+def _places() -> Places:
+    from flexcage.stress.window_places import WINDOW_PLACES
+
+    return WINDOW_PLACES
+
+
+WINDOW = CageType(
+    name="window", spec=WindowCage, holds=("roller",), mesh=_mesh, interfaces=_interfaces,
+    places=_places, defects=(CrossbeamDefect, SideBeamDefect),
+    defect_spec=WindowDefect,
+)  # fmt: skip

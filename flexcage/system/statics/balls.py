@@ -16,8 +16,7 @@ import numpy as np
 from flexcage.contacts.spec import Contacts
 from flexcage.core.errors import InputError
 from flexcage.geometry.ball_bearing import BallBearing
-from flexcage.geometry.ball_catalogue import STATIC_PRESSURE, ring_share
-from flexcage.geometry.catalogue import dynamic_rating
+from flexcage.geometry.ball_ratings import STATIC_PRESSURE, ring_share
 from flexcage.geometry.hertz import PointContact
 from flexcage.system.statics.elements import ElementLoads, Response, azimuths
 from flexcage.system.statics.options import StaticOptions
@@ -43,7 +42,7 @@ def balls_of(
         cage_speed=options.cage_speed,
         gyroscopic=_SHARES[options.gyroscopic],
     )
-    rating = options.dynamic_rating or dynamic_rating(bearing)
+    rating = options.dynamic_rating or bearing.dynamic_rating
     return Balls(bearing, motion, _arms(bearing, options.tilt_arm), rating)
 
 
@@ -182,17 +181,12 @@ class Balls:
             ),
             across=across,
             along=np.stack([a[1] for a in axes], axis=1),
-            edge=self._beyond_edge(angle, across),
+            edge=self.bearing.beyond_edges(force, angle),
             centrifugal=centrifugal,
             gyroscopic=moment,
             orbital_speed=orbital_speed,
             friction=np.abs(traction) / loaded,
         )
-
-    def _beyond_edge(self, angle: np.ndarray, across: np.ndarray) -> np.ndarray:
-        b = self.bearing
-        radii = np.array([b.inner_groove_radius, b.outer_groove_radius])
-        return np.abs(angle) + across / radii - np.array(b.groove_edges)
 
     def check(self, loads: ElementLoads) -> None:
         """Angular contact bearings have no shoulder on the other side."""

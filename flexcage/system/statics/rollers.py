@@ -19,7 +19,6 @@ from scipy.optimize import brentq
 
 from flexcage.contacts.spec import Contacts
 from flexcage.core.errors import InputError
-from flexcage.geometry.catalogue import dynamic_rating
 from flexcage.geometry.cylindrical_roller import RollerBearing
 from flexcage.geometry.kinematics import epicyclic
 from flexcage.system.statics.elements import ElementLoads, Response, azimuths
@@ -60,7 +59,7 @@ def rollers_of(
         drop=drop,
         stiffness=stiffness * contacts.race.normal.stiffness_factor / len(places),
         cage_speed=cage if options.cage_speed is None else options.cage_speed,
-        rating=options.dynamic_rating or dynamic_rating(bearing),
+        rating=options.dynamic_rating or bearing.dynamic_rating,
     )
 
 

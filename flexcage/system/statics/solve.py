@@ -8,15 +8,9 @@ from flexcage.contacts.spec import Contacts, Lubricant
 from flexcage.core.errors import InputError
 from flexcage.core.threads import one_blas_thread
 from flexcage.core.units import describe
-from flexcage.geometry.ball_bearing import over_edge
 from flexcage.geometry.bearing import Bearing
-from flexcage.geometry.catalogue import (
-    dynamic_rating,
-    equivalent_load,
-    rating_names,
-    static_rating,
-)
-from flexcage.geometry.film import Film, race_film, rolling_entrainment
+from flexcage.geometry.film import Film
+from flexcage.geometry.hertz import over_edge
 from flexcage.system.spec import Load
 from flexcage.system.statics.elements import ElementLoads, Elements, ElementsOf
 from flexcage.system.statics.equilibrium import Problem, balance, tangent
@@ -70,8 +64,8 @@ def solve_bearing(
 
 def _film(bearing: Bearing, loads: ElementLoads, speed: float, lubricant: Lubricant) -> Film:
     """Film of elements that roll without slip."""
-    entrained = rolling_entrainment(bearing, loads.angle, loads.orbital_speed, speed)
-    return race_film(bearing, loads.force, entrained, lubricant.oil)
+    entrained = bearing.rolling_entrainment(loads.angle, loads.orbital_speed, speed)
+    return bearing.race_film(loads.force, entrained, lubricant.oil)
 
 
 def load_vector(load: Load) -> np.ndarray:
@@ -136,14 +130,14 @@ def posed(bearing: Bearing, elements: Elements, load: Load, options: StaticOptio
 def _ratings(
     bearing: Bearing, force: np.ndarray, options: StaticOptions, reference_life: float
 ) -> Ratings:
-    dynamic = options.dynamic_rating or dynamic_rating(bearing)
+    dynamic = options.dynamic_rating or bearing.dynamic_rating
     radial = float(np.hypot(force[1], force[2]))
-    equivalent = equivalent_load(bearing, radial, abs(float(force[0])))
+    equivalent = bearing.equivalent_load(radial, abs(float(force[0])))
     load = equivalent.load if equivalent.load > 0.0 else float("nan")  # moments are not rated
     return Ratings(
-        static=static_rating(bearing),
+        static=bearing.static_rating,
         dynamic=dynamic,
-        names=rating_names(bearing),
+        names=bearing.rating_names,
         equivalent_load=load,
         life=(dynamic / load) ** equivalent.exponent,
         reference_life=reference_life,

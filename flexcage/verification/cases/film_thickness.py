@@ -8,9 +8,9 @@ from math import log
 
 import numpy as np
 
-from flexcage.geometry.film import Film, Oil, line_film, point_film, race_film
+from flexcage.case.presets import load_preset
+from flexcage.geometry.film import Film, Oil, line_film, point_film
 from flexcage.geometry.hertz import PointContact
-from flexcage.geometry.presets import load_preset
 from flexcage.verification.known_answer import KnownAnswer, Row, Tolerance
 
 OIL = Oil(viscosity=0.02, pressure_coefficient=2e-8)
@@ -31,9 +31,9 @@ EXACT = Tolerance(1e-9, "arithmetic", absolute=True)
 
 def rows() -> Iterator[Row]:
     race = np.ones(2)
-    roller = race_film(load_preset("N1013").bearing, 185.7 * race, 12.837 * race, OIL)
+    roller = load_preset("N1013").bearing.race_film(185.7 * race, 12.837 * race, OIL)
     yield Row("N1013, 185.7 N: least, inner race", "um", 0.7743, 1e6 * roller.least[0], SAMPLE)
-    ball = race_film(load_preset("7010C-PA66").bearing, 255.0 * race, 13.37 * race, OIL)
+    ball = load_preset("7010C-PA66").bearing.race_film(255.0 * race, 13.37 * race, OIL)
     yield Row("7010C, 255 N: centre, inner race", "um", 0.7104, 1e6 * ball.central[0], SAMPLE)
     film = point_film(INNER, np.array(ROLLER_LOAD), np.array(ROLLER_SPEED), ROLLER_OIL)
     found = float(film.least)

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 from math import log, pi, sqrt
 
+from flexcage.case.presets import load_preset
 from flexcage.geometry.hertz import PointContact
-from flexcage.geometry.presets import load_preset
 from flexcage.verification.known_answer import KnownAnswer, Row, Tolerance
 
 # preset and race: axis ratio, E, F, delta*, K [N/mm^1.5]; semi-axes [mm], pressure [MPa] at 100 N

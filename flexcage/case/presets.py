@@ -1,4 +1,4 @@
-"""Presets: bearings with their cage and contacts, kept as TOML beside this module.
+"""Presets: bearings with their cage and contacts, kept as TOML in the folder data.
 
 A preset is a set of tables that a case starts from and overrides; one more .toml file in the
 data folder is one more preset, and ``register_preset`` adds a user's own file.
@@ -19,9 +19,7 @@ from flexcage.core.errors import InputError
 from flexcage.core.registry import add, check_free
 from flexcage.core.toml import read_toml
 from flexcage.core.units import parse
-from flexcage.geometry import bearings
-from flexcage.geometry.catalogue import dynamic_rating, rating_names, static_rating
-from flexcage.geometry.checks import check_geometry
+from flexcage.geometry.bearing import OTHER_DESIGNS, Bearing
 from flexcage.geometry.materials import MATERIALS, Material
 
 # specs that text may give by name
@@ -53,7 +51,7 @@ class Preset:
     @property
     def bearing(self) -> Any:
         """The bearing: the spec that its ``type`` chooses."""
-        return Binder(named=NAMED).bind(bearings.Bearing, self.tables["bearing"], "bearing")
+        return Binder(named=NAMED).bind(Bearing, self.tables["bearing"], "bearing")
 
     @property
     def cage(self) -> Any:
@@ -63,16 +61,16 @@ class Preset:
     def ratings(self) -> list[tuple[str, float, float]]:
         """Name, catalogue value and value from the preset's own inside [N] of both ratings."""
         bearing = self.bearing
-        static, dynamic = rating_names(bearing)
+        static, dynamic = bearing.rating_names
         rows = (
-            (f"static rating {static}, ISO 76", self.static_rating, static_rating(bearing)),
-            (f"dynamic rating {dynamic}, ISO 281", self.dynamic_rating, dynamic_rating(bearing)),
+            (f"static rating {static}, ISO 76", self.static_rating, bearing.static_rating),
+            (f"dynamic rating {dynamic}, ISO 281", self.dynamic_rating, bearing.dynamic_rating),
         )
         return [(name, stated, own) for name, stated, own in rows if stated is not None]
 
 
 def _folder() -> Any:
-    return resources.files("flexcage.geometry") / "data"
+    return resources.files("flexcage.case") / "data"
 
 
 def _shipped() -> list[str]:
@@ -90,7 +88,7 @@ def load_preset(name: str) -> Preset:
         return _ADDED[name]
     names = preset_names()
     if name not in names:
-        design = told_elsewhere(name, bearings.OTHER_DESIGNS)
+        design = told_elsewhere(name, OTHER_DESIGNS)
         raise InputError(
             f"bearing.preset '{name}' is not known; presets are {', '.join(names)}, and any other "
             "bearing is described by its dimensions in [bearing] and [cage]"
@@ -127,7 +125,7 @@ def register_preset(path: str | Path) -> Preset:
     try:
         preset = _preset(table)
         check_free(dict.fromkeys(_shipped()), preset.name, what="preset")
-        check_geometry(preset.bearing, preset.cage)
+        preset.bearing.check(preset.cage)
         _check_assumptions(preset)
     except InputError as exc:
         raise InputError(f"In preset '{path}': {exc}", where=exc.where, value=exc.value) from exc

@@ -4,9 +4,8 @@ from importlib import resources
 
 import pytest
 
+from flexcage.case.presets import load_preset, preset_names
 from flexcage.core.errors import InputError
-from flexcage.geometry.checks import check_geometry
-from flexcage.geometry.presets import load_preset, preset_names
 
 # value in SI, written out here a second time from the data of paper 000
 N1013 = {
@@ -45,13 +44,13 @@ def test_n1013_has_its_dimensions(room):
 @pytest.mark.parametrize("name", preset_names())
 def test_every_preset_is_possible(name):
     preset = load_preset(name)
-    check_geometry(preset.bearing, preset.cage)
+    preset.bearing.check(preset.cage)
 
 
 @pytest.mark.parametrize("name", preset_names())
 def test_assumptions_are_marked_in_both_places(name):
     """A comment beside the value and a reason in the list, for the same values."""
-    text = (resources.files("flexcage.geometry") / "data" / f"{name}.toml").read_text("utf-8")
+    text = (resources.files("flexcage.case") / "data" / f"{name}.toml").read_text("utf-8")
     commented, table = set(), ""
     for line in text.splitlines():
         if line.startswith("["):

@@ -10,17 +10,15 @@ ones lower it.
 from __future__ import annotations
 
 from math import cos, degrees, nan, sin, tan
+from typing import TYPE_CHECKING
 
 import numpy as np
 
-from flexcage.geometry.ball_bearing import BallBearing
-from flexcage.geometry.catalogue import (
-    EquivalentLoad,
-    dynamic_rating,
-    equivalent_load,
-    static_rating,
-)
+from flexcage.geometry.bearing import EquivalentLoad
 from flexcage.geometry.hertz import PointContact, load_at_pressure
+
+if TYPE_CHECKING:
+    from flexcage.geometry.ball_bearing import BallBearing
 
 STATIC_PRESSURE = 4.2e9  # Pa, ISO 76, balls
 _STRIBECK = 5.0  # ISO 76: C0r = Z Q cos(alpha)/5
@@ -107,8 +105,7 @@ def thrust_factor(gamma: float, angle: float, inner: float = 0.535, outer: float
     return reduction * _shape(gamma, max(inner, 0.535), max(outer, 0.535), 1.0)
 
 
-@static_rating.register
-def _(bearing: BallBearing) -> float:
+def static_rating(bearing: BallBearing) -> float:
     """C0r = Z D^2 cos(alpha) q/5, or C0a = Z D^2 sin(alpha) q."""
     angle, diameter = bearing.nominal_contact_angle, bearing.ball_diameter * 1e3
     thrust = bearing.is_thrust
@@ -120,8 +117,7 @@ def _(bearing: BallBearing) -> float:
     return size * (sin(angle) if thrust else cos(angle) / _STRIBECK)
 
 
-@dynamic_rating.register
-def _(bearing: BallBearing) -> float:
+def dynamic_rating(bearing: BallBearing) -> float:
     """b_m f_c (cos alpha)^0.7 Z^(2/3) D^1.8, times tan(alpha) for thrust bearings."""
     angle, diameter = bearing.nominal_contact_angle, bearing.ball_diameter * 1e3
     grooves = bearing.inner_conformity, bearing.outer_conformity
@@ -139,7 +135,7 @@ def factors(bearing: BallBearing, axial: float) -> tuple[float, float]:
     if bearing.is_thrust:
         return _at(angle, _THRUST_TABLE)
     per_ball = static_factor(bearing.gamma, 0.52, 0.53) / _STRIBECK
-    relative = per_ball * axial / static_rating(bearing)
+    relative = per_ball * axial / bearing.static_rating
     flat = [
         (column, float(np.interp(relative, _RELATIVE_LOADS[column], _LIMITS[column])), x)
         for column, x in _RADIAL_FACTORS.items()
@@ -152,8 +148,7 @@ def _at(angle: float, rows: np.ndarray) -> tuple[float, float]:
     return limit, x
 
 
-@equivalent_load.register
-def _(bearing: BallBearing, radial: float, axial: float) -> EquivalentLoad:
+def equivalent_load(bearing: BallBearing, radial: float, axial: float) -> EquivalentLoad:
     """P = Fr up to Fa/Fr = e, then X Fr + Y Fa."""
     limit, x = factors(bearing, axial)
     beyond = axial > limit * radial

@@ -1,0 +1,246 @@
+"""What all defects of cages share: each is one class that knows what it moves, its place, its
+label, its words, its check and its marks in pictures.
+
+A cage type lists the defects that it may have (``CageType.defects``). ``register_defect`` adds a
+user's own.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, ClassVar, Literal, NamedTuple, TypeVar
+
+import numpy as np
+
+from flexcage.core.binding import did_you_mean
+from flexcage.core.errors import InputError
+from flexcage.core.registry import note_source
+from flexcage.core.spec import option
+from flexcage.core.units import describe
+from flexcage.core.wings import CAGE_TYPES, Parts
+
+if TYPE_CHECKING:
+    from flexcage.geometry.cage import Cage
+
+Spec = type  # by another name, for inside a defect ``type`` is a field
+Finding = tuple[str, str, object]  # where, sentence, value
+Meaning = Literal["smaller", "larger", "moved", "crack", "sound"]
+
+_NO_DEFECTS = {
+    ".*spall.*": "[[defects]] are of the cage; a spall of a race is [bearing.outer_spall] or "
+    "[bearing.inner_spall] of a cylindrical roller bearing, and ball bearings have none"
+}
+#: Specs of defects by the name that a case gives: those of all cage types, and users' own.
+DEFECTS: Parts[Spec] = Parts(
+    CAGE_TYPES, lambda made: {name_of(kind): kind for kind in made.defects}, what="kind of defect"
+)
+_ADDED: dict[str, list[type[CageDefect]]] = {}  # by cage type: users' own
+
+
+class Reading(NamedTuple):
+    """One size of a defect: what it is called, what is asked of it [m], and what a mesh has of it,
+    place by place (n,) [m]."""
+
+    kind: str
+    asked: float
+    measured: Sequence[float]
+
+
+class Mark(NamedTuple):
+    """A row of a picture's legend: a "patch", "dashes" or a "line", what it means, and its text."""
+
+    kind: Literal["patch", "dashes", "line"]
+    meaning: Meaning
+    text: str
+
+
+class Line(NamedTuple):
+    """A line on the cage: points (n, 3) [m], and the one that must be seen for it to be drawn."""
+
+    points: np.ndarray
+    seen_at: np.ndarray
+
+
+def defect_type(name: str) -> Any:
+    """The field ``type`` of a kind of defect."""
+    return option(
+        name, doc="kind of defect", choices=DEFECTS, former=name, elsewhere=_NO_DEFECTS
+    )  # ``former``: the hash has the class
+
+
+@dataclass(frozen=True, kw_only=True)
+class CageDefect:
+    """A defect of a cage; ``type`` picks one of the kinds below.
+
+    Crossbeam or web k lies between the pockets k-1 and k.
+    """
+
+    #: Part of the cage that it is a defect of, and the name of the value that numbers this part.
+    part: ClassVar[str] = "pocket"
+
+    type: str = option(doc="kind of defect", choices=DEFECTS, elsewhere=_NO_DEFECTS)
+
+    if TYPE_CHECKING:
+
+        def __getattr__(self, name: str) -> Any:  # values of its own kind
+            ...
+
+    @property
+    def number(self) -> int:
+        """Number of its part."""
+        return int(getattr(self, self.part))
+
+    @property
+    def place(self) -> float:
+        """Place around the cage, counted in pockets."""
+        return float(self.number) if self.part == "pocket" else self.number - 0.5
+
+    def pockets(self, count: int) -> list[int]:
+        """Pockets that it touches, of ``count``; the one behind a beam or web first."""
+        if self.part == "pocket":
+            return [self.number]
+        return [(self.number - 1) % count, self.number]
+
+    @property
+    def label(self) -> str:
+        """The defect and its size, in a few words for pictures."""
+        return f"{self.part} {self.number}, {self.type.replace('_', ' ')}"
+
+    def in_words(self, count: int) -> str:
+        """What it did to a cage with ``count`` pockets: half a sentence for reports."""
+        return f"{self.part} {self.number} has a defect of the kind {self.type.replace('_', ' ')}"
+
+    def changes(self, count: int) -> Mapping[tuple[int, str], float]:
+        """Change of size [m] of pockets, by pocket and what of it; 0 for a pocket's "place"."""
+        return {}
+
+    @property
+    def legend(self) -> Sequence[Mark]:
+        """Legend of the marks of this kind of defect; patches count where a pocket has them."""
+        return ()
+
+    def way(self, count: int) -> tuple[float, np.ndarray] | None:
+        """Where wall or beam went: axial place over the cage's half width, and the unit direction;
+        None where nothing went anywhere."""
+        return None
+
+    def lines(self, points: np.ndarray, count: int) -> Sequence[Line]:
+        """Lines that mark it on a mesh with the vertices ``points`` (n, 3) [m]."""
+        return ()
+
+    def check(self, where: str, cage: Cage, count: int) -> Iterator[Finding]:
+        """What is impossible in it alone, in a cage with ``count`` pockets; it stands ``where``."""
+        yield from self.check_number(where, count)
+
+    def check_number(self, where: str, count: int) -> Iterator[Finding]:
+        """A part that is not there."""
+        if not 0 <= self.number < count:
+            yield (
+                f"{where}.{self.part}",
+                f"{where}.{self.part} is {self.number}, but the cage's {self.part}s are numbered "
+                f"0 to {count - 1}.",
+                self.number,
+            )
+
+    @classmethod
+    def check_together(cls, own: Sequence[Any], count: int) -> Iterator[Finding]:
+        """What is impossible in all defects of this kind together."""
+        return iter(())
+
+    def readings(self, mesh: Any, cage: Any, *, pitch_radius: float) -> Sequence[Reading]:
+        """What a ``mesh.cage_mesh.CageMesh`` has of it, measured from the undamaged cage."""
+        return ()
+
+
+Kind = TypeVar("Kind", bound=type[CageDefect])
+
+
+def name_of(kind: type[CageDefect]) -> str:
+    """The name by which a case asks for a kind of defect: the default of its ``type``."""
+    return str(kind.__dataclass_fields__["type"].default)
+
+
+def kinds_of(cage_type: str) -> tuple[type[CageDefect], ...]:
+    """Kinds of defects that cages of a type may have: those it lists, and users' own."""
+    return (*CAGE_TYPES[cage_type].defects, *_ADDED.get(cage_type, ()))
+
+
+def register_defect(kind: Kind, *, cages: Iterable[str]) -> Kind:
+    """Add a kind of defect for cages of some types ("window", "machined", "ribbon"):
+    ``[[defects]]`` with its ``type`` then asks for it.
+
+    ``kind`` is a frozen dataclass, derived from ``window_defects.WindowDefect`` or
+    ``ball_cage_defects.BallCageDefect`` (for a cage type of the user's own, from ``CageDefect``
+    or what its mesh wants), whose ``type`` is ``defect_type(name)``. InputError for a name that
+    is taken, a class that is no such defect or a cage type that there is not.
+    """
+    if not (isinstance(kind, type) and issubclass(kind, CageDefect)):
+        raise InputError(f"{kind!r} is no class derived from CageDefect.", where="defect")
+    for cage_type in (wanted := tuple(cages)):
+        if cage_type not in CAGE_TYPES:
+            raise InputError(
+                f"There is no cage type '{cage_type}'; "
+                f"{did_you_mean(cage_type, CAGE_TYPES, 'choose from')}.",
+                where="defect",
+                value=cage_type,
+            )
+        base = CAGE_TYPES[cage_type].defect_spec
+        if not issubclass(kind, base):
+            raise InputError(
+                f"{kind.__name__} is no {base.__name__}, as the mesh of a cage of the type "
+                f"'{cage_type}' wants it; derive it from {base.__module__}.{base.__name__}.",
+                where="defect",
+                value=cage_type,
+            )
+    DEFECTS.add(name_of(kind), kind)
+    note_source(name_of(kind), kind)
+    for cage_type in wanted:
+        _ADDED.setdefault(cage_type, []).append(kind)
+    return kind
+
+
+def refuse_foreign(defects: Sequence[CageDefect], cage_type: str) -> None:
+    """Raise InputError for a defect that cages of this type do not have."""
+    kinds = kinds_of(cage_type) if defects else ()
+    for i, defect in enumerate(defects):
+        if not isinstance(defect, kinds):
+            known = ", ".join(f"'{name_of(kind)}'" for kind in kinds)
+            raise InputError(
+                f"defects.{i}.type is '{defect.type}', but this bearing's cage is one of the "
+                f"{cage_type} cages, whose defects are {known}.",
+                where=f"defects.{i}.type",
+                value=defect.type,
+            )
+
+
+def check_each(defects: Sequence[CageDefect], cage: Cage, count: int) -> None:
+    """Raise InputError for a defect that is none of the cage's, or impossible alone or with others
+    of its kind."""
+    refuse_foreign(defects, cage.cage_type)
+    for i, defect in enumerate(defects):
+        raise_first(defect.check(f"defects.{i}", cage, count))
+    for kind in dict.fromkeys(type(defect) for defect in defects):
+        raise_first(kind.check_together([d for d in defects if type(d) is kind], count))
+
+
+def raise_first(findings: Iterable[Finding]) -> None:
+    """Raise the first finding, if any, as an InputError."""
+    for where, sentence, value in findings:
+        raise InputError(sentence, where=where, value=value)
+
+
+def around(place: float, count: int) -> np.ndarray:
+    """Unit vector towards larger azimuth at a place around the cage, counted in pockets."""
+    azimuth = 2.0 * np.pi * place / count
+    return np.array([0.0, -np.sin(azimuth), np.cos(azimuth)])
+
+
+def signed_mm(size: float) -> str:
+    """A change of size with its sign, for labels."""
+    return f"{size * 1e3:+.3g} mm".replace("-", "−")
+
+
+def mm(value: float) -> str:
+    """A length in an error."""
+    return describe(value, "mm")
