@@ -13,36 +13,7 @@ import pandas as pd
 import pytest
 
 FILE = Path(__file__).with_name("my_family.py")
-CASE = """
-name = "magnet"
-[bearing]
-type = "magnet"
-designation = "M15"
-bore = "15 mm"
-outside_diameter = "40 mm"
-width = "10 mm"
-pitch_diameter = "27.5 mm"
-ball_diameter = "5.5 mm"
-ball_count = 10
-inner_groove_radius = "2.9 mm"
-outer_groove_radius = "2.95 mm"
-radial_clearance = "15 um"
-pull = "5 N"
-[cage]
-model = "rigid"
-bore = "25 mm"
-outside_diameter = "30 mm"
-width = "9 mm"
-pocket_diameter = "5.8 mm"
-[mesh]
-fineness = "coarse"
-[drive]
-speed = "300 rpm"
-[load]
-axial = "60 N"
-[solver]
-duration = "2 ms"
-"""
+CASE = FILE.with_suffix(".toml").read_text("utf-8")
 STUDY = """
 name = "magnets"
 case = "case.toml"
