@@ -4,6 +4,7 @@ from flexcage.bearings import ball, cylindrical_roller
 from flexcage.bearings.family import (
     Family,
     family_of,
+    in_motion,
     motion_of,
     recording_of,
     statics_of,
@@ -14,4 +15,4 @@ MEMBERS = (
     ball.FAMILY,
 )
 
-__all__ = ["MEMBERS", "Family", "family_of", "motion_of", "recording_of", "statics_of"]
+__all__ = ["MEMBERS", "Family", "family_of", "in_motion", "motion_of", "recording_of", "statics_of"]

@@ -58,9 +58,20 @@ def register_family(family: Family) -> Family:
     return FAMILIES.add(family)
 
 
-def family_of(bearing: Bearing) -> Family:
-    """The family of a bearing."""
+def family_of(bearing: Bearing | type[Bearing]) -> Family:
+    """The family of a bearing, or of a spec; InputError if its spec names none that there is."""
+    if bearing.family not in FAMILIES:
+        raise InputError(
+            f"{bearing.kind.capitalize()}s are of the family '{bearing.family}', which is not "
+            "registered; flexcage.register.bearing_family adds one.",
+            where="bearing.type",
+        )
     return cast(Family, FAMILIES[bearing.family])
+
+
+def in_motion(spec: type[Bearing]) -> bool:
+    """Are there equations of motion for bearings of this spec?"""
+    return family_of(spec).motion is not None
 
 
 def statics_of(bearing: Bearing) -> ElementsOf:

@@ -8,6 +8,7 @@ from math import inf, pi
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from flexcage.bearings import in_motion
 from flexcage.cages import cage_type_of
 from flexcage.core.binding import chosen_spec, default_of, join
 from flexcage.core.errors import InputError
@@ -82,7 +83,7 @@ def refuse_without_motion(bearing: Any) -> None:
     if isinstance(bearing, Mapping):
         check_type(bearing.get("type"))
         kind = chosen_spec(Bearing, bearing)
-    if issubclass(kind, Bearing) and not kind.in_motion:
+    if issubclass(kind, Bearing) and not in_motion(kind):
         name = kind.__dataclass_fields__["type"].default
         raise InputError(
             f"bearing.type is '{name}', and the motion of {kind.kind}s is not computed yet; "

@@ -6,6 +6,7 @@ import argparse
 from pathlib import Path
 from typing import Any
 
+from flexcage.bearings import in_motion
 from flexcage.cli.files import prepare_file
 from flexcage.cli.parser import command, say
 
@@ -66,7 +67,7 @@ def presets_command(args: argparse.Namespace) -> int:
 
 def _beside(preset: Any) -> dict[str, tuple[str, str]]:
     """Assumptions of a case that names the preset and no more, beside the preset's own."""
-    if not preset.bearing.in_motion:
+    if not in_motion(type(preset.bearing)):
         return {}
     from flexcage.case import Case, words
 

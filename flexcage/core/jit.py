@@ -2,7 +2,8 @@
 
 numba's own cache looks only at the file of the compiled function: a change in a callee in
 another file goes unseen and old numbers come back. So the cache folder carries a hash of
-every source file of the package that defines kernels.
+every source file of the package that defines kernels, and kernels of the user's own one of his
+files (``kernel_cache``).
 """
 
 from __future__ import annotations

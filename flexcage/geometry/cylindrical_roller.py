@@ -108,7 +108,6 @@ class RollerBearing(Bearing):
     cage_spec: ClassVar[Spec] = WindowCage
     element: ClassVar[str] = "roller"
     family: ClassVar[str] = "cylindrical_roller"
-    in_motion: ClassVar[bool] = True
     elsewhere: ClassVar[Mapping[str, str]] = {
         "design|outer_ribs?(_.*)?|ribs?|flanges?": ONLY_N,
         "spalls?|defects?": "give a spall as [bearing.outer_spall] or [bearing.inner_spall]",

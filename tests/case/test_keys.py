@@ -5,6 +5,7 @@ from pathlib import Path
 
 import pytest
 
+from flexcage.bearings import in_motion
 from flexcage.case import Case, keys, load_case
 from flexcage.case.presets import load_preset, preset_names
 from flexcage.cli import main
@@ -13,7 +14,7 @@ from flexcage.core.binding import flat
 EXAMPLES = Path(__file__).parents[2] / "examples"
 LAWS = ("normal", "friction", "material")  # have sections of their own
 LISTS = {"defects", "constraints"}
-IN_MOTION = [name for name in preset_names() if load_preset(name).bearing.in_motion]
+IN_MOTION = [name for name in preset_names() if in_motion(type(load_preset(name).bearing))]
 
 
 def known_paths():

@@ -20,6 +20,7 @@ def test_the_cache_of_kernels_knows_every_file_that_feeds_them():
     """Named constants and plain functions reach kernels from files that compile nothing."""
     known = {f"{path.parent.name}/{path.name}" for path in kernel_sources()}
     assert {"contacts/evaluation.py", "system/data.py", "system/layout.py"} <= known
+    assert {"bearings/family.py", "cages/cage_type.py"} <= known
     assert not {"contacts/spec.py", "system/spec.py", "solve/options.py"} & known
 
 

@@ -203,3 +203,40 @@ def test_the_doctor_names_a_folder_with_little_room(tmp_path, monkeypatch):
     monkeypatch.setattr(shutil, "disk_usage", lambda path: usage)
     finding = environment._cache_folder()
     assert not finding.ok and f"{tmp_path} has 3 MB left" in finding.detail and finding.remedy
+
+
+OWN = """
+from flexcage.case import load_extension
+load_extension("mine")
+import numpy as np
+from mine.kernels import whole
+out = np.zeros(1)
+whole(2.0, out)
+print(out[0], sum(whole.stats.cache_hits.values()))
+"""
+OWN_KERNEL = """
+from flexcage.core.jit import kernel
+from mine.numbers import FACTOR
+
+@kernel
+def whole(x, out):
+    out[0] = FACTOR * x
+"""
+
+
+def test_kernels_of_a_package_follow_every_file_of_it(tmp_path):
+    """A user's kernel takes a number in from another file, which numba's own cache does not see."""
+    package = tmp_path / "mine"
+    package.mkdir()
+    (package / "__init__.py").touch()
+    (package / "kernels.py").write_text(OWN_KERNEL)
+    env = {**os.environ, "NUMBA_CACHE_DIR": str(tmp_path / "cache")}
+    env["PYTHONPATH"] = os.pathsep.join([str(tmp_path), env.get("PYTHONPATH", "")])
+    found = []
+    for factor in (3.0, 3.0, 5.0, 3.0):
+        (package / "numbers.py").write_text(f"FACTOR = {factor}\n")
+        done = subprocess.run(
+            [sys.executable, "-B", "-c", OWN], env=env, check=True, capture_output=True, text=True
+        )
+        found.append(done.stdout.split())
+    assert found == [["6.0", "0"], ["6.0", "1"], ["10.0", "0"], ["6.0", "1"]]

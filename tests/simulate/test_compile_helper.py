@@ -5,10 +5,12 @@ import signal
 import subprocess
 import sys
 import time
+from pathlib import Path
 
 import numba
 import pytest
 
+OWN = Path(__file__).parents[1] / "examples" / "my_family.py"
 STARTS = """
 import time
 import flexcage
@@ -42,3 +44,22 @@ def test_the_helper_ends_when_its_parent_is_killed(tmp_path):
     found = list(tmp_path.rglob("*.nbc"))
     assert not runs(helper)
     assert len(found) < 20, "it had compiled all that there is"
+
+
+BUILDS = """
+import sys
+sys.modules["gmsh"] = None
+from pathlib import Path
+from flexcage.stages import compile_pieces
+compile_pieces(Path(sys.argv[1]).read_text("utf-8"), sys.argv[2])
+"""
+
+
+@pytest.mark.skipif(bool(numba.config.DISABLE_JIT), reason="plain Python compiles nothing")
+def test_the_helper_knows_a_users_family_and_needs_no_mesh():
+    """It gets the case and the user's files; here no piece is left for it to compile."""
+    done = subprocess.run(
+        [sys.executable, "-c", BUILDS, str(OWN.with_suffix(".toml")), str(OWN)],
+        stdin=subprocess.DEVNULL, capture_output=True, text=True, check=False,
+    )  # fmt: skip
+    assert done.returncode == 0, done.stderr

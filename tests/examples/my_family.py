@@ -1,0 +1,90 @@
+"""A user's own bearing family: balls that a magnet in the outer ring pulls outwards."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from types import FunctionType
+from typing import ClassVar, NamedTuple
+
+from flexcage.bearings.ball import FAMILY as BALLS
+from flexcage.bodies.floating_frame import BodyData
+from flexcage.contacts.ball_pocket import BallPockets
+from flexcage.contacts.evaluation import REPORT
+from flexcage.contacts.groove import Groove
+from flexcage.contacts.land import LandData
+from flexcage.core.jit import fields, part
+from flexcage.core.spec import option, quantity
+from flexcage.geometry.bearing import BEARING_TYPES
+from flexcage.geometry.deep_groove_ball import DeepGrooveBallBearing
+from flexcage.register import bearing_family
+from flexcage.system.data import GRAVITY, Bodies
+from flexcage.system.layout import PER_ELEMENT, places
+from flexcage.system.motion import Motion, parts_type
+
+MOTION_OF_BALLS = BALLS.motion()
+
+
+@dataclass(frozen=True, kw_only=True)
+class MagnetBearing(DeepGrooveBallBearing):
+    """A deep groove ball bearing with a magnet."""
+
+    kind: ClassVar[str] = "magnet bearing"
+    family: ClassVar[str] = "magnet"
+    type: str = option("magnet", doc="type of bearing", choices=BEARING_TYPES)
+    pull: float = quantity("N", 0.0, doc="pull on a ball, outwards", minimum=0.0)
+
+
+class Magnet(NamedTuple):
+    pull: float
+
+
+class MagnetModel(NamedTuple):
+    bodies: Bodies
+    cage: BodyData
+    inner: Groove
+    outer: Groove
+    pocket: BallPockets
+    land: LandData
+    magnet: Magnet
+
+
+MagnetParts = parts_type("MagnetParts", MagnetModel, __name__)
+
+
+def build_model(bearing, *args, **kwargs):
+    return MagnetModel(
+        *MOTION_OF_BALLS.build_model(bearing, *args, **kwargs), Magnet(float(bearing.pull))
+    )
+
+
+# a part for this module: what the balls' own family compiles stays as it is
+_balls = part(FunctionType(MOTION_OF_BALLS.evaluate.__code__, MOTION_OF_BALLS.evaluate.__globals__))
+
+
+def evaluate(t, y, yd, d, law, out, mode):
+    """The balls' rows, and the pull in that of each along its radius; its power is gravity's."""
+    _balls(t, y, yd, d, law, out, mode)
+    Z = fields(d.bodies).radius.shape[0]
+    at = places(Z, fields(d.pocket).phi_max.shape[0]).u
+    for i in range(Z):
+        radial = at + PER_ELEMENT * i + 1
+        out[radial] -= fields(d.magnet).pull
+        if mode >= REPORT:
+            fields(d.report).power[GRAVITY] += fields(d.magnet).pull * y[radial]
+
+
+MOTION = Motion(
+    element="ball",
+    build_model=build_model,
+    parts=MagnetParts,
+    new_work=MOTION_OF_BALLS.new_work,
+    evaluate=evaluate,
+    apart=MOTION_OF_BALLS.apart,
+    implicit=False,
+    faces=MOTION_OF_BALLS.faces,
+    ribs=(),
+    start=MOTION_OF_BALLS.start,
+    error_weights=MOTION_OF_BALLS.error_weights,
+)
+
+bearing_family(replace(BALLS, name="magnet", types=(MagnetBearing,), motion=lambda: MOTION))

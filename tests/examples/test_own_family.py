@@ -1,0 +1,79 @@
+"""A family from outside, with a model and equations of its own: one file, and it runs as any other,
+its kernels are kept, and a study's workers know it."""
+
+import os
+import re
+import subprocess
+import sys
+from math import hypot, sqrt
+from pathlib import Path
+
+import numba
+import pandas as pd
+import pytest
+
+FILE = Path(__file__).with_name("my_family.py")
+CASE = FILE.with_suffix(".toml").read_text("utf-8")
+STUDY = """
+name = "magnets"
+case = "case.toml"
+outputs = ["race_force_outer"]
+[[axes]]
+path = "bearing.pull"
+values = ["2 N"]
+"""
+# indices of the cache, as a process reads them that has not loaded the family
+READ = """
+import pickle, sys
+from pathlib import Path
+import flexcage.core.jit
+for index in Path(sys.argv[1]).rglob("*.nbi"):
+    with open(index, "rb") as file:
+        pickle.load(file), pickle.load(file)
+"""
+PEAKS = r"Inner race on an element, peak +([\d.]+).*Outer race on an element, peak +([\d.]+)"
+
+
+def on_outer_race(inner: float, *, pull: float) -> float:
+    """Force [N] on the outer race of a ball that the inner one presses with ``inner``: both pass on
+    a tenth of the axial load, and the outer one the pull as well."""
+    axial = 6.0
+    return hypot(axial, sqrt(inner**2 - axial**2) + pull)
+
+
+def kernels(folder: Path) -> dict[str, int]:
+    return {str(p): p.stat().st_mtime_ns for p in folder.rglob("*.nbc")}
+
+
+@pytest.mark.skipif(bool(numba.config.DISABLE_JIT), reason="plain Python compiles nothing")
+def test_a_family_of_ones_own(tmp_path):
+    """The outer race bears what the inner does and the magnet's pull."""
+    (tmp_path / "case.toml").write_text(CASE)
+    (tmp_path / "study.toml").write_text(STUDY)
+    cache = tmp_path / "cache"
+    env = {**os.environ, "NUMBA_CACHE_DIR": str(cache)}
+
+    def flexcage(*args):
+        command = [sys.executable, "-m", "flexcage.cli", *args, "--use", str(FILE)]
+        done = subprocess.run(
+            command, capture_output=True, text=True, cwd=tmp_path, env=env, check=False
+        )
+        assert done.returncode == 0, done.stderr
+        return done
+
+    first = flexcage("run", "case.toml", "-o", "first", "--no-images")
+    assert "compiling the kernels for the first time" in first.stderr
+    inner, outer = map(float, re.search(PEAKS, first.stdout, re.DOTALL).groups())
+    assert outer == pytest.approx(on_outer_race(inner, pull=5.0), rel=0.01)
+    compiled = kernels(cache)
+    subprocess.run([sys.executable, "-P", "-c", READ, str(cache)], cwd=tmp_path, check=True)
+    changed = ("--set", "bearing.pull=2 N")
+    second = flexcage("run", "case.toml", "-o", "second", "--no-images", *changed)
+    assert "compiling" not in second.stderr
+    inner, outer = map(float, re.search(PEAKS, second.stdout, re.DOTALL).groups())
+    assert outer == pytest.approx(on_outer_race(inner, pull=2.0), rel=0.01)
+    flexcage("study", "run", "study.toml", "-o", "study", "--workers", "1")
+    table = pd.read_parquet(tmp_path / "study" / "table.parquet")
+    assert list(table["state"]) == ["done"]
+    assert table["race_force_outer [N]"][0] == pytest.approx(outer, rel=1e-4)
+    assert kernels(cache) == compiled
