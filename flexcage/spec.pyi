@@ -1,3 +1,23 @@
+from flexcage.bearings.ball.angular_contact import (
+    AngularContactBallBearing as AngularContactBallBearing,
+)
+from flexcage.bearings.ball.bearing import BallBearing as BallBearing
+from flexcage.bearings.ball.deep_groove import DeepGrooveBallBearing as DeepGrooveBallBearing
+from flexcage.bearings.cylindrical_roller.bearing import RollerBearing as RollerBearing
+from flexcage.bearings.cylindrical_roller.bearing import RollerProfile as RollerProfile
+from flexcage.bearings.cylindrical_roller.bearing import Spall as Spall
+from flexcage.cages.machined.cage import BallCage as BallCage
+from flexcage.cages.machined.defects import BallCageDefect as BallCageDefect
+from flexcage.cages.machined.defects import DisplacedPocket as DisplacedPocket
+from flexcage.cages.machined.defects import ElongatedPocket as ElongatedPocket
+from flexcage.cages.machined.defects import EnlargedPocket as EnlargedPocket
+from flexcage.cages.machined.defects import WebCrack as WebCrack
+from flexcage.cages.ribbon.cage import RibbonCage as RibbonCage
+from flexcage.cages.ribbon.defects import MissingRivet as MissingRivet
+from flexcage.cages.window.cage import WindowCage as WindowCage
+from flexcage.cages.window.defects import CrossbeamDefect as CrossbeamDefect
+from flexcage.cages.window.defects import SideBeamDefect as SideBeamDefect
+from flexcage.cages.window.defects import WindowDefect as WindowDefect
 from flexcage.contacts.spec import Contacts as Contacts
 from flexcage.contacts.spec import EhlTraction as EhlTraction
 from flexcage.contacts.spec import FrictionLaw as FrictionLaw
@@ -5,32 +25,12 @@ from flexcage.contacts.spec import LandSpec as LandSpec
 from flexcage.contacts.spec import Lubricant as Lubricant
 from flexcage.contacts.spec import NormalLaw as NormalLaw
 from flexcage.contacts.spec import PairSpec as PairSpec
-from flexcage.geometry.angular_contact_ball import (
-    AngularContactBallBearing as AngularContactBallBearing,
-)
-from flexcage.geometry.ball_bearing import BallBearing as BallBearing
-from flexcage.geometry.ball_cage_defects import BallCageDefect as BallCageDefect
-from flexcage.geometry.ball_cage_defects import DisplacedPocket as DisplacedPocket
-from flexcage.geometry.ball_cage_defects import ElongatedPocket as ElongatedPocket
-from flexcage.geometry.ball_cage_defects import EnlargedPocket as EnlargedPocket
-from flexcage.geometry.ball_cage_defects import WebCrack as WebCrack
-from flexcage.geometry.ball_cages import BallCage as BallCage
 from flexcage.geometry.bearing import Bearing as Bearing
 from flexcage.geometry.bearing import RingLand as RingLand
 from flexcage.geometry.cage import Cage as Cage
-from flexcage.geometry.cages import WindowCage as WindowCage
-from flexcage.geometry.cylindrical_roller import RollerBearing as RollerBearing
-from flexcage.geometry.cylindrical_roller import RollerProfile as RollerProfile
-from flexcage.geometry.cylindrical_roller import Spall as Spall
-from flexcage.geometry.deep_groove_ball import DeepGrooveBallBearing as DeepGrooveBallBearing
 from flexcage.geometry.defect import CageDefect as CageDefect
 from flexcage.geometry.materials import MATERIALS as MATERIALS
 from flexcage.geometry.materials import Material as Material
-from flexcage.geometry.ribbon_cage import RibbonCage as RibbonCage
-from flexcage.geometry.ribbon_defects import MissingRivet as MissingRivet
-from flexcage.geometry.window_defects import CrossbeamDefect as CrossbeamDefect
-from flexcage.geometry.window_defects import SideBeamDefect as SideBeamDefect
-from flexcage.geometry.window_defects import WindowDefect as WindowDefect
 from flexcage.mesh.options import MeshOptions as MeshOptions
 from flexcage.modes.spec import DampingBand as DampingBand
 from flexcage.modes.spec import ModesSpec as ModesSpec

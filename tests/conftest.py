@@ -50,8 +50,8 @@ def n1013():
 @pytest.fixture(scope="session")
 def build_parts(n1013):
     """build_parts(...) -> model of the N1013; keywords replace specs or their values."""
+    from flexcage.bearings.cylindrical_roller.model import build_roller_model
     from flexcage.contacts.spec import Contacts, Lubricant
-    from flexcage.system.roller_model import build_roller_model
     from flexcage.system.spec import Drive, Load, Mount
 
     def build(

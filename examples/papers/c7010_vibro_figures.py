@@ -9,8 +9,8 @@ import numpy as np
 from ball_claim import by_parts, estimate
 
 import flexcage
+from flexcage.bearings.ball.slip import slip_ratio
 from flexcage.results import metrics
-from flexcage.results.ball_slip import slip_ratio
 from flexcage.results.reductions import main_line, mean_frequency
 from flexcage.results.statistics import Windows, roller_passes
 from flexcage.study.verdicts import Estimate

@@ -12,13 +12,13 @@ import numpy as np
 from n1013_view import BASE, PAPER, SHORTER, STRESS, View, shown
 
 from flexcage import Case
+from flexcage.cages.window.places import WINDOW_PLACES
 from flexcage.fem.free import FreeBodySolver
 from flexcage.fem.model import assemble
 from flexcage.mesh.cage_mesh import CageMesh
 from flexcage.stages import build_bearing, cage_mesh, cage_reduction
 from flexcage.stress.operators import VertexStress, von_mises
 from flexcage.stress.recovery import CageLoads, StressRecovery
-from flexcage.stress.window_places import WINDOW_PLACES
 from flexcage.study.verdicts import FAILS, HOLDS, Line, Verdict
 from flexcage.system.start import find_start
 

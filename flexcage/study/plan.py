@@ -9,6 +9,7 @@ from itertools import product
 from math import prod
 from operator import or_
 
+from flexcage.bearings.cylindrical_roller.model import END_POINTS
 from flexcage.case import Case
 from flexcage.case.tables import ALIASES
 from flexcage.core.errors import InputError
@@ -20,7 +21,6 @@ from flexcage.study.outputs import check_outputs
 from flexcage.study.spec import Study
 from flexcage.system.constraints import names_of
 from flexcage.system.layout import CONSTRAINTS
-from flexcage.system.roller_model import END_POINTS
 
 #: What tables hold of every case or point beside labels, values that vary, and outputs.
 COLUMNS = ("point", "repetition", "state", "reason", "warnings", "seconds", "hash", "done")

@@ -8,10 +8,10 @@ from math import pi, radians
 import numpy as np
 
 from flexcage.bearings import statics_of
+from flexcage.bearings.ball.angular_contact import AngularContactBallBearing
+from flexcage.bearings.ball.bearing import BallBearing
+from flexcage.bearings.ball.deep_groove import DeepGrooveBallBearing
 from flexcage.case.presets import load_preset
-from flexcage.geometry.angular_contact_ball import AngularContactBallBearing
-from flexcage.geometry.ball_bearing import BallBearing
-from flexcage.geometry.deep_groove_ball import DeepGrooveBallBearing
 from flexcage.geometry.materials import Material
 from flexcage.system.spec import Load
 from flexcage.system.statics.options import StaticOptions

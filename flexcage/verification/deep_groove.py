@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
+from flexcage.bearings.ball.bearing import BallBearing
+from flexcage.cages.machined.cage import BallCage
 from flexcage.case import Case
-from flexcage.geometry.ball_bearing import BallBearing
-from flexcage.geometry.ball_cages import BallCage
 from flexcage.mesh.options import MeshOptions
 from flexcage.system.spec import Load
 

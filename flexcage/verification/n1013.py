@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from flexcage.bearings import recording_of
+from flexcage.bearings.cylindrical_roller.start import geometric_guess
 from flexcage.case import Case, load_case
 from flexcage.integrate.integration import Integration
 from flexcage.integrate.recorded import new_store
@@ -17,7 +18,6 @@ from flexcage.modes.reduction import CageReduction
 from flexcage.modes.spec import ModesSpec
 from flexcage.stages import build_bearing, cage_mesh, cage_reduction
 from flexcage.system.problem import Bearing
-from flexcage.system.roller_start import geometric_guess
 from flexcage.system.start import Start
 
 BASE = {

@@ -7,11 +7,11 @@ import pytest
 
 from flexcage.bearings import family_of, motion_of, recording_of, statics_of
 from flexcage.bearings.ball import FAMILY as BALLS
+from flexcage.bearings.ball.deep_groove import DeepGrooveBallBearing
 from flexcage.bearings.family import register_family
 from flexcage.case.presets import load_preset
 from flexcage.core.errors import InputError
 from flexcage.core.wings import FAMILIES
-from flexcage.geometry.deep_groove_ball import DeepGrooveBallBearing
 
 
 @dataclass(frozen=True, kw_only=True)

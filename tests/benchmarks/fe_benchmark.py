@@ -8,11 +8,11 @@ import time
 from typing import Any
 
 import flexcage
+from flexcage.cages.window.interface import cage_interface
 from flexcage.core.timing import Stages
 from flexcage.fem.free import FreeBodySolver
 from flexcage.fem.model import assemble
 from flexcage.modes.registry import build_basis
-from flexcage.modes.window_interface import cage_interface
 from flexcage.stages import cage_mesh
 
 QUICK: dict[str, Any] = {}  # whether it runs: what takes long is the case's

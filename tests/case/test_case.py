@@ -7,12 +7,12 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from flexcage.cages.window.defects import CrossbeamDefect, SideBeamDefect
 from flexcage.case import Case, load_case
 from flexcage.case.checks import not_reached
 from flexcage.contacts.spec import FrictionLaw
 from flexcage.core.errors import InputError
 from flexcage.geometry.materials import MATERIALS
-from flexcage.geometry.window_defects import CrossbeamDefect, SideBeamDefect
 
 EXAMPLE = Path(__file__).parents[2] / "examples" / "n1013.toml"
 MINIMAL = '[bearing]\npreset = "N1013"\n'

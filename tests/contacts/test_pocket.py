@@ -9,12 +9,12 @@ import pytest
 from contact_kernels import pocket, turned
 from scipy.optimize import brentq, minimize
 
+from flexcage.cages.window.defects import CrossbeamDefect
 from flexcage.contacts import laws
 from flexcage.contacts.evaluation import DAMPED, RUBBED, STORED
 from flexcage.contacts.pocket_wall import N_FACE, N_LOCAL, most_of_curve, with_end_stations
 from flexcage.contacts.spec import Contacts, FrictionLaw, NormalLaw, PairSpec
 from flexcage.core.splines import smooth_weights
-from flexcage.geometry.window_defects import CrossbeamDefect
 from flexcage.modes.basis import CageInterface
 
 PITCH = 41.25e-3

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from contact_kernels import race, turned
 
+from flexcage.bearings.cylindrical_roller.bearing import RollerProfile, Spall
 from flexcage.contacts import laws
 from flexcage.contacts.evaluation import (
     DAMPED,
@@ -20,7 +21,6 @@ from flexcage.contacts.evaluation import (
     TRACTION,
 )
 from flexcage.contacts.spec import Contacts, FrictionLaw, NormalLaw, PairSpec
-from flexcage.geometry.cylindrical_roller import RollerProfile, Spall
 from flexcage.verification.law_values import rolling
 
 

@@ -5,8 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import ClassVar
 
+from flexcage.bearings.ball.deep_groove import DeepGrooveBallBearing
 from flexcage.geometry.bearing import bearing_type, type_name
-from flexcage.geometry.deep_groove_ball import DeepGrooveBallBearing
 
 
 @bearing_type

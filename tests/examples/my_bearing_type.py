@@ -8,8 +8,8 @@ from typing import ClassVar
 import numpy as np
 
 from flexcage.bearings import Family
+from flexcage.cages.machined.cage import BallCage
 from flexcage.core.spec import option, quantity
-from flexcage.geometry.ball_cages import BallCage
 from flexcage.geometry.bearing import (
     Bearing,
     EquivalentLoad,

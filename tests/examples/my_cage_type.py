@@ -11,8 +11,8 @@ import numpy as np
 from flexcage import register
 from flexcage.cages import CageType
 from flexcage.cages.machined import MACHINED
+from flexcage.cages.machined.cage import BALL_CAGES, BallCage
 from flexcage.core.spec import option, quantity
-from flexcage.geometry.ball_cages import BALL_CAGES, BallCage
 from flexcage.mesh.build import MeshBuilder
 from flexcage.mesh.cage_mesh import CageMesh
 from flexcage.mesh.options import MeshOptions

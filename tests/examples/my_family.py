@@ -7,6 +7,7 @@ from types import FunctionType
 from typing import ClassVar, NamedTuple
 
 from flexcage.bearings.ball import FAMILY as BALLS
+from flexcage.bearings.ball.deep_groove import DeepGrooveBallBearing
 from flexcage.bodies.floating_frame import BodyData
 from flexcage.contacts.ball_pocket import BallPockets
 from flexcage.contacts.evaluation import REPORT
@@ -15,7 +16,6 @@ from flexcage.contacts.land import LandData
 from flexcage.core.jit import fields, part
 from flexcage.core.spec import option, quantity
 from flexcage.geometry.bearing import BEARING_TYPES
-from flexcage.geometry.deep_groove_ball import DeepGrooveBallBearing
 from flexcage.register import bearing_family
 from flexcage.system.data import GRAVITY, Bodies
 from flexcage.system.layout import PER_ELEMENT, places

@@ -17,6 +17,9 @@ import pytest
 from flexcage import register
 from flexcage.cages.build import build_cage_mesh, rigid_interface_of
 from flexcage.cages.window import WINDOW
+from flexcage.cages.window.cage import ROLLER_CAGES, WindowCage
+from flexcage.cages.window.defects import SideBeamDefect
+from flexcage.cages.window.measure import pocket_size
 from flexcage.case import Case
 from flexcage.case.words import in_words
 from flexcage.core import registry
@@ -24,9 +27,6 @@ from flexcage.core.errors import InputError
 from flexcage.core.spec import option
 from flexcage.core.wings import CAGE_TYPES
 from flexcage.geometry import defect as defects
-from flexcage.geometry.cages import ROLLER_CAGES, WindowCage
-from flexcage.geometry.window_defects import SideBeamDefect
-from flexcage.mesh.window_measure import pocket_size
 from flexcage.render.mesh_pictures import mesh_picture
 
 HERE = Path(__file__).parent

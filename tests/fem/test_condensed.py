@@ -7,18 +7,18 @@ import numpy as np
 import pytest
 
 from flexcage.cages.build import build_cage_mesh
+from flexcage.cages.machined.cage import BallCage
+from flexcage.cages.machined.defects import EnlargedPocket, WebCrack
+from flexcage.cages.ribbon.defects import MissingRivet
+from flexcage.cages.window.cage import WindowCage
+from flexcage.cages.window.defects import CrossbeamDefect, SideBeamDefect
 from flexcage.case.presets import load_preset
 from flexcage.fem.condensed import CondensedRing
 from flexcage.fem.dissected import DissectedBody
 from flexcage.fem.free import FreeBodySolver, HeldBody
 from flexcage.fem.modal import free_modes
 from flexcage.fem.model import assemble
-from flexcage.geometry.ball_cage_defects import EnlargedPocket, WebCrack
-from flexcage.geometry.ball_cages import BallCage
-from flexcage.geometry.cages import WindowCage
 from flexcage.geometry.materials import MATERIALS
-from flexcage.geometry.ribbon_defects import MissingRivet
-from flexcage.geometry.window_defects import CrossbeamDefect, SideBeamDefect
 from flexcage.mesh.options import MeshOptions
 from flexcage.modes.pockets import pocket_loads
 from flexcage.verification.solids import ring

@@ -6,9 +6,9 @@ from math import acos, cos, degrees, radians, sin
 import numpy as np
 import pytest
 
+from flexcage.bearings.ball.ratings import static_factor
 from flexcage.case.presets import load_preset
 from flexcage.core.errors import InputError
-from flexcage.geometry.ball_ratings import static_factor
 
 PRESET = load_preset("7010C-PA66")
 BEARING, CAGE = PRESET.bearing, PRESET.cage

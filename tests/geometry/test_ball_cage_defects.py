@@ -7,9 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from flexcage.case.presets import load_preset
-from flexcage.core.errors import InputError
-from flexcage.geometry.ball_cage_defects import (
+from flexcage.cages.machined.defects import (
     DisplacedPocket,
     ElongatedPocket,
     EnlargedPocket,
@@ -18,7 +16,9 @@ from flexcage.geometry.ball_cage_defects import (
     wall_reach,
     web_thickness,
 )
-from flexcage.geometry.window_defects import SideBeamDefect
+from flexcage.cages.window.defects import SideBeamDefect
+from flexcage.case.presets import load_preset
+from flexcage.core.errors import InputError
 
 MM = 1e-3
 PRESET = load_preset("7603025")

@@ -5,10 +5,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from flexcage.bearings.cylindrical_roller.bearing import RollerProfile
+from flexcage.cages.window.defects import CrossbeamDefect, SideBeamDefect
 from flexcage.case.presets import load_preset
 from flexcage.core.errors import InputError
-from flexcage.geometry.cylindrical_roller import RollerProfile
-from flexcage.geometry.window_defects import CrossbeamDefect, SideBeamDefect
 
 PRESET = load_preset("N1013")
 BEARING, CAGE = PRESET.bearing, PRESET.cage

@@ -7,11 +7,11 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
+from flexcage.cages.machined.cage import BallCage
+from flexcage.cages.ribbon.cage import RibbonCage
 from flexcage.case import load_case
 from flexcage.case.presets import load_preset
 from flexcage.core.errors import InputError
-from flexcage.geometry.ball_cages import BallCage
-from flexcage.geometry.ribbon_cage import RibbonCage
 
 PRESET = load_preset("15x37x10")
 CAGE = PRESET.cage

@@ -8,7 +8,7 @@ from functools import cache
 import pytest
 
 from flexcage.cages.build import build_cage_mesh
-from flexcage.geometry.cages import WindowCage
+from flexcage.cages.window.cage import WindowCage
 from flexcage.mesh.cage_mesh import CageMesh
 from flexcage.mesh.options import MeshOptions
 

@@ -9,16 +9,16 @@ import numpy as np
 import pytest
 
 from flexcage.cages.build import build_cage_mesh
-from flexcage.case.presets import load_preset
-from flexcage.core.errors import InputError
-from flexcage.geometry.ball_cage_defects import (
+from flexcage.cages.machined.cage import BallCage
+from flexcage.cages.machined.defects import (
     DisplacedPocket,
     ElongatedPocket,
     EnlargedPocket,
     WebCrack,
 )
-from flexcage.geometry.ball_cages import BallCage
-from flexcage.mesh.ball_measure import crack_length, measure_pockets
+from flexcage.cages.machined.measure import crack_length, measure_pockets
+from flexcage.case.presets import load_preset
+from flexcage.core.errors import InputError
 from flexcage.mesh.cage_mesh import CageMesh, group_names
 from flexcage.mesh.io import read_mesh, write_mesh
 from flexcage.mesh.measure import in_pocket_frame

@@ -185,7 +185,7 @@ def test_mass_properties(n1013):
 
 
 def test_any_other_cage_is_meshed_too():
-    from flexcage.geometry.cages import WindowCage
+    from flexcage.cages.window.cage import WindowCage
 
     cage = WindowCage(
         bore=0.2, outside_diameter=0.23, width=0.06, pocket_width=0.02, pocket_length=0.04,

@@ -5,16 +5,16 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from flexcage.core.errors import InputError
-from flexcage.geometry.window_defects import (
+from flexcage.cages.window.defects import (
     CrossbeamDefect,
     SideBeamDefect,
     clamped_beam,
     pocket_changes,
 )
+from flexcage.cages.window.measure import pocket_size
+from flexcage.core.errors import InputError
 from flexcage.mesh.measure import in_pocket_frame
 from flexcage.mesh.quality import check_mesh, report_mesh
-from flexcage.mesh.window_measure import pocket_size
 
 MM = 1e-3
 SHAPES = ("bent", "shifted")

@@ -11,8 +11,8 @@ import numpy as np
 import pytest
 
 from flexcage.cages.build import build_cage_mesh
+from flexcage.cages.window.defects import CrossbeamDefect
 from flexcage.core.errors import InputError
-from flexcage.geometry.window_defects import CrossbeamDefect
 from flexcage.mesh.cage_mesh import group_names
 from flexcage.mesh.io import read_mesh, write_mesh
 from flexcage.mesh.measure import in_pocket_frame

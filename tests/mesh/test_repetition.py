@@ -8,11 +8,11 @@ import pytest
 from own_mesh import renumbered
 
 from flexcage.cages.build import build_cage_mesh
+from flexcage.cages.machined.cage import BallCage
+from flexcage.cages.machined.defects import WebCrack
+from flexcage.cages.window.cage import WindowCage
+from flexcage.cages.window.defects import CrossbeamDefect, SideBeamDefect
 from flexcage.fem.sectors import rotation_x
-from flexcage.geometry.ball_cage_defects import WebCrack
-from flexcage.geometry.ball_cages import BallCage
-from flexcage.geometry.cages import WindowCage
-from flexcage.geometry.window_defects import CrossbeamDefect, SideBeamDefect
 from flexcage.mesh.io import read_mesh, write_mesh
 from flexcage.mesh.options import MeshOptions
 from flexcage.mesh.repetition import find_repetition

@@ -9,9 +9,9 @@ import pytest
 from scipy.stats import qmc
 
 from flexcage.cages.build import build_cage_mesh
+from flexcage.cages.ribbon.cage import HEAD_HEIGHT
+from flexcage.cages.ribbon.defects import MissingRivet
 from flexcage.case.presets import load_preset
-from flexcage.geometry.ribbon_cage import HEAD_HEIGHT
-from flexcage.geometry.ribbon_defects import MissingRivet
 from flexcage.mesh.measure import in_pocket_frame
 from flexcage.mesh.options import MeshOptions
 from flexcage.mesh.quality import check_mesh, report_mesh

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from flexcage.cages.build import build_cage_mesh
-from flexcage.geometry.ball_cage_defects import (
+from flexcage.cages.machined.cage import BallCage
+from flexcage.cages.machined.defects import (
     DisplacedPocket,
     ElongatedPocket,
     EnlargedPocket,
     WebCrack,
 )
-from flexcage.geometry.ball_cages import BallCage
 from flexcage.geometry.materials import MATERIALS
 from flexcage.mesh.options import MeshOptions
 

@@ -8,8 +8,8 @@ import numpy as np
 import scipy.sparse as sp
 
 from flexcage.cages.build import build_cage_mesh
-from flexcage.geometry.cages import WindowCage
-from flexcage.geometry.window_defects import CrossbeamDefect, SideBeamDefect
+from flexcage.cages.window.cage import WindowCage
+from flexcage.cages.window.defects import CrossbeamDefect, SideBeamDefect
 from flexcage.mesh.options import MeshOptions
 
 POCKETS = 12

@@ -9,6 +9,7 @@ from own_mesh import renumbered
 
 import flexcage
 from flexcage.cages.build import reduction_of
+from flexcage.cages.window.places import WINDOW_PLACES
 from flexcage.core import pace
 from flexcage.mesh.io import write_mesh
 from flexcage.mesh.options import MeshOptions
@@ -16,7 +17,6 @@ from flexcage.modes.reduction import CageReduction
 from flexcage.stages import cage_mesh
 from flexcage.stress.fields import StressFields
 from flexcage.stress.recovery import StressRecovery
-from flexcage.stress.window_places import WINDOW_PLACES
 
 
 @pytest.fixture

@@ -8,14 +8,7 @@ from modes_ball_cage import BALL_CAGE, BALL_DEFECTS, POCKETS, ball_mesh
 from modes_cage import assert_same_fields
 
 from flexcage.cages.build import reduce_cage, rigid_interface_of
-from flexcage.core.errors import InputError
-from flexcage.fem.free import FreeBodySolver
-from flexcage.fem.modal import free_modes
-from flexcage.fem.model import assemble
-from flexcage.fem.symmetry import find_symmetry
-from flexcage.geometry.materials import MATERIALS, Material
-from flexcage.modes import reduction
-from flexcage.modes.ball_interface import (
+from flexcage.cages.machined.interface import (
     ball_cage_interface,
     indentations,
     mean_indentation,
@@ -23,6 +16,13 @@ from flexcage.modes.ball_interface import (
     wall_normals,
     wall_stations,
 )
+from flexcage.core.errors import InputError
+from flexcage.fem.free import FreeBodySolver
+from flexcage.fem.modal import free_modes
+from flexcage.fem.model import assemble
+from flexcage.fem.symmetry import find_symmetry
+from flexcage.geometry.materials import MATERIALS, Material
+from flexcage.modes import reduction
 from flexcage.modes.pockets import pocket_frame
 from flexcage.modes.registry import build_basis
 from flexcage.modes.spec import ModesSpec

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 from modes_cage import CAGE, POCKETS
 
+from flexcage.cages.window.interface import cage_interface
 from flexcage.core.errors import InputError
 from flexcage.core.hashing import content_hash
 from flexcage.fem.free import FreeBodySolver
@@ -14,7 +15,6 @@ from flexcage.modes import registry, ritz
 from flexcage.modes.pockets import pocket_loads
 from flexcage.modes.registry import build_basis
 from flexcage.modes.spec import DampingBand, ModesSpec
-from flexcage.modes.window_interface import cage_interface
 
 
 def dynamic_answer(basis, loads):

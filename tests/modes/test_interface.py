@@ -4,12 +4,12 @@ import numpy as np
 import pytest
 from modes_cage import CAGE, DEFECTS, POCKETS, cage_mesh
 
+from flexcage.cages.window.defects import CrossbeamDefect
+from flexcage.cages.window.interface import cage_interface, rigid_interface, station_weights
 from flexcage.fem.model import assemble
 from flexcage.geometry.materials import MATERIALS
-from flexcage.geometry.window_defects import CrossbeamDefect
 from flexcage.modes.pockets import NORMALS, pocket_frame, pocket_loads
 from flexcage.modes.table import mode_table
-from flexcage.modes.window_interface import cage_interface, rigid_interface, station_weights
 
 
 @pytest.fixture(scope="module")

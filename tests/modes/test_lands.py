@@ -4,12 +4,12 @@ import numpy as np
 import pytest
 from modes_cage import CAGE, POCKETS
 
+from flexcage.cages.window.interface import cage_interface
 from flexcage.core.errors import InputError
 from flexcage.modes.lands import HARMONICS, land_loads
 from flexcage.modes.pockets import pocket_frame, pocket_loads
 from flexcage.modes.registry import build_basis
 from flexcage.modes.spec import ModesSpec
-from flexcage.modes.window_interface import cage_interface
 
 
 def with_lands(solver, **options):

@@ -12,10 +12,10 @@ import numpy as np
 import pytest
 
 from flexcage.cages.build import build_cage_mesh
+from flexcage.cages.window.cage import WindowCage
 from flexcage.fem.free import FreeBodySolver
 from flexcage.fem.modal import free_modes
 from flexcage.fem.model import assemble
-from flexcage.geometry.cages import WindowCage
 from flexcage.geometry.materials import MATERIALS
 from flexcage.mesh.options import MeshOptions
 from flexcage.modes.pockets import pocket_loads

@@ -6,9 +6,9 @@ from modes_cage import CAGE, DEFECTS, assert_same_fields, cage_mesh
 
 from flexcage.bodies.cage import flexible_from_reduction
 from flexcage.cages.build import reduce_cage
+from flexcage.cages.window.interface import WINDOW_INTERFACES
 from flexcage.modes import reduction
 from flexcage.modes.spec import ModesSpec
-from flexcage.modes.window_interface import WINDOW_INTERFACES
 
 
 @pytest.fixture(autouse=True)

@@ -12,11 +12,11 @@ import numpy as np
 import pytest
 from test_pictures import N1013, run
 
+from flexcage.cages.window.defects import CrossbeamDefect
+from flexcage.cages.window.places import WINDOW_PLACES
 from flexcage.core.errors import InputError
-from flexcage.geometry.window_defects import CrossbeamDefect
 from flexcage.render.album import Scene, StressPictures, draw_album
 from flexcage.render.look import Look
-from flexcage.stress.window_places import WINDOW_PLACES
 
 __all__ = ["run"]  # a fixture
 PICTURES = {

@@ -12,21 +12,22 @@ from matplotlib.text import Text
 from test_pictures import check, has_colour
 
 from flexcage import render
+from flexcage.bearings.ball import slip as ball_slip
 from flexcage.cages.build import build_cage_mesh
-from flexcage.case.presets import load_preset
-from flexcage.core.errors import InputError
-from flexcage.geometry.ball_cage_defects import (
+from flexcage.cages.machined.defects import (
     DisplacedPocket,
     ElongatedPocket,
     EnlargedPocket,
     WebCrack,
 )
+from flexcage.case.presets import load_preset
+from flexcage.core.errors import InputError
 from flexcage.geometry.bearing import Bearing
 from flexcage.mesh.options import MeshOptions
 from flexcage.render import sheet
 from flexcage.render.shapes import shapes_of
 from flexcage.render.solids import revolved
-from flexcage.results import ball_slip, metrics
+from flexcage.results import metrics
 from flexcage.results.metrics import BearingNumbers
 from flexcage.results.registry import VARIABLES
 from flexcage.results.store import RunStore

@@ -13,9 +13,9 @@ import xarray as xr
 from ring_with_pockets import Z, quadratic
 
 from flexcage import render
+from flexcage.bearings.cylindrical_roller.bearing import RollerBearing, Spall
+from flexcage.cages.window.defects import CrossbeamDefect, SideBeamDefect
 from flexcage.core.errors import EnvironmentLacks, InputError, RunFailed
-from flexcage.geometry.cylindrical_roller import RollerBearing, Spall
-from flexcage.geometry.window_defects import CrossbeamDefect, SideBeamDefect
 from flexcage.render import bearing_pictures, sheet
 from flexcage.results.metrics import BearingNumbers
 from flexcage.results.registry import VARIABLES

@@ -7,10 +7,11 @@ import json
 import numpy as np
 from ring_with_pockets import Z, ring_mesh
 
+from flexcage.bearings.cylindrical_roller.bearing import RollerBearing
+from flexcage.cages.window.defects import CrossbeamDefect
+from flexcage.cages.window.places import WINDOW_PLACES
 from flexcage.case.presets import load_preset
 from flexcage.contacts.spec import LandSpec
-from flexcage.geometry.cylindrical_roller import RollerBearing
-from flexcage.geometry.window_defects import CrossbeamDefect
 from flexcage.render.album import Scene, StressPictures
 from flexcage.report.blocks import Table
 from flexcage.report.cage_view import CageStress
@@ -24,7 +25,6 @@ from flexcage.results.registry import VARIABLES
 from flexcage.results.store import RunStore
 from flexcage.results.summary import Row
 from flexcage.results.warnings import AT_END, Outcome, warnings_of
-from flexcage.stress.window_places import WINDOW_PLACES
 
 NUMBERS = BearingNumbers(pitch_diameter=82.5e-3, roller_diameter=8e-3, roller_count=Z)
 PEAK = 40e6  # Pa, at one vertex of the cage

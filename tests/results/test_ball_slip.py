@@ -7,8 +7,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from flexcage.bearings.ball import slip as ball_slip
 from flexcage.case.presets import load_preset
-from flexcage.results import ball_slip, metrics
+from flexcage.results import metrics
 from flexcage.results.figures import summarise
 from flexcage.results.metrics import BearingNumbers, SlipRange
 from flexcage.results.registry import VARIABLES

@@ -6,9 +6,10 @@ import numpy as np
 import pytest
 import xarray as xr
 
+from flexcage.bearings.cylindrical_roller import slip as roller_slip
 from flexcage.contacts.spec import EhlTraction, FrictionLaw
 from flexcage.core.errors import InputError
-from flexcage.results import audit, metrics, roller_slip
+from flexcage.results import audit, metrics
 from flexcage.results.figures import summarise
 from flexcage.results.spectra import amplitude_spectrum
 from flexcage.results.summary import Row, Summary, side_by_side

@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 from simulate_cases import Interrupted
 
+from flexcage.bearings.cylindrical_roller.recording import RECORDING, overlaps
 from flexcage.core.errors import InputError, RunFailed
 from flexcage.integrate.integration import Integration
 from flexcage.integrate.recorded import new_store
-from flexcage.integrate.roller_recording import RECORDING, overlaps
 from flexcage.system.start import find_start
 from flexcage.verification.n1013 import bearing_of, n1013
 

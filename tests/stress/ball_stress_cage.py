@@ -3,17 +3,17 @@
 from __future__ import annotations
 
 from flexcage.cages.build import build_cage_mesh
+from flexcage.cages.machined.cage import BallCage
+from flexcage.cages.machined.defects import EnlargedPocket, WebCrack
+from flexcage.cages.machined.interface import ball_cage_interface
+from flexcage.cages.machined.places import ROUND_PLACES
 from flexcage.fem.free import FreeBodySolver
 from flexcage.fem.model import assemble
-from flexcage.geometry.ball_cage_defects import EnlargedPocket, WebCrack
-from flexcage.geometry.ball_cages import BallCage
 from flexcage.geometry.materials import MATERIALS
 from flexcage.mesh.options import MeshOptions
-from flexcage.modes.ball_interface import ball_cage_interface
 from flexcage.modes.registry import build_basis
 from flexcage.modes.spec import ModesSpec
 from flexcage.stress.recovery import StressRecovery
-from flexcage.stress.round_places import ROUND_PLACES
 
 BALL_POCKETS = 6
 BALL_CAGE = BallCage(

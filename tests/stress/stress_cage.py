@@ -3,16 +3,16 @@
 from __future__ import annotations
 
 from flexcage.cages.build import build_cage_mesh
+from flexcage.cages.window.cage import WindowCage
+from flexcage.cages.window.defects import CrossbeamDefect, SideBeamDefect
+from flexcage.cages.window.interface import cage_interface
+from flexcage.cages.window.places import WINDOW_PLACES
 from flexcage.fem.free import FreeBodySolver
 from flexcage.fem.model import assemble
-from flexcage.geometry.cages import WindowCage
 from flexcage.geometry.materials import MATERIALS
-from flexcage.geometry.window_defects import CrossbeamDefect, SideBeamDefect
 from flexcage.mesh.options import MeshOptions
 from flexcage.modes.registry import build_basis
-from flexcage.modes.window_interface import cage_interface
 from flexcage.stress.recovery import StressRecovery
-from flexcage.stress.window_places import WINDOW_PLACES
 
 POCKETS = 12
 CAGE = WindowCage(

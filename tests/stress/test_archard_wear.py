@@ -77,7 +77,7 @@ def speeds_by_hand():
 
 
 def end_speed(bearing, cage):
-    from flexcage.system.roller_model import end_points
+    from flexcage.bearings.cylindrical_roller.model import end_points
 
     y, z = end_points(bearing, cage).T
     spin = SPIN - CAGE_SPEED

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 from ball_stress_cage import BALL_CAGE, BALL_DEFECTS, BALL_POCKETS, ball_recovery
 
+from flexcage.cages.machined.interface import rigid_ball_interface
 from flexcage.core.errors import InputError
-from flexcage.modes.ball_interface import rigid_ball_interface
 from flexcage.stress.fields import StressFields
 from flexcage.stress.history import stress_history
 from flexcage.stress.operators import von_mises

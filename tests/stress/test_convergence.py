@@ -7,14 +7,14 @@ import pytest
 from stress_cage import CAGE, POCKETS
 
 from flexcage.cages.build import build_cage_mesh
+from flexcage.cages.window.cage import WindowCage
+from flexcage.cages.window.interface import face_stations, station_weights
 from flexcage.fem.free import FreeBodySolver
 from flexcage.fem.modal import free_modes
 from flexcage.fem.model import assemble
-from flexcage.geometry.cages import WindowCage
 from flexcage.geometry.materials import MATERIALS
 from flexcage.mesh.options import MeshOptions
 from flexcage.modes.pockets import pocket_frames
-from flexcage.modes.window_interface import face_stations, station_weights
 from flexcage.stress.fillets import find_fillets
 from flexcage.stress.operators import VertexStress, von_mises
 

@@ -10,12 +10,12 @@ import pytest
 from stress_cage import CAGE, DEFECTS, POCKETS
 
 from flexcage.cages.build import build_cage_mesh
+from flexcage.cages.window.interface import face_stations, station_weights
 from flexcage.fem.free import FreeBodySolver
 from flexcage.fem.model import assemble
 from flexcage.geometry.materials import MATERIALS
 from flexcage.mesh.options import MeshOptions
 from flexcage.modes.pockets import pocket_frames
-from flexcage.modes.window_interface import face_stations, station_weights
 from flexcage.stress.fillets import find_fillets
 from flexcage.stress.operators import von_mises
 from flexcage.stress.surface import SurfaceStress

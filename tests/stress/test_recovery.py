@@ -5,9 +5,9 @@ import pytest
 import xarray as xr
 from stress_cage import CAGE, POCKETS, make_recovery
 
+from flexcage.cages.window.interface import rigid_interface
 from flexcage.core.errors import InputError
 from flexcage.modes.spec import ModesSpec
-from flexcage.modes.window_interface import rigid_interface
 from flexcage.stress.fields import StressFields
 from flexcage.stress.history import stress_history
 from flexcage.stress.loads import LandForces

@@ -4,10 +4,10 @@ import numpy as np
 import pytest
 
 from flexcage.cages.build import build_cage_mesh
+from flexcage.cages.ribbon.defects import MissingRivet
 from flexcage.case.presets import load_preset
 from flexcage.fem.free import FreeBodySolver
 from flexcage.fem.model import assemble
-from flexcage.geometry.ribbon_defects import MissingRivet
 from flexcage.mesh.options import MeshOptions
 from flexcage.modes.pockets import pocket_frame
 from flexcage.stress.rivets import Joints, _figures

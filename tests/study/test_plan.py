@@ -7,11 +7,11 @@ import pytest
 from study_cases import short_study, study_file
 
 from flexcage import cli
+from flexcage.cages.window.defects import CrossbeamDefect
 from flexcage.case import load_case
 from flexcage.core.errors import InputError
 from flexcage.core.wings import FAMILIES
 from flexcage.geometry.materials import MATERIALS
-from flexcage.geometry.window_defects import CrossbeamDefect
 from flexcage.study import run
 from flexcage.study.axes import Grid, LatinHypercube, Points, Zip
 from flexcage.study.folder import Folder

@@ -8,11 +8,11 @@ import numpy as np
 from flexible_parts import shapes_at
 from scipy import sparse
 
+from flexcage.bearings.ball.motion import MOTION
 from flexcage.bodies.floating_frame import flexible_body
+from flexcage.cages.machined.interface import BallCageInterface, wall_stations
 from flexcage.case.presets import load_preset
 from flexcage.contacts.spec import Contacts, FrictionLaw, Lubricant, NormalLaw, PairSpec
-from flexcage.modes.ball_interface import BallCageInterface, wall_stations
-from flexcage.system.ball_motion import MOTION
 from flexcage.system.layout import Layout
 from flexcage.system.problem import Bearing
 from flexcage.system.spec import Drive, Load, Mount

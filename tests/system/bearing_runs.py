@@ -6,14 +6,14 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from flexcage.bearings.cylindrical_roller.motion import MOTION
+from flexcage.bearings.cylindrical_roller.start import geometric_guess, rolling_velocities
 from flexcage.solve import bdf, runge_kutta
 from flexcage.solve.integrators import INTEGRATORS
 from flexcage.system.constraints import names_of
 from flexcage.system.data import POWERS
 from flexcage.system.layout import Layout
 from flexcage.system.problem import Bearing, new_samples
-from flexcage.system.roller_motion import MOTION
-from flexcage.system.roller_start import geometric_guess, rolling_velocities
 from flexcage.system.scales import work_weights
 from flexcage.system.spec import Drive, Load, Mount
 

@@ -9,10 +9,10 @@ import pytest
 from bearing_runs import march, rolling_start
 from scipy.integrate import solve_ivp
 
+from flexcage.bearings.cylindrical_roller.bearing import RollerProfile
 from flexcage.bodies.floating_frame import rigid_body
 from flexcage.contacts import laws
 from flexcage.contacts.spec import Contacts, FrictionLaw, Lubricant, NormalLaw, PairSpec
-from flexcage.geometry.cylindrical_roller import RollerProfile
 from flexcage.system.spec import Drive, Load
 from flexcage.verification.law_values import rolling
 

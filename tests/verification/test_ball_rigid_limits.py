@@ -6,11 +6,11 @@ import numpy as np
 import pytest
 from verification_bearing import log, relative_error, with_modes
 
+from flexcage.bearings.ball.motion import MOTION
 from flexcage.bodies.cage import flexible_from_basis, rigid_from_tets
 from flexcage.cages.build import rigid_interface_of
 from flexcage.simulate import simulate
 from flexcage.stages import cage_mesh, cage_reduction
-from flexcage.system.ball_motion import MOTION
 from flexcage.system.layout import Layout
 from flexcage.system.problem import Bearing
 from flexcage.verification.c7010 import c7010

@@ -45,13 +45,13 @@ import numpy as np
 import pytest
 from verification_bearing import bearing_of, bent, cage_of, log, march, n1013
 
+from flexcage.cages.window.places import WINDOW_PLACES
 from flexcage.results.metrics import settled
 from flexcage.solve import bdf
 from flexcage.stress.fields import StressFields
 from flexcage.stress.history import stress_history
 from flexcage.stress.loads import land_station_forces
 from flexcage.stress.recovery import StressRecovery
-from flexcage.stress.window_places import WINDOW_PLACES
 from flexcage.system.start import find_start
 
 TOUCH = 1e-3  # N: what counts as contact

@@ -28,8 +28,8 @@ from skfem.helpers import dot
 from skfem.models.elasticity import lame_parameters, linear_elasticity
 from verification_bearing import bearing_of, log, n1013
 
+from flexcage.bearings.cylindrical_roller.model import crossbeam_width
 from flexcage.contacts import laws
-from flexcage.system.roller_model import crossbeam_width
 
 CASE = n1013()
 LENGTH = CASE.bearing.effective_length

@@ -12,11 +12,11 @@ import pytest
 from full_mesh import OUTWARD, Squeeze, reduced_compliance, station_rows
 from verification_bearing import bearing_of, bent, cage_of, log, n1013, pushed, station_reading
 
+from flexcage.cages.window.places import WINDOW_PLACES
 from flexcage.core.errors import InputError
 from flexcage.simulate import simulate
 from flexcage.stress.operators import von_mises
 from flexcage.stress.recovery import CageLoads, StressRecovery
-from flexcage.stress.window_places import WINDOW_PLACES
 from flexcage.system.start import find_start
 
 DEFECTS = {

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
+from flexcage.bearings.ball.angular_contact import AngularContactBallBearing
+from flexcage.bearings.ball.deep_groove import DeepGrooveBallBearing
 from flexcage.bearings.family import Family
-from flexcage.geometry.angular_contact_ball import AngularContactBallBearing
-from flexcage.geometry.deep_groove_ball import DeepGrooveBallBearing
 
 if TYPE_CHECKING:
     from flexcage.integrate.recording import Recording
@@ -20,49 +20,49 @@ if TYPE_CHECKING:
 
 
 def _variables() -> OwnVariables:
-    from flexcage.results.ball_variables import VARIABLES
+    from flexcage.bearings.ball.variables import VARIABLES
 
     return VARIABLES
 
 
 def _speed() -> ElementSpeed:
-    from flexcage.results.ball_slip import SPEED
+    from flexcage.bearings.ball.slip import SPEED
 
     return SPEED
 
 
 def _figures() -> OwnFigures:
-    from flexcage.results.ball_figures import FIGURES
+    from flexcage.bearings.ball.figures import FIGURES
 
     return FIGURES
 
 
 def _rubbing() -> Rub:
-    from flexcage.stress.ball_rubbing import rubbing
+    from flexcage.bearings.ball.rubbing import rubbing
 
     return rubbing
 
 
 def _statics() -> ElementsOf:
-    from flexcage.system.statics.balls import balls_of
+    from flexcage.bearings.ball.statics import balls_of
 
     return balls_of
 
 
 def _motion() -> Motion[Any]:
-    from flexcage.system.ball_motion import MOTION
+    from flexcage.bearings.ball.motion import MOTION
 
     return MOTION
 
 
 def _recording() -> Recording[Any]:
-    from flexcage.integrate.ball_recording import RECORDING
+    from flexcage.bearings.ball.recording import RECORDING
 
     return RECORDING
 
 
 def _shapes() -> ShapesOf:
-    from flexcage.render.ball_shapes import ball_shapes
+    from flexcage.bearings.ball.shapes import ball_shapes
 
     return ball_shapes
 

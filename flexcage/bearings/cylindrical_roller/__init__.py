@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
+from flexcage.bearings.cylindrical_roller.bearing import OTHER_DESIGNS, RollerBearing
 from flexcage.bearings.family import Family
-from flexcage.geometry.cylindrical_roller import OTHER_DESIGNS, RollerBearing
 
 if TYPE_CHECKING:
     from flexcage.integrate.recording import Recording
@@ -19,49 +19,49 @@ if TYPE_CHECKING:
 
 
 def _variables() -> OwnVariables:
-    from flexcage.results.roller_variables import VARIABLES
+    from flexcage.bearings.cylindrical_roller.variables import VARIABLES
 
     return VARIABLES
 
 
 def _speed() -> ElementSpeed:
-    from flexcage.results.roller_slip import SPEED
+    from flexcage.bearings.cylindrical_roller.slip import SPEED
 
     return SPEED
 
 
 def _figures() -> OwnFigures:
-    from flexcage.results.roller_figures import FIGURES
+    from flexcage.bearings.cylindrical_roller.figures import FIGURES
 
     return FIGURES
 
 
 def _rubbing() -> Rub:
-    from flexcage.stress.roller_rubbing import rubbing
+    from flexcage.bearings.cylindrical_roller.rubbing import rubbing
 
     return rubbing
 
 
 def _statics() -> ElementsOf:
-    from flexcage.system.statics.rollers import rollers_of
+    from flexcage.bearings.cylindrical_roller.statics import rollers_of
 
     return rollers_of
 
 
 def _motion() -> Motion[Any]:
-    from flexcage.system.roller_motion import MOTION
+    from flexcage.bearings.cylindrical_roller.motion import MOTION
 
     return MOTION
 
 
 def _recording() -> Recording[Any]:
-    from flexcage.integrate.roller_recording import RECORDING
+    from flexcage.bearings.cylindrical_roller.recording import RECORDING
 
     return RECORDING
 
 
 def _shapes() -> ShapesOf:
-    from flexcage.render.roller_shapes import roller_shapes
+    from flexcage.bearings.cylindrical_roller.shapes import roller_shapes
 
     return roller_shapes
 

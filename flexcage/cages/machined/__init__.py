@@ -5,14 +5,14 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from flexcage.cages.cage_type import CageType
-from flexcage.geometry.ball_cage_defects import (
+from flexcage.cages.machined.cage import BallCage
+from flexcage.cages.machined.defects import (
     BallCageDefect,
     DisplacedPocket,
     ElongatedPocket,
     EnlargedPocket,
     WebCrack,
 )
-from flexcage.geometry.ball_cages import BallCage
 
 if TYPE_CHECKING:
     from flexcage.mesh.build import MeshBuilder
@@ -21,19 +21,19 @@ if TYPE_CHECKING:
 
 
 def _mesh() -> MeshBuilder[BallCage]:
-    from flexcage.mesh.ball_build import build_ball_cage_mesh
+    from flexcage.cages.machined.build import build_ball_cage_mesh
 
     return build_ball_cage_mesh
 
 
 def _interfaces() -> Interfaces[BallCage]:
-    from flexcage.modes.ball_interface import ROUND_INTERFACES
+    from flexcage.cages.machined.interface import ROUND_INTERFACES
 
     return ROUND_INTERFACES
 
 
 def _places() -> Places:
-    from flexcage.stress.round_places import ROUND_PLACES
+    from flexcage.cages.machined.places import ROUND_PLACES
 
     return ROUND_PLACES
 

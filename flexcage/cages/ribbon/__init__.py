@@ -5,9 +5,9 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from flexcage.cages.cage_type import CageType
-from flexcage.geometry.ball_cage_defects import BallCageDefect
-from flexcage.geometry.ribbon_cage import RibbonCage
-from flexcage.geometry.ribbon_defects import MissingRivet
+from flexcage.cages.machined.defects import BallCageDefect
+from flexcage.cages.ribbon.cage import RibbonCage
+from flexcage.cages.ribbon.defects import MissingRivet
 
 if TYPE_CHECKING:
     from flexcage.mesh.build import MeshBuilder
@@ -16,19 +16,19 @@ if TYPE_CHECKING:
 
 
 def _mesh() -> MeshBuilder[RibbonCage]:
-    from flexcage.mesh.ribbon_build import build_ribbon_mesh
+    from flexcage.cages.ribbon.build import build_ribbon_mesh
 
     return build_ribbon_mesh
 
 
 def _interfaces() -> Interfaces[RibbonCage]:
-    from flexcage.modes.ball_interface import ROUND_INTERFACES
+    from flexcage.cages.machined.interface import ROUND_INTERFACES
 
     return ROUND_INTERFACES
 
 
 def _places() -> Places:
-    from flexcage.stress.round_places import ROUND_PLACES
+    from flexcage.cages.machined.places import ROUND_PLACES
 
     return ROUND_PLACES
 

@@ -5,8 +5,8 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from flexcage.cages.cage_type import CageType
-from flexcage.geometry.cages import WindowCage
-from flexcage.geometry.window_defects import CrossbeamDefect, SideBeamDefect, WindowDefect
+from flexcage.cages.window.cage import WindowCage
+from flexcage.cages.window.defects import CrossbeamDefect, SideBeamDefect, WindowDefect
 
 if TYPE_CHECKING:
     from flexcage.mesh.build import MeshBuilder
@@ -15,19 +15,19 @@ if TYPE_CHECKING:
 
 
 def _mesh() -> MeshBuilder[WindowCage]:
-    from flexcage.mesh.window_build import build_window_mesh
+    from flexcage.cages.window.build import build_window_mesh
 
     return build_window_mesh
 
 
 def _interfaces() -> Interfaces[WindowCage]:
-    from flexcage.modes.window_interface import WINDOW_INTERFACES
+    from flexcage.cages.window.interface import WINDOW_INTERFACES
 
     return WINDOW_INTERFACES
 
 
 def _places() -> Places:
-    from flexcage.stress.window_places import WINDOW_PLACES
+    from flexcage.cages.window.places import WINDOW_PLACES
 
     return WINDOW_PLACES
 

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from dataclasses import replace
 from math import radians
 
-from flexcage.geometry.ball_ratings import radial_factor, static_factor, thrust_factor
+from flexcage.bearings.ball.ratings import radial_factor, static_factor, thrust_factor
 from flexcage.verification.ball_bearings import deep_groove, preset
 from flexcage.verification.known_answer import KnownAnswer, Row, Tolerance
 

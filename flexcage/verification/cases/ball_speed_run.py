@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from flexcage.system.ball_start import ball_places, rolling_balls
+from flexcage.bearings.ball.start import ball_places, rolling_balls
 from flexcage.verification.ball_bearings import DEGREES, solved
 from flexcage.verification.c7010 import NO_OIL, RPM, SMOOTH, bearing_of, c7010, march
 from flexcage.verification.cases.ball_speed import FRICTIONLESS

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from flexcage.bearings.cylindrical_roller.ratings import geometry_factor
 from flexcage.case.presets import load_preset, preset_names
-from flexcage.geometry.roller_ratings import geometry_factor
 from flexcage.verification.known_answer import KnownAnswer, Row, Tolerance
 
 # ISO 281:2007, factor f_c of radial roller bearings against Dwe cos(alpha)/Dpw

@@ -10,11 +10,11 @@ import numpy as np
 from scipy.integrate import quad
 from scipy.optimize import brentq
 
+from flexcage.bearings.ball.model import point_rolling_resistance
 from flexcage.case.presets import load_preset
 from flexcage.contacts import laws
 from flexcage.contacts.spec import Lubricant
 from flexcage.geometry.hertz import PointContact
-from flexcage.system.ball_model import point_rolling_resistance
 from flexcage.verification.known_answer import KnownAnswer, Row, Tolerance
 from flexcage.verification.law_values import rolling
 

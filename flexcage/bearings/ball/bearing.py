@@ -1,0 +1,329 @@
+"""What deep groove and angular contact ball bearings have in common.
+
+Grooves are circular arcs. Their centres lie A = r_i + r_e - D apart when a ball just fills the
+space between them; the line through both is the contact angle. Curvatures: T. A. Harris, Rolling
+Bearing Analysis, 2 and 6; ISO/TS 16281:2008, 4.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from math import acos, cos, inf, pi, sin, sqrt
+from typing import Any, ClassVar
+
+import numpy as np
+
+from flexcage.bearings.ball import checks, ratings
+from flexcage.cages.machined.cage import BallCage
+from flexcage.core.spec import option, quantity
+from flexcage.core.units import typeset
+from flexcage.geometry.bearing import (
+    Bearing,
+    EquivalentLoad,
+    RingLand,
+    RingLimit,
+    Spec,
+    hollow_cylinder_inertia,
+)
+from flexcage.geometry.cage import Cage
+from flexcage.geometry.checks import Finding
+from flexcage.geometry.film import Film, Oil, both_races, point_film, rolling_entrainment
+from flexcage.geometry.hertz import PointContact
+from flexcage.geometry.materials import MATERIALS, Material
+
+_SHOULDER = 0.2  # of the ball's diameter: a shoulder's height where none is given
+
+
+@dataclass(frozen=True, kw_only=True)
+class BallBearing(Bearing):
+    """A single-row ball bearing; the types differ in where their grooves stand without load.
+
+    The inner ring is pushed towards +x by an axial load > 0. Shoulder heights are those of the
+    loaded shoulders above the grooves' bottoms; without them nothing is said of ellipses at edges.
+    """
+
+    cage_spec: ClassVar[Spec] = BallCage
+    element: ClassVar[str] = "ball"
+    family: ClassVar[str] = "ball"
+    places: ClassVar[tuple[str, ...]] = ("race", "pocket")
+    explicit_only: ClassVar[bool] = True
+    elsewhere: ClassVar[Mapping[str, str]] = {
+        "(inner_|outer_)?spalls?|(inner|outer)_waviness.*": "races of ball bearings are without "
+        "defects: spalls and waviness are computed for type 'cylindrical_roller'; defects of a "
+        "ball bearing's cage are given as [[defects]]",
+    }
+    carries_axial_load: ClassVar[bool] = True
+    one_sided: ClassVar[bool] = False  # are there shoulders for one direction of load alone?
+
+    bore: float = quantity("mm", doc="bearing bore d", above=0.0)
+    outside_diameter: float = quantity("mm", doc="bearing outside diameter D", above=0.0)
+    width: float = quantity("mm", doc="bearing width B", above=0.0)
+    pitch_diameter: float = quantity(
+        "mm", doc="diameter Dpw of the circle of ball centres", above=0.0
+    )
+    ball_diameter: float = quantity("mm", doc="diameter Dw of a ball", above=0.0)
+    ball_count: int = option(doc="number Z of balls", minimum=3)
+    inner_groove_radius: float = quantity("mm", doc="radius r_i of the inner groove", above=0.0)
+    outer_groove_radius: float = quantity("mm", doc="radius r_e of the outer groove", above=0.0)
+    inner_shoulder: float | None = quantity("mm", None, doc="inner shoulder's height", above=0.0)
+    outer_shoulder: float | None = quantity("mm", None, doc="outer shoulder's height", above=0.0)
+    ball_scatter: float = quantity(
+        "um", 0.0, doc="standard deviation of ball diameters", minimum=0.0
+    )
+    material: Material = option(MATERIALS["GCr15"], doc="material of rings and balls")
+
+    @property
+    def free_contact_angle(self) -> float:
+        """Contact angle [rad] when the rings are pushed together without load."""
+        raise self._lacks("free_contact_angle")
+
+    @property
+    def nominal_contact_angle(self) -> float:
+        """Contact angle [rad] to which curvatures and ratings refer."""
+        raise self._lacks("nominal_contact_angle")
+
+    @property
+    def element_count(self) -> int:
+        return self.ball_count
+
+    @property
+    def element_diameter(self) -> float:
+        return self.ball_diameter
+
+    @property
+    def element_mass(self) -> float:
+        return self.ball_mass
+
+    @property
+    def clearance(self) -> float:
+        """Radial internal clearance Pd [m]."""
+        raise self._lacks("clearance")
+
+    @property
+    def groove_offset(self) -> tuple[float, float]:
+        """Inner groove's centre from the outer one's, axially and radially [m], undisplaced."""
+        raise self._lacks("groove_offset")
+
+    @property
+    def is_thrust(self) -> bool:
+        """ISO 281 rates ball bearings above 45 degrees for axial load."""
+        return self.nominal_contact_angle > 0.25 * pi + 1e-9
+
+    @property
+    def groove_distance(self) -> float:
+        """A = r_i + r_e - D [m]."""
+        return self.inner_groove_radius + self.outer_groove_radius - self.ball_diameter
+
+    @property
+    def inner_conformity(self) -> float:
+        """f_i = r_i/D."""
+        return self.inner_groove_radius / self.ball_diameter
+
+    @property
+    def outer_conformity(self) -> float:
+        """f_e = r_e/D."""
+        return self.outer_groove_radius / self.ball_diameter
+
+    @property
+    def gamma(self) -> float:
+        """D cos(alpha)/Dpw at the nominal contact angle."""
+        return self.ball_diameter * cos(self.nominal_contact_angle) / self.pitch_diameter
+
+    @cached_property
+    def ball_mass(self) -> float:
+        return self.material.density * pi / 6.0 * self.ball_diameter**3
+
+    @cached_property
+    def ball_inertia(self) -> float:
+        """Moment of inertia of a ball about its centre [kg m^2]."""
+        return 0.1 * self.ball_mass * self.ball_diameter**2
+
+    @cached_property
+    def shoulder_diameters(self) -> tuple[float, float]:
+        """Diameters [m] of inner and outer ring at their shoulders; a fifth of the ball's diameter
+        above the grooves' bottoms where heights are not given."""
+        share = _SHOULDER * self.ball_diameter
+        inner, outer = (h or share for h in (self.inner_shoulder, self.outer_shoulder))
+        return (
+            self.pitch_diameter - self.ball_diameter + 2.0 * inner,
+            self.pitch_diameter + self.ball_diameter - 2.0 * outer,
+        )
+
+    def cage_space(self, cage: Cage) -> tuple[RingLimit | None, RingLimit | None]:
+        """Shoulders, or grooves where the cage is narrower than these; none of a bearing that is
+        open on one side, if no height is given."""
+        found: list[RingLimit | None] = []
+        for side, sign in (("inner", 1.0), ("outer", -1.0)):
+            height, r = getattr(self, f"{side}_shoulder"), getattr(self, f"{side}_groove_radius")
+            if height is None and self.one_sided:
+                found.append(None)
+                continue
+            what = "shoulder" if height else "shoulder (a fifth of the ball's diameter is assumed)"
+            high = height or _SHOULDER * self.ball_diameter
+            half = 0.5 * cage.axial_width
+            if half < r and (rise := r - sqrt(r**2 - half**2)) < high:
+                high, what = rise, "groove"
+            bottom = self.pitch_diameter - sign * self.ball_diameter
+            found.append(RingLimit(bottom + 2.0 * sign * high, f"the {side} ring's {what}"))
+        return found[0], found[1]
+
+    @cached_property
+    def groove_edges(self) -> tuple[float, float]:
+        """Angles [rad] from the bottoms of inner and outer groove to the edges of their loaded
+        shoulders; infinite where a height is not given."""
+        heights = (self.inner_shoulder, self.outer_shoulder)
+        radii = (self.inner_groove_radius, self.outer_groove_radius)
+        inner, outer = (inf if h is None else acos(1.0 - h / r) for h, r in zip(heights, radii))
+        return inner, outer
+
+    def land(self, cage: Cage) -> RingLand | None:
+        if cage.guidance not in ("inner", "outer"):
+            return None
+        outer = cage.guidance == "outer"
+        name, what = f"bearing.{cage.guidance}_shoulder", "outside_diameter" if outer else "bore"
+        given = self.outer_shoulder if outer else self.inner_shoulder
+        radius = self.outer_groove_radius if outer else self.inner_groove_radius
+        shoulder, own = self.shoulder_diameters[int(outer)], getattr(cage, what)
+        height = _SHOULDER * self.ball_diameter if given is None else given
+        groove = sqrt(max(height * (2.0 * radius - height), 0.0))  # half of its width
+        end = 0.5 * min(cage.width, self.width)
+        return RingLand(
+            clearance=None if given is None else 0.5 * (shoulder - own) * (1.0 if outer else -1.0),
+            of=f"cage.{what} and {name}",
+            strict=False,
+            facing=end - max(0.5 * cage.pocket_diameter, groove),
+            end=end,
+        )
+
+    @cached_property
+    def inner_ring_mass(self) -> float:
+        """Inner ring as a hollow cylinder from bore to shoulder, without its groove [kg]."""
+        area = 0.25 * pi * (self.shoulder_diameters[0] ** 2 - self.bore**2)
+        return self.material.density * area * self.width
+
+    @cached_property
+    def inner_ring_inertia(self) -> tuple[float, float]:
+        """Axial and transverse moments of inertia of that hollow cylinder [kg m^2]."""
+        return hollow_cylinder_inertia(
+            self.inner_ring_mass, self.bore, self.shoulder_diameters[0], self.width
+        )
+
+    @cached_property
+    def outer_ring_mass(self) -> float:
+        area = 0.25 * pi * (self.outside_diameter**2 - self.shoulder_diameters[1] ** 2)
+        return self.material.density * area * self.width
+
+    @cached_property
+    def inner_groove_centre(self) -> tuple[float, float]:
+        """Place (x, r) [m] of the inner groove's centre in its ring, from where ball centres lie.
+
+        The radius is ISO/TS 16281's R_i.
+        """
+        axial, radial = self.groove_offset
+        share = (self.inner_groove_radius - 0.5 * self.ball_diameter) / self.groove_distance
+        return share * axial, 0.5 * self.pitch_diameter + share * radial
+
+    @cached_property
+    def outer_groove_centre(self) -> tuple[float, float]:
+        """Place (x, r) [m] of the outer groove's centre, likewise."""
+        axial, radial = self.groove_offset
+        inner = self.inner_groove_centre
+        return inner[0] - axial, inner[1] - radial
+
+    @cached_property
+    def contacts(self) -> tuple[PointContact, PointContact]:
+        """Hertz contact of a ball with inner and outer race."""
+        return (
+            race_contact(self, self.inner_conformity, -1.0),
+            race_contact(self, self.outer_conformity, 1.0),
+        )
+
+    @cached_property
+    def contact_curvatures(self) -> tuple[float, float]:
+        """Curvature [1/m] of the surface of contact across the rolling direction, inner and outer
+        race: the mean of the ball's and the groove's (Harris)."""
+        inner, outer = (
+            0.5 * (2.0 / self.ball_diameter + 1.0 / radius)
+            for radius in (self.inner_groove_radius, self.outer_groove_radius)
+        )
+        return inner, outer
+
+    @cached_property
+    def rolling_heights(self) -> tuple[float, float]:
+        bends, contacts = self.contact_curvatures, self.contacts
+        inner, outer = (
+            0.1 * bend * float(c.semi_axes(1.0)[0]) ** 2 / (0.5 * self.ball_diameter)
+            for bend, c in zip(bends, contacts)
+        )
+        return inner, outer
+
+    def check(self, cage: Any = None, defects: Sequence[Any] = ()) -> None:
+        checks.check(self, cage, defects)
+
+    def find_around_cage(self, cage: Cage) -> Iterator[Finding]:
+        return checks.find_around_cage(self, cage)
+
+    def find_in_clearance(self) -> Iterator[Finding]:
+        """What is impossible in the clearance, or in what says the same."""
+        return checks.find_in_clearance(self, self.clearance)
+
+    @property
+    def static_rating(self) -> float:
+        return ratings.static_rating(self)
+
+    @property
+    def dynamic_rating(self) -> float:
+        return ratings.dynamic_rating(self)
+
+    def equivalent_load(self, radial: float, axial: float) -> EquivalentLoad:
+        return ratings.equivalent_load(self, radial, axial)
+
+    def race_film(self, force: np.ndarray, speed: np.ndarray, oil: Oil) -> Film:
+        return both_races([
+            point_film(contact, force[..., k], speed[..., k], oil)
+            for k, contact in enumerate(self.contacts)
+        ])  # fmt: skip
+
+    def rolling_entrainment(
+        self, angle: np.ndarray, orbit: np.ndarray, inner_speed: float
+    ) -> np.ndarray:
+        return rolling_entrainment(
+            angle, orbit, inner_speed, diameter=self.ball_diameter, pitch=self.pitch_diameter
+        )
+
+    def contact_patch(self, force: float, pressure: float, race: int) -> tuple[float, float]:
+        return 2.0 / 3.0 * pressure, float(self.contacts[race].semi_axes(force)[1])
+
+    def beyond_edges(self, force: np.ndarray, angle: np.ndarray) -> np.ndarray:
+        across = np.stack(
+            [c.semi_axes(force[..., k])[0] for k, c in enumerate(self.contacts)], axis=-1
+        )
+        radii = np.array([self.inner_groove_radius, self.outer_groove_radius])
+        return np.abs(angle) + across / radii - np.array(self.groove_edges)
+
+    def in_words(self) -> str:
+        return (
+            f"{self.name_and_size} with {self.ball_count} balls of "
+            f"{typeset(self.ball_diameter, 'mm')}, free contact angle "
+            f"{typeset(self.free_contact_angle, 'deg', digits=4)}, radial clearance "
+            f"{typeset(self.clearance, 'um', digits=4)}; "
+            f"the grooves' radii are {self.inner_conformity:.4g} (inner) and "
+            f"{self.outer_conformity:.4g} (outer) times the ball's diameter."
+        )
+
+
+def race_contact(bearing: BallBearing, conformity: float, side: float) -> PointContact:
+    """Contact of a ball with a race: the inner at ``side`` -1, the outer at +1."""
+    radius = 0.5 * bearing.ball_diameter
+    return PointContact(
+        rolling=radius * (1.0 + side * bearing.gamma),
+        transverse=2.0 * radius * conformity / (2.0 * conformity - 1.0),
+        modulus=bearing.material.plane_strain_modulus,
+    )
+
+
+def clearance_at(angle: float, distance: float) -> float:
+    """Radial clearance [m] that goes with a free contact angle [rad]: 2 A (1 - cos(alpha))."""
+    return 4.0 * distance * sin(0.5 * angle) ** 2

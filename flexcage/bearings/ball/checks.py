@@ -1,0 +1,183 @@
+"""Is this ball bearing possible? One sentence for each impossibility, and what would be right."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from math import asin, cos, degrees, pi, sin
+from typing import TYPE_CHECKING, Any
+
+from flexcage.core.units import describe
+from flexcage.geometry.cage import Cage
+from flexcage.geometry.checks import (
+    MOST_SCATTER,
+    Finding,
+    check_cage_defects,
+    check_room,
+    raise_first,
+)
+
+if TYPE_CHECKING:
+    from flexcage.bearings.ball.angular_contact import AngularContactBallBearing
+    from flexcage.bearings.ball.bearing import BallBearing
+
+_AGREE = 1e-6  # m, to which contact angle and clearance must agree: a tenth of a clearance class
+_WIDEST_GROOVE = 1.0  # radius, of the ball's diameter
+_WIDEST = 2.0  # of the bearing's width: one that reaches out of it on both sides
+_MOST_PRELOAD = 0.01  # of the ball's diameter: a Hertz pressure far beyond any steel's
+
+
+def _mm(value: float) -> str:
+    return describe(value, "mm")
+
+
+def check(bearing: BallBearing, cage: Cage | None, defects: Sequence[Any]) -> None:
+    """Raise InputError for the first impossibility in the bearing, its cage or the defects."""
+    raise_first(_find_in_grooves(bearing))
+    raise_first(_find_in_balls(bearing))
+    raise_first(_find_in_shoulders(bearing))
+    raise_first(bearing.find_in_clearance())
+    if cage is None:
+        return
+    check_room(bearing, cage)
+    cage.check(bearing.ball_count)
+    check_cage_defects(bearing, cage, defects)
+
+
+def _find_in_grooves(b: BallBearing) -> Iterator[Finding]:
+    for key in ("inner_groove_radius", "outer_groove_radius"):
+        radius = getattr(b, key)
+        if radius <= 0.5 * b.ball_diameter:
+            yield (
+                f"bearing.{key}",
+                f"bearing.{key} is {_mm(radius)}, but must be greater than the ball's radius, "
+                f"{_mm(0.5 * b.ball_diameter)}; 0.515 to 0.54 times its diameter is usual.",
+            )
+        if radius > _WIDEST_GROOVE * b.ball_diameter:
+            yield (
+                f"bearing.{key}",
+                f"bearing.{key} is {_mm(radius)}, so wide that it is no groove; give "
+                f"{_mm(_WIDEST_GROOVE * b.ball_diameter)} or less, the ball's diameter; 0.515 to "
+                "0.54 times it is usual.",
+            )
+
+
+def _find_in_balls(b: BallBearing) -> Iterator[Finding]:
+    widest = MOST_SCATTER * b.ball_diameter
+    if b.ball_scatter > widest:
+        yield (
+            "bearing.ball_scatter",
+            f"bearing.ball_scatter is {_mm(b.ball_scatter)}, but balls of one bearing differ by "
+            f"micrometres; give {_mm(widest)} or less, {100.0 * MOST_SCATTER:g} % of their "
+            "diameter.",
+        )
+    chord = b.pitch_diameter * sin(pi / b.ball_count)
+    if chord <= b.ball_diameter:
+        most = int(pi / asin(min(b.ball_diameter / b.pitch_diameter, 1.0)))
+        yield (
+            "bearing.ball_count",
+            f"{b.ball_count} balls of {_mm(b.ball_diameter)} overlap on a pitch diameter of "
+            f"{_mm(b.pitch_diameter)}; at most {most} fit.",
+        )
+    reach = b.ball_diameter * cos(b.nominal_contact_angle)
+    if not b.bore < b.pitch_diameter - reach:
+        yield (
+            "bearing.bore",
+            f"bearing.bore is {_mm(b.bore)}, but the balls reach in to "
+            f"{_mm(b.pitch_diameter - reach)} in diameter, which leaves no inner ring.",
+        )
+    if not b.outside_diameter > b.pitch_diameter + reach:
+        yield (
+            "bearing.outside_diameter",
+            f"bearing.outside_diameter is {_mm(b.outside_diameter)}, but the balls reach out to "
+            f"{_mm(b.pitch_diameter + reach)} in diameter, which leaves no outer ring.",
+        )
+
+
+def _find_in_shoulders(b: BallBearing) -> Iterator[Finding]:
+    for side in ("inner", "outer"):
+        height, radius = getattr(b, f"{side}_shoulder"), getattr(b, f"{side}_groove_radius")
+        if height is not None and height >= radius:
+            yield (
+                f"bearing.{side}_shoulder",
+                f"bearing.{side}_shoulder is {_mm(height)}, but must be less than the groove's "
+                f"radius, {_mm(radius)}.",
+            )
+
+
+def find_in_angle(b: AngularContactBallBearing) -> Iterator[Finding]:
+    """What is impossible in contact angle and clearance, one of which says the other."""
+    if b.contact_angle is None and b.radial_clearance is None:
+        yield (
+            "bearing.contact_angle",
+            "[bearing] has neither contact_angle nor radial_clearance; give one of them.",
+        )
+    elif b.contact_angle is None and b.radial_clearance is not None:
+        if b.radial_clearance <= 0.0:
+            yield (
+                "bearing.radial_clearance",
+                f"bearing.radial_clearance is {describe(b.radial_clearance, 'um')}, but an angular "
+                "contact bearing has its contact angle from a clearance greater than 0 um.",
+            )
+        yield from find_in_clearance(b, b.radial_clearance)
+    elif b.radial_clearance is not None and b.contact_angle is not None:
+        due = b.clearance
+        if abs(due - b.radial_clearance) > _AGREE:
+            yield (
+                "bearing.radial_clearance",
+                f"bearing.radial_clearance is {describe(b.radial_clearance, 'um')}, but a contact "
+                f"angle of {degrees(b.contact_angle):.5g} deg makes it {due * 1e6:.4g} um in these "
+                'grooves; leave one of the two out, as by contact_angle = "none".',
+            )
+
+
+def find_in_clearance(b: BallBearing, clearance: float) -> Iterator[Finding]:
+    """A clearance [m] that its grooves do not allow."""
+    most, least = 2.0 * b.groove_distance, -_MOST_PRELOAD * b.ball_diameter
+    if not least <= clearance < most:
+        yield (
+            "bearing.radial_clearance",
+            f"bearing.radial_clearance is {describe(clearance, 'um')}, but these grooves and balls "
+            f"allow {describe(least, 'um')} (preload) to {most * 1e6:.6g} um.",
+        )
+
+
+def _rings(b: BallBearing) -> tuple[tuple[float, str], tuple[float, str]]:
+    """Diameters between which a cage has its place, and what they are: of shoulders that are given
+    on both sides, else of bore and outside."""
+    inner, outer = (b.bore, "bearing.bore"), (b.outside_diameter, "bearing.outside_diameter")
+    if not b.one_sided:
+        over, under = b.shoulder_diameters
+        if b.inner_shoulder is not None:
+            inner = over, "the inner ring's shoulder"
+        if b.outer_shoulder is not None:
+            outer = under, "the outer ring's shoulder"
+    return inner, outer
+
+
+def find_around_cage(b: BallBearing, c: Cage) -> Iterator[Finding]:
+    """What leaves a cage no place between the rings and around the pitch circle."""
+    inner, outer = _rings(b)
+    if not inner[0] < c.bore:
+        yield (
+            "cage.bore",
+            f"cage.bore is {_mm(c.bore)}, so the cage runs into the inner ring; it must be greater "
+            f"than {inner[1]}, {_mm(inner[0])}.",
+        )
+    if not c.outside_diameter < outer[0]:
+        yield (
+            "cage.outside_diameter",
+            f"cage.outside_diameter is {_mm(c.outside_diameter)}, so the cage runs into the outer "
+            f"ring; it must be less than {outer[1]}, {_mm(outer[0])}.",
+        )
+    if c.axial_width > _WIDEST * b.width:
+        yield (
+            "cage.width",
+            f"cage.width is {_mm(c.width)}, but the bearing's is {_mm(b.width)}; a cage is at most "
+            f"{_WIDEST:g} times as wide.",
+        )
+    if not c.bore < b.pitch_diameter < c.outside_diameter:
+        yield (
+            "cage",
+            f"The cage from {_mm(c.bore)} to {_mm(c.outside_diameter)} in diameter does not hold "
+            f"the balls' pitch circle of {_mm(b.pitch_diameter)}; its pockets cannot guide them.",
+        )

@@ -1,0 +1,174 @@
+"""A ball bearing from its specs to the arrays that kernels read."""
+
+from __future__ import annotations
+
+from math import pi
+from typing import NamedTuple
+
+import numpy as np
+
+from flexcage.bearings.ball.bearing import BallBearing
+from flexcage.bodies.floating_frame import BodyData, FlexibleBody
+from flexcage.cages.machined.cage import BallCage
+from flexcage.cages.machined.interface import BallCageInterface
+from flexcage.contacts import laws
+from flexcage.contacts.ball_pocket import BallPockets, ball_pocket_work
+from flexcage.contacts.groove import Groove
+from flexcage.contacts.land import LandData
+from flexcage.contacts.race import race_work
+from flexcage.contacts.spec import Contacts, Lubricant
+from flexcage.geometry.hertz import PointContact
+from flexcage.system.bodies import bodies_of, land_data, unbalanced
+from flexcage.system.data import Bodies, Work, new_work
+from flexcage.system.layout import Layout
+from flexcage.system.spec import Drive, Load, Mount
+
+POINT = 1.5  # exponent of a Hertz contact
+
+
+class BallModel(NamedTuple):
+    """Everything constant that a ball bearing's residual reads."""
+
+    bodies: Bodies
+    cage: BodyData
+    inner: Groove
+    outer: Groove
+    pocket: BallPockets
+    land: LandData
+
+
+def strips(count: int) -> tuple[np.ndarray, np.ndarray]:
+    """Middles (n,) of equal strips of -1..1 across an ellipse, and the share (n,) of a Hertz
+    contact's load that each bears: 3/4 (1 - s^2) ds, exactly."""
+    edges = np.linspace(-1.0, 1.0, count + 1)
+    return 0.5 * (edges[1:] + edges[:-1]), 0.75 * np.diff(edges - edges**3 / 3.0)
+
+
+def point_rolling_resistance(lubricant: Lubricant, contact: PointContact) -> np.ndarray:
+    """(factor, powers of roll rate [rad/s] and load [N]) of a ball's resisting moment [N m].
+
+    Houpert's force at one surface of a point contact, F = 2.86 E' R^2 kappa^0.348 G^0.022 U^0.66
+    W^0.47, with U = eta u/(E' R), W = Q/(E' R^2), G = alpha E' (L. Houpert, Piezoviscous-rigid
+    rolling and sliding traction forces, J. Tribol. 107 (1985) 241): isothermal and fully flooded.
+    Two surfaces lose 2 F u while ball and race turn at u/R against each other, so M = 2 F R: a
+    couple, which leaves both in balance. The line contact's two formulas have no counterpart: any
+    choice but "none" is this one.
+    """
+    if lubricant.rolling_resistance == "none":
+        return np.zeros(3)
+    R, modulus = contact.rolling, contact.modulus
+    speed = lubricant.viscosity / modulus  # U = eta (w R)/(E' R)
+    load = 1.0 / (modulus * R * R)
+    force = 2.86 * modulus * R * R * contact.ratio**0.348
+    force *= (lubricant.pressure_coefficient * modulus) ** 0.022 * speed**0.66 * load**0.47
+    return np.array([2.0 * force * R, 0.66, 0.47])
+
+
+def _groove(bearing: BallBearing, contacts: Contacts, lubricant: Lubricant, *, inner: bool):
+    contact = bearing.contacts[0 if inner else 1]
+    axial, centre = bearing.inner_groove_centre if inner else bearing.outer_groove_centre
+    radius = bearing.inner_groove_radius if inner else bearing.outer_groove_radius
+    strip, share = strips(contacts.race.slices)
+    return Groove(
+        side=-1.0 if inner else 1.0,
+        axial=axial,
+        centre=centre,
+        radius=radius,
+        long=float(contact.semi_axes(1.0)[0]),
+        bend=bearing.contact_curvatures[0 if inner else 1],
+        strip=strip,
+        share=share,
+        normal=laws.normal_parameters(contacts.race.normal, contact.stiffness, POINT),
+        friction=laws.friction_parameters(contacts.race.friction),
+        rolling=point_rolling_resistance(lubricant, contact),
+    )
+
+
+def pocket_contact(bearing: BallBearing, cage: BallCage, radius: float) -> PointContact:
+    """Hertz contact of a ball with the wall of a pocket of that radius [m].
+
+    Across a cylinder's axis, and all round in a sphere, ball and wall nearly fit: the contact is
+    long, but small against both while loads are those of cages.
+    """
+    ball = 0.5 * bearing.ball_diameter
+    fit = 1.0 / (1.0 / ball - 1.0 / radius)
+    sides = (
+        (1.0 - material.poisson_ratio**2) / material.youngs_modulus
+        for material in (bearing.material, cage.material)
+    )
+    along = fit if cage.pocket_shape == "spherical" else ball
+    return PointContact(rolling=along, transverse=fit, modulus=2.0 / sum(sides))
+
+
+def _pockets(
+    bearing: BallBearing, cage: BallCage, contacts: Contacts, interface: BallCageInterface
+) -> BallPockets:
+    st = np.ascontiguousarray
+    angle = 2.0 * pi * np.arange(bearing.ball_count) / bearing.ball_count
+    theta = interface.stations
+    normal = np.sin(theta)[None, :, None] * interface.modes[:, :, 0]
+    normal = normal + np.cos(theta)[None, :, None] * interface.modes[:, :, 2]
+    if cage.pocket_shape == "spherical":
+        normal = np.linalg.norm(interface.modes, axis=2)
+    n, height = interface.modes.shape[-1], 0.5 * bearing.pitch_diameter
+    return BallPockets(
+        azimuth=st(np.stack([np.cos(angle), np.sin(angle)], axis=1)),
+        shift=st(interface.centre),
+        slot=st(interface.slot),
+        radius=st(interface.radius),
+        height=height,
+        wall=0.5 * np.array([cage.bore, cage.outside_diameter]),
+        sphere=float(cage.pocket_shape == "spherical"),
+        rims=np.array([cage.wall_ends(height, float(r)) for r in interface.radius]),
+        phi=st(interface.modes[:, None]),
+        phi_max=np.abs(normal).max(axis=(0, 1)) if n else np.zeros(0),
+        local=st(interface.local),
+        normal=np.stack(
+            [
+                laws.normal_parameters(
+                    contacts.pocket.normal, pocket_contact(bearing, cage, float(r)).stiffness, POINT
+                )
+                for r in interface.radius
+            ]
+        ),
+        friction=laws.friction_parameters(contacts.pocket.friction),
+    )
+
+
+def build_ball_model(
+    bearing: BallBearing, cage: BallCage, body: FlexibleBody, interface: BallCageInterface, *,
+    contacts: Contacts, lubricant: Lubricant, drive: Drive, load: Load, mount: Mount, seed: int = 0,
+) -> BallModel:  # fmt: skip
+    """Arrays of a ball bearing for the kernels."""
+    rng = np.random.default_rng(seed)
+    scatter = bearing.ball_scatter * rng.standard_normal(bearing.ball_count)
+    outer, radius = cage.land_ring == "outer", cage.land_radius
+    land = contacts.land.on(bearing.land(cage))
+    tilts = load.tilt == "free"
+    return BallModel(
+        bodies=bodies_of(
+            bearing, cage, lubricant, drive, load, mount,
+            element=np.array([bearing.ball_mass, bearing.ball_inertia, bearing.ball_inertia]),
+            radius=0.5 * (bearing.ball_diameter + scatter),
+            area=0.25 * pi * bearing.ball_diameter**2,
+            free=(True, tilts, tilts),
+        ),
+        cage=unbalanced(body, cage).data,
+        inner=_groove(bearing, contacts, lubricant, inner=True),
+        outer=_groove(bearing, contacts, lubricant, inner=False),
+        pocket=_pockets(bearing, cage, contacts, interface),
+        land=land_data(
+            cage, land, lubricant, interface.land,
+            kind=land.kind if cage.has_land else "none", outer=outer, radius=radius,
+            bearing=bearing,
+        ),
+    )  # fmt: skip
+
+
+def ball_work(model: BallModel, layout: Layout) -> Work:
+    """Fresh workspaces of a ball bearing for one thread."""
+    stations = model.pocket.phi.shape[2]
+    return new_work(
+        layout, race_work(1), ball_pocket_work(stations), slices=0, points=0, faces=1,
+        stations=stations, ribs=0, land_stations=len(model.land.angle),
+    )  # fmt: skip

@@ -1,0 +1,27 @@
+"""Balls in motion, as the equations of motion want them."""
+
+from __future__ import annotations
+
+from flexcage.bearings.ball.model import BallModel, ball_work, build_ball_model
+from flexcage.bearings.ball.residual import evaluate
+from flexcage.bearings.ball.scales import ball_weights
+from flexcage.bearings.ball.start import ball_start
+from flexcage.system.motion import Motion, parts_type
+from flexcage.system.rows import shared_rows
+
+BallParts = parts_type("BallParts", BallModel, __name__)
+
+MOTION = Motion(
+    family="ball",
+    element="ball",
+    build_model=build_ball_model,
+    parts=BallParts,
+    new_work=ball_work,
+    evaluate=evaluate,
+    apart=(shared_rows,),
+    implicit=False,
+    faces=("pocket",),
+    ribs=(),
+    start=ball_start,
+    error_weights=ball_weights,
+)

@@ -1,0 +1,70 @@
+"""What runs of balls record."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from scipy.spatial.transform import Rotation
+
+from flexcage.bearings.ball.model import BallModel
+from flexcage.integrate.postures import in_plane
+from flexcage.integrate.recording import Recording
+from flexcage.system.layout import Layout
+from flexcage.system.problem import Bearing
+
+
+def _coords(model: BallModel) -> dict[str, Any]:
+    return {"station": np.arange(model.pocket.phi.shape[2])}
+
+
+def _variables(bearing: Bearing, y: np.ndarray) -> dict[str, np.ndarray]:
+    s, n = bearing.data.samples, len(y)
+    q, u = bearing.layout.q(y)["elements"], bearing.layout.u(y)["elements"]
+    return {
+        "element_position": q[:, :, :3],
+        "element_velocity": u[:, :, :3],
+        "element_omega": u[:, :, 3:],
+        "race_force": s.race[:n, :, :, 0],
+        "contact_angle": s.race[:n, :, :, 1],
+        "race_traction": s.race[:n, :, :, 2],
+        "race_traction_across": s.race[:n, :, :, 3],
+        "race_slip": s.race[:n, :, :, 4],
+        "pocket_direction": s.residual[:n, :, 0],
+    }
+
+
+def overlaps(model: BallModel, layout: Layout, y: np.ndarray) -> np.ndarray:
+    """Depths (n, Z, 4) of balls in races and pockets, and outside the cage's wall; see
+    ``Recording``."""
+    q, radius = layout.q(y), model.bodies.radius
+    x, r, psi = np.moveaxis(q["elements"][..., :3], -1, 0)
+    at = np.stack([x, r * np.cos(psi), r * np.sin(psi)], axis=-1)
+    races = [
+        np.hypot(p[..., 0] - race.axial, np.hypot(p[..., 1], p[..., 2]) - race.centre)
+        - (race.radius - radius)
+        for race, p in (
+            (model.inner, at - q["inner"][:, None, :3]),
+            (model.outer, at - in_plane(q["outer"])[:, None]),
+        )
+    ]
+    frames = Rotation.from_quat(q["quaternion"], scalar_first=True).as_matrix()
+    seen = np.einsum("nzc,ncd->nzd", at - q["cage"][:, None], frames)
+    cos, sin = model.pocket.azimuth.T
+    ahead = seen[..., 2] * cos - seen[..., 1] * sin - model.pocket.shift[:, 1]
+    aside = seen[..., 0] - model.pocket.shift[:, 0]
+    free = np.hypot(
+        *(np.maximum(np.abs(d) - h, 0.0) for d, h in zip((aside, ahead), model.pocket.slot.T))
+    )
+    away = np.hypot(seen[..., 1], seen[..., 2])
+    outside = np.maximum(model.pocket.wall[0] - away, away - model.pocket.wall[1])
+    return np.stack([*races, free - (model.pocket.radius - radius), outside], axis=-1)
+
+
+def _remedy(model: BallModel) -> str:
+    if model.pocket.sphere:
+        return "it passed the rim of its pocket; a broader cage would hold it"
+    return "a land (cage.guidance) or spherical pockets would hold it"
+
+
+RECORDING = Recording(coords=_coords, variables=_variables, overlaps=overlaps, remedy=_remedy)

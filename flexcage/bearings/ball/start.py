@@ -1,0 +1,114 @@
+"""The start of a ball bearing's run: its static solution, with the balls rolling.
+
+The quasi-static solution places ring and balls, centrifugal forces included. Every ball orbits as
+that has it and turns so that it rolls on both races, as far as contact angles allow; what spin
+and gyroscopic moment do to it is left to the run. The cage is centred on the balls, or as far off
+as its land's ring leaves it room, and the balls go with it; its modes are where rotation holds
+them.
+"""
+
+from __future__ import annotations
+
+from math import pi
+
+import numpy as np
+
+from flexcage.bearings.ball.model import BallModel
+from flexcage.bodies.floating_frame import BodyData
+from flexcage.system.layout import Layout
+from flexcage.system.problem import Bearing
+from flexcage.system.start import Start, StaticStart, Told, made_room
+from flexcage.system.statics.solution import StaticSolution
+
+_ALIKE = 1e-3  # rad: contact angles closer than this leave a ball's axis to their mean
+
+
+def ball_start(
+    bearing: Bearing, *, limit_force: float, statics: StaticStart | None, told: Told
+) -> Start:
+    """The static solution, which has to be given, with balls that roll; no force is limited."""
+    assert statics is not None, "balls start at their static solution"
+    model, solution = bearing.data.model, statics()
+    y = ball_places(bearing, solution)
+    made_room(model.land, bearing.layout, y)
+    yd = rolling_balls(model, bearing.layout, solution, y)
+    if bearing.layout.modes:
+        spin = float(bearing.layout.u(y)["omega"][0])
+        bearing.layout.q(y)["modes"][:] = _strained_by_rotation(model.cage, spin)
+    station = np.zeros_like(bearing.data.work.report.station)
+    return Start(y, yd, (), 0.0, solution.unbalanced, station, solution.warnings)
+
+
+def ball_places(bearing: Bearing, solution: StaticSolution) -> np.ndarray:
+    """y with ring and balls where the static solution has them, the cage centred on the balls.
+
+    A ball that bears nothing lies on the outer race at the angle of the others, or at none.
+    """
+    model, layout, balls = bearing.data.model, bearing.layout, solution.elements
+    y = np.zeros(layout.size)
+    q = layout.q(y)
+    angle = np.nan_to_num(balls.angle[:, 1])
+    depth = (balls.force[:, 1] / model.outer.normal[0]) ** (2.0 / 3.0)
+    reach = model.outer.radius - model.bodies.radius + depth
+    q["elements"][:, 0] = model.outer.axial + reach * np.sin(angle)
+    q["elements"][:, 1] = model.outer.centre + reach * np.cos(angle)
+    q["elements"][:, 2] = 2.0 * pi * np.arange(layout.elements) / layout.elements
+    q["inner"][:5] = solution.displacement
+    q["cage"][0] = q["elements"][:, 0].mean()
+    q["quaternion"][0] = 1.0
+    return y
+
+
+def rolling_balls(
+    model: BallModel, layout: Layout, solution: StaticSolution, y: np.ndarray
+) -> np.ndarray:
+    """Set velocities in y: balls that orbit and roll; returns y' (accelerations zero)."""
+    yd = np.zeros_like(y)
+    q, u, qd = layout.q(y), layout.u(y), layout.q(yd)
+    speed = float(np.interp(0.0, *model.bodies.speed))
+    orbit = np.nan_to_num(solution.elements.orbital_speed)
+    bears = (solution.elements.force > 0.0).all(axis=1)
+    cage = float(orbit[bears].mean()) if bears.any() else float(orbit.mean())
+    orbit = np.where(bears, orbit, cage)
+    r, rb = q["elements"][:, 1], model.bodies.radius
+    u["elements"][:, 2] = r * orbit
+    inner, outer = np.nan_to_num(solution.elements.angle).T
+    for i in range(layout.elements):
+        u["elements"][i, 3:5] = _rolling(
+            float(inner[i]), float(outer[i]), float(r[i]), float(rb[i]), float(orbit[i]), speed
+        )
+    qd["elements"][:, 2] = orbit
+    qd["elements"][:, 3:] = u["elements"][:, 3:]
+    u["inner"][3] = qd["inner"][5] = speed
+    u["omega"][0] = cage
+    qd["quaternion"][1] = 0.5 * cage
+    return yd
+
+
+def _strained_by_rotation(body: BodyData, speed: float) -> np.ndarray:
+    """Modal coordinates (n,) at which a cage that only rotates about its axis at ``speed`` [rad/s]
+    rests; from none it would ring.
+
+    Its modes feel w^2 int phi.p dm across the axis, with p the deformed place.
+    """
+    load = (body.S[1] + body.S[2]) * speed**2
+    stiffness = body.kff - (body.SS[:, 1] + body.SS[:, 2]) * speed**2
+    if body.gff.size:
+        stiffness = stiffness + body.gff * speed**2
+    return np.linalg.solve(stiffness, load)
+
+
+def _rolling(
+    inner: float, outer: float, r: float, rb: float, orbit: float, speed: float
+) -> tuple[float, float]:
+    """Angular velocity (x, r) [rad/s] of a ball whose centre at r orbits, rolling on both races.
+
+    On the outer race its surface stands still, on the inner it has the ring's speed. Where both
+    contacts face each other two speeds cannot be met: they are met on the mean.
+    """
+    rows = np.array([[np.cos(outer), -np.sin(outer)], [np.cos(inner), -np.sin(inner)]])
+    wanted = np.array([-r * orbit, r * orbit - speed * (r - rb * np.cos(inner))]) / rb
+    if abs(inner - outer) < _ALIKE:
+        axis = np.array([np.cos(0.5 * (inner + outer)), -np.sin(0.5 * (inner + outer))])
+        return tuple(wanted.mean() * axis)  # type: ignore[return-value]
+    return tuple(np.linalg.solve(rows, wanted))  # type: ignore[return-value]

@@ -1,0 +1,284 @@
+"""Cylindrical roller bearings: the spec, roller mass and inertia, and the roller profile."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from math import pi
+from typing import Any, ClassVar
+
+import numpy as np
+
+from flexcage.bearings.cylindrical_roller import checks, ratings
+from flexcage.cages.window.cage import WindowCage
+from flexcage.core.spec import option, quantity
+from flexcage.core.units import typeset
+from flexcage.geometry.bearing import (
+    Bearing,
+    EquivalentLoad,
+    RingLand,
+    RingLimit,
+    Spec,
+    hollow_cylinder_inertia,
+    type_name,
+)
+from flexcage.geometry.cage import Cage
+from flexcage.geometry.checks import Finding
+from flexcage.geometry.film import Film, Oil, both_races, line_film, rolling_entrainment
+from flexcage.geometry.materials import MATERIALS, Material
+
+ONLY_N = (
+    "of cylindrical roller bearings flexcage has the design N alone, with two ribs on the inner "
+    "ring and a plain outer ring (type 'cylindrical_roller')"
+)
+#: Designs of cylindrical roller bearings other than N, and what there is instead.
+OTHER_DESIGNS = {r"(cylindrical_roller_)?(rnu|nup?|nj|nf|nnu?|n?ncf)([-_ ]?\d.*)?": ONLY_N}
+_MOST_PRESSED = 0.01  # of a roller's diameter, a hundred times what C0 leaves for good (ISO 76)
+
+
+@dataclass(frozen=True, kw_only=True)
+class RollerProfile:
+    """Profile of the roller's generatrix: the radial drop P(x) at axial distance x from its centre.
+
+    ``logarithmic``: ISO/TS 16281, P = 0.00035 Dw ln(1/(1-(2x/Lwe)^2)) for Lwe <= 2.5 Dw and its
+    long-roller form otherwise; ``crowned``: a circular arc of ``crown_radius``; ``straight``: 0.
+    """
+
+    kind: str = option("logarithmic", choices=("logarithmic", "crowned", "straight"))
+    crown_radius: float = quantity("m", 10.0, doc="radius of a crowned profile", above=0.0)
+
+    def drop(self, x: np.ndarray, *, diameter: float, length: float) -> np.ndarray:
+        """Radial drop [m] at |x| < length/2; infinite at the very end of a logarithmic profile."""
+        x = np.abs(np.asarray(x, float))
+        if self.kind == "straight":
+            return np.zeros_like(x)
+        if self.kind == "crowned":
+            return x**2 / (2.0 * self.crown_radius)
+        if length <= 2.5 * diameter:
+            return -0.00035 * diameter * np.log(1.0 - (2.0 * x / length) ** 2)
+        over = np.maximum(2.0 * x - (length - 2.5 * diameter), 0.0) / (2.5 * diameter)
+        return -0.0005 * diameter * np.log(1.0 - over**2)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Spall:
+    """A spall of a race: a pit with sharp edges, of one depth; none while its length is zero.
+
+    A roller's axis goes down by (l - x)^2/(2 R) at a distance x from the middle of a spall of half
+    length l, as it turns about the edge that it still touches (R: effective radius of roller and
+    race), and never deeper than the pit. Its edges do not yield more than the race does.
+    """
+
+    length: float = quantity("mm", 0.0, doc="length along the race; 0: no spall", minimum=0.0)
+    depth: float = quantity("um", 100.0e-6, doc="depth", above=0.0)
+    azimuth: float = quantity("deg", 0.0, doc="azimuth of its middle on its ring, from y towards z")
+    width: float | None = quantity("mm", None, doc="axial width (default: all)", above=0.0)
+    offset: float = quantity("mm", 0.0, doc="axial distance of its middle from the race's")
+
+    def covered(self, centres: np.ndarray, slice_width: float) -> np.ndarray:
+        """Share (n,) of slices of a roller that stands in the middle of the race, by the axial
+        places of their centres (n,) [m]."""
+        if self.width is None:
+            return np.ones_like(centres)
+        low, high = self.offset - 0.5 * self.width, self.offset + 0.5 * self.width
+        half = 0.5 * slice_width
+        over = np.minimum(centres + half, high) - np.maximum(centres - half, low)
+        return np.clip(over / slice_width, 0.0, 1.0)
+
+    def in_words(self, race: str) -> str:
+        """A sentence on a spall of the "inner" or "outer" race; empty if there is none."""
+        if not self.length:
+            return ""
+        return (
+            f" The {race} race has a spall of {typeset(self.length, 'mm')}, "
+            f"{typeset(self.depth, 'um')} deep, at {typeset(self.azimuth, 'deg')}."
+        )
+
+
+@dataclass(frozen=True, kw_only=True)
+class RollerBearing(Bearing):
+    """A single-row cylindrical roller bearing, N design: ribs on the inner ring, outer ring plain.
+
+    Race diameters are those at zero clearance; half of the radial clearance is taken from the
+    inner race's diameter and half added to the outer's.
+    """
+
+    kind: ClassVar[str] = "cylindrical roller bearing"
+    cage_spec: ClassVar[Spec] = WindowCage
+    element: ClassVar[str] = "roller"
+    family: ClassVar[str] = "cylindrical_roller"
+    elsewhere: ClassVar[Mapping[str, str]] = {
+        "design|outer_ribs?(_.*)?|ribs?|flanges?": ONLY_N,
+        "spalls?|defects?": "give a spall as [bearing.outer_spall] or [bearing.inner_spall]",
+    }
+    guides: ClassVar[Mapping[str, str]] = {**Bearing.guides, "inner": "the inner ring's ribs"}
+
+    type: str = type_name("cylindrical_roller")
+    bore: float = quantity("mm", doc="bearing bore d", above=0.0)
+    outside_diameter: float = quantity("mm", doc="bearing outside diameter D", above=0.0)
+    width: float = quantity("mm", doc="bearing width B", above=0.0)
+    inner_race_diameter: float = quantity("mm", doc="race diameter F of the inner ring", above=0.0)
+    outer_race_diameter: float = quantity("mm", doc="race diameter E of the outer ring", above=0.0)
+    roller_diameter: float = quantity("mm", doc="diameter Dw of a roller", above=0.0)
+    roller_length: float = quantity("mm", doc="length Lw of a roller, overall", above=0.0)
+    effective_length: float = quantity(
+        "mm", doc="length Lwe of a roller without end chamfers", above=0.0
+    )
+    roller_count: int = option(doc="number Z of rollers", minimum=3)
+    radial_clearance: float = quantity("um", 0.0, doc="operating radial internal clearance Pd")
+    rib_diameter: float = quantity("mm", doc="outside diameter of the inner ring's ribs", above=0.0)
+    rib_gap: float = quantity("mm", doc="axial distance between the two ribs", above=0.0)
+    profile: RollerProfile = option(RollerProfile(), doc="roller profile")
+    material: Material = option(MATERIALS["GCr15"], doc="material of rings and rollers")
+    roller_scatter: float = quantity(
+        "um", 0.0, doc="standard deviation of roller diameters (seeded)", minimum=0.0
+    )
+    inner_waviness: float = quantity("um", 0.0, doc="amplitude of inner race waviness", minimum=0.0)
+    inner_waviness_order: int = option(2, doc="waves per turn, inner race", minimum=1)
+    outer_waviness: float = quantity("um", 0.0, doc="amplitude of outer race waviness", minimum=0.0)
+    outer_waviness_order: int = option(2, doc="waves per turn, outer race", minimum=1)
+    inner_spall: Spall = option(Spall(), doc="a pit of the inner race, which turns with its ring")
+    outer_spall: Spall = option(Spall(), doc="a pit of the outer race")
+
+    @property
+    def pitch_diameter(self) -> float:
+        return 0.5 * (self.inner_race_diameter + self.outer_race_diameter)
+
+    @property
+    def pitch_radius(self) -> float:
+        return 0.5 * self.pitch_diameter
+
+    @property
+    def inner_race_radius(self) -> float:
+        return 0.5 * self.inner_race_diameter - 0.25 * self.radial_clearance
+
+    @property
+    def outer_race_radius(self) -> float:
+        return 0.5 * self.outer_race_diameter + 0.25 * self.radial_clearance
+
+    @property
+    def gamma(self) -> float:
+        return self.roller_diameter / self.pitch_diameter
+
+    @cached_property
+    def roller_mass(self) -> float:
+        return self.material.density * 0.25 * pi * self.roller_diameter**2 * self.roller_length
+
+    @cached_property
+    def roller_inertia(self) -> tuple[float, float]:
+        """Axial and transverse moments of inertia of a roller [kg m^2]."""
+        radius = 0.5 * self.roller_diameter
+        axial = 0.5 * self.roller_mass * radius**2
+        transverse = self.roller_mass * (3.0 * radius**2 + self.roller_length**2) / 12.0
+        return axial, transverse
+
+    @property
+    def element_count(self) -> int:
+        return self.roller_count
+
+    @property
+    def element_diameter(self) -> float:
+        return self.roller_diameter
+
+    @property
+    def element_length(self) -> float:
+        return self.roller_length
+
+    @property
+    def element_edge(self) -> float:
+        return 0.5 * (self.roller_length - self.effective_length)
+
+    @property
+    def element_mass(self) -> float:
+        return self.roller_mass
+
+    def land(self, cage: Cage) -> RingLand:
+        begin, end = 0.5 * cage.pocket_length, 0.5 * min(cage.width, self.width)
+        if cage.guidance == "outer":
+            there = self.outer_race_radius - 0.5 * cage.outside_diameter
+            of = "cage.outside_diameter and the outer race"
+        else:
+            there = 0.5 * (cage.bore - self.rib_diameter)
+            of = "cage.bore and bearing.rib_diameter"
+            begin = max(begin, 0.5 * self.rib_gap)
+        return RingLand(clearance=there, of=of, strict=True, facing=end - begin, end=end)
+
+    def cage_space(self, cage: Cage) -> tuple[RingLimit, RingLimit]:
+        return (
+            RingLimit(self.rib_diameter, "the inner ring's ribs"),
+            RingLimit(2.0 * self.outer_race_radius, "the outer race"),
+        )
+
+    @cached_property
+    def inner_ring_mass(self) -> float:
+        """Inner ring as a hollow cylinder from bore to race, without ribs [kg]."""
+        area = 0.25 * pi * (self.inner_race_diameter**2 - self.bore**2)
+        return self.material.density * area * self.width
+
+    @cached_property
+    def inner_ring_inertia(self) -> tuple[float, float]:
+        """Axial and transverse moments of inertia of that hollow cylinder [kg m^2]."""
+        return hollow_cylinder_inertia(
+            self.inner_ring_mass, self.bore, self.inner_race_diameter, self.width
+        )
+
+    @cached_property
+    def outer_ring_mass(self) -> float:
+        area = 0.25 * pi * (self.outside_diameter**2 - self.outer_race_diameter**2)
+        return self.material.density * area * self.width
+
+    def check(self, cage: Any = None, defects: Sequence[Any] = ()) -> None:
+        checks.check(self, cage, defects)
+
+    def find_around_cage(self, cage: Cage) -> Iterator[Finding]:
+        return checks.find_around_cage(self, cage)
+
+    @property
+    def greatest_tilt(self) -> float:
+        return 2.0 * _MOST_PRESSED * self.roller_diameter / self.effective_length
+
+    @property
+    def greatest_shift(self) -> float:
+        return 0.5 * (self.width - self.roller_length)
+
+    @property
+    def static_rating(self) -> float:
+        return ratings.static_rating(self)
+
+    @property
+    def dynamic_rating(self) -> float:
+        return ratings.dynamic_rating(self)
+
+    def equivalent_load(self, radial: float, axial: float) -> EquivalentLoad:
+        return ratings.equivalent_load(radial, axial)
+
+    def race_film(self, force: np.ndarray, speed: np.ndarray, oil: Oil) -> Film:
+        """The load spread evenly over the effective length: a profile's ends are not resolved."""
+        roller, modulus = 0.5 * self.roller_diameter, self.material.plane_strain_modulus
+        films = []
+        for k, (race, side) in enumerate(
+            ((self.inner_race_radius, 1.0), (self.outer_race_radius, -1.0))
+        ):
+            radius = roller * race / (race + side * roller)
+            load = force[..., k] / self.effective_length
+            films.append(line_film(radius, modulus, load, speed[..., k], oil))
+        return both_races(films)
+
+    def rolling_entrainment(
+        self, angle: np.ndarray, orbit: np.ndarray, inner_speed: float
+    ) -> np.ndarray:
+        return rolling_entrainment(
+            angle, orbit, inner_speed, diameter=self.roller_diameter, pitch=self.pitch_diameter
+        )
+
+    def contact_patch(self, force: float, pressure: float, race: int) -> tuple[float, float]:
+        return 0.25 * pi * pressure, 2.0 * force / (pi * pressure * self.effective_length)
+
+    def in_words(self) -> str:
+        return (
+            f"{self.name_and_size} with {self.roller_count} "
+            f"rollers of {typeset(self.roller_diameter, 'mm')}, radial clearance "
+            f"{typeset(self.radial_clearance, 'um')}."
+            f"{self.inner_spall.in_words('inner')}{self.outer_spall.in_words('outer')}"
+        )

@@ -1,0 +1,176 @@
+"""Is this cylindrical roller bearing possible? One sentence for each impossibility, and what would
+be right."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from math import asin, pi, sin
+from typing import TYPE_CHECKING, Any
+
+from flexcage.core.units import describe
+from flexcage.geometry.cage import Cage
+from flexcage.geometry.checks import (
+    MOST_SCATTER,
+    Finding,
+    check_cage_defects,
+    check_room,
+    raise_first,
+)
+
+if TYPE_CHECKING:
+    from flexcage.bearings.cylindrical_roller.bearing import RollerBearing
+
+_MOST_CLEARANCE = 0.05  # of the roller's diameter: leaves one roller to bear a moderate load
+
+
+def _mm(value: float) -> str:
+    return describe(value, "mm")
+
+
+def check(bearing: RollerBearing, cage: Cage | None, defects: Sequence[Any]) -> None:
+    """Raise InputError for the first impossibility in the bearing, its cage or the defects."""
+    raise_first(find_in_bearing(bearing))
+    if cage is None:
+        return
+    cage.check(bearing.roller_count)
+    check_room(bearing, cage)
+    check_cage_defects(bearing, cage, defects)
+
+
+def find_in_bearing(b: RollerBearing) -> Iterator[Finding]:
+    """What is impossible in the bearing alone."""
+    rising = (
+        ("bore", b.bore),
+        ("inner_race_diameter", b.inner_race_diameter),
+        ("rib_diameter", b.rib_diameter),
+        ("outer_race_diameter", b.outer_race_diameter),
+        ("outside_diameter", b.outside_diameter),
+    )
+    for (small, low), (large, high) in zip(rising, rising[1:]):
+        if not low < high:
+            yield (
+                f"bearing.{large}",
+                f"bearing.{large} is {_mm(high)}, but must be greater than {small}, {_mm(low)}.",
+            )
+    space = 0.5 * (b.outer_race_diameter - b.inner_race_diameter)
+    if abs(b.roller_diameter - space) > 1e-6:
+        yield (
+            "bearing.roller_diameter",
+            f"bearing.roller_diameter is {_mm(b.roller_diameter)}, but the races leave "
+            f"{_mm(space)}, (E - F)/2; race diameters are those at zero clearance.",
+        )
+    chord = b.pitch_diameter * sin(pi / b.roller_count)
+    if chord <= b.roller_diameter:
+        most = int(pi / asin(b.roller_diameter / b.pitch_diameter))
+        yield (
+            "bearing.roller_count",
+            f"{b.roller_count} rollers of {_mm(b.roller_diameter)} overlap on a pitch diameter of "
+            f"{_mm(b.pitch_diameter)}; at most {most} fit.",
+        )
+    if b.radial_clearance < 0.0:
+        yield (
+            "bearing.radial_clearance",
+            f"bearing.radial_clearance is {describe(b.radial_clearance, 'um')}, but a negative "
+            "clearance (preload) is not modelled; give 0 um or more.",
+        )
+    widest = _MOST_CLEARANCE * b.roller_diameter
+    if b.radial_clearance > widest:
+        yield (
+            "bearing.radial_clearance",
+            f"bearing.radial_clearance is {_mm(b.radial_clearance)}, so wide that one roller alone "
+            f"would bear; give {_mm(widest)} or less, {100.0 * _MOST_CLEARANCE:g} % of a roller's "
+            "diameter.",
+        )
+    widest = MOST_SCATTER * b.roller_diameter
+    if b.roller_scatter > widest:
+        yield (
+            "bearing.roller_scatter",
+            f"bearing.roller_scatter is {_mm(b.roller_scatter)}, but rollers of one bearing differ "
+            f"by micrometres; give {_mm(widest)} or less, {100.0 * MOST_SCATTER:g} % of their "
+            "diameter.",
+        )
+    yield from _find_in_lengths(b)
+    yield from _find_in_spalls(b)
+
+
+def _find_in_spalls(b: RollerBearing) -> Iterator[Finding]:
+    for name, radius in (("inner", b.inner_race_radius), ("outer", b.outer_race_radius)):
+        spall, where = getattr(b, f"{name}_spall"), f"bearing.{name}_spall"
+        pitch = 2.0 * pi * radius / b.roller_count
+        if spall.length >= pitch:
+            yield (
+                f"{where}.length",
+                f"{where}.length is {_mm(spall.length)}, but must be less than the distance of two "
+                f"rollers there, {_mm(pitch)}: a longer one is no spall but another race.",
+            )
+        if spall.length and spall.depth > 0.1 * b.roller_diameter:
+            yield (
+                f"{where}.depth",
+                f"{where}.depth is {_mm(spall.depth)}; give a tenth of the roller's diameter, "
+                f"{_mm(0.1 * b.roller_diameter)}, or less.",
+            )
+        reach = 0.5 * b.effective_length
+        if spall.length and spall.width is not None:
+            if abs(spall.offset) - 0.5 * spall.width >= reach:
+                yield (
+                    f"{where}.offset",
+                    f"{where}.offset is {_mm(spall.offset)}, where no roller runs: rollers touch "
+                    f"the race to {_mm(reach)} from its middle.",
+                )
+
+
+def _find_in_lengths(b: RollerBearing) -> Iterator[Finding]:
+    if b.effective_length > b.roller_length:
+        yield (
+            "bearing.effective_length",
+            f"bearing.effective_length is {_mm(b.effective_length)}, longer than the roller "
+            f"itself, {_mm(b.roller_length)}.",
+        )
+    if b.rib_gap <= b.roller_length:
+        yield (
+            "bearing.rib_gap",
+            f"bearing.rib_gap is {_mm(b.rib_gap)}, but must be greater than the roller's length, "
+            f"{_mm(b.roller_length)}.",
+        )
+    if b.rib_gap >= b.width:
+        yield (
+            "bearing.rib_gap",
+            f"bearing.rib_gap is {_mm(b.rib_gap)}, which leaves no ribs on a ring "
+            f"{_mm(b.width)} wide.",
+        )
+    if b.profile.kind == "crowned" and (0.5 * b.effective_length) ** 2 > (
+        b.profile.crown_radius * b.roller_diameter
+    ):
+        yield (
+            "bearing.profile.crown_radius",
+            f"bearing.profile.crown_radius is {describe(b.profile.crown_radius, 'm')}, so "
+            "small that the profile cuts through the roller's axis.",
+        )
+
+
+def find_around_cage(b: RollerBearing, c: Cage) -> Iterator[Finding]:
+    """What leaves a cage no place between ribs and outer race, and around the pitch circle."""
+    if c.width > b.width:
+        yield (
+            "cage.width",
+            f"cage.width is {_mm(c.width)}, wider than the bearing, {_mm(b.width)}.",
+        )
+    if c.bore <= b.rib_diameter:
+        yield (
+            "cage.bore",
+            f"cage.bore is {_mm(c.bore)}, so the cage cuts through the inner ring's ribs, "
+            f"{_mm(b.rib_diameter)} in diameter.",
+        )
+    outer = 2.0 * b.outer_race_radius
+    if c.outside_diameter >= outer:
+        yield (
+            "cage.outside_diameter",
+            f"cage.outside_diameter is {_mm(c.outside_diameter)}, so the cage cuts through the "
+            f"outer race, {_mm(outer)} in diameter.",
+        )
+    if not c.bore < b.pitch_diameter < c.outside_diameter:
+        yield (
+            "cage",
+            f"The cage from {_mm(c.bore)} to {_mm(c.outside_diameter)} in diameter does not hold "
+            f"the rollers' pitch circle of {_mm(b.pitch_diameter)}; its pockets cannot guide them.",
+        )

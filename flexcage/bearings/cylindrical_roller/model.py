@@ -1,0 +1,266 @@
+"""A roller bearing from its specs to the arrays that kernels read."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import NamedTuple
+
+import numpy as np
+
+from flexcage.bearings.cylindrical_roller.bearing import RollerBearing
+from flexcage.bodies.floating_frame import BodyData, FlexibleBody
+from flexcage.cages.window.cage import WindowCage
+from flexcage.contacts import laws
+from flexcage.contacts.land import LandData
+from flexcage.contacts.pocket_wall import (
+    N_FACE,
+    N_LOCAL,
+    PocketData,
+    modal_rows,
+    pocket_work,
+    with_end_stations,
+)
+from flexcage.contacts.race import RaceSide, race_work
+from flexcage.contacts.rib import RibData
+from flexcage.contacts.spec import Contacts, Lubricant
+from flexcage.modes.basis import CageInterface
+from flexcage.system.bodies import bodies_of, elastic_constants, land_data, unbalanced
+from flexcage.system.data import Bodies, Work, new_work
+from flexcage.system.layout import Layout
+from flexcage.system.spec import Drive, Load, Mount
+
+
+class RollerModel(NamedTuple):
+    """Everything constant that a roller bearing's residual reads."""
+
+    bodies: Bodies
+    cage: BodyData
+    inner: RaceSide
+    outer: RaceSide
+    rib: RibData
+    pocket: PocketData
+    land: LandData
+
+
+def slice_grid(bearing: RollerBearing, slices: int) -> tuple[np.ndarray, np.ndarray]:
+    """Slice centres (n,) on the effective length, and the profile's drop there (n,) [m]."""
+    width = bearing.effective_length / slices
+    s = (np.arange(slices) + 0.5) * width - 0.5 * bearing.effective_length
+    drop = bearing.profile.drop(
+        s, diameter=bearing.roller_diameter, length=bearing.effective_length
+    )
+    return s, drop
+
+
+def _race_side(bearing, contacts: Contacts, lubricant: Lubricant, *, inner: bool) -> RaceSide:
+    s, drop = slice_grid(bearing, contacts.race.slices)
+    sign = 1.0 if inner else -1.0
+    radius = bearing.inner_race_radius if inner else bearing.outer_race_radius
+    rw = 0.5 * bearing.roller_diameter
+    equivalent = rw * radius / (radius + sign * rw)
+    modulus = bearing.material.plane_strain_modulus  # E' = 2/(2 (1-nu^2)/E)
+    wave = (
+        (bearing.inner_waviness, bearing.inner_waviness_order)
+        if inner
+        else (bearing.outer_waviness, bearing.outer_waviness_order)
+    )
+    spall = bearing.inner_spall if inner else bearing.outer_spall
+    angle, bend = 0.5 * spall.length / radius, radius**2 / (2.0 * equivalent)
+    stiffness = laws.iso_line_stiffness(bearing.effective_length) / contacts.race.slices
+    return RaceSide(
+        sign=sign,
+        radius=radius,
+        s=s,
+        drop=drop,
+        normal=laws.normal_parameters(contacts.race.normal, stiffness, 10.0 / 9.0),
+        friction=laws.friction_parameters(contacts.race.friction),
+        rolling=laws.rolling_resistance(lubricant, equivalent, bearing.effective_length, modulus),
+        hydro=2.0 * equivalent / rw,
+        wave=np.array(wave, float),
+        spall=np.array([angle, spall.azimuth, spall.depth, bend]),
+        spalled=spall.covered(s, bearing.effective_length / contacts.race.slices),
+        uneven=int(wave[0] > 0.0 or angle > 0.0),
+    )
+
+
+END_POINTS = (2, 7)  # of a roller's end on a side beam: across the band and along it
+
+
+def end_points(bearing: RollerBearing, cage: WindowCage) -> np.ndarray:
+    """Points (n, 2) of a roller's end over the band that a side beam covers, as offsets along e_r
+    and e_psi [m]: Gauss points across the band by those along it (``END_POINTS``), enough to feel
+    a side beam that is bent within one pocket."""
+    low = max(0.5 * cage.bore - bearing.pitch_radius, -0.45 * bearing.roller_diameter)
+    high = min(0.5 * cage.outside_diameter - bearing.pitch_radius, 0.45 * bearing.roller_diameter)
+    across, along = (np.polynomial.legendre.leggauss(n)[0] for n in END_POINTS)
+    across = 0.5 * (low + high) + 0.5 * (high - low) * across
+    reach = np.sqrt((0.45 * bearing.roller_diameter) ** 2 - max(abs(low), abs(high)) ** 2)
+    return np.array([(y, z) for y in across for z in reach * along])
+
+
+def rib_points(bearing: RollerBearing) -> np.ndarray:
+    """Three points (3, 2) of a roller's end over the rib, halfway up the overlap [m]."""
+    rw = 0.5 * bearing.roller_diameter
+    y = -0.5 * (bearing.pitch_radius - 0.5 * bearing.rib_diameter + 0.9 * rw)
+    reach = np.sqrt(max((0.9 * rw) ** 2 - y**2, 0.0))
+    return np.array([(y, -0.7 * reach), (y, 0.0), (y, 0.7 * reach)])
+
+
+def crossbeam_width(bearing: RollerBearing, cage: WindowCage) -> float:
+    """Width of a crossbeam at the pitch radius [m]."""
+    return 2.0 * np.pi * bearing.pitch_radius / bearing.roller_count - cage.pocket_width
+
+
+def _guiding_land(bearing: RollerBearing, cage: WindowCage) -> tuple[bool, float, float]:
+    """Is the cage's outside its land, that land's radius, and its clearance on the ring [m]?"""
+    radius = cage.land_radius
+    if cage.land_ring == "outer":
+        return True, radius, bearing.outer_race_radius - radius
+    return False, radius, radius - 0.5 * bearing.rib_diameter
+
+
+def compliance_root(compliance: np.ndarray) -> np.ndarray:
+    """L (Z, n, n) with L L^T the compliance (Z, n, n), which may be singular."""
+    values, vectors = np.linalg.eigh(compliance)
+    return np.ascontiguousarray(vectors * np.sqrt(np.maximum(values, 0.0))[:, None, :])
+
+
+def own_coordinates(shapes: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """What residual coordinates (Z, 4, nst, 12) do to each face, in six coordinates of its own.
+
+    The shapes (Z, 4, nst, 6) of those, and their directions (Z, 4, 6, 12), orthonormal or zero. Of
+    the seven that seven stations have, the one left out holds 1e-8 of the compliance (N1013).
+    """
+    left, values, right = np.linalg.svd(shapes, full_matrices=False)
+    own = np.zeros((*shapes.shape[:3], N_FACE))
+    turn = np.zeros((*shapes.shape[:2], N_FACE, N_LOCAL))
+    n = min(N_FACE, values.shape[-1])
+    own[..., :n], turn[..., :n, :] = (left * values[..., None, :])[..., :n], right[..., :n, :]
+    return own, turn
+
+
+def _pocket_laws(bearing, cage, contacts: Contacts, interface: CageInterface) -> np.ndarray:
+    """Normal laws (2, N_NORMAL) of a slice of a crossbeam and of a point of a side beam."""
+    rw, flexible = 0.5 * bearing.roller_diameter, interface.modes.shape[-1] > 0
+    steel, wall = elastic_constants(bearing.material), elastic_constants(cage.material)
+    k, e = laws.pocket_line_law(
+        radius=rw,
+        length=bearing.effective_length,
+        roller=steel,
+        wall=wall,
+        depth=0.5 * crossbeam_width(bearing, cage),
+        patch_half_width=interface.patch_half_width if flexible else 0.0,
+    )
+    k_end = laws.flat_end_stiffness(0.9 * rw, steel, wall) / len(end_points(bearing, cage))
+    return np.stack([
+        laws.normal_parameters(contacts.pocket.normal, k / contacts.pocket.slices, e),
+        laws.normal_parameters(contacts.side.normal, k_end, 1.0),
+    ])  # fmt: skip
+
+
+def _rib_data(bearing: RollerBearing, contacts: Contacts) -> RibData:
+    steel, points = elastic_constants(bearing.material), rib_points(bearing)
+    stiffness = laws.flat_end_stiffness(0.45 * 0.5 * bearing.roller_diameter, steel, steel)
+    return RibData(
+        half_gap=0.5 * bearing.rib_gap,
+        half_roller=0.5 * bearing.roller_length,
+        points=points,
+        normal=laws.normal_parameters(contacts.rib.normal, stiffness / len(points), 1.0),
+        friction=laws.friction_parameters(contacts.rib.friction),
+    )
+
+
+def _pocket_data(bearing, cage, contacts: Contacts, interface: CageInterface) -> PocketData:
+    s, drop = slice_grid(bearing, contacts.pocket.slices)
+    angle = 2.0 * np.pi * np.arange(bearing.roller_count) / bearing.roller_count
+    normal = np.stack(
+        [interface.modes[:, f, :, 2 if f < 2 else 0] for f in range(4)], axis=1
+    )  # (Z, 4, nst, n)
+    n = interface.modes.shape[-1]
+    at = interface.stations if interface.offset_at is None else interface.offset_at
+    st = np.ascontiguousarray
+    if interface.compliance.shape[1:] != (N_LOCAL, N_LOCAL):
+        raise ValueError(f"compliances are {interface.compliance.shape}, not (Z, {N_LOCAL}, same)")
+    root = compliance_root(interface.compliance)
+    shapes = np.einsum("zfsa,zab->zfsb", interface.residual, root)
+    res = with_end_stations(shapes)
+    res_max = np.abs(res).max(axis=2)
+    own, turn = own_coordinates(shapes)
+    own = with_end_stations(own)
+    return PocketData(
+        azimuth=st(np.stack([np.cos(angle), np.sin(angle)], axis=1)),
+        half=0.5 * np.array([cage.pocket_width, cage.pocket_length]),
+        s=s,
+        drop=drop,
+        points=end_points(bearing, cage),
+        half_roller=0.5 * bearing.roller_length,
+        x0=st(interface.stations[:, 0]),
+        dx=st(interface.stations[:, 1] - interface.stations[:, 0]),
+        offset=st(interface.offset),
+        grid=st(np.stack([at[:, 0], at[:, 1] - at[:, 0]])),
+        low=interface.offset.min(axis=2),
+        bent=np.any(interface.offset, axis=2).astype(np.int64),
+        phi=st(interface.modes),
+        phi_max=np.abs(normal).max(axis=(0, 1, 2)) if n else np.zeros(0),
+        rows=modal_rows(interface.modes),
+        soft=int(interface.compliance.any()),
+        res=res,
+        res_max=res_max,
+        most=res_max.max(axis=1),
+        own=own,
+        own_max=np.abs(own).max(axis=2),
+        turn=turn,
+        root=root,
+        normal=_pocket_laws(bearing, cage, contacts, interface),
+        friction=np.stack(
+            [
+                laws.friction_parameters(contacts.pocket.friction),
+                laws.friction_parameters(contacts.side.friction),
+            ]
+        ),
+    )
+
+
+def build_roller_model(
+    bearing: RollerBearing, cage: WindowCage, body: FlexibleBody, interface: CageInterface, *,
+    contacts: Contacts, lubricant: Lubricant, drive: Drive, load: Load, mount: Mount, seed: int = 0,
+) -> RollerModel:  # fmt: skip
+    """Arrays of a roller bearing for the kernels."""
+    scatter = bearing.roller_scatter * np.random.default_rng(seed).standard_normal(
+        bearing.roller_count
+    )
+    outer, radius, clearance = _guiding_land(bearing, cage)
+    land = replace(contacts.land.on(bearing.land(cage)), clearance=clearance)
+    tilts = load.tilt == "free"
+    return RollerModel(
+        bodies=bodies_of(
+            bearing, cage, lubricant, drive, load, mount,
+            element=np.array([bearing.roller_mass, *bearing.roller_inertia]),
+            radius=0.5 * (bearing.roller_diameter + scatter),
+            area=bearing.roller_diameter * bearing.roller_length,
+            free=(load.axial_stiffness > 0.0, tilts, tilts),
+        ),
+        cage=unbalanced(body, cage).data,
+        inner=_race_side(bearing, contacts, lubricant, inner=True),
+        outer=_race_side(bearing, contacts, lubricant, inner=False),
+        rib=_rib_data(bearing, contacts),
+        pocket=_pocket_data(bearing, cage, contacts, interface),
+        land=land_data(
+            cage, land, lubricant, interface.land, kind=land.kind, outer=outer, radius=radius,
+            bearing=bearing,
+        ),
+    )  # fmt: skip
+
+
+def roller_work(model: RollerModel, layout: Layout) -> Work:
+    """Fresh workspaces of a roller bearing for one thread."""
+    slices, points, stations = (
+        len(model.pocket.s),
+        len(model.pocket.points),
+        model.pocket.phi.shape[2],
+    )
+    return new_work(
+        layout, race_work(len(model.inner.s)), pocket_work(slices, points, stations, layout.modes),
+        slices=slices, points=points, faces=4, stations=stations, ribs=2,
+        land_stations=len(model.land.angle),
+    )  # fmt: skip

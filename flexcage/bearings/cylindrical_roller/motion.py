@@ -1,0 +1,29 @@
+"""Cylindrical rollers in motion, as the equations of motion want them."""
+
+from __future__ import annotations
+
+from flexcage.bearings.cylindrical_roller.model import RollerModel, build_roller_model, roller_work
+from flexcage.bearings.cylindrical_roller.pockets import roller_pockets
+from flexcage.bearings.cylindrical_roller.residual import evaluate
+from flexcage.bearings.cylindrical_roller.scales import roller_weights
+from flexcage.bearings.cylindrical_roller.start import roller_start
+from flexcage.modes.basis import FACES
+from flexcage.system.motion import Motion, parts_type
+from flexcage.system.rows import shared_rows
+
+RollerParts = parts_type("RollerParts", RollerModel, __name__)
+
+MOTION = Motion(
+    family="cylindrical_roller",
+    element="roller",
+    build_model=build_roller_model,
+    parts=RollerParts,
+    new_work=roller_work,
+    evaluate=evaluate,
+    apart=(roller_pockets, shared_rows),
+    implicit=True,
+    faces=FACES,
+    ribs=("rib +x", "rib -x"),
+    start=roller_start,
+    error_weights=roller_weights,
+)

@@ -1,0 +1,89 @@
+"""What runs of rollers record."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from scipy.spatial.transform import Rotation
+
+from flexcage.bearings.cylindrical_roller.model import RollerModel
+from flexcage.contacts.pocket_wall import N_LOCAL
+from flexcage.integrate.postures import in_plane, orientation
+from flexcage.integrate.recording import Recording
+from flexcage.system.layout import Layout
+from flexcage.system.problem import Bearing
+
+
+def _coords(model: RollerModel) -> dict[str, Any]:
+    pocket, stations = model.pocket, np.arange(model.pocket.phi.shape[2])
+    along = pocket.x0[:, None] + pocket.dx[:, None] * stations
+    return {
+        "slice": (("slice",), pocket.s, {"units": "m", "long_name": "place along the roller"}),
+        "end_point": np.arange(len(pocket.points)),
+        "end_point_place": (
+            ("end_point", "polar"),
+            pocket.points,
+            {"units": "m", "long_name": "place on the roller's end, along r and psi"},
+        ),
+        "station": stations,
+        "station_place": (
+            ("face", "station"),
+            along,
+            {"units": "m", "long_name": "place along the face: x on crossbeams, else tangential"},
+        ),
+        "residual": np.arange(N_LOCAL),
+    }
+
+
+def _variables(bearing: Bearing, y: np.ndarray) -> dict[str, np.ndarray]:
+    s, n = bearing.data.samples, len(y)
+    q, u = bearing.layout.q(y)["elements"], bearing.layout.u(y)["elements"]
+    root = bearing.data.model.pocket.root
+    return {
+        "element_position": q[:, :, :3],
+        "element_velocity": u[:, :, :3],
+        "element_quaternion": orientation(q[:, :, 2], q[:, :, 3:]),
+        "element_tilt": q[:, :, 3:5],
+        "element_omega": u[:, :, 3:],
+        "race_force": s.race[:n, :, :, 0],
+        "race_traction": s.race[:n, :, :, 1],
+        "race_moment": s.race[:n, :, :, [3, 2]],
+        "race_slip": s.race[:n, :, :, 4],
+        "pocket_slice_force": s.slice_normal[:n],
+        "pocket_slice_friction": s.slice_friction[:n],
+        "pocket_point_force": s.point_normal[:n],
+        "pocket_point_friction": s.point_friction[:n],
+        "residual_coordinates": np.einsum("zab,tzb->tza", root, s.residual[:n]),
+        "rib_force": s.rib[:n],
+    }
+
+
+def overlaps(model: RollerModel, layout: Layout, y: np.ndarray) -> np.ndarray:
+    """Depths (n, Z, 8) of rollers in races, faces of their pockets and ribs; see ``Recording``. A
+    face lies where it is widest."""
+    q = layout.q(y)
+    radius, (cos, sin) = model.bodies.radius, model.pocket.azimuth.T
+    x, r, psi = np.moveaxis(q["elements"][..., :3], -1, 0)
+    at = np.stack([x, r * np.cos(psi), r * np.sin(psi)], axis=-1)
+    in_inner, in_outer = at - q["inner"][:, None, :3], at - in_plane(q["outer"])[:, None]
+    frames = Rotation.from_quat(q["quaternion"], scalar_first=True).as_matrix()
+    seen = np.einsum("nzc,ncd->nzd", at - q["cage"][:, None], frames)
+    ahead, end = seen[..., 2] * cos - seen[..., 1] * sin, model.pocket.half_roller
+    walls = np.repeat(model.pocket.half, 2) + np.maximum(model.pocket.offset.max(axis=2), 0.0)
+    return np.stack(
+        [
+            model.inner.radius + radius - np.hypot(in_inner[..., 1], in_inner[..., 2]),
+            np.hypot(in_outer[..., 1], in_outer[..., 2]) + radius - model.outer.radius,
+            ahead + radius - walls[:, 0],
+            -ahead + radius - walls[:, 1],
+            seen[..., 0] + end - walls[:, 2],
+            -seen[..., 0] + end - walls[:, 3],
+            in_inner[..., 0] + end - model.rib.half_gap,
+            -in_inner[..., 0] + end - model.rib.half_gap,
+        ],
+        axis=-1,
+    )
+
+
+RECORDING = Recording(coords=_coords, variables=_variables, overlaps=overlaps)

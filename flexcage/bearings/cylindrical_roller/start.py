@@ -1,0 +1,373 @@
+"""The start of a roller bearing's run: quasi-static equilibrium at epicyclic speeds.
+
+Rings, rollers and a pinched cage are brought to equilibrium without friction: Newton's method
+on the momentum rows with the velocities of pure rolling, in the metric of the mass matrix (an
+implicit Euler step from rest, whose length grows as it succeeds). Rollers stay where they are along
+their orbit, where friction would hold them, and between the ribs of a ring that is free along the
+axis or in tilt; a pinched cage finds its place, and a free one is moved off a land that the ring
+would press. Where a defect leaves less than no clearance its size grows in steps from the first
+touch, so that the run begins assembled.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from flexcage.bearings.cylindrical_roller.model import RollerModel
+from flexcage.contacts import laws
+from flexcage.contacts.evaluation import REPORT, RESIDUAL, TANGENT
+from flexcage.contacts.land import DRY, NONE
+from flexcage.contacts.pocket_wall import with_offset
+from flexcage.core.errors import InputError, RunFailed
+from flexcage.geometry.kinematics import epicyclic
+from flexcage.system.constraints import OFF, no_rows
+from flexcage.system.layout import Layout
+from flexcage.system.newton import assemble, newton_step
+from flexcage.system.problem import Bearing
+from flexcage.system.start import Start, StaticStart, Told, made_room
+
+_SMALL = 1e-7  # of the load: where an equilibrium is accepted
+_BALANCED = 1e-6  # of the load: what may stay unbalanced at last
+TOUCH = 1e-9  # [m] interference that is only a touch
+STAGES = 8  # steps of a pinching defect's growth
+_CAGE_ROW = 8  # of the border: where the cage's rigid motion begins
+_HOLD = 1e12  # stiffness that holds a coordinate, far above that of any contact
+# longest step of centres [m], and of a roller's tilt and skew [rad], by which its ends move by some
+# 0.4 um: one that is hardly loaded resists so little that longer ones may swing over for ever
+_SHIFT, _TURN = 1e-5, 1e-4
+
+
+def rolling_velocities(model: RollerModel, layout: Layout, y: np.ndarray) -> np.ndarray:
+    """Set the velocities of pure rolling in y, and return y' (accelerations zero)."""
+    b = model.bodies
+    rw = float(b.radius.mean())
+    pitch = 0.5 * (model.inner.radius + model.outer.radius)
+    speed = float(np.interp(0.0, *b.speed))
+    k = epicyclic(
+        roller_diameter=2.0 * rw, pitch_diameter=2.0 * pitch, roller_count=layout.elements,
+        inner_speed=speed,
+    )  # fmt: skip
+    yd = np.zeros_like(y)
+    q, u, qd = layout.q(y), layout.u(y), layout.q(yd)
+    radius = q["elements"][:, 1]
+    u["elements"][:] = 0.0
+    u["elements"][:, 2] = radius * k.cage_speed
+    u["elements"][:, 3] = k.roller_spin
+    skew, tilt = q["elements"][:, 3], q["elements"][:, 4]
+    u["elements"][:, 4] = -k.cage_speed * np.cos(skew) * np.sin(tilt)  # they keep skew and tilt
+    u["elements"][:, 5] = k.cage_speed * np.sin(skew)
+    qd["elements"][:, 2] = k.cage_speed
+    qd["elements"][:, 5] = k.roller_spin - k.cage_speed * np.cos(skew) * np.cos(tilt)
+    u["inner"][3] = qd["inner"][5] = speed
+    u["omega"][0] = k.cage_speed
+    qd["quaternion"][1] = 0.5 * k.cage_speed
+    return yd
+
+
+def standing_cage(model: RollerModel, layout: Layout, y: np.ndarray) -> np.ndarray:
+    """Velocities of pure rolling, but for the cage: nothing elastic holds its unbalance."""
+    yd = rolling_velocities(model, layout, y)
+    layout.u(y)["omega"][:] = 0.0
+    layout.q(yd)["quaternion"][:] = 0.0
+    return yd
+
+
+def pocket_clearance(model: RollerModel, offset: np.ndarray) -> np.ndarray:
+    """Least clearance (Z, 2) of each pocket for its roller, across and along [m]."""
+    width = 2.0 * model.pocket.half[0] - 2.0 * model.bodies.radius[:, None]
+    across = width + (offset[:, 0] + offset[:, 1])
+    along = 2.0 * (model.pocket.half[1] - model.pocket.half_roller) + offset[:, 2] + offset[:, 3]
+    return np.stack([across.min(axis=1), along.min(axis=1)], axis=1)
+
+
+def geometric_guess(model: RollerModel, layout: Layout) -> np.ndarray:
+    """Rollers on the outer race in the middle of their pockets and between the ribs, the rest
+    centred."""
+    y = np.zeros(layout.size)
+    q = layout.q(y)
+    Z = layout.elements
+    q["elements"][:, 1] = model.outer.radius - model.bodies.radius
+    q["elements"][:, 2] = 2.0 * np.pi * np.arange(Z) / Z
+    q["quaternion"][0] = 1.0
+    q["inner"][4] = model.bodies.misalignment
+    if model.bodies.free[0]:
+        q["inner"][0] = q["cage"][0] = _axial_load(model) / model.bodies.spring[0, 0]
+    q["elements"][:, 0] = _between_ribs(layout, y)
+    shift = max(float(model.bodies.outer[4]), 0.0) * (1.0 - model.bodies.outer[3])
+    q["outer"][:] = shift * model.bodies.load_direction  # a ring in its bore lies on the ground
+    psi = q["elements"][:, 2]
+    q["elements"][:, 1] += q["outer"] @ np.stack([np.cos(psi), np.sin(psi)])
+    play = model.outer.radius - model.inner.radius - 2.0 * model.bodies.radius.min()
+    q["inner"][1:3] = (play + shift) * model.bodies.load_direction  # just before first contact
+    return y
+
+
+def _axial_load(model: RollerModel) -> float:
+    """The axial load at the start [N]."""
+    return float(np.interp(0.0, *model.bodies.axial))
+
+
+def _between_ribs(layout: Layout, y: np.ndarray) -> np.ndarray:
+    """Where (Z,) along the axis the inner ring's middle plane meets the rollers' centres [m]."""
+    q = layout.q(y)
+    r, psi, (skew, tilt) = q["elements"][:, 1], q["elements"][:, 2], q["inner"][3:5]
+    up, across = np.tan(tilt) / np.cos(skew), np.tan(skew)
+    return q["inner"][0] - r * np.cos(psi) * up + r * np.sin(psi) * across
+
+
+class _Frictionless:
+    """The bearing without friction, damping, drag, rolling resistance and gravity, and without
+    films; ``lands``: with the cage's dry lands, which a free cage is to keep off by itself."""
+
+    def __init__(self, bearing: Bearing, offset: np.ndarray, *, lands: bool = False) -> None:
+        model = bearing.data.model
+        land = min(model.land.kind, DRY) if lands else NONE
+        still = model._replace(
+            bodies=model.bodies._replace(
+                gravity=np.zeros(3),
+                drag=np.zeros(2),
+                spring=model.bodies.spring * np.array([1.0, 0.0]),
+            ),
+            inner=model.inner._replace(rolling=np.zeros(2)),
+            outer=model.outer._replace(rolling=np.zeros(2)),
+            land=model.land._replace(kind=land),
+            pocket=with_offset(model.pocket, offset),
+        )
+        self.bearing = bearing
+        free = bearing.data.constraints
+        free = free._replace(level=np.full(len(free.level), float(OFF)))
+        self.data = bearing.data._replace(model=still, constraints=free)
+        own = (laws.elastic,) * 5 + (laws.no_friction,) * 5 + (no_rows, bearing.laws[-1])
+        self.args = bearing.arguments(self.data, own)
+        self.out = np.zeros(bearing.layout.size)
+
+    def residual(self, y: np.ndarray, yd: np.ndarray) -> np.ndarray:
+        self._evaluate(y, yd, RESIDUAL)
+        return self.out.copy()
+
+    def _evaluate(self, y: np.ndarray, yd: np.ndarray, mode: int) -> None:
+        self.bearing.evaluate(0.0, y, yd, self.args[0], self.args[1], self.out, mode)
+
+    def report(self, y: np.ndarray, yd: np.ndarray):
+        self._evaluate(y, yd, REPORT)
+        return self.data.work.report
+
+    def step(self, y, yd, r, alpha: float, held: Held) -> np.ndarray:
+        """Displacement step dq of the implicit Euler step 1/alpha from rest."""
+        tangent = self.data.work.tangent
+        self._evaluate(y, yd, TANGENT)
+        roller, row = np.nonzero(held.rollers)
+        tangent.Krr[roller, row, row] += _HOLD
+        row = _CAGE_ROW + np.flatnonzero(held.cage)
+        tangent.Kbb[row, row] += _HOLD
+        if not assemble(alpha, self.data.model.bodies, tangent, self.data.matrix):
+            raise RunFailed("the start's equilibrium has a singular matrix; is a body massless?")
+        r = r.copy()
+        newton_step(alpha, y, r, tangent, self.data.matrix)
+        return r
+
+
+def _check_force(
+    system: _Frictionless, y: np.ndarray, yd: np.ndarray, limit: float, share: float,
+    pinched: np.ndarray,
+) -> None:  # fmt: skip
+    """InputError for a pocket that pushes with more than ``limit`` [N]."""
+    force = float(system.report(y, yd).pocket_normal.max())
+    if force > limit:
+        raise _not_assembled(system.bearing, force, limit, share, pinched)
+
+
+def _not_assembled(
+    bearing: Bearing, force: float, limit: float, share: float, pinched: np.ndarray
+) -> InputError:
+    """What is to blame for a pocket's ``force`` beyond ``limit`` [N] at a share of the defects."""
+    model = bearing.data.model
+    beyond = f"{force:,.0f} N, more than limits.assembly_force ({limit:,.0f} N)"
+    room = pocket_clearance(model, 0.0 * model.pocket.offset).min(axis=1)
+    if room.min() < -TOUCH:
+        roller = int(room.argmin())
+        return InputError(
+            f"roller {roller} is {-1e3 * room[roller]:.3g} mm larger than its pocket, without any "
+            f"defect, and is pinched with {beyond}; make bearing.roller_scatter smaller, or the "
+            "pocket larger",
+            where="bearing.roller_scatter",
+            value=force,
+        )
+    if model.pocket.offset.any() and _sound_one_assembles(bearing, limit):
+        name = f"a defect pinches roller {int(pinched[0])}" if len(pinched) else "a pocket pushes"
+        return InputError(
+            f"{name} with {beyond}, at {share:.0%} of the defects' size: the bearing cannot be "
+            "assembled; make the defect smaller, the pocket larger, or raise the limit",
+            where="defects",
+            value=force,
+        )
+    return InputError(
+        f"a pocket pushes with {beyond}, whatever the defects: no equilibrium to start from was "
+        f"found; {_others(model)} is too large",
+        where="load",
+        value=force,
+    )
+
+
+def _others(model: RollerModel) -> str:
+    """What besides defects may be too large for an equilibrium."""
+    soft = np.any(model.bodies.moments) and np.any(model.bodies.free[1:3])
+    moment = "the moment for such a load.tilt_stiffness, " if soft else ""
+    return f"the load, {moment}the speed, the misalignment or the clearance"
+
+
+def _sound_one_assembles(bearing: Bearing, limit: float) -> bool:
+    """Does the bearing come to equilibrium, no pocket beyond ``limit`` [N], without defects?"""
+    model, layout = bearing.data.model, bearing.layout
+    none = 0.0 * model.pocket.offset
+    y = geometric_guess(model, layout)
+    yd = standing_cage(model, layout, y)
+    tight = pocket_clearance(model, none) < -TOUCH
+    system = _Frictionless(bearing, none)
+    residual = _assemble(system, y, yd, tight)
+    return residual <= _BALANCED and system.report(y, yd).pocket_normal.max() <= limit
+
+
+def _load(model: RollerModel) -> float:
+    """The load at the start [N], by which unbalanced forces are measured."""
+    return max(float(np.interp(0.0, *model.bodies.load)), abs(_axial_load(model)), 1.0)
+
+
+@dataclass(frozen=True)
+class Held:
+    """Motions that friction holds while the bearing is brought to equilibrium without it."""
+
+    rollers: np.ndarray  # (Z, 6) along the orbit; sideways and in skew unless pinched
+    cage: np.ndarray  # (6,) where a pinch holds the cage: all but those along which it squeezes
+
+
+def _held(tight: np.ndarray) -> Held:
+    """What is held where pockets are too small across or along (Z, 2) for their rollers."""
+    pinched = np.any(tight, axis=1)
+    rollers = np.zeros((len(tight), 6), bool)
+    rollers[:, 2] = True
+    rollers[~pinched, 0] = rollers[~pinched, 4] = True
+    cage = np.full(6, bool(pinched.any()))
+    cage[0] &= not tight[:, 1].any()  # side beams find their place along x
+    cage[3] &= not tight[:, 0].any()  # crossbeams by turning about it
+    return Held(rollers, cage)
+
+
+def _measure(layout: Layout, r: np.ndarray, lever: float, held: Held, free: np.ndarray) -> float:
+    """Largest unbalanced force [N] (moments over a lever) of the rows that are free."""
+    u = {k: v.copy() for k, v in layout.u(r).items()}
+    u["elements"][:, 3:] /= lever
+    u["inner"][[0, 4, 5]] *= free[:3]  # the others are constrained: their multipliers balance them
+    u["inner"][3] = 0.0
+    u["inner"][4:] /= lever
+    u["omega"] /= 10.0 * lever
+    names = u if held.cage.any() else ("elements", "inner", "outer")  # nothing holds a free cage
+    return max(float(np.abs(u[k]).max()) for k in names if u[k].size)
+
+
+def _equilibrate(system: _Frictionless, y: np.ndarray, yd: np.ndarray, tight: np.ndarray) -> float:
+    """Bring y to equilibrium in place; the residual reached, as a share of the load.
+
+    ``tight`` (Z, 2) marks the pockets that are too small for their roller at this stage.
+    """
+    held, load = _held(tight), _load(system.data.model)
+    layout = system.bearing.layout
+    nq, n_qu = layout.n_q, layout.n_q + layout.n_u
+    bodies = system.data.model.bodies
+    lever, loose = float(bodies.radius.mean()), np.flatnonzero(bodies.free[:3])
+    alpha, last = 1e5, np.inf
+    for _ in range(400):
+        r = system.residual(y, yd)
+        rows = layout.u(r)
+        rows["elements"][held.rollers] = 0.0
+        rows["cage"][held.cage[:3]] = 0.0
+        rows["omega"][held.cage[3:]] = 0.0
+        size = _measure(layout, r, lever, held, bodies.free) / load
+        if size < _SMALL:
+            break
+        alpha = max(alpha * 0.5, 500.0) if size <= 3.0 * last else min(alpha * 10.0, 1e6)
+        last = size
+        step = system.step(y, yd, r, alpha, held)
+        dq = layout.q(step)
+        shift = max(np.abs(dq["elements"][:, :2]).max(), np.abs(dq["inner"][:3]).max())
+        turn = np.abs(dq["elements"][:, 3:5]).max()
+        share = min(1.0, _SHIFT / max(shift, 1e-30), _TURN / max(turn, 1e-30))
+        ribs = _between_ribs(layout, y)
+        y[:nq] += step[:nq] * share
+        if len(loose):
+            y[n_qu + loose] += step[n_qu + loose] * share
+            layout.q(y)["elements"][:, 0] += _between_ribs(layout, y) - ribs
+            layout.q(y)["cage"][0] += dq["inner"][0] * share
+        layout.q(y)["quaternion"][:] /= np.linalg.norm(layout.q(y)["quaternion"])
+        yd[:] = standing_cage(system.data.model, layout, y)
+    return size
+
+
+def _assemble(system: _Frictionless, y: np.ndarray, yd: np.ndarray, tight: np.ndarray) -> float:
+    """Bring y to equilibrium, with the cage out of the way of its land's ring; the residual."""
+    model, layout = system.bearing.data.model, system.bearing.layout
+    residual = _equilibrate(system, y, yd, tight)
+    if made_room(model.land, layout, y):
+        residual = _equilibrate(system, y, yd, tight)
+        if not tight.any():
+            squeezed = np.abs(layout.u(system.residual(y, yd))["cage"]).max()  # by its pockets
+            residual = max(residual, float(squeezed) / _load(model))
+    return residual
+
+
+def _stages(model: RollerModel, offset: np.ndarray) -> np.ndarray:
+    """Shares of the defects' size to go through: from the first touch to all of it."""
+    free = pocket_clearance(model, 0.0 * offset)
+    full = pocket_clearance(model, offset)
+    if not np.any(full < -TOUCH):
+        return np.array([1.0])
+    tight = full < -TOUCH
+    lost = free[tight] - full[tight]
+    touch = np.divide(free[tight], lost, out=np.zeros_like(lost), where=lost > 0.0)
+    first = float(touch.min())
+    return np.linspace(max(first, 0.0), 1.0, STAGES + 1)[1:]
+
+
+def roller_start(
+    bearing: Bearing, *, limit_force: float, statics: StaticStart | None, told: Told
+) -> Start:
+    """Equilibrium at epicyclic speeds; the static solution is not asked for."""
+    model, layout = bearing.data.model, bearing.layout
+    offset = model.pocket.offset
+    y = geometric_guess(model, layout)
+    residual = 0.0
+    placed = np.zeros((layout.elements, 2))
+    shares = _stages(model, offset)
+    for stage, share in enumerate(shares, start=1):
+        tight = pocket_clearance(model, offset * share) < -TOUCH
+        pinched = np.flatnonzero(np.any(tight, axis=1))
+        system = _Frictionless(bearing, offset * share)
+        middle = np.stack(
+            [offset[:, 0].min(axis=1) - offset[:, 1].min(axis=1),
+             offset[:, 2].min(axis=1) - offset[:, 3].min(axis=1)], axis=1,
+        ) * 0.5 * share  # fmt: skip
+        q = layout.q(y)["elements"]
+        q[:, 2] += (middle - placed)[:, 0] / q[:, 1]
+        placed = middle
+        yd = standing_cage(model, layout, y)
+        residual = _assemble(system, y, yd, tight)
+        _check_force(system, y, yd, limit_force, share, pinched)
+        told(stage / len(shares))
+    if len(pinched):  # and held, whether its land is in the way or not
+        system = _Frictionless(bearing, offset, lands=True)
+        residual = _equilibrate(system, y, yd, tight)
+        _check_force(system, y, yd, limit_force, 1.0, pinched)
+    if residual > _BALANCED:
+        by_defects = len(pinched) and _sound_one_assembles(bearing, limit_force)
+        blamed = "a defect" if by_defects else _others(model)
+        raise RunFailed(
+            f"no equilibrium to start from was found: {residual:.1e} of the load stays "
+            f"unbalanced ({_BALANCED:g} is allowed); is {blamed} too large?"
+        )
+    report = system.report(y, yd)
+    yd = rolling_velocities(model, layout, y)
+    held = tuple(int(i) for i in pinched if report.pocket_normal[i].max() > 0.0)
+    force = float(report.pocket_normal[list(held)].max()) if held else 0.0
+    return Start(y, yd, held, force, residual, report.station.copy())

@@ -1,0 +1,172 @@
+"""Window cages: frozen specs, and what follows from their dimensions alone."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from math import hypot, pi, sin
+from typing import TYPE_CHECKING, Any, ClassVar
+
+import numpy as np
+
+from flexcage.core.spec import option, quantity
+from flexcage.core.units import describe, typeset
+from flexcage.geometry.cage import Cage, Objection, cages_of
+
+if TYPE_CHECKING:
+    from flexcage.geometry.bearing import Bearing
+
+_SHARPEST = 1e-4  # fillet, of the pocket's smaller side; smaller ones are lost in its mesh
+_PINCH_LIMIT = 0.1  # of an element's size: far beyond what any cage material survives
+GUIDANCE = ("roller", "inner", "outer")
+ROLLER_CAGES = cages_of("roller")
+
+
+@dataclass(frozen=True, kw_only=True)
+class WindowCage(Cage):
+    """A machined window cage: a hollow cylinder with one rectangular pocket per roller.
+
+    Pocket walls are planes: the crossbeam faces parallel to the pocket's radial mid-plane at
+    +-pocket_width/2, the side-beam faces normal to the bearing axis at +-pocket_length/2.
+    """
+
+    cage_type: ClassVar[str] = "window"
+    altered: ClassVar[str] = "Deformed"
+
+    type: str = option("window", doc="kind of cage", choices=ROLLER_CAGES, former="window")
+    pocket_width: float = quantity("mm", doc="circumferential pocket width Cq", above=0.0)
+    pocket_length: float = quantity("mm", doc="axial pocket length Cp", above=0.0)
+    fillet_radius: float = quantity(
+        "mm",
+        0.5e-3,
+        doc="pocket corner fillet radius",
+        above=0.0,
+        assumption="not given; a corner as cutters leave it: without one, root stress is singular",
+    )
+    guidance: str = option("roller", doc="what guides the cage radially", choices=GUIDANCE)
+
+    @property
+    def fillet(self) -> float:
+        return self.fillet_radius
+
+    @property
+    def pocket_size(self) -> float:
+        return self.pocket_width
+
+    def check_defects(
+        self,
+        defects: Sequence[Any],
+        *,
+        pocket_count: int,
+        pitch_diameter: float,
+        element_diameter: float = 0.0,
+    ) -> None:
+        from flexcage.cages.window.defects import check_pocket_sizes
+
+        super().check_defects(defects, pocket_count=pocket_count, pitch_diameter=pitch_diameter)
+        check_pocket_sizes(defects, self, pocket_count=pocket_count)
+
+    def thinnest(self, pitch_diameter: float, pocket_count: int) -> float:
+        beam = pi * pitch_diameter / pocket_count - self.pocket_width
+        return min(0.5 * (self.outside_diameter - self.bore), beam)
+
+    def parts(self, pitch_diameter: float, pocket_count: int) -> dict[str, float]:
+        return {
+            "crossbeams": self.bore * sin(pi / pocket_count) - self.pocket_width,
+            "side beams": self.side_beam_width,
+            "wall": 0.5 * (self.outside_diameter - self.bore),
+        }
+
+    @property
+    def side_beam_width(self) -> float:
+        return 0.5 * (self.width - self.pocket_length)
+
+    def in_words(self) -> str:
+        return (
+            f"pockets are {typeset(self.pocket_width, 'mm')} wide and "
+            f"{typeset(self.pocket_length, 'mm')} long"
+        )
+
+    def impossible(self, pocket_count: int) -> Iterator[Objection]:
+        """Dimensions that leave no body: thickness, side beams, crossbeams, fillets."""
+        yield from super().impossible(pocket_count)
+        chord = self.bore * sin(pi / pocket_count)  # between neighbouring pockets' planes, at bore
+        if self.pocket_length >= self.width:
+            yield "pocket_length", f"leaves no side beams in a cage {_mm(self.width)} wide"
+        if self.pocket_width >= chord:
+            yield (
+                "pocket_width",
+                f"makes the {pocket_count} crossbeams thinner than zero at the bore; it must be "
+                f"less than {_mm(chord)}",
+            )
+        half = 0.5 * min(self.pocket_width, self.pocket_length)
+        if self.fillet_radius >= half:
+            yield (
+                "fillet_radius",
+                f"is too big; it must be less than half of the pocket's side, {_mm(half)}",
+            )
+        if self.fillet_radius < 2.0 * _SHARPEST * half:
+            yield (
+                "fillet_radius",
+                f"is a sharp corner; it must be at least {_mm(2.0 * _SHARPEST * half)}",
+            )
+
+    def no_room(self, bearing: Bearing) -> Iterator[Objection]:
+        for name, size, own, what in (
+            ("pocket_width", self.pocket_width, bearing.element_diameter, "diameter"),
+            ("pocket_length", self.pocket_length, bearing.element_length, "length"),
+        ):
+            if size <= own:
+                yield (
+                    name,
+                    f"a clearance of {_mm(size - own)}; it must be greater than the "
+                    f"{bearing.element}'s {what}, {_mm(own)}",
+                )
+        yield from self._edges_in_fillets(bearing)
+
+    def _edges_in_fillets(self, bearing: Bearing) -> Iterator[Objection]:
+        edge = bearing.element_edge
+        aside = self.fillet_radius - edge - 0.5 * (self.pocket_width - bearing.element_diameter)
+        along = self.fillet_radius - edge - 0.5 * (self.pocket_length - bearing.element_length)
+        depth = hypot(max(aside, 0.0), max(along, 0.0)) + edge - self.fillet_radius
+        if depth > 0.0 and min(aside, along) > 0.0:
+            yield (
+                "fillet_radius",
+                f"so that the edges of a {bearing.element} in the middle of its pocket, with a "
+                f"radius of {_mm(edge)}, lie {_mm(depth)} inside the fillets; make it smaller, or "
+                "the pockets larger",
+            )
+
+    def pocket_clearances(
+        self, bearing: Bearing, defects: Sequence[Any] = ()
+    ) -> tuple[np.ndarray, np.ndarray]:
+        """Circumferential and axial clearance (Z,), (Z,) [m] of every pocket, at its middle.
+
+        Negative where an element is pinched.
+        """
+        from flexcage.cages.window.defects import pocket_changes
+
+        width, length = pocket_changes(defects, pocket_count=bearing.element_count)
+        return (
+            self.pocket_width - bearing.element_diameter + width,
+            self.pocket_length - bearing.element_length + length,
+        )
+
+    def interference(self, bearing: Bearing, defects: Sequence[Any]) -> Iterator[tuple[str, str]]:
+        widths, lengths = self.pocket_clearances(bearing, defects)
+        for what, clearance, size in (
+            ("width", widths, bearing.element_diameter),
+            ("length", lengths, bearing.element_length),
+        ):
+            pocket = int(np.argmin(clearance))
+            if clearance[pocket] < -_PINCH_LIMIT * size:
+                yield (
+                    "defects",
+                    f"The defects leave pocket {pocket} a {what} of "
+                    f"{_mm(clearance[pocket] + size)} for a {bearing.element} of {_mm(size)}; no "
+                    f"assembly can take more than {_PINCH_LIMIT * 100:.0f} % of interference.",
+                )
+
+
+def _mm(value: float) -> str:
+    return describe(value, "mm")
