@@ -54,7 +54,7 @@ def caught_rows() -> Iterator[Row]:
     u, rate = layout.u(y)["elements"], layout.q(yd)["elements"]
     u[0, 2], u[0, 3] = orbit * layout.q(y)["elements"][0, 1], spin
     rate[0, 2], rate[0, 5] = orbit, spin - orbit
-    end: Any = march(case, bearing, y, yd).isel(time=slice(-400, None), roller=0)
+    end: Any = march(case, bearing, y, yd).isel(time=slice(-400, None), element=0)
     found = (end["element_velocity"].sel(cyl="psi") / end["element_position"].sel(cyl="r")).mean()
     yield Row("started slow: orbit", "rpm", CAGE / RPM, float(found) / RPM, ROLLS)
     turning = -float(end["element_omega"].sel(spin_axis="axial").mean())
