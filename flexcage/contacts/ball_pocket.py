@@ -24,6 +24,7 @@ from flexcage.contacts.slices import (
     friction_power,
     normal_forces,
 )
+from flexcage.contacts.state import add_force_and_moment
 from flexcage.core.jit import part, zero
 from flexcage.core.splines import smooth_weights
 from flexcage.core.vectors import combine, cross, dot, minus, plus, row, times
@@ -61,26 +62,33 @@ class BallPocketWork(NamedTuple):
     tangential: np.ndarray  # (1,) friction force
 
 
+class BallInPocket(NamedTuple):
+    """A ball as its pocket meets it, in the ball's frame."""
+
+    radius: float
+    centre: tuple[float, float, float]  # from the cage's origin
+    velocity: tuple[float, float, float]  # less that of the cage's body there
+    spin: tuple[float, float, float]  # angular velocity less the cage's
+    onset: float  # speed at which the contact closed
+
+
 def ball_pocket_work(stations: int) -> BallPocketWork:
     return BallPocketWork(np.zeros((3, 3)), np.zeros((1, stations, 3)), np.zeros(1), np.zeros(1))
 
 
 @part
-def pocket_wall_contact(
-    rb, data, i, D, v, spin, q, qd, margin, onset, law, friction, sl, pw, wrench, mode, sums
-):
-    """Wrench of pocket i's wall on its ball, added to ``wrench``, and station forces in ``pw.st``.
+def pocket_wall_contact(i, ball, modes, data, laws, sl, pw, wrench, mode, sums):
+    """Wrench of pocket i's wall on its ball (``BallInPocket``), added to ``wrench``, and station
+    forces in ``pw.st``.
 
-    D: ball centre from the cage's origin; v: its velocity less that of the cage's body there; spin:
-    the difference of angular velocities; all in the ball's frame, as are the rows of ``pw.G``.
-    q, qd: modal coordinates and rates, ``margin``: a bound of the wall's motion, ``onset``: the
-    speed at which the contact closed. From REPORT on ``sums``: elastic energy, power of damping and
-    friction, direction of the contact from +psi towards +x, and the speed at which ball and wall
-    approach.
+    ``modes``: the cage's (``state.CageModes``). From REPORT on ``sums``: elastic energy, power of
+    damping and friction, direction of the contact from +psi towards +x, and the speed at which
+    ball and wall approach.
     """
     pw.normal[0] = pw.tangential[0] = 0.0
     if mode >= REPORT:
         zero(sums)
+    rb, D, v = ball.radius, ball.centre, ball.velocity
     p, x = data.normal[i], dot(D, row(pw.G, 0)) - data.shift[i, 0]
     t = dot(D, row(pw.G, 2)) - data.shift[i, 1]
     h = data.sphere * (dot(D, row(pw.G, 1)) - data.height)
@@ -93,7 +101,7 @@ def pocket_wall_contact(
     if mode >= REPORT:
         sums[ANGLE] = atan2(n[0], n[2])
         sums[APPROACH] = _along(n, v, pw)
-    if rb - apart + margin <= 0.0:
+    if rb - apart + modes.margin <= 0.0:
         return False
     nst = data.phi.shape[2]
     place = atan2(n[0], n[2]) * nst / (2.0 * pi)
@@ -103,7 +111,7 @@ def pocket_wall_contact(
     soft = softer = 0.0
     for k in range(4):
         s = (int(first) + k - 1 + nst) % nst
-        here, rate = _wall(data, i, s, q), _wall(data, i, s, qd)
+        here, rate = _wall(data, i, s, modes.q), _wall(data, i, s, modes.qd)
         u, ud = combine(u, weight[k], here), combine(ud, weight[k], rate)
         du = combine(du, slope[k] * nst / (2.0 * pi), here)
         soft += weight[k] * data.local[i, s]
@@ -113,7 +121,7 @@ def pocket_wall_contact(
     share, fade = _fading(cosine)
     faded, fading = (0.0, 0.0, 0.0), 0.0
     if share < 1.0:
-        mean, rate, yielding = _mean_wall(data, i, q, qd)
+        mean, rate, yielding = _mean_wall(data, i, modes)
         faded, fading = times(fade, minus(u, mean)), fade * (soft - yielding)
         u = combine(times(share, u), 1.0 - share, mean)
         ud = combine(times(share, ud), 1.0 - share, rate)
@@ -139,7 +147,7 @@ def pocket_wall_contact(
     yields = (dx * yields[0], yields[1], dt * yields[2])
     rate = _along(push, v, pw) - dot(ud, n)
     softening = _along(yields, v, pw)
-    N, pressed = _press(depth, rate, soft, softening, p, onset, law, sl)
+    N, pressed = _press(depth, rate, soft, softening, p, ball.onset, laws.normal, sl)
     if mode >= REPORT:
         Ne = sl.Ne[0]
         sums[STORED] = Ne * pressed / (p[EXPONENT] + 1.0) + 0.5 * soft * Ne * Ne
@@ -149,18 +157,16 @@ def pocket_wall_contact(
     # friction, where the ball touches the wall
     nF = _in_frame(n, pw)
     arm = times(rb, nF)
-    slip = minus(plus(v, cross(spin, arm)), _in_frame(ud, pw))
+    slip = minus(plus(v, cross(ball.spin, arm)), _in_frame(ud, pw))
     slip = combine(slip, -dot(slip, nF), nF)
     sl.u[0] = sqrt(dot(slip, slip))
     sl.N[0] = N
-    friction_factors(friction, (0, 1), sl, data.friction)
+    friction_factors(laws.friction, (0, 1), sl, data.friction)
     drag = times(-N * sl.g[0], slip)
     total = combine(drag, -N, _in_frame(push, pw))
     total = combine(total, 0.5 * N * N, _in_frame(yields, pw))
     moment = cross(arm, drag)
-    for c in range(3):
-        wrench[c] += total[c]
-        wrench[3 + c] += moment[c]
+    add_force_and_moment(wrench, total, moment)
     on_wall = (
         N * n[0] - dot(drag, row(pw.G, 0)),
         N * n[1] - dot(drag, row(pw.G, 1)),
@@ -273,13 +279,13 @@ def _fading(cosine):
 
 
 @part
-def _mean_wall(data, i, q, qd):
+def _mean_wall(data, i, modes):
     """Means over the stations of pocket i: displacement, its rate, compliance."""
     u = ud = (0.0, 0.0, 0.0)
     soft, nst = 0.0, data.phi.shape[2]
     for s in range(nst):
-        u = combine(u, 1.0 / nst, _wall(data, i, s, q))
-        ud = combine(ud, 1.0 / nst, _wall(data, i, s, qd))
+        u = combine(u, 1.0 / nst, _wall(data, i, s, modes.q))
+        ud = combine(ud, 1.0 / nst, _wall(data, i, s, modes.qd))
         soft += data.local[i, s] / nst
     return u, ud, soft
 

@@ -33,6 +33,7 @@ from flexcage.contacts.slices import (
     normal_forces,
     stored_and_damped,
 )
+from flexcage.contacts.state import add_force_and_moment
 from flexcage.core.jit import VECTORISED, part, zero
 from flexcage.core.vectors import combine, cross, dot, minus, plus, times
 
@@ -55,18 +56,30 @@ class Groove(NamedTuple):
     rolling: np.ndarray  # (3,) moment of rolling resistance: factor, powers of speed and load
 
 
-@part
-def groove_contact(rb, race, P, b, V, w, Vr, wr, onset, law, friction, sl, wrench, mode, sums):
-    """Wrench on a ball of radius ``rb`` from one raceway, added to ``wrench``; does it touch?
+class BallOnRace(NamedTuple):
+    """A ball and the ring that it runs on, all in one frame."""
 
-    P: ball centre from the ring's centre; b: ring axis; V, w and Vr, wr: velocities and angular
-    velocities of ball and ring; all in one frame; ``onset``: speed at which the contact closed.
+    radius: float
+    centre: tuple[float, float, float]  # the ball's from the ring's
+    velocity: tuple[float, float, float]
+    spin: tuple[float, float, float]  # angular velocity
+    axis: tuple[float, float, float]  # of the ring
+    ring_velocity: tuple[float, float, float]
+    ring_spin: tuple[float, float, float]
+    onset: float  # speed at which the contact closed
+
+
+@part
+def groove_contact(ball, race, laws, sl, wrench, mode, sums):
+    """Wrench on a ball (``BallOnRace``) from one raceway, added to ``wrench``; does it touch?
+
     From REPORT on ``sums``: normal force, contact angle, traction along the rolling direction and
     across it, sliding speed in the middle, elastic energy, power of damping, friction and rolling
     resistance, and speed of approach; angle and approach also of a ball that does not touch.
     """
     if mode >= REPORT:
         zero(sums)
+    P, b = ball.centre, ball.axis
     along = dot(P, b)
     radial = combine(P, -along, b)
     distance = sqrt(dot(radial, radial))
@@ -74,24 +87,24 @@ def groove_contact(rb, race, P, b, V, w, Vr, wr, onset, law, friction, sl, wrenc
     line = combine(times(along - race.axial, b), distance - race.centre, e)
     reach = sqrt(dot(line, line))
     n = times(1.0 / reach, line)
-    spin = minus(w, wr)
-    v = minus(minus(V, Vr), cross(wr, P))
-    sl.d[0], sl.v[0] = reach - race.radius + rb, dot(n, v)
+    spin = minus(ball.spin, ball.ring_spin)
+    v = minus(minus(ball.velocity, ball.ring_velocity), cross(ball.ring_spin, P))
+    sl.d[0], sl.v[0] = reach - race.radius + ball.radius, dot(n, v)
     if mode >= REPORT:
         sums[ANGLE] = atan2(race.side * dot(n, b), race.side * dot(n, e))
         sums[APPROACH] = sl.v[0]
     if sl.d[0] <= 0.0:
         return False
-    normal_forces(law, (0, 1), sl, race.normal, onset)
+    normal_forces(laws.normal, (0, 1), sl, race.normal, ball.onset)
     N = sl.N[0]
     if mode >= REPORT:
         sums[STORED], sums[DAMPED] = stored_and_damped((0, 1), sl, race.normal[EXPONENT])
     g = cross(b, e)  # rolling direction, along the race
     t = cross(n, g)
     size = N ** (1.0 / 3.0)
-    middle = rb - 0.5 * sl.d[0]
+    middle = ball.radius - 0.5 * sl.d[0]
     _slide(race, race.long * size, middle, n, g, t, v, spin, sl)
-    friction_factors(friction, (0, race.strip.shape[0]), sl, race.friction)
+    friction_factors(laws.friction, (0, race.strip.shape[0]), sl, race.friction)
     force, moment = _drag(race, race.long * size, middle, N, n, g, t, sl)
     roll = combine(spin, -dot(spin, n), n)
     speed = sqrt(dot(roll, roll))
@@ -101,9 +114,7 @@ def groove_contact(rb, race, P, b, V, w, Vr, wr, onset, law, friction, sl, wrenc
         resisting = race.rolling[0] * fast ** race.rolling[1] * N ** race.rolling[2] / fast
     moment = combine(moment, -resisting, roll)
     total = combine(force, -N, n)
-    for c in range(3):
-        wrench[c] += total[c]
-        wrench[3 + c] += moment[c]
+    add_force_and_moment(wrench, total, moment)
     if mode >= REPORT:
         sums[NORMAL], sums[ALONG], sums[ACROSS] = N, dot(force, g), dot(force, t)
         sums[SLIDING] = dot(plus(v, cross(spin, times(middle, n))), g)

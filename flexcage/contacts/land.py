@@ -8,7 +8,7 @@ from typing import NamedTuple
 import numpy as np
 
 from flexcage.contacts.evaluation import APPROACH, DAMPED, NORMAL, RUBBED, SHEARED, STORED
-from flexcage.contacts.laws import EXPONENT, short_bearing
+from flexcage.contacts.laws import EXPONENT, LandFilm, short_bearing
 from flexcage.contacts.slices import (
     friction_factors,
     friction_power,
@@ -36,7 +36,8 @@ class LandData(NamedTuple):
     phi_max: np.ndarray  # (nm,)
     normal: np.ndarray  # (N_NORMAL,)
     friction: np.ndarray  # (N_FRICTION,)
-    film: np.ndarray  # (4,) eta, L, R, C
+    viscosity: float  # of the oil in a film
+    width: float  # of one land
 
 
 class LandWork(NamedTuple):
@@ -50,7 +51,6 @@ class LandWork(NamedTuple):
     place: np.ndarray  # (2 nl,) of the extreme
     depth: np.ndarray  # (2 nl,)
     share: np.ndarray  # (2 nl,) of damping and friction there
-    film: np.ndarray  # (3,) the film's forces
     st: np.ndarray  # (nl, 2) force on the cage at the stations, outwards and forwards
 
 
@@ -58,19 +58,55 @@ def land_work(n_stations: int) -> LandWork:
     n, zeros = n_stations, np.zeros
     return LandWork(
         zeros(n), zeros(n), zeros(n), zeros((2 * n, 2)), zeros(2 * n), zeros(2 * n), zeros(2 * n),
-        zeros(2 * n), zeros(3), zeros((n, 2)),
+        zeros(2 * n), zeros((n, 2)),
     )  # fmt: skip
 
 
-@part
-def land_contact(
-    A, Rc, Vc, w, q, qd, Rr, Vr, spin, data, onset, laws, sl, lw, Fc, Mc, Qm, Fr, Mr, sums
-):
-    """Land forces: Fc, Qm on the cage (space, modal), Mc about its origin; Fr, Mr on the ring;
-    those at the cage's stations in ``lw.st``.
+class LandCage(NamedTuple):
+    """The cage as a ring's land meets it: place and motion of its origin in space, and modes."""
 
-    Rc, Vc, w: cage origin, velocity, angular velocity in space; Rr, Vr, spin: ring centre,
-    velocity, spin about x; onset speeds (2,) of the lands at -x and +x. Dry contact is elastic
+    A: np.ndarray  # (3, 3) attitude
+    centre: np.ndarray  # (3,)
+    velocity: np.ndarray  # (3,)
+    spin: np.ndarray  # (3,)
+    q: np.ndarray  # (nm,) modal coordinates
+    qd: np.ndarray  # (nm,) their rates
+
+
+class LandRing(NamedTuple):
+    """The ring that the cage's land meets, in space."""
+
+    centre: np.ndarray  # (3,)
+    velocity: np.ndarray  # (3,)
+    spin: float  # about x
+
+
+class LandForces(NamedTuple):
+    """What lands add to the forces on cage and ring, in space."""
+
+    cage_force: np.ndarray  # (3,)
+    cage_moment: np.ndarray  # (3,) about the cage's origin
+    modal: np.ndarray  # (nm,) on the cage's modes
+    ring_force: np.ndarray  # (3,)
+    ring_moment: np.ndarray  # (3,) about the ring's centre
+
+
+class Touch(NamedTuple):
+    """An extreme of the penetration round a land, as ``LandWork`` has it."""
+
+    side: int  # 0: the land at -x, 1: at +x
+    place: float
+    depth: float
+    sign: float
+    share: float
+
+
+@part
+def land_contact(cage, ring, data, onset, laws, sl, lw, out, sums):
+    """Forces of a cage's lands, added to ``out`` (``LandForces``); those at its stations in
+    ``lw.st``.
+
+    ``onset``: speeds (2,) at which the lands at -x and +x closed. Dry contact is elastic
     where the penetration round the land has a maximum, less what it would be at minima between
     pressed ones: touches that merge or part do so without a jump, and energy is conserved. It damps
     and rubs at maxima. Modes are interpolated smoothly between their stations: a cage that rolls on
@@ -82,22 +118,21 @@ def land_contact(
     zero(lw.st)
     if data.kind == NONE:
         return
-    ey, ez = Rc[1] - Rr[1], Rc[2] - Rr[2]
-    reach = sqrt(ey * ey + ez * ez) + (abs(A[1, 0]) + abs(A[2, 0])) * abs(data.x[1])
-    for m in range(q.shape[0]):
-        reach += data.phi_max[m] * abs(q[m])
+    A, offset = cage.A, minus(xyz(cage.centre), xyz(ring.centre))
+    reach = sqrt(offset[1] * offset[1] + offset[2] * offset[2])
+    reach += (abs(A[1, 0]) + abs(A[2, 0])) * abs(data.x[1])
+    for m in range(cage.q.shape[0]):
+        reach += data.phi_max[m] * abs(cage.q[m])
     if data.kind == FILM:
-        _film(A, Rc, Vc, w, qd, Rr, Vr, spin, data, lw, Fc, Mc, Qm, Fr, Mr, sums)
+        _film(cage, ring, data, lw, out, sums)
     if reach < data.clearance:
         return
-    _displaced(data, q, lw.u)
-    ring = data.radius - data.inner * data.clearance
-    offset = minus(xyz(Rc), xyz(Rr))
+    _displaced(data, cage.q, lw.u)
     for side in range(2):
-        deepest, pressed = _press(A, data, ring, offset, side, lw)
-        count = _find_extremes(A, data, ring, offset, side, deepest, lw)
+        deepest, pressed = _press(A, data, offset, side, lw)
+        count = _find_extremes(A, data, offset, side, deepest, lw)
         for i in range(count):
-            _extreme(A, data, ring, offset, side, i, lw)
+            _extreme(A, data, offset, side, i, lw)
         if count == 0:  # pressed evenly
             lw.place[0], lw.depth[0], lw.sign[0], count = deepest, lw.d[deepest], 1.0, 1
         _share(count, pressed, lw)
@@ -106,10 +141,8 @@ def land_contact(
             nearest = lw.sign[i] > 0.0 and lw.depth[i] > most
             if lw.sign[i] == 0.0 or (lw.depth[i] <= 0.0 and not nearest):
                 continue
-            speed = _touch(
-                A, offset, minus(xyz(Vc), xyz(Vr)), xyz(w), qd, spin, data, side, i, onset[side],
-                laws, sl, lw, Fc, Mc, Qm, Fr, Mr, sums,
-            )  # fmt: skip
+            touch = Touch(side, lw.place[i], lw.depth[i], lw.sign[i], lw.share[i])
+            speed = _touch(touch, cage, ring, data, onset, laws, sl, lw, out, sums)
             if nearest:
                 most, sums[APPROACH + side] = lw.depth[i], speed
 
@@ -150,7 +183,7 @@ def _surface(A, data, side, place, lw):
 
 
 @part
-def _press(A, data, ring, offset, side, lw):
+def _press(A, data, offset, side, lw):
     """Penetration of a land's stations and its slope; the deepest station, and whether all are
     pressed."""
     deepest, pressed = 0, True
@@ -161,7 +194,7 @@ def _press(A, data, ring, offset, side, lw):
         radius = data.radius + lw.u[s]
         bend = 0.5 * (lw.u[(s + 1) % n_l] - lw.u[s - 1])
         rise = combine(times(bend, e), radius * 2.0 * pi / n_l, along)
-        lw.d[s], lw.rise[s] = _within(data, ring, offset, combine(middle, radius, e), rise)
+        lw.d[s], lw.rise[s] = _within(data, offset, combine(middle, radius, e), rise)
         if lw.d[s] > lw.d[deepest]:
             deepest = s
         pressed = pressed and lw.d[s] > 0.0
@@ -169,7 +202,7 @@ def _press(A, data, ring, offset, side, lw):
 
 
 @part
-def _find_extremes(A, data, ring, offset, side, deepest, lw):
+def _find_extremes(A, data, offset, side, deepest, lw):
     """Where the penetration round a land has extremes, as far as it may be pressed there or is the
     nearest to it: lw.span and lw.sign; their number.
 
@@ -191,7 +224,7 @@ def _find_extremes(A, data, ring, offset, side, deepest, lw):
             turn = -0.5 * square / cubic if cubic != 0.0 else 0.0
             if not 0.0 < turn < 1.0 or (here + 0.5 * square * turn > 0.0) == rises:
                 continue
-            if (_depth(A, data, ring, offset, side, s + turn, lw)[1] > 0.0) == rises:
+            if (_depth(A, data, offset, side, s + turn, lw)[1] > 0.0) == rises:
                 continue
             lw.span[count, 0], lw.span[count, 1] = s, s + turn
             lw.sign[count] = 1.0 if rises else -1.0
@@ -203,33 +236,34 @@ def _find_extremes(A, data, ring, offset, side, deepest, lw):
 
 
 @outlined
-def _depth(A, data, ring, offset, side, place, lw):
+def _depth(A, data, offset, side, place, lw):
     """Penetration at ``place`` round the land, and its slope by station."""
     c, rise, _ = _surface(A, data, side, place, lw)
-    return _within(data, ring, offset, c, rise)
+    return _within(data, offset, c, rise)
 
 
 @part
-def _within(data, ring, offset, c, rise):
+def _within(data, offset, c, rise):
     """Penetration of a point c of the land into the ring, and its slope where c's is ``rise``."""
     y, z = offset[1] + c[1], offset[2] + c[2]
     d = sqrt(y * y + z * z)
+    ring = data.radius - data.inner * data.clearance
     return data.inner * (ring - d), -data.inner * (y * rise[1] + z * rise[2]) / d
 
 
 @part
-def _extreme(A, data, ring, offset, side, i, lw):
+def _extreme(A, data, offset, side, i, lw):
     """Place and depth of extreme i of the penetration: false position, the end that stays counted
     by half each time (the Illinois method), and never quite at an end."""
     first, last, up = lw.span[i, 0], lw.span[i, 1], lw.sign[i] > 0.0
-    depth, rise = _depth(A, data, ring, offset, side, first, lw)
-    _, fall = _depth(A, data, ring, offset, side, last, lw)
+    depth, rise = _depth(A, data, offset, side, first, lw)
+    _, fall = _depth(A, data, offset, side, last, lw)
     for _ in range(60):
         if last - first < 1e-9:
             break
         share = rise / (rise - fall) if rise != fall else 0.5
         place = first + min(max(share, 0.02), 0.98) * (last - first)
-        here, slope = _depth(A, data, ring, offset, side, place, lw)
+        here, slope = _depth(A, data, offset, side, place, lw)
         if (slope > 0.0) == up:
             first, depth, rise, fall = place, here, slope, 0.5 * fall
         else:
@@ -270,13 +304,11 @@ def _turned(A, ca, sa):
 
 
 @part
-def _touch(
-    A, offset, rel, w, qd, spin, data, side, i, onset, laws, sl, lw, Fc, Mc, Qm, Fr, Mr, sums
-):
-    """One touch of a land, at extreme i of its penetration; the speed of approach there. Four
-    stations' modes."""
-    law, friction = laws
-    place, sign, share, sl.d[0] = lw.place[i], lw.sign[i], lw.share[i], lw.depth[i]
+def _touch(touch, cage, ring, data, onset, laws, sl, lw, out, sums):
+    """Forces where a land touches; the speed of approach there. Four stations' modes."""
+    A, qd, place = cage.A, cage.qd, touch.place
+    offset = minus(xyz(cage.centre), xyz(ring.centre))
+    sl.d[0] = touch.depth
     n_l = data.angle.shape[0]
     j, t = _around(place, n_l)
     weights, _ = smooth_weights(t)
@@ -286,39 +318,40 @@ def _touch(
         for m in range(qd.shape[0]):
             outwards += weights[k] * shape[1, m] * qd[m]
             forwards += weights[k] * shape[2, m] * qd[m]
-    c, _, e = _surface(A, data, side, place, lw)
+    c, _, e = _surface(A, data, touch.side, place, lw)
     _, along = _directions(A, place * 2.0 * pi / n_l)
     at = plus(offset, c)
     size = data.inner / sqrt(at[1] * at[1] + at[2] * at[2])
     n = (0.0, size * at[1], size * at[2])  # on the cage, in the plane of rotation
-    v = plus(rel, cross(w, c))
-    v = (0.0, v[1] + spin * at[2], v[2] - spin * at[1])
+    v = plus(minus(xyz(cage.velocity), xyz(ring.velocity)), cross(xyz(cage.spin), c))
+    v = (0.0, v[1] + ring.spin * at[2], v[2] - ring.spin * at[1])
     sl.v[0] = -(dot(n, v) + dot(n, e) * outwards)
     if sl.d[0] <= 0.0:
         return sl.v[0]
-    normal_forces(law, (0, 1), sl, data.normal, onset)
-    N, rubs = sign * sl.Ne[0] + share * (sl.N[0] - sl.Ne[0]), share * sl.N[0]
+    normal_forces(laws.normal, (0, 1), sl, data.normal, onset[touch.side])
+    N = touch.sign * sl.Ne[0] + touch.share * (sl.N[0] - sl.Ne[0])
+    rubs = touch.share * sl.N[0]
     ahead = (0.0, -n[2], n[1])
     slide = dot(ahead, combine(plus(v, times(outwards, e)), forwards, along))
     sl.u[0] = abs(slide)
-    friction_factors(friction, (0, 1), sl, data.friction)
+    friction_factors(laws.friction, (0, 1), sl, data.friction)
     g = sl.g[0] * slide
     f = combine(times(N, n), -rubs * g, ahead)
-    add_to(Fc, f)
-    add_to(Fr, times(-1.0, f))
-    add_to(Mc, cross(c, f))
-    add_to(Mr, cross(f, at))
+    add_to(out.cage_force, f)
+    add_to(out.ring_force, times(-1.0, f))
+    add_to(out.cage_moment, cross(c, f))
+    add_to(out.ring_moment, cross(f, at))
     radial, rubbed = dot(f, e), -rubs * g * dot(ahead, along)  # the depth knows radial modes alone
     for k in range(4):
         s = (j + k - 1) % n_l
-        _push_modes(weights[k] * radial, weights[k] * rubbed, data.phi[s], Qm)
+        _push_modes(weights[k] * radial, weights[k] * rubbed, data.phi[s], out.modal)
         lw.st[s, 0] += weights[k] * radial
         lw.st[s, 1] += weights[k] * dot(f, along)
     energy, damped = stored_and_damped((0, 1), sl, data.normal[EXPONENT])
-    sums[NORMAL + side] += N
-    sums[STORED] += sign * energy
-    sums[DAMPED] += share * damped
-    sums[RUBBED] += share * friction_power((0, 1), sl)
+    sums[NORMAL + touch.side] += N
+    sums[STORED] += touch.sign * energy
+    sums[DAMPED] += touch.share * damped
+    sums[RUBBED] += touch.share * friction_power((0, 1), sl)
     return sl.v[0]
 
 
@@ -330,9 +363,11 @@ def _push_modes(radial, tangential, shape, Qm):
 
 
 @part
-def _spread_film(A, data, fy, fz, torque, qd, lw, Qm, sums):
-    """A film's force as pressure round the half of the land that it pushes, by the cosine, and its
-    torque evenly: on the stations, on the modes, and the power of these."""
+def _spread_film(A, data, film, qd, lw, modal, sums):
+    """A film's force ``film`` (y, z) as pressure round the half of the land that it pushes, by the
+    cosine, and its torque, the third, evenly: on the stations, on the modes, and the power of
+    these."""
+    fy, fz, torque = film
     n_l, size = data.angle.shape[0], sqrt(fy * fy + fz * fz)
     total = 0.0
     for s in range(n_l):
@@ -343,7 +378,7 @@ def _spread_film(A, data, fy, fz, torque, qd, lw, Qm, sums):
         radial = data.inner * size * size * lw.d[s] / total if total > 0.0 else 0.0
         tangential = torque / (n_l * data.radius)
         shape = data.phi[s]
-        _push_modes(radial, tangential, shape, Qm)
+        _push_modes(radial, tangential, shape, modal)
         lw.st[s, 0] += radial
         lw.st[s, 1] += tangential
         for m in range(qd.shape[0]):
@@ -351,29 +386,22 @@ def _spread_film(A, data, fy, fz, torque, qd, lw, Qm, sums):
 
 
 @outlined
-def _film(A, Rc, Vc, w, qd, Rr, Vr, spin, data, lw, Fc, Mc, Qm, Fr, Mr, sums):
+def _film(cage, ring, data, lw, out, sums):
     """Short-bearing film on both lands: whirl and squeeze of a rigid cage included."""
-    out = lw.film
-    eta, L, R, C = data.film[0], data.film[1], data.film[2], data.film[3]
+    film = LandFilm(data.viscosity, data.width, data.radius, data.clearance)
+    A, (w0, w1, w2), spin = cage.A, xyz(cage.spin), ring.spin
+    rel = minus(xyz(cage.velocity), xyz(ring.velocity))
     for side in range(2):
-        x = data.x[side]
-        cy, cz = x * A[1, 0], x * A[2, 0]
-        ey, ez = Rc[1] + cy - Rr[1], Rc[2] + cz - Rr[2]
-        vy = Vc[1] - Vr[1] + w[2] * x * A[0, 0] - w[0] * cz
-        vz = Vc[2] - Vr[2] + w[0] * cy - w[1] * x * A[0, 0]
-        short_bearing(eta, L, R, C, ey, ez, vy, vz, spin + w[0], abs(spin - w[0]), out)
-        torque = out[2] if spin > w[0] else -out[2]
-        _spread_film(A, data, out[0], out[1], torque, qd, lw, Qm, sums)
-        Fc[1] += out[0]
-        Fc[2] += out[1]
-        Fr[1] -= out[0]
-        Fr[2] -= out[1]
-        Mc[0] += torque + cy * out[1] - cz * out[0]
-        Mc[1] -= x * A[0, 0] * out[1]
-        Mc[2] += x * A[0, 0] * out[0]
-        lever = Rc[0] + x * A[0, 0] - Rr[0]
-        Mr[0] -= torque + ey * out[1] - ez * out[0]
-        Mr[1] += lever * out[1]
-        Mr[2] -= lever * out[0]
-        sums[SHEARED] += out[0] * vy + out[1] * vz + torque * (w[0] - spin)
-        sums[SHEARED] -= spin * (ey * out[1] - ez * out[0])
+        x, cy, cz = times(data.x[side], column(A, 0))  # of the land's middle, from the cage's
+        lever, ey, ez = minus(plus(xyz(cage.centre), (x, cy, cz)), xyz(ring.centre))
+        vy = rel[1] + w2 * data.x[side] * A[0, 0] - w0 * cz
+        vz = rel[2] + w0 * cy - w1 * data.x[side] * A[0, 0]
+        fy, fz, size = short_bearing(film, (ey, ez), (vy, vz), spin + w0, abs(spin - w0))
+        torque = size if spin > w0 else -size
+        _spread_film(A, data, (fy, fz, torque), cage.qd, lw, out.modal, sums)
+        add_to(out.cage_force, (0.0, fy, fz))
+        add_to(out.ring_force, (0.0, -fy, -fz))
+        add_to(out.cage_moment, (torque + cy * fz - cz * fy, -x * fz, x * fy))
+        add_to(out.ring_moment, (-torque - ey * fz + ez * fy, lever * fz, -lever * fy))
+        sums[SHEARED] += fy * vy + fz * vz + torque * (w0 - spin)
+        sums[SHEARED] -= spin * (ey * fz - ez * fy)

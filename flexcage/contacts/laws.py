@@ -19,7 +19,7 @@ from __future__ import annotations
 import inspect
 from collections.abc import Callable, Sequence
 from math import copysign, exp, sqrt
-from typing import Any
+from typing import Any, NamedTuple
 
 import numba
 import numpy as np
@@ -494,31 +494,40 @@ def rolling_forces(n, c, u, q, out):
         out[k] = force if c[0] > 0.0 and q[k] > 0.0 and u[k] != 0.0 else 0.0
 
 
-@kernel
-def short_bearing(eta, L, R, C, ex, ey, vx, vy, w_sum, w_diff, out):
-    """Half-Sommerfeld short-bearing land film; out = (fx, fy, moment size).
+class LandFilm(NamedTuple):
+    """Oil between a cage's land and its ring's: viscosity [Pa s], then sizes [m]."""
 
-    (ex, ey) eccentricity and (vx, vy) its rate [m, m/s] of the cage against the ring, ``w_sum``
-    the sum and ``w_diff`` the difference of angular speeds. Whirl enters by replacing
-    U = R w_sum by U - 2 R whirl speed; squeeze by the full-film term. Ghaisas/Gupta steady form.
+    viscosity: float
+    width: float
+    radius: float
+    clearance: float
+
+
+@kernel
+def short_bearing(film, eccentricity, rate, w_sum, w_diff):
+    """Half-Sommerfeld short-bearing land film: both components of the force [N], and the size of
+    the moment [N m].
+
+    Eccentricity and its rate (y, z) are those of the cage against the ring [m, m/s], ``w_sum`` the
+    sum and ``w_diff`` the difference of angular speeds. Whirl enters by replacing U = R w_sum by
+    U - 2 R whirl speed; squeeze by the full-film term. Ghaisas/Gupta steady form.
     """
-    e = sqrt(ex * ex + ey * ey)
-    out[0] = out[1] = 0.0
-    out[2] = 2.0 * np.pi * eta * R * w_diff * R * R * L / C
+    eta, L, R, C = film
+    (ey, ez), (vy, vz) = eccentricity, rate
+    e = sqrt(ey * ey + ez * ez)
+    moment = 2.0 * np.pi * eta * R * w_diff * R * R * L / C
     if e < 1e-12:
         factor = np.pi * eta * R * L**3 / C**3
-        out[0] = -factor * vx - 0.25 * factor * (w_sum * ey)
-        out[1] = -factor * vy + 0.25 * factor * (w_sum * ex)
-        return
+        fy = -factor * vy - 0.25 * factor * (w_sum * ez)
+        fz = -factor * vz + 0.25 * factor * (w_sum * ey)
+        return fy, fz, moment
     eps = min(e / C, 0.98)
     s = 1.0 - eps * eps
-    cx, cy = ex / e, ey / e
-    radial = (vx * cx + vy * cy) / C
-    whirl = (cx * vy - cy * vx) / e
+    cy, cz = ey / e, ez / e
+    radial = (vy * cy + vz * cz) / C
+    whirl = (cy * vz - cz * vy) / e
     U = R * w_sum - 2.0 * R * whirl
     fr = -eta * U * L**3 * eps * eps / (C * C * s * s) * np.sign(U)
     fr -= np.pi * eta * R * L**3 * radial * (1.0 + 2.0 * eps * eps) / (C * C * s**2.5)
     ft = np.pi * eta * U * L**3 * eps / (4.0 * C * C * s**1.5)
-    out[0] = fr * cx - ft * cy
-    out[1] = fr * cy + ft * cx
-    out[2] /= sqrt(s)
+    return fr * cy - ft * cz, fr * cz + ft * cy, moment / sqrt(s)

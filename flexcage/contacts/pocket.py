@@ -35,17 +35,15 @@ from flexcage.core.vectors import row, xyz
 
 
 @outlined
-def pocket_contact(
-    pose, data, i, Rw, D, Vc, wc, q, qd, margin, onset, laws, guess, sl, pw, pair, mode, sums
-):
-    """Wrench of pocket i on its roller, and station forces on the cage in ``pw.st``.
+def pocket_contact(i, roller, cage, data, laws, sl, pw, pair, mode, sums):
+    """Wrench of pocket i on its roller (``RollerInPocket``), and station forces on the cage
+    (``CageAtRoller``) in ``pw.st``.
 
-    D: roller centre from the cage's origin; Vc, wc: cage velocity and angular velocity, in F;
-    q, qd: modal coordinates and rates; ``margin``: bound of the walls' motion; onset speeds (4,).
-    ``laws``: normal (crossbeam, side), friction (crossbeam, side); ``guess``: residual coordinates
-    to begin with. With TANGENT slopes in ``pair`` and ``pw.K, pw.C``; from REPORT on
-    ``sums``: elastic energy (with the residual's), damping power, friction power.
+    With TANGENT slopes in ``pair`` and ``pw.K, pw.C``; from REPORT on ``sums``: elastic energy
+    (with the residual's), damping power, friction power.
     """
+    pose, Rw, D, onset, guess = roller
+    Vc, wc, (q, qd, margin) = cage
     clear(pair, mode == TANGENT)
     zero(pw.normal)
     zero(pw.tangential)

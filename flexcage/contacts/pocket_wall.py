@@ -9,11 +9,12 @@ slice reads four. What pockets add by residual (quasi-static) flexibility is in 
 from __future__ import annotations
 
 from math import floor
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from flexcage.contacts.slices import ROOM, largest
+from flexcage.contacts.state import CageModes, RollerPose
 from flexcage.core.jit import VECTORISED, part
 from flexcage.core.splines import smooth_weights
 from flexcage.core.vectors import dot, row
@@ -104,6 +105,33 @@ class PocketWork(NamedTuple):
     gen: np.ndarray  # (4, n) generators of a slice: normal, two tangents, all of its force
     K: np.ndarray  # (n, n) stiffness of the pocket: roller 6, modes, residual coordinates 12
     C: np.ndarray  # (n, n) damping, zero for residual coordinates
+
+
+class RollerInPocket(NamedTuple):
+    """A roller as its pocket meets it, and what the contact remembers; in F."""
+
+    pose: RollerPose
+    radius: float
+    centre: np.ndarray  # (3,) from the cage's origin
+    onset: np.ndarray  # (4,) speeds at which the faces were met
+    guess: np.ndarray  # (12,) residual coordinates to begin with
+
+
+class CageAtRoller(NamedTuple):
+    """Motion of a cage as a roller meets it, in F, and the cage's modes."""
+
+    velocity: np.ndarray  # (3,) of the cage's origin
+    spin: np.ndarray  # (3,) angular velocity
+    modes: CageModes
+
+
+class PocketLaws(NamedTuple):
+    """Laws of crossbeams and side beams: normal, then friction."""
+
+    crossbeam: Any
+    side: Any
+    crossbeam_rubs: Any
+    side_rubs: Any
 
 
 def pocket_work(n_slices: int, n_points: int, n_stations: int, n_modes: int) -> PocketWork:

@@ -32,6 +32,11 @@ from flexcage.contacts.slices import (
     total,
 )
 from flexcage.contacts.state import (
+    AXIS,
+    CENTRE,
+    MOMENT,
+    SPIN,
+    VELOCITY,
     add_generator,
     add_outer,
     add_wrench,
@@ -68,7 +73,7 @@ class RaceWork(NamedTuple):
 
     lot: np.ndarray  # (1,) record of their slices
     who: np.ndarray  # (lots,) roller of each contact
-    partner: np.ndarray  # (lots, 4, 3) roller's centre from the ring's, ring's axis, velocity, spin
+    partner: np.ndarray  # (lots, 4, 3) the ring, in the rows of ``state``
     load: np.ndarray  # (lots,)
     speed: np.ndarray  # (lots,) of the roller's and of the ring's surface, from the contact's place
     ring_speed: np.ndarray
@@ -85,16 +90,24 @@ def race_work(slices: int) -> RaceWork:
     )  # fmt: skip
 
 
+class Line(NamedTuple):
+    """A roller's axis across the ring's axis: at s it is at x0 + s x1, with velocity v0 + s v1."""
+
+    x0: tuple[float, float, float]
+    x1: tuple[float, float, float]
+    v0: tuple[float, float, float]
+    v1: tuple[float, float, float]
+
+
 @part
 def meet_race(m, pose, side, Rw, theta, onset, rw):
     """Whether a roller touches a raceway: geometry and motion of contact m of the lot ``rw``.
 
-    ``rw.partner[m]`` is given: P, roller centre from the ring's centre; b, ring axis; Vr, wr, the
-    ring's velocity and angular velocity; all in F. ``theta``: the ring's spin angle (waves,
+    ``rw.partner[m]`` is given. ``theta``: the ring's spin angle (waves,
     spall); ``onset``: speed at which the contact closed.
     """
     sl, partner = rw.lot[0], rw.partner[m]
-    centre, ring_axis, ring_spin = row(partner, 0), row(partner, 1), row(partner, 3)
+    centre, ring_axis, ring_spin = row(partner, CENTRE), row(partner, AXIS), row(partner, SPIN)
     a = row(pose.axis, 0)
     # what of the roller's axis at s is perpendicular to the ring's axis: x0 + s x1
     x0 = combine(centre, -dot(centre, ring_axis), ring_axis)
@@ -107,9 +120,10 @@ def meet_race(m, pose, side, Rw, theta, onset, rw):
         return False
     # velocity of the roller's axis at s, seen from the ring's material there: v0 + s v1
     spin = minus(xyz(pose.w), ring_spin)
-    v0 = minus(minus(xyz(pose.V), row(partner, 2)), cross(ring_spin, centre))
+    v0 = minus(minus(xyz(pose.V), row(partner, VELOCITY)), cross(ring_spin, centre))
     first = np.uint64(m * n)
-    _meet(first, side, Rw, onset, ring_axis, x0, x1, v0, cross(spin, a), spin, sl)
+    line = Line(x0, x1, v0, cross(spin, a))
+    _meet(first, side, Rw, onset, ring_axis, line, spin, sl)
     if side.uneven:
         _ride(first, pose, side, sqrt(dot(x0, x0)), ring_spin[0], theta, sl)
     if largest((first, first + np.uint64(n)), sl.d) <= 0.0:
@@ -123,11 +137,11 @@ def meet_race(m, pose, side, Rw, theta, onset, rw):
 
 
 @part
-def press_race(count, side, law, friction, rw):
+def press_race(count, side, laws, rw):
     """Forces of all ``count`` contacts of the lot ``rw``."""
     sl, n = rw.lot[0], side.s.shape[0]
-    normal_forces_of_lot(law, (0, count * n), sl, side.normal)
-    friction_factors(friction, (0, count * n), sl, side.friction)
+    normal_forces_of_lot(laws.normal, (0, count * n), sl, side.normal)
+    friction_factors(laws.friction, (0, count * n), sl, side.friction)
     for m in range(count):
         rw.load[m] = total((np.uint64(m * n), np.uint64((m + 1) * n)), sl.N)
     if side.rolling[0] > 0.0:
@@ -144,7 +158,7 @@ def push_by_race(m, pose, side, Rw, theta, rw, pair, mode, sums):
     """
     clear(pair, mode == TANGENT)
     sl, partner = rw.lot[0], rw.partner[m]
-    centre, ring_axis = row(partner, 0), row(partner, 1)
+    centre, ring_axis = row(partner, CENTRE), row(partner, AXIS)
     a, n = row(pose.axis, 0), side.s.shape[0]
     first = np.uint64(m * n)
     span = (first, first + np.uint64(n))
@@ -170,11 +184,9 @@ def push_by_race(m, pose, side, Rw, theta, rw, pair, mode, sums):
 
 
 @part(fastmath=VECTORISED)
-def _meet(first, side, Rw, onset, ring_axis, x0, x1, v0, v1, spin, sl):
-    """Penetration, its rate, normal and sliding velocity of every slice on a round race.
-
-    x0 + s x1: the roller's axis at s across the ring's axis; v0 + s v1: its velocity.
-    """
+def _meet(first, side, Rw, onset, ring_axis, line, spin, sl):
+    """Penetration, its rate, normal and sliding velocity of every slice on a round race."""
+    x0, x1, v0, v1 = line
     for k in range(side.s.shape[0]):
         s, at = side.s[k], first + np.uint64(k)
         x = combine(x0, s, x1)
@@ -205,7 +217,7 @@ def _push(first, side, Rw, a, ring_axis, sl, wrench):
         moment = plus(moment, cross(r, f))
     for c in range(3):
         wrench[c] += force[c]
-        wrench[3 + c] += moment[c]
+        wrench[MOMENT + c] += moment[c]
 
 
 @part(fastmath=VECTORISED)

@@ -16,6 +16,10 @@ from flexcage.contacts.slices import (
     stored_and_damped,
 )
 from flexcage.contacts.state import (
+    AXIS,
+    CENTRE,
+    SPIN,
+    VELOCITY,
     add_end_generator,
     add_generator,
     add_outer,
@@ -36,18 +40,17 @@ class RibData(NamedTuple):
 
 
 @part
-def rib_contact(pose, data, P, b, Vr, wr, onset, laws, sl, pair, mode, sums):
+def rib_contact(pose, ring, data, onset, laws, sl, pair, mode, sums):
     """Wrench on the roller from both ribs (0: +x, 1: -x), met at speeds ``onset`` (2,).
 
-    P, b, Vr, wr: roller's centre from the ring's, ring's axis, velocity and spin.
+    ``ring`` (4, 3): the partner as ``race.RaceWork`` has it.
 
     ``sums``: normal at +x and -x, elastic energy, damping power, friction power.
     """
     clear(pair, mode == TANGENT)
-    law, friction = laws
     if mode >= REPORT:
         zero(sums)
-    centre, ring_axis, ring_spin = xyz(P), xyz(b), xyz(wr)
+    centre, ring_axis, ring_spin = row(ring, CENTRE), row(ring, AXIS), row(ring, SPIN)
     a0, a1, a2 = row(pose.axis, 0), row(pose.axis, 1), row(pose.axis, 2)
     along = dot(centre, ring_axis)
     tilt = abs(a0[1] - ring_axis[1]) + abs(a0[2] - ring_axis[2])
@@ -55,7 +58,7 @@ def rib_contact(pose, data, P, b, Vr, wr, onset, laws, sl, pair, mode, sums):
     if abs(along) + 2.0 * tilt * data.half_roller < play:
         return False
     spin = minus(xyz(pose.w), ring_spin)
-    rel = minus(minus(xyz(pose.V), xyz(Vr)), cross(ring_spin, centre))
+    rel = minus(minus(xyz(pose.V), row(ring, VELOCITY)), cross(ring_spin, centre))
     d = sqrt(1.0 - ring_axis[2] * ring_axis[2])
     e1 = (-ring_axis[1] / d, ring_axis[0] / d, 0.0)
     e2 = cross(ring_axis, e1)
@@ -81,8 +84,8 @@ def rib_contact(pose, data, P, b, Vr, wr, onset, laws, sl, pair, mode, sums):
         if not touched:
             continue
         active = True
-        normal_forces(law, (0, count), sl, data.normal, onset[f])
-        friction_factors(friction, (0, count), sl, data.friction)
+        normal_forces(laws.normal, (0, count), sl, data.normal, onset[f])
+        friction_factors(laws.friction, (0, count), sl, data.friction)
         for k in range(count):
             N = sl.N[k]
             if N <= 0.0:

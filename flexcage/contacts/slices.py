@@ -8,7 +8,7 @@ lot than for one.
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -34,6 +34,13 @@ _NAMES = (
     "n2",
     "n3",
 )
+
+
+class Laws(NamedTuple):
+    """The laws of a contact place, as compiled functions."""
+
+    normal: Any
+    friction: Any
 
 
 class Slices(NamedTuple):

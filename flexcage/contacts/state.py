@@ -14,6 +14,11 @@ import numpy as np
 
 from flexcage.core.jit import outlined, part, zero
 
+MOMENT = 3  # place in a 6-vector behind the force or translation
+# rows (4, 3) of a ring as a roller's partner, in F: roller's centre from the ring's, ring's axis,
+# velocity of its centre, angular velocity
+CENTRE, AXIS, VELOCITY, SPIN = range(4)
+
 
 class RollerPose(NamedTuple):
     """One roller's kinematics, refilled for each roller."""
@@ -31,6 +36,14 @@ class Pair(NamedTuple):
     K: np.ndarray  # (6, 6) minus d wrench / d displacement
     C: np.ndarray  # (6, 6) minus d wrench / d velocity
     W: np.ndarray  # (4, 6) generators of one slice: normal, two tangents, all of its force
+
+
+class CageModes(NamedTuple):
+    """The cage's modes at one moment."""
+
+    q: np.ndarray  # (n,) coordinates
+    qd: np.ndarray  # (n,) rates
+    margin: float  # no wall of a pocket moves by more along its normal
 
 
 def new_pose() -> RollerPose:
@@ -112,6 +125,14 @@ def add_wrench(out, f, r):
     out[3] += r[1] * f[2] - r[2] * f[1]
     out[4] += r[2] * f[0] - r[0] * f[2]
     out[5] += r[0] * f[1] - r[1] * f[0]
+
+
+@part
+def add_force_and_moment(out, f, m):
+    """out += (f, m)."""
+    for c in range(3):
+        out[c] += f[c]
+        out[MOMENT + c] += m[c]
 
 
 @part

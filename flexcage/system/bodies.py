@@ -111,7 +111,8 @@ def land_data(
         phi_max=np.abs(modes[:, 1]).max(axis=0) if n else np.zeros(0),
         normal=laws.normal_parameters(spec.normal, k, e),
         friction=laws.friction_parameters(spec.friction),
-        film=np.array([lubricant.viscosity, width, radius, clearance]),
+        viscosity=lubricant.viscosity,
+        width=width,
     )
 
 

@@ -31,19 +31,15 @@ from flexcage.core.jit import LEAN, kernel, kernel_of, why_not_compiled
 from flexcage.core.kernel_values import KernelType
 from flexcage.core.registry import add, check_free
 from flexcage.system import spec as specs
-from flexcage.system.layout import (  # noqa: F401  # kinds in other modules take them from here
+from flexcage.system.layout import (
     CAGE,
     CAGE_TURN,
     INNER,
     INNER_TURN,
     MODES,
-    OUTER,
     Q_CAGE,
     Q_INNER,
-    Q_INNER_TURN,
     Q_MODES,
-    Q_OUTER,
-    Q_QUATERNION,
     REACTION_UNITS,
     Layout,
 )  # fmt: skip

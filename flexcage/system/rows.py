@@ -7,6 +7,9 @@ ring 6, outer ring 2, cage 6 + n) and balanced here.
 from __future__ import annotations
 
 from math import cos, sin, sqrt
+from typing import NamedTuple
+
+import numpy as np
 
 from flexcage.bodies.floating_frame import inertia_terms, modal_product
 from flexcage.contacts.evaluation import (
@@ -21,7 +24,8 @@ from flexcage.contacts.evaluation import (
     STORED,
     TANGENT,
 )
-from flexcage.contacts.land import land_contact
+from flexcage.contacts.land import LandCage, LandForces, LandRing, land_contact
+from flexcage.contacts.slices import Laws
 from flexcage.core.jit import VECTORISED, copy_into, fields, part, zero
 from flexcage.core.rotation import quaternion_rate
 from flexcage.core.vectors import (
@@ -89,6 +93,25 @@ CAGE_FORCE, CAGE_MOMENT, RING_FORCE, RING_MOMENT = LEVER, AXIS, PARTNER_V, PARTN
 HOUSING_FORCE, SHAFT_PULL = LEVER, AXIS
 
 
+class State(NamedTuple):
+    """Rings and cage: their parts of y and y'."""
+
+    q: np.ndarray  # coordinates
+    u: np.ndarray  # velocities
+    qd: np.ndarray  # rates of both in y'
+    ud: np.ndarray
+    lam: np.ndarray  # multipliers of drive and load
+    mu: np.ndarray  # and of what they hold in place
+
+
+class Rows(NamedTuple):
+    """Rows of the residual that belong to them."""
+
+    q: np.ndarray  # kinematics
+    u: np.ndarray  # momentum
+    g: np.ndarray  # constraints
+
+
 def shared_rows(t, y, yd, d, law, out, mode):
     """Rows of cage, lands and rings and the constraints; the elements' contacts are summed already.
 
@@ -101,11 +124,10 @@ def shared_rows(t, y, yd, d, law, out, mode):
     qd, ud = yd[at.rest_q : at.u], yd[at.rest_u : at.lam]
     r_q, r_u = out[at.rest_q : at.u], out[at.rest_u : at.lam]
     lam, mu = y[at.lam : at.lam + N_LAMBDA], y[at.lam + N_LAMBDA :]
-    quat, qf = q[Q_QUATERNION:Q_MODES], q[Q_MODES:]
-    Vc, wb, qfd = u[CAGE:CAGE_TURN], u[CAGE_TURN:MODES], u[MODES:]
+    state, rows = State(q, u, qd, ud, lam, mu), Rows(r_q, r_u, out[at.lam :])
     land_rows(q, u, nm, d, law, mode)
-    cage_rows(d, quat, Vc, wb, qf, qfd, qd, ud, r_q, r_u, mode)
-    ring_rows(t, d, q, u, qd, ud, lam, mu, r_q, r_u, out, at.lam, mode)
+    cage_rows(d, state, rows, mode)
+    ring_rows(t, d, state, rows, mode)
     law[HOLD](t, y, yd, d, law[CONSTRAINT_ROWS], out, mode)
 
 
@@ -244,11 +266,14 @@ def land_rows(q, u, nm, d, law, mode):
     else:
         put(where, (0.0, q[Q_OUTER], q[Q_OUTER + 1]))
         put(speed, (0.0, u[OUTER], u[OUTER + 1]))
-    land_contact(
-        A, q[Q_CAGE:Q_QUATERNION], u[CAGE:CAGE_TURN], wg, q[Q_MODES:], u[MODES:], where, speed,
-        spin, data, fields(d.memory).land, (law[LAND_LAW], law[LAND_RUBS]), fields(d.slices).row[0],
-        fields(d.land_work), Fc, Mc, border[MODES : MODES + nm], Fr, Mr, work.sums,
+    cage = LandCage(
+        A, q[Q_CAGE:Q_QUATERNION], u[CAGE:CAGE_TURN], wg, q[Q_MODES:], u[MODES:]
     )  # fmt: skip
+    ring = LandRing(where, speed, spin)
+    forces = LandForces(Fc, Mc, border[MODES : MODES + nm], Fr, Mr)
+    laws, sl = Laws(law[LAND_LAW], law[LAND_RUBS]), fields(d.slices).row[0]
+    lw, onset = fields(d.land_work), fields(d.memory).land
+    land_contact(cage, ring, data, onset, laws, sl, lw, forces, work.sums)
     drag = fields(d.bodies).drag[1] * abs(wg[0]) * wg[0]
     Mc[0] -= drag
     moment = turned_back(A, xyz(Mc))
@@ -275,8 +300,11 @@ def land_rows(q, u, nm, d, law, mode):
 
 
 @part(fastmath=VECTORISED)
-def cage_rows(d, quat, Vc, wb, qf, qfd, qd, ud, r_q, r_u, mode):
+def cage_rows(d, state, rows, mode):
     """Rows of the cage: floating frame, translations in space, rotations in the body."""
+    quat, qf = state.q[Q_QUATERNION:Q_MODES], state.q[Q_MODES:]
+    Vc, wb, qfd = state.u[CAGE:CAGE_TURN], state.u[CAGE_TURN:MODES], state.u[MODES:]
+    qd, ud, r_q, r_u = state.qd, state.ud, rows.q, rows.u
     data, tan, rep, work = fields(d.cage), fields(d.tangent), fields(d.report), fields(d.scratch)
     frame, A, border = fields(d.frame), work.A, work.border
     nm = qf.shape[0]
@@ -438,8 +466,10 @@ def constraint_slopes(bodies, tan):
 
 
 @part
-def ring_rows(t, d, q, u, qd, ud, lam, mu_, r_q, r_u, out, end, mode):
+def ring_rows(t, d, state, rows, mode):
     """Rows of the inner and outer rings and of the constraints."""
+    q, u, qd, ud, lam, mu = state
+    r_q, r_u, g = rows
     bodies, tan, rep = fields(d.bodies), fields(d.tangent), fields(d.report)
     work, border = fields(d.scratch), fields(d.scratch).border
     rq, ru, rud = q[:Q_OUTER], u[:OUTER], ud[:OUTER]
@@ -447,9 +477,9 @@ def ring_rows(t, d, q, u, qd, ud, lam, mu_, r_q, r_u, out, end, mode):
     frame = ring_rates(rq, ru, rates)
     for c in range(6):
         r_q[c] = qd[c] - rates[c]
-    r_q[0] -= mu_[0]
-    r_q[Q_INNER_TURN] -= mu_[1]
-    r_q[Q_INNER_TURN + 1] -= mu_[2]
+    r_q[0] -= mu[0]
+    r_q[Q_INNER_TURN] -= mu[1]
+    r_q[Q_INNER_TURN + 1] -= mu[2]
     mass, Ia, It = bodies.ring[MASS], bodies.ring[AXIAL], bodies.ring[TRANSVERSE]
     load, axial = radial_load(bodies, t), axial_load(bodies, t)
     # moments about the ring's own (non-spinning) axes
@@ -488,16 +518,15 @@ def ring_rows(t, d, q, u, qd, ud, lam, mu_, r_q, r_u, out, end, mode):
             force = border[OUTER + c] - held[c] + mo * bodies.gravity[1 + c]
             r_u[OUTER + c] = mo * oud[c] - force
     # constraints: lambda rows hold rates, mu rows positions; what is free has the shaft's lambda
-    g = out[end:]
     free, pull = bodies.free, work.vec[SHAFT_PULL]
     bent, damped = shaft_pull(bodies, rq, ru, pull)
     g[AXIAL_FORCE] = lam[AXIAL_FORCE] - pull[0] if free[0] > 0.0 else ru[0]
     g[MOMENT_Y] = lam[MOMENT_Y] - pull[1] if free[1] > 0.0 else ru[4]
     g[MOMENT_Z] = lam[MOMENT_Z] - pull[2] if free[2] > 0.0 else ru[5]
     g[DRIVE_TORQUE] = ru[3] - target if bodies.drive[SHAFT] == 0.0 else lam[DRIVE_TORQUE]
-    g[N_LAMBDA] = mu_[0] if free[0] > 0.0 else rq[0]
-    g[N_LAMBDA + 1] = mu_[1] if free[1] > 0.0 else rq[3]
-    g[N_LAMBDA + 2] = mu_[2] if free[2] > 0.0 else rq[4] - bodies.misalignment
+    g[N_LAMBDA] = mu[0] if free[0] > 0.0 else rq[0]
+    g[N_LAMBDA + 1] = mu[1] if free[1] > 0.0 else rq[3]
+    g[N_LAMBDA + 2] = mu[2] if free[2] > 0.0 else rq[4] - bodies.misalignment
     if mode == TANGENT:
         constraint_slopes(bodies, tan)
         for c in range(3):

@@ -77,7 +77,7 @@ def test_the_model_has_the_land_of_the_dimensions():
     case = load_case(DEEP).replace("mesh.fineness", "coarse")
     land = build_bearing(case, cage_mesh(case), None).data.model.land
     assert land.clearance == pytest.approx(0.389e-3) and land.kind == 1
-    assert land.film[1] == case.land.width
+    assert land.width == case.land.width
     assert land.x == pytest.approx([-0.5 * (13e-3 - 2.2e-3), 0.5 * (13e-3 - 2.2e-3)])
 
 

@@ -11,18 +11,28 @@ from scipy.spatial.transform import Rotation
 
 from flexcage.contacts import laws
 from flexcage.contacts.evaluation import N_SUMS
-from flexcage.contacts.land import land_contact, land_work
+from flexcage.contacts.land import LandCage, LandForces, LandRing, land_contact, land_work
 from flexcage.contacts.pocket import pocket_contact
-from flexcage.contacts.pocket_wall import N_LOCAL, pocket_work
+from flexcage.contacts.pocket_wall import (
+    N_LOCAL,
+    CageAtRoller,
+    PocketLaws,
+    RollerInPocket,
+    pocket_work,
+)
 from flexcage.contacts.race import meet_race, press_race, push_by_race, race_work
 from flexcage.contacts.rib import rib_contact
-from flexcage.contacts.slices import new_slices
-from flexcage.contacts.state import RollerPose, new_pair, new_pose
+from flexcage.contacts.slices import Laws, new_slices
+from flexcage.contacts.state import CageModes, RollerPose, new_pair, new_pose
 from flexcage.core.jit import OPTIONS
 
 F8, I8 = types.float64, types.int64
 VEC = types.Array(F8, 1, "C")
+MATRIX = types.Array(F8, 2, "C")
 N, MU = laws.NORMAL_TYPE, laws.FRICTION_TYPE
+LAWS = types.Tuple((N, MU))
+ZERO = np.zeros(3)
+X = np.array([1.0, 0.0, 0.0])
 
 
 def pose_of(axis, V, w, azimuth=0.0) -> RollerPose:
@@ -42,26 +52,23 @@ def turned(axis, rotation):
 def _race(pose, side, Rw, theta, onset, law, mu, rw, pair, mode, sums):
     if not meet_race(1, pose, side, Rw, theta, onset, rw):
         return False
-    press_race(2, side, law, mu, rw)
+    press_race(2, side, Laws(law, mu), rw)
     push_by_race(1, pose, side, Rw, theta, rw, pair, mode, sums)
     return True
 
 
-def _rib(pose, data, P, b, Vr, wr, onset, law, sl, pair, mode, sums):
-    return rib_contact(pose, data, P, b, Vr, wr, onset, law, sl.row[0], pair, mode, sums)
+def _rib(pose, ring, data, onset, law, sl, pair, mode, sums):
+    laws = Laws(law[0], law[1])
+    return rib_contact(pose, ring, data, onset, laws, sl.row[0], pair, mode, sums)
 
 
-def _pocket(pose, data, i, Rw, D, Vc, wc, q, qd, margin, onset, law, a, sl, pw, pair, mode, sums):
-    return pocket_contact(
-        pose, data, i, Rw, D, Vc, wc, q, qd, margin, onset, law, a, sl.row[0], pw, pair, mode, sums
-    )
+def _pocket(i, roller, cage, data, law, sl, pw, pair, mode, sums):
+    laws = PocketLaws(law[0], law[1], law[2], law[3])
+    return pocket_contact(i, roller, cage, data, laws, sl.row[0], pw, pair, mode, sums)
 
 
-def _land(A, Rc, Vc, w, q, qd, Rr, Vr, spin, data, onset, law, sl, lw, Fc, Mc, Qm, Fr, Mr, sums):
-    sl = sl.row[0]
-    land_contact(
-        A, Rc, Vc, w, q, qd, Rr, Vr, spin, data, onset, law, sl, lw, Fc, Mc, Qm, Fr, Mr, sums
-    )
+def _land(cage, ring, data, onset, law, sl, lw, out, sums):
+    land_contact(cage, ring, data, onset, Laws(law[0], law[1]), sl.row[0], lw, out, sums)
 
 
 def _compiled(function, *arguments, returns=types.boolean):
@@ -79,32 +86,27 @@ def _race_kernel(side_type):
 @cache
 def _rib_kernel(data_type):
     return _compiled(
-        _rib, new_pose(), data_type, VEC, VEC, VEC, VEC, VEC,
-        types.Tuple((N, MU)), new_slices(), new_pair(), I8, VEC,
+        _rib, new_pose(), MATRIX, data_type, VEC, LAWS, new_slices(), new_pair(), I8, VEC,
     )  # fmt: skip
 
 
 @cache
 def _pocket_kernel(data_type):
     return _compiled(
-        _pocket, new_pose(), data_type, I8, F8, VEC, VEC, VEC, VEC, VEC, F8,
-        VEC, types.Tuple((N, N, MU, MU)), VEC, new_slices(),
-        pocket_work(1, 1, 2, 0), new_pair(), I8, VEC,
+        _pocket, I8, RollerInPocket(new_pose(), 1.0, ZERO, ZERO, ZERO),
+        CageAtRoller(ZERO, ZERO, CageModes(ZERO, ZERO, 0.0)), data_type,
+        types.Tuple((N, N, MU, MU)), new_slices(), pocket_work(1, 1, 2, 0),
+        new_pair(), I8, VEC,
     )  # fmt: skip
 
 
 @cache
 def _land_kernel(data_type):
-    matrix = types.Array(F8, 2, "C")
+    cage = LandCage(np.eye(3), ZERO, ZERO, ZERO, ZERO, ZERO)
     return _compiled(
-        _land, matrix, VEC, VEC, VEC, VEC, VEC, VEC, VEC, F8, data_type, VEC,
-        types.Tuple((N, MU)), new_slices(), land_work(1), VEC, VEC, VEC, VEC, VEC, VEC,
-        returns=types.void,
+        _land, cage, LandRing(ZERO, ZERO, 0.0), data_type, VEC, LAWS, new_slices(), land_work(1),
+        LandForces(ZERO, ZERO, ZERO, ZERO, ZERO), VEC, returns=types.void,
     )  # fmt: skip
-
-
-ZERO = np.zeros(3)
-X = np.array([1.0, 0.0, 0.0])
 
 
 def race(
@@ -130,9 +132,9 @@ def rib(
     """(wrench, sums, pair) of both ribs on a roller at P from the ring's centre."""
     pose = pose_of(np.eye(3) if axis is None else axis, V, w)
     pair, sums = new_pair(), np.zeros(N_SUMS)
-    arrays = [np.array(x, float) for x in (P, b, Vr, wr)]
+    ring = np.array([P, b, Vr, wr], float)
     _rib_kernel(numba.typeof(data))(
-        pose, data, *arrays, np.full(2, onset), (law, friction), new_slices(), pair, mode, sums
+        pose, ring, data, np.full(2, onset), (law, friction), new_slices(), pair, mode, sums
     )
     return pair.wrench, sums, pair
 
@@ -146,13 +148,14 @@ def pocket(
     work = pocket_work(len(data.s), len(data.points), data.phi.shape[2], data.phi.shape[4])
     work.G[:] = np.eye(3) if G is None else G
     pair, sums = new_pair(), np.zeros(N_SUMS)
-    arrays = [np.array(x, float) for x in (D, Vc, wc, q, qd)]
-    margin = float(data.phi_max @ np.abs(arrays[3])) if len(q) else 0.0
+    D, Vc, wc, q, qd = (np.array(x, float) for x in (D, Vc, wc, q, qd))
+    margin = float(data.phi_max @ np.abs(q)) if len(q) else 0.0
+    roller = RollerInPocket(pose, radius, D, np.full(4, onset), np.zeros(N_LOCAL))
+    cage = CageAtRoller(Vc, wc, CageModes(q, qd, margin))
+    by = (normal, normal, friction, friction)
     _pocket_kernel(numba.typeof(data))(
-        pose, data, i, radius, *arrays, margin, np.full(4, onset),
-        (normal, normal, friction, friction), np.zeros(N_LOCAL), new_slices(), work, pair, mode,
-        sums,
-    )  # fmt: skip
+        i, roller, cage, data, by, new_slices(), work, pair, mode, sums
+    )
     return pair.wrench, sums, work, pair
 
 
@@ -162,10 +165,11 @@ def land(
 ):  # fmt: skip
     """(Fc, Mc, Qm, Fr, Mr, sums) between cage and ring; forces at stations in ``work.st``."""
     A = np.eye(3) if A is None else np.ascontiguousarray(A)
-    out = [np.zeros(3), np.zeros(3), np.zeros(len(q)), np.zeros(3), np.zeros(3), np.zeros(N_SUMS)]
-    a = [np.array(x, float) for x in (Rc, Vc, w, q, qd, Rr, Vr)]
+    out = LandForces(np.zeros(3), np.zeros(3), np.zeros(len(q)), np.zeros(3), np.zeros(3))
+    sums = np.zeros(N_SUMS)
+    Rc, Vc, w, q, qd, Rr, Vr = (np.array(x, float) for x in (Rc, Vc, w, q, qd, Rr, Vr))
     _land_kernel(numba.typeof(data))(
-        A, *a, spin, data, np.full(2, onset), (law, friction), new_slices(),
-        work or land_work(len(data.angle)), *out,
+        LandCage(A, Rc, Vc, w, q, qd), LandRing(Rr, Vr, float(spin)), data, np.full(2, onset),
+        (law, friction), new_slices(), work or land_work(len(data.angle)), out, sums,
     )  # fmt: skip
-    return out
+    return [*out, sums]

@@ -19,7 +19,7 @@ from flexcage.results.registry import Variable
 from flexcage.solve.contract import DONE, LOG_FULL, RESIDUALS, STEPS, T
 from flexcage.solve.runge_kutta import EXPLICIT_METHOD
 from flexcage.spec import Constraint, FrictionLaw, Material, ModesSpec, NormalLaw
-from flexcage.system.constraints import CAGE, Q_CAGE
+from flexcage.system.layout import CAGE, Q_CAGE
 
 # ------------------------------------------------------------------- a normal law with own values
 

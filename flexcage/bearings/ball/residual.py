@@ -7,7 +7,7 @@ velocity, both in F. ``mode`` is one of ``contacts.evaluation``, but for the tan
 
 from __future__ import annotations
 
-from flexcage.contacts.ball_pocket import pocket_wall_contact
+from flexcage.contacts.ball_pocket import BallInPocket, pocket_wall_contact
 from flexcage.contacts.evaluation import (
     ANGLE,
     APPROACH,
@@ -22,8 +22,9 @@ from flexcage.contacts.evaluation import (
     RUBBED,
     STORED,
 )
-from flexcage.contacts.groove import groove_contact
-from flexcage.contacts.state import set_frame
+from flexcage.contacts.groove import BallOnRace, groove_contact
+from flexcage.contacts.slices import Laws
+from flexcage.contacts.state import CageModes, set_frame
 from flexcage.core.jit import copy_into, fields, outlined, part, zero
 from flexcage.core.rotation import matrix_from_quaternion
 from flexcage.core.vectors import (
@@ -103,13 +104,14 @@ def evaluate(t, y, yd, d, law, out, mode):
     margin = 0.0
     for m in range(nm):
         margin += phi_max[m] * abs(qf[m])
+    modes = CageModes(qf, qfd, margin)
     zero(work.wrenches)
     for i in range(Z):
         own = of_element(i)
         qi, ui = q[own], u[own]
         set_frame(qi[2], fields(d.pose).F)
         _races(i, qi, ui, rest_q, rest_u, d, law, mode)
-        _pocket(i, qi, ui, Rc, Vc, qf, qfd, margin, d, law, mode)
+        _pocket(i, qi, ui, Rc, Vc, modes, d, law, mode)
         _ball_rows(i, qi, ui, qd[own], ud[own], d, r_q[own], r_u[own], mode)
     law[SHARED](t, y, yd, d, law[:FAMILY_PARTS], out, mode)
 
@@ -119,29 +121,27 @@ def _races(i, qi, ui, rest_q, rest_u, d, law, mode):
     """Ball i on both races, in its frame F."""
     F, work, pair = fields(d.pose).F, fields(d.scratch), fields(d.pair)
     vec, border = work.vec, work.border
+    laws, sl = Laws(law[RACE_LAW], law[RACE_RUBS]), fields(d.slices).row[0]
+    radius, onset = fields(d.bodies).radius, fields(d.memory).race[i]
     V, w = xyz(ui), (ui[3], ui[4], ui[5])
     P = minus((qi[0], qi[1], 0.0), turned(F, xyz(rest_q[:Q_INNER_TURN])))
     zero(pair.wrench)
-    hit = groove_contact(
-        fields(d.bodies).radius[i], fields(d.inner), P, turned(F, xyz(vec[RING_AXIS])), V, w,
-        turned(F, xyz(rest_u[:INNER_TURN])), turned(F, xyz(vec[RING_SPIN])),
-        fields(d.memory).race[i, INNER_RACE], law[RACE_LAW], law[RACE_RUBS],
-        fields(d.slices).row[0], pair.wrench, mode, work.sums,
+    ball = BallOnRace(
+        radius[i], P, V, w, turned(F, xyz(vec[RING_AXIS])), turned(F, xyz(rest_u[:INNER_TURN])),
+        turned(F, xyz(vec[RING_SPIN])), onset[INNER_RACE],
     )  # fmt: skip
-    if hit:
+    if groove_contact(ball, fields(d.inner), laws, sl, pair.wrench, mode, work.sums):
         react(F, work.unit, pair.wrench, P, border, INNER)
         _add(work.wrenches[i], pair.wrench)
     if mode >= REPORT:
         _report_race(i, INNER_RACE, work.sums, fields(d.report))
     P = minus((qi[0], qi[1], 0.0), turned(F, (0.0, rest_q[Q_OUTER], rest_q[Q_OUTER + 1])))
     zero(pair.wrench)
-    hit = groove_contact(
-        fields(d.bodies).radius[i], fields(d.outer), P, (1.0, 0.0, 0.0), V, w,
-        turned(F, (0.0, rest_u[OUTER], rest_u[OUTER + 1])), (0.0, 0.0, 0.0),
-        fields(d.memory).race[i, OUTER_RACE], law[RACE_LAW], law[RACE_RUBS],
-        fields(d.slices).row[0], pair.wrench, mode, work.sums,
+    ball = BallOnRace(
+        radius[i], P, V, w, (1.0, 0.0, 0.0), turned(F, (0.0, rest_u[OUTER], rest_u[OUTER + 1])),
+        (0.0, 0.0, 0.0), onset[OUTER_RACE],
     )  # fmt: skip
-    if hit:
+    if groove_contact(ball, fields(d.outer), laws, sl, pair.wrench, mode, work.sums):
         _add(work.wrenches[i], pair.wrench)
         for c in range(2):
             border[OUTER + c] -= F[1, 1 + c] * pair.wrench[1] + F[2, 1 + c] * pair.wrench[2]
@@ -169,8 +169,8 @@ def _report_race(i, side, sums, rep):
 
 
 @part
-def _pocket(i, qi, ui, Rc, Vc, qf, qfd, margin, d, law, mode):
-    """Ball i in its pocket."""
+def _pocket(i, qi, ui, Rc, Vc, modes, d, law, mode):
+    """Ball i in its pocket; the cage is at Rc and moves as Vc."""
     data, pw, pair, work = (
         fields(d.pocket),
         fields(d.pocket_work),
@@ -188,11 +188,9 @@ def _pocket(i, qi, ui, Rc, Vc, qf, qfd, margin, d, law, mode):
     v = minus(minus(xyz(ui), turned(F, xyz(Vc))), cross(turn, D))
     spin = minus((ui[3], ui[4], ui[5]), turn)
     zero(pair.wrench)
-    hit = pocket_wall_contact(
-        fields(d.bodies).radius[i], data, i, D, v, spin, qf, qfd, margin,
-        fields(d.memory).pocket[i, 0], law[POCKET_LAW], law[POCKET_RUBS], fields(d.slices).row[0],
-        pw, pair.wrench, mode, sums,
-    )  # fmt: skip
+    ball = BallInPocket(fields(d.bodies).radius[i], D, v, spin, fields(d.memory).pocket[i, 0])
+    laws, sl = Laws(law[POCKET_LAW], law[POCKET_RUBS]), fields(d.slices).row[0]
+    hit = pocket_wall_contact(i, ball, modes, data, laws, sl, pw, pair.wrench, mode, sums)
     if hit:
         _add(work.wrenches[i], pair.wrench)
         react(F, A, pair.wrench, D, work.border, CAGE)

@@ -17,7 +17,8 @@ from flexcage.contacts.evaluation import (
     TANGENT,
 )
 from flexcage.contacts.pocket import pocket_contact
-from flexcage.contacts.state import shift_matrix, take_pose
+from flexcage.contacts.pocket_wall import CageAtRoller, PocketLaws, RollerInPocket
+from flexcage.contacts.state import CageModes, shift_matrix, take_pose
 from flexcage.core.jit import copy_into, fields, outlined, part, zero
 from flexcage.core.vectors import (
     column,
@@ -76,17 +77,18 @@ def roller_pockets(t, y, yd, d, law, out, mode):
     for m in range(nm):
         margin += phi_max[m] * abs(qf[m])
         modal[0, m], modal[1, m] = qf[m], qfd[m]
+    modes = CageModes(modal[0], modal[1], margin)
     Rc, Vc = rest_q[Q_CAGE:Q_QUATERNION], rest_u[CAGE:CAGE_TURN]
     for i in range(Z):
         take_pose(work.poses[i], fields(d.pose))
-        _pocket(i, q[of_element(i)], Rc, Vc, modal[0], modal[1], margin, d, law, mode)
+        _pocket(i, q[of_element(i)], Rc, Vc, modes, d, law, mode)
         if mode >= REPORT:
             _approach(i, rest_u[:OUTER], rest_u[OUTER:CAGE], d)
 
 
 @part
-def _pocket(i, qi, Rc, Vc, qf, qfd, margin, d, law, mode):
-    """Roller i in its pocket."""
+def _pocket(i, qi, Rc, Vc, modes, d, law, mode):
+    """Roller i in its pocket; the cage is at Rc and moves as Vc."""
     pose, pair, pw, work = fields(d.pose), fields(d.pair), fields(d.pocket_work), fields(d.scratch)
     data, memory, tan = fields(d.pocket), fields(d.memory), fields(d.tangent)
     F, A, vec, sums, border = pose.F, work.A, work.vec, work.sums, work.border
@@ -99,11 +101,12 @@ def _pocket(i, qi, Rc, Vc, qf, qfd, margin, d, law, mode):
     put(pw.G[2], turned(F, combine(times(ca, e2), -sa, e1)))
     put(Vr, turned(F, xyz(Vc)))
     put(wr, turned(F, xyz(vec[CAGE_SPIN])))
-    hit = pocket_contact(
-        pose, data, i, fields(d.bodies).radius[i], D, Vr, wr, qf, qfd, margin, memory.pocket[i],
-        (law[POCKET_LAW], law[SIDE_LAW], law[POCKET_RUBS], law[SIDE_RUBS]), memory.deflection[i],
-        fields(d.slices).row[0], pw, pair, mode, sums,
-    )  # fmt: skip
+    radius = fields(d.bodies).radius[i]
+    roller = RollerInPocket(pose, radius, D, memory.pocket[i], memory.deflection[i])
+    cage = CageAtRoller(Vr, wr, modes)
+    laws = PocketLaws(law[POCKET_LAW], law[SIDE_LAW], law[POCKET_RUBS], law[SIDE_RUBS])
+    sl = fields(d.slices).row[0]
+    hit = pocket_contact(i, roller, cage, data, laws, sl, pw, pair, mode, sums)
     if hit:
         add_to_element(work.wrenches[i], pair)
         react(F, A, pair.wrench, xyz(D), border, CAGE)
@@ -116,7 +119,7 @@ def _pocket(i, qi, Rc, Vc, qf, qfd, margin, d, law, mode):
                 put(work.R[1, c], turned_back(A, row(F, c)))
             shift_matrix(work.R, D, work.S)
             scatter(pair, work.S, i, CAGE, tan, work.T6)
-            if qf.shape[0] > 0:
+            if modes.q.shape[0] > 0:
                 scatter_modes(i, pw, work.S, tan, data.phi.shape[4])
     elif mode >= REPORT:
         _report_pocket(i, hit, sums, pw, fields(d.report), mode)

@@ -26,7 +26,17 @@ from flexcage.contacts.evaluation import (
 )
 from flexcage.contacts.race import meet_race, press_race, push_by_race
 from flexcage.contacts.rib import rib_contact
-from flexcage.contacts.state import keep_pose, set_pose, shift_matrix, take_pose
+from flexcage.contacts.slices import Laws
+from flexcage.contacts.state import (
+    AXIS,
+    CENTRE,
+    SPIN,
+    VELOCITY,
+    keep_pose,
+    set_pose,
+    shift_matrix,
+    take_pose,
+)
 from flexcage.core.jit import copy_into, fields, part, zero
 from flexcage.core.rotation import matrix_from_quaternion
 from flexcage.core.vectors import (
@@ -147,33 +157,30 @@ def _inner_contacts(first, end, q, ring_q, ring_u, d, law, mode):
     pose, pair, rep, work = fields(d.pose), fields(d.pair), fields(d.report), fields(d.scratch)
     side, rw, memory = fields(d.inner), fields(d.race_work), fields(d.memory)
     F, vec, sums, radius = pose.F, work.vec, work.sums, fields(d.bodies).radius
-    count = 0
+    rib_laws, race_laws = Laws(law[RIB_LAW], law[RIB_RUBS]), Laws(law[RACE_LAW], law[RACE_RUBS])
+    sl, count = fields(d.slices).row[0], 0
     for i in range(first, end):
         take_pose(work.poses[i], pose)
         at = rw.partner[count]
-        P, b, Vr, wr = at[0], at[1], at[2], at[3]
         qi = q[of_element(i)]
-        put(P, minus((qi[0], qi[1], 0.0), turned(F, xyz(ring_q))))
-        put(b, turned(F, xyz(vec[RING_AXIS])))
-        put(Vr, turned(F, xyz(ring_u)))
-        put(wr, turned(F, xyz(vec[RING_SPIN])))
-        if rib_contact(
-            pose, fields(d.rib), P, b, Vr, wr, memory.rib[i],
-            (law[RIB_LAW], law[RIB_RUBS]), fields(d.slices).row[0], pair, mode, sums,
-        ):  # fmt: skip
-            _add_inner(i, P, d, mode)
+        put(at[CENTRE], minus((qi[0], qi[1], 0.0), turned(F, xyz(ring_q))))
+        put(at[AXIS], turned(F, xyz(vec[RING_AXIS])))
+        put(at[VELOCITY], turned(F, xyz(ring_u)))
+        put(at[SPIN], turned(F, xyz(vec[RING_SPIN])))
+        if rib_contact(pose, at, fields(d.rib), memory.rib[i], rib_laws, sl, pair, mode, sums):
+            _add_inner(i, at[CENTRE], d, mode)
             if mode >= REPORT:
                 _report_ribs(i, sums, rep)
         onset = memory.race[i, INNER_RACE]
         if meet_race(count, pose, side, radius[i], ring_q[5], onset, rw):
             rw.who[count] = i
             count += 1
-    press_race(count, side, law[RACE_LAW], law[RACE_RUBS], rw)
+    press_race(count, side, race_laws, rw)
     for m in range(count):
         i = rw.who[m]
         take_pose(work.poses[i], pose)
         push_by_race(m, pose, side, radius[i], ring_q[5], rw, pair, mode, sums)
-        _add_inner(i, rw.partner[m, 0], d, mode)
+        _add_inner(i, rw.partner[m, CENTRE], d, mode)
         if mode >= REPORT:
             _report_race(i, INNER_RACE, sums, rep)
 
@@ -197,21 +204,21 @@ def _outer_contacts(first, end, q, out_q, out_u, d, law, mode):
     pose, pair, work = fields(d.pose), fields(d.pair), fields(d.scratch)
     side, rw, memory = fields(d.outer), fields(d.race_work), fields(d.memory)
     F, border, radius = pose.F, work.border, fields(d.bodies).radius
+    race_laws = Laws(law[RACE_LAW], law[RACE_RUBS])
     count = 0
     for i in range(first, end):
         take_pose(work.poses[i], pose)
         at = rw.partner[count]
-        P, b, Vr, wr = at[0], at[1], at[2], at[3]
         qi = q[of_element(i)]
-        put(P, minus((qi[0], qi[1], 0.0), turned(F, (0.0, out_q[0], out_q[1]))))
-        put(b, (1.0, 0.0, 0.0))
-        put(Vr, turned(F, (0.0, out_u[0], out_u[1])))
-        put(wr, (0.0, 0.0, 0.0))
+        put(at[CENTRE], minus((qi[0], qi[1], 0.0), turned(F, (0.0, out_q[0], out_q[1]))))
+        put(at[AXIS], (1.0, 0.0, 0.0))
+        put(at[VELOCITY], turned(F, (0.0, out_u[0], out_u[1])))
+        put(at[SPIN], (0.0, 0.0, 0.0))
         onset = memory.race[i, OUTER_RACE]
         if meet_race(count, pose, side, radius[i], 0.0, onset, rw):
             rw.who[count] = i
             count += 1
-    press_race(count, side, law[RACE_LAW], law[RACE_RUBS], rw)
+    press_race(count, side, race_laws, rw)
     for m in range(count):
         i = rw.who[m]
         take_pose(work.poses[i], pose)

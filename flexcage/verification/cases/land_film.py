@@ -28,17 +28,15 @@ QUADRATURE = Tolerance(1e-8, "quadrature of the pressure to 1e-8")
 
 def film(
     eps: float, *, direction: float = 0.0, rate: tuple[float, float] = (0.0, 0.0)
-) -> np.ndarray:
+) -> tuple[float, float, float]:
     """Both components of the force [N] and the moment [N m] at an eccentricity ratio.
 
     ``direction`` [rad] is that of the eccentricity and ``rate`` [m/s] its rate, both components.
     """
-    out, e = np.zeros(3), eps * CLEARANCE
-    laws.short_bearing(
-        ETA, LENGTH, RADIUS, CLEARANCE, e * np.cos(direction), e * np.sin(direction), *rate,
-        SUM, DIFFERENCE, out,
-    )  # fmt: skip
-    return out
+    e = eps * CLEARANCE
+    eccentricity = e * np.cos(direction), e * np.sin(direction)
+    oil = laws.LandFilm(ETA, LENGTH, RADIUS, CLEARANCE)
+    return laws.short_bearing(oil, eccentricity, rate, SUM, DIFFERENCE)
 
 
 def load_per_angle(angle: float, eps: float, wedge: float, squeeze: float) -> float:
