@@ -74,6 +74,7 @@ def evaluate(t, y, yd, d, law, out, mode):
 
 
 MOTION = Motion(
+    family="magnet",
     element="ball",
     build_model=build_model,
     parts=MagnetParts,

@@ -109,7 +109,7 @@ def test_cases_with_the_same_cage_derive_from_it_once(folder, monkeypatch):
         raise AssertionError("derived again")
 
     monkeypatch.setattr("flexcage.stages.cage_record", never)
-    monkeypatch.setattr("flexcage.run.StressRecovery", never)
+    monkeypatch.setattr("flexcage.stress.run_stress.StressRecovery", never)
     assert do_case(second) == "done"
     beside = load_run(folder.case(second.hash)).dataset["cage_position"].values
     np.testing.assert_array_equal(beside, alone)

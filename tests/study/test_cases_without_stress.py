@@ -6,8 +6,8 @@ import pytest
 from study_cases import short_case
 
 from flexcage.results.known import KNOWN
-from flexcage.run import Run
 from flexcage.simulate import load_run, simulate
+from flexcage.stress.run_stress import RunStress
 from flexcage.study import work
 from flexcage.study.axes import Grid
 from flexcage.study.folder import Folder
@@ -68,7 +68,7 @@ def test_a_study_without_such_an_output_computes_no_stress(tmp_path, monkeypatch
         raise AssertionError("stress was computed")
 
     with monkeypatch.context() as patched:
-        patched.setattr(Run, "_stress_history", never)
+        patched.setattr(RunStress, "history", property(never))
         results = compute(tmp_path / "study", study_of())
     figures = results.folder.row(results.rows[0].planned.hash).figures
     assert set(OF_STRESS).isdisjoint(figures) and "mode_count" in figures
