@@ -40,7 +40,7 @@ from flexcage.static import AT_START, solve_static
 from flexcage.system.constraints import names_of
 from flexcage.system.layout import Layout
 from flexcage.system.problem import Bearing
-from flexcage.system.start import Start, constrained, find_start, pushed
+from flexcage.system.start import Start, constrained, find_start, with_push
 
 log = logging.getLogger(__name__)
 
@@ -262,9 +262,9 @@ def assembled_start(case: Case, bearing: Bearing, progress: Callable[..., Any] =
             bearing,
             limit_force=limit,
             statics=lambda: solve_static(case, options=AT_START),
-            told=bar.to,
+            advance=bar.to,
         )
-    start = pushed(start, bearing.layout, case.start)
+    start = with_push(start, bearing.layout, case.start)
     return constrained(start, bearing, case.constraints, limit_force=limit)
 
 

@@ -68,7 +68,7 @@ class Bodies(NamedTuple):
     load: np.ndarray  # (2, m) table of time and radial load
     axial: np.ndarray  # (2, k) table of time and axial load
     load_direction: np.ndarray  # (2,) y, z
-    waves: np.ndarray  # (3, 4) of speed, radial load, axial load, see courses.py
+    waves: np.ndarray  # (3, 4) of speed, radial load, axial load, see time_functions.py
     moments: np.ndarray  # (2,) about y and z on the inner ring
     free: np.ndarray  # (4,) 1.0 if the inner ring is free axially, in skew, in tilt, at its centre
     spring: np.ndarray  # (3, 2) stiffness and damping of the shaft, axially, in skew, in tilt

@@ -21,7 +21,6 @@ from flexcage.core.jit import VECTORISED, fields, kernel, part, zero
 from flexcage.solve.bordered import lu_factor, lu_solve
 from flexcage.solve.oscillators import Oscillators, no_oscillators
 from flexcage.system.constraints import BEAR, ONTO
-from flexcage.system.courses import table_slope, wave_slope
 from flexcage.system.data import AXIAL, CONSTRAINT_ROWS, HOLD, MASS, OUTER_FIXED, SHAFT, TRANSVERSE
 from flexcage.system.layout import (
     AXIAL_FORCE,
@@ -36,6 +35,7 @@ from flexcage.system.layout import (
 )
 from flexcage.system.rows import shaft_pull, speed_at
 from flexcage.system.sampling import give_powers, is_main, keep_force, keep_report
+from flexcage.system.time_functions import table_slope, wave_slope
 
 
 class RatesWork(NamedTuple):

@@ -38,7 +38,6 @@ from flexcage.core.vectors import (
     turned_back,
     xyz,
 )
-from flexcage.system.courses import table_integral, table_value, wave_integral, wave_value
 from flexcage.system.data import (
     AXIAL,
     CONSTRAINT_ROWS,
@@ -84,6 +83,7 @@ from flexcage.system.layout import (
     Q_QUATERNION,
     places,
 )
+from flexcage.system.time_functions import table_integral, table_value, wave_integral, wave_value
 
 # rows of ``Work.vec``: of the bodies, in space; of the pair under work, in the roller's frame F
 CAGE_SPIN, RING_AXIS, RING_SPIN, LEVER, AXIS, PARTNER_V, PARTNER_W, GUIDE, GUIDE_V = range(9)

@@ -118,7 +118,7 @@ def _half(x):
 
 
 @kernel
-def course(table, wave, times, out):
+def time_function(table, wave, times, out):
     """Values (n,) at ``times`` [s] of a table with a wave on top."""
     for k in range(times.shape[0]):
         out[k] = table_value(table, times[k]) + wave_value(wave, times[k])
@@ -127,7 +127,7 @@ def course(table, wave, times, out):
 def corners(
     tables: Sequence[np.ndarray], waves: Sequence[np.ndarray], begin: float, end: float
 ) -> np.ndarray:
-    """Times in [begin, end), in order, at which the slope of any of these courses jumps."""
+    """Times in [begin, end), in order, at which the slope of any of these functions jumps."""
     found = [_table_corners(table) for table in tables]
     found += [_wave_corners(wave, begin, end) for wave in waves if wave[0] == TRAPEZOID]
     times = np.unique(np.concatenate(found))
