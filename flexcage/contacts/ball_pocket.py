@@ -34,6 +34,8 @@ POLAR = 0.3  # cosine of the latitude from which on a sphere's wall moves as its
 SEAT = 1e-3  # of the ball's radius, see above: with less the push would be stiffer than a contact
 NARROW = 0.1  # of the pocket's play, the most that a seat may be
 
+CYLINDER, SPHERE = range(2)  # shapes of pockets
+
 
 class BallPockets(NamedTuple):
     """All pockets of a cage."""
@@ -44,7 +46,7 @@ class BallPockets(NamedTuple):
     radius: np.ndarray  # (Z,)
     height: float  # radius of the spheres' middles
     wall: np.ndarray  # (2,) inner and outer radius of the cage's wall
-    sphere: float  # 1.0: spheres, 0.0: cylinders
+    shape: int  # CYLINDER or SPHERE
     rims: np.ndarray  # (Z, 3) sines of latitude at which spheres end: outwards, inwards, along x
     phi: np.ndarray  # (Z, 1, nst, 3, nm) modes at the stations (x, r, psi), from +psi towards +x
     phi_max: np.ndarray  # (nm,) largest displacement of a wall along its normal
@@ -91,10 +93,11 @@ def pocket_wall_contact(i, ball, modes, data, laws, sl, pw, wrench, mode, sums):
     rb, D, v = ball.radius, ball.centre, ball.velocity
     p, x = data.normal[i], dot(D, row(pw.G, 0)) - data.shift[i, 0]
     t = dot(D, row(pw.G, 2)) - data.shift[i, 1]
-    h = data.sphere * (dot(D, row(pw.G, 1)) - data.height)
+    sphere = data.shape == SPHERE
+    h = dot(D, row(pw.G, 1)) - data.height if sphere else 0.0
     x -= min(max(x, -data.slot[i, 0]), data.slot[i, 0])
     t -= min(max(t, -data.slot[i, 1]), data.slot[i, 1])
-    seat = data.sphere * min(SEAT * rb, NARROW * (data.radius[i] - rb))
+    seat = min(SEAT * rb, NARROW * (data.radius[i] - rb)) if sphere else 0.0
     n, apart, touch = _nearest((x, h, t), data.radius[i], row(data.rims, i), seat)
     if apart == 0.0:
         return False
@@ -131,7 +134,7 @@ def pocket_wall_contact(i, ball, modes, data, laws, sl, pw, wrench, mode, sums):
     if depth <= 0.0:
         return False
     # slope of the depth: along n, and as the wall's displacement changes there
-    across = (u[0], data.sphere * u[1], u[2])
+    across = (u[0], u[1] if sphere else 0.0, u[2])
     push = minus(n, _turning(across, n, apart, touch))
     round_it = polewards = (0.0, 0.0, 0.0)  # slopes of the azimuth and of that cosine
     if cosine > 0.0:

@@ -15,8 +15,10 @@ that is touched alone, as nearly all are, is solved in the softest of these
 from __future__ import annotations
 
 from flexcage.contacts.pocket_wall import (
+    FACES,
     N_FACE,
     N_LOCAL,
+    SIDES,
     add_share,
     most_of_curve,
     read_values,
@@ -67,7 +69,7 @@ def condense(data, i, laws, guess, sl, pw):
     Faces that nothing touches before the walls yield join if those that are touched push them in.
     """
     touched, last = 0, 0
-    for f in range(4):
+    for f in range(FACES):
         pw.live[f] = 1 if pw.near[f] != 0 and pw.deep[f] > 0.0 else 0
         if pw.live[f] != 0:
             touched, last = touched + 1, f
@@ -82,7 +84,7 @@ def condense(data, i, laws, guess, sl, pw):
             return
     pw.size[0] = N_LOCAL
     copy_into(pw.c, pw.b)
-    for f in range(4):
+    for f in range(FACES):
         if pw.live[f] != 0:
             _read(N_LOCAL, span_of(pw, f), data.res[i, f], pw.face[f])
     joined = True
@@ -90,7 +92,7 @@ def condense(data, i, laws, guess, sl, pw):
         _solve(N_LOCAL, data.most[i], data, laws, sl, pw)
         copy_into(pw.b, pw.c)
         joined = _join(data, i, sl, pw)
-    for f in range(4):
+    for f in range(FACES):
         if pw.live[f] != 0:
             _lean(data, i, f, pw)
 
@@ -98,7 +100,7 @@ def condense(data, i, laws, guess, sl, pw):
 @part
 def left_out(pw):
     """Whether the residual deflection may push to the roller what was not near before."""
-    for f in range(4):
+    for f in range(FACES):
         if pw.rest[f] + pw.push[f] > 0.0:
             return True
     return False
@@ -108,7 +110,7 @@ def left_out(pw):
 def _join(data, i, sl, pw):
     """Whether faces join that the residual deflection pushes to the roller."""
     joined = False
-    for f in range(4):
+    for f in range(FACES):
         if pw.live[f] != 0:
             continue
         push = 0.0
@@ -180,11 +182,13 @@ def _balance(m, data, laws, anew, sl, pw):
         for l in range(m):
             for k in range(l + 1):
                 pw.A[l, k] = 0.0
-    for f in range(4):
+    for f in range(FACES):
         if pw.live[f] != 0:
             span = span_of(pw, f)
             _yielded(m, span, pw.face[f], pw.c, sl)
-            law, p = (laws[0], data.normal[0]) if f < 2 else (laws[1], data.normal[1])
+            on_beam = f < SIDES
+            law = laws.crossbeam if on_beam else laws.side
+            p = data.normal[0 if on_beam else 1]
             elastic_forces(law, span, sl, p)
             _load(m, span, pw.face[f], sl, pw.g)
             if anew:

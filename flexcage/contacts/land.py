@@ -27,7 +27,7 @@ class LandData(NamedTuple):
     """Land of the cage."""
 
     kind: int
-    inner: float  # +1: the cage rides on the inner ring, -1: inside the outer ring
+    inner: int  # 1: the cage rides on the inner ring, 0: inside the outer; no record holds a bool
     clearance: float
     radius: float
     x: np.ndarray  # (2,) axial positions of the two lands
@@ -243,12 +243,19 @@ def _depth(A, data, offset, side, place, lw):
 
 
 @part
+def _outwards(data):
+    """1 if the ring pushes the cage outwards where they touch, -1 inwards."""
+    return 1.0 if data.inner != 0 else -1.0
+
+
+@part
 def _within(data, offset, c, rise):
     """Penetration of a point c of the land into the ring, and its slope where c's is ``rise``."""
     y, z = offset[1] + c[1], offset[2] + c[2]
     d = sqrt(y * y + z * z)
-    ring = data.radius - data.inner * data.clearance
-    return data.inner * (ring - d), -data.inner * (y * rise[1] + z * rise[2]) / d
+    out = _outwards(data)
+    ring = data.radius - out * data.clearance
+    return out * (ring - d), -out * (y * rise[1] + z * rise[2]) / d
 
 
 @part
@@ -321,7 +328,7 @@ def _touch(touch, cage, ring, data, onset, laws, sl, lw, out, sums):
     c, _, e = _surface(A, data, touch.side, place, lw)
     _, along = _directions(A, place * 2.0 * pi / n_l)
     at = plus(offset, c)
-    size = data.inner / sqrt(at[1] * at[1] + at[2] * at[2])
+    size = _outwards(data) / sqrt(at[1] * at[1] + at[2] * at[2])
     n = (0.0, size * at[1], size * at[2])  # on the cage, in the plane of rotation
     v = plus(minus(xyz(cage.velocity), xyz(ring.velocity)), cross(xyz(cage.spin), c))
     v = (0.0, v[1] + ring.spin * at[2], v[2] - ring.spin * at[1])
@@ -368,14 +375,14 @@ def _spread_film(A, data, film, qd, lw, modal, sums):
     cosine, and its torque, the third, evenly: on the stations, on the modes, and the power of
     these."""
     fy, fz, torque = film
-    n_l, size = data.angle.shape[0], sqrt(fy * fy + fz * fz)
+    n_l, size, out = data.angle.shape[0], sqrt(fy * fy + fz * fz), _outwards(data)
     total = 0.0
     for s in range(n_l):
         e, _ = _directions(A, s * 2.0 * pi / n_l)
-        lw.d[s] = max(data.inner * (fy * e[1] + fz * e[2]), 0.0)
+        lw.d[s] = max(out * (fy * e[1] + fz * e[2]), 0.0)
         total += lw.d[s] * lw.d[s]
     for s in range(n_l):
-        radial = data.inner * size * size * lw.d[s] / total if total > 0.0 else 0.0
+        radial = out * size * size * lw.d[s] / total if total > 0.0 else 0.0
         tangential = torque / (n_l * data.radius)
         shape = data.phi[s]
         _push_modes(radial, tangential, shape, modal)

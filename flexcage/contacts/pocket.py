@@ -15,6 +15,8 @@ from flexcage.contacts.pocket_forces import (
 )
 from flexcage.contacts.pocket_tangent import add_tangent, clear_tangent, give_pair, soften
 from flexcage.contacts.pocket_wall import (
+    FACES,
+    SIDES,
     give_stations,
     penetrations,
     read_stations,
@@ -70,7 +72,7 @@ def pocket_contact(i, roller, cage, data, laws, sl, pw, pair, mode, sums):
         clear_tangent(pw)
     rel, spin = relative_motion(pose, xyz(Vc), xyz(wc), centre)
     any_contact = False
-    for f in range(4):
+    for f in range(FACES):
         if pw.near[f] != 0 and _press(data, f, sl, pw):
             any_contact = True
             _face(
@@ -107,13 +109,15 @@ def _face(pose, data, i, f, Rw, distance, rel, spin, qd, onset, laws, sl, pw, pa
     """Forces of face f, from the penetrations sl.d; ``distance`` of the roller's centre from the
     bearing's axis; rel, spin: its motion less the cage's."""
     face, span, a = pw.face[f], span_of(pw, f), row(pose.axis, 0)
-    kind = 0 if f < 2 else 1
+    kind = 0 if f < SIDES else 1
     p = data.normal[kind]
-    normal, friction = (laws[0], laws[2]) if f < 2 else (laws[1], laws[3])
+    normal, friction = (
+        (laws.crossbeam, laws.crossbeam_rubs) if f < SIDES else (laws.side, laws.side_rubs)
+    )
     for c in range(3):
         read_stations(data, i, f, qd, c, pw.wall[c])
         read_values(span, face.w, face, pw.wall[c], face.rate[c])
-    if f < 2:
+    if f < SIDES:
         crossbeam_rates(data, f, span, Rw, a, rel, spin, face, sl, pw)
     else:
         side_beam_rates(pose, data, f, distance, rel, spin, sl, pw, pair)
@@ -123,7 +127,7 @@ def _face(pose, data, i, f, Rw, distance, rel, spin, qd, onset, laws, sl, pw, pa
             pw.h[k] = sl.Nd[k]
     normal_forces(normal, span, sl, p, onset)
     friction_factors(friction, span, sl, data.friction[kind])
-    if f < 2:
+    if f < SIDES:
         push_by_crossbeam(data, f, span, Rw, a, face, sl, pw, pair.wrench)
     else:
         push_by_side_beam(pose, data, f, distance, sl, pw, pair)
@@ -134,7 +138,9 @@ def _face(pose, data, i, f, Rw, distance, rel, spin, qd, onset, laws, sl, pw, pa
     elif mode >= REPORT:
         if mode == REPORT:
             N, T = (
-                (pw.slice_N[f], pw.slice_T[f]) if f < 2 else (pw.point_N[f - 2], pw.point_T[f - 2])
+                (pw.slice_N[f], pw.slice_T[f])
+                if f < SIDES
+                else (pw.point_N[f - SIDES], pw.point_T[f - SIDES])
             )
             for k in range(span[0], span[1]):
                 N[k] = sl.N[k]

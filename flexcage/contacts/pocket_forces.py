@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from math import sqrt
 
+from flexcage.contacts.pocket_wall import SIDES
 from flexcage.contacts.state import add_end_generator, add_generator, approach
 from flexcage.core.jit import VECTORISED, part, zero
 from flexcage.core.vectors import (
@@ -75,13 +76,13 @@ def spread_over_stations(span, f, face, sl, pw):
     """Forces of face f on the cage, shared among the stations that each slice reads."""
     sgn = 1.0 if f % 2 == 0 else -1.0
     zero(pw.spread)
-    across, first, second = (2, 0, 1) if f < 2 else (0, 1, 2)
+    across, first, second = (2, 0, 1) if f < SIDES else (0, 1, 2)
     for k in range(span[0], span[1]):
         N = sl.N[k]
         if N <= 0.0:
             continue
         f1, f2 = N * sl.g[k] * sl.t1[k], N * sl.g[k] * sl.t2[k]
-        if f < 2:
+        if f < SIDES:
             f1 -= N * face.slope[k]
         else:
             f2 -= N * face.slope[k]
@@ -97,7 +98,7 @@ def spread_over_stations(span, f, face, sl, pw):
 def axes_of_face(pw, f):
     """Normal on the roller and the two tangents of face f, in F."""
     sgn = 1.0 if f % 2 == 0 else -1.0
-    if f < 2:
+    if f < SIDES:
         return times(-sgn, row(pw.G, 2)), row(pw.G, 0), row(pw.G, 1)
     return times(-sgn, row(pw.G, 0)), row(pw.G, 1), row(pw.G, 2)
 
@@ -106,7 +107,7 @@ def axes_of_face(pw, f):
 def lever_of_slice(pose, data, Rw, f, k, pw):
     """Lever from the roller's centre to slice or point k of face f, in F."""
     sgn, a = 1.0 if f % 2 == 0 else -1.0, row(pose.axis, 0)
-    if f < 2:
+    if f < SIDES:
         return combine(times(data.s[k], a), sgn * (Rw - data.drop[k]), row(pw.G, 2))
     r = combine(times(sgn * data.half_roller, a), data.points[k, 0], row(pose.axis, 1))
     return combine(r, data.points[k, 1], row(pose.axis, 2))
@@ -116,7 +117,7 @@ def lever_of_slice(pose, data, Rw, f, k, pw):
 def normal_generator(pose, data, distance, f, k, n, r, pw, out):
     """Generator of the normal force of slice k of face f, leaning with the wall's slope."""
     slope = pw.face[f].slope[k]
-    if f >= 2:
+    if f >= SIDES:
         leaning = combine(n, slope, row(pw.G, 2))
         add_end_generator(leaning, r, row(pose.axis, 0), distance, out)
         return

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from flexcage.contacts.condensation import factor
 from flexcage.contacts.pocket_forces import axes_of_face, lever_of_slice, normal_generator
-from flexcage.contacts.pocket_wall import span_of, station_weight
+from flexcage.contacts.pocket_wall import SIDES, span_of, station_weight
 from flexcage.contacts.state import WHOLE, add_generator
 from flexcage.core.jit import VECTORISED, outlined, part, zero
 from flexcage.core.vectors import RIGID
@@ -24,9 +24,8 @@ def add_tangent(pose, data, i, f, Rw, distance, sl, pw):
     """
     n, e1, e2 = axes_of_face(pw, f)
     normal, first, second, whole = pw.gen[0], pw.gen[1], pw.gen[2], pw.gen[WHOLE]
-    moving = (
-        RIGID + data.phi_max.shape[0]
-    )  # what has a velocity: residual coordinates follow at once
+    # what has a velocity: residual coordinates follow at once
+    moving = RIGID + data.phi_max.shape[0]
     size = moving + (pw.size[0] if data.soft != 0 else 0)
     span = span_of(pw, f)
     for k in range(span[0], span[1]):
@@ -57,8 +56,8 @@ def _add_modes(data, i, f, k, face, gen):
     """What forces on slice k of face f do to the modes."""
     sgn = 1.0 if f % 2 == 0 else -1.0
     n_st, n_m, slope = data.phi.shape[2], data.phi_max.shape[0], face.slope[k]
-    across, along = (2, 0) if f < 2 else (0, 2)
-    one, two = (0, 1) if f < 2 else (1, 2)
+    across, along = (2, 0) if f < SIDES else (0, 2)
+    one, two = (0, 1) if f < SIDES else (1, 2)
     for g in range(3):
         for m in range(n_m):
             gen[g, RIGID + m] = 0.0

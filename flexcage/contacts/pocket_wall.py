@@ -21,6 +21,9 @@ from flexcage.core.vectors import RIGID, dot, row
 
 N_LOCAL = 12  # residual coordinates of a pocket: uniform, linear and quadratic on four faces
 N_FACE = 6  # the softest of those that move one face
+FRONT, REAR, PLUS_X, MINUS_X = range(4)  # faces: two crossbeams, two side beams
+SIDES = PLUS_X  # the first face that is a side beam
+FACES = 4
 LAST = 3  # of the four stations that a slice reads
 BLOCK = 8  # slices that are looked at together
 SLACK = 0.1  # of a penetration, by which the residual deflection may bring slices to the roller
@@ -103,7 +106,7 @@ class PocketWork(NamedTuple):
     g: np.ndarray  # (12,) right-hand side of the condensation
     A: np.ndarray  # (12, 12) 1 + R^T H R, then its factors
     h: np.ndarray  # (ROOM,) products; slopes of the elastic forces for the tangent
-    gen: np.ndarray  # (4, n) generators of a slice: normal, two tangents, all of its force
+    gen: np.ndarray  # (4, n) generators of a slice: normal, two tangents, all of its force (WHOLE)
     K: np.ndarray  # (n, n) stiffness of the pocket: roller 6, modes, residual coordinates 12
     C: np.ndarray  # (n, n) damping, zero for residual coordinates
 
@@ -179,7 +182,7 @@ def with_offset(data: PocketData, offset: np.ndarray) -> PocketData:
 @part
 def points_of_face(data, f):
     """How many slices (crossbeams) or points (side beams) face f has."""
-    return data.s.shape[0] if f < 2 else data.points.shape[0]
+    return data.s.shape[0] if f < SIDES else data.points.shape[0]
 
 
 @part
@@ -202,7 +205,7 @@ def read_stations(data, i, f, q, c, wall):
             y += rows[s + 1, m] * q[m]
             z += rows[s + 2, m] * q[m]
             w += rows[s + 3, m] * q[m]
-        wall[1 + s], wall[2 + s], wall[3 + s], wall[4 + s] = x, y, z, w
+        wall[s + 1], wall[s + 2], wall[s + 3], wall[s + 4] = x, y, z, w
     wall[0] = 2.0 * wall[1] - wall[2]
     wall[n + 1] = 2.0 * wall[n] - wall[n - 1]
 
@@ -273,9 +276,9 @@ def penetrations(pose, data, i, Rw, D, q, margin, pw):
     at = (dot(row(pw.G, 2), a0), dot(row(pw.G, 2), a1), dot(row(pw.G, 2), a2))
     reach = abs(data.s[data.s.shape[0] - 1])
     touch, n_st = False, data.phi.shape[2]
-    for f in range(4):
+    for f in range(FACES):
         sgn = 1.0 if f % 2 == 0 else -1.0
-        if f < 2:
+        if f < SIDES:
             gap = data.half[0] + data.low[i, f] - sgn * T - abs(at[0]) * reach - Rw
         else:
             tilt = (abs(ax[1]) + abs(ax[2])) * Rw
@@ -285,7 +288,7 @@ def penetrations(pose, data, i, Rw, D, q, margin, pw):
         if pw.deep[f] + pw.push[f] <= 0.0:
             continue
         face, n = pw.face[f], points_of_face(data, f)
-        if f < 2:
+        if f < SIDES:
             _lay_crossbeam(data, f, sgn, X, T + sgn * (Rw - data.half[0]), ax[0], at[0], face)
         else:
             _lay_side_beam(data, f, sgn, sgn * X - data.half[1], T, ax, at, face)
@@ -293,7 +296,7 @@ def penetrations(pose, data, i, Rw, D, q, margin, pw):
         pw.deep[f] = pw.rest[f] = bare - data.low[i, f] + 2.0 * margin
         if pw.deep[f] + pw.push[f] <= 0.0:
             continue
-        across, along = (2, 0) if f < 2 else (0, 2)
+        across, along = (2, 0) if f < SIDES else (0, 2)
         read_stations(data, i, f, q, across, pw.wall[across])
         inward = most_of_curve(n_st, -sgn, pw.wall[across]) - data.low[i, f]
         pw.deep[f] = pw.rest[f] = bare + inward
@@ -358,7 +361,7 @@ def _find_span(n, f, inward, face, pw):
 
     A share of the penetration is allowed for that deflection at first, to be asked but once.
     """
-    if f >= 2:
+    if f >= SIDES:
         pw.span[f, 0], pw.span[f, 1], pw.rest[f] = 0, n, -1.0
         return
     allowed = inward + max(pw.push[f], SLACK * pw.deep[f])

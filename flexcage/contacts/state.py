@@ -41,7 +41,7 @@ class Pair(NamedTuple):
     wrench: np.ndarray  # (6,)
     K: np.ndarray  # (6, 6) minus d wrench / d displacement
     C: np.ndarray  # (6, 6) minus d wrench / d velocity
-    W: np.ndarray  # (4, 6) generators of one slice: normal, two tangents, all of its force
+    W: np.ndarray  # (4, 6) generators of one slice: normal, two tangents, all of its force (WHOLE)
 
 
 class CageModes(NamedTuple):

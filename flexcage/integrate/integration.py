@@ -30,7 +30,15 @@ from flexcage.solve.contract import (
 )
 from flexcage.solve.integrators import INTEGRATORS
 from flexcage.solve.options import SolverOptions
-from flexcage.system.data import POWERS
+from flexcage.system.data import (
+    EVENT_CLOSED,
+    EVENT_ELEMENT,
+    EVENT_PLACE,
+    EVENT_TIME,
+    FIXED,
+    MASS,
+    POWERS,
+)
 from flexcage.system.problem import Bearing
 from flexcage.system.scales import work_weights
 from flexcage.system.start import Start
@@ -244,9 +252,9 @@ class Integration:
 
     def _fine(self, yd: np.ndarray, n: int) -> dict[str, np.ndarray]:
         """Outer ring's acceleration; of a fixed ring, what its contact forces would give it."""
-        mass, _, _, fixed, _ = self.bearing.data.model.bodies.outer
-        raw = self.bearing.data.samples.force[:n] / mass
-        if not fixed:
+        bodies = self.bearing.data.model.bodies
+        raw = self.bearing.data.samples.force[:n] / bodies.outer[MASS]
+        if bodies.support != FIXED:
             raw = self.bearing.layout.u(yd)["outer"]
         cut = min(FILTER_HZ / (0.5 * self.output.vibration_rate), 0.95)
         filtered = low_passed(butterworth(cut), raw, self._filter)
@@ -255,10 +263,10 @@ class Integration:
     def _events(self) -> dict[str, np.ndarray]:
         rows = self.bearing.data.events.rows[: self.bearing.data.events.fill[0]]
         return {
-            "time": rows[:, 0].copy(),
-            "element": rows[:, 1].astype(np.int16),
-            "place": rows[:, 2].astype(np.int8),
-            "closed": rows[:, 3].astype(np.int8),
+            "time": rows[:, EVENT_TIME].copy(),
+            "element": rows[:, EVENT_ELEMENT].astype(np.int16),
+            "place": rows[:, EVENT_PLACE].astype(np.int8),
+            "closed": rows[:, EVENT_CLOSED].astype(np.int8),
         }
 
     def _loads(self) -> dict[str, dict[str, np.ndarray]]:

@@ -11,10 +11,12 @@ from flexcage.contacts.spec import LandSpec, Lubricant
 from flexcage.geometry.bearing import Bearing
 from flexcage.geometry.materials import Material
 from flexcage.system import time_functions
-from flexcage.system.data import Bodies
+from flexcage.system.data import BUSHING, FIXED, LOOSE, Bodies
 from flexcage.system.spec import WAVES, Drive, Load, Mount, Wave
 
 CAGE_SKIN_FRICTION = 0.01  # assumption: turbulent skin friction of the cage's outer surface
+
+_SUPPORTS = {"fixed": FIXED, "bushing": BUSHING, "contact": LOOSE}  # by ``mount.kind``
 
 
 def unbalanced(body: FlexibleBody, cage) -> FlexibleBody:
@@ -102,7 +104,7 @@ def land_data(
     )
     return LandData(
         kind=KINDS[kind],
-        inner=-1.0 if outer else 1.0,
+        inner=0 if outer else 1,
         clearance=clearance,
         radius=radius,
         x=np.array([-0.5, 0.5]) * (end - width),
@@ -130,7 +132,6 @@ def bodies_of(
     steps = 0.5 * np.diff(speed[0]) * (speed[1, 1:] + speed[1, :-1])
     rho = lubricant.density * lubricant.oil_fraction
     ro = 0.5 * cage.outside_diameter
-    fixed = mount.kind == "fixed"
     azimuth = load.gravity_direction
     return Bodies(
         element=element,
@@ -142,10 +143,10 @@ def bodies_of(
                 bearing.outer_ring_mass + mount.mass,
                 mount.stiffness,
                 mount.damping,
-                float(fixed),
-                mount.clearance if mount.kind == "contact" else -1.0,
+                mount.clearance,
             ]
         ),
+        support=_SUPPORTS[mount.kind],
         gravity=load.gravity * np.array([0.0, np.cos(azimuth), np.sin(azimuth)]),
         drag=np.array(
             [
@@ -153,7 +154,8 @@ def bodies_of(
                 0.5 * rho * CAGE_SKIN_FRICTION * 2.0 * np.pi * ro**4 * cage.axial_width,
             ]
         ),
-        drive=np.array([float(drive.kind == "shaft"), drive.shaft_stiffness, drive.shaft_damping]),
+        by_shaft=int(drive.kind == "shaft"),
+        shaft=np.array([drive.shaft_stiffness, drive.shaft_damping]),
         speed=speed,
         angle=np.concatenate([[0.0], np.cumsum(steps)]),
         load=_load_table(load, "radial"),
@@ -167,7 +169,7 @@ def bodies_of(
         ),
         load_direction=np.array([np.cos(load.direction), np.sin(load.direction)]),
         moments=np.array([load.moment_y, load.moment_z]),
-        free=np.array([*free, load.centre == "free"], float),
+        free=np.array([*free, load.centre == "free"], np.int64),
         spring=np.array([load.stiffness, load.damping]).T * np.array(free, float)[:, None],
         misalignment=load.misalignment,
     )

@@ -31,6 +31,7 @@ from flexcage.core.jit import LEAN, kernel, kernel_of, why_not_compiled
 from flexcage.core.kernel_values import KernelType
 from flexcage.core.registry import add, check_free
 from flexcage.system import spec as specs
+from flexcage.system.data import FIXED, MASS
 from flexcage.system.layout import (
     CAGE,
     CAGE_TURN,
@@ -275,8 +276,8 @@ def _ease(model: Any) -> np.ndarray:
     axial, skew, tilt, centre = bodies.free
     mass, spin, across = bodies.ring
     inner = [axial * centre / mass, centre / mass, centre / mass]
-    inner += [bodies.drive[0] / spin, skew / across, tilt / across]
-    outer = 0.0 if bodies.outer[3] else 1.0 / bodies.outer[0]
+    inner += [bodies.by_shaft / spin, skew / across, tilt / across]
+    outer = 0.0 if bodies.support == FIXED else 1.0 / bodies.outer[MASS]
     inertia = np.trace(cage.G0) - np.diag(cage.G0)
     return np.array([*inner, outer, outer, *[1.0 / cage.mass] * 3, *(1.0 / inertia)])
 

@@ -43,10 +43,12 @@ EXCHANGED = RACE_DAMPING  # so many, the first ones, the bearing exchanges with 
 # contact places of an element; from POCKET on the faces of its pocket, then ribs
 INNER_RACE, OUTER_RACE, POCKET = range(3)
 MASS, AXIAL, TRANSVERSE = range(3)  # places in ``Bodies.element`` and ``ring``: mass, inertias
-# places in ``Bodies.outer`` behind MASS
-OUTER_STIFFNESS, OUTER_DAMPING, OUTER_FIXED, OUTER_CLEARANCE = 1, 2, 3, 4
+OUTER_STIFFNESS, OUTER_DAMPING, OUTER_CLEARANCE = 1, 2, 3  # in ``Bodies.outer`` behind MASS
+FIXED, BUSHING, LOOSE = range(3)  # in ``Bodies.support``; loose: with clearance in its bore
+FREE_AXIAL, FREE_SKEW, FREE_TILT, FREE_CENTRE = range(4)  # places in ``Bodies.free``
 OF_SPEED, OF_LOAD, OF_AXIAL = range(3)  # rows of ``Bodies.waves``
-SHAFT, SHAFT_STIFFNESS, SHAFT_DAMPING = range(3)  # places in ``Bodies.drive``
+SHAFT_STIFFNESS, SHAFT_DAMPING = range(2)  # places in ``Bodies.shaft``
+EVENT_TIME, EVENT_ELEMENT, EVENT_PLACE, EVENT_CLOSED = range(4)  # in a row of ``Events.rows``
 KINETIC, STRAIN, IN_CONTACTS, IN_MOUNT = range(4)  # places in ``Report.energy``
 # places in ``law`` behind those of ``contacts.evaluation``: the rows of further constraints, what
 # puts these in (``holding``), and the family's functions ``apart``
@@ -60,10 +62,12 @@ class Bodies(NamedTuple):
     radius: np.ndarray  # (Z,) roller radii
     pitch: float  # radius of the pitch circle
     ring: np.ndarray  # (3,) inner ring with what moves with it
-    outer: np.ndarray  # (5,) mass, stiffness, damping, 1.0 if fixed, clearance (< 0: a bushing)
+    outer: np.ndarray  # (4,) mass, stiffness, damping, clearance
+    support: int  # of the outer ring: FIXED, BUSHING or LOOSE
     gravity: np.ndarray  # (3,)
     drag: np.ndarray  # (2,) roller 0.5 rho C A, cage 0.5 rho C_f 2 pi r^4 b
-    drive: np.ndarray  # (3,) 1.0 if through a shaft, stiffness, damping
+    by_shaft: int  # 1 if a compliant shaft drives (records hold no booleans)
+    shaft: np.ndarray  # (2,) stiffness, damping
     speed: np.ndarray  # (2, n) table of time and speed
     angle: np.ndarray  # (n,) drive angle at the table's times
     load: np.ndarray  # (2, m) table of time and radial load
@@ -71,7 +75,7 @@ class Bodies(NamedTuple):
     load_direction: np.ndarray  # (2,) y, z
     waves: np.ndarray  # (3, 4) of speed, radial load, axial load, see time_functions.py
     moments: np.ndarray  # (2,) about y and z on the inner ring
-    free: np.ndarray  # (4,) 1.0 if the inner ring is free axially, in skew, in tilt, at its centre
+    free: np.ndarray  # (4,) 1 where the inner ring is free: axially, in skew, in tilt, its centre
     spring: np.ndarray  # (3, 2) stiffness and damping of the shaft, axially, in skew, in tilt
     misalignment: float
 

@@ -10,7 +10,7 @@ from flexcage.core.jit import fields, part, zero
 from flexcage.core.rotation import quaternion_rate
 from flexcage.solve.bordered import lu_factor, lu_solve
 from flexcage.system.constraints import BEAR, OFF, ONTO, POSITION
-from flexcage.system.data import OUTER_FIXED
+from flexcage.system.data import FIXED
 from flexcage.system.layout import (
     AXIAL_FORCE,
     CAGE,
@@ -82,7 +82,7 @@ def _rows(t, q, u, multipliers, d, rows, r_q, r_u, out, mode):
     """Rows of the constraints into ``out``, and what their ``multipliers``, lambda then mu, add to
     the rows of rings and cage; slopes if asked for."""
     c, tan, work = fields(d.constraints), fields(d.tangent), fields(d.scratch)
-    fixed = fields(d.bodies).outer[OUTER_FIXED] > 0.0  # then nothing moves the outer ring
+    fixed = fields(d.bodies).support == FIXED  # then nothing moves the outer ring
     _evaluate(t, q, u, c, rows)
     m, shift = c.level.shape[0], work.shift
     lam, mu = multipliers[:m], multipliers[m : 2 * m]

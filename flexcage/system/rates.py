@@ -26,11 +26,14 @@ from flexcage.system.constraints import BEAR, ONTO
 from flexcage.system.data import (
     AXIAL,
     CONSTRAINT_ROWS,
+    FIXED,
+    FREE_AXIAL,
+    FREE_CENTRE,
+    FREE_SKEW,
+    FREE_TILT,
     HOLD,
     MASS,
     OF_SPEED,
-    OUTER_FIXED,
-    SHAFT,
     TRANSVERSE,
 )
 from flexcage.system.layout import (
@@ -107,7 +110,7 @@ def _rates(t, y, yd, data, mode):
     Z, nm = bodies.radius.shape[0], fields(d.rates).given.shape[0]
     at = places(Z, nm)
     end, ring, q = at.lam, at.rest_u, y[at.rest_q :]
-    driven = bodies.drive[SHAFT] == 0.0
+    driven = bodies.by_shaft == 0
     _hold(t, q[:Q_OUTER], y[ring : ring + OUTER], bodies, driven)
     zero(y[end:])
     law = data[1]
@@ -135,11 +138,11 @@ def _rates(t, y, yd, data, mode):
     a[U_SKEW] /= bodies.ring[TRANSVERSE]
     a[U_TILT] /= bodies.ring[TRANSVERSE]
     for k in range(3):
-        if bodies.free[k] == 0.0:
+        if bodies.free[k] == 0:
             c = HELD_VELOCITIES[k]
             a[c], lam[k] = 0.0, row[c]
-    if bodies.free[3] == 0.0:
-        if bodies.free[0] > 0.0:
+    if bodies.free[FREE_CENTRE] == 0:
+        if bodies.free[FREE_AXIAL] != 0:
             lam[AXIAL_FORCE] += row[0]
         a[0] = a[1] = a[2] = 0.0
     if driven:
@@ -147,7 +150,7 @@ def _rates(t, y, yd, data, mode):
         lam[DRIVE_TORQUE] = row[U_SPIN] + bodies.ring[AXIAL] * a[U_SPIN]
     else:
         a[U_SPIN] /= bodies.ring[AXIAL]
-    if bodies.outer[OUTER_FIXED] == 0.0:  # a fixed ring has no acceleration
+    if bodies.support != FIXED:  # a fixed ring has no acceleration
         a[OUTER] /= bodies.outer[MASS]
         a[OUTER + 1] /= bodies.outer[MASS]
     cage_accelerations(
@@ -160,13 +163,13 @@ def _rates(t, y, yd, data, mode):
 @part
 def _hold(t, q, u, bodies, driven):
     """Give the inner ring's held coordinates and velocities their values."""
-    if bodies.free[0] == 0.0:
+    if bodies.free[FREE_AXIAL] == 0:
         q[0] = u[0] = 0.0
-    if bodies.free[1] == 0.0:
+    if bodies.free[FREE_SKEW] == 0:
         q[Q_SKEW] = u[U_SKEW] = 0.0
-    if bodies.free[2] == 0.0:
+    if bodies.free[FREE_TILT] == 0:
         q[Q_TILT], u[U_TILT] = bodies.misalignment, 0.0
-    if bodies.free[3] == 0.0:  # wherever it stands
+    if bodies.free[FREE_CENTRE] == 0:  # wherever it stands
         u[0] = u[1] = u[2] = 0.0
     if driven:
         u[U_SPIN] = speed_at(bodies, t)

@@ -48,6 +48,10 @@ from flexcage.system.data import (
     DRAG,
     DRIVE,
     FILM,
+    FIXED,
+    FREE_AXIAL,
+    FREE_SKEW,
+    FREE_TILT,
     GRAVITY,
     HOLD,
     IN_CONTACTS,
@@ -55,6 +59,7 @@ from flexcage.system.data import (
     KINETIC,
     LAND_DAMPING,
     LAND_FRICTION,
+    LOOSE,
     MASS,
     MODAL_DAMPING,
     MOUNT,
@@ -63,9 +68,7 @@ from flexcage.system.data import (
     OF_SPEED,
     OUTER_CLEARANCE,
     OUTER_DAMPING,
-    OUTER_FIXED,
     OUTER_STIFFNESS,
-    SHAFT,
     SHAFT_DAMPING,
     SHAFT_STIFFNESS,
     STRAIN,
@@ -269,7 +272,7 @@ def land_rows(q, u, nm, d, law, mode):
     zero(Fr)
     zero(Mr)
     wg, where, speed, spin = vec[CAGE_SPIN], vec[GUIDE], vec[GUIDE_V], 0.0
-    rides_inner = data.inner > 0.0
+    rides_inner = data.inner != 0
     if rides_inner:
         put(where, xyz(q[:Q_INNER_TURN]))
         put(speed, xyz(u[:INNER_TURN]))
@@ -376,9 +379,8 @@ def cage_rows(d, state, rows, mode):
             for a in range(3):
                 x = A[a, 0] * H[0, m] + A[a, 1] * H[1, m] + A[a, 2] * H[2, m]
                 tan.Mbb[CAGE + a, MODES + m] = tan.Mbb[MODES + m, CAGE + a] = x
-                tan.Mbb[CAGE_TURN + a, MODES + m] = tan.Mbb[MODES + m, CAGE_TURN + a] = H[
-                    TURN + a, m
-                ]
+                turn = H[TURN + a, m]
+                tan.Mbb[CAGE_TURN + a, MODES + m] = tan.Mbb[MODES + m, CAGE_TURN + a] = turn
             for l in range(nm):
                 tan.Mbb[MODES + m, MODES + l] = data.mff[m, l]
         for m in range(nm):
@@ -411,20 +413,20 @@ def cage_rows(d, state, rows, mode):
 
 
 @part
-def _housing(outer, q, u, held, tan, mode):
+def _housing(bodies, q, u, held, tan, mode):
     """Force ``held`` of the outer ring on its housing; returns energy stored and power lost."""
-    k, c, clearance = outer[OUTER_STIFFNESS], outer[OUTER_DAMPING], outer[OUTER_CLEARANCE]
+    k, c = bodies.outer[OUTER_STIFFNESS], bodies.outer[OUTER_DAMPING]
     held[0] = held[1] = 0.0
     distance = sqrt(q[0] * q[0] + q[1] * q[1])
     n = (1.0, 0.0) if distance == 0.0 else (q[0] / distance, q[1] / distance)
-    if clearance < 0.0:  # a bushing
+    if bodies.support != LOOSE:
         for i in range(2):
             held[i] = k * q[i] + c * u[i]
             if mode == TANGENT:
                 tan.Kbb[OUTER + i, OUTER + i] += k
                 tan.Cbb[OUTER + i, OUTER + i] += c
         return 0.5 * k * distance * distance, c * (u[0] * u[0] + u[1] * u[1])
-    depth = distance - clearance
+    depth = distance - bodies.outer[OUTER_CLEARANCE]
     rate = n[0] * u[0] + n[1] * u[1]
     force = k * depth + c * rate
     if depth <= 0.0:
@@ -469,13 +471,13 @@ def constraint_slopes(bodies, tan):
     first = tan.Kbb.shape[0] - N_OWN - 2 * tan.held.shape[0]
     for k in range(3):
         rate, place, at = first + k, first + N_LAMBDA + k, HELD_VELOCITIES[k]
-        if bodies.free[k] > 0.0:
+        if bodies.free[k] != 0:
             tan.Kbb[rate, at], tan.Cbb[rate, at] = bodies.spring[k, 0], bodies.spring[k, 1]
             tan.Cbb[rate, rate] = tan.Cbb[place, place] = 1.0
         else:
             tan.Cbb[rate, at] = tan.Kbb[place, at] = tan.Kbb[place, place] = 1.0
     drive = first + 3
-    tan.Cbb[drive, INNER_TURN if bodies.drive[SHAFT] == 0.0 else drive] = 1.0
+    tan.Cbb[drive, INNER_TURN if bodies.by_shaft == 0 else drive] = 1.0
 
 
 @part
@@ -507,9 +509,9 @@ def ring_rows(t, d, state, rows, mode):
     M3 = sx * Mx + cx * Mz
     target = speed_at(bodies, t)
     shaft = 0.0
-    if bodies.drive[SHAFT] > 0.0:
-        shaft = bodies.drive[SHAFT_STIFFNESS] * (drive_angle(bodies, t) - rq[Q_SPIN])
-        shaft += bodies.drive[SHAFT_DAMPING] * (target - ru[U_SPIN])
+    if bodies.by_shaft != 0:
+        shaft = bodies.shaft[SHAFT_STIFFNESS] * (drive_angle(bodies, t) - rq[Q_SPIN])
+        shaft += bodies.shaft[SHAFT_DAMPING] * (target - ru[U_SPIN])
     for c in range(3):
         r_u[c] = mass * (rud[c] - bodies.gravity[c]) - border[c]
     r_u[0] -= lam[AXIAL_FORCE] + axial
@@ -521,12 +523,12 @@ def ring_rows(t, d, state, rows, mode):
     r_u[U_TILT] = It * (rud[U_TILT] + frame * skew) - Ia * spin * skew - M3 - lam[MOMENT_Z]
     # outer ring
     oq, ou, oud = q[Q_OUTER:Q_CAGE], u[OUTER:CAGE], ud[OUTER:CAGE]
-    mo, fixed = bodies.outer[MASS], bodies.outer[OUTER_FIXED]
+    mo, fixed = bodies.outer[MASS], bodies.support == FIXED
     held = work.vec[HOUSING_FORCE]
-    stored, lost = _housing(bodies.outer, oq, ou, held, tan, mode)
+    stored, lost = _housing(bodies, oq, ou, held, tan, mode)
     for c in range(2):
         r_q[Q_OUTER + c] = qd[Q_OUTER + c] - ou[c]
-        if fixed > 0.0:
+        if fixed:
             r_u[OUTER + c] = oud[c]
         else:
             force = border[OUTER + c] - held[c] + mo * bodies.gravity[1 + c]
@@ -534,13 +536,13 @@ def ring_rows(t, d, state, rows, mode):
     # constraints: lambda rows hold rates, mu rows positions; what is free has the shaft's lambda
     free, pull = bodies.free, work.vec[SHAFT_PULL]
     bent, damped = shaft_pull(bodies, rq, ru, pull)
-    g[AXIAL_FORCE] = lam[AXIAL_FORCE] - pull[0] if free[0] > 0.0 else ru[0]
-    g[MOMENT_Y] = lam[MOMENT_Y] - pull[1] if free[1] > 0.0 else ru[U_SKEW]
-    g[MOMENT_Z] = lam[MOMENT_Z] - pull[2] if free[2] > 0.0 else ru[U_TILT]
-    g[DRIVE_TORQUE] = ru[U_SPIN] - target if bodies.drive[SHAFT] == 0.0 else lam[DRIVE_TORQUE]
-    g[N_LAMBDA] = mu[0] if free[0] > 0.0 else rq[0]
-    g[N_LAMBDA + 1] = mu[1] if free[1] > 0.0 else rq[Q_SKEW]
-    g[N_LAMBDA + 2] = mu[2] if free[2] > 0.0 else rq[Q_TILT] - bodies.misalignment
+    g[AXIAL_FORCE] = lam[AXIAL_FORCE] - pull[0] if free[FREE_AXIAL] != 0 else ru[0]
+    g[MOMENT_Y] = lam[MOMENT_Y] - pull[1] if free[FREE_SKEW] != 0 else ru[U_SKEW]
+    g[MOMENT_Z] = lam[MOMENT_Z] - pull[2] if free[FREE_TILT] != 0 else ru[U_TILT]
+    g[DRIVE_TORQUE] = ru[U_SPIN] - target if bodies.by_shaft == 0 else lam[DRIVE_TORQUE]
+    g[N_LAMBDA] = mu[0] if free[FREE_AXIAL] != 0 else rq[0]
+    g[N_LAMBDA + 1] = mu[1] if free[FREE_SKEW] != 0 else rq[Q_SKEW]
+    g[N_LAMBDA + 2] = mu[2] if free[FREE_TILT] != 0 else rq[Q_TILT] - bodies.misalignment
     if mode == TANGENT:
         constraint_slopes(bodies, tan)
         for c in range(3):
@@ -549,12 +551,12 @@ def ring_rows(t, d, state, rows, mode):
         tan.Mbb[U_SKEW, U_SKEW] = tan.Mbb[U_TILT, U_TILT] = It
         tan.Cbb[U_SKEW, U_TILT] += Ia * ru[U_SPIN]
         tan.Cbb[U_TILT, U_SKEW] -= Ia * ru[U_SPIN]
-        if bodies.drive[SHAFT] > 0.0:
-            tan.Kbb[U_SPIN, U_SPIN] += bodies.drive[SHAFT_STIFFNESS]
-            tan.Cbb[U_SPIN, U_SPIN] += bodies.drive[SHAFT_DAMPING]
+        if bodies.by_shaft != 0:
+            tan.Kbb[U_SPIN, U_SPIN] += bodies.shaft[SHAFT_STIFFNESS]
+            tan.Cbb[U_SPIN, U_SPIN] += bodies.shaft[SHAFT_DAMPING]
         for c in range(2):
-            tan.Mbb[OUTER + c, OUTER + c] = 1.0 if fixed > 0.0 else mo
-            if fixed > 0.0:  # its row is u' = 0, whatever pushes it
+            tan.Mbb[OUTER + c, OUTER + c] = 1.0 if fixed else mo
+            if fixed:  # its row is u' = 0, whatever pushes it
                 zero(tan.Kbb[OUTER + c])
                 zero(tan.Cbb[OUTER + c])
                 for i in range(tan.Kbr.shape[0]):
@@ -570,7 +572,7 @@ def ring_rows(t, d, state, rows, mode):
             rep.power[GRAVITY] += mass * bodies.gravity[c] * ru[c]
         rep.energy[IN_MOUNT] += bent
         rep.power[MOUNT] -= damped
-        if fixed == 0.0:
+        if not fixed:
             rep.energy[IN_MOUNT] += stored
             rep.power[MOUNT] -= lost
             for c in range(2):

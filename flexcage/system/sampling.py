@@ -4,7 +4,17 @@ from __future__ import annotations
 
 from flexcage.contacts.evaluation import OUTER_RING, REPORT
 from flexcage.core.jit import copy_into, fields, part
-from flexcage.system.data import CONSTRAINTS, DRIVE, EXCHANGED, LOAD, POCKET
+from flexcage.system.data import (
+    CONSTRAINTS,
+    DRIVE,
+    EVENT_CLOSED,
+    EVENT_ELEMENT,
+    EVENT_PLACE,
+    EVENT_TIME,
+    EXCHANGED,
+    LOAD,
+    POCKET,
+)
 from flexcage.system.layout import DRIVE_TORQUE, INNER_TURN, MODES, PER_ELEMENT, Q_MODES, places
 from flexcage.system.rows import load_power
 
@@ -166,7 +176,8 @@ def _note(events, t, element, place, closed):
     n = events.fill[0]
     if n < events.rows.shape[0]:
         row = events.rows[n]
-        row[0], row[1], row[2], row[3] = t, element, place, closed
+        row[EVENT_TIME], row[EVENT_ELEMENT] = t, element
+        row[EVENT_PLACE], row[EVENT_CLOSED] = place, closed
         events.fill[0] = n + 1
 
 

@@ -108,7 +108,7 @@ def made_room(land: LandData, layout: Layout, y: np.ndarray) -> bool:
     q = layout.q(y)
     if land.kind == NONE:
         return False
-    ring = q["inner"][1:3] if land.inner > 0.0 else q["outer"]
+    ring = q["inner"][1:3] if land.inner else q["outer"]
     apart = q["cage"][1:3] - ring
     share = _CLEAR[land.kind] * land.clearance / max(float(np.linalg.norm(apart)), 1e-12)
     if share >= 1.0:

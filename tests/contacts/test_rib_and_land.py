@@ -223,7 +223,7 @@ def growing(share):
 @pytest.mark.parametrize(("path", "everywhere"), [(parting, False), (growing, True)])
 def test_a_dry_land_is_elastic_while_touches_part_and_merge(dry_land, path, everywhere):
     """Work on the way is the energy."""
-    data, lean = dry_land, -dry_land.inner
+    data, lean = dry_land, -1.0 if dry_land.inner else 1.0
     places, forces, energy, touched = [], [], [], []
     for share in np.linspace(0.0, 1.0, 2001):
         offset, q = (lean * data.clearance * np.array(x) for x in path(share))

@@ -12,7 +12,7 @@ from flexcage.bodies.floating_frame import BodyData, FlexibleBody
 from flexcage.cages.machined.cage import BallCage
 from flexcage.cages.machined.interface import BallCageInterface
 from flexcage.contacts import laws
-from flexcage.contacts.ball_pocket import BallPockets, ball_pocket_work
+from flexcage.contacts.ball_pocket import CYLINDER, SPHERE, BallPockets, ball_pocket_work
 from flexcage.contacts.groove import Groove
 from flexcage.contacts.land import LandData
 from flexcage.contacts.race import race_work
@@ -118,7 +118,7 @@ def _pockets(
         radius=st(interface.radius),
         height=height,
         wall=0.5 * np.array([cage.bore, cage.outside_diameter]),
-        sphere=float(cage.pocket_shape == "spherical"),
+        shape=SPHERE if cage.pocket_shape == "spherical" else CYLINDER,
         rims=np.array([cage.wall_ends(height, float(r)) for r in interface.radius]),
         phi=st(interface.modes[:, None]),
         phi_max=np.abs(normal).max(axis=(0, 1)) if n else np.zeros(0),

@@ -8,6 +8,7 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 from flexcage.bearings.ball.model import BallModel
+from flexcage.contacts.ball_pocket import SPHERE
 from flexcage.integrate.postures import in_plane
 from flexcage.integrate.recording import Recording
 from flexcage.system.layout import Layout
@@ -62,7 +63,7 @@ def overlaps(model: BallModel, layout: Layout, y: np.ndarray) -> np.ndarray:
 
 
 def _remedy(model: BallModel) -> str:
-    if model.pocket.sphere:
+    if model.pocket.shape == SPHERE:
         return "it passed the rim of its pocket; a broader cage would hold it"
     return "a land (cage.guidance) or spherical pockets would hold it"
 

@@ -17,7 +17,16 @@ from flexcage.contacts.evaluation import (
     TANGENT,
 )
 from flexcage.contacts.pocket import pocket_contact
-from flexcage.contacts.pocket_wall import CageAtRoller, PocketLaws, RollerInPocket
+from flexcage.contacts.pocket_wall import (
+    FACES,
+    FRONT,
+    MINUS_X,
+    PLUS_X,
+    REAR,
+    CageAtRoller,
+    PocketLaws,
+    RollerInPocket,
+)
 from flexcage.contacts.state import CageModes, shift_matrix, take_pose
 from flexcage.core.jit import copy_into, fields, outlined, part, zero
 from flexcage.core.vectors import (
@@ -144,7 +153,7 @@ def _report_pocket(i, hit, sums, pw, rep, mode):
         zero(rep.point_normal[i])
         zero(rep.point_friction[i])
     copy_into(rep.residual[i], pw.b)
-    for f in range(4):
+    for f in range(FACES):
         rep.pocket_normal[i, f] = pw.normal[f]
         rep.pocket_friction[i, f] = pw.tangential[f]
         rep.contact[i, POCKET + f] = 1 if pw.normal[f] > 0.0 else 0
@@ -161,8 +170,8 @@ def _approach(i, ring_u, out_u, d):
     cage = plus(xyz(vec[PARTNER_V]), cross(xyz(vec[PARTNER_W]), xyz(vec[LEVER])))
     v = minus(V, cage)
     t, x = dot(row(G, 2), v), dot(row(G, 0), v)
-    rep.approach[i, POCKET], rep.approach[i, POCKET + 1] = t, -t
-    rep.approach[i, POCKET + 2], rep.approach[i, POCKET + 3] = x, -x
+    rep.approach[i, POCKET + FRONT], rep.approach[i, POCKET + REAR] = t, -t
+    rep.approach[i, POCKET + PLUS_X], rep.approach[i, POCKET + MINUS_X] = x, -x
     ribs = POCKET + rep.pocket_normal.shape[1]
     rep.approach[i, ribs] = V[0] - ring_u[0]
     rep.approach[i, ribs + 1] = -rep.approach[i, ribs]

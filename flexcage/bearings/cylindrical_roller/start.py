@@ -23,6 +23,7 @@ from flexcage.contacts.pocket_wall import with_offset
 from flexcage.core.errors import InputError, RunFailed
 from flexcage.geometry.kinematics import epicyclic
 from flexcage.system.constraints import OFF, no_rows
+from flexcage.system.data import FREE_AXIAL, FREE_SKEW, FREE_TILT, LOOSE, OUTER_CLEARANCE
 from flexcage.system.layout import Layout
 from flexcage.system.newton import assemble, newton_step
 from flexcage.system.problem import Bearing
@@ -92,10 +93,11 @@ def geometric_guess(model: RollerModel, layout: Layout) -> np.ndarray:
     q["elements"][:, 2] = 2.0 * np.pi * np.arange(Z) / Z
     q["quaternion"][0] = 1.0
     q["inner"][4] = model.bodies.misalignment
-    if model.bodies.free[0]:
+    if model.bodies.free[FREE_AXIAL]:
         q["inner"][0] = q["cage"][0] = _axial_load(model) / model.bodies.spring[0, 0]
     q["elements"][:, 0] = _between_ribs(layout, y)
-    shift = max(float(model.bodies.outer[4]), 0.0) * (1.0 - model.bodies.outer[3])
+    loose = model.bodies.support == LOOSE
+    shift = float(model.bodies.outer[OUTER_CLEARANCE]) if loose else 0.0
     q["outer"][:] = shift * model.bodies.load_direction  # a ring in its bore lies on the ground
     psi = q["elements"][:, 2]
     q["elements"][:, 1] += q["outer"] @ np.stack([np.cos(psi), np.sin(psi)])
@@ -213,7 +215,7 @@ def _not_assembled(
 
 def _others(model: RollerModel) -> str:
     """What besides defects may be too large for an equilibrium."""
-    soft = np.any(model.bodies.moments) and np.any(model.bodies.free[1:3])
+    soft = np.any(model.bodies.moments) and np.any(model.bodies.free[[FREE_SKEW, FREE_TILT]])
     moment = "the moment for such a load.tilt_stiffness, " if soft else ""
     return f"the load, {moment}the speed, the misalignment or the clearance"
 
