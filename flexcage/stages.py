@@ -292,7 +292,8 @@ def _bearing_of(case: Case, body: FlexibleBody, interface: Any) -> Bearing:
         seed=case.seed,
     )  # fmt: skip
     return Bearing(
-        motion, model, case.contacts, Layout(Z, body.modes, names_of(case.constraints)),
+        motion, case.bearing, model, case.contacts,
+        Layout(Z, body.modes, names_of(case.constraints)),
         constraints=case.constraints, block=case.output.block, stride=case.output.vibration_ratio,
         interval=1.0 / case.output.rate,
     )  # fmt: skip

@@ -204,7 +204,7 @@ class Settled:
         """
         self.restore()
         report, race, cage = self.bearing.data.work.report, [], []
-        kept = {"roller": (0, 1), "ball": (0, 2, 3)}[self.bearing.motion.element]
+        kept = {"roller": (0, 1), "ball": (0, 2, 3)}[self.bearing.spec.element]
         for t, y, yd in zip(times, ys, yds, strict=True):
             self.bearing.residual(float(t), y, yd, mode=2)
             race.append(report.race[:, :, kept].reshape(-1, len(kept)).copy())
