@@ -19,8 +19,8 @@ from verification_bearing import (
 from flexcage.bearings.cylindrical_roller.motion import MOTION
 from flexcage.bodies.cage import flexible_from_basis, rigid_from_tets
 from flexcage.cages.window.interface import rigid_interface
+from flexcage.compiling import build_bearing
 from flexcage.simulate import simulate
-from flexcage.stages import build_bearing
 from flexcage.system.layout import Layout
 from flexcage.system.problem import Bearing
 from flexcage.system.start import find_start
