@@ -1,4 +1,4 @@
-"""One folder a bearing family; a new one is its folder and its line here."""
+"""One folder a bearing family; a new one is its folder, and its lines here and in ``specs``."""
 
 from flexcage.bearings import ball, cylindrical_roller
 from flexcage.bearings.family import (

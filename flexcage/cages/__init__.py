@@ -1,4 +1,5 @@
-"""One file or folder a cage type, with its defects; a new one is that and its line here."""
+"""One file or folder a cage type, with its defects; a new one is that and its lines here and in
+``specs``."""
 
 from flexcage.cages.cage_type import CageType, cage_type_of, register_cage_type
 from flexcage.cages.machined import MACHINED

@@ -4,14 +4,13 @@ from __future__ import annotations
 
 from dataclasses import replace
 from math import pi, radians
+from typing import Any
 
 import numpy as np
 
 from flexcage.bearings import statics_of
-from flexcage.bearings.ball.angular_contact import AngularContactBallBearing
-from flexcage.bearings.ball.bearing import BallBearing
-from flexcage.bearings.ball.deep_groove import DeepGrooveBallBearing
 from flexcage.case.presets import load_preset
+from flexcage.geometry.bearing import BEARING_TYPES, Bearing
 from flexcage.geometry.materials import Material
 from flexcage.system.spec import Load
 from flexcage.system.statics.options import StaticOptions
@@ -22,25 +21,22 @@ RPM = pi / 30.0
 DEGREES = 180.0 / pi
 
 
-def preset(name: str) -> AngularContactBallBearing:
+def preset(name: str) -> Any:
     """Angular contact bearing of a preset."""
-    bearing: AngularContactBallBearing = load_preset(name).bearing
-    return bearing
+    return load_preset(name).bearing
 
 
-def deep_groove(
-    clearance: float, *, ball: float = 11.5e-3, count: int = 7
-) -> DeepGrooveBallBearing:
+def deep_groove(clearance: float, *, ball: float = 11.5e-3, count: int = 7) -> Any:
     """The deep groove bearing of a published set of ISO/TS 16281 cases, at a clearance [m]."""
     steel = Material(name="steel", youngs_modulus=210e9, poisson_ratio=0.3, density=7850.0)
-    return DeepGrooveBallBearing(
+    return BEARING_TYPES["deep_groove_ball"](
         bore=25e-3, outside_diameter=62e-3, width=17e-3, pitch_diameter=43.5e-3,
         ball_diameter=ball, ball_count=count, inner_groove_radius=0.52 * ball,
         outer_groove_radius=0.53 * ball, radial_clearance=clearance, material=steel,
     )  # fmt: skip
 
 
-def bearing_218() -> AngularContactBallBearing:
+def bearing_218() -> Any:
     """Harris's 218 angular contact bearing, 40 degrees, with this chapter's steel."""
     groove = 0.5232 * 22.225e-3
     return replace(
@@ -52,7 +48,7 @@ def bearing_218() -> AngularContactBallBearing:
 
 
 def solved(
-    bearing: BallBearing,
+    bearing: Bearing,
     *,
     rpm: float = 0.0,
     options: StaticOptions | None = None,

@@ -9,7 +9,6 @@ from typing import Any
 import numpy as np
 
 from flexcage.bearings import recording_of
-from flexcage.bearings.cylindrical_roller.start import geometric_guess
 from flexcage.case import Case, load_case
 from flexcage.compiling import build_bearing
 from flexcage.integrate.integration import Integration
@@ -79,10 +78,11 @@ def _reduction(plain: Case) -> CageReduction:
 def state_at_rest(bearing: Bearing) -> tuple[np.ndarray, np.ndarray]:
     """y and y' with every roller in the middle of its pocket and of the races, nothing moving."""
     model, layout = bearing.data.model, bearing.layout
-    y = geometric_guess(model, layout)
+    y = np.zeros(layout.size)
     q = layout.q(y)
     q["elements"][:, 1] = 0.5 * (model.inner.radius + model.outer.radius)
-    q["inner"][1:3] = 0.0
+    q["elements"][:, 2] = 2.0 * np.pi * np.arange(layout.elements) / layout.elements
+    q["quaternion"][0] = 1.0
     return y, np.zeros_like(y)
 
 

@@ -44,26 +44,6 @@ def strips(count: int) -> tuple[np.ndarray, np.ndarray]:
     return 0.5 * (edges[1:] + edges[:-1]), 0.75 * np.diff(edges - edges**3 / 3.0)
 
 
-def point_rolling_resistance(lubricant: Lubricant, contact: PointContact) -> np.ndarray:
-    """(factor, powers of roll rate [rad/s] and load [N]) of a ball's resisting moment [N m].
-
-    Houpert's force at one surface of a point contact, F = 2.86 E' R^2 kappa^0.348 G^0.022 U^0.66
-    W^0.47, with U = eta u/(E' R), W = Q/(E' R^2), G = alpha E' (L. Houpert, Piezoviscous-rigid
-    rolling and sliding traction forces, J. Tribol. 107 (1985) 241): isothermal and fully flooded.
-    Two surfaces lose 2 F u while ball and race turn at u/R against each other, so M = 2 F R: a
-    couple, which leaves both in balance. The line contact's two formulas have no counterpart: any
-    choice but "none" is this one.
-    """
-    if lubricant.rolling_resistance == "none":
-        return np.zeros(3)
-    R, modulus = contact.rolling, contact.modulus
-    speed = lubricant.viscosity / modulus  # U = eta (w R)/(E' R)
-    load = 1.0 / (modulus * R * R)
-    force = 2.86 * modulus * R * R * contact.ratio**0.348
-    force *= (lubricant.pressure_coefficient * modulus) ** 0.022 * speed**0.66 * load**0.47
-    return np.array([2.0 * force * R, 0.66, 0.47])
-
-
 def _groove(bearing: BallBearing, contacts: Contacts, lubricant: Lubricant, *, inner: bool):
     contact = bearing.contacts[0 if inner else 1]
     axial, centre = bearing.inner_groove_centre if inner else bearing.outer_groove_centre
@@ -80,7 +60,7 @@ def _groove(bearing: BallBearing, contacts: Contacts, lubricant: Lubricant, *, i
         share=share,
         normal=laws.normal_parameters(contacts.race.normal, contact.stiffness, POINT),
         friction=laws.friction_parameters(contacts.race.friction),
-        rolling=point_rolling_resistance(lubricant, contact),
+        rolling=laws.point_rolling_resistance(lubricant, contact),
     )
 
 

@@ -6,7 +6,10 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from flexcage.bearings.ball.start import ball_places, rolling_balls
+from flexcage.bearings import motion_of
+from flexcage.case import Case
+from flexcage.system.problem import Bearing
+from flexcage.system.statics.solution import StaticSolution
 from flexcage.verification.ball_bearings import DEGREES, solved
 from flexcage.verification.c7010 import NO_OIL, RPM, SMOOTH, bearing_of, c7010, march
 from flexcage.verification.cases.ball_speed import FRICTIONLESS
@@ -27,9 +30,8 @@ def rows() -> Iterator[Row]:
     for rpm, cage, expected in FRICTIONLESS:
         case = c7010(SMOOTH, NO_OIL, DAMPED, {"drive.speed": f"{rpm} rpm"})
         bearing = bearing_of(case)
-        standing = solved(case.bearing, axial=100.0)  # type: ignore[arg-type]
-        y = ball_places(bearing, standing)
-        yd = rolling_balls(bearing.data.model, bearing.layout, standing, y)
+        standing = solved(case.bearing, axial=100.0)
+        y, yd = _standing(case, bearing, standing)
         orbit = _orbit(bearing, y, expected, cage * RPM)
         u, rate = bearing.layout.u(y), bearing.layout.q(yd)
         u["elements"][:, 2] = bearing.layout.q(y)["elements"][:, 1] * orbit
@@ -45,6 +47,14 @@ def rows() -> Iterator[Row]:
             yield Row(f"{rpm} rpm: {name}", unit, reference, float(value), SETTLED)
         place = 1e6 * float(ds["inner_position"].sel(axis="x").mean())
         yield Row(f"{rpm} rpm: axial displacement", "um", expected[4], place, SETTLED)
+
+
+def _standing(case: Case, bearing: Bearing, found: StaticSolution) -> tuple[np.ndarray, np.ndarray]:
+    """y and y' of balls that roll where a static solution has them."""
+    start = motion_of(case.bearing).start(
+        bearing, limit_force=0.0, statics=lambda: found, told=lambda *_: None
+    )
+    return start.y, start.yd
 
 
 def _orbit(bearing, y: np.ndarray, expected: tuple[float, ...], wanted: float) -> float:

@@ -7,11 +7,11 @@ from math import pi
 
 import numpy as np
 
-from flexcage.bearings.cylindrical_roller.bearing import RollerProfile
 from flexcage.case.presets import load_preset
 from flexcage.contacts import laws
 from flexcage.contacts.spec import FrictionLaw
 from flexcage.geometry.kinematics import epicyclic
+from flexcage.spec import RollerProfile
 from flexcage.verification.cases.roller_statics import bearing, solution
 from flexcage.verification.known_answer import KnownAnswer, Row, Tolerance
 from flexcage.verification.law_values import coefficient

@@ -9,9 +9,9 @@ from math import radians
 import numpy as np
 
 from flexcage.bearings import statics_of
-from flexcage.bearings.cylindrical_roller.bearing import RollerBearing, RollerProfile
 from flexcage.case.presets import load_preset
 from flexcage.contacts.spec import Contacts, NormalLaw, PairSpec
+from flexcage.spec import RollerBearing, RollerProfile
 from flexcage.system.spec import Load
 from flexcage.system.statics.solution import StaticSolution
 from flexcage.system.statics.solve import solve_bearing

@@ -10,7 +10,6 @@ import numpy as np
 from scipy.integrate import quad
 from scipy.optimize import brentq
 
-from flexcage.bearings.ball.model import point_rolling_resistance
 from flexcage.case.presets import load_preset
 from flexcage.contacts import laws
 from flexcage.contacts.spec import Lubricant
@@ -49,7 +48,7 @@ def ball_force(
     oil: Lubricant, contact: PointContact, *, load: float = BALL_LOAD, speed: float = BALL_SPEED
 ) -> float:
     """Force [N] at one surface of a ball's contact: the moment is that of two, R from the axis."""
-    factor, of_rate, of_load = point_rolling_resistance(oil, contact)
+    factor, of_rate, of_load = laws.point_rolling_resistance(oil, contact)
     moment = factor * (speed / contact.rolling) ** of_rate * load**of_load
     return float(moment / (2.0 * contact.rolling))
 
