@@ -52,7 +52,7 @@ def rows() -> Iterator[Row]:
 def _standing(case: Case, bearing: Bearing, found: StaticSolution) -> tuple[np.ndarray, np.ndarray]:
     """y and y' of balls that roll where a static solution has them."""
     start = motion_of(case.bearing).start(
-        bearing, limit_force=0.0, statics=lambda: found, told=lambda *_: None
+        bearing, limit_force=0.0, statics=lambda: found, advance=lambda *_: None
     )
     return start.y, start.yd
 
