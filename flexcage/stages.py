@@ -32,7 +32,7 @@ from flexcage.system.constraints import names_of
 from flexcage.system.layout import Layout
 from flexcage.system.problem import Bearing
 from flexcage.system.spec import Constraint, Drive, Limits, Load, Mount, StartOptions
-from flexcage.system.start import Start, constrained, find_start, pushed
+from flexcage.system.start import Start, constrained, find_start, with_push
 from flexcage.system.statics.options import AT_START
 from flexcage.system.statics.solution import StaticSolution
 from flexcage.system.statics.solve import solve_bearing
@@ -202,6 +202,6 @@ def assembled_start(
 
     limit = specs.limits.assembly_force
     with progress(1.0, "start") as bar:
-        start = find_start(bearing, limit_force=limit, statics=statics, told=bar.to)
-    start = pushed(start, bearing.layout, specs.start)
+        start = find_start(bearing, limit_force=limit, statics=statics, advance=bar.to)
+    start = with_push(start, bearing.layout, specs.start)
     return constrained(start, bearing, specs.constraints, limit_force=limit)

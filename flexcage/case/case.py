@@ -74,7 +74,7 @@ class Case(StaticCase):
     drive: Drive = option(Drive(), doc="what turns the inner ring")
     mount: Mount = option(Mount(), doc="what holds the outer ring")
     constraints: tuple[Constraint, ...] = option(
-        (), doc="what holds or moves rings and cage besides, any number", former=()
+        (), doc="what holds or moves rings and cage besides, any number", legacy=()
     )
     start: StartOptions = option(StartOptions(), doc="how the start departs from equilibrium")
     solver: SolverOptions = option(SolverOptions(), doc="the integrator")
@@ -239,7 +239,7 @@ class Case(StaticCase):
 
     def _repr_html_(self) -> str:
         """For notebooks: the case in words, and the values that its user gave."""
-        from flexcage.case.words import in_words
+        from flexcage.case.description import in_words
 
         in_text = {field: path for path, field in ALIASES.items()}
         given = {in_text.get(path, path) for path in self.given or () if path not in _NOT_PHYSICS}

@@ -69,9 +69,9 @@ def _beside(preset: Any) -> dict[str, tuple[str, str]]:
     """Assumptions of a case that names the preset and no more, beside the preset's own."""
     if not in_motion(type(preset.bearing)):
         return {}
-    from flexcage.case import Case, words
+    from flexcage.case import Case, description
 
-    assumed = words.assumed(Case.from_preset(preset.name))
+    assumed = description.assumed(Case.from_preset(preset.name))
     return {path: found for path, found in assumed.items() if path not in preset.assumptions}
 
 

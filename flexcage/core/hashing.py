@@ -20,7 +20,7 @@ def canonical(obj: Any) -> Any:
     """Plain JSON values of nested dataclasses: numbers rounded to 12 significant digits.
 
     Integers and floats of the same value are the same; arrays enter by shape, type and bytes. An
-    option that was added later (``former`` of ``core.spec.option``) enters where it asks for
+    option that was added later (``legacy`` of ``core.spec.option``) enters where it asks for
     something else than what was done before, so that results found by hash stay found.
     """
     if obj is None or isinstance(obj, (bool, str)):
@@ -54,9 +54,9 @@ def canonical(obj: Any) -> Any:
 
 
 def counts(obj: Any, field: dataclasses.Field[Any]) -> bool:
-    """Does a field enter: has it no ``former`` value, or another one?"""
-    former = field.metadata.get("former", dataclasses.MISSING)
-    return former is dataclasses.MISSING or getattr(obj, field.name) != former
+    """Does a field enter: has it no ``legacy`` value, or another one?"""
+    legacy = field.metadata.get("legacy", dataclasses.MISSING)
+    return legacy is dataclasses.MISSING or getattr(obj, field.name) != legacy
 
 
 def _number(x: Any) -> Any:

@@ -24,13 +24,13 @@ def quantity(
     maximum: float | None = None,
     assumption: str = "",
     of: Collection[str] = (),
-    former: Any = MISSING,
+    legacy: Any = MISSING,
 ) -> Any:
     """A physical value held in SI; ``unit`` is the unit a person would write ("mm", "rpm").
 
     ``minimum`` and ``maximum`` are inclusive and ``above`` exclusive bounds, in SI.
     ``assumption`` says why a default that no source gives was chosen. ``of`` names those of the
-    spec's laws (``law``) that read the value; without it all do. ``former`` as for ``option``.
+    spec's laws (``law``) that read the value; without it all do. ``legacy`` as for ``option``.
     """
     meta = {
         "unit": unit,
@@ -40,7 +40,7 @@ def quantity(
         "maximum": maximum,
         "assumption": assumption,
         "of": of,
-        "former": former,
+        "legacy": legacy,
     }
     return dataclasses.field(default=default, metadata=meta)
 
@@ -54,14 +54,14 @@ def option(
     maximum: float | None = None,
     assumption: str = "",
     of: Collection[str] = (),
-    former: Any = MISSING,
+    legacy: Any = MISSING,
     elsewhere: Mapping[str, str] = MappingProxyType({}),
 ) -> Any:
     """A dimensionless value, count, flag or name; ``choices`` holds the names accepted.
 
     Choices that are a mapping may grow while the program runs (``core.registry``). It gives the
     spec that a name brings along with values of its own, a subclass of the one at hand, or None.
-    ``assumption`` and ``of`` as for ``quantity``. ``former`` is for an option that is added
+    ``assumption`` and ``of`` as for ``quantity``. ``legacy`` is for an option that is added
     later: what was done before, which leaves the hashes of specs as they were
     (``core.hashing``). ``elsewhere`` maps patterns of names that are asked for here, and are not
     known, to what flexcage has instead.
@@ -73,7 +73,7 @@ def option(
         "maximum": maximum,
         "assumption": assumption,
         "of": of,
-        "former": former,
+        "legacy": legacy,
         "elsewhere": elsewhere,
     }
     return dataclasses.field(default=default, metadata=meta)

@@ -65,8 +65,8 @@ class Line(NamedTuple):
 def defect_type(name: str) -> Any:
     """The field ``type`` of a kind of defect."""
     return option(
-        name, doc="kind of defect", choices=DEFECTS, former=name, elsewhere=_NO_DEFECTS
-    )  # ``former``: the hash has the class
+        name, doc="kind of defect", choices=DEFECTS, legacy=name, elsewhere=_NO_DEFECTS
+    )  # ``legacy``: the hash has the class
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -43,7 +43,7 @@ class ModesSpec:
         "'linear' has uniform and linear ones and is 3 to 6 % too stiff where a roller presses "
         "the middle of a face alone, 'quadratic' has one more and leaves 0.5 to 2 %",
         choices=("linear", "quadratic"),
-        former="linear",
+        legacy="linear",
     )
     damping: float | None = option(
         None,
@@ -60,7 +60,7 @@ class ModesSpec:
         "otherwise; the last holds for all further modes",
         minimum=0.0,
         maximum=1.0,
-        former=(),
+        legacy=(),
     )
     bands: tuple[DampingBand, ...] = option((), doc="damping ratios by frequency band")
     land: bool = option(

@@ -35,7 +35,7 @@ class OutputOptions:
         True,
         doc="keep the mesh and the mode shapes of a flexible cage with the results (2 to 40 MB); "
         "without them the cage is made anew on loading",
-        former=True,
+        legacy=True,
     )
 
     @property

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from flexcage.case import words
+from flexcage.case import description
 from flexcage.render.album import Scene, StressPictures
 from flexcage.stress.midpoints import at_nodes, largest_at_nodes
 from flexcage.stress.series import ABOUT_PEAK
@@ -75,17 +75,17 @@ def account_of(run: Run, images: Sequence[Path], no_images: str) -> RunAccount:
     from flexcage.report.run_page import RunAccount
 
     case = run.case
-    command = words.run_command("case.toml")
+    command = description.run_command("case.toml")
     return RunAccount(
         scene=scene_of(run),
         summary=run.summary,
         numbers=run.numbers,
-        statement=words.in_words(case),
+        statement=description.in_words(case),
         warnings=[warning.text for warning in run.warnings],
         steps=run.steps,
-        settings=words.settings(case),
-        assumptions=words.assumed(case),
-        sources=words.grounds(case),
+        settings=description.settings(case),
+        assumptions=description.assumed(case),
+        sources=description.grounds(case),
         case_text=case.to_toml(),
         commands=f"{command} -o runs/again\nflexcage report runs/again",
         images=images,

@@ -49,12 +49,12 @@ def _sample_near(t: np.ndarray, step: float, time: float) -> int:
 def frames(
     times: np.ndarray,
     field_at: Callable[[float], tuple[np.ndarray, np.ndarray]],
-    told: Callable[[], None],
+    advance: Callable[[], None],
 ) -> Iterator[Frame]:
     """Fields of every instant [s] by name, at the mesh's vertices.
 
     ``field_at(time)`` gives displacements (N, 3) [m] at nodes, vertices first, and stresses
-    (n_points, 6) [Pa]; ``told`` hears of every frame.
+    (n_points, 6) [Pa]; ``advance`` hears of every frame.
     """
     for time in times:
         displacement, stress = field_at(float(time))
@@ -66,4 +66,4 @@ def frames(
                 "stress": stress,
             },
         )
-        told()
+        advance()

@@ -12,7 +12,7 @@ from itertools import product
 from pathlib import Path
 from typing import Any
 
-from flexcage.case import words
+from flexcage.case import description
 from flexcage.core.binding import unit_at
 from flexcage.study.axes import Axis
 from flexcage.study.plan import Planned, points_of
@@ -47,8 +47,8 @@ def to_store(study: Study) -> dict[str, Any]:
     paths = (path for axis in study.axes for path in axis.paths)
     return {
         "units": {path: unit_at(study.case, path) for path in paths},
-        "in_words": words.in_words(study.case),
-        "assumptions": words.assumed(study.case),
+        "in_words": description.in_words(study.case),
+        "assumptions": description.assumed(study.case),
     }
 
 

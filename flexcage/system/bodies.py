@@ -10,7 +10,7 @@ from flexcage.contacts.land import KINDS, LandData
 from flexcage.contacts.spec import LandSpec, Lubricant
 from flexcage.geometry.bearing import Bearing
 from flexcage.geometry.materials import Material
-from flexcage.system import courses
+from flexcage.system import time_functions
 from flexcage.system.data import Bodies
 from flexcage.system.spec import WAVES, Drive, Load, Mount, Wave
 
@@ -59,15 +59,15 @@ def loads_over(load: Load, times: np.ndarray) -> np.ndarray:
     loads = np.zeros((2, len(times)))
     for out, way in zip(loads, ("radial", "axial")):
         wave = np.array(_wave(load, load.wave_amplitude * (load.wave_of == way)))
-        courses.course(_load_table(load, way), wave, times, out)
+        time_functions.time_function(_load_table(load, way), wave, times, out)
     return loads.T
 
 
 def _wave(spec: Wave, amplitude: float) -> tuple[float, float, float, float]:
     """Shape, share of a rise, amplitude and period as the kernels take them."""
     if spec.wave == "none" or amplitude == 0.0:
-        return courses.NONE, 0.0, 0.0, 1.0
-    shape = courses.SINE if spec.wave == "sine" else courses.TRAPEZOID
+        return time_functions.NONE, 0.0, 0.0, 1.0
+    shape = time_functions.SINE if spec.wave == "sine" else time_functions.TRAPEZOID
     return shape, WAVES[spec.wave], amplitude, spec.wave_period
 
 

@@ -18,7 +18,7 @@ from flexcage.system.spec import Drive, Load, Mount
 
 if TYPE_CHECKING:
     from flexcage.system.problem import Bearing
-    from flexcage.system.start import Start, StaticStart, Told
+    from flexcage.system.start import Advance, Start, StaticStart
 
 
 class Model(Protocol):
@@ -55,7 +55,7 @@ class FindStart(Protocol):
     """Assembles a bearing and brings it to equilibrium at the drive's first speed."""
 
     def __call__(
-        self, bearing: Bearing, *, limit_force: float, statics: StaticStart | None, told: Told
+        self, bearing: Bearing, *, limit_force: float, statics: StaticStart | None, advance: Advance
     ) -> Start: ...
 
 

@@ -37,13 +37,13 @@ from flexcage.solve.contract import Integrator
 from flexcage.solve.oscillators import Oscillators
 from flexcage.system import newton, rates, sampling
 from flexcage.system.constraints import ALL_ROWS_TYPE, Constraints, constraints_of, units_of
-from flexcage.system.courses import corners
 from flexcage.system.data import POWERS, Memory, Report, Work, new_memory
 from flexcage.system.holding import hold, hold_nothing
 from flexcage.system.layout import Layout
 from flexcage.system.motion import Motion
 from flexcage.system.rates import RatesWork, modal_oscillators, new_rates_work
 from flexcage.system.spec import Constraint
+from flexcage.system.time_functions import corners
 
 ITERATIONS = 40  # of the spectral radius
 NUDGE = 5e-12  # [m] over which it takes differences

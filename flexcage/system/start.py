@@ -18,7 +18,7 @@ from flexcage.system.spec import Constraint, StartOptions
 from flexcage.system.statics.solution import StaticSolution
 
 StaticStart = Callable[[], StaticSolution]
-Told = Callable[[float], None]
+Advance = Callable[[float], None]
 # of a land's clearance, by which the cage may lean at the start; a film grows stiff beyond
 _CLEAR = {DRY: 0.9, FILM: 0.5}
 _ONTO, _NEAR = 40, 1e-12  # steps onto constraints; [m, rad] how near they must come
@@ -42,17 +42,17 @@ def find_start(
     *,
     limit_force: float,
     statics: StaticStart | None = None,
-    told: Told = lambda share: None,
+    advance: Advance = lambda share: None,
 ) -> Start:
     """Assemble the bearing and bring it to equilibrium at the drive's first speed.
 
-    ``statics`` computes the static solution, for bearings whose run begins with it; ``told`` hears
-    what share of the work is done.
+    ``statics`` computes the static solution, for bearings whose run begins with it; ``advance`` is
+    called with the share of the work that is done.
     """
-    return bearing.motion.start(bearing, limit_force=limit_force, statics=statics, told=told)
+    return bearing.motion.start(bearing, limit_force=limit_force, statics=statics, advance=advance)
 
 
-def pushed(start: Start, layout: Layout, options: StartOptions) -> Start:
+def with_push(start: Start, layout: Layout, options: StartOptions) -> Start:
     """The start with the cage centre moving off at ``options.push``, at a random azimuth."""
     if options.push == 0.0:
         return start

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from flexcage.case import Case, load_case, words
+from flexcage.case import Case, description, load_case
 from flexcage.geometry.materials import MATERIALS
 
 N1013 = '[bearing]\npreset = "N1013"\n'
@@ -53,7 +53,7 @@ def test_a_rigid_cage_assumes_nothing_of_modes():
 
 
 def test_values_that_follow_are_shown_as_numbers():
-    shown = words.assumed(load_case(N1013))
+    shown = description.assumed(load_case(N1013))
     assert shown["contacts.land.width"][0] == "3.5 mm"
     assert shown["modes.damping"][0] == "0.01"
 

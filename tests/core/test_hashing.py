@@ -86,6 +86,6 @@ def test_an_option_added_later_counts_where_it_asks_for_something_new():
     @dataclass(frozen=True)
     class Named:
         size: float = 2e-4
-        shape: str = option("new", choices=("old", "new"), former="old")
+        shape: str = option("new", choices=("old", "new"), legacy="old")
 
     assert content_hash(Named(shape="old")) == before != content_hash(Named())

@@ -3,6 +3,8 @@ names exist, and no page is long."""
 
 import argparse
 import ast
+import dataclasses
+import importlib
 import re
 import shlex
 from collections import Counter
@@ -197,18 +199,35 @@ def test_the_cluster_on_loopback_is_one_that_dask_and_flexcage_know():
     assert parsed.scheduler == worker[2] and (ROOT / parsed.study).is_file()
 
 
-def test_what_extending_names_is_there():
-    section = text_of("flexcage/README.md").split("### A bearing type in motion")[1]
-    section = section.split("### What needs lines inside flexcage")[0]
-    spans = re.findall(r"`([^`]+)`", section)
-    files = [s for s in spans if s.endswith(".py")]
-    assert len(files) > 25
-    places = (ROOT, ROOT / "flexcage")
-    assert not [f for f in files if not any((place / f).is_file() for place in places)]
-    code = "\n".join(p.read_text("utf-8") for p in (ROOT / "flexcage").rglob("*.py"))
+@pytest.mark.parametrize(
+    ("page", "folder", "value"),
+    [("bearings", "ball", "Family"), ("cages", "window", "CageType")],
+)
+def test_a_wings_page_names_its_slots_and_files(page, folder, value):
+    """Every slot of its value has a row; files in rows are there, names are in the code."""
+    text = text_of(f"flexcage/{page}/README.md")
+    home = ROOT / "flexcage" / page
+    rows = [line.split("|")[1:3] for line in text.splitlines() if line.startswith("| `")]
+    slots = {s for names, _ in rows for s in re.findall(r"`([\w.]+)`", names)}
+    kind = getattr(importlib.import_module(f"flexcage.{page}"), value)
+    fields = {f.name for f in dataclasses.fields(kind)}
+    assert fields - slots <= {"name", "other_designs"}
+    files = {file for _, names in rows for file in re.findall(r"`(\w+\.py)`", names)}
+    assert len(files) > 4 and all((home / folder / file).is_file() for file in files)
+    spans = re.findall(r"`([^`\n]+)`", text)
+    paths = {s for s in spans if s.endswith(".py") and "/" in s}
+    assert all(any((p / s).is_file() for p in (ROOT, ROOT / "flexcage", home)) for s in paths)
+    code = "\n".join(
+        p.read_text("utf-8") for f in ("flexcage", "tests") for p in (ROOT / f).rglob("*.py")
+    )
     words = set(re.findall(r"\w+", code))
-    names = {n for s in spans if s not in files and "/" not in s for n in re.findall(r"\w+", s)}
-    assert len(names) > 50 and not names - words
+    named = {
+        n
+        for s in spans
+        if "/" not in s and not s.endswith(".py")
+        for n in re.findall(r"[a-zA-Z_]\w+", s)
+    }
+    assert len(named) > 15 and not named - words, named - words
 
 
 @pytest.mark.parametrize("page", PAGES, ids=name_of)

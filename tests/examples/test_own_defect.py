@@ -21,7 +21,7 @@ from flexcage.cages.window.cage import ROLLER_CAGES, WindowCage
 from flexcage.cages.window.defects import SideBeamDefect
 from flexcage.cages.window.measure import pocket_size
 from flexcage.case import Case
-from flexcage.case.words import in_words
+from flexcage.case.description import in_words
 from flexcage.core import registry
 from flexcage.core.errors import InputError
 from flexcage.core.spec import option

@@ -17,14 +17,14 @@ from flexcage.bearings.ball.model import BallModel
 from flexcage.bodies.floating_frame import BodyData
 from flexcage.system.layout import Layout
 from flexcage.system.problem import Bearing
-from flexcage.system.start import Start, StaticStart, Told, made_room
+from flexcage.system.start import Advance, Start, StaticStart, made_room
 from flexcage.system.statics.solution import StaticSolution
 
 _ALIKE = 1e-3  # rad: contact angles closer than this leave a ball's axis to their mean
 
 
 def ball_start(
-    bearing: Bearing, *, limit_force: float, statics: StaticStart | None, told: Told
+    bearing: Bearing, *, limit_force: float, statics: StaticStart | None, advance: Advance
 ) -> Start:
     """The static solution, which has to be given, with balls that roll; no force is limited."""
     assert statics is not None, "balls start at their static solution"

@@ -26,7 +26,7 @@ from flexcage.system.constraints import OFF, no_rows
 from flexcage.system.layout import Layout
 from flexcage.system.newton import assemble, newton_step
 from flexcage.system.problem import Bearing
-from flexcage.system.start import Start, StaticStart, Told, made_room
+from flexcage.system.start import Advance, Start, StaticStart, made_room
 
 _SMALL = 1e-7  # of the load: where an equilibrium is accepted
 _BALANCED = 1e-6  # of the load: what may stay unbalanced at last
@@ -331,7 +331,7 @@ def _stages(model: RollerModel, offset: np.ndarray) -> np.ndarray:
 
 
 def roller_start(
-    bearing: Bearing, *, limit_force: float, statics: StaticStart | None, told: Told
+    bearing: Bearing, *, limit_force: float, statics: StaticStart | None, advance: Advance
 ) -> Start:
     """Equilibrium at epicyclic speeds; the static solution is not asked for."""
     model, layout = bearing.data.model, bearing.layout
@@ -354,7 +354,7 @@ def roller_start(
         yd = standing_cage(model, layout, y)
         residual = _assemble(system, y, yd, tight)
         _check_force(system, y, yd, limit_force, share, pinched)
-        told(stage / len(shares))
+        advance(stage / len(shares))
     if len(pinched):  # and held, whether its land is in the way or not
         system = _Frictionless(bearing, offset, lands=True)
         residual = _equilibrate(system, y, yd, tight)

@@ -73,7 +73,7 @@ def test_round_trip_and_hash():
 
 
 def words(case):
-    from flexcage.case.words import in_words
+    from flexcage.case.description import in_words
 
     return in_words(case)
 

@@ -14,17 +14,17 @@ from flexcage.results.audit import energy_audit
 from flexcage.simulate import simulate
 from flexcage.stages import cage_mesh
 from flexcage.system.bodies import _wave
-from flexcage.system.courses import (
+from flexcage.system.spec import Drive
+from flexcage.system.time_functions import (
     corners,
-    course,
     table_integral,
     table_slope,
     table_value,
+    time_function,
     wave_integral,
     wave_slope,
     wave_value,
 )
-from flexcage.system.spec import Drive
 
 AMPLITUDE, PERIOD = 7.0, 0.03
 
@@ -62,7 +62,7 @@ def test_shape_slope_and_integral(shape):
     assert value[0] == 0.0 and np.abs(value).max() == pytest.approx(AMPLITUDE)
     flat = np.array([[0.0, 1.0], [2.0, 2.0]])
     shifted = np.empty_like(times)
-    course(flat, of(shape), times, shifted)
+    time_function(flat, of(shape), times, shifted)
     np.testing.assert_allclose(shifted, 2.0 + value, rtol=1e-9)
     step = times[1]
     trapezoid = np.concatenate([[0.0], np.cumsum(0.5 * (value[1:] + value[:-1]) * step)])
@@ -138,14 +138,14 @@ def test_energy_closes_over_corners_of_the_speed(shape, method):
     """The drive's torque jumps there, by 30 kW over a rectangle's 20 us. Steps that ran across
     missed up to 1.3 % of the drive's work, and sampled speeds that were never driven."""
     wave = {"speed": "5000 rpm", "wave": shape, "wave_amplitude": "120 rpm", "wave_period": "2 ms"}
-    course = {
+    drive = {
         "ramp": {"speed": "5000 rpm", "ramp_to": "5400 rpm", "ramp_start": "1.013 ms",
                  "ramp_time": "0.5 ms"},
         "table": {"times": ["0 s", "1 ms", "1.25 ms"],
                   "speeds": ["5 krpm", "5.1 krpm", "4.8 krpm"]},
     }.get(shape, wave)  # fmt: skip
     ends = {"block": 50}  # a block ends on the corner of the table at 1 ms
-    case = n1013(drive=course, duration="3 ms", method=method, output=ends)
+    case = n1013(drive=drive, duration="3 ms", method=method, output=ends)
     run = simulate(case)
     audit = energy_audit(run.dataset)
     assert audit.passed and audit.of_drive < (2e-4 if method == "explicit" else 1e-3)

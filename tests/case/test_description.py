@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import pytest
 
-from flexcage.case import load_case, words
+from flexcage.case import description, load_case
 
 BALLS = {"bearing": {"preset": "7010C-PI"}, "load": {"axial": "100 N"}}
 
 
 def told(table, **overrides) -> str:
-    return " ".join(words.in_words(load_case({"name": "told", **table, **overrides})))
+    return " ".join(description.in_words(load_case({"name": "told", **table, **overrides})))
 
 
 def test_a_ball_bearing():
