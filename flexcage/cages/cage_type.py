@@ -59,6 +59,13 @@ def cage_type_of(cage: Cage) -> CageType[Any]:
     return CAGE_TYPES[name]
 
 
+def riveted_cages() -> tuple[str, str]:
+    """Cage types that rivets hold together: in words, and as a case chooses them."""
+    names = [name for name, made in CAGE_TYPES.items() if made.spec.riveted]
+    chosen = " or ".join(f"'{name}'" for name in names)
+    return f"{' and '.join(names)} cages", f"cage.type = {chosen}"
+
+
 def register_cage_type(made: CageType[Any]) -> CageType[Any]:
     """Add a cage type of your own, and return it; InputError if its name is taken.
 

@@ -35,6 +35,8 @@ class Cage:
 
     cage_type: ClassVar[str] = ""  # name of its ``cages.cage_type.CageType``
     altered: ClassVar[str] = "Defects"  # heads the list of its defects
+    # do rivets of ``rivet_diameter`` between its pockets hold two halves together?
+    riveted: ClassVar[bool] = False
 
     material: Material = option(MATERIALS["brass"], doc="cage material (a name or its values)")
     bore: float = quantity("mm", doc="inside diameter", above=0.0)
@@ -63,11 +65,6 @@ class Cage:
     def has_faces(self) -> bool:
         """Have its pockets plane faces, which a basis may have attachment vectors for?"""
         return True
-
-    @property
-    def riveted(self) -> bool:
-        """Do rivets of ``rivet_diameter`` between its pockets hold two halves together?"""
-        return False
 
     @property
     def has_land(self) -> bool:

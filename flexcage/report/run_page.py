@@ -41,7 +41,10 @@ from flexcage.results.summary import SHOWN, Row, Summary
 if TYPE_CHECKING:
     from flexcage.render.album import StressPictures
 
-_APART = ("Energy", "Solver", "Wall time")  # sections of a summary that have their own place
+#: Sections of a summary that have their own place.
+_APART = _ENERGY, _SOLVER, _TIMES = tuple(
+    KNOWN[key].section for key in ("energy_audit", "steps", "wall_total")
+)
 #: Pictures that the page shows as charts.
 _CHARTS = ("stress_peak", "histories", "orbit")
 #: Pictures of a run by file name: their captions ({elements}: rollers or balls), in the order in
@@ -189,7 +192,7 @@ def _extras(account: RunAccount) -> list[Section]:
 
 
 def _energy(account: RunAccount) -> Section:
-    rows = [row for section in _sections(account, "Energy") for row in section.shown]
+    rows = [row for section in _sections(account, _ENERGY) for row in section.shown]
     blocks: list[Block] = [rows_table(rows)]
     if {"energy", "work"} <= set(account.scene.dataset.data_vars):
         blocks.append(Charts([imbalance_chart(account.scene.dataset)]))
@@ -202,8 +205,7 @@ def _sections(account: RunAccount, *titles: str) -> list:
 
 def _solver(account: RunAccount) -> Section:
     blocks: list[Block] = [
-        rows_table(section.shown, section.title)
-        for section in _sections(account, "Solver", "Wall time")
+        rows_table(section.shown, section.title) for section in _sections(account, _SOLVER, _TIMES)
     ]
     if len(account.steps.get("time", ())):
         blocks.append(Charts([step_chart(account.steps["time"], account.steps["step"])]))

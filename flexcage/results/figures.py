@@ -9,14 +9,14 @@ from typing import TYPE_CHECKING
 
 from flexcage.core.errors import InputError
 from flexcage.results import audit, metrics
-from flexcage.results.angles import at_angles, at_nominal, of_curvature
+from flexcage.results.angles import at_angles, of_curvature
 from flexcage.results.bootstrap import FEWEST
 from flexcage.results.contact_activity import EVENTS, contact_series
 from flexcage.results.known import KNOWN, SETTLING, KnownFigure, marked
 from flexcage.results.metrics import BearingNumbers, SlipRange
 from flexcage.results.ring_figures import constraint_sections, ring_section
 from flexcage.results.statistics import Record, Windows, element_passes
-from flexcage.results.summary import Row, Section, Summary, figure, statistic
+from flexcage.results.summary import Row, Section, Summary, figure, section_of, statistic
 
 if TYPE_CHECKING:
     import xarray
@@ -51,7 +51,7 @@ def summarise(
     events: xarray.Dataset | None = None,
 ) -> Summary:
     """Summary of a run's motion and forces after its start; stress, solver and times come from
-    those who know them, by :meth:`Summary.with_section`. ``events`` are the run's contacts that
+    those who know them, by :meth:`Summary.with_figures`. ``events`` are the run's contacts that
     closed or opened; without them contacts are counted at samples.
     """
     if not 0.0 <= settle < 1.0:
@@ -60,18 +60,18 @@ def summarise(
     windows = element_passes(part, bearing)
     own: OwnFigures = metrics.family(ds).figures()
     sections = [
-        Section("Speeds", (*_speed_rows(part, bearing), *own.speeds(part, bearing))),
+        section_of((*_speed_rows(part, bearing), *own.speeds(part, bearing))),
         own.slip(part, bearing, slip_range or SlipRange()),
-        Section("Cage motion", (*_motion_rows(part, bearing), *own.motion(part))),
-        Section("Forces", (*_force_rows(part, windows), *_race_rows(part))),
-        Section("Contacts of the cage", _contact_rows(part, windows, events)),
+        section_of((*_motion_rows(part, bearing), *own.motion(part))),
+        section_of((*_force_rows(part, windows), *_race_rows(part))),
+        section_of(_contact_rows(part, windows, events)),
         ring_section(part, windows),
         *constraint_sections(part, windows),
     ]
     records = {r.key: r.record for s in sections for r in s.rows if r.record is not None}
-    sections.insert(0, Section("Statistics", _statistics_rows(part, windows, settle, records)))
+    sections.insert(0, section_of(_statistics_rows(part, windows, settle, records)))
     if "energy" in ds and "work" in ds:
-        sections.append(Section("Energy", _energy_rows(ds)))
+        sections.append(section_of(_energy_rows(ds)))
     return Summary(tuple(sections))
 
 
@@ -119,24 +119,7 @@ def _speed_rows(ds: xarray.Dataset, bearing: BearingNumbers) -> tuple[Row, ...]:
             of_curvature(part, bearing),
             value=speed.slip_ratio,
         ),
-        *_nominal_rows(part, bearing, speed, windows),
         statistic("cage_speed_ripple", windows.deviation(omega), "standard deviation over mean"),
-    )
-
-
-def _nominal_rows(
-    ds: xarray.Dataset, bearing: BearingNumbers, speed: metrics.CageSpeed, windows: Windows
-) -> tuple[Row, ...]:
-    """What the speed of pure rolling would be at the nominal contact angle, of a bearing that
-    leaves it under load."""
-    if "contact_angle" not in ds:
-        return ()
-    note = at_nominal(bearing)
-    ideal = ds["inner_speed"].values * bearing.nominal.kinematics(1.0).cage_speed
-    slip = windows.ratio(ideal - ds["cage_omega"].sel(axis="x").values, ideal)
-    return (
-        figure("epicyclic_speed_nominal", speed.nominal, note),
-        statistic("cage_slip_ratio_nominal", slip, note, value=speed.nominal_slip),
     )
 
 

@@ -22,6 +22,8 @@ FLEXIBLE, RIVETED, FATIGUE, WEAR = "flexible cage", "riveted cage", "fatigue", "
 #: What a figure is: may it be below zero, is it a mean or a peak over windows of the run (and so
 #: has an interval), is it a text instead of a number, does only a run read or drawn later have it.
 SIGNED, STATISTIC, TEXT, LATER = "signed", "statistic", "text", "later"
+#: Where a figure is not printed: it is zero, as a run had no use for it.
+RARE = "rare"
 #: Where a figure is shown among few: in the terminal after a run, large on a run's page, in a
 #: study's table of energy and solver. What else is done with it: halves of a run are compared to
 #: see whether it has settled, levels of a study of convergence are compared.
@@ -152,8 +154,6 @@ def _forces() -> Iterator[KnownFigure]:
         ("pocket_contact", "{Faces} in contact", "%", "share of faces and time"),
         ("race_force_inner", "Inner race on an element, peak", "N", "largest normal force", BRIEF),
         ("race_force_outer", "Outer race on an element, peak", "N", "largest normal force", BRIEF),
-        ("pinch_force", "Pinch force at the start", "N",
-         "of elements that a deformed pocket squeezes when assembled", CONVERGENCE),
     )
     yield from figures_in(
         "Contacts of the cage",
@@ -233,6 +233,8 @@ def _cage() -> Iterator[KnownFigure]:
         "Cage",
         ("cage_mass", "Cage mass", "g", "with the mass that unbalances it", CONVERGENCE),
         ("cage_centre_shift", "Cage mass centre, shift", "um", "from the axis of the sound cage"),
+        ("pinch_force", "Pinch force at the start", "N",
+         "of elements that a deformed pocket squeezes when assembled", CONVERGENCE),
     )
     yield from figures_in(
         "Cage",
@@ -291,12 +293,12 @@ def _solver() -> Iterator[KnownFigure]:
     yield from figures_in(
         "Solver",
         ("steps", "Steps", "", "accepted", EFFORT),
-        ("explicit_steps", "Explicit steps", "", "of them, by the explicit method"),
+        ("explicit_steps", "Explicit steps", "", "of them, by the explicit method", RARE),
         ("residuals", "Residuals", "", "evaluations of the equations"),
-        ("jacobians", "Jacobians", "", ""),
-        ("factorisations", "Factorisations", "", "of Newton's matrix"),
+        ("jacobians", "Jacobians", "", "", RARE),
+        ("factorisations", "Factorisations", "", "of Newton's matrix", RARE),
         ("failed_error_tests", "Failed error tests", "", "steps repeated for their error", EFFORT),
-        ("failed_newton", "Failed Newton iterations", "", "", EFFORT),
+        ("failed_newton", "Failed Newton iterations", "", "", EFFORT, RARE),
         ("stable_step", "Stability bound of explicit steps", "us",
          "least over the run, by the spectral radius"),
     )
@@ -316,7 +318,8 @@ _FLOORS = (_statistics, _speeds, _slip, _motion, _forces, _ring, _energy, _film,
 
 
 class _BySection(Parts[KnownFigure]):
-    """Figures in the order of a summary: those of a family close their section."""
+    """Figures in the order of a summary: those of a family close their section, and
+    sections of its own come last."""
 
     def _all(self) -> dict[str, KnownFigure]:
         found = super()._all()

@@ -9,7 +9,7 @@ import numpy as np
 
 from flexcage.results import metrics
 from flexcage.results.statistics import Windows
-from flexcage.results.summary import Row, Section, figure, statistic
+from flexcage.results.summary import Row, Section, figure, section_of, statistic
 from flexcage.system.layout import CONSTRAINTS
 
 if TYPE_CHECKING:
@@ -21,9 +21,8 @@ LEAST = 1e-3  # [N, N m] reactions that never pass it are rounding
 
 def ring_section(ds: xarray.Dataset, windows: Windows) -> Section:
     """Means of power and torque of the drive, of displacement and tilt, and of reactions."""
-    return Section(
-        "Inner ring",
-        (*_drive_rows(ds, windows), *_place_rows(ds, windows), *_reaction_rows(ds, windows)),
+    return section_of(
+        (*_drive_rows(ds, windows), *_place_rows(ds, windows), *_reaction_rows(ds, windows))
     )
 
 

@@ -167,6 +167,12 @@ class Section:
         return tuple(row for row in self.rows if not row.idle)
 
 
+def section_of(rows: Iterable[Row]) -> Section:
+    """Known figures that stand together, under the title that ``KNOWN`` has for the first."""
+    figures = tuple(rows)
+    return Section(KNOWN[figures[0].key].section, figures)
+
+
 def _rows_html(rows: Iterable[Row], *, brief: bool = False) -> str:
     """Label, value, margin, unit and note of figures; ``brief`` notes are short."""
     cells = [
@@ -201,15 +207,25 @@ class Summary:
     def __contains__(self, key: str) -> bool:
         return any(row.key == key for row in self)
 
+    def with_figures(self, rows: Sequence[Row], *, after: str = "") -> Summary:
+        """A copy with the section of these known figures (``section_of``), as ``with_section``;
+        without rows the summary itself."""
+        if not rows:
+            return self
+        section = section_of(rows)
+        return self.with_section(section.title, section.rows, after=after)
+
     def with_section(self, title: str, rows: Sequence[Row], *, after: str = "") -> Summary:
-        """A copy with one more section, ``after`` one of that title or at the end, or with that
-        section replaced."""
+        """A copy with one more section, behind that of the figure ``after`` or at the end, or with
+        that section replaced."""
         new = Section(title, tuple(rows))
         if any(s.title == title for s in self.sections):
             kept = tuple(new if s.title == title else s for s in self.sections)
             return replace(self, sections=kept)
-        titles = [s.title for s in self.sections]
-        place = titles.index(after) + 1 if after in titles else len(titles)
+        place = len(self.sections)
+        for k, section in enumerate(self.sections, 1):
+            if any(row.key == after for row in section.rows):
+                place = k
         return replace(self, sections=(*self.sections[:place], new, *self.sections[place:]))
 
     def text(self) -> str:

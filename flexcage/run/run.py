@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from flexcage.cages import cage_type_of
+from flexcage.cages import cage_type_of, riveted_cages
 from flexcage.case import Case
 from flexcage.core import html
 from flexcage.core.binding import Binder, check_spec, expect
@@ -30,7 +30,7 @@ from flexcage.results.metrics import BearingNumbers, settled
 from flexcage.results.statistics import element_passes
 from flexcage.results.store import MemoryRunStore
 from flexcage.results.summary import Row, Summary
-from flexcage.run.summary import summary_of, time_rows, warned, with_stress
+from flexcage.run.summary import summary_of, timed, warned, with_stress
 from flexcage.solve.contract import Effort
 from flexcage.stress.fatigue import Fatigue
 from flexcage.stress.history import StressHistory
@@ -201,8 +201,9 @@ class Run:
         ``table``; InputError for any other cage, and for a rigid one."""
         stress, cage = self.cage_stress, self.case.cage  # refuses a rigid cage
         if not cage.riveted:
+            riveted, chosen = riveted_cages()
             raise InputError(
-                "The run's cage has no rivets; ribbon cages have (cage.type = 'ribbon').",
+                f"The run's cage has no rivets; {riveted} have ({chosen}).",
                 where="cage.type",
             )
         return self.stages("rivets", stress.rivets, diameter=cage.rivet_diameter)
@@ -291,7 +292,7 @@ class Run:
     def tell_times(self) -> None:
         """Bring the wall times of a run just computed up to now in its summary, the stored one
         included."""
-        self.summary = self.summary.with_section("Wall time", time_rows(self))
+        self.summary = timed(self.summary, self)
         if self.folder:
             self.summary.write(self.folder)
 
@@ -346,6 +347,6 @@ class Run:
         return self
 
     def stress_rows(self) -> list[Row]:
-        """Figures of the summary's section "Equivalent stress"; InputError for a rigid cage."""
+        """Figures of the cage's stress; InputError for a rigid cage."""
         self.stress_history  # noqa: B018  (timed)
         return self.cage_stress.rows(element=self.case.bearing.element)

@@ -12,6 +12,7 @@ from flexcage.results import mode_file
 from flexcage.results.edges import groove_edges
 from flexcage.results.figures import summarise
 from flexcage.results.film import film_rows
+from flexcage.results.known import KNOWN, RARE
 from flexcage.results.metrics import SlipRange, settled
 from flexcage.results.summary import Row, Summary, figure
 from flexcage.results.warnings import AT_END, Outcome, from_attrs, warnings_of
@@ -27,7 +28,6 @@ _FAR = (
     "changes an N1013's pinch forces by under 0.5 %"
 )
 _NO_TIME = 1e-3  # s: a stage that is shorter had nothing to do
-_RARE = ("explicit_steps", "jacobians", "factorisations", "failed_newton")  # by method
 
 
 def summary_of(run: Run, *, stress: bool = True) -> Summary:
@@ -42,26 +42,27 @@ def summary_of(run: Run, *, stress: bool = True) -> Summary:
         events=run.events,
     )
     part = settled(run.dataset, case.output.settle)
-    if film := film_rows(part, case.bearing, case.lubricant.oil):
-        summary = summary.with_section("Lubricant's film", film)
-    if edges := groove_edges(case.bearing, run.dataset):
-        summary = summary.with_section("Grooves", [edge.row for edge in edges])
-    summary = summary.with_section("Support", [figure("inner_held", case.held_in_words)])
-    summary = summary.with_section("Cage", _cage_rows(run))
+    for rows in (
+        film_rows(part, case.bearing, case.lubricant.oil),
+        [edge.row for edge in groove_edges(case.bearing, run.dataset)],
+        [figure("inner_held", case.held_in_words)],
+        _cage_rows(run),
+    ):
+        summary = summary.with_figures(rows)
     proof = case.cage.material.proof_stress
     if run.cage is not None and (stress or run.cage_stress.may_exceed(proof)):
         summary = with_stress(summary, run)
     if run.effort is not None:
-        summary = summary.with_section("Solver", _solver_rows(run.effort))
-    return warned(summary.with_section("Wall time", time_rows(run)), run)
+        summary = summary.with_figures(_solver_rows(run.effort))
+    return warned(timed(summary, run), run)
 
 
 def with_stress(summary: Summary, run: Run) -> Summary:
     """The summary with stress behind the cage's figures."""
-    summary = summary.with_section("Equivalent stress", run.stress_rows(), after="Cage")
+    summary = summary.with_figures(run.stress_rows(), after="cage_mass")
     if not run.case.riveted:
         return summary
-    return summary.with_section("Rivets", run.rivets.rows(), after="Equivalent stress")
+    return summary.with_figures(run.rivets.rows(), after="stress_peak")
 
 
 def warned(summary: Summary, run: Run) -> Summary:
@@ -81,10 +82,11 @@ def warned(summary: Summary, run: Run) -> Summary:
     return dataclasses.replace(summary, warnings=(*known, *warnings_of(AT_END, outcome)))
 
 
-def time_rows(run: Run) -> list[Row]:
-    """Wall times of the stages."""
+def timed(summary: Summary, run: Run) -> Summary:
+    """The summary with the wall times of all stages so far."""
     rows = [figure(f"wall_{k}", v, idle=v < _NO_TIME) for k, v in run.stages.items()]
-    return [*rows, figure("wall_total", run.stages.total)]
+    total = figure("wall_total", run.stages.total)
+    return summary.with_section(KNOWN[total.key].section, [*rows, total])
 
 
 def _cage_rows(run: Run) -> list[Row]:
@@ -115,7 +117,7 @@ def _cage_rows(run: Run) -> list[Row]:
 
 def _solver_rows(effort: Effort) -> list[Row]:
     counts, stable_step = effort
-    rows = [figure(k, n, idle=not n and k in _RARE) for k, n in counts.items()]
+    rows = [figure(k, n, idle=not n and RARE in KNOWN[k].marks) for k, n in counts.items()]
     if np.isfinite(stable_step):
         note = "least over the run, by the spectral radius"
         rows.append(figure("stable_step", stable_step, note))

@@ -193,7 +193,7 @@ class RunStress:
         )
 
     def rows(self, *, element: str) -> list[Row]:
-        """Figures of the summary's section "Equivalent stress"; ``element``: the bearing's word for
+        """Figures of a summary; ``element``: the bearing's word for
         a rolling element."""
         h = self.history
         k = h.peak_sample

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from flexcage.cages import riveted_cages
 from flexcage.core.binding import did_you_mean
 from flexcage.core.errors import InputError
 from flexcage.core.wings import FAMILIES
@@ -149,7 +150,7 @@ def _figures_in(rows: Iterable[Row]) -> dict[str, Figure]:
 
 
 _COMPUTED = {FATIGUE: _fatigue, WEAR: _wear, RIVETED: _rivets}
-_STRESS = "Equivalent stress"  # their section
+_STRESS = KNOWN["stress_peak"].section
 #: Figures that a summary may not hold: what computes them together.
 LATE_FIGURES: Mapping[str, Callable[[Run], dict[str, Figure]]] = {
     name: _stress if known.section == _STRESS else _COMPUTED[known.needs]
@@ -255,7 +256,7 @@ def check_outputs(
 
     ``sizes`` holds the least length in any case of dimensions that are counted (rolling elements,
     pockets, slices), ``family`` is that of the bearings, ``flexible`` says whether any
-    cage is, ``riveted`` whether one of these is a ribbon cage, ``materials`` names those of all
+    cage is, ``riveted`` whether one of these is riveted, ``materials`` names those of all
     cages, and ``reactions`` the constraints that every case has. Raises EnvironmentLacks for
     fatigue without pyLife.
     """
@@ -291,9 +292,10 @@ def check_outputs(
                 value=name,
             )
         if name in KNOWN and KNOWN[name].needs == RIVETED and not riveted:
+            cages, chosen = riveted_cages()
             raise InputError(
-                f"Output '{name}' is of ribbon cages, but no flexible cage of the study is one; "
-                "set cage.type = 'ribbon' or leave it out.",
+                f"Output '{name}' is of {cages}, but no flexible cage of the study is one; set "
+                f"{chosen} or leave it out.",
                 where="outputs",
                 value=name,
             )

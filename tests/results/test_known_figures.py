@@ -7,7 +7,7 @@ from pathlib import Path
 import flexcage
 from flexcage.results import known
 from flexcage.results.known import KNOWN, STATISTIC, TEXT, marked
-from flexcage.results.summary import SHOWN, figure
+from flexcage.results.summary import SHOWN, Summary, figure
 
 SOURCES = [
     path
@@ -81,3 +81,30 @@ def test_a_title_takes_the_bearings_words():
     assert figure("roller_passes", 3).label == "Element passes counted"
     assert figure("roller_passes", 3, Element="Ball").label == "Ball passes counted"
     assert KNOWN["pocket_force_mean"].quantity == "pocket force"
+
+
+def test_a_section_of_a_summary_is_named_in_the_list_alone():
+    """Titles of sections are not typed again, but where a family gives its own figures."""
+    sections = {f.section for f in KNOWN.values()} - {"Cage", "Wear"}  # words of other things too
+    calls = [node for _, node in nodes(ast.Call) if ast.unparse(node.func) == "figures_in"]
+    listed = {part for call in calls for part in ast.walk(call)}
+    rooms = ("results", "run", "stress", "study", "report")
+    again = [
+        f"{path.name}:{node.lineno} {node.value}"
+        for path, tree in TREES.items()
+        if path.relative_to(Path(flexcage.__file__).parent).parts[0] in rooms
+        for node in ast.walk(tree)
+        if isinstance(node, ast.Constant) and node.value in sections and node not in listed
+    ]
+    assert not again, f"take it from KNOWN: {again}"
+
+
+def test_figures_of_a_section_stand_behind_the_figure_that_is_named():
+    first = Summary().with_figures([figure("cage_mass", 1.0)]).with_figures([figure("steps", 3)])
+    summary = first.with_figures([figure("stress_peak", 1e6)], after="cage_mass")
+    assert [s.rows[0].key for s in summary.sections] == ["cage_mass", "stress_peak", "steps"]
+    assert [s.title for s in summary.sections] == [
+        KNOWN[key].section for key in ("cage_mass", "stress_peak", "steps")
+    ]
+    assert summary.with_figures([figure("steps", 4)])["steps"] == 4
+    assert summary.with_figures([]) == summary

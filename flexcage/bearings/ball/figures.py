@@ -40,6 +40,9 @@ KNOWN = (
         ("contact_angle_inner", "Contact angle, inner race", "deg", "mean of loaded balls", SIGNED,
          BRIEF),
         ("contact_angle_outer", "Contact angle, outer race", "deg", "mean of loaded balls", SIGNED),
+    ),
+    *figures_in(
+        "Grooves",
         ("edge_inner", "Ellipse beyond the inner groove's edge", "deg",
          "largest angle by which a contact ellipse passes the edge; below zero: it stays within",
          SIGNED),
@@ -60,8 +63,24 @@ def speed_rows(ds: xarray.Dataset, bearing: BearingNumbers) -> tuple[Row, ...]:
     note = "about its own axis, cage frame, positive as in rolling"
     own = metrics.at_own_angles(metrics.whole_revolutions(ds), bearing)
     return (
+        *_nominal_rows(ds, bearing),
         figure("ball_spin", spin, note),
         figure("ball_spin_ideal", abs(own.kinematics(inner).element_spin_in_cage), at_angles(own)),
+    )
+
+
+def _nominal_rows(ds: xarray.Dataset, bearing: BearingNumbers) -> tuple[Row, ...]:
+    """What the cage's speed of pure rolling would be at the nominal contact angle, which balls
+    leave under load."""
+    speed, note = metrics.cage_speed(ds, bearing), at_nominal(bearing)
+    part = metrics.whole_revolutions(ds)
+    ideal = part["inner_speed"].values * bearing.nominal.kinematics(1.0).cage_speed
+    slip = element_passes(part, bearing).ratio(
+        ideal - part["cage_omega"].sel(axis="x").values, ideal
+    )
+    return (
+        figure("epicyclic_speed_nominal", speed.nominal, note),
+        statistic("cage_slip_ratio_nominal", slip, note, value=speed.nominal_slip),
     )
 
 

@@ -39,6 +39,7 @@ class RibbonCage(BallCage):
     """
 
     cage_type: ClassVar[str] = "ribbon"
+    riveted: ClassVar[bool] = True
 
     type: str = option("ribbon", doc="kind of cage", choices=BALL_CAGES)
     material: Material = option(MATERIALS["steel"], doc="cage material (a name or its values)")
@@ -58,10 +59,6 @@ class RibbonCage(BallCage):
             f"pockets, which are spheres of {typeset(self.pocket_diameter, 'mm')}, "
             + (f"open at the sides by {opening}" if self.opening else "closed at the sides")
         )
-
-    @property
-    def riveted(self) -> bool:
-        return True
 
     @property
     def opening(self) -> float:
