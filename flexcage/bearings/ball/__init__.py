@@ -9,6 +9,7 @@ from flexcage.bearings.ball.deep_groove import DeepGrooveBallBearing
 from flexcage.bearings.family import Family
 
 if TYPE_CHECKING:
+    from flexcage.geometry.inside import Inside
     from flexcage.integrate.recording import Recording
     from flexcage.render.shapes import ShapesOf
     from flexcage.results.figures import OwnFigures
@@ -67,6 +68,12 @@ def _shapes() -> ShapesOf:
     return ball_shapes
 
 
+def _inside() -> Inside:
+    from flexcage.bearings.ball.inside import INSIDE
+
+    return INSIDE
+
+
 FAMILY = Family(
     name="ball",
     types=(AngularContactBallBearing, DeepGrooveBallBearing),
@@ -78,4 +85,5 @@ FAMILY = Family(
     motion=_motion,
     recording=_recording,
     shapes=_shapes,
+    inside=_inside,
 )

@@ -9,6 +9,7 @@ from flexcage.cages.window.cage import WindowCage
 from flexcage.cages.window.defects import CrossbeamDefect, SideBeamDefect, WindowDefect
 
 if TYPE_CHECKING:
+    from flexcage.geometry.inside import CageProposal
     from flexcage.mesh.build import MeshBuilder
     from flexcage.modes.reduction import Interfaces
     from flexcage.stress.places import Places
@@ -32,8 +33,14 @@ def _places() -> Places:
     return WINDOW_PLACES
 
 
+def _proposal() -> CageProposal:
+    from flexcage.cages.window.proposal import propose_window_cage
+
+    return propose_window_cage
+
+
 WINDOW = CageType(
     name="window", spec=WindowCage, holds=("roller",), mesh=_mesh, interfaces=_interfaces,
-    places=_places, defects=(CrossbeamDefect, SideBeamDefect),
+    places=_places, proposal=_proposal, defects=(CrossbeamDefect, SideBeamDefect),
     defect_spec=WindowDefect,
 )  # fmt: skip
