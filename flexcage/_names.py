@@ -1,6 +1,7 @@
 """Names of a package, loaded from their modules when first used (PEP 562).
 
 A package's stub (``.pyi``) says where each name comes from; type checkers read it as well.
+Modules of which it imports ``*`` are loaded once a name of the package is asked for.
 """
 
 from __future__ import annotations
@@ -22,8 +23,17 @@ def lazy(package: str, file: str) -> tuple[Callable[[str], Any], Callable[[], li
         from pathlib import Path
 
         stub = ast.parse(Path(file).with_suffix(".pyi").read_text("utf-8"))
-        lines = [node for node in stub.body if isinstance(node, ast.ImportFrom)]
-        return {a.asname or a.name: (str(n.module), a.name) for n in lines for a in n.names}
+        found: dict[str, tuple[str, str]] = {}
+        for line in stub.body:
+            if not isinstance(line, ast.ImportFrom):
+                continue
+            module = str(line.module)
+            for name in line.names:
+                if name.name == "*":
+                    found |= {each: (module, each) for each in _public(module)}
+                else:
+                    found[name.asname or name.name] = module, name.name
+        return found
 
     def listed() -> list[str]:
         return sorted(homes())
@@ -41,6 +51,12 @@ def lazy(package: str, file: str) -> tuple[Callable[[str], Any], Callable[[], li
         return value
 
     return find, listed
+
+
+def _public(module: str) -> list[str]:
+    """Names that ``from module import *`` takes."""
+    there = vars(importlib.import_module(module))
+    return [name for name in there if not name.startswith("_")]
 
 
 def unknown(package: str, name: str, homes: Mapping[str, str]) -> AttributeError:

@@ -10,20 +10,15 @@ from typing import Any
 
 from flexcage.bearings import recording_of
 from flexcage.case import Case
+from flexcage.compiling import begin_compiling, build_bearing
 from flexcage.core.binding import expect
 from flexcage.core.locks import held
 from flexcage.core.timing import Stages
 from flexcage.integrate.integration import Integration
 from flexcage.run import Run, warnings_at_start
 from flexcage.run.folder import begun_store, check_written, open_folder
-from flexcage.stages import (
-    assembled_start,
-    begin_compiling,
-    build_bearing,
-    made_cage,
-    run_store,
-    stored_cage,
-)
+from flexcage.run.storing import run_store, stored_cage
+from flexcage.stages import assembled_start, made_cage
 
 
 def simulate(

@@ -1,23 +1,5 @@
-from flexcage.bearings.ball.angular_contact import (
-    AngularContactBallBearing as AngularContactBallBearing,
-)
-from flexcage.bearings.ball.bearing import BallBearing as BallBearing
-from flexcage.bearings.ball.deep_groove import DeepGrooveBallBearing as DeepGrooveBallBearing
-from flexcage.bearings.cylindrical_roller.bearing import RollerBearing as RollerBearing
-from flexcage.bearings.cylindrical_roller.bearing import RollerProfile as RollerProfile
-from flexcage.bearings.cylindrical_roller.bearing import Spall as Spall
-from flexcage.cages.machined.cage import BallCage as BallCage
-from flexcage.cages.machined.defects import BallCageDefect as BallCageDefect
-from flexcage.cages.machined.defects import DisplacedPocket as DisplacedPocket
-from flexcage.cages.machined.defects import ElongatedPocket as ElongatedPocket
-from flexcage.cages.machined.defects import EnlargedPocket as EnlargedPocket
-from flexcage.cages.machined.defects import WebCrack as WebCrack
-from flexcage.cages.ribbon.cage import RibbonCage as RibbonCage
-from flexcage.cages.ribbon.defects import MissingRivet as MissingRivet
-from flexcage.cages.window.cage import WindowCage as WindowCage
-from flexcage.cages.window.defects import CrossbeamDefect as CrossbeamDefect
-from flexcage.cages.window.defects import SideBeamDefect as SideBeamDefect
-from flexcage.cages.window.defects import WindowDefect as WindowDefect
+from flexcage.bearings.specs import *  # noqa: F403
+from flexcage.cages.specs import *  # noqa: F403
 from flexcage.contacts.spec import Contacts as Contacts
 from flexcage.contacts.spec import EhlTraction as EhlTraction
 from flexcage.contacts.spec import FrictionLaw as FrictionLaw

@@ -13,7 +13,7 @@ from flexcage.contacts.spec import EhlTraction
 from flexcage.core.binding import expect
 from flexcage.core.errors import EnvironmentLacks, InputError
 from flexcage.geometry.film import creep_speed
-from flexcage.system.statics.options import StaticOptions
+from flexcage.system.statics.options import AT_START, StaticOptions
 from flexcage.system.statics.solution import StaticSolution
 from flexcage.system.statics.solve import solve_bearing
 
@@ -32,10 +32,6 @@ def solve_static(case: StaticCase, *, options: StaticOptions | None = None) -> S
         case.bearing, statics_of(case.bearing), load=case.load, speed=case.speed,
         contacts=case.contacts, lubricant=case.lubricant, options=options or case.static,
     )  # fmt: skip
-
-
-#: As a run begins: no race controls balls.
-AT_START = StaticOptions(gyroscopic="none")
 
 
 def ehl_traction(

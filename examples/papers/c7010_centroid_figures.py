@@ -9,7 +9,7 @@ from ball_claim import by_parts, estimate
 
 import flexcage
 from flexcage.results import instrument, metrics
-from flexcage.results.statistics import roller_passes
+from flexcage.results.statistics import element_passes
 from flexcage.study.verdicts import Estimate
 
 PLANE = 15e-3  # assumption: axial distance of the radial sensors, which the paper does not give
@@ -43,7 +43,7 @@ class Found:
 def evaluate(run: flexcage.Run) -> Found:
     """Figures of one run, its settled part."""
     case, ds = run.case, metrics.settled(run.dataset, run.case.output.settle)
-    speed, windows = metrics.cage_speed(ds, run.numbers), roller_passes(ds, run.numbers)
+    speed, windows = metrics.cage_speed(ds, run.numbers), element_passes(ds, run.numbers)
     omega, radius = ds["cage_omega"].sel(axis="x").values, metrics.whirl_radius(ds, about="axis")
     centre, axis = instrument.of_run(ds)
     setup = instrument.LaserSetup(

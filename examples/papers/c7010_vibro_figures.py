@@ -12,7 +12,7 @@ import flexcage
 from flexcage.bearings.ball.slip import slip_ratio
 from flexcage.results import metrics
 from flexcage.results.reductions import main_line, mean_frequency
-from flexcage.results.statistics import Windows, roller_passes
+from flexcage.results.statistics import Windows, element_passes
 from flexcage.study.verdicts import Estimate
 
 LOW_PASS = 2e3  # Hz, of the cage's speed beside the raw 20 kHz
@@ -48,7 +48,7 @@ def evaluate(run: flexcage.Run) -> Figures:
     """Figures of a run."""
     ds = metrics.whole_revolutions(metrics.settled(run.dataset, run.case.output.settle))
     numbers = run.numbers
-    windows = roller_passes(ds, numbers)
+    windows = element_passes(ds, numbers)
     time = ds["time"].values
     step = float(np.median(np.diff(time)))
     force = ds["race_force"].transpose("time", "element", "race").values.astype(float)

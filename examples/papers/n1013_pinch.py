@@ -13,10 +13,11 @@ from n1013_view import BASE, PAPER, SHORTER, STRESS, View, shown
 
 from flexcage import Case
 from flexcage.cages.window.places import WINDOW_PLACES
+from flexcage.compiling import build_bearing
 from flexcage.fem.free import FreeBodySolver
 from flexcage.fem.model import assemble
 from flexcage.mesh.cage_mesh import CageMesh
-from flexcage.stages import build_bearing, cage_mesh, cage_reduction
+from flexcage.stages import cage_mesh, cage_reduction
 from flexcage.stress.operators import VertexStress, von_mises
 from flexcage.stress.recovery import CageLoads, StressRecovery
 from flexcage.study.verdicts import FAILS, HOLDS, Line, Verdict

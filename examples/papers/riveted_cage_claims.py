@@ -15,7 +15,7 @@ from ball_claim import Claim, Found, Shown, View, rising
 
 import flexcage
 from flexcage.results.metrics import settled
-from flexcage.results.statistics import roller_passes
+from flexcage.results.statistics import element_passes
 from flexcage.study.verdicts import Estimate, Verdict, every, less, unchanged
 
 PAPER = "Machines 2024, 12(7), 466"
@@ -85,7 +85,7 @@ def _rivet_stress(run: flexcage.Run) -> Estimate | None:
         return None
     share = run.case.output.settle
     worst = settled(run.rivets.dataset, share)["stress"].max("rivet").values
-    record = roller_passes(settled(run.dataset, share), run.numbers).peak(worst)
+    record = element_passes(settled(run.dataset, share), run.numbers).peak(worst)
     return Estimate(record.value, record.margin)
 
 

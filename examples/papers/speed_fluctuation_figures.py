@@ -11,7 +11,7 @@ from ball_claim import by_parts, estimate
 import flexcage
 from flexcage.results import metrics
 from flexcage.results.reductions import main_line
-from flexcage.results.statistics import roller_passes
+from flexcage.results.statistics import element_passes
 from flexcage.study.verdicts import Estimate
 
 KEPT = 1e-3  # s, between the paper's own samples
@@ -45,7 +45,7 @@ class Figures:
 def evaluate(run: flexcage.Run, period: float) -> Figures:
     """Figures of a run whose ring's speed has waves of this ``period`` [s]."""
     ds = metrics.settled(run.dataset, run.case.output.settle)
-    windows = roller_passes(ds, run.numbers)
+    windows = element_passes(ds, run.numbers)
     time = ds["time"].values
     step = float(np.median(np.diff(time)))
     every = round(KEPT / step)

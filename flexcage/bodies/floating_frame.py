@@ -32,7 +32,9 @@ from scipy import sparse
 
 from flexcage.core.errors import InputError
 from flexcage.core.jit import VECTORISED, copy_into, kernel, part, zero
-from flexcage.core.vectors import combine, cross, minus, plus, times, xyz
+from flexcage.core.vectors import RIGID, TURN, combine, cross, minus, plus, times, xyz
+
+XX, YY, ZZ, YZ, ZX, XY = range(6)  # rows of a symmetric part
 
 
 class BodyData(NamedTuple):
@@ -260,9 +262,9 @@ def _superpose_both(parts, q, qd, out, outd):
 def _times_symmetric(G, w):
     """Product of a symmetric matrix, given as six numbers, with a vector."""
     return (
-        G[0] * w[0] + G[5] * w[1] + G[4] * w[2],
-        G[5] * w[0] + G[1] * w[1] + G[3] * w[2],
-        G[4] * w[0] + G[3] * w[1] + G[2] * w[2],
+        G[XX] * w[0] + G[XY] * w[1] + G[ZX] * w[2],
+        G[XY] * w[0] + G[YY] * w[1] + G[YZ] * w[2],
+        G[ZX] * w[0] + G[YZ] * w[1] + G[ZZ] * w[2],
     )
 
 
@@ -280,7 +282,7 @@ def _moments(d, q, qd, work):
     for i in range(3):
         moved = rate = 0.0
         for k in range(n):
-            H[i, k], H[3 + i, k] = d.C[i, k], P[i, k]
+            H[i, k], H[TURN + i, k] = d.C[i, k], P[i, k]
             moved += d.C[i, k] * q[k]
             rate += d.C[i, k] * qd[k]
         c[i], cd[i] = d.c0[i] + moved, rate
@@ -299,17 +301,17 @@ def _rigid_mass(mass, c, G, M):
     for i in range(3):
         j, k = (i + 1) % 3, (i + 2) % 3
         for l in range(3):
-            M[i, l] = M[i, 3 + l] = M[3 + l, i] = 0.0
+            M[i, l] = M[i, TURN + l] = M[TURN + l, i] = 0.0
         M[i, i] = mass
-        M[3 + i, 3 + i] = G[j] + G[k]
-        M[3 + j, 3 + k] = M[3 + k, 3 + j] = -G[3 + i]
+        M[TURN + i, TURN + i] = G[j] + G[k]
+        M[TURN + j, TURN + k] = M[TURN + k, TURN + j] = -G[YZ + i]
     # rows of translation: w' x c = -c~ w'
-    M[0, 4], M[0, 5] = c[2], -c[1]
-    M[1, 3], M[1, 5] = -c[2], c[0]
-    M[2, 3], M[2, 4] = c[1], -c[0]
+    M[0, TURN + 1], M[0, TURN + 2] = c[2], -c[1]
+    M[1, TURN], M[1, TURN + 2] = -c[2], c[0]
+    M[2, TURN], M[2, TURN + 1] = c[1], -c[0]
     for i in range(3):
         for j in range(3):
-            M[3 + j, i] = M[i, 3 + j]
+            M[TURN + j, i] = M[i, TURN + j]
 
 
 @kernel(fastmath=VECTORISED)
@@ -329,32 +331,32 @@ def inertia_terms(d, w, q, qd, work):
     zero(h)
     for k in range(d.gff.shape[0]):
         for l in range(n):
-            h[6 + k] += d.gff[k, l] * q[l]
-        M[3, 3] -= q[k] * h[6 + k]
-        shortening += qd[k] * h[6 + k]
+            h[RIGID + k] += d.gff[k, l] * q[l]
+        M[TURN, TURN] -= q[k] * h[RIGID + k]
+        shortening += qd[k] * h[RIGID + k]
     w2 = wx * wx + wy * wy + wz * wz
     for k in range(n):
         # w^T E_k w - w^2 tr E_k + 2 w . int u x phi_k
-        s = (wx * wx - w2) * E[0, k] + (wy * wy - w2) * E[1, k] + (wz * wz - w2) * E[2, k]
-        s += 2.0 * (wy * wz * E[3, k] + wz * wx * E[4, k] + wx * wy * E[5, k])
+        s = (wx * wx - w2) * E[XX, k] + (wy * wy - w2) * E[YY, k] + (wz * wz - w2) * E[ZZ, k]
+        s += 2.0 * (wy * wz * E[YZ, k] + wz * wx * E[ZX, k] + wx * wy * E[XY, k])
         s += 2.0 * (wx * Pd[0, k] + wy * Pd[1, k] + wz * Pd[2, k])
-        h[6 + k] = wx * wx * h[6 + k] + s
+        h[RIGID + k] = wx * wx * h[RIGID + k] + s
     flow = (0.0, 0.0, 0.0)  # int p x u
     for k in range(n):
-        flow = combine(flow, qd[k], (H[3, k], H[4, k], H[5, k]))
+        flow = combine(flow, qd[k], (H[TURN, k], H[TURN + 1, k], H[TURN + 2, k]))
     first, rate = xyz(work.c[0]), xyz(work.c[1])
     force = plus(cross(spin, cross(spin, first)), times(2.0, cross(spin, rate)))
     Jw = (
-        M[3, 3] * wx + M[3, 4] * wy + M[3, 5] * wz,
-        M[4, 3] * wx + M[4, 4] * wy + M[4, 5] * wz,
-        M[5, 3] * wx + M[5, 4] * wy + M[5, 5] * wz,
+        M[TURN, TURN] * wx + M[TURN, TURN + 1] * wy + M[TURN, TURN + 2] * wz,
+        M[TURN + 1, TURN] * wx + M[TURN + 1, TURN + 1] * wy + M[TURN + 1, TURN + 2] * wz,
+        M[TURN + 2, TURN] * wx + M[TURN + 2, TURN + 1] * wy + M[TURN + 2, TURN + 2] * wz,
     )
     moment = minus(cross(spin, Jw), cross(flow, spin))
-    moment = combine(moment, 2.0 * (D[0] + D[1] + D[2]), spin)
+    moment = combine(moment, 2.0 * (D[XX] + D[YY] + D[ZZ]), spin)
     moment = combine(moment, -2.0, _times_symmetric(D, spin))
     for i in range(3):
-        h[i], h[3 + i] = force[i], moment[i]
-    h[3] -= 2.0 * shortening * wx
+        h[i], h[TURN + i] = force[i], moment[i]
+    h[TURN] -= 2.0 * shortening * wx
 
 
 @part(fastmath=VECTORISED)

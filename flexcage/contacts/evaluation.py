@@ -29,4 +29,5 @@ DAMPED, RUBBED = 6, 7  # power of damping and of friction [W]
 ROLLED = 8  # power of a race's rolling resistance [W]
 SHEARED = 8  # power of a land's film [W]
 APPROACH = 9  # speed at which the surfaces near [m/s]; of two lands the second one's follows
+N_RACE = ROLLED + 1  # so many of them a race reports
 N_SUMS = 11

@@ -31,7 +31,7 @@ from flexcage.contacts.slices import (
 )
 from flexcage.contacts.state import clear
 from flexcage.core.jit import outlined, part, zero
-from flexcage.core.vectors import row, xyz
+from flexcage.core.vectors import RIGID, row, xyz
 
 
 @outlined
@@ -79,7 +79,7 @@ def pocket_contact(i, roller, cage, data, laws, sl, pw, pair, mode, sums):
             )  # fmt: skip
     if mode == TANGENT and any_contact:
         if data.soft != 0:
-            soften(6 + data.phi.shape[4], pw)
+            soften(RIGID + data.phi_max.shape[0], pw)
         give_pair(pw, pair)
     elif mode >= REPORT and data.soft != 0:
         for l in range(pw.b.shape[0]):

@@ -12,6 +12,7 @@ from math import sqrt
 from flexcage.contacts.state import add_end_generator, add_generator, approach
 from flexcage.core.jit import VECTORISED, part, zero
 from flexcage.core.vectors import (
+    MOMENT,
     combine,
     cross,
     dot,
@@ -64,7 +65,7 @@ def push_by_crossbeam(data, f, span, Rw, a, face, sl, pw, wrench):
     force, moment = turned_back(pw.G, force), turned_back(pw.G, moment)
     for c in range(3):
         wrench[c] += force[c]
-        wrench[3 + c] += moment[c]
+        wrench[MOMENT + c] += moment[c]
     pw.normal[f] = normal
     pw.tangential[f] = tangential
 
@@ -124,7 +125,7 @@ def normal_generator(pose, data, distance, f, k, n, r, pw, out):
     moment = cross(times(data.s[k], row(pose.axis, 0)), along)
     for c in range(3):
         out[c] += along[c]
-        out[3 + c] += moment[c]
+        out[MOMENT + c] += moment[c]
 
 
 @part
@@ -163,7 +164,7 @@ def push_by_side_beam(pose, data, f, distance, sl, pw, pair):
         moment = cross(r, t)
         for c in range(3):
             pair.wrench[c] += N * (Wn[c] - sl.g[k] * t[c])
-            pair.wrench[3 + c] += N * (Wn[3 + c] - sl.g[k] * moment[c])
+            pair.wrench[MOMENT + c] += N * (Wn[MOMENT + c] - sl.g[k] * moment[c])
         pw.normal[f] += N
         pw.tangential[f] += N * sl.g[k] * sl.u[k]
 

@@ -10,8 +10,9 @@ from __future__ import annotations
 from flexcage.contacts.condensation import factor
 from flexcage.contacts.pocket_forces import axes_of_face, lever_of_slice, normal_generator
 from flexcage.contacts.pocket_wall import span_of, station_weight
-from flexcage.contacts.state import add_generator
+from flexcage.contacts.state import WHOLE, add_generator
 from flexcage.core.jit import VECTORISED, outlined, part, zero
+from flexcage.core.vectors import RIGID
 
 
 @outlined
@@ -22,8 +23,10 @@ def add_tangent(pose, data, i, f, Rw, distance, sl, pw):
     are there as well where damping holds back all force.
     """
     n, e1, e2 = axes_of_face(pw, f)
-    normal, first, second, whole = pw.gen[0], pw.gen[1], pw.gen[2], pw.gen[3]
-    moving = 6 + data.phi.shape[4]  # what has a velocity: residual coordinates follow at once
+    normal, first, second, whole = pw.gen[0], pw.gen[1], pw.gen[2], pw.gen[WHOLE]
+    moving = (
+        RIGID + data.phi_max.shape[0]
+    )  # what has a velocity: residual coordinates follow at once
     size = moving + (pw.size[0] if data.soft != 0 else 0)
     span = span_of(pw, f)
     for k in range(span[0], span[1]):
@@ -53,19 +56,19 @@ def add_tangent(pose, data, i, f, Rw, distance, sl, pw):
 def _add_modes(data, i, f, k, face, gen):
     """What forces on slice k of face f do to the modes."""
     sgn = 1.0 if f % 2 == 0 else -1.0
-    n_st, n_m, slope = data.phi.shape[2], data.phi.shape[4], face.slope[k]
+    n_st, n_m, slope = data.phi.shape[2], data.phi_max.shape[0], face.slope[k]
     across, along = (2, 0) if f < 2 else (0, 2)
     one, two = (0, 1) if f < 2 else (1, 2)
     for g in range(3):
         for m in range(n_m):
-            gen[g, 6 + m] = 0.0
+            gen[g, RIGID + m] = 0.0
     j = face.j[k]
     for s in range(max(j - 1, 0), min(j + 3, n_st)):
         w, shape = station_weight(face, k, n_st, s), data.phi[i, f, s]
         for m in range(n_m):
-            gen[0, 6 + m] += w * (sgn * shape[across, m] - slope * shape[along, m])
-            gen[1, 6 + m] -= w * shape[one, m]
-            gen[2, 6 + m] -= w * shape[two, m]
+            gen[0, RIGID + m] += w * (sgn * shape[across, m] - slope * shape[along, m])
+            gen[1, RIGID + m] -= w * shape[one, m]
+            gen[2, RIGID + m] -= w * shape[two, m]
 
 
 @part(fastmath=VECTORISED)
@@ -82,7 +85,7 @@ def _add_damping(n, Nv, friction, gen, C):
     """Damping of one slice: of its normal force by approach, of its friction by sliding."""
     f11, f12, f22 = friction
     for c in range(n):
-        x = Nv * gen[3, c]
+        x = Nv * gen[WHOLE, c]
         y, z = f11 * gen[1, c] + f12 * gen[2, c], f12 * gen[1, c] + f22 * gen[2, c]
         for e in range(n):
             C[c, e] += x * gen[0, e] + y * gen[1, e] + z * gen[2, e]

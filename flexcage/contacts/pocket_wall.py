@@ -17,10 +17,11 @@ from flexcage.contacts.slices import ROOM, largest
 from flexcage.contacts.state import CageModes, RollerPose
 from flexcage.core.jit import VECTORISED, part
 from flexcage.core.splines import smooth_weights
-from flexcage.core.vectors import dot, row
+from flexcage.core.vectors import RIGID, dot, row
 
 N_LOCAL = 12  # residual coordinates of a pocket: uniform, linear and quadratic on four faces
 N_FACE = 6  # the softest of those that move one face
+LAST = 3  # of the four stations that a slice reads
 BLOCK = 8  # slices that are looked at together
 SLACK = 0.1  # of a penetration, by which the residual deflection may bring slices to the roller
 
@@ -136,7 +137,7 @@ class PocketLaws(NamedTuple):
 
 def pocket_work(n_slices: int, n_points: int, n_stations: int, n_modes: int) -> PocketWork:
     st, z, m = n_stations, np.zeros, N_LOCAL
-    whole = filled(6 + n_modes + m, 8)
+    whole = filled(RIGID + n_modes + m, 8)
     return PocketWork(
         z((3, 3)), z(4, FACE).view(np.recarray), z(4, np.int64), z((4, 2), np.uint64),
         z(4, np.int64), z(4), z(4), z(4), z((3, filled(st, 4) + 2)), z((4, st + 2)),
@@ -229,7 +230,7 @@ def station_weight(face, k, n, s):
     if j == 0:
         w += 2.0 * face.w[0, k] if s == 0 else (-face.w[0, k] if s == 1 else 0.0)
     if j + 3 == n + 1:
-        w += 2.0 * face.w[3, k] if s == n - 1 else (-face.w[3, k] if s == n - 2 else 0.0)
+        w += 2.0 * face.w[LAST, k] if s == n - 1 else (-face.w[LAST, k] if s == n - 2 else 0.0)
     return w
 
 
@@ -253,7 +254,7 @@ def add_share(span, j, weights, face, v0, v1, v2, v3, out):
     first that is looked at."""
     seen = j > face.j_least
     for k in range(span[0], span[1]):
-        x = weights[0, k] * v0 + weights[1, k] * v1 + weights[2, k] * v2 + weights[3, k] * v3
+        x = weights[0, k] * v0 + weights[1, k] * v1 + weights[2, k] * v2 + weights[LAST, k] * v3
         rest = out[k] if seen else 0.0
         out[k] = x if face.j[k] == j else rest
 
@@ -419,7 +420,7 @@ def _weigh(span, n_st, dx, face):
         face.w[0, k], face.ws[0, k] = v0 + over * d0, inside * d0
         face.w[1, k], face.ws[1, k] = v1 + over * d1, inside * d1
         face.w[2, k], face.ws[2, k] = v2 + over * d2, inside * d2
-        face.w[3, k], face.ws[3, k] = v3 + over * d3, inside * d3
+        face.w[LAST, k], face.ws[LAST, k] = v3 + over * d3, inside * d3
     least = most = face.j[span[0]]
     for k in range(span[0], span[1]):
         least, most = min(least, face.j[k]), max(most, face.j[k])

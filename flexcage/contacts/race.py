@@ -37,6 +37,7 @@ from flexcage.contacts.state import (
     MOMENT,
     SPIN,
     VELOCITY,
+    WHOLE,
     add_generator,
     add_outer,
     add_wrench,
@@ -178,7 +179,7 @@ def push_by_race(m, pose, side, Rw, theta, rw, pair, mode, sums):
         # surface and + hydro F t through its centre (hydro = 2 R/Rw); the ring gets the reaction
         # of the same wrench at the contact point
         pair.wrench[2] += (side.hydro - 1.0) * rw.rolling[m]
-        pair.wrench[3] += side.sign * Rw * rw.rolling[m]
+        pair.wrench[MOMENT] += side.sign * Rw * rw.rolling[m]
         if mode >= REPORT:
             sums[ROLLED] -= rw.rolling[m] * (rw.speed[m] + rw.ring_speed[m])
 
@@ -310,7 +311,7 @@ def _lean(first, pose, side, P, b, theta, sl, pair, mode, sums):
 def _tangent(first, pose, side, Rw, P, b, theta, sl, pair):
     """The slices' share of the pair's tangent."""
     a = row(pose.axis, 0)
-    Wn, Wx, Wt, Wf = pair.W[0], pair.W[1], pair.W[2], pair.W[3]
+    Wn, Wx, Wt, Wf = pair.W[0], pair.W[1], pair.W[2], pair.W[WHOLE]
     for k in range(side.s.shape[0]):
         at = first + np.uint64(k)
         if sl.N[at] <= 0.0:

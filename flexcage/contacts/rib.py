@@ -20,6 +20,7 @@ from flexcage.contacts.state import (
     CENTRE,
     SPIN,
     VELOCITY,
+    WHOLE,
     add_end_generator,
     add_generator,
     add_outer,
@@ -63,7 +64,7 @@ def rib_contact(pose, ring, data, onset, laws, sl, pair, mode, sums):
     e1 = (-ring_axis[1] / d, ring_axis[0] / d, 0.0)
     e2 = cross(ring_axis, e1)
     count = data.points.shape[0]
-    Wn, W1, W2, V = pair.W[0], pair.W[1], pair.W[2], pair.W[3]
+    Wn, W1, W2, V = pair.W[0], pair.W[1], pair.W[2], pair.W[WHOLE]
     active = False
     for f in range(2):
         sgn = 1.0 if f == 0 else -1.0

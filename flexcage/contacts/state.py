@@ -13,11 +13,17 @@ from typing import NamedTuple
 import numpy as np
 
 from flexcage.core.jit import outlined, part, zero
+from flexcage.core.vectors import MOMENT, TURN
 
-MOMENT = 3  # place in a 6-vector behind the force or translation
+# places behind the centre's, in coordinates and in velocities of a roller or the inner ring
+Q_SKEW, Q_TILT, Q_SPIN = 3, 4, 5
+U_SPIN, U_SKEW, U_TILT = 3, 4, 5
 # rows (4, 3) of a ring as a roller's partner, in F: roller's centre from the ring's, ring's axis,
 # velocity of its centre, angular velocity
 CENTRE, AXIS, VELOCITY, SPIN = range(4)
+WHOLE = 3  # row of a slice's generators: all of its force
+# rows of a pose that is kept, behind those of F: axes, velocity, angular velocity
+KEPT_AXES, KEPT_V, KEPT_W, KEPT = 3, 6, 7, 8
 
 
 class RollerPose(NamedTuple):
@@ -70,32 +76,32 @@ def set_pose(q, u, pose):
     The axis is e_x turned by the skew about e_r, then by the tilt about the turned e_psi.
     """
     set_frame(q[2], pose.F)
-    cx, sx, ce, se = cos(q[3]), sin(q[3]), cos(q[4]), sin(q[4])
+    cx, sx, ce, se = cos(q[Q_SKEW]), sin(q[Q_SKEW]), cos(q[Q_TILT]), sin(q[Q_TILT])
     a = pose.axis
     a[0, 0], a[0, 1], a[0, 2] = cx * ce, se, -sx * ce
     a[1, 0], a[1, 1], a[1, 2] = -cx * se, ce, sx * se
     a[2, 0], a[2, 1], a[2, 2] = sx, 0.0, cx
     for j in range(3):
         pose.V[j] = u[j]
-        pose.w[j] = u[3] * a[0, j] + u[4] * a[1, j] + u[5] * a[2, j]
+        pose.w[j] = u[U_SPIN] * a[0, j] + u[U_SKEW] * a[1, j] + u[U_TILT] * a[2, j]
 
 
 @part
-def keep_pose(pose, row):
-    """Copy a pose into a row of 24 numbers."""
+def keep_pose(pose, rows):
+    """Copy a pose into eight rows of three numbers."""
     for j in range(3):
         for k in range(3):
-            row[3 * j + k], row[9 + 3 * j + k] = pose.F[j, k], pose.axis[j, k]
-        row[18 + j], row[21 + j] = pose.V[j], pose.w[j]
+            rows[j, k], rows[KEPT_AXES + j, k] = pose.F[j, k], pose.axis[j, k]
+        rows[KEPT_V, j], rows[KEPT_W, j] = pose.V[j], pose.w[j]
 
 
 @part
-def take_pose(row, pose):
-    """The pose that ``keep_pose`` put into a row."""
+def take_pose(rows, pose):
+    """The pose that ``keep_pose`` put into rows."""
     for j in range(3):
         for k in range(3):
-            pose.F[j, k], pose.axis[j, k] = row[3 * j + k], row[9 + 3 * j + k]
-        pose.V[j], pose.w[j] = row[18 + j], row[21 + j]
+            pose.F[j, k], pose.axis[j, k] = rows[j, k], rows[KEPT_AXES + j, k]
+        pose.V[j], pose.w[j] = rows[KEPT_V, j], rows[KEPT_W, j]
 
 
 @part
@@ -111,9 +117,9 @@ def clear(pair, tangent):
 def add_generator(n, r, out):
     """out = (n, r x n): the wrench about the centre of a unit force n at lever r."""
     out[0], out[1], out[2] = n[0], n[1], n[2]
-    out[3] = r[1] * n[2] - r[2] * n[1]
-    out[4] = r[2] * n[0] - r[0] * n[2]
-    out[5] = r[0] * n[1] - r[1] * n[0]
+    out[MOMENT] = r[1] * n[2] - r[2] * n[1]
+    out[MOMENT + 1] = r[2] * n[0] - r[0] * n[2]
+    out[MOMENT + 2] = r[0] * n[1] - r[1] * n[0]
 
 
 @part
@@ -122,9 +128,9 @@ def add_wrench(out, f, r):
     out[0] += f[0]
     out[1] += f[1]
     out[2] += f[2]
-    out[3] += r[1] * f[2] - r[2] * f[1]
-    out[4] += r[2] * f[0] - r[0] * f[2]
-    out[5] += r[0] * f[1] - r[1] * f[0]
+    out[MOMENT] += r[1] * f[2] - r[2] * f[1]
+    out[MOMENT + 1] += r[2] * f[0] - r[0] * f[2]
+    out[MOMENT + 2] += r[0] * f[1] - r[1] * f[0]
 
 
 @part
@@ -145,9 +151,9 @@ def add_end_generator(n, r, axis, distance, out):
     balances it on the partner is put in: the gradient of an energy that knows orbit, not spin.
     """
     add_generator(n, r, out)
-    m = axis[0] * out[3] + axis[1] * out[4] + axis[2] * out[5]
+    m = axis[0] * out[MOMENT] + axis[1] * out[MOMENT + 1] + axis[2] * out[MOMENT + 2]
     for j in range(3):
-        out[3 + j] -= m * axis[j]
+        out[MOMENT + j] -= m * axis[j]
     out[2] += m / distance
 
 
@@ -159,7 +165,7 @@ def approach(W, rel, spin):
     difference of their angular velocities.
     """
     s = W[0] * rel[0] + W[1] * rel[1] + W[2] * rel[2]
-    return -(s + W[3] * spin[0] + W[4] * spin[1] + W[5] * spin[2])
+    return -(s + W[MOMENT] * spin[0] + W[MOMENT + 1] * spin[1] + W[MOMENT + 2] * spin[2])
 
 
 @outlined
@@ -182,12 +188,12 @@ def shift_matrix(R, lever, S):
     for i in range(3):
         for j in range(3):
             S[i, j] = R[0, i, j]
-            S[3 + i, 3 + j] = R[1, i, j]
-            S[3 + i, j] = 0.0
+            S[TURN + i, TURN + j] = R[1, i, j]
+            S[TURN + i, j] = 0.0
     for j in range(3):
-        S[0, 3 + j] = R[1, 1, j] * lever[2] - R[1, 2, j] * lever[1]
-        S[1, 3 + j] = R[1, 2, j] * lever[0] - R[1, 0, j] * lever[2]
-        S[2, 3 + j] = R[1, 0, j] * lever[1] - R[1, 1, j] * lever[0]
+        S[0, TURN + j] = R[1, 1, j] * lever[2] - R[1, 2, j] * lever[1]
+        S[1, TURN + j] = R[1, 2, j] * lever[0] - R[1, 0, j] * lever[2]
+        S[2, TURN + j] = R[1, 0, j] * lever[1] - R[1, 1, j] * lever[0]
 
 
 @outlined

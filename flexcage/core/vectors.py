@@ -4,11 +4,22 @@ from __future__ import annotations
 
 from flexcage.core.jit import VECTORISED, part
 
+# places in a 6-vector behind force, translation or velocity of the centre: rotation or angular
+# velocity, or moment
+TURN = MOMENT = 3
+RIGID = 6  # motions of a rigid body; modes follow
+
 
 @part(fastmath=VECTORISED)
 def xyz(a):
     """The first three entries of an array."""
     return a[0], a[1], a[2]
+
+
+@part(fastmath=VECTORISED)
+def turn_of(a):
+    """The entries of a 6-vector behind its first three: a moment, or an angular velocity."""
+    return a[TURN], a[TURN + 1], a[TURN + 2]
 
 
 @part(fastmath=VECTORISED)

@@ -17,18 +17,18 @@ from math import cos, pi
 class Kinematics:
     """Speeds [rad/s] without slip, and the passing frequencies [Hz] that follow from them.
 
-    ``roller_spin`` is the element's speed about its own axis in the inertial frame;
-    ``roller_spin_in_cage`` is relative to the cage. A slip ratio must compare like with like:
+    ``element_spin`` is the element's speed about its own axis in the inertial frame;
+    ``element_spin_in_cage`` is relative to the cage. A slip ratio must compare like with like:
     mixing the two fakes 8.8 % of slip in an N1013.
     """
 
     cage_speed: float
-    roller_spin: float
-    roller_spin_in_cage: float
+    element_spin: float
+    element_spin_in_cage: float
     outer_race_passing: float
     inner_race_passing: float
     cage_frequency: float
-    roller_frequency: float
+    element_frequency: float
 
 
 @dataclass(frozen=True)
@@ -61,9 +61,9 @@ def rolling_shares(
 
 def epicyclic(
     *,
-    roller_diameter: float,
+    element_diameter: float,
     pitch_diameter: float,
-    roller_count: int,
+    element_count: int,
     inner_speed: float,
     outer_speed: float = 0.0,
     contact_angle: float | tuple[float, float] = 0.0,
@@ -73,20 +73,20 @@ def epicyclic(
     ``contact_angle`` [rad] is that of both races, or those of inner and outer race.
 
     ``outer_race_passing`` and ``inner_race_passing`` are BPFO and BPFI, ``cage_frequency`` FTF,
-    ``roller_frequency`` BSF (one turn of the element relative to the cage; a defect on it strikes
+    ``element_frequency`` BSF (one turn of the element relative to the cage; a defect on it strikes
     at twice that).
     """
     angles = contact_angle if isinstance(contact_angle, tuple) else (contact_angle,) * 2
-    shares = rolling_shares(roller_diameter / pitch_diameter, angles)
+    shares = rolling_shares(element_diameter / pitch_diameter, angles)
     cage = shares.orbit * inner_speed + (1.0 - shares.orbit) * outer_speed
     in_cage = -shares.spin * (inner_speed - outer_speed)
     turns = 1.0 / (2.0 * pi)
     return Kinematics(
         cage_speed=cage,
-        roller_spin=in_cage + cage,
-        roller_spin_in_cage=in_cage,
-        outer_race_passing=roller_count * abs(cage - outer_speed) * turns,
-        inner_race_passing=roller_count * abs(inner_speed - cage) * turns,
+        element_spin=in_cage + cage,
+        element_spin_in_cage=in_cage,
+        outer_race_passing=element_count * abs(cage - outer_speed) * turns,
+        inner_race_passing=element_count * abs(inner_speed - cage) * turns,
         cage_frequency=abs(cage) * turns,
-        roller_frequency=abs(in_cage) * turns,
+        element_frequency=abs(in_cage) * turns,
     )

@@ -28,7 +28,7 @@ def runaway(
     first = int(bad[0])
     number, place = np.unravel_index(int(np.argmax(share[first])), share.shape[1:])
     depth = share[first, number, place] * model.bodies.radius[number] * 1e3
-    element = f"{bearing.motion.element} {number}"
+    element = f"{bearing.spec.element} {number}"
     if place >= 2 + len(bearing.motion.faces) + len(bearing.motion.ribs):
         what = f"the cage came off, {element} is {depth:.2g} mm outside its pocket"
         return first, what, recording.remedy(model)
@@ -50,7 +50,7 @@ def hardest(bearing: Bearing, t: float, y: np.ndarray, yd: np.ndarray) -> str:
     force = _forces(bearing, t, y, yd)
     rank = np.where(np.isnan(force), np.inf, force)
     number, place = np.unravel_index(int(np.argmax(rank)), rank.shape)
-    where = f"{bearing.motion.element} {number} on its {_place(bearing, int(place))}"
+    where = f"{bearing.spec.element} {number} on its {_place(bearing, int(place))}"
     return f"{where} with {force[number, place]:.3g} N"
 
 

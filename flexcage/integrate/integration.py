@@ -101,7 +101,7 @@ class Integration:
         y, yd = self.integrator.last(self.state)
         step = self.bearing.stable_step(self.time, y, yd)
         self.bound = min(self.bound, step)
-        small = self.bearing.motion.implicit and step < self.solver.stable_step
+        small = not self.bearing.spec.explicit_only and step < self.solver.stable_step
         method = "bdf" if small else "explicit"
         if auto and method != self.integrator.name:
             log.debug("%s from t = %.4f ms on: explicit steps up to %.3g us are stable", method,

@@ -26,7 +26,7 @@ def new_store(
 ) -> MemoryRunStore:
     """Allocate a run for this bearing on its sampling grids, at ``path`` or in memory."""
     n, ratio = max(round(duration * output.rate), 2), output.vibration_ratio
-    layout, motion = bearing.layout, bearing.motion
+    layout, motion, spec = bearing.layout, bearing.motion, bearing.spec
     numbers = np.arange(layout.elements)
     coords = {
         "time": np.arange(1, n + 1) / output.rate,
@@ -55,7 +55,7 @@ def new_store(
         block=output.block,
         block_hf=output.block_hf,
         attrs={
-            **attrs, "family": motion.family, "element": motion.element,
+            **attrs, "family": spec.family, "element": spec.element,
             "places": list(motion.places),
         },
     )  # fmt: skip
@@ -63,7 +63,7 @@ def new_store(
 
 def recorded_names(bearing: Bearing) -> list[str]:
     """Names of all that is recorded of this bearing."""
-    every = variables_of(bearing.motion.family)
+    every = variables_of(bearing.spec.family)
     return [name for name in every if bearing.layout.modes or "mode" not in VARIABLES[name].dims]
 
 

@@ -183,8 +183,8 @@ def _motion(scene: Scene, folder: Path) -> list[Drawing]:
     b, ds = scene.bearing, scene.dataset
     numbers = BearingNumbers(
         pitch_diameter=b.pitch_diameter,
-        roller_diameter=b.element_diameter,
-        roller_count=b.element_count,
+        element_diameter=b.element_diameter,
+        element_count=b.element_count,
         contact_angle=b.nominal_contact_angle,
     )
     root = None

@@ -15,7 +15,7 @@ from flexcage.results.contact_activity import EVENTS, contact_series
 from flexcage.results.known import KNOWN, SETTLING, KnownFigure, marked
 from flexcage.results.metrics import BearingNumbers, SlipRange
 from flexcage.results.ring_figures import constraint_sections, ring_section
-from flexcage.results.statistics import Record, Windows, roller_passes
+from flexcage.results.statistics import Record, Windows, element_passes
 from flexcage.results.summary import Row, Section, Summary, figure, statistic
 
 if TYPE_CHECKING:
@@ -57,7 +57,7 @@ def summarise(
     if not 0.0 <= settle < 1.0:
         raise InputError(f"settle must lie in 0 ... 1, not {settle}.", where="output.settle")
     part = metrics.settled(ds, settle)
-    windows = roller_passes(part, bearing)
+    windows = element_passes(part, bearing)
     own: OwnFigures = metrics.family(ds).figures()
     sections = [
         Section("Speeds", (*_speed_rows(part, bearing), *own.speeds(part, bearing))),
@@ -103,7 +103,7 @@ def _statistics_rows(
 def _speed_rows(ds: xarray.Dataset, bearing: BearingNumbers) -> tuple[Row, ...]:
     speed = metrics.cage_speed(ds, bearing)
     part = metrics.whole_revolutions(ds)
-    windows = roller_passes(part, bearing)
+    windows = element_passes(part, bearing)
     omega = part["cage_omega"].sel(axis="x").values
     own = metrics.at_own_angles(part, bearing)
     ideal = part["inner_speed"].values * own.kinematics(1.0).cage_speed
@@ -142,13 +142,13 @@ def _nominal_rows(
 
 def _motion_rows(ds: xarray.Dataset, bearing: BearingNumbers) -> tuple[Row, ...]:
     whole = metrics.whole_revolutions(ds)
-    windows = roller_passes(whole, bearing)
+    windows = element_passes(whole, bearing)
     about_mean, about_axis = (
         windows.mean(metrics.whirl_radius(whole, about=c)) for c in ("mean", "axis")
     )
     mean, axis = metrics.whirl(whole, about="mean"), metrics.whirl(whole, about="axis")
     lean = metrics.tilt(ds).sel(component="total")
-    leaning = roller_passes(ds, bearing).mean(lean.values)
+    leaning = element_passes(ds, bearing).mean(lean.values)
     rate = f"{metrics.sampling_rate(ds) / 1e3:g} kHz"
     return (
         statistic("whirl_radius", about_mean, "about the orbit's mean"),

@@ -40,8 +40,8 @@ class BearingNumbers:
     """
 
     pitch_diameter: float
-    roller_diameter: float
-    roller_count: int
+    element_diameter: float
+    element_count: int
     contact_angle: float = 0.0
     own_angles: tuple[float, float] | None = None
     rolling_heights: tuple[float, float] = (0.0, 0.0)
@@ -59,9 +59,9 @@ class BearingNumbers:
     def kinematics(self, inner_speed: float, outer_speed: float = 0.0) -> Kinematics:
         """Speeds without slip at the given speeds of the rings [rad/s]."""
         return epicyclic(
-            roller_diameter=self.roller_diameter,
+            element_diameter=self.element_diameter,
             pitch_diameter=self.pitch_diameter,
-            roller_count=self.roller_count,
+            element_count=self.element_count,
             contact_angle=self.angles,
             inner_speed=inner_speed,
             outer_speed=outer_speed,
@@ -257,9 +257,9 @@ def rolling_by_curvature(ds: xarray.Dataset, bearing: BearingNumbers) -> BallRol
     if size is None:
         return None
     heights = own.rolling_heights[0] * size[0], own.rolling_heights[1] * size[1]
-    ratio = bearing.roller_diameter / bearing.pitch_diameter
+    ratio = bearing.element_diameter / bearing.pitch_diameter
     middle, above = (rolling_shares(ratio, own.angles, h) for h in ((0.0, 0.0), heights))
-    rolling = above.spin * abs(float(ds["inner_speed"].mean())) * 0.5 * bearing.roller_diameter
+    rolling = above.spin * abs(float(ds["inner_speed"].mean())) * 0.5 * bearing.element_diameter
     return BallRolling(
         1.0 - above.orbit / middle.orbit, 1.0 - above.spin / middle.spin,
         (rolling * heights[0], rolling * heights[1]),

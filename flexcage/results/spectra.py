@@ -42,8 +42,8 @@ def bearing_frequencies(
     return {
         "FTF": speeds.cage_frequency,
         "shaft": abs(inner_speed) / (2.0 * pi),
-        "BSF": speeds.roller_frequency,
-        "2 BSF": 2.0 * speeds.roller_frequency,
+        "BSF": speeds.element_frequency,
+        "2 BSF": 2.0 * speeds.element_frequency,
         "BPFO": speeds.outer_race_passing,
         "BPFI": speeds.inner_race_passing,
     }

@@ -119,9 +119,9 @@ class Windows:
         return Record(sums, self.turn)
 
 
-def roller_passes(ds: xarray.Dataset, bearing: BearingNumbers) -> Windows:
+def element_passes(ds: xarray.Dataset, bearing: BearingNumbers) -> Windows:
     """Windows of a (settled) run; a cage that stands still gives one window, and no margins."""
     n = ds.sizes["time"]
-    passes = abs(np.ptp(metrics.cage_angle(ds))) * bearing.roller_count / (2.0 * np.pi)
+    passes = abs(np.ptp(metrics.cage_angle(ds))) * bearing.element_count / (2.0 * np.pi)
     count = int(np.clip(round(passes), 1, n))
-    return Windows(n, np.arange(count) * n // count, bearing.roller_count)
+    return Windows(n, np.arange(count) * n // count, bearing.element_count)

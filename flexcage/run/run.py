@@ -27,7 +27,7 @@ from flexcage.modes.table import ModeTable
 from flexcage.results import mode_file
 from flexcage.results.film import film_thickness
 from flexcage.results.metrics import BearingNumbers, settled
-from flexcage.results.statistics import roller_passes
+from flexcage.results.statistics import element_passes
 from flexcage.results.store import MemoryRunStore
 from flexcage.results.summary import Row, Summary
 from flexcage.run.summary import summary_of, time_rows, warned, with_stress
@@ -108,8 +108,8 @@ class Run:
         b = self.case.bearing
         return BearingNumbers(
             pitch_diameter=b.pitch_diameter,
-            roller_diameter=b.element_diameter,
-            roller_count=b.element_count,
+            element_diameter=b.element_diameter,
+            element_count=b.element_count,
             contact_angle=b.nominal_contact_angle,
             rolling_heights=b.rolling_heights,
         )
@@ -192,7 +192,7 @@ class Run:
         expect(used, WearLaw, "law")
         check_spec(used, "law")
         ds = settled(self.dataset, case.output.settle)
-        windows = roller_passes(ds, self.numbers)
+        windows = element_passes(ds, self.numbers)
         return wear(ds, case.bearing, case.cage, case.land, used, windows)
 
     @cached_property

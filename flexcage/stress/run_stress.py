@@ -18,7 +18,7 @@ from flexcage.mesh.cage_mesh import CageMesh
 from flexcage.modes.reduction import CageReduction
 from flexcage.results.figures import pass_peak
 from flexcage.results.metrics import BearingNumbers, cage_angle, settled
-from flexcage.results.statistics import roller_passes
+from flexcage.results.statistics import element_passes
 from flexcage.results.store import MemoryRunStore
 from flexcage.results.summary import Row, figure, statistic
 from flexcage.stress.between import Between
@@ -170,7 +170,7 @@ class RunStress:
         for name, tensors in histories:
             counted = counted_stress(tensors, used.mean_stress_sensitivity)
             stresses[name] = (int(fields.vertices[fields.places[name][counted.point]]), counted)
-        windows, t = roller_passes(ds, self.numbers), ds["time"].values
+        windows, t = element_passes(ds, self.numbers), ds["time"].values
         turns = abs(float(np.ptp(cage_angle(ds)))) / (2.0 * np.pi)
         time = float(t[-1] - t[0])
         turn = time / turns if turns else float("nan")
@@ -203,7 +203,7 @@ class RunStress:
         place = f"t = {self.peak_time * 1e3:.3f} ms at "
         place += f"({at[0]:.1f}, {at[1]:.1f}, {at[2]:.1f}) mm, cage frame"
         part = self.dataset.isel(time=slice(h.settled, None))
-        windows, peak = roller_passes(part, self.numbers), h.at_sample[h.settled :]
+        windows, peak = element_passes(part, self.numbers), h.at_sample[h.settled :]
         kind = self.places.kind
         corner = windows.peak(h.places[h.settled :].max(axis=1))
         return [

@@ -26,7 +26,7 @@ from flexcage.results.registry import (
     families_with,
     variable,
 )
-from flexcage.results.statistics import roller_passes
+from flexcage.results.statistics import element_passes
 from flexcage.results.summary import SHOWN, Row, Value, figure
 from flexcage.stress.counting import require_pylife
 from flexcage.stress.sn_curves import sn_curve
@@ -96,7 +96,7 @@ class Reduction:
         unit = self.variable.unit if reducer.unit is None else reducer.unit
         half = nan
         if reducer.record is not None and dim == TIME:
-            half = reducer.record(roller_passes(part, run.numbers), values).margin
+            half = reducer.record(element_passes(part, run.numbers), values).margin
         elif reducer.by_turns:
             turns = round(abs(float(np.ptp(cage_angle(part)))) / (2.0 * pi))
             half = reducer.margin_by_turns(values, step, turns)

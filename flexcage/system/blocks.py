@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from flexcage.core.jit import outlined, part
+from flexcage.core.vectors import RIGID
 from flexcage.system.layout import CAGE, MODES, OUTER
 
 
@@ -67,12 +68,12 @@ def scatter_modes(i, pw, S, tan, n_m):
         M, (_rr, rb, br, bb) = pw.K if m == 0 else pw.C, _of(tan, m)
         for c in range(6):
             for o in range(n_m):
-                rb[i, c, MODES + o] += M[c, 6 + o]
-                br[i, MODES + o, c] += M[6 + o, c]
+                rb[i, c, MODES + o] += M[c, RIGID + o]
+                br[i, MODES + o, c] += M[RIGID + o, c]
             for e in range(6):
                 for o in range(n_m):
-                    bb[CAGE + e, MODES + o] -= S[c, e] * M[c, 6 + o]
-                    bb[MODES + o, CAGE + e] -= M[6 + o, c] * S[c, e]
+                    bb[CAGE + e, MODES + o] -= S[c, e] * M[c, RIGID + o]
+                    bb[MODES + o, CAGE + e] -= M[RIGID + o, c] * S[c, e]
         for o in range(n_m):
             for l in range(n_m):
-                bb[MODES + o, MODES + l] += M[6 + o, 6 + l]
+                bb[MODES + o, MODES + l] += M[RIGID + o, RIGID + l]

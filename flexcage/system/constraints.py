@@ -79,13 +79,16 @@ def cage_centre(t, q, u, p, G, g, h):
         G[k, CAGE + 1 + k] = 1.0
 
 
+PATH_Y, PATH_Z, PATH_RADIUS, PATH_SPEED, PATH_PHASE = range(5)  # its parameters
+
+
 @kernel(ROWS)
 def inner_path(t, q, u, p, G, g, h):
     """p: y, z, radius [m], speed [rad/s], phase [rad]."""
-    azimuth = p[3] * t + p[4]
-    c, s = p[2] * cos(azimuth), p[2] * sin(azimuth)
-    g[0], g[1] = q[Q_INNER + 1] - p[0] - c, q[Q_INNER + 2] - p[1] - s
-    h[0], h[1] = u[INNER + 1] + p[3] * s, u[INNER + 2] - p[3] * c
+    azimuth = p[PATH_SPEED] * t + p[PATH_PHASE]
+    c, s = p[PATH_RADIUS] * cos(azimuth), p[PATH_RADIUS] * sin(azimuth)
+    g[0], g[1] = q[Q_INNER + 1] - p[PATH_Y] - c, q[Q_INNER + 2] - p[PATH_Z] - s
+    h[0], h[1] = u[INNER + 1] + p[PATH_SPEED] * s, u[INNER + 2] - p[PATH_SPEED] * c
     for k in range(2):
         G[k, INNER + 1 + k] = 1.0
 

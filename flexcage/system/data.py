@@ -7,12 +7,12 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from flexcage.bodies.floating_frame import FrameWork, frame_work
-from flexcage.contacts.evaluation import N_SUMS
+from flexcage.contacts.evaluation import N_RACE, N_SUMS
 from flexcage.contacts.land import LandWork, land_work
 from flexcage.contacts.pocket_wall import N_LOCAL, filled
 from flexcage.contacts.race import RaceWork
 from flexcage.contacts.slices import Slices, new_slices
-from flexcage.contacts.state import Pair, RollerPose, new_pair, new_pose
+from flexcage.contacts.state import KEPT, Pair, RollerPose, new_pair, new_pose
 from flexcage.system.layout import Layout
 
 POWERS = (
@@ -45,6 +45,7 @@ INNER_RACE, OUTER_RACE, POCKET = range(3)
 MASS, AXIAL, TRANSVERSE = range(3)  # places in ``Bodies.element`` and ``ring``: mass, inertias
 # places in ``Bodies.outer`` behind MASS
 OUTER_STIFFNESS, OUTER_DAMPING, OUTER_FIXED, OUTER_CLEARANCE = 1, 2, 3, 4
+OF_SPEED, OF_LOAD, OF_AXIAL = range(3)  # rows of ``Bodies.waves``
 SHAFT, SHAFT_STIFFNESS, SHAFT_DAMPING = range(3)  # places in ``Bodies.drive``
 KINETIC, STRAIN, IN_CONTACTS, IN_MOUNT = range(4)  # places in ``Report.energy``
 # places in ``law`` behind those of ``contacts.evaluation``: the rows of further constraints, what
@@ -105,7 +106,7 @@ class Tangent(NamedTuple):
 class Report(NamedTuple):
     """What one evaluation reports beyond the residual (mode REPORT)."""
 
-    race: np.ndarray  # (Z, 2, 9) ``sums`` of a race up to ROLLED
+    race: np.ndarray  # (Z, 2, N_RACE) ``sums`` of a race up to ROLLED
     pocket_normal: np.ndarray  # (Z, faces)
     pocket_friction: np.ndarray  # (Z, faces)
     slice_normal: np.ndarray  # (Z, 2, ns)
@@ -143,7 +144,7 @@ class Scratch(NamedTuple):
     R: np.ndarray  # (2, 3, 3)
     A: np.ndarray  # (3, 3) cage attitude
     unit: np.ndarray  # (3, 3) unit matrix
-    poses: np.ndarray  # (Z, 24) of the rollers, see ``keep_pose``
+    poses: np.ndarray  # (Z, KEPT, 3) of the rollers, see ``keep_pose``
     wrenches: np.ndarray  # (Z, 6) of all contacts on each element
     sums: np.ndarray  # (N_SUMS,) see ``contacts.evaluation``
     vec: np.ndarray  # (9, 3), see residual.py
@@ -182,14 +183,14 @@ def new_work(
         z((nb, nb)), z((nb, nb)), z((nb, nb)), z((len(layout.held), 14)), z(Z, np.int64),
     )  # fmt: skip
     report = Report(
-        z((Z, 2, 9)), z((Z, faces)), z((Z, faces)), z((Z, 2, slices)), z((Z, 2, slices)),
+        z((Z, 2, N_RACE)), z((Z, faces)), z((Z, faces)), z((Z, 2, slices)), z((Z, 2, slices)),
         z((Z, 2, points)), z((Z, 2, points)),
         z((Z, faces, stations, 3)), z((Z, N_LOCAL)), z((Z, ribs)), z(3),
         z((land_stations, 2)), z((2, 2)), z(len(POWERS)), z(4), z((Z, places), np.int64),
         z((Z, places)), z(3), z(2),
     )  # fmt: skip
     scratch = Scratch(
-        z((6, 6)), z((2, 6, 6)), z((2, 3, 3)), z((3, 3)), np.eye(3), z((Z, 24)), z((Z, 6)),
+        z((6, 6)), z((2, 6, 6)), z((2, 3, 3)), z((3, 3)), np.eye(3), z((Z, KEPT, 3)), z((Z, 6)),
         z(N_SUMS), z((9, 3)), z(14 + n), z(14), z(15), z((2, filled(n, 8))), z(layout.size),
     )  # fmt: skip
     return Work(

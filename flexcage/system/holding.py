@@ -12,9 +12,14 @@ from flexcage.solve.bordered import lu_factor, lu_solve
 from flexcage.system.constraints import BEAR, OFF, ONTO, POSITION
 from flexcage.system.data import OUTER_FIXED
 from flexcage.system.layout import (
+    AXIAL_FORCE,
     CAGE,
     CAGE_TURN,
+    DRIVE_TORQUE,
+    HELD_VELOCITIES,
     MODES,
+    MOMENT_Y,
+    MOMENT_Z,
     N_OWN,
     OUTER,
     Q_MODES,
@@ -194,7 +199,8 @@ def _bear(t, q, u, qd, a, multipliers, d, rows):
     lu_solve(c.S, c.pivot, c.x)
     for k in range(m):
         multipliers[N_OWN + k] = c.x[k]
-        for row, j in ((0, 0), (3, 3), (1, 4), (2, 5)):  # what holds the ring bears it
+        for row in (AXIAL_FORCE, DRIVE_TORQUE, MOMENT_Y, MOMENT_Z):  # what holds the ring bears it
+            j = HELD_VELOCITIES[row]
             multipliers[row] -= c.G[k, j] * c.x[k] if c.ease[j] == 0.0 else 0.0
         for j in range(a.shape[0]):
             a[j] += c.pull[k, j] * c.x[k]

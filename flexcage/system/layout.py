@@ -22,6 +22,8 @@ N_MU = 3  # position-level constraints among them
 N_OWN = N_LAMBDA + N_MU  # multipliers of every bearing, before those of further constraints
 CONSTRAINTS = ("axial_force", "moment_y", "moment_z", "drive_torque")
 AXIAL_FORCE, MOMENT_Y, MOMENT_Z, DRIVE_TORQUE = range(N_LAMBDA)  # places in lambda
+# the inner ring's velocities on which they act
+HELD_VELOCITIES = (INNER, INNER_TURN + 1, INNER_TURN + 2, INNER_TURN)
 REACTION_UNITS = ("N", "N m", "N m", "N m")  # of their multipliers
 
 

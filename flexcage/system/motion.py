@@ -81,18 +81,15 @@ class Motion(Generic[M]):
     compiles for a ``d`` of type ``parts``; ``new_work`` makes its workspaces. It calls the
     functions ``apart``, of the same arguments, as values: they are compiled on their own, by
     another process at the same time, and follow the laws in ``law``; the longest first. ``faces``
-    names the faces of a pocket, ``ribs`` what else an element touches besides its races.
-    ``implicit``: does mode TANGENT fill it, so that implicit integrators may be used?
+    names the faces of a pocket, ``ribs`` what else an element touches besides its races. Mode
+    TANGENT fills the tangent, unless the spec's bearings are ``explicit_only``.
     """
 
-    family: str  # its name
-    element: str  # in words
     build_model: BuildModel[M]
     parts: Any  # made by ``parts_type``
     new_work: Callable[[M, Layout], Work]
     evaluate: Callable[..., None]
     apart: tuple[Callable[..., None], ...]
-    implicit: bool
     faces: tuple[str, ...]
     ribs: tuple[str, ...]
     start: FindStart

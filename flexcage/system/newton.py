@@ -8,12 +8,14 @@ the momentum rows become (alpha M + C + K/alpha) du = -r_u + K r_s/alpha, so tha
 from __future__ import annotations
 
 from flexcage.contacts.evaluation import ACCEPT, RESIDUAL, TANGENT
+from flexcage.contacts.state import Q_SKEW, Q_SPIN, Q_TILT, U_SKEW, U_SPIN, U_TILT
 from flexcage.core.jit import VECTORISED, fields, kernel, zero
 from flexcage.core.rotation import quaternion_rate, rotation_of_quaternion_change
 from flexcage.solve import bordered
 from flexcage.system.data import AXIAL, MASS, TRANSVERSE
 from flexcage.system.layout import (
     CAGE_TURN,
+    HELD_VELOCITIES,
     MODES,
     N_LAMBDA,
     N_OWN,
@@ -66,16 +68,15 @@ def assemble(alpha, bodies, tan, m):
         # the stored rotation order is (x, r, psi) as velocities: spin, skew, tilt
         for r in range(3):
             m.A[i, r, r] += alpha * mass
-        m.A[i, 3, 3] += alpha * Ia
-        m.A[i, 4, 4] += alpha * It
-        m.A[i, 5, 5] += alpha * It
+        m.A[i, U_SPIN, U_SPIN] += alpha * Ia
+        m.A[i, U_SKEW, U_SKEW] += alpha * It
+        m.A[i, U_TILT, U_TILT] += alpha * It
     for r in range(nb):
         for c in range(nb):
             m.S[r, c] = alpha * tan.Mbb[r, c] + tan.Cbb[r, c] + b * tan.Kbb[r, c]
-    # multipliers: forces on ring coordinates (axial, skew, tilt, spin)
-    coordinate = (0, 4, 5, 3)
-    for k in range(4):
-        m.S[coordinate[k], n6 + k] -= 1.0
+    # multipliers: forces on the inner ring
+    for k in range(N_LAMBDA):
+        m.S[HELD_VELOCITIES[k], n6 + k] -= 1.0
     for k in range(further):
         for c in range(MODES):
             m.S[c, n6 + N_OWN + k] -= tan.held[k, c]
@@ -101,9 +102,9 @@ def newton_step(alpha, y, r, tan, m):
     for i in range(Z):
         o = PER_ELEMENT * i
         s[i, 0], s[i, 1], s[i, 2] = r[o], r[o + 1], r[o + 2] * y[o + 1]
-        s[i, 3], s[i, 4], s[i, 5] = r[o + 5], r[o + 3], r[o + 4]
+        s[i, U_SPIN], s[i, U_SKEW], s[i, U_TILT] = r[o + Q_SPIN], r[o + Q_SKEW], r[o + Q_TILT]
     sb[0], sb[1], sb[2] = r[z], r[z + 1], r[z + 2]
-    sb[3], sb[4], sb[5] = r[z + 5], r[z + 3], r[z + 4]
+    sb[U_SPIN], sb[U_SKEW], sb[U_TILT] = r[z + Q_SPIN], r[z + Q_SKEW], r[z + Q_TILT]
     for c in range(5):
         sb[OUTER + c] = r[z + Q_OUTER + c]
     quat, r_quat = y[z + Q_QUATERNION : z + Q_MODES], r[z + Q_QUATERNION : z + Q_MODES]
@@ -140,7 +141,7 @@ def newton_step(alpha, y, r, tan, m):
             r[nq + o + k] = x[i, k]
             s[i, k] = b * (x[i, k] - s[i, k])
         r[o], r[o + 1], r[o + 2] = s[i, 0], s[i, 1], s[i, 2] / y[o + 1]
-        r[o + 3], r[o + 4], r[o + 5] = s[i, 4], s[i, 5], s[i, 3]
+        r[o + Q_SKEW], r[o + Q_TILT], r[o + Q_SPIN] = s[i, U_SKEW], s[i, U_TILT], s[i, U_SPIN]
     for k in range(MODES + nm):
         r[nq + z + k] = xb[k]
         sb[k] = b * (xb[k] - sb[k])
@@ -148,13 +149,13 @@ def newton_step(alpha, y, r, tan, m):
         r[at.lam + k] = xb[MODES + nm + k]
     place = MODES + nm + N_LAMBDA  # of the multipliers that hold places
     sb[0] += b * xb[place]
-    sb[4] += b * xb[place + 1]
-    sb[5] += b * xb[place + 2]
+    sb[U_SKEW] += b * xb[place + 1]
+    sb[U_TILT] += b * xb[place + 2]
     for k in range(further):
         for c in range(MODES):
             sb[c] += b * tan.held[k, c] * xb[MODES + N_OWN + nm + further + k]
     r[z], r[z + 1], r[z + 2] = sb[0], sb[1], sb[2]
-    r[z + 3], r[z + 4], r[z + 5] = sb[4], sb[5], sb[3]
+    r[z + Q_SKEW], r[z + Q_TILT], r[z + Q_SPIN] = sb[U_SKEW], sb[U_TILT], sb[U_SPIN]
     for c in range(5):
         r[z + Q_OUTER + c] = sb[OUTER + c]
     quaternion_rate(quat, sb[CAGE_TURN:MODES], r_quat)

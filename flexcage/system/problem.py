@@ -30,6 +30,7 @@ from flexcage.core.jit import (
     compiled,
 )
 from flexcage.core.kernel_values import KernelType
+from flexcage.geometry.bearing import Bearing as BearingSpec
 from flexcage.solve import runge_kutta
 from flexcage.solve.bordered import Bordered, new_bordered
 from flexcage.solve.contract import Integrator
@@ -177,13 +178,14 @@ class Bearing:
     """A bearing ready to be integrated: its data, and functions that are compiled when needed."""
 
     def __init__(
-        self, motion: Motion[Any], model: Any, contacts: Contacts, layout: Layout, *,
-        constraints: Sequence[Constraint] = (), block: int = 250, stride: int = 4,
-        interval: float = 20e-6,
+        self, motion: Motion[Any], spec: BearingSpec, model: Any, contacts: Contacts,
+        layout: Layout, *, constraints: Sequence[Constraint] = (), block: int = 250,
+        stride: int = 4, interval: float = 20e-6,
     ) -> None:  # fmt: skip
-        """``layout.held`` holds the ``constraints.names_of`` the constraints."""
+        """``motion`` moves bearings of the ``spec``'s family; ``layout.held`` holds the
+        ``constraints.names_of`` the constraints."""
         model = model._replace(cage=marked(model.cage))
-        self.motion, self.layout = motion, layout
+        self.motion, self.spec, self.layout = motion, spec, layout
         self.reaction_units = units_of(constraints)
         work = self.motion.new_work(model, layout)
         held, rows = constraints_of(constraints, model, layout)
@@ -267,9 +269,9 @@ class Bearing:
 
     def function(self, name: str) -> Any:
         """A function that ``PROBLEM`` names, compiled for this bearing when first asked for."""
-        if name in _OF_TANGENT and not self.motion.implicit:
+        if name in _OF_TANGENT and self.spec.explicit_only:
             raise InputError(
-                f"A bearing's {self.motion.element}s have no tangent yet, which implicit methods "
+                f"A bearing's {self.spec.element}s have no tangent yet, which implicit methods "
                 'want; take solver.method = "auto" or "explicit".',
                 where="solver.method",
             )

@@ -17,15 +17,27 @@ import numpy as np
 
 from flexcage.bodies.floating_frame import BodyData, modal_product
 from flexcage.contacts.evaluation import ACCEPT, REPORT, RESIDUAL
+from flexcage.contacts.state import Q_SKEW, Q_TILT, U_SKEW, U_SPIN, U_TILT
 from flexcage.core.jit import VECTORISED, fields, kernel, part, zero
+from flexcage.core.vectors import RIGID, TURN
 from flexcage.solve.bordered import lu_factor, lu_solve
 from flexcage.solve.oscillators import Oscillators, no_oscillators
 from flexcage.system.constraints import BEAR, ONTO
-from flexcage.system.data import AXIAL, CONSTRAINT_ROWS, HOLD, MASS, OUTER_FIXED, SHAFT, TRANSVERSE
+from flexcage.system.data import (
+    AXIAL,
+    CONSTRAINT_ROWS,
+    HOLD,
+    MASS,
+    OF_SPEED,
+    OUTER_FIXED,
+    SHAFT,
+    TRANSVERSE,
+)
 from flexcage.system.layout import (
     AXIAL_FORCE,
     CAGE,
     DRIVE_TORQUE,
+    HELD_VELOCITIES,
     N_LAMBDA,
     OUTER,
     Q_OUTER,
@@ -100,7 +112,7 @@ def _rates(t, y, yd, data, mode):
     zero(y[end:])
     law = data[1]
     law[HOLD](t, y, yd, d, law[CONSTRAINT_ROWS], out, ONTO)
-    shaft_pull(bodies, q[:Q_OUTER], y[ring : ring + OUTER], y[end : end + 3])
+    shaft_pull(bodies, q[:Q_OUTER], y[ring : ring + OUTER], y[end : end + DRIVE_TORQUE])
     zero(yd)
     data[2](t, y, yd, d, data[1], out, mode)
     for k in range(end):
@@ -114,30 +126,30 @@ def _rates(t, y, yd, data, mode):
         a = yd[at.u :][of_element(i)]
         for c in range(3):
             a[c] *= linear
-        a[3] *= axial
-        a[4] *= transverse
-        a[5] *= transverse
+        a[U_SPIN] *= axial
+        a[U_SKEW] *= transverse
+        a[U_TILT] *= transverse
     a, row, lam = yd[ring : ring + CAGE], out[ring : ring + OUTER], y[end : end + N_LAMBDA]
     for k in range(3):
         a[k] /= bodies.ring[MASS]
-    a[4] /= bodies.ring[TRANSVERSE]
-    a[5] /= bodies.ring[TRANSVERSE]
+    a[U_SKEW] /= bodies.ring[TRANSVERSE]
+    a[U_TILT] /= bodies.ring[TRANSVERSE]
     for k in range(3):
         if bodies.free[k] == 0.0:
-            c = 0 if k == 0 else 3 + k
+            c = HELD_VELOCITIES[k]
             a[c], lam[k] = 0.0, row[c]
     if bodies.free[3] == 0.0:
         if bodies.free[0] > 0.0:
             lam[AXIAL_FORCE] += row[0]
         a[0] = a[1] = a[2] = 0.0
     if driven:
-        a[3] = table_slope(bodies.speed, t) + wave_slope(bodies.waves[0], t)
-        lam[DRIVE_TORQUE] = row[3] + bodies.ring[AXIAL] * a[3]
+        a[U_SPIN] = table_slope(bodies.speed, t) + wave_slope(bodies.waves[OF_SPEED], t)
+        lam[DRIVE_TORQUE] = row[U_SPIN] + bodies.ring[AXIAL] * a[U_SPIN]
     else:
-        a[3] /= bodies.ring[AXIAL]
+        a[U_SPIN] /= bodies.ring[AXIAL]
     if bodies.outer[OUTER_FIXED] == 0.0:  # a fixed ring has no acceleration
-        a[6] /= bodies.outer[MASS]
-        a[7] /= bodies.outer[MASS]
+        a[OUTER] /= bodies.outer[MASS]
+        a[OUTER + 1] /= bodies.outer[MASS]
     cage_accelerations(
         frame.rigid, frame.coupled, fields(d.cage).plain, fields(d.scratch).A,
         yd[ring + CAGE : end], fields(d.rates),
@@ -151,13 +163,13 @@ def _hold(t, q, u, bodies, driven):
     if bodies.free[0] == 0.0:
         q[0] = u[0] = 0.0
     if bodies.free[1] == 0.0:
-        q[3] = u[4] = 0.0
+        q[Q_SKEW] = u[U_SKEW] = 0.0
     if bodies.free[2] == 0.0:
-        q[4], u[5] = bodies.misalignment, 0.0
+        q[Q_TILT], u[U_TILT] = bodies.misalignment, 0.0
     if bodies.free[3] == 0.0:  # wherever it stands
         u[0] = u[1] = u[2] = 0.0
     if driven:
-        u[3] = speed_at(bodies, t)
+        u[U_SPIN] = speed_at(bodies, t)
 
 
 @kernel(fastmath=VECTORISED)
@@ -170,10 +182,10 @@ def cage_accelerations(M, H, plain, A, v, work):
     """
     W, X, S, x, given = work.modal, work.coupled, work.rigid, work.x, work.given
     n = W.shape[0]
-    forces = v[6 : 6 + n]
+    forces = v[RIGID : RIGID + n]
     for c in range(3):
         x[c] = A[0, c] * v[0] + A[1, c] * v[1] + A[2, c] * v[2]
-        x[3 + c] = v[3 + c]
+        x[TURN + c] = v[TURN + c]
     for r in range(6):
         modal_product(W, plain, H[r], X[r])
         for m in range(n):
@@ -193,4 +205,4 @@ def cage_accelerations(M, H, plain, A, v, work):
         forces[m] = total
     for c in range(3):
         v[c] = A[c, 0] * x[0] + A[c, 1] * x[1] + A[c, 2] * x[2]
-        v[3 + c] = x[3 + c]
+        v[TURN + c] = x[TURN + c]

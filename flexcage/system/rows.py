@@ -26,15 +26,19 @@ from flexcage.contacts.evaluation import (
 )
 from flexcage.contacts.land import LandCage, LandForces, LandRing, land_contact
 from flexcage.contacts.slices import Laws
+from flexcage.contacts.state import Q_SKEW, Q_SPIN, Q_TILT, U_SKEW, U_SPIN, U_TILT
 from flexcage.core.jit import VECTORISED, copy_into, fields, part, zero
 from flexcage.core.rotation import quaternion_rate
 from flexcage.core.vectors import (
+    RIGID,
+    TURN,
     combine,
     cross,
     minus,
     plus,
     put,
     times,
+    turn_of,
     turned_back,
     xyz,
 )
@@ -54,6 +58,9 @@ from flexcage.system.data import (
     MASS,
     MODAL_DAMPING,
     MOUNT,
+    OF_AXIAL,
+    OF_LOAD,
+    OF_SPEED,
     OUTER_CLEARANCE,
     OUTER_DAMPING,
     OUTER_FIXED,
@@ -69,6 +76,7 @@ from flexcage.system.layout import (
     CAGE,
     CAGE_TURN,
     DRIVE_TORQUE,
+    HELD_VELOCITIES,
     INNER_TURN,
     MODES,
     MOMENT_Y,
@@ -134,19 +142,19 @@ def shared_rows(t, y, yd, d, law, out, mode):
 @part
 def speed_at(bodies, t):
     """Prescribed speed of the inner ring."""
-    return table_value(bodies.speed, t) + wave_value(bodies.waves[0], t)
+    return table_value(bodies.speed, t) + wave_value(bodies.waves[OF_SPEED], t)
 
 
 @part
 def radial_load(bodies, t):
     """Radial load on the inner ring [N]."""
-    return table_value(bodies.load, t) + wave_value(bodies.waves[1], t)
+    return table_value(bodies.load, t) + wave_value(bodies.waves[OF_LOAD], t)
 
 
 @part
 def axial_load(bodies, t):
     """Axial load on the inner ring [N]."""
-    return table_value(bodies.axial, t) + wave_value(bodies.waves[2], t)
+    return table_value(bodies.axial, t) + wave_value(bodies.waves[OF_AXIAL], t)
 
 
 @part
@@ -156,7 +164,7 @@ def load_power(t, bodies, y, q, u, vec):
     radial = bodies.load_direction[0] * y[u + 1] + bodies.load_direction[1] * y[u + 2]
     power = radial_load(bodies, t) * radial + axial_load(bodies, t) * y[u]
     if bodies.moments[0] != 0.0 or bodies.moments[1] != 0.0:
-        inner_ring(y[q : q + 6], y[u : u + 6], vec)
+        inner_ring(y[q : q + Q_OUTER], y[u : u + OUTER], vec)
         spin = vec[RING_SPIN]
         power += bodies.moments[0] * spin[1] + bodies.moments[1] * spin[2]
     return power
@@ -165,16 +173,16 @@ def load_power(t, bodies, y, q, u, vec):
 @part
 def drive_angle(bodies, t):
     """Angle that the prescribed speed has turned by time t since t = 0."""
-    return table_integral(bodies.speed, bodies.angle, t) + wave_integral(bodies.waves[0], t)
+    return table_integral(bodies.speed, bodies.angle, t) + wave_integral(bodies.waves[OF_SPEED], t)
 
 
 @part
 def ring_rates(q, u, out):
     """Kinematics of the inner ring (its frame does not orbit); returns its frame's axial rate."""
-    skew = u[4] / cos(q[4])
-    frame = skew * sin(q[4])
+    skew = u[U_SKEW] / cos(q[Q_TILT])
+    frame = skew * sin(q[Q_TILT])
     out[0], out[1], out[2] = u[0], u[1], u[2]
-    out[3], out[4], out[5] = skew, u[5], u[3] - frame
+    out[Q_SKEW], out[Q_TILT], out[Q_SPIN] = skew, u[U_TILT], u[U_SPIN] - frame
     return frame
 
 
@@ -183,11 +191,11 @@ def react(F, R, wrench, lever, border, at):
     """Reaction of an element's wrench on a partner at ``lever`` from it: force in space, moment in
     the frame with columns R."""
     f = xyz(wrench)
-    m = plus((wrench[3], wrench[4], wrench[5]), cross(lever, f))
+    m = plus(turn_of(wrench), cross(lever, f))
     f, m = turned_back(F, f), turned_back(R, turned_back(F, m))
     for c in range(3):
         border[at + c] -= f[c]
-        border[at + 3 + c] -= m[c]
+        border[at + TURN + c] -= m[c]
 
 
 @part
@@ -218,11 +226,14 @@ def clear_sums(border, d, mode):
 @part
 def inner_ring(q, u, vec):
     """Axis and angular velocity of the inner ring in space (its frame does not spin)."""
-    cx, sx, ce, se = cos(q[3]), sin(q[3]), cos(q[4]), sin(q[4])
+    cx, sx, ce, se = cos(q[Q_SKEW]), sin(q[Q_SKEW]), cos(q[Q_TILT]), sin(q[Q_TILT])
     axis = (cx * ce, se, -sx * ce)
     put(vec[RING_AXIS], axis)
     skew = (-cx * se, ce, sx * se)
-    put(vec[RING_SPIN], combine(combine(times(u[3], axis), u[4], skew), u[5], (sx, 0.0, cx)))
+    put(
+        vec[RING_SPIN],
+        combine(combine(times(u[U_SPIN], axis), u[U_SKEW], skew), u[U_TILT], (sx, 0.0, cx)),
+    )
 
 
 @part
@@ -323,7 +334,7 @@ def cage_rows(d, state, rows, mode):
     # gravity is an acceleration of the whole body
     put(acc, minus(turned_back(A, xyz(ud[CAGE:CAGE_TURN])), gb))
     for c in range(3):
-        acc[3 + c] = ud[CAGE_TURN + c]
+        acc[TURN + c] = ud[CAGE_TURN + c]
     modes = ud[MODES : MODES + nm]
     for k in range(6):
         x = h[k]
@@ -335,10 +346,10 @@ def cage_rows(d, state, rows, mode):
     for c in range(3):
         x = A[c, 0] * v[0] + A[c, 1] * v[1] + A[c, 2] * v[2]
         r_u[CAGE + c] = x - border[CAGE + c]
-        r_u[CAGE_TURN + c] = v[3 + c] - border[CAGE_TURN + c]
+        r_u[CAGE_TURN + c] = v[TURN + c] - border[CAGE_TURN + c]
     row_of = r_u[MODES : MODES + nm]
     for m in range(nm):
-        row_of[m] = h[6 + m] - border[MODES + m]
+        row_of[m] = h[RIGID + m] - border[MODES + m]
         for c in range(6):
             row_of[m] += H[c, m] * acc[c]
     modal_product(data.mff, data.plain, modes, product)
@@ -355,17 +366,19 @@ def cage_rows(d, state, rows, mode):
             for b in range(3):
                 x = y = 0.0
                 for c in range(3):
-                    x += A[a, c] * M[c, 3 + b]
-                    y += M[3 + b, c] * A[a, c]
+                    x += A[a, c] * M[c, TURN + b]
+                    y += M[TURN + b, c] * A[a, c]
                 tan.Mbb[CAGE + a, CAGE + b] = data.mass if a == b else 0.0
                 tan.Mbb[CAGE + a, CAGE_TURN + b] = x
                 tan.Mbb[CAGE_TURN + b, CAGE + a] = y
-                tan.Mbb[CAGE_TURN + a, CAGE_TURN + b] = M[3 + a, 3 + b]
+                tan.Mbb[CAGE_TURN + a, CAGE_TURN + b] = M[TURN + a, TURN + b]
         for m in range(nm):
             for a in range(3):
                 x = A[a, 0] * H[0, m] + A[a, 1] * H[1, m] + A[a, 2] * H[2, m]
                 tan.Mbb[CAGE + a, MODES + m] = tan.Mbb[MODES + m, CAGE + a] = x
-                tan.Mbb[CAGE_TURN + a, MODES + m] = tan.Mbb[MODES + m, CAGE_TURN + a] = H[3 + a, m]
+                tan.Mbb[CAGE_TURN + a, MODES + m] = tan.Mbb[MODES + m, CAGE_TURN + a] = H[
+                    TURN + a, m
+                ]
             for l in range(nm):
                 tan.Mbb[MODES + m, MODES + l] = data.mff[m, l]
         for m in range(nm):
@@ -377,7 +390,7 @@ def cage_rows(d, state, rows, mode):
             rep.power[MODAL_DAMPING] -= qfd[m] * product[m]
         put(v, turned_back(A, xyz(Vc)))
         for c in range(3):
-            v[3 + c] = wb[c]
+            v[TURN + c] = wb[c]
         for k in range(6):
             momentum = 0.0
             for m in range(nm):
@@ -435,14 +448,14 @@ def shaft_pull(bodies, q, u, pull):
     What pulls motions that are free is known, not a constraint's; zero where there is no spring.
     Returns energy stored and power lost.
     """
-    away = (q[0], q[3], q[4] - bodies.misalignment)
-    speed = (u[0], u[4], u[5])
+    away = (q[0], q[Q_SKEW], q[Q_TILT] - bodies.misalignment)
+    speed = (u[0], u[U_SKEW], u[U_TILT])
     stored = lost = 0.0
     for k in range(3):
         stiffness, damping = bodies.spring[k, 0], bodies.spring[k, 1]
         force = stiffness * away[k]
         if k == 1:  # the ring's own axis turns slower than skew
-            force /= cos(q[4])
+            force /= cos(q[Q_TILT])
         pull[k] = -force - damping * speed[k]
         stored += 0.5 * stiffness * away[k] * away[k]
         lost += damping * speed[k] * speed[k]
@@ -455,14 +468,14 @@ def constraint_slopes(bodies, tan):
     (the position rows' own multipliers are displacements)."""
     first = tan.Kbb.shape[0] - N_OWN - 2 * tan.held.shape[0]
     for k in range(3):
-        rate, place, at = first + k, first + N_LAMBDA + k, 0 if k == 0 else INNER_TURN + k
+        rate, place, at = first + k, first + N_LAMBDA + k, HELD_VELOCITIES[k]
         if bodies.free[k] > 0.0:
             tan.Kbb[rate, at], tan.Cbb[rate, at] = bodies.spring[k, 0], bodies.spring[k, 1]
             tan.Cbb[rate, rate] = tan.Cbb[place, place] = 1.0
         else:
             tan.Cbb[rate, at] = tan.Kbb[place, at] = tan.Kbb[place, place] = 1.0
     drive = first + 3
-    tan.Cbb[drive, 3 if bodies.drive[SHAFT] == 0.0 else drive] = 1.0
+    tan.Cbb[drive, INNER_TURN if bodies.drive[SHAFT] == 0.0 else drive] = 1.0
 
 
 @part
@@ -483,7 +496,7 @@ def ring_rows(t, d, state, rows, mode):
     mass, Ia, It = bodies.ring[MASS], bodies.ring[AXIAL], bodies.ring[TRANSVERSE]
     load, axial = radial_load(bodies, t), axial_load(bodies, t)
     # moments about the ring's own (non-spinning) axes
-    cx, sx, ce, se = cos(rq[3]), sin(rq[3]), cos(rq[4]), sin(rq[4])
+    cx, sx, ce, se = cos(rq[Q_SKEW]), sin(rq[Q_SKEW]), cos(rq[Q_TILT]), sin(rq[Q_TILT])
     Mx, My, Mz = (
         border[INNER_TURN],
         border[INNER_TURN + 1] + bodies.moments[0],
@@ -495,16 +508,17 @@ def ring_rows(t, d, state, rows, mode):
     target = speed_at(bodies, t)
     shaft = 0.0
     if bodies.drive[SHAFT] > 0.0:
-        shaft = bodies.drive[SHAFT_STIFFNESS] * (drive_angle(bodies, t) - rq[5])
-        shaft += bodies.drive[SHAFT_DAMPING] * (target - ru[3])
+        shaft = bodies.drive[SHAFT_STIFFNESS] * (drive_angle(bodies, t) - rq[Q_SPIN])
+        shaft += bodies.drive[SHAFT_DAMPING] * (target - ru[U_SPIN])
     for c in range(3):
         r_u[c] = mass * (rud[c] - bodies.gravity[c]) - border[c]
     r_u[0] -= lam[AXIAL_FORCE] + axial
     r_u[1] -= load * bodies.load_direction[0]
     r_u[2] -= load * bodies.load_direction[1]
-    r_u[INNER_TURN] = Ia * rud[3] - M1 - lam[DRIVE_TORQUE] - shaft
-    r_u[INNER_TURN + 1] = It * (rud[4] - frame * ru[5]) + Ia * ru[3] * ru[5] - M2 - lam[MOMENT_Y]
-    r_u[INNER_TURN + 2] = It * (rud[5] + frame * ru[4]) - Ia * ru[3] * ru[4] - M3 - lam[MOMENT_Z]
+    spin, skew, tilt = turn_of(ru)
+    r_u[U_SPIN] = Ia * rud[U_SPIN] - M1 - lam[DRIVE_TORQUE] - shaft
+    r_u[U_SKEW] = It * (rud[U_SKEW] - frame * tilt) + Ia * spin * tilt - M2 - lam[MOMENT_Y]
+    r_u[U_TILT] = It * (rud[U_TILT] + frame * skew) - Ia * spin * skew - M3 - lam[MOMENT_Z]
     # outer ring
     oq, ou, oud = q[Q_OUTER:Q_CAGE], u[OUTER:CAGE], ud[OUTER:CAGE]
     mo, fixed = bodies.outer[MASS], bodies.outer[OUTER_FIXED]
@@ -521,23 +535,23 @@ def ring_rows(t, d, state, rows, mode):
     free, pull = bodies.free, work.vec[SHAFT_PULL]
     bent, damped = shaft_pull(bodies, rq, ru, pull)
     g[AXIAL_FORCE] = lam[AXIAL_FORCE] - pull[0] if free[0] > 0.0 else ru[0]
-    g[MOMENT_Y] = lam[MOMENT_Y] - pull[1] if free[1] > 0.0 else ru[4]
-    g[MOMENT_Z] = lam[MOMENT_Z] - pull[2] if free[2] > 0.0 else ru[5]
-    g[DRIVE_TORQUE] = ru[3] - target if bodies.drive[SHAFT] == 0.0 else lam[DRIVE_TORQUE]
+    g[MOMENT_Y] = lam[MOMENT_Y] - pull[1] if free[1] > 0.0 else ru[U_SKEW]
+    g[MOMENT_Z] = lam[MOMENT_Z] - pull[2] if free[2] > 0.0 else ru[U_TILT]
+    g[DRIVE_TORQUE] = ru[U_SPIN] - target if bodies.drive[SHAFT] == 0.0 else lam[DRIVE_TORQUE]
     g[N_LAMBDA] = mu[0] if free[0] > 0.0 else rq[0]
-    g[N_LAMBDA + 1] = mu[1] if free[1] > 0.0 else rq[3]
-    g[N_LAMBDA + 2] = mu[2] if free[2] > 0.0 else rq[4] - bodies.misalignment
+    g[N_LAMBDA + 1] = mu[1] if free[1] > 0.0 else rq[Q_SKEW]
+    g[N_LAMBDA + 2] = mu[2] if free[2] > 0.0 else rq[Q_TILT] - bodies.misalignment
     if mode == TANGENT:
         constraint_slopes(bodies, tan)
         for c in range(3):
             tan.Mbb[c, c] = mass
-        tan.Mbb[3, 3] = Ia
-        tan.Mbb[4, 4] = tan.Mbb[5, 5] = It
-        tan.Cbb[4, 5] += Ia * ru[3]
-        tan.Cbb[5, 4] -= Ia * ru[3]
+        tan.Mbb[U_SPIN, U_SPIN] = Ia
+        tan.Mbb[U_SKEW, U_SKEW] = tan.Mbb[U_TILT, U_TILT] = It
+        tan.Cbb[U_SKEW, U_TILT] += Ia * ru[U_SPIN]
+        tan.Cbb[U_TILT, U_SKEW] -= Ia * ru[U_SPIN]
         if bodies.drive[SHAFT] > 0.0:
-            tan.Kbb[3, 3] += bodies.drive[SHAFT_STIFFNESS]
-            tan.Cbb[3, 3] += bodies.drive[SHAFT_DAMPING]
+            tan.Kbb[U_SPIN, U_SPIN] += bodies.drive[SHAFT_STIFFNESS]
+            tan.Cbb[U_SPIN, U_SPIN] += bodies.drive[SHAFT_DAMPING]
         for c in range(2):
             tan.Mbb[OUTER + c, OUTER + c] = 1.0 if fixed > 0.0 else mo
             if fixed > 0.0:  # its row is u' = 0, whatever pushes it
@@ -547,11 +561,11 @@ def ring_rows(t, d, state, rows, mode):
                     zero(tan.Kbr[i, OUTER + c])
                     zero(tan.Cbr[i, OUTER + c])
     elif mode >= REPORT:
-        w2 = ru[4] * ru[4] + ru[5] * ru[5]
+        w2 = ru[U_SKEW] * ru[U_SKEW] + ru[U_TILT] * ru[U_TILT]
         v2 = ru[0] * ru[0] + ru[1] * ru[1] + ru[2] * ru[2]
-        rep.energy[KINETIC] += 0.5 * (mass * v2 + Ia * ru[3] * ru[3] + It * w2)
+        rep.energy[KINETIC] += 0.5 * (mass * v2 + Ia * ru[U_SPIN] * ru[U_SPIN] + It * w2)
         # what loads and constraints do follows from y alone: ``sampling.give_powers`` adds it
-        rep.power[DRIVE] += shaft * ru[3]
+        rep.power[DRIVE] += shaft * ru[U_SPIN]
         for c in range(3):
             rep.power[GRAVITY] += mass * bodies.gravity[c] * ru[c]
         rep.energy[IN_MOUNT] += bent

@@ -93,7 +93,7 @@ def constrained(
         if force.max() > limit_force:
             number = int(force.max(axis=1).argmax())
             raise InputError(
-                f"where the constraints put rings and cage, {bearing.motion.element} {number} and "
+                f"where the constraints put rings and cage, {bearing.spec.element} {number} and "
                 f"{where} press each other with {force.max():,.0f} N, more than "
                 f"limits.assembly_force ({limit_force:,.0f} N); make them smaller, or raise the "
                 "limit",

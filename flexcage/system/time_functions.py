@@ -10,9 +10,10 @@ import numpy as np
 
 from flexcage.core.jit import kernel, part
 
-NONE, SINE, TRAPEZOID = 0.0, 1.0, 2.0  # shapes in ``wave[0]``
+SHAPE, RISE, AMPLITUDE, PERIOD = range(4)  # places in ``wave``
+NONE, SINE, TRAPEZOID = 0.0, 1.0, 2.0  # shapes
 
-# ``wave`` (4,): shape, share of the period that a rise from zero takes, amplitude, period. A
+# ``wave[RISE]`` is the share of the period that a rise from zero takes. A
 # triangle rises for a quarter of its period. A table (2, n) holds times and values, linear between
 # and constant outside. A slope at a corner is that of the piece before it.
 _AT_CORNER = 1e-15  # of the time: by how much rounding may put a time behind a corner
@@ -66,46 +67,46 @@ def table_integral(table, areas, t):
 @part
 def wave_value(wave, t):
     """Value at time t; zero at t = 0 and rising."""
-    if wave[0] == NONE:
+    if wave[SHAPE] == NONE:
         return 0.0
-    x = t / wave[3]
-    if wave[0] == SINE:
-        return wave[2] * sin(2.0 * pi * x)
+    x = t / wave[PERIOD]
+    if wave[SHAPE] == SINE:
+        return wave[AMPLITUDE] * sin(2.0 * pi * x)
     y, sign = _half(x)
-    return sign * wave[2] * min(min(y, 0.5 - y) / wave[1], 1.0)
+    return sign * wave[AMPLITUDE] * min(min(y, 0.5 - y) / wave[RISE], 1.0)
 
 
 @part
 def wave_slope(wave, t):
     """Slope at time t."""
-    if wave[0] == NONE:
+    if wave[SHAPE] == NONE:
         return 0.0
-    x = t * (1.0 - _AT_CORNER) / wave[3]
-    if wave[0] == SINE:
-        return wave[2] * 2.0 * pi / wave[3] * cos(2.0 * pi * x)
+    x = t * (1.0 - _AT_CORNER) / wave[PERIOD]
+    if wave[SHAPE] == SINE:
+        return wave[AMPLITUDE] * 2.0 * pi / wave[PERIOD] * cos(2.0 * pi * x)
     y, sign = _half(x)
-    steep = sign * wave[2] / (wave[1] * wave[3])
-    if y < wave[1]:
+    steep = sign * wave[AMPLITUDE] / (wave[RISE] * wave[PERIOD])
+    if y < wave[RISE]:
         return steep
-    return -steep if 0.5 - y < wave[1] else 0.0
+    return -steep if 0.5 - y < wave[RISE] else 0.0
 
 
 @part
 def wave_integral(wave, t):
     """Integral from 0 to t."""
-    if wave[0] == NONE:
+    if wave[SHAPE] == NONE:
         return 0.0
-    x = t / wave[3]
-    if wave[0] == SINE:
-        return wave[2] * wave[3] / (2.0 * pi) * (1.0 - cos(2.0 * pi * x))
+    x = t / wave[PERIOD]
+    if wave[SHAPE] == SINE:
+        return wave[AMPLITUDE] * wave[PERIOD] / (2.0 * pi) * (1.0 - cos(2.0 * pi * x))
     y, sign = _half(x)
-    rise = wave[1]
+    rise = wave[RISE]
     area = 0.5 - rise  # of a half wave
     risen = 0.5 * y * y / rise if y < rise else y - 0.5 * rise
     if 0.5 - y < rise:
         risen = area - 0.5 * (0.5 - y) * (0.5 - y) / rise
     whole = risen if sign > 0.0 else area - risen
-    return wave[2] * wave[3] * whole
+    return wave[AMPLITUDE] * wave[PERIOD] * whole
 
 
 @part
@@ -129,7 +130,7 @@ def corners(
 ) -> np.ndarray:
     """Times in [begin, end), in order, at which the slope of any of these functions jumps."""
     found = [_table_corners(table) for table in tables]
-    found += [_wave_corners(wave, begin, end) for wave in waves if wave[0] == TRAPEZOID]
+    found += [_wave_corners(wave, begin, end) for wave in waves if wave[SHAPE] == TRAPEZOID]
     times = np.unique(np.concatenate(found))
     return times[(times >= begin) & (times < end)]
 

@@ -11,10 +11,11 @@ import numpy as np
 
 from flexcage.bearings import recording_of
 from flexcage.case import Case, load_case
+from flexcage.compiling import build_bearing
 from flexcage.integrate.integration import Integration
 from flexcage.integrate.recorded import new_store
 from flexcage.mesh.cage_mesh import CageMesh
-from flexcage.stages import build_bearing, cage_mesh
+from flexcage.stages import cage_mesh
 from flexcage.system.problem import Bearing
 from flexcage.system.start import Start
 

@@ -11,12 +11,13 @@ import numpy as np
 from flexcage.bearings import recording_of
 from flexcage.bearings.cylindrical_roller.start import geometric_guess
 from flexcage.case import Case, load_case
+from flexcage.compiling import build_bearing
 from flexcage.integrate.integration import Integration
 from flexcage.integrate.recorded import new_store
 from flexcage.mesh.cage_mesh import CageMesh
 from flexcage.modes.reduction import CageReduction
 from flexcage.modes.spec import ModesSpec
-from flexcage.stages import build_bearing, cage_mesh, cage_reduction
+from flexcage.stages import cage_mesh, cage_reduction
 from flexcage.system.problem import Bearing
 from flexcage.system.start import Start
 

@@ -19,7 +19,7 @@ from flexcage.results.store import RunStore
 BEARING = load_preset("7010C-PI").bearing
 Z, PITCH, D = BEARING.ball_count, BEARING.pitch_diameter, BEARING.ball_diameter
 NUMBERS = BearingNumbers(
-    pitch_diameter=PITCH, roller_diameter=D, roller_count=Z,
+    pitch_diameter=PITCH, element_diameter=D, element_count=Z,
     contact_angle=BEARING.nominal_contact_angle, rolling_heights=BEARING.rolling_heights,
 )  # fmt: skip
 INNER, OUTER = 0.42, 0.22  # rad, contact angles of the loaded balls
@@ -74,7 +74,7 @@ def test_slip_counts_from_rolling_at_the_angles_of_loaded_balls(run):
     orbit, _ = by_hand()
     assert speed.epicyclic == pytest.approx(orbit, rel=1e-12)
     assert speed.slip_ratio == pytest.approx(SLIP, rel=1e-6)
-    nominal = 0.5 * SPEED * (1.0 - NUMBERS.roller_diameter * np.cos(NUMBERS.contact_angle) / PITCH)
+    nominal = 0.5 * SPEED * (1.0 - NUMBERS.element_diameter * np.cos(NUMBERS.contact_angle) / PITCH)
     assert speed.nominal == pytest.approx(nominal, rel=1e-12)
     assert speed.nominal_slip == pytest.approx(1.0 - speed.mean / nominal, rel=1e-9)
     assert np.abs(metrics.element_slip_ratio(run, NUMBERS)).max() < 1e-12

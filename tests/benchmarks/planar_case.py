@@ -10,11 +10,12 @@ import numpy as np
 from settled import SETTLE, Forces, Settled
 
 import flexcage
+from flexcage.compiling import build_bearing
 from flexcage.core.cache import cached_arrays
 from flexcage.core.hashing import content_hash
 from flexcage.core.jit import kernel_sources, source_hash
 from flexcage.modes.reduction import CageReduction
-from flexcage.stages import build_bearing, cage_mesh, cage_reduction
+from flexcage.stages import cage_mesh, cage_reduction
 from flexcage.system.layout import Layout
 
 #: Proportional to sliding up to 0.5 m/s, Coulomb's beyond.

@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 
 import flexcage
+from flexcage.compiling import build_bearing
 from flexcage.core.cache import cached_arrays
 from flexcage.core.hashing import content_hash
 from flexcage.core.jit import kernel_sources, source_hash
@@ -18,7 +19,7 @@ from flexcage.integrate.integration import FIRST_STEP
 from flexcage.solve.contract import DONE, LOG_FULL, OUTCOMES, T
 from flexcage.solve.integrators import INTEGRATORS
 from flexcage.solve.options import SolverOptions
-from flexcage.stages import assembled_start, build_bearing, cage_mesh, cage_reduction
+from flexcage.stages import assembled_start, cage_mesh, cage_reduction
 from flexcage.system.data import POWERS
 from flexcage.system.problem import new_samples
 from flexcage.system.scales import work_weights
@@ -204,7 +205,7 @@ class Settled:
         """
         self.restore()
         report, race, cage = self.bearing.data.work.report, [], []
-        kept = {"roller": (0, 1), "ball": (0, 2, 3)}[self.bearing.motion.element]
+        kept = {"roller": (0, 1), "ball": (0, 2, 3)}[self.bearing.spec.element]
         for t, y, yd in zip(times, ys, yds, strict=True):
             self.bearing.residual(float(t), y, yd, mode=2)
             race.append(report.race[:, :, kept].reshape(-1, len(kept)).copy())

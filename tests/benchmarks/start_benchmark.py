@@ -64,8 +64,9 @@ def measured(what: str, cache: Path | None, argument: str) -> dict[str, Any]:
 def kernels(preset: str, _begin: float) -> dict[str, Any]:
     """From starting to compile until all kernels are on disk; imports and a mesh come before."""
     from flexcage.case import Case
+    from flexcage.compiling import build_bearing
     from flexcage.mesh.options import MeshOptions
-    from flexcage.stages import build_bearing, cage_mesh
+    from flexcage.stages import cage_mesh
 
     case = Case.from_preset(preset, mesh=MeshOptions(fineness="coarse"))
     mesh = cage_mesh(case)
@@ -91,14 +92,9 @@ def first_step(file: str, begin: float) -> dict[str, Any]:
     import numpy as np
 
     import flexcage
+    from flexcage.compiling import begin_compiling, build_bearing
     from flexcage.solve.integrators import INTEGRATORS
-    from flexcage.stages import (
-        assembled_start,
-        begin_compiling,
-        build_bearing,
-        cage_mesh,
-        cage_reduction,
-    )
+    from flexcage.stages import assembled_start, cage_mesh, cage_reduction
     from flexcage.system.data import POWERS
 
     done("import")

@@ -6,7 +6,8 @@ import numpy as np
 from c_functions import CFunctions
 
 import flexcage
-from flexcage.stages import assembled_start, build_bearing, cage_mesh
+from flexcage.compiling import build_bearing
+from flexcage.stages import assembled_start, cage_mesh
 from flexcage.system.data import POWERS
 
 CASE = Path(__file__).resolve().parents[2] / "examples" / "n1013.toml"

@@ -72,7 +72,8 @@ def test_a_ball_bearings_land_lies_on_the_shoulder():
 
 
 def test_the_model_has_the_land_of_the_dimensions():
-    from flexcage.stages import build_bearing, cage_mesh
+    from flexcage.compiling import build_bearing
+    from flexcage.stages import cage_mesh
 
     case = load_case(DEEP).replace("mesh.fineness", "coarse")
     land = build_bearing(case, cage_mesh(case), None).data.model.land
@@ -82,7 +83,8 @@ def test_the_model_has_the_land_of_the_dimensions():
 
 
 def test_a_land_reaches_no_further_than_the_ring():
-    from flexcage.stages import build_bearing, cage_mesh
+    from flexcage.compiling import build_bearing
+    from flexcage.stages import cage_mesh
 
     case = load_case(DEEP).replace({"cage.width": "18 mm", "mesh.fineness": "coarse"})
     land = build_bearing(case, cage_mesh(case), None).data.model.land

@@ -67,11 +67,15 @@ def test_every_name_is_there(door):
 
 @pytest.mark.parametrize("door", DOORS)
 def test_a_stub_gives_type_checkers_what_a_door_gives_python(door):
-    """A stub exports names that it imports "as" themselves, or those of its ``__all__``."""
+    """A stub exports names that it imports "as" themselves or by "*", or those of its
+    ``__all__``."""
     stub = Path(importlib.import_module(door).__file__).with_suffix(".pyi")
     body = ast.parse(stub.read_text("utf-8")).body
-    names = [alias for node in body if isinstance(node, ast.ImportFrom) for alias in node.names]
-    exported = [a.asname for a in names if a.asname == a.name]
+    lines = [(node.module, a) for node in body if isinstance(node, ast.ImportFrom)
+             for a in node.names]  # fmt: skip
+    exported = [a.asname for _, a in lines if a.asname == a.name]
+    for module in (m for m, a in lines if a.name == "*"):
+        exported += [n for n in vars(importlib.import_module(module)) if not n.startswith("_")]
     for node in body:
         if isinstance(node, ast.Assign):
             exported += ast.literal_eval(node.value)

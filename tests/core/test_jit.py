@@ -10,7 +10,7 @@ import numba
 import numpy as np
 import pytest
 
-from flexcage import stages
+from flexcage import compiling
 from flexcage.core.jit import allocating_kernel, boxed, fields, kernel_sources
 
 PLAIN = bool(numba.config.DISABLE_JIT)
@@ -121,9 +121,9 @@ def test_the_second_process_compiles_for_the_package_of_the_first(tmp_path):
     """A user's folder may hold a clone of flexcage while the one that runs is installed."""
     (tmp_path / "flexcage").mkdir()
     (tmp_path / "flexcage" / "__init__.py").write_text("", encoding="utf-8")
-    command = f"{stages.SAME_PACKAGE}; from flexcage import stages; print(stages.__file__)"
+    command = f"{compiling.SAME_PACKAGE}; from flexcage import compiling; print(compiling.__file__)"
     found = subprocess.run(
         [sys.executable, "-P", "-c", command], cwd=tmp_path, check=True, capture_output=True,
         text=True,
     ).stdout.strip()  # fmt: skip
-    assert found == stages.__file__
+    assert found == compiling.__file__

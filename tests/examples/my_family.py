@@ -74,14 +74,11 @@ def evaluate(t, y, yd, d, law, out, mode):
 
 
 MOTION = Motion(
-    family="magnet",
-    element="ball",
     build_model=build_model,
     parts=MagnetParts,
     new_work=MOTION_OF_BALLS.new_work,
     evaluate=evaluate,
     apart=MOTION_OF_BALLS.apart,
-    implicit=False,
     faces=MOTION_OF_BALLS.faces,
     ribs=(),
     start=MOTION_OF_BALLS.start,

@@ -7,7 +7,7 @@ from flexcage.geometry.kinematics import epicyclic, rolling_shares
 
 
 def n1013(**speeds):
-    return epicyclic(roller_diameter=8e-3, pitch_diameter=82.5e-3, roller_count=22, **speeds)
+    return epicyclic(element_diameter=8e-3, pitch_diameter=82.5e-3, element_count=22, **speeds)
 
 
 @pytest.mark.parametrize(("inner", "outer"), [(600.0, 0.0), (0.0, 300.0), (600.0, -250.0)])
@@ -15,8 +15,8 @@ def test_both_contacts_roll(inner, outer):
     """Surface velocities of roller and races are equal at both contacts, in the inertial frame."""
     found = n1013(inner_speed=inner, outer_speed=outer)
     pitch, radius = 41.25e-3, 4e-3
-    at_inner = found.cage_speed * pitch - found.roller_spin * radius
-    at_outer = found.cage_speed * pitch + found.roller_spin * radius
+    at_inner = found.cage_speed * pitch - found.element_spin * radius
+    at_outer = found.cage_speed * pitch + found.element_spin * radius
     assert at_inner == pytest.approx(inner * (pitch - radius), rel=1e-12)
     assert at_outer == pytest.approx(outer * (pitch + radius), rel=1e-12, abs=1e-12)
 
@@ -24,15 +24,15 @@ def test_both_contacts_roll(inner, outer):
 def test_reversal_mirrors():
     forward, back = n1013(inner_speed=600.0), n1013(inner_speed=-600.0)
     assert back.cage_speed == -forward.cage_speed
-    assert back.roller_spin == -forward.roller_spin
+    assert back.element_spin == -forward.element_spin
     assert back.inner_race_passing == forward.inner_race_passing
 
 
 def test_rings_turning_together_carry_all_along():
     found = n1013(inner_speed=100.0, outer_speed=100.0)
     assert found.cage_speed == pytest.approx(100.0)
-    assert found.roller_spin_in_cage == 0.0
-    assert found.roller_spin == pytest.approx(100.0)
+    assert found.element_spin_in_cage == 0.0
+    assert found.element_spin == pytest.approx(100.0)
 
 
 @pytest.mark.parametrize("angles", [(0.3, 0.3), (0.35, 0.12), (-0.1, -0.25), (1.05, 1.0)])
@@ -58,12 +58,12 @@ def test_balls_roll_at_two_contact_angles(angles, heights, outer):
 
 def test_one_contact_angle_is_two_alike():
     """Textbook: gamma = D cos(alpha)/Dpw, w_c = w_i (1 - gamma)/2, BSF (1 - gamma^2) Dpw/(2 D)."""
-    sizes = {"roller_diameter": 7.938e-3, "pitch_diameter": 39.04e-3, "roller_count": 9}
+    sizes = {"element_diameter": 7.938e-3, "pitch_diameter": 39.04e-3, "element_count": 9}
     one, two = (epicyclic(**sizes, inner_speed=1000.0, contact_angle=a) for a in (0.4, (0.4, 0.4)))
     assert one == two
     gamma = 7.938 * np.cos(0.4) / 39.04
     assert one.cage_speed == pytest.approx(500.0 * (1.0 - gamma), rel=1e-14)
     turns = 500.0 * 39.04 / 7.938 * (1.0 - gamma**2) / (2.0 * np.pi)
-    assert one.roller_frequency == pytest.approx(turns, rel=1e-14)
+    assert one.element_frequency == pytest.approx(turns, rel=1e-14)
     assert one.outer_race_passing == pytest.approx(9 * 500.0 * (1.0 - gamma) / (2.0 * np.pi))
     assert one.inner_race_passing == pytest.approx(9 * 500.0 * (1.0 + gamma) / (2.0 * np.pi))

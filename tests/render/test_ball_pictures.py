@@ -36,7 +36,7 @@ PRESET = load_preset("7010C-PI")
 BEARING, CAGE = PRESET.bearing, PRESET.cage
 Z, PITCH = BEARING.ball_count, BEARING.pitch_diameter
 NUMBERS = BearingNumbers(
-    pitch_diameter=PITCH, roller_diameter=BEARING.ball_diameter, roller_count=Z,
+    pitch_diameter=PITCH, element_diameter=BEARING.ball_diameter, element_count=Z,
     contact_angle=BEARING.nominal_contact_angle,
 )  # fmt: skip
 
@@ -65,7 +65,7 @@ def run():
     a["cage_position"][:, 1] = 50e-6 * np.cos(ideal.cage_speed * t)
     a["element_position"][:, :, 1] = 0.5 * PITCH
     a["element_position"][:, :, 2] = 2 * np.pi * np.arange(Z) / Z + (ideal.cage_speed * t)[:, None]
-    a["element_omega"][:, :, 0] = ideal.cage_speed + ideal.roller_spin_in_cage
+    a["element_omega"][:, :, 0] = ideal.cage_speed + ideal.element_spin_in_cage
     a["race_force"][:] = 12.0
     a["race_force"][:, 3] = 25.0
     a["race_force"][80:120, 9, 0] = 0.0
@@ -154,7 +154,7 @@ def test_histories_show_balls_slip_and_contact_angles(run, texts, tmp_path):
 
 @pytest.mark.parametrize("sense", [1.0, -1.0])
 def test_a_ball_that_turns_backwards_has_a_negative_speed(run, sense):
-    rolling = abs(NUMBERS.kinematics(4000 * np.pi / 30).roller_spin_in_cage)
+    rolling = abs(NUMBERS.kinematics(4000 * np.pi / 30).element_spin_in_cage)
     ds = run.copy(deep=True)
     ds["element_omega"][:, 5, 0] = 2.0 * ds["cage_omega"][:, 0] - ds["element_omega"][:, 5, 0]
     for name in ("inner_speed", "element_omega", "cage_omega"):

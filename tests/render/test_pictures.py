@@ -34,7 +34,7 @@ N1013 = RollerBearing(
     rib_diameter=78.4e-3,
     rib_gap=8.03e-3,
 )
-NUMBERS = BearingNumbers(pitch_diameter=82.5e-3, roller_diameter=8e-3, roller_count=Z)
+NUMBERS = BearingNumbers(pitch_diameter=82.5e-3, element_diameter=8e-3, element_count=Z)
 
 
 @pytest.fixture(scope="module")

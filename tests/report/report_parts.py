@@ -26,7 +26,7 @@ from flexcage.results.store import RunStore
 from flexcage.results.summary import Row
 from flexcage.results.warnings import AT_END, Outcome, warnings_of
 
-NUMBERS = BearingNumbers(pitch_diameter=82.5e-3, roller_diameter=8e-3, roller_count=Z)
+NUMBERS = BearingNumbers(pitch_diameter=82.5e-3, element_diameter=8e-3, element_count=Z)
 PEAK = 40e6  # Pa, at one vertex of the cage
 SPIKE, SPIKE_AT = 123.0, 1234  # N, at one sample
 BEARING = RollerBearing(
@@ -66,7 +66,7 @@ def dataset(n: int = 5000):
     )
     a["cage_omega"][:, 0] = cage * (1.0 + 1e-3 * np.sin(900 * t))
     a["cage_position"][:, 1:] = 5e-5 * np.stack([np.cos(cage * t), np.sin(cage * t)], axis=1)
-    a["element_omega"][:, :, 0] = NUMBERS.kinematics(inner).roller_spin
+    a["element_omega"][:, :, 0] = NUMBERS.kinematics(inner).element_spin
     a["race_force"][:, :4, 0], a["race_force"][:, :, 1] = 300.0, 10.0
     a["pocket_force"][:, 2, 0] = 5.0 * np.clip(np.sin(900 * t), 0.0, None)
     a["pocket_force"][SPIKE_AT, 7, 1] = SPIKE

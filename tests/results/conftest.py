@@ -9,7 +9,7 @@ from flexcage.results.metrics import BearingNumbers
 from flexcage.results.registry import variables_of
 from flexcage.results.store import RunStore
 
-N1013 = BearingNumbers(pitch_diameter=82.5e-3, roller_diameter=8e-3, roller_count=22)
+N1013 = BearingNumbers(pitch_diameter=82.5e-3, element_diameter=8e-3, element_count=22)
 Z = 22
 
 

@@ -5,7 +5,7 @@ import pytest
 from scipy.signal import lfilter
 
 from flexcage.results import bootstrap
-from flexcage.results.statistics import Record, Windows, roller_passes, spread
+from flexcage.results.statistics import Record, Windows, element_passes, spread
 
 
 def records(count, n, phi, seed=3):
@@ -67,7 +67,7 @@ def test_what_repeats_with_every_turn_is_no_uncertainty(turns):
 
 def test_windows_are_roller_passes(known_run, bearing):
     """0.1 s at 98 % of 2709.09 rpm are 4.425 turns, of 22 roller passes each."""
-    windows = roller_passes(known_run, bearing)
+    windows = element_passes(known_run, bearing)
     assert len(windows.first) == round(0.98 * 2709.0909 / 60.0 * 0.1 * 22)
     assert np.ptp(np.diff(windows.first)) <= 1
 

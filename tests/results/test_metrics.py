@@ -104,7 +104,7 @@ def test_mixing_frames_would_fake_slip(known_run, bearing):
     for frame in ("inertial", "cage"):
         slip = roller_slip.slip_ratio(ideal, bearing, frame=frame)
         assert float(np.abs(slip).max()) < 1e-9
-    mixed = 1 - 27937.5 / (bearing.kinematics(-6000).roller_spin_in_cage)
+    mixed = 1 - 27937.5 / (bearing.kinematics(-6000).element_spin_in_cage)
     assert mixed == pytest.approx(0.088, abs=5e-4)
 
 

@@ -5,7 +5,7 @@ import pytest
 
 from flexcage.results import metrics
 from flexcage.results.reductions import DERIVED, REDUCTIONS, crest_factor, kurtosis
-from flexcage.results.statistics import roller_passes
+from flexcage.results.statistics import element_passes
 
 STEP = 1e-4
 
@@ -53,7 +53,7 @@ def test_derived_variables_are_the_metrics_series(known_run, bearing):
 
 
 def test_means_have_the_margins_of_their_windows(known_run, bearing):
-    windows = roller_passes(known_run, bearing)
+    windows = element_passes(known_run, bearing)
     speed = known_run["cage_omega"].values
     record = REDUCTIONS["mean"].record(windows, speed)
     assert record.value == pytest.approx(speed.mean())

@@ -35,14 +35,14 @@ def signal(values: np.ndarray, unit: str = "m") -> xr.DataArray:
 def numbers_of(preset: str) -> BearingNumbers:
     b = load_preset(preset).bearing
     return BearingNumbers(
-        pitch_diameter=b.pitch_diameter, roller_diameter=b.element_diameter,
-        roller_count=b.element_count, contact_angle=b.nominal_contact_angle,
+        pitch_diameter=b.pitch_diameter, element_diameter=b.element_diameter,
+        element_count=b.element_count, contact_angle=b.nominal_contact_angle,
     )  # fmt: skip
 
 
 def small(diameter: float, pitch: float, count: int, angle: float = 0.0) -> BearingNumbers:
     return BearingNumbers(
-        pitch_diameter=pitch * 1e-3, roller_diameter=diameter * 1e-3, roller_count=count,
+        pitch_diameter=pitch * 1e-3, element_diameter=diameter * 1e-3, element_count=count,
         contact_angle=radians(angle),
     )  # fmt: skip
 

@@ -218,7 +218,8 @@ def test_contact_loads_of_a_thrust_bearing_are_those_published():
 
 def test_a_deformed_pocket_is_felt_where_it_is():
     """A cage pressed forward meets the ball of a pocket that is displaced backwards first."""
-    from flexcage.stages import build_bearing, cage_mesh
+    from flexcage.compiling import build_bearing
+    from flexcage.stages import cage_mesh
     from flexcage.verification.c7010 import c7010 as rigid
 
     def touching(*defects):

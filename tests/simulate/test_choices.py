@@ -5,11 +5,12 @@ import pytest
 from simulate_cases import PLACES, bent, n1013
 
 from flexcage.case import load_case
+from flexcage.compiling import build_bearing
 from flexcage.contacts.spec import FRICTION_LAWS, NORMAL_LAWS
 from flexcage.results.audit import energy_audit
 from flexcage.results.metrics import settled
 from flexcage.simulate import simulate
-from flexcage.stages import assembled_start, build_bearing, cage_mesh, cage_reduction
+from flexcage.stages import assembled_start, cage_mesh, cage_reduction
 from flexcage.static import solve_static
 
 RIGID = {"cage.model": "rigid"}

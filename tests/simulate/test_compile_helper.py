@@ -14,7 +14,7 @@ OWN = Path(__file__).parents[1] / "examples" / "my_family.py"
 STARTS = """
 import time
 import flexcage
-from flexcage.stages import begin_compiling
+from flexcage.compiling import begin_compiling
 print(begin_compiling(flexcage.Case.from_preset("N1013")).helper.pid, flush=True)
 time.sleep(600)
 """
@@ -50,7 +50,7 @@ BUILDS = """
 import sys
 sys.modules["gmsh"] = None
 from pathlib import Path
-from flexcage.stages import compile_pieces
+from flexcage.compiling import compile_pieces
 compile_pieces(Path(sys.argv[1]).read_text("utf-8"), sys.argv[2])
 """
 

@@ -11,7 +11,8 @@ import numpy as np
 from simulate_cases import bent, n1013
 
 from flexcage.case import load_case
-from flexcage.stages import build_bearing, cage_mesh, cage_reduction
+from flexcage.compiling import build_bearing
+from flexcage.stages import cage_mesh, cage_reduction
 from flexcage.system.data import POWERS
 from flexcage.system.start import find_start
 

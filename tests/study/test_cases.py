@@ -108,7 +108,7 @@ def test_cases_with_the_same_cage_derive_from_it_once(folder, monkeypatch):
     def never(*args, **kwargs):
         raise AssertionError("derived again")
 
-    monkeypatch.setattr("flexcage.stages.cage_record", never)
+    monkeypatch.setattr("flexcage.run.storing.cage_record", never)
     monkeypatch.setattr("flexcage.stress.run_stress.StressRecovery", never)
     assert do_case(second) == "done"
     beside = load_run(folder.case(second.hash)).dataset["cage_position"].values

@@ -76,7 +76,9 @@ def ball_bearing(
         drive=Drive(speed=speed), load=load or Load(gravity=0.0, tilt="free"),
         mount=mount or Mount(),
     )  # fmt: skip
-    return Bearing(MOTION, model, contacts, Layout(preset.bearing.ball_count, body.modes))
+    return Bearing(
+        MOTION, preset.bearing, model, contacts, Layout(preset.bearing.ball_count, body.modes)
+    )
 
 
 def pressed(bearing, *, seed=0, push=0.28e-3):

@@ -8,6 +8,7 @@ import numpy as np
 
 from flexcage.bearings.cylindrical_roller.motion import MOTION
 from flexcage.bearings.cylindrical_roller.start import geometric_guess, rolling_velocities
+from flexcage.case.presets import load_preset
 from flexcage.solve import bdf, runge_kutta
 from flexcage.solve.integrators import INTEGRATORS
 from flexcage.system.constraints import names_of
@@ -17,11 +18,13 @@ from flexcage.system.problem import Bearing, new_samples
 from flexcage.system.scales import work_weights
 from flexcage.system.spec import Drive, Load, Mount
 
+N1013 = load_preset("N1013").bearing
+
 
 def assembled(model, contacts, constraints=()) -> Bearing:
     held = names_of(constraints)
     layout = Layout(len(model.bodies.radius), model.cage.mff.shape[0], held)
-    return Bearing(MOTION, model, contacts, layout, constraints=constraints)
+    return Bearing(MOTION, N1013, model, contacts, layout, constraints=constraints)
 
 
 def rolling_start(bearing):

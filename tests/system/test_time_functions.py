@@ -8,10 +8,11 @@ import pytest
 from scipy import signal
 
 from flexcage.case import load_case
+from flexcage.compiling import build_bearing
 from flexcage.core.errors import InputError
 from flexcage.results.audit import energy_audit
 from flexcage.simulate import simulate
-from flexcage.stages import build_bearing, cage_mesh
+from flexcage.stages import cage_mesh
 from flexcage.system.bodies import _wave
 from flexcage.system.spec import Drive
 from flexcage.system.time_functions import (

@@ -76,7 +76,7 @@ def frozen_and_rigid():
 
     def bearing(body, interface):
         model = MOTION.build_model(case.bearing, case.cage, body, interface, **specs)
-        bearing = Bearing(MOTION, model, case.contacts, Layout(18, body.modes))
+        bearing = Bearing(MOTION, case.bearing, model, case.contacts, Layout(18, body.modes))
         for speeds in bearing.data.memory[:4]:
             speeds[...] = 0.3  # at which contacts closed
         return bearing

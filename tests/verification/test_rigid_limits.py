@@ -19,8 +19,8 @@ from verification_bearing import (
 from flexcage.bearings.cylindrical_roller.motion import MOTION
 from flexcage.bodies.cage import flexible_from_basis, rigid_from_tets
 from flexcage.cages.window.interface import rigid_interface
+from flexcage.compiling import build_bearing
 from flexcage.simulate import simulate
-from flexcage.stages import build_bearing
 from flexcage.system.layout import Layout
 from flexcage.system.problem import Bearing
 from flexcage.system.start import find_start
@@ -121,7 +121,7 @@ def frozen_and_rigid():
         if pocket_law is not None:
             model.pocket.normal[:] = pocket_law
         layout = Layout(case.bearing.roller_count, body.modes)
-        return Bearing(MOTION, model, case.contacts, layout)
+        return Bearing(MOTION, case.bearing, model, case.contacts, layout)
 
     interface = replace(cage.interface, compliance=np.zeros_like(cage.interface.compliance))
     frozen = bearing(flexible, interface)
@@ -175,7 +175,7 @@ def test_modes_frozen_by_stiffness_run_as_the_rigid_cage(frozen_and_rigid):
         model = bearing.data.model._replace(
             cage=body._replace(kff=1e10 * body.kff, dff=1e5 * body.dff)
         )
-        one = Bearing(MOTION, model, case.contacts, bearing.layout,
+        one = Bearing(MOTION, case.bearing, model, case.contacts, bearing.layout,
                       block=case.output.block, stride=case.output.vibration_ratio)  # fmt: skip
         start = _start(one)
         datasets.append(march(case, one, *start))

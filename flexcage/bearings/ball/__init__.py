@@ -5,8 +5,16 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from flexcage.bearings.ball.angular_contact import AngularContactBallBearing
+from flexcage.bearings.ball.bearing import BallBearing
 from flexcage.bearings.ball.deep_groove import DeepGrooveBallBearing
 from flexcage.bearings.family import Family
+
+# specs that ``flexcage.spec`` shows
+__all__ = [
+    "AngularContactBallBearing",
+    "BallBearing",
+    "DeepGrooveBallBearing",
+]
 
 if TYPE_CHECKING:
     from flexcage.geometry.inside import Inside

@@ -12,7 +12,7 @@ from flexcage.results.angles import at_angles, at_nominal
 from flexcage.results.figures import OwnFigures
 from flexcage.results.known import BRIEF, SIGNED, STATISTIC, figures_in
 from flexcage.results.metrics import BearingNumbers, SlipRange
-from flexcage.results.statistics import Record, roller_passes
+from flexcage.results.statistics import Record, element_passes
 from flexcage.results.summary import Row, Section, figure, statistic
 
 if TYPE_CHECKING:
@@ -61,7 +61,7 @@ def speed_rows(ds: xarray.Dataset, bearing: BearingNumbers) -> tuple[Row, ...]:
     own = metrics.at_own_angles(metrics.whole_revolutions(ds), bearing)
     return (
         figure("ball_spin", spin, note),
-        figure("ball_spin_ideal", abs(own.kinematics(inner).roller_spin_in_cage), at_angles(own)),
+        figure("ball_spin_ideal", abs(own.kinematics(inner).element_spin_in_cage), at_angles(own)),
     )
 
 
@@ -91,7 +91,7 @@ def _slip_rows(
 ) -> tuple[Row, ...]:
     """Slip ratios in the loaded ``zone`` (time, element) and outside it, where inner and outer race
     slide at mean speeds [m/s]; by the nominal angle; and what the grooves' curvature makes."""
-    windows = roller_passes(ds, bearing)
+    windows = element_passes(ds, bearing)
 
     def mean(ratio: xarray.DataArray, where: np.ndarray) -> Record:
         values = ratio.transpose("time", "element").values

@@ -12,14 +12,11 @@ from flexcage.system.rows import shared_rows
 BallParts = parts_type("BallParts", BallModel, __name__)
 
 MOTION = Motion(
-    family="ball",
-    element="ball",
     build_model=build_ball_model,
     parts=BallParts,
     new_work=ball_work,
     evaluate=evaluate,
     apart=(shared_rows,),
-    implicit=False,
     faces=("pocket",),
     ribs=(),
     start=ball_start,

@@ -20,6 +20,7 @@ from flexcage.contacts.evaluation import (
     REPORT,
     ROLLED,
     RUBBED,
+    SLIDING,
     STORED,
 )
 from flexcage.contacts.groove import BallOnRace, groove_contact
@@ -28,6 +29,8 @@ from flexcage.contacts.state import CageModes, set_frame
 from flexcage.core.jit import copy_into, fields, outlined, part, zero
 from flexcage.core.rotation import matrix_from_quaternion
 from flexcage.core.vectors import (
+    MOMENT,
+    TURN,
     column,
     combine,
     cross,
@@ -35,6 +38,7 @@ from flexcage.core.vectors import (
     plus,
     put,
     times,
+    turn_of,
     turned,
     xyz,
 )
@@ -123,7 +127,7 @@ def _races(i, qi, ui, rest_q, rest_u, d, law, mode):
     vec, border = work.vec, work.border
     laws, sl = Laws(law[RACE_LAW], law[RACE_RUBS]), fields(d.slices).row[0]
     radius, onset = fields(d.bodies).radius, fields(d.memory).race[i]
-    V, w = xyz(ui), (ui[3], ui[4], ui[5])
+    V, w = xyz(ui), turn_of(ui)
     P = minus((qi[0], qi[1], 0.0), turned(F, xyz(rest_q[:Q_INNER_TURN])))
     zero(pair.wrench)
     ball = BallOnRace(
@@ -160,7 +164,7 @@ def _report_race(i, side, sums, rep):
     closed = 1 if sums[NORMAL] > 0.0 else 0
     rep.contact[i, side] = closed
     rep.approach[i, side] = sums[APPROACH]
-    for c in range(5):
+    for c in range(SLIDING + 1):
         rep.race[i, side, c] = sums[c]
     rep.energy[IN_CONTACTS] += sums[STORED]
     rep.power[RACE_DAMPING] += sums[DAMPED]
@@ -186,7 +190,7 @@ def _pocket(i, qi, ui, Rc, Vc, modes, d, law, mode):
     put(pw.G[2], turned(F, combine(times(ca, e2), -sa, e1)))
     turn = turned(F, xyz(work.vec[CAGE_SPIN]))
     v = minus(minus(xyz(ui), turned(F, xyz(Vc))), cross(turn, D))
-    spin = minus((ui[3], ui[4], ui[5]), turn)
+    spin = minus(turn_of(ui), turn)
     zero(pair.wrench)
     ball = BallInPocket(fields(d.bodies).radius[i], D, v, spin, fields(d.memory).pocket[i, 0])
     laws, sl = Laws(law[POCKET_LAW], law[POCKET_RUBS]), fields(d.slices).row[0]
@@ -231,12 +235,12 @@ def _ball_rows(i, qi, ui, qdi, udi, d, r_q, r_u, mode):
     r_u[0] = mass * (udi[0] - bodies.gravity[0]) - FR[0]
     r_u[1] = mass * (udi[1] - orbit * ui[2] - gr) - FR[1]
     r_u[2] = mass * (udi[2] + orbit * ui[1] - gp) - FR[2] - drag
-    r_u[3] = inertia * udi[3] - FR[3]
-    r_u[4] = inertia * (udi[4] - orbit * ui[5]) - FR[4]
-    r_u[5] = inertia * (udi[5] + orbit * ui[4]) - FR[5]
+    r_u[TURN] = inertia * udi[TURN] - FR[MOMENT]
+    r_u[TURN + 1] = inertia * (udi[TURN + 1] - orbit * ui[TURN + 2]) - FR[MOMENT + 1]
+    r_u[TURN + 2] = inertia * (udi[TURN + 2] + orbit * ui[TURN + 1]) - FR[MOMENT + 2]
     if mode >= REPORT:
         rep.power[GRAVITY] += mass * (gr * ui[1] + gp * ui[2])
         rep.power[DRAG] += drag * ui[2]
         v2 = ui[0] * ui[0] + ui[1] * ui[1] + ui[2] * ui[2]
-        w2 = ui[3] * ui[3] + ui[4] * ui[4] + ui[5] * ui[5]
+        w2 = ui[TURN] * ui[TURN] + ui[TURN + 1] * ui[TURN + 1] + ui[TURN + 2] * ui[TURN + 2]
         rep.energy[KINETIC] += 0.5 * (mass * v2 + inertia * w2)

@@ -37,7 +37,7 @@ def slip_ratio(
     contact angles of the loaded balls of ``ds``, or at the ``nominal`` contact angle.
     """
     used = bearing.nominal if nominal else at_own_angles(ds, bearing)
-    unit = used.kinematics(1.0).roller_spin_in_cage
+    unit = used.kinematics(1.0).element_spin_in_cage
     out = slip_of(rolling_sense(ds) * unit * ds["inner_speed"], spin(ds))
     out.attrs = {"units": "1", "long_name": "ball slip ratio, cage frame"}
     return out.transpose("time", "element").rename("element_slip_ratio")
@@ -47,6 +47,6 @@ SPEED = ElementSpeed(
     title="Ball speed about its own axis, cage frame",
     axis="speed",
     spin=spin,
-    rolling=lambda kinematics: kinematics.roller_spin_in_cage,
+    rolling=lambda kinematics: kinematics.element_spin_in_cage,
     slip_ratio=slip_ratio,
 )

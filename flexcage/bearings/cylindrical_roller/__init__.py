@@ -4,8 +4,16 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from flexcage.bearings.cylindrical_roller.bearing import OTHER_DESIGNS, RollerBearing
+from flexcage.bearings.cylindrical_roller.bearing import (
+    OTHER_DESIGNS,
+    RollerBearing,
+    RollerProfile,
+    Spall,
+)
 from flexcage.bearings.family import Family
+
+# specs that ``flexcage.spec`` shows
+__all__ = ["RollerBearing", "RollerProfile", "Spall"]
 
 if TYPE_CHECKING:
     from flexcage.geometry.inside import Inside

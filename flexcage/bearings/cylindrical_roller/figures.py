@@ -12,7 +12,7 @@ from flexcage.results import metrics
 from flexcage.results.figures import OwnFigures
 from flexcage.results.known import SIGNED, figures_in
 from flexcage.results.metrics import BearingNumbers, SlipRange
-from flexcage.results.statistics import roller_passes
+from flexcage.results.statistics import element_passes
 from flexcage.results.summary import Row, Section, figure, statistic
 
 if TYPE_CHECKING:
@@ -42,7 +42,7 @@ def speed_rows(ds: xarray.Dataset, bearing: BearingNumbers) -> tuple[Row, ...]:
     note = "inertial frame, positive as in rolling"
     return (
         figure("roller_spin", spin, note),
-        figure("roller_spin_ideal", abs(bearing.kinematics(inner).roller_spin)),
+        figure("roller_spin_ideal", abs(bearing.kinematics(inner).element_spin)),
     )
 
 
@@ -51,7 +51,7 @@ def slip_section(ds: xarray.Dataset, bearing: BearingNumbers, slip_range: SlipRa
     part = metrics.whole_revolutions(ds)
     ratio = slip_ratio(part, bearing).values
     zone = metrics.loaded_zone(part).transpose("time", "element").values
-    windows = roller_passes(part, bearing)
+    windows = element_passes(part, bearing)
     loaded, unloaded = (
         windows.ratio(np.where(z, ratio, 0.0).sum(axis=1), z.sum(axis=1)) for z in (zone, ~zone)
     )

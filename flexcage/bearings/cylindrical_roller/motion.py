@@ -14,14 +14,11 @@ from flexcage.system.rows import shared_rows
 RollerParts = parts_type("RollerParts", RollerModel, __name__)
 
 MOTION = Motion(
-    family="cylindrical_roller",
-    element="roller",
     build_model=build_roller_model,
     parts=RollerParts,
     new_work=roller_work,
     evaluate=evaluate,
     apart=(roller_pockets, shared_rows),
-    implicit=True,
     faces=FACES,
     ribs=("rib +x", "rib -x"),
     start=roller_start,

@@ -120,7 +120,7 @@ def _pocket(i, qi, Rc, Vc, modes, d, law, mode):
             shift_matrix(work.R, D, work.S)
             scatter(pair, work.S, i, CAGE, tan, work.T6)
             if modes.q.shape[0] > 0:
-                scatter_modes(i, pw, work.S, tan, data.phi.shape[4])
+                scatter_modes(i, pw, work.S, tan, data.phi_max.shape[0])
     elif mode >= REPORT:
         _report_pocket(i, hit, sums, pw, fields(d.report), mode)
 

@@ -11,6 +11,7 @@ from __future__ import annotations
 
 from flexcage.contacts.evaluation import (
     DAMPED,
+    N_RACE,
     NORMAL,
     OUTER_RING,
     RACE_LAW,
@@ -30,7 +31,13 @@ from flexcage.contacts.slices import Laws
 from flexcage.contacts.state import (
     AXIS,
     CENTRE,
+    Q_SKEW,
+    Q_SPIN,
+    Q_TILT,
     SPIN,
+    U_SKEW,
+    U_SPIN,
+    U_TILT,
     VELOCITY,
     keep_pose,
     set_pose,
@@ -42,6 +49,7 @@ from flexcage.core.rotation import matrix_from_quaternion
 from flexcage.core.vectors import (
     minus,
     put,
+    turn_of,
     turned,
     xyz,
 )
@@ -99,10 +107,10 @@ def roller_rates(q, u, axis, out):
     """
     orbit = u[2] / q[1]
     cx, sx, ce, se = axis[2, 2], axis[2, 0], axis[1, 1], axis[0, 1]
-    skew = (u[4] + orbit * cx * se) / ce
+    skew = (u[U_SKEW] + orbit * cx * se) / ce
     frame = orbit * cx * ce + skew * se
     out[0], out[1], out[2] = u[0], u[1], orbit
-    out[3], out[4], out[5] = skew, u[5] - orbit * sx, u[3] - frame
+    out[Q_SKEW], out[Q_TILT], out[Q_SPIN] = skew, u[U_TILT] - orbit * sx, u[U_SPIN] - frame
     return frame
 
 
@@ -172,14 +180,14 @@ def _inner_contacts(first, end, q, ring_q, ring_u, d, law, mode):
             if mode >= REPORT:
                 _report_ribs(i, sums, rep)
         onset = memory.race[i, INNER_RACE]
-        if meet_race(count, pose, side, radius[i], ring_q[5], onset, rw):
+        if meet_race(count, pose, side, radius[i], ring_q[Q_SPIN], onset, rw):
             rw.who[count] = i
             count += 1
     press_race(count, side, race_laws, rw)
     for m in range(count):
         i = rw.who[m]
         take_pose(work.poses[i], pose)
-        push_by_race(m, pose, side, radius[i], ring_q[5], rw, pair, mode, sums)
+        push_by_race(m, pose, side, radius[i], ring_q[Q_SPIN], rw, pair, mode, sums)
         _add_inner(i, rw.partner[m, CENTRE], d, mode)
         if mode >= REPORT:
             _report_race(i, INNER_RACE, sums, rep)
@@ -245,7 +253,7 @@ def _report_ribs(i, sums, rep):
 
 @part
 def _report_race(i, side, sums, rep):
-    for c in range(9):
+    for c in range(N_RACE):
         rep.race[i, side, c] = sums[c]
     rep.contact[i, side] = 1 if sums[NORMAL] > 0.0 else 0
     rep.energy[IN_CONTACTS] += sums[STORED]
@@ -271,19 +279,19 @@ def _roller_rows(i, qi, ui, qdi, udi, d, r_q, r_u, mode):
     r_u[0] = mass * (udi[0] - bodies.gravity[0]) - FR[0]
     r_u[1] = mass * (udi[1] - ui[2] * ui[2] / r - gr) - FR[1]
     r_u[2] = mass * (udi[2] + ui[1] * ui[2] / r - gp) - FR[2] - drag
-    M1, M2, M3 = turned(pose.axis, (FR[3], FR[4], FR[5]))
-    r_u[3] = Ia * udi[3] - M1
-    r_u[4] = It * (udi[4] - frame * ui[5]) + Ia * ui[3] * ui[5] - M2
-    r_u[5] = It * (udi[5] + frame * ui[4]) - Ia * ui[3] * ui[4] - M3
+    M1, M2, M3 = turned(pose.axis, turn_of(FR))
+    r_u[U_SPIN] = Ia * udi[U_SPIN] - M1
+    r_u[U_SKEW] = It * (udi[U_SKEW] - frame * ui[U_TILT]) + Ia * ui[U_SPIN] * ui[U_TILT] - M2
+    r_u[U_TILT] = It * (udi[U_TILT] + frame * ui[U_SKEW]) - Ia * ui[U_SPIN] * ui[U_SKEW] - M3
     if mode == TANGENT:
         tan.Crr[i, 1, 2] -= 2.0 * mass * ui[2] / r
         tan.Crr[i, 2, 1] += mass * ui[2] / r
         tan.Crr[i, 2, 2] += mass * ui[1] / r + 2.0 * bodies.drag[0] * abs(ui[2])
-        tan.Crr[i, 4, 5] += Ia * ui[3] - It * frame
-        tan.Crr[i, 5, 4] -= Ia * ui[3] - It * frame
+        tan.Crr[i, U_SKEW, U_TILT] += Ia * ui[U_SPIN] - It * frame
+        tan.Crr[i, U_TILT, U_SKEW] -= Ia * ui[U_SPIN] - It * frame
     elif mode >= REPORT:
         rep.power[GRAVITY] += mass * (gr * ui[1] + gp * ui[2])
         rep.power[DRAG] += drag * ui[2]
         v2 = ui[0] * ui[0] + ui[1] * ui[1] + ui[2] * ui[2]
-        w2 = ui[4] * ui[4] + ui[5] * ui[5]
-        rep.energy[KINETIC] += 0.5 * (mass * v2 + Ia * ui[3] * ui[3] + It * w2)
+        w2 = ui[U_SKEW] * ui[U_SKEW] + ui[U_TILT] * ui[U_TILT]
+        rep.energy[KINETIC] += 0.5 * (mass * v2 + Ia * ui[U_SPIN] * ui[U_SPIN] + It * w2)

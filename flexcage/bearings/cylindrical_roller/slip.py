@@ -54,9 +54,9 @@ def slip_ratio(
     unit = bearing.kinematics(1.0)
     spin = ds["element_omega"].isel(spin_axis=0, drop=True)
     if frame == "inertial":
-        ideal = ds["inner_speed"] * unit.roller_spin
+        ideal = ds["inner_speed"] * unit.element_spin
     elif frame == "cage":
-        ideal = ds["inner_speed"] * unit.roller_spin_in_cage
+        ideal = ds["inner_speed"] * unit.element_spin_in_cage
         spin = spin - ds["cage_omega"].sel(axis="x", drop=True)
     else:
         raise InputError(f"Slip is taken in the frame 'inertial' or 'cage', not {frame!r}.")
@@ -94,6 +94,6 @@ SPEED = ElementSpeed(
     title="Roller spin, inertial frame",
     axis="spin",
     spin=spin,
-    rolling=lambda kinematics: kinematics.roller_spin,
+    rolling=lambda kinematics: kinematics.element_spin,
     slip_ratio=slip_ratio,
 )

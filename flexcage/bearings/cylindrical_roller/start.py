@@ -46,7 +46,7 @@ def rolling_velocities(model: RollerModel, layout: Layout, y: np.ndarray) -> np.
     pitch = 0.5 * (model.inner.radius + model.outer.radius)
     speed = float(np.interp(0.0, *b.speed))
     k = epicyclic(
-        roller_diameter=2.0 * rw, pitch_diameter=2.0 * pitch, roller_count=layout.elements,
+        element_diameter=2.0 * rw, pitch_diameter=2.0 * pitch, element_count=layout.elements,
         inner_speed=speed,
     )  # fmt: skip
     yd = np.zeros_like(y)
@@ -54,12 +54,12 @@ def rolling_velocities(model: RollerModel, layout: Layout, y: np.ndarray) -> np.
     radius = q["elements"][:, 1]
     u["elements"][:] = 0.0
     u["elements"][:, 2] = radius * k.cage_speed
-    u["elements"][:, 3] = k.roller_spin
+    u["elements"][:, 3] = k.element_spin
     skew, tilt = q["elements"][:, 3], q["elements"][:, 4]
     u["elements"][:, 4] = -k.cage_speed * np.cos(skew) * np.sin(tilt)  # they keep skew and tilt
     u["elements"][:, 5] = k.cage_speed * np.sin(skew)
     qd["elements"][:, 2] = k.cage_speed
-    qd["elements"][:, 5] = k.roller_spin - k.cage_speed * np.cos(skew) * np.cos(tilt)
+    qd["elements"][:, 5] = k.element_spin - k.cage_speed * np.cos(skew) * np.cos(tilt)
     u["inner"][3] = qd["inner"][5] = speed
     u["omega"][0] = k.cage_speed
     qd["quaternion"][1] = 0.5 * k.cage_speed

@@ -48,9 +48,9 @@ def rollers_of(
     places, drop = slice_grid(bearing, contacts.race.slices)
     stiffness = iso_line_stiffness(bearing.effective_length)
     cage = epicyclic(
-        roller_diameter=bearing.roller_diameter,
+        element_diameter=bearing.roller_diameter,
         pitch_diameter=bearing.pitch_diameter,
-        roller_count=bearing.roller_count,
+        element_count=bearing.roller_count,
         inner_speed=speed,
     ).cage_speed
     return Rollers(

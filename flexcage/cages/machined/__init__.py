@@ -14,6 +14,16 @@ from flexcage.cages.machined.defects import (
     WebCrack,
 )
 
+# specs that ``flexcage.spec`` shows
+__all__ = [
+    "BallCage",
+    "BallCageDefect",
+    "DisplacedPocket",
+    "ElongatedPocket",
+    "EnlargedPocket",
+    "WebCrack",
+]
+
 if TYPE_CHECKING:
     from flexcage.geometry.inside import CageProposal
     from flexcage.mesh.build import MeshBuilder

@@ -9,6 +9,9 @@ from flexcage.cages.machined.defects import BallCageDefect
 from flexcage.cages.ribbon.cage import RibbonCage
 from flexcage.cages.ribbon.defects import MissingRivet
 
+# specs that ``flexcage.spec`` shows
+__all__ = ["MissingRivet", "RibbonCage"]
+
 if TYPE_CHECKING:
     from flexcage.geometry.inside import CageProposal
     from flexcage.mesh.build import MeshBuilder

@@ -8,6 +8,14 @@ from flexcage.cages.cage_type import CageType
 from flexcage.cages.window.cage import WindowCage
 from flexcage.cages.window.defects import CrossbeamDefect, SideBeamDefect, WindowDefect
 
+# specs that ``flexcage.spec`` shows
+__all__ = [
+    "CrossbeamDefect",
+    "SideBeamDefect",
+    "WindowCage",
+    "WindowDefect",
+]
+
 if TYPE_CHECKING:
     from flexcage.geometry.inside import CageProposal
     from flexcage.mesh.build import MeshBuilder

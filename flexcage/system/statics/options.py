@@ -34,3 +34,7 @@ class StaticOptions:
     cage_speed: float | None = quantity("rpm", None, doc="speed of the cage, if prescribed")
     dynamic_rating: float | None = quantity("kN", None, doc="catalogue's C, if known", above=0.0)
     tilt_arm: str = option("groove", doc="lever of tilts", choices=("groove", "pitch", "iso"))
+
+
+#: As a run begins: no race controls balls.
+AT_START = StaticOptions(gyroscopic="none")

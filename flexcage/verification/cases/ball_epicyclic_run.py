@@ -10,7 +10,8 @@ from typing import Any
 import numpy as np
 
 from flexcage.case import Case
-from flexcage.stages import assembled_start, build_bearing, cage_mesh, cage_reduction
+from flexcage.compiling import build_bearing
+from flexcage.stages import assembled_start, cage_mesh, cage_reduction
 from flexcage.verification.ball_bearings import deep_groove
 from flexcage.verification.c7010 import NO_OIL, RPM, c7010, march
 from flexcage.verification.cases.kinematics import TABLE

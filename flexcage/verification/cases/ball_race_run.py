@@ -7,8 +7,9 @@ from math import cos, radians
 
 import numpy as np
 
+from flexcage.compiling import build_bearing
 from flexcage.core.errors import RunFailed
-from flexcage.stages import build_bearing, cage_mesh
+from flexcage.stages import cage_mesh
 from flexcage.system.data import POWERS
 from flexcage.verification.c7010 import (
     ELASTIC,

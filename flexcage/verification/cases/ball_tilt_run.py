@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from math import asin, hypot
 
-from flexcage.stages import build_bearing, cage_mesh
+from flexcage.compiling import build_bearing
+from flexcage.stages import cage_mesh
 from flexcage.verification.ball_bearings import deep_groove
 from flexcage.verification.c7010 import NO_OIL, balls_on_outer, march
 from flexcage.verification.deep_groove import case_of

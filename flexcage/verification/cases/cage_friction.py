@@ -12,9 +12,10 @@ from scipy.linalg import eig
 from scipy.optimize import brentq, fsolve
 
 from flexcage.case import Case
+from flexcage.compiling import build_bearing
 from flexcage.contacts import laws
 from flexcage.contacts.spec import FrictionLaw
-from flexcage.stages import build_bearing, cage_mesh
+from flexcage.stages import cage_mesh
 from flexcage.system.problem import Bearing
 from flexcage.verification.ball_bearings import deep_groove
 from flexcage.verification.c7010 import ELASTIC, NO_OIL, RPM, march

@@ -8,9 +8,10 @@ from typing import Any
 import numpy as np
 
 from flexcage.case import Case
+from flexcage.compiling import build_bearing
 from flexcage.core.errors import RunFailed
 from flexcage.modes.reduction import CageReduction
-from flexcage.stages import build_bearing, cage_mesh, cage_reduction
+from flexcage.stages import cage_mesh, cage_reduction
 from flexcage.system.problem import Bearing
 from flexcage.verification.c7010 import (
     ELASTIC,

@@ -37,20 +37,20 @@ SPIN_DIGITS = Tolerance(5.1e-3, "arithmetic; printed to 1e-2", absolute=True)
 def rows() -> Iterator[Row]:
     for name, (dw, dm, z, angle, rpm, cage, spin, bpfo, bpfi, bsf) in TABLE.items():
         found = epicyclic(
-            roller_diameter=dw * 1e-3,
+            element_diameter=dw * 1e-3,
             pitch_diameter=dm * 1e-3,
-            roller_count=z,
+            element_count=z,
             inner_speed=rpm * RPM,
             contact_angle=radians(angle),
         )
-        in_cage = -found.roller_spin_in_cage / RPM
+        in_cage = -found.element_spin_in_cage / RPM
         yield Row(f"{name}, cage speed", "rpm", cage, found.cage_speed / RPM, DIGITS)
         yield Row(f"{name}, spin in the cage", "rpm", spin, in_cage, SPIN_DIGITS)
         yield Row(f"{name}, BPFO", "Hz", bpfo, found.outer_race_passing, DIGITS)
         yield Row(f"{name}, BPFI", "Hz", bpfi, found.inner_race_passing, DIGITS)
-        yield Row(f"{name}, BSF", "Hz", bsf, found.roller_frequency, DIGITS)
+        yield Row(f"{name}, BSF", "Hz", bsf, found.element_frequency, DIGITS)
         if name == "N1013":
-            inertial = -found.roller_spin / RPM
+            inertial = -found.element_spin / RPM
             yield Row(f"{name}, spin in space", "rpm", 27937.5, inertial, DIGITS)
 
 

@@ -44,9 +44,9 @@ def rows() -> Iterator[Row]:
     yield Row("transverse moment of inertia", "kg mm^2", 2.9463e-2, 1e6 * transverse, PRINTED)
     speed = 6000.0 * pi / 30.0
     cage = epicyclic(
-        roller_diameter=b.roller_diameter,
+        element_diameter=b.roller_diameter,
         pitch_diameter=b.pitch_diameter,
-        roller_count=b.roller_count,
+        element_count=b.roller_count,
         inner_speed=speed,
     ).cage_speed
     centrifugal = b.roller_mass * cage**2 * b.pitch_radius

@@ -47,9 +47,9 @@ def orbital_force(peak: float) -> float:
     """Force [N] that takes a ball along as its orbit accelerates with the ring's ``peak``."""
     bearing = preset("7603025")
     share = epicyclic(
-        roller_diameter=bearing.ball_diameter,
+        element_diameter=bearing.ball_diameter,
         pitch_diameter=bearing.pitch_diameter,
-        roller_count=bearing.ball_count,
+        element_count=bearing.ball_count,
         inner_speed=SPEED * RPM,
         contact_angle=radians(60.0),
     ).cage_speed / (SPEED * RPM)

@@ -1,0 +1,4 @@
+"""Specs of all families, which ``flexcage.spec`` shows; a new family is its line here."""
+
+from flexcage.bearings.ball import *  # noqa: F403
+from flexcage.bearings.cylindrical_roller import *  # noqa: F403

@@ -1,0 +1,5 @@
+"""Specs of all cage types, which ``flexcage.spec`` shows; a new cage type is its line here."""
+
+from flexcage.cages.machined import *  # noqa: F403
+from flexcage.cages.ribbon import *  # noqa: F403
+from flexcage.cages.window import *  # noqa: F403

@@ -1,0 +1,100 @@
+"""Compiling ahead: a process of its own compiles a case's kernels while its cage is meshed."""
+
+from __future__ import annotations
+
+import logging
+import os
+import subprocess
+import sys
+from dataclasses import dataclass
+from pathlib import Path
+
+from flexcage.case import Case, load_case, load_extension
+from flexcage.case.extensions import sources
+from flexcage.core import jit
+from flexcage.mesh.cage_mesh import CageMesh
+from flexcage.modes.reduction import CageReduction
+from flexcage.stages import bearing_in_motion, bearing_to_compile
+from flexcage.system.problem import Bearing
+
+log = logging.getLogger(__name__)
+
+MOST_PIECES = 32  # there are fewer
+
+#: Has another process import the flexcage of this one, of which compiled kernels are found by their
+#: path: one installed and one in the working folder are two.
+SAME_PACKAGE = (
+    f"import sys; home = {str(Path(__file__).resolve().parents[1])!r}; "
+    "home in sys.path or sys.path.insert(0, home)"
+)
+
+
+@dataclass(frozen=True)
+class Compiling:
+    """Pieces of kernels left to be compiled, as bytes in a pipe, and a process that takes them
+    too; whoever is free takes the next."""
+
+    pieces: int  # the pipe's end to read from
+    helper: subprocess.Popen | None
+
+
+def begin_compiling(case: Case) -> Compiling | None:
+    """Begin to compile the kernels of the case's family in a process of its own, if they are not on
+    disk yet.
+
+    Meanwhile the cage is meshed and reduced. ``build_bearing`` helps, and waits for it.
+    """
+    if jit.kernels_cached(case.bearing.family):
+        return None
+    log.info("compiling the kernels for the first time: 20 to 30 seconds, once")
+    pieces, end = os.pipe()
+    os.write(end, bytes(range(MOST_PIECES)))
+    os.close(end)
+    command = f"{SAME_PACKAGE}; from flexcage.core.orphan import end_with; "
+    command += f"end_with({os.getpid()}); from flexcage.compiling import compile_pieces; "
+    command += "compile_pieces(*sys.argv[1:])"
+    try:
+        helper = subprocess.Popen(
+            [sys.executable, "-P", "-c", command, case.to_toml(), *sources()],
+            stdin=pieces, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
+            env={**os.environ, **jit.cache_environment()},
+        )  # fmt: skip
+    except OSError:
+        helper = None  # then, or if the case is too long for a command, this one does it alone
+    return Compiling(pieces, helper)
+
+
+def compile_pieces(text: str, *use: str) -> None:
+    """Compile pieces of the kernels of a case, canonical TOML: those that standard input numbers.
+
+    ``use``: the user's files to load first.
+    """
+    for source in use:
+        load_extension(source)
+    _compile_from(sys.stdin.fileno(), bearing_to_compile(load_case(text)))
+
+
+def _compile_from(pieces: int, bearing: Bearing) -> None:
+    """Compile what can be read from ``pieces``, until nothing is left."""
+    all_pieces = bearing.pieces()
+    while number := os.read(pieces, 1):
+        if number[0] < len(all_pieces):
+            all_pieces[number[0]]()
+
+
+def build_bearing(
+    case: Case, mesh: CageMesh, cage: CageReduction | None, compiling: Compiling | None = None
+) -> Bearing:
+    """Bodies, contacts and compiled equations of motion."""
+    bearing = bearing_in_motion(case, mesh, cage)
+    compiling = compiling or begin_compiling(case)
+    if compiling is not None:
+        _compile_from(compiling.pieces, bearing)
+        os.close(compiling.pieces)
+        if compiling.helper is not None:
+            compiling.helper.wait()
+        for piece in bearing.pieces():  # what the helper took: read from disk, or compiled here
+            piece()
+    bearing.evaluate  # noqa: B018
+    jit.mark_compiled(case.bearing.family)
+    return bearing

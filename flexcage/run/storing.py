@@ -1,0 +1,105 @@
+"""What a run writes as it begins, and its cage, as a stored run has it."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+
+from flexcage.bearings import recording_of
+from flexcage.bodies.cage import BODY_VERSION, flexible_from_reduction
+from flexcage.cages.build import reduction_of
+from flexcage.case import Case
+from flexcage.core.cache import cached_arrays
+from flexcage.core.hashing import content_hash
+from flexcage.core.timing import Stages
+from flexcage.core.warning import RunWarning
+from flexcage.integrate.recorded import new_store
+from flexcage.results import room
+from flexcage.results.cage_file import FORMAT, CageFile, cage_file, cage_record, check_same
+from flexcage.results.store import MemoryRunStore
+from flexcage.results.warnings import to_text
+from flexcage.run.folder import keep_cage, kept_cage, write_case
+from flexcage.stages import Cage, made_cage
+from flexcage.system.problem import Bearing
+
+
+def run_store(
+    case: Case,
+    bearing: Bearing,
+    cage: Cage,
+    folder: Path | None,
+    *,
+    study: Path | None = None,
+    warned: Sequence[RunWarning] = (),
+) -> MemoryRunStore:
+    """A new store to write to, in ``folder`` or in memory; the folder receives case and cage, or
+    its ``study`` the cage."""
+    attrs = {"case": case.to_toml(), "hash": case.hash, "warnings": to_text(warned)}
+    if folder is not None:
+        announce_room(case, bearing, folder)
+        write_case(folder, case)
+        file = _cage_file(case, cage)
+        keep_cage(folder, file, study=study)
+        attrs["cage"] = file.digest
+    return new_store(
+        folder and folder / "results.zarr",
+        bearing,
+        recording_of(case.bearing),
+        duration=case.solver.duration,
+        output=case.output,
+        attrs=attrs,
+    )
+
+
+def stored_cage(case: Case, store: MemoryRunStore, folder: Path, stages: Stages) -> Cage:
+    """The cage that a stored run's results refer to.
+
+    A run that did not keep it (``output.keep_cage``) gets it made anew; InputError if that is
+    another one.
+    """
+    record = stages.named("cage", kept_cage, folder, store)
+    if record.mesh is None:
+        mesh, made = made_cage(case, stages)
+        assert made is not None, "a rigid cage keeps its mesh"
+        check_same(record, made.record())
+        return mesh, replace(made, stored=record.reduced)
+    if case.cage_model == "rigid":
+        return record.mesh, None
+    cage = reduction_of(
+        record.mesh,
+        cage=case.cage,
+        defects=case.all_defects,
+        spec=case.modes,
+        order=case.mesh.order,
+        stored=record.reduced,
+    )
+    return record.mesh, cage
+
+
+def _cage_file(case: Case, cage: Cage) -> CageFile:
+    """What a run's folder keeps of its cage. That of a flexible cage is packed once."""
+    mesh, reduction = cage
+    if reduction is None:
+        return cage_file(cage_record(mesh, {}))
+    large = case.output.keep_cage
+
+    def make() -> dict[str, np.ndarray]:
+        body = flexible_from_reduction(reduction, case.modes).data._asdict()
+        reduced = {**reduction.record(), "body": {k: np.asarray(v) for k, v in body.items()}}
+        return vars(cage_file(cage_record(mesh, reduced, large=large)))
+
+    key = content_hash(FORMAT, reduction.content, BODY_VERSION, case.modes, large)
+    kept = reduction.once(f"file {key}", lambda: cached_arrays("cage", key, make))
+    return CageFile(str(kept["digest"]), kept["content"])
+
+
+def announce_room(case: Case, bearing: Bearing, folder: Path) -> None:
+    """Say how much room the results will take; EnvironmentLacks if there cannot be enough."""
+    output = case.output
+    recording = recording_of(case.bearing)
+    short = new_store(None, bearing, recording, duration=0.0, output=output, attrs={})
+    rate = room.expected_rate(short.layout, output.rate, output.vibration_rate)
+    room.announce(folder, rate, case.solver.duration)
