@@ -20,22 +20,12 @@ from flexcage.core.units import parse
 from flexcage.geometry.bearing import OTHER_DESIGNS
 from flexcage.geometry.inside import Outline
 
-#: Series of a designation: the type of bearing, and the diameter series of ISO 15.
-SERIES = {
-    "60": ("deep_groove_ball", "0"),
-    "62": ("deep_groove_ball", "2"),
-    "63": ("deep_groove_ball", "3"),
-    "70": ("angular_contact_ball", "0"),
-    "72": ("angular_contact_ball", "2"),
-    "73": ("angular_contact_ball", "3"),
-    "N10": ("cylindrical_roller", "0"),
-    "N2": ("cylindrical_roller", "2"),
-    "N3": ("cylindrical_roller", "3"),
+# columns of ratings that only some types of bearing have: the option of "flexcage new" for each
+_OPTIONS = {
+    "contact_angle_deg": "--contact-angle",
+    "inner_race_mm": "--inner-race",
+    "outer_race_mm": "--outer-race",
 }
-#: Contact angles [deg] by suffix; what "A" means depends on the maker.
-ANGLES = {"C": 15, "AC": 25, "A5": 25, "B": 40}
-_DESIGNATION = re.compile(r"(N10|N2|N3|6[023]|7[023])(\d\d)((?:[A-Z][A-Z0-9]*)?)")
-_ROLLERS = re.compile(r"(?:NU|NJ|NUP)((?:10|2|3)\d\d)(.*)")
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -77,39 +67,47 @@ def _nearest(name: str) -> str:
     """The known designations that are nearest to a name, or what the catalogue has at all."""
     close = difflib.get_close_matches(name, _ratings(), n=3)
     if not close:
-        return f"it has the series {', '.join(SERIES)}, with bores of 10 to 60 mm"
+        return f"it has the series {', '.join(_series())}, with bores of 10 to 60 mm"
     return f"the nearest known {'one is' if len(close) == 1 else 'ones are'} {', '.join(close)}"
 
 
 def _same_rollers(name: str) -> str:
-    """What there is in the place of a NU, NJ or NUP."""
-    match = _ROLLERS.match(name)
-    known = match is not None and f"N{match[1]}" in _ratings()
-    return f"; 'N{match[1]}' has the same races and ratings" if match and known else ""
+    """What there is in the place of another design, which has its rolling elements and races."""
+    for series, row in _series().items():
+        for other in row["other_designs"].split():
+            own = f"{series}{name.removeprefix(other)[:2]}"
+            if re.match(rf"{other}\d\d(\D|$)", name) and own in _ratings():
+                return f"; '{own}' has the same races and ratings"
+    return ""
+
+
+def _parsed(name: str) -> tuple[dict[str, str], str, str] | None:
+    """Row of the series, bore code and suffix of a designation; None if it has another form."""
+    pattern = rf"({'|'.join(_series())})(\d\d)((?:[A-Z][A-Z0-9]*)?)"
+    match = re.fullmatch(pattern, name)
+    return (_series()[match[1]], match[2], match[3]) if match else None
 
 
 def _without_ratings(text: str, name: str) -> InputError | None:
     """The sentence on a designation whose dimensions alone are known."""
-    match = _DESIGNATION.fullmatch(name)
-    found = match and _boundary().get((SERIES[match[1]][1], match[2]))
-    if not match or not found:
+    parsed = _parsed(name)
+    found = parsed and _boundary().get((parsed[0]["diameter_series"], parsed[1]))
+    if not parsed or not found:
         return None
-    kind, suffix = SERIES[match[1]][0], match[3]
+    series, code, suffix = parsed
     bore, outside, width = found
-    wanted = ["--dynamic", "--static"]
+    alike = next(row for n, row in _ratings().items() if n.startswith(series["series"]))
+    wanted = [option for column, option in _OPTIONS.items() if alike[column]]
     angle = ""
-    if kind == "angular_contact_ball":
-        known = suffix in ANGLES
-        angle = f' --contact-angle "{ANGLES[suffix]} deg"' if known else ""
-        wanted += [] if known else ["--contact-angle"]
-    if kind == "cylindrical_roller":
-        wanted += ["--inner-race", "--outer-race"]
-    others = [n for n in _ratings() if n.startswith(match[1] + match[2])]
+    if "--contact-angle" in wanted and suffix in _suffixes():
+        wanted.remove("--contact-angle")
+        angle = f' --contact-angle "{_suffixes()[suffix]} deg"'
+    others = [n for n in _ratings() if re.fullmatch(rf"{series['series']}{code}\D*", n)]
     has = f" (it has {', '.join(others)})" if others else ""
     return InputError(
-        f"The catalogue has no ratings of '{text}'{has}; complete, with {', '.join(wanted)}: "
-        f'flexcage new {name} --type {kind} --bore "{bore}" --outside "{outside}" --width '
-        f'"{width}"{angle}.',
+        f"The catalogue has no ratings of '{text}'{has}; complete, with "
+        f"{', '.join(['--dynamic', '--static', *wanted])}: flexcage new {name} --type "
+        f'{series["type"]} --bore "{bore}" --outside "{outside}" --width "{width}"{angle}.',
         where="designation",
         value=text,
     )
@@ -117,13 +115,14 @@ def _without_ratings(text: str, name: str) -> InputError | None:
 
 def _entry(name: str) -> Entry:
     row = _ratings()[name]
-    match = _DESIGNATION.fullmatch(name)
-    assert match is not None  # a test holds all designations of the file against the pattern
-    kind, series = SERIES[match[1]]
-    bore, outside, width = (parse(text, "mm") for text in _boundary()[series, match[2]])
+    parsed = _parsed(name)
+    assert parsed is not None  # a test holds all designations of the file against the pattern
+    series, code, _ = parsed
+    place = series["diameter_series"], code
+    bore, outside, width = (parse(text, "mm") for text in _boundary()[place])
     return Entry(
         outline=Outline(
-            type=kind, designation=name, bore=bore, outside_diameter=outside, width=width,
+            type=series["type"], designation=name, bore=bore, outside_diameter=outside, width=width,
             static_rating=parse(f"{row['static_kN']} kN", "kN"),
             dynamic_rating=parse(f"{row['dynamic_kN']} kN", "kN"),
             contact_angle=_optional(row["contact_angle_deg"], "deg"),
@@ -146,6 +145,18 @@ def _rows(name: str) -> Iterator[dict[str, str]]:
 @cache
 def _ratings() -> dict[str, dict[str, str]]:
     return {row["designation"]: row for row in _rows("ratings")}
+
+
+@cache
+def _series() -> dict[str, dict[str, str]]:
+    """Type of bearing and diameter series of ISO 15 by series, and other designs of the same."""
+    return {row["series"]: row for row in _rows("series")}
+
+
+@cache
+def _suffixes() -> dict[str, str]:
+    """Contact angles [deg] by suffix: those that all makers mean ("A" is 25 or 30 degrees)."""
+    return {row["suffix"]: row["contact_angle_deg"] for row in _rows("suffixes")}
 
 
 @cache
