@@ -12,6 +12,7 @@ from flexcage.core.wings import FAMILIES
 from flexcage.geometry.bearing import BEARING_TYPES, Bearing, name_of
 
 if TYPE_CHECKING:
+    from flexcage.geometry.inside import Inside
     from flexcage.integrate.recording import Recording
     from flexcage.render.shapes import ShapesOf
     from flexcage.results.figures import OwnFigures
@@ -30,7 +31,8 @@ class Family:
     with them; ``other_designs`` maps patterns of names that are no types here to what there is
     instead. All else is heavy: functions without arguments that import what they return. None
     where a family has nothing of the kind: no static solution (``statics``), or neither equations
-    of motion (``motion``) nor a record of them (``recording``), no pictures (``shapes``).
+    of motion (``motion``) nor a record of them (``recording``), no pictures (``shapes``), no rule
+    by which ``flexcage new`` infers insides (``inside``).
     """
 
     name: str
@@ -43,6 +45,7 @@ class Family:
     figures: Callable[[], OwnFigures] | None  # of its runs' summaries beside the common ones
     rubbing: Callable[[], Rub] | None  # of its elements in their pockets, for wear
     shapes: Callable[[], ShapesOf] | None  # profiles of rings and elements, for pictures
+    inside: Callable[[], Inside] | None  # inferred from a catalogue's ratings
     other_designs: Mapping[str, str] = field(default_factory=dict)
 
     @property
@@ -96,6 +99,18 @@ def recording_of(bearing: Bearing) -> Recording[Any]:
     if recording is None:
         raise _lacking(bearing, "record of a run")
     return recording()
+
+
+def inside_of(spec: type[Bearing]) -> Inside:
+    """What infers the insides of bearings of a spec; InputError without it."""
+    inside = family_of(spec).inside
+    if inside is None or name_of(spec) not in inside().cages:
+        raise InputError(
+            f"The inside of a {spec.kind} is not inferred from ratings; give its dimensions in a "
+            "case.",
+            where="bearing.type",
+        )
+    return inside()
 
 
 def _lacking(bearing: Bearing, what: str) -> InputError:

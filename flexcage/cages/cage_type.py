@@ -13,6 +13,7 @@ from flexcage.geometry.cage import Cage
 from flexcage.geometry.defect import CageDefect, note_listed
 
 if TYPE_CHECKING:
+    from flexcage.geometry.inside import CageProposal
     from flexcage.mesh.build import MeshBuilder
     from flexcage.modes.reduction import Interfaces
     from flexcage.stress.places import Places
@@ -34,6 +35,7 @@ class CageType(Generic[C]):
     mesh: Callable[[], MeshBuilder[C]]
     interfaces: Callable[[], Interfaces[C]]
     places: Callable[[], Places]  # at which stress is followed
+    proposal: Callable[[], CageProposal] | None  # a cage for ``flexcage new``; None: no rule
     defects: tuple[type[CageDefect], ...] = ()
     defect_spec: type[CageDefect] = CageDefect  # what its mesh wants of each
 
@@ -64,6 +66,18 @@ def riveted_cages() -> tuple[str, str]:
     names = [name for name, made in CAGE_TYPES.items() if made.spec.riveted]
     chosen = " or ".join(f"'{name}'" for name in names)
     return f"{' and '.join(names)} cages", f"cage.type = {chosen}"
+
+
+def proposal_of(name: str) -> CageProposal:
+    """What proposes a cage of a type, by its name; InputError where nothing does."""
+    made = CAGE_TYPES.get(name)
+    if made is None or made.proposal is None:
+        raise InputError(
+            f"No dimensions are proposed for a cage of type '{name}'; describe it in a case.",
+            where="cage.type",
+            value=name,
+        )
+    return made.proposal()
 
 
 def register_cage_type(made: CageType[Any]) -> CageType[Any]:

@@ -101,5 +101,6 @@ bearing_family(
         figures=None,
         rubbing=None,
         shapes=None,
+        inside=None,
     )
 )

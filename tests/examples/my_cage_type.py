@@ -59,5 +59,6 @@ register.cage_type(
         mesh=_mesh,
         interfaces=MACHINED.interfaces,
         places=MACHINED.places,
+        proposal=None,
     )
 )

@@ -17,6 +17,7 @@ __all__ = [
 ]
 
 if TYPE_CHECKING:
+    from flexcage.geometry.inside import Inside
     from flexcage.integrate.recording import Recording
     from flexcage.render.shapes import ShapesOf
     from flexcage.results.figures import OwnFigures
@@ -75,6 +76,12 @@ def _shapes() -> ShapesOf:
     return ball_shapes
 
 
+def _inside() -> Inside:
+    from flexcage.bearings.ball.inside import INSIDE
+
+    return INSIDE
+
+
 FAMILY = Family(
     name="ball",
     types=(AngularContactBallBearing, DeepGrooveBallBearing),
@@ -86,4 +93,5 @@ FAMILY = Family(
     motion=_motion,
     recording=_recording,
     shapes=_shapes,
+    inside=_inside,
 )

@@ -16,6 +16,7 @@ from flexcage.bearings.family import Family
 __all__ = ["RollerBearing", "RollerProfile", "Spall"]
 
 if TYPE_CHECKING:
+    from flexcage.geometry.inside import Inside
     from flexcage.integrate.recording import Recording
     from flexcage.render.shapes import ShapesOf
     from flexcage.results.figures import OwnFigures
@@ -74,6 +75,12 @@ def _shapes() -> ShapesOf:
     return roller_shapes
 
 
+def _inside() -> Inside:
+    from flexcage.bearings.cylindrical_roller.inside import INSIDE
+
+    return INSIDE
+
+
 FAMILY = Family(
     name="cylindrical_roller",
     types=(RollerBearing,),
@@ -85,5 +92,6 @@ FAMILY = Family(
     motion=_motion,
     recording=_recording,
     shapes=_shapes,
+    inside=_inside,
     other_designs=OTHER_DESIGNS,
 )

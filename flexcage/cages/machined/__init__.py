@@ -25,6 +25,7 @@ __all__ = [
 ]
 
 if TYPE_CHECKING:
+    from flexcage.geometry.inside import CageProposal
     from flexcage.mesh.build import MeshBuilder
     from flexcage.modes.reduction import Interfaces
     from flexcage.stress.places import Places
@@ -48,8 +49,14 @@ def _places() -> Places:
     return ROUND_PLACES
 
 
+def _proposal() -> CageProposal:
+    from flexcage.cages.machined.proposal import propose_machined_cage
+
+    return propose_machined_cage
+
+
 MACHINED = CageType(
     name="machined", spec=BallCage, holds=("ball",), mesh=_mesh, interfaces=_interfaces,
-    places=_places, defects=(EnlargedPocket, ElongatedPocket, DisplacedPocket, WebCrack),
-    defect_spec=BallCageDefect,
+    places=_places, proposal=_proposal, defect_spec=BallCageDefect,
+    defects=(EnlargedPocket, ElongatedPocket, DisplacedPocket, WebCrack),
 )  # fmt: skip

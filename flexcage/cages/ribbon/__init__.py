@@ -13,6 +13,7 @@ from flexcage.cages.ribbon.defects import MissingRivet
 __all__ = ["MissingRivet", "RibbonCage"]
 
 if TYPE_CHECKING:
+    from flexcage.geometry.inside import CageProposal
     from flexcage.mesh.build import MeshBuilder
     from flexcage.modes.reduction import Interfaces
     from flexcage.stress.places import Places
@@ -36,8 +37,14 @@ def _places() -> Places:
     return ROUND_PLACES
 
 
+def _proposal() -> CageProposal:
+    from flexcage.cages.ribbon.proposal import propose_ribbon_cage
+
+    return propose_ribbon_cage
+
+
 RIBBON = CageType(
     name="ribbon", spec=RibbonCage, holds=("ball",), mesh=_mesh, interfaces=_interfaces,
-    places=_places, defects=(MissingRivet,),
+    places=_places, proposal=_proposal, defects=(MissingRivet,),
     defect_spec=BallCageDefect,
 )  # fmt: skip

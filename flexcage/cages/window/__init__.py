@@ -17,6 +17,7 @@ __all__ = [
 ]
 
 if TYPE_CHECKING:
+    from flexcage.geometry.inside import CageProposal
     from flexcage.mesh.build import MeshBuilder
     from flexcage.modes.reduction import Interfaces
     from flexcage.stress.places import Places
@@ -40,8 +41,14 @@ def _places() -> Places:
     return WINDOW_PLACES
 
 
+def _proposal() -> CageProposal:
+    from flexcage.cages.window.proposal import propose_window_cage
+
+    return propose_window_cage
+
+
 WINDOW = CageType(
     name="window", spec=WindowCage, holds=("roller",), mesh=_mesh, interfaces=_interfaces,
-    places=_places, defects=(CrossbeamDefect, SideBeamDefect),
+    places=_places, proposal=_proposal, defects=(CrossbeamDefect, SideBeamDefect),
     defect_spec=WindowDefect,
 )  # fmt: skip

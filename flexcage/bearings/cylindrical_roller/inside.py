@@ -1,0 +1,101 @@
+"""Number and length of the rollers inside a catalogue's bearing, from its outline and ratings.
+
+Race diameters F and E give the rollers' diameter, C0 the product of number and effective length.
+C says hardly more than C0 (number and length count alike in both), so that lengths of standard
+rollers and usual distances between rollers decide.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from math import ceil, pi, sin
+
+from flexcage.bearings.cylindrical_roller.bearing import RollerBearing
+from flexcage.bearings.cylindrical_roller.ratings import static_rating
+from flexcage.core.errors import InputError
+from flexcage.core.units import describe
+from flexcage.geometry.inside import Candidate, Inside, Outline, rounded
+
+_LONGEST = 1.6  # length over diameter of rollers
+_WIDEST = 0.74  # length over the bearing's width: ribs remain at both sides
+_CLOSEST = 0.92  # roller over the distance of two rollers: crossbeams of a cage remain
+_USUAL = 0.815  # likewise, in bearings of today
+_CHAMFER, _CHAMFER_SLOPE = 0.27e-3, 0.03  # usual end chamfer [m] of rollers of diameter 0, and more
+_SHORTEST_CHAMFER, _LONGEST_CHAMFER = 0.02, 0.1  # of the diameter
+_RIB = 0.22  # a rib's height over the roller's diameter
+_PLAY = 30e-6  # m, axially between the ribs
+_CLEARANCE = 20e-6  # m
+_LARGEST = 0.15  # m, a roller's diameter
+
+
+def candidates(outline: Outline) -> list[Candidate]:
+    """Rollers of the diameter that the races leave, as long as or longer than it."""
+    inner = outline.given("inner_race_diameter", "the race diameter F (--inner-race)")
+    outer = outline.given("outer_race_diameter", "the race diameter E (--outer-race)")
+    diameter, pitch = 0.5 * (outer - inner), 0.5 * (outer + inner)
+    if diameter <= 0.0:
+        raise InputError(
+            f"The race diameter E, {describe(outer, 'mm')}, must be greater than F, "
+            f"{describe(inner, 'mm')}.",
+            where="--outer-race",
+        )
+    longest = min(_LONGEST * min(diameter, _LARGEST), _WIDEST * outline.width)
+    steps = range(ceil(2e3 * diameter - 1e-6), int(2e3 * longest) + 1)
+    found = []
+    lengths = {round(diameter, 9), *(round(0.5e-3 * k, 9) for k in steps)}
+    for length in sorted(x for x in lengths if x <= longest):
+        for count in range(6, 60):
+            share = diameter / (pitch * sin(pi / count))
+            if share > _CLOSEST:
+                break
+            if made := _candidate(outline, length, count, share):
+                found.append(made)
+    return found
+
+
+def _candidate(outline: Outline, length: float, count: int, share: float) -> Candidate | None:
+    """So many rollers of a length [m], with the chamfers that C0 leaves them; None if these are
+    out of the question."""
+    inner, outer = outline.inner_race_diameter or 0.0, outline.outer_race_diameter or 0.0
+    diameter = 0.5 * (outer - inner)
+    bearing = RollerBearing(
+        **outline.boundary,
+        designation=outline.designation,
+        inner_race_diameter=inner,
+        outer_race_diameter=outer,
+        roller_diameter=round(diameter, 9),
+        roller_length=round(length, 9),
+        effective_length=round(length, 9),
+        roller_count=count,
+        radial_clearance=_CLEARANCE,
+        rib_diameter=rounded(inner + 2.0 * _RIB * diameter, 0.1e-3),
+        rib_gap=round(length + _PLAY, 9),
+    )
+    due = length * outline.static_rating / static_rating(bearing)
+    least, most = (2.0 * k * diameter for k in (_SHORTEST_CHAMFER, _LONGEST_CHAMFER))
+    effective = rounded(min(max(due, length - most), length - least), 10e-6)
+    bearing = replace(bearing, effective_length=effective)
+    chamfer = 0.5 * (length - effective)
+    off = (chamfer - _CHAMFER - _CHAMFER_SLOPE * diameter) / 0.12e-3
+    crowded = (share - _USUAL) / (0.03 if share > _USUAL else 0.1)
+    whole = round(length - diameter, 9) == 0.0 or round(1e3 * length, 6).is_integer()
+    return Candidate(
+        outline=outline, bearing=bearing, reasons=_reasons(bearing, share, chamfer),
+        unlikely=off**2 + crowded**2 + (0.0 if whole else 2.0),
+    )  # fmt: skip
+
+
+def _reasons(bearing: RollerBearing, share: float, chamfer: float) -> dict[str, str]:
+    size = f"{1e3 * bearing.roller_diameter:g} x {1e3 * bearing.roller_length:g}"
+    return {
+        "roller_diameter": "from the race diameters: (E - F)/2",
+        "roller_length": f"inferred from C0: a roller {size}",
+        "effective_length": f"inferred from C0: the length less chamfers of {1e3 * chamfer:.2g} mm",
+        "roller_count": f"inferred from C0: a roller takes {share:.0%} of the distance of two",
+        "radial_clearance": "assumption: in operation; less than before mounting (ISO 5753)",
+        "rib_diameter": f"assumption: ribs {_RIB:.0%} of the roller's diameter high",
+        "rib_gap": "assumption: axial play of 0.03 mm for the roller",
+    }
+
+
+INSIDE = Inside(candidates=candidates, cages={"cylindrical_roller": "window"})

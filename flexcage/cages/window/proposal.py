@@ -1,0 +1,44 @@
+"""A machined window cage of usual proportions for a roller bearing."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from flexcage.cages.window.cage import WindowCage
+from flexcage.geometry.inside import ProposedCage, rounded
+
+_AROUND, _ALONG = 0.2e-3, 0.25e-3  # m, clearances of a pocket
+_TO_RIBS = 0.25e-3  # m, radially
+_WALL = 0.48  # over the roller's diameter
+_SIDE_BEAM = 0.35  # likewise
+_WIDEST = 0.9  # over the bearing's width
+_FILLET = 0.06  # over the roller's diameter
+_STEP = 10e-6  # m
+
+
+def propose_window_cage(bearing: Any) -> ProposedCage:
+    """A hollow cylinder above the inner ring's ribs."""
+    roller, length = bearing.element_diameter, bearing.element_length
+    ribs = bearing.cage_space(None)[0].diameter
+    pocket = length + _ALONG
+    cage = WindowCage(
+        bore=rounded(ribs + 2.0 * _TO_RIBS, _STEP),
+        outside_diameter=rounded(ribs + 2.0 * (_TO_RIBS + _WALL * roller), _STEP),
+        width=rounded(min(pocket + 2.0 * _SIDE_BEAM * roller, _WIDEST * bearing.width), _STEP),
+        pocket_width=rounded(roller + _AROUND, _STEP),
+        pocket_length=rounded(pocket, _STEP),
+        fillet_radius=rounded(_FILLET * roller, _STEP),
+    )
+    return ProposedCage(
+        cage=cage,
+        reasons={
+            "material": "assumption: machined cages are of brass",
+            "bore": f"assumption: {1e3 * _TO_RIBS:g} mm of radial clearance to the ribs",
+            "outside_diameter": f"assumption: a wall {_WALL:g} times the roller's diameter thick",
+            "width": f"assumption: side beams {_SIDE_BEAM:g} times the roller's diameter wide, or "
+            f"{_WIDEST:g} of the bearing's width",
+            "pocket_width": f"assumption: {1e3 * _AROUND:g} mm of clearance",
+            "pocket_length": f"assumption: {1e3 * _ALONG:g} mm of clearance",
+            "fillet_radius": f"assumption: {_FILLET:g} times the roller's diameter",
+        },
+    )

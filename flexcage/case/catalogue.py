@@ -1,0 +1,175 @@
+"""What catalogues say of common bearings: boundary dimensions of ISO 15, ratings, races F and E.
+
+The data are in the folder ``catalogues``: dimensions by diameter series and bore code, which all
+types share, and ratings by designation, each with the catalogue that they are from.
+"""
+
+from __future__ import annotations
+
+import csv
+import difflib
+import re
+from collections.abc import Iterator
+from dataclasses import dataclass
+from functools import cache
+from importlib import resources
+
+from flexcage.core.binding import told_elsewhere
+from flexcage.core.errors import InputError
+from flexcage.core.units import parse
+from flexcage.geometry.bearing import OTHER_DESIGNS
+from flexcage.geometry.inside import Outline
+
+# columns of ratings that only some types of bearing have: the option of "flexcage new" for each
+_OPTIONS = {
+    "contact_angle_deg": "--contact-angle",
+    "inner_race_mm": "--inner-race",
+    "outer_race_mm": "--outer-race",
+}
+
+
+@dataclass(frozen=True, kw_only=True)
+class Entry:
+    """A bearing of the catalogue, and where its ratings are from."""
+
+    outline: Outline
+    source: str
+
+
+def designations() -> list[str]:
+    """All designations with ratings."""
+    return list(_ratings())
+
+
+def find(text: str) -> Entry:
+    """The bearing of a designation, "N 210" or "N210"; InputError if it is unknown, or known
+    without ratings, or of a design that flexcage has not."""
+    name = re.sub(r"[\s_-]", "", text.upper())
+    if name in _ratings():
+        return _entry(name)
+    if told := told_elsewhere(name, OTHER_DESIGNS):
+        raise InputError(f"'{text}': {told}{_same_rollers(name)}.", where="designation", value=text)
+    raise _without_ratings(text, name) or InputError(
+        f"'{text}' is not in the catalogue; {_nearest(name)}, and any other bearing is described "
+        f"by {WAY}.",
+        where="designation",
+        value=text,
+    )
+
+
+WAY = (
+    'its dimensions and ratings, as in: flexcage new --type deep_groove_ball --bore "25 mm" '
+    '--outside "52 mm" --width "15 mm" --dynamic "14 kN" --static "7.85 kN"'
+)
+
+
+def _nearest(name: str) -> str:
+    """The known designations that are nearest to a name, or what the catalogue has at all."""
+    close = difflib.get_close_matches(name, _ratings(), n=3)
+    if not close:
+        return f"it has the series {', '.join(_series())}, with bores of 10 to 60 mm"
+    return f"the nearest known {'one is' if len(close) == 1 else 'ones are'} {', '.join(close)}"
+
+
+def _same_rollers(name: str) -> str:
+    """What there is in the place of another design, which has its rolling elements and races."""
+    for series, row in _series().items():
+        for other in row["other_designs"].split():
+            own = f"{series}{name.removeprefix(other)[:2]}"
+            if re.match(rf"{other}\d\d(\D|$)", name) and own in _ratings():
+                return f"; '{own}' has the same races and ratings"
+    return ""
+
+
+def _parsed(name: str) -> tuple[dict[str, str], str, str] | None:
+    """Row of the series, bore code and suffix of a designation; None if it has another form."""
+    pattern = rf"({'|'.join(_series())})(\d\d)((?:[A-Z][A-Z0-9]*)?)"
+    match = re.fullmatch(pattern, name)
+    return (_series()[match[1]], match[2], match[3]) if match else None
+
+
+def _without_ratings(text: str, name: str) -> InputError | None:
+    """The sentence on a designation whose dimensions alone are known."""
+    parsed = _parsed(name)
+    found = parsed and _boundary().get((parsed[0]["diameter_series"], parsed[1]))
+    if not parsed or not found:
+        return None
+    series, code, suffix = parsed
+    bore, outside, width = found
+    alike = next(row for n, row in _ratings().items() if n.startswith(series["series"]))
+    wanted = [option for column, option in _OPTIONS.items() if alike[column]]
+    angle = ""
+    if "--contact-angle" in wanted and suffix in _suffixes():
+        wanted.remove("--contact-angle")
+        angle = f' --contact-angle "{_suffixes()[suffix]} deg"'
+    others = [n for n in _ratings() if re.fullmatch(rf"{series['series']}{code}\D*", n)]
+    has = f" (it has {', '.join(others)})" if others else ""
+    return InputError(
+        f"The catalogue has no ratings of '{text}'{has}; complete, with "
+        f"{', '.join(['--dynamic', '--static', *wanted])}: flexcage new {name} --type "
+        f'{series["type"]} --bore "{bore}" --outside "{outside}" --width "{width}"{angle}.',
+        where="designation",
+        value=text,
+    )
+
+
+def _entry(name: str) -> Entry:
+    row = _ratings()[name]
+    parsed = _parsed(name)
+    assert parsed is not None  # a test holds all designations of the file against the pattern
+    series, code, _ = parsed
+    place = series["diameter_series"], code
+    bore, outside, width = (parse(text, "mm") for text in _boundary()[place])
+    return Entry(
+        outline=Outline(
+            type=series["type"], designation=name, bore=bore, outside_diameter=outside, width=width,
+            static_rating=parse(f"{row['static_kN']} kN", "kN"),
+            dynamic_rating=parse(f"{row['dynamic_kN']} kN", "kN"),
+            contact_angle=_optional(row["contact_angle_deg"], "deg"),
+            inner_race_diameter=_optional(row["inner_race_mm"], "mm"),
+            outer_race_diameter=_optional(row["outer_race_mm"], "mm"),
+        ),
+        source=_sources()[row["source"]],
+    )  # fmt: skip
+
+
+def _optional(text: str, unit: str) -> float | None:
+    return parse(f"{text} {unit}", unit) if text else None
+
+
+def _rows(name: str) -> Iterator[dict[str, str]]:
+    file = resources.files("flexcage.case") / "catalogues" / f"{name}.csv"
+    return csv.DictReader(file.read_text("utf-8").splitlines())
+
+
+@cache
+def _ratings() -> dict[str, dict[str, str]]:
+    return {row["designation"]: row for row in _rows("ratings")}
+
+
+@cache
+def _series() -> dict[str, dict[str, str]]:
+    """Type of bearing and diameter series of ISO 15 by series, and other designs of the same."""
+    return {row["series"]: row for row in _rows("series")}
+
+
+@cache
+def _suffixes() -> dict[str, str]:
+    """Contact angles [deg] by suffix: those that all makers mean ("A" is 25 or 30 degrees)."""
+    return {row["suffix"]: row["contact_angle_deg"] for row in _rows("suffixes")}
+
+
+@cache
+def _sources() -> dict[str, str]:
+    return {row["source"]: row["catalogue"] for row in _rows("sources")}
+
+
+@cache
+def _boundary() -> dict[tuple[str, str], tuple[str, str, str]]:
+    """Bore, outside diameter and width as texts, by diameter series and bore code."""
+    return {
+        (row["diameter_series"], row["bore_code"]): (
+            f"{row['bore_mm']} mm", f"{row['outside_diameter_mm']} mm", f"{row['width_mm']} mm",
+        )
+        for row in _rows("boundary")
+    }  # fmt: skip

@@ -1,0 +1,185 @@
+"""A new case for a bearing of a catalogue, as commented TOML that runs as it stands."""
+
+from __future__ import annotations
+
+import json
+import re
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, fields
+from math import floor, log10
+from typing import Any
+
+from flexcage.bearings.family import inside_of
+from flexcage.cages.cage_type import proposal_of
+from flexcage.case.case import load_case
+from flexcage.case.presets import NAMED
+from flexcage.core.binding import default_of, to_table
+from flexcage.core.errors import InputError, in_one_line
+from flexcage.core.units import describe
+from flexcage.geometry.bearing import BEARING_TYPES, check_type
+from flexcage.geometry.inside import (
+    Candidate,
+    Outline,
+    ProposedCage,
+    in_short,
+    ranked,
+)
+
+SHOWN = 4  # candidates that are told
+_LOAD = 0.05  # of the dynamic rating
+_SPEED = 250.0  # m/min, speed [rpm] times pitch diameter: moderate for any bearing
+_DURATION = "20 ms"
+
+
+@dataclass(frozen=True, kw_only=True)
+class NewCase:
+    """A written case: its text, and what it was inferred from. ``candidates`` are those whose
+    ratings fit, best first; ``chosen`` is the first of them that leaves a cage its place."""
+
+    name: str
+    text: str
+    outline: Outline
+    source: str
+    chosen: Candidate
+    candidates: Sequence[Candidate]
+
+    def findings(self) -> list[str]:
+        """Lines for a terminal: what was inferred, how well it fits, and what fits nearly."""
+        return _findings(self.outline, self.source, self.chosen, self.candidates)
+
+
+def new_case(outline: Outline, source: str) -> NewCase:
+    """The case of a bearing that a catalogue, named by ``source``, describes; InputError if there
+    is no such bearing."""
+    check_type(outline.type)
+    inside = inside_of(BEARING_TYPES[outline.type])
+    candidates = ranked(inside.candidates(outline))
+    propose = proposal_of(inside.cages[outline.type])
+    refused = None
+    for candidate in candidates:
+        try:
+            proposed = propose(candidate.bearing)
+            text = _text(outline, source, candidate, candidates, proposed)
+            load_case(text)
+        except InputError as exc:
+            refused = refused or exc
+            continue
+        return NewCase(
+            name=case_name(outline), text=text, outline=outline, source=source, chosen=candidate,
+            candidates=candidates,
+        )  # fmt: skip
+    assert refused is not None  # there is a candidate, or ``ranked`` has raised
+    raise refused
+
+
+def case_name(outline: Outline) -> str:
+    """Name of the case, and of its file."""
+    if outline.designation:
+        name = re.sub(r"[^A-Za-z0-9_-]", "", outline.designation)
+        if name:
+            return name
+    return "x".join(f"{1e3 * value:g}" for value in outline.boundary.values())
+
+
+def _findings(
+    outline: Outline, source: str, chosen: Candidate, candidates: Sequence[Candidate]
+) -> list[str]:
+    static, dynamic = chosen.bearing.rating_names
+    others = [c for c in candidates if c is not chosen][: SHOWN - 1]
+    return [
+        f"{chosen.bearing.name_and_size}",
+        f"Ratings: {dynamic} = {_kn(outline.dynamic_rating)}, "
+        f"{static} = {_kn(outline.static_rating)} ({source}).",
+        f"Inside, inferred: {_residuals(chosen)}.",
+        *(
+            f"{'Next best' if k == 0 else '     then'}: {_residuals(c)}."
+            for k, c in enumerate(others)
+        ),
+    ]
+
+
+def _residuals(candidate: Candidate) -> str:
+    static, dynamic = candidate.bearing.rating_names
+    bearing = candidate.bearing
+    return (
+        f"{in_short(bearing)} on {describe(round(bearing.pitch_diameter, 6), 'mm')}; "
+        f"{static} = {_kn(bearing.static_rating)} by ISO 76 ({candidate.static_error:+.1%}), "
+        f"{dynamic} = {_kn(bearing.dynamic_rating)} by ISO 281 (as rated: "
+        f"{candidate.makers_factor:.2f} times that)"
+    )
+
+
+def _kn(force: float) -> str:
+    return f"{force / 1e3:.3g} kN" if force < 1e6 else f"{force / 1e3:.0f} kN"
+
+
+def _text(
+    outline: Outline, source: str, chosen: Candidate, candidates: Sequence[Candidate],
+    proposed: ProposedCage,
+) -> str:  # fmt: skip
+    name, bearing = case_name(outline), chosen.bearing
+    head = [f"# {in_one_line(line)}" for line in _findings(outline, source, chosen, candidates)]
+    given = _given(outline)
+    load = "axial" if outline.contact_angle else "radial"
+    sections = [
+        ("bearing", _entries(bearing, {"type": "", "designation": "", **given, **chosen.reasons})),
+        ("cage", [
+            ("model", '"flexible"', ""),
+            *_entries(proposed.cage, {"type": "", **proposed.reasons}),
+        ]),
+        ("drive", [("speed", f'"{_speed(bearing.pitch_diameter)} rpm"', "assumption: moderate")]),
+        ("load", [(
+            load, f'"{_two_digits(_LOAD * outline.dynamic_rating):g} N"',
+            f"assumption: {_LOAD:.0%} of the dynamic rating",
+        )]),
+        ("solver", [("duration", f'"{_DURATION}"', "assumption: a first look")]),
+    ]  # fmt: skip
+    lines = [
+        *head,
+        "# Makers do not publish insides: what is inferred or assumed is marked.",
+        f"# flexcage run {name}.toml",
+        f'name = "{name}"',
+    ]
+    for section, entries in sections:
+        lines += ["", f"[{section}]", *_aligned(entries)]
+    return "\n".join(lines) + "\n"
+
+
+def _given(outline: Outline) -> dict[str, str]:
+    """Why the dimensions of the outline are as they are."""
+    races = {
+        f"{side}_race_diameter": f"given: race diameter {letter}"
+        for side, letter in (("inner", "F"), ("outer", "E"))
+        if getattr(outline, f"{side}_race_diameter") is not None
+    }
+    angle = {"contact_angle": "given"} if outline.contact_angle is not None else {}
+    return {**dict.fromkeys(outline.boundary, "given: boundary dimension"), **races, **angle}
+
+
+def _entries(spec: Any, reasons: Mapping[str, str]) -> list[tuple[str, str, str]]:
+    """Key, value and comment of a spec's values: those with a reason, and all that are not as they
+    would be anyway."""
+    table = to_table(spec, named=NAMED)
+    plain = {f.name for f in fields(spec) if getattr(spec, f.name) == default_of(f)}
+    wanted = [key for key in table if key in reasons or key not in plain]
+    return [(key, _value(table[key]), reasons.get(key, "")) for key in wanted]
+
+
+def _value(value: Any) -> str:
+    return json.dumps(value, ensure_ascii=False) if isinstance(value, str) else str(value)
+
+
+def _aligned(entries: Sequence[tuple[str, str, str]]) -> list[str]:
+    pairs = [(f"{key} = {value}", reason) for key, value, reason in entries]
+    wide = max(len(pair) for pair, _ in pairs) + 2
+    return [f"{pair:<{wide}}# {reason}" if reason else pair for pair, reason in pairs]
+
+
+def _speed(pitch_diameter: float) -> int:
+    """Speed [rpm], to two digits."""
+    return int(_two_digits(_SPEED / pitch_diameter))
+
+
+def _two_digits(value: float) -> float:
+    step = 10.0 ** (floor(log10(value)) - 1)
+    return round(value / step) * step

@@ -1,0 +1,101 @@
+"""The command new: a case for a bearing of a catalogue."""
+
+from __future__ import annotations
+
+import argparse
+from dataclasses import replace
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from flexcage.cli.files import prepare_file
+from flexcage.cli.parser import command, say
+
+if TYPE_CHECKING:
+    from flexcage.geometry.inside import Outline
+
+_DIMENSIONS = (
+    ("--bore", "bore", "mm", "bore, as '25 mm'"),
+    ("--outside", "outside_diameter", "mm", "outside diameter"),
+    ("--width", "width", "mm", "width"),
+    ("--dynamic", "dynamic_rating", "kN", "basic dynamic load rating C, as '14 kN'"),
+    ("--static", "static_rating", "kN", "basic static load rating C0"),
+)
+_FURTHER = (
+    ("--contact-angle", "contact_angle", "deg", "of an angular contact bearing, as '40 deg'"),
+    ("--inner-race", "inner_race_diameter", "mm", "race diameter F under the rollers"),
+    ("--outer-race", "outer_race_diameter", "mm", "race diameter E over the rollers"),
+)
+
+
+def add_commands(commands: Any) -> None:
+    """Add this module's command to the parser."""
+    text = "write a case for a designation (6205, N 210, 7208B), or for dimensions and ratings"
+    new = command(commands, "new", new_command, text)
+    new.add_argument("designation", nargs="*", metavar="DESIGNATION", help="such as 6205")
+    new.add_argument("--type", metavar="TYPE", help="type of bearing, as deep_groove_ball")
+    for option, key, _, what in (*_DIMENSIONS, *_FURTHER):
+        new.add_argument(option, dest=key, metavar=key.split("_")[-1].upper(), help=what)
+    new.add_argument("-o", "--out", metavar="FILE", help="case file (.toml) to write")
+    new.add_argument("--force", action="store_true", help="write over an existing file")
+
+
+def new_command(args: argparse.Namespace) -> int:
+    """flexcage new DESIGNATION [-o FILE]: a commented case, and how its inside was found."""
+    from flexcage.case.new import case_name, new_case
+
+    outline, source = _outline(args)
+    out = Path(args.out or f"{case_name(outline)}.toml")
+    prepare_file(out, (".toml",), force=args.force)
+    made = new_case(outline, source)
+    out.write_text(made.text, "utf-8")
+    for line in made.findings():
+        say(line)
+    say(f"written: {out}")
+    return 0
+
+
+def _outline(args: argparse.Namespace) -> tuple[Outline, str]:
+    """What is known of the bearing, and from where: a catalogue's entry, what the options say, or
+    the one changed by the other."""
+    from flexcage.case.catalogue import WAY, find
+    from flexcage.core.errors import InputError
+    from flexcage.core.units import parse
+    from flexcage.geometry.inside import Outline
+
+    name = " ".join(args.designation)
+    given: dict[str, Any] = {
+        key: _positive(parse(text, unit, where=option), option, text)
+        for option, key, unit, _ in (*_DIMENSIONS, *_FURTHER)
+        if (text := getattr(args, key)) is not None
+    }
+    lacking = [option for option, key, _, _ in _DIMENSIONS if key not in given]
+    lacking = lacking if args.type else ["--type", *lacking]
+    if not lacking:
+        return Outline(type=args.type, designation=name, **given), "given by the user"
+    if not name:
+        what = f"{', '.join(lacking)} missing; " if given or args.type else ""
+        raise InputError(f"{what}give a designation, such as 6205, or {WAY}.", where="designation")
+    entry = find(name)
+    if args.type not in (None, entry.outline.type):
+        raise InputError(
+            f"'{name}' is a bearing of type '{entry.outline.type}', not '{args.type}'; leave "
+            f"--type out, or give {', '.join(lacking)} as well.",
+            where="--type",
+        )
+    if given.keys() & entry.outline.boundary.keys():
+        raise InputError(
+            f"The boundary dimensions of '{name}' are known; leave them out, or give "
+            f"{', '.join(lacking)} as well.",
+            where="designation",
+        )
+    options = [option for option, key, _, _ in (*_DIMENSIONS, *_FURTHER) if key in given]
+    changed = f"{entry.source}; {', '.join(options)} given by the user" if given else entry.source
+    return replace(entry.outline, **given), changed
+
+
+def _positive(value: float, option: str, text: str) -> float:
+    from flexcage.core.errors import InputError
+
+    if not value > 0.0:
+        raise InputError(f"{option} is '{text}', but must be greater than zero.", where=option)
+    return value
