@@ -119,10 +119,8 @@ def _settled_turns(case: Any) -> float:
 
 def _first(file: Path, top: Path, case: Any, cold: bool) -> tuple[dict[str, Any], float]:
     """A run with pictures with nothing on disk, and the time [s] of its kernels alone."""
-    from flexcage.stages import EXAMPLES
-
     caches = [top / "kernels", top / "first"] if cold else [None, None]
-    made = start_benchmark.measured("kernels", caches[0], EXAMPLES[case.bearing.element])
+    made = start_benchmark.measured("kernels", caches[0], case.preset)
     return _run(file, top / "first_run", images=True, cache=caches[1]), made["kernels_s"]
 
 
@@ -193,6 +191,7 @@ def _clocks() -> dict[str, float]:
     """Seconds by part, counted from now on in this process."""
     from flexcage.integrate.integration import Integration
     from flexcage.run import Run
+    from flexcage.stress import run_stress
     from flexcage.system.problem import Bearing
 
     spent: dict[str, float] = {}
@@ -205,7 +204,7 @@ def _clocks() -> dict[str, float]:
 
     Bearing.advance = advance  # type: ignore[method-assign]
     _timed(Integration, "march", time.process_time, spent, "march")
-    _timed(Run, "_stress_history", time.process_time, spent, "stress")
+    _timed(run_stress, "stress_history", time.process_time, spent, "stress")
     _timed(Run, "_draw", _with_children, spent, "pictures")
     march, draw = Integration.march, Run._draw
 

@@ -120,6 +120,11 @@ def dry_land(request, build_parts):
     return flexible_land(build_parts, request.param, spec)
 
 
+def side(data):
+    """1 for a land in the cage's bore, -1 for one on its outside."""
+    return 1.0 if data.inner else -1.0
+
+
 def resultant_and_turn(data, st, A):
     """Force in space and moment about the cage's axis [N, N m] of forces st at its stations, and
     what they do to its modes."""
@@ -147,7 +152,7 @@ def test_land_touches_after_its_clearance(dry_land):
     assert Fc @ towards < -10.0 and np.abs(Fc + (-Fc @ towards) * towards).max() < 1e-3 * abs(
         Fc @ towards
     )
-    oval = np.array([0.0, -data.inner * (data.clearance + 2e-6), 0.0])  # touches at 0 and 180 deg
+    oval = np.array([0.0, -side(data) * (data.clearance + 2e-6), 0.0])  # touches at 0 and 180 deg
     work = land(data, np.zeros(3), q=oval, qd=quiet)
     assert work[2][1] * oval[1] < 0.0 and np.abs(work[0]).max() < 1e-6 * abs(work[2][1])
 
@@ -261,7 +266,7 @@ def energy_of_profile(data, offset, q):
         offset[1] + (data.radius + u) * np.cos(fine),
         offset[2] + (data.radius + u) * np.sin(fine),
     )
-    d = data.inner * (data.radius - data.inner * data.clearance - np.hypot(y, z))
+    d = side(data) * (data.radius - side(data) * data.clearance - np.hypot(y, z))
     before, after = np.roll(d, 1), np.roll(d, -1)
     most, least = d[(d > before) & (d >= after)], d[(d < before) & (d <= after)]
     stiffness, exponent = data.normal[:2]
@@ -294,7 +299,7 @@ def test_a_wavy_dry_land_stores_what_its_profile_does_and_never_drives(dry_land)
 
 def test_a_dry_land_pressed_evenly_all_round_counts_once(dry_land):
     data = wavy(dry_land)
-    even = np.append(-data.inner * (data.clearance + 10e-6), np.zeros(6))
+    even = np.append(-side(data) * (data.clearance + 10e-6), np.zeros(6))
     once = land(data, np.zeros(3), q=even, qd=0 * even)[5]
     aside = land(data, 1e-9 * Y, q=even, qd=0 * even)[5]
     assert once[STORED] == pytest.approx(aside[STORED], rel=1e-3) and once[NORMAL] > 1e3
@@ -359,7 +364,7 @@ def test_a_film_pushes_half_of_a_flexible_land(build_parts, guidance):
     np.testing.assert_allclose(force, Fc, atol=1e-3 * np.abs(Fc).max())
     assert turn == pytest.approx(Mc[0], rel=1e-9) and abs(turn) > 1e-6
     np.testing.assert_allclose(modal, Qm, rtol=1e-12)
-    pushed = data.inner * work.st[:, 0]
+    pushed = side(data) * work.st[:, 0]
     assert (pushed >= 0.0).all() and 11 <= (pushed > 0.0).sum() <= 13
     still = land(data, Rc, qd=0 * qd, **call)[5]
     assert sums[SHEARED] == pytest.approx(still[SHEARED] + Qm @ qd, rel=1e-12)
