@@ -25,6 +25,7 @@ from flexcage.mesh.series import write_series
 from flexcage.modes.reduction import CageReduction
 from flexcage.modes.table import ModeTable
 from flexcage.results import mode_file
+from flexcage.results.edges import Edge, groove_edges
 from flexcage.results.film import film_thickness
 from flexcage.results.metrics import BearingNumbers, settled
 from flexcage.results.statistics import element_passes
@@ -121,6 +122,11 @@ class Run:
         return film_thickness(self.dataset, self.case.bearing, self.case.lubricant.oil)
 
     @cached_property
+    def groove_edges(self) -> list[Edge]:
+        """Contact ellipses at the edges of grooves: the worst at each; none without grooves."""
+        return groove_edges(self.case.bearing, self.dataset)
+
+    @cached_property
     def summary(self) -> Summary:
         """Figures of the run: speeds, slip, motion, forces, stress, energy, solver, times."""
         if self.cage is None or "stress_peak" in self.summary_at_end:
@@ -154,7 +160,7 @@ class Run:
             numbers=self.numbers,
             settle=self.case.output.settle,
             inner_land=self.case.cage.land_ring == "inner",
-            progress=self.stages.progress,
+            stages=self.stages,
         )
 
     @property
@@ -169,11 +175,10 @@ class Run:
             raise InputError("a rigid cage has no modes; run the case with cage.model = flexible")
         return self.cage.table
 
-    @cached_property
+    @property
     def stress_history(self) -> StressHistory:
         """Equivalent stress at named places, peaks, and the envelope over all samples."""
-        stress = self.cage_stress
-        return self.stages("stress", lambda: stress.history)
+        return self.cage_stress.history
 
     def fatigue(self, place: str | None = None, *, curve: SNCurve | None = None) -> Fatigue:
         """Damage and life of the cage at its named places, or at one of them, over the settled part
@@ -216,15 +221,11 @@ class Run:
         largest peak of the settled part. Raises InputError for a rigid cage or a time outside the
         run.
         """
-        stress = self.cage_stress
-        if time is None:
-            self.stress_history  # noqa: B018  (timed)
-        return stress.at(time)
+        return self.cage_stress.at(time)
 
     @property
     def peak_time(self) -> float:
         """Time [s] of the largest equivalent stress of the settled part."""
-        self.stress_history  # noqa: B018  (timed)
         return self.cage_stress.peak_time
 
     def write_vtu(
@@ -348,5 +349,4 @@ class Run:
 
     def stress_rows(self) -> list[Row]:
         """Figures of the cage's stress; InputError for a rigid cage."""
-        self.stress_history  # noqa: B018  (timed)
         return self.cage_stress.rows(element=self.case.bearing.element)

@@ -9,7 +9,6 @@ import numpy as np
 
 from flexcage.mesh.quality import report_mesh
 from flexcage.results import mode_file
-from flexcage.results.edges import groove_edges
 from flexcage.results.figures import summarise
 from flexcage.results.film import film_rows
 from flexcage.results.known import KNOWN, RARE
@@ -44,7 +43,7 @@ def summary_of(run: Run, *, stress: bool = True) -> Summary:
     part = settled(run.dataset, case.output.settle)
     for rows in (
         film_rows(part, case.bearing, case.lubricant.oil),
-        [edge.row for edge in groove_edges(case.bearing, run.dataset)],
+        [edge.row for edge in run.groove_edges],
         [figure("inner_held", case.held_in_words)],
         _cage_rows(run),
     ):
@@ -76,7 +75,7 @@ def warned(summary: Summary, run: Run) -> Summary:
         land=case.land,
         duration=case.solver.duration,
         settle=case.output.settle,
-        edges=tuple(groove_edges(case.bearing, run.dataset)),
+        edges=tuple(run.groove_edges),
     )
     known = from_attrs(run.dataset.attrs)
     return dataclasses.replace(summary, warnings=(*known, *warnings_of(AT_END, outcome)))

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
@@ -12,8 +12,8 @@ import numpy as np
 from flexcage.core.binding import check_spec, expect
 from flexcage.core.cache import cached_arrays
 from flexcage.core.errors import InputError
-from flexcage.core.progress import Silent
 from flexcage.core.threads import one_blas_thread
+from flexcage.core.timing import Stages
 from flexcage.mesh.cage_mesh import CageMesh
 from flexcage.modes.reduction import CageReduction
 from flexcage.results.figures import pass_peak
@@ -77,7 +77,8 @@ class RunStress:
     """Stress of a run's flexible cage, by mode acceleration.
 
     ``settle`` is the share of the run that is left out of figures; ``inner_land`` says whether land
-    forces act on the cage's inner land. ``places`` are those of the cage's type.
+    forces act on the cage's inner land. ``places`` are those of the cage's type. ``stages`` takes
+    the time of the history.
     """
 
     cage: CageReduction
@@ -88,22 +89,25 @@ class RunStress:
     numbers: BearingNumbers
     settle: float
     inner_land: bool
-    progress: Callable[..., Any] = field(default=Silent)
+    stages: Stages
 
     @cached_property
     def recovery(self) -> StressRecovery:
         return recovery_of(self.cage, self.places)
 
     @cached_property
-    @one_blas_thread
     def history(self) -> StressHistory:
         """Equivalent stress at named places, peaks, and the envelope over all samples."""
+        return self.stages("stress", self._history)
+
+    @one_blas_thread
+    def _history(self) -> StressHistory:
         return stress_history(
             StressFields(self.recovery),
             *self._moved_and_pushed(self.dataset),
             settled=self._first_settled,
             between=self._between,
-            progress=self.progress,
+            progress=self.stages.progress,
         )
 
     @property
@@ -193,8 +197,7 @@ class RunStress:
         )
 
     def rows(self, *, element: str) -> list[Row]:
-        """Figures of a summary; ``element``: the bearing's word for
-        a rolling element."""
+        """Figures of a summary; ``element``: the bearing's word for a rolling element."""
         h = self.history
         k = h.peak_sample
         roots = h.places[h.settled :].max(axis=0)
