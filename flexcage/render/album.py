@@ -181,12 +181,7 @@ def _motion(scene: Scene, folder: Path) -> list[Drawing]:
     from flexcage.render.spectra import spectra_picture
 
     b, ds = scene.bearing, scene.dataset
-    numbers = BearingNumbers(
-        pitch_diameter=b.pitch_diameter,
-        element_diameter=b.element_diameter,
-        element_count=b.element_count,
-        contact_angle=b.nominal_contact_angle,
-    )
+    numbers = BearingNumbers.of(b)
     root = None
     if scene.stress is not None:
         import xarray

@@ -17,6 +17,7 @@ import numpy as np
 
 from flexcage.core.errors import InputError
 from flexcage.core.wings import FAMILIES
+from flexcage.geometry.bearing import Bearing
 from flexcage.geometry.kinematics import Kinematics, epicyclic, rolling_shares
 
 if TYPE_CHECKING:
@@ -45,6 +46,17 @@ class BearingNumbers:
     contact_angle: float = 0.0
     own_angles: tuple[float, float] | None = None
     rolling_heights: tuple[float, float] = (0.0, 0.0)
+
+    @classmethod
+    def of(cls, bearing: Bearing) -> BearingNumbers:
+        """Those of a bearing."""
+        return cls(
+            pitch_diameter=bearing.pitch_diameter,
+            element_diameter=bearing.element_diameter,
+            element_count=bearing.element_count,
+            contact_angle=bearing.nominal_contact_angle,
+            rolling_heights=bearing.rolling_heights,
+        )
 
     @property
     def nominal(self) -> BearingNumbers:

@@ -106,14 +106,7 @@ class Run:
 
     @property
     def numbers(self) -> BearingNumbers:
-        b = self.case.bearing
-        return BearingNumbers(
-            pitch_diameter=b.pitch_diameter,
-            element_diameter=b.element_diameter,
-            element_count=b.element_count,
-            contact_angle=b.nominal_contact_angle,
-            rolling_heights=b.rolling_heights,
-        )
+        return BearingNumbers.of(self.case.bearing)
 
     @cached_property
     def film_thickness(self) -> xarray.DataArray:
