@@ -14,15 +14,18 @@ longer along the radius by the stretch.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
+from math import pi
 from typing import Any
 
 import numpy as np
 
 from flexcage.core.errors import RunFailed
+from flexcage.geometry.cage import Cage
 
 MM = 1e-3
+RING_SURFACES = ("cut_x", "cut_z", "cut_psi", "land_inner", "land_outer", "end")
 _STRAIGHT = 1e-3  # mm: a radial edge's extent along x, in which boxes are rounded
 
 
@@ -61,6 +64,18 @@ def section_prism(
     lines = [occ.addLine(points[i - 1], points[i]) for i in range(4)]
     section = occ.addPlaneSurface([occ.addCurveLoop(lines)])
     return [e for e in occ.extrude([(2, section)], length, 0.0, 0.0) if e[0] == 3]
+
+
+def only_cylinder(gmsh: Any, what: str, fits: Callable[[int], bool] = lambda tag: True) -> int:
+    """Tag of the one cylinder among the surfaces that fits; RunFailed if there is not just one.
+    ``what`` names it in the error ("pocket wall")."""
+    cylinders = (
+        tag for dim, tag in gmsh.model.getEntities(2) if gmsh.model.getType(dim, tag) == "Cylinder"
+    )
+    tags = [tag for tag in cylinders if fits(tag)]
+    if len(tags) != 1:
+        raise RunFailed(f"one {what} was expected in the quarter sector, not {len(tags)}")
+    return tags[0]
 
 
 def x_extent(gmsh: Any, dim: int, tag: int) -> float:
@@ -118,6 +133,27 @@ def mesh_arrays(
         for _, tag in gmsh.model.getEntities(2)
     ]
     return points, tets, faces
+
+
+def surface_of_ring(
+    points: np.ndarray, cage: Cage, pocket_count: int, own: Mapping[str, np.ndarray]
+) -> str | None:
+    """Which surface of a machined cage's quarter all these points lie on: one of ``RING_SURFACES``
+    or of the pocket's ``own``, by the points' distances [m] to each; None if on none of them."""
+    x, y, z = points.T
+    radius = np.hypot(y, z)
+    distances = (
+        x,
+        z,
+        radius * (np.arctan2(z, y) - pi / pocket_count),
+        radius - 0.5 * cage.bore,
+        radius - 0.5 * cage.outside_diameter,
+        x - 0.5 * cage.width,
+    )
+    for name, distance in {**dict(zip(RING_SURFACES, distances)), **own}.items():
+        if np.abs(distance).max() < 1e-6 * cage.width:
+            return name
+    return None
 
 
 def named_surfaces(

@@ -18,12 +18,15 @@ from flexcage.mesh.gmsh_session import gmsh_model
 from flexcage.mesh.options import MeshOptions
 from flexcage.mesh.sector import (
     MM,
+    RING_SURFACES,
     Quarter,
     SizePlan,
     mesh_arrays,
     named_surfaces,
+    only_cylinder,
     section_prism,
     set_sizes,
+    surface_of_ring,
 )
 
 # of the sector's length scale (cube root of its volume): size, size at the pocket's wall; growth
@@ -34,7 +37,7 @@ _NAMED = {
     "fine": (0.28, 0.09, 0.4, 12, 1.5),
     "paper": (0.1, 0.035, 0.2, 24, 1.5),
 }
-SURFACES = ("cut_x", "cut_z", "cut_psi", "land_inner", "land_outer", "end", "wall")
+SURFACES = (*RING_SURFACES, "wall")
 
 
 def ball_size_plan(cage: BallCage, pocket_count: int, options: MeshOptions) -> SizePlan:
@@ -60,7 +63,7 @@ def mesh_ball_quarter(
     plan = ball_size_plan(cage, pocket_count, options)
     with gmsh_model("flexcage quarter sector of a ball cage") as gmsh:
         _shape(gmsh, cage, pocket_count, plan.stretch, tips)
-        set_sizes(gmsh, plan, _wall(gmsh, cage))
+        set_sizes(gmsh, plan, only_cylinder(gmsh, "pocket wall"))
         gmsh.model.mesh.generate(3)
         points, tets, faces = mesh_arrays(gmsh, plan.stretch)
     surfaces = named_surfaces(
@@ -94,30 +97,10 @@ def _shape(
         raise RunFailed("the pocket cuts the cage's sector into several pieces")
 
 
-def _wall(gmsh: Any, cage: BallCage) -> int:
-    """Tag of the pocket's wall: the one cylinder."""
-    tags = [
-        tag for dim, tag in gmsh.model.getEntities(2) if gmsh.model.getType(2, tag) == "Cylinder"
-    ]
-    if len(tags) != 1:
-        raise RunFailed(f"one pocket wall was expected in the quarter sector, not {len(tags)}")
-    return tags[0]
-
-
 def _surface_name(points: np.ndarray, cage: BallCage, pocket_count: int) -> str:
     """Which surface of the quarter all these points lie on."""
-    x, y, z = points.T
-    radius = np.hypot(y, z)
-    tests = (
-        x,
-        z,
-        radius * (np.arctan2(z, y) - pi / pocket_count),
-        radius - 0.5 * cage.bore,
-        radius - 0.5 * cage.outside_diameter,
-        x - 0.5 * cage.width,
-        np.hypot(x, z) - 0.5 * cage.pocket_diameter,
-    )
-    for name, distance in zip(SURFACES, tests):
-        if np.abs(distance).max() < 1e-6 * cage.width:
-            return name
-    raise RunFailed("a surface of the quarter sector is none that belongs there")
+    wall = np.hypot(points[:, 0], points[:, 2]) - 0.5 * cage.pocket_diameter
+    name = surface_of_ring(points, cage, pocket_count, {"wall": wall})
+    if name is None:
+        raise RunFailed("a surface of the quarter sector is none that belongs there")
+    return name

@@ -19,11 +19,14 @@ from flexcage.mesh.gmsh_session import gmsh_model
 from flexcage.mesh.options import MeshOptions
 from flexcage.mesh.sector import (
     MM,
+    RING_SURFACES,
     Quarter,
     SizePlan,
     mesh_arrays,
+    only_cylinder,
     section_prism,
     set_sizes,
+    surface_of_ring,
     x_extent,
 )
 
@@ -36,7 +39,7 @@ _NAMED = {
     "fine": (0.24, 0.1, 2.0, 5, 1.35),
     "paper": (0.0703, 0.0580, 0.4, 3, 1.0),
 }
-SURFACES = ("cut_x", "cut_z", "cut_psi", "land_inner", "land_outer", "end", "beam", "side")
+SURFACES = (*RING_SURFACES, "beam", "side")
 
 
 def size_plan(cage: WindowCage, pocket_count: int, options: MeshOptions) -> SizePlan:
@@ -98,34 +101,19 @@ def _shape(gmsh: Any, cage: WindowCage, pocket_count: int, stretch: float) -> No
 
 
 def _fillet_surface(gmsh: Any, cage: WindowCage) -> int:
-    """Tag of the fillet: the one cylinder, whose axial extent is its radius."""
+    """Tag of the fillet: the one cylinder whose axial extent is its radius."""
     radius = cage.fillet_radius / MM
-    tags = [
-        tag
-        for dim, tag in gmsh.model.getEntities(2)
-        if gmsh.model.getType(dim, tag) == "Cylinder"
-        and abs(x_extent(gmsh, dim, tag) - radius) < 1e-3 * radius
-    ]
-    if len(tags) != 1:
-        raise RunFailed(f"one fillet surface was expected in the quarter sector, not {len(tags)}")
-    return tags[0]
+
+    def is_fillet(tag: int) -> bool:
+        return abs(x_extent(gmsh, 2, tag) - radius) < 1e-3 * radius
+
+    return only_cylinder(gmsh, "fillet surface", is_fillet)
 
 
 def _surface_name(points: np.ndarray, cage: WindowCage, pocket_count: int) -> str:
     """Which surface of the quarter all these points lie on."""
-    x, y, z = points.T
-    radius = np.hypot(y, z)
-    tests = (
-        x,
-        z,
-        radius * (np.arctan2(z, y) - pi / pocket_count),
-        radius - 0.5 * cage.bore,
-        radius - 0.5 * cage.outside_diameter,
-        x - 0.5 * cage.width,
-        z - 0.5 * cage.pocket_width,
-        x - 0.5 * cage.pocket_length,
-    )
-    for name, distance in zip(SURFACES, tests):
-        if np.abs(distance).max() < 1e-6 * cage.width:
-            return name
-    return "fillet"
+    own = {
+        "beam": points[:, 2] - 0.5 * cage.pocket_width,
+        "side": points[:, 0] - 0.5 * cage.pocket_length,
+    }
+    return surface_of_ring(points, cage, pocket_count, own) or "fillet"
