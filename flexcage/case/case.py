@@ -50,7 +50,7 @@ from flexcage.system.statics.options import StaticOptions
 CAGE_MODELS = ("flexible", "rigid")
 _FEW = 8  # values of a list that a notebook shows
 _NOT_PHYSICS = ("name", "description", "preset", "static", "given")
-#: Sections in the order of texts and pages.
+#: Sections in the order of texts and pages; others follow.
 _ORDER = (
     "name", "description", "preset", "bearing", "cage", "cage_model", "defects", "mesh", "modes",
     "lubricant", "contacts", "drive", "load", "mount", "constraints", "start", "solver", "output",
@@ -135,7 +135,7 @@ class Case(StaticCase):
         table["cage"] = {"model": model, **table["cage"]}
         if self.static == StaticOptions():
             del table["static"]
-        return {key: table[key] for key in _ORDER if key in table}
+        return {f.name: table[f.name] for f in sections() if f.name in table}
 
     @cached_property
     def hash(self) -> str:
@@ -343,4 +343,4 @@ def load_case(
 def sections() -> list[dataclasses.Field]:
     """Fields of a case in the order of texts and pages."""
     fields = Case.__dataclass_fields__
-    return [fields[name] for name in _ORDER]
+    return [fields[name] for name in dict.fromkeys((*_ORDER, *fields))]

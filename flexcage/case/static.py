@@ -35,12 +35,6 @@ from flexcage.geometry.bearing import Bearing, check_type
 from flexcage.system.spec import Drive, Load
 from flexcage.system.statics.options import StaticOptions
 
-#: Sections that only a simulation reads: a static solution ignores them, the cage is checked.
-OF_A_SIMULATION = (
-    "cage", "cage_model", "defects", "mesh", "modes", "mount", "constraints", "start", "solver",
-    "output", "limits", "seed", "given",
-)  # fmt: skip
-
 
 @dataclass(frozen=True, kw_only=True)
 class StaticCase:
@@ -77,7 +71,7 @@ class StaticCase:
         """Case from nested tables as TOML gives them."""
         merged = with_preset(without_aliases(table))
         own = {f.name for f in dataclasses.fields(StaticCase)}
-        known = own | {*OF_A_SIMULATION}
+        known = own | _of_a_simulation()
         for key in merged:
             if key not in known:
                 raise unknown_key(key, [*known - {*ALIASES.values(), "given"}], "")
@@ -161,6 +155,14 @@ def _asked_nothing() -> dict[str, Any]:
     return {name: default_of(StaticCase.__dataclass_fields__[name]) for name in names}
 
 
+def _of_a_simulation() -> set[str]:
+    """Sections that only a simulation reads; a static solution checks the cage, ignores others."""
+    from flexcage.case.case import Case
+
+    simulated, still = ({f.name for f in dataclasses.fields(cls)} for cls in (Case, StaticCase))
+    return simulated - still
+
+
 def _values(case: StaticCase) -> dict[str, Any]:
     return {f.name: getattr(case, f.name) for f in dataclasses.fields(case)}
 
@@ -179,9 +181,10 @@ def load_static(
     ``overrides`` maps dotted paths to text with units. A mistake raises InputError.
     """
     table, _ = read_case(source)
+    of_a_simulation = _of_a_simulation() - {"cage"}
     for path, value in (overrides or {}).items():
         head = path.partition(".")[0]
-        if head in OF_A_SIMULATION and head != "cage":
+        if head in of_a_simulation:
             raise InputError(
                 f"'{path}' takes no part in a static solution; leave it out.", where=path
             )

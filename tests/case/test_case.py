@@ -41,6 +41,12 @@ def test_file_text_and_tables_are_the_same(case):
     assert load_case(str(EXAMPLE)) == load_case(text) == load_case(tomllib.loads(text)) == case
 
 
+def test_a_section_without_a_place_in_the_order_is_written_too(case, monkeypatch):
+    monkeypatch.setattr("flexcage.case.case._ORDER", ("bearing", "name"))
+    assert list(case.to_table())[:2] == ["bearing", "name"]
+    assert load_case(case.to_toml()) == case
+
+
 def test_round_trip_through_text(case):
     rich = case.replace(
         **{
