@@ -22,6 +22,10 @@ MOST_SCATTER = 0.01
 OVERLOAD = 4.0  # static ratings C0: line contacts then bear 8 GPa, the hardness of bearing steel
 
 
+def _mm(value: float) -> str:
+    return describe(value, "mm")
+
+
 def greatest_speed(bearing: Bearing) -> float:
     """Speed [rad/s] of the inner ring at which centrifugal force alone loads every element as
     ``OVERLOAD`` static ratings load the first one, 5 C0/Z; infinite where masses are not known."""
@@ -67,4 +71,15 @@ def _find_in_unbalance(c: Cage) -> Iterator[Finding]:
             "cage.unbalance",
             f"cage.unbalance is {describe(c.unbalance, 'g*mm')}, but half of the cage's body of "
             f"revolution makes no more than {describe(c.most_unbalance, 'g*mm')}.",
+        )
+
+
+def find_off_pitch_circle(b: Bearing, c: Cage) -> Iterator[Finding]:
+    """A cage that the elements' centres do not lie in."""
+    if not c.bore < b.pitch_diameter < c.outside_diameter:
+        yield (
+            "cage",
+            f"The cage from {_mm(c.bore)} to {_mm(c.outside_diameter)} in diameter does not hold "
+            f"the {b.element}s' pitch circle of {_mm(b.pitch_diameter)}; its pockets cannot guide "
+            "them.",
         )

@@ -13,6 +13,7 @@ from flexcage.geometry.checks import (
     Finding,
     check_cage_defects,
     check_room,
+    find_off_pitch_circle,
     raise_first,
 )
 
@@ -175,9 +176,4 @@ def find_around_cage(b: BallBearing, c: Cage) -> Iterator[Finding]:
             f"cage.width is {_mm(c.width)}, but the bearing's is {_mm(b.width)}; a cage is at most "
             f"{_WIDEST:g} times as wide.",
         )
-    if not c.bore < b.pitch_diameter < c.outside_diameter:
-        yield (
-            "cage",
-            f"The cage from {_mm(c.bore)} to {_mm(c.outside_diameter)} in diameter does not hold "
-            f"the balls' pitch circle of {_mm(b.pitch_diameter)}; its pockets cannot guide them.",
-        )
+    yield from find_off_pitch_circle(b, c)

@@ -14,6 +14,7 @@ from flexcage.geometry.checks import (
     Finding,
     check_cage_defects,
     check_room,
+    find_off_pitch_circle,
     raise_first,
 )
 
@@ -168,9 +169,4 @@ def find_around_cage(b: RollerBearing, c: Cage) -> Iterator[Finding]:
             f"cage.outside_diameter is {_mm(c.outside_diameter)}, so the cage cuts through the "
             f"outer race, {_mm(outer)} in diameter.",
         )
-    if not c.bore < b.pitch_diameter < c.outside_diameter:
-        yield (
-            "cage",
-            f"The cage from {_mm(c.bore)} to {_mm(c.outside_diameter)} in diameter does not hold "
-            f"the rollers' pitch circle of {_mm(b.pitch_diameter)}; its pockets cannot guide them.",
-        )
+    yield from find_off_pitch_circle(b, c)
