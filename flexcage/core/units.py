@@ -310,6 +310,11 @@ def describe(value: float, unit: str) -> str:
     return f"{value / _factor(unit):.6g} {unit}"
 
 
+def mm(value: float) -> str:
+    """Short text of a length [m], in millimetres."""
+    return describe(value, "mm")
+
+
 def typeset(value: float, unit: str, *, digits: int = 6) -> str:
     """Short text of an SI value, its unit as print writes it."""
     number, _, name = describe(value, unit).partition(" ")

@@ -11,7 +11,7 @@ from math import inf, sqrt
 from typing import Any
 
 from flexcage.core.errors import InputError
-from flexcage.core.units import describe
+from flexcage.core.units import describe, mm
 from flexcage.geometry.bearing import Bearing
 from flexcage.geometry.cage import Cage
 
@@ -20,10 +20,6 @@ Finding = tuple[str, str]  # where, sentence
 # of an element's diameter: elements differ by a hundred times what those of one bearing do
 MOST_SCATTER = 0.01
 OVERLOAD = 4.0  # static ratings C0: line contacts then bear 8 GPa, the hardness of bearing steel
-
-
-def _mm(value: float) -> str:
-    return describe(value, "mm")
 
 
 def greatest_speed(bearing: Bearing) -> float:
@@ -79,7 +75,7 @@ def find_off_pitch_circle(b: Bearing, c: Cage) -> Iterator[Finding]:
     if not c.bore < b.pitch_diameter < c.outside_diameter:
         yield (
             "cage",
-            f"The cage from {_mm(c.bore)} to {_mm(c.outside_diameter)} in diameter does not hold "
-            f"the {b.element}s' pitch circle of {_mm(b.pitch_diameter)}; its pockets cannot guide "
+            f"The cage from {mm(c.bore)} to {mm(c.outside_diameter)} in diameter does not hold "
+            f"the {b.element}s' pitch circle of {mm(b.pitch_diameter)}; its pockets cannot guide "
             "them.",
         )

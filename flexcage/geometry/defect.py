@@ -17,7 +17,6 @@ from flexcage.core.binding import did_you_mean
 from flexcage.core.errors import InputError
 from flexcage.core.registry import check_free, note_source
 from flexcage.core.spec import option
-from flexcage.core.units import describe
 from flexcage.core.wings import CAGE_TYPES, Parts
 
 if TYPE_CHECKING:
@@ -249,8 +248,3 @@ def around(place: float, count: int) -> np.ndarray:
 def signed_mm(size: float) -> str:
     """A change of size with its sign, for labels."""
     return f"{size * 1e3:+.3g} mm".replace("-", "−")
-
-
-def mm(value: float) -> str:
-    """A length in an error."""
-    return describe(value, "mm")

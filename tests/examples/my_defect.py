@@ -10,7 +10,8 @@ import numpy as np
 
 from flexcage import register
 from flexcage.core.spec import option, quantity
-from flexcage.geometry.defect import Finding, defect_type, mm, signed_mm
+from flexcage.core.units import mm
+from flexcage.geometry.defect import Finding, defect_type, signed_mm
 from flexcage.mesh.measure import in_pocket_frame
 from flexcage.spec import WindowCage, WindowDefect
 

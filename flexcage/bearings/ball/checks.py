@@ -6,7 +6,7 @@ from collections.abc import Iterator, Sequence
 from math import asin, cos, degrees, pi, sin
 from typing import TYPE_CHECKING, Any
 
-from flexcage.core.units import describe
+from flexcage.core.units import describe, mm
 from flexcage.geometry.cage import Cage
 from flexcage.geometry.checks import (
     MOST_SCATTER,
@@ -25,10 +25,6 @@ _AGREE = 1e-6  # m, to which contact angle and clearance must agree: a tenth of 
 _WIDEST_GROOVE = 1.0  # radius, of the ball's diameter
 _WIDEST = 2.0  # of the bearing's width: one that reaches out of it on both sides
 _MOST_PRELOAD = 0.01  # of the ball's diameter: a Hertz pressure far beyond any steel's
-
-
-def _mm(value: float) -> str:
-    return describe(value, "mm")
 
 
 def check(bearing: BallBearing, cage: Cage | None, defects: Sequence[Any]) -> None:
@@ -50,14 +46,14 @@ def _find_in_grooves(b: BallBearing) -> Iterator[Finding]:
         if radius <= 0.5 * b.ball_diameter:
             yield (
                 f"bearing.{key}",
-                f"bearing.{key} is {_mm(radius)}, but must be greater than the ball's radius, "
-                f"{_mm(0.5 * b.ball_diameter)}; 0.515 to 0.54 times its diameter is usual.",
+                f"bearing.{key} is {mm(radius)}, but must be greater than the ball's radius, "
+                f"{mm(0.5 * b.ball_diameter)}; 0.515 to 0.54 times its diameter is usual.",
             )
         if radius > _WIDEST_GROOVE * b.ball_diameter:
             yield (
                 f"bearing.{key}",
-                f"bearing.{key} is {_mm(radius)}, so wide that it is no groove; give "
-                f"{_mm(_WIDEST_GROOVE * b.ball_diameter)} or less, the ball's diameter; 0.515 to "
+                f"bearing.{key} is {mm(radius)}, so wide that it is no groove; give "
+                f"{mm(_WIDEST_GROOVE * b.ball_diameter)} or less, the ball's diameter; 0.515 to "
                 "0.54 times it is usual.",
             )
 
@@ -67,8 +63,8 @@ def _find_in_balls(b: BallBearing) -> Iterator[Finding]:
     if b.ball_scatter > widest:
         yield (
             "bearing.ball_scatter",
-            f"bearing.ball_scatter is {_mm(b.ball_scatter)}, but balls of one bearing differ by "
-            f"micrometres; give {_mm(widest)} or less, {100.0 * MOST_SCATTER:g} % of their "
+            f"bearing.ball_scatter is {mm(b.ball_scatter)}, but balls of one bearing differ by "
+            f"micrometres; give {mm(widest)} or less, {100.0 * MOST_SCATTER:g} % of their "
             "diameter.",
         )
     chord = b.pitch_diameter * sin(pi / b.ball_count)
@@ -76,21 +72,21 @@ def _find_in_balls(b: BallBearing) -> Iterator[Finding]:
         most = int(pi / asin(min(b.ball_diameter / b.pitch_diameter, 1.0)))
         yield (
             "bearing.ball_count",
-            f"{b.ball_count} balls of {_mm(b.ball_diameter)} overlap on a pitch diameter of "
-            f"{_mm(b.pitch_diameter)}; at most {most} fit.",
+            f"{b.ball_count} balls of {mm(b.ball_diameter)} overlap on a pitch diameter of "
+            f"{mm(b.pitch_diameter)}; at most {most} fit.",
         )
     reach = b.ball_diameter * cos(b.nominal_contact_angle)
     if not b.bore < b.pitch_diameter - reach:
         yield (
             "bearing.bore",
-            f"bearing.bore is {_mm(b.bore)}, but the balls reach in to "
-            f"{_mm(b.pitch_diameter - reach)} in diameter, which leaves no inner ring.",
+            f"bearing.bore is {mm(b.bore)}, but the balls reach in to "
+            f"{mm(b.pitch_diameter - reach)} in diameter, which leaves no inner ring.",
         )
     if not b.outside_diameter > b.pitch_diameter + reach:
         yield (
             "bearing.outside_diameter",
-            f"bearing.outside_diameter is {_mm(b.outside_diameter)}, but the balls reach out to "
-            f"{_mm(b.pitch_diameter + reach)} in diameter, which leaves no outer ring.",
+            f"bearing.outside_diameter is {mm(b.outside_diameter)}, but the balls reach out to "
+            f"{mm(b.pitch_diameter + reach)} in diameter, which leaves no outer ring.",
         )
 
 
@@ -100,8 +96,8 @@ def _find_in_shoulders(b: BallBearing) -> Iterator[Finding]:
         if height is not None and height >= radius:
             yield (
                 f"bearing.{side}_shoulder",
-                f"bearing.{side}_shoulder is {_mm(height)}, but must be less than the groove's "
-                f"radius, {_mm(radius)}.",
+                f"bearing.{side}_shoulder is {mm(height)}, but must be less than the groove's "
+                f"radius, {mm(radius)}.",
             )
 
 
@@ -161,19 +157,19 @@ def find_around_cage(b: BallBearing, c: Cage) -> Iterator[Finding]:
     if not inner[0] < c.bore:
         yield (
             "cage.bore",
-            f"cage.bore is {_mm(c.bore)}, so the cage runs into the inner ring; it must be greater "
-            f"than {inner[1]}, {_mm(inner[0])}.",
+            f"cage.bore is {mm(c.bore)}, so the cage runs into the inner ring; it must be greater "
+            f"than {inner[1]}, {mm(inner[0])}.",
         )
     if not c.outside_diameter < outer[0]:
         yield (
             "cage.outside_diameter",
-            f"cage.outside_diameter is {_mm(c.outside_diameter)}, so the cage runs into the outer "
-            f"ring; it must be less than {outer[1]}, {_mm(outer[0])}.",
+            f"cage.outside_diameter is {mm(c.outside_diameter)}, so the cage runs into the outer "
+            f"ring; it must be less than {outer[1]}, {mm(outer[0])}.",
         )
     if c.axial_width > _WIDEST * b.width:
         yield (
             "cage.width",
-            f"cage.width is {_mm(c.width)}, but the bearing's is {_mm(b.width)}; a cage is at most "
+            f"cage.width is {mm(c.width)}, but the bearing's is {mm(b.width)}; a cage is at most "
             f"{_WIDEST:g} times as wide.",
         )
     yield from find_off_pitch_circle(b, c)

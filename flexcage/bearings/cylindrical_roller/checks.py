@@ -7,7 +7,7 @@ from collections.abc import Iterator, Sequence
 from math import asin, pi, sin
 from typing import TYPE_CHECKING, Any
 
-from flexcage.core.units import describe
+from flexcage.core.units import describe, mm
 from flexcage.geometry.cage import Cage
 from flexcage.geometry.checks import (
     MOST_SCATTER,
@@ -22,10 +22,6 @@ if TYPE_CHECKING:
     from flexcage.bearings.cylindrical_roller.bearing import RollerBearing
 
 _MOST_CLEARANCE = 0.05  # of the roller's diameter: leaves one roller to bear a moderate load
-
-
-def _mm(value: float) -> str:
-    return describe(value, "mm")
 
 
 def check(bearing: RollerBearing, cage: Cage | None, defects: Sequence[Any]) -> None:
@@ -51,22 +47,22 @@ def find_in_bearing(b: RollerBearing) -> Iterator[Finding]:
         if not low < high:
             yield (
                 f"bearing.{large}",
-                f"bearing.{large} is {_mm(high)}, but must be greater than {small}, {_mm(low)}.",
+                f"bearing.{large} is {mm(high)}, but must be greater than {small}, {mm(low)}.",
             )
     space = 0.5 * (b.outer_race_diameter - b.inner_race_diameter)
     if abs(b.roller_diameter - space) > 1e-6:
         yield (
             "bearing.roller_diameter",
-            f"bearing.roller_diameter is {_mm(b.roller_diameter)}, but the races leave "
-            f"{_mm(space)}, (E - F)/2; race diameters are those at zero clearance.",
+            f"bearing.roller_diameter is {mm(b.roller_diameter)}, but the races leave "
+            f"{mm(space)}, (E - F)/2; race diameters are those at zero clearance.",
         )
     chord = b.pitch_diameter * sin(pi / b.roller_count)
     if chord <= b.roller_diameter:
         most = int(pi / asin(b.roller_diameter / b.pitch_diameter))
         yield (
             "bearing.roller_count",
-            f"{b.roller_count} rollers of {_mm(b.roller_diameter)} overlap on a pitch diameter of "
-            f"{_mm(b.pitch_diameter)}; at most {most} fit.",
+            f"{b.roller_count} rollers of {mm(b.roller_diameter)} overlap on a pitch diameter of "
+            f"{mm(b.pitch_diameter)}; at most {most} fit.",
         )
     if b.radial_clearance < 0.0:
         yield (
@@ -78,16 +74,16 @@ def find_in_bearing(b: RollerBearing) -> Iterator[Finding]:
     if b.radial_clearance > widest:
         yield (
             "bearing.radial_clearance",
-            f"bearing.radial_clearance is {_mm(b.radial_clearance)}, so wide that one roller alone "
-            f"would bear; give {_mm(widest)} or less, {100.0 * _MOST_CLEARANCE:g} % of a roller's "
+            f"bearing.radial_clearance is {mm(b.radial_clearance)}, so wide that one roller alone "
+            f"would bear; give {mm(widest)} or less, {100.0 * _MOST_CLEARANCE:g} % of a roller's "
             "diameter.",
         )
     widest = MOST_SCATTER * b.roller_diameter
     if b.roller_scatter > widest:
         yield (
             "bearing.roller_scatter",
-            f"bearing.roller_scatter is {_mm(b.roller_scatter)}, but rollers of one bearing differ "
-            f"by micrometres; give {_mm(widest)} or less, {100.0 * MOST_SCATTER:g} % of their "
+            f"bearing.roller_scatter is {mm(b.roller_scatter)}, but rollers of one bearing differ "
+            f"by micrometres; give {mm(widest)} or less, {100.0 * MOST_SCATTER:g} % of their "
             "diameter.",
         )
     yield from _find_in_lengths(b)
@@ -101,22 +97,22 @@ def _find_in_spalls(b: RollerBearing) -> Iterator[Finding]:
         if spall.length >= pitch:
             yield (
                 f"{where}.length",
-                f"{where}.length is {_mm(spall.length)}, but must be less than the distance of two "
-                f"rollers there, {_mm(pitch)}: a longer one is no spall but another race.",
+                f"{where}.length is {mm(spall.length)}, but must be less than the distance of two "
+                f"rollers there, {mm(pitch)}: a longer one is no spall but another race.",
             )
         if spall.length and spall.depth > 0.1 * b.roller_diameter:
             yield (
                 f"{where}.depth",
-                f"{where}.depth is {_mm(spall.depth)}; give a tenth of the roller's diameter, "
-                f"{_mm(0.1 * b.roller_diameter)}, or less.",
+                f"{where}.depth is {mm(spall.depth)}; give a tenth of the roller's diameter, "
+                f"{mm(0.1 * b.roller_diameter)}, or less.",
             )
         reach = 0.5 * b.effective_length
         if spall.length and spall.width is not None:
             if abs(spall.offset) - 0.5 * spall.width >= reach:
                 yield (
                     f"{where}.offset",
-                    f"{where}.offset is {_mm(spall.offset)}, where no roller runs: rollers touch "
-                    f"the race to {_mm(reach)} from its middle.",
+                    f"{where}.offset is {mm(spall.offset)}, where no roller runs: rollers touch "
+                    f"the race to {mm(reach)} from its middle.",
                 )
 
 
@@ -124,20 +120,20 @@ def _find_in_lengths(b: RollerBearing) -> Iterator[Finding]:
     if b.effective_length > b.roller_length:
         yield (
             "bearing.effective_length",
-            f"bearing.effective_length is {_mm(b.effective_length)}, longer than the roller "
-            f"itself, {_mm(b.roller_length)}.",
+            f"bearing.effective_length is {mm(b.effective_length)}, longer than the roller "
+            f"itself, {mm(b.roller_length)}.",
         )
     if b.rib_gap <= b.roller_length:
         yield (
             "bearing.rib_gap",
-            f"bearing.rib_gap is {_mm(b.rib_gap)}, but must be greater than the roller's length, "
-            f"{_mm(b.roller_length)}.",
+            f"bearing.rib_gap is {mm(b.rib_gap)}, but must be greater than the roller's length, "
+            f"{mm(b.roller_length)}.",
         )
     if b.rib_gap >= b.width:
         yield (
             "bearing.rib_gap",
-            f"bearing.rib_gap is {_mm(b.rib_gap)}, which leaves no ribs on a ring "
-            f"{_mm(b.width)} wide.",
+            f"bearing.rib_gap is {mm(b.rib_gap)}, which leaves no ribs on a ring "
+            f"{mm(b.width)} wide.",
         )
     if b.profile.kind == "crowned" and (0.5 * b.effective_length) ** 2 > (
         b.profile.crown_radius * b.roller_diameter
@@ -154,19 +150,19 @@ def find_around_cage(b: RollerBearing, c: Cage) -> Iterator[Finding]:
     if c.width > b.width:
         yield (
             "cage.width",
-            f"cage.width is {_mm(c.width)}, wider than the bearing, {_mm(b.width)}.",
+            f"cage.width is {mm(c.width)}, wider than the bearing, {mm(b.width)}.",
         )
     if c.bore <= b.rib_diameter:
         yield (
             "cage.bore",
-            f"cage.bore is {_mm(c.bore)}, so the cage cuts through the inner ring's ribs, "
-            f"{_mm(b.rib_diameter)} in diameter.",
+            f"cage.bore is {mm(c.bore)}, so the cage cuts through the inner ring's ribs, "
+            f"{mm(b.rib_diameter)} in diameter.",
         )
     outer = 2.0 * b.outer_race_radius
     if c.outside_diameter >= outer:
         yield (
             "cage.outside_diameter",
-            f"cage.outside_diameter is {_mm(c.outside_diameter)}, so the cage cuts through the "
-            f"outer race, {_mm(outer)} in diameter.",
+            f"cage.outside_diameter is {mm(c.outside_diameter)}, so the cage cuts through the "
+            f"outer race, {mm(outer)} in diameter.",
         )
     yield from find_off_pitch_circle(b, c)

@@ -18,7 +18,7 @@ import numpy as np
 from flexcage.cages.machined.cage import BallCage
 from flexcage.core.errors import InputError
 from flexcage.core.spec import option, quantity
-from flexcage.core.units import typeset
+from flexcage.core.units import mm, typeset
 from flexcage.geometry.cage import Cage
 from flexcage.geometry.defect import (
     CageDefect,
@@ -28,7 +28,6 @@ from flexcage.geometry.defect import (
     Reading,
     around,
     defect_type,
-    mm,
     raise_first,
     signed_mm,
 )

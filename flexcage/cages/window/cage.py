@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, ClassVar
 import numpy as np
 
 from flexcage.core.spec import option, quantity
-from flexcage.core.units import describe, typeset
+from flexcage.core.units import mm, typeset
 from flexcage.geometry.cage import Cage, Objection, cages_of
 
 if TYPE_CHECKING:
@@ -92,23 +92,23 @@ class WindowCage(Cage):
         yield from super().impossible(pocket_count)
         chord = self.bore * sin(pi / pocket_count)  # between neighbouring pockets' planes, at bore
         if self.pocket_length >= self.width:
-            yield "pocket_length", f"leaves no side beams in a cage {_mm(self.width)} wide"
+            yield "pocket_length", f"leaves no side beams in a cage {mm(self.width)} wide"
         if self.pocket_width >= chord:
             yield (
                 "pocket_width",
                 f"makes the {pocket_count} crossbeams thinner than zero at the bore; it must be "
-                f"less than {_mm(chord)}",
+                f"less than {mm(chord)}",
             )
         half = 0.5 * min(self.pocket_width, self.pocket_length)
         if self.fillet_radius >= half:
             yield (
                 "fillet_radius",
-                f"is too big; it must be less than half of the pocket's side, {_mm(half)}",
+                f"is too big; it must be less than half of the pocket's side, {mm(half)}",
             )
         if self.fillet_radius < 2.0 * _SHARPEST * half:
             yield (
                 "fillet_radius",
-                f"is a sharp corner; it must be at least {_mm(2.0 * _SHARPEST * half)}",
+                f"is a sharp corner; it must be at least {mm(2.0 * _SHARPEST * half)}",
             )
 
     def no_room(self, bearing: Bearing) -> Iterator[Objection]:
@@ -119,8 +119,8 @@ class WindowCage(Cage):
             if size <= own:
                 yield (
                     name,
-                    f"a clearance of {_mm(size - own)}; it must be greater than the "
-                    f"{bearing.element}'s {what}, {_mm(own)}",
+                    f"a clearance of {mm(size - own)}; it must be greater than the "
+                    f"{bearing.element}'s {what}, {mm(own)}",
                 )
         yield from self._edges_in_fillets(bearing)
 
@@ -133,7 +133,7 @@ class WindowCage(Cage):
             yield (
                 "fillet_radius",
                 f"so that the edges of a {bearing.element} in the middle of its pocket, with a "
-                f"radius of {_mm(edge)}, lie {_mm(depth)} inside the fillets; make it smaller, or "
+                f"radius of {mm(edge)}, lie {mm(depth)} inside the fillets; make it smaller, or "
                 "the pockets larger",
             )
 
@@ -163,10 +163,6 @@ class WindowCage(Cage):
                 yield (
                     "defects",
                     f"The defects leave pocket {pocket} a {what} of "
-                    f"{_mm(clearance[pocket] + size)} for a {bearing.element} of {_mm(size)}; no "
+                    f"{mm(clearance[pocket] + size)} for a {bearing.element} of {mm(size)}; no "
                     f"assembly can take more than {_PINCH_LIMIT * 100:.0f} % of interference.",
                 )
-
-
-def _mm(value: float) -> str:
-    return describe(value, "mm")

@@ -21,7 +21,7 @@ import numpy as np
 
 from flexcage.core.errors import InputError
 from flexcage.core.spec import option, quantity
-from flexcage.core.units import typeset
+from flexcage.core.units import mm, typeset
 from flexcage.geometry.defect import (
     CageDefect,
     Finding,
@@ -29,7 +29,6 @@ from flexcage.geometry.defect import (
     Reading,
     around,
     defect_type,
-    mm,
     signed_mm,
 )
 
