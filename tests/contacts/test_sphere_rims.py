@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from flexcage.contacts.ball_pocket import _nearest, _turning
+from flexcage.contacts.ball_pocket import nearest_wall, turning
 from flexcage.core.jit import kernel
 
 RADIUS = 3.45
@@ -11,8 +11,8 @@ RADIUS = 3.45
 
 @kernel
 def nearest(d, rims, seat, a):
-    n, apart, touch = _nearest((d[0], d[1], d[2]), RADIUS, (rims[0], rims[1], rims[2]), seat)
-    return n, apart, _turning((a[0], a[1], a[2]), n, apart, touch)
+    n, apart, touch = nearest_wall((d[0], d[1], d[2]), RADIUS, (rims[0], rims[1], rims[2]), seat)
+    return n, apart, turning((a[0], a[1], a[2]), n, apart, touch)
 
 
 def found(d, rims, seat=0.0, a=(0.0, 0.0, 0.0)):
