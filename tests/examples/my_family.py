@@ -78,11 +78,14 @@ MOTION = Motion(
     parts=MagnetParts,
     new_work=MOTION_OF_BALLS.new_work,
     evaluate=evaluate,
-    apart=MOTION_OF_BALLS.apart,
+    separate=MOTION_OF_BALLS.separate,
     faces=MOTION_OF_BALLS.faces,
     ribs=(),
     start=MOTION_OF_BALLS.start,
     error_weights=MOTION_OF_BALLS.error_weights,
+    linearise=MOTION_OF_BALLS.linearise,  # a constant pull has no slope
+    implicit_share=MOTION_OF_BALLS.implicit_share,
+    implicit_weights=MOTION_OF_BALLS.implicit_weights,
 )
 
 bearing_family(replace(BALLS, name="magnet", types=(MagnetBearing,), motion=lambda: MOTION))

@@ -7,8 +7,8 @@ from flexcage.bearings.ball.residual import evaluate
 from flexcage.bearings.ball.scales import ball_weights, implicit_ball_weights
 from flexcage.bearings.ball.start import ball_start
 from flexcage.bearings.ball.tangent import linearise
+from flexcage.system.equations import shared_equations
 from flexcage.system.motion import Motion, parts_type
-from flexcage.system.rows import shared_rows
 
 BallParts = parts_type("BallParts", BallModel, __name__)
 
@@ -17,7 +17,7 @@ MOTION = Motion(
     parts=BallParts,
     new_work=ball_work,
     evaluate=evaluate,
-    apart=(shared_rows,),
+    separate=(shared_equations,),
     faces=("pocket",),
     ribs=(),
     start=ball_start,
