@@ -285,8 +285,9 @@ def _find_in_held_centre(case: Case) -> Iterator[Finding]:
 
 def _find_in_mesh(case: Case) -> Iterator[Finding]:
     mesh, cage = case.mesh, case.cage
+    for where, file in case.files.items():
+        yield from _find_in_path(file, where)
     if mesh.file:
-        yield from _find_in_path(mesh.file)
         return
     volume = 0.25 * pi * (cage.outside_diameter**2 - cage.bore**2) * cage.width
     arc = 2.0 * pi * case.bearing.element_count * cage.fillet  # four quarters a pocket
@@ -311,15 +312,15 @@ def _find_in_mesh(case: Case) -> Iterator[Finding]:
         )
 
 
-def _find_in_path(file: str) -> Iterator[Finding]:
-    """A mesh file whose name none can have; one that is not there is told of when it is read."""
+def _find_in_path(file: str, where: str) -> Iterator[Finding]:
+    """A file whose name none can have; one that is not there is told of when it is read."""
     try:
         Path(file).stat()
     except (FileNotFoundError, NotADirectoryError):
         return
     except OSError as exc:
         reason = (exc.strerror or str(exc)).lower()
-        yield "mesh.file", f"mesh.file is '{file}', which cannot be looked up ({reason})."
+        yield where, f"{where} is '{file}', which cannot be looked up ({reason})."
 
 
 def _find_in_tables(case: Case) -> Iterator[Finding]:

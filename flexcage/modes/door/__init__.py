@@ -1,0 +1,1 @@
+"""Reduced bodies from elsewhere, and to elsewhere: one value, its formats, its checks."""
