@@ -32,9 +32,9 @@ from flexcage.modes.spec import ModesSpec
 from flexcage.modes.table import table_loads
 
 _WELL = 1e-8  # least over largest eigenvalue of a pocket's residual flexibility that is inverted
-# Higher modes of a body become residual vectors if they are half as many as these, and the coupling
-# between pockets, which is cut, is no more than that of flexcage's own without its crossbeams' modes
-# (0.13 for the cage of the tests).
+# Higher modes become residual vectors if they are half as many as these, and if the coupling
+# between pockets, which is cut, is about that of flexcage's own without its crossbeams' modes: 0.13
+# for the cage of the tests.
 _SHARE, _FAR = 0.5, 0.15
 BODY = "body"  # name of a basis that was taken from one
 
