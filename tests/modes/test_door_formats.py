@@ -175,7 +175,7 @@ def test_a_substructure_in_the_layout_of_calculix(model, tmp_path):
     np.testing.assert_array_equal(read.dofs, static.dofs)
     np.testing.assert_allclose(read.stiffness, static.stiffness, rtol=1e-9)
     assert read.mass is None
-    with pytest.raises(InputError, match="no mass matrix, which motion wants"):
+    with pytest.raises(InputError, match="no mass matrix, which motion needs"):
         check_free(read, where="body")
 
 

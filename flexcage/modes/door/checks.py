@@ -77,7 +77,7 @@ def check_free(body: ReducedBody, *, where: str) -> None:
     """Raise InputError for a body that has no mass, or that something holds."""
     if body.mass is None:
         raise InputError(
-            f"{body.source} has no mass matrix, which motion wants; write it as well.", where=where
+            f"{body.source} has no mass matrix, which motion needs; write it as well.", where=where
         )
     if body.rigid is None:
         return
