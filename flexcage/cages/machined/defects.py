@@ -52,6 +52,10 @@ class BallCageDefect(CageDefect):
     def alter(self, shapes: PocketShapes) -> None:
         """Add what it changes of the pockets' walls to their shapes."""
 
+    def move_stations(self, offset: np.ndarray, stations: np.ndarray) -> None:
+        """Add what it moves of the pockets' stations (angles [rad] from +psi towards +x) beyond
+        their shapes to ``offset`` (Z, n_st, 3) [m], components (x, r, psi)."""
+
     def tips(self, cage: BallCage) -> Sequence[float]:
         """Distances [m] from the cage's middle at which the sound mesh must have edges."""
         return ()
@@ -216,6 +220,10 @@ class WebCrack(BallCageDefect):
     web: int = option(doc="web number, 0 .. Z-1; web k is between pockets k-1 and k", minimum=0)
     side: str = option("+x", doc="the end of the cage where it begins", choices=("+x", "-x"))
     share: float = option(doc="its length over the cage's width, between 0 and 1")
+
+    def move_stations(self, offset: np.ndarray, stations: np.ndarray) -> None:
+        """Add what it moves of the pockets' stations (angles [rad] from +psi towards +x) beyond
+        their shapes to ``offset`` (Z, n_st, 3) [m], components (x, r, psi)."""
 
     def tips(self, cage: BallCage) -> Sequence[float]:
         return (abs(0.5 - self.share) * cage.width,)
