@@ -92,6 +92,8 @@ def _pockets(
         normal = np.linalg.norm(interface.modes, axis=2)
     n, height = interface.modes.shape[-1], 0.5 * bearing.pitch_diameter
     ends = np.array([cage.wall_ends(height, float(r)) for r in interface.radius])
+    if interface.open_at is not None:
+        ends[:, 2] = np.minimum(ends[:, 2], interface.open_at / interface.radius)
     offset = np.zeros(interface.modes.shape[:3]) if interface.offset is None else interface.offset
     return BallPockets(
         azimuth=st(np.stack([np.cos(angle), np.sin(angle)], axis=1)),

@@ -6,10 +6,25 @@ from typing import TYPE_CHECKING
 
 from flexcage.cages.cage_type import CageType
 from flexcage.cages.crown.cage import CrownCage
-from flexcage.cages.machined.defects import BallCageDefect
+from flexcage.cages.crown.defects import (
+    BentClaw,
+    ClawDefect,
+    CrackedClaw,
+    CrownDefect,
+    MissingClaw,
+    WornPocket,
+)
 
 # specs that ``flexcage.spec`` shows
-__all__ = ["CrownCage"]
+__all__ = [
+    "BentClaw",
+    "ClawDefect",
+    "CrackedClaw",
+    "CrownCage",
+    "CrownDefect",
+    "MissingClaw",
+    "WornPocket",
+]
 
 if TYPE_CHECKING:
     from flexcage.geometry.inside import CageProposal
@@ -44,5 +59,6 @@ def _proposal() -> CageProposal:
 
 CAGE_TYPE = CageType(
     name="crown", spec=CrownCage, holds=("ball",), mesh=_mesh, interfaces=_interfaces,
-    places=_places, proposal=_proposal, defect_spec=BallCageDefect,
+    places=_places, proposal=_proposal, defect_spec=CrownDefect,
+    defects=(BentClaw, CrackedClaw, MissingClaw, WornPocket),
 )  # fmt: skip

@@ -5,9 +5,10 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from flexcage.cages.crown.cage import CrownCage
+from flexcage.cages.crown.defects import CrownDefect
+from flexcage.cages.crown.morph import apply_crown_defects
 from flexcage.cages.crown.sector import mesh_crown_half
 from flexcage.cages.machined.build import build_round_pockets
-from flexcage.cages.machined.defects import BallCageDefect
 from flexcage.cages.machined.measure import ENOUGH, measure_ball_file
 from flexcage.core.errors import InputError
 from flexcage.mesh.cage_mesh import CageMesh
@@ -19,13 +20,13 @@ def build_crown_mesh(
     cage: CrownCage,
     pocket_count: int,
     pitch_diameter: float,
-    defects: Sequence[BallCageDefect],
+    defects: Sequence[CrownDefect],
     options: MeshOptions,
 ) -> CageMesh:
     """Mesh of a crown cage with its defects, or the user's own file checked against both."""
     return build_round_pockets(
         cage, pocket_count, pitch_diameter, defects, options, quarter_of=_half,
-        measure=measure_crown_file,
+        measure=measure_crown_file, apply=apply_crown_defects,
     )  # fmt: skip
 
 
@@ -33,18 +34,20 @@ def _half(
     cage: CrownCage,
     pocket_count: int,
     pitch_diameter: float,
-    defects: Sequence[BallCageDefect],
+    defects: Sequence[CrownDefect],
     options: MeshOptions,
 ) -> Quarter:
+    fronts = {radius for defect in defects for radius in defect.fronts(cage)}
     return mesh_crown_half(
-        cage, pocket_count=pocket_count, pitch_diameter=pitch_diameter, options=options
-    )
+        cage, pocket_count=pocket_count, pitch_diameter=pitch_diameter, options=options,
+        breaks=any(defect.breaks for defect in defects), fronts=tuple(sorted(fronts)),
+    )  # fmt: skip
 
 
 def measure_crown_file(
     mesh: CageMesh,
     cage: CrownCage,
-    defects: Sequence[BallCageDefect],
+    defects: Sequence[CrownDefect],
     *,
     pitch_radius: float,
     source: str,

@@ -9,6 +9,7 @@ mean.
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from dataclasses import replace
 from math import asin, pi
 from typing import Any
 
@@ -16,7 +17,8 @@ import numpy as np
 import scipy.sparse as sp
 
 from flexcage.cages.crown.cage import CrownCage
-from flexcage.cages.machined.defects import BallCageDefect, PocketShapes
+from flexcage.cages.crown.defects import CrownDefect
+from flexcage.cages.machined.defects import PocketShapes
 from flexcage.cages.machined.interface import (
     BallCageInterface,
     ball_cage_interface,
@@ -30,12 +32,13 @@ from flexcage.modes.reduction import CageReduction, Interfaces
 
 
 def crown_weights(
-    model: FEModel, stations: np.ndarray, shapes: PocketShapes, cage: CrownCage
+    model: FEModel, stations: np.ndarray, shapes: PocketShapes, ends: np.ndarray
 ) -> sp.csr_matrix:
-    """Weights (Z*n_st, N): station value <- nodal values, rows summing to one."""
+    """Weights (Z*n_st, N): station value <- nodal values, rows summing to one; walls end at
+    x = ``ends`` (Z,) [m]."""
     count, rows = len(shapes.radius), []
     for pocket, radius in enumerate(shapes.radius):
-        end = asin(cage.tip / radius)
+        end = asin(ends[pocket] / radius)
         hats = _hats_in(pocket_frame(pocket, count), len(stations), end)
         rows.append(model.face_weights(model.group(f"pocket{pocket}_wall"), hats))
     return normalised(sp.vstack(rows))
@@ -65,24 +68,63 @@ def station_weights(angles: np.ndarray, count: int, end: float) -> np.ndarray:
     return weights
 
 
+def rigid_crown_interface(
+    cage: CrownCage, *, pocket_count: int, defects: Sequence[CrownDefect] = ()
+) -> BallCageInterface:
+    """Interface of a rigid cage: no modes, no compliance, no mesh."""
+    made = rigid_ball_interface(cage, pocket_count=pocket_count, defects=defects)
+    return _with_defects(made, cage, defects)
+
+
 def _reduced(cage: CageReduction) -> BallCageInterface:
-    return ball_cage_interface(
+    ends = _open_at(cage.cage, cage.defects, cage.mesh.pocket_count)
+
+    def weights(
+        model: FEModel, stations: np.ndarray, shapes: PocketShapes, _: Any
+    ) -> sp.csr_matrix:
+        return crown_weights(model, stations, shapes, ends)
+
+    made = ball_cage_interface(
         cage.model,
         cage.basis,
         pocket_count=cage.mesh.pocket_count,
         cage=cage.cage,
         defects=cage.defects,
         solver=cage.solver,
-        weights_of=crown_weights,
+        weights_of=weights,
+    )
+    return _with_defects(made, cage.cage, cage.defects)
+
+
+def _open_at(cage: CrownCage, defects: Sequence[CrownDefect], pocket_count: int) -> np.ndarray:
+    """Places x (Z,) [m] at which the pockets' walls end."""
+    ends = np.full(pocket_count, cage.tip)
+    for defect in defects:
+        defect.lower_walls(ends, cage)
+    return ends
+
+
+def _with_defects(
+    made: BallCageInterface, cage: CrownCage, defects: Sequence[CrownDefect]
+) -> BallCageInterface:
+    """The interface with what defects moved of stations and tips; as it is if they moved none."""
+    ends = _open_at(cage, defects, len(made.radius))
+    offset = np.zeros(made.modes.shape[:3])
+    for defect in defects:
+        defect.move_stations(offset, made.stations, cage)
+    return replace(
+        made,
+        offset=offset if offset.any() else None,
+        open_at=ends if (ends < cage.tip).any() else None,
     )
 
 
 def _depends_on(
-    cage: CrownCage, defects: Sequence[BallCageDefect], pocket_count: int
+    cage: CrownCage, defects: Sequence[CrownDefect], pocket_count: int
 ) -> tuple[Any, ...]:
     return cage, tuple(defects)
 
 
 CROWN_INTERFACES: Interfaces[CrownCage] = Interfaces(
-    kind=BallCageInterface, rigid=rigid_ball_interface, reduced=_reduced, depends_on=_depends_on
+    kind=BallCageInterface, rigid=rigid_crown_interface, reduced=_reduced, depends_on=_depends_on
 )

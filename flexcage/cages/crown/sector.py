@@ -39,12 +39,19 @@ def crown_size_plan(cage: CrownCage, options: MeshOptions) -> SizePlan:
 
 
 def mesh_crown_half(
-    cage: CrownCage, *, pocket_count: int, pitch_diameter: float, options: MeshOptions
-) -> Quarter:
-    """Mesh the half sector; lengths go to gmsh in mm, where OpenCASCADE's tolerances fit."""
+    cage: CrownCage, *, pocket_count: int, pitch_diameter: float, options: MeshOptions,
+    breaks: bool = False, fronts: tuple[float, ...] = (),
+) -> Quarter:  # fmt: skip
+    """Mesh the half sector; lengths go to gmsh in mm, where OpenCASCADE's tolerances fit.
+
+    ``breaks``: have faces in the plane where the claw stands on its bar; and ``fronts``: arcs of
+    edges in it at these radii [m] about the bearing's axis.
+    """
     plan, pitch_radius = crown_size_plan(cage, options), 0.5 * pitch_diameter
     with gmsh_model("flexcage half sector of a crown cage") as gmsh:
         _shape(gmsh, cage, pocket_count, pitch_radius)
+        if breaks:
+            _divide(gmsh, cage, pocket_count, fronts)
         _set_sizes(gmsh, plan, cage, pitch_radius)
         gmsh.model.mesh.generate(3)
         points, tets, faces = mesh_arrays(gmsh)
@@ -74,6 +81,25 @@ def _shape(gmsh: Any, cage: CrownCage, pocket_count: int, pitch_radius: float) -
     occ.synchronize()
     if len(body) != 1:
         raise RunFailed("the cage's half sector falls into several pieces")
+
+
+def _divide(gmsh: Any, cage: CrownCage, pocket_count: int, fronts: tuple[float, ...]) -> None:
+    """Part claw and bar in the plane where the bar ends, which has arcs at the fronts."""
+    occ, x = gmsh.model.occ, cage.bar_height / MM
+    inner, outer = 0.5 * cage.bore / MM, 0.5 * cage.outside_diameter / MM
+    radii = [inner - 1.0, *(radius / MM for radius in fronts), outer + 1.0]
+    faces = []
+    for low, high in zip(radii, radii[1:]):
+        line = occ.addLine(occ.addPoint(x, low, 0.0), occ.addPoint(x, high, 0.0))
+        swept = occ.revolve([(1, line)], 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, pi / pocket_count)
+        faces += [e for e in swept if e[0] == 2]
+    solids = occ.getEntities(3)
+    occ.fragment(solids, faces)
+    occ.synchronize()
+    own = set(gmsh.model.getBoundary(occ.getEntities(3), combined=False, oriented=False))
+    over = [e for e in gmsh.model.getEntities(2) if e not in own]
+    occ.remove(over, recursive=True)
+    occ.synchronize()
 
 
 def _solid(entities: list[tuple[int, int]]) -> list[tuple[int, int]]:

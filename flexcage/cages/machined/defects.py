@@ -52,10 +52,6 @@ class BallCageDefect(CageDefect):
     def alter(self, shapes: PocketShapes) -> None:
         """Add what it changes of the pockets' walls to their shapes."""
 
-    def move_stations(self, offset: np.ndarray, stations: np.ndarray) -> None:
-        """Add what it moves of the pockets' stations (angles [rad] from +psi towards +x) beyond
-        their shapes to ``offset`` (Z, n_st, 3) [m], components (x, r, psi)."""
-
     def tips(self, cage: BallCage) -> Sequence[float]:
         """Distances [m] from the cage's middle at which the sound mesh must have edges."""
         return ()

@@ -54,7 +54,10 @@ class BallCageInterface:
     land: np.ndarray  # (2, n_land, 3, n): radial-frame modes on the inner/outer land ring stations
     weights: sp.csr_matrix | None = None  # (Z*n_st, n_nodes): station <- nodal displacement
     land_weights: sp.csr_matrix | None = None  # (2*n_land, n_nodes), the same for land stations
-    offset: np.ndarray | None = None  # (Z, n_st, 3) [m] where defects moved stations; None: nowhere
+    # where defects moved stations (Z, n_st, 3) [m], and where they let walls end towards +x (Z,)
+    # [m]; None: nowhere
+    offset: np.ndarray | None = None
+    open_at: np.ndarray | None = None
 
     @property
     def normals(self) -> np.ndarray:
@@ -75,17 +78,6 @@ def wall_normals(angles: np.ndarray) -> np.ndarray:
     return np.column_stack([np.sin(angles), np.zeros(len(angles)), np.cos(angles)])
 
 
-def station_offsets(
-    defects: Sequence[BallCageDefect], pocket_count: int, n_stations: int
-) -> np.ndarray | None:
-    """Where defects moved stations to without stress (Z, n_st, 3) [m], components (x, r, psi);
-    None where they moved none."""
-    offset, stations = np.zeros((pocket_count, n_stations, 3)), wall_stations(n_stations)
-    for defect in defects:
-        defect.move_stations(offset, stations)
-    return offset if offset.any() else None
-
-
 def rigid_ball_interface(
     cage: BallCage,
     *,
@@ -104,7 +96,6 @@ def rigid_ball_interface(
         radius=shapes.radius,
         slot=shapes.slot,
         land=np.zeros((2, n_land, 3, 0)),
-        offset=station_offsets(defects, pocket_count, n_stations),
     )
 
 
@@ -140,7 +131,6 @@ def ball_cage_interface(
         radius=shapes.radius,
         slot=shapes.slot,
         land=land_modes(basis, land_weights, n_land),
-        offset=station_offsets(defects, pocket_count, n_stations),
         weights=weights,
         land_weights=land_weights,
     )
