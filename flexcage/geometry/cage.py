@@ -87,6 +87,11 @@ class Cage:
         return self.width
 
     @property
+    def axial_reach(self) -> float:
+        """How far it reaches [m] from the plane of the elements' centres, to one side at least."""
+        return 0.5 * self.axial_width
+
+    @property
     def most_unbalance(self) -> float:
         """Unbalance [kg m] of half of its body of revolution, taken as solid: more cannot be."""
         wall = pi / 4.0 * (self.outside_diameter**2 - self.bore**2)

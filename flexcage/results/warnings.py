@@ -284,7 +284,7 @@ def _passes_ring(o: Outcome) -> Iterator[RunWarning]:
         centre = metrics.centre_of(ds, "cage")
         if side == "inner":
             centre = centre - metrics.centre_of(ds, "inner")
-        swing = np.hypot(*centre.T) + 0.5 * cage.axial_width * np.sin(tilt)
+        swing = np.hypot(*centre.T) + cage.axial_reach * np.sin(tilt)
         at = int(swing.argmax())
         if gap > 0.0 and swing[at] > gap + _PASSED:
             yield RunWarning(
