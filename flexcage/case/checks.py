@@ -268,7 +268,7 @@ def _find_in_held_centre(case: Case) -> Iterator[Finding]:
     load, method = case.load, case.solver.method
     if load.centre == "free":
         return
-    if method != "explicit" and not (method == "auto" and case.bearing.explicit_only):
+    if method not in ("explicit", "auto"):
         yield (
             "load.centre",
             f"load.centre is 'held', which needs solver.method = \"explicit\", not {method!r}.",
@@ -414,12 +414,6 @@ def _find_in_waves(case: Case) -> Iterator[Finding]:
 
 def _find_in_solver(case: Case) -> Iterator[Finding]:
     solver = case.solver
-    if solver.method == "bdf" and case.bearing.explicit_only:
-        yield (
-            "solver.method",
-            f"solver.method is 'bdf', but a bearing's {case.bearing.element}s have no tangent yet, "
-            "which implicit methods want; take 'auto' or 'explicit'.",
-        )
     if solver.min_step > solver.max_step:
         yield (
             "solver.min_step",

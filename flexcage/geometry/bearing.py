@@ -93,7 +93,6 @@ class Bearing:
     places: ClassVar[tuple[str, ...]] = ("race", "pocket", "side", "rib")
     carries_axial_load: ClassVar[bool] = False  # in a run, with the ring free axially and in tilt
     elsewhere: ClassVar[Mapping[str, str]] = {}  # patterns of keys that it has not: what there is
-    explicit_only: ClassVar[bool] = False  # do they lack the tangent that implicit methods want?
     # what of a ring guides a cage that is not guided by the elements
     guides: ClassVar[Mapping[str, str]] = {"inner": "the inner ring", "outer": "the outer ring"}
 
