@@ -7,6 +7,7 @@ from flexcage.bearings.family import (
     in_motion,
     motion_of,
     recording_of,
+    sections_of,
     statics_of,
 )
 
@@ -15,4 +16,7 @@ MEMBERS = (
     ball.FAMILY,
 )
 
-__all__ = ["MEMBERS", "Family", "family_of", "in_motion", "motion_of", "recording_of", "statics_of"]
+__all__ = [
+    "MEMBERS", "Family", "family_of", "in_motion", "motion_of", "recording_of", "sections_of",
+    "statics_of",
+]  # fmt: skip
