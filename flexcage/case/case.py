@@ -54,7 +54,7 @@ _NOT_PHYSICS = ("name", "description", "preset", "static", "given")
 _ORDER = (
     "name", "description", "preset", "bearing", "cage", "cage_model", "defects", "mesh", "modes",
     "lubricant", "contacts", "drive", "load", "mount", "constraints", "start", "solver", "output",
-    "limits", "seed", "given", "static",
+    "limits", "seed", "given", "inner_ring", "outer_ring", "static",
 )  # fmt: skip
 
 

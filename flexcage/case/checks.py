@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 from flexcage.bearings import in_motion
 from flexcage.cages import cage_type_of
+from flexcage.case.ring_checks import find_bending_in_run, find_in_rings
 from flexcage.core.binding import chosen_spec, default_of, join
 from flexcage.core.errors import InputError
 from flexcage.core.units import describe
@@ -50,6 +51,7 @@ def check_case(case: Case) -> None:
             _find_in_output,
             _find_in_laws,
             _find_in_land,
+            find_bending_in_run,
         ),
     )
 
@@ -576,4 +578,5 @@ _OF_EVERY_CASE = (
     _find_in_load,
     _find_in_tilt,
     _find_in_speed,
+    find_in_rings,
 )
