@@ -109,7 +109,8 @@ class StaticSolution:
 
 def _plain(value: Any) -> Any:
     if dataclasses.is_dataclass(value) and not isinstance(value, type):
-        return {f.name: _plain(getattr(value, f.name)) for f in dataclasses.fields(value)}
+        found = {f.name: getattr(value, f.name) for f in dataclasses.fields(value)}
+        return {name: _plain(own) for name, own in found.items() if own is not None}
     if isinstance(value, np.ndarray):
         return [_plain(item) for item in value]
     if isinstance(value, (tuple, list)):
