@@ -80,6 +80,7 @@ def test_a_skewed_roller_is_turned_back(ribs):
 )  # fmt: skip
 def test_rib_energy_and_power(ribs, shift, turn, ring):
     data = ribs
+    ring = ring if data.points[0, 0] < 0.0 else [0, 0, 0]  # an outer ring does not tilt
     axis, b = turned(np.eye(3), turn), turned(np.eye(3), ring)[0]
     P = np.array([np.copysign(PLAY, shift) + shift, PITCH, 2e-5])
     still = rib(data, P, axis=axis, b=b)
