@@ -199,8 +199,7 @@ class Case(StaticCase):
     @property
     def held_in_words(self) -> str:
         """How the inner ring is held in a run, in words."""
-        axially = self.bearing.carries_axial_load or self.load.axial_stiffness > 0.0
-        return self.load.held_in_words(axially=axially)
+        return self.load.held_in_words(axially=self.load.frees_axially(self.bearing))
 
     @property
     def riveted(self) -> bool:

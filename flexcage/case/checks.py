@@ -44,6 +44,7 @@ def check_case(case: Case) -> None:
         case,
         (
             *_OF_EVERY_CASE,
+            _find_in_axial_load,
             _find_in_held_motions,
             _find_in_mesh,
             _find_in_waves,
@@ -221,7 +222,26 @@ def _find_in_held_motions(case: Case) -> Iterator[Finding]:
 
 def _bears_axially(case: Case) -> bool:
     """Is the inner ring free along the axis in a run, with something that brings it back?"""
-    return case.bearing.carries_axial_load or case.load.axial_stiffness > 0.0
+    return case.load.frees_axially(case.bearing)
+
+
+def _find_in_axial_load(case: Case) -> Iterator[Finding]:
+    """Axial loads that neither the bearing nor its shaft carries."""
+    load, where = case.load, "load.axial"
+    if load.axial_stiffness > 0.0:
+        return
+    if load.varies == "axial" and (load.times or load.ramp_to is not None):
+        where = "load.values" if load.times else "load.ramp_to"
+    if load.wave_of == "axial" and load.wave != "none":
+        where = "load.wave_amplitude"
+    for force in load.axial_range:
+        if refused := case.bearing.axial_refusal(force):
+            says = "is" if where == "load.axial" else "makes the axial load"
+            yield (
+                where,
+                f"{where} {says} {describe(force, 'N')}, but {refused}; leave it out, or give the "
+                "shaft's load.axial_stiffness.",
+            )
 
 
 def _find_in_shaft(case: Case) -> Iterator[Finding]:
@@ -229,7 +249,8 @@ def _find_in_shaft(case: Case) -> Iterator[Finding]:
     load = case.load
     later = (load.ramp_to or 0.0, *load.values) if load.varies == "axial" else ()
     largest, most = max(map(abs, (load.axial, *later))), case.bearing.greatest_shift
-    if load.axial_stiffness > 0.0 and largest > load.axial_stiffness * most:
+    borne = not any(map(case.bearing.axial_refusal, load.axial_range))
+    if load.axial_stiffness > 0.0 and largest > load.axial_stiffness * most and not borne:
         yield (
             "load.axial_stiffness",
             f"load.axial_stiffness is {describe(load.axial_stiffness, 'N/um')}, which lets "
