@@ -24,7 +24,7 @@ from scipy.stats import t as student
 
 from flexcage.core.errors import InputError
 from flexcage.study.looks import Looks
-from flexcage.study.ranks import Groups, jonckheere, mack_wolfe
+from flexcage.study.ranks import Groups, Sample, jonckheere, mack_wolfe
 from flexcage.study.verdicts import FAILS, HOLDS, UNDECIDED
 
 
@@ -103,9 +103,7 @@ def _quadratic(at: np.ndarray) -> np.ndarray:
     return contrast if contrast[ends].sum() > 2.0 * contrast[middle] else -contrast
 
 
-def equal(
-    one: Sequence[float], other: Sequence[float], *, within: float, absolute: bool = False
-) -> Evidence:
+def equal(one: Sample, other: Sample, *, within: float, absolute: bool = False) -> Evidence:
     """Are two means as good as equal: apart by less than the share ``within`` of the first one's
     size (or by less than ``within`` itself)? Two one-sided tests by Welch's t."""
     means, errors, sizes = _moments((one, other))
@@ -124,7 +122,7 @@ def equal_by_moments(means: Any, deviations: Any, sizes: Any, *, margin: float) 
     return Evidence(inside, outside, f"apart by {apart:.3g} ± {error:.2g}, allowed {margin:.3g}")
 
 
-def above(values: Sequence[float], limit: float) -> Evidence:
+def above(values: Sample, limit: float) -> Evidence:
     """Is the mean of the starts above a limit? By Student's t."""
     means, errors, sizes = _moments((values,))
     error = sqrt(float(errors[0]))
@@ -132,7 +130,7 @@ def above(values: Sequence[float], limit: float) -> Evidence:
     return Evidence(p, 1.0 - p, f"mean {means[0]:.3g} ± {error:.2g}, limit {limit:.3g}")
 
 
-def less(one: Sequence[float], other: Sequence[float], *, by: float = 0.0) -> Evidence:
+def less(one: Sample, other: Sample, *, by: float = 0.0) -> Evidence:
     """Is the mean of ``one`` less than that of ``other``, by the share ``by`` of ``one`` or more?
     By Welch's t."""
     means, errors, sizes = _moments((one, other))

@@ -24,6 +24,7 @@ from flexcage.core.spec import option, quantity
 from flexcage.core.units import format_si
 from flexcage.results.files import replace as replace_file
 from flexcage.study.axes import Points
+from flexcage.study.claims import At
 from flexcage.study.results import StudyResults
 from flexcage.study.run import run_study
 from flexcage.study.sensitivity import Index, indices
@@ -38,7 +39,6 @@ FORMAT = 1
 FILE = "map.json"
 SAMPLE, CONDITION = "sample", "condition"  # columns of a map's tables
 
-At = Callable[[str, str], float]  # of an output and a condition: its mean over the starts
 Test = Callable[[At], "bool | None"]  # of a claim at one point of a map; None: not decided
 
 
@@ -158,9 +158,7 @@ def run_map(
     """Compute what the folder ``out`` lacks of a map; ``workers`` and ``progress`` are those of
     ``run_study``. A run that fails is a gap in the map, with its reason in the study's table."""
     out = Path(out)
-    study = spec.study()
-    out.mkdir(parents=True, exist_ok=True) if (out / "plan.json").is_file() else None
-    run_study(study, out=out, workers=workers, progress=progress)
+    run_study(spec.study(), out=out, workers=workers, progress=progress)
     replace_file(out / FILE, (json.dumps(spec.stored(), indent=1) + "\n").encode())
     return MapResults(out)
 

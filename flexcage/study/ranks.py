@@ -23,7 +23,8 @@ import numpy as np
 from flexcage.core.errors import InputError
 
 PERMUTATIONS = 20_000  # of samples with ties
-Groups = Sequence[Sequence[float]]
+Sample = Sequence[float] | np.ndarray
+Groups = Sequence[Sample]
 
 
 @dataclass(frozen=True)

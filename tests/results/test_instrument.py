@@ -82,8 +82,8 @@ def test_a_face_that_runs_out_turns_with_the_cage():
     t = np.arange(1000) / 1e4
     half = 10.0 * np.pi * t
     zero = np.zeros_like(t)
-    ds = xr.Dataset({"cage_quaternion": (
-        ("time", "quaternion"), np.column_stack([np.cos(half), np.sin(half), zero, zero]))})  # fmt: skip
+    turned = np.column_stack([np.cos(half), np.sin(half), zero, zero])
+    ds = xr.Dataset({"cage_quaternion": (("time", "quaternion"), turned)})
     face = run_out(ds, total=20e-6, circle=31e-3)
     centre, axis = np.zeros((1000, 3)), np.tile([1.0, 0.0, 0.0], (1000, 1))
     out = readings(centre, axis, SETUP, face=face)
