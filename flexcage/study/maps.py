@@ -9,7 +9,7 @@ twice.
 from __future__ import annotations
 
 import json
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
@@ -81,12 +81,19 @@ class Map:
         """The design (rows, columns)."""
         return design_of(self.design, self.count, len(self.names), self.seed)
 
-    def study(self) -> Study:
-        """The study of all its runs."""
+    def study(self, points: Sequence[int] | None = None) -> Study:
+        """The study of its runs: all, or those of some points, counted from 0."""
+        rows = range(len(self.shares)) if points is None else points
+        if not set(rows) <= set(range(len(self.shares))) or not rows:
+            raise InputError(
+                f"The map has points 0 to {len(self.shares) - 1}, but {list(rows)} were asked for.",
+                where="points",
+                value=list(rows),
+            )
         samples = []
-        for row, shares in enumerate(self.shares):
+        for row in rows:
             changes: dict[str, Any] = {}
-            for unknown, share in zip(self.unknowns, shares):
+            for unknown, share in zip(self.unknowns, self.shares[row]):
                 changes |= unknown.changes(float(share))[1]
             for start in range(self.starts):
                 seed = self.seed + row * self.starts + start
@@ -152,13 +159,18 @@ def run_map(
     spec: Map,
     *,
     out: str | Path,
+    points: Sequence[int] | None = None,
     workers: int | None = None,
     progress: Callable[..., Any] | None = None,
 ) -> MapResults:
     """Compute what the folder ``out`` lacks of a map; ``workers`` and ``progress`` are those of
-    ``run_study``. A run that fails is a gap in the map, with its reason in the study's table."""
+    ``run_study``. A run that fails is a gap in the map, with its reason in the study's table.
+
+    Only some ``points`` are computed where they are named: so a map is rechecked with a finer
+    model, whose folder is another.
+    """
     out = Path(out)
-    run_study(spec.study(), out=out, workers=workers, progress=progress)
+    run_study(spec.study(points), out=out, workers=workers, progress=progress)
     replace_file(out / FILE, (json.dumps(spec.stored(), indent=1) + "\n").encode())
     return MapResults(out)
 

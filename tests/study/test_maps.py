@@ -158,6 +158,15 @@ def test_outputs_of_ones_own_are_checked():
         register_outputs(lambda run: {}, {"my_length": "furlong"})
 
 
+def test_some_points_of_a_map(done):
+    """Those of a recheck are the same cases as in the whole map."""
+    spec, _, _ = done
+    some, every = spec.study((1,)).axes[0].points, spec.study().axes[0].points
+    assert some == every[2:4]
+    with pytest.raises(InputError, match="has points 0 to 1"):
+        spec.study((2,))
+
+
 def test_unknowns_are_checked_before_anything_runs():
     one = Unknown(name="x", reason="r", paths={"load.radial": 1.0}, range=("1 N", "2 N"))
     with pytest.raises(InputError, match="both change 'load.radial'"):
