@@ -31,7 +31,8 @@ CASES = {
     "meshes/README.md": ("N1013",),
     "flexcage/modes/README.md": ("N1013",),
 }
-NOT_CASES = {"examples/cases.md": 1, "examples/studies.md": 1}  # a static case, a study
+# a static case, a study, a map
+NOT_CASES = {"examples/cases.md": 1, "examples/studies.md": 1, "examples/claims.md": 1}
 
 
 def name_of(page):
