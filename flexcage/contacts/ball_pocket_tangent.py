@@ -40,7 +40,6 @@ from flexcage.core.vectors import (
     minus,
     plus,
     put,
-    row,
     times,
     turned,
     turned_back,

@@ -30,6 +30,7 @@ from flexcage.contacts.state import set_frame
 from flexcage.core.jit import fields, part, zero
 from flexcage.core.vectors import TURN, column, minus, put, turn_of, turned, xyz
 from flexcage.system.data import AXIAL, FAMILY_PARTS, MASS
+from flexcage.system.equations import CAGE_SPIN
 from flexcage.system.layout import (
     CAGE,
     CAGE_TURN,
@@ -41,7 +42,6 @@ from flexcage.system.layout import (
     places,
 )
 from flexcage.system.relative import Against, Relative, add_slopes
-from flexcage.system.equations import CAGE_SPIN
 
 
 def linearise(t, y, yd, data):
