@@ -232,7 +232,8 @@ def nearest_wall(d, radius, rim, seat):
     ``rim`` is that of ``rim_there``. Returns the direction from the ball's centre to the wall
     (shorter than 1 within a seat), the distance, and the wall's place there for ``turning``: which
     coordinates a rim holds (0 or 1), the direction of the others and their distance from the
-    pocket's middle, and how much farther off the wall is. The middle of the pocket itself has distance 0 and means nothing.
+    pocket's middle, and how much farther off the wall is. The middle of the pocket itself has
+    distance 0 and means nothing.
     """
     high, wide = rim
     held_x, held_r = _held(d, high, wide, seat)
