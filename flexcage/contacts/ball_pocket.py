@@ -1,8 +1,9 @@
 """Ball in its pocket: a cylinder about a radial axis, or a sphere, in a cage that deforms.
 
 The pocket may be a slot (its axis drawn out to a line), larger or displaced. A sphere ends at rims,
-at bore and outside and, in a ribbon cage, at its open sides; there the ball touches the rim's
-nearest point. A ball that sinks straight into a round rim touches all of it: over a distance of
+at bore and outside and, in ribbon and crown cages, at its open sides; there the ball touches the
+rim's nearest point. What a bent claw moved is a displacement of the stations that the cage has
+without stress. A ball that sinks straight into a round rim touches all of it: over a distance of
 ``SEAT`` across, the sideways push turns from one side to the other. The wall's motion by the cage's
 modes is known at stations round the pocket and interpolated smoothly between them; towards a
 sphere's poles it fades into the mean of all stations. What modes do not carry of a wall's yielding
@@ -27,7 +28,7 @@ from flexcage.contacts.slices import (
 from flexcage.contacts.state import add_force_and_moment
 from flexcage.core.jit import part, zero
 from flexcage.core.splines import smooth_weights
-from flexcage.core.vectors import combine, cross, dot, minus, plus, row, times
+from flexcage.core.vectors import combine, cross, dot, minus, plus, row, times, xyz
 
 ITERATIONS = 8  # of Newton's method for a contact and a compliance in series
 POLAR = 0.3  # cosine of the latitude from which on a sphere's wall moves as its stations do
@@ -47,7 +48,10 @@ class BallPockets(NamedTuple):
     height: float  # radius of the spheres' middles
     wall: np.ndarray  # (2,) inner and outer radius of the cage's wall
     shape: int  # CYLINDER or SPHERE
-    rims: np.ndarray  # (Z, 3) sines of latitude at which spheres end: outwards, inwards, along x
+    rims: np.ndarray  # (Z, 2) sines of latitude at which spheres end: outwards, inwards
+    sides: np.ndarray  # (Z, 2) the same: towards +x, towards -x
+    offset: np.ndarray  # (Z, nst, 3) where stations are without stress, from the pocket's shape
+    inset: float  # largest of these
     phi: np.ndarray  # (Z, 1, nst, 3, nm) modes at the stations (x, r, psi), from +psi towards +x
     phi_max: np.ndarray  # (nm,) largest displacement of a wall along its normal
     local: np.ndarray  # (Z, nst) compliance beyond the modes
@@ -103,13 +107,13 @@ def pocket_wall_contact(i, ball, modes, data, laws, sl, pw, wrench, mode, sums):
     rb, D, v = ball.radius, ball.centre, ball.velocity
     p, sphere = data.normal[i], data.shape == SPHERE
     (x, h, t), seat = from_middle(i, rb, D, data, pw)
-    n, apart, touch = nearest_wall((x, h, t), data.radius[i], row(data.rims, i), seat)
+    n, apart, touch = nearest_wall((x, h, t), data.radius[i], rim_there(i, x, h, data), seat)
     if apart == 0.0:
         return False
     if mode >= REPORT:
         sums[ANGLE] = atan2(n[0], n[2])
         sums[APPROACH] = _along(n, v, pw)
-    if rb - apart + modes.margin <= 0.0:
+    if rb - apart + modes.margin + data.inset <= 0.0:
         return False
     nst = data.phi.shape[2]
     place = atan2(n[0], n[2]) * nst / (2.0 * pi)
@@ -119,7 +123,7 @@ def pocket_wall_contact(i, ball, modes, data, laws, sl, pw, wrench, mode, sums):
     soft = softer = 0.0
     for k in range(4):
         s = (int(first) + k - 1 + nst) % nst
-        here, rate = _wall(data, i, s, modes.q), _wall(data, i, s, modes.qd)
+        here, rate = _place(data, i, s, modes.q), _wall(data, i, s, modes.qd)
         u, ud = combine(u, weight[k], here), combine(ud, weight[k], rate)
         du = combine(du, slope[k] * nst / (2.0 * pi), here)
         soft += weight[k] * data.local[i, s]
@@ -215,18 +219,26 @@ def beyond_straight(i, x, t, data):
 
 
 @part
-def nearest_wall(d, radius, rims, seat):
+def rim_there(i, x, h, data):
+    """Sines of the latitudes at which the wall ends on the ball's side, along r and along x."""
+    high = data.rims[i, 0] if h >= 0.0 else data.rims[i, 1]
+    return high, data.sides[i, 0] if x >= 0.0 else data.sides[i, 1]
+
+
+@part
+def nearest_wall(d, radius, rim, seat):
     """Where a ball at ``d`` from its pocket's middle is nearest to the wall, (x, r, psi).
 
-    Returns the direction from the ball's centre to the wall (shorter than 1 within a seat), the
-    distance, and the wall's place there for ``turning``: which coordinates a rim holds (0 or 1),
-    the direction of the others and their distance from the pocket's middle, and how much farther
-    off the wall is. The middle of the pocket itself has distance 0 and means nothing.
+    ``rim`` is that of ``rim_there``. Returns the direction from the ball's centre to the wall
+    (shorter than 1 within a seat), the distance, and the wall's place there for ``turning``: which
+    coordinates a rim holds (0 or 1), the direction of the others and their distance from the
+    pocket's middle, and how much farther off the wall is. The middle of the pocket itself has
+    distance 0 and means nothing.
     """
-    high = rims[0] if d[1] >= 0.0 else rims[1]
-    held_x, held_r = _held(d, high, rims[2], seat)
-    ex, er = held_x * (rims[2] * radius - abs(d[0])), held_r * (high * radius - abs(d[1]))
-    level = 1.0 - held_x * rims[2] * rims[2] - held_r * high * high  # of a circle on the sphere
+    high, wide = rim
+    held_x, held_r = _held(d, high, wide, seat)
+    ex, er = held_x * (wide * radius - abs(d[0])), held_r * (high * radius - abs(d[1]))
+    level = 1.0 - held_x * wide * wide - held_r * high * high  # of a circle on the sphere
     a = ((1.0 - held_x) * d[0], (1.0 - held_r) * d[1], d[2])
     reach = sqrt(dot(a, a) + seat * seat)
     off = sqrt(max(level, 0.0)) * radius - reach
@@ -297,6 +309,13 @@ def _wall(data, i, s, q):
 
 
 @part
+def _place(data, i, s, q):
+    """Displacement of station s of pocket i from the pocket's shape, with what it has without
+    stress."""
+    return plus(_wall(data, i, s, q), xyz(data.offset[i, s]))
+
+
+@part
 def share_at_pole(cosine):
     """Share of the wall's motion that is as at the azimuth, and its slope over the cosine."""
     x = cosine / POLAR
@@ -311,7 +330,7 @@ def _mean_wall(data, i, modes):
     u = ud = (0.0, 0.0, 0.0)
     soft, nst = 0.0, data.phi.shape[2]
     for s in range(nst):
-        u = combine(u, 1.0 / nst, _wall(data, i, s, modes.q))
+        u = combine(u, 1.0 / nst, _place(data, i, s, modes.q))
         ud = combine(ud, 1.0 / nst, _wall(data, i, s, modes.qd))
         soft += data.local[i, s] / nst
     return u, ud, soft

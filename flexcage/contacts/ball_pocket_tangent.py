@@ -21,6 +21,7 @@ from flexcage.contacts.ball_pocket import (
     from_middle,
     nearest_wall,
     pocket_wall_contact,
+    rim_there,
     share_at_pole,
     turning,
 )
@@ -39,7 +40,6 @@ from flexcage.core.vectors import (
     minus,
     plus,
     put,
-    row,
     times,
     turned,
     turned_back,
@@ -64,6 +64,8 @@ class Wall(NamedTuple):
     polewards: tuple[float, float, float]  # of the latitude's cosine
     yields: tuple[float, float, float]  # of the wall's compliance
     soft: float  # that compliance
+    still: tuple[tuple[float, float, float], ...]  # the wall's displacement without stress, and its
+    # slopes over azimuth and cosine
 
 
 class Slide(NamedTuple):
@@ -109,7 +111,7 @@ def pocket_wall_tangent(i, ball, modes, data, laws, sl, pw, wrench, sums):
 def _wall_there(i, ball, data, pw):
     """The ``Wall``; fills ``pw.shape``."""
     d, seat = from_middle(i, ball.radius, ball.centre, data, pw)
-    n, apart, touch = nearest_wall(d, data.radius[i], row(data.rims, i), seat)
+    n, apart, touch = nearest_wall(d, data.radius[i], rim_there(i, d[0], d[1], data), seat)
     dx, dt = beyond_straight(i, d[0], d[2], data)
     keep = (dx, 1.0 if data.shape == SPHERE else 0.0, dt)  # along these the place counts
     cosine = sqrt(n[0] * n[0] + n[2] * n[2])
@@ -119,14 +121,14 @@ def _wall_there(i, ball, data, pw):
         around = _scaled(keep, times(1.0 / (cosine * cosine), bend))
         bend = turning((n[0], 0.0, n[2]), n, apart, touch)
         polewards = _scaled(keep, times(1.0 / cosine, bend))
-    soft, softer, fading = _shapes(i, n, cosine, data, pw)
+    (soft, softer, fading), still = _shapes(i, n, cosine, data, pw)
     yields = combine(times(softer, around), fading, polewards)
     bends = (
         _scaled(keep, turning((1.0, 0.0, 0.0), n, apart, touch)),
         _scaled(keep, turning((0.0, 1.0, 0.0), n, apart, touch)),
         _scaled(keep, turning((0.0, 0.0, 1.0), n, apart, touch)),
     )
-    return Wall(n, bends, keep, around, polewards, yields, soft)
+    return Wall(n, bends, keep, around, polewards, yields, soft, still)
 
 
 @part
@@ -136,7 +138,8 @@ def _scaled(a, b):
 
 @part
 def _shapes(i, n, cosine, data, pw):
-    """Modes at the contact and their slopes into ``pw.shape``; compliance there and its slopes."""
+    """Modes at the contact and their slopes into ``pw.shape``; compliance there and its slopes;
+    displacement without stress and its."""
     shape, nst = pw.shape, data.phi.shape[2]
     place = atan2(n[0], n[2]) * nst / (2.0 * pi)
     first = floor(place)
@@ -144,6 +147,7 @@ def _shapes(i, n, cosine, data, pw):
     share, fade = share_at_pole(cosine)
     zero(shape)
     soft = softer = mean = 0.0
+    here = around = polewards = (0.0, 0.0, 0.0)
     for k in range(4):
         s = (int(first) + k - 1 + nst) % nst
         rise = slope[k] * nst / (2.0 * pi)
@@ -152,13 +156,21 @@ def _shapes(i, n, cosine, data, pw):
         _add_station(share * weight[k], data.phi[i, 0, s], shape[HERE])
         _add_station(share * rise, data.phi[i, 0, s], shape[AROUND])
         _add_station(fade * weight[k], data.phi[i, 0, s], shape[POLEWARDS])
+        still = xyz(data.offset[i, s])
+        here = combine(here, share * weight[k], still)
+        around = combine(around, share * rise, still)
+        polewards = combine(polewards, fade * weight[k], still)
     if share == 1.0:
-        return soft, softer, 0.0
+        return (soft, softer, 0.0), (here, around, polewards)
     for s in range(nst):
         mean += data.local[i, s] / nst
         _add_station((1.0 - share) / nst, data.phi[i, 0, s], shape[HERE])
         _add_station(-fade / nst, data.phi[i, 0, s], shape[POLEWARDS])
-    return share * soft + (1.0 - share) * mean, share * softer, fade * (soft - mean)
+        still = xyz(data.offset[i, s])
+        here = combine(here, (1.0 - share) / nst, still)
+        polewards = combine(polewards, -fade / nst, still)
+    softness = share * soft + (1.0 - share) * mean, share * softer, fade * (soft - mean)
+    return softness, (here, around, polewards)
 
 
 @part(fastmath=VECTORISED)
@@ -193,7 +205,9 @@ def _depth(wall, q, pw):
     gen, bend, shape, n = pw.gen[DEPTH], pw.bend, pw.shape, wall.n
     zero(gen)
     zero(bend)
-    u, du, faded = _moved(shape[HERE], q), _moved(shape[AROUND], q), _moved(shape[POLEWARDS], q)
+    u = plus(_moved(shape[HERE], q), wall.still[HERE])
+    du = plus(_moved(shape[AROUND], q), wall.still[AROUND])
+    faded = plus(_moved(shape[POLEWARDS], q), wall.still[POLEWARDS])
     push = minus(_scaled(wall.keep, n), _bent(wall, u))
     push = combine(push, -dot(du, n), wall.around)
     put(gen, combine(push, -dot(faded, n), wall.polewards))

@@ -230,6 +230,11 @@ class Bearing:
         return modal_oscillators(self.data.model.cage, self.layout)
 
     @property
+    def places(self) -> tuple[str, ...]:
+        """Names of all contact places of an element and of the lands, in the order of events."""
+        return self.motion.places(self.data.work.report.rib.shape[1])
+
+    @property
     def separate(self) -> tuple[Any, ...]:
         """What the residual calls as values, compiled."""
         return tuple(

@@ -161,7 +161,7 @@ class BallBearing(Bearing):
                 continue
             what = "shoulder" if height else "shoulder (a fifth of the ball's diameter is assumed)"
             high = height or _SHOULDER * self.ball_diameter
-            half = 0.5 * cage.axial_width
+            half = cage.axial_reach
             if half < r and (rise := r - sqrt(r**2 - half**2)) < high:
                 high, what = rise, "groove"
             bottom = self.pitch_diameter - sign * self.ball_diameter
