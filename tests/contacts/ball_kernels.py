@@ -55,17 +55,22 @@ def a_groove(*, inner=True, normal="restitution", friction="traction", rolling=T
     )
 
 
-def pockets(*, shape=CYLINDER, modes=5, soft=3e-8, rims=(2.0, 2.0, 2.0), slot=(0.0, 0.0)):
-    """One pocket 11.2 mm wide whose wall moves by smooth shapes and yields by ``soft`` [m/N]."""
+def pockets(
+    *, shape=CYLINDER, modes=5, soft=3e-8, rims=(2.0, 2.0, 2.0), slot=(0.0, 0.0), moved=0.0
+):  # fmt: skip
+    """One pocket 11.2 mm wide whose wall moves by smooth shapes and yields by ``soft`` [m/N];
+    ``rims`` outwards, inwards, to both sides; ``moved`` [m]: where it is without stress."""
     angle = 2 * np.pi * np.arange(16) / 16
     phi = np.zeros((1, 1, 16, 3, modes))
     for m in range(modes):
         for c in range(3):
             phi[0, 0, :, c, m] = np.cos((m % 3) * angle + 2.0 * m + c)
+    offset = moved * np.stack([np.cos(angle + c) for c in range(3)], axis=-1)[None]
     return BallPockets(
         azimuth=np.array([[1.0, 0.0]]), shift=np.array([[10e-6, -8e-6]]), slot=np.array([slot]),
         radius=np.array([5.6e-3]), height=32.5e-3, wall=np.array([30e-3, 35e-3]), shape=shape,
-        rims=np.array([rims]), phi=phi, phi_max=np.ones(modes),
+        rims=np.array([rims[:2]]), sides=np.array([[rims[2], rims[2]]]), offset=offset,
+        inset=float(np.linalg.norm(offset, axis=2).max()), phi=phi, phi_max=np.ones(modes),
         local=soft * (1.0 + 0.3 * np.cos(2 * angle))[None],
         normal=laws.normal_parameters(NormalLaw(law="restitution"), 5e8, POINT)[None],
         friction=laws.friction_parameters(FrictionLaw(law="step_coulomb")),
