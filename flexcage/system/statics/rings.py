@@ -32,6 +32,7 @@ from flexcage.system.statics.equilibrium import Bending, Posture, Problem, balan
 
 _SETS = 60  # of supports that are tried
 _PULL = 1e-9  # of the largest force of a support: what counts as none
+_LEAST_WALL = 0.01  # of the race's radius: thinner rings want thousands of harmonics
 _CHANGE = 1e-8  # of the load: by which centrifugal forces may change from step to step
 _TO_V = {  # how a ring's ports are displacements v: axial, radial, tilt
     False: np.array([[1.0, 0.0], [0.0, 1.0], [0.0, 0.0]]),
@@ -106,13 +107,20 @@ class SeatedRing:
     def supported(self, force: np.ndarray, bears: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Radial forces (S,) of the supports on the ring, outwards, and how far (S,) the ring moves
         outwards at them, under forces (Z, 2) on its race."""
-        whole, beside = self._kept(bears)
-        answer = -np.linalg.solve(whole, beside.T @ force.ravel())
-        borne, moved = np.zeros(len(bears)), answer[-2:]
-        borne[bears] = answer[:-2]
+        borne, moved = np.zeros(len(bears)), self._answer(force, bears)
+        borne[bears] = moved[:-2]
         whole, beside = self._bordered
-        away = whole[:-2] @ np.append(borne, moved) + beside[:, :-2].T @ force.ravel()
+        away = whole[:-2] @ np.append(borne, moved[-2:]) + beside[:, :-2].T @ force.ravel()
         return borne, away
+
+    def translation(self, force: np.ndarray, bears: np.ndarray) -> np.ndarray:
+        """Displacement (2,) along y and z of the ring as a whole, under the same."""
+        return self._answer(force, bears)[-2:]
+
+    def _answer(self, force: np.ndarray, bears: np.ndarray) -> np.ndarray:
+        """Forces of the supports that bear, and the ring's translation."""
+        whole, beside = self._kept(bears)
+        return -np.linalg.solve(whole, beside.T @ force.ravel())
 
     def _kept(self, bears: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         keep = np.append(bears, [True, True])
@@ -287,12 +295,13 @@ def _seated(
 
 
 def _check_wall(name: str, spec: FlexibleRing, section: RingSection) -> None:
-    if not section.wall > 0.0:
+    least = _LEAST_WALL * section.raceway.place[1]
+    if section.wall < least:
         what = "outside_diameter" if name == "outer" else "bore"
         of = f"{name}_ring.diameter" if spec.diameter is not None else f"bearing.{what}"
         raise InputError(
-            f"{of} leaves the {name} ring a wall of {mm(section.wall)} behind its race; a ring "
-            "that bends needs one.",
+            f"{of} leaves the {name} ring a wall of {mm(section.wall)} behind its race; give one "
+            f"that leaves {mm(least)} or more.",
             where=of,
         )
 
