@@ -47,7 +47,8 @@ def test_linear_displacements_are_off_as_stated(name):
         assert turned == pytest.approx(row["rotation"], rel=OTHER_MESH)
         assert 0.8 < row["error"] / (PER_ROTATION * turned) < 1.1
         assert 0.8 < row["error_stiffened"] / (STIFFENED * turned) < 1.1
-        assert coning.tip_growth(half, stiff) == pytest.approx(exact, rel=OTHER_MESH)
+        most = 0.5 * row["error_stiffened"] + OTHER_MESH
+        assert coning.tip_growth(half, stiff) == pytest.approx(exact, rel=most)
         assert abs(coning.tip_growth(half, soft) / exact - 1.0) < row["error"] + OTHER_MESH
 
 
