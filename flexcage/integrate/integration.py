@@ -250,7 +250,7 @@ class Integration:
             if value.shape != wanted:
                 raise InputError(
                     f"Result variable '{name}' was computed with shape {value.shape}, but has "
-                    f"dimensions {variable.dims} and wants {wanted}.",
+                    f"dimensions {variable.dims} and needs {wanted}.",
                     where=name,
                 )
             added[name] = value
@@ -311,7 +311,7 @@ class Integration:
             found = saved[name].shape if name in saved else "nothing"
             if found != array.shape:
                 raise _of_another(
-                    f"its checkpoint holds {found} of '{name}', and this one wants {array.shape}",
+                    f"its checkpoint holds {found} of '{name}', and this one needs {array.shape}",
                     name,
                 )
             array[...] = saved[name]

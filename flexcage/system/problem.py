@@ -244,7 +244,7 @@ class Bearing:
         return self.arguments(self.data, self.laws)
 
     def pieces(self) -> list[Callable[[], object]]:
-        """What a run by the explicit method wants compiled, one call each, the longest first."""
+        """What a run by the explicit method needs compiled, one call each, the longest first."""
         groups = (self.data.work.tangent, self.data.matrix, self.data.model.bodies)
         tangent, matrix, bodies = (FieldsType(numba.typeof(group)) for group in groups)
         method, none = runge_kutta.EXPLICIT_METHOD, np.zeros(1)
