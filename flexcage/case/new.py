@@ -55,8 +55,8 @@ def new_case(outline: Outline, source: str, *, cage: str | None = None) -> NewCa
     or none of its cages is of that type."""
     check_type(outline.type)
     inside = inside_of(BEARING_TYPES[outline.type])
-    _check_cage(cage, BEARING_TYPES[outline.type].element)
     candidates = ranked(inside.candidates(outline))
+    _check_cage(cage, candidates[0].bearing.element)
     propose = proposal_of(cage or inside.cages[outline.type])
     refused = None
     for candidate in candidates:
