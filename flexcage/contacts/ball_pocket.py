@@ -60,12 +60,18 @@ class BallPockets(NamedTuple):
 
 
 class BallPocketWork(NamedTuple):
-    """Buffers of one pocket."""
+    """Buffers of one pocket, of n modes. Those of its tangent (``ball_pocket_tangent``) have rows
+    and columns for the ball's translation and rotation, then the modes."""
 
     G: np.ndarray  # (3, 3) rows: the pocket's x, r, psi
     st: np.ndarray  # (1, nst, 3) station forces on the cage
     normal: np.ndarray  # (1,) normal force
     tangential: np.ndarray  # (1,) friction force
+    K: np.ndarray  # (6 + n, 6 + n) minus the forces' slopes over places
+    C: np.ndarray  # (6 + n, 6 + n) minus those over velocities
+    gen: np.ndarray  # (7, 6 + n) generators
+    bend: np.ndarray  # (3, 6 + n) how the depth's slope over the ball's place changes
+    shape: np.ndarray  # (3, 3, n) modes where the ball touches, and their slopes
 
 
 class BallInPocket(NamedTuple):
@@ -78,8 +84,12 @@ class BallInPocket(NamedTuple):
     onset: float  # speed at which the contact closed
 
 
-def ball_pocket_work(stations: int) -> BallPocketWork:
-    return BallPocketWork(np.zeros((3, 3)), np.zeros((1, stations, 3)), np.zeros(1), np.zeros(1))
+def ball_pocket_work(stations: int, modes: int) -> BallPocketWork:
+    n, z = 6 + modes, np.zeros
+    return BallPocketWork(
+        z((3, 3)), z((1, stations, 3)), z(1), z(1), z((n, n)), z((n, n)), z((7, n)), z((3, n)),
+        z((3, 3, modes)),
+    )  # fmt: skip
 
 
 @part
@@ -95,16 +105,9 @@ def pocket_wall_contact(i, ball, modes, data, laws, sl, pw, wrench, mode, sums):
     if mode >= REPORT:
         zero(sums)
     rb, D, v = ball.radius, ball.centre, ball.velocity
-    p, x = data.normal[i], dot(D, row(pw.G, 0)) - data.shift[i, 0]
-    t = dot(D, row(pw.G, 2)) - data.shift[i, 1]
-    sphere = data.shape == SPHERE
-    h = dot(D, row(pw.G, 1)) - data.height if sphere else 0.0
-    x -= min(max(x, -data.slot[i, 0]), data.slot[i, 0])
-    t -= min(max(t, -data.slot[i, 1]), data.slot[i, 1])
-    seat = min(SEAT * rb, NARROW * (data.radius[i] - rb)) if sphere else 0.0
-    high = data.rims[i, 0] if h >= 0.0 else data.rims[i, 1]
-    wide = data.sides[i, 0] if x >= 0.0 else data.sides[i, 1]
-    n, apart, touch = _nearest((x, h, t), data.radius[i], (high, wide), seat)
+    p, sphere = data.normal[i], data.shape == SPHERE
+    (x, h, t), seat = from_middle(i, rb, D, data, pw)
+    n, apart, touch = nearest_wall((x, h, t), data.radius[i], rim_there(i, x, h, data), seat)
     if apart == 0.0:
         return False
     if mode >= REPORT:
@@ -127,7 +130,7 @@ def pocket_wall_contact(i, ball, modes, data, laws, sl, pw, wrench, mode, sums):
         softer += slope[k] * nst / (2.0 * pi) * data.local[i, s]
     # fading towards a pole: what changes with azimuth, and with the cosine of the latitude
     cosine = sqrt(n[0] * n[0] + n[2] * n[2])
-    share, fade = _fading(cosine)
+    share, fade = share_at_pole(cosine)
     faded, fading = (0.0, 0.0, 0.0), 0.0
     if share < 1.0:
         mean, rate, yielding = _mean_wall(data, i, modes)
@@ -141,17 +144,15 @@ def pocket_wall_contact(i, ball, modes, data, laws, sl, pw, wrench, mode, sums):
         return False
     # slope of the depth: along n, and as the wall's displacement changes there
     across = (u[0], u[1] if sphere else 0.0, u[2])
-    push = minus(n, _turning(across, n, apart, touch))
+    push = minus(n, turning(across, n, apart, touch))
     round_it = polewards = (0.0, 0.0, 0.0)  # slopes of the azimuth and of that cosine
     if cosine > 0.0:
-        round_it = times(1.0 / (cosine * cosine), _turning((n[2], 0.0, -n[0]), n, apart, touch))
-        polewards = times(1.0 / cosine, _turning((n[0], 0.0, n[2]), n, apart, touch))
+        round_it = times(1.0 / (cosine * cosine), turning((n[2], 0.0, -n[0]), n, apart, touch))
+        polewards = times(1.0 / cosine, turning((n[0], 0.0, n[2]), n, apart, touch))
         push = combine(push, -dot(du, n), round_it)
         push = combine(push, -dot(faded, n), polewards)
     yields = combine(times(softer, round_it), fading, polewards)  # slope of the compliance
-    # along the straight part of a slot nothing changes
-    dx = 0.0 if x == 0.0 and data.slot[i, 0] > 0.0 else 1.0
-    dt = 0.0 if t == 0.0 and data.slot[i, 1] > 0.0 else 1.0
+    dx, dt = beyond_straight(i, x, t, data)
     push = (dx * push[0], push[1], dt * push[2])
     yields = (dx * yields[0], yields[1], dt * yields[2])
     rate = _along(push, v, pw) - dot(ud, n)
@@ -197,14 +198,42 @@ def pocket_wall_contact(i, ball, modes, data, laws, sl, pw, wrench, mode, sums):
 
 
 @part
-def _nearest(d, radius, rim, seat):
+def from_middle(i, rb, D, data, pw):
+    """Place (x, r, psi) of a ball of radius rb from the middle of pocket i, or from the nearest
+    point of its axis, drawn out or not; D is that from the cage. And the width of its seat."""
+    x, t = dot(D, row(pw.G, 0)) - data.shift[i, 0], dot(D, row(pw.G, 2)) - data.shift[i, 1]
+    sphere = data.shape == SPHERE
+    h = dot(D, row(pw.G, 1)) - data.height if sphere else 0.0
+    x -= min(max(x, -data.slot[i, 0]), data.slot[i, 0])
+    t -= min(max(t, -data.slot[i, 1]), data.slot[i, 1])
+    return (x, h, t), min(SEAT * rb, NARROW * (data.radius[i] - rb)) if sphere else 0.0
+
+
+@part
+def beyond_straight(i, x, t, data):
+    """1 along x and psi where the ball is beyond the straight part of a slot, along which nothing
+    changes; 0 within it."""
+    dx = 0.0 if x == 0.0 and data.slot[i, 0] > 0.0 else 1.0
+    dt = 0.0 if t == 0.0 and data.slot[i, 1] > 0.0 else 1.0
+    return dx, dt
+
+
+@part
+def rim_there(i, x, h, data):
+    """Sines of the latitudes at which the wall ends on the ball's side, along r and along x."""
+    high = data.rims[i, 0] if h >= 0.0 else data.rims[i, 1]
+    return high, data.sides[i, 0] if x >= 0.0 else data.sides[i, 1]
+
+
+@part
+def nearest_wall(d, radius, rim, seat):
     """Where a ball at ``d`` from its pocket's middle is nearest to the wall, (x, r, psi).
 
-    ``rim``: sines of the latitudes at which the wall ends on the ball's side, along r and along x.
-    Returns the direction from the ball's centre to the wall (shorter than 1 within a seat), the
-    distance, and the wall's place there for ``_turning``: which coordinates a rim holds (0 or 1),
-    the direction of the others and their distance from the pocket's middle, and how much farther
-    off the wall is. The middle of the pocket itself has distance 0 and means nothing.
+    ``rim`` is that of ``rim_there``. Returns the direction from the ball's centre to the wall
+    (shorter than 1 within a seat), the distance, and the wall's place there for ``turning``: which
+    coordinates a rim holds (0 or 1), the direction of the others and their distance from the
+    pocket's middle, and how much farther off the wall is. The middle of the pocket itself has
+    distance 0 and means nothing.
     """
     high, wide = rim
     held_x, held_r = _held(d, high, wide, seat)
@@ -257,7 +286,7 @@ def _held(d, high, wide, seat):
 
 
 @part
-def _turning(a, n, apart, touch):
+def turning(a, n, apart, touch):
     """Slope of ``n . a`` over the ball's place, for a constant vector: the distance's second
     derivatives, less those of a wall that goes with the ball."""
     held_x, held_r, f, reach, off = touch
@@ -287,7 +316,7 @@ def _place(data, i, s, q):
 
 
 @part
-def _fading(cosine):
+def share_at_pole(cosine):
     """Share of the wall's motion that is as at the azimuth, and its slope over the cosine."""
     x = cosine / POLAR
     if x >= 1.0:

@@ -45,6 +45,9 @@ class Cage:
     guidance: str = option("", doc="what guides the cage radially")
     unbalance: float = quantity("g*mm", 0.0, doc="mass-radius product of an unbalance", minimum=0.0)
     unbalance_phase: float = quantity("deg", 0.0, doc="azimuth of the unbalance from pocket 0")
+    unbalance_offset: float = quantity(
+        "mm", 0.0, doc="place of the unbalance along +x from the cage's middle: a couple as well"
+    )
 
     @property
     def mean_radius(self) -> float:

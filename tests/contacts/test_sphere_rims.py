@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from flexcage.contacts.ball_pocket import _nearest, _turning
+from flexcage.contacts.ball_pocket import nearest_wall, turning
 from flexcage.core.jit import kernel
 
 RADIUS = 3.45
@@ -13,8 +13,8 @@ RADIUS = 3.45
 def nearest(d, rims, seat, a):
     high = rims[0] if d[1] >= 0.0 else rims[1]
     wide = rims[2] if d[0] >= 0.0 else rims[3]
-    n, apart, touch = _nearest((d[0], d[1], d[2]), RADIUS, (high, wide), seat)
-    return n, apart, _turning((a[0], a[1], a[2]), n, apart, touch)
+    n, apart, touch = nearest_wall((d[0], d[1], d[2]), RADIUS, (high, wide), seat)
+    return n, apart, turning((a[0], a[1], a[2]), n, apart, touch)
 
 
 def found(d, rims, seat=0.0, a=(0.0, 0.0, 0.0)):

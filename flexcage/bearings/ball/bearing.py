@@ -48,7 +48,6 @@ class BallBearing(Bearing):
     element: ClassVar[str] = "ball"
     family: ClassVar[str] = "ball"
     places: ClassVar[tuple[str, ...]] = ("race", "pocket")
-    explicit_only: ClassVar[bool] = True
     elsewhere: ClassVar[Mapping[str, str]] = {
         "(inner_|outer_)?spalls?|(inner|outer)_waviness.*": "races of ball bearings are without "
         "defects: spalls and waviness are computed for type 'cylindrical_roller'; defects of a "

@@ -156,6 +156,6 @@ def ball_work(model: BallModel, layout: Layout) -> Work:
     """Fresh workspaces of a ball bearing for one thread."""
     stations = model.pocket.phi.shape[2]
     return new_work(
-        layout, race_work(1), ball_pocket_work(stations), slices=0, points=0, faces=1,
-        stations=stations, ribs=0, land_stations=len(model.land.angle),
+        layout, race_work(1), ball_pocket_work(stations, layout.modes), slices=0, points=0, faces=1,
+        stations=stations, ribs=0, land_stations=len(model.land.angle), turns=(3, 4, 5),
     )  # fmt: skip
