@@ -5,8 +5,10 @@ changes; a play or an interference is a number, the gap at the start. At every p
 of a face the pressure is ``penalty`` times the overlap, and the friction ``penalty`` times the
 elastic part of the slip, up to Coulomb's bound (return mapping: A. E. Giannakopoulos, Comput.
 Struct. 32 (1989) 157). The rest of the slip stays: a state remembers it, so that loads are applied
-in their order. Newton's method; its tangent in slip is not symmetric, so that its symmetric part is
-factored and GMRES does the rest. A factor is kept while GMRES converges quickly with it.
+in their order. Newton's method, with the tangent's unsymmetric part.
+
+Nothing but the motions of surfaces against each other matters to the contact: all else is
+eliminated once (``fem.parting``), for all gaps and loads.
 """
 
 from __future__ import annotations
@@ -17,18 +19,17 @@ from dataclasses import dataclass
 
 import numpy as np
 import scipy.sparse as sp
-from scipy.sparse.linalg import LinearOperator, gmres
+from scipy.linalg import LinAlgError, solve
 
 from flexcage.core.errors import RunFailed
 from flexcage.fem.condensed import dofs_of
 from flexcage.fem.curved import FacePoints, face_points
-from flexcage.fem.linear import LinearSolver, available_kinds, linear_solver
+from flexcage.fem.linear import SINGULAR
+from flexcage.fem.parting import Parted
 
 log = logging.getLogger(__name__)
 
 _MOST = 60  # Newton steps
-_FEW, _ENOUGH = 18, 60  # iterations of GMRES with an old factor, and with a new one
-_CLOSE = 1e-3  # of a Newton step's equations
 _UNHELD = 1e-3  # share of the forces that weak springs may bear
 _HALVINGS = 5  # of a step that does not bring the forces nearer to balance
 
@@ -47,9 +48,11 @@ class Touching:
 
 @dataclass(frozen=True, eq=False)
 class ContactState:
-    """Displacements (n, 3) [m], and at the points of contact (q,) the pressure [Pa], the friction
-    (q, 2) [Pa] on the second body and the slip (q, 2) [m] that stays."""
+    """Partings of surfaces (m,) and displacements (n, 3) [m], and at the points of contact (q,) the
+    pressure [Pa], the friction (q, 2) [Pa] against the second body's slip, and the slip (q, 2) [m]
+    that stays."""
 
+    parted: np.ndarray
     moved: np.ndarray
     pressure: np.ndarray
     friction: np.ndarray
@@ -69,26 +72,11 @@ class _Response:
 
 
 class ContactProblem:
-    """Bodies of one stiffness K (3n, 3n) with nodes (n, 3), their touching surfaces, and degrees of
-    freedom that are ``held`` (k,).
+    """Surfaces that touch, of bodies that are ``parted`` (``fem.parting``)."""
 
-    ``springs`` [N/m] hold every node against nothing, so weakly that they carry no load.
-    """
-
-    def __init__(
-        self,
-        K: sp.csr_matrix,
-        nodes: np.ndarray,
-        pairs: Sequence[Touching],
-        held: np.ndarray,
-        *,
-        penalty: float,
-        springs: float = 0.0,
-    ) -> None:
-        self.pairs, self.penalty, self.springs = tuple(pairs), penalty, springs
-        self.n_nodes = len(nodes)
-        self.free = np.setdiff1d(np.arange(K.shape[0]), held)
-        self.K = (K + springs * sp.identity(K.shape[0], format="csr")).tocsr()
+    def __init__(self, parted: Parted, pairs: Sequence[Touching], *, penalty: float) -> None:
+        self.parted, self.pairs, self.penalty = parted, tuple(pairs), penalty
+        nodes = parted.nodes
         points = [face_points(nodes, pair.faces) for pair in pairs]
         counts = [len(p.weights) for p in points]
         ends = np.cumsum([0, *counts])
@@ -101,16 +89,16 @@ class ContactProblem:
         relative = sp.vstack([
             face_points(nodes, pair.others).shapes - p.shapes for p, pair in zip(points, pairs)
         ]).tocsr()  # fmt: skip
-        self.B_n = _along(relative, self.normals)[:, self.free]
-        self.B_t = [_along(relative, self.axes[:, k])[:, self.free] for k in (0, 1)]
-        self._factor: LinearSolver | None = None
+        self.B_n = parted.of_partings(_along(relative, self.normals))
+        self.B_t = [parted.of_partings(_along(relative, self.axes[:, k])) for k in (0, 1)]
 
     def at_rest(self) -> ContactState:
         """Nothing moved, nothing slipped."""
         q = len(self.weights)
         return ContactState(
-            np.zeros((self.n_nodes, 3)), np.zeros(q), np.zeros((q, 2)), np.zeros((q, 2))
-        )
+            np.zeros(self.B_n.shape[1]), np.zeros_like(self.parted.nodes), np.zeros(q),
+            np.zeros((q, 2)), np.zeros((q, 2)),
+        )  # fmt: skip
 
     def gaps(self, of: Mapping[str, float]) -> np.ndarray:
         """Gaps at the start (q,) [m] by the names of pairs; negative where bodies overlap."""
@@ -120,7 +108,7 @@ class ContactProblem:
         return out
 
     def respond(self, u: np.ndarray, gaps: np.ndarray, before: ContactState) -> _Response:
-        """Tractions at free displacements u, with the slip of the state before."""
+        """Tractions at partings u (m,), with the slip of the state before."""
         overlap = -(gaps + self.B_n @ u)
         closed = overlap >= 0.0  # at rest without a gap they touch
         pressure = self.penalty * np.where(closed, overlap, 0.0)
@@ -143,20 +131,21 @@ class ContactProblem:
     ) -> ContactState:
         """Equilibrium under nodal loads (n, 3) [N], from the state before; forces balance to within
         ``tolerance`` of the largest."""
-        f = loads.ravel()[self.free]
-        K = self.K[self.free][:, self.free]
-        u = before.moved.ravel()[self.free].copy()
-        found, residual = self._residual(K, u, f, gaps, before)
+        f, moving = self.parted.condensed(loads)
+        u = before.parted.copy()
+        found, residual = self._residual(u, f, gaps, before)
+        size = scale = 1.0
         for step in range(_MOST):
-            size, scale = np.linalg.norm(residual), self._scale(found, f)
+            size, scale = float(np.linalg.norm(residual)), self._scale(found, f)
             log.debug("contact: step %d, residual %.2g of the forces", step, size / scale)
             if size <= tolerance * scale and step:
                 break
-            change = self._newton(K, found, residual)
+            change = self._newton(found, residual)
+            most = size if step else np.inf
             for halving in range(_HALVINGS):
                 trial = u + 0.5**halving * change
-                next_found, next_residual = self._residual(K, trial, f, gaps, before)
-                if np.linalg.norm(next_residual) < size or halving == _HALVINGS - 1 or not step:
+                next_found, next_residual = self._residual(trial, f, gaps, before)
+                if np.linalg.norm(next_residual) < most:
                     break
             u, found, residual = trial, next_found, next_residual
         else:
@@ -164,66 +153,50 @@ class ContactProblem:
                 f"The contact of the joint found no balance in {_MOST} steps (forces are off by "
                 f"{size / scale:.1g} of the largest); apply the loads in more steps."
             )
-        held = self.springs * np.linalg.norm(u)
-        if held > _UNHELD * scale:
+        moved = self.parted.expanded(u, moving)
+        held = self.parted.springs * float(np.abs(moved).sum())
+        if held > _UNHELD * float(np.abs(loads).sum() + self.weights @ found.pressure):
             raise RunFailed(
                 "Nothing but friction beyond its bound holds a body of the joint against its loads "
-                f"(it would move by {np.abs(u).max():.2g} m); clamp it harder or load it less."
+                f"(it would move by {np.abs(moved).max():.2g} m); clamp it harder or load it less."
             )
-        moved = np.zeros(self.K.shape[0])
-        moved[self.free] = u
-        return ContactState(moved.reshape(-1, 3), found.pressure, found.friction, found.slipped)
+        return ContactState(u, moved, found.pressure, found.friction, found.slipped)
 
     def _residual(
-        self, K: sp.csr_matrix, u: np.ndarray, f: np.ndarray, gaps: np.ndarray,
-        before: ContactState,
-    ) -> tuple[_Response, np.ndarray]:  # fmt: skip
+        self, u: np.ndarray, f: np.ndarray, gaps: np.ndarray, before: ContactState
+    ) -> tuple[_Response, np.ndarray]:
         found = self.respond(u, gaps, before)
-        residual = K @ u - f - self.B_n.T @ (self.weights * found.pressure)
+        residual = self.parted.stiffness @ u - f - self.B_n.T @ (self.weights * found.pressure)
         for B, t in zip(self.B_t, found.friction.T):
             residual += B.T @ (self.weights * t)
         return found, residual
 
     def _scale(self, found: _Response, f: np.ndarray) -> float:
         pressed = np.linalg.norm(self.B_n.T @ (self.weights * found.pressure))
-        return float(max(pressed, np.linalg.norm(f), 1e-30))
+        return max(float(pressed), float(np.linalg.norm(f)), 1e-30)
 
-    def _newton(self, K: sp.csr_matrix, found: _Response, residual: np.ndarray) -> np.ndarray:
+    def _newton(self, found: _Response, residual: np.ndarray) -> np.ndarray:
         """The step of Newton's method."""
-        symmetric, push = self._tangent(K, found)
-        slides = (found.onward != 0.0).any()
-
-        def whole(x: np.ndarray) -> np.ndarray:
-            out = symmetric @ x
-            if slides:  # friction follows the pressure, which falls with the gap
-                less = push * (self.B_n @ x)
-                for B, way in zip(self.B_t, found.onward.T):
-                    out = out - B.T @ (way * less)
-            return np.asarray(out)
-
-        operator = LinearOperator(symmetric.shape, matvec=whole)
-        for fresh in (False, True):
-            if fresh or self._factor is None:
-                self._factor = linear_solver(symmetric, kind=_kind())
-            count = _ENOUGH if fresh else _FEW
-            inverse = LinearOperator(symmetric.shape, matvec=self._factor.solve)
-            answer, left = gmres(
-                operator, -residual, M=inverse, rtol=_CLOSE, restart=count, maxiter=1
-            )
-            if not left:
-                break
-        return np.asarray(answer)
-
-    def _tangent(self, K: sp.csr_matrix, found: _Response) -> tuple[sp.csr_matrix, np.ndarray]:
-        """The symmetric part, and slopes (q,) of the forces of pressure in the overlap."""
         push = self.penalty * self.weights * found.closed
         drag = self.penalty * self.weights[:, None, None] * found.slope
         drag = drag * found.closed[:, None, None]
-        total = K + self.B_n.T @ sp.diags(push) @ self.B_n
+        more = self.B_n.T @ sp.diags(push) @ self.B_n
         for i, B in enumerate(self.B_t):
             for j, C in enumerate(self.B_t):
-                total = total + B.T @ sp.diags(drag[:, i, j]) @ C
-        return total.tocsr(), push
+                more = more + B.T @ sp.diags(drag[:, i, j]) @ C
+        slides = bool((found.onward != 0.0).any())
+        if slides:  # friction follows the pressure, which falls with the gap
+            for B, way in zip(self.B_t, found.onward.T):
+                more = more - B.T @ sp.diags(way * push) @ self.B_n
+        matrix = np.array(self.parted.stiffness, order="F")
+        entry = more.tocoo()
+        matrix[entry.row, entry.col] += entry.data
+        try:
+            return np.asarray(
+                solve(matrix, -residual, assume_a="gen" if slides else "pos", overwrite_a=True)
+            )
+        except LinAlgError as error:
+            raise RunFailed(SINGULAR.format(what=str(error))) from error
 
     def resultants(self, state: ContactState, about: np.ndarray) -> dict[str, np.ndarray]:
         """Force [N] and moment [N m] about a point (6,) on the second body of every pair."""
@@ -233,11 +206,6 @@ class ContactProblem:
         moment = np.cross(self.places - about, force)
         both = np.concatenate([force, moment], axis=1)
         return {name: both[part].sum(axis=0) for name, part in self.part.items()}
-
-
-def _kind() -> str:
-    """The fastest solver installed: factors are many and large, solutions few."""
-    return available_kinds()[0]
 
 
 def _outward(points: FacePoints, pair: Touching) -> np.ndarray:

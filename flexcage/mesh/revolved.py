@@ -13,6 +13,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+Place = Callable[[np.ndarray, np.ndarray], tuple[np.ndarray, np.ndarray]]
 #: Vertices of the six edges of a tetrahedron, in the order of its nodes 4 ... 9.
 EDGES = ((0, 1), (1, 2), (0, 2), (0, 3), (1, 3), (2, 3))
 _AXIS = 1e-9  # of the section's greatest radius, within which a vertex lies on the axis
@@ -50,16 +51,27 @@ class Bodies:
         """Numbers of a body's nodes."""
         return np.unique(self.tets[self.bodies == body])
 
+    def behind(self, body: int, faces: np.ndarray) -> np.ndarray:
+        """Places (m, 3) inside a body behind its faces (m, 6): middles of their tetrahedra."""
+        tets = self.tets[self.bodies == body][:, :4]
+        of = np.sort(tets[:, np.array([(0, 1, 2), (0, 1, 3), (0, 2, 3), (1, 2, 3)])], axis=2)
+        wanted = np.sort(faces[:, :3], axis=1)
+        both = np.vstack([of.reshape(-1, 3), wanted])
+        _, number = np.unique(both, axis=0, return_inverse=True)
+        owner = np.full(len(both), -1)
+        owner[number.ravel()[: 4 * len(tets)]] = np.repeat(np.arange(len(tets)), 4)
+        return np.asarray(self.nodes[tets[owner[number.ravel()[4 * len(tets) :]]]].mean(axis=1))
+
 
 def revolved(
     section: Section,
     sectors: int,
-    place: Callable[[np.ndarray, np.ndarray], tuple[np.ndarray, np.ndarray]] | None = None,
+    place: Place | None = None,
 ) -> Bodies:
     """The section turned round the x axis.
 
-    ``place(radius, turn)`` gives (y, z) [m] at a radius of the section and at a ``turn`` of sectors,
-    0 ... ``sectors``, if that is no circle.
+    ``place(radius, turn)`` gives (y, z) [m] at a radius of the section and at a turn, counted in
+    sectors, if that is no circle.
     """
     build = _Build(section, sectors, place)
     parts = [build.body(b) for b in np.unique(section.bodies)]
@@ -80,7 +92,7 @@ def revolved(
 class _Build:
     """Numbers vertices as (body, vertex of the section, layer), and edges as they come."""
 
-    def __init__(self, section: Section, sectors: int, place: object) -> None:
+    def __init__(self, section: Section, sectors: int, place: Place | None) -> None:
         self.section, self.sectors, self.place = section, sectors, place
         self.count = len(section.vertices)
         radius = section.vertices[:, 0]
@@ -139,9 +151,9 @@ class _Build:
                 triangles = np.stack(three, axis=1)
                 real = (np.diff(np.sort(triangles, axis=1), axis=1) > 0).all(axis=1)
                 found.append(triangles[real])
-        three = self._numbered(np.vstack(found))
-        pairs = np.stack([three, np.roll(three, -1, axis=1)], axis=2)
-        return np.concatenate([three, self.middle(pairs)], axis=1)
+        corners = self._numbered(np.vstack(found))
+        pairs = np.stack([corners, np.roll(corners, -1, axis=1)], axis=2)
+        return np.concatenate([corners, self.middle(pairs)], axis=1)
 
     def nodes(self) -> np.ndarray:
         """Places (n, 3) of all nodes."""
@@ -162,10 +174,9 @@ class _Build:
 
     def _placed(self, flat: np.ndarray, turn: np.ndarray) -> np.ndarray:
         angle = 2.0 * np.pi * turn / self.sectors
-        y, z = flat[:, 0] * np.cos(angle), flat[:, 0] * np.sin(angle)
-        if callable(self.place):
-            y, z = self.place(flat[:, 0], turn)
-        return np.stack([flat[:, 1], y, z], axis=1)
+        circle = flat[:, 0] * np.cos(angle), flat[:, 0] * np.sin(angle)
+        across = circle if self.place is None else self.place(flat[:, 0], turn)
+        return np.stack([flat[:, 1], *across], axis=1)
 
 
 def _turned_right(nodes: np.ndarray, ten: np.ndarray) -> np.ndarray:

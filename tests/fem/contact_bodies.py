@@ -6,6 +6,7 @@ import numpy as np
 
 from flexcage.fem.contact import ContactProblem, Touching
 from flexcage.fem.curved import curved_stiffness, face_points
+from flexcage.fem.parting import Parted
 from flexcage.geometry.materials import MATERIALS
 from flexcage.mesh.revolved import Bodies, Section, revolved
 
@@ -25,7 +26,7 @@ def grid(radii, heights, body, first):
 
 
 def sleeve_on_shaft(radii, heights, sectors) -> Bodies:
-    """A shaft of ``radii[0]`` in a sleeve of ``radii[1]``, which share the last and first radius."""
+    """A shaft of ``radii[0]`` in a sleeve of ``radii[1]``, which share a radius."""
     inner = grid(radii[0], heights, 0, 0)
     outer = grid(radii[1], heights, 1, inner[3].size)
     shared = inner[3][-1]
@@ -63,21 +64,11 @@ def stacked(radii, heights, sectors) -> Bodies:
 def problem(bodies: Bodies, friction: float, held: np.ndarray, penalty=1e16, springs=1.0):
     """The contact of the curve "fit", body 0 first."""
     faces = bodies.faces["fit", 0]
-    pair = Touching("fit", faces, bodies.faces["fit", 1], behind(bodies, 0, faces), friction)
+    pair = Touching("fit", faces, bodies.faces["fit", 1], bodies.behind(0, faces), friction)
     K = curved_stiffness(bodies.nodes, bodies.tets, STEEL)
-    return ContactProblem(K, bodies.nodes, [pair], held, penalty=penalty, springs=springs)
-
-
-def behind(bodies: Bodies, body: int, faces: np.ndarray) -> np.ndarray:
-    """A place inside the body behind every face (m, 3)."""
-    tets = bodies.tets[bodies.bodies == body]
-    corners = np.sort(tets[:, :4], axis=1)
-    keys = {}
-    for tet in corners.tolist():
-        for skip in range(4):
-            keys.setdefault(tuple(v for i, v in enumerate(tet) if i != skip), []).append(tet)
-    owners = [keys[tuple(f)][0] for f in np.sort(faces[:, :3], axis=1).tolist()]
-    return bodies.nodes[np.array(owners)].mean(axis=1)
+    surfaces = [(faces, bodies.faces["fit", 1])]
+    parted = Parted(K, bodies.nodes, bodies.tets, surfaces, held, springs=springs)
+    return ContactProblem(parted, [pair], penalty=penalty)
 
 
 def loads_on(bodies: Bodies, faces: np.ndarray, traction) -> np.ndarray:
