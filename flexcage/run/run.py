@@ -48,6 +48,7 @@ from flexcage.system.start import Start
 if TYPE_CHECKING:
     import xarray
 
+    from flexcage.mesh.riveted_joint import JointMesh
     from flexcage.render.album import Scene
     from flexcage.render.look import Look
     from flexcage.stress.riveted_joint import Fits
@@ -210,7 +211,7 @@ class Run:
 
     def rivet_joint(
         self, *plays: float | str, clamp: float | str = "100 N", friction: float = 0.15,
-        root_radius: float | str = "0.1 mm",
+        root_radius: float | str = "0.1 mm", mesh: JointMesh | None = None,
     ) -> Fits:  # fmt: skip
         """The joint of the most stressed rivet, with contact and friction, through its cycle of
         loads: once for every play of the shank over its diameter (m, or a text with its unit;
@@ -228,7 +229,7 @@ class Run:
             "riveted joint", fits_of, rivets,
             cage.rivet_joint(bearing.pitch_diameter, bearing.element_count, root), cage.material,
             [_si(play, "um", "play") for play in plays or (0.0,)],
-            clamp=_si(clamp, "N", "clamp"), friction=friction,
+            clamp=_si(clamp, "N", "clamp"), friction=friction, mesh=mesh,
         )  # fmt: skip
 
     def stress(self, *, time: float | str | None = None) -> StressField:
