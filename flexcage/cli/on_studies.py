@@ -1,4 +1,4 @@
-"""Commands that take a study: run, resume, status, report."""
+"""Commands that take a study: run, resume, status, report, map."""
 
 from __future__ import annotations
 
@@ -27,6 +27,13 @@ def add_commands(commands: Any) -> None:
         where.add_argument("--workers", type=_count, metavar="N", help="processes (default: cores)")
         where.add_argument("--scheduler", metavar="ADDRESS", help="a running Dask scheduler")
         parser.add_argument("--retry", action="store_true", help="try failed cases again")
+    unknowns = command(actions, "map", study_map_command, "sample unknowns, and say what decides")
+    unknowns.add_argument("map", metavar="MAP", help="map file (.toml)")
+    unknowns.add_argument("-o", "--out", metavar="DIR", help="map folder (default: runs/NAME)")
+    unknowns.add_argument("--workers", type=_count, metavar="N", help="processes (default: cores)")
+    unknowns.add_argument(
+        "--set", action="append", metavar="PATH=VALUE", help="change a value of the base case"
+    )
     for name, function, text in (
         ("status", study_status_command, "count what is done, failed and open"),
         ("report", study_report_command, "print and write the table"),
@@ -91,6 +98,21 @@ def compute_study(study: Any, args: argparse.Namespace) -> int:
     say(results.report())
     say(f"\nThe study is in {args.out}")
     return 1 if results.count("failed") else 0
+
+
+def study_map_command(args: argparse.Namespace) -> int:
+    """flexcage study map MAP: compute what the map's folder lacks, and print what decides."""
+    from flexcage.core.progress import Progress
+    from flexcage.study.map_report import map_text, write_map
+    from flexcage.study.maps import load_map, run_map
+
+    spec = load_map(args.map, overrides=settings_of(args))
+    out = Path(args.out) if args.out else Path("runs") / spec.name
+    results = run_map(spec, out=out, workers=args.workers, progress=Progress)
+    say(map_text(results))
+    for path in write_map(results):
+        say(f"written: {path}")
+    return 1 if results.study.count("failed") else 0
 
 
 def study_status_command(args: argparse.Namespace) -> int:

@@ -56,6 +56,8 @@ _COMMON: dict[str, tuple[str, int, float]] = {
     "N/m": ("stiffness", 0, 1.0),
     "N/mm": ("stiffness", 3, 1.0),
     "N/um": ("stiffness", 6, 1.0),
+    "N/m^3": ("stiffness per area", 0, 1.0),
+    "N/mm^3": ("stiffness per area", 9, 1.0),
     "N*s/m": ("damping", 0, 1.0),
     "Pa*s": ("viscosity", 0, 1.0),
     "mPa*s": ("viscosity", -3, 1.0),
@@ -82,6 +84,7 @@ _LIMITS: dict[str, tuple[float, float]] = {
     "acceleration": (1e-9, 1e6),
     "moment": (1e-9, 1e9),
     "stiffness": (1e-6, 1e15),
+    "stiffness per area": (1.0, 1e21),
     "damping": (1e-9, 1e12),
     "viscosity": (1e-9, 1e4),
     "pressure coefficient": (1e-15, 1e-5),
@@ -215,7 +218,7 @@ def _parse_by_pint(number: float, given: str, unit: str, where: str, value: obje
     found = _without_angle(quantity, wanted.dimensionality, refused)
     if found is None:
         raise refused(
-            f"but '{given}' is of another kind than {unit}, which it wants"
+            f"but '{given}' is of another kind than {unit}, which it needs"
             + _remedy(quantity.dimensionality, wanted.dimensionality, unit)
         )
     return found

@@ -36,6 +36,7 @@ from flexcage.system.data import (
     EVENT_PLACE,
     EVENT_TIME,
     FIXED,
+    FREE_CENTRE,
     MASS,
     POWERS,
 )
@@ -49,7 +50,13 @@ FILTER_HZ = 10e3  # low-pass of outer_acceleration_filtered
 FIRST_STEP = 1e-7
 BEHIND = 1e-13  # [s] that a run begins behind a corner: more than rounding puts a time beside it
 CAREFUL = 1e-11  # [s] first step there of an integrator of several steps, which knows one slope
-_REMEMBERED = ("closed", "land", "force", "pushed", "pushed_before")  # of Events by checkpoints
+_REMEMBERED = (
+    "closed",
+    "land",
+    "force",
+    "pocket_force",
+    "pocket_force_before",
+)  # of Events by checkpoints
 LOG_ROWS = 20_000  # steps that are logged at a time
 
 
@@ -109,8 +116,7 @@ class Integration:
         y, yd = self.integrator.last(self.state)
         step = self.bearing.stable_step(self.time, y, yd)
         self.bound = min(self.bound, step)
-        small = not self.bearing.spec.explicit_only and step < self.solver.stable_step
-        method = "bdf" if small else "explicit"
+        method = cheaper(self.bearing, step, self.solver)
         if auto and method != self.integrator.name:
             log.debug("%s from t = %.4f ms on: explicit steps up to %.3g us are stable", method,
                       self.time * 1e3, step * 1e6)  # fmt: skip
@@ -165,7 +171,7 @@ class Integration:
         self.integrator.refresh(self.state)  # a resumed run repeats an unbroken one bit by bit
         self._choose()
         self.bearing.data.events.fill[0] = 0
-        self.bearing.data.events.pushed_most[...] = 0.0  # as in a run that is resumed here
+        self.bearing.data.events.pocket_force_peak[...] = 0.0  # as in a run that is resumed here
         self.bearing.data.between.fill[:] = 0
         self.bearing.data.between.clock[:] = -np.inf, self.time + 1.0 / self.output.rate
         logs, sample, outcome = [], 0, DONE
@@ -244,7 +250,7 @@ class Integration:
             if value.shape != wanted:
                 raise InputError(
                     f"Result variable '{name}' was computed with shape {value.shape}, but has "
-                    f"dimensions {variable.dims} and wants {wanted}.",
+                    f"dimensions {variable.dims} and needs {wanted}.",
                     where=name,
                 )
             added[name] = value
@@ -305,10 +311,17 @@ class Integration:
             found = saved[name].shape if name in saved else "nothing"
             if found != array.shape:
                 raise _of_another(
-                    f"its checkpoint holds {found} of '{name}', and this one wants {array.shape}",
+                    f"its checkpoint holds {found} of '{name}', and this one needs {array.shape}",
                     name,
                 )
             array[...] = saved[name]
+
+
+def cheaper(bearing: Bearing, step: float, solver: SolverOptions) -> str:
+    """The integrator that "auto" takes where explicit steps up to ``step`` [s] are stable."""
+    if bearing.data.model.bodies.free[FREE_CENTRE] == 0:  # a held centre has no implicit equation
+        return "explicit"
+    return "bdf" if step < bearing.motion.implicit_share * solver.stable_step else "explicit"
 
 
 def _of_another(how: str, name: str) -> InputError:

@@ -29,7 +29,7 @@ class Reducer:
     """``value`` of samples (n, ...) evenly taken every ``step`` seconds, in ``unit`` (None: the
     variable's). ``record`` gives it by windows of a roller pass, from which its margin follows;
     ``by_turns`` says that its values of single turns of the cage do; ``of_turns``, that it is the
-    mean of these values. ``series`` says that it wants one series (n,).
+    mean of these values. ``series`` says that it needs one series (n,).
     """
 
     value: Callable[[np.ndarray, float], float]

@@ -1,6 +1,6 @@
 """Pockets of a roller bearing: every roller's contacts with the cage, one pocket after another.
 
-``evaluate`` in ``residual`` calls it as a function value, as it does ``rows.shared_rows``.
+``evaluate`` in ``residual`` calls it as a function value, as it does ``shared_equations``.
 """
 
 from __future__ import annotations
@@ -52,6 +52,15 @@ from flexcage.system.data import (
     POCKET_DAMPING,
     POCKET_FRICTION,
 )
+from flexcage.system.equations import (
+    CAGE_SPIN,
+    LEVER,
+    PARTNER_V,
+    PARTNER_W,
+    add_to_element,
+    push_modes,
+    react,
+)
 from flexcage.system.layout import (
     CAGE,
     CAGE_TURN,
@@ -62,15 +71,6 @@ from flexcage.system.layout import (
     Q_QUATERNION,
     of_element,
     places,
-)
-from flexcage.system.rows import (
-    CAGE_SPIN,
-    LEVER,
-    PARTNER_V,
-    PARTNER_W,
-    add_to_element,
-    push_modes,
-    react,
 )
 
 
@@ -173,5 +173,10 @@ def _approach(i, ring_u, out_u, d):
     rep.approach[i, POCKET + FRONT], rep.approach[i, POCKET + REAR] = t, -t
     rep.approach[i, POCKET + PLUS_X], rep.approach[i, POCKET + MINUS_X] = x, -x
     ribs = POCKET + rep.pocket_normal.shape[1]
-    rep.approach[i, ribs] = V[0] - ring_u[0]
-    rep.approach[i, ribs + 1] = -rep.approach[i, ribs]
+    inner, outer = fields(d.rib), fields(d.outer_rib)
+    if inner.end > inner.first:
+        x = V[0] - ring_u[0]
+        rep.approach[i, ribs + inner.column], rep.approach[i, ribs + inner.column + 1] = x, -x
+    if outer.end > outer.first:
+        x = V[0]
+        rep.approach[i, ribs + outer.column], rep.approach[i, ribs + outer.column + 1] = x, -x
