@@ -37,7 +37,7 @@ def paper(as_scripts):
 def page(**changes):
     from paper_page import Cell, Line, Page, Picture, Table
 
-    cells = {"starts": Cell(HOLDS), "map": Cell(FAILS, "12% (3% to 30%)")}
+    cells = {"starts": Cell(HOLDS), "map": Cell(FAILS, "12 % (3 % to 30 %)")}
     plain = Page(
         title="A paper", summary="What it says. " * 20,
         lines=[Line("1", "a claim", "Figure 1", cells, "map", "a reason")],
@@ -52,7 +52,7 @@ def test_a_page_has_its_parts_in_order_and_a_matrix(tmp_path):
     from paper_page import compose, draw_matrix
 
     text = compose(page())
-    parts = ("# A paper", "What it says", "matrix.png", "| 1 | a claim (Figure 1) | ✓ | ✗ 12%",
+    parts = ("# A paper", "What it says", "matrix.png", "| 1 | a claim (Figure 1) | ✓ | ✗ 12 %",
              "### Figure 1", "**Table 1**", "## What decides", "**Open**", "x.csv")  # fmt: skip
     places = [text.index(part) for part in parts]
     assert places == sorted(places)

@@ -102,9 +102,10 @@ def _across(figure, place, yz: np.ndarray, name: str) -> None:
 
 
 def _along(figure, place, time: np.ndarray, x: np.ndarray, name: str) -> None:
+    """A motion (n,) over time in ms."""
     ax = sheet.axes_at(figure, place)
     ax.plot((time - time[0]) * 1e3, x * MM, color=sheet.BLUE, lw=0.6)
-    ax.set(title=name, xlabel="ms")
+    ax.set_title(f"{name}, over ms", loc="left")
 
 
 def orbits(computed, path: Path) -> Path:
@@ -190,8 +191,8 @@ def _middle(joined, output: str, speed: str, factor: float) -> str:
     found = joined.means(output, speed)
     if not np.isfinite(found).any():
         return "-"
-    low, mid, high = np.nanpercentile(found, (10.0, 50.0, 90.0)) * factor
-    return f"{mid:.3g} ({low:.3g} to {high:.3g})"
+    low, mid, high = (number(v, factor=factor) for v in np.nanpercentile(found, (10.0, 50.0, 90.0)))
+    return f"{mid} ({low} to {high})"
 
 
 def tables(computed) -> list[Table]:
