@@ -37,6 +37,7 @@ from flexcage.study import MapResults, StudyResults, load_map, load_study, run_m
 from flexcage.study.claims import Claim
 from flexcage.study.verdicts import write_verdicts
 
+STRESS = "stress"  # folder of the pictures of one run
 QUICK = {"solver.duration": "40 ms"}
 
 
@@ -56,7 +57,8 @@ class Paper:
     """A paper: where it is from, its claims, the columns of its matrix, and what its page shows.
 
     ``columns`` names the readings of ``readings`` by their labels, ``maps`` the files that make a
-    column, ``rechecks`` files of maps whose ``points`` are computed anew with a flexible cage.
+    column, ``rechecks`` files of maps whose ``points`` are computed anew with a flexible cage, and
+    ``stress`` what changes the file of a case for a run whose stress is drawn.
     """
 
     title: str
@@ -67,6 +69,7 @@ class Paper:
     maps: Mapping[str, Sequence[str]]
     decided_by: Mapping[str, str]
     rechecks: Mapping[str, Sequence[int]] = field(default_factory=dict)
+    stress: tuple[str, Mapping[str, str]] | None = None
     draw: Callable[[Computed, Path], list[Picture]]
     tables: Callable[[Computed], list[Table]]
     words: Callable[[Computed], Words]
@@ -84,6 +87,7 @@ class Computed:
     rechecks: Mapping[str, MapResults]
     lines: Sequence[Line]
     seconds: float
+    out: Path
 
 
 @cache
@@ -117,6 +121,10 @@ def run(paper: Paper, folder: Path, out: Path, *, workers: int, quick: bool) -> 
         flexible = load_map(folder / file, overrides={"cage.model": "flexible"})
         where = _of(out, file).with_name(f"{Path(file).stem}_flexible")
         run_map(flexible, out=where, points=points, workers=workers, progress=Progress)
+    if paper.stress is not None and not (out / STRESS).is_dir():
+        file, changes = paper.stress
+        case = flexcage.load_case(folder / file, overrides=changes)
+        flexcage.simulate(case, progress=Progress).draw(out / STRESS)
 
 
 def _of(out: Path, file: str) -> Path:
@@ -141,6 +149,7 @@ def collect(paper: Paper, out: Path) -> Computed:
         {f: MapResults(p) for f, p in flexible.items() if p.is_dir()}, (),
         sum(r.seconds for r in study.stored.values())
         + sum(part.seconds for joined in there.values() for part in joined.parts),
+        out,
     )  # fmt: skip
     starts = {column: cells_of_starts(paper.claims, r) for column, r in readings.items()}
     reasons = {claim.key: "" for claim in paper.claims}

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import tomllib
 from pathlib import Path
+from shutil import copyfile
 
 import numpy as np
 from claims import SPEEDS
@@ -65,7 +66,19 @@ def draw(computed, folder: Path) -> list[Picture]:
                 "Crosses and triangles are the numbers that the paper prints."),
         Picture("map_003_3.png", "Map of claim 003-3",
                 "Blue points hold, red ones do not; lines are shares over quarters of a range."),
+        *stress(computed, folder),
     ]  # fmt: skip
+
+
+def stress(computed, folder: Path) -> list[Picture]:
+    """The flexible cage's stress at its peak, if that run's pictures are there."""
+    found = computed.out / "stress" / "stress_peak.png"
+    if not found.is_file():
+        return []
+    copyfile(found, folder / "stress.png")
+    return [Picture("stress.png", "Stress of the cage at 10,000 rpm",
+                    "Better model with a flexible cage, 60 ms: equivalent stress at its largest. "
+                    "The paper has no such figure: its cage is rigid.")]  # fmt: skip
 
 
 def motion(run, path: Path, title: str) -> Path:
