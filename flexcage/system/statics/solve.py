@@ -16,6 +16,7 @@ from flexcage.system.statics.elements import ElementLoads, Elements, ElementsOf
 from flexcage.system.statics.equilibrium import Problem, balance, tangent
 from flexcage.system.statics.options import StaticOptions
 from flexcage.system.statics.solution import Ratings, StaticSolution
+from flexcage.system.statics.yielding import balance_on_seat, on_seat
 
 _PLACES = ("load.axial", "load.radial", "load.radial", "load.moment_y", "load.moment_z")
 
@@ -30,29 +31,38 @@ def solve_bearing(
     contacts: Contacts | None = None,
     lubricant: Lubricant | None = None,
     options: StaticOptions | None = None,
+    seat: np.ndarray | None = None,
 ) -> StaticSolution:
     """Equilibrium of the inner ring under the load at its start, turning at ``speed`` [rad/s], and
-    the film that the lubricant then makes. ``elements_of``: of the bearing's family.
+    the film that the lubricant then makes. ``elements_of``: of the bearing's family. ``seat``: the
+    compliance (5, 5) of the outer ring's seat (``system.seat``), if it yields.
 
     Raises InputError for a load that the bearing cannot bear, RunFailed if no equilibrium is found.
     """
     options = options or StaticOptions()
     elements = elements_of(bearing, speed=speed, contacts=contacts or Contacts(), options=options)
     problem = posed(bearing, elements, load, options)
-    posture = balance(problem)
+    outer = np.zeros(5)
+    if seat is None:
+        posture = balance(problem)
+    else:
+        posture, outer = balance_on_seat(problem, seat)
+    stiffness = tangent(problem, posture)
     v = problem.at_azimuths @ posture.ring
     loads = elements.loads(v, posture.own)
     elements.check(loads)
-    springs = problem.pull(posture.ring) - problem.load
+    ring = posture.ring + outer
+    springs = problem.pull(ring) - problem.load
     reaction = np.where(problem.free, springs, posture.force - problem.load)
     borne = np.where(problem.spring > 0.0, posture.force, problem.load)  # by the elements
     return StaticSolution(
         title=f"{bearing.designation or 'bearing'}, {bearing.kind} with {len(v)} rolling elements",
         speed=speed,
         load=problem.load,
-        displacement=posture.ring,
+        displacement=ring,
+        outer=outer,
         reaction=reaction,
-        stiffness=tangent(problem, posture),
+        stiffness=stiffness if seat is None else on_seat(stiffness, seat),
         elements=loads,
         film=_film(bearing, loads, speed, lubricant or Lubricant()),
         ratings=_ratings(bearing, borne, options, elements.reference_life(v, posture.own)),
