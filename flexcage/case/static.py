@@ -11,7 +11,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
-from typing import Any, ClassVar, Self
+from typing import Any, Self
 
 from flexcage.case.checks import check_static_case
 from flexcage.case.files import file_paths, with_files
@@ -57,7 +57,7 @@ class StaticCase:
     mount: Mount = option(Mount(), doc="what holds the outer ring")
     static: StaticOptions = option(StaticOptions(), doc="how a static solution is meant")
 
-    _in_motion: ClassVar[bool] = False  # does it read all of [mount], or the housing's body alone?
+    _in_motion = False  # does it read all of [mount], or the housing's body alone?
 
     def __post_init__(self) -> None:
         self.check()
