@@ -3,6 +3,7 @@
 import importlib.util
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
@@ -15,6 +16,7 @@ TESTED = {
     "ex05_static",
     "ex06_ball_bearing",
     "ex07_own_body",
+    "ex08_rotor_bearing",
 }
 
 
@@ -61,6 +63,17 @@ def test_own_body(capsys):
     ratio = example("ex07_own_body").main(**{"mesh.fineness": "coarse"})
     assert ratio == pytest.approx(1.0, abs=1e-6)
     assert "Hz from the file" in capsys.readouterr().out
+
+
+def test_rotor_bearing():
+    """Under an axial load alone all radial directions are alike; with ROSS, its rotor too."""
+    module = example("ex08_rotor_bearing")
+    k = module.coefficients(radial="0 N")
+    np.testing.assert_allclose(k["kxx"], k["kyy"], rtol=1e-9)
+    assert np.abs(k["kxy"]).max() < 1e-9 * k["kxx"].min() and (np.diff(k["kzz"]) < 0.0).all()
+    pytest.importorskip("ross")
+    by_ross, by_hand = module.main()
+    assert by_ross == pytest.approx(by_hand, rel=1e-3)
 
 
 def test_study(tmp_path):

@@ -8,6 +8,7 @@ centrifugal forces.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from math import sqrt
@@ -217,20 +218,21 @@ class BendingRings:
 
 
 def balance_with_rings(
-    problem: Problem, bearing: Bearing, rings: Rings
+    problem: Problem, bearing: Bearing, rings: Rings, find: Callable[[Problem], Posture] = balance
 ) -> tuple[Problem, Posture, tuple[BentRing, ...]]:
     """Equilibrium between rings that bend: the problem with them, its posture, and the rings.
 
-    Raises InputError and RunFailed as ``balance`` does, and where supports cannot hold the ring.
+    ``find`` balances a problem. Raises InputError and RunFailed as it does, and where supports
+    cannot hold the ring.
     """
     elements = problem.elements
-    posture = balance(problem)
+    posture = find(problem)
     loads = elements.loads(posture.v, posture.own)
     seated = seated_rings(bearing, rings, elements.azimuth, loads)
     thrown = np.nan_to_num(loads.centrifugal)
     for _ in range(_SETS):
         problem = replace(problem, bending=seated.bending(thrown))
-        posture = balance(problem)
+        posture = find(problem)
         bent = seated.bent(posture.response.ring, thrown)
         now = np.nan_to_num(elements.loads(posture.v, posture.own).centrifugal)
         after = seated.next(bent)
