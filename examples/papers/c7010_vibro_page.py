@@ -183,7 +183,7 @@ of the base reading, one of the others.
 - Its table has an axial load alone, which all balls bear alike; its figures show balls that lose
   their load. The base reading here is a radial load P with P/3 axially so that the rings stay
   together; `axial` and `combined` (P both ways) are variations.
-- The cage's modulus of 28.3 GPa is a misprint of PA66's 2.83 GPa. Its mass of 27 g wants 2840
+- The cage's modulus of 28.3 GPa is a misprint of PA66's 2.83 GPa. Its mass of 27 g needs 2840
   kg/m^3 in the section assumed; the base keeps PA66's 1150, and one case takes 27 g.
 - "Clearance" was read as the pockets' and as the radial internal clearance, which goes with the
   contact angle: 11.7, 23.6 and 31.3 degrees for 0.02, 0.08 and 0.14 mm.

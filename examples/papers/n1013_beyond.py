@@ -5,7 +5,7 @@
 
 ``peaks.toml``: pocket forces of rigid and flexible cages over speed and load, brass and PA66.
 ``cages.toml``: deformations that grow, several at once, bent crossbeams, spalls and a tilted ring.
-What is computed already is not computed again. Wants ``pip install '.[fast,study,fatigue]'``.
+What is computed already is not computed again. Needs ``pip install '.[fast,study,fatigue]'``.
 """
 
 from __future__ import annotations

@@ -1,6 +1,8 @@
-"""One folder a bearing family; a new one is its folder, and its lines here and in ``specs``."""
+"""One folder a bearing family; a new one is that and its line in ``specs``.
 
-from flexcage.bearings import ball, cylindrical_roller
+``core.wings`` finds the ``FAMILY`` of every folder.
+"""
+
 from flexcage.bearings.family import (
     Family,
     family_of,
@@ -10,9 +12,4 @@ from flexcage.bearings.family import (
     statics_of,
 )
 
-MEMBERS = (
-    cylindrical_roller.FAMILY,
-    ball.FAMILY,
-)
-
-__all__ = ["MEMBERS", "Family", "family_of", "in_motion", "motion_of", "recording_of", "statics_of"]
+__all__ = ["Family", "family_of", "in_motion", "motion_of", "recording_of", "statics_of"]

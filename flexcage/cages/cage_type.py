@@ -37,7 +37,7 @@ class CageType(Generic[C]):
     places: Callable[[], Places]  # at which stress is followed
     proposal: Callable[[], CageProposal] | None  # a cage for ``flexcage new``; None: no rule
     defects: tuple[type[CageDefect], ...] = ()
-    defect_spec: type[CageDefect] = CageDefect  # what its mesh wants of each
+    defect_spec: type[CageDefect] = CageDefect  # what its mesh needs of each
 
     def __post_init__(self) -> None:
         if self.spec.cage_type != self.name:

@@ -292,7 +292,7 @@ def _find_in_held_centre(case: Case) -> Iterator[Finding]:
     if method != "explicit" and not (method == "auto" and case.bearing.explicit_only):
         yield (
             "load.centre",
-            f"load.centre is 'held', which wants solver.method = \"explicit\", not {method!r}.",
+            f"load.centre is 'held', which needs solver.method = \"explicit\", not {method!r}.",
         )
     for key, idle in (("ramp_to", None), ("times", ()), ("wave", "none")):
         if getattr(load, key) != idle:
@@ -353,10 +353,10 @@ def _find_in_tables(case: Case) -> Iterator[Finding]:
             yield (
                 f"{room}.times",
                 f"{room}.times has {len(times)} entries and {room}.{name} {len(values)}; a table "
-                "wants as many of each.",
+                "needs as many of each.",
             )
         if len(times) == 1:
-            yield f"{room}.times", f"{room}.times has one entry; a table wants two or more."
+            yield f"{room}.times", f"{room}.times has one entry; a table needs two or more."
         if any(late <= early for early, late in zip(times, times[1:])):
             yield f"{room}.times", f"{room}.times must rise from entry to entry."
 

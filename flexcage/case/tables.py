@@ -69,11 +69,11 @@ def as_pairs(path: Any, value: Any) -> dict[str, Any]:
     for key in table:
         if not isinstance(key, str):
             raise InputError(
-                f"replace wants dotted paths, such as 'drive.speed', not {key!r}.", value=key
+                f"replace needs dotted paths, such as 'drive.speed', not {key!r}.", value=key
             )
     if table is path and value is not None:
         raise InputError(
-            f"replace wants a path and its value, or a table of them alone, not also {value!r}.",
+            f"replace needs a path and its value, or a table of them alone, not also {value!r}.",
             value=value,
         )
     return dict(table)

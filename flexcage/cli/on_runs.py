@@ -192,7 +192,7 @@ def compare_command(args: argparse.Namespace) -> int:
         return 0
     if len(args.what) != 1 or Path(args.what[0]).is_dir():
         raise InputError(
-            "compare wants one case (a .toml file), or two run folders; it was given "
+            "compare needs one case (a .toml file), or two run folders; it was given "
             f"{' '.join(args.what)}.",
             where="compare",
         )

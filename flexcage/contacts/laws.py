@@ -45,7 +45,7 @@ _ARGUMENTS = {
 NORMAL_TYPE = KernelType(NORMAL_SIGNATURE)
 FRICTION_TYPE = KernelType(FRICTION_SIGNATURE)
 
-N_NORMAL = 10  # stiffness and exponent of the elastic force, and what else a law wants
+N_NORMAL = 10  # stiffness and exponent of the elastic force, and what else a law needs
 N_FRICTION = 10
 # places in p, of a normal law
 STIFFNESS, EXPONENT = 0, 1  # of all laws: elastic force

@@ -127,7 +127,7 @@ class Binder:
             kinds = (kinds[0],) * len(items)
         if len(items) != len(kinds):
             raise InputError(
-                f"{where} has {len(items)} values, but wants {len(kinds)}.",
+                f"{where} has {len(items)} values, but needs {len(kinds)}.",
                 where=where,
                 value=value,
             )
@@ -358,7 +358,7 @@ def _is_of(value: Any, kind: Any) -> bool:
 
 
 def _check_class(spec: Any, where: str) -> None:
-    """Raise InputError if a name in a spec wants values that this class of spec does not hold."""
+    """Raise InputError if a name in a spec needs values that this class of spec does not hold."""
     found = choices_of(type(spec))
     wanted = chosen_spec(type(spec), {}, spec)
     if found is None or type(spec) is wanted:

@@ -271,7 +271,7 @@ def boxed(value: Any) -> Any:
 
 
 class FieldsType(types.Type):
-    """Type of what ``fields`` returns: still an address, of which each use reads what it wants."""
+    """Type of what ``fields`` returns: still an address, of which each use reads what it needs."""
 
     def __init__(self, held: Any) -> None:
         self.held = held

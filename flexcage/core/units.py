@@ -215,7 +215,7 @@ def _parse_by_pint(number: float, given: str, unit: str, where: str, value: obje
     found = _without_angle(quantity, wanted.dimensionality, refused)
     if found is None:
         raise refused(
-            f"but '{given}' is of another kind than {unit}, which it wants"
+            f"but '{given}' is of another kind than {unit}, which it needs"
             + _remedy(quantity.dimensionality, wanted.dimensionality, unit)
         )
     return found

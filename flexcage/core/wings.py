@@ -1,13 +1,15 @@
 """Wings: bearing families and cage types, found by name.
 
 A floor of the program holds what all bearings share and imports no wing. This module holds the
-empty registries of both wings. Each imports its package at the first look-up: the one import that
-is not written at the head of a file. A user's own families and cage types join by ``add``.
+empty registries of both wings. Each imports the folders of its package at the first look-up: the
+one import that is not written at the head of a file. A user's own families and cage types join by
+``add``.
 """
 
 from __future__ import annotations
 
 import importlib
+import pkgutil
 from collections.abc import Callable, Iterator, Mapping
 from types import MappingProxyType
 from typing import Any, Generic, Protocol, TypeVar
@@ -27,20 +29,24 @@ P = TypeVar("P")
 
 
 class Wing(Mapping[str, M], Generic[M]):
-    """Members of a wing by name: those in ``MEMBERS`` of its package, then users' own.
+    """Members of a wing by name: one from each folder of its package, then users' own.
 
-    ``what`` says in errors what a member is ("bearing family").
+    A folder calls its member ``constant``. ``what`` says in errors what a member is ("bearing
+    family").
     """
 
-    def __init__(self, package: str, *, what: str) -> None:
-        self.package, self.what = package, what
+    def __init__(self, package: str, constant: str, *, what: str) -> None:
+        self.package, self.constant, self.what = package, constant, what
         self._members: dict[str, M] = {}
         self._imported = False
 
     def _all(self) -> dict[str, M]:
         if not self._imported:
-            shipped = importlib.import_module(self.package).MEMBERS
-            self._members = {member.name: member for member in shipped}
+            wing = importlib.import_module(self.package)
+            folders = sorted(m.name for m in pkgutil.iter_modules(wing.__path__) if m.ispkg)
+            for folder in folders:
+                member = getattr(importlib.import_module(f"{self.package}.{folder}"), self.constant)
+                self._members[member.name] = member
             self._imported = True
         return self._members
 
@@ -98,5 +104,5 @@ class Parts(Mapping[str, P], Generic[P]):
 
 #: Bearing families (``flexcage.bearings.family.Family``) and cage types
 #: (``flexcage.cages.cage_type.CageType``), which floors know by their own Protocols alone.
-FAMILIES: Wing[Any] = Wing("flexcage.bearings", what="bearing family")
-CAGE_TYPES: Wing[Any] = Wing("flexcage.cages", what="cage type")
+FAMILIES: Wing[Any] = Wing("flexcage.bearings", "FAMILY", what="bearing family")
+CAGE_TYPES: Wing[Any] = Wing("flexcage.cages", "CAGE_TYPE", what="cage type")

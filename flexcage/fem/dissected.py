@@ -4,7 +4,7 @@ A mesh that does not repeat cannot share factors between its sectors. Its unknow
 block by block in the order of a nested dissection of its nodes (``dissection``, ``fronts``). On a
 freely meshed N1013 cage of 297,000 unknowns this factors as fast as CHOLMOD, and solves 64
 right-hand sides together in an eighth of its time. A load on few nodes costs half of that: blocks
-that no load reaches are passed over.
+that no load reaches are ignored.
 """
 
 from __future__ import annotations

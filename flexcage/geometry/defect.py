@@ -171,7 +171,7 @@ def register_defect(kind: Kind, *, cages: Iterable[str]) -> Kind:
 
     ``kind`` is a frozen dataclass, derived from ``window_defects.WindowDefect`` or
     ``ball_cage_defects.BallCageDefect`` (for a cage type of the user's own, from ``CageDefect``
-    or what its mesh wants), whose ``type`` is ``defect_type(name)``. InputError for a name that
+    or what its mesh needs), whose ``type`` is ``defect_type(name)``. InputError for a name that
     is taken, a class that is no such defect or a cage type that there is not.
     """
     if not (isinstance(kind, type) and issubclass(kind, CageDefect)):
@@ -188,7 +188,7 @@ def register_defect(kind: Kind, *, cages: Iterable[str]) -> Kind:
         if not issubclass(kind, base):
             raise InputError(
                 f"{kind.__name__} is no {base.__name__}, as the mesh of a cage of the type "
-                f"'{cage_type}' wants it; derive it from {base.__module__}.{base.__name__}.",
+                f"'{cage_type}' needs it; derive it from {base.__module__}.{base.__name__}.",
                 where="defect",
                 value=cage_type,
             )

@@ -49,7 +49,13 @@ FILTER_HZ = 10e3  # low-pass of outer_acceleration_filtered
 FIRST_STEP = 1e-7
 BEHIND = 1e-13  # [s] that a run begins behind a corner: more than rounding puts a time beside it
 CAREFUL = 1e-11  # [s] first step there of an integrator of several steps, which knows one slope
-_REMEMBERED = ("closed", "land", "force", "pushed", "pushed_before")  # of Events by checkpoints
+_REMEMBERED = (
+    "closed",
+    "land",
+    "force",
+    "pocket_force",
+    "pocket_force_before",
+)  # of Events by checkpoints
 LOG_ROWS = 20_000  # steps that are logged at a time
 
 
@@ -165,7 +171,7 @@ class Integration:
         self.integrator.refresh(self.state)  # a resumed run repeats an unbroken one bit by bit
         self._choose()
         self.bearing.data.events.fill[0] = 0
-        self.bearing.data.events.pushed_most[...] = 0.0  # as in a run that is resumed here
+        self.bearing.data.events.pocket_force_peak[...] = 0.0  # as in a run that is resumed here
         self.bearing.data.between.fill[:] = 0
         self.bearing.data.between.clock[:] = -np.inf, self.time + 1.0 / self.output.rate
         logs, sample, outcome = [], 0, DONE
@@ -244,7 +250,7 @@ class Integration:
             if value.shape != wanted:
                 raise InputError(
                     f"Result variable '{name}' was computed with shape {value.shape}, but has "
-                    f"dimensions {variable.dims} and wants {wanted}.",
+                    f"dimensions {variable.dims} and needs {wanted}.",
                     where=name,
                 )
             added[name] = value
@@ -305,7 +311,7 @@ class Integration:
             found = saved[name].shape if name in saved else "nothing"
             if found != array.shape:
                 raise _of_another(
-                    f"its checkpoint holds {found} of '{name}', and this one wants {array.shape}",
+                    f"its checkpoint holds {found} of '{name}', and this one needs {array.shape}",
                     name,
                 )
             array[...] = saved[name]

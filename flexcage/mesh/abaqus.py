@@ -1,7 +1,7 @@
 """Reading the mesh of an Abaqus deck (.inp): nodes, elements, element sets and surfaces.
 
 meshio reads neither ``*SURFACE, TYPE=ELEMENT`` nor six-node triangles of most names; gmsh no
-surfaces. What concerns no mesh (materials, steps, beams, springs) is passed over.
+surfaces. What concerns no mesh (materials, steps, beams, springs) is ignored.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""What the mesh wants of a cage type: how its cages are meshed."""
+"""What the mesh needs of a cage type: how its cages are meshed."""
 
 from __future__ import annotations
 

@@ -25,7 +25,7 @@ Statistic = Callable[[np.ndarray], np.ndarray]
 
 
 def block_length(x: np.ndarray) -> float:
-    """Mean block length, in entries, that the stationary bootstrap of the mean of ``x`` wants."""
+    """Mean block length, in entries, that the stationary bootstrap of the mean of ``x`` needs."""
     n = len(x)
     x = x - x.mean()
     run = max(5, ceil(sqrt(log10(n))))

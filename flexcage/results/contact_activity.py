@@ -2,7 +2,7 @@
 
 A contact of the cage is one of an element with a face of its pocket (rollers: front, rear and two
 sides; balls: the wall), or of a land with a ring. An onset is the instant at which it closes. The
-contact frequency counts onsets with pocket faces alone; free flight wants lands open as well.
+contact frequency counts onsets with pocket faces alone; free flight needs lands open as well.
 
 From the run's events a contact is closed while its normal force is above zero, found to one step of
 the solver, and onsets however light count; a land counts where it touches through its film. From

@@ -176,7 +176,7 @@ def load_readings(path: str | Path) -> np.ndarray:
     """Readings (n, 5) [m] of a test rig from a CSV file, in the order of ``CHANNELS``.
 
     Its first line names the columns Y, Z, X1, X2, X3 in any order; below are numbers in
-    millimetres. Other columns are passed over; ``load_times`` reads one of times. Raises InputError
+    millimetres. Other columns are ignored; ``load_times`` reads one of times. Raises InputError
     for a file that has them not.
     """
     names, table = _columns(path)

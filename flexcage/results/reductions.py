@@ -28,7 +28,7 @@ LINE = 2  # bins of a Hann window's spectrum on either side of a line that belon
 class Reducer:
     """``value`` of samples (n, ...) evenly taken every ``step`` seconds, in ``unit`` (None: the
     variable's). ``record`` gives it by windows of a roller pass, from which its margin follows;
-    ``by_turns`` says that its values of single turns of the cage do. ``series`` says that it wants
+    ``by_turns`` says that its values of single turns of the cage do. ``series`` says that it needs
     one series (n,).
     """
 

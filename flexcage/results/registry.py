@@ -98,11 +98,13 @@ class Variable:
 @dataclass(frozen=True)
 class OwnVariables:
     """What bearings of one family record beside what all do: ``variables``; ``labels`` of their own
-    dimensions that never change, and ``counted``, those whose labels a run gives."""
+    dimensions that never change, and ``counted``, those whose labels a run gives, with lengths in
+    ``sizes`` where all runs have the same."""
 
     variables: tuple[Variable, ...]
     labels: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
     counted: tuple[str, ...] = ()
+    sizes: Mapping[str, int] = field(default_factory=dict)
 
     @property
     def dims(self) -> set[str]:

@@ -291,7 +291,7 @@ def _among(rows: np.ndarray, place: np.ndarray | slice) -> np.ndarray | slice:
 
 
 def _kept(loads: np.ndarray, low: np.ndarray, high: np.ndarray) -> _Late:
-    """What the envelope wants of instants: those that may make any point's largest stress."""
+    """What the envelope needs of instants: those that may make any point's largest stress."""
     floor = low.max(axis=1)
     may = (high >= floor[:, None]).any(axis=0)
     columns = np.flatnonzero(loads[may].any(axis=0))

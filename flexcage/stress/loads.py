@@ -19,7 +19,7 @@ LANDS = "land_station_force"
 def _with_lands(ds: xarray.Dataset) -> xarray.Dataset:
     if LANDS not in ds:
         raise InputError(
-            f"The run has no variable '{LANDS}', which stress wants: an earlier flexcage made it; "
+            f"The run has no variable '{LANDS}', which stress needs: an earlier flexcage made it; "
             "run the case again.",
             where=LANDS,
         )

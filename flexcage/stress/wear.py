@@ -144,7 +144,7 @@ def wear(
     slot: Callable[[], Rub] | None = FAMILIES[bearing.family].rubbing
     if slot is None:
         raise InputError(
-            f"Wear of pockets is not known for bearings of the family '{bearing.family}'; it wants "
+            f"Wear of pockets is not known for bearings of the family '{bearing.family}'; it needs "
             "a rubbing of its own.",
             where="bearing.type",
         )

@@ -2,7 +2,7 @@
 
 J. F. Archard, J. Appl. Phys. 24 (1953) 981: worn volume = k * normal force * sliding distance. The
 coefficients are those of dry sliding. A lubricant lowers them by orders of magnitude, and by how
-much depends on its film: a lubricated cage wants a coefficient of its own.
+much depends on its film: a lubricated cage needs a coefficient of its own.
 """
 
 from __future__ import annotations

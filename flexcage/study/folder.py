@@ -79,7 +79,7 @@ class Folder:
 
     def study(self) -> Study:
         """The study that the folder holds, which runs no code: InputError if it holds none, or of
-        another format, or one that wants files of the user's own that are not loaded."""
+        another format, or one that needs files of the user's own that are not loaded."""
         return stored_study(self._text_file())
 
     def _text_file(self) -> Path:

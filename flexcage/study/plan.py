@@ -6,16 +6,16 @@ from collections.abc import Iterable
 from dataclasses import dataclass, field
 from functools import reduce
 from itertools import product
-from math import prod
 from operator import or_
 
-from flexcage.bearings.cylindrical_roller.model import END_POINTS
+from flexcage.bearings import family_of
 from flexcage.case import Case
 from flexcage.case.tables import ALIASES
 from flexcage.core.errors import InputError
 from flexcage.core.hashing import content_hash
 from flexcage.core.units import format_si
 from flexcage.modes.registry import basis_version
+from flexcage.results.registry import own_variables
 from flexcage.study.axes import Axis, Point, Points
 from flexcage.study.outputs import check_outputs
 from flexcage.study.spec import Study
@@ -92,10 +92,8 @@ def make_plan(study: Study) -> Plan:
 def _counts(case: Case) -> dict[str, int]:
     """Lengths of the dimensions of a case's results that are counted from 0."""
     count = case.bearing.element_count
-    slices = case.contacts.pocket.slices
-    return {
-        "element": count, "pocket": count, "slice": slices, "end_point": prod(END_POINTS)
-    }  # fmt: skip
+    own = own_variables(family_of(case.bearing)).sizes
+    return {"element": count, "pocket": count, "slice": case.contacts.pocket.slices, **own}
 
 
 def _modes_key(case: Case) -> str:

@@ -40,7 +40,7 @@ class Order:
     text: str  # the case, canonical TOML
     folder: str  # of the study, absolute
     beyond: tuple[str, ...]  # outputs that no summary holds
-    stress: bool  # whether any output wants the cage's
+    stress: bool  # whether any output needs the cage's
     use: tuple[str, ...]  # extensions to load
     keep: str
     version: str = __version__

@@ -51,8 +51,8 @@ SHAFT_STIFFNESS, SHAFT_DAMPING = range(2)  # places in ``Bodies.shaft``
 EVENT_TIME, EVENT_ELEMENT, EVENT_PLACE, EVENT_CLOSED = range(4)  # in a row of ``Events.rows``
 KINETIC, STRAIN, IN_CONTACTS, IN_MOUNT = range(4)  # places in ``Report.energy``
 # places in ``law`` behind those of ``contacts.evaluation``: the rows of further constraints, what
-# puts these in (``holding``), and the family's functions ``apart``
-CONSTRAINT_ROWS, HOLD, FAMILY_PARTS = 10, 11, 12
+# puts these in (``holding``), and the family's functions ``separate``
+CONSTRAINT_EQUATIONS, HOLD, FAMILY_PARTS = 10, 11, 12
 
 
 class Bodies(NamedTuple):

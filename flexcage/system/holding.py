@@ -9,8 +9,9 @@ from flexcage.contacts.evaluation import TANGENT
 from flexcage.core.jit import fields, part, zero
 from flexcage.core.rotation import quaternion_rate
 from flexcage.solve.bordered import lu_factor, lu_solve
-from flexcage.system.constraints import BEAR, OFF, ONTO, POSITION
+from flexcage.system.constraints import BORNE, OFF, POSITION, PROJECT
 from flexcage.system.data import FIXED
+from flexcage.system.equations import ring_rates
 from flexcage.system.layout import (
     AXIAL_FORCE,
     CAGE,
@@ -27,7 +28,6 @@ from flexcage.system.layout import (
     places,
 )
 from flexcage.system.rates import cage_accelerations
-from flexcage.system.rows import ring_rates
 
 INSTANT = 1e-6  # [s] over which constraints are differentiated in time
 
@@ -40,15 +40,15 @@ def hold(t, y, yd, d, rows, out, mode):
     """The part of the constraints ``rows`` (``constraints.ALL_ROWS``) in an evaluation.
 
     ``mode`` of ``residual.evaluate``: their rows, and what multipliers add to those of rings and
-    cage. ``ONTO``: coordinates and velocities in y are moved onto the constraints. ``BEAR``:
+    cage. ``PROJECT``: coordinates and velocities in y are moved onto the constraints. ``BORNE``:
     multipliers into y, and what they do to the accelerations in yd.
     """
     Z, nm = fields(d.bodies).radius.shape[0], fields(d.pocket).phi_max.shape[0]
     at = places(Z, nm)
     q, u = y[at.rest_q :][:Q_MODES], y[at.rest_u :][:MODES]
-    if mode == ONTO:
+    if mode == PROJECT:
         _project(t, q, u, d, rows)
-    elif mode == BEAR:
+    elif mode == BORNE:
         _bear(t, q, u, yd[at.rest_q :][:Q_MODES], yd[at.rest_u : at.lam], y[at.lam :], d, rows)
     else:
         r_q, r_u = out[at.rest_q : at.u], out[at.rest_u : at.lam]

@@ -79,7 +79,7 @@ class Motion(Generic[M]):
 
     ``evaluate(t, y, yd, d, law, out, mode)`` is the residual in plain Python, which ``problem``
     compiles for a ``d`` of type ``parts``; ``new_work`` makes its workspaces. It calls the
-    functions ``apart``, of the same arguments, as values: they are compiled on their own, by
+    functions ``separate``, of the same arguments, as values: they are compiled on their own, by
     another process at the same time, and follow the laws in ``law``; the longest first. ``faces``
     names the faces of a pocket, ``ribs`` what else an element may touch besides its races: a
     bearing has the first of them, as many as ``new_work`` makes room for. Mode TANGENT fills the
@@ -90,7 +90,7 @@ class Motion(Generic[M]):
     parts: Any  # made by ``parts_type``
     new_work: Callable[[M, Layout], Work]
     evaluate: Callable[..., None]
-    apart: tuple[Callable[..., None], ...]
+    separate: tuple[Callable[..., None], ...]
     faces: tuple[str, ...]
     ribs: tuple[str, ...]
     start: FindStart

@@ -1,6 +1,6 @@
 """The bearing as a problem for integrators: compiled functions over one tuple of data.
 
-``data`` is (Parts, laws, evaluate), the last of the laws ``Motion.apart``: evaluated through
+``data`` is (Parts, laws, evaluate), the last of the laws ``Motion.separate``: evaluated through
 function values, the residual is compiled once, not again inside each of the functions, and its
 pieces at the same time.
 """
@@ -76,9 +76,11 @@ class Events(NamedTuple):
     closed: np.ndarray  # (Z, places) contact flags at the last accepted step
     land: np.ndarray  # (2,) the same for the cage's lands
     force: np.ndarray  # (2, 3) of the last two accepted steps: time, force on the outer ring
-    pushed: np.ndarray  # (Z, faces) normal forces in pockets at the last accepted step
-    pushed_before: np.ndarray  # (Z, faces) at the step before that
-    pushed_most: np.ndarray  # (Z, faces) the largest since the last sample, at and between steps
+    pocket_force: np.ndarray  # (Z, faces) normal forces in pockets at the last accepted step
+    pocket_force_before: np.ndarray  # (Z, faces) at the step before that
+    pocket_force_peak: (
+        np.ndarray
+    )  # (Z, faces) the largest since the last sample, at and between steps
 
 
 class Samples(NamedTuple):
@@ -169,8 +171,8 @@ def law_functions(contacts: Contacts) -> tuple:
 
 
 def _evaluation(bearing: Any, law: Any) -> Any:
-    """numba's signature of ``Motion.evaluate``, of ``Motion.apart``, and of what puts constraints
-    into them."""
+    """numba's signature of ``Motion.evaluate``, of ``Motion.separate``, and of what puts
+    constraints into them."""
     return types.void(_REAL, _VECTOR, _VECTOR, bearing, law, _VECTOR, _COUNT)
 
 
@@ -210,9 +212,9 @@ class Bearing:
             *(laws.NORMAL_TYPE,) * 5, *(laws.FRICTION_TYPE,) * 5, ALL_ROWS_TYPE,
             KernelType(holding),
         )  # fmt: skip
-        self._apart = _evaluation(bearing, types.Tuple(own_laws))
-        apart = (KernelType(self._apart),) * len(self.motion.apart)
-        law_type = types.Tuple((*own_laws, *apart))
+        self._separate_signature = _evaluation(bearing, types.Tuple(own_laws))
+        separate = (KernelType(self._separate_signature),) * len(self.motion.separate)
+        law_type = types.Tuple((*own_laws, *separate))
         self._evaluation = _evaluation(bearing, law_type)
         self.data_type = types.Tuple((bearing, law_type, KernelType(self._evaluation)))
         self._functions: dict[str, Any] = {}
@@ -235,9 +237,11 @@ class Bearing:
         return self.motion.places(self.data.work.report.rib.shape[1])
 
     @property
-    def apart(self) -> tuple[Any, ...]:
+    def separate(self) -> tuple[Any, ...]:
         """What the residual calls as values, compiled."""
-        return tuple(compiled(function, self._apart) for function in self.motion.apart)
+        return tuple(
+            compiled(function, self._separate_signature) for function in self.motion.separate
+        )
 
     @cached_property
     def args(self) -> tuple:
@@ -245,7 +249,7 @@ class Bearing:
         return self.arguments(self.data, self.laws)
 
     def pieces(self) -> list[Callable[[], object]]:
-        """What a run by the explicit method wants compiled, one call each, the longest first."""
+        """What a run by the explicit method needs compiled, one call each, the longest first."""
         groups = (self.data.work.tangent, self.data.matrix, self.data.model.bodies)
         tangent, matrix, bodies = (FieldsType(numba.typeof(group)) for group in groups)
         method, none = runge_kutta.EXPLICIT_METHOD, np.zeros(1)
@@ -258,7 +262,10 @@ class Bearing:
                 kernel.compile(arguments)
 
         return [
-            *(partial(compiled, function, self._apart) for function in self.motion.apart),
+            *(
+                partial(compiled, function, self._separate_signature)
+                for function in self.motion.separate
+            ),
             lambda: self.evaluate,
             lambda: self._advance_of(method, state, runge_kutta.Options(1.0, 0.0, 1)),
             lambda: kernel_for(newton.newton_step, _REAL, _VECTOR, _VECTOR, tangent, matrix),
@@ -294,7 +301,7 @@ class Bearing:
 
     def arguments(self, data: BearingData, law: tuple) -> tuple:
         """What the compiled functions take as their data."""
-        return parts(self.motion.parts, data), (*law, *self.apart), self.evaluate
+        return parts(self.motion.parts, data), (*law, *self.separate), self.evaluate
 
     def residual(self, t: float, y: np.ndarray, yd: np.ndarray, mode: int = RESIDUAL) -> np.ndarray:
         """F(t, y, y'), a new array; TANGENT also fills the tangent, REPORT the report."""

@@ -22,10 +22,10 @@ from flexcage.core.jit import VECTORISED, fields, kernel, part, zero
 from flexcage.core.vectors import RIGID, TURN
 from flexcage.solve.bordered import lu_factor, lu_solve
 from flexcage.solve.oscillators import Oscillators, no_oscillators
-from flexcage.system.constraints import BEAR, ONTO
+from flexcage.system.constraints import BORNE, PROJECT
 from flexcage.system.data import (
     AXIAL,
-    CONSTRAINT_ROWS,
+    CONSTRAINT_EQUATIONS,
     FIXED,
     FREE_AXIAL,
     FREE_CENTRE,
@@ -36,6 +36,7 @@ from flexcage.system.data import (
     OF_SPEED,
     TRANSVERSE,
 )
+from flexcage.system.equations import shaft_pull, speed_at
 from flexcage.system.layout import (
     AXIAL_FORCE,
     CAGE,
@@ -48,7 +49,6 @@ from flexcage.system.layout import (
     of_element,
     places,
 )
-from flexcage.system.rows import shaft_pull, speed_at
 from flexcage.system.sampling import give_powers, is_main, keep_force, keep_report
 from flexcage.system.time_functions import table_slope, wave_slope
 
@@ -114,7 +114,7 @@ def _rates(t, y, yd, data, mode):
     _hold(t, q[:Q_OUTER], y[ring : ring + OUTER], bodies, driven)
     zero(y[end:])
     law = data[1]
-    law[HOLD](t, y, yd, d, law[CONSTRAINT_ROWS], out, ONTO)
+    law[HOLD](t, y, yd, d, law[CONSTRAINT_EQUATIONS], out, PROJECT)
     shaft_pull(bodies, q[:Q_OUTER], y[ring : ring + OUTER], y[end : end + DRIVE_TORQUE])
     zero(yd)
     data[2](t, y, yd, d, data[1], out, mode)
@@ -157,7 +157,7 @@ def _rates(t, y, yd, data, mode):
         frame.rigid, frame.coupled, fields(d.cage).plain, fields(d.scratch).A,
         yd[ring + CAGE : end], fields(d.rates),
     )  # fmt: skip
-    law[HOLD](t, y, yd, d, law[CONSTRAINT_ROWS], out, BEAR)
+    law[HOLD](t, y, yd, d, law[CONSTRAINT_EQUATIONS], out, BORNE)
 
 
 @part

@@ -15,8 +15,8 @@ from flexcage.system.data import (
     LOAD,
     POCKET,
 )
+from flexcage.system.equations import load_power
 from flexcage.system.layout import DRIVE_TORQUE, INNER_TURN, MODES, PER_ELEMENT, Q_MODES, places
-from flexcage.system.rows import load_power
 
 
 @part
@@ -78,8 +78,8 @@ def keep_point(t, y, d):
     _keep_summits(t, events, report.pocket_normal)
     for c in range(3):
         events.force[0, c] = events.force[1, c]
-    copy_into(events.pushed_before, events.pushed)
-    copy_into(events.pushed, report.pocket_normal)
+    copy_into(events.pocket_force_before, events.pocket_force)
+    copy_into(events.pocket_force, report.pocket_normal)
     events.force[1, 0] = t
     events.force[1, 1], events.force[1, 2] = report.body_force[0], report.body_force[1]
 
@@ -122,15 +122,15 @@ def _keep_summits(t, events, values):
     known = before < last < t and 0.5 < (last - before) / (t - last) < 2.0
     for i in range(values.shape[0]):
         for f in range(values.shape[1]):
-            most, at = max(events.pushed_most[i, f], values[i, f]), events.pushed[i, f]
-            if known and at > 0.0 and at >= max(events.pushed_before[i, f], values[i, f]):
-                rise = (at - events.pushed_before[i, f]) / (last - before)
+            most, at = max(events.pocket_force_peak[i, f], values[i, f]), events.pocket_force[i, f]
+            if known and at > 0.0 and at >= max(events.pocket_force_before[i, f], values[i, f]):
+                rise = (at - events.pocket_force_before[i, f]) / (last - before)
                 fall = (values[i, f] - at) / (t - last)
                 bend = (fall - rise) / (t - before)
                 slope = rise + bend * (last - before)
                 if bend < 0.0:
                     most = max(most, at - 0.25 * slope * slope / bend)
-            events.pushed_most[i, f] = most
+            events.pocket_force_peak[i, f] = most
 
 
 @part
@@ -207,9 +207,9 @@ def keep_report(s, k, rep, events):
 
     The step that went past the sample is among those before it, and first of those after it.
     """
-    _keep_larger(events.pushed_most, rep.pocket_normal)
-    copy_into(s.pocket_peak[k], events.pushed_most)
-    copy_into(events.pushed_most, events.pushed)
+    _keep_larger(events.pocket_force_peak, rep.pocket_normal)
+    copy_into(s.pocket_peak[k], events.pocket_force_peak)
+    copy_into(events.pocket_force_peak, events.pocket_force)
     copy_into(s.race[k], rep.race)
     copy_into(s.pocket_normal[k], rep.pocket_normal)
     copy_into(s.pocket_friction[k], rep.pocket_friction)

@@ -1,17 +1,21 @@
 """What a family brings along is there, and its variables fit those that all bearings have."""
 
 from dataclasses import fields
+from itertools import permutations
+from pkgutil import iter_modules
 
+import grimp
 import pytest
 
-from flexcage.bearings import MEMBERS
+from flexcage import bearings
+from flexcage.core.wings import FAMILIES
 from flexcage.results.figures import OwnFigures
 from flexcage.results.known import KNOWN
 from flexcage.results.metrics import ElementSpeed
 from flexcage.results.registry import LABELS, RUN_DIMS, TIME, VARIABLES, families_with, variables_of
 
 
-@pytest.mark.parametrize("family", MEMBERS, ids=lambda family: family.name)
+@pytest.mark.parametrize("family", FAMILIES.values(), ids=lambda family: family.name)
 def test_every_slot_gives_something(family):
     for slot in fields(family):
         value = getattr(family, slot.name)
@@ -19,7 +23,7 @@ def test_every_slot_gives_something(family):
     assert isinstance(family.speed(), ElementSpeed) and isinstance(family.figures(), OwnFigures)
 
 
-@pytest.mark.parametrize("family", MEMBERS, ids=lambda family: family.name)
+@pytest.mark.parametrize("family", FAMILIES.values(), ids=lambda family: family.name)
 def test_own_variables_and_figures_are_registered_and_labelled(family):
     own = family.variables()
     for v in own.variables:
@@ -33,3 +37,12 @@ def test_own_variables_and_figures_are_registered_and_labelled(family):
 def test_figures_stand_in_one_run_a_section():
     sections = [figure.section for figure in KNOWN.values()]
     assert len(set(sections)) == 1 + sum(a != b for a, b in zip(sections, sections[1:]))
+
+
+def test_families_know_nothing_of_each_other():
+    graph = grimp.build_graph("flexcage")
+    folders = [f"{bearings.__name__}.{m.name}" for m in iter_modules(bearings.__path__) if m.ispkg]
+    assert len(folders) > 1
+    for importer, imported in permutations(folders, 2):
+        chain = graph.find_shortest_chain(importer, imported, as_packages=True)
+        assert chain is None, f"{importer} imports {imported}: {' -> '.join(chain)}"

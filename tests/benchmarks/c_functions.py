@@ -50,7 +50,7 @@ def _size(_typing, value):
 
 @intrinsic
 def vector(_typing, pointer, size):
-    """The array of ``size`` elements at a pointer (numba's carray wants reference counts)."""
+    """The array of ``size`` elements at a pointer (numba's carray needs reference counts)."""
     kind = types.Array(pointer.dtype, 1, "C")
 
     def codegen(context, builder, signature, args):

@@ -22,7 +22,7 @@ class OdeForm:
         bearing = functions.bearing
         bodies = bearing.data.model.bodies
         if bodies.by_shaft or np.ptp(bodies.speed[1]) > 0.0 or bodies.support != FIXED:
-            raise ValueError("the Jacobian wants a fixed outer ring and a constant speed")
+            raise ValueError("the Jacobian needs a fixed outer ring and a constant speed")
         self.c, self.layout = functions, bearing.layout
         self.size = self.layout.n_q + self.layout.n_u
 

@@ -24,7 +24,7 @@ import start_benchmark
 # [s] of bearing time of the long run; balls alone would lose their cage before a second is over
 LONG = {"roller": 1.0, "ball": 0.4}
 ALLOWED = 1.15  # of as many revolutions from a settled state: what a run's integration may take
-PLAIN_OUTPUT = "pocket_force.max"  # one that wants no stress
+PLAIN_OUTPUT = "pocket_force.max"  # one that needs no stress
 QUICK: dict[str, Any] = {
     "duration": 1e-3,
     "long": {"roller": 2e-3, "ball": 2e-3},

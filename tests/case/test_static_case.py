@@ -53,7 +53,7 @@ def test_a_varied_copy():
 
 
 def test_a_simulations_case_is_read_as_well():
-    """Its mesh, defects and solver are passed over; bearing, load and race contacts are not."""
+    """Its mesh, defects and solver are ignored; bearing, load and race contacts are not."""
     case = load_static(EXAMPLES / "n1013.toml", overrides={"contacts.race.slices": 30})
     full = load_case(EXAMPLES / "n1013.toml")
     assert case.bearing == full.bearing and case.load == full.load and case.speed == 200.0 * np.pi

@@ -121,7 +121,7 @@ def test_round_trip():
         ({"parts": [{"type": "ball", "side": "1 mm"}]}, "parts.0.side", ["Unknown key 'side'"]),
         ({"parts": "x"}, "parts", ["a list"]),
         ({"times": [1]}, "times.0", ["'1 ms'"]),
-        ({"pair": [1]}, "pair", ["1 values, but wants 2"]),
+        ({"pair": [1]}, "pair", ["1 values, but needs 2"]),
     ],
 )
 def test_mistakes_are_one_sentence(change, where, words):

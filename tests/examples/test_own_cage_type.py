@@ -97,7 +97,7 @@ WRONG = """
 import dataclasses, sys
 import flexcage
 from flexcage.cages import CageType
-from flexcage.cages.machined import MACHINED
+from flexcage.cages.machined import CAGE_TYPE as MACHINED
 flexcage.load_extension(sys.argv[1])
 for change in ({}, {"name": "other"}):
     try:

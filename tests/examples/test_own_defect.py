@@ -16,7 +16,7 @@ import pytest
 
 from flexcage import register
 from flexcage.cages.build import build_cage_mesh, rigid_interface_of
-from flexcage.cages.window import WINDOW
+from flexcage.cages.window import CAGE_TYPE as WINDOW
 from flexcage.cages.window.cage import ROLLER_CAGES, WindowCage
 from flexcage.cages.window.defects import SideBeamDefect
 from flexcage.cages.window.measure import pocket_size

@@ -113,7 +113,7 @@ def test_a_ramp_by_acceleration_is_the_ramp_by_time():
 
 
 def test_races_bear_the_gyroscopic_moment(flexible):
-    """A ball that orbits with its axis tilted wants I psi' w_r about the direction of its orbit;
+    """A ball that orbits with its axis tilted needs I psi' w_r about the direction of its orbit;
     tractions across both grooves give it, towards the shoulder that is not loaded."""
     ds = flexible.dataset.isel(time=slice(200, None))
     across = ds["race_traction_across"].mean(("time", "element"))

@@ -88,7 +88,7 @@ def test_quadratures_have_the_order_of_the_solution(method):
 
 
 def test_the_error_of_integrals_is_controlled(method):
-    """Where y alone would allow steps of any length, the integral asks for those that it wants."""
+    """Where y alone would allow steps of any length, the integral asks for those that it needs."""
     exact = run(method, Pendulum(), tolerance=1e-13)[1].quad[0]
     misses, steps = [], []
     for allowed in (1e-6, 1e-8):

@@ -1,5 +1,5 @@
 """SLURM on one node, this machine's loopback: munge and SLURM's two daemons, in a folder that goes
-with them. It wants no root and leaves an installed SLURM alone."""
+with them. It needs no root and leaves an installed SLURM alone."""
 
 from __future__ import annotations
 

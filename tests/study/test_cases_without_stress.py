@@ -1,4 +1,4 @@
-"""A study computes its cages' stress where an output wants it, or where a cage might yield."""
+"""A study computes its cages' stress where an output needs it, or where a cage might yield."""
 
 import json
 
@@ -99,7 +99,7 @@ def test_a_study_with_one_computes_it(tmp_path):
 
 
 def test_a_cage_that_might_yield_is_warned_of(tmp_path):
-    """The study's output wants no stress; of a weak material, the warning comes as ever."""
+    """The study's output needs no stress; of a weak material, the warning comes as ever."""
     strength = Grid("cage.material.proof_stress", ["160 MPa", "0.05 MPa"])
     results = compute(tmp_path / "study", study_of(strength))
     strong, weak = results.rows

@@ -160,5 +160,5 @@ def test_accelerations_of_a_flexible_cage_against_its_whole_mass_matrix(eigenmod
 def test_bearings_of_a_kind_share_their_compiled_functions(bearing_of):
     """Compiled code is never freed: a worker that simulates case after case would grow."""
     one, other = bearing_of(), bearing_of(load=Load(radial=2000.0))
-    assert one.evaluate is other.evaluate and one.apart == other.apart
+    assert one.evaluate is other.evaluate and one.separate == other.separate
     assert one.functions(EXPLICIT_METHOD) == other.functions(EXPLICIT_METHOD)

@@ -308,7 +308,7 @@ def test_a_ring_that_falls_out_is_said_to():
 
 
 def test_too_little_axial_load_is_blamed_at_speed(recwarn):
-    """Of 60 degree contacts a radial load wants more than its own size along the axis."""
+    """Of 60 degree contacts a radial load needs more than its own size along the axis."""
     held = StaticOptions(tilt="held")
     with pytest.raises(RunFailed, match="the axial load too small for the radial one"):
         load = Load(axial=0.0, radial=3000.0)

@@ -6,8 +6,8 @@ from flexcage.bearings.ball.model import BallModel, ball_work, build_ball_model
 from flexcage.bearings.ball.residual import evaluate
 from flexcage.bearings.ball.scales import ball_weights
 from flexcage.bearings.ball.start import ball_start
+from flexcage.system.equations import shared_equations
 from flexcage.system.motion import Motion, parts_type
-from flexcage.system.rows import shared_rows
 
 BallParts = parts_type("BallParts", BallModel, __name__)
 
@@ -16,7 +16,7 @@ MOTION = Motion(
     parts=BallParts,
     new_work=ball_work,
     evaluate=evaluate,
-    apart=(shared_rows,),
+    separate=(shared_equations,),
     faces=("pocket",),
     ribs=(),
     start=ball_start,

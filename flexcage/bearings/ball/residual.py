@@ -59,6 +59,15 @@ from flexcage.system.data import (
     RACE_FRICTION,
     ROLLING_RESISTANCE,
 )
+from flexcage.system.equations import (
+    CAGE_SPIN,
+    RING_AXIS,
+    RING_SPIN,
+    clear_sums,
+    inner_ring,
+    push_modes,
+    react,
+)
 from flexcage.system.layout import (
     CAGE,
     CAGE_TURN,
@@ -74,15 +83,6 @@ from flexcage.system.layout import (
     of_element,
     places,
 )
-from flexcage.system.rows import (
-    CAGE_SPIN,
-    RING_AXIS,
-    RING_SPIN,
-    clear_sums,
-    inner_ring,
-    push_modes,
-    react,
-)
 
 SHARED = FAMILY_PARTS  # place in ``law``: the family's only function ``apart``
 
@@ -91,7 +91,7 @@ def evaluate(t, y, yd, d, law, out, mode):
     """Residual into ``out``; see the module's text. Index letters: i ball, c component, m mode.
 
     ``law`` holds the normal laws of race, pocket, (side, rib,) land, their friction laws, and
-    ``rows.shared_rows``.
+    ``equations.shared_equations``.
     """
     work, phi_max = fields(d.scratch), fields(d.pocket).phi_max
     Z, nm = fields(d.bodies).radius.shape[0], phi_max.shape[0]

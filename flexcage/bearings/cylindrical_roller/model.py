@@ -9,6 +9,7 @@ import numpy as np
 
 from flexcage.bearings.cylindrical_roller.bearing import RollerBearing
 from flexcage.bearings.cylindrical_roller.designs import DESIGNS, rib_height
+from flexcage.bearings.cylindrical_roller.variables import END_POINTS
 from flexcage.bodies.floating_frame import BodyData, FlexibleBody
 from flexcage.cages.window.cage import WindowCage
 from flexcage.contacts import laws
@@ -83,9 +84,6 @@ def _race_side(bearing, contacts: Contacts, lubricant: Lubricant, *, inner: bool
         spalled=spall.covered(s, bearing.effective_length / contacts.race.slices),
         uneven=int(wave[0] > 0.0 or angle > 0.0),
     )
-
-
-END_POINTS = (2, 7)  # of a roller's end on a side beam: across the band and along it
 
 
 def end_points(bearing: RollerBearing, cage: WindowCage) -> np.ndarray:

@@ -8,8 +8,8 @@ from flexcage.bearings.cylindrical_roller.residual import evaluate
 from flexcage.bearings.cylindrical_roller.scales import roller_weights
 from flexcage.bearings.cylindrical_roller.start import roller_start
 from flexcage.modes.basis import FACES
+from flexcage.system.equations import shared_equations
 from flexcage.system.motion import Motion, parts_type
-from flexcage.system.rows import shared_rows
 
 RollerParts = parts_type("RollerParts", RollerModel, __name__)
 
@@ -18,7 +18,7 @@ MOTION = Motion(
     parts=RollerParts,
     new_work=roller_work,
     evaluate=evaluate,
-    apart=(roller_pockets, shared_rows),
+    separate=(roller_pockets, shared_equations),
     faces=FACES,
     ribs=("rib +x", "rib -x", "counter rib +x", "counter rib -x"),
     start=roller_start,

@@ -1,6 +1,6 @@
 """Pockets of a roller bearing: every roller's contacts with the cage, one pocket after another.
 
-``evaluate`` in ``residual`` calls it as a function value, as it does ``rows.shared_rows``.
+``evaluate`` in ``residual`` calls it as a function value, as it does ``shared_equations``.
 """
 
 from __future__ import annotations
@@ -52,6 +52,15 @@ from flexcage.system.data import (
     POCKET_DAMPING,
     POCKET_FRICTION,
 )
+from flexcage.system.equations import (
+    CAGE_SPIN,
+    LEVER,
+    PARTNER_V,
+    PARTNER_W,
+    add_to_element,
+    push_modes,
+    react,
+)
 from flexcage.system.layout import (
     CAGE,
     CAGE_TURN,
@@ -62,15 +71,6 @@ from flexcage.system.layout import (
     Q_QUATERNION,
     of_element,
     places,
-)
-from flexcage.system.rows import (
-    CAGE_SPIN,
-    LEVER,
-    PARTNER_V,
-    PARTNER_W,
-    add_to_element,
-    push_modes,
-    react,
 )
 
 

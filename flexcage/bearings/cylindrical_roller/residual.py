@@ -72,6 +72,15 @@ from flexcage.system.data import (
     ROLLING_RESISTANCE,
     TRANSVERSE,
 )
+from flexcage.system.equations import (
+    CAGE_SPIN,
+    RING_AXIS,
+    RING_SPIN,
+    add_to_element,
+    clear_sums,
+    inner_ring,
+    react,
+)
 from flexcage.system.layout import (
     CAGE,
     CAGE_TURN,
@@ -84,15 +93,6 @@ from flexcage.system.layout import (
     Q_QUATERNION,
     of_element,
     places,
-)
-from flexcage.system.rows import (
-    CAGE_SPIN,
-    RING_AXIS,
-    RING_SPIN,
-    add_to_element,
-    clear_sums,
-    inner_ring,
-    react,
 )
 
 # places in ``law``: the family's functions ``apart``
@@ -120,7 +120,7 @@ def evaluate(t, y, yd, d, law, out, mode):
     ``d`` (``problem.Parts``) refers to the model, its memory and its workspaces; ``law`` holds
     the normal laws of race, pocket, side, rib and land, their friction laws, the rows of further
     constraints and what puts these in (``holding.hold``), and what is compiled apart:
-    ``roller_pockets`` and ``rows.shared_rows``.
+    ``roller_pockets`` and ``equations.shared_equations``.
     """
     work, Z = fields(d.scratch), fields(d.bodies).radius.shape[0]
     nm = fields(d.pocket).phi_max.shape[0]

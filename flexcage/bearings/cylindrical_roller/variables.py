@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from math import prod
 from typing import Any
 
 from flexcage.modes.basis import FACES
 from flexcage.results.registry import FORCE_BITS, MODAL_BITS, OwnVariables, sampled
 
+END_POINTS = (2, 7)  # of a roller's end on a side beam: across the band and along it
 _PARTS: Any = {"bits": FORCE_BITS, "together": 1, "sparse": True, "dtype": "float32"}
 _BEAM, _SIDE = ("pocket", "crossbeam_face", "slice"), ("pocket", "side_face", "end_point")
 
@@ -50,4 +52,5 @@ VARIABLES = OwnVariables(
         "rib": ("+x", "-x"),
     },
     counted=("slice", "end_point", "residual"),
+    sizes={"end_point": prod(END_POINTS)},
 )  # fmt: skip

@@ -55,7 +55,7 @@ def _proposal() -> CageProposal:
     return propose_machined_cage
 
 
-MACHINED = CageType(
+CAGE_TYPE = CageType(
     name="machined", spec=BallCage, holds=("ball",), mesh=_mesh, interfaces=_interfaces,
     places=_places, proposal=_proposal, defect_spec=BallCageDefect,
     defects=(EnlargedPocket, ElongatedPocket, DisplacedPocket, WebCrack),

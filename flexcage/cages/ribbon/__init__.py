@@ -43,7 +43,7 @@ def _proposal() -> CageProposal:
     return propose_ribbon_cage
 
 
-RIBBON = CageType(
+CAGE_TYPE = CageType(
     name="ribbon", spec=RibbonCage, holds=("ball",), mesh=_mesh, interfaces=_interfaces,
     places=_places, proposal=_proposal, defects=(MissingRivet,),
     defect_spec=BallCageDefect,

@@ -47,7 +47,7 @@ def _proposal() -> CageProposal:
     return propose_window_cage
 
 
-WINDOW = CageType(
+CAGE_TYPE = CageType(
     name="window", spec=WindowCage, holds=("roller",), mesh=_mesh, interfaces=_interfaces,
     places=_places, proposal=_proposal, defects=(CrossbeamDefect, SideBeamDefect),
     defect_spec=WindowDefect,

@@ -1,4 +1,4 @@
-"""Rows of the residual that all bearings share: rings, cage, lands, drive and constraints.
+"""Equations that all bearings share: rings, cage, lands, drive and constraints.
 
 Rolling elements differ from type to type; what they push is collected in ``Scratch.border`` (inner
 ring 6, outer ring 2, cage 6 + n) and balanced here.
@@ -44,7 +44,7 @@ from flexcage.core.vectors import (
 )
 from flexcage.system.data import (
     AXIAL,
-    CONSTRAINT_ROWS,
+    CONSTRAINT_EQUATIONS,
     DRAG,
     DRIVE,
     FILM,
@@ -115,18 +115,18 @@ class State(NamedTuple):
     mu: np.ndarray  # and of what they hold in place
 
 
-class Rows(NamedTuple):
-    """Rows of the residual that belong to them."""
+class Residual(NamedTuple):
+    """Parts of the residual that belong to them."""
 
     q: np.ndarray  # kinematics
     u: np.ndarray  # momentum
     g: np.ndarray  # constraints
 
 
-def shared_rows(t, y, yd, d, law, out, mode):
-    """Rows of cage, lands and rings and the constraints; the elements' contacts are summed already.
+def shared_equations(t, y, yd, d, law, out, mode):
+    """Residual of cage, lands, rings and constraints; the elements' contacts are summed already.
 
-    The elements' equations call it as a function value, so that it is compiled apart from them, in
+    The elements' equations call it as a function value, so that it is compiled separately, in
     another process at the same time (a third of the work, measured).
     """
     nm = fields(d.pocket).phi_max.shape[0]
@@ -135,11 +135,11 @@ def shared_rows(t, y, yd, d, law, out, mode):
     qd, ud = yd[at.rest_q : at.u], yd[at.rest_u : at.lam]
     r_q, r_u = out[at.rest_q : at.u], out[at.rest_u : at.lam]
     lam, mu = y[at.lam : at.lam + N_LAMBDA], y[at.lam + N_LAMBDA :]
-    state, rows = State(q, u, qd, ud, lam, mu), Rows(r_q, r_u, out[at.lam :])
-    land_rows(q, u, nm, d, law, mode)
-    cage_rows(d, state, rows, mode)
-    ring_rows(t, d, state, rows, mode)
-    law[HOLD](t, y, yd, d, law[CONSTRAINT_ROWS], out, mode)
+    state, residual = State(q, u, qd, ud, lam, mu), Residual(r_q, r_u, out[at.lam :])
+    land_forces(q, u, nm, d, law, mode)
+    cage_equations(d, state, residual, mode)
+    ring_equations(t, d, state, residual, mode)
+    law[HOLD](t, y, yd, d, law[CONSTRAINT_EQUATIONS], out, mode)
 
 
 @part
@@ -262,7 +262,7 @@ def push_modes(data, i, pw, border):
 
 
 @part
-def land_rows(q, u, nm, d, law, mode):
+def land_forces(q, u, nm, d, law, mode):
     """Cage's lands on the ring that guides it, and the drag on the cage."""
     work, data, rep = fields(d.scratch), fields(d.land), fields(d.report)
     vec, border, A = work.vec, work.border, work.A
@@ -314,11 +314,11 @@ def land_rows(q, u, nm, d, law, mode):
 
 
 @part(fastmath=VECTORISED)
-def cage_rows(d, state, rows, mode):
+def cage_equations(d, state, residual, mode):
     """Rows of the cage: floating frame, translations in space, rotations in the body."""
     quat, qf = state.q[Q_QUATERNION:Q_MODES], state.q[Q_MODES:]
     Vc, wb, qfd = state.u[CAGE:CAGE_TURN], state.u[CAGE_TURN:MODES], state.u[MODES:]
-    qd, ud, r_q, r_u = state.qd, state.ud, rows.q, rows.u
+    qd, ud, r_q, r_u = state.qd, state.ud, residual.q, residual.u
     data, tan, rep, work = fields(d.cage), fields(d.tangent), fields(d.report), fields(d.scratch)
     frame, A, border = fields(d.frame), work.A, work.border
     nm = qf.shape[0]
@@ -466,8 +466,8 @@ def shaft_pull(bodies, q, u, pull):
 
 @part
 def constraint_slopes(bodies, tan):
-    """Slopes of the constraints' rows of ``ring_rows`` in coordinates, velocities and multipliers
-    (the position rows' own multipliers are displacements)."""
+    """Slopes of the constraints in ``ring_equations`` in coordinates, velocities and multipliers
+    (multipliers of positions are displacements)."""
     first = tan.Kbb.shape[0] - N_OWN - 2 * tan.held.shape[0]
     for k in range(3):
         rate, place, at = first + k, first + N_LAMBDA + k, HELD_VELOCITIES[k]
@@ -481,10 +481,10 @@ def constraint_slopes(bodies, tan):
 
 
 @part
-def ring_rows(t, d, state, rows, mode):
+def ring_equations(t, d, state, residual, mode):
     """Rows of the inner and outer rings and of the constraints."""
     q, u, qd, ud, lam, mu = state
-    r_q, r_u, g = rows
+    r_q, r_u, g = residual
     bodies, tan, rep = fields(d.bodies), fields(d.tangent), fields(d.report)
     work, border = fields(d.scratch), fields(d.scratch).border
     rq, ru, rud = q[:Q_OUTER], u[:OUTER], ud[:OUTER]
