@@ -7,13 +7,14 @@ from pathlib import Path
 
 import numpy as np
 
-from flexcage.bearings import statics_of
+from flexcage.bearings import sections_of, statics_of
 from flexcage.case import Case, StaticCase
 from flexcage.contacts.spec import EhlTraction
 from flexcage.core.binding import expect
 from flexcage.core.errors import EnvironmentLacks, InputError
 from flexcage.geometry.film import creep_speed
 from flexcage.system.statics.options import AT_START, StaticOptions
+from flexcage.system.statics.rings import Rings
 from flexcage.system.statics.solution import StaticSolution
 from flexcage.system.statics.solve import solve_bearing
 
@@ -31,6 +32,7 @@ def solve_static(case: StaticCase, *, options: StaticOptions | None = None) -> S
     return solve_bearing(
         case.bearing, statics_of(case.bearing), load=case.load, speed=case.speed,
         contacts=case.contacts, lubricant=case.lubricant, options=options or case.static,
+        rings=Rings(case.inner_ring, case.outer_ring, sections_of(case.bearing)),
     )  # fmt: skip
 
 

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 from flexcage.bearings import in_motion
 from flexcage.cages import cage_type_of
+from flexcage.case.ring_checks import find_bending_in_run, find_in_rings
 from flexcage.core.binding import chosen_spec, default_of, join
 from flexcage.core.errors import InputError
 from flexcage.core.units import describe
@@ -51,6 +52,7 @@ def check_case(case: Case) -> None:
             _find_in_output,
             _find_in_laws,
             _find_in_land,
+            find_bending_in_run,
         ),
     )
 
@@ -289,7 +291,7 @@ def _find_in_held_centre(case: Case) -> Iterator[Finding]:
     load, method = case.load, case.solver.method
     if load.centre == "free":
         return
-    if method != "explicit" and not (method == "auto" and case.bearing.explicit_only):
+    if method not in ("explicit", "auto"):
         yield (
             "load.centre",
             f"load.centre is 'held', which needs solver.method = \"explicit\", not {method!r}.",
@@ -306,8 +308,9 @@ def _find_in_held_centre(case: Case) -> Iterator[Finding]:
 
 def _find_in_mesh(case: Case) -> Iterator[Finding]:
     mesh, cage = case.mesh, case.cage
+    for where, file in case.files.items():
+        yield from _find_in_path(file, where)
     if mesh.file:
-        yield from _find_in_path(mesh.file)
         return
     volume = 0.25 * pi * (cage.outside_diameter**2 - cage.bore**2) * cage.width
     arc = 2.0 * pi * case.bearing.element_count * cage.fillet  # four quarters a pocket
@@ -332,15 +335,15 @@ def _find_in_mesh(case: Case) -> Iterator[Finding]:
         )
 
 
-def _find_in_path(file: str) -> Iterator[Finding]:
-    """A mesh file whose name none can have; one that is not there is told of when it is read."""
+def _find_in_path(file: str, where: str) -> Iterator[Finding]:
+    """A file whose name none can have; one that is not there is told of when it is read."""
     try:
         Path(file).stat()
     except (FileNotFoundError, NotADirectoryError):
         return
     except OSError as exc:
         reason = (exc.strerror or str(exc)).lower()
-        yield "mesh.file", f"mesh.file is '{file}', which cannot be looked up ({reason})."
+        yield where, f"{where} is '{file}', which cannot be looked up ({reason})."
 
 
 def _find_in_tables(case: Case) -> Iterator[Finding]:
@@ -434,12 +437,6 @@ def _find_in_waves(case: Case) -> Iterator[Finding]:
 
 def _find_in_solver(case: Case) -> Iterator[Finding]:
     solver = case.solver
-    if solver.method == "bdf" and case.bearing.explicit_only:
-        yield (
-            "solver.method",
-            f"solver.method is 'bdf', but a bearing's {case.bearing.element}s have no tangent yet, "
-            "which implicit methods want; take 'auto' or 'explicit'.",
-        )
     if solver.min_step > solver.max_step:
         yield (
             "solver.min_step",
@@ -602,4 +599,5 @@ _OF_EVERY_CASE = (
     _find_in_load,
     _find_in_tilt,
     _find_in_speed,
+    find_in_rings,
 )

@@ -32,6 +32,7 @@ from flexcage.core.binding import (
 from flexcage.core.errors import InputError
 from flexcage.core.spec import option
 from flexcage.geometry.bearing import Bearing, check_type
+from flexcage.geometry.ring import InnerRing, OuterRing
 from flexcage.system.spec import Drive, Load
 from flexcage.system.statics.options import StaticOptions
 
@@ -51,6 +52,12 @@ class StaticCase:
     lubricant: Lubricant = option(Lubricant(), doc="the lubricant")
     drive: Drive = option(Drive(speed=0.0), doc="what turns the inner ring")
     load: Load = option(Load(), doc="what loads the inner ring")
+    inner_ring: InnerRing = option(
+        InnerRing(), doc="how the inner ring bends in a static solution", legacy=InnerRing()
+    )
+    outer_ring: OuterRing = option(
+        OuterRing(), doc="how the outer ring bends in a static solution", legacy=OuterRing()
+    )
     static: StaticOptions = option(StaticOptions(), doc="how a static solution is meant")
 
     def __post_init__(self) -> None:
@@ -128,8 +135,11 @@ class StaticCase:
         return value
 
     def to_table(self) -> dict[str, Any]:
-        """Nested tables of texts with units, complete."""
+        """Nested tables of texts with units, complete but for rings as by default: rigid."""
         table = to_table(self, named=NAMED)
+        for name in ("inner_ring", "outer_ring"):
+            if getattr(self, name) == default_of(StaticCase.__dataclass_fields__[name]):
+                del table[name]
         preset = table.pop("preset")
         if preset:
             table["bearing"] = {"preset": preset, **table["bearing"]}
@@ -151,7 +161,7 @@ class StaticCase:
 
 def _asked_nothing() -> dict[str, Any]:
     """Sections as by default."""
-    names = ("contacts", "lubricant", "drive", "load", "static")
+    names = ("contacts", "lubricant", "drive", "load", "inner_ring", "outer_ring", "static")
     return {name: default_of(StaticCase.__dataclass_fields__[name]) for name in names}
 
 

@@ -93,7 +93,6 @@ class Bearing:
     places: ClassVar[tuple[str, ...]] = ("race", "pocket", "side", "rib")
     carries_axial_load: ClassVar[bool] = False  # in a run, with the ring free axially and in tilt
     elsewhere: ClassVar[Mapping[str, str]] = {}  # patterns of keys that it has not: what there is
-    explicit_only: ClassVar[bool] = False  # do they lack the tangent that implicit methods want?
 
     type: str = type_name("cylindrical_roller")
     designation: str = option("", doc="name in a catalogue")

@@ -25,6 +25,7 @@ from flexcage.contacts.pocket_wall import (
 from flexcage.contacts.race import RaceSide, race_work
 from flexcage.contacts.rib import RibData
 from flexcage.contacts.spec import Contacts, Lubricant
+from flexcage.contacts.state import Q_SKEW, Q_SPIN, Q_TILT
 from flexcage.modes.basis import CageInterface
 from flexcage.system.bodies import bodies_of, elastic_constants, land_data, unbalanced
 from flexcage.system.data import Bodies, Work, new_work
@@ -282,5 +283,5 @@ def roller_work(model: RollerModel, layout: Layout) -> Work:
     return new_work(
         layout, race_work(len(model.inner.s)), pocket_work(slices, points, stations, layout.modes),
         slices=slices, points=points, faces=4, stations=stations, ribs=rib_columns(model),
-        land_stations=len(model.land.angle),
+        land_stations=len(model.land.angle), turns=(Q_SPIN, Q_SKEW, Q_TILT),
     )  # fmt: skip

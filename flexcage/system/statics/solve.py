@@ -15,6 +15,7 @@ from flexcage.system.spec import Load
 from flexcage.system.statics.elements import ElementLoads, Elements, ElementsOf
 from flexcage.system.statics.equilibrium import Problem, balance, tangent
 from flexcage.system.statics.options import StaticOptions
+from flexcage.system.statics.rings import BentRing, Rings, balance_with_rings
 from flexcage.system.statics.solution import Ratings, StaticSolution
 
 _PLACES = ("load.axial", "load.radial", "load.radial", "load.moment_y", "load.moment_z")
@@ -30,17 +31,23 @@ def solve_bearing(
     contacts: Contacts | None = None,
     lubricant: Lubricant | None = None,
     options: StaticOptions | None = None,
+    rings: Rings | None = None,
 ) -> StaticSolution:
     """Equilibrium of the inner ring under the load at its start, turning at ``speed`` [rad/s], and
-    the film that the lubricant then makes. ``elements_of``: of the bearing's family.
+    the film that the lubricant then makes. ``elements_of``: of the bearing's family; ``rings``: how
+    rings bend, if they do.
 
     Raises InputError for a load that the bearing cannot bear, RunFailed if no equilibrium is found.
     """
     options = options or StaticOptions()
     elements = elements_of(bearing, speed=speed, contacts=contacts or Contacts(), options=options)
     problem = posed(bearing, elements, load, options)
-    posture = balance(problem)
-    v = problem.at_azimuths @ posture.ring
+    bent: tuple[BentRing, ...] = ()
+    if rings is not None and rings.bend:
+        problem, posture, bent = balance_with_rings(problem, bearing, rings)
+    else:
+        posture = balance(problem)
+    v = posture.v
     loads = elements.loads(v, posture.own)
     elements.check(loads)
     springs = problem.pull(posture.ring) - problem.load
@@ -59,6 +66,7 @@ def solve_bearing(
         warnings=tuple(_warnings(elements, loads)),
         unbalanced=posture.unbalanced,
         held=load.held_in_words(axially=bool(problem.free[0]), tilt=_tilt(load, options)[0]),
+        rings=bent,
     )
 
 
