@@ -12,8 +12,8 @@ from flexcage.results import instrument, metrics
 from flexcage.results.statistics import element_passes
 from flexcage.study.verdicts import Estimate
 
-PLANE = 15e-3  # assumption: axial distance of the radial sensors, which the paper does not give
-PLANES = (5e-3, 10e-3, 15e-3, 20e-3, 25e-3)  # over which it is swept
+PLANE = 9e-3  # assumption: axial distance of the radial sensors, which the paper does not give
+PLANES = (5e-3, 8.2e-3, 9e-3, 9.8e-3)  # over which it is swept
 RADII = (-5e-3, -2e-3, 2e-3, 5e-3)  # m, by which the radius that the correction takes is off
 
 

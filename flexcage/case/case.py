@@ -8,7 +8,7 @@ from __future__ import annotations
 import dataclasses
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cache, cached_property
 from math import pi
 from pathlib import Path
 from typing import Any
@@ -107,7 +107,7 @@ class Case(StaticCase):
         merged = with_preset(without_aliases(table))
         merged.setdefault("given", sorted(path for path, _ in flat(without_aliases(table))))
         refuse_without_motion(merged.get("bearing"))
-        merged = _with_mesh_file(merged, folder or Path.cwd())
+        merged = _with_files(merged, folder or Path.cwd())
         binder = Binder(named=NAMED, si=si)
         with words_of_text():
             return binder.bind(cls, _with_cage(merged, binder), "")
@@ -123,8 +123,8 @@ class Case(StaticCase):
         if where == "cage" and isinstance(value, Mapping):
             with words_of_text():
                 return binder.bind(type(self.cage), value, "cage", base=self.cage)
-        if where == "mesh.file" and isinstance(value, (str, Path)):
-            return _absolute(value, Path.cwd())
+        if where in file_paths() and isinstance(value, (str, Path)):
+            return _absolute(value, Path.cwd(), where)
         return value
 
     def to_table(self) -> dict[str, Any]:
@@ -141,9 +141,9 @@ class Case(StaticCase):
     def hash(self) -> str:
         """16 digits that name the case's physics and outputs; names and words do not count.
 
-        A mesh file of the user's own counts by its bytes, wherever it lies; a law or basis of
-        the user's own by the file that defines it. Attachments count where there are any: not with
-        a rigid cage or round pockets.
+        Mesh and bodies of the user's own count by their bytes, wherever they lie; a law or basis
+        of the user's own by the file that defines it. Attachments count where there are any: not
+        with a rigid cage or round pockets.
         """
         fields = [f for f in dataclasses.fields(self) if counts(self, f)]
         physics = {f.name: getattr(self, f.name) for f in fields if f.name not in _NOT_PHYSICS}
@@ -151,13 +151,19 @@ class Case(StaticCase):
         physics["modes"] = modes = self.modes.damped_as(self.cage.material)
         if self.cage_model == "rigid" or not self.cage.has_faces:
             physics["modes"] = dataclasses.replace(modes, attachments="linear")
-        file = Path(self.mesh.file)
-        content = b""
-        if self.mesh.file and file.is_file():
-            content = file.read_bytes()
-            physics["mesh"] = dataclasses.replace(self.mesh, file="")
+        contents = {path: _bytes_of(value) for path, value in self.files.items()}
+        for path in filter(contents.get, contents):
+            room, _, name = path.partition(".")
+            physics[room] = dataclasses.replace(physics[room], **{name: ""})
+        mesh = contents.pop("mesh.file", b"")
         outside = sorted(filter(None, {source_of(name) for name in chosen_names(self)}))
-        return content_hash(physics, content, *outside)
+        return content_hash(physics, mesh, *outside, *contents.items())
+
+    @property
+    def files(self) -> dict[str, str]:
+        """Files that the case names, by path; none of those of a flexible cage if it is rigid."""
+        named = {path: _at(self, path) for path in file_paths() if _at(self, path)}
+        return {path: file for path, file in named.items() if self._reads(path)}
 
     def difference(self, other: Case) -> dict[str, tuple[Any, Any]]:
         """Values of this case and of another that differ and count, by dotted path; None where
@@ -193,8 +199,7 @@ class Case(StaticCase):
     @property
     def held_in_words(self) -> str:
         """How the inner ring is held in a run, in words."""
-        axially = self.bearing.carries_axial_load or self.load.axial_stiffness > 0.0
-        return self.load.held_in_words(axially=axially)
+        return self.load.held_in_words(axially=self.load.frees_axially(self.bearing))
 
     @property
     def riveted(self) -> bool:
@@ -278,18 +283,38 @@ def _given_by(pairs: Mapping[str, Any]) -> Iterator[str]:
         yield path
 
 
-def _with_mesh_file(table: dict[str, Any], folder: Path) -> dict[str, Any]:
-    """The mesh file's path, made absolute: it was written relative to the case's own folder."""
-    mesh = table.get("mesh")
-    file = mesh.get("file") if isinstance(mesh, Mapping) else None
-    if not isinstance(file, str) or not file:
-        return table
-    return {**table, "mesh": {**mesh, "file": _absolute(file, folder)}}  # type: ignore[dict-item]
+@cache
+def file_paths() -> tuple[str, ...]:
+    """Dotted paths of the values that are files."""
+    return tuple(
+        f"{section.name}.{field.name}"
+        for section in dataclasses.fields(Case)
+        if dataclasses.is_dataclass(spec := default_of(section))
+        for field in dataclasses.fields(spec)
+        if field.metadata.get("file")
+    )
 
 
-def _absolute(file: str | Path, folder: Path) -> str:
+def _with_files(table: dict[str, Any], folder: Path) -> dict[str, Any]:
+    """Paths of files, made absolute: they were written relative to the case's own folder."""
+    for path in file_paths():
+        room, _, name = path.partition(".")
+        section = table.get(room)
+        file = section.get(name) if isinstance(section, Mapping) else None
+        if isinstance(section, Mapping) and isinstance(file, str) and file:
+            table = {**table, room: {**section, name: _absolute(file, folder, path)}}
+    return table
+
+
+def _absolute(file: str | Path, folder: Path, where: str) -> str:
     """Absolute path of a file, so that a run's own case.toml finds it from its folder."""
-    return str(folder / expanded(file, where="mesh.file")) if str(file) else ""
+    return str(folder / expanded(file, where=where)) if str(file) else ""
+
+
+def _bytes_of(file: str) -> bytes:
+    """Content of a file; nothing if it is not there."""
+    path = Path(file)
+    return path.read_bytes() if path.is_file() else b""
 
 
 def _at(spec: Any, path: str) -> Any:

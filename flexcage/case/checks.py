@@ -44,6 +44,7 @@ def check_case(case: Case) -> None:
         case,
         (
             *_OF_EVERY_CASE,
+            _find_in_axial_load,
             _find_in_held_motions,
             _find_in_mesh,
             _find_in_waves,
@@ -221,7 +222,26 @@ def _find_in_held_motions(case: Case) -> Iterator[Finding]:
 
 def _bears_axially(case: Case) -> bool:
     """Is the inner ring free along the axis in a run, with something that brings it back?"""
-    return case.bearing.carries_axial_load or case.load.axial_stiffness > 0.0
+    return case.load.frees_axially(case.bearing)
+
+
+def _find_in_axial_load(case: Case) -> Iterator[Finding]:
+    """Axial loads that neither the bearing nor its shaft carries."""
+    load, where = case.load, "load.axial"
+    if load.axial_stiffness > 0.0:
+        return
+    if load.varies == "axial" and (load.times or load.ramp_to is not None):
+        where = "load.values" if load.times else "load.ramp_to"
+    if load.wave_of == "axial" and load.wave != "none":
+        where = "load.wave_amplitude"
+    for force in load.axial_range:
+        if refused := case.bearing.axial_refusal(force):
+            says = "is" if where == "load.axial" else "makes the axial load"
+            yield (
+                where,
+                f"{where} {says} {describe(force, 'N')}, but {refused}; leave it out, or give the "
+                "shaft's load.axial_stiffness.",
+            )
 
 
 def _find_in_shaft(case: Case) -> Iterator[Finding]:
@@ -229,7 +249,8 @@ def _find_in_shaft(case: Case) -> Iterator[Finding]:
     load = case.load
     later = (load.ramp_to or 0.0, *load.values) if load.varies == "axial" else ()
     largest, most = max(map(abs, (load.axial, *later))), case.bearing.greatest_shift
-    if load.axial_stiffness > 0.0 and largest > load.axial_stiffness * most:
+    borne = not any(map(case.bearing.axial_refusal, load.axial_range))
+    if load.axial_stiffness > 0.0 and largest > load.axial_stiffness * most and not borne:
         yield (
             "load.axial_stiffness",
             f"load.axial_stiffness is {describe(load.axial_stiffness, 'N/um')}, which lets "
@@ -270,7 +291,7 @@ def _find_in_held_centre(case: Case) -> Iterator[Finding]:
     load, method = case.load, case.solver.method
     if load.centre == "free":
         return
-    if method != "explicit" and not (method == "auto" and case.bearing.explicit_only):
+    if method not in ("explicit", "auto"):
         yield (
             "load.centre",
             f"load.centre is 'held', which needs solver.method = \"explicit\", not {method!r}.",
@@ -287,8 +308,9 @@ def _find_in_held_centre(case: Case) -> Iterator[Finding]:
 
 def _find_in_mesh(case: Case) -> Iterator[Finding]:
     mesh, cage = case.mesh, case.cage
+    for where, file in case.files.items():
+        yield from _find_in_path(file, where)
     if mesh.file:
-        yield from _find_in_path(mesh.file)
         return
     volume = 0.25 * pi * (cage.outside_diameter**2 - cage.bore**2) * cage.width
     arc = 2.0 * pi * case.bearing.element_count * cage.fillet  # four quarters a pocket
@@ -313,15 +335,15 @@ def _find_in_mesh(case: Case) -> Iterator[Finding]:
         )
 
 
-def _find_in_path(file: str) -> Iterator[Finding]:
-    """A mesh file whose name none can have; one that is not there is told of when it is read."""
+def _find_in_path(file: str, where: str) -> Iterator[Finding]:
+    """A file whose name none can have; one that is not there is told of when it is read."""
     try:
         Path(file).stat()
     except (FileNotFoundError, NotADirectoryError):
         return
     except OSError as exc:
         reason = (exc.strerror or str(exc)).lower()
-        yield "mesh.file", f"mesh.file is '{file}', which cannot be looked up ({reason})."
+        yield where, f"{where} is '{file}', which cannot be looked up ({reason})."
 
 
 def _find_in_tables(case: Case) -> Iterator[Finding]:
@@ -415,12 +437,6 @@ def _find_in_waves(case: Case) -> Iterator[Finding]:
 
 def _find_in_solver(case: Case) -> Iterator[Finding]:
     solver = case.solver
-    if solver.method == "bdf" and case.bearing.explicit_only:
-        yield (
-            "solver.method",
-            f"solver.method is 'bdf', but a bearing's {case.bearing.element}s have no tangent yet, "
-            "which implicit methods want; take 'auto' or 'explicit'.",
-        )
     if solver.min_step > solver.max_step:
         yield (
             "solver.min_step",

@@ -152,8 +152,9 @@ def _given(outline: Outline) -> dict[str, str]:
         for side, letter in (("inner", "F"), ("outer", "E"))
         if getattr(outline, f"{side}_race_diameter") is not None
     }
-    angle = {"contact_angle": "given"} if outline.contact_angle is not None else {}
-    return {**dict.fromkeys(outline.boundary, "given: boundary dimension"), **races, **angle}
+    others = ("contact_angle", "design")
+    given = {key: "given" for key in others if getattr(outline, key) is not None}
+    return {**dict.fromkeys(outline.boundary, "given: boundary dimension"), **races, **given}
 
 
 def _entries(spec: Any, reasons: Mapping[str, str]) -> list[tuple[str, str, str]]:

@@ -45,6 +45,9 @@ class Cage:
     guidance: str = option("", doc="what guides the cage radially")
     unbalance: float = quantity("g*mm", 0.0, doc="mass-radius product of an unbalance", minimum=0.0)
     unbalance_phase: float = quantity("deg", 0.0, doc="azimuth of the unbalance from pocket 0")
+    unbalance_offset: float = quantity(
+        "mm", 0.0, doc="place of the unbalance along +x from the cage's middle: a couple as well"
+    )
 
     @property
     def mean_radius(self) -> float:
@@ -85,6 +88,11 @@ class Cage:
     def axial_width(self) -> float:
         """What it takes up along the axis [m]."""
         return self.width
+
+    @property
+    def axial_reach(self) -> float:
+        """How far it reaches [m] from the plane of the elements' centres, to one side at least."""
+        return 0.5 * self.axial_width
 
     @property
     def most_unbalance(self) -> float:

@@ -36,6 +36,7 @@ from flexcage.system.data import (
     EVENT_PLACE,
     EVENT_TIME,
     FIXED,
+    FREE_CENTRE,
     MASS,
     POWERS,
 )
@@ -115,8 +116,7 @@ class Integration:
         y, yd = self.integrator.last(self.state)
         step = self.bearing.stable_step(self.time, y, yd)
         self.bound = min(self.bound, step)
-        small = not self.bearing.spec.explicit_only and step < self.solver.stable_step
-        method = "bdf" if small else "explicit"
+        method = cheaper(self.bearing, step, self.solver)
         if auto and method != self.integrator.name:
             log.debug("%s from t = %.4f ms on: explicit steps up to %.3g us are stable", method,
                       self.time * 1e3, step * 1e6)  # fmt: skip
@@ -315,6 +315,13 @@ class Integration:
                     name,
                 )
             array[...] = saved[name]
+
+
+def cheaper(bearing: Bearing, step: float, solver: SolverOptions) -> str:
+    """The integrator that "auto" takes where explicit steps up to ``step`` [s] are stable."""
+    if bearing.data.model.bodies.free[FREE_CENTRE] == 0:  # a held centre has no implicit equation
+        return "explicit"
+    return "bdf" if step < bearing.motion.implicit_share * solver.stable_step else "explicit"
 
 
 def _of_another(how: str, name: str) -> InputError:

@@ -10,6 +10,7 @@ from typing import Any
 
 from flexcage._version import __version__
 from flexcage.case import Case, load_case, load_extension
+from flexcage.case.case import file_paths
 from flexcage.case.extensions import not_loaded, sources
 from flexcage.case.presets import NAMED
 from flexcage.case.toml import write_toml
@@ -76,7 +77,7 @@ def load_study(path: str | Path, *, overrides: Mapping[str, Any] | None = None) 
     Loads the extensions that the file names under ``use``. A mistake raises InputError.
     """
     path = Path(path).expanduser()
-    table = _read(path)
+    table = read_file(path)
     _check_format(table.pop("format", FORMAT), path)
     for source in _listed(table.pop("use", []), "use"):
         load_extension(path.parent / source if source.endswith((".py", ".toml")) else source)
@@ -101,7 +102,7 @@ def stored_study(path: Path) -> Study:
 
 def stored_table(path: Path) -> dict[str, Any]:
     """The tables of a folder's study.toml, with its list ``use`` of extensions."""
-    table = _read(path)
+    table = read_file(path)
     _check_format(table.pop("format", FORMAT), path)
     return {**table, "use": list(map(str, _listed(table.get("use", []), "use")))}
 
@@ -183,7 +184,7 @@ def _as_text(case: Case, path: str, value: Any, *, si: bool) -> Any:
 def _from_file(case: Case, folder: Path, path: str, value: Any) -> Any:
     """A value from a study's file, whose own paths are relative to it."""
     found = _as_text(case, path, value, si=False)
-    return str(folder / found) if path == "mesh.file" and found else found
+    return str(folder / found) if path in file_paths() and found else found
 
 
 def value_at(table: Any, path: str) -> Any:
@@ -206,7 +207,8 @@ def _check_format(found: Any, path: Path) -> None:
         )
 
 
-def _read(path: Path) -> dict[str, Any]:
+def read_file(path: Path) -> dict[str, Any]:
+    """Tables of a study's file; InputError for one that cannot be read."""
     try:
         text = path.read_text("utf-8-sig")
     except UnicodeDecodeError as exc:

@@ -14,6 +14,7 @@ TESTED = {
     "ex04_study",
     "ex05_static",
     "ex06_ball_bearing",
+    "ex07_own_body",
 }
 
 
@@ -54,6 +55,12 @@ def test_ball_bearing():
     rigid = {"mesh.fineness": "coarse", "cage.model": "rigid"}
     inner, outer = example("ex06_ball_bearing").main(duration="10 ms", **rigid)
     assert outer < 11.5 and 19.0 < inner
+
+
+def test_own_body(capsys):
+    ratio = example("ex07_own_body").main(**{"mesh.fineness": "coarse"})
+    assert ratio == pytest.approx(1.0, abs=1e-6)
+    assert "Hz from the file" in capsys.readouterr().out
 
 
 def test_study(tmp_path):

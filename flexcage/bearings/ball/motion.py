@@ -6,6 +6,7 @@ from flexcage.bearings.ball.model import BallModel, ball_work, build_ball_model
 from flexcage.bearings.ball.residual import evaluate
 from flexcage.bearings.ball.scales import ball_weights
 from flexcage.bearings.ball.start import ball_start
+from flexcage.bearings.ball.tangent import linearise
 from flexcage.system.equations import shared_equations
 from flexcage.system.motion import Motion, parts_type
 
@@ -21,4 +22,6 @@ MOTION = Motion(
     ribs=(),
     start=ball_start,
     error_weights=ball_weights,
+    linearise=linearise,
+    implicit_share=0.0,
 )

@@ -97,12 +97,18 @@ def posed(bearing: Bearing, elements: Elements, load: Load, options: StaticOptio
     axial, *tilts = load.stiffness
     spring = np.array([axial, 0.0, 0.0, *tilts])
     free = np.array(elements.carries) | (spring > 0.0)
+    refused = "" if axial > 0.0 else bearing.axial_refusal(float(force[0]))
+    if refused:
+        raise InputError(
+            f"load.axial is {describe(force[0], 'N')}, but {refused}; leave it out, or give the "
+            "shaft's load.axial_stiffness.",
+            where="load.axial",
+        )
     for k in range(5):
         if force[k] != 0.0 and not free[k]:
             raise InputError(
                 f"{_PLACES[k]} is {describe(force[k], 'N')}, but a {bearing.kind} bears none of it "
-                "in the static solution (its ribs are not part of it); leave it out, or give the "
-                "shaft's load.axial_stiffness.",
+                "in the static solution; leave it out, or give the shaft's load.axial_stiffness.",
                 where=_PLACES[k],
             )
     tilt, key = _tilt(load, options)

@@ -131,6 +131,8 @@ def _element_note(s: StaticSolution) -> str:
     note = (
         "Q force, p largest pressure, a and b half of the contact across and in rolling direction"
     )
+    if s.elements.axial is not None:
+        note += ", axial force that ribs carry through a roller towards +x"
     if s.speed != 0.0:
         note += ", h least film (isothermal, fully flooded), Fc centrifugal force"
     return note
@@ -143,6 +145,7 @@ def _element_lines(s: StaticSolution) -> list[list[str]]:
     if balls:
         names += ["angle i, deg", "angle o, deg"]
     names += ["p inner, MPa", "p outer, MPa", "a inner, mm", "b inner, mm"]
+    names += ["axial, N"] if e.axial is not None else []
     turning = s.speed != 0.0
     if turning:
         names += ["h inner, um", "h outer, um", "Fc, N"]
@@ -154,6 +157,7 @@ def _element_lines(s: StaticSolution) -> list[list[str]]:
             cells += [_or_dash(degrees(a), ".3f") for a in e.angle[k]]
         cells += [f"{p / 1e6:.5g}" for p in e.pressure[k]]
         cells += [f"{1e3 * e.across[k, 0]:.4g}", f"{1e3 * e.along[k, 0]:.4g}"]
+        cells += [f"{e.axial[k]:.5g}"] if e.axial is not None else []
         if turning:
             cells += [_or_dash(1e6 * h, ".4g") for h in s.film.least[k]]
             cells.append(f"{e.centrifugal[k]:.4g}")
