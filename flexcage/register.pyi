@@ -11,6 +11,7 @@ from flexcage.results.registry import register as variable
 from flexcage.solve.integrators import register_integrator as integrator
 from flexcage.stress.sn_curves import register_sn_curve as sn_curve
 from flexcage.stress.wear_laws import register_wear_law as wear_law
+from flexcage.study.own import register_outputs as outputs
 from flexcage.system.constraints import register_constraint as constraint
 from flexcage.verification.chapter import register_case as known_answer
 
@@ -25,6 +26,7 @@ __all__ = [
     "material",
     "mode_basis",
     "normal_law",
+    "outputs",
     "picture",
     "preset",
     "sn_curve",

@@ -54,7 +54,7 @@ _NOT_PHYSICS = ("name", "description", "preset", "static", "given")
 _ORDER = (
     "name", "description", "preset", "bearing", "cage", "cage_model", "defects", "mesh", "modes",
     "lubricant", "contacts", "drive", "load", "mount", "constraints", "start", "solver", "output",
-    "limits", "seed", "given", "static",
+    "limits", "seed", "given", "inner_ring", "outer_ring", "static",
 )  # fmt: skip
 
 
@@ -200,8 +200,7 @@ class Case(StaticCase):
     @property
     def held_in_words(self) -> str:
         """How the inner ring is held in a run, in words."""
-        axially = self.bearing.carries_axial_load or self.load.axial_stiffness > 0.0
-        return self.load.held_in_words(axially=axially)
+        return self.load.held_in_words(axially=self.load.frees_axially(self.bearing))
 
     @property
     def riveted(self) -> bool:

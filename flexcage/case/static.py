@@ -33,6 +33,7 @@ from flexcage.core.binding import (
 from flexcage.core.errors import InputError
 from flexcage.core.spec import option
 from flexcage.geometry.bearing import Bearing, check_type
+from flexcage.geometry.ring import InnerRing, OuterRing
 from flexcage.system.spec import Drive, Load, Mount
 from flexcage.system.statics.options import StaticOptions
 
@@ -54,6 +55,12 @@ class StaticCase:
     lubricant: Lubricant = option(Lubricant(), doc="the lubricant")
     drive: Drive = option(Drive(speed=0.0), doc="what turns the inner ring")
     load: Load = option(Load(), doc="what loads the inner ring")
+    inner_ring: InnerRing = option(
+        InnerRing(), doc="how the inner ring bends in a static solution", legacy=InnerRing()
+    )
+    outer_ring: OuterRing = option(
+        OuterRing(), doc="how the outer ring bends in a static solution", legacy=OuterRing()
+    )
     mount: Mount = option(Mount(), doc="what holds the outer ring")
     static: StaticOptions = option(StaticOptions(), doc="how a static solution is meant")
 
@@ -138,8 +145,11 @@ class StaticCase:
         return value
 
     def to_table(self) -> dict[str, Any]:
-        """Nested tables of texts with units, complete."""
+        """Nested tables of texts with units, complete but for rings as by default: rigid."""
         table = to_table(self, named=NAMED)
+        for name in ("inner_ring", "outer_ring"):
+            if getattr(self, name) == default_of(StaticCase.__dataclass_fields__[name]):
+                del table[name]
         if not self._in_motion:
             table["mount"] = _body_alone(table["mount"]) if self.mount.body else {}
             table = {name: section for name, section in table.items() if section != {}}
@@ -171,7 +181,9 @@ def _body_alone(mount: Any) -> Any:
 
 def _asked_nothing() -> dict[str, Any]:
     """Sections as by default."""
-    names = ("contacts", "lubricant", "drive", "load", "mount", "static")
+    names = (
+        "contacts", "lubricant", "drive", "load", "inner_ring", "outer_ring", "mount", "static",
+    )  # fmt: skip
     return {name: default_of(StaticCase.__dataclass_fields__[name]) for name in names}
 
 

@@ -68,6 +68,12 @@ def _find_in_unbalance(c: Cage) -> Iterator[Finding]:
             f"cage.unbalance is {describe(c.unbalance, 'g*mm')}, but half of the cage's body of "
             f"revolution makes no more than {describe(c.most_unbalance, 'g*mm')}.",
         )
+    if abs(c.unbalance_offset) > 0.5 * c.axial_width:
+        yield (
+            "cage.unbalance_offset",
+            f"cage.unbalance_offset is {mm(c.unbalance_offset)}, but the cage ends "
+            f"{mm(0.5 * c.axial_width)} from its middle.",
+        )
 
 
 def find_off_pitch_circle(b: Bearing, c: Cage) -> Iterator[Finding]:

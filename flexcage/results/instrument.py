@@ -19,6 +19,7 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 from flexcage.core.errors import InputError
+from flexcage.core.units import mm
 
 if TYPE_CHECKING:
     import xarray
@@ -30,7 +31,10 @@ TIME = "t"  # column of a rig's file that holds times in seconds
 
 @dataclass(frozen=True, kw_only=True)
 class LaserSetup:
-    """Where the sensors are, and how good; lengths in metres, readings from a centred cage's."""
+    """Where the sensors are, and how good; lengths in metres, readings from a centred cage's.
+
+    Raises InputError for sensors that look past the cage.
+    """
 
     radius: float  # of the cage's outside
     half_width: float  # from the cage's centre to the end face that is looked at
@@ -42,6 +46,22 @@ class LaserSetup:
     reach: float = np.inf  # readings beyond +-reach are not a number
     rate: float | None = None  # readings a second, Hz; None: as many as the run has samples
 
+    def __post_init__(self) -> None:
+        if abs(self.plane) > self.half_width:
+            raise InputError(
+                f"The radial sensors look past the cage: their plane is {mm(self.plane)} from its "
+                f"middle, but it ends at {mm(self.half_width)}.",
+                where="plane",
+                value=self.plane,
+            )
+        if self.circle > self.radius:
+            raise InputError(
+                f"The axial sensors look past the cage: they stand on a radius of "
+                f"{mm(self.circle)}, but it ends at {mm(self.radius)}.",
+                where="circle",
+                value=self.circle,
+            )
+
     @property
     def spots(self) -> np.ndarray:
         """Places (3, 2) as (y, z) of the axial sensors."""
@@ -49,12 +69,19 @@ class LaserSetup:
 
 
 def readings(
-    centre: np.ndarray, axis: np.ndarray, setup: LaserSetup, *, seed: int | None = None
+    centre: np.ndarray,
+    axis: np.ndarray,
+    setup: LaserSetup,
+    *,
+    face: np.ndarray | None = None,
+    seed: int | None = None,
 ) -> np.ndarray:
     """Readings (n, 5) [m] in the order of ``CHANNELS`` of a cage at ``centre`` (n, 3) with unit
     ``axis`` (n, 3).
 
-    Lines of sight meet the cylinder and the plane exactly. ``seed`` adds the sensors' noise.
+    Lines of sight meet the cylinder and the plane exactly. ``face`` (n, 3) is the unit normal of
+    the end face, where it is not square to the axis (``run_out``). ``seed`` adds the sensors'
+    noise.
     """
     out = np.empty((len(centre), 5))
     for k, component in enumerate((1, 2)):
@@ -62,9 +89,11 @@ def readings(
         start[0] = setup.plane
         direction = np.eye(3)[component]
         out[:, k] = _cylinder(start, direction, centre, axis, setup.radius) - setup.radius
+    normal = axis if face is None else face
+    end = centre + setup.half_width * axis  # where the axis leaves the end face
     for k, (y, z) in enumerate(setup.spots):
-        across = axis[:, 1] * (y - centre[:, 1]) + axis[:, 2] * (z - centre[:, 2])
-        out[:, 2 + k] = centre[:, 0] + (setup.half_width - across) / axis[:, 0] - setup.half_width
+        across = normal[:, 1] * (y - end[:, 1]) + normal[:, 2] * (z - end[:, 2])
+        out[:, 2 + k] = end[:, 0] - across / normal[:, 0] - setup.half_width
     if seed is not None:
         out = out + setup.repeatability * np.random.default_rng(seed).standard_normal(out.shape)
     if setup.resolution > 0.0:
@@ -146,6 +175,15 @@ def of_run(ds: xarray.Dataset, *, rate: float | None = None) -> tuple[np.ndarray
     taken = sample_times(ds, rate=rate)
     centre, axis = (_at(taken, ds["time"].values, values) for values in (centre, axis))
     return centre, axis / np.linalg.norm(axis, axis=1, keepdims=True)
+
+
+def run_out(ds: xarray.Dataset, *, total: float, circle: float) -> np.ndarray:
+    """Unit normal (n, 3) of an end face that is not square to a run's cage: along a circle of this
+    radius [m] it runs out by ``total`` [m], lowest at pocket 0, and turns with the cage."""
+    slope = 0.5 * total / circle
+    normal = np.array([1.0, slope, 0.0]) / np.hypot(1.0, slope)
+    turn = Rotation.from_quat(ds["cage_quaternion"].values, scalar_first=True)
+    return turn.apply(normal)
 
 
 def sample_times(ds: xarray.Dataset, *, rate: float | None = None) -> np.ndarray:

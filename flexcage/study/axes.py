@@ -165,7 +165,7 @@ class _Sampled(Axis):
     def __post_init__(self) -> None:
         _some(self.ranges, f"of type '{self.type}'")
         for path, ends in self.ranges.items():
-            _range(path, ends)
+            ends_in_si(path, ends)
 
     @property
     def paths(self) -> tuple[str, ...]:
@@ -176,9 +176,9 @@ class _Sampled(Axis):
         return replace(self, ranges=ranges)
 
     def expand(self) -> list[Point]:
-        scales = [_range(path, ends) for path, ends in self.ranges.items()]
+        scales = [ends_in_si(path, ends) for path, ends in self.ranges.items()]
         columns = [
-            [_written(low + share * (high - low), unit) for share in column]
+            [written(low + share * (high - low), unit) for share in column]
             for column, (low, high, unit) in zip(self._unit_cube(len(scales)).T, scales)
         ]
         return [Point(dict(zip(self.ranges, row))) for row in zip(*columns)]
@@ -236,7 +236,7 @@ def _some(values: Any, what: str) -> Any:
     return values if isinstance(values, Mapping) else tuple(values)
 
 
-def _range(path: str, ends: Any) -> tuple[float, float, str]:
+def ends_in_si(path: str, ends: Any) -> tuple[float, float, str]:
     """Lowest and highest value in SI, and the unit of the lowest ("" for plain numbers)."""
     what = f"the range of '{path}'"
     if len(_some(ends, f"'{path}'")) != 2:
@@ -255,6 +255,6 @@ def _range(path: str, ends: Any) -> tuple[float, float, str]:
     return low, high, unit
 
 
-def _written(value: float, unit: str) -> Any:
+def written(value: float, unit: str) -> Any:
     """A sampled value as a case would write it, short enough for a table."""
     return describe(value, unit) if unit else float(f"{value:.{_DIGITS}g}")

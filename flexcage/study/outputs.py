@@ -32,6 +32,7 @@ from flexcage.results.summary import SHOWN, Row, Value, figure
 from flexcage.stress.counting import require_pylife
 from flexcage.stress.sn_curves import sn_curve
 from flexcage.stress.wear_laws import wear_law
+from flexcage.study.own import OWN, own_values
 from flexcage.system.data import POWERS
 from flexcage.system.layout import CONSTRAINTS
 
@@ -41,7 +42,7 @@ if TYPE_CHECKING:
 #: Variables that are never below zero, and reductions that are not, whatever they reduce.
 _SIZES = frozenset(
     """race_force pocket_force pocket_peak pocket_slice_force pocket_point_force
-    rib_force cage_whirl_radius cage_radial_displacement""".split()
+    rib_force counter_rib_force cage_whirl_radius cage_radial_displacement""".split()
 )
 _SIZED_REDUCTIONS = frozenset(
     "range std rms ripple crest frequency line_share mean_frequency".split()
@@ -95,13 +96,14 @@ class Reduction:
         step = float(t[-1] - t[0]) / (len(t) - 1)
         reducer = REDUCTIONS[self.reduce]
         unit = self.variable.unit if reducer.unit is None else reducer.unit
-        half = nan
+        half, turns = nan, 1
         if reducer.record is not None and dim == TIME:
             half = reducer.record(element_passes(part, run.numbers), values).margin
         elif reducer.by_turns:
             turns = round(abs(float(np.ptp(cage_angle(part)))) / (2.0 * pi))
             half = reducer.margin_by_turns(values, step, turns)
-        return Figure(reducer.value(values, step), unit, "", half if isfinite(half) else None)
+        value = reducer.over_turns(values, step, turns)
+        return Figure(value, unit, "", half if isfinite(half) else None)
 
 
 def _figure(key: str, value: float, margin: float | None = None) -> Figure:
@@ -176,14 +178,17 @@ def is_reduction(name: str) -> bool:
 def never_negative(name: str) -> bool:
     """Whether an output is a size, such as a force or a stress: an interval of it ends at zero."""
     match = _REDUCTION.fullmatch(name)
+    if name in OWN:
+        return False
     if match is None:
         return name not in KNOWN or SIGNED not in KNOWN[name].marks
     return match[1] in _SIZES or match[3] in _SIZED_REDUCTIONS
 
 
 def beyond_summary(names: tuple[str, ...]) -> tuple[str, ...]:
-    """Those among the outputs that a summary may not hold: reductions, and ``LATE_FIGURES``."""
-    return tuple(name for name in names if is_reduction(name) or name in LATE_FIGURES)
+    """Those among the outputs that a summary may not hold: reductions, ``LATE_FIGURES``, and those
+    of a user's own file."""
+    return tuple(n for n in names if is_reduction(n) or n in LATE_FIGURES or n in OWN)
 
 
 def needs_stress(names: tuple[str, ...]) -> bool:
@@ -281,9 +286,10 @@ def check_outputs(
                     )
         else:
             _check_figure(name)
-            _check_late(name, materials)
             needs = _needs_flexible(name)
-            _check_family(name, KNOWN.owners(name), family)
+            if name in KNOWN:
+                _check_late(name, materials)
+                _check_family(name, KNOWN.owners(name), family)
         if needs and not flexible:
             raise InputError(
                 f"Output '{name}' needs a flexible cage, but every cage of the study is rigid; "
@@ -331,6 +337,8 @@ def _check_late(name: str, materials: Collection[str]) -> None:
 
 
 def _check_figure(name: str) -> None:
+    if name in OWN:
+        return
     if name in KNOWN and not {TEXT, LATER} & KNOWN[name].marks:
         return
     if name in KNOWN:
@@ -348,7 +356,7 @@ def _check_figure(name: str) -> None:
             where="outputs",
             value=name,
         )
-    hint = did_you_mean(name, (*KNOWN, *VARIABLES, *DERIVED), "")
+    hint = did_you_mean(name, (*KNOWN, *OWN, *VARIABLES, *DERIVED), "")
     if not hint.startswith("the nearest"):
         hint = "'flexcage figures' lists figures, such as 'cage_speed'"
     raise InputError(f"There is no output '{name}'; {hint}.", where="outputs", value=name)
@@ -365,4 +373,5 @@ def late_figures(run: Run, names: tuple[str, ...]) -> dict[str, Figure]:
     found: dict[str, Figure] = {}
     for compute in dict.fromkeys(LATE_FIGURES[name] for name in names if name in LATE_FIGURES):
         found |= compute(run)
+    found |= {name: Figure(*values) for name, values in own_values(run, names).items()}
     return found | {name: parse_reduction(name).of(run) for name in names if is_reduction(name)}

@@ -77,7 +77,7 @@ def load_study(path: str | Path, *, overrides: Mapping[str, Any] | None = None) 
     Loads the extensions that the file names under ``use``. A mistake raises InputError.
     """
     path = Path(path).expanduser()
-    table = _read(path)
+    table = read_file(path)
     _check_format(table.pop("format", FORMAT), path)
     for source in _listed(table.pop("use", []), "use"):
         load_extension(path.parent / source if source.endswith((".py", ".toml")) else source)
@@ -102,7 +102,7 @@ def stored_study(path: Path) -> Study:
 
 def stored_table(path: Path) -> dict[str, Any]:
     """The tables of a folder's study.toml, with its list ``use`` of extensions."""
-    table = _read(path)
+    table = read_file(path)
     _check_format(table.pop("format", FORMAT), path)
     return {**table, "use": list(map(str, _listed(table.get("use", []), "use")))}
 
@@ -207,7 +207,8 @@ def _check_format(found: Any, path: Path) -> None:
         )
 
 
-def _read(path: Path) -> dict[str, Any]:
+def read_file(path: Path) -> dict[str, Any]:
+    """Tables of a study's file; InputError for one that cannot be read."""
     try:
         text = path.read_text("utf-8-sig")
     except UnicodeDecodeError as exc:

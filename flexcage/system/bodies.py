@@ -20,15 +20,15 @@ _SUPPORTS = {"fixed": FIXED, "bushing": BUSHING, "contact": LOOSE}  # by ``mount
 
 
 def unbalanced(body: FlexibleBody, cage) -> FlexibleBody:
-    """The cage's body with the point mass of its unbalance, at its mean radius."""
+    """The cage's body with the point mass of its unbalance, at its mean radius and its offset."""
     return with_point_mass(body, *unbalance_of(cage)) if cage.unbalance else body
 
 
 def unbalance_of(cage) -> tuple[float, np.ndarray]:
     """The point mass [kg] that makes the cage's unbalance, and its place (3,) in the cage [m]."""
     r = cage.mean_radius
-    where = r * np.array([0.0, np.cos(cage.unbalance_phase), np.sin(cage.unbalance_phase)])
-    return cage.unbalance / r, where
+    around = r * np.cos(cage.unbalance_phase), r * np.sin(cage.unbalance_phase)
+    return cage.unbalance / r, np.array([cage.unbalance_offset, *around])
 
 
 def _constant(value: float) -> np.ndarray:

@@ -10,6 +10,7 @@ import numpy as np
 from flexcage.core.body_file import BodyFile
 from flexcage.core.spec import option, quantity
 from flexcage.core.units import describe
+from flexcage.geometry.bearing import Bearing
 
 #: Shapes, and the share of the period that each takes from zero to its amplitude.
 WAVES = {"none": 0.0, "sine": 0.0, "triangle": 0.25, "rectangle": 0.01}
@@ -110,6 +111,21 @@ class Load(Wave):
     gravity: float = quantity("m/s^2", 9.80665, doc="acceleration of gravity", minimum=0.0)
     gravity_direction: float = quantity("deg", 0.0, doc="azimuth of gravity")
     shaft_mass: float = quantity("kg", 0.0, doc="mass that moves with the inner ring", minimum=0.0)
+
+    @property
+    def axial_range(self) -> tuple[float, float]:
+        """Least and largest axial load [N] of a run."""
+        values = [self.axial]
+        if self.varies == "axial":
+            values = list(self.values) or [self.axial]
+            values += [] if self.ramp_to is None else [self.ramp_to]
+        swing = abs(self.wave_amplitude) * (self.wave != "none" and self.wave_of == "axial")
+        return min(values) - swing, max(values) + swing
+
+    def frees_axially(self, bearing: Bearing) -> bool:
+        """Is the inner ring free along the axis in a run: by a spring of the shaft, or by elements
+        that bear the load?"""
+        return self.axial_stiffness > 0.0 or bearing.free_axially(any(self.axial_range))
 
     @property
     def stiffness(self) -> tuple[float, float, float]:

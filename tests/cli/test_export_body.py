@@ -45,7 +45,7 @@ def test_out_and_in_again(tmp_path, capsys, monkeypatch):
     )
     case = load_case(tmp_path / "case.toml")
     assert case.modes.body == str(tmp_path / "cage.npz")
-    assert f"its stiffness and modes those of {tmp_path / 'cage.npz'}" in in_words(case)
+    assert f"its stiffness and modes those of {tmp_path / 'cage.npz'}" in " ".join(in_words(case))
     with pytest.raises(InputError, match="modes are those of modes.body, so axis 'modes' does not"):
         levels(case, ["modes"])
     named = case.hash

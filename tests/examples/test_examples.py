@@ -1,10 +1,13 @@
 """The examples run, on a coarse mesh and for a short time, and their numbers hold."""
 
 import importlib.util
+from math import pi
 from pathlib import Path
 
 import numpy as np
 import pytest
+
+from flexcage import load_case, simulate
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 SHORT = {"solver.duration": "6 ms", "mesh.fineness": "coarse"}
@@ -51,6 +54,13 @@ def test_static(capsys):
     still, fast = example("ex05_static").main(0.0, 10000.0)
     assert abs(still) < 1e-9 and fast == pytest.approx(19.8114 - 10.6191, abs=1e-3)
     assert "N/um axially" in capsys.readouterr().out
+
+
+def test_nu210():
+    """Its cage goes round at the epicyclic speed, and the outer ring's ribs guide it."""
+    run = simulate(load_case(EXAMPLES / "nu210.toml").replace(SHORT))
+    assert run.summary["cage_speed"] * 30 / pi == pytest.approx(3000 * (1 - 11 / 70.5), rel=0.03)
+    assert run.case.land.clearance == pytest.approx(0.25e-3)
 
 
 def test_ball_bearing():

@@ -19,10 +19,11 @@ from flexcage.results.instrument import (
     measured,
     of_run,
     readings,
+    run_out,
     sample_times,
 )
 
-SETUP = LaserSetup(radius=33e-3, half_width=10e-3, plane=15e-3, circle=31e-3)
+SETUP = LaserSetup(radius=33e-3, half_width=16e-3, plane=15e-3, circle=31e-3)
 
 
 def tilted(about_z, about_y=0.0):
@@ -60,13 +61,35 @@ def test_the_inversion_gives_any_cage_back():
 
 def test_noise_resolution_and_reach():
     centre, axis = np.zeros((4000, 3)), np.tile([1.0, 0.0, 0.0], (4000, 1))
-    noisy = LaserSetup(radius=33e-3, half_width=10e-3, plane=15e-3, circle=31e-3,
+    noisy = LaserSetup(radius=33e-3, half_width=16e-3, plane=15e-3, circle=31e-3,
                        repeatability=0.02e-6, resolution=0.01e-6, reach=3e-3)  # fmt: skip
     out = readings(centre, axis, noisy, seed=1)
     assert out.std() == pytest.approx(0.02e-6, rel=0.05)
     np.testing.assert_allclose(out / 0.01e-6, np.round(out / 0.01e-6), atol=1e-6)
     centre[:, 1] = 4e-3
     assert np.isnan(readings(centre, axis, noisy)[:, 0]).all()
+
+
+def test_sensors_that_look_past_the_cage_are_refused():
+    with pytest.raises(InputError, match="look past the cage: their plane is 15 mm.*ends at 10 mm"):
+        LaserSetup(radius=33e-3, half_width=10e-3, plane=15e-3, circle=31e-3)
+    with pytest.raises(InputError, match="stand on a radius of 34 mm.*ends at 33 mm"):
+        LaserSetup(radius=33e-3, half_width=16e-3, plane=15e-3, circle=34e-3)
+
+
+def test_a_face_that_runs_out_turns_with_the_cage():
+    """A cage that only turns, at 10 Hz: each axial reading is a sine of half of the run-out."""
+    t = np.arange(1000) / 1e4
+    half = 10.0 * np.pi * t
+    zero = np.zeros_like(t)
+    turned = np.column_stack([np.cos(half), np.sin(half), zero, zero])
+    ds = xr.Dataset({"cage_quaternion": (("time", "quaternion"), turned)})
+    face = run_out(ds, total=20e-6, circle=31e-3)
+    centre, axis = np.zeros((1000, 3)), np.tile([1.0, 0.0, 0.0], (1000, 1))
+    out = readings(centre, axis, SETUP, face=face)
+    angle = 20.0 * np.pi * t[:, None] - np.array(SETUP.angles)
+    np.testing.assert_allclose(out[:, 2:], -10e-6 * np.cos(angle), atol=1e-12)
+    assert np.abs(out[:, :2]).max() < 1e-15
 
 
 def test_readings_of_a_rig(tmp_path):
@@ -126,7 +149,7 @@ def test_a_run_at_the_lasers_rate():
     circle = 1e-4 * np.column_stack([0.0 * t, np.cos(phase), np.sin(phase)])
     np.testing.assert_allclose(centre, circle, atol=1e-4 * (np.pi * 10 / 1e5) ** 2)
     np.testing.assert_allclose(np.linalg.norm(axis, axis=1), 1.0, atol=1e-14)
-    slow = LaserSetup(radius=33e-3, half_width=10e-3, plane=15e-3, circle=31e-3, rate=7e3)
+    slow = LaserSetup(radius=33e-3, half_width=16e-3, plane=15e-3, circle=31e-3, rate=7e3)
     np.testing.assert_allclose(invert(measured(ds, slow), slow)[0], centre, atol=1e-10)
     assert len(measured(ds, SETUP)) == 10_001
     with pytest.raises(InputError, match="5 Hz.*fewer than two samples"):

@@ -14,6 +14,7 @@ import numpy as np
 from flexcage._version import __version__
 from flexcage.geometry.film import Film
 from flexcage.system.statics.elements import ElementLoads
+from flexcage.system.statics.rings import BentRing
 from flexcage.system.statics.table import html_of, table_of
 
 FORMAT = 1
@@ -57,6 +58,7 @@ class StaticSolution:
     warnings: tuple[str, ...]
     unbalanced: float  # largest force left over, as a share of the load
     held: str = ""  # how the inner ring is held, in words
+    rings: tuple[BentRing, ...] = ()  # that bend
     outer: np.ndarray = field(default_factory=lambda: np.zeros(5))
 
     @property
@@ -99,7 +101,10 @@ class StaticSolution:
 
     def to_dict(self) -> dict[str, Any]:
         """Plain values; what is not a number or infinite is None."""
-        fields = {f.name: _plain(getattr(self, f.name)) for f in dataclasses.fields(self)}
+        names = [f.name for f in dataclasses.fields(self) if f.name != "rings"]
+        fields = {name: _plain(getattr(self, name)) for name in names}
+        if self.rings:
+            fields["rings"] = {ring.side: _plain(ring.figures()) for ring in self.rings}
         return {"format": FORMAT, "flexcage": __version__, **fields}
 
     def to_json(self, path: str | Path | None = None) -> str:
@@ -112,7 +117,10 @@ class StaticSolution:
 
 def _plain(value: Any) -> Any:
     if dataclasses.is_dataclass(value) and not isinstance(value, type):
-        return {f.name: _plain(getattr(value, f.name)) for f in dataclasses.fields(value)}
+        found = {f.name: getattr(value, f.name) for f in dataclasses.fields(value)}
+        return {name: _plain(own) for name, own in found.items() if own is not None}
+    if isinstance(value, dict):
+        return {key: _plain(item) for key, item in value.items()}
     if isinstance(value, np.ndarray):
         return [_plain(item) for item in value]
     if isinstance(value, (tuple, list)):

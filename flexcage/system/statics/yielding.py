@@ -23,8 +23,8 @@ _CLOSE = 1e-9  # of the seat's displacement, that a step may leave
 _ITERATIONS = 30
 
 
-def balance_on_seat(problem: Problem, compliance: np.ndarray) -> tuple[Posture, np.ndarray]:
-    """Posture of the ring relative to the outer one, and displacement (5,) of that.
+def balance_on_seat(problem: Problem, compliance: np.ndarray) -> Posture:
+    """Posture of the inner ring relative to the outer one, which moves with its seat.
 
     Raises as ``balance``, and RunFailed if the seat's displacement is not found.
     """
@@ -35,7 +35,7 @@ def balance_on_seat(problem: Problem, compliance: np.ndarray) -> tuple[Posture, 
         step = np.linalg.solve(np.eye(5) - compliance @ _slope(problem, posture), gap)
         outer = outer + step
         if np.abs(step * problem.lever).max() <= _CLOSE * np.abs(outer * problem.lever).max():
-            return balance(replace(problem, held=problem.held - outer)), outer
+            return replace(balance(replace(problem, held=problem.held - outer)), outer=outer)
     raise RunFailed(
         f"no equilibrium was found on the seat of mount.body: after {_ITERATIONS} steps its "
         f"displacement still changes by {np.abs(step[:3]).max():.1e} m; is the housing far softer "

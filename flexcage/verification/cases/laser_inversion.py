@@ -11,7 +11,7 @@ import numpy as np
 from flexcage.results.instrument import LaserSetup, by_tilt_angles, invert, readings
 from flexcage.verification.known_answer import KnownAnswer, Row, Tolerance
 
-SETUP = LaserSetup(radius=33e-3, half_width=10e-3, plane=15e-3, circle=31e-3)
+SETUP = LaserSetup(radius=33e-3, half_width=16e-3, plane=15e-3, circle=31e-3)
 SENSOR = replace(SETUP, repeatability=0.02e-6, resolution=0.01e-6)  # of a laser, assumed
 CAGES = 1000
 

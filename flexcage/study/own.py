@@ -1,0 +1,75 @@
+"""Outputs of a study that a user's own file adds: numbers of a run that no summary holds.
+
+Workers compute them at the end of a run, so that a study that keeps figures only has them as well.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from math import isfinite
+from typing import TYPE_CHECKING
+
+from flexcage.core.errors import InputError
+from flexcage.core.registry import add, check_free
+from flexcage.results.known import KNOWN
+from flexcage.results.summary import SHOWN
+
+if TYPE_CHECKING:
+    from flexcage.run import Run
+
+    Compute = Callable[[Run], Mapping[str, float]]
+
+WHAT = "study output"
+
+
+@dataclass(frozen=True)
+class OwnOutput:
+    """One number: the unit that it is shown in, and the function that gives it among others."""
+
+    name: str
+    shown: str
+    compute: Compute
+
+
+OWN: dict[str, OwnOutput] = {}
+
+
+def register_outputs(compute: Compute, units: Mapping[str, str]) -> None:
+    """Add outputs that studies may ask for: ``units`` has their names, each with the unit in which
+    it is shown ("" for none).
+
+    ``compute(run)`` returns their values in SI by name; one that a run does not have is NaN. It is
+    called once a run, whichever of them are asked for. A figure that is stored is not computed
+    again when the file behind ``compute`` changes: give a changed one another name.
+
+    Raises InputError for a name that is taken, or a unit that no figure is shown in.
+    """
+    for name, shown in units.items():
+        check_free(KNOWN, name, what=WHAT)
+        if shown not in SHOWN:
+            raise InputError(
+                f"The {WHAT} '{name}' is shown in '{shown}', but should be in one of "
+                f'{", ".join(filter(None, SHOWN))}, or "" for none.',
+                where=name,
+                value=shown,
+            )
+        add(OWN, name, OwnOutput(name, shown, compute), what=WHAT)
+
+
+def own_values(run: Run, names: tuple[str, ...]) -> dict[str, tuple[float, str, str]]:
+    """Value, SI unit and shown unit of those among ``names`` that a user's file has added, and of
+    what is computed together with them."""
+    found: dict[str, tuple[float, str, str]] = {}
+    for compute in dict.fromkeys(OWN[name].compute for name in names if name in OWN):
+        values = compute(run)
+        for output in (o for o in OWN.values() if o.compute is compute):
+            if output.name not in values:
+                raise InputError(
+                    f"The function behind the {WHAT} '{output.name}' gave no such value.",
+                    where=output.name,
+                )
+            value = float(values[output.name])
+            known = value if isfinite(value) else float("nan")
+            found[output.name] = (known, SHOWN[output.shown][0], output.shown)
+    return found
