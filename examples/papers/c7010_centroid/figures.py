@@ -33,6 +33,12 @@ def tracks(run):
     return centre, axis, shown, instrument.by_tilt_angles(shown, setup), ds["time"].values
 
 
+def whole_record(reading, speed: str) -> float:
+    """Difference of whirl radii [m] of the first start from its very beginning, centred, on."""
+    centre, _ = instrument.of_run(reading.run(speed).dataset)
+    return float(np.ptp(np.hypot(centre[:, 1], centre[:, 2])))
+
+
 def draw(computed, folder: Path) -> list[Picture]:
     """All pictures, in the paper's order."""
     better, printed = (computed.readings[c] for c in (BETTER, PRINTED_MODEL))
