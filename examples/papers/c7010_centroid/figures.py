@@ -170,7 +170,7 @@ def _bands(ax, computed, output: str, factor: float = 1.0) -> None:
 def ratios(computed, path: Path) -> Path:
     """Figure 11."""
     with sheet.style():
-        figure = sheet.new_figure(1300, 620)
+        figure = sheet.new_figure(1480, 620)
         sheet.heading(figure, "Whirl ratio over speed", "(largest - least)/mean whirl radius")
         ax = sheet.axes_at(figure, (100, 130, 850, 400))
         _bands(ax, computed, "ratio")
@@ -182,7 +182,7 @@ def ratios(computed, path: Path) -> Path:
 def differences(computed, path: Path) -> Path:
     """Differences over speed, with the printed numbers of Tables 4 and 5."""
     with sheet.style():
-        figure = sheet.new_figure(1300, 620)
+        figure = sheet.new_figure(1480, 620)
         sheet.heading(figure, "Difference of whirl radii of the centre", "largest - least, mm")
         ax = sheet.axes_at(figure, (100, 130, 850, 400))
         _bands(ax, computed, "difference", MM)

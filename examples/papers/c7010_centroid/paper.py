@@ -79,7 +79,7 @@ def words(computed: Computed) -> Words:
         and simulates it in ADAMS. It says that the whirl grows and steadies up to 10,000 rpm, that
         tilt adds 3 to 5 % to measured radii, and that the cage's speed follows kinematics within
         1 %. Of its {len(marks)} claims {counts["holds"]} hold over most of what it leaves unknown,
-        {counts["does not hold"]} do not, {counts["undecided"]} stay open. That the whirl grows into
+        {counts["does not hold"]} do not; open: {counts["undecided"]}. That the whirl grows into
         a circle holds in {growth.share} of the plausible range; any other claim on the test in
         {best} at most. How sure: {growth.share.decided} points of
         {len(c.maps[TEST].names) - 1} unknowns, one start each at four speeds, and two readings of
