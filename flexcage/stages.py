@@ -147,7 +147,12 @@ def keep_at_hand(cage: CageReduction | None) -> None:
 
 def cage_modes(specs: CageSpecs) -> ModeTable:
     """Mode table of a cage, taken as flexible."""
-    return _reduced(specs, cage_mesh(specs)).table
+    return flexible_cage(specs).table
+
+
+def flexible_cage(specs: CageSpecs) -> CageReduction:
+    """The reduction of a cage, taken as flexible."""
+    return _reduced(specs, cage_mesh(specs))
 
 
 def bearing_in_motion(specs: MotionSpecs, mesh: CageMesh, cage: CageReduction | None) -> Bearing:

@@ -9,7 +9,10 @@ from flexcage.bearings.family import (
     in_motion,
     motion_of,
     recording_of,
+    sections_of,
     statics_of,
 )
 
-__all__ = ["Family", "family_of", "in_motion", "motion_of", "recording_of", "statics_of"]
+__all__ = [
+    "Family", "family_of", "in_motion", "motion_of", "recording_of", "sections_of", "statics_of",
+]  # fmt: skip

@@ -13,6 +13,7 @@ from flexcage.geometry.bearing import BEARING_TYPES, Bearing, name_of
 
 if TYPE_CHECKING:
     from flexcage.geometry.inside import Inside
+    from flexcage.geometry.ring import SectionsOf
     from flexcage.integrate.recording import Recording
     from flexcage.render.shapes import ShapesOf
     from flexcage.results.figures import OwnFigures
@@ -32,7 +33,7 @@ class Family:
     instead. All else is heavy: functions without arguments that import what they return. None
     where a family has nothing of the kind: no static solution (``statics``), or neither equations
     of motion (``motion``) nor a record of them (``recording``), no pictures (``shapes``), no rule
-    by which ``flexcage new`` infers insides (``inside``).
+    by which ``flexcage new`` infers insides (``inside``), no rings that bend (``rings``).
     """
 
     name: str
@@ -46,6 +47,7 @@ class Family:
     rubbing: Callable[[], Rub] | None  # of its elements in their pockets, for wear
     shapes: Callable[[], ShapesOf] | None  # profiles of rings and elements, for pictures
     inside: Callable[[], Inside] | None  # inferred from a catalogue's ratings
+    rings: Callable[[], SectionsOf] | None = None  # sections of rings that bend
     other_designs: Mapping[str, str] = field(default_factory=dict)
 
     @property
@@ -83,6 +85,12 @@ def statics_of(bearing: Bearing) -> ElementsOf:
     if statics is None:
         raise _lacking(bearing, "static solution")
     return statics()
+
+
+def sections_of(bearing: Bearing) -> SectionsOf | None:
+    """What makes the sections of a bearing's rings; None of a family whose rings do not bend."""
+    rings = family_of(bearing).rings
+    return None if rings is None else rings()
 
 
 def motion_of(bearing: Bearing) -> Motion[Any]:

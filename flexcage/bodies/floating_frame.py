@@ -30,9 +30,9 @@ from typing import NamedTuple
 import numpy as np
 from scipy import sparse
 
-from flexcage.core.errors import InputError
 from flexcage.core.jit import VECTORISED, copy_into, kernel, part, zero
 from flexcage.core.vectors import RIGID, TURN, combine, cross, minus, plus, times, xyz
+from flexcage.fem.mass import scalar_mass
 
 XX, YY, ZZ, YZ, ZX, XY = range(6)  # rows of a symmetric part
 
@@ -81,26 +81,6 @@ class FlexibleBody:
     def inertia(self) -> np.ndarray:
         """Inertia tensor of the undeformed body about the frame's origin [kg m^2] (3, 3)."""
         return np.trace(self.data.G0) * np.eye(3) - self.data.G0
-
-
-def scalar_mass(mass: sparse.spmatrix, n_nodes: int) -> sparse.csr_matrix:
-    """The (N, N) matrix m of a consistent mass M = m (x) 1_3 given as (N, N) or (3N, 3N)."""
-    mass = sparse.csr_matrix(mass)
-    if mass.shape[0] == n_nodes:
-        return mass
-    blocks = [[mass[i::3, j::3] for j in range(3)] for i in range(3)]
-    scale = abs(mass).max()
-    for i in range(3):
-        for j in range(3):
-            rest = blocks[i][j] if i != j else blocks[i][i] - blocks[0][0]
-            if abs(rest).max() > 1e-9 * scale:
-                raise InputError(
-                    "the mass matrix is not a consistent mass of the same value in x, y and z, "
-                    "so its invariants cannot be formed; give the (N, N) scalar mass matrix",
-                    where="mass",
-                    value=mass.shape,
-                )
-    return blocks[0][0]
 
 
 def flexible_body(

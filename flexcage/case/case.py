@@ -14,13 +14,13 @@ from pathlib import Path
 from typing import Any
 
 from flexcage.case.checks import check_case, refuse_without_motion
+from flexcage.case.files import absolute, bytes_of, file_paths, with_files
 from flexcage.case.presets import NAMED, load_preset
 from flexcage.case.read import read_case
 from flexcage.case.static import StaticCase
 from flexcage.case.tables import (
     ALIASES,
     as_table,
-    expanded,
     with_preset,
     without_aliases,
     words_of_text,
@@ -44,7 +44,7 @@ from flexcage.mesh.options import MeshOptions
 from flexcage.modes.spec import ModesSpec
 from flexcage.results.options import OutputOptions
 from flexcage.solve.options import SolverOptions
-from flexcage.system.spec import Constraint, Drive, Limits, Mount, StartOptions
+from flexcage.system.spec import Constraint, Drive, Limits, StartOptions
 from flexcage.system.statics.options import StaticOptions
 
 CAGE_MODELS = ("flexible", "rigid")
@@ -54,7 +54,7 @@ _NOT_PHYSICS = ("name", "description", "preset", "static", "given")
 _ORDER = (
     "name", "description", "preset", "bearing", "cage", "cage_model", "defects", "mesh", "modes",
     "lubricant", "contacts", "drive", "load", "mount", "constraints", "start", "solver", "output",
-    "limits", "seed", "given", "static",
+    "limits", "seed", "given", "inner_ring", "outer_ring", "static",
 )  # fmt: skip
 
 
@@ -72,7 +72,6 @@ class Case(StaticCase):
     mesh: MeshOptions = option(MeshOptions(), doc="the cage's mesh")
     modes: ModesSpec = option(ModesSpec(), doc="the cage's modes")
     drive: Drive = option(Drive(), doc="what turns the inner ring")
-    mount: Mount = option(Mount(), doc="what holds the outer ring")
     constraints: tuple[Constraint, ...] = option(
         (), doc="what holds or moves rings and cage besides, any number", legacy=()
     )
@@ -85,6 +84,8 @@ class Case(StaticCase):
         default=None, compare=False,
         metadata={"doc": "paths of values that the user gave; a preset's and defaults are not"},
     )  # fmt: skip
+
+    _in_motion = True
 
     def check(self) -> None:
         """Raise InputError for the first thing in the case that cannot be."""
@@ -107,7 +108,7 @@ class Case(StaticCase):
         merged = with_preset(without_aliases(table))
         merged.setdefault("given", sorted(path for path, _ in flat(without_aliases(table))))
         refuse_without_motion(merged.get("bearing"))
-        merged = _with_mesh_file(merged, folder or Path.cwd())
+        merged = with_files(merged, folder or Path.cwd(), file_paths(Case))
         binder = Binder(named=NAMED, si=si)
         with words_of_text():
             return binder.bind(cls, _with_cage(merged, binder), "")
@@ -123,8 +124,8 @@ class Case(StaticCase):
         if where == "cage" and isinstance(value, Mapping):
             with words_of_text():
                 return binder.bind(type(self.cage), value, "cage", base=self.cage)
-        if where == "mesh.file" and isinstance(value, (str, Path)):
-            return _absolute(value, Path.cwd())
+        if where in file_paths(Case) and isinstance(value, (str, Path)):
+            return absolute(value, Path.cwd(), where)
         return value
 
     def to_table(self) -> dict[str, Any]:
@@ -141,9 +142,9 @@ class Case(StaticCase):
     def hash(self) -> str:
         """16 digits that name the case's physics and outputs; names and words do not count.
 
-        A mesh file of the user's own counts by its bytes, wherever it lies; a law or basis of
-        the user's own by the file that defines it. Attachments count where there are any: not with
-        a rigid cage or round pockets.
+        Mesh and bodies of the user's own count by their bytes, wherever they lie; a law or basis
+        of the user's own by the file that defines it. Attachments count where there are any: not
+        with a rigid cage or round pockets.
         """
         fields = [f for f in dataclasses.fields(self) if counts(self, f)]
         physics = {f.name: getattr(self, f.name) for f in fields if f.name not in _NOT_PHYSICS}
@@ -151,13 +152,19 @@ class Case(StaticCase):
         physics["modes"] = modes = self.modes.damped_as(self.cage.material)
         if self.cage_model == "rigid" or not self.cage.has_faces:
             physics["modes"] = dataclasses.replace(modes, attachments="linear")
-        file = Path(self.mesh.file)
-        content = b""
-        if self.mesh.file and file.is_file():
-            content = file.read_bytes()
-            physics["mesh"] = dataclasses.replace(self.mesh, file="")
+        contents = {path: bytes_of(value) for path, value in self.files.items()}
+        for path in filter(contents.get, contents):
+            room, _, name = path.partition(".")
+            physics[room] = dataclasses.replace(physics[room], **{name: ""})
+        mesh = contents.pop("mesh.file", b"")
         outside = sorted(filter(None, {source_of(name) for name in chosen_names(self)}))
-        return content_hash(physics, content, *outside)
+        return content_hash(physics, mesh, *outside, *contents.items())
+
+    @property
+    def files(self) -> dict[str, str]:
+        """Files that the case names, by path; none of those of a flexible cage if it is rigid."""
+        named = {path: _at(self, path) for path in file_paths(Case) if _at(self, path)}
+        return {path: file for path, file in named.items() if self._reads(path)}
 
     def difference(self, other: Case) -> dict[str, tuple[Any, Any]]:
         """Values of this case and of another that differ and count, by dotted path; None where
@@ -193,8 +200,7 @@ class Case(StaticCase):
     @property
     def held_in_words(self) -> str:
         """How the inner ring is held in a run, in words."""
-        axially = self.bearing.carries_axial_load or self.load.axial_stiffness > 0.0
-        return self.load.held_in_words(axially=axially)
+        return self.load.held_in_words(axially=self.load.frees_axially(self.bearing))
 
     @property
     def riveted(self) -> bool:
@@ -276,20 +282,6 @@ def _given_by(pairs: Mapping[str, Any]) -> Iterator[str]:
         elif dataclasses.is_dataclass(value):
             yield from (inner for inner, _ in flat(as_table(value), path))
         yield path
-
-
-def _with_mesh_file(table: dict[str, Any], folder: Path) -> dict[str, Any]:
-    """The mesh file's path, made absolute: it was written relative to the case's own folder."""
-    mesh = table.get("mesh")
-    file = mesh.get("file") if isinstance(mesh, Mapping) else None
-    if not isinstance(file, str) or not file:
-        return table
-    return {**table, "mesh": {**mesh, "file": _absolute(file, folder)}}  # type: ignore[dict-item]
-
-
-def _absolute(file: str | Path, folder: Path) -> str:
-    """Absolute path of a file, so that a run's own case.toml finds it from its folder."""
-    return str(folder / expanded(file, where="mesh.file")) if str(file) else ""
 
 
 def _at(spec: Any, path: str) -> Any:

@@ -47,7 +47,7 @@ def find(text: str) -> Entry:
     name = re.sub(r"[\s_-]", "", text.upper())
     if name in _ratings():
         return _entry(name)
-    if told := told_elsewhere(name, OTHER_DESIGNS):
+    if not _parsed(name) and (told := told_elsewhere(name, OTHER_DESIGNS)):
         raise InputError(f"'{text}': {told}{_same_rollers(name)}.", where="designation", value=text)
     raise _without_ratings(text, name) or InputError(
         f"'{text}' is not in the catalogue; {_nearest(name)}, and any other bearing is described "
@@ -102,12 +102,13 @@ def _without_ratings(text: str, name: str) -> InputError | None:
     if "--contact-angle" in wanted and suffix in _suffixes():
         wanted.remove("--contact-angle")
         angle = f' --contact-angle "{_suffixes()[suffix]} deg"'
+    design = f" --design {series['design']}" if series["design"] else ""
     others = [n for n in _ratings() if re.fullmatch(rf"{series['series']}{code}\D*", n)]
     has = f" (it has {', '.join(others)})" if others else ""
     return InputError(
         f"The catalogue has no ratings of '{text}'{has}; complete, with "
         f"{', '.join(['--dynamic', '--static', *wanted])}: flexcage new {name} --type "
-        f'{series["type"]} --bore "{bore}" --outside "{outside}" --width "{width}"{angle}.',
+        f'{series["type"]}{design} --bore "{bore}" --outside "{outside}" --width "{width}"{angle}.',
         where="designation",
         value=text,
     )
@@ -128,6 +129,9 @@ def _entry(name: str) -> Entry:
             contact_angle=_optional(row["contact_angle_deg"], "deg"),
             inner_race_diameter=_optional(row["inner_race_mm"], "mm"),
             outer_race_diameter=_optional(row["outer_race_mm"], "mm"),
+            design=series["design"] or None,
+            inner_rib_diameter=_optional(row["inner_rib_mm"], "mm"),
+            outer_rib_diameter=_optional(row["outer_rib_mm"], "mm"),
         ),
         source=_sources()[row["source"]],
     )  # fmt: skip
@@ -149,7 +153,8 @@ def _ratings() -> dict[str, dict[str, str]]:
 
 @cache
 def _series() -> dict[str, dict[str, str]]:
-    """Type of bearing and diameter series of ISO 15 by series, and other designs of the same."""
+    """Type and design of bearing and diameter series of ISO 15 by series, and series of other
+    designs that have its rolling elements and races."""
     return {row["series"]: row for row in _rows("series")}
 
 

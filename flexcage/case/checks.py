@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 from flexcage.bearings import in_motion
 from flexcage.cages import cage_type_of
+from flexcage.case.ring_checks import find_bending_in_run, find_in_rings
 from flexcage.core.binding import chosen_spec, default_of, join
 from flexcage.core.errors import InputError
 from flexcage.core.units import describe
@@ -43,13 +44,16 @@ def check_case(case: Case) -> None:
         case,
         (
             *_OF_EVERY_CASE,
+            _find_in_axial_load,
             _find_in_held_motions,
             _find_in_mesh,
+            _find_in_mount,
             _find_in_waves,
             _find_in_solver,
             _find_in_output,
             _find_in_laws,
             _find_in_land,
+            find_bending_in_run,
         ),
     )
 
@@ -219,7 +223,26 @@ def _find_in_held_motions(case: Case) -> Iterator[Finding]:
 
 def _bears_axially(case: Case) -> bool:
     """Is the inner ring free along the axis in a run, with something that brings it back?"""
-    return case.bearing.carries_axial_load or case.load.axial_stiffness > 0.0
+    return case.load.frees_axially(case.bearing)
+
+
+def _find_in_axial_load(case: Case) -> Iterator[Finding]:
+    """Axial loads that neither the bearing nor its shaft carries."""
+    load, where = case.load, "load.axial"
+    if load.axial_stiffness > 0.0:
+        return
+    if load.varies == "axial" and (load.times or load.ramp_to is not None):
+        where = "load.values" if load.times else "load.ramp_to"
+    if load.wave_of == "axial" and load.wave != "none":
+        where = "load.wave_amplitude"
+    for force in load.axial_range:
+        if refused := case.bearing.axial_refusal(force):
+            says = "is" if where == "load.axial" else "makes the axial load"
+            yield (
+                where,
+                f"{where} {says} {describe(force, 'N')}, but {refused}; leave it out, or give the "
+                "shaft's load.axial_stiffness.",
+            )
 
 
 def _find_in_shaft(case: Case) -> Iterator[Finding]:
@@ -227,7 +250,8 @@ def _find_in_shaft(case: Case) -> Iterator[Finding]:
     load = case.load
     later = (load.ramp_to or 0.0, *load.values) if load.varies == "axial" else ()
     largest, most = max(map(abs, (load.axial, *later))), case.bearing.greatest_shift
-    if load.axial_stiffness > 0.0 and largest > load.axial_stiffness * most:
+    borne = not any(map(case.bearing.axial_refusal, load.axial_range))
+    if load.axial_stiffness > 0.0 and largest > load.axial_stiffness * most and not borne:
         yield (
             "load.axial_stiffness",
             f"load.axial_stiffness is {describe(load.axial_stiffness, 'N/um')}, which lets "
@@ -268,7 +292,7 @@ def _find_in_held_centre(case: Case) -> Iterator[Finding]:
     load, method = case.load, case.solver.method
     if load.centre == "free":
         return
-    if method != "explicit" and not (method == "auto" and case.bearing.explicit_only):
+    if method not in ("explicit", "auto"):
         yield (
             "load.centre",
             f"load.centre is 'held', which needs solver.method = \"explicit\", not {method!r}.",
@@ -285,8 +309,9 @@ def _find_in_held_centre(case: Case) -> Iterator[Finding]:
 
 def _find_in_mesh(case: Case) -> Iterator[Finding]:
     mesh, cage = case.mesh, case.cage
+    for where, file in case.files.items():
+        yield from _find_in_path(file, where)
     if mesh.file:
-        yield from _find_in_path(mesh.file)
         return
     volume = 0.25 * pi * (cage.outside_diameter**2 - cage.bore**2) * cage.width
     arc = 2.0 * pi * case.bearing.element_count * cage.fillet  # four quarters a pocket
@@ -311,15 +336,25 @@ def _find_in_mesh(case: Case) -> Iterator[Finding]:
         )
 
 
-def _find_in_path(file: str) -> Iterator[Finding]:
-    """A mesh file whose name none can have; one that is not there is told of when it is read."""
+def _find_in_mount(case: Case) -> Iterator[Finding]:
+    if case.mount.body:
+        yield (
+            "mount.body",
+            "mount.body is given, but in a run the outer ring moves in y and z alone, without the "
+            "modes of a housing; take 'flexcage static', or leave it out and give mount.kind = "
+            '"bushing" with mount.stiffness and mount.mass.',
+        )
+
+
+def _find_in_path(file: str, where: str) -> Iterator[Finding]:
+    """A file whose name none can have; one that is not there is told of when it is read."""
     try:
         Path(file).stat()
     except (FileNotFoundError, NotADirectoryError):
         return
     except OSError as exc:
         reason = (exc.strerror or str(exc)).lower()
-        yield "mesh.file", f"mesh.file is '{file}', which cannot be looked up ({reason})."
+        yield where, f"{where} is '{file}', which cannot be looked up ({reason})."
 
 
 def _find_in_tables(case: Case) -> Iterator[Finding]:
@@ -413,12 +448,6 @@ def _find_in_waves(case: Case) -> Iterator[Finding]:
 
 def _find_in_solver(case: Case) -> Iterator[Finding]:
     solver = case.solver
-    if solver.method == "bdf" and case.bearing.explicit_only:
-        yield (
-            "solver.method",
-            f"solver.method is 'bdf', but a bearing's {case.bearing.element}s have no tangent yet, "
-            "which implicit methods want; take 'auto' or 'explicit'.",
-        )
     if solver.min_step > solver.max_step:
         yield (
             "solver.min_step",
@@ -581,4 +610,5 @@ _OF_EVERY_CASE = (
     _find_in_load,
     _find_in_tilt,
     _find_in_speed,
+    find_in_rings,
 )

@@ -49,6 +49,7 @@ kind does as well. A preset gives values of its own, which count before these de
 """
 _KINDS = {float: "number", int: "whole number", bool: "true, false", str: "text", Path: "path"}
 _HIDDEN = ("given",)  # not for files
+_STATIC = ("inner_ring", "outer_ring", "static")  # which no run reads
 
 
 @dataclass(frozen=True)
@@ -129,7 +130,7 @@ def _section(field: dataclasses.Field) -> Iterator[Group]:
     elif _is_list(Case, field):
         yield from _listed(name, specs[0])
     else:
-        readers = ", read by `flexcage static` alone" if name == "static" else ""
+        readers = ", read by `flexcage static` alone" if name in _STATIC else ""
         yield from _of_spec(name, name, f"[{name}]{readers}", specs[0], default)
 
 
@@ -277,6 +278,8 @@ def _inline(cls: type, value: Any) -> str:
     """A law or a material in a few characters: its name, and what differs from the name's own."""
     if value is MISSING:
         return REQUIRED
+    if value is None:
+        return ""
     named = NAMED.get(cls, {})
     if getattr(value, "name", None) in named:
         return value.name

@@ -29,12 +29,14 @@ _FURTHER = (
 
 def add_commands(commands: Any) -> None:
     """Add this module's command to the parser."""
-    text = "write a case for a designation (6205, N 210, 7208B), or for dimensions and ratings"
+    text = "write a case for a designation (6205, NU 210, 7208B), or for dimensions and ratings"
     new = command(commands, "new", new_command, text)
     new.add_argument("designation", nargs="*", metavar="DESIGNATION", help="such as 6205")
     new.add_argument("--type", metavar="TYPE", help="type of bearing, as deep_groove_ball")
+    new.add_argument("--design", metavar="DESIGN", help="of a cylindrical roller bearing, as NU")
     for option, key, _, what in (*_DIMENSIONS, *_FURTHER):
         new.add_argument(option, dest=key, metavar=key.split("_")[-1].upper(), help=what)
+    new.add_argument("--cage", metavar="TYPE", help="type of cage, as crown")
     new.add_argument("-o", "--out", metavar="FILE", help="case file (.toml) to write")
     new.add_argument("--force", action="store_true", help="write over an existing file")
 
@@ -46,7 +48,7 @@ def new_command(args: argparse.Namespace) -> int:
     outline, source = _outline(args)
     out = Path(args.out or f"{case_name(outline)}.toml")
     prepare_file(out, (".toml",), force=args.force)
-    made = new_case(outline, source)
+    made = new_case(outline, source, cage=args.cage)
     out.write_text(made.text, "utf-8")
     for line in made.findings():
         say(line)
@@ -71,7 +73,8 @@ def _outline(args: argparse.Namespace) -> tuple[Outline, str]:
     lacking = [option for option, key, _, _ in _DIMENSIONS if key not in given]
     lacking = lacking if args.type else ["--type", *lacking]
     if not lacking:
-        return Outline(type=args.type, designation=name, **given), "given by the user"
+        own = Outline(type=args.type, design=args.design, designation=name, **given)
+        return own, "given by the user"
     if not name:
         what = f"{', '.join(lacking)} missing; " if given or args.type else ""
         raise InputError(f"{what}give a designation, such as 6205, or {WAY}.", where="designation")
@@ -82,6 +85,12 @@ def _outline(args: argparse.Namespace) -> tuple[Outline, str]:
             f"--type out, or give {', '.join(lacking)} as well.",
             where="--type",
         )
+    if args.design not in (None, entry.outline.design):
+        raise InputError(
+            f"'{name}' is {_of_design(entry.outline.design)}, not of '{args.design}'; leave "
+            f"--design out, or give {', '.join(lacking)} as well.",
+            where="--design",
+        )
     if given.keys() & entry.outline.boundary.keys():
         raise InputError(
             f"The boundary dimensions of '{name}' are known; leave them out, or give "
@@ -91,6 +100,10 @@ def _outline(args: argparse.Namespace) -> tuple[Outline, str]:
     options = [option for option, key, _, _ in (*_DIMENSIONS, *_FURTHER) if key in given]
     changed = f"{entry.source}; {', '.join(options)} given by the user" if given else entry.source
     return replace(entry.outline, **given), changed
+
+
+def _of_design(design: str | None) -> str:
+    return f"of the design '{design}'" if design else "of no design"
 
 
 def _positive(value: float, option: str, text: str) -> float:

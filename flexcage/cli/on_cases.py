@@ -136,10 +136,15 @@ def modes_command(args: argparse.Namespace) -> int:
     prepare_file(out, (".csv",), force=args.force)
     from flexcage.core.progress import Progress
     from flexcage.core.timing import Stages
+    from flexcage.modes.door.table import body_table
     from flexcage.results.mode_file import write_modes
-    from flexcage.stages import cage_modes
+    from flexcage.stages import flexible_cage
 
-    table = Stages(Progress).named("mesh and modes", cage_modes, case)
+    cage = flexible_cage(case)
+    if cage.body is not None:
+        say(body_table(cage.body))
+        say("\nAs the cage of this case:\n")
+    table = Stages(Progress).named("mesh and modes", lambda: cage.table)
     say(table)
     say(f"written: {write_modes(table, out)}")
     return 0

@@ -47,11 +47,22 @@ def add_commands(commands: Any) -> None:
 
 
 def _add_export(commands: Any) -> None:
-    text = "write a run's cage, deformed and stressed, as a .vtu series for ParaView"
+    text = (
+        "write a run's cage, deformed and stressed, as a .vtu series for ParaView, or a case's "
+        "reduced cage as matrices for other programs"
+    )
     export = command(commands, "export", export_command, text)
-    export.add_argument("run", metavar="RUN", help="run folder")
-    export.add_argument("-o", "--out", metavar="DIR", help="folder (default: vtu in the run's)")
+    export.add_argument("run", metavar="RUN|CASE", help="run folder, or case file (.toml)")
+    export.add_argument(
+        "-o", "--out", metavar="DIR|FILE", help="folder (default: vtu in the run's), or a "
+        "case's .npz, .op4, .mtx or .pch (default: NAME_cage.npz)",
+    )  # fmt: skip
     export.add_argument("--force", action="store_true", help="write an existing series anew")
+    export.add_argument("--set", action="append", metavar="PATH=VALUE", help="of a case")
+    export.add_argument(
+        "--full", action="store_true", help="of a case: matrices of all nodes, not reduced"
+    )
+    export.add_argument("--text", action="store_true", help="of a case: an .op4 as text")
     export.add_argument(
         "--from", dest="begin", metavar="TIME", help="first instant, as '3 ms' (default without "
         "--to and --count: 0.4 ms about the largest stress)",
@@ -76,7 +87,13 @@ def render_command(args: argparse.Namespace) -> int:
 
 
 def export_command(args: argparse.Namespace) -> int:
-    """flexcage export RUN: displacement and stress of the cage over time, for ParaView."""
+    """flexcage export RUN: displacement and stress of the cage over time, for ParaView; or
+    flexcage export CASE: its reduced cage."""
+    if Path(args.run).suffix == ".toml":
+        return _export_body(args)
+    for name in ("set", "full", "text"):
+        if getattr(args, name):
+            raise InputError(f"--{name} belongs to a case, and '{args.run}' is a run.", where=name)
     from flexcage.core.progress import Progress
     from flexcage.simulate import load_run
 
@@ -86,6 +103,29 @@ def export_command(args: argparse.Namespace) -> int:
     times = _instants(args, run)
     prepare_out(out, resume=False, force=args.force, resumable=False, ours=("cage.pvd",))
     say(f"written: {run.write_vtu(out, times=times)}")
+    return 0
+
+
+def _export_body(args: argparse.Namespace) -> int:
+    """Write the reduced cage of a case, or its full matrices."""
+    args.case = args.run
+    case = case_from(args)
+    for name, option in (("begin", "from"), ("end", "to"), ("count", "count")):
+        if getattr(args, name) is not None:
+            raise InputError(f"--{option} belongs to a run, and '{args.run}' is a case.")
+    out = Path(args.out) if args.out else Path(f"{case.name}_cage.npz")
+    from flexcage.core.progress import Progress
+    from flexcage.core.timing import Stages
+    from flexcage.modes.door.formats import FORMATS, write_body
+    from flexcage.stages import flexible_cage
+
+    prepare_file(out, FORMATS, force=args.force)
+    if args.text and out.suffix != ".op4":
+        raise InputError(f"--text is for an .op4, and '{out}' is another file.", where="text")
+    cage = flexible_cage(case)
+    make = cage.as_full_body if args.full else cage.as_body
+    body = Stages(Progress).named("mesh and modes", make)
+    say(f"written: {write_body(body, out, **({'binary': False} if args.text else {}))}")
     return 0
 
 

@@ -39,6 +39,28 @@ def add_commands(commands: Any) -> None:
         ("report", study_report_command, "print and write the table"),
     ):
         command(actions, name, function, text).add_argument("dir", metavar="DIR", help="folder")
+    surface = command(
+        actions, "surface", study_surface_command, "lay a surface through an output, find its least"
+    )
+    surface.add_argument("dir", metavar="DIR", help="folder")
+    surface.add_argument("output", metavar="OUTPUT", help="an output of the study")
+    surface.add_argument("--axes", metavar="PATHS", help="axes, as a,b (default: all that vary)")
+    surface.add_argument(
+        "--where", action="append", metavar="PATH=VALUE", help="only cases that have this value"
+    )
+    surface.add_argument("--highest", action="store_true", help="look for the highest value")
+    surface.add_argument("--model", choices=("quadratic", "kriging"), help="default: both")
+    surface.add_argument(
+        "--matters", type=_percent, metavar="P%", default=0.05,
+        help="least range of interest, of the mean (default: 5%%)",
+    )  # fmt: skip
+
+
+def _percent(text: str) -> float:
+    try:
+        return float(text.removesuffix("%")) / (100.0 if text.endswith("%") else 1.0)
+    except ValueError:
+        raise argparse.ArgumentTypeError(f"'{text}' should be a percentage, as 5%") from None
 
 
 def _count(text: str) -> int:
@@ -108,5 +130,32 @@ def study_report_command(args: argparse.Namespace) -> int:
     results = StudyResults(args.dir)
     say(results.report())
     for path in results.write():
+        say(f"written: {path}")
+    return 0
+
+
+def study_surface_command(args: argparse.Namespace) -> int:
+    """flexcage study surface DIR OUTPUT: surfaces, the optimum and its region; table, picture."""
+    from flexcage.core.errors import InputError
+    from flexcage.study.results import StudyResults
+    from flexcage.study.surface import MODELS, response_surface
+
+    chosen = {}
+    for text in args.where or ():
+        name, equals, value = text.partition("=")
+        if not equals:
+            raise InputError(
+                f"--where is '{text}', but should be PATH=VALUE, as cage.model=rigid.",
+                where="where",
+                value=text,
+            )
+        chosen[name.strip()] = value.strip()
+    surface = response_surface(
+        StudyResults(args.dir), args.output, where=chosen, highest=args.highest,
+        axes=[path.strip() for path in args.axes.split(",")] if args.axes else (),
+        models=(args.model,) if args.model else MODELS, matters=args.matters,
+    )  # fmt: skip
+    say(surface.report())
+    for path in surface.write(args.dir):
         say(f"written: {path}")
     return 0

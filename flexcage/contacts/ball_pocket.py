@@ -1,8 +1,9 @@
 """Ball in its pocket: a cylinder about a radial axis, or a sphere, in a cage that deforms.
 
 The pocket may be a slot (its axis drawn out to a line), larger or displaced. A sphere ends at rims,
-at bore and outside and, in a ribbon cage, at its open sides; there the ball touches the rim's
-nearest point. A ball that sinks straight into a round rim touches all of it: over a distance of
+at bore and outside and, in ribbon and crown cages, at its open sides; there the ball touches the
+rim's nearest point. What a bent claw moved is a displacement of the stations that the cage has
+without stress. A ball that sinks straight into a round rim touches all of it: over a distance of
 ``SEAT`` across, the sideways push turns from one side to the other. The wall's motion by the cage's
 modes is known at stations round the pocket and interpolated smoothly between them; towards a
 sphere's poles it fades into the mean of all stations. What modes do not carry of a wall's yielding
@@ -27,7 +28,7 @@ from flexcage.contacts.slices import (
 from flexcage.contacts.state import add_force_and_moment
 from flexcage.core.jit import part, zero
 from flexcage.core.splines import smooth_weights
-from flexcage.core.vectors import combine, cross, dot, minus, plus, row, times
+from flexcage.core.vectors import combine, cross, dot, minus, plus, row, times, xyz
 
 ITERATIONS = 8  # of Newton's method for a contact and a compliance in series
 POLAR = 0.3  # cosine of the latitude from which on a sphere's wall moves as its stations do
@@ -47,7 +48,10 @@ class BallPockets(NamedTuple):
     height: float  # radius of the spheres' middles
     wall: np.ndarray  # (2,) inner and outer radius of the cage's wall
     shape: int  # CYLINDER or SPHERE
-    rims: np.ndarray  # (Z, 3) sines of latitude at which spheres end: outwards, inwards, along x
+    rims: np.ndarray  # (Z, 2) sines of latitude at which spheres end: outwards, inwards
+    sides: np.ndarray  # (Z, 2) the same: towards +x, towards -x
+    offset: np.ndarray  # (Z, nst, 3) where stations are without stress, from the pocket's shape
+    inset: float  # largest of these
     phi: np.ndarray  # (Z, 1, nst, 3, nm) modes at the stations (x, r, psi), from +psi towards +x
     phi_max: np.ndarray  # (nm,) largest displacement of a wall along its normal
     local: np.ndarray  # (Z, nst) compliance beyond the modes
@@ -56,12 +60,18 @@ class BallPockets(NamedTuple):
 
 
 class BallPocketWork(NamedTuple):
-    """Buffers of one pocket."""
+    """Buffers of one pocket, of n modes. Those of its tangent (``ball_pocket_tangent``) have rows
+    and columns for the ball's translation and rotation, then the modes."""
 
     G: np.ndarray  # (3, 3) rows: the pocket's x, r, psi
     st: np.ndarray  # (1, nst, 3) station forces on the cage
     normal: np.ndarray  # (1,) normal force
     tangential: np.ndarray  # (1,) friction force
+    K: np.ndarray  # (6 + n, 6 + n) minus the forces' slopes over places
+    C: np.ndarray  # (6 + n, 6 + n) minus those over velocities
+    gen: np.ndarray  # (7, 6 + n) generators
+    bend: np.ndarray  # (3, 6 + n) how the depth's slope over the ball's place changes
+    shape: np.ndarray  # (3, 3, n) modes where the ball touches, and their slopes
 
 
 class BallInPocket(NamedTuple):
@@ -74,8 +84,12 @@ class BallInPocket(NamedTuple):
     onset: float  # speed at which the contact closed
 
 
-def ball_pocket_work(stations: int) -> BallPocketWork:
-    return BallPocketWork(np.zeros((3, 3)), np.zeros((1, stations, 3)), np.zeros(1), np.zeros(1))
+def ball_pocket_work(stations: int, modes: int) -> BallPocketWork:
+    n, z = 6 + modes, np.zeros
+    return BallPocketWork(
+        z((3, 3)), z((1, stations, 3)), z(1), z(1), z((n, n)), z((n, n)), z((7, n)), z((3, n)),
+        z((3, 3, modes)),
+    )  # fmt: skip
 
 
 @part
@@ -91,20 +105,15 @@ def pocket_wall_contact(i, ball, modes, data, laws, sl, pw, wrench, mode, sums):
     if mode >= REPORT:
         zero(sums)
     rb, D, v = ball.radius, ball.centre, ball.velocity
-    p, x = data.normal[i], dot(D, row(pw.G, 0)) - data.shift[i, 0]
-    t = dot(D, row(pw.G, 2)) - data.shift[i, 1]
-    sphere = data.shape == SPHERE
-    h = dot(D, row(pw.G, 1)) - data.height if sphere else 0.0
-    x -= min(max(x, -data.slot[i, 0]), data.slot[i, 0])
-    t -= min(max(t, -data.slot[i, 1]), data.slot[i, 1])
-    seat = min(SEAT * rb, NARROW * (data.radius[i] - rb)) if sphere else 0.0
-    n, apart, touch = _nearest((x, h, t), data.radius[i], row(data.rims, i), seat)
+    p, sphere = data.normal[i], data.shape == SPHERE
+    (x, h, t), seat = from_middle(i, rb, D, data, pw)
+    n, apart, touch = nearest_wall((x, h, t), data.radius[i], rim_there(i, x, h, data), seat)
     if apart == 0.0:
         return False
     if mode >= REPORT:
         sums[ANGLE] = atan2(n[0], n[2])
         sums[APPROACH] = _along(n, v, pw)
-    if rb - apart + modes.margin <= 0.0:
+    if rb - apart + modes.margin + data.inset <= 0.0:
         return False
     nst = data.phi.shape[2]
     place = atan2(n[0], n[2]) * nst / (2.0 * pi)
@@ -114,14 +123,14 @@ def pocket_wall_contact(i, ball, modes, data, laws, sl, pw, wrench, mode, sums):
     soft = softer = 0.0
     for k in range(4):
         s = (int(first) + k - 1 + nst) % nst
-        here, rate = _wall(data, i, s, modes.q), _wall(data, i, s, modes.qd)
+        here, rate = _place(data, i, s, modes.q), _wall(data, i, s, modes.qd)
         u, ud = combine(u, weight[k], here), combine(ud, weight[k], rate)
         du = combine(du, slope[k] * nst / (2.0 * pi), here)
         soft += weight[k] * data.local[i, s]
         softer += slope[k] * nst / (2.0 * pi) * data.local[i, s]
     # fading towards a pole: what changes with azimuth, and with the cosine of the latitude
     cosine = sqrt(n[0] * n[0] + n[2] * n[2])
-    share, fade = _fading(cosine)
+    share, fade = share_at_pole(cosine)
     faded, fading = (0.0, 0.0, 0.0), 0.0
     if share < 1.0:
         mean, rate, yielding = _mean_wall(data, i, modes)
@@ -135,17 +144,15 @@ def pocket_wall_contact(i, ball, modes, data, laws, sl, pw, wrench, mode, sums):
         return False
     # slope of the depth: along n, and as the wall's displacement changes there
     across = (u[0], u[1] if sphere else 0.0, u[2])
-    push = minus(n, _turning(across, n, apart, touch))
+    push = minus(n, turning(across, n, apart, touch))
     round_it = polewards = (0.0, 0.0, 0.0)  # slopes of the azimuth and of that cosine
     if cosine > 0.0:
-        round_it = times(1.0 / (cosine * cosine), _turning((n[2], 0.0, -n[0]), n, apart, touch))
-        polewards = times(1.0 / cosine, _turning((n[0], 0.0, n[2]), n, apart, touch))
+        round_it = times(1.0 / (cosine * cosine), turning((n[2], 0.0, -n[0]), n, apart, touch))
+        polewards = times(1.0 / cosine, turning((n[0], 0.0, n[2]), n, apart, touch))
         push = combine(push, -dot(du, n), round_it)
         push = combine(push, -dot(faded, n), polewards)
     yields = combine(times(softer, round_it), fading, polewards)  # slope of the compliance
-    # along the straight part of a slot nothing changes
-    dx = 0.0 if x == 0.0 and data.slot[i, 0] > 0.0 else 1.0
-    dt = 0.0 if t == 0.0 and data.slot[i, 1] > 0.0 else 1.0
+    dx, dt = beyond_straight(i, x, t, data)
     push = (dx * push[0], push[1], dt * push[2])
     yields = (dx * yields[0], yields[1], dt * yields[2])
     rate = _along(push, v, pw) - dot(ud, n)
@@ -191,18 +198,47 @@ def pocket_wall_contact(i, ball, modes, data, laws, sl, pw, wrench, mode, sums):
 
 
 @part
-def _nearest(d, radius, rims, seat):
+def from_middle(i, rb, D, data, pw):
+    """Place (x, r, psi) of a ball of radius rb from the middle of pocket i, or from the nearest
+    point of its axis, drawn out or not; D is that from the cage. And the width of its seat."""
+    x, t = dot(D, row(pw.G, 0)) - data.shift[i, 0], dot(D, row(pw.G, 2)) - data.shift[i, 1]
+    sphere = data.shape == SPHERE
+    h = dot(D, row(pw.G, 1)) - data.height if sphere else 0.0
+    x -= min(max(x, -data.slot[i, 0]), data.slot[i, 0])
+    t -= min(max(t, -data.slot[i, 1]), data.slot[i, 1])
+    return (x, h, t), min(SEAT * rb, NARROW * (data.radius[i] - rb)) if sphere else 0.0
+
+
+@part
+def beyond_straight(i, x, t, data):
+    """1 along x and psi where the ball is beyond the straight part of a slot, along which nothing
+    changes; 0 within it."""
+    dx = 0.0 if x == 0.0 and data.slot[i, 0] > 0.0 else 1.0
+    dt = 0.0 if t == 0.0 and data.slot[i, 1] > 0.0 else 1.0
+    return dx, dt
+
+
+@part
+def rim_there(i, x, h, data):
+    """Sines of the latitudes at which the wall ends on the ball's side, along r and along x."""
+    high = data.rims[i, 0] if h >= 0.0 else data.rims[i, 1]
+    return high, data.sides[i, 0] if x >= 0.0 else data.sides[i, 1]
+
+
+@part
+def nearest_wall(d, radius, rim, seat):
     """Where a ball at ``d`` from its pocket's middle is nearest to the wall, (x, r, psi).
 
-    Returns the direction from the ball's centre to the wall (shorter than 1 within a seat), the
-    distance, and the wall's place there for ``_turning``: which coordinates a rim holds (0 or 1),
-    the direction of the others and their distance from the pocket's middle, and how much farther
-    off the wall is. The middle of the pocket itself has distance 0 and means nothing.
+    ``rim`` is that of ``rim_there``. Returns the direction from the ball's centre to the wall
+    (shorter than 1 within a seat), the distance, and the wall's place there for ``turning``: which
+    coordinates a rim holds (0 or 1), the direction of the others and their distance from the
+    pocket's middle, and how much farther off the wall is. The middle of the pocket itself has
+    distance 0 and means nothing.
     """
-    high = rims[0] if d[1] >= 0.0 else rims[1]
-    held_x, held_r = _held(d, high, rims[2], seat)
-    ex, er = held_x * (rims[2] * radius - abs(d[0])), held_r * (high * radius - abs(d[1]))
-    level = 1.0 - held_x * rims[2] * rims[2] - held_r * high * high  # of a circle on the sphere
+    high, wide = rim
+    held_x, held_r = _held(d, high, wide, seat)
+    ex, er = held_x * (wide * radius - abs(d[0])), held_r * (high * radius - abs(d[1]))
+    level = 1.0 - held_x * wide * wide - held_r * high * high  # of a circle on the sphere
     a = ((1.0 - held_x) * d[0], (1.0 - held_r) * d[1], d[2])
     reach = sqrt(dot(a, a) + seat * seat)
     off = sqrt(max(level, 0.0)) * radius - reach
@@ -250,7 +286,7 @@ def _held(d, high, wide, seat):
 
 
 @part
-def _turning(a, n, apart, touch):
+def turning(a, n, apart, touch):
     """Slope of ``n . a`` over the ball's place, for a constant vector: the distance's second
     derivatives, less those of a wall that goes with the ball."""
     held_x, held_r, f, reach, off = touch
@@ -273,7 +309,14 @@ def _wall(data, i, s, q):
 
 
 @part
-def _fading(cosine):
+def _place(data, i, s, q):
+    """Displacement of station s of pocket i from the pocket's shape, with what it has without
+    stress."""
+    return plus(_wall(data, i, s, q), xyz(data.offset[i, s]))
+
+
+@part
+def share_at_pole(cosine):
     """Share of the wall's motion that is as at the azimuth, and its slope over the cosine."""
     x = cosine / POLAR
     if x >= 1.0:
@@ -287,7 +330,7 @@ def _mean_wall(data, i, modes):
     u = ud = (0.0, 0.0, 0.0)
     soft, nst = 0.0, data.phi.shape[2]
     for s in range(nst):
-        u = combine(u, 1.0 / nst, _wall(data, i, s, modes.q))
+        u = combine(u, 1.0 / nst, _place(data, i, s, modes.q))
         ud = combine(ud, 1.0 / nst, _wall(data, i, s, modes.qd))
         soft += data.local[i, s] / nst
     return u, ud, soft

@@ -80,13 +80,7 @@ def groove_contact(ball, race, laws, sl, wrench, mode, sums):
     if mode >= REPORT:
         zero(sums)
     P, b = ball.centre, ball.axis
-    along = dot(P, b)
-    radial = combine(P, -along, b)
-    distance = sqrt(dot(radial, radial))
-    e = times(1.0 / distance, radial)
-    line = combine(times(along - race.axial, b), distance - race.centre, e)
-    reach = sqrt(dot(line, line))
-    n = times(1.0 / reach, line)
+    e, n, _, reach = line_of_contact(P, b, race)
     spin = minus(ball.spin, ball.ring_spin)
     v = minus(minus(ball.velocity, ball.ring_velocity), cross(ball.ring_spin, P))
     sl.d[0], sl.v[0] = reach - race.radius + ball.radius, dot(n, v)
@@ -121,6 +115,19 @@ def groove_contact(ball, race, laws, sl, wrench, mode, sums):
         sums[RUBBED] = dot(force, v) + dot(moment, spin) + resisting * speed * speed
         sums[ROLLED] = -resisting * speed * speed
     return True
+
+
+@part
+def line_of_contact(P, b, race):
+    """Radial direction of a ball at P from the ring with axis b, the direction in which it presses,
+    and its distances from the ring's axis and the groove's centre."""
+    along = dot(P, b)
+    radial = combine(P, -along, b)
+    distance = sqrt(dot(radial, radial))
+    e = times(1.0 / distance, radial)
+    line = combine(times(along - race.axial, b), distance - race.centre, e)
+    reach = sqrt(dot(line, line))
+    return e, times(1.0 / reach, line), distance, reach
 
 
 @part(fastmath=VECTORISED)

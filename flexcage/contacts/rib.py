@@ -1,4 +1,4 @@
-"""Roller end against the inner ring's ribs: a few points of the end face that overlap the rib."""
+"""Roller end against a ring's ribs: a few points of the end face that overlap the rib."""
 
 from __future__ import annotations
 
@@ -33,6 +33,12 @@ from flexcage.core.vectors import combine, cross, dot, minus, plus, row, times, 
 
 
 class RibData(NamedTuple):
+    """Ribs of one ring. Those of sides ``first`` to before ``end`` are there (0: +x, 1: -x), and
+    ``column`` is the place of the first in arrays of an element's ribs."""
+
+    first: int
+    end: int
+    column: int
     half_gap: float
     half_roller: float
     points: np.ndarray  # (np, 2) points of the end face along the transverse axes
@@ -42,7 +48,7 @@ class RibData(NamedTuple):
 
 @part
 def rib_contact(pose, ring, data, onset, laws, sl, pair, mode, sums):
-    """Wrench on the roller from both ribs (0: +x, 1: -x), met at speeds ``onset`` (2,).
+    """Wrench on the roller from the ribs of one ring (0: +x, 1: -x), met at speeds ``onset`` (2,).
 
     ``ring`` (4, 3): the partner as ``race.RaceWork`` has it.
 
@@ -66,7 +72,7 @@ def rib_contact(pose, ring, data, onset, laws, sl, pair, mode, sums):
     count = data.points.shape[0]
     Wn, W1, W2, V = pair.W[0], pair.W[1], pair.W[2], pair.W[WHOLE]
     active = False
-    for f in range(2):
+    for f in range(data.first, data.end):
         sgn = 1.0 if f == 0 else -1.0
         touched = False
         n = times(-sgn, ring_axis)

@@ -56,6 +56,7 @@ def option(
     of: Collection[str] = (),
     legacy: Any = MISSING,
     elsewhere: Mapping[str, str] = MappingProxyType({}),
+    file: bool = False,
 ) -> Any:
     """A dimensionless value, count, flag or name; ``choices`` holds the names accepted.
 
@@ -64,7 +65,8 @@ def option(
     ``assumption`` and ``of`` as for ``quantity``. ``legacy`` is for an option that is added
     later: what was done before, which leaves the hashes of specs as they were
     (``core.hashing``). ``elsewhere`` maps patterns of names that are asked for here, and are not
-    known, to what flexcage has instead.
+    known, to what flexcage has instead. ``file``: the value is the path of a file, relative to the
+    case's own, whose bytes count.
     """
     meta = {
         "doc": doc,
@@ -75,5 +77,6 @@ def option(
         "of": of,
         "legacy": legacy,
         "elsewhere": elsewhere,
+        "file": file,
     }
     return dataclasses.field(default=default, metadata=meta)

@@ -37,7 +37,7 @@ class FreeBodySolver:
     def solver(self) -> HeldBody | DissectedBody | CondensedRing:
         """The factored body, held."""
         model, parts = self.model, find_parts(self.model)
-        if parts is None and self._kind == "auto":
+        if parts is None and self._kind == "auto" and model.couples_by_elements:
             return DissectedBody(model, _supports(model.points))
         if parts is None:
             return HeldBody(model.K, _supports(model.points), kind=self._kind)

@@ -9,7 +9,7 @@ from flexcage.fem.cyclic import cyclic_modes
 from flexcage.fem.free import FreeBodySolver
 from flexcage.fem.lanczos import lowest_modes
 
-_PAIR = 1e-6  # relative distance of omega^2 under which two modes are a pair
+PAIR = 1e-6  # relative distance of omega^2 under which two modes are a pair
 
 
 def free_modes(solver: FreeBodySolver, count: int) -> tuple[np.ndarray, np.ndarray]:
@@ -24,6 +24,6 @@ def free_modes(solver: FreeBodySolver, count: int) -> tuple[np.ndarray, np.ndarr
         values, shapes = cyclic_modes(solver.model, ring, count + 1)
     else:
         values, shapes = lowest_modes(solver.model, solver.solve, count + 1)
-    if values[count] > values[count - 1] * (1.0 + _PAIR):
+    if values[count] > values[count - 1] * (1.0 + PAIR):
         values, shapes = values[:count], shapes[:, :count]
     return values, solver.model.remove_rigid(shapes)

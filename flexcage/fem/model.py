@@ -73,6 +73,11 @@ class FEModel:
         return self._matrices[1]
 
     @property
+    def couples_by_elements(self) -> bool:
+        """Whether the stiffness couples the nodes of an element, and no others."""
+        return True
+
+    @property
     def n_dof(self) -> int:
         return 3 * len(self.nodes)
 

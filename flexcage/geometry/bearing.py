@@ -93,9 +93,6 @@ class Bearing:
     places: ClassVar[tuple[str, ...]] = ("race", "pocket", "side", "rib")
     carries_axial_load: ClassVar[bool] = False  # in a run, with the ring free axially and in tilt
     elsewhere: ClassVar[Mapping[str, str]] = {}  # patterns of keys that it has not: what there is
-    explicit_only: ClassVar[bool] = False  # do they lack the tangent that implicit methods want?
-    # what of a ring guides a cage that is not guided by the elements
-    guides: ClassVar[Mapping[str, str]] = {"inner": "the inner ring", "outer": "the outer ring"}
 
     type: str = type_name("cylindrical_roller")
     designation: str = option("", doc="name in a catalogue")
@@ -104,6 +101,21 @@ class Bearing:
 
         def __getattr__(self, name: str) -> Any:  # dimensions of its own type
             ...
+
+    @property
+    def guides(self) -> Mapping[str, str]:
+        """What of a ring guides a cage that is not guided by the elements, by ring."""
+        return {"inner": "the inner ring", "outer": "the outer ring"}
+
+    def free_axially(self, loaded: bool) -> bool:
+        """Is the inner ring free along the axis in a run without a shaft's spring, where the load
+        has an axial part (``loaded``), or none?"""
+        return self.carries_axial_load
+
+    def axial_refusal(self, load: float) -> str:
+        """Why its elements cannot carry an axial load [N] on the inner ring, in words; empty where
+        they can, or where the load alone does not tell."""
+        return ""
 
     @property
     def element_count(self) -> int:

@@ -32,8 +32,8 @@ _ROUNDING = 0.03
 class Outline:
     """What a catalogue says of a bearing: boundary dimensions [m] and basic load ratings [N].
 
-    ``contact_angle`` [rad] of angular contact bearings, race diameters F and E [m] of roller
-    bearings; None where they have none.
+    ``contact_angle`` [rad] of angular contact bearings; of roller bearings the ``design``, race
+    diameters F and E and those of the ribs of both rings [m]; None where they have none.
     """
 
     type: str
@@ -46,6 +46,9 @@ class Outline:
     contact_angle: float | None = None
     inner_race_diameter: float | None = None
     outer_race_diameter: float | None = None
+    design: str | None = None
+    inner_rib_diameter: float | None = None
+    outer_rib_diameter: float | None = None
 
     @property
     def boundary(self) -> dict[str, Any]:

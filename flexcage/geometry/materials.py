@@ -103,6 +103,37 @@ MATERIALS: dict[str, Material] = {
 }
 
 
+# Polyamides of injection-moulded cages by their share of glass fibre, at 23 degrees C, dry as
+# moulded and conditioned (equilibrium in air of 50 % humidity): modulus [GPa] and strength [MPa]
+# of both, density. Warm, moist polyamide is softer than any of these.
+_A3K = "BASF, Ultramid A3K (ISO 527: tensile modulus, yield stress)"
+_CLASS = "an assumption, of the class of {}, whose sheet was not at hand: compare your own grade's"
+_POLYAMIDES = (
+    ("PA66 A3K", 0.4, (3.0, 85.0), (1.1, 50.0), 1130.0, _A3K),
+    ("PA66-GF25", 0.38, (8.6, 175.0), (6.5, 120.0), 1320.0, _CLASS.format("BASF's Ultramid A3WG5")),
+    ("PA66-GF30", 0.37, (10.0, 190.0), (7.2, 130.0), 1360.0, _CLASS.format("Ultramid A3WG6")),
+    ("PA46", 0.4, (3.3, 100.0), (1.0, 55.0), 1180.0, _CLASS.format("DSM's Stanyl TW341")),
+    ("PA46-GF30", 0.37, (10.0, 210.0), (6.0, 120.0), 1410.0, _CLASS.format("Stanyl TW200F6")),
+)
+
+
+def _polyamides() -> dict[str, Material]:
+    """Two materials of each: as moulded, and "... conditioned"."""
+    made = {}
+    for grade, poisson, dry, moist, density, source in _POLYAMIDES:
+        for state, (modulus, strength) in (("", dry), (" conditioned", moist)):
+            made[grade + state] = Material(
+                name=grade + state, youngs_modulus=modulus * 1e9, poisson_ratio=poisson,
+                density=density, proof_stress=strength * 1e6, loss_factor=round(0.04 / modulus, 4),
+                source=f"23 degrees C,{state or ' dry'}: {source}; Poisson's ratio: an assumption; "
+                f"loss factor: {_LOSS}",
+            )  # fmt: skip
+    return made
+
+
+MATERIALS.update(_polyamides())
+
+
 def register_material(material: Material) -> Material:
     """Add a material: cases may then give it by its name (``cage.material = "..."``); returns it.
 

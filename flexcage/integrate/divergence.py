@@ -29,7 +29,7 @@ def runaway(
     number, place = np.unravel_index(int(np.argmax(share[first])), share.shape[1:])
     depth = share[first, number, place] * model.bodies.radius[number] * 1e3
     element = f"{bearing.spec.element} {number}"
-    if place >= 2 + len(bearing.motion.faces) + len(bearing.motion.ribs):
+    if place >= bearing.data.work.report.contact.shape[1]:
         what = f"the cage came off, {element} is {depth:.2g} mm outside its pocket"
         return first, what, recording.remedy(model)
     what = f"{element} lies {depth:.2g} mm deep in its {_place(bearing, int(place))}"
@@ -62,5 +62,5 @@ def _forces(bearing: Bearing, t: float, y: np.ndarray, yd: np.ndarray) -> np.nda
 
 
 def _place(bearing: Bearing, index: int) -> str:
-    name, faces = bearing.motion.places[index], bearing.motion.faces
+    name, faces = bearing.places[index], bearing.motion.faces
     return f"pocket's face {name}" if name in faces and len(faces) > 1 else name

@@ -36,6 +36,7 @@ from flexcage.system.data import (
     EVENT_PLACE,
     EVENT_TIME,
     FIXED,
+    FREE_CENTRE,
     MASS,
     POWERS,
 )
@@ -80,7 +81,6 @@ class Integration:
         if lacking:
             raise _of_another(f"it holds no '{lacking[0]}'", lacking[0])
         self._computed = _computed(store)
-        self.weight = bearing.error_weights(solver.tolerance)
         self.work_weight = work_weights(bearing.data.model, solver.tolerance)
         self.bound = np.inf  # [s] least stability bound of explicit steps so far
         self._take("bdf" if solver.method == "auto" else solver.method, 0.0, start.y, start.yd)
@@ -98,8 +98,11 @@ class Integration:
         before = getattr(self, "state", None)
         self.integrator = INTEGRATORS[method]
         self.options = self.integrator.options(self.solver)
+        weight = self.bearing.error_weights(
+            self.solver.tolerance, implicit=not self.integrator.bounded
+        )
         self.state = self.integrator.new_state(
-            time, y, yd, weight=self.weight, h0=step, quad_weight=self.work_weight,
+            time, y, yd, weight=weight, h0=step, quad_weight=self.work_weight,
             modes=self.bearing.modes,
         )  # fmt: skip
         if before is not None:
@@ -115,8 +118,7 @@ class Integration:
         y, yd = self.integrator.last(self.state)
         step = self.bearing.stable_step(self.time, y, yd)
         self.bound = min(self.bound, step)
-        small = not self.bearing.spec.explicit_only and step < self.solver.stable_step
-        method = "bdf" if small else "explicit"
+        method = cheaper(self.bearing, step, self.solver)
         if auto and method != self.integrator.name:
             log.debug("%s from t = %.4f ms on: explicit steps up to %.3g us are stable", method,
                       self.time * 1e3, step * 1e6)  # fmt: skip
@@ -315,6 +317,13 @@ class Integration:
                     name,
                 )
             array[...] = saved[name]
+
+
+def cheaper(bearing: Bearing, step: float, solver: SolverOptions) -> str:
+    """The integrator that "auto" takes where explicit steps up to ``step`` [s] are stable."""
+    if bearing.data.model.bodies.free[FREE_CENTRE] == 0:  # a held centre has no implicit equation
+        return "explicit"
+    return "bdf" if step < bearing.motion.implicit_share * solver.stable_step else "explicit"
 
 
 def _of_another(how: str, name: str) -> InputError:

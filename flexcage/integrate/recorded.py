@@ -56,7 +56,7 @@ def new_store(
         block_hf=output.block_hf,
         attrs={
             **attrs, "family": spec.family, "element": spec.element,
-            "places": list(motion.places),
+            "places": list(bearing.places),
         },
     )  # fmt: skip
 

@@ -82,6 +82,43 @@ def read_inp(path: Path) -> Any:
     return _mesh(deck)
 
 
+def read_nodes(path: Path) -> tuple[np.ndarray, np.ndarray, dict[str, np.ndarray]]:
+    """Nodes of a deck, whatever its elements: numbers (N,), places (N, 3), and node sets by name.
+
+    Raises ValueError.
+    """
+    nodes: dict[int, list[float]] = {}
+    sets: dict[str, list[int]] = {}
+    for keyword, values, rows in _blocks(path.read_text("utf-8-sig", errors="replace")):
+        if keyword == "NODE":
+            places = {int(row[0]): [float(x or 0.0) for x in row[1:4]] for row in rows}
+            _add(nodes, places, "nodes")
+            numbers = list(places)
+        elif keyword == "NSET":
+            numbers = _numbers(rows, generate="GENERATE" in values, sets=sets)
+        else:
+            continue
+        if "NSET" in values:
+            sets.setdefault(_key(values["NSET"]), []).extend(numbers)
+    whole = np.array(list(nodes.values()), float).reshape(-1, 3)
+    return np.array(list(nodes), np.int64), whole, {k: np.array(v) for k, v in sets.items()}
+
+
+def _numbers(
+    rows: list[list[str]], *, generate: bool, sets: dict[str, list[int]] | None = None
+) -> list[int]:
+    """Node numbers of a set's data lines; names of other sets stand for what is in these."""
+    found: list[int] = []
+    for row in rows:
+        if generate:
+            first, last, *by = (int(v) for v in row if v)
+            found.extend(range(first, last + 1, by[0] if by else 1))
+        else:
+            for name in filter(None, row):
+                found.extend([int(name)] if name.isdigit() else (sets or {})[_key(name)])
+    return found
+
+
 def _blocks(text: str) -> Iterator[tuple[str, dict[str, str], list[list[str]]]]:
     """Keyword, its parameters and the values of its data lines, block by block."""
     keyword, begun = "", ""

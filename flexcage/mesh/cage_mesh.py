@@ -44,7 +44,8 @@ class CageMesh:
     ``pocket{k}_rear`` (at -psi), ``pocket{k}_side+x``, ``pocket{k}_side-x`` (side-beam faces),
     ``pocket{k}_fillet`` (all four corners), or ``pocket{k}_wall`` alone where pockets are round;
     and ``land_inner``, ``land_outer`` (bore and outside),
-    ``end+x``, ``end-x``. Pocket k is centred at azimuth 2 pi k/Z from y towards z.
+    ``end+x``, ``end-x`` (of a crown cage: the claws' tips and the ring's back). Pocket k is
+    centred at azimuth 2 pi k/Z from y towards z.
 
     ``info`` of a built mesh holds ``sector_points`` and ``sector_cells``: vertex i of sector k is
     ``i + k sector_points`` (modulo the whole), cell c of it ``c + k sector_cells``, and every

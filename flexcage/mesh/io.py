@@ -9,6 +9,7 @@
   name of a group, non-zero on its triangles, is read as well.
 * .inp (read only): surfaces (``*SURFACE, TYPE=ELEMENT``) or element sets of triangles, named as
   the groups, in capitals or not.
+* .cdb (read only): node components, or element components of surface triangles (``mesh.ansys``).
 
 Ten-node tetrahedra and six-node triangles are read by their corners. Where their edges are curved,
 faces become flat, and a warning says how far the nodes at the middle of edges lie off.
@@ -27,8 +28,9 @@ from typing import Any
 
 import numpy as np
 
-from flexcage.core.errors import InputError, unwritable
+from flexcage.core.errors import FlexcageError, InputError, unwritable
 from flexcage.mesh.abaqus import read_inp
+from flexcage.mesh.ansys import read_cdb
 from flexcage.mesh.cage_mesh import (
     POCKET_GROUPS,
     RING_GROUPS,
@@ -49,7 +51,7 @@ _MARKS = {
     ".msh": b"$Comments\nwritten by flexcage\n$EndComments\n",
     ".vtu": b"<!-- written by flexcage -->\n",
 }
-_READABLE = (".msh", ".inp", ".vtu")
+_READABLE = (".msh", ".inp", ".cdb", ".vtu")
 _OTHER_SOLIDS = ("hexahedron", "wedge", "pyramid")
 # ends of the edges on whose middles a ten-node tetrahedron has nodes, in meshio's order
 _EDGES = np.array([(0, 1), (1, 2), (0, 2), (0, 3), (1, 3), (2, 3)])
@@ -151,15 +153,22 @@ def _read_raw(path: Path) -> Any:
 
     if path.suffix.lower() not in _READABLE:
         raise InputError(
-            f"{path} is no mesh file that can be read: .msh, .inp or .vtu",
+            f"{path} is no mesh file that can be read: .msh, .inp, .cdb or .vtu",
             where="mesh.file",
             value=str(path),
         )
     if not path.is_file():
         raise InputError(f"there is no mesh file {path}", where="mesh.file", value=str(path))
-    readers = {".inp": read_inp, ".msh": meshio.gmsh.read, ".vtu": meshio.vtu.read}
+    readers = {
+        ".inp": read_inp,
+        ".cdb": read_cdb,
+        ".msh": meshio.gmsh.read,
+        ".vtu": meshio.vtu.read,
+    }
     try:
         return readers[path.suffix.lower()](path)
+    except FlexcageError:
+        raise
     except (Exception, SystemExit) as error:  # readers raise all kinds of errors on broken files
         reason = str(error).strip().splitlines()[0] if str(error).strip() else type(error).__name__
         raise InputError(

@@ -28,5 +28,7 @@ class MeshOptions:
         "mm", None, doc="edge length along a fillet's arc, instead of the named one", above=0.0
     )
     order: int = option(2, doc="element order of the displacements: 1 or 2", minimum=1, maximum=2)
-    file: str = option("", doc="a mesh file (.msh, .inp, .vtu) to read instead of building one")
+    file: str = option(
+        "", doc="a mesh file (.msh, .inp, .cdb, .vtu) to read instead of building one", file=True
+    )
     file_unit: str = option("m", doc="unit of length in that file", choices=("m", "mm"))

@@ -1,4 +1,7 @@
-"""The whole ring from a quarter sector: mirrored in its two planes, then turned Z times."""
+"""The whole ring from part of a sector: mirrored in its planes of symmetry, then turned Z times.
+
+A quarter is mirrored in z = 0 and x = 0; a half, which has no ``cut_x``, in z = 0 alone.
+"""
 
 from __future__ import annotations
 
@@ -13,7 +16,7 @@ from flexcage.mesh.sector import Quarter
 
 
 def ring_of(quarter: Quarter, pocket_count: int) -> CageMesh:
-    """The whole ring, numbered sector by sector.
+    """The whole ring from a quarter or half of a sector, numbered sector by sector.
 
     A sector owns its vertices but for those on its +psi cut, which are the next one's on its
     -psi cut: so vertex and cell numbers of sector k are those of sector 0 plus k times a constant.
@@ -51,6 +54,11 @@ _CUTS = {"cut_x", "cut_z", "cut_psi"}
 _MIRRORS = ((1, 1), (-1, 1), (1, -1), (-1, -1))  # signs of x and z of the four copies
 
 
+def _copies(quarter: Quarter) -> tuple[int, ...]:
+    """Which of the four copies there are, the -psi half first: it owns the shared cuts."""
+    return (2, 3, 0, 1) if "cut_x" in quarter.surfaces else (2, 0)
+
+
 def _sector_numbers(quarter: Quarter) -> tuple[np.ndarray, np.ndarray]:
     """number (4, n): vertex of each mirror copy in sector numbering; points (n_sector, 3).
 
@@ -60,11 +68,11 @@ def _sector_numbers(quarter: Quarter) -> tuple[np.ndarray, np.ndarray]:
     on = {}
     for name in ("cut_x", "cut_z", "cut_psi"):
         on[name] = np.zeros(n, bool)
-        on[name][np.unique(quarter.surfaces[name])] = True
+        on[name][np.unique(quarter.surfaces.get(name, np.empty(0, int)))] = True
     number = np.full((4, n), -1)
     points: list[np.ndarray] = []
     count = 0
-    for copy in (2, 3, 0, 1):  # the -psi half first: it owns the shared cuts
+    for copy in _copies(quarter):
         sx, sz = _MIRRORS[copy]
         own = np.ones(n, bool)
         if sx < 0:
@@ -86,7 +94,8 @@ def _sector_cells(quarter: Quarter, number: np.ndarray) -> tuple[np.ndarray, dic
     """Cells (n, 4) and groups of sector 0; mirrored copies would be inside out, so are flipped."""
     cells: list[np.ndarray] = []
     parts: dict[str, list[np.ndarray]] = {}
-    for copy, (sx, sz) in enumerate(_MIRRORS):
+    for copy in sorted(_copies(quarter)):
+        sx, sz = _MIRRORS[copy]
         order = [0, 2, 1, 3] if sx * sz < 0 else [0, 1, 2, 3]
         cells.append(number[copy][quarter.tets[:, order]])
         names = {

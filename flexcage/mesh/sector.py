@@ -43,11 +43,12 @@ class SizePlan:
 
 @dataclass(frozen=True)
 class Quarter:
-    """The quarter x >= 0, 0 <= psi <= pi/Z of the sector around pocket 0."""
+    """The quarter x >= 0, 0 <= psi <= pi/Z of the sector around pocket 0; without ``cut_x``, and
+    with the ends as ``end+x`` and ``end-x``, the half of one that has no symmetry in x."""
 
     points: np.ndarray  # (n, 3) [m]
     tets: np.ndarray  # (m, 4), positive volumes
-    surfaces: dict[str, np.ndarray]  # name -> (., 3) outward triangles: three cuts, then groups
+    surfaces: dict[str, np.ndarray]  # name -> (., 3) outward triangles: the cuts, then groups
     plan: SizePlan
 
 

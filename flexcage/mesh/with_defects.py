@@ -65,9 +65,10 @@ def _row(reading: Reading, delivered: float, volume_change: float) -> dict[str, 
 
 
 def _altered(sound: CageMesh, mesh: CageMesh) -> tuple[int, ...]:
-    """Sectors that have a cell with a moved or doubled vertex; none of a mesh without sectors."""
+    """Sectors that have a cell with a moved or doubled vertex; none of a mesh without sectors, or
+    that lost cells."""
     per_sector = sound.info.get("sector_cells")
-    if not isinstance(per_sector, int):
+    if not isinstance(per_sector, int) or mesh.tets.shape != sound.tets.shape:
         return ()
     changed = (mesh.points[mesh.tets] != sound.points[sound.tets]).any(axis=(1, 2))
     changed |= (mesh.tets != sound.tets).any(axis=1)

@@ -33,6 +33,21 @@ class ResidualFlexibility:
 
 
 @dataclass(frozen=True)
+class BodyFit:
+    """How a basis from elsewhere fits the cage's own elements.
+
+    ``stiffness``: a mode's, over that of its shape in the elements, the one farthest from 1.
+    ``carried``: the part of the static deflection under a force on a pocket's wall that modes and
+    residual vectors hold, the least over the mode table's forces. ``compliance`` [m/N] is the whole
+    deflection under the first of them.
+    """
+
+    stiffness: float
+    carried: float
+    compliance: float
+
+
+@dataclass(frozen=True)
 class ModeBasis:
     """Dynamic modes of a free body: r = r_i + A (s + shapes . q_f).
 
@@ -41,6 +56,7 @@ class ModeBasis:
     ``stiffness`` and ``mass`` are the reduced matrices (n, n); for a mass-orthonormal basis
     of eigenmodes they are diag(omega^2) and 1. ``geometric`` is the geometric stiffness of the
     dynamic modes per squared spin about x, or None: the stiffness does not grow with spin.
+    ``fit`` is that of a basis from elsewhere.
     """
 
     name: str
@@ -51,6 +67,7 @@ class ModeBasis:
     kind: tuple[str, ...]
     residual: ResidualFlexibility | None = None
     geometric: np.ndarray | None = None  # (n, n)
+    fit: BodyFit | None = None
 
     @property
     def size(self) -> int:

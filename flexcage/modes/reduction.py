@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import Any, Generic, Protocol, TypeVar
 
@@ -18,8 +18,12 @@ from flexcage.fem.free import FreeBodySolver
 from flexcage.fem.model import FEModel, assemble
 from flexcage.geometry.cage import Cage
 from flexcage.mesh.cage_mesh import CageMesh
-from flexcage.modes.basis import ContactInterface, ModeBasis
-from flexcage.modes.registry import basis_version, build_basis
+from flexcage.modes.basis import BodyFit, ContactInterface, ModeBasis
+from flexcage.modes.door.body import ReducedBody
+from flexcage.modes.door.cage import BODY, body_of, full_body_of, given_model
+from flexcage.modes.door.cage_checks import WHERE
+from flexcage.modes.door.formats import read_body
+from flexcage.modes.registry import basis_of_body, basis_version, build_basis
 from flexcage.modes.spec import ModesSpec
 from flexcage.modes.storage import (
     basis_arrays,
@@ -115,21 +119,41 @@ class CageReduction:
         """Names model and basis by what they are made from."""
         return content_hash(
             MODEL_VERSION,
-            self.spec,
+            replace(self.spec, body="", body_nodes=""),
             self.order,
             self.cage.material,
             self.mesh.pocket_count,
             self.mesh.points,
             self.mesh.tets,
             dict(self.mesh.groups),
-            *basis_version(self.spec.kind),
+            *basis_version(self.spec),
         )
+
+    @cached_property
+    def body(self) -> ReducedBody | None:
+        """The body that the spec names, in SI and checked; None if it names none."""
+        if not self.spec.body:
+            return None
+        spec = self.spec
+        return read_body(spec.body, nodes=spec.body_nodes, units=spec.body_units, where=WHERE)
+
+    @property
+    def _own(self) -> bool:
+        """Are stiffness and mass those of the elements, and not a body's full matrices?"""
+        if not self.spec.body or str(self.stored.get("basis", {}).get("name")) == BODY:
+            return True
+        assert self.body is not None
+        return not self.body.is_full
 
     @cached_property
     @one_blas_thread
     def model(self) -> FEModel:
-        """The elements, with stiffness and mass."""
-        return assemble(self.mesh, self.cage.material, order=self.order)
+        """The elements, with stiffness and mass: theirs, or the full matrices of a body."""
+        made = assemble(self.mesh, self.cage.material, order=self.order)
+        if self._own:
+            return made
+        assert self.body is not None
+        return given_model(self.body, made, self.spec)
 
     @cached_property
     def solver(self) -> FreeBodySolver:
@@ -199,6 +223,21 @@ class CageReduction:
         """Names this very basis: what else is kept of it on disk fits no other."""
         return f"{self.key}-{self._known['digest']}"
 
+    @one_blas_thread
+    def as_body(self) -> ReducedBody:
+        """Dynamic modes and residual vectors as a body for other programs."""
+        return body_of(self.basis, self.model)
+
+    @one_blas_thread
+    def as_full_body(self) -> ReducedBody:
+        """Stiffness and mass of all nodes as a body for other programs."""
+        return full_body_of(self.model)
+
+    @property
+    def fit(self) -> BodyFit | None:
+        """How a reduced body from elsewhere fits the elements; None without one."""
+        return self.basis.fit if self.spec.body else None
+
     @cached_property
     @one_blas_thread
     def interface(self) -> Any:
@@ -219,5 +258,8 @@ class CageReduction:
     def _make_basis(self) -> dict[str, np.ndarray]:
         count, solver = self.mesh.pocket_count, self.solver
         with told_modes(solver):
-            basis = build_basis(self.model, pocket_count=count, spec=self.spec, solver=solver)
-        return basis_arrays(basis)
+            if self.body is not None and not self.body.is_full:
+                made = basis_of_body(self.body, solver, pocket_count=count, spec=self.spec)
+            else:
+                made = build_basis(self.model, pocket_count=count, spec=self.spec, solver=solver)
+        return basis_arrays(made)

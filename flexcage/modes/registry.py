@@ -5,6 +5,7 @@ from __future__ import annotations
 import logging
 from collections.abc import Callable
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 from scipy.linalg import eigvalsh
@@ -16,6 +17,8 @@ from flexcage.fem.model import FEModel
 from flexcage.mesh.cage_mesh import WALL_GROUPS, pocket_groups
 from flexcage.modes import craig_bampton, free_free, ritz
 from flexcage.modes.basis import ModeBasis
+from flexcage.modes.door.body import ReducedBody
+from flexcage.modes.door.cage import basis_from_body
 from flexcage.modes.orientation import oriented
 from flexcage.modes.spec import KINDS, ModesSpec
 from flexcage.modes.stiffening import spin_stiffness
@@ -64,9 +67,12 @@ def register_basis(
     KINDS[name] = spec
 
 
-def basis_version(kind: str) -> tuple[str, ...]:
-    """What a cached basis depends on besides its spec: the file of a builder from outside."""
-    return (source_of(kind),) if source_of(kind) else ()
+def basis_version(spec: ModesSpec) -> tuple[str | bytes, ...]:
+    """What a cached basis depends on besides its spec: the file of a builder from outside, and the
+    bytes of a body's files."""
+    outside = source_of(spec.kind)
+    bodies = (Path(f) for f in (spec.body, spec.body_nodes) if f)
+    return (*([outside] if outside else []), *(p.read_bytes() for p in bodies if p.is_file()))
 
 
 def build_basis(
@@ -96,7 +102,26 @@ def build_basis(
         solver = FreeBodySolver(model, kind=solver_kind)
     basis = builder(solver, pocket_count=pocket_count, spec=spec)
     check_basis(basis, len(model.nodes))
-    basis = oriented(basis, model, pocket_count)
+    return stiffened(oriented(basis, model, pocket_count), solver, spec)
+
+
+def basis_of_body(
+    body: ReducedBody, solver: FreeBodySolver, *, pocket_count: int, spec: ModesSpec
+) -> ModeBasis:
+    """Modal basis of a cage that was reduced elsewhere; ``solver`` is of the cage's own elements.
+
+    Coordinates that the body names are taken as they are; signs and directions of eigenmodes are
+    fixed by rule. InputError for a body that does not fit.
+    """
+    basis = basis_from_body(body, solver, pocket_count=pocket_count, spec=spec)
+    check_basis(basis, len(solver.model.nodes))
+    if not body.kind:
+        basis = oriented(basis, solver.model, pocket_count)
+    return stiffened(basis, solver, spec)
+
+
+def stiffened(basis: ModeBasis, solver: FreeBodySolver, spec: ModesSpec) -> ModeBasis:
+    """The basis with what rotation stiffens, if ``spec`` asks for it."""
     if spec.geometric_stiffening and basis.geometric is None:
         basis = replace(basis, geometric=spin_stiffness(solver, basis.shapes))
     first = ", ".join(f"{f:.1f}" for f in basis.frequencies[:6])

@@ -6,6 +6,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from flexcage.core.body_file import BodyFile
 from flexcage.core.spec import option, quantity
 from flexcage.geometry.materials import OILED_ASSEMBLY, Material
 
@@ -22,8 +23,8 @@ class DampingBand:
 
 
 @dataclass(frozen=True, kw_only=True)
-class ModesSpec:
-    """Modal basis of the flexible cage."""
+class ModesSpec(BodyFile):
+    """Modal basis of the flexible cage: computed as ``kind`` says, or from a ``body``."""
 
     kind: str = option("ritz", doc="kind of basis", choices=KINDS)
     count: int = option(24, doc="number of free (or fixed-interface) eigenmodes", minimum=1)

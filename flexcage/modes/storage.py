@@ -9,14 +9,14 @@ from that of shapes in full precision (``tests/simulate/test_folder_alone.py``).
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import fields
+from dataclasses import astuple, fields
 from typing import Any, TypeVar
 
 import numpy as np
 import scipy.sparse as sp
 
 from flexcage.core.hashing import content_hash
-from flexcage.modes.basis import ModeBasis, ResidualFlexibility
+from flexcage.modes.basis import BodyFit, ModeBasis, ResidualFlexibility
 from flexcage.modes.table import ModeTable
 
 Interface = TypeVar("Interface")
@@ -38,6 +38,8 @@ def basis_arrays(basis: ModeBasis) -> dict[str, np.ndarray]:
     }
     if basis.geometric is not None:
         arrays["geometric"] = basis.geometric
+    if basis.fit is not None:
+        arrays["fit"] = np.array(astuple(basis.fit))
     if basis.residual is not None:
         r = basis.residual
         assert r.shapes is not None, "a basis is stored as it was made"
@@ -79,6 +81,7 @@ def basis_from(a: Mapping[str, np.ndarray]) -> ModeBasis:
         kind=tuple(str(k) for k in a["kind"]),
         residual=residual,
         geometric=a.get("geometric"),
+        fit=BodyFit(*map(float, a["fit"])) if "fit" in a else None,
     )
 
 

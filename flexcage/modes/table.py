@@ -70,7 +70,7 @@ def mode_table(model: FEModel, basis: ModeBasis, *, pocket_count: int) -> ModeTa
     shapes = basis.shapes.reshape(model.n_dof, -1)
     translation = np.einsum("i,ian->na", model.nodal_mass, basis.shapes)
     modal_mass = np.diag(basis.mass)
-    names, loads = _LOADS[pocket_groups(model.groups)](model, pocket_count)
+    names, loads = table_loads(model, pocket_count)
     work = shapes.T @ loads
     carried = work * np.linalg.solve(basis.stiffness, work)
     residual = np.zeros(2)
@@ -88,6 +88,11 @@ def mode_table(model: FEModel, basis: ModeBasis, *, pocket_count: int) -> ModeTa
         residual_share=residual / total,
         loaded=names,
     )
+
+
+def table_loads(model: FEModel, pocket_count: int) -> tuple[tuple[str, str], np.ndarray]:
+    """What the two forces of the table act on, and their nodal loads (3N, 2) [N]."""
+    return _LOADS[pocket_groups(model.groups)](model, pocket_count)
 
 
 def _on_faces(model: FEModel, pocket_count: int) -> tuple[tuple[str, str], np.ndarray]:

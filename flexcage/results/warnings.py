@@ -10,7 +10,7 @@ from __future__ import annotations
 import json
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import asdict, dataclass
-from math import isfinite
+from math import isfinite, pi
 from typing import TYPE_CHECKING, Any, TypeVar
 
 import numpy as np
@@ -21,11 +21,13 @@ from flexcage.core.warning import RunWarning
 from flexcage.geometry.bearing import Bearing
 from flexcage.geometry.cage import Cage
 from flexcage.geometry.odd import odd_geometry
-from flexcage.mesh.cage_mesh import CageMesh
+from flexcage.mesh.cage_mesh import WALL_GROUPS, CageMesh, pocket_groups
+from flexcage.modes.basis import BodyFit
 from flexcage.results import metrics
 from flexcage.results.audit import EXCEEDED, OF_CAGE, OF_DRIVE
 from flexcage.results.bootstrap import FEWEST
 from flexcage.results.edges import Edge
+from flexcage.results.elastic import ElasticShape, grown_into_ring, large_rotation
 from flexcage.results.summary import Summary
 
 if TYPE_CHECKING:
@@ -35,6 +37,9 @@ _LEAST_TURNS = 1.0  # of the cage in the statistics: one brings every element th
 # a cage that is thrown off: the mean distance of its centre rises through so many equal parts of
 # the settled time, by so much in all, beyond so much of what its pockets leave it
 _PARTS, _GROWN, _BEYOND_POCKETS = 5, 1.3, 2.0
+# of a body from elsewhere: least share of a pocket's deflection that it holds, and difference of
+# its stiffness from the elements' beyond what meshes of one fineness differ by
+_CARRIED, _STIFFNESS = 0.97, 0.05
 _PASSED = 1e-6  # m by which a cage must pass a ring, more than rounding
 
 Facts = TypeVar("Facts")
@@ -54,6 +59,8 @@ class Setup:
     pinched: tuple[int, ...] = ()  # pockets that hold their element with force
     pinch_force: float = 0.0  # N, the largest
     statics: tuple[str, ...] = ()  # warnings of the static solution that the run begins with
+    fit: BodyFit | None = None  # of a cage that was reduced elsewhere
+    highest: float = 0.0  # Hz, of the dynamic modes
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -68,6 +75,7 @@ class Outcome:
     duration: float  # s that it should last
     settle: float  # share of the run that statistics leave out
     edges: tuple[Edge, ...] = ()  # contact ellipses at grooves' edges
+    shape: ElasticShape = ElasticShape()  # how far the cage deformed
 
     @property
     def element(self) -> str:
@@ -137,7 +145,7 @@ def _sharp_corners(setup: Setup) -> Iterator[RunWarning]:
 
 
 def _no_residual_flexibility(setup: Setup) -> Iterator[RunWarning]:
-    if not setup.flexible or setup.attached or setup.basis == "craig_bampton":
+    if not setup.flexible or setup.attached or setup.basis == "craig_bampton" or setup.fit:
         return
     yield RunWarning(
         "no_residual_flexibility",
@@ -145,6 +153,44 @@ def _no_residual_flexibility(setup: Setup) -> Iterator[RunWarning]:
         "the static deflection under loads on every pocket, pockets are too stiff under contact "
         "forces, and stress peaks too low.",
     )
+
+
+def _body_too_stiff(setup: Setup) -> Iterator[RunWarning]:
+    """A body from elsewhere whose modes miss deflection; in round pockets the interface has it."""
+    if setup.fit is None or pocket_groups(setup.mesh.groups) == WALL_GROUPS:
+        return
+    if setup.fit.carried < _CARRIED:
+        yield RunWarning(
+            "no_residual_flexibility",
+            f"The body of modes.body holds {100.0 * setup.fit.carried:.3g} % of the static "
+            "deflection under a force on a pocket's wall, and no residual flexibility has the "
+            "rest: pockets are too stiff under contact forces, and stress peaks too low; write "
+            "more modes, attachment modes of the pockets' faces, or the full matrices.",
+        )
+
+
+def _body_of_another_stiffness(setup: Setup) -> Iterator[RunWarning]:
+    if setup.fit is not None and abs(setup.fit.stiffness - 1.0) > _STIFFNESS:
+        yield RunWarning(
+            "body_stiffness",
+            f"A mode of modes.body is {setup.fit.stiffness:.3g} times as stiff as its shape makes "
+            "the cage's own elements: contact laws and stresses take the modulus of "
+            "cage.material; give that of the body.",
+        )
+
+
+def _body_of_few_modes(setup: Setup) -> Iterator[RunWarning]:
+    """The band that contacts excite is taken to end where an element bounces on a pocket's wall."""
+    if setup.fit is None:
+        return
+    bounce = (setup.fit.compliance * setup.bearing.element_mass) ** -0.5 / (2.0 * pi)
+    if setup.highest < bounce:
+        yield RunWarning(
+            "few_modes",
+            f"The modes of modes.body reach {setup.highest / 1e3:.3g} kHz, but a "
+            f"{setup.bearing.element} bounces on the wall of its pocket at {bounce / 1e3:.3g} kHz: "
+            "the inertia of the wall is missing in contacts; write modes up to there.",
+        )
 
 
 def _rigid_land(setup: Setup) -> Iterator[RunWarning]:
@@ -170,6 +216,9 @@ AT_START: tuple[Callable[[Setup], Iterator[RunWarning]], ...] = (
     _statics,
     _sharp_corners,
     _no_residual_flexibility,
+    _body_too_stiff,
+    _body_of_another_stiffness,
+    _body_of_few_modes,
     _rigid_land,
 )
 
@@ -237,7 +286,7 @@ def _passes_ring(o: Outcome) -> Iterator[RunWarning]:
         centre = metrics.centre_of(ds, "cage")
         if side == "inner":
             centre = centre - metrics.centre_of(ds, "inner")
-        swing = np.hypot(*centre.T) + 0.5 * cage.axial_width * np.sin(tilt)
+        swing = np.hypot(*centre.T) + cage.axial_reach * np.sin(tilt)
         at = int(swing.argmax())
         if gap > 0.0 and swing[at] > gap + _PASSED:
             yield RunWarning(
@@ -306,6 +355,15 @@ def _over_edge(o: Outcome) -> Iterator[RunWarning]:
             yield RunWarning("over_edge", edge.warning[0].upper() + edge.warning[1:])
 
 
+def _large_rotation(o: Outcome) -> Iterator[RunWarning]:
+    yield from large_rotation(o.shape)
+
+
+def _grown_into_ring(o: Outcome) -> Iterator[RunWarning]:
+    guided = o.cage.land_ring if has_land(o.cage, o.land) else ""
+    yield from grown_into_ring(o.shape, o.cage, o.bearing.cage_space(o.cage), guided)
+
+
 def _um(length: float) -> str:
     return f"{length * 1e6:.3g} um" if abs(length) < 1e-3 else f"{length * 1e3:.3g} mm"
 
@@ -316,6 +374,8 @@ AT_END: tuple[Callable[[Outcome], Iterator[RunWarning]], ...] = (
     _yield,
     _thrown_off,
     _passes_ring,
+    _large_rotation,
+    _grown_into_ring,
     _short,
     _drift,
     _audit,

@@ -39,6 +39,8 @@ def warnings_at_start(
         pinched=start.pinched,
         pinch_force=start.pinch_force,
         statics=start.warnings,
+        fit=None if cage is None else cage.fit,
+        highest=0.0 if cage is None else float(cage.table.frequency.max()),
     )
     said = [("not_reached", s) for s in not_reached(case)]
     said += [("land_clearance", s) for s in land_beside_shoulder(case)]

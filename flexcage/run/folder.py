@@ -78,7 +78,7 @@ def begun_store(folder: Path, case: Case) -> RunStore | None:
     path = folder / "results.zarr"
     store = RunStore.open(path) if RunStore.begun(path) else None
     stored, named = _stored(folder, store)
-    if case.hash != named and not _without_its_mesh_file(case, stored):
+    if case.hash != named and not _without_its_files(case, stored):
         raise InputError(
             f"The case differs from the one of the run in '{folder}'{_difference(case, stored)}; "
             "resume the same case, or name another folder.",
@@ -108,11 +108,11 @@ def _stored(folder: Path, store: RunStore | None) -> tuple[Case, str]:
     return load_case(attrs["case"]), attrs["hash"]
 
 
-def _without_its_mesh_file(case: Case, stored: Case) -> bool:
-    """Whether two cases differ in nothing but that the mesh file of both is no longer there: the
-    run's folder keeps the mesh."""
-    gone = case.mesh.file and not Path(case.mesh.file).is_file()
-    return bool(gone) and not case.difference(stored)
+def _without_its_files(case: Case, stored: Case) -> bool:
+    """Whether two cases differ in nothing but that files of both are no longer there: the run's
+    folder keeps mesh and modes."""
+    gone = any(not Path(file).is_file() for file in case.files.values())
+    return gone and not case.difference(stored)
 
 
 def keep_cage(folder: Path, file: CageFile, *, study: Path | None = None) -> None:

@@ -21,4 +21,5 @@ from flexcage.study.run import run_study as run_study
 from flexcage.study.spec import Repeat as Repeat
 from flexcage.study.spec import Study as Study
 from flexcage.study.spec import load_study as load_study
+from flexcage.study.surface import response_surface as response_surface
 from flexcage.study.unknowns import Unknown as Unknown

@@ -101,7 +101,7 @@ def _modes_key(case: Case) -> str:
         return ""
     return content_hash(
         case.cage, case.all_defects, case.mesh, case.modes, case.bearing.element_count,
-        case.bearing.pitch_diameter, *basis_version(case.modes.kind),
+        case.bearing.pitch_diameter, *basis_version(case.modes),
     )  # fmt: skip
 
 

@@ -105,6 +105,7 @@ class Tangent(NamedTuple):
     Mbb: np.ndarray  # (nb, nb)
     held: np.ndarray  # (m, 14) G of the constraints beyond drive and load, where it acts
     active: np.ndarray  # (Z,) roller touches its pocket
+    turns: np.ndarray  # (3,) places in an element's coordinates of what its rotations turn
 
 
 class Report(NamedTuple):
@@ -176,15 +177,17 @@ class Work(NamedTuple):
 
 def new_work(
     layout: Layout, race_work: RaceWork, pocket_work: Any, *, slices: int, points: int,
-    faces: int, stations: int, ribs: int, land_stations: int,
+    faces: int, stations: int, ribs: int, land_stations: int, turns: tuple[int, int, int],
 ) -> Work:  # fmt: skip
-    """Fresh workspaces for one thread, of elements with so many contact places."""
+    """Fresh workspaces for one thread, of elements with so many contact places; ``turns`` as
+    ``Tangent`` has it."""
     Z, n, nb = layout.elements, layout.modes, layout.n_border
     places = 2 + faces + ribs
     z = np.zeros
     tangent = Tangent(
         z((Z, 6, 6)), z((Z, 6, 6)), z((Z, 6, nb)), z((Z, 6, nb)), z((Z, nb, 6)), z((Z, nb, 6)),
         z((nb, nb)), z((nb, nb)), z((nb, nb)), z((len(layout.held), 14)), z(Z, np.int64),
+        np.array(turns),
     )  # fmt: skip
     report = Report(
         z((Z, 2, N_RACE)), z((Z, faces)), z((Z, faces)), z((Z, 2, slices)), z((Z, 2, slices)),

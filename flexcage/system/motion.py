@@ -81,8 +81,10 @@ class Motion(Generic[M]):
     compiles for a ``d`` of type ``parts``; ``new_work`` makes its workspaces. It calls the
     functions ``separate``, of the same arguments, as values: they are compiled on their own, by
     another process at the same time, and follow the laws in ``law``; the longest first. ``faces``
-    names the faces of a pocket, ``ribs`` what else an element touches besides its races. Mode
-    TANGENT fills the tangent, unless the spec's bearings are ``explicit_only``.
+    names the faces of a pocket, ``ribs`` what else an element may touch besides its races: a
+    bearing has the first of them, as many as ``new_work`` makes room for.
+    ``linearise(t, y, yd, data)`` fills the tangent, in plain Python that is compiled when an
+    implicit method asks for it; None: mode TANGENT of ``evaluate`` does.
     """
 
     build_model: BuildModel[M]
@@ -94,8 +96,11 @@ class Motion(Generic[M]):
     ribs: tuple[str, ...]
     start: FindStart
     error_weights: Callable[[M, Layout, float], np.ndarray]  # see ``scales.shared_weights``
+    linearise: Callable[..., None] | None = None
+    implicit_share: float = 0.0  # "auto" takes implicit steps below this many solver.stable_step
+    implicit_weights: Callable[[M, Layout, float], np.ndarray] | None = None  # None: error_weights
 
-    @property
-    def places(self) -> tuple[str, ...]:
-        """Names of all contact places of an element and of the lands, in the order of events."""
-        return ("inner race", "outer race", *self.faces, *self.ribs, "land -x", "land +x")
+    def places(self, ribs: int) -> tuple[str, ...]:
+        """Names of all contact places of an element with so many ribs and of the lands, in the
+        order of events."""
+        return ("inner race", "outer race", *self.faces, *self.ribs[:ribs], "land -x", "land +x")

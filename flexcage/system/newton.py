@@ -11,6 +11,7 @@ from flexcage.contacts.evaluation import ACCEPT, RESIDUAL, TANGENT
 from flexcage.contacts.state import Q_SKEW, Q_SPIN, Q_TILT, U_SKEW, U_SPIN, U_TILT
 from flexcage.core.jit import VECTORISED, fields, kernel, zero
 from flexcage.core.rotation import quaternion_rate, rotation_of_quaternion_change
+from flexcage.core.vectors import TURN
 from flexcage.solve import bordered
 from flexcage.system.data import AXIAL, MASS, TRANSVERSE
 from flexcage.system.layout import (
@@ -102,7 +103,8 @@ def newton_step(alpha, y, r, tan, m):
     for i in range(Z):
         o = PER_ELEMENT * i
         s[i, 0], s[i, 1], s[i, 2] = r[o], r[o + 1], r[o + 2] * y[o + 1]
-        s[i, U_SPIN], s[i, U_SKEW], s[i, U_TILT] = r[o + Q_SPIN], r[o + Q_SKEW], r[o + Q_TILT]
+        for c in range(3):
+            s[i, TURN + c] = r[o + tan.turns[c]]
     sb[0], sb[1], sb[2] = r[z], r[z + 1], r[z + 2]
     sb[U_SPIN], sb[U_SKEW], sb[U_TILT] = r[z + Q_SPIN], r[z + Q_SKEW], r[z + Q_TILT]
     for c in range(5):
@@ -141,7 +143,8 @@ def newton_step(alpha, y, r, tan, m):
             r[nq + o + k] = x[i, k]
             s[i, k] = b * (x[i, k] - s[i, k])
         r[o], r[o + 1], r[o + 2] = s[i, 0], s[i, 1], s[i, 2] / y[o + 1]
-        r[o + Q_SKEW], r[o + Q_TILT], r[o + Q_SPIN] = s[i, U_SKEW], s[i, U_TILT], s[i, U_SPIN]
+        for c in range(3):
+            r[o + tan.turns[c]] = s[i, TURN + c]
     for k in range(MODES + nm):
         r[nq + z + k] = xb[k]
         sb[k] = b * (xb[k] - sb[k])

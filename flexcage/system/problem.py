@@ -20,7 +20,6 @@ from flexcage.bodies.floating_frame import marked
 from flexcage.contacts import laws
 from flexcage.contacts.evaluation import RESIDUAL
 from flexcage.contacts.spec import Contacts
-from flexcage.core.errors import InputError
 from flexcage.core.garbage import uncollected
 from flexcage.core.jit import (
     OPTIONS,
@@ -65,7 +64,6 @@ PROBLEM: dict[str, tuple[Callable[..., Any], tuple[Any, ...]]] = {
     "wanted": (sampling.wanted, (_FLAG, _COUNT, None)),
     "sample": (rates.sample, (_NONE, _COUNT, _REAL, _VECTOR, _VECTOR, None)),
 }
-_OF_TANGENT = ("linearise", "factor", "backsolve")
 
 
 class Events(NamedTuple):
@@ -232,6 +230,11 @@ class Bearing:
         return modal_oscillators(self.data.model.cage, self.layout)
 
     @property
+    def places(self) -> tuple[str, ...]:
+        """Names of all contact places of an element and of the lands, in the order of events."""
+        return self.motion.places(self.data.work.report.rib.shape[1])
+
+    @property
     def separate(self) -> tuple[Any, ...]:
         """What the residual calls as values, compiled."""
         return tuple(
@@ -276,14 +279,9 @@ class Bearing:
 
     def function(self, name: str) -> Any:
         """A function that ``PROBLEM`` names, compiled for this bearing when first asked for."""
-        if name in _OF_TANGENT and self.spec.explicit_only:
-            raise InputError(
-                f"A bearing's {self.spec.element}s have no tangent yet, which implicit methods "
-                'want; take solver.method = "auto" or "explicit".',
-                where="solver.method",
-            )
         if name not in self._functions:
-            self._functions[name] = compiled(PROBLEM[name][0], self.signature(name))
+            own = self.motion.linearise if name == "linearise" else None
+            self._functions[name] = compiled(own or PROBLEM[name][0], self.signature(name))
         return self._functions[name]
 
     def functions(self, integrator: Integrator) -> tuple[Any, ...]:
@@ -322,9 +320,13 @@ class Bearing:
             self._advance[integrator.name] = self._compiled(integrator, "advance", signature)
         return self._advance[integrator.name]
 
-    def error_weights(self, length: float) -> np.ndarray:
-        """1/(allowed local error) of y for a position error of ``length`` [m]; 0: not tested."""
-        return self.motion.error_weights(self.data.model, self.layout, length)
+    def error_weights(self, length: float, *, implicit: bool = False) -> np.ndarray:
+        """1/(allowed local error) of y for a position error of ``length`` [m]; 0: not tested.
+
+        ``implicit``: those of methods that stability does not bound.
+        """
+        own = self.motion.implicit_weights if implicit else None
+        return (own or self.motion.error_weights)(self.data.model, self.layout, length)
 
     def corners(self, begin: float, end: float) -> np.ndarray:
         """Times in [begin, end) at which the drive's or a load's slope jumps, and y' with it."""

@@ -42,10 +42,11 @@ def test_the_bend_touches_sheet_and_sphere():
 
 def test_walls_end_where_the_spheres_meet_bore_outside_and_sides():
     """In front of the ball, at the azimuth whose chord and height reach that radius."""
-    outward, inward, along = CAGE.wall_ends(13.0 * MM, 3.45 * MM)
+    outward, inward, along, rear = CAGE.wall_ends(13.0 * MM, 3.45 * MM)
     for radius, sine in ((14.6, outward), (11.4, -inward)):
         point = np.array([13.0 + 3.45 * sine, 3.45 * sqrt(1.0 - sine**2)])
         assert np.linalg.norm(point) == pytest.approx(radius)
+    assert rear == along
     assert degrees(acos(along)) == pytest.approx(degrees(asin(CAGE.opening / (3.45 * MM))))
     assert replace(CAGE, width=7.0 * MM).wall_ends(13.0 * MM, 3.45 * MM)[2] > 1.0
 

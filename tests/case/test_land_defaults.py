@@ -54,6 +54,37 @@ def test_a_roller_bearings_land_follows_its_cage():
     assert outer.land.width == 3.5e-3, "the outer ring has no ribs"
 
 
+DESIGN = {"bearing.design": "NU", "bearing.rib_diameter": "87.1 mm"}
+COUNTER = {"bearing.counter_rib_diameter": "78.4 mm", "bearing.counter_rib_gap": "9 mm"}
+
+
+@pytest.mark.parametrize(
+    ("changes", "clearance", "begin"),
+    [
+        (DESIGN | {"cage.guidance": "outer"}, 0.5 * (87.1e-3 - 86.6e-3), 4.125e-3),
+        (DESIGN | {"cage.guidance": "outer", "bearing.rib_gap": "9 mm"}, 0.25e-3, 4.5e-3),
+        (DESIGN | {"cage.guidance": "roller"}, 0.5 * (78.9e-3 - 74.49e-3), 4.125e-3),  # the race
+        (DESIGN | COUNTER | {"bearing.design": "NUP"}, 0.25e-3, 4.5e-3),
+        (DESIGN | COUNTER | {"bearing.design": "NUP", "cage.guidance": "outer"}, 0.25e-3, 4.125e-3),
+        (DESIGN | COUNTER | {"bearing.design": "NJ", "cage.guidance": "outer"}, 0.25e-3, 4.125e-3),
+    ],
+)
+def test_a_land_lies_on_the_ribs_of_its_ring_or_else_on_the_race(changes, clearance, begin):
+    """The cage ends 8 mm from the middle, its pockets 4.125 mm from it."""
+    case = load_case(N1013).replace(changes)
+    assert case.land.clearance == pytest.approx(clearance)
+    assert case.land.width == pytest.approx(0.9 * (8e-3 - begin), rel=0.02)
+
+
+def test_a_single_rib_is_no_land():
+    """A cage that rollers guide does not touch it; it stands clear of it all the same."""
+    case = load_case(N1013).replace(DESIGN | COUNTER | {"bearing.design": "NJ"})
+    assert case.land.kind == "none"
+    assert [limit.name for limit in case.bearing.cage_space(case.cage)] == [
+        "the inner ring's rib", "the outer ring's ribs",
+    ]  # fmt: skip
+
+
 def test_a_cage_that_does_not_reach_the_ribs_touches_none():
     case = load_case(N1013).replace("bearing.rib_gap", "16.5 mm")
     assert case.land.kind == "none"

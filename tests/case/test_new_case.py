@@ -2,6 +2,7 @@
 and one sentence for what cannot be."""
 
 import re
+from functools import cache
 
 import pytest
 
@@ -34,6 +35,7 @@ N406 = Outline(
 WAY = "flexcage new --type deep_groove_ball --bore"
 
 
+@cache
 def written(designation):
     entry = catalogue.find(designation)
     return new_case(entry.outline, entry.source)
@@ -100,11 +102,41 @@ def test_series_share_boundary_dimensions():
     bores = {"00": 10.0, "01": 12.0, "02": 15.0, "03": 17.0}
     for designation in catalogue.designations():
         outline = catalogue.find(designation).outline
-        code = re.sub(r"^(N10|N[23]|[67]\d)|[A-Z]+$", "", designation)
+        code = re.sub(r"^((N|NU)10|(N|NU|NJ|NUP)[23]|[67]\d)|[A-Z]+$", "", designation)
         assert 1e3 * outline.bore == pytest.approx(bores.get(code, 5.0 * int(code)))
         assert outline.bore < outline.outside_diameter and catalogue.find(designation).source
     a, b, c = (catalogue.find(name).outline.boundary for name in ("6210", "7210 B", "n-210"))
     assert a == b == c
+
+
+@pytest.mark.parametrize("design", ["NU", "NJ", "NUP"])
+def test_designs_share_the_races_of_their_size(design):
+    """What a catalogue says of ribs is taken; the cage stands between the ribs that there are."""
+    made = written(f"{design} 210")
+    bearing, cage = made.chosen.bearing, load_case(made.text).cage
+    assert bearing.design == design and f'design = "{design}"' in made.text
+    n = catalogue.find("N 210").outline
+    assert bearing.inner_race_diameter == n.inner_race_diameter
+    assert bearing.outer_race_diameter == n.outer_race_diameter
+    assert bearing.rib_diameter == 78.3e-3 and bearing.rib_gap > bearing.roller_length
+    if design == "NU":
+        assert bearing.counter_rib_diameter is None and "counter_rib" not in made.text
+        assert 0.5 * (bearing.rib_diameter - cage.outside_diameter) == pytest.approx(0.25e-3)
+    else:
+        assert bearing.counter_rib_diameter == 64.0e-3
+        assert 64.0e-3 < cage.bore < cage.outside_diameter < 78.3e-3
+    assert made.text.count("# given: ribs of the") == (1 if design == "NU" else 2)
+
+
+def test_ribs_that_no_catalogue_gives_are_assumed():
+    own = catalogue.find("NUP 210").outline
+    bare = Outline(**(vars(own) | {"inner_rib_diameter": None, "outer_rib_diameter": None}))
+    made = new_case(bare, "given")
+    assert made.text.count("# assumption: ribs 22% of the roller's diameter high") == 2
+    assert made.chosen.bearing.rib_diameter == pytest.approx(76.7e-3)
+    assert made.chosen.bearing.counter_rib_diameter == pytest.approx(64.3e-3)
+    with pytest.raises(InputError, match="--design 'NX' is not known"):
+        new_case(Outline(**(vars(own) | {"design": "NX"})), "given")
 
 
 @pytest.mark.parametrize("designation", ["6205", "N210"])
@@ -121,10 +153,15 @@ def test_a_written_case_runs(designation, tmp_path):
     [
         ("6213", "'6213' is not in the catalogue; the nearest known ones are 62"),
         ("6199", WAY),
-        ("abc", "it has the series 60, 62, 63, 70, 72, 73, N10, N2, N3"),
-        ("NU 210", "flexcage has the design N alone"),
-        ("NU 210", "'N210' has the same races and ratings"),
-        ("NUP10", "flexcage has the design N alone"),
+        ("abc", "it has the series 60, 62, 63, 70, 72, 73, N10, N2, N3, NU10, NU2, NU3, NJ2"),
+        ("NUP10", "flexcage has the designs N, NU, NJ, NUP and NF"),
+        ("NJ 1010", "'NU1010' has the same races and ratings"),
+        ("NU 213", "'NU 213' is not in the catalogue; the nearest known ones are NU"),
+        (
+            "NUP202",
+            "--inner-race, --outer-race: flexcage new NUP202 --type cylindrical_roller "
+            '--design NUP --bore "15 mm"',
+        ),
         ("7205AC", "no ratings of '7205AC' (it has 7205A, 7205B, 7205C)"),
         ("7205AC", '--width "15 mm" --contact-angle "25 deg"'),
         ("7205", "--dynamic, --static, --contact-angle: flexcage new 7205 --type"),

@@ -133,6 +133,10 @@ SPELLINGS: dict[str, tuple[tuple[float | str, str], ...]] = {
         (1.0, "1 N/m | 1e-3 N/mm | 1e-6 N/um | 1e-6 N/µm | 1e-3 kN/m | 1 N*m^-1"),
         (OTHER, "1 N*m | 1 N*m/rad | 1 N/m^2 | 1 Nm | 1 lb/in"),
     ),
+    "stiffness per area": (
+        (1e9, "1e9 N/m^3 | 1 N/mm^3 | 1 MPa/mm | 1e3 N/cm^3 | 1 kPa/um"),
+        (OTHER, "1 N/m | 1 N/mm^2 | 1 MPa | 1 kg/m^3"),
+    ),
     "damping": (
         (1.0, "1 N*s/m | 1e-3 N*s/mm | 1 N/(m/s) | 1 kg/s"),
         (OTHER, "1 N/m | 1 N*m*s/rad | 1 %"),

@@ -19,10 +19,38 @@ PRESSES = NormalLaw(law="restitution", restitution=0.6)
 RUBS = FrictionLaw(static=0.1, dynamic=0.06)
 
 
-@pytest.fixture(scope="module")
-def ribs(build_parts):
-    model = build_parts(contacts=Contacts(rib=PairSpec(normal=PRESSES, friction=RUBS)))
-    return model.rib
+@pytest.fixture(scope="module", params=["N", "NU"])
+def ribs(request, build_parts):
+    """Two ribs of the inner ring, or of the outer one."""
+    outer = request.param == "NU"
+    bearing = {"design": "NU", "rib_diameter": 86.6e-3} if outer else {}
+    contacts = Contacts(rib=PairSpec(normal=PRESSES, friction=RUBS))
+    model = build_parts(bearing=bearing, contacts=contacts)
+    return model.outer_rib if outer else model.rib
+
+
+def test_ribs_bear_on_a_rollers_end_where_they_overlap(build_parts):
+    """Halfway from the rib's edge to where the end's chamfer begins, below the axis or above it."""
+    other = {"design": "NJ", "rib_diameter": 86.6e-3, "counter_rib_diameter": 78.4e-3}
+    model = build_parts(bearing={**other, "counter_rib_gap": 8.03e-3})
+    for data, edge, sense in ((model.rib, 78.4e-3, -1.0), (model.outer_rib, 86.6e-3, 1.0)):
+        low, high = sorted((0.5 * edge - PITCH, sense * 0.9 * 4e-3))
+        assert data.points[:, 0] == pytest.approx(0.5 * (low + high))
+        assert data.points[2, 1] == -data.points[0, 1] > 1e-3
+    assert (model.rib.first, model.rib.end, model.rib.column) == (1, 2, 2)  # one rib, at -x
+    assert (model.outer_rib.first, model.outer_rib.end, model.outer_rib.column) == (0, 2, 0)
+
+
+def test_a_single_rib_is_met_on_its_side_alone(build_parts):
+    """An NJ's inner ring pushes its rollers one way and lets them go the other."""
+    one = {"design": "NJ", "rib_diameter": 86.6e-3, "counter_rib_diameter": 78.4e-3}
+    for thrust, face, sense in (("+x", 1, -1.0), ("-x", 0, 1.0)):
+        bearing = {**one, "counter_rib_gap": 8.03e-3, "thrust": thrust}
+        data = build_parts(bearing=bearing).rib
+        wrench, sums, _ = rib(data, [sense * (PLAY + 1e-6), PITCH, 0])
+        assert sums[NORMAL + face] > 1.0 and sums[NORMAL + 1 - face] == 0.0
+        assert wrench[0] == pytest.approx(-sense * sums[NORMAL + face])
+        assert not rib(data, [-sense * (PLAY + 50e-6), PITCH, 0])[0].any()
 
 
 def test_ribs_touch_after_half_of_the_play(ribs):
@@ -52,6 +80,7 @@ def test_a_skewed_roller_is_turned_back(ribs):
 )  # fmt: skip
 def test_rib_energy_and_power(ribs, shift, turn, ring):
     data = ribs
+    ring = ring if data.points[0, 0] < 0.0 else [0, 0, 0]  # an outer ring does not tilt
     axis, b = turned(np.eye(3), turn), turned(np.eye(3), ring)[0]
     P = np.array([np.copysign(PLAY, shift) + shift, PITCH, 2e-5])
     still = rib(data, P, axis=axis, b=b)

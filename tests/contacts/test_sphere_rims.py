@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from flexcage.contacts.ball_pocket import _nearest, _turning
+from flexcage.contacts.ball_pocket import nearest_wall, turning
 from flexcage.core.jit import kernel
 
 RADIUS = 3.45
@@ -11,8 +11,10 @@ RADIUS = 3.45
 
 @kernel
 def nearest(d, rims, seat, a):
-    n, apart, touch = _nearest((d[0], d[1], d[2]), RADIUS, (rims[0], rims[1], rims[2]), seat)
-    return n, apart, _turning((a[0], a[1], a[2]), n, apart, touch)
+    high = rims[0] if d[1] >= 0.0 else rims[1]
+    wide = rims[2] if d[0] >= 0.0 else rims[3]
+    n, apart, touch = nearest_wall((d[0], d[1], d[2]), RADIUS, (high, wide), seat)
+    return n, apart, turning((a[0], a[1], a[2]), n, apart, touch)
 
 
 def found(d, rims, seat=0.0, a=(0.0, 0.0, 0.0)):
@@ -22,8 +24,8 @@ def found(d, rims, seat=0.0, a=(0.0, 0.0, 0.0)):
 
 def wall(rims):
     """Points (n, 3) of the wall, every 0.02 mm or nearer, and of its rims nearer still."""
-    high, low, side = np.minimum(rims, 1.0)
-    r, x = np.meshgrid(np.linspace(-low, high, 1201), np.linspace(-side, side, 1601))
+    high, low, ahead, behind = np.minimum(rims, 1.0)
+    r, x = np.meshgrid(np.linspace(-low, high, 1201), np.linspace(-behind, ahead, 1601))
     level = 1.0 - r**2 - x**2
     t = np.sqrt(np.maximum(level, 0.0))
     half = np.stack([x, r, t], axis=-1)[level >= 0.0]
@@ -31,9 +33,10 @@ def wall(rims):
 
 
 RIMS = {
-    "ribbon": (0.36, 0.57, 0.942),  # of the preset 15x37x10
-    "narrow": (0.36, 0.57, 0.64),  # rims that meet in corners
-    "flat": (0.2, 0.2, 2.0),  # without side openings
+    "ribbon": (0.36, 0.57, 0.942, 0.942),  # of the preset 15x37x10
+    "narrow": (0.36, 0.57, 0.64, 0.64),  # rims that meet in corners
+    "flat": (0.2, 0.2, 2.0, 2.0),  # without side openings
+    "crown": (0.36, 0.57, 0.45, 2.0),  # open on one side
 }
 
 
@@ -50,15 +53,16 @@ def test_the_nearest_point_is_that_of_a_dense_wall(rims):
         assert np.linalg.norm(n) == pytest.approx(1.0, abs=1e-12)
         at = (d + apart * n) / RADIUS
         assert np.linalg.norm(at) == pytest.approx(1.0, abs=1e-9)
-        assert -rims[1] - 1e-9 < at[1] < rims[0] + 1e-9 and abs(at[0]) < rims[2] + 1e-9
-        on_side = abs(abs(at[0]) - rims[2]) < 1e-9
+        assert -rims[1] - 1e-9 < at[1] < rims[0] + 1e-9
+        assert -rims[3] - 1e-9 < at[0] < rims[2] + 1e-9
+        on_side = min(abs(at[0] - rims[2]), abs(at[0] + rims[3])) < 1e-9
         on_rim = min(abs(at[1] - rims[0]), abs(at[1] + rims[1])) < 1e-9
         held.add((on_side, on_rim))
-    wanted = {"ribbon": 3, "narrow": 4, "flat": 2}
+    wanted = {"ribbon": 3, "narrow": 4, "flat": 2, "crown": 4}
     assert len(held) >= wanted[next(k for k, v in RIMS.items() if v == rims)]
 
 
-@pytest.mark.parametrize("rims", [*RIMS.values(), (2.0, 2.0, 2.0)])
+@pytest.mark.parametrize("rims", [*RIMS.values(), (2.0, 2.0, 2.0, 2.0)])
 def test_direction_and_turning_are_slopes(rims):
     """Of the distance, and of its direction; within a seat too, where a ball sinks straight in."""
     rng = np.random.default_rng(3)
@@ -77,7 +81,7 @@ def test_direction_and_turning_are_slopes(rims):
 
 def test_a_seat_turns_the_push_without_a_jump():
     """Straight above a round rim the wall pushes along the radius alone."""
-    rims, seat = (0.36, 0.57, 2.0), 3e-3
+    rims, seat = (0.36, 0.57, 2.0, 2.0), 3e-3
     sideways = [found((0.0, 0.9, t), rims, seat)[0][2] for t in np.linspace(-0.03, 0.03, 61)]
     assert sideways[30] == 0.0 and np.abs(np.diff(sideways)).max() < 0.35
     assert sideways[-1] > 0.9 * np.sqrt(1.0 - found((0.0, 0.9, 0.03), rims, seat)[0][1] ** 2)

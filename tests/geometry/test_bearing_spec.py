@@ -49,7 +49,7 @@ def test_a_family_says_what_there_is_instead_of_a_design(monkeypatch):
     told = {r"taper.*": "tapered rollers are without a picture"}
     own = replace(FAMILY, name="own", types=(), other_designs=told)
     monkeypatch.setitem(FAMILIES._all(), own.name, own)
-    for name, words in (("tapered", "without a picture"), ("nj 205", "the design N alone")):
+    for name, words in (("tapered", "without a picture"), ("nj 205", "give bearing.design")):
         for case in ({"preset": name}, {"type": name}):
             with pytest.raises(InputError, match=words):
                 load_case({"bearing": case})

@@ -370,7 +370,7 @@ def test_absent_unknown_and_unnamed_files(n1013, tmp_path):
     with pytest.raises(InputError, match="there is no mesh file"):
         read_mesh(tmp_path / "none.msh")
     (tmp_path / "cage.stl").write_text("solid")
-    with pytest.raises(InputError, match=".msh, .inp or .vtu"):
+    with pytest.raises(InputError, match=".msh, .inp, .cdb or .vtu"):
         read_mesh(tmp_path / "cage.stl")
     for suffix in (".msh", ".vtu"):
         plain = meshio.Mesh(mesh.points, [("tetra", mesh.tets)])

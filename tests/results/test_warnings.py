@@ -12,7 +12,9 @@ from flexcage.contacts.spec import LandSpec
 from flexcage.core.warning import RunWarning
 from flexcage.geometry.odd import odd_geometry
 from flexcage.mesh.cage_mesh import CageMesh
+from flexcage.modes.basis import BodyFit
 from flexcage.results.edges import Edge
+from flexcage.results.elastic import ElasticShape
 from flexcage.results.summary import Row, Section, Summary, side_by_side
 from flexcage.results.warnings import (
     AT_END,
@@ -203,6 +205,12 @@ WITHOUT_LAND = {k: v for k, v in FILLETED.items() if k != "land_inner"}
          "cage.fillet_radius = 0.5 mm is not in it"),
         ({"basis": "mine", "attached": False}, "no_residual_flexibility", "basis 'mine' has no"),
         ({"basis": "free_free", "attached": False}, "no_residual_flexibility", "too stiff"),
+        ({"attached": False, "fit": BodyFit(1.0, 0.88, 1e-9), "highest": 1e6},
+         "no_residual_flexibility", "holds 88 % of the static deflection"),
+        ({"fit": BodyFit(1.1, 1.0, 1e-9), "highest": 1e6}, "body_stiffness", "is 1.1 times as"),
+        # sqrt(1/(c m))/2 pi of a steel roller of 8 mm by 8 mm, 3.157 g, on 1e-7 m/N
+        ({"fit": BodyFit(1.0, 1.0, 1e-7), "highest": 1.5e3}, "few_modes",
+         "reach 1.5 kHz, but a roller bounces on the wall of its pocket at 8.96 kHz"),
         ({"groups": WITHOUT_LAND}, "rigid_land", "no group 'land_inner'"),
         ({"pinched": (4, 5), "pinch_force": 12.0}, "pinched",
          "the roller of pockets 4, 5 is pinched with up to 12 N"),
@@ -218,7 +226,8 @@ def test_what_warns_at_the_start(changes, key, words):
 def test_what_does_not_warn_at_the_start():
     rigid = setup(groups={}, flexible=False)
     complete = setup(basis="craig_bampton", attached=False)  # its constraint modes are all dynamic
-    for good in (rigid, complete, setup(groups=WITHOUT_LAND, land=LandSpec(kind="none"))):
+    fits = setup(fit=BodyFit(1.02, 0.99, 1e-7), highest=1e5, attached=False)
+    for good in (rigid, complete, fits, setup(groups=WITHOUT_LAND, land=LandSpec(kind="none"))):
         assert warnings_of(AT_START, good) == ()
 
 
@@ -265,3 +274,31 @@ def test_warnings_of_the_start_are_kept_in_the_store():
     told = (RunWarning("a", "One."), RunWarning("b", "Two."))
     assert from_attrs({"warnings": to_text(told)}) == told
     assert from_attrs({}) == (), "a store of an earlier flexcage"
+
+
+def test_a_cage_that_deforms_too_far_for_linear_displacements():
+    """As far as nonlinear solutions say: off by 10 % at 5.7 degrees, stiffened at 9.2."""
+    turned = replace(end(RIBBON), shape=ElasticShape(rotation=0.12))
+    (found,) = warnings_of(AT_END, turned)
+    assert found.key == "large_rotation" and "turn elastically by up to 6.9 deg" in found.text
+    assert "off by about 12 % there; modes.geometric_stiffening = true leaves about 7 %." in (
+        found.text
+    )
+    assert keys(replace(end(RIBBON), shape=ElasticShape(rotation=0.12, stiffened=True))) == []
+    assert keys(replace(end(RIBBON), shape=ElasticShape(rotation=0.09))) == []
+    stiff = replace(end(RIBBON), shape=ElasticShape(rotation=0.2, stiffened=True))
+    (found,) = warnings_of(AT_END, stiff)
+    assert found.text.endswith("off by about 12 % there.")
+
+
+def test_a_cage_that_grows_into_a_ring():
+    """The gap to both shoulders is 0.535 mm; a ring that guides the cage takes it up."""
+    assert keys(replace(end(RIBBON), shape=ElasticShape(inward=0.5e-3, outward=0.53e-3))) == []
+    grown = replace(end(RIBBON), shape=ElasticShape(outward=0.6e-3))
+    (found,) = warnings_of(AT_END, grown)
+    assert found.key == "grown_into_ring"
+    assert "deforms by 0.6 mm towards the outer ring's shoulder, but the gap there is 0.535" in (
+        found.text
+    )
+    bent_in = replace(end(RIBBON), shape=ElasticShape(inward=0.6e-3))
+    assert "the inner ring's shoulder" in warnings_of(AT_END, bent_in)[0].text

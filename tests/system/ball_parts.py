@@ -56,6 +56,7 @@ def ball_cage(preset, *, modes=6, soft=3e-8):
     interface = BallCageInterface(
         stations=theta, modes=phi, local=local, centre=np.zeros((Z, 2)),
         radius=np.full(Z, radius), slot=np.zeros((Z, 2)), land=np.zeros((2, LAND, 3, modes)),
+        offset=np.zeros((Z, len(theta), 3)),
     )  # fmt: skip
     return body, interface
 

@@ -19,6 +19,10 @@ from flexcage.system.scales import work_weights
 from flexcage.system.spec import Drive, Load, Mount
 
 N1013 = load_preset("N1013").bearing
+#: What makes an N1013 another design; ribs of both rings are 1.95 mm high.
+NU = {"design": "NU", "rib_diameter": 86.6e-3}
+NUP = {**NU, "design": "NUP", "counter_rib_diameter": 78.4e-3, "counter_rib_gap": 8.03e-3}
+BETWEEN_RIBS = Load(radial=1000.0, axial=440.0)
 
 
 def assembled(model, contacts, constraints=()) -> Bearing:
@@ -96,6 +100,14 @@ STATES = {
     "light": ({}, {}),
     "every pocket loaded": ({}, {"press": 110e-6, "skew": 3e-4}),
     "ends in the ribs": ({}, {"axial": 20e-6, "skew": 1e-4}),
+    "ends in the outer ribs": (
+        {"bearing": NU, "mount": Mount(kind="bushing", mass=1.0)},
+        {"axial": 20e-6, "skew": 1e-4},
+    ),
+    "ends in the ribs of both rings": (
+        {"bearing": NUP, "load": BETWEEN_RIBS},
+        {"axial": 1e-6, "skew": 1e-4},
+    ),
     "bushing": ({"mount": Mount(kind="bushing", mass=1.0)}, {"press": 105e-6}),
     "housing": ({"mount": Mount(kind="contact", mass=1.0, clearance=1e-6)}, {"press": 105e-6}),
     "shaft": ({"drive": Drive(kind="shaft")}, {"press": 105e-6}),

@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from bearing_runs import SOFT, march, rolling_start
+from bearing_runs import BETWEEN_RIBS, NU, NUP, SOFT, march, rolling_start
 from scipy.spatial.transform import Rotation
 from test_newton_matrix import disturbed
 
@@ -41,6 +41,8 @@ RUNS = {
     "wavy races": {"bearing": {"inner_waviness": 0.5e-6, "inner_waviness_order": 13,
                                "outer_waviness": 0.5e-6, "outer_waviness_order": 17}},
     "compliant shaft": {"load": SOFT},
+    "NU": {"bearing": NU},
+    "NUP under axial load": {"bearing": NUP, "load": BETWEEN_RIBS},
     "flexible": {"flexible": {"modes": 8, "soft": True}},
 }  # fmt: skip
 
@@ -115,12 +117,13 @@ QUIET = {
 }  # fmt: skip
 
 
-def test_contact_forces_sum_to_nothing(bearing_of):
+@pytest.mark.parametrize("design", [{}, NU, NUP])
+def test_contact_forces_sum_to_nothing(bearing_of, design):
     """Third law over all bodies: every contact force is found once more, reversed.
 
     Across the axis only: the outer ring has no axial motion to which its friction could report.
     """
-    bearing = bearing_of(**QUIET)
+    bearing = bearing_of(bearing=design, **QUIET)
     forces = forces_on_bodies(bearing, *crowded(bearing, press=104e-6, skew=3e-4, axial=20e-6))
     size = np.abs(forces[:, 0]).sum(axis=0).max()
     assert size > 1000.0 and np.abs(forces[-1, 0]).max() > 1.0

@@ -127,7 +127,8 @@ def at_rims(bearing):
     y = pressed(bearing)
     q, model = bearing.layout.q(y), bearing.data.model
     wall, ball = model.pocket.radius[0], model.bodies.radius[0]
-    high, low, side = model.pocket.rims[0]
+    high, low = model.pocket.rims[0]
+    side = model.pocket.sides[0, 0]
     q["cage"][:], q["quaternion"][:] = 0.0, (1.0, 0.0, 0.0, 0.0)
     touched = [  # sines of latitude along x and r of the wall that the ball is pressed on
         (0.3, high), (-0.5, -low), (0.0, high), (side, 0.1), (-side, -0.3), (side, high),
@@ -157,16 +158,27 @@ def beyond_rim(on_wall, i):
     return away / np.linalg.norm(away)
 
 
+def bent(interface):
+    """Stations that are not where the sphere has them."""
+    interface.offset[:] = 2e-6 * np.random.default_rng(7).standard_normal(interface.offset.shape)
+
+
 @pytest.mark.parametrize(
-    ("rims", "place"),
-    [((2.0, 2.0, 2.0), at_poles), ((0.42, 0.55, 0.7), at_rims)],
-    ids=["poles", "rims"],
+    ("rims", "sides", "place", "change"),
+    [
+        ((2.0, 2.0), (2.0, 2.0), at_poles, None),
+        ((0.42, 0.55), (0.7, 0.7), at_rims, None),
+        ((0.42, 0.55), (0.45, 2.0), at_rims, bent),
+    ],
+    ids=["poles", "rims", "claws"],
 )
-def test_forces_on_spheres_are_slopes_of_the_energy_too(rims, place):
+def test_forces_on_spheres_are_slopes_of_the_energy_too(rims, sides, place, change):
     """Of balls, cage and modes: near the poles of whole spheres, where the stations' motion fades
-    into their mean, and finite at the pole itself; on rims at which a wall ends."""
-    bearing = ball_bearing(shape="spherical")
+    into their mean, and finite at the pole itself; on rims at which a wall ends, on both sides or
+    on one; on walls that are bent without stress."""
+    bearing = ball_bearing(shape="spherical", change=change)
     bearing.data.model.pocket.rims[:] = rims
+    bearing.data.model.pocket.sides[:] = sides
     layout, y = bearing.layout, place(bearing)
     rows = layout.u(-bearing.residual(0.0, y, np.zeros_like(y)))
 

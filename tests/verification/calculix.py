@@ -105,6 +105,11 @@ def _mesh(model: FEModel) -> list[str]:
     ]
 
 
+def node_set(name: str, nodes: np.ndarray) -> list[str]:
+    """A named set of nodes of an input deck."""
+    return [f"*NSET, NSET={name}", *(f"{node + 1}," for node in nodes)]
+
+
 def _cells(model: FEModel) -> np.ndarray:
     """Nodes (n_tets, 10) of every element, right-handed."""
     corners = model.points[model.tets]

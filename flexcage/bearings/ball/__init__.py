@@ -18,6 +18,7 @@ __all__ = [
 
 if TYPE_CHECKING:
     from flexcage.geometry.inside import Inside
+    from flexcage.geometry.ring import SectionsOf
     from flexcage.integrate.recording import Recording
     from flexcage.render.shapes import ShapesOf
     from flexcage.results.figures import OwnFigures
@@ -82,6 +83,12 @@ def _inside() -> Inside:
     return INSIDE
 
 
+def _rings() -> SectionsOf:
+    from flexcage.bearings.ball.rings import ball_rings
+
+    return ball_rings
+
+
 FAMILY = Family(
     name="ball",
     types=(AngularContactBallBearing, DeepGrooveBallBearing),
@@ -94,4 +101,5 @@ FAMILY = Family(
     recording=_recording,
     shapes=_shapes,
     inside=_inside,
+    rings=_rings,
 )

@@ -48,7 +48,6 @@ class BallBearing(Bearing):
     element: ClassVar[str] = "ball"
     family: ClassVar[str] = "ball"
     places: ClassVar[tuple[str, ...]] = ("race", "pocket")
-    explicit_only: ClassVar[bool] = True
     elsewhere: ClassVar[Mapping[str, str]] = {
         "(inner_|outer_)?spalls?|(inner|outer)_waviness.*": "races of ball bearings are without "
         "defects: spalls and waviness are computed for type 'cylindrical_roller'; defects of a "
@@ -162,7 +161,7 @@ class BallBearing(Bearing):
                 continue
             what = "shoulder" if height else "shoulder (a fifth of the ball's diameter is assumed)"
             high = height or _SHOULDER * self.ball_diameter
-            half = 0.5 * cage.axial_width
+            half = cage.axial_reach
             if half < r and (rise := r - sqrt(r**2 - half**2)) < high:
                 high, what = rise, "groove"
             bottom = self.pitch_diameter - sign * self.ball_diameter

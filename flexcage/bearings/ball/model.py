@@ -91,6 +91,10 @@ def _pockets(
     if cage.pocket_shape == "spherical":
         normal = np.linalg.norm(interface.modes, axis=2)
     n, height = interface.modes.shape[-1], 0.5 * bearing.pitch_diameter
+    ends = np.array([cage.wall_ends(height, float(r)) for r in interface.radius])
+    if interface.open_at is not None:
+        ends[:, 2] = np.minimum(ends[:, 2], interface.open_at / interface.radius)
+    offset = np.zeros(interface.modes.shape[:3]) if interface.offset is None else interface.offset
     return BallPockets(
         azimuth=st(np.stack([np.cos(angle), np.sin(angle)], axis=1)),
         shift=st(interface.centre),
@@ -99,7 +103,10 @@ def _pockets(
         height=height,
         wall=0.5 * np.array([cage.bore, cage.outside_diameter]),
         shape=SPHERE if cage.pocket_shape == "spherical" else CYLINDER,
-        rims=np.array([cage.wall_ends(height, float(r)) for r in interface.radius]),
+        rims=st(ends[:, :2]),
+        sides=st(ends[:, 2:]),
+        offset=st(offset),
+        inset=float(np.linalg.norm(offset, axis=2).max()),
         phi=st(interface.modes[:, None]),
         phi_max=np.abs(normal).max(axis=(0, 1)) if n else np.zeros(0),
         local=st(interface.local),
@@ -149,6 +156,6 @@ def ball_work(model: BallModel, layout: Layout) -> Work:
     """Fresh workspaces of a ball bearing for one thread."""
     stations = model.pocket.phi.shape[2]
     return new_work(
-        layout, race_work(1), ball_pocket_work(stations), slices=0, points=0, faces=1,
-        stations=stations, ribs=0, land_stations=len(model.land.angle),
+        layout, race_work(1), ball_pocket_work(stations, layout.modes), slices=0, points=0, faces=1,
+        stations=stations, ribs=0, land_stations=len(model.land.angle), turns=(3, 4, 5),
     )  # fmt: skip

@@ -2,7 +2,8 @@
 
 A ball's coordinates are (x, r, psi) of its centre and the angles that it has turned about the axes
 of its orbiting frame F = (e_x, e_r, e_psi); its velocities are those of its centre and its angular
-velocity, both in F. ``mode`` is one of ``contacts.evaluation``, but for the tangent.
+velocity, both in F. ``mode`` is one of ``contacts.evaluation``, but for the tangent, which is
+``tangent.linearise``.
 """
 
 from __future__ import annotations
@@ -93,23 +94,13 @@ def evaluate(t, y, yd, d, law, out, mode):
     ``law`` holds the normal laws of race, pocket, (side, rib,) land, their friction laws, and
     ``equations.shared_equations``.
     """
-    work, phi_max = fields(d.scratch), fields(d.pocket).phi_max
-    Z, nm = fields(d.bodies).radius.shape[0], phi_max.shape[0]
-    at = places(Z, nm)
+    Z = fields(d.bodies).radius.shape[0]
+    at = places(Z, fields(d.pocket).phi_max.shape[0])
     q, u, qd, ud = y[: at.rest_q], y[at.u : at.rest_u], yd[: at.rest_q], yd[at.u : at.rest_u]
-    r_q, r_u, border = out[: at.rest_q], out[at.u : at.rest_u], work.border
+    r_q, r_u = out[: at.rest_q], out[at.u : at.rest_u]
     rest_q, rest_u = y[at.rest_q : at.u], y[at.rest_u : at.lam]
-    clear_sums(border, d, mode)
-    Rc, quat, qf = rest_q[Q_CAGE:Q_QUATERNION], rest_q[Q_QUATERNION:Q_MODES], rest_q[Q_MODES:]
-    Vc, wb, qfd = rest_u[CAGE:CAGE_TURN], rest_u[CAGE_TURN:MODES], rest_u[MODES:]
-    matrix_from_quaternion(quat, work.A)
-    put(work.vec[CAGE_SPIN], turned(work.A, xyz(wb)))
-    inner_ring(rest_q[:Q_OUTER], rest_u[:OUTER], work.vec)
-    margin = 0.0
-    for m in range(nm):
-        margin += phi_max[m] * abs(qf[m])
-    modes = CageModes(qf, qfd, margin)
-    zero(work.wrenches)
+    modes = set_bodies(rest_q, rest_u, d, mode)
+    Rc, Vc = rest_q[Q_CAGE:Q_QUATERNION], rest_u[CAGE:CAGE_TURN]
     for i in range(Z):
         own = of_element(i)
         qi, ui = q[own], u[own]
@@ -121,30 +112,79 @@ def evaluate(t, y, yd, d, law, out, mode):
 
 
 @part
+def set_bodies(rest_q, rest_u, d, mode):
+    """Cage's attitude and spin, ring's axis and spin, and no forces yet; the cage's modes."""
+    work, phi_max = fields(d.scratch), fields(d.pocket).phi_max
+    clear_sums(work.border, d, mode)
+    quat, qf = rest_q[Q_QUATERNION:Q_MODES], rest_q[Q_MODES:]
+    wb, qfd = rest_u[CAGE_TURN:MODES], rest_u[MODES:]
+    matrix_from_quaternion(quat, work.A)
+    put(work.vec[CAGE_SPIN], turned(work.A, xyz(wb)))
+    inner_ring(rest_q[:Q_OUTER], rest_u[:OUTER], work.vec)
+    margin = 0.0
+    for m in range(phi_max.shape[0]):
+        margin += phi_max[m] * abs(qf[m])
+    zero(work.wrenches)
+    return CageModes(qf, qfd, margin)
+
+
+@part
+def on_inner_race(i, qi, ui, rest_q, rest_u, d):
+    """Ball i as the inner race meets it, in its frame F."""
+    F, vec = fields(d.pose).F, fields(d.scratch).vec
+    P = minus((qi[0], qi[1], 0.0), turned(F, xyz(rest_q[:Q_INNER_TURN])))
+    return BallOnRace(
+        fields(d.bodies).radius[i], P, xyz(ui), turn_of(ui), turned(F, xyz(vec[RING_AXIS])),
+        turned(F, xyz(rest_u[:INNER_TURN])), turned(F, xyz(vec[RING_SPIN])),
+        fields(d.memory).race[i, INNER_RACE],
+    )  # fmt: skip
+
+
+@part
+def on_outer_race(i, qi, ui, rest_q, rest_u, d):
+    """The same of the outer race, whose ring moves in its plane only."""
+    F = fields(d.pose).F
+    P = minus((qi[0], qi[1], 0.0), turned(F, (0.0, rest_q[Q_OUTER], rest_q[Q_OUTER + 1])))
+    return BallOnRace(
+        fields(d.bodies).radius[i], P, xyz(ui), turn_of(ui), (1.0, 0.0, 0.0),
+        turned(F, (0.0, rest_u[OUTER], rest_u[OUTER + 1])), (0.0, 0.0, 0.0),
+        fields(d.memory).race[i, OUTER_RACE],
+    )  # fmt: skip
+
+
+@part
+def in_pocket(i, qi, ui, Rc, Vc, d):
+    """Ball i as its pocket meets it, the cage at Rc and moving as Vc; the pocket's axes into
+    ``BallPocketWork.G``."""
+    data, pw, work = fields(d.pocket), fields(d.pocket_work), fields(d.scratch)
+    F, A = fields(d.pose).F, work.A
+    D = plus((0.0, qi[1], 0.0), turned(F, (qi[0] - Rc[0], -Rc[1], -Rc[2])))
+    ca, sa = data.azimuth[i, 0], data.azimuth[i, 1]
+    e1, e2 = column(A, 1), column(A, 2)
+    put(pw.G[0], turned(F, column(A, 0)))
+    put(pw.G[1], turned(F, combine(times(ca, e1), sa, e2)))
+    put(pw.G[2], turned(F, combine(times(ca, e2), -sa, e1)))
+    turn = turned(F, xyz(work.vec[CAGE_SPIN]))
+    v = minus(minus(xyz(ui), turned(F, xyz(Vc))), cross(turn, D))
+    spin = minus(turn_of(ui), turn)
+    return BallInPocket(fields(d.bodies).radius[i], D, v, spin, fields(d.memory).pocket[i, 0])
+
+
+@part
 def _races(i, qi, ui, rest_q, rest_u, d, law, mode):
     """Ball i on both races, in its frame F."""
     F, work, pair = fields(d.pose).F, fields(d.scratch), fields(d.pair)
-    vec, border = work.vec, work.border
+    border = work.border
     laws, sl = Laws(law[RACE_LAW], law[RACE_RUBS]), fields(d.slices).row[0]
-    radius, onset = fields(d.bodies).radius, fields(d.memory).race[i]
-    V, w = xyz(ui), turn_of(ui)
-    P = minus((qi[0], qi[1], 0.0), turned(F, xyz(rest_q[:Q_INNER_TURN])))
     zero(pair.wrench)
-    ball = BallOnRace(
-        radius[i], P, V, w, turned(F, xyz(vec[RING_AXIS])), turned(F, xyz(rest_u[:INNER_TURN])),
-        turned(F, xyz(vec[RING_SPIN])), onset[INNER_RACE],
-    )  # fmt: skip
+    ball = on_inner_race(i, qi, ui, rest_q, rest_u, d)
     if groove_contact(ball, fields(d.inner), laws, sl, pair.wrench, mode, work.sums):
-        react(F, work.unit, pair.wrench, P, border, INNER)
+        react(F, work.unit, pair.wrench, ball.centre, border, INNER)
         _add(work.wrenches[i], pair.wrench)
     if mode >= REPORT:
         _report_race(i, INNER_RACE, work.sums, fields(d.report))
-    P = minus((qi[0], qi[1], 0.0), turned(F, (0.0, rest_q[Q_OUTER], rest_q[Q_OUTER + 1])))
     zero(pair.wrench)
-    ball = BallOnRace(
-        radius[i], P, V, w, (1.0, 0.0, 0.0), turned(F, (0.0, rest_u[OUTER], rest_u[OUTER + 1])),
-        (0.0, 0.0, 0.0), onset[OUTER_RACE],
-    )  # fmt: skip
+    ball = on_outer_race(i, qi, ui, rest_q, rest_u, d)
     if groove_contact(ball, fields(d.outer), laws, sl, pair.wrench, mode, work.sums):
         _add(work.wrenches[i], pair.wrench)
         for c in range(2):
@@ -181,23 +221,14 @@ def _pocket(i, qi, ui, Rc, Vc, modes, d, law, mode):
         fields(d.pair),
         fields(d.scratch),
     )
-    F, A, sums = fields(d.pose).F, work.A, work.sums
-    D = plus((0.0, qi[1], 0.0), turned(F, (qi[0] - Rc[0], -Rc[1], -Rc[2])))
-    ca, sa = data.azimuth[i, 0], data.azimuth[i, 1]
-    e1, e2 = column(A, 1), column(A, 2)
-    put(pw.G[0], turned(F, column(A, 0)))
-    put(pw.G[1], turned(F, combine(times(ca, e1), sa, e2)))
-    put(pw.G[2], turned(F, combine(times(ca, e2), -sa, e1)))
-    turn = turned(F, xyz(work.vec[CAGE_SPIN]))
-    v = minus(minus(xyz(ui), turned(F, xyz(Vc))), cross(turn, D))
-    spin = minus(turn_of(ui), turn)
+    sums = work.sums
     zero(pair.wrench)
-    ball = BallInPocket(fields(d.bodies).radius[i], D, v, spin, fields(d.memory).pocket[i, 0])
+    ball = in_pocket(i, qi, ui, Rc, Vc, d)
     laws, sl = Laws(law[POCKET_LAW], law[POCKET_RUBS]), fields(d.slices).row[0]
     hit = pocket_wall_contact(i, ball, modes, data, laws, sl, pw, pair.wrench, mode, sums)
     if hit:
         _add(work.wrenches[i], pair.wrench)
-        react(F, A, pair.wrench, D, work.border, CAGE)
+        react(fields(d.pose).F, work.A, pair.wrench, ball.centre, work.border, CAGE)
         push_modes(data, i, pw, work.border)
     if mode >= REPORT:
         _report_pocket(i, hit, sums, pw, fields(d.report), mode)

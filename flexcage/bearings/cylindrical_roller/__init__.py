@@ -17,6 +17,7 @@ __all__ = ["RollerBearing", "RollerProfile", "Spall"]
 
 if TYPE_CHECKING:
     from flexcage.geometry.inside import Inside
+    from flexcage.geometry.ring import SectionsOf
     from flexcage.integrate.recording import Recording
     from flexcage.render.shapes import ShapesOf
     from flexcage.results.figures import OwnFigures
@@ -81,6 +82,12 @@ def _inside() -> Inside:
     return INSIDE
 
 
+def _rings() -> SectionsOf:
+    from flexcage.bearings.cylindrical_roller.rings import roller_rings
+
+    return roller_rings
+
+
 FAMILY = Family(
     name="cylindrical_roller",
     types=(RollerBearing,),
@@ -93,5 +100,6 @@ FAMILY = Family(
     recording=_recording,
     shapes=_shapes,
     inside=_inside,
+    rings=_rings,
     other_designs=OTHER_DESIGNS,
 )

@@ -10,7 +10,7 @@ from typing import Any, ClassVar
 
 import numpy as np
 
-from flexcage.bearings.cylindrical_roller import checks, ratings
+from flexcage.bearings.cylindrical_roller import checks, designs, lands, ratings
 from flexcage.cages.window.cage import WindowCage
 from flexcage.core.spec import option, quantity
 from flexcage.core.units import typeset
@@ -28,12 +28,16 @@ from flexcage.geometry.checks import Finding
 from flexcage.geometry.film import Film, Oil, both_races, line_film, rolling_entrainment
 from flexcage.geometry.materials import MATERIALS, Material
 
-ONLY_N = (
-    "of cylindrical roller bearings flexcage has the design N alone, with two ribs on the inner "
-    "ring and a plain outer ring (type 'cylindrical_roller')"
+BY_DESIGN = (
+    f"of cylindrical roller bearings flexcage has the designs {designs.ALL}, single-row and with a "
+    "cage: give bearing.design (type 'cylindrical_roller')"
 )
-#: Designs of cylindrical roller bearings other than N, and what there is instead.
-OTHER_DESIGNS = {r"(cylindrical_roller_)?(rnu|nup?|nj|nf|nnu?|n?ncf)([-_ ]?\d.*)?": ONLY_N}
+#: Names of designs of cylindrical roller bearings, and what asks for them.
+OTHER_DESIGNS = {r"(cylindrical_roller_)?(rnu|nup?|nj|nf|nnu?|n?ncf)([-_ ]?\d.*)?": BY_DESIGN}
+BY_RIBS = (
+    "bearing.design says which ring has ribs; bearing.rib_diameter and rib_gap are of the two that "
+    "guide the rollers, counter_rib_diameter and counter_rib_gap of the other ring's"
+)
 _MOST_PRESSED = 0.01  # of a roller's diameter, a hundred times what C0 leaves for good (ISO 76)
 
 
@@ -98,7 +102,7 @@ class Spall:
 
 @dataclass(frozen=True, kw_only=True)
 class RollerBearing(Bearing):
-    """A single-row cylindrical roller bearing, N design: ribs on the inner ring, outer ring plain.
+    """A single-row cylindrical roller bearing; ``design`` says which of its rings have ribs.
 
     Race diameters are those at zero clearance; half of the radial clearance is taken from the
     inner race's diameter and half added to the outer's.
@@ -109,10 +113,9 @@ class RollerBearing(Bearing):
     element: ClassVar[str] = "roller"
     family: ClassVar[str] = "cylindrical_roller"
     elsewhere: ClassVar[Mapping[str, str]] = {
-        "design|outer_ribs?(_.*)?|ribs?|flanges?": ONLY_N,
+        "(inner_|outer_)?(ribs?|flanges?)(_.*)?": BY_RIBS,
         "spalls?|defects?": "give a spall as [bearing.outer_spall] or [bearing.inner_spall]",
     }
-    guides: ClassVar[Mapping[str, str]] = {**Bearing.guides, "inner": "the inner ring's ribs"}
 
     type: str = type_name("cylindrical_roller")
     bore: float = quantity("mm", doc="bearing bore d", above=0.0)
@@ -127,8 +130,26 @@ class RollerBearing(Bearing):
     )
     roller_count: int = option(doc="number Z of rollers", minimum=3)
     radial_clearance: float = quantity("um", 0.0, doc="operating radial internal clearance Pd")
-    rib_diameter: float = quantity("mm", doc="outside diameter of the inner ring's ribs", above=0.0)
-    rib_gap: float = quantity("mm", doc="axial distance between the two ribs", above=0.0)
+    design: str = option(
+        "N", choices=tuple(designs.DESIGNS), legacy="N",
+        doc="ribs: N two on the inner ring, NU on the outer; NJ as NU and one on the inner, NUP as "
+        "NU and two on the inner, NF as N and one on the outer",
+    )  # fmt: skip
+    rib_diameter: float = quantity(
+        "mm", doc="diameter of the two ribs that guide the rollers, towards them", above=0.0
+    )
+    rib_gap: float = quantity("mm", doc="axial distance between these two ribs", above=0.0)
+    counter_rib_diameter: float | None = quantity(
+        "mm", None, doc="diameter of the other ring's ribs (NJ, NUP, NF)", above=0.0, legacy=None
+    )
+    counter_rib_gap: float | None = quantity(
+        "mm", None, doc="their axial distance, for one rib twice that from the middle", above=0.0,
+        legacy=None,
+    )  # fmt: skip
+    thrust: str = option(
+        "+x", choices=designs.SIDES, legacy="+x",
+        doc="axial load on the inner ring that a single counter rib carries (NJ, NF)",
+    )  # fmt: skip
     profile: RollerProfile = option(RollerProfile(), doc="roller profile")
     material: Material = option(MATERIALS["GCr15"], doc="material of rings and rollers")
     roller_scatter: float = quantity(
@@ -193,22 +214,27 @@ class RollerBearing(Bearing):
     def element_mass(self) -> float:
         return self.roller_mass
 
+    def ribs(self, ring: str) -> designs.Ribs | None:
+        """Ribs of the "inner" or "outer" ring; None if it has none."""
+        return designs.ribs_of(self, ring)
+
+    @property
+    def guides(self) -> Mapping[str, str]:
+        own = {ring: f"the {ring} ring's {ribs.name}" for ring in designs.RINGS
+               if (ribs := self.ribs(ring))}  # fmt: skip
+        return {**super().guides, **own}
+
+    def free_axially(self, loaded: bool) -> bool:
+        return loaded and any(designs.carried(self))
+
+    def axial_refusal(self, load: float) -> str:
+        return designs.axial_refusal(self, load)
+
     def land(self, cage: Cage) -> RingLand:
-        begin, end = 0.5 * cage.pocket_length, 0.5 * min(cage.width, self.width)
-        if cage.guidance == "outer":
-            there = self.outer_race_radius - 0.5 * cage.outside_diameter
-            of = "cage.outside_diameter and the outer race"
-        else:
-            there = 0.5 * (cage.bore - self.rib_diameter)
-            of = "cage.bore and bearing.rib_diameter"
-            begin = max(begin, 0.5 * self.rib_gap)
-        return RingLand(clearance=there, of=of, strict=True, facing=end - begin, end=end)
+        return lands.land(self, cage)
 
     def cage_space(self, cage: Cage) -> tuple[RingLimit, RingLimit]:
-        return (
-            RingLimit(self.rib_diameter, "the inner ring's ribs"),
-            RingLimit(2.0 * self.outer_race_radius, "the outer race"),
-        )
+        return lands.limit(self, "inner"), lands.limit(self, "outer")
 
     @cached_property
     def inner_ring_mass(self) -> float:
@@ -251,7 +277,7 @@ class RollerBearing(Bearing):
         return ratings.dynamic_rating(self)
 
     def equivalent_load(self, radial: float, axial: float) -> EquivalentLoad:
-        return ratings.equivalent_load(radial, axial)
+        return ratings.equivalent_load(radial, axial, ribs=any(designs.carried(self)))
 
     def race_film(self, force: np.ndarray, speed: np.ndarray, oil: Oil) -> Film:
         """The load spread evenly over the effective length: a profile's ends are not resolved."""

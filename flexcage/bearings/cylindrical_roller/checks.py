@@ -7,6 +7,7 @@ from collections.abc import Iterator, Sequence
 from math import asin, pi, sin
 from typing import TYPE_CHECKING, Any
 
+from flexcage.bearings.cylindrical_roller import designs
 from flexcage.core.units import describe, mm
 from flexcage.geometry.cage import Cage
 from flexcage.geometry.checks import (
@@ -36,13 +37,8 @@ def check(bearing: RollerBearing, cage: Cage | None, defects: Sequence[Any]) -> 
 
 def find_in_bearing(b: RollerBearing) -> Iterator[Finding]:
     """What is impossible in the bearing alone."""
-    rising = (
-        ("bore", b.bore),
-        ("inner_race_diameter", b.inner_race_diameter),
-        ("rib_diameter", b.rib_diameter),
-        ("outer_race_diameter", b.outer_race_diameter),
-        ("outside_diameter", b.outside_diameter),
-    )
+    yield from designs.find_in_design(b)
+    rising = designs.diameters(b)
     for (small, low), (large, high) in zip(rising, rising[1:]):
         if not low < high:
             yield (
@@ -123,18 +119,7 @@ def _find_in_lengths(b: RollerBearing) -> Iterator[Finding]:
             f"bearing.effective_length is {mm(b.effective_length)}, longer than the roller "
             f"itself, {mm(b.roller_length)}.",
         )
-    if b.rib_gap <= b.roller_length:
-        yield (
-            "bearing.rib_gap",
-            f"bearing.rib_gap is {mm(b.rib_gap)}, but must be greater than the roller's length, "
-            f"{mm(b.roller_length)}.",
-        )
-    if b.rib_gap >= b.width:
-        yield (
-            "bearing.rib_gap",
-            f"bearing.rib_gap is {mm(b.rib_gap)}, which leaves no ribs on a ring "
-            f"{mm(b.width)} wide.",
-        )
+    yield from designs.find_in_gaps(b)
     if b.profile.kind == "crowned" and (0.5 * b.effective_length) ** 2 > (
         b.profile.crown_radius * b.roller_diameter
     ):
@@ -146,23 +131,30 @@ def _find_in_lengths(b: RollerBearing) -> Iterator[Finding]:
 
 
 def find_around_cage(b: RollerBearing, c: Cage) -> Iterator[Finding]:
-    """What leaves a cage no place between ribs and outer race, and around the pitch circle."""
+    """What leaves a cage no place between the rings, and around the pitch circle."""
     if c.width > b.width:
         yield (
             "cage.width",
             f"cage.width is {mm(c.width)}, wider than the bearing, {mm(b.width)}.",
         )
-    if c.bore <= b.rib_diameter:
+    inner, outer = b.cage_space(c)
+    if c.bore <= inner.diameter:
         yield (
             "cage.bore",
-            f"cage.bore is {mm(c.bore)}, so the cage cuts through the inner ring's ribs, "
-            f"{mm(b.rib_diameter)} in diameter.",
+            f"cage.bore is {mm(c.bore)}, so the cage cuts through {inner.name}, "
+            f"{mm(inner.diameter)} in diameter.",
         )
-    outer = 2.0 * b.outer_race_radius
-    if c.outside_diameter >= outer:
+    if c.outside_diameter >= outer.diameter:
         yield (
             "cage.outside_diameter",
-            f"cage.outside_diameter is {mm(c.outside_diameter)}, so the cage cuts through the "
-            f"outer race, {mm(outer)} in diameter.",
+            f"cage.outside_diameter is {mm(c.outside_diameter)}, so the cage cuts through "
+            f"{outer.name}, {mm(outer.diameter)} in diameter.",
+        )
+    if c.guidance in ("inner", "outer") and (ribs := b.ribs(c.guidance)) and not all(ribs.sides):
+        yield (
+            "cage.guidance",
+            f"cage.guidance is '{c.guidance}', but the {c.guidance} ring of the design {b.design} "
+            "has a rib on one side alone, which guides no cage; take 'roller' or "
+            f"'{designs.DESIGNS[b.design].guide}'.",
         )
     yield from find_off_pitch_circle(b, c)

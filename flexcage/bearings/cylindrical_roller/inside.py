@@ -9,9 +9,12 @@ from __future__ import annotations
 
 from dataclasses import replace
 from math import ceil, pi, sin
+from typing import Any
 
 from flexcage.bearings.cylindrical_roller.bearing import RollerBearing
+from flexcage.bearings.cylindrical_roller.designs import DESIGNS
 from flexcage.bearings.cylindrical_roller.ratings import static_rating
+from flexcage.core.binding import check_value
 from flexcage.core.errors import InputError
 from flexcage.core.units import describe
 from flexcage.geometry.inside import Candidate, Inside, Outline, rounded
@@ -33,6 +36,8 @@ def candidates(outline: Outline) -> list[Candidate]:
     inner = outline.given("inner_race_diameter", "the race diameter F (--inner-race)")
     outer = outline.given("outer_race_diameter", "the race diameter E (--outer-race)")
     diameter, pitch = 0.5 * (outer - inner), 0.5 * (outer + inner)
+    check_value(outline.design or "N", RollerBearing.__dataclass_fields__["design"].metadata,
+                "--design")  # fmt: skip
     if diameter <= 0.0:
         raise InputError(
             f"The race diameter E, {describe(outer, 'mm')}, must be greater than F, "
@@ -68,8 +73,7 @@ def _candidate(outline: Outline, length: float, count: int, share: float) -> Can
         effective_length=round(length, 9),
         roller_count=count,
         radial_clearance=_CLEARANCE,
-        rib_diameter=rounded(inner + 2.0 * _RIB * diameter, 0.1e-3),
-        rib_gap=round(length + _PLAY, 9),
+        **_ribs(outline, length, diameter),
     )
     due = length * outline.static_rating / static_rating(bearing)
     least, most = (2.0 * k * diameter for k in (_SHORTEST_CHAMFER, _LONGEST_CHAMFER))
@@ -80,12 +84,37 @@ def _candidate(outline: Outline, length: float, count: int, share: float) -> Can
     crowded = (share - _USUAL) / (0.03 if share > _USUAL else 0.1)
     whole = round(length - diameter, 9) == 0.0 or round(1e3 * length, 6).is_integer()
     return Candidate(
-        outline=outline, bearing=bearing, reasons=_reasons(bearing, share, chamfer),
+        outline=outline, bearing=bearing, reasons=_reasons(outline, bearing, share, chamfer),
         unlikely=off**2 + crowded**2 + (0.0 if whole else 2.0),
     )  # fmt: skip
 
 
-def _reasons(bearing: RollerBearing, share: float, chamfer: float) -> dict[str, str]:
+def _ribs(outline: Outline, length: float, roller: float) -> dict[str, Any]:
+    """Fields of the ribs that the design has, by a roller's length and diameter [m]; diameters of
+    the catalogue, or usual ones."""
+    name = outline.design or "N"
+    design = DESIGNS[name]
+    found: dict[str, Any] = {"design": name}
+    for ring, prefix in ((design.guide, ""), (design.other, "counter_")):
+        if prefix and not design.counter:
+            continue
+        race, known = getattr(outline, f"{ring}_race_diameter"), _known(outline, ring)
+        sense = 1.0 if ring == "inner" else -1.0
+        usual = rounded(race + sense * 2.0 * _RIB * roller, 0.1e-3)
+        found[f"{prefix}rib_diameter"] = usual if known is None else known
+        found[f"{prefix}rib_gap"] = round(length + _PLAY, 9)
+    return found
+
+
+def _known(outline: Outline, ring: str) -> float | None:
+    """Diameter [m] of a ring's ribs, where the catalogue has it."""
+    found: float | None = getattr(outline, f"{ring}_rib_diameter")
+    return found
+
+
+def _reasons(
+    outline: Outline, bearing: RollerBearing, share: float, chamfer: float
+) -> dict[str, str]:
     size = f"{1e3 * bearing.roller_diameter:g} x {1e3 * bearing.roller_length:g}"
     return {
         "roller_diameter": "from the race diameters: (E - F)/2",
@@ -93,9 +122,21 @@ def _reasons(bearing: RollerBearing, share: float, chamfer: float) -> dict[str, 
         "effective_length": f"inferred from C0: the length less chamfers of {1e3 * chamfer:.2g} mm",
         "roller_count": f"inferred from C0: a roller takes {share:.0%} of the distance of two",
         "radial_clearance": "assumption: in operation; less than before mounting (ISO 5753)",
-        "rib_diameter": f"assumption: ribs {_RIB:.0%} of the roller's diameter high",
-        "rib_gap": "assumption: axial play of 0.03 mm for the roller",
+        **_reasons_of_ribs(outline),
     }
+
+
+def _reasons_of_ribs(outline: Outline) -> dict[str, str]:
+    design, found = DESIGNS[outline.design or "N"], {}
+    for ring, prefix in ((design.guide, ""), (design.other, "counter_")):
+        if prefix and not design.counter:
+            continue
+        known = _known(outline, ring) is not None
+        usual = f"assumption: ribs {_RIB:.0%} of the roller's diameter high"
+        given = f"given: ribs of the {ring} ring"
+        found[f"{prefix}rib_diameter"] = given if known else usual
+        found[f"{prefix}rib_gap"] = "assumption: axial play of 0.03 mm for the roller"
+    return found
 
 
 INSIDE = Inside(candidates=candidates, cages={"cylindrical_roller": "window"})

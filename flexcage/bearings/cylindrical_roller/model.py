@@ -8,6 +8,7 @@ from typing import NamedTuple
 import numpy as np
 
 from flexcage.bearings.cylindrical_roller.bearing import RollerBearing
+from flexcage.bearings.cylindrical_roller.designs import DESIGNS, rib_height
 from flexcage.bearings.cylindrical_roller.variables import END_POINTS
 from flexcage.bodies.floating_frame import BodyData, FlexibleBody
 from flexcage.cages.window.cage import WindowCage
@@ -24,6 +25,7 @@ from flexcage.contacts.pocket_wall import (
 from flexcage.contacts.race import RaceSide, race_work
 from flexcage.contacts.rib import RibData
 from flexcage.contacts.spec import Contacts, Lubricant
+from flexcage.contacts.state import Q_SKEW, Q_SPIN, Q_TILT
 from flexcage.modes.basis import CageInterface
 from flexcage.system.bodies import bodies_of, elastic_constants, land_data, unbalanced
 from flexcage.system.data import Bodies, Work, new_work
@@ -38,7 +40,8 @@ class RollerModel(NamedTuple):
     cage: BodyData
     inner: RaceSide
     outer: RaceSide
-    rib: RibData
+    rib: RibData  # of the inner ring
+    outer_rib: RibData
     pocket: PocketData
     land: LandData
 
@@ -96,12 +99,18 @@ def end_points(bearing: RollerBearing, cage: WindowCage) -> np.ndarray:
     return np.array([(y, z) for y in across for z in reach * along])
 
 
-def rib_points(bearing: RollerBearing) -> np.ndarray:
-    """Three points (3, 2) of a roller's end over the rib, halfway up the overlap [m]."""
-    rw = 0.5 * bearing.roller_diameter
-    y = -0.5 * (bearing.pitch_radius - 0.5 * bearing.rib_diameter + 0.9 * rw)
+def rib_points(bearing: RollerBearing, ring: str) -> np.ndarray:
+    """Three points (3, 2) of a roller's end over the ribs of the "inner" or "outer" ring, halfway
+    up the overlap [m]; along e_r and e_psi."""
+    rw, y = 0.5 * bearing.roller_diameter, rib_height(bearing, ring)
     reach = np.sqrt(max((0.9 * rw) ** 2 - y**2, 0.0))
     return np.array([(y, -0.7 * reach), (y, 0.0), (y, 0.7 * reach)])
+
+
+def rib_stiffness(bearing: RollerBearing) -> float:
+    """Stiffness [N/m] of a roller's end on one rib."""
+    steel = elastic_constants(bearing.material)
+    return laws.flat_end_stiffness(0.45 * 0.5 * bearing.roller_diameter, steel, steel)
 
 
 def crossbeam_width(bearing: RollerBearing, cage: WindowCage) -> float:
@@ -111,10 +120,10 @@ def crossbeam_width(bearing: RollerBearing, cage: WindowCage) -> float:
 
 def _guiding_land(bearing: RollerBearing, cage: WindowCage) -> tuple[bool, float, float]:
     """Is the cage's outside its land, that land's radius, and its clearance on the ring [m]?"""
-    radius = cage.land_radius
+    radius, (inner, outer) = cage.land_radius, bearing.cage_space(cage)
     if cage.land_ring == "outer":
-        return True, radius, bearing.outer_race_radius - radius
-    return False, radius, radius - 0.5 * bearing.rib_diameter
+        return True, radius, 0.5 * outer.diameter - radius
+    return False, radius, radius - 0.5 * inner.diameter
 
 
 def compliance_root(compliance: np.ndarray) -> np.ndarray:
@@ -156,14 +165,21 @@ def _pocket_laws(bearing, cage, contacts: Contacts, interface: CageInterface) ->
     ])  # fmt: skip
 
 
-def _rib_data(bearing: RollerBearing, contacts: Contacts) -> RibData:
-    steel, points = elastic_constants(bearing.material), rib_points(bearing)
-    stiffness = laws.flat_end_stiffness(0.45 * 0.5 * bearing.roller_diameter, steel, steel)
+def _rib_data(bearing: RollerBearing, contacts: Contacts, ring: str) -> RibData:
+    """Ribs of the "inner" or "outer" ring; those that guide the rollers come first in arrays."""
+    ribs, guides = bearing.ribs(ring), ring == DESIGNS[bearing.design].guide
+    points = rib_points(bearing, ring) if ribs else np.zeros((0, 2))
+    plus, minus = ribs.sides if ribs else (False, False)
     return RibData(
-        half_gap=0.5 * bearing.rib_gap,
+        first=0 if plus else 1,
+        end=2 if minus else int(plus),
+        column=0 if guides else 2,
+        half_gap=0.5 * ribs.gap if ribs else np.inf,
         half_roller=0.5 * bearing.roller_length,
         points=points,
-        normal=laws.normal_parameters(contacts.rib.normal, stiffness / len(points), 1.0),
+        normal=laws.normal_parameters(
+            contacts.rib.normal, rib_stiffness(bearing) / max(len(points), 1), 1.0
+        ),
         friction=laws.friction_parameters(contacts.rib.friction),
     )
 
@@ -236,18 +252,25 @@ def build_roller_model(
             element=np.array([bearing.roller_mass, *bearing.roller_inertia]),
             radius=0.5 * (bearing.roller_diameter + scatter),
             area=bearing.roller_diameter * bearing.roller_length,
-            free=(load.axial_stiffness > 0.0, tilts, tilts),
+            free=(load.frees_axially(bearing), tilts, tilts),
         ),
         cage=unbalanced(body, cage).data,
         inner=_race_side(bearing, contacts, lubricant, inner=True),
         outer=_race_side(bearing, contacts, lubricant, inner=False),
-        rib=_rib_data(bearing, contacts),
+        rib=_rib_data(bearing, contacts, "inner"),
+        outer_rib=_rib_data(bearing, contacts, "outer"),
         pocket=_pocket_data(bearing, cage, contacts, interface),
         land=land_data(
             cage, land, lubricant, interface.land, kind=land.kind, outer=outer, radius=radius,
             bearing=bearing,
         ),
     )  # fmt: skip
+
+
+def rib_columns(model: RollerModel) -> int:
+    """Length of arrays of ribs: two guide the rollers, and two more if there are counter ribs."""
+    both = model.rib.end > model.rib.first and model.outer_rib.end > model.outer_rib.first
+    return 4 if both else 2
 
 
 def roller_work(model: RollerModel, layout: Layout) -> Work:
@@ -259,6 +282,6 @@ def roller_work(model: RollerModel, layout: Layout) -> Work:
     )
     return new_work(
         layout, race_work(len(model.inner.s)), pocket_work(slices, points, stations, layout.modes),
-        slices=slices, points=points, faces=4, stations=stations, ribs=2,
-        land_stations=len(model.land.angle),
+        slices=slices, points=points, faces=4, stations=stations, ribs=rib_columns(model),
+        land_stations=len(model.land.angle), turns=(Q_SPIN, Q_SKEW, Q_TILT),
     )  # fmt: skip

@@ -20,7 +20,8 @@ MOTION = Motion(
     evaluate=evaluate,
     separate=(roller_pockets, shared_equations),
     faces=FACES,
-    ribs=("rib +x", "rib -x"),
+    ribs=("rib +x", "rib -x", "counter rib +x", "counter rib -x"),
     start=roller_start,
     error_weights=roller_weights,
+    implicit_share=1.0,
 )

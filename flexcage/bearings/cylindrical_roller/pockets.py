@@ -173,5 +173,10 @@ def _approach(i, ring_u, out_u, d):
     rep.approach[i, POCKET + FRONT], rep.approach[i, POCKET + REAR] = t, -t
     rep.approach[i, POCKET + PLUS_X], rep.approach[i, POCKET + MINUS_X] = x, -x
     ribs = POCKET + rep.pocket_normal.shape[1]
-    rep.approach[i, ribs] = V[0] - ring_u[0]
-    rep.approach[i, ribs + 1] = -rep.approach[i, ribs]
+    inner, outer = fields(d.rib), fields(d.outer_rib)
+    if inner.end > inner.first:
+        x = V[0] - ring_u[0]
+        rep.approach[i, ribs + inner.column], rep.approach[i, ribs + inner.column + 1] = x, -x
+    if outer.end > outer.first:
+        x = V[0]
+        rep.approach[i, ribs + outer.column], rep.approach[i, ribs + outer.column + 1] = x, -x

@@ -7,6 +7,7 @@ not public: formulas and constants are those that public implementations of them
 
 from __future__ import annotations
 
+from math import nan
 from typing import TYPE_CHECKING
 
 from flexcage.core.errors import InputError
@@ -48,8 +49,11 @@ def dynamic_rating(bearing: RollerBearing) -> float:
     return _B_M * geometry_factor(bearing.gamma) * size
 
 
-def equivalent_load(radial: float, axial: float) -> EquivalentLoad:
-    """P = Fr: with a contact angle of 0 no axial load is allowed for."""
+def equivalent_load(radial: float, axial: float, *, ribs: bool) -> EquivalentLoad:
+    """P = Fr: with a contact angle of 0 no axial load is allowed for. What ``ribs`` carry is
+    limited by their friction; ISO 281 gives no factors for it."""
+    if axial != 0.0 and ribs:
+        return EquivalentLoad(nan, 1.0, nan, 10.0 / 3.0)
     if axial != 0.0:
         raise InputError(
             f"load.axial is {axial:g} N, but ISO 281 rates cylindrical roller bearings for radial "

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from flexcage.bearings.cylindrical_roller.model import RollerModel
+from flexcage.bearings.cylindrical_roller.model import RollerModel, rib_columns
 from flexcage.contacts.pocket_wall import N_LOCAL
 from flexcage.integrate.postures import in_plane, orientation
 from flexcage.integrate.recording import Recording
@@ -55,13 +55,14 @@ def _variables(bearing: Bearing, y: np.ndarray) -> dict[str, np.ndarray]:
         "pocket_point_force": s.point_normal[:n],
         "pocket_point_friction": s.point_friction[:n],
         "residual_coordinates": np.einsum("zab,tzb->tza", root, s.residual[:n]),
-        "rib_force": s.rib[:n],
+        "rib_force": s.rib[:n, :, :2],
+        "counter_rib_force": s.rib[:n, :, 2:] if s.rib.shape[2] > 2 else np.zeros_like(s.rib[:n]),
     }
 
 
 def overlaps(model: RollerModel, layout: Layout, y: np.ndarray) -> np.ndarray:
-    """Depths (n, Z, 8) of rollers in races, faces of their pockets and ribs; see ``Recording``. A
-    face lies where it is widest."""
+    """Depths (n, Z, places) of rollers in races, faces of their pockets and ribs; see
+    ``Recording``. A face lies where it is widest."""
     q = layout.q(y)
     radius, (cos, sin) = model.bodies.radius, model.pocket.azimuth.T
     x, r, psi = np.moveaxis(q["elements"][..., :3], -1, 0)
@@ -70,6 +71,11 @@ def overlaps(model: RollerModel, layout: Layout, y: np.ndarray) -> np.ndarray:
     frames = Rotation.from_quat(q["quaternion"], scalar_first=True).as_matrix()
     seen = np.einsum("nzc,ncd->nzd", at - q["cage"][:, None], frames)
     ahead, end = seen[..., 2] * cos - seen[..., 1] * sin, model.pocket.half_roller
+    none = np.full_like(x, -np.inf)
+    ribs = [none] * rib_columns(model)
+    for data, place in ((model.rib, in_inner), (model.outer_rib, in_outer)):
+        for f in range(data.first, data.end):
+            ribs[data.column + f] = place[..., 0] * (1.0, -1.0)[f] + end - data.half_gap
     walls = np.repeat(model.pocket.half, 2) + np.maximum(model.pocket.offset.max(axis=2), 0.0)
     return np.stack(
         [
@@ -79,8 +85,7 @@ def overlaps(model: RollerModel, layout: Layout, y: np.ndarray) -> np.ndarray:
             -ahead + radius - walls[:, 1],
             seen[..., 0] + end - walls[:, 2],
             -seen[..., 0] + end - walls[:, 3],
-            in_inner[..., 0] + end - model.rib.half_gap,
-            -in_inner[..., 0] + end - model.rib.half_gap,
+            *ribs,
         ],
         axis=-1,
     )

@@ -146,6 +146,9 @@ def evaluate(t, y, yd, d, law, out, mode):
     out_q, out_u = rest_q[Q_OUTER:Q_CAGE], rest_u[OUTER:CAGE]
     for first in range(0, Z, lot):
         _outer_contacts(first, min(first + lot, Z), q, out_q, out_u, d, law, asked)
+    if fields(d.outer_rib).end > fields(d.outer_rib).first:
+        for i in range(Z):
+            _outer_ribs(i, q, out_q, out_u, d, law, asked)
     if mode >= REPORT:
         for c in range(2):
             fields(d.report).outer_races[c] = work.border[OUTER + c]
@@ -166,7 +169,7 @@ def _inner_contacts(first, end, q, ring_q, ring_u, d, law, mode):
     side, rw, memory = fields(d.inner), fields(d.race_work), fields(d.memory)
     F, vec, sums, radius = pose.F, work.vec, work.sums, fields(d.bodies).radius
     rib_laws, race_laws = Laws(law[RIB_LAW], law[RIB_RUBS]), Laws(law[RACE_LAW], law[RACE_RUBS])
-    sl, count = fields(d.slices).row[0], 0
+    ribs, sl, count = fields(d.rib), fields(d.slices).row[0], 0
     for i in range(first, end):
         take_pose(work.poses[i], pose)
         at = rw.partner[count]
@@ -175,10 +178,11 @@ def _inner_contacts(first, end, q, ring_q, ring_u, d, law, mode):
         put(at[AXIS], turned(F, xyz(vec[RING_AXIS])))
         put(at[VELOCITY], turned(F, xyz(ring_u)))
         put(at[SPIN], turned(F, xyz(vec[RING_SPIN])))
-        if rib_contact(pose, at, fields(d.rib), memory.rib[i], rib_laws, sl, pair, mode, sums):
+        speeds = memory.rib[i, ribs.column :]
+        if rib_contact(pose, at, ribs, speeds, rib_laws, sl, pair, mode, sums):
             _add_inner(i, at[CENTRE], d, mode)
             if mode >= REPORT:
-                _report_ribs(i, sums, rep)
+                _report_ribs(i, ribs.column, sums, rep)
         onset = memory.race[i, INNER_RACE]
         if meet_race(count, pose, side, radius[i], ring_q[Q_SPIN], onset, rw):
             rw.who[count] = i
@@ -241,11 +245,34 @@ def _outer_contacts(first, end, q, out_q, out_u, d, law, mode):
 
 
 @part
-def _report_ribs(i, sums, rep):
-    rep.rib[i, 0], rep.rib[i, 1] = sums[NORMAL], sums[NORMAL + 1]
+def _outer_ribs(i, q, out_q, out_u, d, law, mode):
+    """Roller i on the outer ring's ribs."""
+    pose, pair, work = fields(d.pose), fields(d.pair), fields(d.scratch)
+    ribs, F, sums = fields(d.outer_rib), pose.F, work.sums
+    laws, sl = Laws(law[RIB_LAW], law[RIB_RUBS]), fields(d.slices).row[0]
+    take_pose(work.poses[i], pose)
+    at, qi = fields(d.race_work).partner[0], q[of_element(i)]
+    put(at[CENTRE], minus((qi[0], qi[1], 0.0), turned(F, (0.0, out_q[0], out_q[1]))))
+    put(at[AXIS], (1.0, 0.0, 0.0))
+    put(at[VELOCITY], turned(F, (0.0, out_u[0], out_u[1])))
+    put(at[SPIN], (0.0, 0.0, 0.0))
+    speeds = fields(d.memory).rib[i, ribs.column :]
+    if rib_contact(pose, at, ribs, speeds, laws, sl, pair, mode, sums):
+        add_to_element(work.wrenches[i], pair)
+        for c in range(2):
+            work.border[OUTER + c] -= F[1, 1 + c] * pair.wrench[1] + F[2, 1 + c] * pair.wrench[2]
+        if mode == TANGENT:
+            scatter_outer(pair, F, i, fields(d.tangent))
+        elif mode >= REPORT:
+            _report_ribs(i, ribs.column, sums, fields(d.report))
+
+
+@part
+def _report_ribs(i, column, sums, rep):
     ribs = POCKET + rep.pocket_normal.shape[1]
-    rep.contact[i, ribs] = 1 if sums[NORMAL] > 0.0 else 0
-    rep.contact[i, ribs + 1] = 1 if sums[NORMAL + 1] > 0.0 else 0
+    for f in range(2):
+        rep.rib[i, column + f] = sums[NORMAL + f]
+        rep.contact[i, ribs + column + f] = 1 if sums[NORMAL + f] > 0.0 else 0
     rep.energy[IN_CONTACTS] += sums[STORED]
     rep.power[RIB_DAMPING] += sums[DAMPED]
     rep.power[RIB_FRICTION] += sums[RUBBED]

@@ -3,10 +3,11 @@
 Rings, rollers and a pinched cage are brought to equilibrium without friction: Newton's method
 on the momentum rows with the velocities of pure rolling, in the metric of the mass matrix (an
 implicit Euler step from rest, whose length grows as it succeeds). Rollers stay where they are along
-their orbit, where friction would hold them, and between the ribs of a ring that is free along the
-axis or in tilt; a pinched cage finds its place, and a free one is moved off a land that the ring
-would press. Where a defect leaves less than no clearance its size grows in steps from the first
-touch, so that the run begins assembled.
+their orbit, where friction would hold them, and between the ribs that guide them, those of a ring
+that is free along the axis or in tilt included; only where ribs of both rings bear an axial load do
+they find their place along the axis. A pinched cage finds its place, and a free one is moved off a
+land that the ring would press. Where a defect leaves less than no clearance its size grows in steps
+from the first touch, so that the run begins assembled.
 """
 
 from __future__ import annotations
@@ -84,8 +85,8 @@ def pocket_clearance(model: RollerModel, offset: np.ndarray) -> np.ndarray:
 
 
 def geometric_guess(model: RollerModel, layout: Layout) -> np.ndarray:
-    """Rollers on the outer race in the middle of their pockets and between the ribs, the rest
-    centred."""
+    """Rollers on the outer race in the middle of their pockets and between the ribs, or before
+    those that bear the axial load; the rest centred."""
     y = np.zeros(layout.size)
     q = layout.q(y)
     Z = layout.elements
@@ -94,8 +95,10 @@ def geometric_guess(model: RollerModel, layout: Layout) -> np.ndarray:
     q["quaternion"][0] = 1.0
     q["inner"][4] = model.bodies.misalignment
     if model.bodies.free[FREE_AXIAL]:
-        q["inner"][0] = q["cage"][0] = _axial_load(model) / model.bodies.spring[0, 0]
-    q["elements"][:, 0] = _between_ribs(layout, y)
+        q["inner"][0] = _axial_place(model)
+    q["elements"][:, 0] = _between_ribs(model, layout, y)
+    if model.bodies.free[FREE_AXIAL]:
+        q["cage"][0] = q["inner"][0] if _guided_by_inner(model) else q["elements"][0, 0]
     loose = model.bodies.support == LOOSE
     shift = float(model.bodies.outer[OUTER_CLEARANCE]) if loose else 0.0
     q["outer"][:] = shift * model.bodies.load_direction  # a ring in its bore lies on the ground
@@ -111,9 +114,39 @@ def _axial_load(model: RollerModel) -> float:
     return float(np.interp(0.0, *model.bodies.axial))
 
 
-def _between_ribs(layout: Layout, y: np.ndarray) -> np.ndarray:
-    """Where (Z,) along the axis the inner ring's middle plane meets the rollers' centres [m]."""
-    q = layout.q(y)
+def _bearing_ribs(model: RollerModel) -> int:
+    """Direction along x in which ribs of both rings bear the axial load at the start: 1 or -1; 0 if
+    they bear none."""
+    inner, outer, load = model.rib, model.outer_rib, _axial_load(model)
+    ways = {1: inner.end == 2 and outer.first == 0, -1: inner.first == 0 and outer.end == 2}
+    way = int(np.sign(load)) if model.bodies.free[FREE_AXIAL] else 0
+    return way if ways.get(way, False) else 0
+
+
+def _axial_place(model: RollerModel) -> float:
+    """Where the axial load moves the inner ring, on the shaft's spring or against ribs [m]."""
+    load, stiffness, way = _axial_load(model), model.bodies.spring[0, 0], _bearing_ribs(model)
+    by_spring = load / stiffness if stiffness > 0.0 else 0.0
+    if not way:
+        return by_spring
+    play = way * (model.rib.half_gap + model.outer_rib.half_gap - 2.0 * model.rib.half_roller)
+    return min(play, by_spring, key=abs) if stiffness > 0.0 else play
+
+
+def _guided_by_inner(model: RollerModel) -> bool:
+    """Do ribs of the inner ring guide the rollers, and take them along?"""
+    return bool(model.rib.column == 0) and not _bearing_ribs(model)
+
+
+def _between_ribs(model: RollerModel, layout: Layout, y: np.ndarray) -> np.ndarray:
+    """Where (Z,) along the axis the rollers' centres are [m]: in the middle plane of the ring whose
+    ribs guide them; before a rib of the outer ring if it bears the axial load."""
+    q, way = layout.q(y), _bearing_ribs(model)
+    if way:
+        place = way * (model.outer_rib.half_gap - model.rib.half_roller)
+        return np.full(layout.elements, place)
+    if not _guided_by_inner(model):
+        return np.zeros(layout.elements)
     r, psi, (skew, tilt) = q["elements"][:, 1], q["elements"][:, 2], q["inner"][3:5]
     up, across = np.tan(tilt) / np.cos(skew), np.tan(skew)
     return q["inner"][0] - r * np.cos(psi) * up + r * np.sin(psi) * across
@@ -245,12 +278,14 @@ class Held:
     cage: np.ndarray  # (6,) where a pinch holds the cage: all but those along which it squeezes
 
 
-def _held(tight: np.ndarray) -> Held:
-    """What is held where pockets are too small across or along (Z, 2) for their rollers."""
+def _held(tight: np.ndarray, *, along: bool) -> Held:
+    """What is held where pockets are too small across or along (Z, 2) for their rollers; ``along``:
+    do rollers find their place along the axis?"""
     pinched = np.any(tight, axis=1)
     rollers = np.zeros((len(tight), 6), bool)
     rollers[:, 2] = True
-    rollers[~pinched, 0] = rollers[~pinched, 4] = True
+    rollers[~pinched, 0] = not along
+    rollers[~pinched, 4] = True
     cage = np.full(6, bool(pinched.any()))
     cage[0] &= not tight[:, 1].any()  # side beams find their place along x
     cage[3] &= not tight[:, 0].any()  # crossbeams by turning about it
@@ -274,10 +309,11 @@ def _equilibrate(system: _Frictionless, y: np.ndarray, yd: np.ndarray, tight: np
 
     ``tight`` (Z, 2) marks the pockets that are too small for their roller at this stage.
     """
-    held, load = _held(tight), _load(system.data.model)
+    model = system.data.model
+    held, load = _held(tight, along=_bearing_ribs(model) != 0), _load(model)
     layout = system.bearing.layout
     nq, n_qu = layout.n_q, layout.n_q + layout.n_u
-    bodies = system.data.model.bodies
+    bodies = model.bodies
     lever, loose = float(bodies.radius.mean()), np.flatnonzero(bodies.free[:3])
     alpha, last = 1e5, np.inf
     for _ in range(400):
@@ -296,14 +332,15 @@ def _equilibrate(system: _Frictionless, y: np.ndarray, yd: np.ndarray, tight: np
         shift = max(np.abs(dq["elements"][:, :2]).max(), np.abs(dq["inner"][:3]).max())
         turn = np.abs(dq["elements"][:, 3:5]).max()
         share = min(1.0, _SHIFT / max(shift, 1e-30), _TURN / max(turn, 1e-30))
-        ribs = _between_ribs(layout, y)
+        ribs = _between_ribs(model, layout, y)
         y[:nq] += step[:nq] * share
         if len(loose):
             y[n_qu + loose] += step[n_qu + loose] * share
-            layout.q(y)["elements"][:, 0] += _between_ribs(layout, y) - ribs
-            layout.q(y)["cage"][0] += dq["inner"][0] * share
+            layout.q(y)["elements"][:, 0] += _between_ribs(model, layout, y) - ribs
+            if _guided_by_inner(model):
+                layout.q(y)["cage"][0] += dq["inner"][0] * share
         layout.q(y)["quaternion"][:] /= np.linalg.norm(layout.q(y)["quaternion"])
-        yd[:] = standing_cage(system.data.model, layout, y)
+        yd[:] = standing_cage(model, layout, y)
     return size
 
 

@@ -3,7 +3,8 @@
 A roller's own coordinates are its centre's radial displacement and, for its tilt about the tangent,
 by how much more the end of its effective length at +x is displaced, so that both are lengths.
 Each race bears its share of the slices with the stiffness of one contact, so that centrifugal force
-divides the races; without it both slices are as the standard has them, in series. Small angles;
+divides the races; without it both slices are as the standard has them, in series. Ribs carry axial
+load where the design has them on both rings (``rib_statics``). Small angles;
 waviness, spalls and scatter of diameters are left out, and so are gyroscopic moments of rollers
 that follow a tilted ring (6 % of the moment that holds an N1013 tilted by 1 mrad at 6000 rpm).
 """
@@ -18,6 +19,8 @@ import numpy as np
 from scipy.optimize import brentq
 
 from flexcage.bearings.cylindrical_roller.bearing import RollerBearing
+from flexcage.bearings.cylindrical_roller.designs import carried
+from flexcage.bearings.cylindrical_roller.rib_statics import RibPairs, rib_pairs
 from flexcage.contacts.spec import Contacts
 from flexcage.core.errors import InputError
 from flexcage.geometry.kinematics import epicyclic
@@ -34,15 +37,8 @@ def rollers_of(
     bearing: RollerBearing, *, speed: float, contacts: Contacts, options: StaticOptions
 ) -> Rollers:
     """Rollers of a bearing, in the slices and with the stiffness of ``contacts.race``."""
-    law = contacts.race.normal.law
-    if law not in _AT_REST:
-        raise InputError(
-            f"contacts.race.normal.law is '{law}', but a static solution has rollers on races by "
-            f"ISO/TS 16281, as {', '.join(_AT_REST)} have at rest; take one of these.",
-            where="contacts.race.normal.law",
-            value=law,
-        )
-    from flexcage.bearings.cylindrical_roller.model import slice_grid
+    _check_laws(bearing, contacts)
+    from flexcage.bearings.cylindrical_roller.model import rib_stiffness, slice_grid
     from flexcage.contacts.laws import iso_line_stiffness  # its kernels take seconds to load
 
     places, drop = slice_grid(bearing, contacts.race.slices)
@@ -60,7 +56,27 @@ def rollers_of(
         stiffness=stiffness * contacts.race.normal.stiffness_factor / len(places),
         cage_speed=cage if options.cage_speed is None else options.cage_speed,
         rating=options.dynamic_rating or bearing.dynamic_rating,
+        ribs=rib_pairs(bearing, rib_stiffness(bearing) * contacts.rib.normal.stiffness_factor),
     )
+
+
+def _check_laws(bearing: RollerBearing, contacts: Contacts) -> None:
+    """Refuse laws that have no force at rest, or another one than the static solution takes."""
+    law, rib = contacts.race.normal.law, contacts.rib.normal.law
+    if law not in _AT_REST:
+        raise InputError(
+            f"contacts.race.normal.law is '{law}', but a static solution has rollers on races by "
+            f"ISO/TS 16281, as {', '.join(_AT_REST)} have at rest; take one of these.",
+            where="contacts.race.normal.law",
+            value=law,
+        )
+    if any(carried(bearing)) and rib not in _AT_REST:
+        raise InputError(
+            f"contacts.rib.normal.law is '{rib}', but a static solution has rollers on ribs as "
+            f"{', '.join(_AT_REST)} have them at rest; take one of these.",
+            where="contacts.rib.normal.law",
+            value=rib,
+        )
 
 
 @dataclass(frozen=True)
@@ -73,9 +89,13 @@ class Rollers:
     stiffness: float  # of one slice on one race, N/m^(10/9)
     cage_speed: float
     rating: float
-    carries = (False, True, True, True, True)
+    ribs: RibPairs | None
     conservative = True
     pressure_limit = 4.0e9  # ISO 76, roller bearings
+
+    @property
+    def carries(self) -> tuple[bool, ...]:
+        return self.ribs is not None, True, True, True, True
 
     @cached_property
     def azimuth(self) -> np.ndarray:
@@ -141,7 +161,7 @@ class Rollers:
         inner, outer = (np.einsum("zn,an,bn->zab", s, own, own) for s in slope)
         across = np.einsum("zn,an,bn->zab", slope[0], arms, own)
         stored = sum((f * d).sum(axis=1) for f, d in zip(force, depth)) / (EXPONENT + 1.0)
-        return Response(
+        races = Response(
             energy=stored - self.push * w[:, 0],
             ring=force[0] @ arms.T,
             unbalance=(force[1] - force[0]) @ own.T - np.array([self.push, 0.0]),
@@ -150,6 +170,7 @@ class Rollers:
             unbalance_v=-across.transpose(0, 2, 1),
             unbalance_w=inner + outer,
         )
+        return self.ribs.add(v, w, races) if self.ribs else races
 
     def loads(self, v: np.ndarray, w: np.ndarray) -> ElementLoads:
         slices = np.stack(self.slice_forces(v, w), axis=1)  # (Z, 2, n)
@@ -174,6 +195,7 @@ class Rollers:
             gyroscopic=np.zeros(Z),
             orbital_speed=np.full(Z, self.cage_speed),
             friction=np.where(force > 0.0, 0.0, np.nan),
+            axial=self.ribs.forces(v, w) if self.ribs else None,
         )
 
     def check(self, loads: ElementLoads) -> None:

@@ -24,8 +24,9 @@ from flexcage.mesh.sector import Quarter
 log = logging.getLogger(__name__)
 
 
-MakeQuarter = Callable[[Any, int, float, Sequence[BallCageDefect], MeshOptions], Quarter]
+MakeQuarter = Callable[[Any, int, float, Sequence[Any], MeshOptions], Quarter]
 MeasureFile = Callable[..., CageMesh]
+ApplyDefects = Callable[..., CageMesh]
 
 
 def build_ball_cage_mesh(
@@ -51,9 +52,11 @@ def build_round_pockets(
     *,
     quarter_of: MakeQuarter,
     measure: MeasureFile,
+    apply: ApplyDefects = apply_ball_defects,
 ) -> CageMesh:
     """Mesh of a cage with round pockets: ``quarter_of`` makes the quarter sector of a sound one,
-    and ``measure`` checks the user's own mesh against cage and defects."""
+    ``measure`` checks the user's own mesh against cage and defects, and ``apply`` adds these to a
+    sound one."""
     cage.check(pocket_count)
     cage.check_defects(defects, pocket_count=pocket_count, pitch_diameter=pitch_diameter)
     pitch_radius = 0.5 * pitch_diameter
@@ -69,7 +72,7 @@ def build_round_pockets(
     quarter = quarter_of(cage, pocket_count, pitch_diameter, defects, options)
     mesh = ring_of(quarter, pocket_count)
     log.debug("%r from %d tetrahedra in a quarter sector", mesh, len(quarter.tets))
-    return apply_ball_defects(mesh, cage, defects, pitch_radius=pitch_radius)
+    return apply(mesh, cage, defects, pitch_radius=pitch_radius)
 
 
 def machined_quarter(

@@ -99,18 +99,18 @@ class BallCage(Cage):
         over 1: it does not."""
         return 2.0
 
-    def wall_ends(self, pitch_radius: float, radius: float) -> tuple[float, float, float]:
+    def wall_ends(self, pitch_radius: float, radius: float) -> tuple[float, float, float, float]:
         """Sines of the latitudes at which the wall of a sphere of ``radius`` [m] ends: outwards,
-        inwards, and towards the cage's ends; over 1 where it does not, and for cylinders. The rims
-        at bore and outside are as high as they stand in front of the ball and behind it."""
+        inwards, towards +x and -x; over 1 where it does not, and for cylinders. The rims at bore
+        and outside are as high as they stand in front of the ball and behind it."""
         if self.pocket_shape != "spherical":
-            return 2.0, 2.0, 2.0
+            return 2.0, 2.0, 2.0, 2.0
         radii = (0.5 * self.outside_diameter, 0.5 * self.bore)
         reach = [
             (r**2 - pitch_radius**2 - radius**2) / (2.0 * pitch_radius * radius) for r in radii
         ]
         outward, inward = (s if abs(s) < 1.0 else 2.0 for s in (reach[0], -reach[1]))
-        return outward, inward, self.wall_end
+        return outward, inward, self.wall_end, self.wall_end
 
     def impossible(self, pocket_count: int) -> Iterator[Objection]:
         """Dimensions that leave no body: thickness, rims beside pockets, webs at the bore."""

@@ -217,6 +217,10 @@ class WebCrack(BallCageDefect):
     side: str = option("+x", doc="the end of the cage where it begins", choices=("+x", "-x"))
     share: float = option(doc="its length over the cage's width, between 0 and 1")
 
+    def move_stations(self, offset: np.ndarray, stations: np.ndarray) -> None:
+        """Add what it moves of the pockets' stations (angles [rad] from +psi towards +x) beyond
+        their shapes to ``offset`` (Z, n_st, 3) [m], components (x, r, psi)."""
+
     def tips(self, cage: BallCage) -> Sequence[float]:
         return (abs(0.5 - self.share) * cage.width,)
 

@@ -9,7 +9,7 @@ by the same spread force.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any, ClassVar
 
@@ -54,11 +54,18 @@ class BallCageInterface:
     land: np.ndarray  # (2, n_land, 3, n): radial-frame modes on the inner/outer land ring stations
     weights: sp.csr_matrix | None = None  # (Z*n_st, n_nodes): station <- nodal displacement
     land_weights: sp.csr_matrix | None = None  # (2*n_land, n_nodes), the same for land stations
+    # where defects moved stations (Z, n_st, 3) [m], and where they let walls end towards +x (Z,)
+    # [m]; None: nowhere
+    offset: np.ndarray | None = None
+    open_at: np.ndarray | None = None
 
     @property
     def normals(self) -> np.ndarray:
         """Outward normals (n_st, 3) of the wall at the stations, in the pocket's frame."""
         return wall_normals(self.stations)
+
+
+WeightsOf = Callable[[FEModel, np.ndarray, PocketShapes, Any], sp.csr_matrix]
 
 
 def wall_stations(n_stations: int = N_STATIONS) -> np.ndarray:
@@ -102,15 +109,16 @@ def ball_cage_interface(
     solver: FreeBodySolver | None = None,
     n_stations: int = N_STATIONS,
     n_land: int = 24,
+    weights_of: WeightsOf | None = None,
 ) -> BallCageInterface:
     """Interface of a flexible cage.
 
     ``solver``: the model's factored free body, if there is one. ``n_land`` = 0 leaves the lands
-    out.
+    out. ``weights_of`` weighs the walls' nodes for the stations, ``wall_weights`` if not given.
     """
     stations = wall_stations(n_stations)
     shapes = pocket_shapes(cage, defects, pocket_count=pocket_count)
-    weights = wall_weights(model, stations, shapes, cage)
+    weights = (weights_of or wall_weights)(model, stations, shapes, cage)
     land_weights = land_station_weights(model, n_land)
     modes = _modes_at_stations(basis, weights, pocket_count, n_stations)
     static = static_compliance(solver or FreeBodySolver(model), weights, pocket_count)
@@ -149,13 +157,13 @@ def wall_weights(
             x, _, t = frame @ points.T
             x = x - shift
             from_axis = (x - np.clip(x, -slot[0], slot[0]), t - np.clip(t, -slot[1], slot[1]))
-            return _hats(np.arctan2(*from_axis), len(stations))
+            return station_hats(np.arctan2(*from_axis), len(stations))
 
         rows.append(model.face_weights(model.group(f"pocket{pocket}_wall"), hats))
     return normalised(sp.vstack(rows))
 
 
-def _hats(angles: np.ndarray, count: int) -> np.ndarray:
+def station_hats(angles: np.ndarray, count: int) -> np.ndarray:
     """Periodic hat functions (count, n) of evenly spaced stations; they sum to one."""
     place = angles * count / (2.0 * np.pi)
     apart = (place[None] - np.arange(count)[:, None] + 0.5 * count) % count - 0.5 * count
@@ -210,7 +218,8 @@ def indentations(cage: BallCage, shapes: PocketShapes, stations: np.ndarray) -> 
     """
     height = 0.5 * (cage.outside_diameter - cage.bore)
     even = np.sqrt(2.0) * 2.0 * np.pi / len(stations) * shapes.radius
-    flats = _hats(np.arange(4) * 0.5 * np.pi, len(stations))  # straight walls at +psi, +x, ...
+    sides = np.arange(4) * 0.5 * np.pi  # straight walls at +psi, +x, ...
+    flats = station_hats(sides, len(stations))
     lengths = 2.0 * shapes.slot[:, [0, 1, 0, 1]]
     widths = even[:, None] + lengths @ flats.T
     return np.array([[mean_indentation(cage.material, w, height) for w in row] for row in widths])

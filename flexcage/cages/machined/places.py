@@ -18,7 +18,7 @@ SECTIONS = ("waist_front", "rim+x", "waist_rear", "rim-x")  # by quarters of a t
 
 def _sections(model: FEModel, pocket_count: int) -> dict[str, np.ndarray]:
     """Surface vertices of a sector in an eighth of a turn about the pocket's axis each."""
-    surface = np.setdiff1d(model.surface, _round_walls(model, pocket_count))
+    surface = np.setdiff1d(model.surface, round_walls(model, pocket_count))
     places: dict[str, np.ndarray] = {}
     for pocket in range(pocket_count):
         x, r, t = (model.points[surface] @ pocket_frame(pocket, pocket_count).T).T
@@ -31,7 +31,7 @@ def _sections(model: FEModel, pocket_count: int) -> dict[str, np.ndarray]:
     return places
 
 
-def _round_walls(model: FEModel, pocket_count: int) -> np.ndarray:
+def round_walls(model: FEModel, pocket_count: int) -> np.ndarray:
     """Vertices of the pockets' walls less those on the edges with the lands."""
     walls = [model.group(f"pocket{k}_wall").ravel() for k in range(pocket_count)]
     edges = [model.group(name).ravel() for name in LANDS]
@@ -40,7 +40,7 @@ def _round_walls(model: FEModel, pocket_count: int) -> np.ndarray:
 
 ROUND_PLACES = Places(
     roots=_sections,
-    contact_zone=_round_walls,
+    contact_zone=round_walls,
     kind=PlaceKind(
         "waist or rim",
         "waists and rims of pockets",

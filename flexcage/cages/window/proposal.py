@@ -17,24 +17,32 @@ _STEP = 10e-6  # m
 
 
 def propose_window_cage(bearing: Any) -> ProposedCage:
-    """A hollow cylinder above the inner ring's ribs."""
+    """A hollow cylinder beside the ribs that come nearer to the pitch circle: above the inner
+    ring's or below the outer ring's."""
     roller, length = bearing.element_diameter, bearing.element_length
-    ribs = bearing.cage_space(None)[0].diameter
+    inner, outer = (limit.diameter for limit in bearing.cage_space(None))
+    above = bearing.pitch_diameter - inner <= outer - bearing.pitch_diameter
+    wall = min(_WALL * roller, 0.5 * (outer - inner) - 2.0 * _TO_RIBS)
+    bore, outside = inner + 2.0 * _TO_RIBS, inner + 2.0 * (_TO_RIBS + wall)
+    if not above:
+        bore, outside = outer - 2.0 * (_TO_RIBS + wall), outer - 2.0 * _TO_RIBS
     pocket = length + _ALONG
     cage = WindowCage(
-        bore=rounded(ribs + 2.0 * _TO_RIBS, _STEP),
-        outside_diameter=rounded(ribs + 2.0 * (_TO_RIBS + _WALL * roller), _STEP),
+        bore=rounded(bore, _STEP),
+        outside_diameter=rounded(outside, _STEP),
         width=rounded(min(pocket + 2.0 * _SIDE_BEAM * roller, _WIDEST * bearing.width), _STEP),
         pocket_width=rounded(roller + _AROUND, _STEP),
         pocket_length=rounded(pocket, _STEP),
         fillet_radius=rounded(_FILLET * roller, _STEP),
     )
+    to_ribs = f"assumption: {1e3 * _TO_RIBS:g} mm of radial clearance to the ribs"
+    thick = f"assumption: a wall {wall / roller:.2g} times the roller's diameter thick"
     return ProposedCage(
         cage=cage,
         reasons={
             "material": "assumption: machined cages are of brass",
-            "bore": f"assumption: {1e3 * _TO_RIBS:g} mm of radial clearance to the ribs",
-            "outside_diameter": f"assumption: a wall {_WALL:g} times the roller's diameter thick",
+            "bore": to_ribs if above else thick,
+            "outside_diameter": thick if above else to_ribs,
             "width": f"assumption: side beams {_SIDE_BEAM:g} times the roller's diameter wide, or "
             f"{_WIDEST:g} of the bearing's width",
             "pocket_width": f"assumption: {1e3 * _AROUND:g} mm of clearance",

@@ -50,6 +50,8 @@ class ElementLoads:
     gyroscopic: np.ndarray  # (Z,) moment, N m
     orbital_speed: np.ndarray  # (Z,) rad/s
     friction: np.ndarray  # (Z, 2) coefficient that the gyroscopic moment asks of each race
+    # (Z,) N that ribs carry through an element towards +x; None without ribs that do
+    axial: np.ndarray | None = None
 
 
 class Elements(Protocol):

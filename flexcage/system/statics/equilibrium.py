@@ -5,12 +5,16 @@ whereupon the ring takes a step. Where forces have a potential it is convex (spr
 pressure, between centres), so that steps which lower it lead to its one minimum from anywhere; this
 comes first, with the centrifugal force at the free contact angle. Then what has no potential is
 added, in parts if need be.
+
+Rings that bend come between: for every place of the inner ring's seat, the displacements at the
+elements are sought at which races, bent by the elements' forces, lie where the elements feel them.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 
@@ -31,6 +35,20 @@ _PARTS = (1, 3, 9)  # in which speed's other effects come in: all at once, or mo
 
 
 @dataclass(frozen=True)
+class Bending:
+    """How races yield to the forces q (Z, 3) of all elements along v: from where the seats have
+    them, by ``compliance`` (3 Z, 3 Z) times q, and by ``offset`` (Z, 3), which the elements' own
+    forces cause. The inner race yields back and the outer one on, so that v loses both."""
+
+    compliance: np.ndarray
+    offset: np.ndarray
+
+    def yielded(self, force: np.ndarray) -> np.ndarray:
+        """What v (Z, 3) loses under forces (Z, 3)."""
+        return self.offset + (self.compliance @ force.ravel()).reshape(-1, 3)
+
+
+@dataclass(frozen=True)
 class Problem:
     """What is to be balanced: ``free`` (5,) marks the ring's free motions, others keep ``held``.
 
@@ -42,6 +60,7 @@ class Problem:
     free: np.ndarray  # (5,) bool
     held: np.ndarray  # (5,)
     spring: np.ndarray  # (5,)
+    bending: Bending | None = None  # of rings that bend
 
     def pull(self, ring: np.ndarray) -> np.ndarray:
         """Forces (5,) of load and springs on a ring displaced by u (5,)."""
@@ -77,14 +96,20 @@ class Problem:
 
 @dataclass(frozen=True)
 class Posture:
-    """Displacement u (5,) of the inner ring, elements settled between the rings, and forces."""
+    """Displacement u (5,) of the inner ring, elements settled between the rings, and forces.
+
+    Where the outer ring's seat yields (``yielding``), u is relative to that ring, and ``outer``
+    (5,) its own displacement.
+    """
 
     ring: np.ndarray
+    v: np.ndarray  # (Z, 3) displacements that the elements feel
     own: np.ndarray  # (Z, 2) coordinates of the elements
     response: Response
     force: np.ndarray  # (5,) that the elements bear
     unbalanced: float  # largest force left over, as a share of the load; inf: none settled
     energy: float  # of elements, load and springs; a potential while ``share`` is 0
+    outer: np.ndarray = field(default_factory=lambda: np.zeros(5))
 
 
 def balance(problem: Problem) -> Posture:
@@ -100,7 +125,7 @@ def balance(problem: Problem) -> Posture:
         for k in range(parts):
             share = (k + 1) / parts
             with np.errstate(invalid="ignore", divide="ignore"):  # where the search goes astray
-                found = _march(problem, _posture(problem, found.ring, found.own, share), share)
+                found = _march(problem, _posture(problem, found.ring, found, share), share)
             if found.unbalanced > _CLOSE:
                 break
         else:
@@ -115,22 +140,79 @@ def balance(problem: Problem) -> Posture:
 
 def tangent(problem: Problem, posture: Posture) -> np.ndarray:
     """Exact tangent (5, 5) of the forces that elements bear over u, the elements following."""
-    B, r = problem.at_azimuths, posture.response
+    B, stiffness = problem.at_azimuths, _condensed(posture.response)
+    if problem.bending is not None:
+        felt = np.linalg.solve(_yielding(problem.bending, stiffness), B.reshape(-1, 5))
+        return np.einsum("zia,zij,zjb->ab", B, stiffness, felt.reshape(B.shape))
+    return np.einsum("zia,zij,zjb->ab", B, stiffness, B)
+
+
+def _condensed(r: Response) -> np.ndarray:
+    """Stiffness (Z, 3, 3) of elements along v, their own coordinates following."""
     follow = np.linalg.pinv(r.unbalance_w, rcond=_RANK) @ r.unbalance_v
-    return np.einsum("zia,zij,zjb->ab", B, r.ring_v - r.ring_w @ follow, B)
+    return r.ring_v - r.ring_w @ follow
 
 
-def _posture(problem: Problem, ring: np.ndarray, own: np.ndarray | None, share: float) -> Posture:
+def _yielding(bending: Bending, stiffness: np.ndarray) -> np.ndarray:
+    """1 + C K (3 Z, 3 Z) of races that yield to elements of a stiffness (Z, 3, 3)."""
+    count = len(stiffness)
+    columns = bending.compliance.reshape(3 * count, count, 3)
+    whole = np.einsum("pzi,zij->pzj", columns, stiffness).reshape(3 * count, 3 * count)
+    return whole + np.eye(3 * count)
+
+
+def _posture(problem: Problem, ring: np.ndarray, near: Posture | None, share: float) -> Posture:
     B = problem.at_azimuths
-    v = B @ ring
-    own, response, unsettled = settle(problem, v, nearest(problem, v, own, share), share)
+    v, own = B @ ring, None if near is None else near.own
+    if problem.bending is None:
+        own, response, unsettled = settle(problem, v, nearest(problem, v, own, share), share)
+    else:
+        v, own, response, unsettled = _bend(problem, v, near, share)
     force = np.einsum("zij,zi->j", B, response.ring)
     gap = ((force - problem.pull(ring)) / problem.lever)[problem.free]
     left = float(np.abs(gap).max(initial=0.0)) / problem.size
     left = max(left, unsettled) if unsettled < _LOST else np.inf
     energy = float(response.energy.sum() - problem.load @ ring)
     energy += 0.5 * float(problem.spring @ (ring - problem.held) ** 2)
-    return Posture(ring, own, response, force, left, energy)
+    if problem.bending is not None:
+        energy += 0.5 * float(response.ring.ravel() @ problem.bending.compliance
+                              @ response.ring.ravel())  # fmt: skip
+    return Posture(ring, v, own, response, force, left, energy)
+
+
+def _bend(
+    problem: Problem, rigid: np.ndarray, near: Posture | None, share: float
+) -> tuple[np.ndarray, np.ndarray, Response, float]:
+    """Displacements v (Z, 3) that elements feel where a rigid ring would displace them by
+    ``rigid``, then as ``settle``: Newton's method for v + what races yield to forces at v = rigid.
+    """
+    assert problem.bending is not None
+    bending, scale = problem.bending, problem.elements.scale
+    lever = problem.lever[[0, 1, 3]]
+
+    def tried(v: np.ndarray, own: np.ndarray | None) -> tuple[Any, np.ndarray, float]:
+        settled = settle(problem, v, nearest(problem, v, own, share), share)
+        gap = v - rigid + bending.yielded(settled[1].ring)
+        return settled, gap, float(np.abs(gap * lever).max()) / scale
+
+    v, own = (rigid, None) if near is None else (near.v, near.own)
+    settled, gap, left = tried(v, own)
+    for _ in range(_ITERATIONS):
+        if left <= _SETTLED or settled[2] > _LOST:
+            break
+        matrix = _yielding(bending, _condensed(settled[1]))
+        step = -np.linalg.solve(matrix, gap.ravel()).reshape(-1, 3)
+        length = min(1.0, scale / max(float(np.abs(step * lever).max()), 1e-300))
+        for _ in range(_FEW):
+            new, new_gap, new_left = tried(v + length * step, settled[0])
+            if new_left < (1.0 - _ENOUGH * length) * left:
+                break
+            length *= 0.5
+        else:
+            break
+        v, settled, gap, left = v + length * step, new, new_gap, new_left
+    own, response, unsettled = settled
+    return v, own, response, unsettled if left <= _CLOSE else np.inf
 
 
 def nearest(problem: Problem, v: np.ndarray, own: np.ndarray | None, share: float) -> np.ndarray:
@@ -194,7 +276,7 @@ def _march(problem: Problem, posture: Posture, share: float) -> Posture:
         step[free] = -np.linalg.solve(matrix[np.ix_(free, free)], gap[free])
         length = min(1.0, scale / max(float(np.abs(step * problem.lever).max()), 1e-300))
         for _ in range(_FEW):
-            new = _posture(problem, posture.ring + length * step, posture.own, share)
+            new = _posture(problem, posture.ring + length * step, posture, share)
             fine = new.unbalanced < (1.0 - _ENOUGH * length) * posture.unbalanced
             if share == 0.0 and new.unbalanced < np.inf:
                 promised = length * float(gap[free] @ step[free])

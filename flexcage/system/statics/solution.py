@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 import json
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from math import isfinite
 from pathlib import Path
 from typing import Any
@@ -14,6 +14,7 @@ import numpy as np
 from flexcage._version import __version__
 from flexcage.geometry.film import Film
 from flexcage.system.statics.elements import ElementLoads
+from flexcage.system.statics.rings import BentRing
 from flexcage.system.statics.table import html_of, table_of
 
 FORMAT = 1
@@ -41,6 +42,8 @@ class StaticSolution:
     springs bear. ``elements`` lists every element, inner race before outer, and ``film`` (Z, 2) the
     lubricant's thickness there, of rolling without slip. ``stiffness`` (5, 5) is the exact tangent
     of what the elements bear over displacement, at constant speed, the elements following.
+    ``outer`` (5,) is the displacement of the outer ring, whose seat may yield: ``displacement`` and
+    ``stiffness`` have the seat's share in them.
     """
 
     title: str
@@ -55,6 +58,8 @@ class StaticSolution:
     warnings: tuple[str, ...]
     unbalanced: float  # largest force left over, as a share of the load
     held: str = ""  # how the inner ring is held, in words
+    rings: tuple[BentRing, ...] = ()  # that bend
+    outer: np.ndarray = field(default_factory=lambda: np.zeros(5))
 
     @property
     def largest_force(self) -> float:
@@ -96,7 +101,10 @@ class StaticSolution:
 
     def to_dict(self) -> dict[str, Any]:
         """Plain values; what is not a number or infinite is None."""
-        fields = {f.name: _plain(getattr(self, f.name)) for f in dataclasses.fields(self)}
+        names = [f.name for f in dataclasses.fields(self) if f.name != "rings"]
+        fields = {name: _plain(getattr(self, name)) for name in names}
+        if self.rings:
+            fields["rings"] = {ring.side: _plain(ring.figures()) for ring in self.rings}
         return {"format": FORMAT, "flexcage": __version__, **fields}
 
     def to_json(self, path: str | Path | None = None) -> str:
@@ -109,7 +117,10 @@ class StaticSolution:
 
 def _plain(value: Any) -> Any:
     if dataclasses.is_dataclass(value) and not isinstance(value, type):
-        return {f.name: _plain(getattr(value, f.name)) for f in dataclasses.fields(value)}
+        found = {f.name: getattr(value, f.name) for f in dataclasses.fields(value)}
+        return {name: _plain(own) for name, own in found.items() if own is not None}
+    if isinstance(value, dict):
+        return {key: _plain(item) for key, item in value.items()}
     if isinstance(value, np.ndarray):
         return [_plain(item) for item in value]
     if isinstance(value, (tuple, list)):

@@ -10,6 +10,7 @@ import numpy as np
 from flexcage.core import html
 
 if TYPE_CHECKING:
+    from flexcage.system.statics.rings import BentRing
     from flexcage.system.statics.solution import StaticSolution
 
 _AXES = ("x", "y", "z", "tilt y", "tilt z")
@@ -19,6 +20,8 @@ _SMALL = 1e-9  # of the largest of its kind: shown as 0
 def table_of(s: StaticSolution) -> str:
     """Displacements, stiffness, life, and a line for every rolling element."""
     parts = [_head(s), _ring(s), _stiffness(s), _life(s), _elements(s)]
+    parts += [f"{_bent_note(ring)}\n{_grid(_bent_lines(ring), left=0)}" for ring in s.rings]
+    parts += [_supports(ring) for ring in s.rings if len(ring.bears)]
     parts += [f"Warning: {text}" for text in s.warnings]
     return "\n\n".join(parts)
 
@@ -35,6 +38,10 @@ def html_of(s: StaticSolution) -> str:
         html.table([*_peaks(s), *_life_lines(s)]),
         html.folded("Stiffness", _html_grid(_stiffness_lines(s))),
         html.folded("Elements", elements),
+        *(
+            html.folded(_bent_note(ring), _html_grid(_bent_lines(ring), sides="r"))
+            for ring in s.rings
+        ),
     )
 
 
@@ -73,6 +80,8 @@ def _ring_lines(s: StaticSolution) -> list[list[str]]:
         lines.append(["reaction, N and N m", *map(_short, reaction)])
     unit = np.where(np.arange(5) < 3, 1e6, 1e3)
     lines.append(["displacement, um and mrad", *map(_short, unit * moved)])
+    if s.outer.any():
+        lines.append(["of it, the outer ring's", *map(_short, unit * _clean(s.outer))])
     return lines
 
 
@@ -124,6 +133,8 @@ def _element_note(s: StaticSolution) -> str:
     note = (
         "Q force, p largest pressure, a and b half of the contact across and in rolling direction"
     )
+    if s.elements.axial is not None:
+        note += ", axial force that ribs carry through a roller towards +x"
     if s.speed != 0.0:
         note += ", h least film (isothermal, fully flooded), Fc centrifugal force"
     return note
@@ -136,6 +147,7 @@ def _element_lines(s: StaticSolution) -> list[list[str]]:
     if balls:
         names += ["angle i, deg", "angle o, deg"]
     names += ["p inner, MPa", "p outer, MPa", "a inner, mm", "b inner, mm"]
+    names += ["axial, N"] if e.axial is not None else []
     turning = s.speed != 0.0
     if turning:
         names += ["h inner, um", "h outer, um", "Fc, N"]
@@ -147,6 +159,7 @@ def _element_lines(s: StaticSolution) -> list[list[str]]:
             cells += [_or_dash(degrees(a), ".3f") for a in e.angle[k]]
         cells += [f"{p / 1e6:.5g}" for p in e.pressure[k]]
         cells += [f"{1e3 * e.across[k, 0]:.4g}", f"{1e3 * e.along[k, 0]:.4g}"]
+        cells += [f"{e.axial[k]:.5g}"] if e.axial is not None else []
         if turning:
             cells += [_or_dash(1e6 * h, ".4g") for h in s.film.least[k]]
             cells.append(f"{e.centrifugal[k]:.4g}")
@@ -155,6 +168,30 @@ def _element_lines(s: StaticSolution) -> list[list[str]]:
                 cells += [f"{1e3 * e.gyroscopic[k]:.4g}", f"{asked:.4f}"]
         lines.append(cells)
     return lines
+
+
+def _bent_note(ring: BentRing) -> str:
+    return (
+        f"{ring.side} ring: how far its race yields from where its seat has it "
+        f"({len(ring.seated.reduction.compliance) - 1} harmonics)"
+    )
+
+
+def _bent_lines(ring: BentRing) -> list[list[str]]:
+    lines = [["element", "azimuth, deg", "axially, um", "radially, um", "tilt, mrad"]]
+    for k, (azimuth, yields) in enumerate(zip(ring.azimuth, ring.deflection)):
+        values = (f"{v:.4g}" for v in yields * np.array([1e6, 1e6, 1e3]))
+        lines.append([str(k), f"{degrees(azimuth):.4g}", *values])
+    return lines
+
+
+def _supports(ring: BentRing) -> str:
+    """Patches of the supports that press, or pull."""
+    lines = [["support at, deg", "presses, N"]]
+    for azimuth, force in zip(ring.seated.support, ring.support_force):
+        if force:
+            lines.append([f"{degrees(azimuth):.4g}", f"{force:.5g}"])
+    return _grid(lines, left=0)
 
 
 def _or_none(value: float, unit: str, otherwise: str) -> str:

@@ -1,0 +1,70 @@
+"""The mesh of a crown cage with its defects."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from flexcage.cages.crown.cage import CrownCage
+from flexcage.cages.crown.defects import CrownDefect
+from flexcage.cages.crown.morph import apply_crown_defects
+from flexcage.cages.crown.sector import mesh_crown_half
+from flexcage.cages.machined.build import build_round_pockets
+from flexcage.cages.machined.measure import ENOUGH, measure_ball_file
+from flexcage.core.errors import InputError
+from flexcage.mesh.cage_mesh import CageMesh
+from flexcage.mesh.options import MeshOptions
+from flexcage.mesh.sector import Quarter
+
+
+def build_crown_mesh(
+    cage: CrownCage,
+    pocket_count: int,
+    pitch_diameter: float,
+    defects: Sequence[CrownDefect],
+    options: MeshOptions,
+) -> CageMesh:
+    """Mesh of a crown cage with its defects, or the user's own file checked against both."""
+    return build_round_pockets(
+        cage, pocket_count, pitch_diameter, defects, options, quarter_of=_half,
+        measure=measure_crown_file, apply=apply_crown_defects,
+    )  # fmt: skip
+
+
+def _half(
+    cage: CrownCage,
+    pocket_count: int,
+    pitch_diameter: float,
+    defects: Sequence[CrownDefect],
+    options: MeshOptions,
+) -> Quarter:
+    fronts = {radius for defect in defects for radius in defect.fronts(cage)}
+    return mesh_crown_half(
+        cage, pocket_count=pocket_count, pitch_diameter=pitch_diameter, options=options,
+        breaks=any(defect.breaks for defect in defects), fronts=tuple(sorted(fronts)),
+    )  # fmt: skip
+
+
+def measure_crown_file(
+    mesh: CageMesh,
+    cage: CrownCage,
+    defects: Sequence[CrownDefect],
+    *,
+    pitch_radius: float,
+    source: str,
+) -> CageMesh:
+    """A user's mesh with its defects measured; refused with other pockets, tips or another ring
+    than the case says."""
+    measured = measure_ball_file(mesh, cage, defects, pitch_radius=pitch_radius, source=source)
+    x = mesh.points[:, 0]
+    for what, found, said in (
+        ("claws' tips are", float(x.max()), cage.tip),
+        ("ring's back is", float(x.min()), cage.back),
+    ):
+        if abs(found - said) > ENOUGH:
+            raise InputError(
+                f"{source}: the {what} at x = {found * 1e3:.3f} mm, but the case says "
+                f"{said * 1e3:.3f} mm; give the cage that the file contains",
+                where="mesh.file",
+                value=found,
+            )
+    return measured

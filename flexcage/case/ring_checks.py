@@ -1,0 +1,69 @@
+"""Checks of [inner_ring] and [outer_ring]: rings that bend, and their supports."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from itertools import pairwise
+from math import pi
+from typing import TYPE_CHECKING
+
+from flexcage.core.units import describe
+from flexcage.geometry.checks import Finding
+from flexcage.geometry.ring import SUPPORTED
+
+if TYPE_CHECKING:
+    from flexcage.case.case import Case
+    from flexcage.case.static import StaticCase
+
+_LINE = 1e-6  # rad: two supports this near to a line through the axis hold across it alone
+
+
+def find_in_rings(case: StaticCase) -> Iterator[Finding]:
+    """Supports that are missing, superfluous, or in each other's place."""
+    ring, where = case.outer_ring, "outer_ring.supports"
+    if ring.seat not in SUPPORTED:
+        if ring.supports:
+            yield (
+                where,
+                f"{where} has {_azimuths(ring.supports)}, but outer_ring.seat is "
+                f'\'{ring.seat}\'; leave them out, or take outer_ring.seat = "arcs" or "points".',
+            )
+        return
+    if len(ring.supports) < 2:
+        yield (
+            where,
+            f"{where} has {_azimuths(ring.supports)}, but "
+            f"outer_ring.seat = '{ring.seat}' needs two or more to hold the ring.",
+        )
+        return
+    places = sorted(azimuth % (2.0 * pi) for azimuth in ring.supports)
+    gap = min(b - a for a, b in pairwise([*places, places[0] + 2.0 * pi]))
+    if gap < ring.support_arc:
+        yield (
+            where,
+            f"{where} has two supports {describe(gap, 'deg')} apart, but each takes "
+            f"{describe(ring.support_arc, 'deg')} (outer_ring.support_arc); move them apart, or "
+            "make them narrower.",
+        )
+    if len(places) == 2 and abs(places[1] - places[0] - pi) < _LINE:
+        yield (
+            where,
+            f"{where} has two supports on opposite sides, which do not hold the ring across the "
+            "line through them; move one, or give a third.",
+        )
+
+
+def _azimuths(supports: tuple[float, ...]) -> str:
+    """How many there are, in words."""
+    return f"{len(supports) or 'no'} azimuth{'' if len(supports) == 1 else 's'}"
+
+
+def find_bending_in_run(case: Case) -> Iterator[Finding]:
+    """Rings that bend, which a run does not have."""
+    for side in ("inner_ring", "outer_ring"):
+        if getattr(case, side).bends:
+            yield (
+                f"{side}.ring",
+                f"{side}.ring is 'flexible', but the rings of a run are rigid; leave it out, or "
+                "take 'flexcage static'.",
+            )

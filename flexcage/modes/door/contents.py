@@ -1,0 +1,166 @@
+"""What a reader takes from a file: its numbers as they stand there, before units and checks."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from flexcage.core.errors import EnvironmentLacks, InputError
+from flexcage.modes.door.body import MODAL, ReducedBody
+
+
+@dataclass(frozen=True, kw_only=True)
+class Points:
+    """Nodes of a file: numbers (N,), places (N, 3), elements and named sets of node numbers.
+
+    ``frames`` (N, 3, 3): rows are the directions of a node's coordinates, where these are not those
+    of the places.
+    """
+
+    numbers: np.ndarray
+    places: np.ndarray
+    cells: np.ndarray | None = None  # (m, corners) node numbers
+    sets: Mapping[str, np.ndarray] = field(default_factory=dict)
+    frames: np.ndarray | None = None
+
+
+@dataclass(frozen=True, kw_only=True)
+class Contents:
+    """Matrices of a file in its own units.
+
+    ``labels`` (n, 2): node number and component (1 to 6) of every coordinate, component 0 for a
+    modal one; None where the file does not say. ``shapes`` goes with ``points``: (3N, n), or
+    (6N, n) with rotations.
+    """
+
+    stiffness: Any
+    mass: Any | None
+    labels: np.ndarray | None = None
+    points: Points | None = None
+    shapes: np.ndarray | None = None
+    kind: tuple[str, ...] = ()
+
+
+def unreadable(path: Path, reason: object, *, where: str) -> InputError:
+    """The error to raise for a file that is not what its name says."""
+    first = str(reason).strip().splitlines()[0] if str(reason).strip() else type(reason).__name__
+    return InputError(
+        f"{path} cannot be read as a {path.suffix} file: it is empty, cut short, or not what its "
+        f"name says ({first}).",
+        where=where,
+        value=str(path),
+    )
+
+
+def lacking(package: str, what: str) -> EnvironmentLacks:
+    """The error to raise where an optional reader is not installed."""
+    return EnvironmentLacks(
+        f"{what} are read and written by {package}, which is not installed here; install it with  "
+        f'pip install "flexcage[bodies]"  (or  pip install {package}).'
+    )
+
+
+def picked(found: Mapping[str, Any], names: tuple[str, ...]) -> Any | None:
+    """The first of ``names`` that a file has, in capitals or not; None if it has none."""
+    by_name = {name.upper(): value for name, value in found.items()}
+    return next((by_name[name] for name in names if name in by_name), None)
+
+
+#: What matrices are called: Nastran's of EXTSEOUT and of assemblies, and plain names.
+STIFFNESS = ("STIFFNESS", "K", "KAAX", "KAA", "KGG", "KJJ", "KXX", "K2GG")
+MASS = ("MASS", "M", "MAAX", "MAA", "MGG", "MJJ", "MXX", "M2GG")
+NODES = ("NODES", "POINTS", "XYZ")
+SHAPES = ("SHAPES", "PHI", "PHIG", "PHG")
+DOFS = ("DOFS", "LABELS")
+#: Kinds of coordinates by the number that stands for them in files of numbers alone.
+KINDS = (
+    "free", "centrifugal", "crossbeam", "land", "attachment", "constraint", "residual", "elastic",
+)  # fmt: skip
+
+
+def from_matrices(found: Mapping[str, Any], path: Path, *, where: str) -> Contents:
+    """Contents of a file that is a table of named matrices."""
+    stiffness, mass = picked(found, STIFFNESS), picked(found, MASS)
+    if stiffness is None:
+        raise InputError(
+            f"{path} has no stiffness matrix; it has {', '.join(sorted(found)[:8]) or 'nothing'}, "
+            f"and one of {', '.join(STIFFNESS)} is looked for.",
+            where=where,
+            value=str(path),
+        )
+    nodes, labels, shapes = picked(found, NODES), picked(found, DOFS), picked(found, SHAPES)
+    kinds = picked(found, ("KIND",))
+    return Contents(
+        stiffness=stiffness,
+        mass=mass,
+        labels=None if labels is None else _whole(labels).reshape(-1, 2),
+        points=None if nodes is None else _points(nodes, picked(found, ("NUMBERS",))),
+        shapes=None if shapes is None else _dense(shapes).reshape(-1, stiffness.shape[0]),
+        kind=() if kinds is None else _kinds(np.ravel(_dense(kinds)), path, where=where),
+    )
+
+
+def to_matrices(body: ReducedBody) -> dict[str, Any]:
+    """The matrices of which ``from_matrices`` makes the contents again; kinds as texts.
+
+    Dofs are written with node numbers from 1 and components from 1, as in files of all programs.
+    """
+    found = {"K": body.stiffness, "M": body.mass, "NODES": body.nodes, "DOFS": labels_of(body)}
+    if body.numbers is not None:
+        found["NUMBERS"] = body.numbers
+    if body.shapes is not None:
+        found["SHAPES"] = body.shapes.reshape(-1, body.size)
+    if body.kind:
+        found["KIND"] = np.array(body.kind)
+    return {name: value for name, value in found.items() if value is not None}
+
+
+def labels_of(body: ReducedBody) -> np.ndarray:
+    """Node number and component from 1 (n, 2) of every coordinate; modal ones have numbers beyond
+    those of the nodes, and component 0."""
+    numbers = numbers_of(body)
+    modal = body.dofs[:, 0] == MODAL
+    beyond = numbers.max(initial=0) + np.cumsum(modal)
+    node = np.where(modal, beyond, numbers[body.dofs[:, 0]] if len(numbers) else 0)
+    return np.stack([node, np.where(modal, 0, body.dofs[:, 1] + 1)], axis=1)
+
+
+def numbers_of(body: ReducedBody) -> np.ndarray:
+    """Numbers (N,) of the nodes in a file: the body's own, else from 1."""
+    return np.arange(1, len(body.nodes) + 1) if body.numbers is None else body.numbers
+
+
+def kind_codes(kinds: tuple[str, ...]) -> np.ndarray:
+    """Kinds as numbers (n,) for files of numbers alone; one that has none is "elastic"."""
+    return np.array([KINDS.index(k if k in KINDS else "elastic") for k in kinds])
+
+
+def _points(nodes: Any, numbers: Any | None) -> Points:
+    places = _dense(nodes).reshape(-1, 3)
+    given = np.arange(1, len(places) + 1) if numbers is None else np.ravel(_whole(numbers))
+    return Points(numbers=given, places=places)
+
+
+def _dense(matrix: Any) -> np.ndarray:
+    return np.asarray(matrix.toarray() if hasattr(matrix, "toarray") else matrix)
+
+
+def _whole(matrix: Any) -> np.ndarray:
+    return np.rint(_dense(matrix)).astype(np.int64)
+
+
+def _kinds(values: np.ndarray, path: Path, *, where: str) -> tuple[str, ...]:
+    if values.dtype.kind in "US":
+        return tuple(str(v) for v in values)
+    codes = np.rint(values.astype(float)).astype(int)
+    if len(codes) and not 0 <= codes.min() <= codes.max() < len(KINDS):
+        raise InputError(
+            f"{path} has a matrix KIND with numbers from {codes.min()} to {codes.max()}, but kinds "
+            f"of coordinates are 0 to {len(KINDS) - 1}; leave it out.",
+            where=where,
+        )
+    return tuple(KINDS[code] for code in codes)

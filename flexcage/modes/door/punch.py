@@ -1,0 +1,85 @@
+"""Bodies as DMIG entries of a Nastran bulk file (.pch), through pyYeti.
+
+Rows and columns carry grid numbers and components; the GRID entries of the same file, if it has
+any, say where they are.
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from flexcage.modes.door.body import ReducedBody
+from flexcage.modes.door.contents import (
+    MASS,
+    STIFFNESS,
+    Contents,
+    from_matrices,
+    labels_of,
+    lacking,
+    picked,
+    unreadable,
+)
+from flexcage.modes.door.nodes import read_grids
+
+
+def read(path: Path, *, where: str) -> Contents:
+    """Stiffness and mass of the DMIG entries, and the file's own GRID entries."""
+    module = _module()
+    try:
+        found = module.rddmig(str(path), square=True, expanded=False)
+        grids = read_grids(path, where=where, needed=False)
+    except Exception as error:  # of all kinds on broken files
+        if hasattr(error, "where"):
+            raise
+        raise unreadable(path, error, where=where) from error
+    frames = {name: frame for name, frame in found.items()}
+    stiffness = picked(frames, STIFFNESS)
+    if stiffness is None:
+        return from_matrices(frames, path, where=where)  # says what is missing
+    index, mass = stiffness.index, picked(frames, MASS)
+    if mass is not None:
+        index = index.union(mass.index)
+    labels = np.array(index.to_list(), np.int64).reshape(-1, 2)
+    whole = [m if m is None else _on(m, index) for m in (stiffness, mass)]
+    return Contents(stiffness=whole[0], mass=whole[1], labels=labels, points=grids)
+
+
+def _on(frame: Any, index: Any) -> np.ndarray:
+    return frame.reindex(index=index, columns=index, fill_value=0.0).to_numpy(float)
+
+
+def write(body: ReducedBody, path: Path) -> None:
+    """Write stiffness and mass as DMIG entries KAAX and MAAX, and nodes as GRID entries.
+
+    Shapes have no place there: what is read again has the nodes' own coordinates alone.
+    """
+    import pandas
+
+    module = _module()
+    stiffness, mass = body.dense()
+    labels = pandas.MultiIndex.from_arrays(labels_of(body).T, names=["id", "dof"])
+    frame = {
+        name: pandas.DataFrame(matrix, index=labels, columns=labels)
+        for name, matrix in (("KAAX", stiffness), ("MAAX", mass))
+    }
+    with path.open("w", encoding="ascii") as file:
+        for number, place in zip(labels_of_nodes(body), body.nodes):
+            first, second, third = (f"{c:16.9E}" for c in place)
+            file.write(f"GRID*   {number:16d}{0:16d}{first}{second}\n*       {third}\n")
+        module.wtdmig(file, frame)
+
+
+def labels_of_nodes(body: ReducedBody) -> np.ndarray:
+    """Numbers (N,) of the nodes in the file."""
+    return np.arange(1, len(body.nodes) + 1) if body.numbers is None else body.numbers
+
+
+def _module() -> Any:
+    try:
+        from pyyeti.nastran import bulk
+    except ImportError as error:
+        raise lacking("pyyeti", "Nastran's files (.op4, .pch)") from error
+    return bulk

@@ -1,0 +1,187 @@
+"""Static solutions with rings that bend."""
+
+import dataclasses
+from functools import cache
+
+import numpy as np
+import pytest
+
+from flexcage.bearings import sections_of, statics_of
+from flexcage.case.presets import load_preset
+from flexcage.core.errors import InputError
+from flexcage.geometry.ring import InnerRing, OuterRing
+from flexcage.modes import ring as ring_modes
+from flexcage.system.spec import Load
+from flexcage.system.statics.rings import Rings
+from flexcage.system.statics.solve import solve_bearing
+
+LOADS = {
+    "N1013": Load(radial=5e3, misalignment=2e-4),
+    "7603025": Load(axial=3500.0, radial=1200.0),
+    "7010C-PI": Load(axial=500.0, radial=300.0, moment_z=1.0, tilt="free"),
+}
+SPEED = 300.0  # rad/s
+BOTH = {"inner": InnerRing(ring="flexible"), "outer": OuterRing(ring="flexible")}
+
+
+def on(seat, azimuths, arc=15.0):
+    supports = tuple(np.radians(azimuths))
+    return OuterRing(ring="flexible", seat=seat, supports=supports, support_arc=np.radians(arc))
+
+
+@cache
+def rigid(name, load=None):
+    bearing = load_preset(name).bearing
+    return solve_bearing(bearing, statics_of(bearing), load=load or LOADS[name], speed=SPEED)
+
+
+def bent(name, load=None, **rings):
+    bearing = load_preset(name).bearing
+    rings = Rings(sections=sections_of(bearing), **rings)
+    return solve_bearing(
+        bearing, statics_of(bearing), load=load or LOADS[name], speed=SPEED, rings=rings
+    )
+
+
+def of_a_modulus(name, factor):
+    material = load_preset(name).bearing.material
+    hard = dataclasses.replace(material, youngs_modulus=factor * material.youngs_modulus)
+    return {side: dataclasses.replace(ring, material=hard) for side, ring in BOTH.items()}
+
+
+def test_rings_that_are_rigid_cost_nothing_to_the_bit():
+    one, other = rigid("N1013"), bent("N1013")
+    assert other.rings == ()
+    assert np.array_equal(one.displacement, other.displacement)
+    assert np.array_equal(one.elements.force, other.elements.force)
+    assert one.to_json() == other.to_json()
+
+
+@pytest.mark.parametrize("name", LOADS)
+def test_rings_of_a_hard_material_are_rigid(name):
+    one, other = rigid(name), bent(name, **of_a_modulus(name, 1e4))
+    assert other.displacement == pytest.approx(one.displacement, rel=1e-4, abs=1e-10)
+    largest = one.largest_force
+    assert np.abs(one.elements.force - other.elements.force).max() < 1e-4 * largest
+    assert np.abs(other.stiffness - one.stiffness).max() < 1e-3 * np.abs(one.stiffness).max()
+
+
+@pytest.mark.parametrize("name", LOADS)
+def test_elements_bear_the_load(name):
+    solution = bent(name, **BOTH)
+    e, load = solution.elements, solution.load
+    angle = np.nan_to_num(e.angle[:, 0])
+    radial = e.force[:, 0] * np.cos(angle)
+    found = [e.force[:, 0] @ np.sin(angle), radial @ np.cos(e.azimuth), radial @ np.sin(e.azimuth)]
+    assert found == pytest.approx(load[:3], abs=1e-3 * solution.largest_force)
+    assert solution.unbalanced < 1e-9
+
+
+@pytest.mark.parametrize("name", LOADS)
+def test_stiffness_is_the_slope_of_the_load(name):
+    """The exact tangent with rings that bend, against differences of two solutions: 4 %, as the
+    places at which balls press the rings go with the load as well."""
+    load, step = LOADS[name], 2.0
+    outer = on("points", (50.0, 180.0, 300.0))
+    low, high = (
+        bent(name, dataclasses.replace(load, radial=load.radial + d), outer=outer)
+        for d in (-step, step)
+    )
+    middle = bent(name, load, outer=outer)
+    free = middle.reaction == 0.0
+    moved = (high.displacement - low.displacement)[free]
+    slope = middle.stiffness[np.ix_(free, free)] @ moved
+    assert slope == pytest.approx((high.load - low.load)[free], abs=0.08 * step)
+
+
+def test_supports_bear_the_load_and_push_only():
+    solution = bent("N1013", outer=on("arcs", (60.0, -60.0, 180.0)))
+    (outer,) = solution.rings
+    place, force = outer.seated.support, outer.support_force
+    assert (force >= 0.0).all() and (force > 0.0).sum() >= 2
+    assert [force @ np.cos(place), force @ np.sin(place)] == pytest.approx([5e3, 0.0], abs=1.0)
+    assert not force[np.cos(place) < 0.0].any()
+
+
+def test_points_pull_as_well():
+    (outer,) = bent("N1013", outer=on("points", (60.0, -60.0, 180.0))).rings
+    place, force = outer.seated.support, outer.support_force
+    assert force[np.cos(place) < 0.0].sum() < 0.0
+    assert force @ np.cos(place) == pytest.approx(5e3, abs=1.0)
+
+
+def test_two_support_arcs_make_two_peaks():
+    """A thin outer ring on two supports loads the elements beside them most, and the one between
+    least: A. B. Jones and T. A. Harris, J. Basic Eng. 85 (1963) 273 (a planet gear's rim loaded at
+    two places); T. A. Harris, Rolling Bearing Analysis, "Flexibly supported rings"."""
+    force = bent("N1013", LOADS["N1013"], outer=on("arcs", (40.0, -40.0))).elements.force[:, 1]
+    count = len(force)
+    around = np.roll(force, count // 2)  # the load's azimuth, 0, in the middle
+    peaks = [k for k in range(1, count - 1) if around[k - 1] < around[k] > around[k + 1]]
+    azimuth = (np.array(peaks) - count // 2) * 360.0 / count
+    assert len(peaks) == 2 and np.abs(np.abs(azimuth) - 40.0).max() < 360.0 / count
+    assert force[0] < 0.5 * force.max()
+    stiff = rigid("N1013").elements.force[:, 1]
+    assert stiff.argmax() == 0
+
+
+@pytest.mark.parametrize("name", ("N1013", "7603025"))
+def test_results_hardly_depend_on_the_patch(name, monkeypatch):
+    """Hertz is counted once: with patches half as long again, nothing moves by 1 %."""
+    found = []
+    reduce = ring_modes.reduce_ring
+    for along in (0.18, 0.27):
+        monkeypatch.setattr(
+            "flexcage.system.statics.rings.reduce_ring",
+            lambda *a, along=along, **k: reduce(*a, **{**k, "along": along}),
+        )
+        found.append(bent(name, **BOTH))
+    one, other = found
+    assert other.displacement[:3] == pytest.approx(one.displacement[:3], rel=0.005, abs=1e-9)
+    change = np.abs(one.elements.force - other.elements.force).max()
+    assert change < 0.005 * one.largest_force
+
+
+def test_a_turn_by_an_element_turns_the_solution():
+    load = LOADS["N1013"]
+    count = load_preset("N1013").bearing.element_count
+    step = 2.0 * np.pi / count
+    load = dataclasses.replace(load, misalignment=0.0)
+    one = bent("N1013", load, outer=on("arcs", (60.0, -60.0)))
+    turned = np.degrees(step) + np.array((60.0, -60.0))
+    other = bent("N1013", dataclasses.replace(load, direction=step), outer=on("arcs", turned))
+    assert np.roll(one.elements.force[:, 0], 1) == pytest.approx(
+        other.elements.force[:, 0], abs=1e-6 * one.largest_force
+    )
+
+
+def test_a_ring_that_lifts_off_is_refused():
+    with pytest.raises(InputError, match="free to move across the axis"):
+        bent("N1013", outer=on("arcs", (150.0, -150.0)))
+
+
+def test_a_seat_inside_the_race_is_refused():
+    with pytest.raises(InputError, match=r"outer_ring.diameter leaves the outer ring a wall"):
+        bent("N1013", outer=OuterRing(ring="flexible", diameter=0.08))
+
+
+@pytest.mark.parametrize("name", LOADS)
+def test_rings_that_bend_sit_on_a_seat_that_yields(name):
+    """Hard rings as rigid ones do; soft ones move with the seat by what the elements bear."""
+    seat = np.diag([2e-9, 1e-9, 3e-9, 1e-6, 2e-6])  # m/N and rad/(N m)
+    bearing = load_preset(name).bearing
+    options = {"load": LOADS[name], "speed": SPEED, "seat": seat}
+    both = solve_bearing(bearing, statics_of(bearing), **options)
+    sections = sections_of(bearing)
+    hard, soft = (
+        solve_bearing(
+            bearing, statics_of(bearing), **options, rings=Rings(sections=sections, **rings)
+        )
+        for rings in (of_a_modulus(name, 1e4), BOTH)
+    )
+    assert hard.outer == pytest.approx(both.outer, rel=1e-3, abs=1e-9)
+    assert hard.elements.force == pytest.approx(both.elements.force, rel=1e-3, abs=1.0)
+    assert np.abs(soft.elements.force - both.elements.force).max() > 1e-3 * both.largest_force
+    borne = soft.load + soft.reaction  # by the elements, and by the seat
+    assert soft.outer == pytest.approx(seat @ borne, rel=1e-6, abs=1e-12)
+    assert np.abs(soft.outer).max() > 1e-6
