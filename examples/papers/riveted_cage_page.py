@@ -109,8 +109,8 @@ first fifth is left out; three starts of every case, six with balls of 6.747 mm.
 - "Slip" is the cage's, behind balls that roll at a contact angle of zero. It is negative here:
   under the moment balls roll at up to 25 degrees and carry the cage ahead.
 - Stress of rivets is nominal, that of a shank of 1.2 mm which bears alone what goes from half to
-  half: the halves hold together under the rivets' heads. Fits, the paper's optimum (a small gap),
-  are not computed.
+  half: the halves hold together under the rivets' heads. Rivet, sheets and fit with contact and
+  friction follow below (`riveted_cage_rivet.py`).
 - Stress is that of a coarse mesh, which reads necks a fifth low.
 
 ## Verdicts
