@@ -13,10 +13,11 @@ from flexcage.bearings.family import inside_of
 from flexcage.cages.cage_type import proposal_of
 from flexcage.case.case import load_case
 from flexcage.case.presets import NAMED
-from flexcage.core.binding import default_of, to_table
+from flexcage.core.binding import default_of, did_you_mean, to_table
 from flexcage.core.errors import InputError, in_one_line
 from flexcage.core.units import describe
 from flexcage.geometry.bearing import BEARING_TYPES, check_type
+from flexcage.geometry.cage import cages_of
 from flexcage.geometry.inside import (
     Candidate,
     Outline,
@@ -48,13 +49,15 @@ class NewCase:
         return _findings(self.outline, self.source, self.chosen, self.candidates)
 
 
-def new_case(outline: Outline, source: str) -> NewCase:
-    """The case of a bearing that a catalogue, named by ``source``, describes; InputError if there
-    is no such bearing."""
+def new_case(outline: Outline, source: str, *, cage: str | None = None) -> NewCase:
+    """The case of a bearing that a catalogue, named by ``source``, describes, with the type of
+    cage that such bearings commonly have or with another; InputError if there is no such bearing
+    or none of its cages is of that type."""
     check_type(outline.type)
     inside = inside_of(BEARING_TYPES[outline.type])
     candidates = ranked(inside.candidates(outline))
-    propose = proposal_of(inside.cages[outline.type])
+    _check_cage(cage, candidates[0].bearing.element)
+    propose = proposal_of(cage or inside.cages[outline.type])
     refused = None
     for candidate in candidates:
         try:
@@ -70,6 +73,18 @@ def new_case(outline: Outline, source: str) -> NewCase:
         )  # fmt: skip
     assert refused is not None  # there is a candidate, or ``ranked`` has raised
     raise refused
+
+
+def _check_cage(cage: str | None, element: str) -> None:
+    """Refuse a type of cage that does not hold such elements."""
+    known = cages_of(element)
+    if cage is not None and cage not in known:
+        raise InputError(
+            f"There is no cage of type '{cage}' for {element}s; "
+            f"{did_you_mean(cage, known, 'choose from')}.",
+            where="cage.type",
+            value=cage,
+        )
 
 
 def case_name(outline: Outline) -> str:

@@ -36,6 +36,7 @@ def add_commands(commands: Any) -> None:
     new.add_argument("--design", metavar="DESIGN", help="of a cylindrical roller bearing, as NU")
     for option, key, _, what in (*_DIMENSIONS, *_FURTHER):
         new.add_argument(option, dest=key, metavar=key.split("_")[-1].upper(), help=what)
+    new.add_argument("--cage", metavar="TYPE", help="type of cage, as crown")
     new.add_argument("-o", "--out", metavar="FILE", help="case file (.toml) to write")
     new.add_argument("--force", action="store_true", help="write over an existing file")
 
@@ -47,7 +48,7 @@ def new_command(args: argparse.Namespace) -> int:
     outline, source = _outline(args)
     out = Path(args.out or f"{case_name(outline)}.toml")
     prepare_file(out, (".toml",), force=args.force)
-    made = new_case(outline, source)
+    made = new_case(outline, source, cage=args.cage)
     out.write_text(made.text, "utf-8")
     for line in made.findings():
         say(line)

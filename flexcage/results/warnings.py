@@ -27,6 +27,7 @@ from flexcage.results import metrics
 from flexcage.results.audit import EXCEEDED, OF_CAGE, OF_DRIVE
 from flexcage.results.bootstrap import FEWEST
 from flexcage.results.edges import Edge
+from flexcage.results.elastic import ElasticShape, grown_into_ring, large_rotation
 from flexcage.results.summary import Summary
 
 if TYPE_CHECKING:
@@ -74,6 +75,7 @@ class Outcome:
     duration: float  # s that it should last
     settle: float  # share of the run that statistics leave out
     edges: tuple[Edge, ...] = ()  # contact ellipses at grooves' edges
+    shape: ElasticShape = ElasticShape()  # how far the cage deformed
 
     @property
     def element(self) -> str:
@@ -353,6 +355,15 @@ def _over_edge(o: Outcome) -> Iterator[RunWarning]:
             yield RunWarning("over_edge", edge.warning[0].upper() + edge.warning[1:])
 
 
+def _large_rotation(o: Outcome) -> Iterator[RunWarning]:
+    yield from large_rotation(o.shape)
+
+
+def _grown_into_ring(o: Outcome) -> Iterator[RunWarning]:
+    guided = o.cage.land_ring if has_land(o.cage, o.land) else ""
+    yield from grown_into_ring(o.shape, o.cage, o.bearing.cage_space(o.cage), guided)
+
+
 def _um(length: float) -> str:
     return f"{length * 1e6:.3g} um" if abs(length) < 1e-3 else f"{length * 1e3:.3g} mm"
 
@@ -363,6 +374,8 @@ AT_END: tuple[Callable[[Outcome], Iterator[RunWarning]], ...] = (
     _yield,
     _thrown_off,
     _passes_ring,
+    _large_rotation,
+    _grown_into_ring,
     _short,
     _drift,
     _audit,

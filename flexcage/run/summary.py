@@ -15,6 +15,7 @@ from flexcage.results.known import KNOWN, RARE
 from flexcage.results.metrics import SlipRange, settled
 from flexcage.results.summary import Row, Summary, figure
 from flexcage.results.warnings import AT_END, Outcome, from_attrs, warnings_of
+from flexcage.run.elastic import elastic_shape
 from flexcage.solve.contract import Effort
 from flexcage.system.bodies import unbalance_of
 
@@ -76,6 +77,7 @@ def warned(summary: Summary, run: Run) -> Summary:
         duration=case.solver.duration,
         settle=case.output.settle,
         edges=tuple(run.groove_edges),
+        shape=elastic_shape(run),
     )
     known = from_attrs(run.dataset.attrs)
     return dataclasses.replace(summary, warnings=(*known, *warnings_of(AT_END, outcome)))

@@ -42,7 +42,7 @@ if TYPE_CHECKING:
 #: Variables that are never below zero, and reductions that are not, whatever they reduce.
 _SIZES = frozenset(
     """race_force pocket_force pocket_peak pocket_slice_force pocket_point_force
-    rib_force cage_whirl_radius cage_radial_displacement""".split()
+    rib_force counter_rib_force cage_whirl_radius cage_radial_displacement""".split()
 )
 _SIZED_REDUCTIONS = frozenset(
     "range std rms ripple crest frequency line_share mean_frequency".split()

@@ -33,6 +33,14 @@ def test_dimensions_and_ratings_write_a_case_as_well(capsys):
     assert case.bearing.ball_count == 9 and case.cage.type == "ribbon"
 
 
+def test_another_type_of_cage(capsys):
+    assert cli.main(["new", "6205", "--cage", "crown"]) == 0
+    case = load_case("6205.toml")
+    assert case.cage.type == "crown" and case.cage.throat < case.bearing.ball_diameter
+    assert cli.main(["new", "6205", "--force"]) == 0
+    assert load_case("6205.toml").cage.type == "ribbon"
+
+
 def test_a_makers_own_ratings_change_an_entry(capsys):
     assert cli.main(["new", "6305", "--dynamic", "23.4 kN", "--static", "11.6 kN"]) == 0
     told = capsys.readouterr().out
@@ -50,6 +58,8 @@ def test_a_makers_own_ratings_change_an_entry(capsys):
         (["6205", "--dynamic", "-14 kN"], "must be greater than zero"),
         (["6205", "-o", "a.txt"], "should end in .toml"),
         ([*DIMENSIONS, "--type", "cylindrical_roller"], "needs the race diameter F (--inner-race)"),
+        (["6205", "--cage", "crwn"], "no cage of type 'crwn' for balls; the nearest known one is"),
+        (["N 210", "--cage", "crown"], "no cage of type 'crown' for rollers; choose from window"),
         ([*DIMENSIONS, "--type", "tapered"], "bearing.type 'tapered' is not known"),
     ],
 )

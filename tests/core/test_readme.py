@@ -27,7 +27,12 @@ LONG = ("examples/papers/",)  # pages that may be longer
 #: Presets for the cases of a page, block by block, where they name none.
 CASES = {
     "README.md": ("",),
-    "examples/cases.md": ("N1013", "", "", "15x37x10", "N1013", "N1013", "N1013", "7010C-PI"),
+    "examples/cases.md": (
+        *("N1013", "", ""),
+        *2 * ("15x37x10",),
+        *3 * ("N1013",),
+        "7010C-PI",
+    ),
     "meshes/README.md": ("N1013",),
     "flexcage/modes/README.md": ("N1013",),
 }

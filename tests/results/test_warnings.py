@@ -14,6 +14,7 @@ from flexcage.geometry.odd import odd_geometry
 from flexcage.mesh.cage_mesh import CageMesh
 from flexcage.modes.basis import BodyFit
 from flexcage.results.edges import Edge
+from flexcage.results.elastic import ElasticShape
 from flexcage.results.summary import Row, Section, Summary, side_by_side
 from flexcage.results.warnings import (
     AT_END,
@@ -273,3 +274,31 @@ def test_warnings_of_the_start_are_kept_in_the_store():
     told = (RunWarning("a", "One."), RunWarning("b", "Two."))
     assert from_attrs({"warnings": to_text(told)}) == told
     assert from_attrs({}) == (), "a store of an earlier flexcage"
+
+
+def test_a_cage_that_deforms_too_far_for_linear_displacements():
+    """As far as nonlinear solutions say: off by 10 % at 5.7 degrees, stiffened at 9.2."""
+    turned = replace(end(RIBBON), shape=ElasticShape(rotation=0.12))
+    (found,) = warnings_of(AT_END, turned)
+    assert found.key == "large_rotation" and "turn elastically by up to 6.9 deg" in found.text
+    assert "off by about 12 % there; modes.geometric_stiffening = true leaves about 7 %." in (
+        found.text
+    )
+    assert keys(replace(end(RIBBON), shape=ElasticShape(rotation=0.12, stiffened=True))) == []
+    assert keys(replace(end(RIBBON), shape=ElasticShape(rotation=0.09))) == []
+    stiff = replace(end(RIBBON), shape=ElasticShape(rotation=0.2, stiffened=True))
+    (found,) = warnings_of(AT_END, stiff)
+    assert found.text.endswith("off by about 12 % there.")
+
+
+def test_a_cage_that_grows_into_a_ring():
+    """The gap to both shoulders is 0.535 mm; a ring that guides the cage takes it up."""
+    assert keys(replace(end(RIBBON), shape=ElasticShape(inward=0.5e-3, outward=0.53e-3))) == []
+    grown = replace(end(RIBBON), shape=ElasticShape(outward=0.6e-3))
+    (found,) = warnings_of(AT_END, grown)
+    assert found.key == "grown_into_ring"
+    assert "deforms by 0.6 mm towards the outer ring's shoulder, but the gap there is 0.535" in (
+        found.text
+    )
+    bent_in = replace(end(RIBBON), shape=ElasticShape(inward=0.6e-3))
+    assert "the inner ring's shoulder" in warnings_of(AT_END, bent_in)[0].text

@@ -47,3 +47,20 @@ def test_claws_and_ring_hold_the_cage_axially(way):
         layout.q(y)["cage"][:] = way * share * play, 0.0, 0.0
         pushed.append(-layout.u(bearing.residual(0.0, y, np.zeros_like(y)))["cage"][0])
     assert abs(pushed[0]) < 1e-9 and way * pushed[1] < -0.1
+
+
+@pytest.mark.slow
+def test_a_cage_with_all_defects_runs():
+    """Flexible, its mesh of uneven sectors and cracked; a bent claw presses its ball at once."""
+    defects = [
+        {"type": "missing_claw", "pocket": 4, "claw": "front"},
+        {"type": "bent_claw", "pocket": 2, "claw": "rear", "deflection": "-0.15 mm"},
+        {"type": "cracked_claw", "pocket": 7, "claw": "front", "share": 0.4},
+        {"type": "worn_pocket", "pocket": 1, "depth": "0.1 mm"},
+    ]
+    run = simulate(crown({"solver.duration": "1 ms"}, defects=defects))
+    assert run.summary["energy_audit"] == "passed" and run.summary["stress_peak"] > 0.5e6
+    for name, values in run.dataset.data_vars.items():
+        assert np.isfinite(values.values).all(), name
+    sound = simulate(crown({"solver.duration": "0.1 ms"}))
+    assert run.summary["cage_mass"] < 0.997 * sound.summary["cage_mass"]

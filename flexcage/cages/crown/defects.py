@@ -28,6 +28,7 @@ from flexcage.geometry.defect import (
 if TYPE_CHECKING:
     from flexcage.mesh.cage_mesh import CageMesh
 
+_BROKEN = (Mark("line", "crack", "crack under a claw, or where one is missing"),)
 CLAWS = {"front": 1.0, "rear": -1.0}  # and the sign of the azimuth on their side of the pocket
 
 
@@ -87,9 +88,6 @@ class ClawDefect(CrownDefect):
     def _named(self) -> str:
         return f"the {self.claw} claw of pocket {self.pocket}"
 
-    def changes(self, count: int) -> dict[tuple[int, str], float]:
-        return {(self.pocket, "place"): 0.0}
-
 
 def bent_share(x: np.ndarray, cage: Any) -> np.ndarray:
     """Deflection at places x [m] over that of the tip: a cantilever's with a force at its tip."""
@@ -133,6 +131,9 @@ class BentClaw(ClawDefect):
                 "less than its length.",
                 self.deflection,
             )
+
+    def changes(self, count: int) -> dict[tuple[int, str], float]:
+        return {(self.pocket, "place"): 0.0}
 
     @property
     def legend(self) -> Sequence[Mark]:
@@ -188,7 +189,7 @@ class CrackedClaw(ClawDefect):
 
     @property
     def legend(self) -> Sequence[Mark]:
-        return (Mark("line", "crack", "crack under a claw"),)
+        return _BROKEN
 
     def lines(self, points: np.ndarray, count: int) -> list[Line]:
         from flexcage.cages.crown.morph import doubled_line
@@ -235,7 +236,7 @@ class MissingClaw(ClawDefect):
 
     @property
     def legend(self) -> Sequence[Mark]:
-        return (Mark("line", "crack", "where a claw is missing"),)
+        return _BROKEN
 
     def lines(self, points: np.ndarray, count: int) -> list[Line]:
         from flexcage.cages.crown.morph import broken_line
