@@ -209,10 +209,11 @@ def reasons(found: Mapping[str, Found]) -> str:
 """
 
 
-def fits(folder: Path = Path(__file__).with_name("riveted_cage")) -> str:
+def fits() -> str:
     """The section on the rivet over its fit, from what ``riveted_cage_rivet.py`` wrote."""
     import pandas as pd
 
+    folder = Path(__file__).with_name("riveted_cage")
     table = pd.read_csv(folder / "fits.csv").set_index("play [um]")
     peaks = {words.split(",")[0]: words for words in table if words.endswith("again [MPa]")}
     rows = [
@@ -233,11 +234,12 @@ the largest load, linear elastic.
 | --- {"| --- " * (len(peaks) + 1)}|
 {chr(10).join(rows)}
 
-- The part "with play the largest stress is at the root of the head" holds. "Under interference it is
-  at the edge of the head" does not: root and holes' edges exceed it, which interference presses.
-- A small play lowers every peak, as the paper says; beyond none its size does not matter, as friction
-  under the clamped heads carries the loads and the shank does not reach its holes.
-- The load hardly reaches the root: a nominal range of {nominal:.0f} MPa becomes at most {largest:.0f}
-  MPa there. By the modified Neuber rule (lives.csv: three soft steels, both readings of K_f) the
-  cycle is elastic and makes no crack. Clamping or interference alone brings the root near yield.
-- One run, one start; clamp, friction and root radius were not varied yet, nor loads of 25 N a ball."""
+- "With play the largest stress is at the root of the head" holds. "Under interference it is at the
+  edge of the head" does not: at root and holes' edges, which interference presses, it is larger.
+- Interference raises every peak, as the paper says. Without it the size of the play does not matter:
+  friction under the clamped heads carries the loads, and the shank does not reach its holes.
+- The load hardly reaches the root: a nominal range of {nominal:.0f} MPa becomes at most
+  {largest:.0f} MPa there. By the modified Neuber rule (lives.csv: three soft steels, both readings
+  of K_f) the cycle is elastic, and lasts beyond 1e12 cycles. Clamp and interference alone bring the
+  root to the yield stress of soft steel or beyond; the model stays elastic there.
+- One run, one start; clamp, friction, root radius and loads of 25 N a ball are not varied yet."""
