@@ -236,10 +236,10 @@ the largest load, linear elastic.
 
 - "With play the largest stress is at the root of the head" holds. "Under interference it is at the
   edge of the head" does not: at root and holes' edges, which interference presses, it is larger.
-- Interference raises every peak, as the paper says. Without it the size of the play does not matter:
+- Interference raises every peak, as the paper says. Without it the size of the play is no matter:
   friction under the clamped heads carries the loads, and the shank does not reach its holes.
 - The load hardly reaches the root: a nominal range of {nominal:.0f} MPa becomes at most
   {largest:.0f} MPa there. By the modified Neuber rule (lives.csv: three soft steels, both readings
-  of K_f) the cycle is elastic, and lasts beyond 1e12 cycles. Clamp and interference alone bring the
+  of K_f) the cycle is elastic, and lasts beyond 1e11 cycles. Clamp and interference alone bring the
   root to the yield stress of soft steel or beyond; the model stays elastic there.
 - One run, one start; clamp, friction, root radius and loads of 25 N a ball are not varied yet."""
