@@ -14,7 +14,7 @@ from flexcage.core.binding import expect
 from flexcage.core.errors import EnvironmentLacks, InputError
 from flexcage.geometry.film import creep_speed
 from flexcage.system.statics.options import AT_START, StaticOptions
-from flexcage.system.statics.rings import Rings
+from flexcage.system.statics.rings import BentRing, Rings
 from flexcage.system.statics.solution import StaticSolution
 from flexcage.system.statics.solve import solve_bearing
 
@@ -32,8 +32,18 @@ def solve_static(case: StaticCase, *, options: StaticOptions | None = None) -> S
     return solve_bearing(
         case.bearing, statics_of(case.bearing), load=case.load, speed=case.speed,
         contacts=case.contacts, lubricant=case.lubricant, options=options or case.static,
-        rings=Rings(case.inner_ring, case.outer_ring, sections_of(case.bearing)),
+        rings=Rings(case.inner_ring, case.outer_ring, sections_of(case.bearing)), seat=_seat(case),
     )  # fmt: skip
+
+
+def _seat(case: StaticCase) -> np.ndarray | None:
+    """Compliance (5, 5) of the outer ring's seat in its housing; None for a rigid one."""
+    if not case.mount.body:
+        return None
+    from flexcage.system.seat import seat_compliance  # with readers of files, which few need
+
+    bearing = case.bearing
+    return seat_compliance(case.mount, diameter=bearing.outside_diameter, width=bearing.width)
 
 
 def ehl_traction(
@@ -72,10 +82,31 @@ def ehl_traction(
     return EhlTraction(limit=limit, creep_speed=float(np.mean(found)))
 
 
-def write_static(case: StaticCase, solution: StaticSolution, folder: Path) -> list[Path]:
-    """Write case.toml, static.txt, static.json and static.png into a folder; their paths.
+def draw_ring(ring: BentRing, path: str | Path, *, scale: float | None = None) -> Path:
+    """Picture of a ring of a static solution: stress on its deformed shape (``scale`` times; chosen
+    if not given), forces, and how far its race yields. Beneath the elements Hertz's own stress is
+    not resolved."""
+    from flexcage.render import ring_picture
+    from flexcage.stress.rings import ring_field
 
-    A machine that cannot draw costs the picture alone.
+    field = ring_field(ring)
+    points = field.points().reshape(-1, 3)
+    radial = 0 if ring.seated.reduction.raceway.line else 1  # the port of the radial force
+    supports = ring.seated.support if len(ring.bears) else None
+    return ring_picture(
+        points, field.points(1.0).reshape(-1, 3) - points, field.quadrangles(),
+        field.von_mises.ravel(), path, azimuth=ring.azimuth, force=ring.force[:, radial],
+        deflection=ring.deflection[:, 1], support=supports, support_force=ring.support_force,
+        title=f"{ring.side.capitalize()} ring in the static solution", scale=scale,
+        note="stress beneath the elements is that of the ring, without Hertz's own",
+    )  # fmt: skip
+
+
+def write_static(case: StaticCase, solution: StaticSolution, folder: Path) -> list[Path]:
+    """Write case.toml, static.txt, static.json and static.png into a folder, and a picture of every
+    ring that bends; their paths.
+
+    A machine that cannot draw costs the pictures alone.
     """
     folder.mkdir(parents=True, exist_ok=True)
     (folder / "case.toml").write_text(case.to_toml(), encoding="utf-8")
@@ -93,6 +124,7 @@ def write_static(case: StaticCase, solution: StaticSolution, folder: Path) -> li
                 speed=solution.speed,
             )
         )  # fmt: skip
+        written += [draw_ring(ring, folder / f"{ring.side}_ring.png") for ring in solution.rings]
     except EnvironmentLacks as exc:
         log.warning("no picture: %s", exc)
     return written

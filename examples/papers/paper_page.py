@@ -99,11 +99,13 @@ def by_share(found: Share) -> Cell:
 
 
 def number(value: float, margin: float | None = None, *, factor: float = 1.0) -> str:
-    """A number with its margin, in the digits that the margin leaves; without one, in three."""
+    """A number with its margin, in the digits that the margin leaves; without one, in two, or in
+    whole numbers from 100 on."""
     if not isfinite(value):
         return "-"
     if margin is None or not isfinite(margin):
-        return f"{value * factor:.3g}"
+        plain = value * factor
+        return f"{plain:,.0f}" if abs(plain) >= 100.0 else f"{plain:.2g}"
     text, half = texts_with_margin(value * factor, margin * factor)
     return f"{text} ± {half}" if half else text
 

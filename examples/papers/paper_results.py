@@ -8,14 +8,14 @@ from functools import cached_property
 from pathlib import Path
 
 import numpy as np
-from paper_page import Cell, Line, by_share
+from paper_page import Cell, Line, Table, by_share
 
 from flexcage import Run
 from flexcage.study import StudyResults
 from flexcage.study.claims import Claim, Values
 from flexcage.study.decisions import NOTHING, decide
 from flexcage.study.looks import Looks
-from flexcage.study.maps import MapResults
+from flexcage.study.maps import MapResults, Test
 from flexcage.study.sensitivity import Decider, Share, deciders, share
 from flexcage.study.verdicts import UNDECIDED, Verdict
 
@@ -90,7 +90,54 @@ class Mapped:
     outcomes: Sequence[bool | None]
 
 
-def mapped(claim: Claim, results: MapResults) -> Mapped:
+class Joined:
+    """Maps of the same outputs and conditions as one, over the unknowns that all of them have."""
+
+    def __init__(self, parts: Sequence[MapResults]) -> None:
+        self.parts = list(parts)
+        first = self.parts[0].names if parts else []
+        self.names = [n for n in first if all(n in part.names for part in self.parts)]
+        self.shares = np.vstack([
+            part.shares[:, [part.names.index(n) for n in self.names]] for part in self.parts
+        ]) if parts else np.zeros((0, 0))  # fmt: skip
+
+    def judge(self, test: Test) -> list[bool | None]:
+        """Outcome of a claim at every point."""
+        return [outcome for part in self.parts for outcome in part.judge(test)]
+
+    def means(self, output: str, condition: str) -> np.ndarray:
+        """An output (points,) averaged over starts."""
+        found = [part.means(output, condition) for part in self.parts]
+        return np.concatenate(found) if found else np.zeros(0)
+
+    @property
+    def ranges(self) -> list[str]:
+        """Ranges of ``names`` but for the dummy, in words."""
+        return [self._about("ranges", name) for name in self.names[:-1]]
+
+    def _about(self, what: str, name: str) -> str:
+        part = next(p for p in self.parts if name in p.names)
+        return str(part.about[what][part.names.index(name)])
+
+    def unknowns(self) -> Table:
+        """What was left open, its ranges and their reasons; those of any part."""
+        names = list(dict.fromkeys(n for part in self.parts for n in part.names[:-1]))
+        rows = [(n, self._about("ranges", n), self._about("reasons", n)) for n in names]
+        return Table("What the paper leaves open", ("unknown", "range", "reason"), rows)
+
+    def lost(self) -> tuple[int, int]:
+        """Runs that failed, and all that were tried."""
+        counts = [(p.study.count("failed"), p.study.count("done")) for p in self.parts]
+        failed = sum(f for f, _ in counts)
+        return failed, failed + sum(d for _, d in counts)
+
+
+def not_mapped() -> Mapped:
+    """A claim without a map."""
+    return Mapped(share([]), {}, [], [])
+
+
+def mapped(claim: Claim, results: Joined) -> Mapped:
     """One claim judged at every point of a map."""
     outcomes = results.judge(claim.holds)
     parts = {name: share(results.judge(part.holds)) for name, part in claim.parts.items()}

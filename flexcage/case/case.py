@@ -8,19 +8,19 @@ from __future__ import annotations
 import dataclasses
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
-from functools import cache, cached_property
+from functools import cached_property
 from math import pi
 from pathlib import Path
 from typing import Any
 
 from flexcage.case.checks import check_case, refuse_without_motion
+from flexcage.case.files import absolute, bytes_of, file_paths, with_files
 from flexcage.case.presets import NAMED, load_preset
 from flexcage.case.read import read_case
 from flexcage.case.static import StaticCase
 from flexcage.case.tables import (
     ALIASES,
     as_table,
-    expanded,
     with_preset,
     without_aliases,
     words_of_text,
@@ -44,7 +44,7 @@ from flexcage.mesh.options import MeshOptions
 from flexcage.modes.spec import ModesSpec
 from flexcage.results.options import OutputOptions
 from flexcage.solve.options import SolverOptions
-from flexcage.system.spec import Constraint, Drive, Limits, Mount, StartOptions
+from flexcage.system.spec import Constraint, Drive, Limits, StartOptions
 from flexcage.system.statics.options import StaticOptions
 
 CAGE_MODELS = ("flexible", "rigid")
@@ -72,7 +72,6 @@ class Case(StaticCase):
     mesh: MeshOptions = option(MeshOptions(), doc="the cage's mesh")
     modes: ModesSpec = option(ModesSpec(), doc="the cage's modes")
     drive: Drive = option(Drive(), doc="what turns the inner ring")
-    mount: Mount = option(Mount(), doc="what holds the outer ring")
     constraints: tuple[Constraint, ...] = option(
         (), doc="what holds or moves rings and cage besides, any number", legacy=()
     )
@@ -85,6 +84,8 @@ class Case(StaticCase):
         default=None, compare=False,
         metadata={"doc": "paths of values that the user gave; a preset's and defaults are not"},
     )  # fmt: skip
+
+    _in_motion = True
 
     def check(self) -> None:
         """Raise InputError for the first thing in the case that cannot be."""
@@ -107,7 +108,7 @@ class Case(StaticCase):
         merged = with_preset(without_aliases(table))
         merged.setdefault("given", sorted(path for path, _ in flat(without_aliases(table))))
         refuse_without_motion(merged.get("bearing"))
-        merged = _with_files(merged, folder or Path.cwd())
+        merged = with_files(merged, folder or Path.cwd(), file_paths(Case))
         binder = Binder(named=NAMED, si=si)
         with words_of_text():
             return binder.bind(cls, _with_cage(merged, binder), "")
@@ -123,8 +124,8 @@ class Case(StaticCase):
         if where == "cage" and isinstance(value, Mapping):
             with words_of_text():
                 return binder.bind(type(self.cage), value, "cage", base=self.cage)
-        if where in file_paths() and isinstance(value, (str, Path)):
-            return _absolute(value, Path.cwd(), where)
+        if where in file_paths(Case) and isinstance(value, (str, Path)):
+            return absolute(value, Path.cwd(), where)
         return value
 
     def to_table(self) -> dict[str, Any]:
@@ -151,7 +152,7 @@ class Case(StaticCase):
         physics["modes"] = modes = self.modes.damped_as(self.cage.material)
         if self.cage_model == "rigid" or not self.cage.has_faces:
             physics["modes"] = dataclasses.replace(modes, attachments="linear")
-        contents = {path: _bytes_of(value) for path, value in self.files.items()}
+        contents = {path: bytes_of(value) for path, value in self.files.items()}
         for path in filter(contents.get, contents):
             room, _, name = path.partition(".")
             physics[room] = dataclasses.replace(physics[room], **{name: ""})
@@ -162,7 +163,7 @@ class Case(StaticCase):
     @property
     def files(self) -> dict[str, str]:
         """Files that the case names, by path; none of those of a flexible cage if it is rigid."""
-        named = {path: _at(self, path) for path in file_paths() if _at(self, path)}
+        named = {path: _at(self, path) for path in file_paths(Case) if _at(self, path)}
         return {path: file for path, file in named.items() if self._reads(path)}
 
     def difference(self, other: Case) -> dict[str, tuple[Any, Any]]:
@@ -281,40 +282,6 @@ def _given_by(pairs: Mapping[str, Any]) -> Iterator[str]:
         elif dataclasses.is_dataclass(value):
             yield from (inner for inner, _ in flat(as_table(value), path))
         yield path
-
-
-@cache
-def file_paths() -> tuple[str, ...]:
-    """Dotted paths of the values that are files."""
-    return tuple(
-        f"{section.name}.{field.name}"
-        for section in dataclasses.fields(Case)
-        if dataclasses.is_dataclass(spec := default_of(section))
-        for field in dataclasses.fields(spec)
-        if field.metadata.get("file")
-    )
-
-
-def _with_files(table: dict[str, Any], folder: Path) -> dict[str, Any]:
-    """Paths of files, made absolute: they were written relative to the case's own folder."""
-    for path in file_paths():
-        room, _, name = path.partition(".")
-        section = table.get(room)
-        file = section.get(name) if isinstance(section, Mapping) else None
-        if isinstance(section, Mapping) and isinstance(file, str) and file:
-            table = {**table, room: {**section, name: _absolute(file, folder, path)}}
-    return table
-
-
-def _absolute(file: str | Path, folder: Path, where: str) -> str:
-    """Absolute path of a file, so that a run's own case.toml finds it from its folder."""
-    return str(folder / expanded(file, where=where)) if str(file) else ""
-
-
-def _bytes_of(file: str) -> bytes:
-    """Content of a file; nothing if it is not there."""
-    path = Path(file)
-    return path.read_bytes() if path.is_file() else b""
 
 
 def _at(spec: Any, path: str) -> Any:

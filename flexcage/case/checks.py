@@ -47,6 +47,7 @@ def check_case(case: Case) -> None:
             _find_in_axial_load,
             _find_in_held_motions,
             _find_in_mesh,
+            _find_in_mount,
             _find_in_waves,
             _find_in_solver,
             _find_in_output,
@@ -332,6 +333,16 @@ def _find_in_mesh(case: Case) -> Iterator[Finding]:
             "mesh.size",
             f"mesh.size is {describe(mesh.size, 'mm')}, but the cage's thinnest part is only "
             f"{describe(least, 'mm')}; give a size up to twice that.",
+        )
+
+
+def _find_in_mount(case: Case) -> Iterator[Finding]:
+    if case.mount.body:
+        yield (
+            "mount.body",
+            "mount.body is given, but in a run the outer ring moves in y and z alone, without the "
+            "modes of a housing; take 'flexcage static', or leave it out and give mount.kind = "
+            '"bushing" with mount.stiffness and mount.mass.',
         )
 
 

@@ -25,14 +25,14 @@ def find_in_rings(case: StaticCase) -> Iterator[Finding]:
         if ring.supports:
             yield (
                 where,
-                f"{where} has {len(ring.supports)} azimuths, but outer_ring.seat is "
+                f"{where} has {_azimuths(ring.supports)}, but outer_ring.seat is "
                 f'\'{ring.seat}\'; leave them out, or take outer_ring.seat = "arcs" or "points".',
             )
         return
     if len(ring.supports) < 2:
         yield (
             where,
-            f"{where} has {len(ring.supports) or 'no'} azimuth{'s' * (not ring.supports)}, but "
+            f"{where} has {_azimuths(ring.supports)}, but "
             f"outer_ring.seat = '{ring.seat}' needs two or more to hold the ring.",
         )
         return
@@ -51,6 +51,11 @@ def find_in_rings(case: StaticCase) -> Iterator[Finding]:
             f"{where} has two supports on opposite sides, which do not hold the ring across the "
             "line through them; move one, or give a third.",
         )
+
+
+def _azimuths(supports: tuple[float, ...]) -> str:
+    """How many there are, in words."""
+    return f"{len(supports) or 'no'} azimuth{'' if len(supports) == 1 else 's'}"
 
 
 def find_bending_in_run(case: Case) -> Iterator[Finding]:

@@ -14,6 +14,7 @@ from pathlib import Path
 from typing import Any, Self
 
 from flexcage.case.checks import check_static_case
+from flexcage.case.files import file_paths, with_files
 from flexcage.case.presets import NAMED
 from flexcage.case.read import read_case
 from flexcage.case.tables import ALIASES, as_pairs, with_preset, without_aliases, words_of_text
@@ -33,8 +34,10 @@ from flexcage.core.errors import InputError
 from flexcage.core.spec import option
 from flexcage.geometry.bearing import Bearing, check_type
 from flexcage.geometry.ring import InnerRing, OuterRing
-from flexcage.system.spec import Drive, Load
+from flexcage.system.spec import Drive, Load, Mount
 from flexcage.system.statics.options import StaticOptions
+
+_STATIC_MOUNT = ("body", "body_nodes", "body_units", "seat", "seat_tie")
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -58,7 +61,10 @@ class StaticCase:
     outer_ring: OuterRing = option(
         OuterRing(), doc="how the outer ring bends in a static solution", legacy=OuterRing()
     )
+    mount: Mount = option(Mount(), doc="what holds the outer ring")
     static: StaticOptions = option(StaticOptions(), doc="how a static solution is meant")
+
+    _in_motion = False  # does it read all of [mount], or the housing's body alone?
 
     def __post_init__(self) -> None:
         self.check()
@@ -74,9 +80,12 @@ class StaticCase:
         return self.drive.at_start
 
     @classmethod
-    def from_table(cls, table: Mapping[str, Any], *, si: bool = False) -> StaticCase:
-        """Case from nested tables as TOML gives them."""
+    def from_table(
+        cls, table: Mapping[str, Any], *, folder: Path | None = None, si: bool = False
+    ) -> StaticCase:
+        """Case from nested tables as TOML gives them; ``folder`` is where relative paths start."""
         merged = with_preset(without_aliases(table))
+        merged = with_files(merged, folder or Path.cwd(), file_paths(StaticCase))
         own = {f.name for f in dataclasses.fields(StaticCase)}
         known = own | _of_a_simulation()
         for key in merged:
@@ -88,6 +97,7 @@ class StaticCase:
             check_type(bearing.get("type"))
         with words_of_text():
             asked = {k: v for k, v in merged.items() if k in own}
+            asked["mount"] = _body_alone(merged.get("mount", {}))
             case: StaticCase = binder.bind(StaticCase, asked, "")
             if "cage" in merged:
                 cage = binder.bind(case.bearing.cage_spec, merged["cage"], "cage")
@@ -140,6 +150,9 @@ class StaticCase:
         for name in ("inner_ring", "outer_ring"):
             if getattr(self, name) == default_of(StaticCase.__dataclass_fields__[name]):
                 del table[name]
+        if not self._in_motion:
+            table["mount"] = _body_alone(table["mount"]) if self.mount.body else {}
+            table = {name: section for name, section in table.items() if section != {}}
         preset = table.pop("preset")
         if preset:
             table["bearing"] = {"preset": preset, **table["bearing"]}
@@ -159,9 +172,18 @@ class StaticCase:
         return html.block(title, html.table(rows, heads=("key", "value")))
 
 
+def _body_alone(mount: Any) -> Any:
+    """What a static solution reads of [mount]: the housing's body and its seat."""
+    if not isinstance(mount, Mapping):
+        return mount
+    return {name: value for name, value in mount.items() if name in _STATIC_MOUNT}
+
+
 def _asked_nothing() -> dict[str, Any]:
     """Sections as by default."""
-    names = ("contacts", "lubricant", "drive", "load", "inner_ring", "outer_ring", "static")
+    names = (
+        "contacts", "lubricant", "drive", "load", "inner_ring", "outer_ring", "mount", "static",
+    )  # fmt: skip
     return {name: default_of(StaticCase.__dataclass_fields__[name]) for name in names}
 
 
@@ -190,16 +212,16 @@ def load_static(
 
     ``overrides`` maps dotted paths to text with units. A mistake raises InputError.
     """
-    table, _ = read_case(source)
+    table, folder = read_case(source)
     of_a_simulation = _of_a_simulation() - {"cage"}
     for path, value in (overrides or {}).items():
-        head = path.partition(".")[0]
-        if head in of_a_simulation:
+        head, _, name = path.partition(".")
+        if head in of_a_simulation or (head == "mount" and name not in _STATIC_MOUNT):
             raise InputError(
                 f"'{path}' takes no part in a static solution; leave it out.", where=path
             )
         table = _put(table, path.split("."), value, path)
-    return StaticCase.from_table(table)
+    return StaticCase.from_table(table, folder=folder)
 
 
 def _put(table: Mapping[str, Any], keys: list[str], value: Any, path: str) -> dict[str, Any]:

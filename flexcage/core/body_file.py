@@ -23,8 +23,8 @@ class BodyFile:
     )
     body_nodes: str = option(
         "",
-        doc="deck that says where its nodes are (.bdf, .dat, .nas, .inp, .cdb), if the file itself "
-        "does not",
+        doc="deck that says where its nodes are (.bdf, .dat, .nas, .asm, .inp, .cdb), if the file "
+        "itself does not",
         file=True,
         legacy="",
     )

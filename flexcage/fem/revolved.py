@@ -69,6 +69,43 @@ class Revolved:
         return number[self.basis.element_dofs[::3].T] // 3
 
     @cached_property
+    def border(self) -> np.ndarray:
+        """Pairs of nodes (k, 2) of the section's outline, halves of edges, each with the ring to
+        its left."""
+        pairs = np.array([[0, 3, 1], [1, 4, 2], [2, 5, 0]])
+        sides = self.cells[:, pairs].reshape(-1, 3)
+        _, first, count = np.unique(
+            np.sort(sides[:, [0, 2]], axis=1), axis=0, return_index=True, return_counts=True
+        )
+        a, b, c = np.moveaxis(self.nodes[self.cells[:, :3]], 1, 0)
+        left = (b - a)[:, 0] * (c - a)[:, 1] > (b - a)[:, 1] * (c - a)[:, 0]
+        sides = np.where(np.repeat(left, 3)[:, None], sides, sides[:, ::-1])
+        outer = sides[first[count == 1]]
+        return np.concatenate([outer[:, :2], outer[:, 1:]])
+
+    @cached_property
+    def nodal_gradients(self) -> tuple[sp.csr_matrix, sp.csr_matrix]:
+        """Derivatives (N, N) along x and r at nodes: the mean over the triangles there."""
+        # shape functions of a quadratic triangle, differentiated by its two coordinates, at nodes
+        u = np.array([0.0, 1.0, 0.0, 0.5, 0.5, 0.0])
+        v = np.array([0.0, 0.0, 1.0, 0.0, 0.5, 0.5])
+        w, zero = 1.0 - u - v, 0.0 * u
+        by_u = np.stack([1 - 4 * w, 4 * u - 1, zero, 4 * (w - u), 4 * v, -4 * v], axis=1)
+        by_v = np.stack([1 - 4 * w, zero, 4 * v - 1, -4 * u, 4 * u, 4 * (w - v)], axis=1)
+        corners = self.nodes[self.cells[:, :3]]
+        slope = np.linalg.inv((corners[:, 1:] - corners[:, :1]).transpose(0, 2, 1))
+        count = len(self.nodes)
+        share = 1.0 / np.bincount(self.cells.ravel(), minlength=count)
+        rows = np.repeat(self.cells, 6, axis=1).ravel()
+        columns = np.tile(self.cells, (1, 6)).ravel()
+        found = []
+        for k in range(2):
+            local = slope[:, 0, k, None, None] * by_u + slope[:, 1, k, None, None] * by_v
+            whole = sp.coo_matrix((local.ravel(), (rows, columns)), (count, count)).tocsr()
+            found.append(sp.diags(share) @ whole)
+        return found[0].tocsr(), found[1].tocsr()
+
+    @cached_property
     def _stiffness(self) -> tuple[sp.csc_matrix, sp.csc_matrix, sp.csc_matrix]:
         """A, B and C of K_n = A + n B + n^2 C."""
         import skfem

@@ -15,6 +15,7 @@ from flexcage.geometry.materials import MATERIALS, Material
 
 if TYPE_CHECKING:
     from flexcage.geometry.bearing import Bearing
+    from flexcage.geometry.riveted_joint import JointShape
 
 Objection = tuple[str, str]  # name of a value, and what is wrong with it
 
@@ -48,6 +49,13 @@ class Cage:
     unbalance_offset: float = quantity(
         "mm", 0.0, doc="place of the unbalance along +x from the cage's middle: a couple as well"
     )
+
+    def rivet_joint(
+        self, pitch_diameter: float, pocket_count: int, root_radius: float
+    ) -> JointShape:
+        """The joint at one of its rivets, whose heads have roots of this radius [m]; for cages that
+        are ``riveted``."""
+        raise NotImplementedError
 
     @property
     def mean_radius(self) -> float:

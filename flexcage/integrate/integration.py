@@ -81,7 +81,6 @@ class Integration:
         if lacking:
             raise _of_another(f"it holds no '{lacking[0]}'", lacking[0])
         self._computed = _computed(store)
-        self.weight = bearing.error_weights(solver.tolerance)
         self.work_weight = work_weights(bearing.data.model, solver.tolerance)
         self.bound = np.inf  # [s] least stability bound of explicit steps so far
         self._take("bdf" if solver.method == "auto" else solver.method, 0.0, start.y, start.yd)
@@ -99,8 +98,11 @@ class Integration:
         before = getattr(self, "state", None)
         self.integrator = INTEGRATORS[method]
         self.options = self.integrator.options(self.solver)
+        weight = self.bearing.error_weights(
+            self.solver.tolerance, implicit=not self.integrator.bounded
+        )
         self.state = self.integrator.new_state(
-            time, y, yd, weight=self.weight, h0=step, quad_weight=self.work_weight,
+            time, y, yd, weight=weight, h0=step, quad_weight=self.work_weight,
             modes=self.bearing.modes,
         )  # fmt: skip
         if before is not None:

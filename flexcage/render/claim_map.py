@@ -11,7 +11,8 @@ import numpy as np
 from flexcage.render import sheet
 
 _COLUMNS, _WIDE, _HIGH, _GAP_X, _GAP_Y = 4, 330.0, 150.0, 60.0, 96.0
-_LEFT, _TOP = 60.0, 130.0
+_LEFT, _TOP = 100.0, 130.0
+_LETTERS = 36  # of a range that is written out
 _PARTS = 4  # of a range, over each of which a share is drawn
 
 
@@ -41,7 +42,7 @@ def draw_claim_map(
             ax = sheet.axes_at(figure, place)
             _panel(ax, shares[known, k], holds)
             ax.set_title(name, loc="left")
-            ax.set_xlabel(words if len(words) < 46 else words[:43] + "...")
+            ax.set_xlabel(words if len(words) < _LETTERS else f"{words[: _LETTERS - 3]}...")
             if column == 0:
                 ax.set_ylabel("share")
         return sheet.save(figure, path)

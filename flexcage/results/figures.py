@@ -34,12 +34,13 @@ def pass_peak(element: str) -> str:
 class OwnFigures:
     """What the summary of one family's bearings says beside what all do: the figures ``known``;
     rows on its elements' ``speeds``, the section of their ``slip``, and rows on the cage's
-    ``motion``."""
+    ``motion`` and on ``forces``."""
 
     known: tuple[KnownFigure, ...]
     speeds: Callable[[xarray.Dataset, BearingNumbers], tuple[Row, ...]]
     slip: Callable[[xarray.Dataset, BearingNumbers, SlipRange], Section]
     motion: Callable[[xarray.Dataset], tuple[Row, ...]] = lambda ds: ()
+    forces: Callable[[xarray.Dataset, Windows], tuple[Row, ...]] = lambda ds, windows: ()
 
 
 def summarise(
@@ -63,7 +64,13 @@ def summarise(
         section_of((*_speed_rows(part, bearing), *own.speeds(part, bearing))),
         own.slip(part, bearing, slip_range or SlipRange()),
         section_of((*_motion_rows(part, bearing), *own.motion(part))),
-        section_of((*_force_rows(part, windows), *_race_rows(part))),
+        section_of(
+            (
+                *_force_rows(part, windows),
+                *_race_rows(part),
+                *own.forces(part, windows),
+            )
+        ),
         section_of(_contact_rows(part, windows, events)),
         ring_section(part, windows),
         *constraint_sections(part, windows),

@@ -28,8 +28,8 @@ LINE = 2  # bins of a Hann window's spectrum on either side of a line that belon
 class Reducer:
     """``value`` of samples (n, ...) evenly taken every ``step`` seconds, in ``unit`` (None: the
     variable's). ``record`` gives it by windows of a roller pass, from which its margin follows;
-    ``by_turns`` says that its values of single turns of the cage do. ``series`` says that it needs
-    one series (n,).
+    ``by_turns`` says that its values of single turns of the cage do; ``of_turns``, that it is the
+    mean of these values. ``series`` says that it needs one series (n,).
     """
 
     value: Callable[[np.ndarray, float], float]
@@ -37,6 +37,14 @@ class Reducer:
     record: Callable[[Windows, np.ndarray], Record] | None = None
     series: bool = False
     by_turns: bool = False
+    of_turns: bool = False
+
+    def over_turns(self, x: np.ndarray, step: float, turns: int) -> float:
+        """The value of ``x`` (n, ...), which holds ``turns`` of the cage (at least one)."""
+        if not self.of_turns:
+            return self.value(x, step)
+        parts = np.array_split(x, max(turns, 1))
+        return float(np.mean([self.value(part, step) for part in parts]))
 
     def margin_by_turns(self, x: np.ndarray, step: float, turns: int) -> float:
         """Half the width of the 95 % interval by Student's t over the values of single turns of
@@ -99,6 +107,7 @@ REDUCTIONS: Mapping[str, Reducer] = MappingProxyType(
         "mean": Reducer(lambda x, step: float(np.mean(x)), record=_over_rest),
         "min": Reducer(lambda x, step: float(np.min(x))),
         "max": Reducer(lambda x, step: float(np.max(x))),
+        "turn_max": Reducer(lambda x, step: float(np.max(x)), by_turns=True, of_turns=True),
         "range": Reducer(lambda x, step: float(np.ptp(x))),
         "std": Reducer(lambda x, step: float(np.std(x)), by_turns=True),
         "rms": Reducer(lambda x, step: float(np.sqrt(np.mean(np.square(x)))), by_turns=True),

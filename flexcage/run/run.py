@@ -19,6 +19,7 @@ from flexcage.core.binding import Binder, check_spec, expect
 from flexcage.core.errors import EnvironmentLacks, InputError
 from flexcage.core.progress import Silent
 from flexcage.core.timing import Stages
+from flexcage.core.units import parse
 from flexcage.core.warning import RunWarning
 from flexcage.mesh.cage_mesh import CageMesh
 from flexcage.mesh.series import write_series
@@ -47,8 +48,10 @@ from flexcage.system.start import Start
 if TYPE_CHECKING:
     import xarray
 
+    from flexcage.mesh.riveted_joint import JointMesh
     from flexcage.render.album import Scene
     from flexcage.render.look import Look
+    from flexcage.stress.riveted_joint import Fits
 
 log = logging.getLogger(__name__)
 
@@ -206,6 +209,29 @@ class Run:
             )
         return self.stages("rivets", stress.rivets, diameter=cage.rivet_diameter)
 
+    def rivet_joint(
+        self, *plays: float | str, clamp: float | str = "100 N", friction: float = 0.15,
+        root_radius: float | str = "0.1 mm", mesh: JointMesh | None = None,
+    ) -> Fits:  # fmt: skip
+        """The joint of the most stressed rivet, with contact and friction, through its cycle of
+        loads: once for every play of the shank over its diameter (m, or a text with its unit;
+        negative for interference; without any, 0). ``clamp`` of the heads, friction and the radius
+        of the heads' roots are assumptions (``stress.riveted_joint``).
+
+        Takes about a minute a play. InputError for a cage without rivets, and for a rigid one.
+        """
+        from flexcage.stress.riveted_joint import fits_of
+
+        rivets, case = self.rivets, self.case
+        root = _si(root_radius, "mm", "root_radius")
+        cage, bearing = case.cage, case.bearing
+        return self.stages(
+            "riveted joint", fits_of, rivets,
+            cage.rivet_joint(bearing.pitch_diameter, bearing.element_count, root), cage.material,
+            [_si(play, "um", "play") for play in plays or (0.0,)],
+            clamp=_si(clamp, "N", "clamp"), friction=friction, mesh=mesh,
+        )  # fmt: skip
+
     def stress(self, *, time: float | str | None = None) -> StressField:
         """Stress of the whole cage at ``time``, in seconds or a text with its unit, by mode
         acceleration.
@@ -343,3 +369,8 @@ class Run:
     def stress_rows(self) -> list[Row]:
         """Figures of the cage's stress; InputError for a rigid cage."""
         return self.cage_stress.rows(element=self.case.bearing.element)
+
+
+def _si(value: float | str, unit: str, where: str) -> float:
+    """A number in SI as it is, or a text with its unit."""
+    return value if isinstance(value, (int, float)) else parse(value, unit, where=where)

@@ -18,8 +18,7 @@ class SolverOptions:
     constraints eliminated, in which a cage's modes swing exactly; ``bdf`` the variable-order,
     variable-step BDF with a modified Newton-Raphson corrector on F(t, y, y') = 0; ``auto`` computes
     the stability bound of explicit steps at every block of samples and takes the explicit method
-    where the bound is at least ``stable_step``, the BDF elsewhere. Ball bearings take the explicit
-    method unless the BDF is asked for.
+    where the bound is at least ``stable_step`` (for balls 3.5 times that), the BDF elsewhere.
 
     ``tolerance`` is the local error allowed in a position; angles, modal coordinates and
     velocities are held to what moves a contact as far.

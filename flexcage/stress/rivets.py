@@ -133,6 +133,26 @@ class Rivets:
         where = int(np.argmax(values))
         return float(values[where]), int(self.dataset["rivet"].values[where])
 
+    def cycle(self) -> tuple[int, np.ndarray, np.ndarray]:
+        """The rivet of the largest nominal stress in the settled part, and two loads (6,) on it:
+        force [N] and moment [N m] (x, r, psi) at that instant, and at the one that is least by the
+        same measure.
+
+        That measure is the projection on the largest load, each part over what it takes to make a
+        nominal stress of 1 Pa. The largest is that of the nearest sample, made as much larger as
+        the nominal stress between samples was.
+        """
+        _, rivet = self.largest("stress")
+        own = self.dataset.sel(rivet=rivet).isel(time=slice(self.settled, None))
+        loads = np.concatenate([own["force"].values, own["moment"].values], axis=1)
+        at_samples = np.array([nominal_stress(load, self.diameter) for load in loads])
+        peak = int(np.argmax(own["stress"].values))
+        near = max(peak - 1, 0) + int(np.argmax(at_samples[max(peak - 1, 0) : peak + 1]))
+        largest = loads[near] * max(float(own["stress"].values[peak]) / at_samples[near], 1.0)
+        weights = 1.0 / np.array([_unit_load(k, self.diameter) for k in range(6)])
+        shares = (loads * weights) @ (largest * weights)
+        return rivet, largest, loads[int(np.argmin(shares))]
+
     def _most(self, figure: str) -> np.ndarray:
         if figure not in _FIGURES:
             raise InputError(
@@ -209,6 +229,18 @@ def _figures(parts: np.ndarray, diameter: float) -> dict[str, np.ndarray]:
     sliding = shear / area + 0.5 * torsion / modulus
     values = (tension, shear, bending, torsion, np.sqrt(normal**2 + 3.0 * sliding**2))
     return dict(zip(_FIGURES, values))
+
+
+def nominal_stress(load: np.ndarray, diameter: float) -> float:
+    """Nominal equivalent stress [Pa] of a shank that bears a load or the difference of two (6,)
+    alone, pressure along it like tension."""
+    parts = np.asarray(load, float) * np.where(np.arange(6) == 0, -np.sign(load[0]), 1.0)
+    return float(_figures(parts[:, None], diameter)["stress"][0])
+
+
+def _unit_load(part: int, diameter: float) -> float:
+    """Of one component of a load, what makes a nominal equivalent stress of 1 Pa."""
+    return 1.0 / nominal_stress(np.eye(6)[part], diameter)
 
 
 def _labelled(own: list[dict[str, np.ndarray]], time: np.ndarray, webs: np.ndarray) -> Any:

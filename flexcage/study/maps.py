@@ -25,6 +25,8 @@ from flexcage.core.units import format_si
 from flexcage.results.files import replace as replace_file
 from flexcage.study.axes import Points
 from flexcage.study.claims import At
+from flexcage.study.folder import Folder
+from flexcage.study.plan import make_plan
 from flexcage.study.results import StudyResults
 from flexcage.study.run import run_study
 from flexcage.study.sensitivity import Index, indices
@@ -169,9 +171,10 @@ def run_map(
     Only some ``points`` are computed where they are named: so a map is rechecked with a finer
     model, whose folder is another.
     """
-    out = Path(out)
-    run_study(spec.study(points), out=out, workers=workers, progress=progress)
+    out, study = Path(out), spec.study(points)
+    Folder(out.resolve()).prepare(make_plan(study))
     replace_file(out / FILE, (json.dumps(spec.stored(), indent=1) + "\n").encode())
+    run_study(study, out=out, workers=workers, progress=progress)
     return MapResults(out)
 
 

@@ -42,7 +42,7 @@ if TYPE_CHECKING:
 #: Variables that are never below zero, and reductions that are not, whatever they reduce.
 _SIZES = frozenset(
     """race_force pocket_force pocket_peak pocket_slice_force pocket_point_force
-    rib_force cage_whirl_radius cage_radial_displacement""".split()
+    rib_force counter_rib_force cage_whirl_radius cage_radial_displacement""".split()
 )
 _SIZED_REDUCTIONS = frozenset(
     "range std rms ripple crest frequency line_share mean_frequency".split()
@@ -96,13 +96,14 @@ class Reduction:
         step = float(t[-1] - t[0]) / (len(t) - 1)
         reducer = REDUCTIONS[self.reduce]
         unit = self.variable.unit if reducer.unit is None else reducer.unit
-        half = nan
+        half, turns = nan, 1
         if reducer.record is not None and dim == TIME:
             half = reducer.record(element_passes(part, run.numbers), values).margin
         elif reducer.by_turns:
             turns = round(abs(float(np.ptp(cage_angle(part)))) / (2.0 * pi))
             half = reducer.margin_by_turns(values, step, turns)
-        return Figure(reducer.value(values, step), unit, "", half if isfinite(half) else None)
+        value = reducer.over_turns(values, step, turns)
+        return Figure(value, unit, "", half if isfinite(half) else None)
 
 
 def _figure(key: str, value: float, margin: float | None = None) -> Figure:

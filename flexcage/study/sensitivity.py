@@ -50,7 +50,7 @@ class Share:
     def __str__(self) -> str:
         if not self.decided:
             return "no point decides"
-        return f"{self.value:.0%} ({self.low:.0%} to {self.high:.0%})"
+        return f"{self.value:.0%} ({self.low:.0%} to {self.high:.0%})".replace("%", " %")
 
 
 @dataclass(frozen=True)

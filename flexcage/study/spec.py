@@ -10,8 +10,8 @@ from typing import Any
 
 from flexcage._version import __version__
 from flexcage.case import Case, load_case, load_extension
-from flexcage.case.case import file_paths
 from flexcage.case.extensions import not_loaded, sources
+from flexcage.case.files import file_paths
 from flexcage.case.presets import NAMED
 from flexcage.case.toml import write_toml
 from flexcage.core.binding import Binder, check_spec, to_table, unit_at, wrong_type
@@ -184,7 +184,7 @@ def _as_text(case: Case, path: str, value: Any, *, si: bool) -> Any:
 def _from_file(case: Case, folder: Path, path: str, value: Any) -> Any:
     """A value from a study's file, whose own paths are relative to it."""
     found = _as_text(case, path, value, si=False)
-    return str(folder / found) if path in file_paths() and found else found
+    return str(folder / found) if path in file_paths(Case) and found else found
 
 
 def value_at(table: Any, path: str) -> Any:

@@ -97,7 +97,8 @@ class Motion(Generic[M]):
     start: FindStart
     error_weights: Callable[[M, Layout, float], np.ndarray]  # see ``scales.shared_weights``
     linearise: Callable[..., None] | None = None
-    implicit_share: float = 1.0  # of solver.stable_step, below which implicit steps are cheaper
+    implicit_share: float = 0.0  # "auto" takes implicit steps below this many solver.stable_step
+    implicit_weights: Callable[[M, Layout, float], np.ndarray] | None = None  # None: error_weights
 
     def places(self, ribs: int) -> tuple[str, ...]:
         """Names of all contact places of an element with so many ribs and of the lands, in the

@@ -320,9 +320,13 @@ class Bearing:
             self._advance[integrator.name] = self._compiled(integrator, "advance", signature)
         return self._advance[integrator.name]
 
-    def error_weights(self, length: float) -> np.ndarray:
-        """1/(allowed local error) of y for a position error of ``length`` [m]; 0: not tested."""
-        return self.motion.error_weights(self.data.model, self.layout, length)
+    def error_weights(self, length: float, *, implicit: bool = False) -> np.ndarray:
+        """1/(allowed local error) of y for a position error of ``length`` [m]; 0: not tested.
+
+        ``implicit``: those of methods that stability does not bound.
+        """
+        own = self.motion.implicit_weights if implicit else None
+        return (own or self.motion.error_weights)(self.data.model, self.layout, length)
 
     def corners(self, begin: float, end: float) -> np.ndarray:
         """Times in [begin, end) at which the drive's or a load's slope jumps, and y' with it."""

@@ -7,6 +7,7 @@ from math import pi
 
 import numpy as np
 
+from flexcage.core.body_file import BodyFile
 from flexcage.core.spec import option, quantity
 from flexcage.core.units import describe
 from flexcage.geometry.bearing import Bearing
@@ -177,12 +178,13 @@ class Load(Wave):
 
 
 @dataclass(frozen=True, kw_only=True)
-class Mount:
+class Mount(BodyFile):
     """How the outer ring is held: fixed, or in a housing, in y and z.
 
     ``bushing``: an elastic ring between both, of equal stiffness in every direction. ``contact``:
     the ring lies in a bore that is larger by ``clearance``; spring and damper act along the line
-    of centres while it touches, and never pull.
+    of centres while it touches, and never pull. ``body``: the static solution lets the ring move
+    with the seat of an elastic housing in x, y, z and both tilts (``system.seat``).
     """
 
     kind: str = option("fixed", doc="outer ring support", choices=("fixed", "bushing", "contact"))
@@ -190,6 +192,19 @@ class Mount:
     stiffness: float = quantity("N/m", 2e8, doc="stiffness of the housing", above=0.0)
     damping: float = quantity("N*s/m", 2e3, doc="damping of the housing", minimum=0.0)
     clearance: float = quantity("um", 10e-6, doc="radial clearance of the bore", minimum=0.0)
+    seat: str = option(
+        "",
+        doc="set of nodes of body_nodes at the ring's seat; by default all nodes of the body that "
+        "have coordinates",
+        legacy="",
+    )
+    seat_tie: str = option(
+        "rigid",
+        doc="'rigid': the seat's nodes move as the ring does (RBE2); 'average': the ring moves as "
+        "they do on average (RBE3)",
+        choices=("rigid", "average"),
+        legacy="rigid",
+    )
 
 
 #: Kinds of constraints, and the spec that each brings along; ``system.constraints`` registers

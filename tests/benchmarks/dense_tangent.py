@@ -11,8 +11,9 @@ from c_functions import CFunctions
 
 from flexcage.core.rotation import quaternion_rate, rotation_of_quaternion_change
 from flexcage.system.layout import Layout
+from flexcage.system.problem import Bearing
 
-_ORDER = np.array([0, 1, 2, 5, 3, 4])  # coordinates that belong to (v, v, v, spin, skew, tilt)
+_OF_RING = (5, 3, 4)  # coordinates that belong to its (spin, skew, tilt)
 _FORCED = np.array([0, 4, 5, 3])  # the inner ring's velocities that lambda acts on, in its order
 _PLACED = np.array([0, 3, 4])  # its coordinates that mu moves
 _ALPHA = 1e6  # [1/s] of factors that nobody uses
@@ -25,7 +26,7 @@ def newton_matrix(
     layout = functions.bearing.layout
     n_q, n_m = layout.n_q, layout.n_q + layout.n_u
     M, C, K = momentum_matrices(functions, t, y, yd)
-    to_rate, to_displacement = kinematics(layout, y)
+    to_rate, to_displacement = kinematics(functions.bearing, y)
     J = np.zeros((layout.size, layout.size))
     J[:n_q, :n_q] = alpha * np.eye(n_q)
     J[:n_q, n_q:n_m] = -to_rate
@@ -67,13 +68,15 @@ def _whole(rr: np.ndarray, rb: np.ndarray, br: np.ndarray, bb: np.ndarray, layou
     return whole
 
 
-def kinematics(layout: Layout, y: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+def kinematics(bearing: Bearing, y: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """(n_q, n_u) rates of coordinates by velocities, and (n_u, n_q) displacements of changes."""
+    layout, turns = bearing.layout, bearing.data.work.tangent.turns
     Z = layout.elements
     rate = np.zeros((layout.n_q, layout.n_u))
     back = np.zeros((layout.n_u, layout.n_q))
     for body in range(Z + 1):
-        coordinates, velocities = 6 * body + _ORDER, 6 * body + np.arange(6)
+        order = np.array([0, 1, 2, *(turns if body < Z else _OF_RING)])
+        coordinates, velocities = 6 * body + order, 6 * body + np.arange(6)
         scale = np.ones(6)
         scale[2] = y[6 * body + 1] if body < Z else 1.0
         rate[coordinates, velocities] = 1.0 / scale

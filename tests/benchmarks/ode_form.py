@@ -40,7 +40,7 @@ class OdeForm:
         """df/dx (n, n), as exact as Newton's matrix."""
         y = self.full(x)
         M, C, K = momentum_matrices(self.c, t, y, np.zeros_like(y))
-        to_rate, to_displacement = kinematics(self.layout, y)
+        to_rate, to_displacement = kinematics(self.c.bearing, y)
         n_q, ring = self.layout.n_q, 6 * self.layout.elements
         J = np.zeros((self.size, self.size))
         J[:n_q, n_q:] = to_rate

@@ -59,7 +59,7 @@ class Peers:
     def tolerances(self, share: float) -> np.ndarray:
         """Absolute tolerance of every unknown, ``share`` of flexcage's default."""
         s, b = self.settled, self.settled.bearing
-        weight = b.error_weights(s.case.solver.tolerance * share)
+        weight = b.error_weights(s.case.solver.tolerance * share, implicit=True)
         return np.where(weight > 0.0, 1.0 / np.where(weight > 0.0, weight, 1.0), UNTESTED)
 
     def ida(self, share: float, *, max_order: int, matrix: str = "bordered") -> Path:

@@ -17,7 +17,9 @@ from typing import Any
 
 EXAMPLES = Path(__file__).resolve().parents[2] / "examples"
 sys.path[:0] = [str(Path(__file__).parent)]
-WHAT = ("solver", "fe", "peer", "exudyn", "scale", "study", "ball", "start", "own", "whole")
+WHAT = (
+    "solver", "fe", "peer", "exudyn", "scale", "study", "ball", "methods", "start", "own", "whole",
+)  # fmt: skip
 QUICK = {"mesh.fineness": "coarse", "cage.model": "rigid"}  # of the case, with --quick
 
 
@@ -25,7 +27,7 @@ def main(argv: list[str] | None = None) -> int:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("what", choices=WHAT)
     parser.add_argument("--json", action="store_true", help="one JSON object")
-    parser.add_argument("--case", type=Path, help="default: n1013, or c7010 for ball")
+    parser.add_argument("--case", type=Path, help="default: n1013, or c7010 for ball and methods")
     parser.add_argument("--fineness", default="medium", help="fe: fineness of the mesh")
     parser.add_argument("--solver", default="auto", help="fe: linear solver")
     parser.add_argument("--plot", type=Path, metavar="FILE", help="peer, scale: draw curves")
@@ -38,7 +40,7 @@ def main(argv: list[str] | None = None) -> int:
 
     logging.basicConfig(level=logging.WARNING)
     small = QUICK if args.quick else {}
-    file = args.case or EXAMPLES / ("c7010" if args.what == "ball" else "n1013")
+    file = args.case or EXAMPLES / ("c7010" if args.what in ("ball", "methods") else "n1013")
     case = flexcage.load_case(
         file.with_suffix(".toml"),
         overrides={**small, **dict(parse_setting(text) for text in args.set)},

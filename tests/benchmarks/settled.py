@@ -147,10 +147,9 @@ class Settled:
         out = self.integrate(duration, stride=1, **options)
         return self.forces(out.ys, out.yds, sample_times(duration))
 
-    def weights(self, share: float) -> np.ndarray:
+    def weights(self, share: float, *, implicit: bool = False) -> np.ndarray:
         """1/(allowed local error) of y at this share of the case's tolerance; 0: not tested."""
-        b = self.bearing
-        return b.error_weights(self.case.solver.tolerance * share)
+        return self.bearing.error_weights(self.case.solver.tolerance * share, implicit=implicit)
 
     def _sample(self, rows: int, stride: int) -> None:
         b = self.bearing
@@ -168,7 +167,7 @@ class Settled:
     ) -> Outcome:
         b, times = self.bearing, np.asarray(times)
         method = INTEGRATORS["explicit" if solver.method == "auto" else solver.method]
-        weight = self.weights(share)
+        weight = self.weights(share, implicit=not method.bounded)
         state = method.new_state(
             t0,
             y,

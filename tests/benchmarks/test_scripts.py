@@ -9,8 +9,8 @@ from pathlib import Path
 
 import pytest
 
-PAGES = [Path(__file__).with_name(name) for name in ("README.md", "peers.md")]
-FAST = ("solver", "fe", "scale", "ball", "start", "own")
+PAGES = [Path(__file__).with_name(name) for name in ("README.md", "peers.md", "methods.md")]
+FAST = ("solver", "fe", "scale", "ball", "methods", "start", "own")
 SLOW = {
     "peer": "sksundae",
     "exudyn": "exudyn",

@@ -45,7 +45,51 @@ def test_files_of_a_static_solution(tmp_path, capsys):
     assert cli.main(["static", ROLLERS, "-o", str(out), "--force"]) == 0
 
 
+ARCS = [
+    "--set", "outer_ring.ring=flexible", "--set", "outer_ring.seat=arcs",
+    "--set", "outer_ring.supports=[\"60 deg\", \"-60 deg\"]",
+]  # fmt: skip
+
+
+def test_rings_that_bend(tmp_path, capsys):
+    out = tmp_path / "bent"
+    argv = ["static", ROLLERS, "--set", "drive.speed=0 rpm", *ARCS, "-o", str(out)]
+    assert cli.main(argv) == 0
+    assert "outer ring: how far its race yields" in capsys.readouterr().out
+    ring = json.loads((out / "static.json").read_text("utf-8"))["rings"]["outer"]
+    assert len(ring["deflection"]) == 22 and min(ring["support_force"]) >= 0.0
+    assert (out / "outer_ring.png").stat().st_size > 20_000
+    again = load_static(out / "case.toml").outer_ring
+    assert again.bends and again.seat == "arcs" and len(again.supports) == 2
+
+
 MISTAKES = [
+    (["static", ROLLERS, "--set", "outer_ring.seat=arcs"], 2, "has no azimuths"),
+    (
+        ["static", ROLLERS, "--set", 'outer_ring.supports=["60 deg"]'],
+        2,
+        "has 1 azimuth, but outer_ring.seat is 'rigid'",
+    ),
+    (
+        [
+            "static",
+            ROLLERS,
+            *ARCS,
+            "--set",
+            "outer_ring.support_arc=89 deg",
+            "--set",
+            'outer_ring.supports=["60 deg", "80 deg"]',
+        ],
+        2,
+        "20 deg apart",
+    ),
+    (
+        ["static", ROLLERS, *ARCS, "--set", 'outer_ring.supports=["60 deg", "240 deg"]'],
+        2,
+        "opposite sides",
+    ),
+    (["static", ROLLERS, *ARCS, "--set", "outer_ring.diameter=91 mm"], 2, "0.25 mm behind"),
+    (["run", ROLLERS, "--set", "inner_ring.ring=flexible"], 2, "the rings of a run are rigid"),
     (["static", BALLS, "--set", "bearing.ball_count=24"], 2, "24 balls"),
     (["static", BALLS, "--set", "load.axial=0 N"], 2, "bears no load"),
     (["static", BALLS, "--set", "load.axial=-100 N"], 2, "cannot bear this load"),

@@ -83,6 +83,9 @@ MOTION = Motion(
     ribs=(),
     start=MOTION_OF_BALLS.start,
     error_weights=MOTION_OF_BALLS.error_weights,
+    linearise=MOTION_OF_BALLS.linearise,  # a constant pull has no slope
+    implicit_share=MOTION_OF_BALLS.implicit_share,
+    implicit_weights=MOTION_OF_BALLS.implicit_weights,
 )
 
 bearing_family(replace(BALLS, name="magnet", types=(MagnetBearing,), motion=lambda: MOTION))

@@ -17,7 +17,6 @@ PAPERS = Path(__file__).parents[2] / "examples" / "papers"
 @pytest.fixture(scope="module")
 def papers():
     sys.path.insert(0, str(PAPERS))
-    import c7010_centroid
     import c7010_vibro_claims
     import c7010_vibro_figures
     import c7010_vibro_impact
@@ -26,7 +25,7 @@ def papers():
     import speed_fluctuation_figures
 
     yield SimpleNamespace(
-        centroid=c7010_centroid, vibro=c7010_vibro_impact, claims=c7010_vibro_claims,
+        vibro=c7010_vibro_impact, claims=c7010_vibro_claims,
         figures=c7010_vibro_figures, fluctuation=speed_fluctuation,
         waves=speed_fluctuation_claims, wave_figures=speed_fluctuation_figures,
     )  # fmt: skip
@@ -57,7 +56,6 @@ def test_every_reading_is_a_plan(papers):
         counts["radial"] == 2 * counts["axial"] == 2 * 28
         and counts["steeper friction"] == 14 == counts["guided by a land"]
     )
-    assert len(make_plan(papers.centroid.load()).cases) == 60
 
 
 def test_readings_load_what_they_say(papers):
@@ -97,14 +95,6 @@ def test_a_line_tells_regular_orbits_beyond_its_interval(papers):
     })  # fmt: skip
     assert papers.claims.regular("a")(view) == HOLDS and papers.claims.chaotic("b")(view) == HOLDS
     assert papers.claims.regular("c")(view) == UNDECIDED
-
-
-def test_the_measured_cage_from_end_to_end(papers, tmp_path, capsys):
-    found = papers.centroid.main(["--quick", "-o", str(tmp_path / "quick")])
-    assert [v.key for v in found] == [v.key for v in read_verdicts(tmp_path / "quick")]
-    assert len(found) == 5 and all(v.figures for v in found)
-    shown = capsys.readouterr().out
-    assert "| 0.2 g mm | 11000 |" in shown and "003-5" in shown
 
 
 @pytest.mark.slow

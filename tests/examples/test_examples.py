@@ -1,9 +1,13 @@
 """The examples run, on a coarse mesh and for a short time, and their numbers hold."""
 
 import importlib.util
+from math import pi
 from pathlib import Path
 
+import numpy as np
 import pytest
+
+from flexcage import load_case, simulate
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 SHORT = {"solver.duration": "6 ms", "mesh.fineness": "coarse"}
@@ -15,6 +19,7 @@ TESTED = {
     "ex05_static",
     "ex06_ball_bearing",
     "ex07_own_body",
+    "ex08_rotor_bearing",
 }
 
 
@@ -51,6 +56,13 @@ def test_static(capsys):
     assert "N/um axially" in capsys.readouterr().out
 
 
+def test_nu210():
+    """Its cage goes round at the epicyclic speed, and the outer ring's ribs guide it."""
+    run = simulate(load_case(EXAMPLES / "nu210.toml").replace(SHORT))
+    assert run.summary["cage_speed"] * 30 / pi == pytest.approx(3000 * (1 - 11 / 70.5), rel=0.03)
+    assert run.case.land.clearance == pytest.approx(0.25e-3)
+
+
 def test_ball_bearing():
     rigid = {"mesh.fineness": "coarse", "cage.model": "rigid"}
     inner, outer = example("ex06_ball_bearing").main(duration="10 ms", **rigid)
@@ -61,6 +73,17 @@ def test_own_body(capsys):
     ratio = example("ex07_own_body").main(**{"mesh.fineness": "coarse"})
     assert ratio == pytest.approx(1.0, abs=1e-6)
     assert "Hz from the file" in capsys.readouterr().out
+
+
+def test_rotor_bearing():
+    """Under an axial load alone all radial directions are alike; with ROSS, its rotor too."""
+    module = example("ex08_rotor_bearing")
+    k = module.coefficients(radial="0 N")
+    np.testing.assert_allclose(k["kxx"], k["kyy"], rtol=1e-9)
+    assert np.abs(k["kxy"]).max() < 1e-9 * k["kxx"].min() and (np.diff(k["kzz"]) < 0.0).all()
+    pytest.importorskip("ross")
+    by_ross, by_hand = module.main()
+    assert by_ross == pytest.approx(by_hand, rel=1e-3)
 
 
 def test_study(tmp_path):

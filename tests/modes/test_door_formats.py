@@ -283,11 +283,22 @@ def test_a_body_in_two_parts_has_a_singular_stiffness(body):
         elastic_modes(twice, where="body")
 
 
-def test_coordinates_without_mass(body):
-    mass = body.mass.copy()
-    mass[5], mass[:, 5] = 0.0, 0.0
-    with pytest.raises(InputError, match="mass matrix is singular"):
-        elastic_modes(broken(body, mass=mass), where="body")
+def test_coordinates_without_mass_follow_statically(body):
+    """A massless coordinate beside the body, on a spring to one of its own: nothing changes but
+    for the compliance; a mass matrix of lower rank is no mistake."""
+    n, k = body.size, 1e7
+    stiffness, mass = np.zeros((n + 1, n + 1)), np.zeros((n + 1, n + 1))
+    stiffness[:n, :n], mass[:n, :n] = body.stiffness, body.mass
+    stiffness[np.ix_([n - 1, n], [n - 1, n])] += k * np.array([[1.0, -1.0], [-1.0, 1.0]])
+    more = broken(
+        body,
+        stiffness=stiffness,
+        mass=mass,
+        dofs=np.vstack([body.dofs, [[-1, 0]]]),
+        shapes=np.concatenate([body.shapes, body.shapes[:, :, :1]], axis=2),
+    )
+    values, _ = elastic_modes(more, where="body")
+    np.testing.assert_allclose(np.sqrt(values) / (2 * np.pi), frequencies(body), rtol=1e-8)
 
 
 FILES = {
@@ -322,10 +333,44 @@ def test_nodes_must_be_somewhere(body, tmp_path):
         read_body(tmp_path / "box.npz")
     with pytest.raises(InputError, match="no file of nodes"):
         read_body(tmp_path / "box.npz", nodes=tmp_path / "nodes.txt")
-    needs(".op4")
-    (tmp_path / "turned.bdf").write_text(grids(body.nodes, system=3))
-    with pytest.raises(InputError, match="grid 1 stands in coordinate system 3"):
-        read_body(tmp_path / "box.npz", nodes=tmp_path / "turned.bdf")
+
+
+def test_grids_that_move_in_a_system_of_their_own(model, body, tmp_path):
+    """Two corners move in a system turned about z, matrices with them: the same body comes back."""
+    op4 = pytest.importorskip("pyyeti.nastran.op4")
+    turn = np.array([[0.0, 1.0, 0.0], [-1.0, 0.0, 0.0], [0.0, 0.0, 1.0]])  # rows: x, y, z of it
+    whole = np.eye(body.size)
+    for corner in (1, 4):
+        own = slice(3 * corner, 3 * corner + 3)
+        whole[own, own] = turn
+    path, deck = tmp_path / "extse.op4", tmp_path / "extse.asm"
+    op4.write(
+        str(path), {"KXX": whole @ body.stiffness @ whole.T, "MXX": whole @ body.mass @ whole.T}
+    )
+    lines = ["CORD2R*                7               0 0.000000000E+00 0.000000000E+00",
+             "*        0.000000000E+00 0.000000000E+00 0.000000000E+00 0.100000000E+01",
+             "*        0.000000000E+00 0.100000000E+01 0.000000000E+00"]  # fmt: skip
+    for k, place in enumerate(model.nodes[CORNERS]):
+        x, y, z = (f"{c:16.9E}" for c in place)
+        lines += [f"GRID*   {k + 1:16d}{0:16d}{x}{y}", f"*       {z}{7 if k in (1, 4) else 0:16d}"]
+    deck.write_text("\n".join([*lines, ""]))
+    back = read_body(path, nodes=deck)
+    np.testing.assert_allclose(back.stiffness, body.stiffness, atol=1e-9 * body.stiffness.max())
+    np.testing.assert_allclose(back.mass, body.mass, atol=1e-9 * body.mass.max())
+    check_free(back, where="body")
+
+
+def test_shapes_with_rotations(model, body, tmp_path):
+    """Six rows a node, as PHIG has them: the translations are taken."""
+    op4 = pytest.importorskip("pyyeti.nastran.op4")
+    six = np.zeros((len(model.nodes), 6, body.size))
+    six[:, :3] = body.shapes
+    six[:, 3:] = 7.0
+    arrays = {"KAA": body.stiffness, "MAA": body.mass, "PHIG": six.reshape(-1, body.size)}
+    op4.write(str(tmp_path / "cage.op4"), arrays)
+    (tmp_path / "cage.bdf").write_text(grids(model.nodes))
+    back = read_body(tmp_path / "cage.op4", nodes=tmp_path / "cage.bdf")
+    np.testing.assert_array_equal(back.shapes, body.shapes)
 
 
 def test_a_reader_that_is_not_installed_is_named(body, tmp_path, monkeypatch):

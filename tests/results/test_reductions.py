@@ -70,3 +70,15 @@ def test_margins_by_turns_hold_what_they_estimate():
         inside += abs(std.value(x, STEP) - 2.0) <= half
     assert 0.90 <= inside / 200 <= 0.99
     assert np.isnan(std.margin_by_turns(x, STEP, 4))
+
+
+def test_the_mean_of_the_largest_of_each_turn():
+    x = np.array([[1.0, 2.0], [5.0, 0.0], [3.0, 7.0], [0.0, 1.0], [4.0, 4.0], [2.0, 3.0]])
+    reducer = REDUCTIONS["turn_max"]
+    assert reducer.over_turns(x, 1.0, 3) == pytest.approx((5.0 + 7.0 + 4.0) / 3.0)
+    assert reducer.over_turns(x, 1.0, 1) == reducer.over_turns(x, 1.0, 0) == 7.0
+    assert np.isnan(reducer.margin_by_turns(x, 1.0, 3))  # too few turns
+    steady = np.tile(x, (2, 1))
+    assert reducer.margin_by_turns(steady, 1.0, 6) == pytest.approx(
+        2.5706 * np.std([5, 7, 4] * 2, ddof=1) / 6**0.5, rel=1e-4
+    )

@@ -159,14 +159,42 @@ def test_a_run_comes_back_from_its_folder(flexible):
     assert again.case == flexible.case and str(again.summary) == str(flexible.summary)
 
 
-def test_a_resumed_run_is_the_unbroken_one(tmp_path):
-    case = c7010(RIGID, {"solver.duration": "4 ms"})
+@pytest.mark.parametrize("method", ["explicit", "bdf"])
+def test_a_resumed_run_is_the_unbroken_one(tmp_path, method):
+    case = c7010(RIGID, {"solver.duration": "4 ms", "solver.method": method})
     whole = simulate(case, out=tmp_path / "whole")
     with pytest.raises(KeyboardInterrupt):
         simulate(case, out=tmp_path / "run", progress=Interrupted(2, 1e-3))
     resumed = simulate(case, out=tmp_path / "run", resume=True)
     for name in ("element_position", "element_omega", "cage_position", "race_force", "work"):
         assert np.array_equal(resumed.dataset[name].values, whole.dataset[name].values), name
+
+
+def test_by_the_bdf_means_are_those_of_explicit_steps():
+    """At the default tolerance, from the same start, with steps four times as long and more; and
+    energy balances."""
+    plain = {"load.axial": "1 kN", "load.radial": "300 N", "solver.duration": "20 ms"}
+    explicit, bdf = (
+        simulate(c7010(RIGID, plain, {"solver.method": m})) for m in ("explicit", "bdf")
+    )
+    assert bdf.summary["energy_audit"] == "passed" and bdf.summary["explicit_steps"] == 0
+    assert 3 * bdf.summary["steps"] < explicit.summary["steps"]
+    half = slice(explicit.dataset.sizes["time"] // 2, None)
+    for name, within in (
+        ("race_force", 1e-3), ("contact_angle", 1e-3), ("inner_position", 1e-3),
+        ("element_omega", 1e-3), ("cage_omega", 1e-3), ("race_traction", 0.05),
+    ):  # fmt: skip
+        one, other = (
+            run.dataset[name].isel(time=half).mean("time").values for run in (explicit, bdf)
+        )
+        assert np.abs(one - other).max() < within * np.abs(one).max(), name
+
+
+def test_auto_takes_explicit_steps_of_a_light_bearing_and_implicit_ones_of_a_heavy_one():
+    for axial, implicit in (("100 N", False), ("8 kN", True)):
+        run = simulate(c7010(RIGID, {"load.axial": axial, "solver.duration": "4 ms"}))
+        assert (run.summary["explicit_steps"] == 0) == implicit
+        assert run.summary["energy_audit"] == "passed"
 
 
 def test_a_held_centre_stays_and_bears_what_a_free_one_does():

@@ -134,3 +134,22 @@ def test_rims_hold_an_unbalanced_cage():
     assert 0.1e-3 < off.max() < 0.45e-3
     audit = energy_audit(run.dataset)
     assert audit.passed and audit.of_drive < 1e-4
+
+
+@pytest.mark.slow
+def test_the_joint_of_a_stored_run(flexible):
+    """The most stressed rivet's joint, coarsely: with play the shank stays free of its holes, and
+    the root's range of stress is that of its loads."""
+    from flexcage.mesh.riveted_joint import JointMesh
+
+    run = load_run(flexible.folder)
+    mesh = JointMesh(sectors=6, root=2, size=1.5, seat=0.6, growth=2.0)
+    fits = run.rivet_joint("-3 um", "10 um", clamp="60 N", mesh=mesh)
+    tight, loose = fits
+    rivet, largest, _ = run.rivets.cycle()
+    assert fits.rivet == rivet == run.rivets.largest("stress")[1]
+    assert np.allclose(loose.instants["largest"].load, largest)
+    assert loose.largest_pressure["hole_upper"] == 0.0 < tight.largest_pressure["hole_upper"]
+    assert 0.0 < loose.K_t < 10.0 and "rivet" in str(fits)
+    with pytest.raises(InputError, match="clamp is 60"):
+        run.rivet_joint(clamp="60 mm")

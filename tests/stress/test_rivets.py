@@ -10,7 +10,7 @@ from flexcage.fem.free import FreeBodySolver
 from flexcage.fem.model import assemble
 from flexcage.mesh.options import MeshOptions
 from flexcage.modes.pockets import pocket_frame
-from flexcage.stress.rivets import Joints, _figures
+from flexcage.stress.rivets import Joints, Rivets, _figures, _labelled
 
 POCKETS, PITCH_RADIUS = 7, 13e-3
 PULL = np.array([3.0, -1.0, 2.0])  # N
@@ -101,3 +101,18 @@ def test_a_shank_in_tension_bending_and_torsion():
     np.testing.assert_allclose(
         found["stress"] / 1e6 * np.pi, [4.0, 0.0, 32.0, 16.0 * np.sqrt(3.0)], rtol=1e-12
     )
+
+
+def test_the_cycle_of_the_most_stressed_rivet():
+    """One of two rivets is pushed to and fro; between samples its load was a tenth larger."""
+    d, turn = 1.2e-3, np.array([0.0, 1.0, 0.2, -0.6, 0.0])
+    loads = {3: np.outer(turn, [-2.0, 5.0, 0.0, 0.0, 0.0, 1e-3]), 5: np.full((5, 6), 1e-3)}
+    own = []
+    for parts in loads.values():
+        most = _figures(parts.T, d)
+        most = {name: 1.1 * values for name, values in most.items()}
+        own.append({"force": parts[:, :3], "moment": parts[:, 3:], **most})
+    rivets = Rivets(_labelled(own, np.arange(5.0), np.array([3, 5])), d)
+    rivet, largest, least = rivets.cycle()
+    assert rivet == 3
+    assert np.allclose(largest, 1.1 * loads[3][1]) and np.allclose(least, loads[3][3])

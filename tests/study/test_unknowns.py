@@ -104,7 +104,7 @@ def test_the_share_of_a_range_and_what_decides_it():
     assert (found.holds, found.decided, found.open) == (10, 20, 1)
     assert (found.low, found.high) == (pytest.approx(0.2720, abs=1e-4),
                                        pytest.approx(0.7280, abs=1e-4))  # fmt: skip
-    assert str(found) == "50% (27% to 73%)"
+    assert str(found) == "50 % (27 % to 73 %)"
     assert str(sensitivity.share([None])) == "no point decides"
     u = design_of("sample", 64, 4, 3)
     by = sensitivity.deciders(u, ["a", "b", "c", "(start)"], list(u[:, 1] > 0.6))

@@ -163,3 +163,25 @@ def test_a_ring_that_lifts_off_is_refused():
 def test_a_seat_inside_the_race_is_refused():
     with pytest.raises(InputError, match=r"outer_ring.diameter leaves the outer ring a wall"):
         bent("N1013", outer=OuterRing(ring="flexible", diameter=0.08))
+
+
+@pytest.mark.parametrize("name", LOADS)
+def test_rings_that_bend_sit_on_a_seat_that_yields(name):
+    """Hard rings as rigid ones do; soft ones move with the seat by what the elements bear."""
+    seat = np.diag([2e-9, 1e-9, 3e-9, 1e-6, 2e-6])  # m/N and rad/(N m)
+    bearing = load_preset(name).bearing
+    options = {"load": LOADS[name], "speed": SPEED, "seat": seat}
+    both = solve_bearing(bearing, statics_of(bearing), **options)
+    sections = sections_of(bearing)
+    hard, soft = (
+        solve_bearing(
+            bearing, statics_of(bearing), **options, rings=Rings(sections=sections, **rings)
+        )
+        for rings in (of_a_modulus(name, 1e4), BOTH)
+    )
+    assert hard.outer == pytest.approx(both.outer, rel=1e-3, abs=1e-9)
+    assert hard.elements.force == pytest.approx(both.elements.force, rel=1e-3, abs=1.0)
+    assert np.abs(soft.elements.force - both.elements.force).max() > 1e-3 * both.largest_force
+    borne = soft.load + soft.reaction  # by the elements, and by the seat
+    assert soft.outer == pytest.approx(seat @ borne, rel=1e-6, abs=1e-12)
+    assert np.abs(soft.outer).max() > 1e-6

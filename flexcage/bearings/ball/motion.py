@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from flexcage.bearings.ball.model import BallModel, ball_work, build_ball_model
 from flexcage.bearings.ball.residual import evaluate
-from flexcage.bearings.ball.scales import ball_weights
+from flexcage.bearings.ball.scales import ball_weights, implicit_ball_weights
 from flexcage.bearings.ball.start import ball_start
 from flexcage.bearings.ball.tangent import linearise
 from flexcage.system.equations import shared_equations
@@ -23,5 +23,6 @@ MOTION = Motion(
     start=ball_start,
     error_weights=ball_weights,
     linearise=linearise,
-    implicit_share=0.0,
+    implicit_share=3.5,
+    implicit_weights=implicit_ball_weights,
 )

@@ -10,9 +10,9 @@ from flexcage.bearings.cylindrical_roller.slip import slip as roller_slip
 from flexcage.bearings.cylindrical_roller.slip import slip_ratio
 from flexcage.results import metrics
 from flexcage.results.figures import OwnFigures
-from flexcage.results.known import SIGNED, figures_in
+from flexcage.results.known import SIGNED, STATISTIC, figures_in
 from flexcage.results.metrics import BearingNumbers, SlipRange
-from flexcage.results.statistics import element_passes
+from flexcage.results.statistics import Windows, element_passes
 from flexcage.results.summary import Row, Section, figure, statistic
 
 if TYPE_CHECKING:
@@ -32,6 +32,13 @@ KNOWN = (
          "mean sliding speed of unloaded rollers", SIGNED),
         ("sliding_outer_unloaded", "Sliding, outer race, unloaded", "m/s",
          "mean sliding speed of unloaded rollers", SIGNED),
+    ),
+    *figures_in(
+        "Forces",
+        ("axial_through_ribs", "Axial load through ribs, mean", "N",
+         "from ring to ring through all rollers; zero of the designs N and NU", STATISTIC),
+        ("counter_rib_peak", "Counter rib on a roller, peak", "N",
+         "largest normal force on one end; zero of the designs N and NU"),
     ),
 )  # fmt: skip
 
@@ -70,4 +77,17 @@ def slip_section(ds: xarray.Dataset, bearing: BearingNumbers, slip_range: SlipRa
     return Section("Roller slip (inertial frame)", rows)
 
 
-FIGURES = OwnFigures(known=KNOWN, speeds=speed_rows, slip=slip_section)
+def force_rows(ds: xarray.Dataset, windows: Windows) -> tuple[Row, ...]:
+    """What counter ribs bear; not shown of designs without any, nor of older runs."""
+    if "counter_rib_force" not in ds:
+        return ()
+    force = ds["counter_rib_force"].transpose("time", "element", "rib").values
+    plus, minus = np.moveaxis(force.sum(axis=1), -1, 0)
+    idle = not force.any()
+    return (
+        statistic("axial_through_ribs", windows.mean(np.abs(plus - minus)), idle=idle),
+        figure("counter_rib_peak", float(force.max()), idle=idle),
+    )
+
+
+FIGURES = OwnFigures(known=KNOWN, speeds=speed_rows, slip=slip_section, forces=force_rows)

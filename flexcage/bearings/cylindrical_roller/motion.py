@@ -23,4 +23,5 @@ MOTION = Motion(
     ribs=("rib +x", "rib -x", "counter rib +x", "counter rib -x"),
     start=roller_start,
     error_weights=roller_weights,
+    implicit_share=1.0,
 )

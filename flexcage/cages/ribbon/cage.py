@@ -18,6 +18,7 @@ from flexcage.core.spec import option, quantity
 from flexcage.core.units import describe, typeset
 from flexcage.geometry.cage import Cage, Objection
 from flexcage.geometry.materials import MATERIALS, Material
+from flexcage.geometry.riveted_joint import JointShape
 
 if TYPE_CHECKING:
     from flexcage.geometry.bearing import Bearing
@@ -100,6 +101,19 @@ class RibbonCage(BallCage):
     def head_radius(self) -> float:
         """Radius [m] of a rivet's head, within which the halves hold together."""
         return 0.5 * HEAD * self.rivet_diameter
+
+    def rivet_joint(
+        self, pitch_diameter: float, pocket_count: int, root_radius: float
+    ) -> JointShape:
+        pitch = 0.5 * pitch_diameter
+        return JointShape(
+            shank_diameter=self.rivet_diameter, head_diameter=2.0 * self.head_radius,
+            head_height=HEAD_HEIGHT * self.rivet_diameter, root_radius=root_radius,
+            thickness=self.thickness, inner=0.5 * self.bore - pitch,
+            outer=0.5 * self.outside_diameter - pitch,
+            # flat from pocket to pocket: the bends beyond the flats are left out
+            length=pitch_diameter * sin(pi / pocket_count) - self.pocket_diameter,
+        )  # fmt: skip
 
     @property
     def bend_centre(self) -> tuple[float, float]:

@@ -17,7 +17,8 @@ from flexcage.modes.door.body import ReducedBody
 _ASYMMETRY = 1e-6  # of the largest entry: text of seven digits
 _NEGATIVE = 1e-8  # of the largest eigenvalue: rounding of matrices that are positive semi-definite
 _HELD = 1e-5  # of the forces that rigid motion makes entry by entry: text of seven digits
-_MECHANISM = 1e-9  # of the largest squared frequency: a motion without stiffness
+_MECHANISM = 1e-12  # of the largest scaled stiffness: a motion without any
+_MASSLESS = 1e-12  # of the longest squared period: a motion without mass
 
 
 def check_body(body: ReducedBody, *, where: str) -> None:
@@ -103,32 +104,32 @@ def check_free(body: ReducedBody, *, where: str) -> None:
 
 def elastic_modes(body: ReducedBody, *, where: str) -> tuple[np.ndarray, np.ndarray]:
     """Squared angular frequencies (m,) and coordinates (n, m) of the elastic eigenmodes,
-    mass-orthonormal; the rigid motions that are in the body's span are left out.
+    mass-orthonormal, the lowest first.
 
-    InputError for motions that have neither stiffness nor are rigid, and for coordinates without
-    mass.
+    The rigid motions in the body's span are left out, and so are motions without mass, which follow
+    the others statically. InputError for motions that have no stiffness and are not rigid.
     """
     stiffness, mass = body.dense()
-    size = np.sqrt(np.diag(mass))
-    if not (size > 0.0).all() or eigvalsh(_scaled(mass))[0] < 1e-12:
-        raise InputError(
-            f"{body.source}: the mass matrix is singular: some of its {body.size} coordinates move "
-            "nothing; leave them out, or condense them statically.",
-            where=where,
-        )
+    size = np.sqrt(np.diag(stiffness))
+    per = 1.0 / np.where(size > 0.0, size, 1.0)
+    stiffness, mass = (m * np.outer(per, per) for m in (stiffness, mass))
     span = np.eye(body.size)
     if body.rigid is not None:
-        carried = body.rigid.T @ mass / size
-        span = np.linalg.svd(carried)[2][6:].T / size[:, None]  # orthogonal in mass to rigid motion
-    values, turns = eigh(span.T @ stiffness @ span, span.T @ mass @ span)
-    loose = int(np.count_nonzero(values < _MECHANISM * values[-1]))
+        carried = (body.rigid / per[:, None]).T @ mass
+        span = np.linalg.svd(carried)[2][6:].T  # orthogonal in mass to rigid motion
+    held = span.T @ stiffness @ span
+    strength = eigvalsh(held)
+    loose = int(np.count_nonzero(strength < _MECHANISM * strength[-1]))
     if loose:
         beside = "beside its rigid motions " if body.rigid is not None else ""
         raise InputError(
             f"{body.source}: the stiffness matrix is singular: {beside}{loose} of "
-            f"{len(values)} motions have no stiffness; the body has loose parts, or its shapes "
+            f"{len(strength)} motions have no stiffness; the body has loose parts, or its shapes "
             "hold rigid motions in part.",
             where=where,
             value=loose,
         )
-    return values, span @ turns
+    periods, turns = eigh(span.T @ mass @ span, held)  # 1/omega^2, the longest last
+    moving = periods > _MASSLESS * periods[-1]
+    values, turns = 1.0 / periods[moving][::-1], turns[:, moving][:, ::-1]
+    return values, per[:, None] * (span @ (turns * np.sqrt(values)))

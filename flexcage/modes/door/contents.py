@@ -15,12 +15,17 @@ from flexcage.modes.door.body import MODAL, ReducedBody
 
 @dataclass(frozen=True, kw_only=True)
 class Points:
-    """Nodes of a file: numbers (N,), places (N, 3), elements and named sets of node numbers."""
+    """Nodes of a file: numbers (N,), places (N, 3), elements and named sets of node numbers.
+
+    ``frames`` (N, 3, 3): rows are the directions of a node's coordinates, where these are not those
+    of the places.
+    """
 
     numbers: np.ndarray
     places: np.ndarray
     cells: np.ndarray | None = None  # (m, corners) node numbers
     sets: Mapping[str, np.ndarray] = field(default_factory=dict)
+    frames: np.ndarray | None = None
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -28,7 +33,8 @@ class Contents:
     """Matrices of a file in its own units.
 
     ``labels`` (n, 2): node number and component (1 to 6) of every coordinate, component 0 for a
-    modal one; None where the file does not say. ``shapes`` (3N, n) goes with ``points``.
+    modal one; None where the file does not say. ``shapes`` goes with ``points``: (3N, n), or
+    (6N, n) with rotations.
     """
 
     stiffness: Any
@@ -68,7 +74,7 @@ def picked(found: Mapping[str, Any], names: tuple[str, ...]) -> Any | None:
 STIFFNESS = ("STIFFNESS", "K", "KAAX", "KAA", "KGG", "KJJ", "KXX", "K2GG")
 MASS = ("MASS", "M", "MAAX", "MAA", "MGG", "MJJ", "MXX", "M2GG")
 NODES = ("NODES", "POINTS", "XYZ")
-SHAPES = ("SHAPES", "PHI", "PHIG", "PHG", "MUG1")
+SHAPES = ("SHAPES", "PHI", "PHIG", "PHG")
 DOFS = ("DOFS", "LABELS")
 #: Kinds of coordinates by the number that stands for them in files of numbers alone.
 KINDS = (

@@ -102,17 +102,26 @@ def _body(contents: Contents, points: Points | None, path: Path, where: str) -> 
     labels = contents.labels
     if labels is None:
         dofs = _usual_dofs(size, len(points.numbers), reduced=contents.shapes is not None)
+        order = np.append(np.argsort(points.numbers, kind="stable"), MODAL)  # in rising order
+        dofs[:, 0] = order[dofs[:, 0]]
     else:
         dofs = _by_place(labels, points.numbers)
-    order = {int(n): i for i, n in enumerate(points.numbers)}
-    sets = {name: np.array([order[n] for n in v if n in order]) for name, v in points.sets.items()}
+    place = {int(n): i for i, n in enumerate(points.numbers)}
+    sets = {name: np.array([place[n] for n in v if n in place]) for name, v in points.sets.items()}
+    stiffness, mass = contents.stiffness, contents.mass
+    if points.frames is not None:
+        turn = _turn(dofs, points.frames, path, where)
+        stiffness = turn.T @ stiffness @ turn
+        mass = None if mass is None else turn.T @ mass @ turn
     shapes = contents.shapes
+    if shapes is not None and shapes.shape[0] == 6 * len(points.numbers):
+        shapes = shapes.reshape(-1, 6, size)[:, :3]
     return ReducedBody(
-        stiffness=contents.stiffness,
-        mass=contents.mass,
+        stiffness=stiffness,
+        mass=mass,
         nodes=np.asarray(points.places, float),
         dofs=dofs,
-        shapes=None if shapes is None else np.asarray(shapes, float).reshape(-1, 3, size),
+        shapes=None if shapes is None else np.array(shapes, float).reshape(-1, 3, size),
         kind=contents.kind,
         cells=points.cells,
         interface=MappingProxyType(sets),
@@ -126,7 +135,7 @@ def _check_shapes(contents: Contents, points: Points, path: Path, where: str) ->
     wanted = {
         "stiffness": (contents.stiffness, (n, n)),
         "mass": (contents.mass, (n, n)),
-        "shapes": (contents.shapes, (3 * count, n)),
+        "shapes": (contents.shapes, (_rows(contents, count), n)),
         "dofs": (contents.labels, (n, 2)),
     }
     for name, (matrix, shape) in wanted.items():
@@ -140,6 +149,39 @@ def _check_shapes(contents: Contents, points: Points, path: Path, where: str) ->
         raise InputError(
             f"{path} names the kinds of {len(contents.kind)} coordinates, but has {n}.", where=where
         )
+
+
+def _rows(contents: Contents, count: int) -> int:
+    """Rows of shapes: three a node, or six if there are rotations."""
+    with_turns = contents.shapes is not None and contents.shapes.shape[0] == 6 * count
+    return 6 * count if with_turns else 3 * count
+
+
+def _turn(dofs: np.ndarray, frames: np.ndarray, path: Path, where: str) -> sp.csr_matrix:
+    """Matrix (n, n) that takes coordinates along the common axes to those of the nodes' frames."""
+    place = {(int(n), int(c)): j for j, (n, c) in enumerate(dofs) if n != MODAL}
+    rows, columns, values = [], [], []
+    for (node, component), j in place.items():
+        first = 3 * (component // 3)
+        for axis in range(3):
+            value = frames[node, component - first, axis]
+            if abs(value) > 1e-14:
+                if (node, first + axis) not in place:
+                    raise InputError(
+                        f"{path}: node {node + 1} moves in a coordinate system of its own, but has "
+                        "not all three coordinates there; write its matrices in the common one.",
+                        where=where,
+                    )
+                rows.append(j)
+                columns.append(place[node, first + axis])
+                values.append(value)
+    modal = np.flatnonzero(dofs[:, 0] == MODAL)
+    indices = (
+        np.concatenate([rows, modal]).astype(int),
+        np.concatenate([columns, modal]).astype(int),
+    )
+    entries = np.concatenate([values, np.ones(len(modal))])
+    return sp.csr_matrix((entries, indices), shape=(len(dofs),) * 2)
 
 
 def _usual_dofs(size: int, nodes: int, *, reduced: bool) -> np.ndarray:

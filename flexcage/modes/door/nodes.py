@@ -30,10 +30,10 @@ def read_points(path: Path, *, where: str) -> Points:
 
 
 def read_grids(path: Path, *, where: str, needed: bool = True) -> Points | None:
-    """GRID entries of a Nastran bulk file, in its basic coordinate system.
+    """GRID entries of a Nastran bulk file; places in its basic coordinate system, and frames where
+    grids move in systems of their own.
 
-    None if there are none and they are not ``needed``; InputError for grids in a coordinate system
-    of their own.
+    None if there are none and they are not ``needed``.
     """
     try:
         from pyyeti.nastran import bulk
@@ -41,22 +41,30 @@ def read_grids(path: Path, *, where: str, needed: bool = True) -> Points | None:
         raise lacking("pyyeti", "Nastran's files") from error
     try:
         table = np.asarray(bulk.rdgrids(str(path), follow_includes=False), float)
+        if table.size and table.ndim == 2 and table[:, [1, 5]].any():
+            return _grids_in_systems(path)
     except Exception as error:  # of all kinds on broken files
         raise unreadable(path, error, where=where) from error
     if table.size == 0 or table.ndim != 2:
         if needed:
             raise InputError(f"{path} has no GRID entries.", where=where, value=str(path))
         return None
-    own = np.flatnonzero((table[:, 1] != 0) | (table[:, 5] != 0))
-    if len(own):
-        grid, place, way = table[own[0]][[0, 1, 5]].astype(int)
-        raise InputError(
-            f"{path}: grid {grid} stands in coordinate system {place} and moves in system {way}; "
-            "flexcage reads the basic system 0 alone: write the grids in it.",
-            where=where,
-            value=int(grid),
-        )
-    return Points(numbers=table[:, 0].astype(np.int64), places=table[:, 2:5].copy())
+    numbers, first = np.unique(table[:, 0].astype(np.int64), return_index=True)
+    return Points(numbers=numbers, places=table[first, 2:5].copy())
+
+
+def _grids_in_systems(path: Path) -> Points:
+    """Grids with coordinate systems (CORD entries) of their own, by pyYeti's table of them."""
+    from pyyeti.nastran import bulk, n2p
+
+    table = bulk.bulk2uset(str(path), follow_includes=False)[0]
+    first = table.iloc[::6]
+    motions = n2p.rbgeom_uset(table, [0.0, 0.0, 0.0]).reshape(-1, 6, 6)
+    return Points(
+        numbers=first.index.get_level_values("id").to_numpy(np.int64),
+        places=first[["x", "y", "z"]].to_numpy(float),
+        frames=motions[:, :3, :3],
+    )
 
 
 def _abaqus(path: Path, *, where: str) -> Points:
@@ -82,6 +90,7 @@ def _ansys(path: Path, *, where: str) -> Points:
 
 
 _READERS: dict[str, Callable[..., Points | None]] = {
-    ".bdf": read_grids, ".dat": read_grids, ".nas": read_grids, ".pch": read_grids,
+    ".bdf": read_grids, ".dat": read_grids, ".nas": read_grids, ".asm": read_grids,
+    ".pch": read_grids,
     ".inp": _abaqus, ".cdb": _ansys,
 }  # fmt: skip

@@ -12,7 +12,7 @@ elements are sought at which races, bent by the elements' forces, lie where the 
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any
 
@@ -96,7 +96,11 @@ class Problem:
 
 @dataclass(frozen=True)
 class Posture:
-    """Displacement u (5,) of the inner ring, elements settled between the rings, and forces."""
+    """Displacement u (5,) of the inner ring, elements settled between the rings, and forces.
+
+    Where the outer ring's seat yields (``yielding``), u is relative to that ring, and ``outer``
+    (5,) its own displacement.
+    """
 
     ring: np.ndarray
     v: np.ndarray  # (Z, 3) displacements that the elements feel
@@ -105,6 +109,7 @@ class Posture:
     force: np.ndarray  # (5,) that the elements bear
     unbalanced: float  # largest force left over, as a share of the load; inf: none settled
     energy: float  # of elements, load and springs; a potential while ``share`` is 0
+    outer: np.ndarray = field(default_factory=lambda: np.zeros(5))
 
 
 def balance(problem: Problem) -> Posture:

@@ -8,6 +8,7 @@ centrifugal forces.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from math import sqrt
@@ -32,6 +33,7 @@ from flexcage.system.statics.equilibrium import Bending, Posture, Problem, balan
 
 _SETS = 60  # of supports that are tried
 _PULL = 1e-9  # of the largest force of a support: what counts as none
+_LEAST_WALL = 0.01  # of the race's radius: thinner rings want thousands of harmonics
 _CHANGE = 1e-8  # of the load: by which centrifugal forces may change from step to step
 _TO_V = {  # how a ring's ports are displacements v: axial, radial, tilt
     False: np.array([[1.0, 0.0], [0.0, 1.0], [0.0, 0.0]]),
@@ -106,13 +108,20 @@ class SeatedRing:
     def supported(self, force: np.ndarray, bears: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Radial forces (S,) of the supports on the ring, outwards, and how far (S,) the ring moves
         outwards at them, under forces (Z, 2) on its race."""
-        whole, beside = self._kept(bears)
-        answer = -np.linalg.solve(whole, beside.T @ force.ravel())
-        borne, moved = np.zeros(len(bears)), answer[-2:]
-        borne[bears] = answer[:-2]
+        borne, moved = np.zeros(len(bears)), self._answer(force, bears)
+        borne[bears] = moved[:-2]
         whole, beside = self._bordered
-        away = whole[:-2] @ np.append(borne, moved) + beside[:, :-2].T @ force.ravel()
+        away = whole[:-2] @ np.append(borne, moved[-2:]) + beside[:, :-2].T @ force.ravel()
         return borne, away
+
+    def translation(self, force: np.ndarray, bears: np.ndarray) -> np.ndarray:
+        """Displacement (2,) along y and z of the ring as a whole, under the same."""
+        return self._answer(force, bears)[-2:]
+
+    def _answer(self, force: np.ndarray, bears: np.ndarray) -> np.ndarray:
+        """Forces of the supports that bear, and the ring's translation."""
+        whole, beside = self._kept(bears)
+        return -np.linalg.solve(whole, beside.T @ force.ravel())
 
     def _kept(self, bears: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         keep = np.append(bears, [True, True])
@@ -209,20 +218,21 @@ class BendingRings:
 
 
 def balance_with_rings(
-    problem: Problem, bearing: Bearing, rings: Rings
+    problem: Problem, bearing: Bearing, rings: Rings, find: Callable[[Problem], Posture] = balance
 ) -> tuple[Problem, Posture, tuple[BentRing, ...]]:
     """Equilibrium between rings that bend: the problem with them, its posture, and the rings.
 
-    Raises InputError and RunFailed as ``balance`` does, and where supports cannot hold the ring.
+    ``find`` balances a problem. Raises InputError and RunFailed as it does, and where supports
+    cannot hold the ring.
     """
     elements = problem.elements
-    posture = balance(problem)
+    posture = find(problem)
     loads = elements.loads(posture.v, posture.own)
     seated = seated_rings(bearing, rings, elements.azimuth, loads)
     thrown = np.nan_to_num(loads.centrifugal)
     for _ in range(_SETS):
         problem = replace(problem, bending=seated.bending(thrown))
-        posture = balance(problem)
+        posture = find(problem)
         bent = seated.bent(posture.response.ring, thrown)
         now = np.nan_to_num(elements.loads(posture.v, posture.own).centrifugal)
         after = seated.next(bent)
@@ -287,12 +297,13 @@ def _seated(
 
 
 def _check_wall(name: str, spec: FlexibleRing, section: RingSection) -> None:
-    if not section.wall > 0.0:
+    least = _LEAST_WALL * section.raceway.place[1]
+    if section.wall < least:
         what = "outside_diameter" if name == "outer" else "bore"
         of = f"{name}_ring.diameter" if spec.diameter is not None else f"bearing.{what}"
         raise InputError(
-            f"{of} leaves the {name} ring a wall of {mm(section.wall)} behind its race; a ring "
-            "that bends needs one.",
+            f"{of} leaves the {name} ring a wall of {mm(section.wall)} behind its race; give one "
+            f"that leaves {mm(least)} or more.",
             where=of,
         )
 

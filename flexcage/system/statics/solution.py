@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 import json
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from math import isfinite
 from pathlib import Path
 from typing import Any
@@ -42,6 +42,8 @@ class StaticSolution:
     springs bear. ``elements`` lists every element, inner race before outer, and ``film`` (Z, 2) the
     lubricant's thickness there, of rolling without slip. ``stiffness`` (5, 5) is the exact tangent
     of what the elements bear over displacement, at constant speed, the elements following.
+    ``outer`` (5,) is the displacement of the outer ring, whose seat may yield: ``displacement`` and
+    ``stiffness`` have the seat's share in them.
     """
 
     title: str
@@ -57,6 +59,7 @@ class StaticSolution:
     unbalanced: float  # largest force left over, as a share of the load
     held: str = ""  # how the inner ring is held, in words
     rings: tuple[BentRing, ...] = ()  # that bend
+    outer: np.ndarray = field(default_factory=lambda: np.zeros(5))
 
     @property
     def largest_force(self) -> float:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from functools import partial
+
 import numpy as np
 
 from flexcage.contacts.spec import Contacts, Lubricant
@@ -17,6 +19,7 @@ from flexcage.system.statics.equilibrium import Problem, balance, tangent
 from flexcage.system.statics.options import StaticOptions
 from flexcage.system.statics.rings import BentRing, Rings, balance_with_rings
 from flexcage.system.statics.solution import Ratings, StaticSolution
+from flexcage.system.statics.yielding import balance_on_seat, on_seat
 
 _PLACES = ("load.axial", "load.radial", "load.radial", "load.moment_y", "load.moment_z")
 
@@ -32,34 +35,40 @@ def solve_bearing(
     lubricant: Lubricant | None = None,
     options: StaticOptions | None = None,
     rings: Rings | None = None,
+    seat: np.ndarray | None = None,
 ) -> StaticSolution:
     """Equilibrium of the inner ring under the load at its start, turning at ``speed`` [rad/s], and
     the film that the lubricant then makes. ``elements_of``: of the bearing's family; ``rings``: how
-    rings bend, if they do.
+    rings bend, if they do. ``seat``: the compliance (5, 5) of the outer ring's seat
+    (``system.seat``), if it yields.
 
     Raises InputError for a load that the bearing cannot bear, RunFailed if no equilibrium is found.
     """
     options = options or StaticOptions()
     elements = elements_of(bearing, speed=speed, contacts=contacts or Contacts(), options=options)
     problem = posed(bearing, elements, load, options)
+    find = balance if seat is None else partial(balance_on_seat, compliance=seat)
     bent: tuple[BentRing, ...] = ()
     if rings is not None and rings.bend:
-        problem, posture, bent = balance_with_rings(problem, bearing, rings)
+        problem, posture, bent = balance_with_rings(problem, bearing, rings, find)
     else:
-        posture = balance(problem)
-    v = posture.v
+        posture = find(problem)
+    v, outer = posture.v, posture.outer
+    stiffness = tangent(problem, posture)
     loads = elements.loads(v, posture.own)
     elements.check(loads)
-    springs = problem.pull(posture.ring) - problem.load
+    ring = posture.ring + outer
+    springs = problem.pull(ring) - problem.load
     reaction = np.where(problem.free, springs, posture.force - problem.load)
     borne = np.where(problem.spring > 0.0, posture.force, problem.load)  # by the elements
     return StaticSolution(
         title=f"{bearing.designation or 'bearing'}, {bearing.kind} with {len(v)} rolling elements",
         speed=speed,
         load=problem.load,
-        displacement=posture.ring,
+        displacement=ring,
+        outer=outer,
         reaction=reaction,
-        stiffness=tangent(problem, posture),
+        stiffness=stiffness if seat is None else on_seat(stiffness, seat),
         elements=loads,
         film=_film(bearing, loads, speed, lubricant or Lubricant()),
         ratings=_ratings(bearing, borne, options, elements.reference_life(v, posture.own)),

@@ -80,6 +80,8 @@ def _ring_lines(s: StaticSolution) -> list[list[str]]:
         lines.append(["reaction, N and N m", *map(_short, reaction)])
     unit = np.where(np.arange(5) < 3, 1e6, 1e3)
     lines.append(["displacement, um and mrad", *map(_short, unit * moved)])
+    if s.outer.any():
+        lines.append(["of it, the outer ring's", *map(_short, unit * _clean(s.outer))])
     return lines
 
 

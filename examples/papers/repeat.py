@@ -1,0 +1,208 @@
+"""Repeat a paper from its folder: run its readings and maps, judge its claims, write its page.
+
+    python examples/papers/repeat.py examples/papers/c7010_centroid --page
+
+A paper is a folder: ``paper.py`` with ``PAPER``, ``claims.py``, ``outputs.py`` (numbers of a run),
+``figures.py`` and the TOML files of its readings and maps. All else is here, in ``paper_results``
+and in ``paper_page``.
+"""
+
+from __future__ import annotations
+
+import argparse
+import importlib.util
+import sys
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from datetime import date
+from functools import cache
+from pathlib import Path
+
+from paper_page import Line, Page, Picture, Table, compose, draw_matrix
+from paper_results import (
+    Joined,
+    Mapped,
+    Reading,
+    cells_of_starts,
+    lines_of,
+    mapped,
+    not_mapped,
+    verdicts_of,
+    write_shares,
+)
+
+import flexcage
+from flexcage.core.progress import Progress
+from flexcage.study import MapResults, StudyResults, load_map, load_study, run_map, run_study
+from flexcage.study.claims import Claim
+from flexcage.study.verdicts import write_verdicts
+
+STRESS = "stress"  # folder of the pictures of one run
+QUICK = {"solver.duration": "40 ms"}
+
+
+@dataclass(frozen=True)
+class Words:
+    """What the page says beside its numbers: a summary, a reason for every claim in one line, what
+    decides, and how it was read."""
+
+    summary: str
+    reasons: Mapping[str, str]
+    decides: Sequence[str]
+    readings: Sequence[str]
+
+
+@dataclass(frozen=True, kw_only=True)
+class Paper:
+    """A paper: where it is from, its claims, the columns of its matrix, and what its page shows.
+
+    ``columns`` names the readings of ``readings`` by their labels, ``maps`` the files that make a
+    column, ``rechecks`` files of maps whose ``points`` are computed anew with a flexible cage, and
+    ``stress`` what changes the file of a case for a run whose stress is drawn.
+    """
+
+    title: str
+    source: str
+    claims: Sequence[Claim]
+    readings: str
+    columns: Mapping[str, str]
+    maps: Mapping[str, Sequence[str]]
+    decided_by: Mapping[str, str]
+    rechecks: Mapping[str, Sequence[int]] = field(default_factory=dict)
+    stress: tuple[str, Mapping[str, str]] | None = None
+    draw: Callable[[Computed, Path], list[Picture]]
+    tables: Callable[[Computed], list[Table]]
+    words: Callable[[Computed], Words]
+    files: Sequence[str] = ()
+
+
+@dataclass(frozen=True)
+class Computed:
+    """What there is of a paper: readings and maps by column, and its matrix."""
+
+    paper: Paper
+    readings: Mapping[str, Reading]
+    maps: Mapping[str, Joined]
+    found: Mapping[str, Mapping[str, Mapped]]
+    rechecks: Mapping[str, MapResults]
+    lines: Sequence[Line]
+    seconds: float
+    out: Path
+
+
+@cache
+def load(folder: Path) -> Paper:
+    """The paper of a folder, whose modules import each other as scripts do."""
+    sys.path.insert(0, str(folder))
+    try:
+        for name in ("claims", "outputs", "figures", "paper"):
+            sys.modules.pop(name, None)
+        spec = importlib.util.spec_from_file_location("paper", folder / "paper.py")
+        assert spec is not None and spec.loader is not None
+        module = importlib.util.module_from_spec(spec)
+        sys.modules["paper"] = module
+        spec.loader.exec_module(module)
+        return module.PAPER
+    finally:
+        sys.path.remove(str(folder))
+
+
+def run(paper: Paper, folder: Path, out: Path, *, workers: int, quick: bool) -> None:
+    """Compute what the folders of all readings, maps and rechecks lack."""
+    study = load_study(folder / paper.readings, overrides=QUICK if quick else None)
+    if quick:
+        study = replace(study, repeat=replace(study.repeat, count=1))
+    run_study(study, out=_of(out, paper.readings), workers=workers, progress=Progress)
+    if quick:
+        return
+    for file in (file for files in paper.maps.values() for file in files):
+        run_map(load_map(folder / file), out=_of(out, file), workers=workers, progress=Progress)
+    for file, points in paper.rechecks.items():
+        flexible = load_map(folder / file, overrides={"cage.model": "flexible"})
+        where = _of(out, file).with_name(f"{Path(file).stem}_flexible")
+        run_map(flexible, out=where, points=points, workers=workers, progress=Progress)
+    if paper.stress is not None and not (out / STRESS).is_dir():
+        file, changes = paper.stress
+        case = flexcage.load_case(folder / file, overrides=changes)
+        flexcage.simulate(case, progress=Progress).draw(out / STRESS)
+
+
+def _of(out: Path, file: str) -> Path:
+    return out / Path(file).stem
+
+
+def collect(paper: Paper, out: Path) -> Computed:
+    """What the folders hold, judged."""
+    study = StudyResults(_of(out, paper.readings))
+    readings = {column: Reading(label, study) for label, column in paper.columns.items()}
+    there = {
+        column: Joined([MapResults(_of(out, f)) for f in files if _of(out, f).is_dir()])
+        for column, files in paper.maps.items()
+    }
+    found = {
+        column: {c.key: mapped(c, joined) if joined.parts else not_mapped() for c in paper.claims}
+        for column, joined in there.items()
+    }
+    flexible = {f: _of(out, f).with_name(f"{Path(f).stem}_flexible") for f in paper.rechecks}
+    computed = Computed(
+        paper, readings, there, found,
+        {f: MapResults(p) for f, p in flexible.items() if p.is_dir()}, (),
+        sum(r.seconds for r in study.stored.values())
+        + sum(part.seconds for joined in there.values() for part in joined.parts),
+        out,
+    )  # fmt: skip
+    starts = {column: cells_of_starts(paper.claims, r) for column, r in readings.items()}
+    reasons = {claim.key: "" for claim in paper.claims}
+    lines = lines_of(paper.claims, starts, found, paper.decided_by, reasons)
+    computed = replace(computed, lines=lines)
+    reasons = paper.words(computed).reasons
+    return replace(computed, lines=[replace(line, reason=reasons[line.key]) for line in lines])
+
+
+def write(computed: Computed, folder: Path) -> Path:
+    """The page, its pictures and its CSV files, beside the paper's files."""
+    paper, words = computed.paper, computed.paper.words(computed)
+    write_shares(computed.found, folder / "shares.csv")
+    page = Page(
+        title=paper.title, summary=words.summary, lines=computed.lines,
+        pictures=paper.draw(computed, folder), tables=paper.tables(computed),
+        decides=words.decides,
+        readings=[
+            *words.readings,
+            f'"{paper.source}". Written on {date.today():%-d %B %Y} with flexcage '
+            f"{flexcage.__version__}; its runs took {computed.seconds / 60.0:,.0f} minutes of one "
+            "process on a busy machine.",
+        ],
+        unknowns=next(iter(computed.maps.values())).unknowns(),
+        files=("shares.csv", *paper.files),
+    )  # fmt: skip
+    draw_matrix(page, folder / "matrix.png")
+    (folder / "README.md").write_text(compose(page), encoding="utf-8")
+    return folder / "README.md"
+
+
+def main(arguments: Sequence[str] | None = None) -> Computed:
+    """Compute what is missing of a paper, print a line for every claim, and write its page."""
+    parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
+    parser.add_argument("folder", type=Path, help="of the paper")
+    parser.add_argument("--quick", action="store_true", help="short runs of one start, no map")
+    parser.add_argument("-o", "--out", type=Path, help="folder of what is computed")
+    parser.add_argument("--workers", type=int, default=1, help="processes")
+    parser.add_argument("--page", action="store_true", help="write the page from what is there")
+    options = parser.parse_args(arguments)
+    folder = options.folder.resolve()
+    paper = load(folder)
+    out = options.out or Path("runs") / f"{folder.name}{'_quick' * options.quick}"
+    if not options.page:
+        run(paper, folder, out, workers=options.workers, quick=options.quick)
+    computed = collect(paper, out)
+    write_verdicts(_of(out, paper.readings), verdicts_of(computed.lines, paper.source))
+    for line in computed.lines:
+        print(f"{line.key} {line.verdict.outcome:14} {line.claim} ({line.reason})")
+    if options.page:
+        print(f"written: {write(computed, folder)}")
+    return computed
+
+
+if __name__ == "__main__":
+    main()

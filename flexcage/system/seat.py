@@ -1,0 +1,165 @@
+"""An elastic housing under the outer ring: how the ring's frame yields with its seat.
+
+The housing is a reduced body, in the bearing's frame, held somewhere to the ground. The outer ring
+stays rigid. Its frame moves with the seat's nodes in one of two ways:
+
+- "rigid": the seat follows the ring, x_seat = G u, as a ring that is pressed in (RBE2);
+- "average": the ring follows the seat, u = (G^T G)^-1 G^T x_seat, the least-squares rigid motion of
+  its nodes, whose forces share out alike (RBE3 with equal weights).
+
+G are the rigid motions at the nodes. What does not move with the ring is condensed statically,
+which is exact at rest (Guyan, AIAA Journal 3 (1965) 380).
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import scipy.sparse as sp
+
+from flexcage.core.errors import FlexcageError, InputError
+from flexcage.fem.linear import available_kinds, linear_solver
+from flexcage.modes.door.body import ReducedBody, rigid_motions
+from flexcage.modes.door.formats import read_body
+from flexcage.modes.door.systems import SYSTEMS, nearest_system
+from flexcage.system.spec import Mount
+
+WHERE = "mount.body"
+_OFF = 0.02  # of the seat's radius, that a node may lie off it: facets of a coarse mesh
+_CENTRE = 0.01  # of the seat's radius, that a single node may lie off the bearing's centre
+_SINGULAR = 1e-11  # of the scaled stiffness's largest eigenvalue
+_FIVE = [0, 1, 2, 4, 5]  # x, y, z and tilts about y, z of six motions
+
+
+def seat_compliance(mount: Mount, *, diameter: float, width: float) -> np.ndarray:
+    """Displacements (5,5) [m/N, rad/(N m) ...] of the outer ring's frame under unit forces and
+    moments on it: x, y, z and tilts about y, z, at the bearing's centre.
+
+    ``diameter`` and ``width`` [m] of the ring's seat. InputError for a housing that is not held, or
+    whose nodes are not at the seat.
+    """
+    body = read_body(mount.body, nodes=mount.body_nodes, units=mount.body_units, where=WHERE)
+    nodes = seat_nodes(body, mount, diameter=diameter, width=width)
+    own = np.flatnonzero(np.isin(body.dofs[:, 0], nodes))
+    motions = _motions(body, own)
+    _check_rank(body, motions, diameter)
+    make = _following if mount.seat_tie == "rigid" else _averaged
+    whole = make(body, own, motions)
+    return 0.5 * (whole + whole.T)[np.ix_(_FIVE, _FIVE)]
+
+
+def seat_nodes(body: ReducedBody, mount: Mount, *, diameter: float, width: float) -> np.ndarray:
+    """Nodes (m,) of the body at the seat: of the set that the mount names, else all with
+    coordinates; or one in the bearing's centre, with six, to which another program tied the seat.
+    """
+    chosen = body.boundary
+    if mount.seat:
+        sets = {name.lower(): found for name, found in body.interface.items()}
+        if mount.seat.lower() not in sets:
+            known = ", ".join(sorted(sets)) or "no sets of nodes"
+            raise InputError(
+                f"mount.seat is '{mount.seat}', but {mount.body_nodes or mount.body} has {known}.",
+                where="mount.seat",
+                value=mount.seat,
+            )
+        chosen = np.intersect1d(chosen, sets[mount.seat.lower()])
+    if not len(chosen):
+        raise InputError(
+            f"{body.source}: no node of the seat has coordinates of its own; keep them in the "
+            "reduction.",
+            where=WHERE,
+        )
+    radius = 0.5 * diameter
+    if len(chosen) == 1 and np.linalg.norm(body.nodes[chosen[0]]) < _CENTRE * radius:
+        return chosen
+    _check_places(body, chosen, mount, radius, width)
+    return chosen
+
+
+def _check_places(
+    body: ReducedBody, chosen: np.ndarray, mount: Mount, radius: float, width: float
+) -> None:
+    places = body.nodes[chosen]
+    own = np.hypot(places[:, 1], places[:, 2])
+    off = np.maximum(np.abs(own - radius), np.abs(places[:, 0]) - 0.5 * width)
+    worst = int(np.argmax(off))
+    if off[worst] <= _OFF * radius:
+        return
+    unit = nearest_system(SYSTEMS[mount.body_units].length * radius / float(np.median(own)))
+    remedy = (
+        f'set mount.body_units = "{unit}"'
+        if unit and unit != mount.body_units
+        else "name the seat's nodes as mount.seat, and write the housing in the bearing's frame, "
+        "with x along its axis"
+    )
+    number = chosen[worst] + 1 if body.numbers is None else body.numbers[chosen[worst]]
+    raise InputError(
+        f"{body.source}: node {number} lies {1e3 * own[worst]:.4g} mm from the axis at x = "
+        f"{1e3 * places[worst, 0]:.4g} mm, but the outer ring's seat has a radius of "
+        f"{1e3 * radius:.4g} mm and reaches x = {500 * width:.4g} mm on either side; {remedy}.",
+        where=WHERE,
+        value=float(off[worst]),
+    )
+
+
+def _motions(body: ReducedBody, own: np.ndarray) -> np.ndarray:
+    """What coordinates ``own`` (m,) do in unit rigid motions about the bearing's centre (m, 6)."""
+    every = np.zeros((len(body.nodes), 6, 6))
+    every[:, :3] = rigid_motions(body.nodes)
+    every[:, 3:, 3:] = np.eye(3)
+    node, component = body.dofs[own].T
+    return every[node, component]
+
+
+def _check_rank(body: ReducedBody, motions: np.ndarray, diameter: float) -> None:
+    scaled = motions * ([1.0] * 3 + [2.0 / diameter] * 3)
+    values = np.linalg.svd(scaled, compute_uv=False)
+    if len(values) < 6 or values[-1] < 1e-6 * values[0]:
+        raise InputError(
+            f"{body.source}: the seat's {len(motions)} coordinates do not tell where the outer "
+            "ring is: give three nodes or more that lie around it, with x, y and z each, or one in "
+            "the centre with six.",
+            where=WHERE,
+            value=len(motions),
+        )
+
+
+def _following(body: ReducedBody, own: np.ndarray, motions: np.ndarray) -> np.ndarray:
+    """Compliance (6, 6) of a ring that the seat follows."""
+    rest = np.setdiff1d(np.arange(body.size), own)
+    columns = np.concatenate([np.repeat(own, 6), rest])
+    ring = np.tile(np.arange(6), len(own))
+    rows = np.concatenate([ring, 6 + np.arange(len(rest))])
+    values = np.concatenate([motions.ravel(), np.ones(len(rest))])
+    tie = sp.csr_matrix((values, (columns, rows)), shape=(body.size, 6 + len(rest)))
+    load = np.eye(6 + len(rest), 6)
+    return _solved(body, tie.T @ sp.csr_matrix(body.stiffness) @ tie, load)[:6]
+
+
+def _averaged(body: ReducedBody, own: np.ndarray, motions: np.ndarray) -> np.ndarray:
+    """Compliance (6, 6) of a ring that follows the seat's mean rigid motion."""
+    share = np.zeros((body.size, 6))
+    share[own] = motions @ np.linalg.inv(motions.T @ motions)
+    return share.T @ _solved(body, sp.csr_matrix(body.stiffness), share)
+
+
+def _solved(body: ReducedBody, stiffness: Any, loads: np.ndarray) -> np.ndarray:
+    """Displacements (n, 6) under loads; InputError where nothing holds the body."""
+    try:
+        if body.size > 2000:
+            return linear_solver(stiffness, kind=available_kinds()[0]).solve(loads)
+        dense = stiffness.toarray()
+        size = np.sqrt(np.maximum(np.diag(dense), 0.0))
+        if not (size > 0.0).all():
+            raise np.linalg.LinAlgError
+        scaled = dense / np.outer(size, size)
+        if np.linalg.eigvalsh(scaled)[0] < _SINGULAR * len(scaled):
+            raise np.linalg.LinAlgError
+        return np.linalg.solve(scaled, loads / size[:, None]) / size[:, None]
+    except (np.linalg.LinAlgError, FlexcageError):
+        raise InputError(
+            f"{body.source}: the stiffness matrix is singular: nothing holds the housing to the "
+            "ground; hold its feet or bolts when it is reduced.",
+            where=WHERE,
+        ) from None

@@ -1,0 +1,162 @@
+"""The machinery of repeated papers, and the first paper that is made by it."""
+
+from __future__ import annotations
+
+import json
+import sys
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from flexcage.study import load_map, load_study
+from flexcage.study.plan import make_plan
+from flexcage.study.sensitivity import share
+from flexcage.study.verdicts import FAILS, HOLDS, UNDECIDED, read_verdicts
+
+PAPERS = Path(__file__).parents[2] / "examples" / "papers"
+CENTROID = PAPERS / "c7010_centroid"
+
+
+@pytest.fixture(scope="module", autouse=True)
+def as_scripts():
+    """Modules of examples/papers import each other as scripts do."""
+    sys.path.insert(0, str(PAPERS))
+    yield
+    sys.path.remove(str(PAPERS))
+
+
+@pytest.fixture(scope="module")
+def paper(as_scripts):
+    import repeat
+
+    return repeat.load(CENTROID)
+
+
+def page(**changes):
+    from paper_page import Cell, Line, Page, Picture, Table
+
+    cells = {"starts": Cell(HOLDS), "map": Cell(FAILS, "12 % (3 % to 30 %)")}
+    plain = Page(
+        title="A paper", summary="What it says. " * 20,
+        lines=[Line("1", "a claim", "Figure 1", cells, "map", "a reason")],
+        pictures=[Picture("a.png", "Figure 1", "what it shows")],
+        tables=[Table("Table 1", ("a", "b"), [("1", "2")])], decides=["one thing"],
+        readings=["one"], unknowns=Table("Open", ("unknown",), [("friction",)]), files=["x.csv"],
+    )  # fmt: skip
+    return replace(plain, **changes)
+
+
+def test_a_page_has_its_parts_in_order_and_a_matrix(tmp_path):
+    from paper_page import compose, draw_matrix
+
+    text = compose(page())
+    parts = ("# A paper", "What it says", "matrix.png", "| 1 | a claim (Figure 1) | ✓ | ✗ 12 %",
+             "### Figure 1", "**Table 1**", "## What decides", "**Open**", "x.csv")  # fmt: skip
+    places = [text.index(part) for part in parts]
+    assert places == sorted(places)
+    assert draw_matrix(page(), tmp_path / "matrix.png").stat().st_size > 3000
+
+
+def test_pages_that_nobody_reads_are_refused():
+    from paper_page import Table, compose
+
+    with pytest.raises(ValueError, match="has 2.. lines, more than 250"):
+        compose(page(tables=[Table("Long", ("a",), [("1",)] * 240)]))
+    with pytest.raises(ValueError, match="more than 25 words"):
+        compose(page(tables=[Table("Wide", ("a",), [("word " * 26,)])]))
+
+
+def test_a_map_decides_beyond_its_interval_only():
+    from paper_page import by_share, number
+
+    assert by_share(share([True] * 30 + [False] * 5)).outcome == HOLDS
+    assert by_share(share([False] * 30 + [True] * 5)).outcome == FAILS
+    assert by_share(share([True, False] * 10)).outcome == UNDECIDED
+    assert by_share(share([None] * 10)).outcome == UNDECIDED
+    assert number(1.23456e-3, 2e-5, factor=1e3) == "1.235 ± 0.020"
+    assert number(float("nan")) == "-"
+
+
+def test_readings_and_maps_of_the_measured_cage_are_plans(paper):
+    assert len(make_plan(load_study(CENTROID / paper.readings)).cases) == 2 * 4 * 8
+    for files in paper.maps.values():
+        for file in files:
+            spec = load_map(CENTROID / file)
+            assert len(make_plan(spec.study((0, 1))).cases) == 2 * 4
+            assert all(len(unknown.reason) > 8 for unknown in spec.unknowns)
+    assert {c.key for c in paper.claims} == set(paper.decided_by)
+
+
+def test_claims_of_the_measured_cage_judge_numbers_of_known_order(paper):
+    """The paper's own numbers hold its claims; a cage that whirls steadily does not."""
+    claims = {c.key: c for c in paper.claims}
+    speeds = ("4000", "7000", "10000", "11000")
+    good = {
+        "error": (0.054, 0.04, 0.029, 0.035), "ratio": (1.4, 0.9, 0.45, 0.6),
+        "mean_radius": (0.15, 0.2, 0.25, 0.24), "axial_raw": (0.7,) * 4,
+        "axial_solved": (0.2,) * 4, "beyond_theory": (-0.0025, 0.0, -0.0079, 0.005),
+        "solved": (0.2311e-3, 0.2e-3, 0.2314e-3, 0.2e-3),
+        "difference": (0.2549e-3, 0.2e-3, 0.1886e-3, 0.2e-3),
+    }  # fmt: skip
+
+    def at(output, condition):
+        return good[output.removesuffix("_run_out")][speeds.index(condition)]
+
+    assert [key for key, claim in claims.items() if not claim.holds(at)] == []
+    good |= {"ratio": (0.1, 0.2, 0.6, 0.5), "beyond_theory": (0.0, 0.0, 0.02, 0.02)}
+    good |= {"solved": (1e-5,) * 4}
+    fails = [key for key, claim in claims.items() if not claim.holds(at)]
+    assert fails == ["003-2", "003-3", "003-5", "003-6", "003-8"]
+
+
+def test_lines_in_a_spectrum_are_seen_and_short_records_refused(paper):
+    outputs = sys.modules["outputs"]
+    t = np.arange(4000) / 10e3
+    noise = np.random.default_rng(1).standard_normal(4000)
+    sine = np.sin(2 * np.pi * 71.5 * t)
+    assert outputs.line_share(sine + 0.1 * noise, 71.5, 10e3) > 0.9
+    assert outputs.line_share(noise, 71.5, 10e3) < 0.05
+    assert np.isnan(outputs.line_share(sine[:400], 71.5, 10e3))
+    assert np.isnan(outputs.line_share(np.r_[sine, np.nan], 71.5, 10e3))
+
+
+def test_predictions_are_the_rows_that_are_asked_for():
+    """Every row of the paper's two tables that is not shown, with an interval around its value."""
+    rows = json.loads((CENTROID / "predictions.json").read_text("utf-8"))
+    asked = (("4", "measured"), ("4", "solved"), ("5", "origin"), ("5", "centroid"))
+    wanted = {(t, n, q) for n in ("7000", "11000") for t, q in asked}
+    assert {(r["table"], r["row"], r["quantity"]) for r in rows} == wanted
+    for r in rows:
+        assert r["paper"] == "003" and r["unit"] == "mm"
+        assert 0.0 < r["low"] < r["value"] < r["high"]
+
+
+def test_a_likelihood_follows_the_rows_that_are_shown():
+    """Points of a map with the shown trend carry it ahead; a narrow trend gives a narrow row."""
+    sys.path.insert(0, str(CENTROID))
+    import predict
+
+    sys.path.remove(str(CENTROID))
+    rng = np.random.default_rng(2)
+    shown = np.array([0.2, 0.1])
+    at_shown = np.array([[0.2, 0.1], [0.01, 0.9]])
+    ahead = np.array([[0.14, 0.09], [0.5, 0.5]])
+    found = predict.drawn(shown, at_shown, ahead, rng)
+    np.testing.assert_allclose(np.median(found, axis=0), [0.14, 0.09], rtol=0.1)
+    low, high = np.percentile(found[:, 1], (5, 95))
+    assert 1.0 < high / low < 3.0
+
+
+def test_the_measured_cage_from_end_to_end(tmp_path, capsys):
+    import c7010_centroid
+
+    found = c7010_centroid.main(["--quick", "-o", str(tmp_path / "quick")])
+    stored = read_verdicts(tmp_path / "quick" / "readings")
+    assert [v.key for v in stored] == [line.key for line in found.lines]
+    assert all(line.verdict.outcome == UNDECIDED for line in found.lines)  # no map, one start
+    reading = next(iter(found.readings.values()))
+    assert reading.starts == 1 and reading.look == 0
+    assert reading.values("speed", "10000") == pytest.approx(458.0, rel=0.05)
+    assert "003-5" in capsys.readouterr().out
