@@ -155,12 +155,17 @@ def collect(paper: Paper, out: Path) -> Computed:
     reasons = {claim.key: "" for claim in paper.claims}
     lines = lines_of(paper.claims, starts, found, paper.decided_by, reasons)
     computed = replace(computed, lines=lines)
+    if not all(joined.parts for joined in there.values()):  # reasons are those of maps
+        return computed
     reasons = paper.words(computed).reasons
     return replace(computed, lines=[replace(line, reason=reasons[line.key]) for line in lines])
 
 
 def write(computed: Computed, folder: Path) -> Path:
-    """The page, its pictures and its CSV files, beside the paper's files."""
+    """The page, its pictures and its CSV files, beside the paper's files. Raises InputError where a
+    map is not there."""
+    if not all(joined.parts for joined in computed.maps.values()):
+        raise flexcage.InputError(f"'{computed.out}' lacks a map of the paper; compute it first.")
     paper, words = computed.paper, computed.paper.words(computed)
     write_shares(computed.found, folder / "shares.csv")
     page = Page(

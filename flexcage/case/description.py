@@ -105,10 +105,10 @@ def _method(case: Case) -> str:
     modes = ""
     if case.cage_model == "flexible":
         name = case.modes.kind.replace("_", "-")
-        modes = (
-            f"The cage's mesh is {case.mesh.file or case.mesh.fineness}, its basis {name} with "
-            f"{case.modes.count} eigenmodes. "
-        )
+        basis = f"its basis {name} with {case.modes.count} eigenmodes"
+        if case.modes.body:
+            basis = f"its stiffness and modes those of {case.modes.body}"
+        modes = f"The cage's mesh is {case.mesh.file or case.mesh.fineness}, {basis}. "
     return (
         f"{modes}{typeset(case.solver.duration, 'ms')} of motion were asked for, integrated to "
         f"{typeset(case.solver.tolerance, 'um')} of error in a position a step; the first "

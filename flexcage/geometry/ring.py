@@ -36,6 +36,16 @@ class FlexibleRing:
     def bends(self) -> bool:
         return self.ring == "flexible"
 
+    @property
+    def held_at(self) -> tuple[float, ...]:
+        """Azimuths [rad] of supports; none where the seat holds the ring all around."""
+        return ()
+
+    @property
+    def held_over(self) -> float:
+        """Angle [rad] that each support takes."""
+        return 0.0
+
 
 @dataclass(frozen=True, kw_only=True)
 class InnerRing(FlexibleRing):
@@ -60,6 +70,14 @@ class OuterRing(FlexibleRing):
     support_arc: float = quantity(
         "deg", pi / 18, doc="angle that each support takes", above=0.0, maximum=pi / 2
     )
+
+    @property
+    def held_at(self) -> tuple[float, ...]:
+        return self.supports if self.seat in SUPPORTED else ()
+
+    @property
+    def held_over(self) -> float:
+        return self.support_arc
 
 
 @dataclass(frozen=True)

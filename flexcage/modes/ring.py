@@ -30,7 +30,7 @@ from flexcage.geometry.ring import Raceway, RingSection
 from flexcage.mesh.section import mesh_section
 from flexcage.modes.half_space import line_compliance, spot_compliance
 
-LEAST_HARMONICS = 8
+LEAST_HARMONICS, A_SUPPORT = 8, 3  # of a ring, and for every support
 ALONG = 0.18  # standard deviation of a patch around the ring, as a share of the wall
 _ELLIPSE = 1.0 / sqrt(5.0)  # standard deviation of Hertz's pressure, as a share of the semi-axis
 _CUT = 3.0  # a Gaussian's Fourier coefficients end where they are exp(-_CUT^2/2)
@@ -61,8 +61,7 @@ class RingReduction:
     line; port 2 is a radial force on the seat. ``compliance`` (N + 1, 3, 3) is of loads with the
     n-th Fourier coefficient 1 around the ring, ``shapes`` (N + 1, 3n, 3) are the displacements
     beneath it. A free ring's loads are balanced by its own inertia; ``rigid`` (3,) is how far a
-    unit of radial translation displaces the ports, ``lengths`` [rad] the standard deviation of
-    their patches.
+    unit of radial translation displaces the ports.
     """
 
     model: Revolved
@@ -72,7 +71,6 @@ class RingReduction:
     shapes: np.ndarray
     rigid: np.ndarray
     along: float  # [rad] of a patch on the race
-    seat_radius: float
     half_space: np.ndarray  # (2, 2) of the patch on the race
     wider_half_space: np.ndarray  # (2, 2) of one sqrt(2) times as long
 
@@ -103,20 +101,19 @@ def spectrum(n: np.ndarray, length: float) -> np.ndarray:
 
 
 def reduce_ring(
-    section: RingSection, material: Material, held: Held, *, seat_arc: float | None = None,
+    section: RingSection,
+    material: Material,
+    held: Held,
+    *,
+    supports: int = 0,
     along: float = ALONG,
-) -> RingReduction:  # fmt: skip
-    """Reduction of a ring.
-
-    ``seat_arc`` [rad]: the angle over which a support presses, if there are any; ``along``:
-    standard deviation of patches around the ring, as a share of the wall.
-    """
+) -> RingReduction:
+    """Reduction of a ring on a number of ``supports``; ``along``: standard deviation of patches
+    around the ring, as a share of the wall."""
     raceway, length = section.raceway, along * section.wall
     model = Revolved(_mesh(section, length), material)
     angle = length / raceway.place[1]
-    count = max(LEAST_HARMONICS, ceil(_CUT / angle))
-    seat_radius = float(np.mean([r for (_, r), n in zip(section.outline, section.names)
-                                 if n == "seat"]))  # fmt: skip
+    count = max(LEAST_HARMONICS, A_SUPPORT * supports, ceil(_CUT / angle))
     ports = _ports(model, raceway)
     compliance = np.empty((count + 1, 3, 3))
     shapes = np.empty((count + 1, model.n_dof, 3))
@@ -131,7 +128,6 @@ def reduce_ring(
         shapes=shapes,
         rigid=ports.T @ model.rigid_motions(1)[:, 0],
         along=angle,
-        seat_radius=seat_radius,
         half_space=_half_space(raceway, length, material),
         wider_half_space=_half_space(raceway, sqrt(2.0) * length, material),
     )

@@ -109,6 +109,8 @@ def _unfit(case: Case, axis: str) -> str:
     """Why a case cannot vary along an axis; nothing if it can."""
     if axis in ("modes", "mesh") and case.cage_model == "rigid":
         return "The cage is rigid"
+    if axis in ("modes", "mesh") and case.modes.body:
+        return "The cage's modes are those of modes.body"
     mesh = case.mesh
     if axis == "mesh" and (mesh.file or mesh.size is not None or mesh.fillet_size is not None):
         return "The mesh has a file or sizes of its own"

@@ -5,7 +5,7 @@ stays rigid. Its frame moves with the seat's nodes in one of two ways:
 
 - "rigid": the seat follows the ring, x_seat = G u, as a ring that is pressed in (RBE2);
 - "average": the ring follows the seat, u = (G^T G)^-1 G^T x_seat, the least-squares rigid motion of
-  its nodes, whose forces share out alike (RBE3 with equal weights).
+  its nodes, whose forces share out alike (RBE3 with equal weights, of translations).
 
 G are the rigid motions at the nodes. What does not move with the ring is condensed statically,
 which is exact at rest (Guyan, AIAA Journal 3 (1965) 380).
@@ -42,6 +42,8 @@ def seat_compliance(mount: Mount, *, diameter: float, width: float) -> np.ndarra
     body = read_body(mount.body, nodes=mount.body_nodes, units=mount.body_units, where=WHERE)
     nodes = seat_nodes(body, mount, diameter=diameter, width=width)
     own = np.flatnonzero(np.isin(body.dofs[:, 0], nodes))
+    if mount.seat_tie == "average" and len(nodes) > 1:
+        own = own[body.dofs[own, 1] < 3]  # turns of single nodes say nothing of the seat's
     motions = _motions(body, own)
     _check_rank(body, motions, diameter)
     make = _following if mount.seat_tie == "rigid" else _averaged

@@ -300,7 +300,7 @@ def test_axial_loads_that_change_have_a_limit_too(name):
         ('[bearing]\ntype = "NCF"', ["single-row and with a cage"]),
         (
             '[bearing]\ntype = "tapered_roller"',
-            ["cylindrical_roller, angular_contact_ball, deep_groove_ball"],
+            ["cylindrical_roller", "angular_contact_ball, deep_groove_ball"],
         ),
         (PRESET + 'design = "NP"', ["bearing.design 'NP' is not known", "NU"]),
         (PRESET + 'outer_rib_diameter = "90 mm"', ["bearing.design says which ring has ribs"]),

@@ -10,9 +10,12 @@ import pytest
 
 from flexcage import cli
 from flexcage.case import load_case
+from flexcage.case.description import in_words
+from flexcage.core.errors import InputError
 from flexcage.modes.door import read_body
 from flexcage.simulate import simulate
 from flexcage.stages import cage_mesh
+from flexcage.study.converge import levels
 
 EXAMPLE = str(Path(__file__).parents[2] / "examples" / "n1013.toml")
 COARSE = ["--set", "mesh.fineness=coarse"]
@@ -42,6 +45,9 @@ def test_out_and_in_again(tmp_path, capsys, monkeypatch):
     )
     case = load_case(tmp_path / "case.toml")
     assert case.modes.body == str(tmp_path / "cage.npz")
+    assert f"its stiffness and modes those of {tmp_path / 'cage.npz'}" in " ".join(in_words(case))
+    with pytest.raises(InputError, match="modes are those of modes.body, so axis 'modes' does not"):
+        levels(case, ["modes"])
     named = case.hash
     (tmp_path / "cage.npz").write_bytes((tmp_path / "cage.npz").read_bytes() + b" ")
     assert load_case(tmp_path / "case.toml").hash != named  # the file counts by its bytes

@@ -27,13 +27,9 @@ LONG = ("examples/papers/",)  # pages that may be longer
 #: Presets for the cases of a page, block by block, where they name none.
 CASES = {
     "README.md": ("",),
-    "examples/cases.md": (
-        *("N1013", "", ""),
-        *2 * ("15x37x10",),
-        *3 * ("N1013",),
-        "7010C-PI",
-    ),
+    "examples/cases.md": ("N1013", "", "", "15x37x10", "N1013", "N1013", "N1013", "7010C-PI"),
     "meshes/README.md": ("N1013",),
+    "flexcage/cages/README.md": ("15x37x10",),
     "flexcage/modes/README.md": ("N1013",),
 }
 # a static case, a study, a map

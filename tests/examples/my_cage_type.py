@@ -10,7 +10,7 @@ import numpy as np
 
 from flexcage import register
 from flexcage.cages import CageType
-from flexcage.cages.machined import MACHINED
+from flexcage.cages.machined import CAGE_TYPE as MACHINED
 from flexcage.cages.machined.cage import BALL_CAGES, BallCage
 from flexcage.core.spec import option, quantity
 from flexcage.mesh.build import MeshBuilder

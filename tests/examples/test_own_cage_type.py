@@ -79,7 +79,7 @@ def test_it_is_meshed_reduced_and_run(tmp_path):
     [
         ('type = "tapered"', "[cage] lacks 'taper'"),
         ('type = "tapered"\ntaper = "0 mm"', "cage.taper"),
-        ('type = "conical"', "choose from machined, ribbon, tapered"),
+        ('type = "conical"', "choose from crown, machined, ribbon, tapered"),
     ],
 )
 def test_mistakes_in_it_are_said_like_all_others(tmp_path, cage, words):
@@ -90,7 +90,7 @@ def test_mistakes_in_it_are_said_like_all_others(tmp_path, cage, words):
 
 def test_without_its_file_no_case_knows_it(tmp_path):
     done = flexcage(tmp_path, TAPERED, "-m", "flexcage.cli", "mesh", "case.toml")
-    assert done.returncode == 2 and "choose from machined, ribbon" in done.stderr
+    assert done.returncode == 2 and "choose from crown, machined, ribbon" in done.stderr
 
 
 WRONG = """

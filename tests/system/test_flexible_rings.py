@@ -111,9 +111,10 @@ def test_points_pull_as_well():
 
 
 def test_two_support_arcs_make_two_peaks():
-    """A thin outer ring on two supports loads the elements beside them most, and the one between
-    least: A. B. Jones and T. A. Harris, J. Basic Eng. 85 (1963) 273 (a planet gear's rim loaded at
-    two places); T. A. Harris, Rolling Bearing Analysis, "Flexibly supported rings"."""
+    """A thin outer ring on two supports loads the elements beside them most, not the one between:
+    "the maximum rolling-element loads in the bearing occur in close angular proximity of the points
+    of load application", T. A. Harris and J. L. Broschard, J. Basic Eng. 86 (1964) 457, of planet
+    gears, whose teeth load the outer ring at two places."""
     force = bent("N1013", LOADS["N1013"], outer=on("arcs", (40.0, -40.0))).elements.force[:, 1]
     count = len(force)
     around = np.roll(force, count // 2)  # the load's azimuth, 0, in the middle
@@ -185,3 +186,39 @@ def test_rings_that_bend_sit_on_a_seat_that_yields(name):
     borne = soft.load + soft.reaction  # by the elements, and by the seat
     assert soft.outer == pytest.approx(seat @ borne, rel=1e-6, abs=1e-12)
     assert np.abs(soft.outer).max() > 1e-6
+
+
+@pytest.mark.parametrize("name", ("N1013", "7603025", "15x37x10"))
+def test_sections_have_the_rings_shape(name):
+    """Outlines close around the area between race or shoulders and seat, ribs included."""
+    b = load_preset(name).bearing
+    found = sections_of(b)(b, angle=(0.0, 0.0), across=(1e-4, 1e-4),
+                           seat=(b.bore, b.outside_diameter))  # fmt: skip
+    for section in found:
+        x, r = np.array(section.outline).T
+        area = 0.5 * abs(np.sum(x * np.roll(r, -1) - np.roll(x, -1) * r))
+        low, high = section.wall * b.width, (np.ptp(r)) * b.width
+        assert low < area * (1.0 + 1e-9) and area < high * (1.0 + 1e-9)
+        assert len(set(section.outline)) == len(section.outline) == len(section.names)
+        assert np.ptp(x) == pytest.approx(b.width)
+    if name == "N1013":  # two ribs on the inner ring, none on the outer
+        x, r = np.array(found[0].outline).T
+        area = 0.5 * abs(np.sum(x * np.roll(r, -1) - np.roll(x, -1) * r))
+        rib, race = 0.5 * b.rib_diameter, 0.5 * b.inner_race_diameter
+        ribs = (rib - race) * (b.width - b.rib_gap)
+        assert area == pytest.approx((race - 0.5 * b.bore) * b.width + ribs, rel=1e-9)
+
+
+def test_ribs_of_a_design_are_in_its_sections():
+    """An NU has its ribs on the outer ring, where they stiffen it."""
+    n = load_preset("N1013").bearing
+    nu = dataclasses.replace(n, design="NU", rib_diameter=2.0 * n.pitch_diameter - n.rib_diameter)
+    plain, ribbed = (
+        sections_of(b)(b, angle=(0.0, 0.0), across=(0.0, 0.0), seat=(b.bore, b.outside_diameter))
+        for b in (n, nu)
+    )
+    assert min(r for _, r in ribbed[1].outline) == pytest.approx(0.5 * nu.rib_diameter)
+    assert max(r for _, r in ribbed[0].outline) == pytest.approx(0.5 * n.inner_race_diameter)
+    free = ring_modes.Held(rigidly=False)
+    soft, stiff = (ring_modes.reduce_ring(s[1], n.material, free) for s in (plain, ribbed))
+    assert stiff.compliance[2, 0, 0] < 0.9 * soft.compliance[2, 0, 0]

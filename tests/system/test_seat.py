@@ -144,6 +144,33 @@ def test_an_average_yields_more_than_a_rigid_ring(file):
     assert rigid[2, 2] > 1.5 * rigid[1, 1]  # held below alone
 
 
+def test_a_seat_among_other_nodes_by_its_set(tube, feet, file, tmp_path):
+    """An Abaqus substructure in N, mm, t without a mass, with a node at the top that bears nothing:
+    its deck's set says which are the seat."""
+    seat = at(tube, RADIUS)
+    top = int(np.argmax(tube.nodes[:, 1]))
+    nodes = np.append(seat, top)
+    stiffness = condensed(tube, nodes, feet)
+    body = ReducedBody(
+        stiffness=stiffness * 1e-3,
+        mass=None,
+        nodes=tube.nodes[nodes] * 1e3,
+        dofs=np.array([(node, axis) for node in range(len(nodes)) for axis in range(3)]),
+    )
+    path = str(write_body(body, tmp_path / "z1.mtx"))
+    deck = tmp_path / "job.inp"
+    lines = ["*NODE"]
+    lines += [f"{i + 1}, " + ", ".join(f"{c:.11g}" for c in p) for i, p in enumerate(body.nodes)]
+    lines += ["*NSET, NSET=Seat, GENERATE", f"1, {len(seat)}"]
+    deck.write_text("\n".join([*lines, ""]))
+    given = {"body_nodes": str(deck), "body_units": "mm-t-s"}
+    refused(path, "lies 52 mm from the axis", **given)
+    for tie in ("rigid", "average"):
+        wanted = compliance(file, seat_tie=tie)
+        found = compliance(path, seat="SEAT", seat_tie=tie, **given)
+        np.testing.assert_allclose(found, wanted, atol=1e-8 * np.abs(wanted).max())
+
+
 def test_one_node_in_the_centre(file, housing, tmp_path):
     """Another program tied the seat: one node of six degrees of freedom."""
     whole = np.linalg.inv(np.array([[2.0, 0.3], [0.3, 1.0]]))

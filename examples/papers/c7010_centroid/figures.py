@@ -33,6 +33,12 @@ def tracks(run):
     return centre, axis, shown, instrument.by_tilt_angles(shown, setup), ds["time"].values
 
 
+def whole_record(reading, speed: str) -> float:
+    """Difference of whirl radii [m] of the first start from its very beginning, centred, on."""
+    centre, _ = instrument.of_run(reading.run(speed).dataset)
+    return float(np.ptp(np.hypot(centre[:, 1], centre[:, 2])))
+
+
 def draw(computed, folder: Path) -> list[Picture]:
     """All pictures, in the paper's order."""
     better, printed = (computed.readings[c] for c in (BETTER, PRINTED_MODEL))
@@ -164,7 +170,7 @@ def _bands(ax, computed, output: str, factor: float = 1.0) -> None:
 def ratios(computed, path: Path) -> Path:
     """Figure 11."""
     with sheet.style():
-        figure = sheet.new_figure(1300, 620)
+        figure = sheet.new_figure(1480, 620)
         sheet.heading(figure, "Whirl ratio over speed", "(largest - least)/mean whirl radius")
         ax = sheet.axes_at(figure, (100, 130, 850, 400))
         _bands(ax, computed, "ratio")
@@ -176,7 +182,7 @@ def ratios(computed, path: Path) -> Path:
 def differences(computed, path: Path) -> Path:
     """Differences over speed, with the printed numbers of Tables 4 and 5."""
     with sheet.style():
-        figure = sheet.new_figure(1300, 620)
+        figure = sheet.new_figure(1480, 620)
         sheet.heading(figure, "Difference of whirl radii of the centre", "largest - least, mm")
         ax = sheet.axes_at(figure, (100, 130, 850, 400))
         _bands(ax, computed, "difference", MM)

@@ -27,7 +27,7 @@ def ball_rings(
     centres = b.inner_groove_centre, b.outer_groove_centre
     radii = b.inner_groove_radius, b.outer_groove_radius
     inner, outer = (
-        _section(
+        grooved_section(
             centres[k], radii[k], 2.0 * k - 1.0, shoulder=0.5 * b.shoulder_diameters[k],
             half=0.5 * b.width, seat=0.5 * seat[k], angle=angle[k], across=across[k],
         )
@@ -36,7 +36,7 @@ def ball_rings(
     return inner, outer
 
 
-def _section(
+def grooved_section(
     centre: tuple[float, float],
     radius: float,
     side: float,

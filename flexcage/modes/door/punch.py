@@ -19,6 +19,7 @@ from flexcage.modes.door.contents import (
     from_matrices,
     labels_of,
     lacking,
+    numbers_of,
     picked,
     unreadable,
 )
@@ -35,11 +36,10 @@ def read(path: Path, *, where: str) -> Contents:
         if hasattr(error, "where"):
             raise
         raise unreadable(path, error, where=where) from error
-    frames = {name: frame for name, frame in found.items()}
-    stiffness = picked(frames, STIFFNESS)
+    stiffness, mass = picked(found, STIFFNESS), picked(found, MASS)
     if stiffness is None:
-        return from_matrices(frames, path, where=where)  # says what is missing
-    index, mass = stiffness.index, picked(frames, MASS)
+        return from_matrices(found, path, where=where)  # says what is missing
+    index = stiffness.index
     if mass is not None:
         index = index.union(mass.index)
     labels = np.array(index.to_list(), np.int64).reshape(-1, 2)
@@ -66,15 +66,10 @@ def write(body: ReducedBody, path: Path) -> None:
         for name, matrix in (("KAAX", stiffness), ("MAAX", mass))
     }
     with path.open("w", encoding="ascii") as file:
-        for number, place in zip(labels_of_nodes(body), body.nodes):
+        for number, place in zip(numbers_of(body), body.nodes):
             first, second, third = (f"{c:16.9E}" for c in place)
             file.write(f"GRID*   {number:16d}{0:16d}{first}{second}\n*       {third}\n")
         module.wtdmig(file, frame)
-
-
-def labels_of_nodes(body: ReducedBody) -> np.ndarray:
-    """Numbers (N,) of the nodes in the file."""
-    return np.arange(1, len(body.nodes) + 1) if body.numbers is None else body.numbers
 
 
 def _module() -> Any:

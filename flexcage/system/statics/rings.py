@@ -20,7 +20,6 @@ from flexcage.core.errors import InputError, RunFailed
 from flexcage.core.units import mm
 from flexcage.geometry.bearing import Bearing
 from flexcage.geometry.ring import (
-    SUPPORTED,
     FlexibleRing,
     InnerRing,
     OuterRing,
@@ -281,17 +280,17 @@ def _seated(
         rigidly=spec.seat == "rigid",
         foundation=spec.foundation if spec.seat == "foundation" else 0.0,
     )
-    reduction = reduce_ring(section, spec.material or material, held)
-    if spec.seat not in SUPPORTED:
+    supports, arc = spec.held_at, spec.held_over
+    reduction = reduce_ring(section, spec.material or material, held, supports=len(supports))
+    if not supports:
         return SeatedRing(name, reduction, azimuth)
-    assert isinstance(spec, OuterRing)
     # a support's patches are as short as those on the race, which the harmonics resolve
-    patches = max(1, int(spec.support_arc / (sqrt(12.0) * reduction.along)))
-    places = ((np.arange(patches) + 0.5) / patches - 0.5) * spec.support_arc
+    patches = max(1, int(arc / (sqrt(12.0) * reduction.along)))
+    places = ((np.arange(patches) + 0.5) / patches - 0.5) * arc
     return SeatedRing(
         name, reduction, azimuth,
-        support=np.add.outer(np.array(spec.supports), places).ravel(),
-        support_length=max(spec.support_arc / patches / sqrt(12.0), reduction.along),
+        support=np.add.outer(np.array(supports), places).ravel(),
+        support_length=max(arc / patches / sqrt(12.0), reduction.along),
         presses_only=spec.seat == "arcs",
     )  # fmt: skip
 
