@@ -45,7 +45,7 @@ def test_how_far_rollers_patches_yield(solution, stored):
 
 def test_approach_from_ball_to_seat():
     """A stiff ball in the groove of a ring that is held outside: the whole approach within 2 %, and
-    the ring's share beside Hertz within 5 % of its own size."""
+    the ring's share beside Hertz within 5 % of its largest."""
     steel = Material(
         name="steel", youngs_modulus=1e6 * contact.MODULUS, poisson_ratio=contact.POISSON,
         density=7850.0,
@@ -57,7 +57,8 @@ def test_approach_from_ball_to_seat():
         modulus=2.0 * steel.plane_strain_modulus / (1.0 + 1.0 / contact.STIFF),
     )
     rows = json.loads(contact.STORED.read_text("utf-8"))["rows"]
-    assert rows
+    assert len(rows) == len(contact.WALLS)
+    shares = []
     for row in rows:
         force, whole, wall = row["force_n"], 1e-3 * row["approach_mm"], 1e-3 * row["wall_mm"]
         section = grooved_section(
@@ -68,4 +69,6 @@ def test_approach_from_ball_to_seat():
         ring = force * reduce_ring(section, steel, Held()).local[1, 1]
         alone = (force / hertz.stiffness) ** (2.0 / 3.0)
         assert alone + ring == pytest.approx(whole, rel=0.02)
-        assert ring == pytest.approx(whole - alone, rel=0.05)
+        shares.append((ring, whole - alone))
+    own, theirs = np.array(shares).T
+    assert np.abs(own - theirs).max() < 0.05 * np.abs(theirs).max()
