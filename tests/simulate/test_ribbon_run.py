@@ -151,5 +151,5 @@ def test_the_joint_of_a_stored_run(flexible):
     assert np.allclose(loose.instants["largest"].load, largest)
     assert loose.largest_pressure["hole_upper"] == 0.0 < tight.largest_pressure["hole_upper"]
     assert 0.0 < loose.K_t < 10.0 and "rivet" in str(fits)
-    with pytest.raises(InputError, match="clamp is 60"):
+    with pytest.raises(InputError, match="clamp is '60 mm'"):
         run.rivet_joint(clamp="60 mm")
