@@ -13,6 +13,7 @@ from flexcage.modes.pockets import pocket_frame, pocket_loads
 
 _WINDOW = ("crossbeam", "side_beam")
 _ROUND = ("web", "rim")
+_NOTHING = 1e-15  # [kg] less is rounding, and shown as 0
 
 
 @dataclass(frozen=True)
@@ -43,7 +44,8 @@ class ModeTable:
         ]
         for i, frequency in enumerate(self.frequency):
             row = f"{i + 1:4d}  {self.kind[i]:<12s} {frequency:9.1f} Hz"
-            mass = f"{1e3 * self.effective_mass[i].max():8.1e} g"
+            heaviest = self.effective_mass[i].max()
+            mass = f"{1e3 * heaviest:8.1e} g" if heaviest > _NOTHING else f"{0:>8d} g"
             lines.append(f"{row} {mass}{_percent(self.share[i])}")
         lines.append(
             f"      {'residual':<12s} {'quasi-static':>12s} {'':10s}"

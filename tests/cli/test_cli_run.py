@@ -211,6 +211,8 @@ def test_settings(text, expected):
 
 
 def test_modes_prints_its_table_and_stores_it(monkeypatch, tmp_path, capsys):
+    from types import SimpleNamespace
+
     import numpy as np
 
     from flexcage import stages
@@ -223,7 +225,8 @@ def test_modes_prints_its_table_and_stores_it(monkeypatch, tmp_path, capsys):
         share=np.array([[0.6, 0.5], [0.2, 0.1]]),
         residual_share=np.array([0.2, 0.4]),
     )
-    monkeypatch.setattr(stages, "cage_modes", lambda case: table)
+    cage = SimpleNamespace(body=None, table=table)
+    monkeypatch.setattr(stages, "flexible_cage", lambda case: cage)
     monkeypatch.chdir(tmp_path)
     assert cli.main(["modes", EXAMPLE]) == 0
     shown = capsys.readouterr().out
