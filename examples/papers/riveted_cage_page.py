@@ -242,6 +242,6 @@ the largest load, linear elastic.
   {largest:.0f} MPa there. By the modified Neuber rule (lives.csv: three soft steels, both readings
   of K_f) the cycle is elastic, and lasts beyond 1e11 cycles. Clamp and interference alone bring the
   root to the yield stress of soft steel or beyond; the model stays elastic there.
-- No second program confirms the loaded joint: with interference CalculiX has 9 % more at the root, and
-  about 40 MPa of range where this model has 15. Ranges, K_t and lives may be off by that factor.
+- No second program confirms the loaded joint: with interference CalculiX has 9 % more at the root,
+  and about 40 MPa of range where this model has 15. Ranges, K_t, lives may be off by that factor.
 - One run, one start; clamp, friction, root radius and loads of 25 N a ball are not varied yet."""
