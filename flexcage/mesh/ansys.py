@@ -33,7 +33,7 @@ def read_archive(path: Path, *, where: str) -> Any:
             'it with  pip install "flexcage[bodies]"  (or  pip install mapdl-archive).'
         ) from error
     try:
-        archive = Archive(str(path))
+        archive = Archive(str(path), parse_vtk=False)  # its VTK cells crash on odd elements
         if archive.n_node:
             return archive
     except Exception as error:  # of all kinds on broken files

@@ -14,6 +14,7 @@ from door_bodies import STEEL, box, craig_bampton, frequencies, full
 from flexcage.core.errors import EnvironmentLacks, InputError
 from flexcage.modes.door.checks import check_free, elastic_modes
 from flexcage.modes.door.formats import read_body, write_body
+from flexcage.modes.door.nastran import nastran
 from flexcage.modes.door.systems import SYSTEMS
 from flexcage.modes.door.table import body_table
 
@@ -86,7 +87,8 @@ def grids(nodes, numbers=None, *, system=0):
 
 def test_nastran_matrices_with_their_grids(model, body, tmp_path):
     """KAAX and MAAX of an a-set: boundary grids in rising order, then the modal points."""
-    op4 = pytest.importorskip("pyyeti.nastran.op4")
+    needs(".op4")
+    op4 = nastran("op4")
     path, deck = tmp_path / "extse.op4", tmp_path / "extse.bdf"
     op4.write(str(path), {"kaax": body.stiffness, "maax": body.mass})
     deck.write_text(grids(model.nodes[CORNERS], 10 + CORNERS))
@@ -100,7 +102,8 @@ def test_nastran_matrices_with_their_grids(model, body, tmp_path):
 
 def test_six_degrees_of_freedom_a_grid(tmp_path):
     """A stiff beam of two grids (Euler-Bernoulli, L = 0.4 m): both rotations and rigid motions."""
-    op4 = pytest.importorskip("pyyeti.nastran.op4")
+    needs(".op4")
+    op4 = nastran("op4")
     length, EI, EA, GJ = 0.4, 3.0, 7.0, 2.0
     k = np.zeros((12, 12))
     k[np.ix_([0, 6], [0, 6])] = EA / length * np.array([[1, -1], [-1, 1]])
@@ -337,7 +340,8 @@ def test_nodes_must_be_somewhere(body, tmp_path):
 
 def test_grids_that_move_in_a_system_of_their_own(model, body, tmp_path):
     """Two corners move in a system turned about z, matrices with them: the same body comes back."""
-    op4 = pytest.importorskip("pyyeti.nastran.op4")
+    needs(".op4")
+    op4 = nastran("op4")
     turn = np.array([[0.0, 1.0, 0.0], [-1.0, 0.0, 0.0], [0.0, 0.0, 1.0]])  # rows: x, y, z of it
     whole = np.eye(body.size)
     for corner in (1, 4):
@@ -362,7 +366,8 @@ def test_grids_that_move_in_a_system_of_their_own(model, body, tmp_path):
 
 def test_shapes_with_rotations(model, body, tmp_path):
     """Six rows a node, as PHIG has them: the translations are taken."""
-    op4 = pytest.importorskip("pyyeti.nastran.op4")
+    needs(".op4")
+    op4 = nastran("op4")
     six = np.zeros((len(model.nodes), 6, body.size))
     six[:, :3] = body.shapes
     six[:, 3:] = 7.0
@@ -381,3 +386,11 @@ def test_a_reader_that_is_not_installed_is_named(body, tmp_path, monkeypatch):
     monkeypatch.setitem(sys.modules, "pyyeti", None)
     with pytest.raises(EnvironmentLacks, match=re.escape('pip install "flexcage[bodies]"')):
         read_body(path)
+
+
+def test_reading_leaves_numpys_texts_alone(body, tmp_path):
+    """pyYeti asks for twelve digits in all texts, files of results among them."""
+    needs(".op4")
+    before = np.get_printoptions()
+    read_body(write_body(body, tmp_path / "box.op4"))
+    assert np.get_printoptions() == before and str(np.float64(0.1 + 0.2)) == "0.30000000000000004"

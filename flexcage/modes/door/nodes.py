@@ -10,7 +10,8 @@ import numpy as np
 
 from flexcage.core.errors import InputError
 from flexcage.mesh.abaqus import read_nodes
-from flexcage.modes.door.contents import Points, lacking, unreadable
+from flexcage.modes.door.contents import Points, unreadable
+from flexcage.modes.door.nastran import nastran
 
 
 def read_points(path: Path, *, where: str) -> Points:
@@ -35,10 +36,7 @@ def read_grids(path: Path, *, where: str, needed: bool = True) -> Points | None:
 
     None if there are none and they are not ``needed``.
     """
-    try:
-        from pyyeti.nastran import bulk
-    except ImportError as error:
-        raise lacking("pyyeti", "Nastran's files") from error
+    bulk = nastran("bulk")
     try:
         table = np.asarray(bulk.rdgrids(str(path), follow_includes=False), float)
         if table.size and table.ndim == 2 and table[:, [1, 5]].any():
@@ -55,8 +53,7 @@ def read_grids(path: Path, *, where: str, needed: bool = True) -> Points | None:
 
 def _grids_in_systems(path: Path) -> Points:
     """Grids with coordinate systems (CORD entries) of their own, by pyYeti's table of them."""
-    from pyyeti.nastran import bulk, n2p
-
+    bulk, n2p = nastran("bulk"), nastran("n2p")
     table = bulk.bulk2uset(str(path), follow_includes=False)[0]
     first = table.iloc[::6]
     motions = n2p.rbgeom_uset(table, [0.0, 0.0, 0.0]).reshape(-1, 6, 6)

@@ -16,10 +16,10 @@ from flexcage.modes.door.contents import (
     Contents,
     from_matrices,
     kind_codes,
-    lacking,
     to_matrices,
     unreadable,
 )
+from flexcage.modes.door.nastran import nastran
 
 _DIGITS = 16  # after the first, of a number as text
 
@@ -49,8 +49,4 @@ def _two(values: Any) -> np.ndarray:
 
 
 def _module() -> Any:
-    try:
-        from pyyeti.nastran import op4
-    except ImportError as error:
-        raise lacking("pyyeti", "Nastran's files (.op4, .pch)") from error
-    return op4
+    return nastran("op4")

@@ -18,11 +18,11 @@ from flexcage.modes.door.contents import (
     Contents,
     from_matrices,
     labels_of,
-    lacking,
     numbers_of,
     picked,
     unreadable,
 )
+from flexcage.modes.door.nastran import nastran
 from flexcage.modes.door.nodes import read_grids
 
 
@@ -73,8 +73,4 @@ def write(body: ReducedBody, path: Path) -> None:
 
 
 def _module() -> Any:
-    try:
-        from pyyeti.nastran import bulk
-    except ImportError as error:
-        raise lacking("pyyeti", "Nastran's files (.op4, .pch)") from error
-    return bulk
+    return nastran("bulk")
