@@ -56,6 +56,20 @@ class EnvironmentLacks(FlexcageError, RuntimeError):
     exit_code = 1
 
 
+def package_lacks(
+    work: str, package: str, *, extra: str, pip: str = "", instead: str = ""
+) -> EnvironmentLacks:
+    """The error to raise where an optional package is not installed.
+
+    ``work`` is what it does ("Fatigue is counted"), ``extra`` the one of flexcage that has it,
+    ``pip`` its name for pip if that is another, ``instead`` what else to do.
+    """
+    return EnvironmentLacks(
+        f"{work} by {package}, which is not installed here; install it with  "
+        f'pip install "flexcage[{extra}]"  (or  pip install {pip or package}){instead}.'
+    )
+
+
 class RunFailed(FlexcageError, RuntimeError):
     """A computation that could not go on; what was computed before is kept."""
 

@@ -12,7 +12,7 @@ from typing import Any
 
 import numpy as np
 
-from flexcage.core.errors import EnvironmentLacks, InputError
+from flexcage.core.errors import InputError, package_lacks
 
 _TEN = (87, 92, 98, 187, 227, 232, 237)  # element types that are ten-node tetrahedra
 _FOUR = (285,)  # four-node ones
@@ -28,10 +28,8 @@ def read_archive(path: Path, *, where: str) -> Any:
     try:
         from mapdl_archive import Archive
     except ImportError as error:
-        raise EnvironmentLacks(
-            "Ansys archives (.cdb) are read by mapdl-archive, which is not installed here; install "
-            'it with  pip install "flexcage[bodies]"  (or  pip install mapdl-archive).'
-        ) from error
+        work = "Ansys archives (.cdb) are read"
+        raise package_lacks(work, "mapdl-archive", extra="bodies") from error
     try:
         archive = Archive(str(path), parse_vtk=False)  # its VTK cells crash on odd elements
         if archive.n_node:

@@ -79,6 +79,19 @@ def only_cylinder(gmsh: Any, what: str, fits: Callable[[int], bool] = lambda tag
     return tags[0]
 
 
+def solids_of(entities: Iterable[tuple[int, int]]) -> list[tuple[int, int]]:
+    """The solids among gmsh's entities."""
+    return [e for e in entities if e[0] == 3]
+
+
+def remove_loose_faces(gmsh: Any, solids: list[tuple[int, int]]) -> None:
+    """Remove the faces that cutting left behind, which bound none of the solids."""
+    own = set(gmsh.model.getBoundary(solids, combined=False, oriented=False))
+    over = [e for e in gmsh.model.getEntities(2) if e not in own]
+    gmsh.model.occ.remove(over, recursive=True)
+    gmsh.model.occ.synchronize()
+
+
 def x_extent(gmsh: Any, dim: int, tag: int) -> float:
     box = gmsh.model.getBoundingBox(dim, tag)
     return box[3] - box[0]

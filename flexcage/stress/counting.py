@@ -13,7 +13,7 @@ from typing import Any
 
 import numpy as np
 
-from flexcage.core.errors import EnvironmentLacks
+from flexcage.core.errors import package_lacks
 from flexcage.stress.sn_curves import SNCurve
 
 
@@ -32,10 +32,7 @@ class Loops:
 def require_pylife() -> None:
     """Raise EnvironmentLacks, which says what to install, unless pyLife is there."""
     if importlib.util.find_spec("pylife") is None:
-        raise EnvironmentLacks(
-            "Fatigue is counted by pyLife, which is not installed here; install it with  "
-            'pip install "flexcage[fatigue]"  (or  pip install pylife).'
-        )
+        raise package_lacks("Fatigue is counted", "pyLife", extra="fatigue", pip="pylife")
 
 
 def count(stress: np.ndarray) -> Loops:

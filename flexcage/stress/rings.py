@@ -16,6 +16,7 @@ import numpy as np
 from flexcage.fem.model import lame
 from flexcage.fem.revolved import PSI, R, Revolved, X
 from flexcage.modes.ring import spectrum
+from flexcage.stress.operators import von_mises
 from flexcage.system.statics.rings import BentRing
 
 _STEP = 2.0  # stations of a field for every wave of the highest harmonic that counts
@@ -39,9 +40,7 @@ class RingField:
     @cached_property
     def von_mises(self) -> np.ndarray:
         """Equivalent stress (m, N) [Pa]."""
-        s = np.moveaxis(self.stress, -1, 0)
-        normal = (s[0] - s[1]) ** 2 + (s[1] - s[2]) ** 2 + (s[2] - s[0]) ** 2
-        return np.sqrt(0.5 * normal + 3.0 * (s[3] ** 2 + s[4] ** 2 + s[5] ** 2))
+        return von_mises(self.stress)
 
     @property
     def model(self) -> Revolved:

@@ -37,6 +37,7 @@ from flexcage.mesh.riveted_joint import (
     joint_bodies,
 )
 from flexcage.stress.notch import READINGS, SOFT_STEELS, CyclicSteel, NotchLife, notch_life
+from flexcage.stress.operators import von_mises
 from flexcage.stress.rivets import Rivets, nominal_stress
 
 log = logging.getLogger(__name__)
@@ -332,13 +333,6 @@ class RivetedJoint:
 def _heads(forces: Mapping[str, np.ndarray]) -> float:
     """The mean of the forces [N] with which the heads press on the sheets."""
     return float(0.5 * (abs(forces["head_lower"][0]) + abs(forces["head_upper"][0])))
-
-
-def von_mises(stress: np.ndarray) -> np.ndarray:
-    """Equivalent stress (n,) of stresses (n, 6)."""
-    xx, yy, zz, xy, yz, xz = stress.T
-    normal = (xx - yy) ** 2 + (yy - zz) ** 2 + (zz - xx) ** 2
-    return np.sqrt(0.5 * normal + 3.0 * (xy**2 + yz**2 + xz**2))
 
 
 def _tensors(stress: np.ndarray) -> np.ndarray:

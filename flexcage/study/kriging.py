@@ -18,7 +18,7 @@ from typing import Any
 import numpy as np
 from scipy.stats import chi2, norm
 
-from flexcage.core.errors import EnvironmentLacks
+from flexcage.core.errors import package_lacks
 from flexcage.study.quadratic import CONFIDENCE
 
 _LENGTHS = (0.1, 20.0)  # half the box is 1
@@ -30,11 +30,10 @@ _JITTER = 1e-10
 def require_sklearn() -> None:
     """Raise EnvironmentLacks, which says what to install, unless scikit-learn is there."""
     if importlib.util.find_spec("sklearn") is None:
-        raise EnvironmentLacks(
-            "Kriging is done by scikit-learn, which is not installed here; install it with  "
-            'pip install "flexcage[surface]"  (or  pip install scikit-learn), or leave Kriging out '
-            "with  --model quadratic."
-        )
+        raise package_lacks(
+            "Kriging is done", "scikit-learn", extra="surface",
+            instead=", or leave Kriging out with  --model quadratic",
+        )  # fmt: skip
 
 
 @dataclass(frozen=True, eq=False)

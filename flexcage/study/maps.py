@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from flexcage.case import Case, load_case, load_extension
+from flexcage.case import Case
 from flexcage.core.binding import Binder, check_spec
 from flexcage.core.errors import InputError
 from flexcage.core.spec import option, quantity
@@ -30,7 +30,7 @@ from flexcage.study.plan import make_plan
 from flexcage.study.results import StudyResults
 from flexcage.study.run import run_study
 from flexcage.study.sensitivity import Index, indices
-from flexcage.study.spec import KEEP, Study, read_file
+from flexcage.study.spec import KEEP, Study, base_case, read_file, use_extensions
 from flexcage.study.unknowns import DESIGNS, DUMMY, Unknown, check_unknowns, design_of
 from flexcage.system.spec import MOST_PUSH
 
@@ -135,16 +135,8 @@ def load_map(path: str | Path, *, overrides: Mapping[str, Any] | None = None) ->
     """
     path = Path(path).expanduser()
     table = read_file(path)
-    for source in table.pop("use", []):
-        load_extension(path.parent / source if source.endswith((".py", ".toml")) else source)
-    case = table.get("case")
-    if not isinstance(case, (str, dict)):
-        raise InputError(
-            f"'{path}' names no case; give case = \"my_case.toml\", or a [case] table.",
-            where="case",
-            value=case,
-        )
-    case = load_case(path.parent / case if isinstance(case, str) else case, overrides=overrides)
+    use_extensions(table, path)
+    case = base_case(table.get("case"), path, overrides)
     unknowns = [_with_paths(u) for u in table.get("unknowns", [])]
     return Binder().bind(Map, {**table, "case": case, "unknowns": unknowns}, "")
 

@@ -79,9 +79,15 @@ def load_study(path: str | Path, *, overrides: Mapping[str, Any] | None = None) 
     path = Path(path).expanduser()
     table = read_file(path)
     _check_format(table.pop("format", FORMAT), path)
+    use_extensions(table, path)
+    return _bound(table, path, overrides)
+
+
+def use_extensions(table: dict[str, Any], path: Path) -> None:
+    """Load the extensions that the file ``path`` of a study or map names under ``use``, and take
+    that entry out of its table."""
     for source in _listed(table.pop("use", []), "use"):
         load_extension(path.parent / source if source.endswith((".py", ".toml")) else source)
-    return _bound(table, path, overrides)
 
 
 def stored_study(path: Path) -> Study:
@@ -134,19 +140,24 @@ def _bound(table: dict[str, Any], path: Path, overrides: Mapping[str, Any] | Non
             'as case = "my_case.toml".',
             where="case",
         )
-    if not isinstance(case, (str, dict)):
-        raise InputError(
-            f"'{path}' names no case; give case = \"my_case.toml\", or a [case] table.",
-            where="case",
-            value=case,
-        )
-    case = load_case(path.parent / case if isinstance(case, str) else case, overrides=overrides)
+    case = base_case(case, path, overrides)
     binder = Binder(named=NAMED)
     axes = [_with_type(axis) for axis in _listed(table.get("axes", []), "axes")]
     bound = binder.bind(_Axes, {"axes": axes}, "").axes
     change = partial(_from_file, case, path.resolve().parent)
     axes = [axis.mapped(change) for axis in bound]
     return binder.bind(Study, {**table, "case": case, "axes": axes}, "")
+
+
+def base_case(case: Any, path: Path, overrides: Mapping[str, Any] | None) -> Case:
+    """The base case that the file ``path`` of a study or map names or holds."""
+    if not isinstance(case, (str, dict)):
+        raise InputError(
+            f"'{path}' names no case; give case = \"my_case.toml\", or a [case] table.",
+            where="case",
+            value=case,
+        )
+    return load_case(path.parent / case if isinstance(case, str) else case, overrides=overrides)
 
 
 def _listed(value: Any, where: str) -> list[Any]:

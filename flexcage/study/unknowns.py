@@ -16,7 +16,7 @@ from typing import Any
 import numpy as np
 from scipy.stats import qmc
 
-from flexcage.core.errors import EnvironmentLacks, InputError
+from flexcage.core.errors import InputError, package_lacks
 from flexcage.core.spec import option
 from flexcage.study.axes import ends_in_si, written
 
@@ -123,10 +123,7 @@ def check_unknowns(unknowns: Sequence[Unknown]) -> None:
 def require_salib() -> None:
     """Raise EnvironmentLacks, which says what to install, unless SALib is there."""
     if importlib.util.find_spec("SALib") is None:
-        raise EnvironmentLacks(
-            "Sensitivity indices are computed by SALib, which is not installed here; install it "
-            'with  pip install "flexcage[sensitivity]"  (or  pip install SALib).'
-        )
+        raise package_lacks("Sensitivity indices are computed", "SALib", extra="sensitivity")
 
 
 def problem(columns: int) -> dict[str, Any]:

@@ -76,9 +76,7 @@ class Events(NamedTuple):
     force: np.ndarray  # (2, 3) of the last two accepted steps: time, force on the outer ring
     pocket_force: np.ndarray  # (Z, faces) normal forces in pockets at the last accepted step
     pocket_force_before: np.ndarray  # (Z, faces) at the step before that
-    pocket_force_peak: (
-        np.ndarray
-    )  # (Z, faces) the largest since the last sample, at and between steps
+    pocket_force_peak: np.ndarray  # (Z, faces) the largest since the last sample, between steps too
 
 
 class Samples(NamedTuple):

@@ -85,7 +85,7 @@ from flexcage.system.layout import (
     places,
 )
 
-SHARED = FAMILY_PARTS  # place in ``law``: the family's only function ``apart``
+SHARED = FAMILY_PARTS  # place in ``law``: the family's only function ``separate``
 
 
 def evaluate(t, y, yd, d, law, out, mode):

@@ -83,9 +83,8 @@ def _counter_sides(b: RollerBearing) -> tuple[bool, bool]:
 def carried(b: RollerBearing) -> tuple[bool, bool]:
     """Does the bearing carry axial load on its inner ring towards +x, and towards -x?"""
     counter = DESIGNS[b.design].counter
-    return counter == 2 or (counter == 1 and b.thrust == "+x"), counter == 2 or (
-        counter == 1 and b.thrust == "-x"
-    )
+    plus, minus = (counter == 2 or (counter == 1 and b.thrust == side) for side in SIDES)
+    return plus, minus
 
 
 def axial_refusal(b: RollerBearing, load: float) -> str:

@@ -95,7 +95,7 @@ from flexcage.system.layout import (
     places,
 )
 
-# places in ``law``: the family's functions ``apart``
+# places in ``law``: the family's functions ``separate``
 POCKETS, SHARED = FAMILY_PARTS, FAMILY_PARTS + 1
 
 
@@ -119,7 +119,7 @@ def evaluate(t, y, yd, d, law, out, mode):
 
     ``d`` (``problem.Parts``) refers to the model, its memory and its workspaces; ``law`` holds
     the normal laws of race, pocket, side, rib and land, their friction laws, the rows of further
-    constraints and what puts these in (``holding.hold``), and what is compiled apart:
+    constraints and what puts these in (``holding.hold``), and what is compiled separately:
     ``roller_pockets`` and ``equations.shared_equations``.
     """
     work, Z = fields(d.scratch), fields(d.bodies).radius.shape[0]

@@ -8,10 +8,10 @@ centre, along the bearing's, a pocket and the claws around it are a body of revo
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from dataclasses import dataclass
 from math import pi, sin, sqrt
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import TYPE_CHECKING, ClassVar
 
 from flexcage.cages.machined.cage import BALL_CAGES, BallCage
 from flexcage.core.spec import option, quantity
@@ -36,6 +36,7 @@ class CrownCage(BallCage):
     """
 
     cage_type: ClassVar[str] = "crown"
+    pockets_vary: ClassVar[bool] = False
 
     type: str = option("crown", doc="kind of cage", choices=BALL_CAGES)
     material: Material = option(MATERIALS["PA66"], doc="cage material (a name or its values)")
@@ -124,16 +125,6 @@ class CrownCage(BallCage):
             "claws": self.claw_thickness,
             "wall": 0.5 * (self.outside_diameter - self.bore),
         }
-
-    def check_defects(
-        self,
-        defects: Sequence[Any],
-        *,
-        pocket_count: int,
-        pitch_diameter: float,
-        element_diameter: float = 0.0,
-    ) -> None:
-        Cage.check_defects(self, defects, pocket_count=pocket_count, pitch_diameter=pitch_diameter)
 
     def impossible(self, pocket_count: int) -> Iterator[Objection]:
         yield from Cage.impossible(self, pocket_count)

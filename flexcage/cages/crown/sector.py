@@ -15,7 +15,16 @@ from flexcage.cages.crown.cage import CrownCage
 from flexcage.core.errors import RunFailed
 from flexcage.mesh.gmsh_session import gmsh_model
 from flexcage.mesh.options import MeshOptions
-from flexcage.mesh.sector import MM, Quarter, SizePlan, grow_from, mesh_arrays, named_surfaces
+from flexcage.mesh.sector import (
+    MM,
+    Quarter,
+    SizePlan,
+    grow_from,
+    mesh_arrays,
+    named_surfaces,
+    remove_loose_faces,
+    solids_of,
+)
 
 # size over the thickness of claw, ring or wall, whichever is least; size at the claws' roots and
 # under the pocket over that; growth of the size away from there
@@ -71,13 +80,13 @@ def _shape(gmsh: Any, cage: CrownCage, pocket_count: int, pitch_radius: float) -
     inner, outer = 0.5 * cage.bore / MM, 0.5 * cage.outside_diameter / MM
     low, high = cage.back / MM, cage.tip / MM
     profile = occ.addPlaneSurface([occ.addCurveLoop(_profile(occ, cage, middle, outer + middle))])
-    body = _solid(occ.revolve([(2, profile)], 0.0, middle, 0.0, 1.0, 0.0, 0.0, pi))
+    body = solids_of(occ.revolve([(2, profile)], 0.0, middle, 0.0, 1.0, 0.0, 0.0, pi))
     corners = ((low - 1.0, inner), (high + 1.0, inner), (high + 1.0, outer), (low - 1.0, outer))
     points = [occ.addPoint(x, r, 0.0) for x, r in corners]
     lines = [occ.addLine(points[i - 1], points[i]) for i in range(4)]
     section = occ.addPlaneSurface([occ.addCurveLoop(lines)])
-    wedge = _solid(occ.revolve([(2, section)], 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, step))
-    body = _solid(occ.intersect(body, wedge)[0])
+    wedge = solids_of(occ.revolve([(2, section)], 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, step))
+    body = solids_of(occ.intersect(body, wedge)[0])
     occ.synchronize()
     if len(body) != 1:
         raise RunFailed("the cage's half sector falls into several pieces")
@@ -96,14 +105,7 @@ def _divide(gmsh: Any, cage: CrownCage, pocket_count: int, fronts: tuple[float, 
     solids = occ.getEntities(3)
     occ.fragment(solids, faces)
     occ.synchronize()
-    own = set(gmsh.model.getBoundary(occ.getEntities(3), combined=False, oriented=False))
-    over = [e for e in gmsh.model.getEntities(2) if e not in own]
-    occ.remove(over, recursive=True)
-    occ.synchronize()
-
-
-def _solid(entities: list[tuple[int, int]]) -> list[tuple[int, int]]:
-    return [e for e in entities if e[0] == 3]
+    remove_loose_faces(gmsh, occ.getEntities(3))
 
 
 def _profile(occ: Any, cage: CrownCage, middle: float, far: float) -> list[int]:

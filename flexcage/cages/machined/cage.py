@@ -29,6 +29,7 @@ class BallCage(Cage):
     """
 
     cage_type: ClassVar[str] = "machined"
+    pockets_vary: ClassVar[bool] = True  # may defects enlarge, elongate or displace pockets?
 
     type: str = option("machined", doc="kind of cage", choices=BALL_CAGES, legacy="machined")
     material: Material = option(MATERIALS["PA66"], doc="cage material (a name or its values)")
@@ -54,10 +55,11 @@ class BallCage(Cage):
         from flexcage.cages.machined.defects import check_pockets
 
         super().check_defects(defects, pocket_count=pocket_count, pitch_diameter=pitch_diameter)
-        check_pockets(
-            defects, self, pocket_count=pocket_count, pitch_diameter=pitch_diameter,
-            ball_diameter=element_diameter,
-        )  # fmt: skip
+        if self.pockets_vary:
+            check_pockets(
+                defects, self, pocket_count=pocket_count, pitch_diameter=pitch_diameter,
+                ball_diameter=element_diameter,
+            )  # fmt: skip
 
     def uneven_pockets(self, pocket_count: int, seed: int) -> tuple[Any, ...]:
         from flexcage.cages.machined.defects import displaced_at_random

@@ -8,10 +8,10 @@ the bearing's, a pocket and the sheet around it are a body of revolution.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from dataclasses import dataclass
 from math import pi, sin, sqrt
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import TYPE_CHECKING, ClassVar
 
 from flexcage.cages.machined.cage import BALL_CAGES, BallCage
 from flexcage.core.spec import option, quantity
@@ -40,6 +40,7 @@ class RibbonCage(BallCage):
     """
 
     cage_type: ClassVar[str] = "ribbon"
+    pockets_vary: ClassVar[bool] = False
     riveted: ClassVar[bool] = True
 
     type: str = option("ribbon", doc="kind of cage", choices=BALL_CAGES)
@@ -81,16 +82,6 @@ class RibbonCage(BallCage):
         """Unbalance [kg m] of half of its two flat strips."""
         wall = pi / 4.0 * (self.outside_diameter**2 - self.bore**2)
         return self.material.density * wall * self.thickness * self.mean_radius
-
-    def check_defects(
-        self,
-        defects: Sequence[Any],
-        *,
-        pocket_count: int,
-        pitch_diameter: float,
-        element_diameter: float = 0.0,
-    ) -> None:
-        Cage.check_defects(self, defects, pocket_count=pocket_count, pitch_diameter=pitch_diameter)
 
     @property
     def bend(self) -> float:

@@ -17,7 +17,16 @@ from flexcage.cages.ribbon.cage import HEAD_HEIGHT, RibbonCage
 from flexcage.core.errors import RunFailed
 from flexcage.mesh.gmsh_session import gmsh_model
 from flexcage.mesh.options import MeshOptions
-from flexcage.mesh.sector import MM, Quarter, SizePlan, grow_from, mesh_arrays, named_surfaces
+from flexcage.mesh.sector import (
+    MM,
+    Quarter,
+    SizePlan,
+    grow_from,
+    mesh_arrays,
+    named_surfaces,
+    remove_loose_faces,
+    solids_of,
+)
 
 # size over the sheet's thickness; size at the necks beside a pocket's side openings over their
 # breadth, which the lowest frequencies hang on (tests/README.md); growth of the size away from them
@@ -76,12 +85,12 @@ def _shape(gmsh: Any, cage: RibbonCage, pocket_count: int, pitch_radius: float) 
     inner, outer = 0.5 * cage.bore / MM, 0.5 * cage.outside_diameter / MM
     high = cage.reach / MM + 1.0
     sheet = occ.addPlaneSurface([occ.addCurveLoop(_profile(occ, cage, middle, outer + middle))])
-    body = _solid(occ.revolve([(2, sheet)], 0.0, middle, 0.0, 1.0, 0.0, 0.0, pi))
+    body = solids_of(occ.revolve([(2, sheet)], 0.0, middle, 0.0, 1.0, 0.0, 0.0, pi))
     corners = ((0.0, inner), (high, inner), (high, outer), (0.0, outer))
     points = [occ.addPoint(x, r, 0.0) for x, r in corners]
     lines = [occ.addLine(points[i - 1], points[i]) for i in range(4)]
     section = occ.addPlaneSurface([occ.addCurveLoop(lines)])
-    wedge = _solid(occ.revolve([(2, section)], 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, step))
+    wedge = solids_of(occ.revolve([(2, section)], 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, step))
     y, z = middle * cos(step), middle * sin(step)
     head, rise = cage.head_radius / MM, HEAD_HEIGHT * cage.rivet_diameter / MM
     half = 0.5 * cage.thickness / MM
@@ -89,18 +98,11 @@ def _shape(gmsh: Any, cage: RibbonCage, pocket_count: int, pitch_radius: float) 
     body = occ.fuse(body, rivet)[0]
     body = occ.intersect(body, wedge)[0]
     disk = occ.addDisk(0.0, y, z, head, head, zAxis=[1.0, 0.0, 0.0])
-    body = _solid(occ.fragment(body, [(2, disk)])[0])
+    body = solids_of(occ.fragment(body, [(2, disk)])[0])
     occ.synchronize()
     if len(body) != 1:
         raise RunFailed("the cage's quarter sector falls into several pieces")
-    own = set(gmsh.model.getBoundary(body, combined=False, oriented=False))
-    over = [e for e in gmsh.model.getEntities(2) if e not in own]
-    occ.remove(over, recursive=True)
-    occ.synchronize()
-
-
-def _solid(entities: list[tuple[int, int]]) -> list[tuple[int, int]]:
-    return [e for e in entities if e[0] == 3]
+    remove_loose_faces(gmsh, body)
 
 
 def _profile(occ: Any, cage: RibbonCage, middle: float, far: float) -> list[int]:

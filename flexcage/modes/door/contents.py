@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from flexcage.core.errors import EnvironmentLacks, InputError
+from flexcage.core.errors import InputError
 from flexcage.modes.door.body import MODAL, ReducedBody
 
 
@@ -53,14 +53,6 @@ def unreadable(path: Path, reason: object, *, where: str) -> InputError:
         f"name says ({first}).",
         where=where,
         value=str(path),
-    )
-
-
-def lacking(package: str, what: str) -> EnvironmentLacks:
-    """The error to raise where an optional reader is not installed."""
-    return EnvironmentLacks(
-        f"{what} are read and written by {package}, which is not installed here; install it with  "
-        f'pip install "flexcage[bodies]"  (or  pip install {package}).'
     )
 
 

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from flexcage.modes.door.contents import lacking
+from flexcage.core.errors import package_lacks
 
 
 def nastran(module: str) -> Any:
@@ -20,4 +20,5 @@ def nastran(module: str) -> Any:
         with np.printoptions():
             return importlib.import_module(f"pyyeti.nastran.{module}")
     except ImportError as error:
-        raise lacking("pyyeti", "Nastran's files (.op4, .pch, .bdf)") from error
+        work = "Nastran's files (.op4, .pch, .bdf) are read and written"
+        raise package_lacks(work, "pyyeti", extra="bodies") from error
