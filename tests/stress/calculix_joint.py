@@ -20,7 +20,8 @@ import numpy as np
 
 from flexcage.geometry.materials import MATERIALS
 from flexcage.mesh.riveted_joint import CONTACTS, JointMesh, JointShape
-from flexcage.stress.riveted_joint import RivetedJoint, von_mises
+from flexcage.stress.operators import von_mises
+from flexcage.stress.riveted_joint import RivetedJoint
 
 STORED = Path(__file__).with_suffix(".json")
 SHAPE = JointShape(

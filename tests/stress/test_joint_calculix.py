@@ -9,7 +9,8 @@ import numpy as np
 import pytest
 
 from flexcage.fem.curved import curved_stress
-from flexcage.stress.riveted_joint import RivetedJoint, von_mises
+from flexcage.stress.operators import von_mises
+from flexcage.stress.riveted_joint import RivetedJoint
 
 
 @pytest.mark.slow
