@@ -1,0 +1,83 @@
+"""What one run of the riveted cage is: slip by the paper's equation 10 and its parts, tilt, rivets.
+
+Numbers that studies of this folder ask for. All are over the whole settled record.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import numpy as np
+from scipy.spatial.transform import Rotation
+
+from flexcage import register
+from flexcage.results import metrics
+from flexcage.results.statistics import element_passes
+
+PRINTED_BALL, PRINTED_PITCH = 6.47e-3, 26e-3  # m, of which equation 10's reference is made
+UNITS = {
+    "slip": "%",  # of the cage, by equation 10
+    "reference": "%",  # its parts, which sum to it: balls that are not the printed ones
+    "angle": "%",  # contact angles
+    "curvature": "%",  # rolling beside the middle of curved contacts
+    "traction": "%",  # what is left: sliding
+    "psi": "deg",  # |arctan(omega_z/omega_x)| of the cage, mean: the paper's inclination
+    "cage_tilt": "deg",  # of the cage's axis, mean
+    "whirl": "um",  # largest distance of the cage's centre from its mean place
+    "ball_load": "N",  # force of the inner race on a ball that it touches, mean
+    "rivet": "MPa",  # nominal stress of the most stressed rivet in a ball pass, mean of largest
+}
+
+
+def evaluate(run) -> Mapping[str, float]:
+    """All of ``UNITS`` of one run, in SI."""
+    ds = metrics.settled(run.dataset, run.case.output.settle)
+    force = ds["race_force"].sel(race="inner").values
+    return {
+        **slip_parts(run, ds),
+        "psi": inclination(ds),
+        "cage_tilt": float(metrics.tilt(ds).sel(component="total").values.mean()),
+        "whirl": float(metrics.whirl_radius(ds).max()),
+        "ball_load": float(force[force > 0.0].mean()),
+        "rivet": rivet_stress(run),
+    }
+
+
+def slip_parts(run, ds) -> dict[str, float]:
+    """The slip of equation 10 and its four parts. The equation compares the cage with omega_m =
+    omega_i (1 - D/dm)/2, which knows no contact angle; all are shares of omega_m."""
+    bearing, inner = run.case.bearing, float(run.case.drive.speed)
+    reference = 0.5 * inner * (1.0 - PRINTED_BALL / PRINTED_PITCH)
+    flat = 0.5 * inner * (1.0 - bearing.ball_diameter / bearing.pitch_diameter)
+    speed = metrics.cage_speed(ds, run.numbers)
+    cage, rolling = abs(speed.mean), abs(speed.epicyclic)
+    curved = metrics.rolling_by_curvature(ds, run.numbers)
+    share = 0.0 if curved is None else curved.cage_slip
+    return {
+        "slip": 1.0 - cage / reference,
+        "reference": 1.0 - flat / reference,
+        "angle": (flat - rolling) / reference,
+        "curvature": share * rolling / reference,
+        "traction": (rolling * (1.0 - share) - cage) / reference,
+    }
+
+
+def inclination(ds) -> float:
+    """The paper's psi_c = arctan(omega_cz/omega_cx), mean of its size [rad]: the direction of the
+    cage's angular velocity, seen from the outer ring; the moment tilts the inner ring towards z."""
+    turn = Rotation.from_quat(ds["cage_quaternion"].values, scalar_first=True)
+    omega = turn.apply(ds["cage_omega"].values)
+    return float(np.abs(np.arctan(omega[:, 2] / omega[:, 0])).mean())
+
+
+def rivet_stress(run) -> float:
+    """Of the most stressed rivet the largest nominal stress of a ball pass, mean over passes [Pa];
+    NaN of a rigid cage."""
+    if not run.case.riveted:
+        return float("nan")
+    share = run.case.output.settle
+    worst = metrics.settled(run.rivets.dataset, share)["stress"].max("rivet").values
+    return float(element_passes(metrics.settled(run.dataset, share), run.numbers).peak(worst).value)
+
+
+register.outputs(evaluate, UNITS)
