@@ -15,9 +15,9 @@ BASE = "base"
 RADII = ("Rp 3.43", "Rp 3.44", "Rp 3.45", BASE, "Rp 3.47", "Rp 3.48", "Rp 3.49")
 WIDTHS = ("w 8.0", "w 7.4", "w 6.8", BASE, "w 5.9")
 SHEETS = ("t 0.7", BASE, "t 1.0")
-INNER = ("f_i 0.505", "f_i 0.510", BASE, "f_i 0.520", "f_i 0.525")
-OUTER = ("f_e 0.515", "f_e 0.520", BASE, "f_e 0.530")
-CLEARANCES = ("Pd 5", BASE, "Pd 15", "Pd 20")
+INNER = ("f_i 0.505", BASE, "f_i 0.525")
+OUTER = ("f_e 0.515", BASE, "f_e 0.530")
+CLEARANCES = ("Pd 5", BASE, "Pd 20")
 SPEEDS = ("7000", "8000", "9000")  # rpm
 
 ENDS_OF_RADII = (RADII[0], BASE, RADII[-1])  # a claim's rule compares ends and best: a map has one

@@ -1,7 +1,7 @@
 """The rivet of the riveted cage over its fit, as in figure 10 of "Machines 2024, 12(7), 466".
 
-    python examples/papers/riveted_cage_rivet.py RUN            # the folder of a run, flexible cage
-    python examples/papers/riveted_cage_rivet.py RUN --force 25 # loads scaled to that ball force, N
+    python examples/papers/riveted_cage/rivet.py RUN            # the folder of a run, flexible cage
+    python examples/papers/riveted_cage/rivet.py RUN --force 25 # loads scaled to that ball force, N
 
 Takes the loads of the run's most stressed rivet through a cycle, for fits from interference to
 play, and writes fits.csv and lives.csv into the folder of the page. Prints what becomes of claim
@@ -22,7 +22,7 @@ from flexcage.stress.riveted_joint import PLACES, Fits, JointResult, fits_of
 from flexcage.stress.rivets import Rivets
 from flexcage.study.verdicts import FAILS, HOLDS, UNDECIDED
 
-FOLDER = Path(__file__).with_name("riveted_cage")
+FOLDER = Path(__file__).parent
 #: Play over the diameter [m]. The paper gives no values; an upset shank fills its hole or presses
 #: on it, and a punched hole of 1.2 mm has some hundredths of a millimetre of play at most.
 PLAYS = (-6e-6, -3e-6, 0.0, 3e-6, 10e-6, 20e-6)
