@@ -92,7 +92,7 @@ def sign(computed: Computed) -> tuple[str, str, str]:
 def rechecked(computed: Computed) -> list[str]:
     """What a flexible cage changes at the points that were rechecked."""
     same = both = points = 0
-    for file, results in computed.rechecks.items():
+    for results in computed.rechecks.values():
         rigid = next(
             p for m in computed.maps.values() for p in m.parts
             if p.names == results.names and np.array_equal(p.shares, results.shares)
@@ -116,7 +116,7 @@ def rechecked(computed: Computed) -> list[str]:
 def words(computed: Computed) -> Words:
     """Summary, reasons, what decides, and readings, with the numbers of what was computed."""
     c = computed
-    better, model = c.readings[BETTER], c.readings.get(MODEL)
+    better = c.readings[BETTER]
     soft = c.readings.get(FLEXIBLE)
     marks = [line.verdict.outcome for line in c.lines]
     counts = {o: marks.count(o) for o in ("holds", "does not hold", "undecided")}
@@ -125,13 +125,15 @@ def words(computed: Computed) -> Words:
     radius, (low, high) = 0.5e3 * best.place[0], 0.5e3 * best.box[:, 0]
     load, least, most = traction_over_load(c)
     modified, original, near = sign(c)
+    angle = middle(c, CAGE, "angle", "original 9000", 100.0)
+    slides = {k: middle(c, CAGE, "traction", f"{k} 9000", 100.0) for k in ("original", "modified")}
     rivets = {k: said(soft, "rivet", k, 1e-6) for k in ("modified 9000", "original 9000", BASE)}
     summary = f"""The paper says that a riveted cage of an aviation motor's bearing breaks at its
         rivets because balls strike it, that a pocket radius of 3.46 mm and a width of 6 mm make
         the blows least, and that the improved cage also slips less. Of its {len(marks)} claims here
-        {counts["holds"]} hold over most of what it leaves unknown, {counts["does not hold"]} do not;
-        open: {counts["undecided"]}. Its best radius is found again: the computed 49-point design
-        has its least force at {radius:.3f} mm ({low:.3f} to {high:.3f} mm, 95 %), with balls of
+        {counts["holds"]} hold over most of what it leaves unknown, {counts["does not hold"]} do
+        not; open: {counts["undecided"]}. Its best radius is found again: the computed 49-point
+        design has its least force at {radius:.3f} mm ({low:.3f} to {high:.3f} mm, 95 %), with balls of
         6.747 mm, not the printed 6.47. The width has no such effect. Measured slips have the sign
         of light moments and loads, and the original cage slips more than the modified one in
         {c.found[CAGE]["001-8"].share} of the plausible range. How sure:
@@ -169,11 +171,10 @@ def words(computed: Computed) -> Words:
         "other and back in a turn, so that balls run ahead of the cage and fall behind it by some "
         "0.1 mm. Small pockets hold them back by force; in large ones the cage gets room to be "
         f"struck. The design's optimum: {_region(laid)}.",
-        "**Slip (Table 4).** Equation 10 has no cos alpha. By its reference a cage leads by contact "
-        f"angles ({middle(c, CAGE, 'angle', 'original 9000', 100.0)} % over the map) and lags by "
-        f"sliding ({middle(c, CAGE, 'traction', 'original 9000', 100.0)} % with the original, "
-        f"{middle(c, CAGE, 'traction', 'modified 9000', 100.0)} % with the modified cage); balls of "
-        "6.747 mm judged by 6.47 add +1.4 %. A constant offset moves both cages alike; their "
+        "**Slip (Table 4).** Equation 10 has no cos alpha. By its reference a cage leads by "
+        f"contact angles ({angle} % over the map) and lags by sliding ({slides['original']} % with "
+        f"the original, {slides['modified']} % with the modified cage); balls "
+        "of 6.747 mm judged by 6.47 add +1.4 %. A constant offset moves both cages alike; their "
         "difference is sliding.",
         f"**Sliding of 1 %** by traction alone wants lightly loaded balls: the original cage lags "
         f"by more at mean forces of {least:.0f} to {most:.0f} N a ball; a line through all points "
@@ -190,16 +191,16 @@ def words(computed: Computed) -> Words:
         "off by that factor.",
     ]  # fmt: skip
     readings = [
-        "**Better model.** Balls of 6.747 mm (17/64 inch; 6.47 mm is no ball that is made), 8.25 N m "
-        "and 20 N a bearing, rigid cage, a strip of 3.8 mm between the shoulders, which leave 4.27.",
-        "**As printed.** 6.47 mm, 82.5 N m on one bearing (4.6 GPa; ellipses run over the edges), no "
-        "land, no shoulder, a strip of 5.6 mm, without which the printed widths are not in one "
+        "**Better model.** Balls of 6.747 mm (17/64 inch; 6.47 mm is no standard size), 8.25 N m "
+        "and 20 N a bearing, rigid cage, a strip of 3.8 mm (the shoulders leave 4.27).",
+        "**As printed.** 6.47 mm, 82.5 N m on one bearing (4.6 GPa; ellipses run over the edges), "
+        "no land, no shoulder, a strip of 5.6 mm, without which the printed widths are not in one "
         "piece.",
-        "**Flexible cage.** The better model with a coarse elastic cage: rivets' stress is nominal, "
-        "of a shank of 1.2 mm that bears alone what goes from half to half.",
-        "**Force** is the mean over turns of the cage of the largest ball-cage force in each, fixed "
-        "before the runs. **Width** is where the spherical pockets end; from twice the radius on "
-        "they are closed, and 7.4 and 8 mm are the same rigid cage.",
+        "**Flexible cage.** The better model with a coarse elastic cage: rivets' stress is "
+        "nominal, of a shank of 1.2 mm that bears alone what goes from half to half.",
+        "**Force** is the mean over turns of the cage of the largest ball-cage force in each, as "
+        "fixed before the runs. **Width** is where the spherical pockets end; from twice the radius "
+        "on they are closed, and 7.4 and 8 mm are the same rigid cage.",
         "**Fits** are of one older run (a strip of 3.2 mm, one start) scaled to 25 N a ball; clamp "
         "100 N, friction 0.15, root radius 0.1 mm are assumed and not varied.",
         "**Changed for time**, before any figure of theirs was seen: the maps keep the ends of "
