@@ -77,6 +77,8 @@ def sweep(computed, path: Path, title: str, panels, columns: int) -> Path:
             if printed:
                 ax.plot(list(map(float, printed)), list(printed.values()), "X", ms=6,
                         color=sheet.INK, label="paper, Table 3")  # fmt: skip
+            places = [at(c, base) for c in conditions]
+            ax.set_xlim(min(places) - 0.05 * np.ptp(places), max(places) + 0.05 * np.ptp(places))
             if output in (FORCE, "rivet"):
                 ax.set_ylim(0.0, None)
             if k == 0:
@@ -213,7 +215,7 @@ def slip(computed, path: Path) -> Path:
     """Table 4 at 9000 rpm: parts of the slip by reading, and the map."""
     colours = (sheet.BLUE, sheet.VERMILION, sheet.ORANGE, sheet.GREEN)
     with sheet.style():
-        figure = sheet.new_figure(1360, 600)
+        figure = sheet.new_figure(1440, 600)
         sheet.heading(figure, "Table 4: slip of the cage at 9000 rpm", "%, by equation 10")
         for k, cage in enumerate(("modified", "original")):
             ax = sheet.axes_at(figure, (90 + k * 560, 130, 480, 380))
@@ -234,7 +236,8 @@ def slip(computed, path: Path) -> Path:
                 ax.axhline(PRINTED["table_4"][source][cage], color="0.4", lw=0.8, ls="--")
                 ax.plot(len(names) - 0.6, PRINTED["table_4"][source][cage], marker, ms=8,
                         color=sheet.INK, label=f"paper, {source}")  # fmt: skip
-            ax.set(title=f"{cage} cage", xticks=range(len(names)), ylabel="%")
+            ax.axhline(0.0, color=sheet.INK, lw=0.8)
+            ax.set(title=f"{cage} cage", xticks=range(len(names)), ylabel="%", ylim=(-7.0, 3.5))
             ax.set_xticklabels(names, fontsize=7)
             if k:
                 ax.legend(loc="upper left", bbox_to_anchor=(1.01, 1.0), fontsize=8)

@@ -133,8 +133,8 @@ def words(computed: Computed) -> Words:
         the blows least, and that the improved cage also slips less. Of its {len(marks)} claims here
         {counts["holds"]} hold over most of what it leaves unknown, {counts["does not hold"]} do
         not; open: {counts["undecided"]}. Its best radius is found again: the computed 49-point
-        design has its least force at {radius:.3f} mm ({low:.3f} to {high:.3f} mm, 95 %), with balls of
-        6.747 mm, not the printed 6.47. The width has no such effect. Measured slips have the sign
+        design has its least force at {radius:.3f} mm ({low:.3f} to {high:.3f} mm, 95 %), with
+        balls of 6.747 mm, not the printed 6.47. The width has no such effect. Measured slips have the sign
         of light moments and loads, and the original cage slips more than the modified one in
         {c.found[CAGE]["001-8"].share} of the plausible range. How sure:
         {c.found[CAGE]["001-8"].share.decided} points of {len(c.maps[CAGE].names) - 1} unknowns, one
@@ -199,8 +199,8 @@ def words(computed: Computed) -> Words:
         "**Flexible cage.** The better model with a coarse elastic cage: rivets' stress is "
         "nominal, of a shank of 1.2 mm that bears alone what goes from half to half.",
         "**Force** is the mean over turns of the cage of the largest ball-cage force in each, as "
-        "fixed before the runs. **Width** is where the spherical pockets end; from twice the radius "
-        "on they are closed, and 7.4 and 8 mm are the same rigid cage.",
+        "fixed before the runs. **Width** is where the spherical pockets end; from twice the "
+        "radius on they are closed, and 7.4 and 8 mm are the same rigid cage.",
         "**Fits** are of one older run (a strip of 3.2 mm, one start) scaled to 25 N a ball; clamp "
         "100 N, friction 0.15, root radius 0.1 mm are assumed and not varied.",
         "**Changed for time**, before any figure of theirs was seen: the maps keep the ends of "
