@@ -134,8 +134,8 @@ def words(computed: Computed) -> Words:
         {counts["holds"]} hold over most of what it leaves unknown, {counts["does not hold"]} do
         not; open: {counts["undecided"]}. Its best radius is found again: the computed 49-point
         design has its least force at {radius:.3f} mm ({low:.3f} to {high:.3f} mm, 95 %), with
-        balls of 6.747 mm, not the printed 6.47. The width has no such effect. Measured slips have the sign
-        of light moments and loads, and the original cage slips more than the modified one in
+        balls of 6.747 mm, not the printed 6.47. The width has no such effect. Measured slips have
+        the sign of light moments and loads, and the original cage slips more than the modified one in
         {c.found[CAGE]["001-8"].share} of the plausible range. How sure:
         {c.found[CAGE]["001-8"].share.decided} points of {len(c.maps[CAGE].names) - 1} unknowns, one
         start each, and readings of eight starts."""
