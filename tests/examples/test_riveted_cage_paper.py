@@ -42,7 +42,8 @@ def scripts(paper):
 
 
 def test_readings_maps_and_the_design_are_plans(paper):
-    """Every condition that a claim compares is in the reading or map that decides it."""
+    """Every condition that a claim compares is in the reading or map that decides it, but for two
+    claims on rivets, which are said not to be computed."""
     results = sys.modules["paper_results"]
     there = {}
     for column, (file, _) in {"better model": (paper.readings, ""), **paper.alone}.items():
@@ -55,7 +56,7 @@ def test_readings_maps_and_the_design_are_plans(paper):
             assert all(len(u.reason) > 8 for u in spec.unknowns)
             there[column] = {c["label"] for c in spec.conditions}
             assert len(make_plan(spec.study((0,))).cases) == len(there[column])
-    for claim in paper.claims:
+    for claim in (c for c in paper.claims if c.key not in ("001-1b", "001-4b")):
         assert results.conditions_of(claim) <= there[paper.decided_by[claim.key]]
     assert len(make_plan(load_study(FOLDER / "design.toml")).cases) == 49 * 4
 
