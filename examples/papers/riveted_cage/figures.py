@@ -22,7 +22,7 @@ from flexcage.study.surface import response_surface
 HERE = Path(__file__).parent
 PRINTED = tomllib.loads((HERE / "printed.toml").read_text("utf-8"))
 BETTER, MODEL, FLEXIBLE = "better model", "as printed", "flexible cage"  # columns of readings
-CAGE, RACE = "map of the cage", "map of the races"  # columns of maps
+CAGE = "map"  # column of the map
 COLOURS = {BETTER: sheet.BLUE, MODEL: sheet.ORANGE, FLEXIBLE: sheet.VERMILION}
 #: Outputs as figures show them: title with unit, factor from SI.
 SHOWN = {
@@ -112,8 +112,8 @@ def draw(computed, folder: Path) -> list[Picture]:
     return [
         *stress(computed, folder),
         Picture("figure_5.png", "Figure 5: over the pocket radius",
-                "Force with the printed numbers of Table 3 (crosses), slip, inclination, whirl. Width "
-                "6.2 mm. As printed, forces lie above the axis. Figure 5b, rivets' stress, was not "
+                "Force with the printed numbers of Table 3 (crosses), slip, inclination, whirl. "
+                "Width 6.2 mm. As printed, forces lie above the axis. Figure 5b, rivets' stress, was not "
                 "computed."),
         Picture("figure_6.png", "Figure 6: over the cage's width",
                 "The same over the width, at a radius of 3.46 mm. A strip of 3.8 mm is in one "
@@ -142,7 +142,7 @@ def maps(computed, folder: Path) -> list[Picture]:
     outcomes = [bool(two.min() > 0.0) if np.isfinite(two).all() else None for two in slips.T]
     draw_claim_map(
         folder / "map_slip.png", title="Where both cages lag by equation 10, as measured",
-        subtitle=f"slip above zero at 9000 rpm, {share(outcomes)} of the map of the cage",
+        subtitle=f"slip above zero at 9000 rpm, {share(outcomes)} of the map",
         names=joined.names[:-1], ranges=joined.ranges, shares=joined.shares, outcomes=outcomes,
     )  # fmt: skip
     return [Picture("map_slip.png", "Map: where both cages lag, as measured",
@@ -290,11 +290,10 @@ def tables(computed) -> list[Table]:
 
 
 def _cells(computed, output: str, condition: str, factor: float) -> list[str]:
-    race = condition.partition(" ")[0] in ("f_i", "f_e", "Pd")
     return [
         *(_starts(r, output, condition, factor) for r in computed.readings.values()),
-        *("-" if (m != CAGE) != (race or condition == BASE) and m != CAGE
-          else _middle(j, output, condition, factor) for m, j in computed.maps.items()),
+        *(_middle(j, output, condition, factor) if condition in j.parts[0].conditions else "-"
+          for j in computed.maps.values()),
     ]  # fmt: skip
 
 

@@ -129,7 +129,7 @@ def trends(computed, printed, rng) -> dict[str, np.ndarray]:
     map whose slip is positive in both cages at all speeds, weighted by how near its slips at 9000
     rpm are to those measured; or as often of N(0, WIDE), which no point says."""
     speeds, cages = ("9000", "8000", "7000"), ("modified", "original")
-    joined_map = computed.maps["map of the cage"]
+    joined_map = computed.maps["map"]
     slips = {c: np.column_stack([joined_map.means("slip", f"{c} {n}") for n in speeds])
              for c in cages}  # fmt: skip
     both = np.hstack([slips[c] for c in cages])
