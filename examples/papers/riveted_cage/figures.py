@@ -113,8 +113,8 @@ def draw(computed, folder: Path) -> list[Picture]:
         *stress(computed, folder),
         Picture("figure_5.png", "Figure 5: over the pocket radius",
                 "Force with the printed numbers of Table 3 (crosses), slip, inclination, whirl. "
-                "Width 6.2 mm. As printed, forces lie above the axis. Figure 5b, rivets' stress, was not "
-                "computed."),
+                "Width 6.2 mm. As printed, forces lie above the axis. Figure 5b, rivets' stress, "
+                "was not computed."),
         Picture("figure_6.png", "Figure 6: over the cage's width",
                 "The same over the width, at a radius of 3.46 mm. A strip of 3.8 mm is in one "
                 "piece from 5.81 mm on; the printed numbers go on to 4.4 mm."),

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
-from claims import BASE, CLAIMS, CLEARANCES, FORCE, INNER, OUTER, RADII
+from claims import BASE, CLAIMS, CLEARANCES, FORCE, INNER, OUTER, RADII, WIDTHS
 from figures import BETTER, CAGE, FLEXIBLE, MODEL, draw, mean, tables
 from paper_page import number
 from paper_results import conditions_of
@@ -147,8 +147,8 @@ def words(computed: Computed) -> Words:
         "001-1b": "not computed: a flexible cage of every radius wants a mesh of its own",
         "001-2": f"slip rises in {part(c, CAGE, '001-2', 'slip')}, tilt falls in "
         f"{part(c, CAGE, '001-2', 'tilt')}",
-        "001-3": f"in {part(c, CAGE, '001-3', 'force')}: a width changes where pockets end, and "
-        "balls seldom touch there",
+        "001-3": f"in {part(c, CAGE, '001-3', 'force')}; better model "
+        f"{over(better, FORCE, WIDTHS)} N from 8 to 5.9 mm",
         "001-3b": f"slip so in {part(c, CAGE, '001-3b', 'slip')}, tilt in "
         f"{part(c, CAGE, '001-3b', 'tilt')}",
         "001-4": f"force so in {part(c, CAGE, '001-4', 'force')}, slip in "
@@ -160,7 +160,7 @@ def words(computed: Computed) -> Words:
         "over outer conformity",
         "001-6": f"{over(better, FORCE, CLEARANCES)} N; slip "
         f"{over(better, 'slip', CLEARANCES, 100.0)} %: contact angles grow, and it leads more",
-        "001-8": f"larger pockets let balls push the cage less; {by(c, CAGE, '001-8')}",
+        "001-8": f"sliding makes all of it: {slides['original']} % and {slides['modified']} %",
         "001-9": f"positive in {modified} and {original}; both within 15 % in {near}",
         "001-10": f"median {middle(c, CAGE, FORCE, BASE, 1.0)} N at 3.46 mm; better model "
         f"{said(better, FORCE, BASE)}",
@@ -169,15 +169,16 @@ def words(computed: Computed) -> Words:
     }  # fmt: skip
     decides = [
         "**Radius (Table 3).** Under a moment every ball's contact angle goes from one side to the "
-        "other and back in a turn, so that balls run ahead of the cage and fall behind it by some "
-        "0.1 mm. Small pockets hold them back by force; in large ones the cage gets room to be "
-        f"struck. The design's optimum: {_region(laid)}.",
+        "other and back in a turn, so that balls run ahead of the cage and fall behind it. Small "
+        "pockets hold them back by force, which falls as the radius grows; beyond 3.46 mm it rises "
+        f"again with the cage's whirl ({over(better, 'whirl', RADII, 1e6)} um). "
+        f"The design's optimum: {_region(laid)}.",
         "**Slip (Table 4).** Equation 10 has no cos alpha. By its reference a cage leads by "
         f"contact angles ({angle} % over the map) and lags by sliding ({slides['original']} % with "
         f"the original, {slides['modified']} % with the modified cage); balls "
         "of 6.747 mm judged by 6.47 add +1.4 %. A constant offset moves both cages alike; their "
         "difference is sliding.",
-        f"**Sliding of 1 %** by traction alone wants lightly loaded balls: the original cage lags "
+        "**Sliding of 1 %** by traction alone wants lightly loaded balls: the original cage lags "
         f"by more at mean forces of {least:.0f} to {most:.0f} N a ball; a line through all points "
         f"passes 1 % at {load:.0f} N.",
         *_weak(c, soft),
