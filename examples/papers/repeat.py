@@ -100,7 +100,7 @@ def load(folder: Path) -> Paper:
     """The paper of a folder, whose modules import each other as scripts do."""
     sys.path.insert(0, str(folder))
     try:
-        for name in ("claims", "outputs", "figures", "paper"):
+        for name in ("claims", "outputs", "predict", "figures", "paper"):
             sys.modules.pop(name, None)
         spec = importlib.util.spec_from_file_location("paper", folder / "paper.py")
         assert spec is not None and spec.loader is not None

@@ -32,7 +32,6 @@ def paper():
 def scripts(paper):
     """Scripts of the folder; another paper's have the same names."""
     sys.path.insert(0, str(FOLDER))
-    sys.modules.pop("predict", None)
     import predict
     import rivet
 

@@ -11,6 +11,9 @@ import numpy as np
 import pandas as pd
 from claims import BASE, CLEARANCES, FORCE, INNER, OUTER, RADII, SHEETS, WIDTHS
 from paper_page import Picture, Table, number
+from predict import RADII as NAMES
+from predict import WIDTHS as SIZES
+from predict import additive
 from scipy.stats import t as student
 
 from flexcage.render import sheet
@@ -299,10 +302,6 @@ def _cells(computed, output: str, condition: str, factor: float) -> list[str]:
 
 def cross() -> Table:
     """Table 3: predictions, and beside them what the shown cross alone predicts."""
-    from predict import RADII as NAMES
-    from predict import WIDTHS as SIZES
-    from predict import additive
-
     alone = additive(PRINTED)
     rows = {r["row"]: r for r in json.loads((HERE / "predictions.json").read_text("utf-8"))}
 
