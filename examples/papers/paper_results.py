@@ -156,6 +156,11 @@ def mapped(claim: Claim, results: Joined) -> Mapped:
     return Mapped(share(outcomes), parts, by, outcomes)
 
 
+def of_map(found: Mapped) -> Cell:
+    """What a map says of a claim, whose conditions it may lack."""
+    return by_share(found.share) if found.outcomes else Cell(UNDECIDED, "not mapped")
+
+
 def lines_of(
     claims: Sequence[Claim],
     starts: Mapping[str, Mapping[str, Cell]],
@@ -168,7 +173,7 @@ def lines_of(
         Line(
             claim.key, claim.text, claim.where,
             {**{column: cells[claim.key] for column, cells in starts.items()},
-             **{column: by_share(found[claim.key].share) for column, found in maps.items()}},
+             **{column: of_map(found[claim.key]) for column, found in maps.items()}},
             decided_by[claim.key], reasons[claim.key],
         )
         for claim in claims

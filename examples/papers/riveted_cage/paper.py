@@ -175,7 +175,7 @@ def words(computed: Computed) -> Words:
         "**Radius (Table 3).** Under a moment every ball's contact angle goes from one side to the "
         "other and back in a turn, so that balls run ahead of the cage and fall behind it. Small "
         "pockets hold them back by force, which falls as the radius grows; beyond 3.46 mm it rises "
-        f"again with the cage's whirl ({over(better, 'whirl', RADII, 1e6)} um). "
+        f"again as the cage whirls more ({over(better, 'whirl', RADII, 1e6)} um). "
         f"The design's optimum: {_region(laid)}.",
         "**Slip (Table 4).** Equation 10 has no cos alpha. By its reference a cage leads by "
         f"contact angles ({angle} % over the map) and lags by sliding ({slides['original']} % with "
