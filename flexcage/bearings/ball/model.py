@@ -17,6 +17,7 @@ from flexcage.contacts.groove import Groove
 from flexcage.contacts.land import LandData
 from flexcage.contacts.race import race_work
 from flexcage.contacts.spec import Contacts, Lubricant
+from flexcage.contacts.uneven import is_uneven, uneven_race
 from flexcage.geometry.hertz import PointContact
 from flexcage.system.bodies import bodies_of, land_data, unbalanced
 from flexcage.system.data import Bodies, Work, new_work
@@ -44,23 +45,35 @@ def strips(count: int) -> tuple[np.ndarray, np.ndarray]:
     return 0.5 * (edges[1:] + edges[:-1]), 0.75 * np.diff(edges - edges**3 / 3.0)
 
 
-def _groove(bearing: BallBearing, contacts: Contacts, lubricant: Lubricant, *, inner: bool):
+def groove_of(
+    bearing: BallBearing, contacts: Contacts, lubricant: Lubricant, *, inner: bool
+) -> Groove:
+    """The inner or the outer raceway."""
     contact = bearing.contacts[0 if inner else 1]
     axial, centre = bearing.inner_groove_centre if inner else bearing.outer_groove_centre
     radius = bearing.inner_groove_radius if inner else bearing.outer_groove_radius
     strip, share = strips(contacts.race.slices)
+    ring, side = ("inner", -1.0) if inner else ("outer", 1.0)
+    wave, spall = uneven_race(bearing, ring, bearing.race_radius(ring), contact.rolling)
+    sides = getattr(bearing, f"{ring}_spall").sides(radius)
+    long = float(contact.semi_axes(1.0)[0])
     return Groove(
-        side=-1.0 if inner else 1.0,
+        side=side,
         axial=axial,
         centre=centre,
         radius=radius,
-        long=float(contact.semi_axes(1.0)[0]),
+        long=long,
         bend=bearing.contact_curvatures[0 if inner else 1],
         strip=strip,
         share=share,
         normal=laws.normal_parameters(contacts.race.normal, contact.stiffness, POINT),
         friction=laws.friction_parameters(contacts.race.friction),
         rolling=laws.point_rolling_resistance(lubricant, contact),
+        wave=wave,
+        spall=spall,
+        sides=np.sort(side * np.array(sides)),
+        reach=long * contact.stiffness ** (1.0 / 3.0),
+        uneven=is_uneven(wave, spall),
     )
 
 
@@ -141,8 +154,8 @@ def build_ball_model(
             free=(True, tilts, tilts),
         ),
         cage=unbalanced(body, cage).data,
-        inner=_groove(bearing, contacts, lubricant, inner=True),
-        outer=_groove(bearing, contacts, lubricant, inner=False),
+        inner=groove_of(bearing, contacts, lubricant, inner=True),
+        outer=groove_of(bearing, contacts, lubricant, inner=False),
         pocket=_pockets(bearing, cage, contacts, interface),
         land=land_data(
             cage, land, lubricant, interface.land,

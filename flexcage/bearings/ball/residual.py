@@ -136,7 +136,7 @@ def on_inner_race(i, qi, ui, rest_q, rest_u, d):
     return BallOnRace(
         fields(d.bodies).radius[i], P, xyz(ui), turn_of(ui), turned(F, xyz(vec[RING_AXIS])),
         turned(F, xyz(rest_u[:INNER_TURN])), turned(F, xyz(vec[RING_SPIN])),
-        fields(d.memory).race[i, INNER_RACE],
+        fields(d.memory).race[i, INNER_RACE], qi[2] - rest_q[Q_INNER_TURN + 2],
     )  # fmt: skip
 
 
@@ -148,7 +148,7 @@ def on_outer_race(i, qi, ui, rest_q, rest_u, d):
     return BallOnRace(
         fields(d.bodies).radius[i], P, xyz(ui), turn_of(ui), (1.0, 0.0, 0.0),
         turned(F, (0.0, rest_u[OUTER], rest_u[OUTER + 1])), (0.0, 0.0, 0.0),
-        fields(d.memory).race[i, OUTER_RACE],
+        fields(d.memory).race[i, OUTER_RACE], qi[2],
     )  # fmt: skip
 
 
