@@ -8,11 +8,13 @@ from typing import NamedTuple
 import numpy as np
 
 from flexcage.bearings.ball.bearing import BallBearing
+from flexcage.bearings.ball.neighbours import besides
 from flexcage.bodies.floating_frame import BodyData, FlexibleBody
 from flexcage.cages.machined.cage import BallCage
 from flexcage.cages.machined.interface import BallCageInterface
 from flexcage.contacts import laws
 from flexcage.contacts.ball_pocket import CYLINDER, SPHERE, BallPockets, ball_pocket_work
+from flexcage.contacts.beside import Beside
 from flexcage.contacts.groove import Groove
 from flexcage.contacts.land import LandData
 from flexcage.contacts.race import race_work
@@ -35,6 +37,7 @@ class BallModel(NamedTuple):
     inner: Groove
     outer: Groove
     pocket: BallPockets
+    beside: Beside
     land: LandData
 
 
@@ -142,6 +145,7 @@ def build_ball_model(
     """Arrays of a ball bearing for the kernels."""
     rng = np.random.default_rng(seed)
     scatter = bearing.ball_scatter * rng.standard_normal(bearing.ball_count)
+    radius_of_balls = 0.5 * (bearing.ball_diameter + scatter)
     outer, radius = cage.land_ring == "outer", cage.land_radius
     land = contacts.land.on(bearing.land(cage))
     tilts = load.tilt == "free"
@@ -149,7 +153,7 @@ def build_ball_model(
         bodies=bodies_of(
             bearing, cage, lubricant, drive, load, mount,
             element=np.array([bearing.ball_mass, bearing.ball_inertia, bearing.ball_inertia]),
-            radius=0.5 * (bearing.ball_diameter + scatter),
+            radius=radius_of_balls,
             area=0.25 * pi * bearing.ball_diameter**2,
             free=(True, tilts, tilts),
         ),
@@ -157,6 +161,7 @@ def build_ball_model(
         inner=groove_of(bearing, contacts, lubricant, inner=True),
         outer=groove_of(bearing, contacts, lubricant, inner=False),
         pocket=_pockets(bearing, cage, contacts, interface),
+        beside=besides(bearing, contacts, radius_of_balls),
         land=land_data(
             cage, land, lubricant, interface.land,
             kind=land.kind if cage.has_land else "none", outer=outer, radius=radius,
@@ -170,5 +175,5 @@ def ball_work(model: BallModel, layout: Layout) -> Work:
     stations = model.pocket.phi.shape[2]
     return new_work(
         layout, race_work(1), ball_pocket_work(stations, layout.modes), slices=0, points=0, faces=1,
-        stations=stations, ribs=0, land_stations=len(model.land.angle), turns=(3, 4, 5),
+        stations=stations, ribs=1, land_stations=len(model.land.angle), turns=(3, 4, 5),
     )  # fmt: skip

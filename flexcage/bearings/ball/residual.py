@@ -8,6 +8,7 @@ velocity, both in F. ``mode`` is one of ``contacts.evaluation``, but for the tan
 
 from __future__ import annotations
 
+from flexcage.bearings.ball.neighbours import touch_neighbours
 from flexcage.contacts.ball_pocket import BallInPocket, pocket_wall_contact
 from flexcage.contacts.evaluation import (
     ANGLE,
@@ -100,6 +101,7 @@ def evaluate(t, y, yd, d, law, out, mode):
     r_q, r_u = out[: at.rest_q], out[at.u : at.rest_u]
     rest_q, rest_u = y[at.rest_q : at.u], y[at.rest_u : at.lam]
     modes = set_bodies(rest_q, rest_u, d, mode)
+    touch_neighbours(q, u, d, law, mode)
     Rc, Vc = rest_q[Q_CAGE:Q_QUATERNION], rest_u[CAGE:CAGE_TURN]
     for i in range(Z):
         own = of_element(i)
