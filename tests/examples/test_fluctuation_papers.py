@@ -146,7 +146,7 @@ def test_claims_on_vibro_impacts_judge_numbers_of_known_order():
             "deviation": 0.5 / x if condition in ("4000", "12000") else 0.163 * x,
             "line": 0.3 if condition in ("4000", "12500 N") or x > 1.3 else 0.8,
             "circle": 0.3, "gaps": 0.2, "outer_load": 0.2, "inner_off": 1.0 / x,
-            "one_peak": x if not ("0." in condition) else 1.0 / x,
+            "one_peak": x if "0." not in condition else 1.0 / x,
             "inner_load": 0.26 if condition in ("4000", "12000") else 1.0 / x if falls else x,
         }.get(output, x)  # fmt: skip
 

@@ -124,8 +124,10 @@ def orbits(computed, path: Path, rows) -> Path:
                 ax.plot(yz[:, 1], -yz[:, 0], color=sheet.BLUE, lw=0.5)
                 middle = [0.5 * (yz[:, j].max() + yz[:, j].min()) for j in (0, 1)]
                 reach = 0.55 * max(np.ptp(yz, axis=0))
-                ax.set(xlim=(middle[1] - reach, middle[1] + reach),
-                       ylim=(-middle[0] - reach, -middle[0] + reach))
+                ax.set(
+                    xlim=(middle[1] - reach, middle[1] + reach),
+                    ylim=(-middle[0] - reach, -middle[0] + reach),
+                )
                 ax.set_title(f"1500 N, {c} rpm" if c in ALL_SPEEDS else c, loc="left")
         return sheet.save(figure, path)
 

@@ -83,7 +83,8 @@ def words(c: Computed) -> Words:
         steadies the cage's whirl, that load and clearance disturb it, and that sudden changes are
         worst. Of its {len(marks)} claims {counts["holds"]} hold, {counts["does not hold"]} do not;
         open: {counts["undecided"]}. What the load's direction decides, the paper leaves open: an
-        axial load (its Table 1) makes no unloaded balls. How sure: {points[0]} and {points[1]} points
+        axial load (its Table 1) makes no unloaded balls. How sure: {points[0]} and {points[1]}
+        points
         of two maps at the ends of the sweeps, one start each, and one reading of eight starts; the
         paper's own damping was run in the maps alone."""
     decides = [
@@ -97,30 +98,37 @@ def words(c: Computed) -> Words:
         "all loaded balls changes more, as the loaded set grows with speed.",
         "**The deviation ratio (004-2b, 004-4).** It is a ratio of the speed of the cage's mass "
         "centre: a cage that rests and trembles has 40 to 60 %, one that whirls steadily nearly "
-        f"none. The better model has {line(c, 'deviation', ALL_SPEEDS, PERCENT)} % over speeds, and "
+        f"none. The better model has {line(c, 'deviation', ALL_SPEEDS, PERCENT)} % over speeds, "
+        "and "
         f"its centre goes round {line(c, 'turns', ALL_SPEEDS, 1.0)} times a turn of the cage.",
         "**Waves (004-6).** Largest forces "
-        f"{line(c, 'peak', WAVES, 1.0)} N, axial vibration {line(c, 'axial_rough', WAVES, 1e9)} nm: "
+        f"{line(c, 'peak', WAVES, 1.0)} N, axial vibration {line(c, 'axial_rough', WAVES, 1e9)} "
+        "nm: "
         "speed moves the rings through centrifugal force alone. Slip of the cage is the paper's: "
         f"{line(c, 'slip_ripple', WAVES, PERCENT)} %.",
         "**Accelerations (004-7)** last 0.2 s each, so that the fastest ends fastest: forces are "
         f"{line(c, 'one_peak', RAMPS, 1.0)} N, cage speeds {line(c, 'speed', RAMPS, RPM)} rpm.",
     ]  # fmt: skip
     readings = [
-        "**Better model.** Hertz contact with restitution 0.8 at races and 0.6 in pockets, friction "
+        "**Better model.** Hertz contact with restitution 0.8 at races and 0.6 in pockets, "
+        "friction "
         "0.05 and 0.1 by the paper's ramp up to 10 mm/s, spherical pockets of 0.3 mm of play, a "
         "cage of 11 g, gravity, a radial load of half the axial one.",
         "**Not run over whole starts for time:** the paper's own model (readings_printed.toml: "
         "IMPACT with STEP at races and pockets, axial load, 27 g). Its damping and its mass are "
         "choices of both maps.",
-        "**Damping.** Neither c_max nor d_max are printed. Pockets have IMPACT of 200 or 2000 N s/m "
+        "**Damping.** Neither c_max nor d_max are printed. Pockets have IMPACT of 200 or 2000 N "
+        "s/m "
         "from 0.01 mm on, or restitution of 0.4 or 0.8, in the maps.",
-        "**Clearance** is the pockets' (004-5) or the bearing's radial one (004-5b), by free contact "
+        "**Clearance** is the pockets' (004-5) or the bearing's radial one (004-5b), by free "
+        "contact "
         "angles of 11.7, 23.6 and 31.3 degrees.",
         "**sigma_v** is of the mass centre: the cage is balanced, so it is the frame's origin. "
         "Samples at 10 kHz; the ratio below 2 kHz is an output as well.",
-        "**Changed for time, before their runs were looked at:** maps were cut to the ends of sweeps. "
-        "A trial run showed that half the axial load leaves no ball unloaded, so that the second map "
+        "**Changed for time, before their runs were looked at:** maps were cut to the ends of "
+        "sweeps. "
+        "A trial run showed that half the axial load leaves no ball unloaded, so that the second "
+        "map "
         "has as much radial as axial load, the end of the plausible range.",
     ]  # fmt: skip
     return Words(summary, reasons(c), decides, readings)

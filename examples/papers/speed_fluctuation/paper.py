@@ -101,7 +101,8 @@ def summary(c: Computed) -> str:
     counts = {o: marks.count(o) for o in ("holds", "does not hold", "undecided")}
     joined, points = c.maps[MODEL], np.isfinite(c.maps[MODEL].means("swing", N3)).sum()
     return f"""The paper simulates a ball screw support bearing 7603025 at 2000 rpm under 3500 N
-        axially and 1200 N radially in LS-DYNA, whose inner ring's speed fluctuates by 3 to 9 %, once
+        axially and 1200 N radially in LS-DYNA, whose inner ring's speed fluctuates by 3 to 9 %,
+        once
         to three times a turn. It says that the cage's speed follows the ring's, that its mean does
         not change, and that orbits and forces of cage and ring grow with amplitude and frequency.
         Of its {len(marks)} claims {counts["holds"]} hold over most of what it leaves unknown,
@@ -119,26 +120,34 @@ def decides(c: Computed) -> list[str]:
     return [
         f"**Two regimes.** With friction that stays static at any speed (LS-DYNA's default) "
         f"{share_of(~calm[static])} of the points have a cage that fluctuates by more than 1 % at "
-        f"constant speed; with friction that decays {share_of(~calm[~static])}. Pocket friction then "
-        "drives the cage round its play, its forces are tens of times larger, and waves of the ring "
+        f"constant speed; with friction that decays {share_of(~calm[~static])}. Pocket friction "
+        "then "
+        "drives the cage round its play, its forces are tens of times larger, and waves of the "
+        "ring "
         "drown: there the cage's speed has no pronounced period at 3 % (002-2).",
         f"**Balls follow the ring (002-1).** The balls' mean orbital speed has the ring's wave: "
         f"{middle(c, MODEL, 'ball_gain', A6, PERCENT)} % at 6 %, "
-        f"{middle(c, MODEL, 'ball_gain', A9, PERCENT)} % at 9 % (medians). The cage crosses the play "
+        f"{middle(c, MODEL, 'ball_gain', A9, PERCENT)} % at 9 % (medians). The cage crosses the "
+        "play "
         "of its pockets, arrives faster than the ball, and is thrown back: it swings by more than "
         "the ring, and the more the faster the waves (002-1b, 002-7).",
-        "**Why not 922 rpm (002-0b).** The load presses balls on their races: loaded inner contacts "
+        "**Why not 922 rpm (002-0b).** The load presses balls on their races: loaded inner "
+        "contacts "
         f"slide by {middle(c, MODEL, 'slip', CONSTANT, PERCENT)} % of the rolling speed (median). "
-        "Contact angles that differ from 60 degrees make the cage 0.2 to 0.4 % faster than equation "
+        "Contact angles that differ from 60 degrees make the cage 0.2 to 0.4 % faster than "
+        "equation "
         f"6, and a start from rest costs {gap(c)} rpm of the mean over 0.45 s. What is left is the "
         "paper's mesh: balls and rings of flat elements of a third of a millimetre, which roll on "
-        "chords, and penalty springs. Its own columns differ as much: 922 rpm and 15,692 passes make "
+        "chords, and penalty springs. Its own columns differ as much: 922 rpm and 15,692 passes "
+        "make "
         "18,326 on the inner ring, where it prints 18,545.",
         "**Distances (002-3, 002-4).** Under the combined load balls run ahead and behind, by "
-        f"{middle(c, MODEL, 'excursion', CONSTANT, UM)} um (median) along the pitch circle, more than "
+        f"{middle(c, MODEL, 'excursion', CONSTANT, UM)} um (median) along the pitch circle, more "
+        "than "
         "the play of most pockets. That carries the cage off the axis without any wave, as far as "
         "the pockets let it; a wave shakes it, and no farther.",
-        f"**Inner ring (002-5).** Its distance is {starts(printed, 'ring_distance', CONSTANT, UM)} um "
+        "**Inner ring (002-5).** Its distance is "
+        f"{starts(printed, 'ring_distance', CONSTANT, UM)} um "
         f"at constant speed and {starts(printed, 'ring_distance', A9, UM)} um at 9 % (as printed), "
         f"{starts(better, 'ring_distance', CONSTANT, UM)} and "
         f"{starts(better, 'ring_distance', A9, UM)} um (better model).",
@@ -178,10 +187,13 @@ def flexible(c: Computed) -> list[str]:
 def words(computed: Computed) -> Words:
     """Summary, reasons, what decides, and readings, with the numbers of what was computed."""
     readings = [
-        "**Geometry.** 34,000 ball passes a minute at 2000 rpm make 17 balls; printed speeds a pitch "
+        "**Geometry.** 34,000 ball passes a minute at 2000 rpm make 17 balls; printed speeds a "
+        "pitch "
         "circle of 42.4 mm with balls of 5.55 mm. Grooves, shoulders and cage are assumptions.",
-        "**As printed.** Friction as in the text: 0.1 and 0.15 while parts stick, 0.002 and 0.02 as "
-        "soon as they slide; contacts nearly without damping (restitution 0.95), no gravity, a cage "
+        "**As printed.** Friction as in the text: 0.1 and 0.15 while parts stick, 0.002 and 0.02 "
+        "as "
+        "soon as they slide; contacts nearly without damping (restitution 0.95), no gravity, a "
+        "cage "
         "that cannot tilt, no ring that it may touch, balls that roll from the start.",
         "**Better model.** Film traction of 0.06 at races and in pockets with creep up to 10 mm/s, "
         "restitution 0.8 and 0.6, gravity, a free cage, shoulders of the rings that it may touch.",
@@ -192,8 +204,10 @@ def words(computed: Computed) -> Words:
         "10.35 um along the axis in place of 16.18 and 10.06 um: 2.7 and 2.9 % more (on "
         "foundations of 10 N/um and mm^2 16 and 14 %). Stiffness of races is an unknown.",
         "**Changed after the first runs were seen.** This reading had LS-DYNA's default decay of 0 "
-        "first, whose runs take ten times as long: it is left to the map. A start from rest with the "
-        "text's friction tears the cage off at 3.6 ms (loaded balls start, others lag, and cylinders "
+        "first, whose runs take ten times as long: it is left to the map. A start from rest with "
+        "the "
+        "text's friction tears the cage off at 3.6 ms (loaded balls start, others lag, and "
+        "cylinders "
         "let it go), so the reading begins with rolling. The map was cut from 32 to 16 points, and "
         "to one start, for time.",
         *flexible(computed),
