@@ -256,5 +256,7 @@ def assembled_start(
     limit = specs.limits.assembly_force
     with progress(1.0, "start") as bar:
         start = find_start(bearing, limit_force=limit, statics=statics, advance=bar.to)
+    if bearing.rings:
+        start = replace(start, warnings=(*start.warnings, *bearing.rings.warnings))
     start = with_push(start, bearing.layout, specs.start)
     return constrained(start, bearing, specs.constraints, limit_force=limit)

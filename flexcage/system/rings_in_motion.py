@@ -2,15 +2,19 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
 
+from flexcage.modes.ring import natural_frequencies
 from flexcage.system.bending import POINTS, RingsData, rigid_rings
 from flexcage.system.statics.rings import BentRing, Rings, SeatedRing
 from flexcage.system.statics.solution import StaticSolution
 
 SIDES = ("inner", "outer")
+_LOW = 3  # waves around a ring up to which its frequencies are looked at
+_STIFF = 10e3  # [Hz] assumption: rings with lower frequencies are told of
 
 
 @dataclass(frozen=True, eq=False)
@@ -19,6 +23,7 @@ class MovingRings:
 
     data: RingsData
     start: StaticSolution
+    warnings: tuple[str, ...] = ()  # sentences
 
 
 def moving_rings(rings: Rings, solution: StaticSolution) -> MovingRings:
@@ -37,7 +42,23 @@ def moving_rings(rings: Rings, solution: StaticSolution) -> MovingRings:
         line = reduction.raceway.line
         data.reach[side] = 1.0, reduction.raceway.extent if line else 1.0
         data.way[:] = np.argmax(bent.seated.to_v, axis=0)
-    return MovingRings(data, solution)
+    return MovingRings(data, solution, tuple(_warnings(solution.rings)))
+
+
+def _warnings(rings: tuple[BentRing, ...]) -> Iterator[str]:
+    """Of rings whose own frequencies are so low that a run would need their inertia."""
+    for ring in rings:
+        reduction = ring.seated.reduction
+        found = [
+            natural_frequencies(reduction.model, reduction.held, n, 1)[0] for n in range(_LOW + 1)
+        ]
+        n, lowest = int(np.argmin(found)), float(min(found))
+        if lowest < 2.0 * np.pi * _STIFF:
+            yield (
+                f"the {ring.side} ring on its seat has a frequency of "
+                f"{lowest / (2e3 * np.pi):.2g} kHz ({n} waves around it), but in a run a ring "
+                "bends without inertia of its own: vibrations above a third of that are not right."
+            )
 
 
 def held_rings(data: RingsData, rings: tuple[BentRing, ...]) -> RingsData:

@@ -128,7 +128,7 @@ def _yielded(side, i, ball, race, s, laws, sl, rings):
 
 @part
 def _bear(side, i, ball, race, sl, rings):
-    """What the ring bears of the ball that touches it: elastic forces along the axis and radially."""
+    """What the ring bears of a ball that touches it: elastic forces along the axis, radially."""
     _, n, _, _ = line_of_contact(ball.centre, ball.axis, race)
     rings.force[side, i, 0], rings.force[side, i, 1] = sl.Ne[0] * n[0], sl.Ne[0] * n[1]
 

@@ -122,7 +122,7 @@ def evaluate(t, y, yd, d, law, out, mode):
     constraints and what puts these in (``holding.hold``), and what is compiled separately:
     ``roller_pockets`` and ``equations.shared_equations``.
     """
-    work, Z = fields(d.scratch), fields(d.bodies).radius.shape[0]
+    Z = fields(d.bodies).radius.shape[0]
     nm = fields(d.pocket).phi_max.shape[0]
     at = places(Z, nm)
     q, u, qd, ud = y[: at.rest_q], y[at.u : at.rest_u], yd[: at.rest_q], yd[at.u : at.rest_u]

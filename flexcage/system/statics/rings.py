@@ -275,9 +275,8 @@ def _pressed(loads: ElementLoads, side: int, heavier: float) -> tuple[float, flo
     extent [m] under forces so many times larger, by Hertz."""
     force = loads.force[:, side]
     angle = np.nan_to_num(loads.angle[:, side])
-    return float(force @ angle / force.sum()), float(
-        loads.across[force.argmax(), side]
-    ) * heavier ** (1 / 3)
+    across = float(loads.across[force.argmax(), side])
+    return float(force @ angle / force.sum()), across * heavier ** (1.0 / 3.0)
 
 
 def _seated(
