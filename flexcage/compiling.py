@@ -40,8 +40,7 @@ class Compiling:
 
 def kernels_of(case: Case) -> str:
     """Name of the kernels that a case's run needs: its family's, or those with rings that bend."""
-    bends = case.inner_ring.bends or case.outer_ring.bends
-    return f"{case.bearing.family}-rings" if bends else case.bearing.family
+    return f"{case.bearing.family}-rings" if case.rings_bend else case.bearing.family
 
 
 def begin_compiling(case: Case) -> Compiling | None:

@@ -75,6 +75,11 @@ class StaticCase:
         check_static_case(self)
 
     @property
+    def rings_bend(self) -> bool:
+        """Does the inner or the outer ring bend?"""
+        return self.inner_ring.bends or self.outer_ring.bends
+
+    @property
     def speed(self) -> float:
         """Speed of the inner ring [rad/s] at the start."""
         return self.drive.at_start
