@@ -10,9 +10,10 @@ from flexcage.bearings import sections_of, statics_of
 from flexcage.case import Case
 from flexcage.core.errors import InputError
 from flexcage.integrate.rings import _deflections
-from flexcage.stages import bent_rings
+from flexcage.stages import assembled_start, bearing_in_motion, bent_rings, cage_mesh
 from flexcage.static import solve_static
 from flexcage.stress.rings import ring_field
+from flexcage.system.layout import CAGE, INNER, OUTER
 from flexcage.system.rings_in_motion import moving_rings
 from flexcage.system.spec import Load
 from flexcage.system.statics.options import AT_START
@@ -128,6 +129,29 @@ def test_energy_is_accounted_for(preset):
     damped = ds["work"].sel(channel="modal_damping").values
     assert damped[-1] < 0.0
     assert (np.diff(damped) < 1e-4 * abs(damped[-1])).all()
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("preset", LOADS)
+def test_forces_on_all_bodies_add_up_to_none(preset):
+    """Between races that yield, slopes included, in a state that is no equilibrium."""
+    case = bending(preset)
+    bearing = bearing_in_motion(case, cage_mesh(case), None)
+    layout, start = bearing.layout, assembled_start(case, bearing)
+    y, rng = start.y.copy(), np.random.default_rng(1)
+    elements = layout.q(y)["elements"]
+    elements[:, 1] += 1e-6 * rng.standard_normal(len(elements))
+    elements[:, 2] += 1e-3 * rng.standard_normal(len(elements))
+    layout.ring_forces(y)[:] *= 1.0 + 0.3 * rng.standard_normal(layout.ring_forces(y).shape)
+    bearing.residual(0.0, y, start.yd)
+    work, rings = bearing.data.work.scratch, bearing.data.model.rings
+    assert np.abs(rings.moment).max() > 1e-6  # slopes push
+    cos, sin = np.cos(elements[:, 2]), np.sin(elements[:, 2])
+    along = work.wrenches[:, 1] * cos - work.wrenches[:, 2] * sin
+    across = work.wrenches[:, 1] * sin + work.wrenches[:, 2] * cos
+    bodies = sum(work.border[k + 1 : k + 3] for k in (INNER, CAGE)) + work.border[OUTER:][:2]
+    total = bodies + [along.sum(), across.sum()]
+    assert np.abs(total).max() < 1e-12 * np.abs(work.wrenches[:, :3]).sum()
 
 
 @pytest.mark.slow
