@@ -67,6 +67,11 @@ def stress(computed, folder: Path) -> list[Picture]:
                     "The paper has no such figure.")]  # fmt: skip
 
 
+def done(computed, conditions) -> list[str]:
+    """Those of the conditions that the better model has a start of."""
+    return [c for c in conditions if len(computed.readings[BETTER].values("speed", c))]
+
+
 def settled(run):
     """The settled part of a run."""
     return metrics.settled(run.dataset, run.case.output.settle)
@@ -98,7 +103,7 @@ def by_azimuth(computed, path: Path, *, angles: bool) -> Path:
         sheet.heading(figure, title, "over the azimuth from the load, deg")
         for k, (name, conditions) in enumerate(SWEEPS.items()):
             ax = sheet.axes_at(figure, (left + k * (wide + 60), top, wide, high))
-            for colour, c in zip(sheet.CYCLE, conditions):
+            for colour, c in zip(sheet.CYCLE, done(computed, conditions)):
                 at, force, inner, outer = sectors(computed.readings[BETTER].run(c))
                 ax.plot(at, inner if angles else force, color=colour, label=c.split()[-1])
                 if angles:
@@ -117,7 +122,7 @@ def orbits(computed, path: Path, rows) -> Path:
         figure = sheet.new_figure(left + wide * (side + 60), top + len(rows) * (side + 60))
         sheet.heading(figure, "Orbits of the cage's centre", "um; load and gravity down")
         for i, row in enumerate(rows):
-            for k, c in enumerate(row):
+            for k, c in enumerate(done(computed, row)):
                 yz = UM * metrics.orbit(settled(computed.readings[BETTER].run(c)))
                 place = (left + k * (side + 60), top + i * (side + 60), side, side)
                 ax = sheet.axes_at(figure, place)
@@ -149,6 +154,8 @@ def deviations(computed, path: Path) -> Path:
                     if c not in joined.parts[0].conditions:
                         continue
                     values = joined.means("deviation", c) * PERCENT
+                    if not np.isfinite(values).any():
+                        continue
                     low, mid, high_ = np.nanpercentile(values, (10.0, 50.0, 90.0))
                     ax.plot([i + shift] * 2, [low, high_], color=colour, lw=3.0, alpha=0.5)
                     ax.plot(i + shift, mid, "_", color=colour, ms=9.0, mew=2.0,
@@ -168,7 +175,7 @@ def over_time(computed, path: Path, title: str, conditions) -> Path:
     with sheet.style():
         figure = sheet.new_figure(left + 3 * (wide + 70), top + 3 * (high + 60) + 10)
         sheet.heading(figure, title, "rpm of the cage (grey: rolling); axial, um; slip, %; over ms")
-        for k, c in enumerate(conditions):
+        for k, c in enumerate(done(computed, conditions)):
             run = computed.readings[BETTER].run(c)
             ds = run.dataset if c in RAMPS else settled(run)
             t = ds["time"].values * 1e3

@@ -13,6 +13,7 @@ from claims import CONDITIONS, CONSTANT, OVER_A, OVER_N
 from outputs import HARMONICS, analytical
 from paper_page import Picture, Table, number
 
+from flexcage import Run
 from flexcage.render import sheet
 from flexcage.render.claim_map import draw_claim_map
 from flexcage.results import metrics
@@ -128,19 +129,25 @@ def over_time(computed, path: Path, title: str, note: str, curve: Callable,
         sheet.heading(figure, title, f"{note}; over ms")
         for i, column in enumerate((BETTER, PRINTED_MODEL)):
             sheet.text_at(figure, 20, top + i * (high + 60) + 0.5 * high, column)
-            runs = [computed.readings[column].run(c) for c in CONDITIONS]
-            drawn = [(r.dataset["time"].values * 1e3, *curve(r)) for r in runs]
-            shown = [t > t[-1] - 30.0 * LAST for t, _, _ in drawn]
-            top_of = max(float(y[s].max()) for (_, y, _), s in zip(drawn, shown))
-            for k, ((t, y, beside), s) in enumerate(zip(drawn, shown)):
+            runs = done(computed.readings[column])
+            drawn = {c: (r.dataset["time"].values * 1e3, *curve(r)) for c, r in runs.items()}
+            shown = {c: t > t[-1] - 30.0 * LAST for c, (t, _, _) in drawn.items()}
+            top_of = max((float(y[shown[c]].max()) for c, (_, y, _) in drawn.items()), default=1.0)
+            for c, (t, y, beside) in drawn.items():
+                k, s = CONDITIONS.index(c), shown[c]
                 place = (left + k * (wide + 46), top + i * (high + 60), wide, high)
                 ax = sheet.axes_at(figure, place)
                 if beside is not None:
                     ax.plot(t[s], beside[s], color="0.65", lw=1.2)
                 ax.plot(t[s], y[s], color=sheet.BLUE, lw=0.7)
                 ax.set(xlim=(t[s][0], t[-1]), ylim=limits or (0.0, 1.05 * top_of))
-                ax.set_title(CONDITIONS[k], loc="left")
+                ax.set_title(c, loc="left")
         return sheet.save(figure, path)
+
+
+def done(reading) -> dict[str, Run]:
+    """First starts of a reading, of the conditions that have one."""
+    return {c: reading.run(c) for c in CONDITIONS if len(reading.values("speed", c))}
 
 
 def orbits(computed, path: Path, body: str) -> Path:
@@ -152,18 +159,18 @@ def orbits(computed, path: Path, body: str) -> Path:
         sheet.heading(figure, f"Orbits of the {name}", "um; radial load down")
         for i, column in enumerate((BETTER, PRINTED_MODEL)):
             sheet.text_at(figure, 20, top + i * (side + 60) + 0.5 * side, column)
-            found = []
-            for c in CONDITIONS:
-                run = computed.readings[column].run(c)
+            found = {}
+            for c, run in done(computed.readings[column]).items():
                 yz = metrics.centre_of(metrics.settled(run.dataset, run.case.output.settle), body)
-                found.append(UM * (yz - (yz.mean(axis=0) if body == "inner" else 0.0)))
-            reach = 1.08 * max(float(np.abs(yz).max()) for yz in found)
-            for k, yz in enumerate(found):
+                found[c] = UM * (yz - (yz.mean(axis=0) if body == "inner" else 0.0))
+            reach = 1.08 * max((float(np.abs(yz).max()) for yz in found.values()), default=1.0)
+            for c, yz in found.items():
+                k = CONDITIONS.index(c)
                 place = (left + k * (side + 50), top + i * (side + 60), side, side)
                 ax = sheet.axes_at(figure, place)
                 ax.plot(yz[:, 1], -yz[:, 0], color=sheet.BLUE, lw=0.5)
                 ax.set(xlim=(-reach, reach), ylim=(-reach, reach))
-                ax.set_title(CONDITIONS[k], loc="left")
+                ax.set_title(c, loc="left")
         return sheet.save(figure, path)
 
 

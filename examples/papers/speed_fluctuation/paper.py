@@ -217,8 +217,8 @@ def words(computed: Computed) -> Words:
 
 PAPER = Paper(
     title="A 7603025 whose speed fluctuates",
-    source="Effect of Rotational Speed Fluctuation Parameters on Dynamic Characteristics of Angular "
-    "Contact Ball Bearings, Symmetry 2025, 17(10), 1761",
+    source="Effect of Rotational Speed Fluctuation Parameters on Dynamic Characteristics of "
+    "Angular Contact Ball Bearings, Symmetry 2025, 17(10), 1761",
     claims=CLAIMS,
     readings="readings.toml",
     columns={"better": BETTER, "printed": PRINTED_MODEL},
