@@ -15,7 +15,6 @@ import sys
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from datetime import date
-from functools import cache
 from pathlib import Path
 
 from paper_page import Cell, Line, Page, Picture, Table, compose, draw_matrix
@@ -32,9 +31,11 @@ from paper_results import (
 )
 
 import flexcage
+from flexcage.case.extensions import forget
 from flexcage.core.progress import Progress
 from flexcage.study import MapResults, StudyResults, load_map, load_study, run_map, run_study
 from flexcage.study.claims import Claim
+from flexcage.study.own import OWN
 from flexcage.study.verdicts import UNDECIDED, write_verdicts
 
 STRESS = "stress"  # folder of the pictures of one run
@@ -95,10 +96,18 @@ class Computed:
     out: Path
 
 
-@cache
 def load(folder: Path) -> Paper:
-    """The paper of a folder, whose modules import each other as scripts do."""
+    """The paper of a folder, whose modules import each other as scripts do.
+
+    One paper at a time: outputs of papers that were loaded before may have the same names, and are
+    dropped.
+    """
     sys.path.insert(0, str(folder))
+    for name, output in list(OWN.items()):
+        file = Path(output.compute.__code__.co_filename)
+        if file.parent.parent == folder.parent:
+            del OWN[name]
+            forget(file)
     try:
         for name in ("claims", "outputs", "predict", "figures", "paper"):
             sys.modules.pop(name, None)

@@ -8,6 +8,7 @@ velocity, both in F. ``mode`` is one of ``contacts.evaluation``, but for the tan
 
 from __future__ import annotations
 
+from flexcage.bearings.ball.neighbours import touch_neighbours
 from flexcage.contacts.ball_pocket import BallInPocket, pocket_wall_contact
 from flexcage.contacts.evaluation import (
     ANGLE,
@@ -100,14 +101,15 @@ def evaluate(t, y, yd, d, law, out, mode):
     r_q, r_u = out[: at.rest_q], out[at.u : at.rest_u]
     rest_q, rest_u = y[at.rest_q : at.u], y[at.rest_u : at.lam]
     modes = set_bodies(rest_q, rest_u, d, mode)
+    touch_neighbours(q, u, d, law, mode)
     Rc, Vc = rest_q[Q_CAGE:Q_QUATERNION], rest_u[CAGE:CAGE_TURN]
     for i in range(Z):
         own = of_element(i)
         qi, ui = q[own], u[own]
         set_frame(qi[2], fields(d.pose).F)
         _races(i, qi, ui, rest_q, rest_u, d, law, mode)
-        _pocket(i, qi, ui, Rc, Vc, modes, d, law, mode)
-        _ball_rows(i, qi, ui, qd[own], ud[own], d, r_q[own], r_u[own], mode)
+        ball_in_pocket(i, qi, ui, Rc, Vc, modes, d, law, mode)
+        ball_rows(i, qi, ui, qd[own], ud[own], d, r_q[own], r_u[own], mode)
     law[SHARED](t, y, yd, d, law[:FAMILY_PARTS], out, mode)
 
 
@@ -136,7 +138,7 @@ def on_inner_race(i, qi, ui, rest_q, rest_u, d):
     return BallOnRace(
         fields(d.bodies).radius[i], P, xyz(ui), turn_of(ui), turned(F, xyz(vec[RING_AXIS])),
         turned(F, xyz(rest_u[:INNER_TURN])), turned(F, xyz(vec[RING_SPIN])),
-        fields(d.memory).race[i, INNER_RACE],
+        fields(d.memory).race[i, INNER_RACE], qi[2] - rest_q[Q_INNER_TURN + 2],
     )  # fmt: skip
 
 
@@ -148,7 +150,7 @@ def on_outer_race(i, qi, ui, rest_q, rest_u, d):
     return BallOnRace(
         fields(d.bodies).radius[i], P, xyz(ui), turn_of(ui), (1.0, 0.0, 0.0),
         turned(F, (0.0, rest_u[OUTER], rest_u[OUTER + 1])), (0.0, 0.0, 0.0),
-        fields(d.memory).race[i, OUTER_RACE],
+        fields(d.memory).race[i, OUTER_RACE], qi[2],
     )  # fmt: skip
 
 
@@ -180,27 +182,34 @@ def _races(i, qi, ui, rest_q, rest_u, d, law, mode):
     ball = on_inner_race(i, qi, ui, rest_q, rest_u, d)
     if groove_contact(ball, fields(d.inner), laws, sl, pair.wrench, mode, work.sums):
         react(F, work.unit, pair.wrench, ball.centre, border, INNER)
-        _add(work.wrenches[i], pair.wrench)
+        add_wrench(work.wrenches[i], pair.wrench)
     if mode >= REPORT:
-        _report_race(i, INNER_RACE, work.sums, fields(d.report))
+        report_race(i, INNER_RACE, work.sums, fields(d.report))
     zero(pair.wrench)
     ball = on_outer_race(i, qi, ui, rest_q, rest_u, d)
     if groove_contact(ball, fields(d.outer), laws, sl, pair.wrench, mode, work.sums):
-        _add(work.wrenches[i], pair.wrench)
-        for c in range(2):
-            border[OUTER + c] -= F[1, 1 + c] * pair.wrench[1] + F[2, 1 + c] * pair.wrench[2]
+        push_outer(i, d)
     if mode >= REPORT:
-        _report_race(i, OUTER_RACE, work.sums, fields(d.report))
+        report_race(i, OUTER_RACE, work.sums, fields(d.report))
 
 
 @part
-def _add(total, wrench):
+def push_outer(i, d):
+    """Add the pair's wrench to ball i and to the outer ring."""
+    F, wrench, work = fields(d.pose).F, fields(d.pair).wrench, fields(d.scratch)
+    add_wrench(work.wrenches[i], wrench)
+    for c in range(2):
+        work.border[OUTER + c] -= F[1, 1 + c] * wrench[1] + F[2, 1 + c] * wrench[2]
+
+
+@part
+def add_wrench(total, wrench):
     for c in range(6):
         total[c] += wrench[c]
 
 
 @part
-def _report_race(i, side, sums, rep):
+def report_race(i, side, sums, rep):
     closed = 1 if sums[NORMAL] > 0.0 else 0
     rep.contact[i, side] = closed
     rep.approach[i, side] = sums[APPROACH]
@@ -213,7 +222,7 @@ def _report_race(i, side, sums, rep):
 
 
 @part
-def _pocket(i, qi, ui, Rc, Vc, modes, d, law, mode):
+def ball_in_pocket(i, qi, ui, Rc, Vc, modes, d, law, mode):
     """Ball i in its pocket; the cage is at Rc and moves as Vc."""
     data, pw, pair, work = (
         fields(d.pocket),
@@ -227,7 +236,7 @@ def _pocket(i, qi, ui, Rc, Vc, modes, d, law, mode):
     laws, sl = Laws(law[POCKET_LAW], law[POCKET_RUBS]), fields(d.slices).row[0]
     hit = pocket_wall_contact(i, ball, modes, data, laws, sl, pw, pair.wrench, mode, sums)
     if hit:
-        _add(work.wrenches[i], pair.wrench)
+        add_wrench(work.wrenches[i], pair.wrench)
         react(fields(d.pose).F, work.A, pair.wrench, ball.centre, work.border, CAGE)
         push_modes(data, i, pw, work.border)
     if mode >= REPORT:
@@ -251,7 +260,7 @@ def _report_pocket(i, hit, sums, pw, rep, mode):
 
 
 @part
-def _ball_rows(i, qi, ui, qdi, udi, d, r_q, r_u, mode):
+def ball_rows(i, qi, ui, qdi, udi, d, r_q, r_u, mode):
     """Kinematics and momentum of ball i, with drag and gravity."""
     bodies, rep, FR = fields(d.bodies), fields(d.report), fields(d.scratch).wrenches[i]
     F = fields(d.pose).F
