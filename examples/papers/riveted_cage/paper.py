@@ -210,9 +210,10 @@ def words(computed: Computed) -> Words:
         "radius on they are closed, and 7.4 and 8 mm are the same rigid cage.",
         "**Fits** are of one older run (a strip of 3.2 mm, one start) scaled to 25 N a ball; clamp "
         "100 N, friction 0.15, root radius 0.1 mm are assumed and not varied.",
-        "**Changed for time**, before any figure of theirs was seen: the maps keep the ends of "
-        "sweeps, 16 + 8 points in place of 32; readings as printed and flexible have fewer "
-        "conditions.",
+        "**Changed for time.** The map keeps the ends of sweeps; its half with balls of 6.47 mm "
+        "was cut to 8 of 16 points after the other half had been seen; a map of grooves and "
+        "clearance was dropped, so that one reading decides 001-5 to 001-6; readings as printed "
+        "and flexible have fewer conditions.",
         *rechecked(c),
     ]  # fmt: skip
     return Words(summary, reasons, decides, readings)
