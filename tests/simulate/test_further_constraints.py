@@ -169,9 +169,10 @@ def test_what_a_constraint_drives_is_a_drive():
 
 def test_outputs_of_studies_name_constraints_that_every_case_has():
     name = "multiplier[constraint=cage_speed].mean"
-    check_outputs((name,), sizes={}, flexible=False, reactions=(*CONSTRAINTS, "cage_speed"))
+    study = {"sizes": {}, "flexible": False, "family": "cylindrical_roller"}
+    check_outputs((name,), **study, reactions=(*CONSTRAINTS, "cage_speed"))
     with pytest.raises(InputError, match="there is no constraint 'cage_speed'; choose from"):
-        check_outputs((name,), sizes={}, flexible=False)
+        check_outputs((name,), **study)
 
 
 def test_the_command_line_takes_them_apart(tmp_path, capsys):
