@@ -38,7 +38,7 @@ from flexcage.contacts.slices import (
 )
 from flexcage.contacts.state import add_force_and_moment
 from flexcage.contacts.uneven import ride, ride_on_spot
-from flexcage.core.jit import VECTORISED, part, zero
+from flexcage.core.jit import VECTORISED, outlined, part, zero
 from flexcage.core.vectors import combine, cross, dot, minus, plus, times
 
 LEAST_ROLLING = 1e-3  # rad/s: below it the rolling resistance fades out
@@ -102,8 +102,6 @@ def groove_contact(ball, race, laws, sl, wrench, mode, sums):
     leans = race.uneven + ball.spotted > 0
     if leans:
         lean, twist = lean_on(ball, race, (e, n, distance, reach), sl)
-        push = leaning(lean, n, cross(b, e))
-        sl.v[0] = dot(push, v) + dot(twist, spin)
         near = sl.v[0] / lean[0] if lean[0] > LEAST_LEAN else near
     if mode >= REPORT:
         sums[ANGLE] = atan2(race.side * dot(n, b), race.side * dot(n, e))
@@ -142,11 +140,11 @@ def groove_contact(ball, race, laws, sl, wrench, mode, sums):
     return True
 
 
-@part
+@outlined
 def lean_on(ball, race, line, sl):
     """How the depth on an uneven race, or of a spotted ball, follows the ball's place, along n, g
-    and t, and its rotation; the depth that counts into sl.d. ``line``: what ``line_of_contact``
-    gives."""
+    and t, and its rotation; the depth that counts, and its rate, into sl.d and sl.v. ``line``: what
+    ``line_of_contact`` gives."""
     e, n, distance, reach = line
     b, twist = ball.axis, (0.0, 0.0, 0.0)
     by_depth, along, across = 1.0, 0.0, 0.0
@@ -165,7 +163,10 @@ def lean_on(ball, race, line, sl):
         by_depth *= on
         along = on * along - dot(twist, b) / distance  # the contact moves away from the spot
         across = on * across + dot(twist, g) / reach
-    return (by_depth, along, across), twist
+    lean, spin = (by_depth, along, across), minus(ball.spin, ball.ring_spin)
+    v = minus(minus(ball.velocity, ball.ring_velocity), cross(ball.ring_spin, ball.centre))
+    sl.v[0] = dot(leaning(lean, n, cross(b, e)), v) + dot(twist, spin)
+    return lean, twist
 
 
 @part

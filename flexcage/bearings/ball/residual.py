@@ -8,7 +8,6 @@ its velocities are those of its centre and its angular velocity, both in F. ``mo
 
 from __future__ import annotations
 
-from flexcage.bearings.ball.neighbours import touch_neighbours
 from flexcage.contacts.ball_pocket import BallInPocket, pocket_wall_contact
 from flexcage.contacts.evaluation import (
     ANGLE,
@@ -86,14 +85,15 @@ from flexcage.system.layout import (
     places,
 )
 
-SHARED = FAMILY_PARTS  # place in ``law``: the family's only function ``separate``
+# places in ``law``: the family's functions ``separate``
+SHARED, BESIDE = FAMILY_PARTS, FAMILY_PARTS + 1
 
 
 def evaluate(t, y, yd, d, law, out, mode):
     """Residual into ``out``; see the module's text. Index letters: i ball, c component, m mode.
 
     ``law`` holds the normal laws of race, pocket, (side, rib,) land, their friction laws, and
-    ``equations.shared_equations``.
+    what is compiled separately: ``equations.shared_equations`` and ``touch_neighbours``.
     """
     Z = fields(d.bodies).radius.shape[0]
     at = places(Z, fields(d.pocket).phi_max.shape[0])
@@ -101,7 +101,7 @@ def evaluate(t, y, yd, d, law, out, mode):
     r_q, r_u = out[: at.rest_q], out[at.u : at.rest_u]
     rest_q, rest_u = y[at.rest_q : at.u], y[at.rest_u : at.lam]
     modes = set_bodies(rest_q, rest_u, d, mode)
-    touch_neighbours(q, u, d, law, mode)
+    law[BESIDE](t, y, yd, d, law[:FAMILY_PARTS], out, mode)
     Rc, Vc = rest_q[Q_CAGE:Q_QUATERNION], rest_u[CAGE:CAGE_TURN]
     for i in range(Z):
         own = of_element(i)
