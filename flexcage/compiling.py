@@ -38,13 +38,18 @@ class Compiling:
     helper: subprocess.Popen | None
 
 
+def kernels_of(case: Case) -> str:
+    """Name of the kernels that a case's run needs: its family's, or those with rings that bend."""
+    return f"{case.bearing.family}-rings" if case.rings_bend else case.bearing.family
+
+
 def begin_compiling(case: Case) -> Compiling | None:
     """Begin to compile the kernels of the case's family in a process of its own, if they are not on
     disk yet.
 
     Meanwhile the cage is meshed and reduced. ``build_bearing`` helps, and waits for it.
     """
-    if jit.kernels_cached(case.bearing.family):
+    if jit.kernels_cached(kernels_of(case)):
         return None
     log.info("compiling the kernels for the first time: 20 to 30 seconds, once")
     pieces, end = os.pipe()
@@ -96,5 +101,5 @@ def build_bearing(
         for piece in bearing.pieces():  # what the helper took: read from disk, or compiled here
             piece()
     bearing.evaluate  # noqa: B018
-    jit.mark_compiled(case.bearing.family)
+    jit.mark_compiled(kernels_of(case))
     return bearing

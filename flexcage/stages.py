@@ -7,11 +7,12 @@ names, ``CageSpecs`` or ``MotionSpecs``; a case has it all.
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
+from dataclasses import replace
 from typing import Any, Protocol
 
 import numpy as np
 
-from flexcage.bearings import motion_of, statics_of
+from flexcage.bearings import bending_of, motion_of, sections_of, statics_of
 from flexcage.bodies.cage import flexible_from_reduction, rigid_from_tets
 from flexcage.bodies.floating_frame import FlexibleBody
 from flexcage.cages.build import build_cage_mesh, reduce_cage, rigid_interface_of
@@ -21,6 +22,7 @@ from flexcage.core.timing import Stages
 from flexcage.geometry.bearing import Bearing as BearingSpec
 from flexcage.geometry.cage import Cage as CageSpec
 from flexcage.geometry.defect import CageDefect
+from flexcage.geometry.ring import InnerRing, OuterRing
 from flexcage.mesh.cage_mesh import CageMesh
 from flexcage.mesh.options import MeshOptions
 from flexcage.mesh.quality import check_mesh
@@ -28,12 +30,16 @@ from flexcage.modes.reduction import CageReduction
 from flexcage.modes.spec import ModesSpec
 from flexcage.modes.table import ModeTable
 from flexcage.results.options import OutputOptions
+from flexcage.system.bending import rigid_rings
+from flexcage.system.bodies import heaviest_load
 from flexcage.system.constraints import names_of
 from flexcage.system.layout import Layout
 from flexcage.system.problem import Bearing
+from flexcage.system.rings_in_motion import MovingRings, moving_rings
 from flexcage.system.spec import Constraint, Drive, Limits, Load, Mount, StartOptions
 from flexcage.system.start import Start, constrained, find_start, with_push
 from flexcage.system.statics.options import AT_START
+from flexcage.system.statics.rings import BentRing, Rings
 from flexcage.system.statics.solution import StaticSolution
 from flexcage.system.statics.solve import solve_bearing
 
@@ -79,6 +85,12 @@ class MotionSpecs(Protocol):
     @property
     def load(self) -> Load: ...
     @property
+    def speed(self) -> float: ...
+    @property
+    def inner_ring(self) -> InnerRing: ...
+    @property
+    def outer_ring(self) -> OuterRing: ...
+    @property
     def mount(self) -> Mount: ...
     @property
     def constraints(self) -> Sequence[Constraint]: ...
@@ -88,8 +100,8 @@ class MotionSpecs(Protocol):
     def output(self) -> OutputOptions: ...
 
 
-class StartSpecs(Protocol):
-    """What says where a run begins."""
+class StaticSpecs(Protocol):
+    """What says where the static solution is."""
 
     @property
     def bearing(self) -> BearingSpec: ...
@@ -101,6 +113,11 @@ class StartSpecs(Protocol):
     def load(self) -> Load: ...
     @property
     def speed(self) -> float: ...
+
+
+class StartSpecs(StaticSpecs, Protocol):
+    """What says where a run begins."""
+
     @property
     def constraints(self) -> Sequence[Constraint]: ...
     @property
@@ -159,9 +176,9 @@ def bearing_in_motion(specs: MotionSpecs, mesh: CageMesh, cage: CageReduction | 
     """Bodies, contacts and equations of motion, which are compiled when first asked for."""
     if cage is None:
         body = rigid_from_tets(mesh.points, mesh.tets, specs.cage.material.density)
-        return _assembled(specs, body, _rigid_interface(specs))
+        return _assembled(specs, body, _rigid_interface(specs), _moving_rings(specs))
     body = flexible_from_reduction(cage, specs.modes.damped_as(specs.cage.material))
-    return _assembled(specs, body, cage.interface)
+    return _assembled(specs, body, cage.interface, _moving_rings(specs))
 
 
 def bearing_to_compile(specs: MotionSpecs) -> Bearing:
@@ -175,18 +192,52 @@ def _rigid_interface(specs: MotionSpecs) -> Any:
     return rigid_interface_of(specs.cage, pocket_count=count, defects=specs.all_defects)
 
 
-def _assembled(specs: MotionSpecs, body: FlexibleBody, interface: Any) -> Bearing:
-    """``interface``: what moves in the cage's pockets."""
+def bent_rings(specs: MotionSpecs) -> tuple[BentRing, ...]:
+    """The rings that bend, as a run begins; none if both are rigid."""
+    rings = _moving_rings(specs)
+    return rings.start.rings if rings else ()
+
+
+def _moving_rings(specs: MotionSpecs) -> MovingRings | None:
+    rings = _rings_of(specs)
+    if not rings.bend:
+        return None
+    rings = replace(rings, heavier=heaviest_load(specs.load))
+    return moving_rings(rings, _statics(specs, rings))
+
+
+def _rings_of(specs: MotionSpecs) -> Rings:
+    return Rings(specs.inner_ring, specs.outer_ring, sections_of(specs.bearing))
+
+
+def _statics(specs: StaticSpecs, rings: Rings | None = None) -> StaticSolution:
+    return solve_bearing(
+        specs.bearing, statics_of(specs.bearing), load=specs.load, speed=specs.speed,
+        contacts=specs.contacts, lubricant=specs.lubricant, options=AT_START, rings=rings,
+    )  # fmt: skip
+
+
+def _assembled(
+    specs: MotionSpecs, body: FlexibleBody, interface: Any, rings: MovingRings | None = None
+) -> Bearing:
+    """``interface``: what moves in the cage's pockets; ``rings``: those that bend, any if they are
+    left out."""
     motion, output = motion_of(specs.bearing), specs.output
+    bends = _rings_of(specs).bend
     model = motion.build_model(
         specs.bearing, specs.cage, body, interface, contacts=specs.contacts,
         lubricant=specs.lubricant, drive=specs.drive, load=specs.load, mount=specs.mount,
         seed=specs.seed,
     )  # fmt: skip
-    layout = Layout(specs.bearing.element_count, body.modes, names_of(specs.constraints))
+    count = specs.bearing.element_count
+    if bends:
+        bending = bending_of(specs.bearing)
+        data = rigid_rings(count) if rings is None else rings.data
+        motion, model = bending.motion, bending.model(*model, data)
+    layout = Layout(count, body.modes, names_of(specs.constraints), bends)
     return Bearing(
         motion, specs.bearing, model, specs.contacts, layout, constraints=specs.constraints,
-        block=output.block, stride=output.vibration_ratio, interval=1.0 / output.rate,
+        block=output.block, stride=output.vibration_ratio, interval=1.0 / output.rate, rings=rings,
     )  # fmt: skip
 
 
@@ -200,13 +251,12 @@ def assembled_start(
     """
 
     def statics() -> StaticSolution:
-        return solve_bearing(
-            specs.bearing, statics_of(specs.bearing), load=specs.load, speed=specs.speed,
-            contacts=specs.contacts, lubricant=specs.lubricant, options=AT_START,
-        )  # fmt: skip
+        return bearing.rings.start if bearing.rings else _statics(specs)
 
     limit = specs.limits.assembly_force
     with progress(1.0, "start") as bar:
         start = find_start(bearing, limit_force=limit, statics=statics, advance=bar.to)
+    if bearing.rings:
+        start = replace(start, warnings=(*start.warnings, *bearing.rings.warnings))
     start = with_push(start, bearing.layout, specs.start)
     return constrained(start, bearing, specs.constraints, limit_force=limit)

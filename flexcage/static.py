@@ -82,10 +82,13 @@ def ehl_traction(
     return EhlTraction(limit=limit, creep_speed=float(np.mean(found)))
 
 
-def draw_ring(ring: BentRing, path: str | Path, *, scale: float | None = None) -> Path:
-    """Picture of a ring of a static solution: stress on its deformed shape (``scale`` times; chosen
-    if not given), forces, and how far its race yields. Beneath the elements Hertz's own stress is
-    not resolved."""
+def draw_ring(
+    ring: BentRing, path: str | Path, *, scale: float | None = None,
+    when: str = "in the static solution",
+) -> Path:  # fmt: skip
+    """Picture of a ring of a static solution, or of an instant of a run (``when``, in words):
+    stress on its deformed shape (``scale`` times; chosen if not given), forces, and how far its
+    race yields. Beneath the elements Hertz's own stress is not resolved."""
     from flexcage.render import ring_picture
     from flexcage.stress.rings import ring_field
 
@@ -97,7 +100,7 @@ def draw_ring(ring: BentRing, path: str | Path, *, scale: float | None = None) -
         points, field.points(1.0).reshape(-1, 3) - points, field.quadrangles(),
         field.von_mises.ravel(), path, azimuth=ring.azimuth, force=ring.force[:, radial],
         deflection=ring.deflection[:, 1], support=supports, support_force=ring.support_force,
-        title=f"{ring.side.capitalize()} ring in the static solution", scale=scale,
+        title=f"{ring.side.capitalize()} ring {when}", scale=scale,
         note="stress beneath the elements is that of the ring, without Hertz's own",
     )  # fmt: skip
 

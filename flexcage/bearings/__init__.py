@@ -5,6 +5,7 @@
 
 from flexcage.bearings.family import (
     Family,
+    bending_of,
     family_of,
     in_motion,
     motion_of,
@@ -14,5 +15,6 @@ from flexcage.bearings.family import (
 )
 
 __all__ = [
-    "Family", "family_of", "in_motion", "motion_of", "recording_of", "sections_of", "statics_of",
+    "Family", "bending_of", "family_of", "in_motion", "motion_of", "recording_of", "sections_of",
+    "statics_of",
 ]  # fmt: skip

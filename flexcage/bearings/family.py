@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from flexcage.results.metrics import ElementSpeed
     from flexcage.results.registry import OwnVariables
     from flexcage.stress.rubbing import Rub
-    from flexcage.system.motion import Motion
+    from flexcage.system.motion import BendingMotion, Motion
     from flexcage.system.statics.elements import ElementsOf
 
 
@@ -99,6 +99,19 @@ def motion_of(bearing: Bearing) -> Motion[Any]:
     if motion is None:
         raise _lacking(bearing, "equations of motion")
     return motion()
+
+
+def bending_of(bearing: Bearing) -> BendingMotion:
+    """What moves a bearing's elements between rings that bend; InputError without it."""
+    bending = motion_of(bearing).bending
+    if bending is None:
+        raise InputError(
+            f"rings of a {bearing.kind} do not bend in a run: its family '{bearing.family}' has no "
+            "such equations of motion; leave out inner_ring.ring and outer_ring.ring, or take "
+            "'flexcage static'",
+            where="outer_ring.ring",
+        )
+    return bending()
 
 
 def recording_of(bearing: Bearing) -> Recording[Any]:

@@ -49,7 +49,7 @@ kind does as well. A preset gives values of its own, which count before these de
 """
 _KINDS = {float: "number", int: "whole number", bool: "true, false", str: "text", Path: "path"}
 _HIDDEN = ("given",)  # not for files
-_STATIC = ("inner_ring", "outer_ring", "static")  # which no run reads
+_STATIC = ("static",)  # which no run reads
 
 
 @dataclass(frozen=True)

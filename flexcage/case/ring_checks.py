@@ -59,11 +59,20 @@ def _azimuths(supports: tuple[float, ...]) -> str:
 
 
 def find_bending_in_run(case: Case) -> Iterator[Finding]:
-    """Rings that bend, which a run does not have."""
+    """What rings that bend in a run cannot have."""
     for side in ("inner_ring", "outer_ring"):
-        if getattr(case, side).bends:
+        ring = getattr(case, side)
+        if not ring.bends:
+            continue
+        if ring.seat in SUPPORTED:
             yield (
-                f"{side}.ring",
-                f"{side}.ring is 'flexible', but the rings of a run are rigid; leave it out, or "
-                "take 'flexcage static'.",
+                f"{side}.seat",
+                f"{side}.seat is '{ring.seat}', but in a run a seat holds a ring that bends all "
+                "around; take 'rigid' or 'foundation', or 'flexcage static'.",
+            )
+        if case.solver.method == "bdf":
+            yield (
+                "solver.method",
+                f"solver.method is 'bdf', but {side}.ring is 'flexible', and rings that bend move "
+                "by explicit steps; take 'explicit' or 'auto'.",
             )

@@ -56,10 +56,10 @@ class StaticCase:
     drive: Drive = option(Drive(speed=0.0), doc="what turns the inner ring")
     load: Load = option(Load(), doc="what loads the inner ring")
     inner_ring: InnerRing = option(
-        InnerRing(), doc="how the inner ring bends in a static solution", legacy=InnerRing()
+        InnerRing(), doc="how the inner ring bends, if it does", legacy=InnerRing()
     )
     outer_ring: OuterRing = option(
-        OuterRing(), doc="how the outer ring bends in a static solution", legacy=OuterRing()
+        OuterRing(), doc="how the outer ring bends, if it does", legacy=OuterRing()
     )
     mount: Mount = option(Mount(), doc="what holds the outer ring")
     static: StaticOptions = option(StaticOptions(), doc="how a static solution is meant")
@@ -73,6 +73,11 @@ class StaticCase:
         """Raise InputError for the first thing in the case that cannot be."""
         check_spec(self)
         check_static_case(self)
+
+    @property
+    def rings_bend(self) -> bool:
+        """Does the inner or the outer ring bend?"""
+        return self.inner_ring.bends or self.outer_ring.bends
 
     @property
     def speed(self) -> float:

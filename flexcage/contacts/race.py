@@ -141,8 +141,14 @@ def meet_race(m, pose, side, Rw, theta, onset, rw):
 @part
 def press_race(count, side, laws, rw):
     """Forces of all ``count`` contacts of the lot ``rw``."""
+    normal_forces_of_lot(laws.normal, (0, count * side.s.shape[0]), rw.lot[0], side.normal)
+    rub_race(count, side, laws, rw)
+
+
+@part
+def rub_race(count, side, laws, rw):
+    """Friction and rolling resistance of the lot's contacts under their normal forces."""
     sl, n = rw.lot[0], side.s.shape[0]
-    normal_forces_of_lot(laws.normal, (0, count * n), sl, side.normal)
     friction_factors(laws.friction, (0, count * n), sl, side.friction)
     for m in range(count):
         rw.load[m] = total((np.uint64(m * n), np.uint64((m + 1) * n)), sl.N)

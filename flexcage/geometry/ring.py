@@ -21,7 +21,7 @@ class FlexibleRing:
     layer under it, of equal stiffness in every direction.
     """
 
-    ring: str = option("rigid", doc="does the ring bend in the static solution?", choices=RINGS)
+    ring: str = option("rigid", doc="does the ring bend?", choices=RINGS)
     material: Material | None = option(None, doc="material of the ring (default: the bearing's)")
     diameter: float | None = quantity(
         "mm", None, doc="diameter of its seat (default: the bearing's)", above=0.0
@@ -30,6 +30,12 @@ class FlexibleRing:
     foundation: float = quantity(
         "N/mm^3", 1e13, doc="stiffness of a foundation, per area of the seat", above=0.0,
         assumption="10 N/um on every square millimetre: 20 mm of steel behind the seat",
+    )  # fmt: skip
+
+    relaxation: float = quantity(
+        "us", 5e-6, doc="time in which a race yields to a load in a run, by 63 %", above=0.0,
+        assumption="its material and seat damp in proportion to their stiffness: 3 % of the "
+        "critical at 2 kHz, as joints do",
     )  # fmt: skip
 
     @property

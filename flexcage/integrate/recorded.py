@@ -8,6 +8,7 @@ import numpy as np
 
 from flexcage.integrate.postures import in_plane, orientation, to_body
 from flexcage.integrate.recording import Recording
+from flexcage.integrate.rings import ring_records
 from flexcage.results.options import OutputOptions
 from flexcage.results.registry import ENERGIES, VARIABLES, variables_of
 from flexcage.results.store import MemoryRunStore, RunStore
@@ -63,8 +64,10 @@ def new_store(
 
 def recorded_names(bearing: Bearing) -> list[str]:
     """Names of all that is recorded of this bearing."""
+    layout = bearing.layout
+    without = {dim for dim, has in (("mode", layout.modes), ("bending", layout.bends)) if not has}
     every = variables_of(bearing.spec.family)
-    return [name for name in every if bearing.layout.modes or "mode" not in VARIABLES[name].dims]
+    return [name for name in every if without.isdisjoint(VARIABLES[name].dims)]
 
 
 def recorded(
@@ -102,6 +105,8 @@ def _common(bearing: Bearing, y: np.ndarray, yd: np.ndarray) -> dict[str, np.nda
         "multiplier": layout.multipliers(y),
         "energy": s.energy[:n],
     }
+    if layout.bends:
+        arrays |= ring_records(bearing, y)
     if layout.modes:
         arrays["modal_coordinates"] = q["modes"]
         arrays["modal_velocity"] = u["modes"]

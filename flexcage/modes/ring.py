@@ -85,12 +85,16 @@ class RingReduction:
         half_space = 2.0 * self.half_space - self.wider_half_space
         return self.between(np.array(0.0)) - half_space
 
-    def between(self, azimuth: np.ndarray) -> np.ndarray:
-        """Compliance (2, 2, m) of the race between elements that are angles (m,) apart."""
+    def between(self, azimuth: np.ndarray, *, slope: bool = False) -> np.ndarray:
+        """Compliance (2, 2, m) of the race between elements that are angles (m,) apart; or its
+        ``slope`` over the angle."""
         short, wide = (
             spectrum(self.harmonics, length) ** 2 for length in (self.along, sqrt(2.0) * self.along)
         )
-        wave = np.cos(np.multiply.outer(self.harmonics, azimuth))
+        n = self.harmonics
+        wave = np.cos(np.multiply.outer(n, azimuth))
+        if slope:
+            wave = np.einsum("n,n...->n...", -n, np.sin(np.multiply.outer(n, azimuth)))
         return np.einsum("n,nij,n...->ij...", 2.0 * short - wide, self.compliance[:, :2, :2], wave)
 
 

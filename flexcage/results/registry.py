@@ -51,6 +51,7 @@ _LABELS: dict[str, tuple[str, ...]] = {
     "spin_axis": ("axial", "radial", "tangential"),
     "quaternion": ("w", "x", "y", "z"),
     "race": ("inner", "outer"),
+    "bending": ("axial", "radial", "tilt"),
     "face": FACES,
 }
 
@@ -205,6 +206,18 @@ def _common() -> Iterator[Variable]:
         "sliding speed of an element at a race, along the rolling direction (psi), in the middle "
         "of the contact",
         "element", "race",
+    )  # fmt: skip
+    yield sampled(
+        "ring_load", "N, N, N m",
+        "force of an element on the race of a ring that bends, and its moment in tilt; zero at a "
+        "rigid one",
+        "element", "race", "bending",
+    )  # fmt: skip
+    yield sampled(
+        "ring_deflection", "m, m, rad",
+        "how far the race of a ring that bends lies from where its seat has it, beneath an "
+        "element, without what the contact law counts",
+        "element", "race", "bending",
     )  # fmt: skip
     yield sampled("pocket_force", "N", "normal force on a pocket face", "pocket", "face", **face)
     yield sampled(

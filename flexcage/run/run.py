@@ -32,6 +32,7 @@ from flexcage.results.metrics import BearingNumbers, settled
 from flexcage.results.statistics import element_passes
 from flexcage.results.store import MemoryRunStore
 from flexcage.results.summary import Row, Summary
+from flexcage.run.rings import draw_rings, rings_at, seated_rings
 from flexcage.run.summary import summary_of, timed, warned, with_stress
 from flexcage.solve.contract import Effort
 from flexcage.stress.fatigue import Fatigue
@@ -44,6 +45,7 @@ from flexcage.stress.sn_curves import SNCurve
 from flexcage.stress.wear import Wear, wear
 from flexcage.stress.wear_laws import WearLaw, wear_law
 from flexcage.system.start import Start
+from flexcage.system.statics.rings import BentRing, SeatedRing
 
 if TYPE_CHECKING:
     import xarray
@@ -247,6 +249,21 @@ class Run:
         """Time [s] of the largest equivalent stress of the settled part."""
         return self.cage_stress.peak_time
 
+    @cached_property
+    def seated_rings(self) -> tuple[SeatedRing, ...]:
+        """The rings that bend, on their seats; InputError if both are rigid."""
+        return self.stages("rings", seated_rings, self)
+
+    def rings(self, *, time: float | str | None = None) -> tuple[BentRing, ...]:
+        """The rings that bend, at the sample nearest to ``time``, in seconds or a text with its
+        unit; default: when they yield most in the settled part.
+
+        As those of a static solution: ``stress.rings.ring_field`` gives their stress,
+        ``static.draw_ring`` their picture. Raises InputError if both are rigid, or for a time
+        outside the run.
+        """
+        return rings_at(self, time)[1]
+
     def write_vtu(
         self,
         folder: str | Path,
@@ -307,7 +324,8 @@ class Run:
         from flexcage.render.album import draw_album
 
         scene = self.scene(animate=animate)
-        return draw_album(scene, folder, animate=animate, look=look, progress=self.stages.progress)
+        drawn = draw_album(scene, folder, animate=animate, look=look, progress=self.stages.progress)
+        return [*drawn, *draw_rings(self, folder)] if "ring_load" in self.dataset else drawn
 
     def tell_times(self) -> None:
         """Bring the wall times of a run just computed up to now in its summary, the stored one

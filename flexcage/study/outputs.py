@@ -255,14 +255,15 @@ def _check_known(name: str, dim: str, label: str, labels: Collection[str]) -> No
 def check_outputs(
     names: tuple[str, ...], *, family: str, sizes: Mapping[str, int], flexible: bool,
     riveted: bool = False, materials: Collection[str] = (),
-    reactions: Collection[str] = CONSTRAINTS,
+    reactions: Collection[str] = CONSTRAINTS, bends: bool = False,
 ) -> None:  # fmt: skip
     """Raise InputError for the first output that no run of the study can give.
 
     ``sizes`` holds the least length in any case of dimensions that are counted (rolling elements,
     pockets, slices), ``family`` is that of the bearings, ``flexible`` says whether any
     cage is, ``riveted`` whether one of these is riveted, ``materials`` names those of all
-    cages, and ``reactions`` the constraints that every case has. Raises EnvironmentLacks for
+    cages, ``reactions`` the constraints that every case has, and ``bends`` says whether any ring
+    bends. Raises EnvironmentLacks for
     fatigue without pyLife.
     """
     if not names:
@@ -274,6 +275,13 @@ def check_outputs(
             reduction = parse_reduction(name)
             needs = reduction.variable.name.startswith(("modal_", "residual_"))
             _check_family(name, _families(reduction.variable.name), family)
+            if "bending" in reduction.variable.dims and not bends:
+                raise InputError(
+                    f"Output '{name}' is of rings that bend, but every ring of the study is rigid; "
+                    "set outer_ring.ring = 'flexible' or leave it out.",
+                    where="outputs",
+                    value=name,
+                )
             for dim, label in reduction.selection.items():
                 if dim == "constraint":
                     _check_known(name, dim, label, reactions)

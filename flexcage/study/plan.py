@@ -57,7 +57,7 @@ def make_plan(study: Study) -> Plan:
     _check_columns(study)
     points = points_of(study.axes)
     cases, seen = [], dict[str, int]()
-    family, flexible, riveted = study.case.bearing.family, False, False
+    family, flexible, riveted, bends = study.case.bearing.family, False, False, False
     sizes = _counts(study.case)
     materials, held = dict[str, None](), set(names_of(study.case.constraints))
     for number, point in enumerate(points):
@@ -79,12 +79,13 @@ def make_plan(study: Study) -> Plan:
             sizes = {dim: min(size, sizes[dim]) for dim, size in _counts(case).items()}
             flexible |= case.cage_model == "flexible"
             riveted |= case.riveted
+            bends |= case.rings_bend
             materials[case.cage.material.name] = None
             held = held.intersection(names_of(case.constraints))
             cases.append(Planned(number, point, repetition, case.hash, _modes_key(case)))
     check_outputs(
         study.outputs, sizes=sizes, flexible=flexible, riveted=riveted, family=family,
-        materials=materials, reactions=(*CONSTRAINTS, *sorted(held)),
+        materials=materials, reactions=(*CONSTRAINTS, *sorted(held)), bends=bends,
     )  # fmt: skip
     return Plan(study, tuple(cases))
 

@@ -17,6 +17,7 @@ from typing import Any
 from flexcage._version import __version__
 from flexcage.case import Case, load_case, load_extension
 from flexcage.case.extensions import sources
+from flexcage.compiling import kernels_of
 from flexcage.core import jit
 from flexcage.core.errors import EnvironmentLacks, FlexcageError, InputError
 from flexcage.core.threads import on_one_core
@@ -163,11 +164,11 @@ def compile_kernels(case: Case) -> None:
     """Compile the kernels once a machine: workers that need them at the same time wait."""
     import filelock
 
-    if jit.kernels_cached(case.bearing.family):
+    if jit.kernels_cached(kernels_of(case)):
         return
-    lock = jit.compiling_lock(case.bearing.family)
+    lock = jit.compiling_lock(kernels_of(case))
     with nullcontext() if lock is None else filelock.FileLock(lock):
-        if not jit.kernels_cached(case.bearing.family):
+        if not jit.kernels_cached(kernels_of(case)):
             rigid = case.replace("cage.model", "rigid").replace("defects", ())
             coarse = rigid.replace("mesh", MeshOptions(fineness="coarse"))
             simulate(coarse.replace("solver.duration", 2.0 / case.output.rate))

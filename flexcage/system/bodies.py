@@ -65,6 +65,16 @@ def loads_over(load: Load, times: np.ndarray) -> np.ndarray:
     return loads.T
 
 
+def heaviest_load(load: Load) -> float:
+    """How many times as large as at the start the load on the inner ring grows, at the most."""
+    largest = []
+    for way in ("radial", "axial"):
+        wave = load.wave_amplitude * (load.wave != "none" and load.wave_of == way)
+        largest.append(np.abs(_load_table(load, way)[1]).max() + abs(wave))
+    begin = np.hypot(*load.at_start)
+    return float(max(np.hypot(*largest) / begin, 1.0)) if begin > 0.0 else 1.0
+
+
 def _wave(spec: Wave, amplitude: float) -> tuple[float, float, float, float]:
     """Shape, share of a rise, amplitude and period as the kernels take them."""
     if spec.wave == "none" or amplitude == 0.0:

@@ -1,4 +1,4 @@
-"""The index map of y = (q, u, lambda, mu): which unknown lives where."""
+"""The index map of y = (q, u, lambda, mu, s): which unknown lives where."""
 
 from __future__ import annotations
 
@@ -17,6 +17,7 @@ INNER, INNER_TURN, OUTER, CAGE, CAGE_TURN, MODES = 0, 3, 6, 8, 11, 14
 # places in q behind the elements: centre; skew, tilt and spin of the inner ring; the outer's centre
 # (y, z); quaternion
 Q_INNER, Q_INNER_TURN, Q_OUTER, Q_CAGE, Q_QUATERNION, Q_MODES = 0, 3, 6, 8, 11, 15
+RING_FORCES = 4  # of every element on rings that bend: two on either ring
 N_LAMBDA = 4  # inner ring: axial position, skew, tilt, drive
 N_MU = 3  # position-level constraints among them
 N_OWN = N_LAMBDA + N_MU  # multipliers of every bearing, before those of further constraints
@@ -77,12 +78,14 @@ class Layout:
     (y, z); cage (x, y, z, quaternion, modes). u: elements (v_x, v_r, v_psi, w_axis, w_2, w_3);
     ring (v, w in its non-spinning frame); outer (v_y, v_z); cage (v in space, w in the body,
     modal rates). The border of Newton's matrix is (ring 6, outer 2, cage 6 + n, lambda, mu), and
-    the further constraints' lambda and mu, one of each for every name in ``held``.
+    the further constraints' lambda and mu, one of each for every name in ``held``. Where rings bend
+    y ends with the forces s that they bear of every element (``system.bending``).
     """
 
     elements: int
     modes: int
     held: tuple[str, ...] = ()  # names of the scalar constraints beyond ``CONSTRAINTS``
+    bends: bool = False  # do rings bend?
 
     @property
     def n_q(self) -> int:
@@ -102,6 +105,11 @@ class Layout:
 
     @property
     def size(self) -> int:
+        return self._end + (RING_FORCES * self.elements if self.bends else 0)
+
+    @property
+    def _end(self) -> int:
+        """Where the multipliers end."""
         return self._places.held + 2 * len(self.held)
 
     @property
@@ -128,6 +136,12 @@ class Layout:
             **{name: rest[..., where] for name, where in bodies.items()},
             "modes": rest[..., modes : modes + self.modes],
         }
+
+    def ring_forces(self, y: np.ndarray) -> np.ndarray:
+        """View (..., 2, Z, 2) of the forces that both rings bear, at their ports; none where rings
+        are rigid."""
+        count = self.elements if self.bends else 0
+        return y[..., self._end :].reshape(*y.shape[:-1], 2, count, 2)
 
     def multipliers(self, y: np.ndarray) -> np.ndarray:
         """Forces and torques of the constraints ``reactions``, a copy."""

@@ -73,6 +73,22 @@ def parts_type(name: str, model: type, module: str) -> Any:
     return namedtuple(name, groups, module=module)
 
 
+def bending_model(name: str, model: type, module: str) -> Any:
+    """Type of a family's model with the data of rings that bend (``bending.RingsData``), as
+    ``rings``; arguments as those of ``parts_type``."""
+    own: Any = model
+    return namedtuple(name, (*own._fields, "rings"), module=module)
+
+
+@dataclass(frozen=True, kw_only=True)
+class BendingMotion:
+    """How a family's elements move between rings that bend: kernels of their own, so that others
+    pay nothing, over a model of type ``model`` (``bending_model``)."""
+
+    motion: Motion[Any]
+    model: Any
+
+
 @dataclass(frozen=True, kw_only=True)
 class Motion(Generic[M]):
     """Rolling elements of one family in motion.
@@ -83,6 +99,7 @@ class Motion(Generic[M]):
     another process at the same time, and follow the laws in ``law``; the longest first. ``faces``
     names the faces of a pocket, ``ribs`` what else an element may touch besides its races: a
     bearing has the first of them, as many as ``new_work`` makes room for.
+    ``bending`` imports how they move between rings that bend; None: they do not.
     ``linearise(t, y, yd, data)`` fills the tangent, in plain Python that is compiled when an
     implicit method asks for it; None: mode TANGENT of ``evaluate`` does.
     """
@@ -96,6 +113,7 @@ class Motion(Generic[M]):
     ribs: tuple[str, ...]
     start: FindStart
     error_weights: Callable[[M, Layout, float], np.ndarray]  # see ``scales.shared_weights``
+    bending: Callable[[], BendingMotion] | None = None
     linearise: Callable[..., None] | None = None
     implicit_share: float = 0.0  # "auto" takes implicit steps below this many solver.stable_step
     implicit_weights: Callable[[M, Layout, float], np.ndarray] | None = None  # None: error_weights

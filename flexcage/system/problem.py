@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from functools import cached_property, partial
 from math import ceil
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numba
 import numpy as np
@@ -43,6 +43,9 @@ from flexcage.system.motion import Motion
 from flexcage.system.rates import RatesWork, modal_oscillators, new_rates_work
 from flexcage.system.spec import Constraint
 from flexcage.system.time_functions import corners
+
+if TYPE_CHECKING:
+    from flexcage.system.rings_in_motion import MovingRings
 
 ITERATIONS = 40  # of the spectral radius
 NUDGE = 5e-12  # [m] over which it takes differences
@@ -178,12 +181,12 @@ class Bearing:
     def __init__(
         self, motion: Motion[Any], spec: BearingSpec, model: Any, contacts: Contacts,
         layout: Layout, *, constraints: Sequence[Constraint] = (), block: int = 250,
-        stride: int = 4, interval: float = 20e-6,
+        stride: int = 4, interval: float = 20e-6, rings: MovingRings | None = None,
     ) -> None:  # fmt: skip
         """``motion`` moves bearings of the ``spec``'s family; ``layout.held`` holds the
-        ``constraints.names_of`` the constraints."""
+        ``constraints.names_of`` the constraints; ``rings`` are those that bend."""
         model = model._replace(cage=marked(model.cage))
-        self.motion, self.spec, self.layout = motion, spec, layout
+        self.motion, self.spec, self.layout, self.rings = motion, spec, layout, rings
         self.reaction_units = units_of(constraints)
         work = self.motion.new_work(model, layout)
         held, rows = constraints_of(constraints, model, layout)

@@ -112,13 +112,16 @@ def _rates(t, y, yd, data, mode):
     end, ring, q = at.lam, at.rest_u, y[at.rest_q :]
     driven = bodies.by_shaft == 0
     _hold(t, q[:Q_OUTER], y[ring : ring + OUTER], bodies, driven)
-    zero(y[end:])
+    forces = at.held + 2 * fields(d.tangent).held.shape[0]
+    zero(y[end:forces])
     law = data[1]
     law[HOLD](t, y, yd, d, law[CONSTRAINT_EQUATIONS], out, PROJECT)
     shaft_pull(bodies, q[:Q_OUTER], y[ring : ring + OUTER], y[end : end + DRIVE_TORQUE])
     zero(yd)
     data[2](t, y, yd, d, data[1], out, mode)
     for k in range(end):
+        yd[k] = -out[k]
+    for k in range(forces, y.shape[0]):  # of rings that bend
         yd[k] = -out[k]
     linear, axial, transverse = (
         1.0 / bodies.element[MASS],

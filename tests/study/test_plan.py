@@ -212,6 +212,7 @@ def test_mistakes_in_the_file(name, tmp_path, capsys):
         (("contact_angle_inner",), "is of balls"),
         (("stress_peak",), "needs a flexible cage"),
         (("modal_velocity.rms",), "needs a flexible cage"),
+        (("ring_deflection.max",), "every ring of the study is rigid"),
         (("cage_speed", "cage_speed"), "twice"),
     ],
 )

@@ -108,8 +108,8 @@ def evaluate(t, y, yd, d, law, out, mode):
         qi, ui = q[own], u[own]
         set_frame(qi[2], fields(d.pose).F)
         _races(i, qi, ui, rest_q, rest_u, d, law, mode)
-        _pocket(i, qi, ui, Rc, Vc, modes, d, law, mode)
-        _ball_rows(i, qi, ui, qd[own], ud[own], d, r_q[own], r_u[own], mode)
+        ball_in_pocket(i, qi, ui, Rc, Vc, modes, d, law, mode)
+        ball_rows(i, qi, ui, qd[own], ud[own], d, r_q[own], r_u[own], mode)
     law[SHARED](t, y, yd, d, law[:FAMILY_PARTS], out, mode)
 
 
@@ -182,27 +182,34 @@ def _races(i, qi, ui, rest_q, rest_u, d, law, mode):
     ball = on_inner_race(i, qi, ui, rest_q, rest_u, d)
     if groove_contact(ball, fields(d.inner), laws, sl, pair.wrench, mode, work.sums):
         react(F, work.unit, pair.wrench, ball.centre, border, INNER)
-        _add(work.wrenches[i], pair.wrench)
+        add_wrench(work.wrenches[i], pair.wrench)
     if mode >= REPORT:
-        _report_race(i, INNER_RACE, work.sums, fields(d.report))
+        report_race(i, INNER_RACE, work.sums, fields(d.report))
     zero(pair.wrench)
     ball = on_outer_race(i, qi, ui, rest_q, rest_u, d)
     if groove_contact(ball, fields(d.outer), laws, sl, pair.wrench, mode, work.sums):
-        _add(work.wrenches[i], pair.wrench)
-        for c in range(2):
-            border[OUTER + c] -= F[1, 1 + c] * pair.wrench[1] + F[2, 1 + c] * pair.wrench[2]
+        push_outer(i, d)
     if mode >= REPORT:
-        _report_race(i, OUTER_RACE, work.sums, fields(d.report))
+        report_race(i, OUTER_RACE, work.sums, fields(d.report))
 
 
 @part
-def _add(total, wrench):
+def push_outer(i, d):
+    """Add the pair's wrench to ball i and to the outer ring."""
+    F, wrench, work = fields(d.pose).F, fields(d.pair).wrench, fields(d.scratch)
+    add_wrench(work.wrenches[i], wrench)
+    for c in range(2):
+        work.border[OUTER + c] -= F[1, 1 + c] * wrench[1] + F[2, 1 + c] * wrench[2]
+
+
+@part
+def add_wrench(total, wrench):
     for c in range(6):
         total[c] += wrench[c]
 
 
 @part
-def _report_race(i, side, sums, rep):
+def report_race(i, side, sums, rep):
     closed = 1 if sums[NORMAL] > 0.0 else 0
     rep.contact[i, side] = closed
     rep.approach[i, side] = sums[APPROACH]
@@ -215,7 +222,7 @@ def _report_race(i, side, sums, rep):
 
 
 @part
-def _pocket(i, qi, ui, Rc, Vc, modes, d, law, mode):
+def ball_in_pocket(i, qi, ui, Rc, Vc, modes, d, law, mode):
     """Ball i in its pocket; the cage is at Rc and moves as Vc."""
     data, pw, pair, work = (
         fields(d.pocket),
@@ -229,7 +236,7 @@ def _pocket(i, qi, ui, Rc, Vc, modes, d, law, mode):
     laws, sl = Laws(law[POCKET_LAW], law[POCKET_RUBS]), fields(d.slices).row[0]
     hit = pocket_wall_contact(i, ball, modes, data, laws, sl, pw, pair.wrench, mode, sums)
     if hit:
-        _add(work.wrenches[i], pair.wrench)
+        add_wrench(work.wrenches[i], pair.wrench)
         react(fields(d.pose).F, work.A, pair.wrench, ball.centre, work.border, CAGE)
         push_modes(data, i, pw, work.border)
     if mode >= REPORT:
@@ -253,7 +260,7 @@ def _report_pocket(i, hit, sums, pw, rep, mode):
 
 
 @part
-def _ball_rows(i, qi, ui, qdi, udi, d, r_q, r_u, mode):
+def ball_rows(i, qi, ui, qdi, udi, d, r_q, r_u, mode):
     """Kinematics and momentum of ball i, with drag and gravity."""
     bodies, rep, FR = fields(d.bodies), fields(d.report), fields(d.scratch).wrenches[i]
     F = fields(d.pose).F

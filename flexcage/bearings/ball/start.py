@@ -9,6 +9,7 @@ them.
 
 from __future__ import annotations
 
+from dataclasses import replace
 from math import pi
 
 import numpy as np
@@ -17,6 +18,7 @@ from flexcage.bearings.ball.model import BallModel
 from flexcage.bodies.floating_frame import BodyData
 from flexcage.system.layout import Layout
 from flexcage.system.problem import Bearing
+from flexcage.system.rings_in_motion import SIDES
 from flexcage.system.start import Advance, Start, StaticStart, made_room
 from flexcage.system.statics.solution import StaticSolution
 
@@ -37,6 +39,20 @@ def ball_start(
         bearing.layout.q(y)["modes"][:] = _strained_by_rotation(model.cage, spin)
     station = np.zeros_like(bearing.data.work.report.station)
     return Start(y, yd, (), 0.0, solution.unbalanced, station, solution.warnings)
+
+
+def ball_start_between_bent_rings(
+    bearing: Bearing, *, limit_force: float, statics: StaticStart | None, advance: Advance
+) -> Start:
+    """The same between rings that bend, with balls on the outer race where that yields to."""
+    assert statics is not None, "rings bend as in a static solution"
+    start = ball_start(bearing, limit_force=limit_force, statics=statics, advance=advance)
+    y, layout = start.y.copy(), bearing.layout
+    for ring in statics().rings:
+        layout.ring_forces(y)[SIDES.index(ring.side)] = ring.force
+        if ring.side == "outer":
+            layout.q(y)["elements"][:, :2] += ring.deflection[:, :2]
+    return replace(start, y=y)
 
 
 def ball_places(bearing: Bearing, solution: StaticSolution) -> np.ndarray:

@@ -122,44 +122,83 @@ def evaluate(t, y, yd, d, law, out, mode):
     constraints and what puts these in (``holding.hold``), and what is compiled separately:
     ``roller_pockets`` and ``equations.shared_equations``.
     """
-    work, Z = fields(d.scratch), fields(d.bodies).radius.shape[0]
+    Z = fields(d.bodies).radius.shape[0]
     nm = fields(d.pocket).phi_max.shape[0]
     at = places(Z, nm)
     q, u, qd, ud = y[: at.rest_q], y[at.u : at.rest_u], yd[: at.rest_q], yd[at.u : at.rest_u]
     r_q, r_u = out[: at.rest_q], out[at.u : at.rest_u]
     rest_q, rest_u = y[at.rest_q : at.u], y[at.rest_u : at.lam]
     asked = RESIDUAL if mode == OUTER_RING else mode
-    clear_sums(work.border, d, asked)
+    set_bodies(q, u, rest_q, rest_u, d, asked)
     ring_q, ring_u = rest_q[:Q_OUTER], rest_u[:OUTER]
-    matrix_from_quaternion(rest_q[Q_QUATERNION:Q_MODES], work.A)
-    put(work.vec[CAGE_SPIN], turned(work.A, xyz(rest_u[CAGE_TURN:MODES])))
-    inner_ring(ring_q, ring_u, work.vec)
-    pose, poses = fields(d.pose), work.poses
-    zero(work.wrenches)
-    for i in range(Z):
-        own = of_element(i)
-        set_pose(q[own], u[own], pose)
-        keep_pose(pose, poses[i])
     lot = fields(d.race_work).who.shape[0]
     for first in range(0, Z if mode != OUTER_RING else 0, lot):
         _inner_contacts(first, min(first + lot, Z), q, ring_q, ring_u, d, law, mode)
     out_q, out_u = rest_q[Q_OUTER:Q_CAGE], rest_u[OUTER:CAGE]
     for first in range(0, Z, lot):
         _outer_contacts(first, min(first + lot, Z), q, out_q, out_u, d, law, asked)
-    if fields(d.outer_rib).end > fields(d.outer_rib).first:
-        for i in range(Z):
-            _outer_ribs(i, q, out_q, out_u, d, law, asked)
+    outer_ribs(q, out_q, out_u, d, law, asked)
     if mode >= REPORT:
-        for c in range(2):
-            fields(d.report).outer_races[c] = work.border[OUTER + c]
+        report_outer(d)
     if mode == OUTER_RING:
         return
     law[POCKETS](t, y, yd, d, law[:FAMILY_PARTS], out, mode)
-    for i in range(Z):
-        own = of_element(i)
-        take_pose(poses[i], pose)
-        _roller_rows(i, q[own], u[own], qd[own], ud[own], d, r_q[own], r_u[own], mode)
+    roller_rows(q, u, qd, ud, d, r_q, r_u, mode)
     law[SHARED](t, y, yd, d, law[:FAMILY_PARTS], out, mode)
+
+
+@part
+def set_bodies(q, u, rest_q, rest_u, d, mode):
+    """Attitude and spin of cage and inner ring, poses of the rollers, and no forces yet."""
+    work, pose = fields(d.scratch), fields(d.pose)
+    clear_sums(work.border, d, mode)
+    matrix_from_quaternion(rest_q[Q_QUATERNION:Q_MODES], work.A)
+    put(work.vec[CAGE_SPIN], turned(work.A, xyz(rest_u[CAGE_TURN:MODES])))
+    inner_ring(rest_q[:Q_OUTER], rest_u[:OUTER], work.vec)
+    zero(work.wrenches)
+    for i in range(fields(d.bodies).radius.shape[0]):
+        own = of_element(i)
+        set_pose(q[own], u[own], pose)
+        keep_pose(pose, work.poses[i])
+
+
+@part
+def report_outer(d):
+    """The races' force on the outer ring, which nothing else has pushed yet."""
+    for c in range(2):
+        fields(d.report).outer_races[c] = fields(d.scratch).border[OUTER + c]
+
+
+@part
+def beside_inner(i, q, ring_q, ring_u, d, at):
+    """The inner ring as the partner ``at`` of roller i, whose pose is taken."""
+    F, vec, qi = fields(d.pose).F, fields(d.scratch).vec, q[of_element(i)]
+    put(at[CENTRE], minus((qi[0], qi[1], 0.0), turned(F, xyz(ring_q))))
+    put(at[AXIS], turned(F, xyz(vec[RING_AXIS])))
+    put(at[VELOCITY], turned(F, xyz(ring_u)))
+    put(at[SPIN], turned(F, xyz(vec[RING_SPIN])))
+
+
+@part
+def beside_outer(i, q, out_q, out_u, d, at):
+    """The same of the outer ring, which moves in its plane only."""
+    F, qi = fields(d.pose).F, q[of_element(i)]
+    put(at[CENTRE], minus((qi[0], qi[1], 0.0), turned(F, (0.0, out_q[0], out_q[1]))))
+    put(at[AXIS], (1.0, 0.0, 0.0))
+    put(at[VELOCITY], turned(F, (0.0, out_u[0], out_u[1])))
+    put(at[SPIN], (0.0, 0.0, 0.0))
+
+
+@part
+def inner_ribs(i, at, d, law, mode):
+    """Roller i on the ribs of the inner ring, its partner ``at``."""
+    pose, pair, work = fields(d.pose), fields(d.pair), fields(d.scratch)
+    ribs, sl, laws = fields(d.rib), fields(d.slices).row[0], Laws(law[RIB_LAW], law[RIB_RUBS])
+    speeds = fields(d.memory).rib[i, ribs.column :]
+    if rib_contact(pose, at, ribs, speeds, laws, sl, pair, mode, work.sums):
+        add_inner(i, at[CENTRE], d, mode)
+        if mode >= REPORT:
+            report_ribs(i, ribs.column, work.sums, fields(d.report))
 
 
 @part
@@ -167,22 +206,13 @@ def _inner_contacts(first, end, q, ring_q, ring_u, d, law, mode):
     """Rollers ``first`` to before ``end`` on the inner race and its ribs."""
     pose, pair, rep, work = fields(d.pose), fields(d.pair), fields(d.report), fields(d.scratch)
     side, rw, memory = fields(d.inner), fields(d.race_work), fields(d.memory)
-    F, vec, sums, radius = pose.F, work.vec, work.sums, fields(d.bodies).radius
-    rib_laws, race_laws = Laws(law[RIB_LAW], law[RIB_RUBS]), Laws(law[RACE_LAW], law[RACE_RUBS])
-    ribs, sl, count = fields(d.rib), fields(d.slices).row[0], 0
+    sums, radius = work.sums, fields(d.bodies).radius
+    race_laws, count = Laws(law[RACE_LAW], law[RACE_RUBS]), 0
     for i in range(first, end):
         take_pose(work.poses[i], pose)
         at = rw.partner[count]
-        qi = q[of_element(i)]
-        put(at[CENTRE], minus((qi[0], qi[1], 0.0), turned(F, xyz(ring_q))))
-        put(at[AXIS], turned(F, xyz(vec[RING_AXIS])))
-        put(at[VELOCITY], turned(F, xyz(ring_u)))
-        put(at[SPIN], turned(F, xyz(vec[RING_SPIN])))
-        speeds = memory.rib[i, ribs.column :]
-        if rib_contact(pose, at, ribs, speeds, rib_laws, sl, pair, mode, sums):
-            _add_inner(i, at[CENTRE], d, mode)
-            if mode >= REPORT:
-                _report_ribs(i, ribs.column, sums, rep)
+        beside_inner(i, q, ring_q, ring_u, d, at)
+        inner_ribs(i, at, d, law, mode)
         onset = memory.race[i, INNER_RACE]
         if meet_race(count, pose, side, radius[i], ring_q[Q_SPIN], onset, rw):
             rw.who[count] = i
@@ -192,13 +222,13 @@ def _inner_contacts(first, end, q, ring_q, ring_u, d, law, mode):
         i = rw.who[m]
         take_pose(work.poses[i], pose)
         push_by_race(m, pose, side, radius[i], ring_q[Q_SPIN], rw, pair, mode, sums)
-        _add_inner(i, rw.partner[m, CENTRE], d, mode)
+        add_inner(i, rw.partner[m, CENTRE], d, mode)
         if mode >= REPORT:
-            _report_race(i, INNER_RACE, sums, rep)
+            report_race(i, INNER_RACE, sums, rep)
 
 
 @part
-def _add_inner(i, P, d, mode):
+def add_inner(i, P, d, mode):
     """Add the pair's wrench to roller i and to the inner ring, from which P leads to the roller."""
     pair, work, F = fields(d.pair), fields(d.scratch), fields(d.pose).F
     add_to_element(work.wrenches[i], pair)
@@ -215,17 +245,11 @@ def _outer_contacts(first, end, q, out_q, out_u, d, law, mode):
     """Rollers on the outer race, whose ring moves in its plane only."""
     pose, pair, work = fields(d.pose), fields(d.pair), fields(d.scratch)
     side, rw, memory = fields(d.outer), fields(d.race_work), fields(d.memory)
-    F, border, radius = pose.F, work.border, fields(d.bodies).radius
-    race_laws = Laws(law[RACE_LAW], law[RACE_RUBS])
-    count = 0
+    radius, race_laws, count = fields(d.bodies).radius, Laws(law[RACE_LAW], law[RACE_RUBS]), 0
     for i in range(first, end):
         take_pose(work.poses[i], pose)
         at = rw.partner[count]
-        qi = q[of_element(i)]
-        put(at[CENTRE], minus((qi[0], qi[1], 0.0), turned(F, (0.0, out_q[0], out_q[1]))))
-        put(at[AXIS], (1.0, 0.0, 0.0))
-        put(at[VELOCITY], turned(F, (0.0, out_u[0], out_u[1])))
-        put(at[SPIN], (0.0, 0.0, 0.0))
+        beside_outer(i, q, out_q, out_u, d, at)
         onset = memory.race[i, OUTER_RACE]
         if meet_race(count, pose, side, radius[i], 0.0, onset, rw):
             rw.who[count] = i
@@ -235,40 +259,42 @@ def _outer_contacts(first, end, q, out_q, out_u, d, law, mode):
         i = rw.who[m]
         take_pose(work.poses[i], pose)
         push_by_race(m, pose, side, radius[i], 0.0, rw, pair, mode, work.sums)
-        add_to_element(work.wrenches[i], pair)
-        for c in range(2):
-            border[OUTER + c] -= F[1, 1 + c] * pair.wrench[1] + F[2, 1 + c] * pair.wrench[2]
-        if mode == TANGENT:
-            scatter_outer(pair, F, i, fields(d.tangent))
-        elif mode >= REPORT:
-            _report_race(i, OUTER_RACE, work.sums, fields(d.report))
+        add_outer(i, d, mode)
+        if mode >= REPORT:
+            report_race(i, OUTER_RACE, work.sums, fields(d.report))
 
 
 @part
-def _outer_ribs(i, q, out_q, out_u, d, law, mode):
-    """Roller i on the outer ring's ribs."""
+def add_outer(i, d, mode):
+    """Add the pair's wrench to roller i and to the outer ring."""
+    pair, work, F = fields(d.pair), fields(d.scratch), fields(d.pose).F
+    add_to_element(work.wrenches[i], pair)
+    for c in range(2):
+        work.border[OUTER + c] -= F[1, 1 + c] * pair.wrench[1] + F[2, 1 + c] * pair.wrench[2]
+    if mode == TANGENT:
+        scatter_outer(pair, F, i, fields(d.tangent))
+
+
+@part
+def outer_ribs(q, out_q, out_u, d, law, mode):
+    """Rollers on the outer ring's ribs, if it has any."""
     pose, pair, work = fields(d.pose), fields(d.pair), fields(d.scratch)
-    ribs, F, sums = fields(d.outer_rib), pose.F, work.sums
+    ribs, at = fields(d.outer_rib), fields(d.race_work).partner[0]
     laws, sl = Laws(law[RIB_LAW], law[RIB_RUBS]), fields(d.slices).row[0]
-    take_pose(work.poses[i], pose)
-    at, qi = fields(d.race_work).partner[0], q[of_element(i)]
-    put(at[CENTRE], minus((qi[0], qi[1], 0.0), turned(F, (0.0, out_q[0], out_q[1]))))
-    put(at[AXIS], (1.0, 0.0, 0.0))
-    put(at[VELOCITY], turned(F, (0.0, out_u[0], out_u[1])))
-    put(at[SPIN], (0.0, 0.0, 0.0))
-    speeds = fields(d.memory).rib[i, ribs.column :]
-    if rib_contact(pose, at, ribs, speeds, laws, sl, pair, mode, sums):
-        add_to_element(work.wrenches[i], pair)
-        for c in range(2):
-            work.border[OUTER + c] -= F[1, 1 + c] * pair.wrench[1] + F[2, 1 + c] * pair.wrench[2]
-        if mode == TANGENT:
-            scatter_outer(pair, F, i, fields(d.tangent))
-        elif mode >= REPORT:
-            _report_ribs(i, ribs.column, sums, fields(d.report))
+    if ribs.end <= ribs.first:
+        return
+    for i in range(work.poses.shape[0]):
+        take_pose(work.poses[i], pose)
+        beside_outer(i, q, out_q, out_u, d, at)
+        speeds = fields(d.memory).rib[i, ribs.column :]
+        if rib_contact(pose, at, ribs, speeds, laws, sl, pair, mode, work.sums):
+            add_outer(i, d, mode)
+            if mode >= REPORT:
+                report_ribs(i, ribs.column, work.sums, fields(d.report))
 
 
 @part
-def _report_ribs(i, column, sums, rep):
+def report_ribs(i, column, sums, rep):
     ribs = POCKET + rep.pocket_normal.shape[1]
     for f in range(2):
         rep.rib[i, column + f] = sums[NORMAL + f]
@@ -279,7 +305,7 @@ def _report_ribs(i, column, sums, rep):
 
 
 @part
-def _report_race(i, side, sums, rep):
+def report_race(i, side, sums, rep):
     for c in range(N_RACE):
         rep.race[i, side, c] = sums[c]
     rep.contact[i, side] = 1 if sums[NORMAL] > 0.0 else 0
@@ -287,6 +313,15 @@ def _report_race(i, side, sums, rep):
     rep.power[RACE_DAMPING] += sums[DAMPED]
     rep.power[RACE_FRICTION] += sums[RUBBED]
     rep.power[ROLLING_RESISTANCE] += sums[ROLLED]
+
+
+@part
+def roller_rows(q, u, qd, ud, d, r_q, r_u, mode):
+    """Kinematics and momentum of all rollers, whose contacts are summed."""
+    for i in range(fields(d.bodies).radius.shape[0]):
+        own = of_element(i)
+        take_pose(fields(d.scratch).poses[i], fields(d.pose))
+        _roller_rows(i, q[own], u[own], qd[own], ud[own], d, r_q[own], r_u[own], mode)
 
 
 @part

@@ -12,7 +12,8 @@ from the first touch, so that the run begins assembled.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from copy import copy
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -28,6 +29,7 @@ from flexcage.system.data import FREE_AXIAL, FREE_SKEW, FREE_TILT, LOOSE, OUTER_
 from flexcage.system.layout import Layout
 from flexcage.system.newton import assemble, newton_step
 from flexcage.system.problem import Bearing
+from flexcage.system.rings_in_motion import held_rings
 from flexcage.system.start import Advance, Start, StaticStart, made_room
 
 _SMALL = 1e-7  # of the load: where an equilibrium is accepted
@@ -410,3 +412,19 @@ def roller_start(
     held = tuple(int(i) for i in pinched if report.pocket_normal[i].max() > 0.0)
     force = float(report.pocket_normal[list(held)].max()) if held else 0.0
     return Start(y, yd, held, force, residual, report.station.copy())
+
+
+def roller_start_between_bent_rings(
+    bearing: Bearing, *, limit_force: float, statics: StaticStart | None, advance: Advance
+) -> Start:
+    """The same between races that are bent as in the static solution, which has to be given; rings
+    bear what then presses on them."""
+    assert statics is not None, "rings bend as in a static solution"
+    held, model = copy(bearing), bearing.data.model
+    rings = held_rings(model.rings, statics().rings)
+    held.data = bearing.data._replace(model=model._replace(rings=rings))
+    start = roller_start(held, limit_force=limit_force, statics=None, advance=advance)
+    _Frictionless(held, model.pocket.offset).residual(start.y, start.yd)
+    y = start.y.copy()
+    bearing.layout.ring_forces(y)[:] = rings.force
+    return replace(start, y=y)

@@ -42,11 +42,16 @@ _TO_V = {  # how a ring's ports are displacements v: axial, radial, tilt
 
 @dataclass(frozen=True)
 class Rings:
-    """What is asked of both rings, and their sections, which the bearing's family supplies."""
+    """What is asked of both rings, and their sections, which the bearing's family supplies.
+
+    ``heavier``: how many times the load that is balanced is the one after whose contacts races are
+    pressed, the heaviest of a run.
+    """
 
     inner: InnerRing = InnerRing()
     outer: OuterRing = OuterRing()
     sections: SectionsOf | None = None
+    heavier: float = 1.0
 
     @property
     def bend(self) -> bool:
@@ -255,7 +260,7 @@ def seated_rings(
         )
     default = bearing.bore, bearing.outside_diameter
     seat = tuple(float(s.diameter or d) for s, d in zip(sides, default))
-    angle, across = zip(*(_pressed(loads, k) for k in range(2)))
+    angle, across = zip(*(_pressed(loads, k, rings.heavier) for k in range(2)))
     sections = rings.sections(bearing, angle=angle, across=across, seat=seat)  # type: ignore[arg-type]
     made = []
     for name, spec, section in zip(("inner", "outer"), sides, sections):
@@ -265,12 +270,13 @@ def seated_rings(
     return BendingRings(tuple(made), tuple(np.ones(len(r.support), bool) for r in made))
 
 
-def _pressed(loads: ElementLoads, side: int) -> tuple[float, float]:
+def _pressed(loads: ElementLoads, side: int, heavier: float) -> tuple[float, float]:
     """Contact angle [rad] at a race, weighted with forces, and half of the heaviest contact's
-    extent [m]."""
+    extent [m] under forces so many times larger, by Hertz."""
     force = loads.force[:, side]
     angle = np.nan_to_num(loads.angle[:, side])
-    return float(force @ angle / force.sum()), float(loads.across[force.argmax(), side])
+    across = float(loads.across[force.argmax(), side])
+    return float(force @ angle / force.sum()), across * heavier ** (1.0 / 3.0)
 
 
 def _seated(

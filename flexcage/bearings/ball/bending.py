@@ -1,0 +1,148 @@
+"""Balls in motion between rings that bend: the residual of ``residual`` with races that yield.
+
+A ball meets a groove as one of a rigid ring that is displaced as the race is at its azimuth; lands
+stay with the seats.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from flexcage.bearings.ball.model import BallModel
+from flexcage.bearings.ball.motion import MOTION
+from flexcage.bearings.ball.residual import (
+    SHARED,
+    add_wrench,
+    ball_in_pocket,
+    ball_rows,
+    on_inner_race,
+    on_outer_race,
+    push_outer,
+    report_race,
+    set_bodies,
+)
+from flexcage.bearings.ball.scales import ball_weights
+from flexcage.bearings.ball.start import ball_start_between_bent_rings
+from flexcage.contacts.evaluation import RACE_LAW, RACE_RUBS, REPORT
+from flexcage.contacts.groove import BallOnRace, groove_contact, line_of_contact
+from flexcage.contacts.slices import Laws, elastic_forces
+from flexcage.contacts.state import set_frame
+from flexcage.core.jit import fields, part, zero
+from flexcage.core.vectors import minus
+from flexcage.system.bending import (
+    at_once,
+    bend_rings,
+    guess,
+    push_by_slopes,
+    ring_forces_at,
+    ring_report,
+    ring_rows,
+    with_ring_weights,
+)
+from flexcage.system.data import FAMILY_PARTS, INNER_RACE, OUTER_RACE
+from flexcage.system.equations import react
+from flexcage.system.layout import CAGE, CAGE_TURN, INNER, Q_CAGE, Q_QUATERNION, of_element, places
+from flexcage.system.motion import BendingMotion, bending_model, parts_type
+
+BendingBallModel = bending_model("BendingBallModel", BallModel, __name__)
+BendingBallParts = parts_type("BendingBallParts", BendingBallModel, __name__)
+
+
+def evaluate(t, y, yd, d, law, out, mode):
+    """Residual into ``out``, as ``residual.evaluate``."""
+    Z = fields(d.bodies).radius.shape[0]
+    at, rings = places(Z, fields(d.pocket).phi_max.shape[0]), fields(d.rings)
+    bent = ring_forces_at(d)
+    q, u, qd, ud = y[: at.rest_q], y[at.u : at.rest_u], yd[: at.rest_q], yd[at.u : at.rest_u]
+    r_q, r_u = out[: at.rest_q], out[at.u : at.rest_u]
+    rest_q, rest_u, s = y[at.rest_q : at.u], y[at.rest_u : at.lam], y[bent:]
+    modes = set_bodies(rest_q, rest_u, d, mode)
+    bend_rings(q, s, rings)
+    Rc, Vc = rest_q[Q_CAGE:Q_QUATERNION], rest_u[CAGE:CAGE_TURN]
+    for i in range(Z):
+        own = of_element(i)
+        qi, ui = q[own], u[own]
+        set_frame(qi[2], fields(d.pose).F)
+        _inner_race(i, qi, ui, rest_q, rest_u, s, d, law, mode)
+        _outer_race(i, qi, ui, rest_q, rest_u, s, d, law, mode)
+        push_by_slopes(i, q, rest_q, d)
+        ball_in_pocket(i, qi, ui, Rc, Vc, modes, d, law, mode)
+        ball_rows(i, qi, ui, qd[own], ud[own], d, r_q[own], r_u[own], mode)
+    ring_rows(s, yd[bent:], rings, out[bent:])
+    if mode >= REPORT:
+        ring_report(u, q, s, rings, fields(d.report))
+    law[SHARED](t, y, yd, d, law[:FAMILY_PARTS], out, mode)
+
+
+@part
+def _inner_race(i, qi, ui, rest_q, rest_u, s, d, law, mode):
+    """Ball i on the inner race, in its frame F."""
+    work, pair = fields(d.scratch), fields(d.pair)
+    laws, sl = Laws(law[RACE_LAW], law[RACE_RUBS]), fields(d.slices).row[0]
+    zero(pair.wrench)
+    ball = on_inner_race(i, qi, ui, rest_q, rest_u, d)
+    race, rings = fields(d.inner), fields(d.rings)
+    yielded = _yielded(INNER_RACE, i, ball, race, s, laws, sl, rings)
+    if groove_contact(yielded, race, laws, sl, pair.wrench, mode, work.sums):
+        _bear(INNER_RACE, i, yielded, race, sl, rings)
+        react(fields(d.pose).F, work.unit, pair.wrench, ball.centre, work.border, INNER)
+        add_wrench(work.wrenches[i], pair.wrench)
+    if mode >= REPORT:
+        report_race(i, INNER_RACE, work.sums, fields(d.report))
+
+
+@part
+def _outer_race(i, qi, ui, rest_q, rest_u, s, d, law, mode):
+    """The same on the outer race."""
+    work, pair = fields(d.scratch), fields(d.pair)
+    laws, sl = Laws(law[RACE_LAW], law[RACE_RUBS]), fields(d.slices).row[0]
+    zero(pair.wrench)
+    ball = on_outer_race(i, qi, ui, rest_q, rest_u, d)
+    race, rings = fields(d.outer), fields(d.rings)
+    yielded = _yielded(OUTER_RACE, i, ball, race, s, laws, sl, rings)
+    if groove_contact(yielded, race, laws, sl, pair.wrench, mode, work.sums):
+        _bear(OUTER_RACE, i, yielded, race, sl, rings)
+        push_outer(i, d)
+    if mode >= REPORT:
+        report_race(i, OUTER_RACE, work.sums, fields(d.report))
+
+
+@part
+def _yielded(side, i, ball, race, s, laws, sl, rings):
+    """The ball as the race meets it that yields under it at once."""
+    w = guess(side, i, s, rings)
+    P = minus(ball.centre, (w[0], w[1], 0.0))
+    _, n, _, reach = line_of_contact(P, ball.axis, race)
+    sl.d[0] = reach - race.radius + ball.radius
+    if sl.d[0] > 0.0:
+        elastic_forces(laws.normal, (0, 1), sl, race.normal)
+        stiff = sl.Nd[0]
+        slope = (stiff * n[0] * n[0], stiff * n[0] * n[1], stiff * n[1] * n[1])
+        step = at_once(side, i, s, (sl.Ne[0] * n[0], sl.Ne[0] * n[1]), slope, rings)
+        P = minus(P, (step[0], step[1], 0.0))
+    return BallOnRace(
+        ball.radius, P, ball.velocity, ball.spin, ball.axis, ball.ring_velocity, ball.ring_spin,
+        ball.onset,
+    )  # fmt: skip
+
+
+@part
+def _bear(side, i, ball, race, sl, rings):
+    """What the ring bears of a ball that touches it: elastic forces along the axis, radially."""
+    _, n, _, _ = line_of_contact(ball.centre, ball.axis, race)
+    rings.force[side, i, 0], rings.force[side, i, 1] = sl.Ne[0] * n[0], sl.Ne[0] * n[1]
+
+
+BENDING = BendingMotion(
+    motion=replace(
+        MOTION,
+        parts=BendingBallParts,
+        evaluate=evaluate,
+        start=ball_start_between_bent_rings,
+        error_weights=with_ring_weights(ball_weights),
+        implicit_share=0.0,
+        linearise=None,
+        bending=None,
+    ),
+    model=BendingBallModel,
+)

@@ -1,0 +1,209 @@
+"""Rollers in motion between rings that bend: the residual of ``residual`` with races that yield.
+
+A roller meets a race as one of a rigid ring that is displaced and tilted as the race is at its
+azimuth; ribs and lands stay with the seats.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from flexcage.bearings.cylindrical_roller.model import RollerModel
+from flexcage.bearings.cylindrical_roller.motion import MOTION
+from flexcage.bearings.cylindrical_roller.residual import (
+    POCKETS,
+    SHARED,
+    add_inner,
+    add_outer,
+    beside_inner,
+    beside_outer,
+    inner_ribs,
+    outer_ribs,
+    report_outer,
+    report_race,
+    roller_rows,
+    set_bodies,
+)
+from flexcage.bearings.cylindrical_roller.scales import roller_weights
+from flexcage.bearings.cylindrical_roller.start import roller_start_between_bent_rings
+from flexcage.contacts.evaluation import OUTER_RING, RACE_LAW, RACE_RUBS, REPORT, RESIDUAL
+from flexcage.contacts.race import meet_race, push_by_race, rub_race
+from flexcage.contacts.slices import Laws, normal_forces_of_lot
+from flexcage.contacts.state import AXIS, CENTRE, Q_SPIN, take_pose
+from flexcage.core.jit import VECTORISED, fields, part
+from flexcage.core.vectors import dot, row
+from flexcage.system.bending import (
+    at_once,
+    bend_rings,
+    displace,
+    guess,
+    push_by_slopes,
+    ring_forces_at,
+    ring_report,
+    ring_rows,
+    with_ring_weights,
+)
+from flexcage.system.data import FAMILY_PARTS, INNER_RACE, OUTER_RACE
+from flexcage.system.layout import CAGE, OUTER, Q_CAGE, Q_OUTER, places
+from flexcage.system.motion import BendingMotion, bending_model, parts_type
+
+BendingRollerModel = bending_model("BendingRollerModel", RollerModel, __name__)
+BendingRollerParts = parts_type("BendingRollerParts", BendingRollerModel, __name__)
+
+
+def evaluate(t, y, yd, d, law, out, mode):
+    """Residual into ``out``, as ``residual.evaluate``."""
+    Z, nm = fields(d.bodies).radius.shape[0], fields(d.pocket).phi_max.shape[0]
+    at, rings, bent = places(Z, nm), fields(d.rings), ring_forces_at(d)
+    q, u, qd, ud = y[: at.rest_q], y[at.u : at.rest_u], yd[: at.rest_q], yd[at.u : at.rest_u]
+    rest_q, rest_u, s = y[at.rest_q : at.u], y[at.rest_u : at.lam], y[bent:]
+    asked = RESIDUAL if mode == OUTER_RING else mode
+    set_bodies(q, u, rest_q, rest_u, d, asked)
+    bend_rings(q, s, rings)
+    lot = fields(d.race_work).who.shape[0]
+    for first in range(0, Z if mode != OUTER_RING else 0, lot):
+        span = (first, min(first + lot, Z))
+        _inner_contacts(span, q, rest_q, rest_u, s, d, law, mode)
+    for first in range(0, Z, lot):
+        span = (first, min(first + lot, Z))
+        _outer_contacts(span, q, rest_q, rest_u, s, d, law, asked)
+    outer_ribs(q, rest_q[Q_OUTER:Q_CAGE], rest_u[OUTER:CAGE], d, law, asked)
+    for i in range(Z):
+        take_pose(fields(d.scratch).poses[i], fields(d.pose))
+        push_by_slopes(i, q, rest_q, d)
+    if mode >= REPORT:
+        report_outer(d)
+    if mode == OUTER_RING:
+        return
+    if mode >= REPORT:
+        ring_report(u, q, s, rings, fields(d.report))
+    ring_rows(s, yd[bent:], rings, out[bent:])
+    law[POCKETS](t, y, yd, d, law[:FAMILY_PARTS], out, mode)
+    roller_rows(q, u, qd, ud, d, out[: at.rest_q], out[at.u : at.rest_u], mode)
+    law[SHARED](t, y, yd, d, law[:FAMILY_PARTS], out, mode)
+
+
+@part
+def _inner_contacts(span, q, rest_q, rest_u, s, d, law, mode):
+    """Rollers span[0] to before span[1] on the inner race and its ribs."""
+    pose, pair, work, rings = fields(d.pose), fields(d.pair), fields(d.scratch), fields(d.rings)
+    side, rw, memory = fields(d.inner), fields(d.race_work), fields(d.memory)
+    ring_q, ring_u, radius = rest_q[:Q_OUTER], rest_u[:OUTER], fields(d.bodies).radius
+    count = 0
+    for i in range(span[0], span[1]):
+        take_pose(work.poses[i], pose)
+        at = rw.partner[count]
+        beside_inner(i, q, ring_q, ring_u, d, at)
+        inner_ribs(i, at, d, law, mode)
+        displace(at, guess(INNER_RACE, i, s, rings), rings.way)
+        onset = memory.race[i, INNER_RACE]
+        if meet_race(count, pose, side, radius[i], ring_q[Q_SPIN], onset, rw):
+            rw.who[count] = i
+            count += 1
+    _press(count, INNER_RACE, side, s, d, Laws(law[RACE_LAW], law[RACE_RUBS]))
+    for m in range(count):
+        i = rw.who[m]
+        take_pose(work.poses[i], pose)
+        push_by_race(m, pose, side, radius[i], ring_q[Q_SPIN], rw, pair, mode, work.sums)
+        beside_inner(i, q, ring_q, ring_u, d, rw.partner[m])  # forces act on its seat
+        add_inner(i, rw.partner[m, CENTRE], d, mode)
+        if mode >= REPORT:
+            report_race(i, INNER_RACE, work.sums, fields(d.report))
+
+
+@part
+def _outer_contacts(span, q, rest_q, rest_u, s, d, law, mode):
+    """The same on the outer race."""
+    pose, pair, work, rings = fields(d.pose), fields(d.pair), fields(d.scratch), fields(d.rings)
+    side, rw, memory = fields(d.outer), fields(d.race_work), fields(d.memory)
+    out_q, out_u, radius = rest_q[Q_OUTER:Q_CAGE], rest_u[OUTER:CAGE], fields(d.bodies).radius
+    count = 0
+    for i in range(span[0], span[1]):
+        take_pose(work.poses[i], pose)
+        at = rw.partner[count]
+        beside_outer(i, q, out_q, out_u, d, at)
+        displace(at, guess(OUTER_RACE, i, s, rings), rings.way)
+        onset = memory.race[i, OUTER_RACE]
+        if meet_race(count, pose, side, radius[i], 0.0, onset, rw):
+            rw.who[count] = i
+            count += 1
+    _press(count, OUTER_RACE, side, s, d, Laws(law[RACE_LAW], law[RACE_RUBS]))
+    for m in range(count):
+        i = rw.who[m]
+        take_pose(work.poses[i], pose)
+        push_by_race(m, pose, side, radius[i], 0.0, rw, pair, mode, work.sums)
+        add_outer(i, d, mode)
+        if mode >= REPORT:
+            report_race(i, OUTER_RACE, work.sums, fields(d.report))
+
+
+@part
+def _press(count, ring, side, s, d, laws):
+    """Forces of the lot's contacts on a race that yields at once, and what it bears of them."""
+    rw, rings = fields(d.race_work), fields(d.rings)
+    normal_forces_of_lot(laws.normal, (0, count * side.s.shape[0]), rw.lot[0], side.normal)
+    for m in range(count):
+        i = rw.who[m]
+        take_pose(fields(d.scratch).poses[i], fields(d.pose))
+        force, slope = _on_ports(m, fields(d.pose), side, rw)
+        step = at_once(ring, i, s, force, slope, rings)
+        _follow(m, step, fields(d.pose), side, rw)
+        force, _ = _on_ports(m, fields(d.pose), side, rw)
+        rings.force[ring, i, 0], rings.force[ring, i, 1] = force
+    rub_race(count, side, laws, rw)
+
+
+@part(fastmath=VECTORISED)
+def _on_ports(m, pose, side, rw):
+    """Elastic force and moment of contact m on its race, radially and in tilt, and how both fall
+    (11, 12, 22) where the race yields."""
+    sl, n = rw.lot[0], side.s.shape[0]
+    x0, x1 = _along(m, pose, rw)
+    force = moment = a = b = c = 0.0
+    for k in range(n):
+        at = m * n + k
+        if sl.N[at] > 0.0:
+            x, up = x0 + side.s[k] * x1, sl.n2[at]
+            stiff = sl.Nd[at] * sl.Ne[at] / sl.N[at] * up * up
+            force -= sl.Ne[at] * up
+            moment -= sl.Ne[at] * up * x
+            a += stiff
+            b += stiff * x
+            c += stiff * x * x
+    return (force, moment), (a, b, c)
+
+
+@part(fastmath=VECTORISED)
+def _follow(m, step, pose, side, rw):
+    """Penetrations and forces of contact m's slices after the race yields by a ``step`` more."""
+    sl, n = rw.lot[0], side.s.shape[0]
+    x0, x1 = _along(m, pose, rw)
+    for k in range(n):
+        at = m * n + k
+        if sl.N[at] > 0.0:
+            deeper = sl.n2[at] * (step[0] + step[1] * (x0 + side.s[k] * x1))
+            elastic = sl.Nd[at] * sl.Ne[at] / sl.N[at]
+            sl.d[at] += deeper
+            sl.N[at] = max(sl.N[at] + sl.Nd[at] * deeper, 0.0)
+            sl.Ne[at] = max(sl.Ne[at] + elastic * deeper, 0.0)
+
+
+@part
+def _along(m, pose, rw):
+    """Where along the ring's axis a roller's slice at s is: x0 + s x1, from the ring's middle."""
+    axis = row(rw.partner[m], AXIS)
+    return dot(row(rw.partner[m], CENTRE), axis), dot(row(pose.axis, 0), axis)
+
+
+BENDING = BendingMotion(
+    motion=replace(
+        MOTION,
+        parts=BendingRollerParts,
+        evaluate=evaluate,
+        start=roller_start_between_bent_rings,
+        error_weights=with_ring_weights(roller_weights),
+        implicit_share=0.0,
+        bending=None,
+    ),
+    model=BendingRollerModel,
+)

@@ -1,0 +1,60 @@
+"""Rings that bend at an instant of a run, as the static solution has them: for stress, pictures."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from flexcage.core.errors import InputError
+from flexcage.results.metrics import settled
+from flexcage.stages import bent_rings
+from flexcage.static import draw_ring
+from flexcage.stress.series import samples_near
+from flexcage.system.statics.rings import BentRing, SeatedRing
+
+if TYPE_CHECKING:
+    from flexcage.run.run import Run
+
+
+def seated_rings(run: Run) -> tuple[SeatedRing, ...]:
+    """The rings of the run's case that bend, reduced again; InputError if both are rigid."""
+    if "ring_load" not in run.dataset:
+        raise InputError(
+            "both rings of the run are rigid; run the case with outer_ring.ring or inner_ring.ring "
+            "= 'flexible'",
+            where="outer_ring.ring",
+        )
+    return tuple(ring.seated for ring in bent_rings(run.case))
+
+
+def rings_at(run: Run, time: float | str | None) -> tuple[float, tuple[BentRing, ...]]:
+    """Time [s] of the sample nearest to ``time``, by default that of the largest deflection of the
+    settled part, and the rings then."""
+    seated, ds = run.seated_rings, run.dataset
+    t = ds["time"].values
+    deflection = np.abs(ds["ring_deflection"].values[..., :2]).max(axis=(1, 2, 3))
+    if time is None:
+        first = settled(ds, run.case.output.settle)["time"].values[0]
+        k = int(np.argmax(np.where(t >= first, deflection, -1.0)))
+    else:
+        k = int(samples_near(t, [time])[0])
+    azimuth = ds["element_position"].values[k, :, 2]
+    load, moved = ds["ring_load"].values[k], ds["ring_deflection"].values[k]
+    none = np.empty(0)
+    found = []
+    for ring in seated:
+        side = ("inner", "outer").index(ring.side)
+        placed = replace(ring, azimuth=azimuth)
+        force = load[:, side] @ ring.to_v
+        found.append(BentRing(placed, force, moved[:, side], none, none.astype(bool)))
+    return float(t[k]), tuple(found)
+
+
+def draw_rings(run: Run, folder: Path) -> list[Path]:
+    """Pictures of the rings that bend, when they yield most."""
+    time, rings = rings_at(run, None)
+    when = f"at {1e3 * time:.2f} ms"
+    return [draw_ring(ring, folder / f"{ring.side}_ring.png", when=when) for ring in rings]

@@ -1,0 +1,264 @@
+"""Rings that bend in a run: how races yield under rolling elements, as kernels take it.
+
+A seated ring is an elastic body without inertia of its own deflection: its compliance C between
+elements at azimuths psi_i is that of the static solution (``modes.ring``), the finite elements'
+part less the half-space H under each contact, which the contact law has already,
+
+    w_i = sum_j C(psi_i - psi_j) s_j - H F_i .
+
+F_i are the elastic contact forces at the two ports of the race. The first part follows them with a
+relaxation time tau, tau s' = F - s: a ring whose material and seat damp in proportion to their
+stiffness (Kelvin and Voigt), but seen by elements as they orbit, so that loads that travel steadily
+meet no lag. C is positive definite, so this takes energy. The second part is negative and follows
+at once; else it would feed vibrations. The axisymmetric ring may turn: psi is measured in space.
+
+With the energy s C s/2 - F H F/2 an element feels the slope of the race that others bend,
+s_i sum_j C'(psi_i - psi_j) s_j about the axis; over all elements these moments are none. Contact
+damping takes the rate at which an element nears the seat, without w'. What is lost is
+(F - s) w', with w' that of the first part.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from math import pi
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from flexcage.contacts.state import AXIS, CENTRE
+from flexcage.core.jit import fields, part, zero
+from flexcage.core.vectors import cross, minus, turned, turned_back, xyz
+from flexcage.system.data import INNER_RACE, MODAL_DAMPING, OUTER_RACE, STRAIN
+from flexcage.system.layout import INNER_TURN, OUTER, PER_ELEMENT, Layout, of_element, places
+
+POINTS = 1024  # of the tables, a power of two; between them cubics
+LEAST = 0.25  # determinant of Newton's step: contacts far stiffer than H is meant for take less
+AXIAL_PORT, RADIAL_PORT, TILT_PORT = range(3)  # in ``RingsData.way``
+# compliances of the two ports, and their slopes over the azimuth
+C11, C12, C22, D11, D12, D22 = range(6)
+
+
+class RingsData(NamedTuple):
+    """Both rings, inner and outer, at their ports; those behind ``rate`` are workspaces."""
+
+    bends: np.ndarray  # (2,) 1 if the ring bends
+    way: np.ndarray  # (2,) what the ports are: axially, radially, in tilt
+    table: np.ndarray  # (2, POINTS, 6) C between elements that are so far apart, round the ring
+    own: np.ndarray  # (2, 3) C at an element's own place
+    half_space: np.ndarray  # (2, 3) H
+    given: np.ndarray  # (2, Z, 2) a deflection that is known beforehand, for the search of a start
+    reach: np.ndarray  # (2, 2) [m] by which a port's deflection is a displacement
+    rate: np.ndarray  # (2,) 1/tau
+    deflection: np.ndarray  # (2, Z, 2) of races at elements, the first part
+    moment: np.ndarray  # (2, Z) of slopes, about the axis
+    force: np.ndarray  # (2, Z, 2) elastic contact forces on the races
+    between: np.ndarray  # (2, Z (Z-1)/2, 6) C and its slope between elements, of j < i
+
+
+def rigid_rings(elements: int) -> RingsData:
+    """Data of rings that do not bend, in the types that kernels take."""
+    z = np.zeros
+    return RingsData(
+        z(2, np.int64), np.array([RADIAL_PORT, TILT_PORT]), z((2, POINTS, 6)), z((2, 3)),
+        z((2, 3)), z((2, elements, 2)), np.ones((2, 2)), np.ones(2), z((2, elements, 2)),
+        z((2, elements)), z((2, elements, 2)), z((2, elements * (elements - 1) // 2, 6)),
+    )  # fmt: skip
+
+
+@part
+def ring_forces_at(d):
+    """Where in y the forces that rings bear begin."""
+    Z, nm = fields(d.bodies).radius.shape[0], fields(d.pocket).phi_max.shape[0]
+    return places(Z, nm).held + 2 * fields(d.tangent).held.shape[0]
+
+
+@part
+def force_at(side, i, Z):
+    """Place of element i's two forces on a ring among all of them."""
+    return 2 * (side * Z + i)
+
+
+@part
+def bend_rings(q, s, rings):
+    """Deflections of the races under the forces s, at the azimuths of the elements (coordinates q),
+    and the moments of slopes; contact forces are none yet."""
+    Z = rings.moment.shape[1]
+    zero(rings.force)
+    for side in range(2):
+        w, moment = rings.deflection[side], rings.moment[side]
+        own, given = rings.own[side], rings.given[side]
+        zero(moment)
+        for i in range(Z):
+            k = force_at(side, i, Z)
+            w[i, 0] = own[C11] * s[k] + own[C12] * s[k + 1] + given[i, 0]
+            w[i, 1] = own[C12] * s[k] + own[C22] * s[k + 1] + given[i, 1]
+        if rings.bends[side] != 0:
+            _bend_between(q, s, rings, side)
+
+
+@part
+def _bend_between(q, s, rings, side):
+    """What elements do to the race beneath others."""
+    Z = rings.moment.shape[1]
+    w, moment, at = rings.deflection[side], rings.moment[side], 0
+    for i in range(Z):
+        a = force_at(side, i, Z)
+        for j in range(i):
+            b = force_at(side, j, Z)
+            c = rings.between[side, at]
+            at += 1
+            if s[a] == 0.0 and s[b] == 0.0:
+                continue
+            _look_up(rings.table[side], q[PER_ELEMENT * i + 2] - q[PER_ELEMENT * j + 2], c)
+            w[i, 0] += c[C11] * s[b] + c[C12] * s[b + 1]
+            w[i, 1] += c[C12] * s[b] + c[C22] * s[b + 1]
+            w[j, 0] += c[C11] * s[a] + c[C12] * s[a + 1]
+            w[j, 1] += c[C12] * s[a] + c[C22] * s[a + 1]
+            turn = s[a] * (c[D11] * s[b] + c[D12] * s[b + 1])
+            turn += s[a + 1] * (c[D12] * s[b] + c[D22] * s[b + 1])
+            moment[i] += turn
+            moment[j] -= turn
+
+
+@part
+def _look_up(table, apart, c):
+    """Compliances and slopes between elements an angle ``apart``: cubics through values and slopes
+    of the table."""
+    step = 2.0 * pi / POINTS
+    x = apart / step
+    k = int(np.floor(x))
+    f = x - k
+    low, high = table[k & (POINTS - 1)], table[(k + 1) & (POINTS - 1)]
+    e = 1.0 - f
+    a, b = f * f * (3.0 - 2.0 * f), step * f * e
+    slope = 6.0 * f * e / step
+    for m in range(D11):
+        rise = high[m] - low[m]
+        c[m] = low[m] + a * rise + b * (e * low[D11 + m] - f * high[D11 + m])
+        c[D11 + m] = slope * rise + e * (1.0 - 3.0 * f) * low[D11 + m]
+        c[D11 + m] += f * (3.0 * f - 2.0) * high[D11 + m]
+
+
+@part
+def guess(side, i, s, rings):
+    """Deflection of a race at element i at its two ports, taken that the element presses on it with
+    the force that the ring bears."""
+    k, H, w = force_at(side, i, rings.moment.shape[1]), rings.half_space[side], rings.deflection
+    return (
+        w[side, i, 0] - H[C11] * s[k] - H[C12] * s[k + 1],
+        w[side, i, 1] - H[C12] * s[k] - H[C22] * s[k + 1],
+    )
+
+
+@part
+def at_once(side, i, s, force, slope, rings):
+    """What the guess lacks: Newton's step of w = ... - H F from there, where the ``force`` F on the
+    ports falls with the deflection by the ``slope`` (11, 12, 22)."""
+    k, H = force_at(side, i, rings.moment.shape[1]), rings.half_space[side]
+    x, y = force[0] - s[k], force[1] - s[k + 1]
+    x, y = -(H[C11] * x + H[C12] * y), -(H[C12] * x + H[C22] * y)
+    a = 1.0 - H[C11] * slope[0] - H[C12] * slope[1]
+    b = -H[C11] * slope[1] - H[C12] * slope[2]
+    c = -H[C12] * slope[0] - H[C22] * slope[1]
+    e = 1.0 - H[C12] * slope[1] - H[C22] * slope[2]
+    det = max(a * e - b * c, LEAST)
+    return (e * x - b * y) / det, (a * y - c * x) / det
+
+
+@part
+def displace(at, ports, way):
+    """Displace and tilt the ring ``at`` beside an element, rows as ``contacts.state`` has them, as
+    its race is by its deflections at two ``ports``."""
+    for p in range(2):
+        if way[p] == TILT_PORT:
+            at[AXIS, 1] += ports[p]
+        else:
+            at[CENTRE, way[p]] -= ports[p]
+
+
+@part
+def push_by_slopes(i, q, rest_q, d):
+    """Add the forces on element i of the slopes that others give the races, across its radius, and
+    their reactions on the rings."""
+    F, work, rings = fields(d.pose).F, fields(d.scratch), fields(d.rings)
+    qi = q[of_element(i)]
+    inner, outer = rings.moment[INNER_RACE, i] / qi[1], rings.moment[OUTER_RACE, i] / qi[1]
+    work.wrenches[i, 2] += inner + outer
+    for c in range(2):
+        work.border[OUTER + c] -= F[2, 1 + c] * outer
+        work.border[1 + c] -= F[2, 1 + c] * inner
+    P = minus((qi[0], qi[1], 0.0), turned(F, xyz(rest_q)))
+    moment = turned_back(F, cross(P, (0.0, 0.0, -inner)))
+    for c in range(3):
+        work.border[INNER_TURN + c] += moment[c]
+
+
+@part
+def ring_rows(s, sd, rings, out):
+    """Rows of the forces that rings bear: s' = (F - s)/tau."""
+    Z = rings.moment.shape[1]
+    for side in range(2):
+        for i in range(Z):
+            for c in range(2):
+                k = force_at(side, i, Z) + c
+                out[k] = sd[k] - rings.rate[side] * (rings.force[side, i, c] - s[k])
+
+
+@part
+def orbit_of(q, u, i):
+    """Orbital speed of element i [rad/s]."""
+    own = of_element(i)
+    return u[own][2] / q[own][1]
+
+
+@part
+def ring_report(u, q, s, rings, rep):
+    """Energy of rings that bend, and the power that they lose, of elements with coordinates q and
+    velocities u."""
+    Z = rings.moment.shape[1]
+    for side in range(2):
+        if rings.bends[side] == 0:
+            continue
+        H, own, rate = rings.half_space[side], rings.own[side], rings.rate[side]
+        lost, at = 0.0, 0
+        for i in range(Z):
+            k, F = force_at(side, i, Z), rings.force[side, i]
+            w = rings.deflection[side, i]
+            rep.energy[STRAIN] += 0.5 * (s[k] * w[0] + s[k + 1] * w[1])
+            rep.energy[STRAIN] -= 0.5 * F[0] * (H[C11] * F[0] + 2.0 * H[C12] * F[1])
+            rep.energy[STRAIN] -= 0.5 * F[1] * H[C22] * F[1]
+            x, y = F[0] - s[k], F[1] - s[k + 1]
+            lost += rate * (own[C11] * x * x + 2.0 * own[C12] * x * y + own[C22] * y * y)
+        for i in range(Z):
+            a, Fi, orbit = force_at(side, i, Z), rings.force[side, i], orbit_of(q, u, i)
+            for j in range(i):
+                c, b, Fj = rings.between[side, at], force_at(side, j, Z), rings.force[side, j]
+                at += 1
+                if s[a] == 0.0 and s[b] == 0.0:
+                    continue
+                xa, ya, xb, yb = Fi[0] - s[a], Fi[1] - s[a + 1], Fj[0] - s[b], Fj[1] - s[b + 1]
+                apart = orbit - orbit_of(q, u, j)
+                lost += 2.0 * rate * (xa * (c[C11] * xb + c[C12] * yb))
+                lost += 2.0 * rate * (ya * (c[C12] * xb + c[C22] * yb))
+                turn = xa * (c[D11] * s[b] + c[D12] * s[b + 1])
+                turn += ya * (c[D12] * s[b] + c[D22] * s[b + 1])
+                turn += xb * (c[D11] * s[a] + c[D12] * s[a + 1])
+                turn += yb * (c[D12] * s[a] + c[D22] * s[a + 1])
+                lost += apart * turn
+        rep.power[MODAL_DAMPING] -= lost
+
+
+def with_ring_weights(
+    weights: Callable[[Any, Layout, float], np.ndarray],
+) -> Callable[[Any, Layout, float], np.ndarray]:
+    """``Motion.error_weights`` with those of the forces that rings bear: what displaces a race by
+    the ``length``."""
+
+    def with_rings(model: Any, layout: Layout, length: float) -> np.ndarray:
+        weight, rings = weights(model, layout, length), model.rings
+        moved = rings.own[:, [C11, C22]] * rings.reach
+        layout.ring_forces(weight)[:] = moved[:, None] / length
+        return weight
+
+    return with_rings
