@@ -1,6 +1,7 @@
 from flexcage.bearings.specs import *  # noqa: F403
 from flexcage.cages.specs import *  # noqa: F403
 from flexcage.contacts.spec import Contacts as Contacts
+from flexcage.contacts.spec import DecayFriction as DecayFriction
 from flexcage.contacts.spec import EhlTraction as EhlTraction
 from flexcage.contacts.spec import FrictionLaw as FrictionLaw
 from flexcage.contacts.spec import LandSpec as LandSpec
@@ -15,6 +16,7 @@ from flexcage.geometry.materials import MATERIALS as MATERIALS
 from flexcage.geometry.materials import Material as Material
 from flexcage.geometry.ring import InnerRing as InnerRing
 from flexcage.geometry.ring import OuterRing as OuterRing
+from flexcage.geometry.spall import Spall as Spall
 from flexcage.mesh.options import MeshOptions as MeshOptions
 from flexcage.modes.spec import DampingBand as DampingBand
 from flexcage.modes.spec import ModesSpec as ModesSpec
@@ -25,6 +27,7 @@ from flexcage.stress.sn_curves import SNCurve as SNCurve
 from flexcage.stress.wear_laws import WearLaw as WearLaw
 from flexcage.system.spec import CageCentre as CageCentre
 from flexcage.system.spec import CageSpeed as CageSpeed
+from flexcage.system.spec import CageTilt as CageTilt
 from flexcage.system.spec import Constraint as Constraint
 from flexcage.system.spec import Drive as Drive
 from flexcage.system.spec import InnerPath as InnerPath

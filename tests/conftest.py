@@ -4,6 +4,8 @@ kernels that are compiled once for all processes of ``pytest -n``."""
 from __future__ import annotations
 
 import os
+import subprocess
+import sys
 from collections import Counter
 from dataclasses import replace
 from pathlib import Path
@@ -73,17 +75,27 @@ def pytest_configure(config):
     config.addinivalue_line("filterwarnings", "ignore:First-class function type feature")
 
 
+COMPILE = """
+import sys
+from flexcage.case import load_case
+from flexcage.study.work import compile_kernels
+compile_kernels(load_case(sys.argv[1]))
+"""
+
+
 def pytest_sessionstart(session):
     """Compile the kernels before processes start that would each do so, with BLAS on one thread."""
     option, worker = session.config.option, hasattr(session.config, "workerinput")
     if worker or option.collectonly or not getattr(option, "numprocesses", None):
         return
     os.environ.setdefault("OMP_NUM_THREADS", "1")
-    from flexcage.case import load_case
-    from flexcage.study.work import compile_kernels
-
-    for name in ("n1013", "c7010"):
-        compile_kernels(load_case(session.config.rootpath / "examples" / f"{name}.toml"))
+    examples = session.config.rootpath / "examples"
+    begun = [
+        subprocess.Popen([sys.executable, "-c", COMPILE, str(examples / f"{name}.toml")])
+        for name in ("n1013", "c7010")
+    ]
+    if any([process.wait() for process in begun]):
+        raise pytest.UsageError("The kernels do not compile.")
 
 
 def pytest_terminal_summary(terminalreporter):

@@ -137,8 +137,19 @@ def not_mapped() -> Mapped:
     return Mapped(share([]), {}, [], [])
 
 
+def conditions_of(claim: Claim) -> set[str]:
+    """All conditions that a claim compares."""
+    return {
+        condition for part in claim.parts.values()
+        for condition in getattr(part, "conditions", None) or (part.condition,)
+    }  # fmt: skip
+
+
 def mapped(claim: Claim, results: Joined) -> Mapped:
-    """One claim judged at every point of a map."""
+    """One claim judged at every point of a map; not at all where the map lacks its conditions."""
+    there = set.intersection(*(set(part.conditions) for part in results.parts))
+    if not conditions_of(claim) <= there:
+        return not_mapped()
     outcomes = results.judge(claim.holds)
     parts = {name: share(results.judge(part.holds)) for name, part in claim.parts.items()}
     by = deciders(results.shares, results.names, outcomes)

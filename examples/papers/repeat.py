@@ -15,10 +15,9 @@ import sys
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from datetime import date
-from functools import cache
 from pathlib import Path
 
-from paper_page import Line, Page, Picture, Table, compose, draw_matrix
+from paper_page import Cell, Line, Page, Picture, Table, compose, draw_matrix
 from paper_results import (
     Joined,
     Mapped,
@@ -32,10 +31,12 @@ from paper_results import (
 )
 
 import flexcage
+from flexcage.case.extensions import forget
 from flexcage.core.progress import Progress
 from flexcage.study import MapResults, StudyResults, load_map, load_study, run_map, run_study
 from flexcage.study.claims import Claim
-from flexcage.study.verdicts import write_verdicts
+from flexcage.study.own import OWN
+from flexcage.study.verdicts import UNDECIDED, write_verdicts
 
 STRESS = "stress"  # folder of the pictures of one run
 QUICK = {"solver.duration": "40 ms"}
@@ -56,9 +57,11 @@ class Words:
 class Paper:
     """A paper: where it is from, its claims, the columns of its matrix, and what its page shows.
 
-    ``columns`` names the readings of ``readings`` by their labels, ``maps`` the files that make a
-    column, ``rechecks`` files of maps whose ``points`` are computed anew with a flexible cage, and
-    ``stress`` what changes the file of a case for a run whose stress is drawn.
+    ``columns`` names the readings of ``readings`` by their labels, ``alone`` those that have a
+    study of their own (its file, their label), ``maps`` the files that make a column, ``rechecks``
+    files of maps whose ``points`` are computed anew with a flexible cage, under all conditions or
+    ``recheck_conditions``. ``studies`` are computed beside, and ``stress`` is what changes the file
+    of a case for a run whose stress is drawn.
     """
 
     title: str
@@ -68,7 +71,10 @@ class Paper:
     columns: Mapping[str, str]
     maps: Mapping[str, Sequence[str]]
     decided_by: Mapping[str, str]
+    alone: Mapping[str, tuple[str, str]] = field(default_factory=dict)
+    studies: Sequence[str] = ()
     rechecks: Mapping[str, Sequence[int]] = field(default_factory=dict)
+    recheck_conditions: Sequence[str] = ()
     stress: tuple[str, Mapping[str, str]] | None = None
     draw: Callable[[Computed, Path], list[Picture]]
     tables: Callable[[Computed], list[Table]]
@@ -90,10 +96,18 @@ class Computed:
     out: Path
 
 
-@cache
 def load(folder: Path) -> Paper:
-    """The paper of a folder, whose modules import each other as scripts do."""
+    """The paper of a folder, whose modules import each other as scripts do.
+
+    One paper at a time: outputs of papers that were loaded before may have the same names, and are
+    dropped.
+    """
     sys.path.insert(0, str(folder))
+    for name, output in list(OWN.items()):
+        file = Path(output.compute.__code__.co_filename)
+        if file.parent.parent == folder.parent:
+            del OWN[name]
+            forget(file)
     try:
         for name in ("claims", "outputs", "figures", "paper"):
             sys.modules.pop(name, None)
@@ -109,16 +123,22 @@ def load(folder: Path) -> Paper:
 
 def run(paper: Paper, folder: Path, out: Path, *, workers: int, quick: bool) -> None:
     """Compute what the folders of all readings, maps and rechecks lack."""
-    study = load_study(folder / paper.readings, overrides=QUICK if quick else None)
-    if quick:
-        study = replace(study, repeat=replace(study.repeat, count=1))
-    run_study(study, out=_of(out, paper.readings), workers=workers, progress=Progress)
+    for file in (paper.readings, *(file for file, _ in paper.alone.values() if not quick)):
+        study = load_study(folder / file, overrides=QUICK if quick else None)
+        if quick:
+            study = replace(study, repeat=replace(study.repeat, count=1))
+        run_study(study, out=_of(out, file), workers=workers, progress=Progress)
     if quick:
         return
+    for file in paper.studies:
+        run_study(load_study(folder / file), out=_of(out, file), workers=workers, progress=Progress)
     for file in (file for files in paper.maps.values() for file in files):
         run_map(load_map(folder / file), out=_of(out, file), workers=workers, progress=Progress)
     for file, points in paper.rechecks.items():
         flexible = load_map(folder / file, overrides={"cage.model": "flexible"})
+        if paper.recheck_conditions:
+            kept = [c for c in flexible.conditions if c["label"] in paper.recheck_conditions]
+            flexible = replace(flexible, conditions=tuple(kept))
         where = _of(out, file).with_name(f"{Path(file).stem}_flexible")
         run_map(flexible, out=where, points=points, workers=workers, progress=Progress)
     if paper.stress is not None and not (out / STRESS).is_dir():
@@ -135,6 +155,11 @@ def collect(paper: Paper, out: Path) -> Computed:
     """What the folders hold, judged."""
     study = StudyResults(_of(out, paper.readings))
     readings = {column: Reading(label, study) for label, column in paper.columns.items()}
+    readings |= {
+        column: Reading(label, StudyResults(_of(out, file)))
+        for column, (file, label) in paper.alone.items() if _of(out, file).is_dir()
+    }  # fmt: skip
+    studies = {id(r.results): r.results for r in readings.values()}
     there = {
         column: Joined([MapResults(_of(out, f)) for f in files if _of(out, f).is_dir()])
         for column, files in paper.maps.items()
@@ -147,11 +172,15 @@ def collect(paper: Paper, out: Path) -> Computed:
     computed = Computed(
         paper, readings, there, found,
         {f: MapResults(p) for f, p in flexible.items() if p.is_dir()}, (),
-        sum(r.seconds for r in study.stored.values())
+        sum(r.seconds for found in studies.values() for r in found.stored.values())
         + sum(part.seconds for joined in there.values() for part in joined.parts),
         out,
     )  # fmt: skip
     starts = {column: cells_of_starts(paper.claims, r) for column, r in readings.items()}
+    starts |= {
+        column: {claim.key: Cell(UNDECIDED, "not computed") for claim in paper.claims}
+        for column in paper.alone if column not in readings
+    }  # fmt: skip
     reasons = {claim.key: "" for claim in paper.claims}
     lines = lines_of(paper.claims, starts, found, paper.decided_by, reasons)
     computed = replace(computed, lines=lines)

@@ -106,8 +106,8 @@ def _without_ratings(text: str, name: str) -> InputError | None:
     others = [n for n in _ratings() if re.fullmatch(rf"{series['series']}{code}\D*", n)]
     has = f" (it has {', '.join(others)})" if others else ""
     return InputError(
-        f"The catalogue has no ratings of '{text}'{has}; complete, with "
-        f"{', '.join(['--dynamic', '--static', *wanted])}: flexcage new {name} --type "
+        f"The catalogue has no ratings of '{text}'{has}. Give them: add "
+        f"{', '.join(['--dynamic', '--static', *wanted])} to flexcage new {name} --type "
         f'{series["type"]}{design} --bore "{bore}" --outside "{outside}" --width "{width}"{angle}.',
         where="designation",
         value=text,

@@ -23,6 +23,14 @@ def sources() -> tuple[str, ...]:
     return tuple(_loaded)
 
 
+def forget(source: str | Path) -> None:
+    """Take a file off the list that processes of a study load; what it has added here stays."""
+    text = str(Path(source).expanduser().resolve())
+    if text in _loaded:
+        _loaded.remove(text)
+        users_files.forget([Path(text)])
+
+
 def not_loaded(wanted: Iterable[str]) -> list[str]:
     """Those among the names of files and modules that this process has not loaded, nor another
     file of that name."""

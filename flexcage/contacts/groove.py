@@ -4,7 +4,9 @@ The race is a torus about the ring's axis: groove centres lie on a circle. A bal
 from its groove's centre than it would just touch presses along the line from there. Strips of the
 ellipse slide at the speed of their own points on the curved surface of contact, so that spin,
 differential slip across the groove (Heathcote's) and gyroscopic slip are all one velocity (T. A.
-Harris, Rolling Bearing Analysis, 2 and 8). The races control nothing.
+Harris, Rolling Bearing Analysis, 2 and 8). The races control nothing. Waves and a spall of the race
+(``contacts.uneven``) change the depth; so the ball is pushed along and across the groove too, at
+its centre, as an edge of the spall does. Its traction stays where an even race has it.
 """
 
 from __future__ import annotations
@@ -34,10 +36,12 @@ from flexcage.contacts.slices import (
     stored_and_damped,
 )
 from flexcage.contacts.state import add_force_and_moment
+from flexcage.contacts.uneven import ride
 from flexcage.core.jit import VECTORISED, part, zero
 from flexcage.core.vectors import combine, cross, dot, minus, plus, times
 
 LEAST_ROLLING = 1e-3  # rad/s: below it the rolling resistance fades out
+LEAST_LEAN = 1e-3  # of a ball on the sides of a spall: below it, it nears them as an even race
 
 
 class Groove(NamedTuple):
@@ -54,6 +58,11 @@ class Groove(NamedTuple):
     normal: np.ndarray  # (N_NORMAL,)
     friction: np.ndarray  # (N_FRICTION,)
     rolling: np.ndarray  # (3,) moment of rolling resistance: factor, powers of speed and load
+    wave: np.ndarray  # (3,) and
+    spall: np.ndarray  # (4,) as in ``contacts.uneven``
+    sides: np.ndarray  # (2,) angles across the groove between which the spall lies
+    reach: float  # half of the ellipse's length over the root of the depth
+    uneven: int  # 1 if there is a wave or a spall (records hold no booleans)
 
 
 class BallOnRace(NamedTuple):
@@ -67,6 +76,7 @@ class BallOnRace(NamedTuple):
     ring_velocity: tuple[float, float, float]
     ring_spin: tuple[float, float, float]
     onset: float  # speed at which the contact closed
+    azimuth: float  # of the frame's e_r, from the ring's material
 
 
 @part
@@ -80,17 +90,23 @@ def groove_contact(ball, race, laws, sl, wrench, mode, sums):
     if mode >= REPORT:
         zero(sums)
     P, b = ball.centre, ball.axis
-    e, n, _, reach = line_of_contact(P, b, race)
+    e, n, distance, reach = line_of_contact(P, b, race)
     spin = minus(ball.spin, ball.ring_spin)
     v = minus(minus(ball.velocity, ball.ring_velocity), cross(ball.ring_spin, P))
     sl.d[0], sl.v[0] = reach - race.radius + ball.radius, dot(n, v)
+    lean, near = (1.0, 0.0, 0.0), sl.v[0]
+    if race.uneven:
+        lean = lean_on(ball, race, (e, n, distance, reach), sl)
+        push = leaning(lean, n, cross(b, e))
+        sl.v[0] = dot(push, v)
+        near = sl.v[0] / lean[0] if lean[0] > LEAST_LEAN else near
     if mode >= REPORT:
         sums[ANGLE] = atan2(race.side * dot(n, b), race.side * dot(n, e))
-        sums[APPROACH] = sl.v[0]
+        sums[APPROACH] = near
     if sl.d[0] <= 0.0:
         return False
     normal_forces(laws.normal, (0, 1), sl, race.normal, ball.onset)
-    N = sl.N[0]
+    N = sl.N[0] * lean[0]
     if mode >= REPORT:
         sums[STORED], sums[DAMPED] = stored_and_damped((0, 1), sl, race.normal[EXPONENT])
     g = cross(b, e)  # rolling direction, along the race
@@ -108,6 +124,8 @@ def groove_contact(ball, race, laws, sl, wrench, mode, sums):
         resisting = race.rolling[0] * fast ** race.rolling[1] * N ** race.rolling[2] / fast
     moment = combine(moment, -resisting, roll)
     total = combine(force, -N, n)
+    if race.uneven:
+        total = combine(total, -sl.N[0], leaning((0.0, lean[1], lean[2]), n, g))
     add_force_and_moment(wrench, total, moment)
     if mode >= REPORT:
         sums[NORMAL], sums[ALONG], sums[ACROSS] = N, dot(force, g), dot(force, t)
@@ -115,6 +133,23 @@ def groove_contact(ball, race, laws, sl, wrench, mode, sums):
         sums[RUBBED] = dot(force, v) + dot(moment, spin) + resisting * speed * speed
         sums[ROLLED] = -resisting * speed * speed
     return True
+
+
+@part
+def lean_on(ball, race, line, sl):
+    """How the depth on an uneven race follows the ball's place, along n, g and t; the depth that
+    counts into sl.d. ``line``: what ``line_of_contact`` gives."""
+    e, n, distance, reach = line
+    place = atan2(race.side * dot(n, ball.axis), race.side * dot(n, e))
+    phi = ball.azimuth + atan2(e[2], e[1])
+    sl.d[0], by_depth, by_phi, by_place = ride(race, phi, place, sl.d[0])
+    return by_depth, by_phi / distance, by_place / reach
+
+
+@part
+def leaning(lean, n, g):
+    """The direction in which the depth grows, as long as it grows there; t is n x g."""
+    return combine(combine(times(lean[0], n), lean[1], g), lean[2], cross(n, g))
 
 
 @part

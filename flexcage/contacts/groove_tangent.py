@@ -3,7 +3,9 @@
 In the frame of the contact (normal, rolling direction, across it) the wrench depends on depth,
 velocities and angular velocities alone; a ball that moves along or across the groove takes that
 frame with it. So the slope over its place is that over the depth, and what turning all vectors
-does.
+does. On an uneven race the depth follows place along and across the groove too; left out is how
+these directions change (the curvature of waves and of a spall's edges, a few per cent of the
+contact's stiffness).
 """
 
 from __future__ import annotations
@@ -11,7 +13,13 @@ from __future__ import annotations
 from math import sqrt
 
 from flexcage.contacts.evaluation import RESIDUAL
-from flexcage.contacts.groove import LEAST_ROLLING, groove_contact, line_of_contact
+from flexcage.contacts.groove import (
+    LEAST_ROLLING,
+    groove_contact,
+    lean_on,
+    leaning,
+    line_of_contact,
+)
 from flexcage.contacts.state import add_generator, clear, friction_tangent
 from flexcage.core.jit import part
 from flexcage.core.vectors import (
@@ -39,33 +47,43 @@ def groove_tangent(ball, race, laws, sl, pair, sums):
     clear(pair, True)
     if not groove_contact(ball, race, laws, sl, pair.wrench, RESIDUAL, sums):
         return False
-    N = sl.N[0]
-    if N <= 0.0:
+    if sl.N[0] <= 0.0:
         return True
     P, b = ball.centre, ball.axis
     e, n, distance, reach = line_of_contact(P, b, race)
     g = cross(b, e)
+    lean, push = 1.0, n
+    if race.uneven:
+        depth, sl.d[0] = sl.d[0], reach - race.radius + ball.radius
+        leans = lean_on(ball, race, (e, n, distance, reach), sl)
+        lean, push, sl.d[0] = leans[0], leaning(leans, n, g), depth
+    N = sl.N[0] * lean
     t = cross(n, g)
     spin = minus(ball.spin, ball.ring_spin)
     v = minus(minus(ball.velocity, ball.ring_velocity), cross(ball.ring_spin, P))
-    by_load, by_middle = _strips(ball, race, n, g, t, spin, sl, pair)
+    by_load, by_middle = _strips(ball, race, (N, n, g, t), spin, sl, pair)
     by_load = _rolling(race, N, n, spin, by_load, pair.C)
     # the normal force follows depth and approach, n.P and n.v; the middle of the contact sinks by
-    # half the depth
+    # half the depth; on an uneven race the depth that counts has its own direction
     for k in range(6):
-        by_depth = sl.Nd[0] * by_load[k] - 0.5 * by_middle[k]
+        by_force = lean * by_load[k]
+        if race.uneven and k < 3:
+            by_force += lean * n[k] - push[k]
+        by_depth = sl.Nd[0] * by_force - 0.5 * by_middle[k]
         for c in range(3):
-            pair.K[k, c] -= by_depth * n[c]
-            pair.C[k, c] -= sl.Nv[0] * by_load[k] * n[c]
+            pair.K[k, c] -= by_depth * push[c]
+            pair.C[k, c] -= sl.Nv[0] * by_force * push[c]
     for c in range(3):  # the frame turns about the ring's axis and about the rolling direction
         _turn(combine(times(g[c] / distance, b), -t[c] / reach, g), v, spin, c, pair)
     return True
 
 
 @part
-def _strips(ball, race, n, g, t, spin, sl, pair):
-    """Add the strips' friction to ``pair.C``; slopes of the wrench over load and middle."""
-    N, middle = sl.N[0], ball.radius - 0.5 * sl.d[0]
+def _strips(ball, race, frame, spin, sl, pair):
+    """Add the strips' friction to ``pair.C``; slopes of the wrench over load and middle. ``frame``:
+    the load, then the directions n, g and t."""
+    N, n, g, t = frame
+    middle = ball.radius - 0.5 * sl.d[0]
     long = race.long * N ** (1.0 / 3.0)
     along, across = pair.W[0], pair.W[1]
     force, moment = times(-1.0, n), (0.0, 0.0, 0.0)  # over the load

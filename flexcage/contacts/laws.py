@@ -27,7 +27,7 @@ from numba import types
 from scipy.optimize import brentq
 
 from flexcage.contacts import spec as specs
-from flexcage.contacts.spec import EhlTraction, FrictionLaw, Lubricant, NormalLaw
+from flexcage.contacts.spec import DecayFriction, EhlTraction, FrictionLaw, Lubricant, NormalLaw
 from flexcage.core.elementary import exponentials, powers, product_of_powers
 from flexcage.core.errors import InputError
 from flexcage.core.jit import kernel, kernel_of, why_not_compiled
@@ -54,6 +54,7 @@ DAMPING, FULL_DEPTH = 2, 3  # of ``impact_step``
 # of a friction law
 T_A, T_B, T_C, T_D, T_SLOPE = range(5)  # of ``traction``: Gupta's letters, and mu/u at u = 0
 STATIC, DYNAMIC, V_STATIC, V_DYNAMIC = range(4)  # of Coulomb's: coefficients, then their speeds
+DECAY = 3  # of ``decay_coulomb``, in place of a second speed
 
 
 @kernel(NORMAL_SIGNATURE)
@@ -155,6 +156,23 @@ def ramp_coulomb(n, u, p, g, dg):
             dg[k] = (dmu - g[k]) / x
 
 
+@kernel(FRICTION_SIGNATURE)
+def decay_coulomb(n, u, p, g, dg):
+    """LS-DYNA's mu = f_d + (f_s - f_d) exp(-DC u), with a cubic step from rest to v_static."""
+    exponentials(n, u, -p[DECAY], dg)
+    for k in range(n):
+        x, apart = u[k], (p[STATIC] - p[DYNAMIC]) * dg[k]
+        mu, dmu = p[DYNAMIC] + apart, -p[DECAY] * apart
+        if x < p[V_STATIC]:
+            s = x / p[V_STATIC]
+            rise = (3.0 - s * s) / (2.0 * p[V_STATIC])
+            g[k] = mu * rise
+            dg[k] = dmu * rise - mu * s / (p[V_STATIC] * p[V_STATIC])
+        else:
+            g[k] = mu / x
+            dg[k] = (dmu - g[k]) / x
+
+
 def exact_dissipation(e: float) -> float:
     """lambda of F = K d^n (1 + (lambda/v0) d') that gives restitution e exactly, for any n, K, m.
 
@@ -214,6 +232,10 @@ def _coulomb_parameters(law: FrictionLaw) -> Sequence[float]:
     return law.static, law.dynamic, law.v_static, law.v_dynamic
 
 
+def _decay_parameters(law: DecayFriction) -> Sequence[float]:
+    return law.static, law.dynamic, law.v_static, law.decay
+
+
 NORMAL_LAWS: dict[str, Any] = {
     "elastic": elastic,
     "restitution": restitution,
@@ -225,6 +247,7 @@ FRICTION_LAWS: dict[str, Any] = {
     "step_coulomb": step_coulomb,
     "ramp_coulomb": ramp_coulomb,
     "ehl": traction,
+    "decay_coulomb": decay_coulomb,
 }
 # those not named here take the parameters of "elastic" and of "step_coulomb"
 NORMAL_PARAMETERS: dict[str, Callable[[Any, float, float], Sequence[float]]] = {
@@ -234,6 +257,7 @@ NORMAL_PARAMETERS: dict[str, Callable[[Any, float, float], Sequence[float]]] = {
 FRICTION_PARAMETERS: dict[str, Callable[[Any], Sequence[float]]] = {
     "traction": _traction_parameters,
     "ehl": _ehl_parameters,
+    "decay_coulomb": _decay_parameters,
 }
 
 

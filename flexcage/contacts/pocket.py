@@ -75,10 +75,8 @@ def pocket_contact(i, roller, cage, data, laws, sl, pw, pair, mode, sums):
     for f in range(FACES):
         if pw.near[f] != 0 and _press(data, f, sl, pw):
             any_contact = True
-            _face(
-                pose, data, i, f, Rw, centre[1], rel, spin, qd, onset[f], laws, sl, pw, pair, mode,
-                sums,
-            )  # fmt: skip
+            place, motion = (pose, Rw, centre[1]), (rel, spin, qd, onset[f])
+            _face(i, f, place, motion, data, laws, (sl, pw), pair, mode, sums)
     if mode == TANGENT and any_contact:
         if data.soft != 0:
             soften(RIGID + data.phi_max.shape[0], pw)
@@ -105,9 +103,16 @@ def _press(data, f, sl, pw):
 
 
 @part
-def _face(pose, data, i, f, Rw, distance, rel, spin, qd, onset, laws, sl, pw, pair, mode, sums):
-    """Forces of face f, from the penetrations sl.d; ``distance`` of the roller's centre from the
-    bearing's axis; rel, spin: its motion less the cage's."""
+def _face(i, f, place, motion, data, laws, work, pair, mode, sums):
+    """Forces of face f, from the penetrations sl.d.
+
+    ``place`` of the roller: pose, radius, distance of its centre from the bearing's axis;
+    ``motion``: its velocities less the cage's, the modes' rates, speed at the begin of contact;
+    ``work``: slices, pocket.
+    """
+    pose, Rw, distance = place
+    rel, spin, qd, onset = motion
+    sl, pw = work
     face, span, a = pw.face[f], span_of(pw, f), row(pose.axis, 0)
     kind = 0 if f < SIDES else 1
     p = data.normal[kind]

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from math import copysign, cos, pi, sin, sqrt
+from math import sqrt
 from typing import NamedTuple
 
 import numpy as np
@@ -44,6 +44,7 @@ from flexcage.contacts.state import (
     clear,
     friction_tangent,
 )
+from flexcage.contacts.uneven import sunk_at, wave_at
 from flexcage.core.jit import VECTORISED, outlined, part, zero
 from flexcage.core.vectors import combine, cross, dot, minus, plus, row, times, xyz
 
@@ -59,8 +60,8 @@ class RaceSide(NamedTuple):
     friction: np.ndarray  # (N_FRICTION,)
     rolling: np.ndarray  # (2,) rolling resistance
     hydro: float  # 2 R/Rw: pressure share of the rolling resistance
-    wave: np.ndarray  # (2,) waviness: amplitude and order
-    spall: np.ndarray  # (4,) half angle, azimuth, depth, and drop over the square of an angle
+    wave: np.ndarray  # (3,) and
+    spall: np.ndarray  # (4,) as in ``contacts.uneven``
     spalled: np.ndarray  # (ns,) share of each slice that lies over the spall
     uneven: int  # 1 if there is a wave or a spall (records hold no booleans)
 
@@ -256,24 +257,11 @@ def theta_at(pose, y, z):
 @part
 def _unevenness(side, phi, k):
     """How much larger the race's radius is at azimuth ``phi`` [rad] on the ring, under slice k,
-    and its slope over phi [m, m/rad].
-
-    Over a spall a roller's axis goes down by (l - |x|)^2/(2 R) at a distance x from its middle,
-    as it turns about the edge at l, until it rolls on the bottom.
-    """
-    amplitude, order = side.wave[0], side.wave[1]
-    rise, slope = amplitude * cos(order * phi), -amplitude * order * sin(order * phi)
-    half, middle, depth, bend = side.spall
-    off = (phi - middle + pi) % (2.0 * pi) - pi
-    beyond = half - abs(off)
-    if beyond > 0.0:
-        outwards = -side.sign * side.spalled[k]
-        if bend * beyond * beyond < depth:
-            rise += outwards * bend * beyond * beyond
-            slope -= outwards * 2.0 * bend * copysign(beyond, off)
-        else:
-            rise += outwards * depth
-    return rise, slope
+    and its slope over phi [m, m/rad]."""
+    rise, slope = wave_at(side.wave, phi)
+    sunk, steep = sunk_at(side.spall, phi)
+    outwards = -side.sign * side.spalled[k]
+    return rise + outwards * sunk, slope + outwards * steep
 
 
 @part

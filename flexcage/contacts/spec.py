@@ -15,8 +15,11 @@ FRICTION_LAWS: dict[str, type | None] = dict.fromkeys(
     ("traction", "step_coulomb", "ramp_coulomb", "none")
 )
 MOST_FRICTION = 100.0  # coefficient: clean metals in air have about 1; tests of limits take more
-_COULOMB = ("step_coulomb", "ramp_coulomb")
-_CREEP_END = {"step_coulomb": "v_static", "ramp_coulomb": "v_dynamic"}  # by law, the speed's field
+_STEPS = ("step_coulomb", "ramp_coulomb")
+_COULOMB = (*_STEPS, "decay_coulomb")
+_CREEP_END = {  # by law, the speed's field
+    "step_coulomb": "v_static", "ramp_coulomb": "v_dynamic", "decay_coulomb": "v_static",
+}  # fmt: skip
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -75,7 +78,7 @@ class FrictionLaw:
         assumption="ADAMS's default; published models give none",
     )  # fmt: skip
     v_dynamic: float = quantity(
-        "m/s", 1.0, doc="speed of full dynamic friction", above=0.0, of=_COULOMB,
+        "m/s", 1.0, doc="speed of full dynamic friction", above=0.0, of=_STEPS,
         assumption="ADAMS's default; published models give none",
     )  # fmt: skip
     peak: float = option(
@@ -97,8 +100,8 @@ class FrictionLaw:
         """Sliding speed [m/s] below which the law only creeps, so that slip under it says nothing;
         None for a law whose rise from rest is the physics.
 
-        ``step_coulomb`` creeps up to its static peak; ``ramp_coulomb``, which has no force at all
-        below v_static, up to its full force at v_dynamic.
+        ``step_coulomb`` and ``decay_coulomb`` creep up to their static peak; ``ramp_coulomb``,
+        which has no force at all below v_static, up to its full force at v_dynamic.
         """
         end = _CREEP_END.get(self.law)
         return getattr(self, end) if end else None
@@ -135,7 +138,22 @@ class EhlTraction(FrictionLaw):
         return self.creep_speed if self.law == "ehl" else None
 
 
+@dataclass(frozen=True, kw_only=True)
+class DecayFriction(FrictionLaw):
+    """Coulomb's two coefficients with an exponential between them:
+
+    mu = dynamic + (static - dynamic) exp(-decay u), the law of LS-DYNA's contacts (Keyword User's
+    Manual, *CONTACT: FS, FD, DC; DC is 0 there unless it is given, so that static acts at any
+    speed). Below ``v_static`` a cubic step from rest, as ``step_coulomb`` has, takes the place of
+    LS-DYNA's sticking spring.
+    """
+
+    law: str = option("decay_coulomb", doc="name of the law", choices=FRICTION_LAWS)
+    decay: float = quantity("s/m", 0.0, doc="decay DC of static to dynamic friction", minimum=0.0)
+
+
 FRICTION_LAWS["ehl"] = EhlTraction
+FRICTION_LAWS["decay_coulomb"] = DecayFriction
 
 
 FEWEST_SLICES, MOST_SLICES = 3, 128

@@ -28,7 +28,7 @@ Meaning = Literal["smaller", "larger", "moved", "crack", "sound"]
 
 _NO_DEFECTS = {
     ".*spall.*": "[[defects]] are of the cage; a spall of a race is [bearing.outer_spall] or "
-    "[bearing.inner_spall] of a cylindrical roller bearing, and ball bearings have none"
+    "[bearing.inner_spall]"
 }
 #: Specs of defects by the name that a case gives: those of all cage types, and users' own.
 DEFECTS: Parts[Spec] = Parts(

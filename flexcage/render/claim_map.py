@@ -5,14 +5,15 @@ from __future__ import annotations
 from collections.abc import Sequence
 from math import ceil
 from pathlib import Path
+from textwrap import wrap
 
 import numpy as np
 
 from flexcage.render import sheet
 
-_COLUMNS, _WIDE, _HIGH, _GAP_X, _GAP_Y = 4, 330.0, 150.0, 60.0, 96.0
+_COLUMNS, _WIDE, _HIGH, _GAP_X, _GAP_Y = 4, 330.0, 150.0, 60.0, 118.0
 _LEFT, _TOP = 100.0, 130.0
-_LETTERS = 36  # of a range that is written out
+_LETTERS, _LINES = 38, 3  # in a line of a range in words, and lines of it
 _PARTS = 4  # of a range, over each of which a share is drawn
 
 
@@ -42,10 +43,15 @@ def draw_claim_map(
             ax = sheet.axes_at(figure, place)
             _panel(ax, shares[known, k], holds)
             ax.set_title(name, loc="left")
-            ax.set_xlabel(words if len(words) < _LETTERS else f"{words[: _LETTERS - 3]}...")
+            ax.set_xlabel(_in_lines(words), fontsize=8)
             if column == 0:
                 ax.set_ylabel("share")
         return sheet.save(figure, path)
+
+
+def _in_lines(words: str) -> str:
+    """A range in words, broken between its parts; the last line says that there is more."""
+    return "\n".join(wrap(words, _LETTERS, max_lines=_LINES, placeholder=" ..."))
 
 
 def _panel(ax, x: np.ndarray, holds: np.ndarray) -> None:

@@ -16,6 +16,7 @@ from flexcage.results.metrics import BearingNumbers
 from flexcage.results.spectra import (
     APART,
     SIGNALS,
+    own_frequencies,
     run_frequencies,
     run_resolution,
     spectral_density,
@@ -76,7 +77,7 @@ def spectra_picture(
             if i < len(shown) - 1:
                 ax.tick_params(labelbottom=False)
         below = sheet.join(["frequency [Hz]", _unmarked(lines, marked, resolution)])
-        ax.set_xlabel("\n".join(filter(None, (below, _angles(part, bearing)))))
+        ax.set_xlabel("\n".join(filter(None, (below, _angles(part, bearing), _own(part, bearing)))))
         return sheet.save(figure, path)
 
 
@@ -105,6 +106,13 @@ def _angles(ds: xarray.Dataset, bearing: BearingNumbers) -> str:
         f"{bearing.contact_angle * 180.0 / pi:.4g}°: FTF {nominal['FTF']:,.1f}, "
         f"BPFO {nominal['BPFO']:,.1f} Hz"
     )
+
+
+def _own(ds: xarray.Dataset, bearing: BearingNumbers) -> str:
+    """Where the run's own speeds have the lines."""
+    own = own_frequencies(ds, bearing)
+    lines = [f"{name} {own[name]:,.1f}" for name in ("FTF", "BSF", "BPFO", "BPFI")]
+    return f"with slip, by the run's own mean speeds: {', '.join(lines)} Hz"
 
 
 def _panel(ax: Any, density: xarray.DataArray, name: str, reach: float) -> None:

@@ -7,6 +7,8 @@ from dataclasses import dataclass
 from math import isfinite
 from typing import TYPE_CHECKING
 
+import numpy as np
+
 from flexcage.core.errors import InputError
 from flexcage.results import audit, metrics
 from flexcage.results.angles import at_angles, of_curvature
@@ -202,7 +204,25 @@ def _contact_rows(
             windows.mean(series.free),
             "of the time: no pocket and no land touches the cage",
         ),
+        *_touching_rows(ds, events),
     )
+
+
+def _touching_rows(ds: xarray.Dataset, events: xarray.Dataset | None) -> tuple[Row, ...]:
+    """How often elements met their neighbours, in families whose elements can."""
+    if "neighbour_force" not in ds:
+        return ()
+    if events is None:
+        closed = ds["neighbour_force"].transpose("time", "element").values > 0.0
+        count = int((closed[1:] & ~closed[:-1]).sum())
+    else:
+        time, place = events["time"].values, events["place"].values.astype(str)
+        begun = events["closed"].values & np.char.startswith(place, "next ")
+        count = int(
+            (begun & (time >= float(ds["time"][0])) & (time <= float(ds["time"][-1]))).sum()
+        )
+    name = metrics.element(ds).capitalize()
+    return (figure("element_touches", count, idle=count == 0, Element=name),)
 
 
 def _race_rows(ds: xarray.Dataset) -> tuple[Row, ...]:

@@ -111,6 +111,23 @@ def run_frequencies(
     return bearing_frequencies(own_or_nominal, float(ds["inner_speed"].mean()))
 
 
+def own_frequencies(ds: xarray.Dataset, bearing: BearingNumbers) -> dict[str, float]:
+    """The same frequencies [Hz] by name as the run's own mean speeds have them, slip included: of
+    the cage, the inner ring, and the elements about their own axes relative to the cage. The outer
+    ring stands."""
+    cage, inner = float(_cage_speed(ds).mean()), float(ds["inner_speed"].mean())
+    spin = abs(float(metrics.element_spin(ds).mean()))
+    speeds = {
+        "FTF": abs(cage),
+        "shaft": abs(inner),
+        "BSF": spin,
+        "2 BSF": 2.0 * spin,
+        "BPFO": bearing.element_count * abs(cage),
+        "BPFI": bearing.element_count * abs(inner - cage),
+    }
+    return {name: speed / (2.0 * pi) for name, speed in speeds.items()}
+
+
 def run_resolution(ds: xarray.Dataset, bearing: BearingNumbers) -> float:
     """Distance of bins [Hz] that suits a run: an eighth of the cage's frequency, or the inverse of
     the run's length, which is the least there is.

@@ -364,6 +364,16 @@ def _grown_into_ring(o: Outcome) -> Iterator[RunWarning]:
     yield from grown_into_ring(o.shape, o.cage, o.bearing.cage_space(o.cage), guided)
 
 
+def _elements_touch(o: Outcome) -> Iterator[RunWarning]:
+    count = o.number("element_touches")
+    if count > 0.0:
+        yield RunWarning(
+            "elements_touch",
+            f"{o.element.capitalize()}s touch each other: {count:.0f} times one met the next, "
+            "where no pocket keeps them apart.",
+        )
+
+
 def _um(length: float) -> str:
     return f"{length * 1e6:.3g} um" if abs(length) < 1e-3 else f"{length * 1e3:.3g} mm"
 
@@ -381,4 +391,5 @@ AT_END: tuple[Callable[[Outcome], Iterator[RunWarning]], ...] = (
     _audit,
     _slip,
     _over_edge,
+    _elements_touch,
 )

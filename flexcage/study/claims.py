@@ -15,7 +15,7 @@ from typing import Protocol
 import numpy as np
 from scipy.stats import kendalltau
 
-from flexcage.study.decisions import NOTHING, Evidence, above, all_of, less, trend, turning
+from flexcage.study.decisions import NOTHING, Evidence, above, all_of, equal, less, trend, turning
 
 At = Callable[[str, str], float]  # of an output and a condition: one number
 Values = Callable[[str, str], np.ndarray]  # the same: (starts,) numbers
@@ -94,6 +94,24 @@ class Between:
             if np.isfinite(self.high):
                 parts.append(above(found, self.high).contrary)
         return all_of(parts)
+
+
+@dataclass(frozen=True)
+class Unchanged:
+    """An output is as good as the same under every condition: apart from that under the first by
+    less than the share ``within`` of it. Its test is that of equivalence (``decisions.equal``)."""
+
+    output: str
+    conditions: tuple[str, ...]
+    within: float
+
+    def holds(self, at: At) -> bool:
+        first, *others = (at(self.output, c) for c in self.conditions)
+        return all(abs(found - first) < self.within * abs(first) for found in others)
+
+    def evidence(self, values: Values) -> Evidence:
+        first, *others = (values(self.output, c) for c in self.conditions)
+        return all_of([equal(first, found, within=self.within) for found in others])
 
 
 @dataclass(frozen=True)

@@ -114,18 +114,11 @@ class Map:
             "format": FORMAT, "design": self.design, "count": self.count, "seed": self.seed,
             "starts": self.starts, "names": list(self.names), "shares": self.shares.tolist(),
             "reasons": [u.reason for u in self.unknowns],
-            "ranges": [_range_in_words(u) for u in self.unknowns],
+            "ranges": [u.in_words() for u in self.unknowns],
             "values": [[u.changes(float(s))[0] for u, s in zip(self.unknowns, row)]
                        for row in self.shares],
             "conditions": [str(c["label"]) for c in self.conditions],
         }  # fmt: skip
-
-
-def _range_in_words(unknown: Unknown) -> str:
-    if unknown.choices:
-        return ", ".join(str(choice["label"]) for choice in unknown.choices)
-    low, high = unknown.range
-    return f"{low} to {high}" + (" (log)" if unknown.scale == "log" else "")
 
 
 def load_map(path: str | Path, *, overrides: Mapping[str, Any] | None = None) -> Map:

@@ -253,8 +253,8 @@ def _check_known(name: str, dim: str, label: str, labels: Collection[str]) -> No
 
 
 def check_outputs(
-    names: tuple[str, ...], *, sizes: Mapping[str, int], flexible: bool, riveted: bool = False,
-    family: str = "cylindrical_roller", materials: Collection[str] = (),
+    names: tuple[str, ...], *, family: str, sizes: Mapping[str, int], flexible: bool,
+    riveted: bool = False, materials: Collection[str] = (),
     reactions: Collection[str] = CONSTRAINTS, bends: bool = False,
 ) -> None:  # fmt: skip
     """Raise InputError for the first output that no run of the study can give.

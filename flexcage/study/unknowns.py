@@ -10,7 +10,8 @@ from __future__ import annotations
 import importlib.util
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
-from math import exp, log
+from math import exp, inf, log
+from numbers import Real
 from typing import Any
 
 import numpy as np
@@ -23,6 +24,7 @@ from flexcage.study.axes import ends_in_si, written
 DUMMY = "(start)"
 LEVELS = 4  # of Morris' design, in every unknown
 SCALES = ("linear", "log")
+_ABOUT = ("label", "weight")  # keys of a choice that are no paths
 DESIGNS = ("sample", "morris", "saltelli")
 
 
@@ -31,8 +33,8 @@ class Unknown:
     """One thing that is not known, and why its range is plausible.
 
     Either ``paths``, each with a factor, which all take a value of ``range`` (uniform along
-    ``scale``) times their factor; or ``choices`` of equal weight, tables of paths and values with a
-    ``label``.
+    ``scale``) times their factor; or ``choices``, tables of paths and values with a ``label``, of
+    equal weight unless they have a ``weight``.
     """
 
     name: str = option(doc="what it is, in words")
@@ -61,6 +63,13 @@ class Unknown:
                 where="unknowns",
                 value=self.name,
             )
+        if not all(isinstance(w, Real) and 0.0 < w < inf for w in self.weights):
+            raise InputError(
+                f"The weights of the unknown '{self.name}' are {list(self.weights)}, but should be "
+                "numbers above zero.",
+                where="unknowns",
+                value=self.name,
+            )
         if self.range:
             low, _, unit = self._ends()
             if self.scale == "log" and not low > 0.0:
@@ -71,6 +80,24 @@ class Unknown:
                     value=self.range[0],
                 )
 
+    @property
+    def weights(self) -> tuple[float, ...]:
+        """Weights of the choices."""
+        return tuple(choice.get("weight", 1) for choice in self.choices)
+
+    def in_words(self) -> str:
+        """Its range, or its choices; with the share of the weight where weights differ."""
+        if not self.choices:
+            low, high = self.range
+            return f"{low} to {high}" + (" (log)" if self.scale == "log" else "")
+        uneven, whole = len(set(self.weights)) > 1, sum(self.weights)
+        return ", ".join(
+            f"{choice['label']} ({weight / whole:.0%})".replace("%", " %")
+            if uneven
+            else str(choice["label"])
+            for choice, weight in zip(self.choices, self.weights)
+        )
+
     def _ends(self) -> tuple[float, float, str]:
         return ends_in_si(self.name, self.range)
 
@@ -78,8 +105,10 @@ class Unknown:
         """What it is at a share 0 ... 1 of its range, in words or a number; and the values of the
         paths that it changes."""
         if self.choices:
-            place = min(int(share * len(self.choices)), len(self.choices) - 1)
+            ends = np.cumsum(self.weights) / sum(self.weights)
+            place = min(int(np.searchsorted(ends, share, side="right")), len(self.choices) - 1)
             choice = dict(self.choices[place])
+            choice.pop("weight", None)
             return choice.pop("label"), choice
         low, high, unit = self._ends()
         if self.scale == "log":
@@ -91,7 +120,7 @@ class Unknown:
     @property
     def all_paths(self) -> tuple[str, ...]:
         """Paths that it may change."""
-        chosen = (path for choice in self.choices for path in choice if path != "label")
+        chosen = (path for choice in self.choices for path in choice if path not in _ABOUT)
         return tuple(dict.fromkeys((*self.paths, *chosen)))
 
 

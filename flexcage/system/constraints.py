@@ -41,6 +41,7 @@ from flexcage.system.layout import (
     Q_CAGE,
     Q_INNER,
     Q_MODES,
+    Q_QUATERNION,
     REACTION_UNITS,
     Layout,
 )  # fmt: skip
@@ -78,6 +79,22 @@ def cage_centre(t, q, u, p, G, g, h):
         g[k] = q[Q_CAGE + 1 + k] - p[k]
         h[k] = u[CAGE + 1 + k]
         G[k, CAGE + 1 + k] = 1.0
+
+
+@kernel(ROWS)
+def cage_tilt(t, q, u, p, G, g, h):
+    """No parameters. The cage's axis a = A(q/|q|) e_x turns by da/dt = w_z A e_y - w_y A e_z with w
+    in the cage's frame; its angles about y and z, -a_z and a_y where they are small, are held."""
+    w, x = q[Q_QUATERNION], q[Q_QUATERNION + 1]
+    y, z = q[Q_QUATERNION + 2], q[Q_QUATERNION + 3]
+    of_unit = 1.0 / (w * w + x * x + y * y + z * z)
+    g[0], g[1] = 2.0 * (w * y - x * z) * of_unit, 2.0 * (x * y + w * z) * of_unit
+    a_yy, a_yz = 1.0 - 2.0 * (x * x + z * z) * of_unit, 2.0 * (y * z - w * x) * of_unit
+    a_zy, a_zz = 2.0 * (y * z + w * x) * of_unit, 1.0 - 2.0 * (x * x + y * y) * of_unit
+    G[0, CAGE_TURN + 1], G[0, CAGE_TURN + 2] = a_zz, -a_zy
+    G[1, CAGE_TURN + 1], G[1, CAGE_TURN + 2] = -a_yz, a_yy
+    for k in range(2):
+        h[k] = G[k, CAGE_TURN + 1] * u[CAGE_TURN + 1] + G[k, CAGE_TURN + 2] * u[CAGE_TURN + 2]
 
 
 PATH_Y, PATH_Z, PATH_RADIUS, PATH_SPEED, PATH_PHASE = range(5)  # its parameters
@@ -122,6 +139,7 @@ def _values(spec: Constraint) -> tuple[float, ...]:
 KINDS: dict[str, ConstraintKind] = {
     "cage_speed": ConstraintKind(cage_speed, "velocity", ("",), "N m", _values),
     "cage_centre": ConstraintKind(cage_centre, "position", ("y", "z"), "N", _values),
+    "cage_tilt": ConstraintKind(cage_tilt, "position", ("y", "z"), "N m", _values),
     "inner_path": ConstraintKind(inner_path, "position", ("y", "z"), "N", _values),
 }
 

@@ -253,7 +253,17 @@ class InnerPath(Constraint):
     phase: float = quantity("deg", 0.0, doc="azimuth at t = 0")
 
 
-CONSTRAINTS.update(cage_speed=CageSpeed, cage_centre=CageCentre, inner_path=InnerPath)
+@dataclass(frozen=True, kw_only=True)
+class CageTilt(Constraint):
+    """The cage's axis stays parallel to the bearing's: three translations and one rotation are left
+    to it. (Of a flexible cage, the axis of its frame.)"""
+
+    type: str = option("cage_tilt", doc="kind of constraint", choices=CONSTRAINTS)
+
+
+CONSTRAINTS.update(
+    cage_speed=CageSpeed, cage_centre=CageCentre, cage_tilt=CageTilt, inner_path=InnerPath
+)
 
 
 MOST_PUSH = 10.0  # m/s, a hundred times the speeds of cages within their clearances

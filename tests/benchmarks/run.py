@@ -20,7 +20,8 @@ sys.path[:0] = [str(Path(__file__).parent)]
 WHAT = (
     "solver", "fe", "peer", "exudyn", "scale", "study", "ball", "methods", "start", "own", "whole",
 )  # fmt: skip
-QUICK = {"mesh.fineness": "coarse", "cage.model": "rigid"}  # of the case, with --quick
+# of the case, with --quick
+QUICK = {"mesh.fineness": "coarse", "mesh.order": 1, "cage.model": "rigid"}
 
 
 def main(argv: list[str] | None = None) -> int:

@@ -357,8 +357,8 @@ def test_axial_loads_that_change_have_a_limit_too(name):
         ),
         (PRESET + '[[defects]]\ntype = "spall"', ["[bearing.outer_spall]"]),
         (
-            '[bearing]\npreset = "7603025"\n[bearing.outer_spall]\nlength = "1 mm"',
-            ["'outer_spall'", "without defects", "'cylindrical_roller'", "[[defects]]"],
+            '[bearing]\npreset = "7603025"\nspall = "1 mm"',
+            ["'spall'", "[bearing.outer_spall] or [bearing.inner_spall]"],
         ),
         ("name = ''\n[bearing]\npreset = 'N1013'", ["name is ''", "folder"]),
         ("name = '../up'\n[bearing]\npreset = 'N1013'", ["'../up'", "without '/'"]),

@@ -3,13 +3,14 @@ call them with."""
 
 from __future__ import annotations
 
+from dataclasses import replace
 from functools import cache
 
 import numba
 import numpy as np
 from numba import types
 
-from flexcage.bearings.ball.model import POINT, strips
+from flexcage.bearings.ball.model import POINT, groove_of
 from flexcage.case.presets import load_preset
 from flexcage.contacts import laws
 from flexcage.contacts.ball_pocket import (
@@ -20,11 +21,11 @@ from flexcage.contacts.ball_pocket import (
     pocket_wall_contact,
 )
 from flexcage.contacts.ball_pocket_tangent import pocket_wall_tangent
-from flexcage.contacts.evaluation import N_SUMS
+from flexcage.contacts.evaluation import N_SUMS, REPORT, TANGENT
 from flexcage.contacts.groove import BallOnRace, Groove, groove_contact
 from flexcage.contacts.groove_tangent import groove_tangent
 from flexcage.contacts.slices import Laws, new_slices
-from flexcage.contacts.spec import FrictionLaw, Lubricant, NormalLaw
+from flexcage.contacts.spec import Contacts, FrictionLaw, Lubricant, NormalLaw, PairSpec
 from flexcage.contacts.state import CageModes, new_pair
 from flexcage.core.jit import OPTIONS
 
@@ -33,26 +34,16 @@ VEC = types.Array(F8, 1, "C")
 LAWS = types.Tuple((laws.NORMAL_TYPE, laws.FRICTION_TYPE))
 
 
-def a_groove(*, inner=True, normal="restitution", friction="traction", rolling=True) -> Groove:
-    """One raceway of the preset 7010C-PI."""
-    bearing = load_preset("7010C-PI").bearing
-    contact = bearing.contacts[0 if inner else 1]
-    axial, centre = bearing.inner_groove_centre if inner else bearing.outer_groove_centre
-    strip, share = strips(16)
-    resistance = laws.point_rolling_resistance(Lubricant(), contact)
-    return Groove(
-        side=-1.0 if inner else 1.0,
-        axial=axial,
-        centre=centre,
-        radius=bearing.inner_groove_radius if inner else bearing.outer_groove_radius,
-        long=float(contact.semi_axes(1.0)[0]),
-        bend=bearing.contact_curvatures[0 if inner else 1],
-        strip=strip,
-        share=share,
-        normal=laws.normal_parameters(NormalLaw(law=normal), contact.stiffness, POINT),
-        friction=laws.friction_parameters(FrictionLaw(law=friction)),
-        rolling=resistance if rolling else 0.0 * resistance,
-    )
+def a_groove(
+    *, inner=True, normal="restitution", friction="traction", rolling=True, **uneven
+) -> Groove:
+    """One raceway of the preset 7010C-PI; ``uneven``: its waves and its spall."""
+    bearing = replace(load_preset("7010C-PI").bearing, **uneven)
+    contacts = Contacts(race=PairSpec(
+        normal=NormalLaw(law=normal), friction=FrictionLaw(law=friction), slices=16
+    ))  # fmt: skip
+    lubricant = Lubricant() if rolling else Lubricant(rolling_resistance="none")
+    return groove_of(bearing, contacts, lubricant, inner=inner)
 
 
 def pockets(
@@ -78,9 +69,9 @@ def pockets(
 
 
 def _groove(ball, race, law, sl, pair, mode, sums):
-    if mode == 0:
+    if mode != TANGENT:
         pair.wrench[:] = 0.0
-        return groove_contact(ball, race, Laws(*law), sl.row[0], pair.wrench, 0, sums)
+        return groove_contact(ball, race, Laws(*law), sl.row[0], pair.wrench, mode, sums)
     return groove_tangent(ball, race, Laws(*law), sl.row[0], pair, sums)
 
 
@@ -97,16 +88,17 @@ def _compiled(function, *arguments):
     return numba.njit(types.boolean(*kinds), **OPTIONS)(function)
 
 
-def _ball_on_race(P, v, spin, b, Vr, wr):
-    return BallOnRace(4e-3, *(tuple(float(x) for x in a) for a in (P, v, spin, b, Vr, wr)), 0.05)
+def _ball_on_race(P, v, spin, b, Vr, wr, azimuth):
+    vectors = (tuple(float(x) for x in a) for a in (P, v, spin, b, Vr, wr))
+    return BallOnRace(4e-3, *vectors, 0.05, azimuth)
 
 
 @cache
 def _groove_kernel():
     three = (0.0, 0.0, 0.0)
     return _compiled(
-        _groove, BallOnRace(1.0, three, three, three, three, three, three, 0.0), a_groove(), LAWS,
-        new_slices(), new_pair(), I8, VEC,
+        _groove, BallOnRace(1.0, three, three, three, three, three, three, 0.0, 0.0), a_groove(),
+        LAWS, new_slices(), new_pair(), I8, VEC,
     )  # fmt: skip
 
 
@@ -121,14 +113,26 @@ def _pocket_kernel():
 
 def on_race(
     race, P, v, spin, *, b=(1.0, 0.0, 0.0), Vr=(0.0, 0.0, 0.0), wr=(0.0, 0.0, 0.0), mode=0,
-    law=(laws.restitution, laws.traction),
+    law=(laws.restitution, laws.traction), azimuth=0.0,
 ):  # fmt: skip
-    """(does it touch, pair) of a raceway and a ball; ``mode`` 1: with its tangent."""
-    radius = 0.5 * load_preset("7010C-PI").bearing.ball_diameter
-    ball = _ball_on_race(P, v, spin, b, Vr, wr)._replace(radius=radius)
-    pair = new_pair()
-    hit = _groove_kernel()(ball, race, law, new_slices(), pair, mode, np.zeros(N_SUMS))
+    """(does it touch, pair) of a raceway and a ball; ``mode`` 1: with its tangent. ``azimuth`` of
+    the frame's e_r from the ring's material."""
+    hit, pair, _ = reported_on_race(
+        race, P, v, spin, b=b, Vr=Vr, wr=wr, mode=mode, law=law, azimuth=azimuth
+    )
     return hit, pair
+
+
+def reported_on_race(
+    race, P, v, spin, *, b=(1.0, 0.0, 0.0), Vr=(0.0, 0.0, 0.0), wr=(0.0, 0.0, 0.0), mode=REPORT,
+    law=(laws.restitution, laws.traction), azimuth=0.0,
+):  # fmt: skip
+    """The same, and what the contact reports."""
+    radius = 0.5 * load_preset("7010C-PI").bearing.ball_diameter
+    ball = _ball_on_race(P, v, spin, b, Vr, wr, float(azimuth))._replace(radius=radius)
+    pair, sums = new_pair(), np.zeros(N_SUMS)
+    hit = _groove_kernel()(ball, race, law, new_slices(), pair, mode, sums)
+    return hit, pair, sums
 
 
 def in_pocket(

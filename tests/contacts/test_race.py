@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from contact_kernels import race, turned
 
-from flexcage.bearings.cylindrical_roller.bearing import RollerProfile, Spall
+from flexcage.bearings.cylindrical_roller.bearing import RollerProfile
 from flexcage.contacts import laws
 from flexcage.contacts.evaluation import (
     DAMPED,
@@ -21,6 +21,7 @@ from flexcage.contacts.evaluation import (
     TRACTION,
 )
 from flexcage.contacts.spec import Contacts, FrictionLaw, NormalLaw, PairSpec
+from flexcage.geometry.spall import Spall
 from flexcage.verification.law_values import rolling
 
 
@@ -96,8 +97,8 @@ def test_force_is_the_slope_of_the_energy_on_a_wavy_race(sides):
     assert -P[1] * wrench[2] == pytest.approx(torque, rel=1e-4)  # the ring's reaction
     assert wrench[3] == pytest.approx(0.0, abs=1e-9)  # and nothing turns the roller
     bump = race(inner, P, theta=0.3, azimuth=0.3)[1][NORMAL]  # a crest under the roller
-    flat = race(inner._replace(wave=np.zeros(2)), P)[1][NORMAL]
-    deeper = race(inner._replace(wave=np.zeros(2)), P - [0, 1e-6, 0])[1][NORMAL]
+    flat = race(inner._replace(wave=np.zeros(3)), P)[1][NORMAL]
+    deeper = race(inner._replace(wave=np.zeros(3)), P - [0, 1e-6, 0])[1][NORMAL]
     assert bump == pytest.approx(deeper, rel=1e-9) and bump > flat
 
 

@@ -5,6 +5,7 @@ import os
 import re
 import subprocess
 import sys
+from functools import partial
 from math import hypot, sqrt
 from pathlib import Path
 
@@ -45,32 +46,49 @@ def kernels(folder: Path) -> dict[str, int]:
     return {str(p): p.stat().st_mtime_ns for p in folder.rglob("*.nbc")}
 
 
-@pytest.mark.skipif(bool(numba.config.DISABLE_JIT), reason="plain Python compiles nothing")
-def test_a_family_of_ones_own(tmp_path):
+def run_flexcage(folder, env, *args):
+    """What ``flexcage`` with the user's file prints; the folder holds the case."""
+    command = [sys.executable, "-m", "flexcage.cli", *args, "--use", str(FILE)]
+    done = subprocess.run(
+        command, capture_output=True, text=True, cwd=folder, env={**os.environ, **env}, check=False
+    )
+    assert done.returncode == 0, done.stderr
+    return done
+
+
+def forces(printed: str) -> tuple[float, float]:
+    """Peak forces [N] of inner and outer race on an element."""
+    inner, outer = re.search(PEAKS, printed, re.DOTALL).groups()
+    return float(inner), float(outer)
+
+
+def test_a_family_of_ones_own_in_plain_python(tmp_path):
     """The outer race bears what the inner does and the magnet's pull."""
+    (tmp_path / "case.toml").write_text(CASE)
+    args = "run", "case.toml", "-o", "run", "--no-images", "--set", "solver.duration=0.1 ms"
+    done = run_flexcage(tmp_path, {"NUMBA_DISABLE_JIT": "1"}, *args)
+    inner, outer = forces(done.stdout)
+    assert outer == pytest.approx(on_outer_race(inner, pull=5.0), rel=0.01)
+
+
+@pytest.mark.slow
+@pytest.mark.skipif(bool(numba.config.DISABLE_JIT), reason="plain Python compiles nothing")
+def test_kernels_of_ones_own_family_are_kept(tmp_path):
+    """Also for other values and for a study's workers."""
     (tmp_path / "case.toml").write_text(CASE)
     (tmp_path / "study.toml").write_text(STUDY)
     cache = tmp_path / "cache"
-    env = {**os.environ, "NUMBA_CACHE_DIR": str(cache)}
-
-    def flexcage(*args):
-        command = [sys.executable, "-m", "flexcage.cli", *args, "--use", str(FILE)]
-        done = subprocess.run(
-            command, capture_output=True, text=True, cwd=tmp_path, env=env, check=False
-        )
-        assert done.returncode == 0, done.stderr
-        return done
-
+    flexcage = partial(run_flexcage, tmp_path, {"NUMBA_CACHE_DIR": str(cache)})
     first = flexcage("run", "case.toml", "-o", "first", "--no-images")
     assert "compiling the kernels for the first time" in first.stderr
-    inner, outer = map(float, re.search(PEAKS, first.stdout, re.DOTALL).groups())
+    inner, outer = forces(first.stdout)
     assert outer == pytest.approx(on_outer_race(inner, pull=5.0), rel=0.01)
     compiled = kernels(cache)
     subprocess.run([sys.executable, "-P", "-c", READ, str(cache)], cwd=tmp_path, check=True)
     changed = ("--set", "bearing.pull=2 N")
     second = flexcage("run", "case.toml", "-o", "second", "--no-images", *changed)
     assert "compiling" not in second.stderr
-    inner, outer = map(float, re.search(PEAKS, second.stdout, re.DOTALL).groups())
+    inner, outer = forces(second.stdout)
     assert outer == pytest.approx(on_outer_race(inner, pull=2.0), rel=0.01)
     flexcage("study", "run", "study.toml", "-o", "study", "--workers", "1")
     table = pd.read_parquet(tmp_path / "study" / "table.parquet")

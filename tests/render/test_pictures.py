@@ -13,9 +13,10 @@ import xarray as xr
 from ring_with_pockets import Z, quadratic
 
 from flexcage import render
-from flexcage.bearings.cylindrical_roller.bearing import RollerBearing, Spall
+from flexcage.bearings.cylindrical_roller.bearing import RollerBearing
 from flexcage.cages.window.defects import CrossbeamDefect, SideBeamDefect
 from flexcage.core.errors import EnvironmentLacks, InputError, RunFailed
+from flexcage.geometry.spall import Spall
 from flexcage.render import bearing_pictures, sheet
 from flexcage.results.metrics import BearingNumbers
 from flexcage.results.registry import VARIABLES

@@ -9,6 +9,7 @@ from simulate_cases import Interrupted, n1013
 from flexcage import cli
 from flexcage.case import load_case
 from flexcage.core.errors import InputError, RunFailed
+from flexcage.results import metrics
 from flexcage.results.audit import energy_audit
 from flexcage.simulate import simulate
 from flexcage.study.outputs import check_outputs
@@ -82,15 +83,22 @@ def test_a_held_cage_that_is_pushed_stays(method):
     assert np.abs(ds["cage_velocity"].values[:, 1:]).max() < 1e-8
 
 
-def test_a_ball_bearing_whose_cage_is_held():
+UNBALANCED = {"unbalance": "0.3 g*mm", "unbalance_offset": "8 mm"}
+
+
+@pytest.mark.parametrize("constraint", ["cage_centre", "cage_tilt"])
+def test_a_ball_bearing_whose_cage_is_held(constraint):
+    """Its centre or its axis stays, while an unbalance off its middle moves the other."""
     case = load_case(
-        {"bearing": {"preset": "7010C-PI"}, "mesh": {"fineness": "coarse"},
+        {"bearing": {"preset": "7010C-PI"}, "cage": UNBALANCED, "mesh": {"fineness": "coarse"},
          "drive": {"speed": "4000 rpm"}, "load": {"axial": "100 N"},
-         "solver": {"duration": "2 ms"}, "constraints": [{"type": "cage_centre"}]},
+         "solver": {"duration": "2 ms"}, "constraints": [{"type": constraint}]},
         overrides=RIGID,
     )  # fmt: skip
     ds = simulate(case).dataset
-    assert np.abs(ds["cage_position"].values[:, 1:]).max() < 1e-12
+    place, tilt = ds["cage_position"].values[:, 1:], metrics.tilt(ds).sel(component="total").values
+    stays, other = (place, tilt) if constraint == "cage_centre" else (tilt, place)
+    assert np.abs(stays).max() < 1e-12 < 1e-9 < np.abs(other).max()
     assert np.abs(ds["multiplier"].values[:, 4:]).max() > 0.0 and energy_audit(ds).passed
 
 
@@ -169,9 +177,10 @@ def test_what_a_constraint_drives_is_a_drive():
 
 def test_outputs_of_studies_name_constraints_that_every_case_has():
     name = "multiplier[constraint=cage_speed].mean"
-    check_outputs((name,), sizes={}, flexible=False, reactions=(*CONSTRAINTS, "cage_speed"))
+    study = {"sizes": {}, "flexible": False, "family": "cylindrical_roller"}
+    check_outputs((name,), **study, reactions=(*CONSTRAINTS, "cage_speed"))
     with pytest.raises(InputError, match="there is no constraint 'cage_speed'; choose from"):
-        check_outputs((name,), sizes={}, flexible=False)
+        check_outputs((name,), **study)
 
 
 def test_the_command_line_takes_them_apart(tmp_path, capsys):

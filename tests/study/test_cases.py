@@ -292,7 +292,7 @@ def test_figures_that_a_study_may_name_are_those_of_a_run():
 )
 def test_a_text_is_no_output_of_a_study(name, what):
     with pytest.raises(InputError, match=f"'{name}' is .*{what}.*takes numbers"):
-        check_outputs((name,), sizes={}, flexible=True)
+        check_outputs((name,), sizes={}, flexible=True, family="cylindrical_roller")
 
 
 def test_parts_of_a_counted_dimension_make_up_the_whole():

@@ -196,6 +196,7 @@ def test_rules_and_tests_of_claims_agree():
         (claims.Trend("x", conditions, rising=False), down, up),
         (claims.Turn("x", conditions, 1), bowl, (1.0, 3.0, 2.0)),
         (claims.Between("x", conditions, 0.5, 3.5), up, (1.0, 4.0, 3.0)),
+        (claims.Unchanged("x", ("a", "c"), 0.5), (1.0, 3.0, 1.01), up),
         (claims.Below("x", "y", "a", by=0.1), (1.0, 0, 0), (2.0, 0, 0)),
         (claims.Together("x", "y", conditions), up, down),
     ]

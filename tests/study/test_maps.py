@@ -149,7 +149,7 @@ def test_a_folder_without_a_map_is_refused(tmp_path, done):
 
 def test_outputs_of_ones_own_are_checked():
     load_extension(OWN)
-    known = {"sizes": {}, "flexible": False}
+    known = {"sizes": {}, "flexible": False, "family": "cylindrical_roller"}
     check_outputs(("my_samples", "cage_speed"), **known)
     assert not never_negative("my_last_cage_place")
     with pytest.raises(InputError, match="exists already"):

@@ -25,9 +25,25 @@ def test_values_along_a_range_and_among_choices():
     assert plain.changes(0.25) == (1.5, {"p": 1.5})
 
 
+def test_choices_may_have_weights():
+    """A choice of weight two is what two equal ones were, and says its share."""
+    gravity = Unknown(
+        name="gravity", reason="a test",
+        choices=({"label": "across", "weight": 2, "g": 9.8}, {"label": "none", "g": 0.0}),
+    )  # fmt: skip
+    assert [gravity.changes(x)[0] for x in (0.0, 0.66, 0.67, 1.0)] == ["across"] * 2 + ["none"] * 2
+    assert gravity.changes(0.5)[1] == {"g": 9.8} and gravity.all_paths == ("g",)
+    assert gravity.in_words() == "across (67 %), none (33 %)"
+    assert SHAPE.in_words() == "round, flat"
+
+
 @pytest.mark.parametrize(
     ("make", "words"),
     [
+        (
+            lambda: Unknown(name="x", reason="r", choices=({"label": "a", "weight": 0, "p": 1},)),
+            "numbers above zero",
+        ),
         (lambda: Unknown(name="x", reason="r"), "either paths and a range, or choices"),
         (lambda: Unknown(name="x", reason=" ", paths={"p": 1.0}, range=(0, 1)), "no reason"),
         (lambda: Unknown(name="x", reason="r", choices=({"p": 1},)), "no label"),

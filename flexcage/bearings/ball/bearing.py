@@ -32,6 +32,7 @@ from flexcage.geometry.checks import Finding
 from flexcage.geometry.film import Film, Oil, both_races, point_film, rolling_entrainment
 from flexcage.geometry.hertz import PointContact
 from flexcage.geometry.materials import MATERIALS, Material
+from flexcage.geometry.spall import BY_RACE, Spall
 
 _SHOULDER = 0.2  # of the ball's diameter: a shoulder's height where none is given
 
@@ -48,11 +49,7 @@ class BallBearing(Bearing):
     element: ClassVar[str] = "ball"
     family: ClassVar[str] = "ball"
     places: ClassVar[tuple[str, ...]] = ("race", "pocket")
-    elsewhere: ClassVar[Mapping[str, str]] = {
-        "(inner_|outer_)?spalls?|(inner|outer)_waviness.*": "races of ball bearings are without "
-        "defects: spalls and waviness are computed for type 'cylindrical_roller'; defects of a "
-        "ball bearing's cage are given as [[defects]]",
-    }
+    elsewhere: ClassVar[Mapping[str, str]] = BY_RACE
     carries_axial_load: ClassVar[bool] = True
     one_sided: ClassVar[bool] = False  # are there shoulders for one direction of load alone?
 
@@ -71,6 +68,24 @@ class BallBearing(Bearing):
     ball_scatter: float = quantity(
         "um", 0.0, doc="standard deviation of ball diameters", minimum=0.0
     )
+    inner_waviness: float = quantity(
+        "um", 0.0, doc="amplitude of inner race waviness", minimum=0.0, legacy=0.0
+    )
+    inner_waviness_order: int = option(2, doc="waves per turn, inner race", minimum=1, legacy=2)
+    inner_waviness_azimuth: float = quantity(
+        "deg", 0.0, doc="azimuth of a crest on the inner ring", legacy=0.0
+    )
+    outer_waviness: float = quantity(
+        "um", 0.0, doc="amplitude of outer race waviness", minimum=0.0, legacy=0.0
+    )
+    outer_waviness_order: int = option(2, doc="waves per turn, outer race", minimum=1, legacy=2)
+    outer_waviness_azimuth: float = quantity(
+        "deg", 0.0, doc="azimuth of a crest on the outer ring", legacy=0.0
+    )
+    inner_spall: Spall = option(
+        Spall(), doc="a pit of the inner race, which turns with its ring", legacy=Spall()
+    )
+    outer_spall: Spall = option(Spall(), doc="a pit of the outer race", legacy=Spall())
     material: Material = option(MATERIALS["GCr15"], doc="material of rings and balls")
 
     @property
@@ -139,6 +154,18 @@ class BallBearing(Bearing):
         """Moment of inertia of a ball about its centre [kg m^2]."""
         return 0.1 * self.ball_mass * self.ball_diameter**2
 
+    def race_radius(self, ring: str) -> float:
+        """Radius [m] about the bearing's axis at which balls roll on the "inner" or "outer" race at
+        the nominal contact angle."""
+        return 0.5 * self.pitch_diameter * (1.0 + (self.gamma if ring == "outer" else -self.gamma))
+
+    def race_reach(self, ring: str) -> float:
+        """Half of the width [m] of the "inner" or "outer" ring's groove between its shoulders, a
+        fifth of the ball's diameter high where no height is given."""
+        given, radius = getattr(self, f"{ring}_shoulder"), getattr(self, f"{ring}_groove_radius")
+        height = _SHOULDER * self.ball_diameter if given is None else given
+        return sqrt(max(height * (2.0 * radius - height), 0.0))
+
     @cached_property
     def shoulder_diameters(self) -> tuple[float, float]:
         """Diameters [m] of inner and outer ring at their shoulders; a fifth of the ball's diameter
@@ -183,10 +210,8 @@ class BallBearing(Bearing):
         outer = cage.guidance == "outer"
         name, what = f"bearing.{cage.guidance}_shoulder", "outside_diameter" if outer else "bore"
         given = self.outer_shoulder if outer else self.inner_shoulder
-        radius = self.outer_groove_radius if outer else self.inner_groove_radius
         shoulder, own = self.shoulder_diameters[int(outer)], getattr(cage, what)
-        height = _SHOULDER * self.ball_diameter if given is None else given
-        groove = sqrt(max(height * (2.0 * radius - height), 0.0))  # half of its width
+        groove = self.race_reach(cage.guidance)
         end = 0.5 * min(cage.width, self.width)
         return RingLand(
             clearance=None if given is None else 0.5 * (shoulder - own) * (1.0 if outer else -1.0),
@@ -310,6 +335,7 @@ class BallBearing(Bearing):
             f"{typeset(self.clearance, 'um', digits=4)}; "
             f"the grooves' radii are {self.inner_conformity:.4g} (inner) and "
             f"{self.outer_conformity:.4g} (outer) times the ball's diameter."
+            f"{self.inner_spall.in_words('inner')}{self.outer_spall.in_words('outer')}"
         )
 
 

@@ -16,6 +16,7 @@ from flexcage.geometry.checks import (
     find_off_pitch_circle,
     raise_first,
 )
+from flexcage.geometry.spall import find_in_spall
 
 if TYPE_CHECKING:
     from flexcage.bearings.ball.angular_contact import AngularContactBallBearing
@@ -32,6 +33,7 @@ def check(bearing: BallBearing, cage: Cage | None, defects: Sequence[Any]) -> No
     raise_first(_find_in_grooves(bearing))
     raise_first(_find_in_balls(bearing))
     raise_first(_find_in_shoulders(bearing))
+    raise_first(_find_in_spalls(bearing))
     raise_first(bearing.find_in_clearance())
     if cage is None:
         return
@@ -98,6 +100,18 @@ def _find_in_shoulders(b: BallBearing) -> Iterator[Finding]:
                 f"bearing.{side}_shoulder",
                 f"bearing.{side}_shoulder is {mm(height)}, but must be less than the groove's "
                 f"radius, {mm(radius)}.",
+            )
+
+
+def _find_in_spalls(b: BallBearing) -> Iterator[Finding]:
+    for ring in ("inner", "outer"):
+        reach, spall = b.race_reach(ring), getattr(b, f"{ring}_spall")
+        yield from find_in_spall(b, ring, b.race_radius(ring), reach)
+        if spall.length and spall.width is not None and spall.width > 2.0 * reach:
+            yield (
+                f"bearing.{ring}_spall.width",
+                f"bearing.{ring}_spall.width is {mm(spall.width)}, wider than the race, "
+                f"{mm(2.0 * reach)} between its shoulders; leave it out for a spall of all of it.",
             )
 
 

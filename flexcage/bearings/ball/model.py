@@ -8,15 +8,18 @@ from typing import NamedTuple
 import numpy as np
 
 from flexcage.bearings.ball.bearing import BallBearing
+from flexcage.bearings.ball.neighbours import besides
 from flexcage.bodies.floating_frame import BodyData, FlexibleBody
 from flexcage.cages.machined.cage import BallCage
 from flexcage.cages.machined.interface import BallCageInterface
 from flexcage.contacts import laws
 from flexcage.contacts.ball_pocket import CYLINDER, SPHERE, BallPockets, ball_pocket_work
+from flexcage.contacts.beside import Beside
 from flexcage.contacts.groove import Groove
 from flexcage.contacts.land import LandData
 from flexcage.contacts.race import race_work
 from flexcage.contacts.spec import Contacts, Lubricant
+from flexcage.contacts.uneven import is_uneven, uneven_race
 from flexcage.geometry.hertz import PointContact
 from flexcage.system.bodies import bodies_of, land_data, unbalanced
 from flexcage.system.data import Bodies, Work, new_work
@@ -34,6 +37,7 @@ class BallModel(NamedTuple):
     inner: Groove
     outer: Groove
     pocket: BallPockets
+    beside: Beside
     land: LandData
 
 
@@ -44,23 +48,35 @@ def strips(count: int) -> tuple[np.ndarray, np.ndarray]:
     return 0.5 * (edges[1:] + edges[:-1]), 0.75 * np.diff(edges - edges**3 / 3.0)
 
 
-def _groove(bearing: BallBearing, contacts: Contacts, lubricant: Lubricant, *, inner: bool):
+def groove_of(
+    bearing: BallBearing, contacts: Contacts, lubricant: Lubricant, *, inner: bool
+) -> Groove:
+    """The inner or the outer raceway."""
     contact = bearing.contacts[0 if inner else 1]
     axial, centre = bearing.inner_groove_centre if inner else bearing.outer_groove_centre
     radius = bearing.inner_groove_radius if inner else bearing.outer_groove_radius
     strip, share = strips(contacts.race.slices)
+    ring, side = ("inner", -1.0) if inner else ("outer", 1.0)
+    wave, spall = uneven_race(bearing, ring, bearing.race_radius(ring), contact.rolling)
+    sides = getattr(bearing, f"{ring}_spall").sides(radius)
+    long = float(contact.semi_axes(1.0)[0])
     return Groove(
-        side=-1.0 if inner else 1.0,
+        side=side,
         axial=axial,
         centre=centre,
         radius=radius,
-        long=float(contact.semi_axes(1.0)[0]),
+        long=long,
         bend=bearing.contact_curvatures[0 if inner else 1],
         strip=strip,
         share=share,
         normal=laws.normal_parameters(contacts.race.normal, contact.stiffness, POINT),
         friction=laws.friction_parameters(contacts.race.friction),
         rolling=laws.point_rolling_resistance(lubricant, contact),
+        wave=wave,
+        spall=spall,
+        sides=np.sort(side * np.array(sides)),
+        reach=long * contact.stiffness ** (1.0 / 3.0),
+        uneven=is_uneven(wave, spall),
     )
 
 
@@ -129,6 +145,7 @@ def build_ball_model(
     """Arrays of a ball bearing for the kernels."""
     rng = np.random.default_rng(seed)
     scatter = bearing.ball_scatter * rng.standard_normal(bearing.ball_count)
+    radius_of_balls = 0.5 * (bearing.ball_diameter + scatter)
     outer, radius = cage.land_ring == "outer", cage.land_radius
     land = contacts.land.on(bearing.land(cage))
     tilts = load.tilt == "free"
@@ -136,14 +153,15 @@ def build_ball_model(
         bodies=bodies_of(
             bearing, cage, lubricant, drive, load, mount,
             element=np.array([bearing.ball_mass, bearing.ball_inertia, bearing.ball_inertia]),
-            radius=0.5 * (bearing.ball_diameter + scatter),
+            radius=radius_of_balls,
             area=0.25 * pi * bearing.ball_diameter**2,
             free=(True, tilts, tilts),
         ),
         cage=unbalanced(body, cage).data,
-        inner=_groove(bearing, contacts, lubricant, inner=True),
-        outer=_groove(bearing, contacts, lubricant, inner=False),
+        inner=groove_of(bearing, contacts, lubricant, inner=True),
+        outer=groove_of(bearing, contacts, lubricant, inner=False),
         pocket=_pockets(bearing, cage, contacts, interface),
+        beside=besides(bearing, contacts, radius_of_balls),
         land=land_data(
             cage, land, lubricant, interface.land,
             kind=land.kind if cage.has_land else "none", outer=outer, radius=radius,
@@ -157,5 +175,5 @@ def ball_work(model: BallModel, layout: Layout) -> Work:
     stations = model.pocket.phi.shape[2]
     return new_work(
         layout, race_work(1), ball_pocket_work(stations, layout.modes), slices=0, points=0, faces=1,
-        stations=stations, ribs=0, land_stations=len(model.land.angle), turns=(3, 4, 5),
+        stations=stations, ribs=1, land_stations=len(model.land.angle), turns=(3, 4, 5),
     )  # fmt: skip

@@ -32,12 +32,13 @@ def _variables(bearing: Bearing, y: np.ndarray) -> dict[str, np.ndarray]:
         "race_traction_across": s.race[:n, :, :, 3],
         "race_slip": s.race[:n, :, :, 4],
         "pocket_direction": s.residual[:n, :, 0],
+        "neighbour_force": s.rib[:n, :, 0],
     }
 
 
 def overlaps(model: BallModel, layout: Layout, y: np.ndarray) -> np.ndarray:
-    """Depths (n, Z, 4) of balls in races and pockets, and outside the cage's wall; see
-    ``Recording``."""
+    """Depths (n, Z, 5) of balls in races, their pocket and the next ball, and outside the cage's
+    wall; see ``Recording``."""
     q, radius = layout.q(y), model.bodies.radius
     x, r, psi = np.moveaxis(q["elements"][..., :3], -1, 0)
     at = np.stack([x, r * np.cos(psi), r * np.sin(psi)], axis=-1)
@@ -59,7 +60,8 @@ def overlaps(model: BallModel, layout: Layout, y: np.ndarray) -> np.ndarray:
     )
     away = np.hypot(seen[..., 1], seen[..., 2])
     outside = np.maximum(model.pocket.wall[0] - away, away - model.pocket.wall[1])
-    return np.stack([*races, free - (model.pocket.radius - radius), outside], axis=-1)
+    beside = radius + np.roll(radius, -1) - np.linalg.norm(np.roll(at, -1, axis=1) - at, axis=-1)
+    return np.stack([*races, free - (model.pocket.radius - radius), beside, outside], axis=-1)
 
 
 def _remedy(model: BallModel) -> str:

@@ -8,6 +8,7 @@ velocity, both in F. ``mode`` is one of ``contacts.evaluation``, but for the tan
 
 from __future__ import annotations
 
+from flexcage.bearings.ball.neighbours import touch_neighbours
 from flexcage.contacts.ball_pocket import BallInPocket, pocket_wall_contact
 from flexcage.contacts.evaluation import (
     ANGLE,
@@ -100,6 +101,7 @@ def evaluate(t, y, yd, d, law, out, mode):
     r_q, r_u = out[: at.rest_q], out[at.u : at.rest_u]
     rest_q, rest_u = y[at.rest_q : at.u], y[at.rest_u : at.lam]
     modes = set_bodies(rest_q, rest_u, d, mode)
+    touch_neighbours(q, u, d, law, mode)
     Rc, Vc = rest_q[Q_CAGE:Q_QUATERNION], rest_u[CAGE:CAGE_TURN]
     for i in range(Z):
         own = of_element(i)
@@ -136,7 +138,7 @@ def on_inner_race(i, qi, ui, rest_q, rest_u, d):
     return BallOnRace(
         fields(d.bodies).radius[i], P, xyz(ui), turn_of(ui), turned(F, xyz(vec[RING_AXIS])),
         turned(F, xyz(rest_u[:INNER_TURN])), turned(F, xyz(vec[RING_SPIN])),
-        fields(d.memory).race[i, INNER_RACE],
+        fields(d.memory).race[i, INNER_RACE], qi[2] - rest_q[Q_INNER_TURN + 2],
     )  # fmt: skip
 
 
@@ -148,7 +150,7 @@ def on_outer_race(i, qi, ui, rest_q, rest_u, d):
     return BallOnRace(
         fields(d.bodies).radius[i], P, xyz(ui), turn_of(ui), (1.0, 0.0, 0.0),
         turned(F, (0.0, rest_u[OUTER], rest_u[OUTER + 1])), (0.0, 0.0, 0.0),
-        fields(d.memory).race[i, OUTER_RACE],
+        fields(d.memory).race[i, OUTER_RACE], qi[2],
     )  # fmt: skip
 
 

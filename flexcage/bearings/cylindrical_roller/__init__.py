@@ -8,12 +8,11 @@ from flexcage.bearings.cylindrical_roller.bearing import (
     OTHER_DESIGNS,
     RollerBearing,
     RollerProfile,
-    Spall,
 )
 from flexcage.bearings.family import Family
 
 # specs that ``flexcage.spec`` shows
-__all__ = ["RollerBearing", "RollerProfile", "Spall"]
+__all__ = ["RollerBearing", "RollerProfile"]
 
 if TYPE_CHECKING:
     from flexcage.geometry.inside import Inside

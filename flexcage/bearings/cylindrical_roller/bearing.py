@@ -27,6 +27,7 @@ from flexcage.geometry.cage import Cage
 from flexcage.geometry.checks import Finding
 from flexcage.geometry.film import Film, Oil, both_races, line_film, rolling_entrainment
 from flexcage.geometry.materials import MATERIALS, Material
+from flexcage.geometry.spall import BY_RACE, Spall
 
 BY_DESIGN = (
     f"of cylindrical roller bearings flexcage has the designs {designs.ALL}, single-row and with a "
@@ -66,41 +67,6 @@ class RollerProfile:
 
 
 @dataclass(frozen=True, kw_only=True)
-class Spall:
-    """A spall of a race: a pit with sharp edges, of one depth; none while its length is zero.
-
-    A roller's axis goes down by (l - x)^2/(2 R) at a distance x from the middle of a spall of half
-    length l, as it turns about the edge that it still touches (R: effective radius of roller and
-    race), and never deeper than the pit. Its edges do not yield more than the race does.
-    """
-
-    length: float = quantity("mm", 0.0, doc="length along the race; 0: no spall", minimum=0.0)
-    depth: float = quantity("um", 100.0e-6, doc="depth", above=0.0)
-    azimuth: float = quantity("deg", 0.0, doc="azimuth of its middle on its ring, from y towards z")
-    width: float | None = quantity("mm", None, doc="axial width (default: all)", above=0.0)
-    offset: float = quantity("mm", 0.0, doc="axial distance of its middle from the race's")
-
-    def covered(self, centres: np.ndarray, slice_width: float) -> np.ndarray:
-        """Share (n,) of slices of a roller that stands in the middle of the race, by the axial
-        places of their centres (n,) [m]."""
-        if self.width is None:
-            return np.ones_like(centres)
-        low, high = self.offset - 0.5 * self.width, self.offset + 0.5 * self.width
-        half = 0.5 * slice_width
-        over = np.minimum(centres + half, high) - np.maximum(centres - half, low)
-        return np.clip(over / slice_width, 0.0, 1.0)
-
-    def in_words(self, race: str) -> str:
-        """A sentence on a spall of the "inner" or "outer" race; empty if there is none."""
-        if not self.length:
-            return ""
-        return (
-            f" The {race} race has a spall of {typeset(self.length, 'mm')}, "
-            f"{typeset(self.depth, 'um')} deep, at {typeset(self.azimuth, 'deg')}."
-        )
-
-
-@dataclass(frozen=True, kw_only=True)
 class RollerBearing(Bearing):
     """A single-row cylindrical roller bearing; ``design`` says which of its rings have ribs.
 
@@ -114,7 +80,7 @@ class RollerBearing(Bearing):
     family: ClassVar[str] = "cylindrical_roller"
     elsewhere: ClassVar[Mapping[str, str]] = {
         "(inner_|outer_)?(ribs?|flanges?)(_.*)?": BY_RIBS,
-        "spalls?|defects?": "give a spall as [bearing.outer_spall] or [bearing.inner_spall]",
+        **BY_RACE,
     }
 
     type: str = type_name("cylindrical_roller")
@@ -157,8 +123,14 @@ class RollerBearing(Bearing):
     )
     inner_waviness: float = quantity("um", 0.0, doc="amplitude of inner race waviness", minimum=0.0)
     inner_waviness_order: int = option(2, doc="waves per turn, inner race", minimum=1)
+    inner_waviness_azimuth: float = quantity(
+        "deg", 0.0, doc="azimuth of a crest on the inner ring", legacy=0.0
+    )
     outer_waviness: float = quantity("um", 0.0, doc="amplitude of outer race waviness", minimum=0.0)
     outer_waviness_order: int = option(2, doc="waves per turn, outer race", minimum=1)
+    outer_waviness_azimuth: float = quantity(
+        "deg", 0.0, doc="azimuth of a crest on the outer ring", legacy=0.0
+    )
     inner_spall: Spall = option(Spall(), doc="a pit of the inner race, which turns with its ring")
     outer_spall: Spall = option(Spall(), doc="a pit of the outer race")
 

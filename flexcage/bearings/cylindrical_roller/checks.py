@@ -18,6 +18,7 @@ from flexcage.geometry.checks import (
     find_off_pitch_circle,
     raise_first,
 )
+from flexcage.geometry.spall import find_in_spall
 
 if TYPE_CHECKING:
     from flexcage.bearings.cylindrical_roller.bearing import RollerBearing
@@ -83,33 +84,8 @@ def find_in_bearing(b: RollerBearing) -> Iterator[Finding]:
             "diameter.",
         )
     yield from _find_in_lengths(b)
-    yield from _find_in_spalls(b)
-
-
-def _find_in_spalls(b: RollerBearing) -> Iterator[Finding]:
-    for name, radius in (("inner", b.inner_race_radius), ("outer", b.outer_race_radius)):
-        spall, where = getattr(b, f"{name}_spall"), f"bearing.{name}_spall"
-        pitch = 2.0 * pi * radius / b.roller_count
-        if spall.length >= pitch:
-            yield (
-                f"{where}.length",
-                f"{where}.length is {mm(spall.length)}, but must be less than the distance of two "
-                f"rollers there, {mm(pitch)}: a longer one is no spall but another race.",
-            )
-        if spall.length and spall.depth > 0.1 * b.roller_diameter:
-            yield (
-                f"{where}.depth",
-                f"{where}.depth is {mm(spall.depth)}; give a tenth of the roller's diameter, "
-                f"{mm(0.1 * b.roller_diameter)}, or less.",
-            )
-        reach = 0.5 * b.effective_length
-        if spall.length and spall.width is not None:
-            if abs(spall.offset) - 0.5 * spall.width >= reach:
-                yield (
-                    f"{where}.offset",
-                    f"{where}.offset is {mm(spall.offset)}, where no roller runs: rollers touch "
-                    f"the race to {mm(reach)} from its middle.",
-                )
+    for ring, radius in (("inner", b.inner_race_radius), ("outer", b.outer_race_radius)):
+        yield from find_in_spall(b, ring, radius, 0.5 * b.effective_length)
 
 
 def _find_in_lengths(b: RollerBearing) -> Iterator[Finding]:

@@ -26,6 +26,7 @@ from flexcage.contacts.race import RaceSide, race_work
 from flexcage.contacts.rib import RibData
 from flexcage.contacts.spec import Contacts, Lubricant
 from flexcage.contacts.state import Q_SKEW, Q_SPIN, Q_TILT
+from flexcage.contacts.uneven import is_uneven, uneven_race
 from flexcage.modes.basis import CageInterface
 from flexcage.system.bodies import bodies_of, elastic_constants, land_data, unbalanced
 from flexcage.system.data import Bodies, Work, new_work
@@ -63,13 +64,7 @@ def _race_side(bearing, contacts: Contacts, lubricant: Lubricant, *, inner: bool
     rw = 0.5 * bearing.roller_diameter
     equivalent = rw * radius / (radius + sign * rw)
     modulus = bearing.material.plane_strain_modulus  # E' = 2/(2 (1-nu^2)/E)
-    wave = (
-        (bearing.inner_waviness, bearing.inner_waviness_order)
-        if inner
-        else (bearing.outer_waviness, bearing.outer_waviness_order)
-    )
-    spall = bearing.inner_spall if inner else bearing.outer_spall
-    angle, bend = 0.5 * spall.length / radius, radius**2 / (2.0 * equivalent)
+    wave, spall = uneven_race(bearing, "inner" if inner else "outer", radius, equivalent)
     stiffness = laws.iso_line_stiffness(bearing.effective_length) / contacts.race.slices
     return RaceSide(
         sign=sign,
@@ -80,10 +75,12 @@ def _race_side(bearing, contacts: Contacts, lubricant: Lubricant, *, inner: bool
         friction=laws.friction_parameters(contacts.race.friction),
         rolling=laws.rolling_resistance(lubricant, equivalent, bearing.effective_length, modulus),
         hydro=2.0 * equivalent / rw,
-        wave=np.array(wave, float),
-        spall=np.array([angle, spall.azimuth, spall.depth, bend]),
-        spalled=spall.covered(s, bearing.effective_length / contacts.race.slices),
-        uneven=int(wave[0] > 0.0 or angle > 0.0),
+        wave=wave,
+        spall=spall,
+        spalled=(bearing.inner_spall if inner else bearing.outer_spall).covered(
+            s, bearing.effective_length / contacts.race.slices
+        ),
+        uneven=is_uneven(wave, spall),
     )
 
 

@@ -9,15 +9,17 @@ from scipy.integrate import solve_ivp
 from scipy.optimize import minimize_scalar
 
 from flexcage.contacts import laws
-from flexcage.contacts.spec import FrictionLaw
+from flexcage.contacts.spec import DecayFriction, FrictionLaw
 from flexcage.verification.known_answer import KnownAnswer, Row, Tolerance
 from flexcage.verification.law_values import coefficient, friction
 
 STATIC = FrictionLaw(law="step_coulomb", static=0.12, dynamic=0.08, v_static=0.1, v_dynamic=1.0)
 RAMP = FrictionLaw(law="ramp_coulomb", dynamic=0.06, v_static=0.01, v_dynamic=0.05)
+DECAY = DecayFriction(static=0.15, dynamic=0.02, v_static=1e-3, decay=2.0)
 CREEP = {0.134138: 0.2, 0.347296: 0.5, 0.729299: 0.9}  # speed over v_static: mu over mu_static
 BEYOND = {0.1: 0.12, 0.55: 0.10, 1.0: 0.08, 7.0: 0.08}  # speed [m/s]: mu
 INCLINE = {0.25: 0.02, 0.5: 0.03, 0.9: 0.046}  # slope over mu: v0 + r (v1 - v0) [m/s]
+DECAYED = {0.25: 0.098849, 0.5: 0.067824, 2.0: 0.022381}  # 0.02 + 0.13 exp(-2 u)
 DEAD_BAND = {0.01: 0.0, 0.02: 0.015, 0.03: 0.03, 0.05: 0.06, 2.0: 0.06}
 # peak mu, its speed [m/s], mu at large speed: A, B [s/m], C [s/m]
 TRACTION = (
@@ -25,6 +27,7 @@ TRACTION = (
     (0.05, 0.3, 0.03, -0.03, 0.364488, 4.593632),
     (0.10, 1.0, 0.05, -0.05, 0.229556, 1.278465),
 )
+SIXTH = Tolerance(5.1e-7, "printed to 1e-6", absolute=True)
 CUBIC = Tolerance(4e-6, "the speeds are printed to 1e-6")
 EXACT = Tolerance(1e-12, "a polynomial, to rounding", absolute=True)
 PRINTED = Tolerance(3e-6, "printed to 1e-6")
@@ -42,6 +45,10 @@ def rows() -> Iterator[Row]:
         yield Row(f"step: mu at {u} m/s", "", mu, found, EXACT)
     slope = friction(laws.step_coulomb, p, [0.0])[0][0]
     yield Row("step: slope at rest, 1.5 mu_s/v_s", "s/m", 1.8, slope, EXACT)
+    p = laws.friction_parameters(DECAY)
+    for u, mu in DECAYED.items():
+        found = coefficient(laws.decay_coulomb, p, [u])[0]
+        yield Row(f"decay: mu at {u} m/s", "", mu, found, SIXTH)
     p = laws.friction_parameters(RAMP)
     for u, mu in DEAD_BAND.items():
         found = coefficient(laws.ramp_coulomb, p, [u])[0]

@@ -1,0 +1,119 @@
+"""Waves and spalls of a race: how far it stands out or lets an element sink, over the azimuth.
+
+Balls ride on an uneven groove by ``ride``. Their contact is seen as a row of strips across the
+ellipse, each of which presses in proportion to its own depth d - y^2/c^2 at y across, for c half of
+the ellipse's length over the root of d. That is Hertz's force, energy and distribution of load,
+exactly. A spall takes its own depth from the strips that lie over it; so an ellipse that is wider
+than the spall stands on its sides.
+"""
+
+from __future__ import annotations
+
+from math import copysign, cos, pi, sin, sqrt
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from flexcage.core.jit import outlined, part
+
+if TYPE_CHECKING:
+    from flexcage.geometry.bearing import Bearing
+
+LEAST_SHARE = 1e-12  # of the energy on an even groove: less is rounding
+
+
+def uneven_race(
+    bearing: Bearing, ring: str, radius: float, effective: float
+) -> tuple[np.ndarray, np.ndarray]:
+    """Waves (3,) of the "inner" or "outer" ring's race: amplitude [m], order, azimuth of a crest;
+    and its spall (4,): half angle, azimuth, depth, and drop over the square of an angle.
+
+    ``radius``: the race's about the bearing's axis; ``effective``: that of element and race.
+    """
+    wave = [getattr(bearing, f"{ring}_waviness{of}") for of in ("", "_order", "_azimuth")]
+    spall, bend = getattr(bearing, f"{ring}_spall"), radius**2 / (2.0 * effective)
+    half = 0.5 * spall.length / radius
+    return np.array(wave, float), np.array([half, spall.azimuth, spall.depth, bend])
+
+
+def is_uneven(wave: np.ndarray, spall: np.ndarray) -> int:
+    """1 if there is a wave or a spall (records hold no booleans)."""
+    return int(wave[0] > 0.0 or spall[0] > 0.0)
+
+
+@part
+def wave_at(wave, phi):
+    """How much larger the race's radius is by its waves at azimuth ``phi`` [rad] on the ring, and
+    its slope over phi [m, m/rad]."""
+    amplitude, order, crest = wave
+    way = order * (phi - crest)
+    return amplitude * cos(way), -amplitude * order * sin(way)
+
+
+@part
+def sunk_at(spall, phi):
+    """How far an element sinks into a spall, >= 0, and its slope over phi [m, m/rad].
+
+    Its centre goes down by (l - |x|)^2/(2 R) at a distance x from the spall's middle, as it turns
+    about the edge at l, until it rolls on the bottom.
+    """
+    half, middle, depth, bend = spall
+    off = (phi - middle + pi) % (2.0 * pi) - pi
+    beyond = half - abs(off)
+    if beyond <= 0.0:
+        return 0.0, 0.0
+    if bend * beyond * beyond < depth:
+        return bend * beyond * beyond, -2.0 * bend * copysign(beyond, off)
+    return depth, 0.0
+
+
+@outlined
+def ride(race, phi, place, depth):
+    """Depth that counts of a ball at azimuth ``phi`` on its ring [rad] and angle ``place`` across
+    the groove, which would press by ``depth`` into an even one; and its slopes over depth, phi and
+    place. < 0: it does not touch.
+
+    By that depth the normal law has the energy of all strips: of those beside the spall, and of
+    those over it, that press by less. So forces are the slopes of one energy.
+    """
+    rise, turn = wave_at(race.wave, phi)
+    sunk, steep = sunk_at(race.spall, phi)
+    depth -= race.side * rise
+    turn *= -race.side
+    if sunk <= 0.0 or depth <= 0.0:
+        return depth, 1.0, turn, 0.0
+    within = max(depth - sunk, 0.0)
+    low, high = race.radius * (race.sides[0] - place), race.radius * (race.sides[1] - place)
+    c = race.reach
+    energy, force = _between(low, high, c * sqrt(depth))
+    on, bears = depth**2.5 * (1.0 - energy), depth * sqrt(depth) * (1.0 - force)
+    energy, force = _between(low, high, c * sqrt(within)) if within > 0.0 else (0.0, 0.0)
+    on += within**2.5 * energy
+    inside = within * sqrt(within) * force
+    if on <= LEAST_SHARE * depth**2.5:
+        return depth - sunk, 1.0, turn - steep, 0.0
+    counts = on**0.4
+    scale = 1.0 / (counts * sqrt(counts))
+    across = _missing(low, depth, within, c), _missing(high, depth, within, c)
+    by_depth = (bears + inside) * scale
+    by_place = 0.4 * race.radius * (across[1] - across[0]) * scale
+    return counts, by_depth, by_depth * turn - inside * scale * steep, by_place
+
+
+@part
+def _between(low, high, half):
+    """Shares of a contact's energy and force in its strips from ``low`` to ``high`` across [m], for
+    half of the ellipse's length: 15/16 (1 - s^2)^2 ds and 3/4 (1 - s^2) ds."""
+    a, b = min(max(low / half, -1.0), 1.0), min(max(high / half, -1.0), 1.0)
+    a2, b2 = a * a, b * b
+    energy = b * (15.0 - 10.0 * b2 + 3.0 * b2 * b2) - a * (15.0 - 10.0 * a2 + 3.0 * a2 * a2)
+    force = b * (3.0 - b2) - a * (3.0 - a2)
+    return energy / 16.0, force / 4.0
+
+
+@part
+def _missing(y, depth, within, c):
+    """What a spall's side at y takes: the difference of the energies there, per length across."""
+    lower = y * y / (c * c)
+    beside, inside = max(depth - lower, 0.0), max(within - lower, 0.0)
+    return 15.0 / 16.0 / c * (beside * beside - inside * inside)
