@@ -61,9 +61,8 @@ def test_what_kernels_read_is_the_static_compliance(preset):
         psi, force = ring.azimuth[None], ring.force[None]
         (found,) = _deflections(data, side, psi, force)
         wanted = ring.deflection[:, data.way]
-        assert np.abs(found - wanted).max(axis=0) == pytest.approx(
-            np.zeros(2), abs=1e-4 * np.abs(wanted).max()
-        )
+        missed = np.abs(found - wanted).max(axis=0) / np.abs(wanted).max(axis=0)
+        assert missed.max() < 5e-4  # of each port; elements far apart do not feel each other
 
 
 @pytest.mark.parametrize(
