@@ -10,8 +10,8 @@ from dataclasses import replace
 
 from flexcage.bearings.ball.model import BallModel
 from flexcage.bearings.ball.motion import MOTION
-from flexcage.bearings.ball.neighbours import touch_neighbours
 from flexcage.bearings.ball.residual import (
+    BESIDE,
     SHARED,
     add_wrench,
     ball_in_pocket,
@@ -64,7 +64,7 @@ def evaluate(t, y, yd, d, law, out, mode):
     r_q, r_u = out[: at.rest_q], out[at.u : at.rest_u]
     rest_q, rest_u, s = y[at.rest_q : at.u], y[at.rest_u : at.lam], y[bent:]
     modes = set_bodies(rest_q, rest_u, d, mode)
-    touch_neighbours(q, u, d, law, mode)
+    law[BESIDE](t, y, yd, d, law[:FAMILY_PARTS], out, mode)
     bend_rings(q, s, rings)
     Rc, Vc = rest_q[Q_CAGE:Q_QUATERNION], rest_u[CAGE:CAGE_TURN]
     for i in range(Z):
@@ -135,7 +135,7 @@ def _moved(ball, w):
     """The ball as a race meets it that has yielded by w, axially and radially."""
     return BallOnRace(
         ball.radius, minus(ball.centre, (w[0], w[1], 0.0)), ball.velocity, ball.spin, ball.axis,
-        ball.ring_velocity, ball.ring_spin, ball.onset, ball.azimuth,
+        ball.ring_velocity, ball.ring_spin, ball.onset, ball.azimuth, ball.spotted, ball.spot,
     )  # fmt: skip
 
 
@@ -145,8 +145,8 @@ def _pressing(ball, race, sl):
     sl.d."""
     e, n, distance, reach = line_of_contact(ball.centre, ball.axis, race)
     sl.d[0] = reach - race.radius + ball.radius
-    if race.uneven:
-        lean = lean_on(ball, race, (e, n, distance, reach), sl)
+    if race.uneven + ball.spotted > 0:
+        lean, _ = lean_on(ball, race, (e, n, distance, reach), sl)
         return leaning(lean, n, cross(ball.axis, e))
     return n
 
