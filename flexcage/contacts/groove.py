@@ -6,7 +6,8 @@ ellipse slide at the speed of their own points on the curved surface of contact,
 differential slip across the groove (Heathcote's) and gyroscopic slip are all one velocity (T. A.
 Harris, Rolling Bearing Analysis, 2 and 8). The races control nothing. Waves and a spall of the race
 (``contacts.uneven``) change the depth; so the ball is pushed along and across the groove too, at
-its centre, as an edge of the spall does. Its traction stays where an even race has it.
+its centre, as an edge of the spall does. Its traction stays where an even race has it. The spot of
+a ball does likewise, and turns it.
 """
 
 from __future__ import annotations
@@ -36,8 +37,8 @@ from flexcage.contacts.slices import (
     stored_and_damped,
 )
 from flexcage.contacts.state import add_force_and_moment
-from flexcage.contacts.uneven import ride
-from flexcage.core.jit import VECTORISED, part, zero
+from flexcage.contacts.uneven import ride, ride_on_spot
+from flexcage.core.jit import VECTORISED, outlined, part, zero
 from flexcage.core.vectors import combine, cross, dot, minus, plus, times
 
 LEAST_ROLLING = 1e-3  # rad/s: below it the rolling resistance fades out
@@ -62,6 +63,7 @@ class Groove(NamedTuple):
     spall: np.ndarray  # (4,) as in ``contacts.uneven``
     sides: np.ndarray  # (2,) angles across the groove between which the spall lies
     reach: float  # half of the ellipse's length over the root of the depth
+    spot: np.ndarray  # (3,) of the ball that has one, as in ``uneven.ride_on_spot``
     uneven: int  # 1 if there is a wave or a spall (records hold no booleans)
 
 
@@ -77,6 +79,8 @@ class BallOnRace(NamedTuple):
     ring_spin: tuple[float, float, float]
     onset: float  # speed at which the contact closed
     azimuth: float  # of the frame's e_r, from the ring's material
+    spotted: int  # 1 if it has a spot, in the direction that follows, of any length
+    spot: tuple[float, float, float]
 
 
 @part
@@ -94,11 +98,10 @@ def groove_contact(ball, race, laws, sl, wrench, mode, sums):
     spin = minus(ball.spin, ball.ring_spin)
     v = minus(minus(ball.velocity, ball.ring_velocity), cross(ball.ring_spin, P))
     sl.d[0], sl.v[0] = reach - race.radius + ball.radius, dot(n, v)
-    lean, near = (1.0, 0.0, 0.0), sl.v[0]
-    if race.uneven:
-        lean = lean_on(ball, race, (e, n, distance, reach), sl)
-        push = leaning(lean, n, cross(b, e))
-        sl.v[0] = dot(push, v)
+    lean, twist, near = (1.0, 0.0, 0.0), (0.0, 0.0, 0.0), sl.v[0]
+    leans = race.uneven + ball.spotted > 0
+    if leans:
+        lean, twist = lean_on(ball, race, (e, n, distance, reach), sl)
         near = sl.v[0] / lean[0] if lean[0] > LEAST_LEAN else near
     if mode >= REPORT:
         sums[ANGLE] = atan2(race.side * dot(n, b), race.side * dot(n, e))
@@ -124,9 +127,11 @@ def groove_contact(ball, race, laws, sl, wrench, mode, sums):
         resisting = race.rolling[0] * fast ** race.rolling[1] * N ** race.rolling[2] / fast
     moment = combine(moment, -resisting, roll)
     total = combine(force, -N, n)
-    if race.uneven:
+    whole = moment
+    if leans:
         total = combine(total, -sl.N[0], leaning((0.0, lean[1], lean[2]), n, g))
-    add_force_and_moment(wrench, total, moment)
+        whole = combine(moment, -sl.N[0], twist)
+    add_force_and_moment(wrench, total, whole)
     if mode >= REPORT:
         sums[NORMAL], sums[ALONG], sums[ACROSS] = N, dot(force, g), dot(force, t)
         sums[SLIDING] = dot(plus(v, cross(spin, times(middle, n))), g)
@@ -135,15 +140,33 @@ def groove_contact(ball, race, laws, sl, wrench, mode, sums):
     return True
 
 
-@part
+@outlined
 def lean_on(ball, race, line, sl):
-    """How the depth on an uneven race follows the ball's place, along n, g and t; the depth that
-    counts into sl.d. ``line``: what ``line_of_contact`` gives."""
+    """How the depth on an uneven race, or of a spotted ball, follows the ball's place, along n, g
+    and t, and its rotation; the depth that counts, and its rate, into sl.d and sl.v. ``line``: what
+    ``line_of_contact`` gives."""
     e, n, distance, reach = line
-    place = atan2(race.side * dot(n, ball.axis), race.side * dot(n, e))
-    phi = ball.azimuth + atan2(e[2], e[1])
-    sl.d[0], by_depth, by_phi, by_place = ride(race, phi, place, sl.d[0])
-    return by_depth, by_phi / distance, by_place / reach
+    b, twist = ball.axis, (0.0, 0.0, 0.0)
+    by_depth, along, across = 1.0, 0.0, 0.0
+    if race.uneven:
+        place = atan2(race.side * dot(n, b), race.side * dot(n, e))
+        phi = ball.azimuth + atan2(e[2], e[1])
+        sl.d[0], by_depth, by_phi, by_place = ride(race, phi, place, sl.d[0])
+        along, across = by_phi / distance, by_place / reach
+    if ball.spotted > 0 and dot(ball.spot, n) > 0.0:
+        g = cross(b, e)
+        t = cross(n, g)
+        s = times(1.0 / sqrt(dot(ball.spot, ball.spot)), ball.spot)
+        places = ball.radius * dot(s, g), ball.radius * dot(s, t)
+        sl.d[0], on, by_x, by_y = ride_on_spot(race, race.spot, places[0], places[1], sl.d[0])
+        twist = times(ball.radius, combine(times(by_x, cross(s, g)), by_y, cross(s, t)))
+        by_depth *= on
+        along = on * along - dot(twist, b) / distance  # the contact moves away from the spot
+        across = on * across + dot(twist, g) / reach
+    lean, spin = (by_depth, along, across), minus(ball.spin, ball.ring_spin)
+    v = minus(minus(ball.velocity, ball.ring_velocity), cross(ball.ring_spin, ball.centre))
+    sl.v[0] = dot(leaning(lean, n, cross(b, e)), v) + dot(twist, spin)
+    return lean, twist
 
 
 @part

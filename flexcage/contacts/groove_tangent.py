@@ -52,27 +52,31 @@ def groove_tangent(ball, race, laws, sl, pair, sums):
     P, b = ball.centre, ball.axis
     e, n, distance, reach = line_of_contact(P, b, race)
     g = cross(b, e)
-    lean, push = 1.0, n
-    if race.uneven:
+    lean, push, leans = 1.0, (*n, 0.0, 0.0, 0.0), race.uneven + ball.spotted > 0
+    if leans:
         depth, sl.d[0] = sl.d[0], reach - race.radius + ball.radius
-        leans = lean_on(ball, race, (e, n, distance, reach), sl)
-        lean, push, sl.d[0] = leans[0], leaning(leans, n, g), depth
+        by, twist = lean_on(ball, race, (e, n, distance, reach), sl)
+        lean, push, sl.d[0] = by[0], (*leaning(by, n, g), *twist), depth
     N = sl.N[0] * lean
     t = cross(n, g)
     spin = minus(ball.spin, ball.ring_spin)
     v = minus(minus(ball.velocity, ball.ring_velocity), cross(ball.ring_spin, P))
     by_load, by_middle = _strips(ball, race, (N, n, g, t), spin, sl, pair)
     by_load = _rolling(race, N, n, spin, by_load, pair.C)
+    even = (*n, 0.0, 0.0, 0.0)
     # the normal force follows depth and approach, n.P and n.v; the middle of the contact sinks by
     # half the depth; on an uneven race the depth that counts has its own direction
     for k in range(6):
         by_force = lean * by_load[k]
-        if race.uneven and k < 3:
-            by_force += lean * n[k] - push[k]
+        if leans:
+            by_force += lean * even[k] - push[k]
         by_depth = sl.Nd[0] * by_force - 0.5 * by_middle[k]
         for c in range(3):
             pair.K[k, c] -= by_depth * push[c]
             pair.C[k, c] -= sl.Nv[0] * by_force * push[c]
+        if ball.spotted > 0:
+            for c in range(3):
+                pair.C[k, TURN + c] -= sl.Nv[0] * by_force * push[TURN + c]
     for c in range(3):  # the frame turns about the ring's axis and about the rolling direction
         _turn(combine(times(g[c] / distance, b), -t[c] / reach, g), v, spin, c, pair)
     return True

@@ -80,24 +80,52 @@ def ride(race, phi, place, depth):
     sunk, steep = sunk_at(race.spall, phi)
     depth -= race.side * rise
     turn *= -race.side
-    if sunk <= 0.0 or depth <= 0.0:
-        return depth, 1.0, turn, 0.0
-    within = max(depth - sunk, 0.0)
     low, high = race.radius * (race.sides[0] - place), race.radius * (race.sides[1] - place)
-    c = race.reach
+    counts, by_depth, by_sunk, by_shift = _press(race.reach, low, high, sunk, depth)
+    return counts, by_depth, by_depth * turn + by_sunk * steep, -race.radius * by_shift
+
+
+@outlined
+def ride_on_spot(race, spot, along, across, depth):
+    """The same of a ball whose spot has its middle ``along`` and ``across`` the groove from the
+    contact [m]; slopes over depth and both places. ``spot`` (3,): half of its length and width, its
+    depth, and the drop over the square of a length."""
+    half, deep, bend = spot
+    beyond, sunk, steep = half - abs(along), 0.0, 0.0
+    if beyond > 0.0:
+        sunk = bend * beyond * beyond
+        steep = -2.0 * bend * copysign(beyond, along)
+        if sunk >= deep:
+            sunk, steep = deep, 0.0
+    counts, by_depth, by_sunk, by_shift = _press(
+        race.reach, across - half, across + half, sunk, depth
+    )
+    return counts, by_depth, by_sunk * steep, by_shift
+
+
+@part
+def _press(c, low, high, sunk, depth):
+    """Depth that counts where strips from ``low`` to ``high`` across [m] press by ``sunk`` less
+    than ``depth``; its slopes over depth, sunk and a shift of both sides."""
+    if sunk <= 0.0 or depth <= 0.0:
+        return depth, 1.0, 0.0, 0.0
+    within = max(depth - sunk, 0.0)
     energy, force = _between(low, high, c * sqrt(depth))
     on, bears = depth**2.5 * (1.0 - energy), depth * sqrt(depth) * (1.0 - force)
     energy, force = _between(low, high, c * sqrt(within)) if within > 0.0 else (0.0, 0.0)
     on += within**2.5 * energy
     inside = within * sqrt(within) * force
     if on <= LEAST_SHARE * depth**2.5:
-        return depth - sunk, 1.0, turn - steep, 0.0
+        return depth - sunk, 1.0, -1.0, 0.0
     counts = on**0.4
     scale = 1.0 / (counts * sqrt(counts))
     across = _missing(low, depth, within, c), _missing(high, depth, within, c)
-    by_depth = (bears + inside) * scale
-    by_place = 0.4 * race.radius * (across[1] - across[0]) * scale
-    return counts, by_depth, by_depth * turn - inside * scale * steep, by_place
+    return (
+        counts,
+        (bears + inside) * scale,
+        -inside * scale,
+        0.4 * (across[0] - across[1]) * scale,
+    )
 
 
 @part

@@ -88,16 +88,18 @@ def _compiled(function, *arguments):
     return numba.njit(types.boolean(*kinds), **OPTIONS)(function)
 
 
-def _ball_on_race(P, v, spin, b, Vr, wr, azimuth):
+def _ball_on_race(P, v, spin, b, Vr, wr, azimuth, spot):
     vectors = (tuple(float(x) for x in a) for a in (P, v, spin, b, Vr, wr))
-    return BallOnRace(4e-3, *vectors, 0.05, azimuth)
+    where = (1.0, 0.0, 0.0) if spot is None else tuple(float(x) for x in spot)
+    return BallOnRace(4e-3, *vectors, 0.05, azimuth, 0 if spot is None else 1, where)
 
 
 @cache
 def _groove_kernel():
     three = (0.0, 0.0, 0.0)
     return _compiled(
-        _groove, BallOnRace(1.0, three, three, three, three, three, three, 0.0, 0.0), a_groove(),
+        _groove, BallOnRace(1.0, three, three, three, three, three, three, 0.0, 0.0, 0, three),
+        a_groove(),
         LAWS, new_slices(), new_pair(), I8, VEC,
     )  # fmt: skip
 
@@ -113,23 +115,23 @@ def _pocket_kernel():
 
 def on_race(
     race, P, v, spin, *, b=(1.0, 0.0, 0.0), Vr=(0.0, 0.0, 0.0), wr=(0.0, 0.0, 0.0), mode=0,
-    law=(laws.restitution, laws.traction), azimuth=0.0,
+    law=(laws.restitution, laws.traction), azimuth=0.0, spot=None,
 ):  # fmt: skip
     """(does it touch, pair) of a raceway and a ball; ``mode`` 1: with its tangent. ``azimuth`` of
-    the frame's e_r from the ring's material."""
+    the frame's e_r from the ring's material; ``spot``: direction of the ball's, if it has one."""
     hit, pair, _ = reported_on_race(
-        race, P, v, spin, b=b, Vr=Vr, wr=wr, mode=mode, law=law, azimuth=azimuth
+        race, P, v, spin, b=b, Vr=Vr, wr=wr, mode=mode, law=law, azimuth=azimuth, spot=spot
     )
     return hit, pair
 
 
 def reported_on_race(
     race, P, v, spin, *, b=(1.0, 0.0, 0.0), Vr=(0.0, 0.0, 0.0), wr=(0.0, 0.0, 0.0), mode=REPORT,
-    law=(laws.restitution, laws.traction), azimuth=0.0,
+    law=(laws.restitution, laws.traction), azimuth=0.0, spot=None,
 ):  # fmt: skip
     """The same, and what the contact reports."""
     radius = 0.5 * load_preset("7010C-PI").bearing.ball_diameter
-    ball = _ball_on_race(P, v, spin, b, Vr, wr, float(azimuth))._replace(radius=radius)
+    ball = _ball_on_race(P, v, spin, b, Vr, wr, float(azimuth), spot)._replace(radius=radius)
     pair, sums = new_pair(), np.zeros(N_SUMS)
     hit = _groove_kernel()(ball, race, law, new_slices(), pair, mode, sums)
     return hit, pair, sums

@@ -8,8 +8,10 @@ from typing import ClassVar, NamedTuple
 
 from flexcage.bearings.ball import FAMILY as BALLS
 from flexcage.bearings.ball.deep_groove import DeepGrooveBallBearing
+from flexcage.bearings.ball.model import SpottedBall
 from flexcage.bodies.floating_frame import BodyData
 from flexcage.contacts.ball_pocket import BallPockets
+from flexcage.contacts.beside import Beside
 from flexcage.contacts.evaluation import REPORT
 from flexcage.contacts.groove import Groove
 from flexcage.contacts.land import LandData
@@ -44,6 +46,8 @@ class MagnetModel(NamedTuple):
     inner: Groove
     outer: Groove
     pocket: BallPockets
+    beside: Beside
+    spot: SpottedBall
     land: LandData
     magnet: Magnet
 

@@ -7,12 +7,14 @@ from typing import TYPE_CHECKING, Any
 from flexcage.bearings.ball.angular_contact import AngularContactBallBearing
 from flexcage.bearings.ball.bearing import BallBearing
 from flexcage.bearings.ball.deep_groove import DeepGrooveBallBearing
+from flexcage.bearings.ball.spot import BallSpot
 from flexcage.bearings.family import Family
 
 # specs that ``flexcage.spec`` shows
 __all__ = [
     "AngularContactBallBearing",
     "BallBearing",
+    "BallSpot",
     "DeepGrooveBallBearing",
 ]
 

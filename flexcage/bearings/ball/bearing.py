@@ -16,6 +16,7 @@ from typing import Any, ClassVar
 import numpy as np
 
 from flexcage.bearings.ball import checks, ratings
+from flexcage.bearings.ball.spot import BallSpot
 from flexcage.cages.machined.cage import BallCage
 from flexcage.core.spec import option, quantity
 from flexcage.core.units import typeset
@@ -86,6 +87,7 @@ class BallBearing(Bearing):
         Spall(), doc="a pit of the inner race, which turns with its ring", legacy=Spall()
     )
     outer_spall: Spall = option(Spall(), doc="a pit of the outer race", legacy=Spall())
+    ball_spot: BallSpot = option(BallSpot(), doc="a pit or a flat on a ball", legacy=BallSpot())
     material: Material = option(MATERIALS["GCr15"], doc="material of rings and balls")
 
     @property
@@ -336,6 +338,7 @@ class BallBearing(Bearing):
             f"the grooves' radii are {self.inner_conformity:.4g} (inner) and "
             f"{self.outer_conformity:.4g} (outer) times the ball's diameter."
             f"{self.inner_spall.in_words('inner')}{self.outer_spall.in_words('outer')}"
+            f"{self.ball_spot.in_words()}"
         )
 
 

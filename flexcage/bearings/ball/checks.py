@@ -6,6 +6,7 @@ from collections.abc import Iterator, Sequence
 from math import asin, cos, degrees, pi, sin
 from typing import TYPE_CHECKING, Any
 
+from flexcage.bearings.ball.spot import find_in_spot
 from flexcage.core.units import describe, mm
 from flexcage.geometry.cage import Cage
 from flexcage.geometry.checks import (
@@ -34,6 +35,7 @@ def check(bearing: BallBearing, cage: Cage | None, defects: Sequence[Any]) -> No
     raise_first(_find_in_balls(bearing))
     raise_first(_find_in_shoulders(bearing))
     raise_first(_find_in_spalls(bearing))
+    raise_first(find_in_spot(bearing))
     raise_first(bearing.find_in_clearance())
     if cage is None:
         return

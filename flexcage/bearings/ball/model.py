@@ -29,6 +29,12 @@ from flexcage.system.spec import Drive, Load, Mount
 POINT = 1.5  # exponent of a Hertz contact
 
 
+class SpottedBall(NamedTuple):
+    """Which ball has a spot."""
+
+    ball: int  # -1: none
+
+
 class BallModel(NamedTuple):
     """Everything constant that a ball bearing's residual reads."""
 
@@ -38,6 +44,7 @@ class BallModel(NamedTuple):
     outer: Groove
     pocket: BallPockets
     beside: Beside
+    spot: SpottedBall
     land: LandData
 
 
@@ -76,6 +83,7 @@ def groove_of(
         spall=spall,
         sides=np.sort(side * np.array(sides)),
         reach=long * contact.stiffness ** (1.0 / 3.0),
+        spot=bearing.ball_spot.dimensions(0.5 * bearing.ball_diameter, contact.rolling),
         uneven=is_uneven(wave, spall),
     )
 
@@ -162,6 +170,7 @@ def build_ball_model(
         outer=groove_of(bearing, contacts, lubricant, inner=False),
         pocket=_pockets(bearing, cage, contacts, interface),
         beside=besides(bearing, contacts, radius_of_balls),
+        spot=SpottedBall(bearing.ball_spot.ball if bearing.ball_spot.size else -1),
         land=land_data(
             cage, land, lubricant, interface.land,
             kind=land.kind if cage.has_land else "none", outer=outer, radius=radius,

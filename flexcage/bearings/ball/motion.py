@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from flexcage.bearings.ball.model import BallModel, ball_work, build_ball_model
+from flexcage.bearings.ball.neighbours import touch_neighbours
 from flexcage.bearings.ball.residual import evaluate
 from flexcage.bearings.ball.scales import ball_weights, implicit_ball_weights
 from flexcage.bearings.ball.start import ball_start
@@ -24,7 +25,7 @@ MOTION = Motion(
     parts=BallParts,
     new_work=ball_work,
     evaluate=evaluate,
-    separate=(shared_equations,),
+    separate=(shared_equations, touch_neighbours),
     faces=("pocket",),
     ribs=("next ball",),
     start=ball_start,

@@ -14,7 +14,7 @@ import numpy as np
 
 from flexcage.contacts import laws as contact_laws
 from flexcage.contacts.beside import Beside, TwoBalls, touch_beside
-from flexcage.contacts.evaluation import RACE_LAW, RACE_RUBS, REPORT
+from flexcage.contacts.evaluation import RACE_LAW, RACE_RUBS, REPORT, TANGENT
 from flexcage.contacts.laws import EXPONENT
 from flexcage.contacts.slices import Laws, stored_and_damped
 from flexcage.contacts.state import (
@@ -27,7 +27,7 @@ from flexcage.core.jit import fields, outlined, part
 from flexcage.core.vectors import cross, dot, minus, times, turn_of, xyz
 from flexcage.geometry.hertz import PointContact
 from flexcage.system.data import IN_CONTACTS, POCKET, POCKET_DAMPING, POCKET_FRICTION
-from flexcage.system.layout import of_element
+from flexcage.system.layout import of_element, places
 
 if TYPE_CHECKING:
     from flexcage.bearings.ball.bearing import BallBearing
@@ -53,15 +53,23 @@ def besides(bearing: BallBearing, contacts: Contacts, radius: np.ndarray) -> Bes
     )
 
 
-@part
-def touch_neighbours(q, u, d, law, mode):
-    """Forces of balls on their neighbours into ``Scratch.wrenches``."""
+def touch_neighbours(t, y, yd, d, law, out, mode):
+    """Forces of balls on their neighbours into ``Scratch.wrenches``; in mode TANGENT their slopes,
+    each over the own ball's motion.
+
+    Compiled separately, so that the code of all other contacts stays as it is, to the bit.
+    """
     Z, apart = fields(d.bodies).radius.shape[0], fields(d.beside).apart
+    at = places(Z, fields(d.pocket).phi_max.shape[0])
+    q, u = y[: at.rest_q], y[at.u : at.rest_u]
     for i in range(Z):
         j = i + 1 if i + 1 < Z else 0
         ahead = _ahead(i, j, q)
         if ahead < apart:
-            _push(i, j, ahead, q, u, d, law, mode)
+            if mode == TANGENT:
+                _slopes(i, j, ahead, q, u, d, law)
+            else:
+                _push(i, j, ahead, q, u, d, law, mode)
         elif mode >= REPORT:
             fields(d.report).approach[i, NEXT_BALL] = 0.0
 
@@ -115,17 +123,6 @@ def _push(i, j, ahead, q, u, d, law, mode):
         rep.energy[IN_CONTACTS] += energy
         rep.power[POCKET_DAMPING] += damped
         rep.power[POCKET_FRICTION] += dot(touch.friction, touch.slip)
-
-
-@part
-def neighbours_tangent(q, u, d, law):
-    """Slopes of the forces between neighbours, each over the own ball's motion."""
-    Z, apart = fields(d.bodies).radius.shape[0], fields(d.beside).apart
-    for i in range(Z):
-        j = i + 1 if i + 1 < Z else 0
-        ahead = _ahead(i, j, q)
-        if ahead < apart:
-            _slopes(i, j, ahead, q, u, d, law)
 
 
 @outlined

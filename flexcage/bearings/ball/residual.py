@@ -1,14 +1,13 @@
 """The residual F(t, y, y') = 0 of a ball bearing, and its report.
 
 A ball's coordinates are (x, r, psi) of its centre and the angles that it has turned about the axes
-of its orbiting frame F = (e_x, e_r, e_psi); its velocities are those of its centre and its angular
-velocity, both in F. ``mode`` is one of ``contacts.evaluation``, but for the tangent, which is
-``tangent.linearise``.
+of its orbiting frame F = (e_x, e_r, e_psi), or, of a ball with a spot, the direction of that in F;
+its velocities are those of its centre and its angular velocity, both in F. ``mode`` is one of
+``contacts.evaluation``, but for the tangent, which is ``tangent.linearise``.
 """
 
 from __future__ import annotations
 
-from flexcage.bearings.ball.neighbours import touch_neighbours
 from flexcage.contacts.ball_pocket import BallInPocket, pocket_wall_contact
 from flexcage.contacts.evaluation import (
     ANGLE,
@@ -86,14 +85,15 @@ from flexcage.system.layout import (
     places,
 )
 
-SHARED = FAMILY_PARTS  # place in ``law``: the family's only function ``separate``
+# places in ``law``: the family's functions ``separate``
+SHARED, BESIDE = FAMILY_PARTS, FAMILY_PARTS + 1
 
 
 def evaluate(t, y, yd, d, law, out, mode):
     """Residual into ``out``; see the module's text. Index letters: i ball, c component, m mode.
 
     ``law`` holds the normal laws of race, pocket, (side, rib,) land, their friction laws, and
-    ``equations.shared_equations``.
+    what is compiled separately: ``equations.shared_equations`` and ``touch_neighbours``.
     """
     Z = fields(d.bodies).radius.shape[0]
     at = places(Z, fields(d.pocket).phi_max.shape[0])
@@ -101,7 +101,7 @@ def evaluate(t, y, yd, d, law, out, mode):
     r_q, r_u = out[: at.rest_q], out[at.u : at.rest_u]
     rest_q, rest_u = y[at.rest_q : at.u], y[at.rest_u : at.lam]
     modes = set_bodies(rest_q, rest_u, d, mode)
-    touch_neighbours(q, u, d, law, mode)
+    law[BESIDE](t, y, yd, d, law[:FAMILY_PARTS], out, mode)
     Rc, Vc = rest_q[Q_CAGE:Q_QUATERNION], rest_u[CAGE:CAGE_TURN]
     for i in range(Z):
         own = of_element(i)
@@ -139,6 +139,7 @@ def on_inner_race(i, qi, ui, rest_q, rest_u, d):
         fields(d.bodies).radius[i], P, xyz(ui), turn_of(ui), turned(F, xyz(vec[RING_AXIS])),
         turned(F, xyz(rest_u[:INNER_TURN])), turned(F, xyz(vec[RING_SPIN])),
         fields(d.memory).race[i, INNER_RACE], qi[2] - rest_q[Q_INNER_TURN + 2],
+        1 if i == fields(d.spot).ball else 0, turn_of(qi),
     )  # fmt: skip
 
 
@@ -150,7 +151,8 @@ def on_outer_race(i, qi, ui, rest_q, rest_u, d):
     return BallOnRace(
         fields(d.bodies).radius[i], P, xyz(ui), turn_of(ui), (1.0, 0.0, 0.0),
         turned(F, (0.0, rest_u[OUTER], rest_u[OUTER + 1])), (0.0, 0.0, 0.0),
-        fields(d.memory).race[i, OUTER_RACE], qi[2],
+        fields(d.memory).race[i, OUTER_RACE], qi[2], 1 if i == fields(d.spot).ball else 0,
+        turn_of(qi),
     )  # fmt: skip
 
 
@@ -272,6 +274,10 @@ def ball_rows(i, qi, ui, qdi, udi, d, r_q, r_u, mode):
     for c in range(6):
         r_q[c] = qdi[c] - ui[c]
     r_q[2] = qdi[2] - orbit
+    if i == fields(d.spot).ball:  # its spot's direction turns with it, in a frame that orbits
+        rate = cross(minus(turn_of(ui), (orbit, 0.0, 0.0)), turn_of(qi))
+        for c in range(3):
+            r_q[TURN + c] = qdi[TURN + c] - rate[c]
     r_u[0] = mass * (udi[0] - bodies.gravity[0]) - FR[0]
     r_u[1] = mass * (udi[1] - orbit * ui[2] - gr) - FR[1]
     r_u[2] = mass * (udi[2] + orbit * ui[1] - gp) - FR[2] - drag

@@ -15,6 +15,7 @@ from math import pi
 import numpy as np
 
 from flexcage.bearings.ball.model import BallModel
+from flexcage.bearings.ball.spot import BallSpot
 from flexcage.bodies.floating_frame import BodyData
 from flexcage.system.layout import Layout
 from flexcage.system.problem import Bearing
@@ -34,6 +35,7 @@ def ball_start(
     y = ball_places(bearing, solution)
     made_room(model.land, bearing.layout, y)
     yd = rolling_balls(model, bearing.layout, solution, y)
+    turn_spot(bearing.spec.ball_spot, model.spot.ball, bearing.layout, y, yd)
     if bearing.layout.modes:
         spin = float(bearing.layout.u(y)["omega"][0])
         bearing.layout.q(y)["modes"][:] = _strained_by_rotation(model.cage, spin)
@@ -99,6 +101,16 @@ def rolling_balls(
     u["omega"][0] = cage
     qd["quaternion"][1] = 0.5 * cage
     return yd
+
+
+def turn_spot(spot: BallSpot, ball: int, layout: Layout, y: np.ndarray, yd: np.ndarray) -> None:
+    """Set in y and y' the direction of the spot of a ball, if there is one."""
+    if ball < 0:
+        return
+    layout.q(y)["elements"][ball, 3:] = direction = spot.direction()
+    turning = layout.u(y)["elements"][ball, 3:].copy()
+    turning[0] -= layout.q(yd)["elements"][ball, 2]
+    layout.q(yd)["elements"][ball, 3:] = np.cross(turning, direction)
 
 
 def _strained_by_rotation(body: BodyData, speed: float) -> np.ndarray:

@@ -9,8 +9,8 @@ ball's, and how the orbit's rate follows the ball's radius.
 
 from __future__ import annotations
 
-from flexcage.bearings.ball.neighbours import neighbours_tangent
 from flexcage.bearings.ball.residual import (
+    BESIDE,
     SHARED,
     in_pocket,
     on_inner_race,
@@ -53,7 +53,7 @@ def linearise(t, y, yd, data):
     q, u = y[: at.rest_q], y[at.u : at.rest_u]
     rest_q, rest_u = y[at.rest_q : at.u], y[at.rest_u : at.lam]
     modes = set_bodies(rest_q, rest_u, d, TANGENT)
-    neighbours_tangent(q, u, d, law)
+    law[BESIDE](t, y, yd, d, law[:FAMILY_PARTS], fields(d.scratch).out, TANGENT)
     Rc, Vc = rest_q[Q_CAGE:Q_QUATERNION], rest_u[CAGE:CAGE_TURN]
     for i in range(Z):
         qi, ui = q[of_element(i)], u[of_element(i)]

@@ -1,0 +1,81 @@
+"""A spot of a ball: a pit or a flat, its dimensions and where it stands at the start."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from math import cos, sin
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from flexcage.core.spec import option, quantity
+from flexcage.core.units import mm, typeset
+
+if TYPE_CHECKING:
+    from flexcage.bearings.ball.bearing import BallBearing
+
+_WIDEST = 0.25  # of the ball's diameter, to which a spot is small against the ball
+
+
+@dataclass(frozen=True, kw_only=True)
+class BallSpot:
+    """A pit or a flat on one ball; none while its size is zero.
+
+    A pit has sharp edges and one depth. A flat is as deep as its chord; on both, a ball sinks into
+    a race as a race's spall lets it. A spot is as wide as long, its sides along and across the
+    groove. It is met while the path of the ball's contact crosses it; pockets do not feel it.
+    """
+
+    size: float = quantity("mm", 0.0, doc="length and width; 0: no spot", minimum=0.0)
+    kind: str = option("pit", doc="what it is", choices=("pit", "flat"))
+    ball: int = option(0, doc="ball that has it", minimum=0)
+    depth: float = quantity("um", 100e-6, doc="depth of a pit", above=0.0)
+    angle: float = quantity(
+        "deg", 0.0, doc="where it is at the start: from outwards towards the sense of the orbit"
+    )
+    tilt: float = quantity("deg", 0.0, doc="likewise, from that plane towards +x")
+
+    def dimensions(self, radius: float, effective: float) -> np.ndarray:
+        """Half of its size, its depth, and the drop over the square of a length [m], on a race with
+        which a ball of a radius has the ``effective`` one [m]."""
+        half = 0.5 * self.size
+        depth = half**2 / (2.0 * radius) if self.kind == "flat" else self.depth
+        return np.array([half, depth, 1.0 / (2.0 * effective)])
+
+    def direction(self) -> np.ndarray:
+        """Unit direction (x, r, psi) at the start."""
+        across = cos(self.tilt)
+        return np.array([sin(self.tilt), across * cos(self.angle), across * sin(self.angle)])
+
+    def in_words(self) -> str:
+        """A sentence on it; empty if there is none."""
+        if not self.size:
+            return ""
+        deep = "" if self.kind == "flat" else f", {typeset(self.depth, 'um')} deep"
+        return f" Ball {self.ball} has a {self.kind} of {typeset(self.size, 'mm')}{deep}."
+
+
+def find_in_spot(b: BallBearing) -> Iterator[tuple[str, str]]:
+    """What is impossible in the spot of a bearing's ball; where, and in a sentence."""
+    spot, most, deepest = b.ball_spot, _WIDEST * b.ball_diameter, 0.1 * b.ball_diameter
+    if not spot.size:
+        return
+    if spot.ball >= b.ball_count:
+        yield (
+            "bearing.ball_spot.ball",
+            f"bearing.ball_spot.ball is {spot.ball}, but the balls are numbered 0 to "
+            f"{b.ball_count - 1}.",
+        )
+    if spot.size > most:
+        yield (
+            "bearing.ball_spot.size",
+            f"bearing.ball_spot.size is {mm(spot.size)}; give a quarter of the ball's diameter, "
+            f"{mm(most)}, or less.",
+        )
+    if spot.kind == "pit" and spot.depth > deepest:
+        yield (
+            "bearing.ball_spot.depth",
+            f"bearing.ball_spot.depth is {mm(spot.depth)}; give a tenth of the ball's diameter, "
+            f"{mm(deepest)}, or less.",
+        )
