@@ -135,7 +135,7 @@ CLAIMS = (
     ),
     Claim(
         "004-7",
-        "In the same time a larger acceleration gives a larger orbit, larger and more frequent "
+        "In equal times a larger acceleration gives a larger orbit, larger and more frequent "
         "forces, and a faster axial motion",
         "Figures 22 to 24",
         {

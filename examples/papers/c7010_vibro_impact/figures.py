@@ -149,8 +149,8 @@ def deviations(computed, path: Path) -> Path:
                 found = computed.readings[BETTER].values("deviation", c) * PERCENT
                 ax.plot(np.full(len(found), i), found, "o", ms=3.0, color=sheet.GREEN,
                         label=BETTER if i == 0 else None)  # fmt: skip
-                for shift, (column, colour) in zip((0.12, 0.24), COLOURS.items()):
-                    joined = computed.maps[column]
+                for shift, (column, joined) in zip((0.12, 0.24), computed.maps.items()):
+                    colour = COLOURS[column]
                     if c not in joined.parts[0].conditions:
                         continue
                     values = joined.means("deviation", c) * PERCENT
@@ -196,10 +196,10 @@ def over_time(computed, path: Path, title: str, conditions) -> Path:
 
 
 def starts(reading, output: str, condition: str, factor: float) -> str:
-    """Mean of eight starts with half its 95 % interval."""
+    """Mean of eight starts with half its 95 % interval; a single start in two digits."""
     found = reading.values(output, condition)
     if len(found) < 2:
-        return "-"
+        return number(float(found[0]), factor=factor) if len(found) else "-"
     half = 2.365 * found.std(ddof=1) / np.sqrt(len(found)) if len(found) == 8 else np.nan
     return number(float(found.mean()), float(half), factor=factor)
 

@@ -123,11 +123,13 @@ def _race_force(run) -> tuple[np.ndarray, np.ndarray | None]:
 def over_time(computed, path: Path, title: str, note: str, curve: Callable,
               limits: tuple[float, float] | None) -> Path:  # fmt: skip
     """A curve of every condition, one row a reading."""
-    wide, high, left, top = 250, 190, 130, 130
+    wide, high, left, top = 250, 190, 190, 130
     with sheet.style():
-        figure = sheet.new_figure(left + 6 * (wide + 46), top + 2 * (high + 60))
+        figure = sheet.new_figure(
+            left + 6 * (wide + 46), top + len(computed.readings) * (high + 60) + 20
+        )
         sheet.heading(figure, title, f"{note}; over ms")
-        for i, column in enumerate((BETTER, PRINTED_MODEL)):
+        for i, column in enumerate(computed.readings):
             sheet.text_at(figure, 20, top + i * (high + 60) + 0.5 * high, column)
             runs = done(computed.readings[column])
             drawn = {c: (r.dataset["time"].values * 1e3, *curve(r)) for c, r in runs.items()}
@@ -152,12 +154,14 @@ def done(reading) -> dict[str, Run]:
 
 def orbits(computed, path: Path, body: str) -> Path:
     """Orbits of the cage's or the inner ring's centre, one row a reading."""
-    side, left, top = 240, 130, 130
+    side, left, top = 240, 200, 130
     name = {"cage": "cage's centre", "inner": "inner ring's centre, about its mean"}[body]
     with sheet.style():
-        figure = sheet.new_figure(left + 6 * (side + 50), top + 2 * (side + 60))
+        figure = sheet.new_figure(
+            left + 6 * (side + 50), top + len(computed.readings) * (side + 60) + 20
+        )
         sheet.heading(figure, f"Orbits of the {name}", "um; radial load down")
-        for i, column in enumerate((BETTER, PRINTED_MODEL)):
+        for i, column in enumerate(computed.readings):
             sheet.text_at(figure, 20, top + i * (side + 60) + 0.5 * side, column)
             found = {}
             for c, run in done(computed.readings[column]).items():
@@ -206,7 +210,8 @@ def _bands(ax, computed, output: str, axis: dict[str, float], factor: float) -> 
         low, mid, high = np.nanpercentile(values, (10.0, 50.0, 90.0), axis=1)
         ax.fill_between(at, low, high, color=COLOURS[column], alpha=0.18, lw=0)
         ax.plot(at, mid, color=COLOURS[column], lw=1.4, label=column)
-    for shift, (column, (marker, colour)) in zip((-0.015, 0.015), MARKS.items()):
+    for shift, column in zip((-0.015, 0.015), computed.readings):
+        marker, colour = MARKS[column]
         for k, c in enumerate(axis):
             found = computed.readings[column].values(output, c) * factor
             ax.plot(
