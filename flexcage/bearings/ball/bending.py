@@ -11,6 +11,7 @@ from dataclasses import replace
 from flexcage.bearings.ball.model import BallModel
 from flexcage.bearings.ball.motion import MOTION
 from flexcage.bearings.ball.residual import (
+    BESIDE,
     SHARED,
     add_wrench,
     ball_in_pocket,
@@ -57,6 +58,7 @@ def evaluate(t, y, yd, d, law, out, mode):
     r_q, r_u = out[: at.rest_q], out[at.u : at.rest_u]
     rest_q, rest_u, s = y[at.rest_q : at.u], y[at.rest_u : at.lam], y[bent:]
     modes = set_bodies(rest_q, rest_u, d, mode)
+    law[BESIDE](t, y, yd, d, law[:FAMILY_PARTS], out, mode)
     bend_rings(q, s, rings)
     Rc, Vc = rest_q[Q_CAGE:Q_QUATERNION], rest_u[CAGE:CAGE_TURN]
     for i in range(Z):
@@ -122,7 +124,7 @@ def _yielded(side, i, ball, race, s, laws, sl, rings):
         P = minus(P, (step[0], step[1], 0.0))
     return BallOnRace(
         ball.radius, P, ball.velocity, ball.spin, ball.axis, ball.ring_velocity, ball.ring_spin,
-        ball.onset,
+        ball.onset, ball.azimuth, ball.spotted, ball.spot,
     )  # fmt: skip
 
 
