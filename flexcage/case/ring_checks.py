@@ -70,13 +70,6 @@ def find_bending_in_run(case: Case) -> Iterator[Finding]:
                 f"{side}.seat is '{ring.seat}', but in a run a seat holds a ring that bends all "
                 "around; take 'rigid' or 'foundation', or 'flexcage static'.",
             )
-        if fault := case.bearing.wants_rigid_rings:
-            yield (
-                f"bearing.{fault}",
-                f"bearing.{fault} is given, but {side}.ring is 'flexible', and between rings that "
-                f"bend in a run races and {case.bearing.element}s are even; leave one of the two "
-                "out.",
-            )
         if case.solver.method == "bdf":
             yield (
                 "solver.method",

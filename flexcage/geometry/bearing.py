@@ -118,11 +118,6 @@ class Bearing:
         return ""
 
     @property
-    def wants_rigid_rings(self) -> str:
-        """Name of what it has that is not computed between rings that bend in a run; or empty."""
-        return ""
-
-    @property
     def element_count(self) -> int:
         """Z."""
         raise self._lacks("element_count")

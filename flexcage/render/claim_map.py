@@ -51,6 +51,7 @@ def draw_claim_map(
 
 def _in_lines(words: str) -> str:
     """A range in words, broken between its parts; the last line says that there is more."""
+    words = words.replace(" %", "\N{NO-BREAK SPACE}%")
     return "\n".join(wrap(words, _LETTERS, max_lines=_LINES, placeholder=" ..."))
 
 

@@ -27,12 +27,13 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from flexcage.contacts.state import AXIS, CENTRE
-from flexcage.core.jit import fields, part, zero
+from flexcage.core.jit import VECTORISED, fields, part, zero
 from flexcage.core.vectors import cross, minus, turned, turned_back, xyz
 from flexcage.system.data import INNER_RACE, MODAL_DAMPING, OUTER_RACE, STRAIN
 from flexcage.system.layout import INNER_TURN, OUTER, PER_ELEMENT, Layout, of_element, places
 
-POINTS = 1024  # of the tables, a power of two; between them cubics
+POINTS = 4096  # of the tables, a power of two; straight lines between them
+_STEP = POINTS / (2.0 * pi)  # points a radian
 LEAST = 0.25  # determinant of Newton's step: contacts far stiffer than H is meant for take less
 AXIAL_PORT, RADIAL_PORT, TILT_PORT = range(3)  # in ``RingsData.way``
 # compliances of the two ports, and their slopes over the azimuth
@@ -45,6 +46,7 @@ class RingsData(NamedTuple):
     bends: np.ndarray  # (2,) 1 if the ring bends
     way: np.ndarray  # (2,) what the ports are: axially, radially, in tilt
     table: np.ndarray  # (2, POINTS, 6) C between elements that are so far apart, round the ring
+    near: np.ndarray  # (2,) points up to which elements feel each other; C is zero beyond
     own: np.ndarray  # (2, 3) C at an element's own place
     half_space: np.ndarray  # (2, 3) H
     given: np.ndarray  # (2, Z, 2) a deflection that is known beforehand, for the search of a start
@@ -53,16 +55,19 @@ class RingsData(NamedTuple):
     deflection: np.ndarray  # (2, Z, 2) of races at elements, the first part
     moment: np.ndarray  # (2, Z) of slopes, about the axis
     force: np.ndarray  # (2, Z, 2) elastic contact forces on the races
-    between: np.ndarray  # (2, Z (Z-1)/2, 6) C and its slope between elements, of j < i
+    kept: np.ndarray  # (2,) pairs of elements that feel each other
+    pair: np.ndarray  # (2, Z (Z-1)/2, 2) which they are
+    between: np.ndarray  # (2, Z (Z-1)/2, 6) C and its slope between them
 
 
 def rigid_rings(elements: int) -> RingsData:
     """Data of rings that do not bend, in the types that kernels take."""
-    z = np.zeros
+    z, pairs = np.zeros, elements * (elements - 1) // 2
     return RingsData(
-        z(2, np.int64), np.array([RADIAL_PORT, TILT_PORT]), z((2, POINTS, 6)), z((2, 3)),
-        z((2, 3)), z((2, elements, 2)), np.ones((2, 2)), np.ones(2), z((2, elements, 2)),
-        z((2, elements)), z((2, elements, 2)), z((2, elements * (elements - 1) // 2, 6)),
+        z(2, np.int64), np.array([RADIAL_PORT, TILT_PORT]), z((2, POINTS, 6)), z(2, np.int64),
+        z((2, 3)), z((2, 3)), z((2, elements, 2)), np.ones((2, 2)), np.ones(2),
+        z((2, elements, 2)), z((2, elements)), z((2, elements, 2)), z(2, np.int64),
+        z((2, pairs, 2), np.int64), z((2, pairs, 6)),
     )  # fmt: skip
 
 
@@ -89,6 +94,7 @@ def bend_rings(q, s, rings):
         w, moment = rings.deflection[side], rings.moment[side]
         own, given = rings.own[side], rings.given[side]
         zero(moment)
+        rings.kept[side] = 0
         for i in range(Z):
             k = force_at(side, i, Z)
             w[i, 0] = own[C11] * s[k] + own[C12] * s[k + 1] + given[i, 0]
@@ -99,18 +105,24 @@ def bend_rings(q, s, rings):
 
 @part
 def _bend_between(q, s, rings, side):
-    """What elements do to the race beneath others."""
-    Z = rings.moment.shape[1]
-    w, moment, at = rings.deflection[side], rings.moment[side], 0
+    """What elements do to the race beneath others that are near."""
+    Z, near, at = rings.moment.shape[1], rings.near[side], 0
+    w, moment = rings.deflection[side], rings.moment[side]
     for i in range(Z):
-        a = force_at(side, i, Z)
+        a, psi = force_at(side, i, Z), q[PER_ELEMENT * i + 2]
         for j in range(i):
+            x = (psi - q[PER_ELEMENT * j + 2]) * _STEP
+            whole = np.floor(x)
+            k = int(whole) & (POINTS - 1)
+            if near < k < POINTS - 1 - near:
+                continue
             b = force_at(side, j, Z)
-            c = rings.between[side, at]
-            at += 1
             if s[a] == 0.0 and s[b] == 0.0:
                 continue
-            _look_up(rings.table[side], q[PER_ELEMENT * i + 2] - q[PER_ELEMENT * j + 2], c)
+            c = rings.between[side, at]
+            rings.pair[side, at, 0], rings.pair[side, at, 1] = i, j
+            at += 1
+            _look_up(rings.table[side], k, x - whole, c)
             w[i, 0] += c[C11] * s[b] + c[C12] * s[b + 1]
             w[i, 1] += c[C12] * s[b] + c[C22] * s[b + 1]
             w[j, 0] += c[C11] * s[a] + c[C12] * s[a + 1]
@@ -119,25 +131,15 @@ def _bend_between(q, s, rings, side):
             turn += s[a + 1] * (c[D12] * s[b] + c[D22] * s[b + 1])
             moment[i] += turn
             moment[j] -= turn
+    rings.kept[side] = at
 
 
-@part
-def _look_up(table, apart, c):
-    """Compliances and slopes between elements an angle ``apart``: cubics through values and slopes
-    of the table."""
-    step = 2.0 * pi / POINTS
-    x = apart / step
-    k = int(np.floor(x))
-    f = x - k
-    low, high = table[k & (POINTS - 1)], table[(k + 1) & (POINTS - 1)]
-    e = 1.0 - f
-    a, b = f * f * (3.0 - 2.0 * f), step * f * e
-    slope = 6.0 * f * e / step
-    for m in range(D11):
-        rise = high[m] - low[m]
-        c[m] = low[m] + a * rise + b * (e * low[D11 + m] - f * high[D11 + m])
-        c[D11 + m] = slope * rise + e * (1.0 - 3.0 * f) * low[D11 + m]
-        c[D11 + m] += f * (3.0 * f - 2.0) * high[D11 + m]
+@part(fastmath=VECTORISED)
+def _look_up(table, k, share, c):
+    """Compliances and slopes at a share of the way from point k of the table to the next."""
+    low, high = table[k], table[(k + 1) & (POINTS - 1)]
+    for m in range(c.shape[0]):
+        c[m] = low[m] + share * (high[m] - low[m])
 
 
 @part
@@ -221,7 +223,7 @@ def ring_report(u, q, s, rings, rep):
         if rings.bends[side] == 0:
             continue
         H, own, rate = rings.half_space[side], rings.own[side], rings.rate[side]
-        lost, at = 0.0, 0
+        lost = 0.0
         for i in range(Z):
             k, F = force_at(side, i, Z), rings.force[side, i]
             w = rings.deflection[side, i]
@@ -230,22 +232,18 @@ def ring_report(u, q, s, rings, rep):
             rep.energy[STRAIN] -= 0.5 * F[1] * H[C22] * F[1]
             x, y = F[0] - s[k], F[1] - s[k + 1]
             lost += rate * (own[C11] * x * x + 2.0 * own[C12] * x * y + own[C22] * y * y)
-        for i in range(Z):
-            a, Fi, orbit = force_at(side, i, Z), rings.force[side, i], orbit_of(q, u, i)
-            for j in range(i):
-                c, b, Fj = rings.between[side, at], force_at(side, j, Z), rings.force[side, j]
-                at += 1
-                if s[a] == 0.0 and s[b] == 0.0:
-                    continue
-                xa, ya, xb, yb = Fi[0] - s[a], Fi[1] - s[a + 1], Fj[0] - s[b], Fj[1] - s[b + 1]
-                apart = orbit - orbit_of(q, u, j)
-                lost += 2.0 * rate * (xa * (c[C11] * xb + c[C12] * yb))
-                lost += 2.0 * rate * (ya * (c[C12] * xb + c[C22] * yb))
-                turn = xa * (c[D11] * s[b] + c[D12] * s[b + 1])
-                turn += ya * (c[D12] * s[b] + c[D22] * s[b + 1])
-                turn += xb * (c[D11] * s[a] + c[D12] * s[a + 1])
-                turn += yb * (c[D12] * s[a] + c[D22] * s[a + 1])
-                lost += apart * turn
+        for n in range(rings.kept[side]):
+            c, i, j = rings.between[side, n], rings.pair[side, n, 0], rings.pair[side, n, 1]
+            a, b = force_at(side, i, Z), force_at(side, j, Z)
+            Fi, Fj = rings.force[side, i], rings.force[side, j]
+            xa, ya, xb, yb = Fi[0] - s[a], Fi[1] - s[a + 1], Fj[0] - s[b], Fj[1] - s[b + 1]
+            lost += 2.0 * rate * (xa * (c[C11] * xb + c[C12] * yb))
+            lost += 2.0 * rate * (ya * (c[C12] * xb + c[C22] * yb))
+            turn = xa * (c[D11] * s[b] + c[D12] * s[b + 1])
+            turn += ya * (c[D12] * s[b] + c[D22] * s[b + 1])
+            turn += xb * (c[D11] * s[a] + c[D12] * s[a + 1])
+            turn += yb * (c[D12] * s[a] + c[D22] * s[a + 1])
+            lost += (orbit_of(q, u, i) - orbit_of(q, u, j)) * turn
         rep.power[MODAL_DAMPING] -= lost
 
 

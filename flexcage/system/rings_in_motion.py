@@ -8,11 +8,12 @@ from dataclasses import dataclass
 import numpy as np
 
 from flexcage.modes.ring import natural_frequencies
-from flexcage.system.bending import POINTS, RingsData, rigid_rings
+from flexcage.system.bending import C11, C22, POINTS, RingsData, rigid_rings
 from flexcage.system.statics.rings import BentRing, Rings, SeatedRing
 from flexcage.system.statics.solution import StaticSolution
 
 SIDES = ("inner", "outer")
+_FAINT = 1e-4  # share of a deflection that elements far away make and may be left out
 _LOW = 3  # waves around a ring up to which its frequencies are looked at
 _STIFF = 10e3  # [Hz] assumption: rings with lower frequencies are told of
 
@@ -35,14 +36,25 @@ def moving_rings(rings: Rings, solution: StaticSolution) -> MovingRings:
         spec = (rings.inner, rings.outer)[side]
         reduction = bent.seated.reduction
         data.bends[side] = 1
-        data.table[side] = _table(bent.seated)
-        data.own[side] = _entries(reduction.between(np.array(0.0)))
-        data.half_space[side] = _entries(reduction.between(np.array(0.0)) - reduction.local)
+        table, own = _table(bent.seated), reduction.between(np.array(0.0))
+        near = data.near[side] = _reach(table, own, len(solution.elements.azimuth))
+        table[near + 1 : POINTS - near] = 0.0
+        data.table[side] = table
+        data.own[side] = _entries(own)
+        data.half_space[side] = _entries(own - reduction.local)
         data.rate[side] = 1.0 / spec.relaxation
         line = reduction.raceway.line
         data.reach[side] = 1.0, reduction.raceway.extent if line else 1.0
         data.way[:] = np.argmax(bent.seated.to_v, axis=0)
     return MovingRings(data, solution, tuple(_warnings(solution.rings)))
+
+
+def _reach(table: np.ndarray, own: np.ndarray, elements: int) -> int:
+    """Points of a table (POINTS, 6) up to which ``elements`` round a ring feel each other: those
+    beyond, all with the same force, would make ``_FAINT`` of the deflection under their ``own``."""
+    size = np.abs(table[: POINTS // 2, [C11, C22]]) / np.diag(own)
+    beyond = np.cumsum(size.max(axis=1)[::-1])[::-1] * 2.0 * elements / POINTS
+    return int(np.count_nonzero(beyond > _FAINT))
 
 
 def _warnings(rings: tuple[BentRing, ...]) -> Iterator[str]:

@@ -70,7 +70,7 @@ class Planar(Settled):
         self.mesh = cage_mesh(self.case)
         reduced = cage_reduction(self.case, self.mesh)
         self.reduction = reduced and FacesAsOne(
-            **{f.name: getattr(reduced, f.name) for f in fields(reduced)}
+            **{f.name: getattr(reduced, f.name) for f in fields(reduced) if f.init}
         )
         self.bearing = build_bearing(self.case, self.mesh, self.reduction)
         if state is not None:

@@ -81,11 +81,6 @@ def test_spalls_that_cannot_be_are_refused():
             load_case(CASE, overrides={f"bearing.outer_spall.{k}": v for k, v in changes.items()})
 
 
-def test_spalls_between_rings_that_bend_are_refused():
-    with pytest.raises(InputError, match="bearing.outer_spall is given, but outer_ring.ring"):
-        load_case(CASE, overrides={"outer_ring.ring": "flexible"})
-
-
 @pytest.mark.slow
 def test_a_spall_beside_the_path_is_not_met():
     """Balls under radial load alone run at the groove's bottom, 2 mm from it, as without it until

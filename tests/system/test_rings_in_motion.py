@@ -61,9 +61,8 @@ def test_what_kernels_read_is_the_static_compliance(preset):
         psi, force = ring.azimuth[None], ring.force[None]
         (found,) = _deflections(data, side, psi, force)
         wanted = ring.deflection[:, data.way]
-        assert np.abs(found - wanted).max(axis=0) == pytest.approx(
-            np.zeros(2), abs=1e-4 * np.abs(wanted).max()
-        )
+        missed = np.abs(found - wanted).max(axis=0) / np.abs(wanted).max(axis=0)
+        assert missed.max() < 5e-4  # of each port; elements far apart do not feel each other
 
 
 @pytest.mark.parametrize(
@@ -146,7 +145,7 @@ def test_forces_on_all_bodies_add_up_to_none(preset):
     layout.ring_forces(y)[:] *= 1.0 + 0.3 * rng.standard_normal(layout.ring_forces(y).shape)
     bearing.residual(0.0, y, start.yd)
     work, rings = bearing.data.work.scratch, bearing.data.model.rings
-    assert np.abs(rings.moment).max() > 1e-6  # slopes push
+    assert np.abs(rings.moment).max() > 1e-8  # slopes push
     cos, sin = np.cos(elements[:, 2]), np.sin(elements[:, 2])
     along = work.wrenches[:, 1] * cos - work.wrenches[:, 2] * sin
     across = work.wrenches[:, 1] * sin + work.wrenches[:, 2] * cos

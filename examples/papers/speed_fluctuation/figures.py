@@ -13,7 +13,7 @@ from claims import CONDITIONS, CONSTANT, OVER_A, OVER_N
 from outputs import HARMONICS, analytical
 from paper_page import Picture, Table, number
 
-from flexcage import Run
+from flexcage import Run, load_case
 from flexcage.render import sheet
 from flexcage.render.claim_map import draw_claim_map
 from flexcage.results import metrics
@@ -264,8 +264,7 @@ def tables(computed) -> list[Table]:
             *(middle(m, output, condition, factor) for m in computed.maps.values()),
         )
 
-    bearing = computed.readings[BETTER].run(CONSTANT).case.bearing
-    own = analytical(bearing)
+    own = analytical(load_case(Path(__file__).with_name("case.toml")).bearing)
     kinds = (
         ("cage speed [rpm]", "speed", RPM), ("velocity of inner contacts [m/s]", "v_inner", 1.0),
         ("velocity of balls [m/s]", "v_ball", 1.0),

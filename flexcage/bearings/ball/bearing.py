@@ -156,17 +156,6 @@ class BallBearing(Bearing):
         """Moment of inertia of a ball about its centre [kg m^2]."""
         return 0.1 * self.ball_mass * self.ball_diameter**2
 
-    @property
-    def wants_rigid_rings(self) -> str:
-        given = {
-            "inner_spall": self.inner_spall.length,
-            "outer_spall": self.outer_spall.length,
-            "ball_spot": self.ball_spot.size,
-            "inner_waviness": self.inner_waviness,
-            "outer_waviness": self.outer_waviness,
-        }
-        return next((name for name, size in given.items() if size), "")
-
     def race_radius(self, ring: str) -> float:
         """Radius [m] about the bearing's axis at which balls roll on the "inner" or "outer" race at
         the nominal contact angle."""

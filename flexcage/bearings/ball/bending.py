@@ -25,11 +25,17 @@ from flexcage.bearings.ball.residual import (
 from flexcage.bearings.ball.scales import ball_weights
 from flexcage.bearings.ball.start import ball_start_between_bent_rings
 from flexcage.contacts.evaluation import RACE_LAW, RACE_RUBS, REPORT
-from flexcage.contacts.groove import BallOnRace, groove_contact, line_of_contact
+from flexcage.contacts.groove import (
+    BallOnRace,
+    groove_contact,
+    lean_on,
+    leaning,
+    line_of_contact,
+)
 from flexcage.contacts.slices import Laws, elastic_forces
 from flexcage.contacts.state import set_frame
 from flexcage.core.jit import fields, part, zero
-from flexcage.core.vectors import minus
+from flexcage.core.vectors import cross, minus
 from flexcage.system.bending import (
     at_once,
     bend_rings,
@@ -113,25 +119,42 @@ def _outer_race(i, qi, ui, rest_q, rest_u, s, d, law, mode):
 def _yielded(side, i, ball, race, s, laws, sl, rings):
     """The ball as the race meets it that yields under it at once."""
     w = guess(side, i, s, rings)
-    P = minus(ball.centre, (w[0], w[1], 0.0))
-    _, n, _, reach = line_of_contact(P, ball.axis, race)
-    sl.d[0] = reach - race.radius + ball.radius
+    moved = _moved(ball, w)
+    n = _pressing(moved, race, sl)
     if sl.d[0] > 0.0:
         elastic_forces(laws.normal, (0, 1), sl, race.normal)
         stiff = sl.Nd[0]
         slope = (stiff * n[0] * n[0], stiff * n[0] * n[1], stiff * n[1] * n[1])
         step = at_once(side, i, s, (sl.Ne[0] * n[0], sl.Ne[0] * n[1]), slope, rings)
-        P = minus(P, (step[0], step[1], 0.0))
+        moved = _moved(moved, step)
+    return moved
+
+
+@part
+def _moved(ball, w):
+    """The ball as a race meets it that has yielded by w, axially and radially."""
     return BallOnRace(
-        ball.radius, P, ball.velocity, ball.spin, ball.axis, ball.ring_velocity, ball.ring_spin,
-        ball.onset, ball.azimuth, ball.spotted, ball.spot,
+        ball.radius, minus(ball.centre, (w[0], w[1], 0.0)), ball.velocity, ball.spin, ball.axis,
+        ball.ring_velocity, ball.ring_spin, ball.onset, ball.azimuth, ball.spotted, ball.spot,
     )  # fmt: skip
+
+
+@part
+def _pressing(ball, race, sl):
+    """The direction in which a ball's depth grows, as long as it grows there; the depth into
+    sl.d."""
+    e, n, distance, reach = line_of_contact(ball.centre, ball.axis, race)
+    sl.d[0] = reach - race.radius + ball.radius
+    if race.uneven + ball.spotted > 0:
+        lean, _ = lean_on(ball, race, (e, n, distance, reach), sl)
+        return leaning(lean, n, cross(ball.axis, e))
+    return n
 
 
 @part
 def _bear(side, i, ball, race, sl, rings):
     """What the ring bears of a ball that touches it: elastic forces along the axis, radially."""
-    _, n, _, _ = line_of_contact(ball.centre, ball.axis, race)
+    n = _pressing(ball, race, sl)
     rings.force[side, i, 0], rings.force[side, i, 1] = sl.Ne[0] * n[0], sl.Ne[0] * n[1]
 
 

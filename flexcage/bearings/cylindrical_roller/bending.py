@@ -148,8 +148,8 @@ def _press(count, ring, side, s, d, laws):
         force, slope = _on_ports(m, fields(d.pose), side, rw)
         step = at_once(ring, i, s, force, slope, rings)
         _follow(m, step, fields(d.pose), side, rw)
-        force, _ = _on_ports(m, fields(d.pose), side, rw)
-        rings.force[ring, i, 0], rings.force[ring, i, 1] = force
+        rings.force[ring, i, 0] = force[0] - slope[0] * step[0] - slope[1] * step[1]
+        rings.force[ring, i, 1] = force[1] - slope[1] * step[0] - slope[2] * step[1]
     rub_race(count, side, laws, rw)
 
 
