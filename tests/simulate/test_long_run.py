@@ -45,7 +45,8 @@ def watch(process: subprocess.Popen, out: Path, seen: list[tuple[int, float]]) -
     it = psutil.Process(process.pid)
     while process.poll() is None:
         try:
-            seen.append((committed(out), it.memory_info().rss / 1e6))
+            memory = it.memory_info().rss / 1e6  # first: what comes after the march takes more
+            seen.append((committed(out), memory))
         except psutil.Error:
             return
         time.sleep(1.0)
