@@ -327,6 +327,9 @@ python examples/papers/n1013_pocket_deformation.py --quick             # minutes
 python examples/papers/n1013_pocket_deformation.py --stages {BASE}        # the five cages
 python examples/papers/n1013_pocket_deformation.py --page              # all, and this page
 ```
+
+Four more papers, and measured numbers beside computed ones, are listed in
+[published work, repeated](../README.md#published-work-repeated).
 """
 
 

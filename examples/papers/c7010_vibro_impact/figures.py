@@ -19,7 +19,7 @@ BETTER, PRINTED_MODEL = "better model", "as printed"  # columns of readings
 AXIAL, COMBINED = "map, axial load", "map, combined load"  # columns of maps
 COLOURS = {AXIAL: sheet.ORANGE, COMBINED: sheet.BLUE}
 SWEEPS = {
-    "speed, rpm": ALL_SPEEDS, "load (the first: 1500 N)": ALL_LOADS,
+    "speed, rpm": ALL_SPEEDS, "load, N": ALL_LOADS,
     "clearance of pockets, mm": POCKETS, "radial clearance, mm": RADIAL,
 }  # fmt: skip
 SECTORS = 18  # of the way round, in which balls' forces and angles are averaged
@@ -67,6 +67,18 @@ def stress(computed, folder: Path) -> list[Picture]:
                     "The paper has no such figure.")]  # fmt: skip
 
 
+def tick(condition: str) -> str:
+    """A condition's number: rpm, N, or mm."""
+    if condition in ALL_SPEEDS:
+        return condition
+    return condition.split()[0] if condition.endswith(" N") else condition.split()[-1]
+
+
+def ticks(name: str, conditions) -> list[str]:
+    """Numbers along a sweep; that over load starts with 1500 N, which is the speed "8000"."""
+    return ["1500" if name.startswith("load") and c == "8000" else tick(c) for c in conditions]
+
+
 def done(computed, conditions) -> list[str]:
     """Those of the conditions that the better model has a start of."""
     return [c for c in conditions if len(computed.readings[BETTER].values("speed", c))]
@@ -103,28 +115,32 @@ def by_azimuth(computed, path: Path, *, angles: bool) -> Path:
         sheet.heading(figure, title, "over the azimuth from the load, deg")
         for k, (name, conditions) in enumerate(SWEEPS.items()):
             ax = sheet.axes_at(figure, (left + k * (wide + 60), top, wide, high))
-            for colour, c in zip(sheet.CYCLE, done(computed, conditions)):
+            there = done(computed, conditions)
+            for colour, c, label in zip(sheet.CYCLE, there, ticks(name, there)):
                 at, force, inner, outer = sectors(computed.readings[BETTER].run(c))
-                ax.plot(at, inner if angles else force, color=colour, label=c.split()[-1])
+                ax.plot(at, inner if angles else force, color=colour, label=label)
                 if angles:
                     ax.plot(at, outer, "--", color=colour)
             ax.set_title(name, loc="left")
             ax.set(xlim=(0, 340), xticks=(0, 90, 180, 270))
-            ax.legend(loc="best", fontsize=7)
+            if there:
+                ax.legend(loc="upper center", bbox_to_anchor=(0.5, -0.1), ncol=4, fontsize=7,
+                          handlelength=1.0, columnspacing=1.2)  # fmt: skip
         return sheet.save(figure, path)
 
 
 def orbits(computed, path: Path, rows) -> Path:
     """Orbits of the cage's centre, a row a sweep."""
-    side, left, top = 250, 100, 130
-    wide = max(len(row) for row in rows)
+    side, gap, left, top = 250, 85, 100, 130
+    rows = [found for row in rows if (found := done(computed, row))]
+    wide = max((len(row) for row in rows), default=1)
     with sheet.style():
-        figure = sheet.new_figure(left + wide * (side + 60), top + len(rows) * (side + 60))
+        figure = sheet.new_figure(left + wide * (side + gap), top + len(rows) * (side + gap))
         sheet.heading(figure, "Orbits of the cage's centre", "um; load and gravity down")
         for i, row in enumerate(rows):
-            for k, c in enumerate(done(computed, row)):
+            for k, c in enumerate(row):
                 yz = UM * metrics.orbit(settled(computed.readings[BETTER].run(c)))
-                place = (left + k * (side + 60), top + i * (side + 60), side, side)
+                place = (left + k * (side + gap), top + i * (side + gap), side, side)
                 ax = sheet.axes_at(figure, place)
                 ax.plot(yz[:, 1], -yz[:, 0], color=sheet.BLUE, lw=0.5)
                 middle = [0.5 * (yz[:, j].max() + yz[:, j].min()) for j in (0, 1)]
@@ -164,8 +180,9 @@ def deviations(computed, path: Path) -> Path:
                     ax.plot(i - 0.12, PRINTED["deviation"][c], "^", color=sheet.INK, label="paper")
             ax.set_title(name, loc="left")
             ax.set(xticks=range(len(conditions)), ylim=(0.0, None), xlim=(-0.4, len(conditions)))
-            ax.set_xticklabels([c.split()[-1] if k != 1 else c.split()[0] for c in conditions])
-            ax.legend(loc="upper center", bbox_to_anchor=(0.5, -0.12), ncol=3, fontsize=6.5)
+            ax.set_xticklabels(ticks(name, conditions))
+            if conditions == ALL_LOADS:  # the panel that has the paper's number as well
+                ax.legend(loc="upper center", bbox_to_anchor=(0.5, -0.12), ncol=4, fontsize=7)
         return sheet.save(figure, path)
 
 
@@ -196,12 +213,17 @@ def over_time(computed, path: Path, title: str, conditions) -> Path:
 
 
 def starts(reading, output: str, condition: str, factor: float) -> str:
-    """Mean of eight starts with half its 95 % interval; a single start in two digits."""
+    """Mean of eight starts with half its 95 % interval; of fewer starts their mean alone."""
     found = reading.values(output, condition)
-    if len(found) < 2:
-        return number(float(found[0]), factor=factor) if len(found) else "-"
-    half = 2.365 * found.std(ddof=1) / np.sqrt(len(found)) if len(found) == 8 else np.nan
+    if len(found) < 8:
+        return digits(found.mean() * factor) if len(found) else "-"
+    half = 2.365 * found.std(ddof=1) / np.sqrt(len(found))
     return number(float(found.mean()), float(half), factor=factor)
+
+
+def digits(value: float) -> str:
+    """Three digits; whole numbers from 100 on."""
+    return f"{value:,.0f}" if abs(value) >= 100.0 else f"{value:.3g}"
 
 
 def middle(joined, output: str, condition: str, factor: float) -> str:
@@ -211,7 +233,7 @@ def middle(joined, output: str, condition: str, factor: float) -> str:
     found = joined.means(output, condition) * factor
     if not np.isfinite(found).any():
         return "-"
-    low, mid, high = (number(v) for v in np.nanpercentile(found, (10.0, 50.0, 90.0)))
+    low, mid, high = map(digits, np.nanpercentile(found, (10.0, 50.0, 90.0)))
     return f"{mid} ({low} to {high})"
 
 

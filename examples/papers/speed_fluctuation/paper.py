@@ -219,7 +219,9 @@ def words(computed: Computed) -> Words:
         "that cannot tilt, no land, no gravity), contacts nearly without damping. The reading of "
         "eight "
         "starts at one point of it (readings.toml, \"printed\") is not computed: its runs take ten "
-        "times as long.",
+        "times as long. It was changed three times after trial runs (a decay of 1000 s/m in place "
+        "of friction that stays static; then the dynamic coefficients alone; a rolling start in "
+        "place of one from rest).",
         "**Better model.** Film traction of 0.06 at races and in pockets with creep up to 10 mm/s, "
         "restitution 0.8 and 0.6, gravity, a free cage, shoulders of the rings that it may touch.",
         "**Fluctuation** is half the range over the mean, of samples every millisecond as in the "
