@@ -205,7 +205,7 @@ def over_time(computed, path: Path, title: str, conditions) -> Path:
                     figure, (left + k * (wide + 70), top + i * (high + 60), wide, high)
                 )
                 if i == 0:
-                    ax.plot(t, ideal * RPM, color="0.65", lw=1.4)
+                    ax.plot(t, ideal * RPM, color="0.75", lw=1.2, zorder=3)
                     ax.set_title(c, loc="left")
                 ax.plot(t, y, color=sheet.BLUE, lw=0.7)
                 ax.set(xlim=(t[0], t[-1]))

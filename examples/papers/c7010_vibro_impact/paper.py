@@ -103,8 +103,8 @@ def driven(c: Computed, column: str) -> str:
     wild = force > DRIVEN
     off = gaps[np.isfinite(gaps)].max(initial=0.0)
     return (
-        f"{wild.sum()} of {np.isfinite(force).sum()} runs of the {NAMES[column]} (balls are off the inner "
-        f"ring for {off:.2g} % of the time at most)"
+        f"{wild.sum()} of {np.isfinite(force).sum()} runs of the {NAMES[column]} (balls are off "
+        f"the inner ring for {off:.2g} % of the time at most)"
     )
 
 
@@ -175,7 +175,7 @@ def words(c: Computed) -> Words:
         f"{line(c, 'deviation', ALL_LOADS, PERCENT)} %: speed does not lower it by itself.",
         "**Direction of the load (004-1, 004-4c).** Table 1 has an axial load, the text axial and "
         "radial ones. Zeros of Figure 6 (balls off the inner ring) appear in "
-        f"{both(c, '004-1', 'zeros off the load')} of the points (axial map, combined map), a fall of "
+        f"{both(c, '004-1', 'zeros off the load')} of the points (axial, combined map), a fall of "
         f"angles opposite the load in {both(c, '004-4c', 'fall opposite')}. Under an axial load "
         "centrifugal force takes load off the inner ring, so that its force falls with speed.",
         "**Angles by place (004-3, 004-5b).** Within 30 degrees of the load the better model has "
