@@ -1,6 +1,6 @@
 """A 7010C over speeds, loads, clearances, waves, accelerations: the vibro-impact paper, repeated.
 
-    python examples/papers/c7010_vibro_impact.py             # all: half an hour of a core
+    python examples/papers/c7010_vibro_impact.py             # all: an hour of a core
     python examples/papers/c7010_vibro_impact.py --quick     # 40 ms, one start, no map
     python examples/papers/c7010_vibro_impact.py --page      # writes the page from what is computed
 
