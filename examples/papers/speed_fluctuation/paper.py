@@ -151,7 +151,7 @@ def decides(c: Computed) -> list[str]:
         "**Why not 922 rpm (002-0b).** The load presses balls on their races: loaded inner "
         "contacts "
         f"slide by {middle(c, MODEL, 'slip', CONSTANT, PERCENT)} % of the rolling speed (median). "
-        "Contact angles that differ from 60 degrees make the cage 0.2 to 0.4 % faster than "
+        "Contact angles that differ from 60 degrees make the cage 0.2 to 0.5 % faster than "
         "equation "
         f"6, and a start from rest costs {gap(c)} rpm of the mean over 0.45 s. What is left, and "
         "was not shown here, is the "
