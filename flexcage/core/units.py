@@ -50,6 +50,7 @@ _COMMON: dict[str, tuple[str, int, float]] = {
     "g/cm^3": ("density", 3, 1.0),
     "m/s": ("speed", 0, 1.0),
     "mm/s": ("speed", -3, 1.0),
+    "s/m": ("inverse speed", 0, 1.0),
     "m/s^2": ("acceleration", 0, 1.0),
     "N*m": ("moment", 0, 1.0),
     "N*mm": ("moment", -3, 1.0),

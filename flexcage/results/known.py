@@ -163,8 +163,6 @@ def _forces() -> Iterator[KnownFigure]:
          STATISTIC),
         ("free_flight_share", "Free flight", "%",
          "share of the time in which no pocket and no land touches the cage", STATISTIC),
-        ("element_touches", "{Element}s touching the next one", "",
-         "times in the settled part that a ball met the next one; shown if there are any"),
     )
 
 

@@ -159,13 +159,13 @@ def test_a_written_case_runs(designation, tmp_path):
         ("NU 213", "'NU 213' is not in the catalogue; the nearest known ones are NU"),
         (
             "NUP202",
-            "--inner-race, --outer-race: flexcage new NUP202 --type cylindrical_roller "
+            "--inner-race, --outer-race to flexcage new NUP202 --type cylindrical_roller "
             '--design NUP --bore "15 mm"',
         ),
         ("7205AC", "no ratings of '7205AC' (it has 7205A, 7205B, 7205C)"),
         ("7205AC", '--width "15 mm" --contact-angle "25 deg"'),
-        ("7205", "--dynamic, --static, --contact-angle: flexcage new 7205 --type"),
-        ("N1005", "--inner-race, --outer-race: flexcage new N1005 --type cylindrical_roller"),
+        ("7205", "--dynamic, --static, --contact-angle to flexcage new 7205 --type"),
+        ("N1005", "--inner-race, --outer-race to flexcage new N1005 --type cylindrical_roller"),
     ],
 )
 def test_what_the_catalogue_has_not_gets_a_sentence(designation, sentence):

@@ -117,6 +117,10 @@ SPELLINGS: dict[str, tuple[tuple[float | str, str], ...]] = {
         ("leave the angle out", "1 m*rad/s | 1 m*rpm"),
         (OTHER, "1 rpm | 1 m | 1 m/s^2 | 1 rad/s"),
     ),
+    "inverse speed": (
+        (1.0, "1 s/m | 0.001 s/mm | 1 s m^-1 | 1 s*m^-1 | 1 1/(m/s)"),
+        (OTHER, "1 m/s | 1 s | 1 s/rad"),
+    ),
     "acceleration": (
         (1.0, "1 m/s^2 | 1 m/s2 | 1 m/s² | 1000 mm/s^2"),
         (9.80665, "1 g_0"),

@@ -49,6 +49,11 @@ KNOWN = (
         ("edge_outer", "Ellipse beyond the outer groove's edge", "deg", "likewise", SIGNED),
     ),
     *figures_in(
+        "Contacts of the cage",
+        ("element_touches", "{Element}s touching the next one", "",
+         "times in the settled part that a ball met the next one; shown if there are any"),
+    ),
+    *figures_in(
         "Cage motion",
         ("whirl_difference", "Whirl radius, max - min", "um",
          "of the centre's distance from the ring's axis", SIGNED),
