@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
 
 import numpy as np
-from paper_page import Cell, Line, Table, by_share
+from paper_page import Cell, Line, Table, by_share, number
+from scipy.stats import t as student
 
 from flexcage import Run
 from flexcage.study import StudyResults
@@ -42,6 +43,17 @@ class Reading:
         """An output of every start that is done (starts,), SI."""
         rows = [r for r in self._rows.get(condition, ()) if r.state == "done"]
         return np.array([float(r.figures[output].value) for r in rows])
+
+    def said(self, output: str, condition: str, factor: float) -> str:
+        """Mean of the starts with half its 95 % interval; of two to seven the mean alone."""
+        found = self.values(output, condition)
+        n = len(found)
+        if n < 2:
+            return "-"
+        half = None
+        if n >= LOOKS.starts[0]:
+            half = float(student.ppf(0.975, n - 1) * found.std(ddof=1) / np.sqrt(n))
+        return number(float(found.mean()), half, factor=factor)
 
     @property
     def starts(self) -> int:
@@ -90,6 +102,11 @@ class Mapped:
     outcomes: Sequence[bool | None]
 
 
+def percent(share_of_one: float) -> str:
+    """A share in whole percents."""
+    return f"{share_of_one:.0%}".replace("%", " %")
+
+
 class Joined:
     """Maps of the same outputs and conditions as one, over the unknowns that all of them have."""
 
@@ -109,6 +126,23 @@ class Joined:
         """An output (points,) averaged over starts."""
         found = [part.means(output, condition) for part in self.parts]
         return np.concatenate(found) if found else np.zeros(0)
+
+    def spread(self, output: str, condition: str) -> np.ndarray | None:
+        """10 %, 50 % and 90 % (3,) of an output over the points; None where no point has it."""
+        if not self.parts or condition not in self.parts[0].conditions:
+            return None
+        found = self.means(output, condition)
+        return np.nanpercentile(found, (10.0, 50.0, 90.0)) if np.isfinite(found).any() else None
+
+    def middle(
+        self, output: str, condition: str, factor: float, text: Callable[[float], str] = number
+    ) -> str:
+        """Median of an output and its middle 80 %, each as a ``text``."""
+        found = self.spread(output, condition)
+        if found is None:
+            return "-"
+        low, mid, high = (text(float(value)) for value in found * factor)
+        return f"{mid} ({low} to {high})"
 
     @property
     def ranges(self) -> list[str]:

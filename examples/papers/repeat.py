@@ -3,8 +3,8 @@
     python examples/papers/repeat.py examples/papers/c7010_centroid --page
 
 A paper is a folder: ``paper.py`` with ``PAPER``, ``claims.py``, ``outputs.py`` (numbers of a run),
-``figures.py`` and the TOML files of its readings and maps. All else is here, in ``paper_results``
-and in ``paper_page``.
+``figures.py`` and the TOML files of its readings and maps. All else is here, in ``paper_results``,
+``paper_figures`` and ``paper_page``.
 """
 
 from __future__ import annotations
@@ -12,11 +12,13 @@ from __future__ import annotations
 import argparse
 import importlib.util
 import sys
+from collections import Counter
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from datetime import date
 from pathlib import Path
 
+from paper_figures import STRESS
 from paper_page import Cell, Line, Page, Picture, Table, compose, draw_matrix
 from paper_results import (
     Joined,
@@ -26,6 +28,7 @@ from paper_results import (
     lines_of,
     mapped,
     not_mapped,
+    percent,
     verdicts_of,
     write_shares,
 )
@@ -38,8 +41,8 @@ from flexcage.study.claims import Claim
 from flexcage.study.own import OWN
 from flexcage.study.verdicts import UNDECIDED, write_verdicts
 
-STRESS = "stress"  # folder of the pictures of one run
 QUICK = {"solver.duration": "40 ms"}
+CLEAR, MOST_NAMED = 0.05, 3  # level and number of the unknowns that a sentence names
 
 
 @dataclass(frozen=True)
@@ -94,6 +97,24 @@ class Computed:
     lines: Sequence[Line]
     seconds: float
     out: Path
+
+    @property
+    def counts(self) -> Counter[str]:
+        """Claims by the outcome of the reading that decides."""
+        return Counter(line.verdict.outcome for line in self.lines)
+
+    def by(self, column: str, key: str, verb: str = "decided by") -> str:
+        """What decides a claim over a map, in words."""
+        clear = [d for d in self.found[column][key].deciders if d.p < CLEAR]
+        if not clear:
+            return "no unknown alone decides it"
+        names = (f"{'large' if d.holds_above else 'small'} {d.name}" for d in clear[:MOST_NAMED])
+        return f"{verb} {', '.join(names)}"
+
+    def part(self, column: str, key: str, name: str) -> str:
+        """Share of one part of a claim over a map, in percent."""
+        found = self.found[column][key].parts.get(name)
+        return percent(found.value) if found is not None and found.decided else "-"
 
 
 def load(folder: Path) -> Paper:

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import tomllib
 from pathlib import Path
-from shutil import copyfile
 
 import numpy as np
 from claims import SPEEDS
 from outputs import PLANE, at_plane, axial, setup_of
-from paper_page import Picture, Table, number
+from paper_figures import bands, stress
+from paper_page import Picture, Table
 
 from flexcage.render import sheet
 from flexcage.render.claim_map import draw_claim_map
@@ -20,6 +20,7 @@ MM = 1e3
 BETTER, PRINTED_MODEL = "better model", "as printed"  # columns of readings
 TEST, MODEL = "map of the test", "map of the model"  # columns of maps
 COLOURS = {TEST: sheet.BLUE, MODEL: sheet.ORANGE}
+MARKS = {BETTER: ("o", sheet.GREEN), PRINTED_MODEL: ("s", sheet.PURPLE)}
 AXIS = "10000"  # rpm, of Figures 6 to 8
 
 
@@ -72,19 +73,12 @@ def draw(computed, folder: Path) -> list[Picture]:
                 "Crosses and triangles are the numbers that the paper prints."),
         Picture("map_003_3.png", "Map of claim 003-3",
                 "Blue points hold, red ones do not; lines are shares over quarters of a range."),
-        *stress(computed, folder),
+        *stress(
+            computed, folder, "Stress of the cage at 10,000 rpm",
+            "Better model with a flexible cage, 60 ms: equivalent stress at its largest. "
+            "The paper has no such figure: its cage is rigid.",
+        ),
     ]  # fmt: skip
-
-
-def stress(computed, folder: Path) -> list[Picture]:
-    """The flexible cage's stress at its peak, if that run's pictures are there."""
-    found = computed.out / "stress" / "stress_peak.png"
-    if not found.is_file():
-        return []
-    copyfile(found, folder / "stress.png")
-    return [Picture("stress.png", "Stress of the cage at 10,000 rpm",
-                    "Better model with a flexible cage, 60 ms: equivalent stress at its largest. "
-                    "The paper has no such figure: its cage is rigid.")]  # fmt: skip
 
 
 def motion(run, path: Path, title: str) -> Path:
@@ -148,22 +142,10 @@ def orbits(computed, path: Path) -> Path:
         return sheet.save(figure, path)
 
 
-def _bands(ax, computed, output: str, factor: float = 1.0) -> None:
-    """Middle 80 % of every map over speed, and the starts of every reading."""
-    at = np.array([int(s) for s in SPEEDS])
-    for column, joined in computed.maps.items():
-        values = np.array([joined.means(output, s) for s in SPEEDS]) * factor
-        low, mid, high = np.nanpercentile(values, (10.0, 50.0, 90.0), axis=1)
-        ax.fill_between(at, low, high, color=COLOURS[column], alpha=0.18, lw=0)
-        ax.plot(at, mid, color=COLOURS[column], lw=1.4, label=column)
-    for shift, (column, marker, colour) in zip(
-        (-60.0, 60.0), ((BETTER, "o", sheet.GREEN), (PRINTED_MODEL, "s", sheet.PURPLE))
-    ):
-        reading = computed.readings[column]
-        for k, speed in enumerate(SPEEDS):
-            found = reading.values(output, speed) * factor
-            ax.plot(np.full(len(found), at[k] + shift), found, marker, ms=3.0, color=colour,
-                    alpha=0.7, ls="none", label=column if k == 0 else None)  # fmt: skip
+def _over_speed(ax, computed, output: str, factor: float) -> None:
+    """Maps and readings over the ring's speed."""
+    bands(ax, computed, output, {s: int(s) for s in SPEEDS}, factor, colours=COLOURS, marks=MARKS,
+          shift=60.0)  # fmt: skip
     ax.set(xlabel="inner ring [rpm]", xlim=(3600, 11400))
 
 
@@ -173,7 +155,7 @@ def ratios(computed, path: Path) -> Path:
         figure = sheet.new_figure(1480, 620)
         sheet.heading(figure, "Whirl ratio over speed", "(largest - least)/mean whirl radius")
         ax = sheet.axes_at(figure, (100, 130, 850, 400))
-        _bands(ax, computed, "ratio")
+        _over_speed(ax, computed, "ratio", 1.0)
         ax.set(ylim=(0.0, 2.0), ylabel="whirl ratio")
         ax.legend(loc="upper left", bbox_to_anchor=(1.02, 1.0))
         return sheet.save(figure, path)
@@ -185,7 +167,7 @@ def differences(computed, path: Path) -> Path:
         figure = sheet.new_figure(1480, 620)
         sheet.heading(figure, "Difference of whirl radii of the centre", "largest - least, mm")
         ax = sheet.axes_at(figure, (100, 130, 850, 400))
-        _bands(ax, computed, "difference", MM)
+        _over_speed(ax, computed, "difference", MM)
         for table, row, marker, name in (
             ("table_4", "solved", "X", "paper, measured (Table 4, solved)"),
             ("table_5", "centroid", "^", "paper, simulated (Table 5, centroid)"),
@@ -196,22 +178,6 @@ def differences(computed, path: Path) -> Path:
         ax.set(ylim=(0.0, 0.8), ylabel="mm")
         ax.legend(loc="upper left", bbox_to_anchor=(1.02, 1.0))
         return sheet.save(figure, path)
-
-
-def _starts(reading, output: str, speed: str, factor: float) -> str:
-    found = reading.values(output, speed)
-    if len(found) < 2:
-        return "-"
-    half = 2.365 * found.std(ddof=1) / np.sqrt(len(found)) if len(found) == 8 else np.nan
-    return number(float(found.mean()), float(half), factor=factor)
-
-
-def _middle(joined, output: str, speed: str, factor: float) -> str:
-    found = joined.means(output, speed)
-    if not np.isfinite(found).any():
-        return "-"
-    low, mid, high = (number(v, factor=factor) for v in np.nanpercentile(found, (10.0, 50.0, 90.0)))
-    return f"{mid} ({low} to {high})"
 
 
 def tables(computed) -> list[Table]:
@@ -233,8 +199,8 @@ def tables(computed) -> list[Table]:
             printed = PRINTED[table][row].get(speed)
             rows.append((
                 title, f"{int(speed):,}", "-" if printed is None else f"{printed:g}",
-                *(_starts(r, output, speed, factor) for r in computed.readings.values()),
-                *(_middle(m, output, speed, factor) for m in computed.maps.values()),
+                *(r.said(output, speed, factor) for r in computed.readings.values()),
+                *(m.middle(output, speed, factor) for m in computed.maps.values()),
             ))  # fmt: skip
     title = "Readings: mean of eight starts ± 95 %. Maps: median (middle 80 % of points)"
     return [Table(title, head, rows)]

@@ -27,27 +27,10 @@ def middle(computed: Computed, column: str, output: str, speed: str, factor: flo
     return f"{np.nanmedian(found) * factor:.2g}" if np.isfinite(found).any() else "-"
 
 
-def by(computed: Computed, column: str, key: str) -> str:
-    """What decides a claim over a map, in words."""
-    clear = [d for d in computed.found[column][key].deciders if d.p < 0.05]
-    if not clear:
-        return "no unknown alone decides it"
-    words = (f"{'large' if d.holds_above else 'small'} {d.name}" for d in clear[:3])
-    return f"decided by {', '.join(words)}"
-
-
-def part(computed: Computed, column: str, key: str, name: str) -> str:
-    """Share of one part of a claim."""
-    found = computed.found[column][key].parts
-    known = name in found and found[name].decided
-    return f"{found[name].value:.0%}".replace("%", " %") if known else "-"
-
-
 def words(computed: Computed) -> Words:
     """Summary, reasons, what decides, and readings, with the numbers of what was computed."""
     c = computed
-    marks = [line.verdict.outcome for line in c.lines]
-    counts = {o: marks.count(o) for o in ("holds", "does not hold", "undecided")}
+    counts = c.counts
     first = c.maps[TEST].parts[0].study
     lost, tried = first.count("failed"), first.count("failed") + first.count("done")
     best = max(
@@ -56,32 +39,32 @@ def words(computed: Computed) -> Words:
     )
     growth = c.found[TEST]["003-3"]
     reasons = {
-        "003-1": f"larger at all speeds in {part(c, TEST, '003-1', 'larger')}, least at 10,000 rpm "
-        f"in {part(c, TEST, '003-1', 'least at 10,000')}: a share of what whirl leaves",
+        "003-1": f"larger at all speeds in {c.part(TEST, '003-1', 'larger')}, least at 10,000 rpm "
+        f"in {c.part(TEST, '003-1', 'least at 10,000')}: a share of what whirl leaves",
         "003-2": f"median ratio {', '.join(middle(c, TEST, 'ratio', s) for s in SPEEDS)}: it "
         "seldom turns at 10,000 rpm",
-        "003-3": f"radius grows in {part(c, TEST, '003-3', 'radius')}, ratio is below 0.5 in "
-        f"{part(c, TEST, '003-3', 'a circle at 10,000')}; {by(c, TEST, '003-3')}",
-        "003-4": f"raw is periodic in {part(c, TEST, '003-4', 'raw')}: the cage's tilt hardly "
+        "003-3": f"radius grows in {c.part(TEST, '003-3', 'radius')}, ratio is below 0.5 in "
+        f"{c.part(TEST, '003-3', 'a circle at 10,000')}; {c.by(TEST, '003-3')}",
+        "003-4": f"raw is periodic in {c.part(TEST, '003-4', 'raw')}: the cage's tilt hardly "
         "turns with it, couple or not",
         "003-4b": "a face that runs out turns with the cage: raw is then periodic in "
-        f"{part(c, TEST, '003-4b', 'raw')}",
+        f"{c.part(TEST, '003-4b', 'raw')}",
         "003-5": "centrifugal force parts the angles: "
         f"+{middle(c, MODEL, 'beyond_theory', '10000', 100)} % at 10,000, "
         f"+{middle(c, MODEL, 'beyond_theory', '11000', 100)} % at 11,000 rpm",
-        "003-6": f"in {part(c, TEST, '003-6', '0.2311 mm at 4,000 rpm')} at 4000 and "
-        f"{part(c, TEST, '003-6', '0.2314 mm at 10,000 rpm')} at 10,000 rpm",
-        "003-7": f"in {part(c, MODEL, '003-7', '0.2549 mm at 4,000 rpm')} at 4000 and "
-        f"{part(c, MODEL, '003-7', '0.1886 mm at 10,000 rpm')} at 10,000 rpm of the model's range",
+        "003-6": f"in {c.part(TEST, '003-6', '0.2311 mm at 4,000 rpm')} at 4000 and "
+        f"{c.part(TEST, '003-6', '0.2314 mm at 10,000 rpm')} at 10,000 rpm",
+        "003-7": f"in {c.part(MODEL, '003-7', '0.2549 mm at 4,000 rpm')} at 4000 and "
+        f"{c.part(MODEL, '003-7', '0.1886 mm at 10,000 rpm')} at 10,000 rpm of the model's range",
         "003-8": "error is tilt over difference: largest where the whirl is steadiest",
     }  # fmt: skip
     summary = f"""The paper measures a 7010C's polyimide cage with five lasers at 4000 to 11,000 rpm
         and simulates it in ADAMS. It says that the whirl grows and steadies up to 10,000 rpm, that
         tilt adds 3 to 5 % to measured radii, and that the cage's speed follows kinematics within
-        1 %. Of its {len(marks)} claims {counts["holds"]} hold over most of what it leaves unknown,
-        {counts["does not hold"]} do not; open: {counts["undecided"]}. That the whirl grows into
-        a circle holds in {growth.share} of the plausible range; any other claim on the test in
-        {best} at most. How sure: {growth.share.decided} points of
+        1 %. Of its {len(c.lines)} claims {counts["holds"]} hold over most of what it leaves
+        unknown, {counts["does not hold"]} do not; open: {counts["undecided"]}. That the
+        whirl grows into a circle holds in {growth.share} of the plausible range; any other claim
+        on the test in {best} at most. How sure: {growth.share.decided} points of
         {len(c.maps[TEST].names) - 1} unknowns, one start each at four speeds, and two readings of
         eight starts. Records are 0.24 s long; a flexible cage was tried at {_rechecked(c)}."""
     decides = [
@@ -93,7 +76,7 @@ def words(computed: Computed) -> Words:
         f"{_turning(c, '4000', -9.0, 0.2)} of the points and whirls with its own speed in "
         f"{_turning(c, '4000', 0.8, 1.2)}; at 10,000 rpm in {_turning(c, '10000', -9.0, 0.2)} and "
         f"{_turning(c, '10000', 0.8, 1.2)}. On a radius of 0.2 mm whirl needs 0.7 g at 4000 and "
-        f"4 g at 10,000 rpm. Over the whole map {by(c, TEST, '003-3')}.",
+        f"4 g at 10,000 rpm. Over the whole map {c.by(TEST, '003-3')}.",
         "**Differences (003-6, 003-7).** A cage that rests or whirls steadily shows little: at "
         f"10,000 rpm the median is {middle(c, TEST, 'difference', '10000', MM)} mm where the paper "
         "has 0.23. Only a cage between the two reaches that, and then its orbit is no circle: the "

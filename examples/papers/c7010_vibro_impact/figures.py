@@ -5,11 +5,11 @@ from __future__ import annotations
 import tomllib
 from math import degrees, nan, pi
 from pathlib import Path
-from shutil import copyfile
 
 import numpy as np
 from claims import ALL_LOADS, ALL_SPEEDS, LOADS, POCKETS, RADIAL, RAMPS, SPEEDS, WAVES
-from paper_page import Picture, Table, number
+from paper_figures import stress
+from paper_page import Picture, Table
 
 from flexcage.render import sheet
 from flexcage.results import metrics
@@ -52,19 +52,12 @@ def draw(computed, folder: Path) -> list[Picture]:
         Picture("figure_23_25.png", "Figures 23 to 25: accelerations for equal times",
                 "1000, 2000 and 4000 rad/s^2 for 0.2 s from 4000 rpm on: speeds, axial motion, "
                 "cage slip."),
-        *stress(computed, folder),
+        *stress(
+            computed, folder, "Stress of the cage at 8000 rpm",
+            "Better model with a flexible cage, 40 ms: equivalent stress at its largest. "
+            "The paper has no such figure.",
+        ),
     ]  # fmt: skip
-
-
-def stress(computed, folder: Path) -> list[Picture]:
-    """The flexible cage's stress at its peak, if that run's pictures are there."""
-    found = computed.out / "stress" / "stress_peak.png"
-    if not found.is_file():
-        return []
-    copyfile(found, folder / "stress.png")
-    return [Picture("stress.png", "Stress of the cage at 8000 rpm",
-                    "Better model with a flexible cage, 40 ms: equivalent stress at its largest. "
-                    "The paper has no such figure.")]  # fmt: skip
 
 
 def tick(condition: str) -> str:
@@ -217,24 +210,12 @@ def starts(reading, output: str, condition: str, factor: float) -> str:
     found = reading.values(output, condition)
     if len(found) < 8:
         return digits(found.mean() * factor) if len(found) else "-"
-    half = 2.365 * found.std(ddof=1) / np.sqrt(len(found))
-    return number(float(found.mean()), float(half), factor=factor)
+    return reading.said(output, condition, factor)
 
 
 def digits(value: float) -> str:
     """Three digits; whole numbers from 100 on."""
     return f"{value:,.0f}" if abs(value) >= 100.0 else f"{value:.3g}"
-
-
-def middle(joined, output: str, condition: str, factor: float) -> str:
-    """Median of a map, and its middle 80 %."""
-    if condition not in joined.parts[0].conditions:
-        return "-"
-    found = joined.means(output, condition) * factor
-    if not np.isfinite(found).any():
-        return "-"
-    low, mid, high = map(digits, np.nanpercentile(found, (10.0, 50.0, 90.0)))
-    return f"{mid} ({low} to {high})"
 
 
 def tables(computed) -> list[Table]:
@@ -256,7 +237,7 @@ def tables(computed) -> list[Table]:
                 title, f"{c} rpm" if c in ALL_SPEEDS else c,
                 "-" if shown is None else f"{shown:g}",
                 *(starts(r, output, c, factor) for r in computed.readings.values()),
-                *(middle(m, output, c, factor) for m in computed.maps.values()),
+                *(m.middle(output, c, factor, digits) for m in computed.maps.values()),
             ))  # fmt: skip
     title = "Readings: mean of eight starts ± 95 %. Maps: median (middle 80 % of points)"
     return [Table(title, head, rows)]

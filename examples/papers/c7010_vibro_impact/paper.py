@@ -27,7 +27,6 @@ from figures import (
     UM,
     digits,
     draw,
-    middle,
     starts,
     tables,
 )
@@ -50,16 +49,14 @@ def means(c: Computed, output: str, conditions, factor: float) -> str:
     return ", ".join(digits(v.mean() * factor) if len(v) else "-" for v in found)
 
 
-def part(c: Computed, column: str, key: str, name: str) -> str:
-    """Share of one part of a claim, in percent."""
-    found = c.found[column][key].parts
-    known = name in found and found[name].decided
-    return f"{found[name].value:.0%}".replace("%", " %") if known else "-"
-
-
 def both(c: Computed, key: str, name: str) -> str:
     """The same of every map."""
-    return ", ".join(part(c, column, key, name) for column in c.maps)
+    return ", ".join(c.part(column, key, name) for column in c.maps)
+
+
+def deviation(c: Computed, condition: str) -> str:
+    """Deviation ratio over the axial map: its median and middle 80 %."""
+    return c.maps[AXIAL].middle("deviation", condition, PERCENT, digits)
 
 
 def reasons(c: Computed) -> dict[str, str]:
@@ -69,13 +66,13 @@ def reasons(c: Computed) -> dict[str, str]:
         f"{both(c, '004-1', 'zeros off the load')}",
         "004-2": f"chaotic at 4000 rpm in {both(c, '004-2', 'chaotic at 4000')}, a circle at "
         f"12,000 in {both(c, '004-2', 'a circle at 12,000')}",
-        "004-2b": f"median at 4000 rpm {middle(c.maps[AXIAL], 'deviation', '4000', PERCENT)} %, at "
-        f"12,000 rpm {middle(c.maps[AXIAL], 'deviation', '12000', PERCENT)} %",
+        "004-2b": f"median at 4000 rpm {deviation(c, '4000')} %, at "
+        f"12,000 rpm {deviation(c, '12000')} %",
         "004-3": "centrifugal force parts the angles: inner within 5 % in "
         f"{both(c, '004-3', 'inner')}, outer in {both(c, '004-3', 'outer')}",
         "004-4": f"ratio rises in {both(c, '004-4', 'rises')}, chaotic at 12,500 N in "
         f"{both(c, '004-4', 'chaotic at 12,500')}",
-        "004-4b": f"median {middle(c.maps[AXIAL], 'deviation', LOADS[-1], PERCENT)} %",
+        "004-4b": f"median {deviation(c, LOADS[-1])} %",
         "004-4c": f"rise at the load in {both(c, '004-4c', 'rise at the load')}; fall opposite in "
         f"{both(c, '004-4c', 'fall opposite')}",
         "004-5": f"ratio {line(c, 'deviation', POCKETS, PERCENT)} %; pockets hardly touch race "
@@ -146,15 +143,15 @@ def calm_ratio(c: Computed) -> str:
 
 def summary(c: Computed) -> str:
     """What the paper says, what was found, how sure."""
-    marks = [found.verdict.outcome for found in c.lines]
-    counts = {o: marks.count(o) for o in ("holds", "does not hold", "undecided")}
+    counts = c.counts
     points = " and ".join(f"{whole(c, column)} points of the {NAMES[column]}" for column in c.maps)
     return f"""The paper models a 7010C with L-N and IMPACT contacts and follows its nylon cage
         over speed, load, clearance, waves of the speed and accelerations. It says that higher speed
         steadies the cage's whirl, that load and clearance disturb it, and that sudden changes are
-        worst. Of its {len(marks)} claims {counts["holds"]} hold, {counts["does not hold"]} do not;
-        open: {counts["undecided"]}. Most cages here rest on their weight or swing slowly, whatever
-        the speed; friction drives some of them round their play, and then they whirl
+        worst. Of its {len(c.lines)} claims {counts["holds"]} hold, {counts["does not hold"]} do
+        not; open: {counts["undecided"]}. Most cages here rest on their weight or swing
+        slowly, whatever the speed; friction drives some of them round their play, and then they
+        whirl
         ({wild_starts(c, *ALL_SPEEDS, *ALL_LOADS[1:], *POCKETS, *RADIAL)} starts of the better
         model at constant speed). How sure: {points} at the ends of the sweeps, one start each, of
         8 unknowns; starts under every condition: {by_starts(c)}."""

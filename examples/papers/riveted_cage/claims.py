@@ -11,6 +11,7 @@ from flexcage.study.claims import Between, Claim, Trend, Turn
 from flexcage.study.decisions import Evidence, all_of, equal
 
 FORCE = "pocket_peak.turn_max"  # mean over turns of the cage of the largest ball-cage force in each
+DESIGN_AXES = ("cage.pocket_diameter", "cage.width")  # of the 49-point design, Table 3
 BASE = "base"
 RADII = ("Rp 3.43", "Rp 3.44", "Rp 3.45", BASE, "Rp 3.47", "Rp 3.48", "Rp 3.49")
 WIDTHS = ("w 8.0", "w 7.4", "w 6.8", BASE, "w 5.9")

@@ -5,22 +5,20 @@ from __future__ import annotations
 import json
 import tomllib
 from pathlib import Path
-from shutil import copyfile
 
 import numpy as np
 import pandas as pd
 from claims import BASE, CLEARANCES, FORCE, INNER, OUTER, RADII, SHEETS, WIDTHS
+from paper_figures import stress
 from paper_page import Picture, Table, number
 from predict import RADII as NAMES
 from predict import WIDTHS as SIZES
-from predict import additive
+from predict import additive, design_samples
 from scipy.stats import t as student
 
 from flexcage.render import sheet
 from flexcage.render.claim_map import draw_claim_map
-from flexcage.study import StudyResults
 from flexcage.study.sensitivity import share
-from flexcage.study.surface import response_surface
 
 HERE = Path(__file__).parent
 PRINTED = tomllib.loads((HERE / "printed.toml").read_text("utf-8"))
@@ -113,7 +111,11 @@ def draw(computed, folder: Path) -> list[Picture]:
     rivet(folder / "figure_10.png")
     slip(computed, folder / "table_4.png")
     return [
-        *stress(computed, folder),
+        *stress(
+            computed, folder, "Figure 4: stress of the original cage at 9000 rpm",
+            "Equivalent stress at its largest, coarse mesh. The paper's figure shows the "
+            "joint alone, with the head's root as its weak place.",
+        ),
         Picture("figure_5.png", "Figure 5: over the pocket radius",
                 "Force with the printed numbers of Table 3 (crosses), slip, inclination, whirl. "
                 "Width 6.2 mm. As printed, forces lie above the axis. Figure 5b, rivets' stress, "
@@ -153,23 +155,11 @@ def maps(computed, folder: Path) -> list[Picture]:
                     "Ranges of conformities are those of balls of 6.747 mm.")]  # fmt: skip
 
 
-def stress(computed, folder: Path) -> list[Picture]:
-    """The flexible cage's stress at its peak, if that run's pictures are there."""
-    found = computed.out / "stress" / "stress_peak.png"
-    if not found.is_file():
-        return []
-    copyfile(found, folder / "stress.png")
-    return [Picture("stress.png", "Figure 4: stress of the original cage at 9000 rpm",
-                    "Equivalent stress at its largest, coarse mesh. The paper's figure shows the "
-                    "joint alone, with the head's root as its weak place.")]  # fmt: skip
-
-
 def design(computed, path: Path) -> Path:
     """Table 3 as two maps: computed, and predicted from the shown cross."""
     found = table_3()
-    results = StudyResults(computed.out / "design")
-    surface = response_surface(results, FORCE, axes=("cage.pocket_diameter", "cage.width"))
-    x, y = surface.samples.x, surface.samples.y
+    samples = design_samples(computed)
+    x, y = samples.x, samples.y
     radii, widths = np.unique(x[:, 0]), np.unique(x[:, 1])
     grid = np.array([[y[(x == (r, w)).all(axis=1)].mean() for r in radii] for w in widths])
     predicted = np.array([[found[f"{0.5 * r:.2f} x {w:g}"] for r in radii] for w in widths])
@@ -254,14 +244,6 @@ def _starts(reading, output: str, condition: str, factor: float) -> str:
     return number(*mean(reading, output, condition), factor=factor)
 
 
-def _middle(joined, output: str, condition: str, factor: float) -> str:
-    found = joined.means(output, condition)
-    if not np.isfinite(found).any():
-        return "-"
-    low, mid, high = (number(v, factor=factor) for v in np.nanpercentile(found, (10.0, 50.0, 90.0)))
-    return f"{mid} ({low} to {high})"
-
-
 def tables(computed) -> list[Table]:
     """Table 3's cross and Table 4 of the paper beside what was computed and predicted."""
     rows, predicted = [], {}
@@ -295,8 +277,7 @@ def tables(computed) -> list[Table]:
 def _cells(computed, output: str, condition: str, factor: float) -> list[str]:
     return [
         *(_starts(r, output, condition, factor) for r in computed.readings.values()),
-        *(_middle(j, output, condition, factor) if condition in j.parts[0].conditions else "-"
-          for j in computed.maps.values()),
+        *(j.middle(output, condition, factor) for j in computed.maps.values()),
     ]  # fmt: skip
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
-from claims import BASE, CLAIMS, CLEARANCES, FORCE, INNER, OUTER, RADII, WIDTHS
+from claims import BASE, CLAIMS, CLEARANCES, DESIGN_AXES, FORCE, INNER, OUTER, RADII, WIDTHS
 from figures import BETTER, CAGE, FLEXIBLE, MODEL, draw, mean, tables
 from paper_page import number
 from paper_results import conditions_of
@@ -36,39 +36,9 @@ def over(reading, output: str, conditions, factor: float = 1.0) -> str:
     return ", ".join(f"{value:.3g}" for value in found)
 
 
-def middle(computed: Computed, column: str, output: str, condition: str, factor: float) -> str:
-    """Median of a map and its middle 80 %."""
-    found = computed.maps[column].means(output, condition)
-    if not np.isfinite(found).any():
-        return "-"
-    low, mid, high = np.nanpercentile(found, (10.0, 50.0, 90.0)) * factor
-    return f"{_short(mid)} ({_short(low)} to {_short(high)})"
-
-
-def _short(value: float) -> str:
-    return f"{value:.0f}" if abs(value) >= 100.0 else f"{value:.2g}"
-
-
-def by(computed: Computed, column: str, key: str) -> str:
-    """What decides a claim over a map, in words."""
-    clear = [d for d in computed.found[column][key].deciders if d.p < 0.05]
-    if not clear:
-        return "no unknown alone decides it"
-    names = (f"{'large' if d.holds_above else 'small'} {d.name}" for d in clear[:3])
-    return f"decided by {', '.join(names)}"
-
-
-def part(computed: Computed, column: str, key: str, name: str) -> str:
-    """Share of one part of a claim."""
-    found = computed.found[column][key].parts
-    known = name in found and found[name].decided
-    return f"{found[name].value:.0%}".replace("%", " %") if known else "-"
-
-
 def surface(computed: Computed):
     """The response surface through the 49 points of Table 3."""
-    axes = ("cage.pocket_diameter", "cage.width")
-    return response_surface(StudyResults(computed.out / "design"), FORCE, axes=axes)
+    return response_surface(StudyResults(computed.out / "design"), FORCE, axes=DESIGN_AXES)
 
 
 def lags(computed: Computed) -> tuple[str, float, float, str]:
@@ -126,20 +96,21 @@ def words(computed: Computed) -> Words:
     c = computed
     better = c.readings[BETTER]
     soft = c.readings.get(FLEXIBLE)
-    marks = [line.verdict.outcome for line in c.lines]
-    counts = {o: marks.count(o) for o in ("holds", "does not hold", "undecided")}
+    counts = c.counts
     laid = surface(c)
     best = laid.optima["quadratic"]
     radius, (low, high) = 0.5 * best.place[0], 0.5 * best.box[:, 0]
     lag, rank, chance, forces = lags(c)
     modified, original, near = sign(c)
-    angle = middle(c, CAGE, "angle", "original 9000", 100.0)
-    slides = {k: middle(c, CAGE, "traction", f"{k} 9000", 100.0) for k in ("original", "modified")}
+    angle = c.maps[CAGE].middle("angle", "original 9000", 100.0)
+    slides = {
+        k: c.maps[CAGE].middle("traction", f"{k} 9000", 100.0) for k in ("original", "modified")
+    }
     rivets = {k: said(soft, "rivet", k, 1e-6) for k in ("modified 9000", "original 9000")}
     summary = f"""The paper says that a riveted cage of an aviation motor's bearing breaks at its
         rivets because balls strike it, that a pocket radius of 3.46 mm and a width of 6 mm make
         the blows least, and that the improved cage also slips less. Of its
-        {len(marks)} claims {counts["holds"]} holds over most of what it leaves unknown,
+        {len(c.lines)} claims {counts["holds"]} holds over most of what it leaves unknown,
         {counts["does not hold"]} do
         not, {counts["undecided"]} are open. Its best radius is found again in the better model: a
         49-point design has its least force at {radius:.3f} mm ({low:.3f} to {high:.3f} mm, 95 %),
@@ -150,17 +121,17 @@ def words(computed: Computed) -> Words:
         {len(c.maps[CAGE].names) - 1} unknowns, one start each, and readings of eight starts, which
         decide only what is very clear."""
     reasons = {
-        "001-1": f"in {part(c, CAGE, '001-1', 'force')}: {over(better, FORCE, RADII[::3])} N at "
-        f"3.43, 3.46, 3.49 mm in the better model; {by(c, CAGE, '001-1')}",
+        "001-1": f"in {c.part(CAGE, '001-1', 'force')}: {over(better, FORCE, RADII[::3])} N at "
+        f"3.43, 3.46, 3.49 mm in the better model; {c.by(CAGE, '001-1')}",
         "001-1b": "not computed: a flexible cage of every radius wants a mesh of its own",
-        "001-2": f"slip rises in {part(c, CAGE, '001-2', 'slip')}, tilt falls in "
-        f"{part(c, CAGE, '001-2', 'tilt')}",
-        "001-3": f"in {part(c, CAGE, '001-3', 'force')}; better model "
+        "001-2": f"slip rises in {c.part(CAGE, '001-2', 'slip')}, tilt falls in "
+        f"{c.part(CAGE, '001-2', 'tilt')}",
+        "001-3": f"in {c.part(CAGE, '001-3', 'force')}; better model "
         f"{over(better, FORCE, WIDTHS)} N from 8 to 5.9 mm",
-        "001-3b": f"slip so in {part(c, CAGE, '001-3b', 'slip')}, tilt in "
-        f"{part(c, CAGE, '001-3b', 'tilt')}",
-        "001-4": f"force so in {part(c, CAGE, '001-4', 'force')}, slip in "
-        f"{part(c, CAGE, '001-4', 'slip')}: a rigid sheet's thickness is its mass",
+        "001-3b": f"slip so in {c.part(CAGE, '001-3b', 'slip')}, tilt in "
+        f"{c.part(CAGE, '001-3b', 'tilt')}",
+        "001-4": f"force so in {c.part(CAGE, '001-4', 'force')}, slip in "
+        f"{c.part(CAGE, '001-4', 'slip')}: a rigid sheet's thickness is its mass",
         "001-4b": "not computed, likewise",
         "001-5": f"inner: tilt {over(better, 'psi', INNER, DEG)} deg, slip "
         f"{over(better, 'slip', INNER, 100.0)} %: by size it falls, as contact angles do",
@@ -170,7 +141,7 @@ def words(computed: Computed) -> Words:
         f"{over(better, 'slip', CLEARANCES, 100.0)} %: contact angles grow, and it leads more",
         "001-8": f"sliding makes all of it: {slides['original']} % and {slides['modified']} %",
         "001-9": f"positive in {modified} and {original}; both within 15 % in {near}",
-        "001-10": f"median {middle(c, CAGE, FORCE, BASE, 1.0)} N at 3.46 mm; better model "
+        "001-10": f"median {c.maps[CAGE].middle(FORCE, BASE, 1.0)} N at 3.46 mm; better model "
         f"{said(better, FORCE, BASE)}",
         "001-11": f"{rivets['original 9000']} MPa in the original, {rivets['modified 9000']} in "
         "the modified",

@@ -181,16 +181,20 @@ def predictions(computed, printed) -> list[dict]:
     return rows
 
 
-def interaction(computed) -> str:
-    """What the computed 49-point design says of q: the force that radius and width add together at
-    its four corners, less the sum of what each adds alone, over that sum; and its error."""
-    from claims import FORCE
+def design_samples(computed):
+    """Forces of the computed 49-point design over pocket diameter and cage width."""
+    from claims import DESIGN_AXES, FORCE
 
     from flexcage.study import StudyResults
     from flexcage.study.samples import samples_of
 
-    s = samples_of(StudyResults(computed.out / "design"), FORCE,
-                   axes=("cage.pocket_diameter", "cage.width"))  # fmt: skip
+    return samples_of(StudyResults(computed.out / "design"), FORCE, axes=DESIGN_AXES)
+
+
+def interaction(computed) -> str:
+    """What the computed 49-point design says of q: the force that radius and width add together at
+    its four corners, less the sum of what each adds alone, over that sum; and its error."""
+    s = design_samples(computed)
     mean, variance = {}, {}
     for r in (6.86, 6.92, 6.98):
         for w in (8.0, 6.2, 4.4):

@@ -6,12 +6,12 @@ import tomllib
 from collections.abc import Callable
 from math import pi
 from pathlib import Path
-from shutil import copyfile
 
 import numpy as np
 from claims import CONDITIONS, CONSTANT, OVER_A, OVER_N
 from outputs import HARMONICS, analytical
-from paper_page import Picture, Table, number
+from paper_figures import bands, stress
+from paper_page import Picture, Table
 
 from flexcage import Run, load_case
 from flexcage.render import sheet
@@ -91,19 +91,12 @@ def draw(computed, folder: Path) -> list[Picture]:
                 "are one case with two numbers."),
         Picture("map_002_3b.png", f"Map of claim {MAPPED}",
                 "Blue points hold, red ones do not; lines are shares over quarters of a range."),
-        *stress(computed, folder),
+        *stress(
+            computed, folder, "Stress of the cage at A = 6 %, N = 3",
+            "Better model with a flexible cage, 60 ms: equivalent stress at its largest. "
+            "The paper's cage is elastic, but it shows no stress.",
+        ),
     ]  # fmt: skip
-
-
-def stress(computed, folder: Path) -> list[Picture]:
-    """The flexible cage's stress at its peak, if that run's pictures are there."""
-    found = computed.out / "stress" / "stress_peak.png"
-    if not found.is_file():
-        return []
-    copyfile(found, folder / "stress.png")
-    return [Picture("stress.png", "Stress of the cage at A = 6 %, N = 3",
-                    "Better model with a flexible cage, 60 ms: equivalent stress at its largest. "
-                    "The paper's cage is elastic, but it shows no stress.")]  # fmt: skip
 
 
 def _cage_speed(run) -> tuple[np.ndarray, np.ndarray | None]:
@@ -188,7 +181,8 @@ def over_both(computed, path: Path, title: str, outputs, *, printed: bool = Fals
             for k, axis in enumerate((AMPLITUDES, WAVES)):
                 place = (left + k * (wide + gap), top + i * (high + 80), wide, high)
                 ax = sheet.axes_at(figure, place)
-                _bands(ax, computed, output, axis, factor)
+                bands(ax, computed, output, axis, factor, colours=COLOURS, marks=MARKS,
+                      shift=0.015 * max(axis.values()))  # fmt: skip
                 if printed:
                     _numbers(ax, output, axis)
                 ax.set(
@@ -200,30 +194,6 @@ def over_both(computed, path: Path, title: str, outputs, *, printed: bool = Fals
                 if (i, k) == (0, 1):
                     ax.legend(loc="upper left", bbox_to_anchor=(1.02, 1.0))
         return sheet.save(figure, path)
-
-
-def _bands(ax, computed, output: str, axis: dict[str, float], factor: float) -> None:
-    """Middle 80 % of every map, and the starts of every reading."""
-    at = np.array(list(axis.values()))
-    for column, joined in computed.maps.items():
-        values = np.array([joined.means(output, c) for c in axis]) * factor
-        low, mid, high = np.nanpercentile(values, (10.0, 50.0, 90.0), axis=1)
-        ax.fill_between(at, low, high, color=COLOURS[column], alpha=0.18, lw=0)
-        ax.plot(at, mid, color=COLOURS[column], lw=1.4, label=column)
-    for shift, column in zip((-0.015, 0.015), computed.readings):
-        marker, colour = MARKS[column]
-        for k, c in enumerate(axis):
-            found = computed.readings[column].values(output, c) * factor
-            ax.plot(
-                np.full(len(found), at[k] + shift * at.max()),
-                found,
-                marker,
-                ms=3.0,
-                color=colour,
-                alpha=0.7,
-                ls="none",
-                label=column if k == 0 else None,
-            )
 
 
 def _numbers(ax, output: str, axis: dict[str, float]) -> None:
@@ -240,21 +210,12 @@ def _numbers(ax, output: str, axis: dict[str, float]) -> None:
         )
 
 
-def starts(reading, output: str, condition: str, factor: float) -> str:
-    """Mean of eight starts with half its 95 % interval."""
-    found = reading.values(output, condition)
-    if len(found) < 2:
-        return "-"
-    half = 2.365 * found.std(ddof=1) / np.sqrt(len(found)) if len(found) == 8 else np.nan
-    return number(float(found.mean()), float(half), factor=factor)
-
-
 def middle(joined, output: str, condition: str, factor: float) -> str:
     """Median of a map, and its middle 80 %."""
-    found = joined.means(output, condition) * factor
-    if not np.isfinite(found).any():
+    found = joined.spread(output, condition)
+    if found is None:
         return "-"
-    low, mid, high = np.nanpercentile(found, (10.0, 50.0, 90.0))
+    low, mid, high = found * factor
     digits = 1 if abs(mid) >= 100.0 else 2
     return f"{mid:,.{digits}f} ({low:,.{digits}f} to {high:,.{digits}f})"
 
@@ -265,7 +226,7 @@ def tables(computed) -> list[Table]:
 
     def cells(output: str, condition: str, factor: float) -> tuple[str, ...]:
         return (
-            *(starts(r, output, condition, factor) for r in computed.readings.values()),
+            *(r.said(output, condition, factor) for r in computed.readings.values()),
             *(middle(m, output, condition, factor) for m in computed.maps.values()),
         )
 

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 from claims import A3, A6, A9, CLAIMS, CONSTANT, N2, N3
-from figures import BEARING, BETTER, MODEL, PERCENT, RPM, UM, draw, starts, tables
+from figures import BEARING, BETTER, MODEL, PERCENT, RPM, UM, draw, tables
+from paper_results import percent
 from repeat import Computed, Paper, Words
 
 CALM = 0.01  # fluctuation at constant speed below which a cage is calm
@@ -28,26 +29,6 @@ def spread(computed: Computed, column: str, output: str, condition: str, factor:
     return f"{np.nanmin(found):.4g} to {np.nanmax(found):.4g}"
 
 
-def by(computed: Computed, column: str, key: str) -> str:
-    """What decides a claim over a map, in words."""
-    clear = [d for d in computed.found[column][key].deciders if d.p < 0.05]
-    if not clear:
-        return "no unknown alone decides it"
-    words = (f"{'large' if d.holds_above else 'small'} {d.name}" for d in clear[:3])
-    return f"it wants {', '.join(words)}"
-
-
-def part(computed: Computed, column: str, key: str, name: str) -> str:
-    """Share of one part of a claim, in percent."""
-    found = computed.found[column][key].parts
-    known = name in found and found[name].decided
-    return f"{found[name].value:.0%}".replace("%", " %") if known else "-"
-
-
-def share_of(found: np.ndarray) -> str:
-    return f"{np.mean(found):.0%}".replace("%", " %")
-
-
 def regimes(computed: Computed) -> tuple[np.ndarray, np.ndarray]:
     """Of the points of the model's map that are whole: is the cage calm at constant speed, and does
     friction stay static at any speed?"""
@@ -67,24 +48,24 @@ def reasons(c: Computed) -> dict[str, str]:
         "002-0b": f"{spread(c, MODEL, 'speed_whole', CONSTANT, RPM)} rpm, a start from rest "
         "included: nothing costs 1.4 %",
         "002-1": "balls follow the ring, the cage follows balls; "
-        f"at 6 % in {part(c, MODEL, '002-1', A6)}, at 9 % in {part(c, MODEL, '002-1', A9)}",
-        "002-1b": f"grows in {part(c, MODEL, '002-1b', 'grows')}; medians "
+        f"at 6 % in {c.part(MODEL, '002-1', A6)}, at 9 % in {c.part(MODEL, '002-1', A9)}",
+        "002-1b": f"grows in {c.part(MODEL, '002-1b', 'grows')}; medians "
         f"{medians(c, MODEL, 'swing', (CONSTANT, A3, A6, A9), PERCENT)} %",
         "002-1c": f"medians {middle(c, MODEL, 'speed', CONSTANT, RPM)} to "
         f"{middle(c, MODEL, 'speed', N3, RPM)} rpm: balls roll",
         "002-2": "at 3 % the ring's sine has "
         f"{middle(c, MODEL, 'follows', A3, PERCENT)} % of the variance (median)",
         "002-2b": f"median {middle(c, MODEL, 'swing', CONSTANT, PERCENT)} %; a cage that friction "
-        f"excites has more, a calm one ({share_of(calm)}) less",
+        f"excites has more, a calm one ({percent(float(np.mean(calm)))}) less",
         "002-3": "the load's spread of balls carries the cage "
         f"{middle(c, MODEL, 'distance', CONSTANT, UM)} um off without any wave",
         "002-3b": f"medians over A {medians(c, MODEL, 'one_force', (CONSTANT, A3, A6, A9), 1)} N, "
         f"over N {medians(c, MODEL, 'one_force', (A6, N2, N3), 1)} N",
-        "002-4": f"an ellipse at 0 in {part(c, MODEL, '002-4', 'an ellipse at 0')}, at 3 % in "
-        f"{part(c, MODEL, '002-4', 'an ellipse at 3 %')}; irregular at 9 % in "
-        f"{part(c, MODEL, '002-4', 'irregular at 9 %')}",
-        "002-4b": f"with A in {part(c, MODEL, '002-4b', 'with A')}, with N in "
-        f"{part(c, MODEL, '002-4b', 'with N')}: any wave disorders, more hardly does",
+        "002-4": f"an ellipse at 0 in {c.part(MODEL, '002-4', 'an ellipse at 0')}, at 3 % in "
+        f"{c.part(MODEL, '002-4', 'an ellipse at 3 %')}; irregular at 9 % in "
+        f"{c.part(MODEL, '002-4', 'irregular at 9 %')}",
+        "002-4b": f"with A in {c.part(MODEL, '002-4b', 'with A')}, with N in "
+        f"{c.part(MODEL, '002-4b', 'with N')}: any wave disorders, more hardly does",
         "002-5": f"{middle(c, MODEL, 'ring_distance', CONSTANT, UM)} um are the load's; waves add "
         f"nanometres (range {medians(c, MODEL, 'ring_range', (CONSTANT, A9), UM)} um)",
         "002-5b": f"what place does not make: {middle(c, MODEL, 'ripple', CONSTANT, PERCENT)} % at "
@@ -92,7 +73,7 @@ def reasons(c: Computed) -> dict[str, str]:
         "002-6": f"{spread(c, MODEL, 'by_place', CONSTANT, PERCENT)} % of the variance follows "
         "from the place",
         "002-7": f"medians at N = 1, 2, 3: {medians(c, MODEL, 'swing', (A6, N2, N3), PERCENT)} %; "
-        f"{by(c, MODEL, '002-7')}",
+        f"{c.by(MODEL, '002-7', 'it wants')}",
     }
 
 
@@ -104,15 +85,14 @@ def whole(c: Computed, column: str) -> int:
 
 def summary(c: Computed) -> str:
     """What the paper says, what was found, how sure."""
-    marks = [line.verdict.outcome for line in c.lines]
-    counts = {o: marks.count(o) for o in ("holds", "does not hold", "undecided")}
+    counts = c.counts
     joined, points = c.maps[MODEL], whole(c, MODEL)
     return f"""The paper simulates a ball screw support bearing 7603025 at 2000 rpm under 3500 N
         axially and 1200 N radially in LS-DYNA, whose inner ring's speed fluctuates by
         3 to 9 %, once to three times a turn. It says that the cage's speed follows the ring's,
         that its mean does not change, and that orbits and forces of cage and ring grow with
         amplitude and frequency.
-        Of its {len(marks)} claims {counts["holds"]} hold over most of what it leaves unknown,
+        Of its {len(c.lines)} claims {counts["holds"]} hold over most of what it leaves unknown,
         {counts["does not hold"]} do not; open: {counts["undecided"]}. What holds is what rolling
         balls enforce; its 922 rpm (935 by kinematics) hold nowhere. How sure: {points} points of
         {len(joined.names) - 1} unknowns of its own model, {whole(c, BEARING)} of the real
@@ -134,10 +114,11 @@ def decides(c: Computed) -> list[str]:
     better = c.readings[BETTER]
     return [
         f"**Two regimes.** With friction that stays static at any speed (LS-DYNA's default) "
-        f"{share_of(~calm[static])} of the points have a cage that fluctuates by more than 1 % at "
-        f"constant speed; with friction that decays {share_of(~calm[~static])}. Pocket friction "
-        "then "
-        "drives the cage round its play, its forces are tens of times larger, and waves of the "
+        f"{percent(float(np.mean(~calm[static])))} of the points have a cage that fluctuates by "
+        "more than 1 % at "
+        f"constant speed; with friction that decays {percent(float(np.mean(~calm[~static])))}. "
+        "Pocket friction then drives the cage round its play, its forces are tens of times larger, "
+        "and waves of the "
         "ring "
         "drown: there the cage's speed has no pronounced period at 3 % (002-2). Starts alone may "
         "decide: "
@@ -166,8 +147,8 @@ def decides(c: Computed) -> list[str]:
         "the pockets let it; a wave shakes it, and no farther.",
         "**Inner ring (002-5).** The load alone moves it by "
         f"{spread(c, MODEL, 'ring_distance', CONSTANT, UM)} um, as grooves and stiffness have it "
-        f"(better model: {starts(better, 'ring_distance', CONSTANT, UM)} um at constant speed, "
-        f"{starts(better, 'ring_distance', A3, UM)} um at 3 %). Balls' passing and waves move it "
+        f"(better model: {better.said('ring_distance', CONSTANT, UM)} um at constant speed, "
+        f"{better.said('ring_distance', A3, UM)} um at 3 %). Balls' passing and waves move it "
         "by "
         f"{medians(c, MODEL, 'ring_range', (CONSTANT, A9), UM)} um (medians, constant and 9 %).",
     ]  # fmt: skip
