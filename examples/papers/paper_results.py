@@ -102,11 +102,6 @@ class Mapped:
     outcomes: Sequence[bool | None]
 
 
-def percent(share_of_one: float) -> str:
-    """A share in whole percents."""
-    return f"{share_of_one:.0%}".replace("%", " %")
-
-
 class Joined:
     """Maps of the same outputs and conditions as one, over the unknowns that all of them have."""
 

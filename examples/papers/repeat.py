@@ -28,13 +28,13 @@ from paper_results import (
     lines_of,
     mapped,
     not_mapped,
-    percent,
     verdicts_of,
     write_shares,
 )
 
 import flexcage
 from flexcage.case.extensions import forget
+from flexcage.core.digits import percent_text
 from flexcage.core.progress import Progress
 from flexcage.study import MapResults, StudyResults, load_map, load_study, run_map, run_study
 from flexcage.study.claims import Claim
@@ -114,7 +114,7 @@ class Computed:
     def part(self, column: str, key: str, name: str) -> str:
         """Share of one part of a claim over a map, in percent."""
         found = self.found[column][key].parts.get(name)
-        return percent(found.value) if found is not None and found.decided else "-"
+        return percent_text(found.value) if found is not None and found.decided else "-"
 
 
 def load(folder: Path) -> Paper:

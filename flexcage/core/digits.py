@@ -29,6 +29,11 @@ def number_text(value: float) -> str:
     return f"{value:.{max(digits, 1)}f}"
 
 
+def percent_text(share: float) -> str:
+    """A share in whole percents, as '47 %'."""
+    return f"{share:.0%}".replace("%", " %")
+
+
 def texts_with_margin(value: float, margin: float | None) -> tuple[str, str]:
     """A number and its margin, both with the digits that the margin leaves; no second text where
     no margin is known."""

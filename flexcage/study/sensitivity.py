@@ -18,6 +18,7 @@ from typing import Any
 import numpy as np
 from scipy.stats import binomtest, ks_2samp
 
+from flexcage.core.digits import percent_text
 from flexcage.core.errors import InputError
 from flexcage.study.decisions import holm
 from flexcage.study.unknowns import LEVELS, problem, require_salib
@@ -50,7 +51,8 @@ class Share:
     def __str__(self) -> str:
         if not self.decided:
             return "no point decides"
-        return f"{self.value:.0%} ({self.low:.0%} to {self.high:.0%})".replace("%", " %")
+        value, low, high = map(percent_text, (self.value, self.low, self.high))
+        return f"{value} ({low} to {high})"
 
 
 @dataclass(frozen=True)

@@ -17,6 +17,7 @@ from typing import Any
 import numpy as np
 from scipy.stats import qmc
 
+from flexcage.core.digits import percent_text
 from flexcage.core.errors import InputError, package_lacks
 from flexcage.core.spec import option
 from flexcage.study.axes import ends_in_si, written
@@ -92,7 +93,7 @@ class Unknown:
             return f"{low} to {high}" + (" (log)" if self.scale == "log" else "")
         uneven, whole = len(set(self.weights)) > 1, sum(self.weights)
         return ", ".join(
-            f"{choice['label']} ({weight / whole:.0%})".replace("%", " %")
+            f"{choice['label']} ({percent_text(weight / whole)})"
             if uneven
             else str(choice["label"])
             for choice, weight in zip(self.choices, self.weights)

@@ -16,6 +16,8 @@ from figures import (
 )
 from repeat import Computed, Paper, Words
 
+from flexcage.core.digits import percent_text
+
 MM = 1e3
 #: Claims of the simulation are decided by its own map, those of the test by the test's.
 DECIDED_BY = {claim.key: TEST for claim in CLAIMS} | {"003-5": MODEL, "003-7": MODEL}
@@ -128,7 +130,7 @@ def _turning(computed: Computed, speed: str, low: float, high: float) -> str:
     """Share of points at which the centre goes round so many times for a turn of the cage."""
     turns = computed.maps[TEST].means("turns", speed)
     turns = turns[np.isfinite(computed.maps[TEST].means("turns", "11000")) & np.isfinite(turns)]
-    return f"{np.mean((turns > low) & (turns < high)):.0%}".replace("%", " %")
+    return percent_text(float(np.mean((turns > low) & (turns < high))))
 
 
 def _rechecked(computed: Computed) -> str:

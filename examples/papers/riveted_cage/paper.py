@@ -10,6 +10,7 @@ from paper_results import conditions_of
 from repeat import Computed, Paper, Words
 from scipy.stats import spearmanr
 
+from flexcage.core.digits import percent_text
 from flexcage.study import StudyResults
 from flexcage.study.surface import response_surface
 
@@ -64,7 +65,7 @@ def sign(computed: Computed) -> tuple[str, str, str]:
     there = np.isfinite(one) & np.isfinite(other)
     one, other = one[there], other[there]
     near = (abs(one - 0.0113) < 0.0017) & (abs(other - 0.0184) < 0.0028)
-    return tuple(f"{share.mean():.0%}".replace("%", " %") for share in (one > 0, other > 0, near))
+    return tuple(percent_text(share.mean()) for share in (one > 0, other > 0, near))
 
 
 def rechecked(computed: Computed) -> list[str]:

@@ -5,8 +5,9 @@ from __future__ import annotations
 import numpy as np
 from claims import A3, A6, A9, CLAIMS, CONSTANT, N2, N3
 from figures import BEARING, BETTER, MODEL, PERCENT, RPM, UM, draw, tables
-from paper_results import percent
 from repeat import Computed, Paper, Words
+
+from flexcage.core.digits import percent_text
 
 CALM = 0.01  # fluctuation at constant speed below which a cage is calm
 DRIVEN = 10.0  # N between a ball and the cage, above which friction drives it
@@ -56,7 +57,7 @@ def reasons(c: Computed) -> dict[str, str]:
         "002-2": "at 3 % the ring's sine has "
         f"{middle(c, MODEL, 'follows', A3, PERCENT)} % of the variance (median)",
         "002-2b": f"median {middle(c, MODEL, 'swing', CONSTANT, PERCENT)} %; a cage that friction "
-        f"excites has more, a calm one ({percent(float(np.mean(calm)))}) less",
+        f"excites has more, a calm one ({percent_text(float(np.mean(calm)))}) less",
         "002-3": "the load's spread of balls carries the cage "
         f"{middle(c, MODEL, 'distance', CONSTANT, UM)} um off without any wave",
         "002-3b": f"medians over A {medians(c, MODEL, 'one_force', (CONSTANT, A3, A6, A9), 1)} N, "
@@ -114,9 +115,10 @@ def decides(c: Computed) -> list[str]:
     better = c.readings[BETTER]
     return [
         f"**Two regimes.** With friction that stays static at any speed (LS-DYNA's default) "
-        f"{percent(float(np.mean(~calm[static])))} of the points have a cage that fluctuates by "
-        "more than 1 % at "
-        f"constant speed; with friction that decays {percent(float(np.mean(~calm[~static])))}. "
+        f"{percent_text(float(np.mean(~calm[static])))} of the points have a cage that fluctuates "
+        "by more than 1 % at "
+        f"constant speed; with friction that decays "
+        f"{percent_text(float(np.mean(~calm[~static])))}. "
         "Pocket friction then drives the cage round its play, its forces are tens of times larger, "
         "and waves of the "
         "ring "
