@@ -13,6 +13,8 @@ from typing import TYPE_CHECKING
 from flexcage.core.errors import InputError
 from flexcage.core.registry import add, check_free
 from flexcage.results.known import KNOWN
+from flexcage.results.reductions import DERIVED
+from flexcage.results.registry import VARIABLES
 from flexcage.results.summary import SHOWN
 
 if TYPE_CHECKING:
@@ -20,7 +22,7 @@ if TYPE_CHECKING:
 
     Compute = Callable[[Run], Mapping[str, float]]
 
-WHAT = "study output"
+WHAT, VARIABLE = "study output", "result variable"
 
 
 @dataclass(frozen=True)
@@ -43,10 +45,12 @@ def register_outputs(compute: Compute, units: Mapping[str, str]) -> None:
     called once a run, whichever of them are asked for. A figure that is stored is not computed
     again when the file behind ``compute`` changes: give a changed one another name.
 
-    Raises InputError for a name that is taken, or a unit that no figure is shown in.
+    Raises InputError for a name that is taken, be it by a figure or a variable, or a unit that
+    no figure is shown in.
     """
     for name, shown in units.items():
-        check_free(KNOWN, name, what=WHAT)
+        for taken, what in ((KNOWN, "figure"), (VARIABLES, VARIABLE), (DERIVED, VARIABLE)):
+            check_free(taken, name, what=what)
         if shown not in SHOWN:
             raise InputError(
                 f"The {WHAT} '{name}' is shown in '{shown}', but should be in one of "

@@ -152,8 +152,13 @@ def test_outputs_of_ones_own_are_checked():
     known = {"sizes": {}, "flexible": False, "family": "cylindrical_roller"}
     check_outputs(("my_samples", "cage_speed"), **known)
     assert not never_negative("my_last_cage_place")
-    with pytest.raises(InputError, match="exists already"):
-        register_outputs(lambda run: {}, {"cage_speed": ""})
+    for name, what in (
+        ("cage_speed", "A figure"),
+        ("pocket_force", "A result variable"),
+        ("element_slip_ratio", "A result variable"),
+    ):
+        with pytest.raises(InputError, match=f"{what} '{name}' exists already"):
+            register_outputs(lambda run: {}, {name: ""})
     with pytest.raises(InputError, match="shown in 'furlong'"):
         register_outputs(lambda run: {}, {"my_length": "furlong"})
 

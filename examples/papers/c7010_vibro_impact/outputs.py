@@ -42,7 +42,7 @@ UNITS = {
     "axial_range": "um",  # of the inner ring's axial motion
     "axial_rough": "um",  # rms of that motion about its own mean over a turn of the ring
     "axial_rate": "m/s",  # axial motion over the time it takes
-    "pocket_force": "N",  # largest on the cage
+    "largest_pocket_force": "N",  # largest on the cage
 }
 
 
@@ -89,7 +89,7 @@ def evaluate(run) -> Mapping[str, float]:
         "axial_range": float(np.ptp(axial)),
         "axial_rough": rough(axial, time, float(ds["inner_speed"].values.mean())),
         "axial_rate": float(np.ptp(axial) / np.ptp(time)),
-        "pocket_force": float(metrics.pocket_peaks(ds).values.max()),
+        "largest_pocket_force": float(metrics.pocket_peaks(ds).values.max()),
     }
 
 

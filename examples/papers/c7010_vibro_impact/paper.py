@@ -95,7 +95,7 @@ def whole(c: Computed, column: str) -> int:
 def driven(c: Computed, column: str) -> str:
     """Runs of a map in which friction drives the cage, of all that are done, and the largest share
     of time that balls are off the inner ring."""
-    force = np.array([c.maps[column].means("pocket_force", k) for k in MAPPED])
+    force = np.array([c.maps[column].means("largest_pocket_force", k) for k in MAPPED])
     gaps = np.array([c.maps[column].means("gaps", k) for k in MAPPED]) * PERCENT
     wild = force > DRIVEN
     off = gaps[np.isfinite(gaps)].max(initial=0.0)
@@ -125,7 +125,9 @@ def warned(c: Computed, key: str) -> str:
 
 def wild_starts(c: Computed, *conditions: str) -> str:
     """Starts of the better model in which friction drives the cage, of all."""
-    force = np.concatenate([c.readings[BETTER].values("pocket_force", k) for k in conditions])
+    force = np.concatenate(
+        [c.readings[BETTER].values("largest_pocket_force", k) for k in conditions]
+    )
     return f"{(force > DRIVEN).sum()} of {len(force)}"
 
 
@@ -133,7 +135,7 @@ def calm_ratio(c: Computed) -> str:
     """Least and largest ratio of calm runs of the better model, and of driven ones [%]."""
     r = c.readings[BETTER]
     ratio, force = (np.concatenate([r.values(o, k) for k in (*ALL_SPEEDS, *ALL_LOADS[1:])])
-                    for o in ("deviation", "pocket_force"))  # fmt: skip
+                    for o in ("deviation", "largest_pocket_force"))  # fmt: skip
     calm, wild = ratio[force <= DRIVEN] * PERCENT, ratio[force > DRIVEN] * PERCENT
     least = f"{digits(calm.min())} to {digits(calm.max())} %" if len(calm) else "-"
     if not len(wild):
