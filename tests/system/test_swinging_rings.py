@@ -23,7 +23,8 @@ from flexcage.system.spec import Load
 from flexcage.system.statics.options import AT_START
 from flexcage.system.statics.rings import Rings
 from flexcage.system.statics.solve import solve_bearing
-from flexcage.system.swinging import deflect, press_supports, swings_of
+from flexcage.system.supports import press_supports
+from flexcage.system.swinging import deflect, swings_of
 
 LOADS = {"N1013": {"radial": 5000.0}, "7010C-PI": {"radial": 300.0, "axial": 500.0}}
 SEATS = {
