@@ -183,8 +183,8 @@ class Mount(BodyFile):
 
     ``bushing``: an elastic ring between both, of equal stiffness in every direction. ``contact``:
     the ring lies in a bore that is larger by ``clearance``; spring and damper act along the line
-    of centres while it touches, and never pull. ``body``: the static solution lets the ring move
-    with the seat of an elastic housing in x, y, z and both tilts (``system.seat``).
+    of centres while it touches, and never pull. ``body``: the ring moves with the seat of an
+    elastic housing in x, y, z and both tilts (``system.seat``), in a run with its mass.
     """
 
     kind: str = option("fixed", doc="outer ring support", choices=("fixed", "bushing", "contact"))

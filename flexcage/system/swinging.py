@@ -17,7 +17,8 @@ where s follows the contact forces F, and p presses on the ring; y = 0 where sup
 supports' forces are those of least energy, found anew in every state: nothing is remembered.
 
 Elements feel the slope F_i phi_m n_m cos' a_m of the modes beside s_i w_i', about the axis. The
-seat bears what these moments leave over.
+seat bears what these moments leave over. Contacts feel the rate of the modes' share of w as well,
+so F_i in these two places is all of the contact force, with damping and friction.
 """
 
 from __future__ import annotations
@@ -62,6 +63,8 @@ class Swings(NamedTuple):
     wave: np.ndarray  # (Z, N + 1, 2) cosine and sine of n psi
     moved: np.ndarray  # (Z, 2) displacement of the race by coordinates, at its ports
     slope: np.ndarray  # (Z, 2) of that over the azimuth
+    rate: np.ndarray  # (Z, 2) of that in time, as an element feels it that orbits
+    total: np.ndarray  # (Z, 2) of all contact forces on the race, friction too, at its ports
     push: np.ndarray  # (M,) forces on coordinates
     beside: np.ndarray  # (S, Z, 4) of the table
     swung: np.ndarray  # (S,) displacement of supports by coordinates
@@ -90,12 +93,23 @@ def swings_at(d):
 
 
 @part
-def swing(q, y, d):
+def swing(q, u, y, d):
     """Displace the outer race by its coordinates and supports; ``bend_rings`` comes before."""
-    if fields(d.swings).shape.shape[0] == 0:
+    swings = fields(d.swings)
+    if swings.push.shape[0] == 0:
         return
     at, bent = swings_at(d), ring_forces_at(d)
-    _swing(q, y[bent : at.a], y[at.a : at.v], fields(d.rings), fields(d.swings))
+    _swing(q, y[bent : at.a], y[at.a : at.v], fields(d.rings), swings)
+    v = y[at.v : at.end]
+    zero(swings.total)
+    for i in range(swings.rate.shape[0]):
+        orbit = orbit_of(q, u, i)
+        x, z = swings.slope[i, 0] * orbit, swings.slope[i, 1] * orbit
+        for m in range(v.shape[0]):
+            wave, _ = _wave_of(i, m, swings)
+            x += wave * swings.shape[m, 0] * v[m]
+            z += wave * swings.shape[m, 1] * v[m]
+        swings.rate[i, 0], swings.rate[i, 1] = x, z
 
 
 @part
@@ -181,14 +195,15 @@ def push_swings(i, d):
     """What element i does to the coordinates, and their slope to it; its contact forces are known,
     and ``bending.push_by_slopes`` comes after."""
     swings, rings = fields(d.swings), fields(d.rings)
-    x, y = rings.force[OUTER_RACE, i, 0], rings.force[OUTER_RACE, i, 1]
+    if swings.push.shape[0] == 0:
+        return
+    x, y = swings.total[i, 0], swings.total[i, 1]
     if x == 0.0 and y == 0.0:
         return
     for m in range(swings.push.shape[0]):
         wave, _ = _wave_of(i, m, swings)
         swings.push[m] += wave * (swings.shape[m, 0] * x + swings.shape[m, 1] * y)
-    if swings.push.shape[0] > 0:
-        rings.moment[OUTER_RACE, i] += x * swings.slope[i, 0] + y * swings.slope[i, 1]
+    rings.moment[OUTER_RACE, i] += x * swings.slope[i, 0] + y * swings.slope[i, 1]
 
 
 @part(fastmath=VECTORISED)
@@ -293,7 +308,8 @@ def swings_of(
         z((held, count)) if chi is None else st(chi),
         z((POINTS, 4)) if table is None else st(table),
         z((held, held)) if between is None else st(between),
-        int(holds), z((elements, waves, 2)), z((elements, 2)), z((elements, 2)), z(count),
+        int(holds), z((elements, waves, 2)), z((elements, 2)), z((elements, 2)),
+        z((elements, 2)), z((elements, 2)), z(count),
         z((held, elements, 4)), z(held), z(held), z(held), z(held, np.int64), z(held, np.int64),
         z((held, held)), z(held),
     )  # fmt: skip

@@ -35,7 +35,7 @@ from flexcage.contacts.groove import (
 from flexcage.contacts.slices import Laws, elastic_forces
 from flexcage.contacts.state import set_frame
 from flexcage.core.jit import fields, part, zero
-from flexcage.core.vectors import cross, minus
+from flexcage.core.vectors import cross, minus, plus
 from flexcage.system.bending import (
     at_once,
     bend_rings,
@@ -67,7 +67,7 @@ def evaluate(t, y, yd, d, law, out, mode):
     modes = set_bodies(rest_q, rest_u, d, mode)
     law[BESIDE](t, y, yd, d, law[:FAMILY_PARTS], out, mode)
     bend_rings(q, s, rings)
-    swing(q, y, d)
+    swing(q, u, y, d)
     Rc, Vc = rest_q[Q_CAGE:Q_QUATERNION], rest_u[CAGE:CAGE_TURN]
     for i in range(Z):
         own = of_element(i)
@@ -110,11 +110,14 @@ def _outer_race(i, qi, ui, rest_q, rest_u, s, d, law, mode):
     work, pair = fields(d.scratch), fields(d.pair)
     laws, sl = Laws(law[RACE_LAW], law[RACE_RUBS]), fields(d.slices).row[0]
     zero(pair.wrench)
-    ball = on_outer_race(i, qi, ui, rest_q, rest_u, d)
+    ball = _carried(i, on_outer_race(i, qi, ui, rest_q, rest_u, d), d)
     race, rings = fields(d.outer), fields(d.rings)
     yielded = _yielded(OUTER_RACE, i, ball, race, s, laws, sl, rings)
     if groove_contact(yielded, race, laws, sl, pair.wrench, mode, work.sums):
         _bear(OUTER_RACE, i, yielded, race, sl, rings)
+        if fields(d.swings).push.shape[0] > 0:
+            for c in range(2):
+                fields(d.swings).total[i, c] = -pair.wrench[c]
         push_outer(i, d)
     if mode >= REPORT:
         report_race(i, OUTER_RACE, work.sums, fields(d.report))
@@ -133,6 +136,19 @@ def _yielded(side, i, ball, race, s, laws, sl, rings):
         step = at_once(side, i, s, (sl.Ne[0] * n[0], sl.Ne[0] * n[1]), slope, rings)
         moved = _moved(moved, step)
     return moved
+
+
+@part
+def _carried(i, ball, d):
+    """The ball as an outer race meets it that swings beneath it."""
+    rate = fields(d.swings).rate
+    if fields(d.swings).push.shape[0] == 0:
+        return ball
+    return BallOnRace(
+        ball.radius, ball.centre, ball.velocity, ball.spin, ball.axis,
+        plus(ball.ring_velocity, (rate[i, 0], rate[i, 1], 0.0)), ball.ring_spin, ball.onset,
+        ball.azimuth, ball.spotted, ball.spot,
+    )  # fmt: skip
 
 
 @part

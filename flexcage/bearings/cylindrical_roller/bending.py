@@ -29,10 +29,11 @@ from flexcage.bearings.cylindrical_roller.start import roller_start_between_bent
 from flexcage.contacts.evaluation import OUTER_RING, RACE_LAW, RACE_RUBS, REPORT, RESIDUAL
 from flexcage.contacts.race import meet_race, push_by_race, rub_race
 from flexcage.contacts.slices import Laws, normal_forces_of_lot
-from flexcage.contacts.state import AXIS, CENTRE, Q_SPIN, take_pose
+from flexcage.contacts.state import AXIS, CENTRE, Q_SPIN, SPIN, VELOCITY, take_pose
 from flexcage.core.jit import VECTORISED, fields, part
-from flexcage.core.vectors import dot, row
+from flexcage.core.vectors import MOMENT, dot, row
 from flexcage.system.bending import (
+    TILT_PORT,
     at_once,
     bend_rings,
     displace,
@@ -61,7 +62,7 @@ def evaluate(t, y, yd, d, law, out, mode):
     asked = RESIDUAL if mode == OUTER_RING else mode
     set_bodies(q, u, rest_q, rest_u, d, asked)
     bend_rings(q, s, rings)
-    swing(q, y, d)
+    swing(q, u, y, d)
     lot = fields(d.race_work).who.shape[0]
     for first in range(0, Z if mode != OUTER_RING else 0, lot):
         span = (first, min(first + lot, Z))
@@ -128,6 +129,7 @@ def _outer_contacts(span, q, rest_q, rest_u, s, d, law, mode):
         at = rw.partner[count]
         beside_outer(i, q, out_q, out_u, d, at)
         displace(at, guess(OUTER_RACE, i, s, rings), rings.way)
+        _carry(i, at, d)
         onset = memory.race[i, OUTER_RACE]
         if meet_race(count, pose, side, radius[i], 0.0, onset, rw):
             rw.who[count] = i
@@ -137,9 +139,35 @@ def _outer_contacts(span, q, rest_q, rest_u, s, d, law, mode):
         i = rw.who[m]
         take_pose(work.poses[i], pose)
         push_by_race(m, pose, side, radius[i], 0.0, rw, pair, mode, work.sums)
+        _bear(i, rw.partner[m, CENTRE], d)
         add_outer(i, d, mode)
         if mode >= REPORT:
             report_race(i, OUTER_RACE, work.sums, fields(d.report))
+
+
+@part
+def _carry(i, at, d):
+    """Move the outer ring ``at`` beside roller i as its race does that swings: it tilts about its
+    place beneath the roller."""
+    swings, way = fields(d.swings), fields(d.rings).way
+    if swings.push.shape[0] == 0:
+        return
+    for p in range(2):
+        if way[p] == TILT_PORT:
+            at[SPIN, 2] += swings.rate[i, p]
+            at[VELOCITY, 0] += swings.rate[i, p] * at[CENTRE, 1]
+        else:
+            at[VELOCITY, way[p]] += swings.rate[i, p]
+
+
+@part
+def _bear(i, centre, d):
+    """What the outer race that swings bears of roller i at its ports, radially and in tilt."""
+    total, wrench = fields(d.swings).total, fields(d.pair).wrench
+    if fields(d.swings).push.shape[0] == 0:
+        return
+    total[i, 0] = -wrench[1]
+    total[i, 1] = -(wrench[MOMENT + 2] + centre[0] * wrench[1])
 
 
 @part
