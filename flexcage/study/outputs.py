@@ -275,7 +275,7 @@ def check_outputs(
             reduction = parse_reduction(name)
             needs = reduction.variable.name.startswith(("modal_", "residual_"))
             _check_family(name, _families(reduction.variable.name), family)
-            if "bending" in reduction.variable.dims and not bends:
+            if {"bending", "support"} & set(reduction.variable.dims) and not bends:
                 raise InputError(
                     f"Output '{name}' is of rings that bend, but every ring of the study is rigid; "
                     "set outer_ring.ring = 'flexible' or leave it out.",

@@ -266,7 +266,7 @@ def test_a_ring_swings_in_its_housing_with_its_mass(housing):
     assert mass * np.gradient(v, t)[5:-5] == pytest.approx(
         (force - pull)[5:-5], abs=0.01 * np.abs(force).max()
     )
-    assert y.max() > 1.2 * y[-100:].mean() > 0.0  # it overshoots
+    assert y.max() > 1.2 * 8000.0 / 2e8  # it overshoots
 
 
 @pytest.mark.parametrize(
