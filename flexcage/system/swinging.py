@@ -60,12 +60,14 @@ class Swings(NamedTuple):
     table: np.ndarray  # (POINTS, 4) B of an element so far round the ring from a support
     between: np.ndarray  # (S, S) D
     holds: int  # 1 if supports pull as well
+    crest: np.ndarray  # (N + 1, 2, 4) of cosine and sine: displacement and rate at both ports
+    load: np.ndarray  # (N + 1, 2, 2) contact forces on them, at both ports
     wave: np.ndarray  # (Z, N + 1, 2) cosine and sine of n psi
     moved: np.ndarray  # (Z, 2) displacement of the race by coordinates, at its ports
     slope: np.ndarray  # (Z, 2) of that over the azimuth
     rate: np.ndarray  # (Z, 2) of that in time, as an element feels it that orbits
     total: np.ndarray  # (Z, 2) of all contact forces on the race, friction too, at its ports
-    push: np.ndarray  # (M,) forces on coordinates
+    push: np.ndarray  # (M,) forces of supports on coordinates
     beside: np.ndarray  # (S, Z, 4) of the table
     swung: np.ndarray  # (S,) displacement of supports by coordinates
     room: np.ndarray  # (S,) what they would be entered by if none pressed
@@ -99,39 +101,46 @@ def swing(q, u, y, d):
     if swings.push.shape[0] == 0:
         return
     at, bent = swings_at(d), ring_forces_at(d)
-    _swing(q, y[bent : at.a], y[at.a : at.v], fields(d.rings), swings)
-    v = y[at.v : at.end]
+    _swing(q, y[bent : at.a], y[at.a : at.v], y[at.v : at.end], fields(d.rings), swings)
     zero(swings.total)
+    zero(swings.load)
     for i in range(swings.rate.shape[0]):
         orbit = orbit_of(q, u, i)
-        x, z = swings.slope[i, 0] * orbit, swings.slope[i, 1] * orbit
-        for m in range(v.shape[0]):
-            wave, _ = _wave_of(i, m, swings)
-            x += wave * swings.shape[m, 0] * v[m]
-            z += wave * swings.shape[m, 1] * v[m]
-        swings.rate[i, 0], swings.rate[i, 1] = x, z
+        for p in range(2):
+            swings.rate[i, p] += swings.slope[i, p] * orbit
 
 
 @part
-def _swing(q, s, a, rings, swings):
-    Z, M = rings.moment.shape[1], a.shape[0]
-    w, moved, slope = rings.deflection[OUTER_RACE], swings.moved, swings.slope
+def _swing(q, s, a, v, rings, swings):
+    w, moved, slope, rate = rings.deflection[OUTER_RACE], swings.moved, swings.slope, swings.rate
     zero(swings.push)
     zero(swings.press)
     _set_waves(q, swings)
-    for i in range(Z):
-        x = y = turn_x = turn_y = 0.0
-        for m in range(M):
-            wave, turn = _wave_of(i, m, swings)
-            x += wave * swings.shape[m, 0] * a[m]
-            y += wave * swings.shape[m, 1] * a[m]
-            turn_x += turn * swings.shape[m, 0] * a[m]
-            turn_y += turn * swings.shape[m, 1] * a[m]
-        moved[i, 0], moved[i, 1], slope[i, 0], slope[i, 1] = x, y, turn_x, turn_y
-        w[i, 0] += x
-        w[i, 1] += y
+    _set_crests(a, v, swings)
+    for i in range(w.shape[0]):
+        for p in range(2):
+            x = turn = moves = 0.0
+            for n in range(swings.crest.shape[0]):
+                cos_n, sin_n = swings.wave[i, n, COSINE], swings.wave[i, n, SINE]
+                even, odd = swings.crest[n, COSINE], swings.crest[n, SINE]
+                x += cos_n * even[p] + sin_n * odd[p]
+                turn += n * (cos_n * odd[p] - sin_n * even[p])
+                moves += cos_n * even[2 + p] + sin_n * odd[2 + p]
+            moved[i, p], slope[i, p], rate[i, p] = x, turn, moves
+            w[i, p] += x
     if swings.press.shape[0] > 0:
         _press(q, s, a, rings, swings)
+
+
+@part
+def _set_crests(a, v, swings):
+    """Displacements and rates of all waves at their crests, of both ports."""
+    zero(swings.crest)
+    for m in range(a.shape[0]):
+        crest = swings.crest[swings.harmonic[m], swings.quarter[m]]
+        for p in range(2):
+            crest[p] += swings.shape[m, p] * a[m]
+            crest[2 + p] += swings.shape[m, p] * v[m]
 
 
 @part
@@ -145,16 +154,6 @@ def _set_waves(q, swings):
         for n in range(1, wave.shape[1]):
             x, y = wave[i, n - 1, COSINE], wave[i, n - 1, SINE]
             wave[i, n, COSINE], wave[i, n, SINE] = x * c - y * s, y * c + x * s
-
-
-@part
-def _wave_of(i, m, swings):
-    """The wave of coordinate m at element i, and its slope over the azimuth."""
-    n = swings.harmonic[m]
-    c, s = swings.wave[i, n, COSINE], swings.wave[i, n, SINE]
-    if swings.quarter[m] == COSINE:
-        return c, -n * s
-    return s, n * c
 
 
 @part
@@ -200,9 +199,10 @@ def push_swings(i, d):
     x, y = swings.total[i, 0], swings.total[i, 1]
     if x == 0.0 and y == 0.0:
         return
-    for m in range(swings.push.shape[0]):
-        wave, _ = _wave_of(i, m, swings)
-        swings.push[m] += wave * (swings.shape[m, 0] * x + swings.shape[m, 1] * y)
+    for n in range(swings.load.shape[0]):
+        for quarter in range(2):
+            swings.load[n, quarter, 0] += swings.wave[i, n, quarter] * x
+            swings.load[n, quarter, 1] += swings.wave[i, n, quarter] * y
     rings.moment[OUTER_RACE, i] += x * swings.slope[i, 0] + y * swings.slope[i, 1]
 
 
@@ -212,7 +212,8 @@ def swing_rows(y, yd, d, out):
     swings, at = fields(d.swings), swings_at(d)
     a, v = y[at.a : at.v], y[at.v : at.end]
     for m in range(a.shape[0]):
-        force = swings.push[m]
+        load = swings.load[swings.harmonic[m], swings.quarter[m]]
+        force = swings.push[m] + swings.shape[m, 0] * load[0] + swings.shape[m, 1] * load[1]
         for l in range(a.shape[0]):
             force -= swings.stiffness[m, l] * (a[l] + swings.late[l] * v[l])
         out[at.a + m] = yd[at.a + m] - v[m]
@@ -281,7 +282,7 @@ def deflect(q, s, a, rings: RingsData, swings: Swings):
     """Set ``rings.deflection`` and ``swings.press`` under forces s, for a record; without H F."""
     bend_rings(q, s, rings)
     if a.shape[0] > 0:
-        _swing(q, s, a, rings, swings)
+        _swing(q, s, a, a, rings, swings)
 
 
 def no_swings(elements: int) -> Swings:
@@ -308,8 +309,8 @@ def swings_of(
         z((held, count)) if chi is None else st(chi),
         z((POINTS, 4)) if table is None else st(table),
         z((held, held)) if between is None else st(between),
-        int(holds), z((elements, waves, 2)), z((elements, 2)), z((elements, 2)),
-        z((elements, 2)), z((elements, 2)), z(count),
+        int(holds), z((waves, 2, 4)), z((waves, 2, 2)), z((elements, waves, 2)),
+        z((elements, 2)), z((elements, 2)), z((elements, 2)), z((elements, 2)), z(count),
         z((held, elements, 4)), z(held), z(held), z(held), z(held, np.int64), z(held, np.int64),
         z((held, held)), z(held),
     )  # fmt: skip
