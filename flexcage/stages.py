@@ -205,7 +205,8 @@ def _moving_rings(specs: MotionSpecs) -> MovingRings | None:
         return None
     rings = replace(_rings_of(specs), heavier=heaviest_load(specs.load))
     seat = compliance_of(specs.mount, specs.bearing)
-    made = moving_rings(rings, _statics(specs, rings, seat))
+    stands = specs.mount.kind == "fixed" and seat is None
+    made = moving_rings(rings, _statics(specs, rings, seat), stands=stands)
     return made if seat is None else in_housing(made, specs.bearing, rings, specs.mount, seat)
 
 

@@ -1,8 +1,9 @@
-"""What an outer ring on supports, or in a housing, has of mass in a run (``swinging``).
+"""What an outer ring on supports or a soft foundation, or in a housing, has of mass in a run.
 
-Modes of a free ring up to a frequency swing, with cosine and sine round the ring, and so does its
-translation; the compliance of the rest is what the static solution's has beside theirs. So a run at
-rest is the static solution, wherever the line between both is drawn.
+Modes of the ring up to a frequency swing (``swinging``), with cosine and sine round it, and so does
+the translation of a ring that nothing holds but supports. The compliance of the rest is what the
+static solution's has beside theirs. So a run at rest is the static solution, wherever the line
+between both is drawn.
 """
 
 from __future__ import annotations
@@ -44,7 +45,7 @@ class Coordinates:
 
 @dataclass(frozen=True, eq=False)
 class LowModes:
-    """Modes of a free ring that swing: harmonic (m,), frequency (m,) [rad/s], of its translation 0,
+    """Modes of a ring that swing: harmonic (m,), frequency (m,) [rad/s], of its translation 0,
     and shapes (m, 3) at the ports, of unit modal mass."""
 
     harmonic: np.ndarray
@@ -62,9 +63,11 @@ class LowModes:
 
 def low_modes(ring: RingReduction, below: float = CARRIED) -> LowModes:
     """Modes below a frequency [rad/s] that yield to what presses on the ring."""
-    across = ring.model.rigid_motions(1)[:, 0]
-    mass = float(across @ (ring.model.mass(1) @ across))
-    found = [(1, 0.0, ring.rigid / np.sqrt(mass))]
+    found = []
+    if ring.held.free:
+        across = ring.model.rigid_motions(1)[:, 0]
+        mass = float(across @ (ring.model.mass(1) @ across))
+        found = [(1, 0.0, ring.rigid / np.sqrt(mass))]
     for n in ring.harmonics:
         frequency, shapes = _below(ring, int(n), below)
         at_ports = ring.ports.T @ shapes
@@ -106,11 +109,12 @@ def ring_coordinates(bent: BentRing, modes: LowModes) -> Coordinates:
         spectrum(harmonic, seated.support_length) * shape[:, _SEAT], np.diag(w**2), 0.0 * w,
     )  # fmt: skip
     push = ((made.waves(bent.azimuth).T @ bent.force) * made.shape).sum(axis=1)
-    push -= made.chi * (made.waves(seated.support).T @ bent.support_force)
-    moved = seated.translation(bent.force, bent.bears)  # along y and z
-    rigid = modes.shape[0, _SEAT] / seated.reduction.rigid[_SEAT]
+    if len(bent.bears):
+        push -= made.chi * (made.waves(seated.support).T @ bent.support_force)
     at_start = np.where(w > 0.0, push / np.maximum(w, 1.0) ** 2, 0.0)
-    at_start[w == 0.0] = moved / rigid
+    if seated.reduction.held.free:
+        moved = seated.translation(bent.force, bent.bears)  # along y and z
+        at_start[w == 0.0] = moved * seated.reduction.rigid[_SEAT] / modes.shape[0, _SEAT]
     return replace(made, at_start=at_start)
 
 
@@ -140,10 +144,13 @@ def housing_coordinates(
     return made, unit
 
 
-def swings_on_supports(
-    seated: SeatedRing, modes: LowModes, made: Coordinates, late: float
-) -> Swings:
-    """Data of a ring on supports, for kernels."""
+def swings_of_ring(seated: SeatedRing, modes: LowModes, made: Coordinates, late: float) -> Swings:
+    """Data of a ring for kernels, with its supports if it has any."""
+    if not len(seated.support):
+        return swings_of(
+            len(seated.azimuth), made.harmonic, made.quarter, made.shape, made.stiffness,
+            np.full(len(made.harmonic), late),
+        )  # fmt: skip
     ring, azimuth = seated.reduction, 2.0 * np.pi * np.arange(POINTS) / POINTS
     n, rest = ring.harmonics, left_over(ring, modes)
     on_seat, on_race = spectrum(n, seated.support_length), spectrum(n, ring.along)

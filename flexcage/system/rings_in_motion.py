@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -17,7 +16,7 @@ from flexcage.system.ring_modes import (
     left_over,
     low_modes,
     ring_coordinates,
-    swings_on_supports,
+    swings_of_ring,
 )
 from flexcage.system.spec import Mount
 from flexcage.system.statics.rings import TO_V, BentRing, Rings
@@ -50,23 +49,27 @@ class MovingRings:
         return start
 
 
-def moving_rings(rings: Rings, solution: StaticSolution) -> MovingRings:
-    """Rings as they are ``asked`` for, reduced as in the static ``solution`` of the run's start:
-    its heaviest contact says over what extent, and its contact angles where, races are pressed."""
+def moving_rings(rings: Rings, solution: StaticSolution, *, stands: bool = True) -> MovingRings:
+    """Rings as they are asked for, reduced as in the static ``solution`` of the run's start: its
+    heaviest contact says over what extent, and its contact angles where, races are pressed.
+    ``stands``: does the seat of the outer ring stand? Then that ring swings where it is soft."""
     count = len(solution.elements.azimuth)
     data, swings, at_start = rigid_rings(count), no_swings(count), np.zeros(0)
+    told: list[str] = []
     for bent in solution.rings:
         spec = (rings.inner, rings.outer)[SIDES.index(bent.side)]
         yields = bent.seated.reduction.compliance
-        if len(bent.bears):
+        n, lowest = _lowest(bent)
+        if len(bent.bears) or (bent.side == "outer" and stands and lowest < _STIFF):
             modes = low_modes(bent.seated.reduction)
             made = ring_coordinates(bent, modes)
-            swings = swings_on_supports(bent.seated, modes, made, spec.relaxation)
+            swings = swings_of_ring(bent.seated, modes, made, spec.relaxation)
             yields, at_start = left_over(bent.seated.reduction, modes), made.at_start
+        elif lowest < _STIFF:
+            told.append(_too_soft(bent.side, n, lowest))
         _put(data, bent, yields, spec.relaxation)
-    told = tuple(_warnings(solution.rings))
     none, still = np.zeros(0), np.zeros((count, 3))
-    return MovingRings(data, swings, at_start, none, still, solution, told)
+    return MovingRings(data, swings, at_start, none, still, solution, tuple(told))
 
 
 def _put(data: RingsData, bent: BentRing, yields: np.ndarray, relaxation: float) -> None:
@@ -113,22 +116,21 @@ def _reach(table: np.ndarray, own: np.ndarray, elements: int) -> int:
     return int(np.count_nonzero(beyond > _FAINT))
 
 
-def _warnings(rings: tuple[BentRing, ...]) -> Iterator[str]:
-    """Of rings whose own frequencies are so low that a run would need their inertia."""
-    for ring in rings:
-        if len(ring.bears):
-            continue  # its low modes have their mass
-        reduction = ring.seated.reduction
-        found = [
-            natural_frequencies(reduction.model, reduction.held, n, 1)[0] for n in range(_LOW + 1)
-        ]
-        n, lowest = int(np.argmin(found)), float(min(found))
-        if lowest < 2.0 * np.pi * _STIFF:
-            yield (
-                f"the {ring.side} ring on its seat has a frequency of "
-                f"{lowest / (2e3 * np.pi):.2g} kHz ({n} waves around it), but in a run a ring "
-                "bends without inertia of its own: vibrations above a third of that are not right."
-            )
+def _lowest(ring: BentRing) -> tuple[int, float]:
+    """Waves around a ring on its seat, and frequency [Hz], of its lowest mode."""
+    reduction = ring.seated.reduction
+    found = [natural_frequencies(reduction.model, reduction.held, n, 1)[0] for n in range(_LOW + 1)]
+    n = int(np.argmin(found))
+    return n, float(found[n]) / (2.0 * np.pi)
+
+
+def _too_soft(side: str, n: int, lowest: float) -> str:
+    """Of a ring that would need its inertia."""
+    return (
+        f"the {side} ring on its seat has a frequency of {lowest / 1e3:.2g} kHz ({n} waves around "
+        "it), but in a run a ring bends without inertia of its own: vibrations above a third of "
+        "that are not right."
+    )
 
 
 def held_rings(moving: MovingRings) -> RingsData:
