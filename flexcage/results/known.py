@@ -307,6 +307,7 @@ def _solver() -> Iterator[KnownFigure]:
         *(_wall(stage) for stage in ("mesh", "modes", "kernels", "start")),
         _wall("solve", EFFORT),
         _wall("cage", LATER),
+        _wall("rings", LATER),
         _wall("pictures", LATER),
         ("wall_total", "Wall time, total", "s", "of the whole command", BRIEF),
     )

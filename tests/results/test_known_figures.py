@@ -50,6 +50,18 @@ def test_no_row_of_a_summary_has_a_name_of_its_own():
     assert not own, f"make it by figure() or statistic(): {own}"
 
 
+def test_every_stage_of_a_run_has_its_wall_time():
+    """A summary written after pictures of rings that bend once ended in a KeyError."""
+    stages = {
+        node.args[0].value
+        for _, node in nodes(ast.Call)
+        if ast.unparse(node.func).removesuffix(".named").rpartition(".")[2] == "stages"
+        if node.args and isinstance(node.args[0], ast.Constant)
+    }
+    assert {"mesh", "solve", "rings", "rivets", "pictures"} <= stages
+    assert {f"wall_{stage}" for stage in stages} <= set(KNOWN)
+
+
 def test_every_name_that_the_package_asks_for_is_a_figure():
     asked = [
         (place, argument.value)
