@@ -51,7 +51,7 @@ def test_no_row_of_a_summary_has_a_name_of_its_own():
 
 
 def test_every_stage_of_a_run_has_its_wall_time():
-    """A summary written after pictures of rings that bend once ended in a KeyError."""
+    """A summary written after pictures of rings, or a rivet's joint, once ended in a KeyError."""
     stages = {
         node.args[0].value
         for _, node in nodes(ast.Call)
