@@ -73,7 +73,7 @@ def ring_picture(
             limits=(0.0, limit), label="equivalent stress, MPa", over=over,
         )  # fmt: skip
         _curve(figure, (left, _TOP + 30, *_PLOT), azimuth, 1e6 * deflection,
-               "race moves outwards beside Hertz's own, µm")  # fmt: skip
+               "race outwards, beside Hertz, µm")  # fmt: skip
         _curve(figure, (left, _TOP + 130 + _PLOT[1], *_PLOT), azimuth, force,
                "radial force on the ring, N")  # fmt: skip
         return sheet.save(figure, path)
