@@ -1,6 +1,7 @@
 """The one list of figures: every figure's title, unit and place come from it, and nowhere else."""
 
 import ast
+import functools
 import re
 from pathlib import Path
 
@@ -18,11 +19,13 @@ SOURCES = [
 BY_NAME = {"figure", "statistic", "stored_figure", "_figure"}
 
 
-TREES = {path: ast.parse(path.read_text("utf-8")) for path in SOURCES}
+@functools.cache
+def trees():
+    return {path: ast.parse(path.read_text("utf-8")) for path in SOURCES}
 
 
 def nodes(kind):
-    for path, tree in TREES.items():
+    for path, tree in trees().items():
         for node in ast.walk(tree):
             if isinstance(node, kind):
                 yield f"{path.name}:{node.lineno}", node
@@ -103,7 +106,7 @@ def test_a_section_of_a_summary_is_named_in_the_list_alone():
     rooms = ("results", "run", "stress", "study", "report")
     again = [
         f"{path.name}:{node.lineno} {node.value}"
-        for path, tree in TREES.items()
+        for path, tree in trees().items()
         if path.relative_to(Path(flexcage.__file__).parent).parts[0] in rooms
         for node in ast.walk(tree)
         if isinstance(node, ast.Constant) and node.value in sections and node not in listed
