@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 from crown_cage import crown
 
+from flexcage.case.description import in_words
 from flexcage.simulate import load_run, simulate
 from flexcage.stages import assembled_start, bearing_in_motion, cage_mesh
 
@@ -47,6 +48,15 @@ def test_claws_and_ring_hold_the_cage_axially(way):
         layout.q(y)["cage"][:] = way * share * play, 0.0, 0.0
         pushed.append(-layout.u(bearing.residual(0.0, y, np.zeros_like(y)))["cage"][0])
     assert abs(pushed[0]) < 1e-9 and way * pushed[1] < -0.1
+
+
+def test_a_cage_warmer_than_its_material_bears_is_told():
+    """A run with pockets as soft as the warm material makes them, from its first step on."""
+    warm = {"cage.temperature": "121 degC", "solver.duration": "0.05 ms"}
+    run = simulate(crown({**RIGID, **warm}))
+    (text,) = (w.text for w in run.warnings if w.key == "cage_temperature")
+    assert "at 121 degC, where cages of PA66 are used up to 120 degC" in text
+    assert "PA66 at 121°C (0.54 GPa)" in " ".join(in_words(run.case))
 
 
 @pytest.mark.slow

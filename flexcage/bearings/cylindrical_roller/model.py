@@ -146,7 +146,7 @@ def own_coordinates(shapes: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
 def _pocket_laws(bearing, cage, contacts: Contacts, interface: CageInterface) -> np.ndarray:
     """Normal laws (2, N_NORMAL) of a slice of a crossbeam and of a point of a side beam."""
     rw, flexible = 0.5 * bearing.roller_diameter, interface.modes.shape[-1] > 0
-    steel, wall = elastic_constants(bearing.material), elastic_constants(cage.material)
+    steel, wall = elastic_constants(bearing.material), elastic_constants(cage.warm_material)
     k, e = laws.pocket_line_law(
         radius=rw,
         length=bearing.effective_length,
