@@ -60,6 +60,24 @@ def test_a_cage_warmer_than_its_material_bears_is_told():
 
 
 @pytest.mark.slow
+def test_a_cage_without_a_claw_runs(flexible):
+    """Its mass is missing where the claw was: beside the ball in front of pocket 4's middle."""
+    defects = [{"type": "missing_claw", "pocket": 4, "claw": "front"}]
+    run = simulate(crown({"solver.duration": "2 ms"}, defects=defects))
+    assert run.summary["energy_audit"] == "passed" and run.summary["pocket_force_peak"] > 0.05
+    for name, values in run.dataset.data_vars.items():
+        assert np.isfinite(values.values).all(), name
+    lost = 1.0 - run.summary["cage_mass"] / flexible.summary["cage_mass"]
+    assert 0.003 < lost < 0.03  # one of 18 claws, which are a small part of the cage
+    corners = run.mesh.points[run.mesh.tets]
+    volumes = np.abs(np.linalg.det(corners[:, 1:] - corners[:, :1]))
+    centre = volumes @ corners.mean(axis=1) / volumes.sum()
+    away = np.arctan2(-centre[2], -centre[1]) % (2.0 * np.pi)
+    ball_and_claw = (0.5 * 7.938 + 0.5 * 1.03) / 19.25  # rad from the pocket's middle
+    assert away == pytest.approx(4.0 * 2.0 * np.pi / 9.0 + ball_and_claw, abs=0.1)
+
+
+@pytest.mark.slow
 def test_a_cage_with_all_defects_runs():
     """Flexible, its mesh of uneven sectors and cracked; a bent claw presses its ball at once."""
     defects = [
