@@ -114,6 +114,12 @@ def test_what_cannot_be_is_one_sentence(overrides, words):
     assert caught.value.where == "cage.temperature" and "\n" not in str(caught.value)
 
 
+def test_a_body_of_ones_own_has_its_own_temperature(tmp_path):
+    (tmp_path / "body.npz").write_bytes(b"1")
+    with pytest.raises(InputError, match="modes.body brings the stiffness"):
+        crown({"cage.temperature": "100 degC", "modes.body": str(tmp_path / "body.npz")})
+
+
 def test_the_case_carries_it():
     case = crown()
     warm = crown({"cage.temperature": "120 °C"})
