@@ -229,7 +229,8 @@ class Run:
         cage, bearing = case.cage, case.bearing
         return self.stages(
             "rivet_joint", fits_of, rivets,
-            cage.rivet_joint(bearing.pitch_diameter, bearing.element_count, root), cage.material,
+            cage.rivet_joint(bearing.pitch_diameter, bearing.element_count, root),
+            cage.warm_material,
             [_si(play, "um", "play") for play in plays or (0.0,)],
             clamp=_si(clamp, "N", "clamp"), friction=friction, mesh=mesh,
         )  # fmt: skip
