@@ -179,7 +179,7 @@ def bearing_in_motion(specs: MotionSpecs, mesh: CageMesh, cage: CageReduction | 
     if cage is None:
         body = rigid_from_tets(mesh.points, mesh.tets, specs.cage.material.density)
         return _assembled(specs, body, _rigid_interface(specs), _moving_rings(specs))
-    body = flexible_from_reduction(cage, specs.modes.damped_as(specs.cage.material))
+    body = flexible_from_reduction(cage, specs.modes.damped_as(specs.cage.warm_material))
     return _assembled(specs, body, cage.interface, _moving_rings(specs))
 
 

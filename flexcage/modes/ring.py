@@ -15,7 +15,7 @@ extrapolated to none from two patches.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, lru_cache
 from math import ceil, hypot, sqrt
 
 import numpy as np
@@ -117,6 +117,7 @@ def spectrum(n: np.ndarray, length: float) -> np.ndarray:
     return np.where(n < 2, 1.0, np.exp(-0.5 * (n * length) ** 2))
 
 
+@lru_cache(maxsize=8)
 def reduce_ring(
     section: RingSection,
     material: Material,
@@ -126,7 +127,8 @@ def reduce_ring(
     along: float = ALONG,
 ) -> RingReduction:
     """Reduction of a ring on a number of ``supports``; ``along``: standard deviation of patches
-    around the ring, as a share of the wall."""
+    around the ring, as a share of the wall. Kept for the next solutions with the same ring: do not
+    change its arrays."""
     raceway, length = section.raceway, along * section.wall
     model = Revolved(_mesh(section, length), material)
     angle = length / raceway.place[1]

@@ -156,8 +156,9 @@ def _between_ribs(model: RollerModel, layout: Layout, y: np.ndarray) -> np.ndarr
 
 
 class _Frictionless:
-    """The bearing without friction, damping, drag, rolling resistance and gravity, and without
-    films; ``lands``: with the cage's dry lands, which a free cage is to keep off by itself."""
+    """The bearing without friction, damping, drag, rolling resistance and gravity, without films,
+    and without a roller's spot, from whose edges it would roll; ``lands``: with the cage's dry
+    lands, which a free cage is to keep off by itself."""
 
     def __init__(self, bearing: Bearing, offset: np.ndarray, *, lands: bool = False) -> None:
         model = bearing.data.model
@@ -172,6 +173,7 @@ class _Frictionless:
             outer=model.outer._replace(rolling=np.zeros(2)),
             land=model.land._replace(kind=land),
             pocket=with_offset(model.pocket, offset),
+            spot=model.spot._replace(roller=-1),
         )
         self.bearing = bearing
         free = bearing.data.constraints
