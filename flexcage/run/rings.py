@@ -43,14 +43,22 @@ def rings_at(run: Run, time: float | str | None) -> tuple[float, tuple[BentRing,
         k = int(samples_near(t, [time])[0])
     azimuth = ds["element_position"].values[k, :, 2]
     load, moved = ds["ring_load"].values[k], ds["ring_deflection"].values[k]
-    none = np.empty(0)
     found = []
     for ring in seated:
         side = ("inner", "outer").index(ring.side)
         placed = replace(ring, azimuth=azimuth)
         force = load[:, side] @ ring.to_v
-        found.append(BentRing(placed, force, moved[:, side], none, none.astype(bool)))
+        pressed = ds["support_force"].values[k] if len(ring.support) else np.empty(0)
+        found.append(BentRing(placed, force, moved[:, side], pressed, _bears(ring, pressed)))
     return float(t[k]), tuple(found)
+
+
+def _bears(ring: SeatedRing, pressed: np.ndarray) -> np.ndarray:
+    """Supports (S,) that say where the ring as a whole lies: those that press, or all if these
+    leave it free to move, as it may be for a moment."""
+    bears = pressed != 0.0
+    held = np.stack([np.cos(ring.support[bears]), np.sin(ring.support[bears])])
+    return bears if np.linalg.matrix_rank(held, tol=1e-6) == 2 else np.ones_like(bears)
 
 
 def draw_rings(run: Run, folder: Path) -> list[Path]:
