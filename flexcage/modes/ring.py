@@ -160,17 +160,19 @@ def natural_frequencies(model: Revolved, held: Held, n: int, count: int) -> np.n
 
 
 def natural_modes(model: Revolved, held: Held, n: int, count: int) -> tuple[np.ndarray, np.ndarray]:
-    """The same with their shapes (3N, count), of unit modal mass."""
+    """The same with their shapes (3N, count), of unit modal mass; always with the same signs, on
+    which coordinates of a run rest."""
     from scipy.sparse.linalg import eigsh
 
     keep, stiffness = _kept(model, held, n)
     mass = model.mass(n)[keep][:, keep]
     rigid = model.rigid_motions(n).shape[1] if held.free else 0
     shift = -1e-6 * float(stiffness.diagonal().sum() / mass.diagonal().sum())
-    values, vectors = eigsh(stiffness, count + rigid, mass, sigma=shift)
+    first = np.random.default_rng(0).standard_normal(stiffness.shape[0])
+    values, vectors = eigsh(stiffness, count + rigid, mass, sigma=shift, v0=first)
     order = np.argsort(values)[rigid:]
     shapes = np.zeros((model.n_dof, count))
-    shapes[keep] = vectors[:, order]
+    shapes[keep] = vectors[:, order] * np.where(first @ vectors[:, order] < 0.0, -1.0, 1.0)
     return np.sqrt(values[order]), shapes
 
 
