@@ -84,11 +84,11 @@ def ehl_traction(
 
 def draw_ring(
     ring: BentRing, path: str | Path, *, scale: float | None = None,
-    when: str = "in the static solution",
+    when: str = "in the static solution", name: str = "",
 ) -> Path:  # fmt: skip
-    """Picture of a ring of a static solution, or of an instant of a run (``when``, in words):
-    stress on its deformed shape (``scale`` times; chosen if not given), forces, and how far its
-    race yields. Beneath the elements Hertz's own stress is not resolved."""
+    """Picture of a ring of a static solution, or of an instant of a run (``when``, in words), of
+    the case ``name``: stress on its deformed shape (``scale`` times; chosen if not given),
+    forces, and how far its race yields. Beneath the elements Hertz's own stress is not resolved."""
     from flexcage.render import ring_picture
     from flexcage.stress.rings import ring_field
 
@@ -101,7 +101,7 @@ def draw_ring(
         field.von_mises.ravel(), path, azimuth=ring.azimuth, force=ring.force[:, radial],
         deflection=ring.deflection[:, 1], support=supports, support_force=ring.support_force,
         title=f"{ring.side.capitalize()} ring {when}", scale=scale,
-        note="stress beneath the elements is that of the ring, without Hertz's own",
+        name=name, note="stress beneath the elements is that of the ring, without Hertz's own",
     )  # fmt: skip
 
 
@@ -127,7 +127,10 @@ def write_static(case: StaticCase, solution: StaticSolution, folder: Path) -> li
                 speed=solution.speed,
             )
         )  # fmt: skip
-        written += [draw_ring(ring, folder / f"{ring.side}_ring.png") for ring in solution.rings]
+        written += [
+            draw_ring(ring, folder / f"{ring.side}_ring.png", name=case.name)
+            for ring in solution.rings
+        ]
     except EnvironmentLacks as exc:
         log.warning("no picture: %s", exc)
     return written

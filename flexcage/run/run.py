@@ -228,7 +228,7 @@ class Run:
         root = _si(root_radius, "mm", "root_radius")
         cage, bearing = case.cage, case.bearing
         return self.stages(
-            "riveted joint", fits_of, rivets,
+            "rivet_joint", fits_of, rivets,
             cage.rivet_joint(bearing.pitch_diameter, bearing.element_count, root),
             cage.warm_material,
             [_si(play, "um", "play") for play in plays or (0.0,)],
