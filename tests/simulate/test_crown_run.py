@@ -56,7 +56,7 @@ def test_a_cage_warmer_than_its_material_bears_is_told():
     run = simulate(crown({**RIGID, **warm}))
     (text,) = (w.text for w in run.warnings if w.key == "cage_temperature")
     assert "at 121 degC, where cages of PA66 are used up to 120 degC" in text
-    assert "PA66 at 121°C (0.54 GPa)" in " ".join(in_words(run.case))
+    assert "PA66 at 121°C (0.54 GPa; its strength is that at 23°C)" in " ".join(in_words(run.case))
 
 
 @pytest.mark.slow
