@@ -63,7 +63,7 @@ def test_a_cage_warmer_than_its_material_bears_is_told():
 def test_a_cage_without_a_claw_runs(flexible):
     """Its mass is missing where the claw was: beside the ball in front of pocket 4's middle."""
     defects = [{"type": "missing_claw", "pocket": 4, "claw": "front"}]
-    run = simulate(crown({"solver.duration": "2 ms"}, defects=defects))
+    run = simulate(crown(defects=defects))
     assert run.summary["energy_audit"] == "passed" and run.summary["pocket_force_peak"] > 0.05
     for name, values in run.dataset.data_vars.items():
         assert np.isfinite(values.values).all(), name
