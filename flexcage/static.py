@@ -17,6 +17,7 @@ from flexcage.system.statics.options import AT_START, StaticOptions
 from flexcage.system.statics.rings import BentRing, Rings
 from flexcage.system.statics.solution import StaticSolution
 from flexcage.system.statics.solve import solve_bearing
+from flexcage.system.statics.yielding import compliance_of
 
 log = logging.getLogger(__name__)
 
@@ -32,18 +33,9 @@ def solve_static(case: StaticCase, *, options: StaticOptions | None = None) -> S
     return solve_bearing(
         case.bearing, statics_of(case.bearing), load=case.load, speed=case.speed,
         contacts=case.contacts, lubricant=case.lubricant, options=options or case.static,
-        rings=Rings(case.inner_ring, case.outer_ring, sections_of(case.bearing)), seat=_seat(case),
+        rings=Rings(case.inner_ring, case.outer_ring, sections_of(case.bearing)),
+        seat=compliance_of(case.mount, case.bearing),
     )  # fmt: skip
-
-
-def _seat(case: StaticCase) -> np.ndarray | None:
-    """Compliance (5, 5) of the outer ring's seat in its housing; None for a rigid one."""
-    if not case.mount.body:
-        return None
-    from flexcage.system.seat import seat_compliance  # with readers of files, which few need
-
-    bearing = case.bearing
-    return seat_compliance(case.mount, diameter=bearing.outside_diameter, width=bearing.width)
 
 
 def ehl_traction(

@@ -347,12 +347,11 @@ def _find_in_mesh(case: Case) -> Iterator[Finding]:
 
 
 def _find_in_mount(case: Case) -> Iterator[Finding]:
-    if case.mount.body:
+    if case.mount.body and case.mount.kind != "fixed":
         yield (
             "mount.body",
-            "mount.body is given, but in a run the outer ring moves in y and z alone, without the "
-            "modes of a housing; take 'flexcage static', or leave it out and give mount.kind = "
-            '"bushing" with mount.stiffness and mount.mass.',
+            f"mount.body is given, but mount.kind is '{case.mount.kind}', and a housing takes its "
+            "place; leave one of both out.",
         )
 
 

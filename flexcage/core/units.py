@@ -182,8 +182,10 @@ def parse(value: object, unit: str, *, where: str = "value") -> float:
         raise _no_unit(value, unit, where)
     wanted, have = _COMMON.get(unit), _COMMON.get(given)
     if wanted and have and wanted[0] == have[0]:
-        zero = _ZEROS.get(given, 0)
-        found = float(_shifted(number, have[1]) + zero) * have[2]
+        shifted = _shifted(number, have[1])
+        if given in _ZEROS and number.adjusted() < 9:  # a sum of greater ones may overflow
+            shifted += _ZEROS[given]
+        found = float(shifted) * have[2]
     else:
         found = _parse_by_pint(float(number), given, unit, where, value)
     if (math.isinf(found) and number.is_finite()) or (found == 0.0 and number != 0):

@@ -31,6 +31,7 @@ from flexcage.system.newton import assemble, newton_step
 from flexcage.system.problem import Bearing
 from flexcage.system.rings_in_motion import held_rings
 from flexcage.system.start import Advance, Start, StaticStart, made_room
+from flexcage.system.swinging import no_swings
 
 _SMALL = 1e-7  # of the load: where an equilibrium is accepted
 _BALANCED = 1e-6  # of the load: what may stay unbalanced at last
@@ -421,12 +422,15 @@ def roller_start_between_bent_rings(
 ) -> Start:
     """The same between races that are bent as in the static solution, which has to be given; rings
     bear what then presses on them."""
-    assert statics is not None, "rings bend as in a static solution"
+    assert bearing.rings is not None, "rings bend as in a static solution"
     held, model = copy(bearing), bearing.data.model
-    rings = held_rings(model.rings, statics().rings)
-    held.data = bearing.data._replace(model=model._replace(rings=rings))
+    rings = held_rings(bearing.rings)
+    still = model._replace(rings=rings, swings=no_swings(bearing.layout.elements))
+    held.data = bearing.data._replace(model=still)
+    held.layout = replace(bearing.layout, ring_modes=0)
     start = roller_start(held, limit_force=limit_force, statics=None, advance=advance)
     _Frictionless(held, model.pocket.offset).residual(start.y, start.yd)
-    y = start.y.copy()
+    y, yd = bearing.rings.begun(start.y, bearing.layout), np.zeros(bearing.layout.size)
+    yd[: len(start.yd)] = start.yd
     bearing.layout.ring_forces(y)[:] = rings.force
-    return replace(start, y=y)
+    return replace(start, y=y, yd=yd)
