@@ -35,7 +35,7 @@ def _warm(cage: Cage) -> str:
     if cage.temperature is None:
         return ""
     modulus = typeset(cage.warm_material.youngs_modulus, "GPa", digits=3)
-    return f" at {typeset(cage.temperature, 'degC')} ({modulus})"
+    return f" at {typeset(cage.temperature, 'degC')} ({modulus}; its strength is that at 23°C)"
 
 
 def _defects(case: Case) -> str:

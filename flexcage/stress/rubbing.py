@@ -38,7 +38,7 @@ Rub = Callable[["xarray.Dataset", Bearing, Cage], Rubbing]
 
 def modulus(bearing: Bearing, cage: Cage) -> float:
     """2/((1 - nu_1^2)/E_1 + (1 - nu_2^2)/E_2) of element and cage [Pa]."""
-    one, other = bearing.material.plane_strain_modulus, cage.material.plane_strain_modulus
+    one, other = bearing.material.plane_strain_modulus, cage.warm_material.plane_strain_modulus
     return float(2.0 / (1.0 / one + 1.0 / other))
 
 

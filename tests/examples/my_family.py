@@ -8,7 +8,7 @@ from typing import ClassVar, NamedTuple
 
 from flexcage.bearings.ball import FAMILY as BALLS
 from flexcage.bearings.ball.deep_groove import DeepGrooveBallBearing
-from flexcage.bearings.ball.model import SpottedBall
+from flexcage.bearings.ball.model import SpottedBalls
 from flexcage.bodies.floating_frame import BodyData
 from flexcage.contacts.ball_pocket import BallPockets
 from flexcage.contacts.beside import Beside
@@ -47,7 +47,7 @@ class MagnetModel(NamedTuple):
     outer: Groove
     pocket: BallPockets
     beside: Beside
-    spot: SpottedBall
+    spot: SpottedBalls
     land: LandData
     magnet: Magnet
 

@@ -78,5 +78,14 @@ def test_spots_that_cannot_be_are_refused():
         spot = {**PIT, **{f"bearing.roller_spot.{k}": v for k, v in changes.items()}}
         with pytest.raises(InputError, match=words):
             n1013(RIGID, spot)
-    with pytest.raises(InputError, match="the rollers are numbered 0 to 21"):
-        n1013(PIT, bearing={"preset": "N1013", "roller_spot": {"roller": 22}})
+    for numbers in ({"roller": 22}, {"others": [3, 22]}):
+        with pytest.raises(InputError, match="is 22, but the rollers are numbered 0 to 21"):
+            n1013(PIT, bearing={"preset": "N1013", "roller_spot": numbers})
+
+
+def test_several_rollers_may_have_one(build_parts):
+    case = n1013(PIT, bearing={"preset": "N1013", "roller_spot": {"roller": 3, "others": [9, 5]}})
+    assert "Rollers 3, 5 and 9 have a pit of 1 mm, 50 µm deep." in case.bearing.in_words()
+    model = build_parts(bearing={"roller_spot": case.bearing.roller_spot})
+    assert np.flatnonzero(model.spot.has).tolist() == [3, 5, 9]
+    assert not build_parts().spot.has.any()

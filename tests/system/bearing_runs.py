@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from flexcage.bearings.cylindrical_roller.motion import MOTION
+from flexcage.bearings.cylindrical_roller.spot import RollerSpot
 from flexcage.bearings.cylindrical_roller.start import geometric_guess, rolling_velocities
 from flexcage.case.presets import load_preset
 from flexcage.solve import bdf, runge_kutta
@@ -20,6 +21,8 @@ from flexcage.system.spec import Drive, Load, Mount
 
 N1013 = load_preset("N1013").bearing
 #: What makes an N1013 another design; ribs of both rings are 1.95 mm high.
+#: On the edge of which roller 0 stands, on the inner race.
+PIT = RollerSpot(size=1e-3, depth=50e-6, angle=np.pi + 0.115)
 NU = {"design": "NU", "rib_diameter": 86.6e-3}
 NUP = {**NU, "design": "NUP", "counter_rib_diameter": 78.4e-3, "counter_rib_gap": 8.03e-3}
 BETWEEN_RIBS = Load(radial=1000.0, axial=440.0)
@@ -98,6 +101,7 @@ SOFT = Load(
 #: Named specs and disturbances of a bearing in which something of every kind touches.
 STATES = {
     "light": ({}, {}),
+    "on the edge of a roller's pit": ({"bearing": {"roller_spot": PIT}}, {}),
     "every pocket loaded": ({}, {"press": 110e-6, "skew": 3e-4}),
     "ends in the ribs": ({}, {"axial": 20e-6, "skew": 1e-4}),
     "ends in the outer ribs": (

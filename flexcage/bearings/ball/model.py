@@ -21,6 +21,7 @@ from flexcage.contacts.race import race_work
 from flexcage.contacts.spec import Contacts, Lubricant
 from flexcage.contacts.uneven import is_uneven, uneven_race
 from flexcage.geometry.hertz import PointContact
+from flexcage.geometry.spall import marked
 from flexcage.system.bodies import bodies_of, land_data, unbalanced
 from flexcage.system.data import Bodies, Work, new_work
 from flexcage.system.layout import Layout
@@ -29,10 +30,10 @@ from flexcage.system.spec import Drive, Load, Mount
 POINT = 1.5  # exponent of a Hertz contact
 
 
-class SpottedBall(NamedTuple):
-    """Which ball has a spot."""
+class SpottedBalls(NamedTuple):
+    """Which balls have a spot."""
 
-    ball: int  # -1: none
+    has: np.ndarray  # (Z,) 1 or 0
 
 
 class BallModel(NamedTuple):
@@ -44,7 +45,7 @@ class BallModel(NamedTuple):
     outer: Groove
     pocket: BallPockets
     beside: Beside
-    spot: SpottedBall
+    spot: SpottedBalls
     land: LandData
 
 
@@ -170,7 +171,7 @@ def build_ball_model(
         outer=groove_of(bearing, contacts, lubricant, inner=False),
         pocket=_pockets(bearing, cage, contacts, interface),
         beside=besides(bearing, contacts, radius_of_balls),
-        spot=SpottedBall(bearing.ball_spot.ball if bearing.ball_spot.size else -1),
+        spot=SpottedBalls(marked(bearing.ball_count, bearing.ball_spot.balls)),
         land=land_data(
             cage, land, lubricant, interface.land,
             kind=land.kind if cage.has_land else "none", outer=outer, radius=radius,

@@ -139,7 +139,7 @@ def on_inner_race(i, qi, ui, rest_q, rest_u, d):
         fields(d.bodies).radius[i], P, xyz(ui), turn_of(ui), turned(F, xyz(vec[RING_AXIS])),
         turned(F, xyz(rest_u[:INNER_TURN])), turned(F, xyz(vec[RING_SPIN])),
         fields(d.memory).race[i, INNER_RACE], qi[2] - rest_q[Q_INNER_TURN + 2],
-        1 if i == fields(d.spot).ball else 0, turn_of(qi),
+        fields(d.spot).has[i], turn_of(qi),
     )  # fmt: skip
 
 
@@ -151,7 +151,7 @@ def on_outer_race(i, qi, ui, rest_q, rest_u, d):
     return BallOnRace(
         fields(d.bodies).radius[i], P, xyz(ui), turn_of(ui), (1.0, 0.0, 0.0),
         turned(F, (0.0, rest_u[OUTER], rest_u[OUTER + 1])), (0.0, 0.0, 0.0),
-        fields(d.memory).race[i, OUTER_RACE], qi[2], 1 if i == fields(d.spot).ball else 0,
+        fields(d.memory).race[i, OUTER_RACE], qi[2], fields(d.spot).has[i],
         turn_of(qi),
     )  # fmt: skip
 
@@ -274,7 +274,7 @@ def ball_rows(i, qi, ui, qdi, udi, d, r_q, r_u, mode):
     for c in range(6):
         r_q[c] = qdi[c] - ui[c]
     r_q[2] = qdi[2] - orbit
-    if i == fields(d.spot).ball:  # its spot's direction turns with it, in a frame that orbits
+    if fields(d.spot).has[i] > 0:  # its spot's direction turns with it, in a frame that orbits
         rate = cross(minus(turn_of(ui), (orbit, 0.0, 0.0)), turn_of(qi))
         for c in range(3):
             r_q[TURN + c] = qdi[TURN + c] - rate[c]

@@ -19,8 +19,8 @@ def ball_weights(model: BallModel, layout: Layout, length: float) -> np.ndarray:
     q["inner"][0], q["inner"][3:5] = 1.0 / length, pitch / length
     u["elements"][:, 3:] = float(model.bodies.radius.mean()) / (10.0 * speed)
     u["inner"][0], u["inner"][3:] = 1.0 / speed, pitch / speed
-    if model.spot.ball >= 0:
-        q["elements"][model.spot.ball, 3:] = float(model.bodies.radius.mean()) / length
+    spotted = model.spot.has > 0
+    q["elements"][spotted, 3:] = float(model.bodies.radius.mean()) / length
     return weight
 
 

@@ -11,6 +11,7 @@ import numpy as np
 
 from flexcage.core.spec import option, quantity
 from flexcage.core.units import mm, typeset
+from flexcage.geometry.spall import find_off_count, spotted_in_words
 
 if TYPE_CHECKING:
     from flexcage.bearings.ball.bearing import BallBearing
@@ -20,7 +21,7 @@ _WIDEST = 0.25  # of the ball's diameter, to which a spot is small against the b
 
 @dataclass(frozen=True, kw_only=True)
 class BallSpot:
-    """A pit or a flat on one ball; none while its size is zero.
+    """A pit or a flat on one ball or more; none while its size is zero.
 
     A pit has sharp edges and one depth. A flat is as deep as its chord; on both, a ball sinks into
     a race as a race's spall lets it. A spot is as wide as long, its sides along and across the
@@ -30,11 +31,19 @@ class BallSpot:
     size: float = quantity("mm", 0.0, doc="length and width; 0: no spot", minimum=0.0)
     kind: str = option("pit", doc="what it is", choices=("pit", "flat"))
     ball: int = option(0, doc="ball that has it", minimum=0)
+    others: tuple[int, ...] = option(
+        (), doc="further balls with a spot alike", minimum=0, legacy=()
+    )
     depth: float = quantity("um", 100e-6, doc="depth of a pit", above=0.0)
     angle: float = quantity(
         "deg", 0.0, doc="where it is at the start: from outwards towards the sense of the orbit"
     )
     tilt: float = quantity("deg", 0.0, doc="likewise, from that plane towards +x")
+
+    @property
+    def balls(self) -> tuple[int, ...]:
+        """Numbers of the balls that have one."""
+        return tuple(sorted({self.ball, *self.others})) if self.size else ()
 
     def dimensions(self, radius: float, effective: float) -> np.ndarray:
         """Half of its size, its depth, and the drop over the square of a length [m], on a race with
@@ -50,10 +59,9 @@ class BallSpot:
 
     def in_words(self) -> str:
         """A sentence on it; empty if there is none."""
-        if not self.size:
-            return ""
         deep = "" if self.kind == "flat" else f", {typeset(self.depth, 'um')} deep"
-        return f" Ball {self.ball} has a {self.kind} of {typeset(self.size, 'mm')}{deep}."
+        what = f"{self.kind} of {typeset(self.size, 'mm')}{deep}"
+        return spotted_in_words("Ball", self.balls, what)
 
 
 def find_in_spot(b: BallBearing) -> Iterator[tuple[str, str]]:
@@ -61,12 +69,8 @@ def find_in_spot(b: BallBearing) -> Iterator[tuple[str, str]]:
     spot, most, deepest = b.ball_spot, _WIDEST * b.ball_diameter, 0.1 * b.ball_diameter
     if not spot.size:
         return
-    if spot.ball >= b.ball_count:
-        yield (
-            "bearing.ball_spot.ball",
-            f"bearing.ball_spot.ball is {spot.ball}, but the balls are numbered 0 to "
-            f"{b.ball_count - 1}.",
-        )
+    named = {"ball": (spot.ball,), "others": spot.others}
+    yield from find_off_count("bearing.ball_spot", named, "ball", b.ball_count)
     if spot.size > most:
         yield (
             "bearing.ball_spot.size",

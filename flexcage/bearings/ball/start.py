@@ -35,7 +35,7 @@ def ball_start(
     y = ball_places(bearing, solution)
     made_room(model.land, bearing.layout, y)
     yd = rolling_balls(model, bearing.layout, solution, y)
-    turn_spot(bearing.spec.ball_spot, model.spot.ball, bearing.layout, y, yd)
+    turn_spots(bearing.spec.ball_spot, bearing.layout, y, yd)
     if bearing.layout.modes:
         spin = float(bearing.layout.u(y)["omega"][0])
         bearing.layout.q(y)["modes"][:] = _strained_by_rotation(model.cage, spin)
@@ -104,14 +104,13 @@ def rolling_balls(
     return yd
 
 
-def turn_spot(spot: BallSpot, ball: int, layout: Layout, y: np.ndarray, yd: np.ndarray) -> None:
-    """Set in y and y' the direction of the spot of a ball, if there is one."""
-    if ball < 0:
-        return
-    layout.q(y)["elements"][ball, 3:] = direction = spot.direction()
-    turning = layout.u(y)["elements"][ball, 3:].copy()
-    turning[0] -= layout.q(yd)["elements"][ball, 2]
-    layout.q(yd)["elements"][ball, 3:] = np.cross(turning, direction)
+def turn_spots(spot: BallSpot, layout: Layout, y: np.ndarray, yd: np.ndarray) -> None:
+    """Set in y and y' the directions of the spots of balls, if there are any."""
+    for ball in spot.balls:
+        layout.q(y)["elements"][ball, 3:] = direction = spot.direction()
+        turning = layout.u(y)["elements"][ball, 3:].copy()
+        turning[0] -= layout.q(yd)["elements"][ball, 2]
+        layout.q(yd)["elements"][ball, 3:] = np.cross(turning, direction)
 
 
 def _strained_by_rotation(body: BodyData, speed: float) -> np.ndarray:

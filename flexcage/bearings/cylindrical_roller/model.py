@@ -27,6 +27,7 @@ from flexcage.contacts.rib import RibData
 from flexcage.contacts.spec import Contacts, Lubricant
 from flexcage.contacts.state import Q_SKEW, Q_SPIN, Q_TILT
 from flexcage.contacts.uneven import is_uneven, uneven_race
+from flexcage.geometry.spall import marked
 from flexcage.modes.basis import CageInterface
 from flexcage.system.bodies import bodies_of, elastic_constants, land_data, unbalanced
 from flexcage.system.data import Bodies, Work, new_work
@@ -34,10 +35,10 @@ from flexcage.system.layout import Layout
 from flexcage.system.spec import Drive, Load, Mount
 
 
-class SpottedRoller(NamedTuple):
-    """Which roller has a spot."""
+class SpottedRollers(NamedTuple):
+    """Which rollers have a spot."""
 
-    roller: int  # -1: none
+    has: np.ndarray  # (Z,) 1 or 0
     angle: float  # of its middle [rad] while the roller's spin angle is zero
 
 
@@ -51,7 +52,7 @@ class RollerModel(NamedTuple):
     rib: RibData  # of the inner ring
     outer_rib: RibData
     pocket: PocketData
-    spot: SpottedRoller
+    spot: SpottedRollers
     land: LandData
 
 
@@ -267,7 +268,7 @@ def build_roller_model(
         rib=_rib_data(bearing, contacts, "inner"),
         outer_rib=_rib_data(bearing, contacts, "outer"),
         pocket=_pocket_data(bearing, cage, contacts, interface),
-        spot=SpottedRoller(spot.roller if spot.size else -1, spot.angle),
+        spot=SpottedRollers(marked(bearing.roller_count, spot.rollers), spot.angle),
         land=land_data(
             cage, land, lubricant, interface.land, kind=land.kind, outer=outer, radius=radius,
             bearing=bearing,

@@ -10,7 +10,7 @@ import numpy as np
 
 from flexcage.core.spec import option, quantity
 from flexcage.core.units import mm, typeset
-from flexcage.geometry.spall import covered
+from flexcage.geometry.spall import covered, find_off_count, spotted_in_words
 
 if TYPE_CHECKING:
     from flexcage.bearings.cylindrical_roller.bearing import RollerBearing
@@ -20,7 +20,7 @@ _WIDEST = 0.25  # of the roller's diameter, to which a spot is small against the
 
 @dataclass(frozen=True, kw_only=True)
 class RollerSpot:
-    """A pit or a flat on one roller; none while its size is zero.
+    """A pit or a flat on one roller or more; none while its size is zero.
 
     A pit has sharp edges and one depth. A flat is as deep as its chord. On both, the roller sinks
     towards a race as a race's spall lets it, once a turn on each race; pockets do not feel it.
@@ -29,12 +29,20 @@ class RollerSpot:
     size: float = quantity("mm", 0.0, doc="length round the roller; 0: no spot", minimum=0.0)
     kind: str = option("pit", doc="what it is", choices=("pit", "flat"))
     roller: int = option(0, doc="roller that has it", minimum=0)
+    others: tuple[int, ...] = option(
+        (), doc="further rollers with a spot alike", minimum=0, legacy=()
+    )
     depth: float = quantity("um", 100e-6, doc="depth of a pit", above=0.0)
     width: float | None = quantity("mm", None, doc="axial width (default: all)", above=0.0)
     offset: float = quantity("mm", 0.0, doc="axial distance of its middle from the roller's")
     angle: float = quantity(
         "deg", 0.0, doc="where it is at the start: from outwards towards the sense of the orbit"
     )
+
+    @property
+    def rollers(self) -> tuple[int, ...]:
+        """Numbers of the rollers that have one."""
+        return tuple(sorted({self.roller, *self.others})) if self.size else ()
 
     def dimensions(self, radius: float, effective: float) -> np.ndarray:
         """Half of its angle, 0, its depth, and the drop over the square of an angle, as
@@ -50,10 +58,9 @@ class RollerSpot:
 
     def in_words(self) -> str:
         """A sentence on it; empty if there is none."""
-        if not self.size:
-            return ""
         deep = "" if self.kind == "flat" else f", {typeset(self.depth, 'um')} deep"
-        return f" Roller {self.roller} has a {self.kind} of {typeset(self.size, 'mm')}{deep}."
+        what = f"{self.kind} of {typeset(self.size, 'mm')}{deep}"
+        return spotted_in_words("Roller", self.rollers, what)
 
 
 def find_in_spot(b: RollerBearing) -> Iterator[tuple[str, str]]:
@@ -62,12 +69,8 @@ def find_in_spot(b: RollerBearing) -> Iterator[tuple[str, str]]:
     most, deepest, reach = _WIDEST * b.roller_diameter, 0.1 * b.roller_diameter, b.effective_length
     if not spot.size:
         return
-    if spot.roller >= b.roller_count:
-        yield (
-            f"{where}.roller",
-            f"{where}.roller is {spot.roller}, but the rollers are numbered 0 to "
-            f"{b.roller_count - 1}.",
-        )
+    named = {"roller": (spot.roller,), "others": spot.others}
+    yield from find_off_count(where, named, "roller", b.roller_count)
     if spot.size > most:
         yield (
             f"{where}.size",

@@ -173,7 +173,7 @@ class _Frictionless:
             outer=model.outer._replace(rolling=np.zeros(2)),
             land=model.land._replace(kind=land),
             pocket=with_offset(model.pocket, offset),
-            spot=model.spot._replace(roller=-1),
+            spot=model.spot._replace(has=0 * model.spot.has),
         )
         self.bearing = bearing
         free = bearing.data.constraints
