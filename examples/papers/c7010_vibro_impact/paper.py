@@ -234,6 +234,9 @@ PAPER = Paper(
     alone={PRINTED_MODEL: ("readings_printed.toml", "printed")},
     maps={AXIAL: ("map_axial.toml",), COMBINED: ("map_combined.toml",)},
     decided_by={c.key: BETTER if c.key in BY_STARTS else AXIAL for c in CLAIMS},
+    # Of the first eight points of a map those at the ranks 0, 1/4, 1/2, 3/4 and 1 of the deviation
+    # ratio at 12,500 N, which is the printed number: chosen before any of these runs.
+    rechecks={"map_axial.toml": (6, 4, 2, 1, 0), "map_combined.toml": (3, 0, 7, 4, 1)},
     stress=("case.toml", {"cage.model": "flexible", "solver.duration": "40 ms"}),
     draw=draw,
     tables=tables,
