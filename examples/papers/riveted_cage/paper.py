@@ -6,7 +6,7 @@ import numpy as np
 from claims import BASE, CLAIMS, CLEARANCES, DESIGN_AXES, FORCE, INNER, OUTER, RADII, WIDTHS
 from figures import BETTER, CAGE, FLEXIBLE, MODEL, draw, mean, tables
 from paper_page import number
-from paper_results import conditions_of
+from paper_weighed import rechecked
 from repeat import Computed, Paper, Words
 from scipy.stats import spearmanr
 
@@ -66,30 +66,6 @@ def sign(computed: Computed) -> tuple[str, str, str]:
     one, other = one[there], other[there]
     near = (abs(one - 0.0113) < 0.0017) & (abs(other - 0.0184) < 0.0028)
     return tuple(percent_text(share.mean()) for share in (one > 0, other > 0, near))
-
-
-def rechecked(computed: Computed) -> list[str]:
-    """What a flexible cage changes at the points that were rechecked."""
-    same = both = points = 0
-    for results in computed.rechecks.values():
-        rigid = next(
-            p for m in computed.maps.values() for p in m.parts
-            if p.names == results.names and np.array_equal(p.shares, results.shares)
-            and set(results.conditions) <= set(p.conditions)
-        )  # fmt: skip
-        there = set(results.conditions)
-        found = np.array([results.means("slip", c) for c in results.conditions])
-        points += int(np.isfinite(found).all(axis=0).sum())
-        for claim in computed.paper.claims:
-            if not conditions_of(claim) <= there or claim.key in BY_RIVETS:
-                continue
-            for one, other in zip(rigid.judge(claim.holds), results.judge(claim.holds)):
-                both += one is not None and other is not None
-                same += one is not None and one == other
-    if not both:
-        return []
-    return [f"**Flexible cage.** {points} points of the map with an elastic cage: {same} of {both} "
-            "outcomes of claims are as with a rigid one."]  # fmt: skip
 
 
 def words(computed: Computed) -> Words:
@@ -194,7 +170,7 @@ def words(computed: Computed) -> Words:
         "0.4 to 1.15 and became N(0.95, 0.17) after the computed 49-point design was seen, before "
         "any comparison. Older pages had told of slips that rise with speed and forces of 25 to "
         "35 N; neither was used.",
-        *rechecked(c),
+        *rechecked(c, "slip", left_out=BY_RIVETS),
     ]  # fmt: skip
     return Words(summary, reasons, decides, readings)
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 from claims import A3, A6, A9, CLAIMS, CONSTANT, N2, N3
 from figures import BEARING, BETTER, MODEL, PERCENT, RPM, UM, draw, tables
+from paper_weighed import rechecked
 from repeat import Computed, Paper, Words
 
 from flexcage.core.digits import percent_text
@@ -170,28 +171,6 @@ def gap(c: Computed) -> str:
     return f"{np.nanmedian(lost[rest]) * RPM:.2g}"
 
 
-def flexible(c: Computed) -> list[str]:
-    """What a flexible cage changes at the points that were rechecked."""
-    said = []
-    for file, results in c.rechecks.items():
-        rigid = next(
-            p for m in c.maps.values() for p in m.parts
-            if p.names == results.names and np.array_equal(p.shares, results.shares)
-        )  # fmt: skip
-        same, both = 0, 0
-        for claim in c.paper.claims:
-            for one, other in zip(rigid.judge(claim.holds), results.judge(claim.holds)):
-                both += one is not None and other is not None
-                same += one is not None and one == other
-        whole = np.isfinite([results.means("swing", k) for k in CASES]).all(axis=0).sum()
-        if both:
-            said.append(
-                f"**Flexible cage.** {whole} points of {file} with an elastic cage: {same} of "
-                f"{both} outcomes of claims are as with a rigid one."
-            )
-    return said
-
-
 def words(computed: Computed) -> Words:
     """Summary, reasons, what decides, and readings, with the numbers of what was computed."""
     readings = [
@@ -223,7 +202,7 @@ def words(computed: Computed) -> Words:
         "pockets): loaded balls start, others lag. Both maps were cut to 16 points of one start "
         "for "
         "time; what is not done counts as open, and no flexible recheck was made.",
-        *flexible(computed),
+        *rechecked(computed, "swing"),
     ]  # fmt: skip
     return Words(summary(computed), reasons(computed), decides(computed), readings)
 
@@ -238,7 +217,7 @@ PAPER = Paper(
     maps={MODEL: ("map_model.toml",), BEARING: ("map_bearing.toml",)},
     decided_by={claim.key: MODEL for claim in CLAIMS},
     # Points at the ranks 0, 1/4, 1/2, 3/4 and 1 of the cage's fluctuation at constant speed, which
-    # parts the two regimes: chosen before any of these runs (of the model, when 14 points were done).
+    # parts the two regimes: chosen before any of these runs, when 14 points of the model were done.
     rechecks={"map_bearing.toml": (3, 10, 14, 4, 13), "map_model.toml": (0, 1, 12, 13, 4)},
     stress=("case.toml", {
         "cage.model": "flexible", "drive.wave": "sine", "drive.wave_amplitude": "120 rpm",
