@@ -9,12 +9,12 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
-from paper_page import Table
+from paper_page import Table, number
 from paper_results import conditions_of
 
 from flexcage import InputError
 from flexcage.study.maps import MapResults
-from flexcage.study.sensitivity import Index
+from flexcage.study.sensitivity import KINDS, Index
 
 if TYPE_CHECKING:
     from repeat import Computed
@@ -24,17 +24,44 @@ MOST_NAMED = 3  # unknowns that a sentence or a cell names
 
 @dataclass(frozen=True)
 class Asked:
-    """A number of a map whose unknowns are weighed by their indices: in words, and under which of
-    the map's conditions it is read."""
+    """A number of a map whose unknowns are weighed by their indices: in words with its unit, under
+    which of the map's conditions it is read, and what makes that unit of SI."""
 
     words: str
     output: str
     condition: str
+    factor: float = 1.0
 
 
-def weigh(results: MapResults, asked: Sequence[Asked]) -> list[tuple[Asked, list[Index], int]]:
-    """First-order indices of what is asked of one map, and the number of runs behind each; what too
-    few runs have is left out. Raises EnvironmentLacks without SALib."""
+@dataclass(frozen=True)
+class Weighed:
+    """Indices of one number by unknown, the dummy's last; their kind, and the runs behind them."""
+
+    asked: Asked
+    indices: Sequence[Index]
+    kind: str
+    runs: int
+
+    def said(self, index: Index) -> str:
+        """An index with its margin: a share of variance, or an effect in the number's unit."""
+        return number(index.value, index.margin, factor=self.factor)
+
+    @property
+    def factor(self) -> float:
+        return self.asked.factor if self.kind == KINDS["morris"] else 1.0
+
+    def strongest(self) -> str:
+        """Unknowns whose index exceeds the dummy's beyond both margins, or the largest."""
+        strong = sorted((i for i in self.indices if i.matters), key=lambda i: -i.value)
+        if strong:
+            return ", ".join(f"{i.name} {self.said(i)}" for i in strong[:MOST_NAMED])
+        most = max(self.indices[:-1], key=lambda i: i.value)
+        return f"nothing (most: {most.name} {self.said(most)})"
+
+
+def weigh(results: MapResults, asked: Sequence[Asked]) -> list[Weighed]:
+    """Indices of what is asked of one map; what too few runs have is left out. Raises
+    EnvironmentLacks without SALib."""
     found = []
     for one in asked:
         try:
@@ -42,41 +69,32 @@ def weigh(results: MapResults, asked: Sequence[Asked]) -> list[tuple[Asked, list
         except InputError:
             continue
         runs = int(np.isfinite(results.means(one.output, one.condition)).sum())
-        found.append((one, indices, runs))
+        found.append(Weighed(one, indices, KINDS[results.about["design"]], runs))
     return found
 
 
-def weighed_table(found: Mapping[str, Sequence[tuple[Asked, list[Index], int]]]) -> Table:
+def weighed_table(found: Mapping[str, Sequence[Weighed]]) -> Table:
     """The same of several maps, by their names: what exceeds the dummy, and the dummy's index."""
     rows = [
-        (name, one.words, _strongest(indices), f"{indices[-1].value:.2f}", str(runs))
-        for name, weighed in found.items() for one, indices, runs in weighed
+        (name, w.asked.words, w.kind, w.strongest(), w.said(w.indices[-1]), str(w.runs))
+        for name, weighed in found.items() for w in weighed
     ]  # fmt: skip
     return Table(
-        "First-order indices (shares of variance, RBD-FAST by SALib); the dummy changes nothing",
-        ("map", "number", "what exceeds the dummy, each beyond its 95 % margin", "dummy", "runs"),
+        "Indices by SALib (± 95 %): mu* of Morris' design in the number's unit; first-order "
+        "indices are shares of variance. The dummy changes nothing but the start",
+        ("map", "number", "index", "unknowns above the dummy beyond both margins", "dummy", "runs"),
         rows,
     )
 
 
-def _strongest(indices: Sequence[Index]) -> str:
-    strong = sorted((i for i in indices if i.matters), key=lambda i: -i.value)[:MOST_NAMED]
-    if strong:
-        return ", ".join(f"{i.name} {i.value:.2f} ± {i.margin:.2f}" for i in strong)
-    most = max(indices[:-1], key=lambda i: i.value)
-    return f"nothing (most: {most.name} {most.value:.2f} ± {most.margin:.2f})"
-
-
-def write_indices(
-    found: Mapping[str, Sequence[tuple[Asked, list[Index], int]]], path: Path
-) -> Path:
-    """Indices of all unknowns, the dummy's among them, as CSV."""
+def write_indices(found: Mapping[str, Sequence[Weighed]], path: Path) -> Path:
+    """Indices of all unknowns in SI, the dummy's among them, as CSV."""
     import pandas as pd
 
     rows = [
-        {"map": name, "number": one.words, "output": one.output, "condition": one.condition,
-         "unknown": i.name, "index": i.value, "+-": i.margin, "matters": i.matters, "runs": runs}
-        for name, weighed in found.items() for one, indices, runs in weighed for i in indices
+        {"map": name, "output": w.asked.output, "condition": w.asked.condition, "index": w.kind,
+         "unknown": i.name, "value": i.value, "+-": i.margin, "matters": i.matters, "runs": w.runs}
+        for name, weighed in found.items() for w in weighed for i in w.indices
     ]  # fmt: skip
     pd.DataFrame(rows).to_csv(path, index=False, float_format="%.3g")
     return path

@@ -156,7 +156,9 @@ def run(paper: Paper, folder: Path, out: Path, *, workers: int, quick: bool) -> 
         return
     for file in paper.studies:
         run_study(load_study(folder / file), out=_of(out, file), workers=workers, progress=Progress)
-    for file in (file for files in paper.maps.values() for file in files):
+    for file in dict.fromkeys(
+        (*(f for files in paper.maps.values() for f in files), *paper.weighed)
+    ):
         run_map(load_map(folder / file), out=_of(out, file), workers=workers, progress=Progress)
     for file, points in paper.rechecks.items():
         flexible = load_map(folder / file, overrides={"cage.model": "flexible"})
@@ -193,11 +195,17 @@ def collect(paper: Paper, out: Path) -> Computed:
         for column, joined in there.items()
     }
     flexible = {f: _of(out, f).with_name(f"{Path(f).stem}_flexible") for f in paper.rechecks}
+    rechecks = {f: MapResults(p) for f, p in flexible.items() if p.is_dir()}
+    mapped_files = {f for files in paper.maps.values() for f in files}
+    aside = [_of(out, f) for f in paper.weighed if f not in mapped_files]
+    all_maps = [
+        *(part for joined in there.values() for part in joined.parts), *rechecks.values(),
+        *(MapResults(p) for p in aside if p.is_dir()),
+    ]  # fmt: skip
     computed = Computed(
-        paper, readings, there, found,
-        {f: MapResults(p) for f, p in flexible.items() if p.is_dir()}, (),
+        paper, readings, there, found, rechecks, (),
         sum(r.seconds for found in studies.values() for r in found.stored.values())
-        + sum(part.seconds for joined in there.values() for part in joined.parts),
+        + sum(results.seconds for results in all_maps),
         out,
     )  # fmt: skip
     starts = {column: cells_of_starts(paper.claims, r) for column, r in readings.items()}
@@ -225,8 +233,8 @@ def write(computed: Computed, folder: Path) -> Path:
     if paper.weighed:
         found = {
             Path(file).stem: weigh(MapResults(_of(computed.out, file)), asked)
-            for file, asked in paper.weighed.items()
-        }
+            for file, asked in paper.weighed.items() if _of(computed.out, file).is_dir()
+        }  # fmt: skip
         write_indices(found, folder / "indices.csv")
         files, table = (*files, "indices.csv"), weighed_table(found)
     page = Page(
