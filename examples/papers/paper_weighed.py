@@ -80,8 +80,8 @@ def weighed_table(found: Mapping[str, Sequence[Weighed]]) -> Table:
         for name, weighed in found.items() for w in weighed
     ]  # fmt: skip
     return Table(
-        "Indices by SALib (± 95 %): mu* of Morris' design in the number's unit; first-order "
-        "indices are shares of variance. The dummy changes nothing but the start",
+        "Indices by SALib, ± 95 %: mu* (Morris) in the number's unit, first-order indices as "
+        "shares of variance; the dummy changes nothing but the start",
         ("map", "number", "index", "unknowns above the dummy beyond both margins", "dummy", "runs"),
         rows,
     )

@@ -90,6 +90,9 @@ def words(computed: Computed) -> Words:
         f"{_turning(c, '4000', 0.8, 1.2)}; at 10,000 rpm in {_turning(c, '10000', -9.0, 0.2)} and "
         f"{_turning(c, '10000', 0.8, 1.2)}. On a radius of 0.2 mm whirl needs 0.7 g at 4000 and "
         f"4 g at 10,000 rpm. Over the whole map {c.by(TEST, '003-3')}.",
+        "**Too few points for indices.** With 16 points of 12 unknowns the dummy's index reaches "
+        "half of a variance, and no unknown exceeds it beyond both margins (table below); what "
+        "parts points that hold from those that do not (003-3 above) is a weaker question.",
         "**Differences (003-6, 003-7).** A cage that rests or whirls steadily shows little: at "
         f"10,000 rpm the median is {middle(c, TEST, 'difference', '10000', MM)} mm where the paper "
         "has 0.23. Only a cage between the two reaches that, and then its orbit is no circle: the "
