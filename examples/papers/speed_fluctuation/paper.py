@@ -200,8 +200,7 @@ def words(computed: Computed) -> Words:
         "place "
         "of sticking. With that decay a start from rest tore the cage off at 3.6 ms (cylindrical "
         "pockets): loaded balls start, others lag. Both maps were cut to 16 points of one start "
-        "for "
-        "time; what is not done counts as open, and no flexible recheck was made.",
+        "for time.",
         *rechecked(computed, "swing"),
     ]  # fmt: skip
     return Words(summary(computed), reasons(computed), decides(computed), readings)
