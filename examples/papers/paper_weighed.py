@@ -100,6 +100,14 @@ def write_indices(found: Mapping[str, Sequence[Weighed]], path: Path) -> Path:
     return path
 
 
+def with_rigid_cage(c: Computed, results: MapResults) -> MapResults:
+    """The map of which ``results`` are points with a flexible cage."""
+    return next(
+        p for m in c.maps.values() for p in m.parts
+        if p.names == results.names and np.array_equal(p.shares, results.shares)
+    )  # fmt: skip
+
+
 def rechecked(c: Computed, output: str, *, left_out: Collection[str] = ()) -> list[str]:
     """What a flexible cage changes at the points of every map that were computed anew, in words.
 
@@ -108,10 +116,7 @@ def rechecked(c: Computed, output: str, *, left_out: Collection[str] = ()) -> li
     """
     said = []
     for file, results in c.rechecks.items():
-        rigid = next(
-            p for m in c.maps.values() for p in m.parts
-            if p.names == results.names and np.array_equal(p.shares, results.shares)
-        )  # fmt: skip
+        rigid = with_rigid_cage(c, results)
         both, other = 0, Counter[str]()
         for claim in c.paper.claims:
             if claim.key in left_out or not conditions_of(claim) <= set(results.conditions):

@@ -229,12 +229,12 @@ def write(computed: Computed, folder: Path) -> Path:
         raise flexcage.InputError(f"'{computed.out}' lacks a map of the paper; compute it first.")
     paper, words = computed.paper, computed.paper.words(computed)
     write_shares(computed.found, folder / "shares.csv")
+    found = {
+        Path(file).stem: weigh(MapResults(_of(computed.out, file)), asked)
+        for file, asked in paper.weighed.items() if _of(computed.out, file).is_dir()
+    }  # fmt: skip
     files, table = ("shares.csv", *paper.files), None
-    if paper.weighed:
-        found = {
-            Path(file).stem: weigh(MapResults(_of(computed.out, file)), asked)
-            for file, asked in paper.weighed.items() if _of(computed.out, file).is_dir()
-        }  # fmt: skip
+    if any(found.values()):
         write_indices(found, folder / "indices.csv")
         files, table = (*files, "indices.csv"), weighed_table(found)
     page = Page(
