@@ -241,7 +241,8 @@ def words(c: Computed) -> Words:
         "**Waves and accelerations** are those of the ring's speed: 500 rpm at 50 Hz about 10,000 "
         "rpm, and 1000, 2000 and 4000 rad/s^2; the paper gives neither (assumptions).",
         "**Screening.** Morris' design over the unknowns of the axial map: 4 trajectories of 10 "
-        "points, each run with another start, 0.1 s long. The dummy is what starts do.",
+        "points, each run with another start, 0.1 s long. The dummy is what starts do. Where a "
+        "cage jumps from calm to driven, an effect is one jump: large, with a margin as large.",
         "**Prediction** (predictions.json) of the ratio at 0.14 mm: half of the prior is the "
         "printed 24.44 %, as if both figures showed a cage disturbed alike, half are points of the "
         "map. It was made when the axial map had five whole points and part of a sixth, and not "
