@@ -84,6 +84,7 @@ class Page:
     decides: Sequence[str]
     readings: Sequence[str]
     unknowns: Table
+    weighed: Table | None = None  # indices of sensitivity, below what decides
     files: Sequence[str] = field(default=())
 
 
@@ -128,6 +129,7 @@ def compose(page: Page) -> str:
         *map(_picture, page.pictures),
         "## Tables side by side", *(_table(t) for t in page.tables),
         "## What decides", _bullets(page.decides),
+        *([_table(page.weighed)] if page.weighed else []),
         "## Readings and assumptions", _bullets(page.readings), _table(page.unknowns),
     ]  # fmt: skip
     if page.files:

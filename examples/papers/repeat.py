@@ -31,6 +31,7 @@ from paper_results import (
     verdicts_of,
     write_shares,
 )
+from paper_weighed import MOST_NAMED, Asked, weigh, weighed_table, write_indices
 
 import flexcage
 from flexcage.case.extensions import forget
@@ -42,7 +43,7 @@ from flexcage.study.own import OWN
 from flexcage.study.verdicts import UNDECIDED, write_verdicts
 
 QUICK = {"solver.duration": "40 ms"}
-CLEAR, MOST_NAMED = 0.05, 3  # level and number of the unknowns that a sentence names
+CLEAR = 0.05  # level of the unknowns that a sentence names
 
 
 @dataclass(frozen=True)
@@ -64,7 +65,8 @@ class Paper:
     study of their own (its file, their label), ``maps`` the files that make a column, ``rechecks``
     files of maps whose ``points`` are computed anew with a flexible cage, under all conditions or
     ``recheck_conditions``. ``studies`` are computed beside, and ``stress`` is what changes the file
-    of a case for a run whose stress is drawn.
+    of a case for a run whose stress is drawn. ``weighed`` are numbers by file of a map, whose
+    unknowns the page weighs by their first-order indices.
     """
 
     title: str
@@ -79,6 +81,7 @@ class Paper:
     rechecks: Mapping[str, Sequence[int]] = field(default_factory=dict)
     recheck_conditions: Sequence[str] = ()
     stress: tuple[str, Mapping[str, str]] | None = None
+    weighed: Mapping[str, Sequence[Asked]] = field(default_factory=dict)
     draw: Callable[[Computed, Path], list[Picture]]
     tables: Callable[[Computed], list[Table]]
     words: Callable[[Computed], Words]
@@ -153,7 +156,9 @@ def run(paper: Paper, folder: Path, out: Path, *, workers: int, quick: bool) -> 
         return
     for file in paper.studies:
         run_study(load_study(folder / file), out=_of(out, file), workers=workers, progress=Progress)
-    for file in (file for files in paper.maps.values() for file in files):
+    for file in dict.fromkeys(
+        (*(f for files in paper.maps.values() for f in files), *paper.weighed)
+    ):
         run_map(load_map(folder / file), out=_of(out, file), workers=workers, progress=Progress)
     for file, points in paper.rechecks.items():
         flexible = load_map(folder / file, overrides={"cage.model": "flexible"})
@@ -190,11 +195,17 @@ def collect(paper: Paper, out: Path) -> Computed:
         for column, joined in there.items()
     }
     flexible = {f: _of(out, f).with_name(f"{Path(f).stem}_flexible") for f in paper.rechecks}
+    rechecks = {f: MapResults(p) for f, p in flexible.items() if p.is_dir()}
+    mapped_files = {f for files in paper.maps.values() for f in files}
+    aside = [_of(out, f) for f in paper.weighed if f not in mapped_files]
+    all_maps = [
+        *(part for joined in there.values() for part in joined.parts), *rechecks.values(),
+        *(MapResults(p) for p in aside if p.is_dir()),
+    ]  # fmt: skip
     computed = Computed(
-        paper, readings, there, found,
-        {f: MapResults(p) for f, p in flexible.items() if p.is_dir()}, (),
+        paper, readings, there, found, rechecks, (),
         sum(r.seconds for found in studies.values() for r in found.stored.values())
-        + sum(part.seconds for joined in there.values() for part in joined.parts),
+        + sum(results.seconds for results in all_maps),
         out,
     )  # fmt: skip
     starts = {column: cells_of_starts(paper.claims, r) for column, r in readings.items()}
@@ -218,6 +229,14 @@ def write(computed: Computed, folder: Path) -> Path:
         raise flexcage.InputError(f"'{computed.out}' lacks a map of the paper; compute it first.")
     paper, words = computed.paper, computed.paper.words(computed)
     write_shares(computed.found, folder / "shares.csv")
+    found = {
+        Path(file).stem: weigh(MapResults(_of(computed.out, file)), asked)
+        for file, asked in paper.weighed.items() if _of(computed.out, file).is_dir()
+    }  # fmt: skip
+    files, table = ("shares.csv", *paper.files), None
+    if any(found.values()):
+        write_indices(found, folder / "indices.csv")
+        files, table = (*files, "indices.csv"), weighed_table(found)
     page = Page(
         title=paper.title, summary=words.summary, lines=computed.lines,
         pictures=paper.draw(computed, folder), tables=paper.tables(computed),
@@ -228,8 +247,7 @@ def write(computed: Computed, folder: Path) -> Path:
             f"{flexcage.__version__}; its runs took {computed.seconds / 60.0:,.0f} minutes of one "
             "process on a busy machine.",
         ],
-        unknowns=next(iter(computed.maps.values())).unknowns(),
-        files=("shares.csv", *paper.files),
+        unknowns=next(iter(computed.maps.values())).unknowns(), weighed=table, files=files,
     )  # fmt: skip
     draw_matrix(page, folder / "matrix.png")
     (folder / "README.md").write_text(compose(page), encoding="utf-8")

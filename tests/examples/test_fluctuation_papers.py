@@ -55,6 +55,7 @@ def test_readings_and_maps_are_plans(folder, points, conditions):
             assert {c["label"] for c in spec.conditions} <= asked
             assert all(len(unknown.reason) > 7 for unknown in spec.unknowns)
     assert {c.key for c in paper.claims} == set(paper.decided_by)
+    assert all(len(set(points)) == 5 for points in paper.rechecks.values())
 
 
 def test_the_printed_reading_of_fluctuating_speed_is_as_the_paper_says():

@@ -12,7 +12,8 @@ import pytest
 
 from flexcage.study import load_map, load_study
 from flexcage.study.plan import make_plan
-from flexcage.study.sensitivity import share
+from flexcage.study.sensitivity import indices, share
+from flexcage.study.unknowns import design_of
 from flexcage.study.verdicts import FAILS, HOLDS, UNDECIDED, read_verdicts
 
 PAPERS = Path(__file__).parents[2] / "examples" / "papers"
@@ -77,6 +78,77 @@ def test_a_map_decides_beyond_its_interval_only():
     assert by_share(share([None] * 10)).outcome == UNDECIDED
     assert number(1.23456e-3, 2e-5, factor=1e3) == "1.235 ± 0.020"
     assert number(float("nan")) == "-"
+
+
+class KnownMap:
+    """A map whose output is known: ten times its first unknown; failed at its last point."""
+
+    names = ["friction", "play", "(start)"]
+    conditions = ["a"]
+
+    def __init__(self, kind="sample", lifted=0.0):
+        self.shares = design_of(kind, 64 if kind == "sample" else 6, 3, 5)
+        self.about, self.lifted = {"design": kind}, lifted
+
+    def means(self, output, condition):
+        found = 10.0 * self.shares[:, 0] + self.lifted
+        found[-1] = np.nan
+        return found
+
+    def indices(self, output, condition):
+        return indices(self.about["design"], self.shares, self.names, self.means(output, condition))
+
+    def judge(self, test):
+        values = self.means("y", "a")
+        return [None if np.isnan(v) else test(lambda *_, v=v: v) for v in values]
+
+
+@pytest.mark.parametrize(("kind", "factor"), [("sample", 1.0), ("morris", 1e3)])
+def test_unknowns_are_weighed_against_the_dummy(kind, factor, tmp_path):
+    """What makes an output is named, with its share of variance or its effect in the number's
+    unit; what too few runs have is left out."""
+    pytest.importorskip("SALib")
+    from paper_weighed import Asked, weigh, weighed_table, write_indices
+
+    found = weigh(KnownMap(kind), [Asked("y [mm]", "y", "a", 1e3)])
+    ((_, words, _, strong, dummy, runs),) = weighed_table({"m": found}).rows
+    assert words == "y [mm]" and int(runs) == len(KnownMap(kind).shares) - 1
+    name, value = strong.split()[:2]
+    wanted = 1.0 if kind == "sample" else 10.0
+    assert name == "friction" and "play" not in strong
+    assert float(value.replace(",", "")) == pytest.approx(factor * wanted, rel=0.1)
+    assert abs(float(dummy.split()[0].replace(",", ""))) < 0.5 * factor * wanted
+    assert write_indices({"m": found}, tmp_path / "i.csv").read_text().count("friction") == 1
+    few = KnownMap()
+    few.means = lambda *_: np.full(64, np.nan)
+    assert weigh(few, [Asked("y", "y", "a")]) == []
+
+
+def test_a_flexible_cage_is_compared_point_by_point(tmp_path):
+    """Of 63 points that are done, those between the limits of both maps change their outcome."""
+    from types import SimpleNamespace
+
+    from paper_results import Joined
+    from paper_weighed import rechecked
+
+    from flexcage.study.claims import Below, Between, Claim
+
+    rigid, flexible = KnownMap(), KnownMap(lifted=1.0)
+    claims = [
+        Claim("x-1", "y is below 5", "-", {"y": Between("y", ("a",), high=5.0)}, ("y",)),
+        Claim("x-2", "not computed", "-", {"y": Below("y", "y", "b")}, ("y",)),
+    ]
+    paper = SimpleNamespace(claims=claims)
+    computed = SimpleNamespace(
+        paper=paper, maps={"m": Joined([rigid])}, rechecks={"m.toml": flexible}
+    )
+    first = rigid.means("y", "a")
+    changed = int(((first < 5.0) & (first + 1.0 >= 5.0)).sum())
+    (said,) = rechecked(computed, "y")
+    assert 3 < changed < 10
+    assert f"63 points of m.toml with an elastic cage: {63 - changed} of 63" in said
+    assert said.endswith(f"others: x-1 at {changed}.")
+    assert rechecked(computed, "y", left_out=("x-1",)) == []
 
 
 def test_readings_and_maps_of_the_measured_cage_are_plans(paper):

@@ -32,17 +32,19 @@ def paper():
 def scripts(paper):
     """Scripts of the folder; another paper's have the same names."""
     sys.path.insert(0, str(FOLDER))
+    import blows
     import predict
     import rivet
 
-    yield SimpleNamespace(predict=predict, rivet=rivet, printed=sys.modules["figures"].PRINTED)
+    yield SimpleNamespace(
+        predict=predict, rivet=rivet, blows=blows, printed=sys.modules["figures"].PRINTED
+    )
     sys.path.remove(str(FOLDER))
     sys.modules.pop("predict", None)
 
 
 def test_readings_maps_and_the_design_are_plans(paper):
-    """Every condition that a claim compares is in the reading or map that decides it, but for two
-    claims on rivets, which are said not to be computed."""
+    """Every condition that a claim compares is in the reading or map that decides it."""
     results = sys.modules["paper_results"]
     there = {}
     for column, (file, _) in {"better model": (paper.readings, ""), **paper.alone}.items():
@@ -55,7 +57,7 @@ def test_readings_maps_and_the_design_are_plans(paper):
             assert all(len(u.reason) > 8 for u in spec.unknowns)
             there[column] = {c["label"] for c in spec.conditions}
             assert len(make_plan(spec.study((0,))).cases) == len(there[column])
-    for claim in (c for c in paper.claims if c.key not in ("001-1b", "001-4b")):
+    for claim in paper.claims:
         assert results.conditions_of(claim) <= there[paper.decided_by[claim.key]]
     assert len(make_plan(load_study(FOLDER / "design.toml")).cases) == 49 * 4
 
@@ -142,3 +144,34 @@ def test_the_parts_of_the_slip_are_the_whole(paper):
     assert sum(parts) == pytest.approx(found["slip"], abs=1e-12)
     assert parts[0] == pytest.approx(0.0142, abs=2e-4) and parts[1] < 0.0
     assert found["psi"] == pytest.approx(found["cage_tilt"], rel=0.3)
+
+
+def test_blows_are_found_and_said_by_turn(scripts):
+    """Known forces: two turns of ten samples, three blows above 5 N, one of them at the edge."""
+    force = np.zeros((20, 2))
+    force[4, 1], force[5, 1], force[12, 0], force[15, 0], force[19, 1] = 9.0, 30.0, 4.0, 7.0, 50.0
+    assert scripts.blows.peaks_of(force) == [(5, 1), (15, 0)]
+    assert scripts.blows.largest_of(force, 10) == [(5, 1), (19, 1)]
+    one = {"largest": [1.0, 3.0], "near": [1.0, 0.0], "load": [2.0, 4.0], "speed": [0.1] * 20,
+           "count": 5.0, "held": 0.2, "relative": 0.05, "all_load": 9.0}  # fmt: skip
+    row = scripts.blows.row(3.46, [one, one | {"largest": [2.0, 2.0], "count": 7.0}])
+    assert row["turns"] == 4 and row["largest of a turn [N]"] == 2.0
+    assert row["blows above 5 N in a turn"] == 6.0 and row["largest near the moment's axis"] == 0.5
+
+
+def test_balls_approach_a_cage_that_moves_and_turns(scripts):
+    """A cage that turns with the balls and moves along y: the ball at psi = 90 degrees sees all of
+    it, the one at 0 nothing."""
+    import xarray as xr
+
+    psi = np.array([[0.0, np.pi / 2]])
+    place = np.stack([np.zeros((1, 2)), np.full((1, 2), 0.013), psi], axis=-1)
+    speed = np.stack([np.zeros((1, 2)), np.zeros((1, 2)), np.full((1, 2), 1.3)], axis=-1)
+    where = ("time", "element", "cyl")
+    ds = xr.Dataset(
+        {"element_position": (where, place), "element_velocity": (where, speed),
+         "cage_omega": (("time", "axis"), [[100.0, 0.0, 0.0]]),
+         "cage_velocity": (("time", "axis"), [[0.0, 0.02, 0.0]])},
+        {"cyl": ["x", "r", "psi"]},
+    )  # fmt: skip
+    np.testing.assert_allclose(scripts.blows.approach(ds), [[0.0, 0.02]], atol=1e-12)

@@ -96,13 +96,13 @@ def draw(computed, folder: Path) -> list[Picture]:
     width = (WIDTHS, 6.2, "cage width [mm]")
     sheets = (SHEETS, 0.8, "sheet's thickness [mm]")
     sweep(computed, folder / "figure_5.png", "Figure 5: over the pocket radius", [
-        (FORCE, *radius, table["radius"]), ("slip", *radius, None), ("psi", *radius, None),
-        ("whirl", *radius, None)], 2)  # fmt: skip
+        (FORCE, *radius, table["radius"]), ("rivet", *radius, None), ("slip", *radius, None),
+        ("psi", *radius, None), ("whirl", *radius, None)], 2)  # fmt: skip
     sweep(computed, folder / "figure_6.png", "Figure 6: over the cage's width", [
         (FORCE, *width, table["width"]), ("slip", *width, None), ("psi", *width, None)],
         3)  # fmt: skip
     sweep(computed, folder / "figure_7.png", "Figure 7: over the sheet's thickness",
-          [(o, *sheets, None) for o in (FORCE, "slip")], 2)  # fmt: skip
+          [(o, *sheets, None) for o in (FORCE, "rivet", "slip")], 3)  # fmt: skip
     races = ((INNER, 0.515, "inner conformity"), (OUTER, 0.525, "outer conformity"),
              (CLEARANCES, 10.0, "radial clearance [um]"))  # fmt: skip
     sweep(computed, folder / "figure_9.png", "Figure 9: over grooves and clearance",
@@ -117,14 +117,14 @@ def draw(computed, folder: Path) -> list[Picture]:
             "joint alone, with the head's root as its weak place.",
         ),
         Picture("figure_5.png", "Figure 5: over the pocket radius",
-                "Force with the printed numbers of Table 3 (crosses), slip, inclination, whirl. "
-                "Width 6.2 mm. As printed, forces lie above the axis. Figure 5b, rivets' stress, "
-                "was not computed."),
+                "Force with the printed numbers of Table 3 (crosses), nominal stress of the rivets "
+                "(flexible cage), slip, inclination, whirl. Width 6.2 mm. As printed, forces lie "
+                "above the axis."),
         Picture("figure_6.png", "Figure 6: over the cage's width",
                 "The same over the width, at a radius of 3.46 mm. A strip of 3.8 mm is in one "
                 "piece from 5.81 mm on; the printed numbers go on to 4.4 mm."),
         Picture("figure_7.png", "Figure 7: over the sheet's thickness",
-                "Radius 3.46 mm, width 6.2 mm. Rivets' stress was not computed."),
+                "Radius 3.46 mm, width 6.2 mm. Rivets' stress is nominal."),
         Picture("figure_8.png", "Figure 8, Table 3: force over radius and width",
                 "Left: the 49 points computed (rigid cage, balls of 6.747 mm, strip of 5.6 mm). "
                 "Right: what is predicted for the paper's table from its shown cross."),
