@@ -157,7 +157,7 @@ def pushes(ds) -> dict[str, float]:
 
 def stresses(run, ds) -> dict[str, float]:
     """Stress at the corners of the deformed pockets, and of the whole cage; NaN of a rigid one."""
-    if run.case.cage.model != "flexible":
+    if run.cage is None:
         return {name: nan for name in ("corner", "corner_most", "stress")}
     history = run.stress_history
     here = [k for k, name in enumerate(history.place_names) if name.startswith(PLACES)]
@@ -170,8 +170,8 @@ def stresses(run, ds) -> dict[str, float]:
 
 
 def pinch(run) -> float:
-    """Force of rollers that a deformed pocket squeezes when assembled."""
-    return float(run.summary["pinch_force"])
+    """Force of rollers that a deformed pocket squeezes when assembled; 0 where it squeezes none."""
+    return float(run.summary["pinch_force"]) if "pinch_force" in run.summary else 0.0
 
 
 register.outputs(evaluate, UNITS)
