@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 from claims import BENT1, BENT2, CAGES, CLAIMS, LONGER, SHORTER, SOUND, WITHIN
-from figures import BETTER, MAP, MPA, PERCENT, PRINTED_MODEL, ROOT, UM, draw, tables
+from figures import BETTER, MAP, MPA, PRINTED_MODEL, ROOT, UM, draw, tables
 from repeat import Computed, Paper, Words
 
 from flexcage.core.digits import percent_text
@@ -111,13 +111,14 @@ def words(computed: Computed) -> Words:
     counts, points = c.counts, len(c.maps[MAP].shares)
     starts = {column: reading.starts for column, reading in c.readings.items()}
     summary = f"""The paper deforms one pocket of an N1013's brass cage at 6000 rpm and 1000 N, in
-        ADAMS: its crossbeam by 0.1 and 0.2 mm, its side beam by +0.3 and -0.3 mm. It says that stress
-        and slip rise where the roller is squeezed, and that orbits, vibration and speeds change with
-        it. Of its {len(c.lines)} claims (one in two readings, one with a number) {counts["holds"]}
-        hold, {counts["does not hold"]} do not; open: {counts["undecided"]}. One thing decides most: does the
-        displacement exceed the pocket's clearance, which the paper does not print? How sure:
-        {points} points of {len(c.maps[MAP].names) - 1} unknowns, one start each of five cages, rigid;
-        and {" and ".join(f"{n} starts ({column})" for column, n in starts.items())} with a flexible
+        ADAMS: its crossbeam by 0.1 and 0.2 mm, its side beam by +0.3 and -0.3 mm. It says that
+        stress and slip rise where the roller is squeezed, and that orbits, vibration and speeds
+        change with it. Of its {len(c.lines)} claims (one in two readings, one with a number)
+        {counts["holds"]} hold, {counts["does not hold"]} do not; open: {counts["undecided"]}. One
+        thing decides most: does the displacement exceed the pocket's clearance, which the paper
+        does not print? How sure: {points} points of {len(c.maps[MAP].names) - 1} unknowns, one
+        start each of five cages, rigid; and
+        {" and ".join(f"{n} starts ({column})" for column, n in starts.items())} with a flexible
         cage, over three turns of the cage each."""
     return Words(summary, reasons(c), decides(c), readings(c))
 
@@ -160,17 +161,17 @@ def readings(computed: Computed) -> list[str]:
     """How the paper was read, and what is assumed."""
     c = computed
     return [
-        "**Better model.** Flexible cage (coarse mesh), Hertz contact with restitution 0.9 at races "
-        "and 0.7 in pockets, traction of 0.05 at 0.3 m/s, ribs 0.25 mm below the cage, a housing "
-        "of 200 N/um; Cq - Dw = 0.20 mm and Cp - Lw = 0.25 mm.",
+        "**Better model.** Flexible cage (coarse mesh), Hertz contact with restitution 0.9 at "
+        "races and 0.7 in pockets, traction of 0.05 at 0.3 m/s, ribs 0.25 mm below the cage, a "
+        "housing of 200 N/um; Cq - Dw = 0.20 mm and Cp - Lw = 0.25 mm.",
         "**As printed.** IMPACT by ADAMS' defaults (10 N s/mm, full from 0.1 mm on) over Hertz "
         "stiffness, friction 0.3 and 0.1 at 100 and 1000 mm/s, no oil, Craig-Bampton modes damped "
         "by 1, 10 and 100 % (to 100 Hz, to 1 kHz, above), the outer ring in contact with its "
         "socket. ADAMS' default exponent of 2.2 is not the paper's Hertz contact, and not used.",
         f"**Parts against.** Better model: 000-13 {contrary(c, BETTER, '000-13')}; as printed: "
         f"{contrary(c, PRINTED_MODEL, '000-13')}.",
-        "**Words into numbers.** Unchanged: within 10 %, a roller's speed within 1 %. Clearly more: "
-        "by 25 %. A drop of speed: by 5 %. Sinusoidal: half of the variance in one line. "
+        "**Words into numbers.** Unchanged: within 10 %, a roller's speed within 1 %. Clearly "
+        "more: by 25 %. A drop of speed: by 5 %. Sinusoidal: half of the variance in one line. "
         f"{ROOT} MPa: within a factor of {WITHIN:g}. All were written before the runs.",
         '**Two readings.** "Whirl radius gradually expands ... once the deformation exceeds '
         '0.2 mm, decreases" is 000-3 where taken literally, 000-3b where it means 0 < 0.1 > 0.2.',
