@@ -117,9 +117,9 @@ def words(computed: Computed) -> Words:
         {counts["holds"]} hold, {counts["does not hold"]} do not; open: {counts["undecided"]}. One
         thing decides most: does the displacement exceed the pocket's clearance, which the paper
         does not print? How sure: {points} points of {len(c.maps[MAP].names) - 1} unknowns, one
-        start each of five cages, rigid; and
+        start each of five rigid cages over three turns; and
         {" and ".join(f"{n} starts ({column})" for column, n in starts.items())} with a flexible
-        cage, over three turns of the cage each."""
+        cage, over 39 ms each."""
     return Words(summary, reasons(c), decides(c), readings(c))
 
 
