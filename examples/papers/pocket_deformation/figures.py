@@ -33,11 +33,17 @@ Curves = list[tuple[np.ndarray, str, str]]  # values, colour, name
 def draw(computed, folder: Path) -> list[Picture]:
     """All pictures, in the paper's order."""
     histories = (
-        ("figure_8_14", "Stress at corners of pockets j-1 and j", "largest, MPa", _corner, None),
+        (
+            "figure_8_14",
+            "Stress at corners of pockets j-1 and j",
+            "largest, MPa",
+            _corner,
+            (-10.0, 350.0),
+        ),
         ("figure_9_15", "Radial displacement of the cage", "um", _radial, None),
         ("figure_11_17", "Acceleration of the outer ring", "along the load, m/s²", _shake, None),
         ("figure_12_18", "Cage speed", "rpm", _cage_speed, None),
-        ("figure_13_19", "Speeds of rollers j-1, j and j+1", "1000 rpm", _rollers, (-0.6, 31.0)),
+        ("figure_13_19", "Speeds of rollers j-1, j and j+1", "1000 rpm", _rollers, (-5.0, 31.0)),
     )
     for file, title, note, curves, limits in histories:
         over_time(computed, folder / f"{file}.png", title, note, curves, limits)
