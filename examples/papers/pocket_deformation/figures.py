@@ -23,7 +23,7 @@ ROOT = PRINTED["conclusion_2"]["root"][SHORTER]  # MPa
 RPM, UM, MPA, PERCENT = 30.0 / pi, 1e6, 1e-6, 100.0
 BETTER, PRINTED_MODEL, MAP = "better model", "as printed", "map"  # columns
 MAPPED = "000-7"  # claim whose map is drawn
-WIDE, HIGH, LEFT, TOP = 250, 170, 150, 130  # px, of panels
+WIDE, HIGH, LEFT, TOP = 250, 170, 210, 130  # px, of panels
 FINEST = 700  # bands of a curve
 COLOURS = {BEFORE: (sheet.BLUE, "j-1"), AT: (sheet.VERMILION, "j"), AFTER: (sheet.GREEN, "j+1")}
 
@@ -76,6 +76,11 @@ def draw(computed, folder: Path) -> list[Picture]:
     ]  # fmt: skip
 
 
+def computed_readings(computed) -> dict:
+    """Readings that have a start of every cage."""
+    return {column: r for column, r in computed.readings.items() if r.starts}
+
+
 def first(reading) -> dict[str, Run]:
     """First starts of a reading, of the cages that have one."""
     return {c: reading.run(c) for c in CAGES if len(reading.values("lost", c))}
@@ -114,10 +119,10 @@ def over_time(computed, path: Path, title: str, note: str, curves: Callable,
     """Curves of every cage, one row a reading, over ms of the settled part."""
     with sheet.style():
         figure = sheet.new_figure(
-            LEFT + len(CAGES) * (WIDE + 46), TOP + len(computed.readings) * (HIGH + 66)
+            LEFT + len(CAGES) * (WIDE + 46), TOP + len(computed_readings(computed)) * (HIGH + 66)
         )
         sheet.heading(figure, title, f"{note}; over ms")
-        for i, (column, reading) in enumerate(computed.readings.items()):
+        for i, (column, reading) in enumerate(computed_readings(computed).items()):
             top = TOP + i * (HIGH + 66)
             sheet.text_at(figure, 20, top + 0.5 * HIGH, column)
             found = {c: (run.case.output.settle, *curves(run)) for c, run in first(reading).items()}
@@ -161,10 +166,10 @@ def orbits(computed, path: Path) -> Path:
     side = 240
     with sheet.style():
         figure = sheet.new_figure(
-            LEFT + len(CAGES) * (side + 56), TOP + len(computed.readings) * (side + 66)
+            LEFT + len(CAGES) * (side + 56), TOP + len(computed_readings(computed)) * (side + 66)
         )
         sheet.heading(figure, "Orbit of the cage's centre", "um, load down")
-        for i, (column, reading) in enumerate(computed.readings.items()):
+        for i, (column, reading) in enumerate(computed_readings(computed).items()):
             sheet.text_at(figure, 20, TOP + (i + 0.5) * (side + 66) - 40, column)
             for c, run in first(reading).items():
                 yz = metrics.orbit(metrics.settled(run.dataset, run.case.output.settle)) * UM
@@ -195,7 +200,8 @@ def tables(computed) -> list[Table]:
     rows = [("stress, conclusion 2 [MPa]", "paper", "-", "-", "-", "-", f"{ROOT}")]
     for title, output, factor in asked:
         for column, reading in computed.readings.items():
-            rows.append((title, column, *(reading.said(output, c, factor) for c in CAGES)))
+            if reading.starts:
+                rows.append((title, column, *(reading.said(output, c, factor) for c in CAGES)))
         for column, joined in computed.maps.items():
             if joined.spread(output, CAGES[0]) is not None:
                 rows.append((title, column, *(joined.middle(output, c, factor) for c in CAGES)))
