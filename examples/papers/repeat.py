@@ -63,8 +63,9 @@ class Paper:
     ``columns`` names the readings of ``readings`` by their labels, ``alone`` those that have a
     study of their own (its file, their label), ``maps`` the files that make a column, ``rechecks``
     files of maps whose ``points`` are computed anew with a flexible cage, under all conditions or
-    ``recheck_conditions``. ``studies`` are computed beside, and ``stress`` is what changes the file
-    of a case for a run whose stress is drawn.
+    ``recheck_conditions``; all rechecked points are a column of their own where
+    ``recheck_column`` names it. ``studies`` are computed beside, and ``stress`` is what changes the
+    file of a case for a run whose stress is drawn.
     """
 
     title: str
@@ -78,6 +79,7 @@ class Paper:
     studies: Sequence[str] = ()
     rechecks: Mapping[str, Sequence[int]] = field(default_factory=dict)
     recheck_conditions: Sequence[str] = ()
+    recheck_column: str = ""
     stress: tuple[str, Mapping[str, str]] | None = None
     draw: Callable[[Computed, Path], list[Picture]]
     tables: Callable[[Computed], list[Table]]
@@ -185,14 +187,17 @@ def collect(paper: Paper, out: Path) -> Computed:
         column: Joined([MapResults(_of(out, f)) for f in files if _of(out, f).is_dir()])
         for column, files in paper.maps.items()
     }
+    flexible = {f: _of(out, f).with_name(f"{Path(f).stem}_flexible") for f in paper.rechecks}
+    again = {f: MapResults(p) for f, p in flexible.items() if p.is_dir()}
+    if paper.recheck_column:
+        there[paper.recheck_column] = Joined(list(again.values()))
     found = {
         column: {c.key: mapped(c, joined) if joined.parts else not_mapped() for c in paper.claims}
         for column, joined in there.items()
     }
-    flexible = {f: _of(out, f).with_name(f"{Path(f).stem}_flexible") for f in paper.rechecks}
     computed = Computed(
         paper, readings, there, found,
-        {f: MapResults(p) for f, p in flexible.items() if p.is_dir()}, (),
+        again, (),
         sum(r.seconds for found in studies.values() for r in found.stored.values())
         + sum(part.seconds for joined in there.values() for part in joined.parts),
         out,

@@ -21,7 +21,8 @@ from flexcage.results import metrics
 PRINTED = tomllib.loads((Path(__file__).with_name("printed.toml")).read_text("utf-8"))
 ROOT = PRINTED["conclusion_2"]["root"][SHORTER]  # MPa
 RPM, UM, MPA, PERCENT = 30.0 / pi, 1e6, 1e-6, 100.0
-BETTER, PRINTED_MODEL, MAP = "better model", "as printed", "map"  # columns
+BETTER, PRINTED_MODEL = "better model", "as printed"  # columns of readings
+MAP, FLEXIBLE = "map", "flexible points"  # columns of maps
 MAPPED = "000-7"  # claim whose map is drawn
 WIDE, HIGH, LEFT, TOP = 250, 170, 210, 130  # px, of panels
 FINEST = 700  # bands of a curve
