@@ -106,7 +106,7 @@ def number(value: float, margin: float | None = None, *, factor: float = 1.0) ->
         return "-"
     if margin is None or not isfinite(margin):
         plain = value * factor
-        return f"{plain:,.0f}" if abs(plain) >= 100.0 else f"{plain:.2g}"
+        return f"{plain:,.0f}" if abs(plain) >= 99.5 else f"{plain:.2g}"  # not 1e+02
     text, half = texts_with_margin(value * factor, margin * factor)
     return f"{text} ± {half}" if half else text
 

@@ -64,8 +64,9 @@ class Paper:
     ``columns`` names the readings of ``readings`` by their labels, ``alone`` those that have a
     study of their own (its file, their label), ``maps`` the files that make a column, ``rechecks``
     files of maps whose ``points`` are computed anew with a flexible cage, under all conditions or
-    ``recheck_conditions``. ``studies`` are computed beside, and ``stress`` is what changes the file
-    of a case for a run whose stress is drawn. ``weighed`` are numbers by file of a map, whose
+    ``recheck_conditions``; all rechecked points are a column of their own where
+    ``recheck_column`` names it. ``studies`` are computed beside, and ``stress`` is what changes the
+    file of a case for a run whose stress is drawn. ``weighed`` are numbers by file of a map, whose
     unknowns the page weighs by their first-order indices.
     """
 
@@ -80,6 +81,7 @@ class Paper:
     studies: Sequence[str] = ()
     rechecks: Mapping[str, Sequence[int]] = field(default_factory=dict)
     recheck_conditions: Sequence[str] = ()
+    recheck_column: str = ""
     stress: tuple[str, Mapping[str, str]] | None = None
     weighed: Mapping[str, Sequence[Asked]] = field(default_factory=dict)
     draw: Callable[[Computed, Path], list[Picture]]
@@ -190,20 +192,22 @@ def collect(paper: Paper, out: Path) -> Computed:
         column: Joined([MapResults(_of(out, f)) for f in files if _of(out, f).is_dir()])
         for column, files in paper.maps.items()
     }
+    flexible = {f: _of(out, f).with_name(f"{Path(f).stem}_flexible") for f in paper.rechecks}
+    again = {f: MapResults(p) for f, p in flexible.items() if p.is_dir()}
+    if paper.recheck_column:
+        there[paper.recheck_column] = Joined(list(again.values()))
     found = {
         column: {c.key: mapped(c, joined) if joined.parts else not_mapped() for c in paper.claims}
         for column, joined in there.items()
     }
-    flexible = {f: _of(out, f).with_name(f"{Path(f).stem}_flexible") for f in paper.rechecks}
-    rechecks = {f: MapResults(p) for f, p in flexible.items() if p.is_dir()}
     mapped_files = {f for files in paper.maps.values() for f in files}
     aside = [_of(out, f) for f in paper.weighed if f not in mapped_files]
     all_maps = [
-        *(part for joined in there.values() for part in joined.parts), *rechecks.values(),
+        *(part for column in paper.maps for part in there[column].parts), *again.values(),
         *(MapResults(p) for p in aside if p.is_dir()),
     ]  # fmt: skip
     computed = Computed(
-        paper, readings, there, found, rechecks, (),
+        paper, readings, there, found, again, (),
         sum(r.seconds for found in studies.values() for r in found.stored.values())
         + sum(results.seconds for results in all_maps),
         out,
