@@ -23,7 +23,6 @@ ROOT = Path(__file__).parents[2]
 FOLDERS = ("examples", "flexcage", "meshes", "tests")
 PAGES = sorted([ROOT / "README.md", *(p for f in FOLDERS for p in (ROOT / f).rglob("*.md"))])
 MOST_LINES = 300
-LONG = ("examples/papers/",)  # pages that may be longer
 #: Presets for the cases of a page, block by block, where they name none.
 CASES = {
     "README.md": ("",),
@@ -101,7 +100,7 @@ def test_links_and_anchors_lead_somewhere(page):
 def test_no_page_is_long(page):
     lines = len(page.read_text("utf-8").splitlines())
     most = 200 if page == ROOT / "README.md" else MOST_LINES
-    assert lines <= most or name_of(page).startswith(LONG)
+    assert lines <= most
 
 
 def test_every_page_is_reached_from_the_main_page():
