@@ -158,6 +158,7 @@ def words(computed: Computed) -> Words:
         f"both balls and cages). With the mean force on a ball, {forces} N, it does not go (rank "
         f"correlation {rank:.2f}, p = {chance:.2f}): there is no load below which traction alone "
         "gives 1 %.",
+        *_elastic(soft),
         *_weak(c, soft),
         "**The rivet over its fit (001-7).** With play the largest stress is at the root of the "
         "head, as claimed: holds. Under interference it is at the edges of the holes and the root, "
@@ -240,6 +241,28 @@ def _region(laid) -> str:
     return "; ".join(found) + "; the width may be anywhere from 4.4 to 8 mm"
 
 
+def _elastic(soft) -> list[str]:
+    """What a flexible cage makes of the bowl, and of rivets over the sheet's thickness."""
+    if soft is None or not soft.look:
+        return []
+    forces = ", ".join(said(soft, FORCE, c) for c in ENDS_OF_RADII)
+    found = pd.read_csv(FOLDER / "sheets.csv")
+    shear, bending = (
+        ", ".join(f"{value:.3g}" for value in found[name])
+        for name in ("shear [N]", "bending [mN m]")
+    )
+    return [
+        f"**An elastic cage has no bowl.** Its largest forces are {forces} N at 3.43, 3.46 and "
+        "3.49 mm: it gives way to blows, and they are less than half of a rigid cage's. Its "
+        f"rivets are stressed by {over(soft, 'rivet', ENDS_OF_RADII, 1e-6)} MPa: no rise beyond "
+        "3.46 mm (001-1b).",
+        "**A thicker sheet stresses rivets more (001-4b).** In one start each a rivet's mean "
+        f"shear is {shear} N at 0.7, 0.8 and 1 mm, its bending {bending} mN m: halves of thicker "
+        "sheet are farther apart, and the same forces bend the shank more. Clamped heads, which "
+        "would carry this by friction, are not in the nominal stress.",
+    ]
+
+
 def _weak(computed: Computed, soft) -> list[str]:
     """Which cage is stressed more, and where."""
     if soft is None or not soft.look:
@@ -276,5 +299,5 @@ PAPER = Paper(
     draw=draw,
     tables=tables,
     words=words,
-    files=("predictions.json", "printed.toml", "fits.csv", "lives.csv", "blows.csv"),
+    files=("predictions.json", "printed.toml", "fits.csv", "lives.csv", "blows.csv", "sheets.csv"),
 )  # fmt: skip
