@@ -111,7 +111,7 @@ def reasons(computed: Computed) -> dict[str, str]:
         f"{c.part(MAP, '000-6', 'j-1 fluctuates at 0.2')}: it is held",
         "000-7": f"lower at 0.1 in {c.part(MAP, '000-7', 'lower at 0.1')}, sharply higher at 0.2 "
         f"in {c.part(MAP, '000-7', 'sharply higher at 0.2')}; {c.by(MAP, '000-7')}",
-        "000-8": f"corners: {row(c, BETTER, 'corner', MPA, SOUND, LONGER, SHORTER)} MPa; the same in "
+        "000-8": f"{row(c, BETTER, 'corner', MPA, SOUND, LONGER, SHORTER)} MPa; the same in "
         f"{c.part(FLEXIBLE, '000-8', 'unchanged at +0.3')}, more in "
         f"{c.part(FLEXIBLE, '000-8', 'more at -0.3')} of flexible points",
         "000-8b": f"{row(c, BETTER, 'corner', MPA, SHORTER)} MPa at Cp - Lw = 0.25 mm"
