@@ -10,6 +10,7 @@ from repeat import Computed, Paper, Words
 from flexcage.core.digits import percent_text
 from flexcage.study import StudyResults
 from flexcage.study.sensitivity import share
+from flexcage.study.verdicts import HOLDS
 
 OF_STRESS = ("000-1", "000-8", "000-8b")  # claims that the map's rigid cages say nothing of
 DECIDED_BY = {c.key: FLEXIBLE if c.key in OF_STRESS else MAP for c in CLAIMS}
@@ -92,7 +93,7 @@ def reasons(computed: Computed) -> dict[str, str]:
     least, most = (1e3 * v for v in CLEARANCES["Cp - Lw"])
     held, shorter = clearance(c, "Cq - Dw") < 0.2e-3, clearance(c, "Cp - Lw") < 0.3e-3
     return {
-        "000-1": f"corners: {row(c, BETTER, 'corner', MPA, *CAGES[:3])} MPa where the roller just "
+        "000-1": f"{row(c, BETTER, 'corner', MPA, *CAGES[:3])} MPa where the roller just "
         f"fits at 0.2 mm; rises in {c.part(FLEXIBLE, '000-1', 'rises')} of flexible points",
         "000-2": f"rises and falls in {c.part(MAP, '000-2', 'amplitude')}; "
         f"{c.by(MAP, '000-2')}",
@@ -114,9 +115,9 @@ def reasons(computed: Computed) -> dict[str, str]:
         "000-8": f"{row(c, BETTER, 'corner', MPA, SOUND, LONGER, SHORTER)} MPa; the same in "
         f"{c.part(FLEXIBLE, '000-8', 'unchanged at +0.3')}, more in "
         f"{c.part(FLEXIBLE, '000-8', 'more at -0.3')} of flexible points",
-        "000-8b": f"{row(c, BETTER, 'corner', MPA, SHORTER)} MPa at Cp - Lw = 0.25 mm"
+        "000-8b": f"{row(c, BETTER, 'corner', MPA, SHORTER)} MPa at 0.25 mm"
         + (f"; within a factor of two from {low:.2f} to {high:.2f} mm, "
-           f"{percent_text((high - low) / (most - least))} of its range" if low < high else ""),
+           f"{percent_text((high - low) / (most - least))} of the range" if low < high else ""),
         "000-9": f"unchanged in {c.part(MAP, '000-9', 'unchanged at +0.3')}, one line in "
         f"{c.part(MAP, '000-9', 'one line at -0.3')}",
         "000-10": f"larger at +0.3 in {c.part(MAP, '000-10', 'larger at +0.3')}, smaller at -0.3 "
@@ -147,13 +148,15 @@ def words(computed: Computed) -> Words:
     """Summary, reasons, what decides, and readings, with the numbers of what was computed."""
     c = computed
     counts, points = c.counts, c.found[MAP]["000-12"].share.decided
+    held = [line.key for line in c.lines if line.cells[BETTER].outcome == HOLDS]
     starts = {column: reading.starts for column, reading in c.readings.items()}
     summary = f"""The paper deforms one pocket of an N1013's brass cage at 6000 rpm and 1000 N, in
         ADAMS: its crossbeam by 0.1 and 0.2 mm, its side beam by +0.3 and -0.3 mm. It says that
         stress and slip rise where the roller is squeezed, and that orbits, vibration and speeds
         change with it. Of its {len(c.lines)} claims (one in two readings, one with a number)
-        {counts["holds"]} hold, {counts["does not hold"]} do not; open: {counts["undecided"]}. One
-        thing decides most: does the displacement exceed the pocket's clearance, which the paper
+        {counts["holds"]} hold over most of what it leaves unknown, {counts["does not hold"]} do
+        not; open: {counts["undecided"]}. At the clearances of the better model {", ".join(held)}
+        hold. One thing decides most: does the displacement exceed the pocket's clearance, which the paper
         does not print? How sure: {points} points of {len(c.maps[MAP].names) - 1} unknowns, one
         start each of five rigid cages over three turns; five of them again with flexible ones;
         {" and ".join(f"{n} starts ({column})" for column, n in starts.items() if n)}, the
