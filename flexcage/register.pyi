@@ -5,6 +5,7 @@ from flexcage.contacts.laws import register_friction as friction_law
 from flexcage.contacts.laws import register_normal as normal_law
 from flexcage.geometry.defect import register_defect as cage_defect
 from flexcage.geometry.materials import register_material as material
+from flexcage.geometry.temperature import register_modulus_curve as modulus_curve
 from flexcage.modes.registry import register_basis as mode_basis
 from flexcage.render.album import register_picture as picture
 from flexcage.results.registry import register as variable
@@ -25,6 +26,7 @@ __all__ = [
     "known_answer",
     "material",
     "mode_basis",
+    "modulus_curve",
     "normal_law",
     "outputs",
     "picture",

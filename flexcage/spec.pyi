@@ -17,6 +17,7 @@ from flexcage.geometry.materials import Material as Material
 from flexcage.geometry.ring import InnerRing as InnerRing
 from flexcage.geometry.ring import OuterRing as OuterRing
 from flexcage.geometry.spall import Spall as Spall
+from flexcage.geometry.temperature import ModulusCurve as ModulusCurve
 from flexcage.mesh.options import MeshOptions as MeshOptions
 from flexcage.modes.spec import DampingBand as DampingBand
 from flexcage.modes.spec import ModesSpec as ModesSpec

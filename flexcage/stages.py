@@ -35,13 +35,15 @@ from flexcage.system.bodies import heaviest_load
 from flexcage.system.constraints import names_of
 from flexcage.system.layout import Layout
 from flexcage.system.problem import Bearing
-from flexcage.system.rings_in_motion import MovingRings, moving_rings
+from flexcage.system.rings_in_motion import MovingRings, in_housing, moving_rings
 from flexcage.system.spec import Constraint, Drive, Limits, Load, Mount, StartOptions
 from flexcage.system.start import Start, constrained, find_start, with_push
 from flexcage.system.statics.options import AT_START
 from flexcage.system.statics.rings import BentRing, Rings
 from flexcage.system.statics.solution import StaticSolution
 from flexcage.system.statics.solve import solve_bearing
+from flexcage.system.statics.yielding import compliance_of
+from flexcage.system.swinging import no_swings
 
 Cage = tuple[CageMesh, CageReduction | None]  # the second: None for a rigid cage
 
@@ -177,7 +179,7 @@ def bearing_in_motion(specs: MotionSpecs, mesh: CageMesh, cage: CageReduction | 
     if cage is None:
         body = rigid_from_tets(mesh.points, mesh.tets, specs.cage.material.density)
         return _assembled(specs, body, _rigid_interface(specs), _moving_rings(specs))
-    body = flexible_from_reduction(cage, specs.modes.damped_as(specs.cage.material))
+    body = flexible_from_reduction(cage, specs.modes.damped_as(specs.cage.warm_material))
     return _assembled(specs, body, cage.interface, _moving_rings(specs))
 
 
@@ -199,21 +201,30 @@ def bent_rings(specs: MotionSpecs) -> tuple[BentRing, ...]:
 
 
 def _moving_rings(specs: MotionSpecs) -> MovingRings | None:
-    rings = _rings_of(specs)
-    if not rings.bend:
+    if not _bends(specs):
         return None
-    rings = replace(rings, heavier=heaviest_load(specs.load))
-    return moving_rings(rings, _statics(specs, rings))
+    rings = replace(_rings_of(specs), heavier=heaviest_load(specs.load))
+    seat = compliance_of(specs.mount, specs.bearing)
+    made = moving_rings(rings, _statics(specs, rings, seat))
+    return made if seat is None else in_housing(made, specs.bearing, rings, specs.mount, seat)
+
+
+def _bends(specs: MotionSpecs) -> bool:
+    """Do rings bend, or does the outer ring move in a housing that yields?"""
+    return _rings_of(specs).bend or bool(specs.mount.body)
 
 
 def _rings_of(specs: MotionSpecs) -> Rings:
     return Rings(specs.inner_ring, specs.outer_ring, sections_of(specs.bearing))
 
 
-def _statics(specs: StaticSpecs, rings: Rings | None = None) -> StaticSolution:
+def _statics(
+    specs: StaticSpecs, rings: Rings | None = None, seat: np.ndarray | None = None
+) -> StaticSolution:
     return solve_bearing(
         specs.bearing, statics_of(specs.bearing), load=specs.load, speed=specs.speed,
         contacts=specs.contacts, lubricant=specs.lubricant, options=AT_START, rings=rings,
+        seat=seat,
     )  # fmt: skip
 
 
@@ -223,7 +234,7 @@ def _assembled(
     """``interface``: what moves in the cage's pockets; ``rings``: those that bend, any if they are
     left out."""
     motion, output = motion_of(specs.bearing), specs.output
-    bends = _rings_of(specs).bend
+    bends = _bends(specs)
     model = motion.build_model(
         specs.bearing, specs.cage, body, interface, contacts=specs.contacts,
         lubricant=specs.lubricant, drive=specs.drive, load=specs.load, mount=specs.mount,
@@ -233,8 +244,10 @@ def _assembled(
     if bends:
         bending = bending_of(specs.bearing)
         data = rigid_rings(count) if rings is None else rings.data
-        motion, model = bending.motion, bending.model(*model, data)
-    layout = Layout(count, body.modes, names_of(specs.constraints), bends)
+        swings = no_swings(count) if rings is None else rings.swings
+        motion, model = bending.motion, bending.model(*model, data, swings)
+    swinging = 0 if rings is None else len(rings.at_start)
+    layout = Layout(count, body.modes, names_of(specs.constraints), bends, swinging)
     return Bearing(
         motion, specs.bearing, model, specs.contacts, layout, constraints=specs.constraints,
         block=output.block, stride=output.vibration_ratio, interval=1.0 / output.rate, rings=rings,

@@ -17,6 +17,7 @@ from flexcage.system.statics.options import AT_START, StaticOptions
 from flexcage.system.statics.rings import BentRing, Rings
 from flexcage.system.statics.solution import StaticSolution
 from flexcage.system.statics.solve import solve_bearing
+from flexcage.system.statics.yielding import compliance_of
 
 log = logging.getLogger(__name__)
 
@@ -32,18 +33,9 @@ def solve_static(case: StaticCase, *, options: StaticOptions | None = None) -> S
     return solve_bearing(
         case.bearing, statics_of(case.bearing), load=case.load, speed=case.speed,
         contacts=case.contacts, lubricant=case.lubricant, options=options or case.static,
-        rings=Rings(case.inner_ring, case.outer_ring, sections_of(case.bearing)), seat=_seat(case),
+        rings=Rings(case.inner_ring, case.outer_ring, sections_of(case.bearing)),
+        seat=compliance_of(case.mount, case.bearing),
     )  # fmt: skip
-
-
-def _seat(case: StaticCase) -> np.ndarray | None:
-    """Compliance (5, 5) of the outer ring's seat in its housing; None for a rigid one."""
-    if not case.mount.body:
-        return None
-    from flexcage.system.seat import seat_compliance  # with readers of files, which few need
-
-    bearing = case.bearing
-    return seat_compliance(case.mount, diameter=bearing.outside_diameter, width=bearing.width)
 
 
 def ehl_traction(
@@ -84,11 +76,11 @@ def ehl_traction(
 
 def draw_ring(
     ring: BentRing, path: str | Path, *, scale: float | None = None,
-    when: str = "in the static solution",
+    when: str = "in the static solution", name: str = "",
 ) -> Path:  # fmt: skip
-    """Picture of a ring of a static solution, or of an instant of a run (``when``, in words):
-    stress on its deformed shape (``scale`` times; chosen if not given), forces, and how far its
-    race yields. Beneath the elements Hertz's own stress is not resolved."""
+    """Picture of a ring of a static solution, or of an instant of a run (``when``, in words), of
+    the case ``name``: stress on its deformed shape (``scale`` times; chosen if not given),
+    forces, and how far its race yields. Beneath the elements Hertz's own stress is not resolved."""
     from flexcage.render import ring_picture
     from flexcage.stress.rings import ring_field
 
@@ -101,7 +93,7 @@ def draw_ring(
         field.von_mises.ravel(), path, azimuth=ring.azimuth, force=ring.force[:, radial],
         deflection=ring.deflection[:, 1], support=supports, support_force=ring.support_force,
         title=f"{ring.side.capitalize()} ring {when}", scale=scale,
-        note="stress beneath the elements is that of the ring, without Hertz's own",
+        name=name, note="stress beneath the elements is that of the ring, without Hertz's own",
     )  # fmt: skip
 
 
@@ -127,7 +119,10 @@ def write_static(case: StaticCase, solution: StaticSolution, folder: Path) -> li
                 speed=solution.speed,
             )
         )  # fmt: skip
-        written += [draw_ring(ring, folder / f"{ring.side}_ring.png") for ring in solution.rings]
+        written += [
+            draw_ring(ring, folder / f"{ring.side}_ring.png", name=case.name)
+            for ring in solution.rings
+        ]
     except EnvironmentLacks as exc:
         log.warning("no picture: %s", exc)
     return written

@@ -149,7 +149,9 @@ class Case(StaticCase):
         fields = [f for f in dataclasses.fields(self) if counts(self, f)]
         physics = {f.name: getattr(self, f.name) for f in fields if f.name not in _NOT_PHYSICS}
         physics["contacts"] = dataclasses.replace(self.contacts, land=self.land)
-        physics["modes"] = modes = self.modes.damped_as(self.cage.material)
+        if self.cage.temperature is not None:
+            physics["cage"] = dataclasses.replace(self.cage, material=self.cage.warm_material)
+        physics["modes"] = modes = self.modes.damped_as(self.cage.warm_material)
         if self.cage_model == "rigid" or not self.cage.has_faces:
             physics["modes"] = dataclasses.replace(modes, attachments="linear")
         contents = {path: bytes_of(value) for path, value in self.files.items()}

@@ -47,6 +47,7 @@ def check_case(case: Case) -> None:
             _find_in_axial_load,
             _find_in_held_motions,
             _find_in_mesh,
+            _find_in_temperature,
             _find_in_mount,
             _find_in_waves,
             _find_in_solver,
@@ -134,6 +135,15 @@ def _find_in_materials(case: Any) -> Iterator[Finding]:
                 f"{here} is {describe(material.density, 'kg/m^3')}, far below that of any solid; "
                 "a bare number is in kg/m^3: steel has 7850, polymers have about 1200.",
             )
+
+
+def _find_in_temperature(case: Case) -> Iterator[Finding]:
+    if case.cage.temperature is not None and case.modes.body:
+        yield (
+            "cage.temperature",
+            f"cage.temperature is {describe(case.cage.temperature, 'degC')}, but modes.body brings "
+            "the stiffness; leave the temperature out, and give the body of the warm cage.",
+        )
 
 
 def _find_in_load(case: Case) -> Iterator[Finding]:
@@ -337,12 +347,11 @@ def _find_in_mesh(case: Case) -> Iterator[Finding]:
 
 
 def _find_in_mount(case: Case) -> Iterator[Finding]:
-    if case.mount.body:
+    if case.mount.body and case.mount.kind != "fixed":
         yield (
             "mount.body",
-            "mount.body is given, but in a run the outer ring moves in y and z alone, without the "
-            "modes of a housing; take 'flexcage static', or leave it out and give mount.kind = "
-            '"bushing" with mount.stiffness and mount.mass.',
+            f"mount.body is given, but mount.kind is '{case.mount.kind}', and a housing takes its "
+            "place; leave one of both out.",
         )
 
 

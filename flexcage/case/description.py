@@ -10,6 +10,8 @@ from flexcage.case.extensions import sources
 from flexcage.case.presets import load_preset
 from flexcage.core.binding import to_table
 from flexcage.core.units import typeset
+from flexcage.geometry.cage import Cage
+from flexcage.geometry.temperature import MODULUS_CURVES
 from flexcage.system.spec import Load, Wave
 
 
@@ -24,9 +26,16 @@ def _cage(case: Case) -> str:
     cage, bearing = case.cage, case.bearing
     guide = bearing.guides.get(cage.guidance, f"its {bearing.element}s")
     return (
-        f"Its cage is {case.cage_model}, of {cage.material.name}, guided by {guide}; "
+        f"Its cage is {case.cage_model}, of {cage.material.name}{_warm(cage)}, guided by {guide}; "
         f"{cage.in_words()}."
     )
+
+
+def _warm(cage: Cage) -> str:
+    if cage.temperature is None:
+        return ""
+    modulus = typeset(cage.warm_material.youngs_modulus, "GPa", digits=3)
+    return f" at {typeset(cage.temperature, 'degC')} ({modulus})"
 
 
 def _defects(case: Case) -> str:
@@ -136,7 +145,7 @@ def assumed(case: Case) -> dict[str, tuple[str, str]]:
     """Values that no source gives: by path, the value as a case file writes it and the reason."""
     table = case.to_table()
     table["contacts"]["land"] = to_table(case.land)
-    table["modes"] = to_table(case.modes.damped_as(case.cage.material))
+    table["modes"] = to_table(case.modes.damped_as(case.cage.warm_material))
     return {path: (_value(table, path), why) for path, why in case.assumptions.items()}
 
 
@@ -152,6 +161,9 @@ def grounds(case: Case) -> dict[str, str]:
     for material in (case.bearing.material, case.cage.material):
         if material.source:
             found[material.name] = material.source
+    if case.cage.temperature is not None:
+        name = case.cage.material.name
+        found[f"{name} over temperature"] = MODULUS_CURVES[name].source
     return found
 
 

@@ -59,20 +59,25 @@ def _azimuths(supports: tuple[float, ...]) -> str:
 
 
 def find_bending_in_run(case: Case) -> Iterator[Finding]:
-    """What rings that bend in a run cannot have."""
-    for side in ("inner_ring", "outer_ring"):
-        ring = getattr(case, side)
-        if not ring.bends:
-            continue
-        if ring.seat in SUPPORTED:
-            yield (
-                f"{side}.seat",
-                f"{side}.seat is '{ring.seat}', but in a run a seat holds a ring that bends all "
-                "around; take 'rigid' or 'foundation', or 'flexcage static'.",
-            )
-        if case.solver.method == "bdf":
-            yield (
-                "solver.method",
-                f"solver.method is 'bdf', but {side}.ring is 'flexible', and rings that bend move "
-                "by explicit steps; take 'explicit' or 'auto'.",
-            )
+    """What rings that bend, or that a housing carries, cannot have in a run."""
+    outer, mount = case.outer_ring, case.mount
+    if outer.bends and outer.seat in SUPPORTED and (mount.kind != "fixed" or mount.body):
+        what = "mount.body is given" if mount.body else f"mount.kind is '{mount.kind}'"
+        yield (
+            "outer_ring.seat",
+            f"outer_ring.seat is '{outer.seat}', but {what}, and in a run supports stand still; "
+            'leave out mount, or take outer_ring.seat = "rigid" or "foundation".',
+        )
+    yields = [
+        f"{side}.ring is 'flexible'"
+        for side in ("inner_ring", "outer_ring")
+        if getattr(case, side).bends
+    ]
+    if mount.body:
+        yields.append("mount.body is given")
+    if yields and case.solver.method == "bdf":
+        yield (
+            "solver.method",
+            f"solver.method is 'bdf', but {yields[0]}, and rings that bend or sit in a housing "
+            "that yields move by explicit steps; take 'explicit' or 'auto'.",
+        )

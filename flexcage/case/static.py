@@ -76,8 +76,9 @@ class StaticCase:
 
     @property
     def rings_bend(self) -> bool:
-        """Does the inner or the outer ring bend?"""
-        return self.inner_ring.bends or self.outer_ring.bends
+        """Does a ring bend or, in a run, move in a housing that yields?"""
+        carried = self._in_motion and bool(self.mount.body)
+        return self.inner_ring.bends or self.outer_ring.bends or carried
 
     @property
     def speed(self) -> float:

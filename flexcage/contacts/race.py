@@ -21,6 +21,7 @@ from flexcage.contacts.evaluation import (
     TRACTION,
 )
 from flexcage.contacts.laws import EXPONENT, rolling_forces
+from flexcage.contacts.roller_spot import push_by_spot, sink_on_spot, spot_generator
 from flexcage.contacts.slices import (
     ROOM,
     friction_factors,
@@ -64,6 +65,8 @@ class RaceSide(NamedTuple):
     spall: np.ndarray  # (4,) as in ``contacts.uneven``
     spalled: np.ndarray  # (ns,) share of each slice that lies over the spall
     uneven: int  # 1 if there is a wave or a spall (records hold no booleans)
+    spot: np.ndarray  # (4,) of the roller that has one: half angle, 0, depth, drop over angle^2
+    spotted: np.ndarray  # (ns,) share of each slice that lies on the spot
 
 
 class RaceWork(NamedTuple):
@@ -128,6 +131,8 @@ def meet_race(m, pose, side, Rw, theta, onset, rw):
     _meet(first, side, Rw, onset, ring_axis, line, spin, sl)
     if side.uneven:
         _ride(first, pose, side, sqrt(dot(x0, x0)), ring_spin[0], theta, sl)
+    if pose.spot[0] > 0.0:
+        sink_on_spot(first, pose, side, line, ring_axis, spin, sl)
     if largest((first, first + np.uint64(n)), sl.d) <= 0.0:
         return False
     # the surfaces' speeds along e_psi, seen from the contact, which moves with the orbit
@@ -179,8 +184,10 @@ def push_by_race(m, pose, side, Rw, theta, rw, pair, mode, sums):
             _report(first, side, Rw, a, sl, sums)
     if side.uneven:
         _lean(first, pose, side, centre, ring_axis, theta, sl, pair, mode, sums)
+    if pose.spot[0] > 0.0:
+        push_by_spot(first, pose, side, partner, sl, pair, mode, sums)
     if mode == TANGENT:
-        _tangent(first, pose, side, Rw, centre, ring_axis, theta, sl, pair)
+        _tangent(first, pose, side, Rw, partner, theta, sl, pair)
     if side.rolling[0] > 0.0:
         # shear on both surfaces, and the pressure that balances it: on the roller -F t at the
         # surface and + hydro F t through its centre (hydro = 2 R/Rw); the ring gets the reaction
@@ -302,9 +309,9 @@ def _lean(first, pose, side, P, b, theta, sl, pair, mode, sums):
 
 
 @outlined
-def _tangent(first, pose, side, Rw, P, b, theta, sl, pair):
+def _tangent(first, pose, side, Rw, partner, theta, sl, pair):
     """The slices' share of the pair's tangent."""
-    a = row(pose.axis, 0)
+    a, P, b = row(pose.axis, 0), row(partner, CENTRE), row(partner, AXIS)
     Wn, Wx, Wt, Wf = pair.W[0], pair.W[1], pair.W[2], pair.W[WHOLE]
     for k in range(side.s.shape[0]):
         at = first + np.uint64(k)
@@ -320,6 +327,8 @@ def _tangent(first, pose, side, Rw, P, b, theta, sl, pair):
         add_generator(n, r, Wn)
         for j in range(6):
             Wn[j] -= slope * Wt[j]
+        if pose.spot[0] > 0.0 and side.spotted[k] > 0.0:
+            spot_generator(k, n, pose, side, partner, Wn)
         add_generator(t, r, Wt)
         add_generator(b, r, Wx)
         for j in range(6):

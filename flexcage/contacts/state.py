@@ -22,8 +22,8 @@ U_SPIN, U_SKEW, U_TILT = 3, 4, 5
 # velocity of its centre, angular velocity
 CENTRE, AXIS, VELOCITY, SPIN = range(4)
 WHOLE = 3  # row of a slice's generators: all of its force
-# rows of a pose that is kept, behind those of F: axes, velocity, angular velocity
-KEPT_AXES, KEPT_V, KEPT_W, KEPT = 3, 6, 7, 8
+# rows of a pose that is kept, behind those of F: axes, velocity, angular velocity, spot
+KEPT_AXES, KEPT_V, KEPT_W, KEPT_SPOT, KEPT = 3, 6, 7, 8, 9
 
 
 class RollerPose(NamedTuple):
@@ -33,6 +33,9 @@ class RollerPose(NamedTuple):
     axis: np.ndarray  # (3, 3) rows: roller axis, its two transverse axes (non-spinning), in F
     V: np.ndarray  # (3,) velocity in F
     w: np.ndarray  # (3,) angular velocity in F
+    # (2,) 1 if it has a spot, and its middle's angle [rad] from the first transverse axis to the
+    # second
+    spot: np.ndarray
 
 
 class Pair(NamedTuple):
@@ -53,7 +56,7 @@ class CageModes(NamedTuple):
 
 
 def new_pose() -> RollerPose:
-    return RollerPose(np.zeros((3, 3)), np.zeros((3, 3)), np.zeros(3), np.zeros(3))
+    return RollerPose(np.zeros((3, 3)), np.zeros((3, 3)), np.zeros(3), np.zeros(3), np.zeros(2))
 
 
 def new_pair() -> Pair:
@@ -88,11 +91,13 @@ def set_pose(q, u, pose):
 
 @part
 def keep_pose(pose, rows):
-    """Copy a pose into eight rows of three numbers."""
+    """Copy a pose into ``KEPT`` rows of three numbers."""
     for j in range(3):
         for k in range(3):
             rows[j, k], rows[KEPT_AXES + j, k] = pose.F[j, k], pose.axis[j, k]
         rows[KEPT_V, j], rows[KEPT_W, j] = pose.V[j], pose.w[j]
+    for j in range(2):
+        rows[KEPT_SPOT, j] = pose.spot[j]
 
 
 @part
@@ -102,6 +107,8 @@ def take_pose(rows, pose):
         for k in range(3):
             pose.F[j, k], pose.axis[j, k] = rows[j, k], rows[KEPT_AXES + j, k]
         pose.V[j], pose.w[j] = rows[KEPT_V, j], rows[KEPT_W, j]
+    for j in range(2):
+        pose.spot[j] = rows[KEPT_SPOT, j]
 
 
 @part

@@ -67,7 +67,11 @@ _COMMON: dict[str, tuple[str, int, float]] = {
     "N*m/rad": ("torsional stiffness", 0, 1.0),
     "N*m*s/rad": ("torsional damping", 0, 1.0),
     "g*mm": ("unbalance", -6, 1.0),
+    "K": ("temperature", 0, 1.0),
+    "degC": ("temperature", 0, 1.0),
 }
+# units whose zero is not SI's: what it is there
+_ZEROS = {"degC": Decimal("273.15")}
 # kind: least (of what must be greater than 0) and greatest magnitude in SI. Far beyond any bearing,
 # where a number is a slip of the pen, and short of where its squares or inverses leave the floats
 _LIMITS: dict[str, tuple[float, float]] = {
@@ -92,6 +96,7 @@ _LIMITS: dict[str, tuple[float, float]] = {
     "torsional stiffness": (1e-6, 1e15),
     "torsional damping": (1e-9, 1e12),
     "unbalance": (1e-15, 1e3),
+    "temperature": (1e-3, 1e4),
 }
 _DECIMAL_COMMA = re.compile(r"\s*[+-]?\d+,\d+\s*\D")
 _NUMBER = re.compile(
@@ -111,6 +116,7 @@ _SPELLINGS: tuple[tuple[re.Pattern, Any], ...] = (
     (re.compile(r"^/"), "1/"),
 )
 _TON = re.compile(r"\b[kM]?tons?\b")  # 907 kg for pint, and 1000 kg for most engineers
+_STEP = re.compile(r"delta_|Δ")
 _ODD = re.compile(r"\d{3}|\d\s*\^|%\s*\w")  # powers that take pint for ever, parts of a unit
 _ANGLE = "[plane_angle]"
 # pint's angles have no dimension, so that 100 Hz would pass for 100 rad/s and N*m for N*m/rad
@@ -176,7 +182,10 @@ def parse(value: object, unit: str, *, where: str = "value") -> float:
         raise _no_unit(value, unit, where)
     wanted, have = _COMMON.get(unit), _COMMON.get(given)
     if wanted and have and wanted[0] == have[0]:
-        found = float(_shifted(number, have[1])) * have[2]
+        shifted = _shifted(number, have[1])
+        if given in _ZEROS and number.adjusted() < 9:  # a sum of greater ones may overflow
+            shifted += _ZEROS[given]
+        found = float(shifted) * have[2]
     else:
         found = _parse_by_pint(float(number), given, unit, where, value)
     if (math.isinf(found) and number.is_finite()) or (found == 0.0 and number != 0):
@@ -211,6 +220,8 @@ def _parse_by_pint(number: float, given: str, unit: str, where: str, value: obje
         quantity = _quantity(number, given)
     except Exception as exc:  # pint's parser raises assorted errors on malformed text
         raise refused(f"but '{given}' is not a known unit; write it in {unit}") from exc
+    if _STEP.search(given):
+        raise refused("but a temperature is wanted, not a difference; write it in degC or K")
     if _TON.search(given):
         raise refused("but a ton has 1000 kg or 2000 lb; write it in 't' (1000 kg), kg or lb")
     wanted = _quantity(1.0, unit).units
@@ -282,12 +293,22 @@ def _factor(unit: str) -> float:
     return float(_quantity(1.0, unit).to_base_units().magnitude)
 
 
+def _number(value: float, unit: str) -> float:
+    """An SI value in ``unit``."""
+    if unit in _ZEROS:
+        return float(Decimal(repr(float(value))) - _ZEROS[unit])
+    if unit in _COMMON or not _quantity(1.0, unit).check("[temperature]"):
+        return value / _factor(unit)
+    return float(_registry().Quantity(value, "K").to(_quantity(1.0, unit).units).magnitude)
+
+
 def format_si(value: float, unit: str) -> str:
     """Text of an SI value in ``unit``, with as few digits as give the same value when read."""
     kind = _COMMON.get(unit)
     if kind and kind[2] == 1.0:
-        return f"{_plain(Decimal(repr(float(value))).scaleb(-kind[1]))} {unit}"
-    number = value / _factor(unit)
+        exact = Decimal(repr(float(value))).scaleb(-kind[1]) - _ZEROS.get(unit, 0)
+        return f"{_plain(exact)} {unit}"
+    number = _number(value, unit)
     for digits in (12, 15, 16, 17):
         text = f"{number:.{digits}g} {unit}"
         if parse(text, unit) == value:
@@ -311,7 +332,7 @@ def limits_of(unit: str) -> tuple[float, float]:
 
 def describe(value: float, unit: str) -> str:
     """Short text of an SI value for sentences and tables: six digits."""
-    return f"{value / _factor(unit):.6g} {unit}"
+    return f"{_number(value, unit):.6g} {unit}"
 
 
 def mm(value: float) -> str:

@@ -12,6 +12,7 @@ from flexcage.core.spec import option, quantity
 from flexcage.core.units import describe, typeset
 from flexcage.core.wings import CAGE_TYPES, Parts
 from flexcage.geometry.materials import MATERIALS, Material
+from flexcage.geometry.temperature import material_at
 
 if TYPE_CHECKING:
     from flexcage.geometry.bearing import Bearing
@@ -43,6 +44,11 @@ class Cage:
     bore: float = quantity("mm", doc="inside diameter", above=0.0)
     outside_diameter: float = quantity("mm", doc="outside diameter", above=0.0)
     width: float = quantity("mm", doc="axial width", above=0.0)
+    temperature: float | None = quantity(
+        "degC", None, legacy=None, above=0.0,
+        doc="temperature of the cage, from which modulus and damping follow; room temperature "
+        "by default; dimensions, density and strength stay",
+    )  # fmt: skip
     guidance: str = option("", doc="what guides the cage radially")
     unbalance: float = quantity("g*mm", 0.0, doc="mass-radius product of an unbalance", minimum=0.0)
     unbalance_phase: float = quantity("deg", 0.0, doc="azimuth of the unbalance from pocket 0")
@@ -56,6 +62,11 @@ class Cage:
         """The joint at one of its rivets, whose heads have roots of this radius [m]; for cages that
         are ``riveted``."""
         raise NotImplementedError
+
+    @property
+    def warm_material(self) -> Material:
+        """Its material at its temperature. Raises InputError for one of unknown modulus."""
+        return material_at(self.material, self.temperature)
 
     @property
     def mean_radius(self) -> float:
@@ -135,6 +146,7 @@ class Cage:
         for name, what in self.impossible(pocket_count):
             value, where = getattr(self, name), f"cage.{name}"
             raise InputError(f"{where}, {describe(value, 'mm')}, {what}.", where=where, value=value)
+        material_at(self.material, self.temperature)
 
     def no_room(self, bearing: Bearing) -> Iterator[Objection]:
         """What leaves no room in it for a bearing's elements, or for itself between them."""

@@ -39,12 +39,7 @@ class Spall:
     def covered(self, centres: np.ndarray, slice_width: float) -> np.ndarray:
         """Share (n,) of slices of a roller that stands in the middle of the race, by the axial
         places of their centres (n,) [m]."""
-        if self.width is None:
-            return np.ones_like(centres)
-        low, high = self.offset - 0.5 * self.width, self.offset + 0.5 * self.width
-        half = 0.5 * slice_width
-        over = np.minimum(centres + half, high) - np.maximum(centres - half, low)
-        return np.clip(over / slice_width, 0.0, 1.0)
+        return covered(centres, slice_width, self.width, self.offset)
 
     def sides(self, groove_radius: float) -> tuple[float, float]:
         """Angles [rad] from a groove's bottom, towards +x, to its sides; infinite if it is as wide
@@ -63,6 +58,19 @@ class Spall:
             f" The {race} race has a spall of {typeset(self.length, 'mm')}, "
             f"{typeset(self.depth, 'um')} deep, at {typeset(self.azimuth, 'deg')}."
         )
+
+
+def covered(
+    centres: np.ndarray, slice_width: float, width: float | None, offset: float
+) -> np.ndarray:
+    """Share (n,) of slices, by the places of their centres (n,) [m], that lie on a strip of a
+    ``width`` [m] about ``offset``; None: on one as wide as all of them."""
+    if width is None:
+        return np.ones_like(centres)
+    low, high = offset - 0.5 * width, offset + 0.5 * width
+    half = 0.5 * slice_width
+    over = np.minimum(centres + half, high) - np.maximum(centres - half, low)
+    return np.clip(over / slice_width, 0.0, 1.0)
 
 
 def find_in_spall(b: Bearing, ring: str, radius: float, reach: float) -> Iterator[tuple[str, str]]:

@@ -13,6 +13,7 @@ from flexcage.core.progress import Silent
 from flexcage.integrate.divergence import first_undefined, hardest, runaway
 from flexcage.integrate.recorded import recorded, recorded_names
 from flexcage.integrate.recording import Recording
+from flexcage.integrate.rings import carried
 from flexcage.results.lowpass import butterworth, low_passed
 from flexcage.results.options import OutputOptions
 from flexcage.results.registry import COMPUTED, VARIABLES
@@ -264,6 +265,9 @@ class Integration:
         raw = self.bearing.data.samples.force[:n] / bodies.outer[MASS]
         if bodies.support != FIXED:
             raw = self.bearing.layout.u(yd)["outer"]
+        moved = carried(self.bearing, yd)
+        if moved is not None:
+            raw = np.ascontiguousarray(moved[1][:, 1:])
         cut = min(FILTER_HZ / (0.5 * self.output.vibration_rate), 0.95)
         filtered = low_passed(butterworth(cut), raw, self._filter)
         return {"outer_acceleration": raw, "outer_acceleration_filtered": filtered}

@@ -8,7 +8,7 @@ import numpy as np
 
 from flexcage.integrate.postures import in_plane, orientation, to_body
 from flexcage.integrate.recording import Recording
-from flexcage.integrate.rings import ring_records
+from flexcage.integrate.rings import carried, ring_records
 from flexcage.results.options import OutputOptions
 from flexcage.results.registry import ENERGIES, VARIABLES, variables_of
 from flexcage.results.store import MemoryRunStore, RunStore
@@ -42,6 +42,7 @@ def new_store(
             np.array(bearing.reaction_units),
             {"long_name": "unit of multipliers"},
         ),
+        **_supports(bearing),
         "energy_kind": np.array(ENERGIES),
         "channel": np.array(POWERS),
         "land_station": np.arange(len(bearing.data.model.land.angle)),
@@ -62,10 +63,23 @@ def new_store(
     )  # fmt: skip
 
 
+def _supports(bearing: Bearing) -> dict[str, Any]:
+    """Azimuths of supports that hold an outer ring that bends."""
+    azimuth = bearing.rings.swings.azimuth if bearing.rings else ()
+    if not len(azimuth):
+        return {}
+    told = {"units": "rad", "long_name": "azimuth of supports"}
+    return {
+        "support": np.arange(len(azimuth)), "support_azimuth": (("support",), azimuth, told)
+    }  # fmt: skip
+
+
 def recorded_names(bearing: Bearing) -> list[str]:
     """Names of all that is recorded of this bearing."""
     layout = bearing.layout
-    without = {dim for dim, has in (("mode", layout.modes), ("bending", layout.bends)) if not has}
+    supports = bearing.rings is not None and len(bearing.rings.swings.azimuth)
+    counted = (("mode", layout.modes), ("bending", layout.bends), ("support", supports))
+    without = {dim for dim, has in counted if not has}
     every = variables_of(bearing.spec.family)
     return [name for name in every if without.isdisjoint(VARIABLES[name].dims)]
 
@@ -107,6 +121,9 @@ def _common(bearing: Bearing, y: np.ndarray, yd: np.ndarray) -> dict[str, np.nda
     }
     if layout.bends:
         arrays |= ring_records(bearing, y)
+        moved = carried(bearing, y)
+        if moved is not None:
+            arrays["outer_position"], arrays["outer_velocity"] = moved
     if layout.modes:
         arrays["modal_coordinates"] = q["modes"]
         arrays["modal_velocity"] = u["modes"]

@@ -5,12 +5,14 @@ from __future__ import annotations
 import numpy as np
 
 from flexcage.system.bending import POINTS, RingsData
+from flexcage.system.data import OUTER_RACE
 from flexcage.system.problem import Bearing
+from flexcage.system.swinging import deflect
 
 
 def ring_records(bearing: Bearing, y: np.ndarray) -> dict[str, np.ndarray]:
     """Loads on races and their deflections (n, Z, 2, 3), axially, radially and in tilt, in states
-    (n, size)."""
+    (n, size), and forces (n, S) of supports on the outer ring."""
     layout, rings = bearing.layout, bearing.data.model.rings
     force = layout.ring_forces(y)
     psi = layout.q(y)["elements"][..., 2]
@@ -19,7 +21,42 @@ def ring_records(bearing: Bearing, y: np.ndarray) -> dict[str, np.ndarray]:
     for side in np.flatnonzero(rings.bends):
         load[:, :, side, rings.way] = force[:, side]
         deflection[:, :, side, rings.way] = _deflections(rings, int(side), psi, force[:, side])
-    return {"ring_load": load, "ring_deflection": deflection}
+    if not layout.ring_modes:
+        return {"ring_load": load, "ring_deflection": deflection}
+    outer, press = _swung(bearing, y)
+    if rings.bends[OUTER_RACE]:
+        deflection[:, :, OUTER_RACE, rings.way] = outer
+    found = {"ring_load": load, "ring_deflection": deflection}
+    if len(bearing.data.model.swings.azimuth):
+        found["support_force"] = press
+    return found
+
+
+def carried(bearing: Bearing, y: np.ndarray) -> tuple[np.ndarray, np.ndarray] | None:
+    """Displacement and velocity (n, 3) of the outer ring in a housing that yields, in states
+    (n, size); None in a rigid one."""
+    unit = bearing.rings.unit if bearing.rings else np.zeros(0)
+    if not len(unit):
+        return None
+    moved = (bearing.layout.ring_coordinates(y) * unit)[..., :3]
+    return moved[:, 0], moved[:, 1]
+
+
+def _swung(bearing: Bearing, y: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Deflections (n, Z, 2) of an outer race that swings, and forces (n, S) of its supports."""
+    layout, model = bearing.layout, bearing.data.model
+    rings, swings, count = model.rings, model.swings, len(y)
+    own = rings.half_space[OUTER_RACE]
+    found = np.zeros((count, layout.elements, 2))
+    press = np.zeros((count, len(swings.press)))
+    for k, state in enumerate(y):
+        q, s = layout.q(state)["elements"], layout.ring_forces(state)
+        deflect(q.ravel(), s.ravel(), layout.ring_coordinates(state)[0], rings, swings)
+        x, z = s[OUTER_RACE].T
+        at_once = np.stack([own[0] * x + own[1] * z, own[1] * x + own[2] * z], axis=1)
+        found[k] = rings.deflection[OUTER_RACE] - at_once
+        press[k] = swings.press
+    return found, press
 
 
 def _deflections(rings: RingsData, side: int, psi: np.ndarray, force: np.ndarray) -> np.ndarray:

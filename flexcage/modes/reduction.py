@@ -121,7 +121,7 @@ class CageReduction:
             MODEL_VERSION,
             replace(self.spec, body="", body_nodes=""),
             self.order,
-            self.cage.material,
+            self.cage.warm_material,
             self.mesh.pocket_count,
             self.mesh.points,
             self.mesh.tets,
@@ -149,7 +149,7 @@ class CageReduction:
     @one_blas_thread
     def model(self) -> FEModel:
         """The elements, with stiffness and mass: theirs, or the full matrices of a body."""
-        made = assemble(self.mesh, self.cage.material, order=self.order)
+        made = assemble(self.mesh, self.cage.warm_material, order=self.order)
         if self._own:
             return made
         assert self.body is not None

@@ -15,7 +15,7 @@ extrapolated to none from two patches.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, lru_cache
 from math import ceil, hypot, sqrt
 
 import numpy as np
@@ -70,6 +70,7 @@ class RingReduction:
     compliance: np.ndarray
     shapes: np.ndarray
     rigid: np.ndarray
+    ports: np.ndarray  # (3n, 3) nodal loads
     along: float  # [rad] of a patch on the race
     half_space: np.ndarray  # (2, 2) of the patch on the race
     wider_half_space: np.ndarray  # (2, 2) of one sqrt(2) times as long
@@ -88,14 +89,26 @@ class RingReduction:
     def between(self, azimuth: np.ndarray, *, slope: bool = False) -> np.ndarray:
         """Compliance (2, 2, m) of the race between elements that are angles (m,) apart; or its
         ``slope`` over the angle."""
+        return self.series(self.weight, self.compliance[:, :2, :2], azimuth, slope=slope)
+
+    @cached_property
+    def weight(self) -> np.ndarray:
+        """Weights (N + 1,) of harmonics between two loads on the race, extrapolated to short
+        patches."""
         short, wide = (
             spectrum(self.harmonics, length) ** 2 for length in (self.along, sqrt(2.0) * self.along)
         )
+        return 2.0 * short - wide
+
+    def series(
+        self, weight: np.ndarray, of: np.ndarray, azimuth: np.ndarray, *, slope: bool = False
+    ) -> np.ndarray:
+        """Sum (i, j, m) over harmonics of weight times ``of`` (N + 1, i, j) times cos n azimuth."""
         n = self.harmonics
         wave = np.cos(np.multiply.outer(n, azimuth))
         if slope:
             wave = np.einsum("n,n...->n...", -n, np.sin(np.multiply.outer(n, azimuth)))
-        return np.einsum("n,nij,n...->ij...", 2.0 * short - wide, self.compliance[:, :2, :2], wave)
+        return np.einsum("n,nij,n...->ij...", weight, of, wave)
 
 
 def spectrum(n: np.ndarray, length: float) -> np.ndarray:
@@ -104,6 +117,7 @@ def spectrum(n: np.ndarray, length: float) -> np.ndarray:
     return np.where(n < 2, 1.0, np.exp(-0.5 * (n * length) ** 2))
 
 
+@lru_cache(maxsize=8)
 def reduce_ring(
     section: RingSection,
     material: Material,
@@ -113,7 +127,8 @@ def reduce_ring(
     along: float = ALONG,
 ) -> RingReduction:
     """Reduction of a ring on a number of ``supports``; ``along``: standard deviation of patches
-    around the ring, as a share of the wall."""
+    around the ring, as a share of the wall. Kept for the next solutions with the same ring: do not
+    change its arrays."""
     raceway, length = section.raceway, along * section.wall
     model = Revolved(_mesh(section, length), material)
     angle = length / raceway.place[1]
@@ -131,6 +146,7 @@ def reduce_ring(
         compliance=compliance,
         shapes=shapes,
         rigid=ports.T @ model.rigid_motions(1)[:, 0],
+        ports=ports,
         along=angle,
         half_space=_half_space(raceway, length, material),
         wider_half_space=_half_space(raceway, sqrt(2.0) * length, material),
@@ -140,14 +156,22 @@ def reduce_ring(
 def natural_frequencies(model: Revolved, held: Held, n: int, count: int) -> np.ndarray:
     """The lowest ``count`` angular frequencies [rad/s] of a harmonic, of a free ring without its
     rigid motions."""
+    return natural_modes(model, held, n, count)[0]
+
+
+def natural_modes(model: Revolved, held: Held, n: int, count: int) -> tuple[np.ndarray, np.ndarray]:
+    """The same with their shapes (3N, count), of unit modal mass."""
     from scipy.sparse.linalg import eigsh
 
     keep, stiffness = _kept(model, held, n)
     mass = model.mass(n)[keep][:, keep]
     rigid = model.rigid_motions(n).shape[1] if held.free else 0
     shift = -1e-6 * float(stiffness.diagonal().sum() / mass.diagonal().sum())
-    values = eigsh(stiffness, count + rigid, mass, sigma=shift, return_eigenvectors=False)
-    return np.sqrt(np.sort(values)[rigid:])
+    values, vectors = eigsh(stiffness, count + rigid, mass, sigma=shift)
+    order = np.argsort(values)[rigid:]
+    shapes = np.zeros((model.n_dof, count))
+    shapes[keep] = vectors[:, order]
+    return np.sqrt(values[order]), shapes
 
 
 def _kept(model: Revolved, held: Held, n: int) -> tuple[np.ndarray, sp.csc_matrix]:

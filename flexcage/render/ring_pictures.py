@@ -36,11 +36,13 @@ def ring_picture(
     support: np.ndarray | None = None,
     support_force: np.ndarray | None = None,
     title: str = "Ring",
+    name: str = "",
     note: str = "",
     scale: float | None = None,
 ) -> Path:
     """Equivalent stress [Pa] at points (n, 3) of a ring's surface of quadrangles (k, 4), on the
-    shape moved by ``displaced`` (n, 3) [m], and the race's radial ``deflection`` (Z,) [m].
+    shape moved by ``displaced`` (n, 3) [m], and the race's radial ``deflection`` (Z,) [m] beside
+    that which the contact law counts: inwards, where the ring is stiffer than a half-space.
 
     Arrows are the radial forces (Z,) [N] of elements at ``azimuth`` (Z,) on the ring, outwards, and
     the forces (S,) with which supports press on it; ``scale`` is chosen if not given.
@@ -58,7 +60,7 @@ def ring_picture(
     with sheet.style():
         left = _EDGE + _SIZE[0] + _GAP
         figure = sheet.new_figure(left + _PLOT[0] + _EDGE, _TOP + _SIZE[1] + 110)
-        sheet.heading(figure, title, sheet.join([note, f"deformation × {scale:g}"]))
+        sheet.heading(figure, title, sheet.join([name, note, f"deformation × {scale:g}"]))
         ax = sheet.image_at(figure, (_EDGE, _TOP, *_SIZE), picture.pixels)
         marks.triad(ax, picture)
         radius = float(np.hypot(points[:, 1], points[:, 2]).mean())
@@ -70,7 +72,8 @@ def ring_picture(
             figure, (_EDGE + 120, _TOP + _SIZE[1] + 30, _SIZE[0] - 240, 14), cmap=cmap,
             limits=(0.0, limit), label="equivalent stress, MPa", over=over,
         )  # fmt: skip
-        _curve(figure, (left, _TOP + 30, *_PLOT), azimuth, 1e6 * deflection, "race yields, µm")
+        _curve(figure, (left, _TOP + 30, *_PLOT), azimuth, 1e6 * deflection,
+               "race outwards, beside Hertz, µm")  # fmt: skip
         _curve(figure, (left, _TOP + 130 + _PLOT[1], *_PLOT), azimuth, force,
                "radial force on the ring, N")  # fmt: skip
         return sheet.save(figure, path)

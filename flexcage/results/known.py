@@ -286,7 +286,8 @@ def _late() -> Iterator[KnownFigure]:
 
 
 def _wall(stage: str, *marks: str) -> tuple:
-    return f"wall_{stage}", f"Wall time, {stage}", "s", "of this stage", *marks
+    words = stage.replace("_", " ")
+    return f"wall_{stage}", f"Wall time, {words}", "s", "of this stage", *marks
 
 
 def _solver() -> Iterator[KnownFigure]:
@@ -307,6 +308,8 @@ def _solver() -> Iterator[KnownFigure]:
         *(_wall(stage) for stage in ("mesh", "modes", "kernels", "start")),
         _wall("solve", EFFORT),
         _wall("cage", LATER),
+        _wall("rings", LATER),
+        _wall("rivet_joint", LATER),
         _wall("pictures", LATER),
         ("wall_total", "Wall time, total", "s", "of the whole command", BRIEF),
     )

@@ -58,6 +58,7 @@ _LABELS: dict[str, tuple[str, ...]] = {
 #: Dimensions of all bearings whose labels a run gives.
 RUN_DIMS = (
     "element", "pocket", "mode", "station", "constraint", "energy_kind", "channel", "land_station",
+    "support",
 )  # fmt: skip
 ENERGIES = ("kinetic", "strain", "contact", "mount")  # labels of energy_kind
 #: Bits of values that are rounded together: forces of parts of a face, modal values and moments.
@@ -218,6 +219,11 @@ def _common() -> Iterator[Variable]:
         "how far the race of a ring that bends lies from where its seat has it, beneath an "
         "element, without what the contact law counts",
         "element", "race", "bending",
+    )  # fmt: skip
+    yield sampled(
+        "support_force", "N",
+        "force of a support on the outer ring, inwards, one for every part of a wide support",
+        "support",
     )  # fmt: skip
     yield sampled("pocket_force", "N", "normal force on a pocket face", "pocket", "face", **face)
     yield sampled(

@@ -51,10 +51,11 @@ SHOWN: dict[str, tuple[str, float]] = {
 
 
 #: What counts as nothing, by the SI unit: what rounding and the solver's tolerance leave of a zero.
-#: Rates by the hour have none: those of wear are small and real.
+#: Angles in degrees are of contacts: 1e-10 m across two grooves' centres, a few tenths of a
+#: millimetre apart. Rates by the hour have none: those of wear are small and real.
 RESOLUTION = {
     "m": 1e-10, "rad": 1e-9, "rad/s": 1e-9, "m/s": 1e-9, "N": 1e-6, "N m": 1e-9, "Pa": 1.0,
-    "J": 1e-12, "W": 1e-9, "Hz": 1e-6, "1": 1e-12,
+    "J": 1e-12, "W": 1e-9, "Hz": 1e-6, "1": 1e-12, "deg": 1e-6,
 }  # fmt: skip
 
 
@@ -64,7 +65,7 @@ def format_value(value: float, shown: str = "", margin: float | None = None) -> 
     The second is empty where no margin is known. A value below what its unit resolves is "0".
     """
     si, factor = SHOWN[shown]
-    nothing = 0.0 if shown.endswith("/h") else RESOLUTION.get(si, 0.0)
+    nothing = 0.0 if shown.endswith("/h") else RESOLUTION.get(shown, RESOLUTION.get(si, 0.0))
     value = 0.0 if abs(value) < nothing else value * factor
     if margin is not None:
         margin = 0.0 if margin < nothing else margin * factor

@@ -12,6 +12,7 @@ from flexcage.case.checks import land_beside_shoulder, not_reached
 from flexcage.core.errors import InputError
 from flexcage.core.threads import one_blas_thread
 from flexcage.core.warning import RunWarning
+from flexcage.geometry.temperature import beyond_service
 from flexcage.mesh.cage_mesh import CageMesh
 from flexcage.modes.reduction import CageReduction
 from flexcage.results.warnings import AT_START, Setup, warnings_of
@@ -44,6 +45,8 @@ def warnings_at_start(
     )
     said = [("not_reached", s) for s in not_reached(case)]
     said += [("land_clearance", s) for s in land_beside_shoulder(case)]
+    if text := beyond_service(case.cage.material, case.cage.temperature):
+        said.append(("cage_temperature", text))
     found = (
         *(RunWarning(*each) for each in said),
         *warnings_of(AT_START, setup),

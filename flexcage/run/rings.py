@@ -56,5 +56,7 @@ def rings_at(run: Run, time: float | str | None) -> tuple[float, tuple[BentRing,
 def draw_rings(run: Run, folder: Path) -> list[Path]:
     """Pictures of the rings that bend, when they yield most."""
     time, rings = rings_at(run, None)
-    when = f"at {1e3 * time:.2f} ms"
-    return [draw_ring(ring, folder / f"{ring.side}_ring.png", when=when) for ring in rings]
+    when, name = f"at {1e3 * time:.2f} ms", run.case.name
+    return [
+        draw_ring(ring, folder / f"{ring.side}_ring.png", when=when, name=name) for ring in rings
+    ]

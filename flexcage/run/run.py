@@ -228,8 +228,9 @@ class Run:
         root = _si(root_radius, "mm", "root_radius")
         cage, bearing = case.cage, case.bearing
         return self.stages(
-            "riveted joint", fits_of, rivets,
-            cage.rivet_joint(bearing.pitch_diameter, bearing.element_count, root), cage.material,
+            "rivet_joint", fits_of, rivets,
+            cage.rivet_joint(bearing.pitch_diameter, bearing.element_count, root),
+            cage.warm_material,
             [_si(play, "um", "play") for play in plays or (0.0,)],
             clamp=_si(clamp, "N", "clamp"), friction=friction, mesh=mesh,
         )  # fmt: skip

@@ -31,9 +31,10 @@ from flexcage.core.jit import VECTORISED, fields, part, zero
 from flexcage.core.vectors import cross, minus, turned, turned_back, xyz
 from flexcage.system.data import INNER_RACE, MODAL_DAMPING, OUTER_RACE, STRAIN
 from flexcage.system.layout import INNER_TURN, OUTER, PER_ELEMENT, Layout, of_element, places
+from flexcage.system.scales import ERROR_RATE
 
 POINTS = 4096  # of the tables, a power of two; straight lines between them
-_STEP = POINTS / (2.0 * pi)  # points a radian
+STEP = POINTS / (2.0 * pi)  # points a radian
 LEAST = 0.25  # determinant of Newton's step: contacts far stiffer than H is meant for take less
 AXIAL_PORT, RADIAL_PORT, TILT_PORT = range(3)  # in ``RingsData.way``
 # compliances of the two ports, and their slopes over the azimuth
@@ -111,7 +112,7 @@ def _bend_between(q, s, rings, side):
     for i in range(Z):
         a, psi = force_at(side, i, Z), q[PER_ELEMENT * i + 2]
         for j in range(i):
-            x = (psi - q[PER_ELEMENT * j + 2]) * _STEP
+            x = (psi - q[PER_ELEMENT * j + 2]) * STEP
             whole = np.floor(x)
             k = int(whole) & (POINTS - 1)
             if near < k < POINTS - 1 - near:
@@ -122,7 +123,7 @@ def _bend_between(q, s, rings, side):
             c = rings.between[side, at]
             rings.pair[side, at, 0], rings.pair[side, at, 1] = i, j
             at += 1
-            _look_up(rings.table[side], k, x - whole, c)
+            look_up(rings.table[side], k, x - whole, c)
             w[i, 0] += c[C11] * s[b] + c[C12] * s[b + 1]
             w[i, 1] += c[C12] * s[b] + c[C22] * s[b + 1]
             w[j, 0] += c[C11] * s[a] + c[C12] * s[a + 1]
@@ -135,7 +136,7 @@ def _bend_between(q, s, rings, side):
 
 
 @part(fastmath=VECTORISED)
-def _look_up(table, k, share, c):
+def look_up(table, k, share, c):
     """Compliances and slopes at a share of the way from point k of the table to the next."""
     low, high = table[k], table[(k + 1) & (POINTS - 1)]
     for m in range(c.shape[0]):
@@ -250,13 +251,17 @@ def ring_report(u, q, s, rings, rep):
 def with_ring_weights(
     weights: Callable[[Any, Layout, float], np.ndarray],
 ) -> Callable[[Any, Layout, float], np.ndarray]:
-    """``Motion.error_weights`` with those of the forces that rings bear: what displaces a race by
-    the ``length``."""
+    """``Motion.error_weights`` with those of the forces that rings bear and of the coordinates that
+    swing: what displaces a race by the ``length``."""
 
     def with_rings(model: Any, layout: Layout, length: float) -> np.ndarray:
         weight, rings = weights(model, layout, length), model.rings
         moved = rings.own[:, [C11, C22]] * rings.reach
         layout.ring_forces(weight)[:] = moved[:, None] / length
+        if layout.ring_modes:
+            crest = np.abs(model.swings.shape * rings.reach[OUTER_RACE]).max(axis=1)
+            a, v = np.moveaxis(layout.ring_coordinates(weight), -2, 0)
+            a[:], v[:] = crest / length, crest / (length * ERROR_RATE)
         return weight
 
     return with_rings

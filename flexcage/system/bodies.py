@@ -108,7 +108,7 @@ def land_data(
         radius=radius,
         clearance=clearance,
         length=width,
-        cage=elastic_constants(cage.material),
+        cage=elastic_constants(cage.warm_material),
         ring=elastic_constants(ring),
         depth=0.25 * (cage.outside_diameter - cage.bore),
     )

@@ -79,13 +79,15 @@ class Layout:
     ring (v, w in its non-spinning frame); outer (v_y, v_z); cage (v in space, w in the body,
     modal rates). The border of Newton's matrix is (ring 6, outer 2, cage 6 + n, lambda, mu), and
     the further constraints' lambda and mu, one of each for every name in ``held``. Where rings bend
-    y ends with the forces s that they bear of every element (``system.bending``).
+    y ends with the forces s that they bear of every element (``system.bending``), and with the
+    coordinates and velocities of an outer ring that swings (``system.swinging``).
     """
 
     elements: int
     modes: int
     held: tuple[str, ...] = ()  # names of the scalar constraints beyond ``CONSTRAINTS``
     bends: bool = False  # do rings bend?
+    ring_modes: int = 0  # coordinates of an outer ring that swings
 
     @property
     def n_q(self) -> int:
@@ -105,12 +107,17 @@ class Layout:
 
     @property
     def size(self) -> int:
-        return self._end + (RING_FORCES * self.elements if self.bends else 0)
+        return self._swings + 2 * self.ring_modes
 
     @property
     def _end(self) -> int:
         """Where the multipliers end."""
         return self._places.held + 2 * len(self.held)
+
+    @property
+    def _swings(self) -> int:
+        """Where the forces that rings bear end."""
+        return self._end + (RING_FORCES * self.elements if self.bends else 0)
 
     @property
     def reactions(self) -> tuple[str, ...]:
@@ -141,7 +148,11 @@ class Layout:
         """View (..., 2, Z, 2) of the forces that both rings bear, at their ports; none where rings
         are rigid."""
         count = self.elements if self.bends else 0
-        return y[..., self._end :].reshape(*y.shape[:-1], 2, count, 2)
+        return y[..., self._end : self._swings].reshape(*y.shape[:-1], 2, count, 2)
+
+    def ring_coordinates(self, y: np.ndarray) -> np.ndarray:
+        """View (..., 2, M) of the coordinates of an outer ring that swings, then velocities."""
+        return y[..., self._swings :].reshape(*y.shape[:-1], 2, self.ring_modes)
 
     def multipliers(self, y: np.ndarray) -> np.ndarray:
         """Forces and torques of the constraints ``reactions``, a copy."""

@@ -75,9 +75,10 @@ def parts_type(name: str, model: type, module: str) -> Any:
 
 def bending_model(name: str, model: type, module: str) -> Any:
     """Type of a family's model with the data of rings that bend (``bending.RingsData``), as
-    ``rings``; arguments as those of ``parts_type``."""
+    ``rings``, and of an outer ring that swings (``swinging.Swings``), as ``swings``; arguments as
+    those of ``parts_type``."""
     own: Any = model
-    return namedtuple(name, (*own._fields, "rings"), module=module)
+    return namedtuple(name, (*own._fields, "rings", "swings"), module=module)
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -3,14 +3,26 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
+from flexcage.geometry.bearing import Bearing
 from flexcage.modes.ring import natural_frequencies
 from flexcage.system.bending import C11, C22, POINTS, RingsData, rigid_rings
-from flexcage.system.statics.rings import BentRing, Rings, SeatedRing
+from flexcage.system.data import OUTER_RACE
+from flexcage.system.layout import Layout
+from flexcage.system.ring_modes import (
+    housing_coordinates,
+    left_over,
+    low_modes,
+    ring_coordinates,
+    swings_on_supports,
+)
+from flexcage.system.spec import Mount
+from flexcage.system.statics.rings import TO_V, BentRing, Rings
 from flexcage.system.statics.solution import StaticSolution
+from flexcage.system.swinging import Swings, no_swings, swings_of
 
 SIDES = ("inner", "outer")
 _FAINT = 1e-4  # share of a deflection that elements far away make and may be left out
@@ -23,30 +35,74 @@ class MovingRings:
     """The rings that bend in a run: what kernels read, and the static solution at the start."""
 
     data: RingsData
+    swings: Swings  # coordinates of the outer ring on supports, or in a housing
+    at_start: np.ndarray  # (M,) where they are
+    unit: np.ndarray  # (5,) displacement by those of a housing: x, y, z, tilts about y, z; or (0,)
+    carried: np.ndarray  # (Z, 3) by which a housing displaces the outer race then, along v
     start: StaticSolution
     warnings: tuple[str, ...] = ()  # sentences
+
+    def begun(self, y: np.ndarray, layout: Layout) -> np.ndarray:
+        """y, without coordinates or with any, with those of the start."""
+        start = np.zeros(layout.size)
+        start[: min(len(y), layout.size)] = y
+        layout.ring_coordinates(start)[:] = np.stack([self.at_start, 0.0 * self.at_start])
+        return start
 
 
 def moving_rings(rings: Rings, solution: StaticSolution) -> MovingRings:
     """Rings as they are ``asked`` for, reduced as in the static ``solution`` of the run's start:
     its heaviest contact says over what extent, and its contact angles where, races are pressed."""
-    data = rigid_rings(len(solution.elements.azimuth))
+    count = len(solution.elements.azimuth)
+    data, swings, at_start = rigid_rings(count), no_swings(count), np.zeros(0)
     for bent in solution.rings:
-        side = SIDES.index(bent.side)
-        spec = (rings.inner, rings.outer)[side]
-        reduction = bent.seated.reduction
-        data.bends[side] = 1
-        table, own = _table(bent.seated), reduction.between(np.array(0.0))
-        near = data.near[side] = _reach(table, own, len(solution.elements.azimuth))
-        table[near + 1 : POINTS - near] = 0.0
-        data.table[side] = table
-        data.own[side] = _entries(own)
-        data.half_space[side] = _entries(own - reduction.local)
-        data.rate[side] = 1.0 / spec.relaxation
-        line = reduction.raceway.line
-        data.reach[side] = 1.0, reduction.raceway.extent if line else 1.0
-        data.way[:] = np.argmax(bent.seated.to_v, axis=0)
-    return MovingRings(data, solution, tuple(_warnings(solution.rings)))
+        spec = (rings.inner, rings.outer)[SIDES.index(bent.side)]
+        yields = bent.seated.reduction.compliance
+        if len(bent.bears):
+            modes = low_modes(bent.seated.reduction)
+            made = ring_coordinates(bent, modes)
+            swings = swings_on_supports(bent.seated, modes, made, spec.relaxation)
+            yields, at_start = left_over(bent.seated.reduction, modes), made.at_start
+        _put(data, bent, yields, spec.relaxation)
+    told = tuple(_warnings(solution.rings))
+    none, still = np.zeros(0), np.zeros((count, 3))
+    return MovingRings(data, swings, at_start, none, still, solution, told)
+
+
+def _put(data: RingsData, bent: BentRing, yields: np.ndarray, relaxation: float) -> None:
+    """A ring among the data, with a compliance (N + 1, 3, 3) that follows at once."""
+    reduction, side = bent.seated.reduction, SIDES.index(bent.side)
+    azimuth = 2.0 * np.pi * np.arange(POINTS) / POINTS
+    apart, slope = (
+        reduction.series(reduction.weight, yields[:, :2, :2], azimuth, slope=slope)
+        for slope in (False, True)
+    )
+    table, own = np.hstack([_entries(apart), _entries(slope)]), apart[:, :, 0]
+    near = data.near[side] = _reach(table, own, len(bent.azimuth))
+    table[near + 1 : POINTS - near] = 0.0
+    data.bends[side], data.table[side], data.own[side] = 1, table, _entries(own)
+    data.half_space[side] = _entries(reduction.between(np.array(0.0)) - reduction.local)
+    data.rate[side] = 1.0 / relaxation
+    line = reduction.raceway.line
+    data.reach[side] = 1.0, reduction.raceway.extent if line else 1.0
+    data.way[:] = np.argmax(bent.seated.to_v, axis=0)
+
+
+def in_housing(
+    made: MovingRings, bearing: Bearing, rings: Rings, mount: Mount, compliance: np.ndarray
+) -> MovingRings:
+    """The same with an outer ring that moves in its housing, whose seat yields by ``compliance``
+    (5, 5). InputError for bearings without sections of their rings."""
+    loads, outer = made.start.elements, made.start.outer
+    raceway = rings.sections_of(bearing, loads)[OUTER_RACE].raceway
+    mass = bearing.outer_ring_mass + mount.mass
+    moved, unit = housing_coordinates(bearing, raceway, compliance, mass, outer)
+    late = np.full(len(outer), rings.outer.relaxation)
+    count = len(loads.azimuth)
+    swings = swings_of(count, moved.harmonic, moved.quarter, moved.shape, moved.stiffness, late)
+    made.data.way[:] = np.argmax(TO_V[raceway.line], axis=0)
+    carried = (moved.waves(loads.azimuth) * moved.at_start) @ moved.shape @ TO_V[raceway.line].T
+    return replace(made, swings=swings, at_start=moved.at_start, unit=unit, carried=carried)
 
 
 def _reach(table: np.ndarray, own: np.ndarray, elements: int) -> int:
@@ -60,6 +116,8 @@ def _reach(table: np.ndarray, own: np.ndarray, elements: int) -> int:
 def _warnings(rings: tuple[BentRing, ...]) -> Iterator[str]:
     """Of rings whose own frequencies are so low that a run would need their inertia."""
     for ring in rings:
+        if len(ring.bears):
+            continue  # its low modes have their mass
         reduction = ring.seated.reduction
         found = [
             natural_frequencies(reduction.model, reduction.held, n, 1)[0] for n in range(_LOW + 1)
@@ -73,22 +131,16 @@ def _warnings(rings: tuple[BentRing, ...]) -> Iterator[str]:
             )
 
 
-def held_rings(data: RingsData, rings: tuple[BentRing, ...]) -> RingsData:
-    """The same with races that are bent as ``rings`` are, whatever presses on them."""
-    held = rigid_rings(data.moment.shape[1])
-    held.way[:] = data.way
-    for bent in rings:
+def held_rings(moving: MovingRings) -> RingsData:
+    """Data of races that stay bent and carried as they are at the start, whatever presses."""
+    held = rigid_rings(moving.data.moment.shape[1])
+    held.way[:] = moving.data.way
+    for bent in moving.start.rings:
         held.given[SIDES.index(bent.side)] = bent.deflection @ bent.seated.to_v
+    held.given[OUTER_RACE] += moving.carried[:, held.way]
     return held
 
 
 def _entries(compliance: np.ndarray) -> np.ndarray:
     """11, 12 and 22 of symmetric matrices (2, 2, ...), last."""
     return np.moveaxis(compliance[[0, 0, 1], [0, 1, 1]], 0, -1)
-
-
-def _table(ring: SeatedRing) -> np.ndarray:
-    """Compliances and their slopes over the azimuth (POINTS, 6) round a ring."""
-    azimuth = 2.0 * np.pi * np.arange(POINTS) / POINTS
-    r = ring.reduction
-    return np.hstack([_entries(r.between(azimuth)), _entries(r.between(azimuth, slope=True))])

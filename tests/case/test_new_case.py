@@ -32,6 +32,12 @@ N406 = Outline(
     type="cylindrical_roller", designation="N406", bore=30e-3, outside_diameter=90e-3, width=23e-3,
     inner_race_diameter=45e-3, outer_race_diameter=73e-3, static_rating=55e3, dynamic_rating=62.5e3,
 )  # fmt: skip
+# ratings, F and E of the older NU 209 (not E): NTN, Ball and Roller Bearings, from memory, so an
+# assumption. With 44 kN and 44 kN the choice would be 13 rollers
+NU209 = Outline(
+    type="cylindrical_roller", designation="NU209", bore=45e-3, outside_diameter=85e-3, width=19e-3,
+    inner_race_diameter=55e-3, outer_race_diameter=75e-3, static_rating=47e3, dynamic_rating=46e3,
+)  # fmt: skip
 WAY = "flexcage new --type deep_groove_ball --bore"
 
 
@@ -58,9 +64,22 @@ def test_insides_agree_with_published_ones():
     assert wrong in ([], ["7010C"])
 
 
-def test_rollers_agree_with_a_published_inside():
-    """N 406: 9 rollers of 14 mm on 59 mm (University of Huddersfield)."""
+def test_rollers_agree_with_published_insides():
+    """N 406: 9 rollers of 14 mm on 59 mm (University of Huddersfield). 209: 14 of 10 mm on 65 mm,
+    9.6 mm long without ends (T. A. Harris, Rolling Bearing Analysis, examples)."""
     assert agrees(new_case(N406, "NSK").chosen.bearing, 9, 14.0, 59.0)
+    bearing = new_case(NU209, "NTN").chosen.bearing
+    assert agrees(bearing, 14, 10.0, 65.0)
+    assert bearing.effective_length == pytest.approx(9.6e-3, rel=0.07)
+
+
+def test_two_makers_ratings_of_one_size_mostly_give_the_same_rollers():
+    """N and NU of a size have the same rollers, but ratings of two makers here, up to 3 % apart:
+    numbers agree in all but three of twenty sizes."""
+    sizes = [d[1:] for d in catalogue.designations() if re.fullmatch(r"N[23]\d\d", d)]
+    counts = {s: [written(d + s).chosen.bearing.roller_count for d in ("N", "NU")] for s in sizes}
+    apart = {size: count for size, count in counts.items() if len({*count}) > 1}
+    assert len(sizes) == 20 and apart == {"209": [15, 13], "310": [12, 13], "311": [13, 12]}
 
 
 def test_another_makers_ratings_give_its_balls():

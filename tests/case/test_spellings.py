@@ -180,6 +180,17 @@ SPELLINGS: dict[str, tuple[tuple[float | str, str], ...]] = {
         ("by the oil's density", "10 cSt | 10 mm^2/s | 10 mm2/s | 1e-5 m^2/s"),
         (OTHER, "10 Pa"),
     ),
+    "temperature": (
+        (
+            393.15,
+            "120 degC | 120 °C | 120°C | 120 celsius | 120 degree_Celsius | 393.15 K | 393.15 "
+            "kelvin | 248 degF | 248 °F | 707.67 degR",
+        ),
+        (263.15, "-10 degC | 14 degF"),
+        (273.15, "0 degC"),
+        ("not a difference", "1 delta_degC | 1 Δ°C"),
+        (OTHER, "120 C | 120 deg | 120 °"),
+    ),
     "unbalance": (
         (1e-6, "1 g*mm | 1 g mm | 1 g·mm | 1000 mg*mm | 0.1 g*cm | 1e-6 kg*m"),
         (OTHER, "1 N*mm | 1 g | 1 g/mm"),

@@ -112,10 +112,13 @@ def _land_kernel(data_type):
 def race(
     side, P, *, radius=4e-3, axis=None, b=X, V=ZERO, w=ZERO, Vr=ZERO, wr=ZERO, theta=0.0,
     law=laws.elastic, friction=laws.no_friction, mode=2, azimuth=0.0,
-    onset=0.3,
+    onset=0.3, spot=None,
 ):  # fmt: skip
-    """(wrench, sums, pair) of one raceway on a roller at P from the ring's centre."""
+    """(wrench, sums, pair) of one raceway on a roller at P from the ring's centre; ``spot``: angle
+    of the roller's own, if it has one."""
     pose = pose_of(np.eye(3) if axis is None else axis, V, w, azimuth)
+    if spot is not None:
+        pose.spot[:] = 1.0, spot
     pair, sums = new_pair(), np.zeros(N_SUMS)
     rw = race_work(len(side.s))  # contact 0 of the lot is one that does not touch
     rw.partner[1] = P, b, Vr, wr

@@ -1,5 +1,6 @@
 """Compiled kernels on disk: damaged, full and read-only caches cost time and never a result."""
 
+import json
 import os
 import shutil
 import subprocess
@@ -66,30 +67,64 @@ def script(tmp_path_factory):
 
 
 @pytest.fixture(scope="module")
-def built(script, tmp_path_factory):
+def built(warm, script, tmp_path_factory):
     """A cache into which one process has written the kernel."""
     folder = tmp_path_factory.mktemp("built")
-    assert ran(script, folder) == (0, "")
+    assert ran(warm, script, folder) == (0, "")
     return folder / "cache"
 
 
 @pytest.fixture
-def run(script, tmp_path):
+def run(warm, script, tmp_path):
     """run(before) -> (kernels read from disk, what was warned of) of a process with a kernel."""
-    return partial(ran, script, tmp_path)
+    return partial(ran, warm, script, tmp_path)
 
 
-def ran(script: Path, folder: Path, before: str = "", **env: str) -> tuple[int, str]:
+WARM = """
+import json, os, sys
+import numba
+
+@numba.njit
+def first(x):
+    return x
+
+first(1.0)  # what numba sets up at its first compilation
+for line in sys.stdin:
+    code, folder, env, paths = json.loads(line)
+    child = os.fork()
+    if not child:
+        os.chdir(folder)
+        for number, name in ((1, "said"), (2, "told")):
+            os.dup2(os.open(name, os.O_WRONLY | os.O_CREAT | os.O_TRUNC), number)
+        os.environ.update(env)
+        sys.path[:0] = paths
+        exec(compile(code, "code", "exec"), {"__name__": "__main__"})
+        sys.stdout.flush()
+        os._exit(0)
+    print(os.waitstatus_to_exitcode(os.waitpid(child, 0)[1]), flush=True)
+"""
+
+
+@pytest.fixture(scope="module")
+def warm():
+    """A process that has loaded numba and no more, and forks for every script: a second less."""
+    env = {k: v for k, v in os.environ.items() if k != "NUMBA_CACHE_DIR"}
+    pipes = {"stdin": subprocess.PIPE, "stdout": subprocess.PIPE, "text": True}
+    with subprocess.Popen([sys.executable, "-c", WARM], env=env, **pipes) as process:
+        yield process
+        process.stdin.close()
+
+
+def ran(warm: subprocess.Popen, script: Path, folder: Path, before: str = "") -> tuple[int, str]:
     """What a process of the script with a cache in this folder read from disk and warned of."""
-    kept = {k: v for k, v in os.environ.items() if k != "NUMBA_CACHE_DIR"}
-    path = os.pathsep.join([str(script), *filter(None, [kept.get("PYTHONPATH")])])
-    ours = {"PYTHONPATH": path, "FLEXCAGE_CACHE_DIR": str(folder / "cache")}
-    done = subprocess.run(
-        [sys.executable, "-c", f"{before}\nimport own_kernel"], cwd=folder, capture_output=True,
-        text=True, env={**kept, **ours, **env},
+    job = (
+        f"{before}\nimport own_kernel", str(folder),
+        {"FLEXCAGE_CACHE_DIR": str(folder / "cache")}, [str(script), str(folder)],
     )  # fmt: skip
-    assert done.returncode == 0, done.stderr
-    return int(done.stdout), done.stderr
+    print(json.dumps(job), file=warm.stdin, flush=True)
+    code, told = warm.stdout.readline(), (folder / "told").read_text()
+    assert code == "0\n", told
+    return int((folder / "said").read_text()), told
 
 
 @pytest.fixture

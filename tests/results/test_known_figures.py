@@ -1,6 +1,7 @@
 """The one list of figures: every figure's title, unit and place come from it, and nowhere else."""
 
 import ast
+import functools
 import re
 from pathlib import Path
 
@@ -18,11 +19,13 @@ SOURCES = [
 BY_NAME = {"figure", "statistic", "stored_figure", "_figure"}
 
 
-TREES = {path: ast.parse(path.read_text("utf-8")) for path in SOURCES}
+@functools.cache
+def trees():
+    return {path: ast.parse(path.read_text("utf-8")) for path in SOURCES}
 
 
 def nodes(kind):
-    for path, tree in TREES.items():
+    for path, tree in trees().items():
         for node in ast.walk(tree):
             if isinstance(node, kind):
                 yield f"{path.name}:{node.lineno}", node
@@ -48,6 +51,18 @@ def test_no_row_of_a_summary_has_a_name_of_its_own():
         if node.args and isinstance(node.args[0], ast.Constant)
     ]
     assert not own, f"make it by figure() or statistic(): {own}"
+
+
+def test_every_stage_of_a_run_has_its_wall_time():
+    """A summary written after pictures of rings, or a rivet's joint, once ended in a KeyError."""
+    stages = {
+        node.args[0].value
+        for _, node in nodes(ast.Call)
+        if ast.unparse(node.func).removesuffix(".named").rpartition(".")[2] == "stages"
+        if node.args and isinstance(node.args[0], ast.Constant)
+    }
+    assert {"mesh", "solve", "rings", "rivets", "pictures"} <= stages
+    assert {f"wall_{stage}" for stage in stages} <= set(KNOWN)
 
 
 def test_every_name_that_the_package_asks_for_is_a_figure():
@@ -91,7 +106,7 @@ def test_a_section_of_a_summary_is_named_in_the_list_alone():
     rooms = ("results", "run", "stress", "study", "report")
     again = [
         f"{path.name}:{node.lineno} {node.value}"
-        for path, tree in TREES.items()
+        for path, tree in trees().items()
         if path.relative_to(Path(flexcage.__file__).parent).parts[0] in rooms
         for node in ast.walk(tree)
         if isinstance(node, ast.Constant) and node.value in sections and node not in listed

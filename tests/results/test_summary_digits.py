@@ -12,6 +12,8 @@ from flexcage.results.summary import Row, Section, Summary, format_value, side_b
         (86.09, "N", 221.0, ("90", "± 220")),
         (7.495e-18, "um", None, ("0", "")),  # below what lengths resolve
         (7.495e-18, "um", 1e-18, ("0", "± 0")),
+        (2.3e-7, "deg", None, ("0", "")),  # of a deep groove bearing under a radial load
+        (2.3e-7, "mrad", None, ("0.0002", "")),
         (2.1e-15 / 3.6e9, "um/h", None, ("2.100e-15", "")),  # a rate of wear is as small
         (0.0215, "%", 0.0004, ("2.150", "± 0.040")),
     ],

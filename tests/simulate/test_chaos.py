@@ -18,7 +18,7 @@ OTHERS = {
 }
 
 
-@pytest.fixture(scope="module", params=DURATION)
+@pytest.fixture(scope="module", params=["rigid", pytest.param("flexible", marks=pytest.mark.slow)])
 def runs(request):
     """(model, run at default options, runs that differ from it by name)."""
     common = {"cage.model": request.param, "solver.duration": DURATION[request.param]}

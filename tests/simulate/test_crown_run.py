@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 from crown_cage import crown
 
+from flexcage.case.description import in_words
 from flexcage.simulate import load_run, simulate
 from flexcage.stages import assembled_start, bearing_in_motion, cage_mesh
 
@@ -47,6 +48,33 @@ def test_claws_and_ring_hold_the_cage_axially(way):
         layout.q(y)["cage"][:] = way * share * play, 0.0, 0.0
         pushed.append(-layout.u(bearing.residual(0.0, y, np.zeros_like(y)))["cage"][0])
     assert abs(pushed[0]) < 1e-9 and way * pushed[1] < -0.1
+
+
+def test_a_cage_warmer_than_its_material_bears_is_told():
+    """A run with pockets as soft as the warm material makes them, from its first step on."""
+    warm = {"cage.temperature": "121 degC", "solver.duration": "0.05 ms"}
+    run = simulate(crown({**RIGID, **warm}))
+    (text,) = (w.text for w in run.warnings if w.key == "cage_temperature")
+    assert "at 121 degC, where cages of PA66 are used up to 120 degC" in text
+    assert "PA66 at 121°C (0.54 GPa)" in " ".join(in_words(run.case))
+
+
+@pytest.mark.slow
+def test_a_cage_without_a_claw_runs(flexible):
+    """Its mass is missing where the claw was: beside the ball in front of pocket 4's middle."""
+    defects = [{"type": "missing_claw", "pocket": 4, "claw": "front"}]
+    run = simulate(crown({"solver.duration": "2 ms"}, defects=defects))
+    assert run.summary["energy_audit"] == "passed" and run.summary["pocket_force_peak"] > 0.05
+    for name, values in run.dataset.data_vars.items():
+        assert np.isfinite(values.values).all(), name
+    lost = 1.0 - run.summary["cage_mass"] / flexible.summary["cage_mass"]
+    assert 0.003 < lost < 0.03  # one of 18 claws, which are a small part of the cage
+    corners = run.mesh.points[run.mesh.tets]
+    volumes = np.abs(np.linalg.det(corners[:, 1:] - corners[:, :1]))
+    centre = volumes @ corners.mean(axis=1) / volumes.sum()
+    away = np.arctan2(-centre[2], -centre[1]) % (2.0 * np.pi)
+    ball_and_claw = (0.5 * 7.938 + 0.5 * 1.03) / 19.25  # rad from the pocket's middle
+    assert away == pytest.approx(4.0 * 2.0 * np.pi / 9.0 + ball_and_claw, abs=0.1)
 
 
 @pytest.mark.slow

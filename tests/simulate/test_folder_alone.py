@@ -81,7 +81,7 @@ print(json.dumps([float(field.von_mises.max()), float(run.stress_history.peak.ma
 """
 
 
-@pytest.mark.parametrize("processor", ["Haswell", "Nehalem"])
+@pytest.mark.parametrize("processor", ["Haswell", pytest.param("Nehalem", marks=pytest.mark.slow)])
 def test_another_processor_reads_the_same_stress(run, tmp_path, processor):
     """BLAS kernels of another processor, with an empty cache: only rounding differs."""
     text = subprocess.run(

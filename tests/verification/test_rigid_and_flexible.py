@@ -46,7 +46,9 @@ class Forces:
         )  # fmt: skip
 
 
-@pytest.fixture(scope="module", params=["sound", "bent 0.2 mm"])
+@pytest.fixture(
+    scope="module", params=[pytest.param("sound", marks=pytest.mark.slow), "bent 0.2 mm"]
+)
 def both(request):
     """Rigid and flexible, means of 30 ms from each of five starts."""
     defects = bent("0.2 mm") if request.param != "sound" else []

@@ -50,6 +50,7 @@ from flexcage.system.data import FAMILY_PARTS, INNER_RACE, OUTER_RACE
 from flexcage.system.equations import react
 from flexcage.system.layout import CAGE, CAGE_TURN, INNER, Q_CAGE, Q_QUATERNION, of_element, places
 from flexcage.system.motion import BendingMotion, bending_model, parts_type
+from flexcage.system.swinging import push_swings, swing, swing_report, swing_rows
 
 BendingBallModel = bending_model("BendingBallModel", BallModel, __name__)
 BendingBallParts = parts_type("BendingBallParts", BendingBallModel, __name__)
@@ -66,6 +67,7 @@ def evaluate(t, y, yd, d, law, out, mode):
     modes = set_bodies(rest_q, rest_u, d, mode)
     law[BESIDE](t, y, yd, d, law[:FAMILY_PARTS], out, mode)
     bend_rings(q, s, rings)
+    swing(q, y, d)
     Rc, Vc = rest_q[Q_CAGE:Q_QUATERNION], rest_u[CAGE:CAGE_TURN]
     for i in range(Z):
         own = of_element(i)
@@ -73,12 +75,15 @@ def evaluate(t, y, yd, d, law, out, mode):
         set_frame(qi[2], fields(d.pose).F)
         _inner_race(i, qi, ui, rest_q, rest_u, s, d, law, mode)
         _outer_race(i, qi, ui, rest_q, rest_u, s, d, law, mode)
+        push_swings(i, d)
         push_by_slopes(i, q, rest_q, d)
         ball_in_pocket(i, qi, ui, Rc, Vc, modes, d, law, mode)
         ball_rows(i, qi, ui, qd[own], ud[own], d, r_q[own], r_u[own], mode)
     ring_rows(s, yd[bent:], rings, out[bent:])
+    swing_rows(y, yd, d, out)
     if mode >= REPORT:
         ring_report(u, q, s, rings, fields(d.report))
+        swing_report(q, u, y, d)
     law[SHARED](t, y, yd, d, law[:FAMILY_PARTS], out, mode)
 
 

@@ -98,7 +98,7 @@ def pocket_contact(bearing: BallBearing, cage: BallCage, radius: float) -> Point
     fit = 1.0 / (1.0 / ball - 1.0 / radius)
     sides = (
         (1.0 - material.poisson_ratio**2) / material.youngs_modulus
-        for material in (bearing.material, cage.material)
+        for material in (bearing.material, cage.warm_material)
     )
     along = fit if cage.pocket_shape == "spherical" else ball
     return PointContact(rolling=along, transverse=fit, modulus=2.0 / sum(sides))

@@ -47,10 +47,11 @@ def ball_start_between_bent_rings(
     bearing: Bearing, *, limit_force: float, statics: StaticStart | None, advance: Advance
 ) -> Start:
     """The same between rings that bend, with balls on the outer race where that yields to."""
-    assert statics is not None, "rings bend as in a static solution"
+    assert bearing.rings is not None, "rings bend as in a static solution"
     start = ball_start(bearing, limit_force=limit_force, statics=statics, advance=advance)
-    y, layout = start.y.copy(), bearing.layout
-    for ring in statics().rings:
+    y, layout = bearing.rings.begun(start.y, bearing.layout), bearing.layout
+    layout.q(y)["elements"][:, :2] += bearing.rings.carried[:, :2]
+    for ring in bearing.rings.start.rings:
         layout.ring_forces(y)[SIDES.index(ring.side)] = ring.force
         if ring.side == "outer":
             layout.q(y)["elements"][:, :2] += ring.deflection[:, :2]

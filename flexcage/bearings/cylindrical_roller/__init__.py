@@ -9,10 +9,11 @@ from flexcage.bearings.cylindrical_roller.bearing import (
     RollerBearing,
     RollerProfile,
 )
+from flexcage.bearings.cylindrical_roller.spot import RollerSpot
 from flexcage.bearings.family import Family
 
 # specs that ``flexcage.spec`` shows
-__all__ = ["RollerBearing", "RollerProfile"]
+__all__ = ["RollerBearing", "RollerProfile", "RollerSpot"]
 
 if TYPE_CHECKING:
     from flexcage.geometry.inside import Inside

@@ -11,6 +11,7 @@ from typing import Any, ClassVar
 import numpy as np
 
 from flexcage.bearings.cylindrical_roller import checks, designs, lands, ratings
+from flexcage.bearings.cylindrical_roller.spot import RollerSpot
 from flexcage.cages.window.cage import WindowCage
 from flexcage.core.spec import option, quantity
 from flexcage.core.units import typeset
@@ -133,6 +134,9 @@ class RollerBearing(Bearing):
     )
     inner_spall: Spall = option(Spall(), doc="a pit of the inner race, which turns with its ring")
     outer_spall: Spall = option(Spall(), doc="a pit of the outer race")
+    roller_spot: RollerSpot = option(
+        RollerSpot(), doc="a pit or a flat on a roller", legacy=RollerSpot()
+    )
 
     @property
     def pitch_diameter(self) -> float:
@@ -279,4 +283,5 @@ class RollerBearing(Bearing):
             f"rollers of {typeset(self.roller_diameter, 'mm')}, radial clearance "
             f"{typeset(self.radial_clearance, 'um')}."
             f"{self.inner_spall.in_words('inner')}{self.outer_spall.in_words('outer')}"
+            f"{self.roller_spot.in_words()}"
         )

@@ -46,6 +46,7 @@ from flexcage.system.bending import (
 from flexcage.system.data import FAMILY_PARTS, INNER_RACE, OUTER_RACE
 from flexcage.system.layout import CAGE, OUTER, Q_CAGE, Q_OUTER, places
 from flexcage.system.motion import BendingMotion, bending_model, parts_type
+from flexcage.system.swinging import push_swings, swing, swing_report, swing_rows
 
 BendingRollerModel = bending_model("BendingRollerModel", RollerModel, __name__)
 BendingRollerParts = parts_type("BendingRollerParts", BendingRollerModel, __name__)
@@ -60,6 +61,7 @@ def evaluate(t, y, yd, d, law, out, mode):
     asked = RESIDUAL if mode == OUTER_RING else mode
     set_bodies(q, u, rest_q, rest_u, d, asked)
     bend_rings(q, s, rings)
+    swing(q, y, d)
     lot = fields(d.race_work).who.shape[0]
     for first in range(0, Z if mode != OUTER_RING else 0, lot):
         span = (first, min(first + lot, Z))
@@ -70,6 +72,7 @@ def evaluate(t, y, yd, d, law, out, mode):
     outer_ribs(q, rest_q[Q_OUTER:Q_CAGE], rest_u[OUTER:CAGE], d, law, asked)
     for i in range(Z):
         take_pose(fields(d.scratch).poses[i], fields(d.pose))
+        push_swings(i, d)
         push_by_slopes(i, q, rest_q, d)
     if mode >= REPORT:
         report_outer(d)
@@ -77,7 +80,9 @@ def evaluate(t, y, yd, d, law, out, mode):
         return
     if mode >= REPORT:
         ring_report(u, q, s, rings, fields(d.report))
+        swing_report(q, u, y, d)
     ring_rows(s, yd[bent:], rings, out[bent:])
+    swing_rows(y, yd, d, out)
     law[POCKETS](t, y, yd, d, law[:FAMILY_PARTS], out, mode)
     roller_rows(q, u, qd, ud, d, out[: at.rest_q], out[at.u : at.rest_u], mode)
     law[SHARED](t, y, yd, d, law[:FAMILY_PARTS], out, mode)

@@ -8,6 +8,7 @@ from math import asin, pi, sin
 from typing import TYPE_CHECKING, Any
 
 from flexcage.bearings.cylindrical_roller import designs
+from flexcage.bearings.cylindrical_roller.spot import find_in_spot
 from flexcage.core.units import describe, mm
 from flexcage.geometry.cage import Cage
 from flexcage.geometry.checks import (
@@ -29,6 +30,7 @@ _MOST_CLEARANCE = 0.05  # of the roller's diameter: leaves one roller to bear a 
 def check(bearing: RollerBearing, cage: Cage | None, defects: Sequence[Any]) -> None:
     """Raise InputError for the first impossibility in the bearing, its cage or the defects."""
     raise_first(find_in_bearing(bearing))
+    raise_first(find_in_spot(bearing))
     if cage is None:
         return
     cage.check(bearing.roller_count)

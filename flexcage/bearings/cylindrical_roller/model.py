@@ -34,6 +34,13 @@ from flexcage.system.layout import Layout
 from flexcage.system.spec import Drive, Load, Mount
 
 
+class SpottedRoller(NamedTuple):
+    """Which roller has a spot."""
+
+    roller: int  # -1: none
+    angle: float  # of its middle [rad] while the roller's spin angle is zero
+
+
 class RollerModel(NamedTuple):
     """Everything constant that a roller bearing's residual reads."""
 
@@ -44,6 +51,7 @@ class RollerModel(NamedTuple):
     rib: RibData  # of the inner ring
     outer_rib: RibData
     pocket: PocketData
+    spot: SpottedRoller
     land: LandData
 
 
@@ -81,6 +89,8 @@ def _race_side(bearing, contacts: Contacts, lubricant: Lubricant, *, inner: bool
             s, bearing.effective_length / contacts.race.slices
         ),
         uneven=is_uneven(wave, spall),
+        spot=bearing.roller_spot.dimensions(rw, equivalent),
+        spotted=bearing.roller_spot.covered(s, bearing.effective_length / contacts.race.slices),
     )
 
 
@@ -146,7 +156,7 @@ def own_coordinates(shapes: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
 def _pocket_laws(bearing, cage, contacts: Contacts, interface: CageInterface) -> np.ndarray:
     """Normal laws (2, N_NORMAL) of a slice of a crossbeam and of a point of a side beam."""
     rw, flexible = 0.5 * bearing.roller_diameter, interface.modes.shape[-1] > 0
-    steel, wall = elastic_constants(bearing.material), elastic_constants(cage.material)
+    steel, wall = elastic_constants(bearing.material), elastic_constants(cage.warm_material)
     k, e = laws.pocket_line_law(
         radius=rw,
         length=bearing.effective_length,
@@ -242,7 +252,7 @@ def build_roller_model(
     )
     outer, radius, clearance = _guiding_land(bearing, cage)
     land = replace(contacts.land.on(bearing.land(cage)), clearance=clearance)
-    tilts = load.tilt == "free"
+    tilts, spot = load.tilt == "free", bearing.roller_spot
     return RollerModel(
         bodies=bodies_of(
             bearing, cage, lubricant, drive, load, mount,
@@ -257,6 +267,7 @@ def build_roller_model(
         rib=_rib_data(bearing, contacts, "inner"),
         outer_rib=_rib_data(bearing, contacts, "outer"),
         pocket=_pocket_data(bearing, cage, contacts, interface),
+        spot=SpottedRoller(spot.roller if spot.size else -1, spot.angle),
         land=land_data(
             cage, land, lubricant, interface.land, kind=land.kind, outer=outer, radius=radius,
             bearing=bearing,

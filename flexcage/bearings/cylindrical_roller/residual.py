@@ -159,6 +159,8 @@ def set_bodies(q, u, rest_q, rest_u, d, mode):
     for i in range(fields(d.bodies).radius.shape[0]):
         own = of_element(i)
         set_pose(q[own], u[own], pose)
+        pose.spot[0] = 1.0 if i == fields(d.spot).roller else 0.0
+        pose.spot[1] = fields(d.spot).angle + q[own][Q_SPIN]
         keep_pose(pose, work.poses[i])
 
 

@@ -15,6 +15,8 @@ def roller_weights(model: RollerModel, layout: Layout, length: float) -> np.ndar
     weight = shared_weights(model, layout, length)
     q, u = layout.q(weight), layout.u(weight)
     q["elements"][:, 3:5] = reach / length
+    if model.spot.roller >= 0:
+        q["elements"][model.spot.roller, 5] = float(model.bodies.radius.mean()) / length
     u["elements"][:, 3] = float(model.bodies.radius.mean()) / (10.0 * speed)
     u["elements"][:, 4:] = reach / speed
     u["inner"][3] = model.inner.radius / speed

@@ -31,6 +31,7 @@ from flexcage.system.newton import assemble, newton_step
 from flexcage.system.problem import Bearing
 from flexcage.system.rings_in_motion import held_rings
 from flexcage.system.start import Advance, Start, StaticStart, made_room
+from flexcage.system.swinging import no_swings
 
 _SMALL = 1e-7  # of the load: where an equilibrium is accepted
 _BALANCED = 1e-6  # of the load: what may stay unbalanced at last
@@ -155,8 +156,9 @@ def _between_ribs(model: RollerModel, layout: Layout, y: np.ndarray) -> np.ndarr
 
 
 class _Frictionless:
-    """The bearing without friction, damping, drag, rolling resistance and gravity, and without
-    films; ``lands``: with the cage's dry lands, which a free cage is to keep off by itself."""
+    """The bearing without friction, damping, drag, rolling resistance and gravity, without films,
+    and without a roller's spot, from whose edges it would roll; ``lands``: with the cage's dry
+    lands, which a free cage is to keep off by itself."""
 
     def __init__(self, bearing: Bearing, offset: np.ndarray, *, lands: bool = False) -> None:
         model = bearing.data.model
@@ -171,6 +173,7 @@ class _Frictionless:
             outer=model.outer._replace(rolling=np.zeros(2)),
             land=model.land._replace(kind=land),
             pocket=with_offset(model.pocket, offset),
+            spot=model.spot._replace(roller=-1),
         )
         self.bearing = bearing
         free = bearing.data.constraints
@@ -419,12 +422,15 @@ def roller_start_between_bent_rings(
 ) -> Start:
     """The same between races that are bent as in the static solution, which has to be given; rings
     bear what then presses on them."""
-    assert statics is not None, "rings bend as in a static solution"
+    assert bearing.rings is not None, "rings bend as in a static solution"
     held, model = copy(bearing), bearing.data.model
-    rings = held_rings(model.rings, statics().rings)
-    held.data = bearing.data._replace(model=model._replace(rings=rings))
+    rings = held_rings(bearing.rings)
+    still = model._replace(rings=rings, swings=no_swings(bearing.layout.elements))
+    held.data = bearing.data._replace(model=still)
+    held.layout = replace(bearing.layout, ring_modes=0)
     start = roller_start(held, limit_force=limit_force, statics=None, advance=advance)
     _Frictionless(held, model.pocket.offset).residual(start.y, start.yd)
-    y = start.y.copy()
+    y, yd = bearing.rings.begun(start.y, bearing.layout), np.zeros(bearing.layout.size)
+    yd[: len(start.yd)] = start.yd
     bearing.layout.ring_forces(y)[:] = rings.force
-    return replace(start, y=y)
+    return replace(start, y=y, yd=yd)

@@ -34,7 +34,7 @@ _SETS = 60  # of supports that are tried
 _PULL = 1e-9  # of the largest force of a support: what counts as none
 _LEAST_WALL = 0.01  # of the race's radius: thinner rings want thousands of harmonics
 _CHANGE = 1e-8  # of the load: by which centrifugal forces may change from step to step
-_TO_V = {  # how a ring's ports are displacements v: axial, radial, tilt
+TO_V = {  # how a ring's ports are displacements v: axial, radial, tilt
     False: np.array([[1.0, 0.0], [0.0, 1.0], [0.0, 0.0]]),
     True: np.array([[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]]),
 }
@@ -56,6 +56,19 @@ class Rings:
     @property
     def bend(self) -> bool:
         return self.inner.bends or self.outer.bends
+
+    def sections_of(self, bearing: Bearing, loads: ElementLoads) -> tuple[RingSection, RingSection]:
+        """Sections of both rings, pressed where and how contacts under ``loads`` do."""
+        if self.sections is None:
+            raise InputError(
+                f"rings of a {bearing.kind} do not bend: its family '{bearing.family}' gives no "
+                "sections of its rings; leave out inner_ring.ring and outer_ring.ring",
+                where="outer_ring.ring" if self.outer.bends else "inner_ring.ring",
+            )
+        default = bearing.bore, bearing.outside_diameter
+        seat = tuple(float(s.diameter or d) for s, d in zip((self.inner, self.outer), default))
+        angle, across = zip(*(_pressed(loads, k, self.heavier) for k in range(2)))
+        return self.sections(bearing, angle=angle, across=across, seat=seat)  # type: ignore[arg-type]
 
 
 @dataclass(frozen=True, eq=False)
@@ -141,7 +154,7 @@ class SeatedRing:
     @property
     def to_v(self) -> np.ndarray:
         """Displacements v (3, 2) of the two ports of an element."""
-        return _TO_V[self.reduction.raceway.line]
+        return TO_V[self.reduction.raceway.line]
 
 
 @dataclass(frozen=True, eq=False)
@@ -252,16 +265,7 @@ def seated_rings(
     """The rings that bend, with all supports bearing; ``loads``: of elements between rigid rings,
     whose contact angles and ellipses say where and how rings are pressed."""
     sides: tuple[FlexibleRing, FlexibleRing] = rings.inner, rings.outer
-    if rings.sections is None:
-        raise InputError(
-            f"rings of a {bearing.kind} do not bend: its family '{bearing.family}' gives no "
-            "sections of its rings; leave out inner_ring.ring and outer_ring.ring",
-            where="outer_ring.ring" if rings.outer.bends else "inner_ring.ring",
-        )
-    default = bearing.bore, bearing.outside_diameter
-    seat = tuple(float(s.diameter or d) for s, d in zip(sides, default))
-    angle, across = zip(*(_pressed(loads, k, rings.heavier) for k in range(2)))
-    sections = rings.sections(bearing, angle=angle, across=across, seat=seat)  # type: ignore[arg-type]
+    sections = rings.sections_of(bearing, loads)
     made = []
     for name, spec, section in zip(("inner", "outer"), sides, sections):
         if spec.bends:

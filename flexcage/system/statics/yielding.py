@@ -17,10 +17,21 @@ from dataclasses import replace
 import numpy as np
 
 from flexcage.core.errors import RunFailed
+from flexcage.geometry.bearing import Bearing
+from flexcage.system.spec import Mount
 from flexcage.system.statics.equilibrium import Posture, Problem, balance, tangent
 
 _CLOSE = 1e-9  # of the seat's displacement, that a step may leave
 _ITERATIONS = 30
+
+
+def compliance_of(mount: Mount, bearing: Bearing) -> np.ndarray | None:
+    """Compliance (5, 5) of the outer ring's seat in its housing; None for a rigid one."""
+    if not mount.body:
+        return None
+    from flexcage.system.seat import seat_compliance  # with readers of files, which few need
+
+    return seat_compliance(mount, diameter=bearing.outside_diameter, width=bearing.width)
 
 
 def balance_on_seat(problem: Problem, compliance: np.ndarray) -> Posture:

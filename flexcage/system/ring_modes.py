@@ -1,0 +1,164 @@
+"""What an outer ring on supports, or in a housing, has of mass in a run (``swinging``).
+
+Modes of a free ring up to a frequency swing, with cosine and sine round the ring, and so does its
+translation; the compliance of the rest is what the static solution's has beside theirs. So a run at
+rest is the static solution, wherever the line between both is drawn.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from flexcage.geometry.bearing import Bearing
+from flexcage.geometry.ring import Raceway
+from flexcage.modes.ring import RingReduction, natural_modes, spectrum
+from flexcage.system.bending import POINTS
+from flexcage.system.statics.rings import BentRing, SeatedRing
+from flexcage.system.swinging import COSINE, SINE, Swings, swings_of
+
+CARRIED = 2.0 * np.pi * 25e3  # [rad/s] modes below have mass: contacts swing as fast
+_FAINT = 1e-3  # of a port's compliance in a harmonic, that a mode must make to count
+_BATCH = 4  # modes of a harmonic that are looked for at a time
+_RACE, _SEAT = slice(0, 2), 2  # ports of a reduction
+
+
+@dataclass(frozen=True, eq=False)
+class Coordinates:
+    """Coordinates of unit mass: wave, shape at the race's ports, at supports' ports, stiffness, and
+    where they stand at the start."""
+
+    harmonic: np.ndarray  # (M,)
+    quarter: np.ndarray  # (M,)
+    shape: np.ndarray  # (M, 2)
+    chi: np.ndarray  # (M,) at the crest, of a support that is a point
+    stiffness: np.ndarray  # (M, M)
+    at_start: np.ndarray  # (M,)
+
+    def waves(self, azimuth: np.ndarray) -> np.ndarray:
+        """Waves (m, M) at azimuths (m,)."""
+        turn = np.multiply.outer(azimuth, self.harmonic)
+        return np.where(self.quarter == COSINE, np.cos(turn), np.sin(turn))
+
+
+@dataclass(frozen=True, eq=False)
+class LowModes:
+    """Modes of a free ring that swing: harmonic (m,), frequency (m,) [rad/s], of its translation 0,
+    and shapes (m, 3) at the ports, of unit modal mass."""
+
+    harmonic: np.ndarray
+    frequency: np.ndarray
+    shape: np.ndarray
+
+    def compliance(self, harmonics: int) -> np.ndarray:
+        """Their share (N + 1, 3, 3) of the compliance."""
+        found = np.zeros((harmonics, 3, 3))
+        for n, w, shape in zip(self.harmonic, self.frequency, self.shape):
+            if w > 0.0:
+                found[n] += np.outer(shape, shape) / w**2
+        return found
+
+
+def low_modes(ring: RingReduction, below: float = CARRIED) -> LowModes:
+    """Modes below a frequency [rad/s] that yield to what presses on the ring."""
+    across = ring.model.rigid_motions(1)[:, 0]
+    mass = float(across @ (ring.model.mass(1) @ across))
+    found = [(1, 0.0, ring.rigid / np.sqrt(mass))]
+    for n in ring.harmonics:
+        frequency, shapes = _below(ring, int(n), below)
+        at_ports = ring.ports.T @ shapes
+        share = (at_ports / frequency) ** 2 / np.diag(ring.compliance[n])[:, None]
+        counts = share.max(axis=0) > _FAINT
+        found += [(int(n), w, s) for w, s in zip(frequency[counts], at_ports.T[counts])]
+        if n > 1 and not len(frequency):
+            break
+    harmonics, frequencies, at = zip(*found)
+    return LowModes(np.array(harmonics), np.array(frequencies), np.array(at))
+
+
+def _below(ring: RingReduction, n: int, below: float) -> tuple[np.ndarray, np.ndarray]:
+    """Frequencies and shapes of a harmonic's modes below a frequency."""
+    count = _BATCH
+    while True:
+        frequency, shapes = natural_modes(ring.model, ring.held, n, count)
+        if frequency[-1] >= below:
+            low = frequency < below
+            return frequency[low], shapes[:, low]
+        count += _BATCH
+
+
+def left_over(ring: RingReduction, modes: LowModes) -> np.ndarray:
+    """Compliance (N + 1, 3, 3) without that of modes that swing."""
+    return ring.compliance - modes.compliance(len(ring.compliance))
+
+
+def ring_coordinates(bent: BentRing, modes: LowModes) -> Coordinates:
+    """Coordinates of a ring on supports that rests as the static solution has it."""
+    seated, harmonic = bent.seated, np.repeat(modes.harmonic, 2)
+    quarter = np.tile([COSINE, SINE], len(modes.harmonic))
+    there = (harmonic > 0) | (quarter == COSINE)
+    harmonic, quarter = harmonic[there], quarter[there]
+    shape, w = np.repeat(modes.shape, 2, axis=0)[there], np.repeat(modes.frequency, 2)[there]
+    g = np.sqrt(seated.reduction.weight[harmonic])
+    made = Coordinates(
+        harmonic, quarter, g[:, None] * shape[:, _RACE],
+        spectrum(harmonic, seated.support_length) * shape[:, _SEAT], np.diag(w**2), 0.0 * w,
+    )  # fmt: skip
+    push = ((made.waves(bent.azimuth).T @ bent.force) * made.shape).sum(axis=1)
+    push -= made.chi * (made.waves(seated.support).T @ bent.support_force)
+    moved = seated.translation(bent.force, bent.bears)  # along y and z
+    rigid = modes.shape[0, _SEAT] / seated.reduction.rigid[_SEAT]
+    at_start = np.where(w > 0.0, push / np.maximum(w, 1.0) ** 2, 0.0)
+    at_start[w == 0.0] = moved / rigid
+    return replace(made, at_start=at_start)
+
+
+def housing_coordinates(
+    bearing: Bearing, raceway: Raceway, compliance: np.ndarray, mass: float, outer: np.ndarray
+) -> tuple[Coordinates, np.ndarray]:
+    """Motions of an outer ring of a ``mass`` [kg] in a housing whose seat yields by ``compliance``
+    (5, 5) and is displaced by ``outer`` (5,) at the start; and the displacements (5,) that they
+    stand for.
+
+    The radius of gyration is that of a ring of the bearing's width between race and seat.
+    """
+    x, r = raceway.place
+    radii, width = np.array([r, 0.5 * bearing.outside_diameter]), bearing.width
+    inertia = mass * (np.sum(radii**2) / 4.0 + width**2 / 12.0)
+    unit = 1.0 / np.sqrt(np.array([mass] * 3 + [inertia] * 2))
+    along, radial = (np.array(port) for port in ([1.0, 0.0], [0.0, 1.0]))
+    turned = np.array([-r, x])
+    if raceway.line:
+        along, radial, turned = np.zeros(2), np.array([1.0, 0.0]), np.array([x, 1.0])
+    shape = np.stack([along, radial, radial, -turned, turned])
+    made = Coordinates(
+        np.array([0, 1, 1, 1, 1]), np.array([COSINE, COSINE, SINE, SINE, COSINE]),
+        unit[:, None] * shape, np.zeros(5), unit[:, None] * np.linalg.inv(compliance) * unit,
+        outer / unit,
+    )  # fmt: skip
+    return made, unit
+
+
+def swings_on_supports(
+    seated: SeatedRing, modes: LowModes, made: Coordinates, late: float
+) -> Swings:
+    """Data of a ring on supports, for kernels."""
+    ring, azimuth = seated.reduction, 2.0 * np.pi * np.arange(POINTS) / POINTS
+    n, rest = ring.harmonics, left_over(ring, modes)
+    on_seat, on_race = spectrum(n, seated.support_length), spectrum(n, ring.along)
+    # race and support: the whole, less what modes have of it with the race's extrapolated weight
+    both = (on_seat * on_race)[:, None] * ring.compliance[:, _RACE, _SEAT]
+    both -= (on_seat * np.sqrt(ring.weight))[:, None] * (ring.compliance - rest)[:, _RACE, _SEAT]
+    one = np.ones(len(n))
+    table = [
+        ring.series(one, both[:, :, None], azimuth, slope=slope)[:, 0].T for slope in (False, True)
+    ]
+    apart = seated.support[:, None] - seated.support
+    between = ring.series(on_seat**2, rest[:, _SEAT:, _SEAT:], apart)[0, 0]
+    return swings_of(
+        len(seated.azimuth), made.harmonic, made.quarter, made.shape, made.stiffness,
+        np.full(len(made.harmonic), late), azimuth=seated.support,
+        chi=made.waves(seated.support) * made.chi, table=np.hstack(table), between=between,
+        holds=not seated.presses_only,
+    )  # fmt: skip

@@ -1,0 +1,283 @@
+"""Outer rings on supports, and in housings that yield, in a run."""
+
+from itertools import product
+
+import numpy as np
+import pytest
+
+import flexcage
+from flexcage.bearings import sections_of, statics_of
+from flexcage.case import Case
+from flexcage.core.errors import InputError
+from flexcage.geometry.materials import MATERIALS
+from flexcage.geometry.ring import OuterRing, Raceway, RingSection
+from flexcage.modes.door.body import ReducedBody
+from flexcage.modes.door.formats import write_body
+from flexcage.modes.ring import Held, reduce_ring
+from flexcage.stages import assembled_start, bearing_in_motion, cage_mesh
+from flexcage.static import solve_static
+from flexcage.system.layout import CAGE, INNER, OUTER
+from flexcage.system.ring_modes import CARRIED, left_over, low_modes
+from flexcage.system.rings_in_motion import moving_rings
+from flexcage.system.spec import Load
+from flexcage.system.statics.options import AT_START
+from flexcage.system.statics.rings import Rings
+from flexcage.system.statics.solve import solve_bearing
+from flexcage.system.supports import press_supports
+from flexcage.system.swinging import deflect, swings_of
+
+LOADS = {"N1013": {"radial": 5000.0}, "7010C-PI": {"radial": 300.0, "axial": 500.0}}
+SEATS = {
+    "N1013": ("arcs", (40.0, -40.0)),
+    "7010C-PI": ("points", (50.0, 180.0, 300.0)),
+}
+STEEL = MATERIALS["steel"]
+
+
+def held(preset):
+    """Keys of an outer ring on its supports."""
+    seat, azimuths = SEATS[preset]
+    supports = tuple(np.radians(azimuths))
+    return {
+        "outer_ring.ring": "flexible", "outer_ring.seat": seat, "outer_ring.supports": supports,
+    }  # fmt: skip
+
+
+def case_of(preset, *, speed=600.0, duration=1e-3, **changes):
+    case = Case.from_preset(preset, load=LOADS[preset], drive={"speed": speed})
+    case = case.replace("cage.model", "rigid").replace("mesh.fineness", "coarse")
+    return case.replace({"solver.duration": duration, "output.rate": 20e3, **changes})
+
+
+def at_rest(preset, **changes):
+    return case_of(preset, speed=0.0, **{"load.gravity": 0.0, **changes})
+
+
+def differ_little(found, wanted, share):
+    assert np.abs(found - wanted).max() < share * np.abs(wanted).max()
+
+
+# --- supports ------------------------------------------------------------------------------------
+
+
+def brute_force(between, room):
+    """Forces of supports that only press, by trying all sets of them."""
+    for bears in product((False, True), repeat=len(room)):
+        keep = np.array(bears)
+        press = np.zeros(len(room))
+        press[keep] = np.linalg.solve(between[np.ix_(keep, keep)], room[keep])
+        entered = room - between @ press
+        if (press >= 0.0).all() and (entered[~keep] <= 0.0).all():
+            return press
+    raise AssertionError
+
+
+@pytest.mark.parametrize("holds", (False, True))
+def test_supports_press_and_are_not_entered(holds):
+    rng = np.random.default_rng(3)
+    none, nothing = np.zeros(0, np.int64), np.zeros(0)
+    sets = set()
+    for _ in range(60):
+        root = rng.standard_normal((6, 6))
+        between = root @ root.T + 0.05 * np.eye(6)
+        room = rng.standard_normal(6)
+        swings = swings_of(
+            1, none, none, np.zeros((0, 2)), np.zeros((0, 0)), nothing, azimuth=np.zeros(6),
+            between=between, holds=holds,
+        )  # fmt: skip
+        swings.room[:] = room
+        press_supports(swings)
+        wanted = np.linalg.solve(between, room) if holds else brute_force(between, room)
+        assert swings.press == pytest.approx(wanted, rel=1e-9, abs=1e-12)
+        sets.add(tuple(swings.press > 0.0))
+    assert len(sets) > 15  # of different supports
+
+
+# --- modes ---------------------------------------------------------------------------------------
+
+
+def test_thin_ring_swings_as_in_closed_form():
+    """Radial shapes of unit modal mass of a ring that does not stretch, u_r = n u_psi, to 2 %:
+    m/2 (1 + 1/n^2) a'^2 (S. S. Rao, Vibration of Continuous Systems, 9); what modes leave of the
+    compliance is little, and positive."""
+    radius, side = 0.05, 0.004
+    low, half = radius - 0.5 * side, 0.5 * side
+    outline = ((-half, low + side), (-half, low), (half, low), (half, low + side))
+    race = Raceway(place=(0.0, low), normal=(0.0, 1.0), extent=half, line=True)
+    section = RingSection(outline, ("", "race", "", "seat"), race, side)
+    ring = reduce_ring(section, STEEL, Held(rigidly=False))
+    modes = low_modes(ring)
+    mass = STEEL.density * side**2 * 2.0 * np.pi * radius
+    rigid = modes.frequency == 0.0
+    assert modes.shape[rigid, 0] ** 2 == pytest.approx([1.0 / mass], rel=1e-4)
+    for n in range(2, 5):
+        found = (modes.shape[modes.harmonic == n][:, [0, 2]] ** 2).max(axis=0)
+        assert found == pytest.approx([2.0 * n**2 / (mass * (n**2 + 1))] * 2, rel=0.02)
+    assert modes.frequency.max() < CARRIED
+    rest = left_over(ring, modes)
+    assert (np.linalg.eigvalsh(rest[:, :2, :2]) > 0.0).all()
+    assert rest[2, 0, 0] < 1e-2 * ring.compliance[2, 0, 0]
+
+
+@pytest.mark.parametrize(
+    "preset", ("N1013", pytest.param("7010C-PI", marks=pytest.mark.slow))
+)  # fmt: skip
+def test_what_kernels_read_is_the_static_solution(preset):
+    """Wherever the line between modes and the rest lies, deflections and supports' forces at rest
+    are the static ones."""
+    bearing = Case.from_preset(preset).bearing
+    outer = OuterRing(**{k.split(".")[1]: v for k, v in held(preset).items()})
+    rings = Rings(outer=outer, sections=sections_of(bearing))
+    load = Load(**LOADS[preset])
+    solution = solve_bearing(bearing, statics_of(bearing), load=load, rings=rings)
+    (ring,), count = solution.rings, bearing.element_count
+    moving = moving_rings(rings, solution)
+    q, s = np.zeros((count, 6)), np.zeros((2, count, 2))
+    q[:, 2], s[1] = ring.azimuth, ring.force
+    data, swings = moving.data, moving.swings
+    deflect(q.ravel(), s.ravel(), moving.at_start, data, swings)
+    a, b, c = data.half_space[1]
+    found = data.deflection[1] - ring.force @ np.array([[a, b], [b, c]])
+    wanted = ring.deflection @ ring.seated.to_v
+    for port in range(2):
+        differ_little(found[:, port], wanted[:, port], 5e-4)
+    differ_little(swings.press, ring.support_force, 1e-4)
+    # coordinates rest: supports and elements balance their springs
+    pushed = (moving.swings.stiffness @ moving.at_start) - swings.push
+    waves = np.where(swings.quarter == 0, *(f(np.outer(ring.azimuth, swings.harmonic))
+                                            for f in (np.cos, np.sin)))  # fmt: skip
+    borne = ((waves.T @ ring.force) * swings.shape).sum(axis=1)
+    differ_little(pushed, borne, 1e-4)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("preset", LOADS)
+def test_a_run_at_rest_is_the_static_solution(preset):
+    """Forces, displacements and supports' forces within 0.1 %."""
+    case = at_rest(preset, **held(preset))
+    ds, static = flexcage.simulate(case, stress=False).dataset, solve_static(case, options=AT_START)
+    differ_little(ds["race_force"].values[-1], static.elements.force, 1e-3)
+    differ_little(ds["inner_position"].values[-1], static.displacement[:3], 1e-3)
+    differ_little(ds["support_force"].values[-1], static.rings[0].support_force, 1e-3)
+    outer = ds["ring_deflection"].values[-1][:, 1, :2]
+    differ_little(outer, static.rings[0].deflection[:, :2], 1e-3)
+
+
+# --- motion --------------------------------------------------------------------------------------
+
+
+@pytest.mark.slow
+def test_two_arcs_make_two_peaks_in_motion():
+    """Elements beside the supports bear most, as in the static solution (Harris and Broschard:
+    ``test_flexible_rings``), while they travel past them."""
+    ds = flexcage.simulate(case_of("N1013", duration=6e-3, **held("N1013")), stress=False).dataset
+    force = ds["race_force"].values[:, :, 1]
+    azimuth = np.degrees(ds["element_position"].values[..., 2])
+    azimuth = (azimuth + 180.0) % 360.0 - 180.0
+    mean = [force[np.abs(azimuth - at) < 8.0].mean() for at in (-40.0, 0.0, 40.0)]
+    assert mean[1] < 0.4 * min(mean[0], mean[2])
+    assert np.ptp(ds["element_position"].values[:, 0, 2]) > np.radians(60.0)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("preset", LOADS)
+def test_energy_is_accounted_for(preset):
+    """Under a load that swings, so that supports press and let go."""
+    wave = {
+        "load.wave": "sine", "load.wave_of": "radial", "load.wave_period": 5e-4,
+        "load.wave_amplitude": 0.95 * LOADS[preset]["radial"],
+    }  # fmt: skip
+    run = flexcage.simulate(case_of(preset, **held(preset), **wave), stress=False)
+    ds = run.dataset
+    missed = ds["energy"].sum("energy_kind") - ds["work"].sum("channel")
+    assert np.ptp(missed.values) < 1e-4 * np.abs(ds["work"].values[-1]).sum()
+    damped = ds["work"].sel(channel="modal_damping").values
+    assert damped[-1] < 0.0
+    assert (np.diff(damped) < 1e-3 * abs(damped[-1])).all()
+    pressed = ds["support_force"].values > 0.0
+    assert (pressed != pressed[0]).any()
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("preset", LOADS)
+def test_forces_on_all_bodies_add_up_to_none(preset):
+    """Between races that swing, slopes included, in a state that is no equilibrium."""
+    case = case_of(preset, **held(preset))
+    bearing = bearing_in_motion(case, cage_mesh(case), None)
+    layout, start = bearing.layout, assembled_start(case, bearing)
+    y, rng = start.y.copy(), np.random.default_rng(1)
+    elements = layout.q(y)["elements"]
+    elements[:, 1] += 1e-6 * rng.standard_normal(len(elements))
+    elements[:, 2] += 1e-3 * rng.standard_normal(len(elements))
+    layout.ring_coordinates(y)[:] *= 1.0 + 0.01 * rng.standard_normal(layout.ring_modes)
+    bearing.residual(0.0, y, start.yd)
+    work, rings = bearing.data.work.scratch, bearing.data.model.rings
+    assert np.abs(rings.moment[1]).max() > 1e-6  # slopes push
+    cos, sin = np.cos(elements[:, 2]), np.sin(elements[:, 2])
+    along = work.wrenches[:, 1] * cos - work.wrenches[:, 2] * sin
+    across = work.wrenches[:, 1] * sin + work.wrenches[:, 2] * cos
+    bodies = sum(work.border[k + 1 : k + 3] for k in (INNER, CAGE)) + work.border[OUTER:][:2]
+    total = bodies + [along.sum(), across.sum()]
+    assert np.abs(total).max() < 1e-12 * np.abs(work.wrenches[:, :3]).sum()
+
+
+# --- housings ------------------------------------------------------------------------------------
+
+
+@pytest.fixture
+def housing(tmp_path):
+    """A housing as one node in the bearing's centre, softer along y than along z, and coupled."""
+    stiffness = np.diag([3e8, 2e8, 4e8, 1e6, 4e5, 6e5])
+    stiffness[0, 5] = stiffness[5, 0] = 2e6
+    dofs = np.array([(0, k) for k in range(6)])
+    body = ReducedBody(stiffness=stiffness, mass=np.eye(6), nodes=np.zeros((1, 3)), dofs=dofs)
+    return str(write_body(body, tmp_path / "housing.npz"))
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("bends", ("rigid", "flexible"))
+@pytest.mark.parametrize("preset", LOADS)
+def test_a_run_at_rest_in_a_housing_is_the_static_solution(preset, bends, housing):
+    """Forces and displacements within 0.1 %, of the outer ring too; it has its mass."""
+    given = {"mount.body": housing, "mount.mass": 0.5, "outer_ring.ring": bends}
+    case = at_rest(preset, **given, **{"load.misalignment": 2e-4} if preset == "N1013" else {})
+    ds, static = flexcage.simulate(case, stress=False).dataset, solve_static(case, options=AT_START)
+    assert np.abs(static.outer[:3]).max() > 1e-6
+    differ_little(ds["race_force"].values[-1], static.elements.force, 1e-3)
+    differ_little(ds["inner_position"].values[-1], static.displacement[:3], 1e-3)
+    differ_little(ds["outer_position"].values[-1], static.outer[:3], 2e-3)
+
+
+@pytest.mark.slow
+def test_a_ring_swings_in_its_housing_with_its_mass(housing):
+    """After a jump of load the outer ring with its housing swings on the seat: y'' = (F - K y)/m
+    to 1 %, F the sum of what rollers bear."""
+    case = case_of("N1013", speed=0.0, duration=3e-3, **{
+        "mount.body": housing, "mount.mass": 5.0, "load.gravity": 0.0, "load.ramp_to": 8000.0,
+        "load.ramp_time": 1e-4, "output.rate": 200e3,
+    })  # fmt: skip
+    ds = flexcage.simulate(case, stress=False).dataset
+    y, v = ds["outer_position"].values[:, 1], ds["outer_velocity"].values[:, 1]
+    psi = ds["element_position"].values[..., 2]
+    force = (ds["race_force"].values[..., 1] * np.cos(psi)).sum(axis=1)
+    mass, t = case.bearing.outer_ring_mass + 5.0, ds["time"].values
+    assert np.gradient(y, t)[5:-5] == pytest.approx(v[5:-5], abs=0.01 * np.abs(v).max())
+    pull = 2e8 * (y + case.outer_ring.relaxation * v)
+    assert mass * np.gradient(v, t)[5:-5] == pytest.approx(
+        (force - pull)[5:-5], abs=0.01 * np.abs(force).max()
+    )
+    assert y.max() > 1.2 * y[-100:].mean() > 0.0  # it overshoots
+
+
+@pytest.mark.parametrize(
+    ("changes", "said"),
+    [
+        ({**held("N1013"), "mount.kind": "bushing"}, "in a run supports stand still"),
+        ({**held("N1013"), "mount.body": "h.npz"}, "but mount.body is given, and in a run"),
+        ({"mount.body": "h.npz", "mount.kind": "bushing"}, "a housing takes its place"),
+        ({"mount.body": "h.npz", "solver.method": "bdf"}, "move by explicit steps"),
+    ],
+)
+def test_what_does_not_go_together_is_said_in_a_sentence(changes, said):
+    with pytest.raises(InputError, match=said):
+        case_of("N1013", **changes)
