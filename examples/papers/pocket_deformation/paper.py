@@ -156,8 +156,8 @@ def words(computed: Computed) -> Words:
         change with it. Of its {len(c.lines)} claims (one in two readings, one with a number)
         {counts["holds"]} hold over most of what it leaves unknown, {counts["does not hold"]} do
         not; open: {counts["undecided"]}. At the clearances of the better model {", ".join(held)}
-        hold. One thing decides most: does the displacement exceed the pocket's clearance, which the paper
-        does not print? How sure: {points} points of {len(c.maps[MAP].names) - 1} unknowns, one
+        hold. One thing decides most: does the displacement exceed the pocket's clearance, which
+        the paper does not print? How sure: {points} points of {len(c.maps[MAP].names) - 1} unknowns, one
         start each of five rigid cages over three turns; five of them again with flexible ones;
         {" and ".join(f"{n} starts ({column})" for column, n in starts.items() if n)}, the
         better model with a flexible cage, over 39 ms each."""
