@@ -141,6 +141,7 @@ def over_time(computed, path: Path, title: str, note: str, curves: Callable,
                 if curves is _corner and c == SHORTER:
                     ax.axhline(ROOT, color=sheet.INK, ls="--", lw=1.0)
                 ax.set(ylim=(low, high), xlim=(settle * time[-1] * 1e3, time[-1] * 1e3))
+                ax.tick_params(labelleft=c == CAGES[0])
                 ax.set_title(c, loc="left")
                 if len(drawn) > 1 and c == CAGES[0]:
                     ax.legend(loc="center left", fontsize=7)
@@ -184,6 +185,7 @@ def orbits(computed, path: Path) -> Path:
                 ring = np.exp(1j * np.linspace(0.0, 2.0 * pi, 200)) * run.case.land.clearance * UM
                 ax.plot(ring.real, ring.imag, color="0.6", lw=0.8, ls="--")
                 ax.set(xlim=(-330, 330), ylim=(-330, 330), aspect="equal")
+                ax.tick_params(labelleft=c == CAGES[0])
                 ax.set_title(c, loc="left")
         return sheet.save(figure, path)
 

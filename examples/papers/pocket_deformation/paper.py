@@ -157,8 +157,9 @@ def words(computed: Computed) -> Words:
         {counts["holds"]} hold over most of what it leaves unknown, {counts["does not hold"]} do
         not; open: {counts["undecided"]}. At the clearances of the better model {", ".join(held)}
         hold. One thing decides most: does the displacement exceed the pocket's clearance, which
-        the paper does not print? How sure: {points} points of {len(c.maps[MAP].names) - 1} unknowns, one
-        start each of five rigid cages over three turns; five of them again with flexible ones;
+        the paper does not print? How sure: {points} points of {len(c.maps[MAP].names) - 1}
+        unknowns, one start each of five rigid cages over three turns; five of them again with
+        flexible ones;
         {" and ".join(f"{n} starts ({column})" for column, n in starts.items() if n)}, the
         better model with a flexible cage, over 39 ms each."""
     return Words(summary, reasons(c), decides(c), readings(c))
@@ -213,7 +214,8 @@ def readings(computed: Computed) -> list[str]:
         "**As printed.** IMPACT by ADAMS' defaults (10 N s/mm, full from 0.1 mm on) over Hertz "
         "stiffness, friction 0.3 and 0.1 at 100 and 1000 mm/s, no oil, the outer ring in contact "
         "with its socket; for time with a rigid cage, so without stress. ADAMS' default exponent "
-        "of 2.2 is not the paper's Hertz contact, and not used.",
+        "of 2.2 is not the paper's Hertz contact, and not used. Without oil the cage still slides "
+        "along the ribs when its records end: its whirl and speed are those of a start.",
         "**Single starts.** A point of the map has one start, so \"unchanged\" within 10 % is "
         "asked of two chaotic records; what starts alone do is the dummy.",
         "**Changed for time, before results were seen.** Records were cut from 0.2 s to 0.1 s in "
