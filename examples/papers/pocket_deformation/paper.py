@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
-from claims import BENT1, BENT2, CAGES, CLAIMS, LONGER, SHORTER, SOUND, WITHIN
+from claims import BENT1, BENT2, CAGES, CLAIMS, DROP, LONGER, SHORTER, SOUND, WITHIN
 from figures import BETTER, FLEXIBLE, MAP, MPA, PRINTED_MODEL, ROOT, UM, draw, tables
 from repeat import Computed, Paper, Words
 
@@ -14,6 +14,7 @@ from flexcage.study.verdicts import HOLDS
 
 OF_STRESS = ("000-1", "000-8", "000-8b")  # claims that the map's rigid cages say nothing of
 DECIDED_BY = {c.key: FLEXIBLE if c.key in OF_STRESS else MAP for c in CLAIMS}
+HELD = 1.05  # slip from which a roller turns with the cage
 CLEARANCES = {"Cq - Dw": (0.05e-3, 0.25e-3), "Cp - Lw": (0.15e-3, 0.35e-3)}  # m, as in map.toml
 
 
@@ -85,6 +86,22 @@ def of_pinch(computed: Computed) -> str:
         if found
     ]  # fmt: skip
     return "".join(f"; {part}" for part in parts)
+
+
+def light(computed: Computed) -> str:
+    """Flexible points whose pinched roller is held in part only, in words."""
+    said = []
+    for name, taken, cage, roller in (
+        ("Cq - Dw", 0.2e-3, BENT2, "before"), ("Cp - Lw", 0.3e-3, SHORTER, "at")
+    ):  # fmt: skip
+        joined, over_by = computed.maps[FLEXIBLE], taken - clearance(computed, name)
+        slip, swing = (joined.means(f"{what}_{roller}", cage) for what in ("slip", "swing"))
+        said += [
+            f"{over_by[k] * UM:.1f} um beyond {name} the roller slips by {percent_text(slip[k])}, "
+            f"and its speed fluctuates by {percent_text(swing[k])}"
+            for k in np.flatnonzero((over_by > 0.0) & (slip > DROP) & (slip < HELD))
+        ]
+    return "; ".join(said) or "none is seen"
 
 
 def reasons(computed: Computed) -> dict[str, str]:
@@ -179,6 +196,7 @@ def decides(computed: Computed) -> list[str]:
         "pocket: it turns with the cage, backwards in the sense of rolling, which is a slip of "
         f"{c.readings[BETTER].said('slip_at', SHORTER, 100.0)} %: a loss of all speed, and a "
         "steady one, where the paper's figures have a drop that fluctuates.",
+        f"**A light pinch** does what the paper says of 000-6, at flexible points: {light(c)}.",
         *([f"**No land, no cage.** Section 2.2 lists no contact between cage and rings. Rollers "
            f"alone do not hold the cage: {gone}. The paper's cage stayed, so something that it "
            "does not list guides it; the printed model is taken on the inner ring's ribs."]
