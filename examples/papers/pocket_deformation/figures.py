@@ -77,9 +77,12 @@ def draw(computed, folder: Path) -> list[Picture]:
     ]  # fmt: skip
 
 
-def computed_readings(computed) -> dict:
-    """Readings that have a start of every cage."""
-    return {column: r for column, r in computed.readings.items() if r.starts}
+def computed_readings(computed, output: str = "lost") -> dict:
+    """Readings that have an output of every cage: stress is that of flexible ones alone."""
+    return {
+        column: r for column, r in computed.readings.items()
+        if r.starts and np.isfinite(r.values(output, CAGES[0])).all()
+    }  # fmt: skip
 
 
 def first(reading) -> dict[str, Run]:
@@ -118,12 +121,13 @@ def _rollers(run) -> tuple[np.ndarray, Curves]:
 def over_time(computed, path: Path, title: str, note: str, curves: Callable,
               limits: tuple[float, float] | None) -> Path:  # fmt: skip
     """Curves of every cage, one row a reading, over ms of the settled part."""
+    readings = computed_readings(computed, "corner" if curves is _corner else "lost")
     with sheet.style():
         figure = sheet.new_figure(
-            LEFT + len(CAGES) * (WIDE + 46), TOP + len(computed_readings(computed)) * (HIGH + 66)
+            LEFT + len(CAGES) * (WIDE + 46), TOP + len(readings) * (HIGH + 66)
         )
         sheet.heading(figure, title, f"{note}; over ms")
-        for i, (column, reading) in enumerate(computed_readings(computed).items()):
+        for i, (column, reading) in enumerate(readings.items()):
             top = TOP + i * (HIGH + 66)
             sheet.text_at(figure, 20, top + 0.5 * HIGH, column)
             found = {c: (run.case.output.settle, *curves(run)) for c, run in first(reading).items()}
@@ -137,6 +141,7 @@ def over_time(computed, path: Path, title: str, note: str, curves: Callable,
                 if curves is _corner and c == SHORTER:
                     ax.axhline(ROOT, color=sheet.INK, ls="--", lw=1.0)
                 ax.set(ylim=(low, high), xlim=(settle * time[-1] * 1e3, time[-1] * 1e3))
+                ax.tick_params(labelleft=c == CAGES[0])
                 ax.set_title(c, loc="left")
                 if len(drawn) > 1 and c == CAGES[0]:
                     ax.legend(loc="center left", fontsize=7)
@@ -180,6 +185,7 @@ def orbits(computed, path: Path) -> Path:
                 ring = np.exp(1j * np.linspace(0.0, 2.0 * pi, 200)) * run.case.land.clearance * UM
                 ax.plot(ring.real, ring.imag, color="0.6", lw=0.8, ls="--")
                 ax.set(xlim=(-330, 330), ylim=(-330, 330), aspect="equal")
+                ax.tick_params(labelleft=c == CAGES[0])
                 ax.set_title(c, loc="left")
         return sheet.save(figure, path)
 
@@ -206,5 +212,6 @@ def tables(computed) -> list[Table]:
         for column, joined in computed.maps.items():
             if joined.spread(output, CAGES[0]) is not None:
                 rows.append((title, column, *(joined.middle(output, c, factor) for c in CAGES)))
+    rows = [r for r in rows if set(r[2:]) != {"-"}]
     head = ("quantity", "by", *CAGES)
     return [Table("Mean of eight starts ± 95 %; map: median (middle 80 % of points)", head, rows)]

@@ -3,16 +3,18 @@
 from __future__ import annotations
 
 import numpy as np
-from claims import BENT1, BENT2, CAGES, CLAIMS, LONGER, SHORTER, SOUND, WITHIN
+from claims import BENT1, BENT2, CAGES, CLAIMS, DROP, LONGER, SHORTER, SOUND, WITHIN
 from figures import BETTER, FLEXIBLE, MAP, MPA, PRINTED_MODEL, ROOT, UM, draw, tables
 from repeat import Computed, Paper, Words
 
 from flexcage.core.digits import percent_text
 from flexcage.study import StudyResults
 from flexcage.study.sensitivity import share
+from flexcage.study.verdicts import HOLDS
 
 OF_STRESS = ("000-1", "000-8", "000-8b")  # claims that the map's rigid cages say nothing of
 DECIDED_BY = {c.key: FLEXIBLE if c.key in OF_STRESS else MAP for c in CLAIMS}
+HELD = 1.05  # slip from which a roller turns with the cage
 CLEARANCES = {"Cq - Dw": (0.05e-3, 0.25e-3), "Cp - Lw": (0.15e-3, 0.35e-3)}  # m, as in map.toml
 
 
@@ -86,13 +88,29 @@ def of_pinch(computed: Computed) -> str:
     return "".join(f"; {part}" for part in parts)
 
 
+def light(computed: Computed) -> str:
+    """Flexible points whose pinched roller is held in part only, in words."""
+    said = []
+    for name, taken, cage, roller in (
+        ("Cq - Dw", 0.2e-3, BENT2, "before"), ("Cp - Lw", 0.3e-3, SHORTER, "at")
+    ):  # fmt: skip
+        joined, over_by = computed.maps[FLEXIBLE], taken - clearance(computed, name)
+        slip, swing = (joined.means(f"{what}_{roller}", cage) for what in ("slip", "swing"))
+        said += [
+            f"{over_by[k] * UM:.1f} um beyond {name} the roller slips by {percent_text(slip[k])}, "
+            f"and its speed fluctuates by {percent_text(swing[k])}"
+            for k in np.flatnonzero((over_by > 0.0) & (slip > DROP) & (slip < HELD))
+        ]
+    return "; ".join(said) or "none is seen"
+
+
 def reasons(computed: Computed) -> dict[str, str]:
     """One line for every claim."""
     c, (low, high) = computed, printed_within(computed)
     least, most = (1e3 * v for v in CLEARANCES["Cp - Lw"])
     held, shorter = clearance(c, "Cq - Dw") < 0.2e-3, clearance(c, "Cp - Lw") < 0.3e-3
     return {
-        "000-1": f"corners: {row(c, BETTER, 'corner', MPA, *CAGES[:3])} MPa where the roller just "
+        "000-1": f"{row(c, BETTER, 'corner', MPA, *CAGES[:3])} MPa where the roller just "
         f"fits at 0.2 mm; rises in {c.part(FLEXIBLE, '000-1', 'rises')} of flexible points",
         "000-2": f"rises and falls in {c.part(MAP, '000-2', 'amplitude')}; "
         f"{c.by(MAP, '000-2')}",
@@ -111,12 +129,12 @@ def reasons(computed: Computed) -> dict[str, str]:
         f"{c.part(MAP, '000-6', 'j-1 fluctuates at 0.2')}: it is held",
         "000-7": f"lower at 0.1 in {c.part(MAP, '000-7', 'lower at 0.1')}, sharply higher at 0.2 "
         f"in {c.part(MAP, '000-7', 'sharply higher at 0.2')}; {c.by(MAP, '000-7')}",
-        "000-8": f"corners: {row(c, BETTER, 'corner', MPA, SOUND, LONGER, SHORTER)} MPa; the same "
-        f"in {c.part(FLEXIBLE, '000-8', 'unchanged at +0.3')}, more in "
+        "000-8": f"{row(c, BETTER, 'corner', MPA, SOUND, LONGER, SHORTER)} MPa; the same in "
+        f"{c.part(FLEXIBLE, '000-8', 'unchanged at +0.3')}, more in "
         f"{c.part(FLEXIBLE, '000-8', 'more at -0.3')} of flexible points",
-        "000-8b": f"{row(c, BETTER, 'corner', MPA, SHORTER)} MPa at Cp - Lw = 0.25 mm"
+        "000-8b": f"{row(c, BETTER, 'corner', MPA, SHORTER)} MPa at 0.25 mm"
         + (f"; within a factor of two from {low:.2f} to {high:.2f} mm, "
-           f"{percent_text((high - low) / (most - least))} of its range" if low < high else ""),
+           f"{percent_text((high - low) / (most - least))} of the range" if low < high else ""),
         "000-9": f"unchanged in {c.part(MAP, '000-9', 'unchanged at +0.3')}, one line in "
         f"{c.part(MAP, '000-9', 'one line at -0.3')}",
         "000-10": f"larger at +0.3 in {c.part(MAP, '000-10', 'larger at +0.3')}, smaller at -0.3 "
@@ -147,15 +165,18 @@ def words(computed: Computed) -> Words:
     """Summary, reasons, what decides, and readings, with the numbers of what was computed."""
     c = computed
     counts, points = c.counts, c.found[MAP]["000-12"].share.decided
+    held = [line.key for line in c.lines if line.cells[BETTER].outcome == HOLDS]
     starts = {column: reading.starts for column, reading in c.readings.items()}
     summary = f"""The paper deforms one pocket of an N1013's brass cage at 6000 rpm and 1000 N, in
         ADAMS: its crossbeam by 0.1 and 0.2 mm, its side beam by +0.3 and -0.3 mm. It says that
         stress and slip rise where the roller is squeezed, and that orbits, vibration and speeds
         change with it. Of its {len(c.lines)} claims (one in two readings, one with a number)
-        {counts["holds"]} hold, {counts["does not hold"]} do not; open: {counts["undecided"]}. One
-        thing decides most: does the displacement exceed the pocket's clearance, which the paper
-        does not print? How sure: {points} points of {len(c.maps[MAP].names) - 1} unknowns, one
-        start each of five rigid cages over three turns; five of them again with flexible ones;
+        {counts["holds"]} hold over most of what it leaves unknown, {counts["does not hold"]} do
+        not; open: {counts["undecided"]}. At the clearances of the better model {", ".join(held)}
+        hold. One thing decides most: does the displacement exceed the pocket's clearance, which
+        the paper does not print? How sure: {points} points of {len(c.maps[MAP].names) - 1}
+        unknowns, one start each of five rigid cages over three turns; five of them again with
+        flexible ones;
         {" and ".join(f"{n} starts ({column})" for column, n in starts.items() if n)}, the
         better model with a flexible cage, over 39 ms each."""
     return Words(summary, reasons(c), decides(c), readings(c))
@@ -175,6 +196,7 @@ def decides(computed: Computed) -> list[str]:
         "pocket: it turns with the cage, backwards in the sense of rolling, which is a slip of "
         f"{c.readings[BETTER].said('slip_at', SHORTER, 100.0)} %: a loss of all speed, and a "
         "steady one, where the paper's figures have a drop that fluctuates.",
+        f"**A light pinch** does what the paper says of 000-6, at flexible points: {light(c)}.",
         *([f"**No land, no cage.** Section 2.2 lists no contact between cage and rings. Rollers "
            f"alone do not hold the cage: {gone}. The paper's cage stayed, so something that it "
            "does not list guides it; the printed model is taken on the inner ring's ribs."]
@@ -210,7 +232,8 @@ def readings(computed: Computed) -> list[str]:
         "**As printed.** IMPACT by ADAMS' defaults (10 N s/mm, full from 0.1 mm on) over Hertz "
         "stiffness, friction 0.3 and 0.1 at 100 and 1000 mm/s, no oil, the outer ring in contact "
         "with its socket; for time with a rigid cage, so without stress. ADAMS' default exponent "
-        "of 2.2 is not the paper's Hertz contact, and not used.",
+        "of 2.2 is not the paper's Hertz contact, and not used. Without oil the cage still slides "
+        "along the ribs when its records end: its whirl and speed are those of a start.",
         "**Single starts.** A point of the map has one start, so \"unchanged\" within 10 % is "
         "asked of two chaotic records; what starts alone do is the dummy.",
         "**Changed for time, before results were seen.** Records were cut from 0.2 s to 0.1 s in "
@@ -218,13 +241,14 @@ def readings(computed: Computed) -> list[str]:
         "a flexible one, which count for nothing.",
         "**Words into numbers.** Unchanged: within 10 %, a roller's speed within 1 %. Clearly "
         "more: by 25 %. A drop of speed: by 5 %. Sinusoidal: half of the variance in one line. "
-        f"{ROOT} MPa: within a factor of {WITHIN:g}. All were written before the runs.",
+        f"{ROOT} MPa: within a factor of {WITHIN:g}. These were written before the runs.",
         '**Two readings.** "Whirl radius gradually expands ... once the deformation exceeds '
         '0.2 mm, decreases" is 000-3 where taken literally, 000-3b where it means 0 < 0.1 > 0.2.',
         "**Pockets.** Crossbeam 5, between j-1 = 4 and j = 5, is displaced as a whole, as equation "
         "1 says; side beams bend.",
         "**A rigid cage in the map** has no stress, so claims on stress are decided by points of "
-        "the map with a flexible one; a rigid cage pinches harder than a flexible one.",
+        "the map with a flexible one: changed from the better model's starts after results were "
+        "seen, which opened 000-8 and 000-8b. A rigid cage pinches harder than a flexible one.",
         *_flexible(c),
     ]  # fmt: skip
 
