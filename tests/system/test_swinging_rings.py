@@ -230,7 +230,9 @@ def test_forces_on_all_bodies_add_up_to_none(preset):
 
 @pytest.mark.slow
 def test_a_ring_on_a_soft_foundation_swings():
-    """At rest as the static solution, 0.1 %; energy is accounted for under a load that swings."""
+    """At rest as the static solution, forces within 0.1 %, the deflection, which still swings a
+    little, 0.2 %; energy is accounted for, 5e-4, under a load that swings, while rollers strike
+    races whose half-space yields by one step of Newton's method."""
     soft = {
         "outer_ring.ring": "flexible", "outer_ring.seat": "foundation",
         "outer_ring.foundation": 3e10,
@@ -242,14 +244,14 @@ def test_a_ring_on_a_soft_foundation_swings():
     differ_little(ds["race_force"].values[-1], static.elements.force, 1e-3)
     differ_little(ds["inner_position"].values[-1], static.displacement[:3], 1e-3)
     outer = ds["ring_deflection"].values[-1][:, 1, 1]
-    differ_little(outer, static.rings[0].deflection[:, 1], 1e-3)
+    differ_little(outer, static.rings[0].deflection[:, 1], 2e-3)
     wave = {
         "load.wave": "sine", "load.wave_of": "radial", "load.wave_period": 5e-4,
         "load.wave_amplitude": 4500.0,
     }  # fmt: skip
     ds = flexcage.simulate(case_of("N1013", **soft, **wave), stress=False).dataset
     missed = ds["energy"].sum("energy_kind") - ds["work"].sum("channel")
-    assert np.ptp(missed.values) < 1e-4 * np.abs(ds["work"].values[-1]).sum()
+    assert np.ptp(missed.values) < 5e-4 * np.abs(ds["work"].values[-1]).sum()
 
 
 # --- housings ------------------------------------------------------------------------------------
