@@ -27,7 +27,14 @@ def without_balls(tmp_path_factory):
     def run(*command):
         return subprocess.run(command, cwd=copy, env=env, capture_output=True, text=True)
 
+    run.copy = copy
     return run
+
+
+#: What a test of ball bearings, or on one of their presets, has in its text.
+BALLS = re.compile(r"ball|groove|ribbon|crown|7010|6205|7603025", re.IGNORECASE)
+#: Rooms in which bearings move; the others' tests take long, or know no family.
+ROOMS = ("bearings", "contacts", "solve", "system")
 
 
 def _edit(path, pattern):
@@ -61,3 +68,15 @@ def test_rollers_remain_and_a_ball_bearing_is_refused(without_balls):
     done = without_balls(sys.executable, "-c", code)
     assert done.returncode == 0, done.stderr
     assert "bearing.type 'angular_contact_ball' is not known" in done.stdout
+
+
+@pytest.mark.slow
+def test_tests_of_rollers_pass(without_balls):
+    """All of these rooms that say nothing of balls."""
+    for folder in ("tests", "examples"):
+        shutil.copytree(ROOT / folder, without_balls.copy / folder)
+    tests = [p for room in ROOMS for p in (without_balls.copy / "tests" / room).glob("test_*.py")]
+    of_rollers = [str(path) for path in tests if not BALLS.search(path.read_text("utf-8"))]
+    assert len(of_rollers) >= 16
+    done = without_balls(sys.executable, "-m", "pytest", "-p", "no:cacheprovider", *of_rollers)
+    assert done.returncode == 0, done.stdout + done.stderr

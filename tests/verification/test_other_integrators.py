@@ -22,6 +22,7 @@ Bounds are seven standard errors of these differences, and more of the cage spee
 from __future__ import annotations
 
 from importlib.util import find_spec
+from itertools import pairwise
 from pathlib import Path
 
 import numpy as np
@@ -82,15 +83,17 @@ def test_both_methods_find_the_same_forces(settled, start):
 
 @needs_ida
 def test_same_trajectory(settled, start):
-    """Over the first half millisecond, and the closer the tighter the tolerance."""
+    """Over the first half millisecond, and the closer the tighter the tolerance: by a hundred in
+    three steps of ten. One step may gain less, where a contact begins at another moment."""
     peers, reference, forces = start
     weight = settled.bearing.error_weights(UNIT)
     misses = []
-    for share in (1e-1, 1e-2, 1e-3):
+    for share in (1e-1, 1e-2, 1e-3, 1e-4):
         path = peers.ida(share, max_order=5)
         misses.append(np.abs((path.ys - reference.ys) * weight).max())
-    assert misses[2] < 2.0
-    assert misses[2] < 0.3 * misses[1] < 0.3 * misses[0]
+    assert misses[3] < 0.5
+    assert all(after < 0.5 * before for before, after in pairwise(misses))
+    assert misses[3] < 0.02 * misses[0]
     race, cage = settled.forces(path.ys, path.yds, peers.times).error(forces)
     assert race < 1e-4
     assert cage < 1e-2
