@@ -95,6 +95,8 @@ class MotionSpecs(Protocol):
     @property
     def mount(self) -> Mount: ...
     @property
+    def rings_bend(self) -> bool: ...
+    @property
     def constraints(self) -> Sequence[Constraint]: ...
     @property
     def seed(self) -> int: ...
@@ -201,18 +203,13 @@ def bent_rings(specs: MotionSpecs) -> tuple[BentRing, ...]:
 
 
 def _moving_rings(specs: MotionSpecs) -> MovingRings | None:
-    if not _bends(specs):
+    if not specs.rings_bend:
         return None
     rings = replace(_rings_of(specs), heavier=heaviest_load(specs.load))
     seat = compliance_of(specs.mount, specs.bearing)
     stands = specs.mount.kind == "fixed" and seat is None
     made = moving_rings(rings, _statics(specs, rings, seat), stands=stands)
     return made if seat is None else in_housing(made, specs.bearing, rings, specs.mount, seat)
-
-
-def _bends(specs: MotionSpecs) -> bool:
-    """Do rings bend, or does the outer ring move in a housing that yields?"""
-    return _rings_of(specs).bend or bool(specs.mount.body)
 
 
 def _rings_of(specs: MotionSpecs) -> Rings:
@@ -235,7 +232,7 @@ def _assembled(
     """``interface``: what moves in the cage's pockets; ``rings``: those that bend, any if they are
     left out."""
     motion, output = motion_of(specs.bearing), specs.output
-    bends = _bends(specs)
+    bends = specs.rings_bend
     model = motion.build_model(
         specs.bearing, specs.cage, body, interface, contacts=specs.contacts,
         lubricant=specs.lubricant, drive=specs.drive, load=specs.load, mount=specs.mount,

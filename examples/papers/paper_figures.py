@@ -11,6 +11,8 @@ import numpy as np
 from matplotlib.axes import Axes
 from paper_page import Picture
 
+from flexcage.render.claim_map import draw_claim_map
+
 if TYPE_CHECKING:
     from repeat import Computed
 
@@ -24,6 +26,17 @@ def stress(computed: Computed, folder: Path, title: str, caption: str) -> list[P
         return []
     copyfile(found, folder / "stress.png")
     return [Picture("stress.png", title, caption)]
+
+
+def claim_map(
+    computed: Computed, column: str, key: str, path: Path, title: str, of: str = "the map"
+) -> Path:
+    """Points of a map, ``of`` in words, by whether a claim holds there."""
+    joined, found = computed.maps[column], computed.found[column][key]
+    return draw_claim_map(
+        path, title=title, subtitle=f"claim {key}, {found.share} of {of}", names=joined.names[:-1],
+        ranges=joined.ranges, shares=joined.shares, outcomes=found.outcomes,
+    )  # fmt: skip
 
 
 def bands(

@@ -1,9 +1,8 @@
-"""A spall of a race: its dimensions, its words, and where none can be; and what spots of elements
-share with it and with each other."""
+"""A spall of a race: its dimensions, its words, and where none can be."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from math import pi
 from typing import TYPE_CHECKING
@@ -72,35 +71,6 @@ def covered(
     half = 0.5 * slice_width
     over = np.minimum(centres + half, high) - np.maximum(centres - half, low)
     return np.clip(over / slice_width, 0.0, 1.0)
-
-
-def marked(count: int, elements: Sequence[int]) -> np.ndarray:
-    """1 for each of ``count`` elements that has a spot, else 0 (records hold no booleans)."""
-    has = np.zeros(count, np.int64)
-    has[list(elements)] = 1
-    return has
-
-
-def spotted_in_words(element: str, elements: Sequence[int], what: str) -> str:
-    """A sentence on the elements that have a spot; empty if there is none."""
-    if not elements:
-        return ""
-    *most, last = map(str, elements)
-    numbers = f"{', '.join(most)} and {last}" if most else last
-    return f" {element}{'s' if most else ''} {numbers} {'have' if most else 'has'} a {what}."
-
-
-def find_off_count(
-    where: str, spots: Mapping[str, Sequence[int]], element: str, count: int
-) -> Iterator[tuple[str, str]]:
-    """Numbers of spotted elements, by their key, that no element of a bearing has."""
-    for key, numbers in spots.items():
-        for number in numbers:
-            if not 0 <= number < count:
-                yield (
-                    f"{where}.{key}",
-                    f"{where}.{key} is {number}, but the {element}s are numbered 0 to {count - 1}.",
-                )
 
 
 def find_in_spall(b: Bearing, ring: str, radius: float, reach: float) -> Iterator[tuple[str, str]]:

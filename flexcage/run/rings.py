@@ -13,6 +13,7 @@ from flexcage.results.metrics import settled
 from flexcage.stages import bent_rings
 from flexcage.static import draw_ring
 from flexcage.stress.series import samples_near
+from flexcage.system.rings_in_motion import SIDES
 from flexcage.system.statics.rings import BentRing, SeatedRing
 
 if TYPE_CHECKING:
@@ -45,7 +46,7 @@ def rings_at(run: Run, time: float | str | None) -> tuple[float, tuple[BentRing,
     load, moved = ds["ring_load"].values[k], ds["ring_deflection"].values[k]
     found = []
     for ring in seated:
-        side = ("inner", "outer").index(ring.side)
+        side = SIDES.index(ring.side)
         placed = replace(ring, azimuth=azimuth)
         force = load[:, side] @ ring.to_v
         pressed = ds["support_force"].values[k] if len(ring.support) else np.empty(0)

@@ -75,9 +75,14 @@ class Reduction:
     reduce: str
 
     def of(self, run: Run) -> Figure:
-        """The figure, with its unit and, where windows of the run give one, its margin."""
-        part = whole_revolutions(settled(run.dataset, run.case.output.settle))
+        """The figure, with its unit and, where windows of the run give one, its margin; NaN where
+        the run has no such variable: modes of a rigid cage, rings that do not bend."""
+        reducer = REDUCTIONS[self.reduce]
+        unit = self.variable.unit if reducer.unit is None else reducer.unit
         name, dim = self.variable.name, self.variable.dims[0]
+        if name in VARIABLES and name not in run.dataset:
+            return Figure(nan, unit)
+        part = whole_revolutions(settled(run.dataset, run.case.output.settle))
         array = DERIVED[name].compute(part, run.numbers) if name in DERIVED else part[name]
         for along, label in self.selection.items():
             places = counted(label)
@@ -94,8 +99,6 @@ class Reduction:
                 array = array.isel({along: places[0] if ":" not in label else slice(*places)})
         values, t = array.transpose(dim, ...).values, array[dim].values
         step = float(t[-1] - t[0]) / (len(t) - 1)
-        reducer = REDUCTIONS[self.reduce]
-        unit = self.variable.unit if reducer.unit is None else reducer.unit
         half, turns = nan, 1
         if reducer.record is not None and dim == TIME:
             half = reducer.record(element_passes(part, run.numbers), values).margin
@@ -252,19 +255,31 @@ def _check_known(name: str, dim: str, label: str, labels: Collection[str]) -> No
         raise InputError(f"Output '{name}': there is no {dim} '{label}'; {hint}.")
 
 
+#: Dimensions of what only rings that bend have: what that is, what a study without lacks, and what
+#: gives it.
+OF_RINGS = {
+    "bending": (
+        "rings that bend", "every ring of the study is rigid", "outer_ring.ring = 'flexible'",
+    ),
+    "support": (
+        "supports of an outer ring that bends", "no ring of the study has any",
+        "outer_ring.ring = 'flexible' and outer_ring.seat = 'arcs'",
+    ),
+}  # fmt: skip
+
+
 def check_outputs(
     names: tuple[str, ...], *, family: str, sizes: Mapping[str, int], flexible: bool,
     riveted: bool = False, materials: Collection[str] = (),
-    reactions: Collection[str] = CONSTRAINTS, bends: bool = False,
+    reactions: Collection[str] = CONSTRAINTS, rings: Collection[str] = (),
 ) -> None:  # fmt: skip
     """Raise InputError for the first output that no run of the study can give.
 
     ``sizes`` holds the least length in any case of dimensions that are counted (rolling elements,
     pockets, slices), ``family`` is that of the bearings, ``flexible`` says whether any
     cage is, ``riveted`` whether one of these is riveted, ``materials`` names those of all
-    cages, ``reactions`` the constraints that every case has, and ``bends`` says whether any ring
-    bends. Raises EnvironmentLacks for
-    fatigue without pyLife.
+    cages, ``reactions`` the constraints that every case has, and ``rings`` those of the
+    dimensions ``OF_RINGS`` that any case has. Raises EnvironmentLacks for fatigue without pyLife.
     """
     if not names:
         raise InputError("The study has no outputs; name some, such as 'cage_speed'.")
@@ -275,10 +290,10 @@ def check_outputs(
             reduction = parse_reduction(name)
             needs = reduction.variable.name.startswith(("modal_", "residual_"))
             _check_family(name, _families(reduction.variable.name), family)
-            if {"bending", "support"} & set(reduction.variable.dims) and not bends:
+            for dim in OF_RINGS.keys() & set(reduction.variable.dims) - set(rings):
+                what, lacks, remedy = OF_RINGS[dim]
                 raise InputError(
-                    f"Output '{name}' is of rings that bend, but every ring of the study is rigid; "
-                    "set outer_ring.ring = 'flexible' or leave it out.",
+                    f"Output '{name}' is of {what}, but {lacks}; set {remedy} or leave it out.",
                     where="outputs",
                     value=name,
                 )

@@ -57,9 +57,10 @@ def make_plan(study: Study) -> Plan:
     _check_columns(study)
     points = points_of(study.axes)
     cases, seen = [], dict[str, int]()
-    family, flexible, riveted, bends = study.case.bearing.family, False, False, False
+    family, flexible, riveted = study.case.bearing.family, False, False
     sizes = _counts(study.case)
     materials, held = dict[str, None](), set(names_of(study.case.constraints))
+    rings = set[str]()
     for number, point in enumerate(points):
         for repetition in range(study.repeat.count):
             try:
@@ -79,13 +80,13 @@ def make_plan(study: Study) -> Plan:
             sizes = {dim: min(size, sizes[dim]) for dim, size in _counts(case).items()}
             flexible |= case.cage_model == "flexible"
             riveted |= case.riveted
-            bends |= case.rings_bend
+            rings |= _of_rings(case)
             materials[case.cage.material.name] = None
             held = held.intersection(names_of(case.constraints))
             cases.append(Planned(number, point, repetition, case.hash, _modes_key(case)))
     check_outputs(
         study.outputs, sizes=sizes, flexible=flexible, riveted=riveted, family=family,
-        materials=materials, reactions=(*CONSTRAINTS, *sorted(held)), bends=bends,
+        materials=materials, reactions=(*CONSTRAINTS, *sorted(held)), rings=rings,
     )  # fmt: skip
     return Plan(study, tuple(cases))
 
@@ -95,6 +96,13 @@ def _counts(case: Case) -> dict[str, int]:
     count = case.bearing.element_count
     own = own_variables(family_of(case.bearing)).sizes
     return {"element": count, "pocket": count, "slice": case.contacts.pocket.slices, **own}
+
+
+def _of_rings(case: Case) -> set[str]:
+    """Dimensions of ``OF_RINGS`` that a case's results have."""
+    ring = case.outer_ring
+    has = {"bending": case.rings_bend, "support": ring.bends and bool(ring.held_at)}
+    return {dim for dim, there in has.items() if there}
 
 
 def _modes_key(case: Case) -> str:

@@ -295,6 +295,14 @@ def test_a_text_is_no_output_of_a_study(name, what):
         check_outputs((name,), sizes={}, flexible=True, family="cylindrical_roller")
 
 
+def test_what_a_run_does_not_record_is_nan():
+    """So a study may compare a rigid cage, or rigid rings, with what bends."""
+    run = simulate(short_case(**{"solver.duration": "0.2 ms"}))
+    for name in ("modal_velocity.rms", "ring_deflection.max", "support_force.max"):
+        assert np.isnan(parse_reduction(name).of(run).value)
+    assert parse_reduction("race_force.max").of(run).value > 0.0
+
+
 def test_parts_of_a_counted_dimension_make_up_the_whole():
     run = simulate(short_case(**{"output.settle": 0.2}))
     whole, one, two, rest = (

@@ -213,6 +213,7 @@ def test_mistakes_in_the_file(name, tmp_path, capsys):
         (("stress_peak",), "needs a flexible cage"),
         (("modal_velocity.rms",), "needs a flexible cage"),
         (("ring_deflection.max",), "every ring of the study is rigid"),
+        (("support_force.max",), "no ring of the study has any; set outer_ring.ring = 'flexible'"),
         (("cage_speed", "cage_speed"), "twice"),
     ],
 )

@@ -14,18 +14,28 @@ from flexcage.solve import bdf, runge_kutta
 from flexcage.solve.integrators import INTEGRATORS
 from flexcage.system.constraints import names_of
 from flexcage.system.data import POWERS
-from flexcage.system.layout import Layout
+from flexcage.system.layout import CAGE, INNER, OUTER, Layout
 from flexcage.system.problem import Bearing, new_samples
 from flexcage.system.scales import work_weights
 from flexcage.system.spec import Drive, Load, Mount
 
 N1013 = load_preset("N1013").bearing
-#: What makes an N1013 another design; ribs of both rings are 1.95 mm high.
 #: On the edge of which roller 0 stands, on the inner race.
 PIT = RollerSpot(size=1e-3, depth=50e-6, angle=np.pi + 0.115)
+#: What makes an N1013 another design; ribs of both rings are 1.95 mm high.
 NU = {"design": "NU", "rib_diameter": 86.6e-3}
 NUP = {**NU, "design": "NUP", "counter_rib_diameter": 78.4e-3, "counter_rib_gap": 8.03e-3}
 BETWEEN_RIBS = Load(radial=1000.0, axial=440.0)
+
+
+def unbalanced(work, elements):
+    """Sum (2,) [N] of the forces on all bodies across the axis after a residual, over that of their
+    sizes, with elements at places (Z, ...) r, x, azimuth."""
+    cos, sin = np.cos(elements[:, 2]), np.sin(elements[:, 2])
+    along = work.wrenches[:, 1] * cos - work.wrenches[:, 2] * sin
+    across = work.wrenches[:, 1] * sin + work.wrenches[:, 2] * cos
+    bodies = sum(work.border[k + 1 : k + 3] for k in (INNER, CAGE)) + work.border[OUTER:][:2]
+    return (bodies + [along.sum(), across.sum()]) / np.abs(work.wrenches[:, :3]).sum()
 
 
 def assembled(model, contacts, constraints=()) -> Bearing:

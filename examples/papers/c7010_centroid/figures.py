@@ -8,11 +8,10 @@ from pathlib import Path
 import numpy as np
 from claims import SPEEDS
 from outputs import PLANE, at_plane, axial, setup_of
-from paper_figures import bands, stress
+from paper_figures import bands, claim_map, stress
 from paper_page import Picture, Table
 
 from flexcage.render import sheet
-from flexcage.render.claim_map import draw_claim_map
 from flexcage.results import instrument, metrics
 
 PRINTED = tomllib.loads((Path(__file__).with_name("printed.toml")).read_text("utf-8"))
@@ -48,14 +47,8 @@ def draw(computed, folder: Path) -> list[Picture]:
     orbits(computed, folder / "figure_9_10.png")
     ratios(computed, folder / "figure_11.png")
     differences(computed, folder / "tables_4_5.png")
-    key = "003-3"
-    joined = computed.maps[TEST]
-    draw_claim_map(
-        folder / "map_003_3.png", title="Where the whirl grows and tends to a circle",
-        subtitle=f"claim {key}, {computed.found[TEST][key].share} of the map of the test",
-        names=joined.names[:-1], ranges=joined.ranges, shares=joined.shares,
-        outcomes=computed.found[TEST][key].outcomes,
-    )  # fmt: skip
+    title, of = "Where the whirl grows and tends to a circle", "the map of the test"
+    claim_map(computed, TEST, "003-3", folder / "map_003_3.png", title, of)
     return [
         Picture("figure_6_7.png", "Figures 6 and 7: readings and centre at 10,000 rpm",
                 "First start of the better model. Left: what the radial lasers show, and the "

@@ -10,12 +10,11 @@ from pathlib import Path
 import numpy as np
 from claims import CAGES, SHORTER
 from outputs import AFTER, AT, BEFORE, PLACES
-from paper_figures import stress
+from paper_figures import claim_map, stress
 from paper_page import Picture, Table
 
 from flexcage import Run
 from flexcage.render import sheet
-from flexcage.render.claim_map import draw_claim_map
 from flexcage.results import metrics
 
 PRINTED = tomllib.loads((Path(__file__).with_name("printed.toml")).read_text("utf-8"))
@@ -49,12 +48,8 @@ def draw(computed, folder: Path) -> list[Picture]:
     for file, title, note, curves, limits in histories:
         over_time(computed, folder / f"{file}.png", title, note, curves, limits)
     orbits(computed, folder / "figure_10_16.png")
-    joined, found = computed.maps[MAP], computed.found[MAP][MAPPED]
-    draw_claim_map(
-        folder / "map_000_7.png", title="Where a moved crossbeam makes roller j-1 slip as printed",
-        subtitle=f"claim {MAPPED}, {found.share} of the map", names=joined.names[:-1],
-        ranges=joined.ranges, shares=joined.shares, outcomes=found.outcomes,
-    )  # fmt: skip
+    title = "Where a moved crossbeam makes roller j-1 slip as printed"
+    claim_map(computed, MAP, MAPPED, folder / "map_000_7.png", title)
     return [
         Picture("figure_8_14.png", "Figures 8 and 14: stress of the cage",
                 f"First starts. The dashed line is the printed number, {ROOT} MPa; all others of "

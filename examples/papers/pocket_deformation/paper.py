@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 from claims import BENT1, BENT2, CAGES, CLAIMS, DROP, LONGER, SHORTER, SOUND, WITHIN
 from figures import BETTER, FLEXIBLE, MAP, MPA, PRINTED_MODEL, ROOT, UM, draw, tables
+from paper_weighed import rechecked
 from repeat import Computed, Paper, Words
 
 from flexcage.core.digits import percent_text
@@ -249,22 +250,8 @@ def readings(computed: Computed) -> list[str]:
         "**A rigid cage in the map** has no stress, so claims on stress are decided by points of "
         "the map with a flexible one: changed from the better model's starts after results were "
         "seen, which opened 000-8 and 000-8b. A rigid cage pinches harder than a flexible one.",
-        *_flexible(c),
+        *rechecked(c, "whirl"),
     ]  # fmt: skip
-
-
-def _flexible(computed: Computed) -> list[str]:
-    """What a flexible cage changes at the points that were rechecked."""
-    rigid, (results,) = computed.maps[MAP].parts[0], computed.maps[FLEXIBLE].parts
-    same, both, points = 0, 0, set()
-    for claim in computed.paper.claims:
-        pairs = list(zip(rigid.judge(claim.holds), results.judge(claim.holds)))
-        known = [k for k, (one, other) in enumerate(pairs) if other is not None]
-        points |= set(known)
-        both += sum(pairs[k][0] is not None for k in known)
-        same += sum(pairs[k][0] == pairs[k][1] for k in known)
-    return [f"**Flexible cage.** {len(points)} points of the map were computed anew with an "
-            f"elastic cage: {same} of {both} outcomes are as with a rigid one."]  # fmt: skip
 
 
 PAPER = Paper(

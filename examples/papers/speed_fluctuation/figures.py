@@ -10,12 +10,11 @@ from pathlib import Path
 import numpy as np
 from claims import CONDITIONS, CONSTANT, OVER_A, OVER_N
 from outputs import HARMONICS, analytical
-from paper_figures import bands, stress
+from paper_figures import bands, claim_map, stress
 from paper_page import Picture, Table
 
 from flexcage import Run, load_case
 from flexcage.render import sheet
-from flexcage.render.claim_map import draw_claim_map
 from flexcage.results import metrics
 
 PRINTED = tomllib.loads((Path(__file__).with_name("printed.toml")).read_text("utf-8"))
@@ -62,13 +61,8 @@ def draw(computed, folder: Path) -> list[Picture]:
         (("speed", RPM, "mean, rpm"), ("swing", PERCENT, "fluctuation, %")),
         printed=True,
     )
-    found = computed.found[MODEL][MAPPED]
-    joined = computed.maps[MODEL]
-    draw_claim_map(
-        folder / "map_002_3b.png", title="Where force between ball and cage grows with A and N",
-        subtitle=f"claim {MAPPED}, {found.share} of the map of the model", names=joined.names[:-1],
-        ranges=joined.ranges, shares=joined.shares, outcomes=found.outcomes,
-    )  # fmt: skip
+    title, of = "Where force between ball and cage grows with A and N", "the map of the model"
+    claim_map(computed, MODEL, MAPPED, folder / "map_002_3b.png", title, of)
     return [
         Picture("figure_5_6_13.png", "Figures 5, 6 and 13: cage speed over time",
                 "First starts, the last four turns of the ring. The paper's Figure 5 has 922 rpm "

@@ -21,7 +21,7 @@ from flexcage.contacts.race import race_work
 from flexcage.contacts.spec import Contacts, Lubricant
 from flexcage.contacts.uneven import is_uneven, uneven_race
 from flexcage.geometry.hertz import PointContact
-from flexcage.geometry.spall import marked
+from flexcage.geometry.spot import marked
 from flexcage.system.bodies import bodies_of, land_data, unbalanced
 from flexcage.system.data import Bodies, Work, new_work
 from flexcage.system.layout import Layout

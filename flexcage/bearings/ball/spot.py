@@ -10,13 +10,10 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from flexcage.core.spec import option, quantity
-from flexcage.core.units import mm, typeset
-from flexcage.geometry.spall import find_off_count, spotted_in_words
+from flexcage.geometry.spot import find_in_spots, spotted_in_words
 
 if TYPE_CHECKING:
     from flexcage.bearings.ball.bearing import BallBearing
-
-_WIDEST = 0.25  # of the ball's diameter, to which a spot is small against the ball
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -59,27 +56,12 @@ class BallSpot:
 
     def in_words(self) -> str:
         """A sentence on it; empty if there is none."""
-        deep = "" if self.kind == "flat" else f", {typeset(self.depth, 'um')} deep"
-        what = f"{self.kind} of {typeset(self.size, 'mm')}{deep}"
-        return spotted_in_words("Ball", self.balls, what)
+        return spotted_in_words("Ball", self.balls, self)
 
 
 def find_in_spot(b: BallBearing) -> Iterator[tuple[str, str]]:
     """What is impossible in the spot of a bearing's ball; where, and in a sentence."""
-    spot, most, deepest = b.ball_spot, _WIDEST * b.ball_diameter, 0.1 * b.ball_diameter
-    if not spot.size:
-        return
-    named = {"ball": (spot.ball,), "others": spot.others}
-    yield from find_off_count("bearing.ball_spot", named, "ball", b.ball_count)
-    if spot.size > most:
-        yield (
-            "bearing.ball_spot.size",
-            f"bearing.ball_spot.size is {mm(spot.size)}; give a quarter of the ball's diameter, "
-            f"{mm(most)}, or less.",
-        )
-    if spot.kind == "pit" and spot.depth > deepest:
-        yield (
-            "bearing.ball_spot.depth",
-            f"bearing.ball_spot.depth is {mm(spot.depth)}; give a tenth of the ball's diameter, "
-            f"{mm(deepest)}, or less.",
-        )
+    spot = b.ball_spot
+    if spot.size:
+        named = {"ball": (spot.ball,), "others": spot.others}
+        yield from find_in_spots(b, "bearing.ball_spot", spot, named, b.ball_diameter)

@@ -27,7 +27,7 @@ from flexcage.contacts.rib import RibData
 from flexcage.contacts.spec import Contacts, Lubricant
 from flexcage.contacts.state import Q_SKEW, Q_SPIN, Q_TILT
 from flexcage.contacts.uneven import is_uneven, uneven_race
-from flexcage.geometry.spall import marked
+from flexcage.geometry.spot import marked
 from flexcage.modes.basis import CageInterface
 from flexcage.system.bodies import bodies_of, elastic_constants, land_data, unbalanced
 from flexcage.system.data import Bodies, Work, new_work

@@ -9,13 +9,12 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from flexcage.core.spec import option, quantity
-from flexcage.core.units import mm, typeset
-from flexcage.geometry.spall import covered, find_off_count, spotted_in_words
+from flexcage.core.units import mm
+from flexcage.geometry.spall import covered
+from flexcage.geometry.spot import find_in_spots, spotted_in_words
 
 if TYPE_CHECKING:
     from flexcage.bearings.cylindrical_roller.bearing import RollerBearing
-
-_WIDEST = 0.25  # of the roller's diameter, to which a spot is small against the roller
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -58,31 +57,16 @@ class RollerSpot:
 
     def in_words(self) -> str:
         """A sentence on it; empty if there is none."""
-        deep = "" if self.kind == "flat" else f", {typeset(self.depth, 'um')} deep"
-        what = f"{self.kind} of {typeset(self.size, 'mm')}{deep}"
-        return spotted_in_words("Roller", self.rollers, what)
+        return spotted_in_words("Roller", self.rollers, self)
 
 
 def find_in_spot(b: RollerBearing) -> Iterator[tuple[str, str]]:
     """What is impossible in the spot of a bearing's roller; where, and in a sentence."""
-    spot, where = b.roller_spot, "bearing.roller_spot"
-    most, deepest, reach = _WIDEST * b.roller_diameter, 0.1 * b.roller_diameter, b.effective_length
+    spot, where, reach = b.roller_spot, "bearing.roller_spot", b.effective_length
     if not spot.size:
         return
     named = {"roller": (spot.roller,), "others": spot.others}
-    yield from find_off_count(where, named, "roller", b.roller_count)
-    if spot.size > most:
-        yield (
-            f"{where}.size",
-            f"{where}.size is {mm(spot.size)}; give a quarter of the roller's diameter, "
-            f"{mm(most)}, or less.",
-        )
-    if spot.kind == "pit" and spot.depth > deepest:
-        yield (
-            f"{where}.depth",
-            f"{where}.depth is {mm(spot.depth)}; give a tenth of the roller's diameter, "
-            f"{mm(deepest)}, or less.",
-        )
+    yield from find_in_spots(b, where, spot, named, b.roller_diameter)
     if spot.width is not None and abs(spot.offset) - 0.5 * spot.width >= 0.5 * reach:
         yield (
             f"{where}.offset",

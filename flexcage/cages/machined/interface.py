@@ -222,9 +222,8 @@ def indentations(cage: BallCage, shapes: PocketShapes, stations: np.ndarray) -> 
     flats = station_hats(sides, len(stations))
     lengths = 2.0 * shapes.slot[:, [0, 1, 0, 1]]
     widths = even[:, None] + lengths @ flats.T
-    return np.array(
-        [[mean_indentation(cage.warm_material, w, height) for w in row] for row in widths]
-    )
+    material = cage.warm_material
+    return np.array([[mean_indentation(material, w, height) for w in row] for row in widths])
 
 
 def mean_indentation(material: Material, width: float, height: float) -> float:
