@@ -35,7 +35,8 @@ _DURATION = "20 ms"
 @dataclass(frozen=True, kw_only=True)
 class NewCase:
     """A written case: its text, and what it was inferred from. ``candidates`` are those whose
-    ratings fit, best first; ``chosen`` is the first of them that leaves a cage its place."""
+    ratings fit, best first; ``chosen`` is the first of them that leaves a cage its place. ``notes``
+    say what of the bearing is left out."""
 
     name: str
     text: str
@@ -43,16 +44,19 @@ class NewCase:
     source: str
     chosen: Candidate
     candidates: Sequence[Candidate]
+    notes: Sequence[str] = ()
 
     def findings(self) -> list[str]:
         """Lines for a terminal: what was inferred, how well it fits, and what fits nearly."""
-        return _findings(self.outline, self.source, self.chosen, self.candidates)
+        return _findings(self.outline, self.source, self.chosen, self.candidates, self.notes)
 
 
-def new_case(outline: Outline, source: str, *, cage: str | None = None) -> NewCase:
+def new_case(
+    outline: Outline, source: str, *, cage: str | None = None, notes: Sequence[str] = ()
+) -> NewCase:
     """The case of a bearing that a catalogue, named by ``source``, describes, with the type of
     cage that such bearings commonly have or with another; InputError if there is no such bearing
-    or none of its cages is of that type."""
+    or none of its cages is of that type. ``notes`` are written into its head."""
     check_type(outline.type)
     inside = inside_of(BEARING_TYPES[outline.type])
     candidates = ranked(inside.candidates(outline))
@@ -62,14 +66,14 @@ def new_case(outline: Outline, source: str, *, cage: str | None = None) -> NewCa
     for candidate in candidates:
         try:
             proposed = propose(candidate.bearing)
-            text = _text(outline, source, candidate, candidates, proposed)
+            text = _text(outline, source, candidate, candidates, proposed, notes)
             load_case(text)
         except InputError as exc:
             refused = refused or exc
             continue
         return NewCase(
             name=case_name(outline), text=text, outline=outline, source=source, chosen=candidate,
-            candidates=candidates,
+            candidates=candidates, notes=notes,
         )  # fmt: skip
     assert refused is not None  # there is a candidate, or ``ranked`` has raised
     raise refused
@@ -97,14 +101,16 @@ def case_name(outline: Outline) -> str:
 
 
 def _findings(
-    outline: Outline, source: str, chosen: Candidate, candidates: Sequence[Candidate]
-) -> list[str]:
+    outline: Outline, source: str, chosen: Candidate, candidates: Sequence[Candidate],
+    notes: Sequence[str],
+) -> list[str]:  # fmt: skip
     static, dynamic = chosen.bearing.rating_names
     others = [c for c in candidates if c is not chosen][: SHOWN - 1]
     return [
         f"{chosen.bearing.name_and_size}",
         f"Ratings: {dynamic} = {_kn(outline.dynamic_rating)}, "
         f"{static} = {_kn(outline.static_rating)} ({source}).",
+        *(f"{note}." for note in notes),
         f"Inside, inferred: {_residuals(chosen)}.",
         *(
             f"{'Next best' if k == 0 else '     then'}: {_residuals(c)}."
@@ -130,10 +136,11 @@ def _kn(force: float) -> str:
 
 def _text(
     outline: Outline, source: str, chosen: Candidate, candidates: Sequence[Candidate],
-    proposed: ProposedCage,
+    proposed: ProposedCage, notes: Sequence[str],
 ) -> str:  # fmt: skip
     name, bearing = case_name(outline), chosen.bearing
-    head = [f"# {in_one_line(line)}" for line in _findings(outline, source, chosen, candidates)]
+    told = _findings(outline, source, chosen, candidates, notes)
+    head = [f"# {in_one_line(line)}" for line in told]
     given = _given(outline)
     load = "axial" if outline.contact_angle else "radial"
     sections = [

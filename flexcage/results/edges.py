@@ -48,7 +48,7 @@ class Edge:
     def row(self) -> Row:
         where = "over the edge: " if self.beyond > 0.0 else "within the groove by that much: "
         where += (
-            f"{self.kind} {self.element}, {self.force:.4g} N at {degrees(self.angle):.4g} deg, "
+            f"{self.kind} {self.element}, {self.force:.4g} N at {round(degrees(self.angle), 3) + 0.0:.4g} deg, "
             f"t = {self.time * 1e3:.3f} ms"
         )
         return figure(f"edge_{self.race}", self.beyond, where)

@@ -204,3 +204,27 @@ def test_ratings_that_no_inside_can_give_get_a_sentence():
         new_case(Outline(**(vars(N406) | {"inner_race_diameter": 80e-3})), "given")
     with pytest.raises(InputError, match="needs the contact angle"):
         new_case(Outline(**(vars(own) | {"type": "angular_contact_ball"})), "given")
+
+
+@pytest.mark.parametrize(
+    ("designation", "clearance", "notes"),
+    [
+        ("6205-2RS C3", 18e-6, ["2RS: seals"]),  # 13 to 28 um, normal 5 to 20: 8 um more
+        ("6302-Z/C2", 3e-6, ["Z: a shield"]),  # 0 to 9 um, normal 3 to 18; not a 630-2Z
+        ("6205ZZ", 10e-6, ["ZZ: shields"]),
+        ("NU 210 C4", 60e-6, []),  # 70 to 100 um, normal 30 to 60
+        ("NU210 C2", 0.0, []),  # 25 um less than the 20 um of normal ones: none remains
+    ],
+)
+def test_marks_after_a_designation_name_seals_and_clearance(designation, clearance, notes):
+    entry = catalogue.find(designation)
+    made = new_case(entry.outline, entry.source, notes=entry.notes)
+    case = load_case(made.text)
+    assert case.bearing.radial_clearance == pytest.approx(clearance, abs=1e-12)
+    assert [note.split(",")[0] for note in entry.notes] == notes
+    assert all(f"# {note}" in made.text for note in entry.notes)
+
+
+def test_angular_contact_bearings_have_no_groups_of_clearance():
+    with pytest.raises(InputError, match="'C3' names a group of radial clearance"):
+        catalogue.find("7208B C3")
