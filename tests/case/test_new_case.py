@@ -210,7 +210,7 @@ def test_ratings_that_no_inside_can_give_get_a_sentence():
     ("designation", "clearance", "notes"),
     [
         ("6205-2RS C3", 18e-6, ["2RS: seals"]),  # 13 to 28 um, normal 5 to 20: 8 um more
-        ("6302-Z/C2", 3e-6, ["Z: a shield"]),  # 0 to 9 um, normal 3 to 18; not a 630-2Z
+        ("6302-Z/C2", 4e-6, ["Z: a shield"]),  # 0 to 9 um, normal 3 to 18; not a 630-2Z
         ("6205ZZ", 10e-6, ["ZZ: shields"]),
         ("NU 210 C4", 60e-6, []),  # 70 to 100 um, normal 30 to 60
         ("NU210 C2", 0.0, []),  # 25 um less than the 20 um of normal ones: none remains
