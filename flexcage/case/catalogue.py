@@ -51,6 +51,9 @@ def find(text: str) -> Entry:
     if marked := split(name, _ratings()):
         bare = _entry(marked.bare)
         return replace(bare, outline=marked.applied(bare.outline), notes=marked.notes)
+    if full := _with_suffix(name):
+        entry = _entry(full)
+        return replace(entry, source=f"{entry.source}; {text} means {full}")
     if not _parsed(name) and (told := told_elsewhere(name, OTHER_DESIGNS)):
         raise InputError(f"'{text}': {told}{_same_rollers(name)}.", where="designation", value=text)
     raise _without_ratings(text, name) or InputError(
@@ -59,6 +62,14 @@ def find(text: str) -> Entry:
         where="designation",
         value=text,
     )
+
+
+def _with_suffix(name: str) -> str:
+    """A designation with the suffix that numbers of its series may leave out, the A of a contact
+    angle of 30 degrees (NTN, Ball and Roller Bearings, CAT. No. 2203/E); empty if it has none."""
+    parsed = _parsed(name)
+    full = f"{name}{parsed[0]['omitted']}" if parsed and not parsed[2] else ""
+    return full if full in _ratings() else ""
 
 
 WAY = (
@@ -110,7 +121,7 @@ def _without_ratings(text: str, name: str) -> InputError | None:
     others = [n for n in _ratings() if re.fullmatch(rf"{series['series']}{code}\D*", n)]
     has = f" (it has {', '.join(others)})" if others else ""
     return InputError(
-        f"The catalogue has no ratings of '{text}'{has}. Give them: add "
+        f"The catalogue has no ratings of '{text}'{has}{_same_rollers(name)}. Give them: add "
         f"{', '.join(['--dynamic', '--static', *wanted])} to flexcage new {name} --type "
         f'{series["type"]}{design} --bore "{bore}" --outside "{outside}" --width "{width}"{angle}.',
         where="designation",
@@ -152,8 +163,8 @@ def _ratings() -> dict[str, dict[str, str]]:
 
 @cache
 def _series() -> dict[str, dict[str, str]]:
-    """Type and design of bearing and diameter series of ISO 15 by series, and series of other
-    designs that have its rolling elements and races."""
+    """By series: type and design of bearing, diameter series of ISO 15, series of other designs
+    that have its rolling elements and races, and the suffix that numbers may leave out."""
     return {row["series"]: row for row in rows("series")}
 
 
