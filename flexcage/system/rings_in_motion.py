@@ -102,7 +102,9 @@ def in_housing(
     moved, unit = housing_coordinates(bearing, raceway, compliance, mass, outer)
     late = np.full(len(outer), rings.outer.relaxation)
     count = len(loads.azimuth)
-    swings = swings_of(count, moved.harmonic, moved.quarter, moved.shape, moved.stiffness, late)
+    swings = swings_of(
+        count, moved.harmonic, moved.quarter, moved.shape, moved.section, moved.stiffness, late
+    )
     made.data.way[:] = np.argmax(TO_V[raceway.line], axis=0)
     carried = (moved.waves(loads.azimuth) * moved.at_start) @ moved.shape @ TO_V[raceway.line].T
     return replace(made, swings=swings, at_start=moved.at_start, unit=unit, carried=carried)

@@ -83,8 +83,8 @@ def test_supports_press_and_are_not_entered(holds):
         between = root @ root.T + 0.05 * np.eye(6)
         room = rng.standard_normal(6)
         swings = swings_of(
-            1, none, none, np.zeros((0, 2)), np.zeros((0, 0)), nothing, azimuth=np.zeros(6),
-            between=between, holds=holds,
+            1, none, none, np.zeros((0, 2)), np.zeros((0, 3)), np.zeros((0, 0)), nothing,
+            azimuth=np.zeros(6), between=between, holds=holds,
         )  # fmt: skip
         swings.room[:] = room
         press_supports(swings)

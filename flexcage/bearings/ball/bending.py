@@ -1,7 +1,7 @@
 """Balls in motion between rings that bend: the residual of ``residual`` with races that yield.
 
-A ball meets a groove as one of a rigid ring that is displaced as the race is at its azimuth; lands
-stay with the seats.
+A ball meets a groove as one of a rigid ring that is displaced as the race is at its azimuth; the
+outer ring's land follows it where that swings (``system.ring_walls``), the inner one's its seat.
 """
 
 from __future__ import annotations
@@ -80,11 +80,11 @@ def evaluate(t, y, yd, d, law, out, mode):
         ball_in_pocket(i, qi, ui, Rc, Vc, modes, d, law, mode)
         ball_rows(i, qi, ui, qd[own], ud[own], d, r_q[own], r_u[own], mode)
     ring_rows(s, yd[bent:], rings, out[bent:])
-    swing_rows(y, yd, d, out)
     if mode >= REPORT:
         ring_report(u, q, s, rings, fields(d.report))
         swing_report(q, u, y, d)
     law[SHARED](t, y, yd, d, law[:FAMILY_PARTS], out, mode)
+    swing_rows(y, yd, d, out)
 
 
 @part

@@ -1,7 +1,8 @@
 """Rollers in motion between rings that bend: the residual of ``residual`` with races that yield.
 
 A roller meets a race as one of a rigid ring that is displaced and tilted as the race is at its
-azimuth; ribs and lands stay with the seats.
+azimuth; the outer ring's ribs and land follow it where that swings (``system.ring_walls``), those
+of the inner one its seat.
 """
 
 from __future__ import annotations
@@ -18,16 +19,25 @@ from flexcage.bearings.cylindrical_roller.residual import (
     beside_inner,
     beside_outer,
     inner_ribs,
-    outer_ribs,
     report_outer,
     report_race,
+    report_ribs,
     roller_rows,
     set_bodies,
 )
 from flexcage.bearings.cylindrical_roller.scales import roller_weights
 from flexcage.bearings.cylindrical_roller.start import roller_start_between_bent_rings
-from flexcage.contacts.evaluation import OUTER_RING, RACE_LAW, RACE_RUBS, REPORT, RESIDUAL
+from flexcage.contacts.evaluation import (
+    OUTER_RING,
+    RACE_LAW,
+    RACE_RUBS,
+    REPORT,
+    RESIDUAL,
+    RIB_LAW,
+    RIB_RUBS,
+)
 from flexcage.contacts.race import meet_race, push_by_race, rub_race
+from flexcage.contacts.rib import rib_contact
 from flexcage.contacts.slices import Laws, normal_forces_of_lot
 from flexcage.contacts.state import AXIS, CENTRE, Q_SPIN, SPIN, VELOCITY, take_pose
 from flexcage.core.jit import VECTORISED, fields, part
@@ -38,6 +48,7 @@ from flexcage.system.bending import (
     bend_rings,
     displace,
     guess,
+    orbit_of,
     push_by_slopes,
     ring_forces_at,
     ring_report,
@@ -47,6 +58,7 @@ from flexcage.system.bending import (
 from flexcage.system.data import FAMILY_PARTS, INNER_RACE, OUTER_RACE
 from flexcage.system.layout import CAGE, OUTER, Q_CAGE, Q_OUTER, places
 from flexcage.system.motion import BendingMotion, bending_model, parts_type
+from flexcage.system.ring_walls import bear_ribs, carry_ribs
 from flexcage.system.swinging import push_swings, swing, swing_report, swing_rows
 
 BendingRollerModel = bending_model("BendingRollerModel", RollerModel, __name__)
@@ -70,7 +82,7 @@ def evaluate(t, y, yd, d, law, out, mode):
     for first in range(0, Z, lot):
         span = (first, min(first + lot, Z))
         _outer_contacts(span, q, rest_q, rest_u, s, d, law, asked)
-    outer_ribs(q, rest_q[Q_OUTER:Q_CAGE], rest_u[OUTER:CAGE], d, law, asked)
+    _outer_ribs(q, u, rest_q, rest_u, d, law, asked)
     for i in range(Z):
         take_pose(fields(d.scratch).poses[i], fields(d.pose))
         push_swings(i, d)
@@ -83,10 +95,10 @@ def evaluate(t, y, yd, d, law, out, mode):
         ring_report(u, q, s, rings, fields(d.report))
         swing_report(q, u, y, d)
     ring_rows(s, yd[bent:], rings, out[bent:])
-    swing_rows(y, yd, d, out)
     law[POCKETS](t, y, yd, d, law[:FAMILY_PARTS], out, mode)
     roller_rows(q, u, qd, ud, d, out[: at.rest_q], out[at.u : at.rest_u], mode)
     law[SHARED](t, y, yd, d, law[:FAMILY_PARTS], out, mode)
+    swing_rows(y, yd, d, out)
 
 
 @part
@@ -143,6 +155,27 @@ def _outer_contacts(span, q, rest_q, rest_u, s, d, law, mode):
         add_outer(i, d, mode)
         if mode >= REPORT:
             report_race(i, OUTER_RACE, work.sums, fields(d.report))
+
+
+@part
+def _outer_ribs(q, u, rest_q, rest_u, d, law, mode):
+    """Rollers on the outer ring's ribs, if it has any, which swing with it."""
+    pose, pair, work = fields(d.pose), fields(d.pair), fields(d.scratch)
+    ribs, at = fields(d.outer_rib), fields(d.race_work).partner[0]
+    laws, sl = Laws(law[RIB_LAW], law[RIB_RUBS]), fields(d.slices).row[0]
+    out_q, out_u = rest_q[Q_OUTER:Q_CAGE], rest_u[OUTER:CAGE]
+    if ribs.end <= ribs.first:
+        return
+    for i in range(work.poses.shape[0]):
+        take_pose(work.poses[i], pose)
+        beside_outer(i, q, out_q, out_u, d, at)
+        carry_ribs(i, orbit_of(q, u, i), at, d)
+        speeds = fields(d.memory).rib[i, ribs.column :]
+        if rib_contact(pose, at, ribs, speeds, laws, sl, pair, mode, work.sums):
+            bear_ribs(i, at[CENTRE], d)
+            add_outer(i, d, mode)
+            if mode >= REPORT:
+                report_ribs(i, ribs.column, work.sums, fields(d.report))
 
 
 @part

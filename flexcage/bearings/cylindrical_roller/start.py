@@ -12,6 +12,7 @@ from the first touch, so that the run begins assembled.
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from copy import copy
 from dataclasses import dataclass, replace
 
@@ -25,13 +26,23 @@ from flexcage.contacts.pocket_wall import with_offset
 from flexcage.core.errors import InputError, RunFailed
 from flexcage.geometry.kinematics import epicyclic
 from flexcage.system.constraints import OFF, no_rows
-from flexcage.system.data import FREE_AXIAL, FREE_SKEW, FREE_TILT, LOOSE, OUTER_CLEARANCE
+from flexcage.system.data import (
+    FREE_AXIAL,
+    FREE_SKEW,
+    FREE_TILT,
+    INNER_RACE,
+    LOOSE,
+    OUTER_CLEARANCE,
+    OUTER_RACE,
+)
 from flexcage.system.layout import Layout
+from flexcage.system.left_behind import left_by_ribs
 from flexcage.system.newton import assemble, newton_step
 from flexcage.system.problem import Bearing
-from flexcage.system.rings_in_motion import held_rings
+from flexcage.system.ring_walls import lands_follow
+from flexcage.system.rings_in_motion import MovingRings, held_rings
 from flexcage.system.start import Advance, Start, StaticStart, made_room
-from flexcage.system.swinging import no_swings
+from flexcage.system.swinging import standing
 
 _SMALL = 1e-7  # of the load: where an equilibrium is accepted
 _BALANCED = 1e-6  # of the load: what may stay unbalanced at last
@@ -425,7 +436,8 @@ def roller_start_between_bent_rings(
     assert bearing.rings is not None, "rings bend as in a static solution"
     held, model = copy(bearing), bearing.data.model
     rings = held_rings(bearing.rings)
-    still = model._replace(rings=rings, swings=no_swings(bearing.layout.elements))
+    stands = standing(bearing.layout.elements, model.swings, bearing.rings.at_start)
+    still = lands_follow(model._replace(rings=rings, swings=stands))
     held.data = bearing.data._replace(model=still)
     held.layout = replace(bearing.layout, ring_modes=0)
     start = roller_start(held, limit_force=limit_force, statics=None, advance=advance)
@@ -433,4 +445,14 @@ def roller_start_between_bent_rings(
     y, yd = bearing.rings.begun(start.y, bearing.layout), np.zeros(bearing.layout.size)
     yd[: len(start.yd)] = start.yd
     bearing.layout.ring_forces(y)[:] = rings.force
-    return replace(start, y=y, yd=yd)
+    told = (*start.warnings, *_left_by_ribs(bearing.rings, model))
+    return replace(start, y=y, yd=yd, warnings=told)
+
+
+def _left_by_ribs(moving: MovingRings, model: RollerModel) -> Iterator[str]:
+    """Sentences on ribs that do not follow how their ring bends."""
+    for side, ribs in ((INNER_RACE, model.rib), (OUTER_RACE, model.outer_rib)):
+        if ribs.first < ribs.end:
+            height = float(model.bodies.radius.mean() - np.abs(ribs.points[:, 0]).min())
+            play = 2.0 * (ribs.half_gap - ribs.half_roller)
+            yield from left_by_ribs(moving, side, height, play)
