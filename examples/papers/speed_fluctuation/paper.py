@@ -223,7 +223,7 @@ PAPER = Paper(
     decided_by={claim.key: MODEL for claim in CLAIMS},
     # Points at the ranks 0, 1/4, 1/2, 3/4 and 1 of the cage's fluctuation at constant speed, which
     # parts the two regimes: chosen before any of these runs; fewer conditions for time.
-    rechecks={"map_bearing.toml": (3, 10, 14, 4, 13)},
+    rechecks={"map_model.toml": (0, 1, 3, 13, 4), "map_bearing.toml": (3, 10, 14, 4, 13)},
     recheck_conditions=(CONSTANT, A3, A9),
     stress=("case.toml", {
         "cage.model": "flexible", "drive.wave": "sine", "drive.wave_amplitude": "120 rpm",
