@@ -297,6 +297,7 @@ PAPER = Paper(
     columns={"better": BETTER},
     alone={MODEL: ("reading_printed.toml", "printed"),
            FLEXIBLE: ("reading_flexible.toml", "flexible")},
+    beside={FLEXIBLE: "reading_rivets.toml"},
     maps={CAGE: ("map_cage_6747.toml", "map_cage_6470.toml")},
     decided_by=DECIDED_BY,
     studies=("design.toml",),
