@@ -25,10 +25,12 @@ LOOKS = Looks((8, 16, 30))
 
 @dataclass(frozen=True)
 class Reading:
-    """One reading of a study whose axes are called "condition" and "reading"."""
+    """One reading of a study whose axes are called "condition" and "reading"; what it does not put
+    out may be in a study ``beside`` it, of the same reading and conditions."""
 
     label: str
     results: StudyResults
+    beside: Reading | None = None
 
     @cached_property
     def _rows(self) -> dict[str, list]:
@@ -40,9 +42,12 @@ class Reading:
         return found
 
     def values(self, output: str, condition: str) -> np.ndarray:
-        """An output of every start that is done (starts,), SI."""
+        """An output of every start that is done (starts,), SI; NaN where no study puts it out."""
+        own = output in self.results.about.outputs
+        if not own and self.beside is not None:
+            return self.beside.values(output, condition)
         rows = [r for r in self._rows.get(condition, ()) if r.state == "done"]
-        return np.array([float(r.figures[output].value) for r in rows])
+        return np.array([float(r.figures[output].value) if own else np.nan for r in rows])
 
     def said(self, output: str, condition: str, factor: float) -> str:
         """Mean of the starts with half its 95 % interval; of two to seven the mean alone."""
@@ -66,9 +71,15 @@ class Reading:
         return [r.reason for rows in self._rows.values() for r in rows if r.state == "failed"]
 
     def at_look(self) -> Values:
-        """Values of as many starts as the last planned look that is complete has."""
+        """Values of as many starts as the last planned look that is complete has; NaN where a study
+        beside has fewer."""
         n = self.look
-        return lambda output, condition: self.values(output, condition)[:n]
+
+        def at(output: str, condition: str) -> np.ndarray:
+            found = self.values(output, condition)
+            return found[:n] if len(found) >= n else np.full(n, np.nan)
+
+        return at
 
     @property
     def look(self) -> int:
@@ -175,9 +186,11 @@ def conditions_of(claim: Claim) -> set[str]:
 
 
 def mapped(claim: Claim, results: Joined) -> Mapped:
-    """One claim judged at every point of a map; not at all where the map lacks its conditions."""
+    """One claim judged at every point of a map; not at all where the map lacks its conditions or
+    outputs."""
     there = set.intersection(*(set(part.conditions) for part in results.parts))
-    if not conditions_of(claim) <= there:
+    put_out = set.intersection(*(set(part.study.about.outputs) for part in results.parts))
+    if not (conditions_of(claim) <= there and set(claim.outputs) <= put_out):
         return not_mapped()
     outcomes = results.judge(claim.holds)
     parts = {name: share(results.judge(part.holds)) for name, part in claim.parts.items()}

@@ -62,7 +62,8 @@ class Paper:
     """A paper: where it is from, its claims, the columns of its matrix, and what its page shows.
 
     ``columns`` names the readings of ``readings`` by their labels, ``alone`` those that have a
-    study of their own (its file, their label), ``maps`` the files that make a column, ``rechecks``
+    study of their own (its file, their label), ``beside`` files of studies that put out more of
+    such a reading, ``maps`` the files that make a column, ``rechecks``
     files of maps whose ``points`` are computed anew with a flexible cage, under all conditions or
     ``recheck_conditions``; all rechecked points are a column of their own where
     ``recheck_column`` names it. ``studies`` are computed beside, and ``stress`` is what changes the
@@ -78,6 +79,7 @@ class Paper:
     maps: Mapping[str, Sequence[str]]
     decided_by: Mapping[str, str]
     alone: Mapping[str, tuple[str, str]] = field(default_factory=dict)
+    beside: Mapping[str, str] = field(default_factory=dict)
     studies: Sequence[str] = ()
     rechecks: Mapping[str, Sequence[int]] = field(default_factory=dict)
     recheck_conditions: Sequence[str] = ()
@@ -156,7 +158,7 @@ def run(paper: Paper, folder: Path, out: Path, *, workers: int, quick: bool) -> 
         run_study(study, out=_of(out, file), workers=workers, progress=Progress)
     if quick:
         return
-    for file in paper.studies:
+    for file in (*paper.studies, *paper.beside.values()):
         run_study(load_study(folder / file), out=_of(out, file), workers=workers, progress=Progress)
     for file in dict.fromkeys(
         (*(f for files in paper.maps.values() for f in files), *paper.weighed)
@@ -183,11 +185,15 @@ def collect(paper: Paper, out: Path) -> Computed:
     """What the folders hold, judged."""
     study = StudyResults(_of(out, paper.readings))
     readings = {column: Reading(label, study) for label, column in paper.columns.items()}
+    aside = {
+        column: Reading(paper.alone[column][1], StudyResults(_of(out, file)))
+        for column, file in paper.beside.items() if _of(out, file).is_dir()
+    }  # fmt: skip
     readings |= {
-        column: Reading(label, StudyResults(_of(out, file)))
+        column: Reading(label, StudyResults(_of(out, file)), aside.get(column))
         for column, (file, label) in paper.alone.items() if _of(out, file).is_dir()
     }  # fmt: skip
-    studies = {id(r.results): r.results for r in readings.values()}
+    studies = {id(r.results): r.results for r in (*readings.values(), *aside.values())}
     there = {
         column: Joined([MapResults(_of(out, f)) for f in files if _of(out, f).is_dir()])
         for column, files in paper.maps.items()
@@ -201,10 +207,10 @@ def collect(paper: Paper, out: Path) -> Computed:
         for column, joined in there.items()
     }
     mapped_files = {f for files in paper.maps.values() for f in files}
-    aside = [_of(out, f) for f in paper.weighed if f not in mapped_files]
+    screens = [_of(out, f) for f in paper.weighed if f not in mapped_files]
     all_maps = [
         *(part for column in paper.maps for part in there[column].parts), *again.values(),
-        *(MapResults(p) for p in aside if p.is_dir()),
+        *(MapResults(p) for p in screens if p.is_dir()),
     ]  # fmt: skip
     computed = Computed(
         paper, readings, there, found, again, (),

@@ -21,7 +21,7 @@ from claims import (
 )
 from figures import BETTER, CAGE, FLEXIBLE, MODEL, draw, mean, tables
 from paper_page import number
-from paper_weighed import rechecked
+from paper_weighed import Asked, rechecked
 from repeat import Computed, Paper, Words
 from scipy.stats import rankdata, spearmanr
 
@@ -40,6 +40,15 @@ DECIDED_BY = (
 )
 """Rivets are stressed in flexible cages alone, which no map has, and no map varies the races: these
 are decided by eight starts of one reading."""
+#: Numbers that claims are judged by, whose unknowns are weighed: chosen before the runs.
+WEIGHED = tuple(
+    Asked(f"{words}, {cage}", output, f"{cage} 9000", factor)
+    for cage in ("modified", "original")
+    for words, output, factor in (
+        ("force [N]", FORCE, 1.0), ("slip [%]", "slip", 100.0),
+        ("slip by sliding [%]", "traction", 100.0), ("tilt [deg]", "psi", DEG),
+    )
+)  # fmt: skip
 
 
 def said(reading, output: str, condition: str, factor: float = 1.0) -> str:
@@ -288,11 +297,13 @@ PAPER = Paper(
     columns={"better": BETTER},
     alone={MODEL: ("reading_printed.toml", "printed"),
            FLEXIBLE: ("reading_flexible.toml", "flexible")},
+    beside={FLEXIBLE: "reading_rivets.toml"},
     maps={CAGE: ("map_cage_6747.toml", "map_cage_6470.toml")},
     decided_by=DECIDED_BY,
     studies=("design.toml",),
     rechecks={"map_cage_6747.toml": (0, 3, 6), "map_cage_6470.toml": (1, 4)},
     recheck_conditions=("modified 9000", "original 9000"),
+    weighed={"screen_6747.toml": WEIGHED},
     stress=("case.toml", {
         "cage.model": "flexible", "cage.pocket_diameter": "7.2 mm", "cage.width": "8 mm",
     }),

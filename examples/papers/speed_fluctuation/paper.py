@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from claims import A3, A6, A9, CLAIMS, CONSTANT, N2, N3
 from figures import BEARING, BETTER, MODEL, PERCENT, PRINTED_MODEL, RPM, UM, draw, tables
-from paper_weighed import rechecked
+from paper_weighed import Asked, rechecked
 from repeat import Computed, Paper, Words
 
 from flexcage.core.digits import percent_text
@@ -13,6 +13,20 @@ from flexcage.core.digits import percent_text
 CALM = 0.01  # fluctuation at constant speed below which a cage is calm
 DRIVEN = 10.0  # N between a ball and the cage, above which friction drives it
 CASES = (CONSTANT, A3, A6, A9, N2, N3)
+#: Numbers that claims are judged by, whose unknowns are weighed: chosen before the runs.
+WEIGHED = (
+    Asked("mean speed of the cage [rpm], constant", "speed_whole", CONSTANT, RPM),
+    *(
+        Asked(f"{words}, {condition}", output, condition, factor)
+        for condition in (CONSTANT, A6)
+        for words, output, factor in (
+            ("fluctuation of the cage [%]", "swing", PERCENT),
+            ("largest distance of the cage [um]", "distance", UM),
+            ("largest force of a ball on the cage [N]", "one_force", 1.0),
+            ("largest distance of the ring [um]", "ring_distance", UM),
+        )
+    ),
+)  # fmt: skip
 
 
 def middle(computed: Computed, column: str, output: str, condition: str, factor: float) -> str:
@@ -223,8 +237,9 @@ PAPER = Paper(
     decided_by={claim.key: MODEL for claim in CLAIMS},
     # Points at the ranks 0, 1/4, 1/2, 3/4 and 1 of the cage's fluctuation at constant speed, which
     # parts the two regimes: chosen before any of these runs; fewer conditions for time.
-    rechecks={"map_bearing.toml": (3, 10, 14, 4, 13)},
+    rechecks={"map_model.toml": (0, 1, 3, 13, 4), "map_bearing.toml": (3, 10, 14, 4, 13)},
     recheck_conditions=(CONSTANT, A3, A9),
+    weighed={"screen_model.toml": WEIGHED},
     stress=("case.toml", {
         "cage.model": "flexible", "drive.wave": "sine", "drive.wave_amplitude": "120 rpm",
         "drive.wave_period": "10 ms", "solver.duration": "60 ms",
