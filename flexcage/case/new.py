@@ -6,7 +6,7 @@ import json
 import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, fields
-from math import floor, log10
+from math import ceil, floor, log10
 from typing import Any
 
 from flexcage.bearings.family import inside_of
@@ -16,20 +16,15 @@ from flexcage.case.presets import NAMED
 from flexcage.core.binding import default_of, did_you_mean, to_table
 from flexcage.core.errors import InputError, in_one_line
 from flexcage.core.units import describe
-from flexcage.geometry.bearing import BEARING_TYPES, check_type
+from flexcage.geometry.bearing import BEARING_TYPES, Bearing, check_type
 from flexcage.geometry.cage import cages_of
-from flexcage.geometry.inside import (
-    Candidate,
-    Outline,
-    ProposedCage,
-    in_short,
-    ranked,
-)
+from flexcage.geometry.inside import Candidate, Outline, ProposedCage, in_short, ranked
+from flexcage.geometry.kinematics import rolling_shares
 
 SHOWN = 4  # candidates that are told
 _LOAD = 0.05  # of the dynamic rating
 _SPEED = 250.0  # m/min, speed [rpm] times pitch diameter: moderate for any bearing
-_DURATION = "20 ms"
+_PASSES, _SETTLED = 24, 0.7  # elements pass in this share of the duration: enough for intervals
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -143,18 +138,22 @@ def _text(
     head = [f"# {in_one_line(line)}" for line in told]
     given = _given(outline)
     load = "axial" if outline.contact_angle else "radial"
+    speed = _speed(bearing.pitch_diameter)
     sections = [
         ("bearing", _entries(bearing, {"type": "", "designation": "", **given, **chosen.reasons})),
         ("cage", [
             ("model", '"flexible"', ""),
             *_entries(proposed.cage, {"type": "", **proposed.reasons}),
         ]),
-        ("drive", [("speed", f'"{_speed(bearing.pitch_diameter)} rpm"', "assumption: moderate")]),
+        ("drive", [("speed", f'"{speed} rpm"', "assumption: moderate")]),
         ("load", [(
             load, f'"{_two_digits(_LOAD * outline.dynamic_rating):g} N"',
             f"assumption: {_LOAD:.0%} of the dynamic rating",
         )]),
-        ("solver", [("duration", f'"{_DURATION}"', "assumption: a first look")]),
+        ("solver", [(
+            "duration", f'"{_duration(bearing, speed)} ms"',
+            "long enough for means and their intervals",
+        )]),
     ]  # fmt: skip
     lines = [
         *head,
@@ -201,6 +200,15 @@ def _aligned(entries: Sequence[tuple[str, str, str]]) -> list[str]:
 def _speed(pitch_diameter: float) -> int:
     """Speed [rpm], to two digits."""
     return int(_two_digits(_SPEED / pitch_diameter))
+
+
+def _duration(bearing: Bearing, speed: float) -> int:
+    """Duration [ms], to ten, in whose settled part the cage turns once and elements pass often
+    enough; ``speed`` [rpm] is the inner ring's."""
+    ratio = bearing.element_diameter / bearing.pitch_diameter
+    angle = bearing.nominal_contact_angle
+    turns = rolling_shares(ratio, (angle, angle)).orbit * speed / 60e3  # of the cage, in a ms
+    return 10 * ceil(max(1.0, _PASSES / bearing.element_count) / (10.0 * _SETTLED * turns))
 
 
 def _two_digits(value: float) -> float:
