@@ -51,11 +51,11 @@ SHOWN: dict[str, tuple[str, float]] = {
 
 
 #: What counts as nothing, by the SI unit: what rounding and the solver's tolerance leave of a zero.
-#: Angles in degrees are of contacts: 1e-10 m across two grooves' centres, a few tenths of a
+#: Angles in degrees are of contacts: 1e-9 m across two grooves' centres, a few tenths of a
 #: millimetre apart. Rates by the hour have none: those of wear are small and real.
 RESOLUTION = {
     "m": 1e-10, "rad": 1e-9, "rad/s": 1e-9, "m/s": 1e-9, "N": 1e-6, "N m": 1e-9, "Pa": 1.0,
-    "J": 1e-12, "W": 1e-9, "Hz": 1e-6, "1": 1e-12, "deg": 1e-6,
+    "J": 1e-12, "W": 1e-9, "Hz": 1e-6, "1": 1e-12, "deg": 5e-6,
 }  # fmt: skip
 
 
