@@ -34,6 +34,7 @@ SHOWN: dict[str, tuple[str, float]] = {
     "N mm": ("N m", 1e3),
     "W": ("W", 1.0),
     "MPa": ("Pa", 1e-6),
+    "GPa": ("Pa", 1e-9),
     "mJ": ("J", 1e3),
     "s": ("s", 1.0),
     "ms": ("s", 1e3),

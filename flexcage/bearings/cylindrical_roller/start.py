@@ -6,7 +6,8 @@ implicit Euler step from rest, whose length grows as it succeeds). Rollers stay 
 their orbit, where friction would hold them, and between the ribs that guide them, those of a ring
 that is free along the axis or in tilt included; only where ribs of both rings bear an axial load do
 they find their place along the axis. A pinched cage finds its place, and a free one is moved off a
-land that the ring would press. Where a defect leaves less than no clearance its size grows in steps
+land that the ring would press. A roller that stands on its spot would roll off its edges, and is
+held. Where a defect leaves less than no clearance its size grows in steps
 from the first touch, so that the run begins assembled.
 """
 
@@ -167,9 +168,8 @@ def _between_ribs(model: RollerModel, layout: Layout, y: np.ndarray) -> np.ndarr
 
 
 class _Frictionless:
-    """The bearing without friction, damping, drag, rolling resistance and gravity, without films,
-    and without a roller's spot, from whose edges it would roll; ``lands``: with the cage's dry
-    lands, which a free cage is to keep off by itself."""
+    """The bearing without friction, damping, drag, rolling resistance and gravity, and without
+    films; ``lands``: with the cage's dry lands, which a free cage is to keep off by itself."""
 
     def __init__(self, bearing: Bearing, offset: np.ndarray, *, lands: bool = False) -> None:
         model = bearing.data.model
@@ -184,7 +184,6 @@ class _Frictionless:
             outer=model.outer._replace(rolling=np.zeros(2)),
             land=model.land._replace(kind=land),
             pocket=with_offset(model.pocket, offset),
-            spot=model.spot._replace(has=0 * model.spot.has),
         )
         self.bearing = bearing
         free = bearing.data.constraints
@@ -290,18 +289,20 @@ def _load(model: RollerModel) -> float:
 class Held:
     """Motions that friction holds while the bearing is brought to equilibrium without it."""
 
-    rollers: np.ndarray  # (Z, 6) along the orbit; sideways and in skew unless pinched
+    # (Z, 6) along the orbit; sideways and in skew unless pinched; in spin on the edges of a spot
+    rollers: np.ndarray
     cage: np.ndarray  # (6,) where a pinch holds the cage: all but those along which it squeezes
 
 
-def _held(tight: np.ndarray, *, along: bool) -> Held:
-    """What is held where pockets are too small across or along (Z, 2) for their rollers; ``along``:
-    do rollers find their place along the axis?"""
+def _held(tight: np.ndarray, spotted: np.ndarray, *, along: bool) -> Held:
+    """What is held where pockets are too small across or along (Z, 2) for their rollers, and of
+    those (Z,) that have a spot; ``along``: do rollers find their place along the axis?"""
     pinched = np.any(tight, axis=1)
     rollers = np.zeros((len(tight), 6), bool)
     rollers[:, 2] = True
     rollers[~pinched, 0] = not along
     rollers[~pinched, 4] = True
+    rollers[spotted, 3] = True
     cage = np.full(6, bool(pinched.any()))
     cage[0] &= not tight[:, 1].any()  # side beams find their place along x
     cage[3] &= not tight[:, 0].any()  # crossbeams by turning about it
@@ -326,7 +327,8 @@ def _equilibrate(system: _Frictionless, y: np.ndarray, yd: np.ndarray, tight: np
     ``tight`` (Z, 2) marks the pockets that are too small for their roller at this stage.
     """
     model = system.data.model
-    held, load = _held(tight, along=_bearing_ribs(model) != 0), _load(model)
+    held = _held(tight, model.spot.has > 0, along=_bearing_ribs(model) != 0)
+    load = _load(model)
     layout = system.bearing.layout
     nq, n_qu = layout.n_q, layout.n_q + layout.n_u
     bodies = model.bodies
