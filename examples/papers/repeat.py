@@ -102,7 +102,7 @@ class Computed:
     found: Mapping[str, Mapping[str, Mapped]]
     rechecks: Mapping[str, MapResults]
     lines: Sequence[Line]
-    seconds: float
+    times: Mapping[str, float]  # of every study and map, in all processes together [s]
     out: Path
 
     @property
@@ -193,7 +193,9 @@ def collect(paper: Paper, out: Path) -> Computed:
         column: Reading(label, StudyResults(_of(out, file)), aside.get(column))
         for column, (file, label) in paper.alone.items() if _of(out, file).is_dir()
     }  # fmt: skip
-    studies = {id(r.results): r.results for r in (*readings.values(), *aside.values())}
+    others = [StudyResults(_of(out, f)) for f in paper.studies if _of(out, f).is_dir()]
+    read = [*(r.results for r in (*readings.values(), *aside.values())), *others]
+    studies = {str(results.folder.path): results for results in read}
     there = {
         column: Joined([MapResults(_of(out, f)) for f in files if _of(out, f).is_dir()])
         for column, files in paper.maps.items()
@@ -212,12 +214,12 @@ def collect(paper: Paper, out: Path) -> Computed:
         *(part for column in paper.maps for part in there[column].parts), *again.values(),
         *(MapResults(p) for p in screens if p.is_dir()),
     ]  # fmt: skip
-    computed = Computed(
-        paper, readings, there, found, again, (),
-        sum(r.seconds for found in studies.values() for r in found.stored.values())
-        + sum(results.seconds for results in all_maps),
-        out,
-    )  # fmt: skip
+    times = {
+        Path(path).name: sum(row.seconds for row in results.stored.values())
+        for path, results in studies.items()
+    }  # fmt: skip
+    times |= {results.study.folder.path.name: results.seconds for results in all_maps}
+    computed = Computed(paper, readings, there, found, again, (), times, out)
     starts = {column: cells_of_starts(paper.claims, r) for column, r in readings.items()}
     starts |= {
         column: {claim.key: Cell(UNDECIDED, "not computed") for claim in paper.claims}
@@ -254,14 +256,20 @@ def write(computed: Computed, folder: Path) -> Path:
         readings=[
             *words.readings,
             f'"{paper.source}". Written on {date.today():%-d %B %Y} with flexcage '
-            f"{flexcage.__version__}; its runs took {computed.seconds / 60.0:,.0f} minutes of one "
-            "process on a busy machine.",
+            f"{flexcage.__version__}; its runs took {_minutes(computed.times)}.",
         ],
         unknowns=next(iter(computed.maps.values())).unknowns(), weighed=table, files=files,
     )  # fmt: skip
     draw_matrix(page, folder / "matrix.png")
     (folder / "README.md").write_text(compose(page), encoding="utf-8")
     return folder / "README.md"
+
+
+def _minutes(times: Mapping[str, float]) -> str:
+    """How long all runs took, and those of every study, in words."""
+    each = ", ".join(f"{name} {seconds / 60.0:,.0f}" for name, seconds in times.items())
+    total = sum(times.values()) / 60.0
+    return f"{total:,.0f} minutes of one process on a busy machine ({each})"
 
 
 def main(arguments: Sequence[str] | None = None) -> Computed:

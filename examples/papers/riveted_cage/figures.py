@@ -80,6 +80,8 @@ def sweep(computed, path: Path, title: str, panels, columns: int) -> Path:
                 ax.plot(list(map(float, printed)), list(printed.values()), "X", ms=6,
                         color=sheet.INK, label="paper, Table 3")  # fmt: skip
             places = [at(c, base) for c in conditions]
+            if len(places) == 3:
+                ax.set_xticks(places)
             ax.set_xlim(min(places) - 0.05 * np.ptp(places), max(places) + 0.05 * np.ptp(places))
             if output in (FORCE, "rivet"):
                 ax.set_ylim(0.0, 60.0 if output == FORCE else None)
@@ -228,9 +230,9 @@ def slip(computed, path: Path) -> Path:
             low, mid, high = np.nanpercentile(found, (10.0, 50.0, 90.0))
             ax.bar(len(names) - 1, high - low, 0.5, low, color="0.75")
             ax.plot(len(names) - 1, mid, "o", color=sheet.INK)
-            for source, marker in (("experimental", "X"), ("artificial", "P")):
+            for source, marker, aside in (("experimental", "X", 0.7), ("artificial", "P", 0.5)):
                 ax.axhline(PRINTED["table_4"][source][cage], color="0.4", lw=0.8, ls="--")
-                ax.plot(len(names) - 0.6, PRINTED["table_4"][source][cage], marker, ms=8,
+                ax.plot(len(names) - aside, PRINTED["table_4"][source][cage], marker, ms=8,
                         color=sheet.INK, label=f"paper, {source}")  # fmt: skip
             ax.axhline(0.0, color=sheet.INK, lw=0.8)
             ax.set(title=f"{cage} cage", xticks=range(len(names)), ylabel="%", ylim=(-7.0, 3.5))

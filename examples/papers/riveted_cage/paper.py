@@ -175,9 +175,8 @@ def words(computed: Computed) -> Words:
         "best, as claimed.",
         "**No fatigue by the printed force.** A nominal range of 69 MPa becomes at most 12 MPa at "
         "the root, since clamped heads carry it by friction. By the modified Neuber rule the cycle "
-        "is elastic and lasts beyond 1e11 cycles. CalculiX has 9 % more at the root under "
-        "interference and about 40 MPa of range where this model has 15: ranges and lives may be "
-        "off by that factor.",
+        "is elastic and lasts beyond 1e11 cycles. CalculiX on the same mesh, with contact and "
+        "friction, has the same ranges of a cycle at the roots within 2.3 %.",
     ]  # fmt: skip
     readings = [
         "**Better model.** Balls of 6.747 mm (17/64 inch; 6.47 mm is no standard size), 8.25 N m "
