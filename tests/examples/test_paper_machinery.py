@@ -6,6 +6,7 @@ import json
 import sys
 from dataclasses import replace
 from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -101,6 +102,44 @@ class KnownMap:
     def judge(self, test):
         values = self.means("y", "a")
         return [None if np.isnan(v) else test(lambda *_, v=v: v) for v in values]
+
+
+def of_starts(values, label="flexible"):
+    """What a study has of one condition: outputs by name, each (starts,)."""
+
+    def row(start):
+        figures = {k: SimpleNamespace(value=v[start]) for k, v in values.items()}
+        point = SimpleNamespace(labels={"reading": label, "condition": "a"})
+        return SimpleNamespace(
+            planned=SimpleNamespace(point=point), state="done", figures=figures, reason=""
+        )
+
+    starts = len(next(iter(values.values())))
+    about = SimpleNamespace(outputs=tuple(values))
+    return SimpleNamespace(rows=[row(k) for k in range(starts)], about=about)
+
+
+def test_a_study_beside_a_reading_puts_out_more_of_it():
+    """What neither puts out is NaN, and so is what the one beside has of too few starts."""
+    from paper_results import Reading
+
+    many, few = {"root": np.arange(8.0), "edge": np.ones(8)}, {"root": np.arange(5.0)}
+    own = of_starts({"force": np.arange(10.0)})
+    reading = Reading("flexible", own, Reading("flexible", of_starts(many)))
+    at = reading.at_look()
+    assert reading.look == 8
+    np.testing.assert_array_equal(at("force", "a"), np.arange(8.0))
+    np.testing.assert_array_equal(at("root", "a"), np.arange(8.0))
+    assert np.isnan(at("tilt", "a")).all() and len(at("tilt", "a")) == 8
+    less = Reading("flexible", own, Reading("flexible", of_starts(few))).at_look()
+    assert np.isnan(less("root", "a")).all()
+
+
+def test_a_page_says_how_long_every_study_took():
+    import repeat
+
+    said = repeat._minutes({"readings": 90.0, "map": 3600.0})
+    assert said == "62 minutes of one process on a busy machine (readings 2, map 60)"
 
 
 @pytest.mark.parametrize(("kind", "factor"), [("sample", 1.0), ("morris", 1e3)])

@@ -111,7 +111,7 @@ def _race_force(run) -> tuple[np.ndarray, np.ndarray | None]:
 def over_time(computed, path: Path, title: str, note: str, curve: Callable,
               limits: tuple[float, float] | None) -> Path:  # fmt: skip
     """A curve of every condition, one row a reading."""
-    wide, high, left, top = 250, 190, 190, 130
+    wide, high, left, top = 250, 190, 215, 130
     with sheet.style():
         figure = sheet.new_figure(
             left + 6 * (wide + 46), top + len(computed.readings) * (high + 80) + 20
