@@ -137,7 +137,7 @@ def load(folder: Path) -> Paper:
             del OWN[name]
             forget(file)
     try:
-        for name in ("claims", "outputs", "predict", "figures", "paper"):
+        for name in ("claims", "outputs", "predict", "figures", "decides", "paper"):
             sys.modules.pop(name, None)
         spec = importlib.util.spec_from_file_location("paper", folder / "paper.py")
         assert spec is not None and spec.loader is not None
