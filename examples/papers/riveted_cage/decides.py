@@ -29,7 +29,7 @@ def over(reading, output: str, conditions, factor: float = 1.0) -> str:
     if reading is None:
         return "-"
     found = (mean(reading, output, c)[0] * factor for c in conditions)
-    return ", ".join(f"{value:.3g}" for value in found)
+    return ", ".join(f"{value:.3g}" if np.isfinite(value) else "-" for value in found)
 
 
 def surface(computed: Computed):
