@@ -28,6 +28,7 @@ from paper_results import (
     lines_of,
     mapped,
     not_mapped,
+    readings_of,
     verdicts_of,
     write_shares,
 )
@@ -63,12 +64,12 @@ class Paper:
 
     ``columns`` names the readings of ``readings`` by their labels, ``alone`` those that have a
     study of their own (its file, their label), ``beside`` files of studies that put out more of
-    such a reading, ``maps`` the files that make a column, ``rechecks``
-    files of maps whose ``points`` are computed anew with a flexible cage, under all conditions or
-    ``recheck_conditions``; all rechecked points are a column of their own where
-    ``recheck_column`` names it. ``studies`` are computed beside, and ``stress`` is what changes the
-    file of a case for a run whose stress is drawn. ``weighed`` are numbers by file of a map, whose
-    unknowns the page weighs by their first-order indices.
+    such a reading, ``more`` those with further starts of some conditions of any reading. ``maps``
+    are the files that make a column, ``rechecks`` files of maps whose ``points`` are computed anew
+    with a flexible cage, under all conditions or ``recheck_conditions``; all rechecked points are a
+    column of their own where ``recheck_column`` names it. ``stress`` is what changes the file of a
+    case for a run whose stress is drawn; ``studies`` are beside. ``weighed`` are numbers by file of
+    a map, whose unknowns the page weighs by their first-order indices.
     """
 
     title: str
@@ -80,6 +81,7 @@ class Paper:
     decided_by: Mapping[str, str]
     alone: Mapping[str, tuple[str, str]] = field(default_factory=dict)
     beside: Mapping[str, str] = field(default_factory=dict)
+    more: Mapping[str, str] = field(default_factory=dict)
     studies: Sequence[str] = ()
     rechecks: Mapping[str, Sequence[int]] = field(default_factory=dict)
     recheck_conditions: Sequence[str] = ()
@@ -158,7 +160,7 @@ def run(paper: Paper, folder: Path, out: Path, *, workers: int, quick: bool) -> 
         run_study(study, out=_of(out, file), workers=workers, progress=Progress)
     if quick:
         return
-    for file in (*paper.studies, *paper.beside.values()):
+    for file in (*paper.studies, *paper.beside.values(), *paper.more.values()):
         run_study(load_study(folder / file), out=_of(out, file), workers=workers, progress=Progress)
     for file in dict.fromkeys(
         (*(f for files in paper.maps.values() for f in files), *paper.weighed)
@@ -183,19 +185,13 @@ def _of(out: Path, file: str) -> Path:
 
 def collect(paper: Paper, out: Path) -> Computed:
     """What the folders hold, judged."""
-    study = StudyResults(_of(out, paper.readings))
-    readings = {column: Reading(label, study) for label, column in paper.columns.items()}
-    aside = {
-        column: Reading(paper.alone[column][1], StudyResults(_of(out, file)))
-        for column, file in paper.beside.items() if _of(out, file).is_dir()
-    }  # fmt: skip
-    readings |= {
-        column: Reading(label, StudyResults(_of(out, file)), aside.get(column))
-        for column, (file, label) in paper.alone.items() if _of(out, file).is_dir()
-    }  # fmt: skip
+    if not _of(out, paper.readings).is_dir():
+        raise flexcage.InputError(f"'{out}' lacks the paper's readings; compute them first.")
+    files = {column: (paper.readings, label) for label, column in paper.columns.items()}
+    readings = readings_of(out, {**files, **paper.alone}, beside=paper.beside, more=paper.more)
     others = [StudyResults(_of(out, f)) for f in paper.studies if _of(out, f).is_dir()]
-    read = [*(r.results for r in (*readings.values(), *aside.values())), *others]
-    studies = {str(results.folder.path): results for results in read}
+    read = [*(results for r in readings.values() for results in r.studies), *others]
+    studies = {results.folder.path: results for results in read}
     there = {
         column: Joined([MapResults(_of(out, f)) for f in files if _of(out, f).is_dir()])
         for column, files in paper.maps.items()
@@ -215,7 +211,7 @@ def collect(paper: Paper, out: Path) -> Computed:
         *(MapResults(p) for p in screens if p.is_dir()),
     ]  # fmt: skip
     times = {
-        Path(path).name: sum(row.seconds for row in results.stored.values())
+        path.name: sum(row.seconds for row in results.stored.values())
         for path, results in studies.items()
     }  # fmt: skip
     times |= {results.study.folder.path.name: results.seconds for results in all_maps}
