@@ -103,17 +103,16 @@ def summary(c: Computed) -> str:
     """What the paper says, what was found, how sure."""
     counts = c.counts
     joined, points = c.maps[MODEL], whole(c, MODEL)
-    return f"""The paper simulates a ball screw support bearing 7603025 at 2000 rpm under 3500 N
-        axially and 1200 N radially in LS-DYNA, whose inner ring's speed fluctuates by
-        3 to 9 %, once to three times a turn. It says that the cage's speed follows the ring's,
-        that its mean does not change, and that orbits and forces of cage and ring grow with
-        amplitude and frequency.
-        Of its {len(c.lines)} claims {counts["holds"]} hold over most of what it leaves unknown,
-        {counts["does not hold"]} do not; open: {counts["undecided"]}. What holds is what rolling
-        balls enforce; its 922 rpm (935 by kinematics) hold nowhere. How sure: {points} points of
-        {len(joined.names) - 1} unknowns of its own model, {whole(c, BEARING)} of the real
-        bearing, one start each under six conditions{by_starts(c)}, all over 0.45 s as in the
-        paper."""
+    return f"""The paper simulates a ball screw bearing, a 7603025, in LS-DYNA. Its inner ring turns
+        at 2000 rpm, and its speed fluctuates by 3 to 9 %, once to three times a turn. The paper
+        says that the cage's speed follows the ring's, that its mean does not change, and that
+        orbits and forces of cage and ring grow with the fluctuation. Of its {len(c.lines)} claims
+        {counts["holds"]} hold over most of what the paper leaves open,
+        {counts["does not hold"]} do not, and {counts["undecided"]} stay open. What holds is what
+        rolling balls enforce. The printed 922 rpm (935 by kinematics) hold nowhere. How sure:
+        {points} points of {len(joined.names) - 1} unknowns of the paper's own model,
+        {whole(c, BEARING)} of the real bearing, one start each under six
+        conditions{by_starts(c)}, all over 0.45 s as in the paper."""
 
 
 def by_starts(c: Computed) -> str:
@@ -220,7 +219,7 @@ def words(computed: Computed) -> Words:
         "of sticking. With that decay a start from rest tore the cage off at 3.6 ms (cylindrical "
         "pockets): loaded balls start, others lag. Both maps were cut to 16 points of one start "
         "for time; the last four of the model were computed after a page with the other twelve. "
-        "Predictions (predictions.json) were made before, and not made anew.",
+        "Predictions (predictions.json) use all of them.",
         *rechecked(computed, "swing"),
     ]  # fmt: skip
     return Words(summary(computed), reasons(computed), decides(computed), readings)
