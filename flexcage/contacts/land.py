@@ -33,8 +33,26 @@ NONE, DRY, FILM = 0, 1, 2  # kinds; a film has dry contact beneath it
 KINDS = {"none": NONE, "dry": DRY, "film": FILM}
 
 
+class OtherLand(NamedTuple):
+    """The cage's land against the ring that does not guide it, dry: fields as in ``LandData``."""
+
+    kind: int
+    inner: int
+    clearance: float
+    radius: float
+    x: np.ndarray
+    angle: np.ndarray
+    phi: np.ndarray
+    phi_max: np.ndarray
+    normal: np.ndarray
+    friction: np.ndarray
+    crest: np.ndarray  # no waves: it counts as rigid
+    borne: np.ndarray
+
+
 class LandData(NamedTuple):
-    """Land of the cage."""
+    """Land of the cage on the ring that guides it, or may touch it; and what it may meet on the
+    other ring (``other_``: as ``OtherLand`` has it)."""
 
     kind: int
     inner: int  # 1: the cage rides on the inner ring, 0: inside the outer; no record holds a bool
@@ -50,6 +68,22 @@ class LandData(NamedTuple):
     width: float  # of one land
     crest: np.ndarray  # (N + 1, 2, 2, 3) of the ring's waves, see ``ring_waves``
     borne: np.ndarray  # (N + 1, 2, 3) forces on them
+    other_kind: int
+    other_clearance: float
+    other_radius: float
+    other_x: np.ndarray
+    other_phi: np.ndarray
+    other_phi_max: np.ndarray
+    other_normal: np.ndarray
+
+
+def with_other(land: LandData, other: LandData) -> LandData:
+    """A cage's land with what it may meet on the other ring."""
+    return land._replace(
+        other_kind=other.kind, other_clearance=other.clearance, other_radius=other.radius,
+        other_x=other.x, other_phi=other.phi, other_phi_max=other.phi_max,
+        other_normal=other.normal,
+    )  # fmt: skip
 
 
 class LandWork(NamedTuple):
@@ -130,14 +164,38 @@ def land_contact(cage, ring, data, onset, laws, sl, lw, out, sums):
     zero(lw.st)
     if data.kind == NONE:
         return
+    if data.kind == FILM:
+        _film(cage, ring, data, lw, out, sums)
+    dry_contact(cage, ring, data, onset, laws, sl, lw, out, sums)
+
+
+@part
+def other_land(data):
+    """What a cage's land meets on the ring that does not guide it."""
+    return OtherLand(
+        data.other_kind, 1 - data.inner, data.other_clearance, data.other_radius, data.other_x,
+        data.angle, data.other_phi, data.other_phi_max, data.other_normal, data.friction,
+        data.crest[:0], data.borne[:0],
+    )  # fmt: skip
+
+
+@part
+def other_contact(cage, ring, data, onset, laws, sl, lw, out, sums):
+    """``land_contact`` of an ``OtherLand``."""
+    zero(sums)
+    zero(lw.st)
+    dry_contact(cage, ring, data, onset, laws, sl, lw, out, sums)
+
+
+@part
+def dry_contact(cage, ring, data, onset, laws, sl, lw, out, sums):
+    """The dry part of ``land_contact``, added to its forces and ``sums``."""
     A, offset = cage.A, minus(xyz(cage.centre), xyz(ring.centre))
     reach = sqrt(offset[1] * offset[1] + offset[2] * offset[2])
     reach += (abs(A[1, 0]) + abs(A[2, 0])) * abs(data.x[1])
     for m in range(cage.q.shape[0]):
         reach += data.phi_max[m] * abs(cage.q[m])
     reach += furthest(data.crest, abs(data.x[1]))
-    if data.kind == FILM:
-        _film(cage, ring, data, lw, out, sums)
     if reach < data.clearance:
         return
     _displaced(data, cage.q, lw.u)

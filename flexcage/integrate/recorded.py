@@ -46,7 +46,7 @@ def new_store(
         **_spotted(bearing, recording),
         "energy_kind": np.array(ENERGIES),
         "channel": np.array(POWERS),
-        "land_station": np.arange(len(bearing.data.model.land.angle)),
+        "land_station": np.arange(len(bearing.data.work.report.land_station)),
         **recording.coords(bearing.data.model),
     }
     return RunStore.create(

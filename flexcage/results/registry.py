@@ -244,10 +244,11 @@ def _common() -> Iterator[Variable]:
         "station_force", "N", "force on the cage at a station of a pocket face (x, r, psi)",
         "pocket", "face", "station", "cyl", bits=FORCE_BITS, together=2, sparse=True, **face,
     )  # fmt: skip
-    yield sampled("land_force", "N", "force of the guiding land on the cage, ring frame", "axis")
+    yield sampled("land_force", "N", "force of lands and shoulders on the cage, ring frame", "axis")
     yield sampled(
         "land_station_force", "N",
-        "force of the guiding land on the cage at stations round it (r, psi)",
+        "force of the guiding land on the cage at stations round it (r, psi); then of the other "
+        "ring, where the cage may meet it",
         "land_station", "polar", bits=FORCE_BITS, together=2,
     )  # fmt: skip
     yield sampled("multiplier", "N or N m", "constraint force or torque", "constraint")
