@@ -296,9 +296,9 @@ def _passes_ring(o: Outcome) -> Iterator[RunWarning]:
         if gap > 0.0 and stop is not None and swing[at] > gap:
             yield RunWarning(
                 "meets_ring",
-                f"The cage meets {limit.name}: it swings by {_um(swing[at])} (t = "
-                f"{float(ds['time'][at]) * 1e3:.4g} ms), and the gap there is {_um(gap)}; "
-                "land_force has the force.",
+                f"The cage meets {limit.name}: its centre and its tilt together reach "
+                f"{_um(swing[at])} (t = {float(ds['time'][at]) * 1e3:.4g} ms), and the gap there "
+                f"is {_um(gap)}; land_force has the force.",
             )
         elif gap > 0.0 and stop is None and swing[at] > gap + _PASSED:
             yield RunWarning(

@@ -165,7 +165,10 @@ def test_a_cage_that_meets_shoulders():
     assert keys(end(RIBBON, np.full(500, 534e-6))) == []
     inner, outer = warnings_of(AT_END, end(RIBBON, np.full(500, 536e-6)))
     assert (inner.key, outer.key) == ("meets_ring", "meets_ring")
-    assert "meets the outer ring's shoulder: it swings by 536 um" in outer.text
+    assert (
+        "meets the outer ring's shoulder: its centre and its tilt together reach 536 um"
+        in outer.text
+    )
     window = end(N1013, np.full(500, 2.5e-3))
     assert "meets_ring" not in keys(window), "rollers' cages pass the ring that does not guide them"
 

@@ -11,6 +11,7 @@ from flexible_parts import shapes_at
 from scipy.spatial.transform import Rotation
 
 from flexcage.contacts.spec import FrictionLaw, LandSpec, Lubricant, NormalLaw
+from flexcage.system.spec import Mount
 
 
 def energy(bearing, y):
@@ -89,7 +90,8 @@ def test_forces_are_the_slopes_of_the_energy(change, shape, shoulders):
     levers = [slope(shift("inner", c), 3e-8) for c in (3, 4)] + [
         slope(turn(a), 3e-8) for a in range(3)
     ]
-    np.testing.assert_allclose(moments, levers, atol=2e-6 * np.abs(levers).max())
+    free = slice(None) if shoulders is None else slice(2, None)  # lands know no tilt of a ring
+    np.testing.assert_allclose(moments[free], levers[free], atol=2e-6 * np.abs(levers).max())
     energy(bearing, y)
     assert (touching.pocket_normal > 1.0).sum() > 5 and (touching.race[:, :, 0] > 1.0).sum() > 20
     pressed_on = touching.land_touch[:, 0] > 1.0  # at -x and +x of the inner ring, of the outer
@@ -102,7 +104,10 @@ def test_a_shoulder_and_the_cage_push_each_other_alike():
     found = []
     for kind in ("dry", "none"):
         contacts = replace(contacts_of(), land=LandSpec(kind=kind))
-        bearing = ball_bearing(shoulders=0.17e-3, shape="spherical", contacts=contacts)
+        bearing = ball_bearing(
+            shoulders=0.17e-3, shape="spherical", contacts=contacts,
+            mount=Mount(kind="bushing", mass=0.5),
+        )  # fmt: skip
         layout, y = bearing.layout, pressed(bearing)
         layout.u(y)["omega"][0] = 100.0
         layout.q(y)["modes"][:] = 0.0
