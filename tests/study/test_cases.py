@@ -274,7 +274,8 @@ def test_a_folder_in_which_another_study_runs(folder):
 
 def test_figures_that_a_study_may_name_are_those_of_a_run():
     pinch = {"type": "side_beam", "pocket": 5, "displacement": "-0.26 mm"}
-    case = short_case(**{"cage.model": "flexible"}).replace("defects", [pinch])
+    warm = {"cage.model": "flexible", "cage.temperature": "60 degC"}
+    case = short_case(**warm).replace("defects", [pinch])
     run = simulate(case)
     keys = {row.key for row in run.summary}
     of_rollers = {
