@@ -91,8 +91,9 @@ def two_kinds() -> str:
 
 def with_whirl(reading) -> str:
     """Rank correlation of force and whirl among starts of one radius, over all radii."""
+    values = reading.at_look(reading.look)  # as many of every radius
     ranks = [
-        np.array([rankdata(reading.values(output, c)) for c in RADII]).ravel()
+        np.array([rankdata(values(output, c)) for c in RADII]).ravel()
         for output in (FORCE, "whirl")
     ]
     found = spearmanr(*ranks)

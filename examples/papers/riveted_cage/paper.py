@@ -165,7 +165,7 @@ PAPER = Paper(
     alone={MODEL: ("reading_printed.toml", "printed"),
            FLEXIBLE: ("reading_flexible.toml", "flexible")},
     beside={FLEXIBLE: "reading_rivets.toml"},
-    more={BETTER: "reading_better_more.toml"},
+    more={BETTER: "reading_better_more.toml", FLEXIBLE: "reading_rivets_more.toml"},
     maps={CAGE: ("map_cage_6747.toml", "map_cage_6470.toml")},
     decided_by=DECIDED_BY,
     studies=("design.toml",),
