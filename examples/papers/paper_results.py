@@ -45,12 +45,15 @@ class Reading:
 
     def values(self, output: str, condition: str) -> np.ndarray:
         """An output of every start that is done (starts,), SI; NaN where no study puts it out."""
-        own = output in self.results.about.outputs
-        if not own and self.beside is not None:
-            return self.beside.values(output, condition)
-        rows = [r for r in self._rows.get(condition, ()) if r.state == "done"]
-        found = np.array([float(r.figures[output].value) if own else np.nan for r in rows])
-        return found if self.more is None else np.append(found, self.more.values(output, condition))
+        own, more = output in self.results.about.outputs, self.more
+        if own or self.beside is None:
+            rows = [r for r in self._rows.get(condition, ()) if r.state == "done"]
+            found = np.array([float(r.figures[output].value) if own else np.nan for r in rows])
+        else:
+            found = self.beside.values(output, condition)
+        if more is None or output not in more.results.about.outputs:
+            return found
+        return np.append(found, more.values(output, condition))
 
     def said(self, output: str, condition: str, factor: float) -> str:
         """Mean of the starts with half its 95 % interval; of two to seven the mean alone."""

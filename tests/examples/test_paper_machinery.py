@@ -155,6 +155,8 @@ def test_claims_are_judged_by_the_starts_that_their_conditions_have():
     assert reading.look_at(claim) == 16 and reading.look == 8
     assert cells_of_starts([claim], reading)["force"].outcome == HOLDS
     assert reading.studies == [own.results, more.results]
+    other = Reading("flexible", of_starts({"tilt": sound}), beside=own, more=more)
+    assert other.look_at(claim) == 16 and other.look_at(claim_of("tilt")) == 8
 
 
 def test_a_page_says_how_long_every_study_took():

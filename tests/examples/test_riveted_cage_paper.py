@@ -149,6 +149,26 @@ def test_what_becomes_of_the_fits(scripts, eave, root, small, outcomes):
     assert tuple(scripts.rivet.judged(results).values()) == outcomes
 
 
+def test_what_is_assumed_of_the_joint_is_varied_alone(scripts, monkeypatch):
+    state = SimpleNamespace(equivalent=np.array([1.0, 3.0]) * 1e6)
+    result = SimpleNamespace(
+        places={"root": [0, 1]}, instants={"clamped": state, "again": state},
+        range_at=lambda place: (2e6, 3e6, 1), nominal_range=4e6, K_t=0.5,
+    )  # fmt: skip
+    seen = []
+
+    def one(run, factor, plays, mesh, **changed):
+        seen.append(changed)
+        return (result,)
+
+    monkeypatch.setattr(scripts.rivet, "computed", one)
+    table = scripts.rivet.assumed(None, 1.0)
+    ends = {name: (low, high) for name, (low, _, high) in scripts.rivet.ASSUMED.items()}
+    assert seen == [{}, *({name: v} for name, both in ends.items() for v in both)]
+    assert list(table["range at the root [MPa]"]) == [2.0] * 7
+    assert list(table["root, again [MPa]"]) == [3.0] * 7
+
+
 @pytest.mark.slow
 def test_a_load_stresses_the_heads_roots(paper):
     """The range at the roots is that of the joint's own cycle; a rigid cage has none."""

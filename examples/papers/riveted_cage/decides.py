@@ -91,8 +91,9 @@ def two_kinds() -> str:
 
 def with_whirl(reading) -> str:
     """Rank correlation of force and whirl among starts of one radius, over all radii."""
+    values = reading.at_look(reading.look)  # as many of every radius
     ranks = [
-        np.array([rankdata(reading.values(output, c)) for c in RADII]).ravel()
+        np.array([rankdata(values(output, c)) for c in RADII]).ravel()
         for output in (FORCE, "whirl")
     ]
     found = spearmanr(*ranks)
@@ -121,14 +122,13 @@ def elastic(soft) -> list[str]:
     return [
         f"**An elastic cage has no bowl.** Its largest forces are {forces} N at 3.43, 3.46 and "
         "3.49 mm: it gives way to blows, and they are less than half of a rigid cage's. Its "
-        f"rivets' nominal stress is {over(soft, 'rivet', ENDS_OF_RADII, 1e-6)} MPa, its range at "
-        f"the heads' roots {', '.join(said(soft, ROOT, c, 1e-6) for c in ENDS_OF_RADII)} MPa "
-        "(001-1b).",
-        "**The sheet's thickness and rivets (001-4b).** In one start each a rivet's mean "
-        f"shear is {shear} N at 0.7, 0.8 and 1 mm, its bending {bending} mN m: halves of thicker "
-        "sheet are farther apart, and the same forces bend the shank more: nominal "
-        f"{over(soft, 'rivet', SHEETS, 1e-6)} MPa. Clamped heads carry part of it by friction: "
-        f"at their roots {', '.join(said(soft, ROOT, c, 1e-6) for c in SHEETS)} MPa of range.",
+        f"rivets' nominal stress is {over(soft, 'rivet', ENDS_OF_RADII, 1e-6)} MPa, the range at "
+        f"their roots {', '.join(said(soft, ROOT, c, 1e-6) for c in ENDS_OF_RADII)} MPa (001-1b).",
+        "**A thicker sheet (001-4b).** Its halves are farther apart, so that the same forces bend "
+        f"a shank that bears all alone more: nominal {over(soft, 'rivet', SHEETS, 1e-6)} MPa at "
+        f"0.7, 0.8 and 1 mm (in one start each shear {shear} N, bending {bending} mN m). Clamped "
+        "heads carry it by friction; at their roots the range falls, as the paper has it: "
+        f"{', '.join(said(soft, ROOT, c, 1e-6) for c in SHEETS)} MPa.",
     ]
 
 

@@ -71,7 +71,7 @@ def sweep(computed, path: Path, title: str, panels, columns: int) -> Path:
         figure = sheet.new_figure(
             left + columns * (wide + gap), top + lines * (high + gap) - gap + 70
         )
-        sheet.heading(figure, title, "means of eight starts, 95 % intervals")
+        sheet.heading(figure, title, "means of eight or sixteen starts, 95 % intervals")
         for k, (output, conditions, base, name, printed) in enumerate(panels):
             row, column = divmod(k, columns)
             place = (left + column * (wide + gap), top + row * (high + gap), wide, high)
@@ -271,7 +271,7 @@ def tables(computed) -> list[Table]:
             rows.append((f"Table 4: {condition} rpm, {source} [%]", printed, said, *cells))
     head = ("quantity", "paper", "predicted", *computed.readings, *computed.maps)
     title = (
-        "Readings: mean of eight starts ± 95 %. Maps: median (middle 80 % of points). Predicted: "
+        "Readings: mean of all starts ± 95 %. Maps: median (middle 80 % of points). Predicted: "
         "90 % interval"
     )
     return [Table(title, head, rows), cross()]
