@@ -152,7 +152,7 @@ def _text(
         )]),
         ("solver", [(
             "duration", f'"{_duration(bearing, speed)} ms"',
-            "long enough for means and their intervals",
+            "assumption: long enough for means and intervals",
         )]),
     ]  # fmt: skip
     lines = [

@@ -33,7 +33,7 @@ def propose_ribbon_cage(bearing: Any) -> ProposedCage:
             "material": "assumption: pressed cages of this type are of steel sheet",
             "bore": f"assumption: a strip {_WALL:g} times the ball's diameter broad",
             "outside_diameter": "assumption: likewise, about the pitch circle",
-            "width": "pocket and two sheets: pockets that close over the balls",
+            "width": "assumption: pocket and two sheets, so that pockets close over the balls",
             "pocket_diameter": of_ball(_POCKET),
             "thickness": of_ball(_SHEET),
             "rivet_diameter": of_ball(_RIVET),
