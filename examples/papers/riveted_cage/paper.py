@@ -153,7 +153,7 @@ def words(computed: Computed) -> Words:
         "**Force** is the mean over turns of the cage of the largest ball-cage force in each, as "
         "fixed before the runs. **Width** is where the spherical pockets end; from twice the "
         "radius on they are closed, and 7.4 and 8 mm are the same rigid cage.",
-        "**Fits** are of one older run (a strip of 3.2 mm, one start) scaled to 25 N a ball, with a "
+        "**Fits** are of one older run (a strip of 3.2 mm, one start) scaled to 25 N a ball, by a "
         f"clamp of 100 N, friction of 0.15 and roots of 0.1 mm. {assumed()}.",
         "**Changed for time.** The map keeps the ends of sweeps; its half with balls of 6.47 mm "
         "was cut to 8 of 16 points after the other half had been seen; a map of grooves and "
