@@ -148,3 +148,17 @@ def weak(computed: Computed, soft) -> list[str]:
         "holes leave necks of 0.27 mm in a strip of 3.8 mm, one coarse element across. By this "
         "reading of the width its sheet is the weaker; in the paper's test the original failed."
     ]
+
+
+def assumed() -> str:
+    """How the range at the roots depends on what is assumed of the joint, by assumed.csv."""
+    found = pd.read_csv(FOLDER / "assumed.csv")
+    name = "range at the root [MPa]"
+    middle, ends = found[name].iloc[0], found.iloc[1:]
+    worst, others = ends.loc[ends[name].idxmax()], ends.drop(ends[name].idxmax())
+    return (
+        f"The range at the roots of one rivet of the better model, so scaled, is {middle:.3g} MPa; "
+        f"{worst[name]:.3g} with a {worst['changed']} of {worst['value [SI]']:g} N, and "
+        f"{others[name].min():.3g} to {others[name].max():.3g} with friction of 0.1 or 0.3, roots "
+        "of 0.05 or 0.2 mm or 200 N: how hard the heads clamp decides"
+    )
