@@ -39,6 +39,16 @@ class Reading:
                 found.setdefault(labels["condition"], []).append(row)
         return found
 
+    @property
+    def rows(self) -> list:
+        """Rows of all its starts."""
+        return [row for rows in self._rows.values() for row in rows]
+
+    @property
+    def conditions(self) -> set[str]:
+        """Conditions that the study has."""
+        return set(self._rows)
+
     def values(self, output: str, condition: str) -> np.ndarray:
         """An output of every start that is done (starts,), SI."""
         rows = [r for r in self._rows.get(condition, ()) if r.state == "done"]
@@ -84,12 +94,14 @@ def cells_of_starts(claims: Sequence[Claim], reading: Reading) -> dict[str, Cell
     """Outcomes of all claims by one reading's starts."""
     if not reading.look:
         return {claim.key: Cell(UNDECIDED, "not computed") for claim in claims}
-    evidence = {claim.key: claim.evidence(reading.at_look()) for claim in claims}
+    judged = [claim for claim in claims if conditions_of(claim) <= reading.conditions]
+    evidence = {claim.key: claim.evidence(reading.at_look()) for claim in judged}
     outcomes = decide(evidence, starts=reading.look, looks=LOOKS)
-    return {
+    found = {
         key: Cell(outcome, "no figures" if evidence[key] == NOTHING else "")
         for key, outcome in outcomes.items()
     }
+    return {c.key: found.get(c.key, Cell(UNDECIDED, "not computed")) for c in claims}
 
 
 @dataclass(frozen=True)

@@ -14,7 +14,7 @@ from figures import (
     tables,
     whole_record,
 )
-from paper_weighed import Asked, rechecked
+from paper_weighed import Asked, rechecked, warned
 from repeat import Computed, Paper, Words
 
 from flexcage.core.digits import percent_text
@@ -117,6 +117,9 @@ def words(computed: Computed) -> Words:
         "and was not run over whole records.",
         "**Sensors.** 9 mm from the cage's middle: between the ring's face at 8 mm and the cage's "
         "end at 10 mm; errors at 8.2 and 9.8 mm are outputs of the maps.",
+        "**Shoulders** of the rings, 0.61 mm away, are out of the cage's way, as the paper lists "
+        f"no such contact: the cage passes them in {warned(c, 'passes_ring')} runs. A cage that "
+        "cylinders lose would lie on them.",
         "**A point of a map** is one start at four speeds; what starts alone do is the dummy.",
         "**Changed after the first runs were seen.** Cylindrical pockets lost their cage, so the "
         "further maps have spherical pockets alone: shares hold for cages that stay in place. The "

@@ -45,12 +45,14 @@ def draw(computed, folder: Path) -> list[Picture]:
         ("figure_12_18", "Cage speed", "rpm", _cage_speed, None),
         ("figure_13_19", "Speeds of rollers j-1, j and j+1", "1000 rpm", _rollers, (-5.0, 31.0)),
     )
+    shapes = pockets(computed, folder / "figure_2_3.png")
     for file, title, note, curves, limits in histories:
         over_time(computed, folder / f"{file}.png", title, note, curves, limits)
     orbits(computed, folder / "figure_10_16.png")
     title = "Where a moved crossbeam makes roller j-1 slip as printed"
     claim_map(computed, MAP, MAPPED, folder / "map_000_7.png", title)
     return [
+        *shapes,
         Picture("figure_8_14.png", "Figures 8 and 14: stress of the cage",
                 f"First starts. The dashed line is the printed number, {ROOT} MPa; all others of "
                 "the paper's curves have none."),
@@ -111,6 +113,71 @@ def _rollers(run) -> tuple[np.ndarray, Curves]:
     spin = metrics.element_spin(run.dataset).transpose("time", "element").values * RPM * 1e-3
     curves = [(spin[:, k], colour, name) for k, (colour, name) in COLOURS.items()]
     return run.dataset["time"].values, curves
+
+
+def pocket_sides(mesh, radius: float, pocket: int) -> dict[str, np.ndarray]:
+    """Sides of a pocket at the circle of ``radius`` [m], unrolled about its middle: points (n, 2)
+    of along-the-way and axial places [mm] by the face's name, from the face's vertices near it."""
+    found = {}
+    middle = 2.0 * pi * pocket / mesh.pocket_count
+    for face in ("front", "rear", "side+x", "side-x"):
+        points = mesh.points[np.unique(mesh.groups[f"pocket{pocket}_{face}"])]
+        r = np.hypot(points[:, 1], points[:, 2])
+        way = np.arctan2(points[:, 2], points[:, 1]) - middle
+        way = radius * ((way + pi) % (2.0 * pi) - pi)
+        near = np.abs(r - radius) < 0.15 * np.ptp(r)
+        at = np.stack([way, points[:, 0]], axis=1)[near] * 1e3
+        found[face] = at[np.argsort(at[:, 1 if face in ("front", "rear") else 0])]
+    return found
+
+
+def pocket_size(sides: dict[str, np.ndarray]) -> tuple[float, float]:
+    """Width and length [mm] of a pocket across its middle."""
+
+    def middle(face: str, along: int) -> float:
+        at = sides[face]
+        return float(np.interp(0.0, at[:, 1 - along], at[:, along]))
+
+    return middle("front", 0) - middle("rear", 0), middle("side+x", 1) - middle("side-x", 1)
+
+
+def pockets(computed, path: Path) -> list[Picture]:
+    """The paper's Figures 2 and 3: pockets of the meshed cages, deformed and sound, unrolled."""
+    runs = first(computed.readings[BETTER])
+    if set(runs) != set(CAGES):
+        return []
+    radius = 0.5 * runs[CAGES[0]].case.bearing.pitch_diameter
+    sound, mesh = runs[CAGES[0]].mesh, None
+    wide, high, apart = 400, 300, 1e3 * 2.0 * pi * radius / sound.pocket_count
+    with sheet.style():
+        figure = sheet.new_figure(90 + 2 * (wide + 90), 120 + 2 * (high + 80))
+        sheet.heading(
+            figure,
+            "Pockets of the meshed cages at the pitch circle",
+            "mm along the way and along the axis; broken lines: the sound cage",
+        )
+        for k, cage in enumerate(CAGES[1:]):
+            place = (90 + (k % 2) * (wide + 90), 120 + (k // 2) * (high + 80), wide, high)
+            ax, mesh = sheet.axes_at(figure, place), runs[cage].mesh
+            for j, (pocket, (colour, name)) in enumerate(COLOURS.items()):
+                for kind, line in ((sound, "--"), (mesh, "-")):
+                    sides = pocket_sides(kind, radius, pocket)
+                    for at in sides.values():
+                        ax.plot(at[:, 0] + (j - 1) * apart, at[:, 1], line, lw=1.2,
+                                color="0.6" if kind is sound else colour)  # fmt: skip
+                size = " x ".join(f"{x:.2f}" for x in pocket_size(sides))
+                ax.text((j - 1) * apart, 0.0, f"{name}\n{size}", ha="center", va="center",
+                        fontsize=8, color=colour)  # fmt: skip
+            ax.set_title(cage, loc="left")
+            ax.set(aspect="equal", ylim=(-6.0, 6.0))
+        sheet.save(figure, path)
+    count = f"{len(sound.tets):,} quadratic elements of {len(sound.points):,} vertices"
+    return [
+        Picture(path.name, "Figures 2 and 3: deformed pockets",
+                "Width by length of pockets j-1, j and j+1 [mm], measured in the meshes. Figure 4, "
+                f"a picture of the paper's model, is not repeated: its cage has 377,400 elements "
+                f"and 87,014 nodes, this one {count}."),
+    ]  # fmt: skip
 
 
 def over_time(computed, path: Path, title: str, note: str, curves: Callable,
