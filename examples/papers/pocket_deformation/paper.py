@@ -258,6 +258,8 @@ def readings(computed: Computed) -> list[str]:
         "**A rigid cage in the map** has no stress, so claims on stress are decided by points of "
         "the map with a flexible one: changed from the better model's starts after results were "
         "seen, which opened 000-8 and 000-8b. A rigid cage pinches harder than a flexible one.",
+        "**Indices** are of the map's 16 points, for numbers chosen after its runs: no unknown "
+        "exceeds what chance does to the dummy. A screening of its own was not run, for time.",
         *rechecked(c, "whirl"),
     ]  # fmt: skip
 
