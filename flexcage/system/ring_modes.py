@@ -21,7 +21,9 @@ from flexcage.system.bending import POINTS
 from flexcage.system.statics.rings import BentRing, SeatedRing
 from flexcage.system.swinging import Swings, swings_of
 
-CARRIED = 2.0 * np.pi * 25e3  # [rad/s] modes below have mass: contacts swing as fast
+CARRIED = 2.0 * np.pi * 16e3  # [rad/s] modes below have mass; higher ones, on the contacts of
+# all elements, would swing faster than elements do between rigid rings
+DAMPED = 0.5  # of ``relaxation``: by which a coordinate's spring damps it
 _FAINT = 1e-3  # of a port's compliance in a harmonic, that a mode must make to count
 _BATCH = 4  # modes of a harmonic that are looked for at a time
 _RACE, _SEAT = slice(0, 2), 2  # ports of a reduction
@@ -165,12 +167,19 @@ def housing_coordinates(
     return made, unit
 
 
-def swings_of_ring(seated: SeatedRing, modes: LowModes, made: Coordinates, late: float) -> Swings:
+def late_of(made: Coordinates, relaxation: float) -> np.ndarray:
+    """Times (M,) [s] by which coordinates' springs damp them."""
+    return np.full(len(made.harmonic), DAMPED * relaxation)
+
+
+def swings_of_ring(
+    seated: SeatedRing, modes: LowModes, made: Coordinates, relaxation: float
+) -> Swings:
     """Data of a ring for kernels, with its supports if it has any."""
     if not len(seated.support):
         return swings_of(
             len(seated.azimuth), made.harmonic, made.quarter, made.shape, made.section,
-            made.stiffness, np.full(len(made.harmonic), late),
+            made.stiffness, late_of(made, relaxation),
         )  # fmt: skip
     ring, azimuth = seated.reduction, 2.0 * np.pi * np.arange(POINTS) / POINTS
     n, rest = ring.harmonics, left_over(ring, modes)
@@ -186,7 +195,7 @@ def swings_of_ring(seated: SeatedRing, modes: LowModes, made: Coordinates, late:
     between = ring.series(on_seat**2, rest[:, _SEAT:, _SEAT:], apart)[0, 0]
     return swings_of(
         len(seated.azimuth), made.harmonic, made.quarter, made.shape, made.section, made.stiffness,
-        np.full(len(made.harmonic), late), azimuth=seated.support,
+        late_of(made, relaxation), azimuth=seated.support,
         chi=made.waves(seated.support) * made.chi, table=np.hstack(table), between=between,
         holds=not seated.presses_only,
     )  # fmt: skip

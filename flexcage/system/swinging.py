@@ -1,7 +1,7 @@
 """Outer rings that swing: coordinates with mass, and supports that hold a ring here and there.
 
 A ring on supports ovalises at low frequencies, and is far softer then than its contacts: without
-inertia it would follow them within a hundredth of ``relaxation``. So its low modes a have mass, and
+inertia it would follow them within a tenth of a microsecond. So its low modes a have mass, and
 so have the motions of a ring in a housing. They stand in space, as the outer ring and its supports
 do. Race and supports are displaced by
 
@@ -58,7 +58,7 @@ class Swings(NamedTuple):
     shape: np.ndarray  # (M, 2) by which it displaces the race at its crest, at both ports
     section: np.ndarray  # (M, 3) and the section as a whole, as ``contacts.ring_waves`` has it
     stiffness: np.ndarray  # (M, M) for unit masses
-    late: np.ndarray  # (M,) relaxation time tau
+    late: np.ndarray  # (M,) time tau by which its spring damps it
     azimuth: np.ndarray  # (S,) of supports
     chi: np.ndarray  # (S, M) by which coordinates displace the ring outwards at supports
     table: np.ndarray  # (POINTS, 4) B of an element so far round the ring from a support

@@ -11,6 +11,7 @@ from flexcage.modes.door.formats import write_body
 from flexcage.stages import assembled_start, bearing_in_motion, cage_mesh
 from flexcage.static import solve_static
 from flexcage.system.data import IN_CONTACTS, STRAIN
+from flexcage.system.left_behind import left_behind, left_by_lands, left_by_ribs
 from flexcage.system.statics.options import AT_START
 
 ARCS = {
@@ -135,3 +136,37 @@ def test_ribs_move_with_a_housing_as_in_the_static_solution(housing):
     assert outer == pytest.approx(static.outer[:3], abs=2e-3 * np.abs(static.outer[:3]).max())
     largest = np.abs(static.displacement[:3]).max()
     assert inner == pytest.approx(static.displacement[:3], abs=5e-3 * largest)
+
+
+@pytest.mark.parametrize(
+    ("seat", "clearance", "told"),
+    [("foundation", 10e-6, True), ("foundation", 1e-3, False), ("rigid", 10e-6, False)],
+)
+def test_a_warning_names_what_a_land_leaves_out(seat, clearance, told):
+    """Of an inner ring on a soft seat, beside a land that is narrow."""
+    case = case_of("7010C-PI", **{
+        "inner_ring.ring": "flexible", "inner_ring.seat": seat, "inner_ring.foundation": 3e10,
+        "cage.guidance": "inner", "contacts.land.clearance": clearance,
+    })  # fmt: skip
+    bearing = bearing_in_motion(case, cage_mesh(case), None)
+    (side, *_), left = bearing.rings.start.rings, left_behind(bearing.rings)
+    assert np.array_equal(left[0], side.deflection[:, :2]) and not left[1].any()
+    sentences = list(left_by_lands(bearing.rings, bearing.data.model.land))
+    assert len(sentences) == told
+    if told:
+        share = np.abs(left[0][:, 1]).max() / clearance
+        assert f"{share:.0%} of the lands' clearance" in sentences[0]
+        assert "the lands of the inner ring" in sentences[0]
+
+
+def test_ribs_leave_out_little_of_a_ring_on_arcs():
+    """Its coordinates carry the race's radial deflection but for a little; its section rolls by so
+    little that a rib of ordinary play does not matter."""
+    case = case_of("N1013", **RIBS, **ARCS, **{"load.axial": 600.0})
+    moving = bearing_in_motion(case, cage_mesh(case), None).rings
+    whole = np.abs(moving.start.rings[0].deflection[:, 1:]).max(axis=0)
+    rest = np.abs(left_behind(moving)[1]).max(axis=0)
+    assert 0.0 < rest[0] < 0.1 * whole[0] and rest[1] < whole[1]
+    assert not list(left_by_ribs(moving, 1, 2e-3, 60e-6))
+    (said,) = left_by_ribs(moving, 1, 2e-3, 1e-9)
+    assert "the ribs of the outer ring follow" in said

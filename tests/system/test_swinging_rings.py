@@ -226,8 +226,7 @@ def test_forces_on_all_bodies_add_up_to_none(preset):
 @pytest.mark.slow
 def test_a_ring_on_a_soft_foundation_swings():
     """At rest as the static solution, forces within 0.1 %, the deflection, which still swings a
-    little, 0.2 %; energy is accounted for, 5e-4, under a load that swings, while rollers strike
-    races whose half-space yields by one step of Newton's method."""
+    little, 0.2 %; energy is accounted for, 1e-4, under a load that swings, while rollers strike."""
     soft = {
         "outer_ring.ring": "flexible", "outer_ring.seat": "foundation",
         "outer_ring.foundation": 3e10,
@@ -246,7 +245,7 @@ def test_a_ring_on_a_soft_foundation_swings():
     }  # fmt: skip
     ds = flexcage.simulate(case_of("N1013", **soft, **wave), stress=False).dataset
     missed = ds["energy"].sum("energy_kind") - ds["work"].sum("channel")
-    assert np.ptp(missed.values) < 5e-4 * np.abs(ds["work"].values[-1]).sum()
+    assert np.ptp(missed.values) < 1e-4 * np.abs(ds["work"].values[-1]).sum()
 
 
 # --- housings ------------------------------------------------------------------------------------
@@ -290,7 +289,7 @@ def test_a_ring_swings_in_its_housing_with_its_mass(housing):
     force = (ds["race_force"].values[..., 1] * np.cos(psi)).sum(axis=1)
     mass, t = case.bearing.outer_ring_mass + 5.0, ds["time"].values
     assert np.gradient(y, t)[5:-5] == pytest.approx(v[5:-5], abs=0.01 * np.abs(v).max())
-    pull = 2e8 * (y + case.outer_ring.relaxation * v)
+    pull = 2e8 * (y + 0.5 * case.outer_ring.relaxation * v)
     assert mass * np.gradient(v, t)[5:-5] == pytest.approx(
         (force - pull)[5:-5], abs=0.01 * np.abs(force).max()
     )

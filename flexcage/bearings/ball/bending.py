@@ -37,8 +37,12 @@ from flexcage.contacts.state import set_frame
 from flexcage.core.jit import fields, part, zero
 from flexcage.core.vectors import cross, minus, plus
 from flexcage.system.bending import (
+    STEPS,
+    after,
     at_once,
     bend_rings,
+    borne_of,
+    close,
     guess,
     push_by_slopes,
     ring_forces_at,
@@ -126,15 +130,19 @@ def _outer_race(i, qi, ui, rest_q, rest_u, s, d, law, mode):
 @part
 def _yielded(side, i, ball, race, s, laws, sl, rings):
     """The ball as the race meets it that yields under it at once."""
-    w = guess(side, i, s, rings)
-    moved = _moved(ball, w)
-    n = _pressing(moved, race, sl)
-    if sl.d[0] > 0.0:
+    moved, taken = _moved(ball, guess(side, i, s, rings)), borne_of(side, i, s, rings)
+    for _ in range(STEPS):
+        n = _pressing(moved, race, sl)
+        if sl.d[0] <= 0.0:
+            return moved
         elastic_forces(laws.normal, (0, 1), sl, race.normal)
-        stiff = sl.Nd[0]
+        force, stiff = (sl.Ne[0] * n[0], sl.Ne[0] * n[1]), sl.Nd[0]
         slope = (stiff * n[0] * n[0], stiff * n[0] * n[1], stiff * n[1] * n[1])
-        step = at_once(side, i, s, (sl.Ne[0] * n[0], sl.Ne[0] * n[1]), slope, rings)
+        step = at_once(side, taken, force, slope, rings)
         moved = _moved(moved, step)
+        if close(taken, force):
+            return moved
+        taken = after(force, slope, step)
     return moved
 
 

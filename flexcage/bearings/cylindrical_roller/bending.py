@@ -43,9 +43,13 @@ from flexcage.contacts.state import AXIS, CENTRE, Q_SPIN, SPIN, VELOCITY, take_p
 from flexcage.core.jit import VECTORISED, fields, part
 from flexcage.core.vectors import MOMENT, dot, row
 from flexcage.system.bending import (
+    STEPS,
     TILT_PORT,
+    after,
     at_once,
     bend_rings,
+    borne_of,
+    close,
     displace,
     guess,
     orbit_of,
@@ -211,11 +215,19 @@ def _press(count, ring, side, s, d, laws):
     for m in range(count):
         i = rw.who[m]
         take_pose(fields(d.scratch).poses[i], fields(d.pose))
+        taken = borne_of(ring, i, s, rings)
         force, slope = _on_ports(m, fields(d.pose), side, rw)
-        step = at_once(ring, i, s, force, slope, rings)
+        step = at_once(ring, taken, force, slope, rings)
+        for _ in range(STEPS - 1):
+            if close(taken, force):
+                break
+            taken = after(force, slope, step)
+            _deepen(m, step, fields(d.pose), side, rw)
+            normal_forces_of_lot(laws.normal, _slices_of(m, side), rw.lot[0], side.normal)
+            force, slope = _on_ports(m, fields(d.pose), side, rw)
+            step = at_once(ring, taken, force, slope, rings)
         _follow(m, step, fields(d.pose), side, rw)
-        rings.force[ring, i, 0] = force[0] - slope[0] * step[0] - slope[1] * step[1]
-        rings.force[ring, i, 1] = force[1] - slope[1] * step[0] - slope[2] * step[1]
+        rings.force[ring, i, 0], rings.force[ring, i, 1] = after(force, slope, step)
     rub_race(count, side, laws, rw)
 
 
@@ -237,6 +249,23 @@ def _on_ports(m, pose, side, rw):
             b += stiff * x
             c += stiff * x * x
     return (force, moment), (a, b, c)
+
+
+@part
+def _slices_of(m, side):
+    """The span of contact m's slices in the lot."""
+    n = side.s.shape[0]
+    return m * n, (m + 1) * n
+
+
+@part(fastmath=VECTORISED)
+def _deepen(m, step, pose, side, rw):
+    """Penetrations of contact m's slices after the race yields by a ``step`` more."""
+    sl, n = rw.lot[0], side.s.shape[0]
+    x0, x1 = _along(m, pose, rw)
+    for k in range(n):
+        at = m * n + k
+        sl.d[at] += sl.n2[at] * (step[0] + step[1] * (x0 + side.s[k] * x1))
 
 
 @part(fastmath=VECTORISED)
