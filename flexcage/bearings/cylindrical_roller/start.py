@@ -47,6 +47,8 @@ from flexcage.system.swinging import standing
 
 _SMALL = 1e-7  # of the load: where an equilibrium is accepted
 _BALANCED = 1e-6  # of the load: what may stay unbalanced at last
+# likewise on spots: a roller over the middle of one pushes along the race from either edge
+_ON_SPOTS = 0.01
 TOUCH = 1e-9  # [m] interference that is only a touch
 STAGES = 8  # steps of a pinching defect's growth
 _CAGE_ROW = 8  # of the border: where the cage's rigid motion begins
@@ -390,7 +392,21 @@ def _stages(model: RollerModel, offset: np.ndarray) -> np.ndarray:
 def roller_start(
     bearing: Bearing, *, limit_force: float, statics: StaticStart | None, advance: Advance
 ) -> Start:
-    """Equilibrium at epicyclic speeds; the static solution is not asked for."""
+    """Equilibrium at epicyclic speeds; the static solution is not asked for. Where none is found on
+    spots of rollers, the start is that of even ones."""
+    model = bearing.data.model
+    if model.spot.has.any():
+        try:
+            return _start(bearing, limit_force, advance, allowed=_ON_SPOTS)
+        except RunFailed:
+            even = model._replace(spot=model.spot._replace(has=0 * model.spot.has))
+            bearing = copy(bearing)
+            bearing.data = bearing.data._replace(model=even)
+    return _start(bearing, limit_force, advance, allowed=_BALANCED)
+
+
+def _start(bearing: Bearing, limit_force: float, advance: Advance, *, allowed: float) -> Start:
+    """The start with ``allowed`` of the load unbalanced at most; RunFailed if there is none."""
     model, layout = bearing.data.model, bearing.layout
     offset = model.pocket.offset
     y = geometric_guess(model, layout)
@@ -416,12 +432,12 @@ def roller_start(
         system = _Frictionless(bearing, offset, lands=True)
         residual = _equilibrate(system, y, yd, tight)
         _check_force(system, y, yd, limit_force, 1.0, pinched)
-    if residual > _BALANCED:
+    if residual > allowed:
         by_defects = len(pinched) and _sound_one_assembles(bearing, limit_force)
         blamed = "a defect" if by_defects else _others(model)
         raise RunFailed(
             f"no equilibrium to start from was found: {residual:.1e} of the load stays "
-            f"unbalanced ({_BALANCED:g} is allowed); is {blamed} too large?"
+            f"unbalanced ({allowed:g} is allowed); is {blamed} too large?"
         )
     report = system.report(y, yd)
     yd = rolling_velocities(model, layout, y)
