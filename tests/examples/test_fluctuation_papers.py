@@ -60,9 +60,9 @@ def test_readings_and_maps_are_plans(folder, points, conditions):
 
 def test_a_screening_has_the_unknowns_of_its_map():
     paper = loaded(WAVES)
-    screen, whole = (load_map(WAVES / f"{name}_model.toml") for name in ("screen", "map"))
+    screen, whole = (load_map(WAVES / f"{name}_bearing.toml") for name in ("screen", "map"))
     assert screen.unknowns == whole.unknowns and screen.design == "morris"
-    for asked in paper.weighed["screen_model.toml"]:
+    for asked in paper.weighed["screen_bearing.toml"]:
         assert asked.output in screen.outputs
         assert asked.condition in {c["label"] for c in screen.conditions}
 

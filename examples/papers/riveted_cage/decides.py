@@ -6,11 +6,11 @@ from pathlib import Path
 
 import numpy as np
 import pandas as pd
-from claims import DESIGN_AXES, ENDS_OF_RADII, FORCE, RADII, ROOT, SHEETS
+from claims import DESIGN_AXES, ENDS_OF_RADII, FORCE, ROOT, SHEETS
 from figures import CAGE, mean
 from paper_page import number
 from repeat import Computed
-from scipy.stats import rankdata, spearmanr
+from scipy.stats import spearmanr
 
 from flexcage.core.digits import percent_text
 from flexcage.study import StudyResults
@@ -87,17 +87,6 @@ def two_kinds() -> str:
         f"{both('mean force of a pocket [N]')} N. The second grows: balls move relative to the "
         f"cage by {both('speed of balls relative to the cage, rms [m/s]')} m/s."
     )
-
-
-def with_whirl(reading) -> str:
-    """Rank correlation of force and whirl among starts of one radius, over all radii."""
-    values = reading.at_look(reading.look)  # as many of every radius
-    ranks = [
-        np.array([rankdata(values(output, c)) for c in RADII]).ravel()
-        for output in (FORCE, "whirl")
-    ]
-    found = spearmanr(*ranks)
-    return f"among starts of one radius the rank correlation is {found[0]:.2f}, p = {found[1]:.2f}"
 
 
 def region(laid) -> str:

@@ -259,8 +259,9 @@ def tables(computed) -> list[Table]:
     for condition in (c for c in WIDTHS if c != BASE):
         width = f"{at(condition, 6.2):g}"
         printed = PRINTED["table_3"]["width"].get(width)
-        rows.append((f"Table 3: 3.46 x {width} [N]", "-" if printed is None else f"{printed:g}",
-                     "-", *_cells(computed, FORCE, condition, 1.0)))  # fmt: skip
+        if printed is not None:
+            rows.append((f"Table 3: 3.46 x {width} [N]", f"{printed:g}", "-",
+                         *_cells(computed, FORCE, condition, 1.0)))  # fmt: skip
     for condition in TABLE_4:
         cage, speed = condition.split()
         for source in ("experimental", "artificial"):

@@ -26,7 +26,6 @@ from decides import (
     surface,
     two_kinds,
     weak,
-    with_whirl,
 )
 from figures import BETTER, CAGE, FLEXIBLE, MODEL, draw, tables
 from paper_weighed import Asked, rechecked
@@ -111,9 +110,7 @@ def words(computed: Computed) -> Words:
     decides = [
         "**Radius (Table 3).** Under a moment every ball's contact angle goes from one side to the "
         "other and back in a turn, so that balls run ahead of the cage and fall behind it until a "
-        f"pocket stops them. {two_kinds()} Of the whirl "
-        f"({over(better, 'whirl', (RADII[0], RADII[-1]), 1e6)} um at the ends) the force depends "
-        f"less: {with_whirl(better)}. "
+        f"pocket stops them. {two_kinds()} "
         f"The design's optimum: {region(laid)}.",
         "**Slip (Table 4).** Equation 10 has no cos alpha. By its reference a cage leads by "
         f"contact angles ({angle} % over the map) and lags by sliding ({slides['original']} % with "
