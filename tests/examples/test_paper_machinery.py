@@ -305,8 +305,12 @@ def test_a_reading_that_lacks_conditions_judges_the_claims_that_it_can():
     class Half:
         look, conditions = 8, {"slow"}
 
-        def at_look(self):
-            return lambda output, condition: np.linspace(0.9, 1.1, 8)
+        def look_at(self, claim):
+            return 8
+
+        def at_look(self, starts):
+            known = {"slow": np.linspace(0.9, 1.1, starts)}
+            return lambda output, condition: known.get(condition, np.full(starts, np.nan))
 
     slow, fast = (
         Claim(k, k, "", {"p": Between("x", (k,), low=0.5)}, ("x",)) for k in ("slow", "fast")
