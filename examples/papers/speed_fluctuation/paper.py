@@ -217,8 +217,8 @@ def words(computed: Computed) -> Words:
         "pockets): loaded balls start, others lag. Both maps were cut to 16 points of one start "
         "for time; the last four of the model were computed after a page with the other twelve. "
         "Predictions (predictions.json) use all of them. A screening of the model was given up: of "
-        "its first 32 runs 18 lost the cage (from rest, cylindrical pockets, friction that drops at "
-        "once); the bearing's is in its place.",
+        "its first 32 runs 18 lost the cage (from rest, cylindrical pockets, friction that drops "
+        "at once); the bearing's is in its place.",
         *rechecked(computed, "swing"),
     ]  # fmt: skip
     return Words(summary(computed), reasons(computed), decides(computed), readings)
