@@ -43,6 +43,16 @@ class Reading:
                 found.setdefault(labels["condition"], []).append(row)
         return found
 
+    @property
+    def rows(self) -> list:
+        """Rows of all its starts."""
+        return [row for rows in self._rows.values() for row in rows]
+
+    @property
+    def conditions(self) -> set[str]:
+        """Conditions that the study has."""
+        return set(self._rows)
+
     def values(self, output: str, condition: str) -> np.ndarray:
         """An output of every start that is done (starts,), SI; NaN where no study puts it out."""
         own, more = output in self.results.about.outputs, self.more
@@ -141,10 +151,10 @@ def cells_of_starts(claims: Sequence[Claim], reading: Reading) -> dict[str, Cell
     starts = {claim.key: reading.look_at(claim) for claim in claims}
     evidence = {c.key: c.evidence(reading.at_look(starts[c.key])) for c in claims}
     outcomes = decide(evidence, starts=starts, looks=LOOKS)
-    return {
-        key: Cell(outcome, "no figures" if evidence[key] == NOTHING else "")
-        for key, outcome in outcomes.items()
-    }
+    lacking = {c.key for c in claims if not conditions_of(c) <= reading.conditions}
+    none = {key: "no figures" for key, found in evidence.items() if found == NOTHING}
+    none |= dict.fromkeys(lacking, "not computed")
+    return {key: Cell(outcome, none.get(key, "")) for key, outcome in outcomes.items()}
 
 
 @dataclass(frozen=True)

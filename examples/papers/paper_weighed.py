@@ -136,6 +136,19 @@ def rechecked(c: Computed, output: str, *, left_out: Collection[str] = ()) -> li
     return said
 
 
+def warned(c: Computed, key: str, names: Mapping[str, str] = {}) -> str:
+    """Runs that warn so, of all, by reading and map; ``names`` of columns in sentences."""
+    found = []
+    columns = {column: list(r.rows) for column, r in c.readings.items()}
+    for column, joined in c.maps.items():
+        columns[column] = [row for part in joined.parts for row in part.study.rows]
+    for column, rows in columns.items():
+        done = [row for row in rows if row.state == "done"]
+        count = sum(any(w.key == key for w in row.warnings or ()) for row in done)
+        found.append(f"{count} of {len(done)} ({names.get(column, column)})")
+    return ", ".join(found)
+
+
 def _others(other: Counter[str]) -> str:
     """Claims whose outcome differs, and at how many points."""
     named = [f"{key} at {n}" for key, n in sorted(other.items()) if n]

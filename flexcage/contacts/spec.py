@@ -179,7 +179,8 @@ _OF_FACING = 0.9  # width of a land over the length on which cage and ring face 
 
 @dataclass(frozen=True, kw_only=True)
 class LandSpec:
-    """Cage land against the ring land it is guided by, or may touch.
+    """Cage land against the ring land it is guided by, or may touch; in ball bearings also the
+    cage against shoulders of rings that do not guide it, dry, over the gap that they leave.
 
     What is not given follows from the dimensions of cage and ring (``on``).
     """

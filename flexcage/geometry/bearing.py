@@ -163,6 +163,11 @@ class Bearing:
         None where the spec does not say."""
         return None, None
 
+    def stops(self, cage: Cage) -> tuple[RingLand | None, RingLand | None]:
+        """Where a cage that no ring guides meets the inner and the outer ring if it moves across
+        the axis; None where a run computes no contact there."""
+        return None, None
+
     def _lacks(self, name: str) -> NotImplementedError:
         return NotImplementedError(f"{type(self).__name__} does not define {name}")
 

@@ -10,6 +10,8 @@ from flexcage.modes.basis import ModeBasis
 from flexcage.modes.lands import LANDS
 from flexcage.modes.pockets import pocket_frames
 
+LAND_STATIONS = 24  # round a land
+
 
 def normalised(weights: sp.spmatrix) -> sp.csr_matrix:
     """Rows divided by their sums, so that each is a weighted mean."""

@@ -58,7 +58,7 @@ _LABELS: dict[str, tuple[str, ...]] = {
 #: Dimensions of all bearings whose labels a run gives.
 RUN_DIMS = (
     "element", "pocket", "mode", "station", "constraint", "energy_kind", "channel", "land_station",
-    "support",
+    "support", "spotted",
 )  # fmt: skip
 ENERGIES = ("kinetic", "strain", "contact", "mount")  # labels of energy_kind
 #: Bits of values that are rounded together: forces of parts of a face, modal values and moments.
@@ -198,6 +198,12 @@ def _common() -> Iterator[Variable]:
     )
     yield sampled("race_force", "N", "normal force of a race on an element", "element", "race")
     yield sampled(
+        "spot_direction", "1",
+        "unit direction from the centre of an element to its spot, ring frame; of those that have "
+        "one",
+        "spotted", "axis", together=1,
+    )  # fmt: skip
+    yield sampled(
         "race_traction", "N",
         "traction of a race on an element, along the rolling direction (psi)",
         "element", "race",
@@ -238,10 +244,11 @@ def _common() -> Iterator[Variable]:
         "station_force", "N", "force on the cage at a station of a pocket face (x, r, psi)",
         "pocket", "face", "station", "cyl", bits=FORCE_BITS, together=2, sparse=True, **face,
     )  # fmt: skip
-    yield sampled("land_force", "N", "force of the guiding land on the cage, ring frame", "axis")
+    yield sampled("land_force", "N", "force of lands and shoulders on the cage, ring frame", "axis")
     yield sampled(
         "land_station_force", "N",
-        "force of the guiding land on the cage at stations round it (r, psi)",
+        "force of the guiding land on the cage at stations round it (r, psi); then of the other "
+        "ring, where the cage may meet it",
         "land_station", "polar", bits=FORCE_BITS, together=2,
     )  # fmt: skip
     yield sampled("multiplier", "N or N m", "constraint force or torque", "constraint")

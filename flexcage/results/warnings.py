@@ -18,7 +18,7 @@ import numpy as np
 from flexcage.contacts.spec import LandSpec
 from flexcage.core.units import describe
 from flexcage.core.warning import RunWarning
-from flexcage.geometry.bearing import Bearing
+from flexcage.geometry.bearing import Bearing, RingLand
 from flexcage.geometry.cage import Cage
 from flexcage.geometry.odd import odd_geometry
 from flexcage.mesh.cage_mesh import WALL_GROUPS, CageMesh, pocket_groups
@@ -251,7 +251,7 @@ def _yield(o: Outcome) -> Iterator[RunWarning]:
 def _thrown_off(o: Outcome) -> Iterator[RunWarning]:
     # A land ends the growth of a whirl, also of one that rotation has made larger: no later failure
     # is to be told. How far the cage swings and how hard it strikes are figures of the summary.
-    if has_land(o.cage, o.land):
+    if has_land(o.cage, o.land) or any(_stops(o)):
         return
     part = metrics.settled(o.dataset, o.settle)
     radius = metrics.whirl_radius(part, about="axis")
@@ -271,11 +271,16 @@ def _thrown_off(o: Outcome) -> Iterator[RunWarning]:
         )
 
 
+def _stops(o: Outcome) -> tuple[RingLand | None, RingLand | None]:
+    """Where a run computes the contact of the cage with rings that do not guide it."""
+    return (None, None) if o.land.kind == "none" else o.bearing.stops(o.cage)
+
+
 def _passes_ring(o: Outcome) -> Iterator[RunWarning]:
     ds, cage = o.dataset, o.cage
     tilt = metrics.tilt(ds).sel(component="total").values
     guided = has_land(cage, o.land) and cage.land_ring
-    for side, limit in zip(("inner", "outer"), o.bearing.cage_space(cage)):
+    for side, limit, stop in zip(("inner", "outer"), o.bearing.cage_space(cage), _stops(o)):
         if limit is None or side == guided:
             continue
         gap = 0.5 * (
@@ -288,7 +293,14 @@ def _passes_ring(o: Outcome) -> Iterator[RunWarning]:
             centre = centre - metrics.centre_of(ds, "inner")
         swing = np.hypot(*centre.T) + cage.axial_reach * np.sin(tilt)
         at = int(swing.argmax())
-        if gap > 0.0 and swing[at] > gap + _PASSED:
+        if gap > 0.0 and stop is not None and swing[at] > gap:
+            yield RunWarning(
+                "meets_ring",
+                f"The cage meets {limit.name}: its centre and its tilt together reach "
+                f"{_um(swing[at])} (t = {float(ds['time'][at]) * 1e3:.4g} ms), and the gap there "
+                f"is {_um(gap)}; land_force has the force.",
+            )
+        elif gap > 0.0 and stop is None and swing[at] > gap + _PASSED:
             yield RunWarning(
                 "passes_ring",
                 f"The cage passes through {limit.name}: it swings by {_um(swing[at])} (t = "

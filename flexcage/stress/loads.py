@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from flexcage.core.errors import InputError
+from flexcage.modes.interface import LAND_STATIONS
 from flexcage.stress.recovery import CageLoads
 
 if TYPE_CHECKING:
@@ -28,15 +29,19 @@ def _with_lands(ds: xarray.Dataset) -> xarray.Dataset:
 
 def land_station_forces(ds: xarray.Dataset, *, inner: bool) -> np.ndarray:
     """Land forces of every sample (nt, 2, n_land, 3) on the stations of the inner and the outer
-    land, components (x, r, psi), those on the land that guides the cage."""
+    land, components (x, r, psi)."""
     return on_lands(_with_lands(ds)[LANDS].values, inner=inner)
 
 
 def on_lands(force: np.ndarray, *, inner: bool) -> np.ndarray:
     """Forces (nt, n_land, 2) of the guiding land, components (r, psi), as
-    ``land_station_forces``."""
-    out = np.zeros((len(force), 2, force.shape[1], 3), force.dtype)
-    out[:, 0 if inner else 1, :, 1:] = force
+    ``land_station_forces``; of (nt, 2 n_land, 2) the second half is on the other land."""
+    both = force.shape[1] == 2 * LAND_STATIONS
+    n = LAND_STATIONS if both else force.shape[1]
+    out = np.zeros((len(force), 2, n, 3), force.dtype)
+    out[:, 0 if inner else 1, :, 1:] = force[:, :n]
+    if both:
+        out[:, 1 if inner else 0, :, 1:] = force[:, n:]
     return out
 
 

@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 
 from flexcage.bodies.floating_frame import FlexibleBody, with_point_mass
 from flexcage.contacts import laws
-from flexcage.contacts.land import KINDS, LandData
+from flexcage.contacts.land import KINDS, NONE, LandData
+from flexcage.contacts.ring_waves import no_waves
 from flexcage.contacts.spec import LandSpec, Lubricant
-from flexcage.geometry.bearing import Bearing
+from flexcage.geometry.bearing import Bearing, RingLand
 from flexcage.geometry.materials import Material
 from flexcage.system import time_functions
 from flexcage.system.data import BUSHING, FIXED, LOOSE, Bodies
@@ -90,20 +93,23 @@ def elastic_constants(material: Material) -> tuple[float, float]:
 
 def land_data(
     cage, spec: LandSpec, lubricant: Lubricant, modes: np.ndarray, *, kind: str, outer: bool,
-    radius: float, bearing: Bearing,
+    radius: float, bearing: Bearing, end: float | None = None,
 ) -> LandData:  # fmt: skip
     """Land of a cage, ``spec`` with clearance and width: is it its outside, its radius [m], and the
-    bearing whose ring it meets.
+    bearing whose ring it meets. Its two lands end at ``end`` [m] from the middle, by default where
+    cage or bearing does.
 
     ``modes`` (2, nl, 3, n) at the stations of the inner and the outer land.
     """
-    end, ring = min(cage.width, bearing.width), bearing.material
+    ring = bearing.material
+    long = min(cage.width, bearing.width) if end is None else 2.0 * end
     clearance, width = spec.clearance, spec.width
     assert clearance is not None and width is not None
     modes = modes[1 if outer else 0]  # (nl, 3, n)
     n_l = modes.shape[0]
     angle = 2.0 * np.pi * np.arange(n_l) / n_l
     n = modes.shape[-1]
+    crest, borne = no_waves()
     k, e = laws.land_line_law(
         radius=radius,
         clearance=clearance,
@@ -112,20 +118,47 @@ def land_data(
         ring=elastic_constants(ring),
         depth=0.25 * (cage.outside_diameter - cage.bore),
     )
+    normal = laws.normal_parameters(spec.normal, k, e)
+    x = np.array([-0.5, 0.5]) * (long - width)
+    phi = np.ascontiguousarray(modes)
+    phi_max = np.abs(modes[:, 1]).max(axis=0) if n else np.zeros(0)
     return LandData(
         kind=KINDS[kind],
         inner=0 if outer else 1,
         clearance=clearance,
         radius=radius,
-        x=np.array([-0.5, 0.5]) * (end - width),
+        x=x,
         angle=np.ascontiguousarray(np.stack([np.cos(angle), np.sin(angle)], axis=1)),
-        phi=np.ascontiguousarray(modes),
-        phi_max=np.abs(modes[:, 1]).max(axis=0) if n else np.zeros(0),
-        normal=laws.normal_parameters(spec.normal, k, e),
+        phi=phi,
+        phi_max=phi_max,
+        normal=normal,
         friction=laws.friction_parameters(spec.friction),
         viscosity=lubricant.viscosity,
         width=width,
+        crest=crest,
+        borne=borne,
+        other_kind=NONE,
+        other_clearance=clearance,
+        other_radius=radius,
+        other_x=x,
+        other_phi=phi,
+        other_phi_max=phi_max,
+        other_normal=normal,
     )
+
+
+def land_on_stop(
+    cage, spec: LandSpec, lubricant: Lubricant, modes: np.ndarray, *, stop: RingLand, outer: bool,
+    bearing: Bearing,
+) -> LandData:  # fmt: skip
+    """What a cage meets on a ring that does not guide it: dry, with the laws of ``spec`` and the
+    gap that the dimensions leave; none where ``spec`` has no land."""
+    return land_data(
+        cage, replace(spec, clearance=None, width=None).on(stop), lubricant, modes,
+        kind="none" if spec.kind == "none" else "dry", outer=outer,
+        radius=0.5 * (cage.outside_diameter if outer else cage.bore), bearing=bearing,
+        end=stop.end,
+    )  # fmt: skip
 
 
 def bodies_of(

@@ -49,6 +49,7 @@ FREE_AXIAL, FREE_SKEW, FREE_TILT, FREE_CENTRE = range(4)  # places in ``Bodies.f
 OF_SPEED, OF_LOAD, OF_AXIAL = range(3)  # rows of ``Bodies.waves``
 SHAFT_STIFFNESS, SHAFT_DAMPING = range(2)  # places in ``Bodies.shaft``
 EVENT_TIME, EVENT_ELEMENT, EVENT_PLACE, EVENT_CLOSED = range(4)  # in a row of ``Events.rows``
+LANDS, OTHER_LAND = 4, 2  # lands of a cage at -x, +x on its guiding ring, then on the other one
 KINETIC, STRAIN, IN_CONTACTS, IN_MOUNT = range(4)  # places in ``Report.energy``
 # places in ``law`` behind those of ``contacts.evaluation``: the rows of further constraints, what
 # puts these in (``holding``), and the family's functions ``separate``
@@ -87,7 +88,7 @@ class Memory(NamedTuple):
     race: np.ndarray  # (Z, 2)
     pocket: np.ndarray  # (Z, faces)
     rib: np.ndarray  # (Z, ribs)
-    land: np.ndarray  # (2,)
+    land: np.ndarray  # (LANDS,)
     deflection: np.ndarray  # (Z, 12) residual coordinates of the pockets, to begin the next solve
 
 
@@ -122,8 +123,9 @@ class Report(NamedTuple):
     residual: np.ndarray  # (Z, 12)
     rib: np.ndarray  # (Z, ribs)
     land: np.ndarray  # (3,)
-    land_station: np.ndarray  # (nl, 2) on the cage, outwards and forwards
-    land_touch: np.ndarray  # (2, 2) of the lands at -x, +x: normal force, approach speed
+    # (nl, 2) on the cage, outwards and forwards; (2 nl, 2) if it may meet the other ring, too
+    land_station: np.ndarray
+    land_touch: np.ndarray  # (LANDS, 2) of the lands at -x, +x: normal force, approach speed
     power: np.ndarray  # (len(POWERS),)
     energy: np.ndarray  # (4,) places as above; that of the mount holds the shaft's springs too
     contact: np.ndarray  # (Z, places) booleans: races 2, faces of the pocket, ribs
@@ -136,7 +138,7 @@ def new_memory(report: Report) -> Memory:
     """That of contacts which closed at rest; as many as ``report`` tells of."""
     z, like = np.zeros, np.zeros_like
     return Memory(
-        z((len(report.rib), 2)), like(report.pocket_normal), like(report.rib), z(2),
+        z((len(report.rib), 2)), like(report.pocket_normal), like(report.rib), z(LANDS),
         like(report.residual),
     )  # fmt: skip
 
@@ -178,9 +180,10 @@ class Work(NamedTuple):
 def new_work(
     layout: Layout, race_work: RaceWork, pocket_work: Any, *, slices: int, points: int,
     faces: int, stations: int, ribs: int, land_stations: int, turns: tuple[int, int, int],
+    other_land: bool = False,
 ) -> Work:  # fmt: skip
     """Fresh workspaces for one thread, of elements with so many contact places; ``turns`` as
-    ``Tangent`` has it."""
+    ``Tangent`` has it; ``other_land``: the cage may meet the ring that does not guide it."""
     Z, n, nb = layout.elements, layout.modes, layout.n_border
     places = 2 + faces + ribs
     z = np.zeros
@@ -193,8 +196,8 @@ def new_work(
         z((Z, 2, N_RACE)), z((Z, faces)), z((Z, faces)), z((Z, 2, slices)), z((Z, 2, slices)),
         z((Z, 2, points)), z((Z, 2, points)),
         z((Z, faces, stations, 3)), z((Z, N_LOCAL)), z((Z, ribs)), z(3),
-        z((land_stations, 2)), z((2, 2)), z(len(POWERS)), z(4), z((Z, places), np.int64),
-        z((Z, places)), z(3), z(2),
+        z((land_stations * (2 if other_land else 1), 2)), z((LANDS, 2)), z(len(POWERS)), z(4),
+        z((Z, places), np.int64), z((Z, places)), z(3), z(2),
     )  # fmt: skip
     scratch = Scratch(
         z((6, 6)), z((2, 6, 6)), z((2, 3, 3)), z((3, 3)), np.eye(3), z((Z, KEPT, 3)), z((Z, 6)),

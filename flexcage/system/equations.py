@@ -24,10 +24,18 @@ from flexcage.contacts.evaluation import (
     STORED,
     TANGENT,
 )
-from flexcage.contacts.land import LandCage, LandForces, LandRing, land_contact
+from flexcage.contacts.land import NONE as NO_LAND
+from flexcage.contacts.land import (
+    LandCage,
+    LandForces,
+    LandRing,
+    land_contact,
+    other_contact,
+    other_land,
+)
 from flexcage.contacts.slices import Laws
 from flexcage.contacts.state import Q_SKEW, Q_SPIN, Q_TILT, U_SKEW, U_SPIN, U_TILT
-from flexcage.core.jit import VECTORISED, copy_into, fields, part, zero
+from flexcage.core.jit import VECTORISED, copy_into, fields, outlined, part, zero
 from flexcage.core.rotation import quaternion_rate
 from flexcage.core.vectors import (
     RIGID,
@@ -66,6 +74,7 @@ from flexcage.system.data import (
     OF_AXIAL,
     OF_LOAD,
     OF_SPEED,
+    OTHER_LAND,
     OUTER_CLEARANCE,
     OUTER_DAMPING,
     OUTER_STIFFNESS,
@@ -263,54 +272,93 @@ def push_modes(data, i, pw, border):
 
 @part
 def land_forces(q, u, nm, d, law, mode):
-    """Cage's lands on the ring that guides it, and the drag on the cage."""
+    """Cage's lands on the ring that guides it and on the other one, and the drag on the cage."""
     work, data, rep = fields(d.scratch), fields(d.land), fields(d.report)
     vec, border, A = work.vec, work.border, work.A
-    Fc, Mc, Fr, Mr = vec[CAGE_FORCE], vec[CAGE_MOMENT], vec[RING_FORCE], vec[RING_MOMENT]
+    Fc, Mc, wg = vec[CAGE_FORCE], vec[CAGE_MOMENT], vec[CAGE_SPIN]
     zero(Fc)
     zero(Mc)
-    zero(Fr)
-    zero(Mr)
-    wg, where, speed, spin = vec[CAGE_SPIN], vec[GUIDE], vec[GUIDE_V], 0.0
-    rides_inner = data.inner != 0
-    if rides_inner:
-        put(where, xyz(q[:Q_INNER_TURN]))
-        put(speed, xyz(u[:INNER_TURN]))
-        spin = u[INNER_TURN]
-    else:
-        put(where, (0.0, q[Q_OUTER], q[Q_OUTER + 1]))
-        put(speed, (0.0, u[OUTER], u[OUTER + 1]))
-    cage = LandCage(
+    inner = data.inner != 0
+    cage, ring = LandCage(
         A, q[Q_CAGE:Q_QUATERNION], u[CAGE:CAGE_TURN], wg, q[Q_MODES:], u[MODES:]
+    ), _land_ring(q, u, inner, vec)  # fmt: skip
+    forces = LandForces(
+        Fc, Mc, border[MODES : MODES + nm], vec[RING_FORCE], vec[RING_MOMENT]
     )  # fmt: skip
-    ring = LandRing(where, speed, spin)
-    forces = LandForces(Fc, Mc, border[MODES : MODES + nm], Fr, Mr)
     laws, sl = Laws(law[LAND_LAW], law[LAND_RUBS]), fields(d.slices).row[0]
     lw, onset = fields(d.land_work), fields(d.memory).land
     land_contact(cage, ring, data, onset, laws, sl, lw, forces, work.sums)
+    _push_ring(forces, inner, border)
+    if mode >= REPORT:
+        _report_land(lw.st, work.sums, 0, rep)
+    if data.other_kind != NO_LAND:
+        _other_ring(q, u, cage, forces, d, law, mode)
     drag = fields(d.bodies).drag[1] * abs(wg[0]) * wg[0]
     Mc[0] -= drag
     moment = turned_back(A, xyz(Mc))
     for c in range(3):
         border[CAGE + c] += Fc[c]
         border[CAGE_TURN + c] += moment[c]
-        if rides_inner:
+    if mode >= REPORT:
+        copy_into(rep.land, Fc)
+        rep.power[DRAG] -= drag * wg[0]
+
+
+@part
+def _land_ring(q, u, inner, vec):
+    """Inner or outer ring as the cage's land meets it."""
+    where, speed, spin = vec[GUIDE], vec[GUIDE_V], 0.0
+    if inner:
+        put(where, xyz(q[:Q_INNER_TURN]))
+        put(speed, xyz(u[:INNER_TURN]))
+        spin = u[INNER_TURN]
+    else:
+        put(where, (0.0, q[Q_OUTER], q[Q_OUTER + 1]))
+        put(speed, (0.0, u[OUTER], u[OUTER + 1]))
+    zero(vec[RING_FORCE])
+    zero(vec[RING_MOMENT])
+    return LandRing(where, speed, spin)
+
+
+@outlined
+def _other_ring(q, u, cage, forces, d, law, mode):
+    """The cage on the ring that does not guide it."""
+    work, data, rep = fields(d.scratch), fields(d.land), fields(d.report)
+    land, inner = other_land(data), data.inner == 0
+    ring = _land_ring(q, u, inner, work.vec)
+    laws, sl = Laws(law[LAND_LAW], law[LAND_RUBS]), fields(d.slices).row[0]
+    lw, onset = fields(d.land_work), fields(d.memory).land[OTHER_LAND:]
+    other_contact(cage, ring, land, onset, laws, sl, lw, forces, work.sums)
+    _push_ring(forces, inner, work.border)
+    if mode >= REPORT:
+        _report_land(lw.st, work.sums, OTHER_LAND, rep)
+
+
+@part
+def _push_ring(forces, inner, border):
+    """Add what lands do to inner or outer ring."""
+    Fr, Mr = forces.ring_force, forces.ring_moment
+    if inner:
+        for c in range(3):
             border[c] += Fr[c]
             border[INNER_TURN + c] += Mr[c]
-    if not rides_inner:
+    else:
         border[OUTER] += Fr[1]
         border[OUTER + 1] += Fr[2]
-    if mode >= REPORT:
-        sums = work.sums
-        copy_into(rep.land, Fc)
-        copy_into(rep.land_station, fields(d.land_work).st)
-        for c in range(2):
-            rep.land_touch[c, 0], rep.land_touch[c, 1] = sums[NORMAL + c], sums[APPROACH + c]
-        rep.energy[IN_CONTACTS] += sums[STORED]
-        rep.power[LAND_DAMPING] += sums[DAMPED]
-        rep.power[LAND_FRICTION] += sums[RUBBED]
-        rep.power[FILM] += sums[SHEARED]
-        rep.power[DRAG] -= drag * wg[0]
+
+
+@part
+def _report_land(st, sums, first, rep):
+    """Report two lands, the ones from ``first`` on, with the forces at their stations."""
+    begin = 0 if first == 0 else st.shape[0]
+    copy_into(rep.land_station[begin : begin + st.shape[0]], st)
+    for c in range(2):
+        rep.land_touch[first + c, 0] = sums[NORMAL + c]
+        rep.land_touch[first + c, 1] = sums[APPROACH + c]
+    rep.energy[IN_CONTACTS] += sums[STORED]
+    rep.power[LAND_DAMPING] += sums[DAMPED]
+    rep.power[LAND_FRICTION] += sums[RUBBED]
+    rep.power[FILM] += sums[SHEARED]
 
 
 @part(fastmath=VECTORISED)

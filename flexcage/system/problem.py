@@ -19,6 +19,7 @@ from numba import types
 from flexcage.bodies.floating_frame import marked
 from flexcage.contacts import laws
 from flexcage.contacts.evaluation import RESIDUAL
+from flexcage.contacts.land import NONE
 from flexcage.contacts.spec import Contacts
 from flexcage.core.garbage import uncollected
 from flexcage.core.jit import (
@@ -36,7 +37,7 @@ from flexcage.solve.contract import Integrator
 from flexcage.solve.oscillators import Oscillators
 from flexcage.system import newton, rates, sampling
 from flexcage.system.constraints import ALL_ROWS_TYPE, Constraints, constraints_of, units_of
-from flexcage.system.data import POWERS, Memory, Report, Work, new_memory
+from flexcage.system.data import LANDS, POWERS, Memory, Report, Work, new_memory
 from flexcage.system.holding import hold, hold_nothing
 from flexcage.system.layout import Layout
 from flexcage.system.motion import Motion
@@ -75,7 +76,7 @@ class Events(NamedTuple):
     rows: np.ndarray  # (n, 4)
     fill: np.ndarray  # (1,)
     closed: np.ndarray  # (Z, places) contact flags at the last accepted step
-    land: np.ndarray  # (2,) the same for the cage's lands
+    land: np.ndarray  # (LANDS,) the same for the cage's lands
     force: np.ndarray  # (2, 3) of the last two accepted steps: time, force on the outer ring
     pocket_force: np.ndarray  # (Z, faces) normal forces in pockets at the last accepted step
     pocket_force_before: np.ndarray  # (Z, faces) at the step before that
@@ -195,7 +196,7 @@ class Bearing:
             new_bordered(layout.elements, layout.n_border, 8, work.tangent.active),
             Events(
                 np.zeros((200_000, 4)), np.zeros(1, np.int64),
-                np.zeros_like(work.report.contact), np.zeros(2, np.int64), np.zeros((2, 3)),
+                np.zeros_like(work.report.contact), np.zeros(LANDS, np.int64), np.zeros((2, 3)),
                 *(np.zeros_like(work.report.pocket_normal) for _ in range(3)),
             ),
             new_samples(block, stride, work.report),
@@ -233,7 +234,9 @@ class Bearing:
     @property
     def places(self) -> tuple[str, ...]:
         """Names of all contact places of an element and of the lands, in the order of events."""
-        return self.motion.places(self.data.work.report.rib.shape[1])
+        found = self.motion.places(self.data.work.report.rib.shape[1])
+        other = self.data.model.land.other_kind != NONE
+        return (*found, "land -x, other ring", "land +x, other ring") if other else found
 
     @property
     def separate(self) -> tuple[Any, ...]:

@@ -101,7 +101,10 @@ def keep_loads(t, y, d):
                 copy_into(between.force[row], rep.station[i, f])
                 row += 1
     touched = row - between.fill[1]
-    if touched > 0 or rep.land_touch[0, 0] > 0.0 or rep.land_touch[1, 0] > 0.0:
+    on_lands = 0.0
+    for side in range(rep.land_touch.shape[0]):
+        on_lands = max(on_lands, rep.land_touch[side, 0])
+    if touched > 0 or on_lands > 0.0:
         clock[1] = t + spacing[1]
     if t > clock[1]:
         return
@@ -161,7 +164,7 @@ def remember(t, memory, rep, events):
                 events.closed[i, k] = closed
                 _note(events, t, i, k, closed)
         copy_into(memory.deflection[i], rep.residual[i])
-    for side in range(2):
+    for side in range(rep.land_touch.shape[0]):
         closed = 1 if rep.land_touch[side, 0] > 0.0 else 0
         if closed == 0 or events.land[side] == 0:
             memory.land[side] = max(rep.land_touch[side, 1], 0.0)

@@ -42,7 +42,9 @@ def module(folder: Path, name: str):
     return found
 
 
-@pytest.mark.parametrize(("folder", "points", "conditions"), [(WAVES, 6, 12), (VIBRO, 6, 19)])
+@pytest.mark.parametrize(
+    ("folder", "points", "conditions"), [(WAVES, {6}, 12), (VIBRO, {6, 16}, 19)]
+)
 def test_readings_and_maps_are_plans(folder, points, conditions):
     paper = loaded(folder)
     plan = make_plan(load_study(folder / paper.readings))
@@ -51,7 +53,7 @@ def test_readings_and_maps_are_plans(folder, points, conditions):
     for files in paper.maps.values():
         for file in files:
             spec = load_map(folder / file)
-            assert len(make_plan(spec.study((0,))).cases) == points
+            assert len(make_plan(spec.study((0,))).cases) in points
             assert {c["label"] for c in spec.conditions} <= asked
             assert all(len(unknown.reason) > 7 for unknown in spec.unknowns)
     assert {c.key for c in paper.claims} == set(paper.decided_by)

@@ -295,3 +295,25 @@ def test_the_measured_cage_from_end_to_end(tmp_path, capsys):
     assert reading.starts == 1 and reading.look == 0
     assert reading.values("speed", "10000") == pytest.approx(458.0, rel=0.05)
     assert "003-5" in capsys.readouterr().out
+
+
+def test_a_reading_that_lacks_conditions_judges_the_claims_that_it_can():
+    from paper_results import cells_of_starts
+
+    from flexcage.study.claims import Between, Claim
+
+    class Half:
+        look, conditions = 8, {"slow"}
+
+        def look_at(self, claim):
+            return 8
+
+        def at_look(self, starts):
+            known = {"slow": np.linspace(0.9, 1.1, starts)}
+            return lambda output, condition: known.get(condition, np.full(starts, np.nan))
+
+    slow, fast = (
+        Claim(k, k, "", {"p": Between("x", (k,), low=0.5)}, ("x",)) for k in ("slow", "fast")
+    )
+    cells = cells_of_starts([slow, fast], Half())
+    assert cells["slow"].outcome == HOLDS and cells["fast"].note == "not computed"

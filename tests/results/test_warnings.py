@@ -133,27 +133,44 @@ def test_a_cage_that_is_being_thrown_off():
     """Before it fails: its centre goes outwards all along, beyond what pockets leave it."""
     preset = like(BALL, guidance="ball")
     spiral = 20e-6 * np.exp(np.linspace(0.0, 3.4, 500))  # to 0.6 mm; pockets leave 0.15 mm or so
-    outcome = end(preset, spiral)
+    free = LandSpec(kind="none")
+    outcome = end(preset, spiral, land=free)
     (found,) = [w for w in warnings_of(AT_END, outcome) if w.key == "thrown_off"]
     assert "grows steadily" in found.text and "to 599 um at 100 ms" in found.text
-    assert "thrown_off" not in keys(end(preset, spiral[::-1])), "one that comes back"
-    assert keys(end(preset, 0.1 * spiral)) == [], "one that stays within its pockets"
+    back = end(preset, spiral[::-1], land=free)
+    assert "thrown_off" not in keys(back), "one that comes back"
+    small = end(preset, 0.1 * spiral, land=free)
+    assert keys(small) == [], "one that stays within its pockets"
+    assert "thrown_off" not in keys(end(preset, spiral)), "one that shoulders will hold"
     held = like(BALL, guidance="outer")
     assert "thrown_off" not in keys(end(held, spiral)), "one that its land will hold"
 
 
 def test_a_cage_that_passes_a_ring():
-    """The ribbon cage of the preset has 0.535 mm to both shoulders."""
-    assert keys(end(RIBBON, np.full(500, 530e-6))) == []
-    inner, outer = warnings_of(AT_END, end(RIBBON, np.full(500, 605e-6)))
+    """The ribbon cage of the preset has 0.535 mm to both shoulders, here without their contact."""
+    free = LandSpec(kind="none")
+    assert keys(end(RIBBON, np.full(500, 530e-6), land=free)) == []
+    inner, outer = warnings_of(AT_END, end(RIBBON, np.full(500, 605e-6), land=free))
     assert (inner.key, outer.key) == ("passes_ring", "passes_ring")
     assert "passes through the inner ring's shoulder: it swings by 605 um" in inner.text
     assert "the outer ring's shoulder" in outer.text and "the gap there is 535 um" in outer.text
-    tilted = end(RIBBON, run=motion(np.full(500, 500e-6), tilt=0.02))
+    tilted = end(RIBBON, run=motion(np.full(500, 500e-6), tilt=0.02), land=free)
     assert "passes_ring" in keys(tilted), "a tilt moves its ends outwards"
     roller = end(N1013, np.full(500, 2.5e-3))  # its land holds it at the inner ring's ribs alone
     (found,) = [w for w in warnings_of(AT_END, roller) if w.key == "passes_ring"]
     assert "the outer race" in found.text
+
+
+def test_a_cage_that_meets_shoulders():
+    assert keys(end(RIBBON, np.full(500, 534e-6))) == []
+    inner, outer = warnings_of(AT_END, end(RIBBON, np.full(500, 536e-6)))
+    assert (inner.key, outer.key) == ("meets_ring", "meets_ring")
+    assert (
+        "meets the outer ring's shoulder: its centre and its tilt together reach 536 um"
+        in outer.text
+    )
+    window = end(N1013, np.full(500, 2.5e-3))
+    assert "meets_ring" not in keys(window), "rollers' cages pass the ring that does not guide them"
 
 
 def test_shoulders_that_nobody_gave():

@@ -63,23 +63,26 @@ def ball_cage(preset, *, modes=6, soft=3e-8):
 
 def ball_bearing(
     *, contacts=None, load=None, speed=0.0, mount=None, lubricant=DRY, modes=6, change=None,
-    shape="cylindrical",
+    shape="cylindrical", shoulders=None,
 ):  # fmt: skip
-    """A ``Bearing`` of the preset 7010C-PI; ``change(interface)`` alters the cage's walls."""
+    """A ``Bearing`` of the preset 7010C-PI; ``change(interface)`` alters the cage's walls,
+    ``shoulders`` [m] the gaps that the rings' shoulders leave the cage."""
     preset = load_preset("7010C-PI")
-    cage = replace(preset.cage, pocket_shape=shape)
+    cage, spec = replace(preset.cage, pocket_shape=shape), preset.bearing
+    if shoulders is not None:
+        wall = 0.25 * (cage.outside_diameter - cage.bore)
+        height = 0.5 * spec.ball_diameter - wall - shoulders
+        spec = replace(spec, inner_shoulder=height, outer_shoulder=height)
     body, interface = ball_cage(preset, modes=modes)
     if change is not None:
         change(interface)
     contacts = contacts or contacts_of()
     model = MOTION.build_model(
-        preset.bearing, cage, body, interface, contacts=contacts, lubricant=lubricant,
+        spec, cage, body, interface, contacts=contacts, lubricant=lubricant,
         drive=Drive(speed=speed), load=load or Load(gravity=0.0, tilt="free"),
         mount=mount or Mount(),
     )  # fmt: skip
-    return Bearing(
-        MOTION, preset.bearing, model, contacts, Layout(preset.bearing.ball_count, body.modes)
-    )
+    return Bearing(MOTION, spec, model, contacts, Layout(preset.bearing.ball_count, body.modes))
 
 
 def pressed(bearing, *, seed=0, push=0.28e-3):

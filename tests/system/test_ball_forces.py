@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
-from ball_parts import PITCH, ball_bearing, contacts_of, pressed
+from ball_parts import LAND, PITCH, ball_bearing, contacts_of, pressed
+from flexible_parts import shapes_at
 from scipy.spatial.transform import Rotation
 
-from flexcage.contacts.spec import Lubricant
+from flexcage.contacts.spec import FrictionLaw, LandSpec, Lubricant, NormalLaw
+from flexcage.system.spec import Mount
 
 
 def energy(bearing, y):
@@ -23,13 +27,29 @@ def slots(interface):
     interface.radius[::4] += 5e-6
 
 
+def bent_lands(interface):
+    """A bore and an outside that the modes bend."""
+    angle = 2.0 * np.pi * np.arange(LAND) / LAND
+    c, s, zero, one = np.cos(angle), np.sin(angle), 0.0 * angle, 1.0 + 0.0 * angle
+    frames = np.array([[one, zero, zero], [zero, c, s], [zero, -s, c]])
+    points = PITCH * np.stack([zero, c, s], axis=1)
+    shapes = shapes_at(points, modes=interface.modes.shape[-1])
+    interface.land[:] = np.einsum("ijs,sjm->sim", frames, shapes)
+
+
 @pytest.mark.parametrize(
-    ("change", "shape"),
-    [(None, "cylindrical"), (slots, "cylindrical"), (None, "spherical"), (slots, "spherical")],
-)
-def test_forces_are_the_slopes_of_the_energy(change, shape):
-    """Of balls, ring (tilts too), cage (turned about each axis) and every mode."""
-    bearing = ball_bearing(change=change, shape=shape)
+    ("change", "shape", "shoulders"),
+    [
+        (None, "cylindrical", None), (slots, "cylindrical", None), (None, "spherical", None),
+        (slots, "spherical", None), (bent_lands, "spherical", 0.17e-3),
+    ],
+)  # fmt: skip
+def test_forces_are_the_slopes_of_the_energy(change, shape, shoulders):
+    """Of balls, ring (tilts too), cage (turned about each axis) and every mode; also of a cage that
+    is pressed on the shoulders of both rings."""
+    law = LandSpec(normal=NormalLaw(law="elastic"), friction=FrictionLaw(law="none"))
+    contacts = replace(contacts_of(), land=law)
+    bearing = ball_bearing(change=change, shape=shape, shoulders=shoulders, contacts=contacts)
     layout, y = bearing.layout, pressed(bearing)
     force = -bearing.residual(0.0, y, np.zeros_like(y))
     touching = bearing.data.work.report
@@ -70,9 +90,37 @@ def test_forces_are_the_slopes_of_the_energy(change, shape):
     levers = [slope(shift("inner", c), 3e-8) for c in (3, 4)] + [
         slope(turn(a), 3e-8) for a in range(3)
     ]
-    np.testing.assert_allclose(moments, levers, atol=2e-6 * np.abs(levers).max())
+    free = slice(None) if shoulders is None else slice(2, None)  # lands know no tilt of a ring
+    np.testing.assert_allclose(moments[free], levers[free], atol=2e-6 * np.abs(levers).max())
     energy(bearing, y)
     assert (touching.pocket_normal > 1.0).sum() > 5 and (touching.race[:, :, 0] > 1.0).sum() > 20
+    pressed_on = touching.land_touch[:, 0] > 1.0  # at -x and +x of the inner ring, of the outer
+    assert pressed_on.reshape(2, 2).any(axis=1).all() == (shoulders is not None)
+
+
+def test_a_shoulder_and_the_cage_push_each_other_alike():
+    """What the contact changes in the rows of cage and rings sums to nothing, and the report has
+    the force on the cage."""
+    found = []
+    for kind in ("dry", "none"):
+        contacts = replace(contacts_of(), land=LandSpec(kind=kind))
+        bearing = ball_bearing(
+            shoulders=0.17e-3, shape="spherical", contacts=contacts,
+            mount=Mount(kind="bushing", mass=0.5),
+        )  # fmt: skip
+        layout, y = bearing.layout, pressed(bearing)
+        layout.u(y)["omega"][0] = 100.0
+        layout.q(y)["modes"][:] = 0.0
+        rows = bearing.residual(0.0, y, np.zeros_like(y), mode=2)
+        found.append((layout.u(rows), bearing.data.work.report.land.copy()))
+    (with_it, force), (without, none) = found
+    push = {name: without[name] - with_it[name] for name in ("cage", "inner", "outer")}
+    assert np.linalg.norm(force) > 10.0 and not none.any()
+    np.testing.assert_allclose(push["cage"], force, rtol=1e-9)
+    inner, outer = push["inner"][:3], np.append(0.0, push["outer"])
+    assert np.linalg.norm(outer) > 1.0
+    size = np.linalg.norm(outer) + np.linalg.norm(inner)
+    np.testing.assert_allclose(push["cage"] + inner + outer, 0.0, atol=1e-9 * size)
 
 
 @pytest.mark.parametrize("along", [0, 1], ids=["axial", "circumferential"])

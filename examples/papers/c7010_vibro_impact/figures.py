@@ -16,6 +16,7 @@ from flexcage.results import metrics
 
 PRINTED = tomllib.loads((Path(__file__).with_name("printed.toml")).read_text("utf-8"))
 BETTER, PRINTED_MODEL = "better model", "as printed"  # columns of readings
+SHOULDERS = "with shoulders"  # the better model between them
 AXIAL, COMBINED = "map, axial load", "map, combined load"  # columns of maps
 COLOURS = {AXIAL: sheet.ORANGE, COMBINED: sheet.BLUE}
 SWEEPS = {

@@ -12,6 +12,7 @@ from claims import CAGES, SHORTER
 from outputs import AFTER, AT, BEFORE, PLACES
 from paper_figures import claim_map, stress
 from paper_page import Picture, Table
+from scipy.interpolate import LinearNDInterpolator
 
 from flexcage import Run
 from flexcage.render import sheet
@@ -45,12 +46,14 @@ def draw(computed, folder: Path) -> list[Picture]:
         ("figure_12_18", "Cage speed", "rpm", _cage_speed, None),
         ("figure_13_19", "Speeds of rollers j-1, j and j+1", "1000 rpm", _rollers, (-5.0, 31.0)),
     )
+    shapes = pockets(computed, folder / "figure_2_3.png")
     for file, title, note, curves, limits in histories:
         over_time(computed, folder / f"{file}.png", title, note, curves, limits)
     orbits(computed, folder / "figure_10_16.png")
     title = "Where a moved crossbeam makes roller j-1 slip as printed"
     claim_map(computed, MAP, MAPPED, folder / "map_000_7.png", title)
     return [
+        *shapes,
         Picture("figure_8_14.png", "Figures 8 and 14: stress of the cage",
                 f"First starts. The dashed line is the printed number, {ROOT} MPa; all others of "
                 "the paper's curves have none."),
@@ -111,6 +114,73 @@ def _rollers(run) -> tuple[np.ndarray, Curves]:
     spin = metrics.element_spin(run.dataset).transpose("time", "element").values * RPM * 1e-3
     curves = [(spin[:, k], colour, name) for k, (colour, name) in COLOURS.items()]
     return run.dataset["time"].values, curves
+
+
+def pocket_sides(mesh, radius: float, pocket: int) -> dict[str, np.ndarray]:
+    """Walls of a pocket at the circle of ``radius`` [m]: points (n, 2) of places across the pocket
+    and along the axis [mm] by the face's name, between the vertices of the face."""
+    found = {}
+    turn = 2.0 * pi * pocket / mesh.pocket_count
+    for face in ("front", "rear", "side+x", "side-x"):
+        x, y, z = mesh.points[np.unique(mesh.groups[f"pocket{pocket}_{face}"])].T
+        away, across = y * np.cos(turn) + z * np.sin(turn), z * np.cos(turn) - y * np.sin(turn)
+        crossbeam = face in ("front", "rear")
+        along, value = (x, across) if crossbeam else (across, x)
+        at = np.linspace(0.98 * along.min(), 0.98 * along.max(), 41)
+        surface = LinearNDInterpolator(np.stack([along, away], axis=1), value, rescale=True)
+        wall = surface(at, np.full(len(at), radius))
+        found[face] = np.stack([wall, at] if crossbeam else [at, wall], axis=1) * 1e3
+    return found
+
+
+def pocket_size(sides: dict[str, np.ndarray]) -> tuple[float, float]:
+    """Width and length [mm] of a pocket across its middle."""
+
+    def middle(face: str, along: int) -> float:
+        at = sides[face][np.isfinite(sides[face]).all(axis=1)]
+        return float(np.interp(0.0, at[:, 1 - along], at[:, along]))
+
+    return middle("front", 0) - middle("rear", 0), middle("side+x", 1) - middle("side-x", 1)
+
+
+def pockets(computed, path: Path) -> list[Picture]:
+    """The paper's Figures 2 and 3: pockets of the meshed cages, deformed and sound, unrolled."""
+    runs = first(computed.readings[BETTER])
+    if set(runs) != set(CAGES):
+        return []
+    radius = 0.5 * runs[CAGES[0]].case.bearing.pitch_diameter
+    sound, mesh = runs[CAGES[0]].mesh, None
+    wide, high, apart = 520, 190, 1e3 * 2.0 * pi * radius / sound.pocket_count
+    with sheet.style():
+        figure = sheet.new_figure(70 + 2 * (wide + 60), 120 + 2 * (high + 70))
+        sheet.heading(
+            figure,
+            "Pockets of the meshed cages at the pitch circle",
+            "mm across the pockets and along the axis (up); broken lines: the sound cage",
+        )
+        for k, cage in enumerate(CAGES[1:]):
+            place = (70 + (k % 2) * (wide + 60), 120 + (k // 2) * (high + 70), wide, high)
+            ax, mesh = sheet.axes_at(figure, place), runs[cage].mesh
+            for j, (pocket, (colour, name)) in enumerate(COLOURS.items()):
+                for kind, line in ((sound, "--"), (mesh, "-")):
+                    sides = pocket_sides(kind, radius, pocket)
+                    for at in sides.values():
+                        ax.plot(at[:, 0] + (j - 1) * apart, at[:, 1], line, lw=1.2,
+                                color="0.6" if kind is sound else colour)  # fmt: skip
+                size = "\n".join(f"{x:.2f}" for x in pocket_size(sides))
+                ax.text((j - 1) * apart, 0.0, f"{name}\n{size}", ha="center", va="center",
+                        fontsize=8, color=colour)  # fmt: skip
+            ax.set_title(cage, loc="left")
+            ax.set(aspect="equal", ylim=(-6.0, 6.0))
+        sheet.save(figure, path)
+    count = f"{len(sound.tets):,} quadratic elements of {len(sound.points):,} vertices"
+    return [
+        Picture(path.name, "Figures 2 and 3: deformed pockets",
+                "Width and length of pockets j-1, j and j+1 [mm], measured in the meshes. The side "
+                "beam's middle, moved by 0.3 mm, lies between two vertices. Figure 4, a picture of "
+                "the paper's model, is not repeated: its cage has 377,400 elements and 87,014 "
+                f"nodes, this one {count}."),
+    ]  # fmt: skip
 
 
 def over_time(computed, path: Path, title: str, note: str, curves: Callable,

@@ -35,6 +35,7 @@ from flexcage.geometry.hertz import PointContact
 from flexcage.geometry.materials import MATERIALS, Material
 from flexcage.geometry.spall import BY_RACE, Spall
 
+_EDGE = 0.1  # of half a cage's width: what its end touches a groove with (assumption)
 _SHOULDER = 0.2  # of the ball's diameter: a shoulder's height where none is given
 
 
@@ -222,6 +223,27 @@ class BallBearing(Bearing):
             facing=end - max(0.5 * cage.pocket_diameter, groove),
             end=end,
         )
+
+    def stops(self, cage: Cage) -> tuple[RingLand | None, RingLand | None]:
+        """Shoulders of given heights, or grooves beside them, that leave a cage a gap which only
+        balls guide; none for one that is no mirror image of itself, like a crown."""
+        if cage.has_land or cage.axial_reach > 0.5 * cage.axial_width:
+            return None, None
+        found: list[RingLand | None] = []
+        for side, limit in zip(("inner", "outer"), self.cage_space(cage)):
+            if limit is None or getattr(self, f"{side}_shoulder") is None:
+                found.append(None)
+                continue
+            out = side == "outer"
+            gap = limit.diameter - cage.outside_diameter if out else cage.bore - limit.diameter
+            end, groove = min(cage.axial_reach, 0.5 * self.width), self.race_reach(side)
+            rim = end - max(0.5 * cage.pocket_diameter, groove)
+            facing = rim if rim > 0.0 else max(end - groove, _EDGE * end)
+            stop = RingLand(
+                clearance=0.5 * gap, of=limit.name, strict=False, facing=facing, end=end
+            )
+            found.append(stop if gap > 0.0 else None)
+        return found[0], found[1]
 
     @cached_property
     def inner_ring_mass(self) -> float:

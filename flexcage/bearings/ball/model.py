@@ -16,13 +16,13 @@ from flexcage.contacts import laws
 from flexcage.contacts.ball_pocket import CYLINDER, SPHERE, BallPockets, ball_pocket_work
 from flexcage.contacts.beside import Beside
 from flexcage.contacts.groove import Groove
-from flexcage.contacts.land import LandData
+from flexcage.contacts.land import NONE, LandData, with_other
 from flexcage.contacts.race import race_work
-from flexcage.contacts.spec import Contacts, Lubricant
+from flexcage.contacts.spec import Contacts, LandSpec, Lubricant
 from flexcage.contacts.uneven import is_uneven, uneven_race
 from flexcage.geometry.hertz import PointContact
 from flexcage.geometry.spot import marked
-from flexcage.system.bodies import bodies_of, land_data, unbalanced
+from flexcage.system.bodies import bodies_of, land_data, land_on_stop, unbalanced
 from flexcage.system.data import Bodies, Work, new_work
 from flexcage.system.layout import Layout
 from flexcage.system.spec import Drive, Load, Mount
@@ -155,8 +155,6 @@ def build_ball_model(
     rng = np.random.default_rng(seed)
     scatter = bearing.ball_scatter * rng.standard_normal(bearing.ball_count)
     radius_of_balls = 0.5 * (bearing.ball_diameter + scatter)
-    outer, radius = cage.land_ring == "outer", cage.land_radius
-    land = contacts.land.on(bearing.land(cage))
     tilts = load.tilt == "free"
     return BallModel(
         bodies=bodies_of(
@@ -172,12 +170,27 @@ def build_ball_model(
         pocket=_pockets(bearing, cage, contacts, interface),
         beside=besides(bearing, contacts, radius_of_balls),
         spot=SpottedBalls(marked(bearing.ball_count, bearing.ball_spot.balls)),
-        land=land_data(
-            cage, land, lubricant, interface.land,
-            kind=land.kind if cage.has_land else "none", outer=outer, radius=radius,
-            bearing=bearing,
-        ),
+        land=_lands(bearing, cage, contacts.land, lubricant, interface.land),
     )  # fmt: skip
+
+
+def _lands(
+    bearing: BallBearing, cage: BallCage, spec: LandSpec, lubricant: Lubricant, modes: np.ndarray
+) -> LandData:
+    """The cage's land on the ring that guides it; of a cage that only balls guide the shoulders of
+    the inner ring and, as the other's, of the outer one."""
+    on = spec.on(bearing.land(cage))
+    land = land_data(
+        cage, on, lubricant, modes, kind=on.kind if cage.has_land else "none",
+        outer=cage.land_ring == "outer", radius=cage.land_radius, bearing=bearing,
+    )  # fmt: skip
+    inner, outer = (
+        None if stop is None else
+        land_on_stop(cage, spec, lubricant, modes, stop=stop, outer=out, bearing=bearing)
+        for stop, out in zip(bearing.stops(cage), (False, True))
+    )  # fmt: skip
+    land = land if inner is None else inner
+    return land if outer is None else with_other(land, outer)
 
 
 def ball_work(model: BallModel, layout: Layout) -> Work:
@@ -186,4 +199,5 @@ def ball_work(model: BallModel, layout: Layout) -> Work:
     return new_work(
         layout, race_work(1), ball_pocket_work(stations, layout.modes), slices=0, points=0, faces=1,
         stations=stations, ribs=1, land_stations=len(model.land.angle), turns=(3, 4, 5),
+        other_land=model.land.other_kind != NONE,
     )  # fmt: skip

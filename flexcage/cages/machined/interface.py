@@ -23,7 +23,12 @@ from flexcage.fem.model import FEModel
 from flexcage.fem.symmetry import find_symmetry
 from flexcage.geometry.materials import Material
 from flexcage.modes.basis import ModeBasis
-from flexcage.modes.interface import land_modes, land_station_weights, normalised
+from flexcage.modes.interface import (
+    LAND_STATIONS,
+    land_modes,
+    land_station_weights,
+    normalised,
+)
 from flexcage.modes.pockets import pocket_frame, pocket_frames
 from flexcage.modes.reduction import CageReduction, Interfaces
 
@@ -84,7 +89,7 @@ def rigid_ball_interface(
     pocket_count: int,
     defects: Sequence[BallCageDefect] = (),
     n_stations: int = N_STATIONS,
-    n_land: int = 24,
+    n_land: int = LAND_STATIONS,
 ) -> BallCageInterface:
     """Interface of a rigid cage: no modes, no compliance, no mesh; defects in the walls' shapes."""
     shapes = pocket_shapes(cage, defects, pocket_count=pocket_count)
@@ -108,7 +113,7 @@ def ball_cage_interface(
     defects: Sequence[BallCageDefect] = (),
     solver: FreeBodySolver | None = None,
     n_stations: int = N_STATIONS,
-    n_land: int = 24,
+    n_land: int = LAND_STATIONS,
     weights_of: WeightsOf | None = None,
 ) -> BallCageInterface:
     """Interface of a flexible cage.

@@ -12,7 +12,13 @@ from flexcage.cages.window.cage import WindowCage
 from flexcage.cages.window.defects import WindowDefect
 from flexcage.fem.model import FEModel
 from flexcage.modes.basis import FACES, CageInterface, ModeBasis
-from flexcage.modes.interface import averaged, land_modes, land_station_weights, normalised
+from flexcage.modes.interface import (
+    LAND_STATIONS,
+    averaged,
+    land_modes,
+    land_station_weights,
+    normalised,
+)
 from flexcage.modes.pockets import (
     LOADS_PER_POCKET,
     NORMALS,
@@ -59,7 +65,7 @@ def rigid_interface(
     pocket_count: int,
     defects: Sequence[WindowDefect] = (),
     n_stations: int = 7,
-    n_land: int = 24,
+    n_land: int = LAND_STATIONS,
 ) -> CageInterface:
     """Interface of a rigid cage: no modes, no compliance, no mesh; defects in the offsets."""
     stations, points = face_stations(cage, n_stations), offset_points(cage)
@@ -84,7 +90,7 @@ def cage_interface(
     cage: WindowCage,
     defects: Sequence[WindowDefect] = (),
     n_stations: int = 7,
-    n_land: int = 24,
+    n_land: int = LAND_STATIONS,
 ) -> CageInterface:
     """Interface of a flexible cage: modes and residual vectors averaged at the stations.
 
