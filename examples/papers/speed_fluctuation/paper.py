@@ -164,6 +164,8 @@ def decides(c: Computed) -> list[str]:
         "than "
         "the play of most pockets. That carries the cage off the axis without any wave, as far as "
         "the pockets let it; a wave shakes it, and no farther.",
+        "**By indices** (table below, the real bearing at 6 %) the pockets' shape and play decide "
+        "how far the cage goes; play, creep and drag move its fluctuation most.",
         "**Inner ring (002-5).** The load alone moves it by "
         f"{spread(c, MODEL, 'ring_distance', CONSTANT, UM)} um, as grooves and stiffness have it "
         f"(better model: {better.said('ring_distance', CONSTANT, UM)} um at constant speed, "
