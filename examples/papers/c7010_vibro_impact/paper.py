@@ -211,8 +211,9 @@ def summary(c: Computed) -> str:
         slowly, whatever the speed; friction drives some of them round their play, and then they
         whirl
         ({wild_starts(c, *ALL_SPEEDS, *ALL_LOADS[1:], *POCKETS, *RADIAL)} starts of the better
-        model at constant speed). How sure: {points} at the ends of the sweeps, one start each, of
-        8 unknowns; starts under every condition: {by_starts(c)}."""
+        model at constant speed, none between the rings' shoulders). How sure: {points} at the
+        ends of the sweeps, one start each, of 8 unknowns, and some of the latter over clearance,
+        waves and accelerations; starts under every condition: {by_starts(c)}."""
 
 
 def words(c: Computed) -> Words:
