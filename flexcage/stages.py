@@ -34,7 +34,9 @@ from flexcage.system.bending import rigid_rings
 from flexcage.system.bodies import heaviest_load
 from flexcage.system.constraints import names_of
 from flexcage.system.layout import Layout
+from flexcage.system.left_behind import left_by_lands
 from flexcage.system.problem import Bearing
+from flexcage.system.ring_walls import lands_follow
 from flexcage.system.rings_in_motion import MovingRings, in_housing, moving_rings
 from flexcage.system.spec import Constraint, Drive, Limits, Load, Mount, StartOptions
 from flexcage.system.start import Start, constrained, find_start, with_push
@@ -243,7 +245,7 @@ def _assembled(
         bending = bending_of(specs.bearing)
         data = rigid_rings(count) if rings is None else rings.data
         swings = no_swings(count) if rings is None else rings.swings
-        motion, model = bending.motion, bending.model(*model, data, swings)
+        motion, model = bending.motion, lands_follow(bending.model(*model, data, swings))
     swinging = 0 if rings is None else len(rings.at_start)
     layout = Layout(count, body.modes, names_of(specs.constraints), bends, swinging)
     return Bearing(
@@ -268,6 +270,7 @@ def assembled_start(
     with progress(1.0, "start") as bar:
         start = find_start(bearing, limit_force=limit, statics=statics, advance=bar.to)
     if bearing.rings:
-        start = replace(start, warnings=(*start.warnings, *bearing.rings.warnings))
+        lands = left_by_lands(bearing.rings, bearing.data.model.land)
+        start = replace(start, warnings=(*start.warnings, *bearing.rings.warnings, *lands))
     start = with_push(start, bearing.layout, specs.start)
     return constrained(start, bearing, specs.constraints, limit_force=limit)

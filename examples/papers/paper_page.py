@@ -144,7 +144,7 @@ def draw_matrix(page: Page, path: Path) -> Path:
     """The matrix of claims by readings as a picture."""
     columns = list(page.lines[0].cells)
     colours = {HOLDS: sheet.GREEN, FAILS: sheet.VERMILION, UNDECIDED: "#9a9a9a"}
-    left, top, wide, high = 760.0, 150.0, 250.0, 58.0
+    left, top, wide, high = 760.0, 150.0, 280.0, 58.0
     with sheet.style():
         figure = sheet.new_figure(
             left + len(columns) * wide + 30.0, top + len(page.lines) * high + 30

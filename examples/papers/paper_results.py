@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import Path
 
@@ -25,10 +25,14 @@ LOOKS = Looks((8, 16, 30))
 
 @dataclass(frozen=True)
 class Reading:
-    """One reading of a study whose axes are called "condition" and "reading"."""
+    """One reading of a study whose axes are called "condition" and "reading"; what it does not put
+    out may be in a study ``beside`` it, of the same reading and conditions, and further starts of
+    some conditions in one with ``more``."""
 
     label: str
     results: StudyResults
+    beside: Reading | None = None
+    more: Reading | None = None
 
     @cached_property
     def _rows(self) -> dict[str, list]:
@@ -50,9 +54,16 @@ class Reading:
         return set(self._rows)
 
     def values(self, output: str, condition: str) -> np.ndarray:
-        """An output of every start that is done (starts,), SI."""
-        rows = [r for r in self._rows.get(condition, ()) if r.state == "done"]
-        return np.array([float(r.figures[output].value) for r in rows])
+        """An output of every start that is done (starts,), SI; NaN where no study puts it out."""
+        own, more = output in self.results.about.outputs, self.more
+        if own or self.beside is None:
+            rows = [r for r in self._rows.get(condition, ()) if r.state == "done"]
+            found = np.array([float(r.figures[output].value) if own else np.nan for r in rows])
+        else:
+            found = self.beside.values(output, condition)
+        if more is None or output not in more.results.about.outputs:
+            return found
+        return np.append(found, more.values(output, condition))
 
     def said(self, output: str, condition: str, factor: float) -> str:
         """Mean of the starts with half its 95 % interval; of two to seven the mean alone."""
@@ -75,14 +86,32 @@ class Reading:
         """Reasons of starts that failed."""
         return [r.reason for rows in self._rows.values() for r in rows if r.state == "failed"]
 
-    def at_look(self) -> Values:
-        """Values of as many starts as the last planned look that is complete has."""
-        n = self.look
-        return lambda output, condition: self.values(output, condition)[:n]
+    def at_look(self, starts: int) -> Values:
+        """Values of so many starts; NaN where there are fewer."""
+
+        def at(output: str, condition: str) -> np.ndarray:
+            found = self.values(output, condition)
+            return found[:starts] if len(found) >= starts else np.full(starts, np.nan)
+
+        return at
 
     @property
     def look(self) -> int:
+        """The last planned look that every condition has reached."""
         return max((n for n in LOOKS.starts if n <= self.starts), default=0)
+
+    def look_at(self, claim: Claim) -> int:
+        """The last planned look that the claim's conditions have reached, but the first at least:
+        where a condition is missing, there are no figures."""
+        counts = [
+            len(self.values(output, c)) for output in claim.outputs for c in conditions_of(claim)
+        ]
+        return max((n for n in LOOKS.starts if n <= min(counts)), default=LOOKS.starts[0])
+
+    @property
+    def studies(self) -> list[StudyResults]:
+        """All studies that it reads."""
+        return [r.results for r in (self, self.beside, self.more) if r is not None]
 
     def run(self, condition: str, start: int = 0) -> Run:
         """The run of one start."""
@@ -90,18 +119,42 @@ class Reading:
         return self.results.run(planned.number, planned.repetition)
 
 
+def readings_of(
+    out: Path, files: Mapping[str, tuple[str, str]], *,
+    beside: Mapping[str, str], more: Mapping[str, str],
+) -> dict[str, Reading]:  # fmt: skip
+    """Readings by column, of the studies in the folder ``out`` that are there: each a file and a
+    label; ``beside`` and ``more`` are files."""
+    opened: dict[Path, StudyResults] = {}
+
+    def read(column: str, file: str | None) -> Reading | None:
+        path = out / Path(file or "").stem
+        if file is None or not path.is_dir():
+            return None
+        if path not in opened:
+            opened[path] = StudyResults(path)
+        return Reading(files[column][1], opened[path])
+
+    found = {}
+    for column, (file, _) in files.items():
+        own = read(column, file)
+        if own is not None:
+            aside = {"beside": beside.get(column), "more": more.get(column)}
+            found[column] = replace(own, **{k: read(column, f) for k, f in aside.items()})
+    return found
+
+
 def cells_of_starts(claims: Sequence[Claim], reading: Reading) -> dict[str, Cell]:
     """Outcomes of all claims by one reading's starts."""
     if not reading.look:
         return {claim.key: Cell(UNDECIDED, "not computed") for claim in claims}
-    judged = [claim for claim in claims if conditions_of(claim) <= reading.conditions]
-    evidence = {claim.key: claim.evidence(reading.at_look()) for claim in judged}
-    outcomes = decide(evidence, starts=reading.look, looks=LOOKS)
-    found = {
-        key: Cell(outcome, "no figures" if evidence[key] == NOTHING else "")
-        for key, outcome in outcomes.items()
-    }
-    return {c.key: found.get(c.key, Cell(UNDECIDED, "not computed")) for c in claims}
+    starts = {claim.key: reading.look_at(claim) for claim in claims}
+    evidence = {c.key: c.evidence(reading.at_look(starts[c.key])) for c in claims}
+    outcomes = decide(evidence, starts=starts, looks=LOOKS)
+    lacking = {c.key for c in claims if not conditions_of(c) <= reading.conditions}
+    none = {key: "no figures" for key, found in evidence.items() if found == NOTHING}
+    none |= dict.fromkeys(lacking, "not computed")
+    return {key: Cell(outcome, none.get(key, "")) for key, outcome in outcomes.items()}
 
 
 @dataclass(frozen=True)
@@ -187,9 +240,11 @@ def conditions_of(claim: Claim) -> set[str]:
 
 
 def mapped(claim: Claim, results: Joined) -> Mapped:
-    """One claim judged at every point of a map; not at all where the map lacks its conditions."""
+    """One claim judged at every point of a map; not at all where the map lacks its conditions or
+    outputs."""
     there = set.intersection(*(set(part.conditions) for part in results.parts))
-    if not conditions_of(claim) <= there:
+    put_out = set.intersection(*(set(part.study.about.outputs) for part in results.parts))
+    if not (conditions_of(claim) <= there and set(claim.outputs) <= put_out):
         return not_mapped()
     outcomes = results.judge(claim.holds)
     parts = {name: share(results.judge(part.holds)) for name, part in claim.parts.items()}

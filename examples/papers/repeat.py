@@ -28,6 +28,7 @@ from paper_results import (
     lines_of,
     mapped,
     not_mapped,
+    readings_of,
     verdicts_of,
     write_shares,
 )
@@ -62,12 +63,13 @@ class Paper:
     """A paper: where it is from, its claims, the columns of its matrix, and what its page shows.
 
     ``columns`` names the readings of ``readings`` by their labels, ``alone`` those that have a
-    study of their own (its file, their label), ``maps`` the files that make a column, ``rechecks``
-    files of maps whose ``points`` are computed anew with a flexible cage, under all conditions or
-    ``recheck_conditions``; all rechecked points are a column of their own where
-    ``recheck_column`` names it. ``studies`` are computed beside, and ``stress`` is what changes the
-    file of a case for a run whose stress is drawn. ``weighed`` are numbers by file of a map, whose
-    unknowns the page weighs by their first-order indices.
+    study of their own (its file, their label), ``beside`` files of studies that put out more of
+    such a reading, ``more`` those with further starts of some conditions of any reading. ``maps``
+    are the files that make a column, ``rechecks`` files of maps whose ``points`` are computed anew
+    with a flexible cage, under all conditions or ``recheck_conditions``; all rechecked points are a
+    column of their own where ``recheck_column`` names it. ``stress`` is what changes the file of a
+    case for a run whose stress is drawn; ``studies`` are beside. ``weighed`` are numbers by file of
+    a map, whose unknowns the page weighs by their first-order indices.
     """
 
     title: str
@@ -78,6 +80,8 @@ class Paper:
     maps: Mapping[str, Sequence[str]]
     decided_by: Mapping[str, str]
     alone: Mapping[str, tuple[str, str]] = field(default_factory=dict)
+    beside: Mapping[str, str] = field(default_factory=dict)
+    more: Mapping[str, str] = field(default_factory=dict)
     studies: Sequence[str] = ()
     rechecks: Mapping[str, Sequence[int]] = field(default_factory=dict)
     recheck_conditions: Sequence[str] = ()
@@ -100,7 +104,7 @@ class Computed:
     found: Mapping[str, Mapping[str, Mapped]]
     rechecks: Mapping[str, MapResults]
     lines: Sequence[Line]
-    seconds: float
+    times: Mapping[str, float]  # of every study and map, in all processes together [s]
     out: Path
 
     @property
@@ -135,7 +139,7 @@ def load(folder: Path) -> Paper:
             del OWN[name]
             forget(file)
     try:
-        for name in ("claims", "outputs", "predict", "figures", "paper"):
+        for name in ("claims", "outputs", "predict", "figures", "decides", "paper"):
             sys.modules.pop(name, None)
         spec = importlib.util.spec_from_file_location("paper", folder / "paper.py")
         assert spec is not None and spec.loader is not None
@@ -156,7 +160,7 @@ def run(paper: Paper, folder: Path, out: Path, *, workers: int, quick: bool) -> 
         run_study(study, out=_of(out, file), workers=workers, progress=Progress)
     if quick:
         return
-    for file in paper.studies:
+    for file in (*paper.studies, *paper.beside.values(), *paper.more.values()):
         run_study(load_study(folder / file), out=_of(out, file), workers=workers, progress=Progress)
     for file in dict.fromkeys(
         (*(f for files in paper.maps.values() for f in files), *paper.weighed)
@@ -181,13 +185,13 @@ def _of(out: Path, file: str) -> Path:
 
 def collect(paper: Paper, out: Path) -> Computed:
     """What the folders hold, judged."""
-    study = StudyResults(_of(out, paper.readings))
-    readings = {column: Reading(label, study) for label, column in paper.columns.items()}
-    readings |= {
-        column: Reading(label, StudyResults(_of(out, file)))
-        for column, (file, label) in paper.alone.items() if _of(out, file).is_dir()
-    }  # fmt: skip
-    studies = {id(r.results): r.results for r in readings.values()}
+    if not _of(out, paper.readings).is_dir():
+        raise flexcage.InputError(f"'{out}' lacks the paper's readings; compute them first.")
+    files = {column: (paper.readings, label) for label, column in paper.columns.items()}
+    readings = readings_of(out, {**files, **paper.alone}, beside=paper.beside, more=paper.more)
+    others = [StudyResults(_of(out, f)) for f in paper.studies if _of(out, f).is_dir()]
+    read = [*(results for r in readings.values() for results in r.studies), *others]
+    studies = {results.folder.path: results for results in read}
     there = {
         column: Joined([MapResults(_of(out, f)) for f in files if _of(out, f).is_dir()])
         for column, files in paper.maps.items()
@@ -201,17 +205,17 @@ def collect(paper: Paper, out: Path) -> Computed:
         for column, joined in there.items()
     }
     mapped_files = {f for files in paper.maps.values() for f in files}
-    aside = [_of(out, f) for f in paper.weighed if f not in mapped_files]
+    screens = [_of(out, f) for f in paper.weighed if f not in mapped_files]
     all_maps = [
         *(part for column in paper.maps for part in there[column].parts), *again.values(),
-        *(MapResults(p) for p in aside if p.is_dir()),
+        *(MapResults(p) for p in screens if p.is_dir()),
     ]  # fmt: skip
-    computed = Computed(
-        paper, readings, there, found, again, (),
-        sum(r.seconds for found in studies.values() for r in found.stored.values())
-        + sum(results.seconds for results in all_maps),
-        out,
-    )  # fmt: skip
+    times = {
+        path.name: sum(row.seconds for row in results.stored.values())
+        for path, results in studies.items()
+    }  # fmt: skip
+    times |= {results.study.folder.path.name: results.seconds for results in all_maps}
+    computed = Computed(paper, readings, there, found, again, (), times, out)
     starts = {column: cells_of_starts(paper.claims, r) for column, r in readings.items()}
     starts |= {
         column: {claim.key: Cell(UNDECIDED, "not computed") for claim in paper.claims}
@@ -248,14 +252,20 @@ def write(computed: Computed, folder: Path) -> Path:
         readings=[
             *words.readings,
             f'"{paper.source}". Written on {date.today():%-d %B %Y} with flexcage '
-            f"{flexcage.__version__}; its runs took {computed.seconds / 60.0:,.0f} minutes of one "
-            "process on a busy machine.",
+            f"{flexcage.__version__}; its runs took {_minutes(computed.times)}.",
         ],
         unknowns=next(iter(computed.maps.values())).unknowns(), weighed=table, files=files,
     )  # fmt: skip
     draw_matrix(page, folder / "matrix.png")
     (folder / "README.md").write_text(compose(page), encoding="utf-8")
     return folder / "README.md"
+
+
+def _minutes(times: Mapping[str, float]) -> str:
+    """How long all runs took, and those of every study, in words."""
+    each = ", ".join(f"{name} {seconds / 60.0:,.0f}" for name, seconds in times.items())
+    total = sum(times.values()) / 60.0
+    return f"{total:,.0f} minutes of one process on a busy machine ({each})"
 
 
 def main(arguments: Sequence[str] | None = None) -> Computed:

@@ -6,14 +6,13 @@ types share, and ratings by designation, each with the catalogue that they are f
 
 from __future__ import annotations
 
-import csv
 import difflib
 import re
-from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cache
-from importlib import resources
 
+from flexcage.case.catalogues import rows
+from flexcage.case.marks import split
 from flexcage.core.binding import told_elsewhere
 from flexcage.core.errors import InputError
 from flexcage.core.units import parse
@@ -30,10 +29,12 @@ _OPTIONS = {
 
 @dataclass(frozen=True, kw_only=True)
 class Entry:
-    """A bearing of the catalogue, and where its ratings are from."""
+    """A bearing of the catalogue, and where its ratings are from; ``notes`` say what of its
+    designation flexcage leaves out."""
 
     outline: Outline
     source: str
+    notes: tuple[str, ...] = ()
 
 
 def designations() -> list[str]:
@@ -42,11 +43,17 @@ def designations() -> list[str]:
 
 
 def find(text: str) -> Entry:
-    """The bearing of a designation, "N 210" or "N210"; InputError if it is unknown, or known
-    without ratings, or of a design that flexcage has not."""
-    name = re.sub(r"[\s_-]", "", text.upper())
+    """The bearing of a designation, "N 210" or "N210", "6205-2RS C3"; InputError if it is unknown,
+    or known without ratings, or of a design that flexcage has not."""
+    name = re.sub(r"[\s_/-]", "", text.upper())
     if name in _ratings():
         return _entry(name)
+    if marked := split(name, _ratings()):
+        bare = _entry(marked.bare)
+        return replace(bare, outline=marked.applied(bare.outline), notes=marked.notes)
+    if full := _with_suffix(name):
+        entry = _entry(full)
+        return replace(entry, source=f"{entry.source}; {text} means {full}")
     if not _parsed(name) and (told := told_elsewhere(name, OTHER_DESIGNS)):
         raise InputError(f"'{text}': {told}{_same_rollers(name)}.", where="designation", value=text)
     raise _without_ratings(text, name) or InputError(
@@ -55,6 +62,14 @@ def find(text: str) -> Entry:
         where="designation",
         value=text,
     )
+
+
+def _with_suffix(name: str) -> str:
+    """A designation with the suffix that numbers of its series may leave out, the A of a contact
+    angle of 30 degrees (NTN, Ball and Roller Bearings, CAT. No. 2203/E); empty if it has none."""
+    parsed = _parsed(name)
+    full = f"{name}{parsed[0]['omitted']}" if parsed and not parsed[2] else ""
+    return full if full in _ratings() else ""
 
 
 WAY = (
@@ -106,7 +121,7 @@ def _without_ratings(text: str, name: str) -> InputError | None:
     others = [n for n in _ratings() if re.fullmatch(rf"{series['series']}{code}\D*", n)]
     has = f" (it has {', '.join(others)})" if others else ""
     return InputError(
-        f"The catalogue has no ratings of '{text}'{has}. Give them: add "
+        f"The catalogue has no ratings of '{text}'{has}{_same_rollers(name)}. Give them: add "
         f"{', '.join(['--dynamic', '--static', *wanted])} to flexcage new {name} --type "
         f'{series["type"]}{design} --bore "{bore}" --outside "{outside}" --width "{width}"{angle}.',
         where="designation",
@@ -141,32 +156,27 @@ def _optional(text: str, unit: str) -> float | None:
     return parse(f"{text} {unit}", unit) if text else None
 
 
-def _rows(name: str) -> Iterator[dict[str, str]]:
-    file = resources.files("flexcage.case") / "catalogues" / f"{name}.csv"
-    return csv.DictReader(file.read_text("utf-8").splitlines())
-
-
 @cache
 def _ratings() -> dict[str, dict[str, str]]:
-    return {row["designation"]: row for row in _rows("ratings")}
+    return {row["designation"]: row for row in rows("ratings")}
 
 
 @cache
 def _series() -> dict[str, dict[str, str]]:
-    """Type and design of bearing and diameter series of ISO 15 by series, and series of other
-    designs that have its rolling elements and races."""
-    return {row["series"]: row for row in _rows("series")}
+    """By series: type and design of bearing, diameter series of ISO 15, series of other designs
+    that have its rolling elements and races, and the suffix that numbers may leave out."""
+    return {row["series"]: row for row in rows("series")}
 
 
 @cache
 def _suffixes() -> dict[str, str]:
     """Contact angles [deg] by suffix: those that all makers mean ("A" is 25 or 30 degrees)."""
-    return {row["suffix"]: row["contact_angle_deg"] for row in _rows("suffixes")}
+    return {row["suffix"]: row["contact_angle_deg"] for row in rows("suffixes")}
 
 
 @cache
 def _sources() -> dict[str, str]:
-    return {row["source"]: row["catalogue"] for row in _rows("sources")}
+    return {row["source"]: row["catalogue"] for row in rows("sources")}
 
 
 @cache
@@ -176,5 +186,5 @@ def _boundary() -> dict[tuple[str, str], tuple[str, str, str]]:
         (row["diameter_series"], row["bore_code"]): (
             f"{row['bore_mm']} mm", f"{row['outside_diameter_mm']} mm", f"{row['width_mm']} mm",
         )
-        for row in _rows("boundary")
+        for row in rows("boundary")
     }  # fmt: skip

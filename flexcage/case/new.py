@@ -6,7 +6,7 @@ import json
 import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, fields
-from math import floor, log10
+from math import ceil, floor, log10
 from typing import Any
 
 from flexcage.bearings.family import inside_of
@@ -16,26 +16,22 @@ from flexcage.case.presets import NAMED
 from flexcage.core.binding import default_of, did_you_mean, to_table
 from flexcage.core.errors import InputError, in_one_line
 from flexcage.core.units import describe
-from flexcage.geometry.bearing import BEARING_TYPES, check_type
+from flexcage.geometry.bearing import BEARING_TYPES, Bearing, check_type
 from flexcage.geometry.cage import cages_of
-from flexcage.geometry.inside import (
-    Candidate,
-    Outline,
-    ProposedCage,
-    in_short,
-    ranked,
-)
+from flexcage.geometry.inside import Candidate, Outline, ProposedCage, in_short, ranked
+from flexcage.geometry.kinematics import rolling_shares
 
 SHOWN = 4  # candidates that are told
 _LOAD = 0.05  # of the dynamic rating
 _SPEED = 250.0  # m/min, speed [rpm] times pitch diameter: moderate for any bearing
-_DURATION = "20 ms"
+_PASSES, _SETTLED = 24, 0.7  # elements pass in this share of the duration: enough for intervals
 
 
 @dataclass(frozen=True, kw_only=True)
 class NewCase:
     """A written case: its text, and what it was inferred from. ``candidates`` are those whose
-    ratings fit, best first; ``chosen`` is the first of them that leaves a cage its place."""
+    ratings fit, best first; ``chosen`` is the first of them that leaves a cage its place. ``notes``
+    say what of the bearing is left out."""
 
     name: str
     text: str
@@ -43,16 +39,19 @@ class NewCase:
     source: str
     chosen: Candidate
     candidates: Sequence[Candidate]
+    notes: Sequence[str] = ()
 
     def findings(self) -> list[str]:
         """Lines for a terminal: what was inferred, how well it fits, and what fits nearly."""
-        return _findings(self.outline, self.source, self.chosen, self.candidates)
+        return _findings(self.outline, self.source, self.chosen, self.candidates, self.notes)
 
 
-def new_case(outline: Outline, source: str, *, cage: str | None = None) -> NewCase:
+def new_case(
+    outline: Outline, source: str, *, cage: str | None = None, notes: Sequence[str] = ()
+) -> NewCase:
     """The case of a bearing that a catalogue, named by ``source``, describes, with the type of
     cage that such bearings commonly have or with another; InputError if there is no such bearing
-    or none of its cages is of that type."""
+    or none of its cages is of that type. ``notes`` are written into its head."""
     check_type(outline.type)
     inside = inside_of(BEARING_TYPES[outline.type])
     candidates = ranked(inside.candidates(outline))
@@ -62,14 +61,14 @@ def new_case(outline: Outline, source: str, *, cage: str | None = None) -> NewCa
     for candidate in candidates:
         try:
             proposed = propose(candidate.bearing)
-            text = _text(outline, source, candidate, candidates, proposed)
+            text = _text(outline, source, candidate, candidates, proposed, notes)
             load_case(text)
         except InputError as exc:
             refused = refused or exc
             continue
         return NewCase(
             name=case_name(outline), text=text, outline=outline, source=source, chosen=candidate,
-            candidates=candidates,
+            candidates=candidates, notes=notes,
         )  # fmt: skip
     assert refused is not None  # there is a candidate, or ``ranked`` has raised
     raise refused
@@ -97,14 +96,16 @@ def case_name(outline: Outline) -> str:
 
 
 def _findings(
-    outline: Outline, source: str, chosen: Candidate, candidates: Sequence[Candidate]
-) -> list[str]:
+    outline: Outline, source: str, chosen: Candidate, candidates: Sequence[Candidate],
+    notes: Sequence[str],
+) -> list[str]:  # fmt: skip
     static, dynamic = chosen.bearing.rating_names
     others = [c for c in candidates if c is not chosen][: SHOWN - 1]
     return [
         f"{chosen.bearing.name_and_size}",
         f"Ratings: {dynamic} = {_kn(outline.dynamic_rating)}, "
         f"{static} = {_kn(outline.static_rating)} ({source}).",
+        *(f"{note}." for note in notes),
         f"Inside, inferred: {_residuals(chosen)}.",
         *(
             f"{'Next best' if k == 0 else '     then'}: {_residuals(c)}."
@@ -130,24 +131,29 @@ def _kn(force: float) -> str:
 
 def _text(
     outline: Outline, source: str, chosen: Candidate, candidates: Sequence[Candidate],
-    proposed: ProposedCage,
+    proposed: ProposedCage, notes: Sequence[str],
 ) -> str:  # fmt: skip
     name, bearing = case_name(outline), chosen.bearing
-    head = [f"# {in_one_line(line)}" for line in _findings(outline, source, chosen, candidates)]
+    told = _findings(outline, source, chosen, candidates, notes)
+    head = [f"# {in_one_line(line)}" for line in told]
     given = _given(outline)
     load = "axial" if outline.contact_angle else "radial"
+    speed = _speed(bearing.pitch_diameter)
     sections = [
         ("bearing", _entries(bearing, {"type": "", "designation": "", **given, **chosen.reasons})),
         ("cage", [
             ("model", '"flexible"', ""),
             *_entries(proposed.cage, {"type": "", **proposed.reasons}),
         ]),
-        ("drive", [("speed", f'"{_speed(bearing.pitch_diameter)} rpm"', "assumption: moderate")]),
+        ("drive", [("speed", f'"{speed} rpm"', "assumption: moderate")]),
         ("load", [(
             load, f'"{_two_digits(_LOAD * outline.dynamic_rating):g} N"',
             f"assumption: {_LOAD:.0%} of the dynamic rating",
         )]),
-        ("solver", [("duration", f'"{_DURATION}"', "assumption: a first look")]),
+        ("solver", [(
+            "duration", f'"{_duration(bearing, speed)} ms"',
+            "assumption: long enough for means and intervals",
+        )]),
     ]  # fmt: skip
     lines = [
         *head,
@@ -194,6 +200,15 @@ def _aligned(entries: Sequence[tuple[str, str, str]]) -> list[str]:
 def _speed(pitch_diameter: float) -> int:
     """Speed [rpm], to two digits."""
     return int(_two_digits(_SPEED / pitch_diameter))
+
+
+def _duration(bearing: Bearing, speed: float) -> int:
+    """Duration [ms], to ten, in whose settled part the cage turns once and elements pass often
+    enough; ``speed`` [rpm] is the inner ring's."""
+    ratio = bearing.element_diameter / bearing.pitch_diameter
+    angle = bearing.nominal_contact_angle
+    turns = rolling_shares(ratio, (angle, angle)).orbit * speed / 60e3  # of the cage, in a ms
+    return 10 * ceil(max(1.0, _PASSES / bearing.element_count) / (10.0 * _SETTLED * turns))
 
 
 def _two_digits(value: float) -> float:

@@ -9,6 +9,16 @@ import numpy as np
 
 from flexcage.contacts.evaluation import APPROACH, DAMPED, NORMAL, RUBBED, SHEARED, STORED
 from flexcage.contacts.laws import EXPONENT, LandFilm, short_bearing
+from flexcage.contacts.ring_waves import (
+    PLACE,
+    RATE,
+    furthest,
+    outwards_at,
+    push_outwards,
+    push_shifted,
+    shifted,
+    widened,
+)
 from flexcage.contacts.slices import (
     friction_factors,
     friction_power,
@@ -36,6 +46,8 @@ class OtherLand(NamedTuple):
     phi_max: np.ndarray
     normal: np.ndarray
     friction: np.ndarray
+    crest: np.ndarray  # no waves: it counts as rigid
+    borne: np.ndarray
 
 
 class LandData(NamedTuple):
@@ -54,6 +66,8 @@ class LandData(NamedTuple):
     friction: np.ndarray  # (N_FRICTION,)
     viscosity: float  # of the oil in a film
     width: float  # of one land
+    crest: np.ndarray  # (N + 1, 2, 2, 3) of the ring's waves, see ``ring_waves``
+    borne: np.ndarray  # (N + 1, 2, 3) forces on them
     other_kind: int
     other_clearance: float
     other_radius: float
@@ -161,6 +175,7 @@ def other_land(data):
     return OtherLand(
         data.other_kind, 1 - data.inner, data.other_clearance, data.other_radius, data.other_x,
         data.angle, data.other_phi, data.other_phi_max, data.other_normal, data.friction,
+        data.crest[:0], data.borne[:0],
     )  # fmt: skip
 
 
@@ -180,6 +195,7 @@ def dry_contact(cage, ring, data, onset, laws, sl, lw, out, sums):
     reach += (abs(A[1, 0]) + abs(A[2, 0])) * abs(data.x[1])
     for m in range(cage.q.shape[0]):
         reach += data.phi_max[m] * abs(cage.q[m])
+    reach += furthest(data.crest, abs(data.x[1]))
     if reach < data.clearance:
         return
     _displaced(data, cage.q, lw.u)
@@ -249,7 +265,7 @@ def _press(A, data, offset, side, lw):
         radius = data.radius + lw.u[s]
         bend = 0.5 * (lw.u[(s + 1) % n_l] - lw.u[s - 1])
         rise = combine(times(bend, e), radius * 2.0 * pi / n_l, along)
-        lw.d[s], lw.rise[s] = _within(data, offset, combine(middle, radius, e), rise)
+        lw.d[s], lw.rise[s] = _within(data, offset, side, combine(middle, radius, e), rise)
         if lw.d[s] > lw.d[deepest]:
             deepest = s
         pressed = pressed and lw.d[s] > 0.0
@@ -294,7 +310,7 @@ def _find_extremes(A, data, offset, side, deepest, lw):
 def _depth(A, data, offset, side, place, lw):
     """Penetration at ``place`` round the land, and its slope by station."""
     c, rise, _ = _surface(A, data, side, place, lw)
-    return _within(data, offset, c, rise)
+    return _within(data, offset, side, c, rise)
 
 
 @part
@@ -304,13 +320,17 @@ def _outwards(data):
 
 
 @part
-def _within(data, offset, c, rise):
-    """Penetration of a point c of the land into the ring, and its slope where c's is ``rise``."""
+def _within(data, offset, side, c, rise):
+    """Penetration of a point c of a land into the ring, and its slope where c's is ``rise``."""
     y, z = offset[1] + c[1], offset[2] + c[2]
     d = sqrt(y * y + z * z)
     out = _outwards(data)
     ring = data.radius - out * data.clearance
-    return out * (ring - d), -out * (y * rise[1] + z * rise[2]) / d
+    if data.crest.shape[0] == 0:
+        return out * (ring - d), -out * (y * rise[1] + z * rise[2]) / d
+    moved, slope, _ = outwards_at(data.crest, data.x[side], y, z)
+    turn = (y * rise[2] - z * rise[1]) / (d * d)
+    return out * (ring + moved - d), out * (slope * turn - (y * rise[1] + z * rise[2]) / d)
 
 
 @part
@@ -385,15 +405,18 @@ def _touch(touch, cage, ring, data, onset, laws, sl, lw, out, sums):
     at = plus(offset, c)
     size = _outwards(data) / sqrt(at[1] * at[1] + at[2] * at[2])
     n = (0.0, size * at[1], size * at[2])  # on the cage, in the plane of rotation
+    ahead, x, rate = (0.0, -n[2], n[1]), data.x[touch.side], 0.0
+    if data.crest.shape[0] > 0:  # it leans where the ring's radius changes along it
+        _, slope, rate = outwards_at(data.crest, x, at[1], at[2])
+        n = combine(n, -slope * abs(size), ahead)
     v = plus(minus(xyz(cage.velocity), xyz(ring.velocity)), cross(xyz(cage.spin), c))
     v = (0.0, v[1] + ring.spin * at[2], v[2] - ring.spin * at[1])
-    sl.v[0] = -(dot(n, v) + dot(n, e) * outwards)
+    sl.v[0] = -(dot(n, v) + dot(n, e) * outwards) + _outwards(data) * rate
     if sl.d[0] <= 0.0:
         return sl.v[0]
     normal_forces(laws.normal, (0, 1), sl, data.normal, onset[touch.side])
     N = touch.sign * sl.Ne[0] + touch.share * (sl.N[0] - sl.Ne[0])
     rubs = touch.share * sl.N[0]
-    ahead = (0.0, -n[2], n[1])
     slide = dot(ahead, combine(plus(v, times(outwards, e)), forwards, along))
     sl.u[0] = abs(slide)
     friction_factors(laws.friction, (0, 1), sl, data.friction)
@@ -403,6 +426,7 @@ def _touch(touch, cage, ring, data, onset, laws, sl, lw, out, sums):
     add_to(out.ring_force, times(-1.0, f))
     add_to(out.cage_moment, cross(c, f))
     add_to(out.ring_moment, cross(f, at))
+    push_outwards(data.borne, x, at[1], at[2], -_outwards(data) * N)
     radial, rubbed = dot(f, e), -rubs * g * dot(ahead, along)  # the depth knows radial modes alone
     for k in range(4):
         s = (j + k - 1) % n_l
@@ -450,7 +474,6 @@ def _spread_film(A, data, film, qd, lw, modal, sums):
 @outlined
 def _film(cage, ring, data, lw, out, sums):
     """Short-bearing film on both lands: whirl and squeeze of a rigid cage included."""
-    film = LandFilm(data.viscosity, data.width, data.radius, data.clearance)
     A, (w0, w1, w2), spin = cage.A, xyz(cage.spin), ring.spin
     rel = minus(xyz(cage.velocity), xyz(ring.velocity))
     for side in range(2):
@@ -458,11 +481,17 @@ def _film(cage, ring, data, lw, out, sums):
         lever, ey, ez = minus(plus(xyz(cage.centre), (x, cy, cz)), xyz(ring.centre))
         vy = rel[1] + w2 * data.x[side] * A[0, 0] - w0 * cz
         vz = rel[2] + w0 * cy - w1 * data.x[side] * A[0, 0]
-        fy, fz, size = short_bearing(film, (ey, ez), (vy, vz), spin + w0, abs(spin - w0))
+        room = data.clearance - _outwards(data) * widened(data.crest, data.x[side])
+        film = LandFilm(data.viscosity, data.width, data.radius, room)
+        sy, sz = shifted(data.crest, data.x[side], PLACE)
+        ry, rz = shifted(data.crest, data.x[side], RATE)
+        vy, vz = vy - ry, vz - rz
+        fy, fz, size = short_bearing(film, (ey - sy, ez - sz), (vy, vz), spin + w0, abs(spin - w0))
         torque = size if spin > w0 else -size
         _spread_film(A, data, (fy, fz, torque), cage.qd, lw, out.modal, sums)
         add_to(out.cage_force, (0.0, fy, fz))
         add_to(out.ring_force, (0.0, -fy, -fz))
+        push_shifted(data.borne, data.x[side], -fy, -fz)
         add_to(out.cage_moment, (torque + cy * fz - cz * fy, -x * fz, x * fy))
         add_to(out.ring_moment, (-torque - ey * fz + ez * fy, lever * fz, -lever * fy))
         sums[SHEARED] += fy * vy + fz * vz + torque * (w0 - spin)

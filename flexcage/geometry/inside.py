@@ -29,11 +29,23 @@ _ROUNDING = 0.03
 
 
 @dataclass(frozen=True, kw_only=True)
+class ClearanceGroup:
+    """A group of radial internal clearance [m] before mounting, by ISO 5753-1; ``more`` is what
+    the middle of the group has beyond that of the normal one."""
+
+    name: str
+    least: float
+    largest: float
+    more: float
+
+
+@dataclass(frozen=True, kw_only=True)
 class Outline:
     """What a catalogue says of a bearing: boundary dimensions [m] and basic load ratings [N].
 
     ``contact_angle`` [rad] of angular contact bearings; of roller bearings the ``design``, race
-    diameters F and E and those of the ribs of both rings [m]; None where they have none.
+    diameters F and E and those of the ribs of both rings [m]; None where they have none, or where
+    the designation names no group of ``clearance``.
     """
 
     type: str
@@ -49,11 +61,26 @@ class Outline:
     design: str | None = None
     inner_rib_diameter: float | None = None
     outer_rib_diameter: float | None = None
+    clearance: ClearanceGroup | None = None
 
     @property
     def boundary(self) -> dict[str, Any]:
         """Fields of a bearing's spec that the outline gives itself."""
         return {key: getattr(self, key) for key in ("bore", "outside_diameter", "width")}
+
+    def clearance_in_operation(self, normal: float) -> tuple[float, str]:
+        """Radial clearance [m], and how it was found, where ``normal`` [m] is assumed of a bearing
+        with normal clearance: fits and warmth take the same from every group."""
+        group = self.clearance
+        if group is None:
+            return normal, "assumption: in operation; less than before mounting (ISO 5753)"
+        least, largest = (f"{1e6 * value:g}" for value in (group.least, group.largest))
+        found = max(0.0, round(normal + group.more, 7))
+        return (
+            found,
+            f"assumption: in operation; {group.name} is {least} to {largest} um before "
+            "mounting (ISO 5753-1)",
+        )
 
     def given(self, key: str, what: str) -> float:
         """A value that this type of bearing needs; InputError where the outline lacks it."""

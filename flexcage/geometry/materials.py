@@ -112,11 +112,16 @@ _PA46 = (
     "3300 MPa dry and density: NETZSCH Analyzing and Testing, Properties of polymers, PA46; the "
     "rest " + _CLASS.format("DSM's Stanyl TW341")
 )
+_BETWEEN = (
+    "an assumption: between PA46 and PA46-GF30 as PA66-GF25 is between PA66 A3K and PA66-GF30; "
+    "compare your own grade's"
+)
 _POLYAMIDES = (
     ("PA66 A3K", 0.4, (3.0, 85.0), (1.1, 50.0), 1130.0, _A3K),
     ("PA66-GF25", 0.38, (8.6, 175.0), (6.5, 120.0), 1320.0, _CLASS.format("BASF's Ultramid A3WG5")),
     ("PA66-GF30", 0.37, (10.0, 190.0), (7.2, 130.0), 1360.0, _CLASS.format("Ultramid A3WG6")),
     ("PA46", 0.4, (3.3, 100.0), (1.0, 55.0), 1180.0, _PA46),
+    ("PA46-GF25", 0.38, (8.7, 195.0), (5.4, 110.0), 1370.0, _BETWEEN),
     ("PA46-GF30", 0.37, (10.0, 210.0), (6.0, 120.0), 1410.0, _CLASS.format("Stanyl TW200F6")),
 )
 

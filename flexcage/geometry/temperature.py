@@ -93,7 +93,10 @@ _ASME = "ASME B31.1-1995, modulus of elasticity of {} over temperature; " + _LIM
 # conditioned, 10 and 6 GPa at 3.3 and 1.0 GPa of the matrix, has this one
 _FIBRES = 0.43
 # degrees C, and modulus in any unit, the second at room temperature
-_ZYTEL = "flexural modulus of DuPont's Zytel 101 at -40, 23, 77 and 121 degrees C (ASTM D790)"
+_ZYTEL = (
+    "flexural modulus of DuPont's Zytel 101 at -40, 23, 77 and 121 degrees C (ASTM D790), which at "
+    "23 is that on the sheet of Zytel 103HSL, 2.8 GPa dry and 1.2 conditioned"
+)
 _STANYL = "tensile modulus of DSM's Stanyl TW341 at 23, 120 and 160 degrees C"
 _PA66 = (-40.0, 23.0, 77.0, 121.0)
 _PA46 = (-40.0, 23.0, 80.0, 120.0, 160.0)
@@ -107,6 +110,7 @@ _GRADES = {  # of the matrix, and the power
     "PA66-GF25": ("PA66", _FIBRES),
     "PA66-GF30": ("PA66", _FIBRES),
     "PA46": ("PA46", 1.0),
+    "PA46-GF25": ("PA46", _FIBRES),
     "PA46-GF30": ("PA46", _FIBRES),
 }
 
@@ -150,12 +154,18 @@ MODULUS_CURVES: dict[str, ModulusCurve] = {
         ),
         _curve(
             "brass", _METALS, (15.4, 15.0, 14.6, 14.4, 14.1, 13.8, 13.4), 250.0,
-            _ASSUMED.format("naval brass C46400 in ASME B31.3, table C-6"), polymer=False,
+            _ASSUMED.format(
+                "naval brass C46400 in ASME B31.3, table C-6 (up to 149 degrees C within 0.7 % of "
+                "what ASME B31.1-1995 has of the leaded red brass C83600)"
+            ),
+            polymer=False,
         ),
         _curve(
-            "PEEK", (-40.0, 23.0, 100.0, 130.0, 145.0, 160.0, 200.0, 250.0),
-            (1.05, 1.0, 0.92, 0.8, 0.6, 0.28, 0.12, 0.07), 150.0,
-            _ASSUMED.format("unfilled PEEK, glass transition at 143 degrees C"),
+            "PEEK", (-40.0, 23.0, 60.0, 90.0, 120.0, 150.0, 160.0, 200.0, 250.0),
+            (5.985, 5.7, 5.3, 5.2, 5.1, 4.3, 1.6, 0.68, 0.4), 150.0,
+            "LATI, LATIGRAY 88-10-01 CX 30, a PEEK with a mineral filler: tensile modulus at 23, "
+            "60, 90, 120 and 150 degrees C (ISO 527); -40 and from 160 on, above the glass "
+            f"transition, an assumption of the class of unfilled PEEK; {_LIMITS}",
         ),
         *_polyamides(),
     )

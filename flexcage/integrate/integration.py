@@ -77,7 +77,7 @@ class Integration:
         self.bearing, self.recording, self.store = bearing, recording, store
         self.solver, self.output = solver, output
         held = {v.name for v in store.layout.variables}
-        own = (name for name in recorded_names(bearing) if name not in COMPUTED)
+        own = (name for name in recorded_names(bearing, recording) if name not in COMPUTED)
         lacking = [name for name in own if name not in held]
         if lacking:
             raise _of_another(f"it holds no '{lacking[0]}'", lacking[0])

@@ -43,6 +43,7 @@ def new_store(
             {"long_name": "unit of multipliers"},
         ),
         **_supports(bearing),
+        **_spotted(bearing, recording),
         "energy_kind": np.array(ENERGIES),
         "channel": np.array(POWERS),
         "land_station": np.arange(len(bearing.data.work.report.land_station)),
@@ -51,7 +52,7 @@ def new_store(
     return RunStore.create(
         path,
         coords=coords,
-        variables=recorded_names(bearing),
+        variables=recorded_names(bearing, recording),
         n_time=n,
         n_time_hf=n * ratio,
         block=output.block,
@@ -74,11 +75,22 @@ def _supports(bearing: Bearing) -> dict[str, Any]:
     }  # fmt: skip
 
 
-def recorded_names(bearing: Bearing) -> list[str]:
+def _spotted(bearing: Bearing, recording: Recording[Any]) -> dict[str, Any]:
+    """Numbers of the elements that have a spot."""
+    spotted = recording.spots(bearing.data.model)
+    told = {"long_name": "element that has a spot"}
+    return {"spotted": (("spotted",), spotted, told)} if len(spotted) else {}
+
+
+def recorded_names(bearing: Bearing, recording: Recording[Any]) -> list[str]:
     """Names of all that is recorded of this bearing."""
     layout = bearing.layout
     supports = bearing.rings is not None and len(bearing.rings.swings.azimuth)
-    counted = (("mode", layout.modes), ("bending", layout.bends), ("support", supports))
+    spots = len(recording.spots(bearing.data.model))
+    counted = (
+        ("mode", layout.modes), ("bending", layout.bends), ("support", supports),
+        ("spotted", spots),
+    )  # fmt: skip
     without = {dim for dim, has in counted if not has}
     every = variables_of(bearing.spec.family)
     return [name for name in every if without.isdisjoint(VARIABLES[name].dims)]

@@ -26,9 +26,13 @@ class Recording(Generic[M]):
     them a run that goes wrong is found. A further place says how far outside the cage's wall an
     element is, and ``remedy(model)`` what would hold a cage that comes off. Bodies are as they
     were made, without waves and deflection.
+
+    ``spots(model)``: numbers of the elements that have a spot, whose directions (n, spots, 3) are
+    then among the variables, as "spot_direction".
     """
 
     coords: Callable[[M], dict[str, Any]]
     variables: Callable[[Bearing, np.ndarray], dict[str, np.ndarray]]
     overlaps: Callable[[M, Layout, np.ndarray], np.ndarray]
     remedy: Callable[[M], str] = lambda model: "a land (cage.guidance) would hold it"
+    spots: Callable[[M], np.ndarray] = lambda model: np.zeros(0, np.int64)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from math import pi
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -13,6 +13,7 @@ import numpy as np
 from flexcage.core.errors import InputError
 from flexcage.geometry.bearing import Bearing
 from flexcage.render import marks, sheet
+from flexcage.render.damage import mark_spalls, mark_spots
 from flexcage.render.elements import race_loads, shown_faces
 from flexcage.render.scene import (
     Layer,
@@ -38,8 +39,6 @@ IDLE = "#c4c8ce"  # an element that the inner race does not load
 RING, BRASS = "#8fa3b8", "#c9a253"
 LOADED_SHARE = 0.01
 _USUAL = 0.95  # share of the time in which loads lie within the colours
-_LEAST_ARC = 0.02  # rad, half of what a spall is drawn with: a small one is seen
-_SPALL_NAME = 0.42  # of an element's diameter, from a race to the word
 _FACE_COLOURS = (sheet.VERMILION, sheet.GREEN, sheet.PURPLE)
 
 
@@ -63,6 +62,7 @@ class Instant:
     inner_angle: float
     inner_speed: float
     cage_speed: float
+    spots: Mapping[int, np.ndarray] = field(default_factory=dict)  # by element: direction (3,)
 
 
 def bearing_picture(
@@ -137,7 +137,16 @@ def instant(ds: xarray.Dataset, index: int) -> Instant:
         float(at["inner_angle"]),
         float(at["inner_speed"]),
         float(at["cage_omega"].sel(axis="x")),
+        _spots_of(at),
     )
+
+
+def _spots_of(at: xarray.Dataset) -> dict[int, np.ndarray]:
+    """Directions of spots of one instant by the numbers of their elements."""
+    if "spot_direction" not in at:
+        return {}
+    direction = at["spot_direction"].transpose("spotted", "axis")
+    return {int(k): d for k, d in zip(at["spotted"].values, direction.values, strict=True)}
 
 
 def bearing_view(bearing: Bearing) -> View:
@@ -247,34 +256,12 @@ def label_bearing(
     top: float,
     load: Loads,
 ) -> None:
-    """Axes, numbers, spalls, loads and speeds on a picture of the bearing."""
+    """Axes, numbers, spalls, spots, loads and speeds on a picture of the bearing."""
     marks.triad(ax, picture)
-    _spalls(ax, picture, now, bearing)
+    mark_spalls(ax, picture, now, bearing)
+    mark_spots(ax, picture, now, bearing)
     _load_labels(ax, picture, now, bearing, top)
     _middle(ax, picture, now, bearing, load)
-
-
-def _spalls(ax: Any, picture: Picture, now: Instant, b: Bearing) -> None:
-    """An arc along the race, at the near end of an element, where a race has a spall."""
-    end = shapes_of(b).end
-    for name, turned, sign in (("inner", now.inner_angle, -1.0), ("outer", 0.0, 1.0)):
-        spall = getattr(b, f"{name}_spall", None)
-        if spall is None or not spall.length:
-            continue
-        radius = 0.5 * (b.pitch_diameter + sign * b.element_diameter)
-        half = max(0.5 * spall.length / radius, _LEAST_ARC)
-        psi = spall.azimuth + turned + np.linspace(-half, half, 25)
-        around = np.column_stack([np.zeros_like(psi), np.cos(psi), np.sin(psi)])
-        middle = (
-            np.array([end, *now.inner_position[1:]]) if sign < 0.0 else np.array([end, 0.0, 0.0])
-        )
-        x, y = picture.place(radius * around + middle).T
-        ax.plot(x, y, color=sheet.VERMILION, lw=5.0, solid_capstyle="butt",
-                path_effects=marks.halo(7.5))  # fmt: skip
-        tx, ty = picture.place((radius + sign * _SPALL_NAME * b.element_diameter) * around[12]
-                               + middle)[0]  # fmt: skip
-        ax.text(tx, ty, "spall", color=sheet.VERMILION, weight="bold", fontsize=9.5,
-                ha="center", va="center", path_effects=marks.halo(3.0))  # fmt: skip
 
 
 def _load_labels(ax: Any, picture: Picture, now: Instant, b: Bearing, top: float) -> None:

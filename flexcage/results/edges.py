@@ -47,8 +47,9 @@ class Edge:
     @property
     def row(self) -> Row:
         where = "over the edge: " if self.beyond > 0.0 else "within the groove by that much: "
+        angle = round(degrees(self.angle), 3) + 0.0  # no dust about zero
         where += (
-            f"{self.kind} {self.element}, {self.force:.4g} N at {degrees(self.angle):.4g} deg, "
+            f"{self.kind} {self.element}, {self.force:.4g} N at {angle:.4g} deg, "
             f"t = {self.time * 1e3:.3f} ms"
         )
         return figure(f"edge_{self.race}", self.beyond, where)

@@ -174,7 +174,7 @@ def _force_rows(ds: xarray.Dataset, windows: Windows) -> tuple[Row, ...]:
     place = f"pocket {pocket.peak_pocket}"
     if ds.sizes["face"] > 1:
         place += f", {pocket.peak_face}"
-    where = f"{place}, t = {pocket.peak_time * 1e3:.3f} ms"
+    where = f"{place}, t = {pocket.peak_time * 1e3:.3f} ms" if pocket.peak else "none is touched"
     walls = "Pocket faces" if ds.sizes["face"] > 1 else "Pockets"
     return (
         statistic("pocket_force_mean", windows.ratio(total, faces), "while in contact"),

@@ -233,6 +233,7 @@ def _cage() -> Iterator[KnownFigure]:
         "Cage",
         ("cage_mass", "Cage mass", "g", "with the mass that unbalances it", CONVERGENCE),
         ("cage_centre_shift", "Cage mass centre, shift", "um", "from the axis of the sound cage"),
+        ("cage_modulus", "Cage modulus, warm", "GPa", "of a case with a cage.temperature"),
         ("pinch_force", "Pinch force at the start", "N",
          "of elements that a deformed pocket squeezes when assembled", CONVERGENCE),
     )

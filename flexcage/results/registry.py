@@ -58,7 +58,7 @@ _LABELS: dict[str, tuple[str, ...]] = {
 #: Dimensions of all bearings whose labels a run gives.
 RUN_DIMS = (
     "element", "pocket", "mode", "station", "constraint", "energy_kind", "channel", "land_station",
-    "support",
+    "support", "spotted",
 )  # fmt: skip
 ENERGIES = ("kinetic", "strain", "contact", "mount")  # labels of energy_kind
 #: Bits of values that are rounded together: forces of parts of a face, modal values and moments.
@@ -197,6 +197,12 @@ def _common() -> Iterator[Variable]:
         "modal_acceleration", "m kg^0.5/s^2", "modal accelerations of the cage", "mode", **modal
     )
     yield sampled("race_force", "N", "normal force of a race on an element", "element", "race")
+    yield sampled(
+        "spot_direction", "1",
+        "unit direction from the centre of an element to its spot, ring frame; of those that have "
+        "one",
+        "spotted", "axis", together=1,
+    )  # fmt: skip
     yield sampled(
         "race_traction", "N",
         "traction of a race on an element, along the rolling direction (psi)",

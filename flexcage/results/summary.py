@@ -34,6 +34,7 @@ SHOWN: dict[str, tuple[str, float]] = {
     "N mm": ("N m", 1e3),
     "W": ("W", 1.0),
     "MPa": ("Pa", 1e-6),
+    "GPa": ("Pa", 1e-9),
     "mJ": ("J", 1e3),
     "s": ("s", 1.0),
     "ms": ("s", 1e3),
@@ -51,11 +52,11 @@ SHOWN: dict[str, tuple[str, float]] = {
 
 
 #: What counts as nothing, by the SI unit: what rounding and the solver's tolerance leave of a zero.
-#: Angles in degrees are of contacts: 1e-10 m across two grooves' centres, a few tenths of a
+#: Angles in degrees are of contacts: 1e-9 m across two grooves' centres, a few tenths of a
 #: millimetre apart. Rates by the hour have none: those of wear are small and real.
 RESOLUTION = {
     "m": 1e-10, "rad": 1e-9, "rad/s": 1e-9, "m/s": 1e-9, "N": 1e-6, "N m": 1e-9, "Pa": 1.0,
-    "J": 1e-12, "W": 1e-9, "Hz": 1e-6, "1": 1e-12, "deg": 1e-6,
+    "J": 1e-12, "W": 1e-9, "Hz": 1e-6, "1": 1e-12, "deg": 5e-6,
 }  # fmt: skip
 
 

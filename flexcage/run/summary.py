@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from flexcage.core.units import typeset
 from flexcage.mesh.quality import report_mesh
 from flexcage.results import mode_file
 from flexcage.results.figures import summarise
@@ -20,6 +21,7 @@ from flexcage.solve.contract import Effort
 from flexcage.system.bodies import unbalance_of
 
 if TYPE_CHECKING:
+    from flexcage.geometry.cage import Cage
     from flexcage.run.run import Run
 
 # measured on pinched pockets of an N1013, in tests/verification/test_pinch.py
@@ -102,6 +104,7 @@ def _cage_rows(run: Run) -> list[Row]:
     rows = [
         figure("cage_mass", mass, note),
         figure("cage_centre_shift", float(np.linalg.norm(centre))),
+        *_warm_rows(cage),
     ]
     if run.cage is not None:
         basis = run.cage.shown
@@ -114,6 +117,18 @@ def _cage_rows(run: Run) -> list[Row]:
         pockets = f"pockets {', '.join(map(str, start.pinched))}"
         rows.append(figure("pinch_force", start.pinch_force, pockets))
     return rows
+
+
+def _warm_rows(cage: Cage) -> list[Row]:
+    """The modulus of a cage whose temperature the case gives."""
+    if cage.temperature is None:
+        return []
+    warm, material = cage.warm_material.youngs_modulus, cage.material
+    note = (
+        f"of {material.name} at {typeset(cage.temperature, 'degC')}, "
+        f"{warm / material.youngs_modulus:.0%} of that at 23°C"
+    )
+    return [figure("cage_modulus", warm, note)]
 
 
 def _solver_rows(effort: Effort) -> list[Row]:

@@ -74,11 +74,19 @@ class Reduction:
     selection: Mapping[str, str]
     reduce: str
 
+    @property
+    def unit(self) -> str:
+        """Unit of the number; of a variable like (x, r, psi), that of the component chosen."""
+        own, units = REDUCTIONS[self.reduce].unit, self.variable.unit.split(", ")
+        if own is not None or len(units) == 1:
+            return self.variable.unit if own is None else own
+        last = self.variable.dims[-1]
+        return units[LABELS[last].index(self.selection[last])]
+
     def of(self, run: Run) -> Figure:
         """The figure, with its unit and, where windows of the run give one, its margin; NaN where
         the run has no such variable: modes of a rigid cage, rings that do not bend."""
-        reducer = REDUCTIONS[self.reduce]
-        unit = self.variable.unit if reducer.unit is None else reducer.unit
+        reducer, unit = REDUCTIONS[self.reduce], self.unit
         name, dim = self.variable.name, self.variable.dims[0]
         if name in VARIABLES and name not in run.dataset:
             return Figure(nan, unit)
@@ -223,6 +231,13 @@ def parse_reduction(name: str) -> Reduction:
     selection = {dim.strip(): label.strip() for dim, _, label in pairs}
     for dim, label in selection.items():
         _check_label(name, found, dim, label)
+    if ", " in found.unit and (last := found.dims[-1]) not in selection:
+        raise InputError(
+            f"Output '{name}' would mix {found.unit}; say which {last} of {found.name}, as in "
+            f"'{match[1]}[{last}={LABELS[last][0]}].{match[3]}'.",
+            where="outputs",
+            value=name,
+        )
     over = [dim for dim in found.dims[1:] if ":" in selection.get(dim, ":")]
     if over and REDUCTIONS[match[3]].series:
         raise InputError(

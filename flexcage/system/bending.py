@@ -10,7 +10,9 @@ F_i are the elastic contact forces at the two ports of the race. The first part 
 relaxation time tau, tau s' = F - s: a ring whose material and seat damp in proportion to their
 stiffness (Kelvin and Voigt), but seen by elements as they orbit, so that loads that travel steadily
 meet no lag. C is positive definite, so this takes energy. The second part is negative and follows
-at once; else it would feed vibrations. The axisymmetric ring may turn: psi is measured in space.
+at once; else it would feed vibrations (``at_once``, Newton's method: one step where the force is
+nearly the one that the ring bears, more where an element strikes). The axisymmetric ring may turn:
+psi is measured in space.
 
 With the energy s C s/2 - F H F/2 an element feels the slope of the race that others bend,
 s_i sum_j C'(psi_i - psi_j) s_j about the axis; over all elements these moments are none. Contact
@@ -36,6 +38,8 @@ from flexcage.system.scales import ERROR_RATE
 POINTS = 4096  # of the tables, a power of two; straight lines between them
 STEP = POINTS / (2.0 * pi)  # points a radian
 LEAST = 0.25  # determinant of Newton's step: contacts far stiffer than H is meant for take less
+STEPS = 3  # of Newton's method at the most, under an element that strikes
+NEAR = 0.02  # of the force: where the last of them may begin; what it leaves is of second order
 AXIAL_PORT, RADIAL_PORT, TILT_PORT = range(3)  # in ``RingsData.way``
 # compliances of the two ports, and their slopes over the azimuth
 C11, C12, C22, D11, D12, D22 = range(6)
@@ -155,11 +159,18 @@ def guess(side, i, s, rings):
 
 
 @part
-def at_once(side, i, s, force, slope, rings):
-    """What the guess lacks: Newton's step of w = ... - H F from there, where the ``force`` F on the
-    ports falls with the deflection by the ``slope`` (11, 12, 22)."""
-    k, H = force_at(side, i, rings.moment.shape[1]), rings.half_space[side]
-    x, y = force[0] - s[k], force[1] - s[k + 1]
+def borne_of(side, i, s, rings):
+    """The forces on the two ports of a race at element i that the ring bears."""
+    k = force_at(side, i, rings.moment.shape[1])
+    return s[k], s[k + 1]
+
+
+@part
+def at_once(side, taken, force, slope, rings):
+    """Newton's step of w = ... - H F from a deflection with the forces ``taken`` in place of F,
+    where the ``force`` F on the ports falls with the deflection by the ``slope`` (11, 12, 22)."""
+    H = rings.half_space[side]
+    x, y = force[0] - taken[0], force[1] - taken[1]
     x, y = -(H[C11] * x + H[C12] * y), -(H[C12] * x + H[C22] * y)
     a = 1.0 - H[C11] * slope[0] - H[C12] * slope[1]
     b = -H[C11] * slope[1] - H[C12] * slope[2]
@@ -167,6 +178,23 @@ def at_once(side, i, s, force, slope, rings):
     e = 1.0 - H[C12] * slope[1] - H[C22] * slope[2]
     det = max(a * e - b * c, LEAST)
     return (e * x - b * y) / det, (a * y - c * x) / det
+
+
+@part
+def after(force, slope, step):
+    """The forces on the ports when the race has yielded by a step more, to first order."""
+    x, y = step
+    return (
+        force[0] - slope[0] * x - slope[1] * y,
+        force[1] - slope[1] * x - slope[2] * y,
+    )
+
+
+@part
+def close(taken, force):
+    """Is a ``force`` on the ports near the one ``taken``? Then one step more is enough."""
+    apart = abs(force[0] - taken[0]) + abs(force[1] - taken[1])
+    return apart < NEAR * (abs(force[0]) + abs(force[1]))
 
 
 @part

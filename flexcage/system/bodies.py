@@ -9,6 +9,7 @@ import numpy as np
 from flexcage.bodies.floating_frame import FlexibleBody, with_point_mass
 from flexcage.contacts import laws
 from flexcage.contacts.land import KINDS, NONE, LandData
+from flexcage.contacts.ring_waves import no_waves
 from flexcage.contacts.spec import LandSpec, Lubricant
 from flexcage.geometry.bearing import Bearing, RingLand
 from flexcage.geometry.materials import Material
@@ -108,6 +109,7 @@ def land_data(
     n_l = modes.shape[0]
     angle = 2.0 * np.pi * np.arange(n_l) / n_l
     n = modes.shape[-1]
+    crest, borne = no_waves()
     k, e = laws.land_line_law(
         radius=radius,
         clearance=clearance,
@@ -133,6 +135,8 @@ def land_data(
         friction=laws.friction_parameters(spec.friction),
         viscosity=lubricant.viscosity,
         width=width,
+        crest=crest,
+        borne=borne,
         other_kind=NONE,
         other_clearance=clearance,
         other_radius=radius,

@@ -12,14 +12,18 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from flexcage.contacts.ring_waves import COSINE, SINE
+from flexcage.fem.revolved import R, Revolved, X
 from flexcage.geometry.bearing import Bearing
 from flexcage.geometry.ring import Raceway
 from flexcage.modes.ring import RingReduction, natural_modes, spectrum
 from flexcage.system.bending import POINTS
 from flexcage.system.statics.rings import BentRing, SeatedRing
-from flexcage.system.swinging import COSINE, SINE, Swings, swings_of
+from flexcage.system.swinging import Swings, swings_of
 
-CARRIED = 2.0 * np.pi * 25e3  # [rad/s] modes below have mass: contacts swing as fast
+CARRIED = 2.0 * np.pi * 16e3  # [rad/s] modes below have mass; higher ones, on the contacts of
+# all elements, would swing faster than elements do between rigid rings
+DAMPED = 0.5  # of ``relaxation``: by which a coordinate's spring damps it
 _FAINT = 1e-3  # of a port's compliance in a harmonic, that a mode must make to count
 _BATCH = 4  # modes of a harmonic that are looked for at a time
 _RACE, _SEAT = slice(0, 2), 2  # ports of a reduction
@@ -33,6 +37,7 @@ class Coordinates:
     harmonic: np.ndarray  # (M,)
     quarter: np.ndarray  # (M,)
     shape: np.ndarray  # (M, 2)
+    section: np.ndarray  # (M, 3) of the section as a whole: axially, radially, in tilt
     chi: np.ndarray  # (M,) at the crest, of a support that is a point
     stiffness: np.ndarray  # (M, M)
     at_start: np.ndarray  # (M,)
@@ -46,11 +51,13 @@ class Coordinates:
 @dataclass(frozen=True, eq=False)
 class LowModes:
     """Modes of a ring that swing: harmonic (m,), frequency (m,) [rad/s], of its translation 0,
-    and shapes (m, 3) at the ports, of unit modal mass."""
+    shapes (m, 3) at the ports, of unit modal mass, and motions (m, 3) of the section as a whole:
+    axially at the ring's axis, radially in its middle plane, in tilt."""
 
     harmonic: np.ndarray
     frequency: np.ndarray
     shape: np.ndarray
+    section: np.ndarray
 
     def compliance(self, harmonics: int) -> np.ndarray:
         """Their share (N + 1, 3, 3) of the compliance."""
@@ -67,17 +74,31 @@ def low_modes(ring: RingReduction, below: float = CARRIED) -> LowModes:
     if ring.held.free:
         across = ring.model.rigid_motions(1)[:, 0]
         mass = float(across @ (ring.model.mass(1) @ across))
-        found = [(1, 0.0, ring.rigid / np.sqrt(mass))]
+        found = [(1, 0.0, ring.rigid / np.sqrt(mass), np.array([0.0, 1.0, 0.0]) / np.sqrt(mass))]
+    whole = _section_motions(ring.model)
     for n in ring.harmonics:
         frequency, shapes = _below(ring, int(n), below)
         at_ports = ring.ports.T @ shapes
         share = (at_ports / frequency) ** 2 / np.diag(ring.compliance[n])[:, None]
         counts = share.max(axis=0) > _FAINT
-        found += [(int(n), w, s) for w, s in zip(frequency[counts], at_ports.T[counts])]
+        own = whole @ shapes[:, counts]
+        found += [
+            (int(n), w, s, m) for w, s, m in zip(frequency[counts], at_ports.T[counts], own.T)
+        ]
         if n > 1 and not len(frequency):
             break
-    harmonics, frequencies, at = zip(*found)
-    return LowModes(np.array(harmonics), np.array(frequencies), np.array(at))
+    return LowModes(*(np.array(column) for column in zip(*found)))
+
+
+def _section_motions(model: Revolved) -> np.ndarray:
+    """What of displacements (3N,) is a motion of the section as a rigid one: axially at the ring's
+    axis, radially, in tilt; fitted by least squares, weighted with mass. (3, 3N)."""
+    x, r = model.nodes.T
+    motion = np.zeros((len(x), 3, 3))
+    motion[:, X, 0], motion[:, R, 1], motion[:, X, 2], motion[:, R, 2] = 1.0, 1.0, -r, x
+    motions = motion.reshape(-1, 3)
+    weighted = model.mass(1) @ motions
+    return np.linalg.solve(motions.T @ weighted, weighted.T)
 
 
 def _below(ring: RingReduction, n: int, below: float) -> tuple[np.ndarray, np.ndarray]:
@@ -106,6 +127,7 @@ def ring_coordinates(bent: BentRing, modes: LowModes) -> Coordinates:
     g = np.sqrt(seated.reduction.weight[harmonic])
     made = Coordinates(
         harmonic, quarter, g[:, None] * shape[:, _RACE],
+        np.repeat(modes.section, 2, axis=0)[there],
         spectrum(harmonic, seated.support_length) * shape[:, _SEAT], np.diag(w**2), 0.0 * w,
     )  # fmt: skip
     push = ((made.waves(bent.azimuth).T @ bent.force) * made.shape).sum(axis=1)
@@ -136,20 +158,28 @@ def housing_coordinates(
     if raceway.line:
         along, radial, turned = np.zeros(2), np.array([1.0, 0.0]), np.array([x, 1.0])
     shape = np.stack([along, radial, radial, -turned, turned])
+    section = np.array([[1, 0, 0], [0, 1, 0], [0, 1, 0], [0, 0, -1], [0, 0, 1]])
     made = Coordinates(
         np.array([0, 1, 1, 1, 1]), np.array([COSINE, COSINE, SINE, SINE, COSINE]),
-        unit[:, None] * shape, np.zeros(5), unit[:, None] * np.linalg.inv(compliance) * unit,
-        outer / unit,
+        unit[:, None] * shape, unit[:, None] * section, np.zeros(5),
+        unit[:, None] * np.linalg.inv(compliance) * unit, outer / unit,
     )  # fmt: skip
     return made, unit
 
 
-def swings_of_ring(seated: SeatedRing, modes: LowModes, made: Coordinates, late: float) -> Swings:
+def late_of(made: Coordinates, relaxation: float) -> np.ndarray:
+    """Times (M,) [s] by which coordinates' springs damp them."""
+    return np.full(len(made.harmonic), DAMPED * relaxation)
+
+
+def swings_of_ring(
+    seated: SeatedRing, modes: LowModes, made: Coordinates, relaxation: float
+) -> Swings:
     """Data of a ring for kernels, with its supports if it has any."""
     if not len(seated.support):
         return swings_of(
-            len(seated.azimuth), made.harmonic, made.quarter, made.shape, made.stiffness,
-            np.full(len(made.harmonic), late),
+            len(seated.azimuth), made.harmonic, made.quarter, made.shape, made.section,
+            made.stiffness, late_of(made, relaxation),
         )  # fmt: skip
     ring, azimuth = seated.reduction, 2.0 * np.pi * np.arange(POINTS) / POINTS
     n, rest = ring.harmonics, left_over(ring, modes)
@@ -164,8 +194,8 @@ def swings_of_ring(seated: SeatedRing, modes: LowModes, made: Coordinates, late:
     apart = seated.support[:, None] - seated.support
     between = ring.series(on_seat**2, rest[:, _SEAT:, _SEAT:], apart)[0, 0]
     return swings_of(
-        len(seated.azimuth), made.harmonic, made.quarter, made.shape, made.stiffness,
-        np.full(len(made.harmonic), late), azimuth=seated.support,
+        len(seated.azimuth), made.harmonic, made.quarter, made.shape, made.section, made.stiffness,
+        late_of(made, relaxation), azimuth=seated.support,
         chi=made.waves(seated.support) * made.chi, table=np.hstack(table), between=between,
         holds=not seated.presses_only,
     )  # fmt: skip

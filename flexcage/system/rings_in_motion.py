@@ -13,6 +13,7 @@ from flexcage.system.data import OUTER_RACE
 from flexcage.system.layout import Layout
 from flexcage.system.ring_modes import (
     housing_coordinates,
+    late_of,
     left_over,
     low_modes,
     ring_coordinates,
@@ -100,9 +101,11 @@ def in_housing(
     raceway = rings.sections_of(bearing, loads)[OUTER_RACE].raceway
     mass = bearing.outer_ring_mass + mount.mass
     moved, unit = housing_coordinates(bearing, raceway, compliance, mass, outer)
-    late = np.full(len(outer), rings.outer.relaxation)
+    late = late_of(moved, rings.outer.relaxation)
     count = len(loads.azimuth)
-    swings = swings_of(count, moved.harmonic, moved.quarter, moved.shape, moved.stiffness, late)
+    swings = swings_of(
+        count, moved.harmonic, moved.quarter, moved.shape, moved.section, moved.stiffness, late
+    )
     made.data.way[:] = np.argmax(TO_V[raceway.line], axis=0)
     carried = (moved.waves(loads.azimuth) * moved.at_start) @ moved.shape @ TO_V[raceway.line].T
     return replace(made, swings=swings, at_start=moved.at_start, unit=unit, carried=carried)

@@ -1,7 +1,7 @@
 """Outer rings that swing: coordinates with mass, and supports that hold a ring here and there.
 
 A ring on supports ovalises at low frequencies, and is far softer then than its contacts: without
-inertia it would follow them within a hundredth of ``relaxation``. So its low modes a have mass, and
+inertia it would follow them within a tenth of a microsecond. So its low modes a have mass, and
 so have the motions of a ring in a housing. They stand in space, as the outer ring and its supports
 do. Race and supports are displaced by
 
@@ -19,6 +19,8 @@ supports' forces are those of least energy, found anew in every state: nothing i
 Elements feel the slope F_i phi_m n_m cos' a_m of the modes beside s_i w_i', about the axis. The
 seat bears what these moments leave over. Contacts feel the rate of the modes' share of w as well,
 so F_i in these two places is all of the contact force, with damping and friction.
+
+Ribs and the cage's lands follow the coordinates too: ``ring_walls``.
 """
 
 from __future__ import annotations
@@ -28,6 +30,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from flexcage.contacts.ring_waves import COSINE, PLACE, SINE, no_waves
 from flexcage.core.jit import VECTORISED, fields, kernel, part, zero
 from flexcage.system.bending import (
     POINTS,
@@ -41,9 +44,9 @@ from flexcage.system.bending import (
 )
 from flexcage.system.data import KINETIC, MODAL_DAMPING, OUTER_RACE, STRAIN
 from flexcage.system.layout import PER_ELEMENT, RING_FORCES
+from flexcage.system.ring_walls import set_sections
 from flexcage.system.supports import press_supports, solve_pressed
 
-COSINE, SINE = range(2)  # in ``Swings.quarter``
 B1, B2, SLOPE1, SLOPE2 = range(4)  # in ``Swings.table``: of both ports, and over the azimuth
 
 
@@ -51,10 +54,11 @@ class Swings(NamedTuple):
     """Coordinates of the outer race and supports; those behind ``holds`` are workspaces."""
 
     harmonic: np.ndarray  # (M,) n of a coordinate's wave round the ring
-    quarter: np.ndarray  # (M,) COSINE or SINE
+    quarter: np.ndarray  # (M,) COSINE or SINE of ``contacts.ring_waves``
     shape: np.ndarray  # (M, 2) by which it displaces the race at its crest, at both ports
+    section: np.ndarray  # (M, 3) and the section as a whole, as ``contacts.ring_waves`` has it
     stiffness: np.ndarray  # (M, M) for unit masses
-    late: np.ndarray  # (M,) relaxation time tau
+    late: np.ndarray  # (M,) time tau by which its spring damps it
     azimuth: np.ndarray  # (S,) of supports
     chi: np.ndarray  # (S, M) by which coordinates displace the ring outwards at supports
     table: np.ndarray  # (POINTS, 4) B of an element so far round the ring from a support
@@ -62,6 +66,9 @@ class Swings(NamedTuple):
     holds: int  # 1 if supports pull as well
     crest: np.ndarray  # (N + 1, 2, 4) of cosine and sine: displacement and rate at both ports
     load: np.ndarray  # (N + 1, 2, 2) contact forces on them, at both ports
+    carried: np.ndarray  # (N + 1, 2, 2, 3) the section's waves; none if the ring does not swing
+    borne: np.ndarray  # (N + 1, 2, 3) forces of ribs and lands on them
+    wall: np.ndarray  # (3, 3) of the section beside a rib's roller, see ``ring_walls``
     wave: np.ndarray  # (Z, N + 1, 2) cosine and sine of n psi
     moved: np.ndarray  # (Z, 2) displacement of the race by coordinates, at its ports
     slope: np.ndarray  # (Z, 2) of that over the azimuth
@@ -99,6 +106,8 @@ def swing(q, u, y, d):
     """Displace the outer race by its coordinates and supports; ``bend_rings`` comes before."""
     swings = fields(d.swings)
     if swings.push.shape[0] == 0:
+        if swings.carried.shape[0] > 0:  # it stands, but displaced
+            _set_waves(q, swings)
         return
     at, bent = swings_at(d), ring_forces_at(d)
     _swing(q, y[bent : at.a], y[at.a : at.v], y[at.v : at.end], fields(d.rings), swings)
@@ -117,6 +126,7 @@ def _swing(q, s, a, v, rings, swings):
     zero(swings.press)
     _set_waves(q, swings)
     _set_crests(a, v, swings)
+    set_sections(a, v, swings)
     for i in range(w.shape[0]):
         for p in range(2):
             x = turn = moves = 0.0
@@ -208,12 +218,15 @@ def push_swings(i, d):
 
 @part(fastmath=VECTORISED)
 def swing_rows(y, yd, d, out):
-    """Rows of coordinates and their velocities."""
+    """Rows of coordinates and their velocities; all contact forces are known."""
     swings, at = fields(d.swings), swings_at(d)
     a, v = y[at.a : at.v], y[at.v : at.end]
     for m in range(a.shape[0]):
         load = swings.load[swings.harmonic[m], swings.quarter[m]]
+        borne = swings.borne[swings.harmonic[m], swings.quarter[m]]
         force = swings.push[m] + swings.shape[m, 0] * load[0] + swings.shape[m, 1] * load[1]
+        for c in range(swings.section.shape[1]):
+            force += swings.section[m, c] * borne[c]
         for l in range(a.shape[0]):
             force -= swings.stiffness[m, l] * (a[l] + swings.late[l] * v[l])
         out[at.a + m] = yd[at.a + m] - v[m]
@@ -290,26 +303,39 @@ def no_swings(elements: int) -> Swings:
     none = np.zeros(0)
     return swings_of(
         elements, np.zeros(0, np.int64), np.zeros(0, np.int64), np.zeros((0, 2)),
-        np.zeros((0, 0)), none,
+        np.zeros((0, 3)), np.zeros((0, 0)), none,
     )  # fmt: skip
+
+
+def standing(elements: int, made: Swings, at: np.ndarray) -> Swings:
+    """Data of a ring whose section stays where coordinates ``at`` (M,) of a ring that swings put
+    it, for ribs in the search of a start."""
+    still = no_swings(elements)
+    if not len(at):
+        return still
+    carried, borne = 0.0 * made.carried, 0.0 * made.borne
+    np.add.at(carried[:, :, PLACE], (made.harmonic, made.quarter), made.section * at[:, None])
+    return still._replace(carried=carried, borne=borne, wave=0.0 * made.wave)
 
 
 def swings_of(
     elements: int, harmonic: np.ndarray, quarter: np.ndarray, shape: np.ndarray,
-    stiffness: np.ndarray, late: np.ndarray, *, azimuth: np.ndarray | None = None,
-    chi: np.ndarray | None = None, table: np.ndarray | None = None,
-    between: np.ndarray | None = None, holds: bool = False,
+    section: np.ndarray, stiffness: np.ndarray, late: np.ndarray, *,
+    azimuth: np.ndarray | None = None, chi: np.ndarray | None = None,
+    table: np.ndarray | None = None, between: np.ndarray | None = None, holds: bool = False,
 ) -> Swings:  # fmt: skip
     """Coordinates and, if any are given, supports, with room to work."""
     count, held = len(harmonic), 0 if azimuth is None else len(azimuth)
     waves, z, st = int(harmonic.max(initial=0)) + 1, np.zeros, np.ascontiguousarray
+    carried, borne = no_waves() if count == 0 else (z((waves, 2, 2, 3)), z((waves, 2, 3)))
     return Swings(
-        harmonic, quarter, st(shape), st(stiffness), late,
+        harmonic, quarter, st(shape), st(section), st(stiffness), late,
         z(0) if azimuth is None else azimuth,
         z((held, count)) if chi is None else st(chi),
         z((POINTS, 4)) if table is None else st(table),
         z((held, held)) if between is None else st(between),
-        int(holds), z((waves, 2, 4)), z((waves, 2, 2)), z((elements, waves, 2)),
+        int(holds), z((waves, 2, 4)), z((waves, 2, 2)), carried, borne, z((3, 3)),
+        z((elements, waves, 2)),
         z((elements, 2)), z((elements, 2)), z((elements, 2)), z((elements, 2)), z(count),
         z((held, elements, 4)), z(held), z(held), z(held), z(held, np.int64), z(held, np.int64),
         z((held, held)), z(held),

@@ -60,6 +60,15 @@ def test_readings_and_maps_are_plans(folder, points, conditions):
     assert all(len(set(points)) == 5 for points in paper.rechecks.values())
 
 
+def test_a_screening_has_the_unknowns_of_its_map():
+    paper = loaded(WAVES)
+    screen, whole = (load_map(WAVES / f"{name}_bearing.toml") for name in ("screen", "map"))
+    assert screen.unknowns == whole.unknowns and screen.design == "morris"
+    for asked in paper.weighed["screen_bearing.toml"]:
+        assert asked.output in screen.outputs
+        assert asked.condition in {c["label"] for c in screen.conditions}
+
+
 def test_the_printed_reading_of_fluctuating_speed_is_as_the_paper_says():
     loaded(WAVES)
     plan = make_plan(load_study(WAVES / "readings.toml"))

@@ -6,6 +6,7 @@ import json
 import sys
 from dataclasses import replace
 from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -101,6 +102,68 @@ class KnownMap:
     def judge(self, test):
         values = self.means("y", "a")
         return [None if np.isnan(v) else test(lambda *_, v=v: v) for v in values]
+
+
+def of_starts(values, label="flexible"):
+    """What a study has of one condition: outputs by name, each (starts,)."""
+
+    def row(start):
+        figures = {k: SimpleNamespace(value=v[start]) for k, v in values.items()}
+        point = SimpleNamespace(labels={"reading": label, "condition": "a"})
+        return SimpleNamespace(
+            planned=SimpleNamespace(point=point), state="done", figures=figures, reason=""
+        )
+
+    starts = len(next(iter(values.values())))
+    about = SimpleNamespace(outputs=tuple(values))
+    return SimpleNamespace(rows=[row(k) for k in range(starts)], about=about)
+
+
+def claim_of(output):
+    """A claim that an output is positive under the condition "a"."""
+    from flexcage.study.claims import Between, Claim
+
+    return Claim(output, "is positive", "here", {"so": Between(output, ("a",), low=0.0)}, (output,))
+
+
+def test_a_study_beside_a_reading_puts_out_more_of_it():
+    """What neither puts out is NaN, and so is what the one beside has of too few starts."""
+    from paper_results import Reading
+
+    many, few = {"root": np.arange(8.0), "edge": np.ones(8)}, {"root": np.arange(5.0)}
+    own = of_starts({"force": np.arange(10.0)})
+    reading = Reading("flexible", own, Reading("flexible", of_starts(many)))
+    at = reading.at_look(8)
+    assert reading.look == 8
+    np.testing.assert_array_equal(at("force", "a"), np.arange(8.0))
+    np.testing.assert_array_equal(at("root", "a"), np.arange(8.0))
+    assert np.isnan(at("tilt", "a")).all() and len(at("tilt", "a")) == 8
+    less = Reading("flexible", own, Reading("flexible", of_starts(few))).at_look(8)
+    assert np.isnan(less("root", "a")).all()
+
+
+def test_claims_are_judged_by_the_starts_that_their_conditions_have():
+    """Eight starts do not decide what sixteen do; more starts count where there are some."""
+    from paper_results import Reading, cells_of_starts
+
+    sound = np.array([2.0, 1.0, 3.0, 0.5, 2.5, 1.5, 0.2, 1.2])
+    own, more = (Reading("flexible", of_starts({"force": sound + k})) for k in (0.0, 0.01))
+    claim = claim_of("force")
+    assert own.look_at(claim) == 8
+    assert cells_of_starts([claim], own)["force"].outcome == UNDECIDED
+    reading = replace(own, more=more)
+    assert reading.look_at(claim) == 16 and reading.look == 8
+    assert cells_of_starts([claim], reading)["force"].outcome == HOLDS
+    assert reading.studies == [own.results, more.results]
+    other = Reading("flexible", of_starts({"tilt": sound}), beside=own, more=more)
+    assert other.look_at(claim) == 16 and other.look_at(claim_of("tilt")) == 8
+
+
+def test_a_page_says_how_long_every_study_took():
+    import repeat
+
+    said = repeat._minutes({"readings": 90.0, "map": 3600.0})
+    assert said == "62 minutes of one process on a busy machine (readings 2, map 60)"
 
 
 @pytest.mark.parametrize(("kind", "factor"), [("sample", 1.0), ("morris", 1e3)])
@@ -242,8 +305,12 @@ def test_a_reading_that_lacks_conditions_judges_the_claims_that_it_can():
     class Half:
         look, conditions = 8, {"slow"}
 
-        def at_look(self):
-            return lambda output, condition: np.linspace(0.9, 1.1, 8)
+        def look_at(self, claim):
+            return 8
+
+        def at_look(self, starts):
+            known = {"slow": np.linspace(0.9, 1.1, starts)}
+            return lambda output, condition: known.get(condition, np.full(starts, np.nan))
 
     slow, fast = (
         Claim(k, k, "", {"p": Between("x", (k,), low=0.5)}, ("x",)) for k in ("slow", "fast")

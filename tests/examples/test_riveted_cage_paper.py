@@ -62,6 +62,19 @@ def test_readings_maps_and_the_design_are_plans(paper):
     for claim in paper.claims:
         assert results.conditions_of(claim) <= there[paper.decided_by[claim.key]]
     assert len(make_plan(load_study(FOLDER / "design.toml")).cases) == 49 * 4
+    for column, file in paper.beside.items():
+        study = load_study(FOLDER / file)
+        assert {p["label"] for p in study.axes[0].points} == there[column]
+        assert study.repeat.count == 8
+    for file in paper.more.values():
+        study = load_study(FOLDER / file)
+        assert study.repeat.seed == 9  # the first eight have 1 to 8
+        assert {p["label"] for p in study.axes[0].points} <= there["better model"]
+    screen, whole = (load_map(FOLDER / f"{name}_6747.toml") for name in ("screen", "map_cage"))
+    assert screen.unknowns == whole.unknowns and screen.design == "morris"
+    for asked in paper.weighed["screen_6747.toml"]:
+        assert asked.output in screen.outputs
+        assert asked.condition in {c["label"] for c in screen.conditions}
 
 
 def test_claims_judge_numbers_of_known_order(paper):
@@ -73,7 +86,7 @@ def test_claims_judge_numbers_of_known_order(paper):
             "t 0.7": 0.0100, "t 1.0": 0.0101, "modified 9000": 0.0113,
             "original 9000": 0.0184}  # fmt: skip
     tilt = {"Rp 3.43": 3.0, "base": 2.0, "Rp 3.49": 1.0, "w 8.0": 1.0, "w 5.9": 3.0}
-    good = {"pocket_peak.turn_max": force, "slip": slip, "psi": tilt, "rivet": slip | force}
+    good = {"pocket_peak.turn_max": force, "slip": slip, "psi": tilt, "fillet": slip | force}
 
     def holds(found):
         def at(output, condition):
@@ -134,6 +147,43 @@ def test_what_becomes_of_the_fits(scripts, eave, root, small, outcomes):
 
     results = [result(-3e-6, eave=eave, root=root), result(5e-6, eave=small, root=250e6)]
     assert tuple(scripts.rivet.judged(results).values()) == outcomes
+
+
+def test_what_is_assumed_of_the_joint_is_varied_alone(scripts, monkeypatch):
+    state = SimpleNamespace(equivalent=np.array([1.0, 3.0]) * 1e6)
+    result = SimpleNamespace(
+        places={"root": [0, 1]}, instants={"clamped": state, "again": state},
+        range_at=lambda place: (2e6, 3e6, 1), nominal_range=4e6, K_t=0.5,
+    )  # fmt: skip
+    seen = []
+
+    def one(run, factor, plays, mesh, **changed):
+        seen.append(changed)
+        return (result,)
+
+    monkeypatch.setattr(scripts.rivet, "computed", one)
+    table = scripts.rivet.assumed(None, 1.0)
+    ends = {name: (low, high) for name, (low, _, high) in scripts.rivet.ASSUMED.items()}
+    assert seen == [{}, *({name: v} for name, both in ends.items() for v in both)]
+    assert list(table["range at the root [MPa]"]) == [2.0] * 7
+    assert list(table["root, again [MPa]"]) == [3.0] * 7
+
+
+@pytest.mark.slow
+def test_a_load_stresses_the_heads_roots(paper):
+    """The range at the roots is that of the joint's own cycle; a rigid cage has none."""
+    changes = {"solver.duration": "5 ms", "cage.model": "flexible"}
+    run = flexcage.simulate(flexcage.load_case(FOLDER / "case.toml", overrides=changes))
+    load_extension(FOLDER / "outputs.py")
+    outputs = sys.modules[OWN["fillet"].compute.__module__]
+    found = OWN["fillet"].compute(run)
+    (result,) = run.rivet_joint("3 um", mesh=outputs.MESH)
+    assert found["fillet"] == pytest.approx(result.range_at("root")[0], rel=1e-9)
+    assert found["fillet_peak"] == pytest.approx(
+        max(p.stress for p in result.peaks() if p.place == "root"), rel=1e-9
+    )
+    rigid = SimpleNamespace(case=SimpleNamespace(riveted=False))
+    assert all(np.isnan(v) for v in OWN["fillet"].compute(rigid).values())
 
 
 @pytest.mark.slow

@@ -14,10 +14,11 @@ from ring_with_pockets import Z, quadratic
 
 from flexcage import render
 from flexcage.bearings.cylindrical_roller.bearing import RollerBearing
+from flexcage.bearings.cylindrical_roller.spot import RollerSpot
 from flexcage.cages.window.defects import CrossbeamDefect, SideBeamDefect
 from flexcage.core.errors import EnvironmentLacks, InputError, RunFailed
 from flexcage.geometry.spall import Spall
-from flexcage.render import bearing_pictures, sheet
+from flexcage.render import bearing_pictures, damage, sheet
 from flexcage.results.metrics import BearingNumbers
 from flexcage.results.registry import VARIABLES
 from flexcage.results.store import RunStore
@@ -196,7 +197,7 @@ def test_spalls_are_where_their_races_are(run):
     spalled, figure = replace(N1013, **spalls), plt.figure()
     seen = SimpleNamespace(place=lambda points: np.atleast_2d(points)[:, 1:])
     now = replace(bearing_pictures.instant(run, 0), inner_angle=1.1)
-    bearing_pictures._spalls(axes := figure.gca(), seen, now, spalled)
+    damage.mark_spalls(axes := figure.gca(), seen, now, spalled)
     inner, outer = (line.get_xydata() for line in axes.lines)
     for arc, middle, radius, half in (
         (inner, 1.3, 37.25e-3, 1.5e-3 / 37.25e-3), (outer, 0.0, 45.25e-3, 1e-3 / 45.25e-3),
@@ -205,7 +206,32 @@ def test_spalls_are_where_their_races_are(run):
         angle = np.arctan2(arc[:, 1], arc[:, 0])
         np.testing.assert_allclose([angle.min(), angle.max()], [middle - half, middle + half])
     assert [text.get_text() for text in axes.texts] == ["spall", "spall"]
-    bearing_pictures._spalls(bare := plt.figure().gca(), seen, now, N1013)
+    damage.mark_spalls(bare := plt.figure().gca(), seen, now, N1013)
+    assert not bare.lines and not bare.texts
+    plt.close("all")
+
+
+def test_spots_are_on_their_elements(run):
+    """Seen along the axis, an arc lies on its roller's circle, in the spot's direction."""
+    import matplotlib.pyplot as plt
+
+    seen = SimpleNamespace(place=lambda points: np.atleast_2d(points)[:, 1:], sees=lambda at: True)
+    hidden = SimpleNamespace(place=seen.place, sees=lambda at: False)
+    spotted = replace(N1013, roller_spot=RollerSpot(size=3.2e-3, kind="flat", roller=5))
+    turned, half = 0.7, 0.4  # of a roller with a radius of 4 mm
+    spots = {5: np.array([0.0, np.cos(turned), np.sin(turned)])}
+    now = replace(bearing_pictures.instant(run, 0), spots=spots)
+    damage.mark_spots(axes := plt.figure().gca(), seen, now, spotted)
+    (arc,) = axes.lines
+    psi = 2.0 * np.pi * 5 / Z
+    own = arc.get_xydata() - 41.25e-3 * np.array([np.cos(psi), np.sin(psi)])
+    np.testing.assert_allclose(np.hypot(*own.T), 4e-3, rtol=1e-9)
+    angle = np.arctan2(own[:, 1], own[:, 0])
+    np.testing.assert_allclose([angle.min(), angle.max()], [turned - half, turned + half])
+    assert [text.get_text() for text in axes.texts] == ["flat"] and arc.get_linestyle() == "-"
+    damage.mark_spots(axes := plt.figure().gca(), hidden, now, spotted)
+    assert axes.lines[0].get_linestyle() != "-"
+    damage.mark_spots(bare := plt.figure().gca(), seen, bearing_pictures.instant(run, 0), N1013)
     assert not bare.lines and not bare.texts
     plt.close("all")
 

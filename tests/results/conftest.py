@@ -26,6 +26,7 @@ def run_coords(n: int, rate: float = 50e3, ratio: int = 4) -> dict:
         "residual": np.arange(12),
         "land_station": np.arange(24),
         "support": np.arange(3),
+        "spotted": np.array([2, 5]),
         "constraint": ["axial_force", "moment_y", "moment_z", "drive_torque"],
         "energy_kind": ["kinetic", "contact"],
         "channel": ["drive", "race_friction"],

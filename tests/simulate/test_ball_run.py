@@ -26,7 +26,7 @@ BASE = {
     "solver": {"duration": "10 ms"},
 }
 RIGID = {"cage.model": "rigid"}
-OF_RINGS = ("ring_", "support_")  # variables of rings that bend
+ELSEWHERE = ("ring_", "support_", "spot_")  # of rings that bend and of spotted balls
 
 
 def c7010(*tables):
@@ -40,7 +40,7 @@ def flexible(tmp_path_factory):
 
 def test_every_variable_of_balls_is_there_and_finite(flexible):
     ds = flexible.dataset
-    rigid = {name for name in variables_of("ball") if not name.startswith(OF_RINGS)}
+    rigid = {name for name in variables_of("ball") if not name.startswith(ELSEWHERE)}
     assert set(ds.data_vars) == rigid
     for name, values in ds.data_vars.items():
         assert np.isfinite(values.values).all(), name

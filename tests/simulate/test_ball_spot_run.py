@@ -40,6 +40,24 @@ def test_both_methods_turn_the_spot_alike():
         assert dips[0] > 0.005 and dips[1] == pytest.approx(dips[0], rel=0.2)
 
 
+def test_the_recorded_direction_turns_with_the_ball():
+    """Central differences of the direction in space against the ball's angular velocity."""
+    two = {**PIT, "bearing.ball_spot.others": [7], "bearing.ball_spot.tilt": "30 deg"}
+    ds = run_of({**AXIAL, "solver.duration": "0.6 ms"}, two).dataset
+    assert ds["spotted"].values.tolist() == [3, 7]
+    direction = ds["spot_direction"].transpose("time", "spotted", "axis").values
+    np.testing.assert_allclose(np.linalg.norm(direction, axis=-1), 1.0, rtol=1e-6)
+    own = ds.isel(element=[3, 7])
+    x, r, p = (own["element_omega"].isel(spin_axis=c).values for c in range(3))
+    psi = own["element_position"].sel(cyl="psi").values
+    omega = np.stack([x, np.cos(psi) * r - np.sin(psi) * p, np.sin(psi) * r + np.cos(psi) * p], -1)
+    t = ds["time"].values
+    change = (direction[2:] - direction[:-2]) / (t[2:] - t[:-2])[:, None, None]
+    turned = np.cross(omega, direction)[1:-1]
+    assert np.abs(turned).max() > 500.0
+    np.testing.assert_allclose(change, turned, atol=2e-3 * np.abs(turned).max())
+
+
 def test_spots_that_cannot_be_are_refused():
     from test_ball_spall import CASE
 

@@ -57,6 +57,9 @@ def test_a_cage_warmer_than_its_material_bears_is_told():
     (text,) = (w.text for w in run.warnings if w.key == "cage_temperature")
     assert "at 121 degC, where cages of PA66 are used up to 120 degC" in text
     assert "PA66 at 121°C (0.54 GPa; its strength is that at 23°C)" in " ".join(in_words(run.case))
+    assert run.summary.row("cage_modulus").note == "of PA66 at 121°C, 19% of that at 23°C"
+    assert run.summary["cage_modulus"] == pytest.approx(0.54e9)
+    assert "Cage modulus, warm" in run.summary.text()
 
 
 @pytest.mark.slow

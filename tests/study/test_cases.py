@@ -274,7 +274,8 @@ def test_a_folder_in_which_another_study_runs(folder):
 
 def test_figures_that_a_study_may_name_are_those_of_a_run():
     pinch = {"type": "side_beam", "pocket": 5, "displacement": "-0.26 mm"}
-    case = short_case(**{"cage.model": "flexible"}).replace("defects", [pinch])
+    warm = {"cage.model": "flexible", "cage.temperature": "60 degC"}
+    case = short_case(**warm).replace("defects", [pinch])
     run = simulate(case)
     keys = {row.key for row in run.summary}
     of_rollers = {
@@ -298,9 +299,16 @@ def test_a_text_is_no_output_of_a_study(name, what):
 def test_what_a_run_does_not_record_is_nan():
     """So a study may compare a rigid cage, or rigid rings, with what bends."""
     run = simulate(short_case(**{"solver.duration": "0.2 ms"}))
-    for name in ("modal_velocity.rms", "ring_deflection.max", "support_force.max"):
+    for name in ("modal_velocity.rms", "ring_deflection[bending=radial].max", "support_force.max"):
         assert np.isnan(parse_reduction(name).of(run).value)
     assert parse_reduction("race_force.max").of(run).value > 0.0
+
+
+def test_a_variable_of_mixed_units_gives_one_of_its_components():
+    assert parse_reduction("element_position[cyl=r].max").unit == "m"
+    assert parse_reduction("element_position[cyl=psi].max").unit == "rad"
+    with pytest.raises(InputError, match=r"would mix m, m, rad; .*'element_position\[cyl=x\].max'"):
+        parse_reduction("element_position.max")
 
 
 def test_parts_of_a_counted_dimension_make_up_the_whole():

@@ -156,6 +156,19 @@ def test_decisions_wait_for_looks_and_share_the_error():
         decisions.decide(alone, starts=9)
 
 
+def test_claims_may_have_starts_of_their_own():
+    """The same numbers for all claims are one number; a claim with more starts has a wider level,
+    and one that is rejected leaves its error to the others."""
+    p = {"a": 1e-9, "b": 3e-3, "c": 0.2}
+    found = {k: decisions.Evidence(value, 1.0) for k, value in p.items()}
+    for starts in (8, 16, 30):
+        each = decisions.decide(found, starts=dict.fromkeys(p, starts))
+        assert each == decisions.decide(found, starts=starts)
+    mixed = decisions.decide(found, starts={"a": 8, "b": 30, "c": 16})
+    assert mixed == {"a": HOLDS, "b": HOLDS, "c": UNDECIDED}
+    assert decisions.decide(found, starts={"a": 8, "b": 16, "c": 16})["b"] == UNDECIDED
+
+
 def test_wrong_decisions_are_as_rare_as_promised():
     """Ten claims of no effect at three looks: one or more is decided in 5 % of studies at most."""
     rng, planned, wrong, trials = np.random.default_rng(5), looks.Looks(), 0, 400

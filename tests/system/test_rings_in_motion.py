@@ -49,6 +49,13 @@ def exchanged(run):
     return float(np.abs(run.dataset["work"].values[-1]).sum())
 
 
+def missed_energy(run):
+    """What the audit misses, as a share of what is exchanged."""
+    ds = run.dataset
+    missed = ds["energy"].sum("energy_kind") - ds["work"].sum("channel")
+    return np.ptp(missed.values) / exchanged(run)
+
+
 @pytest.mark.parametrize("preset", LOADS)
 def test_what_kernels_read_is_the_static_compliance(preset):
     case = bending(preset)
@@ -120,8 +127,7 @@ def test_energy_is_accounted_for(preset):
     }  # fmt: skip
     run = flexcage.simulate(bending(preset, **wave), stress=False)
     ds = run.dataset
-    missed = ds["energy"].sum("energy_kind") - ds["work"].sum("channel")
-    assert np.ptp(missed.values) < 1e-4 * exchanged(run)
+    assert missed_energy(run) < 1e-4
     damped = ds["work"].sel(channel="modal_damping").values
     assert damped[-1] < 0.0
     assert (np.diff(damped) < 1e-4 * abs(damped[-1])).all()
@@ -137,13 +143,15 @@ UNEVEN = {
 
 @pytest.mark.slow
 def test_balls_fall_into_spalls_and_turn_spots_between_rings_that_bend():
-    """Balls 0 and 3 dip; energy is accounted for within 2e-3, though edges strike races whose
-    half-space yields by one step of Newton's method; with 1e4 times the modulus forces are on
-    the mean as between rigid rings."""
+    """Balls 0 and 3 dip; energy is accounted for within 5e-4 while edges strike races, and within
+    2e-5 at a tight tolerance; with 1e4 times the modulus forces are on the mean as between rigid
+    rings."""
     run = flexcage.simulate(bending("7010C-PI", duration=2e-3, **UNEVEN), stress=False)
     ds = run.dataset
-    missed = ds["energy"].sum("energy_kind") - ds["work"].sum("channel")
-    assert np.ptp(missed.values) < 2e-3 * exchanged(run)
+    assert missed_energy(run) < 5e-4
+    close = {"solver.tolerance": 1e-10, **UNEVEN}
+    exact = flexcage.simulate(bending("7010C-PI", duration=2e-3, **close), stress=False)
+    assert missed_energy(exact) < 2e-5
     force = ds["race_force"].values
     whole = flexcage.simulate(bending("7010C-PI", duration=2e-3), stress=False).dataset
     beside = whole["race_force"].values

@@ -83,8 +83,8 @@ def test_supports_press_and_are_not_entered(holds):
         between = root @ root.T + 0.05 * np.eye(6)
         room = rng.standard_normal(6)
         swings = swings_of(
-            1, none, none, np.zeros((0, 2)), np.zeros((0, 0)), nothing, azimuth=np.zeros(6),
-            between=between, holds=holds,
+            1, none, none, np.zeros((0, 2)), np.zeros((0, 3)), np.zeros((0, 0)), nothing,
+            azimuth=np.zeros(6), between=between, holds=holds,
         )  # fmt: skip
         swings.room[:] = room
         press_supports(swings)
@@ -189,7 +189,8 @@ def test_two_arcs_make_two_peaks_in_motion():
 @pytest.mark.slow
 @pytest.mark.parametrize("preset", LOADS)
 def test_energy_is_accounted_for(preset):
-    """Under a load that swings, so that supports press and let go."""
+    """Under a load that swings, so that supports press and let go; of what rings lose 1 % may come
+    back for an instant, as supports follow the forces that the ring bears and not the contacts'."""
     wave = {
         "load.wave": "sine", "load.wave_of": "radial", "load.wave_period": 5e-4,
         "load.wave_amplitude": 0.95 * LOADS[preset]["radial"],
@@ -200,7 +201,7 @@ def test_energy_is_accounted_for(preset):
     assert np.ptp(missed.values) < 1e-4 * np.abs(ds["work"].values[-1]).sum()
     damped = ds["work"].sel(channel="modal_damping").values
     assert damped[-1] < 0.0
-    assert (np.diff(damped) < 1e-3 * abs(damped[-1])).all()
+    assert (np.diff(damped) < 1e-2 * abs(damped[-1])).all()
     pressed = ds["support_force"].values > 0.0
     assert (pressed != pressed[0]).any()
 
@@ -226,8 +227,7 @@ def test_forces_on_all_bodies_add_up_to_none(preset):
 @pytest.mark.slow
 def test_a_ring_on_a_soft_foundation_swings():
     """At rest as the static solution, forces within 0.1 %, the deflection, which still swings a
-    little, 0.2 %; energy is accounted for, 5e-4, under a load that swings, while rollers strike
-    races whose half-space yields by one step of Newton's method."""
+    little, 0.2 %; energy is accounted for, 1e-4, under a load that swings, while rollers strike."""
     soft = {
         "outer_ring.ring": "flexible", "outer_ring.seat": "foundation",
         "outer_ring.foundation": 3e10,
@@ -246,7 +246,7 @@ def test_a_ring_on_a_soft_foundation_swings():
     }  # fmt: skip
     ds = flexcage.simulate(case_of("N1013", **soft, **wave), stress=False).dataset
     missed = ds["energy"].sum("energy_kind") - ds["work"].sum("channel")
-    assert np.ptp(missed.values) < 5e-4 * np.abs(ds["work"].values[-1]).sum()
+    assert np.ptp(missed.values) < 1e-4 * np.abs(ds["work"].values[-1]).sum()
 
 
 # --- housings ------------------------------------------------------------------------------------
@@ -290,7 +290,7 @@ def test_a_ring_swings_in_its_housing_with_its_mass(housing):
     force = (ds["race_force"].values[..., 1] * np.cos(psi)).sum(axis=1)
     mass, t = case.bearing.outer_ring_mass + 5.0, ds["time"].values
     assert np.gradient(y, t)[5:-5] == pytest.approx(v[5:-5], abs=0.01 * np.abs(v).max())
-    pull = 2e8 * (y + case.outer_ring.relaxation * v)
+    pull = 2e8 * (y + 0.5 * case.outer_ring.relaxation * v)
     assert mass * np.gradient(v, t)[5:-5] == pytest.approx(
         (force - pull)[5:-5], abs=0.01 * np.abs(force).max()
     )

@@ -11,6 +11,7 @@ from flexcage.study.claims import Between, Claim, Trend, Turn
 from flexcage.study.decisions import Evidence, all_of, equal
 
 FORCE = "pocket_peak.turn_max"  # mean over turns of the cage of the largest ball-cage force in each
+ROOT = "fillet"  # range of stress at the roots of rivets' heads, by contact
 DESIGN_AXES = ("cage.pocket_diameter", "cage.width")  # of the 49-point design, Table 3
 BASE = "base"
 RADII = ("Rp 3.43", "Rp 3.44", "Rp 3.45", BASE, "Rp 3.47", "Rp 3.48", "Rp 3.49")
@@ -65,7 +66,7 @@ CLAIMS = (
     ),
     Claim(
         "001-1b", "and so has the stress of the rivets",
-        "Figure 5b", {"rivets": Turn("rivet", ENDS_OF_RADII, 1)}, ("rivet",),
+        "Figure 5b", {"rivets": Turn(ROOT, ENDS_OF_RADII, 1)}, (ROOT,),
     ),
     Claim(
         "001-2", "Slip rises with the pocket radius, the cage's tilt falls",
@@ -92,7 +93,7 @@ CLAIMS = (
     ),
     Claim(
         "001-4b", "The rivets' stress falls as the sheet gets thicker",
-        "Figure 7a", {"rivets": Trend("rivet", SHEETS, rising=False)}, ("rivet",),
+        "Figure 7a", {"rivets": Trend(ROOT, SHEETS, rising=False)}, (ROOT,),
     ),
     Claim(
         "001-5", "Wider grooves, inner or outer, lower tilt and slip",
@@ -131,7 +132,7 @@ CLAIMS = (
     Claim(
         "001-11", "The original cage fails before the modified one, at its rivets",
         "Figure 12",
-        {"rivets": Trend("rivet", ("modified 9000", "original 9000"), least=CLEARLY)},
-        ("rivet",),
+        {"rivets": Trend(ROOT, ("modified 9000", "original 9000"), least=CLEARLY)},
+        (ROOT,),
     ),
 )  # fmt: skip

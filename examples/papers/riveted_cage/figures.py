@@ -8,7 +8,7 @@ from pathlib import Path
 
 import numpy as np
 import pandas as pd
-from claims import BASE, CLEARANCES, FORCE, INNER, OUTER, RADII, SHEETS, WIDTHS
+from claims import BASE, CLEARANCES, FORCE, INNER, OUTER, RADII, ROOT, SHEETS, WIDTHS
 from paper_figures import stress
 from paper_page import Picture, Table, number
 from predict import RADII as NAMES
@@ -27,7 +27,8 @@ CAGE = "map"  # column of the map
 COLOURS = {BETTER: sheet.BLUE, MODEL: sheet.ORANGE, FLEXIBLE: sheet.VERMILION}
 #: Outputs as figures show them: title with unit, factor from SI.
 SHOWN = {
-    FORCE: ("ball-cage force [N]", 1.0), "rivet": ("rivet stress [MPa]", 1e-6),
+    FORCE: ("ball-cage force [N]", 1.0), ROOT: ("range at rivets' roots [MPa]", 1e-6),
+    "rivet": ("nominal rivet stress [MPa]", 1e-6),
     "slip": ("cage slip, eq. 10 [%]", 100.0), "psi": ("inclination psi_c [deg]", 57.29578),
     "whirl": ("largest whirl radius [um]", 1e6),
 }  # fmt: skip
@@ -70,7 +71,7 @@ def sweep(computed, path: Path, title: str, panels, columns: int) -> Path:
         figure = sheet.new_figure(
             left + columns * (wide + gap), top + lines * (high + gap) - gap + 70
         )
-        sheet.heading(figure, title, "means of eight starts, 95 % intervals")
+        sheet.heading(figure, title, "means of eight or sixteen starts, 95 % intervals")
         for k, (output, conditions, base, name, printed) in enumerate(panels):
             row, column = divmod(k, columns)
             place = (left + column * (wide + gap), top + row * (high + gap), wide, high)
@@ -80,8 +81,10 @@ def sweep(computed, path: Path, title: str, panels, columns: int) -> Path:
                 ax.plot(list(map(float, printed)), list(printed.values()), "X", ms=6,
                         color=sheet.INK, label="paper, Table 3")  # fmt: skip
             places = [at(c, base) for c in conditions]
+            if len(places) == 3:
+                ax.set_xticks(places)
             ax.set_xlim(min(places) - 0.05 * np.ptp(places), max(places) + 0.05 * np.ptp(places))
-            if output in (FORCE, "rivet"):
+            if output in (FORCE, ROOT, "rivet"):
                 ax.set_ylim(0.0, 60.0 if output == FORCE else None)
             if k == 0:
                 ax.legend(frameon=False, fontsize=7, ncol=4, loc="lower left",
@@ -96,13 +99,13 @@ def draw(computed, folder: Path) -> list[Picture]:
     width = (WIDTHS, 6.2, "cage width [mm]")
     sheets = (SHEETS, 0.8, "sheet's thickness [mm]")
     sweep(computed, folder / "figure_5.png", "Figure 5: over the pocket radius", [
-        (FORCE, *radius, table["radius"]), ("rivet", *radius, None), ("slip", *radius, None),
-        ("psi", *radius, None), ("whirl", *radius, None)], 2)  # fmt: skip
+        (FORCE, *radius, table["radius"]), (ROOT, *radius, None), ("slip", *radius, None),
+        ("psi", *radius, None), ("whirl", *radius, None), ("rivet", *radius, None)], 2)  # fmt: skip
     sweep(computed, folder / "figure_6.png", "Figure 6: over the cage's width", [
         (FORCE, *width, table["width"]), ("slip", *width, None), ("psi", *width, None)],
         3)  # fmt: skip
     sweep(computed, folder / "figure_7.png", "Figure 7: over the sheet's thickness",
-          [(o, *sheets, None) for o in (FORCE, "rivet", "slip")], 3)  # fmt: skip
+          [(o, *sheets, None) for o in (FORCE, ROOT, "slip")], 3)  # fmt: skip
     races = ((INNER, 0.515, "inner conformity"), (OUTER, 0.525, "outer conformity"),
              (CLEARANCES, 10.0, "radial clearance [um]"))  # fmt: skip
     sweep(computed, folder / "figure_9.png", "Figure 9: over grooves and clearance",
@@ -117,14 +120,14 @@ def draw(computed, folder: Path) -> list[Picture]:
             "joint alone, with the head's root as its weak place.",
         ),
         Picture("figure_5.png", "Figure 5: over the pocket radius",
-                "Force with the printed numbers of Table 3 (crosses), nominal stress of the rivets "
-                "(flexible cage), slip, inclination, whirl. Width 6.2 mm. As printed, forces lie "
-                "above the axis."),
+                "Force with the printed numbers of Table 3 (crosses), range of stress at the roots "
+                "of rivets' heads (flexible cage), slip, inclination, whirl, nominal stress of "
+                "rivets. Width 6.2 mm. As printed, forces lie above the axis."),
         Picture("figure_6.png", "Figure 6: over the cage's width",
                 "The same over the width, at a radius of 3.46 mm. A strip of 3.8 mm is in one "
                 "piece from 5.81 mm on; the printed numbers go on to 4.4 mm."),
         Picture("figure_7.png", "Figure 7: over the sheet's thickness",
-                "Radius 3.46 mm, width 6.2 mm. Rivets' stress is nominal."),
+                "Radius 3.46 mm, width 6.2 mm. Stress: range at the roots of rivets' heads."),
         Picture("figure_8.png", "Figure 8, Table 3: force over radius and width",
                 "Left: the 49 points computed (rigid cage, balls of 6.747 mm, strip of 5.6 mm). "
                 "Right: what is predicted for the paper's table from its shown cross."),
@@ -228,9 +231,9 @@ def slip(computed, path: Path) -> Path:
             low, mid, high = np.nanpercentile(found, (10.0, 50.0, 90.0))
             ax.bar(len(names) - 1, high - low, 0.5, low, color="0.75")
             ax.plot(len(names) - 1, mid, "o", color=sheet.INK)
-            for source, marker in (("experimental", "X"), ("artificial", "P")):
+            for source, marker, aside in (("experimental", "X", 0.7), ("artificial", "P", 0.5)):
                 ax.axhline(PRINTED["table_4"][source][cage], color="0.4", lw=0.8, ls="--")
-                ax.plot(len(names) - 0.6, PRINTED["table_4"][source][cage], marker, ms=8,
+                ax.plot(len(names) - aside, PRINTED["table_4"][source][cage], marker, ms=8,
                         color=sheet.INK, label=f"paper, {source}")  # fmt: skip
             ax.axhline(0.0, color=sheet.INK, lw=0.8)
             ax.set(title=f"{cage} cage", xticks=range(len(names)), ylabel="%", ylim=(-7.0, 3.5))
@@ -256,8 +259,9 @@ def tables(computed) -> list[Table]:
     for condition in (c for c in WIDTHS if c != BASE):
         width = f"{at(condition, 6.2):g}"
         printed = PRINTED["table_3"]["width"].get(width)
-        rows.append((f"Table 3: 3.46 x {width} [N]", "-" if printed is None else f"{printed:g}",
-                     "-", *_cells(computed, FORCE, condition, 1.0)))  # fmt: skip
+        if printed is not None:
+            rows.append((f"Table 3: 3.46 x {width} [N]", f"{printed:g}", "-",
+                         *_cells(computed, FORCE, condition, 1.0)))  # fmt: skip
     for condition in TABLE_4:
         cage, speed = condition.split()
         for source in ("experimental", "artificial"):
@@ -268,7 +272,7 @@ def tables(computed) -> list[Table]:
             rows.append((f"Table 4: {condition} rpm, {source} [%]", printed, said, *cells))
     head = ("quantity", "paper", "predicted", *computed.readings, *computed.maps)
     title = (
-        "Readings: mean of eight starts ± 95 %. Maps: median (middle 80 % of points). Predicted: "
+        "Readings: mean of all starts ± 95 %. Maps: median (middle 80 % of points). Predicted: "
         "90 % interval"
     )
     return [Table(title, head, rows), cross()]

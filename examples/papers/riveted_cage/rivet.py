@@ -2,10 +2,12 @@
 
     python examples/papers/riveted_cage/rivet.py RUN            # the folder of a run, flexible cage
     python examples/papers/riveted_cage/rivet.py RUN --force 25 # loads scaled to that ball force, N
+    python examples/papers/riveted_cage/rivet.py RUN --assumed  # what is assumed, each alone
 
 Takes the loads of the run's most stressed rivet through a cycle, for fits from interference to
 play, and writes fits.csv and lives.csv into the folder of the page. Prints what becomes of claim
-001-7, by rules that were fixed before any fit was computed (``judged``).
+001-7, by rules that were fixed before any fit was computed (``judged``). With ``--assumed`` it
+writes assumed.csv instead: clamp, friction and root radius at the ends of their ranges.
 """
 
 from __future__ import annotations
@@ -32,6 +34,8 @@ PLAYS = (-6e-6, -3e-6, 0.0, 3e-6, 10e-6, 20e-6)
 ASSUMED = {"clamp": (20.0, 100.0, 200.0), "friction": (0.1, 0.15, 0.3),
            "root_radius": (0.05e-3, 0.1e-3, 0.2e-3)}  # fmt: skip
 MESH = JointMesh(sectors=8, size=1.0, seat=0.3, growth=1.2)
+SMALL = 3e-6  # play [m] at which what is assumed is varied
+COARSE = JointMesh(sectors=6, size=1.5, seat=0.5, growth=2.0)  # for that, as in outputs.py
 CLEAR = 0.05  # share by which one stress must exceed another to count as larger
 
 
@@ -69,17 +73,38 @@ def scaled(rivets: Rivets, factor: float) -> Rivets:
     return Rivets(factor * rivets.dataset, rivets.diameter, rivets.settled)
 
 
-def computed(run: flexcage.Run, factor: float, **changed: float) -> Fits:
-    """The joint over all fits."""
+def computed(
+    run: flexcage.Run, factor: float, plays: Sequence[float] = PLAYS, mesh: JointMesh = MESH,
+    **changed: float,
+) -> Fits:  # fmt: skip
+    """The joint over fits, with what is assumed at its middle or ``changed``."""
     values = {name: low_mid_high[1] for name, low_mid_high in ASSUMED.items()} | changed
     case = run.case
     shape = case.cage.rivet_joint(
         case.bearing.pitch_diameter, case.bearing.element_count, values["root_radius"]
     )
     return fits_of(
-        scaled(run.rivets, factor), shape, case.cage.material, PLAYS, clamp=values["clamp"],
-        friction=values["friction"], mesh=MESH,
+        scaled(run.rivets, factor), shape, case.cage.material, plays, clamp=values["clamp"],
+        friction=values["friction"], mesh=mesh,
     )  # fmt: skip
+
+
+def assumed(run: flexcage.Run, factor: float) -> pd.DataFrame:
+    """One row for the middle of what is assumed, and one for each end of it, each alone."""
+    ends = [(name, value) for name, (low, _, high) in ASSUMED.items() for value in (low, high)]
+    changes = [{}, *({name: value} for name, value in ends)]
+    rows = []
+    for changed in changes:
+        (result,) = computed(run, factor, (SMALL,), COARSE, **changed)
+        root = result.places["root"]
+        rows.append({
+            "changed": next(iter(changed), "-"), "value [SI]": next(iter(changed.values()), None),
+            "root, clamped [MPa]": result.instants["clamped"].equivalent[root].max() / 1e6,
+            "root, again [MPa]": result.instants["again"].equivalent[root].max() / 1e6,
+            "range at the root [MPa]": result.range_at("root")[0] / 1e6,
+            "nominal range [MPa]": result.nominal_range / 1e6, "K_t": result.K_t,
+        })  # fmt: skip
+    return pd.DataFrame(rows)
 
 
 def frame(fits: Fits) -> pd.DataFrame:
@@ -115,11 +140,18 @@ def main(arguments: Sequence[str] | None = None) -> dict[str, str]:
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
     parser.add_argument("run", help="folder of a run with a flexible riveted cage")
     parser.add_argument("--force", type=float, help="mean of the largest of a ball pass, N")
+    parser.add_argument("--assumed", action="store_true", help="vary what is assumed")
     parser.add_argument("-o", "--out", type=Path, default=FOLDER)
     options = parser.parse_args(arguments)
     run = flexcage.load_run(options.run)
     own = float(run.summary["pocket_force_pass_peak"])
-    fits = computed(run, 1.0 if options.force is None else options.force / own)
+    factor = 1.0 if options.force is None else options.force / own
+    if options.assumed:
+        table = assumed(run, factor)
+        table.to_csv(options.out / "assumed.csv", index=False, float_format="%.4g")
+        print(table.to_string())
+        return {}
+    fits = computed(run, factor)
     frame(fits).round(4).to_csv(options.out / "fits.csv", index=False)
     lives(fits).to_csv(options.out / "lives.csv", index=False, float_format="%.5g")
     verdict = judged(fits.results)

@@ -26,6 +26,7 @@ MARKS = {BETTER: ("o", sheet.GREEN), PRINTED_MODEL: ("s", sheet.PURPLE)}
 AMPLITUDES = {CONSTANT: 0.0, "A 3 %": 3.0, "A 6 %": 6.0, "A 9 %": 9.0}
 WAVES = {CONSTANT: 0.0, "A 6 %": 1.0, "N 2": 2.0, "N 3": 3.0}
 MAPPED = "002-3b"  # claim whose map is drawn
+SKEWED = ("one_force", "swing")  # outputs whose starts and points lie over decades
 LAST = 4  # turns of the ring that are drawn of a curve over time
 FORCES = "of one ball, N"
 
@@ -68,14 +69,14 @@ def draw(computed, folder: Path) -> list[Picture]:
                 "First starts, the last four turns of the ring. The paper's Figure 5 has 922 rpm "
                 "at constant speed."),
         Picture("figure_7_14.png", "Figures 7 and 14: the cage's centre",
-                "First starts, settled part, radial load down; all on one scale."),
+                "First starts, settled part, radial load down; one scale a row."),
         Picture("figure_8_15.png", "Figures 8 and 15: force between one ball and the cage",
                 "Largest since the sample before, of ball 0."),
         Picture("figure_9_16.png", "Figures 9 and 16: largest distance and force of the cage",
                 "Dots are starts, bands the middle 80 % of points of a map. The paper prints no "
                 "numbers: its curves rise with A and N."),
         Picture("figure_10_17.png", "Figures 10 and 17: the inner ring's centre",
-                "About its mean place; all on one scale."),
+                "About its mean place; one scale a row."),
         Picture("figure_11_18.png", "Figures 11 and 18: largest distance of the inner ring",
                 "Beside it what a ball's place does not make of its force (Figures 12 and 19)."),
         Picture("figure_12_19.png", "Figures 12 and 19: force between one ball and the inner ring",
@@ -110,28 +111,35 @@ def _race_force(run) -> tuple[np.ndarray, np.ndarray | None]:
 def over_time(computed, path: Path, title: str, note: str, curve: Callable,
               limits: tuple[float, float] | None) -> Path:  # fmt: skip
     """A curve of every condition, one row a reading."""
-    wide, high, left, top = 250, 190, 190, 130
+    wide, high, left, top = 250, 190, 215, 130
     with sheet.style():
         figure = sheet.new_figure(
-            left + 6 * (wide + 46), top + len(computed.readings) * (high + 60) + 20
+            left + 6 * (wide + 46), top + len(computed.readings) * (high + 80) + 20
         )
         sheet.heading(figure, title, f"{note}; over ms")
         for i, column in enumerate(computed.readings):
-            sheet.text_at(figure, 20, top + i * (high + 60) + 0.5 * high, column)
+            sheet.text_at(figure, 20, top + i * (high + 80) + 0.5 * high, column)
             runs = done(computed.readings[column])
             drawn = {c: (r.dataset["time"].values * 1e3, *curve(r)) for c, r in runs.items()}
             shown = {c: t > t[-1] - 30.0 * LAST for c, (t, _, _) in drawn.items()}
             top_of = max((float(y[shown[c]].max()) for c, (_, y, _) in drawn.items()), default=1.0)
             for c, (t, y, beside) in drawn.items():
                 k, s = CONDITIONS.index(c), shown[c]
-                place = (left + k * (wide + 46), top + i * (high + 60), wide, high)
+                place = (left + k * (wide + 46), top + i * (high + 80), wide, high)
                 ax = sheet.axes_at(figure, place)
                 if beside is not None:
                     ax.plot(t[s], beside[s], color="0.65", lw=1.2)
                 ax.plot(t[s], y[s], color=sheet.BLUE, lw=0.7)
                 ax.set(xlim=(t[s][0], t[-1]), ylim=limits or (0.0, 1.05 * top_of))
-                ax.set_title(c, loc="left")
+                _once(ax, c, first=k == 0)
         return sheet.save(figure, path)
+
+
+def _once(ax, title: str, *, first: bool) -> None:
+    """A panel of a row on one scale: its title, and numbers up the first one's axis alone."""
+    ax.set_title(title, loc="left")
+    ax.tick_params(labelleft=first)
+    ax.locator_params(axis="x", nbins=3)
 
 
 def done(reading) -> dict[str, Run]:
@@ -145,11 +153,11 @@ def orbits(computed, path: Path, body: str) -> Path:
     name = {"cage": "cage's centre", "inner": "inner ring's centre, about its mean"}[body]
     with sheet.style():
         figure = sheet.new_figure(
-            left + 6 * (side + 50), top + len(computed.readings) * (side + 60) + 20
+            left + 6 * (side + 50), top + len(computed.readings) * (side + 80) + 20
         )
         sheet.heading(figure, f"Orbits of the {name}", "um; radial load down")
         for i, column in enumerate(computed.readings):
-            sheet.text_at(figure, 20, top + i * (side + 60) + 0.5 * side, column)
+            sheet.text_at(figure, 20, top + i * (side + 80) + 0.5 * side, column)
             found = {}
             for c, run in done(computed.readings[column]).items():
                 yz = metrics.centre_of(metrics.settled(run.dataset, run.case.output.settle), body)
@@ -157,11 +165,11 @@ def orbits(computed, path: Path, body: str) -> Path:
             reach = 1.08 * max((float(np.abs(yz).max()) for yz in found.values()), default=1.0)
             for c, yz in found.items():
                 k = CONDITIONS.index(c)
-                place = (left + k * (side + 50), top + i * (side + 60), side, side)
+                place = (left + k * (side + 50), top + i * (side + 80), side, side)
                 ax = sheet.axes_at(figure, place)
                 ax.plot(yz[:, 1], -yz[:, 0], color=sheet.BLUE, lw=0.5)
                 ax.set(xlim=(-reach, reach), ylim=(-reach, reach))
-                ax.set_title(c, loc="left")
+                _once(ax, c, first=k == 0)
         return sheet.save(figure, path)
 
 
@@ -177,6 +185,8 @@ def over_both(computed, path: Path, title: str, outputs, *, printed: bool = Fals
                 ax = sheet.axes_at(figure, place)
                 bands(ax, computed, output, axis, factor, colours=COLOURS, marks=MARKS,
                       shift=0.015 * max(axis.values()))  # fmt: skip
+                if output in SKEWED:
+                    ax.set_yscale("log")
                 if printed:
                     _numbers(ax, output, axis)
                 ax.set(

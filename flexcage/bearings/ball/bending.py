@@ -1,7 +1,7 @@
 """Balls in motion between rings that bend: the residual of ``residual`` with races that yield.
 
-A ball meets a groove as one of a rigid ring that is displaced as the race is at its azimuth; lands
-stay with the seats.
+A ball meets a groove as one of a rigid ring that is displaced as the race is at its azimuth; the
+outer ring's land follows it where that swings (``system.ring_walls``), the inner one's its seat.
 """
 
 from __future__ import annotations
@@ -37,8 +37,12 @@ from flexcage.contacts.state import set_frame
 from flexcage.core.jit import fields, part, zero
 from flexcage.core.vectors import cross, minus, plus
 from flexcage.system.bending import (
+    STEPS,
+    after,
     at_once,
     bend_rings,
+    borne_of,
+    close,
     guess,
     push_by_slopes,
     ring_forces_at,
@@ -80,11 +84,11 @@ def evaluate(t, y, yd, d, law, out, mode):
         ball_in_pocket(i, qi, ui, Rc, Vc, modes, d, law, mode)
         ball_rows(i, qi, ui, qd[own], ud[own], d, r_q[own], r_u[own], mode)
     ring_rows(s, yd[bent:], rings, out[bent:])
-    swing_rows(y, yd, d, out)
     if mode >= REPORT:
         ring_report(u, q, s, rings, fields(d.report))
         swing_report(q, u, y, d)
     law[SHARED](t, y, yd, d, law[:FAMILY_PARTS], out, mode)
+    swing_rows(y, yd, d, out)
 
 
 @part
@@ -126,15 +130,19 @@ def _outer_race(i, qi, ui, rest_q, rest_u, s, d, law, mode):
 @part
 def _yielded(side, i, ball, race, s, laws, sl, rings):
     """The ball as the race meets it that yields under it at once."""
-    w = guess(side, i, s, rings)
-    moved = _moved(ball, w)
-    n = _pressing(moved, race, sl)
-    if sl.d[0] > 0.0:
+    moved, taken = _moved(ball, guess(side, i, s, rings)), borne_of(side, i, s, rings)
+    for _ in range(STEPS):
+        n = _pressing(moved, race, sl)
+        if sl.d[0] <= 0.0:
+            return moved
         elastic_forces(laws.normal, (0, 1), sl, race.normal)
-        stiff = sl.Nd[0]
+        force, stiff = (sl.Ne[0] * n[0], sl.Ne[0] * n[1]), sl.Nd[0]
         slope = (stiff * n[0] * n[0], stiff * n[0] * n[1], stiff * n[1] * n[1])
-        step = at_once(side, i, s, (sl.Ne[0] * n[0], sl.Ne[0] * n[1]), slope, rings)
+        step = at_once(side, taken, force, slope, rings)
         moved = _moved(moved, step)
+        if close(taken, force):
+            return moved
+        taken = after(force, slope, step)
     return moved
 
 

@@ -125,8 +125,8 @@ def _deep_groove(outline: Outline, balls: _Balls, unlikely: float) -> Candidate:
     dimensions, reasons = _dimensions(outline, balls)
     angle = degrees(filling_angle(balls.count, balls.diameter, balls.pitch))
     reasons["ball_count"] += f"; the filling angle is {angle:.0f} degrees"
-    reasons["radial_clearance"] = "assumption: in operation; less than before mounting (ISO 5753)"
-    bearing = DeepGrooveBallBearing(radial_clearance=_CLEARANCE, **dimensions)
+    clearance, reasons["radial_clearance"] = outline.clearance_in_operation(_CLEARANCE)
+    bearing = DeepGrooveBallBearing(radial_clearance=clearance, **dimensions)
     return Candidate(outline=outline, bearing=bearing, reasons=reasons, unlikely=unlikely)
 
 

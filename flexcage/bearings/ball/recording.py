@@ -33,7 +33,24 @@ def _variables(bearing: Bearing, y: np.ndarray) -> dict[str, np.ndarray]:
         "race_slip": s.race[:n, :, :, 4],
         "pocket_direction": s.residual[:n, :, 0],
         "neighbour_force": s.rib[:n, :, 0],
+        **_spots(bearing.data.model, q),
     }
+
+
+def _spotted(model: BallModel) -> np.ndarray:
+    return np.flatnonzero(model.spot.has)
+
+
+def _spots(model: BallModel, q: np.ndarray) -> dict[str, np.ndarray]:
+    """Directions of spots in space: those of balls that have one are coordinates at their
+    azimuth."""
+    spotted = _spotted(model)
+    if not len(spotted):
+        return {}
+    x, r, psi = np.moveaxis(q[:, spotted, 3:], -1, 0)
+    c, s = np.cos(q[:, spotted, 2]), np.sin(q[:, spotted, 2])
+    found = np.stack([x, c * r - s * psi, s * r + c * psi], axis=-1)
+    return {"spot_direction": found / np.linalg.norm(found, axis=-1, keepdims=True)}
 
 
 def overlaps(model: BallModel, layout: Layout, y: np.ndarray) -> np.ndarray:
@@ -70,4 +87,6 @@ def _remedy(model: BallModel) -> str:
     return "a land (cage.guidance) or spherical pockets would hold it"
 
 
-RECORDING = Recording(coords=_coords, variables=_variables, overlaps=overlaps, remedy=_remedy)
+RECORDING = Recording(
+    coords=_coords, variables=_variables, overlaps=overlaps, remedy=_remedy, spots=_spotted
+)

@@ -1,7 +1,8 @@
 """Rollers in motion between rings that bend: the residual of ``residual`` with races that yield.
 
 A roller meets a race as one of a rigid ring that is displaced and tilted as the race is at its
-azimuth; ribs and lands stay with the seats.
+azimuth; the outer ring's ribs and land follow it where that swings (``system.ring_walls``), those
+of the inner one its seat.
 """
 
 from __future__ import annotations
@@ -18,26 +19,40 @@ from flexcage.bearings.cylindrical_roller.residual import (
     beside_inner,
     beside_outer,
     inner_ribs,
-    outer_ribs,
     report_outer,
     report_race,
+    report_ribs,
     roller_rows,
     set_bodies,
 )
 from flexcage.bearings.cylindrical_roller.scales import roller_weights
 from flexcage.bearings.cylindrical_roller.start import roller_start_between_bent_rings
-from flexcage.contacts.evaluation import OUTER_RING, RACE_LAW, RACE_RUBS, REPORT, RESIDUAL
+from flexcage.contacts.evaluation import (
+    OUTER_RING,
+    RACE_LAW,
+    RACE_RUBS,
+    REPORT,
+    RESIDUAL,
+    RIB_LAW,
+    RIB_RUBS,
+)
 from flexcage.contacts.race import meet_race, push_by_race, rub_race
+from flexcage.contacts.rib import rib_contact
 from flexcage.contacts.slices import Laws, normal_forces_of_lot
 from flexcage.contacts.state import AXIS, CENTRE, Q_SPIN, SPIN, VELOCITY, take_pose
 from flexcage.core.jit import VECTORISED, fields, part
 from flexcage.core.vectors import MOMENT, dot, row
 from flexcage.system.bending import (
+    STEPS,
     TILT_PORT,
+    after,
     at_once,
     bend_rings,
+    borne_of,
+    close,
     displace,
     guess,
+    orbit_of,
     push_by_slopes,
     ring_forces_at,
     ring_report,
@@ -47,6 +62,7 @@ from flexcage.system.bending import (
 from flexcage.system.data import FAMILY_PARTS, INNER_RACE, OUTER_RACE
 from flexcage.system.layout import CAGE, OUTER, Q_CAGE, Q_OUTER, places
 from flexcage.system.motion import BendingMotion, bending_model, parts_type
+from flexcage.system.ring_walls import bear_ribs, carry_ribs
 from flexcage.system.swinging import push_swings, swing, swing_report, swing_rows
 
 BendingRollerModel = bending_model("BendingRollerModel", RollerModel, __name__)
@@ -70,7 +86,7 @@ def evaluate(t, y, yd, d, law, out, mode):
     for first in range(0, Z, lot):
         span = (first, min(first + lot, Z))
         _outer_contacts(span, q, rest_q, rest_u, s, d, law, asked)
-    outer_ribs(q, rest_q[Q_OUTER:Q_CAGE], rest_u[OUTER:CAGE], d, law, asked)
+    _outer_ribs(q, u, rest_q, rest_u, d, law, asked)
     for i in range(Z):
         take_pose(fields(d.scratch).poses[i], fields(d.pose))
         push_swings(i, d)
@@ -83,10 +99,10 @@ def evaluate(t, y, yd, d, law, out, mode):
         ring_report(u, q, s, rings, fields(d.report))
         swing_report(q, u, y, d)
     ring_rows(s, yd[bent:], rings, out[bent:])
-    swing_rows(y, yd, d, out)
     law[POCKETS](t, y, yd, d, law[:FAMILY_PARTS], out, mode)
     roller_rows(q, u, qd, ud, d, out[: at.rest_q], out[at.u : at.rest_u], mode)
     law[SHARED](t, y, yd, d, law[:FAMILY_PARTS], out, mode)
+    swing_rows(y, yd, d, out)
 
 
 @part
@@ -146,6 +162,27 @@ def _outer_contacts(span, q, rest_q, rest_u, s, d, law, mode):
 
 
 @part
+def _outer_ribs(q, u, rest_q, rest_u, d, law, mode):
+    """Rollers on the outer ring's ribs, if it has any, which swing with it."""
+    pose, pair, work = fields(d.pose), fields(d.pair), fields(d.scratch)
+    ribs, at = fields(d.outer_rib), fields(d.race_work).partner[0]
+    laws, sl = Laws(law[RIB_LAW], law[RIB_RUBS]), fields(d.slices).row[0]
+    out_q, out_u = rest_q[Q_OUTER:Q_CAGE], rest_u[OUTER:CAGE]
+    if ribs.end <= ribs.first:
+        return
+    for i in range(work.poses.shape[0]):
+        take_pose(work.poses[i], pose)
+        beside_outer(i, q, out_q, out_u, d, at)
+        carry_ribs(i, orbit_of(q, u, i), at, d)
+        speeds = fields(d.memory).rib[i, ribs.column :]
+        if rib_contact(pose, at, ribs, speeds, laws, sl, pair, mode, work.sums):
+            bear_ribs(i, at[CENTRE], d)
+            add_outer(i, d, mode)
+            if mode >= REPORT:
+                report_ribs(i, ribs.column, work.sums, fields(d.report))
+
+
+@part
 def _carry(i, at, d):
     """Move the outer ring ``at`` beside roller i as its race does that swings: it tilts about its
     place beneath the roller."""
@@ -178,11 +215,19 @@ def _press(count, ring, side, s, d, laws):
     for m in range(count):
         i = rw.who[m]
         take_pose(fields(d.scratch).poses[i], fields(d.pose))
+        taken = borne_of(ring, i, s, rings)
         force, slope = _on_ports(m, fields(d.pose), side, rw)
-        step = at_once(ring, i, s, force, slope, rings)
+        step = at_once(ring, taken, force, slope, rings)
+        for _ in range(STEPS - 1):
+            if close(taken, force):
+                break
+            taken = after(force, slope, step)
+            _deepen(m, step, fields(d.pose), side, rw)
+            normal_forces_of_lot(laws.normal, _slices_of(m, side), rw.lot[0], side.normal)
+            force, slope = _on_ports(m, fields(d.pose), side, rw)
+            step = at_once(ring, taken, force, slope, rings)
         _follow(m, step, fields(d.pose), side, rw)
-        rings.force[ring, i, 0] = force[0] - slope[0] * step[0] - slope[1] * step[1]
-        rings.force[ring, i, 1] = force[1] - slope[1] * step[0] - slope[2] * step[1]
+        rings.force[ring, i, 0], rings.force[ring, i, 1] = after(force, slope, step)
     rub_race(count, side, laws, rw)
 
 
@@ -204,6 +249,23 @@ def _on_ports(m, pose, side, rw):
             b += stiff * x
             c += stiff * x * x
     return (force, moment), (a, b, c)
+
+
+@part
+def _slices_of(m, side):
+    """The span of contact m's slices in the lot."""
+    n = side.s.shape[0]
+    return m * n, (m + 1) * n
+
+
+@part(fastmath=VECTORISED)
+def _deepen(m, step, pose, side, rw):
+    """Penetrations of contact m's slices after the race yields by a ``step`` more."""
+    sl, n = rw.lot[0], side.s.shape[0]
+    x0, x1 = _along(m, pose, rw)
+    for k in range(n):
+        at = m * n + k
+        sl.d[at] += sl.n2[at] * (step[0] + step[1] * (x0 + side.s[k] * x1))
 
 
 @part(fastmath=VECTORISED)

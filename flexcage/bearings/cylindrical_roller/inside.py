@@ -72,7 +72,7 @@ def _candidate(outline: Outline, length: float, count: int, share: float) -> Can
         roller_length=round(length, 9),
         effective_length=round(length, 9),
         roller_count=count,
-        radial_clearance=_CLEARANCE,
+        radial_clearance=outline.clearance_in_operation(_CLEARANCE)[0],
         **_ribs(outline, length, diameter),
     )
     due = length * outline.static_rating / static_rating(bearing)
@@ -121,7 +121,7 @@ def _reasons(
         "roller_length": f"inferred from C0: a roller {size}",
         "effective_length": f"inferred from C0: the length less chamfers of {1e3 * chamfer:.2g} mm",
         "roller_count": f"inferred from C0: a roller takes {share:.0%} of the distance of two",
-        "radial_clearance": "assumption: in operation; less than before mounting (ISO 5753)",
+        "radial_clearance": outline.clearance_in_operation(_CLEARANCE)[1],
         **_reasons_of_ribs(outline),
     }
 

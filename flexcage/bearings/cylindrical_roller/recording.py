@@ -9,7 +9,7 @@ from scipy.spatial.transform import Rotation
 
 from flexcage.bearings.cylindrical_roller.model import RollerModel, rib_columns
 from flexcage.contacts.pocket_wall import N_LOCAL
-from flexcage.integrate.postures import in_plane, orientation
+from flexcage.integrate.postures import in_plane, orientation, to_body
 from flexcage.integrate.recording import Recording
 from flexcage.system.layout import Layout
 from flexcage.system.problem import Bearing
@@ -57,7 +57,23 @@ def _variables(bearing: Bearing, y: np.ndarray) -> dict[str, np.ndarray]:
         "residual_coordinates": np.einsum("zab,tzb->tza", root, s.residual[:n]),
         "rib_force": s.rib[:n, :, :2],
         "counter_rib_force": s.rib[:n, :, 2:] if s.rib.shape[2] > 2 else np.zeros_like(s.rib[:n]),
+        **_spots(bearing.data.model, q),
     }
+
+
+def _spotted(model: RollerModel) -> np.ndarray:
+    return np.flatnonzero(model.spot.has)
+
+
+def _spots(model: RollerModel, q: np.ndarray) -> dict[str, np.ndarray]:
+    """Directions of spots in space, which turn with their rollers."""
+    spotted, angle = _spotted(model), model.spot.angle
+    if not len(spotted):
+        return {}
+    turned = orientation(q[:, spotted, 2], q[:, spotted, 3:]).reshape(-1, 4)
+    own = np.tile([0.0, np.cos(angle), np.sin(angle)], (len(turned), 1))
+    found = to_body(turned * (1.0, -1.0, -1.0, -1.0), own)  # and back into space
+    return {"spot_direction": found.reshape(len(q), len(spotted), 3)}
 
 
 def overlaps(model: RollerModel, layout: Layout, y: np.ndarray) -> np.ndarray:
@@ -91,4 +107,4 @@ def overlaps(model: RollerModel, layout: Layout, y: np.ndarray) -> np.ndarray:
     )
 
 
-RECORDING = Recording(coords=_coords, variables=_variables, overlaps=overlaps)
+RECORDING = Recording(coords=_coords, variables=_variables, overlaps=overlaps, spots=_spotted)

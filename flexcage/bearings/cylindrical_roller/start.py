@@ -6,12 +6,14 @@ implicit Euler step from rest, whose length grows as it succeeds). Rollers stay 
 their orbit, where friction would hold them, and between the ribs that guide them, those of a ring
 that is free along the axis or in tilt included; only where ribs of both rings bear an axial load do
 they find their place along the axis. A pinched cage finds its place, and a free one is moved off a
-land that the ring would press. Where a defect leaves less than no clearance its size grows in steps
+land that the ring would press. A roller that stands on its spot would roll off its edges, and is
+held. Where a defect leaves less than no clearance its size grows in steps
 from the first touch, so that the run begins assembled.
 """
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from copy import copy
 from dataclasses import dataclass, replace
 
@@ -25,16 +27,28 @@ from flexcage.contacts.pocket_wall import with_offset
 from flexcage.core.errors import InputError, RunFailed
 from flexcage.geometry.kinematics import epicyclic
 from flexcage.system.constraints import OFF, no_rows
-from flexcage.system.data import FREE_AXIAL, FREE_SKEW, FREE_TILT, LOOSE, OUTER_CLEARANCE
+from flexcage.system.data import (
+    FREE_AXIAL,
+    FREE_SKEW,
+    FREE_TILT,
+    INNER_RACE,
+    LOOSE,
+    OUTER_CLEARANCE,
+    OUTER_RACE,
+)
 from flexcage.system.layout import Layout
+from flexcage.system.left_behind import left_by_ribs
 from flexcage.system.newton import assemble, newton_step
 from flexcage.system.problem import Bearing
-from flexcage.system.rings_in_motion import held_rings
+from flexcage.system.ring_walls import lands_follow
+from flexcage.system.rings_in_motion import MovingRings, held_rings
 from flexcage.system.start import Advance, Start, StaticStart, made_room
-from flexcage.system.swinging import no_swings
+from flexcage.system.swinging import standing
 
 _SMALL = 1e-7  # of the load: where an equilibrium is accepted
 _BALANCED = 1e-6  # of the load: what may stay unbalanced at last
+# likewise on spots: a roller over the middle of one pushes along the race from either edge
+_ON_SPOTS = 0.01
 TOUCH = 1e-9  # [m] interference that is only a touch
 STAGES = 8  # steps of a pinching defect's growth
 _CAGE_ROW = 8  # of the border: where the cage's rigid motion begins
@@ -156,9 +170,8 @@ def _between_ribs(model: RollerModel, layout: Layout, y: np.ndarray) -> np.ndarr
 
 
 class _Frictionless:
-    """The bearing without friction, damping, drag, rolling resistance and gravity, without films,
-    and without a roller's spot, from whose edges it would roll; ``lands``: with the cage's dry
-    lands, which a free cage is to keep off by itself."""
+    """The bearing without friction, damping, drag, rolling resistance and gravity, and without
+    films; ``lands``: with the cage's dry lands, which a free cage is to keep off by itself."""
 
     def __init__(self, bearing: Bearing, offset: np.ndarray, *, lands: bool = False) -> None:
         model = bearing.data.model
@@ -173,7 +186,6 @@ class _Frictionless:
             outer=model.outer._replace(rolling=np.zeros(2)),
             land=model.land._replace(kind=land),
             pocket=with_offset(model.pocket, offset),
-            spot=model.spot._replace(has=0 * model.spot.has),
         )
         self.bearing = bearing
         free = bearing.data.constraints
@@ -279,18 +291,20 @@ def _load(model: RollerModel) -> float:
 class Held:
     """Motions that friction holds while the bearing is brought to equilibrium without it."""
 
-    rollers: np.ndarray  # (Z, 6) along the orbit; sideways and in skew unless pinched
+    # (Z, 6) along the orbit; sideways and in skew unless pinched; in spin on the edges of a spot
+    rollers: np.ndarray
     cage: np.ndarray  # (6,) where a pinch holds the cage: all but those along which it squeezes
 
 
-def _held(tight: np.ndarray, *, along: bool) -> Held:
-    """What is held where pockets are too small across or along (Z, 2) for their rollers; ``along``:
-    do rollers find their place along the axis?"""
+def _held(tight: np.ndarray, spotted: np.ndarray, *, along: bool) -> Held:
+    """What is held where pockets are too small across or along (Z, 2) for their rollers, and of
+    those (Z,) that have a spot; ``along``: do rollers find their place along the axis?"""
     pinched = np.any(tight, axis=1)
     rollers = np.zeros((len(tight), 6), bool)
     rollers[:, 2] = True
     rollers[~pinched, 0] = not along
     rollers[~pinched, 4] = True
+    rollers[spotted, 3] = True
     cage = np.full(6, bool(pinched.any()))
     cage[0] &= not tight[:, 1].any()  # side beams find their place along x
     cage[3] &= not tight[:, 0].any()  # crossbeams by turning about it
@@ -315,7 +329,8 @@ def _equilibrate(system: _Frictionless, y: np.ndarray, yd: np.ndarray, tight: np
     ``tight`` (Z, 2) marks the pockets that are too small for their roller at this stage.
     """
     model = system.data.model
-    held, load = _held(tight, along=_bearing_ribs(model) != 0), _load(model)
+    held = _held(tight, model.spot.has > 0, along=_bearing_ribs(model) != 0)
+    load = _load(model)
     layout = system.bearing.layout
     nq, n_qu = layout.n_q, layout.n_q + layout.n_u
     bodies = model.bodies
@@ -377,7 +392,21 @@ def _stages(model: RollerModel, offset: np.ndarray) -> np.ndarray:
 def roller_start(
     bearing: Bearing, *, limit_force: float, statics: StaticStart | None, advance: Advance
 ) -> Start:
-    """Equilibrium at epicyclic speeds; the static solution is not asked for."""
+    """Equilibrium at epicyclic speeds; the static solution is not asked for. Where none is found on
+    spots of rollers, the start is that of even ones."""
+    model = bearing.data.model
+    if model.spot.has.any():
+        try:
+            return _start(bearing, limit_force, advance, allowed=_ON_SPOTS)
+        except RunFailed:
+            even = model._replace(spot=model.spot._replace(has=0 * model.spot.has))
+            bearing = copy(bearing)
+            bearing.data = bearing.data._replace(model=even)
+    return _start(bearing, limit_force, advance, allowed=_BALANCED)
+
+
+def _start(bearing: Bearing, limit_force: float, advance: Advance, *, allowed: float) -> Start:
+    """The start with ``allowed`` of the load unbalanced at most; RunFailed if there is none."""
     model, layout = bearing.data.model, bearing.layout
     offset = model.pocket.offset
     y = geometric_guess(model, layout)
@@ -403,12 +432,12 @@ def roller_start(
         system = _Frictionless(bearing, offset, lands=True)
         residual = _equilibrate(system, y, yd, tight)
         _check_force(system, y, yd, limit_force, 1.0, pinched)
-    if residual > _BALANCED:
+    if residual > allowed:
         by_defects = len(pinched) and _sound_one_assembles(bearing, limit_force)
         blamed = "a defect" if by_defects else _others(model)
         raise RunFailed(
             f"no equilibrium to start from was found: {residual:.1e} of the load stays "
-            f"unbalanced ({_BALANCED:g} is allowed); is {blamed} too large?"
+            f"unbalanced ({allowed:g} is allowed); is {blamed} too large?"
         )
     report = system.report(y, yd)
     yd = rolling_velocities(model, layout, y)
@@ -425,7 +454,8 @@ def roller_start_between_bent_rings(
     assert bearing.rings is not None, "rings bend as in a static solution"
     held, model = copy(bearing), bearing.data.model
     rings = held_rings(bearing.rings)
-    still = model._replace(rings=rings, swings=no_swings(bearing.layout.elements))
+    stands = standing(bearing.layout.elements, model.swings, bearing.rings.at_start)
+    still = lands_follow(model._replace(rings=rings, swings=stands))
     held.data = bearing.data._replace(model=still)
     held.layout = replace(bearing.layout, ring_modes=0)
     start = roller_start(held, limit_force=limit_force, statics=None, advance=advance)
@@ -433,4 +463,14 @@ def roller_start_between_bent_rings(
     y, yd = bearing.rings.begun(start.y, bearing.layout), np.zeros(bearing.layout.size)
     yd[: len(start.yd)] = start.yd
     bearing.layout.ring_forces(y)[:] = rings.force
-    return replace(start, y=y, yd=yd)
+    told = (*start.warnings, *_left_by_ribs(bearing.rings, model))
+    return replace(start, y=y, yd=yd, warnings=told)
+
+
+def _left_by_ribs(moving: MovingRings, model: RollerModel) -> Iterator[str]:
+    """Sentences on ribs that do not follow how their ring bends."""
+    for side, ribs in ((INNER_RACE, model.rib), (OUTER_RACE, model.outer_rib)):
+        if ribs.first < ribs.end:
+            height = float(model.bodies.radius.mean() - np.abs(ribs.points[:, 0]).min())
+            play = 2.0 * (ribs.half_gap - ribs.half_roller)
+            yield from left_by_ribs(moving, side, height, play)

@@ -17,11 +17,11 @@ _STEP = 10e-6  # m
 
 
 def propose_window_cage(bearing: Any) -> ProposedCage:
-    """A hollow cylinder beside the ribs that come nearer to the pitch circle: above the inner
-    ring's or below the outer ring's."""
+    """A hollow cylinder guided by ribs, above the inner ring's or below the outer ring's: pockets
+    with flat walls do not hold a cage radially."""
     roller, length = bearing.element_diameter, bearing.element_length
     inner, outer = (limit.diameter for limit in bearing.cage_space(None))
-    above = bearing.pitch_diameter - inner <= outer - bearing.pitch_diameter
+    above = _guide(bearing, inner, outer) == "inner"
     wall = min(_WALL * roller, 0.5 * (outer - inner) - 2.0 * _TO_RIBS)
     bore, outside = inner + 2.0 * _TO_RIBS, inner + 2.0 * (_TO_RIBS + wall)
     if not above:
@@ -34,6 +34,7 @@ def propose_window_cage(bearing: Any) -> ProposedCage:
         pocket_width=rounded(roller + _AROUND, _STEP),
         pocket_length=rounded(pocket, _STEP),
         fillet_radius=rounded(_FILLET * roller, _STEP),
+        guidance="inner" if above else "outer",
     )
     to_ribs = f"assumption: {1e3 * _TO_RIBS:g} mm of radial clearance to the ribs"
     thick = f"assumption: a wall {wall / roller:.2g} times the roller's diameter thick"
@@ -48,5 +49,15 @@ def propose_window_cage(bearing: Any) -> ProposedCage:
             "pocket_width": f"assumption: {1e3 * _AROUND:g} mm of clearance",
             "pocket_length": f"assumption: {1e3 * _ALONG:g} mm of clearance",
             "fillet_radius": f"assumption: {_FILLET:g} times the roller's diameter",
+            "guidance": "assumption: by the ribs, as flat pocket walls do not hold a cage radially",
         },
     )
+
+
+def _guide(bearing: Any, inner: float, outer: float) -> str:
+    """The ring that has ribs on both sides; of two, the one whose ribs, of diameters ``inner`` and
+    ``outer`` [m], come nearer to the pitch circle."""
+    pitch = bearing.pitch_diameter
+    gaps = {"inner": pitch - inner, "outer": outer - pitch}
+    both = [ring for ring in gaps if (ribs := bearing.ribs(ring)) and all(ribs.sides)]
+    return min(both, key=lambda ring: gaps[ring])

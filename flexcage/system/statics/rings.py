@@ -156,6 +156,16 @@ class SeatedRing:
         """Displacements v (3, 2) of the two ports of an element."""
         return TO_V[self.reduction.raceway.line]
 
+    @property
+    def felt(self) -> np.ndarray:
+        """How v (3, 2), which is that of the section's place on the bearing's axis, changes with
+        the ports: a section that tilts about its race is displaced there along the axis. Ribs feel
+        that, and the moment of a force on them about the race is small."""
+        felt = self.to_v.copy()
+        if self.reduction.raceway.line:
+            felt[0, 1] = self.reduction.raceway.place[1]
+        return felt
+
 
 @dataclass(frozen=True, eq=False)
 class BentRing:
@@ -204,9 +214,9 @@ class BendingRings:
         count = len(thrown)
         total, offset = np.zeros((3 * count, 3 * count)), np.zeros((count, 3))
         for ring, bears in zip(self.rings, self.bears):
-            own, to_v = ring.compliance(bears), ring.to_v
+            own, felt = ring.compliance(bears), ring.felt
             blocks = own.reshape(count, 2, count, 2)
-            whole = np.einsum("ai,yizj,bj->yazb", to_v, blocks, to_v).reshape(3 * count, 3 * count)
+            whole = np.einsum("ai,yizj,bj->yazb", felt, blocks, felt).reshape(3 * count, 3 * count)
             total += whole
             if ring.side == "outer":
                 offset += (whole @ _outwards(thrown).ravel()).reshape(count, 3)
@@ -216,7 +226,7 @@ class BendingRings:
         """The rings under forces (Z, 3) that the inner ring exerts along v."""
         found = []
         for ring, bears in zip(self.rings, self.bears):
-            on_race = (force + _outwards(thrown) if ring.side == "outer" else -force) @ ring.to_v
+            on_race = (force + _outwards(thrown) if ring.side == "outer" else -force) @ ring.felt
             yields = ring.compliance(bears) @ on_race.ravel()
             pressed = np.empty(0)
             if len(bears):

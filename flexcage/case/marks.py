@@ -1,0 +1,74 @@
+"""What makers write after a designation, as in "6205-2RS C3": seals, shields, the clearance."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Container
+from dataclasses import dataclass, replace
+from functools import cache
+
+from flexcage.case.catalogues import rows
+from flexcage.core.errors import InputError
+from flexcage.geometry.inside import ClearanceGroup, Outline
+
+_GROUPS = ("C2", "CN", "C3", "C4", "C5")
+_NORMAL = "CN"
+
+
+@dataclass(frozen=True, kw_only=True)
+class Marked:
+    """A designation in parts: the bare one, and the marks after it."""
+
+    bare: str
+    marks: tuple[str, ...]
+
+    @property
+    def notes(self) -> tuple[str, ...]:
+        """What flexcage leaves out of what the marks say."""
+        known = _meanings()
+        return tuple(
+            f"{m}: {known[m]}, left out: flexcage has none" for m in self.marks if m in known
+        )
+
+    def applied(self, outline: Outline) -> Outline:
+        """The bare bearing's outline with its marks, and with the clearance that they name;
+        InputError if such bearings have no groups of clearance."""
+        group = next((mark for mark in self.marks if mark in _GROUPS), None)
+        named = replace(outline, designation="-".join((self.bare, *self.marks)))
+        return named if group is None else replace(named, clearance=_clearance(outline, group))
+
+
+def split(name: str, known: Container[str]) -> Marked | None:
+    """Parts of a designation in capitals without blanks, dashes and strokes, whose bare form is
+    ``known``; None if it is none of them, or something else follows."""
+    marks = "|".join(sorted((*_meanings(), *_GROUPS), key=len, reverse=True))
+    for at in range(1, len(name)):
+        if name[:at] in known and re.fullmatch(rf"(?:{marks})+", name[at:]):
+            return Marked(bare=name[:at], marks=tuple(re.findall(marks, name[at:])))
+    return None
+
+
+def _clearance(outline: Outline, group: str) -> ClearanceGroup:
+    bore = 1e3 * outline.bore
+    for row in rows("clearance"):
+        if row["type"] == outline.type and float(row["over_mm"]) < bore <= float(row["to_mm"]):
+            (least, largest), normal = _limits(row[group]), _limits(row[_NORMAL])
+            more = (least + largest - sum(normal)) / 2.0
+            return ClearanceGroup(name=group, least=least, largest=largest, more=more)
+    raise InputError(
+        f"'{group}' names a group of radial clearance, and flexcage knows none of bearings of type "
+        f"'{outline.type}' with a bore of {bore:g} mm: leave it out.",
+        where="designation",
+        value=group,
+    )
+
+
+def _limits(text: str) -> tuple[float, float]:
+    """Least and largest [m] of an entry such as "5-20", in um."""
+    least, largest = (1e-6 * float(part) for part in text.split("-"))
+    return least, largest
+
+
+@cache
+def _meanings() -> dict[str, str]:
+    return {row["mark"]: row["meaning"] for row in rows("marks")}
