@@ -160,6 +160,15 @@ def wild_starts(c: Computed, *conditions: str) -> str:
     return f"{(force > DRIVEN).sum()} of {len(force)}"
 
 
+def wild_held(c: Computed) -> str:
+    """The same of all starts between the rings' shoulders."""
+    held = c.readings.get(SHOULDERS)
+    if held is None:
+        return "none computed"
+    force = np.concatenate([held.values("largest_pocket_force", k) for k in held.conditions])
+    return f"{(force > DRIVEN).sum()} of {len(force)}"
+
+
 def calm_ratio(c: Computed) -> str:
     """Least and largest ratio of calm runs of the better model, and of driven ones [%]."""
     r = c.readings[BETTER]
@@ -182,7 +191,6 @@ def between_shoulders(c: Computed) -> list[str]:
         found = (starts(r, output, condition, factor) for r in (free, held))
         return " and ".join(found)
 
-    force = np.concatenate([held.values("largest_pocket_force", k) for k in held.conditions])
     done = [row for row in held.rows if row.state == "done"]
     met = sum(any(w.key == "meets_ring" for w in row.warnings or ()) for row in done)
     said = "; ".join(
@@ -192,7 +200,7 @@ def between_shoulders(c: Computed) -> list[str]:
     )
     return [
         "**Shoulders calm the cage (004-2, 004-4).** Friction drives a cage in "
-        f"{(force > DRIVEN).sum()} of {len(force)} starts between the rings' shoulders, of which "
+        f"{wild_held(c)} starts between the rings' shoulders, of which "
         f"{met} meet one: the outer ring's, 85 um away, ends the swing before pockets of 150 um "
         "do. Largest distance of the centre, force in a pocket and deviation ratio without and "
         f"with them: {said}. The paper lists no such contact."
@@ -211,8 +219,8 @@ def summary(c: Computed) -> str:
         slowly, whatever the speed; friction drives some of them round their play, and then they
         whirl
         ({wild_starts(c, *ALL_SPEEDS, *ALL_LOADS[1:], *POCKETS, *RADIAL)} starts of the better
-        model at constant speed, none between the rings' shoulders). How sure: {points} at the
-        ends of the sweeps, one start each, of 8 unknowns, and some of the latter over clearance,
+        model at constant speed, {wild_held(c)} between the rings' shoulders). How sure: {points}
+        at the ends of the sweeps, one start each, of 8 unknowns, and some of the latter over clearance,
         waves and accelerations; starts under every condition: {by_starts(c)}."""
 
 
