@@ -220,8 +220,8 @@ def summary(c: Computed) -> str:
         whirl
         ({wild_starts(c, *ALL_SPEEDS, *ALL_LOADS[1:], *POCKETS, *RADIAL)} starts of the better
         model at constant speed, {wild_held(c)} between the rings' shoulders). How sure: {points}
-        at the ends of the sweeps, one start each, of 8 unknowns, and some of the latter over clearance,
-        waves and accelerations; starts under every condition: {by_starts(c)}."""
+        at the ends of the sweeps, one start each, of 8 unknowns, and some of the latter over
+        clearance, waves and accelerations; starts under every condition: {by_starts(c)}."""
 
 
 def words(c: Computed) -> Words:
