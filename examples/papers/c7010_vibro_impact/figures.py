@@ -156,9 +156,12 @@ def deviations(computed, path: Path) -> Path:
         for k, (name, conditions) in enumerate(SWEEPS.items()):
             ax = sheet.axes_at(figure, (left + k * (wide + 60), top, wide, high))
             for i, c in enumerate(conditions):
-                found = computed.readings[BETTER].values("deviation", c) * PERCENT
-                ax.plot(np.full(len(found), i), found, "o", ms=3.0, color=sheet.GREEN,
-                        label=BETTER if i == 0 else None)  # fmt: skip
+                for column, aside, colour in ((BETTER, 0.0, sheet.GREEN),
+                                              (SHOULDERS, -0.24, sheet.INK)):  # fmt: skip
+                    if column in computed.readings:
+                        found = computed.readings[column].values("deviation", c) * PERCENT
+                        ax.plot(np.full(len(found), i + aside), found, "o", ms=3.0, color=colour,
+                                label=column if i == 0 else None)  # fmt: skip
                 for shift, (column, joined) in zip((0.12, 0.24), computed.maps.items()):
                     colour = COLOURS[column]
                     if c not in joined.parts[0].conditions:
