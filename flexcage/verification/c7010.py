@@ -27,8 +27,8 @@ BASE = {
     "load": {"axial": "100 N", "gravity": "0 m/s^2"},
     "output": {"rate": "50 kHz", "vibration_rate": "50 kHz"},
 }
-SMOOTH = {f"contacts.{place}.friction.law": "none" for place in ("race", "pocket")}
-ELASTIC = {f"contacts.{place}.normal.law": "elastic" for place in ("race", "pocket")}
+SMOOTH = {f"contacts.{place}.friction.law": "none" for place in ("race", "pocket", "land")}
+ELASTIC = {f"contacts.{place}.normal.law": "elastic" for place in ("race", "pocket", "land")}
 NO_OIL = {"lubricant.rolling_resistance": "none", "lubricant.oil_fraction": 0.0}
 
 
