@@ -136,6 +136,11 @@ def rechecked(c: Computed, output: str, *, left_out: Collection[str] = ()) -> li
     return said
 
 
+def warns(row, key: str) -> bool:
+    """Does a run warn so?"""
+    return any(warning.key == key for warning in row.warnings or ())
+
+
 def warned(c: Computed, key: str, names: Mapping[str, str] = {}) -> str:
     """Runs that warn so, of all, by reading and map; ``names`` of columns in sentences."""
     found = []
@@ -144,7 +149,7 @@ def warned(c: Computed, key: str, names: Mapping[str, str] = {}) -> str:
         columns[column] = [row for part in joined.parts for row in part.study.rows]
     for column, rows in columns.items():
         done = [row for row in rows if row.state == "done"]
-        count = sum(any(w.key == key for w in row.warnings or ()) for row in done)
+        count = sum(warns(row, key) for row in done)
         found.append(f"{count} of {len(done)} ({names.get(column, column)})")
     return ", ".join(found)
 

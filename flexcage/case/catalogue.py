@@ -29,12 +29,10 @@ _OPTIONS = {
 
 @dataclass(frozen=True, kw_only=True)
 class Entry:
-    """A bearing of the catalogue, and where its ratings are from; ``notes`` say what of its
-    designation flexcage leaves out."""
+    """A bearing of the catalogue, and where its ratings are from."""
 
     outline: Outline
     source: str
-    notes: tuple[str, ...] = ()
 
 
 def designations() -> list[str]:
@@ -50,7 +48,7 @@ def find(text: str) -> Entry:
         return _entry(name)
     if marked := split(name, _ratings()):
         bare = _entry(marked.bare)
-        return replace(bare, outline=marked.applied(bare.outline), notes=marked.notes)
+        return replace(bare, outline=marked.applied(bare.outline))
     if full := _with_suffix(name):
         entry = _entry(full)
         return replace(entry, source=f"{entry.source}; {text} means {full}")

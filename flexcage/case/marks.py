@@ -22,20 +22,19 @@ class Marked:
     bare: str
     marks: tuple[str, ...]
 
-    @property
-    def notes(self) -> tuple[str, ...]:
-        """What flexcage leaves out of what the marks say."""
-        known = _meanings()
-        return tuple(
-            f"{m}: {known[m]}, left out: flexcage has none" for m in self.marks if m in known
-        )
-
     def applied(self, outline: Outline) -> Outline:
-        """The bare bearing's outline with its marks, and with the clearance that they name;
-        InputError if such bearings have no groups of clearance."""
+        """The bare bearing's outline with its marks, the clearance that they name, and what is left
+        out of the rest; InputError if such bearings have no groups of clearance."""
+        known = _meanings()
         group = next((mark for mark in self.marks if mark in _GROUPS), None)
-        named = replace(outline, designation="-".join((self.bare, *self.marks)))
-        return named if group is None else replace(named, clearance=_clearance(outline, group))
+        return replace(
+            outline,
+            designation="-".join((self.bare, *self.marks)),
+            clearance=None if group is None else _clearance(outline, group),
+            left_out=tuple(
+                f"{m}: {known[m]}, left out: flexcage has none." for m in self.marks if m in known
+            ),
+        )
 
 
 def split(name: str, known: Container[str]) -> Marked | None:

@@ -20,18 +20,19 @@ from flexcage.geometry.bearing import BEARING_TYPES, Bearing, check_type
 from flexcage.geometry.cage import cages_of
 from flexcage.geometry.inside import Candidate, Outline, ProposedCage, in_short, ranked
 from flexcage.geometry.kinematics import rolling_shares
+from flexcage.results.bootstrap import FEWEST
+from flexcage.results.options import OutputOptions
 
 SHOWN = 4  # candidates that are told
 _LOAD = 0.05  # of the dynamic rating
 _SPEED = 250.0  # m/min, speed [rpm] times pitch diameter: moderate for any bearing
-_PASSES, _SETTLED = 24, 0.7  # elements pass in this share of the duration: enough for intervals
+_PASSES = 1.2 * FEWEST  # of elements in the settled part: enough for intervals
 
 
 @dataclass(frozen=True, kw_only=True)
 class NewCase:
     """A written case: its text, and what it was inferred from. ``candidates`` are those whose
-    ratings fit, best first; ``chosen`` is the first of them that leaves a cage its place. ``notes``
-    say what of the bearing is left out."""
+    ratings fit, best first; ``chosen`` is the first of them that leaves a cage its place."""
 
     name: str
     text: str
@@ -39,19 +40,16 @@ class NewCase:
     source: str
     chosen: Candidate
     candidates: Sequence[Candidate]
-    notes: Sequence[str] = ()
 
     def findings(self) -> list[str]:
         """Lines for a terminal: what was inferred, how well it fits, and what fits nearly."""
-        return _findings(self.outline, self.source, self.chosen, self.candidates, self.notes)
+        return _findings(self.outline, self.source, self.chosen, self.candidates)
 
 
-def new_case(
-    outline: Outline, source: str, *, cage: str | None = None, notes: Sequence[str] = ()
-) -> NewCase:
+def new_case(outline: Outline, source: str, *, cage: str | None = None) -> NewCase:
     """The case of a bearing that a catalogue, named by ``source``, describes, with the type of
     cage that such bearings commonly have or with another; InputError if there is no such bearing
-    or none of its cages is of that type. ``notes`` are written into its head."""
+    or none of its cages is of that type."""
     check_type(outline.type)
     inside = inside_of(BEARING_TYPES[outline.type])
     candidates = ranked(inside.candidates(outline))
@@ -61,14 +59,14 @@ def new_case(
     for candidate in candidates:
         try:
             proposed = propose(candidate.bearing)
-            text = _text(outline, source, candidate, candidates, proposed, notes)
+            text = _text(outline, source, candidate, candidates, proposed)
             load_case(text)
         except InputError as exc:
             refused = refused or exc
             continue
         return NewCase(
             name=case_name(outline), text=text, outline=outline, source=source, chosen=candidate,
-            candidates=candidates, notes=notes,
+            candidates=candidates,
         )  # fmt: skip
     assert refused is not None  # there is a candidate, or ``ranked`` has raised
     raise refused
@@ -96,16 +94,15 @@ def case_name(outline: Outline) -> str:
 
 
 def _findings(
-    outline: Outline, source: str, chosen: Candidate, candidates: Sequence[Candidate],
-    notes: Sequence[str],
-) -> list[str]:  # fmt: skip
+    outline: Outline, source: str, chosen: Candidate, candidates: Sequence[Candidate]
+) -> list[str]:
     static, dynamic = chosen.bearing.rating_names
     others = [c for c in candidates if c is not chosen][: SHOWN - 1]
     return [
         f"{chosen.bearing.name_and_size}",
         f"Ratings: {dynamic} = {_kn(outline.dynamic_rating)}, "
         f"{static} = {_kn(outline.static_rating)} ({source}).",
-        *(f"{note}." for note in notes),
+        *outline.left_out,
         f"Inside, inferred: {_residuals(chosen)}.",
         *(
             f"{'Next best' if k == 0 else '     then'}: {_residuals(c)}."
@@ -131,11 +128,10 @@ def _kn(force: float) -> str:
 
 def _text(
     outline: Outline, source: str, chosen: Candidate, candidates: Sequence[Candidate],
-    proposed: ProposedCage, notes: Sequence[str],
+    proposed: ProposedCage,
 ) -> str:  # fmt: skip
     name, bearing = case_name(outline), chosen.bearing
-    told = _findings(outline, source, chosen, candidates, notes)
-    head = [f"# {in_one_line(line)}" for line in told]
+    head = [f"# {in_one_line(line)}" for line in _findings(outline, source, chosen, candidates)]
     given = _given(outline)
     load = "axial" if outline.contact_angle else "radial"
     speed = _speed(bearing.pitch_diameter)
@@ -208,7 +204,8 @@ def _duration(bearing: Bearing, speed: float) -> int:
     ratio = bearing.element_diameter / bearing.pitch_diameter
     angle = bearing.nominal_contact_angle
     turns = rolling_shares(ratio, (angle, angle)).orbit * speed / 60e3  # of the cage, in a ms
-    return 10 * ceil(max(1.0, _PASSES / bearing.element_count) / (10.0 * _SETTLED * turns))
+    settled = 1.0 - OutputOptions().settle
+    return 10 * ceil(max(1.0, _PASSES / bearing.element_count) / (10.0 * settled * turns))
 
 
 def _two_digits(value: float) -> float:

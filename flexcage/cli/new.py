@@ -45,10 +45,10 @@ def new_command(args: argparse.Namespace) -> int:
     """flexcage new DESIGNATION [-o FILE]: a commented case, and how its inside was found."""
     from flexcage.case.new import case_name, new_case
 
-    outline, source, notes = _outline(args)
+    outline, source = _outline(args)
     out = Path(args.out or f"{case_name(outline)}.toml")
     prepare_file(out, (".toml",), force=args.force)
-    made = new_case(outline, source, cage=args.cage, notes=notes)
+    made = new_case(outline, source, cage=args.cage)
     out.write_text(made.text, "utf-8")
     for line in made.findings():
         say(line)
@@ -56,9 +56,9 @@ def new_command(args: argparse.Namespace) -> int:
     return 0
 
 
-def _outline(args: argparse.Namespace) -> tuple[Outline, str, tuple[str, ...]]:
-    """What is known of the bearing, from where, and what is left out: a catalogue's entry, what the
-    options say, or the one changed by the other."""
+def _outline(args: argparse.Namespace) -> tuple[Outline, str]:
+    """What is known of the bearing, and from where: a catalogue's entry, what the options say, or
+    the one changed by the other."""
     from flexcage.case.catalogue import WAY, find
     from flexcage.core.errors import InputError
     from flexcage.core.units import parse
@@ -74,7 +74,7 @@ def _outline(args: argparse.Namespace) -> tuple[Outline, str, tuple[str, ...]]:
     lacking = lacking if args.type else ["--type", *lacking]
     if not lacking:
         own = Outline(type=args.type, design=args.design, designation=name, **given)
-        return own, "given by the user", ()
+        return own, "given by the user"
     if not name:
         what = f"{', '.join(lacking)} missing; " if given or args.type else ""
         raise InputError(f"{what}give a designation, such as 6205, or {WAY}.", where="designation")
@@ -99,7 +99,7 @@ def _outline(args: argparse.Namespace) -> tuple[Outline, str, tuple[str, ...]]:
         )
     options = [option for option, key, _, _ in (*_DIMENSIONS, *_FURTHER) if key in given]
     changed = f"{entry.source}; {', '.join(options)} given by the user" if given else entry.source
-    return replace(entry.outline, **given), changed, entry.notes
+    return replace(entry.outline, **given), changed
 
 
 def _of_design(design: str | None) -> str:

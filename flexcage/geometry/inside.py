@@ -45,7 +45,8 @@ class Outline:
 
     ``contact_angle`` [rad] of angular contact bearings; of roller bearings the ``design``, race
     diameters F and E and those of the ribs of both rings [m]; None where they have none, or where
-    the designation names no group of ``clearance``.
+    the designation names no group of ``clearance``. ``left_out``: what of the designation flexcage
+    has not, a sentence each.
     """
 
     type: str
@@ -62,6 +63,7 @@ class Outline:
     inner_rib_diameter: float | None = None
     outer_rib_diameter: float | None = None
     clearance: ClearanceGroup | None = None
+    left_out: tuple[str, ...] = ()
 
     @property
     def boundary(self) -> dict[str, Any]:

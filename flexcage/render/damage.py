@@ -37,10 +37,8 @@ def mark_spalls(ax: Any, picture: Picture, now: Instant, b: Bearing) -> None:
         x, y = picture.place(radius * around + middle).T
         ax.plot(x, y, color=sheet.VERMILION, lw=5.0, solid_capstyle="butt",
                 path_effects=marks.halo(7.5))  # fmt: skip
-        tx, ty = picture.place((radius + sign * _SPALL_NAME * b.element_diameter) * around[12]
-                               + middle)[0]  # fmt: skip
-        ax.text(tx, ty, "spall", color=sheet.VERMILION, weight="bold", fontsize=9.5,
-                ha="center", va="center", path_effects=marks.halo(3.0))  # fmt: skip
+        at = (radius + sign * _SPALL_NAME * b.element_diameter) * around[12] + middle
+        _name(ax, picture.place(at)[0], "spall")
 
 
 def mark_spots(ax: Any, picture: Picture, now: Instant, b: Bearing) -> None:
@@ -61,9 +59,13 @@ def mark_spots(ax: Any, picture: Picture, now: Instant, b: Bearing) -> None:
         line = {"lw": 5.0} if seen else {"lw": 3.0, "ls": (0, (1.0, 1.0))}
         ax.plot(*picture.place(centre + radius * around).T, color=sheet.VERMILION,
                 solid_capstyle="butt", path_effects=marks.halo(7.5), **line)  # fmt: skip
-        at = picture.place(centre + (1.0 + 2.0 * _SPOT_NAME) * radius * direction)[0]
-        ax.text(*at, spot.kind if spot else "spot", color=sheet.VERMILION, weight="bold",
-                fontsize=9.5, ha="center", va="center", path_effects=marks.halo(3.0))  # fmt: skip
+        at = centre + (1.0 + 2.0 * _SPOT_NAME) * radius * direction
+        _name(ax, picture.place(at)[0], spot.kind if spot else "spot")
+
+
+def _name(ax: Any, at: np.ndarray, word: str) -> None:
+    ax.text(*at, word, color=sheet.VERMILION, weight="bold", fontsize=9.5, ha="center",
+            va="center", path_effects=marks.halo(3.0))  # fmt: skip
 
 
 def _near_rim(shapes: Shapes) -> float:

@@ -264,11 +264,11 @@ def test_ratings_that_no_inside_can_give_get_a_sentence():
 )
 def test_marks_after_a_designation_name_seals_and_clearance(designation, clearance, notes):
     entry = catalogue.find(designation)
-    made = new_case(entry.outline, entry.source, notes=entry.notes)
+    made = new_case(entry.outline, entry.source)
     case = load_case(made.text)
     assert case.bearing.radial_clearance == pytest.approx(clearance, abs=1e-12)
-    assert [note.split(",")[0] for note in entry.notes] == notes
-    assert all(f"# {note}" in made.text for note in entry.notes)
+    assert [note.split(",")[0] for note in entry.outline.left_out] == notes
+    assert all(f"# {note}" in made.text for note in entry.outline.left_out)
 
 
 def test_angular_contact_bearings_have_no_groups_of_clearance():

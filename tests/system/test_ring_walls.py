@@ -3,11 +3,9 @@
 import numpy as np
 import pytest
 from bearing_runs import NUP, unbalanced
+from swinging_cases import at_rest, housing_file
 
 import flexcage
-from flexcage.case import Case
-from flexcage.modes.door.body import ReducedBody
-from flexcage.modes.door.formats import write_body
 from flexcage.stages import assembled_start, bearing_in_motion, cage_mesh
 from flexcage.static import solve_static
 from flexcage.system.data import IN_CONTACTS, STRAIN
@@ -23,25 +21,13 @@ SMOOTH = {
     for place in ("race", "rib", "land", "pocket", "side")
     for law, name in (("normal.law", "elastic"), ("friction.law", "none"))
 }
-LOADS = {"N1013": {"radial": 5000.0}, "7010C-PI": {"radial": 300.0, "axial": 500.0}}
 LAND = {"cage.guidance": "outer", "contacts.land.kind": "dry"}
 RIBS = {f"bearing.{key}": value for key, value in {**NUP, "rib_diameter": 87.2e-3}.items()}
 
 
-def case_of(preset, *, speed=0.0, duration=1e-3, **changes):
-    case = Case.from_preset(preset, load=LOADS[preset], drive={"speed": speed})
-    case = case.replace({"cage.model": "rigid", "mesh.fineness": "coarse", "load.gravity": 0.0})
-    return case.replace({"solver.duration": duration, "output.rate": 20e3, **changes})
-
-
 @pytest.fixture
 def housing(tmp_path):
-    """A housing as one node in the bearing's centre, soft along the axis, and coupled."""
-    stiffness = np.diag([5e7, 2e8, 4e8, 1e6, 4e5, 6e5])
-    stiffness[0, 5] = stiffness[5, 0] = 1e6
-    dofs = np.array([(0, k) for k in range(6)])
-    body = ReducedBody(stiffness=stiffness, mass=np.eye(6), nodes=np.zeros((1, 3)), dofs=dofs)
-    return str(write_body(body, tmp_path / "housing.npz"))
+    return housing_file(tmp_path, along=5e7, coupled=1e6)
 
 
 class Bent:
@@ -87,7 +73,7 @@ class Bent:
 )
 def test_ribs_and_lands_push_along_the_slopes_of_their_energy(preset, more, where):
     """On the ring's coordinates, the cage, and elements along their orbit; third law."""
-    bent = Bent(case_of(preset, **ARCS, **more), **where)
+    bent = Bent(at_rest(preset, **ARCS, **more), **where)
     forces, y, layout = bent.forces(), bent.y, bent.layout
     work = bent.bearing.data.work.scratch
     wrenches, border = work.wrenches.copy(), work.border.copy()
@@ -128,7 +114,7 @@ def test_ribs_and_lands_push_along_the_slopes_of_their_energy(preset, more, wher
 def test_ribs_move_with_a_housing_as_in_the_static_solution(housing):
     """Under an axial load through ribs: forces and displacements within 0.2 %."""
     load = {"load.axial": 600.0, "load.radial": 3000.0}
-    case = case_of("N1013", duration=4e-3, **RIBS, **load, **{"mount.body": housing})
+    case = at_rest("N1013", duration=4e-3, **RIBS, **load, **{"mount.body": housing})
     run, static = flexcage.simulate(case, stress=False), solve_static(case, options=AT_START)
     ds = run.dataset
     assert abs(static.outer[0]) > 5e-6
@@ -144,7 +130,7 @@ def test_ribs_move_with_a_housing_as_in_the_static_solution(housing):
 )
 def test_a_warning_names_what_a_land_leaves_out(seat, clearance, told):
     """Of an inner ring on a soft seat, beside a land that is narrow."""
-    case = case_of("7010C-PI", **{
+    case = at_rest("7010C-PI", **{
         "inner_ring.ring": "flexible", "inner_ring.seat": seat, "inner_ring.foundation": 3e10,
         "cage.guidance": "inner", "contacts.land.clearance": clearance,
     })  # fmt: skip
@@ -162,7 +148,7 @@ def test_a_warning_names_what_a_land_leaves_out(seat, clearance, told):
 def test_ribs_leave_out_little_of_a_ring_on_arcs():
     """Its coordinates carry the race's radial deflection but for a little; its section rolls by so
     little that a rib of ordinary play does not matter."""
-    case = case_of("N1013", **RIBS, **ARCS, **{"load.axial": 600.0})
+    case = at_rest("N1013", **RIBS, **ARCS, **{"load.axial": 600.0})
     moving = bearing_in_motion(case, cage_mesh(case), None).rings
     whole = np.abs(moving.start.rings[0].deflection[:, 1:]).max(axis=0)
     rest = np.abs(left_behind(moving)[1]).max(axis=0)

@@ -5,6 +5,7 @@ from itertools import product
 import numpy as np
 import pytest
 from bearing_runs import unbalanced
+from swinging_cases import LOADS, at_rest, case_of, housing_file
 
 import flexcage
 from flexcage.bearings import sections_of, statics_of
@@ -12,8 +13,6 @@ from flexcage.case import Case
 from flexcage.core.errors import InputError
 from flexcage.geometry.materials import MATERIALS
 from flexcage.geometry.ring import OuterRing, Raceway, RingSection
-from flexcage.modes.door.body import ReducedBody
-from flexcage.modes.door.formats import write_body
 from flexcage.modes.ring import Held, reduce_ring
 from flexcage.stages import assembled_start, bearing_in_motion, cage_mesh
 from flexcage.static import solve_static
@@ -27,7 +26,6 @@ from flexcage.system.statics.solve import solve_bearing
 from flexcage.system.supports import press_supports
 from flexcage.system.swinging import deflect, swings_of
 
-LOADS = {"N1013": {"radial": 5000.0}, "7010C-PI": {"radial": 300.0, "axial": 500.0}}
 SEATS = {
     "N1013": ("arcs", (40.0, -40.0)),
     "7010C-PI": ("points", (50.0, 180.0, 300.0)),
@@ -42,16 +40,6 @@ def held(preset):
     return {
         "outer_ring.ring": "flexible", "outer_ring.seat": seat, "outer_ring.supports": supports,
     }  # fmt: skip
-
-
-def case_of(preset, *, speed=600.0, duration=1e-3, **changes):
-    case = Case.from_preset(preset, load=LOADS[preset], drive={"speed": speed})
-    case = case.replace("cage.model", "rigid").replace("mesh.fineness", "coarse")
-    return case.replace({"solver.duration": duration, "output.rate": 20e3, **changes})
-
-
-def at_rest(preset, **changes):
-    return case_of(preset, speed=0.0, **{"load.gravity": 0.0, **changes})
 
 
 def differ_little(found, wanted, share):
@@ -254,12 +242,7 @@ def test_a_ring_on_a_soft_foundation_swings():
 
 @pytest.fixture
 def housing(tmp_path):
-    """A housing as one node in the bearing's centre, softer along y than along z, and coupled."""
-    stiffness = np.diag([3e8, 2e8, 4e8, 1e6, 4e5, 6e5])
-    stiffness[0, 5] = stiffness[5, 0] = 2e6
-    dofs = np.array([(0, k) for k in range(6)])
-    body = ReducedBody(stiffness=stiffness, mass=np.eye(6), nodes=np.zeros((1, 3)), dofs=dofs)
-    return str(write_body(body, tmp_path / "housing.npz"))
+    return housing_file(tmp_path, along=3e8, coupled=2e6)
 
 
 @pytest.mark.slow

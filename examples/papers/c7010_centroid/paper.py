@@ -14,7 +14,7 @@ from figures import (
     tables,
     whole_record,
 )
-from paper_weighed import Asked, rechecked, warned
+from paper_weighed import Asked, rechecked, warned, warns
 from repeat import Computed, Paper, Words
 
 from flexcage.core.digits import percent_text
@@ -52,7 +52,7 @@ def held(computed: Computed) -> str:
         ]
         for kind in ("none", "met")
     }
-    met = [r for r in rows if any(w.key == "meets_ring" for w in r.warnings or ())]
+    met = [r for r in rows if warns(r, "meets_ring")]
     radius = max((1e6 * float(r.figures["mean_radius"].value) for r in met), default=0.0)
     spread = max((1e6 * float(r.figures["difference"].value) for r in met), default=0.0)
     return (

@@ -31,7 +31,7 @@ from figures import (
     starts,
     tables,
 )
-from paper_weighed import Asked, rechecked, warned, with_rigid_cage
+from paper_weighed import Asked, rechecked, warned, warns, with_rigid_cage
 from repeat import Computed, Paper, Words
 
 DEG = 180.0 / pi
@@ -192,7 +192,7 @@ def between_shoulders(c: Computed) -> list[str]:
         return " and ".join(found)
 
     done = [row for row in held.rows if row.state == "done"]
-    met = sum(any(w.key == "meets_ring" for w in row.warnings or ()) for row in done)
+    met = sum(warns(row, "meets_ring") for row in done)
     said = "; ".join(
         f"{k}: {both('distance', UM, k)} um, {both('largest_pocket_force', 1.0, k)} N, "
         f"{both('deviation', PERCENT, k)} %"

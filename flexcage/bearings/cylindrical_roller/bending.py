@@ -19,6 +19,7 @@ from flexcage.bearings.cylindrical_roller.residual import (
     beside_inner,
     beside_outer,
     inner_ribs,
+    on_ribs,
     report_outer,
     report_race,
     report_ribs,
@@ -27,17 +28,8 @@ from flexcage.bearings.cylindrical_roller.residual import (
 )
 from flexcage.bearings.cylindrical_roller.scales import roller_weights
 from flexcage.bearings.cylindrical_roller.start import roller_start_between_bent_rings
-from flexcage.contacts.evaluation import (
-    OUTER_RING,
-    RACE_LAW,
-    RACE_RUBS,
-    REPORT,
-    RESIDUAL,
-    RIB_LAW,
-    RIB_RUBS,
-)
+from flexcage.contacts.evaluation import OUTER_RING, RACE_LAW, RACE_RUBS, REPORT, RESIDUAL
 from flexcage.contacts.race import meet_race, push_by_race, rub_race
-from flexcage.contacts.rib import rib_contact
 from flexcage.contacts.slices import Laws, normal_forces_of_lot
 from flexcage.contacts.state import AXIS, CENTRE, Q_SPIN, SPIN, VELOCITY, take_pose
 from flexcage.core.jit import VECTORISED, fields, part
@@ -164,9 +156,8 @@ def _outer_contacts(span, q, rest_q, rest_u, s, d, law, mode):
 @part
 def _outer_ribs(q, u, rest_q, rest_u, d, law, mode):
     """Rollers on the outer ring's ribs, if it has any, which swing with it."""
-    pose, pair, work = fields(d.pose), fields(d.pair), fields(d.scratch)
+    pose, work = fields(d.pose), fields(d.scratch)
     ribs, at = fields(d.outer_rib), fields(d.race_work).partner[0]
-    laws, sl = Laws(law[RIB_LAW], law[RIB_RUBS]), fields(d.slices).row[0]
     out_q, out_u = rest_q[Q_OUTER:Q_CAGE], rest_u[OUTER:CAGE]
     if ribs.end <= ribs.first:
         return
@@ -174,8 +165,7 @@ def _outer_ribs(q, u, rest_q, rest_u, d, law, mode):
         take_pose(work.poses[i], pose)
         beside_outer(i, q, out_q, out_u, d, at)
         carry_ribs(i, orbit_of(q, u, i), at, d)
-        speeds = fields(d.memory).rib[i, ribs.column :]
-        if rib_contact(pose, at, ribs, speeds, laws, sl, pair, mode, work.sums):
+        if on_ribs(i, at, ribs, d, law, mode):
             bear_ribs(i, at[CENTRE], d)
             add_outer(i, d, mode)
             if mode >= REPORT:

@@ -192,15 +192,21 @@ def beside_outer(i, q, out_q, out_u, d, at):
 
 
 @part
+def on_ribs(i, at, ribs, d, law, mode):
+    """Does roller i touch the ``ribs`` of a ring, its partner ``at``? What they do to it."""
+    laws, sl = Laws(law[RIB_LAW], law[RIB_RUBS]), fields(d.slices).row[0]
+    speeds, sums = fields(d.memory).rib[i, ribs.column :], fields(d.scratch).sums
+    return rib_contact(fields(d.pose), at, ribs, speeds, laws, sl, fields(d.pair), mode, sums)
+
+
+@part
 def inner_ribs(i, at, d, law, mode):
     """Roller i on the ribs of the inner ring, its partner ``at``."""
-    pose, pair, work = fields(d.pose), fields(d.pair), fields(d.scratch)
-    ribs, sl, laws = fields(d.rib), fields(d.slices).row[0], Laws(law[RIB_LAW], law[RIB_RUBS])
-    speeds = fields(d.memory).rib[i, ribs.column :]
-    if rib_contact(pose, at, ribs, speeds, laws, sl, pair, mode, work.sums):
+    ribs = fields(d.rib)
+    if on_ribs(i, at, ribs, d, law, mode):
         add_inner(i, at[CENTRE], d, mode)
         if mode >= REPORT:
-            report_ribs(i, ribs.column, work.sums, fields(d.report))
+            report_ribs(i, ribs.column, fields(d.scratch).sums, fields(d.report))
 
 
 @part
@@ -280,16 +286,14 @@ def add_outer(i, d, mode):
 @part
 def outer_ribs(q, out_q, out_u, d, law, mode):
     """Rollers on the outer ring's ribs, if it has any."""
-    pose, pair, work = fields(d.pose), fields(d.pair), fields(d.scratch)
+    pose, work = fields(d.pose), fields(d.scratch)
     ribs, at = fields(d.outer_rib), fields(d.race_work).partner[0]
-    laws, sl = Laws(law[RIB_LAW], law[RIB_RUBS]), fields(d.slices).row[0]
     if ribs.end <= ribs.first:
         return
     for i in range(work.poses.shape[0]):
         take_pose(work.poses[i], pose)
         beside_outer(i, q, out_q, out_u, d, at)
-        speeds = fields(d.memory).rib[i, ribs.column :]
-        if rib_contact(pose, at, ribs, speeds, laws, sl, pair, mode, work.sums):
+        if on_ribs(i, at, ribs, d, law, mode):
             add_outer(i, d, mode)
             if mode >= REPORT:
                 report_ribs(i, ribs.column, work.sums, fields(d.report))

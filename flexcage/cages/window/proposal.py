@@ -21,7 +21,8 @@ def propose_window_cage(bearing: Any) -> ProposedCage:
     with flat walls do not hold a cage radially."""
     roller, length = bearing.element_diameter, bearing.element_length
     inner, outer = (limit.diameter for limit in bearing.cage_space(None))
-    above = _guide(bearing, inner, outer) == "inner"
+    guide = _guide(bearing, inner, outer)
+    above = guide == "inner"
     wall = min(_WALL * roller, 0.5 * (outer - inner) - 2.0 * _TO_RIBS)
     bore, outside = inner + 2.0 * _TO_RIBS, inner + 2.0 * (_TO_RIBS + wall)
     if not above:
@@ -34,7 +35,7 @@ def propose_window_cage(bearing: Any) -> ProposedCage:
         pocket_width=rounded(roller + _AROUND, _STEP),
         pocket_length=rounded(pocket, _STEP),
         fillet_radius=rounded(_FILLET * roller, _STEP),
-        guidance="inner" if above else "outer",
+        guidance=guide,
     )
     to_ribs = f"assumption: {1e3 * _TO_RIBS:g} mm of radial clearance to the ribs"
     thick = f"assumption: a wall {wall / roller:.2g} times the roller's diameter thick"
