@@ -104,7 +104,7 @@ class Computed:
     found: Mapping[str, Mapping[str, Mapped]]
     rechecks: Mapping[str, MapResults]
     lines: Sequence[Line]
-    times: Mapping[str, float]  # of every study and map, in all processes together [s]
+    times: Mapping[str, float]  # of processors, by study and map [s]
     out: Path
 
     @property
@@ -262,10 +262,10 @@ def write(computed: Computed, folder: Path) -> Path:
 
 
 def _minutes(times: Mapping[str, float]) -> str:
-    """How long all runs took, and those of every study, in words."""
+    """Processor time of all runs, and of those of every study, in words."""
     each = ", ".join(f"{name} {seconds / 60.0:,.0f}" for name, seconds in times.items())
     total = sum(times.values()) / 60.0
-    return f"{total:,.0f} minutes of one process on a busy machine ({each})"
+    return f"{total:,.0f} minutes of processor time ({each})"
 
 
 def main(arguments: Sequence[str] | None = None) -> Computed:

@@ -49,7 +49,8 @@ class Failure:
 
 @dataclass(frozen=True)
 class CaseRow:
-    """What is known of one finished case; ``warnings`` is None where nobody looked for any."""
+    """What is known of one finished case: ``seconds`` of processor time that it took, and
+    ``warnings``, None where nobody looked for any."""
 
     hash: str
     seconds: float

@@ -46,7 +46,7 @@ def map_text(results: MapResults) -> str:
         f"{points} ({about['design']}, seed {about['seed']}), "
         f"{len(results.conditions)} conditions, "
         f"{about['starts']} start{'s' * (about['starts'] > 1)} each: {results.study.status()}; "
-        f"{results.seconds:,.0f} s of work",
+        f"{results.seconds:,.0f} s of processor time",
     ]
     for output in results.study.about.outputs:
         for condition in results.conditions:

@@ -252,7 +252,7 @@ class MapResults:
 
     @property
     def seconds(self) -> float:
-        """Time of all runs that are done, in all processes together [s]."""
+        """Processor time of all runs that are done [s]."""
         return float(np.nansum([row.seconds for row in self.study.rows]))
 
     @cached_property

@@ -124,7 +124,7 @@ def cases_table(results: StudyResults) -> Table:
         *axes,
         *titles.values(),
         "state",
-        "time [s]",
+        "processor time [s]",
         "reason",
         "warnings",
         "folder",

@@ -36,7 +36,8 @@ _SHOWN = 60  # points that a notebook shows
 
 @dataclass(frozen=True)
 class ResultRow:
-    """One planned case and what became of it: ``state`` is "done", "failed" or "open".
+    """One planned case and what became of it: ``state`` is "done", "failed" or "open", ``seconds``
+    of processor time.
 
     ``warnings`` are those of its run; None where none were looked for.
     """

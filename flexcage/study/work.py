@@ -97,7 +97,7 @@ def _complete(order: Order, folder: Folder) -> None:
     missing = order.beyond if row is None else lacking(order.beyond, row.figures)
     if row is not None and not missing:
         return
-    begin = time.perf_counter()
+    begin = time.process_time()
     _load(order)
     if row is not None and folder.has_run(order.hash):  # only outputs were added
         run = load_run(folder.case(order.hash))
@@ -110,7 +110,7 @@ def _complete(order: Order, folder: Folder) -> None:
     run = _march(case, part, order)
     keep_at_hand(run.cage)
     figures = figures_of(run, order.beyond)
-    seconds = time.perf_counter() - begin
+    seconds = time.process_time() - begin
     folder.write_row(part, CaseRow(order.hash, seconds, figures, run.warnings))
     folder.finish(order.hash)
 

@@ -304,10 +304,7 @@ PAPER = Paper(
     claims=CLAIMS,
     readings="readings.toml",
     columns={"better": BETTER},
-    alone={
-        PRINTED_MODEL: ("readings_printed.toml", "printed"),
-        SHOULDERS: ("readings_shoulders.toml", "shoulders"),
-    },
+    alone={PRINTED_MODEL: ("readings_printed.toml", "printed")},
     maps={AXIAL: ("map_axial.toml",), COMBINED: ("map_combined.toml",)},
     decided_by={c.key: COMBINED if c.key in ON_COMBINED else AXIAL for c in CLAIMS},
     # Of the first eight points of a map those at the ranks 0, 1/4, 1/2, 3/4 and 1 of the deviation

@@ -275,10 +275,10 @@ PAPER = Paper(
     studies=("pinch.toml", "lost.toml"),
     maps={MAP: ("map.toml",)},
     decided_by=DECIDED_BY,
-    rechecks={"map.toml": (0, 3, 6, 9, 12)},
+    rechecks={"map.toml": tuple(range(16))},
     recheck_conditions=CAGES,
     recheck_column=FLEXIBLE,
-    weighed={"map.toml": WEIGHED},
+    weighed={"screen.toml": WEIGHED},
     stress=("case.toml", {
         "defects": [{"type": "side_beam", "pocket": 5, "displacement": "-0.3 mm"}],
         "solver.duration": "40 ms",

@@ -179,11 +179,10 @@ PAPER = Paper(
     alone={MODEL: ("reading_printed.toml", "printed"),
            FLEXIBLE: ("reading_flexible.toml", "flexible")},
     beside={FLEXIBLE: "reading_rivets.toml"},
-    more={BETTER: "reading_better_more.toml", FLEXIBLE: "reading_rivets_more.toml"},
-    maps={CAGE: ("map_cage_6747.toml", "map_cage_6470.toml")},
+    maps={CAGE: ("map_cage_6747.toml", "map_cage_6470.toml"), RACE: ("map_race_6747.toml",)},
     decided_by=DECIDED_BY,
     studies=("design.toml",),
-    rechecks={"map_cage_6747.toml": (0, 3, 6), "map_cage_6470.toml": (1, 4)},
+    rechecks={"map_cage_6747.toml": (0, 3, 6, 9, 12), "map_cage_6470.toml": (1, 4, 7, 10, 13)},
     recheck_conditions=("modified 9000", "original 9000"),
     weighed={"screen_6747.toml": WEIGHED},
     stress=("case.toml", {

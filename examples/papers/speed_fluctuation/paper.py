@@ -239,7 +239,7 @@ PAPER = Paper(
     # parts the two regimes: chosen before any of these runs; fewer conditions for time.
     rechecks={"map_model.toml": (0, 1, 3, 13, 4), "map_bearing.toml": (3, 10, 14, 4, 13)},
     recheck_conditions=(CONSTANT, A3, A9),
-    weighed={"screen_bearing.toml": WEIGHED},
+    weighed={"screen_bearing.toml": WEIGHED, "screen_model.toml": WEIGHED},
     stress=("case.toml", {
         "cage.model": "flexible", "drive.wave": "sine", "drive.wave_amplitude": "120 rpm",
         "drive.wave_period": "10 ms", "solver.duration": "60 ms",
