@@ -129,11 +129,10 @@ def rechecked(c: Computed, output: str, *, left_out: Collection[str] = ()) -> li
         points = int(np.isfinite(found).all(axis=0).sum())
         if both:
             said.append(
-                f"**Flexible cage.** {points} points of {file} with an elastic cage: "
-                f"{both - other.total()} of {both} outcomes of claims are as with a rigid one"
-                f"{_others(other)}."
+                f"{points} points of {file} with an elastic cage: {both - other.total()} of {both} "
+                f"outcomes of claims are as with a rigid one{_others(other)}."
             )
-    return said
+    return [f"**Flexible cage.** {' '.join(said)}"] if said else []
 
 
 def warns(row, key: str) -> bool:

@@ -195,5 +195,5 @@ def tables(computed) -> list[Table]:
                 *(r.said(output, speed, factor) for r in computed.readings.values()),
                 *(m.middle(output, speed, factor) for m in computed.maps.values()),
             ))  # fmt: skip
-    title = "Readings: mean of eight starts ± 95 %. Maps: median (middle 80 % of points)"
+    title = "Readings: mean of all starts ± 95 %. Maps: median (middle 80 % of points)"
     return [Table(title, head, rows)]

@@ -16,7 +16,6 @@ from flexcage.results import metrics
 
 PRINTED = tomllib.loads((Path(__file__).with_name("printed.toml")).read_text("utf-8"))
 BETTER, PRINTED_MODEL = "better model", "as printed"  # columns of readings
-SHOULDERS = "with shoulders"  # the better model between them
 AXIAL, COMBINED = "map, axial load", "map, combined load"  # columns of maps
 COLOURS = {AXIAL: sheet.ORANGE, COMBINED: sheet.BLUE}
 SWEEPS = {
@@ -156,12 +155,9 @@ def deviations(computed, path: Path) -> Path:
         for k, (name, conditions) in enumerate(SWEEPS.items()):
             ax = sheet.axes_at(figure, (left + k * (wide + 60), top, wide, high))
             for i, c in enumerate(conditions):
-                for column, aside, colour in ((BETTER, 0.0, sheet.GREEN),
-                                              (SHOULDERS, -0.24, sheet.INK)):  # fmt: skip
-                    if column in computed.readings:
-                        found = computed.readings[column].values("deviation", c) * PERCENT
-                        ax.plot(np.full(len(found), i + aside), found, "o", ms=3.0, color=colour,
-                                label=column if i == 0 else None)  # fmt: skip
+                found = computed.readings[BETTER].values("deviation", c) * PERCENT
+                ax.plot(np.full(len(found), i), found, "o", ms=3.0, color=sheet.GREEN,
+                        label=BETTER if i == 0 else None)  # fmt: skip
                 for shift, (column, joined) in zip((0.12, 0.24), computed.maps.items()):
                     colour = COLOURS[column]
                     if c not in joined.parts[0].conditions:
@@ -210,7 +206,7 @@ def over_time(computed, path: Path, title: str, conditions) -> Path:
 
 
 def starts(reading, output: str, condition: str, factor: float) -> str:
-    """Mean of eight starts with half its 95 % interval; of fewer starts their mean alone."""
+    """Mean of all starts with half its 95 % interval; of fewer starts their mean alone."""
     found = reading.values(output, condition)
     if len(found) < 8:
         return digits(found.mean() * factor) if len(found) else "-"
@@ -243,5 +239,5 @@ def tables(computed) -> list[Table]:
                 *(starts(r, output, c, factor) for r in computed.readings.values()),
                 *(m.middle(output, c, factor, digits) for m in computed.maps.values()),
             ))  # fmt: skip
-    title = "Readings: mean of eight starts ± 95 %. Maps: median (middle 80 % of points)"
+    title = "Readings: mean of all starts ± 95 %. Maps: median (middle 80 % of points)"
     return [Table(title, head, rows)]

@@ -279,4 +279,4 @@ def tables(computed) -> list[Table]:
                 rows.append((title, column, *(joined.middle(output, c, factor) for c in CAGES)))
     rows = [r for r in rows if set(r[2:]) != {"-"}]
     head = ("quantity", "by", *CAGES)
-    return [Table("Mean of eight starts ± 95 %; map: median (middle 80 % of points)", head, rows)]
+    return [Table("Mean of all starts ± 95 %; map: median (middle 80 % of points)", head, rows)]

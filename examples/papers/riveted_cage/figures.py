@@ -24,6 +24,7 @@ HERE = Path(__file__).parent
 PRINTED = tomllib.loads((HERE / "printed.toml").read_text("utf-8"))
 BETTER, MODEL, FLEXIBLE = "better model", "as printed", "flexible cage"  # columns of readings
 CAGE = "map"  # column of the map
+RACE = "map of races"  # the same where grooves and clearance vary
 COLOURS = {BETTER: sheet.BLUE, MODEL: sheet.ORANGE, FLEXIBLE: sheet.VERMILION}
 #: Outputs as figures show them: title with unit, factor from SI.
 SHOWN = {
@@ -71,7 +72,7 @@ def sweep(computed, path: Path, title: str, panels, columns: int) -> Path:
         figure = sheet.new_figure(
             left + columns * (wide + gap), top + lines * (high + gap) - gap + 70
         )
-        sheet.heading(figure, title, "means of eight or sixteen starts, 95 % intervals")
+        sheet.heading(figure, title, "means of all starts, 95 % intervals")
         for k, (output, conditions, base, name, printed) in enumerate(panels):
             row, column = divmod(k, columns)
             place = (left + column * (wide + gap), top + row * (high + gap), wide, high)

@@ -103,8 +103,14 @@ def assumed(run: flexcage.Run, factor: float) -> pd.DataFrame:
             "root, again [MPa]": result.instants["again"].equivalent[root].max() / 1e6,
             "range at the root [MPa]": result.range_at("root")[0] / 1e6,
             "nominal range [MPa]": result.nominal_range / 1e6, "K_t": result.K_t,
+            "cycles, least": least_life(result),
         })  # fmt: skip
     return pd.DataFrame(rows)
+
+
+def least_life(result: JointResult) -> float:
+    """Fewest cycles over all steels, readings of the rule, and corrections for the mean stress."""
+    return min(0.5 * cycles for life in result.lives() for cycles in (life.swt, life.morrow))
 
 
 def frame(fits: Fits) -> pd.DataFrame:

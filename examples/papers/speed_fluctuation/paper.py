@@ -113,11 +113,12 @@ def summary(c: Computed) -> str:
 
 
 def by_starts(c: Computed) -> str:
-    """Readings of eight starts that are there."""
+    """Readings that have as many starts as the first look, and how many all have."""
     there = [column for column, reading in c.readings.items() if reading.look]
     if not there:
-        return "; readings of eight starts are not complete"
-    return f", and eight starts of {len(there)} readings ({', '.join(there)})"
+        return "; readings are not complete"
+    starts = min(c.readings[column].starts for column in there)
+    return f", and {starts} starts of {len(there)} readings ({', '.join(there)})"
 
 
 def decides(c: Computed) -> list[str]:
