@@ -19,6 +19,7 @@ from datetime import date
 from pathlib import Path
 
 from paper_figures import STRESS
+from paper_index import Measured, write_index, write_measured
 from paper_page import Cell, Line, Page, Picture, Table, compose, draw_matrix
 from paper_results import (
     Joined,
@@ -69,7 +70,8 @@ class Paper:
     with a flexible cage, under all conditions or ``recheck_conditions``; all rechecked points are a
     column of their own where ``recheck_column`` names it. ``stress`` is what changes the file of a
     case for a run whose stress is drawn; ``studies`` are beside. ``weighed`` are numbers by file of
-    a map, whose unknowns the page weighs by their first-order indices.
+    a map, whose unknowns the page weighs by their first-order indices, ``measured`` rows of the
+    table of all papers.
     """
 
     title: str
@@ -91,6 +93,7 @@ class Paper:
     draw: Callable[[Computed, Path], list[Picture]]
     tables: Callable[[Computed], list[Table]]
     words: Callable[[Computed], Words]
+    measured: Callable[[Computed], Sequence[Measured]] = lambda computed: ()
     files: Sequence[str] = ()
 
 
@@ -258,6 +261,9 @@ def write(computed: Computed, folder: Path) -> Path:
     )  # fmt: skip
     draw_matrix(page, folder / "matrix.png")
     (folder / "README.md").write_text(compose(page), encoding="utf-8")
+    if rows := paper.measured(computed):
+        write_measured(rows, folder)
+        write_index(folder.parent / "README.md")
     return folder / "README.md"
 
 

@@ -65,7 +65,8 @@ def starts_of(numbers, scatter=0.01):
 def test_readings_and_map_are_plans(paper):
     for file in (paper.readings, *(file for file, _ in paper.alone.values())):
         study = load_study(FOLDER / file)
-        assert study.repeat.count == 8 and len(make_plan(study).cases) == 5 * 8
+        starts = study.repeat.count
+        assert starts >= 8 and len(make_plan(study).cases) == 5 * starts
         case = make_plan(study).case(make_plan(study).cases[-1])
         assert case.defects[0].displacement == pytest.approx(-0.3e-3) and case.land is not None
     spec = load_map(FOLDER / "map.toml")

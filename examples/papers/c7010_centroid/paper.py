@@ -14,6 +14,7 @@ from figures import (
     tables,
     whole_record,
 )
+from paper_index import Measured
 from paper_weighed import Asked, rechecked, warned, warns
 from repeat import Computed, Paper, Words
 
@@ -163,6 +164,19 @@ def words(computed: Computed) -> Words:
     return Words(summary, reasons, decides, readings)
 
 
+def measured(c: Computed) -> list[Measured]:
+    """What the test measured, beside the better model and the map of the test."""
+    better, joined = c.readings[BETTER], c.maps[TEST]
+    names = ("difference of whirl radii by laser, 7010C, 4000 rpm", "the same, 10,000 rpm")
+    return [
+        Measured(
+            name, f"{PRINTED['table_4']['measured'][speed]:g} mm",
+            f"{better.said('raw', speed, MM)} mm", f"{joined.middle('raw', speed, MM)} mm",
+        )
+        for name, speed in zip(names, ("4000", "10000"))
+    ]  # fmt: skip
+
+
 def _whole(computed: Computed) -> list[str]:
     """What the start adds to the differences of the paper's own model."""
     reading = computed.readings[PRINTED_MODEL]
@@ -212,6 +226,7 @@ PAPER = Paper(
     draw=draw,
     tables=tables,
     words=words,
+    measured=measured,
     files=("predictions.json", "printed.toml"),
 )  # fmt: skip
 assert set(PRINTED) == {"table_3", "table_4", "table_5"}

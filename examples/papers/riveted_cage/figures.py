@@ -271,7 +271,7 @@ def tables(computed) -> list[Table]:
             said = "-" if shown else predicted["4", f"{cage} {speed} {source}"]
             cells = _cells(computed, "slip", condition, 100.0)
             rows.append((f"Table 4: {condition} rpm, {source} [%]", printed, said, *cells))
-    head = ("quantity", "paper", "predicted", *computed.readings, *computed.maps)
+    head = ("quantity", "paper", "predicted", *computed.readings, CAGE)
     title = (
         "Readings: mean of all starts ± 95 %. Maps: median (middle 80 % of points). Predicted: "
         "90 % interval"
@@ -282,7 +282,7 @@ def tables(computed) -> list[Table]:
 def _cells(computed, output: str, condition: str, factor: float) -> list[str]:
     return [
         *(_starts(r, output, condition, factor) for r in computed.readings.values()),
-        *(j.middle(output, condition, factor) for j in computed.maps.values()),
+        computed.maps[CAGE].middle(output, condition, factor),
     ]  # fmt: skip
 
 

@@ -27,7 +27,8 @@ from decides import (
     two_kinds,
     weak,
 )
-from figures import BETTER, CAGE, FLEXIBLE, MODEL, RACE, draw, tables
+from figures import BETTER, CAGE, FLEXIBLE, MODEL, PRINTED, RACE, draw, tables
+from paper_index import Measured
 from paper_weighed import Asked, rechecked
 from repeat import Computed, Paper, Words
 
@@ -169,6 +170,30 @@ def races(c: Computed, key: str, name: str) -> str:
     return ", ".join(c.part(RACE, key, f"{name}, {which}") for which in ("inner", "outer"))
 
 
+def measured(c: Computed) -> list[Measured]:
+    """Measured slips and the first failure, beside the better model and the map."""
+    better, soft = c.readings[BETTER], c.readings.get(FLEXIBLE)
+    slips = [
+        Measured(
+            f"slip of the {cage} riveted cage, 9000 rpm",
+            f"{PRINTED['table_4']['experimental'][cage]:g} %",
+            f"{better.said('slip', f'{cage} 9000', 100.0)} %",
+            f"{c.maps[CAGE].middle('slip', f'{cage} 9000', 100.0)} %",
+        )
+        for cage in ("modified", "original")
+    ]
+    roots, sheets = (
+        {k: said(soft, output, f"{k} 9000", 1e-6) for k in ("original", "modified")}
+        for output in (ROOT, "stress_root_pass_peak")
+    )
+    return [*slips, Measured(
+        "first failure of a riveted cage", "the original one, at its rivets",
+        f"range of stress at rivets' roots: original {roots['original']}, modified "
+        f"{roots['modified']} MPa; but {sheets['modified']} MPa in the modified one's sheet",
+        "not computed",
+    )]  # fmt: skip
+
+
 PAPER = Paper(
     title="A riveted cage under an overturning moment",
     source="Failure Inducement Factor Analysis and Optimal Design Method of Ball Bearing Cage for "
@@ -191,6 +216,7 @@ PAPER = Paper(
     draw=draw,
     tables=tables,
     words=words,
+    measured=measured,
     files=("predictions.json", "printed.toml", "fits.csv", "lives.csv", "assumed.csv", "blows.csv",
            "sheets.csv"),
 )  # fmt: skip

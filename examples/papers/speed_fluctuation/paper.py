@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 from claims import A3, A6, A9, CLAIMS, CONSTANT, N2, N3
-from figures import BEARING, BETTER, MODEL, PERCENT, PRINTED_MODEL, RPM, UM, draw, tables
+from figures import BEARING, BETTER, MODEL, PERCENT, PRINTED, PRINTED_MODEL, RPM, UM, draw, tables
+from paper_index import Measured
 from paper_weighed import Asked, rechecked
 from repeat import Computed, Paper, Words
 
@@ -227,6 +228,16 @@ def words(computed: Computed) -> Words:
     return Words(summary(computed), reasons(computed), decides(computed), readings)
 
 
+def measured(c: Computed) -> list[Measured]:
+    """The measured speed of the cage, beside the better model and the map of the bearing."""
+    found = c.maps[BEARING].spread("speed", CONSTANT) * RPM
+    return [Measured(
+        "cage speed of the 7603025, 2000 rpm", f"{PRINTED['text']['test']:g} rpm",
+        f"{c.readings[BETTER].said('speed', CONSTANT, RPM)} rpm",
+        f"{found[1]:.1f} ({found[0]:.1f} to {found[2]:.1f}) rpm",
+    )]  # fmt: skip
+
+
 PAPER = Paper(
     title="A 7603025 whose speed fluctuates",
     source="Effect of Rotational Speed Fluctuation Parameters on Dynamic Characteristics of "
@@ -248,5 +259,6 @@ PAPER = Paper(
     draw=draw,
     tables=tables,
     words=words,
+    measured=measured,
     files=("predictions.json", "printed.toml"),
 )  # fmt: skip
