@@ -247,8 +247,8 @@ def readings(computed: Computed) -> list[str]:
         "end: its whirl and speed are those of a start.",
         "**Single starts.** A point of the map has one start, so \"unchanged\" within 10 % is "
         "asked of two chaotic records; what starts alone do is the dummy.",
-        "**Changed after results were seen.** Earlier runs had records of 60 ms (starts) and 0.1 s, "
-        "16 points, 5 of them flexible, and a rigid cage as printed; the claims' rules and the "
+        "**Changed after results were seen.** Earlier runs had records of 60 ms (starts) and 0.1 "
+        "s, 16 points, 5 of them flexible, and a rigid cage as printed; the claims' rules and the "
         "ranges stayed as they were.",
         "**Words into numbers.** Unchanged: within 10 %, a roller's speed within 1 %. Clearly "
         "more: by 25 %. A drop of speed: by 5 %. Sinusoidal: half of the variance in one line. "
