@@ -13,7 +13,7 @@ from math import log
 from typing import TYPE_CHECKING, Any, Protocol
 
 from flexcage.core.errors import InputError
-from flexcage.core.units import describe
+from flexcage.core.units import describe, mm
 
 if TYPE_CHECKING:
     from flexcage.geometry.bearing import Bearing
@@ -64,6 +64,14 @@ class Outline:
     outer_rib_diameter: float | None = None
     clearance: ClearanceGroup | None = None
     left_out: tuple[str, ...] = ()
+
+    def __post_init__(self) -> None:
+        if not self.outside_diameter > self.bore:
+            raise InputError(
+                f"The outside diameter is {mm(self.outside_diameter)}, but must be larger than the "
+                f"bore, {mm(self.bore)}.",
+                where="outside_diameter", value=self.outside_diameter,
+            )  # fmt: skip
 
     @property
     def boundary(self) -> dict[str, Any]:

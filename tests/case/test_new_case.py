@@ -245,7 +245,9 @@ def test_ratings_that_no_inside_can_give_get_a_sentence():
         with pytest.raises(InputError, match="No inside of these dimensions gives C0r = "):
             new_case(Outline(**(vars(own) | changes)), "given")
     with pytest.raises(InputError, match="No rolling elements have room"):
-        new_case(Outline(**(vars(own) | {"bore": 60e-3})), "given")
+        new_case(Outline(**(vars(own) | {"bore": 51e-3})), "given")
+    with pytest.raises(InputError, match="is 52 mm, but must be larger than the bore, 60 mm"):
+        Outline(**(vars(own) | {"bore": 60e-3}))
     with pytest.raises(InputError, match="F, 80 mm"):
         new_case(Outline(**(vars(N406) | {"inner_race_diameter": 80e-3})), "given")
     with pytest.raises(InputError, match="needs the contact angle"):
