@@ -98,13 +98,15 @@ class LandWork(NamedTuple):
     depth: np.ndarray  # (2 nl,)
     share: np.ndarray  # (2 nl,) of damping and friction there
     st: np.ndarray  # (nl, 2) force on the cage at the stations, outwards and forwards
+    A: np.ndarray  # (3, 3) the cage's attitude in a tilted ring's frame
+    seen: np.ndarray  # (8, 3) what else that ring sees of it, see ``land_frame``
 
 
 def land_work(n_stations: int) -> LandWork:
     n, zeros = n_stations, np.zeros
     return LandWork(
         zeros(n), zeros(n), zeros(n), zeros((2 * n, 2)), zeros(2 * n), zeros(2 * n), zeros(2 * n),
-        zeros(2 * n), zeros((n, 2)),
+        zeros(2 * n), zeros((n, 2)), zeros((3, 3)), zeros((8, 3)),
     )  # fmt: skip
 
 
@@ -120,11 +122,11 @@ class LandCage(NamedTuple):
 
 
 class LandRing(NamedTuple):
-    """The ring that the cage's land meets, in space."""
+    """The ring that the cage's land meets, its axis along x: in space, or in its own frame."""
 
     centre: np.ndarray  # (3,)
     velocity: np.ndarray  # (3,)
-    spin: float  # about x
+    turn: np.ndarray  # (3,) angular velocity
 
 
 class LandForces(NamedTuple):
@@ -410,7 +412,8 @@ def _touch(touch, cage, ring, data, onset, laws, sl, lw, out, sums):
         _, slope, rate = outwards_at(data.crest, x, at[1], at[2])
         n = combine(n, -slope * abs(size), ahead)
     v = plus(minus(xyz(cage.velocity), xyz(ring.velocity)), cross(xyz(cage.spin), c))
-    v = (0.0, v[1] + ring.spin * at[2], v[2] - ring.spin * at[1])
+    w = ring.turn
+    v = (0.0, v[1] + w[0] * at[2] - w[2] * at[0], v[2] - w[0] * at[1] + w[1] * at[0])
     sl.v[0] = -(dot(n, v) + dot(n, e) * outwards) + _outwards(data) * rate
     if sl.d[0] <= 0.0:
         return sl.v[0]
@@ -474,13 +477,13 @@ def _spread_film(A, data, film, qd, lw, modal, sums):
 @outlined
 def _film(cage, ring, data, lw, out, sums):
     """Short-bearing film on both lands: whirl and squeeze of a rigid cage included."""
-    A, (w0, w1, w2), spin = cage.A, xyz(cage.spin), ring.spin
+    A, (w0, w1, w2), (spin, r1, r2) = cage.A, xyz(cage.spin), xyz(ring.turn)
     rel = minus(xyz(cage.velocity), xyz(ring.velocity))
     for side in range(2):
         x, cy, cz = times(data.x[side], column(A, 0))  # of the land's middle, from the cage's
         lever, ey, ez = minus(plus(xyz(cage.centre), (x, cy, cz)), xyz(ring.centre))
-        vy = rel[1] + w2 * data.x[side] * A[0, 0] - w0 * cz
-        vz = rel[2] + w0 * cy - w1 * data.x[side] * A[0, 0]
+        vy = rel[1] + w2 * data.x[side] * A[0, 0] - w0 * cz - r2 * lever
+        vz = rel[2] + w0 * cy - w1 * data.x[side] * A[0, 0] + r1 * lever
         room = data.clearance - _outwards(data) * widened(data.crest, data.x[side])
         film = LandFilm(data.viscosity, data.width, data.radius, room)
         sy, sz = shifted(data.crest, data.x[side], PLACE)

@@ -33,6 +33,7 @@ from flexcage.contacts.land import (
     other_contact,
     other_land,
 )
+from flexcage.contacts.land_frame import AT_REST, bring_back, is_tilted, seen_from_ring
 from flexcage.contacts.slices import Laws
 from flexcage.contacts.state import Q_SKEW, Q_SPIN, Q_TILT, U_SKEW, U_SPIN, U_TILT
 from flexcage.core.jit import VECTORISED, copy_into, fields, outlined, part, zero
@@ -279,15 +280,21 @@ def land_forces(q, u, nm, d, law, mode):
     zero(Fc)
     zero(Mc)
     inner = data.inner != 0
+    lw, onset = fields(d.land_work), fields(d.memory).land
     cage, ring = LandCage(
         A, q[Q_CAGE:Q_QUATERNION], u[CAGE:CAGE_TURN], wg, q[Q_MODES:], u[MODES:]
-    ), _land_ring(q, u, inner, vec)  # fmt: skip
+    ), _land_ring(q, u, inner, vec, lw)  # fmt: skip
     forces = LandForces(
         Fc, Mc, border[MODES : MODES + nm], vec[RING_FORCE], vec[RING_MOMENT]
     )  # fmt: skip
     laws, sl = Laws(law[LAND_LAW], law[LAND_RUBS]), fields(d.slices).row[0]
-    lw, onset = fields(d.land_work), fields(d.memory).land
-    land_contact(cage, ring, data, onset, laws, sl, lw, forces, work.sums)
+    seen, met, pushed = cage, ring, forces
+    tilted = inner and is_tilted(vec[RING_AXIS])
+    if tilted:
+        seen, met, pushed = _from_inner_ring(q, cage, ring, forces, work, lw)
+    land_contact(seen, met, data, onset, laws, sl, lw, pushed, work.sums)
+    if tilted:
+        bring_back(pushed, work.R[0], forces)
     _push_ring(forces, inner, border)
     if mode >= REPORT:
         _report_land(lw.st, work.sums, 0, rep)
@@ -305,19 +312,29 @@ def land_forces(q, u, nm, d, law, mode):
 
 
 @part
-def _land_ring(q, u, inner, vec):
-    """Inner or outer ring as the cage's land meets it."""
-    where, speed, spin = vec[GUIDE], vec[GUIDE_V], 0.0
+def _land_ring(q, u, inner, vec, lw):
+    """Inner or outer ring as the cage's land meets it, where it is not tilted."""
+    where, speed, turn = vec[GUIDE], vec[GUIDE_V], lw.seen[AT_REST]
     if inner:
         put(where, xyz(q[:Q_INNER_TURN]))
         put(speed, xyz(u[:INNER_TURN]))
-        spin = u[INNER_TURN]
+        turn = u[INNER_TURN:OUTER]
     else:
         put(where, (0.0, q[Q_OUTER], q[Q_OUTER + 1]))
         put(speed, (0.0, u[OUTER], u[OUTER + 1]))
     zero(vec[RING_FORCE])
     zero(vec[RING_MOMENT])
-    return LandRing(where, speed, spin)
+    return LandRing(where, speed, turn)
+
+
+@part
+def _from_inner_ring(q, cage, ring, forces, work, lw):
+    """Cage, ring and forces in the frame of an inner ring that is tilted: ``work.R[0]``."""
+    frame, axis = work.R[0], xyz(work.vec[RING_AXIS])
+    third = (sin(q[Q_SKEW]), 0.0, cos(q[Q_SKEW]))
+    for k, e in enumerate((axis, cross(third, axis), third)):
+        frame[0, k], frame[1, k], frame[2, k] = e
+    return seen_from_ring(cage, ring, frame, forces.modal, lw)
 
 
 @outlined
@@ -325,10 +342,16 @@ def _other_ring(q, u, cage, forces, d, law, mode):
     """The cage on the ring that does not guide it."""
     work, data, rep = fields(d.scratch), fields(d.land), fields(d.report)
     land, inner = other_land(data), data.inner == 0
-    ring = _land_ring(q, u, inner, work.vec)
     laws, sl = Laws(law[LAND_LAW], law[LAND_RUBS]), fields(d.slices).row[0]
     lw, onset = fields(d.land_work), fields(d.memory).land[OTHER_LAND:]
-    other_contact(cage, ring, land, onset, laws, sl, lw, forces, work.sums)
+    ring = _land_ring(q, u, inner, work.vec, lw)
+    seen, met, pushed = cage, ring, forces
+    tilted = inner and is_tilted(work.vec[RING_AXIS])
+    if tilted:
+        seen, met, pushed = _from_inner_ring(q, cage, ring, forces, work, lw)
+    other_contact(seen, met, land, onset, laws, sl, lw, pushed, work.sums)
+    if tilted:
+        bring_back(pushed, work.R[0], forces)
     _push_ring(forces, inner, work.border)
     if mode >= REPORT:
         _report_land(lw.st, work.sums, OTHER_LAND, rep)

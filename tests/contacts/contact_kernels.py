@@ -104,7 +104,7 @@ def _pocket_kernel(data_type):
 def _land_kernel(data_type):
     cage = LandCage(np.eye(3), ZERO, ZERO, ZERO, ZERO, ZERO)
     return _compiled(
-        _land, cage, LandRing(ZERO, ZERO, 0.0), data_type, VEC, LAWS, new_slices(), land_work(1),
+        _land, cage, LandRing(ZERO, ZERO, ZERO), data_type, VEC, LAWS, new_slices(), land_work(1),
         LandForces(ZERO, ZERO, ZERO, ZERO, ZERO), VEC, returns=types.void,
     )  # fmt: skip
 
@@ -164,15 +164,17 @@ def pocket(
 
 def land(
     data, Rc, *, A=None, Vc=ZERO, w=ZERO, q=(), qd=(), Rr=ZERO, Vr=ZERO, spin=0.0,
-    law=laws.elastic, friction=laws.no_friction, onset=0.05, work=None,
+    tilting=(0.0, 0.0), law=laws.elastic, friction=laws.no_friction, onset=0.05, work=None,
 ):  # fmt: skip
-    """(Fc, Mc, Qm, Fr, Mr, sums) between cage and ring; forces at stations in ``work.st``."""
+    """(Fc, Mc, Qm, Fr, Mr, sums) between cage and a ring that has no tilt, but the rates
+    ``tilting`` of one; forces at stations in ``work.st``."""
     A = np.eye(3) if A is None else np.ascontiguousarray(A)
     out = LandForces(np.zeros(3), np.zeros(3), np.zeros(len(q)), np.zeros(3), np.zeros(3))
     sums = np.zeros(N_SUMS)
     Rc, Vc, w, q, qd, Rr, Vr = (np.array(x, float) for x in (Rc, Vc, w, q, qd, Rr, Vr))
     _land_kernel(numba.typeof(data))(
-        LandCage(A, Rc, Vc, w, q, qd), LandRing(Rr, Vr, float(spin)), data, np.full(2, onset),
-        (law, friction), new_slices(), work or land_work(len(data.angle)), out, sums,
+        LandCage(A, Rc, Vc, w, q, qd), LandRing(Rr, Vr, np.array([spin, *tilting])), data,
+        np.full(2, onset), (law, friction), new_slices(), work or land_work(len(data.angle)), out,
+        sums,
     )  # fmt: skip
     return [*out, sums]

@@ -206,10 +206,10 @@ def test_land_energy_power_and_third_law(dry_land):
     Rr, Rc = np.array([2e-5, 1e-5, -2e-5]), pressed(data, 8e-6) + [3e-5, 1e-5, -2e-5]
     q, qd = np.array([1e-6, -2e-6, 1e-6]), np.array([2e-3, 5e-3, -4e-3])
     Vc, Vr = np.array([0.01, 0.04, 0.02]), np.array([0.0, 0.01, -0.01])
-    w, spin = np.array([283.0, 0.4, -0.3]), 628.0
+    w, turn = np.array([283.0, 0.4, -0.3]), np.array([628.0, 0.7, 0.9])
     call = {"law": laws.restitution, "friction": laws.step_coulomb}
     Fc, Mc, Qm, Fr, Mr, sums = land(
-        data, Rc, A=A, Vc=Vc, w=w, q=q, qd=qd, Rr=Rr, Vr=Vr, spin=spin, **call
+        data, Rc, A=A, Vc=Vc, w=w, q=q, qd=qd, Rr=Rr, Vr=Vr, spin=turn[0], tilting=turn[1:], **call
     )
     assert np.abs(Fc).max() > 10.0
     np.testing.assert_allclose(Fc + Fr, 0.0, atol=1e-12 * np.abs(Fc).max())
@@ -233,10 +233,15 @@ def test_land_energy_power_and_third_law(dry_land):
         assert -(energy(modes=q + e) - energy(modes=q - e)) / 2e-10 == pytest.approx(
             still[2][j], abs=1e-4 * np.abs(still[2]).max()
         )
-    power = Fc @ Vc + Mc @ w + Qm @ qd + Fr @ Vr + Mr[0] * spin
-    h = 1e-9
-    at = [energy(Rc + s * h * Vc, s * h * w, q + s * h * qd, Rr + s * h * Vr) for s in (1, -1)]
-    stored = (at[0] - at[1]) / (2 * h)
+    power = Fc @ Vc + Mc @ w + Qm @ qd + Fr @ Vr + Mr @ turn
+    tilting = turn * (0.0, 1.0, 1.0)
+
+    def after(h):  # a ring that tilts sees the cage tilt the other way
+        ring = Rr + h * Vr
+        seen = ring + Rotation.from_rotvec(-h * tilting).apply(Rc + h * Vc - ring)
+        return energy(seen, h * (w - tilting), q + h * qd, ring)
+
+    stored = (after(1e-9) - after(-1e-9)) / 2e-9
     assert sums[DAMPED] <= 0.0 and sums[RUBBED] < -1.0
     scale = abs(stored) + abs(sums[DAMPED]) + abs(sums[RUBBED])
     assert power == pytest.approx(sums[DAMPED] + sums[RUBBED] - stored, abs=1e-4 * scale)
@@ -364,16 +369,19 @@ def test_film_third_law_and_power(build_parts, guidance):
     A = Rotation.from_rotvec([0.3, 2e-3, -3e-3]).as_matrix()
     Rr, Rc = np.array([0.0, 1e-5, -2e-5]), np.array([1e-4, 9e-5, 4e-5])
     Vc, Vr = np.array([0.0, 0.03, 0.05]), np.array([0.0, 0.01, -0.01])
-    w, spin = np.array([283.0, 2.0, -3.0]), 628.0 if guidance == "inner" else 0.0
-    Fc, Mc, _, Fr, Mr, sums = land(data, Rc, A=A, Vc=Vc, w=w, Rr=Rr, Vr=Vr, spin=spin)
+    w, turn = np.array([283.0, 2.0, -3.0]), np.zeros(3)
+    if guidance == "inner":
+        turn[:] = 628.0, 5.0, -7.0
+    Fc, Mc, _, Fr, Mr, sums = land(
+        data, Rc, A=A, Vc=Vc, w=w, Rr=Rr, Vr=Vr, spin=turn[0], tilting=turn[1:]
+    )
     assert np.abs(Fc).max() > 1e-4
     np.testing.assert_allclose(Fc + Fr, 0.0, atol=1e-12 * np.abs(Fc).max())
     moment = Mc + np.cross(Rc, Fc) + Mr + np.cross(Rr, Fr)
     np.testing.assert_allclose(moment, 0.0, atol=1e-9 * np.abs(Mc).max())
-    power = Fc @ Vc + Mc @ w + Fr @ Vr + Mr[0] * spin
-    assert power == pytest.approx(sums[SHEARED], rel=1e-4) and np.sign(Mc[0]) == np.sign(
-        spin - 283.0
-    )
+    power = Fc @ Vc + Mc @ w + Fr @ Vr + Mr @ turn
+    assert power == pytest.approx(sums[SHEARED], rel=1e-4)
+    assert np.sign(Mc[0]) == np.sign(turn[0] - 283.0)
 
 
 @pytest.mark.parametrize("guidance", ["inner", "outer"])
