@@ -67,8 +67,8 @@ class Paper:
     study of their own (its file, their label), ``beside`` files of studies that put out more of
     such a reading, ``more`` those with further starts of some conditions of any reading. ``maps``
     are the files that make a column, ``rechecks`` files of maps whose ``points`` are computed anew
-    with a flexible cage, under all conditions or ``recheck_conditions``; all rechecked points are a
-    column of their own where ``recheck_column`` names it. ``stress`` is what changes the file of a
+    with a flexible cage, under ``recheck_conditions`` or, if a map has none of these, all that it
+    has; all rechecked points are a column of their own where ``recheck_column`` names it. ``stress`` is what changes the file of a
     case for a run whose stress is drawn; ``studies`` are beside. ``weighed`` are numbers by file of
     a map, whose unknowns the page weighs by their first-order indices, ``measured`` rows of the
     table of all papers.
@@ -173,7 +173,7 @@ def run(paper: Paper, folder: Path, out: Path, *, workers: int, quick: bool) -> 
         flexible = load_map(folder / file, overrides={"cage.model": "flexible"})
         if paper.recheck_conditions:
             kept = [c for c in flexible.conditions if c["label"] in paper.recheck_conditions]
-            flexible = replace(flexible, conditions=tuple(kept))
+            flexible = replace(flexible, conditions=tuple(kept) or flexible.conditions)
         where = _of(out, file).with_name(f"{Path(file).stem}_flexible")
         run_map(flexible, out=where, points=points, workers=workers, progress=Progress)
     if paper.stress is not None and not (out / STRESS).is_dir():

@@ -207,7 +207,10 @@ PAPER = Paper(
     maps={CAGE: ("map_cage_6747.toml", "map_cage_6470.toml"), RACE: ("map_race_6747.toml",)},
     decided_by=DECIDED_BY,
     studies=("design.toml",),
-    rechecks={"map_cage_6747.toml": (0, 3, 6, 9, 12), "map_cage_6470.toml": (1, 4, 7, 10, 13)},
+    rechecks={
+        "map_cage_6747.toml": (0, 3, 6, 9, 12), "map_cage_6470.toml": (1, 4, 7, 10, 13),
+        "map_race_6747.toml": (0, 3, 6, 9, 12),
+    },
     recheck_conditions=("modified 9000", "original 9000"),
     weighed={"screen_6747.toml": WEIGHED},
     stress=("case.toml", {
