@@ -68,10 +68,10 @@ class Paper:
     such a reading, ``more`` those with further starts of some conditions of any reading. ``maps``
     are the files that make a column, ``rechecks`` files of maps whose ``points`` are computed anew
     with a flexible cage, under ``recheck_conditions`` or, if a map has none of these, all that it
-    has; all rechecked points are a column of their own where ``recheck_column`` names it. ``stress`` is what changes the file of a
-    case for a run whose stress is drawn; ``studies`` are beside. ``weighed`` are numbers by file of
-    a map, whose unknowns the page weighs by their first-order indices, ``measured`` rows of the
-    table of all papers.
+    has; all rechecked points are a column of their own where ``recheck_column`` names it.
+    ``stress`` is what changes the file of a case for a run whose stress is drawn; ``studies`` are
+    beside. ``weighed`` are numbers by file of a map, whose unknowns the page weighs by their first-
+    order indices, ``measured`` rows of the table of all papers.
     """
 
     title: str
