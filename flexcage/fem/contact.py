@@ -34,6 +34,10 @@ _UNHELD = 1e-3  # share of the forces that weak springs may bear
 _HALVINGS = 5  # of a step that does not bring the forces nearer to balance
 
 
+class NoBalance(RunFailed):
+    """Newton's steps did not balance the forces of a contact; smaller load steps may."""
+
+
 @dataclass(frozen=True, eq=False)
 class Touching:
     """Two surfaces: ``faces`` (m, 6) of one body, ``others`` (m, 6) of the other at the same places
@@ -149,7 +153,7 @@ class ContactProblem:
                     break
             u, found, residual = trial, next_found, next_residual
         else:
-            raise RunFailed(
+            raise NoBalance(
                 f"The contact of the joint found no balance in {_MOST} steps (forces are off by "
                 f"{size / scale:.1g} of the largest); apply the loads in more steps."
             )

@@ -13,6 +13,7 @@ from __future__ import annotations
 
 import logging
 from collections.abc import Iterator, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass
 from functools import cached_property
 from math import pi
@@ -21,7 +22,7 @@ import numpy as np
 
 from flexcage.core.errors import InputError
 from flexcage.core.units import mm
-from flexcage.fem.contact import ContactProblem, ContactState, Touching
+from flexcage.fem.contact import ContactProblem, ContactState, NoBalance, Touching
 from flexcage.fem.curved import curved_stiffness, curved_stress, face_points
 from flexcage.fem.parting import Parted
 from flexcage.geometry.materials import Material
@@ -47,6 +48,7 @@ _SPRINGS = 1e-9  # of the contact's stiffness on the shank's section, over all n
 _OFF_EDGE = 0.05e-3  # [m] from the head's edge, where the stress under it is taken
 _CLAMPED = 0.02  # of the clamping force, within which it is met
 _TRIES = 4
+_STEPS = (1, 4, 16)  # in which a load is put on, where fewer find no balance
 
 #: Places whose peaks are reported, and what they are called.
 PLACES = {
@@ -278,11 +280,33 @@ class RivetedJoint:
         problem = self.problem(fit.friction)
         gaps, state = self._clamped(problem, fit)
         instants = {"clamped": self._instant("clamped", np.zeros(6), problem, state)}
+        before = np.zeros(6)
         for name, load in (("largest", largest), ("least", least), ("again", largest)):
-            state = problem.solve(self.loads(load), gaps, state)
-            instants[name] = self._instant(name, np.asarray(load, float), problem, state)
+            load = np.asarray(load, float)
+            state = self._loaded(problem, gaps, state, before, load)
+            instants[name], before = self._instant(name, load, problem, state), load
             log.info("riveted joint, play %.3g um: %s", 1e6 * fit.play, name)
         return JointResult(self.shape, fit, self.bodies, problem, instants, self.places)
+
+    def _loaded(
+        self, problem: ContactProblem, gaps: np.ndarray, state: ContactState,
+        before: np.ndarray, load: np.ndarray,
+    ) -> ContactState:  # fmt: skip
+        """The state under ``load``, from that under the load ``before``, in as few steps as find
+        balance."""
+        loads = [self.loads(before), self.loads(load)]
+
+        def in_steps(steps: int) -> ContactState:
+            found = state
+            for k in range(1, steps + 1):
+                part = loads[0] + (k / steps) * (loads[1] - loads[0]) if k < steps else loads[1]
+                found = problem.solve(part, gaps, found)
+            return found
+
+        for steps in _STEPS[:-1]:
+            with suppress(NoBalance):
+                return in_steps(steps)
+        return in_steps(_STEPS[-1])
 
     def _clamped(self, problem: ContactProblem, fit: Fit) -> tuple[np.ndarray, ContactState]:
         """Gaps at the start, and the state before any load, at the clamping force asked for."""

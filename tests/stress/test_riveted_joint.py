@@ -7,7 +7,8 @@ from math import pi
 import numpy as np
 import pytest
 
-from flexcage.core.errors import InputError
+from flexcage.core.errors import InputError, RunFailed
+from flexcage.fem.contact import NoBalance
 from flexcage.fem.curved import curved_volumes
 from flexcage.geometry.materials import MATERIALS
 from flexcage.geometry.riveted_joint import JointShape
@@ -84,6 +85,34 @@ def test_a_rivet_with_play_is_clamped(played):
             assert through == pytest.approx(load, abs=0.02 * abs(load))
     # and the clamp bears tension by what the sheets are relieved of (a bolt with stiff plates)
     assert abs(largest.clamp - clamped.clamp) < 0.3 * 20.0
+
+
+class Nervous:
+    """A contact that finds balance in small steps only, and says what it was loaded with."""
+
+    def __init__(self, most):
+        self.most, self.last, self.seen = most, 0.0, []
+
+    def solve(self, loads, gaps, state):
+        size = float(np.abs(loads - state).max())
+        if size > self.most:
+            raise NoBalance("no balance")
+        self.seen.append(size)
+        return loads
+
+
+def test_a_load_that_finds_no_balance_is_put_on_in_steps(joint):
+    """In a quarter at a time where one step fails, up to the load itself; then it gives up."""
+    before, load = np.zeros(6), np.array([0.0, 2.0, 0.0, 0.0, 0.0, 1e-3])
+    start, end = joint.loads(before), joint.loads(load)
+    most = float(np.abs(end - start).max())
+    for share, steps in ((1.1, 1), (0.3, 4), (0.1, 16)):
+        problem = Nervous(share * most)
+        state = joint._loaded(problem, None, start, before, load)
+        np.testing.assert_array_equal(state, end)
+        assert len(problem.seen) == steps
+    with pytest.raises(RunFailed, match="no balance"):
+        joint._loaded(Nervous(0.01 * most), None, start, before, load)
 
 
 def test_peaks_are_named_and_at_their_places(played):
