@@ -17,8 +17,8 @@ from claims import (
 from decides import (
     assumed,
     elastic,
+    fatigue,
     lags,
-    no_fatigue,
     over,
     region,
     said,
@@ -133,7 +133,7 @@ def words(computed: Computed) -> Words:
         "head, as claimed: holds. Under interference it is at the edges of the holes and the root, "
         "not at the head's edge: does not hold. Interference raises every peak, so a small play is "
         "best, as claimed.",
-        no_fatigue(),
+        fatigue(),
     ]  # fmt: skip
     readings = [
         "**Better model.** Balls of 6.747 mm (17/64 inch; 6.47 mm is no standard size), 8.25 N m "
