@@ -26,13 +26,11 @@ LOOKS = Looks((8, 16, 30))
 @dataclass(frozen=True)
 class Reading:
     """One reading of a study whose axes are called "condition" and "reading"; what it does not put
-    out may be in a study ``beside`` it, of the same reading and conditions, and further starts of
-    some conditions in one with ``more``."""
+    out may be in a study ``beside`` it, of the same reading and conditions."""
 
     label: str
     results: StudyResults
     beside: Reading | None = None
-    more: Reading | None = None
 
     @cached_property
     def _rows(self) -> dict[str, list]:
@@ -55,15 +53,11 @@ class Reading:
 
     def values(self, output: str, condition: str) -> np.ndarray:
         """An output of every start that is done (starts,), SI; NaN where no study puts it out."""
-        own, more = output in self.results.about.outputs, self.more
-        if own or self.beside is None:
-            rows = [r for r in self._rows.get(condition, ()) if r.state == "done"]
-            found = np.array([float(r.figures[output].value) if own else np.nan for r in rows])
-        else:
-            found = self.beside.values(output, condition)
-        if more is None or output not in more.results.about.outputs:
-            return found
-        return np.append(found, more.values(output, condition))
+        own = output in self.results.about.outputs
+        if not own and self.beside is not None:
+            return self.beside.values(output, condition)
+        rows = [r for r in self._rows.get(condition, ()) if r.state == "done"]
+        return np.array([float(r.figures[output].value) if own else np.nan for r in rows])
 
     def said(self, output: str, condition: str, factor: float) -> str:
         """Mean of the starts with half its 95 % interval; of two to seven the mean alone."""
@@ -111,7 +105,7 @@ class Reading:
     @property
     def studies(self) -> list[StudyResults]:
         """All studies that it reads."""
-        return [r.results for r in (self, self.beside, self.more) if r is not None]
+        return [r.results for r in (self, self.beside) if r is not None]
 
     def run(self, condition: str, start: int = 0) -> Run:
         """The run of one start."""
@@ -120,11 +114,10 @@ class Reading:
 
 
 def readings_of(
-    out: Path, files: Mapping[str, tuple[str, str]], *,
-    beside: Mapping[str, str], more: Mapping[str, str],
-) -> dict[str, Reading]:  # fmt: skip
+    out: Path, files: Mapping[str, tuple[str, str]], beside: Mapping[str, str]
+) -> dict[str, Reading]:
     """Readings by column, of the studies in the folder ``out`` that are there: each a file and a
-    label; ``beside`` and ``more`` are files."""
+    label; ``beside`` are files."""
     opened: dict[Path, StudyResults] = {}
 
     def read(column: str, file: str | None) -> Reading | None:
@@ -139,8 +132,7 @@ def readings_of(
     for column, (file, _) in files.items():
         own = read(column, file)
         if own is not None:
-            aside = {"beside": beside.get(column), "more": more.get(column)}
-            found[column] = replace(own, **{k: read(column, f) for k, f in aside.items()})
+            found[column] = replace(own, beside=read(column, beside.get(column)))
     return found
 
 

@@ -65,13 +65,13 @@ class Paper:
 
     ``columns`` names the readings of ``readings`` by their labels, ``alone`` those that have a
     study of their own (its file, their label), ``beside`` files of studies that put out more of
-    such a reading, ``more`` those with further starts of some conditions of any reading. ``maps``
-    are the files that make a column, ``rechecks`` files of maps whose ``points`` are computed anew
-    with a flexible cage, under ``recheck_conditions`` or, if a map has none of these, all that it
-    has; all rechecked points are a column of their own where ``recheck_column`` names it.
-    ``stress`` is what changes the file of a case for a run whose stress is drawn; ``studies`` are
-    beside. ``weighed`` are numbers by file of a map, whose unknowns the page weighs by their first-
-    order indices, ``measured`` rows of the table of all papers.
+    such a reading. ``maps`` are the files that make a column, ``rechecks`` files of maps whose
+    ``points`` are computed anew with a flexible cage, under ``recheck_conditions`` or, if a map has
+    none of these, all that it has; all rechecked points are a column of their own where
+    ``recheck_column`` names it. ``stress`` is what changes the file of a case for a run whose
+    stress is drawn; ``studies`` are beside. ``weighed`` are numbers by file of a map, whose
+    unknowns the page weighs by their first- order indices, ``measured`` rows of the table of all
+    papers.
     """
 
     title: str
@@ -83,7 +83,6 @@ class Paper:
     decided_by: Mapping[str, str]
     alone: Mapping[str, tuple[str, str]] = field(default_factory=dict)
     beside: Mapping[str, str] = field(default_factory=dict)
-    more: Mapping[str, str] = field(default_factory=dict)
     studies: Sequence[str] = ()
     rechecks: Mapping[str, Sequence[int]] = field(default_factory=dict)
     recheck_conditions: Sequence[str] = ()
@@ -163,7 +162,7 @@ def run(paper: Paper, folder: Path, out: Path, *, workers: int, quick: bool) -> 
         run_study(study, out=_of(out, file), workers=workers, progress=Progress)
     if quick:
         return
-    for file in (*paper.studies, *paper.beside.values(), *paper.more.values()):
+    for file in (*paper.studies, *paper.beside.values()):
         run_study(load_study(folder / file), out=_of(out, file), workers=workers, progress=Progress)
     for file in dict.fromkeys(
         (*(f for files in paper.maps.values() for f in files), *paper.weighed)
@@ -191,7 +190,7 @@ def collect(paper: Paper, out: Path) -> Computed:
     if not _of(out, paper.readings).is_dir():
         raise flexcage.InputError(f"'{out}' lacks the paper's readings; compute them first.")
     files = {column: (paper.readings, label) for label, column in paper.columns.items()}
-    readings = readings_of(out, {**files, **paper.alone}, beside=paper.beside, more=paper.more)
+    readings = readings_of(out, {**files, **paper.alone}, paper.beside)
     others = [StudyResults(_of(out, f)) for f in paper.studies if _of(out, f).is_dir()]
     read = [*(results for r in readings.values() for results in r.studies), *others]
     studies = {results.folder.path: results for results in read}
