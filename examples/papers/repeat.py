@@ -70,7 +70,7 @@ class Paper:
     none of these, all that it has; all rechecked points are a column of their own where
     ``recheck_column`` names it. ``stress`` is what changes the file of a case for a run whose
     stress is drawn; ``studies`` are beside. ``weighed`` are numbers by file of a map, whose
-    unknowns the page weighs by their first- order indices, ``measured`` rows of the table of all
+    unknowns the page weighs by their first-order indices, ``measured`` rows of the table of all
     papers.
     """
 
