@@ -61,7 +61,7 @@ def test_readings_maps_and_the_design_are_plans(paper):
             assert len(make_plan(spec.study((0,))).cases) == len(there[column])
     for claim in paper.claims:
         assert results.conditions_of(claim) <= there[paper.decided_by[claim.key]]
-    assert len(make_plan(load_study(FOLDER / "design.toml")).cases) == 49 * 8
+    assert len(make_plan(load_study(FOLDER / "design.toml")).cases) == 49 * 4
     for column, file in paper.beside.items():
         study = load_study(FOLDER / file)
         assert {p["label"] for p in study.axes[0].points} == there[column]
