@@ -42,7 +42,7 @@ from flexcage.core.progress import Progress
 from flexcage.study import MapResults, StudyResults, load_map, load_study, run_map, run_study
 from flexcage.study.claims import Claim
 from flexcage.study.own import OWN
-from flexcage.study.verdicts import UNDECIDED, write_verdicts
+from flexcage.study.verdicts import FAILS, HOLDS, UNDECIDED, write_verdicts
 
 QUICK = {"solver.duration": "40 ms"}
 CLEAR = 0.05  # level of the unknowns that a sentence names
@@ -113,6 +113,15 @@ class Computed:
     def counts(self) -> Counter[str]:
         """Claims by the outcome of the reading that decides."""
         return Counter(line.verdict.outcome for line in self.lines)
+
+    @property
+    def tally(self) -> str:
+        """The same in words that follow "of its claims"."""
+        holds, fails, left = (self.counts[o] for o in (HOLDS, FAILS, UNDECIDED))
+        return (
+            f"{holds} hold{'s' * (holds == 1)} over most of what the paper leaves open, {fails} "
+            f"do{'es' * (fails == 1)} not, and {left} stay{'s' * (left == 1)} open"
+        )
 
     def by(self, column: str, key: str, verb: str = "decided by") -> str:
         """What decides a claim over a map, in words."""

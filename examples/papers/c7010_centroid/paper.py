@@ -77,7 +77,6 @@ def in_cylinders(computed: Computed) -> str:
 def words(computed: Computed) -> Words:
     """Summary, reasons, what decides, and readings, with the numbers of what was computed."""
     c = computed
-    counts = c.counts
     best = max(
         (m.share for key, m in c.found[TEST].items() if key != "003-3"),
         key=lambda share: share.value if share.decided else 0.0,
@@ -106,8 +105,7 @@ def words(computed: Computed) -> Words:
     summary = f"""The paper measures a 7010C's polyimide cage with five lasers at 4000 to 11,000 rpm
         and simulates it in ADAMS. It says that the whirl grows and steadies up to 10,000 rpm, that
         tilt adds 3 to 5 % to measured radii, and that the cage's speed follows kinematics within
-        1 %. Of its {len(c.lines)} claims {counts["holds"]} hold over most of what it leaves
-        unknown, {counts["does not hold"]} do not; open: {counts["undecided"]}. That the
+        1 %. Of its {len(c.lines)} claims {c.tally}. That the
         whirl grows into a circle holds in {growth.share} of the plausible range; any other claim
         on the test in {best} at most. How sure: {growth.share.decided} points of
         {len(c.maps[TEST].names) - 1} unknowns, one start each at four speeds, and two readings of

@@ -85,13 +85,11 @@ def reasons(c: Computed) -> dict[str, str]:
 
 def summary(c: Computed) -> str:
     """What the paper says, what was found, how sure."""
-    counts = c.counts
     points = " and ".join(f"{whole(c, column)} points of the {NAMES[column]}" for column in c.maps)
     return f"""The paper models a 7010C with L-N and IMPACT contacts and follows its nylon cage
         over speed, load, clearance, waves of the speed and accelerations. It says that higher speed
         steadies the cage's whirl, that load and clearance disturb it, and that sudden changes are
-        worst. Of its {len(c.lines)} claims {counts["holds"]} hold, {counts["does not hold"]} do
-        not; open: {counts["undecided"]}. Most cages here rest on their weight or swing
+        worst. Of its {len(c.lines)} claims {c.tally}. Most cages here rest on their weight or swing
         slowly, whatever the speed; friction drives some of them round their play, and then they
         whirl
         ({wild_starts(c, *ALL_SPEEDS, *ALL_LOADS[1:], *POCKETS, *RADIAL)} starts of the better

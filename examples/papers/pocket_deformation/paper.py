@@ -173,15 +173,14 @@ def lost(computed: Computed) -> str:
 def words(computed: Computed) -> Words:
     """Summary, reasons, what decides, and readings, with the numbers of what was computed."""
     c = computed
-    counts, points = c.counts, c.found[MAP]["000-12"].share.decided
+    points = c.found[MAP]["000-12"].share.decided
     held = [line.key for line in c.lines if line.cells[BETTER].outcome == HOLDS]
     starts = {column: reading.starts for column, reading in c.readings.items()}
     summary = f"""The paper deforms one pocket of an N1013's brass cage at 6000 rpm and 1000 N, in
         ADAMS: its crossbeam by 0.1 and 0.2 mm, its side beam by +0.3 and -0.3 mm. It says that
         stress and slip rise where the roller is squeezed, and that orbits, vibration and speeds
         change with it. Of its {len(c.lines)} claims (one in two readings, one with a number)
-        {counts["holds"]} hold over most of what it leaves unknown, {counts["does not hold"]} do
-        not; open: {counts["undecided"]}. At the clearances of the better model {", ".join(held)}
+        {c.tally}. At the clearances of the better model {", ".join(held)}
         hold. One thing decides most: does the displacement exceed the pocket's clearance, which
         the paper does not print? How sure: {points} points of {len(c.maps[MAP].names) - 1}
         unknowns, one start each of five rigid cages; {len(c.paper.rechecks["map.toml"])} of them

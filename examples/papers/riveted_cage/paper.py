@@ -58,7 +58,6 @@ def words(computed: Computed) -> Words:
     c = computed
     better = c.readings[BETTER]
     soft = c.readings.get(FLEXIBLE)
-    counts = c.counts
     laid = surface(c)
     best = laid.optima["quadratic"]
     radius, (low, high) = 0.5 * best.place[0], 0.5 * best.box[:, 0]
@@ -71,9 +70,8 @@ def words(computed: Computed) -> Words:
     roots = {k: said(soft, ROOT, k, 1e-6) for k in ("modified 9000", "original 9000")}
     summary = f"""Rivets break in the cage of an aviation motor's bearing. The paper says that balls
         strike the cage, that a pocket radius of 3.46 mm and a width of 6 mm make the blows least,
-        and that the improved cage slips less. Of its {len(c.lines)} claims {counts["holds"]} holds
-        over most of what the paper leaves open, {counts["does not hold"]} do not, and
-        {counts["undecided"]} stay open. The best radius is found again in the better model: a
+        and that the improved cage slips less. Of its {len(c.lines)} claims {c.tally}.
+        The best radius is found again in the better model: a
         49-point design has its least force at {radius:.3f} mm ({low:.3f} to {high:.3f} mm, 95 %),
         with balls of 6.747 mm, not the printed 6.47; yet in only {c.found[CAGE]["001-1"].share} of
         the plausible range. The width has no such effect. The original cage slips more than the

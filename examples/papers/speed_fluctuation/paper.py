@@ -99,14 +99,12 @@ def whole(c: Computed, column: str) -> int:
 
 def summary(c: Computed) -> str:
     """What the paper says, what was found, how sure."""
-    counts = c.counts
     joined, points = c.maps[MODEL], whole(c, MODEL)
     return f"""The paper simulates a ball screw bearing, a 7603025, in LS-DYNA. Its inner ring turns
         at 2000 rpm, and its speed fluctuates by 3 to 9 %, once to three times a turn. The paper
         says that the cage's speed follows the ring's, that its mean does not change, and that
         orbits and forces of cage and ring grow with the fluctuation. Of its {len(c.lines)} claims
-        {counts["holds"]} hold over most of what the paper leaves open,
-        {counts["does not hold"]} do not, and {counts["undecided"]} stay open. What holds is what
+        {c.tally}. What holds is what
         rolling balls enforce. The printed 922 rpm (935 by kinematics) hold nowhere. How sure:
         {points} points of {len(joined.names) - 1} unknowns of the paper's own model,
         {whole(c, BEARING)} of the real bearing, one start each under six
