@@ -155,8 +155,10 @@ def decides(c: Computed) -> list[str]:
         f"{middle(c, MODEL, 'excursion', CONSTANT, UM)} um (median) along the pitch circle, more "
         "than the play of most pockets. That carries the cage off the axis without any wave, as "
         "far as the pockets let it; a wave shakes it, and no farther.",
-        "**By indices** (table below, the real bearing at 6 %) the pockets' shape and play decide "
-        "how far the cage goes; play, creep and drag move its fluctuation most.",
+        "**By indices** (table below, at 6 %) the decay of friction moves speed, fluctuation and "
+        "force of the paper's own model most, pocket play the cage's way, stiffness of races the "
+        "ring's. In the real bearing the pockets' shape and play decide how far the cage goes, "
+        "play and friction in pockets how it fluctuates.",
         "**Inner ring (002-5).** The load alone moves it by "
         f"{spread(c, MODEL, 'ring_distance', CONSTANT, UM)} um, as grooves and stiffness have it "
         f"(better model: {better.said('ring_distance', CONSTANT, UM)} um at constant speed, "
@@ -211,8 +213,8 @@ def words(computed: Computed) -> Words:
         "**Changed after the first runs were seen.** Friction that falls to the dynamic "
         "coefficient within 1 mm/s (a decay of 1000 s/m) makes loaded contacts chatter, and runs "
         "twenty times as long; the map's last choice of decay has the dynamic coefficients alone, "
-        "with creep in place of sticking. Earlier maps had 16 points, readings 8 starts; ranges "
-        "and rules stayed as they were.",
+        "with creep in place of sticking. Earlier maps had 16 points; ranges and rules stayed as "
+        "they were.",
         *rechecked(computed, "swing"),
     ]  # fmt: skip
     return Words(summary(computed), reasons(computed), decides(computed), readings)
