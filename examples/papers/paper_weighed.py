@@ -140,13 +140,18 @@ def warns(row, key: str) -> bool:
     return any(warning.key == key for warning in row.warnings or ())
 
 
-def warned(c: Computed, key: str, names: Mapping[str, str] = {}) -> str:
-    """Runs that warn so, of all, by reading and map; ``names`` of columns in sentences."""
+def warned(
+    c: Computed, key: str, names: Mapping[str, str] = {}, columns: Collection[str] = ()
+) -> str:
+    """Runs that warn so, of all, by reading and map; ``names`` of columns in sentences, of all or
+    of some ``columns``."""
     found = []
-    columns = {column: list(r.rows) for column, r in c.readings.items()}
+    there = {column: list(r.rows) for column, r in c.readings.items()}
     for column, joined in c.maps.items():
-        columns[column] = [row for part in joined.parts for row in part.study.rows]
-    for column, rows in columns.items():
+        there[column] = [row for part in joined.parts for row in part.study.rows]
+    for column, rows in there.items():
+        if columns and column not in columns:
+            continue
         done = [row for row in rows if row.state == "done"]
         count = sum(warns(row, key) for row in done)
         found.append(f"{count} of {len(done)} ({names.get(column, column)})")

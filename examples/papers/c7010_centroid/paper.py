@@ -151,8 +151,8 @@ def words(computed: Computed) -> Words:
         "end at 10 mm; errors at 8.2 and 9.8 mm are outputs of the maps.",
         "**Shoulders** of the rings are 0.61 mm away. The paper's 54 contacts have none with the "
         "rings: so as printed and in the map of the model the cage passes them, in "
-        f"{warned(c, 'passes_ring')} runs. In the better model and the map of the test it meets "
-        f"them, in {warned(c, 'meets_ring')}.",
+        f"{warned(c, 'passes_ring', columns=(PRINTED_MODEL, MODEL))} runs. In the better model and "
+        f"the map of the test it may meet them: {warned(c, 'meets_ring', columns=(BETTER, TEST))}.",
         "**A point of a map** is one start at four speeds; what starts alone do is the dummy.",
         "**Changed after the first runs were seen.** An earlier map of the test had no shoulders: "
         "it lost its cages in cylinders, and went on with spheres alone. With shoulders it was run "
