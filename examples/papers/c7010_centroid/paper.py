@@ -121,10 +121,10 @@ def words(computed: Computed) -> Words:
         f"{_turning(c, '4000', 0.8, 1.2)}; at 10,000 rpm in {_turning(c, '10000', -9.0, 0.2)} and "
         f"{_turning(c, '10000', 0.8, 1.2)}. On a radius of 0.2 mm whirl needs 0.7 g at 4000 and "
         f"4 g at 10,000 rpm. Over the whole map {c.by(TEST, '003-3')}.",
-        "**Pocket play decides the whirl.** Of 12 unknowns it alone moves the whirl's radius and "
-        "the solved difference at 10,000 rpm beyond the dummy (Morris' screening, 4 trajectories "
-        "of 14 runs of 0.2 s, each with another start; table below). First-order indices want more "
-        "than the maps' points: with 16 the dummy's reaches half of a variance.",
+        "**Pocket play decides how far the cage whirls.** Of 13 unknowns it alone moves the radius "
+        "at 10,000 rpm beyond the dummy (Morris' screening, 6 trajectories of 15 runs of 0.2 s, "
+        "each with another start; table below). Ratio, difference and error follow the start as "
+        "much as any unknown; most the pockets' shape. Ring tilt, oil and creep move the speed.",
         "**Differences (003-6, 003-7).** A cage that rests or whirls steadily shows little: at "
         f"10,000 rpm the median is {middle(c, TEST, 'difference', '10000', MM)} mm where the paper "
         "has 0.23. Only a cage between the two reaches that, and then its orbit is no circle: the "
