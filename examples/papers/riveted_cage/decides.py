@@ -17,6 +17,7 @@ from flexcage.study import StudyResults
 from flexcage.study.surface import response_surface
 
 FOLDER = Path(__file__).parent
+UNITS = {"clamp": "N", "root_radius": "m", "friction": "(no unit)"}
 CAGE_TURNS = 3380.0 / 60.0  # a second, at 9000 rpm by equation 10
 
 
@@ -110,8 +111,9 @@ def elastic(soft) -> list[str]:
         for name in ("shear [N]", "bending [mN m]")
     )
     return [
-        f"**An elastic cage has no bowl.** Its largest forces are {forces} N at 3.43, 3.46 and "
-        "3.49 mm: it gives way to blows, and they are less than half of a rigid cage's. Its "
+        "**An elastic cage shows no bowl beyond chance.** Its largest forces are "
+        f"{forces} N at 3.43, 3.46 and 3.49 mm: it gives way to blows, and they are less than half "
+        "of a rigid cage's. Its "
         f"rivets' nominal stress is {over(soft, 'rivet', ENDS_OF_RADII, 1e-6)} MPa, the range at "
         f"their roots {', '.join(said(soft, ROOT, c, 1e-6) for c in ENDS_OF_RADII)} MPa (001-1b).",
         "**A thicker sheet (001-4b).** Its halves are farther apart, so that the same forces bend "
@@ -147,7 +149,7 @@ def fatigue() -> str:
     root, local = fits["range at the root [MPa]"], lives["local range [MPa]"]
     clamps = ends[ends["changed"] == "clamp"]
     by_clamp = " and ".join(
-        f"{least:.0e} with {clamp:g} N"
+        f"{_million(least)} with {clamp:g} N"
         for clamp, least in zip(clamps["value [SI]"], clamps["cycles, least"])
     )
     least = ends["cycles, least"].min()
@@ -156,13 +158,17 @@ def fatigue() -> str:
         f"{fits['nominal range [MPa]'].max():.3g} MPa becomes {root.min():.2g} to "
         f"{root.max():.2g} MPa at the root over all fits, since clamped heads carry it by "
         "friction. Both readings of the paper's notch factor K_f make it "
-        f"{local.min():.3g} to {local.max():.3g} MPa: elastic, and {cycles.min():.0e} cycles or "
-        f"more by SWT and Morrow with a clamp of 100 N, {by_clamp} (whose mean stress counts). One "
-        f"cycle a turn of the cage makes {least:.0e} cycles {least / CAGE_TURNS / 3600.0:.0f} "
-        "hours: what no one knows of the joint decides, and fatigue is neither shown nor excluded. "
-        "CalculiX on the same mesh, with contact and friction, has the same ranges at the roots "
-        "within 2.3 %."
+        f"{local.min():.3g} to {local.max():.3g} MPa: elastic, and {_million(cycles.min())} cycles "
+        f"or more by SWT and Morrow with a clamp of 100 N, {by_clamp} (whose mean stress counts). "
+        f"With one cycle a turn of the cage {_million(least)} are "
+        f"{least / CAGE_TURNS / 3600.0:.0f} hours: what no one knows of the joint decides, and "
+        "fatigue is neither shown nor excluded. CalculiX on the same mesh, with contact and "
+        "friction, has the same ranges at the roots within 2.3 %."
     )
+
+
+def _million(cycles: float) -> str:
+    return f"{cycles / 1e6:.2g} million"
 
 
 def assumed() -> str:
@@ -173,7 +179,7 @@ def assumed() -> str:
     worst, others = ends.loc[ends[name].idxmax()], ends.drop(ends[name].idxmax())
     return (
         f"The range at the root is {middle:.3g} MPa by a coarser mesh, {worst[name]:.3g} with a "
-        f"{worst['changed'].replace('_', ' ')} of {worst['value [SI]']:g} (SI), and "
-        f"{others[name].min():.3g} to {others[name].max():.3g} with the other ends of the ranges "
+        f"{worst['changed'].replace('_', ' ')} of {worst['value [SI]']:g} "
+        f"{UNITS[worst['changed']]}, and {others[name].min():.3g} to {others[name].max():.3g} with the other ends of the ranges "
         "(clamp 20 to 200 N, friction 0.1 to 0.3, roots 0.05 to 0.2 mm)"
     )

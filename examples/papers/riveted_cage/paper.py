@@ -74,7 +74,8 @@ def words(computed: Computed) -> Words:
         The best radius is found again in the better model: a
         49-point design has its least force at {radius:.3f} mm ({low:.3f} to {high:.3f} mm, 95 %),
         with balls of 6.747 mm, not the printed 6.47; yet in only {c.found[CAGE]["001-1"].share} of
-        the plausible range. The width has no such effect. The original cage slips more than the
+        the plausible range. Over the width it has one at 6.2 mm in {c.found[CAGE]["001-3"].share}.
+        The original cage slips more than the
         modified one in {c.found[CAGE]["001-8"].share}; the measured slips themselves are missed.
         How sure: {c.found[CAGE]["001-8"].share.decided} points of {len(c.maps[CAGE].names) - 1}
         unknowns, one start each, and readings of {better.starts} starts, which decide only what is
