@@ -181,5 +181,6 @@ def assumed() -> str:
         f"The range at the root is {middle:.3g} MPa by a coarser mesh, {worst[name]:.3g} with a "
         f"{worst['changed'].replace('_', ' ')} of {worst['value [SI]']:g} "
         f"{UNITS[worst['changed']]}, and {others[name].min():.3g} to "
-        f"{others[name].max():.3g} with the other ends of the ranges (clamp 20 to 200 N, friction 0.1 to 0.3, roots 0.05 to 0.2 mm)"
+        f"{others[name].max():.3g} with the other ends of the ranges (clamp 20 to 200 N, friction "
+        "0.1 to 0.3, roots 0.05 to 0.2 mm)"
     )
