@@ -107,7 +107,7 @@ def words(c: Computed) -> Words:
         f"{wild_starts(c, '12000')} such starts at 12,000 rpm, {wild_starts(c, '4000')} at 4000, "
         f"{wild_starts(c, '12500 N')} at 12,500 N: starts alone may decide. (The limit was chosen "
         "after the runs; no verdict uses it.)",
-        f"**What the cage may meet (004-2, 004-4).** The preset leaves 145 um to the inner ring's "
+        f"**Shoulders calm the cage (004-2, 004-4).** The preset leaves 145 um to the inner ring's "
         f"shoulder and 85 um to the outer one's; in the better model the cage meets one in "
         f"{met(c)} runs. Of the maps' runs friction drives {wild_by_land(c)}. The paper lists no "
         "such contact; as printed there is none.",
@@ -154,8 +154,7 @@ def words(c: Computed) -> Words:
         "cage jumps from calm to driven, an effect is one jump: large, with a margin as large.",
         "**Prediction** (predictions.json) of the ratio at 0.14 mm: half of the prior is the "
         "printed 24.44 %, as if both figures showed a cage disturbed alike, half are points of the "
-        "map. It was made when the axial map had five whole points and part of a sixth, and not "
-        "made anew with the runs that came later.",
+        "maps.",
         "**No contact with rings.** As printed, and in a quarter of the maps' points, the cage "
         f"passes the shoulders: in {warned(c, 'passes_ring', NAMES)} runs.",
         f"**Energy.** The audit warns in {warned(c, 'energy_audit', NAMES)}.",
@@ -163,7 +162,8 @@ def words(c: Computed) -> Words:
         "this leaves no ball unloaded, and the ratio was raised to 1, the end of the plausible "
         "range, before any run of that map. Maps keep the ends of speeds and loads. Both were run "
         "with 8 and then 16 points before, without shoulders; ranges of all other unknowns and "
-        "the claims' rules stayed as they were.",
+        "the claims' rules stayed as they were. Now 24 points of the axial map were computed at "
+        "the ends of speeds and loads, and fewer, in their order, under all other conditions.",
         *rechecked(c, "deviation"),
         *driven_rechecked(c),
     ]  # fmt: skip
