@@ -67,19 +67,19 @@ def reasons(c: Computed) -> dict[str, str]:
         "004-4b": f"median {deviation(c, LOADS[-1])} %",
         "004-4c": f"rise at the load in {both(c, '004-4c', 'rise at the load')}; fall opposite in "
         f"{both(c, '004-4c', 'fall opposite')}",
-        "004-5": f"steady at 0.02 mm in {both(c, '004-5', 'steady at 0.02')}, ratio rises in "
-        f"{both(c, '004-5', 'ratio rises')}, "
-        f"force falls in {both(c, '004-5', 'force falls')}, angle in "
-        f"{both(c, '004-5', 'angle falls')}",
-        "004-5b": f"ratio rises in {both(c, '004-5b', 'ratio rises')}, force falls in "
-        f"{both(c, '004-5b', 'force falls')}, angle in "
-        f"{both(c, '004-5b', 'angle falls')}: clearance opens it, "
+        "004-5": f"steady at 0.02 mm in {c.part(AXIAL, '004-5', 'steady at 0.02')}, ratio rises in "
+        f"{c.part(AXIAL, '004-5', 'ratio rises')}, "
+        f"force falls in {c.part(AXIAL, '004-5', 'force falls')}, angle in "
+        f"{c.part(AXIAL, '004-5', 'angle falls')}",
+        "004-5b": f"ratio rises in {c.part(AXIAL, '004-5b', 'ratio rises')}, force falls in "
+        f"{c.part(AXIAL, '004-5b', 'force falls')}, angle in "
+        f"{c.part(AXIAL, '004-5b', 'angle falls')}: clearance opens it, "
         f"{means(c, 'inner_load', RADIAL, DEG)} deg",
-        "004-6": f"force in that order in {both(c, '004-6', 'force')}, axial vibration in "
-        f"{both(c, '004-6', 'axial')}, cage slip in {both(c, '004-6', 'cage slip')}",
-        "004-7": f"orbit grows in {both(c, '004-7', 'orbit')}, "
-        f"force in {both(c, '004-7', 'force')}, frequency in "
-        f"{both(c, '004-7', 'frequency')}, axial speed in {both(c, '004-7', 'axial')}",
+        "004-6": f"force in that order in {c.part(AXIAL, '004-6', 'force')}, axial vibration in "
+        f"{c.part(AXIAL, '004-6', 'axial')}, cage slip in {c.part(AXIAL, '004-6', 'cage slip')}",
+        "004-7": f"orbit grows in {c.part(AXIAL, '004-7', 'orbit')}, "
+        f"force in {c.part(AXIAL, '004-7', 'force')}, frequency in "
+        f"{c.part(AXIAL, '004-7', 'frequency')}, axial speed in {c.part(AXIAL, '004-7', 'axial')}",
     }
 
 
@@ -105,7 +105,7 @@ def words(c: Computed) -> Words:
         "**Rest or drive (004-2, 004-2b, 004-4).** A cage whose pockets are struck by more than "
         f"{DRIVEN:.0f} N is driven round its play by friction: so {maps}. The better model has "
         f"{wild_starts(c, '12000')} such starts at 12,000 rpm, {wild_starts(c, '4000')} at 4000, "
-        f"{wild_starts(c, '12500 N')} at 12,500 N: starts alone may decide. (The limit was chosen "
+        f"{wild_starts(c, '12500 N')} at 12,500 N. (The limit was chosen "
         "after the runs; no verdict uses it.)",
         f"**Shoulders calm the cage (004-2, 004-4).** The preset leaves 145 um to the inner ring's "
         f"shoulder and 85 um to the outer one's; in the better model the cage meets one in "

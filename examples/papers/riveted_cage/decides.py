@@ -156,8 +156,8 @@ def fatigue() -> str:
     return (
         "**Fatigue by the printed force.** Scaled to 25 N a ball, a nominal range of "
         f"{fits['nominal range [MPa]'].max():.3g} MPa becomes {root.min():.2g} to "
-        f"{root.max():.2g} MPa at the root over all fits, since clamped heads carry it by "
-        "friction. Both readings of the paper's notch factor K_f make it "
+        f"{root.max():.2g} MPa at the root over all fits. Both readings of the paper's notch "
+        "factor K_f make it "
         f"{local.min():.3g} to {local.max():.3g} MPa: elastic, and {_million(cycles.min())} cycles "
         f"or more by SWT and Morrow with a clamp of 100 N, {by_clamp} (whose mean stress counts). "
         f"With one cycle a turn of the cage {_million(least)} are "

@@ -124,7 +124,6 @@ def words(computed: Computed) -> Words:
         f"both balls and cages). With the mean force on a ball, {forces} N, it does not go (rank "
         f"correlation {rank:.2f}, p = {chance:.2f}): there is no load below which traction alone "
         "gives 1 %.",
-        "**By indices** (table below) moment and inner conformity move force and slip most.",
         *elastic(soft),
         *weak(c, soft),
         "**The rivet over its fit (001-7).** With play the largest stress is at the root of the "
@@ -144,7 +143,7 @@ def words(computed: Computed) -> Words:
         "most stressed rivet's joint by contact, through the cycle of its loads (0.05 s, play 3 "
         "um, clamp 100 N, friction 0.15, root radius 0.1 mm).",
         "**Judged anew.** Rivets were judged by nominal stress first (001-1b, 001-11 open, 001-4b "
-        "not), then by the range at the roots, put in its place before its own runs.",
+        "not), then by the range at the roots.",
         "**Force** is the mean over turns of the cage of the largest ball-cage force in each, as "
         "fixed before the runs. **Width** is where the spherical pockets end; from twice the "
         "radius on they are closed, and 7.4 and 8 mm are the same rigid cage.",
