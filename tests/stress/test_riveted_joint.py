@@ -91,7 +91,7 @@ class Nervous:
     """A contact that finds balance in small steps only, and says what it was loaded with."""
 
     def __init__(self, most):
-        self.most, self.last, self.seen = most, 0.0, []
+        self.most, self.seen = most, []
 
     def solve(self, loads, gaps, state):
         size = float(np.abs(loads - state).max())

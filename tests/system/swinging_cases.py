@@ -1,4 +1,4 @@
-"""Cases whose outer ring swings, on supports or in a housing."""
+"""Cases whose rings bend, or swing on supports or in a housing."""
 
 import numpy as np
 
@@ -9,8 +9,8 @@ from flexcage.modes.door.formats import write_body
 LOADS = {"N1013": {"radial": 5000.0}, "7010C-PI": {"radial": 300.0, "axial": 500.0}}
 
 
-def case_of(preset, *, speed=600.0, duration=1e-3, **changes):
-    case = Case.from_preset(preset, load=LOADS[preset], drive={"speed": speed})
+def case_of(preset, *, loads=LOADS, speed=600.0, duration=1e-3, **changes):
+    case = Case.from_preset(preset, load=loads[preset], drive={"speed": speed})
     case = case.replace("cage.model", "rigid").replace("mesh.fineness", "coarse")
     return case.replace({"solver.duration": duration, "output.rate": 20e3, **changes})
 

@@ -1,14 +1,15 @@
 """Rings that bend in a run."""
 
 import dataclasses
+from functools import partial
 
 import numpy as np
 import pytest
+import swinging_cases
 from bearing_runs import unbalanced
 
 import flexcage
 from flexcage.bearings import sections_of, statics_of
-from flexcage.case import Case
 from flexcage.core.errors import InputError
 from flexcage.integrate.rings import _deflections
 from flexcage.stages import assembled_start, bearing_in_motion, bent_rings, cage_mesh
@@ -21,13 +22,8 @@ from flexcage.system.statics.rings import Rings
 from flexcage.system.statics.solve import solve_bearing
 
 BOTH = {"inner_ring.ring": "flexible", "outer_ring.ring": "flexible"}
-LOADS = {"N1013": {"radial": 2000.0}, "7010C-PI": {"radial": 300.0, "axial": 500.0}}
-
-
-def case_of(preset, *, speed=600.0, duration=1e-3, **changes):
-    case = Case.from_preset(preset, load=LOADS[preset], drive={"speed": speed})
-    case = case.replace("cage.model", "rigid").replace("mesh.fineness", "coarse")
-    return case.replace({"solver.duration": duration, "output.rate": 20e3, **changes})
+LOADS = swinging_cases.LOADS | {"N1013": {"radial": 2000.0}}
+case_of = partial(swinging_cases.case_of, loads=LOADS)
 
 
 def bending(preset, **how):
