@@ -185,7 +185,7 @@ def test_shapes_in_another_unit_than_the_matrices(solver, basis):
     free = dataclasses.replace(basis, residual=None)
     body = dataclasses.replace(body_of(free, solver.model), kind=(), source="cage.npz")
     wrong = dataclasses.replace(body, shapes=1.1 * body.shapes)
-    refused(wrong, solver, "the mass of coordinate .* but its shape on the cage's mesh makes")
+    refused(wrong, solver, "the mass of mode .* but its shape on the cage's mesh makes")
 
 
 def test_nodes_of_another_mesh(solver, foreign):

@@ -1,11 +1,14 @@
 """Bodies as Abaqus substructures (.mtx): a linear user element with its matrices.
 
 Abaqus writes them with ``*SUBSTRUCTURE MATRIX OUTPUT, OUTPUT FILE=USER DEFINED, STIFFNESS=YES,
-MASS=YES``, and CalculiX with the same keyword, stiffness alone: the element's nodes as a comment,
-its degrees of freedom, and the lower triangles row by row (Abaqus Analysis User's Guide, User-
-defined elements). Where the nodes are stands in another deck (``nodes``). flexcage writes them
-into the same file as a ``*NODE`` block, and shapes and kinds, which a user element does not have,
-as comments that Abaqus passes over.
+MASS=YES``: the element's nodes as a comment, its degrees of freedom, and the lower triangles row by
+row (Abaqus Analysis User's Guide, User-defined elements). CalculiX has the same keyword, for
+stiffness alone. Its version 2.20 writes the rows of the retained degrees of freedom as they were
+assembled, without what the others yield: such a file is refused.
+
+Where the nodes are stands in another deck (``nodes``). flexcage writes them into the same file as a
+``*NODE`` block, and shapes and kinds, which a user element does not have, as comments that Abaqus
+passes over.
 """
 
 from __future__ import annotations
