@@ -151,6 +151,17 @@ def test_a_reduction_takes_its_body_from_the_file(basis, solver, tmp_path):
     assert made[0].fit is not None and made[2].fit is None
 
 
+def test_a_body_whose_file_is_gone_is_not_the_cages_own(basis, solver, tmp_path):
+    """With the cage's own basis on disk, from before."""
+    spec = ModesSpec()
+    reduce_cage(cage_mesh(), cage=CAGE, defects=(), spec=spec)
+    for name in ("body", "body_nodes"):
+        gone = dataclasses.replace(spec, **{name: str(tmp_path / "gone.npz")})
+        with pytest.raises(InputError, match=r"There is no file '.*gone\.npz'") as caught:
+            reduce_cage(cage_mesh(), cage=CAGE, defects=(), spec=gone)
+        assert caught.value.where == f"modes.{name}"
+
+
 # --- what does not fit ---------------------------------------------------------------------------
 
 
