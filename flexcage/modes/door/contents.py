@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 
 from flexcage.core.errors import InputError
+from flexcage.mesh.files.raw import Refused
 from flexcage.modes.door.body import MODAL, ReducedBody
 
 
@@ -47,6 +48,8 @@ class Contents:
 
 def unreadable(path: Path, reason: object, *, where: str) -> InputError:
     """The error to raise for a file that is not what its name says."""
+    if isinstance(reason, Refused):
+        return InputError(f"{path}: {reason}.", where=where, value=str(path))
     first = str(reason).strip().splitlines()[0] if str(reason).strip() else type(reason).__name__
     return InputError(
         f"{path} cannot be read as a {path.suffix} file: it is empty, cut short, or not what its "

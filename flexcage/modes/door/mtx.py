@@ -15,7 +15,7 @@ from pathlib import Path
 
 import numpy as np
 
-from flexcage.mesh.abaqus import read_nodes
+from flexcage.mesh.files.abaqus import read_nodes
 from flexcage.modes.door.body import ReducedBody
 from flexcage.modes.door.contents import Contents, Points, labels_of, numbers_of, unreadable
 
