@@ -127,7 +127,7 @@ class Skin:
         return places.reshape(-1, 3), np.repeat(np.arange(len(self.corners)), len(u))
 
     def beside(self, places: np.ndarray, units: np.ndarray, length: float) -> np.ndarray:
-        """The triangle (n,) nearest to each place, where normals that differ by one count as much as
+        """The triangle (n,) nearest to each place; normals that differ by one count as much as
         a ``length`` [m]."""
         at, triangle = self.samples
         tree = cKDTree(np.hstack([at, length * self.units[triangle]]))

@@ -1,13 +1,14 @@
-"""Reading a gmsh mesh (.msh): by meshio, and where that cannot, from what gmsh itself makes of it.
+"""Reading a gmsh mesh (.msh): by meshio, and where that cannot, by gmsh itself.
 
 meshio keeps the physical groups of format 2.2 element by element (its elements stand once a group),
 and those of 4.1 as sets, of which a face may be in several. Formats 1 and 4.0, nodes with
-parameters of their surfaces, and partitions, which meshio does not read or not whole, gmsh writes
-again in plain 4.1; it does so in a process of its own, because damaged files can end it.
+parameters of their surfaces, and partitions, which meshio does not read or not whole, gmsh itself
+reads, in a process of its own, because damaged files can end it.
 """
 
 from __future__ import annotations
 
+import json
 import re
 import subprocess
 import sys
@@ -18,23 +19,31 @@ from typing import Any
 import numpy as np
 
 from flexcage.mesh.files.raw import RawMesh, Refused, first_alike, group_name
-from flexcage.mesh.files.shapes import SOLIDS, TRIANGLES, solids_of
+from flexcage.mesh.files.shapes import OTHER_SHAPE, SOLIDS, TRIANGLES, solids_of
 
 _BEGINS = (b"$MeshFormat", b"$Comments", b"$NOD", b"$PhysicalNames")
 _HEAD = 4096  # bytes, in which the version stands after comments
 _VERSION = re.compile(rb"\$MeshFormat\s+(\d(?:\.[1-9])?)")
 _SECONDS = 600
-_REWRITE = """
-import sys, gmsh
+_AS_MESHIO = [0, 1, 2, 3, 4, 5, 6, 7, 9, 8]  # of ten nodes
+_BY_GMSH = """
+import sys, json, gmsh, numpy
 gmsh.initialize(interruptible=False, readConfigFiles=False)
 gmsh.option.setNumber("General.Terminal", 0)
 gmsh.merge(sys.argv[1])
-gmsh.model.mesh.unpartition()
-gmsh.option.setNumber("Mesh.MshFileVersion", 4.1)
-gmsh.option.setNumber("Mesh.SaveParametric", 0)
-gmsh.option.setNumber("Mesh.SaveAll", 0)
-gmsh.option.setNumber("Mesh.Binary", 1)
-gmsh.write(sys.argv[2])
+mesh, model, blocks, arrays = gmsh.model.mesh, gmsh.model, [], {}
+for dim, tag in model.getEntities():
+    groups = [model.getPhysicalName(dim, g) for g in model.getPhysicalGroupsForEntity(dim, tag)]
+    for kind, numbers, nodes in zip(*mesh.getElements(dim, tag)):
+        if dim > 1:
+            shape = mesh.getElementProperties(kind)[0].split()[0].lower()
+            arrays[f"numbers{len(blocks)}"] = numbers
+            arrays[f"nodes{len(blocks)}"] = nodes.reshape(len(numbers), -1)
+            blocks.append([shape, groups])
+numbers, places, _ = mesh.getNodes()
+numbers, first = numpy.unique(numbers, return_index=True)
+numpy.savez(sys.argv[2], numbers=numbers, points=places.reshape(-1, 3)[first],
+            blocks=json.dumps(blocks), **arrays)
 """
 
 
@@ -48,26 +57,68 @@ def read_msh(path: Path) -> RawMesh:
         raise ValueError("it does not begin with $MeshFormat")
     version = _VERSION.search(first)
     if version is None or version[1] == b"4":  # of which meshio takes one group of a face alone
-        return _raw(_rewritten(path, None))
+        return _by_gmsh(path, None)
     try:
         found = meshio.gmsh.read(path)
     except (Exception, SystemExit) as error:  # of all kinds on broken files
-        found = _rewritten(path, error)
+        return _by_gmsh(path, error)
     return _raw(found)
 
 
-def _rewritten(path: Path, error: BaseException | None) -> Any:
-    """What gmsh makes of a file that meshio cannot read, as meshio reads it then."""
-    import meshio
-
+def _by_gmsh(path: Path, error: BaseException | None) -> RawMesh:
+    """What gmsh reads of a file, with its numbers."""
     with tempfile.TemporaryDirectory() as folder:
-        plain = Path(folder) / "plain.msh"
-        command = [sys.executable, "-c", _REWRITE, str(path.resolve()), str(plain)]
+        plain = Path(folder) / "plain.npz"
+        command = [sys.executable, "-c", _BY_GMSH, str(path.resolve()), str(plain)]
         done = subprocess.run(command, capture_output=True, text=True, timeout=_SECONDS)
         if done.returncode != 0 or not plain.is_file():
-            reason = done.stderr.strip().splitlines()[-1:] or ["gmsh stopped"]
+            reason = done.stderr.strip().splitlines()[-1:] or ["gmsh: it stopped"]
             raise ValueError(f"gmsh cannot read it: {reason[0].partition(': ')[2]}") from error
-        return meshio.gmsh.read(plain)
+        with np.load(plain) as arrays:
+            return _from_gmsh(dict(arrays))
+
+
+def _from_gmsh(arrays: dict[str, np.ndarray]) -> RawMesh:
+    numbers = arrays["numbers"]
+    solids: dict[int, list[np.ndarray]] = {}
+    of: dict[int, list[np.ndarray]] = {}
+    surfaces: dict[str, list[np.ndarray]] = {}
+    others: dict[str, str] = {}
+    for i, (shape, groups) in enumerate(json.loads(str(arrays["blocks"]))):
+        nodes = np.searchsorted(numbers, arrays[f"nodes{i}"])
+        if shape == "tetrahedron":
+            size = nodes.shape[1]
+            solids.setdefault(size, []).append(nodes[:, _AS_MESHIO] if size == 10 else nodes)
+            of.setdefault(size, []).append(arrays[f"numbers{i}"])
+        elif shape == "triangle":
+            for name in groups:
+                surfaces.setdefault(name, []).append(nodes[:, :3])
+        elif shape in ("hexahedron", "prism", "pyramid"):
+            raise Refused(OTHER_SHAPE.format(shape))
+        else:
+            others |= {name: f"a physical group of {shape} elements" for name in groups}
+    return RawMesh(
+        points=arrays["points"],
+        solids=tuple(np.vstack(blocks) for blocks in solids.values()),
+        surfaces=_unmixed(surfaces, others),
+        point_numbers=numbers.astype(np.int64),
+        solid_numbers=np.concatenate([np.empty(0), *(n for b in of.values() for n in b)]),
+        no_surfaces=others,
+    )
+
+
+def _unmixed(
+    surfaces: dict[str, list[np.ndarray]], others: dict[str, str]
+) -> dict[str, np.ndarray]:
+    """Triangles of every name; Refused where a group has elements of other shapes as well."""
+    joined = {name: np.vstack(parts).astype(np.int64) for name, parts in surfaces.items()}
+    joined = {name: triangles for name, triangles in joined.items() if len(triangles)}
+    for name in joined.keys() & others.keys():
+        if group_name(name):
+            raise Refused(
+                f"the name '{name}' is also {others[name]}; a surface has triangles alone"
+            )
+    return joined
 
 
 def _raw(found: Any) -> RawMesh:
@@ -90,14 +141,10 @@ def _raw(found: Any) -> RawMesh:
                 surfaces.setdefault(name, []).append(np.asarray(block.data)[rows][:, :3])
             elif group_name(name) and len(rows):
                 others[name] = f"a physical group of {block.type} elements"
-    joined = {name: np.vstack(parts).astype(np.int64) for name, parts in surfaces.items()}
-    joined = {name: triangles for name, triangles in joined.items() if len(triangles)}
-    for name in joined.keys() & others.keys():
-        raise Refused(f"the name '{name}' is also {others[name]}; a surface has triangles alone")
     return RawMesh(
         points=np.asarray(found.points, float),
         solids=solids,
-        surfaces=joined,
+        surfaces=_unmixed(surfaces, others),
         no_surfaces=others,
     )
 
