@@ -18,6 +18,7 @@ from scipy.spatial import cKDTree
 
 from flexcage.core.errors import FlexcageError, InputError
 from flexcage.mesh.cage_mesh import RING_GROUPS, CageMesh
+from flexcage.mesh.files.sound import coincident
 from flexcage.mesh.options import MeshOptions
 from flexcage.mesh.quality import report_mesh
 
@@ -59,6 +60,11 @@ def check_place(mesh: CageMesh, described: Callable[[], CageMesh], *, source: st
     _check_cover(found, wanted, source)
     _check_rings(mesh, said, source, ends=not moved)
     _check_body(mesh, said, source)
+    if (open_at := mesh.info.get("in_one_place")) and not len(coincident(said.points)):
+        log.warning(
+            "%s: %s lie in the place of others: the mesh is open between them as at a crack, and "
+            "the case has none; merge them if they belong together", source, open_at,
+        )  # fmt: skip
 
 
 @dataclass(frozen=True)

@@ -37,6 +37,7 @@ from flexcage.mesh.files.msh import read_msh
 from flexcage.mesh.files.raw import RawMesh, Refused, first_alike, group_name
 from flexcage.mesh.files.sound import (
     faces_counted,
+    in_one_place,
     refuse_shared,
     sound_tetrahedra,
     warn_of_curves,
@@ -122,7 +123,9 @@ def read_mesh(path: str | Path, *, pocket_count: int | None = None, unit: str = 
     none = np.empty((0, 3), int)
     groups = {n: groups.get(n, none) for n in wanted if n in groups or n.endswith("fillet")}
     unknown = {n: t for n, t in found.items() if n not in wanted}
-    info = {"source": str(path), "defects": []}
+    info: dict[str, Any] = {"source": str(path), "defects": []}
+    if open_at := in_one_place(raw, used):
+        info["in_one_place"] = open_at
     mesh = CageMesh(points, tets, MappingProxyType(groups), count, MappingProxyType(info))
     _refuse_missing(mesh, unknown, raw.no_surfaces, path)
     check_mesh(mesh, where=str(path))

@@ -13,6 +13,7 @@ from test_io import regrouped
 
 from flexcage.cages.build import build_cage_mesh
 from flexcage.cages.machined.cage import BallCage
+from flexcage.cages.machined.defects import WebCrack
 from flexcage.cages.window.defects import CrossbeamDefect
 from flexcage.case.presets import load_preset
 from flexcage.core.errors import InputError
@@ -184,6 +185,16 @@ def test_an_unbalanced_cage_is_the_users_own_and_told_of(tmp_path, caplog):
         replace(whole, points=mesh.points[used], tets=number[whole.tets], groups=groups), tmp_path
     )
     assert "the mass centre (" in caplog.text and "the mesh counts" in caplog.text
+
+
+def test_nodes_in_one_place_are_told_of_unless_the_case_has_a_crack_there(tmp_path, caplog):
+    """A deck whose parts were not merged is open there, in silence, as a cracked cage is."""
+    machined, crack = FAMILIES["machined"], WebCrack(web=3, share=0.4)
+    mesh = machined.build(crack, fineness="coarse")
+    machined.read(mesh, tmp_path, crack)
+    assert not caplog.records
+    machined.read(mesh, tmp_path)
+    assert "lie in the place of others: the mesh is open" in caplog.text
 
 
 def test_a_station_without_area_is_refused(n1013):

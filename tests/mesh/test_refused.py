@@ -49,7 +49,8 @@ REFUSED = {
     "*NODE\n9, 1, nan, 3": "line 8: 'nan' stands where a number belongs",
     "*NODE\n4, 1, 2, 3": r"line 8: it numbers nodes twice \(4\)",
     "*ELSET, ELSET=a, GENERATE\n11, 13, -1": "line 8: from 11 to 13 by -1 there is no number",
-    "*PART, NAME=B\n*NODE\n1,0,0,0\n2,1,0,0\n3,0,1,0\n4,0,0,1\n*ELEMENT, TYPE=C3D4\n1,1,2,3,4\n*END PART":
+    "*PART, NAME=B\n*NODE\n1,0,0,0\n2,1,0,0\n3,0,1,0\n4,0,0,1\n*ELEMENT, TYPE=C3D4\n1,1,2,3,4\n"
+    "*END PART":
         "line 8: 'B' has tetrahedra as the deck itself has",
 }  # fmt: skip
 

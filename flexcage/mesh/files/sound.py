@@ -6,6 +6,7 @@ import logging
 from pathlib import Path
 
 import numpy as np
+from scipy.spatial import cKDTree
 
 from flexcage.core.errors import InputError
 from flexcage.mesh.cage_mesh import signed_volumes
@@ -13,6 +14,7 @@ from flexcage.mesh.files.raw import RawMesh, first_alike
 
 log = logging.getLogger(__name__)
 
+_TOGETHER = 1e-8  # of the mesh's size
 _FLAT = 1e-9  # of the mean volume
 _FACES = np.array([[1, 2, 3], [0, 3, 2], [0, 1, 3], [0, 2, 1]])  # outward at positive volume
 # ends of the edges on which tetrahedra have nodes: of ten nodes in meshio's order, of more in gmsh'
@@ -97,6 +99,21 @@ def _warn_of_unused(raw: RawMesh, path: Path) -> None:
             "%s has %d nodes that no tetrahedron has (%s); they are left out",
             path, len(unused), raw.points_named(unused),
         )  # fmt: skip
+
+
+def in_one_place(raw: RawMesh, used: np.ndarray) -> str:
+    """Which of the corners ``used`` (n,) lie in one place, in words; '' if none does.
+
+    That is where a crack is, or where parts were not merged.
+    """
+    pairs = coincident(raw.points[used])
+    return f"{len(pairs)} nodes ({raw.points_named(used[pairs[:, 1]])})" if len(pairs) else ""
+
+
+def coincident(points: np.ndarray) -> np.ndarray:
+    """Pairs (k, 2) of points (n, 3) that lie in one place but for rounding."""
+    near = _TOGETHER * float(np.ptp(points, axis=0).max())
+    return np.sort(cKDTree(points).query_pairs(near, output_type="ndarray"), axis=1)
 
 
 def faces_counted(tets: np.ndarray, triangles: np.ndarray) -> np.ndarray:
