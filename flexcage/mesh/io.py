@@ -215,7 +215,8 @@ def _named_triangles(raw: RawMesh, path: Path) -> Mapping[str, np.ndarray]:
         if len(triangles):
             found.setdefault(group_name(name) or name, []).append(triangles)
     if not found:
-        what = "".join(f"; '{n}' is {w}" for n, w in list(raw.no_surfaces.items())[:1])
+        others = [(n, w) for n, w in raw.no_surfaces.items() if group_name(n)]
+        what = "".join(f"; '{name}' is {text}" for name, text in others[:1])
         raise InputError(
             f"{path} has no named surfaces; name the pocket faces, lands and end faces "
             f"(pocket0_front or pocket0_wall, ..., land_inner, end+x){what}",

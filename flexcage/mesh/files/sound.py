@@ -64,8 +64,9 @@ def _refuse_twice(raw: RawMesh, tets: np.ndarray, path: Path) -> None:
     twice = np.flatnonzero(first != np.arange(len(tets)))
     if len(twice):
         raise InputError(
-            f"{path} has {len(twice)} elements in the place of others: {raw.solids_named(twice)} "
-            f"have the nodes of {raw.solids_named(first[twice])}; delete them",
+            f"{path} has elements in the place of others ({len(twice)} of {len(tets)}): "
+            f"{raw.solids_named(twice)} on the nodes of {raw.solids_named(first[twice])}; delete "
+            "them",
             where="mesh.file",
             value=str(path),
         )
@@ -96,8 +97,8 @@ def _warn_of_unused(raw: RawMesh, path: Path) -> None:
     if not used.all():
         unused = np.flatnonzero(~used)
         log.warning(
-            "%s has %d nodes that no tetrahedron has (%s); they are left out",
-            path, len(unused), raw.points_named(unused),
+            "%s has nodes that no tetrahedron has (%d of %d): %s; they are left out",
+            path, len(unused), len(used), raw.points_named(unused),
         )  # fmt: skip
 
 

@@ -88,8 +88,9 @@ class _Maker:
         if rest and (flat or any(n in self.part.others for n in rest)) and group_name(name):
             what = self.part.others.get(rest[0]) or kinds.get(rest[0]) or "missing"
             raise Refused(
-                f"the element set '{name}' holds {len(rest)} elements that are no triangles "
-                f"({listed(rest)}: {what}); a surface has triangles alone"
+                f"the element set '{name}' holds elements that are no triangles, "
+                f"{len(rest)} of {len(mine)} ({listed(rest)}: {what}); a surface "
+                "has triangles alone"
             )
         found = (self.part.elements[n][1] for n in flat)
         return {frozenset(n[:3]): (n[0], n[1], n[2]) for n in found}
