@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from door_bodies import box, craig_bampton
 
 from flexcage.core.errors import InputError
+from flexcage.modes.door.formats import read_body, write_body
 from flexcage.modes.door.nodes import read_points
 
 REFUSED = {
@@ -52,3 +54,17 @@ def test_grids_that_stand_twice_alike_are_one(tmp_path):
     pytest.importorskip("pyyeti")
     (tmp_path / "a.bdf").write_text("GRID,7,,1.,2.,3.\nGRID,7,,1.,2.,3.\n")
     assert read_points(tmp_path / "a.bdf", where="modes.body_nodes").numbers.tolist() == [7]
+
+
+@pytest.mark.parametrize("coding", ["latin-1", "utf-8-sig", "utf-16"])
+@pytest.mark.parametrize(("ending", "comment"), [(".mtx", "** "), (".pch", "$ ")])
+def test_matrices_with_a_comment_in_any_encoding(tmp_path, ending, comment, coding):
+    """One byte of Latin-1 in a comment does not make a file "empty, cut short"."""
+    if ending == ".pch":
+        pytest.importorskip("pyyeti")
+    body = craig_bampton(box(), np.array([0, 2, 6, 8, 18, 20, 24, 26]), 4)
+    path = write_body(body, tmp_path / f"box{ending}")
+    wanted = read_body(path)
+    text = path.read_text()
+    path.write_bytes(f"{comment}caf\xe9\r\n{text}".encode(coding))
+    np.testing.assert_array_equal(read_body(path).stiffness, wanted.stiffness)

@@ -16,6 +16,7 @@ from pathlib import Path
 import numpy as np
 
 from flexcage.mesh.files.abaqus import read_nodes
+from flexcage.mesh.files.raw import lines_of, text_of
 from flexcage.modes.door.body import ReducedBody
 from flexcage.modes.door.contents import Contents, Points, labels_of, numbers_of, unreadable
 
@@ -32,7 +33,7 @@ def read(path: Path, *, where: str) -> Contents:
 
 
 def _contents(path: Path) -> Contents:
-    lines = path.read_text("utf-8-sig").splitlines()
+    lines = lines_of(text_of(path))
     labels, matrices = _element(lines), dict(_matrices(lines))
     if labels is None:
         raise ValueError("it has no *USER ELEMENT with its nodes")

@@ -6,11 +6,13 @@ any, say where they are.
 
 from __future__ import annotations
 
+from io import StringIO
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
+from flexcage.mesh.files.raw import text_of
 from flexcage.modes.door.body import ReducedBody
 from flexcage.modes.door.contents import (
     MASS,
@@ -30,7 +32,7 @@ def read(path: Path, *, where: str) -> Contents:
     """Stiffness and mass of the DMIG entries, and the file's own GRID entries."""
     module = _module()
     try:
-        found = module.rddmig(str(path), square=True, expanded=False)
+        found = module.rddmig(StringIO(text_of(path)), square=True, expanded=False)
         grids = read_grids(path, where=where, needed=False)
     except Exception as error:  # of all kinds on broken files
         if hasattr(error, "where"):
