@@ -295,6 +295,21 @@ class Run:
             series = frames(chosen, field_at, bar.advance)
             return write_series(folder, "cage", self.mesh.points, self.mesh.tets, series)
 
+    def write_table(
+        self, path: str | Path, variables: Sequence[str] | None = None, *, force: bool = False
+    ) -> list[Path]:
+        """Write variables over time as a table (.csv, .parquet) or as matrices (.mat) for other
+        programs; paths of the files, one for each time axis where there are several.
+
+        Takes those of ``dataset``, and ``stress``, ``stress_peak``, ``film_thickness``, ``events``
+        and ``steps``; by default the states of rings and cage (``results.export``). Raises
+        InputError for a variable that the run does not have, another ending, or a file that is
+        there, unless ``force`` is given.
+        """
+        from flexcage.run.tables import write_table
+
+        return write_table(self, Path(path), variables, force=force)
+
     def draw(
         self,
         folder: str | Path,
