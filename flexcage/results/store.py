@@ -29,7 +29,8 @@ import numpy as np
 
 from flexcage import _version
 from flexcage.core.errors import InputError
-from flexcage.results.files import UNREADABLE, disk, joined, load, make_room, replace, save
+from flexcage.core.writing import replace
+from flexcage.results.files import UNREADABLE, disk, joined, load, make_room, save
 from flexcage.results.layout import (
     Arrays,
     Layout,
