@@ -18,11 +18,9 @@ def add_commands(commands: Any) -> None:
     render.add_argument("run", metavar="RUN", help="run folder")
     render.add_argument("-o", "--out", metavar="DIR", help="folder for the pictures")
     picture_options(render)
+    render.add_argument("--only", nargs="+", metavar="NAME", help="only these pictures, as orbit")
     render.add_argument(
-        "--only", nargs="+", metavar="NAME", default=(), help="only these pictures, as orbit"
-    )
-    render.add_argument(
-        "--format", choices=("png", "svg", "pdf"), default="png",
+        "--format", choices=("png", "svg", "pdf"),
         help="of curves (default: png); scenes are always .png",
     )  # fmt: skip
     _add_export(commands)
@@ -93,7 +91,8 @@ def render_command(args: argparse.Namespace) -> int:
     look = look_of(args)
     run = load_run(existing_run(args.run), progress=Progress)
     out = Path(args.out) if args.out else Path(args.run) / "images"
-    run.draw(out, animate=args.animate, only=args.only, format=args.format, **look)
+    given = {name: value for name in ("only", "format") if (value := getattr(args, name))}
+    run.draw(out, animate=args.animate, **given, **look)
     say(f"The pictures are in {out}")
     return 0
 

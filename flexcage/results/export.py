@@ -17,6 +17,7 @@ import numpy as np
 
 from flexcage.core.binding import did_you_mean
 from flexcage.core.errors import EnvironmentLacks, InputError, unwritable
+from flexcage.core.writing import written
 from flexcage.results.layout import plain_attr
 from flexcage.results.registry import TIME, VARIABLES, families_with, whose
 from flexcage.results.renamed import NAMES
@@ -47,7 +48,7 @@ def to_netcdf(ds: xarray.Dataset, path: str | Path) -> Path:
     plain.attrs = {k: plain_attr(v) for k, v in ds.attrs.items()}
     encoding = {str(n): {"zlib": True, "complevel": 1} for n, v in ds.data_vars.items() if v.ndim}
     path = _ready(path)
-    plain.to_netcdf(path, engine=engine.lower(), encoding=encoding)
+    _written(path, plain.to_netcdf, engine=engine.lower(), encoding=encoding)
     return path
 
 
@@ -297,7 +298,8 @@ def _mat_names(names: Iterable[str]) -> list[str]:
 
 def _written(path: Path, write: Callable[..., Any], *args: Any, **options: Any) -> None:
     try:
-        write(path, *args, **options)
+        with written(path) as temporary:
+            write(temporary, *args, **options)
     except OSError as error:
         raise unwritable(f"The file '{path}'", error, path=path) from error
 
