@@ -9,6 +9,7 @@ from typing import Any
 from flexcage.case import Case
 from flexcage.results.summary import side_by_side
 from flexcage.run import Run
+from flexcage.run.foreseen import told_at_once
 from flexcage.simulate import load_run, simulate
 
 
@@ -50,8 +51,10 @@ def compare(first: str | Path, second: str | Path, *, out: str | Path) -> str:
 def compare_case(case: Case, *, out: str | Path, progress: Any = None) -> str:
     """Run one case with a rigid and with a flexible cage, and compare them."""
     out = Path(out)
-    runs = {
-        model: simulate(case.replace("cage.model", model), out=out / model, progress=progress)
-        for model in ("rigid", "flexible")
-    }
+    cases = {model: case.replace("cage.model", model) for model in ("rigid", "flexible")}
+    with told_at_once(cases.values()):
+        runs = {
+            model: simulate(each, out=out / model, progress=progress)
+            for model, each in cases.items()
+        }
     return compare_runs(runs, out=out)
