@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import re
 from pathlib import Path
 from typing import Any
 
@@ -42,7 +43,11 @@ def add_commands(commands: Any) -> None:
     )
     compare.add_argument("what", nargs="+", metavar="CASE|RUN", help="a case, or two run folders")
     compare.add_argument("--set", action="append", metavar="PATH=VALUE", help="change a value")
-    compare.add_argument("-o", "--out", metavar="DIR", help="folder for table, plot and runs")
+    compare.add_argument("--all", action="store_true", help="print every figure, not ten")
+    compare.add_argument(
+        "-o", "--out", metavar="DIR",
+        help="folder for table, picture, page and runs (default: runs/NAME-compare)",
+    )  # fmt: skip
     compare.add_argument("--force", action="store_true", help="write an existing folder anew")
 
 
@@ -218,7 +223,7 @@ def _numbers(text: str) -> list[int]:
 def compare_command(args: argparse.Namespace) -> int:
     """flexcage compare CASE (rigid against flexible), or RUN RUN."""
     from flexcage.core.progress import Progress
-    from flexcage.study.compare import compare, compare_case
+    from flexcage.study.compare import compare, compare_case, short_names
 
     if len(args.what) == 2:
         if len({Path(path).resolve() for path in args.what}) == 1:
@@ -226,19 +231,30 @@ def compare_command(args: argparse.Namespace) -> int:
                 f"compare was given '{args.what[0]}' twice; name two runs.", where="compare"
             )
         first, second = (existing_run(path) for path in args.what)
-        out = Path(args.out) if args.out else Path("compare")
-        prepare_out(out, resume=False, force=args.force, resumable=False)
-        say(compare(first, second, out=out))
-        return 0
-    if len(args.what) != 1 or Path(args.what[0]).is_dir():
-        raise InputError(
-            "compare needs one case (a .toml file), or two run folders; it was given "
-            f"{' '.join(args.what)}.",
-            where="compare",
-        )
-    args.case = args.what[0]
-    case = case_from(args)
-    out = Path(args.out) if args.out else Path("runs") / f"{case.name}-compare"
-    prepare_out(out, resume=False, force=args.force, resumable=False)
-    say(compare_case(case, out=out, progress=Progress))
+        if args.set:
+            raise InputError("--set belongs to a case, and two runs were given.", where="set")
+        both = "-".join(re.sub(r"[^\w.-]+", "-", n) for n in short_names(first, second))
+        out = _comparison_folder(args, f"{both}-compare")
+        found = compare(first, second, out=out)
+    else:
+        if len(args.what) != 1 or Path(args.what[0]).is_dir():
+            raise InputError(
+                "compare needs one case (a .toml file), or two run folders; it was given "
+                f"{' '.join(args.what)}.",
+                where="compare",
+            )
+        args.case = args.what[0]
+        case = case_from(args)
+        out = _comparison_folder(args, f"{case.name}-compare")
+        found = compare_case(case, out=out, progress=Progress)
+    say(found.text(every=args.all))
+    more = "" if args.all else "; its compare.txt has all figures"
+    say(f"\nPicture and page (report.html) are in {out}{more}")
     return 0
+
+
+def _comparison_folder(args: argparse.Namespace, name: str) -> Path:
+    """The folder for a comparison, prepared."""
+    out = Path(args.out) if args.out else Path("runs") / name
+    prepare_out(out, resume=False, force=args.force, resumable=False)
+    return out

@@ -379,6 +379,7 @@ def compare_forces(
             _exceedance(share, ds, colours[name])
         _pocket_bars(bars, parts, colours)
         top.set(xlabel="time [ms]", ylabel="force [N]", ylim=(0.0, None))
+        share.set(xlim=(0.0, None))  # once all runs are drawn: to the largest force of any
         spans = [ds["time"].values[[0, -1]] * 1e3 for ds in parts.values()]
         top.set_xlim(min(s[0] for s in spans), max(s[1] for s in spans))
         _legend(top, "Largest pocket force", len(parts))
@@ -402,7 +403,7 @@ def _exceedance(ax: Any, ds: xarray.Dataset, colour: str) -> None:
     touching = values > 1e-3
     if touching.any():
         ax.semilogy(values[touching], share[touching] * 100.0, color=colour)
-    ax.set(xlabel="force [N]", ylabel="share of time above [%]", xlim=(0.0, None))
+    ax.set(xlabel="force [N]", ylabel="share of time above [%]")
     ax.set_title("How often a face bears more than a force", loc="left", weight="bold")
 
 

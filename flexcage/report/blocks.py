@@ -95,11 +95,13 @@ class Table:
 
 @dataclass(frozen=True)
 class Image:
-    """A picture, its caption, and its description for those who do not see it."""
+    """A picture, its caption, and its description for those who do not see it; a ``wide`` one has
+    the whole width of the page."""
 
     path: Path
     caption: str
     alt: str = ""
+    wide: bool = False
 
 
 @dataclass(frozen=True)

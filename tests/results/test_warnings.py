@@ -15,7 +15,7 @@ from flexcage.mesh.cage_mesh import CageMesh
 from flexcage.modes.basis import BodyFit
 from flexcage.results.edges import Edge
 from flexcage.results.elastic import ElasticShape
-from flexcage.results.summary import Row, Section, Summary, side_by_side
+from flexcage.results.summary import Row, Section, Summary
 from flexcage.results.warnings import (
     AT_END,
     AT_START,
@@ -282,7 +282,6 @@ def test_warnings_are_kept_with_the_figures(tmp_path):
     assert again == summary and again.warnings == told
     assert summary.with_section("More", ()).warnings == told
     assert summary.brief().splitlines()[:2] == lines[:2]
-    assert side_by_side({"a": summary}).startswith("Warning, a: It has not settled.")
     assert replace(summary, warnings=()).text().startswith("Warnings: none")
     assert replace(summary, warnings=None).text().startswith("Speeds"), "nobody looked for any"
 
