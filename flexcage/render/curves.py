@@ -403,7 +403,7 @@ def _exceedance(ax: Any, ds: xarray.Dataset, colour: str) -> None:
     touching = values > 1e-3
     if touching.any():
         ax.semilogy(values[touching], share[touching] * 100.0, color=colour)
-    ax.set(xlabel="force [N]", ylabel="share of time above [%]")
+    ax.set(xlabel="force at the samples [N]", ylabel="share of time above [%]")
     ax.set_title("How often a face bears more than a force", loc="left", weight="bold")
 
 

@@ -29,15 +29,22 @@ def comparison_page(
     statements: Mapping[str, Sequence[str]],
     cases: Mapping[str, str],
     picture: Path,
+    *,
+    title: str,
 ) -> Page:
     """The page: the ten figures that matter and the picture first, all figures and both cases last.
 
-    By the runs' names, ``statements`` say what was computed and ``cases`` are their case files.
+    ``title`` names the case or both. By the runs' names, ``statements`` say what was computed and
+    ``cases`` are their case files.
     """
     first, second = found.names
     differ = [[path, *map(_text, values)] for path, values in found.differences.items()]
     sections = [
-        Section("The figures that matter", [_table(found, found.leading), Prose(found.notes())]),
+        Section("The figures that matter", [
+            _table(found, found.leading, " ".join(found.legend)),
+            *([Prose(found.differ)] if found.differ else []),
+            Table(("figure", "remark"), found.remarks(), fold="Remarks on these figures"),
+        ]),
         Section("Warnings", [Notices(found.warnings, none="None.")]),
         Section("Cage forces", [Gallery([Image(picture, FORCES, wide=True)])]),
         Section("All figures", [
@@ -50,7 +57,7 @@ def comparison_page(
         ]),
         Section("Cases", [Text(name, text) for name, text in cases.items()]),
     ]  # fmt: skip
-    return Page(f"{first} and {second}: two runs compared", f"{second} against {first}", sections)
+    return Page(f"{title}: {first} and {second} compared", f"{second} against {first}", sections)
 
 
 def _table(found: Comparison, pairs: Sequence[Pair], caption: str = "") -> Table:

@@ -183,26 +183,36 @@ class Comparison:
 
     def notes(self, *, every: bool = False) -> list[str]:
         """How to read the table, in what the cases differ, and remarks on its figures."""
+        remarks = [f"{label}: {text}" for label, text in self.remarks(every=every)]
+        return [*self.legend, *self.differ, *remarks]
+
+    @property
+    def legend(self) -> list[str]:
+        """How to read the table."""
         first, second = self.names
-        found = [
+        return [
             f"ratio: {second} over {first}; ±: half of the 95 % interval.",
             "beyond the intervals: yes where the difference is larger than its own 95 % interval, "
             "the root of the sum of both ± squared. A single largest value, a count and a figure "
             "of too short a run have no interval.",
         ]
-        if self.differences:
-            found.append(f"The cases differ in {self._differences()}.")
-        for pair in self if every else self.leading:
-            notes = {n: [r.brief_note] for n, r in zip(self.names, pair.rows) if r and r.brief_note}
-            found += [f"{pair.row.label}: {note}" for note in self._by_run(notes)]
-        return found
 
-    def _differences(self) -> str:
+    @property
+    def differ(self) -> list[str]:
+        """A sentence with the first values in which the cases differ; none if they are alike."""
         found = [
             f"{path} ({_written(a)}, {_written(b)})" for path, (a, b) in self.differences.items()
         ]
-        more = len(found) - _MOST
-        return ", ".join([*found[:_MOST], *([f"and {more} more values"] if more > 0 else [])])
+        more = [f"and {len(found) - _MOST} more values"] if len(found) > _MOST else []
+        return [f"The cases differ in {', '.join([*found[:_MOST], *more])}."] if found else []
+
+    def remarks(self, *, every: bool = False) -> list[tuple[str, str]]:
+        """Labels of figures, and what their summaries remark on them."""
+        found = []
+        for pair in self if every else self.leading:
+            notes = {n: [r.brief_note] for n, r in zip(self.names, pair.rows) if r and r.brief_note}
+            found += [(pair.row.label, note) for note in self._by_run(notes)]
+        return found
 
     def _by_run(self, texts: Mapping[str, Sequence[str]]) -> list[str]:
         """Texts of the runs, those that both have once, the others with the name of their run."""

@@ -73,15 +73,16 @@ def _write(found: Comparison, runs: dict[str, Run], out: Path) -> None:
     replace(out / "compare.txt", (found.text(every=True, width=PAGE) + "\n").encode())
     replace(out / "compare.json", (found.to_json() + "\n").encode())
     cases = [run.case for run in runs.values()]
-    names = list(dict.fromkeys(label(case.name) for case in cases))
+    title = " and ".join(dict.fromkeys(case.name for case in cases))
     picture = compare_forces(
         {name: run.dataset for name, run in runs.items()}, out / "forces.png",
-        settle=max(case.output.settle for case in cases), note=" and ".join(names),
+        settle=max(case.output.settle for case in cases), note=label(title),
     )  # fmt: skip
     page = comparison_page(
         found,
         {name: description.in_words(run.case) for name, run in runs.items()},
         {name: run.case.to_toml() for name, run in runs.items()},
         picture,
+        title=title,
     )
     write_page(page, out / "report.html")

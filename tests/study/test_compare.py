@@ -60,7 +60,7 @@ def test_a_folder_holds_table_figures_picture_and_page(tmp_path, monkeypatch):
     page = (tmp_path / "report.html").read_text("utf-8")
     places = [page.index(t) for t in ("Pocket force, mean", "data:image/png", 'id="all-figures"')]
     assert places == sorted(places)
-    assert "<h1>rigid and flexible: two runs compared</h1>" in page
+    assert "<h1>my $case: rigid and flexible compared</h1>" in page
 
 
 def test_without_a_folder_nothing_is_written(tmp_path, monkeypatch):
