@@ -24,7 +24,9 @@ def add_commands(commands: Any) -> None:
     report = command(commands, "report", report_command, text)
     report.add_argument("folder", metavar="RUN_OR_STUDY", help="folder of a run or a study")
     report.add_argument("-o", "--out", metavar="FILE", help="page (default: report.html in it)")
-    report.add_argument("--force", action="store_true", help="write over an existing file")
+    report.add_argument(
+        "--force", action="store_true", help="write over a file that is no page of flexcage"
+    )
     report.add_argument(
         "--points", metavar="N,N", help="of a study: points whose stress is shown (default: six)"
     )
@@ -175,8 +177,11 @@ def report_command(args: argparse.Namespace) -> int:
         if points is not None:
             raise InputError(f"--points belongs to a study, and '{folder}' is a run.")
     out = Path(args.out) if args.out else folder / "report.html"
-    prepare_file(out, (".html",), force=args.force)
     from flexcage.core.progress import Progress
+    from flexcage.report.page import is_page
+
+    # a page of ours is written anew, and a link is replaced: what it points to stays as it is
+    prepare_file(out, (".html",), force=args.force or out.is_symlink() or is_page(out))
 
     if is_study:
         from flexcage.study.results import StudyResults
@@ -254,7 +259,12 @@ def compare_command(args: argparse.Namespace) -> int:
 
 
 def _comparison_folder(args: argparse.Namespace, name: str) -> Path:
-    """The folder for a comparison, prepared."""
+    """The folder for a comparison, prepared; one of ours that holds no runs is written anew."""
+    from flexcage.study.compare import MODELS
+
     out = Path(args.out) if args.out else Path("runs") / name
+    ours = (out / "compare.json").is_file() and not any((out / m).exists() for m in MODELS)
+    if ours and len(args.what) == 2:
+        return out
     prepare_out(out, resume=False, force=args.force, resumable=False)
     return out

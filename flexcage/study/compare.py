@@ -10,7 +10,7 @@ from flexcage.case import Case, description
 from flexcage.core.errors import InputError
 from flexcage.core.listing import PAGE
 from flexcage.results.compared import Comparison
-from flexcage.results.files import replace
+from flexcage.core.writing import replace
 from flexcage.run import Run
 from flexcage.simulate import load_run, simulate
 
