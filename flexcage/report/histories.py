@@ -7,7 +7,12 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from flexcage.render.curves import drive_varies, land_circle, radial_and_axial
+from flexcage.render.curves import (
+    beyond_clearance,
+    drive_varies,
+    land_circle,
+    radial_and_axial,
+)
 from flexcage.render.elements import shown_faces
 from flexcage.render.sheet import BLUE, GREEN, INK, ORANGE, VERMILION
 from flexcage.report.blocks import Chart
@@ -168,7 +173,7 @@ def _orbit(scene: Scene) -> Chart:
     if land is not None:
         angle = np.linspace(0.0, 2.0 * pi, 181)
         ring = [land[1] + land[2] * np.cos(angle), land[0] + land[2] * np.sin(angle)]
-        name = f"land clearance {land[2]:g} µm"
+        name = f"land clearance, undeformed cage: {land[2]:g} µm"
         add_curve(figure, ring[0], ring[1], name, color=VERMILION, dash="dash")
     figure.add_scatter(
         x=z[kept].astype(np.float32), y=y[kept].astype(np.float32), mode="lines",
@@ -183,7 +188,8 @@ def _orbit(scene: Scene) -> Chart:
             marker={"symbol": symbol, "size": 13 if name == "mean" else 8, "color": INK,
                     "line": {"width": 2, "color": INK}},
         )  # fmt: skip
-    return Chart("Orbit of the cage's centre, settled part", [("", figure)], height=420)
+    why = beyond_clearance(part, np.stack([y, z], axis=1), land)
+    return Chart("Orbit of the cage's centre, settled part", [("", figure)], why, height=420)
 
 
 def imbalance_chart(ds: xarray.Dataset) -> Chart:

@@ -9,8 +9,8 @@ from typing import Any
 from flexcage.case import Case, description
 from flexcage.core.errors import InputError
 from flexcage.core.listing import PAGE
-from flexcage.results.compared import Comparison
 from flexcage.core.writing import replace
+from flexcage.results.compared import Comparison
 from flexcage.run import Run
 from flexcage.simulate import load_run, simulate
 
