@@ -143,7 +143,16 @@ class Text:
     open: bool = False
 
 
-Block = Prose | Notices | Tiles | Table | Gallery | Chart | Charts | Text
+@dataclass(frozen=True)
+class Beside:
+    """Paragraphs with a picture at their side, below them where there is no room."""
+
+    kind: ClassVar[str] = "beside"
+    prose: Prose
+    image: Image
+
+
+Block = Beside | Prose | Notices | Tiles | Table | Gallery | Chart | Charts | Text
 
 
 @dataclass(frozen=True)

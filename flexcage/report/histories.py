@@ -173,7 +173,7 @@ def _orbit(scene: Scene) -> Chart:
     if land is not None:
         angle = np.linspace(0.0, 2.0 * pi, 181)
         ring = [land[1] + land[2] * np.cos(angle), land[0] + land[2] * np.sin(angle)]
-        name = f"land clearance, undeformed cage: {land[2]:g} µm"
+        name = f"land clearance {land[2]:g} µm"
         add_curve(figure, ring[0], ring[1], name, color=VERMILION, dash="dash")
     figure.add_scatter(
         x=z[kept].astype(np.float32), y=y[kept].astype(np.float32), mode="lines",

@@ -237,7 +237,7 @@ def test_what_histories_and_orbit_show_as_pictures_the_page_shows_as_charts():
     spin = next(f for title, f in charts.items() if title.startswith("Roller spin"))
     assert f"roller {run.followed}" in [t.name for t in spin.data], "that of the damaged pocket"
     orbit = charts["Orbit of the cage's centre, settled part"]
-    circle = next(t for t in orbit.data if "undeformed cage: 250 µm" in t.name)
+    circle = next(t for t in orbit.data if t.name == "land clearance 250 µm")
     assert np.mean([min(circle.y), max(circle.y)]) == pytest.approx(15.0, abs=1e-3), (
         "about the place of the inner ring, which guides the cage"
     )

@@ -328,6 +328,6 @@ def test_summary_sees_a_run_that_has_not_settled(known_run, bearing):
     ds["cage_omega"][:, 0] *= np.linspace(1.0, 1.1, ds.sizes["time"])
     ds["pocket_force"][:, 7, 1] = 3.0
     assert summarise(ds, bearing)["drift"] == "cage speed"
-    assert summarise(ds.assign(cage_omega=known_run["cage_omega"]), bearing)["drift"] == "nothing"
+    assert summarise(ds.assign(cage_omega=known_run["cage_omega"]), bearing)["drift"] == "none"
     short = summarise(ds.isel(time=slice(500)), bearing)
     assert short["drift"] is None and short.row("cage_speed").margin is None

@@ -30,7 +30,7 @@ N1013, BALL, RIBBON = (load_preset(name) for name in ("N1013", "7010C-PA66", "15
 FILLETED = {f"pocket{k}_{part}": np.zeros((1, 3), int) for k in range(22) for part in (
     "front", "rear", "side+x", "side-x", "fillet",
 )} | {name: np.zeros((1, 3), int) for name in ("land_inner", "land_outer")}  # fmt: skip
-FIGURES = {"roller_passes": 60, "drift": "nothing", "energy_audit": "passed", "stress_peak": 1e6}
+FIGURES = {"roller_passes": 60, "drift": "none", "energy_audit": "passed", "stress_peak": 1e6}
 
 
 def like(preset, *, bearing=None, **cage):
