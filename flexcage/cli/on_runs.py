@@ -19,6 +19,11 @@ def add_commands(commands: Any) -> None:
     render.add_argument("run", metavar="RUN", help="run folder")
     render.add_argument("-o", "--out", metavar="DIR", help="folder for the pictures")
     picture_options(render)
+    render.add_argument("--only", nargs="+", metavar="NAME", help="only these pictures, as orbit")
+    render.add_argument(
+        "--format", choices=("png", "svg", "pdf"),
+        help="of curves (default: png); scenes are always .png",
+    )  # fmt: skip
     _add_export(commands)
     text = "write a run or a study as one HTML page that needs no other file"
     report = command(commands, "report", report_command, text)
@@ -55,8 +60,8 @@ def add_commands(commands: Any) -> None:
 
 def _add_export(commands: Any) -> None:
     text = (
-        "write a run's cage, deformed and stressed, as a .vtu series for ParaView, or a case's "
-        "reduced cage as matrices for other programs"
+        "write a run's variables as a table, or its cage, deformed and stressed, as a .vtu series "
+        "for ParaView; or a case's reduced cage as matrices for other programs"
     )
     export = command(commands, "export", export_command, text)
     export.add_argument("run", metavar="RUN|CASE", help="run folder, or case file (.toml)")
@@ -70,6 +75,11 @@ def _add_export(commands: Any) -> None:
         "--full", action="store_true", help="of a case: matrices of all nodes, not reduced"
     )
     export.add_argument("--text", action="store_true", help="of a case: an .op4 as text")
+    export.add_argument(
+        "--table", nargs="+", metavar=("FILE", "VARIABLE"), help="of a run: these variables "
+        "('flexcage variables' lists them; also stress, stress_peak, film_thickness, events and "
+        "steps) as .csv, .parquet or .mat",
+    )  # fmt: skip
     export.add_argument(
         "--from", dest="begin", metavar="TIME", help="first instant, as '3 ms' (default without "
         "--to and --count: 0.4 ms about the largest stress)",
@@ -88,16 +98,19 @@ def render_command(args: argparse.Namespace) -> int:
     look = look_of(args)
     run = load_run(existing_run(args.run), progress=Progress)
     out = Path(args.out) if args.out else Path(args.run) / "images"
-    run.draw(out, animate=args.animate, **look)
+    given = {name: value for name in ("only", "format") if (value := getattr(args, name))}
+    run.draw(out, animate=args.animate, **given, **look)
     say(f"The pictures are in {out}")
     return 0
 
 
 def export_command(args: argparse.Namespace) -> int:
-    """flexcage export RUN: displacement and stress of the cage over time, for ParaView; or
-    flexcage export CASE: its reduced cage."""
+    """flexcage export RUN: displacement and stress of the cage over time, for ParaView, or with
+    --table its variables; or flexcage export CASE: its reduced cage."""
     if Path(args.run).suffix == ".toml":
         return _export_body(args)
+    if args.table:
+        return _export_table(args)
     for name in ("set", "full", "text"):
         if getattr(args, name):
             raise InputError(f"--{name} belongs to a case, and '{args.run}' is a run.", where=name)
@@ -113,8 +126,28 @@ def export_command(args: argparse.Namespace) -> int:
     return 0
 
 
+def _export_table(args: argparse.Namespace) -> int:
+    """Write variables of a run."""
+    for name, option in (
+        ("out", "-o"), ("begin", "--from"), ("end", "--to"), ("count", "--count"),
+        ("set", "--set"), ("full", "--full"), ("text", "--text"),
+    ):  # fmt: skip
+        if getattr(args, name):
+            raise InputError(f"{option} does not go with --table.", where=option)
+    file, *variables = args.table
+    from flexcage.core.progress import Progress
+    from flexcage.simulate import load_run
+
+    run = load_run(existing_run(args.run), progress=Progress)
+    for path in run.write_table(file, variables or None, force=args.force):
+        say(f"written: {path}")
+    return 0
+
+
 def _export_body(args: argparse.Namespace) -> int:
     """Write the reduced cage of a case, or its full matrices."""
+    if args.table:
+        raise InputError(f"--table belongs to a run, and '{args.run}' is a case.", where="table")
     args.case = args.run
     case = case_from(args)
     for name, option in (("begin", "from"), ("end", "to"), ("count", "count")):
