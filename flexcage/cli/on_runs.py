@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 import re
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
@@ -98,10 +99,26 @@ def render_command(args: argparse.Namespace) -> int:
     look = look_of(args)
     run = load_run(existing_run(args.run), progress=Progress)
     out = Path(args.out) if args.out else Path(args.run) / "images"
+    if look and not args.only and any(out.glob("*.png")):
+        args.only = _changed(run, look, animate=args.animate)
     given = {name: value for name in ("only", "format") if (value := getattr(args, name))}
     run.draw(out, animate=args.animate, **given, **look)
-    say(f"The pictures are in {out}")
+    drawn = f"Drawn anew: {', '.join(args.only)}. " if args.only else ""
+    say(f"{drawn}The pictures are in {out}")
     return 0
+
+
+def _changed(run: Any, look: Mapping[str, float], *, animate: bool) -> list[str]:
+    """Names of the run's pictures that change with --view, --stress-limit or --scale."""
+    from flexcage.render.album import changed_by
+
+    found = changed_by(look, [*run.picture_names, *(["stress"] if animate else [])])
+    if not found:
+        options = ", ".join(f"--{name.replace('_', '-')}" for name in look)
+        raise InputError(
+            f"No picture of this run changes with {options}: its cage is rigid.", where="render"
+        )
+    return found
 
 
 def export_command(args: argparse.Namespace) -> int:

@@ -197,7 +197,8 @@ def _filled(text: str, first: int, others: int) -> list[str]:
     """A paragraph in lines of at most so many characters."""
     if len(text) <= first:
         return [text]
-    found, line = [], ""
+    found: list[str] = []
+    line = ""
     for word in text.split():
         beside = f"{line} {word}" if line else word
         if len(beside) <= (others if found else first):
