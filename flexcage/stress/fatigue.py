@@ -122,7 +122,7 @@ class Fatigue:
         if rows is not None and rows < 1:
             raise InputError(f"rows is {rows}, but must be at least 1.", where="rows", value=rows)
         order = sorted(self.places, key=lambda p: (-p.damage_rate, -p.largest_range))[:rows]
-        lines = [_HEADS]
+        lines: list[tuple[str, ...]] = [_HEADS]
         for p in order:
             rate, half = texts_with_margin(p.damage_rate * _HOUR, p.margin * _HOUR)
             lines.append((

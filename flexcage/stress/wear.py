@@ -92,7 +92,9 @@ class Wear:
         """An aligned table of the pocket faces that wear and of the land, with depths at first and
         after ``hours``, and what stands behind."""
         ds, after = self.dataset, self.depth(hours)
-        lines = [("pocket", "face", "mm^3/h", "±", "um/h, first", f"um in {hours:g} h")]
+        lines: list[tuple[str, ...]] = [
+            ("pocket", "face", "mm^3/h", "±", "um/h, first", f"um in {hours:g} h")
+        ]
         known = True
         for k, face in ((k, f) for k in ds["pocket"].values for f in ds["face"].values):
             at = {"pocket": k, "face": face}
