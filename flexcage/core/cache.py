@@ -21,9 +21,13 @@ from pathlib import Path
 
 import numpy as np
 
+from flexcage.core.arrays import read_arrays
+
 logger = logging.getLogger(__name__)
 
-_BROKEN = (zipfile.BadZipFile, zlib.error, ValueError, OSError, EOFError, KeyError)
+_BROKEN = (
+    zipfile.BadZipFile, zlib.error, ValueError, OSError, EOFError, KeyError, RuntimeError,
+)  # fmt: skip
 _DEFAULT_LIMIT_GB = 4.0
 _ROOM = 1_000_000  # bytes that a folder must have room for, or it counts as full
 
@@ -104,9 +108,11 @@ def _read(path: Path, only: Sequence[str], without: Sequence[str]) -> Arrays | N
     if not path.is_file():
         return None
     try:
-        with np.load(path, allow_pickle=False) as stored:
-            names = only or [name for name in stored.files if name not in without]
-            arrays = {name: stored[name] for name in names}
+        arrays = read_arrays(
+            path, wanted=lambda name: name in only if only else name not in without
+        )
+        if missing := set(only) - arrays.keys():
+            raise KeyError(sorted(missing)[0])
     except _BROKEN as exc:
         logger.warning("cache entry %s cannot be read (%s); it is made anew", path.name, exc)
         return None

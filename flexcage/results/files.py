@@ -13,6 +13,7 @@ from zlib import error as BadStream
 
 import numpy as np
 
+from flexcage.core.arrays import read_arrays
 from flexcage.core.errors import InputError, RunFailed, is_full, unwritable
 from flexcage.core.writing import replace
 
@@ -61,8 +62,7 @@ def save(path: Path, arrays: Mapping[str, Any]) -> None:
 
 def load(path: Path) -> dict[str, np.ndarray]:
     """The arrays of a file that ``save`` wrote; one of ``UNREADABLE`` for a damaged one."""
-    with np.load(path, allow_pickle=False) as stored:
-        return {k: stored[k] for k in stored.files}
+    return read_arrays(path)
 
 
 def joined(parts: Iterable[Mapping[str, np.ndarray]]) -> dict[str, np.ndarray]:
