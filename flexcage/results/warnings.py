@@ -28,6 +28,7 @@ from flexcage.results.audit import EXCEEDED, OF_CAGE, OF_DRIVE
 from flexcage.results.bootstrap import FEWEST
 from flexcage.results.edges import Edge
 from flexcage.results.elastic import ElasticShape, grown_into_ring, large_rotation
+from flexcage.results.known import NO_DRIFT
 from flexcage.results.summary import Summary
 
 if TYPE_CHECKING:
@@ -342,7 +343,7 @@ def _short(o: Outcome) -> Iterator[RunWarning]:
 
 def _drift(o: Outcome) -> Iterator[RunWarning]:
     drift = o.summary["drift"] if "drift" in o.summary else None
-    if drift not in (None, "nothing"):
+    if drift not in (None, *NO_DRIFT):
         yield RunWarning(
             "not_settled",
             f"The two halves of the settled part differ beyond the intervals in: {drift}; raise "
