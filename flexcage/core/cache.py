@@ -12,8 +12,6 @@ import logging
 import os
 import shutil
 import tempfile
-import zipfile
-import zlib
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
@@ -21,9 +19,10 @@ from pathlib import Path
 
 import numpy as np
 
+from flexcage.core.reading import read_npz
+
 logger = logging.getLogger(__name__)
 
-_BROKEN = (zipfile.BadZipFile, zlib.error, ValueError, OSError, EOFError, KeyError)
 _DEFAULT_LIMIT_GB = 4.0
 _ROOM = 1_000_000  # bytes that a folder must have room for, or it counts as full
 
@@ -104,10 +103,8 @@ def _read(path: Path, only: Sequence[str], without: Sequence[str]) -> Arrays | N
     if not path.is_file():
         return None
     try:
-        with np.load(path, allow_pickle=False) as stored:
-            names = only or [name for name in stored.files if name not in without]
-            arrays = {name: stored[name] for name in names}
-    except _BROKEN as exc:
+        arrays = read_npz(path, only=only, without=without)
+    except (OSError, KeyError, ValueError) as exc:
         logger.warning("cache entry %s cannot be read (%s); it is made anew", path.name, exc)
         return None
     try:

@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-import zipfile
-import zlib
 from importlib import resources
 
 import numpy as np
 
 from flexcage.core.errors import EnvironmentLacks
+from flexcage.core.reading import read_npz
 
 
 def stored_arrays(name: str) -> dict[str, np.ndarray]:
@@ -18,11 +17,11 @@ def stored_arrays(name: str) -> dict[str, np.ndarray]:
     """
     source = resources.files("flexcage.verification") / "data" / name
     try:
-        with source.open("rb") as stream, np.load(stream) as stored:
-            return dict(stored)
+        with source.open("rb") as stream:
+            return read_npz(stream)
     except FileNotFoundError as exc:
         raise _lacks(f"'{source}' is missing", name) from exc
-    except (OSError, EOFError, ValueError, RuntimeError, zipfile.BadZipFile, zlib.error) as exc:
+    except (OSError, ValueError) as exc:
         raise _lacks(f"'{source}' cannot be read: it is cut short or damaged", name) from exc
 
 
