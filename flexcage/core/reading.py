@@ -22,11 +22,12 @@ KINDS = "biufcUS"  # of numpy's types: numbers and texts
 LONGEST_JSON = 2**28  # bytes
 MOST_MEMBERS = 100_000
 PACKED = 1000  # times that what a file holds may be larger than the file itself, and besides
+DEFLATED = 100  # the same of a zip file
 BESIDE = 2**28  # bytes: short files of zeros are packed tighter
 
 
 def json_of(text: str | bytes) -> Any:
-    """The value of a JSON text; ValueError for one that is none, or too long or nested to be read."""
+    """The value of a JSON text; ValueError for one that is none, too long, or too deep."""
     if len(text) > LONGEST_JSON:
         raise ValueError(f"its text has {len(text):,} bytes")
     try:
@@ -53,10 +54,10 @@ def table_of(value: Any, **kinds: type | tuple[type, ...]) -> dict[str, Any]:
     return value
 
 
-def check_size(size: int, stored: int, what: str = "it") -> None:
-    """ValueError if ``stored`` bytes say that they hold ``size``, which they cannot."""
-    if not 0 <= size <= BESIDE + PACKED * stored:
-        raise ValueError(f"{what} claims to hold {size:,} bytes in {stored:,}")
+def check_size(size: int, stored: int, times: int = PACKED) -> None:
+    """ValueError if ``stored`` bytes say that they hold ``size``: over so many times as much."""
+    if not 0 <= size <= BESIDE + times * stored:
+        raise ValueError(f"it claims to hold {size:,} bytes in {stored:,}")
 
 
 def read_npz(
@@ -88,7 +89,7 @@ def _members(archive: zipfile.ZipFile) -> dict[str, zipfile.ZipInfo]:
         raise ValueError(f"it has {len(members):,} members")
     if sum(info.compress_size for info in members) > there:
         raise ValueError("its members overlap")
-    check_size(sum(info.file_size for info in members), there)
+    check_size(sum(info.file_size for info in members), there, DEFLATED)
     named = {info.filename: info for info in members}
     if len(named) < len(members):
         raise ValueError("two of its members have the same name")

@@ -28,6 +28,12 @@ _CHECKSUM = "checksum"
 _CHECKPOINT = re.compile(r"(checkpoint-\d{6,}\.npz)?")
 
 
+def continued(commit: dict[str, Any], version: str, physics: str) -> dict[str, Any]:
+    """The commit of a run that another flexcage, or an edited one, goes on with."""
+    seam = {"sample": commit["n_time"], "version": version, "physics": physics}
+    return {**commit, "continued": [*commit.get("continued", ()), seam]}
+
+
 def first_commit(metadata: str) -> dict[str, Any]:
     """The commit of a run without blocks, whose arrays have these metadata by their checksum."""
     return {
@@ -79,6 +85,8 @@ def _checked(path: Path, commit: dict[str, Any]) -> dict[str, Any]:
         table_of(commit, format=int, blocks=int, n_time=int, n_time_hf=int, checkpoint=str)
         counts = (commit[name] for name in ("blocks", "n_time", "n_time_hf"))
         known = min(counts) >= 0 and _CHECKPOINT.fullmatch(commit["checkpoint"])
+        for seam in commit.get("continued", ()):
+            table_of(seam, sample=int, version=str, physics=str)
         if commit["format"] >= CHECKSUMS:
             table_of(commit, metadata=str, files=dict)
             known = known and own == _own_checksum(commit)
@@ -93,10 +101,14 @@ def _own_checksum(commit: dict[str, Any]) -> str:
     return checksum(json.dumps(commit, sort_keys=True).encode())
 
 
-def vouched(commit: dict[str, Any], name: str, content: bytes) -> dict[str, Any]:
-    """The commit as it vouches for a file's new content too. It goes on to vouch for the content
-    before, which is the one that is there after a kill between the two."""
-    before = commit["files"].get(name, [])[-1:]
+def vouched(
+    commit: dict[str, Any], name: str, content: bytes, *, and_before: bool = True
+) -> dict[str, Any]:
+    """The commit as it vouches for a file's new content too. ``and_before``: it goes on to vouch
+    for the content before, which is the one that is there after a kill between the two."""
+    if commit["format"] < CHECKSUMS:
+        return commit
+    before = commit["files"].get(name, [])[-1:] if and_before else []
     return {**commit, "files": {**commit["files"], name: [*before, checksum(content)]}}
 
 

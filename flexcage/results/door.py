@@ -9,15 +9,22 @@ the types and codecs that flexcage writes, and of sizes that their bytes can hol
 from __future__ import annotations
 
 import zipfile
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from itertools import product
-from math import ceil, prod
+from math import prod
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
-from flexcage.core.reading import check_size, json_of, read_json, stored_members, table_of
+from flexcage.core.reading import (
+    MOST_MEMBERS,
+    check_size,
+    json_of,
+    read_json,
+    stored_members,
+    table_of,
+)
 from flexcage.core.writing import unusable
 from flexcage.results.shards import blosc_size
 
@@ -66,7 +73,8 @@ def read_array(path: Path) -> np.ndarray:
     import zarr
 
     node = read_json(path / NODE)
-    _check_chunks(node, lambda name: (path / name).read_bytes())
+    there = sum(file.stat().st_size for file in path.rglob("*") if file.is_file())
+    _check_chunks(node, lambda name: (path / name).read_bytes(), there)
     return np.asarray(zarr.open_array(str(path), mode="r", zarr_format=3)[...])
 
 
@@ -114,7 +122,7 @@ def _check_zip(
     if "" not in nodes:
         raise ValueError("it is no store of Zarr")
     groups: dict[str, tuple[dict[str, Any], list[str]]] = {}
-    total = 0
+    total, there = 0, sum(info.file_size for info in members.values())
     for folder, node in sorted(nodes.items(), key=lambda item: item[0].count("/")):
         kind, _, name = folder.partition("/")
         if not name:
@@ -129,9 +137,9 @@ def _check_zip(
             member = members.get(f"{folder}/{key}")
             return None if member is None else archive.read(member)
 
-        total += _check_chunks(node, content)
+        total += _check_chunks(node, content, there)
         groups[kind][1].append(name)
-    check_size(total, sum(info.file_size for info in members.values()))
+    check_size(total, there)
     root, _ = groups.pop("")
     return root, groups
 
@@ -189,9 +197,10 @@ def _check_codecs(codecs: Any, chunk: Sequence[int], dtype: np.dtype) -> None:
     return None
 
 
-def _check_chunks(node: Any, content: Callable[[str], bytes | None]) -> int:
+def _check_chunks(node: Any, content: Callable[[str], bytes | None], there: int) -> int:
     """Bytes of an array's values, after each chunk was compared with what it claims to hold;
-    ``content`` gives the bytes of a file of the array, None for one that is not there."""
+    ``content`` gives the bytes of a file of the array, None for one that is not there, and
+    ``there`` are the bytes of all."""
     shape, dtype = array_shape(node)
     chunk = _chunk_shape(node)
     if len(chunk) != len(shape) or any(n > max(m, 1) or n == 0 for n, m in zip(chunk, shape)):
@@ -199,25 +208,16 @@ def _check_chunks(node: Any, content: Callable[[str], bytes | None]) -> int:
     names = [codec["name"] for codec in node["codecs"]]
     if "sharding_indexed" in names:
         raise ValueError("its chunks lie in files of many")
-    size, stored, count = prod(chunk) * dtype.itemsize, 0, 0
-    for key in _keys(shape, chunk):
-        count += 1
-        packed = content(key)
-        if packed is not None:
-            stored += len(packed)
-            _check_chunk(packed, size, names)
-        elif count > stored + 10_000:
-            break  # so many that are not there: its size is refused below
     total = prod(shape) * dtype.itemsize
-    check_size(total, stored)
-    return total
-
-
-def _keys(shape: Sequence[int], chunk: Sequence[int]) -> Iterator[str]:
-    """Names of an array's chunks."""
-    counts = [ceil(n / m) for n, m in zip(shape, chunk)]
+    check_size(total, there)
+    counts = [-(-n // m) for n, m in zip(shape, chunk)]
+    if prod(counts) > MOST_MEMBERS:
+        raise ValueError(f"it has {prod(counts):,} chunks")
     for place in product(*map(range, counts)):
-        yield "/".join(["c", *map(str, place)])
+        packed = content("/".join(["c", *map(str, place)]))
+        if packed is not None:
+            _check_chunk(packed, prod(chunk) * dtype.itemsize, names)
+    return total
 
 
 def _check_chunk(packed: bytes, size: int, names: Sequence[str]) -> None:

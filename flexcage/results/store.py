@@ -26,13 +26,14 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from flexcage.core.errors import InputError
+from flexcage.core.errors import InputError, RunFailed
 from flexcage.core.reading import check_size
 from flexcage.core.writing import replace
 from flexcage.results.commit import (
     CHECKSUMS,
     COMMIT,
     SIDE,
+    continued,
     damaged,
     first_commit,
     read_commit,
@@ -179,6 +180,18 @@ class MemoryRunStore:
         """Whether a file of the run's folder holds what was noted."""
         return True
 
+    @property
+    def seams(self) -> list[dict[str, Any]]:
+        """Where other sources went on with the run: ``sample``, ``version`` and ``physics``."""
+        return list(self._commit.get("continued", ()))
+
+    def go_on_by(self, version: str, physics: str) -> None:
+        """Note that other sources compute what comes; it is kept with the next block."""
+        self._commit = continued(self._commit, version, physics)
+
+    def check_there(self) -> None:
+        """RunFailed if the run's folder was moved or removed meanwhile."""
+
     def steps(self) -> dict[str, np.ndarray]:
         """Solver steps of all committed blocks, one array a column."""
         return self._table("steps")
@@ -211,6 +224,7 @@ class RunStore(MemoryRunStore):
         self.path = path
         super().__init__(layout)
         self._commit = commit
+        self._place = _place_of(path)
 
     def _allocate(self) -> None:
         """Nothing in memory: the arrays are on disk."""
@@ -290,6 +304,7 @@ class RunStore(MemoryRunStore):
         return renamed(found) if self._commit["format"] == OLD_FORMAT else found
 
     def _store(self, index, data, commit, checkpoint, tables) -> None:
+        self.check_there()
         side = self.path / SIDE
         with disk(self.path, self.n_time):
             for v in self.layout.variables:
@@ -302,12 +317,19 @@ class RunStore(MemoryRunStore):
                 commit["checkpoint"] = f"checkpoint-{index + 1:06d}.npz"
                 content = npz_of(checkpoint)
                 replace(side / commit["checkpoint"], content)
-                commit = vouched(commit, CHECKPOINT, content)
+                commit = vouched(commit, CHECKPOINT, content, and_before=False)
             write_commit(self.path, commit)
         before = self._commit["checkpoint"]
         self._commit = commit
         if before and before != commit["checkpoint"]:
             (side / before).unlink(missing_ok=True)
+
+    def check_there(self) -> None:
+        if _place_of(self.path) != self._place:
+            raise RunFailed(
+                f"The run's folder '{self.path.parent}' was moved or removed while it was in use; "
+                "move it back and go on with --resume, or run the case again."
+            )
 
     def _arrays(self) -> Mapping[str, Any]:
         from flexcage.results.lazy import Blocks, lazy_variable
@@ -376,6 +398,15 @@ class RunStore(MemoryRunStore):
 
     def vouches_for(self, name: str, content: bytes) -> bool:
         return vouches(self._commit, name, content)
+
+
+def _place_of(path: Path) -> tuple[int, int] | None:
+    """What tells a folder from another of its name; None if there is none."""
+    try:
+        found = path.stat()
+    except OSError:
+        return None
+    return found.st_dev, found.st_ino
 
 
 def _check_whole(store: RunStore) -> None:

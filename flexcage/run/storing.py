@@ -8,12 +8,14 @@ from pathlib import Path
 
 import numpy as np
 
+from flexcage._version import __version__
 from flexcage.bearings import recording_of
 from flexcage.bodies.cage import BODY_VERSION, flexible_from_reduction
 from flexcage.cages.build import reduction_of
 from flexcage.case import Case
 from flexcage.core.cache import cached_arrays
 from flexcage.core.hashing import content_hash
+from flexcage.core.sources import physics
 from flexcage.core.timing import Stages
 from flexcage.core.warning import RunWarning
 from flexcage.integrate.recorded import new_store
@@ -37,7 +39,10 @@ def run_store(
 ) -> MemoryRunStore:
     """A new store to write to, in ``folder`` or in memory; the folder receives case and cage, or
     its ``study`` the cage."""
-    attrs = {"case": case.to_toml(), "hash": case.hash, "warnings": to_text(warned)}
+    attrs = {
+        "case": case.to_toml(), "hash": case.hash, "version": __version__, "physics": physics(),
+        "warnings": to_text(warned),
+    }  # fmt: skip
     if folder is not None:
         announce_room(case, bearing, folder)
         write_case(folder, case)

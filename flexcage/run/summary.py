@@ -17,6 +17,7 @@ from flexcage.results.metrics import SlipRange, settled
 from flexcage.results.summary import Row, Summary, figure
 from flexcage.results.warnings import AT_END, Outcome, from_attrs, warnings_of
 from flexcage.run.elastic import elastic_shape
+from flexcage.run.folder import seam_warnings
 from flexcage.solve.contract import Effort
 from flexcage.system.bodies import unbalance_of
 
@@ -81,7 +82,7 @@ def warned(summary: Summary, run: Run) -> Summary:
         edges=tuple(run.groove_edges),
         shape=elastic_shape(run),
     )
-    known = from_attrs(run.dataset.attrs)
+    known = (*from_attrs(run.dataset.attrs), *seam_warnings(run.store))
     return dataclasses.replace(summary, warnings=(*known, *warnings_of(AT_END, outcome)))
 
 
