@@ -47,6 +47,7 @@ from numba.extending import (  # noqa: E402
 from flexcage.core.kernel_cache import KernelCache, KernelFolder  # noqa: E402
 from flexcage.core.kernel_values import short_name  # noqa: E402
 from flexcage.core.numba_changes import PART_NAME, own_compilation  # noqa: E402
+from flexcage.core.trust import make_private  # noqa: E402
 from flexcage.core.users_files import contents_key  # noqa: E402
 
 numba.config.CACHE_DIR = os.environ["NUMBA_CACHE_DIR"]  # type: ignore[attr-defined]
@@ -183,7 +184,7 @@ def mark_compiled(what: str) -> None:
     if kernels_cached(what) or place is None:
         return
     try:
-        place.mkdir(parents=True, exist_ok=True)
+        make_private(place)
         _mark(place, what).touch()
     except OSError as error:
         _folder.refuse(error)
