@@ -19,7 +19,7 @@ from pathlib import Path
 
 import numpy as np
 
-from flexcage.core.reading import read_npz
+from flexcage.core.arrays import UNREADABLE, read_arrays
 from flexcage.core.trust import distrusted, make_private
 
 logger = logging.getLogger(__name__)
@@ -118,8 +118,12 @@ def _read(path: Path, only: Sequence[str], without: Sequence[str]) -> Arrays | N
     if not path.is_file():
         return None
     try:
-        arrays = read_npz(path, only=only, without=without)
-    except (OSError, KeyError, ValueError) as exc:
+        arrays = read_arrays(
+            path, wanted=lambda name: name in only if only else name not in without
+        )
+        if missing := set(only) - arrays.keys():
+            raise KeyError(sorted(missing)[0])
+    except (OSError, *UNREADABLE) as exc:
         logger.warning("cache entry %s cannot be read (%s); it is made anew", path.name, exc)
         return None
     try:

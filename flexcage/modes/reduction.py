@@ -23,7 +23,7 @@ from flexcage.modes.door.body import ReducedBody
 from flexcage.modes.door.cage import BODY, body_of, full_body_of, given_model
 from flexcage.modes.door.cage_checks import WHERE
 from flexcage.modes.door.formats import read_body
-from flexcage.modes.registry import basis_of_body, basis_version, build_basis
+from flexcage.modes.registry import basis_of_body, basis_version, build_basis, check_files
 from flexcage.modes.spec import ModesSpec
 from flexcage.modes.storage import (
     basis_arrays,
@@ -117,6 +117,8 @@ class CageReduction:
     @cached_property
     def key(self) -> str:
         """Names model and basis by what they are made from."""
+        if not self.stored:
+            check_files(self.spec)
         return content_hash(
             MODEL_VERSION,
             replace(self.spec, body="", body_nodes=""),

@@ -29,8 +29,8 @@ from types import MappingProxyType
 from typing import Any
 
 import numpy as np
-import scipy.sparse as sp
 
+from flexcage.core.arrays import SPARSE, sparse_matrix
 from flexcage.core.errors import InputError
 from flexcage.core.hashing import content_hash
 from flexcage.core.reading import json_of, table_of
@@ -48,8 +48,6 @@ SAME = 1e-6  # of the largest displacement of a mode: what another processor's r
 _TEXT = "texts"
 _CHECKSUM = "checksum"  # of all arrays; an earlier flexcage wrote none
 _TABLE = "info_"  # before the names of a mesh's arrays beside points and tetrahedra
-
-_SPARSE = ("data", "indices", "indptr", "shape")  # of a sparse matrix
 
 Groups = Mapping[str, Mapping[str, np.ndarray]]
 
@@ -169,8 +167,7 @@ def _check_record(record: CageRecord) -> None:
     """ValueError for indices that point nowhere."""
     for arrays in record.groups.values():
         for name in [name.removesuffix(".indptr") for name in arrays if name.endswith(".indptr")]:
-            data, indices, starts, shape = (arrays[f"{name}.{part}"] for part in _SPARSE)
-            sp.csr_matrix((data, indices, starts), shape=tuple(shape)).check_format()
+            sparse_matrix({part: arrays[f"{name}.{part}"] for part in SPARSE}, name)
     mesh = record.groups.get("mesh")
     if mesh is None:
         return

@@ -11,12 +11,9 @@ from typing import Any
 
 import numpy as np
 
+from flexcage.core.arrays import read_arrays
 from flexcage.core.errors import InputError, RunFailed, is_full, unwritable
-from flexcage.core.reading import read_npz
 from flexcage.core.writing import replace
-
-#: What ``load`` raises for a file that was cut short or changed.
-UNREADABLE = (KeyError, ValueError)
 
 
 def make_room(path: Path, overwrite: bool) -> None:
@@ -64,8 +61,8 @@ def npz_of(arrays: Mapping[str, Any]) -> bytes:
 
 
 def load(path: Path) -> dict[str, np.ndarray]:
-    """The arrays of a file that ``save`` wrote; one of ``UNREADABLE`` for a damaged one."""
-    return read_npz(path)
+    """The arrays of a file that ``save`` wrote; one of ``arrays.UNREADABLE`` for a damaged one."""
+    return read_arrays(path)
 
 
 def joined(parts: Iterable[Mapping[str, np.ndarray]]) -> dict[str, np.ndarray]:

@@ -22,7 +22,8 @@ import google_crc32c
 import numpy as np
 from numcodecs import blosc
 
-from flexcage.core.reading import check_size, check_type, json_of, read_npz, table_of
+from flexcage.core.arrays import read_arrays
+from flexcage.core.reading import check_size, check_type, json_of, table_of
 
 SLOTS = 200  # chunks of a file at most: their index stays within a page, which no kill cuts
 BLOSC: dict[str, Any] = {"cname": "zstd", "clevel": 2, "shuffle": "shuffle", "blocksize": 1 << 20}
@@ -135,8 +136,8 @@ def packed(table: Mapping[str, np.ndarray]) -> bytes:
 
 
 def unpacked(chunk: bytes) -> dict[str, np.ndarray]:
-    """The table of a chunk; one of ``files.UNREADABLE`` for a damaged one."""
-    parts = read_npz(io.BytesIO(chunk))
+    """The table of a chunk; one of ``arrays.UNREADABLE`` for a damaged one."""
+    parts = read_arrays(io.BytesIO(chunk))
     about = table_of(json_of(str(parts[_COLUMNS])))
     columns = {name: (np.dtype(str(kind)), tuple(shape)) for name, (kind, shape) in about.items()}
     sizes = {name: prod(shape) * dtype.itemsize for name, (dtype, shape) in columns.items()}

@@ -26,6 +26,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from flexcage.core.arrays import UNREADABLE
 from flexcage.core.errors import InputError, RunFailed
 from flexcage.core.reading import check_size
 from flexcage.core.writing import replace
@@ -42,7 +43,7 @@ from flexcage.results.commit import (
     write_commit,
 )
 from flexcage.results.door import NODE
-from flexcage.results.files import UNREADABLE, disk, joined, load, make_room, npz_of, save
+from flexcage.results.files import disk, joined, load, make_room, npz_of, save
 from flexcage.results.layout import Arrays, Layout, label_dataset, make_layout
 from flexcage.results.metadata import create_arrays, metadata_checksum, read_layout, slots
 from flexcage.results.registry import TIME, TIME_HF, Variable, rounded_loads

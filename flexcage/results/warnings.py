@@ -38,8 +38,8 @@ _LEAST_TURNS = 1.0  # of the cage in the statistics: one brings every element th
 # the settled time, by so much in all, beyond so much of what its pockets leave it
 _PARTS, _GROWN, _BEYOND_POCKETS = 5, 1.3, 2.0
 # of a body from elsewhere: least share of a pocket's deflection that it holds, and difference of
-# its stiffness from the elements' beyond what meshes of one fineness differ by
-_CARRIED, _STIFFNESS = 0.97, 0.05
+# its stiffness and its mass from the elements', for stiffness beyond what meshes of one fineness do
+_CARRIED, _STIFFNESS, _LUMPED = 0.97, 0.05, 0.02
 _PASSED = 1e-6  # m by which a cage must pass a ring, more than rounding
 
 Facts = TypeVar("Facts")
@@ -179,6 +179,17 @@ def _body_of_another_stiffness(setup: Setup) -> Iterator[RunWarning]:
         )
 
 
+def _body_of_lumped_mass(setup: Setup) -> Iterator[RunWarning]:
+    if setup.fit is not None and abs(setup.fit.mass - 1.0) > _LUMPED:
+        yield RunWarning(
+            "lumped_mass",
+            f"A mode of modes.body has {setup.fit.mass:.3g} times the mass that its shape has in "
+            "the cage's own elements, as lumped masses give it: inertia forces of such modes, and "
+            "their coupling to the motion of the whole cage, differ by as much; write consistent "
+            "masses, or take a finer mesh.",
+        )
+
+
 def _body_of_few_modes(setup: Setup) -> Iterator[RunWarning]:
     """The band that contacts excite is taken to end where an element bounces on a pocket's wall."""
     if setup.fit is None:
@@ -218,6 +229,7 @@ AT_START: tuple[Callable[[Setup], Iterator[RunWarning]], ...] = (
     _no_residual_flexibility,
     _body_too_stiff,
     _body_of_another_stiffness,
+    _body_of_lumped_mass,
     _body_of_few_modes,
     _rigid_land,
 )

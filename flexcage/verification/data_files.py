@@ -6,8 +6,8 @@ from importlib import resources
 
 import numpy as np
 
+from flexcage.core.arrays import UNREADABLE, read_arrays
 from flexcage.core.errors import EnvironmentLacks
-from flexcage.core.reading import read_npz
 
 
 def stored_arrays(name: str) -> dict[str, np.ndarray]:
@@ -18,10 +18,10 @@ def stored_arrays(name: str) -> dict[str, np.ndarray]:
     source = resources.files("flexcage.verification") / "data" / name
     try:
         with source.open("rb") as stream:
-            return read_npz(stream)
+            return read_arrays(stream)
     except FileNotFoundError as exc:
         raise _lacks(f"'{source}' is missing", name) from exc
-    except (OSError, ValueError) as exc:
+    except (OSError, *UNREADABLE) as exc:
         raise _lacks(f"'{source}' cannot be read: it is cut short or damaged", name) from exc
 
 

@@ -225,6 +225,8 @@ WITHOUT_LAND = {k: v for k, v in FILLETED.items() if k != "land_inner"}
         ({"attached": False, "fit": BodyFit(1.0, 0.88, 1e-9), "highest": 1e6},
          "no_residual_flexibility", "holds 88 % of the static deflection"),
         ({"fit": BodyFit(1.1, 1.0, 1e-9), "highest": 1e6}, "body_stiffness", "is 1.1 times as"),
+        ({"fit": BodyFit(1.0, 1.0, 1e-9, 0.93), "highest": 1e6}, "lumped_mass",
+         "A mode of modes.body has 0.93 times the mass"),
         # sqrt(1/(c m))/2 pi of a steel roller of 8 mm by 8 mm, 3.157 g, on 1e-7 m/N
         ({"fit": BodyFit(1.0, 1.0, 1e-7), "highest": 1.5e3}, "few_modes",
          "reach 1.5 kHz, but a roller bounces on the wall of its pocket at 8.96 kHz"),
