@@ -19,6 +19,7 @@ from pathlib import Path
 from flexcage.core import environment
 from flexcage.core.cache import cache_root
 from flexcage.core.errors import EnvironmentLacks
+from flexcage.core.trust import make_private
 from flexcage.core.writing import write_text
 
 #: Parts of names of environment variables that bear on what VTK draws with.
@@ -42,7 +43,7 @@ def opening_window() -> Iterator[None]:
         os.environ[environment.WINDOW_VARIABLE] = window
     yield
     with suppress(OSError):  # then it is looked for again
-        note.parent.mkdir(parents=True, exist_ok=True)
+        make_private(note.parent)
         write_text(note, window)
 
 

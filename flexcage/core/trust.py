@@ -71,7 +71,8 @@ def _distrusted_part(part: Path, *, last: bool) -> str:
     if mode & stat.S_ISVTX and not last:
         return ""
     if mode & stat.S_IWOTH or (mode & stat.S_IWGRP and not _alone_in(found.st_gid)):
-        return f"other users may write to '{part}' (chmod go-w '{part}' forbids it)"
+        remedy = "" if mode & stat.S_ISVTX else f" (chmod go-w '{part}' forbids it)"
+        return f"other users may write to '{part}'{remedy}"
     return ""
 
 

@@ -339,7 +339,15 @@ class RunStore(MemoryRunStore):
         for v in self.layout.variables:
             what = f"holds samples of the array '{v.name}' that cannot be read"
             refuse = partial(damaged, self.path, what)
-            found[v.name] = lazy_variable(Blocks(self.layout, v, self._chunks(v).read, refuse))
+            read = partial(self._read, self._chunks(v))
+            found[v.name] = lazy_variable(Blocks(self.layout, v, read, refuse))
+        return found
+
+    def _read(self, chunks: Chunks, numbers: Sequence[int]) -> list[bytes | None]:
+        """Chunks, None for those that are not there; RunFailed if the folder is not."""
+        found = chunks.read(numbers)
+        if None in found:
+            self.check_there()
         return found
 
     def _chunk(self, var: Variable, values: np.ndarray) -> bytes:
@@ -376,7 +384,7 @@ class RunStore(MemoryRunStore):
 
     def _block_table(self, kind: str, block: int) -> dict[str, np.ndarray]:
         try:
-            (chunk,) = self._tables_of(kind).read([block])
+            (chunk,) = self._read(self._tables_of(kind), [block])
             return {} if chunk is None else unpacked(chunk)
         except UNREADABLE as error:
             raise damaged(

@@ -32,6 +32,7 @@ from flexcage.results.cage_file import (
     shared_cage,
     write_cage,
 )
+from flexcage.results.commit import damaged
 from flexcage.results.store import MemoryRunStore, RunStore
 from flexcage.results.summary import SUMMARY
 
@@ -166,8 +167,15 @@ def _stored(folder: Path, store: RunStore | None) -> tuple[Case, str]:
     if store is None:
         stored = load_case(folder / "case.toml")
         return stored, stored.hash
-    attrs = store.layout.attrs
-    return load_case(attrs["case"]), attrs["hash"]
+    return load_case(_kept(store, "case")), _kept(store, "hash")
+
+
+def _kept(store: MemoryRunStore, name: str) -> str:
+    """A text that the results hold beside the numbers; InputError if they do not."""
+    text = store.layout.attrs.get(name)
+    if not isinstance(text, str):
+        raise damaged(Path(str(store.path)), f"does not say its '{name}'")
+    return text
 
 
 def _without_its_files(case: Case, stored: Case) -> bool:
@@ -190,7 +198,7 @@ def keep_cage(folder: Path, file: CageFile, *, study: Path | None = None) -> Non
 
 def kept_cage(folder: Path, store: MemoryRunStore) -> CageRecord:
     """The cage of a stored run; InputError if it is missing or another one."""
-    digest = store.layout.attrs["cage"]
+    digest = _kept(store, "cage")
     path = find_cage(folder, digest)
     record = read_cage(path)
     if record.digest != digest:
@@ -208,7 +216,7 @@ def open_folder(folder: Path) -> tuple[Case, MemoryRunStore, tuple[RunWarning, .
     case.toml is ignored, and the warning names it."""
     check_links(folder)
     store = RunStore.open(folder / "results.zarr")
-    text = store.layout.attrs["case"]
+    text = _kept(store, "case")
     case = load_case(text)
     _check_hash(folder, case, store)
     edit = _edit(folder / "case.toml", text, case)
@@ -226,7 +234,7 @@ def _check_hash(folder: Path, case: Case, store: MemoryRunStore) -> None:
     functions of the user's own, or another flexcage, may change the hash of the same text."""
     attrs = store.layout.attrs
     same = attrs.get("physics") == physics() and not case.files and not sources()
-    if same and attrs["hash"] != case.hash:
+    if same and _kept(store, "hash") != case.hash:
         raise InputError(
             f"The results in '{folder}' name the case {attrs['hash']}, but hold the text of the "
             f"case {case.hash}: one of them was changed afterwards; bring the folder back from a "

@@ -23,7 +23,7 @@ from flexcage.results import room
 from flexcage.results.cage_file import FORMAT, CageFile, cage_file, cage_record, check_same
 from flexcage.results.store import MemoryRunStore
 from flexcage.results.warnings import to_text
-from flexcage.run.folder import keep_cage, kept_cage, write_case
+from flexcage.run.folder import check_links, keep_cage, kept_cage, write_case
 from flexcage.stages import Cage, made_cage
 from flexcage.system.problem import Bearing
 
@@ -44,6 +44,7 @@ def run_store(
         "warnings": to_text(warned),
     }  # fmt: skip
     if folder is not None:
+        check_links(folder)
         announce_room(case, bearing, folder)
         write_case(folder, case)
         file = _cage_file(case, cage)
