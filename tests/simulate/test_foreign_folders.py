@@ -15,6 +15,8 @@ from flexcage.results.summary import Summary
 from flexcage.run import folder as folders
 from flexcage.simulate import load_run, simulate
 
+pytestmark = pytest.mark.skipif(os.name != "posix", reason="links want rights on Windows")
+
 BLOCK = 10 / 50e3  # [s]
 CASE = n1013(
     {"cage.model": "rigid", "solver.duration": "0.8 ms", "output.block": 10,
