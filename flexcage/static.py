@@ -13,6 +13,7 @@ from flexcage.contacts.spec import EhlTraction
 from flexcage.core.binding import expect
 from flexcage.core.errors import EnvironmentLacks, InputError
 from flexcage.core.listing import PAGE
+from flexcage.core.writing import write_text
 from flexcage.geometry.film import creep_speed
 from flexcage.system.statics.options import AT_START, StaticOptions
 from flexcage.system.statics.rings import BentRing, Rings
@@ -105,8 +106,8 @@ def write_static(case: StaticCase, solution: StaticSolution, folder: Path) -> li
     A machine that cannot draw costs the pictures alone.
     """
     folder.mkdir(parents=True, exist_ok=True)
-    (folder / "case.toml").write_text(case.to_toml(), encoding="utf-8")
-    (folder / "static.txt").write_text(solution.table(PAGE) + "\n", encoding="utf-8")
+    write_text(folder / "case.toml", case.to_toml())
+    write_text(folder / "static.txt", solution.table(PAGE) + "\n")
     solution.to_json(folder / "static.json")
     written = [folder / name for name in ("case.toml", "static.txt", "static.json")]
     try:

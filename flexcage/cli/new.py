@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 from flexcage.cli.files import prepare_file
 from flexcage.cli.parser import command, say
 from flexcage.core.listing import wrapped
+from flexcage.core.writing import write_text
 
 if TYPE_CHECKING:
     from flexcage.geometry.inside import Outline
@@ -50,7 +51,7 @@ def new_command(args: argparse.Namespace) -> int:
     out = Path(args.out or f"{case_name(outline)}.toml")
     prepare_file(out, (".toml",), force=args.force)
     made = new_case(outline, source, cage=args.cage)
-    out.write_text(made.text, "utf-8")
+    write_text(out, made.text)
     for line in made.findings():
         first = " " * (len(line) - len(line.lstrip()))
         say(wrapped(line.lstrip(), first=first, rest="  "))

@@ -310,6 +310,8 @@ def _ready(path: str | Path) -> Path:
         path.parent.mkdir(parents=True, exist_ok=True)
     except OSError as error:
         raise InputError(f"The folder {path.parent} cannot be made: {error.strerror}.") from error
+    if path.is_symlink():
+        path.unlink()  # not written through
     return path
 
 

@@ -16,6 +16,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 import numpy as np
 
 from flexcage.contacts.spec import LandSpec
+from flexcage.core.reading import json_of
 from flexcage.core.units import describe
 from flexcage.core.warning import RunWarning
 from flexcage.geometry.bearing import Bearing, RingLand
@@ -103,7 +104,7 @@ def to_text(warnings: Iterable[RunWarning]) -> str:
 
 def from_attrs(attrs: Mapping[str, Any]) -> tuple[RunWarning, ...]:
     """Those that a run's store holds from its start; none in one of an earlier flexcage."""
-    return tuple(RunWarning(**values) for values in json.loads(attrs.get("warnings", "[]")))
+    return tuple(RunWarning(**values) for values in json_of(attrs.get("warnings", "[]")))
 
 
 # --- at the start --------------------------------------------------------------------------------
