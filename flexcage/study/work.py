@@ -9,8 +9,9 @@ from __future__ import annotations
 import logging
 import shutil
 import time
+from collections.abc import Mapping
 from contextlib import nullcontext
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
@@ -26,7 +27,9 @@ from flexcage.run import Run
 from flexcage.run.folder import was_written, write_case
 from flexcage.simulate import load_run, simulate
 from flexcage.stages import cage_mesh, cage_reduction, keep_at_hand
+from flexcage.study.about import plain
 from flexcage.study.folder import CaseRow, Failure, Folder
+from flexcage.study.origin import this_one
 from flexcage.study.outputs import beyond_summary, figures_of, lacking, late_figures, needs_stress
 from flexcage.study.plan import Plan, Planned
 
@@ -44,6 +47,7 @@ class Order:
     stress: bool  # whether any output needs the cage's
     use: tuple[str, ...]  # extensions to load
     keep: str
+    values: Mapping[str, Any] = field(default_factory=dict)  # that the study's axes gave, by path
     version: str = __version__
 
 
@@ -57,6 +61,7 @@ def order_of(plan: Plan, planned: Planned, folder: Path) -> Order:
         stress=needs_stress(plan.study.outputs),
         use=sources(),
         keep=plan.study.keep,
+        values=plain(planned.point.values),
     )
 
 
@@ -111,7 +116,8 @@ def _complete(order: Order, folder: Folder) -> None:
     keep_at_hand(run.cage)
     figures = figures_of(run, order.beyond)
     seconds = time.process_time() - begin
-    folder.write_row(part, CaseRow(order.hash, seconds, figures, run.warnings))
+    row = CaseRow(order.hash, seconds, figures, run.warnings, order.values, this_one())
+    folder.write_row(part, row)
     folder.finish(order.hash)
 
 
