@@ -18,6 +18,7 @@ from flexcage.case import description
 from flexcage.core.binding import unit_at
 from flexcage.core.errors import InputError
 from flexcage.core.hashing import content_hash, sealed
+from flexcage.core.writing import check_name
 from flexcage.study.axes import Axis, Point
 from flexcage.study.origin import this_one
 from flexcage.study.plan import Plan, Planned, points_of
@@ -98,8 +99,11 @@ def from_store(file: Path, stored: Mapping[str, Any]) -> tuple[About, tuple[Plan
         edited=_edit(file, text, table) if known else "",
         sure=known,
     )
+    hashes = [c[2] for c in stored["cases"]] if known else stored["hashes"]
+    for name in hashes:
+        check_name(name, f"The hash of a case in '{file.with_name('plan.json')}'")
     if not known:
-        return about, _by_position(about, stored["hashes"])
+        return about, _by_position(about, hashes)
     points = [Point(p["values"], p["labels"]) for p in stored["points"]]
     return about, tuple(Planned(n, points[n], k, h) for n, k, h in stored["cases"])
 

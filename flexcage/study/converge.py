@@ -15,8 +15,9 @@ from flexcage.case import Case
 from flexcage.contacts.spec import FEWEST_SLICES, MOST_SLICES
 from flexcage.core.errors import FlexcageError, InputError
 from flexcage.core.warning import RunWarning
+from flexcage.core.writing import replace
 from flexcage.mesh.options import FINENESS
-from flexcage.results.files import load, replace, save
+from flexcage.results.files import load, save
 from flexcage.results.known import CONVERGENCE, KNOWN, STATISTIC, marked
 from flexcage.results.statistics import spread
 from flexcage.results.summary import Row, Summary

@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import Any
 
 from flexcage.core.warning import RunWarning
+from flexcage.core.writing import write_text, written
 from flexcage.results.summary import Row
 
 GOAL = 0.02  # relative difference within which a statistic counts as converged
@@ -141,8 +142,9 @@ class Convergence:
 
         folder = Path(folder)
         records = [f.record() for f in self.findings]
-        (folder / "converge.txt").write_text(self.table() + "\n", encoding="utf-8")
-        pd.DataFrame(records).to_csv(folder / "converge.csv", index=False)
+        write_text(folder / "converge.txt", self.table() + "\n")
+        with written(folder / "converge.csv") as path:
+            pd.DataFrame(records).to_csv(path, index=False)
         plain = [{k: None if v != v else v for k, v in r.items()} for r in records]
         content = {
             "case": self.name,
@@ -150,4 +152,4 @@ class Convergence:
             "failures": self.failures,
             "warnings": {run: [asdict(w) for w in warned] for run, warned in self.warnings.items()},
         }
-        (folder / "converge.json").write_text(json.dumps(content, indent=2), encoding="utf-8")
+        write_text(folder / "converge.json", json.dumps(content, indent=2))

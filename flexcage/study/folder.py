@@ -30,7 +30,7 @@ from flexcage.core.errors import InputError, unwritable
 from flexcage.core.hashing import seal_holds, sealed
 from flexcage.core.locks import LOCK, held
 from flexcage.core.warning import RunWarning
-from flexcage.results.files import replace
+from flexcage.core.writing import check_own, replace
 from flexcage.study.about import About, base_of, from_store, to_store
 from flexcage.study.origin import Origin, stored_origin
 from flexcage.study.outputs import Figure
@@ -38,6 +38,7 @@ from flexcage.study.plan import Plan, Planned
 from flexcage.study.spec import FORMAT, Study, check_format, stored_study, stored_table
 
 _ROW, _PART = "row.json", ".part"
+_ITS_OWN = ("study.toml", "plan.json", "cases", "failed", "cages")
 _LEFT_OVER = (LOCK, "cases", "failed", "plan.json.new")  # of one killed before it had a plan
 _NOT_THERE = (KeyError, TypeError, AttributeError)  # a text that is not what was written
 _ZARR_GROUP = {"zarr_format": 3, "node_type": "group", "attributes": {}}
@@ -70,24 +71,29 @@ class CaseRow:
 
 
 class Folder:
-    """Paths and files of a study's folder."""
+    """Paths and files of a study's folder. Nothing inside it is read or written through a link:
+    InputError, which names the link."""
 
     def __init__(self, path: str | Path) -> None:
         self.path = Path(path)
         self.cases, self.failed = self.path / "cases", self.path / "failed"
 
     def case(self, name: str) -> Path:
-        return self.cases / name
+        return _own(self.cases, self.cases / name)
 
     def has_run(self, name: str) -> bool:
         """Whether the finished case of this hash kept its run, whatever the study keeps now."""
         return (self.case(name) / "results.zarr").is_dir()
 
     def part(self, name: str) -> Path:
-        return self.cases / f"{name}{_PART}"
+        return _own(self.cases, self.cases / f"{name}{_PART}")
 
     def lock(self, name: str) -> Path:
-        return self.cases / f"{name}.lock"
+        return _own(self.cases, self.cases / f"{name}.lock")
+
+    def reason(self, name: str) -> Path:
+        """The file that says why a case failed."""
+        return _own(self.failed, self.failed / f"{name}.json")
 
     def study(self) -> Study:
         """The study that the folder holds, which runs no code: InputError if it holds none, or of
@@ -95,6 +101,7 @@ class Folder:
         return stored_study(self._text_file())
 
     def _text_file(self) -> Path:
+        _own(*(self.path / name for name in _ITS_OWN))
         if not (self.path / "study.toml").is_file():
             raise InputError(
                 f"'{self.path}' is not the folder of a study: it has no study.toml.", where="study"
@@ -135,6 +142,7 @@ class Folder:
         """Make the folder, or take over one that holds a study: its cases are found by content."""
         if self.path.exists() and not self.path.is_dir():
             raise InputError(f"'{self.path}' is a file; name a folder for the study.", where="out")
+        _own(*(self.path / name for name in _ITS_OWN))
         if (self.path / "plan.json").is_file():  # a study.toml alone is the user's own
             if (self.path / "study.toml").is_file():
                 stored_table(self.path / "study.toml")  # refuses another format
@@ -165,7 +173,7 @@ class Folder:
 
     def row(self, name: str) -> CaseRow | None:
         """The finished case of this hash, or None."""
-        path = self.case(name) / _ROW
+        path = _own(self.case(name) / _ROW)
         stored = _read_json(path)
         if stored is None:
             return None
@@ -195,7 +203,7 @@ class Folder:
 
     def failure(self, name: str) -> Failure | None:
         """Why the case of this hash failed, or None."""
-        path = self.failed / f"{name}.json"
+        path = self.reason(name)
         stored = _read_json(path)
         try:
             return None if stored is None else Failure(**stored)
@@ -223,19 +231,27 @@ class Folder:
             shutil.rmtree(self.case(name))
         os.rename(part, self.case(name))
         _sync(self.cases)
-        (self.failed / f"{name}.json").unlink(missing_ok=True)
+        self.reason(name).unlink(missing_ok=True)
 
     def write_failure(self, name: str, failure: Failure) -> None:
-        _write_json(self.failed / f"{name}.json", asdict(failure))
+        _write_json(self.reason(name), asdict(failure))
 
     def forget_failure(self, name: str) -> None:
         """Forget a failure and what was computed until then."""
-        (self.failed / f"{name}.json").unlink(missing_ok=True)
+        self.reason(name).unlink(missing_ok=True)
         shutil.rmtree(self.part(name), ignore_errors=True)
 
     def running(self) -> set[str]:
         """Hashes of cases that are running, or were when their process ended."""
         return {p.name.removesuffix(_PART) for p in self.cases.glob(f"*{_PART}")}
+
+
+def _own(*paths: Path) -> Path:
+    """The last of the paths, if none of them is a link; InputError for the first that is."""
+    for path in paths:
+        if path.is_symlink():
+            check_own(path)
+    return paths[-1]
 
 
 def _write_json(path: Path, value: Any) -> None:

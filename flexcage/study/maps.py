@@ -23,7 +23,8 @@ from flexcage.core.errors import InputError
 from flexcage.core.hashing import seal_holds, sealed
 from flexcage.core.spec import option, quantity
 from flexcage.core.units import format_si
-from flexcage.results.files import replace as replace_file
+from flexcage.core.writing import check_name
+from flexcage.core.writing import replace as replace_file
 from flexcage.study.about import key_of
 from flexcage.study.axes import Points
 from flexcage.study.claims import At
@@ -70,6 +71,7 @@ class Map:
     keep: str = option("figures", doc="what stays of a run", choices=KEEP)
 
     def __post_init__(self) -> None:
+        check_name(self.name, "The map's name")
         object.__setattr__(self, "outputs", tuple(self.outputs))
         check_unknowns(self.unknowns)
         if not self.conditions or any("label" not in c for c in self.conditions):

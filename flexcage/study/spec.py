@@ -19,6 +19,7 @@ from flexcage.core.errors import InputError
 from flexcage.core.spec import option, quantity
 from flexcage.core.toml import read_toml
 from flexcage.core.units import format_si, parse
+from flexcage.core.writing import check_name
 from flexcage.study.axes import Axis
 from flexcage.system.spec import MOST_PUSH
 
@@ -60,6 +61,7 @@ class Study:
     keep: str = option("runs", doc="what stays of a case", choices=KEEP)
 
     def __post_init__(self) -> None:
+        check_name(self.name, "The study's name")
         object.__setattr__(self, "outputs", tuple(self.outputs))
         written = partial(_as_text, self.case, si=True)
         object.__setattr__(self, "axes", tuple(axis.mapped(written) for axis in self.axes))
