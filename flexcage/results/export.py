@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from flexcage.core.errors import EnvironmentLacks, InputError
+from flexcage.core.writing import written
 from flexcage.results.layout import plain_attr
 from flexcage.results.registry import TIME
 
@@ -75,14 +76,16 @@ def frame_to_parquet(frame: pandas.DataFrame, path: str | Path) -> Path:
     if not any(importlib.util.find_spec(e) for e in ("pyarrow", "fastparquet")):
         raise _lacks("Parquet", "pyarrow")
     path = _ready(path)
-    frame.to_parquet(path, index=False)
+    with written(path) as spare:
+        frame.to_parquet(spare, index=False)
     return path
 
 
 def frame_to_csv(frame: pandas.DataFrame, path: str | Path) -> Path:
     """Write a table as CSV."""
     path = _ready(path)
-    frame.to_csv(path, index=False)
+    with written(path) as spare:
+        frame.to_csv(spare, index=False)
     return path
 
 

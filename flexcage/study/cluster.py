@@ -147,7 +147,9 @@ def _client(address: str, security: Any, *, timeout: float) -> Iterator[Any]:
 @contextmanager
 def _silence() -> Iterator[None]:
     """Let Dask and its event loop say nothing, as of a scheduler that is lost."""
-    loggers = [logging.getLogger(name) for name in _CHATTY]
+    known = list(logging.root.manager.loggerDict)  # Dask gives many of its own a level and a stream
+    names = {*_CHATTY, *(name for name in known if name.partition(".")[0] in _CHATTY)}
+    loggers = [logging.getLogger(name) for name in names]
     levels = [logger.level for logger in loggers]
     for logger in loggers:
         logger.setLevel(logging.CRITICAL + 1)

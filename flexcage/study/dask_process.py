@@ -23,7 +23,7 @@ from flexcage.core.orphan import end_with
 
 HOST = "tls://127.0.0.1"
 CERTIFICATE, KEY, ADDRESS = "certificate.pem", "key.pem", "address"
-_ORPHAN = "60 s"  # without client, scheduler or work, a process ends after this in any case
+_ORPHAN = 60.0  # s; without client, scheduler or work, a process ends after this in any case
 _TRIES = 20  # at removing a folder into which a dying worker may still write
 
 
@@ -53,7 +53,7 @@ def make_certificate(folder: Path) -> None:
 def security_of(folder: Path) -> Security:
     """What lets client, scheduler and workers of a study know each other."""
     certificate, key = str(folder / CERTIFICATE), str(folder / KEY)
-    parts = {}
+    parts: dict[str, str] = {}
     for role in ("client", "scheduler", "worker"):
         parts |= {f"tls_{role}_cert": certificate, f"tls_{role}_key": key}
     return Security(require_encryption=True, tls_ca_file=certificate, **parts)
