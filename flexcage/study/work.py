@@ -12,6 +12,7 @@ import time
 from collections.abc import Mapping
 from contextlib import nullcontext
 from dataclasses import dataclass, field, replace
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -32,6 +33,7 @@ from flexcage.study.folder import CaseRow, Failure, Folder
 from flexcage.study.origin import this_one
 from flexcage.study.outputs import beyond_summary, figures_of, lacking, late_figures, needs_stress
 from flexcage.study.plan import Plan, Planned
+from flexcage.study.telling import Told, teller
 
 log = logging.getLogger(__name__)
 
@@ -90,6 +92,7 @@ def prepare(order: Order) -> None:
 
     A failure here is left to the cases: it becomes their own.
     """
+    teller(order.hash)("mesh and modes", None)
     try:
         case = _case_of(order)
         keep_at_hand(cage_reduction(case, cage_mesh(case)))
@@ -110,9 +113,11 @@ def _complete(order: Order, folder: Folder) -> None:
         folder.write_row(folder.case(order.hash), replace(row, figures=figures))
         return
     case = _case_of(order)
+    tell = teller(order.hash)
+    tell("kernels", None)
     compile_kernels(case)
     part = folder.part(order.hash)
-    run = _march(case, part, order)
+    run = _march(case, part, order, partial(Told, tell))
     keep_at_hand(run.cage)
     figures = figures_of(run, order.beyond)
     seconds = time.process_time() - begin
@@ -144,11 +149,12 @@ def _case_of(order: Order) -> Case:
     return case
 
 
-def _march(case: Case, part: Path, order: Order) -> Run:
+def _march(case: Case, part: Path, order: Order, progress: Any) -> Run:
     if order.keep == "runs":
-        return run_in(part, case, study=part.parent.parent, stress=order.stress)
+        where = part.parent.parent
+        return run_in(part, case, study=where, stress=order.stress, progress=progress)
     write_case(part, case)
-    return simulate(case, stress=order.stress)
+    return simulate(case, stress=order.stress, progress=progress)
 
 
 def run_in(folder: Path, case: Case, *, progress: Any = None, **how: Any) -> Run:

@@ -1,6 +1,7 @@
 """Scheduler and workers of a study: whom they answer, where they listen, and when they end."""
 
 import asyncio
+import io
 import os
 import signal
 import socket
@@ -9,13 +10,17 @@ import sys
 import tempfile
 import time
 from contextlib import suppress
+from types import SimpleNamespace
 
 import pytest
 from dask_processes import PATIENCE, start, wait_for, when_written
-from study_cases import study_file
+from study_cases import short_study, study_file
 
+from flexcage.core.progress import Progress
 from flexcage.study import cluster
+from flexcage.study.axes import Grid
 from flexcage.study.cluster import PREFIX, connect
+from flexcage.study.run import run_study
 
 SOON = 8.0  # s, within which processes end (measured: 0.6 s), on a busy machine
 LOADS = ["500 N", "1000 N", "1500 N", "2000 N"]
@@ -83,6 +88,21 @@ def test_scheduler_and_workers_answer_nobody_without_the_certificate(client):
             for asked in (address, address.replace("tls:", "tcp:")):
                 with pytest.raises((OSError, TimeoutError, RuntimeError, TypeError)):
                     asyncio.run(ask(asked, stranger))
+
+
+def test_a_study_on_a_cluster_with_certificates_shows_what_its_workers_do(client, tmp_path):
+    """The cluster is given as an object, as dask-jobqueue's are: its certificates come with it."""
+    stream, places = io.StringIO(), SimpleNamespace()
+    places.scheduler_address, places.security = client.scheduler.address, client.security
+    study = short_study(Grid("load.radial", LOADS[:2]))
+    results = run_study(
+        study, out=tmp_path / "out", scheduler=places,
+        progress=lambda total, label: Progress(total, label, stream=stream, enabled=True),
+    )  # fmt: skip
+    assert results.count("done") == 2
+    shown = stream.getvalue()
+    assert "0 of 2 done, 2 workers" in shown and "cases: done at 100 %" in shown
+    assert any(f"case {k} {stage}" in shown for k in (0, 1) for stage in ("kernels", "mesh"))
 
 
 def test_certificates_are_for_the_user_alone(client):
