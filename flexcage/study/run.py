@@ -82,8 +82,11 @@ def _compute(
             numbers = {c.hash: k for k, c in enumerate(plan.cases) if c.hash in todo}
             board = Board(bar, numbers, total, done)
             client.subscribe_topic(TOPIC, board.told)
-            for name in _Desk(client, plan, folder, board).work_off(todo):
-                board.finished(name)
+            try:
+                for name in _Desk(client, plan, folder, board).work_off(todo):
+                    board.finished(name)
+            finally:
+                board.close()
 
 
 def _try_to_write(folder: Folder) -> None:

@@ -96,6 +96,11 @@ class Board:
             self._numbers = {name: k for name, k in self._numbers.items() if name != case}
             self._draw()
 
+    def close(self) -> None:
+        """Draw no more, whatever is told."""
+        with self._lock:
+            self._numbers = {}
+
     def _draw(self) -> None:
         if hasattr(self._bar, "detail"):
             self._bar.detail = f"; {self._in_words()}"

@@ -32,6 +32,11 @@ def test_the_line_names_workers_cases_and_stages_and_counts_parts_of_cases(monke
         assert bar.done == 2.0 and "case 1" not in bar.detail and "2 of 4 done" in bar.detail
         board.told(told("a", "stress"))  # what comes late
         assert bar.done == 2.0
+        board.close()
+        said = stream.getvalue()
+        bar._drawn = 0.0
+        board.told(told("b", "solving", 0.9))
+        assert stream.getvalue() == said
 
 
 def test_a_line_is_no_wider_than_the_terminal(monkeypatch):
