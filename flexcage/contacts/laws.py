@@ -443,6 +443,15 @@ def pocket_line_law(
     else:
         lateral = wall[1] / (1.0 - wall[1])
         approach += q * soft[1] / np.pi * (2.0 * np.log(2.0 * depth / b) - lateral)
+    if approach.min() <= 0.0:
+        one, other = (f"{e / 1e9:.4g} GPa" for e, _ in (roller, wall))
+        raise InputError(
+            f"The contact of a roller ({one}) on the cage's pocket ({other}) becomes as wide as "
+            f"its bodies under {loads[1]:g} N, where no law of line contact holds; are "
+            "cage.material.youngs_modulus and bearing.material.youngs_modulus in the unit meant?",
+            where="cage.material.youngs_modulus",
+            value=wall[0],
+        )
     exponent, intercept = np.polyfit(np.log(approach), np.log(q * length), 1)
     return float(np.exp(intercept)), float(exponent)
 

@@ -91,6 +91,7 @@ class Bearing:
     cage_spec: ClassVar[Spec]
     # contacts of which [contacts] speaks, beside the cage's land
     places: ClassVar[tuple[str, ...]] = ("race", "pocket", "side", "rib")
+    sliced: ClassVar[tuple[str, ...]] = ("race", "pocket")  # those cut in slices or strips
     carries_axial_load: ClassVar[bool] = False  # in a run, with the ring free axially and in tilt
     elsewhere: ClassVar[Mapping[str, str]] = {}  # patterns of keys that it has not: what there is
 

@@ -9,6 +9,8 @@ import numpy as np
 from flexcage.cages import cage_type_of
 from flexcage.case import Case
 from flexcage.case.checks import land_beside_shoulder, not_reached
+from flexcage.case.odd_values import odd_values
+from flexcage.case.unread import not_used
 from flexcage.core.errors import InputError
 from flexcage.core.threads import one_blas_thread
 from flexcage.core.warning import RunWarning
@@ -45,6 +47,8 @@ def warnings_at_start(
     )
     said = [("not_reached", s) for s in not_reached(case)]
     said += [("land_clearance", s) for s in land_beside_shoulder(case)]
+    said += [("not_used", s) for s in not_used(case)]
+    said += odd_values(case)
     if text := beyond_service(case.cage.material, case.cage.temperature):
         said.append(("cage_temperature", text))
     found = (
