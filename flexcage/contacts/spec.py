@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
+from typing import ClassVar
 
 from flexcage.core.spec import OtherThan, option, quantity
 from flexcage.geometry.bearing import RingLand
 from flexcage.geometry.film import Oil
+from flexcage.geometry.other_kinds import SURROUNDINGS
 
 # Names of laws, and the spec that a name brings along, None for the one below; ``contacts.laws``
 # registers further ones.
@@ -244,6 +247,8 @@ class Contacts:
 @dataclass(frozen=True, kw_only=True)
 class Lubricant:
     """Lubricant and what it does apart from traction: rolling resistance and drag."""
+
+    elsewhere: ClassVar[Mapping[str, str]] = SURROUNDINGS
 
     name: str = option(
         "ISO VG 32 at 70 C", doc="name", assumption="neither oil nor temperature is given"

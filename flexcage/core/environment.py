@@ -18,7 +18,7 @@ from dataclasses import dataclass
 from functools import cache
 
 from flexcage.core.cache import cache_root, check_writable
-from flexcage.core.errors import is_full
+from flexcage.core.errors import install, is_full
 
 APT_RENDER = "sudo apt-get install -y libegl1 libgl1 libosmesa6 libxrender1"
 APT_GMSH = (
@@ -159,7 +159,7 @@ def _solver() -> Finding:
         "linear solver",
         False,
         "SciPy's SuperLU only: fine meshes from files take several times as long",
-        'pip install "flexcage[fast]"',
+        install("fast"),
         needed=False,
     )
 

@@ -207,7 +207,7 @@ def parse(value: object, unit: str, *, where: str = "value") -> float:
 def _with_comma(value: str, where: str) -> InputError:
     """Error for a number with a comma, which may part thousands only before three digits."""
     point, none = value.strip().replace(",", ".", 1), value.strip().replace(",", "")
-    text = f"write '{point}', with a decimal point"
+    text = f"write '{point}', with a point"
     if _THOUSANDS.match(value):
         text = f"write decimals with a point, '{point}', and thousands without a comma, '{none}'"
     return InputError(f"{where} is '{value}'; {text}.", where=where, value=value)

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from flexcage.core.errors import EnvironmentLacks, InputError
+from flexcage.core.errors import EnvironmentLacks, InputError, install
 from flexcage.results.registry import TIME
 
 if TYPE_CHECKING:
@@ -112,5 +112,5 @@ def _plain(value: Any) -> Any:
 def _lacks(what: str, package: str) -> EnvironmentLacks:
     return EnvironmentLacks(
         f"Writing {what} needs the package {package}, which is not installed here: "
-        f'install it with  pip install "flexcage[study]"  (or  pip install {package}).'
+        f"install it {install('study')}  (or anywhere:  pip install {package})."
     )

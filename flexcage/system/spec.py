@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from math import pi
+from typing import ClassVar
 
 import numpy as np
 
@@ -11,6 +13,7 @@ from flexcage.core.body_file import BodyFile
 from flexcage.core.spec import ABSENT, GIVEN, option, quantity
 from flexcage.core.units import describe
 from flexcage.geometry.bearing import Bearing
+from flexcage.geometry.other_kinds import SURROUNDINGS
 
 _WAVE = {"wave": ("sine", "triangle", "rectangle")}  # a wave's values are read with a shape
 _CHANGES = ({"ramp_to": GIVEN}, {"times": GIVEN})
@@ -26,6 +29,8 @@ class Wave:
     ``rectangle`` takes a hundredth of its period from zero to the amplitude: a jump of speed would
     want an infinite torque.
     """
+
+    elsewhere: ClassVar[Mapping[str, str]] = SURROUNDINGS
 
     wave: str = option("none", doc="shape of a wave", choices=tuple(WAVES))
     wave_period: float = quantity("s", 0.0, doc="its period", minimum=0.0, when=_WAVE)
@@ -210,6 +215,8 @@ class Mount(BodyFile):
     of centres while it touches, and never pull. ``body``: the ring moves with the seat of an
     elastic housing in x, y, z and both tilts (``system.seat``), in a run with its mass.
     """
+
+    elsewhere: ClassVar[Mapping[str, str]] = SURROUNDINGS
 
     kind: str = option("fixed", doc="outer ring support", choices=("fixed", "bushing", "contact"))
     mass: float = quantity(

@@ -33,6 +33,7 @@ from flexcage.geometry.checks import Finding
 from flexcage.geometry.film import Film, Oil, both_races, point_film, rolling_entrainment
 from flexcage.geometry.hertz import PointContact
 from flexcage.geometry.materials import MATERIALS, Material
+from flexcage.geometry.other_kinds import SURROUNDINGS
 from flexcage.geometry.spall import BY_RACE, Spall
 
 _EDGE = 0.1  # of half a cage's width: what its end touches a groove with (assumption)
@@ -52,7 +53,7 @@ class BallBearing(Bearing):
     family: ClassVar[str] = "ball"
     places: ClassVar[tuple[str, ...]] = ("race", "pocket")
     sliced: ClassVar[tuple[str, ...]] = ("race",)
-    elsewhere: ClassVar[Mapping[str, str]] = BY_RACE
+    elsewhere: ClassVar[Mapping[str, str]] = {**BY_RACE, **SURROUNDINGS}
     carries_axial_load: ClassVar[bool] = True
     one_sided: ClassVar[bool] = False  # are there shoulders for one direction of load alone?
 

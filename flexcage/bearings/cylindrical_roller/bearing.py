@@ -28,6 +28,7 @@ from flexcage.geometry.cage import Cage
 from flexcage.geometry.checks import Finding
 from flexcage.geometry.film import Film, Oil, both_races, line_film, rolling_entrainment
 from flexcage.geometry.materials import MATERIALS, Material
+from flexcage.geometry.other_kinds import SURROUNDINGS
 from flexcage.geometry.spall import BY_RACE, Spall
 
 BY_DESIGN = (
@@ -84,6 +85,7 @@ class RollerBearing(Bearing):
     elsewhere: ClassVar[Mapping[str, str]] = {
         "(inner_|outer_)?(ribs?|flanges?)(_.*)?": BY_RIBS,
         **BY_RACE,
+        **SURROUNDINGS,
     }
 
     type: str = type_name("cylindrical_roller")
