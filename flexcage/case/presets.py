@@ -27,7 +27,7 @@ from flexcage.geometry.other_kinds import kind_of
 NAMED: Mapping[type, Mapping[str, Any]] = MappingProxyType({Material: MATERIALS})
 
 _META = ("preset", "assumptions", "sources")
-_ALIKE = 0.7  # of a name and a preset's, from which on the preset may be meant
+_ALIKE = 0.65  # of a name and a preset's, from which on the preset may be meant
 _ADDED: dict[str, Preset] = {}  # by register_preset
 
 

@@ -555,11 +555,13 @@ def did_you_mean(text: str, known: Iterable[str], otherwise: str) -> str:
 
 
 def near_names(text: str, known: Iterable[str], most: int = 3, *, cutoff: float = 0.6) -> list[str]:
-    """At most so many known names that are like a text, the nearest first; case, spaces and strokes
-    do not count."""
-    plain: dict[str, list[str]] = {}
-    for name in known:
-        plain.setdefault(_PUNCTUATION.sub("", name.casefold()), []).append(name)
-    wanted = _PUNCTUATION.sub("", text.casefold())
-    close = difflib.get_close_matches(wanted, plain, n=most, cutoff=cutoff)
-    return [name for key in close for name in plain[key]][:most]
+    """At most so many known names that are like a text, the nearest first, whatever their case; if
+    none is, those that are when spaces and strokes do not count either."""
+    names = list(known)
+    for plain in (str.casefold, lambda name: _PUNCTUATION.sub("", name.casefold())):
+        meant: dict[str, list[str]] = {}
+        for name in names:
+            meant.setdefault(plain(name), []).append(name)
+        if close := difflib.get_close_matches(plain(text), meant, n=most, cutoff=cutoff):
+            return [name for key in close for name in meant[key]][:most]
+    return []

@@ -19,7 +19,7 @@ _SYMBOLS: tuple[tuple[str, str], ...] = (
     (" k m", "bar J W t"),
     (" m u µ n", "rad"),
     (" m", "deg K l L"),
-    (" k M G m", "Hz"),
+    (" k M G T m", "Hz"),
     (" k", "rpm Nmm psi"),
     (" c m", "P St"),
     (" u µ", "in inch"),
