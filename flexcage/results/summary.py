@@ -16,7 +16,7 @@ from flexcage.core.binding import near_names
 from flexcage.core.digits import texts_with_margin
 from flexcage.core.errors import InputError
 from flexcage.core.warning import RunWarning
-from flexcage.results.files import replace as replace_file
+from flexcage.core.writing import replace as replace_file
 from flexcage.results.known import BRIEF, KNOWN, marked
 from flexcage.results.statistics import Record
 
