@@ -65,9 +65,12 @@ def _outline(args: argparse.Namespace) -> tuple[Outline, str]:
     from flexcage.case.catalogue import WAY, find
     from flexcage.core.errors import InputError
     from flexcage.core.units import parse
+    from flexcage.geometry.bearing import check_type
     from flexcage.geometry.inside import Outline
 
     name = " ".join(args.designation)
+    if args.type is not None:
+        check_type(args.type)
     given: dict[str, Any] = {
         key: _positive(parse(text, unit, where=option), option, text)
         for option, key, unit, _ in (*_DIMENSIONS, *_FURTHER)

@@ -19,7 +19,7 @@ from functools import cache
 from math import isinf
 
 from flexcage.core.cache import cache_root, check_writable
-from flexcage.core.errors import is_full
+from flexcage.core.errors import install, is_full
 from flexcage.core.memory import total_memory
 from flexcage.core.trust import distrusted
 
@@ -162,7 +162,7 @@ def _solver() -> Finding:
         "linear solver",
         False,
         "SciPy's SuperLU only: fine meshes from files take several times as long",
-        'pip install "flexcage[fast]"',
+        install("fast"),
         needed=False,
     )
 

@@ -13,6 +13,7 @@ from typing import Any
 import numpy as np
 
 from flexcage.core import html
+from flexcage.core.binding import near_names
 from flexcage.core.digits import texts_with_margin
 from flexcage.core.errors import InputError
 from flexcage.core.listing import PAGE, aligned, wrapped
@@ -210,6 +211,17 @@ def _rows_html(rows: Iterable[Row], *, brief: bool = False) -> str:
     return html.table(cells, sides="lrl")
 
 
+class UnknownFigure(InputError, KeyError):
+    """A figure that a summary has not; a KeyError too, as of any mapping."""
+
+    __str__ = Exception.__str__
+
+    def __init__(self, key: str, known: Sequence[str]) -> None:
+        close = near_names(key, known, 1)
+        hint = f"the nearest name is '{close[0]}'" if close else "'flexcage figures' lists all"
+        super().__init__(f"The summary has no figure '{key}'; {hint}.", where="summary", value=key)
+
+
 @dataclass(frozen=True, repr=False)
 class Summary:
     """Figures of a run in sections, in order. ``summary["cage_speed"]`` is a value in SI.
@@ -231,7 +243,7 @@ class Summary:
         for row in self:
             if row.key == key:
                 return row
-        raise KeyError(key)
+        raise UnknownFigure(key, [row.key for row in self])
 
     def __contains__(self, key: str) -> bool:
         return any(row.key == key for row in self)

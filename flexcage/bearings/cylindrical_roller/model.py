@@ -74,7 +74,8 @@ def _race_side(bearing, contacts: Contacts, lubricant: Lubricant, *, inner: bool
     equivalent = rw * radius / (radius + sign * rw)
     modulus = bearing.material.plane_strain_modulus  # E' = 2/(2 (1-nu^2)/E)
     wave, spall = uneven_race(bearing, "inner" if inner else "outer", radius, equivalent)
-    stiffness = laws.iso_line_stiffness(bearing.effective_length) / contacts.race.slices
+    stiffness = laws.iso_line_stiffness(bearing.effective_length, modulus)
+    stiffness /= contacts.race.slices
     return RaceSide(
         sign=sign,
         radius=radius,

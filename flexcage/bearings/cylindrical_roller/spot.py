@@ -8,13 +8,15 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from flexcage.core.spec import option, quantity
+from flexcage.core.spec import GIVEN, option, quantity
 from flexcage.core.units import mm
 from flexcage.geometry.spall import covered
 from flexcage.geometry.spot import find_in_spots, spotted_in_words
 
 if TYPE_CHECKING:
     from flexcage.bearings.cylindrical_roller.bearing import RollerBearing
+
+_IS = {"size": GIVEN}
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -26,17 +28,25 @@ class RollerSpot:
     """
 
     size: float = quantity("mm", 0.0, doc="length round the roller; 0: no spot", minimum=0.0)
-    kind: str = option("pit", doc="what it is", choices=("pit", "flat"))
-    roller: int = option(0, doc="roller that has it", minimum=0)
+    kind: str = option("pit", doc="what it is", choices=("pit", "flat"), when=_IS)
+    roller: int = option(0, doc="roller that has it", minimum=0, when=_IS)
     others: tuple[int, ...] = option(
-        (), doc="further rollers with a spot alike", minimum=0, legacy=()
+        (), doc="further rollers with a spot alike", minimum=0, legacy=(), when=_IS
     )
-    depth: float = quantity("um", 100e-6, doc="depth of a pit", above=0.0)
-    width: float | None = quantity("mm", None, doc="axial width (default: all)", above=0.0)
-    offset: float = quantity("mm", 0.0, doc="axial distance of its middle from the roller's")
+    depth: float = quantity(
+        "um", 100e-6, doc="depth of a pit", above=0.0, when={**_IS, "kind": ("pit",)}
+    )
+    width: float | None = quantity(
+        "mm", None, doc="axial width (default: all)", above=0.0, when=_IS
+    )
+    offset: float = quantity(
+        "mm", 0.0, doc="axial distance of its middle from the roller's",
+        when={**_IS, "width": GIVEN},
+    )  # fmt: skip
     angle: float = quantity(
-        "deg", 0.0, doc="where it is at the start: from outwards towards the sense of the orbit"
-    )
+        "deg", 0.0, doc="where it is at the start: from outwards towards the sense of the orbit",
+        when=_IS,
+    )  # fmt: skip
 
     @property
     def rollers(self) -> tuple[int, ...]:
