@@ -27,8 +27,8 @@ the steps. (By the trapezoidal rule it missed a share of every fast motion that 
 where a load of kN moves by nanometres, more than the drive did in 2 ms.) The others, losses, which
 begin and end with contacts, take the trapezoidal rule: they must grow, and the formula swings on
 after what stops at once.
-**Energy.** Long steps damp what swings faster than they are, and its energy is lost without a power.
-A problem that gives its stored energy behind the integrands has it tested, as ``runge_kutta`` does:
+**Energy.** Long steps damp what swings faster than they are; its energy is lost without a power. A
+problem that gives its stored energy behind the integrands has it tested, as ``runge_kutta`` does:
 a step that loses more than is allowed is repeated, shorter. The energy at the corrector's last
 residual only arouses suspicion; it is then evaluated at both accepted points.
 Policies follow IDA's experience: few Jacobians, Newton fails early and cuts the step.

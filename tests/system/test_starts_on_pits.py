@@ -9,7 +9,7 @@ import pytest
 from bearing_runs import NU, NUP, assembled
 
 from flexcage.bearings.cylindrical_roller.spot import RollerSpot
-from flexcage.contacts.spec import Contacts
+from flexcage.contacts.spec import Contacts, NormalLaw, PairSpec
 from flexcage.geometry.spall import Spall
 from flexcage.system.spec import Load, Mount
 from flexcage.system.start import find_start
@@ -34,9 +34,10 @@ def azimuth(place, length, ring):
 
 
 def unbalanced(build_parts, *, pits, design="N", axial=0.0, mount=None):
-    """Force (2,) [N] across the axis that the inner ring lacks at the start, residual, and forces
-    (Z, 2) on both races."""
-    load, contacts = Load(radial=LOAD, axial=axial), Contacts()
+    """Force (2,) [N] across the axis that the inner ring lacks as the run begins, the residual of the
+    search, and forces (Z, 2) on both races."""
+    load = Load(radial=LOAD, axial=axial)
+    contacts = Contacts(race=PairSpec(normal=NormalLaw(law="elastic")))  # moving edges are damped
     parts = build_parts(
         bearing={**DESIGNS[design], **pits}, contacts=contacts, load=load, mount=mount or Mount()
     )
