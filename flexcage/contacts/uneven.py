@@ -39,14 +39,14 @@ def uneven_race(
 ) -> tuple[np.ndarray, np.ndarray]:
     """Waves (3,) of the "inner" or "outer" ring's race: amplitude [m], order, azimuth of a crest;
     and its spall (5,): half angle, azimuth, depth, drop over the square of an angle, and half of
-    the angle over which an edge is felt.
+    the angle over which an edge is felt, 0 where there is none.
 
     ``radius``: the race's about the bearing's axis; ``effective``: that of element and race.
     """
     wave = [getattr(bearing, f"{ring}_waviness{of}") for of in ("", "_order", "_azimuth")]
     spall, bend = getattr(bearing, f"{ring}_spall"), radius**2 / (2.0 * effective)
     half = 0.5 * spall.length / radius
-    felt = spread(effective, bearing.material.plane_strain_modulus) / radius
+    felt = spread(effective, bearing.material.plane_strain_modulus) / radius if half else 0.0
     return np.array(wave, float), np.array([half, spall.azimuth, spall.depth, bend, felt])
 
 

@@ -416,7 +416,7 @@ def _without_pits(model: RollerModel) -> RollerModel:
 
 def _even(side: RaceSide) -> RaceSide:
     """The race without its spall."""
-    spall = np.array([0.0, *side.spall[1:]])
+    spall = 0.0 * side.spall
     return side._replace(spall=spall, uneven=is_uneven(side.wave, spall))
 
 
