@@ -34,8 +34,8 @@ def azimuth(place, length, ring):
 
 
 def unbalanced(build_parts, *, pits, design="N", axial=0.0, mount=None):
-    """Force (2,) [N] across the axis that the inner ring lacks as the run begins, the residual of the
-    search, and forces (Z, 2) on both races."""
+    """Force (2,) [N] across the axis that the inner ring lacks as the run begins, the residual of
+    the search, and forces (Z, 2) on both races."""
     load = Load(radial=LOAD, axial=axial)
     contacts = Contacts(race=PairSpec(normal=NormalLaw(law="elastic")))  # moving edges are damped
     parts = build_parts(
