@@ -16,8 +16,8 @@ from typing import Any
 
 from flexcage._version import __version__
 from flexcage.core.errors import InputError, unwritable
+from flexcage.core.writing import replace
 from flexcage.report.blocks import Image, Page
-from flexcage.results.files import replace
 
 LIMIT = 15e6  # bytes of a page
 _MOST_PICTURE = 150_000  # bytes of a picture above which it is packed tighter

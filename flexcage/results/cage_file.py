@@ -32,8 +32,8 @@ import numpy as np
 
 from flexcage.core.errors import InputError
 from flexcage.core.hashing import content_hash
+from flexcage.core.writing import move_into_place
 from flexcage.mesh.cage_mesh import CageMesh
-from flexcage.results.files import move_into_place
 from flexcage.results.repeating import pack, unpack
 
 FORMAT = 2

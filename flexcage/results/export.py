@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import importlib.util
-import json
 from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -11,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from flexcage.core.errors import EnvironmentLacks, InputError
+from flexcage.results.layout import plain_attr
 from flexcage.results.registry import TIME
 
 if TYPE_CHECKING:
@@ -26,7 +26,7 @@ def to_netcdf(ds: xarray.Dataset, path: str | Path) -> Path:
     if engine is None:
         raise _lacks("NetCDF", "netCDF4")
     plain = ds.copy()
-    plain.attrs = {k: _plain(v) for k, v in ds.attrs.items()}
+    plain.attrs = {k: plain_attr(v) for k, v in ds.attrs.items()}
     encoding = {str(n): {"zlib": True, "complevel": 1} for n, v in ds.data_vars.items() if v.ndim}
     path = _ready(path)
     plain.to_netcdf(path, engine=engine.lower(), encoding=encoding)
@@ -103,10 +103,6 @@ def _ready(path: str | Path) -> Path:
     except OSError as error:
         raise InputError(f"The folder {path.parent} cannot be made: {error.strerror}.") from error
     return path
-
-
-def _plain(value: Any) -> Any:
-    return value if isinstance(value, str | int | float) else json.dumps(value)
 
 
 def _lacks(what: str, package: str) -> EnvironmentLacks:

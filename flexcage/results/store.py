@@ -7,9 +7,11 @@ counts it; that file is written aside, fsynced and atomically moved into place a
 chunks, its tables and its checkpoint are written. Readers trim every array to the commit, so what
 a kill left half written is never seen. (Appending to arrays instead leaves unreadable stores.)
 
-Format 5: the attributes ``run`` hold the case as it was run, its hash, and the digest of the cage
-that modal coordinates refer to (``cage_file``). Format 4 is the same with other names
-(``renamed``); it is read, not gone on with.
+Format 6: the attribute ``run`` holds the case as it was run, its hash, and the digest of the cage
+that modal coordinates refer to (``cage_file``); ``layout`` holds all shapes and labels. Both are
+JSON text, which NetCDF can hold. Labels are arrays as well, for other programs. Format 5 has no
+such arrays, and these attributes are tables. Format 4 is format 5 with other names (``renamed``);
+it is read, not gone on with.
 """
 
 from __future__ import annotations
@@ -27,7 +29,8 @@ import numpy as np
 
 from flexcage import _version
 from flexcage.core.errors import InputError
-from flexcage.results.files import UNREADABLE, disk, joined, load, make_room, replace, save
+from flexcage.core.writing import replace
+from flexcage.results.files import UNREADABLE, disk, joined, load, make_room, save
 from flexcage.results.layout import (
     Arrays,
     Layout,
@@ -43,7 +46,8 @@ from flexcage.results.shards import BLOSC, SLOTS, Chunks, encoded, packed, unpac
 if TYPE_CHECKING:
     import xarray
 
-FORMAT = 5  # see above
+FORMAT = 6  # see above
+_READ = (OLD_FORMAT, 5, FORMAT)
 SIDE = "_run"  # folder beside the arrays: commit, checkpoint, steps, events
 LAST = "last_state.npz"  # in SIDE, of a run whose solver stopped
 LOADS = "loads"  # table of what moves and pushes a flexible cage at steps between samples
@@ -365,10 +369,10 @@ def read_commit(path: Path) -> dict[str, Any]:
     except (OSError, ValueError) as error:
         raise InputError(f"The commit file of {path} cannot be read: {error}.") from error
     found = commit.get("format") if isinstance(commit, dict) else None
-    if found not in (OLD_FORMAT, FORMAT):
+    if found not in _READ:
         raise InputError(
             f"The run in {path} is stored in format {found}, and this flexcage "
-            f"({_version.__version__}) reads formats {OLD_FORMAT} and {FORMAT}: "
+            f"({_version.__version__}) reads formats {OLD_FORMAT} to {FORMAT}: "
             "open it with the flexcage that wrote it, or run the case again.",
             where="path",
             value=str(path),
@@ -381,18 +385,20 @@ def _create_arrays(path: Path, layout: Layout) -> None:
     from zarr.codecs import BloscCodec, Crc32cCodec, TransposeCodec
     from zarr.errors import ContainsGroupError
 
+    shape = {
+        "variables": [asdict(v) for v in layout.variables],
+        "coords": coords_to_json(layout.coords),
+        "n_time": layout.n_time,
+        "n_time_hf": layout.n_time_hf,
+        "block": layout.block,
+        "block_hf": layout.block_hf,
+    }
     stored: dict[str, Any] = {
         "flexcage_format": FORMAT,
         "flexcage_version": _version.__version__,
-        "layout": {
-            "variables": [asdict(v) for v in layout.variables],
-            "coords": coords_to_json(layout.coords),
-            "n_time": layout.n_time,
-            "n_time_hf": layout.n_time_hf,
-            "block": layout.block,
-            "block_hf": layout.block_hf,
-        },
-        "run": dict(layout.attrs),
+        "layout": json.dumps(shape),
+        "run": json.dumps(dict(layout.attrs)),
+        "coordinates": " ".join(sorted(layout.coords)),  # CF: those without a dimension of a name
     }
     try:
         group = zarr.create_group(store=str(path), attributes=stored, zarr_format=3)
@@ -417,14 +423,13 @@ def _create_arrays(path: Path, layout: Layout) -> None:
             dimension_names=v.dims,
             attributes=dict[str, Any](v.attrs),
         )
-    for grid in (TIME, TIME_HF):
-        if grid in layout.coords:
-            _, values, attrs = layout.coords[grid]
-            times = group.create_array(
-                grid, shape=values.shape, dtype="float64", dimension_names=(grid,),
-                attributes=attrs, compressors=compressors,
-            )  # fmt: skip
-            times[:] = values
+    for name, (dims, values, attrs) in layout.coords.items():
+        kind = "string" if values.dtype.kind in "UOT" else values.dtype
+        labels = group.create_array(
+            name, shape=values.shape, dtype=kind, dimension_names=dims, attributes=attrs,
+            compressors=compressors,
+        )  # fmt: skip
+        labels[...] = values
     with warnings.catch_warnings():  # readers then need not list the folder
         warnings.filterwarnings("ignore", message=".*[Cc]onsolidated.*")
         zarr.consolidate_metadata(str(path), zarr_format=3)
@@ -439,7 +444,7 @@ def _array(group: Any, name: str) -> Any:
 
 
 def _layout_from(group: Any, of_format: int) -> Layout:
-    stored = group.attrs["layout"]
+    stored, run = (_unpacked_attr(group.attrs[name]) for name in ("layout", "run"))
     if of_format == OLD_FORMAT:
         stored = {**stored, "variables": [stored_then(v) for v in stored["variables"]]}
     coords = coords_from_json(stored["coords"])
@@ -454,8 +459,13 @@ def _layout_from(group: Any, of_format: int) -> Layout:
         stored["n_time_hf"],
         stored["block"],
         stored["block_hf"],
-        dict(group.attrs["run"]),
+        dict(run),
     )
+
+
+def _unpacked_attr(value: Any) -> Any:
+    """The table that an attribute holds: as JSON text, or in format 5 as it is."""
+    return json.loads(value) if isinstance(value, str) else value
 
 
 def _check_whole(store: RunStore) -> None:

@@ -15,7 +15,7 @@ from flexcage.core import html
 from flexcage.core.digits import texts_with_margin
 from flexcage.core.errors import InputError
 from flexcage.core.warning import RunWarning
-from flexcage.results.files import replace as replace_file
+from flexcage.core.writing import replace as replace_file
 from flexcage.results.known import BRIEF, KNOWN, marked
 from flexcage.results.statistics import Record
 

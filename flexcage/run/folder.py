@@ -18,6 +18,7 @@ from flexcage.core.binding import flat
 from flexcage.core.errors import FlexcageError, InputError, unwritable
 from flexcage.core.locks import LOCK
 from flexcage.core.warning import RunWarning
+from flexcage.core.writing import replace
 from flexcage.results.cage_file import (
     NAME,
     CageFile,
@@ -27,7 +28,6 @@ from flexcage.results.cage_file import (
     shared_cage,
     write_cage,
 )
-from flexcage.results.files import replace
 from flexcage.results.store import MemoryRunStore, RunStore
 
 log = logging.getLogger(__name__)

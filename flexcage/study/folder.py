@@ -26,7 +26,7 @@ from typing import Any
 from flexcage.core.errors import InputError, unwritable
 from flexcage.core.locks import LOCK, held
 from flexcage.core.warning import RunWarning
-from flexcage.results.files import replace
+from flexcage.core.writing import replace
 from flexcage.study.about import About, from_store, to_store
 from flexcage.study.outputs import Figure
 from flexcage.study.plan import Plan, Planned

@@ -22,7 +22,7 @@ from flexcage.core.binding import Binder, check_spec
 from flexcage.core.errors import InputError
 from flexcage.core.spec import option, quantity
 from flexcage.core.units import format_si
-from flexcage.results.files import replace as replace_file
+from flexcage.core.writing import replace as replace_file
 from flexcage.study.axes import Points
 from flexcage.study.claims import At
 from flexcage.study.folder import Folder
