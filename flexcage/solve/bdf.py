@@ -64,7 +64,8 @@ KAPPA = (0.0, -0.1850, -1.0 / 9.0, -0.0823, -0.0415, 0.0)  # Shampine and Reiche
 NEWTON_MAX = 4
 GUARD_STEPS = 200
 JACOBIAN_AGE = 60
-FREE, CREDIT, PRICE = 0.125, 400.0, 2.0  # of repetitions for energy's sake: see ``runge_kutta``
+# of repetitions for energy's sake: see ``runge_kutta``
+FREE, LEAST, CREDIT, PRICE = 0.125, 3e-4, 400.0, 2.0
 # entries of BDFState.real and .count beyond those of ``contract``
 ALPHA, RATE, H_LAST, LEFT = range(2, 6)
 ORDER, EQUAL, AGE, HAVE_J, GUARD, RECENT, ITERATIONS, FAILS, BEGUN = range(7, 16)
@@ -390,8 +391,9 @@ def advance(fns, data, st, opt, t_end, times, ys, yds, first, log, quads):
             count[EQUAL] = 0
             continue
         leak = leaked(fns, data, st, t_new, exchanged)
-        if leak > 1.0 and (h > FREE * opt.h_max or real[LEFT] >= PRICE):
-            if h <= FREE * opt.h_max:
+        share = h / opt.h_max
+        if leak > 1.0 and (share > FREE or (share > LEAST and real[LEFT] >= PRICE)):
+            if share <= FREE:
                 real[LEFT] -= PRICE
             count[ERROR_FAILS] += 1
             ratio = max(0.25, 0.85 / np.sqrt(leak))
@@ -399,7 +401,7 @@ def advance(fns, data, st, opt, t_end, times, ys, yds, first, log, quads):
             real[H] = ratio * h
             count[EQUAL] = 0
             continue
-        real[LEFT] = min(real[LEFT] + h / opt.h_max, CREDIT)
+        real[LEFT] = min(real[LEFT] + share, CREDIT)
         work = max(work, leak)
         # accept
         add_step(D, d, order)

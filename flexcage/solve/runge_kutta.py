@@ -78,8 +78,8 @@ SAFETY, SLOW, FAST = 0.9, 0.3, 4.0  # of the step's control
 AIM, STEADY, SWIFT = 0.1, 0.075, 0.1  # steps aim at this share of the tolerance
 ERROR, LEFT = 2, 3  # further entries of RKState.real: of the last step, 0 before the first; credit
 # steps longer than this share of the longest are repeated for energy's sake freely, others on
-# credit; price of a repetition, where the longest step earns 1
-FREE, CREDIT, PRICE = 0.125, 400.0, 2.0
+# credit, and below the least share none; price of a repetition, where the longest step earns 1
+FREE, LEAST, CREDIT, PRICE = 0.125, 3e-4, 400.0, 2.0
 
 
 class RKState(NamedTuple):
@@ -231,13 +231,14 @@ def advance(fns, data, st, opt, t_end, times, ys, yds, first, log, quads):
             real[H] = h * max(SLOW, SAFETY * error**-0.25)
             continue
         leak = leaked(h, power, st.quad.shape[0], st.leak_weight[0])
-        if leak > 1.0 and (h > FREE * opt.h_max or real[LEFT] >= PRICE):
-            if h <= FREE * opt.h_max:
+        share = h / opt.h_max
+        if leak > 1.0 and (share > FREE or (share > LEAST and real[LEFT] >= PRICE)):
+            if share <= FREE:
                 real[LEFT] -= PRICE
             count[ERROR_FAILS] += 1
             real[H] = h * max(SLOW, SAFETY / np.sqrt(leak))
             continue
-        real[LEFT] = min(real[LEFT] + h / opt.h_max, CREDIT)
+        real[LEFT] = min(real[LEFT] + share, CREDIT)
         real[T] = t_new
         count[STEPS] += 1
         count[EXPLICIT] += 1

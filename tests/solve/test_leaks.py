@@ -98,6 +98,20 @@ def test_a_force_without_an_energy_does_not_stop_the_run(method):
     assert tried < 40 * before
 
 
+class Jump(Ramp):
+    """A valley whose stored energy jumps with the sense of motion: no step of any length misses
+    less."""
+
+    def energy(self, y):
+        return super().energy(y) + (0.5 if y[1] > 0.0 else 0.0)
+
+
+def test_an_energy_that_jumps_ends_no_run(method):
+    st, missed, _ = run(method, Jump(), leak=ALLOWED)
+    assert missed > 0.1 or st.y[1] < 0.0
+    assert st.count[contract.STEPS] + st.count[contract.ERROR_FAILS] < 2000
+
+
 class Swing(Oscillator):
     """A lightly damped oscillator beside a slow one; integrals: losses, behind them the energy."""
 
