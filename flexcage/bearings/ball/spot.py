@@ -47,12 +47,13 @@ class BallSpot:
         """Numbers of the balls that have one."""
         return tuple(sorted({self.ball, *self.others})) if self.size else ()
 
-    def dimensions(self, radius: float, effective: float) -> np.ndarray:
-        """Half of its size, its depth, and the drop over the square of a length [m], on a race with
-        which a ball of a radius has the ``effective`` one [m]."""
+    def dimensions(self, radius: float, effective: float, felt: float) -> np.ndarray:
+        """Half of its size, its depth, the drop over the square of a length [m], on a race with
+        which a ball of a radius has the ``effective`` one [m], and half of the width ``felt`` [m]
+        over which its edges are felt."""
         half = 0.5 * self.size
         depth = half**2 / (2.0 * radius) if self.kind == "flat" else self.depth
-        return np.array([half, depth, 1.0 / (2.0 * effective)])
+        return np.array([half, depth, 1.0 / (2.0 * effective), felt])
 
     def direction(self) -> np.ndarray:
         """Unit direction (x, r, psi) at the start."""

@@ -26,7 +26,7 @@ from flexcage.contacts.race import RaceSide, race_work
 from flexcage.contacts.rib import RibData
 from flexcage.contacts.spec import Contacts, Lubricant
 from flexcage.contacts.state import Q_SKEW, Q_SPIN, Q_TILT
-from flexcage.contacts.uneven import is_uneven, uneven_race
+from flexcage.contacts.uneven import is_uneven, spread, uneven_race
 from flexcage.geometry.spot import marked
 from flexcage.modes.basis import CageInterface
 from flexcage.system.bodies import bodies_of, elastic_constants, land_data, unbalanced
@@ -91,7 +91,7 @@ def _race_side(bearing, contacts: Contacts, lubricant: Lubricant, *, inner: bool
             s, bearing.effective_length / contacts.race.slices
         ),
         uneven=is_uneven(wave, spall),
-        spot=bearing.roller_spot.dimensions(rw, equivalent),
+        spot=bearing.roller_spot.dimensions(rw, equivalent, spread(equivalent, modulus)),
         spotted=bearing.roller_spot.covered(s, bearing.effective_length / contacts.race.slices),
     )
 

@@ -53,13 +53,15 @@ class RollerSpot:
         """Numbers of the rollers that have one."""
         return tuple(sorted({self.roller, *self.others})) if self.size else ()
 
-    def dimensions(self, radius: float, effective: float) -> np.ndarray:
-        """Half of its angle, 0, its depth, and the drop over the square of an angle, as
-        ``contacts.uneven.sunk_at`` has them, of a roller of a radius [m] on a race with which it
-        has the ``effective`` one [m]."""
+    def dimensions(self, radius: float, effective: float, felt: float) -> np.ndarray:
+        """Half of its angle, 0, its depth, the drop over the square of an angle, and half of the
+        angle over which its edges are felt, as ``contacts.uneven.sunk_at`` has them, of a roller of
+        a radius [m] on a race with which it has the ``effective`` one [m]; ``felt`` [m]: half of
+        that width."""
         half = 0.5 * self.size
         depth = half**2 / (2.0 * radius) if self.kind == "flat" else self.depth
-        return np.array([half / radius, 0.0, depth, radius**2 / (2.0 * effective)])
+        bend = radius**2 / (2.0 * effective)
+        return np.array([half / radius, 0.0, depth, bend, felt / radius])
 
     def covered(self, centres: np.ndarray, slice_width: float) -> np.ndarray:
         """Share (n,) of slices that lie on it, by the places of their centres (n,) [m]."""
