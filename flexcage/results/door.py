@@ -28,6 +28,8 @@ from flexcage.core.reading import (
 from flexcage.core.writing import unusable
 from flexcage.results.shards import blosc_size
 
+Arrays = Mapping[str, np.ndarray]
+
 NODE = "zarr.json"
 TYPES = (
     "bool", "int8", "int16", "int32", "int64", "uint8", "uint16", "uint32", "uint64", "float16",
@@ -86,7 +88,7 @@ def read_zip(path: Path) -> tuple[dict[str, Any], dict[str, tuple[dict[str, Any]
 
     root, groups = _zip_nodes(path)
     with ZipStore(path, mode="r") as store:
-        found = {}
+        found: dict[str, tuple[dict[str, Any], Arrays]] = {}
         for kind, (attributes, names) in groups.items():
             arrays = {}
             for name in names:
@@ -94,9 +96,6 @@ def read_zip(path: Path) -> tuple[dict[str, Any], dict[str, tuple[dict[str, Any]
                 arrays[name] = np.asarray(array[...])
             found[kind] = attributes, arrays
     return root, found
-
-
-Arrays = Mapping[str, np.ndarray]
 
 
 def _zip_nodes(path: Path) -> tuple[dict[str, Any], dict[str, tuple[dict[str, Any], list[str]]]]:
