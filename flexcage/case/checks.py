@@ -14,6 +14,7 @@ from flexcage.case.ring_checks import find_bending_in_run, find_in_rings
 from flexcage.core.binding import chosen_spec, default_of, join
 from flexcage.core.errors import InputError
 from flexcage.core.units import describe
+from flexcage.core.writing import unusable
 from flexcage.geometry.bearing import Bearing, check_type
 from flexcage.geometry.cage import Cage
 from flexcage.geometry.checks import OVERLOAD, greatest_speed
@@ -30,7 +31,6 @@ _LAND_TOLERANCE = 5e-6  # m between a stated land clearance and the one that the
 _TOLERANCES = (1e-13, 1e-6)
 # kg/m^3; cages as good as weightless have 1e-3, and steel's is 7.85e-6 in kg/mm^3
 _LEAST_DENSITY = 1e-4
-_LONGEST_NAME = 200  # bytes; folders may have 255, and commands add words to it
 _MOST_SAMPLES = 1e8  # of either grid: a run's file has some TB then
 _MOST_ELEMENTS = 1e7  # assumption: more than a machine of 64 GB factors
 
@@ -110,19 +110,8 @@ def _find_infinite(spec: Any, where: str = "") -> Iterator[Finding]:
 
 
 def _find_in_name(case: Case) -> Iterator[Finding]:
-    name = case.name
-    if not name.strip() or name.strip(".") == "" or not name.isprintable() or set(name) & {*"/\\:"}:
-        yield (
-            "name",
-            f"name is {name!r}, but must be usable as the name of a folder: one line, not empty, "
-            "without '/', '\\' or ':'.",
-        )
-    size = len(name.encode("utf-8", "replace"))
-    if size > _LONGEST_NAME:
-        yield (
-            "name",
-            f"name has {size} bytes, but names a folder; give it {_LONGEST_NAME} or fewer.",
-        )
+    if wrong := unusable(case.name):
+        yield "name", f"name is {wrong}."
 
 
 def _find_in_materials(case: Any) -> Iterator[Finding]:

@@ -10,6 +10,7 @@ from contextvars import ContextVar
 from pathlib import Path
 
 from flexcage.core.errors import InputError
+from flexcage.core.writing import check_own
 
 LOCK = "running.lock"  # in the folder; says which process holds it
 
@@ -32,6 +33,7 @@ def held(folder: Path, what: str = "a run", *, inside: bool = False) -> Iterator
     new = not folder.exists()
     folder.mkdir(parents=True, exist_ok=True)
     path = folder / LOCK
+    check_own(path)
     lock = filelock.FileLock(path)
     try:
         lock.acquire(timeout=0)
@@ -68,6 +70,7 @@ def check_free(folder: Path) -> None:
     for path in folder.rglob(LOCK):
         if path.parent.resolve() in _mine.get():
             continue
+        check_own(path)
         lock = filelock.FileLock(path)
         try:
             lock.acquire(timeout=0)

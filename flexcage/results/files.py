@@ -1,23 +1,19 @@
-"""Writing files so that a kill at any moment leaves the old content or the new one."""
+"""Files of arrays, and folders for them, with errors of the disk as sentences."""
 
 from __future__ import annotations
 
 import io
-import os
 import shutil
 from collections.abc import Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
-from zipfile import BadZipFile
-from zlib import error as BadStream
 
 import numpy as np
 
+from flexcage.core.arrays import read_arrays
 from flexcage.core.errors import InputError, RunFailed, is_full, unwritable
-
-#: What ``load`` raises for a file that was cut short or changed.
-UNREADABLE = (BadZipFile, BadStream, EOFError, KeyError, ValueError)
+from flexcage.core.writing import replace
 
 
 def make_room(path: Path, overwrite: bool) -> None:
@@ -53,46 +49,20 @@ def disk(path: Path, kept: int) -> Iterator[None]:
 
 def save(path: Path, arrays: Mapping[str, Any]) -> None:
     """Arrays to a file in one move, on disk before this returns."""
+    replace(path, npz_of(arrays))
+
+
+def npz_of(arrays: Mapping[str, Any]) -> bytes:
+    """Arrays as an .npz file holds them."""
     buffer = io.BytesIO()
     named: dict[str, Any] = {k: np.asarray(v) for k, v in arrays.items()}
     np.savez(buffer, **named)
-    replace(path, buffer.getvalue())
+    return buffer.getvalue()
 
 
 def load(path: Path) -> dict[str, np.ndarray]:
-    """The arrays of a file that ``save`` wrote; one of ``UNREADABLE`` for a damaged one."""
-    with np.load(path, allow_pickle=False) as stored:
-        return {k: stored[k] for k in stored.files}
-
-
-def replace(path: Path, content: bytes) -> None:
-    """Write a file so that either the old or the new content is there after any kill."""
-    temporary = path.with_name(path.name + ".new")
-    with open(temporary, "wb") as file:
-        file.write(content)
-        file.flush()
-        os.fsync(file.fileno())
-    _rename(temporary, path)
-
-
-def move_into_place(temporary: Path, path: Path) -> None:
-    """Give a file that was written beside ``path`` its name, once all in it is on disk."""
-    handle = os.open(temporary, os.O_RDONLY)
-    try:
-        os.fsync(handle)
-    finally:
-        os.close(handle)
-    _rename(temporary, path)
-
-
-def _rename(temporary: Path, path: Path) -> None:
-    os.replace(temporary, path)
-    if os.name == "posix":
-        folder = os.open(path.parent, os.O_RDONLY)
-        try:
-            os.fsync(folder)
-        finally:
-            os.close(folder)
+    """The arrays of a file that ``save`` wrote; one of ``arrays.UNREADABLE`` for a damaged one."""
+    return read_arrays(path)
 
 
 def joined(parts: Iterable[Mapping[str, np.ndarray]]) -> dict[str, np.ndarray]:

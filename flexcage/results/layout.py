@@ -5,6 +5,7 @@ Shared by the store on disk and the one in memory, so that both check and label 
 
 from __future__ import annotations
 
+import json
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from math import ceil
@@ -146,12 +147,21 @@ def label_dataset(
     for name, (dims, labels, attrs) in layout.coords.items():
         sel = tuple(slice(cut.get(d)) for d in dims)
         coords[name] = xr.Variable(dims, labels[sel], attrs)
-    ds = xr.Dataset(variables, coords=coords, attrs={**layout.attrs, **state})
+    attrs = {name: plain_attr(value) for name, value in {**layout.attrs, **state}.items()}
+    ds = xr.Dataset(variables, coords=coords, attrs=attrs)
     if "inner_angle" in ds:
         turns = (ds["inner_angle"] - ds["inner_angle"][:1].values) / (2.0 * np.pi)
         turns.attrs = {"units": "1", "long_name": "turns of the inner ring"}
         ds = ds.assign_coords(revolution=turns)
     return ds
+
+
+def plain_attr(value: Any) -> Any:
+    """An attribute as NetCDF can hold it: a text, numbers, anything else as JSON text."""
+    if isinstance(value, bool):
+        return int(value)
+    held = isinstance(value, str | int | float | np.number | np.ndarray)
+    return value if held else json.dumps(value)
 
 
 def coords_to_json(coords: Mapping[str, Coord]) -> dict[str, Any]:

@@ -6,8 +6,8 @@ import csv
 import io
 from pathlib import Path
 
+from flexcage.core.writing import replace
 from flexcage.modes.table import ModeTable
-from flexcage.results.files import replace
 
 FILE = "modes.csv"  # in a run's folder
 _UNITS = {"frequency": "Hz", "effective_mass_x": "kg", "effective_mass_y": "kg",

@@ -18,7 +18,7 @@ from typing import Any
 import numpy as np
 
 from flexcage.core.errors import InputError
-from flexcage.results.files import replace
+from flexcage.core.writing import replace
 from flexcage.study.results import mean_and_half_width
 
 FORMAT = 1

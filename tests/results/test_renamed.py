@@ -52,8 +52,10 @@ def old_run(path, element, blocks):
     for file in (path / "zarr.json", path / "_run/commit.json"):
         stored = json.loads(file.read_text())
         if "attributes" in stored:
-            stored["attributes"]["flexcage_format"] = 4
-            for variable in stored["attributes"]["layout"]["variables"]:
+            attributes = stored["attributes"]
+            attributes |= {k: json.loads(attributes[k]) for k in ("layout", "run")}
+            attributes["flexcage_format"] = 4
+            for variable in attributes["layout"]["variables"]:
                 del variable["sparse"]
         else:
             stored["format"] = 4

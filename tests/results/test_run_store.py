@@ -31,7 +31,7 @@ VARS = ["inner_angle", "cage_position", "pocket_slice_force", "outer_acceleratio
 N, BLOCK, RATIO = 101, 25, 4
 
 
-def make(path, **kwargs):
+def make(path, attrs=None, **kwargs):
     n_hf = RATIO * (N - 1) + 1
     coords = {
         "time": np.arange(N) * 2e-5,
@@ -41,7 +41,7 @@ def make(path, **kwargs):
         "pocket_azimuth": (("pocket",), np.arange(3) * 2.0, {"units": "rad"}),
     }
     options = {"coords": coords, "variables": VARS, "n_time": N, "n_time_hf": n_hf}
-    return RunStore.create(path, **options, block=BLOCK, attrs={"case": "x"}, **kwargs)
+    return RunStore.create(path, **options, block=BLOCK, attrs=attrs or {"case": "x"}, **kwargs)
 
 
 def block(store, index, length=None):
@@ -130,6 +130,51 @@ def test_plain_xarray_reads_the_folder_quietly(tmp_path):
     assert np.isnan(ds["inner_angle"].values[BLOCK:]).all()
 
 
+@pytest.mark.parametrize("engine", ["netcdf4", "scipy"])
+@pytest.mark.parametrize("source", ["store", "run"])
+def test_a_stored_run_goes_to_netcdf_with_its_labels(tmp_path, source, engine):
+    path = tmp_path / "r.zarr"
+    store = make(path, attrs={"case": "speed = '6000 rpm' # µ", "places": ["inner race", "rib"]})
+    for k in range(store.layout.n_blocks):
+        store.write_block(k, *block(store, k))
+    ds = xr.open_zarr(path, chunks=None) if source == "store" else RunStore.open(path).dataset()
+    ds.to_netcdf(tmp_path / "r.nc", engine=engine)
+    with xr.open_dataset(tmp_path / "r.nc", engine=engine) as back:
+        force = back["pocket_slice_force"]
+        assert force.sel(crossbeam_face="rear", pocket=2, slice=5e-4).dims == ("time",)
+        assert back["axis"].values.tolist() == ["x", "y", "z"]
+        assert back["pocket"].values.tolist() == [0, 1, 2]
+        assert back["pocket_azimuth"].values.tolist() == [0.0, 2.0, 4.0]
+        assert "pocket_azimuth" in back.coords and back["pocket_azimuth"].attrs["units"] == "rad"
+        assert np.array_equal(back["cage_position"], ds["cage_position"])
+        run = back.attrs if source == "run" else json.loads(back.attrs["run"])
+        assert run["case"] == "speed = '6000 rpm' # µ"
+        places = json.loads(run["places"]) if source == "run" else run["places"]
+        assert places == ["inner race", "rib"]
+
+
+def test_a_run_of_format_5_is_read(tmp_path):
+    path = tmp_path / "r.zarr"
+    store = make(path)
+    store.write_block(0, *block(store, 0))
+    for file in (path / "zarr.json", path / "_run/commit.json"):
+        stored = json.loads(file.read_text())
+        if "attributes" in stored:
+            attributes = stored["attributes"]
+            del attributes["coordinates"]
+            attributes |= {k: json.loads(attributes[k]) for k in ("layout", "run")}
+        else:
+            stored["format"] = 5
+        file.write_text(json.dumps(stored))
+    for name in ("axis", "axis2", "crossbeam_face", "pocket", "slice", "pocket_azimuth"):
+        shutil.rmtree(path / name)
+    again = RunStore.open(path)
+    check(again.dataset(), BLOCK)
+    assert again.dataset()["crossbeam_face"].values.tolist() == ["front", "rear"]
+    again.write_block(1, *block(again, 1), {"i": 1})
+    check(RunStore.open(path).dataset(), 2 * BLOCK)
+
+
 def test_wrong_blocks_are_refused(tmp_path):
     store = make(None)
     main, fine = block(store, 0)
@@ -154,7 +199,7 @@ def test_sentences_for_paths_and_versions(tmp_path):
     for other, said in (({**stored, "format": 1}, "1"), ({}, "None"), ([1], "None")):
         commit.write_text(json.dumps(other))
         with pytest.raises(
-            InputError, match=f"format {said}, .*reads formats 4 and 5: open it with"
+            InputError, match=f"format {said}, .*reads formats 4 to 6: open it with"
         ):
             RunStore.open(path)
     (tmp_path / "file").write_text("")
@@ -229,9 +274,9 @@ def test_a_damaged_index_gets_a_sentence(tmp_path):
 
 
 def test_files_hold_many_blocks_and_are_taken_up_in_turn(tmp_path, monkeypatch):
-    from flexcage.results import store as module
+    from flexcage.results import metadata
 
-    monkeypatch.setattr(module, "SLOTS", 2)
+    monkeypatch.setattr(metadata, "SLOTS", 2)
     path = tmp_path / "r.zarr"
     store = make(path)
     for k in range(store.layout.n_blocks):
@@ -337,7 +382,7 @@ def test_a_checkpoint_is_kept_to_the_last_bit(tmp_path):
 
 @pytest.mark.parametrize("step", ["array", "checkpoint", "commit"])
 def test_a_full_disk_keeps_what_was_committed(tmp_path, monkeypatch, step):
-    from flexcage.results import files
+    from flexcage.results import commit as commits
     from flexcage.results import store as module
 
     path = tmp_path / "r.zarr"
@@ -350,14 +395,14 @@ def test_a_full_disk_keeps_what_was_committed(tmp_path, monkeypatch, step):
     if step == "array":
         monkeypatch.setattr(module.Chunks, "write", full)
     else:
-        real = files.replace
+        real = module.replace
 
         def some(target, content):
             if step in target.name:
                 full()
             real(target, content)
 
-        monkeypatch.setattr(files, "replace", some)
+        monkeypatch.setattr(commits, "replace", some)
         monkeypatch.setattr(module, "replace", some)
     with pytest.raises(RunFailed, match="disk is full; the first 25 samples are kept"):
         store.write_block(1, *block(store, 1), {"i": 1})
