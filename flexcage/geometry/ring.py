@@ -73,9 +73,10 @@ class InnerRing(FlexibleRing):
 class OuterRing(FlexibleRing):
     """The outer ring in its housing, which stands.
 
-    Two seats hold it here and there: "arcs" press on it and never pull, "points" (bolts, pins) hold
-    it both ways, all of them across the axis. Along the axis, in tilt and about the axis the seat
-    then holds the ring evenly.
+    Two seats hold it here and there, across the axis: "arcs" are rigid saddles that press wherever
+    the ring lies on them and never pull; "points" (bolts, pins) each hold it both ways by one force
+    in the middle of their arc, about which it pivots. Along the axis, in tilt and about the axis
+    the seat then holds the ring evenly.
     """
 
     seat: str = option(

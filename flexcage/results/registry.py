@@ -228,7 +228,7 @@ def _common() -> Iterator[Variable]:
     )  # fmt: skip
     yield sampled(
         "support_force", "N",
-        "force of a support on the outer ring, inwards, one for every part of a wide support",
+        "force of a support on the outer ring, inwards, one for every strip of an arc",
         "support",
     )  # fmt: skip
     yield sampled("pocket_force", "N", "normal force on a pocket face", "pocket", "face", **face)

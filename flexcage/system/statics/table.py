@@ -178,11 +178,15 @@ def _bent_lines(ring: BentRing) -> list[list[str]]:
 
 
 def _support_lines(ring: BentRing) -> list[list[str]]:
-    """Patches of the supports that press, or pull."""
-    lines = [["support at, deg", "presses, N"]]
-    for azimuth, force in zip(ring.seated.support, ring.support_force):
-        if force:
-            lines.append([f"{degrees(azimuth):.4g}", f"{force:.5g}"])
+    """The supports that press, or pull: where each is, its force, and where that acts."""
+    lines = [["support at, deg", "presses, N", "its middle at, deg"]]
+    seated = ring.seated
+    for k in np.unique(seated.of_support):
+        strips = seated.of_support == k
+        azimuth, force = seated.support[strips], ring.support_force[strips]
+        if force.any():
+            middle = degrees(azimuth.mean() + force @ (azimuth - azimuth.mean()) / force.sum())
+            lines.append([f"{degrees(azimuth.mean()):.4g}", f"{force.sum():.5g}", f"{middle:.4g}"])
     return lines
 
 
