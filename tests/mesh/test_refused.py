@@ -15,7 +15,7 @@ from flexcage.mesh.files.abaqus import read_inp
 from flexcage.mesh.files.msh import read_msh
 from flexcage.mesh.files.raw import Refused
 from flexcage.mesh.files.sound import sound_tetrahedra, warn_of_curves
-from flexcage.mesh.io import read_mesh
+from flexcage.mesh.io import read_mesh, write_mesh
 
 HEAD = "*NODE\n1,0,0,0\n2,1,,\n3,0,1.0D0,0\n4,0,0,1\n5,1,1,1\n"  # 6 lines
 SOLID = "*ELEMENT, TYPE=C3D4, ELSET=E\n1,1,2,3,4\n"
@@ -249,3 +249,22 @@ def test_groups_of_a_mesh_are_faces_of_its_boundary(n1013, tmp_path):
 def _places(mesh):
     ends = np.cumsum([0, *(len(t) for t in mesh.groups.values())])
     return [np.arange(a, b) for a, b in zip(ends, ends[1:])]
+
+
+def test_a_compression_that_is_not_read_is_named(n1013, tmp_path):
+    """VTK's own writer compresses in four ways, of which meshio knows three."""
+    vtk = pytest.importorskip("vtkmodules.vtkIOXML")
+    mesh = n1013(fineness="coarse")
+    reader = vtk.vtkXMLUnstructuredGridReader()
+    reader.SetFileName(str(write_mesh(mesh, tmp_path / "cage.vtu")))
+    writer = vtk.vtkXMLUnstructuredGridWriter()
+    writer.SetInputConnection(reader.GetOutputPort())
+    writer.SetFileName(str(tmp_path / "theirs.vtu"))
+    for way in ("ZLib", "LZMA"):
+        getattr(writer, f"SetCompressorTypeTo{way}")()
+        writer.Write()
+        assert len(read_mesh(tmp_path / "theirs.vtu").tets) == len(mesh.tets)
+    writer.SetCompressorTypeToLZ4()
+    writer.Write()
+    with pytest.raises(InputError, match="compressed by LZ4, which is not read; write them with"):
+        read_mesh(tmp_path / "theirs.vtu")

@@ -215,14 +215,7 @@ def read_inp(path: Path) -> RawMesh:
     from flexcage.mesh.files.surfaces import surfaces_of
 
     deck = read_deck(path)
-    solid = [key for key, part in deck.parts.items() if part.has_solids]
-    if len(solid) > 1:
-        first, second = (deck.label(key) for key in solid[:2])
-        raise Refused(
-            f"line {deck.parts[solid[1]].first}: {second} has tetrahedra as {first} has; write the "
-            "cage as one part, alone"
-        )
-    own = solid[0] if solid else ""
+    own = _with_solids(deck)
     part = deck.parts.get(own, Part())
     place = {number: i for i, number in enumerate(part.nodes)}
     used = {n for _, nodes in part.elements.values() for n in nodes}
@@ -248,6 +241,18 @@ def read_inp(path: Path) -> RawMesh:
         solid_numbers=np.array([e for numbers in members.values() for e in numbers], np.int64),
         no_surfaces=no_surfaces,
     )
+
+
+def _with_solids(deck: Deck) -> str:
+    """The one part that has tetrahedra; '' if none has any."""
+    solid = [key for key, part in deck.parts.items() if part.has_solids]
+    if len(solid) > 1:
+        first, second = (deck.label(key) for key in solid[:2])
+        raise Refused(
+            f"line {deck.parts[solid[1]].first}: {second} has tetrahedra as {first} has; write the "
+            "cage as one part, alone"
+        )
+    return solid[0] if solid else ""
 
 
 def read_nodes(path: Path) -> tuple[np.ndarray, np.ndarray, dict[str, np.ndarray]]:

@@ -8,6 +8,7 @@ names: a name that ends in _px or _mx is one that ends in +x or -x.
 from __future__ import annotations
 
 import re
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
@@ -83,9 +84,7 @@ def read_cdb(path: Path) -> RawMesh:
     }
     _part_corners(points, boundary, by_nodes)
     surfaces = {name: boundary[own] for name, own in by_nodes.items()}
-    for name, elements in archive.element_components.items():
-        if found := _triangles(_name(name), [int(e) for e in elements], flat):
-            surfaces[_name(name)] = np.array(found)
+    surfaces |= _by_elements(archive.element_components, flat)
     return RawMesh(
         points=points,
         solids=tuple(blocks),
@@ -122,6 +121,15 @@ def _rows(name: str, nodes: np.ndarray, row: dict[int, int]) -> list[int]:
     if lacking and group_name(name):
         raise Refused(f"the component '{name}' has node {listed(lacking)}, which is not in it")
     return [row[int(n)] for n in nodes if int(n) in row]
+
+
+def _by_elements(
+    components: Mapping[str, np.ndarray], flat: dict[int, list[int]]
+) -> dict[str, np.ndarray]:
+    """Triangles of the element components that have some."""
+    found = {_name(n): _triangles(_name(n), [int(e) for e in v], flat)
+             for n, v in components.items()}  # fmt: skip
+    return {name: np.array(triangles) for name, triangles in found.items() if triangles}
 
 
 def _triangles(name: str, elements: list[int], flat: dict[int, list[int]]) -> list[list[int]]:

@@ -84,7 +84,7 @@ class _Maker:
         mine = [number for part, number in members if part == self.key]
         kinds = {n: self.part.elements[n][0] for n in mine if n in self.part.elements}
         flat = [n for n in mine if kinds.get(n, "").startswith("triangle")]
-        rest = [n for n in mine if n not in flat]
+        rest = [n for n in mine if not kinds.get(n, "").startswith("triangle")]
         if rest and (flat or any(n in self.part.others for n in rest)) and group_name(name):
             what = self.part.others.get(rest[0]) or kinds.get(rest[0]) or "missing"
             raise Refused(

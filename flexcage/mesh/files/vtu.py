@@ -8,10 +8,11 @@ from typing import Any
 import numpy as np
 
 from flexcage.mesh.cage_mesh import POCKET_GROUPS, RING_GROUPS, WALL_GROUPS, group_names
-from flexcage.mesh.files.raw import RawMesh, group_name
+from flexcage.mesh.files.raw import RawMesh, Refused, group_name
 from flexcage.mesh.files.shapes import TRIANGLES, solids_of
 
 ARRAYS = {POCKET_GROUPS: "group", WALL_GROUPS: "round_group"}
+_HEAD = 1024  # bytes, in which the compression is named
 
 
 def read_vtu(path: Path) -> RawMesh:
@@ -19,6 +20,12 @@ def read_vtu(path: Path) -> RawMesh:
     ``Refused``, or any error for a damaged file."""
     import meshio
 
+    with path.open("rb") as file:
+        if b"vtkLZ4DataCompressor" in file.read(_HEAD):
+            raise Refused(
+                "its data are compressed by LZ4, which is not read; write them with ZLib or "
+                "without compression"
+            )
     found = meshio.vtu.read(path)
     solids = solids_of(found)
     flat = [i for i, block in enumerate(found.cells) if TRIANGLES.fullmatch(block.type)]
