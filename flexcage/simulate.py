@@ -17,6 +17,7 @@ from flexcage.core.timing import Stages
 from flexcage.integrate.integration import Integration
 from flexcage.run import Run, warnings_at_start
 from flexcage.run.folder import begun_store, check_written, open_folder
+from flexcage.run.foreseen import told_before
 from flexcage.run.storing import run_store, stored_cage
 from flexcage.stages import assembled_start, made_cage
 
@@ -57,6 +58,7 @@ def _simulated(
 ) -> Run:
     stages = Stages(progress)
     begun = begun_store(folder, case) if folder and resume else None
+    foreseen = told_before(case, stress=stress)
     compiling = begin_compiling(case)
     if folder and begun:
         mesh, cage = stored_cage(case, begun, folder, stages)
@@ -64,7 +66,7 @@ def _simulated(
         mesh, cage = made_cage(case, stages)
     bearing = stages.named("kernels", build_bearing, case, mesh, cage, compiling)
     start = stages("start", assembled_start, case, bearing, stages.progress)
-    warned = warnings_at_start(case, mesh, cage, start)
+    warned = (*foreseen, *warnings_at_start(case, mesh, cage, start))
     store = begun or run_store(
         case, bearing, (mesh, cage), folder, study=Path(study) if study else None, warned=warned
     )

@@ -12,6 +12,7 @@ from flexcage.case import Case, StaticCase
 from flexcage.contacts.spec import EhlTraction
 from flexcage.core.binding import expect
 from flexcage.core.errors import EnvironmentLacks, InputError
+from flexcage.core.listing import PAGE
 from flexcage.geometry.film import creep_speed
 from flexcage.system.statics.options import AT_START, StaticOptions
 from flexcage.system.statics.rings import BentRing, Rings
@@ -105,7 +106,7 @@ def write_static(case: StaticCase, solution: StaticSolution, folder: Path) -> li
     """
     folder.mkdir(parents=True, exist_ok=True)
     (folder / "case.toml").write_text(case.to_toml(), encoding="utf-8")
-    (folder / "static.txt").write_text(solution.table() + "\n", encoding="utf-8")
+    (folder / "static.txt").write_text(solution.table(PAGE) + "\n", encoding="utf-8")
     solution.to_json(folder / "static.json")
     written = [folder / name for name in ("case.toml", "static.txt", "static.json")]
     try:

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 from flexcage.cli.files import prepare_file
 from flexcage.cli.parser import command, say
+from flexcage.core.listing import wrapped
 
 if TYPE_CHECKING:
     from flexcage.geometry.inside import Outline
@@ -51,7 +52,8 @@ def new_command(args: argparse.Namespace) -> int:
     made = new_case(outline, source, cage=args.cage)
     out.write_text(made.text, "utf-8")
     for line in made.findings():
-        say(line)
+        first = " " * (len(line) - len(line.lstrip()))
+        say(wrapped(line.lstrip(), first=first, rest="  "))
     say(f"written: {out}")
     return 0
 

@@ -30,6 +30,9 @@ RARE = "rare"
 BRIEF, LARGE, EFFORT = "brief", "large", "effort"
 SETTLING, CONVERGENCE = "settling", "convergence"
 
+#: What ``drift`` says where no figure does; the second in summaries of an earlier flexcage.
+NO_DRIFT = ("none", "nothing")
+
 #: Words of titles that depend on the bearing or its cage, and what stands for them in a list.
 WORDS = {"Element": "Element", "Faces": "Pocket faces", "place": "a corner or edge",
          "walls": "pocket walls"}  # fmt: skip
@@ -78,8 +81,8 @@ def _statistics() -> Iterator[KnownFigure]:
         ("settled_time", "Time in statistics", "ms", "length of the settled part"),
         ("roller_passes", "{Element} passes counted", "",
          "windows of one element pass in the settled part", BRIEF),
-        ("drift", "Differs between its halves", "",
-         "figures that differ beyond the intervals: the run has not settled", TEXT),
+        ("drift", "Still drifting", "",
+         "figures that differ beyond the intervals between the halves of the settled part", TEXT),
     )
 
 
@@ -247,7 +250,7 @@ def _cage() -> Iterator[KnownFigure]:
     )
     yield from figures_in(
         "Equivalent stress",
-        ("stress_peak", "Stress, largest off {walls}", "MPa",
+        ("stress_peak", "Peak stress, {walls} excluded", "MPa",
          "of the settled part, without the walls of pockets that contacts press on", BRIEF,
          LARGE),
         ("stress_mean_peak", "Stress, mean of the cage's peak", "MPa",

@@ -28,12 +28,13 @@ from flexcage.results.audit import EXCEEDED, OF_CAGE, OF_DRIVE
 from flexcage.results.bootstrap import FEWEST
 from flexcage.results.edges import Edge
 from flexcage.results.elastic import ElasticShape, grown_into_ring, large_rotation
+from flexcage.results.known import NO_DRIFT
 from flexcage.results.summary import Summary
 
 if TYPE_CHECKING:
     import xarray
 
-_LEAST_TURNS = 1.0  # of the cage in the statistics: one brings every element through the load
+LEAST_TURNS = 1.0  # of the cage in the statistics: one brings every element through the load
 # a cage that is thrown off: the mean distance of its centre rises through so many equal parts of
 # the settled time, by so much in all, beyond so much of what its pockets leave it
 _PARTS, _GROWN, _BEYOND_POCKETS = 5, 1.3, 2.0
@@ -76,6 +77,7 @@ class Outcome:
     settle: float  # share of the run that statistics leave out
     edges: tuple[Edge, ...] = ()  # contact ellipses at grooves' edges
     shape: ElasticShape = ElasticShape()  # how far the cage deformed
+    said: frozenset[str] = frozenset()  # keys of what was said before the run
 
     @property
     def element(self) -> str:
@@ -322,12 +324,14 @@ def _passes_ring(o: Outcome) -> Iterator[RunWarning]:
 
 
 def _short(o: Outcome) -> Iterator[RunWarning]:
+    if "short_run" in o.said:
+        return
     part = metrics.settled(o.dataset, o.settle)
     turns = abs(float(np.ptp(metrics.cage_angle(part)))) / (2.0 * np.pi)
     passes = o.number("roller_passes")
     stands = not np.any(part["inner_speed"].values)
     few = [f"intervals need {FEWEST} passes"] if passes < FEWEST else []
-    if turns < _LEAST_TURNS and not stands:
+    if turns < LEAST_TURNS and not stands:
         few.append("means need at least one turn of the cage")
     if few:
         yield RunWarning(
@@ -339,7 +343,7 @@ def _short(o: Outcome) -> Iterator[RunWarning]:
 
 def _drift(o: Outcome) -> Iterator[RunWarning]:
     drift = o.summary["drift"] if "drift" in o.summary else None
-    if drift not in (None, "nothing"):
+    if drift not in (None, *NO_DRIFT):
         yield RunWarning(
             "not_settled",
             f"The two halves of the settled part differ beyond the intervals in: {drift}; raise "

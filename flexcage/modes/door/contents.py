@@ -11,6 +11,7 @@ import numpy as np
 
 from flexcage.core.arrays import Damaged
 from flexcage.core.errors import InputError
+from flexcage.mesh.files.raw import Refused
 from flexcage.modes.door.body import MODAL, ReducedBody
 
 
@@ -48,6 +49,8 @@ class Contents:
 
 def unreadable(path: Path, reason: object, *, where: str) -> InputError:
     """The error to raise for a file that is not what its name says."""
+    if isinstance(reason, Refused):
+        return InputError(f"{path}: {reason}.", where=where, value=str(path))
     return InputError(
         f"{path} cannot be read as a {path.suffix} file: it is empty, cut short, or not what its "
         f"name says{_told(path, reason)}.",

@@ -21,7 +21,8 @@ import numpy as np
 
 from flexcage.core.arrays import Damaged
 from flexcage.core.errors import InputError
-from flexcage.mesh.abaqus import read_nodes
+from flexcage.mesh.files.abaqus import read_nodes
+from flexcage.mesh.files.raw import lines_of, text_of
 from flexcage.modes.door.body import ReducedBody
 from flexcage.modes.door.contents import Contents, Points, labels_of, numbers_of, unreadable
 
@@ -41,7 +42,7 @@ def read(path: Path, *, where: str) -> Contents:
 
 
 def _contents(path: Path, where: str) -> Contents:
-    lines = path.read_bytes().decode("utf-8-sig", errors="replace").splitlines()
+    lines = lines_of(text_of(path))
     labels, matrices = _element(lines), dict(_matrices(lines))
     if labels is None:
         _refuse_entries(lines, path, where)

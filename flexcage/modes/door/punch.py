@@ -16,6 +16,7 @@ import numpy as np
 
 from flexcage.core.arrays import Damaged
 from flexcage.core.memory import in_bytes, total_memory
+from flexcage.mesh.files.raw import text_of
 from flexcage.modes.door.body import ReducedBody
 from flexcage.modes.door.contents import (
     MASS,
@@ -37,7 +38,7 @@ def read(path: Path, *, where: str) -> Contents:
     """Stiffness and mass of the DMIG entries, and the file's own GRID entries."""
     module = _module()
     try:
-        text = path.read_bytes().decode("utf-8-sig", errors="replace").expandtabs(8)
+        text = text_of(path).expandtabs(8)
         _check_room(text)
         found = module.rddmig(StringIO(text), square=True, expanded=False)
         has_grids = re.search(r"^GRID\b", text, re.MULTILINE | re.IGNORECASE)
