@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 from flexcage.cli.files import prepare_file
 from flexcage.cli.parser import command, say
+from flexcage.core.writing import write_text
 
 if TYPE_CHECKING:
     from flexcage.core.listing import Listing
@@ -64,6 +65,6 @@ def _show(listings: Iterable[Listing], args: argparse.Namespace, page: str) -> i
     out = Path(args.out)
     prepare_file(out, (".md",), force=args.force)
     text = "\n".join([page, *(listing.markdown() for listing in listings)])
-    out.write_text(f"{text.rstrip()}\n", encoding="utf-8")
+    write_text(out, f"{text.rstrip()}\n")
     say(f"written: {out}")
     return 0

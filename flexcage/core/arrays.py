@@ -7,6 +7,7 @@ SciPy's compiled products follow its indices wherever they point, out of memory 
 from __future__ import annotations
 
 import zipfile
+import zlib
 from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import IO, TYPE_CHECKING, Any
@@ -15,6 +16,7 @@ import numpy as np
 from numpy.lib import format as npy
 
 from flexcage.core.memory import free_memory, in_bytes
+from flexcage.core.reading import members_of
 
 if TYPE_CHECKING:
     import scipy.sparse as sp
@@ -25,6 +27,8 @@ class Damaged(ValueError):
 
 
 SPARSE = ("data", "indices", "indptr", "shape")  # what a sparse matrix is stored as
+#: What ``read_arrays`` raises for a file that was cut short or changed.
+UNREADABLE = (zipfile.BadZipFile, zlib.error, EOFError, KeyError, RuntimeError, ValueError)
 _SUFFIX = ".npy"
 _KINDS = "biufcUS?"  # of numbers and texts
 
@@ -35,13 +39,13 @@ def read_arrays(
     """The ``wanted`` arrays of an .npz file by their names.
 
     Damaged for an array of objects, one that is not as long as it says, and for more than the
-    machine's memory has room for; OSError and BadZipFile for what is no such file.
+    machine's memory has room for; OSError or another of ``UNREADABLE`` for what is no such file.
     """
     with zipfile.ZipFile(file) as members:
         found = {
-            info.filename.removesuffix(_SUFFIX): info
-            for info in members.infolist()
-            if info.filename.endswith(_SUFFIX)
+            name.removesuffix(_SUFFIX): info
+            for name, info in members_of(members).items()
+            if name.endswith(_SUFFIX)
         }
         chosen = {name: info for name, info in found.items() if wanted(name)}
         room, whole = free_memory(), sum(info.file_size for info in chosen.values())

@@ -26,6 +26,7 @@ from typing import Any
 import numpy as np
 
 from flexcage.core.errors import FlexcageError, InputError, unwritable
+from flexcage.core.writing import written
 from flexcage.mesh.cage_mesh import (
     CageMesh,
     group_names,
@@ -74,19 +75,22 @@ def write_mesh(mesh: CageMesh, path: str | Path) -> Path:
     tags = np.repeat([code[n] for n in names], [len(mesh.groups[n]) for n in names])
     cells = [("tetra", mesh.tets), ("triangle", triangles)]
     body = len(every) + 1  # tag of the physical volume
+    if path.suffix == ".vtu":
+        data = [np.zeros(len(mesh.tets), np.int32), tags.astype(np.int32)]
+        out = meshio.Mesh(mesh.points, cells, cell_data={ARRAYS[parts]: data})
+        how: dict[str, Any] = {}
+    else:
+        data = [np.full(len(mesh.tets), body, np.int32), tags.astype(np.int32)]
+        fields = {n: np.array([code[n], 2]) for n in names}
+        fields["cage"] = np.array([body, 3])
+        both = {"gmsh:physical": data, "gmsh:geometrical": data}
+        out = meshio.Mesh(mesh.points, cells, cell_data=both, field_data=fields)
+        how = {"file_format": "gmsh22", "binary": True}
     try:
-        if path.suffix == ".vtu":
-            data = [np.zeros(len(mesh.tets), np.int32), tags.astype(np.int32)]
-            meshio.write(path, meshio.Mesh(mesh.points, cells, cell_data={ARRAYS[parts]: data}))
-        else:
-            data = [np.full(len(mesh.tets), body, np.int32), tags.astype(np.int32)]
-            fields = {n: np.array([code[n], 2]) for n in names}
-            fields["cage"] = np.array([body, 3])
-            both = {"gmsh:physical": data, "gmsh:geometrical": data}
-            out = meshio.Mesh(mesh.points, cells, cell_data=both, field_data=fields)
-            meshio.write(path, out, file_format="gmsh22", binary=True)
-        with path.open("ab") as file:
-            file.write(_MARKS[path.suffix])
+        with written(path) as temporary:
+            meshio.write(temporary, out, **how)
+            with temporary.open("ab") as file:
+                file.write(_MARKS[path.suffix])
     except OSError as error:
         raise unwritable(f"The mesh '{path}'", error, path=path) from error
     return path

@@ -206,6 +206,8 @@ def draw_album(
 def _draw_own(name: str, draw: Callable[[Scene, Path], Path], scene: Scene, path: Path) -> Path:
     """A picture registered from outside; a mistake in its function is told as the user's."""
     try:
+        if path.is_symlink():
+            path.unlink()  # not written through
         return Path(draw(scene, path))
     except FlexcageError:
         raise

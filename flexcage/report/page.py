@@ -16,7 +16,7 @@ from typing import Any
 
 from flexcage._version import __version__
 from flexcage.core.errors import InputError, unwritable
-from flexcage.core.writing import replace
+from flexcage.core.writing import check_own, replace
 from flexcage.report.blocks import Image, Page
 
 LIMIT = 15e6  # bytes of a page
@@ -81,13 +81,17 @@ def html(page: Page) -> str:
 
 
 def embedded(image: Image) -> str:
-    """A picture as a data URI; a large one is packed as WebP."""
+    """A picture as a data URI; a large one is packed as WebP. InputError for what is no picture,
+    and for a link: a page is given away, and a link may lead to anything."""
+    import PIL.Image
+
+    check_own(image.path)
     try:
         data = image.path.read_bytes()
         kind = "png"
         if len(data) > _MOST_PICTURE:
             data, kind = _webp(data), "webp"
-    except OSError as exc:
+    except (OSError, ValueError, PIL.Image.DecompressionBombError) as exc:
         raise InputError(f"The picture '{image.path}' cannot be read as an image.") from exc
     return f"data:image/{kind};base64,{base64.b64encode(data).decode()}"
 

@@ -262,7 +262,7 @@ def _energy_rows(ds: xarray.Dataset) -> tuple[Row, ...]:
         figure(
             "energy_of_cage",
             check.of_cage,
-            f"what pockets and modes dissipate{lacking}",
+            f"what pockets, lands and modes dissipate{lacking}",
         ),
         *(
             figure(f"work_{k}", v, idle=not ds["work"].sel(channel=k).values.any())

@@ -10,7 +10,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Any
 
-from flexcage.core.binding import did_you_mean
+from flexcage.core.binding import near_names
 from flexcage.core.errors import InputError
 from flexcage.core.listing import Listing
 from flexcage.core.wings import FAMILIES, Parts
@@ -365,6 +365,12 @@ settled part.
 """
 
 
+def near_figure(text: str) -> str:
+    """The figure whose name is nearest to a text, as a part of a sentence; empty if none is."""
+    close = near_names(text, KNOWN, 1)
+    return f"; the nearest name is '{close[0]}'" if close else ""
+
+
 def listing(text: str = "") -> Listing:
     """Figures whose name, title or meaning holds the text. InputError if there are none."""
     wanted = text.lower()
@@ -372,8 +378,11 @@ def listing(text: str = "") -> Listing:
         f for f in KNOWN.values() if wanted in f"{f.key} {f.title} {f.meaning} {f.section}".lower()
     ]
     if not found:
-        hint = did_you_mean(text, KNOWN, "'flexcage figures' lists all")
-        raise InputError(f"No figure has the text '{text}'; {hint}.", where="figures", value=text)
+        raise InputError(
+            f"No figure has the text '{text}'{near_figure(text)}; 'flexcage figures' lists all.",
+            where="figures",
+            value=text,
+        )
     rows = []
     for f in found:
         needs = f"needs {f.needs}" if f.needs else ""

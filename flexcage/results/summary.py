@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import asdict, dataclass, field, replace
 from itertools import islice
 from math import isfinite, pi
@@ -13,9 +13,11 @@ from typing import Any
 import numpy as np
 
 from flexcage.core import html
+from flexcage.core.binding import near_names
 from flexcage.core.digits import texts_with_margin
 from flexcage.core.errors import InputError
 from flexcage.core.listing import PAGE, aligned, wrapped
+from flexcage.core.reading import json_of
 from flexcage.core.warning import RunWarning
 from flexcage.core.writing import replace as replace_file
 from flexcage.results.known import BRIEF, KNOWN, marked
@@ -83,6 +85,7 @@ def format_value(value: float, shown: str = "", margin: float | None = None) -> 
 
 
 _WORD = 16  # characters: a longer text is no figure, and stands in no column
+SUMMARY = "summary.json"  # in a run's folder
 _WARNINGS = "warnings"  # their key in a summary's JSON
 
 
@@ -208,6 +211,17 @@ def _rows_html(rows: Iterable[Row], *, brief: bool = False) -> str:
     return html.table(cells, sides="lrl")
 
 
+class UnknownFigure(InputError, KeyError):
+    """A figure that a summary has not; a KeyError too, as of any mapping."""
+
+    __str__ = Exception.__str__
+
+    def __init__(self, key: str, known: Sequence[str]) -> None:
+        close = near_names(key, known, 1)
+        hint = f"the nearest name is '{close[0]}'" if close else "'flexcage figures' lists all"
+        super().__init__(f"The summary has no figure '{key}'; {hint}.", where="summary", value=key)
+
+
 @dataclass(frozen=True, repr=False)
 class Summary:
     """Figures of a run in sections, in order. ``summary["cage_speed"]`` is a value in SI.
@@ -229,7 +243,7 @@ class Summary:
         for row in self:
             if row.key == key:
                 return row
-        raise KeyError(key)
+        raise UnknownFigure(key, [row.key for row in self])
 
     def __contains__(self, key: str) -> bool:
         return any(row.key == key for row in self)
@@ -330,7 +344,7 @@ class Summary:
     def from_json(cls, text: str, *, windows: Mapping[str, np.ndarray] | None = None) -> Summary:
         """The summary that ``to_json`` wrote; ``windows`` are its records' sums by key."""
         records = {key: Record(sums) for key, sums in (windows or {}).items()}
-        stored = json.loads(text)
+        stored = json_of(text)
         warned = stored.pop(_WARNINGS, None)
         return cls(
             tuple(
@@ -348,11 +362,21 @@ class Summary:
         )  # fmt: skip
 
     @classmethod
-    def read(cls, path: Path, *, windows: Mapping[str, np.ndarray] | None = None) -> Summary:
-        """The summary in a file that ``write`` wrote; InputError if it holds none."""
+    def read(
+        cls,
+        path: Path,
+        *,
+        windows: Mapping[str, np.ndarray] | None = None,
+        vouched: Callable[[str, bytes], bool] = lambda _name, _content: True,
+    ) -> Summary:
+        """The summary in a file that ``write`` wrote; InputError if it holds none, or if
+        ``vouched`` does not know its name and content."""
         try:
-            summary = cls.from_json(path.read_text("utf-8"), windows=windows)
+            content = path.read_bytes()
+            summary = cls.from_json(content.decode(), windows=windows)
             wrong = "" if list(summary) else "it has no figures"
+            if not wrong and not vouched(path.name, content):
+                wrong = "it was changed afterwards"
         except OSError as error:
             raise InputError(
                 f"The summary '{path}' cannot be read ({(error.strerror or str(error)).lower()}); "
@@ -360,7 +384,7 @@ class Summary:
                 where="summary",
                 value=str(path),
             ) from error
-        except (UnicodeDecodeError, json.JSONDecodeError) as error:
+        except ValueError as error:
             wrong = str(error)
         except (AttributeError, KeyError, TypeError):
             wrong = "it is no table of figures"
@@ -375,10 +399,15 @@ class Summary:
 
     def write(self, folder: str | Path) -> tuple[Path, Path]:
         """Write ``summary.txt`` and ``summary.json`` into ``folder``; returns their paths."""
-        text, data = Path(folder) / "summary.txt", Path(folder) / "summary.json"
+        text, data = Path(folder) / "summary.txt", Path(folder) / SUMMARY
         replace_file(text, (self.text(PAGE) + "\n").encode())
-        replace_file(data, (self.to_json() + "\n").encode())
+        replace_file(data, self.content)
         return text, data
+
+    @property
+    def content(self) -> bytes:
+        """What ``summary.json`` holds."""
+        return (self.to_json() + "\n").encode()
 
 
 def _json_value(v: Value) -> Value:

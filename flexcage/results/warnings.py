@@ -10,12 +10,13 @@ from __future__ import annotations
 import json
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import asdict, dataclass
-from math import isfinite, pi
+from math import cos, isfinite, pi, sin
 from typing import TYPE_CHECKING, Any, TypeVar
 
 import numpy as np
 
 from flexcage.contacts.spec import LandSpec
+from flexcage.core.reading import json_of
 from flexcage.core.units import describe
 from flexcage.core.warning import RunWarning
 from flexcage.geometry.bearing import Bearing, RingLand
@@ -41,6 +42,7 @@ _PARTS, _GROWN, _BEYOND_POCKETS = 5, 1.3, 2.0
 # of a body from elsewhere: least share of a pocket's deflection that it holds, and difference of
 # its stiffness and its mass from the elements', for stiffness beyond what meshes of one fineness do
 _CARRIED, _STIFFNESS, _LUMPED = 0.97, 0.05, 0.02
+_STRIBECK = 5.0  # ISO 76: the most loaded element has 5 times the mean of a radial load
 _PASSED = 1e-6  # m by which a cage must pass a ring, more than rounding
 
 Facts = TypeVar("Facts")
@@ -103,7 +105,7 @@ def to_text(warnings: Iterable[RunWarning]) -> str:
 
 def from_attrs(attrs: Mapping[str, Any]) -> tuple[RunWarning, ...]:
     """Those that a run's store holds from its start; none in one of an earlier flexcage."""
-    return tuple(RunWarning(**values) for values in json.loads(attrs.get("warnings", "[]")))
+    return tuple(RunWarning(**values) for values in json_of(attrs.get("warnings", "[]")))
 
 
 # --- at the start --------------------------------------------------------------------------------
@@ -262,6 +264,24 @@ def _yield(o: Outcome) -> Iterator[RunWarning]:
         )
 
 
+def _overloaded(o: Outcome) -> Iterator[RunWarning]:
+    """Forces beyond what ISO 76 allows the most loaded element under the static rating: 5 C0r/(Z
+    cos(alpha)) of a radial bearing, C0a/(Z sin(alpha)) of a thrust bearing."""
+    b = o.bearing
+    angle = b.nominal_contact_angle
+    share = sin(angle) if b.is_thrust else cos(angle) / _STRIBECK
+    allowed = b.static_rating / (b.element_count * share)
+    largest = max((o.number("race_force_inner"), o.number("race_force_outer")), default=0.0)
+    if largest > allowed:
+        yield RunWarning(
+            "overloaded",
+            f"The largest force of a {o.element} on a race is {describe(largest, 'kN')}, "
+            f"{largest / allowed:.2g} times what the static rating allows one "
+            f"({describe(allowed, 'kN')}, ISO 76): a real race would be dented, and this one stays "
+            "elastic.",
+        )
+
+
 def _thrown_off(o: Outcome) -> Iterator[RunWarning]:
     # A land ends the growth of a whirl, also of one that rotation has made larger: no later failure
     # is to be told. How far the cage swings and how hard it strikes are figures of the summary.
@@ -410,6 +430,7 @@ def _um(length: float) -> str:
 AT_END: tuple[Callable[[Outcome], Iterator[RunWarning]], ...] = (
     _unfinished,
     _yield,
+    _overloaded,
     _thrown_off,
     _passes_ring,
     _large_rotation,

@@ -12,6 +12,8 @@ import numpy as np
 
 from flexcage.case import Case
 from flexcage.case.checks import land_beside_shoulder, not_reached
+from flexcage.case.odd_values import odd_values
+from flexcage.case.unread import not_used
 from flexcage.core.units import describe
 from flexcage.core.warning import RunWarning
 from flexcage.geometry.temperature import beyond_service
@@ -37,6 +39,8 @@ def foreseen(case: Case, *, stress: bool = True) -> tuple[RunWarning, ...]:
     """What a case alone tells of its run's figures; ``stress``: is the cage's to be computed?"""
     said = [("not_reached", text) for text in not_reached(case)]
     said += [("land_clearance", text) for text in land_beside_shoulder(case)]
+    said += [("not_used", text) for text in not_used(case)]
+    said += odd_values(case)
     if text := beyond_service(case.cage.material, case.cage.temperature):
         said.append(("cage_temperature", text))
     found = [*(RunWarning(*each) for each in said), *_short(case), *_fast(case)]

@@ -11,6 +11,7 @@ from typing import Any
 
 from flexcage.core.listing import PAGE, aligned, wrapped
 from flexcage.core.warning import RunWarning
+from flexcage.core.writing import write_text, written
 from flexcage.results.summary import Row
 
 GOAL = 0.02  # relative difference within which a statistic counts as converged
@@ -144,8 +145,9 @@ class Convergence:
 
         folder = Path(folder)
         records = [f.record() for f in self.findings]
-        (folder / "converge.txt").write_text(self.table(PAGE) + "\n", encoding="utf-8")
-        pd.DataFrame(records).to_csv(folder / "converge.csv", index=False)
+        write_text(folder / "converge.txt", self.table(PAGE) + "\n")
+        with written(folder / "converge.csv") as path:
+            pd.DataFrame(records).to_csv(path, index=False)
         plain = [{k: None if v != v else v for k, v in r.items()} for r in records]
         content = {
             "case": self.name,
@@ -153,4 +155,4 @@ class Convergence:
             "failures": self.failures,
             "warnings": {run: [asdict(w) for w in warned] for run, warned in self.warnings.items()},
         }
-        (folder / "converge.json").write_text(json.dumps(content, indent=2), encoding="utf-8")
+        write_text(folder / "converge.json", json.dumps(content, indent=2))

@@ -44,6 +44,7 @@ def map_text(results: MapResults) -> str:
     kind = KINDS[about["design"]]
     points = f"{len(results.shares)} points of {len(results.names) - 1} unknowns"
     lines = [
+        *results.study.cautions(),
         f"{points} ({about['design']}, seed {about['seed']}), "
         f"{len(results.conditions)} conditions, "
         f"{about['starts']} start{'s' * (about['starts'] > 1)} each: {results.study.status()}; "

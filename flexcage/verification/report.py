@@ -10,6 +10,7 @@ from typing import Any
 
 from flexcage._version import __version__
 from flexcage.core.listing import aligned
+from flexcage.core.writing import write_text
 from flexcage.verification.known_answer import Outcome, Row
 
 HEADER = ("quantity", "reference", "flexcage", "difference", "tolerance", "verdict")
@@ -109,4 +110,4 @@ FORMATS = {".json": as_json, ".md": markdown}
 
 def write(outcomes: Sequence[Outcome], path: Path) -> None:
     """Write the outcomes in the format of the file's ending, one of ``FORMATS``."""
-    path.write_text(FORMATS[path.suffix](outcomes), encoding="utf-8")
+    write_text(path, FORMATS[path.suffix](outcomes))

@@ -12,6 +12,7 @@ from typing import Any
 import numpy as np
 
 from flexcage._version import __version__
+from flexcage.core.writing import write_text
 from flexcage.geometry.film import Film
 from flexcage.system.statics.elements import ElementLoads
 from flexcage.system.statics.rings import BentRing
@@ -112,7 +113,7 @@ class StaticSolution:
         """JSON text of ``to_dict``, written to ``path`` as well if one is given."""
         text = json.dumps(self.to_dict(), indent=1) + "\n"
         if path is not None:
-            Path(path).write_text(text, encoding="utf-8")
+            write_text(Path(path), text)
         return text
 
 
