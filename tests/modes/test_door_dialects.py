@@ -62,16 +62,17 @@ PUNCHES = {
 }
 
 
+@pytest.mark.parametrize("grids", [False, True])
 @pytest.mark.parametrize("name", PUNCHES)
-def test_a_punch_in_every_dialect(body, deck, tmp_path, name):
-    """DMIG entries alone; their grids stand in another deck."""
+def test_a_punch_in_every_dialect(body, deck, tmp_path, name, grids):
+    """DMIG entries with their grids, or alone: their grids stand in another deck then."""
     pytest.importorskip("pyyeti")
     path = write_body(body, tmp_path / "box.pch")
-    text = b"".join(path.read_bytes().partition(b"DMIG")[1:])
+    text = path.read_bytes() if grids else b"".join(path.read_bytes().partition(b"DMIG")[1:])
     changed = PUNCHES[name](text)
     assert changed != text
     path.write_bytes(changed)
-    read = read_body(path, nodes=deck)
+    read = read_body(path, nodes="" if grids else deck)
     np.testing.assert_allclose(read.stiffness, body.stiffness, rtol=1e-8, atol=10.0)
 
 

@@ -3,11 +3,16 @@
 from __future__ import annotations
 
 import re
+from types import SimpleNamespace
 
+import numpy as np
 import pytest
 
 from flexcage.core.errors import RunFailed
 from flexcage.integrate.foresight import EVERY, IN_A_ROW, Foresight
+from flexcage.integrate.integration import Integration
+from flexcage.solve.contract import COUNTS
+from flexcage.solve.options import SolverOptions
 
 
 def test_explicit_steps_are_counted_before_the_first():
@@ -39,3 +44,17 @@ def test_a_slow_start_is_waited_for():
     slow, usual = [1e-12] * (IN_A_ROW - 1), [1e-6]
     assert marched(Foresight(50_000_000, 0.1), (slow + usual) * 3) > 0.05
     assert marched(Foresight(50_000_000, 0.1), [3e-9] * 20) > 1e-3
+
+
+def test_a_run_looks_ahead_before_its_first_step():
+    """Explicit steps that are stable up to 1 fs: 1e14 for 0.1 s; nothing is advanced."""
+    run = Integration.__new__(Integration)
+    run.solver, run.bound = SolverOptions(method="explicit"), np.inf
+    run.state = SimpleNamespace(real=np.zeros(2), count=np.zeros(len(COUNTS), int))
+    run.integrator = SimpleNamespace(name="explicit", bounded=True, last=lambda state: (None, None))
+    free = SimpleNamespace(free=np.zeros(9))
+    data = SimpleNamespace(model=SimpleNamespace(bodies=free))
+    run.bearing = SimpleNamespace(stable_step=lambda t, y, yd: 1e-15, data=data)
+    run._foresight = Foresight(run.solver.max_steps, 0.1)
+    with pytest.raises(RunFailed, match=re.escape("1.0e+14 steps")):
+        run._choose()

@@ -37,7 +37,7 @@ def read(path: Path, *, where: str) -> Contents:
         return _contents(path, where)
     except InputError:
         raise
-    except (ValueError, IndexError, KeyError, OSError, UnicodeDecodeError) as error:
+    except (ValueError, IndexError, KeyError, OSError) as error:
         raise unreadable(path, error, where=where) from error
 
 

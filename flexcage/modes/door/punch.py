@@ -41,8 +41,7 @@ def read(path: Path, *, where: str) -> Contents:
         text = text_of(path).expandtabs(8)
         _check_room(text)
         found = module.rddmig(StringIO(text), square=True, expanded=False)
-        has_grids = re.search(r"^GRID\b", text, re.MULTILINE | re.IGNORECASE)
-        grids = read_grids(path, where=where, needed=False) if has_grids else None
+        grids = read_grids(path, where=where, needed=False)
     except Exception as error:  # of all kinds on broken files
         if hasattr(error, "where"):
             raise
