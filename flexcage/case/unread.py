@@ -15,6 +15,7 @@ if TYPE_CHECKING:
     from flexcage.case.case import Case
 
 _WORDS = ("name", "description", "preset", "static", "given")  # read by people, or by no run
+_RIGID = "cage.model is 'rigid'"
 _NEVER = {  # of materials beside the cage's, whose strength and damping no figure needs
     "proof_stress": "no strength of rings and rolling elements is computed",
     "loss_factor": "rings and rolling elements have no modal damping",
@@ -34,11 +35,15 @@ def reasons(case: Case) -> dict[str, str]:
 
 
 def not_used(case: Case) -> Iterator[str]:
-    """A sentence on all values that were given and that nothing reads; none if all are read."""
+    """A sentence on all values that were given and that nothing reads; none if all are read.
+
+    A rigid cage leaves those of a flexible one alone: a comparison runs one case as both.
+    """
     why, by_reason = reasons(case), dict[str, list[str]]()
     given = {path for path in case.given or () if path.partition(".")[0] not in _WORDS}
     for path in sorted(given):
-        if reason := why_unread(path, why):
+        reason = why_unread(path, why)
+        if reason and reason != _RIGID:
             by_reason.setdefault(reason, []).append(path)
     if by_reason:
         parts = [f"{', '.join(paths)} ({reason})" for reason, paths in by_reason.items()]
@@ -73,11 +78,10 @@ def _in_materials(case: Case) -> Iterator[tuple[str, str]]:
 
 def _of_a_rigid_cage(case: Case) -> Iterator[tuple[str, str]]:
     if case.cage_model == "rigid":
-        why = "cage.model is 'rigid'"
         for path in ("modes", "mesh.order", "limits.stress", "output.keep_cage"):
-            yield path, why
-        yield "cage.material.loss_factor", why
-        yield "cage.material.proof_stress", why
+            yield path, _RIGID
+        yield "cage.material.loss_factor", _RIGID
+        yield "cage.material.proof_stress", _RIGID
     elif case.modes.damping is not None or case.modes.ratios:
         given = "damping" if case.modes.damping is not None else "ratios"
         yield "cage.material.loss_factor", f"modes.{given} is given"
