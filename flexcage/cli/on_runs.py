@@ -91,8 +91,9 @@ def render_command(args: argparse.Namespace) -> int:
     look = look_of(args)
     run = load_run(existing_run(args.run), progress=Progress)
     out = Path(args.out) if args.out else Path(args.run) / "images"
-    given = {name: value for name in ("only", "format") if (value := getattr(args, name))}
-    run.draw(out, animate=args.animate, **given, **look)
+    given: dict[str, Any] = {**look}
+    given |= {name: value for name in ("only", "format") if (value := getattr(args, name))}
+    run.draw(out, animate=args.animate, **given)
     say(f"The pictures are in {out}")
     return 0
 
