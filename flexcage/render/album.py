@@ -7,7 +7,7 @@ the cage, and fixes the range of stress and the factor of deformation, which els
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
@@ -122,6 +122,20 @@ def picture_names(*, flexible: bool, resolved: bool) -> list[str]:
     ]
 
 
+#: Pictures, the animation included, that change with each value of a ``Look``.
+_LOOKS = {
+    "view": ("mesh", "stress_peak", "stress_envelope", "deformation", "stress"),
+    "stress_limit": ("stress_peak", "stress_envelope", "stress"),
+    "scale": ("stress_peak", "deformation", "stress"),
+}
+
+
+def changed_by(look: Iterable[str], names: Sequence[str]) -> list[str]:
+    """Those of ``names`` that change with these values of a ``Look``."""
+    changed = {name for value in look for name in _LOOKS[value]}
+    return [name for name in names if name in changed]
+
+
 def need_stress(only: Sequence[str]) -> bool:
     """Whether pictures of these names, or all without any, show a flexible cage's stress."""
     return not only or not set(only) <= set(_UNSTRESSED)
@@ -192,6 +206,8 @@ def draw_album(
 def _draw_own(name: str, draw: Callable[[Scene, Path], Path], scene: Scene, path: Path) -> Path:
     """A picture registered from outside; a mistake in its function is told as the user's."""
     try:
+        if path.is_symlink():
+            path.unlink()  # not written through
         return Path(draw(scene, path))
     except FlexcageError:
         raise

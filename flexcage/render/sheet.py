@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from flexcage.core.errors import InputError, unwritable
+from flexcage.core.writing import written
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -225,7 +226,8 @@ def save(figure: Figure, path: str | Path) -> Path:
     path = Path(path)
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
-        _write(figure, path)
+        with written(path) as temporary:
+            _write(figure, temporary)
     except OSError as error:
         raise unwritable(f"The picture '{path}'", error, path=path) from error
     except ValueError as error:

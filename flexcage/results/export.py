@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from flexcage.core.binding import did_you_mean
-from flexcage.core.errors import EnvironmentLacks, InputError, unwritable
+from flexcage.core.errors import EnvironmentLacks, InputError, install, unwritable
 from flexcage.core.writing import written
 from flexcage.results.layout import plain_attr
 from flexcage.results.registry import TIME, VARIABLES, families_with, whose
@@ -310,11 +310,13 @@ def _ready(path: str | Path) -> Path:
         path.parent.mkdir(parents=True, exist_ok=True)
     except OSError as error:
         raise InputError(f"The folder {path.parent} cannot be made: {error.strerror}.") from error
+    if path.is_symlink():
+        path.unlink()  # not written through
     return path
 
 
 def _lacks(what: str, package: str) -> EnvironmentLacks:
     return EnvironmentLacks(
         f"Writing {what} needs the package {package}, which is not installed here: "
-        f'install it with  pip install "flexcage[study]"  (or  pip install {package}).'
+        f"install it {install('study')}  (or anywhere:  pip install {package})."
     )

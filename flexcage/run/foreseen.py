@@ -12,6 +12,8 @@ import numpy as np
 
 from flexcage.case import Case
 from flexcage.case.checks import land_beside_shoulder, not_reached
+from flexcage.case.odd_values import odd_values
+from flexcage.case.unread import not_used
 from flexcage.core.units import describe
 from flexcage.core.warning import RunWarning
 from flexcage.geometry.temperature import beyond_service
@@ -37,6 +39,8 @@ def foreseen(case: Case, *, stress: bool = True) -> tuple[RunWarning, ...]:
     """What a case alone tells of its run's figures; ``stress``: is the cage's to be computed?"""
     said = [("not_reached", text) for text in not_reached(case)]
     said += [("land_clearance", text) for text in land_beside_shoulder(case)]
+    said += [("not_used", text) for text in not_used(case)]
+    said += odd_values(case)
     if text := beyond_service(case.cage.material, case.cage.temperature):
         said.append(("cage_temperature", text))
     found = [*(RunWarning(*each) for each in said), *_short(case), *_fast(case)]
@@ -66,17 +70,21 @@ def told_at_once(cases: Iterable[Case], *, stress: bool = True) -> Iterator[None
 
 def tell(cases: Iterable[Case], *, stress: bool = True) -> None:
     """Log what is foreseen of several runs, once a kind, with the number of cases."""
-    first: dict[str, str] = {}
+    first: dict[str, list[str]] = {}  # by kind, what the first case that has it is told
     count: dict[str, int] = {}
     total = 0
     for case in cases:
         total += 1
-        for key, text in {w.key: w.text for w in foreseen(case, stress=stress)}.items():
-            first.setdefault(key, text)
+        kinds: dict[str, list[str]] = {}
+        for warning in foreseen(case, stress=stress):
+            kinds.setdefault(warning.key, []).append(warning.text)
+        for key, texts in kinds.items():
+            first.setdefault(key, texts)
             count[key] = count.get(key, 0) + 1
-    for key, text in first.items():
+    for key, texts in first.items():
         whose = f" ({count[key]} of {total} cases; this is the first of them)" if total > 1 else ""
-        log.warning("%s%s", text, whose)
+        for text in texts:
+            log.warning("%s%s", text, whose)
 
 
 def _short(case: Case) -> Iterator[RunWarning]:

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from flexcage.case import description
+from flexcage.core.writing import check_own
 from flexcage.render import album
 from flexcage.render.album import Scene, StressPictures
 from flexcage.results import spectra
@@ -38,6 +39,9 @@ def draw_pictures(
 ) -> list[Path]:
     """Draw the run's pictures, or only some: paths of the files. InputError for a name that is
     none, before anything is computed."""
+    run.store.check_there()
+    if run.folder and folder.is_relative_to(run.folder):
+        check_own(folder)
     album.check_names(only, [*picture_names_of(run), *(["stress"] if animate else [])])
     rings = [name for name in ring_pictures(run.case) if not only or name in only]
     paths: list[Path] = []

@@ -31,7 +31,7 @@ from flexcage.results.film import film_thickness
 from flexcage.results.metrics import BearingNumbers, settled
 from flexcage.results.statistics import element_passes
 from flexcage.results.store import MemoryRunStore
-from flexcage.results.summary import Row, Summary
+from flexcage.results.summary import SUMMARY, Row, Summary
 from flexcage.run.rings import rings_at, seated_rings
 from flexcage.run.summary import summary_of, timed, warned, with_stress
 from flexcage.solve.contract import Effort
@@ -133,8 +133,8 @@ class Run:
     @cached_property
     def summary_at_end(self) -> Summary:
         """The summary as the run's end made it: one in a study may have left its stress out."""
-        if self.folder and (self.folder / "summary.json").exists():
-            stored = Summary.read(self.folder / "summary.json")
+        if self.folder and (self.folder / SUMMARY).exists():
+            stored = Summary.read(self.folder / SUMMARY, vouched=self.store.vouches_for)
             return stored if stored.warnings is not None else warned(stored, self)
         return summary_of(self)
 
@@ -357,8 +357,14 @@ class Run:
         """Bring the wall times of a run just computed up to now in its summary, the stored one
         included."""
         self.summary = timed(self.summary, self)
+        self._write_summary(self.summary)
+
+    def _write_summary(self, summary: Summary) -> None:
+        """Store it, for a run that has a folder; RunFailed if that is gone."""
         if self.folder:
-            self.summary.write(self.folder)
+            self.store.check_there()
+            self.store.vouch_for(SUMMARY, summary.content)
+            summary.write(self.folder)
 
     def report(self, path: str | Path, *, progress: Callable[..., Any] | None = None) -> Path:
         """Write the run's report, one HTML file that needs no other; returns its path.
@@ -407,9 +413,10 @@ class Run:
         the integration took; without ``stress``, this is left out where it surely stays below
         the proof stress."""
         self.effort = effort
+        self.store.check_there()
         self.summary_at_end = summary_of(self, stress=stress)
+        self._write_summary(self.summary_at_end)
         if self.folder:
-            self.summary_at_end.write(self.folder)
             if self.cage is not None:
                 mode_file.write_modes(self.mode_table, self.folder / mode_file.FILE)
         return self

@@ -17,6 +17,7 @@ from flexcage.results.metrics import SlipRange, settled
 from flexcage.results.summary import Row, Summary, figure
 from flexcage.results.warnings import AT_END, Outcome, from_attrs, warnings_of
 from flexcage.run.elastic import elastic_shape
+from flexcage.run.folder import seam_warnings
 from flexcage.solve.contract import Effort
 from flexcage.system.bodies import unbalance_of
 
@@ -69,7 +70,8 @@ def with_stress(summary: Summary, run: Run) -> Summary:
 
 def warned(summary: Summary, run: Run) -> Summary:
     """The summary with its warnings."""
-    case, known = run.case, from_attrs(run.dataset.attrs)
+    case = run.case
+    known = (*from_attrs(run.dataset.attrs), *seam_warnings(run.store))
     outcome = Outcome(
         summary=summary,
         dataset=run.dataset,

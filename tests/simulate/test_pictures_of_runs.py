@@ -67,6 +67,38 @@ def test_the_command_draws_what_is_named(folder, tmp_path):
         load_run(folder).draw(tmp_path, format="eps")
 
 
+@pytest.mark.parametrize(
+    ("look", "names"),
+    [
+        (["--view", "30 deg"], ["mesh", "stress_peak", "stress_envelope", "deformation"]),
+        (["--stress-limit", "20 MPa"], ["stress_peak", "stress_envelope"]),
+        (["--scale", "20"], ["stress_peak", "deformation"]),
+        (["--scale", "20", "--only", "orbit"], ["orbit"]),
+    ],
+)
+def test_a_look_draws_anew_what_it_changes(folder, tmp_path, monkeypatch, capsys, look, names):
+    drawn = []
+    monkeypatch.setattr(Run, "draw", lambda *_, only=(), **__: drawn.append([*only]))
+    argv = ["render", str(folder), "-o", str(tmp_path), *look]
+    if "--only" not in look:
+        assert main(argv) == 0
+        assert drawn.pop() == [], "all pictures, where there are none yet"
+    (tmp_path / "orbit.png").touch()
+    assert main(argv) == 0
+    assert drawn == [names] and f"Drawn anew: {', '.join(names)}. " in capsys.readouterr().out
+
+
+def test_a_look_that_changes_no_picture_of_a_rigid_cage(tmp_path, capsys):
+    case = n1013({"solver.duration": "0.4 ms", "cage.model": "rigid"})
+    simulate(case, out=tmp_path / "run")
+    (tmp_path / "mesh.png").touch()
+    argv = ["render", str(tmp_path / "run"), "-o", str(tmp_path), "--scale", "20"]
+    assert main(argv) == 2
+    assert "No picture of this run changes with --scale: its cage is rigid." in (
+        capsys.readouterr().err
+    )
+
+
 def test_a_page_draws_the_pictures_that_are_missing(folder, tmp_path, monkeypatch):
     run, drawn = load_run(folder), []
     (folder / "images").mkdir()
