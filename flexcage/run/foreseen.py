@@ -70,17 +70,21 @@ def told_at_once(cases: Iterable[Case], *, stress: bool = True) -> Iterator[None
 
 def tell(cases: Iterable[Case], *, stress: bool = True) -> None:
     """Log what is foreseen of several runs, once a kind, with the number of cases."""
-    first: dict[str, str] = {}
+    first: dict[str, list[str]] = {}  # by kind, what the first case that has it is told
     count: dict[str, int] = {}
     total = 0
     for case in cases:
         total += 1
-        for key, text in {w.key: w.text for w in foreseen(case, stress=stress)}.items():
-            first.setdefault(key, text)
+        kinds: dict[str, list[str]] = {}
+        for warning in foreseen(case, stress=stress):
+            kinds.setdefault(warning.key, []).append(warning.text)
+        for key, texts in kinds.items():
+            first.setdefault(key, texts)
             count[key] = count.get(key, 0) + 1
-    for key, text in first.items():
+    for key, texts in first.items():
         whose = f" ({count[key]} of {total} cases; this is the first of them)" if total > 1 else ""
-        log.warning("%s%s", text, whose)
+        for text in texts:
+            log.warning("%s%s", text, whose)
 
 
 def _short(case: Case) -> Iterator[RunWarning]:

@@ -89,6 +89,14 @@ def test_many_cases_are_told_of_once_a_kind(caplog):
     assert "speed factor" in speed and "(2 of 4 cases;" in speed
 
 
+def test_all_of_a_kind_is_told_of_the_first_case(caplog):
+    late = {"load.ramp_to": "2 kN", "load.ramp_start": "1 s", "load.ramp_time": "5 ms"}
+    later = {"drive.ramp_to": "9000 rpm", "drive.ramp_start": "2 s", "drive.ramp_time": "5 ms"}
+    tell([rolling(), rolling(late, later)])
+    assert [text[:17] for text in caplog.messages] == ["drive.ramp_start ", "load.ramp_start i"]
+    assert all("(1 of 2 cases;" in text for text in caplog.messages)
+
+
 def test_it_is_said_before_the_mesh_is_made(caplog, monkeypatch):
     class Stopped(Exception):
         pass
