@@ -101,7 +101,7 @@ def render_command(args: argparse.Namespace) -> int:
     out = Path(args.out) if args.out else Path(args.run) / "images"
     if look and not args.only and any(out.glob("*.png")):
         args.only = _changed(run, look, animate=args.animate)
-    given: dict[str, Any] = {**look}
+    given: dict[str, Any] = dict(look)
     given |= {name: value for name in ("only", "format") if (value := getattr(args, name))}
     run.draw(out, animate=args.animate, **given)
     drawn = f"Drawn anew: {', '.join(args.only)}. " if args.only else ""

@@ -108,7 +108,10 @@ def read_layout(path: Path, of_format: int) -> Layout:
     layout = Layout(
         tuple(Variable(**{**v, "dims": tuple(v["dims"])}) for v in variables),
         coords,
-        *(stored[name] for name in ("n_time", "n_time_hf", "block", "block_hf")),
+        stored["n_time"],
+        stored["n_time_hf"],
+        stored["block"],
+        stored["block_hf"],
         dict(table_of(_unpacked_attr(attributes.get("run")))),
     )
     _check_layout(path, layout)
