@@ -173,7 +173,8 @@ def test_energy_audit_of_the_cage(known_run, bearing, leak, of_drive, of_cage, v
 
 def test_what_a_cage_loses_at_its_lands_is_of_the_cage(known_run):
     """Of the drive's 0.5 J the land takes 19 mJ and pockets 1: an imbalance of 0.4 mJ is 2 % of
-    what the cage exchanges, and 40 % of what pockets alone take. One of 2 mJ is too large for both."""
+    what the cage exchanges, and 40 % of what pockets alone take. One of 2 mJ is too large for both.
+    """
     ds = known_run.assign_coords(channel=["land_friction", "pocket_friction"])
     ds["work"][:, 0] = -0.19 * ds["time"].values
     ds["work"][:, 1] = -0.01 * ds["time"].values
