@@ -18,6 +18,7 @@ from flexcage.integrate.integration import Integration
 from flexcage.results.store import MemoryRunStore
 from flexcage.run import Run, warnings_at_start
 from flexcage.run.folder import begun_store, check_written, open_folder
+from flexcage.run.foreseen import told_before
 from flexcage.run.storing import run_store, stored_cage
 from flexcage.stages import assembled_start, made_cage
 
@@ -61,6 +62,7 @@ def _simulated(
     progress: Any,
 ) -> Run:
     stages = Stages(progress)
+    foreseen = told_before(case, stress=stress)
     compiling = begin_compiling(case)
     if folder and begun:
         mesh, cage = stored_cage(case, begun, folder, stages)
@@ -68,7 +70,7 @@ def _simulated(
         mesh, cage = made_cage(case, stages)
     bearing = stages.named("kernels", build_bearing, case, mesh, cage, compiling)
     start = stages("start", assembled_start, case, bearing, stages.progress)
-    warned = warnings_at_start(case, mesh, cage, start)
+    warned = (*foreseen, *warnings_at_start(case, mesh, cage, start))
     store = begun or run_store(
         case, bearing, (mesh, cage), folder, study=Path(study) if study else None, warned=warned
     )

@@ -1,7 +1,8 @@
 """The command line: parse, call, and say in one sentence what went wrong.
 
 Exit codes: 0 done, 1 a run that failed or a machine that lacks something, 2 a mistake in the
-input, 130 stopped by Ctrl-C. FLEXCAGE_DEBUG=1 shows tracebacks.
+input, 130 stopped by Ctrl-C (a study also 143 by SIGTERM, 129 by a closed terminal).
+FLEXCAGE_DEBUG=1 shows tracebacks.
 """
 
 from __future__ import annotations
@@ -9,6 +10,7 @@ from __future__ import annotations
 import os
 import sys
 import time
+from contextlib import suppress
 from errno import ENAMETOOLONG
 from typing import TYPE_CHECKING, NoReturn
 
@@ -25,7 +27,7 @@ def entry() -> NoReturn:
     """The console script: ``main``, which Ctrl-C ends at any moment in one line."""
     stopping.on_interrupt(lambda: _line(_stopped_sentence(_running)))
     code = main()
-    if code == stopping.STOPPED:
+    if code == stopping.code():
         stopping.leave("")
     sys.exit(code)
 
@@ -45,7 +47,7 @@ def main(argv: Sequence[str] | None = None) -> int:
     try:
         return _call(args)
     except KeyboardInterrupt:
-        return _fail(_stopped_sentence(args), stopping.STOPPED)
+        return _fail(_stopped_sentence(args), stopping.code())
     except BrokenPipeError:  # the reader of our output has left, as in `flexcage presets | head`
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         return 1
@@ -116,7 +118,8 @@ def _line(sentence: str) -> str:
 
 
 def _fail(sentence: str, code: int) -> int:
-    sys.stderr.write(f"{_line(sentence)}\n")
+    with suppress(OSError):  # the terminal may be closed
+        sys.stderr.write(f"{_line(sentence)}\n")
     return code
 
 

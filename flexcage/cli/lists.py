@@ -37,7 +37,7 @@ def keys_command(args: argparse.Namespace) -> int:
 
     if not args.wanted:
         say(keys.contents().text())
-        say("\n'flexcage keys SECTION' lists its keys, 'flexcage keys TEXT' finds keys by a text.")
+        say("\n'flexcage keys SECTION' lists its keys.\n'flexcage keys TEXT' finds keys by a text.")
         return 0
     listings = [group.listing() for wanted in args.wanted for group in keys.chosen(wanted)]
     page = keys.PAGE.format(", ".join(args.wanted), " ".join(args.wanted))

@@ -16,9 +16,11 @@ import sys
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cache
+from math import isinf
 
 from flexcage.core.cache import cache_root, check_writable
-from flexcage.core.errors import is_full
+from flexcage.core.errors import install, is_full
+from flexcage.core.memory import total_memory
 from flexcage.core.trust import distrusted
 
 APT_RENDER = "sudo apt-get install -y libegl1 libgl1 libosmesa6 libxrender1"
@@ -160,7 +162,7 @@ def _solver() -> Finding:
         "linear solver",
         False,
         "SciPy's SuperLU only: fine meshes from files take several times as long",
-        'pip install "flexcage[fast]"',
+        install("fast"),
         needed=False,
     )
 
@@ -213,9 +215,8 @@ def _cores() -> Finding:
 
 
 def _memory() -> Finding:
-    try:
-        total = os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES")
-    except (AttributeError, ValueError, OSError):
+    total = total_memory()
+    if isinf(total):
         return Finding("memory", True, "unknown", needed=False)
     ok = total >= _MINIMUM_MEMORY
     remedy = "" if ok else "take mesh.fineness = 'coarse'; the medium mesh may want up to 4 GB"

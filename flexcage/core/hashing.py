@@ -77,3 +77,18 @@ def canonical_json(obj: Any) -> str:
 def content_hash(obj: Any, *extra: Any) -> str:
     """16 hexadecimal digits that name ``obj`` and ``extra`` (a model version, say) by content."""
     return hashlib.sha256(canonical_json([obj, *extra]).encode()).hexdigest()[:16]
+
+
+def sealed(table: Mapping[str, Any]) -> dict[str, Any]:
+    """A table of plain JSON values with its ``seal``, by which ``seal_holds`` sees a change."""
+    return {**table, "seal": _seal(table)}
+
+
+def seal_holds(table: Mapping[str, Any]) -> bool:
+    """Is a table, as read from JSON, what was sealed? One without a seal was never sealed."""
+    rest = {key: value for key, value in table.items() if key != "seal"}
+    return "seal" not in table or table["seal"] == _seal(rest)
+
+
+def _seal(table: Mapping[str, Any]) -> str:
+    return hashlib.sha256(json.dumps(table, sort_keys=True).encode()).hexdigest()[:16]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import shutil
 import sys
 import time
 from types import TracebackType
@@ -33,6 +34,7 @@ class Progress:
         self.total = None if total is None else float(total)
         self.label = label
         self.done = 0.0
+        self.detail = ""  # drawn behind the estimate, as far as the terminal is wide
         self._stream = stream if stream is not None else sys.stderr
         isatty = getattr(self._stream, "isatty", lambda: False)
         self._enabled = bool(isatty()) if enabled is None else enabled
@@ -116,7 +118,8 @@ class Progress:
             return
         left = self.remaining()
         estimate = f", about {clock(left)} left" if left is not None else ""
-        self._put(f"{self.label}: {self._percent():3.0f} %{estimate}")
+        text = f"{self.label}: {self._percent():3.0f} %{estimate}{self.detail}"
+        self._put(text[: shutil.get_terminal_size().columns - 1] if self.detail else text)
 
     def _put(self, text: str) -> None:
         self._stream.write("\r" + text.ljust(self._width))

@@ -20,6 +20,7 @@ from flexcage.core.writing import check_own, replace
 from flexcage.report.blocks import Image, Page
 
 LIMIT = 15e6  # bytes of a page
+_MADE, _HEAD = b'<meta name="generator" content="flexcage ', 2000  # in so many bytes of a page
 _MOST_PICTURE = 150_000  # bytes of a picture above which it is packed tighter
 _QUALITY = 88  # of a picture packed tighter (WebP)
 _EFFORT = 2  # of 6 in packing: half the time of the usual 4, and 3 % more bytes
@@ -47,6 +48,15 @@ def write_page(page: Page, path: str | Path) -> Path:
         remedy = "name another file with -o"
         raise unwritable(f"The report '{path}'", exc, remedy=remedy, path=path) from exc
     return path
+
+
+def is_page(path: Path) -> bool:
+    """Whether a file is a page that flexcage wrote, and may be written anew."""
+    try:
+        with open(path, "rb") as file:
+            return _MADE in file.read(_HEAD)
+    except OSError:
+        return False
 
 
 def html(page: Page) -> str:

@@ -10,7 +10,7 @@ from __future__ import annotations
 import json
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import asdict, dataclass
-from math import isfinite, pi
+from math import cos, isfinite, pi, sin
 from typing import TYPE_CHECKING, Any, TypeVar
 
 import numpy as np
@@ -30,18 +30,20 @@ from flexcage.results.audit import EXCEEDED, OF_CAGE, OF_DRIVE
 from flexcage.results.bootstrap import FEWEST
 from flexcage.results.edges import Edge
 from flexcage.results.elastic import ElasticShape, grown_into_ring, large_rotation
+from flexcage.results.known import NO_DRIFT
 from flexcage.results.summary import Summary
 
 if TYPE_CHECKING:
     import xarray
 
-_LEAST_TURNS = 1.0  # of the cage in the statistics: one brings every element through the load
+LEAST_TURNS = 1.0  # of the cage in the statistics: one brings every element through the load
 # a cage that is thrown off: the mean distance of its centre rises through so many equal parts of
 # the settled time, by so much in all, beyond so much of what its pockets leave it
 _PARTS, _GROWN, _BEYOND_POCKETS = 5, 1.3, 2.0
 # of a body from elsewhere: least share of a pocket's deflection that it holds, and difference of
 # its stiffness and its mass from the elements', for stiffness beyond what meshes of one fineness do
 _CARRIED, _STIFFNESS, _LUMPED = 0.97, 0.05, 0.02
+_STRIBECK = 5.0  # ISO 76: the most loaded element has 5 times the mean of a radial load
 _PASSED = 1e-6  # m by which a cage must pass a ring, more than rounding
 
 Facts = TypeVar("Facts")
@@ -78,6 +80,7 @@ class Outcome:
     settle: float  # share of the run that statistics leave out
     edges: tuple[Edge, ...] = ()  # contact ellipses at grooves' edges
     shape: ElasticShape = ElasticShape()  # how far the cage deformed
+    said: frozenset[str] = frozenset()  # keys of what was said before the run
 
     @property
     def element(self) -> str:
@@ -269,6 +272,24 @@ def _yield(o: Outcome) -> Iterator[RunWarning]:
         )
 
 
+def _overloaded(o: Outcome) -> Iterator[RunWarning]:
+    """Forces beyond what ISO 76 allows the most loaded element under the static rating: 5 C0r/(Z
+    cos(alpha)) of a radial bearing, C0a/(Z sin(alpha)) of a thrust bearing."""
+    b = o.bearing
+    angle = b.nominal_contact_angle
+    share = sin(angle) if b.is_thrust else cos(angle) / _STRIBECK
+    allowed = b.static_rating / (b.element_count * share)
+    largest = max((o.number("race_force_inner"), o.number("race_force_outer")), default=0.0)
+    if largest > allowed:
+        yield RunWarning(
+            "overloaded",
+            f"The largest force of a {o.element} on a race is {describe(largest, 'kN')}, "
+            f"{largest / allowed:.2g} times what the static rating allows one "
+            f"({describe(allowed, 'kN')}, ISO 76): a real race would be dented, and this one stays "
+            "elastic.",
+        )
+
+
 def _thrown_off(o: Outcome) -> Iterator[RunWarning]:
     # A land ends the growth of a whirl, also of one that rotation has made larger: no later failure
     # is to be told. How far the cage swings and how hard it strikes are figures of the summary.
@@ -331,12 +352,14 @@ def _passes_ring(o: Outcome) -> Iterator[RunWarning]:
 
 
 def _short(o: Outcome) -> Iterator[RunWarning]:
+    if "short_run" in o.said:
+        return
     part = metrics.settled(o.dataset, o.settle)
     turns = abs(float(np.ptp(metrics.cage_angle(part)))) / (2.0 * np.pi)
     passes = o.number("roller_passes")
     stands = not np.any(part["inner_speed"].values)
     few = [f"intervals need {FEWEST} passes"] if passes < FEWEST else []
-    if turns < _LEAST_TURNS and not stands:
+    if turns < LEAST_TURNS and not stands:
         few.append("means need at least one turn of the cage")
     if few:
         yield RunWarning(
@@ -348,7 +371,7 @@ def _short(o: Outcome) -> Iterator[RunWarning]:
 
 def _drift(o: Outcome) -> Iterator[RunWarning]:
     drift = o.summary["drift"] if "drift" in o.summary else None
-    if drift not in (None, "nothing"):
+    if drift not in (None, *NO_DRIFT):
         yield RunWarning(
             "not_settled",
             f"The two halves of the settled part differ beyond the intervals in: {drift}; raise "
@@ -415,6 +438,7 @@ def _um(length: float) -> str:
 AT_END: tuple[Callable[[Outcome], Iterator[RunWarning]], ...] = (
     _unfinished,
     _yield,
+    _overloaded,
     _thrown_off,
     _passes_ring,
     _large_rotation,

@@ -21,7 +21,6 @@ from flexcage.core.progress import Silent
 from flexcage.core.timing import Stages
 from flexcage.core.units import parse
 from flexcage.core.warning import RunWarning
-from flexcage.core.writing import check_own
 from flexcage.mesh.cage_mesh import CageMesh
 from flexcage.mesh.series import write_series
 from flexcage.modes.reduction import CageReduction
@@ -33,7 +32,7 @@ from flexcage.results.metrics import BearingNumbers, settled
 from flexcage.results.statistics import element_passes
 from flexcage.results.store import MemoryRunStore
 from flexcage.results.summary import SUMMARY, Row, Summary
-from flexcage.run.rings import draw_rings, rings_at, seated_rings
+from flexcage.run.rings import rings_at, seated_rings
 from flexcage.run.summary import summary_of, timed, warned, with_stress
 from flexcage.solve.contract import Effort
 from flexcage.stress.fatigue import Fatigue
@@ -53,7 +52,6 @@ if TYPE_CHECKING:
 
     from flexcage.mesh.riveted_joint import JointMesh
     from flexcage.render.album import Scene
-    from flexcage.render.look import Look
     from flexcage.stress.riveted_joint import Fits
 
 log = logging.getLogger(__name__)
@@ -296,6 +294,21 @@ class Run:
             series = frames(chosen, field_at, bar.advance)
             return write_series(folder, "cage", self.mesh.points, self.mesh.tets, series)
 
+    def write_table(
+        self, path: str | Path, variables: Sequence[str] | None = None, *, force: bool = False
+    ) -> list[Path]:
+        """Write variables over time as a table (.csv, .parquet) or as matrices (.mat) for other
+        programs; paths of the files, one for each time axis where there are several.
+
+        Takes those of ``dataset``, and ``stress``, ``stress_peak``, ``film_thickness``, ``events``
+        and ``steps``; by default the states of rings and cage (``results.export``). Raises
+        InputError for a variable that the run does not have, another ending, or a file that is
+        there, unless ``force`` is given.
+        """
+        from flexcage.run.tables import write_table
+
+        return write_table(self, Path(path), variables, force=force)
+
     def draw(
         self,
         folder: str | Path,
@@ -304,33 +317,41 @@ class Run:
         view: float | str | None = None,
         stress_limit: float | str | None = None,
         scale: float | None = None,
+        only: Sequence[str] = (),
+        format: str = "png",
     ) -> list[Path]:
-        """Draw every picture of the run into ``folder``; paths of the files.
+        """Draw every picture of the run into ``folder``, or ``only`` those of these names
+        (``picture_names``); paths of the files.
 
         ``view``, an azimuth of the cage [rad], is turned to the viewer in pictures of the cage;
         ``stress_limit`` [Pa] ends the colours of stress, and deformation is drawn ``scale`` times:
         the same for several runs, their pictures can be laid side by side. Text carries units. Not
         given, the view is from pocket 0, that of the mesh from its first defect, and the other two
-        follow the run (``render.Look``).
+        follow the run (``render.Look``). ``format`` "svg" or "pdf" makes vector graphics of curves
+        (orbit, histories, spectra); scenes stay .png. InputError for a name that is none.
         """
+        from flexcage.render.album import check_format
         from flexcage.render.look import Look
+        from flexcage.run.pictures import draw_pictures
 
+        check_format(format)
+        names = [only] if isinstance(only, str) else list(only)
         given = {"view": view, "stress_limit": stress_limit, "scale": scale}
         look = Binder(si=True).bind(Look, given, "")
-        paths = self.stages("pictures", self._draw, Path(folder), animate, look)
+        paths = self.stages(
+            "pictures", draw_pictures, self, Path(folder), animate=animate, look=look, only=names,
+            format=format,
+        )  # fmt: skip
         if self.effort is not None:
             self.tell_times()
         return paths
 
-    def _draw(self, folder: Path, animate: bool, look: Look) -> list[Path]:
-        from flexcage.render.album import draw_album
+    @property
+    def picture_names(self) -> list[str]:
+        """Names of the run's pictures."""
+        from flexcage.run.pictures import picture_names_of
 
-        self.store.check_there()
-        if self.folder and folder.is_relative_to(self.folder):
-            check_own(folder)
-        scene = self.scene(animate=animate)
-        drawn = draw_album(scene, folder, animate=animate, look=look, progress=self.stages.progress)
-        return [*drawn, *draw_rings(self, folder)] if "ring_load" in self.dataset else drawn
+        return picture_names_of(self)
 
     def tell_times(self) -> None:
         """Bring the wall times of a run just computed up to now in its summary, the stored one
@@ -371,11 +392,15 @@ class Run:
         """The run's pictures, and why there are none; drawn into ``spare`` if it has no folder."""
         folder = self.folder / "images" if self.folder else spare
         images = sorted(folder.glob("*.png"))
+        lacking = [name for name in self.picture_names if folder / f"{name}.png" not in images]
         try:
-            drawn = images or self.draw(folder if os.access(folder.parent, os.W_OK) else spare)
+            if lacking:
+                into = folder if os.access(folder.parent, os.W_OK) else spare
+                drawn = self.draw(into, only=lacking)
+                images += [path for path in drawn if path.suffix == ".png"]
         except EnvironmentLacks as exc:
-            return [], str(exc)
-        return [path for path in drawn if path.suffix == ".png"], ""
+            return images, "" if images else str(exc)
+        return images, ""
 
     def scene(self, *, animate: bool = False) -> Scene:
         """What pictures and reports show of the run; ``animate`` adds an animation's frames."""

@@ -71,6 +71,7 @@ def with_stress(summary: Summary, run: Run) -> Summary:
 def warned(summary: Summary, run: Run) -> Summary:
     """The summary with its warnings."""
     case = run.case
+    known = (*from_attrs(run.dataset.attrs), *seam_warnings(run.store))
     outcome = Outcome(
         summary=summary,
         dataset=run.dataset,
@@ -81,8 +82,8 @@ def warned(summary: Summary, run: Run) -> Summary:
         settle=case.output.settle,
         edges=tuple(run.groove_edges),
         shape=elastic_shape(run),
+        said=frozenset(warning.key for warning in known),
     )
-    known = (*from_attrs(run.dataset.attrs), *seam_warnings(run.store))
     return dataclasses.replace(summary, warnings=(*known, *warnings_of(AT_END, outcome)))
 
 

@@ -1,12 +1,14 @@
 """What tables and pages say of a study, as its folder keeps it: to read it runs no code.
 
 The base case may need a user's own file to be built; its text, its units and what it assumes are
-stored beside the plan, so that nothing is built to look at what was computed.
+stored in the plan, so that nothing is built to look at what was computed. The plan holds study.toml
+as it was planned and the values of every case beside its hash: a later edit of study.toml changes
+no label of what was computed.
 """
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import product
 from pathlib import Path
@@ -14,9 +16,15 @@ from typing import Any
 
 from flexcage.case import description
 from flexcage.core.binding import unit_at
-from flexcage.study.axes import Axis
-from flexcage.study.plan import Planned, points_of
-from flexcage.study.spec import Repeat, Study, stored_axes, stored_repeat, stored_table
+from flexcage.core.errors import InputError
+from flexcage.core.hashing import content_hash, sealed
+from flexcage.core.writing import check_name
+from flexcage.study.axes import Axis, Point
+from flexcage.study.origin import this_one
+from flexcage.study.plan import Plan, Planned, points_of
+from flexcage.study.spec import FORMAT, Repeat, Study, stored_axes, stored_repeat, stored_table
+
+_NAMED = 3  # edits that a sentence names
 
 
 @dataclass(frozen=True)
@@ -32,30 +40,52 @@ class About:
     units: Mapping[str, str]  # of every path that varies; "" for one without
     in_words: tuple[str, ...]  # the base case
     assumptions: Mapping[str, tuple[str, str]]  # by path: value and reason
-    text: str  # study.toml
-
-    def planned(self, hashes: list[str]) -> tuple[Planned, ...]:
-        """The cases, whose hashes are known: nothing is built, nothing checked."""
-        places = product(enumerate(points_of(self.axes)), range(self.repeat.count))
-        return tuple(
-            Planned(n, point, k, h) for ((n, point), k), h in zip(places, hashes, strict=True)
-        )
+    text: str  # study.toml as it was planned
+    edited: str = ""  # how study.toml was changed since
+    sure: bool = True  # False: an earlier flexcage kept no values beside the hashes
 
 
-def to_store(study: Study) -> dict[str, Any]:
+def to_store(plan: Plan) -> dict[str, Any]:
+    """What plan.json keeps, as plain JSON values."""
+    points = {planned.number: planned.point for planned in plan.cases}
+    return sealed({
+        "format": FORMAT,
+        "origin": this_one().to_store(),
+        "study": plan.study.to_toml(),
+        "points": [{"values": plain(p.values), "labels": dict(p.labels)} for p in points.values()],
+        "cases": [[c.number, c.repetition, c.hash] for c in plan.cases],
+        **base_of(plan.study),
+    })  # fmt: skip
+
+
+def base_of(study: Study) -> dict[str, Any]:
     """What of the base case tables and pages want, as plain JSON values."""
     paths = (path for axis in study.axes for path in axis.paths)
     return {
         "units": {path: unit_at(study.case, path) for path in paths},
-        "in_words": description.in_words(study.case),
-        "assumptions": description.assumed(study.case),
+        "in_words": list(description.in_words(study.case)),
+        "assumptions": {k: list(v) for k, v in description.assumed(study.case).items()},
     }
 
 
-def from_store(file: Path, stored: Mapping[str, Any]) -> About:
-    """What a study's folder says of it: by study.toml, and by what ``to_store`` gave."""
-    table = stored_table(file)
-    return About(
+def plain(value: Any) -> Any:
+    """Nested values as JSON has them: tables with texts as keys, and lists."""
+    if isinstance(value, Mapping):
+        return {str(key): plain(entry) for key, entry in value.items()}
+    return [plain(entry) for entry in value] if isinstance(value, (list, tuple)) else value
+
+
+def key_of(cases: Sequence[Planned]) -> str:
+    """16 digits that name the cases of a plan with their labels."""
+    return content_hash([[c.hash, c.repetition, dict(c.point.labels)] for c in cases])
+
+
+def from_store(file: Path, stored: Mapping[str, Any]) -> tuple[About, tuple[Planned, ...]]:
+    """What a study's plan.json says, and its cases; ``file`` is the folder's study.toml."""
+    known = "study" in stored
+    text = stored["study"] if known else file.read_text("utf-8")
+    table = stored_table(file, text)
+    about = About(
         name=str(table.get("name", "study")),
         axes=stored_axes(table),
         outputs=tuple(map(str, table["outputs"])),
@@ -65,5 +95,60 @@ def from_store(file: Path, stored: Mapping[str, Any]) -> About:
         units={str(path): str(unit) for path, unit in stored["units"].items()},
         in_words=tuple(map(str, stored["in_words"])),
         assumptions={path: (value, why) for path, (value, why) in stored["assumptions"].items()},
-        text=file.read_text("utf-8"),
+        text=text,
+        edited=_edit(file, text, table) if known else "",
+        sure=known,
     )
+    hashes = [c[2] for c in stored["cases"]] if known else stored["hashes"]
+    for name in hashes:
+        check_name(name, f"The hash of a case in '{file.with_name('plan.json')}'")
+    if not known:
+        return about, _by_position(about, hashes)
+    points = [Point(p["values"], p["labels"]) for p in stored["points"]]
+    return about, tuple(Planned(n, points[n], k, h) for n, k, h in stored["cases"])
+
+
+def _by_position(about: About, hashes: list[str]) -> tuple[Planned, ...]:
+    """The cases of a plan that an earlier flexcage kept: hashes alone, in the order of study.toml.
+
+    Whether they are still that study's, ``results`` checks by the cases' own texts.
+    """
+    places = product(enumerate(points_of(about.axes)), range(about.repeat.count))
+    return tuple(Planned(n, point, k, h) for ((n, point), k), h in zip(places, hashes, strict=True))
+
+
+def _edit(file: Path, text: str, planned: Mapping[str, Any]) -> str:
+    """How study.toml was changed after its cases were planned, or nothing; InputError for one of
+    another format."""
+    found = file.read_text("utf-8", errors="replace")
+    if found == text:
+        return ""
+    rest = (
+        "this is ignored: what follows is the study as it was planned. To compute the edited one, "
+        f"take 'flexcage study resume {file.parent}'."
+    )
+    try:
+        edited = stored_table(file, found)
+    except InputError as exc:
+        if exc.where == "format":
+            raise
+        return f"'{file}' was changed and is no study any more ({str(exc).rstrip('.')}); {rest}"
+    was, now = dict(_entries(planned)), dict(_entries(edited))
+    keys = [key for key in {**was, **now} if was.get(key) != now.get(key)]
+    if not keys:
+        return ""
+    told = [f"{key} is {now.get(key, 'gone')}, was {was.get(key, 'not there')}" for key in keys]
+    more = f", and {len(keys) - _NAMED} more" if len(keys) > _NAMED else ""
+    return f"'{file}' was edited ({'; '.join(told[:_NAMED])}{more}); {rest}"
+
+
+def _entries(value: Any, path: str = "") -> Iterator[tuple[str, Any]]:
+    """Dotted path and value of every entry of nested tables and lists."""
+    if isinstance(value, Mapping):
+        for key, entry in value.items():
+            yield from _entries(entry, f"{path}.{key}" if path else str(key))
+    elif isinstance(value, list):
+        for k, entry in enumerate(value):
+            yield from _entries(entry, f"{path}[{k}]")
+    else:
+        yield path, value

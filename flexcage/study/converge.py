@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import logging
 import time
 from collections.abc import Callable, Sequence
@@ -13,16 +14,22 @@ from typing import Any
 from flexcage.case import Case
 from flexcage.contacts.spec import FEWEST_SLICES, MOST_SLICES
 from flexcage.core.errors import FlexcageError, InputError
+from flexcage.core.warning import RunWarning
+from flexcage.core.writing import replace
 from flexcage.mesh.options import FINENESS
 from flexcage.results.files import load, save
 from flexcage.results.known import CONVERGENCE, KNOWN, STATISTIC, marked
 from flexcage.results.statistics import spread
 from flexcage.results.summary import Row, Summary
 from flexcage.run.folder import write_case
+from flexcage.run.foreseen import told_at_once
 from flexcage.study.convergence import Convergence, Finding
+from flexcage.study.origin import Origin, stored_origin, this_one
 from flexcage.study.work import run_in
 
 log = logging.getLogger(__name__)
+
+_ORIGIN = "origin.json"  # beside a run: the flexcage that computed it
 
 #: Outputs compared, by their keys in the summary: statistics of the motion, and plain values.
 OUTPUTS = marked(CONVERGENCE)
@@ -139,8 +146,9 @@ def converge(
     out = Path(out)
     write_case(out, case)
     wanted = {level.case.hash: level for level in (*steps, Level("case", "as is", case))}
-    figures = _run_all(wanted, out / "cases", progress)
-    found = _compare(case, steps, figures)
+    with told_at_once(level.case for level in wanted.values()):
+        figures = _run_all(wanted, out / "cases", progress)
+    found = _compare(case, steps, figures, out / "cases")
     found.write(out)
     convergence_picture([f.record() for f in found.findings], out / "converge.png", name=case.name)
     return found
@@ -165,17 +173,21 @@ def _run_all(wanted: dict[str, Level], folder: Path, progress: Any) -> dict[str,
 
 
 def _figures_of(case: Case, folder: Path, progress: Any) -> Summary:
-    """Summary of a case with the windows of its statistics; simulated if it is not there."""
+    """Summary of a case with the windows of its statistics; simulated if it is not there. What
+    another flexcage computed has a warning that says so."""
     stored, kept = folder / "summary.json", folder / "windows.npz"
     if stored.exists():
         windows = load(kept) if kept.exists() else {}
         return Summary.read(stored, windows=windows)
     summary = run_in(folder, case, progress=progress).summary
+    replace(folder / _ORIGIN, json.dumps(this_one().to_store()).encode())
     save(kept, {row.key: row.record.sums for row in summary if row.record is not None})
     return summary
 
 
-def _compare(case: Case, steps: Sequence[Level], figures: dict[str, Summary | str]) -> Convergence:
+def _compare(
+    case: Case, steps: Sequence[Level], figures: dict[str, Summary | str], cases: Path
+) -> Convergence:
     findings: list[Finding] = []
     compared: dict[str, tuple[str, str]] = {}
     for axis in dict.fromkeys(level.axis for level in steps):
@@ -199,11 +211,27 @@ def _compare(case: Case, steps: Sequence[Level], figures: dict[str, Summary | st
             if isinstance(sentence := figures[s.case.hash], str)
         },
         warnings={
-            name: run.warnings or ()
+            name: (*(run.warnings or ()), *_by_another(cases / key))
             for key, name in names.items()
             if isinstance(run := figures[key], Summary)
         },
     )
+
+
+def _by_another(folder: Path) -> list[RunWarning]:
+    """A warning if another flexcage computed the run in a folder, or if nobody knows which."""
+    try:
+        origin = stored_origin(json.loads((folder / _ORIGIN).read_text("utf-8")))
+    except (OSError, ValueError, TypeError, AttributeError):
+        origin = Origin()
+    if origin == this_one():
+        return []
+    who = f"flexcage {origin}" if origin.version else "a flexcage that kept no version"
+    sentence = (
+        f"{who} computed this run, and this is flexcage {this_one()}: results may differ between "
+        f"them. Remove '{folder}' to compute it anew."
+    )
+    return [RunWarning("version", sentence[0].upper() + sentence[1:])]
 
 
 def _findings(level: Level, finest: Level, figures: dict[str, Summary | str]) -> list[Finding]:

@@ -1,15 +1,18 @@
 """A study on disk: its text, one folder a case, one file a case that failed.
 
     study.toml            the study, complete
-    plan.json             hashes of its cases, in order, and what tables say of the base case
+    plan.json             the study as it was planned: its text, the values and the hash of every
+                          case, and what tables say of the base case; sealed
     cases/<hash>/         a finished case: its run, and row.json with its figures
     cages/<digest>.zip    a cage that runs share (``results.cage_file``), one file each
     cases/<hash>.part/    a case that is running, or was when its process ended
     failed/<hash>.json    why a case has no figures
     running.lock          held by the process that runs it
 
-A case's folder gets its name by one rename, once all in it is on disk, so a name without ``.part``
-is a finished case. ``cases`` is one Zarr store, with a group a case (``xarray.open_datatree``).
+A row says of which case it is, with which values and by which flexcage, and has a seal: an edited
+one is refused. A case's folder gets its name by one rename, once all in it is on disk, so a name
+without ``.part`` is a finished case. ``cases`` is one Zarr store, with a group a case
+(``xarray.open_datatree``).
 """
 
 from __future__ import annotations
@@ -24,15 +27,18 @@ from pathlib import Path
 from typing import Any
 
 from flexcage.core.errors import InputError, unwritable
+from flexcage.core.hashing import seal_holds, sealed
 from flexcage.core.locks import LOCK, held
 from flexcage.core.warning import RunWarning
-from flexcage.core.writing import replace
-from flexcage.study.about import About, from_store, to_store
+from flexcage.core.writing import check_own, replace
+from flexcage.study.about import About, base_of, from_store, to_store
+from flexcage.study.origin import Origin, stored_origin
 from flexcage.study.outputs import Figure
 from flexcage.study.plan import Plan, Planned
-from flexcage.study.spec import FORMAT, Study, stored_study, stored_table
+from flexcage.study.spec import FORMAT, Study, check_format, stored_study, stored_table
 
 _ROW, _PART = "row.json", ".part"
+_ITS_OWN = ("study.toml", "plan.json", "cases", "failed", "cages")
 _LEFT_OVER = (LOCK, "cases", "failed", "plan.json.new")  # of one killed before it had a plan
 _NOT_THERE = (KeyError, TypeError, AttributeError)  # a text that is not what was written
 _ZARR_GROUP = {"zarr_format": 3, "node_type": "group", "attributes": {}}
@@ -50,33 +56,44 @@ class Failure:
 @dataclass(frozen=True)
 class CaseRow:
     """What is known of one finished case: ``seconds`` of processor time that it took, and
-    ``warnings``, None where nobody looked for any."""
+    ``warnings``, None where nobody looked for any.
+
+    ``values`` are those that the study's axes gave it, by path; None where an earlier flexcage kept
+    none.
+    """
 
     hash: str
     seconds: float
     figures: Mapping[str, Figure]
     warnings: tuple[RunWarning, ...] | None = None
+    values: Mapping[str, Any] | None = None
+    origin: Origin = Origin()
 
 
 class Folder:
-    """Paths and files of a study's folder."""
+    """Paths and files of a study's folder. Nothing inside it is read or written through a link:
+    InputError, which names the link."""
 
     def __init__(self, path: str | Path) -> None:
         self.path = Path(path)
         self.cases, self.failed = self.path / "cases", self.path / "failed"
 
     def case(self, name: str) -> Path:
-        return self.cases / name
+        return _own(self.cases, self.cases / name)
 
     def has_run(self, name: str) -> bool:
         """Whether the finished case of this hash kept its run, whatever the study keeps now."""
         return (self.case(name) / "results.zarr").is_dir()
 
     def part(self, name: str) -> Path:
-        return self.cases / f"{name}{_PART}"
+        return _own(self.cases, self.cases / f"{name}{_PART}")
 
     def lock(self, name: str) -> Path:
-        return self.cases / f"{name}.lock"
+        return _own(self.cases, self.cases / f"{name}.lock")
+
+    def reason(self, name: str) -> Path:
+        """The file that says why a case failed."""
+        return _own(self.failed, self.failed / f"{name}.json")
 
     def study(self) -> Study:
         """The study that the folder holds, which runs no code: InputError if it holds none, or of
@@ -84,6 +101,7 @@ class Folder:
         return stored_study(self._text_file())
 
     def _text_file(self) -> Path:
+        _own(*(self.path / name for name in _ITS_OWN))
         if not (self.path / "study.toml").is_file():
             raise InputError(
                 f"'{self.path}' is not the folder of a study: it has no study.toml.", where="study"
@@ -94,31 +112,37 @@ class Folder:
         """What the folder says of its study, and the cases as they were planned last; InputError
         if they are not there. Nothing of the user's own is needed to read it."""
         file = self._text_file()
-        stored_table(file)  # refuses another format
         try:
             plan = json.loads((self.path / "plan.json").read_text("utf-8"))
             if isinstance(plan, list):  # of an earlier flexcage: hashes alone
-                plan = {"hashes": plan, **to_store(self.study())}
-            about = from_store(file, plan)
-            return about, about.planned(plan["hashes"])
+                plan = {"hashes": plan, **base_of(self.study())}
+            if not seal_holds(plan):
+                raise ValueError("its seal is broken")
+            check_format(plan.get("format", FORMAT), self.path / "plan.json")
+            return from_store(file, plan)
         except InputError:
             raise
-        except (OSError, TypeError, ValueError, KeyError, AttributeError) as exc:
+        except (OSError, TypeError, ValueError, KeyError, AttributeError, IndexError) as exc:
             raise InputError(
-                f"'{self.path}' does not hold the plan of its study.toml; go on with 'flexcage "
-                f"study resume {self.path}', which plans it anew.",
+                f"'{self.path}' does not hold the plan of its study.toml, or an edited one; go on "
+                f"with 'flexcage study resume {self.path}', which plans it anew.",
                 where="study",
             ) from exc
 
     def plan(self) -> Plan:
         """The study's cases as they were planned last, to be built."""
-        _, cases = self.about()
-        return Plan(self.study(), cases)
+        about, cases = self.about()
+        return Plan(self.planned_study(about), cases)
+
+    def planned_study(self, about: About) -> Study:
+        """The study as it was planned, whatever its study.toml says now; errors as ``study``."""
+        return stored_study(self._text_file(), about.text)
 
     def prepare(self, plan: Plan) -> None:
         """Make the folder, or take over one that holds a study: its cases are found by content."""
         if self.path.exists() and not self.path.is_dir():
             raise InputError(f"'{self.path}' is a file; name a folder for the study.", where="out")
+        _own(*(self.path / name for name in _ITS_OWN))
         if (self.path / "plan.json").is_file():  # a study.toml alone is the user's own
             if (self.path / "study.toml").is_file():
                 stored_table(self.path / "study.toml")  # refuses another format
@@ -133,9 +157,7 @@ class Folder:
                 folder.mkdir(parents=True, exist_ok=True)
             with self.held():
                 _write_json(self.cases / "zarr.json", _ZARR_GROUP)
-                hashes = [planned.hash for planned in plan.cases]
-                kept = {"format": FORMAT, "hashes": hashes, **to_store(plan.study)}
-                _write_json(self.path / "plan.json", kept)
+                _write_json(self.path / "plan.json", to_store(plan))
                 replace(self.path / "study.toml", plan.study.to_toml().encode())
         except OSError as exc:
             what, remedy = f"The study's folder '{self.path}'", "name another with -o"
@@ -151,7 +173,7 @@ class Folder:
 
     def row(self, name: str) -> CaseRow | None:
         """The finished case of this hash, or None."""
-        path = self.case(name) / _ROW
+        path = _own(self.case(name) / _ROW)
         stored = _read_json(path)
         if stored is None:
             return None
@@ -164,17 +186,24 @@ class Folder:
                 where="format",
                 value=stored["format"],
             )
+        if not seal_holds(stored):
+            raise _lacks(path, "the figures as they were computed: it was edited")
         try:
+            if stored["hash"] != name:
+                raise _lacks(path, f"the figures of this case but of {stored['hash']}")
             figures = {key: Figure(*values) for key, values in stored["figures"].items()}
             warned = stored.get("warnings")
             warnings = None if warned is None else tuple(RunWarning(*values) for values in warned)
-            return CaseRow(name, stored["seconds"], figures, warnings)
+            return CaseRow(
+                name, stored["seconds"], figures, warnings,
+                stored.get("values"), stored_origin(stored.get("origin")),
+            )  # fmt: skip
         except _NOT_THERE as exc:
             raise _lacks(path, "the figures of a case") from exc
 
     def failure(self, name: str) -> Failure | None:
         """Why the case of this hash failed, or None."""
-        path = self.failed / f"{name}.json"
+        path = self.reason(name)
         stored = _read_json(path)
         try:
             return None if stored is None else Failure(**stored)
@@ -187,7 +216,9 @@ class Folder:
         stored = {"format": FORMAT, "hash": row.hash, "seconds": row.seconds, "figures": figures}
         if row.warnings is not None:
             stored["warnings"] = [[w.key, w.text] for w in row.warnings]
-        _write_json(where / _ROW, stored)
+        if row.values is not None:
+            stored |= {"values": dict(row.values), "origin": row.origin.to_store()}
+        _write_json(where / _ROW, sealed(stored))
 
     def finish(self, name: str) -> None:
         """Give a case that is complete its name, once all in it is on disk."""
@@ -200,19 +231,27 @@ class Folder:
             shutil.rmtree(self.case(name))
         os.rename(part, self.case(name))
         _sync(self.cases)
-        (self.failed / f"{name}.json").unlink(missing_ok=True)
+        self.reason(name).unlink(missing_ok=True)
 
     def write_failure(self, name: str, failure: Failure) -> None:
-        _write_json(self.failed / f"{name}.json", asdict(failure))
+        _write_json(self.reason(name), asdict(failure))
 
     def forget_failure(self, name: str) -> None:
         """Forget a failure and what was computed until then."""
-        (self.failed / f"{name}.json").unlink(missing_ok=True)
+        self.reason(name).unlink(missing_ok=True)
         shutil.rmtree(self.part(name), ignore_errors=True)
 
     def running(self) -> set[str]:
         """Hashes of cases that are running, or were when their process ended."""
         return {p.name.removesuffix(_PART) for p in self.cases.glob(f"*{_PART}")}
+
+
+def _own(*paths: Path) -> Path:
+    """The last of the paths, if none of them is a link; InputError for the first that is."""
+    for path in paths:
+        if path.is_symlink():
+            check_own(path)
+    return paths[-1]
 
 
 def _write_json(path: Path, value: Any) -> None:

@@ -20,12 +20,16 @@ import numpy as np
 from flexcage.case import Case
 from flexcage.core.binding import Binder, check_spec
 from flexcage.core.errors import InputError
+from flexcage.core.hashing import seal_holds, sealed
 from flexcage.core.spec import option, quantity
 from flexcage.core.units import format_si
+from flexcage.core.writing import check_name
 from flexcage.core.writing import replace as replace_file
+from flexcage.study.about import key_of
 from flexcage.study.axes import Points
 from flexcage.study.claims import At
 from flexcage.study.folder import Folder
+from flexcage.study.origin import this_one
 from flexcage.study.plan import make_plan
 from flexcage.study.results import StudyResults
 from flexcage.study.run import run_study
@@ -67,6 +71,7 @@ class Map:
     keep: str = option("figures", doc="what stays of a run", choices=KEEP)
 
     def __post_init__(self) -> None:
+        check_name(self.name, "The map's name")
         object.__setattr__(self, "outputs", tuple(self.outputs))
         check_unknowns(self.unknowns)
         if not self.conditions or any("label" not in c for c in self.conditions):
@@ -109,10 +114,11 @@ class Map:
         )  # fmt: skip
 
     def stored(self) -> dict[str, Any]:
-        """What a folder keeps of it beside the study, as plain JSON values."""
+        """What a folder keeps of it beside the study's plan, as plain JSON values."""
         return {
-            "format": FORMAT, "design": self.design, "count": self.count, "seed": self.seed,
-            "starts": self.starts, "names": list(self.names), "shares": self.shares.tolist(),
+            "format": FORMAT, "origin": this_one().to_store(), "design": self.design,
+            "count": self.count, "seed": self.seed, "starts": self.starts,
+            "names": list(self.names), "shares": self.shares.tolist(),
             "reasons": [u.reason for u in self.unknowns],
             "ranges": [u.in_words() for u in self.unknowns],
             "values": [[u.changes(float(s))[0] for u, s in zip(self.unknowns, row)]
@@ -157,8 +163,10 @@ def run_map(
     model, whose folder is another.
     """
     out, study = Path(out), spec.study(points)
-    Folder(out.resolve()).prepare(make_plan(study))
-    replace_file(out / FILE, (json.dumps(spec.stored(), indent=1) + "\n").encode())
+    plan = make_plan(study)
+    Folder(out.resolve()).prepare(plan)
+    stored = sealed({**spec.stored(), "plan": key_of(plan.cases)})
+    replace_file(out / FILE, (json.dumps(stored, indent=1) + "\n").encode())
     run_study(study, out=out, workers=workers, progress=progress)
     return MapResults(out)
 
@@ -173,9 +181,14 @@ class MapResults:
             self.about: dict[str, Any] = json.loads(file.read_text("utf-8"))
             if self.about["format"] != FORMAT:
                 raise ValueError(f"format {self.about['format']}")
+            if not seal_holds(self.about):
+                raise ValueError("it was edited")
+            if self.about.get("plan", key := key_of(self.study.planned)) != key:
+                raise ValueError("it belongs to other cases than plan.json")
         except (OSError, ValueError, KeyError, TypeError) as exc:
             raise InputError(
-                f"'{file}' does not hold a map of this flexcage ({exc}); run the map anew.",
+                f"'{file}' does not hold the map of this folder ({exc}); run the map anew, which "
+                "computes no finished case again.",
                 where="map",
             ) from exc
         self.names: list[str] = self.about["names"]

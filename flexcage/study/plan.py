@@ -23,7 +23,9 @@ from flexcage.system.constraints import names_of
 from flexcage.system.layout import CONSTRAINTS
 
 #: What tables hold of every case or point beside labels, values that vary, and outputs.
-COLUMNS = ("point", "repetition", "state", "reason", "warnings", "seconds", "hash", "done")
+COLUMNS = (
+    "point", "repetition", "state", "reason", "warnings", "seconds", "version", "hash", "done",
+)  # fmt: skip
 
 
 @dataclass(frozen=True)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import logging
 from collections import Counter
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
@@ -15,6 +16,7 @@ import numpy as np
 
 from flexcage.core import html
 from flexcage.core.errors import InputError
+from flexcage.core.listing import aligned, wrapped
 from flexcage.core.units import format_si, parse
 from flexcage.core.warning import RunWarning
 from flexcage.results.export import frame_to_csv, frame_to_parquet
@@ -22,12 +24,16 @@ from flexcage.results.summary import format_value
 from flexcage.run import Run
 from flexcage.simulate import load_run
 from flexcage.study.folder import CaseRow, Folder
+from flexcage.study.origin import Origin, told_apart
 from flexcage.study.outputs import Figure
 from flexcage.study.plan import Plan, Planned
+from flexcage.study.same_values import check_values
 from flexcage.study.spec import Study, value_at
 
 if TYPE_CHECKING:
     import pandas
+
+log = logging.getLogger(__name__)
 
 CONFIDENCE = 0.95  # of the intervals
 _TOO_FEW = 2  # repetitions, of which Student's t makes an interval that says little
@@ -39,7 +45,8 @@ class ResultRow:
     """One planned case and what became of it: ``state`` is "done", "failed" or "open", ``seconds``
     of processor time.
 
-    ``warnings`` are those of its run; None where none were looked for.
+    ``warnings`` are those of its run; None where none were looked for. ``origin`` is the flexcage
+    that computed it.
     """
 
     planned: Planned
@@ -48,6 +55,7 @@ class ResultRow:
     seconds: float
     figures: Mapping[str, Figure]
     warnings: tuple[RunWarning, ...] | None = None
+    origin: Origin = Origin()
 
     @property
     def warned(self) -> str:
@@ -60,16 +68,20 @@ class StudyResults:
 
     Everything is read from the folders of the cases, also while others are still running. No code
     is run: ``plan`` and ``study`` alone, with which cases are built, need the user's own files.
+    What is shown is the study as it was planned; a later edit of its study.toml is named and
+    ignored.
     """
 
     def __init__(self, path: str | Path) -> None:
         self.folder = Folder(path)
         self.about, self.planned = self.folder.about()
+        if self.about.edited:
+            log.warning(self.about.edited)
 
     @cached_property
     def study(self) -> Study:
-        """The study, with its base case built."""
-        return self.folder.study()
+        """The study as it was planned, with its base case built."""
+        return self.folder.planned_study(self.about)
 
     @property
     def plan(self) -> Plan:
@@ -88,16 +100,24 @@ class StudyResults:
         row, failure = self.stored.get(planned.hash), self.folder.failure(planned.hash)
         if row is not None:
             wanted = {k: row.figures[k] for k in self.about.outputs if k in row.figures}
-            return ResultRow(planned, "done", "", row.seconds, wanted, row.warnings)
+            return ResultRow(
+                planned, "done", "", row.seconds, wanted, row.warnings, row.origin
+            )  # fmt: skip
         if failure is not None:
             return ResultRow(planned, "failed", failure.reason, nan, {})
         return ResultRow(planned, "open", "", nan, {})
 
     @cached_property
     def stored(self) -> dict[str, CaseRow]:
-        """All figures of every finished case, by its hash."""
-        found = {planned.hash: self.folder.row(planned.hash) for planned in self.planned}
-        return {name: row for name, row in found.items() if row is not None}
+        """All figures of every finished case, by its hash; InputError if a case was computed with
+        other values than the plan gives it."""
+        found = {}
+        for planned in self.planned:
+            row = self.folder.row(planned.hash)
+            if row is not None:
+                check_values(self.folder, self.about, planned, row)
+                found[planned.hash] = row
+        return found
 
     def count(self, state: str) -> int:
         """How many cases are "done", "failed" or "open"."""
@@ -114,7 +134,7 @@ class StudyResults:
             | {self.titles[name]: _value(row.figures.get(name)) for name in self.titles}
             | {"state": row.state, "reason": row.reason, "warnings": row.warned}
             | {"seconds": row.seconds}
-            | {"hash": row.planned.hash}
+            | {"version": str(row.origin), "hash": row.planned.hash}
             for row in self.rows
         ])  # fmt: skip
 
@@ -140,8 +160,10 @@ class StudyResults:
     def report(self) -> str:
         """The table over the points: mean ± half width of every output, then warnings and what
         failed."""
-        last = [_aligned(self._lines()), *self._failures(), self.without_stress(), self.status()]
-        return "\n".join([*self.warning_lines(), *filter(None, last)])
+        lines = self._lines()
+        table = aligned(lines, sides=_sides(lines), heads=True)
+        last = filter(None, [*self._failures(), self.without_stress(), self.status()])
+        return "\n".join([*map(wrapped, self.warning_lines()), table, *map(wrapped, last)])
 
     def _repr_html_(self) -> str:
         """For notebooks: what ``report`` says."""
@@ -187,7 +209,7 @@ class StudyResults:
         for row in done:
             for warning in {w.key: w for w in reversed(row.warnings or ())}.values():
                 found.setdefault(warning.key, []).append((row, warning))
-        lines = []
+        lines = self.cautions()
         for key, cases in found.items():
             first = cases[0][0].planned
             place = f"point {first.number}, repetition {first.repetition}"
@@ -205,6 +227,12 @@ class StudyResults:
                 "standard error of its mean; 3 or more make it much narrower."
             )
         return lines
+
+    def cautions(self) -> list[str]:
+        """What to know before any of its figures: an edited study.toml, cases of different versions
+        of flexcage."""
+        apart = told_apart(row.origin for row in self.rows if row.state == "done")
+        return list(filter(None, [self.about.edited, apart]))
 
     def status(self) -> str:
         """How many cases are done, failed and open, in one line."""
@@ -318,6 +346,7 @@ def _cell(planned: Planned, path: str, unit: str, base: Mapping[str, Any]) -> An
     return json.dumps(value) if isinstance(value, (list, tuple, dict)) else value
 
 
-def _aligned(rows: list[list[str]]) -> str:
-    width = [max(map(len, column)) for column in zip(*rows)]
-    return "\n".join("  ".join(f"{c:>{w}}" for c, w in zip(row, width)) for row in rows)
+def _sides(lines: list[list[str]]) -> str:
+    """Columns of numbers to the right, those that hold any words to the left."""
+    columns = list(zip(*lines[1:]))
+    return "".join("l" if any(c[:1].isalpha() for c in column) else "r" for column in columns)

@@ -13,12 +13,14 @@ from flexcage.core.errors import RunFailed
 from flexcage.core.hashing import content_hash
 from flexcage.core.progress import Silent
 from flexcage.core.stopping import unwinding
+from flexcage.run.foreseen import tell
 from flexcage.study.cluster import connect, require_packages
 from flexcage.study.folder import Failure, Folder
-from flexcage.study.outputs import beyond_summary, lacking
+from flexcage.study.outputs import beyond_summary, lacking, needs_stress
 from flexcage.study.plan import Plan, Planned, make_plan
 from flexcage.study.results import StudyResults
 from flexcage.study.spec import Study
+from flexcage.study.telling import TOPIC, Board
 from flexcage.study.work import Order, do_case, order_of, prepare
 
 log = logging.getLogger(__name__)
@@ -32,16 +34,16 @@ def run_study(
     *,
     out: str | Path,
     workers: int | None = None,
-    scheduler: str | None = None,
+    scheduler: Any = None,
     retry: bool = False,
     progress: Callable[..., Any] | None = None,
 ) -> StudyResults:
     """Compute what the folder ``out`` lacks of a study, and gather its tables.
 
-    Runs on ``workers`` processes of this machine (default: one a core), or on the Dask scheduler
-    at an address. Cases found in the folder are not computed again; ``retry`` tries those again
-    that failed. ``progress`` is a context like ``core.progress.Progress``. One process at a time
-    runs a study in a folder.
+    Runs on ``workers`` processes of this machine (default: one a core), or on a Dask ``scheduler``,
+    by its address or as a Dask cluster, whose certificates are then taken. Cases found in the
+    folder are not computed again; ``retry`` tries those again that failed. ``progress`` is a
+    context like ``core.progress.Progress``. One process at a time runs a study in a folder.
 
     A case that fails is a row with its reason. Raises InputError for a mistake in the plan, or a
     folder in which another process runs a study, before anything is computed, and RunFailed if the
@@ -56,6 +58,7 @@ def run_study(
         todo = _lacking(plan, folder, retry=retry)
         try:
             if todo:
+                _tell_before(plan, todo)
                 with unwinding():  # Ctrl-C ends the workers
                     _compute(plan, folder, todo, (scheduler, workers), progress)
         except BaseException:  # Ctrl-C as well: the tables show what is finished
@@ -66,19 +69,32 @@ def run_study(
     return results
 
 
+def _tell_before(plan: Plan, todo: set[str]) -> None:
+    """Log what is foreseen of the cases to compute."""
+    cases = (plan.case(planned) for planned in plan.cases if planned.hash in todo)
+    tell(cases, stress=needs_stress(plan.study.outputs))
+
+
 def _compute(
     plan: Plan,
     folder: Folder,
     todo: set[str],
-    where: tuple[str | None, int | None],
+    where: tuple[Any, int | None],
     progress: Callable[..., Any] | None,
 ) -> None:
     """Compute the cases ``todo`` on a scheduler or a number of workers: ``where``."""
     with connect(*where) as client:
-        with (progress or Silent)(len(plan.cases), "cases") as bar:
-            bar.begin_at(len(plan.cases) - len(todo))
-            for _ in _Desk(client, plan, folder).work_off(todo):
-                bar.advance()
+        total, done = len(plan.cases), len(plan.cases) - len(todo)
+        with (progress or Silent)(total, "cases") as bar:
+            bar.begin_at(done)
+            numbers = {c.hash: k for k, c in enumerate(plan.cases) if c.hash in todo}
+            board = Board(bar, numbers, total, done)
+            client.subscribe_topic(TOPIC, board.told)
+            try:
+                for name in _Desk(client, plan, folder, board).work_off(todo):
+                    board.finished(name)
+            finally:
+                board.close()
 
 
 def _try_to_write(folder: Folder) -> None:
@@ -107,8 +123,8 @@ def _lacking(plan: Plan, folder: Folder, *, retry: bool) -> set[str]:
 class _Desk:
     """Hands cases to the workers and takes them back; holds only those that are out."""
 
-    def __init__(self, client: Any, plan: Plan, folder: Folder) -> None:
-        self.client, self.plan, self.folder = client, plan, folder
+    def __init__(self, client: Any, plan: Plan, folder: Folder, board: Board) -> None:
+        self.client, self.plan, self.folder, self.board = client, plan, folder, board
         self.address = client.scheduler.address
         self._modes: dict[str, Any] = {}  # futures of modes that cases share, by key
         self._names: dict[str, str] = {}  # hash of a case by the key of its future
@@ -136,6 +152,7 @@ class _Desk:
             except (OSError, RuntimeError) as exc:
                 raise self._lost() from exc
             self._window, self._looked = AHEAD * max(threads, 1), time.monotonic()
+            self.board.workers(threads)
         return self._window
 
     def _submit(self, planned: Planned) -> Any:

@@ -22,7 +22,7 @@ class Samples:
     """Values ``y`` (n,) [SI, ``unit``] of an output at ``x`` (n, d), in the units of tables.
 
     ``within`` is the mean variance of a value by the intervals that runs give themselves, NaN where
-    they give none.
+    they give none. ``cautions`` are those of the study.
     """
 
     output: str
@@ -32,6 +32,7 @@ class Samples:
     x: np.ndarray
     y: np.ndarray
     within: float
+    cautions: tuple[str, ...] = ()
 
     @property
     def low(self) -> np.ndarray:
@@ -92,6 +93,7 @@ def samples_of(
         table[titles].to_numpy(float), table[results.titles[output]].to_numpy(float),
         float(np.mean((np.array(known) / _NORMAL) ** 2)) if len(known) == len(margins)
         else float("nan"),
+        tuple(results.cautions()),
     )  # fmt: skip
 
 

@@ -19,6 +19,7 @@ from flexcage.core.errors import InputError
 from flexcage.core.spec import option, quantity
 from flexcage.core.toml import read_toml
 from flexcage.core.units import format_si, parse
+from flexcage.core.writing import check_name
 from flexcage.study.axes import Axis
 from flexcage.system.spec import MOST_PUSH
 
@@ -60,6 +61,7 @@ class Study:
     keep: str = option("runs", doc="what stays of a case", choices=KEEP)
 
     def __post_init__(self) -> None:
+        check_name(self.name, "The study's name")
         object.__setattr__(self, "outputs", tuple(self.outputs))
         written = partial(_as_text, self.case, si=True)
         object.__setattr__(self, "axes", tuple(axis.mapped(written) for axis in self.axes))
@@ -78,7 +80,7 @@ def load_study(path: str | Path, *, overrides: Mapping[str, Any] | None = None) 
     """
     path = Path(path).expanduser()
     table = read_file(path)
-    _check_format(table.pop("format", FORMAT), path)
+    check_format(table.pop("format", FORMAT), path)
     use_extensions(table, path)
     return _bound(table, path, overrides)
 
@@ -90,10 +92,10 @@ def use_extensions(table: dict[str, Any], path: Path) -> None:
         load_extension(path.parent / source if source.endswith((".py", ".toml")) else source)
 
 
-def stored_study(path: Path) -> Study:
-    """The study of a folder, which runs no code: InputError if files of the user's own are wanted
-    that this process has not loaded."""
-    table = stored_table(path)
+def stored_study(path: Path, text: str | None = None) -> Study:
+    """The study of a folder, by its study.toml or another ``text`` of it, which runs no code:
+    InputError if files of the user's own are wanted that this process has not loaded."""
+    table = stored_table(path, text)
     lacking = not_loaded(table.pop("use"))
     if lacking:
         raise InputError(
@@ -106,10 +108,11 @@ def stored_study(path: Path) -> Study:
     return _bound(table, path, None)
 
 
-def stored_table(path: Path) -> dict[str, Any]:
-    """The tables of a folder's study.toml, with its list ``use`` of extensions."""
-    table = read_file(path)
-    _check_format(table.pop("format", FORMAT), path)
+def stored_table(path: Path, text: str | None = None) -> dict[str, Any]:
+    """The tables of a folder's study.toml, or of another ``text`` of it, with its list ``use`` of
+    extensions."""
+    table = read_file(path) if text is None else read_toml(text, str(path))
+    check_format(table.pop("format", FORMAT), path)
     return {**table, "use": list(map(str, _listed(table.get("use", []), "use")))}
 
 
@@ -208,7 +211,8 @@ def value_at(table: Any, path: str) -> Any:
     return table
 
 
-def _check_format(found: Any, path: Path) -> None:
+def check_format(found: Any, path: Path) -> None:
+    """InputError unless a study's file or folder has the format of this flexcage."""
     if found != FORMAT:
         raise InputError(
             f"'{path}' is a study of format {found}, and this flexcage ({__version__}) reads "

@@ -98,8 +98,9 @@ class Surface:
         """Models, optima with their regions, and what would decide, as lines of text."""
         s, way = self.samples, "highest" if self.highest else "least"
         lines = [
+            *s.cautions,
             f"{s.output} over {', '.join(s.titles)}: {len(s.y)} values at "
-            f"{len(np.unique(s.x, axis=0))} points"
+            f"{len(np.unique(s.x, axis=0))} points",
         ]
         for model, optimum in self.optima.items():
             lines += [f"\n{model}: {way} at {self._place(optimum)}", *self._about(model)]

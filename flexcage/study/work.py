@@ -9,8 +9,10 @@ from __future__ import annotations
 import logging
 import shutil
 import time
+from collections.abc import Mapping
 from contextlib import nullcontext
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -24,11 +26,15 @@ from flexcage.core.threads import on_one_core
 from flexcage.mesh.options import MeshOptions
 from flexcage.run import Run
 from flexcage.run.folder import was_written, write_case
+from flexcage.run.foreseen import told_at_once
 from flexcage.simulate import load_run, simulate
 from flexcage.stages import cage_mesh, cage_reduction, keep_at_hand
+from flexcage.study.about import plain
 from flexcage.study.folder import CaseRow, Failure, Folder
+from flexcage.study.origin import this_one
 from flexcage.study.outputs import beyond_summary, figures_of, lacking, late_figures, needs_stress
 from flexcage.study.plan import Plan, Planned
+from flexcage.study.telling import Told, teller
 
 log = logging.getLogger(__name__)
 
@@ -44,6 +50,7 @@ class Order:
     stress: bool  # whether any output needs the cage's
     use: tuple[str, ...]  # extensions to load
     keep: str
+    values: Mapping[str, Any] = field(default_factory=dict)  # that the study's axes gave, by path
     version: str = __version__
 
 
@@ -57,6 +64,7 @@ def order_of(plan: Plan, planned: Planned, folder: Path) -> Order:
         stress=needs_stress(plan.study.outputs),
         use=sources(),
         keep=plan.study.keep,
+        values=plain(planned.point.values),
     )
 
 
@@ -71,7 +79,8 @@ def do_case(order: Order, *prepared: object) -> str:
     folder = Folder(order.folder)
     with filelock.FileLock(folder.lock(order.hash)):
         try:
-            _complete(order, folder)
+            with told_at_once(()):  # the study told it of all its cases
+                _complete(order, folder)
         except Exception as exc:
             folder.write_failure(order.hash, _failure(exc))
             return "failed"
@@ -85,6 +94,7 @@ def prepare(order: Order) -> None:
 
     A failure here is left to the cases: it becomes their own.
     """
+    teller(order.hash)("mesh and modes", None)
     try:
         case = _case_of(order)
         keep_at_hand(cage_reduction(case, cage_mesh(case)))
@@ -105,13 +115,16 @@ def _complete(order: Order, folder: Folder) -> None:
         folder.write_row(folder.case(order.hash), replace(row, figures=figures))
         return
     case = _case_of(order)
+    tell = teller(order.hash)
+    tell("kernels", None)
     compile_kernels(case)
     part = folder.part(order.hash)
-    run = _march(case, part, order)
+    run = _march(case, part, order, partial(Told, tell))
     keep_at_hand(run.cage)
     figures = figures_of(run, order.beyond)
     seconds = time.process_time() - begin
-    folder.write_row(part, CaseRow(order.hash, seconds, figures, run.warnings))
+    row = CaseRow(order.hash, seconds, figures, run.warnings, order.values, this_one())
+    folder.write_row(part, row)
     folder.finish(order.hash)
 
 
@@ -138,11 +151,12 @@ def _case_of(order: Order) -> Case:
     return case
 
 
-def _march(case: Case, part: Path, order: Order) -> Run:
+def _march(case: Case, part: Path, order: Order, progress: Any) -> Run:
     if order.keep == "runs":
-        return run_in(part, case, study=part.parent.parent, stress=order.stress)
+        where = part.parent.parent
+        return run_in(part, case, study=where, stress=order.stress, progress=progress)
     write_case(part, case)
-    return simulate(case, stress=order.stress)
+    return simulate(case, stress=order.stress, progress=progress)
 
 
 def run_in(folder: Path, case: Case, *, progress: Any = None, **how: Any) -> Run:

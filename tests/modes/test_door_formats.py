@@ -411,7 +411,7 @@ def test_a_reader_that_is_not_installed_is_named(body, tmp_path, monkeypatch):
     for name in [n for n in sys.modules if n == "pyyeti" or n.startswith("pyyeti.")]:
         monkeypatch.setitem(sys.modules, name, None)
     monkeypatch.setitem(sys.modules, "pyyeti", None)
-    with pytest.raises(EnvironmentLacks, match=re.escape('pip install "flexcage[bodies]"')):
+    with pytest.raises(EnvironmentLacks, match=re.escape("pip install '.[bodies]'")):
         read_body(path)
 
 

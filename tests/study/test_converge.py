@@ -107,6 +107,20 @@ def test_a_second_call_does_only_what_is_new(tmp_path):
     assert len(FakeRun.calls) == 3
 
 
+def test_runs_of_another_flexcage_are_named(tmp_path):
+    clean = converge(CASE, out=tmp_path, axes=["slices"])
+    assert not any(warned for warned in clean.warnings.values())
+    own, other = (tmp_path / "cases" / name / "origin.json" for name in FakeRun.calls[:2])
+    own.write_text(json.dumps({"version": "0.0.9", "kernels": "a" * 16}))
+    other.unlink()
+    found = converge(CASE, out=tmp_path, axes=["slices"])
+    said = [w.text for warned in found.warnings.values() for w in warned if w.key == "version"]
+    assert len(said) == 2 and len(FakeRun.calls) == 3
+    assert any("Flexcage 0.0.9 (kernels aaaaaaaa) computed this run" in text for text in said)
+    assert any("A flexcage that kept no version computed" in text for text in said)
+    assert "results may differ" in (tmp_path / "converge.txt").read_text()
+
+
 def test_levels_keep_what_the_case_says():
     own = CASE.replace("contacts.race.slices", 80).replace("mesh.fineness", "fine")
     names = {axis: [s.name for s in levels(own) if s.axis == axis] for axis in module.AXES}

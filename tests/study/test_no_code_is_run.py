@@ -14,6 +14,7 @@ from flexcage.study.folder import CaseRow, Folder
 from flexcage.study.outputs import Figure
 from flexcage.study.plan import make_plan
 from flexcage.study.results import StudyResults
+from flexcage.study.spec import Study
 
 
 @pytest.fixture
@@ -23,15 +24,16 @@ def folder(tmp_path, monkeypatch):
     mark = tmp_path / "mark"
     out = Folder(tmp_path / "study")
     (tmp_path / "mine.py").write_text(f"from pathlib import Path\nPath({str(mark)!r}).touch()\n")
+    written = Study.to_toml
+    with_use = ("use = []", 'use = ["../mine.py"]')
+    assert with_use[0] in written(short_study())
+    monkeypatch.setattr(Study, "to_toml", lambda study: written(study).replace(*with_use))
     plan = make_plan(short_study(Grid("load.radial", ["500 N", "1 kN"])))
     out.prepare(plan)
     for k, planned in enumerate(plan.cases):
         out.case(planned.hash).mkdir()
         figures = {"cage_speed": Figure(100.0 + k, "rad/s", "rpm")}
         out.write_row(out.case(planned.hash), CaseRow(planned.hash, 1.0, figures))
-    text = (out.path / "study.toml").read_text()
-    assert "use = []" in text
-    (out.path / "study.toml").write_text(text.replace("use = []", 'use = ["../mine.py"]'))
     return out
 
 
@@ -47,14 +49,15 @@ def test_what_reads_a_study_runs_no_code(folder, tmp_path, command):
     assert not (tmp_path / "mark").exists()
 
 
-def test_a_study_of_a_law_that_is_unknown_here_is_read(folder, tmp_path):
+def test_a_study_of_a_law_that_is_unknown_here_is_read(folder, tmp_path, monkeypatch):
     """Its base case could not be built without the file that registers the law."""
     text = (folder.path / "study.toml").read_text()
     changed = text.replace('law = "lankarani_nikravesh"', 'law = "of_my_own"')
     if changed == text:
         changed = text.replace('guidance = "', 'guidance = "of_my_own_')
     assert changed != text
-    (folder.path / "study.toml").write_text(changed)
+    monkeypatch.setattr(Study, "to_toml", lambda study: changed)
+    folder.prepare(make_plan(short_study(Grid("load.radial", ["500 N", "1 kN"]))))
     results = StudyResults(folder.path)
     assert list(results.table["load.radial [N]"]) == [500.0, 1000.0]
     assert list(results.table["cage_speed [rad/s]"]) == [100.0, 101.0]
@@ -82,7 +85,7 @@ def test_in_python_the_cases_want_the_file_and_the_table_does_not(folder):
 
 def test_a_plan_of_an_earlier_flexcage_is_read(folder):
     plan = folder.path / "plan.json"
-    hashes = json.loads(plan.read_text())["hashes"]
+    hashes = [name for _, _, name in json.loads(plan.read_text())["cases"]]
     plan.write_text(json.dumps(hashes))
     text = (folder.path / "study.toml").read_text()
     (folder.path / "study.toml").write_text(text.replace('use = ["../mine.py"]', "use = []"))

@@ -13,13 +13,16 @@ passes over.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 from pathlib import Path
 
 import numpy as np
 
+from flexcage.core.arrays import Damaged
 from flexcage.core.errors import InputError
-from flexcage.mesh.abaqus import read_nodes
+from flexcage.mesh.files.abaqus import read_nodes
+from flexcage.mesh.files.raw import lines_of, text_of
 from flexcage.modes.door.body import ReducedBody
 from flexcage.modes.door.contents import Contents, Points, labels_of, numbers_of, unreadable
 
@@ -34,20 +37,21 @@ def read(path: Path, *, where: str) -> Contents:
         return _contents(path, where)
     except InputError:
         raise
-    except (ValueError, IndexError, KeyError, OSError, UnicodeDecodeError) as error:
+    except (ValueError, IndexError, KeyError, OSError) as error:
         raise unreadable(path, error, where=where) from error
 
 
 def _contents(path: Path, where: str) -> Contents:
-    lines = path.read_text("utf-8-sig").splitlines()
+    lines = lines_of(text_of(path))
     labels, matrices = _element(lines), dict(_matrices(lines))
     if labels is None:
-        raise ValueError("it has no *USER ELEMENT with its nodes")
+        _refuse_entries(lines, path, where)
+        raise Damaged("it has no *USER ELEMENT with its nodes")
     if "STIFFNESS" not in matrices:
-        raise ValueError("it has no *MATRIX, TYPE=STIFFNESS")
+        raise Damaged("it has no *MATRIX, TYPE=STIFFNESS")
     for name, matrix in matrices.items():
         if len(matrix) != len(labels):
-            raise ValueError(
+            raise Damaged(
                 f"its {name.lower()} has {len(matrix)} rows, its nodes {len(labels)} degrees of "
                 "freedom"
             )
@@ -66,6 +70,26 @@ def _contents(path: Path, where: str) -> Contents:
         points=Points(numbers=numbers, places=places, sets=sets) if len(numbers) else None,
         shapes=None if shapes is None else np.array(shapes, float).reshape(-1, len(labels)),
         kind=tuple(own.get("KINDS", ())),
+    )
+
+
+def _refuse_entries(lines: list[str], path: Path, where: str) -> None:
+    """Refuse files of single entries, which other commands write with the same ending."""
+    first = next((line for line in lines if line.strip() and not line.startswith("**")), "")
+    if first.startswith("%%MatrixMarket"):
+        what = "a matrix in the Matrix Market format; read stiffness and mass by scipy.io.mmread"
+    elif re.fullmatch(r"(\s*-?\d+\s*[,\s]){2,4}\s*[-+.\dDEde]+\s*,?\s*", first):
+        what = (
+            "the entries of one matrix, as Abaqus' *MATRIX OUTPUT writes them; write *SUBSTRUCTURE "
+            "MATRIX OUTPUT, OUTPUT FILE=USER DEFINED in its place, or read stiffness and mass by "
+            "numpy.loadtxt"
+        )
+    else:
+        return
+    raise InputError(
+        f"{path} holds {what} and put them into an .npz as K and M, with NODES.",
+        where=where,
+        value=str(path),
     )
 
 
@@ -140,10 +164,12 @@ def _matrices(lines: list[str]) -> Iterator[tuple[str, np.ndarray]]:
                 if line.startswith("**"):
                     continue
                 break
-            numbers.extend(float(v) for v in line.replace(",", " ").replace("D", "E").split())
+            numbers.extend(
+                float(v) for v in line.upper().replace(",", " ").replace("D", "E").split()
+            )
         size = int((np.sqrt(8.0 * len(numbers) + 1.0) - 1.0) / 2.0 + 0.5)
         if size * (size + 1) // 2 != len(numbers):
-            raise ValueError(f"its {kind.lower()} has {len(numbers)} numbers, and is no triangle")
+            raise Damaged(f"its {kind.lower()} has {len(numbers)} numbers, and is no triangle")
         matrix = np.zeros((size, size))
         matrix[np.tril_indices(size)] = numbers
         yield kind, matrix + np.tril(matrix, -1).T

@@ -83,9 +83,10 @@ class StaticSolution:
         turns = abs(self.speed) / (2.0 * np.pi) * 3600.0
         return 1e6 * self.ratings.reference_life / turns if turns else float("inf")
 
-    def table(self) -> str:
-        """Everything as text."""
-        return table_of(self)
+    def table(self, width: int = 0) -> str:
+        """Everything as text, in lines of at most ``width`` characters (0: as the terminal is
+        wide)."""
+        return table_of(self, width)
 
     __str__ = table
 
