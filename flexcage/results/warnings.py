@@ -16,6 +16,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 import numpy as np
 
 from flexcage.contacts.spec import LandSpec
+from flexcage.core.errors import InputError
 from flexcage.core.reading import json_of
 from flexcage.core.units import describe
 from flexcage.core.warning import RunWarning
@@ -105,7 +106,14 @@ def to_text(warnings: Iterable[RunWarning]) -> str:
 
 def from_attrs(attrs: Mapping[str, Any]) -> tuple[RunWarning, ...]:
     """Those that a run's store holds from its start; none in one of an earlier flexcage."""
-    return tuple(RunWarning(**values) for values in json_of(attrs.get("warnings", "[]")))
+    try:
+        return tuple(RunWarning(**values) for values in json_of(attrs.get("warnings", "[]")))
+    except (TypeError, ValueError) as error:
+        raise InputError(
+            f"The warnings that the run's results hold cannot be read ({error}); bring the folder "
+            "back from a copy, or run the case again.",
+            where="path",
+        ) from error
 
 
 # --- at the start --------------------------------------------------------------------------------

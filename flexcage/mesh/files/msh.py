@@ -18,6 +18,7 @@ from typing import Any
 
 import numpy as np
 
+from flexcage.core.arrays import read_arrays
 from flexcage.mesh.files.raw import RawMesh, Refused, first_alike, group_name
 from flexcage.mesh.files.shapes import OTHER_SHAPE, SOLIDS, TRIANGLES, solids_of
 
@@ -74,8 +75,7 @@ def _by_gmsh(path: Path, error: BaseException | None) -> RawMesh:
         if done.returncode != 0 or not plain.is_file():
             reason = done.stderr.strip().splitlines()[-1:] or ["gmsh: it stopped"]
             raise ValueError(f"gmsh cannot read it: {reason[0].partition(': ')[2]}") from error
-        with np.load(plain) as arrays:
-            return _from_gmsh(dict(arrays))
+        return _from_gmsh(read_arrays(plain))
 
 
 def _from_gmsh(arrays: dict[str, np.ndarray]) -> RawMesh:
