@@ -262,6 +262,7 @@ def _check_cover(found: Skin, wanted: Skin, source: str) -> None:
             raise InputError(text, where="mesh.file", value=name)
         log.warning("%s", text)
     ratio = {name: found.area(name) / wanted.area(name) for name in missing}
+    ratio |= {n: min(r, 1.0) for n, r in ratio.items() if n.startswith("pocket")}  # with fillets
     name = max(ratio, key=lambda n: abs(ratio[n] - 1.0))
     if abs(ratio[name] - 1.0) > _OWN_SHAPE and not some:
         log.warning(
