@@ -105,6 +105,13 @@ def test_a_study_on_a_cluster_with_certificates_shows_what_its_workers_do(client
     assert any(f"case {k} {stage}" in shown for k in (0, 1) for stage in ("kernels", "mesh"))
 
 
+def test_workers_keep_no_profile_which_grew_by_megabytes_a_case(client):
+    import dask
+
+    kept = client.run(dask.config.get, "distributed.worker.profile.enabled")
+    assert list(kept.values()) == [False, False]
+
+
 def test_certificates_are_for_the_user_alone(client):
     (folder,) = (
         path for path in (cluster.Path(tempfile.gettempdir()).glob(f"{PREFIX}*"))
