@@ -42,7 +42,7 @@ def corridor(monkeypatch, tmp_path):
     module = types.ModuleType("flexcage.simulate")
     module.calls, module.error, module.run = [], None, FakeRun()
 
-    def simulate(case, *, out=None, resume=False, progress=None):
+    def simulate(case, *, out=None, resume=False, other_version=False, progress=None):
         if module.error:
             if module.keeps:
                 (Path(out) / "results.zarr").mkdir()
